@@ -26,7 +26,7 @@ fn main() {
     for (name, line) in [("one segment", &one as &dyn Fn(&str) -> String), ("two segments and a clump", &two)] {
         let model = eight::model(HULL, line, "&INSTATE -MOVE SHIP 10\n");
         let options = Options::default();
-        let system = System::of(&model, &[]).unwrap();
+        let system = System::new(&model, &[]).unwrap();
         let mut state = system.state(&model);
         let found = equilibrium(&system, &mut state, &options).unwrap();
         println!("# {name}: {} steps, {} evaluations, {:.1e} g left", found.steps, found.evaluations, found.measure);
@@ -35,7 +35,7 @@ fn main() {
             equilibrium(&system, &mut state, &options).unwrap().measure
         });
         report(&format!("{name}, made and solved"), 1, || {
-            let system = System::of(&model, &[]).unwrap();
+            let system = System::new(&model, &[]).unwrap();
             let mut state = system.state(&model);
             equilibrium(&system, &mut state, &options).unwrap().measure
         });

@@ -51,7 +51,7 @@ fn benches(c: &mut Criterion) {
     };
     let steady = Arc::new(steady);
     for (name, surface) in [("box", &block), ("tube", &tube.prism(64).unwrap())] {
-        let skin = Arc::new(Skin::of(surface, &Matrix3::identity()));
+        let skin = Arc::new(Skin::new(surface, &Matrix3::identity()));
         for (stream, medium) in [("wind", Medium::Air), ("current", Medium::Water)] {
             let load = PieceLoad::new(Arc::clone(&skin), &steady, medium, Matrix3::identity(), [1.0; 3]);
             group

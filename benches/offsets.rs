@@ -22,11 +22,11 @@ const FARTHEST: f64 = 40.0;
 fn main() {
     let line = |rest: &str| format!("~CHAIN B_CAT 180 EXACT -LEN 900 -DEP 300 {rest}\n");
     let model = eight::model("", &line, "");
-    let system = System::of(&model, &[]).unwrap();
+    let system = System::new(&model, &[]).unwrap();
     let start: Vec<Pose> = system.state(&model).poses;
     let at = |n: usize| FARTHEST * n as f64 / (OFFSETS - 1) as f64;
     report("forces and tensions", OFFSETS, || {
-        let mut connectors = Connectors::on(&system, 0).unwrap();
+        let mut connectors = Connectors::on_body(&system, 0).unwrap();
         let (mut poses, mut pull, mut sum) = (start.clone(), Pull::default(), 0.0);
         for n in 0..OFFSETS {
             poses[0].origin.x = at(n);
@@ -45,7 +45,7 @@ fn main() {
         }
         sum
     });
-    let (mut connectors, mut poses, mut pull) = (Connectors::on(&system, 0).unwrap(), start, Pull::default());
+    let (mut connectors, mut poses, mut pull) = (Connectors::on_body(&system, 0).unwrap(), start, Pull::default());
     for n in 0..OFFSETS {
         poses[0].origin.x = at(n);
         connectors.pull(&system, &poses, &mut pull).unwrap();

@@ -51,11 +51,11 @@ fn run(elements: usize, step: f64, tolerance: f64, body: bool) -> (Vec<f64>, f64
                     velocity: motion.velocity + off * (2.0 / step),
                     acceleration: motion.acceleration + off * (4.0 / step / step),
                 };
-                let made = solver.trial(rod, state, world, t, [anchor, End::moved(guess)]).unwrap();
+                let made = solver.trial(rod, state, world, t, [anchor, End::from_motion(guess)]).unwrap();
                 iterations += made.iterations;
-                assert!(solver.end_tangent_at_hand(rod, world).unwrap().position[(6, 6)] < 0.0);
+                assert!(solver.end_tangent_from_factors(rod, world).unwrap().position[(6, 6)] < 0.0);
             }
-            let made = solver.step(rod, state, world, t, [anchor, End::moved(motion)]).unwrap();
+            let made = solver.step(rod, state, world, t, [anchor, End::from_motion(motion)]).unwrap();
             iterations += made.iterations;
             made.force[1].norm()
         };

@@ -32,8 +32,8 @@ fn afloat(elements: usize) -> Model {
 
 /// Everything that a listing tells of a run.
 fn told(made: &Tethered) {
-    let whole = Statistics::between(made, 24.75, f64::INFINITY);
-    let asked = Asked { duration: 1.0, curve: Endurance::KILONEWTONS.scaled(1000.0), peak_time: 10_800.0 };
+    let whole = Statistics::new(made, 24.75, f64::INFINITY);
+    let asked = Asked { duration: 1.0, curve: Endurance::KILONEWTONS.in_unit(1000.0), peak_time: 10_800.0 };
     for tether in &made.tethers {
         whole.type_one(made, tether).unwrap();
         whole.type_two(made, tether).unwrap();

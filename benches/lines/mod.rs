@@ -43,17 +43,20 @@ impl Moving {
 
     /// The horizontal force where the line is given.
     pub fn cold(&self) -> f64 {
-        self.segment.between(self.x, self.z, self.bottom).unwrap().fairlead[0]
+        self.segment.solve_end_forces(self.x, self.z, self.bottom).unwrap().fairlead[0]
     }
 
     /// The sum of horizontal forces along the path, each from nothing.
     pub fn cold_along(&self) -> f64 {
-        (1..=STEPS).map(|n| self.at(n)).map(|(x, z)| self.segment.between(x, z, self.bottom).unwrap().fairlead[0]).sum()
+        (1..=STEPS)
+            .map(|n| self.at(n))
+            .map(|(x, z)| self.segment.solve_end_forces(x, z, self.bottom).unwrap().fairlead[0])
+            .sum()
     }
 
     /// The same, each from the one before, and the first from the line as given.
     pub fn followed_along(&self) -> f64 {
-        let mut last = self.segment.between(self.x, self.z, self.bottom).unwrap();
+        let mut last = self.segment.solve_end_forces(self.x, self.z, self.bottom).unwrap();
         let mut sum = 0.0;
         for (x, z) in (1..=STEPS).map(|n| self.at(n)) {
             last = self.segment.follow(x, z, self.bottom, &last).unwrap();

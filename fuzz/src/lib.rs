@@ -59,7 +59,7 @@ pub fn records(data: &[u8]) {
     }
     // an error is said and the next record read, as the session has it
     for _ in 0..4 * RECORDS {
-        match interpreter.next(&mut job) {
+        match interpreter.next_step(&mut job) {
             Ok(Step::Record(record)) => read_record(&mut interpreter, &record),
             Ok(Step::Ended(_)) | Err(_) => {}
             Ok(Step::NeedLine | Step::Done) => return,

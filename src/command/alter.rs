@@ -63,7 +63,7 @@ const A_TENSION: OptionSpec =
 const DYNAMICS: OptionSpec = OptionSpec::new(
     "-DYNAMICS",
     &[ValueSpec::new("N", Kind::Integer, "elements of the whole line, at least one a segment; 0: none")
-        .within(0.0, 100_000.0)],
+        .in_range(0.0, 100_000.0)],
     "makes a line of B_CAT, H_CAT or CATENARY dynamic, as a ROD is",
 )
 .owner(Owner::Ours)

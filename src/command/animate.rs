@@ -40,7 +40,7 @@ const EVENTS: OptionSpec = OptionSpec::new(
 .default("all stored instants");
 const POINTS_OPTION: OptionSpec = OptionSpec::new(
     "-POINTS",
-    &[ValueSpec::new("N", Kind::Integer, "points").within(2.0, 400.0)],
+    &[ValueSpec::new("N", Kind::Integer, "points").in_range(2.0, 400.0)],
     "points of each mooring line",
 )
 .owner(Owner::Ours)
@@ -112,7 +112,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         points: points.and_then(|n| usize::try_from(n).ok()).unwrap_or(POINTS),
         stop: &|| job.interrupted(),
     };
-    let film = Film::of(run, &take);
+    let film = Film::build(run, &take);
     chosen.check_used("what moves in the run", &[EntityKind::Connector, EntityKind::Body])?;
     let span = events.map_or(args.span, |g| g.span);
     let film = film.map_err(|e| e.diagnostic(span, job.units))?;

@@ -12,7 +12,7 @@ use windlass_model::{Model, find};
 /// &APPLY.
 pub static APPLY: Command = Command { spec: &SPEC, edits: false, run };
 
-const VALUE: ValueSpec = ValueSpec::new("VALUE", Kind::Number(Dim::None), "multiplier").within(-1e6, 1e6);
+const VALUE: ValueSpec = ValueSpec::new("VALUE", Kind::Number(Dim::None), "multiplier").in_range(-1e6, 1e6);
 const CATEGORY: &[ValueSpec] =
     &[ValueSpec::new("CATEGORY", Kind::Choice(&["WIND", "V_DRAG", "W_DRIFT"]), "category of force"), VALUE];
 

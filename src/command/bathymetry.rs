@@ -110,7 +110,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let si = |v: f64| Dim::Length.to_si(v, job.units);
     let points = read.into_iter().map(|(_, [x, y, z])| [si(x), si(y), sign * si(z)]).collect();
     let made = Bathymetry::of_points(name, points, span);
-    keep(job, made.map_err(|e| e.at(file.span).diagnostic(file.span, job.units))?);
+    keep(job, made.map_err(|e| e.with_span(file.span).diagnostic(file.span, job.units))?);
     Ok(Effect::Done)
 }
 
@@ -194,7 +194,7 @@ pub fn made(job: &mut Job, soundings: Soundings, at: Option<Span>) -> Outcome<()
         return Err(Diagnostic::error(text, place).other(refused, "this one"));
     }
     let grid = Bathymetry::new(&name, x, y, &heights, span);
-    keep(job, grid.map_err(|e| e.at(place).diagnostic(place, job.units).other(span, "begun here"))?);
+    keep(job, grid.map_err(|e| e.with_span(place).diagnostic(place, job.units).other(span, "begun here"))?);
     Ok(())
 }
 

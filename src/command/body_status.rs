@@ -27,7 +27,7 @@ pub const ABOUT: OptionSpec =
 /// A connector or body that cannot be evaluated.
 pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
     let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
-    let system = System::of(&job.model, &[]).map_err(wrong)?;
+    let system = System::new(&job.model, &[]).map_err(wrong)?;
     let state = system.state(&job.model);
     Ok(vec![tables::by_category(&system, &state, fits).map_err(wrong)?])
 }
@@ -38,7 +38,7 @@ pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Ve
 /// A connector or body that cannot be evaluated.
 pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
     let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
-    let linear = Linear::of(&job.model).map_err(wrong)?;
+    let linear = Linear::new(&job.model).map_err(wrong)?;
     Ok(frequency::tables::modes(&linear).map_err(wrong)?.into())
 }
 
@@ -50,7 +50,7 @@ pub fn stiffness(job: &Job, call: &Call, chosen: &Chosen) -> Outcome<Vec<Table>>
     let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
     let about: Option<Position> =
         call.args.option(&ABOUT).map(|given| given.numbers_or_zero(const { ABOUT.numbers(["X", "Y", "Z"]) }));
-    let system = System::of(&job.model, &[]).map_err(wrong)?;
+    let system = System::new(&job.model, &[]).map_err(wrong)?;
     let mut state = system.state(&job.model);
     system.evaluate(&mut state).map_err(wrong)?;
     let named = |name: &str| !chosen.all() && chosen.takes(name);

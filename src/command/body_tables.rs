@@ -30,11 +30,11 @@ pub fn weights(model: &Model, fits: Fits) -> Table {
         let parts: Vec<_> = model.parts_of(body).collect();
         let whole = fits(&body.name);
         for part in parts.iter().filter(|p| (whole || fits(&p.name)) && !p.weights.is_empty()) {
-            let mass = Mass::of(std::iter::once(*part), gravity);
+            let mass = Mass::from_parts(std::iter::once(*part), gravity);
             rows.push(WeightRow { body: &body.name, part: &part.name, items: part.weights.len(), mass });
         }
         if whole {
-            let mass = Mass::of(parts.iter().copied(), gravity);
+            let mass = Mass::from_parts(parts.iter().copied(), gravity);
             note_mass(&mut table, body, &mass);
             let items = parts.iter().map(|p| p.weights.len()).sum();
             rows.push(WeightRow { body: &body.name, part: "(whole)", items, mass });
@@ -114,7 +114,7 @@ pub fn hydrostatics(model: &Model, fits: Fits, units: UnitSystem) -> Vec<Table> 
 }
 
 fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
-    let (floating, hull, pose) = (Floating::of(model, body)?, Hull::of(model, body)?, Pose::of(&body.place));
+    let (floating, hull, pose) = (Floating::at_rest(model, body)?, Hull::new(model, body)?, Pose::of(&body.place));
     let mass = floating.mass;
     let weight = mass.mass * model.defaults.gravity;
     let (mut stiffness, mut wrench) = (Matrix6::zeros(), Six::zeros());
@@ -126,7 +126,7 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
     let arm = pose.axes * mass.centre;
     let mut table = Table::new(format!("Hydrostatics of {}", body.name)).fact("Weight", weight, Dim::Force);
     table = place(table, "Center of Gravity", (pose.origin + arm).into(), arm.norm());
-    let found = hull.as_ref().and_then(|h| Hydrostatics::of(&h.wet(&pose), &pose, mass.centre, h.water_weight()));
+    let found = hull.as_ref().and_then(|h| Hydrostatics::new(&h.wet(&pose), &pose, mass.centre, h.water_weight()));
     let size = found.map_or(arm.norm(), |f| f.volume.cbrt());
     if let Some(found) = &found {
         table = facts(table, found, size);

@@ -102,7 +102,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// # Errors
 /// An unknown curve, or one of another sort, at its word.
 pub fn known_curves(job: &Job, args: &Args) -> Outcome<()> {
-    for value in args.options.iter().flat_map(|given| given.named(Noun::Curve)) {
+    for value in args.options.iter().flat_map(|given| given.names(Noun::Curve)) {
         let Some(name) = value.word() else { continue };
         let curve: &Curve = find(&job.model.curves, name, "curve", value.span)
             .map_err(|e| e.help(format!("&DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .. defines it")))?;

@@ -223,7 +223,7 @@ const EXPONENTIALS: i64 = 5;
 
 const NDOF_OPTION: OptionSpec = OptionSpec::new(
     "-NDOF",
-    &[ValueSpec::new("M", Kind::Integer, "number of exponentials").within(1.0, 20.0)],
+    &[ValueSpec::new("M", Kind::Integer, "number of exponentials").in_range(1.0, 20.0)],
     "exponentials fitted to the curve",
 )
 .default("5");

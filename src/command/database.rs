@@ -13,7 +13,7 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
-use windlass_hydro::database::mirrored;
+use windlass_hydro::database::mirror_headings;
 use windlass_hydro::database::rao::RaoConvention;
 use windlass_hydro::database::wamit::WamitScale;
 use windlass_hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
@@ -82,7 +82,7 @@ const ROTATION: OptionSpec = ours(
 .default("DEG");
 const INDEX: OptionSpec = ours(
     "-INDEX",
-    &[ValueSpec::new("N", Kind::Integer, "number").within(1.0, 1000.0)],
+    &[ValueSpec::new("N", Kind::Integer, "number").in_range(1.0, 1000.0)],
     "which body of a source of several, from 1",
 );
 const AT: OptionSpec = ours(
@@ -153,12 +153,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let body = find(&job.model.bodies, args.word(0).unwrap_or_default(), "body", args.place(0))?;
     let (key, name) = (Model::key(&body.name), body.name.clone());
-    let mass = Mass::of(job.model.parts_of(body), job.model.defaults.gravity).mass;
+    let mass = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity).mass;
     let (source, mut data) = read(job, args)?;
     let at = args.option(&AT).map_or([0.0; 3], |given| given.numbers_or_zero(const { AT.numbers(["X", "Y", "Z"]) }));
     data.reference += Vector3::from(at);
     if yes(args, &SYMMETRIC, false) {
-        data = mirrored(data);
+        data = mirror_headings(data);
     }
     if !yes(args, &INFINITE, true) {
         data.infinite = None;
@@ -169,7 +169,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error(format!("{} has no hydrostatics", data.source), source)
             .help("leave out -HYDROSTATICS YES, and give the body a hull or #HYDROSTATIC"));
     }
-    let radiation = windlass_hydro::database::radiation::Radiation::of(&data);
+    let radiation = windlass_hydro::database::radiation::Radiation::new(&data);
     let radiation = radiation.map_err(|e| Diagnostic::error(e.to_string(), source))?;
     for text in &data.remarks {
         job.warn(format!("{}: {text}", data.source), source);

@@ -26,7 +26,7 @@ pub(super) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
             continue;
         }
         let data = &attached.data;
-        let radiation = Radiation::of(data).ok().flatten();
+        let radiation = Radiation::new(data).ok().flatten();
         rows.push((body, attached, radiation.as_ref().map(|r| attached.memory.unwrap_or_else(|| r.memory()))));
         data.remarks.iter().for_each(|text| whole.note(format!("{}: {text}", body.name)));
         if let Some(stray) = radiation.as_ref().and_then(|r| r.estimated) {

@@ -9,7 +9,7 @@ use windlass_base::geometry::{Place, Position, unit_vector};
 use windlass_base::units::Dim;
 use windlass_base::values::{Given, Noun, Value};
 use windlass_language::name as rule;
-use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, joined};
+use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, join_options};
 use windlass_model::{Body, Coordinates, EntityKind, GROUND, Model, Part, Point, Shape, find};
 
 /// &DESCRIBE.
@@ -47,7 +47,7 @@ const IGNORE: OptionSpec = OptionSpec::new(
 
 /// What a body or a part takes.
 const OWN: &[OptionSpec] = &[MOVE, IGNORE];
-static DESCRIBE_OPTIONS: [OptionSpec; OWN.len() + OPTIONS.len()] = joined(OWN, &OPTIONS);
+static DESCRIBE_OPTIONS: [OptionSpec; OWN.len() + OPTIONS.len()] = join_options(OWN, &OPTIONS);
 
 static DESCRIBE_SPEC: CommandSpec = CommandSpec {
     data: &[

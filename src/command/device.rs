@@ -23,7 +23,7 @@ const fn unused(name: &'static str) -> OptionSpec {
 const BATCH: OptionSpec = OptionSpec::new("-BATCH", &[YES_NO], "stops at the first error").default("NO");
 const LIMERROR: OptionSpec = OptionSpec::new(
     "-LIMERROR",
-    &[ValueSpec::new("N", Kind::Integer, "errors").within(1.0, 1e9)],
+    &[ValueSpec::new("N", Kind::Integer, "errors").in_range(1.0, 1e9)],
     "errors after which a script ends",
 )
 .default("10");
@@ -40,7 +40,7 @@ const NAME_FIGURE: OptionSpec =
         .default("FIGURE");
 const FIG_NUM: OptionSpec = OptionSpec::new(
     "-FIG_NUM",
-    &[ValueSpec::new("N", Kind::Integer, "number").within(1.0, 1e6)],
+    &[ValueSpec::new("N", Kind::Integer, "number").in_range(1.0, 1e6)],
     "number of the next figure",
 )
 .default("1");
@@ -50,7 +50,7 @@ const COMIN: OptionSpec = OptionSpec::new("-COMIN", &[FILE], "reads commands fro
 const ICOMIN: OptionSpec = OptionSpec::new("-ICOMIN", &[FILE], "the same as -COMIN");
 const RECORDS: OptionSpec = OptionSpec::new(
     "-RECORDS",
-    &[ValueSpec::new("N", Kind::Integer, "records").within(1.0, 1e15)],
+    &[ValueSpec::new("N", Kind::Integer, "records").in_range(1.0, 1e15)],
     "records a run may execute",
 )
 .default("2000000")
@@ -58,8 +58,8 @@ const RECORDS: OptionSpec = OptionSpec::new(
 const PLOT_SIZE: OptionSpec = OptionSpec::new(
     "-PLOT_SIZE",
     &[
-        ValueSpec::new("COLUMNS", Kind::Integer, "columns").within(40.0, 200.0),
-        ValueSpec::new("LINES", Kind::Integer, "lines").within(10.0, 100.0),
+        ValueSpec::new("COLUMNS", Kind::Integer, "columns").in_range(40.0, 200.0),
+        ValueSpec::new("LINES", Kind::Integer, "lines").in_range(10.0, 100.0),
     ],
     "size of plots in the terminal",
 )

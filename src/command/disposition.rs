@@ -22,8 +22,8 @@ pub(super) const COLUMN: ValueSpec =
 pub(super) const RECORD: OptionSpec = OptionSpec::new(
     "-RECORD",
     &[
-        ValueSpec::new("I", Kind::Integer, "first row, from 1").within(1.0, 1e15),
-        ValueSpec::new("J", Kind::Integer, "last row").within(1.0, 1e15),
+        ValueSpec::new("I", Kind::Integer, "first row, from 1").in_range(1.0, 1e15),
+        ValueSpec::new("J", Kind::Integer, "last row").in_range(1.0, 1e15),
     ],
     "rows I to J (row numbers, not times)",
 );

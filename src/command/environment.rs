@@ -32,7 +32,7 @@ const SEA: &[ValueSpec] = &[
     number("DIR", Dim::Angle, "direction it comes from"),
     number("HS", Dim::Length, "significant height, or height of a regular wave").not_negative(),
     number("PERIOD", Dim::Time, "period").positive(),
-    number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").within(1.0, 20.0),
+    number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").in_range(1.0, 20.0),
 ];
 const fn choice(name: &'static str, words: &'static [&'static str], help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Choice(words), help)
@@ -81,7 +81,7 @@ pub(super) const TIME: OptionSpec = OptionSpec::new(
         number("TTRA_SET", Dim::Time, "time set aside for the transient: statistics leave it out")
             .or("0")
             .not_negative(),
-        ValueSpec::new("NCYCLES", Kind::Integer, "cycles: kept and shown, without effect").or("1").within(1.0, 1e6),
+        ValueSpec::new("NCYCLES", Kind::Integer, "cycles: kept and shown, without effect").or("1").in_range(1.0, 1e6),
     ],
     "time window",
 );

@@ -72,7 +72,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
     }
     if env.sea.is_some() || env.added_sea.is_some() {
         table = table.fact("Spreading Exponent", env.spreading.unwrap_or(200.0), Dim::None);
-        match windlass_hydro::sea::Sea::of(model, env) {
+        match windlass_hydro::sea::Sea::new(model, env) {
             Ok(Some(sea)) => {
                 table = table.fact("Wave Components", sea.components.len(), Dim::None).fact(
                     "Phases of Waves",
@@ -101,7 +101,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
             );
         }
     }
-    match Gusts::of(model, env) {
+    match Gusts::new(model, env) {
         Ok(Some(gusts)) => table = wind_table::facts(table, &gusts),
         Ok(None) => {}
         Err(error) => table.note(format!("{WARNING}{}", error.text(job.units))),

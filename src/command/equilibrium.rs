@@ -22,12 +22,13 @@ use windlass_solve::{DOFS, Options, SolveError, settle, tables};
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
 
 const TOLERANCE: ValueSpec =
-    ValueSpec::new("T", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity").within(1e-12, 1.0);
+    ValueSpec::new("T", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity")
+        .in_range(1e-12, 1.0);
 
 const DEFAULTS: OptionSpec = OptionSpec::new("-DEFAULTS", &[], "forgets what was given before");
 const ITER_MAX: OptionSpec = OptionSpec::new(
     "-ITER_MAX",
-    &[ValueSpec::new("N", Kind::Integer, "steps").within(1.0, 100_000.0)],
+    &[ValueSpec::new("N", Kind::Integer, "steps").in_range(1.0, 100_000.0)],
     "most steps of the solution",
 )
 .default("50");
@@ -91,7 +92,7 @@ fn options(job: &Job, call: &Call) -> Outcome<Options> {
         let shift = shift.unwrap_or(made.tolerance[0]);
         made.tolerance = [shift, turn.unwrap_or(shift)];
     }
-    for given in args.all(&IGNORE) {
+    for given in args.occurrences(&IGNORE) {
         made.ignored.extend(ignored(&job.model, given)?);
     }
     Ok(made)

@@ -18,7 +18,7 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Body, Model, find};
 use windlass_solve::excursion::Path;
-use windlass_solve::excursion_tables::{Asked, Systems, along, around, circle};
+use windlass_solve::excursion_tables::{Asked, Systems, circle, table_along_direction, table_of_directions};
 use windlass_solve::watch::watch;
 use windlass_solve::{SolveError, System};
 
@@ -62,7 +62,7 @@ const DISTANCE: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours);
 const ROWS: OptionSpec = OptionSpec::new(
     "-ROWS",
-    &[ValueSpec::new("N", Kind::Integer, "rows").within(2.0, 10_000.0)],
+    &[ValueSpec::new("N", Kind::Integer, "rows").in_range(2.0, 10_000.0)],
     "rows of one direction",
 )
 .owner(Owner::Ours)
@@ -158,8 +158,8 @@ fn systems(job: &Job, args: &Args) -> Outcome<Systems> {
         removed.push(connector.name.clone());
     }
     let wrong = |e: SolveError| told(e, &job.model, args.place(0), job.units);
-    let system = System::of(&job.model, &removed).map_err(wrong)?;
-    let intact = (!removed.is_empty()).then(|| System::of(&job.model, &[])).transpose().map_err(wrong)?;
+    let system = System::new(&job.model, &removed).map_err(wrong)?;
+    let intact = (!removed.is_empty()).then(|| System::new(&job.model, &[])).transpose().map_err(wrong)?;
     Ok(Systems { system, intact, removed })
 }
 
@@ -201,7 +201,7 @@ fn moved(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let asked = Asked { name: &body.name, place: &body.place, start: &start, path, units: job.units };
     let made = if one {
         let rows = args.option_integer(&ROWS);
-        along(&systems, &asked, rows.and_then(|n| usize::try_from(n).ok()).unwrap_or(30))
+        table_along_direction(&systems, &asked, rows.and_then(|n| usize::try_from(n).ok()).unwrap_or(30))
     } else {
         let at: Vec<(f64, String)> = args
             .option(&AT)
@@ -210,7 +210,7 @@ fn moved(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .filter_map(|v| v.number())
             .map(|v| (v, number_in_full((Dim::Length.from_si(v, job.units) * 1e9).round() / 1e9)))
             .collect();
-        around(&systems, &asked, &directions, &at)
+        table_of_directions(&systems, &asked, &directions, &at)
     };
     let made = made.map_err(|e| told(e, &job.model, args.place(0), job.units))?;
     Ok(dispose(job, made, args))

@@ -38,7 +38,7 @@ const ADD: OptionSpec =
     OptionSpec::new("-ADD", &[], "adds the run to those FATIGUE was given before, instead of beginning anew");
 const DFF: OptionSpec = OptionSpec::new(
     "-DFF",
-    &[ValueSpec::new("F", Kind::Number(Dim::None), "factor").within(1.0, 1000.0)],
+    &[ValueSpec::new("F", Kind::Number(Dim::None), "factor").in_range(1.0, 1000.0)],
     "design fatigue factor: life is divided by it",
 )
 .default("1");

@@ -14,7 +14,7 @@ pub fn tables(job: &Job, fits: &dyn Fn(&str) -> bool, all: bool) -> Vec<Table> {
     let mut tables = Vec::new();
     // what the user defined is asked for first
     let own: Vec<Curve> =
-        model.fatigue.curves.values().filter(|c| fits(&c.name)).filter_map(|c| Curve::through(c).ok()).collect();
+        model.fatigue.curves.values().filter(|c| fits(&c.name)).filter_map(|c| Curve::from_points(c).ok()).collect();
     if !own.is_empty() {
         tables.push(points(model, fits));
     }

@@ -141,7 +141,7 @@ fn keep(job: &mut Job, made: Found) {
 
 /// The equations of a model, on whose bodies waves must act.
 fn linear(job: &Job, model: &Model, span: Span) -> Outcome<Linear> {
-    let made = Linear::of(model).map_err(|e| told(e, model, span, job.units))?;
+    let made = Linear::new(model).map_err(|e| told(e, model, span, job.units))?;
     if !made.is_excited() {
         return Err(Diagnostic::error("waves act on no body: none has a database with wave forces", span)
             .help("DATABASE BODY -WAMIT ROOT, -NEMOH FOLDER or -CAPYTAINE FILE reads one"));
@@ -162,7 +162,7 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
         periods = linear.frequencies();
     }
     let headings = args.option(&HEADING).map_or_else(|| linear.headings(), |g| g.numbers());
-    let made = Operators::of(&linear, &periods, &headings).map_err(|e| told(e, &job.model, args.span, job.units))?;
+    let made = Operators::new(&linear, &periods, &headings).map_err(|e| told(e, &job.model, args.span, job.units))?;
     let mut table = Table::new("Motions in Unit Waves").fact("Periods", periods.len(), Dim::None).fact(
         "Headings",
         headings.len(),
@@ -188,7 +188,7 @@ fn say(job: &mut Job, table: &Table, span: Span) {
 /// # Errors
 /// Calm water; a sea that cannot be.
 pub(super) fn seas(job: &Job, env: &Environment, span: Span) -> Outcome<Trains> {
-    match Trains::of(&job.model, env).map_err(|e| e.diagnostic(span, job.units))? {
+    match Trains::new(&job.model, env).map_err(|e| e.diagnostic(span, job.units))? {
         Some(made) => Ok(made),
         None => Err(Diagnostic::error("the environment has no sea", span).help("&ENV -SEA gives it one")),
     }

@@ -281,7 +281,7 @@ fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String> 
         }
         other => {
             let gravity = model.defaults.gravity;
-            let mass = Mass::of(model.parts_of(found), gravity);
+            let mass = Mass::from_parts(model.parts_of(found), gravity);
             if mass.mass == 0.0 {
                 return Err(Diagnostic::error(format!("{} has no weight", found.name), name.span)
                     .help("#WEIGHT and &WEIGHT -TOTAL give one"));

@@ -9,7 +9,7 @@ use windlass_language::flow::specs::CONTROL;
 use windlass_language::functions;
 use windlass_language::name;
 use windlass_language::select::{Owner, choose};
-use windlass_language::spec::{CommandSpec, Kind, Need, ValueSpec, expected};
+use windlass_language::spec::{CommandSpec, Kind, Need, ValueSpec, describe_expected};
 
 /// &HELP.
 pub static HELP: Command = Command { spec: &SPEC, edits: false, run };
@@ -141,7 +141,7 @@ fn value_help(value: &ValueSpec, units: UnitSystem) -> String {
         Need::Required => String::new(),
         Need::Optional(text) => format!(" [default: {text}]"),
     };
-    format!("{}: {}{default}", value.help, expected(value.kind, units))
+    format!("{}: {}{default}", value.help, describe_expected(value.kind, units))
 }
 
 /// Text in lines of at most `width` characters.

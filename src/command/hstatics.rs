@@ -14,7 +14,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_hydro::hull::Hydrostatics;
-use windlass_hydro::{Floating, Hull, balanced};
+use windlass_hydro::{Floating, Hull, balance_heave_and_trim};
 use windlass_language::spec::{CommandSpec, Kind, Opens, ValueSpec};
 use windlass_model::{Body, Mass, find};
 
@@ -43,7 +43,7 @@ static CFORM_SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::new("DRAFT", Kind::Number(Dim::Length), "first draft of the body's origin"),
         ValueSpec::new("INC", Kind::Number(Dim::Length), "step").positive(),
-        ValueSpec::new("NUM", Kind::Integer, "number of drafts").within(1.0, MOST),
+        ValueSpec::new("NUM", Kind::Integer, "number of drafts").in_range(1.0, MOST),
     ],
     detail: "Curves of form against draft: the body upright, at its x, y and yaw. KB, KM are above its origin, LCB and LCF its x there; \
              the moment to trim is that of BM, or of GM where the body has a weight. Drafts at which nothing is wet have no numbers. The \
@@ -56,7 +56,7 @@ static RARM_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu(&menu::DISPOSITION),
     data: &[
         ValueSpec::new("INC", Kind::Number(Dim::Angle), "step of roll"),
-        ValueSpec::new("NUM", Kind::Integer, "number of steps").within(1.0, MOST),
+        ValueSpec::new("NUM", Kind::Integer, "number of steps").in_range(1.0, MOST),
     ],
     detail: "Righting arms of the body rolled from upright in steps, at constant displacement, heave and trim balanced under weight and \
              buoyancy. The arm is positive where it turns the body back from a positive roll. Area is that under the arm from upright, by \
@@ -98,18 +98,18 @@ fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let body = body(job, span)?;
     let told = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
-    let hull = Hull::of(&job.model, body).map_err(told)?;
+    let hull = Hull::new(&job.model, body).map_err(told)?;
     let hull = hull.ok_or_else(|| {
         Diagnostic::error(format!("{} has no hull", body.name), span)
             .help("PGEN, &SURFACE and &DESCRIBE PIECE give one")
     })?;
-    let mass = Mass::of(job.model.parts_of(body), job.model.defaults.gravity);
+    let mass = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity);
     let (first, step) = (args.number(0).unwrap_or_default(), args.number(1).unwrap_or_default());
     let at_draft = |draft: f64| {
         let mut place = Place { turn: [0.0, 0.0, body.place.turn[2]], ..body.place };
         place.shift[2] = -draft;
         let pose = Pose::of(&place);
-        (draft, pose, Hydrostatics::of(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()))
+        (draft, pose, Hydrostatics::new(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()))
     };
     let rows: Vec<_> = (0..args.integer(2).unwrap_or(1)).map(|n| at_draft(first + step * n as f64)).collect();
     let high = |h: &Hydrostatics| if mass.mass > 0.0 { h.gm_l } else { h.bm_l };
@@ -143,7 +143,7 @@ fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let body = body(job, span)?;
     let told = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
-    let floating = Floating::of(&job.model, body).map_err(told)?;
+    let floating = Floating::at_rest(&job.model, body).map_err(told)?;
     let weight = floating.mass.mass * job.model.defaults.gravity;
     let mut table = Table::new(format!("Righting Arms of {}", body.name)).fact("Weight", weight, Dim::Force);
     let step = args.number(0).unwrap_or_default();
@@ -152,7 +152,7 @@ fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
     for n in 0..=args.integer(1).unwrap_or(1) {
         let roll = step * n as f64;
         place.turn[0] = roll;
-        let found = match balanced(&floating, &place) {
+        let found = match balance_heave_and_trim(&floating, &place) {
             Ok(found) => found,
             Err(error) if n == 0 => return Err(told(error)),
             Err(error) => {

@@ -75,11 +75,13 @@ fn values(types: &[LineType], diameter: f64, job: &Job) -> Table {
         .with_rows(&chosen)
         .text("Name", |t| &t.name)
         .column("Diameter of", "Volume", Dim::Section, Digits::Usual, |t| t.volume_diameter(diameter))
-        .column("", "Mass", Dim::MassPerLength, Digits::Usual, |t| t.mass.at(diameter))
-        .column("Weight / Length", "Air", Dim::ForcePerLength, Digits::Usual, |t| t.mass.at(diameter) * around.gravity)
+        .column("", "Mass", Dim::MassPerLength, Digits::Usual, |t| t.mass.evaluate(diameter))
+        .column("Weight / Length", "Air", Dim::ForcePerLength, Digits::Usual, |t| {
+            t.mass.evaluate(diameter) * around.gravity
+        })
         .column("Weight / Length", "Water", Dim::ForcePerLength, Digits::Usual, |t| submerged(t))
-        .column("", "AE", Dim::Force, Digits::Scientific(5), |t| t.ea.at(diameter))
-        .column("", "Break", Dim::Force, Digits::Usual, |t| t.breaking.at(diameter))
+        .column("", "AE", Dim::Force, Digits::Scientific(5), |t| t.ea.evaluate(diameter))
+        .column("", "Break", Dim::Force, Digits::Usual, |t| t.breaking.evaluate(diameter))
         .text("In Range", |t| if t.covers(diameter) { "yes" } else { "no" })
         .text("Sources", |t| {
             let own = used_sources(std::slice::from_ref(*t));

@@ -97,7 +97,7 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn solve(row: &Row) -> Result<EndForces, String> {
     let case = row.case()?;
-    case.segment.between(case.x, case.z, case.bottom).map_err(|error| error.to_string())
+    case.segment.solve_end_forces(case.x, case.z, case.bottom).map_err(|error| error.to_string())
 }
 
 /// The header of the output: no two names alike that were not so in the input.

@@ -74,7 +74,7 @@ fn forces(job: &Job, chosen: &dyn Fn(&str) -> bool) -> Table {
 }
 
 fn sums(model: &Model, body: &Body) -> Result<Vec<(Category, Six)>, ClassError> {
-    let floating = Floating::of(model, body)?;
+    let floating = Floating::at_rest(model, body)?;
     let pose = Pose::of(&body.place);
     let mut list = Vec::new();
     for category in [Category::Wind, Category::ViscousDrag, Category::WaveDrift] {

@@ -150,7 +150,7 @@ pub fn added_mass(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Tabl
     let names = ["X", "Y", "Z", "RX", "RY", "RZ"];
     let mut halves: [Vec<(&str, &str, [f64; 6])>; 2] = [Vec::new(), Vec::new()];
     for body in model.bodies.values().filter(|b| fits(&b.name)) {
-        let (_, added) = morison::of(model, body, None)?;
+        let (_, added) = morison::build_members(model, body, None)?;
         let whole = added.amax();
         if whole == 0.0 {
             continue;

@@ -207,7 +207,7 @@ fn hook_renamed(model: &mut Model, from: &str, to: &str, new: &str) {
 
 /// Sees that nothing has a name yet.
 fn taken(model: &Model, new: &str, place: Span) -> Outcome<()> {
-    match EntityKind::ALL.into_iter().find_map(|thing| model.defined(thing, new)) {
+    match EntityKind::ALL.into_iter().find_map(|thing| model.definition_span(thing, new)) {
         Some(span) => Err(Diagnostic::error(format!("{new} exists already"), place).other(span, "defined here")),
         None => Ok(()),
     }

@@ -42,7 +42,7 @@ const FROM: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours);
 const EXAGGERATE: OptionSpec = OptionSpec::new(
     "-EXAGGERATE",
-    &[ValueSpec::new("FACTOR", Kind::Number(Dim::None), "factor").within(0.1, 100.0)],
+    &[ValueSpec::new("FACTOR", Kind::Number(Dim::None), "factor").in_range(0.1, 100.0)],
     "draws heights so many times as large",
 )
 .default("1")
@@ -169,7 +169,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         body: &|b| chosen.takes(&b.name),
         stop: &|| job.interrupted(),
     };
-    let Some((scene, unshaped)) = Scene::of(&job.model, &choice) else {
+    let Some((scene, unshaped)) = Scene::build(&job.model, &choice) else {
         return Err(Diagnostic::error("interrupted", args.span));
     };
     chosen.check_used("what can be drawn", &[EntityKind::Connector, EntityKind::Body])?;

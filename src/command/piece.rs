@@ -36,7 +36,7 @@ const FACTOR: &[ValueSpec] = &[number("F", Dim::None, "factor").not_negative()];
 
 const PERMEABILITY: OptionSpec = OptionSpec::new(
     "-PERMEABILITY",
-    &[number("P", Dim::None, "1 exterior, -1 interior open to the sea, or a fraction").within(-1.0, 1.0)],
+    &[number("P", Dim::None, "1 exterior, -1 interior open to the sea, or a fraction").in_range(-1.0, 1.0)],
     "share of the volume that displaces water",
 )
 .default("1");
@@ -225,7 +225,7 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
     }
     model.free_name(name, &[EntityKind::Body, EntityKind::Part], span)?;
     let own = args.options.iter().filter(|given| given.is_any(&OPTIONS));
-    for value in own.clone().flat_map(|g| g.named(Noun::Curve)) {
+    for value in own.clone().flat_map(|g| g.names(Noun::Curve)) {
         if let Some(word) = value.word() {
             find(&model.curves, word, "curve", value.span)?;
         }

@@ -92,13 +92,13 @@ pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
 
 /// Why a sea cannot be: its wave or its significant wave breaks, or it is steeper than sea states are.
 fn breaking(model: &Model, env: &Environment, sea: &Sea, units: UnitSystem) -> Option<Diagnostic> {
-    let Ok(found) = spectrum::of(model, env, sea, None) else {
+    let Ok(found) = spectrum::build_spectrum(model, env, sea, None) else {
         // an error where the sea is made
         return None;
     };
     let Some(found) = found else {
         // the waves of a regular sea are made quickly
-        let error = Waves::of(model, env).err()?.diagnostic(sea.place(2), units);
+        let error = Waves::new(model, env).err()?.diagnostic(sea.place(2), units);
         return Some(Diagnostic { severity: Severity::Warning, ..*error });
     };
     let around = model.surroundings_in(env);

@@ -16,7 +16,7 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{ClassError, GivenMotion, Model, Prescription, Sinusoid, find};
 use windlass_solve::DOFS;
-use windlass_solve::time::prescribed;
+use windlass_solve::time::build_prescribed;
 
 /// PRESCRIBE.
 pub static PRESCRIBE: Command = Command { spec: &SPEC, edits: false, run };
@@ -97,8 +97,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     moved.prescribed = motion.map(|motion| Prescription { motion, span: args.span });
     if let Some(Prescription { motion: GivenMotion::Path(rows), .. }) = &moved.prescribed {
         let wrong = |e: ClassError| e.diagnostic(args.span, job.units);
-        let given = prescribed(&moved, None).map_err(wrong)?;
-        let start = given.map(|g| g.at(0.0)).transpose().map_err(wrong)?.unwrap_or_default();
+        let given = build_prescribed(&moved, None).map_err(wrong)?;
+        let start = given.map(|g| g.motion_at(0.0)).transpose().map_err(wrong)?.unwrap_or_default();
         let near = rows.iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).map(|r| Place::new(r.1));
         moved.previous = moved.place;
         moved.place = start.pose.place(&near.unwrap_or_default());

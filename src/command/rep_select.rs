@@ -57,7 +57,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let mut selection = job.model.fatigue.clone();
     let mut chosen = Vec::new();
-    for given in args.all(&SN) {
+    for given in args.occurrences(&SN) {
         let name = given.word(const { SN.word("CURVE") }).unwrap_or_default();
         let place = given.first_place();
         if given.values.len() > 1 {
@@ -110,6 +110,6 @@ fn defined(job: &Job, given: &Given, name: &str) -> Outcome<FatigueCurve> {
         points.push((dim.to_si(range.number().unwrap_or_default(), job.units), cycles.number().unwrap_or_default()));
     }
     let curve = FatigueCurve { name: name.to_string(), kind, points, span };
-    Curve::through(&curve).map_err(|e| Diagnostic::error(format!("{name}: {e}"), span))?;
+    Curve::from_points(&curve).map_err(|e| Diagnostic::error(format!("{name}: {e}"), span))?;
     Ok(curve)
 }

@@ -63,7 +63,7 @@ impl Rigging<'_> {
         let Some(body) = model.bodies.get(&key) else { return Err(self.too_short()) };
         let pose = Pose::of(&body.place);
         let (at, turn) = if turned {
-            let mass = Mass::of(model.parts_of(body), model.defaults.gravity);
+            let mass = Mass::from_parts(model.parts_of(body), model.defaults.gravity);
             if mass.mass <= 0.0 {
                 return Err(Diagnostic::error(format!("{} has no weight that could hang", body.name), self.span));
             }

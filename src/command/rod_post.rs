@@ -79,8 +79,8 @@ const FACTORS: OptionSpec = ours(
 const PIPE: OptionSpec = ours(
     "-PIPE",
     &[
-        plain("F0", "ovality, at least 0.005").within(0.0, 0.1),
-        plain("AFAB", "fabrication factor: 1 seamless, 0.925 UO, 0.85 UOE").or("1").within(0.1, 1.0),
+        plain("F0", "ovality, at least 0.005").in_range(0.0, 0.1),
+        plain("AFAB", "fabrication factor: 1 seamless, 0.925 UO, 0.85 UOE").or("1").in_range(0.1, 1.0),
     ],
     "how round the tubes of F201 are and how they were made",
 )
@@ -96,18 +96,18 @@ const CORROSION: OptionSpec = ours(
 .default("0");
 const POINTS: OptionSpec = ours(
     "-POINTS",
-    &[ValueSpec::new("N", Kind::Integer, "points").within(1.0, MOST_POINTS as f64)],
+    &[ValueSpec::new("N", Kind::Integer, "points").in_range(1.0, MOST_POINTS as f64)],
     "points round a tube at which FATIGUE looks",
 )
 .default("8");
 const SCF: OptionSpec =
     ours("-SCF", &[plain("F", "factor on stress").positive()], "stress concentration of tubes in FATIGUE").default("1");
 const DFF: OptionSpec =
-    ours("-DFF", &[plain("F", "factor").within(1.0, 1000.0)], "design fatigue factor: life is divided by it")
+    ours("-DFF", &[plain("F", "factor").in_range(1.0, 1000.0)], "design fatigue factor: life is divided by it")
         .default("1");
 const DISPOSE: OptionSpec = ours(
     "-DISPOSE",
-    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
+    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").in_range(1.0, 1e6)],
     "opens the disposition menu over a table instead of printing",
 );
 
@@ -163,7 +163,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
     let run = last_run(job, args.span)?;
-    let line = Line::of(run, args.word(0).unwrap_or_default()).map_err(|e| e.diagnostic(args.place(0), job.units))?;
+    let line = Line::find(run, args.word(0).unwrap_or_default()).map_err(|e| e.diagnostic(args.place(0), job.units))?;
     let wrong = |e| told(e, &job.model, args.span, job.units);
     let what = args.word(1).unwrap_or("ENVELOPE");
     refuse_what_does_not_go(args, what)?;

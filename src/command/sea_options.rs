@@ -20,7 +20,7 @@ const PHASINGS: [OptionSpec; 3] = [environment::T_REINFORCE, SEED, PHASES];
 pub(super) const COMPONENTS: OptionSpec = OptionSpec::new(
     "-COMPONENTS",
     &[
-        ValueSpec::new("N", Kind::Integer, "how many for each sea").within(1.0, 5000.0),
+        ValueSpec::new("N", Kind::Integer, "how many for each sea").in_range(1.0, 5000.0),
         ValueSpec::new("TYPE", Kind::Choice(DIVISIONS), "how the spectrum is cut").or("EQUAL_ENERGY"),
         ValueSpec::new("LOW", Kind::Number(Dim::Frequency), "lowest frequency").or("none").positive(),
         ValueSpec::new("HIGH", Kind::Number(Dim::Frequency), "highest frequency, given with LOW").or("none").positive(),
@@ -33,7 +33,7 @@ pub(super) const COMPONENTS: OptionSpec = OptionSpec::new(
 /// -SEED.
 pub(super) const SEED: OptionSpec = OptionSpec::new(
     "-SEED",
-    &[ValueSpec::new("N", Kind::Integer, "whole number").within(0.0, 9e15)],
+    &[ValueSpec::new("N", Kind::Integer, "whole number").in_range(0.0, 9e15)],
     "random phases of the wave components, from this seed",
 )
 .default("1, without -T_REINFORCE")
@@ -51,7 +51,7 @@ pub(super) const STRETCHING: OptionSpec = OptionSpec::new(
 /// -STOKES.
 pub(super) const STOKES: OptionSpec = OptionSpec::new(
     "-STOKES",
-    &[ValueSpec::new("N", Kind::Integer, "order").within(2.0, 5.0)],
+    &[ValueSpec::new("N", Kind::Integer, "order").in_range(2.0, 5.0)],
     "order of a STOKES wave",
 )
 .default("5")

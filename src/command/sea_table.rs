@@ -48,7 +48,7 @@ pub(super) fn chosen_environments<'a>(job: &'a Job, chosen: Option<&'a dyn Fn(&s
 }
 
 fn sea(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Sea>> {
-    Sea::of(&job.model, env).map_err(|e| e.diagnostic(at, job.units))
+    Sea::new(&job.model, env).map_err(|e| e.diagnostic(at, job.units))
 }
 
 fn title(what: &str, env: &Environment, train: Option<&Train>) -> String {

@@ -42,7 +42,7 @@ const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static s
 
 const SEGMENT: OptionSpec = ours(
     "-SEGMENT",
-    &[ValueSpec::new("N", Kind::Integer, "samples").within(8.0, 67_108_864.0)],
+    &[ValueSpec::new("N", Kind::Integer, "samples").in_range(8.0, 67_108_864.0)],
     "samples of a segment",
 )
 .default("an eighth of the series, as a power of two");
@@ -54,18 +54,19 @@ const DURATION: OptionSpec = ours(
 .default("3 hours");
 const BLOCKS: OptionSpec = ours(
     "-BLOCKS",
-    &[ValueSpec::new("N", Kind::Integer, "number of blocks").within(10.0, 1e6)],
+    &[ValueSpec::new("N", Kind::Integer, "number of blocks").in_range(10.0, 1e6)],
     "blocks the record is cut into for Gumbel",
 )
 .default("20, or as many as hold ten up-crossings of the mean");
 const LOWS: OptionSpec = ours("-MINIMA", &[], "seeks the smallest value");
 const LEVELS: OptionSpec =
-    ours("-LEVELS", &[ValueSpec::new("N", Kind::Integer, "number of levels").within(2.0, 1e4)], "levels").default("50");
+    ours("-LEVELS", &[ValueSpec::new("N", Kind::Integer, "number of levels").in_range(2.0, 1e4)], "levels")
+        .default("50");
 const BINS: OptionSpec =
-    ours("-BINS", &[ValueSpec::new("N", Kind::Integer, "number of bins").within(1.0, 1e3)], "bins").default("20");
+    ours("-BINS", &[ValueSpec::new("N", Kind::Integer, "number of bins").in_range(1.0, 1e3)], "bins").default("20");
 const MEANS: OptionSpec = ours(
     "-MEANS",
-    &[ValueSpec::new("N", Kind::Integer, "number of bins").within(1.0, 1e3)],
+    &[ValueSpec::new("N", Kind::Integer, "number of bins").in_range(1.0, 1e3)],
     "bins of the mean of the cycles",
 )
 .default("1: means are not told apart");
@@ -77,11 +78,11 @@ const PERIOD: OptionSpec = ours(
 )
 .default("that of the sine which fits the first series best");
 const ORDERS: OptionSpec =
-    ours("-ORDERS", &[ValueSpec::new("N", Kind::Integer, "number of harmonics").within(1.0, 50.0)], "harmonics")
+    ours("-ORDERS", &[ValueSpec::new("N", Kind::Integer, "number of harmonics").in_range(1.0, 50.0)], "harmonics")
         .default("3");
 const LAST: OptionSpec = ours(
     "-LAST",
-    &[ValueSpec::new("N", Kind::Integer, "number of cycles").within(1.0, 1e9)],
+    &[ValueSpec::new("N", Kind::Integer, "number of cycles").in_range(1.0, 1e9)],
     "only the last cycles of the series",
 )
 .default("all whole cycles");
@@ -208,7 +209,7 @@ fn whole(args: &Args, option: &OptionSpec) -> Option<usize> {
 fn record(job: &Job, args: &Args) -> Outcome<(Record, Option<String>)> {
     here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
     let (table, without) = chosen_for_statistics(job, args)?;
-    Ok((Record::of(&table).map_err(|e| wrong(args, &e))?, without))
+    Ok((Record::from_table(&table).map_err(|e| wrong(args, &e))?, without))
 }
 
 fn wrong(args: &Args, error: &SeriesError) -> Box<Diagnostic> {

@@ -85,7 +85,7 @@ const PLOT: OptionSpec =
 /// `-NUMBER`.
 pub(super) const NUMBER: OptionSpec = OptionSpec::new(
     "-NUMBER",
-    &[ValueSpec::new("N", Kind::Integer, "how many").within(1.0, 1000.0)],
+    &[ValueSpec::new("N", Kind::Integer, "how many").in_range(1.0, 1000.0)],
     "modes of each tether or dynamic line",
 )
 .owner(Owner::Ours)
@@ -100,7 +100,7 @@ pub(super) const AQWA: OptionSpec =
         .owner(Owner::Ours);
 const DISPOSE: OptionSpec = OptionSpec::new(
     "-DISPOSE",
-    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
+    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").in_range(1.0, 1e6)],
     "opens the disposition menu over a table instead of printing",
 )
 .owner(Owner::Ours);
@@ -179,7 +179,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "POINTS" => vec![model_tables::points(model, &fits)],
         "DIMENSIONS" => vec![settings_table::dimensions(job)],
         "DEFAULTS" => vec![settings_table::defaults(model)],
-        "RUN" => vec![run_tables::told(last_run(job, args.span)?)],
+        "RUN" => vec![run_tables::run_table(last_run(job, args.span)?)],
         "ROD" | "ROD_MODES" => rod_status::tables(job, args, kind, &fits)?,
         "TETHERS" | "TETHER_MODES" => tether_status::tables(job, args, kind, &fits)?,
         "SELECTORS" => vec![model_tables::selectors(model, &fits)],

@@ -19,7 +19,7 @@ use windlass_base::values::Noun;
 use windlass_hydro::hull::{MeshKind, read_mesh};
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec, joined};
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec, join_options};
 use windlass_model::{Piece, Shape};
 
 /// &SURFACE.
@@ -86,7 +86,7 @@ const MOVE: OptionSpec = OptionSpec::new("-MOVE", &PLACE, "places the mesh in th
 
 /// What a mesh of a file takes besides.
 const OF_FILE: &[OptionSpec] = &[FORMAT, SCALE, MOVE];
-static MESH_OPTIONS: [OptionSpec; OPTIONS.len() + OF_FILE.len()] = joined(&OPTIONS, OF_FILE);
+static MESH_OPTIONS: [OptionSpec; OPTIONS.len() + OF_FILE.len()] = join_options(&OPTIONS, OF_FILE);
 
 static MESH_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::SURFACE],
@@ -107,7 +107,7 @@ static MESH_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("MESH", "a surface of a file, or of panels")
 };
 
-static TUBE_OPTIONS: [OptionSpec; OPTIONS.len() + member::OPTIONS.len()] = joined(&OPTIONS, &member::OPTIONS);
+static TUBE_OPTIONS: [OptionSpec; OPTIONS.len() + member::OPTIONS.len()] = join_options(&OPTIONS, &member::OPTIONS);
 
 static TUBE_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
@@ -205,7 +205,7 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let by = args.option(&MOVE).map_or(Place::default(), |given| {
         Place::new(given.numbers_or_zero(const { MOVE.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }))
     });
-    whole(job, args, Shape::Panels(scaled).moved(&by))
+    whole(job, args, Shape::Panels(scaled).moved_by(&by))
 }
 
 /// The panels of a mesh file, in its own unit.
@@ -254,7 +254,7 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
         error.help.extend(help);
         return Err(error);
     };
-    *shape = shape.moved(&by);
+    *shape = shape.moved_by(&by);
     job.model.current_piece = Some(name.clone());
     piece::finished(job);
     Ok(Effect::Done)

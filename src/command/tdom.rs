@@ -19,7 +19,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
-use windlass_hydro::morison::unmoved;
+use windlass_hydro::morison::pieces_without_wave_load;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
@@ -52,8 +52,8 @@ pub(super) const NEWMARK: OptionSpec = OptionSpec::new(
     "-NEWMARK",
     &[
         yes_no("NO is the predictor and corrector"),
-        ValueSpec::new("BETA", Kind::Number(Dim::None), "beta").or("that of generalised-alpha").within(1e-3, 1.0),
-        ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma of the books").or("0.5").within(0.0, 2.0),
+        ValueSpec::new("BETA", Kind::Number(Dim::None), "beta").or("that of generalised-alpha").in_range(1e-3, 1.0),
+        ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma of the books").or("0.5").in_range(0.0, 2.0),
     ],
     "the scheme of bodies and dynamic lines; with NO dynamic lines keep generalised-alpha with spectral radius 0.2",
 )
@@ -62,10 +62,10 @@ pub(super) const NEWMARK: OptionSpec = OptionSpec::new(
 pub(super) const CONVERGE: OptionSpec = OptionSpec::new(
     "-CONVERGE",
     &[
-        ValueSpec::new("NUMB", Kind::Integer, "most iterations of a step").within(1.0, 1000.0),
+        ValueSpec::new("NUMB", Kind::Integer, "most iterations of a step").in_range(1.0, 1000.0),
         ValueSpec::new("TOL", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity")
             .or("1E-7")
-            .within(1e-14, 0.1),
+            .in_range(1e-14, 0.1),
     ],
     "when a step is solved",
 )
@@ -85,14 +85,14 @@ pub(super) const RESET: OptionSpec = OptionSpec::new(
 /// `-STORE`.
 pub(super) const STORE: OptionSpec = OptionSpec::new(
     "-STORE",
-    &[ValueSpec::new("INCR", Kind::Integer, "steps").within(1.0, 1e9)],
+    &[ValueSpec::new("INCR", Kind::Integer, "steps").in_range(1.0, 1e9)],
     "steps from one stored instant to the next",
 )
 .default("1");
 /// `-RHO`.
 pub(super) const RHO: OptionSpec = OptionSpec::new(
     "-RHO",
-    &[ValueSpec::new("R", Kind::Number(Dim::None), "spectral radius at infinite frequency").within(0.0, 1.0)],
+    &[ValueSpec::new("R", Kind::Number(Dim::None), "spectral radius at infinite frequency").in_range(0.0, 1.0)],
     "generalised-alpha with another spectral radius, of bodies and dynamic lines: 1 damps nothing, 0 damps most",
 )
 .owner(Owner::Ours)
@@ -125,7 +125,7 @@ const BALANCE: OptionSpec =
 /// `-ALONG`.
 pub(super) const ALONG: OptionSpec = OptionSpec::new(
     "-ALONG",
-    &[ValueSpec::new("N", Kind::Integer, "every Nth; 0: none").within(0.0, 1e6)],
+    &[ValueSpec::new("N", Kind::Integer, "every Nth; 0: none").in_range(0.0, 1e6)],
     "keeps every Nth node of dynamic lines, counted from their second ends, and both ends",
 )
 .owner(Owner::Ours)
@@ -223,9 +223,9 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
             }
             None => usual(&job.model),
         },
-        None => {
-            args.option_number(&RHO).map_or_else(|| usual(&job.model), |r| Method::Implicit(Scheme::generalised(r)))
-        }
+        None => args
+            .option_number(&RHO)
+            .map_or_else(|| usual(&job.model), |r| Method::Implicit(Scheme::generalised_alpha(r))),
     };
     let mut convergence = Convergence::default();
     if let Some(given) = args.option(&CONVERGE) {
@@ -332,7 +332,8 @@ fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
     if made.sea.is_none() {
         return;
     }
-    let pieces = made.model.bodies.values().flat_map(|b| unmoved(&made.model, b)).map(|p| p.name.as_str());
+    let pieces =
+        made.model.bodies.values().flat_map(|b| pieces_without_wave_load(&made.model, b)).map(|p| p.name.as_str());
     let list: Vec<&str> = pieces.collect();
     if !list.is_empty() {
         let text =
@@ -386,7 +387,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let ended = made.go(&mut going);
     drop(going);
     let screening = screened(job, args, &made, ended.as_ref().ok());
-    let mut first = run_tables::told(&made);
+    let mut first = run_tables::run_table(&made);
     if let Err(Some(reason)) = &screening {
         first.note(format!("the quasi-static lines are not replayed as dynamic lines: {reason}"));
     }
@@ -471,7 +472,7 @@ fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
     let mut again = first.begun_again(|s| Settings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
     let mut going = Going::new(job, &again, None);
     again.go(&mut going)?;
-    Ok(run_tables::compared(first, &again.history))
+    Ok(run_tables::comparison_tables(first, &again.history))
 }
 
 /// Who is told how a run goes: its file, the terminal, Ctrl-C.

@@ -88,7 +88,7 @@ pub const CONSTRAINT: OptionSpec = OptionSpec {
         "-CONSTRAINT",
         &[
             ValueSpec::new("KIND", Kind::Choice(KINDS), "what is held, and by what"),
-            ValueSpec::new("NODE", Kind::Integer, "the node, 1 at the anchor").within(1.0, 1e5),
+            ValueSpec::new("NODE", Kind::Integer, "the node, 1 at the anchor").in_range(1.0, 1e5),
             number("GAP", Dim::Length, "free radius of LATERAL_VESSEL").or("0").not_negative(),
         ],
         "holds a node of a tether, five constraints at most",
@@ -97,7 +97,7 @@ pub const CONSTRAINT: OptionSpec = OptionSpec {
 /// Card TEGR.
 pub const GROUP: OptionSpec = option(
     "-GROUP",
-    &[ValueSpec::new("N", Kind::Integer, "how many").within(1.0, 1e6)],
+    &[ValueSpec::new("N", Kind::Integer, "how many").in_range(1.0, 1e6)],
     "identical tethers side by side: forces on the structure count so many times",
 )
 .default("1");
@@ -156,7 +156,7 @@ pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
 
 fn constraints(args: &Args) -> Outcome<Vec<TetherConstraint>> {
     let mut found = Vec::new();
-    for given in args.all(&CONSTRAINT) {
+    for given in args.occurrences(&CONSTRAINT) {
         let gap = given.number(const { CONSTRAINT.number("GAP") });
         let kind = given.word(const { CONSTRAINT.word("KIND") });
         if gap.is_some_and(|g| g > 0.0) && kind != Some("LATERAL_VESSEL") {

@@ -45,7 +45,7 @@ const EVENTS: OptionSpec = ours(
 .default("all; STATISTICS, RANGES and FATIGUE leave out those before TTRA_SET");
 const DISPOSE: OptionSpec = ours(
     "-DISPOSE",
-    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
+    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").in_range(1.0, 1e6)],
     "opens the disposition menu over a table instead of printing",
 );
 
@@ -177,7 +177,7 @@ fn window(run: &Tethered, args: &Args) -> Statistics {
     let given = args.option(&EVENTS);
     let from = given.and_then(|given| given.number(const { EVENTS.number("BEG") })).unwrap_or(run.settings.transient);
     let to = given.and_then(|given| given.number(const { EVENTS.number("END") })).unwrap_or(f64::INFINITY);
-    Statistics::between(run, from, to)
+    Statistics::new(run, from, to)
 }
 
 /// A whole number of the data, within a range.
@@ -250,7 +250,7 @@ fn asked(args: &Args) -> Asked {
         slope: g.number(const { SN.number("M") }).unwrap_or(usual.slope),
     });
     let hours = args.option_number(&HOURS).unwrap_or(3.0);
-    Asked { duration: 1.0, curve: curve.scaled(1000.0), peak_time: hours * 3600.0 }
+    Asked { duration: 1.0, curve: curve.in_unit(1000.0), peak_time: hours * 3600.0 }
 }
 
 fn along(run: &Tethered, tether: &TetherHistory, args: &Args) -> Outcome<Table> {
@@ -270,7 +270,7 @@ fn along(run: &Tethered, tether: &TetherHistory, args: &Args) -> Outcome<Table> 
     if places.is_empty() {
         places.extend(run.times.len().checked_sub(1));
     }
-    let made = found.and_then(|(at_nodes, index)| tethered::along(run, tether, at_nodes, index, &places));
+    let made = found.and_then(|(at_nodes, index)| tethered::table_along_tether(run, tether, at_nodes, index, &places));
     made.ok_or_else(|| Diagnostic::error(format!("{word} is no quantity of the tether"), args.place(2)))
 }
 

@@ -95,7 +95,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     let interrupt = Arc::clone(&job.interrupt);
     let mut goes_on = |_: f64| !interrupt.load(Ordering::Relaxed);
     let made = tethered::run(&job.model, settings, &mut goes_on).map_err(|e| told(e, &job.model, span, job.units))?;
-    let mut tables = vec![tethered::told(&made)];
+    let mut tables = vec![tethered::run_table(&made)];
     note_caveats(&job.model, &mut tables);
     let events = tethered::events(&made);
     if events.rows() > 0 {

@@ -24,7 +24,7 @@ pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> 
     let mut tables = Vec::new();
     for name in names {
         if kind == "TETHERS" {
-            tables.push(tethered::described(&job.model, &name).map_err(wrong)?);
+            tables.push(tethered::description_table(&job.model, &name).map_err(wrong)?);
         } else {
             tables.extend(tethered::natural(&job.model, &name, number, args.has(&status::AQWA)).map_err(wrong)?);
         }

@@ -89,8 +89,11 @@ const DENSITY: OptionSpec =
     OptionSpec::new("-DENSITY", &[number("RHO", Dim::Density, "density").positive()], "density of materials");
 const EMODULUS: OptionSpec =
     OptionSpec::new("-EMODULUS", &[number("EMOD", Dim::Stress, "Young's modulus").positive()], "Young's modulus");
-const POI_RAT: OptionSpec =
-    OptionSpec::new("-POI_RAT", &[number("POIRAT", Dim::None, "Poisson's ratio").within(0.0, 0.5)], "Poisson's ratio");
+const POI_RAT: OptionSpec = OptionSpec::new(
+    "-POI_RAT",
+    &[number("POIRAT", Dim::None, "Poisson's ratio").in_range(0.0, 0.5)],
+    "Poisson's ratio",
+);
 const ALPHA: OptionSpec =
     OptionSpec::new("-ALPHA", &[number("ALPHA", Dim::ThermalExpansion, "thermal expansion")], "thermal expansion");
 const FYIELD: OptionSpec =

@@ -151,7 +151,7 @@ pub fn tabulate(
         let (place, condition) = at(parameter, value, &place, held);
         let line = class.object.line(&place, &around);
         let line = match parameter.change(value) {
-            Some(change) => line.and_then(|l| l.changed(change)),
+            Some(change) => line.and_then(|l| l.with_change(change)),
             None => line,
         };
         let found = line.and_then(|line| line.configuration(condition));

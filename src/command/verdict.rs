@@ -74,7 +74,7 @@ pub fn over_break_in(run: &Run) -> Vec<OverBreak> {
         released && !happened().any(|action| matches!(&action.what, What::Activate(names) if names.iter().any(same)))
     };
     let mut made = Vec::new();
-    for (series, running) in run.statistics.all() {
+    for (series, running) in run.statistics.results() {
         let Some(name) = series.name.strip_suffix(" Tension").filter(|name| !has_broken(name)) else { continue };
         let connector = run.model.connectors.get(&Model::key(name));
         let class = connector.and_then(|c| run.model.classes.get(&Model::key(&c.class)));

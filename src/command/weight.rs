@@ -62,7 +62,7 @@ const TOTAL: OptionSpec = OptionSpec::new(
 .many();
 const MARGIN: OptionSpec = OptionSpec::new(
     "-MARGIN",
-    &[BODY, number("PERCENT", Dim::None, "percentage of each weight that is added").within(-100.0, 1000.0)],
+    &[BODY, number("PERCENT", Dim::None, "percentage of each weight that is added").in_range(-100.0, 1000.0)],
     "makes every weight of a body larger by a percentage; several compound",
 )
 .many();
@@ -131,7 +131,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let body = find(&job.model.bodies, given.first_word().unwrap_or_default(), "body", place)?.clone();
         match given {
             _ if given.is(&TOTAL) => {
-                let made = missing(job, given, &Mass::of(job.model.parts_of(&body), job.model.defaults.gravity))?;
+                let made = missing(job, given, &Mass::from_parts(job.model.parts_of(&body), job.model.defaults.gravity))?;
                 if let [Some(x), Some(y), Some(z)] = RADII_OF_TOTAL.map(|key| given.number(key))
                     && let Some(text) = no_body_has([x, y, z], job.units)
                 {

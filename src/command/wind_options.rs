@@ -56,10 +56,10 @@ pub(super) const PERIOD: OptionSpec = OptionSpec::new("-W_PERIOD", PERIODS, "per
 pub(super) const COMPONENTS: OptionSpec = OptionSpec::new(
     "-W_COMPONENTS",
     &[
-        ValueSpec::new("N", Kind::Integer, "number of components").within(1.0, 10_000.0),
+        ValueSpec::new("N", Kind::Integer, "number of components").in_range(1.0, 10_000.0),
         number("INTENSITY", Dim::None, "standard deviation over mean speed")
             .or("that of the spectrum")
-            .within(0.001, 1.0),
+            .in_range(0.001, 1.0),
     ],
     "components of the gusts",
 )
@@ -69,7 +69,7 @@ pub(super) const COMPONENTS: OptionSpec = OptionSpec::new(
 /// -W_MD_CORRELATION.
 pub(super) const CORRELATION: OptionSpec = OptionSpec::new(
     "-W_MD_CORRELATION",
-    &[number("F", Dim::None, "factor").within(-1.0, 1.0)],
+    &[number("F", Dim::None, "factor").in_range(-1.0, 1.0)],
     "correlation of gusts and mean drift",
 );
 

@@ -51,7 +51,7 @@ pub(super) fn facts(table: Table, gusts: &Gusts) -> Table {
 }
 
 fn gusts(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Gusts>> {
-    Gusts::of(&job.model, env).map_err(|e| e.diagnostic(at, job.units))
+    Gusts::new(&job.model, env).map_err(|e| e.diagnostic(at, job.units))
 }
 
 fn title(what: &str, env: &Environment) -> String {

@@ -99,7 +99,7 @@ impl Session {
     pub fn run(&mut self) -> End {
         loop {
             self.interpreter.passing = self.passing();
-            let over = match self.interpreter.next(&mut self.job) {
+            let over = match self.interpreter.next_step(&mut self.job) {
                 Ok(Step::Record(record)) => self.execute(&record),
                 Ok(Step::Ended(tag)) => {
                     while tag == INMODEL_FILE && self.passing() {

@@ -177,7 +177,7 @@ impl<'a> Face<'a> {
     ///
     /// # Errors
     /// Which of the columns 1 to 10 hold what does not belong there, or where a tab stands; `label` names the deck.
-    pub fn of(line: &Line<'a>, label: &str, keyworded: bool) -> Result<Face<'a>, Box<Diagnostic>> {
+    pub fn new(line: &Line<'a>, label: &str, keyworded: bool) -> Result<Face<'a>, Box<Diagnostic>> {
         if let Some(tab) = line.tab() {
             return Err(line.tab_error(label, tab));
         }

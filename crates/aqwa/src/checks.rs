@@ -26,7 +26,7 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
         numbers_of_structures(deck, remarks);
         placed::check(deck, remarks);
     }
-    towed(deck, whole, remarks);
+    check_towed_tether(deck, whole, remarks);
     run(deck, remarks);
     output(deck, remarks);
 }
@@ -53,14 +53,14 @@ fn elements(deck: &Deck, remarks: &mut Remarks) {
                 missing(message, element.span, remarks);
             }
             match element.shape {
-                Shape::Quad | Shape::Triangle | Shape::FieldPoint => remarks.once("panels", || {
+                Shape::Quad | Shape::Triangle | Shape::FieldPoint => remarks.add_once("panels", || {
                     Diagnostic::error(
                         format!("deck 2, {keyword}: the diffraction analysis of panels is not done here"),
                         element.span,
                     )
                     .help("take the coefficients of the hull from a hydrodynamic database of the model")
                 }),
-                Shape::Stub | Shape::Disc => remarks.once("stubs", || {
+                Shape::Stub | Shape::Disc => remarks.add_once("stubs", || {
                     Diagnostic::error(
                         format!("deck 2, {keyword}: no source tells the geometry of this element"),
                         element.span,
@@ -155,7 +155,7 @@ fn tether_refers(deck: &Deck, tether: &Tether, remarks: &mut Remarks) {
 fn line_ends(deck: &Deck, remarks: &mut Remarks) {
     for line in &deck.mooring.lines {
         if matches!(line.kind, LineKind::Property { dynamic: true, .. }) {
-            remarks.once("NLID", || {
+            remarks.add_once("NLID", || {
                 Diagnostic::remark("deck 14, NLID: cable dynamics is chosen by the class of the line here", line.span)
                     .help("the line is taken as NLIN")
             });
@@ -225,8 +225,8 @@ fn numbers_of_structures(deck: &Deck, remarks: &mut Remarks) {
 }
 
 /// What 6.1, 6.2, 8.1 and A.12 demand of a towed tether.
-fn towed(deck: &Deck, whole: bool, remarks: &mut Remarks) {
-    let Some(tether) = deck.mooring.tethers.iter().find(|tether| tether.towed()) else { return };
+fn check_towed_tether(deck: &Deck, whole: bool, remarks: &mut Remarks) {
+    let Some(tether) = deck.mooring.tethers.iter().find(|tether| tether.is_towed()) else { return };
     if deck.mooring.tethers.len() > 1 {
         remarks.add(
             Diagnostic::error("deck 14: a towed tether is the only tether of a deck", tether.span)
@@ -315,7 +315,7 @@ fn run(deck: &Deck, remarks: &mut Remarks) {
         return;
     }
     let timed = matches!(deck.job.program, Program::Drift | Program::Naut);
-    if timed && deck.steps.is_none() && !remarks.failed() {
+    if timed && deck.steps.is_none() && !remarks.has_error() {
         remarks.add(
             Diagnostic::error("deck 16: a run in time has no TIME card", deck.job.span)
                 .help("TIME: number of steps in columns 16-20, time step in 21-30, start in 31-40"),

@@ -63,17 +63,17 @@ pub const LAYOUTS: &[Layout] = &[
     Layout::text("TPPL").freely(),
     Layout::text("FPNT").freely(),
     Layout::text("ZLWL"),
-    Layout::refused("FIXD", UNSEEN),
-    Layout::refused("SYMX", UNSEEN),
-    Layout::refused("SYMY", UNSEEN),
-    Layout::refused("RMXS", UNSEEN),
-    Layout::refused("RMYS", UNSEEN),
-    Layout::refused("HYDI", UNSEEN),
-    Layout::refused("ILID", UNSEEN),
-    Layout::refused("VLID", UNSEEN),
-    Layout::passed("SEAG", "the grid of the sea is for pictures of AQWA and has no effect"),
-    Layout::refused("MSTR", UNSEEN),
-    Layout::refused("ASYM", UNSEEN),
+    Layout::refuse("FIXD", UNSEEN),
+    Layout::refuse("SYMX", UNSEEN),
+    Layout::refuse("SYMY", UNSEEN),
+    Layout::refuse("RMXS", UNSEEN),
+    Layout::refuse("RMYS", UNSEEN),
+    Layout::refuse("HYDI", UNSEEN),
+    Layout::refuse("ILID", UNSEEN),
+    Layout::refuse("VLID", UNSEEN),
+    Layout::pass_over("SEAG", "the grid of the sea is for pictures of AQWA and has no effect"),
+    Layout::refuse("MSTR", UNSEEN),
+    Layout::refuse("ASYM", UNSEEN),
 ];
 
 /// An element of a structure.
@@ -106,7 +106,7 @@ pub struct Structure {
 
 impl Shape {
     /// The kind of a keyword.
-    pub fn named(keyword: &str) -> Option<Shape> {
+    pub fn from_keyword(keyword: &str) -> Option<Shape> {
         KINDS.iter().find(|(name, ..)| *name == keyword).map(|(_, shape, ..)| *shape)
     }
 

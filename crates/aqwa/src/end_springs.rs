@@ -47,8 +47,8 @@ pub fn check(tether: &Tether, remarks: &mut Remarks) {
                 .other(anchor.span, "the other end"),
         );
     }
-    if !tether.towed() && tether.description.lower_stop.is_none() {
-        remarks.once("TLOW missing", || {
+    if !tether.is_towed() && tether.description.lower_stop.is_none() {
+        remarks.add_once("TLOW missing", || {
             Diagnostic::remark("deck 14: no TLOW card; a slack tether hangs free and meets no lower stop", tether.span)
                 .help(
                     "so for every installed tether without the card; TLOW 0.0 keeps a tether from hanging free (A.11)",
@@ -56,7 +56,7 @@ pub fn check(tether: &Tether, remarks: &mut Remarks) {
         });
     }
     for (keyword, spring) in ends {
-        if tether.towed() {
+        if tether.is_towed() {
             check_towed(keyword, spring, tether.span, remarks);
         } else {
             check_installed(keyword, spring, tether.span, remarks);
@@ -82,7 +82,7 @@ fn check_towed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut
 
 fn check_installed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut Remarks) {
     let Some(spring) = spring else {
-        remarks.once(&format!("{keyword} missing"), || {
+        remarks.add_once(&format!("{keyword} missing"), || {
             let message =
                 format!("deck 14: no {keyword} card; 1.0E15 is taken for the inline and both rotational springs");
             Diagnostic::remark(message, at).help("so for every installed tether without the card (A.2)")
@@ -91,7 +91,7 @@ fn check_installed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: 
     };
     let [inline, second, third] = spring.stiffness;
     if inline.value <= 0.0 {
-        remarks.once(&format!("{keyword} inline"), || {
+        remarks.add_once(&format!("{keyword} inline"), || {
             Diagnostic::remark(format!("deck 14, {keyword}: the inline stiffness is taken as 1.0E15"), inline.span)
                 .help("so for every installed tether where it is blank, zero or negative (A.2)")
         });

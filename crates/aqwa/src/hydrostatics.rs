@@ -28,58 +28,58 @@ const VALUES: &[Slot] = &[
 
 /// Cards of deck 6.
 pub const FREQUENCIES: &[Layout] = &[
-    Layout::assumed("FREQ", VALUES).freely(),
-    Layout::assumed("PERD", VALUES).freely(),
-    Layout::assumed("HRTZ", VALUES).freely(),
-    Layout::assumed("DIRN", VALUES).freely(),
-    Layout::refused("CSTR", UNSEEN),
-    Layout::refused("FILE", DATABASE),
-    Layout::refused("MVEF", UNSEEN),
-    Layout::refused("FWDS", UNSEEN),
+    Layout::assume("FREQ", VALUES).freely(),
+    Layout::assume("PERD", VALUES).freely(),
+    Layout::assume("HRTZ", VALUES).freely(),
+    Layout::assume("DIRN", VALUES).freely(),
+    Layout::refuse("CSTR", UNSEEN),
+    Layout::refuse("FILE", DATABASE),
+    Layout::refuse("MVEF", UNSEEN),
+    Layout::refuse("FWDS", UNSEEN),
 ];
 
 /// Cards of deck 7.
 pub const STIFFNESS: &[Layout] = &[
-    Layout::new("LSTF", ROW).by(&[16]),
-    Layout::new("ASTF", ROW).by(&[16]),
-    Layout::refused("SSTF", "a stiffness between structures is not read"),
+    Layout::new("LSTF", ROW).repeated_by(&[16]),
+    Layout::new("ASTF", ROW).repeated_by(&[16]),
+    Layout::refuse("SSTF", "a stiffness between structures is not read"),
     Layout::new("BFEQ", &[num("buoyancy force at equilibrium", 21)]),
     Layout::new("ZCGE", &[num("Z of the centre of gravity at equilibrium", 21)]),
     Layout::new("SPOS", &SIX),
-    Layout::new("FIAM", ROW).by(&[16]),
-    Layout::new("FIDP", ROW).by(&[16]),
-    Layout::refused("WAMS", DATABASE),
-    Layout::refused("WDMP", DATABASE),
-    Layout::refused("FREQ", DATABASE),
-    Layout::refused("PERD", DATABASE),
-    Layout::refused("HRTZ", DATABASE),
-    Layout::refused("DIRN", DATABASE),
-    Layout::refused("FILE", DATABASE),
+    Layout::new("FIAM", ROW).repeated_by(&[16]),
+    Layout::new("FIDP", ROW).repeated_by(&[16]),
+    Layout::refuse("WAMS", DATABASE),
+    Layout::refuse("WDMP", DATABASE),
+    Layout::refuse("FREQ", DATABASE),
+    Layout::refuse("PERD", DATABASE),
+    Layout::refuse("HRTZ", DATABASE),
+    Layout::refuse("DIRN", DATABASE),
+    Layout::refuse("FILE", DATABASE),
 ];
 
 /// Cards of deck 8.
 pub const DRIFT: &[Layout] = &[
-    Layout::refused("DRFT", DATABASE),
-    Layout::refused("FREQ", DATABASE),
-    Layout::refused("DIRN", DATABASE),
-    Layout::refused("FILE", DATABASE),
+    Layout::refuse("DRFT", DATABASE),
+    Layout::refuse("FREQ", DATABASE),
+    Layout::refuse("DIRN", DATABASE),
+    Layout::refuse("FILE", DATABASE),
 ];
 
 /// Cards of deck 9.
 pub const DAMPING: &[Layout] = &[
-    Layout::assumed("FIDA", ROW).by(&[16]),
-    Layout::assumed("FIDD", ROW).by(&[16]),
-    Layout::refused("FILE", DATABASE),
+    Layout::assume("FIDA", ROW).repeated_by(&[16]),
+    Layout::assume("FIDD", ROW).repeated_by(&[16]),
+    Layout::refuse("FILE", DATABASE),
 ];
 
 /// Cards of deck 10.
 pub const HULL: &[Layout] = &[
-    Layout::assumed("CURR", &[num("speed", 11), num("direction", 21)]),
-    Layout::refused("RUFC", "forces from a routine of the user are not read"),
-    Layout::refused("IUFC", "forces from a routine of the user are not read"),
-    Layout::refused("CUFX", UNSEEN),
-    Layout::refused("THRS", UNSEEN),
-    Layout::refused("DIRN", UNSEEN),
+    Layout::assume("CURR", &[num("speed", 11), num("direction", 21)]),
+    Layout::refuse("RUFC", "forces from a routine of the user are not read"),
+    Layout::refuse("IUFC", "forces from a routine of the user are not read"),
+    Layout::refuse("CUFX", UNSEEN),
+    Layout::refuse("THRS", UNSEEN),
+    Layout::refuse("DIRN", UNSEEN),
 ];
 
 /// Six rows of six numbers, in the units of the deck, rotations in radians.
@@ -116,8 +116,8 @@ pub struct Hydrostatics {
 pub fn read(into: &mut Hydrostatics, deck: u8, records: &[Record], remarks: &mut Remarks) {
     for record in records {
         match (deck, record.keyword.as_str()) {
-            (6, "DIRN") => into.directions.extend(given(record)),
-            (6, keyword) => into.frequencies.extend(given(record).filter_map(|value| frequency(keyword, value))),
+            (6, "DIRN") => into.directions.extend(given_values(record)),
+            (6, keyword) => into.frequencies.extend(given_values(record).filter_map(|value| frequency(keyword, value))),
             (_, "LSTF") => {
                 if into.stiffness.is_none() {
                     into.span = record.span;
@@ -146,7 +146,7 @@ pub fn read(into: &mut Hydrostatics, deck: u8, records: &[Record], remarks: &mut
     }
 }
 
-fn given(record: &Record) -> impl Iterator<Item = f64> + '_ {
+fn given_values(record: &Record) -> impl Iterator<Item = f64> + '_ {
     record.reals::<6>(21).into_iter().filter(|field| field.given).map(|field| field.value)
 }
 

@@ -131,7 +131,7 @@ pub fn is_deck(text: &str) -> bool {
 
 /// Reads deck 0.
 pub fn read(reader: &mut Reader<'_>) -> Job {
-    let mut job = Job { stages: (1, 5), span: reader.here(), ..Job::default() };
+    let mut job = Job { stages: (1, 5), span: reader.current_span(), ..Job::default() };
     let (mut restart, mut listed) = (None, None);
     let mut met: Vec<(&str, Span)> = Vec::new();
     while let Some(line) = reader.peek().cloned() {

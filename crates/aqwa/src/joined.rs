@@ -77,7 +77,7 @@ fn structures(deck: &mut Deck, reader: &mut Reader<'_>) {
     while deck.structures.len() < run::MOST_STRUCTURES as usize {
         let next = reader.next_header();
         if !deck.structures.is_empty() && !next.is_some_and(|(number, _)| number == 2 || number == 0) {
-            let here = reader.here();
+            let here = reader.current_span();
             reader.remarks.add(
                 Diagnostic::warning("deck 2: the series of structures has no FINI", here)
                     .label("FINI belongs before this"),
@@ -114,7 +114,7 @@ fn per_structure(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
     for index in 0..count {
         let next = reader.next_header();
         if index > 0 && !next.is_some_and(|(other, _)| other == number || other == 0) {
-            let here = reader.here();
+            let here = reader.current_span();
             reader.remarks.add(
                 Diagnostic::warning(
                     format!("deck {number} is there for {index} of {count} structures and has no FINI"),
@@ -143,7 +143,7 @@ fn per_structure(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
 
 fn take(deck: &mut Deck, number: u8, keyword: &str, structure: i64, reader: &mut Reader<'_>) -> Vec<Record> {
     let label = format!("deck {number} {keyword}{structure}");
-    let here = reader.here();
+    let here = reader.current_span();
     let records = reader.records(number, &label, layouts(number, keyword));
     let count = deck.structures.len().max(1);
     let index = usize::try_from(structure - 1).unwrap_or(usize::MAX);

@@ -39,13 +39,13 @@ pub const fn num(name: &'static str, column: usize) -> Slot {
 }
 
 impl Slot {
-    fn last(&self) -> usize {
+    fn last_column(&self) -> usize {
         self.column + self.width - 1
     }
 
     /// `11-15 node 1`.
-    fn shown(&self) -> String {
-        format!("{}-{} {}", self.column, self.last(), self.name)
+    fn to_text(&self) -> String {
+        format!("{}-{} {}", self.column, self.last_column(), self.name)
     }
 }
 
@@ -103,17 +103,17 @@ impl Layout {
     }
 
     /// A card whose columns are assumed.
-    pub const fn assumed(keyword: &'static str, slots: &'static [Slot]) -> Self {
+    pub const fn assume(keyword: &'static str, slots: &'static [Slot]) -> Self {
         Layout { keyword, slots, text: false, standing: CardSupport::Assumed, repeats: ONCE }
     }
 
     /// A card that is refused for a reason.
-    pub const fn refused(keyword: &'static str, reason: &'static str) -> Self {
+    pub const fn refuse(keyword: &'static str, reason: &'static str) -> Self {
         Layout { keyword, slots: &[], text: true, standing: CardSupport::Refused(reason), repeats: ONCE }
     }
 
     /// A card that is passed over for a reason.
-    pub const fn passed(keyword: &'static str, reason: &'static str) -> Self {
+    pub const fn pass_over(keyword: &'static str, reason: &'static str) -> Self {
         Layout { keyword, slots: &[], text: true, standing: CardSupport::Passed(reason), repeats: ONCE }
     }
 
@@ -128,12 +128,12 @@ impl Layout {
     }
 
     /// The card comes once for each value of the whole numbers that begin in these columns.
-    pub const fn by(self, by: &'static [usize]) -> Self {
+    pub const fn repeated_by(self, by: &'static [usize]) -> Self {
         Layout { repeats: Repeats::Once { same: "", by, until: &[] }, ..self }
     }
 
     /// The card may come again after one of these.
-    pub const fn until(self, until: &'static [&'static str]) -> Self {
+    pub const fn repeatable_after(self, until: &'static [&'static str]) -> Self {
         Layout { repeats: Repeats::Once { same: "", by: &[], until }, ..self }
     }
 
@@ -149,7 +149,7 @@ impl Layout {
 
     /// The columns of the card in words, for help lines.
     pub fn usage(&self) -> String {
-        let fields: Vec<String> = self.slots.iter().map(Slot::shown).collect();
+        let fields: Vec<String> = self.slots.iter().map(Slot::to_text).collect();
         let fields = if fields.is_empty() { "no fields".to_string() } else { fields.join(", ") };
         format!("columns of {}: {fields}", if self.keyword.is_empty() { "this card" } else { self.keyword })
     }
@@ -171,7 +171,7 @@ impl Layout {
             text_place: line.place_of(face.rest.trim()),
         };
         if line.is_cut() {
-            let message = format!("{}: what stands in column {WIDTH} goes on past it", self.named(deck));
+            let message = format!("{}: what stands in column {WIDTH} goes on past it", self.name_with_deck(deck));
             return Err(Diagnostic::error(message, line.span(WIDTH, WIDTH + 1))
                 .label(format!("a card ends with column {WIDTH}"))
                 .help(self.usage()));
@@ -179,7 +179,7 @@ impl Layout {
         if self.text {
             let before = line.text.chars().position(|c| c == '(').unwrap_or(WIDTH);
             if before < 20 {
-                let message = format!("{}: a bracket stands before column 21", self.named(deck));
+                let message = format!("{}: a bracket stands before column 21", self.name_with_deck(deck));
                 return Err(
                     Diagnostic::error(message, line.span(11, 20)).label("groups in brackets belong in columns 21-80")
                 );
@@ -192,7 +192,7 @@ impl Layout {
             record.text_place = line.place_of(rest);
             return Ok(record);
         }
-        self.apart(deck, line)?;
+        self.check_separation(deck, line)?;
         let (integers, reals) = self.by_columns(deck, line)?;
         self.in_place(deck, line)?;
         Ok(Record { integers, reals, ..record })
@@ -203,15 +203,20 @@ impl Layout {
         let mut free = if self.keyword.is_empty() { 7 } else { 11 };
         for slot in self.slots {
             self.nothing_between(deck, line, free, slot.column - 1)?;
-            free = slot.last() + 1;
-            let text = line.columns(slot.column, slot.last());
+            free = slot.last_column() + 1;
+            let text = line.columns(slot.column, slot.last_column());
             let word = text.trim();
-            let span = if word.is_empty() { line.span(slot.column, slot.last()) } else { line.place_of(word) };
+            let span = if word.is_empty() { line.span(slot.column, slot.last_column()) } else { line.place_of(word) };
             let given = !word.is_empty();
             let wrong = || {
                 let kind = if slot.holds == Holds::Integer { "a whole number" } else { "a number" };
                 Diagnostic::error(
-                    format!("{}, columns {}-{}: `{word}` is not {kind}", self.named(deck), slot.column, slot.last()),
+                    format!(
+                        "{}, columns {}-{}: `{word}` is not {kind}",
+                        self.name_with_deck(deck),
+                        slot.column,
+                        slot.last_column()
+                    ),
                     span,
                 )
                 .label(format!("{} belongs here", slot.name))
@@ -236,29 +241,29 @@ impl Layout {
     ///
     /// A sign begins a number. So does the first column of a field that is filled, if it is a whole number without a zero in front
     /// (numbers of nodes have five digits) or has an exponent and one digit before the point.
-    fn apart(&self, deck: &str, line: &Line<'_>) -> Result<(), Box<Diagnostic>> {
+    fn check_separation(&self, deck: &str, line: &Line<'_>) -> Result<(), Box<Diagnostic>> {
         for pair in self.slots.windows(2) {
             let [left, right] = pair else { continue };
-            if left.last() + 1 != right.column
-                || line.blank(left.last(), left.last())
+            if left.last_column() + 1 != right.column
+                || line.blank(left.last_column(), left.last_column())
                 || line.blank(right.column, right.column)
             {
                 continue;
             }
-            let before = line.columns(left.column, left.last()).trim_start();
-            let after = line.columns(right.column, right.last()).trim_end();
+            let before = line.columns(left.column, left.last_column()).trim_start();
+            let after = line.columns(right.column, right.last_column()).trim_end();
             if after.starts_with(['+', '-']) || (after.len() == right.width && begins_itself(after, right.holds)) {
                 continue;
             }
             let message = format!(
                 "{}, columns {}-{}: `{before}{after}` lies across two fields",
-                self.named(deck),
+                self.name_with_deck(deck),
                 left.column,
-                right.last()
+                right.last_column()
             );
-            let span = line.place_of(before).to(line.place_of(after));
+            let span = line.place_of(before).join(line.place_of(after));
             return Err(Diagnostic::error(message, span)
-                .label(format!("columns {}-{} end with column {}", left.column, left.last(), left.last()))
+                .label(format!("columns {}-{} end with column {}", left.column, left.last_column(), left.last_column()))
                 .help("move the number into its columns, or leave a blank between two numbers")
                 .help(self.usage()));
         }
@@ -267,25 +272,26 @@ impl Layout {
 
     /// Refuses a value behind a blank field that does not end with its own: as a card that has slipped to the right has it.
     fn in_place(&self, deck: &str, line: &Line<'_>) -> Result<(), Box<Diagnostic>> {
-        let blank = |slot: &Slot| line.blank(slot.column, slot.last());
+        let blank = |slot: &Slot| line.blank(slot.column, slot.last_column());
         let slipped = self.slots.windows(2).find_map(|pair| match pair {
-            [left, right] if left.last() + 1 == right.column && left.holds == right.holds => {
-                (blank(left) && !blank(right) && line.blank(right.last(), right.last())).then_some((left, right))
+            [left, right] if left.last_column() + 1 == right.column && left.holds == right.holds => {
+                (blank(left) && !blank(right) && line.blank(right.last_column(), right.last_column()))
+                    .then_some((left, right))
             }
             _ => None,
         });
         let Some((left, right)) = slipped else { return Ok(()) };
-        let word = line.columns(right.column, right.last()).trim();
+        let word = line.columns(right.column, right.last_column()).trim();
         let message = format!(
             "{}, columns {}-{}: `{word}` stands behind a blank field and does not end with column {}",
-            self.named(deck),
+            self.name_with_deck(deck),
             right.column,
-            right.last(),
-            right.last()
+            right.last_column(),
+            right.last_column()
         );
         Err(Diagnostic::error(message, line.place_of(word))
-            .label(format!("{} ends with column {}", right.name, right.last()))
-            .help(format!("if this is {}, it belongs in columns {}-{}", left.name, left.column, left.last()))
+            .label(format!("{} ends with column {}", right.name, right.last_column()))
+            .help(format!("if this is {}, it belongs in columns {}-{}", left.name, left.column, left.last_column()))
             .help(self.usage()))
     }
 
@@ -294,11 +300,12 @@ impl Layout {
             return Ok(());
         }
         let word = line.columns(first, last).trim();
-        let message = format!("{}: `{word}` stands in columns {first}-{last}, which hold no field", self.named(deck));
+        let message =
+            format!("{}: `{word}` stands in columns {first}-{last}, which hold no field", self.name_with_deck(deck));
         Err(Diagnostic::error(message, line.place_of(word)).label("nothing belongs here").help(self.usage()))
     }
 
-    fn named(&self, deck: &str) -> String {
+    fn name_with_deck(&self, deck: &str) -> String {
         if self.keyword.is_empty() { deck.to_string() } else { format!("{deck}, {}", self.keyword) }
     }
 }

@@ -199,6 +199,6 @@ pub fn read(sources: &Sources, id: SourceId) -> Reading {
         reader.remarks.add(warning);
     }
     checks::check(&deck, &mut reader.remarks);
-    let failed = reader.remarks.failed();
+    let failed = reader.remarks.has_error();
     Reading { deck, messages: reader.remarks.into_list(), failed }
 }

@@ -282,7 +282,7 @@ impl LineCardParser {
         if found != last.announced.value {
             let key = format!("sections {}", properties.len());
             let message = format!("deck 14, COMP: {} sections are announced, {found} follow", last.announced.value);
-            remarks.once(&key, || {
+            remarks.add_once(&key, || {
                 Diagnostic::error(message, last.announced.span).label("number of sections, columns 26-30")
             });
         }
@@ -365,7 +365,7 @@ fn composite(record: &Record, remarks: &mut Remarks) -> Composite {
         record.real(41).given,
     ];
     if let Some((span, _)) = of_table.into_iter().zip(given).find(|(_, given)| *given) {
-        remarks.once("table of a composite", || {
+        remarks.add_once("table of a composite", || {
             Diagnostic::remark("deck 14, COMP: no table is made; a line is solved exactly at each position", span)
                 .label("columns 11-25 and 31-50 describe the table and have no effect")
         });

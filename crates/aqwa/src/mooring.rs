@@ -24,8 +24,8 @@ const SECTION: &[&str] = &["ECAT", "COMP"];
 pub const LAYOUTS: &[Layout] = &[
     Layout::new("TELM", &[int("node 1", 11), int("node 2", 16), int("material group", 21), int("geometry group", 26)])
         .freely(),
-    Layout::new("TSPA", SPRING).until(TETHER),
-    Layout::new("TSPV", SPRING).until(TETHER),
+    Layout::new("TSPA", SPRING).repeatable_after(TETHER),
+    Layout::new("TSPV", SPRING).repeatable_after(TETHER),
     Layout::new("TEIG", &[int("number of modes", 11)]),
     Layout::new(
         "TFAT",
@@ -36,14 +36,15 @@ pub const LAYOUTS: &[Layout] = &[
             num("S-N slope m", 61),
         ],
     )
-    .until(TETHER),
-    Layout::new("TPSH", &[int("hours", 11), num("hours", 31)]).until(TETHER),
+    .repeatable_after(TETHER),
+    Layout::new("TPSH", &[int("hours", 11), num("hours", 31)]).repeatable_after(TETHER),
     Layout::new("TSLK", &[num("time", 31)]),
-    Layout::new("TEGR", &[int("number of identical tethers", 11)]).until(TETHER),
-    Layout::new("TCAP", &[num("anchor cap area", 31), num("vessel cap area", 41)]).until(TETHER),
-    Layout::new("TIFL", &[num("internal pressure", 31), num("density of the internal fluid", 41)]).until(TETHER),
-    Layout::new("TIMP", &[num("stress factor", 31), num("half life", 41)]).until(TETHER),
-    Layout::new("TLOW", &[num("distance of the lower stop below the anchor", 31)]).until(TETHER),
+    Layout::new("TEGR", &[int("number of identical tethers", 11)]).repeatable_after(TETHER),
+    Layout::new("TCAP", &[num("anchor cap area", 31), num("vessel cap area", 41)]).repeatable_after(TETHER),
+    Layout::new("TIFL", &[num("internal pressure", 31), num("density of the internal fluid", 41)])
+        .repeatable_after(TETHER),
+    Layout::new("TIMP", &[num("stress factor", 31), num("half life", 41)]).repeatable_after(TETHER),
+    Layout::new("TLOW", &[num("distance of the lower stop below the anchor", 31)]).repeatable_after(TETHER),
     Layout::new("TLAC", &[]).freely(),
     Layout::new("TROC", &[]).freely(),
     Layout::new("TLAV", &[num("gap", 31)]).freely(),
@@ -53,12 +54,12 @@ pub const LAYOUTS: &[Layout] = &[
         &[int("structure", 11), int("node on it", 16), int("0 (fixed)", 21), int("anchor or trailing node", 26)],
     )
     .freely(),
-    Layout::passed("TSTE", NOT_YET),
-    Layout::passed("TTIM", NOT_YET),
-    Layout::passed("TRAO", NOT_YET),
-    Layout::refused("TECP", "composite tethers are not read"),
-    Layout::refused("TSEG", "composite tethers are not read"),
-    Layout::refused("TSGH", "composite tethers are not read"),
+    Layout::pass_over("TSTE", NOT_YET),
+    Layout::pass_over("TTIM", NOT_YET),
+    Layout::pass_over("TRAO", NOT_YET),
+    Layout::refuse("TECP", "composite tethers are not read"),
+    Layout::refuse("TSEG", "composite tethers are not read"),
+    Layout::refuse("TSGH", "composite tethers are not read"),
     Layout::new("LINE", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("stiffness", 31), num("unstretched length", 41)])
         .freely(),
     Layout::new(
@@ -77,7 +78,7 @@ pub const LAYOUTS: &[Layout] = &[
     )
     .freely(),
     Layout::new("FORC", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("force", 31)]).freely(),
-    Layout::assumed(
+    Layout::assume(
         "WNCH",
         &[
             ENDS[0],
@@ -119,7 +120,7 @@ pub const LAYOUTS: &[Layout] = &[
         ],
     )
     .freely(),
-    Layout::new("ECAX", &[num("k1", 31), num("k2", 41), num("k3", 51)]).until(SECTION),
+    Layout::new("ECAX", &[num("k1", 31), num("k2", 41), num("k3", 51)]).repeatable_after(SECTION),
     Layout::new(
         "ECAH",
         &[
@@ -129,22 +130,22 @@ pub const LAYOUTS: &[Layout] = &[
             num("inline drag coefficient", 71),
         ],
     )
-    .until(SECTION),
-    Layout::new("ECAB", &[num("EI", 31)]).until(SECTION),
-    Layout::assumed("BUOY", JOINT).one_of("joint", SECTION),
-    Layout::assumed("CLMP", JOINT).one_of("joint", SECTION),
-    Layout::passed("DYNM", "cable dynamics is chosen by the class of the line here; the card has no effect"),
-    Layout::passed("DOFF", "cable dynamics is chosen by the class of the line here; the card has no effect"),
-    Layout::refused("NCEL", UNSEEN),
-    Layout::refused("LBRK", UNSEEN),
-    Layout::refused("SWIR", UNSEEN),
-    Layout::refused("FEND", UNSEEN),
-    Layout::refused("FLIN", UNSEEN),
-    Layout::refused("FENP", UNSEEN),
-    Layout::refused("DWT0", UNSEEN),
-    Layout::refused("DWAL", UNSEEN),
-    Layout::refused("PULY", UNSEEN),
-    Layout::refused("FILE", UNSEEN),
+    .repeatable_after(SECTION),
+    Layout::new("ECAB", &[num("EI", 31)]).repeatable_after(SECTION),
+    Layout::assume("BUOY", JOINT).one_of("joint", SECTION),
+    Layout::assume("CLMP", JOINT).one_of("joint", SECTION),
+    Layout::pass_over("DYNM", "cable dynamics is chosen by the class of the line here; the card has no effect"),
+    Layout::pass_over("DOFF", "cable dynamics is chosen by the class of the line here; the card has no effect"),
+    Layout::refuse("NCEL", UNSEEN),
+    Layout::refuse("LBRK", UNSEEN),
+    Layout::refuse("SWIR", UNSEEN),
+    Layout::refuse("FEND", UNSEEN),
+    Layout::refuse("FLIN", UNSEEN),
+    Layout::refuse("FENP", UNSEEN),
+    Layout::refuse("DWT0", UNSEEN),
+    Layout::refuse("DWAL", UNSEEN),
+    Layout::refuse("PULY", UNSEEN),
+    Layout::refuse("FILE", UNSEEN),
 ];
 
 const SPRING: &[Slot] = &[

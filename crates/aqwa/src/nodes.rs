@@ -30,7 +30,7 @@ const UNSEEN: &str = "the columns of this card are published nowhere; give the n
 
 /// Cards of deck 1.
 pub const LAYOUTS: &[Layout] =
-    &[Layout::new("", SLOTS).freely(), Layout::refused("STRC", UNSEEN), Layout::refused("NODE", UNSEEN)];
+    &[Layout::new("", SLOTS).freely(), Layout::refuse("STRC", UNSEEN), Layout::refuse("NODE", UNSEEN)];
 
 /// A node of deck 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +56,7 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Nodes {
             );
             continue;
         }
-        let Some(count) = counted(count, nodes.len(), remarks) else { continue };
+        let Some(count) = check_count(count, nodes.len(), remarks) else { continue };
         let step = step.or(1);
         let from: [Field<f64>; 3] = record.reals(21);
         let by: [Field<f64>; 3] = record.reals(51);
@@ -96,7 +96,7 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Nodes {
 }
 
 /// The number of nodes that a card makes; none, with an error, when they would be too many.
-fn counted(count: Field<i64>, present: usize, remarks: &mut Remarks) -> Option<i64> {
+fn check_count(count: Field<i64>, present: usize, remarks: &mut Remarks) -> Option<i64> {
     let wanted = count.value.max(1);
     let room = i64::try_from(MOST_NODES.saturating_sub(present)).unwrap_or(0);
     if count.value < 0 || wanted > room {

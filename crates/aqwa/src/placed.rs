@@ -14,7 +14,7 @@ impl Deck {
     /// Position at the start of a node that moves with a structure: the node of deck 1 carried with the centre of gravity to
     /// its place of deck 15 and turned about it, by RX, then RY, then RZ about the fixed axes (assumed for large angles: no
     /// page seen tells the order).
-    pub fn placed(&self, structure: &Structure, node: i64) -> Option<[f64; 3]> {
+    pub fn node_position(&self, structure: &Structure, node: i64) -> Option<[f64; 3]> {
         let node = Vector3::from(self.nodes.get(&node)?.position);
         let centre = Vector3::from(self.mass_properties(structure).centre);
         let [x, y, z, rx, ry, rz] = self.start(structure);
@@ -23,7 +23,7 @@ impl Deck {
     }
 
     /// Unstretched length of a tether: the sum of its elements.
-    pub fn unstretched(&self, tether: &Tether) -> Option<f64> {
+    pub fn unstretched_length(&self, tether: &Tether) -> Option<f64> {
         let place = |node: i64| self.nodes.get(&node).map(|node| Vector3::from(node.position));
         let mut length = 0.0;
         for element in &tether.description.elements {
@@ -36,14 +36,14 @@ impl Deck {
     pub fn span(&self, tether: &Tether) -> Option<f64> {
         let structure = self.structure(tether.structure.value)?;
         let anchor = Vector3::from(self.nodes.get(&tether.anchor.value)?.position);
-        Some((Vector3::from(self.placed(structure, tether.node.value)?) - anchor).norm())
+        Some((Vector3::from(self.node_position(structure, tether.node.value)?) - anchor).norm())
     }
 }
 
 /// Warns of a tether that is far shorter than what it spans at the start.
 pub fn check(deck: &Deck, remarks: &mut Remarks) {
     for tether in &deck.mooring.tethers {
-        let (Some(length), Some(span)) = (deck.unstretched(tether), deck.span(tether)) else { continue };
+        let (Some(length), Some(span)) = (deck.unstretched_length(tether), deck.span(tether)) else { continue };
         if length > 0.0 && span > length * (1.0 + LONGEST_STRAIN) {
             let message = format!("deck 14, TETH: this tether is {length:.3} long and spans {span:.3} at the start");
             remarks.add(

@@ -20,21 +20,21 @@ pub const LAYOUTS: &[Layout] = &[
     Layout::new("PPRV", STEPS),
     Layout::new("TSTS", &[int("first step of the statistics", 11)]),
     Layout::new("TSTF", &[int("last step of the statistics", 11)]),
-    Layout::new("PTEN", &[int("structure", 11)]).by(&[11]),
+    Layout::new("PTEN", &[int("structure", 11)]).repeated_by(&[11]),
     Layout::new(
         "NODE",
         &[int("structure", 11), int("node", 16), int("reference structure", 21), int("reference node", 26)],
     )
-    .by(&[11, 16, 21, 26]),
+    .repeated_by(&[11, 16, 21, 26]),
     Layout::new("NOPR", PARAMETER).freely(),
     Layout::new("PRNT", PARAMETER).freely(),
-    Layout::passed("PCGP", "not available in AQWA nor here"),
-    Layout::passed("PMST", "tensions along dynamic lines are had with the reports of the session"),
-    Layout::passed("PRTD", "has no effect; PREV says how often a structure is printed"),
-    Layout::passed("SSPC", "is for FER"),
-    Layout::passed("ZRWS", "heights above the wave are had with the reports of the session"),
-    Layout::passed("PTST", "has no effect"),
-    Layout::passed("PTRT", "has no effect"),
+    Layout::pass_over("PCGP", "not available in AQWA nor here"),
+    Layout::pass_over("PMST", "tensions along dynamic lines are had with the reports of the session"),
+    Layout::pass_over("PRTD", "has no effect; PREV says how often a structure is printed"),
+    Layout::pass_over("SSPC", "is for FER"),
+    Layout::pass_over("ZRWS", "heights above the wave are had with the reports of the session"),
+    Layout::pass_over("PTST", "has no effect"),
+    Layout::pass_over("PTRT", "has no effect"),
 ];
 
 /// A node whose position is printed.

@@ -42,8 +42,8 @@ const SIX: &[Slot] = &[
 pub const GEOMETRIES: &[Layout] = &[
     Layout::new("TUBE", SIX).freely(),
     Layout::new("PMAS", SIX).freely(),
-    Layout::assumed("STUB", SIX).freely(),
-    Layout::assumed("DISC", SIX).freely(),
+    Layout::assume("STUB", SIX).freely(),
+    Layout::assume("DISC", SIX).freely(),
     Layout::new("CONT", &[num("drag coefficient", 21), num("added mass coefficient", 31)]).freely(),
 ];
 
@@ -159,7 +159,7 @@ pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Geometries 
     // what a CONT card continues: the card directly before it
     let mut continued = None;
     for record in records {
-        let Some(shape) = Shape::named(&record.keyword) else {
+        let Some(shape) = Shape::from_keyword(&record.keyword) else {
             match continued.take().and_then(|key| list.get_mut(&key)) {
                 Some(geometry) => {
                     geometry.drag = Some(record.real(21));
@@ -209,7 +209,7 @@ fn check_tube(geometry: &Geometry, remarks: &mut Remarks) {
         );
     }
     if let Some(other) = geometry.parameters.iter().skip(2).find(|p| p.value != 0.0) {
-        remarks.once("tube parameters", || {
+        remarks.add_once("tube parameters", || {
             Diagnostic::warning(
                 "deck 4, TUBE: parameters 3 to 6 (cuts and ends of the tube) have no effect",
                 other.span,
@@ -246,7 +246,7 @@ pub fn read_global(records: &[Record], remarks: &mut Remarks) -> Global {
     }
     for (keyword, unset) in [("DPTH", 1000.0), ("DENS", 1025.0), ("ACCG", 9.81)] {
         if !records.iter().any(|record| record.keyword == keyword) {
-            remarks.once(keyword, || {
+            remarks.add_once(keyword, || {
                 Diagnostic::plain(
                     windlass_base::diagnostic::Severity::Note,
                     format!("deck 5 has no {keyword} card: {unset} is taken"),

@@ -72,7 +72,7 @@ pub struct Reader<'a> {
 }
 
 /// The deck, and the number of the structure, that a header keyword announces; 0 for NONE and FINI.
-fn announced(word: &str) -> Option<(u8, &'static str, i64)> {
+fn parse_header(word: &str) -> Option<(u8, &'static str, i64)> {
     if word == "NONE" || word == "FINI" {
         return Some((0, if word == "NONE" { "NONE" } else { "FINI" }, 0));
     }
@@ -107,7 +107,7 @@ impl<'a> Reader<'a> {
     pub fn take(&mut self) -> Option<Line<'a>> {
         let mut next = self.lines.next();
         while let Some(line) = next.take_if(|line| line.text.len() > LONGEST_LINE) {
-            self.remarks.once("a long line", || {
+            self.remarks.add_once("a long line", || {
                 let message = format!("a line of {} characters is no card", line.text.len());
                 Diagnostic::error(message, line.span(1, 80))
                     .help("a card has 80 columns; lines this long are passed over")
@@ -117,7 +117,7 @@ impl<'a> Reader<'a> {
         if self.taken == MOST_CARDS
             && let Some(line) = next.take()
         {
-            self.remarks.once("many cards", || {
+            self.remarks.add_once("many cards", || {
                 Diagnostic::error(format!("a file has at most {MOST_CARDS} cards"), line.whole())
                     .label("not read from here on")
             });
@@ -127,7 +127,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The place of the next line, or of the end of the file.
-    pub fn here(&self) -> Span {
+    pub fn current_span(&self) -> Span {
         self.peek().map_or(self.end, Line::whole)
     }
 
@@ -138,7 +138,7 @@ impl<'a> Reader<'a> {
         }
         let mut words = Line::words(line.columns(11, 80));
         let word = words.next()?;
-        let (deck, name, structure) = announced(&word.to_ascii_uppercase())?;
+        let (deck, name, structure) = parse_header(&word.to_ascii_uppercase())?;
         if words.next().is_some() {
             return None;
         }
@@ -164,7 +164,7 @@ impl<'a> Reader<'a> {
             let Some(line) = self.peek() else {
                 if deck <= 18 {
                     let message = format!("the file ends before deck {deck} ({wanted})");
-                    self.remarks.once("the file ends", || {
+                    self.remarks.add_once("the file ends", || {
                         Diagnostic::error(message, self.end)
                             .help("a deck without data is a card with NONE in columns 11-14")
                     });
@@ -237,7 +237,7 @@ impl<'a> Reader<'a> {
         let keyworded = !layouts.iter().any(|layout| layout.keyword.is_empty());
         loop {
             if self.next_header().is_some() || self.peek().is_none() {
-                let span = list.last().map_or(self.here(), |record: &Record| record.span);
+                let span = list.last().map_or(self.current_span(), |record: &Record| record.span);
                 let message = format!("{label} has no END");
                 self.remarks.add(
                     Diagnostic::error(message, span).label("END belongs in columns 2-4 of the last card of the deck"),
@@ -245,7 +245,7 @@ impl<'a> Reader<'a> {
                 break;
             }
             let Some(line) = self.take() else { break };
-            let face = match Face::of(&line, label, keyworded) {
+            let face = match Face::new(&line, label, keyworded) {
                 Ok(face) => face,
                 Err(error) => {
                     self.remarks.add(error);
@@ -256,7 +256,7 @@ impl<'a> Reader<'a> {
                 }
             };
             if line.overlong() && !line.is_cut() {
-                self.remarks.once(&format!("overlong {deck}"), || {
+                self.remarks.add_once(&format!("overlong {deck}"), || {
                     Diagnostic::warning(
                         format!("{label}: a card is longer than 80 columns; the rest is not read"),
                         line.span(81, 81),
@@ -293,7 +293,7 @@ impl<'a> Reader<'a> {
         };
         match layout.standing {
             CardSupport::Sure => {}
-            CardSupport::Assumed => self.remarks.once(&format!("{label} {}", layout.keyword), || {
+            CardSupport::Assumed => self.remarks.add_once(&format!("{label} {}", layout.keyword), || {
                 Diagnostic::remark(
                     format!("{label}, {}: no source confirms the columns of this card", layout.keyword),
                     face.place,

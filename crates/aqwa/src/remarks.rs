@@ -28,7 +28,7 @@ impl Remarks {
     }
 
     /// Adds a message unless one under the same key was added before.
-    pub fn once(&mut self, key: &str, message: impl FnOnce() -> Box<Diagnostic>) {
+    pub fn add_once(&mut self, key: &str, message: impl FnOnce() -> Box<Diagnostic>) {
         if self.said.insert(key.to_string()) {
             self.add(message());
         }
@@ -40,7 +40,7 @@ impl Remarks {
     }
 
     /// Whether an error was added.
-    pub fn failed(&self) -> bool {
+    pub fn has_error(&self) -> bool {
         self.failed
     }
 

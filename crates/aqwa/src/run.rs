@@ -15,22 +15,22 @@ const SLOW: &str = "slow drift positions are not read apart from the total ones"
 pub const STARTS: &[Layout] = &[
     Layout::new("POSn", SIX).freely(),
     Layout::new("VELn", SIX).freely(),
-    Layout::refused("SLPn", SLOW),
-    Layout::refused("SLVn", SLOW),
+    Layout::refuse("SLPn", SLOW),
+    Layout::refuse("SLVn", SLOW),
 ];
 
 /// Cards of deck 16.
 pub const STEPS: &[Layout] = &[
     Layout::new("TIME", &[int("number of time steps", 16), num("time step", 21), num("start time", 31)]),
-    Layout::refused("HOTS", "a start from an earlier run is not read"),
+    Layout::refuse("HOTS", "a start from an earlier run is not read"),
 ];
 
 /// Cards of deck 17.
 pub const MULTIPLIERS: &[Layout] = &[
-    Layout::new("SLMM", &[int("structure", 11), num("slam multiplier", 21)]).by(&[11]),
-    Layout::assumed("DRGM", &[int("structure", 11), num("drag multiplier", 21)]).by(&[11]),
-    Layout::assumed("ADMM", &[int("structure", 11), num("added mass multiplier", 21)]).by(&[11]),
-    Layout::refused("SC1/", "drag that depends on the Reynolds number is not read"),
+    Layout::new("SLMM", &[int("structure", 11), num("slam multiplier", 21)]).repeated_by(&[11]),
+    Layout::assume("DRGM", &[int("structure", 11), num("drag multiplier", 21)]).repeated_by(&[11]),
+    Layout::assume("ADMM", &[int("structure", 11), num("added mass multiplier", 21)]).repeated_by(&[11]),
+    Layout::refuse("SC1/", "drag that depends on the Reynolds number is not read"),
 ];
 
 /// Position or velocity of the centre of gravity of a structure at the start.

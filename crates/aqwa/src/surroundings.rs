@@ -22,11 +22,11 @@ const ARTICULATION: &str = "articulations are not read from a deck; join the bod
 
 /// Cards of deck 12.
 pub const CONSTRAINTS: &[Layout] = &[
-    Layout::assumed("DACF", &[int("structure", 11), int("degree of freedom", 16)]).by(&[11, 16]),
-    Layout::refused("DCON", ARTICULATION),
-    Layout::refused("FDCN", ARTICULATION),
-    Layout::refused("KFCN", ARTICULATION),
-    Layout::refused("DFCN", ARTICULATION),
+    Layout::assume("DACF", &[int("structure", 11), int("degree of freedom", 16)]).repeated_by(&[11, 16]),
+    Layout::refuse("DCON", ARTICULATION),
+    Layout::refuse("FDCN", ARTICULATION),
+    Layout::refuse("KFCN", ARTICULATION),
+    Layout::refuse("DFCN", ARTICULATION),
 ];
 
 /// A uniform stream.

@@ -122,13 +122,13 @@ pub struct Tether {
 
 impl Tether {
     /// Whether the tether is towed; else it is installed.
-    pub fn towed(&self) -> bool {
+    pub fn is_towed(&self) -> bool {
         [self.description.anchor, self.description.vessel].iter().flatten().any(|spring| spring.towed)
     }
 
     /// Stiffnesses in force at the anchor or trailing end, and at the vessel; see [`in_force`].
     pub fn springs(&self) -> [[f64; 3]; 2] {
-        let towed = self.towed();
+        let towed = self.is_towed();
         [self.description.anchor, self.description.vessel].map(|spring| in_force(spring, towed))
     }
 
@@ -267,7 +267,7 @@ impl Builder {
             self.description.elements.push(element);
         } else {
             let message = format!("deck 14, TELM: a tether has at most {MOST_ELEMENTS} elements");
-            remarks.once("many elements", || Diagnostic::error(message, record.span));
+            remarks.add_once("many elements", || Diagnostic::error(message, record.span));
         }
     }
 
@@ -289,7 +289,7 @@ impl Builder {
         let whole = std::mem::take(self);
         if earlier.len() == MOST_TETHERS {
             let message = format!("deck 14, TETH: a deck has at most {MOST_TETHERS} tethers");
-            remarks.once("many tethers", || Diagnostic::error(message, record.span));
+            remarks.add_once("many tethers", || Diagnostic::error(message, record.span));
             return None;
         }
         let (description, copy_of) = match (whole.first, earlier.last()) {

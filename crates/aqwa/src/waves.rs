@@ -34,9 +34,10 @@ pub const SPECTRA: &[Layout] = &[
     Layout::new("HRTZ", &[]).freely(),
     Layout::new("RADS", &[]).freely(),
     Layout::new("SPGR", &[]).freely(),
-    Layout::new("NSPL", &[int("number of spectral lines", 16)]).until(FORMS),
-    Layout::new("SPDN", &[int("spreading", 11), int("number of directions", 16), num("direction", 21)]).until(FORMS),
-    Layout::assumed("SEED", &[int("seed of the phases", 11), int("seed of the phases", 16)]).until(FORMS),
+    Layout::new("NSPL", &[int("number of spectral lines", 16)]).repeatable_after(FORMS),
+    Layout::new("SPDN", &[int("spreading", 11), int("number of directions", 16), num("direction", 21)])
+        .repeatable_after(FORMS),
+    Layout::assume("SEED", &[int("seed of the phases", 11), int("seed of the phases", 16)]).repeatable_after(FORMS),
     Layout::new(
         "PHAS",
         &[
@@ -59,18 +60,18 @@ pub const SPECTRA: &[Layout] = &[
         &[START, FINISH, num("sigma (rad/s)", 41), num("significant height", 51), num("peak frequency", 61)],
     )
     .freely(),
-    Layout::assumed("UDEF", &[num("frequency", 21), num("ordinate", 31)]).freely(),
-    Layout::new("CURR", &[num("speed", 21), num("direction", 31)]).until(FORMS),
-    Layout::new("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]).until(FORMS),
-    Layout::new("TOWS", &[num("towing speed", 31), num("towing direction", 41)]).until(FORMS),
-    Layout::refused("OHBS", "the Ochi-Hubble spectrum is not read; give it as UDEF"),
-    Layout::refused("XSWL", "a second spectrum of swell is not read"),
-    Layout::refused("UDWS", "a wind spectrum is not read"),
-    Layout::refused("UDWD", "a wind spectrum is not read"),
-    Layout::refused("IWHT", "an imported wave history is not read"),
-    Layout::passed("NAME", "the name of the spectrum has no effect"),
-    Layout::refused("NODR", UNSEEN),
-    Layout::refused("GRAV", UNSEEN),
+    Layout::assume("UDEF", &[num("frequency", 21), num("ordinate", 31)]).freely(),
+    Layout::new("CURR", &[num("speed", 21), num("direction", 31)]).repeatable_after(FORMS),
+    Layout::new("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]).repeatable_after(FORMS),
+    Layout::new("TOWS", &[num("towing speed", 31), num("towing direction", 41)]).repeatable_after(FORMS),
+    Layout::refuse("OHBS", "the Ochi-Hubble spectrum is not read; give it as UDEF"),
+    Layout::refuse("XSWL", "a second spectrum of swell is not read"),
+    Layout::refuse("UDWS", "a wind spectrum is not read"),
+    Layout::refuse("UDWD", "a wind spectrum is not read"),
+    Layout::refuse("IWHT", "an imported wave history is not read"),
+    Layout::pass_over("NAME", "the name of the spectrum has no effect"),
+    Layout::refuse("NODR", UNSEEN),
+    Layout::refuse("GRAV", UNSEEN),
 ];
 
 /// Cards of deck 13 WAVE.
@@ -78,12 +79,12 @@ pub const REGULAR: &[Layout] = &[
     Layout::new("WAMP", &[num("wave amplitude", 21)]).one_of("amplitude", &[]),
     Layout::new("PERD", &[num("wave period", 21)]).one_of("period", &[]),
     Layout::new("WVDN", &[num("wave direction", 21)]),
-    Layout::assumed("HGHT", &[num("wave height", 21)]).one_of("amplitude", &[]),
-    Layout::assumed("FREQ", &[num("wave frequency (rad/s)", 21)]).one_of("period", &[]),
-    Layout::assumed("AIRY", &[]),
-    Layout::assumed("WRMP", &[num("time of the ramp", 21)]),
-    Layout::assumed("CURR", &[num("speed", 21), num("direction", 31)]),
-    Layout::assumed("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]),
+    Layout::assume("HGHT", &[num("wave height", 21)]).one_of("amplitude", &[]),
+    Layout::assume("FREQ", &[num("wave frequency (rad/s)", 21)]).one_of("period", &[]),
+    Layout::assume("AIRY", &[]),
+    Layout::assume("WRMP", &[num("time of the ramp", 21)]),
+    Layout::assume("CURR", &[num("speed", 21), num("direction", 31)]),
+    Layout::assume("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]),
 ];
 
 /// The form of a spectrum; frequencies in rad/s.
@@ -277,10 +278,10 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
                 .label("last frequency, columns 31-40"),
             );
         }
-        wanted(record, remarks);
+        check_wave_card(record, remarks);
         if list.len() == MOST_SPECTRA {
             let message = format!("deck 13: a deck has at most {MOST_SPECTRA} spectra");
-            remarks.once("many spectra", || Diagnostic::error(message, record.span));
+            remarks.add_once("many spectra", || Diagnostic::error(message, record.span));
             continue;
         }
         list.push(Spectrum { form, range, span: record.span, ..now.clone() });
@@ -303,7 +304,7 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
     Waves::Spectra(list)
 }
 
-fn wanted(record: &Record, remarks: &mut Remarks) {
+fn check_wave_card(record: &Record, remarks: &mut Remarks) {
     let columns: &[usize] = if record.keyword == "PSMZ" { &[41, 51] } else { &[41, 51, 61] };
     for column in columns {
         let field = record.real(*column);
@@ -359,7 +360,7 @@ fn phases(list: &mut Vec<f64>, record: &Record, remarks: &mut Remarks) {
         record.reals::<6>(21).iter().take_while(|field| field.given).map(|field| field.value).collect();
     if next.saturating_add(6) > MOST_LINES {
         let message = format!("deck 13, PHAS: a spectrum has at most {MOST_LINES} lines");
-        remarks.once("too many phases", || Diagnostic::error(message, record.span));
+        remarks.add_once("too many phases", || Diagnostic::error(message, record.span));
         return;
     }
     list.extend(given);

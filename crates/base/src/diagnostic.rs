@@ -38,17 +38,17 @@ pub type Outcome<T> = Result<T, Box<Diagnostic>>;
 impl Diagnostic {
     /// An error at a word.
     pub fn error(message: impl Into<String>, span: Span) -> Box<Self> {
-        Box::new(Self::plain(Severity::Error, message).at(span))
+        Box::new(Self::plain(Severity::Error, message).with_span(span))
     }
 
     /// A warning at a word.
     pub fn warning(message: impl Into<String>, span: Span) -> Box<Self> {
-        Box::new(Self::plain(Severity::Warning, message).at(span))
+        Box::new(Self::plain(Severity::Warning, message).with_span(span))
     }
 
     /// A note at a word.
     pub fn remark(message: impl Into<String>, span: Span) -> Box<Self> {
-        Box::new(Self::plain(Severity::Note, message).at(span))
+        Box::new(Self::plain(Severity::Note, message).with_span(span))
     }
 
     /// A message without a place.
@@ -63,7 +63,7 @@ impl Diagnostic {
         }
     }
 
-    fn at(mut self, span: Span) -> Self {
+    fn with_span(mut self, span: Span) -> Self {
         self.span = Some(span);
         self
     }

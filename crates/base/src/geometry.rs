@@ -41,7 +41,7 @@ impl Place {
     }
 
     /// A local direction or offset in outer axes.
-    pub fn turned(&self, offset: Position) -> Position {
+    pub fn rotate(&self, offset: Position) -> Position {
         (self.rotation() * Vector3::from(offset)).into()
     }
 

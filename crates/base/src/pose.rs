@@ -28,7 +28,7 @@ impl Pose {
     }
 
     /// A pose with global axes at a position.
-    pub fn at(position: Position) -> Self {
+    pub fn from_position(position: Position) -> Self {
         Pose { origin: position.into(), axes: Matrix3::identity() }
     }
 
@@ -44,7 +44,7 @@ impl Pose {
 
     /// The pose behind a small motion: a translation, and a rotation about the origin by its rotation vector, both in
     /// global axes. Exact for any size of the rotation.
-    pub fn moved(&self, motion: &Six) -> Self {
+    pub fn after_motion(&self, motion: &Six) -> Self {
         let turn = Rotation3::new(Vector3::new(motion[3], motion[4], motion[5]));
         let axes = Rotation3::from_matrix_unchecked(turn.matrix() * self.axes);
         // rounding of many small turns must not add up to a matrix that stretches
@@ -84,7 +84,7 @@ mod tests {
         for step in 0..100 {
             let [roll, pitch, yaw] = [0.37, 0.011, -1.13].map(|rate| rate * f64::from(step));
             let place = Place::new([1.0, 2.0, 3.0, roll, pitch, yaw]);
-            let turned = Pose::of(&place).moved(&Six::new(0.0, 0.0, 0.0, 1e-9, 0.0, 0.0));
+            let turned = Pose::of(&place).after_motion(&Six::new(0.0, 0.0, 0.0, 1e-9, 0.0, 0.0));
             let back = turned.place(&place);
             for (a, b) in back.turn.iter().zip(place.turn) {
                 assert!((a - b).abs() < 1e-7, "{back:?} {place:?}");
@@ -97,7 +97,7 @@ mod tests {
     fn a_motion_turns_about_global_axes() {
         let quarter = std::f64::consts::FRAC_PI_2;
         let pose = Pose::of(&Place::new([0.0, 0.0, 0.0, 0.0, 0.0, quarter]));
-        let turned = pose.moved(&Six::new(0.0, 0.0, 5.0, quarter, 0.0, 0.0));
+        let turned = pose.after_motion(&Six::new(0.0, 0.0, 5.0, quarter, 0.0, 0.0));
         // body x points along global y; a quarter turn about global x takes it to global z
         assert!((turned.point(Vector3::x()) - Vector3::new(0.0, 0.0, 6.0)).norm() < 1e-15);
         assert!((turned.local(Vector3::new(0.0, 0.0, 6.0)) - Vector3::x()).norm() < 1e-15);

@@ -36,7 +36,7 @@ impl Span {
     }
 
     /// The span from the start of this one to the end of `other` (same source), else this one.
-    pub fn to(self, other: Span) -> Span {
+    pub fn join(self, other: Span) -> Span {
         if self.source == other.source && other.end >= self.start { Span { end: other.end, ..self } } else { self }
     }
 }

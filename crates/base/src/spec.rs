@@ -101,7 +101,7 @@ impl ValueSpec {
     }
 
     /// The same, but between two bounds (user units).
-    pub const fn within(self, low: f64, high: f64) -> Self {
+    pub const fn in_range(self, low: f64, high: f64) -> Self {
         ValueSpec { range: Range::Within(low, high), ..self }
     }
 

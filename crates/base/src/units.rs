@@ -369,7 +369,7 @@ impl Dim {
             Dim::SpectralDensity => format!("{length}2-s"),
             Dim::AngleDensity => "deg2-s".into(),
             Dim::Damping(exponent) => format!("{force}-(s/{length})**{exponent}"),
-            Dim::Derived { force: f, length: l, seconds: s } => derived([(force, f), (length, l), ("s", s)]),
+            Dim::Derived { force: f, length: l, seconds: s } => derived_unit([(force, f), (length, l), ("s", s)]),
             Dim::Mass => "kg".into(),
             Dim::MassPerLength => "kg/m".into(),
             Dim::SquareMetres => "m2".into(),
@@ -383,7 +383,7 @@ impl Dim {
 }
 
 /// Units to powers, as `kips-s2/ft2`.
-fn derived(units: [(&str, i8); 3]) -> String {
+fn derived_unit(units: [(&str, i8); 3]) -> String {
     let of = |sign: i8| {
         let some = units.iter().filter(|(_, power)| power.signum() == sign);
         let text = some.map(|(unit, power)| match power.abs() {

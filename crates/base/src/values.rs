@@ -216,7 +216,7 @@ impl Given {
     }
 
     /// The values that name a thing of this sort.
-    pub fn named(&self, noun: Noun) -> impl Iterator<Item = &Value> {
+    pub fn names(&self, noun: Noun) -> impl Iterator<Item = &Value> {
         self.values.iter().filter(move |value| value.noun == Some(noun))
     }
 
@@ -254,7 +254,7 @@ impl Args {
 
     /// An option, if given (the last, when given more than once). The command must declare it.
     pub fn option(&self, option: &OptionSpec) -> Option<&Given> {
-        self.all(option).next_back()
+        self.occurrences(option).next_back()
     }
 
     /// An option that only some of the commands which this record may be of take; none where its command does not.
@@ -268,7 +268,7 @@ impl Args {
     }
 
     /// Every occurrence of an option. The command must declare it.
-    pub fn all<'a>(&'a self, option: &OptionSpec) -> impl DoubleEndedIterator<Item = &'a Given> + use<'a> {
+    pub fn occurrences<'a>(&'a self, option: &OptionSpec) -> impl DoubleEndedIterator<Item = &'a Given> + use<'a> {
         debug_assert!(self.declares(option), "{} is looked up in a record that does not take it", option.name);
         let name = option.name;
         self.options.iter().filter(move |given| given.option.name == name)

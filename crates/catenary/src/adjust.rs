@@ -123,7 +123,7 @@ impl Line {
             }
         }
         if !apart.is_empty() {
-            return Ok(Lengths { found: apart, unsolved: unsolved(&samples) });
+            return Ok(Lengths { found: apart, unsolved: unsolved_intervals(&samples) });
         }
         match failed {
             Some(error) if nearest.is_infinite() => Err(error),
@@ -221,7 +221,7 @@ fn extreme([mut low, mut high]: [f64; 2], sign: f64, off: &mut impl FnMut(f64) -
 }
 
 /// Where lengths between solved ones, or beyond the last, have no configuration.
-fn unsolved(samples: &[Sample]) -> Vec<[f64; 2]> {
+fn unsolved_intervals(samples: &[Sample]) -> Vec<[f64; 2]> {
     let solved = |s: &Sample| s.1.is_some();
     let mut gaps = Vec::new();
     let Some(mut from) = samples.iter().position(solved) else { return gaps };

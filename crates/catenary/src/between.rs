@@ -12,15 +12,15 @@ use super::line::{LARGEST, Segment};
 use super::multi_segment::MultiSegmentLine;
 use super::refused::LineError;
 use super::search::{Point, rising_root};
-use super::segment::{Reach, hanging, lifted};
+use super::segment::{Reach, hanging, lifted_reach};
 
 /// Newton steps after which the nested search takes over.
 const MOST_STEPS: usize = 40;
 /// Largest accepted residual as a share of the tension at the fairlead.
 pub(super) const PROOF: f64 = 1e-9;
 
-/// See [`Segment::between`].
-pub fn between(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
+/// See [`Segment::solve_end_forces`].
+pub fn solve_end_forces(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
     check(segment, x, z, bottom)?;
     cold(segment, x, z, bottom)
 }
@@ -48,7 +48,7 @@ pub(super) fn check(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -
 pub(super) fn cold(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
     if segment.weight < 0.0 {
         // a buoyant line is a heavy one upside down; arched between ends above the bottom it never touches it
-        return suspended(&segment.turned(), x, -z).map(EndForces::turned);
+        return solve_suspended(&segment.upside_down(), x, -z).map(EndForces::upside_down);
     }
     if let Some(Bottom { friction }) = bottom
         && segment.weight > 0.0
@@ -60,7 +60,7 @@ pub(super) fn cold(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) ->
             return Ok(answer);
         }
     }
-    suspended(segment, x, z)
+    solve_suspended(segment, x, z)
 }
 
 /// All of the line on the bottom.
@@ -161,7 +161,7 @@ pub(super) fn prove_contact(
 
 /// The reach of a touching line, less the stretch that friction keeps from the grounded part.
 fn with_friction(segment: &Segment, h: f64, high: f64, friction: f64) -> Reach {
-    let (mut reach, ground) = lifted(segment, h, high);
+    let (mut reach, ground) = lifted_reach(segment, h, high);
     if friction == 0.0 {
         return reach;
     }
@@ -179,7 +179,7 @@ fn with_friction(segment: &Segment, h: f64, high: f64, friction: f64) -> Reach {
 }
 
 /// A line free from end to end; `weight` zero or more.
-fn suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineError> {
+fn solve_suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineError> {
     if x == 0.0 {
         return vertical(segment, z);
     }
@@ -188,7 +188,7 @@ fn suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineError> 
     if all == 0.0 {
         let tension = segment.ea * (chord - segment.length) / segment.length;
         if tension <= 0.0 {
-            return Ok(EndForces::none([x, z]));
+            return Ok(EndForces::slack([x, z]));
         }
         let (h, v) = (tension * (x / chord), tension * (z / chord));
         let reach = hanging(segment, h, v);
@@ -225,7 +225,7 @@ fn newton(segment: &Segment, [x, z]: [f64; 2], start: [f64; 2]) -> Option<(f64, 
             return Some((h, v, reach, step));
         }
         last = off;
-        let [dh, dv] = mapped(&reach, -rx, -rz)?;
+        let [dh, dv] = newton_change(&reach, -rx, -rz)?;
         let slope = rx * dh + rz * dv;
         let mut part = if h + dh < 0.1 * h { -0.9 * h / dh } else { 1.0 };
         for _ in 0..30 {
@@ -249,7 +249,7 @@ fn vertical(segment: &Segment, z: f64) -> Result<EndForces, LineError> {
     // hanging from one end: the other end carries nothing
     let own = length + 0.5 * all * (length / ea);
     if all == 0.0 && z.abs() <= length {
-        return Ok(EndForces::none([0.0, z]));
+        return Ok(EndForces::slack([0.0, z]));
     }
     let (v, z_v) = if z.abs() >= own {
         let middle = ea * (z.abs() - length) / length * z.signum();
@@ -307,7 +307,7 @@ fn guess(segment: &Segment, x: f64, z: f64) -> (f64, f64) {
 }
 
 /// The change of (H, V) that makes the change (x, z).
-pub(super) fn mapped(reach: &Reach, x: f64, z: f64) -> Option<[f64; 2]> {
+pub(super) fn newton_change(reach: &Reach, x: f64, z: f64) -> Option<[f64; 2]> {
     let [[a, b], [c, d]] = inverse(reach)?;
     Some([a * x + b * z, c * x + d * z])
 }

@@ -118,7 +118,7 @@ impl<'a> ContactProblem<'a> {
         for ((pull, stand), (above, below)) in joints.zip(rested.held.iter().zip(rested.held.iter().skip(1))) {
             let line = above.v_lo - below.v_hi;
             let (lift, reaction) = match stand {
-                JointStatus::Free(k) => (pull.passed(*k), 0.0),
+                JointStatus::Free(k) => (pull.lift_after(*k), 0.0),
                 JointStatus::Step(_) => (-line, 0.0),
                 JointStatus::Bottom => (pull.lift, -line - pull.lift),
             };
@@ -168,7 +168,7 @@ impl<'a> ContactProblem<'a> {
                 z_v += part.z_v;
                 if let (Some(JointStatus::Free(k)), Some(pull)) = (self.policy.stands.get(*i), self.chain.pulls.get(*i))
                 {
-                    v = held.v_lo + pull.passed(*k);
+                    v = held.v_lo + pull.lift_after(*k);
                 }
             }
             (z, z_v)
@@ -289,7 +289,7 @@ impl<'a> ContactProblem<'a> {
                     }
                 }
                 JointStatus::Step(k) => {
-                    let (most, least) = (pull.passed(k), pull.passed(k + 1));
+                    let (most, least) = (pull.lift_after(k), pull.lift_after(k + 1));
                     if lift > most + small {
                         joints.push(((lift - most) / size, j, JointStatus::Free(k)));
                     } else if lift < least - small {

@@ -16,13 +16,13 @@ pub struct Var {
 
 impl Var {
     /// A number that nothing changes.
-    pub const fn fixed(value: f64) -> Var {
+    pub const fn constant(value: f64) -> Var {
         Var { value, by: [0.0; PARAMETERS] }
     }
 
     /// A parameter; `slope` is its derivative by itself.
     pub fn parameter(value: f64, which: usize, slope: f64) -> Var {
-        let mut made = Var::fixed(value);
+        let mut made = Var::constant(value);
         if let Some(by) = made.by.get_mut(which) {
             *by = slope;
         }
@@ -54,7 +54,7 @@ impl Var {
     }
 
     /// The same number where the unknown keeps `zero` at zero.
-    pub fn solved(mut self, zero: &Var) -> Var {
+    pub fn eliminate(mut self, zero: &Var) -> Var {
         let share = self.by_unknown() / zero.by_unknown();
         if self.by_unknown() != 0.0 {
             for (by, z) in self.by.iter_mut().zip(zero.by) {

@@ -23,7 +23,7 @@ impl Element {
     /// The whole piece, hanging free with `h` and `v` at its upper end.
     pub fn whole(&self, h: f64, v: f64) -> Reach {
         match self {
-            Element::Link(law) => linked(law, h, v),
+            Element::Link(law) => spring_reach(law, h, v),
             Element::Length { segment, law, .. } => {
                 stretch(segment, law.as_ref(), segment.length, h, v - segment.weight * segment.length)
             }
@@ -113,7 +113,7 @@ pub fn stretch(segment: &Segment, law: Option<&StretchLaw>, length: f64, h: f64,
 }
 
 /// A spring along its own tension: z = y(T) V/T.
-pub(super) fn linked(law: &StretchLaw, h: f64, v: f64) -> Reach {
+pub(super) fn spring_reach(law: &StretchLaw, h: f64, v: f64) -> Reach {
     let tension = h.hypot(v);
     let (y, slope) = law.stretch(tension);
     let share = if tension > 0.0 { y / tension } else { slope };

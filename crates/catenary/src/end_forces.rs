@@ -71,7 +71,7 @@ pub struct EndForces {
 
 impl EndForces {
     /// Of a line without weight that is longer than the way between its ends.
-    pub(super) fn none(at: [f64; 2]) -> Self {
+    pub(super) fn slack(at: [f64; 2]) -> Self {
         EndForces {
             regime: Regime::WeightlessSlack,
             at,
@@ -85,7 +85,7 @@ impl EndForces {
     }
 
     /// The same line upside down.
-    pub(super) fn turned(self) -> Self {
+    pub(super) fn upside_down(self) -> Self {
         let EndForces { at: [x, z], fairlead, anchor, stiffness: [[a, b], [c, d]], .. } = self;
         EndForces {
             at: [x, -z],

@@ -2,9 +2,9 @@
 //!
 //! The last forces plus the last stiffness times the displacement are off by the square of the displacement, so that
 //! one or two Newton steps are left. Wherever that does not lead to a proven answer at once, or leads so near another
-//! regime that rounding decides, the search of [`Segment::between`] answers as if nothing were known.
+//! regime that rounding decides, the search of [`Segment::solve_end_forces`] answers as if nothing were known.
 
-use super::between::{PROOF, check, cold, in_contact, mapped, prove, prove_contact};
+use super::between::{PROOF, check, cold, in_contact, newton_change, prove, prove_contact};
 use super::end_forces::{Bottom, EndForces, Regime};
 use super::line::Segment;
 use super::refused::LineError;
@@ -38,12 +38,11 @@ fn warm(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>, last: &EndFor
     }
     match (last.regime, bottom) {
         (Regime::Suspended, _) if segment.weight < 0.0 => {
-            suspended(&segment.turned(), [x, -z], &last.turned()).map(EndForces::turned)
+            warm_start_suspended(&segment.upside_down(), [x, -z], &last.upside_down()).map(EndForces::upside_down)
         }
-        (Regime::Suspended, None) if segment.weight > 0.0 => suspended(segment, [x, z], last),
-        (Regime::Suspended, Some(_)) if segment.weight > 0.0 && z > 0.0 => {
-            suspended(segment, [x, z], last).filter(|answer| answer.anchor[1] > near(answer.fairlead))
-        }
+        (Regime::Suspended, None) if segment.weight > 0.0 => warm_start_suspended(segment, [x, z], last),
+        (Regime::Suspended, Some(_)) if segment.weight > 0.0 && z > 0.0 => warm_start_suspended(segment, [x, z], last)
+            .filter(|answer| answer.anchor[1] > regime_margin(answer.fairlead)),
         (Regime::Contact | Regime::ContactFriction | Regime::ContactFrictionAnchorZero, Some(Bottom { friction }))
             if segment.weight > 0.0 && z > 0.0 =>
         {
@@ -54,7 +53,7 @@ fn warm(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>, last: &EndFor
 }
 
 /// A line free from end to end.
-fn suspended(segment: &Segment, at: [f64; 2], last: &EndForces) -> Option<EndForces> {
+fn warm_start_suspended(segment: &Segment, at: [f64; 2], last: &EndForces) -> Option<EndForces> {
     let all = segment.weight * segment.length;
     let (fairlead, reach, steps) = newton(segment, at, last, |[h, v]| ([h, v], hanging(segment, h, v - all)))?;
     let [h, v] = fairlead;
@@ -68,7 +67,7 @@ fn contact(segment: &Segment, at: [f64; 2], friction: f64, last: &EndForces) -> 
         ([h, high], reach)
     })?;
     let answer = prove_contact(segment, at, fairlead, &reach, friction, steps).ok()?;
-    let (h, near) = (fairlead[0], near(fairlead));
+    let (h, near) = (fairlead[0], regime_margin(fairlead));
     let lifts = answer.grounded * segment.weight <= near;
     let slackens = h <= near;
     let slips = friction > 0.0 && (h - friction * segment.weight * answer.grounded).abs() <= near;
@@ -76,7 +75,7 @@ fn contact(segment: &Segment, at: [f64; 2], friction: f64, last: &EndForces) -> 
 }
 
 /// The force within which another regime is too near to tell.
-fn near(fairlead: [f64; 2]) -> f64 {
+fn regime_margin(fairlead: [f64; 2]) -> f64 {
     10.0 * PROOF * square(fairlead).sqrt()
 }
 
@@ -94,25 +93,25 @@ fn newton(
 ) -> Option<([f64; 2], Reach, usize)> {
     let [[a, b], [c, d]] = last.stiffness;
     let (dx, dz) = (x - last.at[0], z - last.at[1]);
-    let mut forces = stepped(last.fairlead, [a * dx + b * dz, c * dx + d * dz]);
+    let mut forces = damped_step(last.fairlead, [a * dx + b * dz, c * dx + d * dz]);
     let fine = 2.0 * f64::EPSILON * (segment.length + x + z.abs());
     let mut before = f64::INFINITY;
     for step in 1..=MOST_STEPS {
         let (at, reach) = evaluate(forces);
         let (rx, rz) = (x - reach.x, z - reach.z);
-        let change = mapped(&reach, rx, rz)?;
+        let change = newton_change(&reach, rx, rz)?;
         let off = rx.abs().max(rz.abs());
         if off <= fine || (off <= 64.0 * fine && off >= before) || square(change) <= CLOSE * CLOSE * square(at) {
             return (at[0] > 0.0).then_some((at, reach, step));
         }
         before = off;
-        forces = stepped(at, change);
+        forces = damped_step(at, change);
     }
     None
 }
 
 /// The forces after a change, which is shortened where it would turn H around.
-fn stepped([h, v]: [f64; 2], [dh, dv]: [f64; 2]) -> [f64; 2] {
+fn damped_step([h, v]: [f64; 2], [dh, dv]: [f64; 2]) -> [f64; 2] {
     let part = if h + dh < 0.1 * h { -0.9 * h / dh } else { 1.0 };
     [h + part * dh, v + part * dv]
 }

@@ -43,7 +43,7 @@ impl Curve {
     }
 
     /// Value and slope between points `i` and `i + 1`, `h` apart, at the share `t` of the way.
-    fn at(&self, i: usize, h: f64, t: f64) -> (f64, f64) {
+    fn evaluate(&self, i: usize, h: f64, t: f64) -> (f64, f64) {
         let (y0, y1, s0, s1) = (self.y[i], self.y[i + 1], self.slope[i], self.slope[i + 1]);
         let (a, b) = (h * s0 - (y1 - y0), (y1 - y0) - h * s1);
         let u = 1.0 - t;
@@ -144,17 +144,17 @@ impl Interpolated {
         (i, h, if h > 0.0 { (inside - from) / h } else { 0.0 }, x - inside)
     }
 
-    /// What the ends of the line are pulled with at a distance (m), as of [`Interpolated::at`].
+    /// What the ends of the line are pulled with at a distance (m), as of [`Interpolated::evaluate`].
     pub fn pull(&self, x: f64) -> Pulled {
         let (i, h, t, beyond) = self.interval(x);
-        let (mut force, slope) = self.force.at(i, h, t);
+        let (mut force, slope) = self.force.evaluate(i, h, t);
         force += slope * beyond;
         let straight = |curve: &Curve| {
-            let (value, slope) = curve.at(i, h, t);
+            let (value, slope) = curve.evaluate(i, h, t);
             value + slope * beyond
         };
-        let inside = |curve: &Curve| curve.at(i, h, t).0;
-        let (vertical, zx) = self.vertical.at(i, h, t);
+        let inside = |curve: &Curve| curve.evaluate(i, h, t).0;
+        let (vertical, zx) = self.vertical.evaluate(i, h, t);
         let (xz, zz) = (zx + inside(&self.unlike), inside(&self.heave));
         let [axx, axz, azx, azz] = self.coupling.each_ref().map(inside);
         let force = force.max(0.0);
@@ -167,10 +167,10 @@ impl Interpolated {
     }
 
     /// At a distance (m) not nearer than the first row; beyond the last one on straight lines.
-    pub fn at(&self, x: f64, rows: &[Row]) -> FromTable {
+    pub fn evaluate(&self, x: f64, rows: &[Row]) -> FromTable {
         let (i, h, t, beyond) = self.interval(x);
         let one = |curve: &Curve| {
-            let (value, slope) = curve.at(i, h, t);
+            let (value, slope) = curve.evaluate(i, h, t);
             (value + slope * beyond).max(0.0)
         };
         let critical_row = if t < 0.5 { i } else { i + 1 };

@@ -6,7 +6,7 @@
 //!
 //! Two directions: [`Line::at_horizontal_force`] and its inverse [`Line::at_distance`] for whole lines. On a flat bottom
 //! without friction all contacts of a line are found at once; on any other, and for very many segments, the line is laid
-//! down from the fairlead to the anchor. [`Segment::between`] for one segment in every regime, with or without a bottom, with friction, and [`Segment::follow`] for the
+//! down from the fairlead to the anchor. [`Segment::solve_end_forces`] for one segment in every regime, with or without a bottom, with friction, and [`Segment::follow`] for the
 //! same at a fairlead that moves.
 //!
 //! Source of the formulas: the elastic catenary [IRVINE-1981 1.4], written so that no

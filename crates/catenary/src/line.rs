@@ -79,21 +79,21 @@ impl Segment {
     ///
     /// # Errors
     /// [`LineError`]; forces that are returned have been proven.
-    pub fn between(&self, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
-        super::between::between(self, x, z, bottom)
+    pub fn solve_end_forces(&self, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
+        super::between::solve_end_forces(self, x, z, bottom)
     }
 
-    /// The same as [`Segment::between`], sooner: for a fairlead that has moved a little since `last`. What `last` holds
+    /// The same as [`Segment::solve_end_forces`], sooner: for a fairlead that has moved a little since `last`. What `last` holds
     /// decides how long the search takes, and the answer only within the proof.
     ///
     /// # Errors
-    /// Those of [`Segment::between`].
+    /// Those of [`Segment::solve_end_forces`].
     pub fn follow(&self, x: f64, z: f64, bottom: Option<Bottom>, last: &EndForces) -> Result<EndForces, LineError> {
         super::follow::follow(self, x, z, bottom, last)
     }
 
     /// The same segment upside down: a buoyant one for a heavy one.
-    pub(super) fn turned(&self) -> Segment {
+    pub(super) fn upside_down(&self) -> Segment {
         Segment { weight: -self.weight, ..*self }
     }
 
@@ -156,21 +156,21 @@ impl Line {
         let chain = MultiSegmentLine { elements: Vec::new(), pulls: Vec::new(), least: 0.0 };
         let springs = [None, None];
         let profile = Profile::plane(anchor, 0.0);
-        Line { segments, laws, springs, joints, anchor, surface, floor: Some(floor), profile, chain }.assembled()
+        Line { segments, laws, springs, joints, anchor, surface, floor: Some(floor), profile, chain }.assemble()
     }
 
     /// The line over another bottom, or over none.
     ///
     /// # Errors
     /// Values that are not finite, negative friction, an anchor below the bottom, a pendant longer than the depth.
-    pub fn over(self, floor: Option<Floor>) -> Result<Line, LineError> {
+    pub fn with_seabed(self, floor: Option<Floor>) -> Result<Line, LineError> {
         let profile = floor.map_or(Profile::plane(self.anchor, 0.0), |f| Profile::plane(f.elevation, f.slope));
-        let line = self.on(floor, profile)?;
+        let line = self.with_profile(floor, profile)?;
         line.check_pendants()?;
         Ok(line)
     }
 
-    fn on(self, floor: Option<Floor>, profile: Profile) -> Result<Line, LineError> {
+    fn with_profile(self, floor: Option<Floor>, profile: Profile) -> Result<Line, LineError> {
         if let Some(Floor { elevation, slope, friction }) = floor {
             for (what, value, good) in [
                 ("the bottom's elevation", elevation, true),
@@ -185,7 +185,7 @@ impl Line {
                 return Err(LineError::AnchorBelow(elevation - self.anchor));
             }
         }
-        Line { floor, profile, ..self }.assembled()
+        Line { floor, profile, ..self }.assemble()
     }
 
     /// The line over a bottom of plane faces: `places` are distances from the anchor toward the fairlead and elevations
@@ -210,7 +210,7 @@ impl Line {
         }
         let profile = Profile::new(places);
         let floor = Floor { elevation, slope: profile.tilt(0).slope(), friction };
-        self.on(Some(floor), profile)
+        self.with_profile(Some(floor), profile)
     }
 
     /// The elevation of the bottom at a distance from the anchor toward the fairlead (m), if there is one.
@@ -227,7 +227,7 @@ impl Line {
         if springs.iter().flatten().any(|law| !law.grows()) {
             return Err(LineError::StretchLaw(1));
         }
-        Line { springs, ..self }.assembled()
+        Line { springs, ..self }.assemble()
     }
 
     /// The line with stretch laws in place of the stiffness of its segments, one a segment.
@@ -241,7 +241,7 @@ impl Line {
         if let Some(bad) = laws.iter().position(|l| l.as_ref().is_some_and(|l| !l.grows())) {
             return Err(LineError::StretchLaw(bad + 1));
         }
-        Line { laws, ..self }.assembled()
+        Line { laws, ..self }.assemble()
     }
 
     /// The line with another length of its first segment (m).
@@ -253,7 +253,7 @@ impl Line {
             first.length = length;
             first.check(1)?;
         }
-        self.assembled()
+        self.assemble()
     }
 
     /// The line with its weights and its axial stiffnesses times factors; `None` when a segment stretches by a law of its
@@ -261,7 +261,7 @@ impl Line {
     ///
     /// # Errors
     /// Factors that make no line.
-    pub fn scaled(mut self, weight: f64, stiffness: f64) -> Option<Result<Line, LineError>> {
+    pub fn with_factors(mut self, weight: f64, stiffness: f64) -> Option<Result<Line, LineError>> {
         if stiffness != 1.0 && self.laws.iter().any(Option::is_some) {
             return None;
         }
@@ -272,7 +272,7 @@ impl Line {
                 return Some(Err(error));
             }
         }
-        Some(self.assembled())
+        Some(self.assemble())
     }
 
     /// Its segment, when it has one alone, that stretches by its stiffness and has no springs at its ends.
@@ -325,7 +325,7 @@ impl Line {
     }
 
     /// Makes the chain that is solved.
-    fn assembled(mut self) -> Result<Line, LineError> {
+    fn assemble(mut self) -> Result<Line, LineError> {
         // grounding between the fairlead and a spring buoy at the end of the first segment is not considered
         // [MOSES-FLEX -CLUMP]
         let blind = matches!(self.joints.first(), Some(Joint::SpringBuoy { .. }));

@@ -28,7 +28,7 @@ pub struct Pull {
 
 impl Pull {
     /// The lift when this many steps are passed (N).
-    pub fn passed(&self, steps: usize) -> f64 {
+    pub fn lift_after(&self, steps: usize) -> f64 {
         self.lift - self.steps.iter().take(steps).map(|s| s.1).sum::<f64>()
     }
 }

@@ -27,7 +27,7 @@ impl Tilt {
     }
 
     /// Components along and normal to the face from those along x and z.
-    pub fn turned(self, x: f64, z: f64) -> (f64, f64) {
+    pub fn to_face(self, x: f64, z: f64) -> (f64, f64) {
         (x * self.cos + z * self.sin, z * self.cos - x * self.sin)
     }
 }

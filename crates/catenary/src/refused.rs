@@ -15,7 +15,7 @@ pub enum LineError {
         joints: usize,
     },
     /// A value that is not finite or has the wrong sign.
-    #[error("{what} of segment {segment} cannot be {}", told(*.value))]
+    #[error("{what} of segment {segment} cannot be {}", format_value(*.value))]
     Value {
         /// Which quantity.
         what: &'static str,
@@ -91,6 +91,6 @@ pub enum LineError {
 }
 
 /// A value in as many digits as one reads.
-fn told(value: f64) -> String {
+fn format_value(value: f64) -> String {
     if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { value.to_string() } else { format!("{value:.3e}") }
 }

@@ -83,7 +83,7 @@ fn bend(u: f64, half: f64) -> f64 {
 /// force `high` >= 0; with the rest of the segment lying on the bottom under the tension H.
 ///
 /// Returns the reach of the whole segment and the unstretched length on the bottom. `weight` must be positive.
-pub fn lifted(segment: &Segment, h: f64, high: f64) -> (Reach, f64) {
+pub fn lifted_reach(segment: &Segment, h: f64, high: f64) -> (Reach, f64) {
     let Segment { length, weight, ea } = *segment;
     let t = (h * h + high * high).sqrt();
     let hanging = high / weight;
@@ -142,8 +142,9 @@ mod tests {
         }
         let chain = Segment { length: 900.0, weight: 1500.0, ea: 8e8 };
         for (h, high) in [(1e5, 4e5), (1e6, 2e4), (2e3, 9e5)] {
-            let (reach, _) = lifted(&chain, h, high);
-            let (plus, minus) = (lifted(&chain, h * 1.000001, high).0, lifted(&chain, h * 0.999999, high).0);
+            let (reach, _) = lifted_reach(&chain, h, high);
+            let (plus, minus) =
+                (lifted_reach(&chain, h * 1.000001, high).0, lifted_reach(&chain, h * 0.999999, high).0);
             let scale = reach.x_h.abs() + reach.z_v.abs();
             assert!(((plus.x - minus.x) / (2e-6 * h) - reach.x_h).abs() < 1e-5 * scale);
             assert!(((plus.z - minus.z) / (2e-6 * h) - reach.z_h).abs() < 1e-5 * scale);
@@ -168,7 +169,7 @@ mod tests {
     #[test]
     fn lifted_and_hanging_agree_at_touchdown_of_the_lower_end() {
         let chain = Segment { length: 900.0, weight: 1500.0, ea: 8e8 };
-        let (a, ground) = lifted(&chain, 2e5, 900.0 * 1500.0);
+        let (a, ground) = lifted_reach(&chain, 2e5, 900.0 * 1500.0);
         let b = hanging(&chain, 2e5, 0.0);
         assert!(ground.abs() < 1e-9 && (a.x - b.x).abs() < 1e-9 && (a.z - b.z).abs() < 1e-9);
         assert!((a.x_h - b.x_h).abs() < 1e-12 && (a.z_v - (b.z_v)).abs() < 1e-12);

@@ -195,7 +195,7 @@ impl Line {
         lengths.take(1).any(|sees| sees)
     }
 
-    /// What a line made without [`Line::over`] has not been asked yet, and the fairlead.
+    /// What a line made without [`Line::with_seabed`] has not been asked yet, and the fairlead.
     fn check_fairlead(&self, fairlead: f64) -> Result<(), LineError> {
         if fairlead.is_finite() {
             return self.check_pendants();

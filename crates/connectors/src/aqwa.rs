@@ -280,7 +280,7 @@ impl ConnectorClass for CatenaryClass {
         // ends on a structure see no bottom, an anchor lies on it
         let floor = place.anchored.then_some(Floor { elevation: far, slope: 0.0, friction: 0.0 });
         let line = Line::new(segments.collect(), joints.collect(), far, surroundings.tide)
-            .and_then(|l| l.over(floor))
+            .and_then(|l| l.with_seabed(floor))
             .and_then(|l| l.with_laws(self.sections.iter().map(CatenarySection::law).collect()))
             .map_err(|e| line_error(&e, &places))?;
         // the table ends where the first section would pass its maximum: at a tension, not at a horizontal force
@@ -311,15 +311,17 @@ impl ConnectorClass for CatenaryClass {
     fn moving(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
         let density = connection.surroundings.water_density;
         if let Some(dry) = self.sections.iter().find(|s| s.area == 0.0) {
-            return Err(ClassError::new("cable dynamics needs a section with an area").at(dry.span).help("give AREA"));
+            return Err(ClassError::new("cable dynamics needs a section with an area")
+                .with_span(dry.span)
+                .help("give AREA"));
         }
         for s in &self.sections {
             let [mass, displaced, added, _] = s.joint_mass.unwrap_or_default();
             let named = [("structural mass", mass), ("mass of water displaced", displaced), ("added mass", added)];
             if let Some((what, value)) = named.into_iter().find(|(_, value)| *value < 0.0) {
                 let text = format!("cable dynamics needs a joint without negative masses: the {what} is {{}}");
-                return Err(ClassError::of(text, &[(value, Dim::Mass)])
-                    .at(s.joint_span)
+                return Err(ClassError::with_values(text, &[(value, Dim::Mass)])
+                    .with_span(s.joint_span)
                     .help("a net weight is a structural mass, a net lift a mass of water displaced"));
             }
         }
@@ -357,7 +359,7 @@ impl ConnectorClass for CatenaryClass {
         let seabed = Seabed { depth: self.depth, with_anchor: true, ..Seabed::default() };
         let parts = self.sections.iter().map(part).collect();
         let made = description("CATENARY", parts, seabed, [None, None]);
-        Ok(Box::new(DynamicLine::made(made, connection)?))
+        Ok(Box::new(DynamicLine::build(made, connection)?))
     }
 
     fn first_length(&self) -> Option<f64> {

@@ -119,7 +119,7 @@ impl Catenary {
     }
 
     /// The line with these springs at its ends.
-    fn made(
+    fn build_line(
         &self,
         place: &Placement,
         surroundings: &Surroundings,
@@ -130,7 +130,7 @@ impl Catenary {
             _ => self.known_depth(surroundings)?,
         };
         let error = |e: LineError| line_error(&e, &self.places);
-        let (segments, joints) = parts(&self.sections, place, |s| s.submerged(surroundings));
+        let (segments, joints) = parts(&self.sections, place, |s| s.submerged_weight(surroundings));
         let floor = Floor { elevation: -depth, slope: self.slope.unwrap_or(0.0), friction: self.friction };
         let (distance, azimuth) = place.span();
         let length = segments.iter().map(|s| s.length).sum::<f64>().max(distance);
@@ -142,7 +142,7 @@ impl Catenary {
         let line = Line::new(segments, joints, -depth, surroundings.tide)
             .and_then(|l| match &profile {
                 Some(profile) => profile.lay(l),
-                None => l.over(Some(floor)),
+                None => l.with_seabed(Some(floor)),
             })
             .and_then(|l| l.with_springs(springs))
             .map_err(error)?;
@@ -209,7 +209,7 @@ impl ConnectorClass for Catenary {
         (self.tabulated, self.exact) = (tabulated, exact);
         if self.per_line.take(args, &PER_LINE) | self.per_line.take(args, &[m::SEABED]) {
             let options = &self.per_line;
-            self.seabed = m::seabed(options);
+            self.seabed = m::parse_seabed(options);
             self.depth = options.number(&o::DEPANCHOR);
             self.friction = options.number(&o::FRICTION).unwrap_or(0.0);
             self.slope = options.number(&o::SLOPE);
@@ -232,7 +232,9 @@ impl ConnectorClass for Catenary {
     }
 
     fn notices(&self, last: &Args, units: UnitSystem, around: &Surroundings) -> Vec<Diagnostic> {
-        section::bar_notice(&self.sections, last, units, |s| (s.submerged(around), "in water")).into_iter().collect()
+        section::bar_notice(&self.sections, last, units, |s| (s.submerged_weight(around), "in water"))
+            .into_iter()
+            .collect()
     }
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
@@ -290,7 +292,7 @@ impl ConnectorClass for Catenary {
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         let springs = with_series(&self.springs, self.devices.convolution.as_ref(), place)?;
-        let mut line = self.made(place, surroundings, springs)?;
+        let mut line = self.build_line(place, surroundings, springs)?;
         line.notes.extend(self.devices.notes());
         Ok(Box::new(line))
     }
@@ -300,11 +302,11 @@ impl ConnectorClass for Catenary {
         let made = (self.sections.as_slice(), self.flexures.as_slice());
         let seabed = Seabed { with_anchor: true, ..self.seabed };
         let made = m::chain(("B_CAT", plain), made, seabed, elements, connection.surroundings)?;
-        Ok(Box::new(DynamicLine::made(made, connection)?))
+        Ok(Box::new(DynamicLine::build(made, connection)?))
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
-        let line = self.made(&connection.placement, connection.surroundings, self.springs.clone())?;
+        let line = self.build_line(&connection.placement, connection.surroundings, self.springs.clone())?;
         let line = LineElement::new(line)?;
         if self.devices.is_none() {
             return Ok(Box::new(line));

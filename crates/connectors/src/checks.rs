@@ -129,7 +129,7 @@ pub fn ends(kind: &str, connector: &Connector, bodies: usize, most_points: usize
 pub fn in_assembly(kind: &str, connection: &Connection) -> Result<(), ClassError> {
     if connection.to_ground {
         let text = format!("a {kind} exerts no force of its own: the assembly it belongs to gives its second end");
-        return Err(ClassError::new(text).at(connection.connector.span));
+        return Err(ClassError::new(text).with_span(connection.connector.span));
     }
     Ok(())
 }

@@ -28,7 +28,7 @@ const LEFT_OUT: [f64; 2] = [0.01, 0.1];
 
 impl Chord {
     /// From the first end to the other (m, global).
-    fn along(&self) -> [f64; 3] {
+    fn vector(&self) -> [f64; 3] {
         let [x, y, z] = self.line.place.fairlead;
         let [fx, fy, _] = self.line.place.other.unwrap_or(self.line.place.fairlead);
         [fx - x, fy - y, self.line.line.anchor() - z]
@@ -36,7 +36,7 @@ impl Chord {
 
     /// Distance between the ends, and its horizontal part (m).
     fn chord(&self) -> (f64, f64) {
-        let [x, y, z] = self.along();
+        let [x, y, z] = self.vector();
         (x.hypot(y).hypot(z), x.hypot(y))
     }
 
@@ -127,13 +127,13 @@ impl ChordElement {
     }
 
     /// From the first end to the other.
-    fn between(&self, ends: &[End]) -> Vector3<f64> {
+    fn chord_vector(&self, ends: &[End]) -> Vector3<f64> {
         let at = |i: usize| ends.get(i).map_or(Vector3::zeros(), |e| e.pose.origin);
         at(1) - at(0)
     }
 
     /// Force and slope of the spring with a link, over the distance between the ends (m).
-    fn behind(&self, by: Extension, chord: f64) -> (f64, f64) {
+    fn with_link(&self, by: Extension, chord: f64) -> (f64, f64) {
         let elongation = chord - by.length - self.chord.line.line.length();
         if by.compliance > 0.0 {
             let law = StretchLaw::Series(vec![self.law.clone(), StretchLaw::Linear(1.0 / by.compliance)]);
@@ -146,10 +146,10 @@ impl ChordElement {
 impl Extended for ChordElement {
     fn pull(&self, ends: &[End], by: Extension, _: &mut Guess, out: &mut Response) -> Result<Pull, ClassError> {
         out.clear(2);
-        let along = self.between(ends);
+        let along = self.chord_vector(ends);
         let chord = along.norm();
         let unit = if chord > 0.0 { along / chord } else { -Vector3::z() };
-        let (force, slope) = self.behind(by, chord);
+        let (force, slope) = self.with_link(by, chord);
         let across = if chord > 0.0 { force / chord } else { 0.0 };
         let pull = unit * force;
         let k = unit * unit.transpose() * (slope - across) + Matrix3::identity() * across;
@@ -164,9 +164,9 @@ impl Extended for ChordElement {
         Ok(Pull { tension: force, along: unit })
     }
 
-    fn told(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError> {
-        let chord = self.between(ends).norm();
-        let (force, _) = self.behind(by, chord);
+    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError> {
+        let chord = self.chord_vector(ends).norm();
+        let (force, _) = self.with_link(by, chord);
         let (ratio, critical) = self.chord.ratio(force);
         Ok(Summary {
             tension: Some(force),
@@ -178,7 +178,7 @@ impl Extended for ChordElement {
             solution: "weightless",
             springs: Vec::new(),
             fender: None,
-            notes: self.chord.remarks(force, chord, chord - by.at(force), ratio),
+            notes: self.chord.remarks(force, chord, chord - by.length(force), ratio),
         })
     }
 
@@ -200,7 +200,7 @@ impl Element for ChordElement {
     }
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
-        self.told(at.ends, Extension::NONE)
+        self.summary_with_link(at.ends, Extension::NONE)
     }
 
     fn pushes(&self) -> Option<f64> {
@@ -253,7 +253,7 @@ impl LineModel for Chord {
     }
 
     fn loads(&self) -> Result<LineLoads, ClassError> {
-        let along = self.along();
+        let along = self.vector();
         let (chord, _) = self.chord();
         let unit = if chord > 0.0 { along.map(|v| v / chord) } else { [0.0, 0.0, -1.0] };
         let (force, slope) = self.force(chord - self.line.line.length());
@@ -282,11 +282,11 @@ impl LineModel for Chord {
         })
     }
 
-    fn changed(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError> {
+    fn with_change(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError> {
         if matches!(change, LineChange::Weight(_)) {
             return Err(ClassError::new("the line has no weight"));
         }
-        let line = self.line.with(change)?;
+        let line = self.line.with_change(change)?;
         Ok(Box::new(Chord { line, springs: self.springs.clone(), pushes: self.pushes, left_out: self.left_out }))
     }
 
@@ -311,7 +311,7 @@ impl LineModel for Chord {
         let springs: f64 = self.springs.iter().flatten().map(|law| law.stretch(tension).0).sum();
         let length = (chord - others - springs) / stretched(1.0, first.ea);
         if length > 0.0 {
-            return Ok(FoundLength::only(length));
+            return Ok(FoundLength::single(length));
         }
         Err(ClassError::new("the rest of the line is too long: no length of the first segment makes it so tight"))
     }

@@ -60,7 +60,7 @@ impl Devices {
                 let law = law.ok_or_else(|| no_curve(name, *span))?;
                 if law.long_term <= 0.0 {
                     let text = "a viscoelastic spring in a line must keep some stiffness at last";
-                    return Err(ClassError::new(text).at(*span));
+                    return Err(ClassError::new(text).with_span(*span));
                 }
                 Some(law)
             }
@@ -98,7 +98,7 @@ impl DeviceElement {
         }
     }
 
-    fn found(
+    fn find_forces(
         &self,
         at: &Situation,
         committed: &[f64],
@@ -220,7 +220,7 @@ impl Element for DeviceElement {
         guess: &mut Guess,
         out: &mut Response,
     ) -> Result<(), ClassError> {
-        let found = self.found(at, committed, guess, out)?;
+        let found = self.find_forces(at, committed, guess, out)?;
         if found.piston.is_some_and(|(_, does)| does.holds()) {
             hold(&found.pull.along, out);
         }
@@ -232,8 +232,8 @@ impl Element for DeviceElement {
     }
 
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
-        let found = self.found(at, committed, &mut None, &mut Response::default())?;
-        let mut summary = self.line.told(at.ends, found.extension)?;
+        let found = self.find_forces(at, committed, &mut None, &mut Response::default())?;
+        let mut summary = self.line.summary_with_link(at.ends, found.extension)?;
         if let Some((position, does)) = found.piston {
             summary.notes.push(does.note().into());
             let force = found.pull.tension;

@@ -76,7 +76,7 @@ impl Tried {
 ///
 /// # Errors
 /// No answer of the line, or none that could be proven.
-pub fn behind(
+pub fn solve_with_link(
     by: Extension,
     from: [f64; 2],
     straight: [f64; 2],
@@ -90,11 +90,11 @@ pub fn behind(
         let pull = Vector2::from(pull);
         let tension = pull.norm();
         let (unit, across) = match pull.try_normalize(0.0) {
-            Some(unit) => (unit, by.at(tension) / tension),
+            Some(unit) => (unit, by.length(tension) / tension),
             None => (straight, 0.0),
         };
         let axis = unit * unit.transpose();
-        (unit * by.at(tension), axis * by.compliance + (Matrix2::identity() - axis) * across)
+        (unit * by.length(tension), axis * by.compliance + (Matrix2::identity() - axis) * across)
     };
     let mut at = |mut at: Vector2<f64>| -> Result<Tried, LineError> {
         at.x = at.x.max(0.0);

@@ -19,7 +19,7 @@ impl Extension {
     pub const NONE: Extension = Extension { length: 0.0, compliance: 0.0 };
 
     /// Length at a tension (m).
-    pub fn at(&self, tension: f64) -> f64 {
+    pub fn length(&self, tension: f64) -> f64 {
         self.length + self.compliance * tension
     }
 }
@@ -45,7 +45,7 @@ pub trait Extended: Debug + Send + Sync {
     ///
     /// # Errors
     /// As [`Extended::pull`].
-    fn told(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError>;
+    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError>;
 
     /// See [`windlass_model::Element::pushes`].
     fn pushes(&self) -> Option<f64> {

@@ -51,7 +51,7 @@ const RATED: OptionSpec = OptionSpec::new(
 .default("that of the last point");
 const FRICTION: OptionSpec = OptionSpec::new(
     "-FRICTION",
-    &[number("MU", Dim::None, "coefficient of friction").within(0.0, 2.0)],
+    &[number("MU", Dim::None, "coefficient of friction").in_range(0.0, 2.0)],
     "friction of the panel on the face, against the velocity; zero in statics",
 )
 .default("0");

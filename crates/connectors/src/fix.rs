@@ -37,14 +37,14 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         if list.iter().any(|r| r.dof == dof) {
             return Err(Diagnostic::error(format!("degree of freedom {dof} is given twice"), value.span));
         }
-        list.push(held(dof));
+        list.push(held_dof(dof));
     }
     if list.is_empty() {
-        list = o::DOFS.iter().map(|dof| held(dof)).collect();
+        list = o::DOFS.iter().map(|dof| held_dof(dof)).collect();
     }
     Ok(Arc::new(Restraining::new("FIX", list)))
 }
 
-fn held(dof: &str) -> Restraint {
+fn held_dof(dof: &str) -> Restraint {
     Restraint { dof: dof.to_string(), stiffness: RIGID, allowable: None }
 }

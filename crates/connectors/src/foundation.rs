@@ -43,5 +43,5 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    Ok(Arc::new(Generalized::read(records, "FOUNDATION")?.checked()))
+    Ok(Arc::new(Generalized::read(records, "FOUNDATION")?.with_foundation_check()))
 }

@@ -6,14 +6,14 @@ use super::spring::Generalized;
 use super::{ClassKind, foundation, options as o};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
-use windlass_language::spec::{CommandSpec, OptionSpec, joined};
+use windlass_language::spec::{CommandSpec, OptionSpec, join_options};
 use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
 pub static GSPR: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
 
 /// Those of the zero-length classes, and `-LEN`, which only this one has.
-static OPTIONS: [OptionSpec; 1 + foundation::OPTIONS.len()] = joined(&[o::LEN_OFFSET], foundation::OPTIONS);
+static OPTIONS: [OptionSpec; 1 + foundation::OPTIONS.len()] = join_options(&[o::LEN_OFFSET], foundation::OPTIONS);
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[o::SENSE, o::DF, o::SPV, o::AF],

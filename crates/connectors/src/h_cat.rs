@@ -150,7 +150,7 @@ impl ConnectorClass for Hanging {
             | self.per_line.take(args, &[m::SEABED])
         {
             let options = &self.per_line;
-            self.seabed = m::seabed(options);
+            self.seabed = m::parse_seabed(options);
             self.springs = end_springs(options);
             self.devices = Devices::read(options);
             self.limit = options.number(&o::TAB_LIM);
@@ -209,7 +209,7 @@ impl ConnectorClass for Hanging {
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         let springs = with_series(&self.springs, self.devices.convolution.as_ref(), place)?;
-        let mut line = self.made(place, surroundings, &springs)?;
+        let mut line = self.build_line(place, surroundings, &springs)?;
         line.notes.extend(self.devices.notes());
         if self.straight() {
             return Ok(Box::new(Chord { line, springs, pushes: false, left_out: self.left_out(surroundings) }));
@@ -221,7 +221,7 @@ impl ConnectorClass for Hanging {
         let plain = self.devices.is_none() && self.springs.iter().all(Option::is_none);
         let made = (self.sections.as_slice(), self.flexures.as_slice());
         let made = m::chain(("H_CAT", plain), made, self.seabed, elements, connection.surroundings)?;
-        Ok(Box::new(DynamicLine::made(made, connection)?))
+        Ok(Box::new(DynamicLine::build(made, connection)?))
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
@@ -229,7 +229,7 @@ impl ConnectorClass for Hanging {
             return self.line(&connection.placement, connection.surroundings)?.element();
         }
         let springs = self.springs.clone();
-        let line = self.made(&connection.placement, connection.surroundings, &springs)?;
+        let line = self.build_line(&connection.placement, connection.surroundings, &springs)?;
         let line: Box<dyn Extended> = if self.straight() {
             Box::new(ChordElement::new(Chord {
                 line,
@@ -252,11 +252,11 @@ impl Hanging {
 
     /// Weight in water that a spring along the chord leaves out (N).
     fn left_out(&self, surroundings: &Surroundings) -> f64 {
-        self.sections.iter().map(|s| s.submerged(surroundings) * s.length).sum()
+        self.sections.iter().map(|s| s.submerged_weight(surroundings) * s.length).sum()
     }
 
     /// The line with these springs at its ends.
-    fn made(
+    fn build_line(
         &self,
         place: &Placement,
         surroundings: &Surroundings,
@@ -287,7 +287,7 @@ pub fn hung(
     let [_, _, far] = place.other.ok_or_else(no_other_end)?;
     let (segments, joints) = parts(sections, place, weight);
     let line = Line::new(segments, joints, far, surroundings.tide)
-        .and_then(|l| l.over(None))
+        .and_then(|l| l.with_seabed(None))
         .and_then(|l| l.with_springs(springs.clone()))
         .map_err(|e| line_error(&e, places))?;
     Ok(Mooring {

@@ -26,7 +26,7 @@ pub enum SlingObjective {
 
 impl SlingObjective {
     /// The direction to it.
-    fn from(&self, at: Vector3<f64>) -> Vector3<f64> {
+    fn direction_from(&self, at: Vector3<f64>) -> Vector3<f64> {
         match self {
             SlingObjective::Along(direction) => *direction,
             SlingObjective::Near(point) => point - at,
@@ -34,7 +34,7 @@ impl SlingObjective {
     }
 
     /// How far it is.
-    fn left(&self, at: Vector3<f64>) -> f64 {
+    fn distance_left(&self, at: Vector3<f64>) -> f64 {
         match self {
             SlingObjective::Along(direction) => -direction.dot(&at),
             SlingObjective::Near(point) => (point - at).norm(),
@@ -52,10 +52,10 @@ pub fn hook(lines: &[Reach], goal: SlingObjective) -> Option<Vector3<f64>> {
         places.push(point);
     }
     for (i, a) in lines.iter().enumerate() {
-        places.extend(goal.from(a.node).try_normalize(0.0).map(|to| a.node + to * a.length));
+        places.extend(goal.direction_from(a.node).try_normalize(0.0).map(|to| a.node + to * a.length));
         for (j, b) in lines.iter().enumerate().skip(i + 1) {
             let Some((centre, axis, radius)) = circle(a, b) else { continue };
-            let to = goal.from(centre);
+            let to = goal.direction_from(centre);
             places.extend((to - axis * axis.dot(&to)).try_normalize(1e-12).map(|to| centre + to * radius));
             for c in lines.iter().skip(j + 1) {
                 places.extend(crossing(centre, axis, radius, c).into_iter().flatten());
@@ -63,7 +63,7 @@ pub fn hook(lines: &[Reach], goal: SlingObjective) -> Option<Vector3<f64>> {
         }
     }
     let reached = |at: &Vector3<f64>| lines.iter().all(|l| (at - l.node).norm() <= l.length * (1.0 + ROUNDING));
-    places.into_iter().filter(reached).min_by(|a, b| goal.left(*a).total_cmp(&goal.left(*b)))
+    places.into_iter().filter(reached).min_by(|a, b| goal.distance_left(*a).total_cmp(&goal.distance_left(*b)))
 }
 
 /// The circle on which two lines end together: its centre, axis and radius.

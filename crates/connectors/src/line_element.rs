@@ -1,6 +1,6 @@
 //! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
 
-use super::extended_line::{Plane, behind};
+use super::extended_line::{Plane, solve_with_link};
 use super::extension::{Extended, Extension, Pull};
 use super::line_profile::LineProfile;
 use super::mooring::{Mooring, too_short, too_short_note};
@@ -56,7 +56,7 @@ impl LineElement {
     /// # Errors
     /// A line that sees the bottom between ends that both move.
     pub fn new(mooring: Mooring) -> Result<Self, ClassError> {
-        mooring.placed()?;
+        mooring.distance_and_direction()?;
         let line = &mooring.line;
         if line.floor().is_some() && !mooring.place.to_ground {
             return Err(ClassError::new("a line that lies on the bottom needs its other end in the ground")
@@ -76,7 +76,7 @@ impl LineElement {
 
     /// Horizontal distance, its direction from the first end to the other, and the elevation of the first end in the line's
     /// own system: a line that sees neither bottom nor surface goes up and down with its other end.
-    fn between(&self, ends: &[End]) -> (f64, [f64; 2], f64) {
+    fn horizontal_distance(&self, ends: &[End]) -> (f64, [f64; 2], f64) {
         let at = |i: usize| ends.get(i).map_or(Vector3::zeros(), |e| e.pose.origin);
         let (from, to) = (at(0), at(1));
         let (dx, dy) = (to.x - from.x, to.y - from.y);
@@ -98,7 +98,7 @@ impl LineElement {
                         found
                     }
                     _ => {
-                        let found = segment.between(x, rise, *bottom)?;
+                        let found = segment.solve_end_forces(x, rise, *bottom)?;
                         *guess = Some(Box::new(Last::Segment(found)));
                         found
                     }
@@ -111,12 +111,12 @@ impl LineElement {
                 })
             }
             Solver::Whole => whole(&self.mooring.line, x, z, guess),
-            Solver::Table => self.interpolated(x, z, guess),
+            Solver::Table => self.interpolate_forces(x, z, guess),
         }
     }
 
     /// The forces from the table at the elevation `z` of the fairlead; exact ones nearer than its first row.
-    fn interpolated(&self, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
+    fn interpolate_forces(&self, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
         let azimuth = self.mooring.profile.as_ref().map(LineProfile::azimuth);
         let kept = match guess.take().map(|g| g.downcast::<Last>()) {
             Some(Ok(last)) => {
@@ -147,7 +147,13 @@ impl LineElement {
     }
 
     /// The forces with a link at the first end, and where the line itself begins (distance, elevation).
-    fn extended(&self, x: f64, z: f64, by: Extension, guess: &mut Guess) -> Result<(Plane, [f64; 2]), LineError> {
+    fn forces_with_link(
+        &self,
+        x: f64,
+        z: f64,
+        by: Extension,
+        guess: &mut Guess,
+    ) -> Result<(Plane, [f64; 2]), LineError> {
         if by == Extension::NONE {
             return self.plane(x, z, guess).map(|plane| (plane, [x, z]));
         }
@@ -159,12 +165,12 @@ impl LineElement {
         let rise = z - self.mooring.line.anchor();
         let apart = x.hypot(rise);
         let straight = if apart > 0.0 { [x / apart, rise / apart] } else { [0.0, 1.0] };
-        behind(by, [x, z], straight, start, self.mooring.line.length(), |x, z| self.plane(x, z, guess))
+        solve_with_link(by, [x, z], straight, start, self.mooring.line.length(), |x, z| self.plane(x, z, guess))
     }
 
     /// The same; none of a weightless line that is not tight.
     fn tight(&self, x: f64, z: f64, by: Extension, guess: &mut Guess) -> Result<Option<(Plane, [f64; 2])>, ClassError> {
-        match self.extended(x, z, by, guess) {
+        match self.forces_with_link(x, z, by, guess) {
             Ok(found) => Ok(Some(found)),
             Err(LineError::Undetermined) if self.mooring.weightless() => Ok(None),
             Err(error) => Err(self.mooring.error(&error)),
@@ -194,7 +200,7 @@ impl LineElement {
         let turned = |angle: f64| -> Result<Plane, ClassError> {
             let (sin, cos) = angle.sin_cos();
             let there = self.facing([ux * cos - uy * sin, uy * cos + ux * sin])?;
-            let found = there.extended(x, z, by, &mut None).map_err(|e| self.mooring.error(&e))?;
+            let found = there.forces_with_link(x, z, by, &mut None).map_err(|e| self.mooring.error(&e))?;
             Ok(found.0)
         };
         let (before, after) = (turned(-TURN)?, turned(TURN)?);
@@ -203,10 +209,10 @@ impl LineElement {
     }
 
     /// The line with its ends there.
-    fn moved(&self, ends: &[End]) -> Mooring {
+    fn with_ends(&self, ends: &[End]) -> Mooring {
         let at = |i: usize| ends.get(i).map(|e| e.pose.origin.into());
         let place = Placement { fairlead: at(0).unwrap_or_default(), other: at(1), ..self.mooring.place.clone() };
-        let (_, _, z) = self.between(ends);
+        let (_, _, z) = self.horizontal_distance(ends);
         let [x, y, own] = place.fairlead;
         // elevations in the line's own system
         let rise = z - own;
@@ -299,7 +305,7 @@ fn xx_of(k: [[f64; 2]; 2]) -> f64 {
 impl Extended for LineElement {
     fn pull(&self, ends: &[End], by: Extension, guess: &mut Guess, out: &mut Response) -> Result<Pull, ClassError> {
         out.clear(2);
-        let (x, along, z) = self.between(ends);
+        let (x, along, z) = self.horizontal_distance(ends);
         let here = self.facing(along)?;
         let Some((plane, _)) = here.tight(x, z, by, guess)? else {
             return Ok(Pull { tension: 0.0, along: Vector3::zeros() });
@@ -322,18 +328,18 @@ impl Extended for LineElement {
         Ok(Pull { tension: pull.norm(), along: pull.try_normalize(0.0).unwrap_or_default() })
     }
 
-    fn told(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError> {
+    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError> {
         let mut ends = ends.to_vec();
         if by != Extension::NONE {
-            let (x, [ux, uy], z) = self.between(&ends);
+            let (x, [ux, uy], z) = self.horizontal_distance(&ends);
             let here = self.facing([ux, uy])?;
             let [line_x, line_z] = here.tight(x, z, by, &mut None)?.map_or([x, z], |(_, at)| at);
             if let Some(first) = ends.first_mut() {
                 first.pose.origin += Vector3::new((x - line_x) * ux, (x - line_x) * uy, line_z - z);
             }
         }
-        let (_, along, _) = self.between(&ends);
-        let line = self.facing(along)?.moved(&ends);
+        let (_, along, _) = self.horizontal_distance(&ends);
+        let line = self.facing(along)?.with_ends(&ends);
         let tabulated = line.tabulated;
         let loads = if tabulated { line.tabled_loads()? } else { line.exact_loads()? };
         let mut over_given_break = loads.over_given_break;
@@ -341,7 +347,7 @@ impl Extended for LineElement {
         if over_given_break.is_none() && tabulated && line.breaks_given.contains(&true) {
             over_given_break = line.exact_loads().ok().and_then(|exact| exact.over_given_break);
         }
-        let (x, _, z) = self.between(&ends);
+        let (x, _, z) = self.horizontal_distance(&ends);
         let chord = x.hypot(z - self.mooring.line.anchor());
         let too_short = too_short(chord / self.mooring.line.length(), loads.ratio);
         let mut notes = loads.notes;
@@ -373,9 +379,9 @@ impl Element for LineElement {
         self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
     }
 
-    fn anchored(&self, at: &Situation, guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
+    fn find_anchored(&self, at: &Situation, guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
         self.mooring.place.to_ground.then(|| {
-            let (x, along, z) = self.between(at.ends);
+            let (x, along, z) = self.horizontal_distance(at.ends);
             let here = self.facing(along)?;
             let Some((plane, _)) = here.tight(x, z, Extension::NONE, guess)? else {
                 return Ok(Anchored { wrenches: [Six::zeros(); 2], stiffness: Matrix3::zeros() });
@@ -395,7 +401,7 @@ impl Element for LineElement {
         guess: &mut Guess,
         out: &mut Vec<Six>,
     ) -> Result<(), ClassError> {
-        let (x, along, z) = self.between(at.ends);
+        let (x, along, z) = self.horizontal_distance(at.ends);
         let found = self.facing(along)?.tight(x, z, Extension::NONE, guess)?;
         out.clear();
         out.extend(found.map_or([Six::zeros(); 2], |(plane, _)| plane.wrenches(along)));
@@ -403,7 +409,7 @@ impl Element for LineElement {
     }
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
-        self.told(at.ends, Extension::NONE)
+        self.summary_with_link(at.ends, Extension::NONE)
     }
 }
 

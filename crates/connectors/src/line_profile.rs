@@ -54,7 +54,7 @@ impl LineProfile {
         let ([x, y], [ux, uy]) = (self.anchor, self.azimuth);
         let place = |face: usize| {
             let from_anchor = face as f64 * self.spacing;
-            (from_anchor, self.grid.at(x - from_anchor * ux, y - from_anchor * uy).0)
+            (from_anchor, self.grid.elevation_and_slopes(x - from_anchor * ux, y - from_anchor * uy).0)
         };
         let places: Vec<(f64, f64)> = (0..=self.faces).map(place).collect();
         line.over_profile(&places, self.friction)

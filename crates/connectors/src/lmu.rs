@@ -101,7 +101,7 @@ impl ConnectorClass for PinInCone {
         let (turn, other_turn) = element_turns(connection, holder, UPRIGHT);
         let contact = Contact::Cone { length: self.length, tangent: self.tangent() };
         let law = self.springs.law(connection, Sense::Compression, contact)?;
-        let listed = self.springs.listed();
+        let listed = self.springs.reported_stiffnesses();
         Ok(Box::new(ZeroLength { holder, turn, other_turn, rest: Vector3::zeros(), law, listed, rigid: false }))
     }
 }

@@ -10,7 +10,7 @@ impl Mooring {
     /// # Errors
     /// A line for which no configuration could be proven.
     pub fn exact_loads(&self) -> Result<LineLoads, ClassError> {
-        let (distance, along) = self.placed()?;
+        let (distance, along) = self.distance_and_direction()?;
         let state = match self.state(Condition::Placed) {
             Ok(state) => state,
             Err(error) => return self.limp(distance).ok_or(error),
@@ -40,14 +40,14 @@ impl Mooring {
     /// A line for which no table could be made; no exact solution, nearer than the first row.
     pub fn tabled_loads(&self) -> Result<LineLoads, ClassError> {
         let (rows, missing) = self.rows()?;
-        let (distance, along) = self.placed()?;
+        let (distance, along) = self.distance_and_direction()?;
         if rows.first().is_some_and(|first| distance < first.state.x) {
             let mut loads = self.exact_loads()?;
             loads.notes.push("nearer than the first row of its table, and solved exactly there".into());
             return Ok(loads);
         }
         let forces = Interpolated::new(&rows).map_err(|e| self.error(&e))?;
-        let FromTable { pulled, grounded, ratio, critical, beyond } = forces.at(distance, &rows);
+        let FromTable { pulled, grounded, ratio, critical, beyond } = forces.evaluate(distance, &rows);
         let ([force, vertical], [anchor_horizontal, anchor_vertical]) = (pulled.fairlead, pulled.anchor);
         let mut notes = self.notes.clone();
         if !missing.is_empty() {
@@ -89,7 +89,7 @@ impl Mooring {
     ///
     /// # Errors
     /// A change of what it does not have.
-    pub fn with(&self, change: LineChange) -> Result<Mooring, ClassError> {
+    pub fn with_change(&self, change: LineChange) -> Result<Mooring, ClassError> {
         let line = self.line.clone();
         let floor = |of: fn(f64, Floor) -> Floor, value: f64| {
             line.floor().map(|f| of(value, f)).ok_or_else(|| ClassError::new("the line sees no bottom"))
@@ -101,17 +101,17 @@ impl Mooring {
                 profile = profile.map(|p| p.with_friction(value));
                 match &profile {
                     Some(profile) => profile.lay(line),
-                    None => line.over(Some(floor)),
+                    None => line.with_seabed(Some(floor)),
                 }
             }
             LineChange::Slope(value) => {
                 let floor = floor(|slope, f| Floor { slope, ..f }, value)?;
                 profile = None;
-                line.over(Some(floor))
+                line.with_seabed(Some(floor))
             }
-            LineChange::Weight(factor) => line.scaled(factor, 1.0).unwrap_or(Err(LineError::Empty)),
+            LineChange::Weight(factor) => line.with_factors(factor, 1.0).unwrap_or(Err(LineError::Empty)),
             LineChange::Stiffness(factor) => line
-                .scaled(1.0, factor)
+                .with_factors(1.0, factor)
                 .ok_or_else(|| ClassError::new("the line stretches by a law of its own, not by one stiffness"))?,
         };
         Ok(Mooring { line: made.map_err(|e| line_error(&e, &self.places))?, profile, ..self.clone() })

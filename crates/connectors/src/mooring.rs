@@ -61,7 +61,7 @@ impl Mooring {
     }
 
     /// Horizontal distance of the ends as they are (m), and the direction from the first to the other.
-    pub(super) fn placed(&self) -> Result<(f64, [f64; 2]), ClassError> {
+    pub(super) fn distance_and_direction(&self) -> Result<(f64, [f64; 2]), ClassError> {
         if self.place.other.is_none() {
             return Err(no_other_end());
         }
@@ -71,7 +71,7 @@ impl Mooring {
     pub(super) fn state(&self, condition: Condition) -> Result<State, ClassError> {
         let z = self.fairlead();
         let found = match condition {
-            Condition::Placed => self.line.at_distance(self.placed()?.0, z),
+            Condition::Placed => self.line.at_distance(self.distance_and_direction()?.0, z),
             Condition::Distance(x) => self.line.at_distance(x, z),
             Condition::Horizontal(force) => self.line.at_horizontal_force(force, z),
             Condition::Tension(tension) => self.line.at_tension(tension, z),
@@ -147,7 +147,7 @@ impl Mooring {
         let told = |by: f64, what: &str, x: f64| {
             let text =
                 format!("warning: the line passes up to {{}} {what}, {{}} beside its first end, which it does not see");
-            Note::of(text, &[(by, Dim::Length), (x, Dim::Length)])
+            Note::new(text, &[(by, Dim::Length), (x, Dim::Length)])
         };
         let below = self.bottom.map(|bottom| bottom - low).filter(|by| *by > rounding);
         let above = Some(high - self.surface).filter(|by| *by > rounding && low < self.surface - rounding);
@@ -221,7 +221,7 @@ pub fn with_series(
 /// A curve that is not defined, or is no convolution.
 pub fn no_curve(name: &str, at: Span) -> ClassError {
     ClassError::new(format!("no convolution curve is called {name}"))
-        .at(at)
+        .with_span(at)
         .help(format!("define it: &DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .."))
 }
 
@@ -247,26 +247,28 @@ pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
     };
     let (length, force) = (Dim::Length, Dim::Force);
     let made = match error {
-        LineError::BelowBottom(by) => ClassError::of("the fairlead lies {} below the bottom", &[(*by, length)]),
-        LineError::AnchorBelow(by) => ClassError::of("the anchor lies {} below the bottom", &[(*by, length)]),
+        LineError::BelowBottom(by) => {
+            ClassError::with_values("the fairlead lies {} below the bottom", &[(*by, length)])
+        }
+        LineError::AnchorBelow(by) => ClassError::with_values("the anchor lies {} below the bottom", &[(*by, length)]),
         LineError::Pendant { segment, by } => {
             let text = format!("the pendant of segment {segment} is {{}} longer than the water is deep there");
-            ClassError::of(text, &[(*by, length)])
+            ClassError::with_values(text, &[(*by, length)])
         }
-        LineError::Weight { what, wanted, least } => ClassError::of(
+        LineError::Weight { what, wanted, least } => ClassError::with_values(
             format!("no position has the {what} {{}}: the line hanging straight down has {{}}"),
             &[(*wanted, force), (*least, force)],
         ),
-        LineError::NoLength { wanted, nearest } => ClassError::of(
+        LineError::NoLength { wanted, nearest } => ClassError::with_values(
             "no length of the first segment gives {}; the nearest is {}",
             &[(*wanted, force), (*nearest, force)],
         ),
-        LineError::Unproven { tension, .. } if tension.is_finite() => ClassError::of(
+        LineError::Unproven { tension, .. } if tension.is_finite() => ClassError::with_values(
             "no configuration between the ends could be proven, near a tension of {}",
             &[(*tension, force)],
         ),
         LineError::NotConverged { force: at, .. } if at.is_finite() => {
-            ClassError::of("no configuration found, near a force of {}", &[(*at, force)])
+            ClassError::with_values("no configuration found, near a force of {}", &[(*at, force)])
         }
         _ => ClassError::new(error.to_string()),
     };
@@ -279,7 +281,7 @@ pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
         _ => made,
     };
     match segment.and_then(|n| places.get(n.saturating_sub(1))) {
-        Some(span) => made.at(*span),
+        Some(span) => made.with_span(*span),
         None => made,
     }
 }
@@ -370,8 +372,8 @@ impl LineModel for Mooring {
         Ok(Box::new(LineElement::new(self.clone())?))
     }
 
-    fn changed(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError> {
-        Ok(Box::new(self.with(change)?))
+    fn with_change(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError> {
+        Ok(Box::new(self.with_change(change)?))
     }
 
     fn distance(&self, condition: Condition) -> Result<f64, ClassError> {
@@ -379,7 +381,7 @@ impl LineModel for Mooring {
     }
 
     fn first_length(&self, condition: Condition) -> Result<FoundLength, ClassError> {
-        let (x, _) = self.placed()?;
+        let (x, _) = self.distance_and_direction()?;
         let present = self.line.segments().first().map_or(0.0, |s| s.length);
         let aim = match condition {
             Condition::Tension(tension) => Aim::Tension(tension),
@@ -387,7 +389,7 @@ impl LineModel for Mooring {
             Condition::Vertical(_) => {
                 return Err(ClassError::new("a length is solved for a horizontal force or a tension"));
             }
-            Condition::Placed | Condition::Distance(_) => return Ok(FoundLength::only(present)),
+            Condition::Placed | Condition::Distance(_) => return Ok(FoundLength::single(present)),
         };
         let lengths = self.line.first_lengths(x, self.fairlead(), aim).map_err(|e| self.error(&e))?;
         let (length, others) = lengths.nearest(present).unwrap_or((present, Vec::new()));

@@ -8,7 +8,7 @@ use windlass_model::QUASI_STATIC;
 
 /// The twelve columns of TABLE [MOSES-RUNS con_d]; a row without a configuration has its force alone.
 pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[MissingRow]) -> Table {
-    let rows = numbered(found, missing);
+    let rows = merge_missing_rows(found, missing);
     let bottom = mooring.line.floor().map(|f| f.elevation).or(mooring.bottom);
     let force_of = |number: usize| missing.iter().find(|m| m.number == number).map(|m| m.force);
     let outcomes: Vec<Result<&Row, Option<f64>>> =
@@ -69,7 +69,7 @@ fn first_joint(row: &Row) -> Option<&JointState> {
 }
 
 /// The rows of a table in their order, those without a configuration among them.
-fn numbered<'a>(found: &'a [Row], missing: &[MissingRow]) -> Vec<Option<&'a Row>> {
+fn merge_missing_rows<'a>(found: &'a [Row], missing: &[MissingRow]) -> Vec<Option<&'a Row>> {
     let mut found = found.iter();
     let all = found.len() + missing.len();
     (1..=all).map(|n| if missing.iter().any(|m| m.number == n) { None } else { found.next() }).collect()

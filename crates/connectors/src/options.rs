@@ -57,7 +57,7 @@ pub const LEN_OFFSET: OptionSpec = OptionSpec::new(
 /// `-REFINE N`.
 pub const REFINE: OptionSpec = OptionSpec::new(
     "-REFINE",
-    &[ValueSpec::new("N", Kind::Integer, "number of elements").within(1.0, 100_000.0)],
+    &[ValueSpec::new("N", Kind::Integer, "number of elements").in_range(1.0, 100_000.0)],
     "subdivides the segment into N elements",
 )
 .default("one element");
@@ -241,7 +241,7 @@ pub const FRICTION: OptionSpec = OptionSpec::new(
 /// `-SLOPE SLOP`.
 pub const SLOPE: OptionSpec = OptionSpec::new(
     "-SLOPE",
-    &[number("SLOP", Dim::None, "vertical / horizontal distance").within(-10.0, 10.0)],
+    &[number("SLOP", Dim::None, "vertical / horizontal distance").in_range(-10.0, 10.0)],
     "slope of the bottom from vessel to anchor, positive where the depth increases",
 )
 .default("0");

@@ -174,7 +174,7 @@ fn seek(
         return Ok((at.position, true));
     }
     let text = "the piston finds no position that holds {}; the nearest tension is {}";
-    Err(ClassError::of(text, &[(wanted, Dim::Force), (at.tension, Dim::Force)]))
+    Err(ClassError::with_values(text, &[(wanted, Dim::Force), (at.tension, Dim::Force)]))
 }
 
 #[cfg(test)]

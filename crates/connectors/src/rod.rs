@@ -84,7 +84,7 @@ const REFINE: OptionSpec =
 /// Options of the whole line.
 const PER_LINE: [OptionSpec; 4] = [m::SEABED, o::FRICTION, o::SLOPE, o::DEPANCHOR];
 /// Most elements of a line with its memory told: what the engine holds.
-const MOST: i64 = windlass_line_dynamics::MOST_ELEMENTS as i64;
+const MOST: i64 = windlass_line_dynamics::MAX_ELEMENTS as i64;
 
 #[derive(Debug, Default)]
 struct Rod {
@@ -132,7 +132,7 @@ impl ConnectorClass for Rod {
         }
         let flexure = Flexure::read(record, &section)?;
         let mut clamps = self.clamps.clone();
-        clamps.extend(args.all(&m::CLAMP).cloned());
+        clamps.extend(args.occurrences(&m::CLAMP).cloned());
         let holds = m::holds(&clamps, [self.flexures.first().unwrap_or(&flexure), &flexure])?;
         self.per_line.check(args, &PER_LINE)?;
         // nothing is refused from here on
@@ -141,7 +141,7 @@ impl ConnectorClass for Rod {
         (self.clamps, self.holds, self.elements) = (clamps, holds, elements);
         self.slam |= args.has(&m::SLAM);
         if self.per_line.take(args, &PER_LINE) {
-            self.seabed = m::seabed(&self.per_line);
+            self.seabed = m::parse_seabed(&self.per_line);
         }
         Ok(())
     }
@@ -182,7 +182,7 @@ impl ConnectorClass for Rod {
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
-        Ok(Box::new(DynamicLine::made(self.description(connection.surroundings), connection)?))
+        Ok(Box::new(DynamicLine::build(self.description(connection.surroundings), connection)?))
     }
 
     fn moving(&self, _: &Connection, _: usize) -> Result<Box<dyn Element>, ClassError> {
@@ -192,6 +192,6 @@ impl ConnectorClass for Rod {
 
     /// A pipe of the first segment's section, as long as it needs to be.
     fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
-        Ok(Box::new(DynamicLine::laid(self.description(layout.surroundings), layout)?))
+        Ok(Box::new(DynamicLine::build_pipe(self.description(layout.surroundings), layout)?))
     }
 }

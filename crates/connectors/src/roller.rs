@@ -85,7 +85,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
             all.push(Restraint { dof: dof.into(), stiffness: STIFF, allowable: None });
         }
     }
-    let springs = Springs::of(args, all, false, Vec::new())?;
+    let springs = Springs::from_options(args, all, false, Vec::new())?;
     Ok(Arc::new(Roller {
         given,
         springs,

@@ -100,7 +100,7 @@ pub struct OfType {
 impl OfType {
     /// From `-TYPE NAME D` and the diameters given beside it.
     fn read(args: &Args) -> Outcome<Option<OfType>> {
-        let Some((line_type, diameter)) = typed(args)? else { return Ok(None) };
+        let Some((line_type, diameter)) = line_type_and_diameter(args)? else { return Ok(None) };
         if !line_type.has_values(diameter) {
             let text = format!("the formulas of {} give no line at this diameter", line_type.name);
             return Err(Diagnostic::error(text, diameter_place(args)).label("far outside of their range"));
@@ -120,7 +120,7 @@ impl OfType {
 const DIAMETER: ValueKey<f64> = o::TYPE.number("D");
 
 /// The type a record names, and its nominal diameter (m).
-fn typed(args: &Args) -> Outcome<Option<(&'static LineType, f64)>> {
+fn line_type_and_diameter(args: &Args) -> Outcome<Option<(&'static LineType, f64)>> {
     let Some(given) = args.option_if_declared(&o::TYPE) else { return Ok(None) };
     let (Some(name), Some(diameter)) = (given.value(const { o::TYPE.word("NAME") }), given.number(DIAMETER)) else {
         return Ok(None);
@@ -151,7 +151,7 @@ pub fn type_notices(args: &Args, units: UnitSystem) -> Vec<Diagnostic> {
         (o::WINDDIAMETER, "wind"),
         (o::AMASDIAMETER, "added mass"),
     ];
-    let Ok(Some((line_type, diameter))) = typed(args) else { return Vec::new() };
+    let Ok(Some((line_type, diameter))) = line_type_and_diameter(args) else { return Vec::new() };
     let mut notices = Vec::new();
     if !line_type.covers(diameter) {
         let written = |d: f64| format!("{:.3}", Dim::Section.from_si(d, units));
@@ -210,10 +210,11 @@ impl LineSection {
         let from_type = |of: fn(&LineType, f64) -> f64| of_type.map(|t| of(t.line_type, t.diameter));
         let weight = number(&o::WTPLEN)
             .or(density.map(solid_weight))
-            .or(from_type(|t, d| t.mass.at(d)).map(|mass| mass * record.defaults.gravity))
+            .or(from_type(|t, d| t.mass.evaluate(d)).map(|mass| mass * record.defaults.gravity))
             .unwrap_or(solid_weight(material.density));
-        let ea = number(&o::EMODULUS).map(|e| e * area).or(from_type(|t, d| t.ea.at(d)));
-        let breaking = number(&o::B_TENSION).or(ultimate.map(|u| u * area)).or(from_type(|t, d| t.breaking.at(d)));
+        let ea = number(&o::EMODULUS).map(|e| e * area).or(from_type(|t, d| t.ea.evaluate(d)));
+        let breaking =
+            number(&o::B_TENSION).or(ultimate.map(|u| u * area)).or(from_type(|t, d| t.breaking.evaluate(d)));
         // a displacement given stands for the type's, else it would count twice
         let displaced = from_type(LineType::volume_diameter)
             .map(|d| if args.option_if_declared(&o::DISPLEN).is_some() { 0.0 } else { d });
@@ -254,7 +255,7 @@ impl LineSection {
     }
 
     /// Weight per unstretched length in water (N/m).
-    pub fn submerged(&self, surroundings: &Surroundings) -> f64 {
+    pub fn submerged_weight(&self, surroundings: &Surroundings) -> f64 {
         let buoyancy = surroundings.water_weight() * FRAC_PI_4 * self.buoyancy_diameter * self.buoyancy_diameter;
         self.weight - self.displacement - buoyancy
     }
@@ -304,7 +305,9 @@ pub fn properties(name: &str, kind: &str, sections: &[LineSection], surroundings
         .column("", "OD", Dim::Section, Digits::Usual, |(_, s)| s.od)
         .column("", "Length", Dim::Length, Digits::Usual, |(_, s)| s.length)
         .column("Weight / Length", "Air", Dim::ForcePerLength, Digits::Usual, |(_, s)| s.in_air())
-        .column("Weight / Length", "Water", Dim::ForcePerLength, Digits::Usual, |(_, s)| s.submerged(surroundings))
+        .column("Weight / Length", "Water", Dim::ForcePerLength, Digits::Usual, |(_, s)| {
+            s.submerged_weight(surroundings)
+        })
         .column("", "AE", Dim::Force, Digits::Scientific(5), |(_, s)| s.ea)
         .column("", "Break", Dim::Force, Digits::Usual, |(_, s)| s.breaking)
         .column("", "Elements", Dim::None, Digits::Usual, |(_, s)| s.refine)

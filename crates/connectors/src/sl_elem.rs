@@ -99,7 +99,7 @@ impl ConnectorClass for Spring {
 
     fn notices(&self, last: &Args, units: UnitSystem, around: &Surroundings) -> Vec<Diagnostic> {
         let [only] = self.sections.as_slice() else { return Vec::new() };
-        let weight = only.submerged(around) * only.length;
+        let weight = only.submerged_weight(around) * only.length;
         if weight == 0.0 {
             return Vec::new();
         }
@@ -140,13 +140,13 @@ impl ConnectorClass for Spring {
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         let springs = with_series(&self.springs, self.devices.convolution.as_ref(), place)?;
-        let mut chord = self.made(place, surroundings, springs)?;
+        let mut chord = self.build_line(place, surroundings, springs)?;
         chord.line.notes.extend(self.devices.notes());
         Ok(Box::new(chord))
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
-        let chord = self.made(&connection.placement, connection.surroundings, self.springs.clone())?;
+        let chord = self.build_line(&connection.placement, connection.surroundings, self.springs.clone())?;
         let line = Box::new(ChordElement::new(chord)?);
         if self.devices.is_none() { Ok(line) } else { self.devices.element(connection, line) }
     }
@@ -154,7 +154,7 @@ impl ConnectorClass for Spring {
 
 impl Spring {
     /// The spring with these at its ends.
-    fn made(
+    fn build_line(
         &self,
         place: &Placement,
         surroundings: &Surroundings,
@@ -164,7 +164,7 @@ impl Spring {
         let mut line = hung(&straight, &springs, place, surroundings, &self.places, |_| 0.0)?;
         line.largest = self.limit.unwrap_or(line.largest);
         line.notes.clone_from(&self.notes);
-        let left_out = straight.iter().map(|s| s.submerged(surroundings) * s.length).sum();
+        let left_out = straight.iter().map(|s| s.submerged_weight(surroundings) * s.length).sum();
         Ok(Chord { line, springs, pushes: !self.tension, left_out })
     }
 }

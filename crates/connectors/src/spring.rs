@@ -83,7 +83,7 @@ fn symmetric(args: &Args, list: &[Restraint], default: bool) -> Outcome<bool> {
 }
 
 /// A degree of freedom on which an option acts must be restrained.
-fn restrained(list: &[Restraint], dof: &str, symmetric: bool, at: Span) -> Outcome<()> {
+fn check_restrained(list: &[Restraint], dof: &str, symmetric: bool, at: Span) -> Outcome<()> {
     let like_y = dof.replace('Z', "Y");
     if list.iter().any(|r| r.dof == dof || (symmetric && r.dof == like_y)) {
         return Ok(());
@@ -99,7 +99,7 @@ fn restrained(list: &[Restraint], dof: &str, symmetric: bool, at: Span) -> Outco
 /// Another degree of freedom, or one given twice, at its word.
 fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec<(usize, String, Span)>> {
     let mut seen: Vec<(usize, String, Span)> = Vec::new();
-    for given in args.all(&o::CONVOLUTION_DF) {
+    for given in args.occurrences(&o::CONVOLUTION_DF) {
         let (Some(value), Some(name)) = (
             given.value(const { o::CONVOLUTION_DF.word("DF") }),
             given.value(const { o::CONVOLUTION_DF.word("CVL_NAME") }),
@@ -107,7 +107,7 @@ fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec
             continue;
         };
         let (Some(dof), Some(name_word)) = (value.word(), name.word()) else { continue };
-        restrained(list, dof, symmetric, value.span)?;
+        check_restrained(list, dof, symmetric, value.span)?;
         let Some(number) = index(dof) else { continue };
         // of a symmetric element Y and Z are the same
         let like = |d: usize| if symmetric && d % 3 == 2 { d - 1 } else { d };
@@ -129,14 +129,14 @@ impl Springs {
         let list = restraints(args, from, 3)?;
         let symmetric = symmetric(args, &list, symmetric_default)?;
         let convolutions = convolutions(args, &list, symmetric)?;
-        Springs::of(args, list, symmetric, convolutions)
+        Springs::from_options(args, list, symmetric, convolutions)
     }
 
     /// Reads the options of a record beside restraints that are known.
     ///
     /// # Errors
     /// As [`Springs::read`].
-    pub fn of(
+    pub fn from_options(
         args: &Args,
         list: Vec<Restraint>,
         symmetric: bool,
@@ -146,7 +146,7 @@ impl Springs {
         for ((option, dof), slot) in [(o::X_PY, "X"), (o::Y_PY, "Y"), (o::Z_PY, "Z")].into_iter().zip(&mut curves) {
             let Some(given) = args.option_if_declared(&option) else { continue };
             let points = checks::py_curve(given)?;
-            restrained(&list, dof, symmetric, given.span)?;
+            check_restrained(&list, dof, symmetric, given.span)?;
             *slot = Some(points);
         }
         let dashpots = [o::X_DAMPING, o::Y_DAMPING, o::Z_DAMPING].map(|option| Dashpot::read(args, &option));
@@ -155,7 +155,7 @@ impl Springs {
     }
 
     /// Every degree of freedom that has a spring, Z ones of a symmetric element among them.
-    fn all(&self) -> Vec<(usize, f64, Option<f64>)> {
+    fn dof_stiffnesses(&self) -> Vec<(usize, f64, Option<f64>)> {
         let own = |r: &Restraint| index(&r.dof).map(|dof| (dof, r.stiffness, r.allowable));
         let mut list: Vec<_> = self.restraints.iter().filter_map(own).collect();
         if self.symmetric {
@@ -171,7 +171,7 @@ impl Springs {
     /// # Errors
     /// A convolution curve that is not there.
     pub fn law(&self, connection: &Connection, sense: Sense, contact: Contact) -> Result<ZeroLaw, ClassError> {
-        let all = self.all();
+        let all = self.dof_stiffnesses();
         let mut groups: Vec<Group> = Vec::new();
         for (dof, stiffness, _) in &all {
             // of a symmetric element the second lateral translation acts with the first
@@ -224,13 +224,13 @@ impl Springs {
     ) -> Result<Box<dyn Element>, ClassError> {
         let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
         let law = self.law(connection, sense, contact)?;
-        let listed = self.listed();
+        let listed = self.reported_stiffnesses();
         Ok(Box::new(ZeroLength { holder: 0, turn, other_turn, rest, law, listed, rigid: false }))
     }
 
     /// What reports list.
-    pub fn listed(&self) -> Vec<(usize, Option<f64>)> {
-        self.all().into_iter().map(|(dof, _, allowable)| (dof, allowable)).collect()
+    pub fn reported_stiffnesses(&self) -> Vec<(usize, Option<f64>)> {
+        self.dof_stiffnesses().into_iter().map(|(dof, _, allowable)| (dof, allowable)).collect()
     }
 }
 
@@ -255,7 +255,7 @@ impl Generalized {
         looks_along_x(args, kind)?;
         Ok(Generalized {
             kind,
-            sense: Sense::of(args.word(0)),
+            sense: Sense::from_word(args.word(0)),
             springs: Springs::read(args, 1, false)?,
             offset: args.number_if_declared(&o::LEN_OFFSET).unwrap_or(0.0),
             foundation: false,
@@ -264,7 +264,7 @@ impl Generalized {
 
     /// The same, told of in a FOUNDATION check.
     #[must_use]
-    pub fn checked(self) -> Self {
+    pub fn with_foundation_check(self) -> Self {
         Generalized { foundation: true, ..self }
     }
 }

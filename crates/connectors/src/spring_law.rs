@@ -109,12 +109,12 @@ impl Dashpot {
         let takes = Vector3::from(takes.map(|t| f64::from(u8::from(t))));
         let kept = rate.component_mul(&takes);
         let Sized { secant, slope } = self.force(kept.norm());
-        (secant * kept, along(&kept, &Matrix3::from_diagonal(&takes), secant, slope))
+        (secant * kept, derivative_along(&kept, &Matrix3::from_diagonal(&takes), secant, slope))
     }
 }
 
 /// The derivative of `secant * v` where the secant follows from the size of v.
-fn along(v: &Vector3<f64>, kept: &Matrix3<f64>, secant: f64, slope: f64) -> Matrix3<f64> {
+fn derivative_along(v: &Vector3<f64>, kept: &Matrix3<f64>, secant: f64, slope: f64) -> Matrix3<f64> {
     let n = v.try_normalize(0.0).unwrap_or_default();
     kept * secant + n * n.transpose() * (slope - secant)
 }
@@ -175,7 +175,7 @@ impl Group {
     }
 
     /// The state at the end of a step without force: the viscoelastic spring recovers.
-    pub fn released(&self, dt: Option<f64>, committed: &[f64], trial: &mut [f64]) {
+    pub fn release(&self, dt: Option<f64>, committed: &[f64], trial: &mut [f64]) {
         let lines = self.lines(dt, committed);
         self.advance(dt, committed, trial, &lines, |_| 0.0);
     }

@@ -24,7 +24,7 @@ pub static TETHER: ClassKind =
 
 const REFINE: OptionSpec = aqwa(
     "-REFINE",
-    &[ValueSpec::new("N", Kind::Integer, "number of elements").within(1.0, 10_000.0)],
+    &[ValueSpec::new("N", Kind::Integer, "number of elements").in_range(1.0, 10_000.0)],
     "number of elements",
 )
 .default("1");
@@ -135,7 +135,7 @@ impl ConnectorClass for TetherClass {
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
-        Ok(Box::new(Bar::of(&self.0, connection)))
+        Ok(Box::new(Bar::new(&self.0, connection)))
     }
 }
 
@@ -192,7 +192,7 @@ struct Pull {
 }
 
 impl Bar {
-    fn of(sections: &[TetherSection], connection: &Connection) -> Self {
+    fn new(sections: &[TetherSection], connection: &Connection) -> Self {
         let ends = connection.connector.tether.clone().unwrap_or_default();
         let length: f64 = sections.iter().map(|s| s.length).sum();
         let mean =

@@ -63,7 +63,7 @@ impl Viscoelastic {
         let points: Vec<(f64, f64)> = curve.points.iter().map(|(x, k)| (*x, k - long_term)).collect();
         // as many branches as there are points beside the one that gives the lasting stiffness
         let count = curve.exponentials.clamp(1, points.len().saturating_sub(1).max(1));
-        let branches = fitted(&points, count, by_time);
+        let branches = fit_branches(&points, count, by_time);
         let law = Viscoelastic { long_term, branches };
         let most = curve.points.iter().fold(f64::MIN_POSITIVE, |m, p| m.max(p.1.abs()));
         let at = |x: f64| if by_time { law.at_time(x) } else { law.at_frequency(x) };
@@ -132,7 +132,7 @@ const HALVINGS: usize = 24;
 
 /// Branches whose sum comes nearest to the points, by least squares with no negative stiffness: the relaxation times are spaced evenly
 /// on a log scale, between ends that are searched for.
-fn fitted(points: &[(f64, f64)], count: usize, by_time: bool) -> Vec<Maxwell> {
+fn fit_branches(points: &[(f64, f64)], count: usize, by_time: bool) -> Vec<Maxwell> {
     let places: Vec<f64> = points.iter().map(|p| p.0).filter(|x| *x > 0.0).collect();
     let (least, most) = places.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(*x), b.max(*x)));
     if places.is_empty() {

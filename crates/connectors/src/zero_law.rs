@@ -18,7 +18,7 @@ pub enum Sense {
 
 impl Sense {
     /// Of its word; both without one.
-    pub fn of(word: Option<&str>) -> Self {
+    pub fn from_word(word: Option<&str>) -> Self {
         match word {
             Some("TENSION") => Sense::Tension,
             Some("COMPRESSION") => Sense::Compression,
@@ -219,7 +219,7 @@ impl ZeroLaw {
             notes: Vec::new(),
         };
         let deflection = if self.sense.takes(u.x) { self.contact.deflection(&u) } else { None };
-        let Some(deflection) = deflection else { return self.released(&u, dt, committed, trial, answer) };
+        let Some(deflection) = deflection else { return self.release(&u, dt, committed, trial, answer) };
         answer.deflection.fixed_rows_mut::<3>(0).copy_from(&deflection.at);
         answer.notes.extend(deflection.note.map(String::from));
         let mut by_deflection = Matrix6::zeros();
@@ -234,7 +234,7 @@ impl ZeroLaw {
         // a spring that has not recovered yet does not pull where the element only pushes
         if !self.sense.takes(answer.force.x) {
             answer.force = Vector6::zeros();
-            return self.released(&u, dt, committed, trial, answer);
+            return self.release(&u, dt, committed, trial, answer);
         }
         answer.slopes = by_deflection;
         let k_u = by_deflection.fixed_view::<3, 3>(0, 0) * deflection.slopes;
@@ -266,19 +266,12 @@ impl ZeroLaw {
     }
 
     /// No force: what remembers recovers, and a later contact begins where it is made.
-    fn released(
-        &self,
-        u: &Vector3<f64>,
-        dt: Option<f64>,
-        committed: &[f64],
-        trial: &mut [f64],
-        none: Answer,
-    ) -> Answer {
+    fn release(&self, u: &Vector3<f64>, dt: Option<f64>, committed: &[f64], trial: &mut [f64], none: Answer) -> Answer {
         let mut from = 0;
         for group in &self.groups {
             let to = from + group.states();
             if let (Some(old), Some(new)) = (committed.get(from..to), trial.get_mut(from..to)) {
-                group.released(dt, old, new);
+                group.release(dt, old, new);
             }
             from = to;
         }

@@ -31,7 +31,7 @@ pub fn ambient(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Arc<dyn Ambient>
     let mut steady = Steady::streams(model, env)?.under_way(model, env)?;
     let bottom = model.bathymetry_in(env).cloned();
     if let (Some(named), None) = (&env.bathymetry, &bottom) {
-        return Err(ClassError::new(format!("there is no bathymetry {}", named.kind)).at(named.span));
+        return Err(ClassError::new(format!("there is no bathymetry {}", named.kind)).with_span(named.span));
     }
     // what lies is a little below -DEPTH, as it presses itself in, and a bottom of its own may be deeper: the current goes on there
     steady.current = steady.current.bottomless();
@@ -41,18 +41,18 @@ pub fn ambient(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Arc<dyn Ambient>
             Some(filling) => Some(filling.contents),
             None => {
                 let text = format!("there is no set of T_PRESSURE data {}", named.kind);
-                return Err(ClassError::new(text).at(named.span));
+                return Err(ClassError::new(text).with_span(named.span));
             }
         },
     };
     let interrupt = Arc::clone(&model.interrupt);
-    let (sea, growth) = (sea.cloned(), Growth::of(model, env)?);
+    let (sea, growth) = (sea.cloned(), Growth::from_environment(model, env)?);
     Ok(Arc::new(Around { steady, sea, prepared: Mutex::default(), growth, bottom, contents, interrupt }))
 }
 
 impl Ambient for Around {
     fn flow(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]) {
-        let streams = self.steady.at(time);
+        let streams = self.steady.streams_at_time(time);
         let prepared = || self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
         // another thread that comes meanwhile prepares its own
         let last = prepared().take();
@@ -78,7 +78,7 @@ impl Ambient for Around {
                 out.head = found.pressure / weight - found.elevation;
             });
         }
-        *prepared() = sea.map(SeaAt::prepared);
+        *prepared() = sea.map(SeaAt::into_prepared);
     }
 
     fn mean(&self, places: &[Vector3<f64>], out: &mut [Flow]) {
@@ -92,16 +92,16 @@ impl Ambient for Around {
 
     fn bottom(&self, x: f64, y: f64) -> Option<(f64, [f64; 2])> {
         match &self.bottom {
-            Some(grid) => Some(grid.at(x, y)),
+            Some(grid) => Some(grid.elevation_and_slopes(x, y)),
             None => self.steady.around.depth.map(|depth| (-depth, [0.0; 2])),
         }
     }
 
-    fn charted(&self) -> bool {
+    fn has_bottom_grid(&self) -> bool {
         self.bottom.is_some()
     }
 
-    fn interrupted(&self) -> bool {
+    fn is_interrupted(&self) -> bool {
         self.interrupt.load(Ordering::Relaxed)
     }
 
@@ -114,7 +114,7 @@ impl Ambient for Around {
     }
 
     fn growth(&self, z: f64) -> (f64, f64) {
-        self.growth.as_ref().map_or((0.0, 0.0), |growth| (0.5 * growth.added(z), growth.density))
+        self.growth.as_ref().map_or((0.0, 0.0), |growth| (0.5 * growth.added_diameter(z), growth.density))
     }
 }
 

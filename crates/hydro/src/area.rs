@@ -37,7 +37,7 @@ impl AreaLoad {
     }
 
     /// The same areas along other axes: the columns of a matrix, in the body.
-    pub fn along(self, axes: nalgebra::Matrix3<f64>) -> Self {
+    pub fn rotated_to_axes(self, axes: nalgebra::Matrix3<f64>) -> Self {
         AreaLoad { axes, ..self }
     }
 }
@@ -50,7 +50,7 @@ impl InStream for AreaLoad {
     fn push(&self, stream: Vector3<f64>) -> Push {
         let speed = stream.norm();
         if speed == 0.0 {
-            return Push::none();
+            return Push::zero();
         }
         let half = 0.5 * self.steady.density(self.place.medium);
         let tensor = self.axes * nalgebra::Matrix3::from_diagonal(&(self.areas * half)) * self.axes.transpose();

@@ -45,11 +45,11 @@ impl Hull {
     ///
     /// # Errors
     /// A piece without panels or with a surface that is not closed or looks the wrong way.
-    pub fn of(model: &Model, body: &Body) -> Result<Option<Self>, ClassError> {
+    pub fn new(model: &Model, body: &Body) -> Result<Option<Self>, ClassError> {
         let mut pieces = Vec::new();
         for part in model.parts_of(body) {
             for piece in part.pieces.iter().filter(|p| p.permeability != 0.0) {
-                let solid = Solidified::of(part, piece, Surface::leaks);
+                let solid = Solidified::new(part, piece, Surface::leaks);
                 if let Some(fault) = solid.faults.iter().find(|f| f.fatal) {
                     return Err(ClassError { span: Some(piece.span), ..fault.error.clone() }
                         .help(format!("{} has no buoyancy before this is corrected", body.name)));
@@ -101,7 +101,7 @@ impl BodyLoad for Hull {
 /// # Errors
 /// A piece without panels or with a surface that is not closed or looks the wrong way.
 pub(super) fn skin(part: &Part, piece: &Piece) -> Result<Option<Surface>, ClassError> {
-    let solid = Solidified::of(part, piece, Surface::leaks);
+    let solid = Solidified::new(part, piece, Surface::leaks);
     match (solid.faults.iter().find(|f| f.fatal), solid.form) {
         (Some(fault), _) => Err(ClassError { span: Some(piece.span), ..fault.error.clone() }.help(
             "it takes no wind and current before this is corrected; or give it -CS_WIND 0 0 0 -CS_CURRENT 0 0 0",
@@ -130,13 +130,13 @@ struct Solidified {
 impl Solidified {
     /// With the faults that a check of its surface finds. All are asked for once, when the piece is complete; afterwards those
     /// that keep it from being a solid.
-    fn of(part: &Part, piece: &Piece, check: fn(&Surface) -> Vec<Fault>) -> Self {
+    fn new(part: &Part, piece: &Piece, check: fn(&Surface) -> Vec<Fault>) -> Self {
         let name = &piece.name;
         let failed = |why: String| {
             let error = ClassError::new(format!("piece {name}: {why}"));
             Solidified { form: None, faults: vec![PieceFault { error, fatal: true, remark: false }] }
         };
-        let panels = match piece.shape.moved(&part.place) {
+        let panels = match piece.shape.moved_by(&part.place) {
             Shape::Tube { ends, diameter } => {
                 let tube = Tube { ends: ends.map(Vector3::from), diameter };
                 return Solidified { form: Some(Form::Tube(tube)), faults: Vec::new() };
@@ -159,7 +159,7 @@ impl Solidified {
             let error = ClassError::new(format!("piece {name}: all its panels look inward; they are turned"));
             faults.push(PieceFault { error, fatal: false, remark: true });
         }
-        faults.extend(told(name, &check(&surface)));
+        faults.extend(summarise_faults(name, &check(&surface)));
         Solidified { form: Some(Form::Surface(surface)), faults }
     }
 }
@@ -172,9 +172,9 @@ fn size(panels: &[Vec<Position>]) -> f64 {
 }
 
 /// The first fault of each sort, and how many more there are.
-fn told(name: &str, faults: &[Fault]) -> Vec<PieceFault> {
+fn summarise_faults(name: &str, faults: &[Fault]) -> Vec<PieceFault> {
     let of_sort = |fatal: bool| {
-        let sort = faults.iter().filter(|f| !matches!(f, Fault::Cut { .. } | Fault::Degenerate { .. }) == fatal);
+        let sort = faults.iter().filter(|f| matches!(f, Fault::Cut { .. } | Fault::Degenerate { .. }) != fatal);
         let more = sort.clone().count().saturating_sub(1);
         sort.take(1)
             .map(|fault| {
@@ -206,12 +206,12 @@ fn sentence(name: &str, fault: &Fault) -> ClassError {
         Fault::Degenerate { at, .. } => (format!("a panel at {AT} has no area"), vec![*at]),
     };
     let values: Vec<(f64, Dim)> = places.into_iter().flatten().map(|x| (x, Dim::Length)).collect();
-    ClassError::of(format!("piece {name}: {what}"), &values)
+    ClassError::with_values(format!("piece {name}: {what}"), &values)
 }
 
 /// The least and the greatest coordinates of a piece in its body (m).
 fn bounds(part: &Part, piece: &Piece) -> [Vector3<f64>; 2] {
-    let (corners, beside): (Vec<[f64; 3]>, f64) = match piece.shape.moved(&part.place) {
+    let (corners, beside): (Vec<[f64; 3]>, f64) = match piece.shape.moved_by(&part.place) {
         Shape::Panels(panels) => (panels.into_iter().flatten().collect(), 0.0),
         Shape::Block { low, high } => (vec![low, high], 0.0),
         Shape::Tube { ends, diameter } => (ends.to_vec(), 0.5 * diameter),
@@ -225,7 +225,7 @@ fn bounds(part: &Part, piece: &Piece) -> [Vector3<f64>; 2] {
 }
 
 /// Whether nothing of one lies in the other.
-fn apart(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> bool {
+fn are_disjoint(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> bool {
     let ([a_low, a_high], [b_low, b_high]) = (a, b);
     (0..3).any(|i| a_low[i] >= b_high[i] || b_low[i] >= a_high[i])
 }
@@ -243,7 +243,7 @@ fn tube_of(part: &Part, piece: &Piece) -> Option<Tube> {
 
 /// What is wrong with a piece, by itself and beside the others of its body; places in the system of the body.
 pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> Vec<PieceFault> {
-    let Solidified { form, mut faults } = Solidified::of(part, piece, Surface::faults);
+    let Solidified { form, mut faults } = Solidified::new(part, piece, Surface::faults);
     let Some(surface) = form.and_then(Form::surface) else { return faults };
     let bounds = bounds(part, piece);
     let round = tube_of(part, piece);
@@ -252,7 +252,7 @@ pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> V
         if other.1.name == piece.name || other.1.permeability * piece.permeability <= 0.0 {
             continue;
         }
-        if apart(&bounds, &self::bounds(other.0, other.1)) {
+        if are_disjoint(&bounds, &self::bounds(other.0, other.1)) {
             continue;
         }
         if let (Some(own), Some(beside)) = (&round, tube_of(other.0, other.1))
@@ -260,14 +260,14 @@ pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> V
         {
             continue;
         }
-        let form = Solidified::of(other.0, other.1, Surface::leaks).form;
+        let form = Solidified::new(other.0, other.1, Surface::leaks).form;
         let Some(second) = form.and_then(Form::surface) else { continue };
         if let Some(at) = intersect(&surface, &second) {
             let text = format!(
                 "pieces {} and {} overlap at ({{}}, {{}}, {{}}); what they share counts twice",
                 other.1.name, piece.name
             );
-            let error = ClassError::of(text, &at.map(|x| (x, Dim::Length)));
+            let error = ClassError::with_values(text, &at.map(|x| (x, Dim::Length)));
             faults.push(PieceFault { error, fatal: false, remark: false });
         }
     }

@@ -32,9 +32,9 @@ impl InStream for CoefficientLoad {
     fn push(&self, stream: Vector3<f64>) -> Push {
         let square = stream.x * stream.x + stream.y * stream.y;
         if square == 0.0 {
-            return Push::none();
+            return Push::zero();
         }
-        let (value, slope) = self.table.at((-stream.y).atan2(-stream.x));
+        let (value, slope) = self.table.interpolate((-stream.y).atan2(-stream.x));
         // speed^2 d(heading) = x dy - y dx, so that the change has no singularity
         let turned = nalgebra::RowVector3::new(-stream.y, stream.x, 0.0);
         let grown = nalgebra::RowVector3::new(2.0 * stream.x, 2.0 * stream.y, 0.0);

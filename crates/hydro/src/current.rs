@@ -30,7 +30,7 @@ impl CurrentField {
     ///
     /// # Errors
     /// A curve that is not there.
-    pub fn of(model: &Model, env: &Environment, bottom: Option<f64>) -> Result<Self, ClassError> {
+    pub fn new(model: &Model, env: &Environment, bottom: Option<f64>) -> Result<Self, ClassError> {
         let parts = match &env.current {
             None => Vec::new(),
             Some(Current::Uniform { velocity, direction }) => vec![Layered::new(*direction, vec![(0.0, *velocity)])],
@@ -80,7 +80,7 @@ impl CurrentField {
             return sum;
         }
         for part in &self.parts {
-            let (speed, change) = part.at(depth.max(0.0));
+            let (speed, change) = part.speed_at_depth(depth.max(0.0));
             sum.0 += part.toward * speed;
             sum.1 += part.toward * if depth > 0.0 { change } else { 0.0 };
         }
@@ -95,7 +95,7 @@ impl Layered {
     }
 
     /// Speed at a depth, and its change with the depth.
-    fn at(&self, depth: f64) -> (f64, f64) {
+    fn speed_at_depth(&self, depth: f64) -> (f64, f64) {
         let next = self.points.partition_point(|p| p.0 <= depth);
         let before = next.checked_sub(1).and_then(|i| self.points.get(i));
         match (before, self.points.get(next)) {

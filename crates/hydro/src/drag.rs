@@ -41,7 +41,7 @@ impl BodyLoad for LinearDrag {
 
     /// In the current of the time; the body's own motion is in the damping of the body.
     fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
-        let stream = self.steady.at(at.time).velocity(Medium::Water, at.pose.point(self.place.at).z);
+        let stream = self.steady.streams_at_time(at.time).velocity(Medium::Water, at.pose.point(self.place.at).z);
         let load = self.place.load_in(&self.steady, at.pose, stream, |stream| self.push(stream));
         Ok(MovingLoad::of(load))
     }
@@ -50,7 +50,7 @@ impl BodyLoad for LinearDrag {
 /// A 6x6 matrix (force and moment over motion) in the axes of a part, seen at the origin and in the axes of its body:
 /// `axes` are those of the part in the body, `at` its point in the body (m).
 pub fn at_origin(matrix: &Matrix6<f64>, axes: &Matrix3<f64>, at: Vector3<f64>) -> Matrix6<f64> {
-    let turned = turned(matrix, axes);
+    let turned = rotate_matrix(matrix, axes);
     // the point moves by t + d x r = t - cross(r) d, and its wrench has the moment r x F about the origin
     let mut motion = Matrix6::identity();
     motion.fixed_view_mut::<3, 3>(0, 3).copy_from(&-cross(at));
@@ -58,7 +58,7 @@ pub fn at_origin(matrix: &Matrix6<f64>, axes: &Matrix3<f64>, at: Vector3<f64>) -
 }
 
 /// A 6x6 matrix in other axes, at the same point.
-pub fn turned(matrix: &Matrix6<f64>, axes: &Matrix3<f64>) -> Matrix6<f64> {
+pub fn rotate_matrix(matrix: &Matrix6<f64>, axes: &Matrix3<f64>) -> Matrix6<f64> {
     let mut both = Matrix6::zeros();
     both.fixed_view_mut::<3, 3>(0, 0).copy_from(axes);
     both.fixed_view_mut::<3, 3>(3, 3).copy_from(axes);

@@ -50,8 +50,8 @@ impl DriftLoad {
     }
 
     /// The same for a part that stands turned about z by an angle (rad) in its body.
-    pub fn turned(self, angle: f64, axes: impl Fn(Six) -> Six) -> Self {
-        DriftLoad { mean: self.mean.turned(angle, axes), ..self }
+    pub fn rotated(self, angle: f64, axes: impl Fn(Six) -> Six) -> Self {
+        DriftLoad { mean: self.mean.rotated(angle, axes), ..self }
     }
 }
 
@@ -61,7 +61,7 @@ fn by_frequency(rows: &[(f64, [f64; 6])]) -> Vec<(f64, Six)> {
 }
 
 /// The coefficients at a frequency (rad/s): straight between those given, the ends hold beyond them.
-fn at(list: &[(f64, Six)], w: f64) -> Six {
+fn interpolate_coefficients(list: &[(f64, Six)], w: f64) -> Six {
     let next = list.partition_point(|r| r.0 <= w);
     match (next.checked_sub(1).and_then(|i| list.get(i)), list.get(next)) {
         (Some((low, a)), Some((high, b))) => a + (b - a) * ((w - low) / (high - low)),
@@ -73,7 +73,7 @@ fn at(list: &[(f64, Six)], w: f64) -> Six {
 /// The mean over waves of coefficients over the square of the amplitude, by periods that grow.
 pub fn mean(waves: &Waves, rows: &[(f64, [f64; 6])]) -> Six {
     let list = by_frequency(rows);
-    waves.energies.iter().map(|(w, energy)| at(&list, *w) * (2.0 * energy)).sum()
+    waves.energies.iter().map(|(w, energy)| interpolate_coefficients(&list, *w) * (2.0 * energy)).sum()
 }
 
 /// The headings all round to which a table under way is drawn, beside those given: 5 degrees apart, between which what is straight
@@ -110,10 +110,11 @@ pub fn table(
     }
     let mut values = vec![Vec::with_capacity(frequencies.len()); headings.len()];
     for w in &frequencies {
-        let here: Vec<(f64, [f64; 6])> = lists.iter().map(|(h, list)| (*h, at(list, *w).into())).collect();
-        let made = ByHeading::new(&here, symmetric)?.turned(angle, &axes);
+        let here: Vec<(f64, [f64; 6])> =
+            lists.iter().map(|(h, list)| (*h, interpolate_coefficients(list, *w).into())).collect();
+        let made = ByHeading::new(&here, symmetric)?.rotated(angle, &axes);
         for (toward, list) in headings.iter().zip(&mut values) {
-            list.push(made.at(toward - PI).0.into());
+            list.push(made.interpolate(toward - PI).0.into());
         }
     }
     Ok(DriftTable { frequencies, headings, values })
@@ -130,7 +131,7 @@ impl BodyLoad for DriftLoad {
         if square < 1e-12 {
             return Err(ClassError::new("the drift of waves has no heading: they travel along the body's z axis"));
         }
-        let (value, slope) = self.mean.at((-travel.y).atan2(-travel.x));
+        let (value, slope) = self.mean.interpolate((-travel.y).atan2(-travel.x));
         let turned = nalgebra::RowVector3::new(-travel.y, travel.x, 0.0) / square;
         let by_velocity: Matrix6x3<f64> = slope * turned;
         // a stream of speed one: only its direction counts

@@ -70,7 +70,7 @@ fn products(r: &Vector3<f64>) -> SMatrix<f64, 1, 9> {
 }
 
 impl<const D: usize> Sums<D> {
-    fn none() -> Self {
+    fn zero() -> Self {
         Sums { value: SMatrix::zeros(), change: SMatrix::zeros() }
     }
 
@@ -88,7 +88,7 @@ impl<const D: usize> Sums<D> {
         let points = [(middle, -0.5625), (s * 0.2 + a * 0.4, 0.520_833_333_333_333_3)];
         let more = [b, c].map(|p| (s * 0.2 + p * 0.4, 0.520_833_333_333_333_3));
         for (r, weight) in points.into_iter().chain(more) {
-            let (w, slope) = strip.at(strips.sense * (r.z + height));
+            let (w, slope) = strip.evaluate(strips.sense * (r.z + height));
             let own = products(&r);
             self.value += w * (weight * area) * own.fixed_columns::<4>(0);
             self.change += slope * (strips.sense * weight * area) * own;
@@ -104,7 +104,7 @@ impl<const D: usize> Sums<D> {
 }
 
 impl<const D: usize> Pressed<D> {
-    fn none() -> Self {
+    fn zero() -> Self {
         let zero = SMatrix::zeros();
         Pressed { force: SVector::zeros(), arm: zero, force_by: SMatrix::zeros(), arm_by: [zero; 3] }
     }
@@ -146,7 +146,7 @@ fn section(low: (Vector3<f64>, f64), high: (Vector3<f64>, f64), at: f64) -> Vect
 
 impl Skin {
     /// That of a closed surface, seen along the axes of a part: the columns of a matrix, in the body.
-    pub fn of(surface: &Surface, axes: &nalgebra::Matrix3<f64>) -> Self {
+    pub fn new(surface: &Surface, axes: &nalgebra::Matrix3<f64>) -> Self {
         let at = |n: u32| surface.vertices.get(n as usize).copied();
         let facet = |&corners: &[u32; 3]| {
             let [a, b, c] = corners.map(at);
@@ -159,14 +159,14 @@ impl Skin {
     }
 
     /// What a stream finds of it in a pose.
-    pub fn exposed<const D: usize>(&self, pose: &Pose, strips: &Strips<D>) -> Exposed<D> {
+    pub fn surface_integrals<const D: usize>(&self, pose: &Pose, strips: &Strips<D>) -> Exposed<D> {
         let height = pose.origin.z - strips.level;
         let place = |p: &Vector3<f64>| {
             let r = pose.axes * p;
             (r, strips.sense * (r.z + height))
         };
         let placed: Vec<(Vector3<f64>, f64)> = self.vertices.iter().map(place).collect();
-        let mut found = Exposed { along: [Pressed::none(); 3], plane: Waterplane::default() };
+        let mut found = Exposed { along: [Pressed::zero(); 3], plane: Waterplane::default() };
         for facet in &self.facets {
             let [Some(a), Some(b), Some(c)] = facet.corners.map(|n| placed.get(n as usize).copied()) else { continue };
             let mut by_height = [a, b, c];
@@ -176,9 +176,9 @@ impl Skin {
             if high.1 < 0.0 || (high.1 == 0.0 && (strips.sense < 0.0 || low.1 < 0.0)) {
                 continue;
             }
-            let mut sums = Sums::none();
+            let mut sums = Sums::zero();
             if low.1 < 0.0 {
-                let [from, to] = cut(by_height, 0.0);
+                let [from, to] = cut_triangle(by_height, 0.0);
                 let normal = pose.axes * facet.normal;
                 let (level, long) = (normal.xy().norm(), (to - from).norm());
                 if level > 0.0 {
@@ -198,7 +198,7 @@ impl Skin {
 }
 
 /// The two points of a triangle, its corners in the order of their distance, at a distance.
-fn cut([low, middle, high]: [(Vector3<f64>, f64); 3], at: f64) -> [Vector3<f64>; 2] {
+fn cut_triangle([low, middle, high]: [(Vector3<f64>, f64); 3], at: f64) -> [Vector3<f64>; 2] {
     let near = if at < middle.1 { section(low, middle, at) } else { section(middle, high, at) };
     [section(low, high, at), near]
 }
@@ -207,7 +207,7 @@ fn cut([low, middle, high]: [(Vector3<f64>, f64); 3], at: f64) -> [Vector3<f64>;
 fn whole<const D: usize>(sums: &mut Sums<D>, strips: &Strips<D>, height: f64, corners: [(Vector3<f64>, f64); 3]) {
     let [low, middle, high] = corners;
     let mut from = low.1.max(0.0);
-    for (strip, end) in strips.between(from, high.1) {
+    for (strip, end) in strips.strips_between(from, high.1) {
         if low.1 >= strip.from && high.1 <= end {
             return sums.triangle(strip, strips, height, corners.map(|c| c.0));
         }
@@ -217,7 +217,7 @@ fn whole<const D: usize>(sums: &mut Sums<D>, strips: &Strips<D>, height: f64, co
             if to <= from {
                 continue;
             }
-            let [a, b] = cut(corners, from);
+            let [a, b] = cut_triangle(corners, from);
             let c = section(low, high, to);
             let d = if to <= middle.1 { section(low, middle, to) } else { section(middle, high, to) };
             // at a tip one of the two triangles has no area

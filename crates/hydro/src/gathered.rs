@@ -3,7 +3,7 @@
 use super::area::AreaLoad;
 use super::coefficients::CoefficientLoad;
 use super::database::slow_drift::SlowDrift;
-use super::drag::{LinearDrag, at_origin, turned};
+use super::drag::{LinearDrag, at_origin, rotate_matrix};
 use super::drift::{self, DriftLoad, DriftRow};
 use super::growth::Growth;
 use super::heading::ByHeading;
@@ -85,7 +85,7 @@ impl BodyLoad for ScaledLoad {
 }
 
 /// A load times its multiplier.
-pub fn multiplied(load: Box<dyn BodyLoad>, factor: f64) -> Box<dyn BodyLoad> {
+pub fn scale_load(load: Box<dyn BodyLoad>, factor: f64) -> Box<dyn BodyLoad> {
     Box::new(ScaledLoad { load, factor })
 }
 
@@ -108,11 +108,11 @@ impl Frame<'_> {
         }
         let text =
             format!("{} is a table by heading; its part may not be rolled or pitched in its body", load.kind.name());
-        Err(ClassError::new(text).at(load.span))
+        Err(ClassError::new(text).with_span(load.span))
     }
 
     /// Six values in the axes of the part, in those of the body.
-    fn turned(&self, values: [f64; 6]) -> [f64; 6] {
+    fn to_body_axes(&self, values: [f64; 6]) -> [f64; 6] {
         let [a, b, c, d, e, f] = values;
         let (force, moment) = (self.axes * Vector3::new(a, b, c), self.axes * Vector3::new(d, e, f));
         [force.x, force.y, force.z, moment.x, moment.y, moment.z]
@@ -123,11 +123,11 @@ impl Frame<'_> {
 ///
 /// # Errors
 /// Loads that make no sense, or an environment that cannot be computed.
-pub fn of(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) -> Result<Gathered, ClassError> {
+pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) -> Result<Gathered, ClassError> {
     let under_way = sea.is_some();
     let mut sum = Gathered { loads: Vec::new(), added_mass: Matrix6::zeros(), damping: Matrix6::zeros() };
     let drifts = |l: &PartLoad| matches!(l.kind, LoadKind::Drift { .. });
-    let (growth, pose) = (Growth::of(model, &model.environment)?, Pose::of(&body.place));
+    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::of(&body.place));
     let mut around: Option<Arc<Steady>> = None;
     for part in model.parts_of(body) {
         let mine: Vec<&PartLoad> =
@@ -141,7 +141,7 @@ pub fn of(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) -> Result<
             None => {
                 // a spectrum that cannot be computed matters only where waves push; under way the sea itself does
                 let pushed = !under_way && model.loads.iter().any(drifts);
-                let mean = if pushed { Steady::of(model)? } else { Steady::streams(model, &model.environment)? };
+                let mean = if pushed { Steady::new(model)? } else { Steady::streams(model, &model.environment)? };
                 Arc::new(if under_way { mean.under_way(model, &model.environment)? } else { mean })
             }
         };
@@ -149,13 +149,15 @@ pub fn of(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) -> Result<
         let frame = Frame { part, axes: *part.place.rotation().matrix() };
         let first = sum.loads.len();
         for load in &mine {
-            one(&mut sum, &steady, &frame, load, under_way)?;
+            add_part_load(&mut sum, &steady, &frame, load, under_way)?;
         }
         drift(&mut sum, (&steady, sea), &frame, &mine)?;
         let on = growth.as_ref().map(|growth| (growth, &pose));
         for piece in &part.pieces {
             sum.loads.extend(
-                pieces::of(&steady, part, piece, under_way, on)?.into_iter().map(|l| Box::new(l) as Box<dyn BodyLoad>),
+                pieces::build_piece_load(&steady, part, piece, under_way, on)?
+                    .into_iter()
+                    .map(|l| Box::new(l) as Box<dyn BodyLoad>),
             );
         }
         let rest = sum.loads.split_off(first);
@@ -168,7 +170,7 @@ pub fn of(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) -> Result<
 }
 
 /// Adds one record but those of drift, of which several make one table.
-fn one(
+fn add_part_load(
     sum: &mut Gathered,
     steady: &Arc<Steady>,
     frame: &Frame,
@@ -180,7 +182,7 @@ fn one(
         LoadKind::Drag(matrix) => {
             sum.damping += at_origin(matrix, &frame.axes, at);
             if !steady.still(Medium::Water) {
-                let made = LinearDrag::new(Arc::clone(steady), at, &turned(matrix, &frame.axes));
+                let made = LinearDrag::new(Arc::clone(steady), at, &rotate_matrix(matrix, &frame.axes));
                 sum.loads.push(Box::new(made));
             }
         }
@@ -210,16 +212,16 @@ fn in_stream(
     load: &PartLoad,
 ) -> Result<Box<dyn BodyLoad>, ClassError> {
     Ok(match &load.kind {
-        LoadKind::Area(areas) => Box::new(AreaLoad::new(steady, place, *areas).along(frame.axes)),
+        LoadKind::Area(areas) => Box::new(AreaLoad::new(steady, place, *areas).rotated_to_axes(frame.axes)),
         LoadKind::Plate { area, normal } => {
             Box::new(PlateLoad::new(steady, place, *area, frame.axes * Vector3::from(*normal)))
         }
         LoadKind::Coefficients { rows, symmetric } => {
             frame.upright(load)?;
-            let table = by_heading(frame, rows, *symmetric).map_err(|e| e.at(load.span))?;
+            let table = by_heading(frame, rows, *symmetric).map_err(|e| e.with_span(load.span))?;
             Box::new(CoefficientLoad::new(steady, place, table))
         }
-        _ => return Err(ClassError::new(format!("{} is no load of a stream", load.kind.name())).at(load.span)),
+        _ => return Err(ClassError::new(format!("{} is no load of a stream", load.kind.name())).with_span(load.span)),
     })
 }
 
@@ -227,7 +229,7 @@ fn in_stream(
 fn by_heading(frame: &Frame, rows: &[(f64, [f64; 6])], symmetric: bool) -> Result<ByHeading, ClassError> {
     let table = ByHeading::new(rows, symmetric)?;
     let [_, _, yaw] = frame.part.place.turn;
-    Ok(if yaw == 0.0 { table } else { table.turned(yaw, |six| frame.turned(six.into()).into()) })
+    Ok(if yaw == 0.0 { table } else { table.rotated(yaw, |six| frame.to_body_axes(six.into()).into()) })
 }
 
 /// Adds the drift, one table for each point that has records of it: at rest the mean of every sea, under way the slow drift of the sea
@@ -252,8 +254,8 @@ fn drift(
     for (load, table, symmetric) in tables {
         frame.upright(load)?;
         let [_, _, yaw] = frame.part.place.turn;
-        let turn = |six: Six| frame.turned(six.into()).into();
-        let here = |error: ClassError| error.at(load.span);
+        let turn = |six: Six| frame.to_body_axes(six.into()).into();
+        let here = |error: ClassError| error.with_span(load.span);
         if let Some(sea) = sea {
             if let Some(sea) = sea {
                 let made = drift::table(sea, &table, symmetric, (yaw, turn)).map_err(here)?;
@@ -264,7 +266,7 @@ fn drift(
         for (toward, waves) in &steady.waves {
             let made = DriftLoad::new(Arc::clone(steady), frame.point(load), (*toward, waves), &table, symmetric);
             let made = made.map_err(here)?;
-            sum.loads.push(Box::new(if yaw == 0.0 { made } else { made.turned(yaw, turn) }));
+            sum.loads.push(Box::new(if yaw == 0.0 { made } else { made.rotated(yaw, turn) }));
         }
     }
     Ok(())

@@ -53,15 +53,15 @@ pub struct GrowthLoads {
 /// The growth of the environment in force on a body.
 ///
 /// # Errors
-/// As [`Growth::of`].
-pub fn of(model: &Model, body: &Body) -> Result<GrowthLoads, ClassError> {
+/// As [`Growth::from_environment`].
+pub fn build_growth_loads(model: &Model, body: &Body) -> Result<GrowthLoads, ClassError> {
     let mut made = GrowthLoads::default();
-    let Some(growth) = Growth::of(model, &model.environment)? else { return Ok(made) };
+    let Some(growth) = Growth::from_environment(model, &model.environment)? else { return Ok(made) };
     let (pose, around) = (Pose::of(&body.place), model.surroundings());
     let mut all = Vec::new();
     for part in model.parts_of(body) {
         for piece in part.pieces.iter().filter(|p| p.permeability >= 0.0) {
-            if let Shape::Tube { ends, diameter } = piece.shape.moved(&part.place) {
+            if let Shape::Tube { ends, diameter } = piece.shape.moved_by(&part.place) {
                 all.extend(rings(&growth, &pose, ends.map(Vector3::from), diameter));
             }
         }
@@ -89,7 +89,7 @@ fn rings(growth: &Growth, pose: &Pose, [from, to]: [Vector3<f64>; 2], diameter: 
     let ring = |n: usize| {
         let at = from + axis * ((n as f64 + 0.5) / count);
         let z = pose.point(at).z;
-        let height = rise * length / count + across * (diameter + growth.added(z));
+        let height = rise * length / count + across * (diameter + growth.added_diameter(z));
         Ring { at, volume: growth.section(diameter, z) * length / count, height }
     };
     (0..count as usize).map(ring).filter(|r| r.volume > 0.0 && r.height > 0.0).collect()
@@ -114,7 +114,7 @@ pub fn stations(growth: &Growth, pose: &Pose, [from, to]: [Vector3<f64>; 2], dia
     let mut cuts: Vec<f64> = growth.elevations().map(part).filter(inside).collect();
     cuts.extend([0.0, 1.0]);
     cuts.sort_by(f64::total_cmp);
-    let wide = |t: f64| diameter + growth.added(low + (high - low) * t);
+    let wide = |t: f64| diameter + growth.added_diameter(low + (high - low) * t);
     let mut made: Vec<(f64, f64)> = Vec::new();
     for pair in cuts.windows(2) {
         let [a, b] = pair else { continue };

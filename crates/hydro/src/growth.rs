@@ -26,14 +26,14 @@ impl Growth {
     ///
     /// # Errors
     /// A curve that is not there, or takes away from the diameter.
-    pub fn of(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
+    pub fn from_environment(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
         let Some(named) = &env.growth else { return Ok(None) };
         let found = model.curves.get(&Model::key(&named.kind)).filter(|c| c.kind == CurveKind::MarineGrowth);
         let Some(curve) = found else {
-            return Err(ClassError::new(format!("there is no M_GROWTH curve {}", named.kind)).at(named.span));
+            return Err(ClassError::new(format!("there is no M_GROWTH curve {}", named.kind)).with_span(named.span));
         };
         let density = named.value.unwrap_or(DENSITY);
-        Growth::new(curve.points.clone(), density).map(Some).map_err(|e| e.at(curve.span))
+        Growth::new(curve.points.clone(), density).map(Some).map_err(|e| e.with_span(curve.span))
     }
 
     /// Growth by elevation (m, growing) as added diameter (m), of a density in air (kg/m3).
@@ -52,7 +52,7 @@ impl Growth {
     }
 
     /// What it adds to the outside diameter of a member (m) at a global elevation (m): twice its thickness.
-    pub fn added(&self, z: f64) -> f64 {
+    pub fn added_diameter(&self, z: f64) -> f64 {
         let next = self.points.partition_point(|p| p.0 <= z);
         match (next.checked_sub(1).and_then(|i| self.points.get(i)), self.points.get(next)) {
             (Some((low, at_low)), Some((high, at_high))) => at_low + (at_high - at_low) * (z - low) / (high - low),
@@ -68,7 +68,7 @@ impl Growth {
 
     /// Area of the growth in a section of a member of a bare outside diameter (m) at a global elevation (m2).
     pub fn section(&self, bare: f64, z: f64) -> f64 {
-        let whole = bare + self.added(z);
+        let whole = bare + self.added_diameter(z);
         FRAC_PI_4 * (whole * whole - bare * bare)
     }
 
@@ -90,10 +90,10 @@ mod tests {
     fn growth_is_straight_between_its_points_and_none_outside() {
         let growth = growth();
         for (z, added) in [(-40.0, 0.1), (-20.0, 0.15), (0.0, 0.2), (1.0, 0.1), (2.0, 0.0), (-40.1, 0.0), (5.0, 0.0)] {
-            assert!((growth.added(z) - added).abs() < 1e-15, "{z}");
+            assert!((growth.added_diameter(z) - added).abs() < 1e-15, "{z}");
         }
         let flat = Growth::new(vec![(-10.0, 0.1), (0.0, 0.1)], DENSITY).unwrap();
-        assert_eq!((flat.added(0.0), flat.added(0.1)), (0.1, 0.0));
+        assert_eq!((flat.added_diameter(0.0), flat.added_diameter(0.1)), (0.1, 0.0));
     }
 
     #[test]

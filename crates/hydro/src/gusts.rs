@@ -48,7 +48,7 @@ pub enum Shape {
 
 impl Shape {
     /// That of a name of `-W_SPECTRUM`.
-    pub fn named(name: &str) -> Option<Self> {
+    pub fn from_name(name: &str) -> Option<Self> {
         Some(match name {
             "API" => Shape::Api,
             "NPD" | "ISO" => Shape::Froya,
@@ -147,26 +147,28 @@ impl Gusts {
     ///
     /// # Errors
     /// A spectrum without a wind, without a curve or without energy.
-    pub fn of(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
+    pub fn new(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
         let Some(named) = &env.gusts else { return Ok(None) };
         let Some(wind) = env.wind else {
             let text = "gusts have no mean wind and no direction";
-            return Err(ClassError::new(text).at(named.span).help("give -WIND SPEED DIR"));
+            return Err(ClassError::new(text).with_span(named.span).help("give -WIND SPEED DIR"));
         };
         if wind.speed == 0.0 {
             return Ok(None);
         }
-        let shape = Shape::named(&named.kind);
+        let shape = Shape::from_name(&named.kind);
         let points = match shape {
             Some(shape) => table(shape, wind.speed),
             None => of_curve(model, named)?,
         };
-        let mut spectrum = Spectrum::of_curve(points, None).with_energy().map_err(|e| e.at(named.span))?;
+        let mut spectrum = Spectrum::of_curve(points, None).with_energy().map_err(|e| e.with_span(named.span))?;
         let parts = env.gust_parts;
         let intensity = parts.and_then(|p| p.intensity);
         if let Some(intensity) = intensity {
             let deviation = intensity * wind.speed;
-            spectrum = spectrum.scaled(1.0, deviation * deviation, None).map_err(|e| e.at(named.span))?;
+            spectrum = spectrum
+                .with_scaled_frequencies(1.0, deviation * deviation, None)
+                .map_err(|e| e.with_span(named.span))?;
         }
         let number = parts.map_or(PARTS, |p| p.number);
         let bands = if env.gust_periods.is_empty() {
@@ -174,7 +176,7 @@ impl Gusts {
         } else {
             bands_about(&spectrum, &env.gust_periods)
         };
-        let bands = bands.map_err(|e| e.at(named.span))?;
+        let bands = bands.map_err(|e| e.with_span(named.span))?;
         // waves that are reinforced make a crest; gusts that are would make a wind of many times its deviation
         let seed = match env.phasing {
             Some(Phasing::Seeded(seed)) => seed,
@@ -192,7 +194,7 @@ impl Gusts {
     }
 
     /// The gust at a time (s), along the mean wind (m/s).
-    pub fn at(&self, time: f64) -> f64 {
+    pub fn speed_at_time(&self, time: f64) -> f64 {
         let mut last = self.last.lock().ok();
         if let Some((_, gust)) = last.as_deref().copied().flatten().filter(|(known, _)| *known == time) {
             return gust;
@@ -226,7 +228,7 @@ fn of_curve(model: &Model, named: &Formula) -> Result<Vec<(f64, f64)>, ClassErro
         _ => None,
     };
     let found = model.curves.get(&Model::key(&named.kind)).and_then(points);
-    found.ok_or_else(|| ClassError::new(format!("there is no gust spectrum {}", named.kind)).at(named.span))
+    found.ok_or_else(|| ClassError::new(format!("there is no gust spectrum {}", named.kind)).with_span(named.span))
 }
 
 /// The unit of the density of gusts, over rad/s.

@@ -51,13 +51,13 @@ impl ByHeading {
     }
 
     /// The same with every heading grown by an angle (rad), and its values in turned axes.
-    pub fn turned(self, angle: f64, axes: impl Fn(Six) -> Six) -> Self {
+    pub fn rotated(self, angle: f64, axes: impl Fn(Six) -> Six) -> Self {
         let turn = |(at, value, slope): (f64, Six, Six)| (at + angle, axes(value), axes(slope));
         ByHeading { nodes: self.nodes.into_iter().map(turn).collect() }
     }
 
     /// The values at a heading (rad), and their change with it.
-    pub fn at(&self, heading: f64) -> (Six, Six) {
+    pub fn interpolate(&self, heading: f64) -> (Six, Six) {
         let [(first, ..), ..] = self.nodes.as_slice() else { return (Six::zeros(), Six::zeros()) };
         let turn = (heading - first).rem_euclid(TAU);
         let next = self.nodes.partition_point(|n| n.0 - first <= turn);
@@ -98,16 +98,16 @@ mod tests {
         let rows = [row(0.0, -2.0, 0.0), row(60.0, -1.0, -3.0), row(90.0, 0.1, -4.0), row(180.0, 2.5, 0.0)];
         let table = ByHeading::new(&rows, true).unwrap();
         for (heading, value) in rows {
-            assert!((table.at(heading + TAU).0 - Six::from(value)).amax() < 1e-12);
+            assert!((table.interpolate(heading + TAU).0 - Six::from(value)).amax() < 1e-12);
             let mirrored = Six::from(value).component_mul(&Six::from(MIRROR));
-            assert!((table.at(-heading).0 - mirrored).amax() < 1e-12);
+            assert!((table.interpolate(-heading).0 - mirrored).amax() < 1e-12);
         }
         for step in -50..50 {
             // between headings: at one the second derivative jumps
             let at = 0.131 * f64::from(step) + 0.01;
             let h = 1e-5;
-            let by_difference = (table.at(at + h).0 - table.at(at - h).0) / (2.0 * h);
-            assert!((table.at(at).1 - by_difference).amax() < 1e-8, "{at}");
+            let by_difference = (table.interpolate(at + h).0 - table.interpolate(at - h).0) / (2.0 * h);
+            assert!((table.interpolate(at).1 - by_difference).amax() < 1e-8, "{at}");
         }
     }
 
@@ -118,7 +118,7 @@ mod tests {
         let table = ByHeading::new(&rows, false).unwrap();
         for step in 0..100 {
             let at = 0.0628 * f64::from(step);
-            assert!((table.at(at).0[0] - at.cos()).abs() < 0.01, "{at}");
+            assert!((table.interpolate(at).0[0] - at.cos()).abs() < 0.01, "{at}");
         }
     }
 }

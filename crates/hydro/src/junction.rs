@@ -34,7 +34,7 @@ const REACH: f64 = 0.01;
 const STRAIGHT: f64 = 0.9999;
 
 /// The loads of a junction besides its weight.
-pub fn of(junction: &Junction, mass: &Mass, around: &Surroundings) -> Vec<Box<dyn BodyLoad>> {
+pub fn build_junction_loads(junction: &Junction, mass: &Mass, around: &Surroundings) -> Vec<Box<dyn BodyLoad>> {
     let mut list: Vec<Box<dyn BodyLoad>> = Vec::new();
     if junction.volume > 0.0 {
         let radius = (0.75 * junction.volume / PI).cbrt();

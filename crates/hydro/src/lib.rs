@@ -51,7 +51,7 @@ pub mod wind;
 pub use ambient::ambient;
 pub use body_load::{BodyLoad, MovingLoad, Underway};
 pub use buoyancy::{Hull, PieceFault, piece_faults};
-pub use righting::{Balanced, balanced};
+pub use righting::{Balanced, balance_heave_and_trim};
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use sea::Sea;
@@ -166,14 +166,14 @@ impl Load {
 
 impl Load {
     /// The same about another point that moves with the body; `arm` is from the present one to it.
-    pub fn about(&self, arm: Vector3<f64>) -> Self {
-        let stiffness = transferred(&self.stiffness, -arm, -arm) + turning(&self.wrench, -arm);
-        Load { wrench: carried(&self.wrench, -arm), stiffness }
+    pub fn about_point(&self, arm: Vector3<f64>) -> Self {
+        let stiffness = move_stiffness(&self.stiffness, -arm, -arm) + turning(&self.wrench, -arm);
+        Load { wrench: move_wrench(&self.wrench, -arm), stiffness }
     }
 }
 
 /// A wrench about a point as one about the origin that `arm` leads from.
-pub fn carried(wrench: &Six, arm: Vector3<f64>) -> Six {
+pub fn move_wrench(wrench: &Six, arm: Vector3<f64>) -> Six {
     let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
     let moment = arm.cross(&force);
     let mut carried = *wrench;
@@ -184,7 +184,7 @@ pub fn carried(wrench: &Six, arm: Vector3<f64>) -> Six {
 }
 
 /// A stiffness block between two points as one between the origins that the arms lead from, for a wrench that keeps its arm.
-pub fn transferred(block: &Matrix6<f64>, row: Vector3<f64>, column: Vector3<f64>) -> Matrix6<f64> {
+pub fn move_stiffness(block: &Matrix6<f64>, row: Vector3<f64>, column: Vector3<f64>) -> Matrix6<f64> {
     let mut moved = *block;
     // the far point moves by turn x arm: columns
     let far = cross(column);
@@ -234,48 +234,48 @@ impl Floating {
     ///
     /// # Errors
     /// Loads that contradict themselves, or need what is not defined.
-    pub fn of(model: &Model, body: &Body) -> Result<Self, ClassError> {
-        Floating::within(model, body, None)
+    pub fn at_rest(model: &Model, body: &Body) -> Result<Self, ClassError> {
+        Floating::build(model, body, None)
     }
 
     /// That of a body under way in the environment in force and its sea: what waves do to it is among its loads.
     ///
     /// # Errors
-    /// As [`Floating::of`].
+    /// As [`Floating::at_rest`].
     pub fn under_way(model: &Model, body: &Body, sea: Option<&Arc<Sea>>) -> Result<Self, ClassError> {
-        Floating::within(model, body, Some(sea))
+        Floating::build(model, body, Some(sea))
     }
 
     /// At rest without a sea; `Some` is under way, with the sea there is.
-    fn within(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
+    fn build(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
         let gravity = model.defaults.gravity;
-        let mass = Mass::of(model.parts_of(body), gravity);
+        let mass = Mass::from_parts(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
-        loads.extend(weight::of(&mass, gravity));
+        loads.extend(weight::build_weight(&mass, gravity));
         if let Some(junction) = &body.junction {
-            loads.extend(junction::of(junction, &mass, &model.surroundings()));
+            loads.extend(junction::build_junction_loads(junction, &mass, &model.surroundings()));
         }
-        let hull = Hull::of(model, body)?;
+        let hull = Hull::new(model, body)?;
         if let (Some(_), Some(linear)) = (&hull, &body.linear) {
             let text =
                 format!("{} has a hull and a linear hydrostatic stiffness: its buoyancy would count twice", body.name);
             return Err(ClassError::new(text)
-                .at(linear.span)
+                .with_span(linear.span)
                 .help("leave out #HYDROSTATIC, or give the pieces -PERMEABILITY 0"));
         }
         loads.extend(hull.map(|hull| Box::new(hull) as Box<dyn BodyLoad>));
-        loads.extend(linear::of(body));
-        let gathered = gathered::of(model, body, under_way)?;
+        loads.extend(linear::build_linear_buoyancy(body));
+        let gathered = gathered::gather_loads(model, body, under_way)?;
         loads.extend(gathered.loads);
-        let grown = grown::of(model, body)?;
+        let grown = grown::build_growth_loads(model, body)?;
         loads.extend(grown.loads);
-        let (members, of_members) = morison::of(model, body, under_way)?;
+        let (members, of_members) = morison::build_members(model, body, under_way)?;
         loads.extend(members.map(|load| Box::new(load) as Box<dyn BodyLoad>));
         let pressed = pressure::of(model, body, under_way.flatten())?;
         loads.extend(pressed.map(|load| Box::new(load) as Box<dyn BodyLoad>));
         let mut added_mass = gathered.added_mass + grown.mass + of_members;
         let mut damping = gathered.damping;
-        if let Some(brought) = database::attached::of(model, body, under_way, &mut damping)? {
+        if let Some(brought) = database::attached::gather_database_loads(model, body, under_way, &mut damping)? {
             loads.extend(brought.loads);
             added_mass += brought.added_mass;
         }
@@ -283,12 +283,12 @@ impl Floating {
     }
 
     /// The added mass in a pose, global axes.
-    pub fn added(&self, pose: &Pose) -> Matrix6<f64> {
+    pub fn added_mass(&self, pose: &Pose) -> Matrix6<f64> {
         in_pose(&self.added_mass, pose)
     }
 
     /// The linear damping in a pose, global axes.
-    pub fn damped(&self, pose: &Pose) -> Matrix6<f64> {
+    pub fn linear_damping(&self, pose: &Pose) -> Matrix6<f64> {
         in_pose(&self.damping, pose)
     }
 }

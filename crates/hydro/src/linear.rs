@@ -13,7 +13,7 @@ use windlass_model::{Body, ClassError, LinearHydrostatics};
 const UPRIGHT: f64 = 1e-6;
 
 /// Buoyancy of a body that has a linear stiffness.
-pub fn of(body: &Body) -> Option<Box<dyn BodyLoad>> {
+pub fn build_linear_buoyancy(body: &Body) -> Option<Box<dyn BodyLoad>> {
     body.linear.clone().map(|linear| Box::new(linear) as Box<dyn BodyLoad>)
 }
 
@@ -116,7 +116,7 @@ mod tests {
                 let step = if n < 3 { 1e-4 } else { 1e-6 };
                 let mut motion = Six::zeros();
                 motion[n] = step;
-                let [up, down] = [motion, -motion].map(|m| linear.load(&pose.moved(&m)).unwrap().wrench);
+                let [up, down] = [motion, -motion].map(|m| linear.load(&pose.after_motion(&m)).unwrap().wrench);
                 let difference = (down - up) / (2.0 * step);
                 let column = load.stiffness.column(n).into_owned();
                 // wrenches of 1e10 N m leave 1e-16 * 1e10 / 1e-6 = 1 of rounding beside columns of 1e10

@@ -47,7 +47,7 @@ impl PieceLoad {
     /// A skin in the wind or the current in force, with shape coefficients along the axes of its part: the columns of a matrix, in
     /// the body.
     pub fn new(skin: Arc<Skin>, steady: &Arc<Steady>, medium: Medium, axes: Matrix3<f64>, cs: [f64; 3]) -> Self {
-        let (strips, even) = (Strips::of(steady, medium), Strips::even(steady, medium));
+        let (strips, even) = (Strips::new(steady, medium), Strips::even(steady, medium));
         PieceLoad { skin, steady: Arc::clone(steady), strips, even, medium, axes, cs }
     }
 
@@ -59,14 +59,15 @@ impl PieceLoad {
     }
 
     /// What the motion of the body and what varies in time add to the load in the mean stream.
-    fn added(&self, at: &Underway) -> MovingLoad {
-        let found = self.skin.exposed(at.pose, &self.even);
+    fn dynamic_part(&self, at: &Underway) -> MovingLoad {
+        let found = self.skin.surface_integrals(at.pose, &self.even);
         let height = at.pose.origin.z - self.even.level;
         let mut sum = MovingLoad::of(Load::none());
         let (own, spin) = (at.velocity.fixed_rows::<3>(0).into_owned(), at.velocity.fixed_rows::<3>(3).into_owned());
-        let (now, mean) = (self.steady.at(at.time), self.steady.mean());
+        let (now, mean) = (self.steady.streams_at_time(at.time), self.steady.mean());
         for (n, e, half) in self.axes(at.pose) {
-            let area = along(&found, n, &e, &self.even, height, |_| SVector::from([1.0]), |_| SVector::zeros());
+            let area =
+                integrate_along(&found, n, &e, &self.even, height, |_| SVector::from([1.0]), |_| SVector::zeros());
             // none of a piece that the medium does not touch
             let Some(area) = area.filter(|a| a.force > 1e-9) else { continue };
             let centre = area.arm / area.force;
@@ -91,7 +92,7 @@ impl PieceLoad {
 ///
 /// # Errors
 /// A piece that is not a closed surface.
-pub fn of(
+pub fn build_piece_load(
     steady: &Arc<Steady>,
     part: &Part,
     piece: &Piece,
@@ -103,16 +104,16 @@ pub fn of(
     if !media.iter().any(acts) {
         return Ok(Vec::new());
     }
-    let surface = match (growth, piece.shape.moved(&part.place)) {
+    let surface = match (growth, piece.shape.moved_by(&part.place)) {
         (Some((growth, pose)), Shape::Tube { ends, diameter }) => {
             let tube = Tube { ends: ends.map(Vector3::from), diameter };
-            tube.widened(&grown::stations(growth, pose, tube.ends, diameter), SIDES)
+            tube.with_diameters(&grown::stations(growth, pose, tube.ends, diameter), SIDES)
         }
         _ => skin(part, piece)?,
     };
     let Some(surface) = surface else { return Ok(Vec::new()) };
     let axes = *part.place.rotation().matrix();
-    let skin = Arc::new(Skin::of(&surface, &axes));
+    let skin = Arc::new(Skin::new(&surface, &axes));
     let made = media.into_iter().filter(acts);
     Ok(made.map(|(medium, cs)| PieceLoad::new(Arc::clone(&skin), steady, medium, axes, cs)).collect())
 }
@@ -126,7 +127,7 @@ struct Along {
 
 /// What the skin and the waterplane give along an axis `e` of the part. `of` is the combination of the components of w that acts
 /// along an axis, and `by` the same of a change of the axis.
-fn along<const D: usize>(
+fn integrate_along<const D: usize>(
     found: &Exposed<D>,
     axis: usize,
     e: &Vector3<f64>,
@@ -232,11 +233,12 @@ impl BodyLoad for PieceLoad {
         if self.steady.still(self.medium) {
             return Ok(sum);
         }
-        let found = self.skin.exposed(pose, &self.strips);
+        let found = self.skin.surface_integrals(pose, &self.strips);
         let height = pose.origin.z - self.strips.level;
         let level = |v: &Vector3<f64>| v.xy();
         for (n, e, half) in self.axes(pose) {
-            let Some(Along { force, arm, change }) = along(&found, n, &e, &self.strips, height, level, level) else {
+            let Some(Along { force, arm, change }) = integrate_along(&found, n, &e, &self.strips, height, level, level)
+            else {
                 continue;
             };
             sum.wrench += six(e * force, arm.cross(&e)) * half;
@@ -252,7 +254,7 @@ impl BodyLoad for PieceLoad {
 
     fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
         let mean = self.load(at.pose)?;
-        let MovingLoad { load, damping } = self.added(at);
+        let MovingLoad { load, damping } = self.dynamic_part(at);
         let load = Load { wrench: mean.wrench + load.wrench, stiffness: mean.stiffness + load.stiffness };
         Ok(MovingLoad { load: finite(load)?, damping })
     }

@@ -31,7 +31,7 @@ pub struct Balanced {
 ///
 /// # Errors
 /// A body without weight, or for which no balance was found.
-pub fn balanced(floating: &Floating, from: &Place) -> Result<Balanced, ClassError> {
+pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balanced, ClassError> {
     let loads: Vec<_> =
         floating.loads.iter().filter(|load| matches!(load.category(), Category::Weight | Category::Buoyancy)).collect();
     let sum = |pose: &Pose| {
@@ -81,7 +81,7 @@ pub fn balanced(floating: &Floating, from: &Place) -> Result<Balanced, ClassErro
         place.turn[1] += cut * step[1];
     }
     let values = [(place.turn[0], Dim::Angle), (place.shift[2], Dim::Length), (place.turn[1], Dim::Angle)];
-    Err(ClassError::of(
+    Err(ClassError::with_values(
         "no balance of heave and trim was found at a roll of {}; the last try was at z {}, trim {}",
         &values,
     )

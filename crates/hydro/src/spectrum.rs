@@ -29,7 +29,7 @@ pub fn is_regular(sea: &Sea) -> bool {
 
 /// The peakedness of a sea: given, or the usual one of JONSWAP; `None` for spectra without one.
 pub fn gamma_of(env: &Environment, sea: &Sea) -> Option<f64> {
-    let kind = env.sea_period.as_ref().map_or(PeriodType::Peak, |g| PeriodType::of(&g.kind));
+    let kind = env.sea_period.as_ref().map_or(PeriodType::Peak, |g| PeriodType::from_word(&g.kind));
     let usual = || usual_gamma(sea.height, sea.period, kind);
     sea.spectrum.eq_ignore_ascii_case("JONSWAP").then(|| sea.gamma.unwrap_or_else(usual))
 }
@@ -38,7 +38,7 @@ pub fn gamma_of(env: &Environment, sea: &Sea) -> Option<f64> {
 ///
 /// # Errors
 /// No energy; a spectrum without a formula or a curve without energy; a type of period that does not go with it.
-pub fn of(
+pub fn build_spectrum(
     model: &Model,
     env: &Environment,
     sea: &Sea,
@@ -52,17 +52,17 @@ pub fn of(
     {
         if !(value > 0.0 && value.is_finite()) {
             let text = format!("a sea of {what} of {{}} has no energy");
-            return Err(ClassError::of(text, &[(value, dim)])
-                .at(sea.place(place))
+            return Err(ClassError::with_values(text, &[(value, dim)])
+                .with_span(sea.place(place))
                 .help("leave out the sea for calm water"));
         }
     }
-    let at_name = |error: ClassError| error.clone().at(error.span.unwrap_or(sea.place(0)));
+    let at_name = |error: ClassError| error.clone().with_span(error.span.unwrap_or(sea.place(0)));
     let whole = whole(model, env, sea).map_err(at_name)?;
     let m0 = whole.moment(0);
     Ok(Some(match limits {
         None => whole,
-        Some(_) => whole.scaled(1.0, m0, limits).map_err(at_name)?,
+        Some(_) => whole.with_scaled_frequencies(1.0, m0, limits).map_err(at_name)?,
     }))
 }
 
@@ -70,10 +70,10 @@ fn whole(model: &Model, env: &Environment, sea: &Sea) -> Result<Spectrum, ClassE
     let (height, period) = (sea.height, sea.period);
     let m0 = height * height / 16.0;
     let given = env.sea_period.as_ref();
-    let kind = |usual| given.map_or(usual, |g| PeriodType::of(&g.kind));
+    let kind = |usual| given.map_or(usual, |g| PeriodType::from_word(&g.kind));
     let of_peak = |what: &str| match given {
         Some(g) if g.kind != "PEAK" => {
-            Err(ClassError::new(format!("the period of {what} is that of its peak")).at(g.span))
+            Err(ClassError::new(format!("the period of {what} is that of its peak")).with_span(g.span))
         }
         _ => Ok(()),
     };
@@ -91,7 +91,7 @@ fn whole(model: &Model, env: &Environment, sea: &Sea) -> Result<Spectrum, ClassE
         "OCHI" | "OCHI_HUBBLE" => {
             of_peak("the spectrum of Ochi and Hubble")?;
             let found = humps(ochi_hubble(most_probable(height))?)?;
-            found.scaled(TAU / period / found.peak(), m0, None)
+            found.with_scaled_frequencies(TAU / period / found.peak(), m0, None)
         }
         "2JONSWAP" => Err(ClassError::new("the sources give no formula of the 2JONSWAP spectrum")
             .help("give two seas, -SEA JONSWAP .. and -A_SEA JONSWAP .., or a F_SPECTRUM curve")),
@@ -110,7 +110,7 @@ fn whole(model: &Model, env: &Environment, sea: &Sea) -> Result<Spectrum, ClassE
 /// # Errors
 /// A curve that is no spectrum, or has no energy or no peak at a real frequency.
 pub fn of_curve(curve: &Curve, height: f64, period: f64) -> Result<Spectrum, ClassError> {
-    let wrong = |text: &str| ClassError::new(format!("curve {} {text}", curve.name)).at(curve.span);
+    let wrong = |text: &str| ClassError::new(format!("curve {} {text}", curve.name)).with_span(curve.span);
     let points: Vec<(f64, f64)> = match curve.kind {
         CurveKind::FrequencySpectrum => curve.points.clone(),
         CurveKind::PeriodSpectrum => {
@@ -123,21 +123,25 @@ pub fn of_curve(curve: &Curve, height: f64, period: f64) -> Result<Spectrum, Cla
         return Err(wrong("has no peak at a frequency above zero"));
     }
     let found = Spectrum::of_curve(points, None);
-    found.scaled(TAU / period / top.0, height * height / 16.0, None).map_err(|_| wrong("has no energy"))
+    found
+        .with_scaled_frequencies(TAU / period / top.0, height * height / 16.0, None)
+        .map_err(|_| wrong("has no energy"))
 }
 
 impl Waves {
     /// The waves of a sea of an environment.
     ///
     /// # Errors
-    /// As [`of`].
-    pub fn of(model: &Model, env: &Environment, sea: &Sea) -> Result<Self, ClassError> {
+    /// As [`build_spectrum`].
+    pub fn new(model: &Model, env: &Environment, sea: &Sea) -> Result<Self, ClassError> {
         let regular = || vec![(TAU / sea.period, sea.height * sea.height / 8.0)];
-        Ok(Waves { energies: of(model, env, sea, None)?.map_or_else(regular, |spectrum| spectrum.energies()) })
+        Ok(Waves {
+            energies: build_spectrum(model, env, sea, None)?.map_or_else(regular, |spectrum| spectrum.energies()),
+        })
     }
 
     /// JONSWAP of a significant height (m) and a period (s); ISSC with gamma 1.
-    pub fn peaked(height: f64, period: f64, kind: PeriodType, gamma: f64) -> Self {
+    pub fn from_peak(height: f64, period: f64, kind: PeriodType, gamma: f64) -> Self {
         Waves { energies: Spectrum::of_humps(jonswap(height, period, kind, gamma), None).energies() }
     }
 
@@ -154,7 +158,7 @@ mod tests {
     #[test]
     fn periods_of_issc_are_those_of_its_closed_form() {
         // T1/Tp = (4/5)^(1/4) / Gamma(3/4), Tz/Tp = (4/(5 pi))^(1/4), Gamma(3/4) = 1.2254167024651776
-        let waves = Waves::peaked(4.0, 10.0, PeriodType::Peak, 1.0);
+        let waves = Waves::from_peak(4.0, 10.0, PeriodType::Peak, 1.0);
         let (t1, tz) = (TAU * waves.moment(0) / waves.moment(1), TAU * (waves.moment(0) / waves.moment(2)).sqrt());
         assert!((waves.moment(0) - 1.0).abs() < 1e-12);
         assert!((t1 / 10.0 - 0.8f64.powf(0.25) / 1.225_416_702_465_177_6).abs() < 1e-5, "{t1}");
@@ -166,7 +170,7 @@ mod tests {
         // [DNV-RP-C205 3.5.5.5]: Tz/Tp = 0.6673 + 0.05037 g - 0.00623 g^2 + 0.0003341 g^3, T1/Tp = 0.7303 + 0.04936 g
         // - 0.006556 g^2 + 0.0003610 g^3: fits, good to some 0.5 %
         for gamma in [1.0, 2.0, 3.3, 5.0] {
-            let waves = Waves::peaked(4.0, 10.0, PeriodType::Peak, gamma);
+            let waves = Waves::from_peak(4.0, 10.0, PeriodType::Peak, gamma);
             let (t1, tz) = (TAU * waves.moment(0) / waves.moment(1), TAU * (waves.moment(0) / waves.moment(2)).sqrt());
             let fit = |c: [f64; 4]| 10.0 * (c[0] + gamma * (c[1] + gamma * (c[2] + gamma * c[3])));
             assert!((tz / fit([0.6673, 0.05037, -0.00623, 0.0003341]) - 1.0).abs() < 5e-3, "{gamma} {tz}");
@@ -177,7 +181,7 @@ mod tests {
     #[test]
     fn a_period_of_another_type_comes_back() {
         for (kind, power) in [(PeriodType::Mean, 1), (PeriodType::ZeroCrossing, 2)] {
-            let waves = Waves::peaked(3.0, 9.0, kind, 2.0);
+            let waves = Waves::from_peak(3.0, 9.0, kind, 2.0);
             let found = TAU * (waves.moment(0) / waves.moment(power)).powf(1.0 / f64::from(power));
             assert!((found - 9.0).abs() < 1e-9, "{kind:?} {found}");
         }

@@ -70,26 +70,26 @@ impl Steady {
     ///
     /// # Errors
     /// An environment that cannot be computed.
-    pub fn of(model: &Model) -> Result<Self, ClassError> {
-        Steady::within(model, &model.environment)
+    pub fn new(model: &Model) -> Result<Self, ClassError> {
+        Steady::from_environment(model, &model.environment)
     }
 
     /// That of an environment.
     ///
     /// # Errors
     /// An environment that cannot be computed: a spectrum or a wind without a formula, a curve that is not there.
-    pub fn within(model: &Model, env: &Environment) -> Result<Self, ClassError> {
+    pub fn from_environment(model: &Model, env: &Environment) -> Result<Self, ClassError> {
         let around = model.surroundings_in(env);
         let bottom = around.depth.map(|d| d + around.tide);
         let mut waves = Vec::new();
         for sea in [&env.sea, &env.added_sea].into_iter().flatten().filter(|s| s.height > 0.0) {
             let (cos, sin) = windlass_base::geometry::unit_vector(sea.direction);
-            waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(Waves::of(model, env, sea)?)));
+            waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(Waves::new(model, env, sea)?)));
         }
         Ok(Steady {
             around,
-            wind: WindField::of(env)?,
-            current: CurrentField::of(model, env, bottom)?,
+            wind: WindField::from_environment(env)?,
+            current: CurrentField::new(model, env, bottom)?,
             waves,
             variation: None,
         })
@@ -98,17 +98,17 @@ impl Steady {
     /// The same without its seas: what wind and current need.
     ///
     /// # Errors
-    /// As [`Steady::within`], but for the seas.
+    /// As [`Steady::from_environment`], but for the seas.
     pub fn streams(model: &Model, env: &Environment) -> Result<Self, ClassError> {
-        Steady::within(model, &Environment { sea: None, added_sea: None, ..env.clone() })
+        Steady::from_environment(model, &Environment { sea: None, added_sea: None, ..env.clone() })
     }
 
     /// With what varies in time: gusts, and histories of wind and current.
     ///
     /// # Errors
-    /// As [`Variation::of`].
+    /// As [`Variation::new`].
     pub fn under_way(self, model: &Model, env: &Environment) -> Result<Self, ClassError> {
-        let variation = Variation::of(model, env)?.map(Arc::new);
+        let variation = Variation::new(model, env)?.map(Arc::new);
         Ok(Steady { variation, ..self })
     }
 
@@ -123,8 +123,8 @@ impl Steady {
     }
 
     /// Wind and current at a time (s).
-    pub fn at(&self, time: f64) -> Streams<'_> {
-        let instant = self.variation.as_ref().map_or_else(Instant::default, |v| v.at(time));
+    pub fn streams_at_time(&self, time: f64) -> Streams<'_> {
+        let instant = self.variation.as_ref().map_or_else(Instant::default, |v| v.sample(time));
         Streams { steady: self, instant }
     }
 

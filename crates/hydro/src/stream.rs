@@ -17,7 +17,7 @@ pub struct Push {
 
 impl Push {
     /// Nothing.
-    pub fn none() -> Self {
+    pub fn zero() -> Self {
         Push { wrench: Six::zeros(), by_velocity: Matrix6x3::zeros() }
     }
 }
@@ -88,7 +88,7 @@ impl Place {
     pub fn moving(&self, steady: &Steady, at: &Underway, push: impl Fn(Vector3<f64>) -> Push) -> MovingLoad {
         let arm = at.pose.axes * self.at;
         let (own, spin) = (at.velocity.fixed_rows::<3>(0), at.velocity.fixed_rows::<3>(3).into_owned());
-        let (stream, slope) = steady.at(at.time).velocity(self.medium, at.pose.origin.z + arm.z);
+        let (stream, slope) = steady.streams_at_time(at.time).velocity(self.medium, at.pose.origin.z + arm.z);
         let relative = stream - own - spin.cross(&arm);
         // the arm turns by d x r, and with it its velocity by spin x (d x r)
         let carried = cross(spin) * cross(arm);

@@ -30,7 +30,7 @@ impl<const D: usize> Strip<D> {
     }
 
     /// w at a distance from the surface, and its change with that distance.
-    pub fn at(&self, distance: f64) -> (SVector<f64, D>, SVector<f64, D>) {
+    pub fn evaluate(&self, distance: f64) -> (SVector<f64, D>, SVector<f64, D>) {
         let (u, [a, b, c]) = (distance - self.from, self.terms);
         (a + (b + c * u) * u, b + c * (2.0 * u))
     }
@@ -51,7 +51,7 @@ pub struct Strips<const D: usize = 2> {
 
 impl Strips {
     /// Those of the wind or the current in force.
-    pub fn of(steady: &Steady, medium: Medium) -> Self {
+    pub fn new(steady: &Steady, medium: Medium) -> Self {
         let level = steady.around.tide;
         let (sense, mut levels) = match medium {
             Medium::Air => {
@@ -69,7 +69,7 @@ impl Strips {
         levels.sort_by(f64::total_cmp);
         levels.dedup();
         if medium == Medium::Water && !steady.current.simple() {
-            levels = divided(&levels);
+            levels = divide_levels(&levels);
         }
         let w = |u: f64| {
             let v: Vector3<f64> = match (medium, &steady.wind) {
@@ -109,7 +109,7 @@ impl Strips<1> {
 
 impl<const D: usize> Strips<D> {
     /// The strips from a distance to another, each with where it ends.
-    pub fn between(&self, low: f64, high: f64) -> impl Iterator<Item = (&Strip<D>, f64)> {
+    pub fn strips_between(&self, low: f64, high: f64) -> impl Iterator<Item = (&Strip<D>, f64)> {
         let first = self.strips.partition_point(|s| s.from <= low).saturating_sub(1);
         let rest = &self.strips[first..];
         let ends = rest.iter().skip(1).map(|s| s.from).chain(std::iter::once(f64::INFINITY));
@@ -131,7 +131,7 @@ fn join(strips: &mut Vec<Strip>, strip: Strip) {
 }
 
 /// Levels with [`PARTS`] strips for each.
-fn divided(levels: &[f64]) -> Vec<f64> {
+fn divide_levels(levels: &[f64]) -> Vec<f64> {
     let mut made: Vec<f64> = levels
         .windows(2)
         .flat_map(|w| {

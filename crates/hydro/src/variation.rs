@@ -37,15 +37,17 @@ impl History {
     ///
     /// # Errors
     /// A curve that is not there.
-    fn of(model: &Model, named: &Formula, kind: CurveKind) -> Result<Self, ClassError> {
+    fn new(model: &Model, named: &Formula, kind: CurveKind) -> Result<Self, ClassError> {
         match model.curves.get(&Model::key(&named.kind)) {
             Some(curve) if curve.kind == kind => Ok(History { points: curve.points.clone() }),
-            _ => Err(ClassError::new(format!("there is no {} curve {}", kind.name(), named.kind)).at(named.span)),
+            _ => {
+                Err(ClassError::new(format!("there is no {} curve {}", kind.name(), named.kind)).with_span(named.span))
+            }
         }
     }
 
     /// Its value at a time (s).
-    pub fn at(&self, time: f64) -> f64 {
+    pub fn value_at_time(&self, time: f64) -> f64 {
         let next = self.points.partition_point(|p| p.0 <= time);
         match (next.checked_sub(1).and_then(|i| self.points.get(i)), self.points.get(next)) {
             (Some((low, at_low)), Some((high, at_high))) => at_low + (at_high - at_low) * (time - low) / (high - low),
@@ -71,20 +73,20 @@ impl Variation {
     ///
     /// # Errors
     /// A curve that is not there, wind that varies without a direction, a correlation that has no meaning.
-    pub fn of(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
+    pub fn new(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
         if let Some(given) = env.drift_correlation.as_ref().filter(|g| g.value != Some(0.0)) {
             let text = "no source says how -W_MD_CORRELATION makes gusts and mean drift depend on each other in time";
             return Err(ClassError::new(text)
-                .at(given.span)
+                .with_span(given.span)
                 .help("leave it out: gusts and drift are then independent"));
         }
         let wind = match &env.wind_history {
             None => None,
             Some(named) => {
-                let history = History::of(model, named, CurveKind::WindHistory)?;
+                let history = History::new(model, named, CurveKind::WindHistory)?;
                 let Some(mean) = env.wind else {
                     let text = format!("the wind history {} has no direction", named.kind);
-                    return Err(ClassError::new(text).at(named.span).help(
+                    return Err(ClassError::new(text).with_span(named.span).help(
                         "give -WIND SPEED DIR: its direction, and the \
                                                                           speed of statics",
                     ));
@@ -95,9 +97,9 @@ impl Variation {
         let current = env
             .current_history
             .as_ref()
-            .map(|named| History::of(model, named, CurveKind::CurrentHistory))
+            .map(|named| History::new(model, named, CurveKind::CurrentHistory))
             .transpose()?;
-        let gusts = Gusts::of(model, env)?;
+        let gusts = Gusts::new(model, env)?;
         if wind.is_none() && gusts.is_none() && current.is_none() {
             return Ok(None);
         }
@@ -105,11 +107,11 @@ impl Variation {
     }
 
     /// What there is at a time (s).
-    pub fn at(&self, time: f64) -> Instant {
+    pub fn sample(&self, time: f64) -> Instant {
         let (grown, _) = ramp(self.ramp, time);
-        let wind = self.wind.as_ref().map_or(0.0, |(mean, history)| grown * (history.at(time) - mean));
-        let current = self.current.as_ref().map_or(1.0, |history| 1.0 + grown * (history.at(time) - 1.0));
-        let gust = self.gusts.as_ref().map_or(0.0, |gusts| grown * gusts.at(time));
+        let wind = self.wind.as_ref().map_or(0.0, |(mean, history)| grown * (history.value_at_time(time) - mean));
+        let current = self.current.as_ref().map_or(1.0, |history| 1.0 + grown * (history.value_at_time(time) - 1.0));
+        let gust = self.gusts.as_ref().map_or(0.0, |gusts| grown * gusts.speed_at_time(time));
         Instant { wind, gust, current }
     }
 }

@@ -14,7 +14,7 @@ struct Weight {
 }
 
 /// The weight of a mass; none of a body without mass.
-pub fn of(mass: &Mass, gravity: f64) -> Option<Box<dyn BodyLoad>> {
+pub fn build_weight(mass: &Mass, gravity: f64) -> Option<Box<dyn BodyLoad>> {
     let made = Weight { weight: mass.mass * gravity, centre: mass.centre };
     (mass.mass != 0.0).then(|| Box::new(made) as Box<dyn BodyLoad>)
 }

@@ -83,15 +83,15 @@ impl WindField {
     ///
     /// # Errors
     /// An exponent for a formula that has none, or an averaging time that the formula of the design wind does not reach.
-    pub fn of(env: &Environment) -> Result<Option<Self>, ClassError> {
+    pub fn from_environment(env: &Environment) -> Result<Option<Self>, ClassError> {
         let Some(wind) = env.wind else { return Ok(None) };
         let (profile, design) = (env.wind_profile.as_ref(), env.design_wind.as_ref());
         let kind = profile.or(design).map_or("POWER", |g| g.kind.as_str());
         let exponent = profile.and_then(|g| g.value);
-        let law = law(kind, exponent, wind.speed).map_err(|e| profile.map_or(e.clone(), |g| e.at(g.span)))?;
+        let law = law(kind, exponent, wind.speed).map_err(|e| profile.map_or(e.clone(), |g| e.with_span(g.span)))?;
         let gust = match design {
             None => Gust::None,
-            Some(g) => gust(&g.kind, g.value, wind.speed).map_err(|e| e.at(g.span))?,
+            Some(g) => gust(&g.kind, g.value, wind.speed).map_err(|e| e.with_span(g.span))?,
         };
         Ok(Some(WindField::new(wind.speed, wind.direction, law, gust)))
     }
@@ -207,7 +207,7 @@ fn roughness(speed: f64) -> f64 {
 /// - DNV: `U(T, z) = U10 (1 + 0.137 ln(z/10) - 0.047 ln(T/600))`.
 /// - ABS: none.
 fn gust(kind: &str, duration: Option<f64>, speed: f64) -> Result<Gust, ClassError> {
-    let refuse = |text: &str, limit: f64| Err(ClassError::of(text, &[(limit, Dim::Time)]));
+    let refuse = |text: &str, limit: f64| Err(ClassError::with_values(text, &[(limit, Dim::Time)]));
     match (kind, duration) {
         (_, None) => Ok(Gust::None),
         ("API", Some(3600.0)) => Ok(Gust::None),

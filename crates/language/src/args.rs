@@ -8,7 +8,7 @@ mod convert;
 
 use super::record::Word;
 use super::select;
-use super::spec::{CommandSpec, Kind, OptionSpec, ValueSpec, expected};
+use super::spec::{CommandSpec, Kind, OptionSpec, ValueSpec, describe_expected};
 use super::token::Kind as Lex;
 use convert::{convert, take};
 use std::collections::BTreeMap;
@@ -69,7 +69,13 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
         let stray = behind.iter().find(|(word, _)| error.span == Some(word.span));
         match (meant, stray) {
             (Some((word, option, value)), _) => Diagnostic::error(
-                format!("{} of {} of {} must be {}", value.name, option.name, spec.name, expected(value.kind, units)),
+                format!(
+                    "{} of {} of {} must be {}",
+                    value.name,
+                    option.name,
+                    spec.name,
+                    describe_expected(value.kind, units)
+                ),
                 word.span,
             )
             .label(format!("nor can this be a datum: {}", error.message)),

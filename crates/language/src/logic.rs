@@ -96,7 +96,7 @@ impl Reader<'_> {
         self.words.get(self.at).map(String::as_str)
     }
 
-    fn next(&mut self) -> Option<String> {
+    fn next_token(&mut self) -> Option<String> {
         let word = self.words.get(self.at).cloned();
         self.at += 1;
         word
@@ -112,27 +112,27 @@ impl Reader<'_> {
     }
 
     fn both(&mut self, depth: usize) -> Result<bool, String> {
-        let mut value = self.negated(depth)?;
+        let mut value = self.parse_negation(depth)?;
         while self.peek() == Some(".AND.") {
             self.at += 1;
-            value &= self.negated(depth)?;
+            value &= self.parse_negation(depth)?;
         }
         Ok(value)
     }
 
-    fn negated(&mut self, depth: usize) -> Result<bool, String> {
+    fn parse_negation(&mut self, depth: usize) -> Result<bool, String> {
         if depth > DEEPEST {
             return Err("nested too deeply".into());
         }
         match self.peek() {
             Some(".NOT.") => {
                 self.at += 1;
-                Ok(!self.negated(depth + 1)?)
+                Ok(!self.parse_negation(depth + 1)?)
             }
             Some("(") => {
                 self.at += 1;
                 let value = self.either(depth + 1)?;
-                match self.next().as_deref() {
+                match self.next_token().as_deref() {
                     Some(")") => Ok(value),
                     _ => Err("a `)` is missing".into()),
                 }
@@ -146,7 +146,7 @@ impl Reader<'_> {
         // a variable or function that came to nothing leaves its place empty: the null string
         let left = match self.peek() {
             Some(word) if is_comparison(word) => String::new(),
-            _ => self.next().ok_or("a word is missing at the end")?,
+            _ => self.next_token().ok_or("a word is missing at the end")?,
         };
         let Some(operator) = self.peek().filter(|w| is_comparison(w)) else {
             return match left.as_str() {
@@ -159,7 +159,7 @@ impl Reader<'_> {
         self.at += 1;
         let right = match self.peek() {
             None | Some(".AND." | ".OR." | ")") => String::new(),
-            Some(_) => self.next().unwrap_or_default(),
+            Some(_) => self.next_token().unwrap_or_default(),
         };
         let numbers = (number::evaluate(&left), number::evaluate(&right));
         if let (Ok(a), Ok(b)) = numbers {

@@ -95,7 +95,7 @@ impl Record {
     pub fn span(&self, range: Range<usize>) -> Span {
         let start = self.place(range.start, false);
         let end = self.place(range.end.max(range.start + 1) - 1, true);
-        start.to(end)
+        start.join(end)
     }
 
     fn place(&self, at: usize, last: bool) -> Span {

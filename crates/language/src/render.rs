@@ -10,7 +10,7 @@ use windlass_base::span::Span;
 /// The message as printed: headline, place, the record with the word underlined, help lines. What a terminal would act on in the text of
 /// records and names is spelled; the colours are the renderer's.
 pub fn render(diagnostic: &Diagnostic, sources: &Sources, colour: bool) -> String {
-    let diagnostic = shortened(diagnostic);
+    let diagnostic = shorten_texts(diagnostic);
     let level = match diagnostic.severity {
         Severity::Note => Level::NOTE,
         Severity::Warning => Level::WARNING,
@@ -25,7 +25,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, colour: bool) -> Strin
     let mut excerpts: Vec<(Excerpt<'_>, Vec<Annotation<'_>>)> = Vec::new();
     for (span, kind, text) in places {
         let Some(source) = sources.get(span.source) else { continue };
-        let excerpt = Excerpt::of(source, span, excerpts.len());
+        let excerpt = Excerpt::new(source, span, excerpts.len());
         let mut annotation = kind.span(excerpt.range.clone());
         if !text.is_empty() {
             annotation = annotation.label(text);
@@ -57,7 +57,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, colour: bool) -> Strin
 }
 
 /// The message with every text printable and cut to a length a person reads.
-fn shortened(diagnostic: &Diagnostic) -> Diagnostic {
+fn shorten_texts(diagnostic: &Diagnostic) -> Diagnostic {
     let cut = |text: &str| match text.char_indices().nth(LONGEST_TEXT) {
         Some((at, _)) => printable(&format!("{} ..", text.get(..at).unwrap_or_default())).into_owned(),
         None => printable(text).into_owned(),
@@ -101,7 +101,7 @@ impl<'a> Excerpt<'a> {
         format!("{head}{}{tail}", printable(&sources.place(self.span)))
     }
 
-    fn of(source: &'a Source, span: Span, index: usize) -> Self {
+    fn new(source: &'a Source, span: Span, index: usize) -> Self {
         let text: &str = &source.text;
         let start = floor_boundary(text, span.start as usize);
         let end = floor_boundary(text, span.end as usize).max(start);

@@ -20,7 +20,7 @@ pub enum Form {
 ///
 /// # Panics
 /// While compiling, when `N` is another number.
-pub const fn joined<const N: usize>(first: &[OptionSpec], second: &[OptionSpec]) -> [OptionSpec; N] {
+pub const fn join_options<const N: usize>(first: &[OptionSpec], second: &[OptionSpec]) -> [OptionSpec; N] {
     assert!(N == first.len() + second.len(), "N is the number of both lists");
     let mut all = [OptionSpec::new("", &[], ""); N];
     let mut i = 0;
@@ -138,7 +138,7 @@ impl CommandSpec {
 }
 
 /// What a value is, in words, for help and errors: `a number (kips)`, `TENSION or COMPRESSION`.
-pub fn expected(kind: Kind, units: UnitSystem) -> String {
+pub fn describe_expected(kind: Kind, units: UnitSystem) -> String {
     let number = |label: String| if label.is_empty() { "a number".to_string() } else { format!("a number ({label})") };
     match kind {
         Kind::Number(dim) => number(dim.label(units)),
@@ -148,7 +148,9 @@ pub fn expected(kind: Kind, units: UnitSystem) -> String {
             [first @ .., last] => format!("{} or {last}", first.join(", ")),
             [] => "a word".into(),
         },
-        Kind::ChoiceOrName(words, noun) => format!("{} or {}", words.join(", "), expected(Kind::Name(noun), units)),
+        Kind::ChoiceOrName(words, noun) => {
+            format!("{} or {}", words.join(", "), describe_expected(Kind::Name(noun), units))
+        }
         Kind::Name(noun) => match noun {
             Noun::Class => "a class (~NAME)",
             Noun::Point => "a point (*NAME)",

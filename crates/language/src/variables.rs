@@ -42,7 +42,7 @@ impl Variables {
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), VariableError> {
         let key = name.to_ascii_uppercase();
         let scope = self.scopes.iter_mut().rev().find(|s| s.contains_key(&key)).unwrap_or(&mut self.globals);
-        put(scope, key, value)
+        set_variable(scope, key, value)
     }
 
     /// Sets a local of the innermost macro (a global outside of macros).
@@ -51,7 +51,7 @@ impl Variables {
     /// As [`Variables::set`].
     pub fn set_local(&mut self, name: &str, value: &str) -> Result<(), VariableError> {
         let scope = self.scopes.last_mut().unwrap_or(&mut self.globals);
-        put(scope, name.to_ascii_uppercase(), value)
+        set_variable(scope, name.to_ascii_uppercase(), value)
     }
 
     /// Opens a scope for a macro call.
@@ -70,7 +70,7 @@ impl Variables {
     }
 }
 
-fn put(scope: &mut IndexMap<String, String>, key: String, value: &str) -> Result<(), VariableError> {
+fn set_variable(scope: &mut IndexMap<String, String>, key: String, value: &str) -> Result<(), VariableError> {
     if value.len() > LONGEST_VALUE {
         return Err(VariableError::TooLong);
     }

@@ -1,22 +1,22 @@
 //! One pass over the elements of a rod.
 
-use super::abreast::plain;
 use super::bend::hinge;
-use super::drawn::{Rub, rub};
-use super::held::{Hold, hold};
+use super::element_batch::count_batchable;
+use super::environment::LineEnvironment;
 use super::hinges::spatial_hinges;
-use super::immersed::{entry, half_load, slam_load, wet_share, wind_load};
 use super::mesh::{Element, Rod};
-use super::on_nodes::on_nodes;
-use super::surroundings::World;
+use super::morison::{half_load, slam_load, water_entry, wet_share, wind_load};
+use super::nodal_loads::add_nodal_loads;
+use super::statics_friction::{NodeFriction, seabed_friction};
+use super::stick_friction::{StickFriction, stick_friction};
 use super::system::{System, Weights};
-use super::tension::{Stretch, Taken, Tension, tension};
+use super::tension::{Stretch, Tension, TensionOptions, tension};
 use super::trial::Trial;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
 /// Where one element is, and which way it points.
-struct Edge {
+struct ElementAxis {
     /// Its number.
     i: usize,
     /// Its direction.
@@ -26,18 +26,18 @@ struct Edge {
     inverse: f64,
 }
 
-impl Edge {
+impl ElementAxis {
     #[inline(always)]
-    fn of(rod: &Rod, trial: &Trial, i: usize) -> Self {
+    fn from_trial(rod: &Rod, trial: &Trial, i: usize) -> Self {
         let d = trial.x[i + 1] - trial.x[i];
         // nodes of a slack heap may meet: their element then has no direction, and no tension to need one
         let length = d.norm().max(1e-9 * rod.elements[i].rest);
-        Edge { i, t: d / length, length, inverse: 1.0 / length }
+        ElementAxis { i, t: d / length, length, inverse: 1.0 / length }
     }
 }
 
 /// Residual of an element on its two nodes, and its tangent: first or second node by first or second.
-struct Share {
+struct ElementTangent {
     fa: Vector3<f64>,
     fb: Vector3<f64>,
     aa: Matrix3<f64>,
@@ -51,7 +51,7 @@ struct Share {
 /// Without `TANGENT` the residual alone.
 pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     rod: &Rod,
-    world: &World,
+    world: &LineEnvironment,
     trial: &Trial,
     weights: Weights,
     range: Range<usize>,
@@ -60,16 +60,16 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
     let gravity = world.gravity;
     let mut i = range.start;
     while i < range.end {
-        let count = plain(rod, trial, i..range.end);
+        let count = count_batchable(rod, trial, i..range.end);
         if count > 0 {
-            system.abreast.take::<TANGENT>(rod, trial, (weights, gravity), (i, count));
+            system.abreast.assemble_batch::<TANGENT>(rod, trial, (weights, gravity), (i, count));
             system.shares::<TANGENT>(i, count);
             i += count;
             continue;
         }
-        let (element, edge) = (&rod.elements[i], Edge::of(rod, trial, i));
+        let (element, edge) = (&rod.elements[i], ElementAxis::from_trial(rod, trial, i));
         let mut share = axial(rod, element, trial, weights, &edge, gravity);
-        immersed::<TANGENT>(element, trial, weights, &edge, world, &mut share);
+        add_water_load::<TANGENT>(element, trial, weights, &edge, world, &mut share);
         system.push(i, &share.fa);
         system.push(i + 1, &share.fb);
         system.block::<TANGENT>(i, i, &share.aa);
@@ -78,26 +78,28 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
         system.block::<TANGENT>(i + 1, i + 1, &share.bb);
         i += 1;
     }
-    if let Some(side) = trial.drawn {
+    if let Some(side) = trial.pulled_end {
         for i in range.clone() {
-            let Some(Rub { node, force, by, .. }) = rub(rod, world, trial, i, side) else { continue };
+            let Some(NodeFriction { node, force, by, .. }) = seabed_friction(rod, world, trial, i, side) else {
+                continue;
+            };
             let (own, other) = (node, if node == i { i + 1 } else { i });
             system.push(own, &-force);
             system.block::<TANGENT>(own, own, &(by[0] * -weights.k));
             system.block::<TANGENT>(own, other, &(by[1] * -weights.k));
         }
     }
-    if trial.held {
+    if trial.stick_friction {
         for node in range.start..=range.end {
-            let Some(Hold { force, by, .. }) = hold(rod, world, trial, node) else { continue };
+            let Some(StickFriction { force, by, .. }) = stick_friction(rod, world, trial, node) else { continue };
             system.push(node, &-force);
             system.block::<TANGENT>(node, node, &(by * -weights.k));
         }
     }
-    if !trial.loose && rod.elements[range.clone()].iter().any(|e| e.bending > 0.0) {
+    if !trial.tension_only && rod.elements[range.clone()].iter().any(|e| e.bending > 0.0) {
         let mut before: Option<(Vector3<f64>, f64)> = None;
         for i in range.clone() {
-            let edge = Edge::of(rod, trial, i);
+            let edge = ElementAxis::from_trial(rod, trial, i);
             if rod.elements[i].bending > 0.0 {
                 if W == 4 {
                     for (sides, gradient, matrix) in spatial_hinges(rod, trial, i) {
@@ -118,7 +120,7 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
             system.band.add(W * i + 3, W * i + 3, held);
         }
     }
-    on_nodes::<TANGENT, W, H, S>(rod, world, trial, weights, range, system);
+    add_nodal_loads::<TANGENT, W, H, S>(rod, world, trial, weights, range, system);
 }
 
 /// Tension, weight and inertia.
@@ -128,17 +130,20 @@ fn axial(
     element: &Element,
     trial: &Trial,
     Weights { k, c, m }: Weights,
-    edge: &Edge,
+    edge: &ElementAxis,
     gravity: f64,
-) -> Share {
-    let Edge { i, t, length, inverse } = edge;
+) -> ElementTangent {
+    let ElementAxis { i, t, length, inverse } = edge;
     let (xa, xb) = (&trial.x[*i], &trial.x[i + 1]);
     let inverse_rest = 1.0 / element.rest;
     let stretch = length * inverse_rest;
     let dv = trial.v[i + 1] - trial.v[*i];
-    let let_out = if trial.still { 0.0 } else { element.rate };
+    let let_out = if trial.winches_locked { 0.0 } else { element.rate };
     let rate = (t.dot(&dv) - stretch * let_out) * inverse_rest;
-    let taken = Taken { compression: (element.compression || trial.stiff()) && !trial.loose, ease: trial.ease };
+    let taken = TensionOptions {
+        compression: (element.compression || trial.resists_shortening()) && !trial.tension_only,
+        axial_stiffness_scale: trial.axial_stiffness_scale,
+    };
     let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z), datum: trial.origin.z };
     let memory = trial.memory.get(*i);
     let Tension { value, by_strain, by_rate, by_height } =
@@ -156,7 +161,7 @@ fn axial(
         let across = dv - t * t.dot(&dv);
         stiff += t * (across * (k * damped * inverse)).transpose();
     }
-    let mut share = Share {
+    let mut share = ElementTangent {
         fa: trial.a[*i] * element.mass - force,
         fb: trial.a[i + 1] * element.mass + force,
         aa: stiff,
@@ -183,16 +188,16 @@ fn axial(
 
 /// The water and the wind on each half.
 #[inline(always)]
-fn immersed<const TANGENT: bool>(
+fn add_water_load<const TANGENT: bool>(
     element: &Element,
     trial: &Trial,
     weights: Weights,
-    edge: &Edge,
-    World { gravity, slam, .. }: &World,
-    sum: &mut Share,
+    edge: &ElementAxis,
+    LineEnvironment { gravity, slam, .. }: &LineEnvironment,
+    sum: &mut ElementTangent,
 ) {
     let Weights { k, c, m } = weights;
-    let Edge { i, t, inverse, .. } = edge;
+    let ElementAxis { i, t, inverse, .. } = edge;
     let depth = |node: usize| trial.fluid[node].surface - trial.x[node].z;
     let (sa, sb) = (depth(*i), depth(i + 1));
     let middle = 0.5 * (sa + sb);
@@ -204,76 +209,76 @@ fn immersed<const TANGENT: bool>(
             let load = half_load(element, t, fluid, &trial.v[node], &trial.a[node], *gravity);
             let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * share * inverse);
             let moved = load.by_velocity * (c * share) + load.by_acceleration * (m * share);
-            sum.load(second, &(load.force * share), &turned, &moved);
+            sum.add_half_load(second, &(load.force * share), &turned, &moved);
             if by_own != 0.0 || by_middle != 0.0 {
                 // depth below the surface falls as a node rises
                 let (to_own, to_other) = (-(by_own + 0.5 * by_middle), -0.5 * by_middle);
-                sum.lift(second, &load.force, [k * to_own, k * to_other]);
-                if *slam && !trial.still {
-                    sum.add::<TANGENT>(&slammed(element, trial, weights, edge, [own, middle], second));
+                sum.add_lift(second, &load.force, [k * to_own, k * to_other]);
+                if *slam && !trial.winches_locked {
+                    sum.add::<TANGENT>(&add_slam_load(element, trial, weights, edge, [own, middle], second));
                 }
             }
         }
         if share < 1.0 && fluid.air_density * element.wind > 0.0 {
-            sum.add::<TANGENT>(&blown(element, trial, weights, edge, (share, by_own, by_middle), second));
+            sum.add::<TANGENT>(&add_wind_load(element, trial, weights, edge, (share, by_own, by_middle), second));
         }
     }
 }
 
 /// The wind on a half with that wet share, and its slopes by the depths of its own node and of the middle.
 #[inline(never)]
-fn blown(
+fn add_wind_load(
     element: &Element,
     trial: &Trial,
     Weights { k, c, .. }: Weights,
-    edge: &Edge,
+    edge: &ElementAxis,
     (share, by_own, by_middle): (f64, f64, f64),
     second: bool,
-) -> Share {
-    let Edge { i, t, inverse, .. } = edge;
-    let mut sum = Share::none();
+) -> ElementTangent {
+    let ElementAxis { i, t, inverse, .. } = edge;
+    let mut sum = ElementTangent::zero();
     let node = if second { i + 1 } else { *i };
     let load = wind_load(element, t, &trial.fluid[node], &trial.v[node]);
     let dry = 1.0 - share;
     let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * dry * inverse);
-    sum.load(second, &(load.force * dry), &turned, &(load.by_velocity * (c * dry)));
-    sum.lift(second, &load.force, [k * (by_own + 0.5 * by_middle), k * 0.5 * by_middle]);
+    sum.add_half_load(second, &(load.force * dry), &turned, &(load.by_velocity * (c * dry)));
+    sum.add_lift(second, &load.force, [k * (by_own + 0.5 * by_middle), k * 0.5 * by_middle]);
     sum
 }
 
 /// The slam on a half whose own node and middle lie that far below the surface (m).
 #[inline(never)]
-fn slammed(
+fn add_slam_load(
     element: &Element,
     trial: &Trial,
     Weights { k, c, .. }: Weights,
-    edge: &Edge,
+    edge: &ElementAxis,
     [own, middle]: [f64; 2],
     second: bool,
-) -> Share {
-    let Edge { i, t, inverse, .. } = edge;
-    let mut sum = Share::none();
+) -> ElementTangent {
+    let ElementAxis { i, t, inverse, .. } = edge;
+    let mut sum = ElementTangent::zero();
     let (node, other) = if second { (i + 1, *i) } else { (*i, i + 1) };
     let rising = [node, other].map(|n| trial.v[n].z - trial.fluid[n].velocity.z);
-    let Some(entry) = entry(own, middle, element.diameter, rising) else { return sum };
+    let Some(entry) = water_entry(own, middle, element.diameter, rising) else { return sum };
     let (fluid, v) = (&trial.fluid[node], &trial.v[node]);
     let load = slam_load(element, t, fluid, v, entry.rate);
     let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * inverse);
-    sum.load(second, &load.force, &turned, &(load.by_velocity * c));
+    sum.add_half_load(second, &load.force, &turned, &(load.by_velocity * c));
     let by_rate = load.force / entry.rate;
-    sum.lift(second, &by_rate, [0, 1].map(|n| k * entry.by_height[n] + c * entry.by_velocity[n]));
+    sum.add_lift(second, &by_rate, [0, 1].map(|n| k * entry.by_height[n] + c * entry.by_velocity[n]));
     sum
 }
 
-impl Share {
-    fn none() -> Self {
+impl ElementTangent {
+    fn zero() -> Self {
         let (force, block) = (Vector3::zeros(), Matrix3::zeros());
-        Share { fa: force, fb: force, aa: block, ab: block, ba: block, bb: block }
+        ElementTangent { fa: force, fb: force, aa: block, ab: block, ba: block, bb: block }
     }
 
     /// Adds another. What is not asked for is left alone, so that it need not be known.
     #[inline(always)]
-    fn add<const TANGENT: bool>(&mut self, other: &Share) {
+    fn add<const TANGENT: bool>(&mut self, other: &ElementTangent) {
         self.fa += other.fa;
         self.fb += other.fb;
         if TANGENT {
@@ -286,7 +291,7 @@ impl Share {
 
     /// Adds a load of one half, with its tangent by the direction of the element and by the motion of its node.
     #[inline(always)]
-    fn load(&mut self, second: bool, force: &Vector3<f64>, turned: &Matrix3<f64>, moved: &Matrix3<f64>) {
+    fn add_half_load(&mut self, second: bool, force: &Vector3<f64>, turned: &Matrix3<f64>, moved: &Matrix3<f64>) {
         if second {
             self.fb += force;
             self.ba -= turned;
@@ -300,7 +305,7 @@ impl Share {
 
     /// Adds the tangent of a load of one half that grows in proportion as its own node rises, and the other.
     #[inline(always)]
-    fn lift(&mut self, second: bool, force: &Vector3<f64>, [by_own, by_other]: [f64; 2]) {
+    fn add_lift(&mut self, second: bool, force: &Vector3<f64>, [by_own, by_other]: [f64; 2]) {
         let (own, other) = if second { (&mut self.bb, &mut self.ba) } else { (&mut self.aa, &mut self.ab) };
         let mut third = own.column_mut(2);
         third += force * by_own;
@@ -314,11 +319,11 @@ fn bending<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     rod: &Rod,
     trial: &Trial,
     k: f64,
-    edge: &Edge,
+    edge: &ElementAxis,
     before: Option<(Vector3<f64>, f64)>,
     system: &mut System<W, H, S>,
 ) {
-    let Edge { i, t, length, .. } = edge;
+    let ElementAxis { i, t, length, .. } = edge;
     let (i, last) = (*i, rod.elements.len() - 1);
     if let Some((e, le)) = before {
         let h = hinge(rod.hinge(i), &e, le, t, *length);

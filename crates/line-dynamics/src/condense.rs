@@ -1,17 +1,17 @@
 //! What a rod is to what holds its ends: its forces and moments there, and how they follow the motion of the ends.
 
+use super::environment::LineEnvironment;
 use super::hinges::{Clamp, clamp};
 use super::mesh::Rod;
-use super::step::{At, Solver};
-use super::surroundings::World;
+use super::step::{Solver, SolverPhase};
 use super::system::Weights;
 use nalgebra::SMatrix;
 
 /// Places of the widest row of a band.
-pub(super) const WIDEST: usize = 21;
+pub(super) const MAX_BANDWIDTH: usize = 21;
 
 /// Forces and moments of two ends by their translations and rotations.
-pub type Twelve = SMatrix<f64, 12, 12>;
+pub type Matrix12 = SMatrix<f64, 12, 12>;
 
 /// How the forces and moments of a rod on its two holders follow the motion of the holders at that time, all inner
 /// nodes in balance.
@@ -27,31 +27,31 @@ pub type Twelve = SMatrix<f64, 12, 12>;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EndTangent {
     /// By position and angle (N/m, N, N m).
-    pub position: Twelve,
+    pub position: Matrix12,
     /// By velocity (N s/m, N s).
-    pub velocity: Twelve,
+    pub velocity: Matrix12,
     /// By acceleration (kg, kg m).
-    pub acceleration: Twelve,
+    pub acceleration: Matrix12,
 }
 
 impl EndTangent {
     /// The one tangent of a body whose velocity and acceleration follow its position as `c` and `m` times it.
-    pub fn by_position(&self, c: f64, m: f64) -> Twelve {
+    pub fn by_position(&self, c: f64, m: f64) -> Matrix12 {
         self.position + self.velocity * c + self.acceleration * m
     }
 }
 
-/// The ends' part in the matrix at hand.
+/// Jacobian columns of the ends in the current tangent matrix, and the tangent condensed to them.
 #[derive(Clone, Debug)]
-pub(super) struct Near {
+pub(super) struct EndJacobian {
     /// How the unknowns beside an end feel its position, velocity and acceleration: kind, side, axis; a column of the
     /// matrix with its diagonal in the middle place.
-    pub columns: [[Columns; 2]; 3],
+    pub columns: [[EndColumns; 2]; 3],
     /// The same by all three together, as the scheme makes them follow each other.
-    pub together: [Columns; 2],
+    pub together: [EndColumns; 2],
     /// Whether the columns of each end are there.
     pub ready: [bool; 2],
-    /// The tangent of the ends that were felt last.
+    /// The condensed tangent asked for last.
     pub condensed: Option<Box<EndTangent>>,
     /// These ends, where it is the tangent by the columns that are there: of a rod that nothing clamps.
     pub felt: Option<[bool; 2]>,
@@ -60,15 +60,15 @@ pub(super) struct Near {
 }
 
 /// Columns of the matrix by the three translations of an end.
-type Columns = [[f64; WIDEST]; 3];
+type EndColumns = [[f64; MAX_BANDWIDTH]; 3];
 
 /// Share of the shortest element that nodes may have moved since a matrix was factored that is as good as a new one.
-const CLOSE: f64 = 1e-3;
+const MAX_REUSE_MOVE: f64 = 1e-3;
 
-impl Near {
+impl EndJacobian {
     pub fn new() -> Self {
-        let none = [[[0.0; WIDEST]; 3]; 2];
-        Near {
+        let none = [[[0.0; MAX_BANDWIDTH]; 3]; 2];
+        EndJacobian {
             columns: [none; 3],
             together: none,
             ready: [false; 2],
@@ -85,119 +85,131 @@ impl Solver {
     /// step that was cut it is that of its last part.
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.
-    pub fn end_tangent(&mut self, rod: &Rod, world: &World) -> Option<&EndTangent> {
-        self.nearby(world, |solver, world, _| solver.linearise(rod, world, true, [true; 2]))?;
+    pub fn end_tangent(&mut self, rod: &Rod, world: &LineEnvironment) -> Option<&EndTangent> {
+        self.in_local_coordinates(world, |solver, world, _| solver.linearise(rod, world, true, [true; 2]))?;
         self.condense(rod, [true; 2])
     }
 
     /// The same by the factors the trial has left, as long as its nodes have moved by less than a thousandth of the
     /// shortest element since, with friction by its secant: for a body's Newton iteration, which converges by it as
     /// well, at a quarter of the cost. The trial's forces stay what they are.
-    pub fn end_tangent_at_hand(&mut self, rod: &Rod, world: &World) -> Option<&EndTangent> {
-        self.end_tangent_felt(rod, world, [true; 2])
+    pub fn end_tangent_from_factors(&mut self, rod: &Rod, world: &LineEnvironment) -> Option<&EndTangent> {
+        self.end_tangent_of_sides(rod, world, [true; 2])
     }
 
     /// The same, of which only the rows and columns of some ends are asked for, A and B: an end in the ground feels nothing and
     /// does not move. The others are zero. That of end A alone costs next to nothing.
-    pub fn end_tangent_felt(&mut self, rod: &Rod, world: &World, felt: [bool; 2]) -> Option<&EndTangent> {
-        self.nearby(world, |solver, world, _| solver.linearise(rod, world, false, felt))?;
+    pub fn end_tangent_of_sides(&mut self, rod: &Rod, world: &LineEnvironment, felt: [bool; 2]) -> Option<&EndTangent> {
+        self.in_local_coordinates(world, |solver, world, _| solver.linearise(rod, world, false, felt))?;
         self.condense(rod, felt)
     }
 
-    /// Condenses the matrix at hand to the ends that are asked about.
+    /// Condenses the current matrix to the ends that are asked about.
     fn condense(&mut self, rod: &Rod, felt: [bool; 2]) -> Option<&EndTangent> {
         let clamps = [0, 1].map(|side| clamp(rod, &self.trial, side));
         let pinned = clamps.iter().all(Option::is_none);
-        if pinned && self.near.felt == Some(felt) {
-            return self.near.condensed.as_deref();
+        if pinned && self.end_jacobian.felt == Some(felt) {
+            return self.end_jacobian.condensed.as_deref();
         }
-        let mut made = self.near.condensed.take().unwrap_or_default();
+        let mut made = self.end_jacobian.condensed.take().unwrap_or_default();
         let EndTangent { position, velocity, acceleration } = &mut *made;
         let mut kinds = [position, velocity, acceleration];
         kinds.iter_mut().for_each(|kind| kind.fill(0.0));
         for side in (0..2).filter(|side| felt[*side]) {
             let held = self.trial.ends[side].motion.is_some();
             match &clamps[side] {
-                Some(_) => self.feel::<6>((side, felt), &clamps, &mut kinds),
-                None if held => self.feel::<3>((side, felt), &clamps, &mut kinds),
+                Some(_) => self.add_end_columns::<6>((side, felt), &clamps, &mut kinds),
+                None if held => self.add_end_columns::<3>((side, felt), &clamps, &mut kinds),
                 None => {}
             }
         }
-        (self.near.condensed, self.near.felt) = (Some(made), pinned.then_some(felt));
-        self.near.condensed.as_deref()
+        (self.end_jacobian.condensed, self.end_jacobian.felt) = (Some(made), pinned.then_some(felt));
+        self.end_jacobian.condensed.as_deref()
     }
 
     /// Sees to factors of the matrix where the last trial ended, or unless `exact` near enough, and to the columns of
     /// the ends that are asked about.
-    pub(super) fn linearise(&mut self, rod: &Rod, world: &World, exact: bool, asked: [bool; 2]) -> Option<()> {
-        match self.at {
-            At::Nowhere => return None,
+    pub(super) fn linearise(
+        &mut self,
+        rod: &Rod,
+        world: &LineEnvironment,
+        exact: bool,
+        asked: [bool; 2],
+    ) -> Option<()> {
+        match self.phase {
+            SolverPhase::Idle => return None,
             // the trial's own positions are at hand in the state that follows it
-            At::Trial => self.follow_next(),
-            At::Rest => {}
+            SolverPhase::Trial => self.set_trial_from_next(),
+            SolverPhase::Rest => {}
         }
-        let at_rest = self.at == At::Rest;
-        let close = !exact && !at_rest && self.near.moved <= CLOSE * rod.shortest();
-        if !(close && (0..2).all(|side| self.near.ready[side] || !asked[side])) {
-            (self.trial.exact, self.trial.still) = (!close, at_rest);
+        let at_rest = self.phase == SolverPhase::Rest;
+        let close = !exact && !at_rest && self.end_jacobian.moved <= MAX_REUSE_MOVE * rod.shortest();
+        if !(close && (0..2).all(|side| self.end_jacobian.ready[side] || !asked[side])) {
+            (self.trial.exact_friction_tangent, self.trial.winches_locked) = (!close, at_rest);
             let made = self.columns(rod, world, (close, at_rest), asked);
-            (self.trial.exact, self.trial.still) = (false, false);
+            (self.trial.exact_friction_tangent, self.trial.winches_locked) = (false, false);
             made?;
         }
         Some(())
     }
 
     /// Factors the matrix where the trial is unless those at hand are `close`, and finds the columns of the ends.
-    fn columns(&mut self, rod: &Rod, world: &World, (close, at_rest): (bool, bool), asked: [bool; 2]) -> Option<()> {
+    fn columns(
+        &mut self,
+        rod: &Rod,
+        world: &LineEnvironment,
+        (close, at_rest): (bool, bool),
+        asked: [bool; 2],
+    ) -> Option<()> {
         let last = rod.elements.len();
         let known = self.trial.ends.map(|e| e.motion.is_some());
         if !close {
-            self.near.moved = f64::INFINITY;
+            self.end_jacobian.moved = f64::INFINITY;
             self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
-            self.keep_matrix();
+            self.reset_end_jacobian();
             for (side, node) in [(0, 0), (1, last)] {
                 if known[side] {
                     self.work.fix(node);
                 }
             }
             self.work.factor().ok()?;
-            self.near.moved = 0.0;
+            self.end_jacobian.moved = 0.0;
         }
         let stride = self.work.stride();
-        let reach = self.work.reach().min(last);
+        let reach = self.work.bandwidth().min(last);
         let single = [Weights { k: 0.0, c: 1.0, m: 0.0 }, Weights { k: 0.0, c: 0.0, m: 1.0 }];
         let shares = [self.weights.c, self.weights.m];
-        let [by_position, others @ ..] = &mut self.near.columns;
+        let [by_position, others @ ..] = &mut self.end_jacobian.columns;
         for (side, range) in [(0, 0..reach), (1, last - reach..last)] {
-            if !asked[side] || self.near.ready[side] {
+            if !asked[side] || self.end_jacobian.ready[side] {
                 continue;
             }
-            by_position[side] = self.near.together[side];
+            by_position[side] = self.end_jacobian.together[side];
             for ((kind, weights), share) in others.iter_mut().zip(single).zip(shares) {
-                kind[side] = [[0.0; WIDEST]; 3];
+                kind[side] = [[0.0; MAX_BANDWIDTH]; 3];
                 if !known[side] || at_rest {
                     continue;
                 }
-                self.beside.assemble_part(rod, world, &self.trial, weights, range.clone());
+                self.spare_work.assemble_part(rod, world, &self.trial, weights, range.clone());
                 for axis in 0..3 {
                     let column = &mut kind[side][axis];
-                    self.beside.column(side * stride * last + axis, column);
+                    self.spare_work.column(side * stride * last + axis, column);
                     for (p, other) in by_position[side][axis].iter_mut().zip(column) {
                         *p -= share * *other;
                     }
                 }
             }
         }
-        self.near.ready = [0, 1].map(|side| self.near.ready[side] || asked[side]);
+        self.end_jacobian.ready = [0, 1].map(|side| self.end_jacobian.ready[side] || asked[side]);
         Some(())
     }
 
     /// Keeps of a matrix that has just been assembled what is asked of it later: the rows and columns of the ends.
-    pub(super) fn keep_matrix(&mut self) {
-        (self.near.ready, self.near.felt) = ([false; 2], None);
+    pub(super) fn reset_end_jacobian(&mut self) {
+        (self.end_jacobian.ready, self.end_jacobian.felt) = ([false; 2], None);
         self.work.keep_rows();
         let place = [0, self.change.len() - self.work.stride()];
-        for (columns, place) in self.near.together.iter_mut().zip(place) {
+        for (columns, place) in self.end_jacobian.together.iter_mut().zip(place) {
             for (axis, column) in columns.iter_mut().enumerate() {
                 self.work.column(place + axis, column);
             }
@@ -208,11 +220,11 @@ impl Solver {
     ///
     /// With outputs F(u, p) and balance R(u, p) = 0 of unknowns u and motions p, dF/dp = F_p - L R_p where L R_u =
     /// F_u: a row of the tangent is one solution with the transpose, whatever the number of motions.
-    fn feel<const N: usize>(
+    fn add_end_columns<const N: usize>(
         &mut self,
         (side, felt): (usize, [bool; 2]),
         clamps: &[Option<Clamp>; 2],
-        made: &mut [&mut Twelve; 3],
+        made: &mut [&mut Matrix12; 3],
     ) {
         let stride = self.work.stride();
         let size = self.change.len();
@@ -242,7 +254,7 @@ impl Solver {
         // the moment feels the place of a held end itself
         let own = place.map(|first| [0, 1, 2].map(|axis| right[first + axis]));
         // rows beside end A, where nothing is asked or answered beyond them
-        let beside = 2 * stride + WIDEST / 2;
+        let beside = 2 * stride + MAX_BANDWIDTH / 2;
         let wanted = if felt[1] { size } else { beside };
         self.work.solve_transposed(right, (if side == 0 { beside } else { size }, wanted));
         // what an entry of R_p does: on an inner row through the solution, on a row of this end as its own force
@@ -259,8 +271,8 @@ impl Solver {
             for (kind, matrix) in made.iter_mut().enumerate().filter(|_| known[other]) {
                 for axis in 0..3 {
                     let mut column = [0.0; N];
-                    for (i, entry) in self.near.columns[kind][other][axis].iter().enumerate() {
-                        let row = (place[other] + axis + i).checked_sub(WIDEST / 2).filter(|row| *row < size);
+                    for (i, entry) in self.end_jacobian.columns[kind][other][axis].iter().enumerate() {
+                        let row = (place[other] + axis + i).checked_sub(MAX_BANDWIDTH / 2).filter(|row| *row < size);
                         if let Some(row) = row.filter(|_| *entry != 0.0) {
                             add(&mut column, row, *entry);
                         }

@@ -1,6 +1,6 @@
 //! A node on the bottom: normal support, damping, friction.
 
-use super::surroundings::{Bottom, Ground};
+use super::environment::{Bottom, SeabedLaw};
 use nalgebra::{Matrix3, Vector3};
 
 /// Force of the bottom on a node with its derivatives.
@@ -13,8 +13,8 @@ pub(super) struct Contact {
     pub by_velocity: Matrix3<f64>,
 }
 
-/// A place in the bottom: the normal of that, and how deep the place lies along it (m).
-fn sunk(bottom: &dyn Bottom, x: &Vector3<f64>) -> Option<(Vector3<f64>, f64)> {
+/// Normal of the bottom at a place below it, and the penetration along the normal (m).
+fn penetration(bottom: &dyn Bottom, x: &Vector3<f64>) -> Option<(Vector3<f64>, f64)> {
     let (height, slope) = bottom.height(x.x, x.y);
     if x.z >= height {
         return None;
@@ -23,31 +23,31 @@ fn sunk(bottom: &dyn Bottom, x: &Vector3<f64>) -> Option<(Vector3<f64>, f64)> {
     Some((normal, (height - x.z) * normal.z))
 }
 
-/// A spring that is whole from a depth `soft` on (m), at a depth: its force over its stiffness, with two derivatives by
-/// the depth, and its energy over its stiffness.
-struct Pressed {
+/// Contact force per stiffness at a penetration, with two derivatives by it, and the energy per stiffness. The stiffness has its full
+/// value from a penetration `soft` on (m).
+struct ContactForce {
     depth: f64,
     share: f64,
     bend: f64,
     energy: f64,
 }
 
-fn pressed(depth: f64, soft: f64) -> Pressed {
+fn contact_force(depth: f64, soft: f64) -> ContactForce {
     if depth < soft {
         let energy = depth.powi(3) / (6.0 * soft);
-        return Pressed { depth: 0.5 * depth * depth / soft, share: depth / soft, bend: 1.0 / soft, energy };
+        return ContactForce { depth: 0.5 * depth * depth / soft, share: depth / soft, bend: 1.0 / soft, energy };
     }
     let energy = 0.5 * depth * depth - 0.5 * soft * depth + soft * soft / 6.0;
-    Pressed { depth: depth - 0.5 * soft, share: 1.0, bend: 0.0, energy }
+    ContactForce { depth: depth - 0.5 * soft, share: 1.0, bend: 0.0, energy }
 }
 
 /// Elastic energy of the bottom under a node (J); `soft` as in [`contact`].
-pub(super) fn energy(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64, x: &Vector3<f64>) -> f64 {
-    sunk(bottom, x).map_or(0.0, |(_, depth)| ground.stiffness * area * pressed(depth, soft).energy)
+pub(super) fn energy(bottom: &dyn Bottom, ground: &SeabedLaw, soft: f64, area: f64, x: &Vector3<f64>) -> f64 {
+    penetration(bottom, x).map_or(0.0, |(_, depth)| ground.stiffness * area * contact_force(depth, soft).energy)
 }
 
 /// A vector no longer than one, and its derivative by the vector or, unless `exact`, the secant.
-fn capped(u: &Vector3<f64>, exact: bool) -> (Vector3<f64>, Matrix3<f64>) {
+fn cap_to_unit(u: &Vector3<f64>, exact: bool) -> (Vector3<f64>, Matrix3<f64>) {
     let size = u.norm();
     if size <= 1.0 {
         return (*u, Matrix3::identity());
@@ -58,15 +58,20 @@ fn capped(u: &Vector3<f64>, exact: bool) -> (Vector3<f64>, Matrix3<f64>) {
 }
 
 /// Where a node sticks from then on that has stuck at a place and is now at `x`.
-pub(super) fn sticks(bottom: &dyn Bottom, ground: &Ground, x: &Vector3<f64>, stuck: &Vector3<f64>) -> Vector3<f64> {
-    let Some((normal, _)) = sunk(bottom, x) else { return *x };
+pub(super) fn update_stick_point(
+    bottom: &dyn Bottom,
+    ground: &SeabedLaw,
+    x: &Vector3<f64>,
+    stuck: &Vector3<f64>,
+) -> Vector3<f64> {
+    let Some((normal, _)) = penetration(bottom, x) else { return *x };
     let way = x - stuck;
-    let (held, _) = capped(&((way - normal * way.dot(&normal)) / ground.friction_travel), true);
+    let (held, _) = cap_to_unit(&((way - normal * way.dot(&normal)) / ground.friction_travel), true);
     x - held * ground.friction_travel
 }
 
-/// A node that the bottom bears at rest.
-pub(super) struct Borne {
+/// Normal reaction of the bottom on a node at rest.
+pub(super) struct NormalReaction {
     /// Force (N), normal to the bottom, with the normal.
     pub force: f64,
     pub normal: Vector3<f64>,
@@ -74,11 +79,17 @@ pub(super) struct Borne {
     pub by_depth: f64,
 }
 
-/// What bears a node that rests; `soft` and `area` as in [`contact`].
-pub(super) fn borne(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64, x: &Vector3<f64>) -> Option<Borne> {
-    let (normal, depth) = sunk(bottom, x)?;
-    let (spring, k) = (pressed(depth, soft), ground.stiffness * area);
-    Some(Borne { force: k * spring.depth, normal, by_depth: k * spring.share })
+/// Normal reaction on a node; `soft` and `area` as in [`contact`]. None above the bottom.
+pub(super) fn normal_reaction(
+    bottom: &dyn Bottom,
+    ground: &SeabedLaw,
+    soft: f64,
+    area: f64,
+    x: &Vector3<f64>,
+) -> Option<NormalReaction> {
+    let (normal, depth) = penetration(bottom, x)?;
+    let (spring, k) = (contact_force(depth, soft), ground.stiffness * area);
+    Some(NormalReaction { force: k * spring.depth, normal, by_depth: k * spring.share })
 }
 
 /// What the bottom does to a node with a shadow of `area` (m2) whose rod runs in direction `lay`; none when it is
@@ -92,7 +103,7 @@ pub(super) fn borne(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64, 
 #[expect(clippy::too_many_arguments, reason = "a contact has that many causes")]
 pub(super) fn contact(
     bottom: &dyn Bottom,
-    ground: &Ground,
+    ground: &SeabedLaw,
     soft: f64,
     area: f64,
     x: &Vector3<f64>,
@@ -101,8 +112,8 @@ pub(super) fn contact(
     stuck: &Vector3<f64>,
     exact: bool,
 ) -> Option<Contact> {
-    let (normal, depth) = sunk(bottom, x)?;
-    let Pressed { depth: penetration, share, bend, .. } = pressed(depth, soft);
+    let (normal, depth) = penetration(bottom, x)?;
+    let ContactForce { depth: penetration, share, bend, .. } = contact_force(depth, soft);
     let sinking = -v.dot(&normal);
     let (k, c) = (ground.stiffness * area, ground.damping * area);
     let support = k * penetration + c * share * sinking;
@@ -121,8 +132,8 @@ pub(super) fn contact(
         let (aa, flat) = (along * along.transpose(), Matrix3::identity() - outer);
         let (mu_a, mu_c) = (ground.friction_along, ground.friction_across);
         let mu = if along == Vector3::zeros() { flat * mu_a.max(mu_c) } else { aa * mu_a + (flat - aa) * mu_c };
-        let (held, by_way) = capped(&(flat * (x - stuck) / ground.friction_travel), exact);
-        let (rubbed, by_both) = capped(&(held + flat * v / ground.friction_speed), exact);
+        let (held, by_way) = cap_to_unit(&(flat * (x - stuck) / ground.friction_travel), exact);
+        let (rubbed, by_both) = cap_to_unit(&(held + flat * v / ground.friction_speed), exact);
         let (pull, stiff) = (-(mu * rubbed), mu * by_both * -support);
         made.force[1] = pull * support;
         made.by_position += stiff * by_way * flat / ground.friction_travel - pull * normal.transpose() * by_depth;
@@ -139,10 +150,10 @@ mod tests {
     #[test]
     fn derivatives_of_contact_and_friction_are_their_differences() {
         let bottom = PlaneBottom { height: -3.0, slope: [0.2, -0.1] };
-        let ground = Ground {
+        let ground = SeabedLaw {
             stiffness: 1e5,
             damping: 1e3,
-            soft: 0.02,
+            penetration_scale: 0.02,
             friction_along: 0.4,
             friction_across: 0.9,
             friction_speed: 0.05,
@@ -173,7 +184,8 @@ mod tests {
     #[test]
     fn friction_of_a_fast_slide_is_mu_times_the_normal_force() {
         let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
-        let ground = Ground { friction_along: 0.4, friction_across: 0.9, friction_speed: 1e-6, ..Ground::elastic(1e5) };
+        let ground =
+            SeabedLaw { friction_along: 0.4, friction_across: 0.9, friction_speed: 1e-6, ..SeabedLaw::elastic(1e5) };
         let x = Vector3::new(0.0, 0.0, -0.01);
         let at = |v| contact(&bottom, &ground, 0.0, 1.0, &x, &v, &Vector3::x(), &x, true).unwrap();
         // 1e5 * 0.01 = 1000 N normal; v0 / v squared is 1e-12

@@ -6,24 +6,24 @@
 //! not converge is made shorter; where the shortest does not, as a strut buckles there, the rod falls into its next shape.
 
 use super::ends::{End, Motion};
+use super::environment::LineEnvironment;
 use super::error::RodError;
 use super::mesh::Rod;
 use super::state::State;
 use super::step::Solver;
-use super::surroundings::World;
 use nalgebra::Vector3;
 
 /// First and least step, as shares of the whole way.
-const FIRST: f64 = 0.25;
-const LEAST: f64 = 1.0 / 256.0;
+const FIRST_STEP_SHARE: f64 = 0.25;
+const MIN_STEP_SHARE: f64 = 1.0 / 256.0;
 /// Newton iterations after which a fall into the next shape is given up.
-const MOST_FALLING: usize = 600;
+const MAX_NEXT_SHAPE_ITERATIONS: usize = 600;
 /// By how much a step grows after one that has converged.
-const GROWTH: f64 = 2.0;
+const STEP_GROWTH: f64 = 2.0;
 
 /// Where a continuation begins.
 #[derive(Clone, Debug)]
-struct Start {
+struct ContinuationStart {
     state: State,
     /// Share of weight and given forces that is there already.
     loaded: f64,
@@ -39,18 +39,18 @@ impl Rod {
 impl Solver {
     /// Rest of a stiff rod: from the state, if that rests where its ends are, or else from the straight rod free of load. None where
     /// neither way leads there.
-    pub(super) fn rest_followed(
+    pub(super) fn rest_by_continuation(
         &mut self,
         rod: &Rod,
         state: &State,
-        world: &World,
+        world: &LineEnvironment,
         ends: &[End; 2],
         mass: &[f64],
     ) -> Result<Option<usize>, RodError> {
         let mut done = 0;
-        let near = Start { state: state.clone(), loaded: 1.0 };
-        for start in std::iter::once(near).chain(straight(rod, state, ends)) {
-            if self.followed(rod, start, world, ends, mass, &mut done)? {
+        let near = ContinuationStart { state: state.clone(), loaded: 1.0 };
+        for start in std::iter::once(near).chain(straight_start(rod, state, ends)) {
+            if self.follow_path(rod, start, world, ends, mass, &mut done)? {
                 return Ok(Some(done));
             }
         }
@@ -58,37 +58,39 @@ impl Solver {
     }
 
     /// Whether the way from a start leads to the ends wanted: the trial is then there.
-    fn followed(
+    fn follow_path(
         &mut self,
         rod: &Rod,
-        mut start: Start,
-        world: &World,
+        mut start: ContinuationStart,
+        world: &LineEnvironment,
         ends: &[End; 2],
         mass: &[f64],
         done: &mut usize,
     ) -> Result<bool, RodError> {
         let last = rod.elements.len();
         let from = [0, last].map(|node| start.state.position[node]);
-        let (mut share, mut step) = (0.0, FIRST);
+        let (mut share, mut step) = (0.0, FIRST_STEP_SHARE);
         // nothing is moved at first: the start itself has to rest
         let mut to = 0.0;
         loop {
-            if world.fluid.interrupted() {
+            if world.fluid.is_interrupted() {
                 return Err(RodError::Interrupted { rod: rod.name.clone() });
             }
             let loaded = start.loaded + (1.0 - start.loaded) * to;
             let forces: Vec<_> = world.forces.iter().map(|(node, force)| (*node, force * loaded)).collect();
-            let world = World { gravity: world.gravity * loaded, forces: &forces, ..*world };
+            let world = LineEnvironment { gravity: world.gravity * loaded, forces: &forces, ..*world };
             let between = [0, 1].map(|side| {
                 let place = |motion: Motion| from[side] + (motion.position - from[side]) * to;
                 End {
-                    motion: ends[side].motion.map(|m| if to < 1.0 { Motion::still(place(m)) } else { m }),
+                    motion: ends[side].motion.map(|m| if to < 1.0 { Motion::at_rest(place(m)) } else { m }),
                     ..ends[side]
                 }
             });
-            self.lie(rod, &start.state, &world, &between);
-            let found = match self.settle(rod, &start.state, &world, mass, &between) {
-                None if to > 0.0 && step < LEAST => self.next_shape(rod, &start.state, &world, mass, &between)?,
+            self.set_trial_at_rest(rod, &start.state, &world, &between);
+            let found = match self.rest_from_warm_start(rod, &start.state, &world, mass, &between) {
+                None if to > 0.0 && step < MIN_STEP_SHARE => {
+                    self.next_shape(rod, &start.state, &world, mass, &between)?
+                }
                 found => found,
             };
             match found {
@@ -99,9 +101,9 @@ impl Solver {
                     }
                     start.state.position.copy_from_slice(&self.trial.x);
                     start.state.director.copy_from_slice(&self.trial.director);
-                    (share, step) = (to, if to > 0.0 { GROWTH * step } else { step });
+                    (share, step) = (to, if to > 0.0 { STEP_GROWTH * step } else { step });
                 }
-                None if to == 0.0 || step < LEAST => return Ok(false),
+                None if to == 0.0 || step < MIN_STEP_SHARE => return Ok(false),
                 None => step *= 0.25,
             }
             to = (share + step).min(1.0);
@@ -113,11 +115,11 @@ impl Solver {
         &mut self,
         rod: &Rod,
         state: &State,
-        world: &World,
+        world: &LineEnvironment,
         mass: &[f64],
         ends: &[End; 2],
     ) -> Result<Option<usize>, RodError> {
-        self.lie(rod, state, world, ends);
+        self.set_trial_at_rest(rod, state, world, ends);
         let (length, last) = (rod.length(), rod.elements.len());
         let moved = [0, last].map(|node| self.trial.x[node] - state.position[node]);
         for (x, (from, arc)) in self.trial.x.iter_mut().zip(state.position.iter().zip(rod.arc())) {
@@ -125,7 +127,7 @@ impl Solver {
             *x = from + moved[0] * (1.0 - s) + moved[1] * s;
         }
         let mut done = 0;
-        match self.fall_to_rest(rod, world, mass, &mut done, MOST_FALLING) {
+        match self.solve_pseudo_transient(rod, world, mass, &mut done, MAX_NEXT_SHAPE_ITERATIONS) {
             Err(interrupted @ RodError::Interrupted { .. }) => Err(interrupted),
             made => Ok(made.is_ok().then_some(done)),
         }
@@ -134,7 +136,7 @@ impl Solver {
 
 /// The straight rod free of load, from end A in the direction in which its ends are held, or to the other end; none of one whose shape free
 /// of load is not known or not straight, or that lies on something.
-fn straight(rod: &Rod, state: &State, ends: &[End; 2]) -> Option<Start> {
+fn straight_start(rod: &Rod, state: &State, ends: &[End; 2]) -> Option<ContinuationStart> {
     let [a, b] = ends.map(|end| end.motion.map(|motion| motion.position));
     let held = ends[0].direction.or(ends[1].direction).and_then(|d| d.try_normalize(1e-12));
     let chord = a.zip(b).and_then(|(a, b)| (b - a).try_normalize(1e-9));
@@ -149,5 +151,5 @@ fn straight(rod: &Rod, state: &State, ends: &[End; 2]) -> Option<Start> {
         return None;
     }
     let position: Vec<Vector3<f64>> = arc.iter().map(|s| root + along * *s).collect();
-    Some(Start { state: State { stuck: position.clone(), position, ..state.clone() }, loaded: 0.0 })
+    Some(ContinuationStart { state: State { stuck: position.clone(), position, ..state.clone() }, loaded: 0.0 })
 }

@@ -16,7 +16,7 @@ pub struct Motion {
 
 impl Motion {
     /// At rest.
-    pub fn still(position: Vector3<f64>) -> Self {
+    pub fn at_rest(position: Vector3<f64>) -> Self {
         Motion { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() }
     }
 }
@@ -35,7 +35,7 @@ pub struct End {
     /// It acts on rods with torsional stiffness.
     pub side: Option<Vector3<f64>>,
     /// Rotation rate of the holder (rad/s, global), with which direction and side turn: where a step must be cut in
-    /// parts they are turned back by it, and by it the books know the work of the moment.
+    /// parts they are turned back by it, and by it the energy balance knows the work of the moment.
     pub turning: Vector3<f64>,
 }
 
@@ -45,17 +45,17 @@ impl End {
         End { motion: None, direction: None, rotation: None, side: None, turning: Vector3::new(0.0, 0.0, 0.0) };
 
     /// Held in place, free to turn.
-    pub fn pinned(position: Vector3<f64>) -> Self {
-        End::moved(Motion::still(position))
+    pub fn pin(position: Vector3<f64>) -> Self {
+        End::from_motion(Motion::at_rest(position))
     }
 
     /// Moved as given, free to turn.
-    pub fn moved(motion: Motion) -> Self {
+    pub fn from_motion(motion: Motion) -> Self {
         End { motion: Some(motion), ..End::FREE }
     }
 
     /// The same with its direction held.
-    pub fn clamped(self, direction: Vector3<f64>) -> Self {
+    pub fn with_clamp(self, direction: Vector3<f64>) -> Self {
         End { direction: Some(direction), ..self }
     }
 
@@ -65,7 +65,7 @@ impl End {
     }
 
     /// The same with a holder that turns at a rate (rad/s, global).
-    pub fn turning(self, turning: Vector3<f64>) -> Self {
+    pub fn with_turning(self, turning: Vector3<f64>) -> Self {
         End { turning, ..self }
     }
 

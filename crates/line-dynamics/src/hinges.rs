@@ -3,13 +3,13 @@
 use super::bend::hinge;
 use super::ends::End;
 use super::mesh::Rod;
-use super::spatial::{Eight, Side, spatial, transport};
+use super::spatial::{HingeSide, Vector8, spatial, transport_director};
 use super::state::State;
 use super::trial::Trial;
 use nalgebra::{Matrix3, Matrix4, Matrix4x3, SMatrix, Vector3, Vector4};
 
 /// One hinge: the elements on its two sides, its gradient and stiffness.
-pub(super) type SpatialHinge = ([Option<usize>; 2], Eight, SMatrix<f64, 8, 8>);
+pub(super) type SpatialHinge = ([Option<usize>; 2], Vector8, SMatrix<f64, 8, 8>);
 
 /// The sides of the hinge before an element of a rod with torsion, or of that at an end beside it, with its two stiffnesses.
 pub(super) fn hinge_sides(
@@ -17,34 +17,34 @@ pub(super) fn hinge_sides(
     x: &[Vector3<f64>],
     directors: &[Vector3<f64>],
     ends: &[End; 2],
-    hinge: HingeAt,
-) -> Option<(f64, f64, Side, Side)> {
+    hinge: HingePlace,
+) -> Option<(f64, f64, HingeSide, HingeSide)> {
     let last = rod.elements.len();
     let side = |i: usize, natural: [f64; 2]| {
         let d = x[i + 1] - x[i];
-        Side { direction: d.normalize(), length: d.norm(), director: directors[i], natural }
+        HingeSide { direction: d.normalize(), length: d.norm(), director: directors[i], natural }
     };
     let held = |end: &End, i: usize, natural: [f64; 2]| {
         let element = &rod.elements[i];
         let (k, direction) = end.hinge(element)?;
         let across = end.side.and_then(|s| (s - direction * direction.dot(&s)).try_normalize(1e-9));
         let near = side(i, natural);
-        let director = across.unwrap_or_else(|| transport(&near.director, &near.direction, &direction));
+        let director = across.unwrap_or_else(|| transport_director(&near.director, &near.direction, &direction));
         let kt = if across.is_some() { 2.0 * element.torsion / element.rest } else { 0.0 };
-        Some((k, kt, Side { direction, length: 1.0, director, natural }))
+        Some((k, kt, HingeSide { direction, length: 1.0, director, natural }))
     };
     match hinge {
-        HingeAt::Inner(i) => {
-            let natural = rod.bent(i);
+        HingePlace::Inner(i) => {
+            let natural = rod.natural_curvature(i);
             Some((rod.hinge(i), rod.twist_hinge(i), side(i - 1, natural[0]), side(i, natural[1])))
         }
-        HingeAt::A => {
-            let natural = rod.bent(0);
+        HingePlace::A => {
+            let natural = rod.natural_curvature(0);
             let (k, kt, holder) = held(&ends[0], 0, natural[0])?;
             Some((k, kt, holder, side(0, natural[1])))
         }
-        HingeAt::B => {
-            let natural = rod.bent(last);
+        HingePlace::B => {
+            let natural = rod.natural_curvature(last);
             let (k, kt, holder) = held(&ends[1], last - 1, natural[1])?;
             Some((k, kt, side(last - 1, natural[0]), holder))
         }
@@ -53,7 +53,7 @@ pub(super) fn hinge_sides(
 
 /// Where a hinge is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum HingeAt {
+pub(super) enum HingePlace {
     /// Between end A's holder and the first element.
     A,
     /// At an inner node.
@@ -65,9 +65,9 @@ pub(super) enum HingeAt {
 /// The hinges to be added with element `i`: the one before it, and those of the ends beside it.
 pub(super) fn spatial_hinges(rod: &Rod, trial: &Trial, i: usize) -> impl Iterator<Item = SpatialHinge> {
     let last = rod.elements.len();
-    let inner = (i > 0).then_some((HingeAt::Inner(i), [Some(i.wrapping_sub(1)), Some(i)]));
-    let first = (i == 0).then_some((HingeAt::A, [None, Some(0)]));
-    let end = (i + 1 == last).then_some((HingeAt::B, [Some(i), None]));
+    let inner = (i > 0).then_some((HingePlace::Inner(i), [Some(i.wrapping_sub(1)), Some(i)]));
+    let first = (i == 0).then_some((HingePlace::A, [None, Some(0)]));
+    let end = (i + 1 == last).then_some((HingePlace::B, [Some(i), None]));
     [first, inner, end].into_iter().flatten().filter_map(|(at, sides)| {
         let (k, kt, e, f) = hinge_sides(rod, &trial.x, &trial.director, &trial.ends, at)?;
         let (gradient, matrix) = spatial(k, kt, &e, &f);
@@ -80,7 +80,7 @@ pub(super) fn end_moment(rod: &Rod, state: &State, end: &End, side: usize) -> Ve
     let (i, element) =
         if side == 0 { (0, rod.elements.first()) } else { (rod.elements.len() - 1, rod.elements.last()) };
     if rod.twists() {
-        let at = if side == 0 { HingeAt::A } else { HingeAt::B };
+        let at = if side == 0 { HingePlace::A } else { HingePlace::B };
         let mut ends = [End::FREE; 2];
         ends[side] = *end;
         return hinge_sides(rod, &state.position, &state.director, &ends, at).map_or_else(
@@ -123,7 +123,7 @@ pub(super) fn clamp(rod: &Rod, trial: &Trial, side: usize) -> Option<Clamp> {
     let mut gradient = Vector4::zeros();
     let [mut by_own, mut by_near, mut near_by] = [Matrix4::zeros(); 3];
     let direction = if rod.twists() {
-        let at = if side == 0 { HingeAt::A } else { HingeAt::B };
+        let at = if side == 0 { HingePlace::A } else { HingePlace::B };
         let (k, kt, e, f) = hinge_sides(rod, &trial.x, &trial.director, &trial.ends, at)?;
         let (slopes, matrix) = spatial(k, kt, &e, &f);
         let (own, near) = if side == 0 { ([0, 1, 2, 6], [3, 4, 5, 7]) } else { ([3, 4, 5, 7], [0, 1, 2, 6]) };

@@ -2,11 +2,11 @@
 
 use super::error::RodError;
 use super::section::{Attachment, Segment};
-use super::spatial::transport;
+use super::spatial::transport_director;
 use nalgebra::Vector3;
 
 /// Most elements of one rod: far beyond what a line needs, and still some hundred megabytes.
-pub const MOST_ELEMENTS: usize = 100_000;
+pub const MAX_ELEMENTS: usize = 100_000;
 
 /// Memory an element takes in a run (bytes), rounded up: band, state, copies of both.
 pub const BYTES_PER_ELEMENT: f64 = 3000.0;
@@ -99,12 +99,12 @@ pub struct Rod {
     pub(super) elements: Vec<Element>,
     pub(super) attachments: Vec<Attachment>,
     /// The shape free of load, where it is not straight.
-    pub(super) natural: Option<Natural>,
+    pub(super) natural: Option<UnloadedShape>,
 }
 
 /// The shape of a rod free of load.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Natural {
+pub(super) struct UnloadedShape {
     /// Directors of end A's holder, of the elements, and of end B's holder.
     pub directors: Vec<Vector3<f64>>,
     /// Curvature angle at each node by the directors before and after it (rad).
@@ -115,7 +115,7 @@ impl Rod {
     /// Cuts segments, from end A to end B, into elements.
     ///
     /// # Errors
-    /// A property that makes no rod, more elements than [`MOST_ELEMENTS`], or an attachment to a node that is not there.
+    /// A property that makes no rod, more elements than [`MAX_ELEMENTS`], or an attachment to a node that is not there.
     pub fn new(name: &str, segments: Vec<Segment>, attachments: Vec<Attachment>) -> Result<Self, RodError> {
         let refuse = |why: String| RodError::Shape { rod: name.to_string(), why };
         if segments.is_empty() {
@@ -124,7 +124,7 @@ impl Rod {
         for (i, segment) in segments.iter().enumerate() {
             segment.check(name, i + 1)?;
         }
-        few(name, segments.iter().fold(0usize, |sum, s| sum.saturating_add(s.elements)))?;
+        check_element_count(name, segments.iter().fold(0usize, |sum, s| sum.saturating_add(s.elements)))?;
         let elements = segments
             .iter()
             .enumerate()
@@ -142,7 +142,7 @@ impl Rod {
     ) -> Result<Self, RodError> {
         let refuse = |why: String| RodError::Shape { rod: name.to_string(), why };
         let count = elements.len();
-        few(name, count)?;
+        check_element_count(name, count)?;
         if count == 0 {
             return Err(refuse("a rod needs at least one element".to_string()));
         }
@@ -177,7 +177,7 @@ impl Rod {
         if directions.iter().any(|d| !d.iter().all(|c| c.is_finite())) {
             return refuse("two of its nodes have the same place");
         }
-        let directors = carried_along(&directions);
+        let directors = transport_sides(&directions);
         let curvature = (0..self.nodes())
             .map(|i| {
                 let (e, f) = (directions[i], directions[i + 1]);
@@ -186,7 +186,7 @@ impl Rod {
                 [i, i + 1].map(|j| [vector.dot(&directors[j]), vector.dot(&directions[j].cross(&directors[j]))])
             })
             .collect();
-        self.natural = Some(Natural { directors, curvature });
+        self.natural = Some(UnloadedShape { directors, curvature });
         Ok(())
     }
 
@@ -208,7 +208,7 @@ impl Rod {
     }
 
     /// Curvature angle of a node when free of load, by the directors before and after it (rad).
-    pub(super) fn bent(&self, node: usize) -> [[f64; 2]; 2] {
+    pub(super) fn natural_curvature(&self, node: usize) -> [[f64; 2]; 2] {
         self.natural.as_ref().map_or([[0.0; 2]; 2], |n| n.curvature[node])
     }
 
@@ -223,7 +223,7 @@ impl Rod {
     }
 
     /// Area by which a node lies on the bottom (m2).
-    pub(super) fn bearing(&self, node: usize) -> f64 {
+    pub(super) fn contact_area(&self, node: usize) -> f64 {
         let before = node.checked_sub(1).and_then(|i| self.elements.get(i));
         let own: f64 = before.into_iter().chain(self.elements.get(node)).map(|e| e.contact).sum();
         own + self.attachments.iter().filter(|a| a.node == node).map(|a| a.bearing).sum::<f64>()
@@ -275,22 +275,22 @@ impl Rod {
 }
 
 /// Refuses more elements than one run should hold.
-fn few(rod: &str, elements: usize) -> Result<(), RodError> {
-    if elements > MOST_ELEMENTS {
+fn check_element_count(rod: &str, elements: usize) -> Result<(), RodError> {
+    if elements > MAX_ELEMENTS {
         let megabytes = elements as f64 * BYTES_PER_ELEMENT / 1e6;
-        return Err(RodError::TooLarge { rod: rod.to_string(), elements, megabytes, most: MOST_ELEMENTS });
+        return Err(RodError::TooLarge { rod: rod.to_string(), elements, megabytes, most: MAX_ELEMENTS });
     }
     Ok(())
 }
 
 /// Directors of a row of directions: across the first one, and taken along without twist.
-pub(super) fn carried_along(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+pub(super) fn transport_sides(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let Some(first) = directions.first() else { return Vec::new() };
     let axis = Vector3::ith(first.iamin(), 1.0);
     let mut directors = vec![(axis - first * first.dot(&axis)).normalize()];
     for pair in directions.windows(2) {
         let last = directors[directors.len() - 1];
-        directors.push(transport(&last, &pair[0], &pair[1]));
+        directors.push(transport_director(&last, &pair[0], &pair[1]));
     }
     directors
 }

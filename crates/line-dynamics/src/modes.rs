@@ -1,26 +1,26 @@
 //! Natural periods and shapes of a rod about where it rests.
 
 use super::ends::End;
+use super::environment::LineEnvironment;
 use super::error::RodError;
 use super::mesh::Rod;
-use super::rope::remember;
 use super::state::State;
-use super::step::{At, Solver};
-use super::surroundings::World;
+use super::step::{Solver, SolverPhase};
 use super::system::Weights;
-use super::trial::{lay, sample, soften};
+use super::trial::{sample_fluid, set_friction_directions, set_seabed_penetration_scales};
+use super::viscoelastic::update_memory;
 use super::workspace::Workspace;
 use nalgebra::{DMatrix, Vector3};
 use windlass_base::dense::{Cholesky, DenseError, SymmetricEigen};
 
 /// Rounds of iteration after which modes are given up.
-const MOST_ROUNDS: usize = 500;
+const MAX_ITERATIONS: usize = 500;
 /// Change of the square of a frequency from one round to the next, as a share, at which it is taken.
-const PROOF: f64 = 1e-11;
+const FREQUENCY_TOLERANCE: f64 = 1e-11;
 /// The same at which it is taken when the changes no longer shrink: a stiff line's slow modes are known to rounding only.
-const ROUNDING: f64 = 1e-7;
+const ROUNDING_CHANGE: f64 = 1e-7;
 /// Rounds in which a change that shrinks would have halved.
-const STALE: usize = 8;
+const MAX_STALLED_ITERATIONS: usize = 8;
 
 /// One natural mode without damping.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,14 +44,16 @@ impl Solver {
         &mut self,
         rod: &Rod,
         state: &State,
-        world: &World,
+        world: &LineEnvironment,
         ends: [End; 2],
         count: usize,
     ) -> Result<Vec<Mode>, RodError> {
         self.fits(rod, state)?;
-        self.at = At::Nowhere;
+        self.phase = SolverPhase::Idle;
         self.trial.origin = state.origin;
-        self.nearby(world, |solver, world, near| solver.modes_nearby(rod, state, world, near.ends(ends), count))
+        self.in_local_coordinates(world, |solver, world, near| {
+            solver.modes_nearby(rod, state, world, near.ends(ends), count)
+        })
     }
 
     /// [`Solver::modes`] in coordinates from the origin of the state.
@@ -59,7 +61,7 @@ impl Solver {
         &mut self,
         rod: &Rod,
         state: &State,
-        world: &World,
+        world: &LineEnvironment,
         ends: [End; 2],
         count: usize,
     ) -> Result<Vec<Mode>, RodError> {
@@ -77,12 +79,12 @@ impl Solver {
         self.trial.director.copy_from_slice(&state.director);
         self.trial.v.fill(Vector3::zeros());
         self.trial.a.fill(Vector3::zeros());
-        (self.trial.drawn, self.trial.held) = (None, false);
-        self.trial.stuck.copy_from_slice(&state.stuck);
-        lay(rod, state, world, &mut self.trial.lay);
-        soften(state, world, &mut self.trial.soft);
-        remember(rod, state, 0.0, &mut self.trial.memory);
-        sample(world, state.time, &mut self.trial);
+        (self.trial.pulled_end, self.trial.stick_friction) = (None, false);
+        self.trial.stuck_at.copy_from_slice(&state.stuck);
+        set_friction_directions(rod, state, world, &mut self.trial.friction_direction);
+        set_seabed_penetration_scales(state, world, &mut self.trial.seabed_penetration_scale);
+        update_memory(rod, state, 0.0, &mut self.trial.memory);
+        sample_fluid(world, state.time, &mut self.trial);
         let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
         let free = |node: usize| !((node == 0 && known[0]) || (node == last && known[1]));
         let mut matrix = |weights: Weights| {
@@ -122,8 +124,8 @@ impl Solver {
             .collect();
         let mut found = vec![0.0; space];
         let (mut least, mut stale) = (f64::INFINITY, 0);
-        for _ in 0..MOST_ROUNDS {
-            if world.fluid.interrupted() {
+        for _ in 0..MAX_ITERATIONS {
+            if world.fluid.is_interrupted() {
                 return Err(RodError::Interrupted { rod: rod.name.clone() });
             }
             for vector in &mut vectors {
@@ -137,7 +139,7 @@ impl Solver {
                 DMatrix::from_fn(space, space, |i, j| 0.5 * (dot(&vectors[i], &of[j]) + dot(&vectors[j], &of[i])))
             };
             let (k, m) = (small(&held), small(&loaded));
-            let stop = || world.fluid.interrupted();
+            let stop = || world.fluid.is_interrupted();
             let wrong = |e| match e {
                 DenseError::Interrupted => RodError::Interrupted { rod: rod.name.clone() },
                 _ => refuse("its modes cannot be told apart".to_string()),
@@ -168,7 +170,7 @@ impl Solver {
             } else {
                 stale += 1;
             }
-            let settled = worst <= PROOF || (worst <= ROUNDING && stale >= STALE);
+            let settled = worst <= FREQUENCY_TOLERANCE || (worst <= ROUNDING_CHANGE && stale >= MAX_STALLED_ITERATIONS);
             found = values;
             if settled {
                 if let Some(value) = found[..count].iter().find(|v| **v < -1e-6 * shift) {
@@ -182,6 +184,6 @@ impl Solver {
                 return Ok(modes.collect());
             }
         }
-        Err(refuse(format!("its modes do not settle in {MOST_ROUNDS} rounds")))
+        Err(refuse(format!("its modes do not settle in {MAX_ITERATIONS} rounds")))
     }
 }

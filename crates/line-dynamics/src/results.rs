@@ -3,15 +3,15 @@
 use super::bend::hinge;
 use super::contact::contact;
 use super::ends::End;
-use super::hinges::{HingeAt, hinge_sides};
-use super::immersed::{Node, on_half};
+use super::environment::{FluidState, LineEnvironment, UniformFluid};
+use super::hinges::{HingePlace, hinge_sides};
+use super::local_environment::LocalEnvironment;
 use super::mesh::Rod;
-use super::nearby::Nearby;
-use super::rope::Memory;
-use super::spatial::{transport, twist};
+use super::morison::{HalfNode, half_force};
+use super::spatial::{transport_director, twist};
 use super::state::State;
-use super::surroundings::{Fluid, UniformFluid, World};
-use super::tension::{Stretch, Taken, tension};
+use super::tension::{Stretch, TensionOptions, tension};
+use super::viscoelastic::Memory;
 use nalgebra::Vector3;
 use windlass_model::{LineNode, LineSide, LineStress};
 
@@ -22,20 +22,20 @@ impl Rod {
     /// sides; at an end it is what is left of that of the last element when the half of it beyond has been moved, borne
     /// and dragged along itself: all that the holder takes along the rod.
     /// Shear is the change of the moment over the elements beside a node.
-    pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<LineNode> {
-        let near = Nearby::new(world, state.origin, Vec::new());
+    pub fn results(&self, state: &State, world: &LineEnvironment, ends: &[End; 2]) -> Vec<LineNode> {
+        let near = LocalEnvironment::new(world, state.origin, Vec::new());
         let world = &near.world();
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
-        let mut fluids = vec![UniformFluid::none().0; x.len()];
+        let mut fluids = vec![UniformFluid::vacuum().0; x.len()];
         // tubes feel the pressure outside
         if self.segments.iter().any(|s| s.tube.is_some()) {
-            world.fluid.fill(x, state.time, &mut fluids);
+            world.fluid.sample_into(x, state.time, &mut fluids);
         }
         let beside = self.beside_ends(state, world);
-        let fluid_at = |node: usize| world.fluid.at(&x[node], state.time);
+        let fluid_at = |node: usize| world.fluid.sample(&x[node], state.time);
         let (edges, pulls): (Vec<(Vector3<f64>, f64)>, Vec<f64>) =
-            (0..last).map(|i| self.pull(i, state, [&fluids[i], &fluids[i + 1]], world.gravity)).unzip();
+            (0..last).map(|i| self.element_force(i, state, [&fluids[i], &fluids[i + 1]], world.gravity)).unzip();
         // moment vector at each node, and the length it is spread over
         let moments: Vec<(Vector3<f64>, f64)> = (0..=last)
             .map(|i| {
@@ -59,7 +59,7 @@ impl Rod {
             .collect();
         let (moments, torques) =
             if self.twists() { self.spatial_moments(state, ends) } else { (moments, vec![0.0; last + 1]) };
-        let across = carried(&edges, &ends[0]);
+        let across = transport_to_end(&edges, &ends[0]);
         let shears: Vec<Vector3<f64>> =
             (0..last).map(|i| (moments[i + 1].0 - moments[i].0) / self.elements[i].rest).collect();
         let mut arc = 0.0;
@@ -67,9 +67,9 @@ impl Rod {
             .map(|i| {
                 let inner = i > 0 && i < last;
                 let effective = match (inner, i) {
-                    (true, _) if self.bears(i) => {
+                    (true, _) if self.is_loaded_node(i) => {
                         let near = [&fluid_at(i - 1), &fluid_at(i), &fluid_at(i + 1)];
-                        self.pull_beside(
+                        self.tension_beside_node(
                             i,
                             state,
                             world,
@@ -78,8 +78,8 @@ impl Rod {
                         )
                     }
                     (true, _) => 0.5 * (pulls[i - 1] + pulls[i]),
-                    (false, 0) => self.pull_at_end(0, state, world, &beside, (&edges[0].0, pulls[0])),
-                    (false, _) => self.pull_at_end(1, state, world, &beside, (&edges[last - 1].0, pulls[last - 1])),
+                    (false, 0) => self.tension_at_end(0, state, world, &beside, (&edges[0].0, pulls[0])),
+                    (false, _) => self.tension_at_end(1, state, world, &beside, (&edges[last - 1].0, pulls[last - 1])),
                 };
                 let shear = match (inner, i) {
                     (true, _) => 0.5 * (shears[i - 1] + shears[i]).norm(),
@@ -117,7 +117,7 @@ impl Rod {
                     moment,
                     bends: [bending.dot(&director), bending.dot(&direction.cross(&director))],
                     torque: torques[i],
-                    curvature: if softest > 0.0 { moment / softest } else { bend(&edges, &moments, i) },
+                    curvature: if softest > 0.0 { moment / softest } else { curvature_at(&edges, &moments, i) },
                     clearance: clearance(world, &x[i]),
                     pressures,
                     stress: behind.stress,
@@ -133,21 +133,21 @@ impl Rod {
 impl Rod {
     /// What a run keeps of the nodes of a state: [`Rod::results`], in memory that is there. Of a rod that neither bends nor has a
     /// tube velocity and curvature are left out, which takes most of the time.
-    pub fn row(&self, state: &State, world: &World, ends: &[End; 2], out: &mut Vec<LineNode>) {
+    pub fn row(&self, state: &State, world: &LineEnvironment, ends: &[End; 2], out: &mut Vec<LineNode>) {
         out.clear();
         let plain = self.elements.iter().all(|e| e.bending == 0.0) && self.segments.iter().all(|s| s.tube.is_none());
         if !plain {
             out.extend(self.results(state, world, ends));
             return;
         }
-        let near = Nearby::new(world, state.origin, Vec::new());
+        let near = LocalEnvironment::new(world, state.origin, Vec::new());
         let world = &near.world();
-        let (last, fluid) = (self.elements.len(), UniformFluid::none().0);
+        let (last, fluid) = (self.elements.len(), UniformFluid::vacuum().0);
         let (mut arc, mut before) = (0.0, 0.0);
         for (i, x) in state.position.iter().enumerate() {
             let beside = i.min(last - 1);
             let element = &self.elements[beside];
-            let pull = if i < last { self.pull(i, state, [&fluid; 2], world.gravity).1 } else { before };
+            let pull = if i < last { self.element_force(i, state, [&fluid; 2], world.gravity).1 } else { before };
             let effective = if i > 0 { 0.5 * (before + pull) } else { pull };
             let position = x + state.origin;
             let mut made = LineNode { arc, segment: element.segment, position, effective, ..LineNode::default() };
@@ -157,52 +157,58 @@ impl Rod {
         }
         let beside = self.beside_ends(state, world);
         for (side, node, element) in [(0, 0, 0), (1, last, last - 1)] {
-            let ((t, _), pull) = self.pull(element, state, [&fluid; 2], world.gravity);
-            let effective = self.pull_at_end(side, state, world, &beside, (&t, pull));
+            let ((t, _), pull) = self.element_force(element, state, [&fluid; 2], world.gravity);
+            let effective = self.tension_at_end(side, state, world, &beside, (&t, pull));
             (out[node].effective, out[node].wall) = (effective, effective);
         }
         for held in self.attachments.iter().filter(|a| a.node > 0 && a.node < last) {
             let i = held.node;
-            let near = [i - 1, i, i + 1].map(|node| world.fluid.at(&state.position[node], state.time));
-            let [a, b] = [i - 1, i].map(|element| self.pull(element, state, [&fluid; 2], world.gravity));
-            let effective = self.pull_beside(i, state, world, near.each_ref(), [(&a.0.0, a.1), (&b.0.0, b.1)]);
+            let near = [i - 1, i, i + 1].map(|node| world.fluid.sample(&state.position[node], state.time));
+            let [a, b] = [i - 1, i].map(|element| self.element_force(element, state, [&fluid; 2], world.gravity));
+            let effective = self.tension_beside_node(i, state, world, near.each_ref(), [(&a.0.0, a.1), (&b.0.0, b.1)]);
             (out[i].effective, out[i].wall) = (effective, effective);
         }
     }
 
     /// Whether something is attached at a node.
-    fn bears(&self, node: usize) -> bool {
+    fn is_loaded_node(&self, node: usize) -> bool {
         self.attachments.iter().any(|a| a.node == node)
     }
 
     /// The larger of the tensions (N) on the two sides of an inner node, by the fluid at it and the nodes beside it, and direction and
     /// tension of its elements.
-    fn pull_beside(
+    fn tension_beside_node(
         &self,
         i: usize,
         state: &State,
-        world: &World,
-        near: [&Fluid; 3],
+        world: &LineEnvironment,
+        near: [&FluidState; 3],
         [before, behind]: [(&Vector3<f64>, f64); 2],
     ) -> f64 {
-        let one = self.pull_at((i - 1, 1), state, world, [near[1], near[0]], before);
-        let other = self.pull_at((i, 0), state, world, [near[1], near[2]], behind);
+        let one = self.tension_at_node((i - 1, 1), state, world, [near[1], near[0]], before);
+        let other = self.tension_at_node((i, 0), state, world, [near[1], near[2]], behind);
         one.max(other)
     }
 
     /// The fluid at the two nodes beside end A, and at the two beside end B: each end first.
-    fn beside_ends(&self, state: &State, world: &World) -> [[Fluid; 2]; 2] {
+    fn beside_ends(&self, state: &State, world: &LineEnvironment) -> [[FluidState; 2]; 2] {
         let last = self.elements.len();
-        let mut found = [UniformFluid::none().0; 4];
+        let mut found = [UniformFluid::vacuum().0; 4];
         let places = [0, 1, last, last - 1].map(|node| state.position[node]);
-        world.fluid.fill(&places, state.time, &mut found);
+        world.fluid.sample_into(&places, state.time, &mut found);
         let [a, b, c, d] = found;
         [[a, b], [c, d]]
     }
 
     /// Direction and length of an element in a state, and its tension, by the fluid at its two nodes.
     #[inline]
-    fn pull(&self, i: usize, state: &State, beside: [&Fluid; 2], gravity: f64) -> ((Vector3<f64>, f64), f64) {
+    fn element_force(
+        &self,
+        i: usize,
+        state: &State,
+        beside: [&FluidState; 2],
+        gravity: f64,
+    ) -> ((Vector3<f64>, f64), f64) {
         let (element, x, v) = (&self.elements[i], &state.position, &state.velocity);
         let d = x[i + 1] - x[i];
         let length = d.norm().max(f64::MIN_POSITIVE);
@@ -211,38 +217,38 @@ impl Rod {
         let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
         let stretched =
             Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z), datum: state.origin.z };
-        let taken = Taken { compression: element.compression, ease: 1.0 };
-        let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
+        let taken = TensionOptions { compression: element.compression, axial_stiffness_scale: 1.0 };
+        let memory = state.yielded.get(i).map(|yielded| Memory::instantaneous(*yielded));
         ((t, length), tension(self, element, taken, &stretched, memory.as_ref(), beside, gravity).value)
     }
 
     /// Tension (N) at end A (0) or end B (1), of whose element the direction and the tension are known, by the fluid
     /// [`Rod::beside_ends`].
-    fn pull_at_end(
+    fn tension_at_end(
         &self,
         side: usize,
         state: &State,
-        world: &World,
-        beside: &[[Fluid; 2]; 2],
+        world: &LineEnvironment,
+        beside: &[[FluidState; 2]; 2],
         (t, pull): (&Vector3<f64>, f64),
     ) -> f64 {
         let element = if side == 0 { 0 } else { self.elements.len() - 1 };
-        self.pull_at((element, side), state, world, beside[side].each_ref(), (t, pull))
+        self.tension_at_node((element, side), state, world, beside[side].each_ref(), (t, pull))
     }
 
     /// Tension (N) at the first (0) or second (1) node of an element, whose direction and tension are known, by the fluid at that node
     /// and at the other.
-    fn pull_at(
+    fn tension_at_node(
         &self,
         (element, side): (usize, usize),
         state: &State,
-        world: &World,
-        beside: [&Fluid; 2],
+        world: &LineEnvironment,
+        beside: [&FluidState; 2],
         (t, pull): (&Vector3<f64>, f64),
     ) -> f64 {
         let (node, other) = (element + side, element + 1 - side);
         let element = &self.elements[element];
-        let at = |node: usize, place: usize| Node {
+        let at = |node: usize, place: usize| HalfNode {
             position: &state.position[node],
             velocity: &state.velocity[node],
             acceleration: &state.acceleration[node],
@@ -250,9 +256,9 @@ impl Rod {
         };
         let weight = Vector3::z() * world.gravity;
         let moved = (state.acceleration[node] + weight) * element.mass
-            - on_half(element, t, world, [at(node, 0), at(other, 1)]);
+            - half_force(element, t, world, [at(node, 0), at(other, 1)]);
         let borne = world.bottom.and_then(|(bottom, ground)| {
-            let soft = state.bedding[node].max(ground.soft);
+            let soft = state.bedding[node].max(ground.penetration_scale);
             let (x, v) = (&state.position[node], &state.velocity[node]);
             contact(bottom, &ground, soft, element.contact, x, v, t, &state.stuck[node], true)
         });
@@ -268,11 +274,11 @@ impl Rod {
         (0..=last)
             .map(|i| {
                 let at = if i == 0 {
-                    HingeAt::A
+                    HingePlace::A
                 } else if i == last {
-                    HingeAt::B
+                    HingePlace::B
                 } else {
-                    HingeAt::Inner(i)
+                    HingePlace::Inner(i)
                 };
                 let Some((k, kt, e, f)) = hinge_sides(self, &state.position, &state.director, ends, at) else {
                     return ((Vector3::zeros(), 1.0), 0.0);
@@ -291,17 +297,17 @@ impl Rod {
 ///
 /// Without a holder's side it starts from a frame fixed in space by the shortest turn to the first element, which is
 /// smooth as the rod moves but for one direction: this one is askew to all axes and planes a model is laid out in.
-fn carried(edges: &[(Vector3<f64>, f64)], end: &End) -> Vec<Vector3<f64>> {
+fn transport_to_end(edges: &[(Vector3<f64>, f64)], end: &End) -> Vec<Vector3<f64>> {
     let first = edges[0].0;
     let held = end.side.and_then(|side| {
         let direction = end.direction.and_then(|d| d.try_normalize(1e-12)).unwrap_or(first);
         let across = (side - direction * direction.dot(&side)).try_normalize(1e-9)?;
-        Some(transport(&across, &direction, &first))
+        Some(transport_director(&across, &direction, &first))
     });
     let (direction, across) = (Vector3::new(2.0, 3.0, 6.0) / 7.0, Vector3::new(3.0, -6.0, 2.0) / 7.0);
-    let mut before = (first, held.unwrap_or_else(|| transport(&across, &direction, &first)));
+    let mut before = (first, held.unwrap_or_else(|| transport_director(&across, &direction, &first)));
     let on = |(direction, _): &(Vector3<f64>, f64)| {
-        before = (*direction, transport(&before.1, &before.0, direction));
+        before = (*direction, transport_director(&before.1, &before.0, direction));
         before.1
     };
     edges.iter().map(on).collect()
@@ -313,7 +319,7 @@ fn toward_end(row: &[Vector3<f64>], near: usize, far: usize) -> Vector3<f64> {
 }
 
 /// Curvature of a line without bending stiffness.
-fn bend(edges: &[(Vector3<f64>, f64)], moments: &[(Vector3<f64>, f64)], i: usize) -> f64 {
+fn curvature_at(edges: &[(Vector3<f64>, f64)], moments: &[(Vector3<f64>, f64)], i: usize) -> f64 {
     if i == 0 || i >= edges.len() {
         return 0.0;
     }
@@ -321,7 +327,7 @@ fn bend(edges: &[(Vector3<f64>, f64)], moments: &[(Vector3<f64>, f64)], i: usize
     e.cross(&f).norm().atan2(e.dot(&f)) / moments[i].1
 }
 
-fn clearance(world: &World, x: &Vector3<f64>) -> f64 {
+fn clearance(world: &LineEnvironment, x: &Vector3<f64>) -> f64 {
     world.bottom.map_or(f64::INFINITY, |(bottom, _)| x.z - bottom.height(x.x, x.y).0)
 }
 

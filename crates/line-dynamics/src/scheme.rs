@@ -23,12 +23,12 @@ pub struct Settings {
 
 /// Spectral radius at infinite frequency where nothing else is asked for: of a mode it damps 2.3 % of critical at 10 steps a period,
 /// 0.40 % at 20, 0.055 % at 40, and it throws little up where a line snaps taut.
-const RHO: f64 = 0.2;
+const DEFAULT_SPECTRAL_RADIUS: f64 = 0.2;
 
 impl Default for Settings {
     fn default() -> Self {
         Settings {
-            scheme: SchemeWeights::generalised(RHO),
+            scheme: SchemeWeights::generalised_alpha(DEFAULT_SPECTRAL_RADIUS),
             tolerance: 1e-5,
             iterations: 20,
             halvings: 12,
@@ -56,9 +56,9 @@ pub(super) struct Scheme {
 /// Takes what is smaller than 1e-136 as zero: a motion that dies away would end in denormal numbers, which cost a
 /// hundred times as much as others.
 #[inline(always)]
-fn flush(v: Vector3<f64>) -> Vector3<f64> {
-    const TINY: f64 = 1e-120;
-    v.map(|c| (c + TINY) - TINY)
+fn flush_to_zero(v: Vector3<f64>) -> Vector3<f64> {
+    const MIN_MAGNITUDE: f64 = 1e-120;
+    v.map(|c| (c + MIN_MAGNITUDE) - MIN_MAGNITUDE)
 }
 
 impl Scheme {
@@ -96,11 +96,11 @@ impl Scheme {
 
     /// Averaged acceleration, velocity and acceleration of node `i` moved by `u` from where the step began.
     #[inline(always)]
-    pub fn follow(&self, from: &State, i: usize, u: Vector3<f64>) -> [Vector3<f64>; 3] {
+    pub fn node_motion(&self, from: &State, i: usize, u: Vector3<f64>) -> [Vector3<f64>; 3] {
         let (v, a, acc) = (&from.velocity[i], &from.averaged[i], &from.acceleration[i]);
-        let new = flush((u - v * self.h) * self.new_by_u - a * self.new_by_old);
-        let velocity = flush(v + a * self.v_by_old + new * self.v_by_new);
-        let acceleration = flush(new * self.a_by_new + a * self.a_by_old - acc * self.a_by_last);
+        let new = flush_to_zero((u - v * self.h) * self.new_by_u - a * self.new_by_old);
+        let velocity = flush_to_zero(v + a * self.v_by_old + new * self.v_by_new);
+        let acceleration = flush_to_zero(new * self.a_by_new + a * self.a_by_old - acc * self.a_by_last);
         [new, velocity, acceleration]
     }
 }

@@ -1,7 +1,7 @@
 //! The properties of a rod: its segments and what is attached between them.
 
 use super::error::RodError;
-use super::rope::Viscoelastic;
+use super::viscoelastic::Viscoelastic;
 
 /// Tension by strain.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,7 +12,7 @@ pub enum Axial {
     Polynomial(Vec<f64>),
     /// Points (strain, tension in N) by rising strain and tension, straight between and beyond.
     Table(Vec<(f64, f64)>),
-    /// A rope with a static and a dynamic stiffness. Its static law is what [`Axial::at`] and [`Axial::energy`] give.
+    /// A rope with a static and a dynamic stiffness. Its static law is what [`Axial::evaluate`] and [`Axial::energy`] give.
     Viscoelastic(Box<Viscoelastic>),
 }
 
@@ -27,7 +27,7 @@ impl Axial {
     }
 
     /// Tension (N) and its slope d(tension)/d(strain) (N) at a strain.
-    pub fn at(&self, strain: f64) -> (f64, f64) {
+    pub fn evaluate(&self, strain: f64) -> (f64, f64) {
         match self {
             Axial::Linear(ea) => (ea * strain, *ea),
             Axial::Polynomial(coefficients) => {
@@ -45,19 +45,19 @@ impl Axial {
                 let slope = (b.1 - a.1) / (b.0 - a.0);
                 (a.1 + slope * (strain - a.0), slope)
             }
-            Axial::Viscoelastic(rope) => rope.slow.at(strain),
+            Axial::Viscoelastic(rope) => rope.slow.evaluate(strain),
         }
     }
 
     /// Slope of the slope (N) at a strain.
-    pub(super) fn bend(&self, strain: f64) -> f64 {
+    pub(super) fn second_derivative(&self, strain: f64) -> f64 {
         match self {
             Axial::Linear(_) | Axial::Table(_) => 0.0,
             Axial::Polynomial(coefficients) => {
                 let powers = coefficients.iter().enumerate().skip(1);
                 powers.map(|(k, c)| c * (k * (k + 1)) as f64 * strain.powi(k as i32 - 1)).sum()
             }
-            Axial::Viscoelastic(rope) => rope.slow.bend(strain),
+            Axial::Viscoelastic(rope) => rope.slow.second_derivative(strain),
         }
     }
 
@@ -76,7 +76,7 @@ impl Axial {
                 let mut sum = 0.0;
                 let mut from = low;
                 for to in inner.chain([high]) {
-                    sum += 0.5 * (to - from) * (self.at(from).0 + self.at(to).0);
+                    sum += 0.5 * (to - from) * (self.evaluate(from).0 + self.evaluate(to).0);
                     from = to;
                 }
                 sign * sum
@@ -85,7 +85,7 @@ impl Axial {
         }
     }
 
-    pub(super) fn fault(&self) -> Option<(f64, &'static str)> {
+    pub(super) fn find_fault(&self) -> Option<(f64, &'static str)> {
         match self {
             Axial::Linear(ea) if !(ea.is_finite() && *ea > 0.0) => Some((*ea, "it must be positive")),
             Axial::Polynomial(c) if !c.first().is_some_and(|c| *c > 0.0) || c.iter().any(|c| !c.is_finite()) => {
@@ -98,7 +98,7 @@ impl Axial {
             {
                 Some((points.len() as f64, "its points must be two or more, with strain and tension both rising"))
             }
-            Axial::Viscoelastic(rope) => rope.fault(),
+            Axial::Viscoelastic(rope) => rope.find_fault(),
             _ => None,
         }
     }
@@ -225,7 +225,7 @@ impl Segment {
         if self.elements == 0 {
             return refuse("the number of elements", 0.0, "at least one is needed");
         }
-        if let Some((value, expected)) = self.axial.fault() {
+        if let Some((value, expected)) = self.axial.find_fault() {
             return refuse("the axial stiffness", value, expected);
         }
         for (what, value) in [
@@ -314,11 +314,11 @@ mod tests {
                 let h = 1e-6;
                 let slope = (law.energy(strain + h) - law.energy(strain - h)) / (2.0 * h);
                 // central difference: h squared and rounding
-                assert!((slope - law.at(strain).0).abs() < 1e-8, "{law:?} {strain}");
-                let tangent = (law.at(strain + h).0 - law.at(strain - h).0) / (2.0 * h);
-                assert!((tangent - law.at(strain).1).abs() < 1e-7, "{law:?} {strain}");
-                let bend = (law.at(strain + h).1 - law.at(strain - h).1) / (2.0 * h);
-                assert!((bend - law.bend(strain)).abs() < 1e-7, "{law:?} {strain}");
+                assert!((slope - law.evaluate(strain).0).abs() < 1e-8, "{law:?} {strain}");
+                let tangent = (law.evaluate(strain + h).0 - law.evaluate(strain - h).0) / (2.0 * h);
+                assert!((tangent - law.evaluate(strain).1).abs() < 1e-7, "{law:?} {strain}");
+                let bend = (law.evaluate(strain + h).1 - law.evaluate(strain - h).1) / (2.0 * h);
+                assert!((bend - law.second_derivative(strain)).abs() < 1e-7, "{law:?} {strain}");
             }
         }
     }

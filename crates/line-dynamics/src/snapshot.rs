@@ -7,9 +7,9 @@ use super::state::State;
 use nalgebra::Vector3;
 
 /// Numbers before the nodes: time and origin.
-const HEAD: usize = 4;
+const HEADER_LEN: usize = 4;
 /// Numbers of a node: position, velocity, acceleration, averaged acceleration, where it sticks, bedding.
-const PER_NODE: usize = 16;
+const NUMBERS_PER_NODE: usize = 16;
 
 impl Rod {
     /// Its elements from end A, as winches have made them: unstretched length (m), rate at which it grows (m/s), and
@@ -57,7 +57,7 @@ impl State {
     /// place where it sticks and bedding of each node; the director of each element of a rod with torsion; the strain to which each element of
     /// one with viscoelastic rope has yielded.
     pub fn pack(&self, out: &mut Vec<f64>) {
-        let count = HEAD + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
+        let count = HEADER_LEN + NUMBERS_PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
         let from = out.len();
         out.resize(from + count, 0.0);
         self.pack_into(&mut out[from..]);
@@ -65,12 +65,12 @@ impl State {
 
     /// The same into the beginning of a list: how many numbers they are; none where the list is too short.
     pub fn pack_into(&self, out: &mut [f64]) -> Option<usize> {
-        let count = HEAD + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
-        let (head, rest) = out.get_mut(..count)?.split_first_chunk_mut::<HEAD>()?;
+        let count = HEADER_LEN + NUMBERS_PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
+        let (head, rest) = out.get_mut(..count)?.split_first_chunk_mut::<HEADER_LEN>()?;
         *head = [self.time, self.origin.x, self.origin.y, self.origin.z];
-        let (nodes, rest) = rest.split_at_mut(PER_NODE * self.position.len());
+        let (nodes, rest) = rest.split_at_mut(NUMBERS_PER_NODE * self.position.len());
         let motions = self.position.iter().zip(&self.velocity).zip(&self.acceleration).zip(&self.averaged);
-        let (nodes, _) = nodes.as_chunks_mut::<PER_NODE>();
+        let (nodes, _) = nodes.as_chunks_mut::<NUMBERS_PER_NODE>();
         for (place, (((((x, v), a), averaged), s), bedding)) in
             nodes.iter_mut().zip(motions.zip(&self.stuck).zip(&self.bedding))
         {
@@ -88,15 +88,15 @@ impl State {
     }
 
     /// How many numbers [`State::pack`] makes of a state of a rod.
-    pub fn packed(rod: &Rod) -> usize {
-        State::packed_with(rod, rod.elements.len())
+    pub fn packed_len(rod: &Rod) -> usize {
+        State::packed_len_with(rod, rod.elements.len())
     }
 
     /// The same of a rod of such segments that a winch has given so many elements.
-    pub fn packed_with(rod: &Rod, elements: usize) -> usize {
+    pub fn packed_len_with(rod: &Rod, elements: usize) -> usize {
         let (turns, strains) =
-            (if rod.twists() { 3 * elements } else { 0 }, if rod.remembers() { elements } else { 0 });
-        HEAD + PER_NODE * elements.saturating_add(1) + turns + strains
+            (if rod.twists() { 3 * elements } else { 0 }, if rod.is_viscoelastic() { elements } else { 0 });
+        HEADER_LEN + NUMBERS_PER_NODE * elements.saturating_add(1) + turns + strains
     }
 
     /// The state that [`State::pack`] made numbers of, to the last bit.
@@ -105,7 +105,7 @@ impl State {
     /// Another count of numbers than a state of this rod has, or one that is no number.
     pub fn unpack(rod: &Rod, from: &[f64]) -> Result<Self, RodError> {
         let mut made = State::default();
-        made.become_unpacked(rod, from)?;
+        made.unpack_into(rod, from)?;
         Ok(made)
     }
 
@@ -113,8 +113,8 @@ impl State {
     ///
     /// # Errors
     /// As [`State::unpack`].
-    pub fn become_unpacked(&mut self, rod: &Rod, from: &[f64]) -> Result<(), RodError> {
-        let wanted = State::packed(rod);
+    pub fn unpack_into(&mut self, rod: &Rod, from: &[f64]) -> Result<(), RodError> {
+        let wanted = State::packed_len(rod);
         let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
         if from.len() != wanted {
             return Err(refuse(format!("its state is {wanted} numbers, not {}", from.len())));
@@ -125,7 +125,7 @@ impl State {
             let place = from.iter().position(|v| !v.is_finite()).unwrap_or(0);
             return Err(refuse(format!("number {} of its state is {}", place + 1, from[place])));
         }
-        let (nodes, elements) = from[HEAD..].split_at(PER_NODE * rod.nodes());
+        let (nodes, elements) = from[HEADER_LEN..].split_at(NUMBERS_PER_NODE * rod.nodes());
         let (directors, yielded) = elements.split_at(if rod.twists() { 3 * rod.elements.len() } else { 0 });
         (self.time, self.origin) = (from[0], Vector3::new(from[1], from[2], from[3]));
         let count = rod.nodes();
@@ -137,11 +137,11 @@ impl State {
         self.bedding.resize(count, 0.0);
         let motions = self.position.iter_mut().zip(&mut self.velocity).zip(&mut self.acceleration);
         let lists = motions.zip(&mut self.averaged).zip(&mut self.stuck).zip(&mut self.bedding);
-        let (nodes, _) = nodes.as_chunks::<PER_NODE>();
+        let (nodes, _) = nodes.as_chunks::<NUMBERS_PER_NODE>();
         for ((((((x, v), a), averaged), s), bedding), node) in lists.zip(nodes) {
             let three = |first: usize| Vector3::new(node[first], node[first + 1], node[first + 2]);
             (*x, *v, *a, *averaged, *s) = (three(0), three(3), three(6), three(9), three(12));
-            *bedding = node[PER_NODE - 1];
+            *bedding = node[NUMBERS_PER_NODE - 1];
         }
         self.director.clear();
         self.director.extend(directors.chunks_exact(3).map(Vector3::from_column_slice));

@@ -4,11 +4,11 @@ use super::bend::bend_slopes;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 /// Unknowns of a hinge: the first edge, the second edge, the turn of the first about itself, and of the second.
-pub(super) type Eight = SVector<f64, 8>;
+pub(super) type Vector8 = SVector<f64, 8>;
 
 /// One side of a hinge: the direction and length of its edge, and its director, a unit vector across it that turns with it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Side {
+pub(super) struct HingeSide {
     pub direction: Vector3<f64>,
     pub length: f64,
     pub director: Vector3<f64>,
@@ -16,7 +16,7 @@ pub(super) struct Side {
     pub natural: [f64; 2],
 }
 
-impl Side {
+impl HingeSide {
     /// The curvature at rest as a vector, turned with the edge.
     pub fn rest(&self) -> Vector3<f64> {
         self.director * self.natural[0] + self.direction.cross(&self.director) * self.natural[1]
@@ -24,7 +24,7 @@ impl Side {
 }
 
 /// A director taken along by the shortest turn from one direction to another.
-pub(super) fn transport(director: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
+pub(super) fn transport_director(director: &Vector3<f64>, from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
     let sum = from + to;
     let moved = director - sum * (director.dot(to) / (1.0 + from.dot(to)).max(1e-12));
     // rounding must not add up over a run
@@ -32,19 +32,19 @@ pub(super) fn transport(director: &Vector3<f64>, from: &Vector3<f64>, to: &Vecto
 }
 
 /// The same turned by an angle about the direction it ends at.
-pub(super) fn turned(director: &Vector3<f64>, about: &Vector3<f64>, angle: f64) -> Vector3<f64> {
+pub(super) fn rotate_director(director: &Vector3<f64>, about: &Vector3<f64>, angle: f64) -> Vector3<f64> {
     let (sine, cosine) = angle.sin_cos();
     director * cosine + about.cross(director) * sine
 }
 
 /// Angle by which the second side is twisted against the first (rad).
-pub(super) fn twist(e: &Side, f: &Side) -> f64 {
-    let brought = transport(&e.director, &e.direction, &f.direction);
+pub(super) fn twist(e: &HingeSide, f: &HingeSide) -> f64 {
+    let brought = transport_director(&e.director, &e.direction, &f.direction);
     f.direction.dot(&brought.cross(&f.director)).atan2(brought.dot(&f.director))
 }
 
 /// Energy of a hinge: 1/2 k |kappa - rest|^2 + 1/2 kt twist^2, but for what is constant.
-pub(super) fn energy(k: f64, kt: f64, e: &Side, f: &Side) -> f64 {
+pub(super) fn energy(k: f64, kt: f64, e: &HingeSide, f: &HingeSide) -> f64 {
     let angle = e.direction.cross(&f.direction).norm().atan2(e.direction.dot(&f.direction));
     let axis = e.direction.cross(&f.direction).try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
     0.5 * k * (angle * angle - angle * axis.dot(&(e.rest() + f.rest()))) + 0.5 * kt * twist(e, f).powi(2)
@@ -56,7 +56,7 @@ pub(super) fn energy(k: f64, kt: f64, e: &Side, f: &Side) -> f64 {
 /// (phi(c)^2 - phi/sin(phi) s); the twist turns by (e x f)/(1 + c).(de + df) as the edges turn
 /// [BERGOU-2008 6]. The derivative is that of the gradient itself, so Newton's iteration is
 /// exact.
-pub(super) fn spatial(k: f64, kt: f64, e: &Side, f: &Side) -> (Eight, SMatrix<f64, 8, 8>) {
+pub(super) fn spatial(k: f64, kt: f64, e: &HingeSide, f: &HingeSide) -> (Vector8, SMatrix<f64, 8, 8>) {
     let (u, w) = (e.direction, f.direction);
     let c = u.dot(&w);
     let slopes = bend_slopes(u.cross(&w).norm(), c);
@@ -107,7 +107,7 @@ pub(super) fn spatial(k: f64, kt: f64, e: &Side, f: &Side) -> (Eight, SMatrix<f6
 
     let (pe, pf) = (unit - o(&u, &u), unit - o(&w, &w));
     let (le, lf) = (1.0 / e.length, 1.0 / f.length);
-    let mut gradient = Eight::zeros();
+    let mut gradient = Vector8::zeros();
     let mut matrix = SMatrix::<f64, 8, 8>::zeros();
     gradient.fixed_rows_mut::<3>(0).copy_from(&(pe * ge * le));
     gradient.fixed_rows_mut::<3>(3).copy_from(&(pf * gf * lf));
@@ -148,21 +148,25 @@ mod tests {
     use super::*;
 
     /// A hinge of two edges given as vectors, with directors taken along from those of a first shape and turned.
-    fn moved(start: &[Side; 2], change: &Eight) -> [Side; 2] {
+    fn moved(start: &[HingeSide; 2], change: &Vector8) -> [HingeSide; 2] {
         [0, 1].map(|i| {
             let side = &start[i];
             let edge = side.direction * side.length + change.fixed_rows::<3>(3 * i);
             let direction = edge.normalize();
-            let director = turned(&transport(&side.director, &side.direction, &direction), &direction, change[6 + i]);
-            Side { direction, length: edge.norm(), director, natural: side.natural }
+            let director = rotate_director(
+                &transport_director(&side.director, &side.direction, &direction),
+                &direction,
+                change[6 + i],
+            );
+            HingeSide { direction, length: edge.norm(), director, natural: side.natural }
         })
     }
 
-    fn start() -> [Side; 2] {
+    fn start() -> [HingeSide; 2] {
         let side = |edge: Vector3<f64>, hint: Vector3<f64>, natural| {
             let direction = edge.normalize();
             let director = (hint - direction * direction.dot(&hint)).normalize();
-            Side { direction, length: edge.norm(), director, natural }
+            HingeSide { direction, length: edge.norm(), director, natural }
         };
         [
             side(Vector3::new(1.2, 0.1, 0.0), Vector3::y(), [0.3, -0.2]),
@@ -175,9 +179,9 @@ mod tests {
         let (start, h) = (start(), 1e-6);
         let (gradient, matrix) = spatial(2.0, 1.5, &start[0], &start[1]);
         for i in 0..8 {
-            let mut step = Eight::zeros();
+            let mut step = Vector8::zeros();
             step[i] = h;
-            let at = |change: &Eight| {
+            let at = |change: &Vector8| {
                 let [e, f] = moved(&start, change);
                 (energy(2.0, 1.5, &e, &f), spatial(2.0, 1.5, &e, &f).0)
             };

@@ -2,8 +2,8 @@
 
 use super::ends::Motion;
 use super::error::RodError;
-use super::mesh::{Rod, carried_along};
-use super::spatial::transport;
+use super::mesh::{Rod, transport_sides};
+use super::spatial::transport_director;
 use nalgebra::Vector3;
 
 /// Motion of a rod at one time.
@@ -12,7 +12,7 @@ pub struct State {
     /// Time (s).
     pub time: f64,
     /// From where positions are measured (m, global): where end A was at the last position of rest, or the first point of
-    /// [`State::along`].
+    /// [`State::along_points`].
     pub origin: Vector3<f64>,
     /// Position of each node (m, global axes, from [`State::origin`]): [`State::place`] is the global one.
     pub position: Vec<Vector3<f64>>,
@@ -27,7 +27,7 @@ pub struct State {
     /// Least penetration over which the bottom's stiffness grows at each node (m): see
     /// [`Solver::statics`](super::Solver::statics).
     pub(super) bedding: Vec<f64>,
-    /// Where each node sticks to the bottom by friction (m, from the origin): see [`Ground`](super::Ground).
+    /// Where each node sticks to the bottom by friction (m, from the origin): see [`SeabedLaw`](super::SeabedLaw).
     pub(super) stuck: Vec<Vector3<f64>>,
     /// Strain to which each element has yielded; empty for a rod without viscoelastic rope.
     pub(super) yielded: Vec<f64>,
@@ -38,7 +38,7 @@ impl State {
     ///
     /// # Errors
     /// Fewer than two points, points that are no numbers, or all in one place.
-    pub fn along(rod: &Rod, points: &[Vector3<f64>]) -> Result<Self, RodError> {
+    pub fn along_points(rod: &Rod, points: &[Vector3<f64>]) -> Result<Self, RodError> {
         let mut along = vec![0.0];
         for pair in points.windows(2) {
             along.push(along[along.len() - 1] + (pair[1] - pair[0]).norm());
@@ -73,20 +73,20 @@ impl State {
                     for t in edges {
                         let last = directors[directors.len() - 1];
                         directors.push(match from {
-                            Some(from) => transport(&last, &from, &t),
+                            Some(from) => transport_director(&last, &from, &t),
                             None => (last - t * t.dot(&last)).normalize(),
                         });
                         from = Some(t);
                     }
                     directors.split_off(1)
                 }
-                None => carried_along(&edges.collect::<Vec<_>>()),
+                None => transport_sides(&edges.collect::<Vec<_>>()),
             }
         } else {
             Vec::new()
         };
         let rest = vec![Vector3::zeros(); rod.nodes()];
-        let yielded = rod.yielded(&position);
+        let yielded = rod.yielded_strains(&position);
         Ok(State {
             time: 0.0,
             origin,
@@ -141,7 +141,7 @@ impl State {
         lists.iter().all(|l| l.len() == nodes)
             && self.bedding.len() == nodes
             && self.director.len() == if rod.twists() { elements } else { 0 }
-            && self.yielded.len() == if rod.remembers() { elements } else { 0 }
+            && self.yielded.len() == if rod.is_viscoelastic() { elements } else { 0 }
     }
 
     /// Gives a node a motion.

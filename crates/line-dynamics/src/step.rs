@@ -1,18 +1,21 @@
 //! One implicit step in time.
 
-use super::again::Moved;
-use super::condense::Near;
+use super::condense::EndJacobian;
 use super::ends::End;
+use super::environment::{LineEnvironment, UniformFluid};
 use super::error::RodError;
 use super::hinges::end_moment;
-use super::iterate::Made;
 use super::mesh::Rod;
-use super::rope::{Memory, remember, settle};
+use super::newton_iteration::LineSearch;
 use super::scheme::{Scheme, Settings};
 use super::state::State;
-use super::surroundings::{UniformFluid, World};
 use super::system::Weights;
-use super::trial::{Trial, interpolate, lay, sample, sample_again, soften, stick, turn};
+use super::trial::{
+    Trial, advance_stick_points, interpolate, resample_fluid, sample_fluid, set_friction_directions,
+    set_seabed_penetration_scales, turn_directors,
+};
+use super::viscoelastic::{Memory, set_yielded_strains, update_memory};
+use super::warm_start::WarmStart;
 use super::workspace::Workspace;
 use nalgebra::Vector3;
 
@@ -43,38 +46,38 @@ pub struct Solver {
     pub(super) work: Workspace,
     pub(super) trial: Trial,
     pub(super) change: Vec<f64>,
-    pub(super) made: Made,
+    pub(super) line_search: LineSearch,
     /// Where the last trial ended.
     pub(super) next: State,
     /// Where the part before it ended, when a step is cut.
     part: State,
-    /// Whether the step at hand is made by implicit Euler: see [`super::snap`].
-    pub(super) snaps: bool,
+    /// Whether the current step is made by implicit Euler: see [`super::euler_fallback`].
+    pub(super) uses_implicit_euler: bool,
     pub(super) weights: Weights,
-    /// See [`Solver::slid`].
-    pub(super) slid: bool,
-    /// Whether the rod at hand stands by its bending stiffness: see [`Rod::is_stiff`].
-    pub(super) stands: bool,
-    /// What is at hand: see [`At`].
-    pub(super) at: At,
+    /// See [`Solver::has_slid_without_friction`].
+    pub(super) slid_without_friction: bool,
+    /// Whether the current rod stands by its bending stiffness: see [`Rod::is_stiff`].
+    pub(super) is_stiff: bool,
+    /// What the solver holds: see [`SolverPhase`].
+    pub(super) phase: SolverPhase,
     /// Where the step of the last trial began, and whether it was made in one part.
-    pub(super) began: State,
-    pub(super) whole: bool,
-    /// The ends' part in the matrix at hand.
-    pub(super) near: Near,
-    /// Room for the parts of a matrix beside its ends, which leaves the factors at hand alone.
-    pub(super) beside: Workspace,
+    pub(super) step_start: State,
+    pub(super) is_single_part: bool,
+    /// Columns of the ends in the current tangent matrix.
+    pub(super) end_jacobian: EndJacobian,
+    /// Workspace for the parts of a matrix beside its ends, which keeps the current factors.
+    pub(super) spare_work: Workspace,
     /// Solutions with the transpose of the matrix.
     pub(super) adjoint: Vec<f64>,
     /// Room for global places.
     pub(super) room: Vec<Vector3<f64>>,
 }
 
-/// What the solver has at hand.
+/// What the solver's trial is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum At {
-    /// Nothing that could be asked about.
-    Nowhere,
+pub(super) enum SolverPhase {
+    /// No valid result.
+    Idle,
     /// A trial that has not been accepted.
     Trial,
     /// A position of rest.
@@ -96,9 +99,9 @@ impl Solver {
             director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
             bedding: vec![0.0; nodes],
             stuck: zero.clone(),
-            yielded: rod.yielded(&zero),
+            yielded: rod.yielded_strains(&zero),
         };
-        let still = UniformFluid::none().0;
+        let still = UniformFluid::vacuum().0;
         let trial = Trial {
             time: 0.0,
             origin: Vector3::zeros(),
@@ -106,42 +109,42 @@ impl Solver {
             v: zero.clone(),
             a: zero.clone(),
             fluid: vec![still; nodes],
-            asked: zero.clone(),
-            lay: zero.clone(),
-            stuck: zero.clone(),
-            laid: zero,
-            soft: vec![0.0; nodes],
+            sampled_at: zero.clone(),
+            friction_direction: zero.clone(),
+            stuck_at: zero.clone(),
+            laid_at: zero,
+            seabed_penetration_scale: vec![0.0; nodes],
             ends: [End::FREE; 2],
-            loose: false,
-            ease: 1.0,
-            exact: false,
-            still: false,
-            drawn: None,
-            limp: false,
-            held: false,
+            tension_only: false,
+            axial_stiffness_scale: 1.0,
+            exact_friction_tangent: false,
+            winches_locked: false,
+            pulled_end: None,
+            no_drag_friction: false,
+            stick_friction: false,
             director: state.director.clone(),
             memory: vec![Memory::default(); state.yielded.len()],
         };
-        let work = Workspace::of(rod);
+        let work = Workspace::new(rod);
         Solver {
             settings,
             change: vec![0.0; work.stride() * nodes],
-            made: Made::new(work.stride() * nodes),
-            beside: work.clone(),
+            line_search: LineSearch::new(work.stride() * nodes),
+            spare_work: work.clone(),
             adjoint: vec![0.0; 6 * work.stride() * nodes],
             work,
             trial,
             part: state.clone(),
-            snaps: false,
-            began: state.clone(),
+            uses_implicit_euler: false,
+            step_start: state.clone(),
             next: state,
             weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
-            slid: false,
-            stands: false,
-            at: At::Nowhere,
+            slid_without_friction: false,
+            is_stiff: false,
+            phase: SolverPhase::Idle,
             room: Vec::with_capacity(nodes),
-            whole: false,
-            near: Near::new(),
+            is_single_part: false,
+            end_jacobian: EndJacobian::new(),
         }
     }
 
@@ -171,7 +174,7 @@ impl Solver {
         &mut self,
         rod: &Rod,
         state: &State,
-        world: &World,
+        world: &LineEnvironment,
         time: f64,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
@@ -182,7 +185,9 @@ impl Solver {
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }
         self.trial.origin = state.origin;
-        self.nearby(world, |solver, world, near| solver.trial_nearby(rod, state, world, time, near.ends(ends)))
+        self.in_local_coordinates(world, |solver, world, near| {
+            solver.trial_nearby(rod, state, world, time, near.ends(ends))
+        })
     }
 
     /// [`Solver::trial`] in coordinates from the origin of the state.
@@ -190,31 +195,31 @@ impl Solver {
         &mut self,
         rod: &Rod,
         state: &State,
-        world: &World,
+        world: &LineEnvironment,
         time: f64,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
         let mut iterations = 0;
-        if self.follows(state, time, &ends) {
-            match self.attempt(rod, state, world, time, ends, true) {
+        if self.is_same_step(state, time, &ends) {
+            match self.step_with_fallback(rod, state, world, time, ends, true) {
                 Ok(count) => return Ok(self.end_forces(rod, count, 1)),
                 Err(_) => iterations = self.settings.iterations,
             }
         }
-        self.at = At::Nowhere;
-        self.began.copy_from(state);
-        let made = match self.attempt(rod, state, world, time, ends, false) {
+        self.phase = SolverPhase::Idle;
+        self.step_start.copy_from(state);
+        let made = match self.step_with_fallback(rod, state, world, time, ends, false) {
             Ok(count) => Ok(self.end_forces(rod, iterations + count, 1)),
-            Err(failure) => self.cut(rod, state, world, time, ends, failure),
+            Err(failure) => self.step_in_parts(rod, state, world, time, ends, failure),
         }?;
-        (self.at, self.whole) = (At::Trial, made.parts == 1);
+        (self.phase, self.is_single_part) = (SolverPhase::Trial, made.parts == 1);
         Ok(made)
     }
 
     /// Takes the last trial as the new state.
     pub fn accept(&mut self, state: &mut State) {
         std::mem::swap(&mut self.next, state);
-        self.at = At::Nowhere;
+        self.phase = SolverPhase::Idle;
     }
 
     /// A trial and its acceptance.
@@ -225,7 +230,7 @@ impl Solver {
         &mut self,
         rod: &Rod,
         state: &mut State,
-        world: &World,
+        world: &LineEnvironment,
         time: f64,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
@@ -235,11 +240,11 @@ impl Solver {
     }
 
     /// The step in parts, each as long as converges.
-    fn cut(
+    fn step_in_parts(
         &mut self,
         rod: &Rod,
         state: &State,
-        world: &World,
+        world: &LineEnvironment,
         time: f64,
         ends: [End; 2],
         mut failure: Failure,
@@ -268,8 +273,8 @@ impl Solver {
             });
             let from = std::mem::take(&mut self.part);
             let supports = world.supports_before(time - target);
-            let within = World { supports: &supports, ..*world };
-            let made = self.attempt(rod, &from, &within, target, between, false);
+            let within = LineEnvironment { supports: &supports, ..*world };
+            let made = self.step_with_fallback(rod, &from, &within, target, between, false);
             self.part = from;
             match made {
                 Ok(count) => {
@@ -298,40 +303,40 @@ impl Solver {
         &mut self,
         rod: &Rod,
         from: &State,
-        world: &World,
+        world: &LineEnvironment,
         time: f64,
         ends: [End; 2],
         near: bool,
     ) -> Result<usize, Failure> {
         let h = time - from.time;
-        let scheme = if self.snaps { Scheme::euler(h) } else { Scheme::new(h, &self.settings.scheme) };
+        let scheme = if self.uses_implicit_euler { Scheme::euler(h) } else { Scheme::new(h, &self.settings.scheme) };
         let last = rod.elements.len();
         self.weights = scheme.weights();
         let shortest = rod.shortest();
         let (tolerance, wild) = (self.settings.tolerance * shortest, 10.0 * rod.length());
-        let moved = if near { self.again(rod, from, world, &scheme, &ends) } else { None };
+        let moved = if near { self.predict_from_last_trial(rod, from, world, &scheme, &ends) } else { None };
         self.trial.time = time;
         self.trial.ends = ends;
         match moved {
             None => {
-                (self.trial.drawn, self.trial.held) = (None, false);
-                self.trial.stuck.copy_from_slice(&from.stuck);
-                lay(rod, from, world, &mut self.trial.lay);
-                soften(from, world, &mut self.trial.soft);
-                remember(rod, from, scheme.h, &mut self.trial.memory);
-                self.foretell(from, &scheme, time, &ends);
+                (self.trial.pulled_end, self.trial.stick_friction) = (None, false);
+                self.trial.stuck_at.copy_from_slice(&from.stuck);
+                set_friction_directions(rod, from, world, &mut self.trial.friction_direction);
+                set_seabed_penetration_scales(from, world, &mut self.trial.seabed_penetration_scale);
+                update_memory(rod, from, scheme.h, &mut self.trial.memory);
+                self.predict_step(from, &scheme, time, &ends);
             }
-            Some(Moved::Near) => {}
-            Some(Moved::Slightly) => {
-                settle(rod, &self.trial.memory, &mut self.next);
-                stick(world, from, &mut self.next);
+            Some(WarmStart::Iterate) => {}
+            Some(WarmStart::Converged) => {
+                set_yielded_strains(rod, &self.trial.memory, &mut self.next);
+                advance_stick_points(world, from, &mut self.next);
                 return Ok(0);
             }
         }
         let stride = self.work.stride();
         let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
         let (mut before, mut last_move) = (f64::INFINITY, f64::INFINITY);
-        self.made.forget();
+        self.line_search.reset();
         for iteration in 1..=self.settings.iterations {
             std::mem::swap(&mut self.trial.x, &mut self.next.position);
             std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
@@ -340,8 +345,8 @@ impl Solver {
             // the factors are those of the trial before where the nodes are, and so is the fluid unless they have left its place
             let close = iteration == 1 && moved.is_some();
             match iteration {
-                1 if !close => sample(world, time, &mut self.trial),
-                _ => sample_again(world, &mut self.trial, shortest),
+                1 if !close => sample_fluid(world, time, &mut self.trial),
+                _ => resample_fluid(world, &mut self.trial, shortest),
             }
             // while the moves shrink fast the factors of the iteration before do as well
             let shrinks = last_move <= 1e-3 * shortest && last_move <= 0.2 * before;
@@ -353,17 +358,17 @@ impl Solver {
             std::mem::swap(&mut self.trial.director, &mut self.next.director);
             let size = size?;
             if !(size.is_finite() && size < wild) {
-                return Err(Failure { node: self.work.worst(known).0, why: "the iteration runs away" });
+                return Err(Failure { node: self.work.largest_residual(known).0, why: "the iteration runs away" });
             }
             if !fresh && !close && size > last_move {
                 // they do no more, as when an element comes to be slack: the move is not made
                 before = last_move;
-                self.made.forget();
+                self.line_search.reset();
                 continue;
             }
-            self.near.moved += size;
+            self.end_jacobian.moved += size;
             let next = &mut self.next;
-            turn(&mut next.director, &next.position, &self.change, stride, known);
+            turn_directors(&mut next.director, &next.position, &self.change, stride, known);
             for i in 0..=last {
                 if (i == 0 && known[0]) || (i == last && known[1]) {
                     continue;
@@ -371,26 +376,29 @@ impl Solver {
                 let d = &self.change[stride * i..stride * i + 3];
                 next.position[i] += Vector3::new(d[0], d[1], d[2]);
                 let u = next.position[i] - from.position[i];
-                let [averaged, v, a] = scheme.follow(from, i, u);
+                let [averaged, v, a] = scheme.node_motion(from, i, u);
                 (next.averaged[i], next.velocity[i], next.acceleration[i]) = (averaged, v, a);
             }
             // what is still missing if the moves go on shrinking as they do
             let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
             if size.min(missing) <= tolerance {
-                if let Some(element) = rod.overstretched(&next.position) {
+                if let Some(element) = rod.find_overstretched(&next.position) {
                     return Err(Failure { node: element + 1, why: "it is stretched beyond the most that it bears" });
                 }
-                settle(rod, &self.trial.memory, next);
-                stick(world, from, next);
+                set_yielded_strains(rod, &self.trial.memory, next);
+                advance_stick_points(world, from, next);
                 return Ok(iteration);
             }
             if iteration > 6 && size > last_move {
-                return Err(Failure { node: self.work.worst(known).0, why: "the iteration does not settle" });
+                return Err(Failure {
+                    node: self.work.largest_residual(known).0,
+                    why: "the iteration does not settle",
+                });
             }
             before = last_move;
             last_move = size;
         }
-        Err(Failure { node: self.work.worst(known).0, why: "the iteration does not settle" })
+        Err(Failure { node: self.work.largest_residual(known).0, why: "the iteration does not settle" })
     }
 
     fn end_forces(&self, rod: &Rod, iterations: usize, parts: usize) -> EndForces {

@@ -1,15 +1,15 @@
 //! A rod on what holds it between its ends.
 
+use super::environment::{LineEnvironment, Support, SupportReaction, SupportTarget};
+use super::local_environment::LocalEnvironment;
 use super::mesh::Rod;
-use super::nearby::Nearby;
 use super::state::State;
 use super::step::Solver;
-use super::surroundings::{Gripped, Holds, Support, World};
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3};
 
 /// What a rod does to one of its supports.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OnSupport {
+pub struct SupportForce {
     /// Force on the support (N, global).
     pub force: Vector3<f64>,
     /// Moment on it about its place (N m).
@@ -29,28 +29,28 @@ pub struct SupportTangent {
 }
 
 /// Most nodes a support acts on.
-const FEW: usize = 3;
+const SUPPORT_NODES: usize = 3;
 
 /// Where a support holds a rod.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
+pub(super) struct SupportContact {
     /// The first node it acts on, and how many.
     node: usize,
     count: usize,
     /// The nodes' shares of the point.
-    pub shares: [f64; FEW],
+    pub shares: [f64; SUPPORT_NODES],
     /// The point from the place of the support (m).
     at: Vector3<f64>,
     /// Of a roller.
-    rolls: Option<Rolling>,
+    rolls: Option<RollerCrossing>,
 }
 
 /// How a rod goes through the plane of a roller.
 #[derive(Clone, Copy, Debug)]
-struct Rolling {
+struct RollerCrossing {
     along: Vector3<f64>,
     /// How the shares change along the curve.
-    slopes: [f64; FEW],
+    slopes: [f64; SUPPORT_NODES],
     /// The curve's own direction and its change, and how far the direction goes along the rollers' way (m).
     edge: Vector3<f64>,
     bend: Vector3<f64>,
@@ -58,35 +58,36 @@ struct Rolling {
 }
 
 /// Load of a support on the nodes it acts on, as one to be overcome, with its derivatives.
-pub(super) struct Supported {
+pub(super) struct SupportLoad {
     /// Force the rod needs from outside at the point (N), shared over the nodes by the shares of their meeting.
     pub force: Vector3<f64>,
     /// Derivatives of the nodes' shares of it by their positions (N/m) and velocities (N s/m): node by node.
-    pub by_position: [[Matrix3<f64>; FEW]; FEW],
-    pub by_velocity: [[Matrix3<f64>; FEW]; FEW],
+    pub by_position: [[Matrix3<f64>; SUPPORT_NODES]; SUPPORT_NODES],
+    pub by_velocity: [[Matrix3<f64>; SUPPORT_NODES]; SUPPORT_NODES],
     /// Energy of the springs (J), and the part of the force that they make (N).
     pub energy: f64,
     pub elastic: Vector3<f64>,
 }
 
 /// The curve of a rod between two points of it, as rollers meet it: a parabola by the shares of three nodes, or straight.
-struct Piece {
+struct SupportPiece {
     node: usize,
     count: usize,
     /// Share of each node at the start, and its first and second change over the piece, which is 1 long.
-    shares: [[f64; 3]; FEW],
+    shares: [[f64; 3]; SUPPORT_NODES],
 }
 
 /// Pieces of a rod in a row. One that bends rolls as the smooth curve that touches each element in its middle, so that
 /// a roller pushes it at right angles to where it bends, and not to the one or the other element beside a node.
-fn pieces(smooth: bool, nodes: usize) -> impl Iterator<Item = Piece> {
+fn pieces(smooth: bool, nodes: usize) -> impl Iterator<Item = SupportPiece> {
     let elements = nodes.saturating_sub(1);
-    let straight = |node: usize, from: f64, to: f64| Piece {
+    let straight = |node: usize, from: f64, to: f64| SupportPiece {
         node,
         count: 2,
         shares: [[1.0 - from, from - to, 0.0], [from, to - from, 0.0], [0.0; 3]],
     };
-    let round = |node: usize| Piece { node, count: 3, shares: [[0.5, -1.0, 1.0], [0.5, 1.0, -2.0], [0.0, 0.0, 1.0]] };
+    let round =
+        |node: usize| SupportPiece { node, count: 3, shares: [[0.5, -1.0, 1.0], [0.5, 1.0, -2.0], [0.0, 0.0, 1.0]] };
     let chords = (0..if smooth { 0 } else { elements }).map(move |i| straight(i, 0.0, 1.0));
     let first = (smooth && elements > 0).then(|| straight(0, 0.0, 0.5));
     let last = (smooth && elements > 0).then(|| straight(elements - 1, 0.5, 1.0));
@@ -94,14 +95,14 @@ fn pieces(smooth: bool, nodes: usize) -> impl Iterator<Item = Piece> {
     chords.chain(first).chain(bends).chain(last)
 }
 
-impl Piece {
+impl SupportPiece {
     /// A sum of the nodes' vectors by their shares, or a change of those.
     fn sum(weights: impl Iterator<Item = f64>, x: &[Vector3<f64>]) -> Vector3<f64> {
         weights.zip(x).fold(Vector3::zeros(), |sum, (w, x)| sum + x * w)
     }
 
     /// Where it crosses the plane of a roller.
-    fn crossing(&self, support: &Support, along: Vector3<f64>, x: &[Vector3<f64>]) -> Option<Meeting> {
+    fn crossing(&self, support: &Support, along: Vector3<f64>, x: &[Vector3<f64>]) -> Option<SupportContact> {
         let nodes = x.get(self.node..self.node + self.count)?;
         // height over the plane by c0 + c1 s + c2 s^2 / 2
         let plane = along.dot(&support.place);
@@ -123,36 +124,36 @@ impl Piece {
         let s = s.clamp(0.0, 1.0);
         let shares = self.shares.map(|[a, b, c]| a + b * s + 0.5 * c * s * s);
         let slopes = self.shares.map(|[_, b, c]| b + c * s);
-        let edge = Piece::sum(slopes.into_iter(), nodes);
-        let bend = Piece::sum(self.shares.iter().map(|share| share[2]), nodes);
+        let edge = SupportPiece::sum(slopes.into_iter(), nodes);
+        let bend = SupportPiece::sum(self.shares.iter().map(|share| share[2]), nodes);
         let reach = edge.dot(&along);
-        let at = Piece::sum(shares.into_iter(), nodes) - support.place;
-        let rolls = Some(Rolling { along, slopes, edge, bend, reach });
-        (reach != 0.0).then_some(Meeting { node: self.node, count: self.count, shares, at, rolls })
+        let at = SupportPiece::sum(shares.into_iter(), nodes) - support.place;
+        let rolls = Some(RollerCrossing { along, slopes, edge, bend, reach });
+        (reach != 0.0).then_some(SupportContact { node: self.node, count: self.count, shares, at, rolls })
     }
 }
 
-impl Meeting {
+impl SupportContact {
     /// The nodes it acts on.
     pub fn nodes(&self) -> std::ops::Range<usize> {
         self.node..self.node + self.count
     }
 
     /// A vector of its nodes at the point.
-    pub fn at_point(&self, of: &[Vector3<f64>]) -> Vector3<f64> {
-        Piece::sum(self.shares.into_iter(), &of[self.nodes()])
+    pub fn value_at_contact(&self, of: &[Vector3<f64>]) -> Vector3<f64> {
+        SupportPiece::sum(self.shares.into_iter(), &of[self.nodes()])
     }
 }
 
 /// Where a support holds a rod: of a roller, where that crosses its plane nearest to its place. A rod is `smooth` where
 /// it bends: see [`Rod::smooth`].
-pub(super) fn meeting(smooth: bool, support: &Support, x: &[Vector3<f64>]) -> Option<Meeting> {
-    let along = match support.holds {
-        Holds::Node(node) => {
+pub(super) fn find_support_contact(smooth: bool, support: &Support, x: &[Vector3<f64>]) -> Option<SupportContact> {
+    let along = match support.target {
+        SupportTarget::Node(node) => {
             let at = x.get(node)? - support.place;
-            return Some(Meeting { node, count: 1, shares: [1.0, 0.0, 0.0], at, rolls: None });
+            return Some(SupportContact { node, count: 1, shares: [1.0, 0.0, 0.0], at, rolls: None });
         }
-        Holds::Crossing(along) => along,
+        SupportTarget::Crossing(along) => along,
     };
     let crossings = pieces(smooth, x.len()).filter_map(|piece| piece.crossing(support, along, x));
     crossings.min_by(|a, b| a.at.norm_squared().total_cmp(&b.at.norm_squared()))
@@ -163,25 +164,26 @@ pub(super) fn meeting(smooth: bool, support: &Support, x: &[Vector3<f64>]) -> Op
 ///
 /// A roller is asked at the point where the rod crosses its plane, so that its force is at right angles to the rod, as
 /// that of something that rolls, and the rod slides from one element to the next without a jump.
-pub(super) fn supported(support: &Support, meeting: &Meeting, v: &[Vector3<f64>]) -> Option<Supported> {
-    let velocity = meeting.at_point(v) - support.velocity;
-    let none = [[Matrix3::zeros(); FEW]; FEW];
-    let Some(Rolling { along, slopes, edge, bend, reach }) = meeting.rolls else {
-        let Gripped { force, by_position, by_velocity, elastic } = support.grip.answer(&meeting.at, &velocity)?;
+pub(super) fn support_load(support: &Support, meeting: &SupportContact, v: &[Vector3<f64>]) -> Option<SupportLoad> {
+    let velocity = meeting.value_at_contact(v) - support.velocity;
+    let none = [[Matrix3::zeros(); SUPPORT_NODES]; SUPPORT_NODES];
+    let Some(RollerCrossing { along, slopes, edge, bend, reach }) = meeting.rolls else {
+        let SupportReaction { force, by_position, by_velocity, elastic } =
+            support.law.reaction(&meeting.at, &velocity)?;
         let mut made =
-            Supported { force: -force, by_position: none, by_velocity: none, energy: elastic.1, elastic: -elastic.0 };
+            SupportLoad { force: -force, by_position: none, by_velocity: none, energy: elastic.1, elastic: -elastic.0 };
         (made.by_position[0][0], made.by_velocity[0][0]) = (by_position, by_velocity);
         return Some(made);
     };
     // how the crossing moves with the material there, as the rod slides along itself through the plane
     let slide = Matrix3::identity() - edge * along.transpose() / reach;
-    let made = support.grip.answer(&meeting.at, &(slide * velocity))?;
+    let made = support.law.reaction(&meeting.at, &(slide * velocity))?;
     let across = |force: Vector3<f64>| force - along * (edge.dot(&force) / reach);
     let force = across(-made.force);
     let turned = slide.transpose();
     let (stiff, damp) = (turned * made.by_position * slide, turned * made.by_velocity * slide);
     // by the material at the crossing, which slides along the curve; and by the direction of the curve there
-    let dv = Piece::sum(slopes.into_iter(), &v[meeting.nodes()]);
+    let dv = SupportPiece::sum(slopes.into_iter(), &v[meeting.nodes()]);
     let by_edge = -(along * force.transpose()) / reach - damp * (along.dot(&velocity) / reach);
     let by_material = stiff - (damp * dv + by_edge * bend) * along.transpose() / reach;
     // the shares of the nodes change as it slides
@@ -195,7 +197,7 @@ pub(super) fn supported(support: &Support, meeting: &Meeting, v: &[Vector3<f64>]
             by_velocity[row][column] = damp * (share * own);
         }
     }
-    Some(Supported { force, by_position, by_velocity, energy: made.elastic.1, elastic: across(-made.elastic.0) })
+    Some(SupportLoad { force, by_position, by_velocity, energy: made.elastic.1, elastic: across(-made.elastic.0) })
 }
 
 impl Rod {
@@ -205,46 +207,46 @@ impl Rod {
     }
 
     /// What the rod does to each support of a world in a state.
-    pub fn on_supports(&self, state: &State, world: &World) -> Vec<OnSupport> {
+    pub fn support_forces(&self, state: &State, world: &LineEnvironment) -> Vec<SupportForce> {
         let look = |support: &Support| {
-            let clear = OnSupport { force: Vector3::zeros(), moment: Vector3::zeros(), arc: None };
-            let Some(found) = meeting(self.smooth(), support, &state.position) else { return clear };
+            let clear = SupportForce { force: Vector3::zeros(), moment: Vector3::zeros(), arc: None };
+            let Some(found) = find_support_contact(self.smooth(), support, &state.position) else { return clear };
             let mut node: f64 = self.elements.iter().take(found.node).map(|e| e.rest).sum();
             let mut arc = 0.0;
             for (share, element) in found.shares.iter().zip(&self.elements[found.node.min(self.elements.len())..]) {
                 arc += share * node;
                 node += element.rest;
             }
-            let force = supported(support, &found, &state.velocity).map_or_else(Vector3::zeros, |made| made.force);
-            OnSupport { force, moment: found.at.cross(&force), arc: Some(arc) }
+            let force = support_load(support, &found, &state.velocity).map_or_else(Vector3::zeros, |made| made.force);
+            SupportForce { force, moment: found.at.cross(&force), arc: Some(arc) }
         };
-        let near = Nearby::new(world, state.origin, Vec::new());
+        let near = LocalEnvironment::new(world, state.origin, Vec::new());
         near.world().supports.iter().map(look).collect()
     }
 }
 
-/// A support that holds the rod, where the solver is.
-struct Held {
-    meeting: Meeting,
-    load: Supported,
+/// A support in contact with the rod at the solver's trial.
+struct SupportState {
+    meeting: SupportContact,
+    load: SupportLoad,
     /// How its nodes move with it, as seen from the support: by its translation and turn.
-    carried: [SMatrix<f64, 3, 6>; FEW],
+    carried: [SMatrix<f64, 3, 6>; SUPPORT_NODES],
 }
 
-impl Held {
-    fn of(smooth: bool, support: &Support, x: &[Vector3<f64>], v: &[Vector3<f64>]) -> Option<Held> {
-        let meeting = meeting(smooth, support, x)?;
-        let load = supported(support, &meeting, v)?;
-        let mut carried = [SMatrix::<f64, 3, 6>::zeros(); FEW];
+impl SupportState {
+    fn evaluate(smooth: bool, support: &Support, x: &[Vector3<f64>], v: &[Vector3<f64>]) -> Option<SupportState> {
+        let meeting = find_support_contact(smooth, support, x)?;
+        let load = support_load(support, &meeting, v)?;
+        let mut carried = [SMatrix::<f64, 3, 6>::zeros(); SUPPORT_NODES];
         for (made, x) in carried.iter_mut().zip(&x[meeting.nodes()]) {
             made.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
             made.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(x - support.place).cross_matrix());
         }
-        Some(Held { meeting, load, carried })
+        Some(SupportState { meeting, load, carried })
     }
 
     /// Load of one of its nodes.
-    fn share(&self, row: usize) -> Vector3<f64> {
+    fn node_load(&self, row: usize) -> Vector3<f64> {
         self.load.force * self.meeting.shares[row]
     }
 
@@ -258,7 +260,7 @@ impl Held {
         }
         if !rates {
             let mut turn = made.fixed_view_mut::<3, 3>(0, 3);
-            turn -= self.share(row).cross_matrix();
+            turn -= self.node_load(row).cross_matrix();
         }
         made
     }
@@ -274,20 +276,20 @@ impl Held {
             }
             made += self.carried[row].transpose() * change;
             let mut moment = made.fixed_rows_mut::<3>(3);
-            moment += moved(self.meeting.node + row).cross(&self.share(row));
+            moment += moved(self.meeting.node + row).cross(&self.node_load(row));
         }
         made
     }
 
     /// Change of the wrench on the support with its own motion, the rod as it is.
-    fn own(&self, rates: bool) -> Matrix6<f64> {
+    fn by_itself(&self, rates: bool) -> Matrix6<f64> {
         let mut made = Matrix6::zeros();
         for row in 0..self.meeting.count {
             made += self.carried[row].transpose() * self.by_support(row, rates);
             if !rates {
                 // the arm is shorter by what the place has moved
                 let mut arm = made.fixed_view_mut::<3, 3>(3, 0);
-                arm += self.share(row).cross_matrix();
+                arm += self.node_load(row).cross_matrix();
             }
         }
         made
@@ -300,18 +302,18 @@ impl Solver {
     /// and the start of the step as they are. That the turn of a support changes how fast the rod goes by it is left out.
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.
-    pub fn support_tangent(&mut self, rod: &Rod, world: &World) -> Option<SupportTangent> {
-        self.nearby(world, |solver, world, _| solver.support_tangent_nearby(rod, world))
+    pub fn support_tangent(&mut self, rod: &Rod, world: &LineEnvironment) -> Option<SupportTangent> {
+        self.in_local_coordinates(world, |solver, world, _| solver.support_tangent_nearby(rod, world))
     }
 
     /// [`Solver::support_tangent`] in coordinates from the origin of the trial.
-    fn support_tangent_nearby(&mut self, rod: &Rod, world: &World) -> Option<SupportTangent> {
+    fn support_tangent_nearby(&mut self, rod: &Rod, world: &LineEnvironment) -> Option<SupportTangent> {
         self.linearise(rod, world, true, [false; 2])?;
         let count = world.supports.len();
         let (x, v) = (&self.trial.x, &self.trial.v);
         let smooth = rod.smooth();
-        let held: Vec<_> = world.supports.iter().map(|support| Held::of(smooth, support, x, v)).collect();
-        let feels = |h: &Held| h.load.by_velocity.iter().flatten().any(|block| *block != Matrix3::zeros());
+        let held: Vec<_> = world.supports.iter().map(|support| SupportState::evaluate(smooth, support, x, v)).collect();
+        let feels = |h: &SupportState| h.load.by_velocity.iter().flatten().any(|block| *block != Matrix3::zeros());
         let rated = held.iter().flatten().any(feels);
         let mut made = SupportTangent::default();
         made.position.resize(count * count, Matrix6::zeros());
@@ -329,7 +331,7 @@ impl Solver {
             }
             for (j, from) in held.iter().enumerate() {
                 let Some(from) = from else { continue };
-                blocks[count * j + j] += from.own(rates);
+                blocks[count * j + j] += from.by_itself(rates);
                 for dof in 0..6 {
                     right.fill(0.0);
                     for (row, node) in from.meeting.nodes().enumerate().filter(|(_, node)| !given(*node)) {

@@ -1,8 +1,8 @@
 //! The residual of a rod and its tangent, with what adds to them by nodes.
 
-use super::abreast::{ABREAST, Abreast, Shares};
 use super::band::Band;
-use super::spatial::Eight;
+use super::element_batch::{BATCH_SIZE, BatchTangent, ElementBatch};
+use super::spatial::Vector8;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// How velocity and acceleration follow the unknown positions: the tangent is k K + c C + m M.
@@ -19,7 +19,7 @@ pub(super) struct System<const W: usize, const H: usize, const S: usize> {
     pub band: Band<H, S>,
     pub residual: Vec<f64>,
     /// Room for elements taken at once.
-    pub abreast: Abreast,
+    pub abreast: ElementBatch,
     /// Residual of the two end nodes.
     pub ends: [Vector3<f64>; 2],
     /// Rows of the two end nodes.
@@ -31,7 +31,7 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
         System {
             band: Band::new(W * nodes),
             residual: vec![0.0; W * nodes],
-            abreast: Abreast::default(),
+            abreast: ElementBatch::default(),
             ends: [Vector3::zeros(); 2],
             rows: [[[0.0; S]; 3]; 2],
         }
@@ -65,8 +65,8 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
 
     /// Adds so many elements that were taken at once, from the first on.
     pub fn shares<const TANGENT: bool>(&mut self, first: usize, count: usize) {
-        let Abreast { shares, .. } = &self.abreast;
-        for n in 0..count.min(ABREAST) {
+        let ElementBatch { shares, .. } = &self.abreast;
+        for n in 0..count.min(BATCH_SIZE) {
             add_share::<TANGENT, W, H, S>((&mut self.band, &mut self.residual), (first + n, n), shares);
         }
     }
@@ -81,7 +81,7 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
         &mut self,
         sides: [Option<usize>; 2],
         k: f64,
-        gradient: &Eight,
+        gradient: &Vector8,
         matrix: &SMatrix<f64, 8, 8>,
     ) {
         // each of the eight unknowns by those of the nodes: an edge is its second node less its first
@@ -168,9 +168,9 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
 fn add_share<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     (band, residual): (&mut Band<H, S>, &mut [f64]),
     (element, n): (usize, usize),
-    shares: &Shares,
+    shares: &BatchTangent,
 ) {
-    let three = |of: &[[f64; ABREAST]; 3]| [of[0][n], of[1][n], of[2][n]];
+    let three = |of: &[[f64; BATCH_SIZE]; 3]| [of[0][n], of[1][n], of[2][n]];
     for (second, force) in shares.force.iter().enumerate() {
         let (node, other) = if second == 0 { (element, element + 1) } else { (element + 1, element) };
         for (residual, by) in residual[W * node..W * node + 3].iter_mut().zip(three(force)) {

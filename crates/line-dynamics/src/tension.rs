@@ -1,9 +1,9 @@
 //! The tension of an element.
 
+use super::environment::FluidState;
 use super::mesh::{Element, Rod};
-use super::rope::Memory;
 use super::section::{Axial, Segment, Tube};
-use super::surroundings::Fluid;
+use super::viscoelastic::Memory;
 use nalgebra::Vector3;
 
 /// Tension of an element (N) with its derivatives by strain, by strain rate and by the height of its middle.
@@ -25,20 +25,20 @@ pub(super) struct Stretch {
     pub datum: f64,
 }
 
-/// How the law of an element is taken.
+/// How the tension law of an element is evaluated.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Taken {
+pub(super) struct TensionOptions {
     /// Whether it resists being shortened.
     pub compression: bool,
-    /// The share of its stiffness that is there; one but on the way to a position of rest.
-    pub ease: f64,
+    /// Scale of its axial stiffness: below one only on the way to a position of rest.
+    pub axial_stiffness_scale: f64,
 }
 
-/// What the tension of a tube has of warmth and pressure.
+/// Contributions of temperature and pressure to the tension of a tube, through its areas.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Walls {
-    /// Strain free of tension.
-    pub free: f64,
+pub(super) struct TubeAreas {
+    /// Strain free of tension, by temperature.
+    pub free_strain: f64,
     /// Tension by the pressure outside (m2).
     pub outside: f64,
     /// Tension that the contents take away at the datum (N), and give back by the way up from there (N/m).
@@ -46,15 +46,20 @@ pub(super) struct Walls {
     pub contents: f64,
 }
 
-impl Walls {
+impl TubeAreas {
     /// Of a tube, heights over a datum (m, global): (1 - 2 nu)(p_e A_e - p_i A_i) [SPARKS-2007 2.4].
     #[inline(always)]
-    pub fn of(tube: &Tube, gravity: f64, datum: f64) -> Self {
+    pub fn from_tube(tube: &Tube, gravity: f64, datum: f64) -> Self {
         let share = 1.0 - 2.0 * tube.poisson;
         let [outside, inside] = tube.areas().map(|area| share * area);
         let contents = tube.contents * gravity * inside;
         let free = tube.expansion * tube.warmer;
-        Walls { free, outside, inside: tube.pressure * inside + contents * (tube.at - datum), contents }
+        TubeAreas {
+            free_strain: free,
+            outside,
+            inside: tube.pressure * inside + contents * (tube.at - datum),
+            contents,
+        }
     }
 }
 
@@ -63,7 +68,7 @@ impl Tension {
 }
 
 /// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does
-/// through Poisson's ratio ([`Walls`]), the pressure outside being the mean of what the fluids at its two nodes make it at its
+/// through Poisson's ratio ([`TubeAreas`]), the pressure outside being the mean of what the fluids at its two nodes make it at its
 /// middle. A viscoelastic rope with a `memory` adds its Maxwell element.
 ///
 /// What does not resist being shortened never pushes, neither by its stiffness nor by its damper; and its damper does
@@ -72,10 +77,10 @@ impl Tension {
 pub(super) fn tension(
     rod: &Rod,
     element: &Element,
-    taken: Taken,
+    taken: TensionOptions,
     stretch: &Stretch,
     memory: Option<&Memory>,
-    fluids: [&Fluid; 2],
+    fluids: [&FluidState; 2],
     gravity: f64,
 ) -> Tension {
     let segment = &rod.segments[element.segment];
@@ -89,24 +94,24 @@ pub(super) fn tension(
         (element.ea * mechanical, element.ea)
     } else if shortened {
         // pressure on its walls may still hold it taut; its law begins with its slope at zero
-        let (_, slope) = segment.axial.at(0.0);
+        let (_, slope) = segment.axial.evaluate(0.0);
         (slope * mechanical, slope)
     } else {
-        segment.axial.at(mechanical)
+        segment.axial.evaluate(mechanical)
     };
     let mut made = Tension {
-        value: value * taken.ease,
-        by_strain: by_strain * taken.ease,
+        value: value * taken.axial_stiffness_scale,
+        by_strain: by_strain * taken.axial_stiffness_scale,
         by_rate: element.damping,
         by_height: 0.0,
     };
-    if let (Some(memory), Some(rope)) = (memory, rod.rope(element)) {
-        let (beside, slope) = rope.beside(mechanical, memory);
+    if let (Some(memory), Some(rope)) = (memory, rod.viscoelastic_law(element)) {
+        let (beside, slope) = rope.maxwell_tension(mechanical, memory);
         made.value += beside;
         made.by_strain += slope;
     }
     if let Some(tube) = &segment.tube {
-        let Walls { outside, inside, contents, .. } = Walls::of(tube, gravity, stretch.datum);
+        let TubeAreas { outside, inside, contents, .. } = TubeAreas::from_tube(tube, gravity, stretch.datum);
         let [a, b] = fluids.map(|fluid| fluid.pressure(stretch.height, gravity));
         let (outer, by_height) = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
         made.value += outer * outside - (inside - contents * stretch.height);
@@ -120,7 +125,7 @@ pub(super) fn tension(
 impl Rod {
     /// The first element that is stretched beyond the most that its law bears, where that falls again with more strain:
     /// nothing would hold it there.
-    pub(super) fn overstretched(&self, x: &[Vector3<f64>]) -> Option<usize> {
+    pub(super) fn find_overstretched(&self, x: &[Vector3<f64>]) -> Option<usize> {
         let falls = |segment: &Segment| matches!(segment.axial, Axial::Polynomial(_));
         if !self.segments.iter().any(falls) {
             return None;
@@ -129,7 +134,7 @@ impl Rod {
             let segment = &self.segments[element.segment];
             let free = segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
             let strain = (x[1] - x[0]).norm() / element.rest - 1.0 - free;
-            falls(segment) && strain > 0.0 && segment.axial.at(strain).1 <= 0.0
+            falls(segment) && strain > 0.0 && segment.axial.evaluate(strain).1 <= 0.0
         };
         self.elements.iter().zip(x.windows(2)).position(beyond)
     }

@@ -1,50 +1,49 @@
-//! A trial motion of a rod, and what is asked at it.
+//! A trial motion of a rod, with the fluid sampled along it.
 
-use super::contact::sticks;
+use super::contact::update_stick_point;
 use super::ends::{End, Motion};
+use super::environment::{FluidState, LineEnvironment};
 use super::mesh::Rod;
-use super::rope::Memory;
-use super::spatial::{transport, turned};
+use super::spatial::{rotate_director, transport_director};
 use super::state::State;
-use super::surroundings::{Fluid, World};
+use super::viscoelastic::Memory;
 use nalgebra::{Rotation3, Vector3};
 
-/// A trial motion of all nodes at one time, with what surrounds them.
+/// A trial motion of all nodes at one time, with the fluid at them.
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
     pub time: f64,
-    /// From where its positions are measured (m, global).
+    /// Origin of its positions (m, global).
     pub origin: Vector3<f64>,
     pub x: Vec<Vector3<f64>>,
     pub v: Vec<Vector3<f64>>,
     pub a: Vec<Vector3<f64>>,
-    pub fluid: Vec<Fluid>,
-    /// Where the fluid was asked.
-    pub asked: Vec<Vector3<f64>>,
+    pub fluid: Vec<FluidState>,
+    /// Positions at which the fluid was sampled.
+    pub sampled_at: Vec<Vector3<f64>>,
     /// Direction of the rod at each node at the start of the step, for friction.
-    pub lay: Vec<Vector3<f64>>,
+    pub friction_direction: Vec<Vector3<f64>>,
     /// Where each node sticks to the bottom at the start of the step.
-    pub stuck: Vec<Vector3<f64>>,
+    pub stuck_at: Vec<Vector3<f64>>,
     /// Where each node was laid on the bottom, about which friction across holds a rod at rest.
-    pub laid: Vec<Vector3<f64>>,
+    pub laid_at: Vec<Vector3<f64>>,
     /// Penetration over which the bottom's stiffness grows at each node (m).
-    pub soft: Vec<f64>,
+    pub seabed_penetration_scale: Vec<f64>,
     pub ends: [End; 2],
-    /// Whether it is taken as a chain, without resistance to shortening and bending: on the way to a position of rest.
-    pub loose: bool,
-    /// The share of its axial stiffness that is there; less than one on the way to a position of rest.
-    pub ease: f64,
+    /// Without resistance to compression and bending: on the way to a position of rest.
+    pub tension_only: bool,
+    /// Scale of the axial stiffness: below one on the way to a position of rest.
+    pub axial_stiffness_scale: f64,
     /// Whether the tangent of friction is the exact one, as a body needs it, or the secant that converges.
-    pub exact: bool,
-    /// Whether winches stand still, as they do when the rod is brought to rest.
-    pub still: bool,
-    /// Which node of an element is toward the end that a rod at rest has been drawn to, if it lies on a bottom with
-    /// friction: see [`super::drawn`].
-    pub drawn: Option<usize>,
-    /// Whether such a rod has friction against sliding down a slope alone, and none against being drawn.
-    pub limp: bool,
-    /// Whether a rod at rest that has not been drawn to an end is held by friction where it was laid: see [`super::held`].
-    pub held: bool,
+    pub exact_friction_tangent: bool,
+    /// Winches stand still, as in statics.
+    pub winches_locked: bool,
+    /// The pulled end (0 or 1) of a rod in statics, if it lies on a bottom with friction: see [`super::statics_friction`].
+    pub pulled_end: Option<usize>,
+    /// A rod with a pulled end has no drag friction, but only friction against sliding down a slope.
+    pub no_drag_friction: bool,
+    /// A rod in statics without a pulled end is held by friction where it was laid: see [`super::stick_friction`].
+    pub stick_friction: bool,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
     /// How each element of a rod with viscoelastic rope follows its strain.
@@ -52,21 +51,21 @@ pub(super) struct Trial {
 }
 
 impl Trial {
-    /// Whether elements that bear no compression resist it all the same: see [`super::drawn`].
-    pub fn stiff(&self) -> bool {
-        self.drawn.is_some() && !self.limp
+    /// Whether tension-only elements resist compression all the same: see [`super::statics_friction`].
+    pub fn resists_shortening(&self) -> bool {
+        self.pulled_end.is_some() && !self.no_drag_friction
     }
 }
 
 /// Takes directors along from one position of the nodes to another.
-pub(super) fn carry(directors: &mut [Vector3<f64>], from: &[Vector3<f64>], to: &[Vector3<f64>]) {
+pub(super) fn transport_directors(directors: &mut [Vector3<f64>], from: &[Vector3<f64>], to: &[Vector3<f64>]) {
     for ((director, a), b) in directors.iter_mut().zip(from.windows(2)).zip(to.windows(2)) {
-        *director = transport(director, &(a[1] - a[0]).normalize(), &(b[1] - b[0]).normalize());
+        *director = transport_director(director, &(a[1] - a[0]).normalize(), &(b[1] - b[0]).normalize());
     }
 }
 
 /// Takes directors along with a change of the unknowns that is about to be made, and turns them by it.
-pub(super) fn turn(
+pub(super) fn turn_directors(
     directors: &mut [Vector3<f64>],
     x: &[Vector3<f64>],
     change: &[f64],
@@ -82,13 +81,13 @@ pub(super) fn turn(
     };
     for (i, director) in directors.iter_mut().enumerate() {
         let (from, to) = ((x[i + 1] - x[i]).normalize(), (moved(i + 1) - moved(i)).normalize());
-        *director = turned(&transport(director, &from, &to), &to, change[stride * i + 3]);
+        *director = rotate_director(&transport_director(director, &from, &to), &to, change[stride * i + 3]);
     }
 }
 
 /// Largest change of the unknowns (m), of which there are `stride` a node: a turn of an element counts by the way of what
 /// stands off it by `arm` (m). Infinite where one is no number.
-pub(super) fn largest(change: &[f64], stride: usize, arm: f64) -> f64 {
+pub(super) fn largest_change(change: &[f64], stride: usize, arm: f64) -> f64 {
     // some nodes at once, whole ones for strides of 3 and 4: no unknown waits for the one before it
     let arms: [f64; 12] = std::array::from_fn(|i| if i % stride < 3 { 1.0 } else { arm });
     let (mut most, mut whole) = ([0.0; 12], true);
@@ -102,28 +101,28 @@ pub(super) fn largest(change: &[f64], stride: usize, arm: f64) -> f64 {
     if whole { most.iter().fold(0.0, |most: f64, size| most.max(*size)) } else { f64::INFINITY }
 }
 
-/// How far a node may be from where the fluid was asked, as a share of the shortest element, until it is asked again.
+/// Distance of a node from where the fluid was sampled beyond which it is sampled again, as a share of the shortest element.
 ///
 /// Over a thousandth of an element the water changes by a thousandth of what it changes over the element, and an element takes it for
 /// the same all along each half.
-const ASIDE: f64 = 1e-3;
+const FLUID_REUSE_SHARE: f64 = 1e-3;
 
-/// Asks the fluid again at those nodes of a trial that have left their places since, at the same time.
-pub(super) fn sample_again(world: &World, trial: &mut Trial, shortest: f64) {
+/// Samples the fluid again at those nodes of a trial that have left the positions of the last sample, at the same time.
+pub(super) fn resample_fluid(world: &LineEnvironment, trial: &mut Trial, shortest: f64) {
     if world.fluid.uniform() {
         return;
     }
-    let aside = ASIDE * shortest;
+    let aside = FLUID_REUSE_SHARE * shortest;
     // a place that is no number is far away
     let near = |x: &Vector3<f64>, asked: &Vector3<f64>| (x - asked).norm_squared() <= aside * aside;
-    let Trial { time, x, fluid, asked, .. } = trial;
+    let Trial { time, x, fluid, sampled_at: asked, .. } = trial;
     let mut begin = 0;
     while begin < x.len() {
         // those beside each other together
         let run = x[begin..].iter().zip(&asked[begin..]).take_while(|(x, asked)| !near(x, asked)).count();
         let places = begin..begin + run;
         if run > 0 {
-            world.fluid.fill(&x[places.clone()], *time, &mut fluid[places.clone()]);
+            world.fluid.sample_into(&x[places.clone()], *time, &mut fluid[places.clone()]);
             asked[places.clone()].copy_from_slice(&x[places]);
         }
         begin += run + 1;
@@ -131,18 +130,18 @@ pub(super) fn sample_again(world: &World, trial: &mut Trial, shortest: f64) {
 }
 
 /// Asks the fluid at the nodes of a trial.
-pub(super) fn sample(world: &World, time: f64, trial: &mut Trial) {
+pub(super) fn sample_fluid(world: &LineEnvironment, time: f64, trial: &mut Trial) {
     if world.fluid.uniform() {
-        let everywhere = world.fluid.at(&trial.x[0], time);
+        let everywhere = world.fluid.sample(&trial.x[0], time);
         trial.fluid.fill(everywhere);
     } else {
-        world.fluid.fill(&trial.x, time, &mut trial.fluid);
-        trial.asked.copy_from_slice(&trial.x);
+        world.fluid.sample_into(&trial.x, time, &mut trial.fluid);
+        trial.sampled_at.copy_from_slice(&trial.x);
     }
 }
 
 /// Direction of the rod at each node, where friction needs it.
-pub(super) fn lay(rod: &Rod, state: &State, world: &World, lay: &mut [Vector3<f64>]) {
+pub(super) fn set_friction_directions(rod: &Rod, state: &State, world: &LineEnvironment, lay: &mut [Vector3<f64>]) {
     if world.bottom.is_some_and(|(_, g)| g.rough()) {
         let last = rod.elements.len();
         for (i, direction) in lay.iter_mut().enumerate() {
@@ -153,20 +152,20 @@ pub(super) fn lay(rod: &Rod, state: &State, world: &World, lay: &mut [Vector3<f6
 }
 
 /// Where the nodes stick at the end of a step.
-pub(super) fn stick(world: &World, from: &State, next: &mut State) {
+pub(super) fn advance_stick_points(world: &LineEnvironment, from: &State, next: &mut State) {
     next.stuck.copy_from_slice(&next.position);
     if let Some((bottom, ground)) = world.bottom.filter(|(_, g)| g.rough()) {
         for ((stuck, x), before) in next.stuck.iter_mut().zip(&next.position).zip(&from.stuck) {
-            *stuck = sticks(bottom, &ground, x, before);
+            *stuck = update_stick_point(bottom, &ground, x, before);
         }
     }
 }
 
 /// Penetration over which the bottom's stiffness grows at each node: the bottom's own, or the mesh's where it is larger.
-pub(super) fn soften(state: &State, world: &World, soft: &mut [f64]) {
+pub(super) fn set_seabed_penetration_scales(state: &State, world: &LineEnvironment, soft: &mut [f64]) {
     if let Some((_, ground)) = &world.bottom {
         for (soft, bedding) in soft.iter_mut().zip(&state.bedding) {
-            *soft = bedding.max(ground.soft);
+            *soft = bedding.max(ground.penetration_scale);
         }
     }
 }

@@ -14,7 +14,7 @@ impl Rod {
     pub fn set_length(&mut self, element: usize, length: f64, rate: f64) -> Result<(), RodError> {
         let segment = self.element(element)?.segment;
         if !(length.is_finite() && length > 0.0 && rate.is_finite()) {
-            return Err(self.refused(format!("element {} cannot be {length} m long", element + 1)));
+            return Err(self.refuse(format!("element {} cannot be {length} m long", element + 1)));
         }
         let made =
             self.segments.get(segment).map(|properties| Element { rate, ..Element::new(properties, segment, length) });
@@ -32,12 +32,12 @@ impl Rod {
     /// An element that is not there, too many elements, or a rod with torsional stiffness, whose elements cannot be divided.
     pub fn divide(&mut self, element: usize, state: &mut State) -> Result<(), RodError> {
         let old = self.changeable(element, state)?;
-        if self.elements.len() >= super::MOST_ELEMENTS {
-            return Err(self.refused(format!("it has {} elements already", self.elements.len())));
+        if self.elements.len() >= super::MAX_ELEMENTS {
+            return Err(self.refuse(format!("it has {} elements already", self.elements.len())));
         }
         // the part beside the end it comes from goes on growing, and the rest moves as one
         let (first, last) = (element == 0, element + 1 == self.elements.len());
-        let half = self.sized(&old, 0.5);
+        let half = self.scaled_element(&old, 0.5);
         let rates = if first {
             [old.rate, 0.0]
         } else if last {
@@ -80,10 +80,12 @@ impl Rod {
         let second = self.changeable(element + 1, state)?;
         if self.attachments.iter().any(|a| a.node == element + 1) {
             let why = format!("elements {} and {} cannot be one", element + 1, element + 2);
-            return Err(self.refused(why));
+            return Err(self.refuse(why));
         }
-        let joined =
-            Element { rate: first.rate + second.rate, ..self.sized(&second, (first.rest + second.rest) / second.rest) };
+        let joined = Element {
+            rate: first.rate + second.rate,
+            ..self.scaled_element(&second, (first.rest + second.rest) / second.rest)
+        };
         self.elements.splice(element..=element + 1, [joined]);
         for list in [&mut state.position, &mut state.velocity, &mut state.acceleration, &mut state.averaged] {
             list.remove(element + 1);
@@ -103,7 +105,7 @@ impl Rod {
     }
 
     /// An element of the same segment that is `share` as long, and grows by that share of its rate.
-    fn sized(&self, element: &Element, share: f64) -> Element {
+    fn scaled_element(&self, element: &Element, share: f64) -> Element {
         let rest = element.rest * share;
         self.segments.get(element.segment).map_or_else(
             || element.clone(),
@@ -113,21 +115,21 @@ impl Rod {
 
     fn element(&self, element: usize) -> Result<Element, RodError> {
         let there = self.elements.get(element).cloned();
-        there.ok_or_else(|| self.refused(format!("there is no element {}", element + 1)))
+        there.ok_or_else(|| self.refuse(format!("there is no element {}", element + 1)))
     }
 
     /// An element whose nodes may come and go.
     fn changeable(&self, element: usize, state: &State) -> Result<Element, RodError> {
         if !state.fits(self) {
-            return Err(self.refused("the state is not that of this rod".to_string()));
+            return Err(self.refuse("the state is not that of this rod".to_string()));
         }
         if self.twists() {
-            return Err(self.refused("elements with torsional stiffness cannot be divided or joined".to_string()));
+            return Err(self.refuse("elements with torsional stiffness cannot be divided or joined".to_string()));
         }
         self.element(element)
     }
 
-    fn refused(&self, why: String) -> RodError {
+    fn refuse(&self, why: String) -> RodError {
         RodError::Shape { rod: self.name.clone(), why }
     }
 }

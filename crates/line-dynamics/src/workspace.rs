@@ -1,9 +1,9 @@
 //! The system of a rod by its kind: as narrow a band as its stiffness needs.
 
 use super::assemble::assemble;
-use super::condense::WIDEST;
+use super::condense::MAX_BANDWIDTH;
+use super::environment::LineEnvironment;
 use super::mesh::Rod;
-use super::surroundings::World;
 use super::system::{System, Weights};
 use super::trial::Trial;
 use nalgebra::{Matrix3, Vector3};
@@ -33,7 +33,7 @@ macro_rules! each {
 
 impl Workspace {
     /// The system that fits a rod.
-    pub fn of(rod: &Rod) -> Self {
+    pub fn new(rod: &Rod) -> Self {
         if rod.twists() {
             Workspace::Twisted(System::new(rod.nodes()))
         } else if rod.elements.iter().all(|e| e.bending == 0.0) {
@@ -49,12 +49,19 @@ impl Workspace {
     }
 
     /// Elements beside an end that the motion of the end enters.
-    pub fn reach(&self) -> usize {
+    pub fn bandwidth(&self) -> usize {
         if matches!(self, Workspace::Rope(_)) { 1 } else { 2 }
     }
 
     /// Residual and tangent of the whole rod at a trial.
-    pub fn assemble(&mut self, rod: &Rod, world: &World, trial: &Trial, weights: Weights, range: Range<usize>) {
+    pub fn assemble(
+        &mut self,
+        rod: &Rod,
+        world: &LineEnvironment,
+        trial: &Trial,
+        weights: Weights,
+        range: Range<usize>,
+    ) {
         each!(self, system => {
             system.clear();
             assemble::<true, _, _, _>(rod, world, trial, weights, range, system);
@@ -63,7 +70,14 @@ impl Workspace {
 
     /// Tangent of the elements of a range on their own nodes; the other rows and the residual are left as they are, or
     /// worse.
-    pub fn assemble_part(&mut self, rod: &Rod, world: &World, trial: &Trial, weights: Weights, range: Range<usize>) {
+    pub fn assemble_part(
+        &mut self,
+        rod: &Rod,
+        world: &LineEnvironment,
+        trial: &Trial,
+        weights: Weights,
+        range: Range<usize>,
+    ) {
         each!(self, system => {
             system.clear_part(&range);
             assemble::<true, _, _, _>(rod, world, trial, weights, range, system);
@@ -71,7 +85,7 @@ impl Workspace {
     }
 
     /// Residual of the whole rod at a trial; the matrix stays as it is.
-    pub fn forces(&mut self, rod: &Rod, world: &World, trial: &Trial) {
+    pub fn forces(&mut self, rod: &Rod, world: &LineEnvironment, trial: &Trial) {
         let none = Weights { k: 0.0, c: 0.0, m: 0.0 };
         each!(self, system => {
             system.residual.fill(0.0);
@@ -96,11 +110,11 @@ impl Workspace {
     }
 
     /// A column of the matrix, its diagonal in the middle place.
-    pub fn column(&self, column: usize, entries: &mut [f64; WIDEST]) {
+    pub fn column(&self, column: usize, entries: &mut [f64; MAX_BANDWIDTH]) {
         each!(self, system => {
             let size = system.residual.len();
             for (i, entry) in entries.iter_mut().enumerate() {
-                let row = (column + i).checked_sub(WIDEST / 2).filter(|r| *r < size);
+                let row = (column + i).checked_sub(MAX_BANDWIDTH / 2).filter(|r| *r < size);
                 *entry = row.map_or(0.0, |r| system.band.get(r, column));
             }
         });
@@ -153,7 +167,7 @@ impl Workspace {
     }
 
     /// Makes the residual of a fixed node one that moves it by a change.
-    pub fn lead_residual(&mut self, node: usize, change: &Vector3<f64>) {
+    pub fn prescribe_change(&mut self, node: usize, change: &Vector3<f64>) {
         each!(self, system => {
             let first = system.stride() * node;
             for (residual, c) in system.residual[first..first + 3].iter_mut().zip(change) {
@@ -170,7 +184,7 @@ impl Workspace {
     }
 
     /// Adds to the diagonal of a node and to its residual.
-    pub fn stiffen(&mut self, node: usize, by: f64, force: &Vector3<f64>) {
+    pub fn add_node_inertia(&mut self, node: usize, by: f64, force: &Vector3<f64>) {
         each!(self, system => for i in 0..3 {
             let place = system.stride() * node + i;
             system.band.add(place, place, by);
@@ -179,7 +193,7 @@ impl Workspace {
     }
 
     /// Adds to the block of a node and to its residual.
-    pub fn hold(&mut self, node: usize, by: &Matrix3<f64>, force: &Vector3<f64>) {
+    pub fn add_node_stiffness(&mut self, node: usize, by: &Matrix3<f64>, force: &Vector3<f64>) {
         each!(self, system => for i in 0..3 {
             let place = system.stride() * node;
             for j in 0..3 {
@@ -215,7 +229,7 @@ impl Workspace {
     }
 
     /// Node with the largest residual (N), of those without an end's motion; a residual that is no number comes first.
-    pub fn worst(&self, known: [bool; 2]) -> (usize, f64) {
+    pub fn largest_residual(&self, known: [bool; 2]) -> (usize, f64) {
         each!(self, system => {
             let stride = system.stride();
             let mut worst = (0, 0.0);

@@ -87,18 +87,18 @@ pub struct LineNode {
 
 impl LineNode {
     /// The side toward the second end; where two segments do not meet it is the only one.
-    pub fn behind(&self) -> LineSide {
+    pub fn side_after(&self) -> LineSide {
         LineSide { segment: self.segment, wall: self.wall, stress: self.stress }
     }
 
     /// The sides on which it is judged, from the first end: two where two segments meet.
     pub fn sides(&self) -> impl Iterator<Item = LineSide> {
-        self.before.into_iter().chain([self.behind()])
+        self.before.into_iter().chain([self.side_after()])
     }
 
     /// The side with the larger von Mises stress.
     pub fn worse(&self) -> LineSide {
-        let behind = self.behind();
+        let behind = self.side_after();
         self.before.filter(|b| b.von_mises() > behind.von_mises()).unwrap_or(behind)
     }
 }

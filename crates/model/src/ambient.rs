@@ -67,12 +67,12 @@ pub trait Ambient: Debug + Send + Sync {
     fn bottom(&self, x: f64, y: f64) -> Option<(f64, [f64; 2])>;
 
     /// Whether the bottom is one over a grid. A flat one gives way to the depth that a line says of its own bottom.
-    fn charted(&self) -> bool {
+    fn has_bottom_grid(&self) -> bool {
         false
     }
 
     /// Whether who asks is to give up.
-    fn interrupted(&self) -> bool {
+    fn is_interrupted(&self) -> bool {
         false
     }
 

@@ -35,15 +35,15 @@ impl Bathymetry {
     /// too many or no numbers.
     pub fn new(name: &str, x: Vec<f64>, y: Vec<f64>, heights: &[f64], span: Span) -> Result<Self, ClassError> {
         for (places, what) in [(&x, "x"), (&y, "y")] {
-            grows(places, what).map_err(|e| e.at(span))?;
+            grows(places, what).map_err(|e| e.with_span(span))?;
         }
-        let wanted = fits(x.len(), y.len()).map_err(|e| e.at(span))?;
+        let wanted = fits(x.len(), y.len()).map_err(|e| e.with_span(span))?;
         if heights.len() != wanted {
             let text = format!("{} by {} points have {wanted} heights, not {}", x.len(), y.len(), heights.len());
-            return Err(ClassError::new(text).at(span));
+            return Err(ClassError::new(text).with_span(span));
         }
         if heights.iter().any(|z| !z.is_finite()) {
-            return Err(ClassError::new("a height of the bottom is no number").at(span));
+            return Err(ClassError::new("a height of the bottom is no number").with_span(span));
         }
         let mut points: Vec<[f64; 4]> = heights.iter().map(|z| [*z, 0.0, 0.0, 0.0]).collect();
         let columns = x.len();
@@ -70,7 +70,7 @@ impl Bathymetry {
     /// Points that make no grid: a place without a height or with two, and as [`Bathymetry::new`].
     pub fn of_points(name: &str, mut given: Vec<[f64; 3]>, span: Span) -> Result<Self, ClassError> {
         if given.iter().flatten().any(|v| !v.is_finite()) {
-            return Err(ClassError::new("a place of the bottom is no number").at(span));
+            return Err(ClassError::new("a place of the bottom is no number").with_span(span));
         }
         // one zero, not two
         given.iter_mut().flatten().for_each(|v| *v += 0.0);
@@ -88,7 +88,8 @@ impl Bathymetry {
             _ => None,
         }) {
             let told = [length(a[0]), length(a[1]), length(a[2]), length(b[2])];
-            return Err(ClassError::of("the bottom at x = {}, y = {} is given twice: {} and {}", &told).at(span));
+            return Err(ClassError::with_values("the bottom at x = {}, y = {} is given twice: {} and {}", &told)
+                .with_span(span));
         }
         let wanted = x.len().saturating_mul(y.len());
         if given.len() != wanted {
@@ -101,21 +102,23 @@ impl Bathymetry {
             let there = given.iter().map(Some).chain(std::iter::repeat(None));
             let missing = |((x, y), p): &((f64, f64), Option<&[f64; 3]>)| p.is_none_or(|p| p[0] != *x || p[1] != *y);
             if let Some(((x, y), _)) = places.zip(there).find(missing) {
-                let told =
-                    ClassError::of("the first place without a height is x = {}, y = {}", &[length(x), length(y)]);
+                let told = ClassError::with_values(
+                    "the first place without a height is x = {}, y = {}",
+                    &[length(x), length(y)],
+                );
                 error.message = format!("{}; {}", error.message, told.message);
                 error.values = told.values;
             }
-            return Err(error.at(span).help("every x has a point at every y"));
+            return Err(error.with_span(span).help("every x has a point at every y"));
         }
         let heights: Vec<f64> = given.iter().map(|p| p[2]).collect();
         Bathymetry::new(name, x, y, &heights, span)
     }
 
     /// Elevation of the bottom (m, global z) and its slopes dz/dx, dz/dy at a place (m).
-    pub fn at(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
-        let (column, across) = Cell::of(&self.x, x);
-        let (row, up) = Cell::of(&self.y, y);
+    pub fn elevation_and_slopes(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
+        let (column, across) = Cell::locate(&self.x, x);
+        let (row, up) = Cell::locate(&self.y, y);
         let columns = self.x.len();
         let corner =
             |i: usize, j: usize| self.points.get((row + j) * columns + column + i).copied().unwrap_or([f64::NAN; 4]);
@@ -197,7 +200,7 @@ fn grows(places: &[f64], what: &str) -> Result<(), ClassError> {
         _ => None,
     });
     match wrong {
-        Some(told) => Err(ClassError::of(format!("{what} of the bottom must grow: {{}} follows {{}}"), &told)),
+        Some(told) => Err(ClassError::with_values(format!("{what} of the bottom must grow: {{}} follows {{}}"), &told)),
         None => Ok(()),
     }
 }
@@ -237,7 +240,7 @@ struct Cell {
 
 impl Cell {
     /// The number of the cell in which a place lies, and its cubics there; beyond the edges those of the edge, without change.
-    fn of(places: &[f64], at: f64) -> (usize, Cell) {
+    fn locate(places: &[f64], at: f64) -> (usize, Cell) {
         let index = places.partition_point(|p| *p <= at).saturating_sub(1).min(places.len() - 2);
         let (low, high) = (places[index], places[index + 1]);
         let step = high - low;

@@ -99,7 +99,7 @@ impl Default for Mass {
 
 impl Mass {
     /// That of all weights of parts, each placed in the body, under this gravity (m/s2).
-    pub fn of<'a>(parts: impl Iterator<Item = &'a Part>, gravity: f64) -> Self {
+    pub fn from_parts<'a>(parts: impl Iterator<Item = &'a Part>, gravity: f64) -> Self {
         let mut sum = Mass::default();
         let mut first = Vector3::zeros();
         for part in parts {

@@ -147,7 +147,7 @@ impl ClassError {
     }
 
     /// An error that names values: `{}` in the message stands for each.
-    pub fn of(message: impl Into<String>, values: &[(f64, Dim)]) -> Self {
+    pub fn with_values(message: impl Into<String>, values: &[(f64, Dim)]) -> Self {
         ClassError { values: values.to_vec(), ..ClassError::new(message) }
     }
 
@@ -157,7 +157,7 @@ impl ClassError {
     }
 
     /// The same at a place.
-    pub fn at(self, span: Span) -> Self {
+    pub fn with_span(self, span: Span) -> Self {
         ClassError { span: Some(span), ..self }
     }
 

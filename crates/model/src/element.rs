@@ -178,7 +178,7 @@ pub trait Element: Debug + Send + Sync {
 
     /// Of an element from a body to the ground that remembers nothing and pulls with a force that the place of its first end alone
     /// changes: what [`Element::evaluate`] tells, with less work. `None` of all others.
-    fn anchored(&self, _at: &Situation, _guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
+    fn find_anchored(&self, _at: &Situation, _guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
         None
     }
 
@@ -212,7 +212,7 @@ pub trait Element: Debug + Send + Sync {
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError>;
 
     /// The same in other surroundings along it, made no otherwise for them; none of what is to be made anew for them.
-    fn under(&self, _ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
+    fn with_ambient(&self, _ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
         None
     }
 
@@ -268,7 +268,7 @@ pub trait Element: Debug + Send + Sync {
     ///
     /// # Errors
     /// A state that is not one of its own.
-    fn along(&self, _at: &Situation, _state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
+    fn line_nodes(&self, _at: &Situation, _state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
         out.clear();
         Ok(())
     }
@@ -277,7 +277,7 @@ pub trait Element: Debug + Send + Sync {
     /// does not bend all beside effective tension and clearance. What the solver remembers is a place to work in.
     ///
     /// # Errors
-    /// As [`Element::along`].
+    /// As [`Element::line_nodes`].
     fn row(
         &self,
         at: &Situation,
@@ -285,7 +285,7 @@ pub trait Element: Debug + Send + Sync {
         _guess: &mut Guess,
         out: &mut Vec<LineNode>,
     ) -> Result<(), ClassError> {
-        self.along(at, state, out)
+        self.line_nodes(at, state, out)
     }
 
     /// Its slowest natural modes in a state, slowest first, with its ends held where they are; none of an element that is

@@ -211,7 +211,7 @@ impl Environment {
         };
         let seas = [&self.sea, &self.added_sea].into_iter().flatten().map(|s| s.spectrum.as_str());
         let gusts = self.options.iter().filter(|given| given.is(&W_SPECTRUM)).filter_map(|g| g.first_word());
-        let named = self.options.iter().flat_map(|g| g.named(Noun::Curve)).filter_map(|v| v.word()).chain(gusts);
+        let named = self.options.iter().flat_map(|g| g.names(Noun::Curve)).filter_map(|v| v.word()).chain(gusts);
         Box::new(profiles.iter().map(|(name, _)| name.as_str()).chain(seas).chain(named))
     }
 }

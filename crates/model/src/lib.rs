@@ -136,7 +136,7 @@ impl Model {
     }
 
     /// Whether Ctrl-C has been pressed since the record began.
-    pub fn interrupted(&self) -> bool {
+    pub fn is_interrupted(&self) -> bool {
         self.interrupt.load(Ordering::Relaxed)
     }
 
@@ -176,7 +176,7 @@ impl Model {
         let mut around = self.surroundings();
         if let (Some(anchor), Some(bottom)) = (connector.anchor, self.bathymetry_in(&self.environment)) {
             let [x, y] = anchor.at;
-            around.depth = Some(-bottom.at(x, y).0);
+            around.depth = Some(-bottom.elevation_and_slopes(x, y).0);
         }
         class.object.anchor_depth(&around)
     }
@@ -194,7 +194,7 @@ impl Model {
     pub fn end(&self, connector: &Connector, index: usize) -> Option<Position> {
         let point = connector.points.get(index).and_then(|name| self.points.get(&Model::key(name)))?;
         let offset = connector.offsets.get(index).copied().unwrap_or_default();
-        let turned = self.body_of(point).map_or(offset, |b| b.place.turned(offset));
+        let turned = self.body_of(point).map_or(offset, |b| b.place.rotate(offset));
         let [x, y, z] = self.global(point);
         let [dx, dy, dz] = turned;
         Some([x + dx, y + dy, z + dz])
@@ -213,7 +213,7 @@ impl Model {
     pub fn end_poses(&self, connector: &Connector) -> [Pose; 2] {
         let first = self.end_pose(connector, 0).unwrap_or_default();
         let [_, defined] = connector.defined;
-        let anchor = || self.placement(connector).other.filter(|_| connector.anchor.is_some()).map(Pose::at);
+        let anchor = || self.placement(connector).other.filter(|_| connector.anchor.is_some()).map(Pose::from_position);
         [first, self.end_pose(connector, 1).or_else(anchor).unwrap_or(defined)]
     }
 

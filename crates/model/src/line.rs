@@ -138,7 +138,7 @@ pub struct FoundLength {
 
 impl FoundLength {
     /// The only one.
-    pub fn only(length: f64) -> Self {
+    pub fn single(length: f64) -> Self {
         FoundLength { length, others: Vec::new(), unsolved: Vec::new() }
     }
 }
@@ -182,7 +182,7 @@ pub trait LineModel {
     ///
     /// # Errors
     /// A change of what the line does not have: a bottom, a weight, a stiffness that is one number.
-    fn changed(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError>;
+    fn with_change(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError>;
 
     /// The line as an engine sees it.
     ///

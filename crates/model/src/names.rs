@@ -124,7 +124,7 @@ impl Model {
     }
 
     /// Where a thing was defined; `None` when there is no such thing.
-    pub fn defined(&self, thing: EntityKind, name: &str) -> Option<Span> {
+    pub fn definition_span(&self, thing: EntityKind, name: &str) -> Option<Span> {
         let key = Model::key(name);
         match thing {
             EntityKind::Connector => self.connectors.get(&key).map(|c| c.span),
@@ -147,10 +147,10 @@ impl Model {
     /// # Errors
     /// A name that is taken, with the place of its definition.
     pub fn free_name(&self, name: &str, mine: &[EntityKind], span: Span) -> Outcome<()> {
-        if mine.iter().any(|thing| self.defined(*thing, name).is_some()) {
+        if mine.iter().any(|thing| self.definition_span(*thing, name).is_some()) {
             return Ok(());
         }
-        match UNMARKED.into_iter().find_map(|thing| self.defined(thing, name).map(|place| (thing, place))) {
+        match UNMARKED.into_iter().find_map(|thing| self.definition_span(thing, name).map(|place| (thing, place))) {
             None => Ok(()),
             Some((thing, place)) => {
                 Err(Diagnostic::error(format!("{name} is the name of {} already", with_article(thing.word())), span)
@@ -202,11 +202,11 @@ impl Model {
         let uses = |mut curves: Box<dyn Iterator<Item = &str> + '_>| curves.any(|c| Model::key(c) == key);
         let classes = self.classes.values().filter(|class| {
             let options = class.records.iter().flat_map(|r| r.args.options.iter());
-            uses(Box::new(options.flat_map(|g| g.named(Noun::Curve)).filter_map(|v| v.word())))
+            uses(Box::new(options.flat_map(|g| g.names(Noun::Curve)).filter_map(|v| v.word())))
         });
         let kept = self.environments.values().filter(|e| uses(e.curves())).map(|e| e.name.as_str());
         let kept_by = |piece: &&Piece| {
-            let curves = piece.kept.iter().flat_map(|g| g.named(Noun::Curve)).filter_map(|v| v.word());
+            let curves = piece.kept.iter().flat_map(|g| g.names(Noun::Curve)).filter_map(|v| v.word());
             uses(Box::new(curves))
         };
         let pieces = self.parts.values().flat_map(|p| p.pieces.iter()).filter(kept_by).map(|p| p.name.as_str());

@@ -13,19 +13,19 @@ pub struct Note {
 
 impl Note {
     /// A sentence with values in SI and what they measure.
-    pub fn of(sentence: impl Into<String>, values: &[(f64, Dim)]) -> Self {
+    pub fn new(sentence: impl Into<String>, values: &[(f64, Dim)]) -> Self {
         Note { sentence: sentence.into(), values: values.to_vec() }
     }
 
     /// The sentence with its values to so many decimals in these units.
     pub fn text(&self, units: UnitSystem) -> String {
         const DECIMALS: usize = 2;
-        filled(&self.sentence, &self.values, units, |value| format!("{value:.DECIMALS$}"))
+        fill_sentence(&self.sentence, &self.values, units, |value| format!("{value:.DECIMALS$}"))
     }
 }
 
 /// A sentence with its values in these units, each with its unit.
-pub(super) fn filled<T: Display>(
+pub(super) fn fill_sentence<T: Display>(
     sentence: &str,
     values: &[(f64, Dim)],
     units: UnitSystem,
@@ -39,7 +39,7 @@ pub(super) fn filled<T: Display>(
 
 /// A sentence with its values in eight figures.
 pub(super) fn in_eight_figures(sentence: &str, values: &[(f64, Dim)], units: UnitSystem) -> String {
-    filled(sentence, values, units, eight_figures)
+    fill_sentence(sentence, values, units, eight_figures)
 }
 
 impl From<String> for Note {

@@ -16,9 +16,12 @@ pub const EMODULUS: OptionSpec =
     OptionSpec::new("-EMODULUS", &[number("EMOD", Dim::Stress, "Young's modulus").positive()], "Young's modulus")
         .default("&DEFAULT");
 /// `-POI_RAT`.
-pub const POI_RAT: OptionSpec =
-    OptionSpec::new("-POI_RAT", &[number("POIRAT", Dim::None, "Poisson's ratio").within(0.0, 0.5)], "Poisson's ratio")
-        .default("&DEFAULT");
+pub const POI_RAT: OptionSpec = OptionSpec::new(
+    "-POI_RAT",
+    &[number("POIRAT", Dim::None, "Poisson's ratio").in_range(0.0, 0.5)],
+    "Poisson's ratio",
+)
+.default("&DEFAULT");
 /// `-FYIELD`.
 pub const FYIELD: OptionSpec =
     OptionSpec::new("-FYIELD", &[number("FYIELD", Dim::Stress, "yield stress").positive()], "yield stress")

@@ -20,7 +20,7 @@ pub struct SchemeWeights {
 impl SchemeWeights {
     /// The generalised-alpha scheme of a spectral radius at infinite frequency, 0 to 1: second order, unconditionally stable for
     /// linear systems, least damping of low frequencies [CHUNG-HULBERT-1993 eq. 25].
-    pub fn generalised(rho: f64) -> Self {
+    pub fn generalised_alpha(rho: f64) -> Self {
         let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
         let gamma = 0.5 - alpha_m + alpha_f;
         SchemeWeights { alpha_m, alpha_f, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma }

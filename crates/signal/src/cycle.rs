@@ -5,7 +5,7 @@
 //! ([W-INSTALLED 4]: with sixty the higher harmonics are off).
 
 use super::harmonics::Harmonic;
-use super::{SeriesError, timed};
+use super::{SeriesError, check_times};
 use std::f64::consts::TAU;
 
 /// Samples of a cycle that AQWA takes.
@@ -33,14 +33,14 @@ impl Cycle {
     ///
     /// # Errors
     /// Times that do not grow or values that are not finite; a cycle that the series does not hold; fewer than two samples for each harmonic.
-    pub fn of(
+    pub fn new(
         times: &[f64],
         values: &[f64],
         (start, period): (f64, f64),
         orders: usize,
         samples: usize,
     ) -> Result<Self, SeriesError> {
-        timed(times, values)?;
+        check_times(times, values)?;
         if times.len() < 4 {
             return Err(SeriesError::TooFew { what: "a cycle by cubics", need: 4, got: times.len() });
         }
@@ -104,7 +104,7 @@ mod tests {
         let times: Vec<f64> = (0..161).map(|i| 0.125 * f64::from(i)).collect();
         let value = |t: f64| 3.0 + 0.2 * (t - 10.0) + 2.0 * (TAU * t / 12.0 - 0.7).cos();
         let values: Vec<f64> = times.iter().map(|t| value(*t)).collect();
-        let found = Cycle::of(&times, &values, (4.0, 12.0), 3, 16).unwrap();
+        let found = Cycle::new(&times, &values, (4.0, 12.0), 3, 16).unwrap();
         // cubics over w h = 0.065: (w h)^4/24 of the amplitude, 1.5e-6
         assert!((found.mean - 3.0).abs() < 2e-6 && (found.drift - 2.4).abs() < 1e-5, "{found:?}");
         // what a straight line leaves between 16 samples of it goes into the mean alone when it is about the middle
@@ -116,7 +116,7 @@ mod tests {
     fn a_periodic_series_has_the_phase_of_time_zero() {
         let times: Vec<f64> = (0..301).map(|i| 0.1 * f64::from(i)).collect();
         let values: Vec<f64> = times.iter().map(|t| 2.0 * (TAU * t / 12.0 + 0.9).cos()).collect();
-        let found = Cycle::of(&times, &values, (7.0, 12.0), 2, 16).unwrap();
+        let found = Cycle::new(&times, &values, (7.0, 12.0), 2, 16).unwrap();
         let [one, two] = [found.harmonics[0], found.harmonics[1]];
         assert!(
             (one.amplitude - 2.0).abs() < 1e-6 && (one.phase - 0.9).abs() < 1e-6 && two.amplitude < 1e-6,
@@ -128,10 +128,10 @@ mod tests {
     fn a_cycle_outside_the_series_or_too_few_samples_are_refused() {
         let times: Vec<f64> = (0..21).map(f64::from).collect();
         let values = vec![0.0; 21];
-        assert!(Cycle::of(&times, &values, (10.0, 12.0), 2, 16).is_err());
+        assert!(Cycle::new(&times, &values, (10.0, 12.0), 2, 16).is_err());
         assert!(
-            Cycle::of(&times, &values, (0.0, 12.0), 8, 16).is_err()
-                && Cycle::of(&times, &values, (0.0, 0.0), 2, 16).is_err()
+            Cycle::new(&times, &values, (0.0, 12.0), 8, 16).is_err()
+                && Cycle::new(&times, &values, (0.0, 0.0), 2, 16).is_err()
         );
     }
 }

@@ -1,7 +1,7 @@
 //! Harmonic analysis of a response to a regular wave: least squares on the harmonics of one period.
 
 use super::spectra::amplitudes;
-use super::{SeriesError, sampling, timed};
+use super::{SeriesError, check_times, sampling};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 use windlass_base::dense::{Cholesky, never};
@@ -48,7 +48,7 @@ pub fn analyse(
     orders: usize,
     cycles: Option<usize>,
 ) -> Result<Harmonics, SeriesError> {
-    timed(times, values)?;
+    check_times(times, values)?;
     if !(1..=MOST).contains(&orders) {
         let expected = "between 1 and 50";
         return Err(SeriesError::Setting { what: "the number of harmonics", expected, value: orders as f64 });
@@ -98,7 +98,7 @@ pub fn analyse(
         let (c, s) = (at(2 * order - 1), at(2 * order));
         // a cos(k w (t - last) + p) with c = a cos p, s = -a sin p; the phase is moved to t = 0
         let phase = (-s).atan2(c) - w * last * order as f64;
-        Harmonic { order, amplitude: c.hypot(s), phase: wrapped(phase) }
+        Harmonic { order, amplitude: c.hypot(s), phase: wrap_angle(phase) }
     });
     Ok(Harmonics {
         period,
@@ -110,7 +110,7 @@ pub fn analyse(
 }
 
 /// An angle between -pi and pi.
-fn wrapped(angle: f64) -> f64 {
+fn wrap_angle(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }
 

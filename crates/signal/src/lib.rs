@@ -96,7 +96,7 @@ pub fn finite(values: &[f64]) -> Result<(), SeriesError> {
 ///
 /// # Errors
 /// What is wrong, with the number of the value.
-pub fn timed(times: &[f64], values: &[f64]) -> Result<(), SeriesError> {
+pub fn check_times(times: &[f64], values: &[f64]) -> Result<(), SeriesError> {
     if times.len() != values.len() {
         return Err(SeriesError::Lengths { times: times.len(), values: values.len() });
     }

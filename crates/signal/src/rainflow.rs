@@ -15,7 +15,7 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    fn between(a: f64, b: f64, count: f64) -> Self {
+    fn from_extremes(a: f64, b: f64, count: f64) -> Self {
         Cycle { range: (a - b).abs(), mean: a.midpoint(b), count }
     }
 }
@@ -56,10 +56,10 @@ pub fn cycles(values: &[f64]) -> Result<Vec<Cycle>, SeriesError> {
             }
             if open.len() - start == 3 {
                 // the range holds the starting point: half a cycle, and the start moves on
-                out.push(Cycle::between(*a, *b, 0.5));
+                out.push(Cycle::from_extremes(*a, *b, 0.5));
                 start += 1;
             } else {
-                out.push(Cycle::between(*a, *b, 1.0));
+                out.push(Cycle::from_extremes(*a, *b, 1.0));
                 let keep = open.len() - 3;
                 let last = *c;
                 open.truncate(keep);
@@ -69,7 +69,7 @@ pub fn cycles(values: &[f64]) -> Result<Vec<Cycle>, SeriesError> {
     }
     let residual = open.get(start..).unwrap_or_default().windows(2);
     out.extend(residual.filter_map(|w| match w {
-        [a, b] => Some(Cycle::between(*a, *b, 0.5)),
+        [a, b] => Some(Cycle::from_extremes(*a, *b, 0.5)),
         _ => None,
     }));
     Ok(out)

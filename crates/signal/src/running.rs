@@ -50,7 +50,7 @@ pub struct Summary {
 
 impl Running {
     /// An empty accumulator that counts crossings of a level, as the mean expected of the series.
-    pub fn about(level: f64) -> Self {
+    pub fn with_level(level: f64) -> Self {
         Running {
             level,
             count: 0,
@@ -156,7 +156,7 @@ mod tests {
             let t: Vec<f64> = (0..x.len()).map(|i| i as f64 * 0.5).collect();
             let m = moments(&x).unwrap();
             let c = crossings(&t, &x, m.mean).unwrap();
-            let mut r = Running::about(m.mean);
+            let mut r = Running::with_level(m.mean);
             for (t, x) in t.iter().zip(&x) {
                 r.push(*t, *x).unwrap();
             }
@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn a_long_offset_series_keeps_its_deviation() {
         // 1e6 samples of +-1 about 1e6: naive sums of squares lose ten digits of the variance
-        let mut r = Running::about(1e6);
+        let mut r = Running::with_level(1e6);
         for i in 0..1_000_000u32 {
             r.push(f64::from(i), 1e6 + if i % 2 == 0 { 1.0 } else { -1.0 }).unwrap();
         }
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_sample_that_is_no_number_or_not_later_is_refused() {
-        let mut r = Running::about(0.0);
+        let mut r = Running::with_level(0.0);
         assert!(r.summary().is_none());
         r.push(0.0, 1.0).unwrap();
         let before = r.clone();

@@ -1,6 +1,6 @@
 //! Uniform samples: what the Fourier transform needs.
 
-use super::{SeriesError, timed};
+use super::{SeriesError, check_times};
 use std::borrow::Cow;
 
 /// A series on a uniform grid of times.
@@ -25,7 +25,7 @@ const SLACK: f64 = 1e-3;
 /// # Errors
 /// Fewer than two values, times that do not grow, a value that is not finite.
 pub fn uniform<'a>(times: &[f64], values: &'a [f64]) -> Result<Uniform<'a>, SeriesError> {
-    timed(times, values)?;
+    check_times(times, values)?;
     let (Some(first), Some(last), true) = (times.first(), times.last(), times.len() > 1) else {
         return Err(SeriesError::TooFew { what: "a uniform series of samples", need: 2, got: times.len() });
     };

@@ -80,7 +80,7 @@ pub enum Window {
 }
 
 impl Window {
-    fn at(self, i: usize, count: usize) -> f64 {
+    fn weight(self, i: usize, count: usize) -> f64 {
         match self {
             Window::Hann => 0.5 - 0.5 * (TAU * i as f64 / count as f64).cos(),
             Window::Box => 1.0,
@@ -101,7 +101,7 @@ pub fn welch(values: &[f64], step: f64, length: usize, window: Window) -> Result
         let expected = "at least 8 samples and at most the series";
         return Err(SeriesError::Setting { what: "the length of a segment", expected, value: length as f64 });
     }
-    let weights: Vec<f64> = (0..length).map(|i| window.at(i, length)).collect();
+    let weights: Vec<f64> = (0..length).map(|i| window.weight(i, length)).collect();
     let power: f64 = weights.iter().map(|w| w * w).sum();
     let mut sums = vec![0.0; length / 2 + 1];
     let mut segments = 0usize;

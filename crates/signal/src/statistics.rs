@@ -2,7 +2,7 @@
 //!
 //! All samples weigh alike: of a series with unlike steps the moments are those of the samples, not of time.
 
-use super::{SeriesError, finite, timed};
+use super::{SeriesError, check_times, finite};
 
 /// Moments and extremes of the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -162,7 +162,7 @@ fn further(best: Peak, next: Peak, above: bool) -> Peak {
 /// # Errors
 /// Unlike numbers of times and values, times that do not grow, a value that is not finite.
 pub fn crossings(times: &[f64], values: &[f64], level: f64) -> Result<Crossings, SeriesError> {
-    timed(times, values)?;
+    check_times(times, values)?;
     let mut made = Crossings { level, up: 0, down: 0, waves: Vec::new(), maxima: Vec::new(), minima: Vec::new() };
     let mut before: Option<Peak> = None;
     // extreme of the stay on one side of the level, once it has begun with a crossing; the last crest with the crossing before

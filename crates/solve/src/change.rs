@@ -1,6 +1,6 @@
 //! Changes of a system under way: connectors that come and go or change their length, loads of another environment.
 
-use super::link::{Attachment, Link, connected, link};
+use super::link::{Attachment, Link, end_attachments, link};
 use super::system::{SolveError, System, moving_nodes};
 use super::time::{LinkEnds, Memory, Pushing};
 use std::sync::Arc;
@@ -31,7 +31,7 @@ fn nodes(element: &dyn Element) -> (usize, bool) {
 
 /// How rows tell that it pushes, of an element that may.
 fn pushing(element: &dyn Element, ends: &[Attachment]) -> Option<Pushing> {
-    Pushing::of(element.pushes()?, ends, element.pulling_end())
+    Pushing::new(element.pushes()?, ends, element.pulling_end())
 }
 
 impl System {
@@ -54,11 +54,11 @@ impl System {
     pub fn ends_of(&self, model: &Model, name: &str) -> Result<LinkEnds, SolveError> {
         let found = connector(model, name)?;
         if model.holds_pipe(name) {
-            return Err(SolveError::of(name)(ClassError::new(HOLDS_PIPE)));
+            return Err(SolveError::about(name)(ClassError::new(HOLDS_PIPE)));
         }
         // one that cannot be made says so when it is to act
         let element = self.element(model, found).ok();
-        let ends = connected(model, found);
+        let ends = end_attachments(model, found);
         Ok(LinkEnds {
             name: found.name.clone(),
             ends: bodies(&ends),
@@ -102,7 +102,7 @@ impl System {
     /// A connector that makes no element.
     pub fn make_anew(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
         let Some(at) = self.links.iter().position(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(()) };
-        let made = self.element(model, connector(model, name)?).map_err(SolveError::of(name))?;
+        let made = self.element(model, connector(model, name)?).map_err(SolveError::about(name))?;
         if let Some(link) = self.links.get_mut(at) {
             link.element = made;
         }
@@ -111,7 +111,7 @@ impl System {
 
     /// A connector of a model as its run asks for it.
     fn element(&self, model: &Model, connector: &Connector) -> Result<Box<dyn Element>, ClassError> {
-        model.element_of_run(connector, Some(&self.ambient), self.duties.of(&connector.name))
+        model.element_of_run(connector, Some(&self.ambient), self.duties.requirement(&connector.name))
     }
 
     /// Loads of the environment now in force in the model; a load that is of the same kind and size as the one in its place
@@ -129,7 +129,7 @@ impl System {
         self.ambient = ambient(model, sea).map_err(SolveError::new)?;
         // a pipe stays as it was laid, with what grows on it and is in it
         for link in &mut self.links {
-            if let Some(element) = link.element.under(&self.ambient) {
+            if let Some(element) = link.element.with_ambient(&self.ambient) {
                 link.element = element;
             }
         }
@@ -147,7 +147,7 @@ impl System {
             new.free = old.free;
         }
         let before = std::mem::replace(&mut self.nodes, nodes);
-        let mut made = Memory::of(self);
+        let mut made = Memory::new(self);
         for (body, old) in before.iter().enumerate() {
             made.recall(body, self, (memory, old));
         }

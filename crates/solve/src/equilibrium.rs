@@ -74,7 +74,7 @@ const LONG_STALE: usize = 12;
 /// A place on the way that cannot be evaluated; no equilibrium within the steps: the body and degree of freedom that is left, and
 /// what acts on it most; a direction that nothing holds, with a force in it.
 pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Result<Equilibrium, SolveError> {
-    weighed(system, options)?;
+    check_weights(system, options)?;
     let turns = kept_turns(system, state, options);
     let free = |body: usize, dof: usize| {
         system.nodes.get(body).and_then(|n| n.free.get(dof)) == Some(&true) && !options.ignored.contains(&(body, dof))
@@ -90,7 +90,7 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
         }
     }
     let found = find(system, state, options, (&turns, None))?;
-    let unknowns = Unknowns::of(system, state, options, (&turns, None));
+    let unknowns = Unknowns::new(system, state, options, (&turns, None));
     let loose = loose(system, &unknowns, state)?;
     Ok(Equilibrium { steps: steps + found.steps, evaluations: evaluations + found.evaluations, loose, ..found })
 }
@@ -105,21 +105,21 @@ fn find(
     let mut search = Search::new(system, options, part);
     search.evaluate(state)?;
     let start: Vec<f64> = state.poses.iter().map(|p| p.origin.z).collect();
-    let mut best = (f64::INFINITY, Stand::of(state));
+    let mut best = (f64::INFINITY, Stand::from_state(state));
     let mut stale = 0;
     for steps in 0..=options.most {
         if system.is_interrupted() {
             return Err(SolveError::new(ClassError::new("interrupted").lasting()));
         }
         // a junction is measured by what pulls at it now
-        let unknowns = Unknowns::of(system, state, options, (turns, part));
+        let unknowns = Unknowns::new(system, state, options, (turns, part));
         let (worst, at) = search.worst(&unknowns, state);
         if worst.is_nan() {
             return Err(failure(system, state, &unknowns, at, options));
         }
         stale = if worst <= 0.5 * best.0 { 0 } else { stale + 1 };
         if worst < best.0 {
-            best = (worst, Stand::of(state));
+            best = (worst, Stand::from_state(state));
         }
         let polished = worst <= POLISH || unknowns.rows.is_empty();
         // within the tolerance the search goes on as long as it gets better
@@ -143,13 +143,13 @@ fn find(
             return Err(system.because_it_sinks(error, &sunk));
         }
     }
-    let unknowns = Unknowns::of(system, state, options, (turns, part));
+    let unknowns = Unknowns::new(system, state, options, (turns, part));
     let (_, at) = unknowns.worst(&unknowns.residual(state), options);
     Err(failure(system, state, &unknowns, at, options))
 }
 
 /// Sees that every body that is to come to rest has weight, unless it moves in the horizontal plane alone.
-fn weighed(system: &System, options: &Options) -> Result<(), SolveError> {
+fn check_weights(system: &System, options: &Options) -> Result<(), SolveError> {
     for (body, node) in system.nodes.iter().enumerate() {
         let free = |dof: usize| node.free.get(dof) == Some(&true) && !options.ignored.contains(&(body, dof));
         if !node.junction && node.floating.mass.mass <= 0.0 && (2..5).any(free) {
@@ -173,7 +173,8 @@ fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Result<Vec<(Str
     let scaled = DMatrix::from_fn(root.len(), root.len(), |i, j| {
         0.5 * (stiffness[(i, j)] + stiffness[(j, i)]) * root[i] * root[j]
     });
-    let made = SymmetricEigen::new(scaled, &|| system.is_interrupted()).map_err(|e| unknowns.unfactored(system, e))?;
+    let made = SymmetricEigen::new(scaled, &|| system.is_interrupted())
+        .map_err(|e| unknowns.singular_stiffness_error(system, e))?;
     let mut found: Vec<usize> = Vec::new();
     for (value, vector) in made.values.iter().zip(made.vectors.column_iter()) {
         if value.abs() <= LOOSE {
@@ -220,13 +221,14 @@ fn failure(system: &System, state: &State, unknowns: &Unknowns, at: usize, optio
     }
     let error = match free.iter().filter(|(who, _)| *who == name).map(|(_, f)| f.as_str()).collect::<Vec<_>>() {
         list if list.contains(&word) => {
-            ClassError::of(format!("nothing holds it in {word}, and {{}} is left there: {told}"), &values)
+            ClassError::with_values(format!("nothing holds it in {word}, and {{}} is left there: {told}"), &values)
                 .help(format!("moor it, or leave the degree of freedom out: -IGNORE {name} {word}"))
         }
-        _ => {
-            ClassError::of(format!("no equilibrium in {} steps: {{}} is left in {word}: {told}", options.most), &values)
-                .help("-ITER_MAX allows more steps; &INSTATE begins nearer; nothing has been moved")
-        }
+        _ => ClassError::with_values(
+            format!("no equilibrium in {} steps: {{}} is left in {word}: {told}", options.most),
+            &values,
+        )
+        .help("-ITER_MAX allows more steps; &INSTATE begins nearer; nothing has been moved"),
     };
     SolveError { who: Some(name), error }
 }

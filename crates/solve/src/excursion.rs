@@ -41,7 +41,7 @@ impl Moved {
         worst(&self.lines)
     }
 
-    fn over(&self) -> f64 {
+    fn overload(&self) -> f64 {
         self.worst().map_or(-1.0, |(ratio, _)| ratio - 1.0)
     }
 }
@@ -97,11 +97,11 @@ impl<'a> Walk<'a> {
     /// # Errors
     /// A body without connectors.
     pub fn new(system: &'a System, start: &[Pose], path: Path) -> Result<Self, SolveError> {
-        let connectors = Connectors::on(system, path.body)?;
+        let connectors = Connectors::on_body(system, path.body)?;
         let from = start.to_vec();
         let size = connectors.size(system, &from).max(1.0);
         let along = Vector3::new(path.direction.cos(), path.direction.sin(), 0.0);
-        let state = State::at(from.clone());
+        let state = State::from_poses(from.clone());
         Ok(Walk { system, path, from, along, connectors, size, state })
     }
 
@@ -114,7 +114,7 @@ impl<'a> Walk<'a> {
     ///
     /// # Errors
     /// A connector without an answer there, bodies that do not come to rest.
-    pub fn at(&mut self, excursion: f64) -> Result<Moved, SolveError> {
+    pub fn move_to(&mut self, excursion: f64) -> Result<Moved, SolveError> {
         let body = self.path.body;
         let start = self.from[body];
         if self.path.free {
@@ -124,7 +124,7 @@ impl<'a> Walk<'a> {
             for n in 1..=strides as usize {
                 let to = if n as f64 >= strides { excursion } else { gone + (excursion - gone) * n as f64 / strides };
                 if let Err(error) = self.rest(start, to) {
-                    self.state = State::at(before);
+                    self.state = State::from_poses(before);
                     return Err(error);
                 }
             }
@@ -149,7 +149,7 @@ impl<'a> Walk<'a> {
 
     /// All bodies where they were.
     pub fn back(&mut self) {
-        self.state = State::at(self.from.clone());
+        self.state = State::from_poses(self.from.clone());
     }
 
     /// The end of the path: the first line to break, or the largest excursion.
@@ -157,7 +157,7 @@ impl<'a> Walk<'a> {
     /// # Errors
     /// No answer where the body is; nothing that breaks, and no largest excursion.
     pub fn end(&mut self) -> Result<(Moved, End), SolveError> {
-        let mut here = self.at(0.0)?;
+        let mut here = self.move_to(0.0)?;
         if let Some((_, line)) = here.worst().filter(|(ratio, _)| *ratio >= 1.0) {
             return Ok((here, End::Breaks(line)));
         }
@@ -171,8 +171,8 @@ impl<'a> Walk<'a> {
                 return Err(self.endless("none of its lines breaks"));
             }
             let next = (here.excursion + stride).min(most);
-            match self.at(next) {
-                Ok(there) if there.over() >= 0.0 => return self.breaking(here, there),
+            match self.move_to(next) {
+                Ok(there) if there.overload() >= 0.0 => return self.breaking(here, there),
                 Ok(there) => {
                     here = there;
                     stride *= 1.6;
@@ -193,7 +193,7 @@ impl<'a> Walk<'a> {
     fn endless(&self, why: &str) -> SolveError {
         let who = self.system.nodes.get(self.path.body).map(|n| n.name.clone());
         let far = FARTHEST * self.size;
-        let error = ClassError::of(format!("{why} within {{}}"), &[(far, Dim::Length)]);
+        let error = ClassError::with_values(format!("{why} within {{}}"), &[(far, Dim::Length)]);
         SolveError { who, error: error.help("-DISTANCE says how far it is moved") }
     }
 
@@ -203,12 +203,12 @@ impl<'a> Walk<'a> {
         let (mut low, mut high) = (holds, broken);
         for _ in 0..100 {
             let width = high.excursion - low.excursion;
-            let close = high.over().min(-low.over()) <= CLOSE;
+            let close = high.overload().min(-low.overload()) <= CLOSE;
             if close || width <= 4.0 * f64::EPSILON * high.excursion.max(1e-3 * self.size) {
                 break;
             }
-            let middle = self.at(low.excursion + 0.5 * width)?;
-            let (below, between, above) = (low.over(), middle.over(), high.over());
+            let middle = self.move_to(low.excursion + 0.5 * width)?;
+            let (below, between, above) = (low.overload(), middle.overload(), high.overload());
             let root = (between * between - below * above).sqrt();
             // below is negative and above positive: the root lies between them
             let guess = middle.excursion - 0.5 * width * between / root;
@@ -218,11 +218,11 @@ impl<'a> Walk<'a> {
                 low = middle
             }
             if guess > low.excursion && guess < high.excursion {
-                let there = self.at(guess)?;
-                if there.over() >= 0.0 { high = there } else { low = there }
+                let there = self.move_to(guess)?;
+                if there.overload() >= 0.0 { high = there } else { low = there }
             }
         }
-        let nearest = if high.over() <= -low.over() { high } else { low };
+        let nearest = if high.overload() <= -low.overload() { high } else { low };
         let line = nearest.worst().map_or(0, |(_, line)| line);
         Ok((nearest, End::Breaks(line)))
     }
@@ -230,13 +230,13 @@ impl<'a> Walk<'a> {
     /// Equal steps from where the body is to the end of its path, `rows` in all.
     ///
     /// # Errors
-    /// As [`Walk::end`] and [`Walk::at`].
+    /// As [`Walk::end`] and [`Walk::move_to`].
     pub fn rows(&mut self, rows: usize) -> Result<(Vec<Moved>, End), SolveError> {
         let (last, end) = self.end()?;
         self.back();
         let count = if last.excursion > 0.0 { rows.max(2) - 1 } else { 0 };
         let step = |n: usize| last.excursion * n as f64 / count.max(1) as f64;
-        let mut list = (0..count).map(|n| self.at(step(n))).collect::<Result<Vec<_>, _>>()?;
+        let mut list = (0..count).map(|n| self.move_to(step(n))).collect::<Result<Vec<_>, _>>()?;
         list.push(last);
         Ok((list, end))
     }
@@ -244,7 +244,7 @@ impl<'a> Walk<'a> {
 
 /// Restoring force along a direction (from +X toward +Y, rad), positive when it pushes back; the force across it,
 /// toward its left; and upward (N).
-pub fn resolved(wrench: &Six, direction: f64) -> [f64; 3] {
+pub fn resolve_wrench(wrench: &Six, direction: f64) -> [f64; 3] {
     let (sin, cos) = direction.sin_cos();
     let (x, y) = (wrench[0], wrench[1]);
     [-(x * cos + y * sin), y * cos - x * sin, wrench[2]]

@@ -41,13 +41,13 @@ fn sum(value: f64, scale: f64) -> f64 {
 }
 
 /// Restoring, transverse and vertical force.
-fn resolved(moved: &Moved, direction: f64) -> [f64; 3] {
+fn restoring_cells(moved: &Moved, direction: f64) -> [f64; 3] {
     let scale = moved.lines.iter().filter_map(|l| l.tension).fold(0.0, |sum, t| sum + t.abs());
-    excursion::resolved(&moved.wrench, direction).map(|force| sum(force, scale))
+    excursion::resolve_wrench(&moved.wrench, direction).map(|force| sum(force, scale))
 }
 
 /// The facts that hold for all rows.
-fn headed(title: String, asked: &Asked, systems: &Systems) -> Table {
+fn build_table(title: String, asked: &Asked, systems: &Systems) -> Table {
     let others = if asked.path.free { "free" } else { "held" };
     let table = Table::new(title).fact("Other Freedoms", others, Dim::None);
     if systems.removed.is_empty() { table } else { table.fact("Removed", systems.removed.join(" "), Dim::None) }
@@ -113,7 +113,7 @@ fn note(end: &End, names: &[String], at: f64, units: UnitSystem) -> Option<Strin
 ///
 /// # Errors
 /// As [`Walk::rows`].
-pub fn along(systems: &Systems, asked: &Asked, rows: usize) -> Result<Table, SolveError> {
+pub fn table_along_direction(systems: &Systems, asked: &Asked, rows: usize) -> Result<Table, SolveError> {
     let Asked { path, units, start, .. } = *asked;
     let mut walk = Walk::new(&systems.system, start, path)?;
     let names = walk.names();
@@ -123,19 +123,19 @@ pub fn along(systems: &Systems, asked: &Asked, rows: usize) -> Result<Table, Sol
     let all = intact.as_ref().map_or(Vec::new(), Walk::names);
     let mut rows = Vec::new();
     for moved in &list {
-        let there = intact.as_mut().and_then(|walk| walk.at(moved.excursion).ok());
+        let there = intact.as_mut().and_then(|walk| walk.move_to(moved.excursion).ok());
         rows.push(AlongRow {
             moved,
             place: moved.poses.get(path.body).map_or(*asked.place, |p| without_rounding(p.place(asked.place))),
             critical: Critical::new(moved.worst(), &names),
             intact_force: there.as_ref().map(|there| {
-                let [force, ..] = resolved(there, path.direction);
+                let [force, ..] = restoring_cells(there, path.direction);
                 force
             }),
             intact: there.map(|there| Critical::new(there.worst(), &all)).unwrap_or_default(),
         });
     }
-    let table = headed(title, asked, systems)
+    let table = build_table(title, asked, systems)
         .with_rows(&rows)
         .column("", "Excursion", Dim::Length, Digits::Usual, |row| row.moved.excursion)
         .columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| {
@@ -143,7 +143,7 @@ pub fn along(systems: &Systems, asked: &Asked, rows: usize) -> Result<Table, Sol
             [sum(x, rest), sum(y, rest), z]
         })
         .column("Location", "Heading", Dim::Angle, Digits::Usual, |row| row.place.turn[2]);
-    let table = forces(table, |row| resolved(row.moved, path.direction)).columns(
+    let table = forces(table, |row| restoring_cells(row.moved, path.direction)).columns(
         "Moment of Connectors",
         ["MX", "MY", "MZ"],
         Dim::Moment,
@@ -192,7 +192,12 @@ struct AlongRow<'m> {
 ///
 /// # Errors
 /// As [`Walk::end`].
-pub fn around(systems: &Systems, asked: &Asked, directions: &[f64], at: &[(f64, String)]) -> Result<Table, SolveError> {
+pub fn table_of_directions(
+    systems: &Systems,
+    asked: &Asked,
+    directions: &[f64],
+    at: &[(f64, String)],
+) -> Result<Table, SolveError> {
     let title = format!("Excursions of {}", asked.name);
     let mut rows = Vec::new();
     let mut lost = None;
@@ -210,9 +215,9 @@ pub fn around(systems: &Systems, asked: &Asked, directions: &[f64], at: &[(f64, 
         let mut forces_at = Vec::new();
         for (excursion, _) in at {
             walk.back();
-            let there = if *excursion <= last.excursion { walk.at(*excursion).ok() } else { None };
+            let there = if *excursion <= last.excursion { walk.move_to(*excursion).ok() } else { None };
             forces_at.push(there.map(|there| {
-                let [force, ..] = resolved(&there, *direction);
+                let [force, ..] = restoring_cells(&there, *direction);
                 (force, there.worst().map(|(ratio, _)| ratio))
             }));
         }
@@ -220,7 +225,7 @@ pub fn around(systems: &Systems, asked: &Asked, directions: &[f64], at: &[(f64, 
             Some(system) => {
                 let mut walk = Walk::new(system, asked.start, path)?;
                 let (last, _) = walk.end()?;
-                let [force, ..] = resolved(&last, *direction);
+                let [force, ..] = restoring_cells(&last, *direction);
                 Some((last.excursion, force, Critical::new(last.worst(), &walk.names()).line))
             }
             None => None,
@@ -228,13 +233,13 @@ pub fn around(systems: &Systems, asked: &Asked, directions: &[f64], at: &[(f64, 
         rows.push(DirectionRow {
             direction: *direction,
             excursion: last.excursion,
-            force: resolved(&last, *direction),
+            force: restoring_cells(&last, *direction),
             critical: Critical::new(last.worst(), &names),
             forces_at,
             intact,
         });
     }
-    let table = headed(title, asked, systems)
+    let table = build_table(title, asked, systems)
         .with_rows(&rows)
         .column("", "Direction", Dim::Angle, Digits::Usual, |row| row.direction)
         .column("At the End", "Excursion", Dim::Length, Digits::Usual, |row| row.excursion);
@@ -311,7 +316,7 @@ pub fn circle((asked, force): (&Asked, f64), systems: &Systems, found: &Circle, 
         });
     }
     let [x, y, ..] = DOFS;
-    let table = headed(title, asked, systems)
+    let table = build_table(title, asked, systems)
         .fact("Force", force, Dim::Force)
         .with_rows(&rows)
         .column("Force", "From", Dim::Angle, Digits::Usual, |row| row.direction)

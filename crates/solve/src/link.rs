@@ -31,28 +31,29 @@ pub(super) fn link(
     connector: &Connector,
     states: &mut Vec<f64>,
 ) -> Result<Link, SolveError> {
-    let made = model.element_of_run(connector, Some(ambient), duties.of(&connector.name));
-    let element = made.map_err(SolveError::of(&connector.name))?;
-    Ok(Link::of(&connector.name, element, connected(model, connector).to_vec(), states))
+    let made = model.element_of_run(connector, Some(ambient), duties.requirement(&connector.name));
+    let element = made.map_err(SolveError::about(&connector.name))?;
+    Ok(Link::new(&connector.name, element, end_attachments(model, connector).to_vec(), states))
 }
 
 /// What a pipe is, and what its ends are fixed to.
 pub(super) type Laid = (Box<dyn Element>, Vec<Attachment>);
 
 /// The pipe of an assembly of a model, where it has one that acts.
-pub(super) fn laid(
+pub(super) fn build_pipe_link(
     (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &RunRequirements),
     assembly: &Assembly,
 ) -> Result<Option<Laid>, SolveError> {
-    let made = model.pipe(assembly, Some(ambient), duties.of(&assembly.name));
-    let of =
-        |LaidPipe { supports, element }: LaidPipe| (element, supports.iter().map(|c| connected(model, c)[0]).collect());
-    Ok(made.map_err(SolveError::of(&assembly.name))?.map(of))
+    let made = model.pipe(assembly, Some(ambient), duties.requirement(&assembly.name));
+    let of = |LaidPipe { supports, element }: LaidPipe| {
+        (element, supports.iter().map(|c| end_attachments(model, c)[0]).collect())
+    };
+    Ok(made.map_err(SolveError::about(&assembly.name))?.map(of))
 }
 
 impl Link {
     /// Of an element; its states go behind the others.
-    pub(super) fn of(name: &str, element: Box<dyn Element>, ends: Vec<Attachment>, states: &mut Vec<f64>) -> Link {
+    pub(super) fn new(name: &str, element: Box<dyn Element>, ends: Vec<Attachment>, states: &mut Vec<f64>) -> Link {
         let from = states.len();
         states.resize(from + element.states(), 0.0);
         if let Some(own) = states.get_mut(from..) {
@@ -63,7 +64,7 @@ impl Link {
 }
 
 /// What the ends of a connector are fixed to.
-pub(super) fn connected(model: &Model, connector: &Connector) -> [Attachment; 2] {
+pub(super) fn end_attachments(model: &Model, connector: &Connector) -> [Attachment; 2] {
     let poses = model.end_poses(connector);
     let on_body = |i: usize| {
         let point = connector.points.get(i).and_then(|name| model.points.get(&Model::key(name)))?;

@@ -43,8 +43,8 @@ pub(super) fn modes_with(
     let stop = || system.is_interrupted();
     let part = |m: &DMatrix<f64>, r: &[usize], c: &[usize]| m.select_rows(r).select_columns(c);
     let mut k = part(stiffness, &heavy, &heavy);
-    let solved = held(part(stiffness, &light, &light), &part(stiffness, &light, &heavy), &stop);
-    let solved = solved.map_err(|e| system.unfactored("stiffness", &light, e))?;
+    let solved = solve_least_motion(part(stiffness, &light, &light), &part(stiffness, &light, &heavy), &stop);
+    let solved = solved.map_err(|e| system.singular_matrix_error("stiffness", &light, e))?;
     k -= part(stiffness, &heavy, &light) * &solved;
     let follow = -solved;
     // weights without radii of gyration make a mass without inertia about some axis
@@ -55,9 +55,10 @@ pub(super) fn modes_with(
         Ok(root) => root,
         // added mass may take away more than there is
         Err(DenseError::NotPositive | DenseError::Singular) => return Ok(Vec::new()),
-        Err(error) => return Err(system.unfactored("mass", &heavy, error)),
+        Err(error) => return Err(system.singular_matrix_error("mass", &heavy, error)),
     };
-    let pairs = pairs(&(&root * k * root.transpose()), &stop).map_err(|e| system.unfactored("stiffness", &heavy, e))?;
+    let pairs = pairs(&(&root * k * root.transpose()), &stop)
+        .map_err(|e| system.singular_matrix_error("stiffness", &heavy, e))?;
     let mode = |(eigenvalue, beside, vector): (f64, f64, DVector<f64>)| {
         let heavy_part = root.transpose() * vector;
         let light_part = &follow * &heavy_part;
@@ -85,7 +86,11 @@ pub(super) fn modes_with(
 }
 
 /// What solves `k x = right` with as little motion as can be: what nothing holds does not move.
-pub(super) fn held(k: DMatrix<f64>, right: &DMatrix<f64>, stop: Stop) -> Result<DMatrix<f64>, DenseError> {
+pub(super) fn solve_least_motion(
+    k: DMatrix<f64>,
+    right: &DMatrix<f64>,
+    stop: Stop,
+) -> Result<DMatrix<f64>, DenseError> {
     let size = k.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
     least_squares(k, right, 1e-12 * size, stop)
 }

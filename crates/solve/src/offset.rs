@@ -4,7 +4,7 @@
 use super::link::{Attachment, Link, arm, pose_of};
 use super::system::{SolveError, State, System};
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::carried;
+use windlass_hydro::move_wrench;
 use windlass_model::{ClassError, End, Guess, Situation, Summary};
 
 /// The connectors on one body, followed from place to place.
@@ -30,7 +30,7 @@ impl Connectors {
     ///
     /// # Errors
     /// None acts on it.
-    pub fn on(system: &System, body: usize) -> Result<Self, SolveError> {
+    pub fn on_body(system: &System, body: usize) -> Result<Self, SolveError> {
         let holds = |link: &Link| link.ends.iter().any(|e| matches!(e, Attachment::Body(b, _) if *b == body));
         let links: Vec<usize> = (0..system.links.len()).filter(|i| system.links.get(*i).is_some_and(holds)).collect();
         if links.is_empty() {
@@ -75,11 +75,11 @@ impl Connectors {
             ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, poses))));
             let committed = &system.states[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
-            link.element.wrenches(&at, committed, guess, &mut wrenches).map_err(SolveError::of(&link.name))?;
+            link.element.wrenches(&at, committed, guess, &mut wrenches).map_err(SolveError::about(&link.name))?;
             let mut tension = 0.0;
             for (end, wrench) in link.ends.iter().zip(&wrenches) {
                 if matches!(end, Attachment::Body(body, _) if *body == self.body) {
-                    out.wrench += carried(wrench, arm(end, poses));
+                    out.wrench += move_wrench(wrench, arm(end, poses));
                     tension = wrench.fixed_rows::<3>(0).norm();
                 }
             }
@@ -114,5 +114,5 @@ fn summary(system: &System, link: &Link, poses: &[Pose]) -> Result<Summary, Solv
     let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
     let committed = &system.states[link.states.clone()];
     let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
-    link.element.summary(&at, committed).map_err(SolveError::of(&link.name))
+    link.element.summary(&at, committed).map_err(SolveError::about(&link.name))
 }

@@ -30,7 +30,7 @@ pub fn outline(model: &Model, body: &Body) -> Outline {
     for part in model.parts_of(body) {
         let global = |at: Position| body.place.apply(part.place.apply(at));
         for piece in &part.pieces {
-            let (corners, edges) = drawn(&piece.shape);
+            let (corners, edges) = corners_and_edges(&piece.shape);
             made.shapes.push(corners.into_iter().map(global).collect());
             made.edges.extend(edges.into_iter().map(|edge| edge.map(global)));
         }
@@ -44,7 +44,7 @@ pub fn outline(model: &Model, body: &Body) -> Outline {
 }
 
 /// The corners and the sharp edges of a shape.
-pub(super) fn drawn(shape: &Shape) -> (Vec<Position>, Vec<[Position; 2]>) {
+pub(super) fn corners_and_edges(shape: &Shape) -> (Vec<Position>, Vec<[Position; 2]>) {
     match shape {
         Shape::Panels(panels) => (panels.iter().flatten().copied().collect(), sharp_edges(panels)),
         Shape::Block { low, high } => {
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn a_box_shows_its_twelve_edges_and_a_flat_mesh_its_border_alone() {
-        let (corners, edges) = drawn(&Shape::Block { low: [0.0; 3], high: [4.0, 2.0, 1.0] });
+        let (corners, edges) = corners_and_edges(&Shape::Block { low: [0.0; 3], high: [4.0, 2.0, 1.0] });
         assert_eq!((corners.len(), edges.len()), (24, 12));
         let at = |i: u32, j: u32| [f64::from(i), f64::from(j), 0.0];
         let mesh: Vec<Vec<Position>> = (0..5)
@@ -121,7 +121,8 @@ mod tests {
 
     #[test]
     fn a_tube_is_drawn_on_its_radius() {
-        let (corners, _) = drawn(&Shape::Tube { ends: [[1.0, 0.0, -20.0], [1.0, 0.0, 5.0]], diameter: 6.0 });
+        let (corners, _) =
+            corners_and_edges(&Shape::Tube { ends: [[1.0, 0.0, -20.0], [1.0, 0.0, 5.0]], diameter: 6.0 });
         assert!(corners.iter().all(|[x, y, _]| ((x - 1.0).hypot(*y) - 3.0).abs() < 1e-12));
     }
 }

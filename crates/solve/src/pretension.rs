@@ -25,7 +25,7 @@ const LONGEST: f64 = 2.0;
 /// # Errors
 /// A condition that is no force, a line that finds no rest, a force that no length near the present one gives.
 pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> Result<f64, SolveError> {
-    let wrong = SolveError::of(&connector.name);
+    let wrong = SolveError::about(&connector.name);
     let ambient = ambient(model, None).map_err(&wrong)?;
     let (target, level) = match wanted {
         Condition::Tension(force) => (force, false),
@@ -43,7 +43,7 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         let pull = wrenches.first().map_or(0.0, |w| if level { w[0].hypot(w[1]) } else { w.fixed_rows::<3>(0).norm() });
         Ok::<f64, ClassError>(pull)
     };
-    let ask = |length: f64| match model.interrupted() {
+    let ask = |length: f64| match model.is_interrupted() {
         true => Err(wrong(ClassError::new("interrupted"))),
         false => force(length).map_err(&wrong),
     };
@@ -77,7 +77,7 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
     }
     let nothing = |found: f64| {
         let text = "no length of the first segment gives {}; the nearest is {}";
-        Err(wrong(ClassError::of(text, &[(target, Dim::Force), (found, Dim::Force)])))
+        Err(wrong(ClassError::with_values(text, &[(target, Dim::Force), (found, Dim::Force)])))
     };
     if (far.1 - target) * side > 0.0 {
         let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };

@@ -24,7 +24,7 @@ impl System {
         let Some((body, depth)) = found else { return error };
         let name = self.nodes.get(body).map(|n| n.name.clone()).unwrap_or_default();
         let text = format!("it sinks: {{}} below where it began connector {} has no answer", link.name);
-        let made = ClassError::of(text, &[(depth, Dim::Length)])
+        let made = ClassError::with_values(text, &[(depth, Dim::Length)])
             .help(format!("connector {}: {}", link.name, error.error.message.replace("{}", "..")))
             .help(format!("nothing carries its weight: see the weight, hull and lines of {name}, and where it begins"));
         SolveError { who: Some(name), error: ClassError { lasting: error.error.lasting, ..made } }
@@ -38,7 +38,7 @@ impl System {
                 return None;
             }
             let own = pose.axes * mass.inertia_about(mass.centre) * pose.axes.transpose();
-            let added = node.floating.added(pose);
+            let added = node.floating.added_mass(pose);
             let least = mass.mass * NO_RADIUS * NO_RADIUS;
             let lacks = |axis: usize| node.moves(3 + axis) && own[(axis, axis)] + added[(3 + axis, 3 + axis)] <= least;
             let dof = DOFS.get(3 + (0..3).find(|axis| lacks(*axis))?).copied().unwrap_or_default();

@@ -26,7 +26,7 @@ fn scheme(run: &Run) -> String {
 }
 
 /// What a run did.
-pub fn told(run: &Run) -> Table {
+pub fn run_table(run: &Run) -> Table {
     let Counts { steps: counted, cut, iterations, evaluations } = run.counts;
     let mut table = Table::new("Time Domain")
         .fact("Began", run.began.as_str(), Dim::None)
@@ -38,18 +38,19 @@ pub fn told(run: &Run) -> Table {
         .fact("Iterations", iterations, Dim::None)
         .fact("Evaluations", evaluations, Dim::None);
     let Resolution { natural, wave, .. } = &run.resolution;
-    let steps = |period: f64| shown(period / run.settings.dt);
+    let steps = |period: f64| format_digits(period / run.settings.dt);
     if let Some(Swing { body, dof, period }) = natural.first() {
-        let text = format!("{} s ({body} {dof}), {} steps", shown(*period), steps(*period));
+        let text = format!("{} s ({body} {dof}), {} steps", format_digits(*period), steps(*period));
         table = table.fact("Shortest Natural Period", text, Dim::None);
     }
     if let Some(period) = wave {
-        table = table.fact("Shortest Waves", format!("{} s, {} steps", shown(*period), steps(*period)), Dim::None);
+        table =
+            table.fact("Shortest Waves", format!("{} s, {} steps", format_digits(*period), steps(*period)), Dim::None);
     }
     if let Some(Followed { body, dof, period, distortion }) = run.followed_worst() {
         let (error, ..) = run.accuracy.largest;
         let [longer, damping] = [distortion.period, distortion.damping].map(percent);
-        let text = format!("{longer} of {} s ({body} {dof}), damping {damping} of critical", shown(period));
+        let text = format!("{longer} of {} s ({body} {dof}), damping {damping} of critical", format_digits(period));
         table = table.fact("Largest Error of a Step", error, Dim::Length).fact(
             "Largest Error of a Period",
             text,
@@ -107,7 +108,7 @@ fn without_drift(model: &Model) -> Option<String> {
 }
 
 /// A number with three digits that count.
-fn shown(value: f64) -> String {
+fn format_digits(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }
@@ -121,7 +122,7 @@ fn shown(value: f64) -> String {
 
 /// A share in percent; less than a ten-thousandth is not told.
 fn percent(share: f64) -> String {
-    if share.abs() < 1e-4 { "below 0.01 %".into() } else { format!("{} %", shown(100.0 * share)) }
+    if share.abs() < 1e-4 { "below 0.01 %".into() } else { format!("{} %", format_digits(100.0 * share)) }
 }
 
 /// Steps from which on a run is announced.
@@ -133,7 +134,7 @@ pub fn warnings_of_step(run: &Run) -> Vec<String> {
     let mut list = Vec::new();
     let steps = run.settings.observed / dt;
     if steps >= MANY_STEPS {
-        let hours = shown(steps * 1e-5 / 3600.0);
+        let hours = format_digits(steps * 1e-5 / 3600.0);
         list.push(format!(
             "the run has {steps:.1e} steps: at 10 microseconds each they take {hours} hours; Ctrl-C ends it"
         ));
@@ -146,7 +147,7 @@ pub fn warnings_of_step(run: &Run) -> Vec<String> {
         (made.measure() > 1.0).then(|| {
             format!(
                 "a step of at most {} s errs by less than {}",
-                shown(method.longest_step(period)),
+                format_digits(method.longest_step(period)),
                 percent(POOR_PERIOD)
             )
         })
@@ -155,15 +156,15 @@ pub fn warnings_of_step(run: &Run) -> Vec<String> {
         let by = percent(method.distortion(period, dt).period);
         list.push(format!(
             "a step of {} s is too long for the waves: a tenth of their energy has periods below {} s, where the scheme errs by {by} of a period; {remedy}",
-            shown(dt),
-            shown(period)
+            format_digits(dt),
+            format_digits(period)
         ));
     }
     if let Some((body, period)) = given.as_ref().filter(|(_, period)| method.distortion(*period, dt).measure() > 1.0) {
         list.push(format!(
             "a step of {} s is too long for {body}, which is moved with a period of {} s: between the steps forces are missed",
-            shown(dt),
-            shown(*period)
+            format_digits(dt),
+            format_digits(*period)
         ));
     }
     // stiffer modes than waves excite follow their forces as in statics
@@ -174,8 +175,8 @@ pub fn warnings_of_step(run: &Run) -> Vec<String> {
         let by = percent(method.distortion(*period, dt).period);
         list.push(format!(
             "a step of {} s is too long for the natural period of {body} in {dof}, {} s: the scheme errs by {by} of it; {remedy}",
-            shown(dt),
-            shown(*period)
+            format_digits(dt),
+            format_digits(*period)
         ));
     }
     list
@@ -187,8 +188,8 @@ pub fn warning_of_accuracy(run: &Run) -> Option<String> {
     let [longer, damping] = [distortion.period, distortion.damping].map(percent);
     Some(format!(
         "the steps were too long for the motion of {body} in {dof}: of its period of {} s the scheme errs by {longer} and damps {damping} of critical; a step of at most {} s follows it, and -CHECK shows the difference",
-        shown(period),
-        shown(run.settings.method.longest_step(period))
+        format_digits(period),
+        format_digits(run.settings.method.longest_step(period))
     ))
 }
 
@@ -196,7 +197,7 @@ pub fn warning_of_accuracy(run: &Run) -> Option<String> {
 pub fn extremes(run: &Run) -> Vec<Table> {
     let mut tables = Vec::new();
     for (title, dim) in KINDS {
-        let of_dim = run.statistics.all().filter(|(s, _)| s.dim == dim);
+        let of_dim = run.statistics.results().filter(|(s, _)| s.dim == dim);
         let rows: Vec<_> = of_dim.filter_map(|(series, running)| Some((series, running.summary()?))).collect();
         let mut table = Table::new(title)
             .with_rows(&rows)
@@ -231,7 +232,7 @@ fn model_of_series(model: &Model, series: &str) -> Option<&'static str> {
 }
 
 /// What differs between a run and the same with half the step, behind its transient: a table for each dimension.
-pub fn compared(run: &Run, second: &History) -> Vec<Table> {
+pub fn comparison_tables(run: &Run, second: &History) -> Vec<Table> {
     let (first, transient) = (&run.history, run.settings.transient);
     let all = results(&first.layout);
     let mut tables = Vec::new();
@@ -243,7 +244,7 @@ pub fn compared(run: &Run, second: &History) -> Vec<Table> {
                 let pairs = first.rows().zip(second.rows()).filter(|(row, _)| is_behind(row, transient));
                 let differences = pairs.map(|(a, b)| (a.first().copied(), (series.value(a) - series.value(b)).abs()));
                 let (time, size) = differences.fold((None, -1.0), |worst, at| if at.1 > worst.1 { at } else { worst });
-                let moments = [first, second].map(|history| Moments::of(history, series, transient));
+                let moments = [first, second].map(|history| Moments::new(history, series, transient));
                 Difference { name: &series.name, size, time, moments }
             })
             .collect();
@@ -287,7 +288,7 @@ struct Moments {
 }
 
 impl Moments {
-    fn of(history: &History, series: &Series, transient: f64) -> Self {
+    fn new(history: &History, series: &Series, transient: f64) -> Self {
         let values = || history.rows().filter(|row| is_behind(row, transient)).map(|row| series.value(row));
         let count = values().count().max(1) as f64;
         let mean = values().sum::<f64>() / count;

@@ -101,7 +101,7 @@ pub type Unshaped = (String, ClassError);
 
 impl Scene {
     /// The scene of a model with the connectors whose shape could not be found; `None` when told to stop.
-    pub fn of(model: &Model, choice: &Choice) -> Option<(Scene, Vec<Unshaped>)> {
+    pub fn build(model: &Model, choice: &Choice) -> Option<(Scene, Vec<Unshaped>)> {
         let surroundings = model.surroundings();
         let mut scene =
             Scene { surface: surroundings.tide, bottom: surroundings.depth.map(|d| -d), ..Scene::default() };
@@ -185,7 +185,7 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
     }
     match solved() {
         Ok(Some(table)) => {
-            let shape = Shape::of(&table, &placement);
+            let shape = Shape::from_table(&table, &placement);
             Drawn {
                 path: path(stroke(Stroke::Line), shape.points),
                 marks: shape.marks,
@@ -210,7 +210,7 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
 fn at_rest(model: &Model, connector: &Connector) -> Result<Vec<Position>, SolveError> {
     let mut nodes = Vec::new();
     standing(model, &|name| name == connector.name, |_, element, at, state| {
-        element.along(at, state, &mut nodes).map_err(SolveError::of(&connector.name))
+        element.line_nodes(at, state, &mut nodes).map_err(SolveError::about(&connector.name))
     })?;
     Ok(nodes.iter().map(|node| node.position.into()).collect())
 }
@@ -259,7 +259,7 @@ struct Shape {
 
 impl Shape {
     /// From the table of a line's geometry.
-    fn of(table: &Table, placement: &Placement) -> Shape {
+    fn from_table(table: &Table, placement: &Placement) -> Shape {
         let column = |name: &str| -> Vec<Option<f64>> {
             let found = table.columns.iter().find(|c| c.name == name);
             found.map_or(Vec::new(), |c| c.cells.iter().map(Cell::number).collect())

@@ -14,7 +14,7 @@
 //! Between stored instants ends move along the polynomials of fifth degree that have place, velocity and acceleration of both. What the line
 //! would do to the bodies, were it a dynamic line in the run, is not found.
 
-use crate::link::{Attachment, connected};
+use crate::link::{Attachment, end_attachments};
 use crate::time::{Layout, LinkColumns, Motion, OF_BODY, Run, end_of};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -119,7 +119,8 @@ fn by_load(run: &Run) -> Vec<(usize, f64)> {
     for number in quasi_static(run) {
         let Some(link) = run.history.layout.links.get(number) else { continue };
         let of_it = |name: &str| name.strip_suffix(" Tension").is_some_and(|n| n == link.name);
-        let seen = run.statistics.all().find(|(series, _)| of_it(&series.name)).and_then(|(_, seen)| seen.summary());
+        let seen =
+            run.statistics.results().find(|(series, _)| of_it(&series.name)).and_then(|(_, seen)| seen.summary());
         let Some(most) = seen.map(|s| s.maximum).filter(|m| m.value > 0.0) else { continue };
         let class = run.model.connectors.get(&Model::key(&link.name)).map(|c| Model::key(&c.class));
         let class = class.and_then(|class| run.model.classes.get(&class));
@@ -150,7 +151,7 @@ fn replay(
     let connector = run.model.connectors.get(&Model::key(&link.name));
     let connector = connector.ok_or_else(|| ClassError::new("it is no more in the model"))?;
     let period = period(run, number, peak)?;
-    let motion = EndMotion::around(run, (number, link), connector, (peak, period))?;
+    let motion = EndMotion::around_peak(run, (number, link), connector, (peak, period))?;
     let mut line = Twin::new(run, (link, connector), &motion)?;
     let dt = period / STEPS;
     let steps = ((motion.window[1] - motion.begin) / dt - 1e-6).ceil().max(1.0) as usize;
@@ -229,7 +230,7 @@ struct EndMotion {
 
 impl EndMotion {
     /// That of the ends of a line around a time, for a period (s).
-    fn around(
+    fn around_peak(
         run: &Run,
         (number, link): (usize, &LinkColumns),
         connector: &Connector,
@@ -240,7 +241,7 @@ impl EndMotion {
         let pulled_end =
             if link.ends.get(link.pulling).is_some_and(Option::is_some) { Some(link.pulling) } else { known };
         let pulled_end = pulled_end.ok_or_else(|| ClassError::new("none of its ends is on a body"))?;
-        let attached = connected(&run.model, connector);
+        let attached = end_attachments(&run.model, connector);
         // the stored instants around the peak at which it acts without a gap
         let near = |row: &&[f64]| row.first().is_some_and(|t| (t - peak).abs() <= (PERIODS + GROWING + 1.0) * period);
         let all: Vec<&[f64]> = run.history.rows().filter(near).collect();
@@ -249,7 +250,7 @@ impl EndMotion {
         let from = at - all.iter().take(at + 1).rev().take_while(|row| !idle(row)).count().saturating_sub(1).min(at);
         let until = at + all.iter().skip(at).take_while(|row| !idle(row)).count();
         let used = all.get(from..until).unwrap_or_default();
-        let rows: Vec<Stored> = used.iter().filter_map(|row| stored(layout, number, &attached, row)).collect();
+        let rows: Vec<Stored> = used.iter().filter_map(|row| stored_ends(layout, number, &attached, row)).collect();
         let (Some(first), Some(last)) = (rows.first().map(|r| r.time), rows.last().map(|r| r.time)) else {
             return Err(ClassError::new("no instant around its largest tension is stored"));
         };
@@ -259,9 +260,8 @@ impl EndMotion {
         let spacing = rows.array_windows().map(|[a, b]| b.time - a.time).fold(0.0, f64::max);
         if !(spacing > 0.0 && spacing <= period / LEAST_INSTANTS) {
             let text = "its stored instants, {} apart, are too few for a period of {}";
-            return Err(
-                ClassError::of(text, &[(spacing, Dim::Time), (period, Dim::Time)]).help("-STORE keeps more instants")
-            );
+            return Err(ClassError::with_values(text, &[(spacing, Dim::Time), (period, Dim::Time)])
+                .help("-STORE keeps more instants"));
         }
         let ramped = begin - GROWING * period;
         let (start, growing) = if ramped > first { (ramped, GROWING * period) } else { (first, 0.0) };
@@ -289,7 +289,7 @@ impl EndMotion {
     fn ends(&self, time: f64) -> Option<[End; 2]> {
         let after = self.rows.partition_point(|row| row.time <= time).clamp(1, self.rows.len().max(2) - 1);
         let (from, to) = (self.rows.get(after - 1)?, self.rows.get(after).or(self.rows.last())?);
-        let made = [0, 1].map(|side| between((from.time, &from.ends[side]), (to.time, &to.ends[side]), time));
+        let made = [0, 1].map(|side| interpolate_ends((from.time, &from.ends[side]), (to.time, &to.ends[side]), time));
         if self.growing <= 0.0 || time >= self.begin + self.growing {
             return Some(made);
         }
@@ -308,7 +308,7 @@ impl EndMotion {
 }
 
 /// The ends of a line in a row.
-fn stored(layout: &Layout, number: usize, attached: &[Attachment; 2], row: &[f64]) -> Option<Stored> {
+fn stored_ends(layout: &Layout, number: usize, attached: &[Attachment; 2], row: &[f64]) -> Option<Stored> {
     let motion = |body: usize| {
         let at = layout.body(body);
         let Some(numbers) = row.get(at..at + OF_BODY) else { return Motion::default() };
@@ -333,7 +333,7 @@ fn linear(v: &Vector3<f64>) -> Six {
 
 /// An end between two instants, by the polynomial of fifth degree with place, velocity and acceleration of both. Lines that are replayed
 /// turn freely at their ends: of the axes those of the first instant are taken.
-fn between((t0, from): (f64, &End), (t1, to): (f64, &End), time: f64) -> End {
+fn interpolate_ends((t0, from): (f64, &End), (t1, to): (f64, &End), time: f64) -> End {
     let h = t1 - t0;
     if h <= 0.0 {
         return *from;
@@ -402,7 +402,7 @@ impl Twin {
         let mut nodes = Vec::new();
         let mut start = vec![0.0; element.states()];
         element.start(&mut start);
-        element.along(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &start, &mut nodes)?;
+        element.line_nodes(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &start, &mut nodes)?;
         let length = nodes.last().map_or(0.0, |n| n.arc);
         let wanted = ((length / LONGEST).ceil() as usize).clamp(fewest, most);
         let element = if wanted == fewest { element } else { of(wanted)? };

@@ -7,7 +7,7 @@
 use super::equilibrium::{LOOSE, Options};
 use super::parts::Part;
 use super::system::{SolveError, State, System};
-use super::ties::between;
+use super::ties::interpolate_forces;
 use super::unknowns::Unknowns;
 use nalgebra::{DMatrix, DVector};
 use windlass_base::dense::{Cholesky, DenseError, Lu, Stop};
@@ -36,7 +36,7 @@ pub(super) struct Stand {
 }
 
 impl Stand {
-    pub fn of(state: &State) -> Self {
+    pub fn from_state(state: &State) -> Self {
         Stand { poses: state.poses.clone(), ties: state.ties.forces.clone() }
     }
 
@@ -87,7 +87,7 @@ impl<'a> Search<'a> {
         if let Some((stand, least, since)) = &mut self.bold {
             if worst < *least {
                 (*least, *since) = (worst, 0);
-                *stand = Stand::of(state);
+                *stand = Stand::from_state(state);
             } else {
                 *since += 1;
             }
@@ -99,24 +99,24 @@ impl<'a> Search<'a> {
                 return self.evaluate(state);
             }
         } else if self.slow[0] >= self.slow[1] {
-            self.bold = Some((Stand::of(state), worst, 0));
+            self.bold = Some((Stand::from_state(state), worst, 0));
         }
         self.step(unknowns, state, worst)
     }
 
     fn step(&mut self, unknowns: &Unknowns, state: &mut State, worst: f64) -> Result<(), SolveError> {
         let residual = unknowns.residual(state);
-        let asked = &residual + unknowns.along(&state.ties.excess);
+        let asked = &residual + unknowns.project_forces(&state.ties.excess);
         let stop = || self.system.is_interrupted();
         let made = direction(unknowns, &unknowns.stiffness(state), &asked, self.help, &stop);
-        let (step, needed) = made.map_err(|e| unknowns.unfactored(self.system, e))?;
+        let (step, needed) = made.map_err(|e| unknowns.singular_stiffness_error(self.system, e))?;
         let work = residual.dot(&step).abs();
-        let from = Stand::of(state);
+        let from = Stand::from_state(state);
         let motions = unknowns.motions(from.poses.len(), &step, 1.0);
         let ties = state.ties.predict(&|body| motions[body]);
         let place = |state: &mut State, share: f64| {
-            state.poses = unknowns.moved(&from.poses, &step, share);
-            state.ties.forces = between(&from.ties, &ties, share);
+            state.poses = unknowns.move_bodies(&from.poses, &step, share);
+            state.ties.forces = interpolate_forces(&from.ties, &ties, share);
         };
         let longest = unknowns.limit(&step);
         // nothing holds back along a step that had to be limited: it is no measure of how far it is
@@ -135,7 +135,7 @@ impl<'a> Search<'a> {
                     let (now, after) = (self.worst(unknowns, state).0, new.dot(&step));
                     let fell = after.abs() <= 0.9 * work;
                     if bold || now < worst || (after >= -0.5 * work && (fell || behind.is_none())) {
-                        self.taken(share / longest, needed, now / worst, blind);
+                        self.record_step(share / longest, needed, now / worst, blind);
                         self.blocked = 0;
                         return Ok(());
                     }
@@ -166,7 +166,7 @@ impl<'a> Search<'a> {
         if before.0 > 0.0 {
             place(state, before.0);
             self.evaluate(state)?;
-            self.taken(before.0 / longest, needed, 1.0, blind);
+            self.record_step(before.0 / longest, needed, 1.0, blind);
             self.blocked = 0;
             return Ok(());
         }
@@ -181,7 +181,7 @@ impl<'a> Search<'a> {
     }
 
     /// Remembers how much of a step was taken, and what it left over what there was.
-    fn taken(&mut self, share: f64, needed: f64, left: f64, blind: bool) {
+    fn record_step(&mut self, share: f64, needed: f64, left: f64, blind: bool) {
         self.slow[0] = if share < SHORT && !blind { self.slow[0] + 1 } else { 0 };
         // a stiffness that needed help is helped less as the residual shrinks
         let change = if left <= 1.0 { (0.5 * left).max(0.1) } else { left.min(4.0) };

@@ -1,17 +1,17 @@
 //! The system of bodies and connectors: who hangs on whom, what acts on each body, how that changes with their places.
 
-use super::link::{Attachment, Link, arm, laid, link, pose_of};
-use super::modes::held;
+use super::link::{Attachment, Link, arm, build_pipe_link, link, pose_of};
+use super::modes::solve_least_motion;
 use super::parts::Part;
 use super::ties::Ties;
-use super::time::{Prescribed, RunRequirements, prescribed};
+use super::time::{Prescribed, RunRequirements, build_prescribed};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
 use windlass_base::dense::DenseError;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::Sea;
-use windlass_hydro::{Category, Floating, Load, ambient, carried, transferred, turning};
+use windlass_hydro::{Category, Floating, Load, ambient, move_stiffness, move_wrench, turning};
 use windlass_model::{Ambient, Body, ClassError, End, Guess, Mass, Model, Response, Situation, Surroundings};
 
 /// Degrees of freedom of a body, in order.
@@ -32,7 +32,7 @@ impl SolveError {
         SolveError { who: None, error }
     }
 
-    pub(super) fn of(who: &str) -> impl Fn(ClassError) -> SolveError + '_ {
+    pub(super) fn about(who: &str) -> impl Fn(ClassError) -> SolveError + '_ {
         move |error| SolveError { who: Some(who.to_string()), error }
     }
 }
@@ -59,7 +59,7 @@ pub struct Node {
 }
 
 impl Node {
-    fn of(model: &Model, key: &str, body: &Body, floating: Floating) -> Self {
+    fn new(model: &Model, key: &str, body: &Body, floating: Floating) -> Self {
         // what moves as it is given stands still for forces
         let idle = model.idle_hook(body) || body.prescribed.is_some();
         let free = DOFS.map(|f| !idle && !body.ignored.iter().any(|i| i == f));
@@ -107,7 +107,7 @@ pub struct State {
 
 impl State {
     /// Bodies in these poses, with nothing evaluated yet.
-    pub fn at(poses: Vec<Pose>) -> Self {
+    pub fn from_poses(poses: Vec<Pose>) -> Self {
         State { poses, ..State::default() }
     }
 }
@@ -138,25 +138,25 @@ impl System {
     ///
     /// # Errors
     /// The connector or body that makes no part of it, and why.
-    pub fn of(model: &Model, left_out: &[String]) -> Result<Self, SolveError> {
+    pub fn new(model: &Model, left_out: &[String]) -> Result<Self, SolveError> {
         let node = |(key, body): (&String, &Body)| {
-            let floating = Floating::of(model, body).map_err(SolveError::of(&body.name))?;
-            Ok(Node::of(model, key, body, floating))
+            let floating = Floating::at_rest(model, body).map_err(SolveError::about(&body.name))?;
+            Ok(Node::new(model, key, body, floating))
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
-        System::with(model, (nodes, None), left_out, RunRequirements::default())
+        System::build(model, (nodes, None), left_out, RunRequirements::default())
     }
 
     /// The system of a model under way: bodies with what a sea does to them, lines as a run asks for them.
     ///
     /// # Errors
-    /// As [`System::of`].
+    /// As [`System::new`].
     pub fn under_way(model: &Model, sea: Option<&Arc<Sea>>, duties: RunRequirements) -> Result<Self, SolveError> {
         let nodes = moving_nodes(model, sea)?;
-        System::with(model, (nodes, sea), &[], duties)
+        System::build(model, (nodes, sea), &[], duties)
     }
 
-    fn with(
+    fn build(
         model: &Model,
         (nodes, sea): (Vec<Node>, Option<&Arc<Sea>>),
         left_out: &[String],
@@ -175,8 +175,8 @@ impl System {
             links.push(link((model, &ambient, &duties), connector, &mut states)?);
         }
         for assembly in model.assemblies.values() {
-            if let Some((element, ends)) = laid((model, &ambient, &duties), assembly)? {
-                links.push(Link::of(&assembly.name, element, ends, &mut states));
+            if let Some((element, ends)) = build_pipe_link((model, &ambient, &duties), assembly)? {
+                links.push(Link::new(&assembly.name, element, ends, &mut states));
             }
         }
         let (surroundings, gravity) = (model.surroundings(), model.defaults.gravity);
@@ -193,7 +193,7 @@ impl System {
     /// A state with the bodies where they stand in the model.
     pub fn state(&self, model: &Model) -> State {
         let poses = self.nodes.iter().map(|n| model.bodies.get(&n.key).map(|b| Pose::of(&b.place)).unwrap_or_default());
-        State::at(poses.collect())
+        State::from_poses(poses.collect())
     }
 
     /// Evaluates everything at the poses of a state.
@@ -229,7 +229,7 @@ impl System {
         }
         for (index, (node, pose)) in self.nodes.iter().zip(&state.poses).enumerate().filter(|(i, _)| belongs(*i)) {
             for load in &node.floating.loads {
-                let load = load.load(pose).map_err(SolveError::of(&node.name))?;
+                let load = load.load(pose).map_err(SolveError::about(&node.name))?;
                 let mut at = state.residual.fixed_rows_mut::<6>(6 * index);
                 at += load.wrench;
                 let mut block = state.stiffness.fixed_view_mut::<6, 6>(6 * index, 6 * index);
@@ -257,25 +257,25 @@ impl System {
             let tie = if state.ties.holds { link.element.tie(&at, held, &mut state.response) } else { None };
             match tie {
                 Some(tie) => {
-                    let tie = tie.map_err(SolveError::of(&link.name))?;
+                    let tie = tie.map_err(SolveError::about(&link.name))?;
                     state.ties.take(index, tie, &state.response.stiffness, (&link.ends, &arms));
                 }
                 None => link
                     .element
                     .evaluate(&at, committed, trial, guess, &mut state.response)
-                    .map_err(SolveError::of(&link.name))?,
+                    .map_err(SolveError::about(&link.name))?,
             }
             let count = link.ends.len();
             for (i, ((end, wrench), own)) in link.ends.iter().zip(&state.response.wrench).zip(&arms).enumerate() {
                 let Attachment::Body(body, _) = end else { continue };
                 let mut at = state.residual.fixed_rows_mut::<6>(6 * body);
-                at += carried(wrench, *own);
+                at += move_wrench(wrench, *own);
                 let force = wrench.fixed_rows::<3>(0).norm();
                 state.pull[*body] = state.pull[*body].max(force);
                 for (j, (other, far)) in link.ends.iter().zip(&arms).enumerate() {
                     let Attachment::Body(column, _) = other else { continue };
                     let Some(block) = state.response.stiffness.get(count * i + j) else { continue };
-                    let mut moved = transferred(block, *own, *far);
+                    let mut moved = move_stiffness(block, *own, *far);
                     if i == j {
                         moved += turning(wrench, *own);
                     }
@@ -295,7 +295,7 @@ impl System {
         let mut list = Vec::new();
         for (body, (node, pose)) in self.nodes.iter().zip(poses).enumerate() {
             for load in &node.floating.loads {
-                let (category, load) = (load.category(), load.load(pose).map_err(SolveError::of(&node.name))?);
+                let (category, load) = (load.category(), load.load(pose).map_err(SolveError::about(&node.name))?);
                 list.push(Contribution { body, connector: None, category, load });
             }
         }
@@ -306,7 +306,7 @@ impl System {
             let own = &mut trial[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
             let evaluated = link.element.evaluate(&at, committed, own, &mut None, &mut response);
-            evaluated.map_err(SolveError::of(&link.name))?;
+            evaluated.map_err(SolveError::about(&link.name))?;
             let category = if link.element.rigid() { Category::RigidConnectors } else { Category::FlexConnectors };
             for (i, end) in link.ends.iter().enumerate() {
                 let Attachment::Body(body, _) = end else { continue };
@@ -318,10 +318,10 @@ impl System {
                     if let (Attachment::Body(other, _), Some(block)) = (far, response.stiffness.get(count * i + j))
                         && other == body
                     {
-                        stiffness += transferred(block, own, arm(far, poses));
+                        stiffness += move_stiffness(block, own, arm(far, poses));
                     }
                 }
-                let load = Load { wrench: carried(wrench, own), stiffness };
+                let load = Load { wrench: move_wrench(wrench, own), stiffness };
                 list.push(Contribution { body: *body, connector: Some(link.name.clone()), category, load });
             }
         }
@@ -341,18 +341,18 @@ impl System {
             .collect();
         let part = |r: &[usize], c: &[usize]| state.stiffness.select_rows(r).select_columns(c);
         let mut made = part(&own, &own);
-        let moved = held(part(&follow, &follow), &part(&follow, &own), &|| self.is_interrupted());
-        made -= part(&own, &follow) * moved.map_err(|e| self.unfactored("stiffness", &follow, e))?;
+        let moved = solve_least_motion(part(&follow, &follow), &part(&follow, &own), &|| self.is_interrupted());
+        made -= part(&own, &follow) * moved.map_err(|e| self.singular_matrix_error("stiffness", &follow, e))?;
         Ok(made.fixed_view::<6, 6>(0, 0).into_owned())
     }
 
     /// Whether whoever waits for a solution wants none any more.
     pub(super) fn is_interrupted(&self) -> bool {
-        self.ambient.interrupted()
+        self.ambient.is_interrupted()
     }
 
     /// The error of a matrix that has no factors, each of whose rows belongs to a degree of freedom, six a body.
-    pub(super) fn unfactored(&self, what: &str, rows: &[usize], error: DenseError) -> SolveError {
+    pub(super) fn singular_matrix_error(&self, what: &str, rows: &[usize], error: DenseError) -> SolveError {
         match error {
             DenseError::NotFinite { row, .. } => {
                 let at = rows[row];
@@ -376,7 +376,7 @@ impl System {
         let size = 6 * self.nodes.len();
         let mut matrix = DMatrix::zeros(size, size);
         for (index, (node, pose)) in self.nodes.iter().zip(poses).enumerate() {
-            let block = mass_block(&node.floating.mass, pose) + node.floating.added(pose);
+            let block = mass_block(&node.floating.mass, pose) + node.floating.added_mass(pose);
             matrix.fixed_view_mut::<6, 6>(6 * index, 6 * index).copy_from(&block);
         }
         matrix
@@ -405,9 +405,9 @@ pub(super) fn without_rounding(place: Place) -> Place {
 /// The bodies of a model under way.
 pub(super) fn moving_nodes(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Vec<Node>, SolveError> {
     let node = |(key, body): (&String, &Body)| {
-        let floating = Floating::under_way(model, body, sea).map_err(SolveError::of(&body.name))?;
-        let mut made = Node::of(model, key, body, floating);
-        made.prescribed = prescribed(body, sea).map_err(SolveError::of(&body.name))?;
+        let floating = Floating::under_way(model, body, sea).map_err(SolveError::about(&body.name))?;
+        let mut made = Node::new(model, key, body, floating);
+        made.prescribed = build_prescribed(body, sea).map_err(SolveError::about(&body.name))?;
         Ok(made)
     };
     model.bodies.iter().map(node).collect()

@@ -221,7 +221,8 @@ pub fn stiffnesses(
                 names.extend(c.connector.as_deref());
             }
             let all = Load { wrench, stiffness: followed };
-            let mut made = stiffness(&format!("Stiffness of {}", node.name), &all.about(arm).stiffness).map(point);
+            let mut made =
+                stiffness(&format!("Stiffness of {}", node.name), &all.about_point(arm).stiffness).map(point);
             if !node.junction && system.nodes.iter().any(|n| n.junction) {
                 made.iter_mut()
                     .for_each(|t| t.note("junctions follow the body to their own equilibrium; other bodies are held"));
@@ -234,7 +235,7 @@ pub fn stiffnesses(
         for c in own() {
             let Some(name) = c.connector.as_deref().filter(|name| connectors.told.contains(name)) else { continue };
             let title = format!("Stiffness of {name} on {}", node.name);
-            list.extend(stiffness(&title, &c.load.about(arm).stiffness).map(point));
+            list.extend(stiffness(&title, &c.load.about_point(arm).stiffness).map(point));
         }
     }
     Ok(list)

@@ -7,7 +7,7 @@
 use super::link::Attachment;
 use nalgebra::{DVector, Matrix6, Vector3};
 use windlass_base::pose::Six;
-use windlass_hydro::carried;
+use windlass_hydro::move_wrench;
 use windlass_model::Tie;
 
 /// A tie at the places of its ends.
@@ -59,7 +59,7 @@ impl Ties {
             if let Attachment::Body(body, _) = end {
                 *slot = Some((*body, *arm));
                 let mut at = self.excess.fixed_rows_mut::<6>(6 * body);
-                at += carried(excess, *arm);
+                at += move_wrench(excess, *arm);
             }
         }
         self.made.push((link, Held { tie, ends: on, stiffness: stiffness.to_vec() }));
@@ -100,7 +100,7 @@ impl Ties {
                     if let (Some((body, own)), Some((other, far)), Some(block)) =
                         (row, column, held.stiffness.get(2 * i + j))
                     {
-                        list.push((*body, *other, windlass_hydro::transferred(block, *own, *far)));
+                        list.push((*body, *other, windlass_hydro::move_stiffness(block, *own, *far)));
                     }
                 }
             }
@@ -122,7 +122,7 @@ fn moved_end(motion: &Six, arm: &Vector3<f64>) -> Six {
 }
 
 /// Forces between two lists: those of the first and a share of the way to the second.
-pub(crate) fn between(from: &[Option<Six>], to: &[Option<Six>], share: f64) -> Vec<Option<Six>> {
+pub(crate) fn interpolate_forces(from: &[Option<Six>], to: &[Option<Six>], share: f64) -> Vec<Option<Six>> {
     let one = |(from, to): (&Option<Six>, &Option<Six>)| match (from, to) {
         (Some(from), Some(to)) => Some(from + (to - from) * share),
         (_, to) => *to,

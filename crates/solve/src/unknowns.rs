@@ -29,7 +29,7 @@ pub(super) struct Unknowns<'a> {
 
 impl<'a> Unknowns<'a> {
     /// Those of a part, `None` for all bodies, that keep some of their angles.
-    pub fn of(system: &System, state: &State, options: &Options, (turns, part): (&'a [Turns], Option<&Part>)) -> Self {
+    pub fn new(system: &System, state: &State, options: &Options, (turns, part): (&'a [Turns], Option<&Part>)) -> Self {
         let (mut rows, mut inertia, mut measure) = (Vec::new(), Vec::new(), Vec::new());
         let belongs = |body: usize| part.is_none_or(|p| p[body]);
         for (body, node) in system.nodes.iter().enumerate().filter(|(body, _)| belongs(*body)) {
@@ -44,10 +44,12 @@ impl<'a> Unknowns<'a> {
                     continue;
                 }
                 match options.held {
-                    Some((held, angle)) if held == body && dof < 2 => match across(body, angle, &node.free) {
-                        Some(direction) if dof == 1 => rows.push(direction),
-                        _ => continue,
-                    },
+                    Some((held, angle)) if held == body && dof < 2 => {
+                        match transverse_direction(body, angle, &node.free) {
+                            Some(direction) if dof == 1 => rows.push(direction),
+                            _ => continue,
+                        }
+                    }
                     _ => rows.push([(6 * body + dof, 1.0), (6 * body + dof, 0.0)]),
                 }
                 let turning = dof >= 3;
@@ -59,11 +61,11 @@ impl<'a> Unknowns<'a> {
     }
 
     pub fn residual(&self, state: &State) -> DVector<f64> {
-        self.along(&state.residual)
+        self.project_forces(&state.residual)
     }
 
     /// Forces of the system, six a body, along the unknowns.
-    pub fn along(&self, forces: &DVector<f64>) -> DVector<f64> {
+    pub fn project_forces(&self, forces: &DVector<f64>) -> DVector<f64> {
         let along = |d: &Direction| d.iter().map(|(r, share)| share * forces[*r]).sum();
         DVector::from_iterator(self.rows.len(), self.rows.iter().map(along))
     }
@@ -106,9 +108,9 @@ impl<'a> Unknowns<'a> {
     }
 
     /// The error of a stiffness that has no factors.
-    pub fn unfactored(&self, system: &System, error: DenseError) -> SolveError {
+    pub fn singular_stiffness_error(&self, system: &System, error: DenseError) -> SolveError {
         let rows: Vec<usize> = self.rows.iter().map(|[(row, _), _]| *row).collect();
-        system.unfactored("stiffness", &rows, error)
+        system.singular_matrix_error("stiffness", &rows, error)
     }
 
     /// The share of a step that stays within the longest.
@@ -133,19 +135,21 @@ impl<'a> Unknowns<'a> {
         motions
     }
 
-    pub fn moved(&self, poses: &[Pose], step: &DVector<f64>, share: f64) -> Vec<Pose> {
+    pub fn move_bodies(&self, poses: &[Pose], step: &DVector<f64>, share: f64) -> Vec<Pose> {
         let motions = self.motions(poses.len(), step, share);
         let turn = |body: usize, pose: Pose| match self.turns.get(body) {
             Some(turns) if turns.iter().any(Option::is_some) => turned_back(pose, turns),
             _ => pose,
         };
-        let one = |(body, (p, m)): (usize, (&Pose, &Six))| if *m == Six::zeros() { *p } else { turn(body, p.moved(m)) };
+        let one = |(body, (p, m)): (usize, (&Pose, &Six))| {
+            if *m == Six::zeros() { *p } else { turn(body, p.after_motion(m)) }
+        };
         poses.iter().zip(&motions).enumerate().map(one).collect()
     }
 }
 
 /// The horizontal direction across an angle (rad), where the body is free in both.
-fn across(body: usize, angle: f64, free: &[bool; 6]) -> Option<Direction> {
+fn transverse_direction(body: usize, angle: f64, free: &[bool; 6]) -> Option<Direction> {
     let [x, y, ..] = *free;
     let (x_share, y_share) = (-angle.sin(), angle.cos());
     let (x_row, y_row) = ((6 * body, x_share), (6 * body + 1, y_share));

@@ -41,13 +41,13 @@ pub fn watch(
     (body, force, free): (usize, f64, bool),
     directions: &[f64],
 ) -> Result<Circle, SolveError> {
-    let connectors = Connectors::on(system, body)?;
+    let connectors = Connectors::on_body(system, body)?;
     let moves = |b: usize, dof: usize| free || (b == body && [0, 1, 5].contains(&dof));
     let all = (0..system.nodes.len()).flat_map(|b| (0..6).map(move |dof| (b, dof)));
     let ignored = all.filter(|(b, f)| !moves(*b, *f)).collect();
     // from one direction to the next is far for a body that hangs on stiff lines
     let options = Rest { ignored, most: MOST, ..Rest::default() };
-    let mut state = State::at(start.to_vec());
+    let mut state = State::from_poses(start.to_vec());
     let mut list = Vec::with_capacity(directions.len());
     for direction in directions {
         let wrong = |e: SolveError| {

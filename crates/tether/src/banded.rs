@@ -95,7 +95,7 @@ impl Banded {
     pub fn factor_into(&self, factors: &mut Factors) -> Result<(), ClassError> {
         factors.rows.clear();
         for row in 0..self.rows.len() {
-            let made = self.eliminated(&factors.rows, row);
+            let made = self.eliminate_row(&factors.rows, row);
             // not `<=`: a pivot that is no number is refused as well
             if !(made[0] > 0.0 && made[0].is_finite()) {
                 return Err(ClassError::new(format!(
@@ -115,7 +115,7 @@ impl Banded {
         let mut negative = 0;
         factors.rows.clear();
         for row in 0..self.rows.len() {
-            let mut made = self.eliminated(&factors.rows, row);
+            let mut made = self.eliminate_row(&factors.rows, row);
             let least = f64::EPSILON * self.rows[row][0].abs().max(f64::MIN_POSITIVE / f64::EPSILON);
             if made[0].abs() < least {
                 made[0] = if made[0] < 0.0 { -least } else { least };
@@ -128,7 +128,7 @@ impl Banded {
 
     /// A row of the factors from those above it.
     #[inline]
-    fn eliminated(&self, above: &[[f64; WIDTH]], row: usize) -> [f64; WIDTH] {
+    fn eliminate_row(&self, above: &[[f64; WIDTH]], row: usize) -> [f64; WIDTH] {
         let mut made = self.rows[row];
         let reach = row.min(WIDTH - 1);
         // made[k] holds L * D of column row - k until it is divided

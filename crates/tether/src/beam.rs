@@ -46,7 +46,7 @@ pub fn curvature(a: f64, length: f64) -> Vector4 {
 /// Bending stiffness of a beam of stiffness EI.
 pub fn stiffness(ei: f64, length: f64) -> Matrix4 {
     let l = length;
-    scaled(
+    scale_matrix(
         ei / (l * l * l),
         [
             [12.0, 6.0 * l, -12.0, 6.0 * l],
@@ -60,7 +60,7 @@ pub fn stiffness(ei: f64, length: f64) -> Matrix4 {
 /// Stiffness of a tension across the line (geometric stiffness), consistent with the cubic.
 pub fn geometric(tension: f64, length: f64) -> Matrix4 {
     let l = length;
-    scaled(
+    scale_matrix(
         tension / (30.0 * l),
         [
             [36.0, 3.0 * l, -36.0, 3.0 * l],
@@ -74,7 +74,7 @@ pub fn geometric(tension: f64, length: f64) -> Matrix4 {
 /// Mass of a uniform mass per length, consistent with the cubic.
 pub fn mass(per_length: f64, length: f64) -> Matrix4 {
     let l = length;
-    scaled(
+    scale_matrix(
         per_length * l / 420.0,
         [
             [156.0, 22.0 * l, 54.0, -13.0 * l],
@@ -157,7 +157,7 @@ pub fn twice_energy(ei: f64, tension: f64, length: f64, at: &Vector4) -> f64 {
 }
 
 /// A matrix times a number.
-fn scaled(factor: f64, mut matrix: Matrix4) -> Matrix4 {
+fn scale_matrix(factor: f64, mut matrix: Matrix4) -> Matrix4 {
     matrix.iter_mut().flatten().for_each(|value| *value *= factor);
     matrix
 }

@@ -111,7 +111,7 @@ impl Line {
     ///
     /// # Errors
     /// Those of [`Line::new`].
-    pub fn numbered(mut elements: Vec<TetherElement>) -> Result<Self, ClassError> {
+    pub fn with_numbered_nodes(mut elements: Vec<TetherElement>) -> Result<Self, ClassError> {
         for (element, number) in elements.iter_mut().zip(1..) {
             element.label.nodes = [number, number + 1];
         }
@@ -167,20 +167,20 @@ fn sound(number: usize, element: &TetherElement) -> Result<(), ClassError> {
     for (what, value, dim) in positive {
         if !(value.is_finite() && value > 0.0) {
             let message = format!("element {number} of the tether has the {what} {{}}; it must be above zero");
-            return Err(ClassError::of(message, &[(value, dim)]));
+            return Err(ClassError::with_values(message, &[(value, dim)]));
         }
     }
     for (what, value) in [("drag coefficient", e.drag), ("added mass coefficient", e.added_mass)] {
         if !(value.is_finite() && value >= 0.0) {
             let message = format!("element {number} of the tether has the {what} {{}}; it must not be negative");
-            return Err(ClassError::of(message, &[(value, Dim::None)]));
+            return Err(ClassError::with_values(message, &[(value, Dim::None)]));
         }
     }
     // a bar may be given as half the diameter rounded up in its last digit
     let radius = e.tube().radius();
     if e.wall_thickness > radius * (1.0 + 1e-9) {
         let message = format!("element {number} of the tether has a wall of {{}}, thicker than its radius of {{}}");
-        return Err(ClassError::of(message, &[(e.wall_thickness, Dim::Section), (radius, Dim::Section)]));
+        return Err(ClassError::with_values(message, &[(e.wall_thickness, Dim::Section), (radius, Dim::Section)]));
     }
     Ok(())
 }
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn distances_run_from_the_first_node() {
-        let line = Line::numbered(vec![element(), TetherElement { length: 5.0, ..element() }]).unwrap();
+        let line = Line::with_numbered_nodes(vec![element(), TetherElement { length: 5.0, ..element() }]).unwrap();
         assert_eq!(line.distances(), [0.0, 10.0, 15.0]);
         assert_eq!((line.nodes(), line.length(), line.elements()[1].label.nodes), (3, 15.0, [2, 3]));
     }

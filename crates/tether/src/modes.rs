@@ -106,11 +106,11 @@ pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<Mode>, ClassError> {
     let mut search = Search { pencil, factors: Factors::with_room(order), shifted: Banded::zeros(order) };
     let ratio = ratio.max(f64::MIN_POSITIVE);
     let mut high = ratio;
-    while search.below(high) < number && high < ratio * 1e12 {
+    while search.count_eigenvalues_below(high) < number && high < ratio * 1e12 {
         high *= 2.0;
     }
     let mut low = -ratio * 1e-9;
-    while search.below(low) > 0 && low > -ratio * 1e12 {
+    while search.count_eigenvalues_below(low) > 0 && low > -ratio * 1e12 {
         low *= 4.0;
     }
     let mut found: Vec<Mode> = Vec::with_capacity(number);
@@ -125,14 +125,14 @@ pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<Mode>, ClassError> {
 /// The modes of both planes together, lowest eigenvalue first and those in z before their like in y, scaled for the listing.
 pub fn together(y: &[Mode], z: &[Mode], number: usize) -> Vec<NaturalMode> {
     let mut all: Vec<NaturalMode> =
-        z.iter().map(|m| scaled(Plane::Z, m)).chain(y.iter().map(|m| scaled(Plane::Y, m))).collect();
+        z.iter().map(|m| scale_mode(Plane::Z, m)).chain(y.iter().map(|m| scale_mode(Plane::Y, m))).collect();
     all.sort_by(|a, b| a.eigenvalue.total_cmp(&b.eigenvalue));
     all.truncate(number);
     all
 }
 
 /// A mode scaled for the listing.
-fn scaled(plane: Plane, mode: &Mode) -> NaturalMode {
+fn scale_mode(plane: Plane, mode: &Mode) -> NaturalMode {
     let deflections: Vec<f64> = mode.shape.iter().step_by(2).copied().collect();
     let slopes: Vec<f64> = mode.shape.iter().skip(1).step_by(2).copied().collect();
     let largest = |list: &[f64]| list.iter().fold(0.0, |most: f64, v| if v.abs() > most.abs() { *v } else { most });
@@ -152,7 +152,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// How many eigenvalues are below a value; leaves the factors of `K - s M`.
-    fn below(&mut self, value: f64) -> usize {
+    fn count_eigenvalues_below(&mut self, value: f64) -> usize {
         self.shifted.clone_from(self.pencil.stiffness);
         self.shifted.add_scaled(-value, self.pencil.mass);
         self.shifted.factor_indefinite(&mut self.factors)
@@ -165,7 +165,7 @@ impl Search<'_> {
                 break;
             }
             let middle = 0.5 * (low + high);
-            if self.below(middle) > index {
+            if self.count_eigenvalues_below(middle) > index {
                 high = middle;
             } else {
                 low = middle;
@@ -177,7 +177,7 @@ impl Search<'_> {
     /// The mode next to a value, across all that are found.
     fn shape(&mut self, shift: f64, found: &[Mode]) -> Result<Mode, ClassError> {
         let order = self.pencil.mass.order();
-        self.below(shift);
+        self.count_eigenvalues_below(shift);
         // no symmetry that a mode could lack, and the same every time
         let mut shape: Vec<f64> = (0..order).map(|i| 1.0 + 0.37 * (1.7 * i as f64 + 0.4).sin()).collect();
         let mut momentum = vec![0.0; order];
@@ -199,7 +199,7 @@ impl Search<'_> {
         let eigenvalue = (self.pencil.twice_energy)(&shape);
         if !eigenvalue.is_finite() {
             let message = "the natural mode of the tether near a squared frequency of {} cannot be found";
-            return Err(ClassError::of(message, &[(shift, Dim::None)]));
+            return Err(ClassError::with_values(message, &[(shift, Dim::None)]));
         }
         Ok(Mode { eigenvalue, shape })
     }

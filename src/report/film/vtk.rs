@@ -48,7 +48,7 @@ fn text(film: &Film, title: &str, frame: usize) -> String {
     let strands = film.strands.iter().filter(|s| s.states.get(frame).is_some_and(|s| *s != State::Inactive));
     for strand in strands {
         let first = points.len();
-        points.extend_from_slice(strand.at(frame));
+        points.extend_from_slice(strand.points_at(frame));
         let range = frame * strand.count..(frame + 1) * strand.count;
         let of = |list: &[f64]| -> Vec<f64> {
             let found = list.get(range.clone()).unwrap_or_default();

@@ -73,7 +73,7 @@ fn the_installed_deck_comes_to_the_printed_places_and_goes_slack_when_printed() 
         let time = number(&state["time"]);
         let at = run.times.iter().position(|t| (t - time).abs() < 1e-9).unwrap();
         for axis in 0..3 {
-            let off = (structure.at(at, axis).unwrap() - number(&state["POSITION"][axis])).abs();
+            let off = (structure.value(at, axis).unwrap() - number(&state["POSITION"][axis])).abs();
             // required: 0.4 mm to 5 s, 6 mm to 25 s
             assert!(off < if time <= 5.0 { 4e-4 } else { 6e-3 }, "{axis} at {time} s: {off}");
         }
@@ -315,7 +315,7 @@ fn phases_are_as_many_as_the_components() {
     session.run();
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     assert!(screen.text().contains("as -PHASES gives them"));
-    let sea_made = windlass_hydro::sea::Sea::of(&session.job.model, &session.job.model.environment).unwrap().unwrap();
+    let sea_made = windlass_hydro::sea::Sea::new(&session.job.model, &session.job.model.environment).unwrap().unwrap();
     let phases: Vec<f64> = sea_made.components.iter().map(|c| c.phase.to_degrees()).collect();
     assert!(phases.iter().zip([0.0, 90.0, 180.0]).all(|(found, want)| (found - want).abs() < 1e-12), "{phases:?}");
     let (mut session, _, _folder) = common::session();

@@ -30,7 +30,7 @@ fn a_chain_at_rest_comes_down_where_the_catenary_does() {
         let model = model(&chain(elements, ""));
         let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
         run.go(&mut Quiet).unwrap();
-        let line = Line::of(&run, "a").unwrap();
+        let line = Line::find(&run, "a").unwrap();
         let table = touchdown(&line, &events(&run.history, None).unwrap()[..1]).unwrap();
         // w = 2000 N/m, H the tension on the bottom: a catenary of parameter a = H/w rises h over an arc sqrt(h^2 + 2 h a)
         let parameter = last(&table, "Tension") / 2000.0;
@@ -51,7 +51,7 @@ fn the_line_at_rest_and_the_first_row_of_a_run_in_still_water_are_one() {
     let rest = &lines_at_rest(&model, &|_| true).unwrap()[0];
     let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
     run.go(&mut Quiet).unwrap();
-    let line = Line::of(&run, "A").unwrap();
+    let line = Line::find(&run, "A").unwrap();
     assert_eq!(line.nodes(), 21);
     let first = &events(&run.history, None).unwrap()[..1];
     let table = envelope(&line, first).unwrap();
@@ -73,7 +73,7 @@ fn fewer_nodes_kept_and_none_kept_tell_what_all_tell() {
     let (all, fourth) = (ran(|s| s), ran(|s| Settings { along: 4, ..s }));
     let (bare, none) = (ran(|s| Settings { keep: false, ..s }), ran(|s| Settings { along: 0, ..s }));
     let told = |run: &Run| {
-        let line = Line::of(run, "A").unwrap();
+        let line = Line::find(run, "A").unwrap();
         let kept = if run.history.is_empty() { Vec::new() } else { events(&run.history, None).unwrap() };
         envelope(&line, &kept).unwrap()
     };
@@ -87,10 +87,10 @@ fn fewer_nodes_kept_and_none_kept_tell_what_all_tell() {
         }
         assert_eq!(a, &c.unwrap().cells, "{column}");
     }
-    assert!(Line::of(&none, "A").unwrap_err().help[0].contains("-ALONG"));
-    assert!(Line::of(&all, "B").is_err());
+    assert!(Line::find(&none, "A").unwrap_err().help[0].contains("-ALONG"));
+    assert!(Line::find(&all, "B").is_err());
     // a place between two nodes is between them
-    let line = Line::of(&all, "A").unwrap();
+    let line = Line::find(&all, "A").unwrap();
     let kept = events(&all.history, None).unwrap();
     let arcs = whole.get("Arc").unwrap().numbers();
     let middle = 0.5 * (arcs[1] + arcs[2]);

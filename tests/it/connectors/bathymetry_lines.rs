@@ -31,7 +31,7 @@ fn moored(bottom: &str, [x, y]: [f64; 2], class: &str) -> Model {
 
 /// What the line exerts on its body, with its stiffness.
 fn load(model: &Model) -> (Six, nalgebra::Matrix6<f64>) {
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     let all = system.contributions(&system.state(model).poses).unwrap();
     let line = all.into_iter().find(|c| c.connector.is_some()).unwrap();
     (line.load.wrench, line.load.stiffness)

@@ -307,7 +307,7 @@ fn left(element: &dyn Element, bench: &Bench) -> Vec<f64> {
     let mut start = vec![0.0; element.states()];
     element.start(&mut start);
     let shift = Six::new(0.001, -0.002, 0.0015, 0.01, -0.02, 0.01);
-    let before = [bench.ends[0].moved(&shift), bench.ends[1]].map(End::still);
+    let before = [bench.ends[0].after_motion(&shift), bench.ends[1]].map(End::still);
     ask(element, &bench.surroundings(), &before, Some(0.3), &start).1
 }
 
@@ -369,7 +369,7 @@ fn a_line_that_moves_by_itself_has_the_stiffness_of_its_differences_and_turns_wi
                 let mut ends = ends;
                 let mut motion = Six::zeros();
                 motion[axis] = size;
-                ends[moved].pose = ends[moved].pose.moved(&motion);
+                ends[moved].pose = ends[moved].pose.after_motion(&motion);
                 rest(&ends)
             };
             let (plus, minus) = (by(1e-4), by(-1e-4));
@@ -414,7 +414,7 @@ fn stiffness_and_damping_are_the_differences_of_the_wrench() {
                         let mut ends = ends;
                         let mut motion = Six::zeros();
                         motion[axis] = size;
-                        ends[moved].pose = ends[moved].pose.moved(&motion);
+                        ends[moved].pose = ends[moved].pose.after_motion(&motion);
                         ask(element, &surroundings, &ends, dt, &committed).0
                     };
                     let (plus, minus) = (by(h), by(-h));
@@ -524,8 +524,14 @@ fn path(ends: [Pose; 2], t: f64, size: f64) -> [End; 2] {
         let angle = 3.0 * size * (turns[0] + 0.5 * turns[1]);
         let spin = 3.0 * size * w * (spins[0] + 0.5 * spins[1]);
         let motion = Vector3::from(shift) * size;
-        let pose =
-            end.pose.moved(&Six::new(motion.x, motion.y, motion.z, axis.x * angle, axis.y * angle, axis.z * angle));
+        let pose = end.pose.after_motion(&Six::new(
+            motion.x,
+            motion.y,
+            motion.z,
+            axis.x * angle,
+            axis.y * angle,
+            axis.z * angle,
+        ));
         let speed = Vector3::from(speed) * (size * w);
         let velocity = Six::new(speed.x, speed.y, speed.z, axis.x * spin, axis.y * spin, axis.z * spin);
         *end = End { velocity, ..End::still(pose) };

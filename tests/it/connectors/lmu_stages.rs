@@ -20,7 +20,7 @@ fn stage(hoist: &str) -> Model {
 
 /// Force of a connector on a body (kN).
 fn force(model: &Model, body: &str, connector: &str) -> [f64; 3] {
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     let poses = system.state(model).poses;
     let index = system.nodes.iter().position(|n| n.name == body).unwrap();
     let list = system.contributions(&poses).unwrap();
@@ -92,7 +92,7 @@ fn a_landed_topside_stands_on_its_legs_as_a_rigid_plate_on_four_springs() {
 #[test]
 fn a_stabbed_pin_is_pushed_by_the_formulas_of_the_cone() {
     let model = stage("41.7");
-    let system = System::of(&model, &[]).unwrap();
+    let system = System::new(&model, &[]).unwrap();
     let pose = system.state(&model).poses[system.nodes.iter().position(|n| n.name == "DECK").unwrap()];
     let tangent = (1.6 - 0.8) / (2.0 * 1.5);
     let mut touching = 0;
@@ -126,7 +126,7 @@ fn a_pin_on_the_axis_and_on_the_ground_of_its_cone_is_held_sideways() {
     let model = session.job.model.clone();
     let [_, _, z, ..] = model.bodies.get("DECK").unwrap().place.values();
     assert!((z + 1.5 + 0.04).abs() < 1e-12, "W / 4 K_v = 40 mm: {z}");
-    let system = System::of(&model, &[]).unwrap();
+    let system = System::new(&model, &[]).unwrap();
     let mut state = system.state(&model);
     system.evaluate(&mut state).unwrap();
     // about the origin, in the plane of the tips; yaw: 4 K_h r2, r2 = 136 m2; roll: 4 K_v 36 m2

@@ -61,7 +61,7 @@ fn stiffness_of_a_moored_body_has_the_vertical_part_of_its_lines() {
     let at_rest = |option: &str| {
         let (session, _) = run(&heaved(option, 690.0, ""));
         let model: &Model = &session.job.model;
-        let system = System::of(model, &[]).unwrap();
+        let system = System::new(model, &[]).unwrap();
         let mut state = system.state(model);
         system.evaluate(&mut state).unwrap();
         state.stiffness

@@ -59,7 +59,7 @@ fn the_pipe_rolls_over_its_rollers_and_the_bottom_lacks_its_weight_by_the_height
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
     let state = vec![0.0; element.states()];
     let mut nodes = Vec::new();
-    element.along(&at, &state, &mut nodes).unwrap();
+    element.line_nodes(&at, &state, &mut nodes).unwrap();
     let leaves = (nodes[1].position - nodes[0].position).normalize();
     let bottom = tension * leaves.x - w * (nodes[0].position.z + 50.0);
     assert!((sum[0] / bottom - 1.0).abs() < 2e-4, "{} {bottom} {leaves}", sum[0]);
@@ -89,7 +89,7 @@ fn its_stiffness_is_the_difference_of_the_forces_on_all_rollers() {
             let mut motion = Six::zeros();
             motion[dof] = sign * step;
             let mut ends = ends.clone();
-            let pose: Pose = ends[end].pose.moved(&motion);
+            let pose: Pose = ends[end].pose.after_motion(&motion);
             ends[end] = End::still(pose);
             answer(&model, element.as_ref(), &ends).wrench
         };
@@ -118,7 +118,7 @@ fn a_davit_hangs_toward_the_pipe_that_pulls_it() {
     let surroundings = model.surroundings();
     let (state, mut nodes) = (vec![0.0; element.states()], Vec::new());
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-    element.along(&at, &state, &mut nodes).unwrap();
+    element.line_nodes(&at, &state, &mut nodes).unwrap();
     let lies = nodes.last().unwrap().effective;
     assert!((sum[0] / lies - 1.0).abs() < 1e-3, "{sum} {lies}");
     assert!(sum[0] < 1e5 && nodes[0].effective.abs() < 1.0, "{sum} {}", nodes[0].effective);

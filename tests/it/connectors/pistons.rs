@@ -48,7 +48,10 @@ impl Rig {
     /// The answer with the second end moved along X from where it was defined, with a velocity.
     fn at(&self, moved: f64, speed: f64, dt: Option<f64>) -> (Response, Vec<f64>) {
         let [first, second] = self.ends;
-        let there = [End::still(Pose::at(first.into())), End::still(Pose::at((second + Vector3::x() * moved).into()))];
+        let there = [
+            End::still(Pose::from_position(first.into())),
+            End::still(Pose::from_position((second + Vector3::x() * moved).into())),
+        ];
         let velocity = Six::new(speed, 0.0, 0.0, 0.0, 0.0, 0.0);
         self.answer([there[0], End { velocity, ..there[1] }], dt)
     }
@@ -65,7 +68,7 @@ impl Rig {
     fn summary(&self, moved: f64) -> Summary {
         let surroundings = self.session.job.model.surroundings();
         let [first, second] = self.ends;
-        let ends = [first, second + Vector3::x() * moved].map(|p| End::still(Pose::at(p.into())));
+        let ends = [first, second + Vector3::x() * moved].map(|p| End::still(Pose::from_position(p.into())));
         self.element.summary(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &self.state).unwrap()
     }
 
@@ -252,7 +255,7 @@ fn a_line_to_ground_is_held_at_tmax_by_so_much_way_along_its_tension() {
         let free = Rig::new(&class(""), "-ANCHOR 0 1080 ~C *A", [0.0; 3]);
         let held = Rig::new(&class("-PISTON MAX 9000 1000 1 1 2.3E6"), "-ANCHOR 0 1080 ~C *A", [0.0; 3]);
         let wrench = |rig: &Rig, first: Vector3<f64>| {
-            let ends = [first, rig.ends[1]].map(|p| End::still(Pose::at(p.into())));
+            let ends = [first, rig.ends[1]].map(|p| End::still(Pose::from_position(p.into())));
             let (out, trial) = rig.answer(ends, None);
             (out.wrench[0].fixed_rows::<3>(0).into_owned(), trial)
         };

@@ -39,7 +39,7 @@ const BELOW: &str = "0 0 -100";
 
 /// Least and most tension of the only connector of a run (N).
 fn tensions(run: &Run) -> [f64; 2] {
-    let found = run.statistics.all().find(|(series, _)| series.name == "T1 Tension").unwrap();
+    let found = run.statistics.results().find(|(series, _)| series.name == "T1 Tension").unwrap();
     let told = found.1.summary().unwrap();
     [told.minimum.value, told.maximum.value]
 }
@@ -97,7 +97,7 @@ fn damage_counts_the_whole_range_of_a_tension_that_changes_sign() {
     let run = session.job.run.as_ref().unwrap();
     let all = events(&run.history, None).unwrap();
     let whole = line_damages(run, &[0], &run.model.fatigue, &all).unwrap().remove(0).1.segments.remove(0);
-    let line = Line::of(run, "T1").unwrap();
+    let line = Line::find(run, "T1").unwrap();
     let along = fatigue_along(&line, &run.model.fatigue, (&Round::default(), 1.0), &all).unwrap();
     let along = along.get("Damage").unwrap().numbers();
     // the record begins and ends halfway; later it buckles sideways; until then a cycle each 5 s of the range over the wall

@@ -38,7 +38,7 @@ fn tip(rows: &[(f64, Vec<NodeRow>)], time: f64) -> [f64; 3] {
 
 /// Size of the force of the only connector on its first end, at rest (N).
 fn pull(model: &Model) -> f64 {
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     let all = system.contributions(&system.state(model).poses).unwrap();
     all.iter().find(|c| c.connector.is_some()).unwrap().load.wrench.fixed_rows::<3>(0).norm()
 }
@@ -305,7 +305,7 @@ fn forces_of_connectors_are_told_in_the_current_in_which_a_line_is_held() {
     let row: Vec<&str> = text.lines().find(|l| l.starts_with(" L ")).unwrap().split_whitespace().collect();
     let told: Vec<f64> = row[4..7].iter().map(|v| v.parse().unwrap()).collect();
     let model = &session.job.model;
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     let held = system.contributions(&system.state(model).poses).unwrap()[0].load.wrench;
     // whole newtons are printed
     assert!(held[1] > 1e3 && (0..3).all(|i| (told[i] - held[i]).abs() < 1.0), "{told:?} {held}");

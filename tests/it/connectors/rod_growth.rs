@@ -33,7 +33,7 @@ fn between(curve: &str, environment: &str, class: &str, [from, to]: [&str; 2]) -
 
 /// Forces of the line on both bodies, at rest (N).
 fn pulls(model: &Model) -> [Vector3<f64>; 2] {
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     let all = system.contributions(&system.state(model).poses).unwrap();
     [0, 1].map(|body| {
         let found = all.iter().find(|c| c.body == body && c.connector.is_some()).unwrap();

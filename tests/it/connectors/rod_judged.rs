@@ -36,7 +36,7 @@ fn there(run: &Run) -> Vec<usize> {
 #[test]
 fn a_wave_is_not_felt_by_a_riser_far_below_it() {
     let made = deep(-500.0);
-    let line = Line::of(&made, "A").unwrap();
+    let line = Line::find(&made, "A").unwrap();
     let all = events(&made.history, None).unwrap();
     // exp(-k 500) of a wave of 98.7 m is 1.5e-14, and statics leave 1e-9 of 1.1 MN
     let columns = made.history.layout.links[0].along.as_ref().unwrap();
@@ -129,7 +129,7 @@ fn a_pipe_that_a_winch_pays_out_is_checked_by_what_was_at_rest_where_it_hangs() 
     session.run();
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let made = session.job.run.as_ref().unwrap();
-    let line = Line::of(made, "R").unwrap();
+    let line = Line::find(made, "R").unwrap();
     let all = events(&made.history, None).unwrap();
     let factors = Factors::default();
     let table = check(&line, &Code::Lrfd(factors, 0.0), &all[all.len() - 1..]).unwrap();
@@ -158,7 +158,7 @@ fn corrosion_thins_the_wall_that_bears_the_tension_and_the_pressure_inside() {
                    *F 0 0 -2990\n*E 0 0 -3000\n#WEIGHT *F 1E6 5 5 5\n\
                    ~R ROD 300 20 -LEN 9.999 -REFINE 10 -FYIELD 450 -WTPLEN 20\nCONNECTOR A ~R *F *E\nEND\n";
     let made = run(&model(records), settings(0.2, 0.1), vec![]);
-    let line = Line::of(&made, "A").unwrap();
+    let line = Line::find(&made, "A").unwrap();
     let all = events(&made.history, None).unwrap();
     let columns = made.history.layout.links[0].along.as_ref().unwrap();
     let node = columns.node(0, made.history.rows().next().unwrap()).unwrap();

@@ -27,7 +27,7 @@ fn held(class: &str, environment: &str, (z, dynamics): (f64, bool)) -> Held {
     let model = &session.job.model;
     let connector = model.connectors.values().next().unwrap();
     let element = model.element_in(connector, Some(&ambient(model, None).unwrap())).unwrap();
-    let ends = [0.0, 100.0].map(|x| End::still(windlass_base::pose::Pose::at([x, 0.0, z])));
+    let ends = [0.0, 100.0].map(|x| End::still(windlass_base::pose::Pose::from_position([x, 0.0, z])));
     Held { element, ends, around: model.surroundings() }
 }
 
@@ -53,7 +53,7 @@ impl Held {
         let mut out = Vec::new();
         let at = Situation { ends: &self.ends, step: None, surroundings: &self.around };
         let state = vec![0.0; self.element.states()];
-        self.element.along(&at, &state, &mut out).unwrap();
+        self.element.line_nodes(&at, &state, &mut out).unwrap();
         out
     }
 

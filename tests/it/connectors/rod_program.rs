@@ -13,7 +13,7 @@ use windlass_solve::time::{Run, Settings};
 
 /// Force of a connector on the first body it is fixed to, at rest where its ends stand (N).
 fn pull(model: &Model, name: &str) -> [f64; 3] {
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     let state = system.state(model);
     let all = system.contributions(&state.poses).unwrap();
     let wrench = all.iter().find(|c| c.connector.as_deref() == Some(name)).unwrap().load.wrench;

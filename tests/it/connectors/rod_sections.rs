@@ -20,7 +20,7 @@ const G: f64 = 9.80665;
 
 /// Forces of a line on the bodies it is fixed to, at rest (N).
 fn pulls(model: &Model) -> Vec<[f64; 3]> {
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     let all = system.contributions(&system.state(model).poses).unwrap();
     let own = all.iter().filter(|c| c.connector.is_some());
     own.map(|c| [c.load.wrench[0], c.load.wrench[1], c.load.wrench[2]]).collect()
@@ -87,7 +87,7 @@ fn at_a_junction_the_side_that_uses_more_is_told_whichever_way_the_line_is_laid(
 
     let runs = [false, true].map(|turned| run(&junction(turned), settings(18.0, 0.25), vec![]));
     let tables = runs.each_ref().map(|run| {
-        let line = Line::of(run, "L").unwrap();
+        let line = Line::find(run, "L").unwrap();
         let all = events(&run.history, None).unwrap();
         [
             envelope(&line, &all).unwrap(),

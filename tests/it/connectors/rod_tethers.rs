@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use std::sync::LazyLock;
 use windlass::session::Session;
-use windlass_line_dynamics::{End, Fluid, Rod, Segment, Settings, Solver, State, UniformFluid, World};
+use windlass_line_dynamics::{End, FluidState, LineEnvironment, Rod, Segment, Settings, Solver, State, UniformFluid};
 use windlass_signal::cycle::{AQWA_SAMPLES, Cycle};
 use windlass_solve::results::along::{lines_at_rest, natural_modes};
 use windlass_solve::tethered::Tethered;
@@ -122,7 +122,7 @@ fn tether_frequencies(elements: usize, count: usize) -> Vec<f64> {
     let mut tether = example::tethers().remove(0);
     let mut element = tether.line.elements()[0];
     element.length = LENGTH / elements as f64;
-    tether.line = Line::numbered(vec![element; elements]).unwrap();
+    tether.line = Line::with_numbered_nodes(vec![element; elements]).unwrap();
     let top = example::course().pose.point(tether.attachment);
     let found = modes(&tether, top, &example::water(), 2 * count, &Compatibility::aqwa_5_4()).unwrap();
     found.iter().step_by(2).map(|m| m.mode.frequency().unwrap()).collect()
@@ -270,7 +270,7 @@ fn a_rod_pushes_where_a_tether_of_the_listing_is_slack() {
 
 #[test]
 fn the_platform_on_rods_has_the_harmonics_of_the_listing_but_for_its_half_wet_tubes() {
-    let harmonics = |m: &Motion, f: usize| Cycle::of(&m.0, &m.1[f], (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
+    let harmonics = |m: &Motion, f: usize| Cycle::new(&m.0, &m.1[f], (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
     let aqwa = of_tethers(0.25, 3, "AQWA").0;
     // means, drifts and first amplitudes of surge and heave, as printed
     let listing = [[-56.0, -7.6679, 6.3223], [-19.5151, -1.5671, 1.3677]];
@@ -341,14 +341,14 @@ fn towed_periods(cut: usize, plane: Option<bool>) -> Vec<(f64, [f64; 3])> {
     }
     segments.push(rope);
     let rod = Rod::new("TOW", segments, vec![]).unwrap();
-    let water = UniformFluid(Fluid { surface: 0.0, ..UniformFluid::still(TOWED_WATER).0 });
-    let (fluid, gravity) = if plane.is_some() { (UniformFluid::none(), 0.0) } else { (water, GRAVITY) };
-    let world = World::new(&fluid, gravity);
+    let water = UniformFluid(FluidState { surface: 0.0, ..UniformFluid::still(TOWED_WATER).0 });
+    let (fluid, gravity) = if plane.is_some() { (UniformFluid::vacuum(), 0.0) } else { (water, GRAVITY) };
+    let world = LineEnvironment::new(&fluid, gravity);
     // tails at twice their length; 10 N do not stretch the pipe
     let place = |arc: f64| arc.min(tail / 2.0) + arc + (arc - (rod.length() - tail / 2.0)).max(0.0);
     let places: Vec<Vector3<f64>> = rod.arc().iter().map(|s| Vector3::new(place(*s), 0.0, -0.5)).collect();
-    let ends = [places[0], places[places.len() - 1]].map(End::pinned);
-    let mut state = State::along(&rod, &places).unwrap();
+    let ends = [places[0], places[places.len() - 1]].map(End::pin);
+    let mut state = State::along_points(&rod, &places).unwrap();
     state.position = places.iter().map(|place| place - state.origin).collect();
     let mut solver = Solver::new(&rod, Settings::default());
     if plane.is_none() {

@@ -10,7 +10,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::units::{FOOT, KIP};
 use windlass_hydro::hull::Hydrostatics;
-use windlass_hydro::{Category, Floating, Hull, balanced};
+use windlass_hydro::{Category, Floating, Hull, balance_heave_and_trim};
 use windlass_model::{Mass, Model};
 
 /// The model of records that must draw no error; and the texts of what else they draw.
@@ -33,9 +33,9 @@ const BARGE: &str = "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 12\nPGEN HULL\nPLANE 
 /// Hydrostatics of the first body where it is.
 fn state(model: &Model) -> Hydrostatics {
     let body = &model.bodies[0];
-    let (hull, pose) = (Hull::of(model, body).unwrap().unwrap(), Pose::of(&body.place));
-    let mass = Mass::of(model.parts_of(body), model.defaults.gravity);
-    Hydrostatics::of(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()).unwrap()
+    let (hull, pose) = (Hull::new(model, body).unwrap().unwrap(), Pose::of(&body.place));
+    let mass = Mass::from_parts(model.parts_of(body), model.defaults.gravity);
+    Hydrostatics::new(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()).unwrap()
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn a_part_that_is_moved_takes_its_pieces_and_weights_along() {
     let records = "MEDIT\n&DESCRIBE BODY B\n&DESCRIBE PART P -MOVE 100 0 5 0 0 90\n*W 10 0 1\n#WEIGHT *W 50 1 2 2\nEND\n&SURFACE\n\
                    BLOCK H 0 0 -10 20 10 0\nEND\n&INSTATE -LOCATE B 0 0 0\n";
     let (model, _) = model(records);
-    let mass = Mass::of(model.parts_of(&model.bodies[0]), model.defaults.gravity);
+    let mass = Mass::from_parts(model.parts_of(&model.bodies[0]), model.defaults.gravity);
     // the part's x is the body's y
     assert!((mass.centre / FOOT - Vector3::new(100.0, 10.0, 6.0)).norm() < 1e-9, "{}", mass.centre);
     let radii = mass.radii().map(|k| k.unwrap() / FOOT);
@@ -121,7 +121,7 @@ fn total_adds_the_one_weight_that_is_missing() {
     let (model, _) = model(
         "MEDIT\n&DESCRIBE BODY B\n*A 100 0 10\n*C 0 20 0\n#WEIGHT *A 300 5 6 7\n#WEIGHT *C 200\nEND\n&WEIGHT -TOTAL B 1000 50 2 8 30 60 70\n",
     );
-    let mass = Mass::of(model.parts_of(&model.bodies[0]), model.defaults.gravity);
+    let mass = Mass::from_parts(model.parts_of(&model.bodies[0]), model.defaults.gravity);
     near(mass.mass * 9.80665, 1000.0 * KIP, 1e-12);
     assert!((mass.centre / FOOT - Vector3::new(50.0, 2.0, 8.0)).norm() < 1e-9);
     for (k, want) in mass.radii().into_iter().zip([30.0, 60.0, 70.0]) {
@@ -137,7 +137,7 @@ fn total_adds_the_one_weight_that_is_missing() {
 fn margins_compound_and_keep_centre_and_radii() {
     let records = format!("{BARGE}&WEIGHT -MARGIN TBRG 10 -MARGIN TBRG 10\n");
     let (model, _) = model(&records);
-    let mass = Mass::of(model.parts_of(&model.bodies[0]), model.defaults.gravity);
+    let mass = Mass::from_parts(model.parts_of(&model.bodies[0]), model.defaults.gravity);
     near(mass.mass * 9.80665, 1.21 * 23000.0 * KIP, 1e-12);
     for (k, want) in mass.radii().into_iter().zip([38.0, 118.0, 120.0]) {
         near(k.unwrap() / FOOT, want, 1e-9);
@@ -147,7 +147,7 @@ fn margins_compound_and_keep_centre_and_radii() {
 #[test]
 fn weight_and_buoyancy_of_a_body_have_the_tangent_that_differences_show() {
     let (model, _) = model(&format!("{BARGE}&INSTATE -LOCATE TBRG 30 -20 -9 4 1 25\n"));
-    let floating = Floating::of(&model, &model.bodies[0]).unwrap();
+    let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
     assert_eq!(floating.loads.iter().map(|l| l.category()).collect::<Vec<_>>(), [Category::Weight, Category::Buoyancy]);
     let pose = Pose::of(&model.bodies[0].place);
     for load in &floating.loads {
@@ -156,7 +156,7 @@ fn weight_and_buoyancy_of_a_body_have_the_tangent_that_differences_show() {
             let step = if n < 3 { 1e-3 } else { 1e-5 };
             let mut motion = Vector6::zeros();
             motion[n] = step;
-            let [up, down] = [motion, -motion].map(|m| load.load(&pose.moved(&m)).unwrap().wrench);
+            let [up, down] = [motion, -motion].map(|m| load.load(&pose.after_motion(&m)).unwrap().wrench);
             let difference = (down - up) / (2.0 * step);
             // wrenches of 1e10 N m leave 1e-16 * 1e10 / 1e-5 = 0.1 of rounding, beside entries of 1e8 and more
             let size = at.stiffness.amax();
@@ -179,7 +179,7 @@ fn a_linear_stiffness_is_the_buoyancy_of_an_aqwa_deck() {
          &INSTATE -LOCATE T -30 0 -3 0.5729577951308232\n",
     );
     let body = &model.bodies[0];
-    let floating = Floating::of(&model, body).unwrap();
+    let floating = Floating::at_rest(&model, body).unwrap();
     let pose = Pose::of(&body.place);
     let total: Vector6<f64> = floating.loads.iter().map(|l| l.load(&pose).unwrap().wrench).sum();
     let depth = 2.0 + 0.5 * (1.0 - 0.01f64.cos());
@@ -192,7 +192,7 @@ fn a_linear_stiffness_is_the_buoyancy_of_an_aqwa_deck() {
 #[test]
 fn a_hull_and_a_linear_stiffness_contradict_each_other() {
     let (model, _) = model(&format!("{BARGE}MEDIT\n#HYDROSTATIC *CG 70 1200 60000 -BUOYANCY 650 -ZCGE 3\nEND\n"));
-    assert!(Floating::of(&model, &model.bodies[0]).unwrap_err().message.contains("count twice"));
+    assert!(Floating::at_rest(&model, &model.bodies[0]).unwrap_err().message.contains("count twice"));
 }
 
 #[test]
@@ -202,7 +202,7 @@ fn an_open_piece_is_warned_of_and_gives_no_buoyancy() {
     );
     assert!(said.iter().any(|s| s.contains("LID: it is open")), "{said:?}");
     assert!(said.iter().any(|s| s.contains("NONE: it has no panels")), "{said:?}");
-    assert!(Floating::of(&model, &model.bodies[0]).unwrap_err().message.contains("LID"));
+    assert!(Floating::at_rest(&model, &model.bodies[0]).unwrap_err().message.contains("LID"));
 }
 
 #[test]
@@ -256,13 +256,13 @@ fn the_righting_arm_of_a_box_is_that_of_a_wall_sided_ship() {
     // while neither bilge nor deck edge crosses the surface (tan roll < 9 / 50): GZ = sin roll (GM + BM tan^2 roll / 2), with the draft
     // that carries the weight; trim stays zero, and the heading does not matter
     let (model, _) = model(BARGE);
-    let floating = Floating::of(&model, &model.bodies[0]).unwrap();
+    let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
     let draft = 23000.0 * KIP / (1025.0 * 9.80665) / FOOT.powi(3) / 40_000.0;
     let bm = 10_000.0 / 12.0 / draft;
     let gm = draft / 2.0 + bm - 12.0;
     for (degrees, yaw) in [(0.5f64, 0.0), (5.0, 1.0), (10.0, -2.0), (-10.0, 3.0)] {
         let roll = degrees.to_radians();
-        let found = balanced(&floating, &Place::new([5.0, 6.0, -2.0, roll, 0.0, yaw])).unwrap();
+        let found = balance_heave_and_trim(&floating, &Place::new([5.0, 6.0, -2.0, roll, 0.0, yaw])).unwrap();
         let want = roll.sin() * (gm + 0.5 * bm * roll.tan().powi(2));
         near(found.arm / FOOT, want, 1e-8);
         assert!(found.place.turn[1].abs() < 1e-9, "{found:?}");
@@ -273,8 +273,8 @@ fn the_righting_arm_of_a_box_is_that_of_a_wall_sided_ship() {
 fn a_body_that_cannot_float_has_no_righting_arm() {
     let (model, _) =
         model("MEDIT\n&DESCRIBE BODY B\n*P 5 5 5\n#WEIGHT *P 5000\nEND\n&SURFACE\nBLOCK H 0 0 0 10 10 10\nEND\n");
-    let floating = Floating::of(&model, &model.bodies[0]).unwrap();
-    assert!(balanced(&floating, &Place::default()).unwrap_err().message.contains("no balance"));
+    let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
+    assert!(balance_heave_and_trim(&floating, &Place::default()).unwrap_err().message.contains("no balance"));
 }
 
 #[test]

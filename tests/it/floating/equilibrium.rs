@@ -125,7 +125,7 @@ fn the_stiffness_of_the_system_is_the_difference_of_its_forces() {
                    CONNECTOR H1 ~H *A1 *B1\nCONNECTOR T1 ~T *A2 *B2\nEND";
     let weights = [("A", [0.0, 1.0, 3.0], 1e6, [5.0, 5.0, 5.0]), ("B", [2.0, 1.0, 0.0], 1e6, [5.0, 5.0, 5.0])];
     let model = model(records, &weights);
-    let system = System::of(&model, &[]).unwrap();
+    let system = System::new(&model, &[]).unwrap();
     let mut state = system.state(&model);
     system.evaluate(&mut state).unwrap();
     let start = state.poses.clone();
@@ -136,7 +136,7 @@ fn the_stiffness_of_the_system_is_the_difference_of_its_forces() {
             let mut motion = windlass_base::pose::Six::zeros();
             motion[column % 6] = sign * 1e-5;
             state.poses = start.clone();
-            state.poses[column / 6] = start[column / 6].moved(&motion);
+            state.poses[column / 6] = start[column / 6].after_motion(&motion);
             system.evaluate(&mut state).unwrap();
             state.residual.clone()
         });
@@ -174,7 +174,7 @@ fn the_stiffness_of_a_body_whose_junctions_follow_is_the_difference_of_its_force
             motion[column] = sign * 1e-4;
             let mut state = rest.system.state(&model);
             state.poses = start.clone();
-            state.poses[buoy] = start[buoy].moved(&motion);
+            state.poses[buoy] = start[buoy].after_motion(&motion);
             windlass_solve::equilibrium(&rest.system, &mut state, &held).unwrap();
             state.residual.fixed_rows::<6>(6 * buoy).into_owned()
         });

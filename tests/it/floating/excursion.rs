@@ -9,7 +9,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_catenary::{Line, Segment};
 use windlass_model::{Model, Weight};
-use windlass_solve::excursion::{End, Path, Walk, resolved};
+use windlass_solve::excursion::{End, Path, Walk, resolve_wrench};
 use windlass_solve::offset::{Connectors, Pull};
 use windlass_solve::watch::{Watched, watch};
 use windlass_solve::{SolveError, System};
@@ -72,13 +72,13 @@ fn closed_form(e: f64) -> f64 {
 #[test]
 fn four_taut_springs_restore_as_their_closed_form_and_break_where_the_windward_one_does() {
     let made = model(&springs(4));
-    let system = System::of(&made, &[]).unwrap();
+    let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
     let mut walk = Walk::new(&system, &start, path(0.0)).unwrap();
     let (rows, end) = walk.rows(30).unwrap();
     assert_eq!((rows.len(), end), (30, End::Breaks(2)));
     for row in &rows {
-        let [restoring, transverse, vertical] = resolved(&row.wrench, 0.0);
+        let [restoring, transverse, vertical] = resolve_wrench(&row.wrench, 0.0);
         let want = closed_form(row.excursion);
         assert!((restoring - want).abs() < 1e-7 * BREAK, "{} {restoring} {want}", row.excursion);
         // the two at the sides balance but for the rounding of 100 m
@@ -102,7 +102,7 @@ const PAIR: &str = "MEDIT\n&DESCRIBE BODY SHIP\n*O 0 0 0\n\
 #[test]
 fn a_pair_of_chains_restores_with_the_difference_of_its_lines() {
     let made = model(PAIR);
-    let system = System::of(&made, &[]).unwrap();
+    let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
     let (rows, end) = Walk::new(&system, &start, path(0.0)).unwrap().rows(30).unwrap();
     assert_eq!(end, End::Breaks(1));
@@ -111,7 +111,7 @@ fn a_pair_of_chains_restores_with_the_difference_of_its_lines() {
     for row in &rows {
         let lee = line.at_distance(830.0 - row.excursion, 0.0).unwrap();
         let windward = line.at_distance(830.0 + row.excursion, 0.0).unwrap();
-        let [restoring, _, vertical] = resolved(&row.wrench, 0.0);
+        let [restoring, _, vertical] = resolve_wrench(&row.wrench, 0.0);
         let scale = windward.top_tension;
         assert!((restoring - (windward.force - lee.force)).abs() < 1e-8 * scale, "{}", row.excursion);
         assert!((vertical + windward.top_vertical + lee.top_vertical).abs() < 1e-8 * scale);
@@ -167,7 +167,7 @@ fn held_it_stays_on_its_line_and_free_it_turns_aside_until_nothing_pushes_it_acr
     let mut made = model(records);
     let weight = Weight { at: [0.0, 0.0, -1.0], weight: 5e5, radii: [2.0; 3], span: Span::default() };
     made.parts.get_mut("SHIP").unwrap().weights.push(weight);
-    let system = System::of(&made, &[]).unwrap();
+    let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
     let angle = 20.0_f64.to_radians();
     let held = Path { most: Some(6.0), ..path(angle) };
@@ -186,7 +186,7 @@ fn held_it_stays_on_its_line_and_free_it_turns_aside_until_nothing_pushes_it_acr
         let along = gone.x * angle.cos() + gone.y * angle.sin();
         assert!((along - row.excursion).abs() < 1e-9, "{along} {}", row.excursion);
         assert!((gone.y * angle.cos() - gone.x * angle.sin()).abs() > 1e-3);
-        let [restoring, transverse, vertical] = resolved(&row.wrench, angle);
+        let [restoring, transverse, vertical] = resolve_wrench(&row.wrench, angle);
         assert!(transverse.abs() < 1e-3 && (vertical - 5e5).abs() < 1e-3, "{transverse} {vertical}");
         // the connectors carry the weight where it is; only a force along the direction is left
         let arm = row.poses[0].axes * nalgebra::Vector3::new(0.0, 0.0, -1.0);
@@ -197,19 +197,19 @@ fn held_it_stays_on_its_line_and_free_it_turns_aside_until_nothing_pushes_it_acr
         assert!(restoring.is_finite());
     }
     // the force along the direction is the slope of nothing hidden: it grows away from rest
-    let force = |n: usize| resolved(&rows[n].wrench, angle)[0];
+    let force = |n: usize| resolve_wrench(&rows[n].wrench, angle)[0];
     assert!(force(4) > force(3) && force(3) > force(2));
 }
 
 /// The places of a watch circle, and the force left on the body there.
 fn watched(made: &Model, force: f64, free: bool, count: usize) -> Vec<Watched> {
-    let mut system = System::of(made, &[]).unwrap();
+    let mut system = System::new(made, &[]).unwrap();
     let start: Vec<Pose> = system.state(made).poses;
     let directions: Vec<f64> = (0..=count).map(|n| TAU * n as f64 / count as f64).collect();
     let list = watch(&mut system, &start, (0, force, free), &directions).unwrap().places;
     for one in &list {
         let mut pull = Pull::default();
-        Connectors::on(&system, 0).unwrap().pull(&system, &[one.pose], &mut pull).unwrap();
+        Connectors::on_body(&system, 0).unwrap().pull(&system, &[one.pose], &mut pull).unwrap();
         let left = pull.wrench - Six::new(force * one.direction.cos(), force * one.direction.sin(), 0.0, 0.0, 0.0, 0.0);
         let left = left[0].abs().max(left[1].abs());
         assert!(left < 1e-7 * force, "{left}");
@@ -257,7 +257,7 @@ fn a_watch_circle_with_a_line_removed_has_the_intact_one_beside_it() {
 fn a_mooring_that_cannot_break_asks_for_a_distance_and_a_body_without_one_is_told() {
     let records = springs(4).replace(&format!(" -B_TENSION {BREAK}"), " -B_TENSION 1E15");
     let made = model(&records);
-    let system = System::of(&made, &[]).unwrap();
+    let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
     let SolveError { who, error } = Walk::new(&system, &start, path(0.3)).unwrap().end().unwrap_err();
     assert_eq!(who.as_deref(), Some("SHIP"));
@@ -266,16 +266,16 @@ fn a_mooring_that_cannot_break_asks_for_a_distance_and_a_body_without_one_is_tol
     let (last, end) = Walk::new(&system, &start, near).unwrap().end().unwrap();
     assert!(end == End::Most && last.excursion == 5.0);
     let names: Vec<String> = (0..4).map(|n| format!("L{n}")).collect();
-    let bare = System::of(&made, &names).unwrap();
+    let bare = System::new(&made, &names).unwrap();
     assert!(Walk::new(&bare, &start, near).unwrap_err().error.message.contains("no connector acts on it"));
 }
 
 #[test]
 fn forces_alone_are_those_of_the_evaluation_with_its_stiffness() {
     let made = model(PAIR);
-    let system = System::of(&made, &[]).unwrap();
+    let system = System::new(&made, &[]).unwrap();
     let mut state = system.state(&made);
-    let (mut connectors, mut pull) = (Connectors::on(&system, 0).unwrap(), Pull::default());
+    let (mut connectors, mut pull) = (Connectors::on_body(&system, 0).unwrap(), Pull::default());
     for n in 0..20 {
         state.poses[0].origin.x = f64::from(n);
         state.poses[0].origin.y = 3.0 * f64::from(n);
@@ -293,7 +293,7 @@ fn forces_alone_are_those_of_the_evaluation_with_its_stiffness() {
 fn a_body_whose_freedoms_are_all_left_out_is_moved_free_as_it_is_held() {
     let records = springs(4).replace("\nEND", "\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\nEND");
     let made = model(&records);
-    let system = System::of(&made, &[]).unwrap();
+    let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
     let (held, _) = Walk::new(&system, &start, path(0.4)).unwrap().rows(5).unwrap();
     let (free, _) = Walk::new(&system, &start, Path { free: true, ..path(0.4) }).unwrap().rows(5).unwrap();
@@ -318,7 +318,7 @@ fn a_body_on_eight_chains_is_held_with_the_forces_moorpy_gives() {
         records += &format!("CONNECTOR L{line} -ANC {} 800 ~CHAIN *F{line}\n", angle(line));
     }
     let made = model(&(records + "END"));
-    let system = System::of(&made, &[]).unwrap();
+    let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
     let mut walk = Walk::new(&system, &start, path(0.0)).unwrap();
     for (excursion, restoring, vertical, pitch, tensions) in [
@@ -337,8 +337,8 @@ fn a_body_on_eight_chains_is_held_with_the_forces_moorpy_gives() {
             [838083.9890, 1041307.1210, 1611060.6529, 2501301.2452],
         ),
     ] {
-        let there = walk.at(excursion).unwrap();
-        let [force, across, up] = resolved(&there.wrench, 0.0);
+        let there = walk.move_to(excursion).unwrap();
+        let [force, across, up] = resolve_wrench(&there.wrench, 0.0);
         for (got, want) in [(force, restoring), (across, 0.0), (up, vertical), (there.wrench[4], pitch)] {
             assert!((got - want).abs() < 5.0 + 1e-6 * want.abs(), "{got} {want}");
         }

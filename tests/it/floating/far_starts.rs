@@ -62,7 +62,7 @@ fn numbers() -> impl FnMut() -> f64 {
 
 /// Starts up to so far off, with heel and trim to 30 degrees and yaw to 90: the steps each took, or why none came to rest.
 fn steps(model: &Model, far: [f64; 3]) -> Vec<Result<usize, String>> {
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     let mut at_rest = system.state(model);
     equilibrium(&system, &mut at_rest, &Options::default()).unwrap();
     let home = at_rest.poses[0];

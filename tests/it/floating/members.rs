@@ -196,7 +196,7 @@ const CURRENT: &str = "&DATA CURVES C_PROFILE P 0 2.5 8 1.7 40 0.3\n&ENV -CURREN
 fn a_steady_current_does_under_way_what_it_does_in_statics() {
     let pieces = "TUBE T *E *F 7000 -CD 0.9 -CDA 0.03\nTUBE U *C *D 3000\nTUBE V *A *G 2000";
     let model = body(pieces, CURRENT);
-    let at_rest = Floating::of(&model, &model.bodies["B"]).unwrap();
+    let at_rest = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let statics = at_rest.loads.iter().find(|l| l.category() == Category::ViscousDrag).unwrap();
     let moving = members(&model, None);
     for pose in [place([0.0; 6]), place([3.0, 2.0, -1.0, 14.0, -7.0, 30.0]), place([0.0, 0.0, 1.5, 80.0, 0.0, 10.0])] {
@@ -211,7 +211,7 @@ fn a_steady_current_does_under_way_what_it_does_in_statics() {
 #[test]
 fn the_drag_of_a_uniform_current_on_a_pile_is_half_rho_cd_d_l_v_squared() {
     let model = body("TUBE PILE *A *B 2000 -CD 0.65", "&ENV -CURRENT 1.5 180");
-    let floating = Floating::of(&model, &model.bodies["B"]).unwrap();
+    let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let load = floating.loads.iter().find(|l| l.category() == Category::ViscousDrag).unwrap();
     let got = load.load(&Pose::default()).unwrap().wrench;
     let want = 0.5 * RHO * 0.65 * 2.0 * 50.0 * 1.5 * 1.5;
@@ -220,7 +220,7 @@ fn the_drag_of_a_uniform_current_on_a_pile_is_half_rho_cd_d_l_v_squared() {
     near(got[4], -25.0 * want, 1e-9);
     // lying in the surface, half of it is wet
     let model = body("TUBE PILE *C *D 2000 -CD 0.65", "&ENV -CURRENT 1.5 90");
-    let floating = Floating::of(&model, &model.bodies["B"]).unwrap();
+    let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let load = floating.loads.iter().find(|l| l.category() == Category::ViscousDrag).unwrap();
     near(load.load(&Pose::default()).unwrap().wrench[1], -0.5 * RHO * 0.65 * 1.0 * 60.0 * 1.5 * 1.5, 1e-12);
 }
@@ -228,7 +228,7 @@ fn the_drag_of_a_uniform_current_on_a_pile_is_half_rho_cd_d_l_v_squared() {
 #[test]
 fn the_tangent_of_the_drag_in_statics_is_that_of_differences() {
     let model = body("TUBE T *E *F 7000 -CD 0.9 -CDA 0.03\nTUBE U *C *D 3000", CURRENT);
-    let floating = Floating::of(&model, &model.bodies["B"]).unwrap();
+    let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let load = floating.loads.iter().find(|l| l.category() == Category::ViscousDrag).unwrap();
     for pose in [
         [0.0, 0.0, 0.3, 0.0, 0.0, 0.0],
@@ -312,7 +312,7 @@ fn along_the_wave_the_ends_of_a_pontoon_bear_the_difference_of_pressure() {
 #[test]
 fn the_added_mass_of_a_spar_is_its_closed_form() {
     let model = body("TUBE S *A *B 20000 -CA 0.9 -CAA 0.64", "");
-    let floating = Floating::of(&model, &model.bodies["B"]).unwrap();
+    let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let line = RHO * PI * 100.0 * 0.9;
     let got = floating.added_mass;
     near(got[(0, 0)], line * 50.0, 1e-12);
@@ -332,7 +332,7 @@ fn an_end_that_joins_another_piece_has_no_added_mass_of_its_own() {
         let deep = place([0.0, 0.0, -20.0, 0.0, 0.0, 0.0]);
         let mut lowered = model.clone();
         lowered.bodies.get_mut("B").unwrap().place.shift = deep.origin.into();
-        Floating::of(&lowered, &lowered.bodies["B"]).unwrap().added_mass[(0, 0)]
+        Floating::at_rest(&lowered, &lowered.bodies["B"]).unwrap().added_mass[(0, 0)]
     };
     let half_sphere = RHO * PI * 27.0 / 12.0;
     near(along("-CAA 0.64"), 2.0 * 0.64 * half_sphere, 1e-12);
@@ -361,7 +361,7 @@ fn what_the_surface_changes_of_the_added_mass_is_inertia_of_the_step() {
 #[test]
 fn what_a_database_holds_keeps_its_drag_alone() {
     let model = body("TUBE S *A *B 20000 -DIFTYPE 3DDIF", "");
-    let floating = Floating::of(&model, &model.bodies["B"]).unwrap();
+    let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     assert_eq!(floating.added_mass, Matrix6::zeros());
     let load = members(&model, Some(&wave(3.0, 0.6, 0.0, None, Stretching::Wheeler)));
     // cos q = 0: there is no flow along the wave, and across the tube none at all
@@ -392,7 +392,8 @@ fn a_hull_without_waves_is_told() {
         "TUBE T *A *B 2000\nBLOCK H 0 0 0 1 1 1\nBLOCK F 2 0 0 3 1 1 -DIFTYPE FK\nBLOCK D 4 0 0 5 1 1 -DIFTYPE 3DDIF",
         "",
     );
-    let names: Vec<&str> = morison::unmoved(&model, &model.bodies["B"]).map(|p| p.name.as_str()).collect();
+    let names: Vec<&str> =
+        morison::pieces_without_wave_load(&model, &model.bodies["B"]).map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["H"]);
 }
 

@@ -52,7 +52,7 @@ fn a_free_body_on_eight_chains_comes_to_rest_where_moorpy_has_it() {
         let row = row.unwrap();
         let number = |i: usize| row[i].parse::<f64>().unwrap();
         let model = model(number(0));
-        let mut system = System::of(&model, &[]).unwrap();
+        let mut system = System::new(&model, &[]).unwrap();
         system.applied = vec![(0, Six::new(number(1), 0.0, 0.0, 0.0, 0.0, 0.0))];
         let mut state = system.state(&model);
         let found = equilibrium(&system, &mut state, &Options::default()).unwrap();

@@ -88,7 +88,7 @@ fn damping_and_stiffness_under_way_are_those_of_differences() {
                     let wrench = |sign: f64, motion: bool| {
                         let mut by = Six::zeros();
                         by[column] = sign * step;
-                        let pose = if motion { pose.moved(&by) } else { pose };
+                        let pose = if motion { pose.after_motion(&by) } else { pose };
                         let velocity = if motion { velocity } else { velocity + by };
                         moving(load.as_ref(), 40.0, &pose, &velocity).load.wrench
                     };
@@ -152,7 +152,7 @@ fn in_still_water_motion_meets_drag() {
     let sinking = Six::new(0.0, 0.0, -2.0, 0.0, 0.0, 0.0);
     near(sum(&hull, Category::ViscousDrag, 0.0, &Pose::default(), &sinking)[2], 0.5 * 1025.0 * 180.0 * 4.0, 1e-12);
     // in statics there is no load at all
-    let rest = Floating::of(&hull, &hull.bodies["B"]).unwrap();
+    let rest = Floating::at_rest(&hull, &hull.bodies["B"]).unwrap();
     assert!(!rest.loads.iter().any(|l| l.category() == Category::ViscousDrag));
 }
 
@@ -225,7 +225,7 @@ fn a_current_history_multiplies_the_current() {
         let want = 0.5 * 1025.0 * 10.0 * speed * speed.abs();
         near(sum(&model, Category::ViscousDrag, time, &Pose::default(), &Six::zeros())[0], want, 1e-9);
     }
-    let rest = Floating::of(&model, &model.bodies["B"]).unwrap();
+    let rest = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     near(rest.loads[0].load(&Pose::default()).unwrap().wrench[0], 20_500.0, 1e-12);
 }
 
@@ -235,7 +235,7 @@ fn what_has_no_meaning_in_time_is_refused() {
     for environment in ["&ENV -WIND 30 0 -W_MD_CORRELATION 0.5", "&ENV -W_HISTORY H"] {
         let model = body(records, environment);
         assert!(Floating::under_way(&model, &model.bodies["B"], None).is_err(), "{environment}");
-        assert!(Floating::of(&model, &model.bodies["B"]).is_ok(), "{environment}");
+        assert!(Floating::at_rest(&model, &model.bodies["B"]).is_ok(), "{environment}");
     }
     let independent = body(records, "&ENV -WIND 30 0 -W_MD_CORRELATION 0");
     assert!(Floating::under_way(&independent, &independent.bodies["B"], None).is_ok());
@@ -243,13 +243,13 @@ fn what_has_no_meaning_in_time_is_refused() {
 
 fn gusts(environment: &str) -> Gusts {
     let model = model(environment);
-    Gusts::of(&model, &model.environment).unwrap().unwrap()
+    Gusts::new(&model, &model.environment).unwrap().unwrap()
 }
 
 /// Mean and variance of the gusts over a time (s), by steps of half a second.
 fn statistics(gusts: &Gusts, time: f64) -> (f64, f64) {
     let count = (2.0 * time) as usize;
-    let series: Vec<f64> = (0..count).map(|i| gusts.at(0.5 * i as f64)).collect();
+    let series: Vec<f64> = (0..count).map(|i| gusts.speed_at_time(0.5 * i as f64)).collect();
     let mean = series.iter().sum::<f64>() / count as f64;
     (mean, series.iter().map(|u| (u - mean).powi(2)).sum::<f64>() / count as f64)
 }
@@ -309,7 +309,7 @@ fn periods_given_are_those_of_the_components() {
 
 #[test]
 fn the_same_seed_makes_the_same_gusts_and_another_one_others() {
-    let at = |seed: &str| gusts(&format!("&ENV -WIND 50 180 -W_SPECTRUM API {seed}")).at(123.4);
+    let at = |seed: &str| gusts(&format!("&ENV -WIND 50 180 -W_SPECTRUM API {seed}")).speed_at_time(123.4);
     assert_eq!(at(""), at("-SEED 1"));
     // reinforced waves leave the gusts as they are
     assert_eq!(at(""), at("-T_REINFORCE 100"));
@@ -323,8 +323,8 @@ fn a_gust_adds_to_the_wind_of_a_load_after_the_ramp() {
     let gusts = gusts(environment);
     let speed = |time: f64| (sum(&model, Category::Wind, time, &Pose::default(), &Six::zeros())[0] / 61.3).sqrt();
     near(speed(0.0), 30.0 * KNOT, 1e-12);
-    near(speed(30.0), 30.0 * KNOT + 0.5 * gusts.at(30.0), 1e-12);
-    near(speed(200.0), 30.0 * KNOT + gusts.at(200.0), 1e-12);
+    near(speed(30.0), 30.0 * KNOT + 0.5 * gusts.speed_at_time(30.0), 1e-12);
+    near(speed(200.0), 30.0 * KNOT + gusts.speed_at_time(200.0), 1e-12);
 }
 
 #[test]
@@ -341,7 +341,7 @@ const GROWN: &str = "MEDIT\n&DESCRIBE BODY B\n*A 0 0 -40\n*B 0 0 10\nEND\n\
 fn growth_widens_what_current_meets() {
     let drag = |environment: &str| {
         let model = model(&format!("{GROWN}\n&ENV -CURRENT 2 180 -DEPTH 60 {environment}"));
-        let loads = Floating::of(&model, &model.bodies["B"]).unwrap().loads;
+        let loads = Floating::at_rest(&model, &model.bodies["B"]).unwrap().loads;
         let mine = loads.iter().filter(|l| l.category() == Category::ViscousDrag);
         mine.map(|l| l.load(&Pose::default()).unwrap().wrench).sum::<Six>()
     };
@@ -359,7 +359,7 @@ fn growth_weighs_floats_and_is_slow_to_move() {
     // a ring of 1.25 pi/4 m2 over 30 m
     let volume = 30.0 * std::f64::consts::FRAC_PI_4 * (1.5 * 1.5 - 1.0);
     let of = |category, pose: &Pose| {
-        let bare = Floating::of(&self::model(&format!("{GROWN}\n&ENV -DEPTH 60")), &model.bodies["B"]).unwrap();
+        let bare = Floating::at_rest(&self::model(&format!("{GROWN}\n&ENV -DEPTH 60")), &model.bodies["B"]).unwrap();
         let sum = |loads: &[Box<dyn BodyLoad>]| -> f64 {
             loads.iter().filter(|l| l.category() == category).map(|l| l.load(pose).unwrap().wrench[2]).sum()
         };
@@ -383,7 +383,7 @@ fn growth_weighs_floats_and_is_slow_to_move() {
                 let wrench = |sign: f64| {
                     let mut by = Six::zeros();
                     by[column] = sign * step;
-                    load.load(&pose.moved(&by)).unwrap().wrench
+                    load.load(&pose.after_motion(&by)).unwrap().wrench
                 };
                 want.set_column(column, &((wrench(-1.0) - wrench(1.0)) / (2.0 * step)));
             }

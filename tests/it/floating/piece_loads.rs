@@ -32,7 +32,7 @@ fn body(pieces: &str, environment: &str) -> Model {
 }
 
 fn floating(model: &Model) -> Floating {
-    Floating::of(model, &model.bodies["B"]).unwrap()
+    Floating::at_rest(model, &model.bodies["B"]).unwrap()
 }
 
 fn sum(model: &Model, category: Category, pose: &Pose) -> Six {
@@ -85,7 +85,7 @@ fn wind_of_a_profile_is_integrated_over_the_freeboard() {
 fn every_profile_is_integrated_as_by_fine_slices() {
     for profile in ["POWER", "LOG", "ISO", "ABS", "DNV", "API -W_DESIGN API 15", "NPD -W_DESIGN NPD 60"] {
         let model = body("BLOCK TOWER 0 0 0 30 30 300", &format!("&ENV -WIND 60 180 -W_PROFILE {profile}"));
-        let (steady, high) = (Steady::of(&model).unwrap(), 300.0 * FOOT);
+        let (steady, high) = (Steady::new(&model).unwrap(), 300.0 * FOOT);
         let slices = 100_000;
         let step = high / f64::from(slices);
         let at = |n: i32| steady.velocity(Medium::Air, (f64::from(n) + 0.5) * step).0.norm_squared();
@@ -218,7 +218,7 @@ fn multipliers_act_on_pieces() {
 fn an_open_piece_has_no_wind_but_an_error() {
     let records = "BLOCK SAIL -PERM 0 -CS_WIND 1 1 1\nPANEL 0 0 0 0 9 0 0 9 9 0 0 9\nEND_BLOCK";
     let model = body(records, "&ENV -WIND 60 180");
-    let error = Floating::of(&model, &model.bodies["B"]).unwrap_err();
+    let error = Floating::at_rest(&model, &model.bodies["B"]).unwrap_err();
     assert!(error.message.contains("SAIL") && error.message.contains("open"), "{}", error.message);
 }
 

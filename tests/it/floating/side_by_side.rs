@@ -22,7 +22,7 @@ fn after(equilibria: usize) -> (Model, String) {
 
 /// Global place of a point on a body (m).
 fn at(model: &Model, body: &str, point: [f64; 3]) -> Vector3<f64> {
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     system.state(model).poses[system.nodes.iter().position(|n| n.name == body).unwrap()].point(point.into())
 }
 
@@ -70,7 +70,7 @@ fn printed(screen: &str, name: &str) -> [f64; 3] {
 
 /// The load of the wind on the outer barge: force and moment about its origin (kN, kN m).
 fn wind(model: &Model) -> (Vector3<f64>, Vector3<f64>) {
-    let system = System::of(model, &[]).unwrap();
+    let system = System::new(model, &[]).unwrap();
     let outer = system.nodes.iter().position(|n| n.name == "OUTER").unwrap();
     let list = system.contributions(&system.state(model).poses).unwrap();
     let own = list.iter().filter(|c| c.body == outer && c.category.name() == "WIND");

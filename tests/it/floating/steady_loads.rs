@@ -30,7 +30,7 @@ fn body(records: &str, environment: &str) -> Model {
 }
 
 fn sum(model: &Model, category: Category, pose: &Pose) -> Six {
-    let floating = Floating::of(model, &model.bodies["B"]).unwrap();
+    let floating = Floating::at_rest(model, &model.bodies["B"]).unwrap();
     floating.loads.iter().filter(|l| l.category() == category).map(|l| l.load(pose).unwrap().wrench).sum()
 }
 
@@ -45,7 +45,7 @@ fn near(got: f64, want: f64, tolerance: f64) {
 
 fn wind_at(environment: &str, height: f64) -> f64 {
     let model = model(environment);
-    WindField::of(&model.environment).unwrap().unwrap().speed(height).0
+    WindField::from_environment(&model.environment).unwrap().unwrap().speed(height).0
 }
 
 #[test]
@@ -93,7 +93,9 @@ fn published_wind_profiles_have_their_values() {
 #[test]
 fn charnocks_roughness_fulfils_its_equation() {
     let model = model("&ENV -WIND 60 0 -W_PROFILE LOG");
-    let Profile::Logarithmic(z0) = WindField::of(&model.environment).unwrap().unwrap().profile else { panic!() };
+    let Profile::Logarithmic(z0) = WindField::from_environment(&model.environment).unwrap().unwrap().profile else {
+        panic!()
+    };
     let shear = 0.4 * 60.0 * KNOT / (10.0 / z0).ln();
     near(z0, 0.014 / 9.80665 * shear * shear, 1e-9);
     // over open sea in a storm the roughness is some millimetres
@@ -109,7 +111,10 @@ fn design_winds_are_converted_by_the_gust_factor_of_their_code() {
     // DNV, 60 s at 10 m: 1 + 0.047 ln 10 = 1.1082215
     near(wind_at("&ENV -WIND 60 0 -W_DESIGN DNV 60", 10.0), 60.0 * KNOT * 1.108_221_5, 1e-7);
     for refused in ["-W_DESIGN API 600", "-W_DESIGN ABS 3", "-W_DESIGN ISO 7200", "-W_PROFILE DNV 0.1"] {
-        assert!(WindField::of(&model(&format!("&ENV -WIND 60 0 {refused}")).environment).is_err(), "{refused}");
+        assert!(
+            WindField::from_environment(&model(&format!("&ENV -WIND 60 0 {refused}")).environment).is_err(),
+            "{refused}"
+        );
     }
 }
 
@@ -117,7 +122,7 @@ fn design_winds_are_converted_by_the_gust_factor_of_their_code() {
 fn tide_lifts_the_heights_of_wind_and_the_depths_of_current() {
     let curve = "&DATA CURVES C_PROFILE C 0 2 10 1 30 0.5\n";
     let at = |env: &str, medium, z| {
-        Steady::of(&model(&format!("{curve}&ENV -WIND 60 180 -CURRENT C 180 -DEPTH 100 {env}")))
+        Steady::new(&model(&format!("{curve}&ENV -WIND 60 180 -CURRENT C 180 -DEPTH 100 {env}")))
             .unwrap()
             .velocity(medium, z)
             .0
@@ -135,7 +140,7 @@ fn tide_lifts_the_heights_of_wind_and_the_depths_of_current() {
 #[test]
 fn currents_of_several_curves_add_up_as_vectors() {
     let records = "&DATA CURVES C_PROFILE A 0 3 100 3\n&DATA CURVES C_PROFILE B 0 4 100 0\n&ENV -CURRENT A 180 B 270";
-    let steady = Steady::of(&model(records)).unwrap();
+    let steady = Steady::new(&model(records)).unwrap();
     // toward +x with 3, toward +y with 4 at the surface and 2 at 50 m
     assert!((steady.velocity(Medium::Water, 0.0).0 - Vector3::new(3.0, 4.0, 0.0)).norm() < 1e-12);
     assert!((steady.velocity(Medium::Water, -50.0).0 - Vector3::new(3.0, 2.0, 0.0)).norm() < 1e-12);
@@ -208,7 +213,7 @@ fn linear_drag_takes_the_current_at_its_point() {
     near(got[1], -8000.0 * 60f64.to_radians().sin(), 1e-12);
     // 10 m below the origin: Mx = 10 Fy, My = -10 Fx
     near(got[4], -10_000.0, 1e-12);
-    let floating = Floating::of(&model, &model.bodies["B"]).unwrap();
+    let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     near(floating.damping[(5, 5)], 1e6, 1e-12);
     near(floating.damping[(4, 4)], 100.0 * 1000.0, 1e-12);
     near(floating.damping[(4, 0)], -10.0 * 1000.0, 1e-12);
@@ -217,7 +222,7 @@ fn linear_drag_takes_the_current_at_its_point() {
 #[test]
 fn added_mass_is_a_weight_and_moves_to_the_origin() {
     let model = body("*P 0 3 0\n#AMASS *P 9806.65 0 19613.3 9806.65", "");
-    let added = Floating::of(&model, &model.bodies["B"]).unwrap().added_mass;
+    let added = Floating::at_rest(&model, &model.bodies["B"]).unwrap().added_mass;
     near(added[(0, 0)], 1000.0, 1e-12);
     // 2000 kg of heave 3 m to the side: roll 1000 + 2000 x 9, heave-roll 6000; surge: yaw 9000
     near(added[(3, 3)], 19_000.0, 1e-12);
@@ -264,9 +269,9 @@ fn two_seas_add_their_drift() {
 fn a_sea_without_a_formula_is_refused_only_where_waves_push() {
     let env = "&ENV -SEA 2JONSWAP 180 3 10 -WIND 60 180";
     let model = body(DRIFT, env);
-    assert!(Floating::of(&model, &model.bodies["B"]).is_err());
+    assert!(Floating::at_rest(&model, &model.bodies["B"]).is_err());
     let wind = body("*P 0 0 10\n#AREA *P 100", env);
-    assert!(Floating::of(&wind, &wind.bodies["B"]).is_ok());
+    assert!(Floating::at_rest(&wind, &wind.bodies["B"]).is_ok());
 }
 
 #[test]
@@ -290,7 +295,7 @@ fn every_tangent_is_that_of_differences_in_any_pose() {
             "{curves}&ENV -WIND 55 130 -W_PROFILE {profile} -CURRENT P 110 Q 250 -DEPTH 90 -TIDE 1 -SEA JONSWAP 160 4 9"
         );
         let model = body(records, &env);
-        let floating = Floating::of(&model, &model.bodies["B"]).unwrap();
+        let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
         assert!(floating.loads.len() >= 10, "{}", floating.loads.len());
         // the second brings a point into the passage about the surface, at z = 1 +- 0.25
         for pose in [
@@ -317,7 +322,7 @@ fn every_tangent_is_that_of_differences_in_any_pose() {
 
 #[test]
 fn areas_of_a_piece_take_wind_and_current_at_their_points() {
-    let steady = std::sync::Arc::new(Steady::of(&model("&ENV -WIND 60 180 -CURRENT 2 180")).unwrap());
+    let steady = std::sync::Arc::new(Steady::new(&model("&ENV -WIND 60 180 -CURRENT 2 180")).unwrap());
     let wind = AreaLoad::wind(steady.clone(), [100.0, 0.0, 0.0], Vector3::new(0.0, 0.0, 10.0));
     near(wind.load(&Pose::default()).unwrap().wrench[0], 58_403.6, 1e-6);
     let current = AreaLoad::current(steady, [10.0, 0.0, 0.0], Vector3::new(0.0, 0.0, -5.0));

@@ -148,10 +148,10 @@ fn a_film_beyond_its_bounds_is_thinned_evenly_and_says_so() {
         .collect();
     let all = |_: &str| true;
     let take = Take { connector: &|_| false, body: &all, window: None, points: 40, stop: &|| false };
-    let film = Film::of(run, &take).unwrap();
+    let film = Film::build(run, &take).unwrap();
     assert!(film.times.len() <= MOST_FRAMES && film.times.len() == 1667, "{}", film.times.len());
     assert!(film.notes[0].contains("one in 3 of 5001"), "{:?}", film.notes);
-    let stopped = Film::of(run, &Take { stop: &|| true, ..take });
+    let stopped = Film::build(run, &Take { stop: &|| true, ..take });
     assert_eq!(stopped.unwrap_err().message, "interrupted");
 }
 
@@ -209,14 +209,14 @@ fn a_film_shows_rods_where_their_nodes_were_and_a_line_that_was_let_go_falls() {
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let run = session.job.run.as_ref().unwrap();
     let take = Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
-    let film = Film::of(run, &take).unwrap();
+    let film = Film::build(run, &take).unwrap();
     assert_eq!(film.times, run.history.times());
     for (strand, link) in film.strands.iter().zip(&run.history.layout.links) {
         let along = link.along.as_ref().unwrap();
         assert!(strand.line && strand.count == 31);
         // elements are alike, so that 31 points are the 31 nodes
         for (frame, row) in run.history.rows().enumerate() {
-            for ((_, node), (n, point)) in along.nodes(row).zip(strand.at(frame).iter().enumerate()) {
+            for ((_, node), (n, point)) in along.nodes(row).zip(strand.points_at(frame).iter().enumerate()) {
                 let apart = node.position.iter().zip(point).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 assert!(apart < 1e-6, "{} {frame} {n}: {apart}", strand.name);
                 assert!(
@@ -226,7 +226,7 @@ fn a_film_shows_rods_where_their_nodes_were_and_a_line_that_was_let_go_falls() {
         }
     }
     // let go at 2 s, B falls; A is held
-    let first = |name: &str, frame: usize| film.strands.iter().find(|s| s.name == name).unwrap().at(frame)[0];
+    let first = |name: &str, frame: usize| film.strands.iter().find(|s| s.name == name).unwrap().points_at(frame)[0];
     assert!(first("B", 10)[2] > -1e-6 && first("B", 30)[2] < -10.0);
     assert!(first("A", 30)[2].abs() < 1e-6);
     assert!(film.notes.iter().all(|n| !n.contains("is not shown")), "{:?}", film.notes);
@@ -237,7 +237,7 @@ fn a_film_of_a_rod_whose_nodes_were_not_kept_says_so() {
     let (session, ..) = run(&format!("{RODS}TDOM -ALONG 0\n"));
     let run = session.job.run.as_ref().unwrap();
     let take = Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
-    let film = Film::of(run, &take).unwrap();
+    let film = Film::build(run, &take).unwrap();
     for name in ["A", "B"] {
         assert!(
             film.notes.iter().any(|n| n.starts_with(&format!("{name} is not shown as it moved"))),

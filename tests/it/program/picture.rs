@@ -20,7 +20,7 @@ fn run(text: &str) -> (Model, Vec<String>, String, tempfile::TempDir) {
 
 fn scene(model: &Model) -> (Scene, usize) {
     let choice = Choice { connector: &|_| true, body: &|_| true, stop: &|| false };
-    let (scene, unshaped) = Scene::of(model, &choice).unwrap();
+    let (scene, unshaped) = Scene::build(model, &choice).unwrap();
     (scene, unshaped.len())
 }
 

@@ -104,7 +104,7 @@ fn left(model: &Model, actions: Vec<Action>, body: usize) -> ([f64; 2], Vec<&'st
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[body], Magnitude::default(), &events).unwrap();
     let groups: Vec<&str> = made.history.layout.categories.iter().map(|c| c.name()).collect();
-    let mass = Mass::of(model.parts_of(&model.bodies[body]), model.defaults.gravity);
+    let mass = Mass::from_parts(model.parts_of(&model.bodies[body]), model.defaults.gravity);
     let weight = mass.mass * model.defaults.gravity;
     let radius = (mass.inertia.diagonal().max() / mass.mass).sqrt().max(1.0);
     let mut shares = [0.0f64; 2];
@@ -169,7 +169,7 @@ fn categories_of_every_class_add_up_in_a_run_and_at_rest() {
         assert!(shares.iter().all(|s| *s < 2e-7), "{class}: {shares:?}");
         let acts = made.connectors.len();
         assert_eq!(usize::from(groups.contains(&"FLEX_CONNECTORS")), acts, "{class}");
-        let system = System::of(&made, &[]).unwrap();
+        let system = System::new(&made, &[]).unwrap();
         let mut state = system.state(&made);
         system.evaluate(&mut state).unwrap();
         let table = tables::by_category(&system, &state, &|_| true).unwrap();

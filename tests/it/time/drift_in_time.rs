@@ -23,7 +23,7 @@ fn body(records: &str, environment: &str) -> Model {
 }
 
 fn sea(model: &Model) -> Arc<Sea> {
-    Arc::new(Sea::of(model, &model.environment).unwrap().unwrap())
+    Arc::new(Sea::new(model, &model.environment).unwrap().unwrap())
 }
 
 fn drifts(floating: Floating) -> Vec<Box<dyn BodyLoad>> {
@@ -48,7 +48,7 @@ fn at(loads: &[Box<dyn BodyLoad>], time: f64, pose: &Pose) -> Six {
 }
 
 fn at_rest(model: &Model, pose: &Pose) -> Six {
-    let loads = drifts(Floating::of(model, &model.bodies["B"]).unwrap());
+    let loads = drifts(Floating::at_rest(model, &model.bodies["B"]).unwrap());
     loads.iter().map(|load| load.load(pose).unwrap().wrench).sum()
 }
 
@@ -136,12 +136,12 @@ fn drift_of_records_and_of_a_database_on_one_body_is_refused() {
         span,
     };
     model.bodies["B"].database = Some(attached.clone());
-    let error = Floating::of(&model, &model.bodies["B"]).unwrap_err();
+    let error = Floating::at_rest(&model, &model.bodies["B"]).unwrap_err();
     assert!(error.message.contains("#DRIFT") && error.span == Some(span), "{error:?}");
     assert!(Floating::under_way(&model, &model.bodies["B"], Some(&sea(&model))).is_err());
     attached.drift = windlass_model::DriftMethod::None;
     model.bodies["B"].database = Some(attached);
-    assert!(Floating::of(&model, &model.bodies["B"]).is_ok());
+    assert!(Floating::at_rest(&model, &model.bodies["B"]).is_ok());
 }
 
 /// The spectrum of ISSC (m2 s/rad) of a height (m) and mean period (s): both moments in closed form.

@@ -112,8 +112,8 @@ fn damping_that_turns_with_its_body_has_that_in_its_stiffness() {
     let mut model = eight::model(&hull, &line, "");
     model.connectors.clear();
     let system = System::under_way(&model, None::<&Arc<_>>, RunRequirements::default()).unwrap();
-    let memory = Memory::of(&system);
-    let pose = Pose::default().moved(&Six::new(1.0, 2.0, -1.0, 0.4, -0.7, 1.1));
+    let memory = Memory::new(&system);
+    let pose = Pose::default().after_motion(&Six::new(1.0, 2.0, -1.0, 0.4, -0.7, 1.1));
     let start = Motion { pose, velocity: Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2), ..Motion::default() };
     let at = |motion: Motion| {
         let mut forces = Forces::default();
@@ -124,7 +124,7 @@ fn damping_that_turns_with_its_body_has_that_in_its_stiffness() {
     for n in 0..6 {
         let mut by = Six::zeros();
         by[n] = 1e-5;
-        let turned = |by: Six| at(Motion { pose: pose.moved(&by), ..start }).sum;
+        let turned = |by: Six| at(Motion { pose: pose.after_motion(&by), ..start }).sum;
         let faster = |by: Six| at(Motion { velocity: start.velocity + by, ..start }).sum;
         let stiffness = (turned(-by) - turned(by)) / 2e-5 - whole.stiffness.column(n);
         let damping = (faster(-by) - faster(by)) / 2e-5 - whole.damping.column(n);

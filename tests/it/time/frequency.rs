@@ -89,11 +89,11 @@ fn oscillator(force: Complex<f64>, stiffness: f64, damping: f64, w: f64) -> Comp
 fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", "");
     attach(&mut model, DriftMethod::None);
-    let linear = Linear::of(&model).unwrap();
+    let linear = Linear::new(&model).unwrap();
     // waves from 150 degrees travel toward -30; the body stands at (30, -20)
     let (from, w) = (150f64.to_radians(), 0.7);
-    let found = Operators::of(&linear, &[w, 0.4], &[from]).unwrap();
-    let (_, _, motions) = found.each().next().unwrap();
+    let found = Operators::new(&linear, &[w, 0.4], &[from]).unwrap();
+    let (_, _, motions) = found.operators().next().unwrap();
     let lag = w * w / G * (30.0 * (from + PI).cos() - 20.0 * (from + PI).sin());
     let force = Complex::from_polar(7e5, 40f64.to_radians() + lag);
     for (dof, stiffness, damping) in [(0, 3e5, 5e4 + RADIATED), (2, 8e5, 9e4 + RADIATED)] {
@@ -102,7 +102,7 @@ fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
     }
     // the acceleration of a point of an unturned body is that of its origin
     let [_, _, z] = Quantity::point(&linear, 0, nalgebra::Vector3::new(3.0, 4.0, 5.0));
-    let ratio = z.of(motions, w, Derivative::Acceleration) / motions[2];
+    let ratio = z.amplitude(motions, w, Derivative::Acceleration) / motions[2];
     assert!((ratio + w * w).norm() < 1e-12, "{ratio}");
 }
 
@@ -110,7 +110,7 @@ fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
 fn natural_periods_and_damping_ratios_are_those_of_oscillators() {
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", "");
     attach(&mut model, DriftMethod::None);
-    let modes = natural(&Linear::of(&model).unwrap()).unwrap();
+    let modes = natural(&Linear::new(&model).unwrap()).unwrap();
     for (mode, (stiffness, damping)) in modes.iter().zip([(3e5, 5e4 + RADIATED), (8e5, 9e4 + RADIATED)]) {
         let w = f64::sqrt(stiffness / (1e6 + ADDED));
         assert!((mode.mode.period.unwrap() * w / TAU - 1.0).abs() < 1e-9 && mode.settled);
@@ -125,11 +125,11 @@ fn a_motion_without_damping_at_its_natural_period_is_refused() {
     attach(&mut model, DriftMethod::None);
     let attached = model.bodies.get_mut("BUOY").unwrap().database.as_mut().unwrap();
     Arc::get_mut(&mut attached.data).unwrap().damping.iter_mut().for_each(|b| b.fill(0.0));
-    let linear = Linear::of(&model).unwrap();
+    let linear = Linear::new(&model).unwrap();
     let w = (8e5f64 / (1e6 + ADDED)).sqrt();
-    let wrong = Operators::of(&linear, &[w], &[0.0]).unwrap_err();
+    let wrong = Operators::new(&linear, &[w], &[0.0]).unwrap_err();
     assert!(wrong.error.message.contains("BUOY in Z"), "{wrong:?}");
-    assert!(Operators::of(&linear, &[1.01 * w], &[0.0]).is_ok());
+    assert!(Operators::new(&linear, &[1.01 * w], &[0.0]).is_ok());
 }
 
 #[test]
@@ -147,8 +147,8 @@ fn statistics_are_those_of_rayleigh() {
 
 /// Response in the sea of a model.
 fn seen(model: &Model, asked: &Asked) -> (Linear, windlass_solve::frequency::Response) {
-    let trains = Trains::of(model, &model.environment).unwrap().unwrap();
-    let mut linear = Linear::of(model).unwrap();
+    let trains = Trains::new(model, &model.environment).unwrap().unwrap();
+    let mut linear = Linear::new(model).unwrap();
     let made = respond(&mut linear, &trains, asked).unwrap();
     (linear, made)
 }
@@ -166,7 +166,7 @@ fn a_body_that_rides_on_the_waves_has_the_height_and_period_of_the_sea() {
     data.excitation.iter_mut().flatten().for_each(|x| x[2] = Complex::new(1e15, 0.0));
     let (linear, made) = seen(&model, &Asked::default());
     let z = Quantity::dof(&linear, 0, 2);
-    let told = Statistics::of(&made, &z, Derivative::Place);
+    let told = Statistics::new(&made, &z, Derivative::Place);
     // the energy is exact; what is above 15 times the frequency of the peak is counted there, which takes 0.3 % of the second moment
     assert!((told.significant() / 2.0 - 1.0).abs() < 1e-6, "{told:?}");
     let tz = 10.0 * (0.8 / PI).powf(0.25);
@@ -190,7 +190,7 @@ fn a_spread_sea_moves_a_body_by_the_mean_square_over_its_directions() {
         };
         data.excitation = data.headings.iter().map(one).collect();
         let (linear, made) = seen(&model, &Asked::default());
-        Statistics::of(&made, &Quantity::dof(&linear, 0, 0), Derivative::Place).deviation
+        Statistics::new(&made, &Quantity::dof(&linear, 0, 0), Derivative::Place).deviation
     };
     let ratio = of("-SPREAD 2") / of("");
     // eleven directions of equal shares
@@ -232,7 +232,7 @@ fn a_quadratic_dashpot_is_linearised_as_borgman_has_it() {
     let (mut linear, made) = seen(&model, &Asked { spectral: true, ..Asked::default() });
     assert!(made.rounds > 1);
     let z = Quantity::dof(&linear, 0, 2);
-    let velocity = Statistics::of(&made, &z, Derivative::Velocity).deviation;
+    let velocity = Statistics::new(&made, &z, Derivative::Velocity).deviation;
     let (_, damping) = linear.inertia_and_damping(1.0);
     let want = RADIATED + 4e5 * (8.0 / PI).sqrt() * velocity;
     // 1024 velocities stand for the normal distribution
@@ -242,10 +242,10 @@ fn a_quadratic_dashpot_is_linearised_as_borgman_has_it() {
     attach(&mut strong, DriftMethod::None);
     assert!(seen(&strong, &Asked { spectral: true, ..Asked::default() }).1.rounds > 1);
     // without it waves are answered as by a body without the dashpot
-    let trains = Trains::of(&model, &model.environment).unwrap().unwrap();
-    linear = Linear::of(&model).unwrap();
+    let trains = Trains::new(&model, &model.environment).unwrap().unwrap();
+    linear = Linear::new(&model).unwrap();
     let free = in_sea(&linear, &trains, &Asked::default()).unwrap();
-    assert!(Statistics::of(&free, &z, Derivative::Velocity).deviation > 1.2 * velocity);
+    assert!(Statistics::new(&free, &z, Derivative::Velocity).deviation > 1.2 * velocity);
 }
 
 const RADIUS: f64 = 10.0;
@@ -279,13 +279,13 @@ const HULME: [(f64, f64, f64); 6] = [
 fn heave_of_the_hemisphere_is_that_of_its_formula_and_of_hulme() {
     let session = hemisphere("-IGNORE X Y RX RY RZ", "", "");
     let model = &session.job.model;
-    let linear = Linear::of(model).unwrap();
+    let linear = Linear::new(model).unwrap();
     let data = Arc::clone(&model.bodies["BALL"].database.as_ref().unwrap().data);
     let mass = 1025.0 * 2.0 / 3.0 * PI * RADIUS.powi(3);
     let mut worst = 0.0f64;
     for (ka, added, radiated) in HULME {
         let w = (ka * G / RADIUS).sqrt();
-        let found = Operators::of(&linear, &[w], &[0.0]).unwrap();
+        let found = Operators::new(&linear, &[w], &[0.0]).unwrap();
         let z = found.motions[0][0][2];
         let (a, b) = (data.added_mass_at(w).unwrap()[(2, 2)], data.damping_at(w).unwrap()[(2, 2)]);
         let k = data.hydrostatics.unwrap()[(2, 2)];
@@ -327,8 +327,8 @@ fn a_moored_hemisphere_in_small_waves_moves_in_time_as_in_the_frequency_domain()
     let w = TAU / period;
     let rest = format!("&EQUI\n&ENV -DEPTH 100 -SEA REGULAR 200 0.2 {period} -RAMP 60 -TIME 540 {step}\nTDOM\n");
     let session = hemisphere("-IGNORE RZ", &lines, &rest);
-    let linear = Linear::of(&session.job.model).unwrap();
-    let found = Operators::of(&linear, &[w], &[200f64.to_radians()]).unwrap();
+    let linear = Linear::new(&session.job.model).unwrap();
+    let found = Operators::new(&linear, &[w], &[200f64.to_radians()]).unwrap();
     let motions = &found.motions[0][0];
     let history = &session.job.run.as_ref().unwrap().history;
     let times = history.times();
@@ -345,7 +345,7 @@ fn a_moored_hemisphere_in_small_waves_moves_in_time_as_in_the_frequency_domain()
     for n in 0..4 {
         let (_, size) = Quantity::tension(&linear, &format!("L{n}")).unwrap().unwrap();
         let size = size.unwrap();
-        let own = size.of(motions, w, Derivative::Place) * 0.1;
+        let own = size.amplitude(motions, w, Derivative::Place) * 0.1;
         let at = history.layout.wrench(n, 0).unwrap();
         let values: Vec<f64> =
             history.rows().map(|r| r[at..at + 3].iter().map(|v| v * v).sum::<f64>().sqrt()).collect();
@@ -361,7 +361,7 @@ fn lines_that_move_by_themselves_are_said_to_follow_without_dynamics() {
     for (more, told) in [(rod, true), ("", false)] {
         let mut model = model(more, "");
         attach(&mut model, DriftMethod::None);
-        let linear = Linear::of(&model).unwrap();
+        let linear = Linear::new(&model).unwrap();
         let found = linear.notes.iter().any(|n| n.starts_with("ROD: ") && n.contains("without dynamics"));
         assert_eq!(found, told, "{:?}", linear.notes);
     }

@@ -3,7 +3,7 @@
 use crate::common::run as runs;
 use runs::{model, run, settings};
 use std::f64::consts::TAU;
-use windlass_solve::run_tables::told;
+use windlass_solve::run_tables::run_table;
 use windlass_solve::time::{Method, Run, Scheme, Settings};
 
 /// Mass of the line (kg), and of what hangs on it.
@@ -51,11 +51,11 @@ fn line_mode_is_damped_as_the_scheme_of_the_run_damps() {
     // numpy's eigenvalues of the amplification matrix of the form of [CHUNG-HULBERT-1993 eq. 5 to 8]:
     // M a[n+1-am] + K d[n+1-af] = 0 with Newmark's d and v; damping is -ln|z| / |ln z|
     for (method, steps, closed) in [
-        (Scheme::generalised(0.2), 10.0, 0.022552),
-        (Scheme::generalised(0.2), 20.0, 0.003954),
-        (Scheme::generalised(0.5), 10.0, 0.003780),
-        (Scheme::generalised(0.9), 10.0, 0.000017),
-        (Scheme::generalised(0.0), 10.0, 0.054905),
+        (Scheme::generalised_alpha(0.2), 10.0, 0.022552),
+        (Scheme::generalised_alpha(0.2), 20.0, 0.003954),
+        (Scheme::generalised_alpha(0.5), 10.0, 0.003780),
+        (Scheme::generalised_alpha(0.9), 10.0, 0.000017),
+        (Scheme::generalised_alpha(0.0), 10.0, 0.054905),
         (Scheme::newmark(0.3025, 0.6), 20.0, 0.015453),
     ] {
         let made = swung(Method::Implicit(method), steps, 30.0);
@@ -67,13 +67,13 @@ fn line_mode_is_damped_as_the_scheme_of_the_run_damps() {
 
 #[test]
 fn line_of_the_trapezoidal_rule_keeps_its_energy() {
-    let made = swung(Method::Implicit(Scheme::generalised(1.0)), 10.0, 30.0);
+    let made = swung(Method::Implicit(Scheme::generalised_alpha(1.0)), 10.0, 30.0);
     assert!(damping(&made, [4, 24], 10.0).abs() < 1e-6);
 }
 
 #[test]
 fn table_of_a_corrector_run_names_the_scheme_of_its_lines() {
     let made = swung(Method::Corrector, 40.0, 1.0);
-    let said = format!("{:?}", told(&made));
+    let said = format!("{:?}", run_table(&made));
     assert!(said.contains("dynamic lines by generalised-alpha, spectral radius 0.200"), "{said}");
 }

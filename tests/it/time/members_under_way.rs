@@ -58,7 +58,7 @@ fn members(model: &Model, sea: Option<&Arc<Sea>>) -> Box<dyn BodyLoad> {
 
 /// The drag of the current at rest.
 fn drag(model: &Model) -> Six {
-    let loads = Floating::of(model, &model.bodies["B"]).unwrap().loads;
+    let loads = Floating::at_rest(model, &model.bodies["B"]).unwrap().loads;
     let mine = loads.iter().filter(|l| l.category() == Category::ViscousDrag);
     mine.map(|l| l.load(&Pose::default()).unwrap().wrench).sum()
 }
@@ -66,7 +66,7 @@ fn drag(model: &Model) -> Six {
 /// Added mass without the growth's own.
 fn added(model: &Model) -> Matrix6<f64> {
     let body = &model.bodies["B"];
-    Floating::of(model, body).unwrap().added_mass - grown::of(model, body).unwrap().mass
+    Floating::at_rest(model, body).unwrap().added_mass - grown::build_growth_loads(model, body).unwrap().mass
 }
 
 const PILE: &str = "-CD 0.8 -CDA 0.03 -CA 0.9 -CAA 0.6";

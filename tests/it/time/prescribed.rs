@@ -11,7 +11,7 @@ use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{Model, Stretching};
-use windlass_solve::time::{Action, Ending, Motion, Prescribed, Run, Settings, What, When, prescribed};
+use windlass_solve::time::{Action, Ending, Motion, Prescribed, Run, Settings, What, When, build_prescribed};
 
 /// A model with a body B and a file in the job's folder; the text of what was said.
 fn session(file: &str, records: &str) -> (Model, i64, String) {
@@ -30,11 +30,11 @@ fn session(file: &str, records: &str) -> (Model, i64, String) {
 fn motion(file: &str, records: &str, sea: Option<&Arc<Sea>>) -> Box<dyn Prescribed> {
     let (model, errors, text) = session(file, records);
     assert_eq!(errors, 0, "{text}");
-    prescribed(&model.bodies["B"], sea).unwrap().unwrap()
+    build_prescribed(&model.bodies["B"], sea).unwrap().unwrap()
 }
 
 fn at(motion: &dyn Prescribed, time: f64) -> Motion {
-    motion.at(time).unwrap()
+    motion.motion_at(time).unwrap()
 }
 
 /// Velocity and acceleration against central differences of place, rotation and velocity.
@@ -169,7 +169,7 @@ fn a_table_without_the_headings_of_the_sea_is_refused() {
     let file = table(&[0.0, 45.0, 90.0], |_, _| [(1.0, 0.0); 6]);
     let (model, errors, text) = session(&file, "MEDIT\nPRESCRIBE B -RAO FILE.CSV\nEND");
     assert_eq!(errors, 0, "{text}");
-    let error = prescribed(&model.bodies["B"], Some(&sea(&[(0.6, 1.0, 0.0, 0.0)], 0.0))).unwrap_err();
+    let error = build_prescribed(&model.bodies["B"], Some(&sea(&[(0.6, 1.0, 0.0, 0.0)], 0.0))).unwrap_err();
     assert!(error.message.contains("no headings within 90 degrees"), "{}", error.message);
     assert!(error.span.is_some());
 }
@@ -234,9 +234,9 @@ fn the_body_is_put_where_its_file_begins() {
 #[test]
 fn a_time_outside_of_the_file_is_an_error_that_names_its_span() {
     let made = motion("0,0,0,0,0,0,0\n20,1,0,0,0,0,0\n", "MEDIT\nPRESCRIBE B -FILE FILE.CSV\nEND", None);
-    let error = made.at(25.0).unwrap_err();
+    let error = made.motion_at(25.0).unwrap_err();
     assert_eq!(error.to_string(), "the motion of the body is given from 0 s to 20 s, and asked for at 25 s");
-    assert!(made.at(f64::NAN).is_err());
+    assert!(made.motion_at(f64::NAN).is_err());
 }
 
 #[test]
@@ -314,7 +314,7 @@ fn a_body_that_rides_on_the_waves_rides_on_those_of_the_sea_it_comes_into() {
     let settings = Settings { method: trapezoidal(), ..settings(40.0, 0.1) };
     let change = Action { name: "CHANGE".into(), when: When::At(20.0), what: What::Environment("LATER".into()) };
     let mut run = Run::new(&model, settings, vec![change]).unwrap();
-    let seas = ["NOW", "LATER"].map(|name| Sea::of(&model, &model.environments[name]).unwrap().unwrap());
+    let seas = ["NOW", "LATER"].map(|name| Sea::new(&model, &model.environments[name]).unwrap().unwrap());
     assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
     let at = run.history.layout.body(0);
     for row in run.history.rows() {

@@ -63,7 +63,7 @@ fn error_and_damping_of_generalised_alpha_are_those_of_the_oscillation_itself() 
     for (rho, steps, period, damping) in
         [(0.2, 10.0, 0.080910, 0.022552), (0.2, 20.0, 0.023147, 0.003954), (0.5, 12.0, 0.032954, 0.002313)]
     {
-        let made = oscillated(Method::Implicit(Scheme::generalised(rho)), steps, 16.0);
+        let made = oscillated(Method::Implicit(Scheme::generalised_alpha(rho)), steps, 16.0);
         let worst = made.followed_worst().unwrap();
         let (own, decay) = seen(&made.history);
         let own = own / (TAU / 2.0) - 1.0;

@@ -53,7 +53,9 @@ fn the_trapezoidal_rule_oscillates_with_its_own_known_period() {
 #[test]
 fn halving_the_step_quarters_the_error_of_every_scheme() {
     let model = mass_on_a_spring("", 0.5);
-    for method in [Method::default(), trapezoidal(), Method::Implicit(Scheme::generalised(0.5)), Method::Corrector] {
+    for method in
+        [Method::default(), trapezoidal(), Method::Implicit(Scheme::generalised_alpha(0.5)), Method::Corrector]
+    {
         let error = |h: f64| {
             let made = run(&model, Settings { method, ..settings(10.0, h) }, vec![]);
             (x(&made.history).last().unwrap() - 0.5 * 20f64.cos()).abs()

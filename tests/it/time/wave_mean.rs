@@ -53,7 +53,7 @@ fn mean_pressure_on_a_flared_hull_is_that_of_its_waterline() {
     for group in ["WAVE", "W_MEAN"] {
         assert!(mean(&table, group, "FX").abs() < allowed, "{group} {}", mean(&table, group, "FX"));
     }
-    let notes = table.notes.join(" ") + &run_tables::told(&made).notes.join(" ");
+    let notes = table.notes.join(" ") + &run_tables::run_table(&made).notes.join(" ");
     assert!(notes.contains("W_MEAN is what is slow") && notes.contains("B: -DIFTYPE FK is no drift force"), "{notes}");
 }
 

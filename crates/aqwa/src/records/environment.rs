@@ -1,7 +1,7 @@
 //! The water, waves, current and wind: decks 5, 10, 11, 13 and 16.
 
 use super::sea;
-use super::written::{Script, difference, number, numbers, opposite, rounded};
+use super::written::{Script, difference, number, numbers, opposite, round_value};
 use crate::Deck;
 use crate::surroundings::{Flow, Layer};
 use crate::waves::{Spectrum, Waves};
@@ -66,14 +66,14 @@ fn time(deck: &Deck, out: &mut Script) -> Option<String> {
         );
         return None;
     }
-    let observed = rounded((steps.count.value - 1) as f64 * steps.step.value);
+    let observed = round_value((steps.count.value - 1) as f64 * steps.step.value);
     Some(format!("-TIME {}", numbers([observed, steps.step.value])))
 }
 
 /// A stream as x and y of its velocity (m/s).
 fn components(flow: &Flow, out: &Script) -> [f64; 2] {
     let (speed, angle) = (out.scale.length(flow.speed.value), flow.direction.value);
-    [rounded(speed * cosine(angle)), rounded(speed * cosine(angle - 90.0))]
+    [round_value(speed * cosine(angle)), round_value(speed * cosine(angle - 90.0))]
 }
 
 fn cosine(degrees: f64) -> f64 {
@@ -126,12 +126,12 @@ fn profile(layers: &[Layer], added: [f64; 2], out: &mut Script) -> String {
     for layer in layers.iter().rev() {
         let speed = out.scale.length(layer.speed);
         let own = [cosine(layer.direction), cosine(layer.direction - 90.0)];
-        let velocity = [0, 1].map(|i| rounded(speed * own[i] + added[i]));
+        let velocity = [0, 1].map(|i| round_value(speed * own[i] + added[i]));
         rows.push((difference(0.0, out.scale.length(layer.height)), velocity));
     }
     if let [(_, [x, y])] = rows.as_slice() {
         // one layer is the same everywhere
-        let (speed, toward) = (rounded(x.hypot(*y)), rounded(y.atan2(*x).to_degrees()));
+        let (speed, toward) = (round_value(x.hypot(*y)), round_value(y.atan2(*x).to_degrees()));
         return format!("-CURRENT {}", numbers([speed, opposite(toward)]));
     }
     let mut options = String::from("-CURRENT");
@@ -163,5 +163,5 @@ fn wind(deck: &Deck, out: &mut Script) -> Option<String> {
     out.remark("the structures of a deck have no areas for the wind; #AREA of the model gives them");
     let speed = out.scale.length(flow.speed.value);
     let toward = if speed < 0.0 { flow.direction.value + 180.0 } else { flow.direction.value };
-    Some(format!("-WIND {}", numbers([rounded(speed.abs() / KNOT), opposite(toward)])))
+    Some(format!("-WIND {}", numbers([round_value(speed.abs() / KNOT), opposite(toward)])))
 }

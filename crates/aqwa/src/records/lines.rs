@@ -1,7 +1,7 @@
 //! Mooring lines of deck 14 as classes of the model.
 
 use super::model::point;
-use super::written::{Script, difference, number, numbers, rounded};
+use super::written::{Script, difference, number, numbers, round_value};
 use crate::Deck;
 use crate::lines::{Composite, Ends, Joint, LineKind, MooringLine, Property, Section};
 use std::f64::consts::FRAC_PI_4;
@@ -38,13 +38,13 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
                     Some(name)
                 }
                 Some(Property::Composite(_)) => {
-                    refused("NLIN with a winch tension", "a CATENARY with a PISTON of the model", line, out)
+                    refuse_class("NLIN with a winch tension", "a CATENARY with a PISTON of the model", line, out)
                 }
-                _ => refused("POLY", "a GSPR with a table of force over extension", line, out),
+                _ => refuse_class("POLY", "a GSPR with a table of force over extension", line, out),
             },
-            LineKind::Winched { .. } => refused("LNDW", "an SL_ELEM, with &ACTION for the winch", line, out),
-            LineKind::Force(_) => refused("FORC", "a TUG_BOAT, or #TABLE for a force on the body", line, out),
-            LineKind::Winch { .. } => refused("WNCH", "an SL_ELEM with -PISTON, which keeps a tension", line, out),
+            LineKind::Winched { .. } => refuse_class("LNDW", "an SL_ELEM, with &ACTION for the winch", line, out),
+            LineKind::Force(_) => refuse_class("FORC", "a TUG_BOAT, or #TABLE for a force on the body", line, out),
+            LineKind::Winch { .. } => refuse_class("WNCH", "an SL_ELEM with -PISTON, which keeps a tension", line, out),
         };
         let Some(class) = class else { continue };
         let fairlead = point(first.0, first.1);
@@ -74,13 +74,13 @@ fn card(kind: &LineKind) -> &'static str {
 fn anchor(deck: &Deck, line: &MooringLine, out: &Script) -> Option<([f64; 2], Option<f64>)> {
     let [(structure, node), (ground, anchor)] = ends(line.ends);
     let structure = deck.structure(structure).filter(|_| ground <= 0)?;
-    let from = deck.placed(structure, node)?.map(|x| out.scale.length(x));
+    let from = deck.node_position(structure, node)?.map(|x| out.scale.length(x));
     let to = deck.nodes.get(&anchor)?.position.map(|x| out.scale.length(x));
     let [x, y] = [difference(to[0], from[0]), difference(to[1], from[1])];
-    let direction = if x == 0.0 && y == 0.0 { 0.0 } else { rounded(y.atan2(x).to_degrees()) };
+    let direction = if x == 0.0 && y == 0.0 { 0.0 } else { round_value(y.atan2(x).to_degrees()) };
     let depth = difference(0.0, to[2]);
     let of_water = out.scale.length(deck.global.depth);
-    Some(([direction, rounded(x.hypot(y))], (depth != of_water).then_some(depth)))
+    Some(([direction, round_value(x.hypot(y))], (depth != of_water).then_some(depth)))
 }
 
 /// Structure and node of both ends, the one on a structure first: that is the fairlead.
@@ -90,7 +90,7 @@ fn ends(ends: Ends) -> [(i64, i64); 2] {
     if first.0 <= 0 && second.0 > 0 { [second, first] } else { [first, second] }
 }
 
-fn refused(card: &str, class: &str, line: &MooringLine, out: &mut Script) -> Option<String> {
+fn refuse_class(card: &str, class: &str, line: &MooringLine, out: &mut Script) -> Option<String> {
     out.refuse(
         Diagnostic::error(format!("deck 14, {card}: this line is not read into the model"), line.span)
             .help(format!("in a script of the model it is {class}")),
@@ -101,7 +101,7 @@ fn refused(card: &str, class: &str, line: &MooringLine, out: &mut Script) -> Opt
 /// A linear elastic line: EA over its length is the stiffness.
 fn elastic(number_of: usize, stiffness: f64, length: f64, line: &MooringLine, out: &mut Script) -> Option<String> {
     if length <= 0.0 {
-        return refused("LINE without a length", "a GSPR along X between the two points", line, out);
+        return refuse_class("LINE without a length", "a GSPR along X between the two points", line, out);
     }
     let name = format!("L{number_of}");
     let length = out.scale.length(length);
@@ -112,7 +112,7 @@ fn elastic(number_of: usize, stiffness: f64, length: f64, line: &MooringLine, ou
         "~{name} SL_ELEM {} TENSION -LEN {} -EMODULUS {}",
         number(1000.0 * DIAMETER),
         number(length),
-        number(rounded(modulus))
+        number(round_value(modulus))
     ));
     Some(name)
 }

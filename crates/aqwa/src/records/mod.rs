@@ -116,7 +116,7 @@ fn written(deck: &Deck) -> Result<Script, Vec<Diagnostic>> {
         return Err(vec![*error]);
     }
     let units = deck.units().map_err(|error| vec![*error])?;
-    let mut out = Script::new(Scale::of(&units), "deck 0, JOB", deck.job.span);
+    let mut out = Script::new(Scale::from_units(&units), "deck 0, JOB", deck.job.span);
     model(deck, &units, &mut out);
     Ok(out)
 }

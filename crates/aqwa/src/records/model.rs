@@ -1,6 +1,6 @@
 //! Structures as bodies: decks 1 to 4, 7, 12, 15 and 17.
 
-use super::written::{Script, difference, number, numbers, rounded};
+use super::written::{Script, difference, number, numbers, round_value};
 use crate::Deck;
 use crate::elements::{Element, Shape, Structure};
 use crate::hydrostatics::{Hydrostatics, SixBySix};
@@ -69,12 +69,12 @@ fn nodes(deck: &Deck, structure: &Structure) -> Vec<i64> {
 /// A structure as a body whose origin is its centre of gravity.
 pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
     let mass = mass(deck, of, out);
-    let nominal = deck.mooring.tethers.iter().any(|tether| tether.towed());
+    let nominal = deck.mooring.tethers.iter().any(|tether| tether.is_towed());
     let name = body(of.number);
     let header = format!("deck 2, ELM{}", of.number);
     out.card(&header, of.span);
     out.remark(&format!("structure {}: the origin of the body is its center of gravity", of.number));
-    let held = held(deck, of, nominal, out);
+    let held = fixed_dof_option(deck, of, nominal, out);
     out.record(format!("&DESCRIBE BODY {name}{held}"));
     out.record(format!("*{name}_CG 0 0 0"));
     for node in nodes(deck, of) {
@@ -118,7 +118,7 @@ fn mass(deck: &Deck, of: &Structure, out: &mut Script) -> MassProperties {
 }
 
 /// The degrees of freedom that are held, as an option.
-fn held(deck: &Deck, of: &Structure, nominal: bool, out: &mut Script) -> String {
+fn fixed_dof_option(deck: &Deck, of: &Structure, nominal: bool, out: &mut Script) -> String {
     if nominal {
         out.remark("a towed tether runs by itself: its nominal vessel is held where it is");
         return format!(" -IGNORE {}", DOFS.join(" "));
@@ -159,8 +159,8 @@ fn weight(deck: &Deck, of: &Structure, mass: &MassProperties, out: &mut Script) 
                 .help("#WEIGHT has radii of gyration along the axes of its body; give the structure in its principal axes"),
         );
     }
-    let radii = [xx, yy, zz].map(|inertia| rounded(out.scale.length((inertia.max(0.0) / mass.mass).sqrt())));
-    let weight = rounded(out.scale.force(mass.mass * deck.global.gravity, 0));
+    let radii = [xx, yy, zz].map(|inertia| round_value(out.scale.length((inertia.max(0.0) / mass.mass).sqrt())));
+    let weight = round_value(out.scale.force(mass.mass * deck.global.gravity, 0));
     out.record(format!("#WEIGHT *{}_CG {} {}", body(of.number), number(weight), numbers(radii)));
 }
 
@@ -267,7 +267,7 @@ fn tubes(deck: &Deck, of: &Structure, out: &mut Script) {
 
 /// A coefficient times a multiplier of deck 17.
 pub(super) fn product(coefficient: f64, factor: f64) -> f64 {
-    if factor == 1.0 { coefficient } else { rounded(coefficient * factor) }
+    if factor == 1.0 { coefficient } else { round_value(coefficient * factor) }
 }
 
 /// Where the structures are at the start.

@@ -3,7 +3,7 @@
 use super::environment::spectrum;
 use super::model::{body, point};
 use super::tethers::name;
-use super::written::{Script, number, numbers, opposite, rounded};
+use super::written::{Script, number, numbers, opposite, round_value};
 use crate::Deck;
 use crate::elements::Shape;
 use crate::job::Program;
@@ -51,7 +51,7 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
         wave_loads(deck, out);
     }
     match (deck.job.program, deck.mooring.tethers.is_empty()) {
-        (Program::Drift | Program::Naut, false) => tethered(deck, out),
+        (Program::Drift | Program::Naut, false) => write_tether_run(deck, out),
         (Program::Drift | Program::Naut, true) => bodies(deck, out),
         (Program::Librium, true) => {
             out.record("&EQUI");
@@ -81,7 +81,7 @@ fn wave_loads(deck: &Deck, out: &mut Script) {
         Waves::Spectra(_) => true,
     };
     // the vessel of a towed tether is a nominal one and is held
-    if !waves || deck.mooring.tethers.iter().any(Tether::towed) {
+    if !waves || deck.mooring.tethers.iter().any(Tether::is_towed) {
         return;
     }
     for structure in &deck.structures {
@@ -122,12 +122,12 @@ fn common_divisor(a: i64, b: i64) -> i64 {
 /// Times of a page at each so many steps, from the start to the end.
 fn events(deck: &Deck, steps: i64) -> String {
     let Some(run) = deck.steps else { return String::new() };
-    let last = rounded((run.count.value - 1) as f64 * run.step.value);
-    format!("-EVENTS {}", numbers([0.0, last, rounded(steps as f64 * run.step.value)]))
+    let last = round_value((run.count.value - 1) as f64 * run.step.value);
+    format!("-EVENTS {}", numbers([0.0, last, round_value(steps as f64 * run.step.value)]))
 }
 
-fn tethered(deck: &Deck, out: &mut Script) {
-    let towed = deck.mooring.tethers.iter().any(Tether::towed);
+fn write_tether_run(deck: &Deck, out: &mut Script) {
+    let towed = deck.mooring.tethers.iter().any(Tether::is_towed);
     let printing = &deck.printing;
     let slack = deck.mooring.slack_time.filter(|_| !towed && printing.tethers.is_none());
     // a tether may go slack, and its structure comes to a state, at any step
@@ -219,22 +219,22 @@ fn pages(deck: &Deck, name: &str, slack: Option<f64>, out: &mut Script) {
 fn statistics(deck: &Deck, name: &str, tether: &Tether, out: &mut Script) {
     let Some(steps) = deck.steps else { return };
     let (first, last) = deck.statistics();
-    let time = |step: i64| rounded((step - 1).max(0) as f64 * steps.step.value);
+    let time = |step: i64| round_value((step - 1).max(0) as f64 * steps.step.value);
     let between = format!("-EVENTS {}", numbers([time(first), time(last)]));
     out.record(format!("TETHER {name} STATISTICS 1 {between}"));
     out.record(format!("TETHER {name} STATISTICS 2 {between}"));
-    if !tether.towed() {
+    if !tether.is_towed() {
         return;
     }
     let Fatigue { concentration, intercept, slope } = tether.description.fatigue;
-    let curve = format!("-SN {}", numbers([concentration, scaled(intercept, slope, out), slope]));
+    let curve = format!("-SN {}", numbers([concentration, scale_intercept(intercept, slope, out), slope]));
     let hours = number(tether.description.peak_hours.unwrap_or(HOURS));
     out.record(format!("TETHER {name} RANGES {between} {curve}"));
     out.record(format!("TETHER {name} FATIGUE {between} {curve} -HOURS {hours}"));
 }
 
 /// The intercept of `N = A / R^m` for stresses in kN/m2.
-fn scaled(intercept: f64, slope: f64, out: &Script) -> f64 {
+fn scale_intercept(intercept: f64, slope: f64, out: &Script) -> f64 {
     let unit = out.scale.pascals(1.0) / 1000.0;
-    if unit == 1.0 { intercept } else { rounded(intercept * unit.powf(slope)) }
+    if unit == 1.0 { intercept } else { round_value(intercept * unit.powf(slope)) }
 }

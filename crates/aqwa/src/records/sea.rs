@@ -1,6 +1,6 @@
 //! Waves: the spectra and the regular wave of deck 13 as options of `&ENV`.
 
-use super::written::{Script, number, numbers, opposite, rounded};
+use super::written::{Script, number, numbers, opposite, round_value};
 use crate::Deck;
 use crate::waves::{Form, RegularWave, Spectrum, Waves};
 use std::f64::consts::{PI, TAU};
@@ -41,7 +41,7 @@ fn regular(deck: &Deck, wave: &RegularWave, out: &mut Script) -> Vec<String> {
     if wave.amplitude == 0.0 {
         return Vec::new();
     }
-    let height = rounded(2.0 * out.scale.length(wave.amplitude));
+    let height = round_value(2.0 * out.scale.length(wave.amplitude));
     let kind = if wave.linear { "REGULAR" } else { "STOKES" };
     let mut options = vec![format!("-SEA {kind} {}", numbers([opposite(wave.direction), height, wave.period]))];
     if !wave.linear {
@@ -91,7 +91,7 @@ fn form(deck: &Deck, sea: &Spectrum, from: f64, out: &mut Script) -> Option<Vec<
                 Diagnostic::error(format!("deck 13: a gamma of {gamma}"), sea.span).label("1 to 20 belongs here"),
             );
         }
-        let values = [from, rounded(height), rounded(TAU / peak), gamma];
+        let values = [from, round_value(height), round_value(TAU / peak), gamma];
         Some(vec![format!("-SEA JONSWAP {}", numbers(values))])
     };
     match &sea.form {
@@ -119,13 +119,14 @@ fn form(deck: &Deck, sea: &Spectrum, from: f64, out: &mut Script) -> Option<Vec<
                 height * height / 16.0 / (sigma * (2.0 * PI).sqrt()) * (-0.5 * ((w - peak) / sigma).powi(2)).exp()
             };
             let at = |i: i32| peak + sigma * reach * (2.0 * f64::from(i) / f64::from(count) - 1.0);
-            let points = (0..=count).map(at).filter(|w| *w > 0.0).map(|w| (rounded(w), rounded(density(w)))).collect();
+            let points =
+                (0..=count).map(at).filter(|w| *w > 0.0).map(|w| (round_value(w), round_value(density(w)))).collect();
             out.remark("GAUS: a curve of the Gaussian spectrum");
             curve(points, from, sea, out)
         }
         Form::Given(pairs) => {
             let square = out.scale.area(1.0);
-            curve(pairs.iter().map(|(w, s)| (*w, rounded(s * square))).collect(), from, sea, out)
+            curve(pairs.iter().map(|(w, s)| (*w, round_value(s * square))).collect(), from, sea, out)
         }
     }
 }
@@ -145,6 +146,6 @@ fn curve(points: Vec<(f64, f64)>, from: f64, sea: &Spectrum, out: &mut Script) -
     let pairs: Vec<String> = points.iter().map(|(w, s)| numbers([*w, *s])).collect();
     let rows: Vec<String> = pairs.chunks(6).map(|row| row.join("  ")).collect();
     out.record(format!("&DATA CURVES F_SPECTRUM {CURVE} \\\n  {}", rows.join(" \\\n  ")));
-    let values = [from, rounded(4.0 * energy.sqrt()), rounded(TAU / top.0)];
+    let values = [from, round_value(4.0 * energy.sqrt()), round_value(TAU / top.0)];
     Some(vec![format!("-SEA {CURVE} {}", numbers(values))])
 }

@@ -1,7 +1,7 @@
 //! Tethers of deck 14: a class for each description, a connector for each TETH card.
 
 use super::model::{point, product};
-use super::written::{Script, difference, number, numbers, rounded};
+use super::written::{Script, difference, number, numbers, round_value};
 use crate::Deck;
 use crate::elements::Shape;
 use crate::end_springs::EndSpring;
@@ -75,7 +75,7 @@ fn length(deck: &Deck, element: &TetherElement, out: &Script) -> Option<f64> {
     Some(match along.iter().filter(|x| **x != 0.0).count() {
         // along an axis the digits of the cards are the length
         1 => along.iter().sum::<f64>().abs(),
-        _ => rounded(along.iter().map(|x| x * x).sum::<f64>().sqrt()),
+        _ => round_value(along.iter().map(|x| x * x).sum::<f64>().sqrt()),
     })
 }
 
@@ -90,20 +90,20 @@ fn connector(index: usize, tether: &Tether, out: &mut Script) {
     );
     let description = &tether.description;
     out.card("deck 14, TETH", tether.span);
-    text.push_str(if tether.towed() { " -TOWED" } else { " -INSTALLED" });
+    text.push_str(if tether.is_towed() { " -TOWED" } else { " -INSTALLED" });
     for (spring, side) in [(description.vessel, 'V'), (description.anchor, 'A')] {
         if let Some(spring) = spring {
-            let word = match (side, tether.towed()) {
+            let word = match (side, tether.is_towed()) {
                 ('V', true) => "-V_MOORING",
                 ('V', false) => "-V_SPRINGS",
                 (_, true) => "-A_MOORING",
                 (_, false) => "-A_SPRINGS",
             };
             out.word(word, format!("deck 14, TSP{side}"), spring.span);
-            text.push_str(&springs(spring, side, tether.towed(), out));
+            text.push_str(&springs(spring, side, tether.is_towed(), out));
         }
     }
-    if tether.towed() {
+    if tether.is_towed() {
         not_of_towed(description, out);
     } else {
         text.push_str(&of_installed(description, out));
@@ -166,7 +166,7 @@ fn of_installed(description: &Description, out: &mut Script) -> String {
         text.push_str(&format!(" -LOW_STOP {}", number(out.scale.length(stop))));
     }
     for (kind, gap, span) in &description.constraints {
-        let node = constrained(description, *kind, *span, out);
+        let node = constrained_node(description, *kind, *span, out);
         text.push_str(&format!(" \\\n  -CONSTRAINT {} {node}", hold(*kind)));
         if *kind == Constraint::LateralVessel && *gap > 0.0 {
             text.push_str(&format!(" {}", number(out.scale.length(*gap))));
@@ -198,7 +198,7 @@ fn hold(kind: Constraint) -> &'static str {
 
 /// The node that a constraint holds, 1 at the anchor. The cards name none (A.14): a card between two TELM cards is taken for the node
 /// between them; else it is next to the end that its kind belongs to.
-fn constrained(description: &Description, kind: Constraint, at: Span, out: &mut Script) -> usize {
+fn constrained_node(description: &Description, kind: Constraint, at: Span, out: &mut Script) -> usize {
     let count = description.elements.len();
     let before = description.elements.iter().filter(|element| element.span.start < at.start).count();
     let card = card(kind);

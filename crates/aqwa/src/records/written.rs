@@ -40,7 +40,7 @@ fn rounded_to(value: f64, size: f64) -> f64 {
 }
 
 /// A reckoned number without what is rounding.
-pub(super) fn rounded(value: f64) -> f64 {
+pub(super) fn round_value(value: f64) -> f64 {
     rounded_to(value, value.abs())
 }
 
@@ -63,13 +63,13 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    pub(super) fn of(units: &Units) -> Self {
+    pub(super) fn from_units(units: &Units) -> Self {
         Scale { metres: units.length, kilograms: units.mass }
     }
 
     /// A number of a card times the factor of its unit; one that keeps its unit is not touched.
     fn times(value: f64, factor: f64) -> f64 {
-        if factor == 1.0 { value } else { rounded(value * factor) }
+        if factor == 1.0 { value } else { round_value(value * factor) }
     }
 
     /// Length (m).
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn each_word_of_a_record_has_the_card_it_comes_from() {
         let at = |byte: usize| Span::new(Default::default(), byte, byte + 1);
-        let mut out = Script::new(Scale::of(&Units { length: 1.0, mass: 1.0, name: "" }), "deck 0, JOB", at(0));
+        let mut out = Script::new(Scale::from_units(&Units { length: 1.0, mass: 1.0, name: "" }), "deck 0, JOB", at(0));
         out.card("deck 14, TETH", at(1));
         out.word("-B", "deck 14, TSPA", at(2));
         out.word("-C", "deck 14, TLAC", at(3));
@@ -233,7 +233,7 @@ mod tests {
     fn reckoned_numbers_have_the_digits_of_the_cards() {
         assert_eq!(difference(7.503 + 27.787 * 9.0, 7.503 + 27.787 * 8.0), 27.787);
         assert_eq!((difference(28.5, 63.6), difference(0.1 + 0.2, 0.3)), (-35.1, 0.0));
-        let scale = Scale::of(&Units { length: 1.0, mass: 1000.0, name: "" });
+        let scale = Scale::from_units(&Units { length: 1.0, mass: 1000.0, name: "" });
         assert_eq!((scale.density(7.81694), scale.density(1.025), scale.force(0.5, -1)), (7816.94, 1025.0, 0.5));
         assert_eq!((opposite(180.0), opposite(0.0), opposite(-90.0), opposite(-180.0)), (0.0, 180.0, 90.0, 0.0));
     }

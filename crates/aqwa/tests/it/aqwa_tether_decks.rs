@@ -242,7 +242,7 @@ fn the_towed_example_is_what_chapter_8_says() {
     assert_eq!(sea.form, Form::Jonswap { gamma: 5.2273, alpha: 0.01146, peak: 0.6411 });
     assert_eq!((sea.range, sea.lines, sea.direction, sea.seed), ((0.37, 2.5), 50, 180.0, 1));
     let [tether] = deck.mooring.tethers.as_slice() else { panic!() };
-    assert!(tether.towed());
+    assert!(tether.is_towed());
     assert_eq!((tether.structure.value, tether.node.value, tether.anchor.value), (1, 999, 100));
     assert_eq!(tether.springs(), [[0.5; 3]; 2]);
     assert_eq!((tether.description.impact, tether.description.lower_stop), (Some((100.0, 100.0)), Some(100.0)));
@@ -274,7 +274,7 @@ fn the_installed_example_is_what_chapter_8_says() {
     assert_eq!((deck.mooring.slack_time.unwrap().value, deck.mooring.modes.unwrap().value), (0.001, 16));
     assert_eq!(deck.mooring.tethers.len(), 4);
     for (k, tether) in (1..).zip(&deck.mooring.tethers) {
-        assert!(!tether.towed());
+        assert!(!tether.is_towed());
         assert_eq!((tether.node.value, tether.anchor.value), (1000 + 10 * k, 9000 + 10 * k));
         assert_eq!(tether.springs(), [[STIFF, 5729.578, 5729.578]; 2]);
         assert_eq!((tether.description.group, tether.description.impact), (4, Some((3e5, 2.5))));
@@ -297,24 +297,24 @@ fn attachments_lengths_and_spans_at_the_start_are_those_of_the_listings() {
     let installed = deck(&script("mint.dat"));
     let platform = &installed.structures[0];
     for (node, x, y) in [(1010, -98.63, 52.63), (1020, -98.63, -52.63), (1030, 6.63, -52.63), (1040, 6.63, 52.63)] {
-        assert!(near(installed.placed(platform, node), [x, y, -68.15]));
+        assert!(near(installed.node_position(platform, node), [x, y, -68.15]));
     }
     // POSITION OF USER-REQUESTED NODES
-    assert!(near(installed.placed(platform, 112), [6.73, 52.73, -68.15]));
+    assert!(near(installed.node_position(platform, 112), [6.73, 52.73, -68.15]));
     for tether in &installed.mooring.tethers {
         // three decimals are printed
-        assert!((installed.unstretched(tether).unwrap() - 265.406).abs() < 6e-4);
+        assert!((installed.unstretched_length(tether).unwrap() - 265.406).abs() < 6e-4);
         assert!((installed.span(tether).unwrap() - 265.599).abs() < 6e-4);
     }
     let towed = deck(&script("he01.dat"));
     let tether = &towed.mooring.tethers[0];
-    assert!(near(towed.placed(&towed.structures[0], 999), [0.0, 0.0, -0.5]));
-    assert!((towed.unstretched(tether).unwrap() - 266.486).abs() < 1e-9);
+    assert!(near(towed.node_position(&towed.structures[0], 999), [0.0, 0.0, -0.5]));
+    assert!((towed.unstretched_length(tether).unwrap() - 266.486).abs() < 1e-9);
     assert!((towed.span(tether).unwrap() - 266.486).abs() < 1e-9);
     // turned by 90 degrees about Z, then moved
     let text = edited(&script("mint.dat"), "0.000     0.000       0.0\n END15", "0.000     0.000      90.0\n END15");
     let turned = deck(&text);
-    assert!(near(turned.placed(&turned.structures[0], 112), [-98.73, 52.73, -68.15]));
+    assert!(near(turned.node_position(&turned.structures[0], 112), [-98.73, 52.73, -68.15]));
     // 8 m higher the tethers are 3 % too short
     let high = reading(&edited(&script("mint.dat"), "   -17.400", "    -9.400"));
     let said = high.messages.iter().find(|m| m.message.contains("spans")).unwrap();

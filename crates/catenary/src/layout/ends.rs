@@ -20,7 +20,7 @@ const MOST_STEPS: usize = 200;
 impl Layout<'_> {
     fn top(&self, h: Var, x: f64, z: f64, near: Option<f64>) -> Top {
         let (u, z) = (Var::parameter(x, ASIDE, 1.0), Var::parameter(z, ABOVE, 1.0));
-        Top { h, u, z, near, heap: Var::fixed(0.0), hollow: None, hold: None }
+        Top { h, u, z, near, heap: Var::constant(0.0), hollow: None, hold: None }
     }
 
     /// The least force stands for none: what hangs under it is upright but for this (m).
@@ -30,7 +30,7 @@ impl Layout<'_> {
     }
 
     /// By how much a fairlead lies below a bottom that carries the first piece (m).
-    fn buried(&self, x: f64, z: f64) -> Option<f64> {
+    fn fairlead_penetration(&self, x: f64, z: f64) -> Option<f64> {
         let first = self.elements.iter().find(|e| matches!(e, Element::Length { .. }))?;
         let by = self.bottom.elevation(x) - z;
         (first.can_rest() && by > self.fine).then_some(by)
@@ -40,7 +40,7 @@ impl Layout<'_> {
 /// The line with its fairlead `x` beside the anchor, at elevation `z`.
 pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result<State, LineError> {
     let mut layout = Layout::new(line, x, z);
-    if let Some(by) = layout.buried(x, z) {
+    if let Some(by) = layout.fairlead_penetration(x, z) {
         return Err(LineError::BelowBottom(by));
     }
     let least = layout.least;
@@ -131,7 +131,7 @@ fn heap_at_touchdown(layout: &Layout, x: f64, z: f64, without: &Laid) -> Result<
     let mut failed = None;
     let start = -without.short.value;
     rising_root(start, 0.0, |length| {
-        let top = layout.top(Var::fixed(layout.least), x, z, Some(without.top.value));
+        let top = layout.top(Var::constant(layout.least), x, z, Some(without.top.value));
         match layout.lay(&Top { heap: Var::parameter(length, FORCE, 1.0), ..top }) {
             Ok(laid) => {
                 let found = Point { value: laid.short.value, slope: laid.short.by[FORCE] };
@@ -183,7 +183,7 @@ fn beyond_hollow(layout: &Layout, [x, z]: [f64; 2], h: f64, sump: f64, above: La
     let lost = |left| LineError::NotConverged { force: h, residual: left, iterations: MOST_STEPS };
     let mut best: Option<Laid> = None;
     rising_root(0.01 * layout.length, 0.0, |length| {
-        let top = layout.top(Var::fixed(h), x, z, Some(above.top.value));
+        let top = layout.top(Var::constant(h), x, z, Some(above.top.value));
         match layout.lay(&Top { hollow: Some((sump, Var::parameter(length, FORCE, 1.0))), ..top }) {
             Ok(laid) => {
                 let found = Point { value: laid.short.value, slope: laid.short.by[FORCE] };
@@ -200,7 +200,7 @@ fn beyond_hollow(layout: &Layout, [x, z]: [f64; 2], h: f64, sump: f64, above: La
         return Err(lost(below.short.value));
     }
     // the two sides do not feel each other
-    let end = below.end.map(|v| Var::fixed(v.value));
+    let end = below.end.map(|v| Var::constant(v.value));
     Ok(Laid { short: above.short, top: above.top, end, ..below })
 }
 
@@ -215,7 +215,7 @@ pub fn at_force(line: &Line, force: f64, z: f64) -> Result<State, LineError> {
     let mut buried = f64::INFINITY;
     for _ in 0..MOST_STEPS {
         let low = sides[1].unwrap_or(f64::NEG_INFINITY);
-        if layout.buried(at, z).is_some() {
+        if layout.fairlead_penetration(at, z).is_some() {
             buried = at;
             at = if low.is_finite() { 0.5 * (low + at) } else { at - layout.length };
             continue;

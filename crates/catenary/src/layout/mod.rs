@@ -32,7 +32,7 @@ pub(super) use ends::{at_force, between_ends};
 pub(super) use states::point;
 
 use super::dual::Var;
-use super::element::{Element, linked, strain, stretch};
+use super::element::{Element, spring_reach, strain, stretch};
 use super::line::Line;
 use super::multi_segment::Pull;
 use super::profile::{Profile, Tilt};
@@ -54,9 +54,16 @@ pub(super) struct Point {
 }
 
 impl Point {
-    fn solved(self, zero: &Var) -> Point {
+    fn eliminate(self, zero: &Var) -> Point {
         let Point { element, s, u, z, h, v } = self;
-        Point { element, s: s.solved(zero), u: u.solved(zero), z: z.solved(zero), h: h.solved(zero), v: v.solved(zero) }
+        Point {
+            element,
+            s: s.eliminate(zero),
+            u: u.eliminate(zero),
+            z: z.eliminate(zero),
+            h: h.eliminate(zero),
+            v: v.eliminate(zero),
+        }
     }
 }
 
@@ -139,7 +146,7 @@ impl Laid {
     /// The line ends at a point. Where it has slid down to the anchor, only its tension from there on counts.
     fn arrive(&mut self, at: &Point) {
         if self.slid {
-            self.end = [at.h, at.v].map(|v| Var::fixed(v.value));
+            self.end = [at.h, at.v].map(|v| Var::constant(v.value));
         } else {
             (self.short, self.end) = (at.u, [at.h, at.v]);
         }
@@ -239,7 +246,7 @@ impl<'a> Layout<'a> {
                 Point { s: from.s + length, u: from.u - x, z: from.z - z, v: low, ..*from }
             }
             Some(Element::Link(law)) => {
-                let part = linked(law, h.value, v.value);
+                let part = spring_reach(law, h.value, v.value);
                 let x = Var::function(part.x, [(h, part.x_h), (v, part.x_v)]);
                 let z = Var::function(part.z, [(h, part.z_h), (v, part.z_v)]);
                 Point { u: from.u - x, z: from.z - z, ..*from }
@@ -260,7 +267,7 @@ impl<'a> Layout<'a> {
 
     /// The lift above and below the step of a joint.
     fn lifts(&self, joint: usize) -> (f64, f64) {
-        self.pulls.get(joint).map_or((0.0, 0.0), |p| (p.passed(p.steps.len()), p.lift))
+        self.pulls.get(joint).map_or((0.0, 0.0), |p| (p.lift_after(p.steps.len()), p.lift))
     }
 
     /// Lays the line.
@@ -338,7 +345,7 @@ impl<'a> Layout<'a> {
             End::Anchor(at) => laid.arrive(&at),
             End::Hollow { at, sump } => {
                 laid.short = at.u + -sump;
-                laid.end = [Var::fixed(0.0); 2];
+                laid.end = [Var::constant(0.0); 2];
             }
         }
         None
@@ -355,7 +362,7 @@ impl<'a> Layout<'a> {
         (first == 0 && gap.abs() <= self.fine).then(|| {
             let at =
                 Point { u: top.u, z: top.z, h: top.h, v: top.h * self.bottom.tilt(face).slope(), ..Point::default() };
-            Candidate { kind: Kind::Tangent(face), gap: Var::fixed(gap), at }
+            Candidate { kind: Kind::Tangent(face), gap: Var::constant(gap), at }
         })
     }
 }

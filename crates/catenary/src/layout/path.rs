@@ -1,6 +1,6 @@
 //! What lies: from the place where a span lands to the last one from which the line can leave.
 
-use super::span::{Candidate, Departure, Kind, stretched};
+use super::span::{Candidate, Departure, Kind, stretch_between};
 use super::{Laid, Layout, Manner, Point, Stretch};
 use crate::dual::{UNKNOWN, Var};
 use crate::element::{Element, mean_strain, strain};
@@ -119,7 +119,7 @@ impl Layout<'_> {
         let mut path = Path { pieces: Vec::new(), weight: 0.0, end: End::Lifted, begun: spare, spare };
         let at = landing.at;
         let cursor = match landing.kind {
-            Kind::Tangent(face) => Cursor { at, face, tension: along(self.bottom.tilt(face), &at) },
+            Kind::Tangent(face) => Cursor { at, face, tension: along_face(self.bottom.tilt(face), &at) },
             Kind::Vertex(vertex) => {
                 let (h, v) = (at.h, at.v);
                 let t = h.value.hypot(v.value);
@@ -147,8 +147,8 @@ impl Layout<'_> {
             {
                 let vertex = self.bottom.face(sump);
                 let (u, z) = self.bottom.vertex(vertex);
-                let at = Point { u: Var::fixed(u), z: Var::fixed(z), ..at };
-                let cursor = Cursor { at, face: vertex.saturating_sub(1), tension: Var::fixed(self.least) };
+                let at = Point { u: Var::constant(u), z: Var::constant(z), ..at };
+                let cursor = Cursor { at, face: vertex.saturating_sub(1), tension: Var::constant(self.least) };
                 laid.heap = Some((Heap::Hollow(sump), 0.0));
                 path.spare = Spare::Length(length);
                 path.end = End::Lifted;
@@ -159,7 +159,7 @@ impl Layout<'_> {
     }
 
     /// Whether the anchor is above the bottom.
-    fn raised(&self) -> bool {
+    fn is_anchor_raised(&self) -> bool {
         self.line.anchor > self.bottom.elevation_of(0, 0.0) + self.fine
     }
 
@@ -168,8 +168,8 @@ impl Layout<'_> {
         loop {
             let tilt = self.bottom.tilt(cursor.face);
             let Some(element) = self.elements.get(cursor.at.element) else {
-                if !self.raised() {
-                    path.end = End::Anchor(forced(&cursor, tilt));
+                if !self.is_anchor_raised() {
+                    path.end = End::Anchor(with_forces(&cursor, tilt));
                 }
                 return;
             };
@@ -187,12 +187,12 @@ impl Layout<'_> {
                     Next::Stop => return,
                 }
             } else {
-                let hung = self.hang(&forced(&cursor, tilt), Var::fixed(0.0));
+                let hung = self.hang(&with_forces(&cursor, tilt), Var::constant(0.0));
                 cursor.at = Point { h: Var::default(), v: Var::default(), ..hung };
             }
             let joint = cursor.at.element;
             if joint >= self.pulls.len() {
-                cursor.at = Point { element: joint + 1, s: Var::fixed(0.0), ..cursor.at };
+                cursor.at = Point { element: joint + 1, s: Var::constant(0.0), ..cursor.at };
                 continue;
             }
             let (above, below) = self.lifts(joint);
@@ -200,7 +200,7 @@ impl Layout<'_> {
             if lift > 0.0 {
                 return;
             }
-            let at = forced(&cursor, self.bottom.tilt(cursor.face));
+            let at = with_forces(&cursor, self.bottom.tilt(cursor.face));
             cursor = self.support(path, joint, at, cursor.face, lift);
         }
     }
@@ -217,7 +217,7 @@ impl Layout<'_> {
         path.push(weight * length.value, What::Heap { from, length });
         path.spare = spare.less(length);
         cursor.at.s = from.s + length;
-        cursor.tension = Var::fixed(self.least);
+        cursor.tension = Var::constant(self.least);
         next
     }
 
@@ -238,8 +238,8 @@ impl Layout<'_> {
             }
             path.push(0.0, What::Slide { from: cursor.at });
             path.spare = Spare::All;
-            let (u, z) = (Var::fixed(0.0), Var::fixed(self.bottom.elevation_of(0, 0.0)));
-            *cursor = Cursor { at: Point { u, z, ..cursor.at }, face: 0, tension: Var::fixed(self.least) };
+            let (u, z) = (Var::constant(0.0), Var::constant(self.bottom.elevation_of(0, 0.0)));
+            *cursor = Cursor { at: Point { u, z, ..cursor.at }, face: 0, tension: Var::constant(self.least) };
             return Next::Piece;
         }
         let mut spent = false;
@@ -257,14 +257,14 @@ impl Layout<'_> {
             };
             let mut part = (cursor.at.u.value - edge) / rate(cursor);
             for _ in 0..100 {
-                let there = self.lie(cursor, Var::fixed(part), limp);
+                let there = self.lie(cursor, Var::constant(part), limp);
                 let off = there.at.u.value - edge;
                 part = (part + off / rate(&there)).min(length.value).max(0.0);
                 if off.abs() <= self.fine {
                     break;
                 }
             }
-            let there = self.lie(cursor, Var::fixed(part), limp);
+            let there = self.lie(cursor, Var::constant(part), limp);
             let by = rate(&there);
             length = Var { value: part, by: there.at.u.by.map(|b| b / by) };
             reached = self.lie(cursor, length, limp);
@@ -276,7 +276,7 @@ impl Layout<'_> {
         if at_edge {
             let vertex = cursor.face;
             if self.bottom.is_ridge(vertex) {
-                let angle = Var::fixed(tilt.angle());
+                let angle = Var::constant(tilt.angle());
                 *cursor = self.turn(path, vertex, cursor.at, cursor.tension, angle);
             } else {
                 let bend = tilt.angle() - self.bottom.tilt(vertex.saturating_sub(1)).angle();
@@ -289,7 +289,7 @@ impl Layout<'_> {
             return Next::Piece;
         }
         if spent {
-            cursor.tension = Var::fixed(self.least);
+            cursor.tension = Var::constant(self.least);
             return Next::Piece;
         }
         Next::Joint
@@ -307,7 +307,7 @@ impl Layout<'_> {
         } else {
             let loss = segment.weight * (tilt.sin + self.friction * tilt.cos);
             let left = tension - length * loss;
-            let left = if left.value < self.least { Var::fixed(self.least) } else { left };
+            let left = if left.value < self.least { Var::constant(self.least) } else { left };
             let (mean, by) = mean_strain(segment, law.as_ref(), tension.value, left.value);
             let end = 1.0 + strain(segment, law.as_ref(), left.value).0;
             (Var::function(length.value * (1.0 + mean), [(tension, length.value * by), (length, end)]), left)
@@ -324,14 +324,14 @@ impl Layout<'_> {
     /// A joint that presses on a face, and the line beyond it along that face.
     fn support(&self, path: &mut Path, joint: usize, at: Point, face: usize, lift: f64) -> Cursor {
         let tilt = self.bottom.tilt(face);
-        let (along, normal) = turned(tilt, at.h, at.v + lift);
-        let presses = if normal.value < 0.0 { -normal } else { Var::fixed(0.0) };
+        let (along, normal) = to_face(tilt, at.h, at.v + lift);
+        let presses = if normal.value < 0.0 { -normal } else { Var::constant(0.0) };
         let pulled = along - presses * self.friction;
         let held = self.held_by_heap(path, pulled, presses);
         path.push(presses.value, What::Support { joint, at, face, along: along - held, normal: -presses, lift });
         let tension = pulled - held;
-        let tension = if tension.value <= self.least { Var::fixed(self.least) } else { tension };
-        let at = Point { element: joint + 1, s: Var::fixed(0.0), ..at };
+        let tension = if tension.value <= self.least { Var::constant(self.least) } else { tension };
+        let at = Point { element: joint + 1, s: Var::constant(0.0), ..at };
         Cursor { at, face, tension }
     }
 
@@ -349,7 +349,7 @@ impl Layout<'_> {
                 let by_left = pulled.value / all.value;
                 Var::function(pulled.value * share, [(pulled, share), (left, by_left), (all, -by_left * share)])
             }
-            _ => Var::fixed(0.0),
+            _ => Var::constant(0.0),
         }
     }
 
@@ -367,7 +367,7 @@ impl Layout<'_> {
         let share = (-self.friction * turn.value).exp();
         let left =
             Var::function(tension.value * share, [(tension, share), (turn, -self.friction * tension.value * share)]);
-        if left.value <= self.least { Var::fixed(self.least) } else { left }
+        if left.value <= self.least { Var::constant(self.least) } else { left }
     }
 
     /// Where what slides down a face comes to rest: the distance from the anchor.
@@ -388,7 +388,7 @@ impl Layout<'_> {
         let index = path.pieces.partition_point(|p| p.before <= unknown).max(1) - 1;
         let Some(piece) = path.pieces.get(index) else {
             return Departure {
-                point: Point { h: Var::fixed(f64::NAN), ..Point::default() },
+                point: Point { h: Var::constant(f64::NAN), ..Point::default() },
                 face: None,
                 piece: index,
                 unknown,
@@ -415,7 +415,7 @@ impl Layout<'_> {
                 let tension = if tension.value <= upright.value { upright } else { tension };
                 let h = tension * tilt.cos - normal * tilt.sin;
                 let v = tension * tilt.sin + normal * tilt.cos;
-                let point = Point { element: joint + 1, s: Var::fixed(0.0), h, v, ..at };
+                let point = Point { element: joint + 1, s: Var::constant(0.0), h, v, ..at };
                 Departure { point, face: Some(face), piece: index, unknown }
             }
             What::Turn { vertex, at, tension, angle } => {
@@ -430,7 +430,7 @@ impl Layout<'_> {
             }
             What::Slide { from } => Departure { point: from, face: None, piece: index, unknown },
             What::Heap { from, length, .. } => {
-                let cursor = Cursor { at: from, face: self.bottom.face(from.u.value), tension: Var::fixed(self.least) };
+                let cursor = Cursor { at: from, face: self.bottom.face(from.u.value), tension: Var::constant(self.least) };
                 let weight = self.elements[from.element].weight_per_length();
                 if weight <= 0.0 {
                     return self.departure(cursor, (index, unknown));
@@ -444,7 +444,7 @@ impl Layout<'_> {
     /// A curve that leaves a face along it.
     fn departure(&self, cursor: Cursor, (piece, unknown): (usize, f64)) -> Departure {
         let tilt = self.bottom.tilt(cursor.face);
-        Departure { point: forced(&cursor, tilt), face: Some(cursor.face), piece, unknown }
+        Departure { point: with_forces(&cursor, tilt), face: Some(cursor.face), piece, unknown }
     }
 
     /// Keeps what lies up to a departure, or all of it.
@@ -467,14 +467,14 @@ impl Layout<'_> {
                         }
                         _ => 0.0,
                     };
-                    let (at, low) = (forced(&start, tilt), forced(&low, tilt));
-                    laid.stretches.push(stretched(&at, &low, Manner::Lies { tilt, loss }));
+                    let (at, low) = (with_forces(&start, tilt), with_forces(&low, tilt));
+                    laid.stretches.push(stretch_between(&at, &low, Manner::Lies { tilt, loss }));
                 }
                 What::Support { joint, at, face, normal, lift, .. } => {
                     // the curve may leave at the joint itself, which then carries what is missing
                     let tilt = self.bottom.tilt(face);
                     let carried = here.map_or(-normal.value, |d| {
-                        let (_, q) = tilt.turned(d.h.value, d.v.value);
+                        let (_, q) = tilt.to_face(d.h.value, d.v.value);
                         (q - normal.value).clamp(0.0, (-normal.value).max(0.0))
                     });
                     self.keep_joint(joint, &at, (lift, carried), [false, false], laid);
@@ -498,21 +498,21 @@ impl Layout<'_> {
 }
 
 fn heap_stretch(from: &Point, low: &Point) -> Stretch {
-    let none = Var::fixed(0.0);
+    let none = Var::constant(0.0);
     let still = |p: &Point| Point { h: none, v: none, ..*p };
-    stretched(&still(from), &still(low), Manner::Heap)
+    stretch_between(&still(from), &still(low), Manner::Heap)
 }
 
 /// The point of a cursor with its forces.
-fn forced(cursor: &Cursor, tilt: Tilt) -> Point {
+fn with_forces(cursor: &Cursor, tilt: Tilt) -> Point {
     Point { h: cursor.tension * tilt.cos, v: cursor.tension * tilt.sin, ..cursor.at }
 }
 
-fn along(tilt: Tilt, at: &Point) -> Var {
-    turned(tilt, at.h, at.v).0
+fn along_face(tilt: Tilt, at: &Point) -> Var {
+    to_face(tilt, at.h, at.v).0
 }
 
 /// Components along and normal to a face.
-fn turned(tilt: Tilt, h: Var, v: Var) -> (Var, Var) {
+fn to_face(tilt: Tilt, h: Var, v: Var) -> (Var, Var) {
     (h * tilt.cos + v * tilt.sin, v * tilt.cos - h * tilt.sin)
 }

@@ -69,12 +69,12 @@ impl Layout<'_> {
         match origin {
             Origin::Fairlead => {
                 let v = Var::parameter(unknown, UNKNOWN, 1.0);
-                let point = Point { element: 0, s: Var::fixed(0.0), u: top.u, z: top.z, h: top.h, v };
+                let point = Point { element: 0, s: Var::constant(0.0), u: top.u, z: top.z, h: top.h, v };
                 Departure { point, face: None, piece: 0, unknown }
             }
             Origin::Held { before, .. } => {
                 let v = before.v + Var::parameter(unknown, UNKNOWN, 1.0);
-                let point = Point { element: before.element + 1, s: Var::fixed(0.0), v, ..*before };
+                let point = Point { element: before.element + 1, s: Var::constant(0.0), v, ..*before };
                 Departure { point, face: None, piece: 0, unknown }
             }
             Origin::Ground(path) => self.leave(path, unknown),
@@ -95,7 +95,7 @@ impl Layout<'_> {
             let departure = self.depart(origin, top, hold.weight);
             let landing = self.lowest(&departure, sunk);
             laid.gap = Some(landing.gap);
-            return Ok(self.landed(origin, hold.weight, departure, landing, laid));
+            return Ok(self.land_span(origin, hold.weight, departure, landing, laid));
         }
         let (mut low, mut high, mut at) = match origin {
             Origin::Fairlead => {
@@ -151,11 +151,11 @@ impl Layout<'_> {
         let Some((unknown, departure, landing)) = best else {
             return Err(LineError::NotConverged { force: top.h.value, residual: f64::NAN, iterations: steps });
         };
-        Ok(self.landed(origin, unknown, departure, landing, laid))
+        Ok(self.land_span(origin, unknown, departure, landing, laid))
     }
 
     /// The span with the numbers that keep it in touch with what it lands on.
-    fn landed(
+    fn land_span(
         &self,
         origin: &Origin,
         unknown: f64,
@@ -166,10 +166,10 @@ impl Layout<'_> {
         laid.left = laid.left.max(landing.gap.value.abs());
         let zero = landing.gap;
         if matches!(origin, Origin::Fairlead) {
-            laid.top = departure.point.v.solved(&zero);
+            laid.top = departure.point.v.eliminate(&zero);
         }
-        let departure = Departure { point: departure.point.solved(&zero), ..departure };
-        (Departure { unknown, ..departure }, Candidate { at: landing.at.solved(&zero), ..landing })
+        let departure = Departure { point: departure.point.eliminate(&zero), ..departure };
+        (Departure { unknown, ..departure }, Candidate { at: landing.at.eliminate(&zero), ..landing })
     }
 
     /// What a curve touches first when its unknown grows.
@@ -214,7 +214,7 @@ impl Layout<'_> {
             };
             let face = self.bottom.face(low.u.value);
             if pull.on_bottom && departed != Some(face) {
-                take(Candidate { kind: Kind::Joint(element), gap: self.above(&low, face), at: low });
+                take(Candidate { kind: Kind::Joint(element), gap: self.height_above_face(&low, face), at: low });
             }
             let (above, below) = self.lifts(element);
             let past = sunk.get(element).copied().unwrap_or(false);
@@ -222,7 +222,7 @@ impl Layout<'_> {
                 take(Candidate { kind: Kind::Held(element), gap: low.z + -step, at: low });
             }
             let lift = if past { below } else { above };
-            at = Point { element: element + 1, s: Var::fixed(0.0), v: low.v + lift, ..low };
+            at = Point { element: element + 1, s: Var::constant(0.0), v: low.v + lift, ..low };
             departed = departed.filter(|_| lift <= 0.0);
         }
         let line = self.bottom.tilt(0).slope();
@@ -232,7 +232,7 @@ impl Layout<'_> {
     }
 
     /// The height of a point above the plane of a face.
-    fn above(&self, at: &Point, face: usize) -> Var {
+    fn height_above_face(&self, at: &Point, face: usize) -> Var {
         let (from, z) = self.bottom.vertex(face);
         at.z - (at.u + -from) * self.bottom.tilt(face).slope() + -z
     }
@@ -249,7 +249,11 @@ impl Layout<'_> {
                     let touch = self.hang(at, s);
                     let (from, to) = self.bottom.extent(face);
                     if touch.u.value >= from && touch.u.value <= to {
-                        take(Candidate { kind: Kind::Tangent(face), gap: self.above(&touch, face), at: touch });
+                        take(Candidate {
+                            kind: Kind::Tangent(face),
+                            gap: self.height_above_face(&touch, face),
+                            at: touch,
+                        });
                     }
                 }
             }
@@ -258,7 +262,7 @@ impl Layout<'_> {
             let ahead = at.u.value - u > 64.0 * self.fine && departed != Some(face);
             if face > last && ahead && self.bottom.is_ridge(face) {
                 let reached = reach(segment, law.as_ref(), at, length, at.u.value - u);
-                let over = self.hang(at, Var::fixed(reached));
+                let over = self.hang(at, Var::constant(reached));
                 let steep = over.v.value / over.h.value;
                 let aside = over.u + -u;
                 // the point of the line that is above the vertex
@@ -299,13 +303,13 @@ impl Layout<'_> {
             let whole = element + 1 < last || matches!(to.kind, Kind::End | Kind::Joint(_) | Kind::Held(_));
             let length = if whole { -at.s + self.element_length(element) } else { to.at.s - at.s };
             let low = self.hang(&at, length);
-            laid.stretches.push(stretched(&at, &low, Manner::Hangs));
+            laid.stretches.push(stretch_between(&at, &low, Manner::Hangs));
             if element + 1 < last && element < self.pulls.len() {
                 let (above, below) = self.lifts(element);
                 let past = sunk.get(element).copied().unwrap_or(false);
                 let lift = if past { below } else { above };
                 self.keep_joint(element, &low, (lift, 0.0), [false, past], laid);
-                at = Point { element: element + 1, s: Var::fixed(0.0), v: low.v + lift, ..low };
+                at = Point { element: element + 1, s: Var::constant(0.0), v: low.v + lift, ..low };
             }
         }
         spare
@@ -326,7 +330,7 @@ impl Layout<'_> {
 }
 
 /// The stretch between two points of a piece.
-pub fn stretched(at: &Point, low: &Point, manner: Manner) -> Stretch {
+pub fn stretch_between(at: &Point, low: &Point, manner: Manner) -> Stretch {
     Stretch {
         element: at.element,
         from: at.s.value,

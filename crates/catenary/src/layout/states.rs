@@ -182,7 +182,7 @@ pub fn point(element: &Element, part: &Stretch, s: f64, x: f64, (segment, arc): 
             (part.u - reach.x, part.z - reach.z, part.h, v)
         }
         Manner::Lies { tilt, loss } => {
-            let (tension, _) = tilt.turned(part.h, part.v);
+            let (tension, _) = tilt.to_face(part.h, part.v);
             let left = (tension - loss * length).max(0.0);
             let along = length * (1.0 + mean_strain(properties, law.as_ref(), tension, left).0);
             (part.u - along * tilt.cos, part.z - along * tilt.sin, left * tilt.cos, left * tilt.sin)

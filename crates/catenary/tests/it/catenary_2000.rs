@@ -40,7 +40,7 @@ fn all_lines_agree_to_1e_8_of_the_fairlead_tension() {
     assert_eq!(cases.len(), 2000);
     let (mut worst, mut wrong, mut steps) = (0.0_f64, Vec::new(), 0);
     for c in &cases {
-        let got = match c.segment.between(c.x, c.z, c.bottom) {
+        let got = match c.segment.solve_end_forces(c.x, c.z, c.bottom) {
             Ok(got) => got,
             Err(error) => {
                 wrong.push(format!("{} {}: {error}", c.id, c.regime));
@@ -64,7 +64,7 @@ fn all_lines_agree_to_1e_8_of_the_fairlead_tension() {
 #[test]
 fn the_stiffness_is_the_difference_of_the_force() {
     for c in cases().iter().filter(|c| c.x > 0.0 && c.z != 0.0) {
-        let at = |x: f64, z: f64| c.segment.between(x, z, c.bottom).unwrap();
+        let at = |x: f64, z: f64| c.segment.solve_end_forces(x, z, c.bottom).unwrap();
         let middle = at(c.x, c.z);
         // as far as H changes by some 1e-4 of itself, so that rounding of the distances stays below
         let tension = middle.fairlead[0].hypot(middle.fairlead[1]);
@@ -88,12 +88,12 @@ fn the_stiffness_is_the_difference_of_the_force() {
 #[test]
 fn a_suspended_line_reversed_or_mirrored_has_the_same_forces() {
     for c in cases().iter().filter(|c| c.regime == "suspended" && c.bottom.is_none()) {
-        let there = c.segment.between(c.x, c.z, None).unwrap();
-        let back = c.segment.between(c.x, -c.z, None).unwrap();
+        let there = c.segment.solve_end_forces(c.x, c.z, None).unwrap();
+        let back = c.segment.solve_end_forces(c.x, -c.z, None).unwrap();
         let scale = 1e-8 * there.fairlead[0].hypot(there.fairlead[1]).max(there.anchor[1].abs());
         assert!((there.fairlead[0] - back.fairlead[0]).abs() < scale, "{}", c.id);
         assert!((there.fairlead[1] + back.anchor[1]).abs() < scale, "{}", c.id);
-        let turned = Segment { weight: -c.segment.weight, ..c.segment }.between(c.x, -c.z, None).unwrap();
+        let turned = Segment { weight: -c.segment.weight, ..c.segment }.solve_end_forces(c.x, -c.z, None).unwrap();
         assert!((there.fairlead[1] + turned.fairlead[1]).abs() < scale, "{}", c.id);
     }
 }
@@ -106,7 +106,7 @@ fn hostile_numbers_are_errors_and_never_nan() {
             for ea in values {
                 for (x, z) in values.into_iter().flat_map(|x| values.map(|z| (x, z))) {
                     for bottom in [None, Some(Bottom { friction: 0.0 }), Some(Bottom { friction: 0.7 })] {
-                        let Ok(got) = (Segment { length, weight, ea }).between(x, z, bottom) else { continue };
+                        let Ok(got) = (Segment { length, weight, ea }).solve_end_forces(x, z, bottom) else { continue };
                         let all = got.fairlead.into_iter().chain(got.anchor).chain([got.grounded]);
                         assert!(all.into_iter().all(f64::is_finite), "{length} {weight} {ea} {x} {z}: {got:?}");
                     }
@@ -119,12 +119,12 @@ fn hostile_numbers_are_errors_and_never_nan() {
 #[test]
 fn weightless_line_is_a_spring_that_only_pulls() {
     let spring = Segment { length: 100.0, weight: 0.0, ea: 1e6 };
-    let got = spring.between(60.6, 80.8, None).unwrap();
+    let got = spring.solve_end_forces(60.6, 80.8, None).unwrap();
     assert!((got.fairlead[0] - 6e3).abs() < 1e-6 && (got.fairlead[1] - 8e3).abs() < 1e-6, "{got:?}");
     for (x, z, bottom) in
         [(30.0, 40.0, None), (0.0, 40.0, None), (0.0, 0.0, None), (30.0, 40.0, Some(Bottom { friction: 0.3 }))]
     {
-        let slack = spring.between(x, z, bottom).unwrap();
+        let slack = spring.solve_end_forces(x, z, bottom).unwrap();
         assert_eq!((slack.fairlead, slack.anchor, slack.stiffness), ([0.0; 2], [0.0; 2], [[0.0; 2]; 2]), "{x} {z}");
         assert_eq!(slack.regime.name(), "weightless_slack");
     }
@@ -134,7 +134,8 @@ fn weightless_line_is_a_spring_that_only_pulls() {
 fn a_vertical_line_is_the_limit_of_a_nearly_vertical_one() {
     for (weight, z) in [(800.0, 120.0), (800.0, 101.0), (800.0, 30.0), (800.0, -45.0), (-300.0, 130.0), (0.0, 130.0)] {
         let segment = Segment { length: 100.0, weight, ea: 1e6 };
-        let (at, near) = (segment.between(0.0, z, None).unwrap(), segment.between(1e-9, z, None).unwrap());
+        let (at, near) =
+            (segment.solve_end_forces(0.0, z, None).unwrap(), segment.solve_end_forces(1e-9, z, None).unwrap());
         let scale = at.fairlead[1].abs().max(at.anchor[1].abs());
         assert!((at.fairlead[1] - near.fairlead[1]).abs() < 1e-8 * scale, "{weight} {z}: {at:?} {near:?}");
         assert!((at.anchor[1] - near.anchor[1]).abs() < 1e-8 * scale, "{weight} {z}: {at:?} {near:?}");
@@ -156,13 +157,13 @@ fn apart(a: &EndForces, b: &EndForces) -> f64 {
 fn a_followed_line_is_the_cold_one_all_along_its_path() {
     let (mut worst, mut warm) = (0.0_f64, 0);
     for c in cases() {
-        let mut last = c.segment.between(c.x, c.z, c.bottom).unwrap();
+        let mut last = c.segment.solve_end_forces(c.x, c.z, c.bottom).unwrap();
         for n in 1..=100 {
             let phase = std::f64::consts::TAU * f64::from(n) / 100.0;
             let x = (c.x + 0.01 * c.segment.length * phase.sin()).max(0.0);
             let rise = 0.005 * c.segment.length * (phase.cos() - 1.0);
             let z = if c.bottom.is_some() { (c.z + rise).max(0.0) } else { c.z + rise };
-            let cold = c.segment.between(x, z, c.bottom).unwrap();
+            let cold = c.segment.solve_end_forces(x, z, c.bottom).unwrap();
             last = c.segment.follow(x, z, c.bottom, &last).unwrap();
             assert_eq!(last.regime, cold.regime, "{} step {n}", c.id);
             assert_eq!(last.at, [x, z]);
@@ -179,7 +180,7 @@ fn a_followed_line_is_the_cold_one_all_along_its_path() {
 #[test]
 fn whatever_a_line_is_followed_from_it_comes_out_the_same() {
     let cases = cases();
-    let answers: Vec<_> = cases.iter().map(|c| c.segment.between(c.x, c.z, c.bottom).unwrap()).collect();
+    let answers: Vec<_> = cases.iter().map(|c| c.segment.solve_end_forces(c.x, c.z, c.bottom).unwrap()).collect();
     for (n, (c, answer)) in cases.iter().zip(&answers).enumerate() {
         for far in (1..40).map(|k| &answers[(n + 37 * k) % answers.len()]) {
             let spoilt = [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e300];

@@ -88,7 +88,7 @@ proptest! {
         let line = Line::new(vec![s], vec![], -depth, 0.0).unwrap();
         let state = line.at_horizontal_force(h, 0.0).unwrap();
         prop_assume!(state.x > 0.0);
-        let back = s.between(state.x, depth, Some(Bottom::default())).unwrap();
+        let back = s.solve_end_forces(state.x, depth, Some(Bottom::default())).unwrap();
         // what the rounding of the distance makes of the force
         let slack = 1e-8 * state.top_tension + 1e-15 * (s.length + depth + state.x) * back.stiffness[0][0];
         prop_assert!((back.fairlead[0] - h).abs() <= slack, "{back:?} {state:?}");
@@ -99,8 +99,8 @@ proptest! {
     #[test]
     fn forces_scale_with_weight_and_stiffness(s in segment(), x in 0.05..1.3_f64, z in -0.9..0.9_f64, by in 0.01..100.0_f64) {
         let (x, z) = (x * s.length, z * s.length);
-        let one = s.between(x, z, None).unwrap();
-        let other = Segment { weight: s.weight * by, ea: s.ea * by, ..s }.between(x, z, None).unwrap();
+        let one = s.solve_end_forces(x, z, None).unwrap();
+        let other = Segment { weight: s.weight * by, ea: s.ea * by, ..s }.solve_end_forces(x, z, None).unwrap();
         let tension = one.fairlead[0].hypot(one.fairlead[1]).max(one.anchor[1].abs());
         let slack = 1e-9 * tension + 1e-14 * s.ea;
         prop_assert!((one.fairlead[0] * by - other.fairlead[0]).abs() <= slack * by, "{one:?} {other:?}");
@@ -112,7 +112,7 @@ proptest! {
         // (H/w) sinh(w x/2H) = sqrt(L2 - z2)/2 (closed inextensible form)
         let (x, z) = (x * length, z * length);
         prop_assume!(x.hypot(z) < 0.99 * length);
-        let got = Segment { length, weight: w, ea: 1e9 * w * length }.between(x, z, None).unwrap();
+        let got = Segment { length, weight: w, ea: 1e9 * w * length }.solve_end_forces(x, z, None).unwrap();
         let a = got.fairlead[0] / w;
         let rigid = 2.0 * a * (0.5 * x / a).sinh();
         let want = ((length - z) * (length + z)).sqrt();

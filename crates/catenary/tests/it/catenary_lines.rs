@@ -43,7 +43,7 @@ fn check(pieces: usize) {
         let part = Segment { length: case.segment.length / pieces as f64, ..case.segment };
         let line = Line::new(vec![part; pieces], vec![Joint::Free; pieces - 1], 0.0, 1e4).unwrap();
         let floor = Floor { elevation: 0.0, slope: 0.0, friction: case.friction };
-        let line = line.over((!case.suspended).then_some(floor)).unwrap();
+        let line = line.with_seabed((!case.suspended).then_some(floor)).unwrap();
         match line.at_distance(case.x, case.z) {
             Ok(s) => {
                 let got = [s.force, s.top_vertical, s.anchor_horizontal, s.anchor_vertical];
@@ -244,7 +244,7 @@ fn random_lines(count: usize, slopes: f64, frictions: f64, lifts: bool, refused:
             if slopes == 0.0 && frictions == 0.0 && dice.roll() < 0.3 { dice.between(0.0, 0.8 * depth) } else { 0.0 };
         let floor = Floor { elevation: -depth, slope, friction };
         let anchor = -depth + up;
-        let line = Line::new(segments.clone(), joints.clone(), anchor, 0.0).unwrap().over(Some(floor)).unwrap();
+        let line = Line::new(segments.clone(), joints.clone(), anchor, 0.0).unwrap().with_seabed(Some(floor)).unwrap();
         let x = line.length() * dice.between(0.05, 1.1);
         let fairlead = -dice.between(0.0, 0.5) * depth;
         if fairlead < -depth + x * slope {
@@ -308,8 +308,9 @@ fn random_lines_on_a_rough_slope_with_buoys_are_in_equilibrium_or_refused() {
 fn slack_on_a_smooth_slope_hangs_on_the_anchor_or_slides_to_it() {
     let heavy = Segment { length: 600.0, weight: 1000.0, ea: 1e15 };
     let on = |slope: f64, friction: f64| Some(Floor { elevation: -100.0, slope, friction });
-    let line =
-        |slope, friction| Line::new(vec![heavy], vec![], -100.0, 0.0).unwrap().over(on(slope, friction)).unwrap();
+    let line = |slope, friction| {
+        Line::new(vec![heavy], vec![], -100.0, 0.0).unwrap().with_seabed(on(slope, friction)).unwrap()
+    };
     // deeper toward the fairlead: 130 m hang down to the foot, and hypot(300, 30) m on the anchor by w (sin - mu cos)
     for friction in [0.0, 0.04] {
         let state = line(-0.1, friction).at_distance(300.0, 0.0).unwrap();
@@ -342,7 +343,7 @@ fn slack_on_a_smooth_slope_hangs_on_the_anchor_or_slides_to_it() {
     let soft = Segment { length: 32.5, weight: 139.0, ea: 168_000.0 };
     let below = Segment { length: 138.0, weight: 12.0, ea: 540_000.0 };
     let clump = Line::new(vec![soft, below], vec![Joint::Weight(23_500.0)], -45.0, 0.0).unwrap();
-    let clump = clump.over(Some(Floor { elevation: -45.0, slope: 0.25, friction: 1.3 })).unwrap();
+    let clump = clump.with_seabed(Some(Floor { elevation: -45.0, slope: 0.25, friction: 1.3 })).unwrap();
     if let Ok(state) = clump.at_distance(28.8, 0.0) {
         assert!(state.force > -1.0, "it does not push: {state:?}");
     }
@@ -354,7 +355,7 @@ fn numbers_whose_squares_have_no_room_are_refused_and_never_answered_wrongly() {
         [(1e10, 1e10, 1e10, 1e300, 1e300), (1e300, 1e300, 1e300, 1.0, 1e9), (1.0, 1e200, 1.0, 1.0, 1.0)]
     {
         let segment = Segment { length, weight, ea };
-        assert!(segment.between(x, z, None).is_err(), "{segment:?}");
+        assert!(segment.solve_end_forces(x, z, None).is_err(), "{segment:?}");
     }
 }
 

@@ -8,7 +8,7 @@ const ROPE: Segment = Segment { length: 500.0, weight: 40.0, ea: 8e7 };
 fn mixed(slope: f64, friction: f64) -> Line {
     let floor = Floor { elevation: -250.0, slope, friction };
     let line = Line::new(vec![CHAIN, ROPE, CHAIN], vec![Joint::Weight(3e4), Joint::Weight(-6e4)], -250.0, 0.0).unwrap();
-    line.over(Some(floor)).unwrap()
+    line.with_seabed(Some(floor)).unwrap()
 }
 
 #[test]
@@ -58,7 +58,8 @@ fn a_point_of_the_line_is_that_of_its_shape() {
 #[test]
 fn springs_in_series_add_their_stretch_along_the_line() {
     // weightless and straight: T = (chord - L)/(L/EA + 1/k1 + y(T)/T)
-    let line = Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -400.0, 0.0).unwrap().over(None).unwrap();
+    let line =
+        Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -400.0, 0.0).unwrap().with_seabed(None).unwrap();
     let curve = StretchLaw::Curve(vec![(1e5, 0.5), (3e5, 1.0)]);
     let sprung = line.with_springs([Some(StretchLaw::Linear(2e5)), Some(curve)]).unwrap();
     let state = sprung.at_distance(304.5, 0.0).unwrap();
@@ -89,7 +90,8 @@ fn a_spring_at_the_fairlead_makes_a_heavy_line_softer_by_its_own_flexibility() {
 #[test]
 fn a_polynomial_stiffness_is_met_on_a_straight_line() {
     // T = (EA + k1 e + k2 e2 + k3 e3) e, secant reading
-    let line = Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -300.0, 0.0).unwrap().over(None).unwrap();
+    let line =
+        Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -300.0, 0.0).unwrap().with_seabed(None).unwrap();
     let law = StretchLaw::Polynomial { ea: 8e7, k: [2e8, 3e9, 4e10], most: 0.05 };
     let line = line.with_laws(vec![Some(law)]).unwrap();
     for strain in [0.001, 0.02, 0.05, 0.07] {
@@ -120,7 +122,8 @@ fn a_polynomial_without_coefficients_is_the_linear_law() {
 
 #[test]
 fn a_line_yields_at_its_largest_tension() {
-    let line = Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -300.0, 0.0).unwrap().over(None).unwrap();
+    let line =
+        Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -300.0, 0.0).unwrap().with_seabed(None).unwrap();
     let line = line.with_laws(vec![Some(StretchLaw::Capped { ea: 8e7, most: 1e6 })]).unwrap();
     let state = line.at_distance(600.0, 0.0).unwrap();
     assert!((state.top_tension / 1e6 - 1.0).abs() < 5e-5, "{}", state.top_tension);
@@ -144,7 +147,7 @@ fn a_pendant_longer_than_the_depth_and_a_law_that_falls_are_refused() {
     let buoy = Joint::SpringBuoy { capacity: 1e5, depth: 300.0 };
     let line = Line::new(vec![CHAIN, CHAIN], vec![buoy], -250.0, 0.0).unwrap();
     let error = line.at_distance(900.0, 0.0).unwrap_err();
-    assert_eq!(line.over(Some(Floor { elevation: -250.0, slope: 0.0, friction: 0.5 })).unwrap_err(), error);
+    assert_eq!(line.with_seabed(Some(Floor { elevation: -250.0, slope: 0.0, friction: 0.5 })).unwrap_err(), error);
     assert!(matches!(error, LineError::Pendant { segment: 1, .. }), "{error}");
     let line = Line::new(vec![CHAIN], vec![], -250.0, 0.0).unwrap();
     let falling = StretchLaw::Polynomial { ea: 1e8, k: [-5e9, 0.0, 0.0], most: 0.05 };
@@ -153,7 +156,7 @@ fn a_pendant_longer_than_the_depth_and_a_law_that_falls_are_refused() {
 
 #[test]
 fn both_stiffnesses_are_the_differences_of_the_forces_at_their_ends() {
-    let hung = Line::new(vec![CHAIN, ROPE], vec![Joint::Weight(2e4)], -150.0, 0.0).unwrap().over(None).unwrap();
+    let hung = Line::new(vec![CHAIN, ROPE], vec![Joint::Weight(2e4)], -150.0, 0.0).unwrap().with_seabed(None).unwrap();
     let lines = [
         (mixed(0.0, 0.0), 1950.0),
         (mixed(0.0, 0.3), 1970.0),

@@ -45,8 +45,9 @@ fn two_engines_agree_on_random_lines_of_every_kind() {
         }
         let segment = Segment { length, weight, ea };
         let floor = Floor { elevation: 0.0, slope: 0.0, friction };
-        let line = Line::new(vec![segment], vec![], 0.0, 1e5).unwrap().over(bottom.then_some(floor)).unwrap();
-        let (one, two) = (segment.between(x, z, bottom.then_some(Bottom { friction })), line.at_distance(x, z));
+        let line = Line::new(vec![segment], vec![], 0.0, 1e5).unwrap().with_seabed(bottom.then_some(floor)).unwrap();
+        let (one, two) =
+            (segment.solve_end_forces(x, z, bottom.then_some(Bottom { friction })), line.at_distance(x, z));
         let told = format!("{number}: {segment:?} x {x} z {z} friction {friction} bottom {bottom}");
         let (Ok(one), Ok(two)) = (&one, &two) else {
             wrong.push(format!("{told}: {one:?} {two:?}"));

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::pose::Six;
-use windlass_line_dynamics::{EndForces, EndTangent, OnSupport, SupportTangent, Twelve};
+use windlass_line_dynamics::{EndForces, EndTangent, Matrix12, SupportForce, SupportTangent};
 use windlass_model::{ClassError, Response};
 
 fn six(force: &Vector3<f64>, moment: &Vector3<f64>) -> Six {
@@ -20,7 +20,7 @@ pub(super) fn on_ends(
     for (wrench, (force, moment)) in out.wrench.iter_mut().zip(forces.force.iter().zip(&forces.moment)) {
         *wrench = six(force, moment);
     }
-    let fill = |blocks: &mut Vec<Matrix6<f64>>, whole: &Twelve| {
+    let fill = |blocks: &mut Vec<Matrix6<f64>>, whole: &Matrix12| {
         blocks.clear();
         // nalgebra goes through a view value by value, with its strides
         let block = |index: usize| Matrix6::from_fn(|i, j| -whole[(6 * (index / 2) + i, 6 * (index % 2) + j)]);
@@ -39,7 +39,7 @@ pub(super) fn on_ends(
 /// Wrenches on the supports of a pipe, and their changes where they are known.
 pub(super) fn on_supports(
     out: &mut Response,
-    loads: &[OnSupport],
+    loads: &[SupportForce],
     tangent: Option<&SupportTangent>,
 ) -> Result<(), ClassError> {
     out.clear(loads.len());

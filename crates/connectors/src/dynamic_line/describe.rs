@@ -117,7 +117,7 @@ impl Part {
     }
 
     /// Weight per length in water (N/m).
-    pub fn submerged(&self, density: f64, gravity: f64) -> f64 {
+    pub fn submerged_weight(&self, density: f64, gravity: f64) -> f64 {
         (self.segment.mass - density * self.segment.displaced) * gravity
     }
 
@@ -125,7 +125,7 @@ impl Part {
     pub fn ea(&self) -> f64 {
         match &self.segment.axial {
             Axial::Linear(ea) => *ea,
-            other => other.at(0.0).1,
+            other => other.evaluate(0.0).1,
         }
     }
 }

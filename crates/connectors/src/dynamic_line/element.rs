@@ -2,7 +2,7 @@
 
 use super::answer::{on_ends, on_supports};
 use super::environment::{Floor, Water};
-use super::mesh::{most_wound, told, wind};
+use super::mesh::{most_wound, to_class_error, wind};
 use super::pipelay_supports::{PipeLay, SupportContact};
 use super::solver_cache::{Base, Held, SolverCache};
 use super::state_layout::{Layout, StateView};
@@ -11,7 +11,9 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Six;
 use windlass_base::units::Dim;
-use windlass_line_dynamics::{self as rod, Balance, EndForces, EndTangent, Ground, Motion, Rod, State, World};
+use windlass_line_dynamics::{
+    self as rod, Balance, EndForces, EndTangent, LineEnvironment, Motion, Rod, SeabedLaw, State,
+};
 use windlass_model::{
     Ambient, ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Summary,
 };
@@ -53,52 +55,53 @@ impl DynamicLine {
             g.downcast_ref::<SolverCache>().is_some_and(|w| Arc::ptr_eq(&w.base, &self.base))
         };
         if !guess.as_ref().is_some_and(fits) {
-            *guess = Some(Box::new(SolverCache::of(&self.base)));
+            *guess = Some(Box::new(SolverCache::new(&self.base)));
         }
         guess.as_mut()?.downcast_mut::<SolverCache>()
     }
 
     /// The line's surroundings, at rest or under way, for what needs them, its tensioner having paid out so much (m); `flows` is room
     /// for what is asked of the water.
-    pub(super) fn within<T>(
+    pub(super) fn with_environment<T>(
         &self,
         (at, mean, paid): (&Situation, bool, f64),
         flows: &mut Vec<Flow>,
-        act: impl FnOnce(&World) -> T,
+        act: impl FnOnce(&LineEnvironment) -> T,
     ) -> T {
         let around = at.surroundings;
         let ambient = self.base.ambient.as_deref();
         let water = Water { ambient, around, mean, flows: RefCell::new(std::mem::take(flows)) };
-        let charted = ambient.filter(|a| a.charted());
+        let charted = ambient.filter(|a| a.has_bottom_grid());
         let floor = Floor { plane: self.base.plane, charted, flat: self.base.flat.unwrap_or(f64::NEG_INFINITY) };
         let known = self.base.plane.is_some() || self.base.flat.is_some() || charted.is_some();
-        let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
-        let felt = self.base.laid.as_ref().map(|laid| laid.felt(at.ends, around, paid)).unwrap_or_default();
+        let bottom: Option<(&dyn rod::Bottom, SeabedLaw)> = known.then_some((&floor, self.base.ground));
+        let felt = self.base.laid.as_ref().map(|laid| laid.find_contacts(at.ends, around, paid)).unwrap_or_default();
         let supports: Vec<_> = felt.iter().map(SupportContact::support).collect();
         let slam = self.base.description.slam;
-        let made = act(&World { bottom, slam, supports: &supports, ..World::new(&water, around.gravity) });
+        let made =
+            act(&LineEnvironment { bottom, slam, supports: &supports, ..LineEnvironment::new(&water, around.gravity) });
         *flows = water.flows.into_inner();
         made
     }
 
     /// What holds the ends.
-    pub(super) fn held(&self, ends: &[End], still: bool) -> Result<[rod::End; 2], ClassError> {
+    pub(super) fn end_conditions(&self, ends: &[End], still: bool) -> Result<[rod::End; 2], ClassError> {
         if let Some(laid) = &self.base.laid {
-            return Ok([rod::End::FREE, rod::End::pinned(laid.anchor)]);
+            return Ok([rod::End::FREE, rod::End::pin(laid.anchor)]);
         }
         let [first, second] = ends else { return Err(ClassError::new("a line has two ends").lasting()) };
         let made = |end: &End, hold: &Option<Held>| {
             let three = |six: &Six| Vector3::new(six[0], six[1], six[2]);
-            let mut motion = Motion::still(end.pose.origin);
+            let mut motion = Motion::at_rest(end.pose.origin);
             let mut turning = Vector3::zeros();
             if !still {
                 (motion.velocity, motion.acceleration) = (three(&end.velocity), three(&end.acceleration));
                 turning = end.velocity.fixed_rows::<3>(3).into_owned();
             }
-            let moved = rod::End::moved(motion).turning(turning);
+            let moved = rod::End::from_motion(motion).with_turning(turning);
             match hold {
                 Some((direction, stiffness)) => {
-                    rod::End { rotation: *stiffness, ..moved.clamped(end.pose.axes * direction) }
+                    rod::End { rotation: *stiffness, ..moved.with_clamp(end.pose.axes * direction) }
                 }
                 None => moved,
             }
@@ -110,7 +113,7 @@ impl DynamicLine {
 
     /// What its holders bear. An anchor on the bottom does not bear what the end of the line presses on the bottom with: the half of its
     /// last element that has its weight at the anchor's node lies beside it.
-    fn on_holders(&self, forces: EndForces, places: &[Vector3<f64>; 2], world: &World) -> EndForces {
+    fn on_holders(&self, forces: EndForces, places: &[Vector3<f64>; 2], world: &LineEnvironment) -> EndForces {
         let mut made = forces;
         let (Some((bottom, _)), false, [_, anchor]) = (&world.bottom, self.base.felt[1], places) else { return made };
         let (height, [x, y]) = bottom.height(anchor.x, anchor.y);
@@ -125,20 +128,20 @@ impl DynamicLine {
 
     /// Where it hangs at rest between ends.
     pub(super) fn rest(&self, at: &Situation, warm: &mut SolverCache) -> Result<Rest, ClassError> {
-        let ends = self.held(at.ends, true)?;
+        let ends = self.end_conditions(at.ends, true)?;
         if warm.rod != self.base.rod {
             warm.rod = self.base.rod.clone();
         }
         warm.fit();
         let places = places(at.ends);
         let SolverCache { rod, solver, rest, flows, .. } = warm;
-        self.within((at, true, 0.0), flows, |world| {
+        self.with_environment((at, true, 0.0), flows, |world| {
             if let Some((bottom, _)) = &world.bottom.filter(|_| self.base.laid.is_none()) {
                 for (place, name) in places.iter().zip(["first", "second"]) {
                     let below = bottom.height(place.x, place.y).0 - place.z;
                     if below > BELOW {
                         let text = format!("its {name} end lies {{}} below the bottom");
-                        return Err(ClassError::of(text, &[(below, Dim::Length)])
+                        return Err(ClassError::with_values(text, &[(below, Dim::Length)])
                             .help("check its points, -DEPANCHOR and -DEPTH of &ENV"));
                     }
                 }
@@ -148,10 +151,13 @@ impl DynamicLine {
                 Some((state, forces))
             });
             let (state, forces) = match beside {
-                Some(found) if !solver.slid() => found,
-                beside => match (self.afar((rod, solver), places, world, (at.surroundings, ends)), beside) {
+                Some(found) if !solver.has_slid_without_friction() => found,
+                beside => match (
+                    self.static_shape_from_catenary((rod, solver), places, world, (at.surroundings, ends)),
+                    beside,
+                ) {
                     (Err(_), Some((mut state, _))) => {
-                        let forces = solver.statics(rod, &mut state, world, ends).map_err(told)?;
+                        let forces = solver.statics(rod, &mut state, world, ends).map_err(to_class_error)?;
                         (state, forces)
                     }
                     (afar, _) => afar?,
@@ -163,7 +169,7 @@ impl DynamicLine {
     }
 
     /// The rod of a mesh other than that of `rod`.
-    pub(super) fn meshed(&self, kept: &StateView, rod: &Rod) -> Result<Option<Rod>, ClassError> {
+    pub(super) fn rod_with_mesh(&self, kept: &StateView, rod: &Rod) -> Result<Option<Rod>, ClassError> {
         let bands = &self.base.bands;
         if kept.mesh().eq(rod.each_of_mesh().map(|(rest, rate, segment)| (rest, rate, bands.part_of(segment)))) {
             return Ok(None);
@@ -176,7 +182,7 @@ impl DynamicLine {
             |a: &rod::Attachment| rod::Attachment { node: (a.node + mesh.len()).saturating_sub(before), ..*a };
         let attached = self.base.attached.iter().map(shifted).collect();
         let segments = self.base.rod.segments().to_vec();
-        Rod::with_mesh(self.base.rod.name(), segments, attached, &mesh).map(Some).map_err(told)
+        Rod::with_mesh(self.base.rod.name(), segments, attached, &mesh).map(Some).map_err(to_class_error)
     }
 
     /// Its motion as a state has it, or where it rests if it has not begun, with its rod where that is not the one it was made with;
@@ -185,11 +191,11 @@ impl DynamicLine {
         let base = &self.base.rod;
         match self.layout.read(state)? {
             Some(kept) => {
-                let other = self.meshed(&kept, base)?;
-                let state = State::unpack(other.as_ref().unwrap_or(base), kept.motion).map_err(told)?;
+                let other = self.rod_with_mesh(&kept, base)?;
+                let state = State::unpack(other.as_ref().unwrap_or(base), kept.motion).map_err(to_class_error)?;
                 Ok((other, state, at.step.is_none()))
             }
-            None => Ok((None, self.rest(at, &mut SolverCache::of(&self.base))?.state, true)),
+            None => Ok((None, self.rest(at, &mut SolverCache::new(&self.base))?.state, true)),
         }
     }
 
@@ -203,39 +209,39 @@ impl DynamicLine {
         warm: &mut SolverCache,
         out: &mut Response,
     ) -> Result<(), ClassError> {
-        let (ends, places) = (self.held(at.ends, false)?, places(at.ends));
-        if let Some(rod) = self.meshed(kept, &warm.rod)? {
+        let (ends, places) = (self.end_conditions(at.ends, false)?, places(at.ends));
+        if let Some(rod) = self.rod_with_mesh(kept, &warm.rod)? {
             warm.rod = rod;
         }
         let SolverCache { rod, state, .. } = &mut *warm;
-        state.become_unpacked(rod, kept.motion).map_err(told)?;
+        state.unpack_into(rod, kept.motion).map_err(to_class_error)?;
         state.time = time - dt;
         if dt > 0.0 {
             wind(rod, state, (self.first, self.nominal, dt), &self.base.bands)?;
         }
         warm.fit();
         let SolverCache { rod, solver, state, flows, .. } = warm;
-        let forces = self.within((at, false, kept.paid), flows, |world| {
+        let forces = self.with_environment((at, false, kept.paid), flows, |world| {
             if dt > 0.0 {
-                let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
+                let forces = solver.trial(rod, state, world, time, ends).map_err(to_class_error)?;
                 if self.base.laid.is_some() {
-                    solver.reached(state);
-                    on_supports(out, &rod.on_supports(state, world), solver.support_tangent(rod, world).as_ref())?;
+                    solver.set_accelerations(state);
+                    on_supports(out, &rod.support_forces(state, world), solver.support_tangent(rod, world).as_ref())?;
                 } else {
-                    let felt = solver.end_tangent_felt(rod, world, self.base.felt);
+                    let felt = solver.end_tangent_of_sides(rod, world, self.base.felt);
                     on_ends(out, &self.on_holders(forces, &places, world), felt, true)?;
                 }
                 Ok::<_, ClassError>(forces)
             } else {
                 // what a broken line springs back with lasts for a wave along an element, not for a step: it goes on as it moved
                 let before = self.base.freed.then(|| state.clone());
-                let forces = solver.start(rod, state, world, ends).map_err(told)?;
+                let forces = solver.start(rod, state, world, ends).map_err(to_class_error)?;
                 if let Some(before) = before {
                     state.clone_from(&before);
                 }
                 if self.base.laid.is_some() {
                     // what its supports feel does not follow their accelerations
-                    on_supports(out, &rod.on_supports(state, world), None)?;
+                    on_supports(out, &rod.support_forces(state, world), None)?;
                     return Ok(forces);
                 }
                 let mut tangent = EndTangent::default();
@@ -247,9 +253,9 @@ impl DynamicLine {
             }
         })?;
         let books = self.layout.has_books().then(|| {
-            self.within((at, false, kept.paid), flows, |world| match kept.balance {
+            self.with_environment((at, false, kept.paid), flows, |world| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
-                    solver.reached(state);
+                    solver.set_accelerations(state);
                     balance.enter(rod, state, world, solver, &forces);
                     balance
                 }
@@ -283,7 +289,7 @@ impl Element for DynamicLine {
         self.base.laid.is_some()
     }
 
-    fn under(&self, ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
+    fn with_ambient(&self, ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
         self.base.laid.as_ref()?;
         let base = Arc::new(Base { ambient: Some(ambient.clone()), ..Base::clone(&self.base) });
         Some(Box::new(DynamicLine { base, ..*self }))
@@ -333,9 +339,9 @@ impl Element for DynamicLine {
         }
         let (found, places) = (self.rest(at, warm)?, places(at.ends));
         let SolverCache { rod, solver, flows, .. } = &mut *warm;
-        self.within((at, true, 0.0), flows, |world| match self.base.laid {
+        self.with_environment((at, true, 0.0), flows, |world| match self.base.laid {
             Some(_) => {
-                let loads = rod.on_supports(&found.state, world);
+                let loads = rod.support_forces(&found.state, world);
                 on_supports(out, &loads, solver.support_tangent(rod, world).as_ref())
             }
             None => {
@@ -362,7 +368,7 @@ impl Element for DynamicLine {
         self.tell_books(state)
     }
 
-    fn along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
+    fn line_nodes(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
         self.tell_along(at, state, out)
     }
 

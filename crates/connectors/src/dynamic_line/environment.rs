@@ -3,7 +3,7 @@
 use super::describe::Seabed;
 use nalgebra::Vector3;
 use std::cell::RefCell;
-use windlass_line_dynamics::{Bottom, Fluid, FluidField, Ground, PlaneBottom, Segment, UniformFluid};
+use windlass_line_dynamics::{Bottom, FluidField, FluidState, PlaneBottom, SeabedLaw, Segment, UniformFluid};
 use windlass_model::{Ambient, Flow, Surroundings};
 
 /// How far a line presses itself into the bottom by its own weight, as a share of its diameter: what the bottom's stiffness follows
@@ -30,13 +30,13 @@ pub(super) struct Water<'a> {
 }
 
 impl FluidField for Water<'_> {
-    fn at(&self, position: &Vector3<f64>, time: f64) -> Fluid {
-        let mut found = [UniformFluid::none().0];
-        self.fill(std::slice::from_ref(position), time, &mut found);
+    fn sample(&self, position: &Vector3<f64>, time: f64) -> FluidState {
+        let mut found = [UniformFluid::vacuum().0];
+        self.sample_into(std::slice::from_ref(position), time, &mut found);
         found[0]
     }
 
-    fn fill(&self, positions: &[Vector3<f64>], time: f64, out: &mut [Fluid]) {
+    fn sample_into(&self, positions: &[Vector3<f64>], time: f64, out: &mut [FluidState]) {
         let mut flows = self.flows.borrow_mut();
         flows.clear();
         flows.resize(positions.len(), Flow::still(self.around.tide));
@@ -47,7 +47,7 @@ impl FluidField for Water<'_> {
         }
         let (density, air_density) = (self.around.water_density, self.around.air_density);
         for (out, Flow { velocity, acceleration, surface, head, wind }) in out.iter_mut().zip(flows.iter().copied()) {
-            *out = Fluid { velocity, acceleration, surface, head, density, wind, air_density };
+            *out = FluidState { velocity, acceleration, surface, head, density, wind, air_density };
         }
     }
 
@@ -55,8 +55,8 @@ impl FluidField for Water<'_> {
         self.ambient.is_none()
     }
 
-    fn interrupted(&self) -> bool {
-        self.ambient.is_some_and(|a| a.interrupted())
+    fn is_interrupted(&self) -> bool {
+        self.ambient.is_some_and(|a| a.is_interrupted())
     }
 }
 
@@ -79,17 +79,17 @@ impl Bottom for Floor<'_> {
 }
 
 /// How the bottom answers a line of these segments.
-pub(super) fn ground(seabed: &Seabed, segments: &[Segment], around: &Surroundings) -> Ground {
+pub(super) fn ground(seabed: &Seabed, segments: &[Segment], around: &Surroundings) -> SeabedLaw {
     // by the heaviest segment, so that none presses itself in deeper
     let weight = |s: &Segment| (s.mass - around.water_density * s.displaced).max(LIGHT * s.mass) * around.gravity;
     let press = |s: &Segment| weight(s) / (PRESSED * s.contact_diameter * s.contact_diameter);
     let stiffest = segments.iter().map(press).filter(|k| k.is_finite()).fold(0.0, f64::max);
     let stiffness = seabed.stiffness.unwrap_or(stiffest);
     let heavy = segments.iter().map(|s| s.mass / s.contact_diameter).filter(|m| m.is_finite()).fold(0.0, f64::max);
-    Ground {
+    SeabedLaw {
         stiffness,
         damping: seabed.damping.unwrap_or(2.0 * DAMPED * (stiffness * heavy).sqrt()),
-        soft: 0.0,
+        penetration_scale: 0.0,
         friction_along: seabed.along,
         friction_across: seabed.across.unwrap_or(seabed.along),
         friction_speed: CREEP,

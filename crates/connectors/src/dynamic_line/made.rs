@@ -3,7 +3,7 @@
 use super::describe::{Description, Part};
 use super::element::DynamicLine;
 use super::environment::ground;
-use super::mesh::{Cut, SHORT, attachments, few, mesh, told};
+use super::mesh::{Cut, SHORT, attachments, few, mesh, to_class_error};
 use super::solver_cache::{Base, Held};
 use super::start;
 use super::state_layout::Layout;
@@ -18,7 +18,7 @@ impl DynamicLine {
     ///
     /// # Errors
     /// Properties that make no rod, more elements than memory should hold, no direction for an end that is held.
-    pub fn made(description: Description, connection: &Connection) -> Result<Self, ClassError> {
+    pub fn build(description: Description, connection: &Connection) -> Result<Self, ClassError> {
         let around = connection.surroundings;
         if connection.placement.other.is_none() {
             return Err(no_other_end());
@@ -53,28 +53,29 @@ impl DynamicLine {
             }
             _ => Vec::new(),
         };
-        let cut = Cut::of(&description.parts, &lengths, ambient.as_deref(), &shape);
+        let cut = Cut::new(&description.parts, &lengths, ambient.as_deref(), &shape);
         let mut mesh = mesh(&description.parts, first);
         let counts: Vec<usize> =
             (0..description.parts.len()).map(|part| mesh.iter().filter(|e| e.2 == part).count()).collect();
         cut.bands.lay(&mut mesh);
         let attached = attachments(&description.parts, &counts, around.water_density);
         let nominal = description.parts.first().map_or(1.0, |p| p.segment.length / p.segment.elements.max(1) as f64);
-        let rod = Rod::with_mesh(&connection.connector.name, cut.segments, attached.clone(), &mesh).map_err(told)?;
+        let rod = Rod::with_mesh(&connection.connector.name, cut.segments, attached.clone(), &mesh)
+            .map_err(to_class_error)?;
         // the same however much is wound: an element at the winch is never shorter than half of those of the class
         let of_first = counts.first().copied().unwrap_or(0);
         let wound = connection.duty.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
         let capacity =
             (rod.nodes() - 1 - of_first).saturating_add(wound.map_or(of_first, |most| most.saturating_add(2)));
-        if capacity > rod::MOST_ELEMENTS {
+        if capacity > rod::MAX_ELEMENTS {
             return Err(ClassError::new(format!(
                 "its winch would make more than {} elements of it",
-                rod::MOST_ELEMENTS
+                rod::MAX_ELEMENTS
             )));
         }
         let holds = holds(&description, connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
-        let layout = Layout::new(capacity, State::packed_with(&rod, capacity), connection.duty.books);
+        let layout = Layout::new(capacity, State::packed_len_with(&rod, capacity), connection.duty.books);
         let base = Base {
             description,
             rod,

@@ -14,7 +14,7 @@ const LONG: f64 = 1.5;
 pub(super) const SHORT: f64 = 0.5;
 
 /// An error of a rod for the user, who is told its name elsewhere.
-pub(super) fn told(error: RodError) -> ClassError {
+pub(super) fn to_class_error(error: RodError) -> ClassError {
     // what a winch does to a line within a step it may do in two
     let lasting = matches!(error, RodError::Property { .. } | RodError::TooLarge { .. } | RodError::Interrupted { .. });
     let made = ClassError::new(match error {
@@ -36,7 +36,7 @@ pub(super) fn told(error: RodError) -> ClassError {
         }
         RodError::Statics { iterations, residual, element, .. } => {
             let text = format!("its rod finds no rest in {iterations} iterations: {{}} is left at element {element}");
-            return ClassError::of(text, &[(residual, Dim::Force)]);
+            return ClassError::with_values(text, &[(residual, Dim::Force)]);
         }
     });
     ClassError { lasting, ..made }
@@ -54,14 +54,14 @@ pub(super) fn few(parts: &[Part], first: f64) -> Result<(), ClassError> {
     let whole: f64 = parts.iter().map(own).sum();
     let longer = parts.first().map_or(0.0, |part| wound(part, first) - own(part));
     let most = whole.max(whole + longer);
-    if most <= rod::MOST_ELEMENTS as f64 {
+    if most <= rod::MAX_ELEMENTS as f64 {
         return Ok(());
     }
-    Err(told(RodError::TooLarge {
+    Err(to_class_error(RodError::TooLarge {
         rod: String::new(),
         elements: most as usize,
         megabytes: most * rod::BYTES_PER_ELEMENT / 1e6,
-        most: rod::MOST_ELEMENTS,
+        most: rod::MAX_ELEMENTS,
     }))
 }
 
@@ -74,7 +74,7 @@ pub(super) struct Cut {
 impl Cut {
     /// As the class says; with growth along the line, which is at `shape` when it is made, by element. The parts have these lengths (m)
     /// as they are wound.
-    pub fn of(parts: &[Part], lengths: &[f64], ambient: Option<&dyn Ambient>, shape: &[Vector3<f64>]) -> Cut {
+    pub fn new(parts: &[Part], lengths: &[f64], ambient: Option<&dyn Ambient>, shape: &[Vector3<f64>]) -> Cut {
         let mut made = Cut { segments: Vec::new(), bands: Bands::default() };
         let whole: f64 = lengths.iter().sum();
         let mut behind = whole;
@@ -205,7 +205,7 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
         };
         let height = height(&joint, density);
         // it presses itself in as deep as the line beside it, by whatever mesh
-        let beside = part.submerged(density, 1.0).max(LIGHT * part.segment.mass) / part.segment.contact_diameter;
+        let beside = part.submerged_weight(density, 1.0).max(LIGHT * part.segment.mass) / part.segment.contact_diameter;
         let bearing = (joint.mass - density * joint.volume).max(0.0) / beside;
         made.push(Attachment {
             node,
@@ -235,27 +235,27 @@ pub(super) fn wind(
     let Some((mut rest, rate, _)) = rod.each_of_mesh().next() else { return Ok(()) };
     if change.abs() <= 1e-12 * now {
         if rate != 0.0 {
-            rod.set_length(0, rest, 0.0).map_err(told)?;
+            rod.set_length(0, rest, 0.0).map_err(to_class_error)?;
         }
         return Ok(());
     }
     if change > 0.0 && rest + change > LONG * nominal {
-        rod.divide(0, state).map_err(told)?;
+        rod.divide(0, state).map_err(to_class_error)?;
         rest *= 0.5;
     }
     if change < 0.0 && rest + change < SHORT * nominal && count > 1 {
         let next = rod.each_of_mesh().nth(1).map_or(0.0, |e| e.0);
-        rod.join(0, state).map_err(told)?;
+        rod.join(0, state).map_err(to_class_error)?;
         rest += next;
     }
-    rod.set_length(0, rest + change, change / dt).map_err(told)?;
+    rod.set_length(0, rest + change, change / dt).map_err(to_class_error)?;
     if bands.several() {
         // what is wound may lie in another band than it did
         let mut mesh: Vec<_> = rod.each_of_mesh().map(|(rest, rate, at)| (rest, rate, bands.part_of(at))).collect();
         bands.lay(&mut mesh);
         if !rod.each_of_mesh().eq(mesh.iter().copied()) {
             let attached = rod.attachments().to_vec();
-            *rod = Rod::with_mesh(rod.name(), rod.segments().to_vec(), attached, &mesh).map_err(told)?;
+            *rod = Rod::with_mesh(rod.name(), rod.segments().to_vec(), attached, &mesh).map_err(to_class_error)?;
         }
     }
     Ok(())
@@ -291,7 +291,7 @@ mod tests {
         let rod = || "R".to_string();
         let step = RodError::Step { rod: rod(), time: 1.0, step: 0.1, element: 1, why: String::new() };
         let large = RodError::TooLarge { rod: rod(), elements: 1, megabytes: 1.0, most: 1 };
-        assert!(!told(step).lasting && told(large).lasting);
-        assert!(!told(RodError::Shape { rod: rod(), why: String::new() }).lasting);
+        assert!(!to_class_error(step).lasting && to_class_error(large).lasting);
+        assert!(!to_class_error(RodError::Shape { rod: rod(), why: String::new() }).lasting);
     }
 }

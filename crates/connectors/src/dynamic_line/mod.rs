@@ -22,5 +22,6 @@ mod tell;
 pub use describe::{Description, Hold, JointMass, Part, Seabed, Strength};
 pub use element::DynamicLine;
 pub use sections::{
-    AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, Flexure, ROPE, SEABED, SLAM, STRETCH, chain, description, holds, seabed,
+    AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, Flexure, ROPE, SEABED, SLAM, STRETCH, chain, description, holds,
+    parse_seabed,
 };

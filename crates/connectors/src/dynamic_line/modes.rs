@@ -1,9 +1,9 @@
 //! Natural modes of a line.
 
-use super::mesh::told;
+use super::mesh::to_class_error;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use windlass_base::dense::{DenseError, SymmetricEigen, never};
-use windlass_line_dynamics::{End, Mode, Rod, RodError, Solver, State, World};
+use windlass_line_dynamics::{End, LineEnvironment, Mode, Rod, RodError, Solver, State};
 use windlass_model::{ClassError, LineMode};
 
 /// Most modes that are found: the cost grows with the square of their number, and no one reads as many.
@@ -39,19 +39,19 @@ pub(super) fn few(nodes: usize, number: usize) -> Result<(), ClassError> {
 ///
 /// A round line that hangs straight down swings alike in all directions, and any mix of two such modes is a mode: one is
 /// told in the vertical plane of its ends and one across it, in that order.
-pub(super) fn of(
+pub(super) fn find_line_modes(
     rod: &Rod,
     solver: &mut Solver,
     state: &State,
-    world: &World,
+    world: &LineEnvironment,
     ends: [End; 2],
     number: usize,
 ) -> Result<Vec<LineMode>, ClassError> {
     // one more than asked, so that the last is told apart from its like
     let mut found = match solver.modes(rod, state, world, ends, number + 1) {
         Ok(found) => found,
-        Err(stop @ RodError::Interrupted { .. }) => return Err(told(stop)),
-        Err(_) => solver.modes(rod, state, world, ends, number).map_err(told)?,
+        Err(stop @ RodError::Interrupted { .. }) => return Err(to_class_error(stop)),
+        Err(_) => solver.modes(rod, state, world, ends, number).map_err(to_class_error)?,
     };
     let (first, last) = (state.position.first(), state.position.last());
     let chord = first.zip(last).map_or_else(Vector3::x, |(a, b)| b - a);

@@ -3,7 +3,7 @@
 use super::describe::{Description, Part};
 use super::element::DynamicLine;
 use super::environment::ground;
-use super::mesh::{Cut, few, mesh, told};
+use super::mesh::{Cut, few, mesh, to_class_error};
 use super::pipelay_supports::{Held, PipeLay, Tensioner};
 use super::solver_cache::{Base, SolverCache};
 use super::state_layout::Layout;
@@ -43,7 +43,7 @@ struct PipePath {
 
 impl PipePath {
     /// Straight from support to support; a catenary from the first to the bottom, and as much again on it.
-    fn of(part: &Part, layout: &PipeLayout, bottom: f64) -> Result<PipePath, ClassError> {
+    fn new(part: &Part, layout: &PipeLayout, bottom: f64) -> Result<PipePath, ClassError> {
         let around = layout.surroundings;
         let segment = part.grown(layout.ambient.map(|a| a.as_ref()), 0.5 * bottom);
         let weight = |density: f64| (segment.mass - density * segment.displaced) * around.gravity;
@@ -68,24 +68,26 @@ impl PipePath {
         if height <= 0.0 || in_water <= 0.0 || horizontal <= 0.0 {
             let text = "its tension of {} does not carry it to the bottom, {} below the first support, at {} in water";
             let values = [(pulled, Dim::Force), (height, Dim::Length), (in_water, Dim::ForcePerLength)];
-            return Err(ClassError::of(text, &values).help("-PIPE_TENSION needs more than weight times height"));
+            return Err(
+                ClassError::with_values(text, &values).help("-PIPE_TENSION needs more than weight times height")
+            );
         }
         let elements = |length: f64, own: f64| {
             let counted = segment.length / segment.elements as f64;
             let wanted = if segment.elements > 1 { (length / counted).ceil() } else { own };
-            wanted.clamp(1.0, rod::MOST_ELEMENTS as f64) as usize
+            wanted.clamp(1.0, rod::MAX_ELEMENTS as f64) as usize
         };
         let mut made = PipePath { points: vec![*last], at: Vec::new(), spans: Vec::new(), pulled };
         made.at.push(0);
         for pair in stations.windows(2).rev() {
             let [near, far] = pair else { continue };
-            made.to(elements((near - far).norm(), BETWEEN as f64), |s| far + (near - far) * s);
+            made.extend_to(elements((near - far).norm(), BETWEEN as f64), |s| far + (near - far) * s);
             made.at.insert(0, made.points.len() - 1);
         }
         let layer = (segment.bending / horizontal).sqrt();
         if single {
             let own = (height / layer * PER_LAYER).clamp(FREE[0], FREE[1]).ceil();
-            made.to(elements(height, own), |s| first - Vector3::z() * (height * s));
+            made.extend_to(elements(height, own), |s| first - Vector3::z() * (height * s));
             return Ok(made);
         }
         let across = Vector3::new(first.x - last.x, first.y - last.y, 0.0);
@@ -97,7 +99,7 @@ impl PipePath {
         let whole = arc + arc.max(20.0 * layer);
         let own = (whole / layer * PER_LAYER).clamp(FREE[0], FREE[1]).ceil();
         let landed = a * (arc / a).asinh();
-        made.to(elements(whole, own), |s| {
+        made.extend_to(elements(whole, own), |s| {
             let up = arc - whole * s;
             let (along, z) =
                 if up > 0.0 { (landed - a * (up / a).asinh(), a.hypot(up) - a) } else { (landed - up, 0.0) };
@@ -108,7 +110,7 @@ impl PipePath {
 
     /// Lifts what lies lower onto a bottom over a grid; the far end lies on it.
     fn settle_on(&mut self, layout: &PipeLayout) {
-        let Some(ambient) = layout.ambient.filter(|a| a.charted()) else { return };
+        let Some(ambient) = layout.ambient.filter(|a| a.has_bottom_grid()) else { return };
         let end = self.points.len().saturating_sub(1);
         for (i, point) in self.points.iter_mut().enumerate() {
             if let Some((height, _)) = ambient.bottom(point.x, point.y) {
@@ -118,7 +120,7 @@ impl PipePath {
     }
 
     /// Goes on by a span of so many elements to the points at shares of it.
-    fn to(&mut self, elements: usize, at: impl Fn(f64) -> Vector3<f64>) {
+    fn extend_to(&mut self, elements: usize, at: impl Fn(f64) -> Vector3<f64>) {
         let mut length = 0.0;
         for n in 1..=elements {
             let point = at(n as f64 / elements as f64);
@@ -134,11 +136,11 @@ impl DynamicLine {
     ///
     /// # Errors
     /// No depth, a support below the bottom, a tension too small to reach the bottom, supports along which it cannot run, no rest.
-    pub fn laid(description: Description, layout: PipeLayout) -> Result<Self, ClassError> {
+    pub fn build_pipe(description: Description, layout: PipeLayout) -> Result<Self, ClassError> {
         let PipeLayout { supports, nodes, surroundings, .. } = &layout;
-        refused(&description, &layout)?;
+        check_options(&description, &layout)?;
         let part = description.parts.first().ok_or_else(|| ClassError::new("the class has no record"))?;
-        let mut course = PipePath::of(part, &layout, bottom(&description, &layout)?)?;
+        let mut course = PipePath::new(part, &layout, bottom(&description, &layout)?)?;
         course.settle_on(&layout);
         let held = holds(&layout, &course)?;
         // a riser goes down from its roller
@@ -161,7 +163,7 @@ impl DynamicLine {
             let line = along_course(&description, part, &layout, (&course, laid))?;
             let Some(tensioner) = tensioner.as_mut().filter(|t| t.stiffness == 0.0) else { return Ok(line) };
             // it is cut where the tensioner holds it as laid
-            let rest = line.rest(&at, &mut SolverCache::of(&line.base))?.state;
+            let rest = line.rest(&at, &mut SolverCache::new(&line.base))?.state;
             let end = ends.last().zip(rest.place(0));
             let short =
                 end.map_or(0.0, |(end, x)| (end.pose.axes * turn * tensioner.along).dot(&(x - end.pose.origin)));
@@ -176,7 +178,7 @@ impl DynamicLine {
 }
 
 /// What of its class a pipe cannot have.
-fn refused(description: &Description, layout: &PipeLayout) -> Result<(), ClassError> {
+fn check_options(description: &Description, layout: &PipeLayout) -> Result<(), ClassError> {
     if description.seabed.slope.is_some_and(|s| s != 0.0) {
         let error = ClassError::new("a pipe is laid on the bottom of the environment, and its class has a -SLOPE");
         return Err(error.help("&BATHYMETRY and &ENV -BATHYMETRY make a bottom that slopes"));
@@ -197,7 +199,7 @@ fn refused(description: &Description, layout: &PipeLayout) -> Result<(), ClassEr
 /// Elevation of the bottom (m) below the support nearest to it.
 fn bottom(description: &Description, layout: &PipeLayout) -> Result<f64, ClassError> {
     let first = layout.nodes.first().map(|n| n.origin).unwrap_or_default();
-    let charted = layout.ambient.filter(|a| a.charted()).and_then(|a| a.bottom(first.x, first.y));
+    let charted = layout.ambient.filter(|a| a.has_bottom_grid()).and_then(|a| a.bottom(first.x, first.y));
     let flat = description.seabed.depth.or(layout.surroundings.depth).map(|depth| -depth);
     charted.map(|(height, _)| height).or(flat).ok_or_else(|| {
         ClassError::new("a pipe is laid on the bottom, and there is no depth").help("&ENV -DEPTH gives one")
@@ -222,12 +224,12 @@ fn along_course(
     let (elements, first) = course.spans.first().copied().unwrap_or((1, 0.0));
     let grown = if layout.ambient.is_some_and(|a| a.grows()) { course.points.as_slice() } else { &[] };
     few(&parts, first)?;
-    let cut = Cut::of(&parts, &lengths, layout.ambient.map(|a| a.as_ref()), grown);
+    let cut = Cut::new(&parts, &lengths, layout.ambient.map(|a| a.as_ref()), grown);
     let mut mesh = mesh(&parts, first);
     cut.bands.lay(&mut mesh);
-    let rod = Rod::with_mesh(layout.name, cut.segments, Vec::new(), &mesh).map_err(told)?;
+    let rod = Rod::with_mesh(layout.name, cut.segments, Vec::new(), &mesh).map_err(to_class_error)?;
     Ok(DynamicLine {
-        layout: Layout::new(rod.nodes() - 1, State::packed(&rod) + 2, layout.books),
+        layout: Layout::new(rod.nodes() - 1, State::packed_len(&rod) + 2, layout.books),
         first,
         nominal: first / elements as f64,
         base: Arc::new(Base {
@@ -252,7 +254,7 @@ fn along_course(
 fn tensioner(layout: &PipeLayout, pulled: f64) -> Result<Option<Tensioner>, ClassError> {
     let (Some(upper), [.., last]) = (layout.upper, layout.nodes.as_slice()) else { return Ok(None) };
     let along = match layout.nodes.as_slice() {
-        [first, .., _] => along(last, layout.ways.last(), &first.origin)?,
+        [first, .., _] => direction_through_support(last, layout.ways.last(), &first.origin)?,
         _ => Vector3::x(),
     };
     Ok(Some(Tensioner { along, at: 0.0, tension: [pulled, layout.lower, upper], stiffness: 0.0 }))
@@ -263,14 +265,20 @@ fn holds(layout: &PipeLayout, course: &PipePath) -> Result<Vec<Held>, ClassError
     let last = layout.nodes.len().saturating_sub(1);
     let of =
         |(i, (node, at)): (usize, (&Pose, &usize))| match layout.nodes.get(i + 1).filter(|_| layout.upper.is_some()) {
-            Some(next) if i < last => Ok(Held::Crossing(-along(node, layout.ways.get(i), &next.origin)?)),
+            Some(next) if i < last => {
+                Ok(Held::Crossing(-direction_through_support(node, layout.ways.get(i), &next.origin)?))
+            }
             _ => Ok(Held::Node(*at)),
         };
     layout.nodes.iter().zip(&course.at).enumerate().map(of).collect()
 }
 
 /// The way of a pipe through a support, in the axes of its node: along the X axis of its law, toward a place.
-fn along(node: &Pose, x: Option<&Vector3<f64>>, place: &Vector3<f64>) -> Result<Vector3<f64>, ClassError> {
+fn direction_through_support(
+    node: &Pose,
+    x: Option<&Vector3<f64>>,
+    place: &Vector3<f64>,
+) -> Result<Vector3<f64>, ClassError> {
     let x = x.copied().unwrap_or_else(Vector3::x);
     let way = (place - node.origin).try_normalize(1e-9).map_or(0.0, |way| way.dot(&(node.axes * x)));
     if way.abs() < MOST_ASIDE {

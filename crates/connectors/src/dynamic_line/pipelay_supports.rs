@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Pose;
-use windlass_line_dynamics::{Grip, Gripped, Holds, Support};
+use windlass_line_dynamics::{Support, SupportLaw, SupportReaction, SupportTarget};
 use windlass_model::{Element, End, Response, Situation, Surroundings};
 
 /// What a pipe lies on.
@@ -50,19 +50,19 @@ impl Tensioner {
     /// Tension (N), by how far along the end is from its node (m), and its slope (N/m), after it has paid out so much (m).
     fn tension(&self, along: f64, paid: f64) -> (f64, f64) {
         let [_, least, most] = self.tension;
-        let free = self.braked(along, paid);
+        let free = self.braked_tension(along, paid);
         let tension = free.clamp(least, most);
         (tension, if tension == free { self.stiffness } else { 0.0 })
     }
 
     /// Tension (N) if its brake held.
-    fn braked(&self, along: f64, paid: f64) -> f64 {
+    fn braked_tension(&self, along: f64, paid: f64) -> f64 {
         self.tension[0] + self.stiffness * (along - self.at - paid)
     }
 
     /// What it has paid out (m) at the end of a step in which the end has come there along: it takes hold anew where it is.
     fn pays(&self, along: f64, paid: f64) -> f64 {
-        let beyond = self.braked(along, paid) - self.tension(along, paid).0;
+        let beyond = self.braked_tension(along, paid) - self.tension(along, paid).0;
         if beyond == 0.0 { paid } else { paid + beyond / self.stiffness }
     }
 }
@@ -81,14 +81,14 @@ pub(super) struct SupportContact<'a> {
     room: RefCell<Response>,
 }
 
-impl Grip for SupportContact<'_> {
-    fn answer(&self, at: &Vector3<f64>, _: &Vector3<f64>) -> Option<Gripped> {
+impl SupportLaw for SupportContact<'_> {
+    fn reaction(&self, at: &Vector3<f64>, _: &Vector3<f64>) -> Option<SupportReaction> {
         let Pose { origin, axes } = self.pose;
         let ends = [End::still(self.pose), End::still(Pose { origin: origin + at, axes })];
         let situation = Situation { ends: &ends, step: None, surroundings: self.around };
         let mut out = self.room.borrow_mut();
         let found = self.law.evaluate(&situation, &[], &mut [], &mut None, &mut out);
-        let mut made = Gripped::default();
+        let mut made = SupportReaction::default();
         match (found, out.wrench.get(1), out.stiffness.get(3)) {
             (Ok(()), Some(wrench), Some(block)) => {
                 made.force = wrench.fixed_rows::<3>(0).into_owned();
@@ -103,7 +103,7 @@ impl Grip for SupportContact<'_> {
             made.force -= along * tension;
             made.by_position += along * along.transpose() * slope;
         }
-        (made != Gripped::default()).then_some(made)
+        (made != SupportReaction::default()).then_some(made)
     }
 }
 
@@ -111,10 +111,10 @@ impl SupportContact<'_> {
     pub fn support(&self) -> Support<'_> {
         let Pose { origin, axes } = self.pose;
         let holds = match self.holds {
-            Held::Node(node) => Holds::Node(node),
-            Held::Crossing(along) => Holds::Crossing(axes * along),
+            Held::Node(node) => SupportTarget::Node(node),
+            Held::Crossing(along) => SupportTarget::Crossing(axes * along),
         };
-        Support { place: origin, velocity: self.velocity, holds, grip: self }
+        Support { place: origin, velocity: self.velocity, target: holds, law: self }
     }
 }
 
@@ -132,7 +132,12 @@ impl PipeLay {
     }
 
     /// The supports where their ends are, its tensioner having paid out so much (m).
-    pub fn felt<'a>(&'a self, ends: &'a [End], around: &'a Surroundings, paid: f64) -> Vec<SupportContact<'a>> {
+    pub fn find_contacts<'a>(
+        &'a self,
+        ends: &'a [End],
+        around: &'a Surroundings,
+        paid: f64,
+    ) -> Vec<SupportContact<'a>> {
         let last = self.supports.len().saturating_sub(1);
         let laws = self.supports.iter().zip(&self.holds).enumerate();
         laws.zip(ends)

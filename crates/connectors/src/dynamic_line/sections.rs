@@ -207,7 +207,7 @@ impl Flexure {
 
     /// Tension over strain at no strain (N).
     pub fn ea(&self) -> f64 {
-        self.axial.at(0.0).1
+        self.axial.evaluate(0.0).1
     }
 
     /// What `-CLUMP` attaches: a weight in water without volume, or a buoy without mass on its pendant.
@@ -260,7 +260,7 @@ impl Flexure {
 fn rope(args: &Args, slow: Axial) -> Outcome<Axial> {
     let Some(given) = args.option_if_declared(&ROPE) else { return Ok(slow) };
     let fast = given.numbers_or_zero(const { ROPE.numbers(["EAD", "B"]) });
-    let stiffest = slow.at(0.0).1;
+    let stiffest = slow.evaluate(0.0).1;
     if fast[0] <= stiffest {
         return Err(Diagnostic::error("the dynamic stiffness EAD must be larger than the static one", given.span)
             .help("-EA K1 or -STRETCH gives the static stiffness of the rope; without them it is that of OD and T"));
@@ -306,7 +306,7 @@ fn law(args: &Args, ea: f64) -> Outcome<Axial> {
 }
 
 /// The bottom under a line, of its options.
-pub fn seabed(options: &PerLineOptions) -> Seabed {
+pub fn parse_seabed(options: &PerLineOptions) -> Seabed {
     let own = options.option(&SEABED);
     Seabed {
         stiffness: own.and_then(|given| given.number(const { SEABED.number("K") })),

@@ -5,7 +5,7 @@ use super::mesh::Bands;
 use super::pipelay_supports::PipeLay;
 use nalgebra::Vector3;
 use std::sync::Arc;
-use windlass_line_dynamics::{self as rod, Ground, PlaneBottom, Rod, Settings, Solver, State};
+use windlass_line_dynamics::{self as rod, PlaneBottom, Rod, SeabedLaw, Settings, Solver, State};
 use windlass_model::{Ambient, Flow, SchemeWeights};
 
 /// How often a rod halves a step of the run by itself, before the run halves its own.
@@ -26,7 +26,7 @@ pub(super) struct Base {
     pub plane: Option<PlaneBottom>,
     /// Elevation of a flat bottom (m), where one is known.
     pub flat: Option<f64>,
-    pub ground: Ground,
+    pub ground: SeabedLaw,
     /// Direction in which each end is held, in the axes of what holds it, and the stiffness of that.
     pub holds: [Option<Held>; 2],
     /// Whether the first end is let go.
@@ -55,7 +55,7 @@ pub(super) struct SolverCache {
 }
 
 impl SolverCache {
-    pub fn of(base: &Arc<Base>) -> Self {
+    pub fn new(base: &Arc<Base>) -> Self {
         let rod = base.rod.clone();
         let (state, flows) = (State::default(), Vec::new());
         let nodes = rod.nodes();
@@ -81,12 +81,12 @@ fn solver_of(base: &Base, rod: &Rod) -> Solver {
 mod tests {
     use super::*;
     use crate::dynamic_line::{Seabed, description};
-    use windlass_line_dynamics::{End, Segment, UniformFluid, World};
+    use windlass_line_dynamics::{End, LineEnvironment, Segment, UniformFluid};
 
     #[test]
     fn a_solver_lasts_while_a_winch_changes_lengths_alone() {
         let rod = Rod::new("R", vec![Segment::line(10.0, 5, 10.0, 1e6, 0.1)], vec![]).unwrap();
-        let ground = Ground::elastic(0.0);
+        let ground = SeabedLaw::elastic(0.0);
         let base = Base {
             description: description("ROD", vec![], Seabed::default(), [None, None]),
             rod: rod.clone(),
@@ -102,12 +102,12 @@ mod tests {
             felt: [true; 2],
             laid: None,
         };
-        let mut warm = SolverCache::of(&Arc::new(base));
-        let fluid = UniformFluid::none();
-        let world = World::new(&fluid, 9.81);
+        let mut warm = SolverCache::new(&Arc::new(base));
+        let fluid = UniformFluid::vacuum();
+        let world = LineEnvironment::new(&fluid, 9.81);
         let ends = [Vector3::zeros(), Vector3::new(8.0, 0.0, 0.0)];
-        let mut state = State::along(&rod, &ends).unwrap();
-        warm.solver.statics(&rod, &mut state, &world, ends.map(End::pinned)).unwrap();
+        let mut state = State::along_points(&rod, &ends).unwrap();
+        warm.solver.statics(&rod, &mut state, &world, ends.map(End::pin)).unwrap();
         warm.rod.set_length(0, 2.5, 0.5).unwrap();
         warm.fit();
         assert!(warm.solver.end_tangent(&rod, &world).is_some());

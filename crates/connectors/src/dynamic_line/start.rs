@@ -61,7 +61,7 @@ fn catenary(
     floor: Floor,
     around: &Surroundings,
 ) -> Option<Vec<Vector3<f64>>> {
-    let weight = |p: &Part| p.submerged(around.water_density, around.gravity);
+    let weight = |p: &Part| p.submerged_weight(around.water_density, around.gravity);
     let mut segments: Vec<_> =
         parts.iter().zip(lengths).map(|(p, l)| Segment { length: *l, weight: weight(p), ea: p.ea() }).collect();
     let joint = |p: &Part| {
@@ -87,7 +87,7 @@ fn catenary(
         let slope = -Vector3::new(plane.slope[0], plane.slope[1], 0.0).dot(&toward);
         catenary::Floor { elevation: to.z, slope, friction }
     });
-    let line = Line::new(segments, joints, to.z, around.tide).ok()?.over(floor).ok()?;
+    let line = Line::new(segments, joints, to.z, around.tide).ok()?.with_seabed(floor).ok()?;
     let state = line.at_distance(distance, from.z).ok()?;
     let shape = line.shape(&state, BETWEEN);
     let mut points: Vec<_> = shape.iter().map(|p| Vector3::new(from.x, from.y, p.z) + toward * p.x).collect();
@@ -106,7 +106,8 @@ fn bow(
     parts: &[Part],
     around: &Surroundings,
 ) -> Vec<Vector3<f64>> {
-    let weight: f64 = parts.iter().map(|p| p.submerged(around.water_density, around.gravity) * p.segment.length).sum();
+    let weight: f64 =
+        parts.iter().map(|p| p.submerged_weight(around.water_density, around.gravity) * p.segment.length).sum();
     let side = if weight < 0.0 { 1.0 } else { -1.0 };
     let shape = |sag: f64| -> Vec<Vector3<f64>> {
         (0..=ROUGH)

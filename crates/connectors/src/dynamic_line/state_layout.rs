@@ -51,7 +51,7 @@ const EACH: usize = 3;
 impl Layout {
     /// That of a line of so many elements at most; `motion` values are those of a mesh of so many.
     pub fn new(elements: usize, motion: usize, books: bool) -> Self {
-        Layout { elements, motion, books: if books { Balance::NUMBERS } else { 0 } }
+        Layout { elements, motion, books: if books { Balance::PACKED_LEN } else { 0 } }
     }
 
     /// Values of a state.

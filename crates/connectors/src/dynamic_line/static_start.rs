@@ -1,10 +1,10 @@
 //! Where a line rests that has not rested near there before.
 
 use super::element::DynamicLine;
-use super::mesh::told;
+use super::mesh::to_class_error;
 use super::start;
 use nalgebra::Vector3;
-use windlass_line_dynamics::{Bottom, End, EndForces, PlaneBottom, Rod, Solver, State, World};
+use windlass_line_dynamics::{Bottom, End, EndForces, LineEnvironment, PlaneBottom, Rod, Solver, State};
 use windlass_model::{ClassError, Surroundings};
 
 /// First and least share by which a bottom goes over from a plane to what it is.
@@ -28,11 +28,11 @@ impl Bottom for Between<'_> {
 
 impl DynamicLine {
     /// Where it comes to rest from its catenary, from a bow in the plane of its ends, or from one aside of that.
-    pub(super) fn afar(
+    pub(super) fn static_shape_from_catenary(
         &self,
         (rod, solver): (&Rod, &mut Solver),
         places: [Vector3<f64>; 2],
-        world: &World,
+        world: &LineEnvironment,
         (around, ends): (&Surroundings, [End; 2]),
     ) -> Result<(State, EndForces), ClassError> {
         let mut from = |aside: bool| {
@@ -41,12 +41,12 @@ impl DynamicLine {
                 Some(laid) => laid,
                 None => {
                     let mut state = self.fallen(places, world, around, aside)?;
-                    solver.statics(rod, &mut state, world, ends).map_err(told)?;
+                    solver.statics(rod, &mut state, world, ends).map_err(to_class_error)?;
                     state
                 }
             };
             // how softly it meets the bottom is known where it rests first
-            let forces = solver.statics(rod, &mut state, world, ends).map_err(told)?;
+            let forces = solver.statics(rod, &mut state, world, ends).map_err(to_class_error)?;
             Ok((state, forces))
         };
         // slack pipe would fold in the plane of its ends: it lies down sideways
@@ -61,12 +61,12 @@ impl DynamicLine {
     fn fallen(
         &self,
         places: [Vector3<f64>; 2],
-        world: &World,
+        world: &LineEnvironment,
         around: &Surroundings,
         aside: bool,
     ) -> Result<State, ClassError> {
         if let Some(laid) = &self.base.laid {
-            return State::along(&self.base.rod, &laid.shape).map_err(told);
+            return State::along_points(&self.base.rod, &laid.shape).map_err(to_class_error);
         }
         let parts = &self.base.description.parts;
         let mut lengths: Vec<f64> = parts.iter().map(|p| p.segment.length).collect();
@@ -78,7 +78,7 @@ impl DynamicLine {
         if aside {
             start::bow_aside(&mut points, places, lengths.iter().sum());
         }
-        State::along(&self.base.rod, &points).map_err(told)
+        State::along_points(&self.base.rod, &points).map_err(to_class_error)
     }
 
     /// Where it rests by friction on a bottom over a grid: laid on a plane, where its catenary is known, which then takes the shape of the
@@ -87,14 +87,18 @@ impl DynamicLine {
         &self,
         (rod, solver): (&Rod, &mut Solver),
         places: [Vector3<f64>; 2],
-        world: &World,
+        world: &LineEnvironment,
         (around, ends): (&Surroundings, [End; 2]),
     ) -> Option<State> {
         let (other, ground) = world.bottom.filter(|(_, ground)| ground.rough())?;
-        self.base.ambient.as_ref().filter(|a| a.charted() && self.base.plane.is_none() && self.base.laid.is_none())?;
+        self.base
+            .ambient
+            .as_ref()
+            .filter(|a| a.has_bottom_grid() && self.base.plane.is_none() && self.base.laid.is_none())?;
         let (plane, _) = start::plane(places, other)?;
         let last = rod.nodes() - 1;
-        let mut state = self.fallen(places, &World { bottom: Some((&plane, ground)), ..*world }, around, false).ok()?;
+        let mut state =
+            self.fallen(places, &LineEnvironment { bottom: Some((&plane, ground)), ..*world }, around, false).ok()?;
         let (mut share, mut step) = (0.0, FIRST);
         let mut to = share;
         while share < 1.0 {
@@ -105,8 +109,8 @@ impl DynamicLine {
                 let place = *x + origin;
                 x.z += bottom.height(place.x, place.y).0 - before.height(place.x, place.y).0;
             }
-            let world = World { bottom: Some((&bottom, ground)), ..*world };
-            if solver.statics_beside(rod, &mut next, &world, ends).ok()?.is_some() {
+            let world = LineEnvironment { bottom: Some((&bottom, ground)), ..*world };
+            if solver.statics_with_friction(rod, &mut next, &world, ends).ok()?.is_some() {
                 (state, share) = (next, to);
             } else if step < LEAST || to == 0.0 {
                 return None;

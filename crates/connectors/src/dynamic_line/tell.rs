@@ -2,7 +2,7 @@
 
 use super::describe::Part;
 use super::element::DynamicLine;
-use super::mesh::told;
+use super::mesh::to_class_error;
 use super::modes;
 use super::solver_cache::SolverCache;
 use std::f64::consts::PI;
@@ -29,8 +29,8 @@ impl DynamicLine {
         let paid = self.layout.paid(state);
         let (other, state, still) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
-        let ends = self.held(at.ends, still)?;
-        *out = self.within((at, still, paid), &mut Vec::new(), |world| rod.results(&state, world, &ends));
+        let ends = self.end_conditions(at.ends, still)?;
+        *out = self.with_environment((at, still, paid), &mut Vec::new(), |world| rod.results(&state, world, &ends));
         // the class speaks of its records, of which a rod may have several segments, and a pipe all of the first
         let record = |segment| if self.base.laid.is_some() { 0 } else { self.base.bands.part_of(segment) };
         for node in out {
@@ -52,13 +52,13 @@ impl DynamicLine {
         let (Some(kept), Some(warm)) = (self.layout.read(state)?, self.warm(guess)) else {
             return self.tell_along(at, state, out);
         };
-        if self.meshed(&kept, &warm.rod)?.is_some() {
+        if self.rod_with_mesh(&kept, &warm.rod)?.is_some() {
             return self.tell_along(at, state, out);
         }
-        let ends = self.held(at.ends, at.step.is_none())?;
+        let ends = self.end_conditions(at.ends, at.step.is_none())?;
         let SolverCache { rod, state, flows, .. } = warm;
-        state.become_unpacked(rod, kept.motion).map_err(told)?;
-        self.within((at, at.step.is_none(), kept.paid), flows, |world| rod.row(state, world, &ends, out));
+        state.unpack_into(rod, kept.motion).map_err(to_class_error)?;
+        self.with_environment((at, at.step.is_none(), kept.paid), flows, |world| rod.row(state, world, &ends, out));
         Ok(())
     }
 
@@ -67,9 +67,11 @@ impl DynamicLine {
         let paid = self.layout.paid(state);
         let (other, state, _) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
-        let ends = self.held(at.ends, true)?;
+        let ends = self.end_conditions(at.ends, true)?;
         let mut solver = Solver::new(rod, Settings::default());
-        self.within((at, true, paid), &mut Vec::new(), |world| modes::of(rod, &mut solver, &state, world, ends, number))
+        self.with_environment((at, true, paid), &mut Vec::new(), |world| {
+            modes::find_line_modes(rod, &mut solver, &state, world, ends, number)
+        })
     }
 
     /// What is said where it rests without the friction that the bottom has.
@@ -77,8 +79,8 @@ impl DynamicLine {
         if !self.base.ground.rough() {
             return None;
         }
-        let mut warm = SolverCache::of(&self.base);
-        let slid = self.rest(at, &mut warm).is_ok() && warm.solver.slid();
+        let mut warm = SolverCache::new(&self.base);
+        let slid = self.rest(at, &mut warm).is_ok() && warm.solver.has_slid_without_friction();
         slid.then_some(
             "friction of the bottom at rest is left out, but against sliding down a slope: no rest was found with it",
         )

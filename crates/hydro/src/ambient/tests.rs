@@ -31,7 +31,7 @@ fn curve(model: &mut Model, name: &str, kind: CurveKind, points: &[(f64, f64)]) 
 }
 
 fn of(model: &Model) -> (Arc<dyn Ambient>, Option<Arc<Sea>>) {
-    let sea = Sea::of(model, &model.environment).unwrap().map(Arc::new);
+    let sea = Sea::new(model, &model.environment).unwrap().map(Arc::new);
     (ambient(model, sea.as_ref()).unwrap(), sea)
 }
 

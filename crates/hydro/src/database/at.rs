@@ -12,7 +12,7 @@ pub const WIDEST_GAP: f64 = std::f64::consts::FRAC_PI_2 + 1e-6;
 pub(super) type Between = (usize, usize, f64);
 
 /// The neighbours of a frequency in a list that grows; the ends hold beyond it.
-pub(super) fn between(list: &[f64], at: f64) -> Between {
+pub(super) fn bracket_frequency(list: &[f64], at: f64) -> Between {
     let next = list.partition_point(|w| *w <= at);
     match (next.checked_sub(1), list.get(next)) {
         (Some(low), Some(high)) => {
@@ -28,7 +28,7 @@ pub(super) fn between(list: &[f64], at: f64) -> Between {
 ///
 /// # Errors
 /// No headings; a gap wider than [`WIDEST_GAP`] around the heading.
-pub(super) fn around(headings: &[f64], heading: f64) -> Result<Between, ClassError> {
+pub(super) fn bracket_heading(headings: &[f64], heading: f64) -> Result<Between, ClassError> {
     let turn = heading.rem_euclid(TAU);
     if !turn.is_finite() {
         return Err(ClassError::new("the heading is no number"));
@@ -94,7 +94,7 @@ impl DatabaseLookup for Database {
             (true, _, Some(zero), _) => zero + (low - zero) * (frequency.max(0.0) / first),
             // as 1/w2, with which added mass goes to its limit
             (_, true, _, Some(infinite)) => infinite + (high - infinite) * (last / frequency).powi(2),
-            _ => mixed(&self.added_mass, between(&self.frequencies, frequency))?,
+            _ => interpolate_matrix(&self.added_mass, bracket_frequency(&self.frequencies, frequency))?,
         };
         Some(moved_matrix(&about_reference, self.reference))
     }
@@ -108,7 +108,7 @@ impl DatabaseLookup for Database {
         } else {
             1.0
         };
-        let damping = mixed(&self.damping, between(&self.frequencies, frequency))? * factor;
+        let damping = interpolate_matrix(&self.damping, bracket_frequency(&self.frequencies, frequency))? * factor;
         Some(moved_matrix(&damping, self.reference))
     }
 
@@ -148,8 +148,8 @@ fn phase_shift(data: &Database, heading: f64, frequency: f64) -> Result<Complex<
 /// # Errors
 /// A heading in a gap wider than 90 degrees.
 pub fn drift_at(table: &DriftTable, heading: f64, frequency: f64) -> Result<[f64; 6], ClassError> {
-    let (a, b, by_heading) = around(&table.headings, heading)?;
-    let (i, j, by_frequency) = between(&table.frequencies, frequency);
+    let (a, b, by_heading) = bracket_heading(&table.headings, heading)?;
+    let (i, j, by_frequency) = bracket_frequency(&table.frequencies, frequency);
     let cell = |h: usize, f: usize| table.values[h][f];
     let line = |h: usize| {
         let (low, high) = (cell(h, i), cell(h, j));
@@ -160,7 +160,7 @@ pub fn drift_at(table: &DriftTable, heading: f64, frequency: f64) -> Result<[f64
 }
 
 /// A matrix between two of a list.
-fn mixed(list: &[Matrix6<f64>], (low, high, share): Between) -> Option<Matrix6<f64>> {
+fn interpolate_matrix(list: &[Matrix6<f64>], (low, high, share): Between) -> Option<Matrix6<f64>> {
     let (a, b) = (list.get(low)?, list.get(high)?);
     Some(a + (b - a) * share)
 }
@@ -172,8 +172,8 @@ fn amplitudes_at(
     heading: f64,
     frequency: f64,
 ) -> Result<Amplitudes, ClassError> {
-    let (a, b, by_heading) = around(headings, heading)?;
-    let (i, j, by_frequency) = between(frequencies, frequency);
+    let (a, b, by_heading) = bracket_heading(headings, heading)?;
+    let (i, j, by_frequency) = bracket_frequency(frequencies, frequency);
     let fade = match frequencies.last() {
         Some(last) if frequency > *last => last / frequency,
         _ => 1.0,
@@ -194,5 +194,5 @@ pub(super) fn moved_force([x, y, z, mx, my, mz]: Amplitudes, arm: Vector3<f64>) 
 
 /// A matrix about a point as one about the origin that `arm` leads from.
 pub(super) fn moved_matrix(about: &Matrix6<f64>, arm: Vector3<f64>) -> Matrix6<f64> {
-    super::super::transferred(about, arm, arm)
+    super::super::move_stiffness(about, arm, arm)
 }

@@ -8,7 +8,7 @@ use crate::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::low_frequency::{LowFrequency, Slow, dividing_period};
 use crate::sea::Sea;
 use crate::steady::Steady;
-use crate::{Category, Load, in_pose, transferred};
+use crate::{Category, Load, in_pose, move_stiffness};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
@@ -257,7 +257,7 @@ impl BodyLoad for AddedMassLoad {
 ///
 /// # Errors
 /// A database that lacks what is asked of it; a body whose buoyancy would count twice.
-pub fn of(
+pub fn gather_database_loads(
     model: &Model,
     body: &Body,
     under_way: Option<Option<&Arc<Sea>>>,
@@ -274,7 +274,7 @@ pub fn of(
     if under_way.is_some() && *damping != Matrix6::zeros() {
         carried.push(Box::new(DampingLoad { damping: std::mem::take(damping), linear }));
     }
-    if let Some(radiation) = Radiation::of(data)? {
+    if let Some(radiation) = Radiation::new(data)? {
         let infinite = radiation.infinite;
         if under_way.is_none() {
             added_mass = infinite;
@@ -293,7 +293,7 @@ pub fn of(
     match under_way {
         Some(Some(sea)) => {
             if !data.excitation.is_empty() {
-                loads.push(Box::new(Excitation::of(data, sea)?.with_dividing_period(dividing)));
+                loads.push(Box::new(Excitation::new(data, sea)?.with_dividing_period(dividing)));
             }
             loads.extend(slow(attached, sea)?.map(|l| Box::new(l) as Box<dyn BodyLoad>));
         }
@@ -302,7 +302,7 @@ pub fn of(
     }
     let loads = loads.into_iter().map(|load| {
         let factor = model.multipliers.of(load.category().name(), &body.name);
-        if factor == 1.0 { load } else { crate::gathered::multiplied(load, factor) }
+        if factor == 1.0 { load } else { crate::gathered::scale_load(load, factor) }
     });
     Ok(Some(DatabaseLoads { loads: loads.chain(carried).collect(), added_mass }))
 }
@@ -319,7 +319,7 @@ fn drift_once(model: &Model, body: &Body, attached: &AttachedDatabase) -> Result
         Some(load) => {
             let text = format!("{} has #DRIFT besides the drift of its database ({})", body.name, data.source);
             Err(ClassError::new(text)
-                .at(load.span)
+                .with_span(load.span)
                 .help("the drift would count twice: leave out #DRIFT, or give DATABASE -DRIFT NONE"))
         }
     }
@@ -350,7 +350,7 @@ fn slow(attached: &AttachedDatabase, sea: &Arc<Sea>) -> Result<Option<SlowDrift>
 fn mean(model: &Model, attached: &AttachedDatabase) -> Result<Option<SlowDrift>, ClassError> {
     let data = attached.data.as_ref();
     let Some(table) = drift_of(data).filter(|_| attached.drift != DriftMethod::None) else { return Ok(None) };
-    let steady = Steady::of(model)?;
+    let steady = Steady::new(model)?;
     if steady.waves.is_empty() {
         return Ok(None);
     }
@@ -364,23 +364,23 @@ fn mean(model: &Model, attached: &AttachedDatabase) -> Result<Option<SlowDrift>,
 /// The matrix of a source holds the moment of the weight, too; about the centre of gravity that is nothing, so that nothing counts twice.
 fn hydrostatics(model: &Model, body: &Body, attached: &AttachedDatabase) -> Result<LinearHydrostatics, ClassError> {
     let data = attached.data.as_ref();
-    let refuse = |text: String| ClassError::new(text).at(attached.span);
+    let refuse = |text: String| ClassError::new(text).with_span(attached.span);
     let Some(stiffness) = data.hydrostatics else {
         return Err(refuse(format!("the database ({}) has no hydrostatics", data.source)));
     };
-    if body.linear.is_some() || crate::Hull::of(model, body)?.is_some() {
+    if body.linear.is_some() || crate::Hull::new(model, body)?.is_some() {
         let text = format!("{} has a hull or #HYDROSTATIC besides the hydrostatics of its database", body.name);
         return Err(refuse(text).help("leave out -HYDROSTATICS YES, or give the pieces -PERMEABILITY 0"));
     }
     let gravity = model.defaults.gravity;
-    let mass = Mass::of(model.parts_of(body), gravity);
+    let mass = Mass::from_parts(model.parts_of(body), gravity);
     let arm = data.reference - mass.centre;
     Ok(LinearHydrostatics {
         at: mass.centre.into(),
         // the origin of the source stands on the water
         height: mass.centre.z - attached.at[2],
         buoyancy: mass.mass * gravity,
-        stiffness: transferred(&stiffness, arm, arm),
+        stiffness: move_stiffness(&stiffness, arm, arm),
         span: attached.span,
     })
 }
@@ -400,7 +400,7 @@ mod tests {
             linear: Linear { slow: LowFrequency::new(5.0) },
         };
         let mut state = vec![0.0; load.states()];
-        let pose = Pose::default().moved(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
+        let pose = Pose::default().after_motion(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
         let velocity = Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2);
         for n in 0..20 {
             let then = velocity * (0.3 * f64::from(n)).cos();
@@ -419,7 +419,7 @@ mod tests {
             let damping = (faster(-by) - faster(by)) / 2e-5 - whole.damping.column(n);
             assert!(damping.amax() < 1e-7, "{n}: {damping}");
             // a trial elsewhere changes nothing in a step
-            assert_eq!(at(&pose.moved(&by), &velocity).unwrap(), whole);
+            assert_eq!(at(&pose.after_motion(&by), &velocity).unwrap(), whole);
         }
         assert!(whole.load.wrench.amax() > 0.1);
     }

@@ -4,7 +4,7 @@
 //! phases refer to the origin, rotations and moments to `rotation_center`; SI and radians. Complex numbers stand on a
 //! dimension `complex` of two. `omega` holds zero and infinity as well. A variable that a data set lacks is left out here.
 
-use super::checks::{MOST, checked};
+use super::checks::{MOST, check_database};
 use super::matrices::matrix;
 use super::nemoh::refer_phases;
 use super::rows::{DatabaseError, heading};
@@ -27,7 +27,7 @@ struct Variable {
 
 impl Variable {
     /// A value by named places; zero for dimensions that are not named.
-    fn at(&self, places: &[(&str, usize)]) -> f64 {
+    fn value_at(&self, places: &[(&str, usize)]) -> f64 {
         let of = |name: &str| places.iter().find(|p| p.0 == name).map_or(0, |p| p.1);
         let index = self.names.iter().zip(&self.sizes).fold(0, |sum, (name, size)| sum * size + of(name));
         self.values.get(index).copied().unwrap_or(f64::NAN)
@@ -139,9 +139,9 @@ impl Set<'_> {
     /// A matrix of two dimensions of directions, at places of the others.
     fn matrix(&self, of: &Variable, (rows, columns): (&Chosen, &Chosen), at: usize, along: &str) -> Matrix6<f64> {
         matrix(rows.iter().flat_map(|(r, i)| {
-            columns
-                .iter()
-                .map(move |(c, j)| (6 * i + j, of.at(&[(along, at), ("influenced_dof", *r), ("radiating_dof", *c)])))
+            columns.iter().map(move |(c, j)| {
+                (6 * i + j, of.value_at(&[(along, at), ("influenced_dof", *r), ("radiating_dof", *c)]))
+            })
         }))
     }
 }
@@ -222,7 +222,7 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
     // limits that Capytaine could not compute are left out by it as NaN
     let whole = |m: &Matrix6<f64>| m.iter().all(|v| v.is_finite());
     (data.zero, data.infinite) = (data.zero.filter(whole), data.infinite.filter(whole));
-    checked(data)
+    check_database(data)
 }
 
 /// Sees that dimensions that are not used have one place only.
@@ -258,7 +258,7 @@ fn excitation(
             let mut six = Amplitudes::default();
             for (place, mode) in rigid {
                 let part = |part: usize| {
-                    force.at(&[(along, w), ("influenced_dof", *place), ("wave_direction", *h), ("complex", part)])
+                    force.value_at(&[(along, w), ("influenced_dof", *place), ("wave_direction", *h), ("complex", part)])
                 };
                 if let Some(x) = six.get_mut(*mode) {
                     *x = Complex::new(part(0), part(1));

@@ -21,7 +21,7 @@ pub const MODES: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 ///
 /// # Errors
 /// Numbers that are not finite; tables of unlike size; neither radiation, excitation nor motions.
-pub(super) fn checked(mut data: Database) -> Result<Database, DatabaseError> {
+pub(super) fn check_database(mut data: Database) -> Result<Database, DatabaseError> {
     let wrong = |why: String| Err(DatabaseError::Whole(format!("{}: {why}", data.source)));
     let count = data.frequencies.len();
     if count == 0 || (data.added_mass.is_empty() && data.excitation.is_empty() && data.motions.is_none()) {
@@ -46,7 +46,7 @@ pub(super) fn checked(mut data: Database) -> Result<Database, DatabaseError> {
     if !whole {
         return wrong("its tables are of unlike size".into());
     }
-    if let Some(what) = damaged(&data) {
+    if let Some(what) = find_invalid_value(&data) {
         return wrong(format!("{what} is not finite, or larger than {:E}", Dim::None.most()));
     }
     if !(data.density > 0.0 && data.density.is_finite() && data.gravity > 0.0 && data.gravity.is_finite()) {
@@ -66,7 +66,7 @@ pub(super) fn checked(mut data: Database) -> Result<Database, DatabaseError> {
 }
 
 /// The first value that is not finite or too large to be reckoned with, in words.
-fn damaged(data: &Database) -> Option<String> {
+fn find_invalid_value(data: &Database) -> Option<String> {
     let bad = |v: &f64| v.is_nan() || v.abs() > Dim::None.most();
     let name = |i: usize| MODES.get(i).copied().unwrap_or_default();
     let entry = |m: &Matrix6<f64>| m.iter().position(bad).map(|at| format!("{}-{}", name(at % 6), name(at / 6)));

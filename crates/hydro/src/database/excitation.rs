@@ -11,7 +11,7 @@ use super::waves::{ByHeading, Group, groups};
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::low_frequency::{LowFrequency, Slow, dividing_period_of};
 use crate::sea::Sea;
-use crate::{Category, Load, carried};
+use crate::{Category, Load, move_wrench};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
@@ -35,12 +35,12 @@ impl Excitation {
     ///
     /// # Errors
     /// A database without excitation, or too many waves.
-    pub fn of(data: &Database, sea: &Arc<Sea>) -> Result<Self, ClassError> {
+    pub fn new(data: &Database, sea: &Arc<Sea>) -> Result<Self, ClassError> {
         // about the reference point and with the phase there: the place of that point is used instead
         let about = Database { reference: Vector3::zeros(), ..data.clone() };
         let mut list = Vec::new();
         for group in groups(sea) {
-            let table = ByHeading::of(&group, &data.headings, |h, w, a| {
+            let table = ByHeading::build(&group, &data.headings, |h, w, a| {
                 let heading = data.headings[h];
                 let x = about.excitation_at(heading, w)?;
                 Ok(std::array::from_fn(|n| if n < 6 { x[n].re * a } else { x[n - 6].im * a }))
@@ -82,10 +82,10 @@ impl Excitation {
     ///
     /// # Errors
     /// A heading in a gap of the database.
-    pub fn on(&self, slow: &Slow, time: f64) -> Result<Six, ClassError> {
+    pub fn force_on_body(&self, slow: &Slow, time: f64) -> Result<Six, ClassError> {
         let arm = slow.axes() * self.reference;
         let at = slow.origin + arm.xy();
-        Ok(carried(&turned(&self.force(time, (at.x, at.y), slow.heading)?, slow.heading), arm))
+        Ok(move_wrench(&rotate_about_z(&self.force(time, (at.x, at.y), slow.heading)?, slow.heading), arm))
     }
 }
 
@@ -95,7 +95,7 @@ pub(super) fn yaw(pose: &Pose) -> f64 {
 }
 
 /// Six values in axes turned about z by an angle (rad), in global axes.
-pub(super) fn turned(six: &Six, angle: f64) -> Six {
+pub(super) fn rotate_about_z(six: &Six, angle: f64) -> Six {
     let (sin, cos) = angle.sin_cos();
     let [x, y, z, rx, ry, rz] = (*six).into();
     Six::new(cos * x - sin * y, sin * x + cos * y, z, cos * rx - sin * ry, sin * rx + cos * ry, rz)
@@ -118,7 +118,7 @@ impl BodyLoad for Excitation {
     /// The force where the body is expected is that of the step.
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
         let (own, state) = state.split_at_mut(LowFrequency::STATES);
-        let force = self.on(&self.slow.ahead(ahead, own), ahead.time)?;
+        let force = self.force_on_body(&self.slow.ahead(ahead, own), ahead.time)?;
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
     }
@@ -143,10 +143,10 @@ impl BodyLoad for Excitation {
 
 /// The force that a step has kept behind the low-frequency place.
 fn own(state: &[f64]) -> Load {
-    kept(&state[LowFrequency::STATES..])
+    load_from_state(&state[LowFrequency::STATES..])
 }
 
 /// A force that a step has kept, the first six of a state.
-pub(super) fn kept(state: &[f64]) -> Load {
+pub(super) fn load_from_state(state: &[f64]) -> Load {
     Load { wrench: Six::from_column_slice(&state[..6]), ..Load::none() }
 }

@@ -85,7 +85,7 @@ impl Integrals {
     }
 
     /// K1 and K2 at a lag (s): polynomials with the values and slopes of both neighbours.
-    fn at(&self, lag: f64) -> (Matrix6<f64>, Matrix6<f64>) {
+    fn integrals_at_lag(&self, lag: f64) -> (Matrix6<f64>, Matrix6<f64>) {
         let place = lag / self.step;
         let (Some(a), Some(b)) = (self.list.get(place as usize), self.list.get(place as usize + 1)) else {
             let end = self.list.last().copied().unwrap_or_default();
@@ -110,7 +110,7 @@ impl Integrals {
 
     /// What a velocity that goes straight between two lags (s) makes: by that at the shorter lag, by that at the longer one.
     fn straight(&self, from: f64, to: f64) -> (Matrix6<f64>, Matrix6<f64>) {
-        let ((near, first), (far, second)) = (self.at(from), self.at(to));
+        let ((near, first), (far, second)) = (self.integrals_at_lag(from), self.integrals_at_lag(to));
         let mean = (second - first) / (to - from);
         (mean - near, far - mean)
     }
@@ -141,7 +141,8 @@ impl Memory {
             sizes[i] > 1e-18 * kind.iter().copied().fold(0.0, f64::max)
         };
         let lags = (length / step).ceil().clamp(1.0, MOST_LAGS as f64) as usize + 1;
-        let seconds: Vec<Matrix6<f64>> = (0..=lags + 1).map(|n| integrals.at(n as f64 * step).1).collect();
+        let seconds: Vec<Matrix6<f64>> =
+            (0..=lags + 1).map(|n| integrals.integrals_at_lag(n as f64 * step).1).collect();
         let mut pairs = Vec::new();
         for (row, of_row) in sizes.iter().enumerate().filter(|(i, _)| radiates(*i)) {
             for (column, of_column) in sizes.iter().enumerate().filter(|(i, _)| radiates(*i)) {
@@ -216,7 +217,7 @@ impl Memory {
         let direct = usize::from(whole == 0);
         if direct == 1 {
             let lag = near + self.step;
-            let [before, at, after] = [near, lag, lag + self.step].map(|lag| self.integrals.at(lag).1);
+            let [before, at, after] = [near, lag, lag + self.step].map(|lag| self.integrals.integrals_at_lag(lag).1);
             let weight = (before - at * 2.0 + after) / self.step;
             for pair in &self.pairs {
                 past[pair.row] += weight[(pair.row, pair.column)] * slice(pair)[0];

@@ -24,5 +24,5 @@ mod waves;
 pub use at::{DatabaseLookup, drift_at};
 pub use rows::{DatabaseError, SourceFile};
 pub use slow_drift::mean_drift;
-pub use symmetry::mirrored;
+pub use symmetry::mirror_headings;
 pub use windlass_model::{Amplitudes, Database, DriftTable, Qtf};

@@ -7,7 +7,7 @@
 //! "Conventions"). Phases are in rad where none exceeds pi, else in degrees: the documentation says degrees, what the versions known write is rad.
 //! Phases refer to the point XEFF YEFF of `Nemoh.cal`, moments to the point of its rotations.
 
-use super::checks::checked;
+use super::checks::check_database;
 use super::matrices::{PairRow, by_frequency};
 use super::nemoh_case::{Case, Direction};
 use super::rows::{DatabaseError, ModeRow, SourceFile, by_wave, heading, number, same_frequency, separates};
@@ -41,7 +41,7 @@ pub fn read(source: &str, files: &[SourceFile], body: Option<usize>) -> Result<D
         }
         (Some(n), _) => n - 1,
     };
-    let Some(about) = case.about(chosen) else {
+    let Some(about) = case.reference_point(chosen) else {
         return Err(file.wrong("rotations and moments of the body are about several points"));
     };
     let mut data = Database {
@@ -81,7 +81,7 @@ pub fn read(source: &str, files: &[SourceFile], body: Option<usize>) -> Result<D
         let volume = line.and_then(|l| l.split('=').nth(1)).and_then(|t| t.split_whitespace().next());
         data.mass = volume.and_then(number).map(|v| v * case.density);
     }
-    checked(data)
+    check_database(data)
 }
 
 /// A frequency of one list that the other lacks.
@@ -176,7 +176,9 @@ fn radiation(file: &SourceFile, case: &Case, body: usize) -> Result<Vec<PairRow>
     for zone in &zones {
         let whole: Vec<usize> = zone.title.split_whitespace().filter_map(|w| w.parse().ok()).collect();
         let [of, n] = whole.as_slice() else {
-            return Err(file.wrong(format!("the zone `{}` tells no motion of a body", shown(&zone.title))));
+            return Err(
+                file.wrong(format!("the zone `{}` tells no motion of a body", shorten_for_message(&zone.title)))
+            );
         };
         if *of != body + 1 {
             continue;
@@ -203,7 +205,7 @@ fn excitation(file: &SourceFile, case: &Case, body: usize) -> Result<(Vec<ModeRo
     for zone in &zones {
         let beta = zone.title.split('=').nth(1).and_then(|t| t.split_whitespace().next()).and_then(number);
         let Some(beta) = beta else {
-            return Err(file.wrong(format!("the zone `{}` tells no heading", shown(&zone.title))));
+            return Err(file.wrong(format!("the zone `{}` tells no heading", shorten_for_message(&zone.title))));
         };
         for row in &zone.rows {
             for (column, force) in forces(case, body) {
@@ -230,11 +232,11 @@ fn stiffness(file: &SourceFile) -> Result<Matrix6<f64>, DatabaseError> {
     if rows.len() != 6 {
         return Err(file.wrong(format!("it has {} rows, not six", rows.len())));
     }
-    let value = |i: usize, j: usize| rows.get(i).map_or(0.0, |r| r.at(j));
+    let value = |i: usize, j: usize| rows.get(i).map_or(0.0, |r| r.number(j));
     Ok(Matrix6::from_fn(value))
 }
 
 /// The beginning of a text, as an error shows it.
-fn shown(text: &str) -> String {
+fn shorten_for_message(text: &str) -> String {
     text.chars().take(40).filter(|c| !c.is_control()).collect()
 }

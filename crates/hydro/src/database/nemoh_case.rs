@@ -37,7 +37,7 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    fn next(&mut self) -> Result<&'a str, DatabaseError> {
+    fn next_line(&mut self) -> Result<&'a str, DatabaseError> {
         let (index, line) = self.rest.next().ok_or_else(|| self.file.wrong("it ends too early"))?;
         self.at = index + 1;
         Ok(line)
@@ -45,7 +45,7 @@ impl<'a> Lines<'a> {
 
     /// The numbers a line begins with, at least so many.
     fn numbers(&mut self, least: usize) -> Result<Vec<f64>, DatabaseError> {
-        let line = self.next()?;
+        let line = self.next_line()?;
         let words = line.split(separates).filter(|w| !w.is_empty());
         let list: Vec<f64> = words.map_while(number).take(16).collect();
         if list.len() < least {
@@ -88,24 +88,24 @@ pub(super) fn read(file: &SourceFile) -> Result<Case, DatabaseError> {
     let mut lines = Lines { file, rest: file.text.lines().enumerate(), at: 0 };
     let mut case = Case::default();
     let first = |list: Vec<f64>| list.first().copied().unwrap_or_default();
-    lines.next()?;
+    lines.next_line()?;
     case.density = first(lines.numbers(1)?);
     case.gravity = first(lines.numbers(1)?);
     case.depth = Some(first(lines.numbers(1)?)).filter(|d| *d > 0.0);
     let waves_at = lines.numbers(2)?;
     case.waves_at = [0, 1].map(|i: usize| waves_at.get(i).copied().unwrap_or_default());
-    lines.next()?;
+    lines.next_line()?;
     let bodies = lines.count(1000, "bodies")?;
     for _ in 0..bodies {
         for _ in 0..3 {
-            lines.next()?;
+            lines.next_line()?;
         }
         let motions = lines.count(1000, "degrees of freedom")?;
         let motions = (0..motions).map(|_| lines.direction()).collect::<Result<Vec<_>, _>>()?;
         let forces = lines.count(1000, "forces")?;
         let forces = (0..forces).map(|_| lines.direction()).collect::<Result<Vec<_>, _>>()?;
         for _ in 0..lines.count(1000, "further lines")? {
-            lines.next()?;
+            lines.next_line()?;
         }
         case.bodies.push((motions, forces));
     }
@@ -114,7 +114,7 @@ pub(super) fn read(file: &SourceFile) -> Result<Case, DatabaseError> {
 
 impl Case {
     /// The point that rotations and moments of a body are about: the same for all, else `None`; the origin where none turns.
-    pub(super) fn about(&self, body: usize) -> Option<Vector3<f64>> {
+    pub(super) fn reference_point(&self, body: usize) -> Option<Vector3<f64>> {
         let (motions, forces) = self.bodies.get(body)?;
         let mut points = motions.iter().chain(forces).filter_map(|d| d.about);
         let Some(first) = points.next() else { return Some(Vector3::zeros()) };

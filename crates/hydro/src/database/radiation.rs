@@ -36,7 +36,7 @@ impl Radiation {
     ///
     /// # Errors
     /// Fewer than two frequencies.
-    pub fn of(data: &Database) -> Result<Option<Self>, ClassError> {
+    pub fn new(data: &Database) -> Result<Option<Self>, ClassError> {
         let (Some(last), Some(end)) = (data.frequencies.last(), data.damping.last()) else { return Ok(None) };
         if data.frequencies.len() < 2 {
             let text = format!("the database ({}) has one frequency only: its radiation has no memory", data.source);

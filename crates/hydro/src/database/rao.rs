@@ -4,7 +4,7 @@
 //! WFH (Hz), then XA XP YA YP ZA ZP RXA RXP RYA RYP RZA RZP, amplitude and phase (degrees). Without names the columns are WD WP and the twelve in this order.
 //! OrcaFlex's usual conventions: rotations in degrees a metre of wave amplitude, phases lag behind the crest at the origin of the RAOs.
 
-use super::checks::checked;
+use super::checks::check_database;
 use super::rows::{DatabaseError, ModeRow, Row, SourceFile, by_wave, heading, separates};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
@@ -36,7 +36,7 @@ const HERTZ: usize = 15;
 /// # Errors
 /// A file that does not have the form; a wave that is missing or given twice.
 pub fn read(source: &str, file: &SourceFile, convention: &RaoConvention) -> Result<Database, DatabaseError> {
-    let columns = named(file)?;
+    let columns = find_columns(file)?;
     let place = |column: usize| columns.iter().position(|c| *c == column);
     let (Some(direction), Some(wave)) = (place(0), place(1).or_else(|| place(RADIANS)).or_else(|| place(HERTZ))) else {
         return Err(file.wrong("its columns tell no direction WD, or no period WP and no frequency WFR or WFH"));
@@ -47,15 +47,15 @@ pub fn read(source: &str, file: &SourceFile, convention: &RaoConvention) -> Resu
         let frequency = frequency(file, &row, wave, kind)?;
         for mode in 0..6 {
             let (Some(amplitude), Some(phase)) = (place(2 + 2 * mode), place(3 + 2 * mode)) else { continue };
-            let size = row.at(amplitude);
+            let size = row.number(amplitude);
             let size = if mode >= 3 && convention.degrees { size.to_radians() } else { size };
-            let phase = row.at(phase).to_radians();
+            let phase = row.number(phase).to_radians();
             let value = Complex::from_polar(size, if convention.lag { phase } else { -phase });
-            rows.push(ModeRow { heading: heading(row.at(direction)), frequency, mode, value });
+            rows.push(ModeRow { heading: heading(row.number(direction)), frequency, mode, value });
         }
     }
     let table = by_wave(file, &rows)?;
-    checked(Database {
+    check_database(Database {
         source: source.to_string(),
         frequencies: table.frequencies,
         headings: table.headings,
@@ -68,7 +68,7 @@ pub fn read(source: &str, file: &SourceFile, convention: &RaoConvention) -> Resu
 }
 
 /// What each column is: by the line of names, or the usual order.
-fn named(file: &SourceFile) -> Result<Vec<usize>, DatabaseError> {
+fn find_columns(file: &SourceFile) -> Result<Vec<usize>, DatabaseError> {
     for (index, line) in file.text.lines().enumerate() {
         let words: Vec<String> =
             line.split(separates).filter(|w| !w.is_empty()).take(COLUMNS.len() + 1).map(str::to_uppercase).collect();
@@ -94,7 +94,7 @@ fn named(file: &SourceFile) -> Result<Vec<usize>, DatabaseError> {
 
 /// The frequency of a row (rad/s).
 fn frequency(file: &SourceFile, row: &Row, column: usize, kind: usize) -> Result<f64, DatabaseError> {
-    let value = row.at(column);
+    let value = row.number(column);
     let frequency = match kind {
         RADIANS => value,
         HERTZ => TAU * value,

@@ -75,7 +75,7 @@ impl SourceFile {
                 Err(word) => {
                     let shown = line.split(separates).filter(|w| !w.is_empty()).nth(word).unwrap_or_default();
                     let shown: String = shown.chars().take(24).filter(|c| !c.is_control()).collect();
-                    let why = match parsed(&shown).filter(|v| v.is_finite()) {
+                    let why = match parse_number(&shown).filter(|v| v.is_finite()) {
                         Some(_) => format!("`{shown}` is too large: the largest size taken is {:E}", Dim::None.most()),
                         None => format!("`{shown}` is no finite number"),
                     };
@@ -99,13 +99,13 @@ pub(super) struct Row {
 
 impl Row {
     /// A number of it; zero past the end.
-    pub fn at(&self, index: usize) -> f64 {
+    pub fn number(&self, index: usize) -> f64 {
         self.values.get(index).copied().unwrap_or(0.0)
     }
 
     /// A whole number from 1; `None` for anything else.
     pub fn ordinal(&self, index: usize) -> Option<usize> {
-        let value = self.at(index);
+        let value = self.number(index);
         ((1.0..=6000.0).contains(&value) && value.fract() == 0.0).then_some(value as usize)
     }
 }
@@ -116,13 +116,13 @@ pub(super) fn separates(c: char) -> bool {
 }
 
 /// A number as Fortran, too, writes it.
-fn parsed(word: &str) -> Option<f64> {
+fn parse_number(word: &str) -> Option<f64> {
     word.parse().or_else(|_| word.replace(['d', 'D'], "e").parse()).ok()
 }
 
 /// The same, where it is one that can be reckoned with.
 pub(super) fn number(word: &str) -> Option<f64> {
-    parsed(word).filter(|value| value.abs() <= Dim::None.most())
+    parse_number(word).filter(|value| value.abs() <= Dim::None.most())
 }
 
 /// The numbers of a line, up to sixteen; else which word is none.

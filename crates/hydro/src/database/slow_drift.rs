@@ -12,12 +12,12 @@
 //! only. A heading that lags would take damping from a body that drift turns back.
 
 use super::at::drift_at;
-use super::at::{around, between};
-use super::excitation::{kept, turned, yaw};
+use super::at::{bracket_frequency, bracket_heading};
+use super::excitation::{load_from_state, rotate_about_z, yaw};
 use super::waves::{ByHeading, Group, WIDE, groups};
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::sea::Sea;
-use crate::{Category, Load, carried, turning};
+use crate::{Category, Load, move_wrench, turning};
 use nalgebra::{Complex, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
@@ -95,7 +95,7 @@ impl SlowDrift {
     pub fn newman(table: &DriftTable, reference: Vector3<f64>, sea: &Arc<Sea>) -> Result<Self, ClassError> {
         let made = SlowDrift::mean(table, reference, sea)?;
         let lanes = made.groups.iter().map(|group| {
-            ByHeading::of(group, &table.headings, |h, w, a| {
+            ByHeading::build(group, &table.headings, |h, w, a| {
                 let heading = table.headings[h];
                 let [x, y, z, rx, ry, rz] = drift_at(table, heading, w)?.map(|d| d * a);
                 Ok([x, y, z, rx, ry, rz, a])
@@ -112,7 +112,7 @@ impl SlowDrift {
     pub fn full(qtf: &Arc<Qtf>, reference: Vector3<f64>, sea: &Arc<Sea>) -> Result<Self, ClassError> {
         let diagonal = mean_drift(qtf);
         let made = SlowDrift::mean(&diagonal, reference, sea)?;
-        let near = |g: &Group| g.frequency.iter().map(|w| between(&qtf.frequencies, *w)).collect();
+        let near = |g: &Group| g.frequency.iter().map(|w| bracket_frequency(&qtf.frequencies, *w)).collect();
         let near: Vec<Vec<(usize, usize, f64)>> = made.groups.iter().map(near).collect();
         let (mut x, mut y) = (0.0, 0.0);
         for wave in &sea.components {
@@ -126,7 +126,7 @@ impl SlowDrift {
     fn mean_at(&self, yaw: f64) -> Result<(Six, Six), ClassError> {
         let (mut sum, mut change) = (Six::zeros(), Six::zeros());
         for (toward, list) in &self.means {
-            let (a, b, share) = around(&self.headings, toward - yaw)?;
+            let (a, b, share) = bracket_heading(&self.headings, toward - yaw)?;
             let at = |i: usize| list[i];
             sum += at(a) + (at(b) - at(a)) * share;
             let turn = |i: usize| self.headings[i];
@@ -171,7 +171,7 @@ impl SlowDrift {
         at: (f64, f64, f64),
         heading: f64,
     ) -> Result<Six, ClassError> {
-        let (a, b, share) = around(&qtf.headings, heading)?;
+        let (a, b, share) = bracket_heading(&qtf.headings, heading)?;
         let mut gathered = vec![Complex::new(0.0, 0.0); qtf.frequencies.len()];
         for (group, near) in self.groups.iter().zip(near) {
             let waves = group.amplitude.chunks(WIDE).zip(near.chunks(WIDE));
@@ -209,10 +209,10 @@ impl SlowDrift {
     ///
     /// # Errors
     /// A heading in a gap of the table.
-    pub fn on(&self, pose: &Pose, time: f64) -> Result<Six, ClassError> {
+    pub fn force_on_body(&self, pose: &Pose, time: f64) -> Result<Six, ClassError> {
         let (arm, yaw) = (pose.axes * self.reference, yaw(pose));
         let at = pose.origin + arm;
-        Ok(carried(&turned(&self.force(time, (at.x, at.y), yaw)?, yaw), arm))
+        Ok(move_wrench(&rotate_about_z(&self.force(time, (at.x, at.y), yaw)?, yaw), arm))
     }
 }
 
@@ -236,13 +236,13 @@ impl BodyLoad for SlowDrift {
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let (arm, yaw) = (pose.axes * self.reference, yaw(pose));
         let (mean, change) = self.mean_at(yaw)?;
-        let force = turned(&mean, yaw);
+        let force = rotate_about_z(&mean, yaw);
         let [x, y, _, rx, ry, _] = force.into();
-        let turn = turned(&change, yaw) + Six::new(-y, x, 0.0, -ry, rx, 0.0);
+        let turn = rotate_about_z(&change, yaw) + Six::new(-y, x, 0.0, -ry, rx, 0.0);
         let mut stiffness = turning(&force, arm);
-        let column = stiffness.column(5) - carried(&turn, arm);
+        let column = stiffness.column(5) - move_wrench(&turn, arm);
         stiffness.set_column(5, &column);
-        Ok(Load { wrench: carried(&force, arm), stiffness })
+        Ok(Load { wrench: move_wrench(&force, arm), stiffness })
     }
 
     fn states(&self) -> usize {
@@ -251,21 +251,21 @@ impl BodyLoad for SlowDrift {
 
     /// The force where the body is expected is that of the step.
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
-        let force = self.on(ahead.pose, ahead.time)?;
+        let force = self.force_on_body(ahead.pose, ahead.time)?;
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
     }
 
     fn held(&self, _: &Underway, state: &[f64]) -> Option<Six> {
-        Some(kept(state).wrench)
+        Some(load_from_state(state).wrench)
     }
 
     fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(MovingLoad::of(kept(state)))
+        Ok(MovingLoad::of(load_from_state(state)))
     }
 
     fn add(&self, _: &Underway, state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
-        out.load.wrench += kept(state).wrench;
+        out.load.wrench += load_from_state(state).wrench;
         Ok(())
     }
 }

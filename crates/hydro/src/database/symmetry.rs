@@ -9,7 +9,7 @@ const MIRROR: [f64; 6] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
 
 /// The same with the headings of the other side of a body that is symmetric about its x-z plane; those that are there stay.
 /// A reference point off that plane has no mirror: the database is left as it is.
-pub fn mirrored(mut data: Database) -> Database {
+pub fn mirror_headings(mut data: Database) -> Database {
     if data.reference.y.abs() > 1e-9 {
         data.remarks.push("its point is off the plane of symmetry: no headings are mirrored".into());
         return data;

@@ -8,7 +8,7 @@
 //! WAMIT writes with exp(+i w t): amplitudes are conjugated here. Headings are degrees of the direction of travel, phases
 //! refer to the origin, about which moments are.
 
-use super::checks::{MOST, checked};
+use super::checks::{MOST, check_database};
 use super::matrices::{by_frequency, matrix};
 use super::rows::{ByWave, DatabaseError, ModeRow, Row, SourceFile, by_wave, heading, same_frequency, same_heading};
 use nalgebra::{Complex, Matrix6, Vector3};
@@ -70,7 +70,7 @@ pub fn read(source: &str, files: &[SourceFile], scale: &WamitScale) -> Result<Da
     if files.iter().any(|f| f.ending() == "12s") {
         data.remarks.push("sum-frequency forces (.12s) are not used: they do not move a moored body slowly".into());
     }
-    checked(data)
+    check_database(data)
 }
 
 /// The direction of this body that a number of a mode means; `None` for another body.
@@ -81,7 +81,7 @@ pub(super) fn mode_of(
     scale: &WamitScale,
 ) -> Result<Option<usize>, DatabaseError> {
     let Some(number) = row.ordinal(column) else {
-        return Err(file.wrong_at(row.line, format!("{} is no number of a mode", row.at(column))));
+        return Err(file.wrong_at(row.line, format!("{} is no number of a mode", row.number(column))));
     };
     if number > 6 && scale.body.is_none() {
         let text = format!("mode {number} is of a second body: -INDEX tells which body to take");
@@ -93,11 +93,11 @@ pub(super) fn mode_of(
 
 /// A frequency of a period that is greater than zero.
 pub(super) fn frequency(file: &SourceFile, row: &Row, column: usize) -> Result<f64, DatabaseError> {
-    let frequency = TAU / row.at(column);
+    let frequency = TAU / row.number(column);
     if frequency > 0.0 && frequency.is_finite() && frequency < 1e6 {
         Ok(frequency)
     } else {
-        Err(file.wrong_at(row.line, format!("{} is no period of a wave", row.at(column))))
+        Err(file.wrong_at(row.line, format!("{} is no period of a wave", row.number(column))))
     }
 }
 
@@ -109,7 +109,7 @@ fn radiation(data: &mut Database, file: &SourceFile, scale: &WamitScale) -> Resu
         let (Some(i), Some(j)) = (mode_of(file, &row, 1, scale)?, mode_of(file, &row, 2, scale)?) else { continue };
         let power = 3 + i32::from(i >= 3) + i32::from(j >= 3);
         let unit = scale.density * scale.length.powi(power);
-        let (period, added) = (row.at(0), row.at(3) * unit);
+        let (period, added) = (row.number(0), row.number(3) * unit);
         if period == 0.0 {
             infinite.push((6 * i + j, added));
         } else if period < 0.0 {
@@ -119,7 +119,7 @@ fn radiation(data: &mut Database, file: &SourceFile, scale: &WamitScale) -> Resu
                 return Err(file.wrong_at(row.line, "a period has added mass and damping"));
             }
             let w = frequency(file, &row, 0)?;
-            rows.push((w, 6 * i + j, [added, row.at(4) * unit * w]));
+            rows.push((w, 6 * i + j, [added, row.number(4) * unit * w]));
         }
     }
     let table = by_frequency(file, &rows)?;
@@ -152,13 +152,13 @@ fn modes(file: &SourceFile, scale: &WamitScale, unit: impl Fn(usize) -> f64) -> 
     let mut list = Vec::new();
     for row in file.rows(7)? {
         let Some(mode) = mode_of(file, &row, 2, scale)? else { continue };
-        if row.at(0) <= 0.0 {
+        if row.number(0) <= 0.0 {
             continue;
         }
         let frequency = frequency(file, &row, 0)?;
         // conjugated: exp(+i w t) to exp(-i w t)
-        let value = Complex::new(row.at(5), -row.at(6)) * unit(mode);
-        list.push(ModeRow { heading: heading(row.at(1)), frequency, mode, value });
+        let value = Complex::new(row.number(5), -row.number(6)) * unit(mode);
+        list.push(ModeRow { heading: heading(row.number(1)), frequency, mode, value });
     }
     Ok(list)
 }
@@ -186,10 +186,10 @@ fn drift(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitScale) -> Re
     let mut list = Vec::new();
     let mut crossing = 0;
     for row in file.rows(8)? {
-        if row.at(0) <= 0.0 {
+        if row.number(0) <= 0.0 {
             continue;
         }
-        let (first, second) = (heading(row.at(1)), heading(row.at(2)));
+        let (first, second) = (heading(row.number(1)), heading(row.number(2)));
         if !same_heading(first, second) {
             crossing += 1;
             continue;
@@ -197,7 +197,7 @@ fn drift(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitScale) -> Re
         let Some(mode) = mode_of(file, &row, 3, scale)? else { continue };
         let unit = weight * scale.length.powi(if mode < 3 { 1 } else { 2 });
         let frequency = frequency(file, &row, 0)?;
-        list.push(ModeRow { heading: first, frequency, mode, value: Complex::new(row.at(6) * unit, 0.0) });
+        list.push(ModeRow { heading: first, frequency, mode, value: Complex::new(row.number(6) * unit, 0.0) });
     }
     if crossing > 0 {
         remarks.push(format!("{}: {crossing} rows of crossing waves are not used", file.name));
@@ -214,13 +214,13 @@ fn hydrostatics(file: &SourceFile, scale: &WamitScale) -> Result<Matrix6<f64>, D
     for row in file.rows(3)? {
         let (Some(i), Some(j)) = (mode_of(file, &row, 0, scale)?, mode_of(file, &row, 1, scale)?) else { continue };
         let power = 2 + i32::from(i >= 3) + i32::from(j >= 3);
-        matrix[(i, j)] = row.at(2) * scale.density * scale.gravity * scale.length.powi(power);
+        matrix[(i, j)] = row.number(2) * scale.density * scale.gravity * scale.length.powi(power);
     }
     Ok(matrix)
 }
 
 /// Whether a table of so many numbers is small enough.
-pub(super) fn bounded(file: &SourceFile, sizes: &[usize]) -> Result<usize, DatabaseError> {
+pub(super) fn check_table_size(file: &SourceFile, sizes: &[usize]) -> Result<usize, DatabaseError> {
     let cells = sizes.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
     cells.filter(|n| *n <= MOST).ok_or_else(|| file.wrong(format!("its table has more than {MOST} places")))
 }

@@ -4,7 +4,7 @@
 //! made dimensionless by `rho g L` (forces) and `rho g L^2` (moments). The file gives each pair once or twice.
 
 use super::rows::{DatabaseError, SourceFile, axis, heading, place, same_frequency, same_heading};
-use super::wamit::{WamitScale, bounded, empty_qtf, frequency, mode_of};
+use super::wamit::{WamitScale, check_table_size, empty_qtf, frequency, mode_of};
 use nalgebra::Complex;
 use windlass_model::Qtf;
 
@@ -25,7 +25,7 @@ pub(super) fn read(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitSc
     let mut pairs = Vec::new();
     let mut crossing = 0;
     for row in file.rows(9)? {
-        let (of_first, of_second) = (heading(row.at(2)), heading(row.at(3)));
+        let (of_first, of_second) = (heading(row.number(2)), heading(row.number(3)));
         if !same_heading(of_first, of_second) {
             crossing += 1;
             continue;
@@ -33,7 +33,7 @@ pub(super) fn read(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitSc
         let Some(mode) = mode_of(file, &row, 4, scale)? else { continue };
         let unit = scale.density * scale.gravity * scale.length.powi(if mode < 3 { 1 } else { 2 });
         let (first, second) = (frequency(file, &row, 0)?, frequency(file, &row, 1)?);
-        let value = Complex::new(row.at(7), -row.at(8)) * unit;
+        let value = Complex::new(row.number(7), -row.number(8)) * unit;
         pairs.push(Pair { heading: of_first, first, second, mode, value });
     }
     if crossing > 0 {
@@ -45,7 +45,7 @@ pub(super) fn read(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitSc
     let headings = axis(pairs.iter().map(|p| p.heading), same_heading);
     let frequencies = axis(pairs.iter().flat_map(|p| [p.first, p.second]), same_frequency);
     let count = frequencies.len();
-    bounded(file, &[headings.len(), count, count, 12])?;
+    check_table_size(file, &[headings.len(), count, count, 12])?;
     let mut qtf = empty_qtf(headings, frequencies);
     let mut given = vec![vec![false; count * count]; qtf.headings.len()];
     for pair in &pairs {

@@ -4,7 +4,7 @@
 //! widths of vector register and the machine takes the widest that it has (multiversion); no product is contracted with its sum, so
 //! that the digits are the same on all of them.
 
-use super::at::around;
+use super::at::bracket_heading;
 use super::checks::MOST;
 use crate::sea::Sea;
 use multiversion::multiversion;
@@ -98,7 +98,7 @@ impl<const WIDTH: usize> ByHeading<WIDTH> {
     ///
     /// # Errors
     /// More values than memory is taken for; values that are not there.
-    pub fn of(
+    pub fn build(
         group: &Group,
         headings: &[f64],
         mut value: impl FnMut(usize, f64, f64) -> Result<[f64; WIDTH], ClassError>,
@@ -126,8 +126,8 @@ impl<const WIDTH: usize> ByHeading<WIDTH> {
     ///
     /// # Errors
     /// A heading in a gap of the table.
-    fn around(&self, heading: f64) -> Result<[Share<'_, WIDTH>; 2], ClassError> {
-        let (a, b, share) = around(&self.headings, heading)?;
+    fn bracket_tables(&self, heading: f64) -> Result<[Share<'_, WIDTH>; 2], ClassError> {
+        let (a, b, share) = bracket_heading(&self.headings, heading)?;
         match (self.tables.get(a), self.tables.get(b)) {
             (Some(first), Some(second)) => Ok([(first, 1.0 - share), (second, share)]),
             _ => Err(ClassError::new("the database has no headings")),
@@ -142,7 +142,7 @@ impl ByHeading<12> {
     /// # Errors
     /// A heading in a gap of the table.
     pub fn real(&self, group: &Group, at: (f64, f64, f64), heading: f64) -> Result<[f64; 6], ClassError> {
-        Ok(real(&group.phases, at, self.around(heading)?))
+        Ok(real(&group.phases, at, self.bracket_tables(heading)?))
     }
 }
 
@@ -152,7 +152,7 @@ impl ByHeading<7> {
     /// # Errors
     /// A heading in a gap of the table.
     pub fn whole(&self, group: &Group, at: (f64, f64, f64), heading: f64) -> Result<[[f64; 7]; 2], ClassError> {
-        Ok(whole(&group.phases, at, self.around(heading)?))
+        Ok(whole(&group.phases, at, self.bracket_tables(heading)?))
     }
 }
 
@@ -248,9 +248,9 @@ mod tests {
         let value = |h: usize, w: f64, mode: usize| (w * (h as f64 + 1.7) * (mode as f64 + 0.6)).sin();
         let headings = [0.0, 1.2, 2.4, 3.6, 4.8];
         let excitation =
-            ByHeading::<12>::of(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
+            ByHeading::<12>::build(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
         let drift =
-            ByHeading::<7>::of(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
+            ByHeading::<7>::build(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
         let (time, x, y) = (9876.5, 12.25, -3.5);
         let found = excitation.unwrap().real(&group, (time, x, y), 1.5).unwrap();
         let [real, imaginary] = drift.unwrap().whole(&group, (time, x, y), 1.5).unwrap();

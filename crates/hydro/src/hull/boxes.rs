@@ -26,7 +26,7 @@ pub struct Boxes {
 
 impl Boxes {
     /// That of a surface's faces.
-    pub fn of(surface: &Surface) -> Boxes {
+    pub fn new(surface: &Surface) -> Boxes {
         let corners: Vec<Option<[Vector3<f64>; 3]>> = (0..surface.faces.len()).map(|n| surface.corners(n)).collect();
         let order = (0..corners.len()).filter(|&n| corners.get(n).is_some_and(Option::is_some)).collect();
         let mut tree = Boxes { nodes: Vec::new(), order };

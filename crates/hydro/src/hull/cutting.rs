@@ -12,7 +12,7 @@ type Placed<'a> = (&'a Vector3<f64>, &'a f64);
 /// Two convex bodies are apart if an axis among their normals, the normals of their edges, and the cross products of edges
 /// shows their projections apart (separating axis theorem). Here an axis parts them unless each reaches past the other by
 /// the margin.
-pub fn cut(a: &Triangle, b: &Triangle, margin: f64) -> Option<Vector3<f64>> {
+pub fn intersect_triangles(a: &Triangle, b: &Triangle, margin: f64) -> Option<Vector3<f64>> {
     let (edges_a, edges_b) = (edges(a), edges(b));
     let normal = |e: &Triangle| e[0].cross(&e[1]).try_normalize(0.0);
     let (na, nb) = (normal(&edges_a)?, normal(&edges_b)?);

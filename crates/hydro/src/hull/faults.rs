@@ -2,7 +2,7 @@
 
 use super::Surface;
 use super::boxes::Boxes;
-use super::cutting::cut;
+use super::cutting::intersect_triangles;
 use nalgebra::Vector3;
 use std::fmt;
 
@@ -91,12 +91,12 @@ impl Surface {
     /// What is wrong with it: [`Surface::leaks`], and faces that cut each other. Empty of a good closed surface.
     pub fn faults(&self) -> Vec<Fault> {
         let (size, mut list) = (self.size(), self.leaks());
-        let boxes = Boxes::of(self);
+        let boxes = Boxes::new(self);
         let mut cuts: Vec<(usize, usize, Vector3<f64>)> = Vec::new();
         boxes.pairs(&boxes, 0.0, |m, n| {
             let (m, n) = (m.min(n), m.max(n));
             if let (true, Some(a), Some(b)) = (m < n, self.corners(m), self.corners(n)) {
-                cuts.extend(cut(&a, &b, TOUCH * size).map(|at| (m, n, at)));
+                cuts.extend(intersect_triangles(&a, &b, TOUCH * size).map(|at| (m, n, at)));
             }
             // a pair may come twice
             cuts.len() >= 2 * MOST_CUTS
@@ -238,9 +238,9 @@ impl Surface {
 pub fn intersect(a: &Surface, b: &Surface) -> Option<[f64; 3]> {
     let margin = TOUCH * a.size().max(b.size());
     let mut found = None;
-    Boxes::of(a).pairs(&Boxes::of(b), 0.0, |m, n| {
+    Boxes::new(a).pairs(&Boxes::new(b), 0.0, |m, n| {
         let (Some(p), Some(q)) = (a.corners(m), b.corners(n)) else { return false };
-        found = cut(&p, &q, margin);
+        found = intersect_triangles(&p, &q, margin);
         found.is_some()
     });
     // without a cut one is within the other or they are apart: points just inside the faces of each tell

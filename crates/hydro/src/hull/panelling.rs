@@ -58,7 +58,7 @@ impl Nodes {
     }
 
     /// The nodes from p to q, both ends among them, in a number of equal parts.
-    fn along(&mut self, p: u32, q: u32, parts: usize) -> Vec<u32> {
+    fn divide_edge(&mut self, p: u32, q: u32, parts: usize) -> Vec<u32> {
         let key = (p.min(q), p.max(q));
         let (from, to) = (self.place(key.0), self.place(key.1));
         if !self.rows.contains_key(&(key.0, key.1, parts)) {
@@ -86,7 +86,7 @@ impl Panelling {
         // so that the corners of a cell are no farther from each other either
         let side = longest / 2f64.sqrt();
         let mut nodes = Nodes { at: surface.vertices.clone(), middles: BTreeMap::new(), rows: BTreeMap::new() };
-        let (parallelograms, mut triangles) = paired(surface);
+        let (parallelograms, mut triangles) = pair_triangles(surface);
         let mut done = Vec::new();
         for corners in parallelograms {
             divide_parallelogram(&mut nodes, corners, side, &mut done);
@@ -114,7 +114,7 @@ impl Panelling {
         let mut factor = 1.0;
         loop {
             // panels that are not divided are as many as there are
-            if let Some(made) = self.divided(&|corners| factor * limit(corners), most.max(self.panels.len())) {
+            if let Some(made) = self.try_refine(&|corners| factor * limit(corners), most.max(self.panels.len())) {
                 return made;
             }
             factor *= SQRT_2;
@@ -122,7 +122,7 @@ impl Panelling {
     }
 
     /// The same with these limits; `None` where they make more than `most`.
-    fn divided(&self, limit: &dyn Fn(&[Vector3<f64>; 3]) -> f64, most: usize) -> Option<Self> {
+    fn try_refine(&self, limit: &dyn Fn(&[Vector3<f64>; 3]) -> f64, most: usize) -> Option<Self> {
         let mut nodes = Nodes { at: self.nodes.clone(), middles: BTreeMap::new(), rows: BTreeMap::new() };
         for [a, b, c, x, y, z] in &self.panels {
             for (p, q, middle) in [(a, b, x), (b, c, y), (c, a, z)] {
@@ -150,7 +150,7 @@ impl Panelling {
 }
 
 /// The parallelograms of a surface, corners in turn, and the triangles that are left.
-fn paired(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
+fn pair_triangles(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
     let place = |n: u32| surface.vertices[n as usize];
     let length = |p: u32, q: u32| (place(q) - place(p)).norm();
     // each face turned so that its longest edge, where there is one, comes first
@@ -189,8 +189,8 @@ fn paired(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
 fn divide_parallelogram(nodes: &mut Nodes, [a, b, c, d]: [u32; 4], side: f64, done: &mut Vec<[u32; 3]>) {
     let parts = |length: f64| (length * (1.0 - EQUAL) / side).ceil().max(1.0) as usize;
     let (columns, rows) = (parts(nodes.length(a, b)), parts(nodes.length(a, d)));
-    let (low, high) = (nodes.along(a, b, columns), nodes.along(d, c, columns));
-    let (left, right) = (nodes.along(a, d, rows), nodes.along(b, c, rows));
+    let (low, high) = (nodes.divide_edge(a, b, columns), nodes.divide_edge(d, c, columns));
+    let (left, right) = (nodes.divide_edge(a, d, rows), nodes.divide_edge(b, c, rows));
     let (origin, along, up) = (nodes.place(a), nodes.place(b) - nodes.place(a), nodes.place(d) - nodes.place(a));
     let mut lines = vec![low];
     for j in 1..rows {

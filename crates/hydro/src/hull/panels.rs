@@ -85,7 +85,7 @@ fn triangulate(corners: &[u32], vertices: &[Vector3<f64>], faces: &mut Vec<[u32;
         return Ok(());
     }
     let at: Vec<Vector3<f64>> = corners.iter().filter_map(|&n| vertices.get(n as usize)).copied().collect();
-    let flat = flattened(&at);
+    let flat = flatten_polygon(&at);
     let turns = cycle(&flat).map(|[a, b, c]| turn(a, b, c));
     let size: f64 = flat.iter().map(|p| p.norm_squared()).fold(0.0, f64::max);
     // a corner that turns by less than rounding is straight
@@ -108,7 +108,7 @@ fn triangulate(corners: &[u32], vertices: &[Vector3<f64>], faces: &mut Vec<[u32;
         corners.iter().zip(&flat).zip(&at).map(|((&n, &p), &q)| (n, p, q)).collect();
     while left.len() > 3 {
         let Some(ear) = shortest_ear(&left, least) else { return Err("its edges cross each other".into()) };
-        if let Some([a, b, c]) = around(&left, ear) {
+        if let Some([a, b, c]) = corner_with_neighbours(&left, ear) {
             faces.push([a.0, b.0, c.0]);
         }
         left.remove(ear);
@@ -123,7 +123,7 @@ fn triangulate(corners: &[u32], vertices: &[Vector3<f64>], faces: &mut Vec<[u32;
 }
 
 /// The polygon seen against its mean normal (Newell), about its first corner.
-fn flattened(at: &[Vector3<f64>]) -> Vec<Vector2<f64>> {
+fn flatten_polygon(at: &[Vector3<f64>]) -> Vec<Vector2<f64>> {
     let base = at.first().copied().unwrap_or_default();
     let next = at.iter().cycle().skip(1);
     let normal: Vector3<f64> = at.iter().zip(next).map(|(a, b)| (a - base).cross(&(b - base))).sum();
@@ -153,7 +153,7 @@ fn once_around(flat: &[Vector2<f64>]) -> bool {
 }
 
 /// A corner between its neighbours.
-fn around<T: Copy>(list: &[T], n: usize) -> Option<[T; 3]> {
+fn corner_with_neighbours<T: Copy>(list: &[T], n: usize) -> Option<[T; 3]> {
     let before = list.get(n.checked_sub(1).unwrap_or(list.len().checked_sub(1)?))?;
     let after = list.get(n + 1).or_else(|| list.first())?;
     Some([*before, *list.get(n)?, *after])
@@ -163,7 +163,7 @@ fn around<T: Copy>(list: &[T], n: usize) -> Option<[T; 3]> {
 fn shortest_ear(left: &[(u32, Vector2<f64>, Vector3<f64>)], least: f64) -> Option<usize> {
     let mut best: Option<(f64, usize)> = None;
     for n in 0..left.len() {
-        let Some([a, b, c]) = around(left, n) else { continue };
+        let Some([a, b, c]) = corner_with_neighbours(left, n) else { continue };
         let cut = (c.2 - a.2).norm();
         if turn(a.1, b.1, c.1) <= least || best.is_some_and(|(short, _)| short <= cut) {
             continue;

@@ -39,7 +39,7 @@ impl Hydrostatics {
     /// Those of what is wet in a pose, with the centre of mass (m, body coordinates), in water of a weight (N/m3).
     /// The longitudinal axis is the body's x axis as seen from above; where that stands upright, its z axis.
     /// None of a body that displaces nothing.
-    pub fn of(wet: &Wet, pose: &Pose, mass_centre: Vector3<f64>, water_weight: f64) -> Option<Self> {
+    pub fn new(wet: &Wet, pose: &Pose, mass_centre: Vector3<f64>, water_weight: f64) -> Option<Self> {
         if wet.volume.is_nan() || wet.volume <= 0.0 {
             return None;
         }

@@ -25,7 +25,7 @@ impl Tube {
     /// The prism of a number of sides whose width, in the mean of all sides, is the diameter: its perimeter is that of the tube
     /// (Cauchy). `None` of a tube without length or diameter.
     pub fn prism(&self, sides: u32) -> Option<Surface> {
-        self.widened(&[(0.0, self.diameter), (1.0, self.diameter)], sides)
+        self.with_diameters(&[(0.0, self.diameter), (1.0, self.diameter)], sides)
     }
 
     /// Whether nothing of one can lie in the other: their axes are further apart than both radii.
@@ -37,7 +37,7 @@ impl Tube {
 
     /// The same with a diameter (m) that is straight along the axis between stations, from 0 at the first end to 1 at the second;
     /// two at one place make a step.
-    pub fn widened(&self, stations: &[(f64, f64)], sides: u32) -> Option<Surface> {
+    pub fn with_diameters(&self, stations: &[(f64, f64)], sides: u32) -> Option<Surface> {
         let [foot, head] = self.ends;
         let axis = (head - foot).try_normalize(0.0).filter(|_| self.diameter > 0.0)?;
         let mut across = Vector3::zeros();
@@ -123,7 +123,7 @@ struct Zone {
 }
 
 impl Standing {
-    fn of(tube: &Tube, pose: &Pose, level: f64) -> Option<Standing> {
+    fn new(tube: &Tube, pose: &Pose, level: f64) -> Option<Standing> {
         let [mut foot, mut head] = tube.ends.map(|end| pose.axes * end);
         if foot.z > head.z {
             std::mem::swap(&mut foot, &mut head);
@@ -194,7 +194,7 @@ impl Standing {
     }
 
     /// Adds what is wet, and the waterplane, along the zone.
-    fn cut(&self, zone: &Zone, wet: &mut Wet) {
+    fn add_wet_part(&self, zone: &Zone, wet: &mut Wet) {
         let (r, s, c) = (self.radius, self.sine, self.cosine);
         let Zone { long, half, .. } = *zone;
         // sin(half y) / sin(half), and its limit
@@ -259,13 +259,13 @@ impl Solid for Tube {
     /// an upright tube whose head is just awash has its waterplane.
     fn wet(&self, pose: &Pose, level: f64) -> Wet {
         let mut wet = Wet::default();
-        let Some(tube) = Standing::of(self, pose, level) else { return wet };
+        let Some(tube) = Standing::new(self, pose, level) else { return wet };
         let zone = tube.zone();
         if zone.from > 0.0 {
             tube.whole(zone.from, &mut wet);
         }
         if zone.sin > 0.0 {
-            tube.cut(&zone, &mut wet);
+            tube.add_wet_part(&zone, &mut wet);
         }
         for angle in zone.ends {
             wet.wetted_area += tube.radius * tube.radius * segment(angle, angle.sin(), angle.cos());

@@ -16,16 +16,16 @@ pub(super) fn add(sum: &mut Matrix6<f64>, arm: &Vector3<f64>, mass: &Matrix3<f64
 }
 
 /// Inertia across an axis alone.
-pub(super) fn across(axis: &Vector3<f64>, mass: f64) -> Matrix3<f64> {
+pub(super) fn transverse_inertia(axis: &Vector3<f64>, mass: f64) -> Matrix3<f64> {
     (Matrix3::identity() - axis * axis.transpose()) * mass
 }
 
 /// Adds that of a member in a pose under a surface of a height (m, global).
-fn under(sum: &mut Matrix6<f64>, rod: &Rod, standing: &Standing, level: f64) {
+fn add_member_added_mass(sum: &mut Matrix6<f64>, rod: &Rod, standing: &Standing, level: f64) {
     let axis = &standing.axis;
     if rod.added != 0.0 {
         for station in rod.ranges().flat_map(|range| standing.stations(range, level)) {
-            add(sum, &standing.arm(station.at), &across(axis, rod.added * station.area() * station.long));
+            add(sum, &standing.arm(station.at), &transverse_inertia(axis, rod.added * station.area() * station.long));
         }
     }
     for (at, mass) in [0.0, rod.length].into_iter().zip(rod.end_added).filter(|(_, mass)| *mass != 0.0) {
@@ -38,7 +38,7 @@ fn under(sum: &mut Matrix6<f64>, rod: &Rod, standing: &Standing, level: f64) {
 pub(super) fn at_rest(rods: &[Rod], pose: &Pose, level: f64) -> Matrix6<f64> {
     let mut sum = Matrix6::zeros();
     for rod in rods {
-        under(&mut sum, rod, &rod.standing(pose), level);
+        add_member_added_mass(&mut sum, rod, &rod.standing(pose), level);
     }
     in_pose(&sum, &Pose { axes: pose.axes.transpose(), ..*pose })
 }

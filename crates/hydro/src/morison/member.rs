@@ -129,7 +129,7 @@ impl Standing {
     pub fn stations(&self, (from, to): (f64, f64), level: f64) -> impl Iterator<Item = Station> + use<> {
         let standing = *self;
         let [a, b] = [from, to].map(|at| standing.station(at, 0.0, level).height);
-        let parts = [between(a, b, f64::NEG_INFINITY, -1.0), between(a, b, -1.0, 1.0)];
+        let parts = [interval_between(a, b, f64::NEG_INFINITY, -1.0), interval_between(a, b, -1.0, 1.0)];
         parts.into_iter().flatten().flat_map(move |(p, q)| {
             let long = (to - from) * (q - p);
             GAUSS
@@ -140,7 +140,7 @@ impl Standing {
 }
 
 /// Where a straight line from `a` at 0 to `b` at 1 is between two values.
-fn between(a: f64, b: f64, low: f64, high: f64) -> Option<(f64, f64)> {
+fn interval_between(a: f64, b: f64, low: f64, high: f64) -> Option<(f64, f64)> {
     if a == b {
         return (a > low && a <= high).then_some((0.0, 1.0));
     }

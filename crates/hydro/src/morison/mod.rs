@@ -71,7 +71,7 @@ pub struct Members {
 ///
 /// # Errors
 /// An environment that cannot be computed.
-pub fn of(
+pub fn build_members(
     model: &Model,
     body: &Body,
     under_way: Option<Option<&Arc<Sea>>>,
@@ -84,7 +84,7 @@ pub fn of(
     let steady = Arc::new(if under_way.is_some() { mean.under_way(model, &model.environment)? } else { mean });
     let sea = under_way.flatten();
     let reach = REACH / sea.map_or(0.0, |sea| mean_number(sea));
-    let (growth, pose) = (Growth::of(model, &model.environment)?, Pose::of(&body.place));
+    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::of(&body.place));
     let mut made = Vec::new();
     for part in model.parts_of(body) {
         for piece in &part.pieces {
@@ -132,7 +132,7 @@ fn rods(
     reach: f64,
     growth: Option<(&Growth, &Pose)>,
 ) -> Vec<Rod> {
-    let (Some(own), Shape::Tube { ends, diameter: bare }) = (piece.member, piece.shape.moved(&part.place)) else {
+    let (Some(own), Shape::Tube { ends, diameter: bare }) = (piece.member, piece.shape.moved_by(&part.place)) else {
         return Vec::new();
     };
     let ends = ends.map(Vector3::from);
@@ -210,7 +210,7 @@ fn lengths(stations: &[(f64, f64)], bare: f64) -> Vec<Length> {
 }
 
 impl Members {
-    fn checked(load: MovingLoad) -> Result<MovingLoad, ClassError> {
+    fn check_load(load: MovingLoad) -> Result<MovingLoad, ClassError> {
         let MovingLoad { load: Load { wrench, stiffness }, damping } = &load;
         if wrench.iter().chain(stiffness.iter()).chain(damping.iter()).all(|x| x.is_finite()) {
             Ok(load)
@@ -234,7 +234,7 @@ impl BodyLoad for Members {
                 sum.stiffness += load.stiffness;
             }
         }
-        Members::checked(MovingLoad::of(sum)).map(|made| made.load)
+        Members::check_load(MovingLoad::of(sum)).map(|made| made.load)
     }
 
     fn states(&self) -> usize {
@@ -250,7 +250,7 @@ impl BodyLoad for Members {
 
     fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
         match &self.under_way {
-            Some(way) => Members::checked(way.moving(&self.rods, at, own(state))),
+            Some(way) => Members::check_load(way.moving(&self.rods, at, own(state))),
             None => self.load(at.pose).map(MovingLoad::of),
         }
     }
@@ -290,7 +290,7 @@ fn own(state: &[f64]) -> &[f64] {
 
 /// The pieces of a body that displace water, and that waves move by no pressure: neither members nor of `-DIFTYPE FK`, nor part
 /// of a hydrodynamic database. An engine with waves warns of them.
-pub fn unmoved<'a>(model: &'a Model, body: &'a Body) -> impl Iterator<Item = &'a Piece> {
+pub fn pieces_without_wave_load<'a>(model: &'a Model, body: &'a Body) -> impl Iterator<Item = &'a Piece> {
     let pieces = model.parts_of(body).flat_map(|part| part.pieces.iter());
     pieces.filter(|p| p.permeability != 0.0 && p.member.is_none() && p.waves == WaveAction::ByForm)
 }

@@ -60,7 +60,7 @@ struct Water<'a> {
 
 impl Water<'_> {
     /// At a station, in the middle of what is wet of it.
-    fn at(&self, standing: &Standing, station: &Station) -> Kinematics {
+    fn kinematics_at(&self, standing: &Standing, station: &Station) -> Kinematics {
         let mut place = self.origin + standing.arm(station.at);
         place.z -= station.lower() * standing.rise;
         self.sea.as_ref().map_or(Kinematics::still(0.0), |sea| sea.kinematics(place))
@@ -116,7 +116,7 @@ impl UnderWay {
     /// Finds the water at the stations, and the force of the waves.
     pub(super) fn begin(&self, rods: &[Rod], steady: &Steady, ahead: &Underway, state: &mut [f64]) {
         let sea = self.sea.as_ref().map(|sea| sea.at(ahead.time));
-        let streams = steady.at(ahead.time);
+        let streams = steady.streams_at_time(ahead.time);
         let water = Water { sea, steady, streams, origin: ahead.pose.origin, level: self.level };
         let (head, rest) = state.split_at_mut(HEAD);
         let (mut segments, mut stations) = rest.split_at_mut(SEGMENT * self.segments);
@@ -179,7 +179,7 @@ impl UnderWay {
             if shares[n] == 0.0 || water.sea.is_none() && rod.end_added[n] == 0.0 {
                 continue;
             }
-            let found = water.at(standing, &station);
+            let found = water.kinematics_at(standing, &station);
             pressed += sense * shares[n] * found.pressure;
             let end = axis * axis.transpose() * (rod.end_added[n] * shares[n]);
             let arm = standing.arm(at);
@@ -204,12 +204,12 @@ impl UnderWay {
         let parts = standing.parts(range, &self.kinks);
         for (station, slot) in parts.flat_map(|part| standing.stations(part, level)).zip(slots) {
             let arm = standing.arm(station.at);
-            let found = water.at(standing, &station);
+            let found = water.kinematics_at(standing, &station);
             let beside = found.acceleration - axis * axis.dot(&found.acceleration);
             let share = station.area() * station.long;
             *sum += at_arm(&arm, &(beside * ((water.steady.around.water_density * rod.section + rod.added) * share)));
             if rod.added != 0.0 {
-                added::add(mass, &arm, &added::across(axis, rod.added * share));
+                added::add(mass, &arm, &added::transverse_inertia(axis, rod.added * share));
             }
             let flow = found.velocity + water.current(water.origin.z + arm.z);
             let wet = station.share() * station.long;

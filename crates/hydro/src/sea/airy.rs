@@ -55,7 +55,7 @@ struct Block {
 
 impl WaveLanes {
     /// Those of components in a depth (m).
-    pub(super) fn of(components: &[Component], depth: Option<f64>) -> Self {
+    pub(super) fn new(components: &[Component], depth: Option<f64>) -> Self {
         let block = |list: &[Component]| {
             let each = |value: &dyn Fn(&Component) -> f64| {
                 let mut lanes = [0.0; 8];
@@ -109,7 +109,7 @@ impl Gathered {
     }
 
     /// The places, those that are missing like the first.
-    fn filled(&mut self, count: usize) -> &Places {
+    fn fill_batch(&mut self, count: usize) -> &Places {
         let Places { x, y, height } = &mut self.places;
         for of in [x, y, height] {
             let (own, missing) = of.split_at_mut(count);
@@ -143,7 +143,11 @@ pub struct Prepared {
 
 impl<'a> SeaAt<'a> {
     /// A sea at a time (s), in what was prepared for it at some time.
-    pub(super) fn again(sea: &'a Sea, time: f64, Prepared { time: then, factor, growth, phasors }: Prepared) -> Self {
+    pub(super) fn from_prepared(
+        sea: &'a Sea,
+        time: f64,
+        Prepared { time: then, factor, growth, phasors }: Prepared,
+    ) -> Self {
         let mut made = SeaAt { sea, time: then, factor, growth, phasors };
         if then != time {
             made.move_to(time);
@@ -152,13 +156,13 @@ impl<'a> SeaAt<'a> {
     }
 
     /// What it was prepared for.
-    pub fn prepared(self) -> Prepared {
+    pub fn into_prepared(self) -> Prepared {
         let SeaAt { time, factor, growth, phasors, .. } = self;
         Prepared { time, factor, growth, phasors }
     }
 
     /// A sea at a time (s).
-    pub(super) fn of(sea: &'a Sea, time: f64) -> Self {
+    pub(super) fn new(sea: &'a Sea, time: f64) -> Self {
         let mut made =
             SeaAt { sea, time, factor: 0.0, growth: 0.0, phasors: Vec::with_capacity(sea.lanes.blocks.len()) };
         made.move_to(time);
@@ -182,7 +186,7 @@ impl<'a> SeaAt<'a> {
         if let Some(wave) = &self.sea.stokes {
             return self.factor * wave.elevation(x, y, self.time);
         }
-        raised(&self.sea.lanes.blocks, &self.phasors, [x, y])
+        sum_elevation(&self.sea.lanes.blocks, &self.phasors, [x, y])
     }
 
     /// The water at a global place (m); nothing above the surface, but with [`Stretching::Exponential`]. Below the bottom it
@@ -249,7 +253,7 @@ impl<'a> SeaAt<'a> {
         if count == 0 {
             return;
         }
-        let (sea, far, places) = (self.sea, &self.sea.lanes.far, group.filled(count));
+        let (sea, far, places) = (self.sea, &self.sea.lanes.far, group.fill_batch(count));
         let [pressure, u, v, w, u_rate, v_rate, w_rate] = match (sea.lanes.toward.is_none(), lies) {
             (true, true) => far.sums_on_bottom::<true>(self.time, places),
             (true, false) => far.sums::<true>(self.time, places),
@@ -360,7 +364,7 @@ impl<'a> SeaAt<'a> {
 
 /// Elevation at a place (m).
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn raised(blocks: &[Block], phasors: &[[Eight; 2]], [x, y]: [f64; 2]) -> f64 {
+fn sum_elevation(blocks: &[Block], phasors: &[[Eight; 2]], [x, y]: [f64; 2]) -> f64 {
     let mut sums = [0.0; 8];
     for (block, [c, s]) in blocks.iter().zip(phasors) {
         let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));

@@ -50,10 +50,11 @@ pub fn bands(spectrum: &Spectrum, number: usize, division: Division, limited: bo
     if let (Some(last), true) = (cuts.last_mut(), division == Division::EqualEnergy || limited) {
         *last = high;
     }
-    let mut made = between(spectrum, &cuts, None)?;
+    let mut made = split_between(spectrum, &cuts, None)?;
     if division == Division::EqualFrequency && !limited {
         let ends = (made.first().map_or(low, |b| b.low), made.last().map_or(high, |b| b.high));
-        let (below, whole, above) = (spectrum.below(ends.0)[0], spectrum.moment(0), spectrum.below(ends.1)[0]);
+        let (below, whole, above) =
+            (spectrum.moments_below(ends.0)[0], spectrum.moment(0), spectrum.moments_below(ends.1)[0]);
         if let Some(first) = made.first_mut() {
             first.energy += below;
         }
@@ -75,11 +76,11 @@ pub fn bands_about(spectrum: &Spectrum, periods: &[f64]) -> Result<Vec<Band>, Cl
     let middles = frequencies.windows(2).map(|pair| 0.5 * pair.iter().sum::<f64>());
     let mut cuts: Vec<f64> = std::iter::once(low).chain(middles.map(|w| w.clamp(low, high))).collect();
     cuts.push(high);
-    between(spectrum, &cuts, Some(&frequencies))
+    split_between(spectrum, &cuts, Some(&frequencies))
 }
 
-fn between(spectrum: &Spectrum, cuts: &[f64], at: Option<&[f64]>) -> Result<Vec<Band>, ClassError> {
-    let below: Vec<[f64; 2]> = cuts.iter().map(|w| spectrum.below(*w)).collect();
+fn split_between(spectrum: &Spectrum, cuts: &[f64], at: Option<&[f64]>) -> Result<Vec<Band>, ClassError> {
+    let below: Vec<[f64; 2]> = cuts.iter().map(|w| spectrum.moments_below(*w)).collect();
     let mut made = Vec::with_capacity(cuts.len());
     for (index, (edges, sums)) in cuts.windows(2).zip(below.windows(2)).enumerate() {
         let ([low, high], [a, b]) = (edges, sums) else { continue };
@@ -90,7 +91,9 @@ fn between(spectrum: &Spectrum, cuts: &[f64], at: Option<&[f64]>) -> Result<Vec<
         let frequency = at.and_then(|f| f.get(index)).copied().unwrap_or(first / energy);
         if !(frequency > 0.0 && frequency.is_finite()) {
             let text = "a band of the spectrum from {} on has no mean frequency";
-            return Err(ClassError::of(text, &[(*low, Dim::Frequency)]).help("give -COMPONENTS limits of frequency"));
+            return Err(
+                ClassError::with_values(text, &[(*low, Dim::Frequency)]).help("give -COMPONENTS limits of frequency")
+            );
         }
         made.push(Band { low: *low, high: *high, frequency, energy });
     }

@@ -223,7 +223,7 @@ impl Spectrum {
     }
 
     /// Energy (m2) and first moment (m2 rad/s) below a frequency (rad/s).
-    pub fn below(&self, frequency: f64) -> [f64; 2] {
+    pub fn moments_below(&self, frequency: f64) -> [f64; 2] {
         let index = self.panels.partition_point(|p| p.high <= frequency);
         let Some(panel) = self.panels.get(index) else { return [self.moment(0), self.moment(1)] };
         if frequency <= panel.low {
@@ -249,14 +249,14 @@ impl Spectrum {
                 return high;
             }
             high = 2.0 * low;
-            while self.below(high)[0] < wanted && high.is_finite() {
+            while self.moments_below(high)[0] < wanted && high.is_finite() {
                 high *= 2.0;
             }
         }
         let mut at = 0.5 * (low + high);
         // Newton's method, kept between its bounds
         for _ in 0..200 {
-            let over = self.below(at)[0] - wanted;
+            let over = self.moments_below(at)[0] - wanted;
             if over > 0.0 {
                 high = at
             } else {
@@ -277,7 +277,7 @@ impl Spectrum {
     ///
     /// # Errors
     /// Without energy to begin with.
-    pub fn scaled(&self, factor: f64, m0: f64, limits: Option<[f64; 2]>) -> Result<Self, ClassError> {
+    pub fn with_scaled_frequencies(&self, factor: f64, m0: f64, limits: Option<[f64; 2]>) -> Result<Self, ClassError> {
         let whole = self.moment(0);
         if !(whole > 0.0 && whole.is_finite() && factor > 0.0 && factor.is_finite()) {
             return Err(ClassError::new("a spectrum has no energy"));
@@ -301,6 +301,6 @@ impl Spectrum {
             return Ok(self);
         }
         let text = "a spectrum has no energy from {} to {}";
-        Err(ClassError::of(text, &[(low, Dim::Frequency), (high, Dim::Frequency)]))
+        Err(ClassError::with_values(text, &[(low, Dim::Frequency), (high, Dim::Frequency)]))
     }
 }

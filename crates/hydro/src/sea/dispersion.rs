@@ -12,7 +12,9 @@ const STEPS: usize = 50;
 /// A frequency, depth or gravity that is no positive finite number.
 pub fn wave_number(frequency: f64, depth: Option<f64>, gravity: f64) -> Result<f64, ClassError> {
     let deep = frequency * frequency / gravity;
-    let fail = || ClassError::of("there is no wave of a frequency of {} in this water", &[(frequency, Dim::Frequency)]);
+    let fail = || {
+        ClassError::with_values("there is no wave of a frequency of {} in this water", &[(frequency, Dim::Frequency)])
+    };
     let sound = |value: f64| value.is_finite() && value > 0.0;
     if !sound(frequency) || !sound(gravity) || !sound(deep) || !depth.is_none_or(sound) {
         return Err(fail());

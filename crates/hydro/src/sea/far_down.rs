@@ -90,7 +90,7 @@ impl FarDown {
             let bottom = depth.map_or(0.0, |d| {
                 let power = number * -d;
                 let [own, back] = decays(power, 0);
-                felt(own, power, FAINT) + felt(back * mirror, twice - power, MIRRORED)
+                remaining_amplitude(own, power, FAINT) + remaining_amplitude(back * mirror, twice - power, MIRRORED)
             });
             Wave {
                 turns: along.map(|share| share * c.number * FRAC_1_PI),
@@ -143,7 +143,7 @@ fn decays(power: f64, turned: u64) -> [f64; 2] {
 
 /// What is left of a wave at a power of two: nothing below a least power.
 #[inline(always)]
-fn felt(value: f64, power: f64, least: f64) -> f64 {
+fn remaining_amplitude(value: f64, power: f64, least: f64) -> f64 {
     if power >= least { value } else { 0.0 }
 }
 
@@ -224,11 +224,15 @@ fn add<const SPREAD: bool, const LYING: bool, const MIRROR: bool>(
         }
         let power = wave.number * places.height[i];
         let [own, back] = decays(power, turned);
-        let own = felt(own, power, FAINT);
+        let own = remaining_amplitude(own, power, FAINT);
         let (mut cosh, mut sinh) = (own, own);
         if MIRROR {
             // where the wave itself is left out, so is its mirror term
-            let back = felt(felt(back * wave.mirror, wave.twice - power, MIRRORED), power, FAINT);
+            let back = remaining_amplitude(
+                remaining_amplitude(back * wave.mirror, wave.twice - power, MIRRORED),
+                power,
+                FAINT,
+            );
             (cosh, sinh) = (own + back, own - back);
         }
         let (c, s) = (cosh * cos, cosh * sin);
@@ -264,7 +268,7 @@ mod tests {
                 assert_eq!(decays(power, 7), [-found, -inverse]);
             }
         }
-        assert_eq!(felt(f64::NAN, -1e300, FAINT), 0.0);
-        assert_eq!(felt(f64::INFINITY, f64::NEG_INFINITY, MIRRORED), 0.0);
+        assert_eq!(remaining_amplitude(f64::NAN, -1e300, FAINT), 0.0);
+        assert_eq!(remaining_amplitude(f64::INFINITY, f64::NEG_INFINITY, MIRRORED), 0.0);
     }
 }

@@ -39,7 +39,7 @@ impl Sea {
     ///
     /// # Errors
     /// A sea that cannot be: no energy, a wave too steep, a spectrum without a formula, a Stokes wave beside another sea.
-    pub fn of(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
+    pub fn new(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
         let around = model.surroundings_in(env);
         let water = Water {
             depth: around.depth.map(|d| d + around.tide),
@@ -53,16 +53,18 @@ impl Sea {
             || [&env.sea, &env.added_sea].into_iter().flatten().filter(|s| !spectrum::is_regular(s) || s.height > 0.0);
         for (index, sea) in (0u64..).zip(seas()) {
             let first = components.len();
-            let spectrum = spectrum::of(model, env, sea, env.components.and_then(|c| c.limits))?;
+            let spectrum = spectrum::build_spectrum(model, env, sea, env.components.and_then(|c| c.limits))?;
             let bands = match &spectrum {
                 None => Vec::new(),
-                Some(spectrum) => cut(spectrum, env).map_err(|e| e.clone().at(e.span.unwrap_or(sea.place(0))))?,
+                Some(spectrum) => {
+                    cut_into_bands(spectrum, env).map_err(|e| e.clone().with_span(e.span.unwrap_or(sea.place(0))))?
+                }
             };
             if spectrum.is_none() {
                 let (wave, nonlinear) = regular(env, sea, env.sea_phases.get(first).copied(), water)?;
                 if nonlinear.is_some() && seas().count() > 1 {
                     return Err(ClassError::new("a STOKES wave cannot be added to another sea: it is not linear")
-                        .at(sea.place(0))
+                        .with_span(sea.place(0))
                         .help("REGULAR is the linear wave"));
                 }
                 components.push(wave);
@@ -76,7 +78,7 @@ impl Sea {
             };
             for ((band, toward), phase) in bands.iter().zip(directions).zip(angles) {
                 let number = dispersion::wave_number(band.frequency, water.depth, water.gravity)
-                    .map_err(|e| e.at(sea.place(0)))?;
+                    .map_err(|e| e.with_span(sea.place(0)))?;
                 let amplitude = (2.0 * band.energy).sqrt();
                 components.push(Component { frequency: band.frequency, number, amplitude, toward, phase });
             }
@@ -108,7 +110,7 @@ impl Sea {
 }
 
 /// The bands of a spectrum, as the environment says.
-fn cut(spectrum: &Spectrum, env: &Environment) -> Result<Vec<Band>, ClassError> {
+fn cut_into_bands(spectrum: &Spectrum, env: &Environment) -> Result<Vec<Band>, ClassError> {
     let asked = env.components;
     if !env.sea_periods.is_empty() {
         return bands_about(spectrum, &env.sea_periods);
@@ -126,9 +128,11 @@ fn regular(
     water: Water,
 ) -> Result<(Component, Option<Stokes>), ClassError> {
     if !(sea.period > 0.0 && sea.height.is_finite()) {
-        return Err(
-            ClassError::of("there is no regular wave with a period of {}", &[(sea.period, Dim::Time)]).at(sea.place(3))
-        );
+        return Err(ClassError::with_values(
+            "there is no regular wave with a period of {}",
+            &[(sea.period, Dim::Time)],
+        )
+        .with_span(sea.place(3)));
     }
     let frequency = TAU / sea.period;
     let (cos, sin) = unit_vector(sea.direction);
@@ -138,12 +142,13 @@ fn regular(
         Some(Phasing::Reinforced(time)) => (frequency * time).rem_euclid(TAU),
         _ => given.unwrap_or(0.0),
     };
-    let at = |error: ClassError| error.at(sea.place(2));
-    let mut number = dispersion::wave_number(frequency, water.depth, water.gravity).map_err(|e| e.at(sea.place(3)))?;
+    let at = |error: ClassError| error.with_span(sea.place(2));
+    let mut number =
+        dispersion::wave_number(frequency, water.depth, water.gravity).map_err(|e| e.with_span(sea.place(3)))?;
     let mut stokes = None;
     if sea.spectrum.eq_ignore_ascii_case("STOKES") {
         let order = env.stokes.unwrap_or(USUAL_ORDER);
-        let wave = Stokes::of(order, (sea.height, frequency), (toward, phase), water).map_err(at)?;
+        let wave = Stokes::new(order, (sea.height, frequency), (toward, phase), water).map_err(at)?;
         number = wave.number;
         stokes = Some(wave);
     }
@@ -172,7 +177,7 @@ mod tests {
     }
 
     fn made(model: &Model) -> Sea {
-        Sea::of(model, &model.environment).unwrap().unwrap()
+        Sea::new(model, &model.environment).unwrap().unwrap()
     }
 
     #[test]
@@ -219,7 +224,7 @@ mod tests {
         assert!((energy - 2.0).abs() < 1e-9);
         assert_ne!(sea.components[0].phase, sea.components[USUAL_NUMBER].phase);
         model.environment.added_sea.as_mut().unwrap().spectrum = "STOKES".into();
-        assert!(Sea::of(&model, &model.environment).is_err());
+        assert!(Sea::new(&model, &model.environment).is_err());
     }
 
     #[test]

@@ -103,9 +103,9 @@ pub struct Sea {
 }
 
 impl Sea {
-    /// A sea of Airy waves, their phases taken as they are; see [`Sea::of`] for that of an environment.
+    /// A sea of Airy waves, their phases taken as they are; see [`Sea::new`] for that of an environment.
     pub fn airy(components: Vec<Component>, water: Water, ramp: f64, stretching: Stretching) -> Self {
-        let lanes = airy::WaveLanes::of(&components, water.depth);
+        let lanes = airy::WaveLanes::new(&components, water.depth);
         let Water { depth, level, gravity, density } = water;
         Sea {
             components,
@@ -136,12 +136,12 @@ impl Sea {
 
     /// The sea at one time (s), prepared for many places.
     pub fn at(&self, time: f64) -> SeaAt<'_> {
-        SeaAt::of(self, time)
+        SeaAt::new(self, time)
     }
 
     /// The same, in what was prepared of this sea for some time: nothing is found again where that is this one.
     pub fn at_again(&self, time: f64, prepared: Prepared) -> SeaAt<'_> {
-        SeaAt::again(self, time, prepared)
+        SeaAt::from_prepared(self, time, prepared)
     }
 
     /// Height of the surface above the mean level (m).

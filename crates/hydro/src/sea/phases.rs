@@ -20,7 +20,7 @@ pub fn one_each(env: &Environment, components: &[Component]) -> Result<(), Class
         .help("one each, in the order of &STATUS SEA_SPECTRUM; -COMPONENTS says how many there are");
     let given = env.options.iter().find(|given| given.is(&PHASES));
     Err(match given {
-        Some(option) => error.at(option.span),
+        Some(option) => error.with_span(option.span),
         None => error,
     })
 }

@@ -21,7 +21,7 @@ pub enum PeriodType {
 
 impl PeriodType {
     /// That of a word of `-SP_TYPE`.
-    pub fn of(word: &str) -> Self {
+    pub fn from_word(word: &str) -> Self {
         match word {
             "MEAN" => PeriodType::Mean,
             "ZERO_CROSSING" => PeriodType::ZeroCrossing,
@@ -93,7 +93,7 @@ pub fn torsethaugen(height: f64, period: f64) -> Result<Vec<SpectralPeak>, Class
     if period < shortest.min(fetch) || period > longest || fetch >= longest {
         let text = "the spectrum of Torsethaugen has no peak period of {} with a height of {}: it knows {} to {}";
         let told = [(period, Dim::Time), (height, Dim::Length), (shortest.min(fetch), Dim::Time), (longest, Dim::Time)];
-        return Err(ClassError::of(text, &told));
+        return Err(ClassError::with_values(text, &told));
     }
     let steep = |height: f64, period: f64| 35.0 * (TAU / FITTED_GRAVITY * height / (period * period)).powf(6.0 / 7.0);
     let rest = |share: f64| height * (1.0 - share * share).max(0.0).sqrt();

@@ -25,7 +25,7 @@ pub fn breaks(height: f64, number: f64, water: &Water) -> Result<(), ClassError>
         return Ok(());
     }
     let text = "a wave {} high and {} long breaks: it can be {} high";
-    Err(ClassError::of(text, &[(height, Dim::Length), (length, Dim::Length), (limit, Dim::Length)])
+    Err(ClassError::with_values(text, &[(height, Dim::Length), (length, Dim::Length), (limit, Dim::Length)])
         .help("0.142 L tanh(k d) (Miche); give a smaller height or a longer period"))
 }
 
@@ -36,7 +36,7 @@ fn serves(height: f64, number: f64, water: &Water) -> Result<(), ClassError> {
         Some(depth) if height * length * length > URSELL * depth.powi(3) => {
             let text = "a wave {} high and {} long is too long for Stokes' theory in a depth of {}";
             let told = [(height, Dim::Length), (length, Dim::Length), (depth, Dim::Length)];
-            Err(ClassError::of(text, &told).help("H L^2/d^3 may be 40; REGULAR is the linear wave"))
+            Err(ClassError::with_values(text, &told).help("H L^2/d^3 may be 40; REGULAR is the linear wave"))
         }
         _ => Ok(()),
     }
@@ -62,7 +62,7 @@ fn poly(s: f64, coefficients: &[f64]) -> f64 {
 
 impl Coefficients {
     /// Those of k d; `None`: deep.
-    fn of(kd: Option<f64>) -> Self {
+    fn new(kd: Option<f64>) -> Self {
         let (s, tanh) = kd.map_or((0.0, 1.0), |kd| (1.0 / (2.0 * kd).cosh(), kd.tanh()));
         let (coth, r) = (1.0 / tanh, 1.0 - s);
         let (two, four) = (3.0 + 2.0 * s, 4.0 + s);
@@ -112,7 +112,7 @@ impl Coefficients {
     }
 
     /// The wave speed over sqrt(g/k), to an order.
-    fn speed(&self, e: f64, order: u8) -> f64 {
+    fn wave_speed(&self, e: f64, order: u8) -> f64 {
         let third = if order >= 3 { self.c[1] * e * e } else { 0.0 };
         let fifth = if order >= 5 { self.c[2] * e.powi(4) } else { 0.0 };
         self.c[0] + third + fifth
@@ -148,15 +148,15 @@ impl Stokes {
     ///
     /// # Errors
     /// A wave that breaks, is too long for the theory, or has no wave number.
-    pub fn of(
+    pub fn new(
         order: u8,
         (height, frequency): (f64, f64),
         (toward, phase): ([f64; 2], f64),
         water: Water,
     ) -> Result<Self, ClassError> {
         let linear = super::dispersion::wave_number(frequency, water.depth, water.gravity)?;
-        let at = |k: f64| Coefficients::of(water.depth.map(|d| k * d));
-        let over = |k: f64| (water.gravity * k).sqrt() * at(k).speed(0.5 * k * height, order) - frequency;
+        let at = |k: f64| Coefficients::new(water.depth.map(|d| k * d));
+        let over = |k: f64| (water.gravity * k).sqrt() * at(k).wave_speed(0.5 * k * height, order) - frequency;
         breaks(height, linear, &water)?;
         serves(height, linear, &water)?;
         // a wave of finite height is faster than a small one, so it is longer
@@ -164,7 +164,7 @@ impl Stokes {
         if !(over(low) < 0.0 && over(high) >= 0.0) {
             let text = "no wave number was found for a Stokes wave {} high with a period of {}";
             let told = [(height, Dim::Length), (std::f64::consts::TAU / frequency, Dim::Time)];
-            return Err(ClassError::of(text, &told).help("REGULAR is the linear wave"));
+            return Err(ClassError::with_values(text, &told).help("REGULAR is the linear wave"));
         }
         // halves until the bounds are neighbours
         for _ in 0..120 {
@@ -251,14 +251,14 @@ mod tests {
     fn wave(order: u8, e: f64, depth: Option<f64>) -> Stokes {
         let k = std::f64::consts::TAU / 100.0;
         let frequency = crate::sea::dispersion::frequency(k, depth, GRAVITY);
-        Stokes::of(order, (2.0 * e / k, frequency), ([1.0, 0.0], 0.0), water(depth)).unwrap()
+        Stokes::new(order, (2.0 * e / k, frequency), ([1.0, 0.0], 0.0), water(depth)).unwrap()
     }
 
     #[test]
     fn coefficients_are_those_of_fentons_table() {
         // [FENTON-1985 table 2]: k d = 0.753982 (as quoted in the tests of AMR-Wind)
         let kd = 0.753_982f64;
-        let c = Coefficients::of(Some(kd));
+        let c = Coefficients::new(Some(kd));
         let a = |i: usize, j: usize| c.a[j - 1][i - 1] / (j as f64 * kd).cosh();
         let close = |found: f64, printed: f64| {
             assert!((found - printed).abs() < 2e-5 * printed.abs().max(1.0), "{found} {printed}")
@@ -379,7 +379,7 @@ mod tests {
     #[test]
     fn a_wave_too_steep_or_too_long_is_refused() {
         let of = |height, period: f64, depth| {
-            Stokes::of(5, (height, std::f64::consts::TAU / period), ([1.0, 0.0], 0.0), water(depth))
+            Stokes::new(5, (height, std::f64::consts::TAU / period), ([1.0, 0.0], 0.0), water(depth))
         };
         assert!(of(25.0, 10.0, None).unwrap_err().message.contains("breaks"));
         assert!(of(2.0, 20.0, Some(5.0)).unwrap_err().message.contains("too long"));

@@ -126,7 +126,7 @@ fn long_waves_lift_the_sphere_as_its_waterplane() {
 #[test]
 fn the_kernel_gives_back_damping_and_added_mass() {
     let data = hemisphere();
-    let radiation = Radiation::of(&data).unwrap().unwrap();
+    let radiation = Radiation::new(&data).unwrap().unwrap();
     let (dt, memory) = (0.02, 200.0);
     let kernel = radiation.kernel(dt, memory);
     let most = data.damping.iter().map(|b| b[(2, 2)]).fold(0.0, f64::max);
@@ -145,7 +145,7 @@ fn the_kernel_gives_back_damping_and_added_mass() {
     }
     // Ogilvie's relation finds the added mass at infinite frequency that Capytaine computes; damping in surge at the last frequency is
     // still a tenth of its largest, and what is beyond it is only guessed: 1.3 % found
-    let found = Radiation::of(&Database { infinite: None, ..data.clone() }).unwrap().unwrap();
+    let found = Radiation::new(&Database { infinite: None, ..data.clone() }).unwrap().unwrap();
     for mode in 0..5 {
         let (own, given) = (found.infinite[(mode, mode)], radiation.infinite[(mode, mode)]);
         let scale = if mode < 3 { given } else { displaced(&data) * RADIUS * RADIUS };
@@ -159,13 +159,13 @@ fn the_kernel_gives_back_damping_and_added_mass() {
 fn heave_in_time_is_heave_by_frequency() {
     // Cummins' equation by the trapezoidal rule against z = X / (C - w2 (M + A) - i w B), in a wave of 1 m, 0.05 s a step
     let data = hemisphere();
-    let radiation = Radiation::of(&data).unwrap().unwrap();
+    let radiation = Radiation::new(&data).unwrap().unwrap();
     let (dt, mass) = (0.05, data.mass.unwrap());
     let stiffness = data.hydrostatics.unwrap()[(2, 2)];
     let memory = Memory::new(&|t| radiation.faded_at(t, 100.0), (radiation.finest(), 100.0), dt);
     for w in [0.6, 0.9, 1.2, 1.8] {
         let sea = sea(vec![wave(w, 1.0, 0.0, 0.0)]);
-        let excitation = Excitation::of(&data, &sea).unwrap();
+        let excitation = Excitation::new(&data, &sea).unwrap();
         let mut state = vec![0.0; memory.states()];
         let (mut z, mut v, mut a, mut time) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
         let inertia = mass + radiation.infinite[(2, 2)];
@@ -227,7 +227,7 @@ fn crossing() -> Vec<Component> {
 fn a_sphere_is_pushed_the_same_whatever_its_yaw() {
     let data = hemisphere();
     let sea = sea(crossing());
-    let excitation = Excitation::of(&data, &sea).unwrap();
+    let excitation = Excitation::new(&data, &sea).unwrap();
     // by hand, from the values of the database for each wave
     let (time, x, y) = (37.3, 12.0, -7.0);
     let mut wanted = Six::zeros();
@@ -362,7 +362,7 @@ fn the_mean_of_slow_drift_is_that_at_rest() {
 
 #[test]
 fn the_kernel_of_a_symmetric_body_has_few_pairs() {
-    let radiation = Radiation::of(&hemisphere()).unwrap().unwrap();
+    let radiation = Radiation::new(&hemisphere()).unwrap().unwrap();
     let pairs = Memory::new(&|t| radiation.faded_at(t, 60.0), (radiation.finest(), 60.0), 0.1).pairs();
     assert!(pairs < 30, "{pairs}");
 }
@@ -372,7 +372,7 @@ fn slow_and_wave_motions_are_damped_as_the_source_says_at_any_step() {
     // the work of the memory over whole periods of a sine of velocity, over that of B(w): 81 s, and 8 s. Steps beyond a twentieth of the shortest
     // period of the source (0.087 s) once gave the slow one 1.5e-3 of critical
     let data = hemisphere();
-    let radiation = Radiation::of(&data).unwrap().unwrap();
+    let radiation = Radiation::new(&data).unwrap().unwrap();
     let inertia = data.mass.unwrap() + radiation.infinite[(0, 0)];
     for (period, steps) in [(81.0, [0.05, 0.1, 0.5, 1.0]), (8.0, [0.05, 0.1, 0.2, 0.5])] {
         let w = TAU / period;

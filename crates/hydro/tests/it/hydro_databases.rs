@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use windlass_hydro::database::rao::{self, RaoConvention};
 use windlass_hydro::database::wamit::{self, WamitScale};
 use windlass_hydro::database::{Database, SourceFile, capytaine, nemoh};
-use windlass_hydro::database::{DatabaseLookup, mirrored};
+use windlass_hydro::database::{DatabaseLookup, mirror_headings};
 
 const FOLDER: &str = "../../tests/data/hemisphere/";
 
@@ -164,7 +164,7 @@ fn the_other_side_of_a_symmetric_body_is_its_mirror() {
         ..all.clone()
     };
     assert!(half.excitation_at(-1.0, 1.0).is_err());
-    let made = mirrored(half);
+    let made = mirror_headings(half);
     assert_eq!(made.headings.len(), 8);
     for (own, other) in made.excitation.iter().flatten().zip(all.excitation.iter().flatten()) {
         for (a, b) in own.iter().zip(other) {

@@ -95,7 +95,7 @@ fn an_upright_box_has_the_volume_centres_and_metacentres_of_the_hand_formulas() 
         let pose = pose([100.0, -40.0, -draft], [0.0, 0.0, yaw]);
         let wet = barge().wet(&pose, 0.0);
         close(wet.wetted_area, l * b + 2.0 * (l + b) * draft, 1e-11, "wetted area");
-        let h = Hydrostatics::of(&wet, &pose, Vector3::new(0.0, 0.0, kg), WATER).unwrap();
+        let h = Hydrostatics::new(&wet, &pose, Vector3::new(0.0, 0.0, kg), WATER).unwrap();
         close(h.volume, l * b * draft, 1e-11, "volume");
         close(h.displacement, l * b * draft * WATER, 1e-5, "displacement");
         close(h.kb, draft / 2.0, 1e-13, "KB");
@@ -120,7 +120,7 @@ fn a_heeled_box_follows_the_wall_sided_formula_until_the_deck_enters() {
         let pose = Pose { origin: -(turned.axes * middle), axes: turned.axes };
         let wet = barge().wet(&pose, 0.0);
         close(wet.volume, 20.0 * b * draft, 1e-10, "volume does not change");
-        let h = Hydrostatics::of(&wet, &pose, middle, WATER).unwrap();
+        let h = Hydrostatics::new(&wet, &pose, middle, WATER).unwrap();
         let bm = b * b / (12.0 * draft);
         let gm = draft / 2.0 + bm - draft;
         // a roll to starboard down (positive about x: port, +y, goes up) moves the centre of buoyancy to -y
@@ -179,7 +179,7 @@ fn a_cube_corner_down_displaces_the_pyramid_and_half_the_cube_at_its_hexagon() {
     close(half.plane_second[2], second, 1e-15, "Iyy");
     close(half.plane_second[1], 0.0, 1e-15, "Ixy");
     // it floats so: the centre of buoyancy is below the centre and GM > 0
-    let h = Hydrostatics::of(&half, &pose, Vector3::zeros(), WATER).unwrap();
+    let h = Hydrostatics::new(&half, &pose, Vector3::zeros(), WATER).unwrap();
     close(h.centre_of_buoyancy.xy().norm(), 0.0, 1e-15, "upright");
     // by hand: of the lower half, the pyramid of height 3/4 of half the diagonal less three small ones: -7 sqrt(3) / 48 ...
     // from symmetry instead: int z dV over the half = -int over levels of A(z) z
@@ -475,7 +475,7 @@ fn the_platform_of_aqwa_tether_has_its_buoyancy_in_closed_form_and_as_tubes() {
     // GRAVITY is printed: the mass of 268.8E3 t (PMAS) times g
     let weight = 268.8e3 * 9.81;
     assert_eq!(format!("{weight:.4e}"), "2.6369e6");
-    let h = Hydrostatics::of(&wet, &pose, Vector3::new(0.0, 0.0, 63.6), gamma).unwrap();
+    let h = Hydrostatics::new(&wet, &pose, Vector3::new(0.0, 0.0, 63.6), gamma).unwrap();
     let kb = (4.0 * column * 81.0 * 40.5 + 4.0 * pontoon * 2.0 * 28.3377 * 8.124) / volume;
     close(h.kb, kb, 1e-11, "KB");
     let second = 4.0 * (column * 1600.0 + PI / 64.0 * 31.1f64.powi(4));
@@ -509,7 +509,7 @@ fn stiffness_agrees(solid: &dyn Solid, pose: &Pose, size: f64, part: f64, what: 
         let by = if column < 3 { step } else { 1e-5 };
         let mut motion = Six::zeros();
         motion[column] = by;
-        let load = |motion: &Six| solid.wet(&pose.moved(motion), 0.0).load(WATER).wrench;
+        let load = |motion: &Six| solid.wet(&pose.after_motion(motion), 0.0).load(WATER).wrench;
         let difference = -(load(&motion) - load(&-motion)) / (2.0 * by);
         for row in 0..6 {
             let powers = 2 + i32::from(row >= 3) + i32::from(column >= 3);
@@ -546,7 +546,7 @@ fn permeability_and_an_interior_are_counted_by_their_factor() {
     let mut porous = Wet::default();
     porous.add(&outer.wet(&at, 0.0), 0.95);
     close(porous.volume, 0.95 * 24.0, 1e-13, "permeability");
-    assert!(Hydrostatics::of(&Wet::default(), &at, Vector3::zeros(), WATER).is_none());
+    assert!(Hydrostatics::new(&Wet::default(), &at, Vector3::zeros(), WATER).is_none());
 }
 
 // what is wrong with a mesh

@@ -4,7 +4,7 @@ use crate::name;
 use crate::number;
 use crate::record::Word;
 use crate::select::{self, Owner};
-use crate::spec::{Kind, Need, OptionSpec, Range, ValueSpec, expected};
+use crate::spec::{Kind, Need, OptionSpec, Range, ValueSpec, describe_expected};
 use crate::token::{Kind as Lex, is_numeric};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -94,7 +94,7 @@ pub(super) fn convert(
                 .label(format!("unexpected `{}`", word.text)));
         };
         let before = [1, 2].map(|back| values.len().checked_sub(back).and_then(|i| values.get(i)).cloned());
-        values.push(one(spec, word, before, words.get(index + 1).copied(), owner, units)?);
+        values.push(convert_value(spec, word, before, words.get(index + 1).copied(), owner, units)?);
     }
     let given = values.len();
     let missing = if given < specs.len() {
@@ -108,14 +108,14 @@ pub(super) fn convert(
         let place = values.last().map_or(at, |v| v.span);
         return Err(Diagnostic::error(format!("{owner} lacks its value {}", spec.name), place).label(format!(
             "expected {} after this: {}",
-            expected(spec.kind, units),
+            describe_expected(spec.kind, units),
             spec.help
         )));
     }
     Ok(values)
 }
 
-fn one(
+fn convert_value(
     spec: &ValueSpec,
     word: &Word,
     before: [Option<Value>; 2],
@@ -127,7 +127,7 @@ fn one(
     if word.kind == Lex::Empty {
         if let Need::Required = spec.need {
             return Err(Diagnostic::error(format!("{} of {owner} may not be left out", spec.name), span)
-                .label(format!("expected {}", expected(spec.kind, units))));
+                .label(format!("expected {}", describe_expected(spec.kind, units))));
         }
         return Ok(Value::empty(span));
     }
@@ -191,7 +191,7 @@ fn noun_fits(spec: &ValueSpec, noun: Noun, word: &Word, owner: &str, units: Unit
     };
     if !fitting {
         return Err(Diagnostic::error(
-            format!("{} of {owner} must be {}", spec.name, expected(spec.kind, units)),
+            format!("{} of {owner} must be {}", spec.name, describe_expected(spec.kind, units)),
             word.span,
         )
         .label(format!("`{}` is not one", word.text)));
@@ -205,8 +205,11 @@ fn noun_fits(spec: &ValueSpec, noun: Noun, word: &Word, owner: &str, units: Unit
 
 fn number_in(spec: &ValueSpec, word: &Word, owner: &str, dim: Dim, units: UnitSystem) -> Outcome<f64> {
     let value = number::evaluate(&word.text).map_err(|error| {
-        Diagnostic::error(format!("{} of {owner} must be {}", spec.name, expected(Kind::Number(dim), units)), word.span)
-            .label(error.to_string())
+        Diagnostic::error(
+            format!("{} of {owner} must be {}", spec.name, describe_expected(Kind::Number(dim), units)),
+            word.span,
+        )
+        .label(error.to_string())
     })?;
     let wrong = match spec.range {
         Range::Any => None,

@@ -18,7 +18,7 @@ struct Argument {
 
 impl Argument {
     /// The local that a word of a call makes; a field left out takes the default.
-    fn given(&self, word: &Word) -> (String, String) {
+    fn argument_value(&self, word: &Word) -> (String, String) {
         let value = if word.kind == Kind::Empty { self.default.clone() } else { word.text.to_string() };
         (self.name.clone(), value)
     }
@@ -135,7 +135,7 @@ impl Macro {
                 }
                 for value in &option.values {
                     let Some(word) = words.get(at).filter(|w| w.kind != Kind::Option) else { break };
-                    locals.push(value.given(word));
+                    locals.push(value.argument_value(word));
                     at += 1;
                 }
                 continue;
@@ -144,7 +144,7 @@ impl Macro {
                 return Err(Diagnostic::error(format!("macro {} takes no further argument", self.name), word.span)
                     .help(format!("form: {}", self.syntax())));
             };
-            locals.push(argument.given(word));
+            locals.push(argument.argument_value(word));
             given += 1;
         }
         let rest = self.arguments.get(given..).unwrap_or_default();

@@ -197,7 +197,7 @@ impl Interpreter {
     ///
     /// # Errors
     /// Whatever is wrong with a control record or a substitution; the flow stays whole and goes on behind it.
-    pub fn next(&mut self, world: &mut dyn World) -> Outcome<Step> {
+    pub fn next_step(&mut self, world: &mut dyn World) -> Outcome<Step> {
         loop {
             if self.interrupt.swap(false, Ordering::Relaxed) {
                 self.was_interrupted = true;

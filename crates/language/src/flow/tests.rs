@@ -12,7 +12,7 @@ fn run_with(text: &str, budget: u64) -> Vec<String> {
     interpreter.open("t.cif", text, 0, None).unwrap();
     let mut out = Vec::new();
     loop {
-        match interpreter.next(&mut NoFunctions) {
+        match interpreter.next_step(&mut NoFunctions) {
             Ok(Step::Record(record)) => {
                 let known = macros::find(record.first_word(), interpreter.macros()).map(|(_, m)| m.clone());
                 match known {
@@ -92,7 +92,7 @@ fn a_wrong_bound_of_a_loop_is_the_place_of_the_error() {
     ] {
         let mut interpreter = Interpreter::new(std::iter::empty());
         interpreter.open("t.cif", format!("{header}\n&ENDLOOP\n"), 0, None).unwrap();
-        let error = interpreter.next(&mut NoFunctions).unwrap_err();
+        let error = interpreter.next_step(&mut NoFunctions).unwrap_err();
         assert_eq!(error.message, message);
         assert_eq!(interpreter.sources.place(error.span.unwrap()), format!("t.cif:1:{column}"));
     }

@@ -13,17 +13,17 @@ fn beam(length: f64, elements: usize, bending: f64, ea: f64) -> Rod {
 fn a_moment_of_two_pi_ei_over_l_bends_a_beam_into_a_circle() {
     let (length, bending) = (10.0, 1000.0);
     let rod = beam(length, 20, bending, 1e7);
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, 0.0);
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, 0.0);
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
     // beyond half a turn the rod could swing out of its plane and straighten, as nothing resists its twist
     let mut solver = Solver::new(&rod, Settings { unstable: true, ..Settings::default() });
-    let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::x());
+    let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::x());
     let steps = 16;
     let mut moment = 0.0;
     for i in 1..=steps {
         let angle = 2.0 * std::f64::consts::PI * i as f64 / steps as f64;
-        let tip = End::FREE.clamped(Vector3::new(angle.cos(), 0.0, angle.sin()));
+        let tip = End::FREE.with_clamp(Vector3::new(angle.cos(), 0.0, angle.sin()));
         let made = solver.statics(&rod, &mut state, &world, [clamp, tip]).unwrap();
         moment = made.moment[1].norm();
     }
@@ -41,12 +41,12 @@ fn a_cantilever_with_a_tip_load_takes_the_shape_of_the_elastica() {
         let error = |elements: usize| {
             let (length, bending) = (1.0, 1.0);
             let rod = beam(length, elements, bending, 1e7);
-            let fluid = UniformFluid::none();
-            let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+            let fluid = UniformFluid::vacuum();
+            let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
             let mut solver = Solver::new(&rod, Settings::default());
-            let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::x());
+            let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::x());
             let forces = [(elements, Vector3::new(0.0, 0.0, -load))];
-            let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
+            let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
             let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
             let tip = state.position[elements];
             let exact_moment = load * (1.0 - u);
@@ -67,13 +67,13 @@ fn short_stiff_cantilever_far_from_the_origin_bends_as_near_it() {
     let segment =
         Segment { bending, compression: true, ..Segment::line(length, elements, 2332.0 / 9.80665, 5e10, 0.1) };
     let rod = Rod::new("short", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let forces = [(elements, Vector3::new(0.0, 0.0, -5e5))];
-    let world = World { forces: &forces, ..World::new(&fluid, 9.80665) };
+    let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 9.80665) };
     for root in [Vector3::zeros(), Vector3::new(0.0, 0.0, 500.0), Vector3::new(7071.0678, -7071.0679, 500.0)] {
-        let mut state = State::along(&rod, &[root, root + Vector3::x() * length]).unwrap();
+        let mut state = State::along_points(&rod, &[root, root + Vector3::x() * length]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
-        let clamp = End::pinned(root).clamped(Vector3::x());
+        let clamp = End::pin(root).with_clamp(Vector3::x());
         let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
         let bent = -state.position[elements].z;
         // a chain of n elements is stiffer by 1 / (4 n^2) of a cantilever under a tip load, 2.5e-5 here
@@ -90,7 +90,7 @@ fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
     let (length, bending, tension, q) = (100.0, 1e7, 2e5, 20.0);
     let elements = 200;
     let rod = beam(length, elements, bending, 1e10);
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let forces: Vec<_> = (0..=elements)
         .map(|i| {
             let share = if i == 0 || i == elements { 0.5 } else { 1.0 };
@@ -98,11 +98,11 @@ fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
             (i, Vector3::new(pull, 0.0, -q * share * length / elements as f64))
         })
         .collect();
-    let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     // pinned at both heights: the far end slides, held in height by a stiff clamp of symmetry, is left for the pinned case
-    let end = |x: f64| End::pinned(Vector3::new(x, 0.0, 0.0)).clamped(Vector3::x());
+    let end = |x: f64| End::pin(Vector3::new(x, 0.0, 0.0)).with_clamp(Vector3::x());
     let stretched = length;
     let made = solver.statics(&rod, &mut state, &world, [end(0.0), end(stretched)]).unwrap();
     // tension comes from the sag of an inextensible rod; take the one found and check the moments against it
@@ -142,12 +142,12 @@ fn forty_five_degrees(elements: usize, load: f64) -> Vector3<f64> {
     let points: Vec<_> = (0..=elements).map(at).collect();
     let root = Vector3::y();
     rod.set_shape(&points, [root, Vector3::new(quarter.sin(), quarter.cos(), 0.0)]).unwrap();
-    let fluid = UniformFluid::none();
-    let mut state = State::along(&rod, &points).unwrap();
+    let fluid = UniformFluid::vacuum();
+    let mut state = State::along_points(&rod, &points).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    let clamp = End::pinned(Vector3::zeros()).clamped(root).with_side(rod.sides().unwrap()[0]);
+    let clamp = End::pin(Vector3::zeros()).with_clamp(root).with_side(rod.sides().unwrap()[0]);
     let forces = [(elements, Vector3::new(0.0, 0.0, load))];
-    let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
+    let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
     let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
     let tip = state.position[elements];
     // the clamp carries the load and its moment
@@ -177,17 +177,17 @@ fn the_forty_five_degree_bend_comes_to_the_published_places() {
 /// A beam of which end A is clamped in a holder that turns about y at a steady rate, at a time; end B is free.
 fn turned(rate: f64, time: f64) -> [End; 2] {
     let (s, c) = (rate * time).sin_cos();
-    let held = End::pinned(Vector3::zeros()).clamped(Vector3::new(c, 0.0, -s)).with_side(Vector3::y());
-    [held.turning(Vector3::y() * rate), End::FREE]
+    let held = End::pin(Vector3::zeros()).with_clamp(Vector3::new(c, 0.0, -s)).with_side(Vector3::y());
+    [held.with_turning(Vector3::y() * rate), End::FREE]
 }
 
 /// A beam that is stepped at these times, in as many parts as there are, from rest along x.
 fn swung(times: &[f64], rate: f64, settings: Settings) -> (State, usize) {
     let segment = Segment { compression: true, bending: 2e5, ..Segment::line(10.0, 10, 20.0, 1e8, 0.1) };
     let rod = Rod::new("beam", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, 9.81);
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * 10.0]).unwrap();
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, 9.81);
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * 10.0]).unwrap();
     let mut solver = Solver::new(&rod, settings);
     let mut parts = 0;
     for time in times {
@@ -215,11 +215,12 @@ fn the_books_of_a_beam_know_the_work_of_a_clamp_that_turns() {
     let run = |h: f64| {
         let segment = Segment { compression: true, bending: 2e5, ..Segment::line(10.0, 10, 20.0, 1e8, 0.1) };
         let rod = Rod::new("beam", vec![segment], vec![]).unwrap();
-        let fluid = UniformFluid::none();
-        let world = World::new(&fluid, 9.81);
+        let fluid = UniformFluid::vacuum();
+        let world = LineEnvironment::new(&fluid, 9.81);
         let rate = 0.5;
-        let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * 10.0]).unwrap();
-        let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(1.0), ..Settings::default() });
+        let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * 10.0]).unwrap();
+        let mut solver =
+            Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(1.0), ..Settings::default() });
         solver.statics(&rod, &mut state, &world, turned(0.0, 0.0)).unwrap();
         for (x, v) in state.position.iter().zip(state.velocity.iter_mut()) {
             *v = (Vector3::y() * rate).cross(x);

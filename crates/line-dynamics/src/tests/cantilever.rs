@@ -28,15 +28,15 @@ fn elastica() -> impl Iterator<Item = (f64, f64, Vector3<f64>, f64)> {
 
 #[test]
 fn cantilever_under_a_dead_tip_load_is_the_elastica_at_any_mesh() {
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     for (load, weight, tip, moment) in elastica() {
         let rest = |elements: usize| {
             // a rod has some mass
             let rod = pipe(elements, weight.max(1e-9));
             let forces = [(elements, Vector3::new(0.0, 0.0, -load))];
-            let world = World { forces: &forces, ..World::new(&fluid, GRAVITY) };
-            let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * LENGTH]).unwrap();
-            let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::x());
+            let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, GRAVITY) };
+            let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * LENGTH]).unwrap();
+            let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::x());
             let mut solver = Solver::new(&rod, Settings::default());
             let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
             (state.place(elements).unwrap(), made.moment[0].norm())
@@ -58,15 +58,15 @@ fn cantilever_under_a_dead_tip_load_is_the_elastica_at_any_mesh() {
 
 #[test]
 fn cantilever_with_its_tip_held_far_from_where_it_began_pulls_with_the_load() {
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, GRAVITY);
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, GRAVITY);
     for (load, weight, tip, _) in elastica() {
         let [coarse, fine] = [80, 160].map(|elements| {
             let rod = pipe(elements, weight.max(1e-9));
-            let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * LENGTH]).unwrap();
-            let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::x());
+            let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * LENGTH]).unwrap();
+            let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::x());
             let mut solver = Solver::new(&rod, Settings::default());
-            solver.statics(&rod, &mut state, &world, [clamp, End::pinned(tip)]).unwrap().force[1]
+            solver.statics(&rod, &mut state, &world, [clamp, End::pin(tip)]).unwrap().force[1]
         });
         let force = (fine * 4.0 - coarse) / 3.0;
         // across the rod EI is soft, along it EA: the fourth-order term and the nine figures of the place, 1e-9 of EA / L
@@ -88,11 +88,12 @@ fn weightless_rope_with_a_clump_hangs_as_two_straight_halves() {
         let segment = Segment { bending, compression: bending > 0.0, ..Segment::line(10.0, 20, 1e-7, ea, 0.1683) };
         let clump = Attachment::mass(20, load / GRAVITY);
         let rod = Rod::new("light", vec![segment.clone(), segment], vec![clump]).unwrap();
-        let fluid = UniformFluid::none();
+        let fluid = UniformFluid::vacuum();
         let ends = [0.0, 2.0 * half].map(|x| Vector3::new(x, 0.0, 0.0));
-        let mut state = State::along(&rod, &ends).unwrap();
+        let mut state = State::along_points(&rod, &ends).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
-        let made = solver.statics(&rod, &mut state, &World::new(&fluid, GRAVITY), ends.map(End::pinned)).unwrap();
+        let made =
+            solver.statics(&rod, &mut state, &LineEnvironment::new(&fluid, GRAVITY), ends.map(End::pin)).unwrap();
         assert!((state.place(20).unwrap().z + low).abs() < 1e-6, "{bending}: {} {low}", state.place(20).unwrap());
         assert!((made.force[0].norm() / pull(low) - 1.0).abs() < 1e-8, "{bending}: {} {}", made.force[0], pull(low));
     }

@@ -47,8 +47,9 @@ fn outputs(made: &EndForces) -> Column {
 fn cases() -> Vec<Case> {
     let (a, b) = (Vector3::new(0.0, 0.0, -60.0), Vector3::new(35.0, 8.0, -25.0));
     let along = (b - a).normalize();
-    let held =
-        |at: Vector3<f64>, v: f64| End::moved(Motion { velocity: Vector3::new(v, 0.1, 0.2), ..Motion::still(at) });
+    let held = |at: Vector3<f64>, v: f64| {
+        End::from_motion(Motion { velocity: Vector3::new(v, 0.1, 0.2), ..Motion::at_rest(at) })
+    };
     let segment = |length: f64, elements, bending: f64, torsion| Segment {
         axial_damping: 1e4,
         compression: bending > 0.0,
@@ -59,11 +60,11 @@ fn cases() -> Vec<Case> {
         ..Segment::line(length, elements, 80.0, 1e6, 0.2)
     };
     let d = [Vector3::new(0.6, 0.3, 0.9), Vector3::new(0.9, -0.1, 0.4)];
-    let elastic = End { rotation: Some(3e3), ..held(b, 0.4).clamped(d[1]) };
+    let elastic = End { rotation: Some(3e3), ..held(b, 0.4).with_clamp(d[1]) };
     let sides = [Vector3::new(0.1, 1.0, 0.0), Vector3::new(0.3, 0.9, 0.4)];
     let mut list = Vec::new();
     let mut add = |name, rod: Rod, points: &[Vector3<f64>], ends| {
-        let state = State::along(&rod, points).unwrap();
+        let state = State::along_points(&rod, points).unwrap();
         list.push(Case { name, rod, state, ends });
     };
     let one = |length: f64, elements, bending, torsion| {
@@ -76,9 +77,9 @@ fn cases() -> Vec<Case> {
         add("pinned beam", one(50.0, elements, 1e4, 0.0), &[a, b], [held(a, 0.2), held(b, 0.4)]);
     }
     for elements in [1, 2, 3, 9] {
-        let clamped = [held(a, 0.2).clamped(d[0]), held(b, 0.4).clamped(d[1])];
+        let clamped = [held(a, 0.2).with_clamp(d[0]), held(b, 0.4).with_clamp(d[1])];
         add("clamped beam", one(52.0, elements, 1e4, 0.0), &[a, b], clamped);
-        add("elastic hinge", one(52.0, elements, 1e4, 0.0), &[a, b], [held(a, 0.2).clamped(d[0]), elastic]);
+        add("elastic hinge", one(52.0, elements, 1e4, 0.0), &[a, b], [held(a, 0.2).with_clamp(d[0]), elastic]);
         let twisted = [clamped[0].with_side(sides[0]), clamped[1].with_side(sides[1])];
         add("twisted", one(52.0, elements, 1e4, 8e3), &[a, b], twisted);
         add("one twist held", one(52.0, elements, 1e4, 8e3), &[a, b], [twisted[0], elastic]);
@@ -89,13 +90,13 @@ fn cases() -> Vec<Case> {
     let rope = Rod::new("rope", vec![Segment { axial, ..segment(50.0, 6, 0.0, 0.0) }], vec![]).unwrap();
     add("viscoelastic rope", rope, &[a, b], [held(a, 0.2), held(b, 0.4)]);
     let hung = [a, a + along * 20.0];
-    add("cantilever", one(20.0, 7, 2e6, 0.0), &hung, [held(a, 0.2).clamped(d[0]), End::FREE]);
-    add("cantilever at B", one(20.0, 7, 2e6, 0.0), &hung, [End::FREE, held(hung[1], 0.2).clamped(d[0])]);
+    add("cantilever", one(20.0, 7, 2e6, 0.0), &hung, [held(a, 0.2).with_clamp(d[0]), End::FREE]);
+    add("cantilever at B", one(20.0, 7, 2e6, 0.0), &hung, [End::FREE, held(hung[1], 0.2).with_clamp(d[0])]);
     add(
         "twisted cantilever",
         one(20.0, 7, 2e6, 1e6),
         &hung,
-        [held(a, 0.2).clamped(d[0]).with_side(sides[0]), End::FREE],
+        [held(a, 0.2).with_clamp(d[0]).with_side(sides[0]), End::FREE],
     );
     add("hanging chain", one(20.0, 7, 0.0, 0.0), &[a, a - Vector3::z() * 20.0], [held(a, 0.2), End::FREE]);
     // bent when free of load
@@ -106,8 +107,8 @@ fn cases() -> Vec<Case> {
     bent.set_shape(&points, [first, end]).unwrap();
     let [p, q] = bent.sides().unwrap();
     let ends = [
-        held(points[0], 0.2).clamped(first).with_side(p),
-        held(points[6] + Vector3::new(-1.0, 0.5, 2.0), 0.4).clamped(end).with_side(q),
+        held(points[0], 0.2).with_clamp(first).with_side(p),
+        held(points[6] + Vector3::new(-1.0, 0.5, 2.0), 0.4).with_clamp(end).with_side(q),
     ];
     add("bent", bent, &points, ends);
     list
@@ -141,11 +142,11 @@ fn wrong(
 #[test]
 fn end_tangent_is_the_difference_of_end_forces_and_moments() {
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.5, 0.3, 0.0));
-    let world = World::new(&fluid, 9.81);
+    let world = LineEnvironment::new(&fluid, 9.81);
     for case in cases() {
         let mut state = case.state.clone();
         let mut solver = Solver::new(&case.rod, Settings { tolerance: 1e-12, ..Settings::default() });
-        let rest = case.ends.map(|e| End { motion: e.motion.map(|m| Motion::still(m.position)), ..e });
+        let rest = case.ends.map(|e| End { motion: e.motion.map(|m| Motion::at_rest(m.position)), ..e });
         solver.statics(&case.rod, &mut state, &world, rest).unwrap();
         for again in [false, true] {
             let at = |change: &Change, solver: &mut Solver| {
@@ -168,7 +169,7 @@ fn end_tangent_is_the_difference_of_end_forces_and_moments() {
 #[test]
 fn static_end_stiffness_is_the_difference_of_forces_and_moments_at_rest() {
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.5, 0.3, 0.0));
-    let world = World::new(&fluid, 9.81);
+    let world = LineEnvironment::new(&fluid, 9.81);
     for case in cases() {
         let mut state = case.state.clone();
         let mut solver = Solver::new(&case.rod, Settings::default());

@@ -12,16 +12,16 @@ fn chain(length: f64, elements: usize) -> Rod {
     Rod::new("chain", vec![segment], vec![]).unwrap()
 }
 
-fn rough(friction: f64) -> Ground {
-    Ground { damping: 1e5, friction_along: friction, friction_across: friction, ..Ground::elastic(1e6) }
+fn rough(friction: f64) -> SeabedLaw {
+    SeabedLaw { damping: 1e5, friction_along: friction, friction_across: friction, ..SeabedLaw::elastic(1e6) }
 }
 
 #[test]
 fn a_line_at_rest_by_friction_stays_as_it_is_and_its_anchor_feels_nothing() {
     let rod = chain(400.0, 80);
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
-    let world = World { bottom: Some((&bottom, rough(0.8))), ..World::new(&fluid, GRAVITY) };
+    let world = LineEnvironment { bottom: Some((&bottom, rough(0.8))), ..LineEnvironment::new(&fluid, GRAVITY) };
     // drawn toward either end
     for side in [0, 1] {
         let (near, far) = (Vector3::zeros(), Vector3::new(350.0, 0.0, 100.0));
@@ -30,8 +30,8 @@ fn a_line_at_rest_by_friction_stays_as_it_is_and_its_anchor_feels_nothing() {
         if side == 0 {
             points.reverse();
         }
-        let ends = [End::pinned(points[0]), End::pinned(points[2])];
-        let mut state = State::along(&rod, &points).unwrap();
+        let ends = [End::pin(points[0]), End::pin(points[2])];
+        let mut state = State::along_points(&rod, &points).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         // once for how softly nodes meet the bottom from then on
         solver.statics(&rod, &mut state, &world, ends).unwrap();
@@ -58,17 +58,17 @@ fn a_line_at_rest_by_friction_stays_as_it_is_and_its_anchor_feels_nothing() {
 fn a_line_that_is_dragged_is_pulled_by_its_friction_and_stays_where_it_is_left() {
     let (length, friction) = (100.0, 0.6);
     let rod = chain(length, 20);
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
-    let world = World { bottom: Some((&bottom, rough(friction))), ..World::new(&fluid, GRAVITY) };
+    let world = LineEnvironment { bottom: Some((&bottom, rough(friction))), ..LineEnvironment::new(&fluid, GRAVITY) };
     let sunk = -Vector3::z() * (MASS * GRAVITY / (1e6 * 0.1));
     let b = Vector3::x() * length + sunk;
-    let mut state = State::along(&rod, &[sunk, b]).unwrap();
+    let mut state = State::along_points(&rod, &[sunk, b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     let at = |x: f64, v: f64, a: f64| {
         let motion =
             Motion { position: b + Vector3::x() * x, velocity: Vector3::x() * v, acceleration: Vector3::x() * a };
-        [End::FREE, End::moved(motion)]
+        [End::FREE, End::from_motion(motion)]
     };
     let made = solver.start(&rod, &mut state, &world, at(0.0, 0.0, 0.0)).unwrap();
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
@@ -97,7 +97,7 @@ fn a_line_that_is_dragged_is_pulled_by_its_friction_and_stays_where_it_is_left()
     assert!(state.velocity.iter().all(|v| v.norm() < 1e-6));
     // pulled by less than all of its friction at the other end it stays
     let forces = [(0, Vector3::x() * (-0.5 * whole))];
-    let pulled = World { forces: &forces, ..world };
+    let pulled = LineEnvironment { forces: &forces, ..world };
     let places: Vec<f64> = (1..=1000)
         .map(|i| {
             solver.step(&rod, &mut state, &pulled, 60.0 + i as f64 * 0.1, at(4.0, 0.0, 0.0)).unwrap();
@@ -111,14 +111,14 @@ fn a_line_that_is_dragged_is_pulled_by_its_friction_and_stays_where_it_is_left()
 #[test]
 fn stiffness_at_rest_by_friction_is_the_difference_of_the_force() {
     let rod = chain(400.0, 80);
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
-    let world = World { bottom: Some((&bottom, rough(0.4))), ..World::new(&fluid, GRAVITY) };
+    let world = LineEnvironment { bottom: Some((&bottom, rough(0.4))), ..LineEnvironment::new(&fluid, GRAVITY) };
     let (near, far) = (Vector3::zeros(), Vector3::new(360.0, 0.0, 100.0));
-    let mut state = State::along(&rod, &[near, Vector3::new(280.0, 0.0, 0.0), far]).unwrap();
+    let mut state = State::along_points(&rod, &[near, Vector3::new(280.0, 0.0, 0.0), far]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     let mut rest = |by: Vector3<f64>| {
-        let ends = [End::pinned(near), End::pinned(far + by)];
+        let ends = [End::pin(near), End::pin(far + by)];
         let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
         (made.force[1], solver.end_tangent(&rod, &world).unwrap().position)
     };

@@ -9,10 +9,10 @@ fn a_load_lowered_by_a_winch_hangs_by_its_weight_and_goes_down_at_the_rate() {
     let load = Attachment::mass(10, mass);
     let segment = Segment { axial_damping: 1e6, ..Segment::line(50.0, 10, 5.0, 1e8, 0.05) };
     let mut rod = Rod::new("wire", vec![segment], vec![load]).unwrap();
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, 9.81);
-    let ends = [End::pinned(Vector3::zeros()), End::FREE];
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -50.0)]).unwrap();
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, 9.81);
+    let ends = [End::pin(Vector3::zeros()), End::FREE];
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -50.0)]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let (start, h) = (state.position[10].z, 0.05);
@@ -39,10 +39,10 @@ fn elements_that_appear_at_a_winch_leave_the_load_where_it_was() {
     let load = Attachment::mass(5, mass);
     let segment = Segment { axial_damping: 1e6, ..Segment::line(25.0, 5, 5.0, 1e8, 0.05) };
     let mut rod = Rod::new("wire", vec![segment], vec![load]).unwrap();
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, 9.81);
-    let ends = [End::pinned(Vector3::zeros()), End::FREE];
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -25.0)]).unwrap();
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, 9.81);
+    let ends = [End::pin(Vector3::zeros()), End::FREE];
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -25.0)]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let (start, h, mut first) = (state.position[5].z, 0.05, 5.0);
@@ -86,11 +86,11 @@ fn a_heave_of_the_top_swings_a_load_by_its_own_spring_at_any_mass() {
         // the wire's stiffness is that of a natural frequency of three
         let ea = 9.0 * mass * length;
         let rod = Rod::new("wire", vec![Segment::line(length, 6, 1e-3 * mass, ea, 0.05)], vec![load]).unwrap();
-        let fluid = UniformFluid::none();
-        let world = World::new(&fluid, 9.81);
-        let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -length)]).unwrap();
+        let fluid = UniformFluid::vacuum();
+        let world = LineEnvironment::new(&fluid, 9.81);
+        let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -length)]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
-        let still = [End::pinned(Vector3::zeros()), End::FREE];
+        let still = [End::pin(Vector3::zeros()), End::FREE];
         solver.statics(&rod, &mut state, &world, still).unwrap();
         let start = state.position[6].z;
         let (mut high, mut low) = (f64::MIN, f64::MAX);
@@ -104,7 +104,7 @@ fn a_heave_of_the_top_swings_a_load_by_its_own_spring_at_any_mass() {
                 velocity: Vector3::z() * (heave * (ramp * s + rise * frequency * c)),
                 acceleration: Vector3::z() * (heave * (2.0 * ramp * frequency * c - rise * frequency * frequency * s)),
             };
-            solver.step(&rod, &mut state, &world, t, [End::moved(motion), End::FREE]).unwrap();
+            solver.step(&rod, &mut state, &world, t, [End::from_motion(motion), End::FREE]).unwrap();
             if t > 60.0 {
                 high = high.max(state.position[6].z - start);
                 low = low.min(state.position[6].z - start);

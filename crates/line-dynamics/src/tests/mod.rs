@@ -1,24 +1,24 @@
 //! Whole rods against closed forms and other programs.
 
-mod across;
-mod again;
 mod beam;
 mod cantilever;
 mod end_tangent;
+mod euler_fallback;
 mod friction;
+mod friction_across;
 mod lowering;
 mod motion;
 mod released;
-mod rope;
 mod section;
 mod slope;
-mod snap;
+mod snap_loads;
 mod snapshot;
-mod still;
+mod statics_and_modes;
 mod supports;
 mod surface;
 mod tangent;
-mod violent;
+mod viscoelastic;
+mod warm_start;
 
 /// A buoy of half a cubic metre at a node.
 fn buoy(node: usize) -> super::Attachment {

@@ -5,19 +5,20 @@ use nalgebra::Vector3;
 use windlass_model::SchemeWeights;
 
 /// No fluid, no bottom.
-fn vacuum(fluid: &UniformFluid, gravity: f64) -> World<'_> {
-    World::new(fluid, gravity)
+fn vacuum(fluid: &UniformFluid, gravity: f64) -> LineEnvironment<'_> {
+    LineEnvironment::new(fluid, gravity)
 }
 
 #[test]
 fn a_pendulum_let_go_level_takes_the_period_of_the_elliptic_integral() {
     let rod =
         Rod::new("pendulum", vec![Segment::line(2.0, 1, 0.01, 1e8, 0.01)], vec![Attachment::mass(1, 100.0)]).unwrap();
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 9.81);
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * 2.0]).unwrap();
-    let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(1.0), ..Settings::default() });
-    let ends = [End::pinned(Vector3::zeros()), End::FREE];
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * 2.0]).unwrap();
+    let mut solver =
+        Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(1.0), ..Settings::default() });
+    let ends = [End::pin(Vector3::zeros()), End::FREE];
     solver.start(&rod, &mut state, &world, ends).unwrap();
     let h = 0.002;
     // 4 K(sin 45 degrees) sqrt(L/g); K = 1.854074677
@@ -42,9 +43,9 @@ fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
     let (length, mass, ea, speed) = (1000.0, 100.0, 4e8, 1.0);
     let rod = Rod::new("bar", vec![Segment { compression: true, ..Segment::line(length, 400, mass, ea, 0.1) }], vec![])
         .unwrap();
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 0.0);
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     let sound = (ea / mass).sqrt();
     let h = length / sound / 2000.0;
@@ -65,7 +66,7 @@ fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
             acceleration: Vector3::x() * a,
         };
         let made =
-            solver.step(&rod, &mut state, &world, t, [End::pinned(Vector3::zeros()), End::moved(motion)]).unwrap();
+            solver.step(&rod, &mut state, &world, t, [End::pin(Vector3::zeros()), End::from_motion(motion)]).unwrap();
         if t > 2.0 * rise {
             forces.push(-made.force[1].x);
         }
@@ -100,22 +101,24 @@ fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
         vec![],
     )
     .unwrap();
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 9.81);
     let gap = 0.02;
     let (a, b) = (Vector3::zeros(), Vector3::x() * gap);
     let low = Vector3::new(0.5 * gap, 0.0, -0.5 * length);
-    let mut state = State::along(&rod, &[a, low, b]).unwrap();
-    let mut solver =
-        Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(env("RHO", 0.2)), ..Settings::default() });
-    solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    let mut state = State::along_points(&rod, &[a, low, b]).unwrap();
+    let mut solver = Solver::new(
+        &rod,
+        Settings { scheme: SchemeWeights::generalised_alpha(env("RHO", 0.2)), ..Settings::default() },
+    );
+    solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
     let free = (2.0 * length / 9.81f64).sqrt();
     let h = free / env("STEPS", 2000.0);
     let (mut fallen, mut ahead) = (None, true);
     let mut energy = (0.0, 0.0);
     for i in 1..=(0.95 * env("STEPS", 2000.0)) as usize {
         let t = i as f64 * h;
-        solver.step(&rod, &mut state, &world, t, [End::pinned(a), End::FREE]).unwrap();
+        solver.step(&rod, &mut state, &world, t, [End::pin(a), End::FREE]).unwrap();
         let drop = -state.position[elements].z;
         if i % 100 == 0 {
             println!("{:.3} {:.4} stone {:.4}", t / free, drop, 0.5 * 9.81 * t * t);
@@ -144,7 +147,7 @@ fn a_free_cylinder_drifts_up_to_the_current_as_the_closed_form() {
     let fluid = UniformFluid::moving(1025.0, Vector3::y() * current);
     let world = vacuum(&fluid, 0.0);
     let x = |x: f64| Vector3::new(x, 0.0, -30.0);
-    let mut state = State::along(&rod, &[x(0.0), x(length)]).unwrap();
+    let mut state = State::along_points(&rod, &[x(0.0), x(length)]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     let moving = mass + 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter;
     let k = 0.5 * 1025.0 * 1.2 * diameter / moving;
@@ -174,13 +177,20 @@ fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
     let bottom = PlaneBottom { height: -50.0, slope: [0.0, 0.0] };
-    let ground = Ground { damping: 1e3, soft: 0.05, friction_along: 0.3, friction_across: 0.6, ..Ground::elastic(1e5) };
-    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
+    let ground = SeabedLaw {
+        damping: 1e3,
+        penetration_scale: 0.05,
+        friction_along: 0.3,
+        friction_across: 0.6,
+        ..SeabedLaw::elastic(1e5)
+    };
+    let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.81) };
     let (a, b) = (Vector3::new(0.0, 0.0, -50.0), Vector3::new(75.0, 0.0, -5.0));
     let run = |h: f64| {
-        let mut state = State::along(&rod, &[a, b]).unwrap();
-        let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(0.9), ..Settings::default() });
-        let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+        let mut state = State::along_points(&rod, &[a, b]).unwrap();
+        let mut solver =
+            Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(0.9), ..Settings::default() });
+        let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
         let mut books = Balance::open(&rod, &state, &world, &solver, &made);
         let mut worst = (0.0f64, 0.0f64);
         for i in 1..=(20.0 / h) as usize {
@@ -191,7 +201,7 @@ fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
                 velocity: Vector3::new(0.0, 0.0, r * w * (w * t).sin()) * 0.5,
                 acceleration: Vector3::new(0.0, 0.0, r * w * w * (w * t).cos()) * 0.5,
             };
-            let made = solver.step(&rod, &mut state, &world, t, [End::pinned(a), End::moved(motion)]).unwrap();
+            let made = solver.step(&rod, &mut state, &world, t, [End::pin(a), End::from_motion(motion)]).unwrap();
             books.enter(&rod, &state, &world, &solver, &made);
             worst.0 = worst.0.max(books.energy_error().abs() / books.turnover);
             worst.1 = worst.1.max(books.momentum_error().norm() / (30.0 * 100.0));
@@ -221,12 +231,13 @@ fn energy_of_a_swinging_twisted_beam_adds_up() {
     };
     let points: Vec<_> = (0..=elements).map(at).collect();
     rod.set_shape(&points, [Vector3::y(), Vector3::new(quarter.sin(), quarter.cos(), 0.0)]).unwrap();
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 9.81);
-    let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::y()).with_side(rod.sides().unwrap()[0]);
+    let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::y()).with_side(rod.sides().unwrap()[0]);
     let run = |h: f64| {
-        let mut state = State::along(&rod, &points).unwrap();
-        let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(1.0), ..Settings::default() });
+        let mut state = State::along_points(&rod, &points).unwrap();
+        let mut solver =
+            Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(1.0), ..Settings::default() });
         let mut books: Option<Balance> = None;
         let mut worst: f64 = 0.0;
         for i in 1..=(3.0 / h) as usize {
@@ -250,21 +261,21 @@ fn energy_of_a_swinging_twisted_beam_adds_up() {
 #[test]
 fn a_step_that_cannot_be_made_is_cut_and_then_named() {
     let rod = Rod::new("LINE7", vec![Segment::line(100.0, 20, 50.0, 1e8, 0.1)], vec![]).unwrap();
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 9.81);
     let (a, b) = (Vector3::zeros(), Vector3::new(80.0, 0.0, 0.0));
-    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut state = State::along_points(&rod, &[a, b]).unwrap();
     let mut solver = Solver::new(&rod, Settings { halvings: 3, ..Settings::default() });
-    solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
     let before = state.clone();
     // an end that is no place at all
-    let nowhere = Motion::still(Vector3::new(f64::NAN, 0.0, 0.0));
-    let failed = solver.step(&rod, &mut state, &world, 0.5, [End::pinned(a), End::moved(nowhere)]).unwrap_err();
+    let nowhere = Motion::at_rest(Vector3::new(f64::NAN, 0.0, 0.0));
+    let failed = solver.step(&rod, &mut state, &world, 0.5, [End::pin(a), End::from_motion(nowhere)]).unwrap_err();
     let told = failed.to_string();
     assert!(told.starts_with("LINE7: no solution at t = 0.5 s") && told.contains("element"), "{told}");
     assert_eq!(state, before);
     // and goes on from the state it had
-    solver.step(&rod, &mut state, &world, 0.5, [End::pinned(a), End::pinned(b)]).unwrap();
+    solver.step(&rod, &mut state, &world, 0.5, [End::pin(a), End::pin(b)]).unwrap();
 }
 
 /// Water that swings to and fro along y.
@@ -274,9 +285,9 @@ struct Swell {
 }
 
 impl FluidField for Swell {
-    fn at(&self, _: &Vector3<f64>, time: f64) -> Fluid {
+    fn sample(&self, _: &Vector3<f64>, time: f64) -> FluidState {
         let (s, c) = (self.frequency * time).sin_cos();
-        Fluid {
+        FluidState {
             velocity: Vector3::y() * (self.speed * s),
             acceleration: Vector3::y() * (self.speed * self.frequency * c),
             ..UniformFluid::still(1025.0).0
@@ -293,9 +304,9 @@ fn a_rod_as_light_as_its_water_goes_with_it() {
     let segment = Segment { drag_normal: 1.0, added_normal: 1.0, ..Segment::line(20.0, 8, mass, 1e7, diameter) };
     let rod = Rod::new("drifter", vec![segment], vec![]).unwrap();
     let swell = Swell { speed, frequency };
-    let world = World::new(&swell, 9.81);
+    let world = LineEnvironment::new(&swell, 9.81);
     let x = |x: f64| Vector3::new(x, 0.0, -30.0);
-    let mut state = State::along(&rod, &[x(0.0), x(20.0)]).unwrap();
+    let mut state = State::along_points(&rod, &[x(0.0), x(20.0)]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
     let mut worst: f64 = 0.0;
@@ -313,8 +324,8 @@ fn a_rod_as_light_as_its_water_goes_with_it() {
 struct Shear;
 
 impl FluidField for Shear {
-    fn at(&self, at: &Vector3<f64>, _: f64) -> Fluid {
-        Fluid { velocity: Vector3::x() * (-0.3 * at.z), ..UniformFluid::still(1025.0).0 }
+    fn sample(&self, at: &Vector3<f64>, _: f64) -> FluidState {
+        FluidState { velocity: Vector3::x() * (-0.3 * at.z), ..UniformFluid::still(1025.0).0 }
     }
 }
 
@@ -323,17 +334,17 @@ fn the_water_of_a_step_is_that_where_its_nodes_come_to_be() {
     // a slack rope thrown down through a sheared current in long steps, which take many iterations
     let segment = Segment { drag_normal: 1.2, added_normal: 1.0, ..Segment::line(60.0, 12, 60.0, 1e8, 0.2) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
-    let world = World::new(&Shear, 9.81);
+    let world = LineEnvironment::new(&Shear, 9.81);
     let (a, b) = (Vector3::new(0.0, 0.0, -5.0), Vector3::new(40.0, 0.0, -5.0));
-    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut state = State::along_points(&rod, &[a, b]).unwrap();
     state.velocity.fill(Vector3::z() * -3.0);
     let mut solver = Solver::new(&rod, Settings { halvings: 0, iterations: 60, ..Settings::default() });
     let mut most = 0;
     for i in 1..=8 {
-        let made = solver.step(&rod, &mut state, &world, f64::from(i) * 0.5, [End::pinned(a), End::FREE]);
+        let made = solver.step(&rod, &mut state, &world, f64::from(i) * 0.5, [End::pin(a), End::FREE]);
         let Ok(made) = made else { continue };
         most = most.max(made.iterations);
-        for (node, asked) in solver.trial.asked.iter().enumerate() {
+        for (node, asked) in solver.trial.sampled_at.iter().enumerate() {
             // a thousandth of an element, and the last change
             let off = (state.position[node] - asked).norm();
             assert!(off < 1.1e-3 * 5.0, "{i}: {node} {off} {}", made.iterations);
@@ -348,22 +359,22 @@ fn a_chain_on_a_slope_slides_when_friction_is_less_than_the_slope() {
     let slope: f64 = 0.5;
     let angle = slope.atan();
     let bottom = PlaneBottom { height: 0.0, slope: [-slope, 0.0] };
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let rod = Rod::new("chain", vec![Segment::line(20.0, 10, 50.0, 1e7, 0.1)], vec![]).unwrap();
     let run = |mu: f64| {
-        let ground = Ground {
+        let ground = SeabedLaw {
             damping: 1e5,
             friction_along: mu,
             friction_across: mu,
             friction_speed: 0.05,
             friction_travel: 1e-3,
-            ..Ground::elastic(1e6)
+            ..SeabedLaw::elastic(1e6)
         };
-        let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
+        let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.81) };
         let down = Vector3::new(angle.cos(), 0.0, -angle.sin());
         // laid as deep as it sinks in by its own weight
         let sunk = Vector3::new(angle.sin(), 0.0, angle.cos()) * (-50.0 * 9.81 * angle.cos() / (1e6 * 0.1));
-        let mut state = State::along(&rod, &[sunk, sunk + down * 20.0]).unwrap();
+        let mut state = State::along_points(&rod, &[sunk, sunk + down * 20.0]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
         let mut half = 0.0;

@@ -10,15 +10,15 @@ fn let_go(h: f64) -> Vector3<f64> {
     let rod = Rod::new("line", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::still(1025.0);
     let bottom = PlaneBottom { height: -100.0, slope: [0.0, 0.0] };
-    let ground = Ground { damping: 1e4, ..Ground::elastic(1e5) };
-    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
+    let ground = SeabedLaw { damping: 1e4, ..SeabedLaw::elastic(1e5) };
+    let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.81) };
     let (a, b) = (Vector3::new(250.0, 0.0, -100.0), Vector3::new(0.0, 0.0, -5.0));
-    let mut state = State::along(&rod, &[a, Vector3::new(120.0, 0.0, -100.0), b]).unwrap();
+    let mut state = State::along_points(&rod, &[a, Vector3::new(120.0, 0.0, -100.0), b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    let ends = [End::pinned(a), End::pinned(b)];
+    let ends = [End::pin(a), End::pin(b)];
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     solver.statics(&rod, &mut state, &world, ends).unwrap();
-    let free = [End::pinned(a), End::FREE];
+    let free = [End::pin(a), End::FREE];
     solver.start(&rod, &mut state, &world, free).unwrap();
     let steps = (1.0 / h).round() as usize;
     for i in 1..=steps {

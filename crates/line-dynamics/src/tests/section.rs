@@ -22,10 +22,10 @@ fn a_heated_pipe_under_pressure_between_fixed_ends_is_pressed_as_the_closed_form
     let rod = pipe(tube);
     let fluid = UniformFluid::still(1025.0);
     let depth = 100.0;
-    let world = World::new(&fluid, 9.80665);
+    let world = LineEnvironment::new(&fluid, 9.80665);
     let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
-    let state = State::along(&rod, &[a, b]).unwrap();
-    let found = rod.results(&state, &world, &[End::pinned(a), End::pinned(b)])[5];
+    let state = State::along_points(&rod, &[a, b]).unwrap();
+    let found = rod.results(&state, &world, &[End::pin(a), End::pin(b)])[5];
     // rho g h, and what the pipe was filled to
     assert_eq!(found.pressures, [1025.0 * 9.80665 * depth, 1e7]);
     let [outside, inside] = tube.areas();
@@ -66,9 +66,13 @@ impl Waves {
 const G: f64 = 9.80665;
 
 impl FluidField for Waves {
-    fn at(&self, at: &Vector3<f64>, time: f64) -> Fluid {
+    fn sample(&self, at: &Vector3<f64>, time: f64) -> FluidState {
         let surface = self.elevation(at.x, time);
-        Fluid { surface, head: surface * ((self.number * at.z.min(0.0)).exp() - 1.0), ..UniformFluid::still(1025.0).0 }
+        FluidState {
+            surface,
+            head: surface * ((self.number * at.z.min(0.0)).exp() - 1.0),
+            ..UniformFluid::still(1025.0).0
+        }
     }
 }
 
@@ -77,16 +81,16 @@ fn outer_pressure_of_a_deep_pipe_is_that_of_the_wave_at_its_depth() {
     // a wave of 10 m and 8 s over a pipe between fixed ends
     let number = (std::f64::consts::TAU / 8.0).powi(2) / G;
     let waves = Waves { amplitude: 5.0, number };
-    let world = World::new(&waves, G);
+    let world = LineEnvironment::new(&waves, G);
     let tube = Tube::empty(0.5, 0.46);
     let rod = pipe(tube);
     let [outside, _] = tube.areas();
     for depth in [2.0, 20.0, 300.0] {
         let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
-        let ends = [End::pinned(a), End::pinned(b)];
+        let ends = [End::pin(a), End::pin(b)];
         let pressure = |x: f64, time: f64| 1025.0 * G * (depth + waves.elevation(x, time) * (-number * depth).exp());
         for time in [0.0, 2.0, 4.0] {
-            let state = State { time, ..State::along(&rod, &[a, b]).unwrap() };
+            let state = State { time, ..State::along_points(&rod, &[a, b]).unwrap() };
             let found = rod.results(&state, &world, &ends);
             for (i, node) in found.iter().enumerate() {
                 // at a trough of 5 m the first depth lies above the surface
@@ -122,10 +126,10 @@ fn a_pipe_that_cools_between_fixed_ends_meets_the_bottom_as_softly_as_its_tensio
     let rod = pipe(tube);
     let [outside, inside] = tube.areas();
     let fluid = UniformFluid::still(1025.0);
-    let world = World::new(&fluid, G);
+    let world = LineEnvironment::new(&fluid, G);
     let (a, b) = (Vector3::new(0.0, 0.0, -100.0), Vector3::new(20.0, 0.0, -100.0));
-    let mut state = State::along(&rod, &[a, b]).unwrap();
-    Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    let mut state = State::along_points(&rod, &[a, b]).unwrap();
+    Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
     let pull = E * (outside - inside) * 1.17e-5 * 50.0 + 0.4 * 1025.0 * G * 100.0 * outside;
     let sag = (100.0 - 1025.0 * outside) * G * 4.0 / (8.0 * pull);
     for bedding in &state.bedding {
@@ -137,7 +141,7 @@ fn a_pipe_that_cools_between_fixed_ends_meets_the_bottom_as_softly_as_its_tensio
 #[test]
 fn a_tube_that_does_not_resist_shortening_is_held_taut_by_pressure_and_never_pushes() {
     let fluid = UniformFluid::still(1025.0);
-    let world = World::new(&fluid, G);
+    let world = LineEnvironment::new(&fluid, G);
     let depth = 1000.0;
     let pull = |pressure: f64, compression: bool, stretch: f64| {
         let tube = Tube { pressure, ..Tube::empty(0.3, 0.28) };
@@ -145,8 +149,8 @@ fn a_tube_that_does_not_resist_shortening_is_held_taut_by_pressure_and_never_pus
         let segment = Segment { compression, tube: Some(tube), ..Segment::line(20.0, 10, 100.0, 1e9, 0.3) };
         let rod = Rod::new("hose", vec![segment], vec![]).unwrap();
         let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0 * (1.0 + stretch), 0.0, -depth));
-        let state = State::along(&rod, &[a, b]).unwrap();
-        let found = rod.results(&state, &world, &[End::pinned(a), End::pinned(b)])[5].effective;
+        let state = State::along_points(&rod, &[a, b]).unwrap();
+        let found = rod.results(&state, &world, &[End::pin(a), End::pin(b)])[5].effective;
         (found, 1e9 * stretch + 0.4 * (1025.0 * G * depth * outside - pressure * inside))
     };
     for (pressure, stretch) in [(0.0, 0.0), (0.0, -1e-4), (0.0, -1e-3), (3e7, 1e-3), (3e7, 1e-4), (1e7, 0.0)] {
@@ -165,7 +169,7 @@ fn pressure_goes_to_nothing_at_the_surface_without_a_jump_and_has_its_slope() {
         let surface = waves.elevation(0.0, time);
         let at = |depth: f64| {
             let z = surface - depth;
-            let fluid = waves.at(&Vector3::new(0.0, 0.0, z), time);
+            let fluid = waves.sample(&Vector3::new(0.0, 0.0, z), time);
             (fluid.pressure(z, G), fluid)
         };
         assert_eq!(at(-0.5).0, (0.0, 0.0));
@@ -199,12 +203,12 @@ fn what_makes_no_rod_is_refused_with_its_reason() {
     let attachment = Attachment::mass(6, 1.0);
     assert!(Rod::new("R", vec![good.clone()], vec![attachment]).unwrap_err().to_string().contains("from 0 to 5"));
     let rod = Rod::new("R", vec![good], vec![]).unwrap();
-    assert!(State::along(&rod, &[Vector3::zeros(), Vector3::zeros()]).is_err());
+    assert!(State::along_points(&rod, &[Vector3::zeros(), Vector3::zeros()]).is_err());
     // a state of another rod
     let other = Rod::new("S", vec![Segment::line(10.0, 7, 10.0, 1e6, 0.1)], vec![]).unwrap();
-    let mut state = State::along(&other, &[Vector3::zeros(), Vector3::x()]).unwrap();
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, 9.81);
+    let mut state = State::along_points(&other, &[Vector3::zeros(), Vector3::x()]).unwrap();
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, 9.81);
     let mut solver = Solver::new(&rod, Settings::default());
     assert!(solver.statics(&rod, &mut state, &world, [End::FREE; 2]).unwrap_err().to_string().contains("6 nodes"));
     assert!(solver.step(&rod, &mut state, &world, 1.0, [End::FREE; 2]).is_err());
@@ -213,14 +217,14 @@ fn what_makes_no_rod_is_refused_with_its_reason() {
 
 #[test]
 fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, 9.81);
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, 9.81);
     let stretch = |axial: Axial| {
         let rod = Rod::new("R", vec![Segment { axial, ..Segment::line(10.0, 50, 20.0, 1e4, 0.1) }], vec![]).unwrap();
         let top = Vector3::zeros();
-        let mut state = State::along(&rod, &[top, Vector3::new(0.0, 0.0, -10.0)]).unwrap();
+        let mut state = State::along_points(&rod, &[top, Vector3::new(0.0, 0.0, -10.0)]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
-        solver.statics(&rod, &mut state, &world, [End::pinned(top), End::FREE]).unwrap();
+        solver.statics(&rod, &mut state, &world, [End::pin(top), End::FREE]).unwrap();
         -state.place(50).unwrap().z - 10.0
     };
     // own weight w over length L: w L^2 / 2 EA
@@ -249,9 +253,9 @@ fn moments_along_a_helix_turn_against_the_untwisted_frame_by_its_torsion() {
     let (half, length) = (elements / 2, speed * whole);
     let segment = |elements| Segment { bending, ..Segment::line(0.5 * length, elements, 10.0, 1e9, 0.1) };
     let rod = Rod::new("helix", vec![segment(half), segment(half)], vec![]).unwrap();
-    let state = State::along(&rod, &points).unwrap();
-    let fluid = UniformFluid::none();
-    let found = rod.results(&state, &World::new(&fluid, 9.81), &[End::FREE; 2]);
+    let state = State::along_points(&rod, &points).unwrap();
+    let fluid = UniformFluid::vacuum();
+    let found = rod.results(&state, &LineEnvironment::new(&fluid, 9.81), &[End::FREE; 2]);
     let (curvature, torsion) = (r / (speed * speed), c / (speed * speed));
     let inner = &found[1..elements];
     let start = inner[0].bends[1].atan2(inner[0].bends[0]);
@@ -272,11 +276,11 @@ fn a_bend_is_told_about_the_side_of_the_holder() {
     // a cantilever along y under a load along -z: its moment is about x alone, load times the arm
     let segment = Segment { bending: 1e9, compression: true, ..Segment::line(10.0, 20, 1.0, 1e12, 0.1) };
     let rod = Rod::new("arm", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let forces = [(20, Vector3::z() * -100.0)];
-    let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::y() * 10.0]).unwrap();
-    let ends = [End::pinned(Vector3::zeros()).clamped(Vector3::y()).with_side(Vector3::x()), End::FREE];
+    let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::y() * 10.0]).unwrap();
+    let ends = [End::pin(Vector3::zeros()).with_clamp(Vector3::y()).with_side(Vector3::x()), End::FREE];
     Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
     let found = rod.results(&state, &world, &ends);
     for node in &found[..20] {

@@ -13,8 +13,8 @@ fn chain(length: f64, elements: usize) -> Rod {
     Rod::new("chain", vec![segment], vec![]).unwrap()
 }
 
-fn rough() -> Ground {
-    Ground { damping: 1e5, friction_along: FRICTION, friction_across: FRICTION, ..Ground::elastic(1e6) }
+fn rough() -> SeabedLaw {
+    SeabedLaw { damping: 1e5, friction_along: FRICTION, friction_across: FRICTION, ..SeabedLaw::elastic(1e6) }
 }
 
 /// Horizontal force (N) of an inextensible chain of weight `unit` (N/m), and points along it, that lies slack on a slope from its anchor at the origin to
@@ -60,16 +60,16 @@ struct Rested {
 
 fn rest(bottom: &PlaneBottom, length: f64, elements: usize, [x, z]: [f64; 2]) -> Rested {
     let rod = chain(length, elements);
-    let fluid = UniformFluid::none();
-    let world = World { bottom: Some((bottom, rough())), ..World::new(&fluid, GRAVITY) };
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment { bottom: Some((bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
     let (exact, points) = lying(MASS * GRAVITY, bottom.slope[0], length, [x, z]);
-    let ends = [End::pinned(Vector3::zeros()), End::pinned(Vector3::new(x, 0.0, z))];
-    let mut state = State::along(&rod, &points).unwrap();
+    let ends = [End::pin(Vector3::zeros()), End::pin(Vector3::new(x, 0.0, z))];
+    let mut state = State::along_points(&rod, &points).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     // once for how softly nodes meet the bottom from then on
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
-    assert!(!solver.slid());
+    assert!(!solver.has_slid_without_friction());
     Rested { rod, state, solver, made, exact, ends }
 }
 
@@ -98,8 +98,8 @@ fn slack_on_a_slope_stays_where_it_is() {
     for (slope, length) in [(0.1, 440.0), (0.1, 420.0), (0.02, 430.0)] {
         let bottom = sloping(slope);
         let Rested { rod, mut state, mut solver, made, ends, .. } = rest(&bottom, length, 88, FAIRLEAD);
-        let fluid = UniformFluid::none();
-        let world = World { bottom: Some((&bottom, rough())), ..World::new(&fluid, GRAVITY) };
+        let fluid = UniformFluid::vacuum();
+        let world = LineEnvironment { bottom: Some((&bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
         let (before, pull) = (state.clone(), made.force[1].norm());
         for i in 1..=300 {
             let made = solver.step(&rod, &mut state, &world, i as f64 * 0.1, ends).unwrap();
@@ -114,38 +114,38 @@ fn slack_on_a_slope_stays_where_it_is() {
 #[test]
 fn a_fairlead_that_moves_takes_the_chain_on_the_slope_along_as_one_laid_there_anew() {
     let bottom = sloping(0.1);
-    let fluid = UniformFluid::none();
-    let world = World { bottom: Some((&bottom, rough())), ..World::new(&fluid, GRAVITY) };
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment { bottom: Some((&bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
     for by in [-3.0, -0.5, 0.5, 3.0] {
         let anew = rest(&bottom, 440.0, 88, [FAIRLEAD[0] + by, FAIRLEAD[1]]).made.force[1];
         let Rested { rod, mut state, mut solver, .. } = rest(&bottom, 440.0, 88, FAIRLEAD);
-        let ends = [End::pinned(Vector3::zeros()), End::pinned(Vector3::new(FAIRLEAD[0] + by, 0.0, FAIRLEAD[1]))];
+        let ends = [End::pin(Vector3::zeros()), End::pin(Vector3::new(FAIRLEAD[0] + by, 0.0, FAIRLEAD[1]))];
         let made = solver.statics(&rod, &mut state, &world, ends).unwrap().force[1];
-        println!("{by}: {} {} {}", made.x, anew.x, solver.slid());
+        println!("{by}: {} {} {}", made.x, anew.x, solver.has_slid_without_friction());
         assert!((made - anew).norm() < 1e-3 * anew.norm(), "{by}: {made} {anew}");
     }
     // aside: it swings round, and lies on the slope without sliding down across it
     let Rested { rod, mut state, mut solver, made, .. } = rest(&bottom, 440.0, 88, FAIRLEAD);
     let (x, y) = (FAIRLEAD[0], 15.0);
-    let ends = [End::pinned(Vector3::zeros()), End::pinned(Vector3::new(x, y, FAIRLEAD[1]))];
+    let ends = [End::pin(Vector3::zeros()), End::pin(Vector3::new(x, y, FAIRLEAD[1]))];
     let aside = solver.statics(&rod, &mut state, &world, ends).unwrap().force[1];
     let along = (aside.x * x + aside.y * y) / x.hypot(y);
     println!("{along} {} {}", made.force[1].x, (aside.y / aside.x) / (y / x));
-    assert!(!solver.slid());
+    assert!(!solver.has_slid_without_friction());
     assert!((along / made.force[1].x - 1.0).abs() < 0.06, "{along} {}", made.force[1].x);
     assert!(((aside.y / aside.x) / (y / x) - 1.0).abs() < 0.01, "{aside}");
 }
 
 #[test]
 fn stiffness_on_a_slope_is_the_difference_of_the_force() {
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     for (slope, length) in [(0.1, 440.0), (0.1, 420.0), (-0.1, 440.0)] {
         let bottom = sloping(slope);
-        let world = World { bottom: Some((&bottom, rough())), ..World::new(&fluid, GRAVITY) };
+        let world = LineEnvironment { bottom: Some((&bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
         let Rested { rod, mut state, mut solver, .. } = rest(&bottom, length, 88, FAIRLEAD);
         let mut pull = |by: Vector3<f64>| {
             let far = Vector3::new(FAIRLEAD[0], 0.0, FAIRLEAD[1]) + by;
-            let made = solver.statics(&rod, &mut state, &world, [End::pinned(Vector3::zeros()), End::pinned(far)]);
+            let made = solver.statics(&rod, &mut state, &world, [End::pin(Vector3::zeros()), End::pin(far)]);
             (made.unwrap().force[1], solver.end_tangent(&rod, &world).unwrap().position)
         };
         let told = pull(Vector3::zeros()).1;
@@ -163,10 +163,10 @@ fn stiffness_on_a_slope_is_the_difference_of_the_force() {
 
 #[test]
 fn a_chain_longer_than_from_its_anchor_to_straight_under_its_fairlead_hangs_straight_down_over_a_heap() {
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     for (slope, length) in [(0.1, 520.0), (0.1, 480.0), (0.2, 440.0), (0.05, 500.0)] {
         let bottom = sloping(slope);
-        let world = World { bottom: Some((&bottom, rough())), ..World::new(&fluid, GRAVITY) };
+        let world = LineEnvironment { bottom: Some((&bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
         let rod = chain(length, 88);
         let far = Vector3::new(FAIRLEAD[0], 0.0, FAIRLEAD[1]);
         let points: Vec<_> = (0..=60)
@@ -176,8 +176,8 @@ fn a_chain_longer_than_from_its_anchor_to_straight_under_its_fairlead_hangs_stra
                 Vector3::new(FAIRLEAD[0] * s, 0.0, sags)
             })
             .collect();
-        let ends = [End::pinned(Vector3::zeros()), End::pinned(far)];
-        let mut state = State::along(&rod, &points).unwrap();
+        let ends = [End::pin(Vector3::zeros()), End::pin(far)];
+        let mut state = State::along_points(&rod, &points).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         let weight = MASS * GRAVITY * (FAIRLEAD[1] - slope * FAIRLEAD[0]);
         for _ in 0..3 {
@@ -186,10 +186,10 @@ fn a_chain_longer_than_from_its_anchor_to_straight_under_its_fairlead_hangs_stra
                 "{slope} {length}: {} {} slid {} its {}",
                 made.force[1].x,
                 made.force[1].z,
-                solver.slid(),
+                solver.has_slid_without_friction(),
                 made.iterations
             );
-            assert!(!solver.slid());
+            assert!(!solver.has_slid_without_friction());
             // within two elements of what hangs
             let element = MASS * GRAVITY * length / 88.0;
             assert!(made.force[1].x.abs() < 0.02 * weight && (made.force[1].z + weight).abs() < 2.0 * element);

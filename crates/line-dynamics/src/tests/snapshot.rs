@@ -17,11 +17,17 @@ fn a_rod_whose_winch_has_changed_it_goes_on_from_a_snapshot_to_the_last_bit() {
     let mut rod = Rod::new("line", vec![rope, segment(9)], vec![buoy]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
     let bottom = PlaneBottom { height: -80.0, slope: [0.0, 0.0] };
-    let ground = Ground { damping: 1e3, soft: 0.05, friction_along: 0.3, friction_across: 0.6, ..Ground::elastic(1e5) };
-    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
+    let ground = SeabedLaw {
+        damping: 1e3,
+        penetration_scale: 0.05,
+        friction_along: 0.3,
+        friction_across: 0.6,
+        ..SeabedLaw::elastic(1e5)
+    };
+    let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.81) };
     let (a, b) = (Vector3::new(0.0, 0.0, -80.0), Vector3::new(165.0, 0.0, -5.0));
-    let mut state = State::along(&rod, &[a, b]).unwrap();
-    let ends = [End::pinned(a), End::pinned(b)];
+    let mut state = State::along_points(&rod, &[a, b]).unwrap();
+    let ends = [End::pin(a), End::pin(b)];
     Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
     rod.set_length(14, 14.0, 0.4).unwrap();
     rod.divide(14, &mut state).unwrap();
@@ -31,8 +37,8 @@ fn a_rod_whose_winch_has_changed_it_goes_on_from_a_snapshot_to_the_last_bit() {
         (0..steps)
             .map(|_| {
                 let time = state.time + 0.1;
-                let lift = Motion { position: b + Vector3::z() * (0.5 * time), ..Motion::still(b) };
-                solver.step(rod, state, &world, time, [ends[0], End::moved(lift)]).unwrap()
+                let lift = Motion { position: b + Vector3::z() * (0.5 * time), ..Motion::at_rest(b) };
+                solver.step(rod, state, &world, time, [ends[0], End::from_motion(lift)]).unwrap()
             })
             .last()
             .unwrap()
@@ -40,7 +46,7 @@ fn a_rod_whose_winch_has_changed_it_goes_on_from_a_snapshot_to_the_last_bit() {
     run(&rod, &mut state, 7);
     let mut numbers = vec![1.5];
     state.pack(&mut numbers);
-    assert_eq!(numbers.len() - 1, State::packed(&rod));
+    assert_eq!(numbers.len() - 1, State::packed_len(&rod));
     let again = Rod::with_mesh("line", rod.segments().to_vec(), rod.attachments().to_vec(), &rod.mesh()).unwrap();
     assert_eq!(again, rod);
     let mut later = State::unpack(&again, &numbers[1..]).unwrap();
@@ -54,7 +60,7 @@ fn a_twisted_state_comes_back_and_a_wrong_one_is_refused() {
     let segment =
         Segment { compression: true, bending: 400.0, torsion: 300.0, ..Segment::line(10.0, 8, 2.0, 1e6, 0.1) };
     let rod = Rod::new("pipe", vec![segment.clone()], vec![]).unwrap();
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(7.0, 1.0, 0.0)]).unwrap();
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(7.0, 1.0, 0.0)]).unwrap();
     state.director[3] = Vector3::new(0.3, -0.2, 0.9);
     state.time = 4.25;
     let mut numbers = Vec::new();

@@ -31,14 +31,14 @@ impl Cradle {
     }
 
     fn support(&self) -> Support<'_> {
-        let holds = Holds::Crossing(self.axes[0]);
-        Support { place: self.place, velocity: self.velocity, holds, grip: self }
+        let holds = SupportTarget::Crossing(self.axes[0]);
+        Support { place: self.place, velocity: self.velocity, target: holds, law: self }
     }
 }
 
-impl Grip for Cradle {
-    fn answer(&self, at: &Vector3<f64>, velocity: &Vector3<f64>) -> Option<Gripped> {
-        let mut made = Gripped::default();
+impl SupportLaw for Cradle {
+    fn reaction(&self, at: &Vector3<f64>, velocity: &Vector3<f64>) -> Option<SupportReaction> {
+        let mut made = SupportReaction::default();
         for (normal, offset) in self.faces() {
             let depth = offset - at.dot(&normal);
             if depth <= 0.0 {
@@ -104,13 +104,13 @@ fn a_beam_over_three_rollers_has_the_reactions_of_the_continuous_beam() {
     for elements in [248, 311] {
         let rod = pipe(3.0 * span + overhang, elements, w, ei);
         let rollers = [1.0, 2.0, 3.0].map(|i| plain(i * span, 1e8));
-        let fluid = UniformFluid::none();
-        let world = World { supports: &supports(&rollers), ..World::new(&fluid, 9.81) };
+        let fluid = UniformFluid::vacuum();
+        let world = LineEnvironment { supports: &supports(&rollers), ..LineEnvironment::new(&fluid, 9.81) };
         let (a, b) = (Vector3::zeros(), Vector3::x() * rod.length());
-        let mut state = State::along(&rod, &[a, b]).unwrap();
+        let mut state = State::along_points(&rod, &[a, b]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
-        let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::FREE]).unwrap();
-        let told = rod.on_supports(&state, &world);
+        let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::FREE]).unwrap();
+        let told = rod.support_forces(&state, &world);
         for (told, wanted) in told.iter().zip(wanted) {
             // second order in the element, (1/80)^2; a support sinks by 2e-5 m, which takes 12 EI / L^3 of it
             assert!((-told.force.z / wanted - 1.0).abs() < 1e-3, "{elements}: {told:?} {wanted}");
@@ -118,7 +118,7 @@ fn a_beam_over_three_rollers_has_the_reactions_of_the_continuous_beam() {
         let sum = -told.iter().map(|r| r.force.z).sum::<f64>() - made.force[0].z;
         // of the whole weight, to the residual of statics
         assert!((sum / (w * rod.length()) - 1.0).abs() < 1e-6, "{sum}");
-        let moment = rod.results(&state, &world, &[End::pinned(a), End::FREE]);
+        let moment = rod.results(&state, &world, &[End::pin(a), End::FREE]);
         let most = moment.iter().filter(|n| (n.arc - span).abs() < 1.0).fold(0.0, |m: f64, n| m.max(n.moment));
         // the nodes beside a roller share its force, which rounds the peak by a quarter of force times element at most
         let rounded = 0.25 * wanted[0] * rod.length() / elements as f64;
@@ -132,11 +132,11 @@ fn slid(elements: usize) -> (Vec<f64>, f64) {
     let length = 7.0 * span;
     let rod = pipe(length, elements, w, 1e7);
     let rollers: Vec<Cradle> = (0..7).map(|i| Cradle { damping: 1e4, ..plain(span * i as f64 + 4.0, 1e7) }).collect();
-    let fluid = UniformFluid::none();
-    let world = World { supports: &supports(&rollers), ..World::new(&fluid, 9.81) };
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment { supports: &supports(&rollers), ..LineEnvironment::new(&fluid, 9.81) };
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    solver.statics(&rod, &mut state, &world, [End::pinned(Vector3::zeros()), End::FREE]).unwrap();
+    solver.statics(&rod, &mut state, &world, [End::pin(Vector3::zeros()), End::FREE]).unwrap();
     let (mut reactions, mut pull) = (Vec::new(), 0.0f64);
     let (speed, h) = (0.1, 0.1);
     for i in 1..=200 {
@@ -146,10 +146,10 @@ fn slid(elements: usize) -> (Vec<f64>, f64) {
             velocity: Vector3::x() * -speed,
             acceleration: Vector3::zeros(),
         };
-        let made = solver.step(&rod, &mut state, &world, t, [End::moved(motion), End::FREE]).unwrap();
+        let made = solver.step(&rod, &mut state, &world, t, [End::from_motion(motion), End::FREE]).unwrap();
         // the jolt of the start has died out after two seconds
         if i > 20 {
-            reactions.push(-rod.on_supports(&state, &world)[3].force.z);
+            reactions.push(-rod.support_forces(&state, &world)[3].force.z);
             pull = pull.max(made.force[0].x.abs());
         }
     }
@@ -174,18 +174,18 @@ fn a_pipe_that_slides_over_rollers_presses_evenly_as_nodes_go_by() {
 }
 
 /// A heavy point on a hinge of light rope along x, let down into a cradle and pulled aside.
-fn lying(cradle: Cradle, load: Vector3<f64>) -> (Vector3<f64>, OnSupport) {
+fn lying(cradle: Cradle, load: Vector3<f64>) -> (Vector3<f64>, SupportForce) {
     let segment = Segment { compression: true, ..Segment::line(200.0, 2, 1e-3, 1e7, 0.1) };
     let rod = Rod::new("line", vec![segment], vec![]).unwrap();
     let forces = [(1, load)];
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let rollers = [cradle];
-    let world = World { supports: &supports(&rollers), forces: &forces, ..World::new(&fluid, 0.0) };
+    let world = LineEnvironment { supports: &supports(&rollers), forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
     let (a, b) = (Vector3::x() * -100.0, Vector3::x() * 100.0);
-    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut state = State::along_points(&rod, &[a, b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
-    (state.position[1], rod.on_supports(&state, &world)[0])
+    solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    (state.position[1], rod.support_forces(&state, &world)[0])
 }
 
 #[test]
@@ -215,7 +215,7 @@ fn dropped(h: f64) -> Balance {
     // soft along, so that its steps follow the waves of its landing
     let segment = Segment { bending: 1e6, compression: true, ..Segment::line(40.0, 40, 30.0, 1e6, 0.3) };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let w = 0.9;
     let rollers = |t: f64| {
         [12.3, 30.0].map(|x| Cradle {
@@ -229,16 +229,24 @@ fn dropped(h: f64) -> Balance {
         })
     };
     let start = Vector3::zeros();
-    let mut state = State::along(&rod, &[start, Vector3::new(40.0, 0.0, 1.0)]).unwrap();
-    let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(0.9), ..Settings::default() });
-    let ends = [End::pinned(start), End::FREE];
+    let mut state = State::along_points(&rod, &[start, Vector3::new(40.0, 0.0, 1.0)]).unwrap();
+    let mut solver =
+        Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(0.9), ..Settings::default() });
+    let ends = [End::pin(start), End::FREE];
     let at = rollers(0.0);
-    solver.start(&rod, &mut state, &World { supports: &supports(&at), ..World::new(&fluid, 9.81) }, ends).unwrap();
+    solver
+        .start(
+            &rod,
+            &mut state,
+            &LineEnvironment { supports: &supports(&at), ..LineEnvironment::new(&fluid, 9.81) },
+            ends,
+        )
+        .unwrap();
     let mut books = None;
     for i in 1..=(6.0 / h).round() as usize {
         let t = i as f64 * h;
         let at = rollers(t);
-        let world = World { supports: &supports(&at), ..World::new(&fluid, 9.81) };
+        let world = LineEnvironment { supports: &supports(&at), ..LineEnvironment::new(&fluid, 9.81) };
         let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
         match &mut books {
             None => books = Some(Balance::open(&rod, &state, &world, &solver, &made)),
@@ -263,7 +271,7 @@ fn tangent_of_a_rod_on_rollers_is_the_difference_of_its_residual() {
     // soft along, so that rounding of its tension does not hide the rollers
     let segment = Segment { bending: 1e4, compression: true, ..Segment::line(20.0, 5, 30.0, 1e5, 0.3) };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
-    let mut state = State::along(&rod, &[Vector3::new(0.0, 0.0, -0.3), Vector3::new(19.0, 2.0, 0.0)]).unwrap();
+    let mut state = State::along_points(&rod, &[Vector3::new(0.0, 0.0, -0.3), Vector3::new(19.0, 2.0, 0.0)]).unwrap();
     state.move_origin(Vector3::zeros());
     for i in 0..rod.nodes() {
         let s = i as f64;
@@ -278,13 +286,13 @@ fn tangent_of_a_rod_on_rollers_is_the_difference_of_its_residual() {
         Cradle { place: Vector3::new(10.0, 1.5, 0.9), half_width: 0.1, opening: 0.3, soft: 0.02, ..base },
         Cradle { place: Vector3::new(15.0, 1.2, 0.9), soft: 5.0, ..base },
     ];
-    let fluid = UniformFluid::none();
-    let world = World { supports: &supports(&rollers), ..World::new(&fluid, 9.81) };
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment { supports: &supports(&rollers), ..LineEnvironment::new(&fluid, 9.81) };
     // all three are in touch
     assert!(
-        rod.on_supports(&state, &world).iter().all(|r| r.force.norm() > 100.0),
+        rod.support_forces(&state, &world).iter().all(|r| r.force.norm() > 100.0),
         "{:?}",
-        rod.on_supports(&state, &world)
+        rod.support_forces(&state, &world)
     );
     let mut solver = Solver::new(&rod, Settings::default());
     compare(&rod, &state, &world, &mut solver);
@@ -294,11 +302,11 @@ fn tangent_of_a_rod_on_rollers_is_the_difference_of_its_residual() {
 #[derive(Debug)]
 struct Sling(f64);
 
-impl Grip for Sling {
-    fn answer(&self, at: &Vector3<f64>, _: &Vector3<f64>) -> Option<Gripped> {
+impl SupportLaw for Sling {
+    fn reaction(&self, at: &Vector3<f64>, _: &Vector3<f64>) -> Option<SupportReaction> {
         let stiffness = Matrix3::identity() * self.0;
         let elastic = (-at * self.0, 0.5 * self.0 * at.norm_squared());
-        Some(Gripped { force: -at * self.0, by_position: stiffness, by_velocity: Matrix3::zeros(), elastic })
+        Some(SupportReaction { force: -at * self.0, by_position: stiffness, by_velocity: Matrix3::zeros(), elastic })
     }
 }
 
@@ -324,14 +332,14 @@ fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) 
     let sling = Sling(2e4);
     let mut held = supports(&cradles);
     let place = placed(2, Vector3::new(-0.5, 0.3, 0.4));
-    held.push(Support { place, velocity: Vector3::zeros(), holds: Holds::Node(0), grip: &sling });
-    let fluid = UniformFluid::none();
-    let world = World { supports: &held, ..World::new(&fluid, 9.81) };
+    held.push(Support { place, velocity: Vector3::zeros(), target: SupportTarget::Node(0), law: &sling });
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment { supports: &held, ..LineEnvironment::new(&fluid, 9.81) };
     let (a, b) = (Vector3::zeros(), Vector3::new(30.0, 0.0, -0.5));
-    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut state = State::along_points(&rod, &[a, b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    solver.statics(&rod, &mut state, &world, [End::FREE, End::pinned(b)]).unwrap();
-    let told = rod.on_supports(&state, &world).iter().map(|s| [s.force, s.moment]).collect();
+    solver.statics(&rod, &mut state, &world, [End::FREE, End::pin(b)]).unwrap();
+    let told = rod.support_forces(&state, &world).iter().map(|s| [s.force, s.moment]).collect();
     (told, solver.support_tangent(&rod, &world).unwrap())
 }
 

@@ -8,7 +8,7 @@ use windlass_model::SchemeWeights;
 const AIR: f64 = 1.226;
 
 fn windy(wind: Vector3<f64>) -> UniformFluid {
-    UniformFluid(Fluid { wind, air_density: AIR, ..UniformFluid::still(1025.0).0 })
+    UniformFluid(FluidState { wind, air_density: AIR, ..UniformFluid::still(1025.0).0 })
 }
 
 #[test]
@@ -18,11 +18,11 @@ fn a_rope_that_hangs_in_wind_takes_the_critical_angle() {
     let segment = Segment { wind_drag: cd, ..Segment::line(20.0, 10, mass, 1e8, diameter) };
     let rod = Rod::new("flag", vec![segment], vec![]).unwrap();
     let fluid = windy(Vector3::x() * speed);
-    let world = World::new(&fluid, 9.81);
+    let world = LineEnvironment::new(&fluid, 9.81);
     let top = Vector3::new(0.0, 0.0, 40.0);
-    let mut state = State::along(&rod, &[top, Vector3::new(0.0, 0.0, 20.0)]).unwrap();
+    let mut state = State::along_points(&rod, &[top, Vector3::new(0.0, 0.0, 20.0)]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    let made = solver.statics(&rod, &mut state, &world, [End::pinned(top), End::FREE]).unwrap();
+    let made = solver.statics(&rod, &mut state, &world, [End::pin(top), End::FREE]).unwrap();
     let (q, w) = (0.5 * AIR * cd * diameter * speed * speed, mass * 9.81);
     let sine = (-w + (w * w + 4.0 * q * q).sqrt()) / (2.0 * q);
     for pair in state.position.windows(2) {
@@ -38,12 +38,12 @@ fn a_rope_that_hangs_in_wind_takes_the_critical_angle() {
 #[test]
 fn wind_takes_hold_of_the_dry_part_alone() {
     let fluid = windy(Vector3::y() * 25.0);
-    let world = World::new(&fluid, 0.0);
+    let world = LineEnvironment::new(&fluid, 0.0);
     for low in [-14.0, -10.0, -7.3] {
         let segment = Segment { wind_drag: 1.0, wind_diameter: 0.5, ..Segment::line(20.0, 8, 100.0, 1e12, 0.2) };
         let rod = Rod::new("pile", vec![segment], vec![]).unwrap();
         let (a, b) = (Vector3::new(0.0, 0.0, low), Vector3::new(0.0, 0.0, low + 20.0));
-        let state = State::along(&rod, &[a, b]).unwrap();
+        let state = State::along_points(&rod, &[a, b]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         let mut started = state.clone();
         solver.start(&rod, &mut started, &world, [End::FREE; 2]).unwrap();
@@ -67,13 +67,13 @@ fn a_cylinder_pressed_through_the_surface_takes_up_the_momentum_of_its_added_mas
         let segment = Segment { added_normal: 1.0, compression: true, ..Segment::line(length, 1, 50.0, 1e9, diameter) };
         let rod = Rod::new("cylinder", vec![segment], vec![]).unwrap();
         let fluid = UniformFluid::still(1025.0);
-        let world = World { slam, ..World::new(&fluid, 0.0) };
+        let world = LineEnvironment { slam, ..LineEnvironment::new(&fluid, 0.0) };
         let along = Vector3::new(tilt.cos(), 0.0, tilt.sin()) * length;
         let start = Vector3::new(0.0, 0.0, 1.0);
-        let mut state = State::along(&rod, &[start, start + along]).unwrap();
+        let mut state = State::along_points(&rod, &[start, start + along]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         let sink = |t: f64, from: Vector3<f64>, speed: f64| {
-            End::moved(Motion {
+            End::from_motion(Motion {
                 position: from - Vector3::z() * (speed * t),
                 velocity: Vector3::z() * -speed,
                 acceleration: Vector3::zeros(),
@@ -108,11 +108,12 @@ fn a_cylinder_thrown_at_the_surface_shares_its_momentum_with_the_water() {
     let segment = Segment { added_normal: 1.0, ..Segment::line(length, 4, mass, 1e8, diameter) };
     let rod = Rod::new("cylinder", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::still(1025.0);
-    let world = World { slam: true, ..World::new(&fluid, 0.0) };
+    let world = LineEnvironment { slam: true, ..LineEnvironment::new(&fluid, 0.0) };
     let at = |x: f64| Vector3::new(x, 0.0, 0.6);
-    let mut state = State::along(&rod, &[at(0.0), at(length)]).unwrap();
+    let mut state = State::along_points(&rod, &[at(0.0), at(length)]).unwrap();
     state.velocity.fill(Vector3::z() * -speed);
-    let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(1.0), ..Settings::default() });
+    let mut solver =
+        Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(1.0), ..Settings::default() });
     solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
     let made = EndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
@@ -143,9 +144,9 @@ fn a_pipe_that_drops_level_on_the_sea_slams_and_floats() {
     };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::still(1025.0);
-    let world = World { slam: true, ..World::new(&fluid, 9.81) };
+    let world = LineEnvironment { slam: true, ..LineEnvironment::new(&fluid, 9.81) };
     for h in [0.02, 0.1, 0.3] {
-        let mut state = State::along(&rod, &[Vector3::z() * 4.0, Vector3::new(length, 0.0, 4.0)]).unwrap();
+        let mut state = State::along_points(&rod, &[Vector3::z() * 4.0, Vector3::new(length, 0.0, 4.0)]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
         for i in 1..=(60.0 / h) as usize {
@@ -162,14 +163,14 @@ fn a_pipe_that_drops_level_on_the_sea_slams_and_floats() {
 
 #[test]
 fn tangent_of_rods_in_the_surface_is_the_difference_of_their_residual() {
-    let fluid = UniformFluid(Fluid {
+    let fluid = UniformFluid(FluidState {
         velocity: Vector3::new(0.7, -0.2, 0.1),
         surface: 0.1,
         wind: Vector3::new(20.0, -8.0, 1.0),
         air_density: AIR,
         ..UniformFluid::still(1025.0).0
     });
-    let world = World { slam: true, ..World::new(&fluid, 9.81) };
+    let world = LineEnvironment { slam: true, ..LineEnvironment::new(&fluid, 9.81) };
     let segment = Segment {
         drag_normal: 1.2,
         added_normal: 1.0,
@@ -178,7 +179,7 @@ fn tangent_of_rods_in_the_surface_is_the_difference_of_their_residual() {
         ..Segment::line(20.0, 4, 80.0, 1e6, 0.9)
     };
     let rod = Rod::new("floating", vec![segment], vec![]).unwrap();
-    let mut state = State::along(&rod, &[Vector3::new(0.0, 0.0, 0.0), Vector3::new(20.1, 1.0, 0.2)]).unwrap();
+    let mut state = State::along_points(&rod, &[Vector3::new(0.0, 0.0, 0.0), Vector3::new(20.1, 1.0, 0.2)]).unwrap();
     for i in 0..rod.nodes() {
         let s = i as f64;
         state.position[i] += Vector3::new((s * 1.3).sin(), (s * 2.1).cos(), (s * 0.7).sin()) * 0.15;

@@ -23,7 +23,7 @@ fn everything(bending: f64) -> (Rod, State) {
     let segments = vec![segment(Axial::Linear(1e6), Some(tube)), segment(Axial::Polynomial(vec![1e6, 3e6]), None)];
     let buoy = super::buoy(7);
     let rod = Rod::new("all", segments, vec![buoy]).unwrap();
-    let mut state = State::along(&rod, &[Vector3::new(0.0, 0.0, -9.0), Vector3::new(30.0, 5.0, 8.0)]).unwrap();
+    let mut state = State::along_points(&rod, &[Vector3::new(0.0, 0.0, -9.0), Vector3::new(30.0, 5.0, 8.0)]).unwrap();
     state.move_origin(Vector3::zeros());
     for i in 0..rod.nodes() {
         let s = i as f64;
@@ -36,7 +36,7 @@ fn everything(bending: f64) -> (Rod, State) {
 
 #[test]
 fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
-    let fluid = UniformFluid(Fluid {
+    let fluid = UniformFluid(FluidState {
         velocity: Vector3::new(0.7, -0.2, 0.1),
         acceleration: Vector3::new(0.1, 0.3, -0.2),
         surface: 0.3,
@@ -46,32 +46,38 @@ fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
         air_density: 1.226,
     });
     let bottom = PlaneBottom { height: -8.0, slope: [0.05, -0.02] };
-    let ground = Ground { damping: 1e3, soft: 0.1, friction_along: 0.3, friction_across: 0.6, ..Ground::elastic(1e5) };
-    let world = World { bottom: Some((&bottom, ground)), slam: true, ..World::new(&fluid, 9.81) };
+    let ground = SeabedLaw {
+        damping: 1e3,
+        penetration_scale: 0.1,
+        friction_along: 0.3,
+        friction_across: 0.6,
+        ..SeabedLaw::elastic(1e5)
+    };
+    let world = LineEnvironment { bottom: Some((&bottom, ground)), slam: true, ..LineEnvironment::new(&fluid, 9.81) };
     for bending in [0.0, 4e5] {
         let (mut rod, state) = everything(bending);
         rod.elements[2].rate = 0.3;
         let mut solver = Solver::new(&rod, Settings::default());
-        solver.trial.ends[0] = End::FREE.clamped(Vector3::new(0.8, 0.3, 0.5));
-        solver.trial.ends[1] = End { rotation: Some(2e5), ..End::FREE.clamped(Vector3::new(0.5, -0.3, 0.5)) };
+        solver.trial.ends[0] = End::FREE.with_clamp(Vector3::new(0.8, 0.3, 0.5));
+        solver.trial.ends[1] = End { rotation: Some(2e5), ..End::FREE.with_clamp(Vector3::new(0.5, -0.3, 0.5)) };
         compare(&rod, &state, &world, &mut solver);
         for side in [0, 1] {
-            solver.trial.drawn = Some(side);
+            solver.trial.pulled_end = Some(side);
             compare(&rod, &state, &world, &mut solver);
         }
     }
 }
 
 /// Compares the tangent of a rod in a state, by each of position, velocity and acceleration, with differences.
-pub(super) fn compare(rod: &Rod, state: &State, world: &World, solver: &mut Solver) {
+pub(super) fn compare(rod: &Rod, state: &State, world: &LineEnvironment, solver: &mut Solver) {
     let mut at = |position: &[Vector3<f64>], velocity: &[Vector3<f64>], acceleration: &[Vector3<f64>], w: Weights| {
         solver.trial.x.copy_from_slice(position);
         solver.trial.v.copy_from_slice(velocity);
         solver.trial.a.copy_from_slice(acceleration);
-        solver.trial.exact = true;
-        trial::sample(world, 0.0, &mut solver.trial);
-        trial::lay(rod, state, world, &mut solver.trial.lay);
-        trial::soften(state, world, &mut solver.trial.soft);
+        solver.trial.exact_friction_tangent = true;
+        trial::sample_fluid(world, 0.0, &mut solver.trial);
+        trial::set_friction_directions(rod, state, world, &mut solver.trial.friction_direction);
+        trial::set_seabed_penetration_scales(state, world, &mut solver.trial.seabed_penetration_scale);
         let last = rod.elements.len();
         solver.work.assemble(rod, world, &solver.trial, w, 0..last);
         solver.work.clone()
@@ -105,13 +111,13 @@ pub(super) fn compare(rod: &Rod, state: &State, world: &World, solver: &mut Solv
 
 #[test]
 fn elements_taken_at_once_are_what_each_is_alone() {
-    let fluid = UniformFluid(Fluid {
+    let fluid = UniformFluid(FluidState {
         velocity: Vector3::new(0.7, -0.2, 0.1),
         acceleration: Vector3::new(0.1, 0.3, -0.2),
         head: 0.4,
         ..UniformFluid::still(1025.0).0
     });
-    let world = World::new(&fluid, 9.81);
+    let world = LineEnvironment::new(&fluid, 9.81);
     let full = Tube { expansion: 1e-5, warmer: 40.0, pressure: 2e6, contents: 800.0, ..Tube::empty(0.4, 0.36) };
     for (bending, compression, tube) in
         [(0.0, false, None), (0.0, true, None), (4e5, true, None), (0.0, false, Some(full)), (4e5, true, Some(full))]
@@ -129,7 +135,8 @@ fn elements_taken_at_once_are_what_each_is_alone() {
         };
         let mut rod = Rod::new("plain", vec![segment], vec![]).unwrap();
         // the top comes out of the water, some elements are slack, one is wound, one node stands still in the water
-        let mut state = State::along(&rod, &[Vector3::new(0.0, 0.0, -90.0), Vector3::new(30.0, 5.0, 6.0)]).unwrap();
+        let mut state =
+            State::along_points(&rod, &[Vector3::new(0.0, 0.0, -90.0), Vector3::new(30.0, 5.0, 6.0)]).unwrap();
         state.move_origin(Vector3::zeros());
         for i in 0..rod.nodes() {
             let s = i as f64;
@@ -146,8 +153,11 @@ fn elements_taken_at_once_are_what_each_is_alone() {
             solver.trial.x.copy_from_slice(&state.position);
             solver.trial.v.copy_from_slice(&state.velocity);
             solver.trial.a.copy_from_slice(&state.acceleration);
-            trial::sample(&world, 0.0, &mut solver.trial);
-            assert_eq!(super::super::abreast::plain(&rod, &solver.trial, 0..19), if plain { 8 } else { 0 });
+            trial::sample_fluid(&world, 0.0, &mut solver.trial);
+            assert_eq!(
+                super::super::element_batch::count_batchable(&rod, &solver.trial, 0..19),
+                if plain { 8 } else { 0 }
+            );
             solver.work.assemble(&rod, &world, &solver.trial, weights, 0..19);
             solver
         });

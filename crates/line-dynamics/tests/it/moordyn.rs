@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use windlass_line_dynamics::{
-    End, EndForces, Ground, Motion, PlaneBottom, Rod, Segment, Settings, Solver, State, UniformFluid, World,
+    End, EndForces, LineEnvironment, Motion, PlaneBottom, Rod, SeabedLaw, Segment, Settings, Solver, State,
+    UniformFluid,
 };
 
 /// The fairlead: 5 m of surge, 10 s of period, brought up over 20 s.
@@ -25,7 +26,7 @@ pub fn driven(t: f64) -> Motion {
 /// Gives the chain at rest in its world to `act`: its rod, solver and state, the end at the anchor, and the forces at rest.
 pub fn chain<T>(
     (elements, settings): (usize, Settings),
-    act: impl FnOnce(&Rod, &mut Solver, &mut State, &World, End, EndForces) -> T,
+    act: impl FnOnce(&Rod, &mut Solver, &mut State, &LineEnvironment, End, EndForces) -> T,
 ) -> T {
     let chain = Segment {
         axial_damping: 1e6,
@@ -38,13 +39,13 @@ pub fn chain<T>(
     let rod = Rod::new("chain", vec![chain], vec![]).unwrap();
     let fluid = UniformFluid::still(1025.0);
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
-    let ground = Ground { damping: 3e5, ..Ground::elastic(3e6) };
-    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
+    let ground = SeabedLaw { damping: 3e5, ..SeabedLaw::elastic(3e6) };
+    let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.80665) };
     let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
-    let mut state = State::along(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
+    let mut state = State::along_points(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
     let mut solver = Solver::new(&rod, settings);
-    let rest = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
-    act(&rod, &mut solver, &mut state, &world, End::pinned(a), rest)
+    let rest = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    act(&rod, &mut solver, &mut state, &world, End::pin(a), rest)
 }
 
 /// MoorDyn's force on the fairlead from 20 s on: time (s), size (N); and its range (N).

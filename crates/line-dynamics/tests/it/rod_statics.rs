@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 use windlass_catenary as catenary;
 use windlass_line_dynamics::{
-    Bottom, End, Fluid, Ground, PlaneBottom, Rod, Segment, Settings, Solver, State, UniformFluid, World,
+    Bottom, End, FluidState, LineEnvironment, PlaneBottom, Rod, SeabedLaw, Segment, Settings, Solver, State,
+    UniformFluid,
 };
 
 const GRAVITY: f64 = 9.80665;
@@ -29,17 +30,18 @@ fn rest(case: &Case, elements: usize, sinks: f64) -> ([f64; 2], usize) {
     let segment =
         Segment { displaced: area, contact_diameter: 1.0, ..Segment::line(case.length, elements, mass, case.ea, 1.0) };
     let rod = Rod::new("line", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid(Fluid { surface: 1e5, ..UniformFluid::still(WATER).0 });
+    let fluid = UniformFluid(FluidState { surface: 1e5, ..UniformFluid::still(WATER).0 });
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
-    let ground = Ground { friction_along: case.friction, ..Ground::elastic(weight.abs() / (sinks * case.length)) };
+    let ground =
+        SeabedLaw { friction_along: case.friction, ..SeabedLaw::elastic(weight.abs() / (sinks * case.length)) };
     let bottom = case.grounded.then_some((&bottom as &dyn Bottom, ground));
-    let world = World { bottom, ..World::new(&fluid, GRAVITY) };
+    let world = LineEnvironment { bottom, ..LineEnvironment::new(&fluid, GRAVITY) };
     let (a, b) = (Vector3::zeros(), Vector3::new(case.x, 0.0, case.z));
     let foot = Vector3::new(0.999 * case.x, 0.0, 0.01 * case.z);
     let start = if case.grounded { vec![a, foot, b] } else { vec![a, b] };
-    let mut state = State::along(&rod, &start).unwrap();
+    let mut state = State::along_points(&rod, &start).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
     ([-made.force[1].x, -made.force[1].z], made.iterations)
 }
 
@@ -54,7 +56,7 @@ fn a_rod_at_rest_tends_to_the_catenary_with_the_square_of_its_elements() {
     for case in [line(700.0, 500.0, false), line(800.0, 290.0, true), line(700.0, 290.0, true)] {
         let segment = catenary::Segment { length: case.length, weight: case.weight, ea: case.ea };
         let bottom = case.grounded.then_some(catenary::Bottom { friction: 0.0 });
-        let exact = segment.between(case.x, case.z, bottom).unwrap().fairlead;
+        let exact = segment.solve_end_forces(case.x, case.z, bottom).unwrap().fairlead;
         let errors = [50, 100, 200, 400, 800].map(|n| away(rest(&case, n, 1e-8).0, exact));
         assert!(errors[4] < 1e-4, "{errors:?}");
         // a touchdown moves through the mesh, so its error falls by fits: the order is that over four halvings
@@ -71,7 +73,7 @@ fn a_rod_that_is_drawn_over_a_rough_bottom_tends_to_the_catenary_with_friction()
     {
         let case = Case { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded: true, friction };
         let segment = catenary::Segment { length: case.length, weight: case.weight, ea: case.ea };
-        let wanted = segment.between(case.x, case.z, Some(catenary::Bottom { friction })).unwrap();
+        let wanted = segment.solve_end_forces(case.x, case.z, Some(catenary::Bottom { friction })).unwrap();
         let errors = [50, 100, 200, 400, 800].map(|n| away(rest(&case, n, 1e-8).0, wanted.fairlead));
         assert!(errors[4] < 1e-5, "{friction}: {errors:?}");
         let order = (errors[0] / errors[4]).log2() / 4.0;

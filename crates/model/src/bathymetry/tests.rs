@@ -17,7 +17,7 @@ fn a_surface_quadratic_in_x_and_in_y_is_met_exactly_with_its_slopes() {
     for i in 0..40 {
         for j in 0..30 {
             let (x, y) = (-300.0 + 700.0 * f64::from(i) / 39.0, -200.0 + 460.0 * f64::from(j) / 29.0);
-            let (z, [zx, zy]) = bottom.at(x, y);
+            let (z, [zx, zy]) = bottom.elevation_and_slopes(x, y);
             let wanted = [0.1 + 4e-4 * x + 1e-4 * y + 4e-9 * x * y * y, -0.05 - 6e-4 * y + 1e-4 * x + 4e-9 * x * x * y];
             // rounding of heights of 500 m over steps of 45 m
             assert!((z - height(x, y)).abs() < 1e-10, "{x} {y}: {z}");
@@ -33,16 +33,19 @@ fn its_slopes_are_the_differences_of_its_height_and_do_not_jump() {
     for i in 0..50 {
         for j in 0..50 {
             let (x, y) = (-299.0 + 698.0 * f64::from(i) / 49.0, -199.0 + 458.0 * f64::from(j) / 49.0);
-            let (_, [zx, zy]) = bottom.at(x, y);
-            let by_x = (bottom.at(x + step, y).0 - bottom.at(x - step, y).0) / (2.0 * step);
-            let by_y = (bottom.at(x, y + step).0 - bottom.at(x, y - step).0) / (2.0 * step);
+            let (_, [zx, zy]) = bottom.elevation_and_slopes(x, y);
+            let by_x = (bottom.elevation_and_slopes(x + step, y).0 - bottom.elevation_and_slopes(x - step, y).0)
+                / (2.0 * step);
+            let by_y = (bottom.elevation_and_slopes(x, y + step).0 - bottom.elevation_and_slopes(x, y - step).0)
+                / (2.0 * step);
             // rounding of 100 m over 2e-4 m is 7e-11; curvature is below 0.02/m
             assert!((zx - by_x).abs() < 1e-8 && (zy - by_y).abs() < 1e-8, "{x} {y}");
         }
     }
     // across the lines of the grid: 1e-9 m times the curvature
     for (a, b) in [((10.0, 77.0), (1e-9, 0.0)), ((200.0, 30.0), (0.0, 1e-9)), ((55.0, -90.0), (1e-9, 1e-9))] {
-        let (one, other) = (bottom.at(a.0 - b.0, a.1 - b.1), bottom.at(a.0 + b.0, a.1 + b.1));
+        let (one, other) =
+            (bottom.elevation_and_slopes(a.0 - b.0, a.1 - b.1), bottom.elevation_and_slopes(a.0 + b.0, a.1 + b.1));
         assert!((one.0 - other.0).abs() < 1e-8, "{a:?}");
         assert!((0..2).all(|i| (one.1[i] - other.1[i]).abs() < 1e-8), "{a:?}: {one:?} {other:?}");
     }
@@ -55,12 +58,12 @@ fn four_corners_make_a_plane_that_is_constant_beyond_its_edges() {
         assert!((found.0 - z).abs() < 1e-12, "{found:?}");
         assert!((0..2).all(|i| (found.1[i] - slopes[i]).abs() < 1e-13), "{found:?}");
     };
-    near(bottom.at(30.0, 20.0), -19.0, [-0.1, 0.2]);
-    near(bottom.at(100.0, 50.0), -20.0, [-0.1, 0.2]);
-    near(bottom.at(1e6, 20.0), -26.0, [0.0, 0.2]);
-    near(bottom.at(30.0, -1e6), -23.0, [-0.1, 0.0]);
-    near(bottom.at(-7.0, 51.0), -10.0, [0.0, 0.0]);
-    assert!(bottom.at(f64::NAN, 1.0).0.is_nan());
+    near(bottom.elevation_and_slopes(30.0, 20.0), -19.0, [-0.1, 0.2]);
+    near(bottom.elevation_and_slopes(100.0, 50.0), -20.0, [-0.1, 0.2]);
+    near(bottom.elevation_and_slopes(1e6, 20.0), -26.0, [0.0, 0.2]);
+    near(bottom.elevation_and_slopes(30.0, -1e6), -23.0, [-0.1, 0.0]);
+    near(bottom.elevation_and_slopes(-7.0, 51.0), -10.0, [0.0, 0.0]);
+    assert!(bottom.elevation_and_slopes(f64::NAN, 1.0).0.is_nan());
 }
 
 #[test]
@@ -72,7 +75,7 @@ fn a_smooth_bottom_is_met_with_the_third_power_of_the_spacing() {
         let bottom = made(&places, &places, height);
         let off = |i: u32| {
             let at = (200.0 * (f64::from(i) * 0.618_034).fract(), 200.0 * (f64::from(i) * 0.754_878).fract());
-            (bottom.at(at.0, at.1).0 - height(at.0, at.1)).abs()
+            (bottom.elevation_and_slopes(at.0, at.1).0 - height(at.0, at.1)).abs()
         };
         (0..3000).map(off).fold(0.0, f64::max)
     };

@@ -46,7 +46,7 @@ impl Curve {
     ///
     /// # Errors
     /// Fewer than two points; ranges or cycles that are not greater than zero; ranges that do not fall while cycles grow.
-    pub fn through(given: &FatigueCurve) -> Result<Curve, SeriesError> {
+    pub fn from_points(given: &FatigueCurve) -> Result<Curve, SeriesError> {
         let points = &given.points;
         if points.len() < 2 {
             let got = points.len();
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_curve_through_points_meets_them_and_is_straight_between_and_beyond() {
-        let curve = Curve::through(&user(&[(0.8, 1e3), (0.2, 1e5), (0.1, 1e7)])).unwrap();
+        let curve = Curve::from_points(&user(&[(0.8, 1e3), (0.2, 1e5), (0.1, 1e7)])).unwrap();
         for (s, n) in [(0.8, 1e3), (0.2, 1e5), (0.1, 1e7)] {
             assert!((curve.cycles(s, 0.0).unwrap() / n - 1.0).abs() < 1e-12, "{s}");
         }
@@ -129,9 +129,9 @@ mod tests {
 
     #[test]
     fn points_in_a_wrong_order_make_no_curve() {
-        assert!(Curve::through(&user(&[(0.5, 1e3)])).is_err());
-        assert!(Curve::through(&user(&[(0.5, 1e3), (0.6, 1e4)])).is_err());
-        assert!(Curve::through(&user(&[(0.5, 1e3), (0.4, 1e2)])).is_err());
-        assert!(Curve::through(&user(&[(0.5, 1e3), (0.0, 1e4)])).is_err());
+        assert!(Curve::from_points(&user(&[(0.5, 1e3)])).is_err());
+        assert!(Curve::from_points(&user(&[(0.5, 1e3), (0.6, 1e4)])).is_err());
+        assert!(Curve::from_points(&user(&[(0.5, 1e3), (0.4, 1e2)])).is_err());
+        assert!(Curve::from_points(&user(&[(0.5, 1e3), (0.0, 1e4)])).is_err());
     }
 }

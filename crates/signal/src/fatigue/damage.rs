@@ -46,7 +46,7 @@ pub struct State {
 ///
 /// # Errors
 /// A record or duration without length.
-pub fn over(states: &[State]) -> Result<f64, SeriesError> {
+pub fn sum_damage(states: &[State]) -> Result<f64, SeriesError> {
     states.iter().try_fold(0.0, |sum, state| {
         for (what, value) in [("the length of a record", state.record), ("the duration", state.duration)] {
             if !(value.is_finite() && value > 0.0) {
@@ -92,13 +92,13 @@ mod tests {
         let hour = 3600.0;
         let states =
             [(1e-6, 300.0), (1e-5, 65.25)].map(|(damage, days)| State { damage, record: hour, duration: days * DAY });
-        let sum = over(&states).unwrap();
+        let sum = sum_damage(&states).unwrap();
         assert!((sum - (1e-6 * 7200.0 + 1e-5 * 1566.0)).abs() < 1e-12, "{sum}");
         // one year of it, with a factor of 10
         let years = life(sum, YEAR * DAY, 10.0).unwrap().unwrap();
         assert!((years - 1.0 / (10.0 * sum)).abs() < 1e-12);
         assert_eq!(life(0.0, 1.0, 1.0), Ok(None));
         assert!(life(1.0, 1.0, 0.5).is_err() && life(1.0, 0.0, 1.0).is_err());
-        assert!(over(&[State { damage: 0.1, record: 0.0, duration: 1.0 }]).is_err());
+        assert!(sum_damage(&[State { damage: 0.1, record: 0.0, duration: 1.0 }]).is_err());
     }
 }

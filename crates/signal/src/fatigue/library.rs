@@ -61,7 +61,7 @@ pub struct Shipped {
     #[serde(default)]
     mean_slope: f64,
     /// Cross-sections of the nominal diameter that bear the tension.
-    #[serde(default = "one")]
+    #[serde(default = "unit_factor")]
     legs: f64,
     /// Exponent of thickness its source gives, over 25 mm unless the source says else; told, not applied.
     #[serde(default)]
@@ -70,7 +70,7 @@ pub struct Shipped {
     pub source: String,
 }
 
-fn one() -> f64 {
+fn unit_factor() -> f64 {
     1.0
 }
 
@@ -124,7 +124,7 @@ impl Shipped {
 pub fn find(name: &str, selection: &FatigueSelection) -> Option<Curve> {
     let own = selection.curves.values().find(|c| c.name.eq_ignore_ascii_case(name));
     match own {
-        Some(given) => Curve::through(given).ok(),
+        Some(given) => Curve::from_points(given).ok(),
         None => library().curves.iter().find(|c| c.is_called(name)).map(Shipped::curve),
     }
 }

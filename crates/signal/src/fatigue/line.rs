@@ -1,7 +1,7 @@
 //! Damage of a mooring line's segments from a record of their tension.
 
 use super::curve::Curve;
-use super::damage::{State, life, of_cycles, over};
+use super::damage::{State, life, of_cycles, sum_damage};
 use crate::rainflow::{Cycle, cycles};
 use crate::{SeriesError, statistics};
 use windlass_model::{FatigueKind, FatigueSegment, ThicknessCorrection};
@@ -163,7 +163,7 @@ pub fn line_life(scatter: &[Exposure], factor: f64) -> Result<Vec<SegmentLife>, 
                 Some(State { damage, record: e.record, duration: e.duration })
             })
             .collect();
-        let damage = over(&states)?;
+        let damage = sum_damage(&states)?;
         let years = life(damage, total, factor)?;
         out.push(SegmentLife { segment: segment.segment, curve: segment.curve.clone(), damage, years });
     }

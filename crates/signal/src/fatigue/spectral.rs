@@ -18,7 +18,7 @@ fn sound(m: &Moments) -> Result<(), SeriesError> {
 }
 
 /// Integral of z^(a - 1) e^(-z) from `low` to `high`, the upper end `None` at infinity.
-fn between(a: f64, low: f64, high: Option<f64>) -> Result<f64, SeriesError> {
+fn incomplete_gamma(a: f64, low: f64, high: Option<f64>) -> Result<f64, SeriesError> {
     let share = |z: f64| {
         if z <= 0.0 {
             return Ok(0.0);
@@ -30,7 +30,7 @@ fn between(a: f64, low: f64, high: Option<f64>) -> Result<f64, SeriesError> {
 }
 
 /// Sum over the branches of a curve of `integral of S^m p(S) dS / a`, the inner integral being given by slope and bounds.
-fn summed(
+fn sum_branches(
     curve: &Curve,
     mean: f64,
     integral: impl Fn(f64, f64, Option<f64>) -> Result<f64, SeriesError>,
@@ -60,9 +60,9 @@ pub fn narrow_band(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesE
     let eight = 8.0 * m[0];
     let integral = |slope: f64, low: f64, high: Option<f64>| {
         let z = |s: f64| s * s / eight;
-        Ok(eight.powf(0.5 * slope) * between(1.0 + 0.5 * slope, z(low), high.map(z))?)
+        Ok(eight.powf(0.5 * slope) * incomplete_gamma(1.0 + 0.5 * slope, z(low), high.map(z))?)
     };
-    Ok(rate * summed(curve, mean, integral)?)
+    Ok(rate * sum_branches(curve, mean, integral)?)
 }
 
 /// Damage in a second by the density of rainflow ranges of [DIRLIK-1985]: an exponential and two Rayleigh densities weighted by the moments.
@@ -97,12 +97,14 @@ pub fn dirlik(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesError>
         let rayleigh = |s: f64, width: f64| (s / two / width).powi(2) / 2.0;
         let waves = |width: f64| {
             let z = |s: f64| rayleigh(s, width);
-            Ok::<f64, SeriesError>((2f64.sqrt() * width).powf(slope) * between(1.0 + 0.5 * slope, z(low), high.map(z))?)
+            Ok::<f64, SeriesError>(
+                (2f64.sqrt() * width).powf(slope) * incomplete_gamma(1.0 + 0.5 * slope, z(low), high.map(z))?,
+            )
         };
-        let first = d1 * q.powf(slope) * between(1.0 + slope, exponential(low), high.map(exponential))?;
+        let first = d1 * q.powf(slope) * incomplete_gamma(1.0 + slope, exponential(low), high.map(exponential))?;
         Ok(two.powf(slope) * (first + d2 * waves(r.abs())? + d3 * waves(1.0)?))
     };
-    Ok(peaks * summed(curve, mean, integral)?)
+    Ok(peaks * sum_branches(curve, mean, integral)?)
 }
 
 #[cfg(test)]

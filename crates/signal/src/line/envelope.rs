@@ -72,7 +72,7 @@ impl Envelope {
     }
 
     /// What was seen of a quantity by its place; none where it never was there.
-    pub fn seen(&self, place: usize) -> Option<Seen> {
+    pub fn extremes(&self, place: usize) -> Option<Seen> {
         let Track { count, mean, squares, least, most } = *self.tracks.get(place)?.as_ref()?;
         Some(Seen { count, mean, deviation: (squares / count as f64).max(0.0).sqrt(), least, most })
     }
@@ -92,7 +92,7 @@ mod tests {
         }
         for (place, k) in [0.3, 0.7].into_iter().enumerate() {
             let series: Vec<f64> = (0..200).map(|i| wave(i, k)).collect();
-            let (want, found) = (statistics::moments(&series).unwrap(), envelope.seen(place).unwrap());
+            let (want, found) = (statistics::moments(&series).unwrap(), envelope.extremes(place).unwrap());
             assert!((found.mean - want.mean).abs() < 1e-8 && (found.deviation - want.deviation).abs() < 1e-8);
             assert_eq!(found.most.value, want.maximum.1);
             assert_eq!(found.count, 200);
@@ -104,9 +104,9 @@ mod tests {
         let mut envelope = Envelope::default();
         envelope.take(0.0, [f64::NAN, 2.0, f64::NAN]).unwrap();
         envelope.take(1.0, [5.0, 4.0, f64::NAN]).unwrap();
-        assert_eq!(envelope.seen(0).unwrap().count, 1);
-        assert_eq!(envelope.seen(1).unwrap().mean, 3.0);
-        assert_eq!((envelope.seen(2), envelope.seen(9)), (None, None));
+        assert_eq!(envelope.extremes(0).unwrap().count, 1);
+        assert_eq!(envelope.extremes(1).unwrap().mean, 3.0);
+        assert_eq!((envelope.extremes(2), envelope.extremes(9)), (None, None));
         assert!(envelope.take(2.0, [f64::INFINITY]).is_err());
     }
 }

@@ -104,7 +104,7 @@ impl Resistance {
     ///
     /// # Errors
     /// What is no tube, a factor that is not above zero.
-    pub fn of(tube: Tube, factors: Factors) -> Result<Self, SeriesError> {
+    pub fn new(tube: Tube, factors: Factors) -> Result<Self, SeriesError> {
         tube.check()?;
         for (what, value) in [
             ("gamma_m", factors.material),
@@ -149,7 +149,7 @@ impl Resistance {
     /// (Pa); it holds up to 1. With more pressure inside the left side of the criterion,
     /// `g {|M|/M_k sqrt(1 - (dp/p_b)^2) + (T/T_k)^2} + (dp/p_b)^2`; with more outside the root of
     /// `g^2 {|M|/M_k + (T/T_k)^2}^2 + g^2 (dp/p_c)^2`, so that the two meet where the pressures are equal; g is gamma_SC gamma_m.
-    pub fn used(&self, moment: f64, tension: f64, [inside, outside]: [f64; 2]) -> f64 {
+    pub fn utilisation(&self, moment: f64, tension: f64, [inside, outside]: [f64; 2]) -> f64 {
         let g = self.factors.class.factor() * self.factors.material;
         let over = inside - outside;
         let [plastic_moment, plastic_tension] = self.plastic(over);
@@ -174,7 +174,7 @@ impl Resistance {
                     *design = functional * rest + environmental * (now - rest);
                 }
                 let [about_one, about_other, tension] = design;
-                most = most.max(self.used(about_one.hypot(about_other), tension, pressures));
+                most = most.max(self.utilisation(about_one.hypot(about_other), tension, pressures));
             }
         }
         most
@@ -192,7 +192,7 @@ mod tests {
     fn a_pipe_collapses_as_another_program_has_it() {
         // [PDOVER2T-PY], examples/DNVGL-ST-F101_pipe_collapse_external_pressure.ipynb: UOE pipe, printed to 0.1 Pa
         let factors = Factors { fabrication: 0.85, ..Factors::default() };
-        let found = Resistance::of(X65, factors).unwrap();
+        let found = Resistance::new(X65, factors).unwrap();
         assert!((found.collapse - 10_831_164.1).abs() < 0.1, "{}", found.collapse);
         assert!((collapse(12_098_341.0, 22_529_636.4, 0.005, 0.66 / 0.0197) - 10_831_164.1).abs() < 0.5);
     }
@@ -208,30 +208,30 @@ mod tests {
 
     #[test]
     fn each_load_alone_uses_all_at_its_own_resistance() {
-        let found = Resistance::of(X65, Factors::default()).unwrap();
+        let found = Resistance::new(X65, Factors::default()).unwrap();
         let g = 1.14 * 1.15;
         let [moment, tension] = found.plastic(0.0);
-        assert!((found.used(-moment / g, 0.0, [0.0; 2]) - 1.0).abs() < 1e-12);
-        assert!((found.used(0.0, -tension / g.sqrt(), [0.0; 2]) - 1.0).abs() < 1e-12);
-        assert!((found.used(0.0, 0.0, [found.burst, 0.0]) - 1.0).abs() < 1e-12);
-        assert!((found.used(0.0, 0.0, [0.0, found.collapse / g]) - 1.0).abs() < 1e-12);
+        assert!((found.utilisation(-moment / g, 0.0, [0.0; 2]) - 1.0).abs() < 1e-12);
+        assert!((found.utilisation(0.0, -tension / g.sqrt(), [0.0; 2]) - 1.0).abs() < 1e-12);
+        assert!((found.utilisation(0.0, 0.0, [found.burst, 0.0]) - 1.0).abs() < 1e-12);
+        assert!((found.utilisation(0.0, 0.0, [0.0, found.collapse / g]) - 1.0).abs() < 1e-12);
         // a pressure beyond bursting is not made good by a moment
-        assert!(found.used(moment, 0.0, [2.0 * found.burst, 0.0]) > 3.9);
+        assert!(found.utilisation(moment, 0.0, [2.0 * found.burst, 0.0]) > 3.9);
         // von Mises' ring: 2 / sqrt 3 of the yield stress by the mean diameter
         assert!((found.burst * (0.66 - 0.0197) / (2.0 * 0.0197) - 2.0 / 3f64.sqrt() * 444e6).abs() < 1.0);
     }
 
     #[test]
     fn the_two_forms_meet_at_equal_pressures() {
-        let found = Resistance::of(X65, Factors::default()).unwrap();
-        let [inside, outside] = [[1.0, 0.0], [0.0, 1.0]].map(|p| found.used(1e6, 2e6, p));
+        let found = Resistance::new(X65, Factors::default()).unwrap();
+        let [inside, outside] = [[1.0, 0.0], [0.0, 1.0]].map(|p| found.utilisation(1e6, 2e6, p));
         assert!((inside - outside).abs() < 1e-6, "{inside} {outside}");
     }
 
     #[test]
     fn hardening_fades_with_slenderness_and_is_bounded() {
         let of = |diameter: f64, tensile: f64| {
-            Resistance::of(Tube { diameter, tensile, ..X65 }, Factors::default()).unwrap().hardening(0.0)
+            Resistance::new(Tube { diameter, tensile, ..X65 }, Factors::default()).unwrap().hardening(0.0)
         };
         // beta 0.4 up to D/t of 15, half of that at 37.5, none from 60 on
         assert!((of(0.0197 * 14.0, 535e6) - (0.6 + 0.4 * 535.0 / 444.0)).abs() < 1e-12);
@@ -242,12 +242,12 @@ mod tests {
 
     #[test]
     fn what_relieves_takes_the_inverse_factor() {
-        let found = Resistance::of(X65, Factors::default()).unwrap();
+        let found = Resistance::new(X65, Factors::default()).unwrap();
         let at = [0.0; 2];
         let worse = found.used_now([1e6, 0.0, 0.0], [1.5e6, 0.0, 0.0], at);
-        assert!((worse - found.used(1.1e6 + 0.65e6, 0.0, at)).abs() < 1e-12);
+        assert!((worse - found.utilisation(1.1e6 + 0.65e6, 0.0, at)).abs() < 1e-12);
         let relieved = found.used_now([1e6, 0.0, 0.0], [0.5e6, 0.0, 0.0], at);
-        assert!((relieved - found.used(1.1e6 - 0.5e6 / 1.3, 0.0, at)).abs() < 1e-12);
-        assert!(Resistance::of(X65, Factors { material: 0.0, ..Factors::default() }).is_err());
+        assert!((relieved - found.utilisation(1.1e6 - 0.5e6 / 1.3, 0.0, at)).abs() < 1e-12);
+        assert!(Resistance::new(X65, Factors { material: 0.0, ..Factors::default() }).is_err());
     }
 }

@@ -51,7 +51,7 @@ pub fn membrane(tube: &Tube, acting: &Acting) -> f64 {
 ///
 /// # Errors
 /// What is no tube.
-pub fn used(tube: &Tube, acting: &Acting, case: DesignCase) -> Result<f64, SeriesError> {
+pub fn utilisation(tube: &Tube, acting: &Acting, case: DesignCase) -> Result<f64, SeriesError> {
     tube.check()?;
     Ok(membrane(tube, acting) / (case.factor() * 2.0 / 3.0 * tube.yield_stress))
 }
@@ -68,7 +68,7 @@ mod tests {
         let acting = Acting { wall: area * 2e8, ..Acting::default() };
         assert!((membrane(&TUBE, &acting) / 2e8 - 1.0).abs() < 1e-12);
         for (case, want) in [(DesignCase::Operating, 0.75), (DesignCase::Extreme, 0.625), (DesignCase::Survival, 0.5)] {
-            assert!((used(&TUBE, &acting, case).unwrap() - want).abs() < 1e-12);
+            assert!((utilisation(&TUBE, &acting, case).unwrap() - want).abs() < 1e-12);
         }
     }
 
@@ -89,6 +89,6 @@ mod tests {
         let pulled = Acting { wall: -1e6, ..acting };
         let pushed = Acting { wall: 1e6, ..acting };
         assert!((membrane(&TUBE, &pulled) - membrane(&TUBE, &pushed)).abs() < 1e-6);
-        assert!(used(&Tube { wall: 0.2, ..TUBE }, &acting, DesignCase::Operating).is_err());
+        assert!(utilisation(&Tube { wall: 0.2, ..TUBE }, &acting, DesignCase::Operating).is_err());
     }
 }

@@ -55,7 +55,7 @@ impl Record {
     ///
     /// # Errors
     /// A table of one column, a first column that measures something else, a cell without a number, times that do not grow.
-    pub fn of(table: &Table) -> Result<Record, SeriesError> {
+    pub fn from_table(table: &Table) -> Result<Record, SeriesError> {
         let Some((time, rest)) = table.columns.split_first().filter(|(_, rest)| !rest.is_empty()) else {
             return Err(SeriesError::Refused("the time and at least one more column are needed".into()));
         };
@@ -64,7 +64,7 @@ impl Record {
             return Err(SeriesError::Refused(text));
         }
         let times = values(time)?;
-        super::timed(&times, &times)?;
+        super::check_times(&times, &times)?;
         let series = rest.iter().map(|c| {
             let values = values(c)?;
             super::finite(&values)?;
@@ -102,12 +102,12 @@ mod tests {
             .column("", "Time", Dim::Time, Digits::Usual, |time| *time)
             .column("A", "F", Dim::Force, Digits::Usual, |_| 5usize)
             .build();
-        let r = Record::of(&t).unwrap();
+        let r = Record::from_table(&t).unwrap();
         assert_eq!((r.series[0].name.as_str(), r.length()), ("A: F", 3.0));
         t.columns[1].cells[1] = Cell::Missing;
-        assert!(Record::of(&t).unwrap_err().to_string().contains("row 2"));
+        assert!(Record::from_table(&t).unwrap_err().to_string().contains("row 2"));
         t.columns[0].dim = Dim::Length;
-        assert!(Record::of(&t).unwrap_err().to_string().contains("no time"));
-        assert!(Record::of(&Table::new("t")).is_err());
+        assert!(Record::from_table(&t).unwrap_err().to_string().contains("no time"));
+        assert!(Record::from_table(&Table::new("t")).is_err());
     }
 }

@@ -8,7 +8,7 @@ use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 
 /// What the density of a quantity measures: its square times seconds. `None` where no unit of that is kept.
-fn squared(dim: Dim) -> Option<Dim> {
+fn density_dimension(dim: Dim) -> Option<Dim> {
     let derived = |force, length, seconds| Some(Dim::Derived { force, length, seconds });
     match dim {
         Dim::None => derived(0, 0, 1),
@@ -65,7 +65,7 @@ pub fn density(record: &Record, length: Option<usize>) -> Result<Table, SeriesEr
     ];
     let mut notes = Vec::new();
     for (series, density) in &found {
-        let dim = squared(series.dim);
+        let dim = density_dimension(series.dim);
         if dim.is_none() {
             notes.push(format!("the density of {} is in SI units", series.name));
         }

@@ -29,7 +29,7 @@ impl Endurance {
 
     /// The same curve for stresses in a unit of which one kN/m2 (or what this curve is for) has `factor`.
     #[must_use]
-    pub fn scaled(self, factor: f64) -> Endurance {
+    pub fn in_unit(self, factor: f64) -> Endurance {
         Endurance { intercept: self.intercept * factor.powf(self.slope), ..self }
     }
 
@@ -180,7 +180,7 @@ pub fn bin_width(ends: &[EndRecord]) -> f64 {
 ///
 /// # Errors
 /// A curve, a duration or a time for peaks that is not above zero, moments of unlike number or not finite.
-pub fn along(ends: &[EndRecord], asked: Asked) -> Result<Vec<EndFatigue>, SeriesError> {
+pub fn fatigue_of_ends(ends: &[EndRecord], asked: Asked) -> Result<Vec<EndFatigue>, SeriesError> {
     asked.curve.check()?;
     for (what, value) in [("the time of the record", asked.duration), ("the time of expected peaks", asked.peak_time)] {
         if !(value.is_finite() && value > 0.0) {
@@ -256,7 +256,7 @@ mod tests {
         let about_z: Vec<f64> = (0..400).map(|i| wave(i) * sine).collect();
         let end = EndRecord { about_y: &about_y, about_z: &about_z, stress_of_moment: 30.0 };
         let asked = Asked { duration: 200.0, curve: Endurance::KILONEWTONS, peak_time: 10_800.0 };
-        let found = along(&[end], asked).unwrap_or_default();
+        let found = fatigue_of_ends(&[end], asked).unwrap_or_default();
         assert!(found.iter().all(|f| (f.angle.to_degrees() - 40.0).abs() < 1e-9 && f.angle == f.peak_angle));
         assert!(found.iter().all(|f| (f.significant_moments[2] - f.significant / 30.0).abs() < 1e-9));
     }
@@ -266,13 +266,13 @@ mod tests {
         let still = [0.0; 10];
         let end = EndRecord { about_y: &still, about_z: &still, stress_of_moment: 1.0 };
         let asked = Asked { duration: 5.0, curve: Endurance::KILONEWTONS, peak_time: 10_800.0 };
-        let found = along(&[end], asked).unwrap_or_default();
+        let found = fatigue_of_ends(&[end], asked).unwrap_or_default();
         assert!(found.iter().all(|f| f.life_days == LONGEST_LIFE && f.expected_peak == 0.0 && f.cycles == 0.0));
     }
 
     #[test]
     fn the_curve_keeps_its_lives_in_another_unit_of_stress() {
-        let (one, other) = (Endurance::KILONEWTONS, Endurance::KILONEWTONS.scaled(1000.0));
+        let (one, other) = (Endurance::KILONEWTONS, Endurance::KILONEWTONS.in_unit(1000.0));
         let (a, b) = (damage_rate(1.5e5, 0.2, one), damage_rate(1.5e8, 0.2, other));
         assert!((a / b - 1.0).abs() < 1e-12);
     }

@@ -32,7 +32,7 @@ fn same(name: &str, found: f64, tolerance: f64) {
 fn moments_are_those_of_scipy_in_two_passes_and_in_one() {
     let x = signal();
     let m = moments(&x).unwrap();
-    let mut running = Running::about(m.mean);
+    let mut running = Running::with_level(m.mean);
     for (i, v) in x.iter().enumerate() {
         running.push(STEP * i as f64, *v).unwrap();
     }

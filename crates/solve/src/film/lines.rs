@@ -95,10 +95,10 @@ impl Strand {
         });
         let pull = pull.unwrap_or(0.0);
         self.count = if self.line { points.max(2) } else { 2 };
-        let moved = || moved(columns?.along.as_ref()?, row, &self.sections, self.count);
+        let moved = || dynamic_shape(columns?.along.as_ref()?, row, &self.sections, self.count);
         let (shape, state) = match (active, self.line) {
             (false, _) => (self.straight(model, connector, 0.0), State::Inactive),
-            (true, _) if self.kept(columns) => match moved() {
+            (true, _) if self.has_stored_nodes(columns) => match moved() {
                 Some(shape) => (shape, State::Acting),
                 None => (self.straight(model, connector, pull), State::Unsolved),
             },
@@ -120,7 +120,7 @@ impl Strand {
     }
 
     /// Whether its nodes were kept.
-    fn kept(&self, columns: Option<&LinkColumns>) -> bool {
+    fn has_stored_nodes(&self, columns: Option<&LinkColumns>) -> bool {
         columns.is_some_and(|c| c.along.is_some())
     }
 
@@ -146,14 +146,14 @@ impl Strand {
     }
 
     /// The points of an instant (m, global).
-    pub fn at(&self, frame: usize) -> &[Position] {
+    pub fn points_at(&self, frame: usize) -> &[Position] {
         self.points.get(frame * self.count..(frame + 1) * self.count).unwrap_or_default()
     }
 }
 
 /// A dynamic line as its nodes were, a number of points evenly along its length, straight between nodes; `None` where none
 /// of them is there.
-fn moved(along: &AlongColumns, row: &[f64], sections: &[Section], count: usize) -> Option<Shape> {
+fn dynamic_shape(along: &AlongColumns, row: &[f64], sections: &[Section], count: usize) -> Option<Shape> {
     let nodes: Vec<_> = along.nodes(row).map(|(_, node)| node).collect();
     let (first, last) = (nodes.first()?.arc, nodes.last()?.arc);
     let mut shape = Shape { points: Vec::new(), tensions: Vec::new(), shares: Vec::new(), bottom: None };
@@ -168,7 +168,7 @@ fn moved(along: &AlongColumns, row: &[f64], sections: &[Section], count: usize) 
         let meeting = sides(sections, segments_at(sections, last - wanted));
         shape.points.push(std::array::from_fn(|i| a.position[i] + t * (b.position[i] - a.position[i])));
         shape.tensions.push(tension);
-        shape.shares.push(meeting.map(|(.., section)| section.used(tension, None)).fold(f64::NAN, f64::max));
+        shape.shares.push(meeting.map(|(.., section)| section.utilisation(tension, None)).fold(f64::NAN, f64::max));
     }
     let over = nodes.iter().find(|node| node.clearance.is_finite());
     shape.bottom = over.map(|node| node.position[2] - node.clearance);
@@ -182,7 +182,7 @@ fn hanging(model: &Model, connector: &Connector, count: usize) -> Result<Option<
     let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
     let line = class.object.line(&placement, &model.surroundings())?;
     match line.geometry(&connector.name, Condition::Placed) {
-        Ok(table) => Ok(resampled(&table, &placement, count)),
+        Ok(table) => Ok(resample_shape(&table, &placement, count)),
         // a spring that is pushed together is straight
         Err(_) if line.configuration(Condition::Placed).is_ok_and(|c| c.tension < 0.0) => Ok(None),
         Err(error) => Err(error),
@@ -190,7 +190,7 @@ fn hanging(model: &Model, connector: &Connector, count: usize) -> Result<Option<
 }
 
 /// A number of points evenly along the length of a line, between the rows of its geometry.
-fn resampled(table: &Table, placement: &Placement, count: usize) -> Option<Shape> {
+fn resample_shape(table: &Table, placement: &Placement, count: usize) -> Option<Shape> {
     let column = |name: &str| -> Vec<Option<f64>> {
         table.get(name).map_or(Vec::new(), |c| c.cells.iter().map(Cell::number).collect())
     };

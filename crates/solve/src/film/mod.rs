@@ -85,7 +85,7 @@ impl Film {
     ///
     /// # Errors
     /// A run without instants, or none in the window; more than a film bears; told to stop.
-    pub fn of(run: &Run, take: &Take) -> Result<Film, ClassError> {
+    pub fn build(run: &Run, take: &Take) -> Result<Film, ClassError> {
         let layout = &run.history.layout;
         let links: Vec<usize> = (0..layout.links.len())
             .filter(|n| layout.links.get(*n).is_some_and(|l| (take.connector)(&l.name)))
@@ -114,7 +114,7 @@ impl Film {
                 return Err(ClassError::new("interrupted"));
             }
             for (body, (_, key)) in layout.bodies.iter().enumerate() {
-                let Some(place) = placed(row, layout.body(body)) else { continue };
+                let Some(place) = body_place(row, layout.body(body)) else { continue };
                 if let Some(body) = model.bodies.get_mut(key) {
                     body.place = place;
                 }
@@ -128,7 +128,7 @@ impl Film {
         }
         film.ends(&model);
         film.tell_unsolved();
-        film.waves = Waves::of(run, &mut film.notes);
+        film.waves = Waves::from_run(run, &mut film.notes);
         film.cast(run, &bodies, poses);
         film.measure()?;
         Ok(film)
@@ -165,13 +165,13 @@ impl Film {
             let Some((name, key)) = run.history.layout.bodies.get(*index) else { continue };
             let Some(body) = run.model.bodies.get(key) else { continue };
             let junction = body.junction.is_some();
-            let mut solid = Solid::of(&run.model, body, if junction { 0.5 * least } else { least });
+            let mut solid = Solid::from_body(&run.model, body, if junction { 0.5 * least } else { least });
             if triangles + solid.triangles.len() > MOST_TRIANGLES {
                 self.notes.push(format!(
                     "{name} is shown as a box: its hull of {} triangles goes beyond the {MOST_TRIANGLES} of a film",
                     solid.triangles.len()
                 ));
-                solid = Solid::boxed(&run.model, body, least);
+                solid = Solid::bounding_box(&run.model, body, least);
             }
             triangles += solid.triangles.len();
             let poses = poses.get_mut(*index).map(std::mem::take).unwrap_or_default();
@@ -255,7 +255,7 @@ fn span(places: impl Iterator<Item = Vector3<f64>>) -> [Vector3<f64>; 2] {
 }
 
 /// The place of a body in a row.
-fn placed(row: &[f64], at: usize) -> Option<Place> {
+fn body_place(row: &[f64], at: usize) -> Option<Place> {
     let [x, y, z, roll, pitch, yaw] = *row.get(at..at + 6)? else { return None };
     Some(Place { shift: [x, y, z], turn: [roll, pitch, yaw] })
 }

@@ -37,7 +37,7 @@ pub struct Waves {
 
 impl Waves {
     /// Those of a run.
-    pub(super) fn of(run: &Run, notes: &mut Vec<String>) -> Option<Waves> {
+    pub(super) fn from_run(run: &Run, notes: &mut Vec<String>) -> Option<Waves> {
         let since = run.seas.iter().skip(1).last().map_or(f64::NEG_INFINITY, |(time, _)| *time);
         let sea = run.sea.as_deref();
         if since.is_finite() {

@@ -1,6 +1,6 @@
 //! A body as a solid: triangles and sharp edges in its own axes, that move with it.
 
-use crate::outline::drawn;
+use crate::outline::corners_and_edges;
 use nalgebra::Vector3;
 use windlass_base::geometry::Position;
 use windlass_model::{Body, Model, Shape, box_panels};
@@ -20,7 +20,7 @@ pub struct Solid {
 
 impl Solid {
     /// That of a body: its hull, or a box about its points, no side shorter than `least` (m).
-    pub fn of(model: &Model, body: &Body, least: f64) -> Solid {
+    pub fn from_body(model: &Model, body: &Body, least: f64) -> Solid {
         let mut made = Solid::default();
         for part in model.parts_of(body) {
             for piece in &part.pieces {
@@ -28,17 +28,17 @@ impl Solid {
                 made.add(&piece.shape, &place);
             }
         }
-        if made.triangles.is_empty() { Solid::boxed(model, body, least) } else { made }
+        if made.triangles.is_empty() { Solid::bounding_box(model, body, least) } else { made }
     }
 
     /// A box about the points and pieces of a body, no side shorter than `least` (m).
-    pub fn boxed(model: &Model, body: &Body, least: f64) -> Solid {
+    pub fn bounding_box(model: &Model, body: &Body, least: f64) -> Solid {
         let mut places: Vec<Vector3<f64>> = Vec::new();
         for part in model.parts_of(body) {
             let key = Model::key(&part.name);
             let own = model.points.values().filter(|p| Model::key(&p.part) == key);
             places.extend(own.map(|p| Vector3::from(part.place.apply(p.at))));
-            let corners = part.pieces.iter().flat_map(|p| drawn(&p.shape).0);
+            let corners = part.pieces.iter().flat_map(|p| corners_and_edges(&p.shape).0);
             places.extend(corners.map(|at| Vector3::from(part.place.apply(at))));
         }
         let first = places.first().copied().unwrap_or_default();
@@ -52,7 +52,7 @@ impl Solid {
 
     /// Adds a shape, each of its places taken through `place`.
     fn add(&mut self, shape: &Shape, place: &dyn Fn(Position) -> Position) {
-        let (corners, edges) = drawn(shape);
+        let (corners, edges) = corners_and_edges(shape);
         match shape {
             Shape::Panels(panels) => self.panels(panels, place),
             Shape::Block { low, high } => self.panels(&box_panels(*low, *high), place),

@@ -1,6 +1,6 @@
 //! The linear equations of motion about a place, and the motions of unit waves.
 
-use crate::modes::held;
+use crate::modes::solve_least_motion;
 use crate::system::{DOFS, SolveError, State, System, mass_block};
 use crate::time::{Forces, Memory, Motion, RunRequirements};
 use nalgebra::{Complex, DMatrix, DVector, Matrix6};
@@ -69,8 +69,8 @@ pub struct Linear {
 }
 
 impl Floats {
-    fn of(model: &Model, name: &str, attached: &AttachedDatabase, pose: &Pose) -> Result<Self, ClassError> {
-        let infinite = Radiation::of(&attached.data)?.map_or_else(Matrix6::zeros, |r| r.infinite);
+    fn new(model: &Model, name: &str, attached: &AttachedDatabase, pose: &Pose) -> Result<Self, ClassError> {
+        let infinite = Radiation::new(&attached.data)?.map_or_else(Matrix6::zeros, |r| r.infinite);
         let factors = [Category::Wave, Category::RadiationDrag, Category::WaveDrift]
             .map(|category| model.multipliers.of(category.name(), name));
         let slow = matches!(attached.drift, DriftMethod::Newman | DriftMethod::Full);
@@ -85,23 +85,23 @@ impl Linear {
     ///
     /// # Errors
     /// The body or connector that makes no part of the system, or has no answer there.
-    pub fn of(model: &Model) -> Result<Self, SolveError> {
+    pub fn new(model: &Model) -> Result<Self, SolveError> {
         model.check_added_mass().map_err(SolveError::new)?;
-        let system = System::of(model, &[])?;
+        let system = System::new(model, &[])?;
         let mut state = system.state(model);
         system.evaluate(&mut state)?;
         let (mut floats, mut mass) = (Vec::new(), system.mass_matrix(&state.poses));
         for (index, (node, pose)) in system.nodes.iter().zip(&state.poses).enumerate() {
             if model.bodies.get(&node.key).is_some_and(|b| b.prescribed.is_some()) {
                 let text = "its motion is given in time: the frequency domain has none for it";
-                return Err(SolveError::of(&node.name)(ClassError::new(text)));
+                return Err(SolveError::about(&node.name)(ClassError::new(text)));
             }
             let attached = model.bodies.get(&node.key).and_then(|b| b.database.as_ref());
-            let made = attached.map(|a| Floats::of(model, &node.name, a, pose)).transpose();
-            let made = made.map_err(SolveError::of(&node.name))?;
+            let made = attached.map(|a| Floats::new(model, &node.name, a, pose)).transpose();
+            let made = made.map_err(SolveError::about(&node.name))?;
             if let Some(made) = &made {
-                let block =
-                    mass_block(&node.floating.mass, pose) + node.floating.added(pose) - in_pose(&made.infinite, pose);
+                let block = mass_block(&node.floating.mass, pose) + node.floating.added_mass(pose)
+                    - in_pose(&made.infinite, pose);
                 mass.fixed_view_mut::<6, 6>(6 * index, 6 * index).copy_from(&block);
             }
             floats.push(made);
@@ -109,7 +109,7 @@ impl Linear {
         let moving = calm(model)?;
         let still = vec![Six::zeros(); state.poses.len()];
         let damping = damping(&moving, &state.poses, &still, &mut Forces::default())?;
-        let (heavy, follow) = followed(&system, &state)?;
+        let (heavy, follow) = reduce_to_inertial_dofs(&system, &state)?;
         let around = &system.surroundings;
         let depth = around.depth.map(|d| d + around.tide);
         let linearised = DMatrix::zeros(mass.nrows(), mass.nrows());
@@ -239,7 +239,7 @@ impl Linear {
         for (index, ((floats, pose), node)) in self.floats.iter().zip(&self.poses).zip(&self.system.nodes).enumerate() {
             let Some(floats) = floats.as_ref().filter(|f| !f.attached.data.excitation.is_empty()) else { continue };
             let x = floats.attached.data.excitation_at(toward - floats.yaw, frequency);
-            let x = turned(x.map_err(SolveError::of(&node.name))?, floats.yaw);
+            let x = rotate_amplitudes(x.map_err(SolveError::about(&node.name))?, floats.yaw);
             let [factor, ..] = floats.factors;
             let phase = k * (pose.origin.x * cos + pose.origin.y * sin);
             for (i, value) in x.into_iter().enumerate() {
@@ -273,7 +273,7 @@ impl Linear {
         let inverse = match Lu::new(scaled, &|| self.system.is_interrupted()).and_then(|lu| lu.inverse()) {
             Ok(inverse) => Some(inverse),
             Err(DenseError::Singular) => None,
-            Err(error) => return Err(self.system.unfactored("dynamic stiffness", &self.heavy, error)),
+            Err(error) => return Err(self.system.singular_matrix_error("dynamic stiffness", &self.heavy, error)),
         };
         let worst = |m: &DMatrix<Complex<f64>>| {
             let largest = |i: usize| m.row(i).iter().fold(0.0, |most: f64, v| most.max(v.norm()));
@@ -283,7 +283,8 @@ impl Linear {
         let (Some(inverse), Some((..=BOUNDLESS, _))) = (inverse, bound) else {
             let row = bound.and_then(|(_, i)| self.heavy.get(i)).copied();
             let text = "its motion has no bound at a period of {}: it is a natural period without damping";
-            let error = ClassError::of(text, &[(TAU / frequency, Dim::Time)]).help("#DAMP gives a body damping");
+            let error =
+                ClassError::with_values(text, &[(TAU / frequency, Dim::Time)]).help("#DAMP gives a body damping");
             let name = |row: usize| {
                 let node = self.system.nodes.get(row / 6)?;
                 Some(format!("{} in {}", node.name, DOFS.get(row % 6)?))
@@ -322,7 +323,7 @@ fn list(names: &[String]) -> String {
 }
 
 /// Six amplitudes in axes turned about z by an angle (rad), in global axes.
-fn turned([x, y, z, rx, ry, rz]: Amplitudes, angle: f64) -> Amplitudes {
+fn rotate_amplitudes([x, y, z, rx, ry, rz]: Amplitudes, angle: f64) -> Amplitudes {
     let (sin, cos) = angle.sin_cos();
     [x * cos - y * sin, x * sin + y * cos, z, rx * cos - ry * sin, rx * sin + ry * cos, rz]
 }
@@ -344,7 +345,7 @@ fn damping(
 ) -> Result<DMatrix<f64>, SolveError> {
     let motion = |(pose, velocity): (&Pose, &Six)| Motion { pose: *pose, velocity: *velocity, ..Motion::default() };
     let motions: Vec<Motion> = poses.iter().zip(velocities).map(motion).collect();
-    let mut memory = Memory::of(system);
+    let mut memory = Memory::new(system);
     memory.begin(system, (&motions, &motions), (0.0, STEP))?;
     forces.evaluate(system, &memory, &motions, (0.0, STEP))?;
     match forces.damping.iter().all(|v| v.is_finite()) {
@@ -354,7 +355,7 @@ fn damping(
 }
 
 /// The degrees of freedom that have inertia, and the motions of all degrees of freedom by theirs.
-fn followed(system: &System, state: &State) -> Result<(Vec<usize>, DMatrix<f64>), SolveError> {
+fn reduce_to_inertial_dofs(system: &System, state: &State) -> Result<(Vec<usize>, DMatrix<f64>), SolveError> {
     let mass = system.mass_matrix(&state.poses);
     let moves = |i: &usize| system.nodes.get(i / 6).is_some_and(|n| n.moves(i % 6));
     let (heavy, light): (Vec<usize>, Vec<usize>) = (0..mass.nrows()).filter(moves).partition(|i| mass[(*i, *i)] > 0.0);
@@ -367,8 +368,8 @@ fn followed(system: &System, state: &State) -> Result<(Vec<usize>, DMatrix<f64>)
     }
     let part = |r: &[usize], c: &[usize]| state.stiffness.select_rows(r).select_columns(c);
     if !light.is_empty() {
-        let solved = held(part(&light, &light), &part(&light, &heavy), &|| system.is_interrupted());
-        let solved = solved.map_err(|e| system.unfactored("stiffness", &light, e))?;
+        let solved = solve_least_motion(part(&light, &light), &part(&light, &heavy), &|| system.is_interrupted());
+        let solved = solved.map_err(|e| system.singular_matrix_error("stiffness", &light, e))?;
         for (from, row) in light.iter().enumerate() {
             follow.row_mut(*row).copy_from(&-solved.row(from));
         }

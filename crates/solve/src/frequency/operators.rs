@@ -1,7 +1,7 @@
 //! Response amplitude operators: motions in waves of unit amplitude by heading and frequency.
 
 use super::linear::{Linear, Motions};
-use super::response::bounded;
+use super::response::check_memory;
 use crate::system::SolveError;
 use std::f64::consts::PI;
 
@@ -21,8 +21,8 @@ impl Operators {
     ///
     /// # Errors
     /// As [`Linear::operators`]; more than memory is taken for.
-    pub fn of(linear: &Linear, frequencies: &[f64], headings: &[f64]) -> Result<Self, SolveError> {
-        bounded(frequencies.len(), headings.len(), linear)?;
+    pub fn new(linear: &Linear, frequencies: &[f64], headings: &[f64]) -> Result<Self, SolveError> {
+        check_memory(frequencies.len(), headings.len(), linear)?;
         let toward: Vec<f64> = headings.iter().map(|h| h + PI).collect();
         let mut motions: Vec<Vec<Motions>> = vec![Vec::with_capacity(frequencies.len()); headings.len()];
         for frequency in frequencies {
@@ -33,7 +33,7 @@ impl Operators {
     }
 
     /// Each heading (rad) and frequency (rad/s) with the motions there.
-    pub fn each(&self) -> impl Iterator<Item = (f64, f64, &Motions)> {
+    pub fn operators(&self) -> impl Iterator<Item = (f64, f64, &Motions)> {
         self.headings
             .iter()
             .zip(&self.motions)

@@ -5,7 +5,7 @@ use crate::link::{Attachment, arm, pose_of};
 use crate::system::SolveError;
 use nalgebra::{Complex, DVector, Vector3};
 use windlass_base::pose::Six;
-use windlass_hydro::transferred;
+use windlass_hydro::move_stiffness;
 use windlass_model::{End, Response, Situation, TimeStep};
 
 /// Which derivative with time is meant.
@@ -88,7 +88,7 @@ impl Quantity {
         let step = Some(TimeStep { time: 0.0, dt: 1.0 });
         for (step, out) in [(None, &mut rest), (step, &mut under_way)] {
             let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
-            link.element.evaluate(&at, committed, &mut trial, &mut None, out).map_err(SolveError::of(&link.name))?;
+            link.element.evaluate(&at, committed, &mut trial, &mut None, out).map_err(SolveError::about(&link.name))?;
         }
         let size = 6 * system.nodes.len();
         let count = link.ends.len();
@@ -99,7 +99,8 @@ impl Quantity {
         for (j, end) in link.ends.iter().enumerate() {
             let Attachment::Body(body, _) = end else { continue };
             let far = arm(end, poses);
-            let block = |all: &[nalgebra::Matrix6<f64>]| all.get(count * first + j).map(|b| transferred(b, own, far));
+            let block =
+                |all: &[nalgebra::Matrix6<f64>]| all.get(count * first + j).map(|b| move_stiffness(b, own, far));
             let (stiffness, damping) = (block(&rest.stiffness), block(&under_way.damping));
             for (i, quantity) in made.iter_mut().enumerate() {
                 for k in 0..6 {
@@ -120,7 +121,7 @@ impl Quantity {
     }
 
     /// Its complex amplitude, or that of a derivative of it, under motions of a frequency (rad/s).
-    pub fn of(&self, motions: &Motions, frequency: f64, derivative: Derivative) -> Complex<f64> {
+    pub fn amplitude(&self, motions: &Motions, frequency: f64, derivative: Derivative) -> Complex<f64> {
         let rate = Complex::new(0.0, -frequency);
         let part = |by: &DVector<f64>| by.iter().zip(motions.iter()).map(|(a, q)| q * *a).sum::<Complex<f64>>();
         (part(&self.place) + part(&self.rate) * rate) * rate.powi(derivative.order())

@@ -6,7 +6,7 @@
 use super::linear::{Linear, Motions};
 use super::natural::{Natural, natural};
 use super::quantity::{Derivative, Quantity};
-use super::trains::{Trains, bounds, resolved};
+use super::trains::{Trains, bounds, refine_near_resonance};
 use super::{linearise, slow};
 use crate::system::SolveError;
 use std::f64::consts::TAU;
@@ -32,7 +32,7 @@ pub struct Point {
 impl Point {
     /// Variance of a quantity, or a derivative of it, in this band.
     pub fn variance(&self, quantity: &Quantity, derivative: Derivative) -> f64 {
-        self.parts.iter().map(|v| quantity.of(v, self.frequency, derivative).norm_sqr()).sum()
+        self.parts.iter().map(|v| quantity.amplitude(v, self.frequency, derivative).norm_sqr()).sum()
     }
 }
 
@@ -63,9 +63,9 @@ pub struct Asked {
 pub fn respond(linear: &mut Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
     // the same points in every round
     let resonant = resonances(linear)?;
-    let mut made = within(linear, trains, asked, &resonant)?;
+    let mut made = response_within_memory(linear, trains, asked, &resonant)?;
     if asked.spectral {
-        made.rounds = linearise::settle(linear, &mut made, |l| within(l, trains, asked, &resonant))?;
+        made.rounds = linearise::settle(linear, &mut made, |l| response_within_memory(l, trains, asked, &resonant))?;
     }
     Ok(made)
 }
@@ -75,7 +75,7 @@ pub fn respond(linear: &mut Linear, trains: &Trains, asked: &Asked) -> Result<Re
 /// # Errors
 /// As [`respond`].
 pub fn in_sea(linear: &Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
-    within(linear, trains, asked, &resonances(linear)?)
+    response_within_memory(linear, trains, asked, &resonances(linear)?)
 }
 
 /// Natural frequencies (rad/s) with their damping ratios.
@@ -84,7 +84,12 @@ fn resonances(linear: &Linear) -> Result<Vec<(f64, f64)>, SolveError> {
     Ok(natural(linear)?.iter().filter_map(of).filter(|(w, _)| w.is_finite()).collect())
 }
 
-fn within(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64)]) -> Result<Response, SolveError> {
+fn response_within_memory(
+    linear: &Linear,
+    trains: &Trains,
+    asked: &Asked,
+    resonant: &[(f64, f64)],
+) -> Result<Response, SolveError> {
     let waves = waves(linear, trains, asked, resonant)?;
     let slow = if asked.spectral { slow::drift(linear, trains, resonant)? } else { Vec::new() };
     Ok(Response { waves, slow, rounds: 0 })
@@ -93,13 +98,13 @@ fn within(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64
 fn waves(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64)]) -> Result<Vec<Point>, SolveError> {
     let mut points = Vec::new();
     if let Some(range) = trains.range() {
-        let usual = || resolved(trains.points(range), resonant);
+        let usual = || refine_near_resonance(trains.points(range), resonant);
         let own = if asked.frequencies.is_empty() { usual() } else { asked.frequencies.clone() };
         let directions: usize = trains.irregular.iter().map(|d| d.toward.len()).sum();
-        bounded(own.len(), directions, linear)?;
+        check_memory(own.len(), directions, linear)?;
         let edges = bounds(&own, [0.0, f64::INFINITY]);
         let below: Vec<Vec<f64>> =
-            trains.irregular.iter().map(|d| edges.iter().map(|w| d.spectrum.below(*w)[0]).collect()).collect();
+            trains.irregular.iter().map(|d| edges.iter().map(|w| d.spectrum.moments_below(*w)[0]).collect()).collect();
         for (i, frequency) in own.iter().enumerate() {
             let (mut toward, mut energies) = (Vec::new(), Vec::new());
             for (train, below) in trains.irregular.iter().zip(&below) {
@@ -139,13 +144,13 @@ fn point(
     }
     if parts.iter().flat_map(|p| p.iter()).any(|v| !(v.re.is_finite() && v.im.is_finite())) {
         let text = "the motions at a period of {} are no numbers";
-        return Err(SolveError::new(ClassError::of(text, &[(TAU / frequency, Dim::Time)])));
+        return Err(SolveError::new(ClassError::with_values(text, &[(TAU / frequency, Dim::Time)])));
     }
     Ok(Point { frequency, width, energy: energies.iter().sum(), parts })
 }
 
 /// Refuses more than memory is taken for.
-pub(super) fn bounded(points: usize, parts: usize, linear: &Linear) -> Result<(), SolveError> {
+pub(super) fn check_memory(points: usize, parts: usize, linear: &Linear) -> Result<(), SolveError> {
     let size = points.saturating_mul(parts).saturating_mul(6 * linear.system.nodes.len());
     if size > MOST {
         let text = format!("{points} frequencies with {parts} parts of all bodies are more than are kept");

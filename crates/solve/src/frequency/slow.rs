@@ -6,14 +6,14 @@
 //! between the bodies.
 
 use super::linear::{Linear, Motions};
-use super::response::{Point, bounded};
-use super::trains::{Trains, bounds, even, resolved};
+use super::response::{Point, check_memory};
+use super::trains::{Trains, bounds, even, refine_near_resonance};
 use crate::system::SolveError;
 use nalgebra::{Complex, DMatrix};
 use windlass_base::dense::SymmetricEigen;
 use windlass_base::pose::Six;
-use windlass_hydro::carried;
 use windlass_hydro::database::drift_at;
+use windlass_hydro::move_wrench;
 
 /// Even points over the differences of frequency, and over the sea at each.
 const EVEN: (usize, usize) = (60, 120);
@@ -31,9 +31,9 @@ pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -
     let Some(range) = trains.range().filter(|_| !drifting.is_empty()) else { return Ok(Vec::new()) };
     let (differences, waves) = EVEN;
     // the first point is nothing: at rest
-    let mut own = resolved(even([0.0, range[0]], differences), resonant);
+    let mut own = refine_near_resonance(even([0.0, range[0]], differences), resonant);
     own.retain(|w| *w > 0.0);
-    bounded(own.len(), 6 * drifting.len(), linear)?;
+    check_memory(own.len(), 6 * drifting.len(), linear)?;
     let edges = bounds(&own, [0.0, range[0]]);
     let mut points = Vec::new();
     for (frequency, edge) in own.iter().zip(edges.windows(2)) {
@@ -43,7 +43,7 @@ pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -
         let mut list = Vec::new();
         let rows: Vec<usize> = drifting.iter().flat_map(|body| 6 * body..6 * body + 6).collect();
         let eigen = SymmetricEigen::new(spectrum, &|| linear.system.is_interrupted())
-            .map_err(|e| linear.system.unfactored("spectrum of slow drift", &rows, e))?;
+            .map_err(|e| linear.system.singular_matrix_error("spectrum of slow drift", &rows, e))?;
         let largest = eigen.values.max();
         for (value, vector) in eigen.values.iter().zip(eigen.vectors.column_iter()) {
             if value.is_nan() || *value <= NOTHING * largest {
@@ -129,12 +129,12 @@ fn drifts(
             return Ok(Six::zeros());
         };
         let name = linear.system.nodes.get(*body).map_or("", |n| n.name.as_str());
-        let [x, y, z, rx, ry, rz] = drift_at(table, toward - floats.yaw, frequency).map_err(SolveError::of(name))?;
+        let [x, y, z, rx, ry, rz] = drift_at(table, toward - floats.yaw, frequency).map_err(SolveError::about(name))?;
         let (sin, cos) = floats.yaw.sin_cos();
         let force = Six::new(x * cos - y * sin, x * sin + y * cos, z, rx * cos - ry * sin, rx * sin + ry * cos, rz);
         let axes = linear.poses.get(*body).map_or_else(nalgebra::Matrix3::identity, |p| p.axes);
         let [.., factor] = floats.factors;
-        Ok(carried(&force, axes * floats.attached.data.reference) * factor)
+        Ok(move_wrench(&force, axes * floats.attached.data.reference) * factor)
     };
     waves.iter().map(|(toward, _)| drifting.iter().map(|body| one(body, *toward)).collect()).collect()
 }

@@ -35,7 +35,7 @@ pub struct Statistics {
 
 impl Statistics {
     /// Those of a quantity, or a derivative of it, in a response.
-    pub fn of(response: &Response, quantity: &Quantity, derivative: Derivative) -> Self {
+    pub fn new(response: &Response, quantity: &Quantity, derivative: Derivative) -> Self {
         let moments = |points: &[Point]| {
             points.iter().fold([0.0; 2], |[m0, m2], p| {
                 let own = p.variance(quantity, derivative);

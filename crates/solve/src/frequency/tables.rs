@@ -41,7 +41,7 @@ impl Told {
 }
 
 /// The dimension of a derivative.
-fn derived(dim: Dim, derivative: Derivative) -> Dim {
+fn derivative_dimension(dim: Dim, derivative: Derivative) -> Dim {
     match (dim, derivative) {
         (Dim::Length, Derivative::Velocity) => Dim::Velocity,
         (Dim::Length, Derivative::Acceleration) => Dim::Acceleration,
@@ -71,7 +71,7 @@ pub fn operators(
     list: &[Told],
     (derivative, amplitude): (Derivative, f64),
 ) -> Table {
-    let rows: Vec<_> = operators.each().collect();
+    let rows: Vec<_> = operators.operators().collect();
     let mut table = Table::new(title)
         .fact("Wave Amplitude", amplitude, Dim::Length)
         .with_rows(&rows)
@@ -79,12 +79,17 @@ pub fn operators(
         .column("", "Period", Dim::Time, Digits::Usual, |(_, frequency, _)| TAU / frequency)
         .column("", "Frequency", Dim::Frequency, Digits::Usual, |(_, frequency, _)| *frequency);
     for Told { name, dim, quantity } in list {
-        let value =
-            |(_, frequency, motions): &(f64, f64, &Motions)| quantity.of(motions, *frequency, derivative) * amplitude;
+        let value = |(_, frequency, motions): &(f64, f64, &Motions)| {
+            quantity.amplitude(motions, *frequency, derivative) * amplitude
+        };
         table = table
-            .column(name, &format!("{name} Amp"), derived(*dim, derivative), Digits::Scientific(5), |row| {
-                value(row).norm()
-            })
+            .column(
+                name,
+                &format!("{name} Amp"),
+                derivative_dimension(*dim, derivative),
+                Digits::Scientific(5),
+                |row| value(row).norm(),
+            )
             .column(name, &format!("{name} Phase"), Dim::Angle, Digits::Usual, |row| {
                 Some(value(row)).filter(|v| v.norm() > 0.0).map(|v| v.arg())
             });
@@ -153,7 +158,7 @@ fn statistic_columns<'r, R>(
 }
 
 /// A table of statistics that says what its maxima are.
-fn titled(title: String, extreme: Extreme) -> Table {
+fn statistics_table(title: String, extreme: Extreme) -> Table {
     let table = Table::new(title);
     match extreme {
         Extreme::MostProbable(duration) => table.fact("Duration", duration, Dim::Time),
@@ -177,10 +182,10 @@ pub fn statistics(
     list: &[Told],
     (derivative, extreme): (Derivative, Extreme),
 ) -> Table {
-    let dim = list.first().map_or(Dim::None, |t| derived(t.dim, derivative));
+    let dim = list.first().map_or(Dim::None, |t| derivative_dimension(t.dim, derivative));
     let rows: Vec<(&str, Statistics)> =
-        list.iter().map(|told| (told.name.as_str(), Statistics::of(response, &told.quantity, derivative))).collect();
-    let table = titled(title, extreme).with_rows(&rows).text("Result", |(name, _)| *name);
+        list.iter().map(|told| (told.name.as_str(), Statistics::new(response, &told.quantity, derivative))).collect();
+    let table = statistics_table(title, extreme).with_rows(&rows).text("Result", |(name, _)| *name);
     let mut table = statistic_columns(table, ("", ""), (dim, extreme), |(_, made)| made).build();
     let told = told_of(extreme);
     table.note(format!("significant and {told} are amplitudes about the mean; Tz is of both, waves and slow drift"));
@@ -195,11 +200,11 @@ pub fn body_statistics(
     body: usize,
     (derivative, extreme): (Derivative, Extreme),
 ) -> Table {
-    let of_dof = |dof: usize| Statistics::of(response, &Quantity::dof(linear, body, dof), derivative);
+    let of_dof = |dof: usize| Statistics::new(response, &Quantity::dof(linear, body, dof), derivative);
     let rows: Vec<_> =
         ["X", "Y", "Z"].into_iter().enumerate().map(|(axis, name)| (name, of_dof(axis), of_dof(axis + 3))).collect();
-    let [shift, turn] = [Dim::Length, Dim::Angle].map(|dim| (derived(dim, derivative), extreme));
-    let table = titled(title, extreme).with_rows(&rows).text("Axis", |(name, ..)| *name);
+    let [shift, turn] = [Dim::Length, Dim::Angle].map(|dim| (derivative_dimension(dim, derivative), extreme));
+    let table = statistics_table(title, extreme).with_rows(&rows).text("Axis", |(name, ..)| *name);
     let table = statistic_columns(table, ("Translation", ""), shift, |(_, made, _)| made);
     let mut table = statistic_columns(table, ("Rotation", "R "), turn, |(.., made)| made).build();
     table.note(format!("significant and {} are amplitudes about the place at rest", told_of(extreme)));

@@ -38,8 +38,8 @@ impl Trains {
     ///
     /// # Errors
     /// A sea that cannot be.
-    pub fn of(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
-        let Some(sea) = Sea::of(model, env)? else { return Ok(None) };
+    pub fn new(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
+        let Some(sea) = Sea::new(model, env)? else { return Ok(None) };
         let exponent = env.spreading.unwrap_or(spreading::LONG_CRESTED);
         let toward = |from: f64, turn: f64| {
             let (cos, sin) = unit_vector(from + turn);
@@ -87,7 +87,7 @@ impl Trains {
 }
 
 /// Points with others dense about natural frequencies, given each with its damping ratio, that lie between them. Growing.
-pub(super) fn resolved(mut points: Vec<f64>, natural: &[(f64, f64)]) -> Vec<f64> {
+pub(super) fn refine_near_resonance(mut points: Vec<f64>, natural: &[(f64, f64)]) -> Vec<f64> {
     /// Points about a natural frequency, how many half widths they reach from it, and the smallest half width taken.
     const ABOUT: (i32, f64, f64) = (24, 60.0, 1e-4);
     let (count, reach, least) = ABOUT;

@@ -4,7 +4,7 @@ use super::super::system::SolveError;
 use super::super::time::{Layout, Run};
 use super::forces::{add, no_wrench, wrench_columns};
 use super::settled::{Rest, Settling};
-use super::{Event, EventTable, Magnitude, headed};
+use super::{Event, EventTable, Magnitude, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
@@ -52,7 +52,7 @@ pub fn connector_forces(
         links.iter().filter_map(|link| layout.links.get(*link).map(|columns| (*link, columns))).collect();
     let (mut settling, mut remembering) = (Vec::new(), Vec::new());
     for (_, columns) in &chosen {
-        let made = Settling::of(&run.model, &columns.name)?;
+        let made = Settling::new(&run.model, &columns.name)?;
         if made.is_none() {
             remembering.push(columns.name.as_str());
         }

@@ -52,12 +52,12 @@ pub fn events(history: &History, window: Option<&Window>) -> Result<Vec<Event>, 
     let end = wanted.min(last);
     if wanted < window.begin {
         let text = "-EVENTS ends at {}, before it begins at {}";
-        return Err(ClassError::of(text, &[(wanted, Dim::Time), (window.begin, Dim::Time)]));
+        return Err(ClassError::with_values(text, &[(wanted, Dim::Time), (window.begin, Dim::Time)]));
     }
     let nothing = || {
         let text = "-EVENTS from {} to {} chooses none of the instants, which are from {} to {}";
         let values = [window.begin, wanted, first, last].map(|v| (v, Dim::Time));
-        ClassError::of(text, &values)
+        ClassError::with_values(text, &values)
     };
     let mut found = Vec::new();
     match window.increment.filter(|i| *i > 0.0) {
@@ -72,7 +72,7 @@ pub fn events(history: &History, window: Option<&Window>) -> Result<Vec<Event>, 
             let to = ((end + near - window.begin) / increment).floor();
             if to - from > MOST {
                 let text = "-EVENTS with an increment of {} makes more than two million events";
-                return Err(ClassError::of(text, &[(increment, Dim::Time)]).help("a larger INC"));
+                return Err(ClassError::with_values(text, &[(increment, Dim::Time)]).help("a larger INC"));
             }
             let count = if to >= from { (to - from) as usize + 1 } else { 0 };
             let mut row = 0;

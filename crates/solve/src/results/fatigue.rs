@@ -4,7 +4,7 @@
 //! end of each segment. At the fairlead that is the run's own; below, the line is shaped between its ends at the turning points of the
 //! tension at the fairlead, between which a line at rest in every instant has no others of note.
 
-use super::super::link::{connected, pose_of};
+use super::super::link::{end_attachments, pose_of};
 use super::super::system::SolveError;
 use super::super::time::Run;
 use super::Event;
@@ -92,7 +92,7 @@ fn tensions(
         .ok_or_else(idle)?;
     let mut all = vec![Vec::new(); segments];
     if segments > 1 {
-        let ends = connected(&run.model, connector);
+        let ends = end_attachments(&run.model, connector);
         let (placement, surroundings) = (run.model.placement(connector), run.model.surroundings());
         let active = layout.links.get(link).map_or(0, |l| l.active);
         let mut places: Vec<Pose> = Vec::new();

@@ -1,7 +1,7 @@
 //! How far the fenders of a run were deflected, and the energy they took.
 
 use super::connectors::poses;
-use crate::link::{connected, pose_of};
+use crate::link::{end_attachments, pose_of};
 use crate::system::SolveError;
 use crate::time::Run;
 use windlass_base::table::{Digits, Table};
@@ -32,8 +32,8 @@ pub fn fender_peaks(run: &Run) -> Result<Vec<FenderPeak>, SolveError> {
         if !class.is_some_and(|c| c.object.is_fender()) {
             continue;
         }
-        let element = model.element(connector).map_err(SolveError::of(&connector.name))?;
-        let (attached, start) = (connected(model, connector), vec![0.0; element.states()]);
+        let element = model.element(connector).map_err(SolveError::about(&connector.name))?;
+        let (attached, start) = (end_attachments(model, connector), vec![0.0; element.states()]);
         let mut bodies = Vec::new();
         let mut peak: Option<FenderPeak> = None;
         for row in run.history.rows() {
@@ -41,7 +41,7 @@ pub fn fender_peaks(run: &Run) -> Result<Vec<FenderPeak>, SolveError> {
             poses(&run.history.layout, row, &mut bodies);
             let ends = attached.map(|end| End::still(pose_of(&end, &bodies)));
             let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-            let told = element.summary(&at, &start).map_err(SolveError::of(&connector.name))?;
+            let told = element.summary(&at, &start).map_err(SolveError::about(&connector.name))?;
             let Some(state) = told.fender.filter(|s| s.deflection > 0.0) else { continue };
             if peak.as_ref().is_none_or(|p| state.deflection > p.state.deflection) {
                 peak = Some(FenderPeak { name: connector.name.clone(), time, state });

@@ -2,7 +2,7 @@
 
 use super::super::system::SolveError;
 use super::super::time::Run;
-use super::{Event, EventTable, Magnitude, headed};
+use super::{Event, EventTable, Magnitude, group_head};
 use nalgebra::Vector3;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
@@ -70,7 +70,7 @@ pub fn body_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &[
         for (which, group) in layout.categories.iter().map(|c| c.name()).chain(["TOTAL"]).enumerate() {
             let own =
                 |all: &Vec<Vec<_>>| all.get(index).and_then(|list| list.get(which)).copied().unwrap_or_else(no_wrench);
-            table = wrench_columns(table, &headed(several, name, group), magnitude, own);
+            table = wrench_columns(table, &group_head(several, name, group), magnitude, own);
         }
     }
     let mut table = table.build();

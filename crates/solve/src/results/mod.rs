@@ -38,18 +38,18 @@ impl Default for Magnitude {
 }
 
 impl Magnitude {
-    fn of(&self, vector: &Vector3<f64>) -> f64 {
+    fn evaluate(&self, vector: &Vector3<f64>) -> f64 {
         vector.iter().zip(self.0).filter(|(_, counts)| *counts).fold(0.0_f64, |sum, (v, _)| sum.hypot(*v))
     }
 
     /// A vector and its magnitude.
     fn with(&self, vector: &Vector3<f64>) -> [f64; 4] {
-        [vector.x, vector.y, vector.z, self.of(vector)]
+        [vector.x, vector.y, vector.z, self.evaluate(vector)]
     }
 }
 
 /// The head of a group: of one thing its own, of several with the name of the thing in front.
-fn headed(several: bool, name: &str, group: &str) -> String {
+fn group_head(several: bool, name: &str, group: &str) -> String {
     if several { format!("{name} {group}") } else { group.to_string() }
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::system::SolveError;
 use super::super::time::{OF_BODY, Run};
-use super::{Event, EventTable, Magnitude, headed};
+use super::{Event, EventTable, Magnitude, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
@@ -72,7 +72,7 @@ pub fn trajectory(run: &Run, bodies: &[usize], told: &Told, events: &[Event]) ->
     let mut chosen = Vec::new();
     for body in bodies {
         let Some((name, key)) = layout.bodies.get(*body) else { continue };
-        let mass = model.bodies.get(key).map(|b| Mass::of(model.parts_of(b), model.defaults.gravity));
+        let mass = model.bodies.get(key).map(|b| Mass::from_parts(model.parts_of(b), model.defaults.gravity));
         let own = mass.filter(|_| told.centre).map_or(Vector3::zeros(), |m| m.centre);
         let from = layout.body(*body);
         chosen.push((name, from, own, moving(first, from, own)));
@@ -90,7 +90,7 @@ pub fn trajectory(run: &Run, bodies: &[usize], told: &Told, events: &[Event]) ->
         }
         let body = |all: &Vec<Displaced>| all.get(index).copied().unwrap_or(none);
         let with = |vector: &Vector3<f64>| told.magnitude.with(vector);
-        let head = |group: &str| headed(several, name, group);
+        let head = |group: &str| group_head(several, name, group);
         table = table
             .columns(&head("Location"), ["X", "Y", "Z", "Mag."], Dim::Length, |all| with(&body(all).at))
             .columns(&head("Location"), ["Roll", "Pitch", "Yaw"], Dim::Angle, |all| body(all).turn)

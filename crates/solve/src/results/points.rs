@@ -3,7 +3,7 @@
 use super::super::system::SolveError;
 use super::super::time::Run;
 use super::motions::moving;
-use super::{Event, EventTable, Magnitude, headed};
+use super::{Event, EventTable, Magnitude, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Position;
 use windlass_base::table::Table;

@@ -1,6 +1,6 @@
 //! A connector between its ends where a run had them: what a row does not keep follows from its element there.
 
-use super::super::link::{Attachment, connected, pose_of};
+use super::super::link::{Attachment, end_attachments, pose_of};
 use super::super::system::SolveError;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{Connector, Element, End, Guess, Model, Situation, Surroundings};
@@ -43,15 +43,15 @@ impl<'a> Settling<'a> {
     ///
     /// # Errors
     /// A connector that makes no element.
-    pub fn of(model: &'a Model, name: &str) -> Result<Option<Self>, SolveError> {
+    pub fn new(model: &'a Model, name: &str) -> Result<Option<Self>, SolveError> {
         let Some(connector) = model.connectors.get(&Model::key(name)) else { return Ok(None) };
-        let element = model.element(connector).map_err(SolveError::of(name))?;
+        let element = model.element(connector).map_err(SolveError::about(name))?;
         if element.states() > 0 {
             return Ok(None);
         }
         Ok(Some(Settling {
             model,
-            ends: connected(model, connector),
+            ends: end_attachments(model, connector),
             element,
             surroundings: model.surroundings(),
             length: model.first_length(connector),
@@ -66,22 +66,22 @@ impl<'a> Settling<'a> {
     ///
     /// # Errors
     /// No answer there.
-    pub fn at(&mut self, poses: &[Pose], length: Option<f64>) -> Result<Rest, SolveError> {
+    pub fn solve_at(&mut self, poses: &[Pose], length: Option<f64>) -> Result<Rest, SolveError> {
         let name = self.connector.name.as_str();
         if length.is_some() && length != self.length {
             // as the run did when a winch changed it
             let wound = Connector { first_length: length, ..self.connector.clone() };
-            self.element = self.model.element(&wound).map_err(SolveError::of(name))?;
+            self.element = self.model.element(&wound).map_err(SolveError::about(name))?;
             self.length = length;
         }
         self.between.clear();
         self.between.extend(self.ends.iter().map(|end| End::still(pose_of(end, poses))));
         let at = Situation { ends: &self.between, step: None, surroundings: &self.surroundings };
-        let told = self.element.summary(&at, &[]).map_err(SolveError::of(name))?;
+        let told = self.element.summary(&at, &[]).map_err(SolveError::about(name))?;
         let [_, far] = self.ends;
         let (mut vertical, mut horizontal) = (f64::NAN, f64::NAN);
         if told.tension.is_some() && matches!(far, Attachment::Ground(_)) {
-            self.element.wrenches(&at, &[], &mut self.guess, &mut self.wrenches).map_err(SolveError::of(name))?;
+            self.element.wrenches(&at, &[], &mut self.guess, &mut self.wrenches).map_err(SolveError::about(name))?;
             if let Some(pull) = self.wrenches.get(1) {
                 (vertical, horizontal) = (pull[2], pull[0].hypot(pull[1]));
             }

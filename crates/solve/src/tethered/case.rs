@@ -108,7 +108,7 @@ pub fn case(model: &Model, settings: &Settings) -> Result<Case, SolveError> {
         return Err(SolveError::new(error.help("a connector of class type TETHER is one")));
     };
     let is_towed = |c: &Connector| c.tether.as_ref().is_some_and(|t| t.used == TetherUse::Towed);
-    let sea = Sea::of(model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
+    let sea = Sea::new(model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
     let seed = sea.as_ref().and_then(|s| s.seed);
     let mut notes = Vec::new();
     for (given, name) in
@@ -121,7 +121,7 @@ pub fn case(model: &Model, settings: &Settings) -> Result<Case, SolveError> {
     if let Some(towed) = tethers.iter().find(|c| is_towed(c)) {
         if tethers.len() > 1 {
             let error = ClassError::new("a towed tether runs alone: the model has other tethers");
-            return Err(SolveError { who: Some(towed.name.clone()), error: error.at(towed.span) });
+            return Err(SolveError { who: Some(towed.name.clone()), error: error.with_span(towed.span) });
         }
         let made = towed_case(model, first, sea.as_deref(), settings, &mut notes);
         let made = made.map_err(|error| SolveError { who: Some(first.name.clone()), error })?;
@@ -133,7 +133,7 @@ pub fn case(model: &Model, settings: &Settings) -> Result<Case, SolveError> {
 
 fn current(model: &Model) -> Result<CurrentField, ClassError> {
     let around = model.surroundings();
-    CurrentField::of(model, &model.environment, around.depth.map(|d| d + around.tide))
+    CurrentField::new(model, &model.environment, around.depth.map(|d| d + around.tide))
 }
 
 fn towed_case(
@@ -150,7 +150,7 @@ fn towed_case(
     if (chord.x == 0.0 && chord.y == 0.0) || chord.z.abs() > 1e-6 * chord.norm() {
         let error =
             ClassError::new("the axis of a towed tether lies level: its vessel and its trailing end are at one height");
-        return Err(error.at(connector.span));
+        return Err(error.with_span(connector.span));
     }
     let line = line(sections(model, connector))?;
     if (chord.norm() / line.length() - 1.0).abs() > 1e-3 {
@@ -204,7 +204,7 @@ fn towed_case(
 }
 
 /// The body that all installed tethers hold.
-fn held<'a>(model: &'a Model, tethers: &[&Connector]) -> Result<&'a Body, SolveError> {
+fn tethered_body<'a>(model: &'a Model, tethers: &[&Connector]) -> Result<&'a Body, SolveError> {
     let body_of = |connector: &Connector, end: usize| {
         let name = connector.points.get(end)?;
         model.body_of(model.points.get(&Model::key(name))?)
@@ -212,7 +212,10 @@ fn held<'a>(model: &'a Model, tethers: &[&Connector]) -> Result<&'a Body, SolveE
     let mut found: Option<&Body> = None;
     for connector in tethers {
         let refused = |text: String| {
-            Err(SolveError { who: Some(connector.name.clone()), error: ClassError::new(text).at(connector.span) })
+            Err(SolveError {
+                who: Some(connector.name.clone()),
+                error: ClassError::new(text).with_span(connector.span),
+            })
         };
         let Some(body) = body_of(connector, 0) else {
             return refused(
@@ -298,7 +301,8 @@ fn tubes_alone(model: &Model, body: &Body, centre: Vector3<f64>) -> Option<Vec<T
             return None;
         }
         for piece in &part.pieces {
-            let (Some(member), Shape::Tube { ends, diameter }) = (piece.member, piece.shape.moved(&part.place)) else {
+            let (Some(member), Shape::Tube { ends, diameter }) = (piece.member, piece.shape.moved_by(&part.place))
+            else {
                 return None;
             };
             tubes.push(Tube {
@@ -331,10 +335,10 @@ fn installed_case(
     settings: &Settings,
     notes: &mut Vec<String>,
 ) -> Result<Installed, SolveError> {
-    let body = held(model, tethers)?;
+    let body = tethered_body(model, tethers)?;
     let of_body = |error: ClassError| SolveError { who: Some(body.name.clone()), error };
     let gravity = model.defaults.gravity;
-    let mass = Mass::of(model.parts_of(body), gravity);
+    let mass = Mass::from_parts(model.parts_of(body), gravity);
     let centre = mass.centre;
     let mut list = Vec::new();
     for connector in tethers {
@@ -370,7 +374,7 @@ fn installed_case(
             Box::new(Afloat::new(floating).map_err(of_body)?)
         }
     };
-    let structure = Moored::around(structure, model, body, centre)?;
+    let structure = Moored::build(structure, model, body, centre)?;
     let pose = Pose::of(&body.place);
     let course = Course {
         start: 0.0,

@@ -178,7 +178,7 @@ impl StructureHistory {
     }
 
     /// The six of a kind, or the three of a point behind them, at an instant.
-    pub fn at(&self, instant: usize, column: usize) -> Option<f64> {
+    pub fn value(&self, instant: usize, column: usize) -> Option<f64> {
         self.rows.get(instant * self.width() + column).copied()
     }
 
@@ -203,7 +203,7 @@ pub struct Happening {
 ///
 /// # Errors
 /// What the engine refuses; a run that would keep too much.
-pub fn towed(
+pub fn run_towed(
     (name, case): &(String, Towed),
     kept: &mut Tethered,
     goes_on: &mut dyn FnMut(f64) -> bool,
@@ -242,7 +242,11 @@ impl towed::Observer for Keeper<'_> {
 ///
 /// # Errors
 /// What the engine refuses; a run that would keep too much.
-pub fn installed(case: Installed, kept: &mut Tethered, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), ClassError> {
+pub fn run_installed(
+    case: Installed,
+    kept: &mut Tethered,
+    goes_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<(), ClassError> {
     let Installed { body, mut structure, tethers, flow, compatibility, course, points, .. } = case;
     let of = |t: &windlass_tether::installed::InstalledTether| {
         t.line.nodes() * INSTALLED_NODE.len() + 2 * t.line.elements().len() * INSTALLED_END.len()

@@ -16,10 +16,10 @@ mod tables;
 
 pub use case::{Case, case};
 pub use history::{Happening, Quantity, StructureHistory, TetherHistory};
-pub use modal::{described, names, natural};
+pub use modal::{description_table, names, natural};
 pub use statistics::Statistics;
 pub use structure::{harmonics, structure, structure_series};
-pub use tables::{Of, along, events, forces, motions, series, told};
+pub use tables::{Of, events, forces, motions, run_table, series, table_along_tether};
 
 use crate::SolveError;
 use windlass_model::{ClassError, Model};
@@ -116,9 +116,9 @@ pub fn run(model: &Model, settings: Settings, goes_on: &mut dyn FnMut(f64) -> bo
         interrupted: false,
     };
     match made.kind {
-        case::Kind::Towed(towed) => history::towed(&towed, &mut kept, goes_on).map_err(SolveError::new)?,
+        case::Kind::Towed(towed) => history::run_towed(&towed, &mut kept, goes_on).map_err(SolveError::new)?,
         case::Kind::Installed(installed) => {
-            history::installed(*installed, &mut kept, goes_on).map_err(SolveError::new)?;
+            history::run_installed(*installed, &mut kept, goes_on).map_err(SolveError::new)?;
         }
     }
     Ok(kept)

@@ -14,7 +14,10 @@ const AT_REST: Settings =
     Settings { observed: 1.0, step: 1.0, store: 1, compatible: false, slam: 0.0, tow: [0.0; 2], transient: 0.0 };
 
 /// A tether of the case, by its name.
-fn found<'a>(case: &'a Installed, name: &str) -> Result<&'a windlass_tether::installed::InstalledTether, SolveError> {
+fn find_tether<'a>(
+    case: &'a Installed,
+    name: &str,
+) -> Result<&'a windlass_tether::installed::InstalledTether, SolveError> {
     let of = case.tethers.iter().find(|t| t.name.eq_ignore_ascii_case(name));
     of.ok_or_else(|| SolveError::new(ClassError::new(format!("{name} is no tether that acts"))))
 }
@@ -29,7 +32,7 @@ pub fn names(model: &Model) -> Vec<String> {
 ///
 /// # Errors
 /// As [`case`]; a name that is no tether's.
-pub fn described(model: &Model, name: &str) -> Result<Table, SolveError> {
+pub fn description_table(model: &Model, name: &str) -> Result<Table, SolveError> {
     let made = case(model, &AT_REST)?;
     let connector = model.connectors.get(&Model::key(name));
     let point = |end: usize| connector.and_then(|c| c.points.get(end)).map_or("", String::as_str);
@@ -37,10 +40,10 @@ pub fn described(model: &Model, name: &str) -> Result<Table, SolveError> {
     let mut table = match &made.kind {
         Kind::Towed(towed) => towed.1.description(1, nodes).table(),
         Kind::Installed(case) => {
-            let tether = found(case, name)?;
+            let tether = find_tether(case, name)?;
             let attachment = case.course.pose.point(tether.attachment);
-            let description = Description::of(tether, attachment, &case.flow).map_err(SolveError::new)?;
-            let table = description.listed(tether, (1, nodes), case.centre, &case.flow).table();
+            let description = Description::new(tether, attachment, &case.flow).map_err(SolveError::new)?;
+            let table = description.to_listing(tether, (1, nodes), case.centre, &case.flow).table();
             table.fact("Effective Tension in the Middle", description.tension, Dim::Force)
         }
     };
@@ -76,7 +79,7 @@ pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Re
             (["Y", "Z", "RY", "RZ"], list.iter().map(page).collect())
         }
         Kind::Installed(case) => {
-            let tether = found(case, name)?;
+            let tether = find_tether(case, name)?;
             let attachment = case.course.pose.point(tether.attachment);
             let list = modes(tether, attachment, &case.flow, number, &case.compatibility).map_err(SolveError::new)?;
             let page = |m: &windlass_tether::installed::modes::InstalledMode| {

@@ -5,7 +5,7 @@ use crate::system::SolveError;
 use crate::time::RunRequirements;
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{Underway, ambient, carried};
+use windlass_hydro::{Underway, ambient, move_wrench};
 use windlass_model::{Body, ClassError, Model};
 use windlass_model::{End, Response, Situation, Surroundings, TimeStep};
 use windlass_tether::structure::flow::FlowAt;
@@ -31,7 +31,7 @@ impl Moored {
     ///
     /// # Errors
     /// A connector to another body, or one that makes no element.
-    pub fn around(
+    pub fn build(
         inner: Box<dyn Structure>,
         model: &Model,
         body: &Body,
@@ -46,7 +46,7 @@ impl Moored {
             }
             let made = link((model, &ambient, &RunRequirements::default()), connector, &mut states)?;
             if made.element.moves() {
-                let error = ClassError::new("a dynamic line cannot run beside tethers").at(connector.span);
+                let error = ClassError::new("a dynamic line cannot run beside tethers").with_span(connector.span);
                 let error = error.help("release it, or give a class without dynamics of its own");
                 return Err(SolveError { who: Some(connector.name.clone()), error });
             }
@@ -57,7 +57,7 @@ impl Moored {
             }
             if made.ends.iter().any(elsewhere) {
                 let text = format!("it ties {} to another body, and tethers run with one body alone", body.name);
-                let error = ClassError::new(text).at(connector.span);
+                let error = ClassError::new(text).with_span(connector.span);
                 return Err(SolveError { who: Some(connector.name.clone()), error });
             }
             links.push(made);
@@ -120,7 +120,7 @@ impl Structure for Moored {
             link.element.evaluate(&situation, before, after, &mut None, &mut self.response).map_err(named)?;
             for ((end, kind), wrench) in ends.iter().zip(&link.ends).zip(&self.response.wrench) {
                 if matches!(kind, Attachment::Body(..)) {
-                    out.floating += carried(wrench, end.pose.origin - at.pose.origin);
+                    out.floating += move_wrench(wrench, end.pose.origin - at.pose.origin);
                 }
             }
         }

@@ -19,14 +19,14 @@ pub struct Statistics {
 
 impl Statistics {
     /// Those between two times (s), both counted.
-    pub fn between(run: &Tethered, from: f64, to: f64) -> Self {
+    pub fn new(run: &Tethered, from: f64, to: f64) -> Self {
         let slack = 1e-6 * run.settings.step;
         let first = run.times.iter().position(|t| *t >= from - slack).unwrap_or(run.times.len());
         let end = run.times.iter().rposition(|t| *t <= to + slack).map_or(first, |i| i + 1);
         Statistics { first, end: end.max(first) }
     }
 
-    fn of(self, values: Vec<f64>) -> Vec<f64> {
+    fn pick(self, values: Vec<f64>) -> Vec<f64> {
         values.get(self.first..self.end).unwrap_or_default().to_vec()
     }
 
@@ -44,7 +44,7 @@ impl Statistics {
         for (places, what) in [(self.nodes(tether), "Node"), (self.ends(tether), "Element")] {
             for place in &places {
                 let title = format!("Statistics of Tether {}, {what} {}", tether.name, place.number);
-                out.push(type_one(&self.title(run, &title), &place.borrowed())?);
+                out.push(type_one(&self.title(run, &title), &place.as_place())?);
             }
         }
         Ok(out)
@@ -58,7 +58,7 @@ impl Statistics {
         let mut out = Vec::new();
         for (places, what) in [(self.nodes(tether), "Node"), (self.ends(tether), "Elem")] {
             let title = self.title(run, &format!("Statistics of Tether {}", tether.name));
-            let borrowed: Vec<Place> = places.iter().map(Owned::borrowed).collect();
+            let borrowed: Vec<Place> = places.iter().map(Owned::as_place).collect();
             out.extend(type_two(&title, what, &borrowed)?);
         }
         Ok(out)
@@ -69,7 +69,7 @@ impl Statistics {
         let place = |(node, distance): (usize, &f64)| Owned {
             number: node + 1,
             distance: *distance,
-            channels: of.iter().take(12).enumerate().map(|(q, of)| (*of, self.of(tether.node(node, q)))).collect(),
+            channels: of.iter().take(12).enumerate().map(|(q, of)| (*of, self.pick(tether.node(node, q)))).collect(),
         };
         tether.line.distances().iter().enumerate().map(place).collect()
     }
@@ -88,14 +88,14 @@ impl Statistics {
     fn installed_end(self, tether: &TetherHistory, end: usize) -> Vec<(Quantity, Vec<f64>)> {
         let of = tether.of_an_end();
         let told = [0, 1, 6, 7, 8, 9, 10];
-        told.iter().filter_map(|q| Some((*of.get(*q)?, self.of(tether.end(end, *q))))).collect()
+        told.iter().filter_map(|q| Some((*of.get(*q)?, self.pick(tether.end(end, *q))))).collect()
     }
 
     /// The seven columns of figure 7.6: both moments, the moment where its deviation round the tube is largest, the largest stress, both
     /// stresses, the stress where its deviation is largest.
     fn towed_end(self, tether: &TetherHistory, end: usize) -> Vec<(Quantity, Vec<f64>)> {
         let of = tether.of_an_end();
-        let values = |q: usize| self.of(tether.end(end, q));
+        let values = |q: usize| self.pick(tether.end(end, q));
         let (y, z) = (values(2), values(3));
         let turned = |angle: f64| -> Vec<f64> {
             let (sine, cosine) = angle.sin_cos();
@@ -130,26 +130,26 @@ impl Statistics {
     /// between the first and the last instant.
     ///
     /// # Errors
-    /// Fewer than two instants; what [`fatigue::along`] refuses.
+    /// Fewer than two instants; what [`fatigue::fatigue_of_ends`] refuses.
     pub fn fatigue(self, run: &Tethered, tether: &TetherHistory, asked: Asked) -> Result<[Table; 2], SeriesError> {
         let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
         let duration = time(self.end.saturating_sub(1)) - time(self.first);
         let count = 2 * tether.line.elements().len();
-        let moments: Vec<[Vec<f64>; 2]> = (0..count).map(|end| [2, 3].map(|q| self.of(tether.end(end, q)))).collect();
+        let moments: Vec<[Vec<f64>; 2]> = (0..count).map(|end| [2, 3].map(|q| self.pick(tether.end(end, q)))).collect();
         let tube = |end: usize| tether.line.elements().get(end / 2).map(|e| e.tube().stress_of_moment());
         let records: Vec<EndRecord> = moments
             .iter()
             .enumerate()
             .map(|(end, [y, z])| EndRecord { about_y: y, about_z: z, stress_of_moment: tube(end).unwrap_or_default() })
             .collect();
-        let found = fatigue::along(&records, Asked { duration, ..asked })?;
+        let found = fatigue::fatigue_of_ends(&records, Asked { duration, ..asked })?;
         let distance = |end: usize| tether.line.distances().get(end.div_ceil(2)).copied().unwrap_or_default();
         let ends: Vec<AtEnd> = found.into_iter().enumerate().map(|(end, f)| (end / 2 + 1, distance(end), f)).collect();
         let title = |what: &str| self.title(run, &format!("{what} of Tether {}", tether.name));
         let mut table = windlass_signal::tether::tables::fatigue(&title("Fatigue and Peak Stress"), &ends)
             .fact("Elapsed Time", duration, Dim::Time)
             .fact("Stress Concentration Factor", asked.curve.concentration, Dim::None)
-            .fact("S-N Curve Intercept A", asked.curve.scaled(1e-3).intercept, Dim::None)
+            .fact("S-N Curve Intercept A", asked.curve.in_unit(1e-3).intercept, Dim::None)
             .fact("S-N Curve Slope m", asked.curve.slope, Dim::None)
             .fact("Time of Expected Peak", asked.peak_time / 3600.0, Dim::None);
         table.note(
@@ -167,7 +167,7 @@ struct Owned {
 }
 
 impl Owned {
-    fn borrowed(&self) -> Place<'_> {
+    fn as_place(&self) -> Place<'_> {
         Place {
             number: self.number,
             distance: self.distance,

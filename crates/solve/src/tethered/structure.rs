@@ -33,9 +33,9 @@ pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, p
     let time = run.times.get(instant).copied();
     let title = |what: &str| format!("{what} of Structure {}", structure.body);
     let at = |kind: usize, dof: usize| {
-        let all = (0..6).filter_map(|f| structure.at(instant, 6 * kind + f));
+        let all = (0..6).filter_map(|f| structure.value(instant, 6 * kind + f));
         let largest = all.fold(0.0, |most: f64, v| most.max(v.abs()));
-        Cell::from(structure.at(instant, 6 * kind + dof).map(|v| without_noise(v, largest)))
+        Cell::from(structure.value(instant, 6 * kind + dof).map(|v| without_noise(v, largest)))
     };
     let named = |title: String| Table::new(title).fact("Time", time, Dim::Time);
     let kind_name = |kind: &usize| StructureHistory::KINDS.get(*kind).copied().unwrap_or("");
@@ -59,7 +59,7 @@ pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, p
     for point in points {
         let name = structure.points.get(*point).map_or("", String::as_str);
         motions = motions.column(name, "Point", Dim::Length, Digits::Decimals(3), |(dof, _)| {
-            if *dof < 3 { structure.at(instant, behind + 3 * point + dof) } else { None }
+            if *dof < 3 { structure.value(instant, behind + 3 * point + dof) } else { None }
         });
     }
     [motions.build(), forces.build()]
@@ -108,7 +108,7 @@ pub fn harmonics(
         let mut cycles = Vec::new();
         for dof in 0..SIX.len() {
             let values = structure.series(6 * kind + dof);
-            cycles.push(Cycle::of(&run.times, &values, (start, period), 4, AQWA_SAMPLES)?);
+            cycles.push(Cycle::new(&run.times, &values, (start, period), 4, AQWA_SAMPLES)?);
         }
         let largest = cycles.iter().fold(0.0, |most: f64, c| most.max(c.mean.abs()).max(c.drift.abs()));
         for ((dof, axis), found) in SIX.iter().enumerate().zip(&cycles) {

@@ -15,7 +15,7 @@ fn column(of: &Quantity, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Co
 }
 
 /// How a run went.
-pub fn told(run: &Tethered) -> Table {
+pub fn run_table(run: &Tethered) -> Table {
     let last = run.times.last().copied();
     let names: Vec<&str> = run.tethers.iter().map(|t| t.name.as_str()).collect();
     let scheme = if run.settings.compatible { "two stages, as AQWA 5.4" } else { "two stages" };
@@ -124,7 +124,7 @@ pub fn series(run: &Tethered, tether: &TetherHistory, of: Of) -> Table {
 }
 
 /// One quantity along the tether at some instants, with the least and the largest of the whole run (2.2, 2.3).
-pub fn along(
+pub fn table_along_tether(
     run: &Tethered,
     tether: &TetherHistory,
     at_nodes: bool,

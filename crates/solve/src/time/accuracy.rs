@@ -186,14 +186,14 @@ impl Accuracy {
         (0..self.sums.len()).filter_map(of).reduce(worse)
     }
 
-    /// As numbers, of which [`Accuracy::of`] makes it again.
+    /// As numbers, of which [`Accuracy::from_numbers`] makes it again.
     pub(super) fn numbers(&self) -> Vec<f64> {
         let (error, at, body) = self.largest;
         [error, at, body as f64, self.time].into_iter().chain(self.sums.iter().flatten().copied()).collect()
     }
 
     /// Of its numbers; none of what are not such.
-    pub(super) fn of(numbers: &[f64]) -> Option<Self> {
+    pub(super) fn from_numbers(numbers: &[f64]) -> Option<Self> {
         let ([error, at, body, time], rest) = numbers.split_first_chunk::<4>()?;
         let (sums, left) = rest.as_chunks::<4>();
         left.is_empty().then(|| Accuracy { largest: (*error, *at, *body as usize), time: *time, sums: sums.to_vec() })
@@ -202,7 +202,7 @@ impl Accuracy {
 
 /// What makes a velocity of each degree of freedom: 1 of translations, the radii of gyration of rotations (m); 0 where nothing has inertia.
 fn arms(node: &Node, motion: &Motion) -> Six {
-    let mass = mass_block(&node.floating.mass, &motion.pose) + node.floating.added(&motion.pose);
+    let mass = mass_block(&node.floating.mass, &motion.pose) + node.floating.added_mass(&motion.pose);
     let heaviest = (0..3).map(|i| mass[(i, i)]).fold(0.0, f64::max);
     Six::from_fn(|i, _| match mass[(i, i)] {
         own if own <= 0.0 => 0.0,
@@ -227,7 +227,7 @@ mod tests {
             (0.2, 10.0, 0.080910, 0.022552),
             (0.2, 5.0, 0.247201, 0.083954),
         ] {
-            let made = Scheme::generalised(rho).distortion(TAU / steps);
+            let made = Scheme::generalised_alpha(rho).distortion(TAU / steps);
             // they are printed to a millionth
             assert!(
                 (made.period - period).abs() < 6e-7 && (made.damping - damping).abs() < 6e-7,
@@ -245,7 +245,7 @@ mod tests {
     #[test]
     fn an_accuracy_comes_back_from_its_numbers() {
         let made = Accuracy { largest: (0.1, 2.0, 1), time: 3.0, sums: vec![[1.0, 2.0, 3.0, 4.0]; 6] };
-        assert_eq!(Accuracy::of(&made.numbers()), Some(made.clone()));
-        assert_eq!(Accuracy::of(&made.numbers()[..5]), None);
+        assert_eq!(Accuracy::from_numbers(&made.numbers()), Some(made.clone()));
+        assert_eq!(Accuracy::from_numbers(&made.numbers()[..5]), None);
     }
 }

@@ -118,7 +118,7 @@ impl AlongColumns {
             if self.bends {
                 // of a line that tells its moment alone, all of it is about one direction
                 let bends = if node.bends == [0.0; 2] { [*moment, 0.0] } else { node.bends };
-                let behind = node.behind();
+                let behind = node.side_after();
                 let mises = [node.before.unwrap_or(behind), behind].map(|side| side.von_mises());
                 let wall = node.worse().wall;
                 let bent = [wall, *shear, bends[0], bends[1], mises[0], mises[1], pressures[0], pressures[1]];
@@ -194,7 +194,7 @@ impl Quantity {
     ];
 
     /// Its value; not a number of a node that has none.
-    pub fn of(self, node: &NodeRow) -> f64 {
+    pub fn value(self, node: &NodeRow) -> f64 {
         let bent = |of: fn(&BentRow) -> f64| node.bent.as_ref().map_or(f64::NAN, of);
         match self {
             Quantity::Arc => node.arc,
@@ -223,14 +223,14 @@ impl AlongEnvelope {
         let time = row.first().copied().unwrap_or(f64::NAN);
         let all = (0..along.numbers.len()).flat_map(|place| {
             let node = along.node(place, row);
-            Quantity::ALL.map(|quantity| node.as_ref().map_or(f64::NAN, |node| quantity.of(node)))
+            Quantity::ALL.map(|quantity| node.as_ref().map_or(f64::NAN, |node| quantity.value(node)))
         });
         self.0.take(time, all)
     }
 
     /// What was seen of a quantity at the node of a place; none where it never was there.
-    pub fn seen(&self, place: usize, quantity: Quantity) -> Option<Seen> {
-        self.0.seen(place * Quantity::ALL.len() + quantity as usize)
+    pub fn extremes(&self, place: usize, quantity: Quantity) -> Option<Seen> {
+        self.0.extremes(place * Quantity::ALL.len() + quantity as usize)
     }
 }
 
@@ -296,11 +296,11 @@ mod tests {
             columns.write(&nodes, &mut row).unwrap();
             envelope.take(&columns, &row).unwrap();
         }
-        let top = envelope.seen(0, Quantity::Effective).unwrap();
+        let top = envelope.extremes(0, Quantity::Effective).unwrap();
         assert_eq!((top.least.value, top.most.value, top.most.time, top.count), (100.0, 200.0, 2.0, 2));
-        assert_eq!(envelope.seen(1, Quantity::Moment).unwrap().count, 1);
-        assert_eq!(envelope.seen(2, Quantity::Arc).unwrap().least.value, 1.0);
-        assert_eq!(envelope.seen(2, Quantity::Clearance), None);
+        assert_eq!(envelope.extremes(1, Quantity::Moment).unwrap().count, 1);
+        assert_eq!(envelope.extremes(2, Quantity::Arc).unwrap().least.value, 1.0);
+        assert_eq!(envelope.extremes(2, Quantity::Clearance), None);
     }
 
     #[test]

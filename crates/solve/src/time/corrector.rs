@@ -2,7 +2,7 @@
 
 use super::forces::Motion;
 use super::scheme::Scheme;
-use super::step::{Convergence, Effort, Instant, Stepper, not_finite, unsolved};
+use super::step::{Convergence, Effort, Instant, Stepper, not_finite, unsolved_error};
 use crate::system::{SolveError, System};
 use windlass_base::pose::Six;
 use windlass_model::ClassError;
@@ -77,7 +77,7 @@ impl Stepper {
                 let worst = changes.enumerate().map(|(body, c)| (6 * body + c.iamax(), c.amax()));
                 let worst = worst.reduce(|a, b| if b.1 > a.1 { b } else { a }).map_or(0, |(at, _)| at);
                 let (time, what) = (ahead.time, "the acceleration still changes by");
-                return Err(unsolved(system, (worst, change), (time, dt), what));
+                return Err(unsolved_error(system, (worst, change), (time, dt), what));
             }
             effort.iterations += 1;
             scheme = trapezoid;

@@ -49,7 +49,7 @@ impl RunRequirements {
     }
 
     /// What is asked of a connector.
-    pub fn of(&self, name: &str) -> RunRequirement {
+    pub fn requirement(&self, name: &str) -> RunRequirement {
         let key = Model::key(name);
         RunRequirement {
             longest: self.longest.get(&key).copied(),

@@ -27,7 +27,7 @@ impl Run {
     pub(super) fn prescribe(&mut self) -> Result<(), SolveError> {
         for (motion, node) in self.now.motions.iter_mut().zip(&self.system.nodes) {
             if let Some(prescribed) = &node.prescribed {
-                *motion = prescribed.at(self.now.time).map_err(SolveError::of(&node.name))?;
+                *motion = prescribed.motion_at(self.now.time).map_err(SolveError::about(&node.name))?;
             }
         }
         Ok(())
@@ -46,7 +46,7 @@ impl Run {
         );
         let values =
             [(rate.abs() * self.settings.dt, Dim::Length), (self.settings.dt, Dim::Time), (2.0 * most, Dim::Length)];
-        let error = ClassError::of(text, &values)
+        let error = ClassError::with_values(text, &values)
             .help("a lower rate, a shorter step of -TIME of &ENV, or fewer elements by -REFINE");
         Err(SolveError { who: Some(link.name.clone()), error })
     }
@@ -130,7 +130,7 @@ impl Run {
         let last = since.filter_map(|(a, fired)| Some((a, (*fired)?))).max_by(|a, b| a.1.total_cmp(&b.1));
         let by = last.map_or_else(String::new, |(action, _)| format!("by action {} ", action.name));
         let text = format!("its first segment is hauled in {by}to the end: at {{}} nothing of it is left");
-        let error = ClassError::of(text, &[(self.now.time + left, Dim::Time)])
+        let error = ClassError::with_values(text, &[(self.now.time + left, Dim::Time)])
             .help("a LENGTH of -WINCH, or a later action with a RATE of 0, ends the winch before");
         SolveError { who: Some(name.to_string()), error }
     }
@@ -172,13 +172,13 @@ impl Run {
     fn due(&self, when: &When) -> bool {
         match when {
             When::At(time) => self.now.time >= time - 1e-9 * self.settings.dt,
-            When::Above(watched, value) => self.watched(watched).is_some_and(|v| v > *value),
-            When::Below(watched, value) => self.watched(watched).is_some_and(|v| v < *value),
+            When::Above(watched, value) => self.observed_value(watched).is_some_and(|v| v > *value),
+            When::Below(watched, value) => self.observed_value(watched).is_some_and(|v| v < *value),
         }
     }
 
     /// The value of what is watched.
-    fn watched(&self, watched: &Watched) -> Option<f64> {
+    fn observed_value(&self, watched: &Watched) -> Option<f64> {
         match watched {
             Watched::Tension(name) => {
                 let mut first = 0;
@@ -254,7 +254,7 @@ impl Run {
     /// Refuses to begin to wind what a winch no longer holds, or away from the length that is asked for.
     fn winds(&self, action: &str, name: &str, rate: f64, to: Option<f64>) -> Result<(), SolveError> {
         let wrong = |error: ClassError| SolveError { who: Some(name.to_string()), error };
-        if self.system.duties.of(name).freed {
+        if self.system.duties.requirement(name).freed {
             let text = format!("it has been let go by the time of action {action}, and no winch holds it");
             return Err(wrong(ClassError::new(text)));
         }
@@ -266,7 +266,9 @@ impl Run {
             let text =
                 format!("its first segment is {{}} long at action {action}, and at {{}} a second never comes to {{}}");
             let values = [(now, Dim::Length), (rate, Dim::Length), (to, Dim::Length)];
-            return Err(wrong(ClassError::of(text, &values).help("a positive rate pays out, a negative one hauls in")));
+            return Err(wrong(
+                ClassError::with_values(text, &values).help("a positive rate pays out, a negative one hauls in"),
+            ));
         }
         Ok(())
     }
@@ -305,7 +307,7 @@ impl Run {
                 let found = self.model.environments.get(&Model::key(name)).cloned();
                 let missing = || SolveError::new(ClassError::new(format!("there is no environment {name}")));
                 self.model.environment = found.ok_or_else(missing)?;
-                self.sea = Sea::of(&self.model, &self.model.environment).map_err(SolveError::new)?.map(Arc::new);
+                self.sea = Sea::new(&self.model, &self.model.environment).map_err(SolveError::new)?.map(Arc::new);
                 self.seas.push((self.now.time, self.sea.clone()));
                 let memory = self.system.load_anew(&self.model, self.sea.as_ref(), &self.now.memory)?;
                 self.now.memory = memory;

@@ -10,7 +10,7 @@ use crate::ties::Ties;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
+use windlass_hydro::{BodyLoad, Category, MovingLoad, Underway, move_stiffness, move_wrench, turning};
 use windlass_model::{Anchored, End, Guess, Response, Situation, TimeStep};
 
 /// Number of categories.
@@ -44,7 +44,7 @@ pub struct Memory {
 
 impl Memory {
     /// That of a system before anything has happened.
-    pub fn of(system: &System) -> Self {
+    pub fn new(system: &System) -> Self {
         let mut memory = Memory::default();
         for node in &system.nodes {
             let mut ranges = Vec::new();
@@ -59,7 +59,11 @@ impl Memory {
         memory
     }
 
-    fn each<'a>(&'a self, system: &'a System, body: usize) -> impl Iterator<Item = (&'a dyn BodyLoad, Range<usize>)> {
+    fn body_loads<'a>(
+        &'a self,
+        system: &'a System,
+        body: usize,
+    ) -> impl Iterator<Item = (&'a dyn BodyLoad, Range<usize>)> {
         let loads = system.nodes.get(body).map_or(&[][..], |n| &n.floating.loads);
         let ranges = self.ranges.get(body).map_or(&[][..], |r| r);
         loads.iter().zip(ranges).map(|(load, range)| (load.as_ref(), range.clone()))
@@ -96,7 +100,7 @@ impl Memory {
             for (load, range) in node.floating.loads.iter().zip(ranges) {
                 let state = &mut self.loads[range.clone()];
                 let before = load.held(&on_the_way, state);
-                load.begin(&at, state).map_err(SolveError::of(&node.name))?;
+                load.begin(&at, state).map_err(SolveError::about(&node.name))?;
                 if let (Some(before), Some(now)) = (before, load.held(&on_the_way, state)) {
                     more += now - before;
                 }
@@ -238,10 +242,10 @@ impl Forces {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
             self.made.load.stiffness.fill(0.0);
             self.made.damping.fill(0.0);
-            for (load, range) in memory.each(system, body) {
+            for (load, range) in memory.body_loads(system, body) {
                 let state = &memory.loads[range];
                 self.made.load.wrench.fill(0.0);
-                load.add(&at, state, &mut self.made).map_err(SolveError::of(&node.name))?;
+                load.add(&at, state, &mut self.made).map_err(SolveError::about(&node.name))?;
                 let wrench = self.made.load.wrench;
                 self.add(body, place_of(load.category()), &wrench);
                 if let Some(inertia) = load.inertia(state) {
@@ -260,7 +264,7 @@ impl Forces {
             let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
             block += self.made.damping;
             if node.damped {
-                let linear = node.floating.damped(&motion.pose);
+                let linear = node.floating.linear_damping(&motion.pose);
                 self.add(body, place_of(Category::RadiationDrag), &(-(linear * motion.velocity)));
                 let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                 block += linear;
@@ -306,8 +310,8 @@ impl Forces {
             let step = (dt > 0.0).then_some(TimeStep { time, dt });
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
             let anchored = matches!(link.ends.as_slice(), [Attachment::Body(..), Attachment::Ground(_)]);
-            if let (true, Some(found)) = (anchored, link.element.anchored(&at, guess)) {
-                let Anchored { wrenches, stiffness } = found.map_err(SolveError::of(&link.name))?;
+            if let (true, Some(found)) = (anchored, link.element.find_anchored(&at, guess)) {
+                let Anchored { wrenches, stiffness } = found.map_err(SolveError::about(&link.name))?;
                 self.wrenches.extend_from_slice(&wrenches);
                 self.hold(link, &wrenches, &stiffness, flexible);
                 continue;
@@ -315,7 +319,7 @@ impl Forces {
             if link.element.moves() {
                 let Some(found) = alone.next().and_then(|at| self.alone.get_mut(at)) else { continue };
                 if let Some(error) = found.failed.take() {
-                    return Err(SolveError::of(&link.name)(error));
+                    return Err(SolveError::about(&link.name)(error));
                 }
                 trial.copy_from_slice(&found.trial);
                 std::mem::swap(&mut self.response, &mut found.response);
@@ -324,13 +328,13 @@ impl Forces {
                 let tie = if self.ties.holds { link.element.tie(&at, held, &mut self.response) } else { None };
                 match tie {
                     Some(tie) => {
-                        let tie = tie.map_err(SolveError::of(&link.name))?;
+                        let tie = tie.map_err(SolveError::about(&link.name))?;
                         self.ties.take(index, tie, &self.response.stiffness, (&link.ends, &self.arms));
                     }
                     None => link
                         .element
                         .evaluate(&at, committed, trial, guess, &mut self.response)
-                        .map_err(SolveError::of(&link.name))?,
+                        .map_err(SolveError::about(&link.name))?,
                 }
             }
             self.wrenches.extend_from_slice(&self.response.wrench);
@@ -339,7 +343,7 @@ impl Forces {
             for (i, (end, own)) in link.ends.iter().zip(&self.arms).enumerate() {
                 let Attachment::Body(body, _) = end else { continue };
                 let wrench = &self.response.wrench[i];
-                let about = carried(wrench, *own);
+                let about = move_wrench(wrench, *own);
                 let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
                 at += about;
                 if let Some(told) = self.categories.get_mut(*body).and_then(|c| c.get_mut(category)) {
@@ -349,7 +353,7 @@ impl Forces {
                 for (j, (other, far)) in link.ends.iter().zip(&self.arms).enumerate() {
                     let Attachment::Body(column, _) = other else { continue };
                     if let Some(block) = self.response.stiffness.get(count * i + j) {
-                        let mut moved = transferred(block, *own, *far);
+                        let mut moved = move_stiffness(block, *own, *far);
                         if i == j {
                             moved += turning(wrench, *own);
                         }
@@ -358,11 +362,11 @@ impl Forces {
                     }
                     if let Some(block) = self.response.damping.get(count * i + j) {
                         let mut at = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * column);
-                        at += transferred(block, *own, *far);
+                        at += move_stiffness(block, *own, *far);
                     }
                     if let Some(block) = self.response.inertia.get(count * i + j) {
                         let mut at = self.inertia.fixed_view_mut::<6, 6>(6 * body, 6 * column);
-                        at += transferred(block, *own, *far);
+                        at += move_stiffness(block, *own, *far);
                     }
                 }
             }

@@ -9,7 +9,7 @@ use windlass_model::Mass;
 /// The inertia of a body about its origin in a pose, with added mass, global axes.
 pub fn inertia(node: &Node, pose: &Pose) -> Matrix6<f64> {
     let own = mass_block(&node.floating.mass, pose);
-    if node.added { own + node.floating.added(pose) } else { own }
+    if node.added { own + node.floating.added_mass(pose) } else { own }
 }
 
 /// What turning adds to inertia: `m w x (w x r)` and `w x (I w)` about the origin, as what the forces have to balance.
@@ -27,7 +27,7 @@ pub fn gyroscopic(mass: &Mass, motion: &Motion) -> Six {
 pub(super) fn turned_inertia(node: &Node, motion: &Motion) -> [Matrix6<f64>; 2] {
     let [mut place, velocity] = of_mass(&node.floating.mass, motion);
     if node.added {
-        place += of_added(&node.floating.added(&motion.pose), &motion.acceleration);
+        place += of_added(&node.floating.added_mass(&motion.pose), &motion.acceleration);
     }
     [place, velocity]
 }
@@ -74,7 +74,7 @@ mod tests {
     fn what_turning_changes_in_inertia_is_its_difference() {
         let inertia = Matrix3::new(9e3, 200.0, -300.0, 200.0, 1.4e4, 500.0, -300.0, 500.0, 1.1e4);
         let mass = Mass { mass: 100.0, centre: Vector3::new(3.0, -2.0, 5.0), inertia };
-        let pose = Pose::default().moved(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
+        let pose = Pose::default().after_motion(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
         let velocity = Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2);
         let start =
             Motion { pose, velocity, acceleration: Six::new(0.7, -1.1, 0.4, 0.2, 0.6, -0.9), ..Motion::default() };
@@ -86,7 +86,7 @@ mod tests {
             let moved = |sign: f64| {
                 let mut by = Six::zeros();
                 by[n] = sign * step;
-                let turned = Motion { pose: start.pose.moved(&by), ..start };
+                let turned = Motion { pose: start.pose.after_motion(&by), ..start };
                 let faster = Motion { velocity: start.velocity + by, ..start };
                 [whole(&turned), whole(&faster)]
             };
@@ -99,14 +99,14 @@ mod tests {
     #[test]
     fn what_turning_changes_in_added_inertia_is_its_difference() {
         let own = Matrix6::from_fn(|i, j| 100.0 * ((i * 5 + j * 3) as f64).sin());
-        let pose = Pose::default().moved(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
+        let pose = Pose::default().after_motion(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
         let a = Six::new(0.7, -1.1, 0.4, 0.2, 0.6, -0.9);
         let whole = |pose: &Pose| windlass_hydro::in_pose(&own, pose) * a;
         let made = of_added(&windlass_hydro::in_pose(&own, &pose), &a);
         for n in 3..6 {
             let mut by = Six::zeros();
             by[n] = 1e-6;
-            let difference = (whole(&pose.moved(&by)) - whole(&pose.moved(&-by))) / 2e-6;
+            let difference = (whole(&pose.after_motion(&by)) - whole(&pose.after_motion(&-by))) / 2e-6;
             // rounding of numbers of 100 over 1e-6
             assert!((difference - made.column(n)).amax() < 1e-6, "{n}");
         }

@@ -36,7 +36,7 @@ pub use duties::RunRequirements;
 pub(crate) use ends::end_of;
 pub use forces::{Forces, Memory, Motion};
 pub use history::{History, Layout, LinkColumns, LinkEnds, OF_BODY};
-pub use prescribed::{Prescribed, prescribed};
+pub use prescribed::{Prescribed, build_prescribed};
 pub use pushing::Pushing;
 pub use resolution::{Resolution, Swing};
 pub use run::{Run, SNAPSHOT};

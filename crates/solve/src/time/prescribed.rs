@@ -24,21 +24,23 @@ pub trait Prescribed: Debug + Send + Sync {
     ///
     /// # Errors
     /// A time for which there is none.
-    fn at(&self, time: f64) -> Result<Motion, ClassError>;
+    fn motion_at(&self, time: f64) -> Result<Motion, ClassError>;
 }
 
 /// The motion a body of a model is given in a sea, from where it stands; `None` of one that forces move.
 ///
 /// # Errors
 /// Waves beyond a table of responses.
-pub fn prescribed(body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<Box<dyn Prescribed>>, ClassError> {
+pub fn build_prescribed(body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<Box<dyn Prescribed>>, ClassError> {
     let Some(given) = &body.prescribed else { return Ok(None) };
     let made: Box<dyn Prescribed> = match &given.motion {
         GivenMotion::Sinusoids { list, ramp } => {
             Box::new(Swinging { place: body.place, list: list.clone(), ramp: *ramp })
         }
-        GivenMotion::Responses(table) => Box::new(Riding::new(body.place, table, sea).map_err(|e| e.at(given.span))?),
-        GivenMotion::Path(rows) => Box::new(Spline::of(rows).map_err(|e| e.at(given.span))?),
+        GivenMotion::Responses(table) => {
+            Box::new(Riding::new(body.place, table, sea).map_err(|e| e.with_span(given.span))?)
+        }
+        GivenMotion::Path(rows) => Box::new(Spline::new(rows).map_err(|e| e.with_span(given.span))?),
     };
     Ok(Some(made))
 }
@@ -51,7 +53,7 @@ pub(super) type Freedoms = [[f64; 6]; 3];
 /// The axes are those of yaw about z, pitch about y and roll about x, each about the axes already turned. With e1 the body's x axis, e2 the
 /// y axis after the yaw alone and e3 the vertical, the rotation is `roll' e1 + pitch' e2 + yaw' e3`; e2 turns with the yaw and e1 with
 /// yaw and pitch, which gives its derivative.
-pub(super) fn moved([values, rates, seconds]: &Freedoms) -> Motion {
+pub(super) fn motion_from_dofs([values, rates, seconds]: &Freedoms) -> Motion {
     let place = Place::new(*values);
     let pose = Pose::of(&place);
     let [_, _, yaw] = place.turn;
@@ -97,7 +99,7 @@ pub(super) fn product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 impl Prescribed for Swinging {
-    fn at(&self, time: f64) -> Result<Motion, ClassError> {
+    fn motion_at(&self, time: f64) -> Result<Motion, ClassError> {
         let grown = ramp(time, self.ramp);
         let mut dofs = [self.place.values(), [0.0; 6], [0.0; 6]];
         for sine in &self.list {
@@ -110,6 +112,6 @@ impl Prescribed for Swinging {
                 }
             }
         }
-        Ok(moved(&dofs))
+        Ok(motion_from_dofs(&dofs))
     }
 }

@@ -24,7 +24,7 @@ pub struct Pushing {
 
 impl Pushing {
     /// Of a connector between two ends, of which that of a number is told, or else the first on a body.
-    pub(crate) fn of(from: f64, ends: &[Attachment], told: usize) -> Option<Self> {
+    pub(crate) fn new(from: f64, ends: &[Attachment], told: usize) -> Option<Self> {
         let place = |end: &Attachment| match end {
             Attachment::Ground(pose) => (None, pose.origin),
             Attachment::Body(body, at) => (Some(*body), *at),

@@ -92,7 +92,7 @@ impl Run {
     pub fn new(model: &Model, settings: Settings, actions: Vec<Action>) -> Result<Self, SolveError> {
         model.check_added_mass().map_err(SolveError::new)?;
         let (origin, model) = (model.clone(), model.clone());
-        let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
+        let sea = Sea::new(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
         let duties = RunRequirements::foreseen(&model, &actions, &settings);
         let system = System::under_way(&model, sea.as_ref(), duties)?;
         let mut links = system.link_ends();
@@ -109,14 +109,14 @@ impl Run {
         let mut later = Vec::new();
         for environment in actions.iter().filter_map(|a| model.environments.get(&Model::key(a.environment()?))) {
             let changed = Model { environment: environment.clone(), ..model.clone() };
-            let sea = Sea::of(&changed, environment).map_err(SolveError::new)?.map(Arc::new);
+            let sea = Sea::new(&changed, environment).map_err(SolveError::new)?.map(Arc::new);
             later.extend(moving_nodes(&changed, sea.as_ref())?);
         }
         let layout = Layout::new(&system, &later, links, settings.along);
         settings.fits(&layout)?;
         let motions: Vec<Motion> =
             system.state(&model).poses.into_iter().map(|pose| Motion { pose, ..Motion::default() }).collect();
-        let memory = Memory::of(&system);
+        let memory = Memory::new(&system);
         let fired = vec![None; actions.len()];
         let near = model.bodies.values().map(|b| b.place).collect();
         let from = settings.transient;
@@ -218,7 +218,7 @@ impl Run {
                 return Ok(Ending::Interrupted);
             }
             let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
-            let mut stop = match self.to(end) {
+            let mut stop = match self.advance_to(end) {
                 Ok(stop) => stop,
                 // a factorisation that listened ends its step with an error
                 Err(_) if !watcher.goes_on(self.now.time) => return Ok(Ending::Interrupted),
@@ -234,7 +234,7 @@ impl Run {
                 self.now.time = end;
                 stop = self.happens()?;
             }
-            let capsized = self.capsized();
+            let capsized = self.find_capsized_body();
             let last = self.taken == steps || stop.is_some() || capsized.is_some();
             if last || self.taken.is_multiple_of(self.settings.store.max(1)) {
                 self.keep(watcher)?;
@@ -253,7 +253,7 @@ impl Run {
     }
 
     /// Goes to a time, in as many parts as that needs; gives the name of an action that ends the run before.
-    fn to(&mut self, end: f64) -> Result<Option<String>, SolveError> {
+    fn advance_to(&mut self, end: f64) -> Result<Option<String>, SolveError> {
         // halvings for the error or a balance, and for a condition that comes true
         let (mut level, mut sought) = (0, 0);
         loop {
@@ -271,7 +271,7 @@ impl Run {
             {
                 part = part.min(at - self.now.time);
             }
-            let before = (self.settings.adaptive.is_some() || self.waits()).then(|| self.before());
+            let before = (self.settings.adaptive.is_some() || self.waits()).then(|| self.checkpoint());
             let winches = self.wind(self.now.time + part)?;
             match self.stepper.step(
                 &mut self.system,
@@ -341,7 +341,7 @@ impl Run {
     }
 
     /// What a part of a step changes.
-    fn before(&self) -> Before {
+    fn checkpoint(&self) -> Before {
         Before {
             time: self.now.time,
             motions: self.now.motions.clone(),
@@ -375,7 +375,7 @@ impl Run {
         for (node, motion) in self.system.nodes.iter().zip(&self.now.motions) {
             let a = &motion.acceleration;
             let own = -(mass_block(&node.floating.mass, &motion.pose) * a);
-            let added = if node.added { -(node.floating.added(&motion.pose) * a) } else { Six::zeros() };
+            let added = if node.added { -(node.floating.added_mass(&motion.pose) * a) } else { Six::zeros() };
             told.inertia.push([own, added, -gyroscopic(&node.floating.mass, motion)]);
         }
         // lengths change by winches alone
@@ -404,7 +404,7 @@ impl Run {
         watcher.row(&self.row).map_err(unkept)
     }
 
-    fn capsized(&self) -> Option<String> {
+    fn find_capsized_body(&self) -> Option<String> {
         if self.settings.capsize {
             return None;
         }

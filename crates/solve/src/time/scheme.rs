@@ -45,21 +45,21 @@ impl Method {
     /// A stiff line that goes slack within a step leaves its last pull in the acceleration with which the next step begins. With a
     /// spectral radius near one that throws what hangs on it up, faster from bounce to bounce; damped as the line is itself it does not.
     pub fn with_moving_lines() -> Self {
-        Method::Implicit(Scheme::generalised(RHO_OF_LINES))
+        Method::Implicit(Scheme::generalised_alpha(RHO_OF_LINES))
     }
 }
 
 impl Default for Method {
     fn default() -> Self {
-        Method::Implicit(Scheme::generalised(RHO))
+        Method::Implicit(Scheme::generalised_alpha(RHO))
     }
 }
 
 impl Scheme {
     /// The generalised-alpha scheme of a spectral radius at infinite frequency, 0 to 1: second order, unconditionally stable for
     /// linear systems, least damping of low frequencies [CHUNG-HULBERT-1993 eq. 25].
-    pub fn generalised(rho: f64) -> Self {
-        let SchemeWeights { alpha_m, alpha_f, beta, gamma } = SchemeWeights::generalised(rho);
+    pub fn generalised_alpha(rho: f64) -> Self {
+        let SchemeWeights { alpha_m, alpha_f, beta, gamma } = SchemeWeights::generalised_alpha(rho);
         Scheme { alpha_m, alpha_f, beta, gamma }
     }
 

@@ -174,7 +174,7 @@ impl Snapshot {
         let rows = from.plain()?;
         let [steps, cut, iterations, evaluations] = [from.plain()?, from.plain()?, from.plain()?, from.plain()?];
         let counts = Counts { steps, cut, iterations, evaluations };
-        let accuracy = Accuracy::of(&from.list()?)?;
+        let accuracy = Accuracy::from_numbers(&from.list()?)?;
         let whole = from.0.is_empty();
         whole.then_some(Snapshot {
             time,

@@ -67,7 +67,7 @@ pub struct Statistics {
 impl Statistics {
     /// Of the results of a layout, from a time on (s).
     pub fn new(layout: &Layout, from: f64) -> Self {
-        Statistics { list: results(layout).into_iter().map(|s| (s, Running::about(0.0))).collect(), from }
+        Statistics { list: results(layout).into_iter().map(|s| (s, Running::with_level(0.0))).collect(), from }
     }
 
     /// Takes the results of a row.
@@ -85,7 +85,7 @@ impl Statistics {
     }
 
     /// Every result with what was seen of it.
-    pub fn all(&self) -> impl Iterator<Item = (&Series, &Running)> {
+    pub fn results(&self) -> impl Iterator<Item = (&Series, &Running)> {
         self.list.iter().map(|(series, running)| (series, running))
     }
 }

@@ -152,7 +152,7 @@ impl Stepper {
         let solved = Lu::new(matrix, &|| system.is_interrupted()).and_then(|lu| lu.solve(&right));
         let solved = solved.map_err(|e| match e {
             DenseError::Singular => self.singular(system, &rows),
-            other => system.unfactored("force or inertia", &rows, other),
+            other => system.singular_matrix_error("force or inertia", &rows, other),
         })?;
         for motion in now.motions.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()).map(|(m, _)| m)
         {
@@ -222,7 +222,7 @@ impl Stepper {
     pub(super) fn pose(&mut self, system: &System, start: &[Motion]) {
         for (((trial, over), old), node) in self.trial.iter_mut().zip(&self.over).zip(start).zip(&system.nodes) {
             if node.prescribed.is_none() {
-                trial.pose = old.pose.moved(over);
+                trial.pose = old.pose.after_motion(over);
             }
         }
     }
@@ -231,7 +231,7 @@ impl Stepper {
         for ((trial, over), node) in self.trial.iter_mut().zip(&mut self.over).zip(&system.nodes) {
             if let Some(prescribed) = &node.prescribed {
                 let before = *trial;
-                *trial = prescribed.at(time).map_err(SolveError::of(&node.name))?;
+                *trial = prescribed.motion_at(time).map_err(SolveError::about(&node.name))?;
                 let by = trial.pose.origin - before.pose.origin;
                 let turn = (before.velocity + trial.velocity) * (0.5 * dt);
                 // to the order of the step, as a forecast needs it
@@ -312,7 +312,7 @@ impl Stepper {
                 break;
             }
             if effort.iterations >= wanted.most {
-                return Err(self.unbalanced(system, left, time, dt));
+                return Err(self.unbalanced_error(system, left, time, dt));
             }
             effort.iterations += 1;
             self.turn(system);
@@ -351,10 +351,10 @@ impl Stepper {
     /// The error of a step whose correction cannot be found.
     fn unsolvable(&self, system: &System, error: DenseError, left: f64, (time, dt): (f64, f64)) -> SolveError {
         match error {
-            DenseError::Singular | DenseError::NotPositive => self.unbalanced(system, left, time, dt),
+            DenseError::Singular | DenseError::NotPositive => self.unbalanced_error(system, left, time, dt),
             other => {
                 let rows: Vec<usize> = self.rows.iter().map(|r| r.at).collect();
-                let made = system.unfactored("stiffness, damping or inertia", &rows, other);
+                let made = system.singular_matrix_error("stiffness, damping or inertia", &rows, other);
                 SolveError {
                     error: ClassError { message: format!("{} at {time} s", made.error.message), ..made.error },
                     ..made
@@ -364,15 +364,20 @@ impl Stepper {
     }
 
     /// The error of a step whose iteration ended before the balance was found.
-    fn unbalanced(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
+    fn unbalanced_error(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
         let most = |a: (usize, f64), b: (usize, f64)| if b.1.abs() > a.1.abs() { b } else { a };
         let worst = self.right.iter().copied().enumerate().reduce(most).and_then(|(at, _)| self.rows.get(at));
-        unsolved(system, (worst.map_or(0, |r| r.at), left), (time, dt), "an acceleration is left of")
+        unsolved_error(system, (worst.map_or(0, |r| r.at), left), (time, dt), "an acceleration is left of")
     }
 }
 
 /// The error of a step without a solution: the degree of freedom that is worst, six a body, and what is left there (m/s2).
-pub(super) fn unsolved(system: &System, (at, left): (usize, f64), (time, dt): (f64, f64), what: &str) -> SolveError {
+pub(super) fn unsolved_error(
+    system: &System,
+    (at, left): (usize, f64),
+    (time, dt): (f64, f64),
+    what: &str,
+) -> SolveError {
     let name = system.nodes.get(at / 6).map(|n| n.name.clone());
     let dof = DOFS.get(at % 6).copied().unwrap_or_default();
     let text =

@@ -20,7 +20,7 @@ pub struct Attachment {
 
 impl Attachment {
     /// A point of a structure, `local` from its centre of gravity (m).
-    pub fn of(local: Vector3<f64>, pose: &Pose, velocity: &Six) -> Self {
+    pub fn new(local: Vector3<f64>, pose: &Pose, velocity: &Six) -> Self {
         let spin = Vector3::new(velocity[3], velocity[4], velocity[5]);
         let arm = pose.axes * local;
         Attachment {
@@ -33,7 +33,7 @@ impl Attachment {
     }
 
     /// The same with the acceleration of the structure; `arm` is from its centre of gravity (m, global).
-    pub fn accelerated(&mut self, arm: Vector3<f64>, acceleration: &Six) {
+    pub fn add_acceleration(&mut self, arm: Vector3<f64>, acceleration: &Six) {
         let turn = Vector3::new(acceleration[3], acceleration[4], acceleration[5]);
         let [spin, _] = self.spin;
         self.acceleration = Vector3::new(acceleration[0], acceleration[1], acceleration[2])
@@ -64,7 +64,7 @@ impl Default for Axis {
 
 impl Axis {
     /// That from an anchor to an attachment (m, global); `None` where they are at one place or the attachment is straight below.
-    pub fn of(anchor: Vector3<f64>, attachment: Vector3<f64>) -> Option<Self> {
+    pub fn new(anchor: Vector3<f64>, attachment: Vector3<f64>) -> Option<Self> {
         let chord = (attachment - anchor).norm();
         let along = (attachment - anchor).try_normalize(0.0)?;
         let [x, y, z] = [along.x, along.y, along.z];
@@ -101,13 +101,13 @@ mod tests {
     #[test]
     fn the_cross_directions_are_those_of_a_turn() {
         for end in [Vector3::new(3.0, -4.0, 12.0), Vector3::new(0.0, 0.0, 2.0), Vector3::new(-5.0, 0.1, 0.3)] {
-            let axis = Axis::of(Vector3::zeros(), end).unwrap();
+            let axis = Axis::new(Vector3::zeros(), end).unwrap();
             let [x, y] = axis.across;
             assert!((x.cross(&y) - axis.along).norm() < 1e-15 && (x.norm() - 1.0).abs() < 1e-15);
             let [rx, ry] = [-axis.tilt[1], axis.tilt[0]];
             let turn = nalgebra::Rotation3::new(Vector3::new(rx, ry, 0.0));
             assert!((turn * Vector3::x() - x).norm() < 1e-15 && (turn * Vector3::z() - axis.along).norm() < 1e-15);
         }
-        assert!(Axis::of(Vector3::zeros(), -Vector3::z()).is_none());
+        assert!(Axis::new(Vector3::zeros(), -Vector3::z()).is_none());
     }
 }

@@ -36,16 +36,16 @@ impl Description {
     ///
     /// # Errors
     /// A tether that cannot be reckoned with, or is too short for its span.
-    pub fn of(tether: &InstalledTether, attachment: Vector3<f64>, flow: &Flow) -> Result<Self, ClassError> {
+    pub fn new(tether: &InstalledTether, attachment: Vector3<f64>, flow: &Flow) -> Result<Self, ClassError> {
         tether.check()?;
         let distance = (attachment - tether.anchor).norm();
         tether.spans(distance)?;
-        let Some(axis) = Axis::of(tether.anchor, attachment) else {
+        let Some(axis) = Axis::new(tether.anchor, attachment) else {
             return Err(ClassError::new(format!("tether {} hangs straight below its anchor", tether.name)));
         };
         let (density, gravity) = (flow.density, flow.gravity);
-        let axial = Axial::of(tether, [density, gravity], false);
-        let water = flow.at(0.0);
+        let axial = Axial::new(tether, [density, gravity], false);
+        let water = flow.at_time(0.0);
         let tension = axial.tension(&axis, attachment.z, 0.0, &water);
         let line = &tether.line;
         let inside = |e: &crate::TetherElement| tether.fluid.density * e.tube().internal_area() * e.length;
@@ -68,7 +68,7 @@ impl Description {
 
     /// The listing of it [AQWA-TETHER 7.1]: the tether's number from 1, and what the nodes at anchor and attachment are called. A lower stop
     /// that is not given is infinitely far down.
-    pub fn listed<'a>(
+    pub fn to_listing<'a>(
         &self,
         tether: &'a InstalledTether,
         (number, [anchor, vessel]): (usize, [&str; 2]),

@@ -49,12 +49,12 @@ pub fn modes(
 ) -> Result<Vec<InstalledMode>, ClassError> {
     tether.check()?;
     tether.spans((attachment - tether.anchor).norm())?;
-    let Some(axis) = Axis::of(tether.anchor, attachment) else {
+    let Some(axis) = Axis::new(tether.anchor, attachment) else {
         return Err(ClassError::new(format!("tether {} hangs straight below its anchor", tether.name)));
     };
-    let axial = Axial::of(tether, [flow.density, flow.gravity], compatibility.uniform_tension);
-    let tension = axial.tension(&axis, attachment.z, 0.0, &flow.at(0.0));
-    let bending = Bending::of(tether, flow.density, flow.gravity);
+    let axial = Axial::new(tether, [flow.density, flow.gravity], compatibility.uniform_tension);
+    let tension = axial.tension(&axis, attachment.z, 0.0, &flow.at_time(0.0));
+    let bending = Bending::new(tether, flow.density, flow.gravity);
     let mut found = [Vec::new(), Vec::new()];
     for (plane, list) in found.iter_mut().enumerate() {
         let Matrices { stiffness, mass, beams, springs } = bending.matrices(plane, &tension, &axial);

@@ -9,7 +9,7 @@ use crate::compatibility::{Compatibility, SpringReference};
 use crate::structure::flow::FlowAt;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{carried, cross};
+use windlass_hydro::{cross, move_wrench};
 use windlass_model::ClassError;
 
 /// Which of the two stages of a step.
@@ -71,8 +71,8 @@ impl Rig {
         tether.check()?;
         let elements = tether.line.elements().len();
         Ok(Rig {
-            axial: Axial::of(&tether, [density, gravity], compatibility.uniform_tension),
-            bending: Bending::of(&tether, density, gravity),
+            axial: Axial::new(&tether, [density, gravity], compatibility.uniform_tension),
+            bending: Bending::new(&tether, density, gravity),
             axis: Axis::default(),
             attachment: Attachment::default(),
             tension: Tension::default(),
@@ -93,8 +93,8 @@ impl Rig {
         water: &FlowAt,
         compatibility: &Compatibility,
     ) -> Result<Six, ClassError> {
-        self.attachment = Attachment::of(self.tether.attachment, pose, velocity);
-        let Some(axis) = Axis::of(self.tether.anchor, self.attachment.at) else {
+        self.attachment = Attachment::new(self.tether.attachment, pose, velocity);
+        let Some(axis) = Axis::new(self.tether.anchor, self.attachment.at) else {
             return Err(ClassError::new("its attachment is at the anchor or straight below it"));
         };
         self.axis = axis;
@@ -125,13 +125,13 @@ impl Rig {
         };
         let force = -(axis.along * tension.pull + axis.across[0] * across[0] + axis.across[1] * across[1]);
         let arm = self.attachment.at - pose.origin;
-        let mut sum = carried(&Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), arm);
+        let mut sum = move_wrench(&Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), arm);
         if !compatibility.tension_alone_on_structure {
             let moment = axis.across[1] * coil[0] - axis.across[0] * coil[1];
             sum += Six::new(0.0, 0.0, 0.0, moment.x, moment.y, moment.z);
         }
         for (push, at) in &self.bending.pushes {
-            sum += carried(&Six::new(push.x, push.y, push.z, 0.0, 0.0, 0.0), at - pose.origin);
+            sum += move_wrench(&Six::new(push.x, push.y, push.z, 0.0, 0.0, 0.0), at - pose.origin);
         }
         if !sum.iter().all(|x| x.is_finite()) {
             return Err(ClassError::new("its force on the structure has no value"));
@@ -140,7 +140,7 @@ impl Rig {
     }
 
     /// The inertia across its axis that rides on the structure with the axis, about the centre of gravity, after [`Rig::pull`].
-    pub(super) fn entrained(&self, pose: &Pose) -> Matrix6<f64> {
+    pub(super) fn entrained_inertia(&self, pose: &Pose) -> Matrix6<f64> {
         let (arm, along) = (cross(self.attachment.at - pose.origin), self.axis.along);
         let plane = Matrix3::identity() - along * along.transpose();
         let mut sum = Matrix6::zeros();
@@ -148,7 +148,7 @@ impl Rig {
         sum.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-plane * arm));
         sum.fixed_view_mut::<3, 3>(3, 0).copy_from(&(arm * plane));
         sum.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-arm * plane * arm));
-        sum * (self.bending.entrained(&self.tension) * self.tether.group)
+        sum * (self.bending.entrained_mass(&self.tension) * self.tether.group)
     }
 
     /// Finds the accelerations of a stage, that of the structure being known.
@@ -159,7 +159,7 @@ impl Rig {
         water: &FlowAt,
         dt: f64,
     ) -> Result<(), ClassError> {
-        self.attachment.accelerated(self.attachment.at - pose.origin, acceleration);
+        self.attachment.add_acceleration(self.attachment.at - pose.origin, acceleration);
         let stage = Stage { axis: &self.axis, attachment: &self.attachment, tension: &self.tension, water, dt };
         self.bending.stage(which == Which::Second, &stage)
     }
@@ -185,7 +185,7 @@ impl Rig {
     /// Axial stress that impacts left at a time (Pa).
     pub fn impact_stress(&self, time: f64) -> f64 {
         match (self.impact, self.tether.impact) {
-            (Some((stress, at)), Some(law)) => law.decayed(stress, time - at),
+            (Some((stress, at)), Some(law)) => law.stress_after(stress, time - at),
             _ => 0.0,
         }
     }

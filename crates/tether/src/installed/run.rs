@@ -117,7 +117,7 @@ impl<'a> Installation<'a> {
             rig.tether().spans((at - rig.tether().anchor).norm())?;
         }
         let dt = course.step;
-        let mut water = self.flow.at(course.start);
+        let mut water = self.flow.at_time(course.start);
         let mut forces = [Forces::default(), Forces::default()];
         let mut events = Vec::with_capacity(self.rigs.len());
         let (mut pose, mut velocity) = (course.pose, course.velocity);
@@ -138,7 +138,7 @@ impl<'a> Installation<'a> {
                 events.extend(change.map(|change| Event { time, tether, change }));
             }
             self.tethers(Which::First, (&pose, &a1), &water, (dt, time))?;
-            let ahead = (pose.moved(&(velocity * dt + a1 * (0.5 * dt * dt))), velocity + a1 * dt);
+            let ahead = (pose.after_motion(&(velocity * dt + a1 * (0.5 * dt * dt))), velocity + a1 * dt);
             water.move_to(time + dt);
             let end = Underway { time: time + dt, dt, pose: &ahead.0, velocity: &ahead.1 };
             let a2 = self.accelerate(Which::Second, &end, &water, second)?;
@@ -160,7 +160,7 @@ impl<'a> Installation<'a> {
                 VesselScheme::StraightAcceleration => (a1 * 2.0 + a2) / 6.0,
                 VesselScheme::MeanVelocity => (a1 + a2) / 4.0,
             };
-            pose = pose.moved(&(velocity * dt + second * (dt * dt)));
+            pose = pose.after_motion(&(velocity * dt + second * (dt * dt)));
             velocity += (a1 + a2) * (0.5 * dt);
             self.rigs.iter_mut().for_each(|rig| rig.advance(dt));
         }
@@ -178,12 +178,12 @@ impl<'a> Installation<'a> {
         forces.mooring = Six::zeros();
         for rig in &mut self.rigs {
             let pull = rig.pull(which, (at.pose, at.velocity), water, &self.compatibility);
-            forces.mooring += pull.map_err(|e| named(e, rig.tether(), at.time))?;
+            forces.mooring += pull.map_err(|e| with_tether_and_time(e, rig.tether(), at.time))?;
         }
         self.structure.forces(at, water, which == Which::First, forces)?;
         if !self.compatibility.tension_alone_on_structure {
             for rig in &self.rigs {
-                forces.inertia += rig.entrained(at.pose);
+                forces.inertia += rig.entrained_inertia(at.pose);
             }
         }
         forces.acceleration().map_err(|mut e| {
@@ -203,7 +203,7 @@ impl<'a> Installation<'a> {
     ) -> Result<(), ClassError> {
         let told = if self.compatibility.second_stage_tables { Which::Second } else { Which::First };
         for rig in &mut self.rigs {
-            rig.solve(which, structure, water, dt).map_err(|e| named(e, rig.tether(), time))?;
+            rig.solve(which, structure, water, dt).map_err(|e| with_tether_and_time(e, rig.tether(), time))?;
             if which == told {
                 rig.bear(which, water, dt, time);
             }
@@ -232,8 +232,11 @@ impl<'a> Installation<'a> {
         let text =
             "a step of {} is too long: the structure swings on its tethers in {}, for which {} at most is stable";
         let period = TAU / highest;
-        Err(ClassError::of(text, &[(course.step, Dim::Time), (period, Dim::Time), (STABLE / highest, Dim::Time)])
-            .help(format!("a tenth of the period, {:.3} s, follows that motion", period / 10.0)))
+        Err(ClassError::with_values(
+            text,
+            &[(course.step, Dim::Time), (period, Dim::Time), (STABLE / highest, Dim::Time)],
+        )
+        .help(format!("a tenth of the period, {:.3} s, follows that motion", period / 10.0)))
     }
 }
 
@@ -246,7 +249,10 @@ impl Course {
             return Err(ClassError::new("the run has a start that is no finite number"));
         }
         if !(self.step.is_finite() && self.step > 0.0) {
-            return Err(ClassError::of("the step of the run is {}; it must be above zero", &[(self.step, Dim::Time)]));
+            return Err(ClassError::with_values(
+                "the step of the run is {}; it must be above zero",
+                &[(self.step, Dim::Time)],
+            ));
         }
         if self.states == 0 || self.states > MOST_STEPS {
             return Err(ClassError::new(format!("a run has 1 to {MOST_STEPS} steps, not {}", self.states)));
@@ -256,7 +262,7 @@ impl Course {
 }
 
 /// An error of a tether with its name and the time.
-fn named(mut error: ClassError, tether: &InstalledTether, time: f64) -> ClassError {
+fn with_tether_and_time(mut error: ClassError, tether: &InstalledTether, time: f64) -> ClassError {
     error.message = format!("tether {} at {{}}: {}", tether.name, error.message);
     error.values.insert(0, (time, Dim::Time));
     error

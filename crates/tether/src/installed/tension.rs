@@ -79,7 +79,7 @@ pub struct Tension {
 
 impl Axial {
     /// That of a tether in water of a density (kg/m3) under a gravity (m/s2); `uniform`: what bends it is the tension in its middle all along.
-    pub fn of(tether: &InstalledTether, [density, gravity]: [f64; 2], uniform: bool) -> Self {
+    pub fn new(tether: &InstalledTether, [density, gravity]: [f64; 2], uniform: bool) -> Self {
         let line = &tether.line;
         let (mut below, mut start) = (0.0, 0.0);
         let length = line.length();
@@ -135,7 +135,7 @@ impl Axial {
         let cosine = axis.along.z;
         let mut made = Tension { cosine, length: axis.chord, ..Tension::default() };
         made.heights = [top - axis.chord * cosine, top];
-        let loads = self.strained(&made, water);
+        let loads = self.extension_by_weight_and_pressure(&made, water);
         let pressed = self.caps[0] * water.hydrostatic(made.heights[0]);
         let taut = (axis.chord + arc - self.length - loads) / self.flexibility;
         made.bottom = taut;
@@ -159,7 +159,7 @@ impl Axial {
     }
 
     /// How much longer the tether is by weight and pressure than by its tension at the lower end (m).
-    fn strained(&self, at: &Tension, water: &FlowAt) -> f64 {
+    fn extension_by_weight_and_pressure(&self, at: &Tension, water: &FlowAt) -> f64 {
         let height = |share: f64| at.heights[0] + (at.heights[1] - at.heights[0]) * share;
         let mut sum = 0.0;
         for span in &self.spans {

@@ -134,7 +134,7 @@ pub struct Impact {
 
 impl Impact {
     /// What is left of a stress (Pa) a time (s) later.
-    pub fn decayed(&self, stress: f64, after: f64) -> f64 {
+    pub fn stress_after(&self, stress: f64, after: f64) -> f64 {
         stress * (-std::f64::consts::LN_2 * after / self.half_life).exp()
     }
 }
@@ -247,7 +247,7 @@ impl InstalledTether {
         }
         if span > length * (1.0 + MOST_STRAIN) {
             let text = format!("tether {} is {{}} long, shorter than its span of {{}}", self.name);
-            return Err(ClassError::of(text, &[(length, Dim::Length), (span, Dim::Length)])
+            return Err(ClassError::with_values(text, &[(length, Dim::Length), (span, Dim::Length)])
                 .help("give longer elements, or see the anchor, the attachment and the place of the structure"));
         }
         Ok(())

@@ -4,7 +4,7 @@ use super::flow::FlowAt;
 use super::{Forces, Structure};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{BodyLoad, Category, Floating, Underway, carried, in_pose, transferred};
+use windlass_hydro::{BodyLoad, Category, Floating, Underway, in_pose, move_stiffness, move_wrench};
 use windlass_model::ClassError;
 
 /// A body with its loads, about its centre of gravity.
@@ -34,7 +34,7 @@ impl Afloat {
             return Err(ClassError::new("the structure that the tethers hold has no mass"));
         }
         let centre = mass.centre;
-        let about = |matrix: &Matrix6<f64>| transferred(matrix, -centre, -centre);
+        let about = |matrix: &Matrix6<f64>| move_stiffness(matrix, -centre, -centre);
         let outer = centre * centre.transpose();
         let turning = mass.inertia - (Matrix3::identity() * centre.norm_squared() - outer) * mass.mass;
         let mut own = Matrix6::identity() * mass.mass;
@@ -76,9 +76,9 @@ impl Structure for Afloat {
         out.inertia = in_pose(&self.inertia, at.pose);
         for (load, state) in self.loads.iter().zip(&mut self.states) {
             load.begin(&own, state)?;
-            let wrench = carried(&load.moving(&own, state)?.load.wrench, -arm);
+            let wrench = move_wrench(&load.moving(&own, state)?.load.wrench, -arm);
             if let Some(more) = load.inertia(state) {
-                out.inertia += transferred(&more, -arm, -arm);
+                out.inertia += move_stiffness(&more, -arm, -arm);
             }
             match load.category() {
                 Category::Weight => out.gravity += wrench,

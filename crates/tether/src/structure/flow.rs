@@ -47,12 +47,12 @@ impl Flow {
     }
 
     /// The same with waves.
-    pub fn with(self, waves: Waves) -> Self {
+    pub fn with_waves(self, waves: Waves) -> Self {
         Flow { waves, ..self }
     }
 
     /// The water at a time (s), ready to be asked at many places.
-    pub fn at(&self, time: f64) -> FlowAt<'_> {
+    pub fn at_time(&self, time: f64) -> FlowAt<'_> {
         let sea = match &self.waves {
             Waves::Sea(sea) => Some(sea.at(time)),
             _ => None,

@@ -20,7 +20,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::f64::consts::PI;
 use windlass_base::dense::{Cholesky, never};
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{Underway, carried, cross};
+use windlass_hydro::{Underway, cross, move_wrench};
 use windlass_model::ClassError;
 
 /// Friction along a tube that AQWA always counts ([AQWA-REF TUBE]; a fit to the listing of [AQWA-TETHER 8.2] gives 0.01600).
@@ -98,12 +98,12 @@ impl Structure for Tubes {
         let turned = at.pose.axes * self.inertia * at.pose.axes.transpose();
         let spin = Vector3::new(at.velocity[3], at.velocity[4], at.velocity[5]);
         out.gravity[2] = -self.mass * water.flow().gravity;
-        put(&mut out.gyroscopic, Vector3::zeros(), -spin.cross(&(turned * spin)));
+        add_force(&mut out.gyroscopic, Vector3::zeros(), -spin.cross(&(turned * spin)));
         out.inertia.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
         out.inertia *= self.mass;
         out.inertia.fixed_view_mut::<3, 3>(3, 3).copy_from(&turned);
         for tube in &self.tubes {
-            if let Some(wet) = WetPart::of(tube.ends.map(|end| at.pose.point(end)), water) {
+            if let Some(wet) = WetPart::new(tube.ends.map(|end| at.pose.point(end)), water) {
                 tube.add(&wet, (at.pose, at.velocity), water, &self.compatibility, out);
             }
         }
@@ -112,7 +112,7 @@ impl Structure for Tubes {
 }
 
 /// Adds a force (N) with an arm (m) and a moment (N m).
-fn put(sum: &mut Six, force: Vector3<f64>, moment: Vector3<f64>) {
+fn add_force(sum: &mut Six, force: Vector3<f64>, moment: Vector3<f64>) {
     *sum += Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
 }
 
@@ -122,7 +122,7 @@ struct Straight([Vector3<f64>; 2]);
 
 impl Straight {
     /// At a place from 0 to 1.
-    fn at(&self, x: f64) -> Vector3<f64> {
+    fn position(&self, x: f64) -> Vector3<f64> {
         self.0[0] + (self.0[1] - self.0[0]) * ((x - TWO[0]) / (TWO[1] - TWO[0]))
     }
 }
@@ -148,12 +148,12 @@ impl Tube {
         let (flow, rate) = (Straight(found.map(|k| k.velocity)), Straight(found.map(|k| k.acceleration)));
         // where along the fit a share of the whole member stands
         let along = |share: f64| if compatibility.whole_element_kinematics { share } else { share / wet.share };
-        let relative = |share: f64| flow.at(along(share)) - velocity - spin.cross(&arm(share));
+        let relative = |share: f64| flow.position(along(share)) - velocity - spin.cross(&arm(share));
 
         let lift = Vector3::z() * (density * gravity * section * length);
-        out.hydrostatic += carried(&force(lift), arm(0.5 * wet.share));
+        out.hydrostatic += move_wrench(&force(lift), arm(0.5 * wet.share));
         let [foot, head] = [0.0, wet.share].map(|share| water.kinematics(wet.point(share)).pressure);
-        out.froude_krylov += carried(&force(axis * (section * (foot - head))), arm(0.0));
+        out.froude_krylov += move_wrench(&force(axis * (section * (foot - head))), arm(0.0));
 
         let mut mean = Vector3::zeros();
         for (x, weight) in THREE {
@@ -161,19 +161,19 @@ impl Tube {
             let part = weight * length;
             let u = across(relative(share));
             mean += u * weight;
-            let inertial = across(rate.at(along(share))) * (density * section * part);
-            out.froude_krylov += carried(&force(inertial), arm(share));
-            out.wave_inertia += carried(&force(inertial * self.added), arm(share));
+            let inertial = across(rate.position(along(share))) * (density * section * part);
+            out.froude_krylov += move_wrench(&force(inertial), arm(share));
+            out.wave_inertia += move_wrench(&force(inertial * self.added), arm(share));
             let drag = u * (0.5 * density * self.drag * self.diameter * part * u.norm());
-            out.drag += carried(&force(drag), arm(share));
+            out.drag += move_wrench(&force(drag), arm(share));
             self.add_mass(arm(share), axis, density * section * self.added * part, &mut out.inertia);
         }
         let at = if compatibility.friction_at_first_node { 0.0 } else { 0.5 * wet.share };
         let slip = axis.dot(&relative(at));
         let friction = 0.5 * density * self.friction * PI * self.diameter * length * slip.abs() * slip;
-        out.drag += carried(&force(axis * friction), arm(0.0));
+        out.drag += move_wrench(&force(axis * friction), arm(0.0));
         let munk = axis.cross(&mean) * (-density * section * self.added * length * slip);
-        put(&mut out.drag, Vector3::zeros(), munk);
+        add_force(&mut out.drag, Vector3::zeros(), munk);
     }
 
     /// Adds a mass (kg) that resists motion across an axis at the end of an arm.

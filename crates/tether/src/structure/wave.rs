@@ -44,7 +44,7 @@ impl DeepWave {
         let sound = |value: f64| value.is_finite() && value > 0.0;
         if !(sound(period) && sound(gravity) && amplitude.is_finite() && amplitude >= 0.0 && direction.is_finite()) {
             let text = "a regular wave with an amplitude of {} and a period of {} cannot be";
-            return Err(ClassError::of(text, &[(amplitude, Dim::Length), (period, Dim::Time)]));
+            return Err(ClassError::with_values(text, &[(amplitude, Dim::Length), (period, Dim::Time)]));
         }
         let frequency = TAU / period;
         let number = frequency * frequency / gravity;
@@ -55,7 +55,7 @@ impl DeepWave {
     }
 
     /// The same on a current (m/s, global): a point at rest meets `w + k . U` [DEAN-DALRYMPLE-1991 3.5].
-    pub fn carried(self, current: Vector3<f64>) -> Self {
+    pub fn on_current(self, current: Vector3<f64>) -> Self {
         let along = self.toward[0] * current.x + self.toward[1] * current.y;
         DeepWave { met: self.frequency + self.number * along, ..self }
     }
@@ -106,7 +106,7 @@ mod tests {
         // [FENTON-1985] as hydro::sea::stokes has it, at order 2 in deep water; its wave number is that of order 2 or 3, so it is taken
         let water = windlass_hydro::sea::Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
         let mut own = DeepWave::new(1.0, 15.0, 0.0, 9.81).unwrap();
-        let theirs = stokes::Stokes::of(2, (2.0, own.frequency), ([1.0, 0.0], 0.0), water).unwrap();
+        let theirs = stokes::Stokes::new(2, (2.0, own.frequency), ([1.0, 0.0], 0.0), water).unwrap();
         own.number = theirs.number;
         for x in 0..20 {
             let at = Vector3::new(20.0 * f64::from(x), 0.0, -3.0);

@@ -22,7 +22,7 @@ pub struct WetPart {
 impl WetPart {
     /// The wet part of a member between two ends (m, global); `None`: dry. A surface that crosses the axis more than once is taken at one
     /// of the crossings: members are short of half a wave.
-    pub fn of([first, second]: [Vector3<f64>; 2], water: &FlowAt) -> Option<Self> {
+    pub fn new([first, second]: [Vector3<f64>; 2], water: &FlowAt) -> Option<Self> {
         let above = |at: Vector3<f64>| at.z - water.surface(at.x, at.y);
         let (low, high) = (above(first), above(second));
         let (from, to, dry) = match (low < 0.0, high < 0.0) {

@@ -61,8 +61,8 @@ impl<'a> Loading<'a> {
     ///
     /// # Errors
     /// More integration lengths than can be: an element is very long for the waves.
-    pub fn of(case: &'a Towed) -> Result<Self, ClassError> {
-        let waters = Waters::of(case);
+    pub fn new(case: &'a Towed) -> Result<Self, ClassError> {
+        let waters = Waters::new(case);
         let limit = Waters::integration_length(&case.waves).unwrap_or(f64::INFINITY);
         let mut lengths = Vec::new();
         for (element, (e, start)) in case.line.elements().iter().zip(case.line.distances()).enumerate() {
@@ -70,7 +70,7 @@ impl<'a> Loading<'a> {
             if lengths.len() as f64 + number > MOST_LENGTHS as f64 {
                 let message =
                     "the elements of the tether make too many integration lengths of {}, a quarter of a wave length";
-                return Err(ClassError::of(message, &[(limit, Dim::Length)]));
+                return Err(ClassError::with_values(message, &[(limit, Dim::Length)]));
             }
             let share = 1.0 / number;
             for index in 0..number as usize {
@@ -115,7 +115,7 @@ impl<'a> Loading<'a> {
         }
         let lengths = std::mem::take(&mut self.lengths);
         for (index, length) in lengths.iter().enumerate() {
-            self.along(index, length, state);
+            self.add_loads(index, length, state);
         }
         self.lengths = lengths;
         for matrix in self.added.iter_mut().flatten() {
@@ -129,7 +129,7 @@ impl<'a> Loading<'a> {
     }
 
     /// Adds the loads of an integration length.
-    fn along(&mut self, index: usize, length: &IntegrationLength, state: &State) {
+    fn add_loads(&mut self, index: usize, length: &IntegrationLength, state: &State) {
         let motion = Motion {
             at: [of_element(&state.at[0], length.element), of_element(&state.at[1], length.element)],
             velocity: [of_element(&state.velocity[0], length.element), of_element(&state.velocity[1], length.element)],
@@ -156,7 +156,7 @@ impl<'a> Loading<'a> {
         match self.scan.wetness(&heights, radius) {
             Wetness::Dry => {}
             Wetness::Under => {
-                let wet = Wetted::of(radius, element.outer_diameter);
+                let wet = Wetted::new(radius, element.outer_diameter);
                 for i in 0..4 {
                     let z = elevations[i] - heights[i];
                     let flow = self.waters.flow(&self.time, &turns[i * blocks..(i + 1) * blocks], z, elevations[i]);
@@ -191,7 +191,7 @@ impl<'a> Loading<'a> {
             self.waters.at_place(start + a * element.length, y, &mut self.place);
             let elevation = self.waters.elevation(&self.time, &self.place);
             let z = case.origin[2] + dot(&shape, &motion.at[1]);
-            let wet = Wetted::of(elevation - z, element.outer_diameter);
+            let wet = Wetted::new(elevation - z, element.outer_diameter);
             if wet.height == 0.0 {
                 continue;
             }

@@ -101,7 +101,7 @@ impl Towed {
     /// spring or multiplier; too many waves; current heights that do not fall.
     pub fn check(&self) -> Result<(), ClassError> {
         let fail = |what: &str, value: f64, dim: Dim| {
-            Err(ClassError::of(format!("the towed tether has {what} of {{}}"), &[(value, dim)]))
+            Err(ClassError::with_values(format!("the towed tether has {what} of {{}}"), &[(value, dim)]))
         };
         let positive = [
             ("a density of the water", Some(self.density), Dim::None),
@@ -232,7 +232,7 @@ impl Towed {
     fn mass_at_rest(&self, plane: usize) -> Banded {
         let mut m = Banded::zeros(2 * self.line.nodes());
         for (i, e) in self.line.elements().iter().enumerate() {
-            let wet = Wetted::of(-self.origin[2], e.outer_diameter);
+            let wet = Wetted::new(-self.origin[2], e.outer_diameter);
             let added = self.density * e.added_mass * self.multipliers.added_mass * wet.added[plane];
             let all: Matrix4 = beam::mass(e.mass_per_length() + added, e.length);
             beam::assemble(&mut m, i, 1.0, &all);

@@ -145,9 +145,9 @@ impl Towed {
         if state.at.iter().chain(&state.velocity).any(|list| list.len() != order) {
             return Err(ClassError::new(format!("the state of the towed tether is not one of {} nodes", order / 2)));
         }
-        let mut scheme = Scheme::of(self, steps.step, steps.b)?;
+        let mut scheme = Scheme::new(self, steps.step, steps.b)?;
         scheme.check_step()?;
-        let mut shown = Shown::of(order / 2);
+        let mut shown = Shown::new(order / 2);
         for index in 0..steps.number {
             let time = steps.start + index as f64 * steps.step;
             scheme.stages(time, &state)?;
@@ -176,11 +176,11 @@ impl Steps {
     fn check(&self) -> Result<(), ClassError> {
         if !(self.step.is_finite() && self.step > 0.0 && self.start.is_finite()) {
             let message = "a run of the towed tether needs a step above zero and a start; these are {} and {}";
-            return Err(ClassError::of(message, &[(self.step, Dim::Time), (self.start, Dim::Time)]));
+            return Err(ClassError::with_values(message, &[(self.step, Dim::Time), (self.start, Dim::Time)]));
         }
         if !(0.5..=1.0).contains(&self.b) {
             let message = "the b of the scheme is {}; below 0.5 it is not stable, and above 1 it has no meaning";
-            return Err(ClassError::of(message, &[(self.b, Dim::None)]));
+            return Err(ClassError::with_values(message, &[(self.b, Dim::None)]));
         }
         Ok(())
     }
@@ -198,7 +198,7 @@ struct Shown {
 }
 
 impl Shown {
-    fn of(nodes: usize) -> Self {
+    fn new(nodes: usize) -> Self {
         let list = || vec![[0.0; 4]; nodes];
         Shown {
             along: vec![0.0; nodes],

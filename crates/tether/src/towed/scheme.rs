@@ -51,8 +51,8 @@ impl<'a> Scheme<'a> {
     /// The scheme of a case, a step (s) and b.
     ///
     /// # Errors
-    /// Those of [`Loading::of`].
-    pub fn of(case: &'a Towed, step: f64, b: f64) -> Result<Self, ClassError> {
+    /// Those of [`Loading::new`].
+    pub fn new(case: &'a Towed, step: f64, b: f64) -> Result<Self, ClassError> {
         let order = 2 * case.line.nodes();
         let elements = case.line.elements().iter();
         let matrices = |e: &super::super::TetherElement| {
@@ -67,7 +67,7 @@ impl<'a> Scheme<'a> {
         let zeros = || [vec![0.0; order], vec![0.0; order]];
         Ok(Scheme {
             case,
-            loading: Loading::of(case)?,
+            loading: Loading::new(case)?,
             step,
             b,
             stiffness,
@@ -111,7 +111,7 @@ impl<'a> Scheme<'a> {
         if !sum.is_finite() {
             let message = "the motion of the towed tether has no bound at the time {}, with a step of {}";
             let help = "a smaller step, softer end springs or less drag may help";
-            return Err(ClassError::of(message, &[(time, Dim::Time), (dt, Dim::Time)]).help(help));
+            return Err(ClassError::with_values(message, &[(time, Dim::Time), (dt, Dim::Time)]).help(help));
         }
         Ok(())
     }
@@ -210,7 +210,7 @@ impl<'a> Scheme<'a> {
         }
         let message = "the step of {} is too large for the end springs of the towed tether: their stiffest motion needs {} or less";
         let help = "give a smaller step or softer springs";
-        Err(ClassError::of(message, &[(self.step, Dim::Time), (longest, Dim::Time)]).help(help))
+        Err(ClassError::with_values(message, &[(self.step, Dim::Time), (longest, Dim::Time)]).help(help))
     }
 
     /// The longest stable step of a plane: that of the run where it is.

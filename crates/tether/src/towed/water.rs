@@ -112,7 +112,7 @@ fn eight(value: impl Fn(usize) -> f64) -> Eight {
 
 impl Waters {
     /// That around a tether.
-    pub fn of(case: &Towed) -> Self {
+    pub fn new(case: &Towed) -> Self {
         let (sin, cos) = case.heading.sin_cos();
         let turned = |v: [f64; 2]| [cos * v[0] + sin * v[1], cos * v[1] - sin * v[0]];
         let still = [(0.0, [0.0; 2])];

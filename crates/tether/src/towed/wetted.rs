@@ -26,7 +26,7 @@ pub struct Wetted {
 impl Wetted {
     /// That of a surface `s` above the axis of a tube of diameter `d`.
     #[inline]
-    pub fn of(s: f64, d: f64) -> Self {
+    pub fn new(s: f64, d: f64) -> Self {
         let r = 0.5 * d;
         if s >= r {
             let area = FRAC_PI_4 * d * d;
@@ -136,11 +136,14 @@ mod tests {
 
     #[test]
     fn half_a_tube_under_water_has_half_the_area_and_half_of_the_added_mass_along_z() {
-        let (half, whole) = (Wetted::of(0.0, 2.0), Wetted::of(1.0, 2.0));
+        let (half, whole) = (Wetted::new(0.0, 2.0), Wetted::new(1.0, 2.0));
         assert!((half.area - PI / 2.0).abs() < 1e-15 && (whole.area - PI).abs() < 1e-15);
         // a plate of the diameter has the added mass of the circle, half of it wet: [NEWMAN-1977 4.15]
         assert!((half.added[1] - PI / 2.0).abs() < 1e-15 && (half.added[0] - PI / 4.0).abs() < 1e-15);
-        assert_eq!(Wetted::of(-1.0, 2.0), Wetted { height: 0.0, area: 0.0, added: [0.0; 2], growth: 0.0, moment: 0.0 });
+        assert_eq!(
+            Wetted::new(-1.0, 2.0),
+            Wetted { height: 0.0, area: 0.0, added: [0.0; 2], growth: 0.0, moment: 0.0 }
+        );
         // the centre of half a disc is 4 r / 3 pi off
         assert!((half.moment - half.area * 4.0 / (3.0 * PI)).abs() < 1e-15);
     }
@@ -149,7 +152,7 @@ mod tests {
     fn growth_is_the_derivative_of_the_added_mass_and_the_chord_that_of_the_area() {
         let h = 1e-6;
         for s in [-0.9, -0.4, 0.3, 0.8] {
-            let (before, at, after) = (Wetted::of(s - h, 2.0), Wetted::of(s, 2.0), Wetted::of(s + h, 2.0));
+            let (before, at, after) = (Wetted::new(s - h, 2.0), Wetted::new(s, 2.0), Wetted::new(s + h, 2.0));
             assert!(((after.added[1] - before.added[1]) / (2.0 * h) - at.growth).abs() < 1e-8);
             assert!(((after.area - before.area) / (2.0 * h) - 2.0 * (1.0 - s * s).sqrt()).abs() < 1e-8);
         }

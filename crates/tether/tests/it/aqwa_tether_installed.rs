@@ -62,7 +62,7 @@ fn the_description_is_that_of_the_listing_to_its_digits() {
         let want = &LISTING["tether_description"][key];
         let tether = &example::tethers()[index];
         let attachment = example::course().pose.point(tether.attachment);
-        let found = Description::of(tether, attachment, &example::water()).unwrap();
+        let found = Description::new(tether, attachment, &example::water()).unwrap();
         let at = numbers(&want["attachment_initial"]);
         // printed to three decimals
         assert!((0..3).all(|i| (found.attachment[i] - at[i]).abs() < 5e-4 + 1e-9), "{found:?}");
@@ -79,7 +79,7 @@ fn the_description_is_that_of_the_listing_to_its_digits() {
         assert_eq!(found.caps, 0.0);
         // the centre of gravity is 63.6 m above the origin of the nodes
         let centre = nalgebra::Vector3::new(0.0, 0.0, 63.6);
-        let listed = found.listed(tether, (index + 1, ["9010", "1010"]), centre, &example::water());
+        let listed = found.to_listing(tether, (index + 1, ["9010", "1010"]), centre, &example::water());
         let table = listed.table();
         assert!(
             prints(listed.free_hanging_reaction() / 1e3, 5.108, 4) && (listed.ends[1].given[2] - 12.85).abs() < 1e-12
@@ -137,7 +137,7 @@ fn the_forces_on_the_structure_are_those_of_the_listing_at_all_printed_times() {
         let time = number(&state["time"]);
         let at = Underway { time, dt: 0.0, pose: &pose(&state["POSITION"]), velocity: &six(&state["VELOCITY"]) };
         let mut forces = Forces { mooring: Six::from_vec(numbers(&state["MOORING"])) * 1e3, ..Forces::default() };
-        platform.forces(&at, &flow.at(time), true, &mut forces).unwrap();
+        platform.forces(&at, &flow.at_time(time), true, &mut forces).unwrap();
         let off = |found: Six, name: &str| found / 1e3 - Six::from_vec(numbers(&state[name]));
         // kN and kN m of 3e6 and 1.2e7, 2.5e5 and 1.3e7: places are printed to 1e-4 m and deg, forces to five digits
         let hydrostatic = off(forces.hydrostatic, "HYDROSTATIC");
@@ -294,7 +294,7 @@ fn the_harmonics_of_the_structure_are_those_of_the_listing() {
             let turn = direction > 2;
             let scale = if turn { 1f64.to_degrees() } else { 1.0 };
             let series: Vec<f64> = RUN.motion(order, direction).iter().map(|x| x * scale).collect();
-            let found = Cycle::of(&times, &series, (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
+            let found = Cycle::new(&times, &series, (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
             let want = &LISTING["harmonic"][name][axis];
             let printed: Vec<Vec<f64>> = want["harm"].as_array().unwrap().iter().map(numbers).collect();
             // required: surge and heave 1 % of the fundamental, pitch 0.001 in deg, deg/s, deg/s2

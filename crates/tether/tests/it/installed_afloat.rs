@@ -79,7 +79,7 @@ fn model(pull: f64, height: f64) -> Model {
 fn a_moored_body_of_a_database_heaves_as_an_oscillator() {
     let mut element = example::tethers()[0].line.elements()[0];
     element.length = 50.0;
-    let line = Line::numbered(vec![element; 4]).unwrap();
+    let line = Line::with_numbered_nodes(vec![element; 4]).unwrap();
     let (gravity, density) = (Model::default().defaults.gravity, 1025.0);
     let (anchor, stretch, group) = (Vector3::new(0.0, 0.0, -230.0), 0.1, 4.0);
     // the attachment 20 m below the centre of gravity, right over the anchor
@@ -114,7 +114,7 @@ fn a_moored_body_of_a_database_heaves_as_an_oscillator() {
     let mut structure = Afloat::new(floating).unwrap();
     assert!((structure.centre() - Vector3::from(CENTRE)).norm() < 1e-12);
     // the phase of the excitation is of where the body stands in plan: the reference point over the origin
-    let pose = Pose::at([0.0, 0.0, height + amplitude]);
+    let pose = Pose::from_position([0.0, 0.0, height + amplitude]);
     // waves across the tether are another matter: still water for it
     let flow = Flow { waves: Waves::None, ..Flow::still(density, gravity).unwrap() };
     let course = Course { start: 0.0, step: 0.02, states: 1001, pose, velocity: Six::zeros() };

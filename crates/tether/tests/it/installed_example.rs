@@ -68,10 +68,10 @@ pub fn tethers() -> Vec<InstalledTether> {
 }
 
 pub fn water() -> Flow {
-    Flow::still(1025.0, 9.81).unwrap().with(Waves::Deep(DeepWave::new(15.0, 15.0, 0.0, 9.81).unwrap()))
+    Flow::still(1025.0, 9.81).unwrap().with_waves(Waves::Deep(DeepWave::new(15.0, 15.0, 0.0, 9.81).unwrap()))
 }
 
 pub fn course() -> Course {
-    let pose = Pose::at([-46.0, 0.0, -17.4]);
+    let pose = Pose::from_position([-46.0, 0.0, -17.4]);
     Course { start: 0.0, step: 0.25, states: 101, pose, velocity: Six::zeros() }
 }

@@ -37,7 +37,7 @@ impl Structure for Unmoved {
 fn upright(elements: usize, stretch: f64) -> (InstalledTether, Vector3<f64>) {
     let mut element = example::tethers()[0].line.elements()[0];
     element.length = 200.0 / elements as f64;
-    let line = Line::numbered(vec![element; elements]).unwrap();
+    let line = Line::with_numbered_nodes(vec![element; elements]).unwrap();
     let anchor = Vector3::new(3.0, -2.0, -250.0);
     let springs = EndSprings { rotation: [0.0; 2], ..EndSprings::default() };
     let tether = InstalledTether {
@@ -63,7 +63,7 @@ fn hold(
     let mut history = History::new(1, Keep::Always);
     let velocity = Six::new(velocity.x, velocity.y, velocity.z, 0.0, 0.0, 0.0);
     let states = (time / step) as usize + 1;
-    let course = Course { start: 0.0, step, states, pose: Pose::at(at.into()), velocity };
+    let course = Course { start: 0.0, step, states, pose: Pose::from_position(at.into()), velocity };
     let mut structure = Unmoved;
     Installation::new(&mut structure, vec![tether], flow, NATIVE).unwrap().run(&course, &mut history).unwrap();
     history
@@ -93,7 +93,7 @@ fn tension_is_that_of_stretch_pressure_weight_contents_and_caps() {
     near(history.end(0, 0, false, 0)[0], effective - 0.5 * weight);
     near(history.end(0, 3, true, 1)[0], effective + 0.5 * weight - out(high) * outer + inside(high) * inner);
     near(history.force(7, 2)[0], -(effective + 0.5 * weight - out(high) * 0.4));
-    let told = Description::of(&tether, at, &still()).unwrap();
+    let told = Description::new(&tether, at, &still()).unwrap();
     near(told.tension, effective);
     // the free hanging reaction balances steel, contents, displaced water and the caps
     near(told.hanging, weight + out(deep) * 0.3 - out(250.0 - 200.0) * 0.4);
@@ -212,7 +212,7 @@ fn example_in(flow: &Flow, states: usize) -> History {
 fn example_by(flow: &Flow, step: f64, states: usize) -> History {
     let mut platform = example::platform(NATIVE);
     let mut history = History::new(1, Keep::Always);
-    let pose = Pose::at([0.0, 0.0, -17.4]);
+    let pose = Pose::from_position([0.0, 0.0, -17.4]);
     let course = Course { pose, step, states, ..example::course() };
     // anchors so deep that it rests upright at this height: 140,489 kN over sixteen (tests/it/floating/aqwa_tether_platform.rs), of which 1,981 kN are of
     // the pressure on the middle of the tether
@@ -231,8 +231,8 @@ fn a_sea_of_one_component_is_the_regular_wave_of_airy() {
         Component { frequency: wave.frequency, number: wave.number, amplitude: 2.0, toward: wave.toward, phase: 0.0 };
     let water = Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
     let sea = Sea::airy(vec![component], water, 0.0, Stretching::Exponential);
-    let regular = example_in(&still().with(Waves::Deep(wave)), 200);
-    let irregular = example_in(&still().with(Waves::Sea(Arc::new(sea))), 200);
+    let regular = example_in(&still().with_waves(Waves::Deep(wave)), 200);
+    let irregular = example_in(&still().with_waves(Waves::Sea(Arc::new(sea))), 200);
     for direction in 0..6 {
         for (a, b) in regular.motion(0, direction).iter().zip(irregular.motion(0, direction)) {
             // rounding of 200 steps
@@ -256,7 +256,7 @@ fn an_irregular_sea_gives_the_same_series_again_and_tensions_about_the_pretensio
     };
     let water = Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
     let sea = Arc::new(Sea::airy((0..40).map(component).collect(), water, 20.0, Stretching::Exponential));
-    let flow = still().with(Waves::Sea(sea));
+    let flow = still().with_waves(Waves::Sea(sea));
     let (one, other) = (example_in(&flow, 1200), example_in(&flow, 1200));
     assert_eq!(one.motion(0, 4), other.motion(0, 4));
     let tension = one.end(0, 1, true, 0);
@@ -269,7 +269,7 @@ fn an_irregular_sea_gives_the_same_series_again_and_tensions_about_the_pretensio
 #[test]
 fn halving_the_step_changes_little_and_the_order_is_two() {
     let wave = DeepWave::new(1.0, 12.0, 0.0, 9.81).unwrap();
-    let flow = still().with(Waves::Deep(wave));
+    let flow = still().with_waves(Waves::Deep(wave));
     let surge = |step: f64| last(&example_by(&flow, step, (20.0 / step).round() as usize + 1).motion(0, 0));
     let [a, b, c] = [0.2, 0.1, 0.05].map(surge);
     let ratio = (a - b) / (b - c);
@@ -291,10 +291,10 @@ fn the_defaults_of_missing_springs_are_taken_and_said() {
 #[test]
 fn rigid_coils_hold_the_ends_and_soft_inline_springs_are_in_series() {
     let (mut tether, at) = upright(6, 0.1);
-    let stiffness = Description::of(&tether, at, &still()).unwrap().stiffness;
+    let stiffness = Description::new(&tether, at, &still()).unwrap().stiffness;
     tether.anchor_springs = EndSprings { inline: stiffness, ..EndSprings::default() };
     tether.vessel_springs = EndSprings { inline: stiffness, ..EndSprings::default() };
-    let soft = Description::of(&tether, at, &still()).unwrap().stiffness;
+    let soft = Description::new(&tether, at, &still()).unwrap().stiffness;
     // but for what 1e15 N/m gives way
     assert!((soft / stiffness - 1.0 / 3.0).abs() < 1e-6);
     let flow = Flow { current: CurrentField::uniform(1.0, 0.0), ..still() };
@@ -314,8 +314,8 @@ fn what_cannot_be_run_is_refused_and_says_why() {
         let made = Installation::new(&mut structure, vec![tether], &flow, NATIVE);
         made.and_then(|mut i| i.run(&course, &mut history)).unwrap_err().to_string()
     };
-    let course = Course { pose: Pose::at(at.into()), states: 3, ..example::course() };
-    let far = Course { pose: Pose::at((at + Vector3::z() * 30.0).into()), ..course };
+    let course = Course { pose: Pose::from_position(at.into()), states: 3, ..example::course() };
+    let far = Course { pose: Pose::from_position((at + Vector3::z() * 30.0).into()), ..course };
     assert!(run(tether.clone(), far).contains("is 200 m long, shorter than its span of 230.1 m"));
     let said = run(InstalledTether { group: 16.0, ..tether.clone() }, Course { step: 5.0, ..course });
     assert!(said.contains("a step of 5 s is too long") && said.contains("at most is stable"), "{said}");
@@ -330,5 +330,5 @@ fn what_cannot_be_run_is_refused_and_says_why() {
     assert!(run(InstalledTether { constraints: many, ..tether.clone() }, course).contains("up to five"));
     assert!(run(InstalledTether { lower_stop: Some(f64::NAN), ..tether.clone() }, course).contains("lower stop"));
     let upside = Vector3::new(tether.anchor.x, tether.anchor.y, -449.0);
-    assert!(run(tether, Course { pose: Pose::at(upside.into()), ..course }).contains("straight below"));
+    assert!(run(tether, Course { pose: Pose::from_position(upside.into()), ..course }).contains("straight below"));
 }

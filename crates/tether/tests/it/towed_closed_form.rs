@@ -21,7 +21,7 @@ fn line(share: f64) -> Line {
         added_mass: 1.0,
         label: Default::default(),
     };
-    Line::numbered(vec![element; 10]).unwrap()
+    Line::with_numbered_nodes(vec![element; 10]).unwrap()
 }
 
 fn case(share: f64, depth: f64) -> Towed {

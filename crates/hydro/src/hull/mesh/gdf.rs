@@ -1,7 +1,7 @@
 //! GDF of WAMIT, low order: a title; ULEN GRAV; ISX ISY; NPAN; then four corners a panel, free over lines. A triangle repeats a
 //! corner. Corners run counter-clockwise as seen from the water (WAMIT manual, "The geometric data file").
 
-use super::{MeshFile, at_line, number, shown};
+use super::{MeshFile, at_line, number, shorten_for_message};
 use crate::hull::HullError;
 
 pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
@@ -26,8 +26,9 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
     let (at, count) = header("NPAN")?;
     let mut words = fields(count);
     let stated = words.next().unwrap_or_default();
-    let panels: usize =
-        stated.parse().map_err(|_| at_line(at, format!("`{}` is no number of panels (NPAN)", shown(stated))))?;
+    let panels: usize = stated
+        .parse()
+        .map_err(|_| at_line(at, format!("`{}` is no number of panels (NPAN)", shorten_for_message(stated))))?;
     if words.next().and_then(|w| w.parse::<i64>().ok()).is_some_and(|kind| kind != 0) {
         return Err(at_line(at, "a second number (IGDEF): patches of higher order are not read, only flat panels"));
     }
@@ -45,7 +46,9 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
                 break 'file;
             }
             end = n;
-            values.push(number(word).ok_or_else(|| at_line(n, format!("`{}` is no coordinate", shown(word))))?);
+            values.push(
+                number(word).ok_or_else(|| at_line(n, format!("`{}` is no coordinate", shorten_for_message(word))))?,
+            );
             if values.len() == 12 {
                 file.panels.push(values.chunks_exact(3).filter_map(|c| c.try_into().ok()).collect());
                 values.clear();
@@ -86,7 +89,8 @@ fn pair((at, line): (usize, &str), names: [&str; 2]) -> Result<[f64; 2], HullErr
     let mut values = [0.0; 2];
     for (value, name) in values.iter_mut().zip(names) {
         let word = words.next().unwrap_or_default();
-        *value = number(word).ok_or_else(|| at_line(at, format!("`{}` is no number for {name}", shown(word))))?;
+        *value = number(word)
+            .ok_or_else(|| at_line(at, format!("`{}` is no number for {name}", shorten_for_message(word))))?;
     }
     Ok(values)
 }

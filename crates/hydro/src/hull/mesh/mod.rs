@@ -61,12 +61,12 @@ fn triple<'a>(words: &mut impl Iterator<Item = &'a str>, line: usize) -> Result<
     let mut at = [0.0; 3];
     for (value, name) in at.iter_mut().zip(["x", "y", "z"]) {
         let word = words.next().ok_or_else(|| at_line(line, format!("no {name}; a corner has x y z")))?;
-        *value = number(word).ok_or_else(|| at_line(line, format!("`{}` is no number", shown(word))))?;
+        *value = number(word).ok_or_else(|| at_line(line, format!("`{}` is no number", shorten_for_message(word))))?;
     }
     Ok(at)
 }
 
 /// The beginning of a word, as an error shows it.
-fn shown(word: &str) -> String {
+fn shorten_for_message(word: &str) -> String {
     word.chars().take(24).map(|c| if c.is_control() { '?' } else { c }).collect()
 }

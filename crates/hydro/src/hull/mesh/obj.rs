@@ -1,7 +1,7 @@
 //! Wavefront OBJ: vertices `v x y z` and faces `f a b c ..`, an index alone or before slashes, negative from the last vertex back. Other
 //! records (normals, texture, groups, materials) do not concern the shape and are passed over.
 
-use super::{MeshFile, at_line, shown, triple};
+use super::{MeshFile, at_line, shorten_for_message, triple};
 use crate::hull::HullError;
 
 /// Records that say something of shape which is not read.
@@ -54,7 +54,8 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
 /// The vertex a corner of a face names, from 0.
 fn index(word: &str, so_far: usize, line: usize) -> Result<usize, HullError> {
     let stated = word.split('/').next().unwrap_or_default();
-    let value: i64 = stated.parse().map_err(|_| at_line(line, format!("`{}` is no vertex number", shown(word))))?;
+    let value: i64 =
+        stated.parse().map_err(|_| at_line(line, format!("`{}` is no vertex number", shorten_for_message(word))))?;
     let found = if value > 0 { usize::try_from(value - 1).ok() } else { None };
     let back = || usize::try_from(value.unsigned_abs()).ok().filter(|n| *n > 0).and_then(|n| so_far.checked_sub(n));
     found.or_else(|| if value < 0 { back() } else { None }).ok_or_else(|| {

@@ -1,7 +1,7 @@
 //! STL: triangles, in text (`solid` .. `facet` .. `vertex`) or binary (80 bytes, a count, 50 bytes a triangle). Normals stated in it are
 //! not used: the order of corners tells the outside, as the format demands of both.
 
-use super::{MeshFile, at_line, shown, triple};
+use super::{MeshFile, at_line, shorten_for_message, triple};
 use crate::hull::HullError;
 
 /// Bytes before the triangles of a binary file: a title and their count.
@@ -78,7 +78,7 @@ fn ascii(text: &str) -> Result<MeshFile, HullError> {
             },
             _ => {
                 let wanted = if corners.is_some() { "vertex or endloop" } else { "facet, outer loop or endsolid" };
-                return Err(at_line(last, format!("`{}`; expected {wanted}", shown(word))));
+                return Err(at_line(last, format!("`{}`; expected {wanted}", shorten_for_message(word))));
             }
         }
     }

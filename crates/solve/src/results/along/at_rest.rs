@@ -1,7 +1,7 @@
 //! A line at rest between its ends where they stand.
 
 use super::{CLEARANCE, sections};
-use crate::link::{Attachment, connected, laid, pose_of};
+use crate::link::{Attachment, build_pipe_link, end_attachments, pose_of};
 use crate::system::SolveError;
 use crate::time::RunRequirements;
 use windlass_base::table::{Digits, Table};
@@ -35,14 +35,14 @@ pub(crate) fn standing(
     for connector in model.connectors.values().filter(|c| c.active && fits(&c.name) && !model.holds_pipe(&c.name)) {
         let element = match model.element_in(connector, Some(&around)) {
             Ok(element) => element,
-            Err(error) if model.moves(connector) => return Err(SolveError::of(&connector.name)(error)),
+            Err(error) if model.moves(connector) => return Err(SolveError::about(&connector.name)(error)),
             // what makes no element here tells of no nodes; who needs its force says why
             Err(_) => continue,
         };
-        told(&connector.name, element.as_ref(), &connected(model, connector))?;
+        told(&connector.name, element.as_ref(), &end_attachments(model, connector))?;
     }
     for assembly in model.assemblies.values().filter(|a| fits(&a.name)) {
-        if let Some((element, ends)) = laid((model, &around, &RunRequirements::default()), assembly)? {
+        if let Some((element, ends)) = build_pipe_link((model, &around, &RunRequirements::default()), assembly)? {
             told(&assembly.name, element.as_ref(), &ends)?;
         }
     }
@@ -70,7 +70,7 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
     let mut tables = Vec::new();
     standing(model, fits, |name, element, at, state| {
         let mut nodes = Vec::new();
-        element.along(at, state, &mut nodes).map_err(SolveError::of(name))?;
+        element.line_nodes(at, state, &mut nodes).map_err(SolveError::about(name))?;
         let sections = sections(model, name);
         let tube = sections.iter().any(|s| s.tube.is_some());
         let rows: Vec<(usize, &LineNode)> = nodes.iter().enumerate().collect();
@@ -110,7 +110,7 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
             .column("", "Used", Dim::None, Digits::Decimals(3), |(_, node)| {
                 let used = node.sides().filter_map(|side| {
                     let stress = side.stress.map(|s| s.von_mises);
-                    Some(sections.get(side.segment)?.used(node.effective, stress))
+                    Some(sections.get(side.segment)?.utilisation(node.effective, stress))
                 });
                 used.reduce(f64::max)
             })

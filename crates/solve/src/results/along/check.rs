@@ -42,7 +42,7 @@ enum Checked {
 }
 
 impl Checked {
-    fn of(section: &Section, code: &Code, bends: bool) -> Result<Checked, ClassError> {
+    fn new(section: &Section, code: &Code, bends: bool) -> Result<Checked, ClassError> {
         let tube = section.tube.filter(|_| bends);
         let wrong = |e: SeriesError| ClassError::new(e.to_string());
         let thinner = |tube: Tube, corroded: f64| {
@@ -50,11 +50,11 @@ impl Checked {
                 return Ok(Tube { wall: tube.wall - corroded, ..tube });
             }
             let values = [(corroded, Dim::Section), (tube.wall, Dim::Section)];
-            Err(ClassError::of("-CORROSION of {} leaves nothing of a wall of {}", &values))
+            Err(ClassError::with_values("-CORROSION of {} leaves nothing of a wall of {}", &values))
         };
         Ok(match (code, tube) {
             (Code::Lrfd(factors, corroded), Some(tube)) => {
-                Checked::Lrfd(Box::new(Resistance::of(thinner(tube, *corroded)?, *factors).map_err(wrong)?))
+                Checked::Lrfd(Box::new(Resistance::new(thinner(tube, *corroded)?, *factors).map_err(wrong)?))
             }
             (Code::WorkingStress(case, corroded), Some(tube)) => {
                 let thinner = thinner(tube, *corroded)?;
@@ -96,7 +96,7 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
     let checked: Vec<Checked> = line
         .sections
         .iter()
-        .map(|section| Checked::of(section, code, columns.bends))
+        .map(|section| Checked::new(section, code, columns.bends))
         .collect::<Result<_, ClassError>>()
         .map_err(|error| SolveError { who: Some(line.name.to_string()), error })?;
     let first = run.history.rows().next().unwrap_or_default();
@@ -123,7 +123,7 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
                     Checked::WorkingStress(tube, case) => {
                         // of the wall that corrosion leaves
                         let acting = Acting { wall: wall_tension(tube, &node), ..acting };
-                        working_stress::used(tube, &acting, *case).map_err(wrong)?
+                        working_stress::utilisation(tube, &acting, *case).map_err(wrong)?
                     }
                     Checked::Break(breaking) => over_break(node.effective, *breaking).map_err(wrong)?,
                 };
@@ -136,7 +136,7 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
             }
         }
     }
-    let mut table = told(line, code, &checked, &worst);
+    let mut table = check_table(line, code, &checked, &worst);
     if lrfd && rest.iter().any(Option::is_none) {
         table.note(match length.is_finite() {
             true => {
@@ -157,10 +157,10 @@ fn design(node: &NodeRow) -> [f64; 3] {
 fn acting(node: &NodeRow, section: &Section) -> Acting {
     let Some(bent) = &node.bent else { return Acting { effective: node.effective, ..Acting::default() } };
     let [outside, inside] = bent.pressures;
-    Acting { moment: bent.moment(), effective: node.effective, wall: section.pulled(node), inside, outside }
+    Acting { moment: bent.moment(), effective: node.effective, wall: section.stress_tension(node), inside, outside }
 }
 
-fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Table {
+fn check_table(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Table {
     let bends = line.columns.bends;
     let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
     let table = Table::new("Unity Checks Along a Line")

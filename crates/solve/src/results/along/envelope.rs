@@ -45,17 +45,17 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
         })
         .collect();
     let mut rows = Vec::new();
-    let length = line.places.last().and_then(|p| seen.seen(*p, Quantity::Arc)).map_or(f64::NAN, |s| s.mean);
+    let length = line.places.last().and_then(|p| seen.extremes(*p, Quantity::Arc)).map_or(f64::NAN, |s| s.mean);
     let (mut worst, mut wound): (Option<(f64, usize)>, bool) = (None, false);
-    for (number, place) in line.numbered() {
-        let of = |quantity: Quantity| seen.seen(place, quantity);
+    for (number, place) in line.numbered_nodes() {
+        let of = |quantity: Quantity| seen.extremes(place, quantity);
         let arc = of(Quantity::Arc).map(|s| s.mean);
         wound |= of(Quantity::Arc).is_some_and(|s| s.most.value - s.least.value > 1e-6 * length);
         let used = arc.zip(of(Quantity::Effective)).and_then(|(arc, tension)| {
             let stress = [Quantity::VonMisesBefore, Quantity::VonMisesBehind].map(of);
             let sides = sides(&line.sections, segments_at(&line.sections, length - arc));
             let used = sides.map(|(side, _, section)| {
-                section.used(tension.most.value, stress.get(side).and_then(|s| Some(s.as_ref()?.most.value)))
+                section.utilisation(tension.most.value, stress.get(side).and_then(|s| Some(s.as_ref()?.most.value)))
             });
             used.reduce(f64::max)
         });

@@ -15,7 +15,7 @@ use windlass_signal::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage}
 ///
 /// # Errors
 /// A segment without a curve, a record without length, what [`node_damage`] says.
-pub fn along(
+pub fn fatigue_table(
     line: &Line,
     selection: &FatigueSelection,
     (round, factor): (&Round, f64),
@@ -44,7 +44,7 @@ pub fn along(
             for (side, segment, section) in line.sides(&node, &row) {
                 let Some(record) = records.get_mut(side) else { continue };
                 record.take((time, node.arc, segment));
-                record.tension.push(section.pulled(&node));
+                record.tension.push(section.stress_tension(&node));
                 for (moments, value) in record.bends.iter_mut().zip(node.bent.map(|b| b.bends).unwrap_or_default()) {
                     moments.push(value);
                 }

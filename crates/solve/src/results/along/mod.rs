@@ -16,7 +16,7 @@ pub(crate) use at_rest::standing;
 pub use at_rest::{cautions, lines_at_rest};
 pub use check::{Code, check};
 pub use envelope::envelope;
-pub use fatigue::along as fatigue_along;
+pub use fatigue::fatigue_table as fatigue_along;
 pub use modes::natural_modes;
 pub use shape::{Where, histories, shape};
 pub use supports::supports;
@@ -43,7 +43,7 @@ pub(crate) struct Section {
 
 impl Section {
     /// Largest von Mises stress of a tube over yield, or tension over break of another section.
-    pub(crate) fn used(&self, tension: f64, von_mises: Option<f64>) -> f64 {
+    pub(crate) fn utilisation(&self, tension: f64, von_mises: Option<f64>) -> f64 {
         match (&self.tube, von_mises) {
             (Some(tube), Some(stress)) => stress / tube.yield_stress,
             _ => (tension / self.segment.breaking).max(0.0),
@@ -51,7 +51,7 @@ impl Section {
     }
 
     /// Tension (N) by which its stress goes: in the wall of a tube, effective of another section.
-    pub(super) fn pulled(&self, node: &NodeRow) -> f64 {
+    pub(super) fn stress_tension(&self, node: &NodeRow) -> f64 {
         self.tube.as_ref().map_or(node.effective, |tube| wall_tension(tube, node))
     }
 }
@@ -132,7 +132,7 @@ impl<'a> Line<'a> {
     ///
     /// # Errors
     /// No such connector in the run, one that tells of no nodes, or whose nodes the run did not keep.
-    pub fn of(run: &'a Run, name: &str) -> Result<Self, ClassError> {
+    pub fn find(run: &'a Run, name: &str) -> Result<Self, ClassError> {
         let layout = &run.history.layout;
         let name = line_name(name);
         let kept = || layout.links.iter().filter(|l| l.along.is_some()).map(|l| l.name.as_str());
@@ -150,7 +150,7 @@ impl<'a> Line<'a> {
             return Err(ClassError::new(format!("{name} tells of no nodes along itself")).help(help));
         };
         let there = |place: &usize| match run.history.is_empty() {
-            true => run.envelopes.get(link).is_some_and(|e| e.seen(*place, Quantity::Arc).is_some()),
+            true => run.envelopes.get(link).is_some_and(|e| e.extremes(*place, Quantity::Arc).is_some()),
             false => run.history.rows().any(|row| columns.node(*place, row).is_some()),
         };
         let places: Vec<usize> = (0..columns.numbers.len()).filter(there).collect();
@@ -167,7 +167,7 @@ impl<'a> Line<'a> {
     }
 
     /// Numbers of the nodes with their places.
-    fn numbered(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+    fn numbered_nodes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.places.iter().enumerate().map(|(index, place)| (index + 1, *place))
     }
 
@@ -197,10 +197,10 @@ impl<'a> Line<'a> {
     }
 
     /// The most a node uses in a row, of its sides.
-    fn used(&self, node: &NodeRow, row: &[f64]) -> Option<f64> {
+    fn node_utilisation(&self, node: &NodeRow, row: &[f64]) -> Option<f64> {
         let used = |(side, _, section): (usize, usize, &Section)| {
             let stress = node.bent.and_then(|b| b.von_mises.get(side).copied());
-            section.used(node.effective, stress)
+            section.utilisation(node.effective, stress)
         };
         self.sides(node, row).map(used).reduce(f64::max)
     }
@@ -244,6 +244,6 @@ mod tests {
         let judged: Vec<_> = sides(&all, [1, 2]).map(|(side, index, _)| (side, index)).collect();
         assert_eq!(judged, [(0, 1), (1, 2)]);
         assert_eq!(sides(&all, [1, 1]).count(), 1);
-        assert_eq!(all[0].used(-5.0, None), 0.0);
+        assert_eq!(all[0].utilisation(-5.0, None), 0.0);
     }
 }

@@ -20,11 +20,11 @@ pub fn natural_modes(
 ) -> Result<Vec<Table>, SolveError> {
     let mut tables = Vec::new();
     standing(model, fits, |name, element, at, state| {
-        let wrong = SolveError::of(name);
+        let wrong = SolveError::about(name);
         // what is too much is refused before anything is solved
         let modes = element.swings(at, state, number).map_err(&wrong)?;
         let mut nodes = Vec::new();
-        element.along(at, state, &mut nodes).map_err(&wrong)?;
+        element.line_nodes(at, state, &mut nodes).map_err(&wrong)?;
         tables.push(periods(name, &nodes, &modes));
         if shapes {
             for (index, mode) in modes.iter().enumerate() {

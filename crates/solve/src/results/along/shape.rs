@@ -140,7 +140,7 @@ impl Line<'_> {
             if node.arc >= arc - near {
                 let Some(from) = before else { return (node.arc <= arc + near).then_some(node) };
                 let share = ((arc - from.arc) / (node.arc - from.arc)).clamp(0.0, 1.0);
-                return Some(between(&from, &node, share));
+                return Some(interpolate_nodes(&from, &node, share));
             }
             before = Some(node);
         }
@@ -149,7 +149,7 @@ impl Line<'_> {
 }
 
 /// A share of the way from one node to another.
-fn between(from: &NodeRow, to: &NodeRow, share: f64) -> NodeRow {
+fn interpolate_nodes(from: &NodeRow, to: &NodeRow, share: f64) -> NodeRow {
     let mix = |a: f64, b: f64| a + share * (b - a);
     let three = |i: usize| {
         let at = |n: &NodeRow| n.position.get(i).copied().unwrap_or(f64::NAN);

@@ -15,8 +15,10 @@ use windlass_model::DYNAMIC;
 /// None of its own.
 pub fn touchdown(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
     let mut table = EventTable::new("Touchdown", (&line.run.history, events), |row| {
-        let there: Vec<(usize, NodeRow)> =
-            line.numbered().filter_map(|(number, place)| Some((number, line.columns.node(place, row)?))).collect();
+        let there: Vec<(usize, NodeRow)> = line
+            .numbered_nodes()
+            .filter_map(|(number, place)| Some((number, line.columns.node(place, row)?)))
+            .collect();
         let Some(first) = there.iter().position(|(_, n)| n.clearance <= 0.0) else {
             return Ok(Touchdown { grounded: if there.is_empty() { f64::NAN } else { 0.0 }, ..Touchdown::NONE });
         };

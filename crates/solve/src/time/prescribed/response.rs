@@ -1,7 +1,7 @@
 //! A body that answers each wave of the sea as a table says.
 
 use super::super::forces::Motion;
-use super::{Freedoms, Prescribed, moved};
+use super::{Freedoms, Prescribed, motion_from_dofs};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass_base::geometry::{Place, unit_vector};
@@ -21,7 +21,7 @@ pub(super) struct Riding {
 /// A complex response: real and imaginary part, of `amplitude exp(i lag)`.
 type Pair = (f64, f64);
 
-fn mixed(a: [Pair; 6], b: [Pair; 6], share: f64) -> [Pair; 6] {
+fn interpolate_pairs(a: [Pair; 6], b: [Pair; 6], share: f64) -> [Pair; 6] {
     std::array::from_fn(|i| (a[i].0 + (b[i].0 - a[i].0) * share, a[i].1 + (b[i].1 - a[i].1) * share))
 }
 
@@ -36,7 +36,7 @@ fn by_frequency(rows: &[ResponseRow], frequency: f64) -> [Pair; 6] {
     match (after.checked_sub(1).and_then(|n| rows.get(n)), rows.get(after)) {
         (Some(low), Some(high)) => {
             let share = (frequency - low.frequency) / (high.frequency - low.frequency);
-            mixed(pairs(low), pairs(high), share)
+            interpolate_pairs(pairs(low), pairs(high), share)
         }
         (None, Some(first)) => pairs(first),
         (_, None) => [(0.0, 0.0); 6],
@@ -85,9 +85,9 @@ fn response_between(table: &Responses, from: f64, frequency: f64) -> Result<[Pai
         // a gap wider than a right angle is no table
         (Some(low), Some(high)) if table.headings.len() > 1 && turn <= 0.5 * PI + NEAR => {
             let share = whole(from - low.0) / turn;
-            Ok(mixed(by_frequency(&low.1, frequency), by_frequency(&high.1, frequency), share))
+            Ok(interpolate_pairs(by_frequency(&low.1, frequency), by_frequency(&high.1, frequency), share))
         }
-        _ => Err(ClassError::of("waves come from {} of the body, and its table of responses has no headings within 90 degrees on both sides", &[(from, Dim::Angle)])
+        _ => Err(ClassError::with_values("waves come from {} of the body, and its table of responses has no headings within 90 degrees on both sides", &[(from, Dim::Angle)])
             .help("give more headings, or -SYMMETRIC where the table is of one side")),
     }
 }
@@ -137,7 +137,7 @@ impl Riding {
 }
 
 impl Prescribed for Riding {
-    fn at(&self, time: f64) -> Result<Motion, ClassError> {
+    fn motion_at(&self, time: f64) -> Result<Motion, ClassError> {
         let mut sums: Freedoms = [[0.0; 6]; 3];
         for (w, pairs) in &self.waves {
             let (sin, cos) = (w * time).sin_cos();
@@ -156,6 +156,6 @@ impl Prescribed for Riding {
             dofs[1][i] = rate;
             dofs[2][i] = second;
         }
-        Ok(moved(&dofs))
+        Ok(motion_from_dofs(&dofs))
     }
 }

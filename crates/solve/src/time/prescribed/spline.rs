@@ -1,7 +1,7 @@
 //! A motion through places at times.
 
 use super::super::forces::Motion;
-use super::{Freedoms, Prescribed, moved};
+use super::{Freedoms, Prescribed, motion_from_dofs};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, PathRow};
@@ -17,7 +17,7 @@ pub(super) struct Spline {
 
 impl Spline {
     /// That of rows whose times grow. Roll and yaw go the short way from row to row.
-    pub(super) fn of(rows: &[PathRow]) -> Result<Self, ClassError> {
+    pub(super) fn new(rows: &[PathRow]) -> Result<Self, ClassError> {
         let finite = rows.iter().all(|(t, v)| t.is_finite() && v.iter().all(|x| x.is_finite()));
         let grow = rows.windows(2).all(|w| w.first().zip(w.last()).is_some_and(|(a, b)| a.0 < b.0));
         if rows.len() < 2 || !finite || !grow {
@@ -64,14 +64,14 @@ fn bends(rows: &[PathRow]) -> Vec<[f64; 6]> {
 }
 
 impl Prescribed for Spline {
-    fn at(&self, time: f64) -> Result<Motion, ClassError> {
+    fn motion_at(&self, time: f64) -> Result<Motion, ClassError> {
         let ends = self.rows.first().zip(self.rows.last());
         let (first, last) = ends.map(|(a, b)| (a.0, b.0)).unwrap_or_default();
         // a step's end may be a rounding beyond the last row
         let slack = 1e-9 * (last - first);
         if !(first - slack..=last + slack).contains(&time) {
             let text = "the motion of the body is given from {} to {}, and asked for at {}";
-            return Err(ClassError::of(text, &[(first, Dim::Time), (last, Dim::Time), (time, Dim::Time)])
+            return Err(ClassError::with_values(text, &[(first, Dim::Time), (last, Dim::Time), (time, Dim::Time)])
                 .help("lengthen the file, or shorten -TIME of the environment"));
         }
         let after = self.rows.partition_point(|r| r.0 <= time).clamp(1, self.rows.len() - 1);
@@ -90,6 +90,6 @@ impl Prescribed for Spline {
             dofs[1][i] = (to - from) / long + ((3.0 * q * q - 1.0) * n - (3.0 * p * p - 1.0) * m) * long / 6.0;
             dofs[2][i] = p * m + q * n;
         }
-        Ok(moved(&dofs))
+        Ok(motion_from_dofs(&dofs))
     }
 }

@@ -46,7 +46,7 @@ impl Bending {
     }
 
     /// What the structure bears across the axis, by plane (N): what is missing in the balance of the unknown at the top but for the inertia
-    /// that it has with the axis ([`Bending::entrained`]). Places and loads are those of the stage now gathered; the acceleration against the
+    /// that it has with the axis ([`Bending::entrained_mass`]). Places and loads are those of the stage now gathered; the acceleration against the
     /// axis is that of the stage before.
     pub fn top_shear(&self, second: bool, tension: &Tension, axial: &Axial) -> [f64; 2] {
         let last = self.cells.len().saturating_sub(1);
@@ -72,7 +72,7 @@ impl Bending {
     }
 
     /// The mass (kg) across the axis that rides on the structure's end with the axis itself.
-    pub fn entrained(&self, tension: &Tension) -> f64 {
+    pub fn entrained_mass(&self, tension: &Tension) -> f64 {
         let nodes = self.shares.len();
         let share = |node: Option<usize>| node.and_then(|n| self.shares.get(n)).copied().unwrap_or_default();
         let turn = 1.0 / tension.length;

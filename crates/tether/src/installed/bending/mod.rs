@@ -117,7 +117,7 @@ pub struct Bending {
 
 impl Bending {
     /// That of a tether in water of a density (kg/m3) under a gravity (m/s2), straight and at rest.
-    pub fn of(tether: &InstalledTether, density: f64, gravity: f64) -> Self {
+    pub fn new(tether: &InstalledTether, density: f64, gravity: f64) -> Self {
         let line = &tether.line;
         let cell = |e: &crate::TetherElement| {
             let tube = e.tube();

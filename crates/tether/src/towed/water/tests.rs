@@ -25,7 +25,7 @@ fn case(compatibility: Compatibility, depth: Option<f64>) -> Towed {
         Component { frequency, number, amplitude: 0.2 + 0.01 * i, toward, phase: 1.3 * i }
     };
     Towed {
-        line: Line::numbered(vec![element]).unwrap(),
+        line: Line::with_numbered_nodes(vec![element]).unwrap(),
         origin: [-20.0, 4.0, -0.5],
         heading: 0.7,
         springs: [EndSpring::default(); 2],
@@ -65,7 +65,7 @@ fn the_water_is_that_of_the_sea_in_the_axes_of_the_tether() {
     for (depth, exponential) in [(None, true), (Some(30.0), true), (None, false), (Some(30.0), false)] {
         let compatibility = Compatibility { unstretched_crests: exponential, ..Compatibility::native() };
         let case = case(compatibility, depth);
-        let waters = Waters::of(&case);
+        let waters = Waters::new(&case);
         let stretching = if exponential { Stretching::Exponential } else { Stretching::Wheeler };
         let water = Water { depth, level: 0.0, gravity: 9.81, density: 1025.0 };
         let sea = Sea::airy(case.waves.clone(), water, 0.0, stretching);
@@ -91,7 +91,7 @@ fn under_way_the_surface_is_that_of_the_place_passed() {
     let still = case(Compatibility::native(), None);
     let (vx, vy) = (1.7, -0.6);
     let under_way = Towed { tow: [vx, vy], ..still.clone() };
-    let (one, other) = (Waters::of(&still), Waters::of(&under_way));
+    let (one, other) = (Waters::new(&still), Waters::new(&under_way));
     let (sin, cos) = 0.7f64.sin_cos();
     for t in [0.0, 3.0, 11.0] {
         let (dx, dy) = (cos * vx + sin * vy, cos * vy - sin * vx);
@@ -107,7 +107,7 @@ fn under_way_the_surface_is_that_of_the_place_passed() {
 #[test]
 fn the_current_is_straight_between_its_heights() {
     let current = vec![(0.0, [1.0, 0.0]), (-10.0, [0.5, 0.0]), (-20.0, [0.0, 0.0])];
-    let waters = Waters::of(&Towed { heading: 0.0, current, ..case(Compatibility::native(), None) });
+    let waters = Waters::new(&Towed { heading: 0.0, current, ..case(Compatibility::native(), None) });
     let found: Vec<f64> = [3.0, 0.0, -4.0, -10.0, -15.0, -30.0].iter().map(|z| waters.current_at(*z)[0]).collect();
     for (a, b) in found.iter().zip([1.0, 1.0, 0.8, 0.5, 0.25, 0.0]) {
         assert!((a - b).abs() < 1e-15);

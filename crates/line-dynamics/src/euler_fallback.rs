@@ -1,4 +1,4 @@
-//! Steps that do not follow what happens in them: a line that snaps taut or goes slack, a node that hits the bottom.
+//! Implicit Euler as fallback for steps that do not resolve an impact: a line that snaps taut or goes slack, a node that hits the bottom.
 //!
 //! The generalised-alpha scheme carries the acceleration of a step into the next ones, as an average; of a smooth motion
 //! that makes it of the second order. But where a stiff line snaps taut the whole change of speed V is the acceleration
@@ -6,52 +6,52 @@
 //! rope with speed V leaves it with 2.9 V at a spectral radius of 0.9, and still with 1.5 V at 0.2. What is made so at
 //! one bounce comes back at the next.
 //!
-//! Such a step is made again by implicit Euler, which knows of the past the speed alone. Its step from x with speed v
+//! Such a step is repeated by implicit Euler, whose only history is the velocity. Its step from x with speed v
 //! minimises m (y - x - h v)^2 / (2 h^2) + potential(y), so with a convex potential, as tension, gravity and bottom of
 //! a line that cannot push are, no step of any length makes energy; that is why it is the scheme of impacts
 //! [BROGLIATO-2008 10]. It is of the first order,
 //! but a motion that the step follows never comes to it, and so keeps its order.
 
 use super::ends::End;
+use super::environment::LineEnvironment;
 use super::mesh::Rod;
 use super::state::State;
 use super::step::{Failure, Solver};
-use super::surroundings::World;
 
 /// Share of the energy of motion that the energy of the changes of speed by changed accelerations has at least in a step of
 /// a snap. Of an oscillation it is some (w h)^2, so that the step no longer follows one of w h > 0.3.
-const SHARE: f64 = 0.1;
+const MIN_JUMP_ENERGY_SHARE: f64 = 0.1;
 /// Change of acceleration that a node has at least in such a step, as a share of gravity: what is less throws nothing
 /// up by more than it falls in a step.
-const LEAST: f64 = 1.0;
+const MIN_JUMP_ACCELERATION: f64 = 1.0;
 
 impl Solver {
     /// Newton's iterations of one step, from where the last trial ended if that is `near`, and once more where it was
     /// one of a snap: the iterations it took.
-    pub(super) fn attempt(
+    pub(super) fn step_with_fallback(
         &mut self,
         rod: &Rod,
         from: &State,
-        world: &World,
+        world: &LineEnvironment,
         time: f64,
         ends: [End; 2],
         near: bool,
     ) -> Result<usize, Failure> {
         // a trial that follows another is made as that one was, so that a body's iteration can end
-        self.snaps &= near;
+        self.uses_implicit_euler &= near;
         let done = self.converge(rod, from, world, time, ends, near)?;
-        if self.snaps || !self.jumps(rod, world, from) {
+        if self.uses_implicit_euler || !self.has_jump(rod, world, from) {
             return Ok(done);
         }
-        self.snaps = true;
+        self.uses_implicit_euler = true;
         Ok(done + self.converge(rod, from, world, time, ends, false)?)
     }
 
     /// Whether accelerations have changed in the step at hand by more than it follows.
-    fn jumps(&self, rod: &Rod, world: &World, from: &State) -> bool {
+    fn has_jump(&self, rod: &Rod, world: &LineEnvironment, from: &State) -> bool {
         let (last, h) = (rod.elements.len(), self.next.time - from.time);
         let known = self.trial.ends.map(|e| e.motion.is_some());
-        let least = LEAST * world.gravity.abs();
+        let least = MIN_JUMP_ACCELERATION * world.gravity.abs();
         let change = |node: usize| {
             if (node == 0 && known[0]) || (node == last && known[1]) {
                 return 0.0;
@@ -70,6 +70,6 @@ impl Solver {
             jumped += mass * change(node) * h * h;
             moving += mass * begun.max(self.next.velocity[node].norm_squared());
         }
-        jumped > SHARE * moving
+        jumped > MIN_JUMP_ENERGY_SHARE * moving
     }
 }

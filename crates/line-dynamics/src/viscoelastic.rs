@@ -1,4 +1,4 @@
-//! A rope that is stiffer the faster it is pulled.
+//! Viscoelastic rope: a standard linear solid with static and dynamic stiffness.
 
 use super::mesh::{Element, Rod};
 use super::section::Axial;
@@ -31,14 +31,14 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// At once, the damper standing where it has `yielded` to.
-    pub fn at_once(yielded: f64) -> Self {
+    /// For an instantaneous change of strain, with the damper at its strain `yielded`.
+    pub fn instantaneous(yielded: f64) -> Self {
         Memory { kept: -yielded, follows: 1.0 }
     }
 
     /// After a share `alpha` of the relaxation time in which the strain went evenly from `before` to where it is: the
     /// exact answer of dy/dt = d(strain)/dt - y / tau.
-    fn after(alpha: f64, before: f64, yielded: f64) -> Self {
+    fn over_step(alpha: f64, before: f64, yielded: f64) -> Self {
         let follows = if alpha > 0.0 { -(-alpha).exp_m1() / alpha } else { 1.0 };
         Memory { kept: (-alpha).exp() * (before - yielded) - follows * before, follows }
     }
@@ -46,48 +46,52 @@ impl Memory {
 
 impl Viscoelastic {
     /// Stiffness of the Maxwell spring (N) where its damper has yielded by a strain, and its slope.
-    fn spring(&self, yielded: f64) -> (f64, f64) {
-        let (mean, slope) = self.slow.at(yielded);
+    fn maxwell_stiffness(&self, yielded: f64) -> (f64, f64) {
+        let (mean, slope) = self.slow.evaluate(yielded);
         let stiffness = self.fast[0] + self.fast[1] * mean - slope;
-        if stiffness > 0.0 { (stiffness, self.fast[1] * slope - self.slow.bend(yielded)) } else { (0.0, 0.0) }
+        if stiffness > 0.0 {
+            (stiffness, self.fast[1] * slope - self.slow.second_derivative(yielded))
+        } else {
+            (0.0, 0.0)
+        }
     }
 
     /// Tension of the Maxwell element (N) at a strain, and its slope by the strain.
-    pub(super) fn beside(&self, strain: f64, memory: &Memory) -> (f64, f64) {
+    pub(super) fn maxwell_tension(&self, strain: f64, memory: &Memory) -> (f64, f64) {
         let y = memory.kept + memory.follows * strain;
-        let (stiffness, slope) = self.spring(strain - y);
+        let (stiffness, slope) = self.maxwell_stiffness(strain - y);
         (stiffness * y, stiffness * memory.follows + y * slope * (1.0 - memory.follows))
     }
 
     /// Energy of a strain per unstretched length (J/m), and power lost in the damper (W/m).
-    pub(super) fn books(&self, strain: f64, yielded: f64) -> (f64, f64) {
+    pub(super) fn energy_and_loss(&self, strain: f64, yielded: f64) -> (f64, f64) {
         let y = strain - yielded;
-        let (stiffness, slope) = self.spring(yielded);
+        let (stiffness, slope) = self.maxwell_stiffness(yielded);
         let lost = (stiffness - 0.5 * slope * y) * y * y / self.relaxation;
         (self.slow.energy(strain) + 0.5 * stiffness * y * y, lost)
     }
 
     /// Strain of a rope that is slack: that at which it has no tension. It shrinks as its damper goes back.
-    fn slack(&self, memory: &Memory) -> f64 {
+    fn slack_strain(&self, memory: &Memory) -> f64 {
         // without the Maxwell spring's pull there is tension, at no strain there is none
         let (mut low, mut high) = (0.0, -memory.kept / memory.follows.max(f64::MIN_POSITIVE));
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            let tension = self.slow.at(middle).0 + self.beside(middle, memory).0;
+            let tension = self.slow.evaluate(middle).0 + self.maxwell_tension(middle, memory).0;
             *(if tension > 0.0 { &mut high } else { &mut low }) = middle;
         }
         low.max(0.0)
     }
 
-    pub(super) fn fault(&self) -> Option<(f64, &'static str)> {
+    pub(super) fn find_fault(&self) -> Option<(f64, &'static str)> {
         let [a, b] = self.fast;
         if matches!(self.slow, Axial::Viscoelastic(_)) {
             return Some((a, "its slow law must not be viscoelastic itself"));
         }
-        if let Some(fault) = self.slow.fault() {
+        if let Some(fault) = self.slow.find_fault() {
             return Some(fault);
         }
-        if !(a.is_finite() && a >= self.slow.at(0.0).1) {
+        if !(a.is_finite() && a >= self.slow.evaluate(0.0).1) {
             return Some((a, "its dynamic stiffness must be no less than the static one"));
         }
         if !(b.is_finite() && b >= 0.0) {
@@ -102,11 +106,11 @@ impl Viscoelastic {
 
 impl Rod {
     /// Whether any of it remembers how it was pulled.
-    pub(super) fn remembers(&self) -> bool {
-        self.elements.iter().any(|e| self.rope(e).is_some())
+    pub(super) fn is_viscoelastic(&self) -> bool {
+        self.elements.iter().any(|e| self.viscoelastic_law(e).is_some())
     }
 
-    pub(super) fn rope(&self, element: &Element) -> Option<&Viscoelastic> {
+    pub(super) fn viscoelastic_law(&self, element: &Element) -> Option<&Viscoelastic> {
         match &self.segments[element.segment].axial {
             Axial::Viscoelastic(rope) => Some(rope),
             _ => None,
@@ -114,7 +118,7 @@ impl Rod {
     }
 
     /// Strain of the rope in an element between two places: less the thermal one, and of a slack one its own.
-    pub(super) fn pulled(
+    pub(super) fn viscoelastic_tension(
         &self,
         element: &Element,
         rope: &Viscoelastic,
@@ -123,42 +127,43 @@ impl Rod {
     ) -> f64 {
         let free = self.segments[element.segment].tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
         let strain = (b - a).norm() / element.rest - 1.0 - free;
-        let taut = strain > 0.0 && rope.slow.at(strain).0 + rope.beside(strain, memory).0 >= 0.0;
-        if element.compression || taut { strain } else { rope.slack(memory) }
+        let taut = strain > 0.0 && rope.slow.evaluate(strain).0 + rope.maxwell_tension(strain, memory).0 >= 0.0;
+        if element.compression || taut { strain } else { rope.slack_strain(memory) }
     }
 
     /// The strain of each element, where any of them remembers it: yielded in full.
-    pub(super) fn yielded(&self, position: &[Vector3<f64>]) -> Vec<f64> {
-        if !self.remembers() {
+    pub(super) fn yielded_strains(&self, position: &[Vector3<f64>]) -> Vec<f64> {
+        if !self.is_viscoelastic() {
             return Vec::new();
         }
         let pairs = self.elements.iter().zip(position.windows(2));
         let strain = |(element, x): (&Element, &[Vector3<f64>])| {
             // a spring that has let go of everything
             let all = Memory::default();
-            self.rope(element).map_or(0.0, |rope| self.pulled(element, rope, [&x[0], &x[1]], &all))
+            self.viscoelastic_law(element)
+                .map_or(0.0, |rope| self.viscoelastic_tension(element, rope, [&x[0], &x[1]], &all))
         };
         pairs.map(strain).collect()
     }
 }
 
 /// How each element follows its strain over a step of `h` seconds from a state; zero for at once.
-pub(super) fn remember(rod: &Rod, from: &State, h: f64, memory: &mut [Memory]) {
+pub(super) fn update_memory(rod: &Rod, from: &State, h: f64, memory: &mut [Memory]) {
     let elements = rod.elements.iter().zip(from.position.windows(2)).zip(&from.yielded);
     for (memory, ((element, x), yielded)) in memory.iter_mut().zip(elements) {
-        if let Some(rope) = rod.rope(element) {
-            let before = rod.pulled(element, rope, [&x[0], &x[1]], &Memory::at_once(*yielded));
-            *memory = Memory::after(h / rope.relaxation, before, *yielded);
+        if let Some(rope) = rod.viscoelastic_law(element) {
+            let before = rod.viscoelastic_tension(element, rope, [&x[0], &x[1]], &Memory::instantaneous(*yielded));
+            *memory = Memory::over_step(h / rope.relaxation, before, *yielded);
         }
     }
 }
 
 /// Where the dampers have yielded to at the end of a step.
-pub(super) fn settle(rod: &Rod, memory: &[Memory], state: &mut State) {
+pub(super) fn set_yielded_strains(rod: &Rod, memory: &[Memory], state: &mut State) {
     let elements = rod.elements.iter().zip(state.position.windows(2)).zip(memory);
     for (yielded, ((element, x), memory)) in state.yielded.iter_mut().zip(elements) {
-        if let Some(rope) = rod.rope(element) {
-            let strain = rod.pulled(element, rope, [&x[0], &x[1]], memory);
+        if let Some(rope) = rod.viscoelastic_law(element) {
+            let strain = rod.viscoelastic_tension(element, rope, [&x[0], &x[1]], memory);
             *yielded = strain - (memory.kept + memory.follows * strain);
         }
     }
@@ -177,13 +182,17 @@ mod tests {
         ];
         for slow in slow {
             let rope = Viscoelastic { slow, fast: [2e7, 12.0], relaxation: 30.0 };
-            assert_eq!(rope.fault(), None);
+            assert_eq!(rope.find_fault(), None);
             for alpha in [0.0, 1e-3, 0.7, 1e3] {
-                let memory = Memory::after(alpha, 0.015, 0.012);
+                let memory = Memory::over_step(alpha, 0.015, 0.012);
                 let (h, strain) = (1e-7, 0.031);
-                let slope = (rope.beside(strain + h, &memory).0 - rope.beside(strain - h, &memory).0) / (2.0 * h);
+                let slope = (rope.maxwell_tension(strain + h, &memory).0 - rope.maxwell_tension(strain - h, &memory).0)
+                    / (2.0 * h);
                 // central differences of forces of order 1e6 N
-                assert!((slope - rope.beside(strain, &memory).1).abs() < 1e-2 + 1e-8 * slope.abs(), "{rope:?} {alpha}");
+                assert!(
+                    (slope - rope.maxwell_tension(strain, &memory).1).abs() < 1e-2 + 1e-8 * slope.abs(),
+                    "{rope:?} {alpha}"
+                );
             }
         }
     }
@@ -194,7 +203,7 @@ mod tests {
         for steps in [1, 7, 200] {
             let alpha = 1.3 / steps as f64;
             let yielded = (0..steps).fold(0.0, |yielded, _| {
-                let memory = Memory::after(alpha, 0.02, yielded);
+                let memory = Memory::over_step(alpha, 0.02, yielded);
                 0.02 - (memory.kept + memory.follows * 0.02)
             });
             // exact but for rounding

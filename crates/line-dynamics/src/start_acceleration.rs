@@ -1,20 +1,20 @@
 //! Accelerations with which a run starts.
 
 use super::ends::End;
+use super::environment::LineEnvironment;
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
-use super::rope::remember;
 use super::state::State;
-use super::step::{At, EndForces, Solver};
-use super::surroundings::World;
+use super::step::{EndForces, Solver, SolverPhase};
 use super::system::Weights;
-use super::trial::{lay, sample, soften};
+use super::trial::{sample_fluid, set_friction_directions, set_seabed_penetration_scales};
+use super::viscoelastic::update_memory;
 use nalgebra::{Matrix3, Vector3};
 
 impl Solver {
     /// Copies where the last trial ended, without taking it as the new state of the solver's own run.
-    pub fn reached(&self, state: &mut State) {
+    pub fn set_accelerations(&self, state: &mut State) {
         state.copy_from(&self.next);
     }
 
@@ -51,13 +51,13 @@ impl Solver {
         &mut self,
         rod: &Rod,
         state: &mut State,
-        world: &World,
+        world: &LineEnvironment,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
         self.fits(rod, state)?;
-        self.at = At::Nowhere;
+        self.phase = SolverPhase::Idle;
         self.trial.origin = state.origin;
-        self.nearby(world, |solver, world, near| solver.start_nearby(rod, state, world, near.ends(ends)))
+        self.in_local_coordinates(world, |solver, world, near| solver.start_nearby(rod, state, world, near.ends(ends)))
     }
 
     /// [`Solver::start`] in coordinates from the origin of the state.
@@ -65,15 +65,15 @@ impl Solver {
         &mut self,
         rod: &Rod,
         state: &mut State,
-        world: &World,
+        world: &LineEnvironment,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
         let last = rod.elements.len();
         let known = ends.map(|e| e.motion.is_some());
         self.trial.time = state.time;
         self.trial.ends = ends;
-        (self.trial.drawn, self.trial.held) = (None, false);
-        self.trial.stuck.copy_from_slice(&state.stuck);
+        (self.trial.pulled_end, self.trial.stick_friction) = (None, false);
+        self.trial.stuck_at.copy_from_slice(&state.stuck);
         self.trial.x.copy_from_slice(&state.position);
         self.trial.v.copy_from_slice(&state.velocity);
         self.trial.a.fill(Vector3::zeros());
@@ -83,10 +83,10 @@ impl Solver {
             }
         }
         self.trial.director.copy_from_slice(&state.director);
-        lay(rod, state, world, &mut self.trial.lay);
-        soften(state, world, &mut self.trial.soft);
-        remember(rod, state, 0.0, &mut self.trial.memory);
-        sample(world, state.time, &mut self.trial);
+        set_friction_directions(rod, state, world, &mut self.trial.friction_direction);
+        set_seabed_penetration_scales(state, world, &mut self.trial.seabed_penetration_scale);
+        update_memory(rod, state, 0.0, &mut self.trial.memory);
+        sample_fluid(world, state.time, &mut self.trial);
         self.work.assemble(rod, world, &self.trial, Weights { k: 0.0, c: 0.0, m: 1.0 }, 0..last);
         self.work.keep_rows();
         self.work.keep_ends();

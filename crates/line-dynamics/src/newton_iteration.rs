@@ -1,43 +1,42 @@
-//! Where a step is begun, and one iteration of it.
+//! Predictor of a step, one Newton iteration of it, and its line search.
 
 use super::ends::End;
+use super::environment::LineEnvironment;
 use super::mesh::Rod;
 use super::scheme::Scheme;
 use super::state::State;
 use super::step::{Failure, Solver};
-use super::surroundings::World;
-use super::trial::{carry, largest};
+use super::trial::{largest_change, transport_directors};
 
 /// Least share of a change, and of the way back, that is left where a change is cut short: a line of work that ends nearer to either
 /// place than this says no more than that the work has a kink there.
-const LEAST: f64 = 0.1;
+const MIN_LINE_SEARCH_SHARE: f64 = 0.1;
 
-/// The change that an iteration has made, and the work of what was out of balance on the way of it (J).
+/// Line search of Newton's iteration: the last change and the work of the residual along it (J).
 #[derive(Clone, Debug)]
-pub(super) struct Made {
+pub(super) struct LineSearch {
     change: Vec<f64>,
     work: f64,
     /// Whether there is one.
     known: bool,
 }
 
-impl Made {
+impl LineSearch {
     pub fn new(size: usize) -> Self {
-        Made { change: vec![0.0; size], work: 0.0, known: false }
+        LineSearch { change: vec![0.0; size], work: 0.0, known: false }
     }
 
-    pub fn forget(&mut self) {
+    pub fn reset(&mut self) {
         self.known = false;
     }
 
-    /// Cuts a change short that takes back the one before by half or more, as if there were no end to that: between elements that are
-    /// slack at one of the two places and taut at the other. It ends where what is out of balance does no work on the way from one to the
-    /// other, were its work a line in between: the least of the energy there.
-    fn settle(&mut self, residual: &[f64], change: &mut [f64]) {
+    /// Shortens a change that takes back half or more of the one before, as happens without end between two places at which an element is
+    /// slack and taut. The shortened change ends where the work of the residual, taken as linear between the two, is zero: the least energy.
+    fn damp_reversal(&mut self, residual: &[f64], change: &mut [f64]) {
         if self.known && product(change, &self.change) < -0.5 * product(&self.change, &self.change) {
             let here = product(residual, &self.change);
             let share = here / (here - self.work);
-            let share = if share > LEAST && share < 1.0 - LEAST { share } else { 0.5 };
+            let share = if share > MIN_LINE_SEARCH_SHARE && share < 1.0 - MIN_LINE_SEARCH_SHARE { share } else { 0.5 };
             change.iter_mut().for_each(|c| *c *= share);
         }
         self.change.copy_from_slice(change);
@@ -59,7 +58,7 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
 
 impl Solver {
     /// Where a step ends if its averaged accelerations stay.
-    pub(super) fn foretell(&mut self, from: &State, scheme: &Scheme, time: f64, ends: &[End; 2]) {
+    pub(super) fn predict_step(&mut self, from: &State, scheme: &Scheme, time: f64, ends: &[End; 2]) {
         let next = &mut self.next;
         next.bedding.copy_from_slice(&from.bedding);
         (next.time, next.origin) = (time, from.origin);
@@ -67,7 +66,7 @@ impl Solver {
         for i in 0..=last {
             let u = (from.velocity[i] + from.averaged[i] * (0.5 * scheme.h)) * scheme.h;
             next.position[i] = from.position[i] + u;
-            [next.averaged[i], next.velocity[i], next.acceleration[i]] = scheme.follow(from, i, u);
+            [next.averaged[i], next.velocity[i], next.acceleration[i]] = scheme.node_motion(from, i, u);
         }
         for (side, node) in [(0, 0), (1, last)] {
             if let Some(motion) = ends[side].motion {
@@ -75,17 +74,23 @@ impl Solver {
             }
         }
         next.director.copy_from_slice(&from.director);
-        carry(&mut next.director, &from.position, &next.position);
+        transport_directors(&mut next.director, &from.position, &next.position);
     }
 
-    /// One Newton iteration at the trial, with a fresh tangent or the factors at hand: largest change of a coordinate
+    /// One Newton iteration at the trial, with a fresh tangent or the existing factors: largest change of a coordinate
     /// (m), a turn taken on an arm of the shortest element. The forces of the ends are kept, taken on to the changed positions by their tangent.
-    pub(super) fn iterate(&mut self, rod: &Rod, world: &World, known: [bool; 2], fresh: bool) -> Result<f64, Failure> {
+    pub(super) fn iterate(
+        &mut self,
+        rod: &Rod,
+        world: &LineEnvironment,
+        known: [bool; 2],
+        fresh: bool,
+    ) -> Result<f64, Failure> {
         let last = rod.elements.len();
         if fresh {
-            self.near.moved = f64::INFINITY;
+            self.end_jacobian.moved = f64::INFINITY;
             self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
-            self.keep_matrix();
+            self.reset_end_jacobian();
         } else {
             self.work.forces(rod, world, &self.trial);
         }
@@ -100,16 +105,16 @@ impl Solver {
         }
         if fresh {
             self.work.factor().map_err(|node| Failure { node, why: "its stiffness vanishes" })?;
-            self.near.moved = 0.0;
+            self.end_jacobian.moved = 0.0;
         }
         self.work.newton(&mut self.change);
         // what is still to move counts, also where less of it is made
-        let size = largest(&self.change, self.work.stride(), rod.shortest());
-        self.made.settle(self.work.residuals(), &mut self.change);
+        let size = largest_change(&self.change, self.work.stride(), rod.shortest());
+        self.line_search.damp_reversal(self.work.residuals(), &mut self.change);
         self.work.carry_ends(&self.change);
         // without a way out of the loop it goes many at a time
         if !self.change.iter().fold(true, |finite, c| finite & c.is_finite()) {
-            return Err(Failure { node: self.work.worst(known).0, why: "a force is no number" });
+            return Err(Failure { node: self.work.largest_residual(known).0, why: "a force is no number" });
         }
         Ok(size)
     }

@@ -1,14 +1,14 @@
-//! The books of a rod as numbers and back, for snapshots of a run.
+//! Energy balance of a rod as numbers and back, for checkpoints of a run.
 
-use super::balance::{Balance, Energy, Work};
+use super::energy_balance::{Balance, Energy, Work};
 use nalgebra::Vector3;
 
 impl Balance {
-    /// Numbers of the books.
-    pub const NUMBERS: usize = 34;
+    /// How many numbers a packed balance has.
+    pub const PACKED_LEN: usize = 34;
 
-    /// The books as numbers.
-    pub fn pack(&self) -> [f64; Balance::NUMBERS] {
+    /// The balance as numbers.
+    pub fn pack(&self) -> [f64; Balance::PACKED_LEN] {
         let work = |w: &Work| [w.ends[0], w.ends[1], w.fluid, w.damping, w.bottom, w.supports, w.given];
         let e = &self.energy;
         let vectors = [self.opened.1, self.force, self.momentum, self.impulse];
@@ -18,15 +18,15 @@ impl Balance {
             .chain(work(&self.work))
             .chain([e.kinetic, e.elastic, e.gravity, e.bottom, e.supports])
             .chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z]));
-        let mut made = [0.0; Balance::NUMBERS];
+        let mut made = [0.0; Balance::PACKED_LEN];
         for (place, value) in made.iter_mut().zip(all) {
             *place = value;
         }
         made
     }
 
-    /// The books that [`Balance::pack`] made numbers of.
-    pub fn unpack(from: &[f64; Balance::NUMBERS]) -> Balance {
+    /// The balance that [`Balance::pack`] made numbers of.
+    pub fn unpack(from: &[f64; Balance::PACKED_LEN]) -> Balance {
         let work = |at: usize| Work {
             ends: [from[at], from[at + 1]],
             fluid: from[at + 2],

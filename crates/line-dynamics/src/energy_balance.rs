@@ -1,19 +1,19 @@
-//! The books of energy and momentum of a run.
+//! Energy and momentum balance of a run.
 
 use super::bend::hinge;
 use super::contact::{self, contact};
-use super::hinges::{HingeAt, hinge_sides};
-use super::immersed::{Node, on_half, wet_prism};
+use super::environment::LineEnvironment;
+use super::hinges::{HingePlace, hinge_sides};
+use super::local_environment::LocalEnvironment;
 use super::mesh::{Element, Rod};
-use super::nearby::Nearby;
-use super::rope::Memory;
+use super::morison::{HalfNode, half_force, wet_prism};
 use super::spatial;
 use super::state::State;
 use super::step::{EndForces, Solver};
-use super::supports::{meeting, supported};
-use super::surroundings::World;
-use super::tension::{Stretch, Taken, tension};
+use super::supports::{find_support_contact, support_load};
+use super::tension::{Stretch, TensionOptions, tension};
 use super::trial::Trial;
+use super::viscoelastic::Memory;
 use nalgebra::Vector3;
 
 /// Energy a rod holds at one time (J).
@@ -38,7 +38,7 @@ impl Energy {
     }
 }
 
-/// Work done on a rod since the books were opened (J).
+/// Work done on a rod since the balance was opened (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {
     /// By the holders of end A and end B, by force and moment.
@@ -73,8 +73,8 @@ impl Work {
     }
 }
 
-/// The books of one rod. Work and impulse are sums of power and force over the steps by the trapezoidal rule, so what
-/// does not add up falls with the square of the step; beyond that it is what the scheme damps.
+/// Energy and momentum balance of one rod. Work and impulse are sums of power and force over the steps by the trapezoidal rule, so
+/// the imbalance decreases with the square of the step; what is left is the numerical damping of the scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance {
     pub(super) time: f64,
@@ -89,13 +89,13 @@ pub struct Balance {
     pub momentum: Vector3<f64>,
     /// Impulse of all outer forces so far (N s).
     pub impulse: Vector3<f64>,
-    /// The most energy and work that have met in the books (J): what the imbalance is to be seen against.
+    /// Largest sum of energy and work so far (J): the scale of the imbalance.
     pub turnover: f64,
 }
 
-/// What one pass over a rod finds.
+/// Energy, power, momentum and force of a rod at one time.
 #[derive(Default)]
-struct Look {
+struct BalanceSample {
     energy: Energy,
     power: Work,
     momentum: Vector3<f64>,
@@ -103,9 +103,9 @@ struct Look {
 }
 
 impl Balance {
-    /// Opens the books at a state; `made` is the trial or statics that led to it.
-    pub fn open(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForces) -> Self {
-        let look = look(rod, state, world, solver, made);
+    /// Opens the balance at a state; `made` is the trial or statics that led to it.
+    pub fn open(rod: &Rod, state: &State, world: &LineEnvironment, solver: &Solver, made: &EndForces) -> Self {
+        let look = sample_balance(rod, state, world, solver, made);
         Balance {
             time: state.time,
             opened: (look.energy.total(), look.momentum),
@@ -120,8 +120,8 @@ impl Balance {
     }
 
     /// Enters an accepted step.
-    pub fn enter(&mut self, rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForces) {
-        let look = look(rod, state, world, solver, made);
+    pub fn enter(&mut self, rod: &Rod, state: &State, world: &LineEnvironment, solver: &Solver, made: &EndForces) {
+        let look = sample_balance(rod, state, world, solver, made);
         let h = state.time - self.time;
         self.work.add(h, &self.power, &look.power);
         self.impulse += (self.force + look.force) * (0.5 * h);
@@ -156,19 +156,25 @@ impl Balance {
     }
 }
 
-/// A rod at the end of a step, as its books look at it.
-struct At<'a> {
+/// A rod at the end of a step.
+struct StepView<'a> {
     rod: &'a Rod,
     state: &'a State,
-    world: &'a World<'a>,
+    world: &'a LineEnvironment<'a>,
     trial: &'a Trial,
 }
 
-fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForces) -> Look {
+fn sample_balance(
+    rod: &Rod,
+    state: &State,
+    world: &LineEnvironment,
+    solver: &Solver,
+    made: &EndForces,
+) -> BalanceSample {
     let trial = &solver.trial;
-    let near = Nearby::new(world, state.origin, Vec::new());
-    let at = At { rod, state, world: &near.world(), trial };
-    let mut found = Look::default();
+    let near = LocalEnvironment::new(world, state.origin, Vec::new());
+    let at = StepView { rod, state, world: &near.world(), trial };
+    let mut found = BalanceSample::default();
     for i in 0..rod.elements.len() {
         found.stretch(&at, i);
         found.halves(&at, i);
@@ -192,9 +198,9 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
     found
 }
 
-impl Look {
+impl BalanceSample {
     /// A mass at a node.
-    fn lump(&mut self, At { state, world, .. }: &At, node: usize, mass: f64) {
+    fn lump(&mut self, StepView { state, world, .. }: &StepView, node: usize, mass: f64) {
         let (x, v) = (&state.position[node], &state.velocity[node]);
         self.energy.kinetic += 0.5 * mass * v.norm_squared();
         self.energy.gravity += mass * world.gravity * (x.z + state.origin.z);
@@ -203,14 +209,14 @@ impl Look {
     }
 
     /// What an element's stretch stores and its damper takes.
-    fn stretch(&mut self, At { rod, state, world, trial }: &At, i: usize) {
+    fn stretch(&mut self, StepView { rod, state, world, trial }: &StepView, i: usize) {
         let (x, v, element) = (&state.position, &state.velocity, &rod.elements[i]);
         let (t, length) = direction(x, element, i);
         let strain = length / element.rest - 1.0;
         let rate = (t.dot(&(v[i + 1] - v[i])) - length / element.rest * element.rate) / element.rest;
         let height = 0.5 * (x[i].z + x[i + 1].z);
-        let taken = Taken { compression: element.compression, ease: 1.0 };
-        let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
+        let taken = TensionOptions { compression: element.compression, axial_stiffness_scale: 1.0 };
+        let memory = state.yielded.get(i).map(|yielded| Memory::instantaneous(*yielded));
         let pull = |rate| {
             let stretched = Stretch { strain, rate, height, datum: state.origin.z };
             let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
@@ -220,13 +226,13 @@ impl Look {
         let segment = &rod.segments[element.segment];
         let mechanical = strain - segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
         let held = mechanical > 0.0 || element.compression;
-        let (law, energy) = if let (Some(rope), Some(memory)) = (rod.rope(element), &memory) {
-            let pulled = rod.pulled(element, rope, [&x[i], &x[i + 1]], memory);
-            let (energy, lost) = rope.books(pulled, -memory.kept);
+        let (law, energy) = if let (Some(rope), Some(memory)) = (rod.viscoelastic_law(element), &memory) {
+            let pulled = rod.viscoelastic_tension(element, rope, [&x[i], &x[i + 1]], memory);
+            let (energy, lost) = rope.energy_and_loss(pulled, -memory.kept);
             self.power.damping -= lost * element.rest;
-            (rope.slow.at(pulled).0 + rope.beside(pulled, memory).0, energy)
+            (rope.slow.evaluate(pulled).0 + rope.maxwell_tension(pulled, memory).0, energy)
         } else if held {
-            (segment.axial.at(mechanical).0, segment.axial.energy(mechanical))
+            (segment.axial.evaluate(mechanical).0, segment.axial.energy(mechanical))
         } else {
             (0.0, 0.0)
         };
@@ -239,11 +245,11 @@ impl Look {
     }
 
     /// The masses of the halves of an element, and the water and the wind on them.
-    fn halves(&mut self, at: &At, i: usize) {
-        let At { rod, state: State { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
+    fn halves(&mut self, at: &StepView, i: usize) {
+        let StepView { rod, state: State { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
         let element = &rod.elements[i];
         let (t, _) = direction(x, element, i);
-        let half = |node: usize| Node {
+        let half = |node: usize| HalfNode {
             position: &x[node],
             velocity: &v[node],
             acceleration: &a[node],
@@ -251,20 +257,20 @@ impl Look {
         };
         for (node, other) in [(i, i + 1), (i + 1, i)] {
             self.lump(at, node, element.mass);
-            let force = on_half(element, &t, world, [half(node), half(other)]);
+            let force = half_force(element, &t, world, [half(node), half(other)]);
             self.power.fluid += force.dot(&v[node]);
             self.force += force;
         }
     }
 
     /// What the hinges of elements that bend store, and those of the ends.
-    fn bending(&mut self, At { rod, state, trial, .. }: &At) {
+    fn bending(&mut self, StepView { rod, state, trial, .. }: &StepView) {
         let (x, last) = (&state.position, rod.elements.len());
         for (i, element) in rod.elements.iter().enumerate().filter(|(_, e)| e.bending > 0.0) {
             if rod.twists() {
-                let first = (i == 0).then_some(HingeAt::A);
-                let inner = (i > 0).then_some(HingeAt::Inner(i));
-                let end = (i + 1 == last).then_some(HingeAt::B);
+                let first = (i == 0).then_some(HingePlace::A);
+                let inner = (i > 0).then_some(HingePlace::Inner(i));
+                let end = (i + 1 == last).then_some(HingePlace::B);
                 for at in [first, inner, end].into_iter().flatten() {
                     if let Some((k, kt, e, f)) = hinge_sides(rod, x, &state.director, &trial.ends, at) {
                         self.energy.elastic += spatial::energy(k, kt, &e, &f);
@@ -289,8 +295,8 @@ impl Look {
     }
 
     /// What is attached between elements, with its water.
-    fn attachments(&mut self, at: &At) {
-        let At { rod, state: State { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
+    fn attachments(&mut self, at: &StepView) {
+        let StepView { rod, state: State { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
         for held in &rod.attachments {
             let node = held.node;
             self.lump(at, node, held.mass);
@@ -308,14 +314,14 @@ impl Look {
     }
 
     /// What the bottom stores, and takes by damping and friction.
-    fn bottom(&mut self, At { rod, state, world, trial }: &At) {
+    fn bottom(&mut self, StepView { rod, state, world, trial }: &StepView) {
         let Some((bottom, ground)) = &world.bottom else { return };
         for (node, (x, v)) in state.position.iter().zip(&state.velocity).enumerate() {
-            let area = rod.bearing(node);
-            let soft = trial.soft[node];
+            let area = rod.contact_area(node);
+            let soft = trial.seabed_penetration_scale[node];
             self.energy.bottom += contact::energy(*bottom, ground, soft, area, x);
             let at = |v: &Vector3<f64>| {
-                contact(*bottom, ground, soft, area, x, v, &trial.lay[node], &trial.stuck[node], true)
+                contact(*bottom, ground, soft, area, x, v, &trial.friction_direction[node], &trial.stuck_at[node], true)
             };
             let acts = at(v).map_or_else(Vector3::zeros, |c| c.force[0] + c.force[1]);
             let still = at(&Vector3::zeros()).map_or_else(Vector3::zeros, |c| c.force[0]);
@@ -325,14 +331,15 @@ impl Look {
     }
 
     /// What supports store, and do by damping and their own motion.
-    fn supports(&mut self, At { rod, state, world, .. }: &At) {
+    fn supports(&mut self, StepView { rod, state, world, .. }: &StepView) {
         let (x, v) = (&state.position, &state.velocity);
         for support in world.supports {
-            let Some(over) = meeting(rod.smooth(), support, x) else { continue };
-            if let Some(made) = supported(support, &over, v) {
+            let Some(over) = find_support_contact(rod.smooth(), support, x) else { continue };
+            if let Some(made) = support_load(support, &over, v) {
                 self.energy.supports += made.energy;
                 // the springs give back what they take but for the motion of the support itself
-                let power = (made.force - made.elastic).dot(&over.at_point(v)) + made.elastic.dot(&support.velocity);
+                let power =
+                    (made.force - made.elastic).dot(&over.value_at_contact(v)) + made.elastic.dot(&support.velocity);
                 self.power.supports -= power;
                 self.force -= made.force;
             }

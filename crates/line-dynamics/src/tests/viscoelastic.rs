@@ -1,6 +1,6 @@
 //! Ropes with a static and a dynamic stiffness, against the standard linear solid.
 
-use super::super::rope::Memory;
+use super::super::viscoelastic::Memory;
 use super::super::*;
 use super::tangent::compare;
 use nalgebra::Vector3;
@@ -28,14 +28,14 @@ fn cycle(rope: Viscoelastic, mean: f64, frequency: f64, steps: usize) -> Cycle {
     let axial = Axial::Viscoelastic(Box::new(rope));
     let segment = Segment { axial, ..Segment::line(LENGTH, 1, 1e-6, 1.0, 0.1) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, 0.0);
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, 0.0);
     let (a, b) = (Vector3::zeros(), Vector3::x() * (LENGTH * (1.0 + mean)));
     let swing = Vector3::x() * (LENGTH * SWING);
-    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut state = State::along_points(&rod, &[a, b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    let held = End::pinned(a);
-    let made = solver.statics(&rod, &mut state, &world, [held, End::pinned(b + swing)]).unwrap();
+    let held = End::pin(a);
+    let made = solver.statics(&rod, &mut state, &world, [held, End::pin(b + swing)]).unwrap();
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     let mut found = Cycle { storage: 0.0, lost: 0.0, mean: 0.0, booked: [0.0; 2] };
     let (mut before, mut damped) = ((-made.force[1].x, b.x + swing.x), 0.0);
@@ -49,7 +49,7 @@ fn cycle(rope: Viscoelastic, mean: f64, frequency: f64, steps: usize) -> Cycle {
             velocity: swing * (-frequency * s),
             acceleration: swing * (-frequency * frequency * c),
         };
-        let made = solver.step(&rod, &mut state, &world, t, [held, End::moved(motion)]).unwrap();
+        let made = solver.step(&rod, &mut state, &world, t, [held, End::from_motion(motion)]).unwrap();
         books.enter(&rod, &state, &world, &solver, &made);
         let now = (-made.force[1].x, motion.position.x);
         if i == settling * steps {
@@ -94,7 +94,7 @@ fn a_slow_cycle_has_the_static_stiffness_and_a_fast_one_the_dynamic_of_its_mean_
         let slow = Axial::Polynomial(vec![1e7, 1e8]);
         let rope = || Viscoelastic { slow: slow.clone(), fast: [a, b], relaxation: 20.0 };
         let (still, quick) = (cycle(rope(), mean, 1e-4, 100), cycle(rope(), mean, 6.0, 100));
-        let (told, at) = (slow.at(mean), a + b * tension);
+        let (told, at) = (slow.evaluate(mean), a + b * tension);
         assert!((told.0 / tension - 1.0).abs() < 1e-12);
         // (w tau)^2 is 4e-6 and the sums 3e-4; 7e-5 for the fast one
         assert!((still.storage / told.1 - 1.0).abs() < 1e-3, "{} {told:?}", still.storage);
@@ -113,13 +113,13 @@ fn a_hanging_load_creeps_to_the_static_length_and_its_books_add_up() {
         Axial::Viscoelastic(Box::new(Viscoelastic { slow: Axial::Linear(slow), fast: [fast, 0.0], relaxation: tau }));
     let segment = Segment { axial, axial_damping: 2e5, ..Segment::line(LENGTH, 4, 1.0, 1.0, 0.1) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::none();
+    let fluid = UniformFluid::vacuum();
     let forces = [(4, Vector3::x() * load)];
-    let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
+    let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
     let (a, b) = (Vector3::zeros(), Vector3::x() * LENGTH);
-    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut state = State::along_points(&rod, &[a, b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    let ends = [End::pinned(a), End::FREE];
+    let ends = [End::pin(a), End::FREE];
     let made = EndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     let h = 0.01;
@@ -152,12 +152,12 @@ fn a_rope_that_is_let_go_slack_never_pushes() {
     let axial = Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast: [3e7, 5.0], relaxation: 50.0 }));
     let segment = Segment { axial, ..Segment::line(LENGTH, 1, 10.0, 1.0, 0.1) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, 0.0);
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, 0.0);
     let (a, b) = (Vector3::zeros(), Vector3::x() * (1.02 * LENGTH));
-    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut state = State::along_points(&rod, &[a, b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
-    let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     for i in 1..=400 {
         let t = i as f64 * 0.05;
@@ -168,7 +168,7 @@ fn a_rope_that_is_let_go_slack_never_pushes() {
             velocity: Vector3::x() * (-r * w * s),
             acceleration: Vector3::x() * (-r * w * w * c),
         };
-        let made = solver.step(&rod, &mut state, &world, t, [End::pinned(a), End::moved(motion)]).unwrap();
+        let made = solver.step(&rod, &mut state, &world, t, [End::pin(a), End::from_motion(motion)]).unwrap();
         // one massless element but for 50 kg at an acceleration of 0.075 m/s2
         assert!(made.force[1].x < 4.0, "{t}: {}", made.force[1].x);
         books.enter(&rod, &state, &world, &solver, &made);
@@ -200,7 +200,7 @@ fn tangent_of_a_viscoelastic_rod_is_the_difference_of_its_residual() {
     let axial = Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast: [2e6, 9.0], relaxation: 5.0 }));
     let segment = Segment { axial, axial_damping: 1e4, ..Segment::line(20.0, 4, 30.0, 1.0, 0.1) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
-    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(20.0, 3.0, 8.0)]).unwrap();
+    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(20.0, 3.0, 8.0)]).unwrap();
     for i in 0..rod.nodes() {
         let s = i as f64;
         state.position[i] += Vector3::new((s * 1.3).sin(), (s * 2.1).cos(), (s * 0.7).sin()) * 0.1;
@@ -208,8 +208,8 @@ fn tangent_of_a_viscoelastic_rod_is_the_difference_of_its_residual() {
     }
     let mut solver = Solver::new(&rod, Settings::default());
     solver.trial.memory.fill(Memory { kept: -0.04, follows: 0.7 });
-    let fluid = UniformFluid::none();
-    compare(&rod, &state, &World::new(&fluid, 9.81), &mut solver);
+    let fluid = UniformFluid::vacuum();
+    compare(&rod, &state, &LineEnvironment::new(&fluid, 9.81), &mut solver);
 }
 
 #[test]
@@ -220,23 +220,23 @@ fn a_rope_that_is_let_in_fast_does_not_push_through_its_damper() {
         let axial = rope.map_or(Axial::Linear(ea), |rope| Axial::Viscoelastic(Box::new(rope)));
         let segment = Segment { axial, axial_damping: damping, ..Segment::line(LENGTH, 1, 1e-6, 1.0, 0.1) };
         let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
-        let fluid = UniformFluid::none();
-        let world = World::new(&fluid, 0.0);
-        let held = End::pinned(Vector3::zeros());
+        let fluid = UniformFluid::vacuum();
+        let world = LineEnvironment::new(&fluid, 0.0);
+        let held = End::pin(Vector3::zeros());
         let at = |t: f64| Motion {
             position: Vector3::x() * (LENGTH * (1.0 + strain) - speed * t),
             velocity: Vector3::x() * -speed,
             acceleration: Vector3::zeros(),
         };
-        let mut state = State::along(&rod, &[Vector3::zeros(), at(0.0).position]).unwrap();
+        let mut state = State::along_points(&rod, &[Vector3::zeros(), at(0.0).position]).unwrap();
         state.velocity[1] = at(0.0).velocity;
         let mut solver = Solver::new(&rod, Settings::default());
-        let made = solver.start(&rod, &mut state, &world, [held, End::moved(at(0.0))]).unwrap();
+        let made = solver.start(&rod, &mut state, &world, [held, End::from_motion(at(0.0))]).unwrap();
         let mut books = Balance::open(&rod, &state, &world, &solver, &made);
         let mut slack = 0;
         for i in 1..=250 {
             let t = i as f64 * 0.01;
-            let ends = [held, End::moved(at(t))];
+            let ends = [held, End::from_motion(at(t))];
             let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
             books.enter(&rod, &state, &world, &solver, &made);
             let exact = (ea * (strain - speed * t / LENGTH) - damping * speed / LENGTH).max(0.0);

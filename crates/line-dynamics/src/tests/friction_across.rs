@@ -1,6 +1,6 @@
 //! Friction of the bottom across a line at rest, and against a current along it.
 
-use super::super::drawn::rub;
+use super::super::statics_friction::seabed_friction;
 use super::super::*;
 use super::slope::lying;
 use nalgebra::Vector3;
@@ -13,8 +13,8 @@ const DENSITY: f64 = 1025.0;
 const FRICTION: f64 = 0.6;
 const FAIRLEAD: [f64; 2] = [400.0, 90.0];
 
-fn rough(along: f64, across: f64) -> Ground {
-    Ground { damping: 1e5, friction_along: along, friction_across: across, ..Ground::elastic(1e6) }
+fn rough(along: f64, across: f64) -> SeabedLaw {
+    SeabedLaw { damping: 1e5, friction_along: along, friction_across: across, ..SeabedLaw::elastic(1e6) }
 }
 
 /// A chain laid on a slope in still water, in a current; at rest, with the forces at its ends.
@@ -36,11 +36,12 @@ fn rest(bottom: &PlaneBottom, length: f64, current: Vector3<f64>) -> Rested {
     let unit = (MASS - DENSITY * segment.displaced) * GRAVITY;
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::moving(DENSITY, current);
-    let world = World { bottom: Some((bottom, rough(FRICTION, FRICTION))), ..World::new(&fluid, GRAVITY) };
+    let world =
+        LineEnvironment { bottom: Some((bottom, rough(FRICTION, FRICTION))), ..LineEnvironment::new(&fluid, GRAVITY) };
     let down = Vector3::z() * bottom.height;
     let points: Vec<_> = lying(unit, bottom.slope[0], length, FAIRLEAD).1.iter().map(|p| p + down).collect();
-    let ends = [End::pinned(down), End::pinned(Vector3::new(FAIRLEAD[0], 0.0, FAIRLEAD[1]) + down)];
-    let mut state = State::along(&rod, &points).unwrap();
+    let ends = [End::pin(down), End::pin(Vector3::new(FAIRLEAD[0], 0.0, FAIRLEAD[1]) + down)];
+    let mut state = State::along_points(&rod, &points).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
@@ -54,7 +55,7 @@ fn a_current_across_pulls_at_what_hangs_and_moves_nothing_that_lies() {
         let still = rest(&bottom, length, Vector3::zeros());
         for speed in [0.01, 0.05, 0.5, 1.0] {
             let Rested { rod, mut state, mut solver, made, ends } = rest(&bottom, length, Vector3::y() * speed);
-            assert!(!solver.slid(), "{slope} {length} {speed}");
+            assert!(!solver.has_slid_without_friction(), "{slope} {length} {speed}");
             // up to two elements before it leaves the bottom
             let over = |x: &Vector3<f64>| x.z - bottom.height(x.x, x.y).0;
             let foot = state.places().iter().rposition(|x| over(x) < 0.0).unwrap().saturating_sub(2);
@@ -74,7 +75,10 @@ fn a_current_across_pulls_at_what_hangs_and_moves_nothing_that_lies() {
             assert!((made.force[1].x / still.made.force[1].x - 1.0).abs() < 1e-4 + turned);
             // as it rests it stays
             let fluid = UniformFluid::moving(DENSITY, Vector3::y() * speed);
-            let world = World { bottom: Some((&bottom, rough(FRICTION, FRICTION))), ..World::new(&fluid, GRAVITY) };
+            let world = LineEnvironment {
+                bottom: Some((&bottom, rough(FRICTION, FRICTION))),
+                ..LineEnvironment::new(&fluid, GRAVITY)
+            };
             let (before, pull) = (state.clone(), made.force[1].norm());
             for i in 1..=100 {
                 let made = solver.step(&rod, &mut state, &world, i as f64 * 0.1, ends).unwrap();
@@ -94,7 +98,7 @@ fn a_current_along_what_lies_does_not_push_it() {
             let (sin, cos) = angle.to_radians().sin_cos();
             let Rested { solver, made, .. } = rest(&bottom, length, Vector3::new(cos, sin, 0.0) * speed);
             println!("{slope} {length} {speed} {angle}: {} {}", made.force[1], made.force[0].x);
-            assert!(!solver.slid());
+            assert!(!solver.has_slid_without_friction());
             assert!(made.force[0].xy().norm() < 100.0, "{}", made.force[0]);
         }
     }
@@ -110,8 +114,9 @@ fn derivatives_of_friction_at_rest_are_its_differences() {
         ([0.3, 0.3], 0.2, 0.0),
     ] {
         let bottom = PlaneBottom { height: 0.0, slope };
-        let fluid = UniformFluid::none();
-        let world = World { bottom: Some((&bottom, rough(along, across))), ..World::new(&fluid, GRAVITY) };
+        let fluid = UniformFluid::vacuum();
+        let world =
+            LineEnvironment { bottom: Some((&bottom, rough(along, across))), ..LineEnvironment::new(&fluid, GRAVITY) };
         let rod = Rod::new("chain", vec![Segment::line(10.0, 2, MASS, 1e6, DIAMETER)], vec![]).unwrap();
         for (stretch, aside) in [(1e-3, 0.0), (2e-3, 0.002), (-1e-3, 0.004), (5e-3, -0.03)] {
             for side in [0, 1] {
@@ -120,8 +125,9 @@ fn derivatives_of_friction_at_rest_are_its_differences() {
                 for (i, x) in solver.trial.x.iter_mut().enumerate() {
                     *x = way * (5.0 * i as f64 * (1.0 + stretch)) - Vector3::z() * 0.01;
                 }
-                solver.trial.laid = solver.trial.x.iter().map(|x| x - Vector3::new(-0.1, 1.0, 0.0) * aside).collect();
-                let at = |trial: &super::super::trial::Trial| rub(&rod, &world, trial, 1, side).unwrap();
+                solver.trial.laid_at =
+                    solver.trial.x.iter().map(|x| x - Vector3::new(-0.1, 1.0, 0.0) * aside).collect();
+                let at = |trial: &super::super::trial::Trial| seabed_friction(&rod, &world, trial, 1, side).unwrap();
                 let told = at(&solver.trial);
                 assert!(told.held.norm() <= 1.0 + 2e-3, "{}", told.held.norm());
                 for (j, node) in [told.node, 3 - told.node].into_iter().enumerate() {
@@ -151,12 +157,15 @@ fn a_current_across_a_line_that_lies_from_end_to_end_does_not_move_it() {
     let bottom = PlaneBottom { height: -100.0, slope: [0.0, 0.0] };
     let segment = Segment { drag_normal: 1.2, ..Segment::line(200.0, 100, MASS, 1e9, DIAMETER) };
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
-    let ends = [0.0, 199.5].map(|x| End::pinned(Vector3::new(x, 0.0, -100.0)));
+    let ends = [0.0, 199.5].map(|x| End::pin(Vector3::new(x, 0.0, -100.0)));
     let points = [0.0, 199.5].map(|x| Vector3::new(x, 0.0, -100.0));
     let rest = |friction: f64, speed: f64| {
         let fluid = UniformFluid::moving(DENSITY, Vector3::y() * speed);
-        let world = World { bottom: Some((&bottom, rough(friction, friction))), ..World::new(&fluid, GRAVITY) };
-        let mut state = State::along(&rod, &points).unwrap();
+        let world = LineEnvironment {
+            bottom: Some((&bottom, rough(friction, friction))),
+            ..LineEnvironment::new(&fluid, GRAVITY)
+        };
+        let mut state = State::along_points(&rod, &points).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         solver.statics(&rod, &mut state, &world, ends).unwrap();
         let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
@@ -169,7 +178,7 @@ fn a_current_across_a_line_that_lies_from_end_to_end_does_not_move_it() {
         let moved = state.position.iter().zip(&before.position).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
         println!("{friction} {speed}: aside {aside} pull {} moved {moved:e} {}", made.force[1].x, made.iterations);
         // dragged to a stand it is held by all of its friction, and settles by some travels of it more
-        assert!(!solver.slid() && moved < if speed > 1.0 { 3e-2 } else { 1e-3 }, "{moved}");
+        assert!(!solver.has_slid_without_friction() && moved < if speed > 1.0 { 3e-2 } else { 1e-3 }, "{moved}");
         (aside, made.force[1].norm())
     };
     // drag 61.5 N/m against friction of 540 N/m

@@ -1,10 +1,10 @@
-//! What a rod lies in: the fluid, the bottom, gravity.
+//! Environment of a rod: fluid, bottom, gravity, supports.
 
 use nalgebra::{Matrix3, Vector3};
 
 /// The fluid at a place and time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fluid {
+pub struct FluidState {
     /// Velocity (m/s).
     pub velocity: Vector3<f64>,
     /// Acceleration (m/s2).
@@ -12,7 +12,7 @@ pub struct Fluid {
     /// Elevation of the free surface above this place's x and y (m, global z).
     pub surface: f64,
     /// What the pressure here is more than that of fluid at rest up to the surface, as a height of fluid (m): see
-    /// [`Fluid::pressure`]. Zero but under waves.
+    /// [`FluidState::pressure`]. Zero but under waves.
     pub head: f64,
     /// Density (kg/m3).
     pub density: f64,
@@ -22,7 +22,7 @@ pub struct Fluid {
     pub air_density: f64,
 }
 
-impl Fluid {
+impl FluidState {
     /// Pressure (Pa, above the atmosphere's) at an elevation near the place, and its slope by the elevation (Pa/m).
     ///
     /// It is rho g (surface + head - z), and nothing from the surface on. Linear waves leave some pressure at the
@@ -38,56 +38,56 @@ impl Fluid {
     }
 }
 
-/// Kinematics of the fluid around a rod. It is asked at the actual positions of the nodes.
+/// Kinematics of the fluid around a rod, sampled at the actual positions of the nodes.
 pub trait FluidField {
     /// The fluid at a position (m, global) and time (s). Somewhat above the surface the water's motion should be that
     /// of the surface: it acts on the wet part of an element whose node is dry.
-    fn at(&self, position: &Vector3<f64>, time: f64) -> Fluid;
+    fn sample(&self, position: &Vector3<f64>, time: f64) -> FluidState;
 
     /// The same at many positions at one time, into a list as long as theirs: for a sea that is prepared once for all
     /// of them.
-    fn fill(&self, positions: &[Vector3<f64>], time: f64, out: &mut [Fluid]) {
+    fn sample_into(&self, positions: &[Vector3<f64>], time: f64, out: &mut [FluidState]) {
         for (fluid, position) in out.iter_mut().zip(positions) {
-            *fluid = self.at(position, time);
+            *fluid = self.sample(position, time);
         }
     }
 
-    /// Whether the answer is the same everywhere at one time: it is then asked for one node only.
+    /// Whether the fluid is the same everywhere at one time: it is then sampled for one node only.
     fn uniform(&self) -> bool {
         false
     }
 
     /// Whether a search that takes long is to give up.
-    fn interrupted(&self) -> bool {
+    fn is_interrupted(&self) -> bool {
         false
     }
 }
 
 /// Water and air that move at one velocity each everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct UniformFluid(pub Fluid);
+pub struct UniformFluid(pub FluidState);
 
 impl UniformFluid {
     /// Still water with its surface at z = 0.
     pub fn still(density: f64) -> Self {
         let zero = Vector3::zeros();
         let (velocity, acceleration, wind) = (zero, zero, zero);
-        UniformFluid(Fluid { velocity, acceleration, surface: 0.0, head: 0.0, density, wind, air_density: 0.0 })
+        UniformFluid(FluidState { velocity, acceleration, surface: 0.0, head: 0.0, density, wind, air_density: 0.0 })
     }
 
     /// The same water with a velocity (m/s).
     pub fn moving(density: f64, velocity: Vector3<f64>) -> Self {
-        UniformFluid(Fluid { velocity, ..UniformFluid::still(density).0 })
+        UniformFluid(FluidState { velocity, ..UniformFluid::still(density).0 })
     }
 
     /// No fluid: a rod in vacuum.
-    pub fn none() -> Self {
+    pub fn vacuum() -> Self {
         UniformFluid::still(0.0)
     }
 }
 
 impl FluidField for UniformFluid {
-    fn at(&self, _: &Vector3<f64>, _: f64) -> Fluid {
+    fn sample(&self, _: &Vector3<f64>, _: f64) -> FluidState {
         self.0
     }
 
@@ -117,7 +117,7 @@ impl Bottom for PlaneBottom {
     }
 }
 
-/// How the bottom answers a rod that lies on it.
+/// Contact law of the seabed.
 ///
 /// Normal to it, a force per area of the rod's shadow (contact diameter times length): stiffness times penetration,
 /// plus damping times the rate of penetration, never a pull. Over the first `soft` of penetration the stiffness grows
@@ -128,13 +128,13 @@ impl Bottom for PlaneBottom {
 /// way is less than d0, and is drawn along behind the node beyond. A rod that is pulled by less than mu N therefore
 /// gives way by less than d0, slowly by v0, and stays there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ground {
+pub struct SeabedLaw {
     /// Normal stiffness per area (N/m3).
     pub stiffness: f64,
     /// Normal damping per area (N s/m3).
     pub damping: f64,
     /// Penetration over which the stiffness grows to its full value (m).
-    pub soft: f64,
+    pub penetration_scale: f64,
     /// Friction coefficient along the rod.
     pub friction_along: f64,
     /// Friction coefficient across the rod.
@@ -145,10 +145,10 @@ pub struct Ground {
     pub friction_travel: f64,
 }
 
-impl Ground {
+impl SeabedLaw {
     /// The same without friction.
     pub(super) fn smooth(&self) -> Self {
-        Ground { friction_along: 0.0, friction_across: 0.0, ..*self }
+        SeabedLaw { friction_along: 0.0, friction_across: 0.0, ..*self }
     }
 
     /// Whether it has friction.
@@ -158,10 +158,10 @@ impl Ground {
 
     /// A bottom without friction and damping.
     pub fn elastic(stiffness: f64) -> Self {
-        Ground {
+        SeabedLaw {
             stiffness,
             damping: 0.0,
-            soft: 0.0,
+            penetration_scale: 0.0,
             friction_along: 0.0,
             friction_across: 0.0,
             friction_speed: 0.01,
@@ -170,16 +170,16 @@ impl Ground {
     }
 }
 
-/// How a support answers a rod that is against it.
-pub trait Grip: std::fmt::Debug {
-    /// What it does to a rod whose point is `at` from the place of the support (m, global) and moves at `velocity`
-    /// beside it (m/s); none where it is clear of it.
-    fn answer(&self, at: &Vector3<f64>, velocity: &Vector3<f64>) -> Option<Gripped>;
+/// Contact law of a support.
+pub trait SupportLaw: std::fmt::Debug {
+    /// Reaction on a rod whose point is at `at` from the place of the support (m, global) and moves at `velocity`
+    /// relative to it (m/s); none where there is no contact.
+    fn reaction(&self, at: &Vector3<f64>, velocity: &Vector3<f64>) -> Option<SupportReaction>;
 }
 
-/// What a support does to a point of a rod.
+/// Reaction of a support on a point of a rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Gripped {
+pub struct SupportReaction {
     /// Force on the rod (N, global).
     pub force: Vector3<f64>,
     /// -d(force)/d(place of the point) (N/m).
@@ -191,54 +191,54 @@ pub struct Gripped {
     pub elastic: (Vector3<f64>, f64),
 }
 
-/// What holds a rod on its way between its ends.
+/// A support of a rod between its ends.
 ///
 /// It holds a node of the rod, or it is a roller: the point of the rod that crosses its plane then, and nothing acts
 /// along the rod, which rolls through it. Its force depends on where that point is as seen from the support itself, so
 /// the support feels the opposite force there.
 #[derive(Clone, Copy, Debug)]
 pub struct Support<'a> {
-    /// Its place (m, global), about which its moment is told.
+    /// Its place (m, global), about which its moment is taken.
     pub place: Vector3<f64>,
     /// Velocity of that place (m/s).
     pub velocity: Vector3<f64>,
-    /// What it holds.
-    pub holds: Holds,
-    /// How it answers.
-    pub grip: &'a dyn Grip,
+    /// What of the rod it supports.
+    pub target: SupportTarget,
+    /// Its contact law.
+    pub law: &'a dyn SupportLaw,
 }
 
-/// What of a rod a support holds.
+/// Part of a rod that a support acts on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Holds {
+pub enum SupportTarget {
     /// A node, from end A.
     Node(usize),
     /// What crosses the plane through the place of the support at right angles to this unit vector.
     Crossing(Vector3<f64>),
 }
 
-/// All that surrounds a rod.
+/// Environment of a rod: all that acts on it but its ends.
 #[derive(Clone, Copy)]
-pub struct World<'a> {
+pub struct LineEnvironment<'a> {
     /// The fluid.
     pub fluid: &'a dyn FluidField,
-    /// The bottom and how it answers; none for a rod that never meets it.
-    pub bottom: Option<(&'a dyn Bottom, Ground)>,
+    /// The bottom and its contact law; none for a rod that never meets it.
+    pub bottom: Option<(&'a dyn Bottom, SeabedLaw)>,
     /// Acceleration of gravity (m/s2), downward.
     pub gravity: f64,
     /// Forces on nodes beside those the rod makes itself (N, global): node from end A, force.
     pub forces: &'a [(usize, Vector3<f64>)],
-    /// What holds it on its way between its ends.
+    /// Supports between its ends.
     pub supports: &'a [Support<'a>],
     /// Whether an element that enters the water is slammed by it: the rate at which its added mass grows, times its
     /// velocity relative to the water. Off, the added mass comes without its momentum.
     pub slam: bool,
 }
 
-impl<'a> World<'a> {
+impl<'a> LineEnvironment<'a> {
     /// A fluid and gravity (m/s2), and nothing else.
     pub fn new(fluid: &'a dyn FluidField, gravity: f64) -> Self {
-        World { fluid, bottom: None, gravity, forces: &[], supports: &[], slam: false }
+        LineEnvironment { fluid, bottom: None, gravity, forces: &[], supports: &[], slam: false }
     }
     /// Its supports a time (s) before they are where they are, as they move.
     pub(super) fn supports_before(&self, time: f64) -> Vec<Support<'a>> {

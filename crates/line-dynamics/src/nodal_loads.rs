@@ -1,10 +1,10 @@
 //! What acts on nodes beside the elements: the bottom, supports, attachments, given forces.
 
 use super::contact::contact;
-use super::immersed::wet_prism;
+use super::environment::LineEnvironment;
 use super::mesh::Rod;
-use super::supports::{meeting, supported};
-use super::surroundings::World;
+use super::morison::wet_prism;
+use super::supports::{find_support_contact, support_load};
 use super::system::{System, Weights};
 use super::trial::Trial;
 use nalgebra::Vector3;
@@ -12,29 +12,29 @@ use std::ops::Range;
 
 /// Adds the bottom, supports, attachments and given forces at the nodes of a range of elements; without `TANGENT` their
 /// residual alone.
-pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
+pub(super) fn add_nodal_loads<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     rod: &Rod,
-    world: &World,
+    world: &LineEnvironment,
     trial: &Trial,
     Weights { k, c, m }: Weights,
     range: Range<usize>,
     system: &mut System<W, H, S>,
 ) {
     if let Some((bottom, ground)) = &world.bottom {
-        // at rest its friction is another: see `drawn`
-        let ground = if trial.still { &ground.smooth() } else { ground };
+        // at rest its friction is another: see `statics_friction`
+        let ground = if trial.winches_locked { &ground.smooth() } else { ground };
         for node in range.start..=range.end {
             let (x, v) = (&trial.x[node], &trial.v[node]);
             if let Some(made) = contact(
                 *bottom,
                 ground,
-                trial.soft[node],
-                rod.bearing(node),
+                trial.seabed_penetration_scale[node],
+                rod.contact_area(node),
                 x,
                 v,
-                &trial.lay[node],
-                &trial.stuck[node],
-                trial.exact,
+                &trial.friction_direction[node],
+                &trial.stuck_at[node],
+                trial.exact_friction_tangent,
             ) {
                 system.push(node, &-(made.force[0] + made.force[1]));
                 system.block::<TANGENT>(node, node, &(made.by_position * -k - made.by_velocity * c));
@@ -43,12 +43,12 @@ pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, cons
     }
     for support in world.supports {
         // two nodes an equation have no room for a curve
-        let Some(over) = meeting(H > 5, support, &trial.x) else { continue };
+        let Some(over) = find_support_contact(H > 5, support, &trial.x) else { continue };
         let nodes = over.nodes();
         if nodes.start < range.start || nodes.end > range.end + 1 {
             continue;
         }
-        if let Some(made) = supported(support, &over, &trial.v) {
+        if let Some(made) = support_load(support, &over, &trial.v) {
             for (row, node) in nodes.clone().enumerate() {
                 system.push(node, &(made.force * over.shares[row]));
                 for (column, other) in nodes.clone().enumerate() {

@@ -1,76 +1,76 @@
-//! Elements of constant EA under water, eight at once: what [`assemble`](super::assemble) makes of each.
+//! Batches (SIMD) of eight submerged elements of constant EA: the same residual and tangent as [`assemble`](super::assemble).
 //!
 //! The loops over them run in the widest vectors the machine has (multiversion); no product is contracted with its sum, so that every
 //! machine comes to the same digits.
 
 use super::mesh::Rod;
 use super::system::Weights;
-use super::tension::Walls;
+use super::tension::TubeAreas;
 use super::trial::Trial;
 use multiversion::multiversion;
 use std::ops::Range;
 
-/// Elements that are taken at once.
-pub(super) const ABREAST: usize = 8;
+/// Elements in a batch.
+pub(super) const BATCH_SIZE: usize = 8;
 /// Their nodes.
-const NODES: usize = ABREAST + 1;
+const BATCH_NODES: usize = BATCH_SIZE + 1;
 
-/// A speed (m/s) that is none: A is its square.
-const STILL: f64 = 1e-12;
+/// Speed (m/s) below which flow counts as none: A is its square.
+const MIN_FLOW_SPEED: f64 = 1e-12;
 
 /// A number of each element.
-type Each = [f64; ABREAST];
+type Lanes = [f64; BATCH_SIZE];
 /// A vector of each node, by components.
-type Vectors = [[f64; NODES]; 3];
+type NodeVectors = [[f64; BATCH_NODES]; 3];
 
-/// What elements and nodes beside each other are asked, as the processor likes to read it.
+/// Input of a batch, a lane for each element or node.
 #[derive(Clone, Debug, Default)]
-struct Asked {
-    x: Vectors,
-    v: Vectors,
-    a: Vectors,
+struct BatchInput {
+    x: NodeVectors,
+    v: NodeVectors,
+    a: NodeVectors,
     /// Velocity and acceleration of the water.
-    flow: Vectors,
-    water: Vectors,
-    density: [f64; NODES],
-    surface: [f64; NODES],
-    head: [f64; NODES],
-    rest: Each,
-    rate: Each,
-    ea: Each,
+    flow: NodeVectors,
+    water: NodeVectors,
+    density: [f64; BATCH_NODES],
+    surface: [f64; BATCH_NODES],
+    head: [f64; BATCH_NODES],
+    rest: Lanes,
+    rate: Lanes,
+    ea: Lanes,
     /// Strain by warmth, free of tension.
-    free: Each,
+    free: Lanes,
     /// What tension has of the pressure outside (m2), and of that inside at the datum of heights (N) and by the way down (N/m): none but of tubes.
-    outside: Each,
-    inside: Each,
-    contents: Each,
-    damping: Each,
+    outside: Lanes,
+    inside: Lanes,
+    contents: Lanes,
+    damping: Lanes,
     /// One of an element that resists being shortened, else zero.
-    pushes: Each,
-    mass: Each,
-    volume: Each,
-    added: [Each; 2],
-    drag: [Each; 2],
+    pushes: Lanes,
+    mass: Lanes,
+    volume: Lanes,
+    added: [Lanes; 2],
+    drag: [Lanes; 2],
 }
 
 /// Residual of the elements on their first and second nodes, and its tangent by rows: of a node by itself, then by the other node.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Shares {
-    pub force: [[Each; 3]; 2],
-    pub itself: [[[Each; 3]; 3]; 2],
-    pub other: [[[Each; 3]; 3]; 2],
+pub(super) struct BatchTangent {
+    pub force: [[Lanes; 3]; 2],
+    pub itself: [[[Lanes; 3]; 3]; 2],
+    pub other: [[[Lanes; 3]; 3]; 2],
 }
 
-/// Elements beside each other.
+/// A batch of consecutive elements.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Abreast {
-    asked: Asked,
-    pub shares: Shares,
+pub(super) struct ElementBatch {
+    asked: BatchInput,
+    pub shares: BatchTangent,
 }
 
-/// How many elements from the first of a range on can be taken at once, [`ABREAST`] at most: of a constant EA, all under water.
-pub(super) fn plain(rod: &Rod, trial: &Trial, range: Range<usize>) -> usize {
-    let most = range.len().min(ABREAST);
+/// How many elements from the first of a range on fit a batch, [`BATCH_SIZE`] at most: of a constant EA, all under water.
+pub(super) fn count_batchable(rod: &Rod, trial: &Trial, range: Range<usize>) -> usize {
+    let most = range.len().min(BATCH_SIZE);
     let wet = |node: usize, diameter: f64| {
         let fluid = &trial.fluid[node];
         fluid.density > 0.0 && fluid.surface - trial.x[node].z >= 0.5 * diameter
@@ -83,41 +83,41 @@ pub(super) fn plain(rod: &Rod, trial: &Trial, range: Range<usize>) -> usize {
     plain.count()
 }
 
-impl Abreast {
+impl ElementBatch {
     /// Residual of so many elements from the first on, and its tangent where it is wanted.
     ///
-    /// What stands in `assemble` and `immersed` element by element, with the tangent brought together: with t the direction, T its
+    /// As `assemble` and `morison` do element by element, with the tangent brought together: with t the direction, T its
     /// product with itself and A that of the velocity across, all of it is shares of t w', T, A and the unit matrix.
-    pub fn take<const TANGENT: bool>(
+    pub fn assemble_batch<const TANGENT: bool>(
         &mut self,
         rod: &Rod,
         trial: &Trial,
         (weights, gravity): (Weights, f64),
         (first, count): (usize, usize),
     ) {
-        self.ask(rod, trial, gravity, (first, count));
-        let Abreast { asked, shares } = self;
+        self.gather_input(rod, trial, gravity, (first, count));
+        let ElementBatch { asked, shares } = self;
         if TANGENT {
-            tangents(asked, (weights, gravity, trial.ease), shares);
+            add_forces_and_tangents(asked, (weights, gravity, trial.axial_stiffness_scale), shares);
         } else {
-            forces(asked, (weights, gravity, trial.ease), shares);
+            add_forces(asked, (weights, gravity, trial.axial_stiffness_scale), shares);
         }
     }
 
-    /// Brings together what is asked; what lies beyond the last element stays as it was and is of no account.
-    fn ask(&mut self, rod: &Rod, trial: &Trial, gravity: f64, (first, count): (usize, usize)) {
+    /// Gathers the input; lanes beyond the last element keep their old values and are not used.
+    fn gather_input(&mut self, rod: &Rod, trial: &Trial, gravity: f64, (first, count): (usize, usize)) {
         let asked = &mut self.asked;
-        for (n, element) in rod.elements[first..first + count].iter().enumerate().take(ABREAST) {
+        for (n, element) in rod.elements[first..first + count].iter().enumerate().take(BATCH_SIZE) {
             asked.rest[n] = element.rest;
-            asked.rate[n] = if trial.still { 0.0 } else { element.rate };
+            asked.rate[n] = if trial.winches_locked { 0.0 } else { element.rate };
             asked.ea[n] = element.ea;
             let tube = rod.segments[element.segment].tube.as_ref();
-            let Walls { free, outside, inside, contents } =
-                tube.map_or(Walls::default(), |t| Walls::of(t, gravity, trial.origin.z));
+            let TubeAreas { free_strain: free, outside, inside, contents } =
+                tube.map_or(TubeAreas::default(), |t| TubeAreas::from_tube(t, gravity, trial.origin.z));
             (asked.free[n], asked.outside[n]) = (free, outside);
             (asked.inside[n], asked.contents[n]) = (inside, contents);
             asked.damping[n] = element.damping;
-            let pushes = (element.compression || trial.stiff()) && !trial.loose;
+            let pushes = (element.compression || trial.resists_shortening()) && !trial.tension_only;
             asked.pushes[n] = f64::from(u8::from(pushes));
             asked.mass[n] = element.mass;
             asked.volume[n] = element.volume;
@@ -128,7 +128,7 @@ impl Abreast {
         }
         let nodes = first..first + count + 1;
         let motions = trial.x[nodes.clone()].iter().zip(&trial.v[nodes.clone()]).zip(&trial.a[nodes.clone()]);
-        for (n, (((x, v), a), fluid)) in motions.zip(&trial.fluid[nodes]).enumerate().take(NODES) {
+        for (n, (((x, v), a), fluid)) in motions.zip(&trial.fluid[nodes]).enumerate().take(BATCH_NODES) {
             for i in 0..3 {
                 asked.x[i][n] = x[i];
                 asked.v[i][n] = v[i];
@@ -144,16 +144,20 @@ impl Abreast {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn tangents(asked: &Asked, (weights, gravity, ease): (Weights, f64, f64), shares: &mut Shares) {
-    for n in 0..ABREAST {
-        one::<true>(asked, n, (weights, gravity, ease), shares);
+fn add_forces_and_tangents(
+    asked: &BatchInput,
+    (weights, gravity, ease): (Weights, f64, f64),
+    shares: &mut BatchTangent,
+) {
+    for n in 0..BATCH_SIZE {
+        assemble_lane::<true>(asked, n, (weights, gravity, ease), shares);
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn forces(asked: &Asked, (weights, gravity, ease): (Weights, f64, f64), shares: &mut Shares) {
-    for n in 0..ABREAST {
-        one::<false>(asked, n, (weights, gravity, ease), shares);
+fn add_forces(asked: &BatchInput, (weights, gravity, ease): (Weights, f64, f64), shares: &mut BatchTangent) {
+    for n in 0..BATCH_SIZE {
+        assemble_lane::<false>(asked, n, (weights, gravity, ease), shares);
     }
 }
 
@@ -163,26 +167,26 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 #[inline(always)]
-fn each(of: impl Fn(usize) -> f64) -> [f64; 3] {
+fn map_lanes(of: impl Fn(usize) -> f64) -> [f64; 3] {
     [of(0), of(1), of(2)]
 }
 
 /// The element of a number: without a branch, so that all of them go side by side.
 #[inline(always)]
-fn one<const TANGENT: bool>(
-    asked: &Asked,
+fn assemble_lane<const TANGENT: bool>(
+    asked: &BatchInput,
     n: usize,
     (Weights { k, c, m }, gravity, ease): (Weights, f64, f64),
-    shares: &mut Shares,
+    shares: &mut BatchTangent,
 ) {
-    let d = each(|i| asked.x[i][n + 1] - asked.x[i][n]);
-    let dv = each(|i| asked.v[i][n + 1] - asked.v[i][n]);
+    let d = map_lanes(|i| asked.x[i][n + 1] - asked.x[i][n]);
+    let dv = map_lanes(|i| asked.v[i][n + 1] - asked.v[i][n]);
     let rest = asked.rest[n];
     // nodes of a slack heap may meet: their element then has no direction, and no tension to need one
     let (length, least) = (dot(d, d).sqrt(), 1e-9 * rest);
     let length = if length > least { length } else { least };
     let inverse = 1.0 / length;
-    let t = each(|i| d[i] * inverse);
+    let t = map_lanes(|i| d[i] * inverse);
     let inverse_rest = 1.0 / rest;
     let (stretch, let_out) = (length * inverse_rest, asked.rate[n]);
     let faster = dot(t, dv);
@@ -203,25 +207,25 @@ fn one<const TANGENT: bool>(
     let damped = by_rate * inverse_rest;
     let along = k * (by_strain - by_rate * let_out * inverse_rest) * inverse_rest - geometric + c * damped;
     let swung = k * damped * inverse;
-    let stiff = each(|i| t[i] * along + (dv[i] - t[i] * faster) * swung);
+    let stiff = map_lanes(|i| t[i] * along + (dv[i] - t[i] * faster) * swung);
 
-    let made = Drawn { t, inverse, value, geometric, stiff, lifted };
-    half::<TANGENT, 0>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
-    half::<TANGENT, 1>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
+    let made = AxialState { t, inverse, value, geometric, stiff, lifted };
+    assemble_half::<TANGENT, 0>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
+    assemble_half::<TANGENT, 1>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
 }
 
 /// Pressure (Pa) in the water about a node at a height, and its slope: as [`Fluid::pressure`](super::surroundings::Fluid::pressure).
 #[inline(always)]
-fn pressure(asked: &Asked, node: usize, height: f64, gravity: f64) -> (f64, f64) {
+fn pressure(asked: &BatchInput, node: usize, height: f64, gravity: f64) -> (f64, f64) {
     let (weight, head) = (asked.density[node] * gravity, asked.head[node]);
     let depth = asked.surface[node] - height;
     let (column, share) = if head < depth { (depth + head, 1.0) } else { (2.0 * depth, 2.0) };
     if column > 0.0 { (weight * column, -weight * share) } else { (0.0, 0.0) }
 }
 
-/// How an element is drawn: direction and inverse of its length, tension, that over the length, and its stiffness by the other node
+/// Axial state of an element: direction and inverse of its length, tension, tension over length, and its stiffness by the other node
 /// and by the height of one.
-struct Drawn {
+struct AxialState {
     t: [f64; 3],
     inverse: f64,
     value: f64,
@@ -232,20 +236,20 @@ struct Drawn {
 
 /// One half of it, with its inertia, weight and water. A loop over both would keep the elements from going side by side.
 #[inline(always)]
-fn half<const TANGENT: bool, const SECOND: usize>(
-    asked: &Asked,
+fn assemble_half<const TANGENT: bool, const SECOND: usize>(
+    asked: &BatchInput,
     n: usize,
     (Weights { k, c, m }, gravity): (Weights, f64),
-    &Drawn { t, inverse, value, geometric, stiff, lifted }: &Drawn,
-    shares: &mut Shares,
+    &AxialState { t, inverse, value, geometric, stiff, lifted }: &AxialState,
+    shares: &mut BatchTangent,
 ) {
     let (node, mass, volume) = (n + SECOND, asked.mass[n], asked.volume[n]);
     let sign = if SECOND == 0 { 1.0 } else { -1.0 };
     let density = asked.density[node];
-    let u = each(|i| asked.v[i][node] - asked.flow[i][node]);
-    let q = each(|i| asked.a[i][node] - asked.water[i][node]);
+    let u = map_lanes(|i| asked.v[i][node] - asked.flow[i][node]);
+    let q = map_lanes(|i| asked.a[i][node] - asked.water[i][node]);
     let flow = dot(u, t);
-    let across = each(|i| u[i] - t[i] * flow);
+    let across = map_lanes(|i| u[i] - t[i] * flow);
     let speed = dot(across, across).sqrt();
     let per_speed = density * asked.drag[0][n];
     let (normal, tangential) = (per_speed * speed, density * asked.drag[1][n] * flow.abs());
@@ -262,14 +266,14 @@ fn half<const TANGENT: bool, const SECOND: usize>(
     if TANGENT {
         let along_stiff = 2.0 * tangential - normal;
         // (I - T) |un| + A / |un|, the last of which is none at rest
-        let curved = per_speed / (speed + STILL);
+        let curved = per_speed / (speed + MIN_FLOW_SPEED);
         // d(across)/dt = -(t u' + (u.t) I); d|across| = -(u.t) across.dt / |across|
         let unit = pulled - normal * flow;
         let turned = sign * k * inverse;
         let by_turn = |i: usize| across[i] * along_stiff + (q[i] - t[i] * q_along) * more - t[i] * unit;
         // of the height of either node it has as much
         let rise = sign * lifted;
-        let w = each(|i| by_turn(i) * turned - stiff[i] - if i == 2 { rise } else { 0.0 });
+        let w = map_lanes(|i| by_turn(i) * turned - stiff[i] - if i == 2 { rise } else { 0.0 });
         let (other, both) = (&mut shares.other[SECOND], &mut shares.itself[SECOND]);
         let (other_a, other_unit) = (-(curved * flow * turned), unit * turned - geometric);
         let (both_t, both_a) = (c * along_stiff + m * more, c * curved);
@@ -284,14 +288,14 @@ fn half<const TANGENT: bool, const SECOND: usize>(
 /// both.
 #[inline(always)]
 fn row<const I: usize>(
-    (by_other, itself): (&mut [[Each; 3]; 3], &mut [[Each; 3]; 3]),
+    (by_other, itself): (&mut [[Lanes; 3]; 3], &mut [[Lanes; 3]; 3]),
     n: usize,
     (t, w, other_a, other_unit): ([f64; 3], [f64; 3], f64, f64),
     (across, both_t, both_a, both_unit, both_up): ([f64; 3], f64, f64, f64, f64),
 ) {
     let (by_t, by_across, other_across) = (t[I] * both_t, across[I] * both_a, across[I] * other_a);
-    let mut other = each(|j| t[I] * w[j] + across[j] * other_across);
-    let mut both = each(|j| by_t * t[j] + by_across * across[j]);
+    let mut other = map_lanes(|j| t[I] * w[j] + across[j] * other_across);
+    let mut both = map_lanes(|j| by_t * t[j] + by_across * across[j]);
     (other[I], both[I]) = (other[I] + other_unit, both[I] + both_unit);
     both[2] += t[I] * both_up;
     by_other[I][0][n] = other[0];

@@ -34,12 +34,12 @@ fn run(line: &Line) -> (f64, f64, f64) {
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.3, 0.5, 0.0));
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
     let (friction_along, friction_across) = (line.friction, line.friction);
-    let ground = Ground { damping: 3e4, friction_along, friction_across, ..Ground::elastic(3e6) };
-    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
-    let mut state = State::along(&rod, &line.start).unwrap();
+    let ground = SeabedLaw { damping: 3e4, friction_along, friction_across, ..SeabedLaw::elastic(3e6) };
+    let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.81) };
+    let mut state = State::along_points(&rod, &line.start).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     let (a, b) = (line.start[0], line.start[line.start.len() - 1]);
-    let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     let w = 2.0 * std::f64::consts::PI / line.period;
     let (mut gained, mut lost): (f64, f64) = (0.0, 0.0);
@@ -52,8 +52,8 @@ fn run(line: &Line) -> (f64, f64, f64) {
             velocity: line.amplitude * (r * w * c + rate * s),
             acceleration: line.amplitude * (2.0 * rate * w * c - r * w * w * s),
         };
-        let end = if t > line.parts { End::FREE } else { End::moved(motion) };
-        let made = solver.step(&rod, &mut state, &world, t, [End::pinned(a), end]).unwrap();
+        let end = if t > line.parts { End::FREE } else { End::from_motion(motion) };
+        let made = solver.step(&rod, &mut state, &world, t, [End::pin(a), end]).unwrap();
         books.enter(&rod, &state, &world, &solver, &made);
         gained = gained.max(books.energy_error() / books.turnover);
         lost = -books.energy_error() / books.turnover;

@@ -1,59 +1,59 @@
-//! A trial that follows another of the same step, as when a body looks for its own motion.
+//! Warm start of a trial from the previous trial of the same step, as when a body iterates on its own motion.
 
 use super::ends::End;
+use super::environment::LineEnvironment;
 use super::mesh::Rod;
 use super::scheme::Scheme;
 use super::state::State;
-use super::step::{At, Solver};
-use super::surroundings::World;
-use super::trial::{largest, turn};
+use super::step::{Solver, SolverPhase};
+use super::trial::{largest_change, turn_directors};
 use nalgebra::Vector3;
 
-/// Largest move of a node, as a share of the shortest element, that is foretold from the trial before.
-const NEAR: f64 = 0.1;
-/// A move that is a smaller share of the tolerance than this is made by the linear response alone. An iteration ends by a move
-/// within the tolerance without looking again; this one is a hundred times smaller, so that what it leaves of the balance, which
-/// goes by its square, is ten thousand times smaller, however many there are in a step.
-const SLIGHT: f64 = 1e-2;
+/// Largest move of a node, as a share of the shortest element, that is predicted from the previous trial.
+const MAX_PREDICTED_MOVE: f64 = 0.1;
+/// A move below this share of the tolerance is made by the linear response alone. An iteration ends with a move within the
+/// tolerance, without another residual; this move is a hundred times smaller, so the residual it leaves, which goes by its
+/// square, is ten thousand times smaller, however many such moves a step has.
+const LINEAR_MOVE_SHARE: f64 = 1e-2;
 
-/// How a trial has been moved from the one before.
+/// What is left to do after the prediction from the previous trial.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Moved {
-    /// Near enough for an iteration with the factors at hand.
-    Near,
-    /// So little that nothing is left to do: the forces of the ends are taken along, too.
-    Slightly,
+pub(super) enum WarmStart {
+    /// Newton iterations with the existing factors.
+    Iterate,
+    /// Nothing: the move was so small that the end forces are updated linearly, too.
+    Converged,
 }
 
 impl Solver {
     /// Takes the end of the last trial as the trial's motion.
-    pub(super) fn follow_next(&mut self) {
+    pub(super) fn set_trial_from_next(&mut self) {
         self.trial.x.copy_from_slice(&self.next.position);
         self.trial.v.copy_from_slice(&self.next.velocity);
         self.trial.a.copy_from_slice(&self.next.acceleration);
         self.trial.director.copy_from_slice(&self.next.director);
     }
 
-    /// Whether the last trial was one of the same step, made in one part.
-    pub(super) fn follows(&self, state: &State, time: f64, ends: &[End; 2]) -> bool {
+    /// Whether the last trial was of the same step, made in one part.
+    pub(super) fn is_same_step(&self, state: &State, time: f64, ends: &[End; 2]) -> bool {
         let held = |ends: &[End; 2]| ends.map(|e| e.motion.is_some());
-        self.at == At::Trial
-            && self.whole
+        self.phase == SolverPhase::Trial
+            && self.is_single_part
             && self.next.time == time
             && held(&self.trial.ends) == held(ends)
-            && self.began == *state
+            && self.step_start == *state
     }
 
     /// Begins a trial where the last one of the step ended, moved by the linear response to what is new in the motion
     /// of the ends; none if the last one is too far away.
-    pub(super) fn again(
+    pub(super) fn predict_from_last_trial(
         &mut self,
         rod: &Rod,
         from: &State,
-        world: &World,
+        world: &LineEnvironment,
         scheme: &Scheme,
         ends: &[End; 2],
-    ) -> Option<Moved> {
+    ) -> Option<WarmStart> {
         let elsewhere = [0, 1].map(|side: usize| self.trial.ends[side].motion != ends[side].motion);
         self.linearise(rod, world, false, elsewhere)?;
         let (stride, last) = (self.work.stride(), rod.elements.len());
@@ -80,7 +80,7 @@ impl Solver {
             let harder = new.acceleration - old.acceleration - moved * self.weights.m;
             aside = aside.max(faster.amax() / self.weights.c).max(harder.amax() / self.weights.m);
             for axis in 0..3 {
-                let by = [&self.near.columns[1][side][axis], &self.near.columns[2][side][axis]];
+                let by = [&self.end_jacobian.columns[1][side][axis], &self.end_jacobian.columns[2][side][axis]];
                 for (i, (c, m)) in by[0].iter().zip(by[1]).enumerate() {
                     let row = (place + axis + i + 1).checked_sub(by[0].len().div_ceil(2));
                     let Some(row) = row.filter(|row| *row < size) else { continue };
@@ -94,19 +94,19 @@ impl Solver {
             self.change[place..place + 3].copy_from_slice(moved.as_slice());
         }
         self.work.solve(&mut self.change);
-        let most = largest(&self.change, stride, rod.shortest());
+        let most = largest_change(&self.change, stride, rod.shortest());
         let share = most / rod.shortest();
-        if share > NEAR {
+        if share > MAX_PREDICTED_MOVE {
             return None;
         }
-        self.near.moved += most;
+        self.end_jacobian.moved += most;
         let next = &mut self.next;
-        turn(&mut next.director, &next.position, &self.change, stride, [false; 2]);
+        turn_directors(&mut next.director, &next.position, &self.change, stride, [false; 2]);
         for i in 0..=last {
             let d = &self.change[stride * i..stride * i + 3];
             next.position[i] += Vector3::new(d[0], d[1], d[2]);
             let u = next.position[i] - from.position[i];
-            [next.averaged[i], next.velocity[i], next.acceleration[i]] = scheme.follow(from, i, u);
+            [next.averaged[i], next.velocity[i], next.acceleration[i]] = scheme.node_motion(from, i, u);
         }
         for (side, node) in [(0, 0), (1, last)] {
             if let Some(motion) = ends[side].motion {
@@ -121,13 +121,13 @@ impl Solver {
         let all = share.max(aside / rod.shortest());
         // supports that have moved are met by an iteration
         if !world.supports.is_empty() {
-            return Some(Moved::Near);
+            return Some(WarmStart::Iterate);
         }
-        if all > SLIGHT * self.settings.tolerance || turned(0) || turned(1) {
-            return Some(Moved::Near);
+        if all > LINEAR_MOVE_SHARE * self.settings.tolerance || turned(0) || turned(1) {
+            return Some(WarmStart::Iterate);
         }
         self.work.carry_ends(&self.change);
         self.work.add_to_ends(&felt);
-        Some(Moved::Slightly)
+        Some(WarmStart::Converged)
     }
 }

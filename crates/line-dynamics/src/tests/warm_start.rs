@@ -18,13 +18,13 @@ fn chain(bending: f64) -> (Rod, State) {
         ..Segment::line(900.0, 50, 199.0, 8.54e8, 0.18)
     };
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
-    let state = State::along(&rod, &[A, Vector3::new(-350.0, 0.0, -300.0), B]).unwrap();
+    let state = State::along_points(&rod, &[A, Vector3::new(-350.0, 0.0, -300.0), B]).unwrap();
     (rod, state)
 }
 
 /// A current over a rough bottom.
-fn sea() -> (UniformFluid, PlaneBottom, Ground) {
-    let ground = Ground { damping: 3e5, friction_along: 0.5, friction_across: 0.5, ..Ground::elastic(3e6) };
+fn sea() -> (UniformFluid, PlaneBottom, SeabedLaw) {
+    let ground = SeabedLaw { damping: 3e5, friction_along: 0.5, friction_across: 0.5, ..SeabedLaw::elastic(3e6) };
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
     (UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0)), bottom, ground)
 }
@@ -41,12 +41,12 @@ fn surge(t: f64) -> Motion {
 #[test]
 fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() {
     let (fluid, bottom, ground) = sea();
-    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
+    let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.80665) };
     for bending in [0.0, 1e5] {
         let (rod, mut state) = chain(bending);
-        let clamp = |m: Motion, tilt: f64| End::moved(m).clamped(Vector3::new(0.6, tilt, 0.7));
+        let clamp = |m: Motion, tilt: f64| End::from_motion(m).with_clamp(Vector3::new(0.6, tilt, 0.7));
         let mut solver = Solver::new(&rod, Settings::default());
-        solver.statics(&rod, &mut state, &world, [End::pinned(A), clamp(surge(0.0), 0.0)]).unwrap();
+        solver.statics(&rod, &mut state, &world, [End::pin(A), clamp(surge(0.0), 0.0)]).unwrap();
         let mut alone = Solver::new(&rod, Settings::default());
         let mut exact = Solver::new(&rod, Settings { tolerance: 1e-8, ..Settings::default() });
         let h = 0.1;
@@ -61,17 +61,17 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
                 velocity: to.velocity + off * (2.0 / h),
                 acceleration: to.acceleration + off * (4.0 / h / h),
             };
-            solver.trial(&rod, &state, &world, t, [End::pinned(A), clamp(guess, 0.001)]).unwrap();
+            solver.trial(&rod, &state, &world, t, [End::pin(A), clamp(guess, 0.001)]).unwrap();
             if i % 2 == 0 {
-                let near = *solver.end_tangent_at_hand(&rod, &world).unwrap();
+                let near = *solver.end_tangent_from_factors(&rod, &world).unwrap();
                 let b = |t: &EndTangent| t.by_position(20.0, 400.0).fixed_view::<6, 6>(6, 6).into_owned();
                 let exact = solver.end_tangent(&rod, &world).unwrap();
                 apart = apart.max(b(&near).metric_distance(&b(exact)) / b(exact).norm());
             }
-            let made = solver.trial(&rod, &state, &world, t, [End::pinned(A), clamp(to, 0.0)]).unwrap();
+            let made = solver.trial(&rod, &state, &world, t, [End::pin(A), clamp(to, 0.0)]).unwrap();
             iterations += made.iterations;
-            let other = alone.trial(&rod, &state, &world, t, [End::pinned(A), clamp(to, 0.0)]).unwrap();
-            let wanted = exact.trial(&rod, &state, &world, t, [End::pinned(A), clamp(to, 0.0)]).unwrap();
+            let other = alone.trial(&rod, &state, &world, t, [End::pin(A), clamp(to, 0.0)]).unwrap();
+            let wanted = exact.trial(&rod, &state, &world, t, [End::pin(A), clamp(to, 0.0)]).unwrap();
             for (worst, found) in worst.iter_mut().zip([made, other]).filter(|_| wanted.parts == 1) {
                 *worst = worst.max((found.force[1] - wanted.force[1]).norm() / wanted.force[1].norm());
             }
@@ -89,20 +89,20 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
 #[test]
 fn forces_at_a_start_are_what_momentum_wants() {
     let (rod, mut state) = chain(0.0);
-    let fluid = UniformFluid::none();
-    let world = World::new(&fluid, 9.80665);
+    let fluid = UniformFluid::vacuum();
+    let world = LineEnvironment::new(&fluid, 9.80665);
     let mut solver = Solver::new(&rod, Settings::default());
-    let made = solver.statics(&rod, &mut state, &world, [End::pinned(A), End::pinned(B)]).unwrap();
+    let made = solver.statics(&rod, &mut state, &world, [End::pin(A), End::pin(B)]).unwrap();
     // at rest they are those of statics
-    let again = solver.start(&rod, &mut state, &world, [End::pinned(A), End::pinned(B)]).unwrap();
+    let again = solver.start(&rod, &mut state, &world, [End::pin(A), End::pin(B)]).unwrap();
     assert!((made.force[1] - again.force[1]).norm() < 1e-7 * made.force[1].norm());
     // a holder that is jerked feels the half element in its hand at once, and nothing else yet
     let jerk = Vector3::new(0.5, -0.2, 0.3);
-    let jerked = End::moved(Motion { acceleration: jerk, ..Motion::still(B) });
-    let hit = solver.start(&rod, &mut state, &world, [End::pinned(A), jerked]).unwrap();
+    let jerked = End::from_motion(Motion { acceleration: jerk, ..Motion::at_rest(B) });
+    let hit = solver.start(&rod, &mut state, &world, [End::pin(A), jerked]).unwrap();
     assert!((hit.force[1] - again.force[1] + jerk * (199.0 * 9.0)).norm() < 1e-9 * made.force[1].norm());
     // end B parts: what the holder of A still gives and weight are the change of momentum
-    let parted = solver.start(&rod, &mut state, &world, [End::pinned(A), End::FREE]).unwrap();
+    let parted = solver.start(&rod, &mut state, &world, [End::pin(A), End::FREE]).unwrap();
     let mass = |i: usize| 199.0 * 18.0 * if i == 50 { 0.5 } else { 1.0 };
     let change: Vector3<f64> = (1..=50).map(|i| state.acceleration[i] * mass(i)).sum();
     let outer = -parted.force[0] - Vector3::z() * (199.0 * 900.0 * 9.80665);
@@ -113,13 +113,13 @@ fn forces_at_a_start_are_what_momentum_wants() {
 #[test]
 fn a_trial_moved_slightly_needs_no_iteration_and_has_the_forces_of_one_made_anew() {
     let (fluid, bottom, ground) = sea();
-    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
+    let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.80665) };
     for bending in [0.0, 1e5] {
         let (rod, mut state) = chain(bending);
         // so that what is left of the first trial is less than what the move makes
         let settings = Settings { tolerance: 1e-6, ..Settings::default() };
         let (mut solver, mut alone) = (Solver::new(&rod, settings), Solver::new(&rod, settings));
-        solver.statics(&rod, &mut state, &world, [End::pinned(A), End::pinned(surge(0.0).position)]).unwrap();
+        solver.statics(&rod, &mut state, &world, [End::pin(A), End::pin(surge(0.0).position)]).unwrap();
         for i in 1..=50 {
             let t = 0.1 * i as f64;
             let at = |by: f64| {
@@ -129,7 +129,7 @@ fn a_trial_moved_slightly_needs_no_iteration_and_has_the_forces_of_one_made_anew
                     velocity: to.velocity + off * 20.0,
                     acceleration: to.acceleration + off * 400.0,
                 };
-                [End::pinned(A), End::moved(moved)]
+                [End::pin(A), End::from_motion(moved)]
             };
             solver.trial(&rod, &state, &world, t, at(0.0)).unwrap();
             let first = solver.trial(&rod, &state, &world, t, at(0.0)).unwrap();
@@ -154,11 +154,11 @@ fn a_trial_moved_slightly_needs_no_iteration_and_has_the_forces_of_one_made_anew
 fn an_end_that_goes_on_with_another_velocity_alone_is_not_moved_slightly() {
     let (rod, mut state) = chain(0.0);
     let fluid = UniformFluid::still(1025.0);
-    let world = World::new(&fluid, 9.80665);
+    let world = LineEnvironment::new(&fluid, 9.80665);
     let mut solver = Solver::new(&rod, Settings::default());
     let end = |velocity: f64| {
-        let still = Motion::still(B);
-        [End::pinned(A), End::moved(Motion { velocity: Vector3::y() * velocity, ..still })]
+        let still = Motion::at_rest(B);
+        [End::pin(A), End::from_motion(Motion { velocity: Vector3::y() * velocity, ..still })]
     };
     solver.statics(&rod, &mut state, &world, end(0.0)).unwrap();
     solver.trial(&rod, &state, &world, 0.1, end(0.0)).unwrap();

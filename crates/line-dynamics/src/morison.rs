@@ -1,7 +1,7 @@
 //! What the fluid does to half an element, and how much of it is under water.
 
+use super::environment::{FluidState, LineEnvironment};
 use super::mesh::Element;
-use super::surroundings::{Fluid, World};
 use nalgebra::{Matrix3, Vector3};
 
 /// Force of the fluid on half an element if all of it were wet, as a load to be overcome (N), with its derivatives.
@@ -26,7 +26,7 @@ pub(super) struct HalfLoad {
 pub(super) fn half_load(
     half: &Element,
     t: &Vector3<f64>,
-    fluid: &Fluid,
+    fluid: &FluidState,
     velocity: &Vector3<f64>,
     acceleration: &Vector3<f64>,
     gravity: f64,
@@ -71,7 +71,7 @@ pub(super) fn half_load(
 /// velocity relative to the air ([DNV-RP-C205 5]; the cross-flow principle as for Morison's drag).
 /// Its `by_acceleration` is zero.
 #[inline]
-pub(super) fn wind_load(half: &Element, t: &Vector3<f64>, fluid: &Fluid, velocity: &Vector3<f64>) -> HalfLoad {
+pub(super) fn wind_load(half: &Element, t: &Vector3<f64>, fluid: &FluidState, velocity: &Vector3<f64>) -> HalfLoad {
     let u = velocity - fluid.wind;
     let along = u.dot(t);
     let across = u - t * along;
@@ -90,19 +90,24 @@ pub(super) fn wind_load(half: &Element, t: &Vector3<f64>, fluid: &Fluid, velocit
 
 /// A node and the fluid there.
 #[derive(Clone, Copy)]
-pub(super) struct Node<'a> {
+pub(super) struct HalfNode<'a> {
     pub position: &'a Vector3<f64>,
     pub velocity: &'a Vector3<f64>,
     pub acceleration: &'a Vector3<f64>,
-    pub fluid: &'a Fluid,
+    pub fluid: &'a FluidState,
 }
 
 /// Force of water and wind (N) on the half element of direction `t` beside the first of its two nodes, the sum that
 /// assembly makes with its tangent.
-pub(super) fn on_half(half: &Element, t: &Vector3<f64>, world: &World, [node, other]: [Node; 2]) -> Vector3<f64> {
+pub(super) fn half_force(
+    half: &Element,
+    t: &Vector3<f64>,
+    world: &LineEnvironment,
+    [node, other]: [HalfNode; 2],
+) -> Vector3<f64> {
     let [own, far] = [node, other].map(|n| n.fluid.surface - n.position.z);
     let middle = 0.5 * (own + far);
-    let Node { velocity, acceleration, fluid, .. } = node;
+    let HalfNode { velocity, acceleration, fluid, .. } = node;
     let share = wet_share(own, middle, half.diameter).0;
     let mut force = wind_load(half, t, fluid, velocity).force * (share - 1.0);
     if share > 0.0 && fluid.density > 0.0 {
@@ -110,7 +115,7 @@ pub(super) fn on_half(half: &Element, t: &Vector3<f64>, world: &World, [node, ot
         let rising = [node, other].map(|n| n.velocity.z - n.fluid.velocity.z);
         if world.slam
             && share < 1.0
-            && let Some(entry) = entry(own, middle, half.diameter, rising)
+            && let Some(entry) = water_entry(own, middle, half.diameter, rising)
         {
             force -= slam_load(half, t, fluid, velocity, entry.rate).force;
         }
@@ -120,7 +125,7 @@ pub(super) fn on_half(half: &Element, t: &Vector3<f64>, world: &World, [node, ot
 
 /// How fast half an element gets wet: the rate of its wet share (1/s), which is none while it comes out, and its
 /// derivatives by the height (m) and the upward velocity (m/s) of its own node and the other one.
-pub(super) struct Entry {
+pub(super) struct WaterEntry {
     pub rate: f64,
     pub by_height: [f64; 2],
     pub by_velocity: [f64; 2],
@@ -128,7 +133,7 @@ pub(super) struct Entry {
 
 /// The entry of half an element whose own node lies `own` below the surface and whose middle `middle` (m), the nodes
 /// going up at `rising` relative to the water (m/s, own node and other).
-pub(super) fn entry(own: f64, middle: f64, diameter: f64, rising: [f64; 2]) -> Option<Entry> {
+pub(super) fn water_entry(own: f64, middle: f64, diameter: f64, rising: [f64; 2]) -> Option<WaterEntry> {
     let (_, by_own, by_middle) = wet_share(own, middle, diameter);
     let mean = 0.5 * (rising[0] + rising[1]);
     let rate = -(by_own * rising[0] + by_middle * mean);
@@ -137,7 +142,7 @@ pub(super) fn entry(own: f64, middle: f64, diameter: f64, rising: [f64; 2]) -> O
     }
     let [twice_own, mixed, twice_middle] = wet_curvature(own, middle, diameter);
     let (of_own, of_middle) = (twice_own * rising[0] + mixed * mean, mixed * rising[0] + twice_middle * mean);
-    Some(Entry {
+    Some(WaterEntry {
         rate,
         by_height: [of_own + 0.5 * of_middle, 0.5 * of_middle],
         by_velocity: [-(by_own + 0.5 * by_middle), -0.5 * by_middle],
@@ -153,7 +158,7 @@ pub(super) fn entry(own: f64, middle: f64, diameter: f64, rising: [f64; 2]) -> O
 pub(super) fn slam_load(
     half: &Element,
     t: &Vector3<f64>,
-    fluid: &Fluid,
+    fluid: &FluidState,
     velocity: &Vector3<f64>,
     rate: f64,
 ) -> HalfLoad {
@@ -171,11 +176,11 @@ pub(super) fn slam_load(
 
 /// Least height over which anything comes out of the water (m): far thinner than a line, and thick enough that a slope
 /// over it is a number.
-const THINNEST: f64 = 1e-6;
+const MIN_DIAMETER: f64 = 1e-6;
 
 /// Wet share of a prism of a `height` whose middle lies `depth` below the surface (m), and its slope.
 pub(super) fn wet_prism(depth: f64, height: f64) -> (f64, f64) {
-    let height = height.max(THINNEST);
+    let height = height.max(MIN_DIAMETER);
     let share = depth / height + 0.5;
     if (0.0..1.0).contains(&share) { (share, 1.0 / height) } else { (share.clamp(0.0, 1.0), 0.0) }
 }
@@ -196,7 +201,7 @@ fn wet_section(depth: f64, width: f64) -> [f64; 4] {
 
 /// Ends of a length that differ in depth by less than this share of its diameter are taken as a level length: the two
 /// points of Gauss are then good to 1e-7, and differences of integrals over it to the same.
-const LEVEL: f64 = 1e-3;
+const LEVEL_SLOPE: f64 = 1e-3;
 /// Places of Gauss's two points on a length of one.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
@@ -211,14 +216,14 @@ pub(super) fn wet_share(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
     if a <= -half && b <= -half {
         return (0.0, 0.0, 0.0);
     }
-    in_surface(a, b, diameter)
+    share_across_surface(a, b, diameter)
 }
 
 /// The same where the length is neither wet nor dry all along.
 #[inline(never)]
-fn in_surface(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
-    let width = diameter.max(THINNEST);
-    if (a - b).abs() < LEVEL * width {
+fn share_across_surface(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
+    let width = diameter.max(MIN_DIAMETER);
+    if (a - b).abs() < LEVEL_SLOPE * width {
         return GAUSS.iter().fold((0.0, 0.0, 0.0), |(share, by_a, by_b), g| {
             let at = wet_section(b + (a - b) * g, width);
             (share + 0.5 * at[0], by_a + 0.5 * g * at[1] / width, by_b + 0.5 * (1.0 - g) * at[1] / width)
@@ -231,8 +236,8 @@ fn in_surface(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
 
 /// Second derivatives of [`wet_share`]: by a twice, by a and b, by b twice.
 fn wet_curvature(a: f64, b: f64, diameter: f64) -> [f64; 3] {
-    let width = diameter.max(THINNEST);
-    if (a - b).abs() < LEVEL * width {
+    let width = diameter.max(MIN_DIAMETER);
+    if (a - b).abs() < LEVEL_SLOPE * width {
         return GAUSS.iter().fold([0.0; 3], |sum, g| {
             let bend = 0.5 * wet_section(b + (a - b) * g, width)[2] / (width * width);
             [sum[0] + g * g * bend, sum[1] + g * (1.0 - g) * bend, sum[2] + (1.0 - g) * (1.0 - g) * bend]
@@ -264,7 +269,7 @@ mod tests {
     #[test]
     fn derivatives_of_the_fluid_load_are_its_differences() {
         let half = element();
-        let fluid = Fluid {
+        let fluid = FluidState {
             velocity: Vector3::new(1.0, -0.3, 0.2),
             acceleration: Vector3::new(0.4, 0.1, -0.5),
             surface: 0.0,
@@ -274,7 +279,7 @@ mod tests {
             air_density: 1.226,
         };
         let (t, v, a) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.2, 0.7, -1.0), Vector3::new(0.3, -0.2, 0.9));
-        type Load = fn(&Element, Vector3<f64>, &Fluid, Vector3<f64>, Vector3<f64>) -> HalfLoad;
+        type Load = fn(&Element, Vector3<f64>, &FluidState, Vector3<f64>, Vector3<f64>) -> HalfLoad;
         let loads: [Load; 3] = [
             |half, t, fluid, v, a| half_load(half, &t, fluid, &v, &a, 9.81),
             |half, t, fluid, v, _| wind_load(half, &t, fluid, &v),

@@ -1,26 +1,26 @@
-//! The world about a rod in the rod's own coordinates.
+//! The environment of a rod in the rod's own coordinates.
 //!
 //! Bending forces follow second differences of the nodes' positions over the cube of the element length: on short elements the rounding
 //! of a position far from the global origin is a force of its own. A [`State`](super::State) therefore has its positions from an
 //! origin beside the rod, and so has all that the solver does. What lies around the rod is in global places; this module takes it there.
 
 use super::ends::End;
+use super::environment::{Bottom, FluidField, FluidState, LineEnvironment, Support};
 use super::step::Solver;
-use super::surroundings::{Bottom, Fluid, FluidField, Support, World};
 use nalgebra::Vector3;
 use std::cell::RefCell;
 
-/// A world in coordinates from an origin.
-pub(super) struct Nearby<'a> {
-    world: &'a World<'a>,
+/// An environment in coordinates from an origin.
+pub(super) struct LocalEnvironment<'a> {
+    world: &'a LineEnvironment<'a>,
     origin: Vector3<f64>,
-    fluid: NearFluid<'a>,
-    bottom: Option<NearBottom<'a>>,
+    fluid: LocalFluid<'a>,
+    bottom: Option<LocalBottom<'a>>,
     supports: Vec<Support<'a>>,
 }
 
 /// A fluid in coordinates from an origin.
-struct NearFluid<'a> {
+struct LocalFluid<'a> {
     fluid: &'a dyn FluidField,
     origin: Vector3<f64>,
     /// Room for global places.
@@ -28,28 +28,28 @@ struct NearFluid<'a> {
 }
 
 /// A bottom in coordinates from an origin.
-struct NearBottom<'a> {
+struct LocalBottom<'a> {
     bottom: &'a dyn Bottom,
     origin: Vector3<f64>,
 }
 
-impl<'a> Nearby<'a> {
-    /// Sees a world from an origin (m, global); `room` is memory for global places.
-    pub fn new(world: &'a World<'a>, origin: Vector3<f64>, room: Vec<Vector3<f64>>) -> Self {
-        Nearby {
+impl<'a> LocalEnvironment<'a> {
+    /// Moves an environment to an origin (m, global); `room` is memory for global places.
+    pub fn new(world: &'a LineEnvironment<'a>, origin: Vector3<f64>, room: Vec<Vector3<f64>>) -> Self {
+        LocalEnvironment {
             world,
             origin,
-            fluid: NearFluid { fluid: world.fluid, origin, room: RefCell::new(room) },
-            bottom: world.bottom.map(|(bottom, _)| NearBottom { bottom, origin }),
+            fluid: LocalFluid { fluid: world.fluid, origin, room: RefCell::new(room) },
+            bottom: world.bottom.map(|(bottom, _)| LocalBottom { bottom, origin }),
             supports: world.supports.iter().map(|s| Support { place: s.place - origin, ..*s }).collect(),
         }
     }
 
-    /// The world in coordinates from the origin.
-    pub fn world(&self) -> World<'_> {
+    /// The environment in coordinates from the origin.
+    pub fn world(&self) -> LineEnvironment<'_> {
         let ground = self.world.bottom.map(|(_, ground)| ground);
         let bottom = self.bottom.as_ref().map(|bottom| bottom as &dyn Bottom).zip(ground);
-        World { fluid: &self.fluid, bottom, supports: &self.supports, ..*self.world }
+        LineEnvironment { fluid: &self.fluid, bottom, supports: &self.supports, ..*self.world }
     }
 
     /// Ends in coordinates from the origin.
@@ -63,18 +63,18 @@ impl<'a> Nearby<'a> {
     }
 }
 
-impl FluidField for NearFluid<'_> {
-    fn at(&self, position: &Vector3<f64>, time: f64) -> Fluid {
-        let mut found = self.fluid.at(&(position + self.origin), time);
+impl FluidField for LocalFluid<'_> {
+    fn sample(&self, position: &Vector3<f64>, time: f64) -> FluidState {
+        let mut found = self.fluid.sample(&(position + self.origin), time);
         found.surface -= self.origin.z;
         found
     }
 
-    fn fill(&self, positions: &[Vector3<f64>], time: f64, out: &mut [Fluid]) {
+    fn sample_into(&self, positions: &[Vector3<f64>], time: f64, out: &mut [FluidState]) {
         let mut places = self.room.borrow_mut();
         places.clear();
         places.extend(positions.iter().map(|x| x + self.origin));
-        self.fluid.fill(&places, time, out);
+        self.fluid.sample_into(&places, time, out);
         for fluid in out {
             fluid.surface -= self.origin.z;
         }
@@ -84,12 +84,12 @@ impl FluidField for NearFluid<'_> {
         self.fluid.uniform()
     }
 
-    fn interrupted(&self) -> bool {
-        self.fluid.interrupted()
+    fn is_interrupted(&self) -> bool {
+        self.fluid.is_interrupted()
     }
 }
 
-impl Bottom for NearBottom<'_> {
+impl Bottom for LocalBottom<'_> {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         let (height, slope) = self.bottom.height(x + self.origin.x, y + self.origin.y);
         (height - self.origin.z, slope)
@@ -98,8 +98,12 @@ impl Bottom for NearBottom<'_> {
 
 impl Solver {
     /// Acts in a world as it is in coordinates from the origin of the trial.
-    pub(super) fn nearby<T>(&mut self, world: &World, act: impl FnOnce(&mut Self, &World, &Nearby) -> T) -> T {
-        let near = Nearby::new(world, self.trial.origin, std::mem::take(&mut self.room));
+    pub(super) fn in_local_coordinates<T>(
+        &mut self,
+        world: &LineEnvironment,
+        act: impl FnOnce(&mut Self, &LineEnvironment, &LocalEnvironment) -> T,
+    ) -> T {
+        let near = LocalEnvironment::new(world, self.trial.origin, std::mem::take(&mut self.room));
         let made = act(self, &near.world(), &near);
         self.room = near.fluid.room.into_inner();
         made

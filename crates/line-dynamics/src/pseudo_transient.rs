@@ -1,0 +1,322 @@
+//! Pseudo-transient statics: damped steps in pseudo-time from a trial to equilibrium. See [`Solver::statics`].
+
+use super::environment::LineEnvironment;
+use super::error::RodError;
+use super::mesh::{Element, Rod};
+use super::step::Solver;
+use super::tension::{Stretch, TensionOptions, tension};
+use super::trial::{largest_change, sample_fluid, turn_directors};
+use nalgebra::Vector3;
+
+/// Newton iterations after which one pseudo-step is given up and repeated shorter.
+const MAX_INNER_ITERATIONS: usize = 12;
+/// Newton iterations after which a tension-only or softened rod gets its full stiffness, at rest or not.
+const MAX_SOFTENED_ITERATIONS: usize = 3000;
+/// Strain under its own weight that the axial stiffness of a softened rod is scaled to.
+const SOFTENED_STRAIN: f64 = 0.01;
+/// Factor by which the axial stiffness grows each time the softened rod has come to rest.
+const STIFFENING_FACTOR: f64 = 30.0;
+/// Longest pseudo-step as a multiple of the first: the inertia terms are then 1e-12 of those of the first pseudo-step, which leaves
+/// Newton's iteration on the forces alone.
+const MAX_PSEUDO_STEP_RATIO: f64 = 1e6;
+/// Shortest pseudo-step as a multiple of the first: a node moves by 1e-18 of its move in the first one, which is below rounding.
+const MIN_PSEUDO_STEP_RATIO: f64 = 1e-9;
+/// Least acceleration of gravity (m/s2) that pseudo-time is scaled by. It only affects how soon the pseudo-step has the right length,
+/// so any number but zero will do.
+const MIN_PACING_GRAVITY: f64 = 1.0;
+/// Least pseudo-mass of a rod as a share of the mass attached to it.
+const MIN_ATTACHED_MASS_SHARE: f64 = 1e-3;
+/// Strain of an element below which the start is so short that it would buckle: the rod is then first solved as tension-only.
+const MIN_START_STRAIN: f64 = -0.01;
+/// Largest residual of a node at rest as a share of the largest force in the rod.
+const RESIDUAL_TOLERANCE: f64 = 1e-9;
+
+/// Residual, as a share of the rod's weight, that is accepted where no pseudo-step reduces it further.
+const ACCEPTED_RESIDUAL_SHARE: f64 = 1e-7;
+
+impl Solver {
+    /// Pseudo-transient solution from the trial to rest. `done` counts the iterations so far, `most_iterations` bounds them.
+    ///
+    /// With friction the rod is not softened: the start is near its final shape.
+    pub(super) fn solve_pseudo_transient(
+        &mut self,
+        rod: &Rod,
+        world: &LineEnvironment,
+        mass: &[f64],
+        done: &mut usize,
+        most_iterations: usize,
+    ) -> Result<(), RodError> {
+        let last = rod.elements.len();
+        let weight = total_weight(rod, world);
+        if !self.trial.resists_shortening() && !self.trial.stick_friction && !self.is_stiff {
+            // a start that is much too short would buckle in all its elements at once: it is first solved without compression
+            let strains =
+                rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
+            self.trial.tension_only = strains.fold(0.0, f64::min) < MIN_START_STRAIN;
+            // and a rod that is stiff for its weight converges more easily when softened
+            let stiffness = rod.segments.iter().map(|s| s.axial.evaluate(0.0).1).fold(0.0, f64::max);
+            self.trial.axial_stiffness_scale = (weight / (SOFTENED_STRAIN * stiffness)).min(1.0);
+            if self.trial.axial_stiffness_scale == 0.0 {
+                self.trial.axial_stiffness_scale = 1.0;
+            }
+        }
+        let mut from = self.trial.x.clone();
+        let mut director = self.trial.director.clone();
+        let mut pseudo = first_pseudo_step(rod, world);
+        // the longest and shortest pseudo-steps that are worth a try
+        let (most, least) = (MAX_PSEUDO_STEP_RATIO * pseudo, MIN_PSEUDO_STEP_RATIO * pseudo);
+        let mut longest = most;
+        let mut worst = (0, f64::INFINITY);
+        while *done < most_iterations && pseudo > least {
+            if world.fluid.is_interrupted() {
+                (self.trial.tension_only, self.trial.axial_stiffness_scale) = (false, 1.0);
+                return Err(RodError::Interrupted { rod: rod.name.clone() });
+            }
+            let mut before = f64::INFINITY;
+            let mut settled = None;
+            for inner in 1..=MAX_INNER_ITERATIONS {
+                *done += 1;
+                match self.iterate_pseudo_step(rod, world, mass, &from, pseudo) {
+                    StepOutcome::Converged | StepOutcome::Unstable
+                        if self.trial.tension_only || self.trial.axial_stiffness_scale < 1.0 =>
+                    {
+                        self.trial.tension_only = false;
+                        self.trial.axial_stiffness_scale =
+                            (self.trial.axial_stiffness_scale * STIFFENING_FACTOR).min(1.0);
+                        from.copy_from_slice(&self.trial.x);
+                        director.copy_from_slice(&self.trial.director);
+                        pseudo = first_pseudo_step(rod, world);
+                        break;
+                    }
+                    StepOutcome::Converged => return Ok(()),
+                    StepOutcome::Unstable => {
+                        // a small perturbation, the same every time
+                        let hair = 1e-6 * rod.length() / last as f64;
+                        for (i, x) in self.trial.x.iter_mut().enumerate().skip(1).take(last - 1) {
+                            let s = i as f64;
+                            *x += Vector3::new((1.3 * s).sin(), (2.1 * s).cos(), (0.7 * s).sin()) * hair;
+                        }
+                        from.copy_from_slice(&self.trial.x);
+                        director.copy_from_slice(&self.trial.director);
+                        pseudo = first_pseudo_step(rod, world);
+                        break;
+                    }
+                    StepOutcome::Failed => break,
+                    StepOutcome::Moved { share, worst: found } => {
+                        worst = found;
+                        if share > 0.5 * before && inner > 2 {
+                            break;
+                        }
+                        before = share;
+                        if share < 1e-3 {
+                            settled = Some(inner);
+                            break;
+                        }
+                    }
+                }
+            }
+            if (self.trial.tension_only || self.trial.axial_stiffness_scale < 1.0) && *done > MAX_SOFTENED_ITERATIONS {
+                (self.trial.tension_only, self.trial.axial_stiffness_scale) = (false, 1.0);
+                pseudo = first_pseudo_step(rod, world);
+            }
+            match settled {
+                Some(inner) => {
+                    self.lay_at_trial(rod, world);
+                    from.copy_from_slice(&self.trial.x);
+                    director.copy_from_slice(&self.trial.director);
+                    longest = (longest * 1.3f64).min(most);
+                    pseudo = (pseudo
+                        * if inner <= 3 {
+                            4.0
+                        } else if inner <= 6 {
+                            2.0
+                        } else {
+                            1.0
+                        })
+                    .min(longest);
+                }
+                None => {
+                    self.trial.x.copy_from_slice(&from);
+                    self.trial.director.copy_from_slice(&director);
+                    longest = 0.7 * pseudo;
+                    pseudo *= 0.4;
+                }
+            }
+        }
+        let whole = !self.trial.tension_only && self.trial.axial_stiffness_scale == 1.0;
+        (self.trial.tension_only, self.trial.axial_stiffness_scale) = (false, 1.0);
+        if whole && self.largest_residual(rod, world) <= ACCEPTED_RESIDUAL_SHARE * weight {
+            return Ok(());
+        }
+        if let Some(element) = rod.find_overstretched(&self.trial.x) {
+            let why = format!("element {} is stretched beyond the most that its law of tension bears", element + 1);
+            return Err(RodError::Shape { rod: rod.name.clone(), why });
+        }
+        Err(RodError::Statics {
+            rod: rod.name.clone(),
+            iterations: *done,
+            residual: worst.1,
+            element: worst.0.clamp(1, last),
+        })
+    }
+
+    /// Largest residual (N) of a node at the trial.
+    pub(super) fn largest_residual(&mut self, rod: &Rod, world: &LineEnvironment) -> f64 {
+        sample_fluid(world, self.trial.time, &mut self.trial);
+        self.trial.fluid.iter_mut().for_each(|fluid| fluid.acceleration = Vector3::zeros());
+        self.work.forces(rod, world, &self.trial);
+        self.work.largest_residual(self.trial.ends.map(|e| e.motion.is_some())).1
+    }
+
+    /// One Newton iteration of a pseudo-step of length `pseudo` (s) that began at `from`.
+    pub(super) fn iterate_pseudo_step(
+        &mut self,
+        rod: &Rod,
+        world: &LineEnvironment,
+        mass: &[f64],
+        from: &[Vector3<f64>],
+        pseudo: f64,
+    ) -> StepOutcome {
+        let last = rod.elements.len();
+        let known = self.trial.ends.map(|e| e.motion.is_some());
+        sample_fluid(world, self.trial.time, &mut self.trial);
+        for fluid in &mut self.trial.fluid {
+            fluid.acceleration = Vector3::zeros();
+        }
+        self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
+        self.work.keep_ends();
+        let worst = self.work.largest_residual(known);
+        if !worst.1.is_finite() {
+            return StepOutcome::Failed;
+        }
+        let rest = worst.1 <= self.residual_tolerance(rod, world);
+        // at rest the tangent is checked with almost no inertia: an instability that grows slower than this is allowed
+        let pseudo = if rest { 100.0 * first_pseudo_step(rod, world) } else { pseudo };
+        for (node, m) in mass.iter().enumerate() {
+            let inertia = m / (pseudo * pseudo);
+            self.work.add_node_inertia(node, inertia, &((self.trial.x[node] - from[node]) * inertia));
+        }
+        self.add_creep_stiffness(rod, world, from, first_pseudo_step(rod, world) / pseudo);
+        for (side, node) in [(0, 0), (1, last)] {
+            if known[side] {
+                self.work.drop_residual(node);
+                self.work.fix(node);
+            }
+        }
+        match (self.work.factor(), rest) {
+            (Ok(_), true) if self.settings.unstable => return StepOutcome::Converged,
+            (Ok(_), false) if self.settings.unstable => {}
+            (Ok(0), true) => return StepOutcome::Converged,
+            (_, true) => return StepOutcome::Unstable,
+            (Ok(0), false) => {}
+            // with a negative pivot the step would go to a saddle of the energy
+            (_, false) => return StepOutcome::Failed,
+        }
+        self.work.newton(&mut self.change);
+        let (stride, shortest) = (self.work.stride(), rod.shortest());
+        let size = largest_change(&self.change, stride, shortest);
+        if size > 2.0 * rod.length() {
+            return StepOutcome::Failed;
+        }
+        turn_directors(&mut self.trial.director, &self.trial.x, &self.change, stride, known);
+        for i in 0..=last {
+            let d = &self.change[stride * i..stride * i + 3];
+            self.trial.x[i] += Vector3::new(d[0], d[1], d[2]);
+        }
+        StepOutcome::Moved { share: self.relative_change(rod, size), worst }
+    }
+
+    /// Size of the last change relative to what Newton's iteration converges for; `size` is its largest coordinate (m). Relative to the
+    /// shortest element; for a stiff rod, which moves far without bending much, the largest change of an element's vector over its length.
+    pub(super) fn relative_change(&self, rod: &Rod, size: f64) -> f64 {
+        if !self.is_stiff {
+            return size / rod.shortest();
+        }
+        let stride = self.work.stride();
+        let pairs = self.change.chunks_exact(stride).zip(self.change.chunks_exact(stride).skip(1));
+        let edge = |((a, b), element): ((&[f64], &[f64]), &Element)| {
+            let square: f64 = a.iter().zip(b).take(3).map(|(a, b)| (b - a) * (b - a)).sum();
+            square.sqrt() / element.rest
+        };
+        let turns = self.change.chunks_exact(stride).flat_map(|node| node[3..].iter().map(|turn| turn.abs()));
+        pairs.zip(&rod.elements).map(edge).chain(turns).fold(0.0, f64::max)
+    }
+
+    /// Tension (N) of an element of the trial, at rest, with what heat and pressure do to it.
+    pub(super) fn element_tension(&self, rod: &Rod, world: &LineEnvironment, i: usize) -> f64 {
+        let (element, trial) = (&rod.elements[i], &self.trial);
+        let (a, b) = (&trial.x[i], &trial.x[i + 1]);
+        let strain = (b - a).norm() / element.rest - 1.0;
+        let stretched = Stretch { strain, rate: 0.0, height: 0.5 * (a.z + b.z), datum: trial.origin.z };
+        let taken = TensionOptions { compression: element.compression, axial_stiffness_scale: 1.0 };
+        let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
+        tension(rod, element, taken, &stretched, trial.memory.get(i), fluids, world.gravity).value
+    }
+
+    /// Convergence tolerance of the residual (N): a share of the largest force in the rod, or the force that rounding of positions makes
+    /// through its stiffness.
+    fn residual_tolerance(&self, rod: &Rod, world: &LineEnvironment) -> f64 {
+        let weight = total_weight(rod, world);
+        let place = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
+        let mut told = RESIDUAL_TOLERANCE * weight;
+        for (i, (element, x)) in rod.elements.iter().zip(self.trial.x.windows(2)).enumerate() {
+            told = told.max(RESIDUAL_TOLERANCE * self.element_tension(rod, world, i).abs());
+            // a slack element, too, may be made taut by the rounding of a position
+            let strain = (x[1] - x[0]).norm() / element.rest - 1.0;
+            let slope = rod.segments[element.segment].axial.evaluate(strain).1;
+            let stiffness = slope / element.rest + 10.0 * element.bending / element.rest.powi(3);
+            told = told.max(32.0 * f64::EPSILON * place * stiffness);
+        }
+        told
+    }
+}
+
+/// Length of the first pseudo-step (s): the time of a free fall through half a hundredth of the rod's length.
+pub(super) fn first_pseudo_step(rod: &Rod, world: &LineEnvironment) -> f64 {
+    (0.01 * rod.length() / world.gravity.abs().max(MIN_PACING_GRAVITY)).sqrt()
+}
+
+/// Outcome of one Newton iteration of a pseudo-step.
+pub(super) enum StepOutcome {
+    /// Equilibrium, and stable.
+    Converged,
+    /// Unstable equilibrium, as of a strut about to buckle.
+    Unstable,
+    /// No step could be made: the residual is not finite, the tangent not positive definite, or the move too large.
+    Failed,
+    /// The relative change, and node and value (N) of the largest residual.
+    Moved { share: f64, worst: (usize, f64) },
+}
+
+/// Weight of a rod in air, with what is attached (N).
+pub(super) fn total_weight(rod: &Rod, world: &LineEnvironment) -> f64 {
+    let own = rod.elements.iter().map(|e| 2.0 * e.mass).sum::<f64>();
+    (own + rod.attachments.iter().map(|a| a.mass).sum::<f64>()) * world.gravity.abs()
+}
+
+/// Pseudo-mass of each node (kg). Displaced water is left out: the length of pseudo-steps adapts, and a rope that floats up needs no
+/// more of them than one that sinks.
+///
+/// Where loads or bending forces exceed the weight, pseudo-steps scaled by the rod's own mass are too long. The excess force over g is
+/// then added as mass along the length; and the mass is no less than a share of what is attached.
+pub(super) fn pseudo_masses(rod: &Rod, world: &LineEnvironment) -> Vec<f64> {
+    let given: f64 = world.forces.iter().map(|(_, force)| force.norm()).sum();
+    let whole = total_weight(rod, world);
+    let attached = rod.attachments.iter().map(|a| a.mass).sum::<f64>() * world.gravity.abs();
+    let beyond =
+        (given.max(rod.bending_force()) - whole).max(MIN_ATTACHED_MASS_SHARE * attached - (whole - attached)).max(0.0);
+    let more = beyond / world.gravity.abs().max(MIN_PACING_GRAVITY) / rod.length();
+    let mut mass = vec![0.0; rod.nodes()];
+    for (i, element) in rod.elements.iter().enumerate().filter(|_| more > 0.0) {
+        mass[i] += 0.5 * more * element.rest;
+        mass[i + 1] += 0.5 * more * element.rest;
+    }
+    for (i, element) in rod.elements.iter().enumerate() {
+        mass[i] += element.mass;
+        mass[i + 1] += element.mass;
+    }
+    for a in &rod.attachments {
+        mass[a.node] += a.mass;
+    }
+    mass
+}
