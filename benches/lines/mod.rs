@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{FRAC_PI_4, TAU};
-use windlass_base::units::{FOOT, KIP};
+use windlass_base::units::{METRES_PER_FOOT, NEWTONS_PER_KIP};
 use windlass_catenary::{Bottom, Joint, Line, Segment};
 
 /// Steps of the path.
@@ -69,17 +69,18 @@ impl Moving {
 /// The four-segment line of [MOSES-FLEX example] with its spring buoy sunk and held: name, line, breaks.
 pub fn table_lines() -> Vec<(&'static str, Line, [f64; 4])> {
     let segment = |od: f64, length: f64, weight: f64, e: f64| Segment {
-        length: length * FOOT,
-        weight: weight * KIP / FOOT,
-        ea: e * FRAC_PI_4 * od * od * KIP,
+        length: length * METRES_PER_FOOT,
+        weight: weight * NEWTONS_PER_KIP / METRES_PER_FOOT,
+        ea: e * FRAC_PI_4 * od * od * NEWTONS_PER_KIP,
     };
     let wire = |length: f64| segment(4.625, length, 0.03751, 2900.0);
     [("sunk buoy", 100.0, 0.0), ("held buoy", 200.0, 50.0)]
         .map(|(name, capacity, pendant)| {
-            let buoy = Joint::SpringBuoy { capacity: capacity * KIP, depth: pendant * FOOT };
+            let buoy = Joint::SpringBuoy { capacity: capacity * NEWTONS_PER_KIP, depth: pendant * METRES_PER_FOOT };
             let segments = vec![wire(500.0), wire(4000.0), segment(4.375, 2000.0, 0.1582, 4350.0), wire(2000.0)];
-            let line = Line::new(segments, vec![buoy, Joint::Free, Joint::Free], -3000.0 * FOOT, 0.0).unwrap();
-            (name, line, [1008.0, 1008.0, 902.0, 1008.0].map(|b| b * KIP))
+            let line =
+                Line::new(segments, vec![buoy, Joint::Free, Joint::Free], -3000.0 * METRES_PER_FOOT, 0.0).unwrap();
+            (name, line, [1008.0, 1008.0, 902.0, 1008.0].map(|b| b * NEWTONS_PER_KIP))
         })
         .into()
 }

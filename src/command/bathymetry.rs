@@ -14,7 +14,7 @@ use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::bathymetry::{Bathymetry, MOST_POINTS, fits};
+use windlass_model::bathymetry::{Bathymetry, MAX_GRID_POINTS, fits};
 use windlass_model::{EntityKind, Model};
 
 /// &BATHYMETRY.
@@ -106,7 +106,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.menus.push(Menu::Soundings(Box::new(begun)));
         return Ok(Effect::Done);
     };
-    let read = rows::<3>(job, (file.word().unwrap_or_default(), file.span), "x, y, z", MOST_POINTS)?;
+    let read = rows::<3>(job, (file.word().unwrap_or_default(), file.span), "x, y, z", MAX_GRID_POINTS)?;
     let si = |v: f64| Dim::Length.to_si(v, job.units);
     let points = read.into_iter().map(|(_, [x, y, z])| [si(x), si(y), sign * si(z)]).collect();
     let made = Bathymetry::of_points(name, points, span);

@@ -38,7 +38,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             }
         },
         Some(word) => {
-            let functions = functions::HELP.iter().chain(super::functions::HELP);
+            let functions = functions::FUNCTION_HELP.iter().chain(super::functions::HELP);
             let function = find_function(functions.into_iter(), &word.text).map(|(name, form, meaning)| {
                 let meaning = wrap(meaning, 92).join("\n   ");
                 format!("{name}: string function\n\n   {form}\n   {meaning}")
@@ -97,7 +97,7 @@ fn overview(job: &Job) -> String {
     lines.extend(CONTROL.iter().map(|s| line(s.name, s.help)));
     lines.push(
         "String functions: ".to_string()
-            + &functions::HELP.iter().chain(super::functions::HELP).map(|f| f.0).collect::<Vec<_>>().join(" "),
+            + &functions::FUNCTION_HELP.iter().chain(super::functions::HELP).map(|f| f.0).collect::<Vec<_>>().join(" "),
     );
     lines.extend(wrap(name::RULE, 96));
     lines.push("&HELP NAME explains one; &HELP ~CLASS lists the class types.".into());

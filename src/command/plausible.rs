@@ -5,7 +5,7 @@ use super::wind_options::WIND;
 use std::f64::consts::TAU;
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
-use windlass_base::units::{Dim, KNOT, UnitSystem, eight_figures};
+use windlass_base::units::{Dim, METRES_PER_SECOND_PER_KNOT, UnitSystem, eight_figures};
 use windlass_base::values::Args;
 use windlass_connectors::options::FRICTION;
 use windlass_hydro::sea::Sea as Waves;
@@ -15,7 +15,7 @@ use windlass_language::spec::OptionSpec;
 use windlass_model::{Current, Environment, Model, Sea};
 
 /// The highest wind over a minute on record, 185 knots (m/s): hurricane Patricia, 2015 (NOAA, National Hurricane Center, EP202015).
-const HIGHEST_WIND: f64 = 185.0 * KNOT;
+const HIGHEST_WIND: f64 = 185.0 * METRES_PER_SECOND_PER_KNOT;
 /// Faster than every ocean current and all but a few tidal races (m/s): the Gulf Stream reaches 2.5 m/s.
 const FASTEST_CURRENT: f64 = 5.0;
 /// The deepest place of the ocean (m): Challenger Deep.

@@ -16,7 +16,7 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_signal::line::fatigue::{MOST_POINTS, Round};
+use windlass_signal::line::fatigue::{MAX_CIRCUMFERENCE_POINTS, Round};
 use windlass_signal::line::lrfd::{Factors, SafetyClass};
 use windlass_signal::line::working_stress::DesignCase;
 use windlass_solve::results::along::{self, Code, Line, Where};
@@ -96,7 +96,7 @@ const CORROSION: OptionSpec = ours(
 .default("0");
 const POINTS: OptionSpec = ours(
     "-POINTS",
-    &[ValueSpec::new("N", Kind::Integer, "points").in_range(1.0, MOST_POINTS as f64)],
+    &[ValueSpec::new("N", Kind::Integer, "points").in_range(1.0, MAX_CIRCUMFERENCE_POINTS as f64)],
     "points round a tube at which FATIGUE looks",
 )
 .default("8");

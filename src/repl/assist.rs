@@ -200,7 +200,7 @@ fn expected_value(
 
 /// The string functions, each as it begins.
 fn string_functions() -> impl Iterator<Item = String> {
-    functions::HELP.iter().chain(crate::command::functions::HELP).map(|(name, _, _)| format!("{name}("))
+    functions::FUNCTION_HELP.iter().chain(crate::command::functions::HELP).map(|(name, _, _)| format!("{name}("))
 }
 
 /// Where a string function may begin within a word.

@@ -208,11 +208,11 @@ fn is_temporary(name: &OsStr) -> bool {
 static TEMPORARIES: AtomicU64 = AtomicU64::new(0);
 
 /// Most names tried for a temporary file: each that is lost was taken by another job at that very moment.
-const MOST_TRIES: u32 = 1000;
+const MAX_TEMPORARY_NAMES: u32 = 1000;
 
 /// A new temporary file, locked, and its name.
 fn temporary(dir: &Dir) -> std::io::Result<(OsString, File)> {
-    for _ in 0..MOST_TRIES {
+    for _ in 0..MAX_TEMPORARY_NAMES {
         let number = TEMPORARIES.fetch_add(1, Ordering::Relaxed);
         let name = OsString::from(format!("{}{}-{number}{}", TEMPORARY[0], std::process::id(), TEMPORARY[1]));
         let file = match dir.open_with(&name, OpenOptions::new().write(true).create_new(true)) {

@@ -18,9 +18,9 @@ const NO_WHOLE: i32 = -2_147_483_647;
 /// Stands for a number that is missing: `NC_FILL_DOUBLE`. (The library finds no variable again that has an attribute which is no number.)
 const NO_NUMBER: f64 = 9.969_209_968_386_869e36;
 /// Files beyond this have the form with offsets of 64 bits (bytes).
-const CLASSIC: usize = 1 << 30;
+const MAX_CLASSIC_BYTES: usize = 1 << 30;
 /// Longest name of a variable (bytes).
-const LONGEST: usize = 120;
+const MAX_NAME_BYTES: usize = 120;
 
 /// A file in memory that is still at hand when its writer is gone.
 #[derive(Clone, Debug, Default)]
@@ -96,7 +96,7 @@ pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
             Data::Letters(list, _) => list.len(),
         })
         .sum();
-    let version = if size > CLASSIC { Version::Offset64Bit } else { Version::Classic };
+    let version = if size > MAX_CLASSIC_BYTES { Version::Offset64Bit } else { Version::Classic };
     let shared = Shared::default();
     let mut writer = FileWriter::open_seek_write("", Box::new(shared.clone())).map_err(refused)?;
     writer.set_def(&set, version, 0).map_err(refused)?;
@@ -152,7 +152,7 @@ fn names<'a>(wanted: impl Iterator<Item = &'a str>) -> Vec<String> {
             }
         }
         let mut plain = plain.trim_matches('_').to_string();
-        plain.truncate(LONGEST);
+        plain.truncate(MAX_NAME_BYTES);
         if !plain.starts_with(|c: char| c.is_ascii_alphabetic()) {
             plain.insert_str(0, "column_");
         }

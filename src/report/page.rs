@@ -22,14 +22,14 @@ pub struct PageHead {
 }
 
 /// Widest page (characters); the box and titles are centred in the width of the table, within this.
-const PAGE: usize = 160;
+const MAX_PAGE_WIDTH: usize = 160;
 /// Narrowest page.
-const NARROW: usize = 72;
+const MIN_PAGE_WIDTH: usize = 72;
 
 /// The whole report of a table: page head, title, facts, rows, notes. Plain ASCII, no trailing blanks.
 pub fn render(table: &Table, units: UnitSystem, head: &PageHead) -> String {
     let body = grid(table, units);
-    let width = body.iter().map(|l| l.chars().count()).max().unwrap_or(0).clamp(NARROW, PAGE);
+    let width = body.iter().map(|l| l.chars().count()).max().unwrap_or(0).clamp(MIN_PAGE_WIDTH, MAX_PAGE_WIDTH);
     let mut lines = vec![String::new()];
     lines.extend(banner(head, width));
     let spaced = spaced(&table.title);

@@ -41,7 +41,7 @@ pub enum ReadError {
 }
 
 /// Most columns of a table: a text with more is no series in columns.
-const WIDEST: usize = 10_000;
+const MAX_COLUMNS: usize = 10_000;
 
 /// The dimensions whose units a head may name.
 const DIMS: [Dim; 20] = [
@@ -98,14 +98,14 @@ struct Made {
 
 impl Made {
     fn of(title: &str, heads: &[&str]) -> Result<Made, ReadError> {
-        if heads.len() > WIDEST {
+        if heads.len() > MAX_COLUMNS {
             return Err(ReadError::Wide(heads.len()));
         }
         let mut made = Made { table: Table::new(title), units: Vec::new() };
         for (index, text) in heads.iter().enumerate() {
             let (name, dim, units) = head(unguarded(text.trim()));
             let name = if name.is_empty() { format!("Column {}", index + 1) } else { name };
-            let digits = if dim == Dim::None { SIX } else { Digits::Usual };
+            let digits = if dim == Dim::None { SIX_DIGITS } else { Digits::Usual };
             made.table.columns.push(Column::new("", &name, dim, digits, [] as [Cell; 0]));
             made.units.push(units);
         }
@@ -141,7 +141,7 @@ impl Made {
 }
 
 /// Digits of a column that is a plain number of unknown size.
-const SIX: Digits = Digits::Scientific(6);
+const SIX_DIGITS: Digits = Digits::Scientific(6);
 
 /// A table from comma-separated values: a line of heads, unless all its words are numbers, and rows.
 ///

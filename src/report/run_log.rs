@@ -13,7 +13,7 @@ use windlass_solve::time::{Snapshot, Watcher};
 /// Begins every such file; its last byte is the version.
 pub const MARK: [u8; 8] = *b"WINDRUN\x03";
 /// Bytes of the head.
-const HEAD: usize = 24;
+const HEADER_BYTES: usize = 24;
 
 /// A file of a run being written.
 #[derive(Debug)]
@@ -136,7 +136,7 @@ pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<Kept, RunLogErro
         return Err(RunLogError::Other);
     }
     let (fingerprint, width) = (word(8)?, usize::try_from(word(16)?).map_err(|_| RunLogError::Other)?);
-    let (mut at, mut found, mut rows) = (HEAD, None, Vec::new());
+    let (mut at, mut found, mut rows) = (HEADER_BYTES, None, Vec::new());
     while let Some((kind, block, next)) = block(&bytes, at) {
         match kind {
             b'R' if block.len() == width.saturating_mul(8) => {

@@ -11,9 +11,9 @@ use windlass_base::span::{SourceId, Span};
 use windlass_language::source::Source;
 
 /// Last column of a card; what stands further right is not read.
-pub const WIDTH: usize = 80;
+pub const CARD_WIDTH: usize = 80;
 /// Largest whole number taken (nine digits; the widest field of a deck has ten columns).
-const LARGEST: i64 = 999_999_999;
+const MAX_INTEGER: i64 = 999_999_999;
 
 /// A value of a card as it was given, with its place.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -121,12 +121,12 @@ impl<'a> Line<'a> {
 
     /// Whether the line goes on past the last column that is read.
     pub fn overlong(&self) -> bool {
-        !self.text.get(self.offset(WIDTH + 1)..).unwrap_or_default().trim().is_empty()
+        !self.text.get(self.offset(CARD_WIDTH + 1)..).unwrap_or_default().trim().is_empty()
     }
 
     /// Whether what stands in the last column that is read goes on past it.
     pub fn is_cut(&self) -> bool {
-        !self.blank(WIDTH, WIDTH) && !self.blank(WIDTH + 1, WIDTH + 1)
+        !self.blank(CARD_WIDTH, CARD_WIDTH) && !self.blank(CARD_WIDTH + 1, CARD_WIDTH + 1)
     }
 
     /// Column of the first tab, which belongs to no column.
@@ -204,7 +204,7 @@ impl<'a> Face<'a> {
         let word = line.columns(7, 10);
         let (keyword, from) = match (keyworded, begins_keyword(word)) {
             (true, true) if !word.trim_end().contains(char::is_whitespace) => (word.trim_end(), 11),
-            (true, false) if line.blank(7, WIDTH) => ("", 11),
+            (true, false) if line.blank(7, CARD_WIDTH) => ("", 11),
             (true, _) => return Err(wrong(7, 10, "a keyword belongs in columns 7-10")),
             (false, true) => (word.trim_end(), 11),
             (false, false) if id.bytes().all(|b| b.is_ascii_alphanumeric()) => ("", 7),
@@ -227,7 +227,7 @@ pub fn integer(text: &str) -> Option<i64> {
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
         return None;
     }
-    text.parse().ok().filter(|value: &i64| value.abs() <= LARGEST)
+    text.parse().ok().filter(|value: &i64| value.abs() <= MAX_INTEGER)
 }
 
 /// A real number as a deck writes it: with or without a point, exponent with E or D.

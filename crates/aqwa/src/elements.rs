@@ -14,7 +14,7 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// Most elements of a deck.
-pub const MOST_ELEMENTS: usize = 60_000;
+pub const MAX_ELEMENTS: usize = 60_000;
 
 /// Kinds of element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,7 +49,7 @@ const KINDS: &[(&str, Shape, usize, bool, bool)] = &[
     ("FPNT", Shape::FieldPoint, 1, false, false),
 ];
 
-const UNSEEN: &str = "this card is for the diffraction analysis of a hull, which is not done here; \
+const DIFFRACTION_CARD_REASON: &str = "this card is for the diffraction analysis of a hull, which is not done here; \
                       a structure is made of TUBE, PMAS, STUB, DISC and PBOY elements or comes from a hydrodynamic database";
 
 /// Cards of deck 2.
@@ -63,17 +63,17 @@ pub const LAYOUTS: &[Layout] = &[
     Layout::text("TPPL").freely(),
     Layout::text("FPNT").freely(),
     Layout::text("ZLWL"),
-    Layout::refuse("FIXD", UNSEEN),
-    Layout::refuse("SYMX", UNSEEN),
-    Layout::refuse("SYMY", UNSEEN),
-    Layout::refuse("RMXS", UNSEEN),
-    Layout::refuse("RMYS", UNSEEN),
-    Layout::refuse("HYDI", UNSEEN),
-    Layout::refuse("ILID", UNSEEN),
-    Layout::refuse("VLID", UNSEEN),
+    Layout::refuse("FIXD", DIFFRACTION_CARD_REASON),
+    Layout::refuse("SYMX", DIFFRACTION_CARD_REASON),
+    Layout::refuse("SYMY", DIFFRACTION_CARD_REASON),
+    Layout::refuse("RMXS", DIFFRACTION_CARD_REASON),
+    Layout::refuse("RMYS", DIFFRACTION_CARD_REASON),
+    Layout::refuse("HYDI", DIFFRACTION_CARD_REASON),
+    Layout::refuse("ILID", DIFFRACTION_CARD_REASON),
+    Layout::refuse("VLID", DIFFRACTION_CARD_REASON),
     Layout::pass_over("SEAG", "the grid of the sea is for pictures of AQWA and has no effect"),
-    Layout::refuse("MSTR", UNSEEN),
-    Layout::refuse("ASYM", UNSEEN),
+    Layout::refuse("MSTR", DIFFRACTION_CARD_REASON),
+    Layout::refuse("ASYM", DIFFRACTION_CARD_REASON),
 ];
 
 /// An element of a structure.
@@ -193,10 +193,10 @@ fn elements(
         pairs.push(whole(group).ok_or_else(|| misread(record, "groups of one or two whole numbers"))?);
     }
     let count = pairs.first().map_or(0, |(count, _)| *count);
-    let room = MOST_ELEMENTS.saturating_sub(made);
+    let room = MAX_ELEMENTS.saturating_sub(made);
     if count < 1 || count > i64::try_from(room).unwrap_or(0) {
         let message = format!("deck 2, {}: {count} elements cannot be made", record.keyword);
-        let label = format!("a deck has 1 to {MOST_ELEMENTS} elements; {made} stand before this card");
+        let label = format!("a deck has 1 to {MAX_ELEMENTS} elements; {made} stand before this card");
         return Err(Diagnostic::error(message, record.text_place).label(label));
     }
     let at = |index: usize, k: i64| pairs.get(index).map_or(0, |(first, step)| first + k * step);

@@ -9,7 +9,7 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// Stiffness of an end spring that is not given (A.2).
-pub const STIFF: f64 = 1.0e15;
+pub const DEFAULT_SPRING_STIFFNESS: f64 = 1.0e15;
 /// A TSPA or TSPV card.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndSpring {
@@ -26,12 +26,12 @@ pub struct EndSpring {
 /// Installed (A.2): inline 1.0E15 where blank, zero or negative, rotational 0 where negative, all three 1.0E15 where the
 /// card is missing. Towed (8.1.14): 1.0E15 in place of zero.
 pub fn in_force(spring: Option<EndSpring>, towed: bool) -> [f64; 3] {
-    let Some(spring) = spring else { return [STIFF; 3] };
+    let Some(spring) = spring else { return [DEFAULT_SPRING_STIFFNESS; 3] };
     let [first, second, third] = spring.stiffness.map(|field| field.value);
     if towed {
-        [first, second, third].map(|value| if value == 0.0 { STIFF } else { value })
+        [first, second, third].map(|value| if value == 0.0 { DEFAULT_SPRING_STIFFNESS } else { value })
     } else {
-        [if first <= 0.0 { STIFF } else { first }, second.max(0.0), third.max(0.0)]
+        [if first <= 0.0 { DEFAULT_SPRING_STIFFNESS } else { first }, second.max(0.0), third.max(0.0)]
     }
 }
 

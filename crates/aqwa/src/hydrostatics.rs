@@ -11,10 +11,11 @@ use windlass_base::span::Span;
 
 const DATABASE: &str = "coefficients over frequency are not read from a deck; \
                         take them from a hydrodynamic database of the model instead";
-const UNSEEN: &str = "the columns of this card are published nowhere";
+const UNPUBLISHED_CARD_REASON: &str = "the columns of this card are published nowhere";
 
-const SIX: [Slot; 6] = [num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), num("RY", 61), num("RZ", 71)];
-const ROW: &[Slot] = &[int("row", 16), SIX[0], SIX[1], SIX[2], SIX[3], SIX[4], SIX[5]];
+const DOF_SLOTS: [Slot; 6] = [num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), num("RY", 61), num("RZ", 71)];
+const ROW: &[Slot] =
+    &[int("row", 16), DOF_SLOTS[0], DOF_SLOTS[1], DOF_SLOTS[2], DOF_SLOTS[3], DOF_SLOTS[4], DOF_SLOTS[5]];
 const VALUES: &[Slot] = &[
     int("first index", 11),
     int("last index", 16),
@@ -32,10 +33,10 @@ pub const FREQUENCIES: &[Layout] = &[
     Layout::assume("PERD", VALUES).freely(),
     Layout::assume("HRTZ", VALUES).freely(),
     Layout::assume("DIRN", VALUES).freely(),
-    Layout::refuse("CSTR", UNSEEN),
+    Layout::refuse("CSTR", UNPUBLISHED_CARD_REASON),
     Layout::refuse("FILE", DATABASE),
-    Layout::refuse("MVEF", UNSEEN),
-    Layout::refuse("FWDS", UNSEEN),
+    Layout::refuse("MVEF", UNPUBLISHED_CARD_REASON),
+    Layout::refuse("FWDS", UNPUBLISHED_CARD_REASON),
 ];
 
 /// Cards of deck 7.
@@ -45,7 +46,7 @@ pub const STIFFNESS: &[Layout] = &[
     Layout::refuse("SSTF", "a stiffness between structures is not read"),
     Layout::new("BFEQ", &[num("buoyancy force at equilibrium", 21)]),
     Layout::new("ZCGE", &[num("Z of the centre of gravity at equilibrium", 21)]),
-    Layout::new("SPOS", &SIX),
+    Layout::new("SPOS", &DOF_SLOTS),
     Layout::new("FIAM", ROW).repeated_by(&[16]),
     Layout::new("FIDP", ROW).repeated_by(&[16]),
     Layout::refuse("WAMS", DATABASE),
@@ -77,9 +78,9 @@ pub const HULL: &[Layout] = &[
     Layout::assume("CURR", &[num("speed", 11), num("direction", 21)]),
     Layout::refuse("RUFC", "forces from a routine of the user are not read"),
     Layout::refuse("IUFC", "forces from a routine of the user are not read"),
-    Layout::refuse("CUFX", UNSEEN),
-    Layout::refuse("THRS", UNSEEN),
-    Layout::refuse("DIRN", UNSEEN),
+    Layout::refuse("CUFX", UNPUBLISHED_CARD_REASON),
+    Layout::refuse("THRS", UNPUBLISHED_CARD_REASON),
+    Layout::refuse("DIRN", UNPUBLISHED_CARD_REASON),
 ];
 
 /// Six rows of six numbers, in the units of the deck, rotations in radians.

@@ -32,7 +32,7 @@ const PROGRAMS: &[(&str, Program)] = &[
     ("NAUT", Program::Naut),
 ];
 /// Most options that are kept; there are some sixty names.
-const MOST_OPTIONS: usize = 200;
+const MAX_OPTIONS: usize = 200;
 /// Codes of an analysis on the JOB line.
 const ANALYSES: &[&str] = &["WFRQ", "DRFT", "STAT", "DYNA", "FIXD"];
 
@@ -220,7 +220,7 @@ fn read_options(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remark
             warning.help.extend(did_you_mean(&name, OPTIONS.iter().map(|(known, _)| *known)));
             remarks.add(warning);
         }
-        if job.options.len() < MOST_OPTIONS {
+        if job.options.len() < MAX_OPTIONS {
             job.options.push((name, span));
         }
     }

@@ -34,7 +34,7 @@ fn layouts(number: u8, keyword: &str) -> &'static [Layout] {
         13 => waves::SPECTRA,
         14 => mooring::LAYOUTS,
         15 => run::STARTS,
-        16 => run::STEPS,
+        16 => run::DECK_16_CARDS,
         17 => run::MULTIPLIERS,
         _ => printing::LAYOUTS,
     }
@@ -74,7 +74,7 @@ fn single(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
 /// Reads the decks ELM1, ELM2, .. up to FINI.
 fn structures(deck: &mut Deck, reader: &mut Reader<'_>) {
     let mut made = 0;
-    while deck.structures.len() < run::MOST_STRUCTURES as usize {
+    while deck.structures.len() < run::MAX_STRUCTURES as usize {
         let next = reader.next_header();
         if !deck.structures.is_empty() && !next.is_some_and(|(number, _)| number == 2 || number == 0) {
             let here = reader.current_span();

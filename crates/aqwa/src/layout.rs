@@ -2,7 +2,7 @@
 //!
 //! A card that does not fit its columns is an error: no value is looked for elsewhere.
 
-use super::card::{Face, Field, Line, WIDTH, integer, real};
+use super::card::{CARD_WIDTH, Face, Field, Line, integer, real};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
@@ -171,23 +171,23 @@ impl Layout {
             text_place: line.place_of(face.rest.trim()),
         };
         if line.is_cut() {
-            let message = format!("{}: what stands in column {WIDTH} goes on past it", self.name_with_deck(deck));
-            return Err(Diagnostic::error(message, line.span(WIDTH, WIDTH + 1))
-                .label(format!("a card ends with column {WIDTH}"))
+            let message = format!("{}: what stands in column {CARD_WIDTH} goes on past it", self.name_with_deck(deck));
+            return Err(Diagnostic::error(message, line.span(CARD_WIDTH, CARD_WIDTH + 1))
+                .label(format!("a card ends with column {CARD_WIDTH}"))
                 .help(self.usage()));
         }
         if self.text {
-            let before = line.text.chars().position(|c| c == '(').unwrap_or(WIDTH);
+            let before = line.text.chars().position(|c| c == '(').unwrap_or(CARD_WIDTH);
             if before < 20 {
                 let message = format!("{}: a bracket stands before column 21", self.name_with_deck(deck));
                 return Err(
                     Diagnostic::error(message, line.span(11, 20)).label("groups in brackets belong in columns 21-80")
                 );
             }
-            if before < WIDTH {
+            if before < CARD_WIDTH {
                 self.nothing_between(deck, line, 21, before)?;
             }
-            let rest = line.columns(11, WIDTH).trim();
+            let rest = line.columns(11, CARD_WIDTH).trim();
             record.text = rest.split_whitespace().collect::<Vec<_>>().join(" ");
             record.text_place = line.place_of(rest);
             return Ok(record);
@@ -233,7 +233,7 @@ impl Layout {
                 }
             }
         }
-        self.nothing_between(deck, line, free, WIDTH)?;
+        self.nothing_between(deck, line, free, CARD_WIDTH)?;
         Ok((integers, reals))
     }
 

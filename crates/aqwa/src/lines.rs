@@ -12,9 +12,9 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// Most sections of a composite line.
-const MOST_SECTIONS: i64 = 10;
+const MAX_SECTIONS: i64 = 10;
 /// Most points of the table of a composite line.
-const MOST_POINTS: i64 = 600;
+const MAX_TABLE_POINTS: i64 = 600;
 
 /// Where a line is fixed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -340,19 +340,19 @@ impl LineCardParser {
 fn composite(record: &Record, remarks: &mut Remarks) -> Composite {
     let points = (record.int(11).or(15), record.int(16).or(40));
     let announced = record.int(26);
-    if !(1..=MOST_SECTIONS).contains(&announced.value) {
+    if !(1..=MAX_SECTIONS).contains(&announced.value) {
         remarks.add(
             Diagnostic::error(
                 format!("deck 14, COMP, columns 26-30: {} is no number of sections", announced.value),
                 announced.span,
             )
-            .label(format!("1 to {MOST_SECTIONS} belongs here")),
+            .label(format!("1 to {MAX_SECTIONS} belongs here")),
         );
     }
-    if points.0 < 1 || points.1 < 1 || points.0.saturating_mul(points.1) > MOST_POINTS {
+    if points.0 < 1 || points.1 < 1 || points.0.saturating_mul(points.1) > MAX_TABLE_POINTS {
         remarks.add(
             Diagnostic::error(format!("deck 14, COMP: a table of {} by {} points", points.0, points.1), record.span)
-                .label(format!("columns 11-15 times columns 16-20 is 1 to {MOST_POINTS}")),
+                .label(format!("columns 11-15 times columns 16-20 is 1 to {MAX_TABLE_POINTS}")),
         );
     }
     let of_table =

@@ -12,7 +12,7 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 const ENDS: [Slot; 4] = [int("structure 1", 11), int("node 1", 16), int("structure 2", 21), int("node 2", 26)];
-const UNSEEN: &str = "this card is not read; give the line with the classes of the model";
+const UNREAD_CARD_REASON: &str = "this card is not read; give the line with the classes of the model";
 const NOT_YET: &str = "pre-processing of tethers is not available in AQWA 5.4 [AQWA-TETHER A.13] nor here";
 
 /// The card that closes a tether.
@@ -136,16 +136,16 @@ pub const LAYOUTS: &[Layout] = &[
     Layout::assume("CLMP", JOINT).one_of("joint", SECTION),
     Layout::pass_over("DYNM", "cable dynamics is chosen by the class of the line here; the card has no effect"),
     Layout::pass_over("DOFF", "cable dynamics is chosen by the class of the line here; the card has no effect"),
-    Layout::refuse("NCEL", UNSEEN),
-    Layout::refuse("LBRK", UNSEEN),
-    Layout::refuse("SWIR", UNSEEN),
-    Layout::refuse("FEND", UNSEEN),
-    Layout::refuse("FLIN", UNSEEN),
-    Layout::refuse("FENP", UNSEEN),
-    Layout::refuse("DWT0", UNSEEN),
-    Layout::refuse("DWAL", UNSEEN),
-    Layout::refuse("PULY", UNSEEN),
-    Layout::refuse("FILE", UNSEEN),
+    Layout::refuse("NCEL", UNREAD_CARD_REASON),
+    Layout::refuse("LBRK", UNREAD_CARD_REASON),
+    Layout::refuse("SWIR", UNREAD_CARD_REASON),
+    Layout::refuse("FEND", UNREAD_CARD_REASON),
+    Layout::refuse("FLIN", UNREAD_CARD_REASON),
+    Layout::refuse("FENP", UNREAD_CARD_REASON),
+    Layout::refuse("DWT0", UNREAD_CARD_REASON),
+    Layout::refuse("DWAL", UNREAD_CARD_REASON),
+    Layout::refuse("PULY", UNREAD_CARD_REASON),
+    Layout::refuse("FILE", UNREAD_CARD_REASON),
 ];
 
 const SPRING: &[Slot] = &[

@@ -13,7 +13,7 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// Most nodes of a deck, as of AQWA.
-pub const MOST_NODES: usize = 60_000;
+pub const MAX_NODES: usize = 60_000;
 
 const SLOTS: &[super::layout::Slot] = &[
     super::layout::Slot { name: "node number", column: 7, width: 4, holds: super::layout::Holds::Integer },
@@ -26,11 +26,14 @@ const SLOTS: &[super::layout::Slot] = &[
     num("step of Y", 61),
     num("step of Z", 71),
 ];
-const UNSEEN: &str = "the columns of this card are published nowhere; give the nodes one by one";
+const UNPUBLISHED_CARD_REASON: &str = "the columns of this card are published nowhere; give the nodes one by one";
 
 /// Cards of deck 1.
-pub const LAYOUTS: &[Layout] =
-    &[Layout::new("", SLOTS).freely(), Layout::refuse("STRC", UNSEEN), Layout::refuse("NODE", UNSEEN)];
+pub const LAYOUTS: &[Layout] = &[
+    Layout::new("", SLOTS).freely(),
+    Layout::refuse("STRC", UNPUBLISHED_CARD_REASON),
+    Layout::refuse("NODE", UNPUBLISHED_CARD_REASON),
+];
 
 /// A node of deck 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,11 +101,11 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Nodes {
 /// The number of nodes that a card makes; none, with an error, when they would be too many.
 fn check_count(count: Field<i64>, present: usize, remarks: &mut Remarks) -> Option<i64> {
     let wanted = count.value.max(1);
-    let room = i64::try_from(MOST_NODES.saturating_sub(present)).unwrap_or(0);
+    let room = i64::try_from(MAX_NODES.saturating_sub(present)).unwrap_or(0);
     if count.value < 0 || wanted > room {
         remarks.add(
             Diagnostic::error(format!("deck 1, columns 11-15: {} nodes cannot be generated", count.value), count.span)
-                .label(format!("a deck has at most {MOST_NODES} nodes; {present} stand before this card")),
+                .label(format!("a deck has at most {MAX_NODES} nodes; {present} stand before this card")),
         );
         return None;
     }

@@ -8,16 +8,16 @@ use super::remarks::Remarks;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
-const STEPS: &[Slot] = &[int("number of steps", 11)];
+const STEP_SLOTS: &[Slot] = &[int("number of steps", 11)];
 const PARAMETER: &[Slot] = &[int("structure", 11), int("parameter", 16)];
 
 /// Cards of deck 18.
 pub const LAYOUTS: &[Layout] = &[
-    Layout::new("PREV", STEPS),
-    Layout::new("TPRV", STEPS),
-    Layout::new("TGRV", STEPS),
-    Layout::new("GREV", STEPS),
-    Layout::new("PPRV", STEPS),
+    Layout::new("PREV", STEP_SLOTS),
+    Layout::new("TPRV", STEP_SLOTS),
+    Layout::new("TGRV", STEP_SLOTS),
+    Layout::new("GREV", STEP_SLOTS),
+    Layout::new("PPRV", STEP_SLOTS),
     Layout::new("TSTS", &[int("first step of the statistics", 11)]),
     Layout::new("TSTF", &[int("last step of the statistics", 11)]),
     Layout::new("PTEN", &[int("structure", 11)]).repeated_by(&[11]),

@@ -28,7 +28,7 @@ pub const MATERIALS: &[Layout] = &[Layout::new(
 )
 .freely()];
 
-const SIX: &[Slot] = &[
+const DOF_SLOTS: &[Slot] = &[
     int("geometry group", 16),
     num("parameter 1 (diameter; Ixx)", 21),
     num("parameter 2 (wall thickness; Ixy)", 31),
@@ -40,10 +40,10 @@ const SIX: &[Slot] = &[
 
 /// Cards of deck 4.
 pub const GEOMETRIES: &[Layout] = &[
-    Layout::new("TUBE", SIX).freely(),
-    Layout::new("PMAS", SIX).freely(),
-    Layout::assume("STUB", SIX).freely(),
-    Layout::assume("DISC", SIX).freely(),
+    Layout::new("TUBE", DOF_SLOTS).freely(),
+    Layout::new("PMAS", DOF_SLOTS).freely(),
+    Layout::assume("STUB", DOF_SLOTS).freely(),
+    Layout::assume("DISC", DOF_SLOTS).freely(),
     Layout::new("CONT", &[num("drag coefficient", 21), num("added mass coefficient", 31)]).freely(),
 ];
 

@@ -9,7 +9,7 @@ use windlass_base::span::{SourceId, Span};
 use windlass_language::source::Source;
 
 /// Most cards of a file.
-const MOST_CARDS: usize = 200_000;
+const MAX_CARDS: usize = 200_000;
 /// Longest line that is taken for a card of 80 columns with a remark behind it (bytes).
 const LONGEST_LINE: usize = 1000;
 
@@ -114,11 +114,11 @@ impl<'a> Reader<'a> {
             });
             next = self.lines.next();
         }
-        if self.taken == MOST_CARDS
+        if self.taken == MAX_CARDS
             && let Some(line) = next.take()
         {
             self.remarks.add_once("many cards", || {
-                Diagnostic::error(format!("a file has at most {MOST_CARDS} cards"), line.whole())
+                Diagnostic::error(format!("a file has at most {MAX_CARDS} cards"), line.whole())
                     .label("not read from here on")
             });
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use windlass_base::diagnostic::{Diagnostic, Severity};
 
 /// Most messages kept of one deck; a file that is no deck has one a line.
-const MOST: usize = 200;
+const MAX_MESSAGES: usize = 200;
 
 /// The messages of one reading.
 #[derive(Clone, Debug, Default)]
@@ -20,7 +20,7 @@ impl Remarks {
     #[allow(clippy::boxed_local, reason = "messages travel in a box, as the error of a result")]
     pub fn add(&mut self, message: Box<Diagnostic>) {
         self.failed |= matches!(message.severity, Severity::Error | Severity::Fatal);
-        if self.list.len() < MOST {
+        if self.list.len() < MAX_MESSAGES {
             self.list.push(*message);
         } else {
             self.dropped += 1;

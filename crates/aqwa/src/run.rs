@@ -8,19 +8,19 @@ use super::remarks::Remarks;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
-const SIX: &[Slot] = &[num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), num("RY", 61), num("RZ", 71)];
-const SLOW: &str = "slow drift positions are not read apart from the total ones";
+const DOF_SLOTS: &[Slot] = &[num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), num("RY", 61), num("RZ", 71)];
+const SLOW_DRIFT_REASON: &str = "slow drift positions are not read apart from the total ones";
 
 /// Cards of deck 15; `n` stands for the number of the structure.
 pub const STARTS: &[Layout] = &[
-    Layout::new("POSn", SIX).freely(),
-    Layout::new("VELn", SIX).freely(),
-    Layout::refuse("SLPn", SLOW),
-    Layout::refuse("SLVn", SLOW),
+    Layout::new("POSn", DOF_SLOTS).freely(),
+    Layout::new("VELn", DOF_SLOTS).freely(),
+    Layout::refuse("SLPn", SLOW_DRIFT_REASON),
+    Layout::refuse("SLVn", SLOW_DRIFT_REASON),
 ];
 
 /// Cards of deck 16.
-pub const STEPS: &[Layout] = &[
+pub const DECK_16_CARDS: &[Layout] = &[
     Layout::new("TIME", &[int("number of time steps", 16), num("time step", 21), num("start time", 31)]),
     Layout::refuse("HOTS", "a start from an earlier run is not read"),
 ];
@@ -60,10 +60,10 @@ pub struct Steps {
 }
 
 /// Most structures of a deck.
-pub const MOST_STRUCTURES: i64 = 50;
+pub const MAX_STRUCTURES: i64 = 50;
 
 /// Most time steps of a run.
-pub const MOST_STEPS: i64 = 10_000_000;
+pub const MAX_TIME_STEPS: i64 = 10_000_000;
 
 /// Multipliers of the loads on the Morison elements of a structure, its tethers among them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,13 +99,13 @@ pub fn read_starts(records: &[Record], remarks: &mut Remarks) -> Vec<Start> {
 pub fn read_steps(records: &[Record], remarks: &mut Remarks) -> Option<Steps> {
     let record = records.last()?;
     let steps = Steps { count: record.int(16), step: record.real(21), start: record.real(31).value, span: record.span };
-    if !(1..=MOST_STEPS).contains(&steps.count.value) {
+    if !(1..=MAX_TIME_STEPS).contains(&steps.count.value) {
         remarks.add(
             Diagnostic::error(
                 format!("deck 16, TIME, columns 16-20: {} steps cannot be run", steps.count.value),
                 steps.count.span,
             )
-            .label(format!("number of steps, 1 to {MOST_STEPS}")),
+            .label(format!("number of steps, 1 to {MAX_TIME_STEPS}")),
         );
         return None;
     }
@@ -124,7 +124,7 @@ pub fn read_multipliers(records: &[Record], remarks: &mut Remarks) -> Vec<Multip
     let mut list: Vec<Multipliers> = Vec::new();
     for record in records {
         let (structure, factor) = (record.int(11), record.real(21));
-        if !(1..=MOST_STRUCTURES).contains(&structure.value) {
+        if !(1..=MAX_STRUCTURES).contains(&structure.value) {
             let message = format!("deck 17, {}, columns 11-15: {} is no structure", record.keyword, structure.value);
             remarks.add(
                 Diagnostic::error(message, structure.span).label("the number of a structure of deck 2 belongs here"),

@@ -6,7 +6,7 @@ use super::properties::Geometry;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 
-const WHOLE: Digits = Digits::Decimals(0);
+const NO_DECIMALS: Digits = Digits::Decimals(0);
 const PLACE: Digits = Digits::Decimals(3);
 const FIVE: Digits = Digits::Scientific(5);
 
@@ -25,8 +25,8 @@ impl Deck {
         let nodes: Vec<_> = self.nodes.iter().enumerate().collect();
         Table::new("Coordinate Data")
             .with_rows(&nodes)
-            .column("Input", "Sequence", Dim::None, WHOLE, |(index, _)| index + 1)
-            .column("Node", "Number", Dim::None, WHOLE, |(_, (number, _))| **number)
+            .column("Input", "Sequence", Dim::None, NO_DECIMALS, |(index, _)| index + 1)
+            .column("Node", "Number", Dim::None, NO_DECIMALS, |(_, (number, _))| **number)
             .columns("", ["X", "Y", "Z"], Dim::None, PLACE, |(_, (_, node))| node.position)
             .build()
     }
@@ -35,7 +35,7 @@ impl Deck {
         let materials: Vec<_> = self.materials.iter().collect();
         Table::new("Material Properties")
             .with_rows(&materials)
-            .column("Group", "Number", Dim::None, WHOLE, |(number, _)| **number)
+            .column("Group", "Number", Dim::None, NO_DECIMALS, |(number, _)| **number)
             .columns("", ["Density/Param 1", "Param 2", "Param 3"], Dim::None, FIVE, |(_, material)| {
                 material.properties.map(|field| field.value)
             })
@@ -47,9 +47,9 @@ impl Deck {
         let is_mass = |geometry: &Geometry| geometry.shape == Shape::PointMass;
         Table::new("Geometric Properties")
             .with_rows(&geometries)
-            .column("Input", "Sequence", Dim::None, WHOLE, |(index, _)| index + 1)
-            .column("Group", "Number", Dim::None, WHOLE, |(_, geometry)| geometry.group)
-            .column("Element", "Type", Dim::None, WHOLE, |(_, geometry)| geometry.shape.keyword())
+            .column("Input", "Sequence", Dim::None, NO_DECIMALS, |(index, _)| index + 1)
+            .column("Group", "Number", Dim::None, NO_DECIMALS, |(_, geometry)| geometry.group)
+            .column("Element", "Type", Dim::None, NO_DECIMALS, |(_, geometry)| geometry.shape.keyword())
             .columns("Geometric Parameter", ["1", "2", "3", "4", "5", "6"], Dim::None, FIVE, |(_, geometry)| {
                 geometry.parameters.map(|field| field.value)
             })
@@ -83,8 +83,8 @@ impl Deck {
         rows.push(("Total", found.kinds.iter().map(|kind| kind.count).sum(), found.mass));
         let mut table = Table::new(format!("Mass and Inertia Properties of Structure {}", structure.number))
             .with_rows(&rows)
-            .column("Element", "Type", Dim::None, WHOLE, |(kind, _, _)| *kind)
-            .column("Number of", "Elements", Dim::None, WHOLE, |(_, count, _)| *count)
+            .column("Element", "Type", Dim::None, NO_DECIMALS, |(kind, _, _)| *kind)
+            .column("Number of", "Elements", Dim::None, NO_DECIMALS, |(_, count, _)| *count)
             .column("", "Mass", Dim::None, FIVE, |(_, _, mass)| *mass)
             .column("", "Weight", Dim::None, FIVE, |(_, _, mass)| mass * gravity)
             .build();
@@ -106,13 +106,13 @@ fn topology(structure: &Structure) -> Table {
     let elements: Vec<(usize, &Element)> = structure.elements.iter().enumerate().collect();
     Table::new(format!("Element Topology for Structure {}", structure.number))
         .with_rows(&elements)
-        .column("Element", "Number", Dim::None, WHOLE, |(index, _)| index + 1)
-        .column("Element", "Type", Dim::None, WHOLE, |(_, element)| element.shape.keyword())
-        .columns("Node Number", ["1", "2", "3", "4"], Dim::None, WHOLE, |(_, element)| {
+        .column("Element", "Number", Dim::None, NO_DECIMALS, |(index, _)| index + 1)
+        .column("Element", "Type", Dim::None, NO_DECIMALS, |(_, element)| element.shape.keyword())
+        .columns("Node Number", ["1", "2", "3", "4"], Dim::None, NO_DECIMALS, |(_, element)| {
             // an element with fewer nodes is listed with 0 in their place
             [0, 1, 2, 3].map(|k| element.nodes.get(k).copied().unwrap_or(0))
         })
-        .column("Material", "Number", Dim::None, WHOLE, |(_, element)| element.material)
-        .column("Geometry", "Number", Dim::None, WHOLE, |(_, element)| element.geometry)
+        .column("Material", "Number", Dim::None, NO_DECIMALS, |(_, element)| element.material)
+        .column("Geometry", "Number", Dim::None, NO_DECIMALS, |(_, element)| element.geometry)
         .build()
 }

@@ -14,11 +14,11 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// Most elements of a tether (AQWA of later years has 24).
-const MOST_ELEMENTS: usize = 1000;
+const MAX_ELEMENTS: usize = 1000;
 /// Most tethers of a deck, as AQWA has 100 lines.
-const MOST_TETHERS: usize = 100;
+const MAX_TETHERS: usize = 100;
 /// Most constraints of an installed tether (A.14).
-const MOST_CONSTRAINTS: usize = 5;
+const MAX_CONSTRAINTS: usize = 5;
 
 /// A TELM card.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -227,8 +227,8 @@ impl Builder {
                     "TLAV" => Constraint::LateralVessel,
                     _ => Constraint::RotationalVessel,
                 };
-                if tether.constraints.len() == MOST_CONSTRAINTS {
-                    let message = format!("deck 14, {keyword}: a tether has at most {MOST_CONSTRAINTS} constraints");
+                if tether.constraints.len() == MAX_CONSTRAINTS {
+                    let message = format!("deck 14, {keyword}: a tether has at most {MAX_CONSTRAINTS} constraints");
                     remarks.add(Diagnostic::error(message, record.span));
                 } else if value(31) < 0.0 {
                     remarks.add(Diagnostic::error(
@@ -263,10 +263,10 @@ impl Builder {
                     .other(before.node2.span, "where the element before ends"),
             );
         }
-        if self.description.elements.len() < MOST_ELEMENTS {
+        if self.description.elements.len() < MAX_ELEMENTS {
             self.description.elements.push(element);
         } else {
-            let message = format!("deck 14, TELM: a tether has at most {MOST_ELEMENTS} elements");
+            let message = format!("deck 14, TELM: a tether has at most {MAX_ELEMENTS} elements");
             remarks.add_once("many elements", || Diagnostic::error(message, record.span));
         }
     }
@@ -287,8 +287,8 @@ impl Builder {
             );
         }
         let whole = std::mem::take(self);
-        if earlier.len() == MOST_TETHERS {
-            let message = format!("deck 14, TETH: a deck has at most {MOST_TETHERS} tethers");
+        if earlier.len() == MAX_TETHERS {
+            let message = format!("deck 14, TETH: a deck has at most {MAX_TETHERS} tethers");
             remarks.add_once("many tethers", || Diagnostic::error(message, record.span));
             return None;
         }

@@ -18,9 +18,9 @@ pub struct Units {
 /// Standard gravity (m/s2).
 const GRAVITY: f64 = 9.806_65;
 /// Metres in a foot.
-const FOOT: f64 = 0.3048;
+const METRES_PER_FOOT: f64 = 0.3048;
 /// Kilograms in a pound.
-const POUND: f64 = 0.453_592_37;
+const KILOGRAMS_PER_POUND: f64 = 0.453_592_37;
 
 const SETS: &[Units] = &[
     Units { length: 1.0, mass: 1.0, name: "m, kg, N, s" },
@@ -28,9 +28,13 @@ const SETS: &[Units] = &[
     Units { length: 1.0, mass: 1.0e6, name: "m, 1000 t, MN, s" },
     Units { length: 1.0, mass: GRAVITY, name: "m, kgf s2/m, kgf, s" },
     Units { length: 1.0, mass: 1000.0 * GRAVITY, name: "m, tf s2/m, tf, s" },
-    Units { length: FOOT, mass: POUND, name: "ft, lb, pdl, s" },
-    Units { length: FOOT, mass: POUND * GRAVITY / FOOT, name: "ft, slug, lbf, s" },
-    Units { length: FOOT, mass: 1000.0 * POUND * GRAVITY / FOOT, name: "ft, kip s2/ft, kip, s" },
+    Units { length: METRES_PER_FOOT, mass: KILOGRAMS_PER_POUND, name: "ft, lb, pdl, s" },
+    Units { length: METRES_PER_FOOT, mass: KILOGRAMS_PER_POUND * GRAVITY / METRES_PER_FOOT, name: "ft, slug, lbf, s" },
+    Units {
+        length: METRES_PER_FOOT,
+        mass: 1000.0 * KILOGRAMS_PER_POUND * GRAVITY / METRES_PER_FOOT,
+        name: "ft, kip s2/ft, kip, s",
+    },
 ];
 
 impl Units {

@@ -16,15 +16,15 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// Most spectra of a deck.
-const MOST_SPECTRA: usize = 20;
+const MAX_SPECTRA: usize = 20;
 /// Most spectral lines of a spectrum.
-pub const MOST_LINES: i64 = 10_000;
+pub const MAX_SPECTRAL_LINES: i64 = 10_000;
 /// Spectral lines when NSPL is not given (assumed; newer versions of AQWA have 200).
 const USUAL_LINES: i64 = 50;
 
 const START: Slot = num("first frequency", 21);
 const FINISH: Slot = num("last frequency", 31);
-const UNSEEN: &str = "the columns of this card are published nowhere";
+const UNPUBLISHED_CARD_REASON: &str = "the columns of this card are published nowhere";
 
 /// Cards that give a spectrum; settings stand before them.
 const FORMS: &[&str] = &["PSMZ", "JONS", "JONH", "GAUS", "UDEF"];
@@ -70,8 +70,8 @@ pub const SPECTRA: &[Layout] = &[
     Layout::refuse("UDWD", "a wind spectrum is not read"),
     Layout::refuse("IWHT", "an imported wave history is not read"),
     Layout::pass_over("NAME", "the name of the spectrum has no effect"),
-    Layout::refuse("NODR", UNSEEN),
-    Layout::refuse("GRAV", UNSEEN),
+    Layout::refuse("NODR", UNPUBLISHED_CARD_REASON),
+    Layout::refuse("GRAV", UNPUBLISHED_CARD_REASON),
 ];
 
 /// Cards of deck 13 WAVE.
@@ -279,8 +279,8 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
             );
         }
         check_wave_card(record, remarks);
-        if list.len() == MOST_SPECTRA {
-            let message = format!("deck 13: a deck has at most {MOST_SPECTRA} spectra");
+        if list.len() == MAX_SPECTRA {
+            let message = format!("deck 13: a deck has at most {MAX_SPECTRA} spectra");
             remarks.add_once("many spectra", || Diagnostic::error(message, record.span));
             continue;
         }
@@ -317,13 +317,13 @@ fn check_wave_card(record: &Record, remarks: &mut Remarks) {
 }
 
 fn lines(field: Field<i64>, remarks: &mut Remarks) -> i64 {
-    if (1..=MOST_LINES).contains(&field.value) {
+    if (1..=MAX_SPECTRAL_LINES).contains(&field.value) {
         return field.value;
     }
     if field.given && field.value != 0 {
         remarks.add(
             Diagnostic::error(format!("deck 13, NSPL: {} is no number of spectral lines", field.value), field.span)
-                .label(format!("1 to {MOST_LINES} belongs in columns 16-20")),
+                .label(format!("1 to {MAX_SPECTRAL_LINES} belongs in columns 16-20")),
         );
     }
     USUAL_LINES
@@ -358,8 +358,8 @@ fn phases(list: &mut Vec<f64>, record: &Record, remarks: &mut Remarks) {
     }
     let given: Vec<f64> =
         record.reals::<6>(21).iter().take_while(|field| field.given).map(|field| field.value).collect();
-    if next.saturating_add(6) > MOST_LINES {
-        let message = format!("deck 13, PHAS: a spectrum has at most {MOST_LINES} lines");
+    if next.saturating_add(6) > MAX_SPECTRAL_LINES {
+        let message = format!("deck 13, PHAS: a spectrum has at most {MAX_SPECTRAL_LINES} lines");
         remarks.add_once("too many phases", || Diagnostic::error(message, record.span));
         return;
     }

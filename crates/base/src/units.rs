@@ -8,19 +8,19 @@
 use std::fmt;
 
 /// The smallest size but zero that is taken as input, in SI of any dimension: its fourth power stays a number.
-pub const LEAST: f64 = 1e-36;
+pub const MIN_INPUT_MAGNITUDE: f64 = 1e-36;
 /// One international foot (m).
-pub const FOOT: f64 = 0.3048;
+pub const METRES_PER_FOOT: f64 = 0.3048;
 /// One inch (m).
-pub const INCH: f64 = 0.0254;
+pub const METRES_PER_INCH: f64 = 0.0254;
 /// One pound-force (N).
 pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// One kip (N).
-pub const KIP: f64 = 1000.0 * POUND_FORCE;
+pub const NEWTONS_PER_KIP: f64 = 1000.0 * POUND_FORCE;
 /// One metric ton-force (N).
 pub const METRIC_TON_FORCE: f64 = 9806.65;
 /// One international knot (m/s).
-pub const KNOT: f64 = 1852.0 / 3600.0;
+pub const METRES_PER_SECOND_PER_KNOT: f64 = 1852.0 / 3600.0;
 /// Standard gravity (m/s2); converts a mass density to a weight density.
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
@@ -90,7 +90,7 @@ impl UnitSystem {
     /// Metres in one long length unit.
     pub fn metres(self) -> f64 {
         match self.length {
-            LengthUnit::Feet => FOOT,
+            LengthUnit::Feet => METRES_PER_FOOT,
             LengthUnit::Meters => 1.0,
         }
     }
@@ -98,7 +98,7 @@ impl UnitSystem {
     /// Newtons in one force unit.
     pub fn newtons(self) -> f64 {
         match self.force {
-            ForceUnit::Kips => KIP,
+            ForceUnit::Kips => NEWTONS_PER_KIP,
             ForceUnit::LongTons => 2240.0 * POUND_FORCE,
             ForceUnit::ShortTons => 2000.0 * POUND_FORCE,
             ForceUnit::Kilonewtons => 1000.0,
@@ -216,7 +216,7 @@ impl Dim {
             Dim::Length => m,
             Dim::Section => {
                 if feet {
-                    INCH
+                    METRES_PER_INCH
                 } else {
                     1e-3
                 }
@@ -226,14 +226,14 @@ impl Dim {
             Dim::Moment | Dim::MomentPerRadian => n * m,
             Dim::Stress => {
                 if feet {
-                    KIP / (INCH * INCH)
+                    NEWTONS_PER_KIP / (METRES_PER_INCH * METRES_PER_INCH)
                 } else {
                     1e6
                 }
             }
             Dim::Density => {
                 if feet {
-                    POUND_FORCE / STANDARD_GRAVITY / (FOOT * FOOT * FOOT)
+                    POUND_FORCE / STANDARD_GRAVITY / (METRES_PER_FOOT * METRES_PER_FOOT * METRES_PER_FOOT)
                 } else {
                     1.0
                 }
@@ -242,7 +242,7 @@ impl Dim {
             Dim::AngleDensity => (std::f64::consts::PI / 180.0).powi(2),
             Dim::Days => 86_400.0,
             Dim::Velocity | Dim::Acceleration => m,
-            Dim::WindSpeed => KNOT,
+            Dim::WindSpeed => METRES_PER_SECOND_PER_KNOT,
             Dim::ThermalExpansion => {
                 if feet {
                     1.8
@@ -311,8 +311,8 @@ impl Dim {
     /// Why it is none.
     pub fn checked_si(self, value: f64, units: UnitSystem) -> Result<f64, String> {
         let si = self.to_si(value, units);
-        if si != 0.0 && si.abs() < LEAST {
-            return Err(format!("smaller than {LEAST:e}, which is zero here: write 0"));
+        if si != 0.0 && si.abs() < MIN_INPUT_MAGNITUDE {
+            return Err(format!("smaller than {MIN_INPUT_MAGNITUDE:e}, which is zero here: write 0"));
         }
         if si.abs() <= self.most() {
             return Ok(si);
@@ -426,7 +426,7 @@ mod tests {
     fn derived_units_are_products_of_their_powers() {
         let us = UnitSystem::default();
         let dim = Dim::Derived { force: 1, length: -2, seconds: 2 };
-        assert_eq!(dim.to_si(1.0, us), KIP / (FOOT * FOOT));
+        assert_eq!(dim.to_si(1.0, us), NEWTONS_PER_KIP / (METRES_PER_FOOT * METRES_PER_FOOT));
         assert_eq!(dim.label(us), "kips-s2/ft2");
         assert_eq!(Dim::Derived { force: 0, length: -1, seconds: -2 }.label(us), "1/ft-s2");
     }

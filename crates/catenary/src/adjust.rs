@@ -44,7 +44,7 @@ const MAX_DOUBLINGS: usize = 40;
 /// Steps that close in a change of sign or an extreme.
 const MAX_STEPS: usize = 200;
 /// Share of the force within which a length gives it.
-const PROOF: f64 = 1e-9;
+const FORCE_TOLERANCE: f64 = 1e-9;
 
 /// A length, and its force less the wanted one; none where the line has no configuration.
 type Sample = (f64, Option<f64>);
@@ -82,7 +82,7 @@ impl Line {
             let longer = 2.0 * length;
             samples.push((longer, off(longer)));
         }
-        let least = PROOF * wanted;
+        let least = FORCE_TOLERANCE * wanted;
         let mut nearest = f64::INFINITY;
         let mut found = Vec::new();
         let mut keep = |(length, value): Sample| {

@@ -8,16 +8,16 @@
 
 use super::element::{Element, vertical_of_contact};
 use super::end_forces::{Bottom, EndForces, Regime};
-use super::line::{LARGEST, Segment};
+use super::line::{MAX_MAGNITUDE, Segment};
 use super::multi_segment::MultiSegmentLine;
 use super::refused::LineError;
 use super::search::{Point, rising_root};
 use super::segment::{Reach, hanging, lifted_reach};
 
 /// Newton steps after which the nested search takes over.
-const MOST_STEPS: usize = 40;
+const MAX_NEWTON_ITERATIONS: usize = 40;
 /// Largest accepted residual as a share of the tension at the fairlead.
-pub(super) const PROOF: f64 = 1e-9;
+pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-9;
 
 /// See [`Segment::solve_end_forces`].
 pub fn solve_end_forces(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
@@ -30,8 +30,8 @@ pub(super) fn check(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -
     segment.check(1)?;
     let friction = bottom.map_or(0.0, |b| b.friction);
     for (what, value, good) in [
-        ("the horizontal distance", x, (0.0..LARGEST).contains(&x)),
-        ("the rise", z, (segment.weight * z).abs().max(z.abs()) < LARGEST),
+        ("the horizontal distance", x, (0.0..MAX_MAGNITUDE).contains(&x)),
+        ("the rise", z, (segment.weight * z).abs().max(z.abs()) < MAX_MAGNITUDE),
         ("the friction coefficient", friction, friction >= 0.0),
     ] {
         if !(good && value.is_finite()) {
@@ -218,7 +218,7 @@ fn newton(segment: &Segment, [x, z]: [f64; 2], start: [f64; 2]) -> Option<(f64, 
     let mut reach = hanging(segment, h, v - all);
     let fine = 2.0 * f64::EPSILON * (segment.length + x + z.abs());
     let mut last = f64::INFINITY;
-    for step in 1..=MOST_STEPS {
+    for step in 1..=MAX_NEWTON_ITERATIONS {
         let (rx, rz) = (reach.x - x, reach.z - z);
         let off = rx.abs().max(rz.abs());
         if off <= fine || (off <= 64.0 * fine && off >= last) {
@@ -342,7 +342,7 @@ pub(super) fn prove(
     let stiffness = inverse(reach);
     let residual = stiffness.map_or(f64::NAN, |[[a, b], [c, d]]| (a * rx + b * rz).hypot(c * rx + d * rz));
     let rounding = 4.0 * f64::EPSILON * (segment.length + x + z.abs());
-    let proven = residual <= PROOF * tension || rx.abs().max(rz.abs()) <= rounding;
+    let proven = residual <= RESIDUAL_TOLERANCE * tension || rx.abs().max(rz.abs()) <= rounding;
     match stiffness {
         Some(stiffness) if proven && fairlead.iter().chain(&anchor).all(|v| v.is_finite()) => {
             Ok(EndForces { regime, at: [x, z], fairlead, anchor, grounded, stiffness, residual, iterations })

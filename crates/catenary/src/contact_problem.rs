@@ -20,10 +20,10 @@ pub struct ContactProblem<'a> {
 }
 
 /// Changes of the policy all at once, and after that one at a time.
-const MANY: usize = 30;
-const MOST_CHANGES: usize = 300;
+const MAX_JOINT_CHANGES: usize = 30;
+const MAX_SINGLE_CHANGES: usize = 300;
 /// Newton steps after which a search gives up.
-const MOST_STEPS: usize = 200;
+const MAX_NEWTON_ITERATIONS: usize = 200;
 
 impl<'a> ContactProblem<'a> {
     pub fn new(
@@ -54,10 +54,10 @@ impl<'a> ContactProblem<'a> {
     /// Policy iteration.
     pub fn settle(&mut self) -> Result<LineSolution, LineError> {
         let mut iterations = 0;
-        for change in 0..MOST_CHANGES {
+        for change in 0..MAX_SINGLE_CHANGES {
             let rested = self.solve()?;
             iterations += rested.iterations;
-            let next = self.better(&rested, change >= MANY);
+            let next = self.better(&rested, change >= MAX_JOINT_CHANGES);
             if next == self.policy {
                 return Ok(LineSolution { iterations, ..rested });
             }
@@ -188,7 +188,7 @@ impl<'a> ContactProblem<'a> {
         let mut grow = weight.abs() + pulled + h;
         let mut best = (f64::INFINITY, v, f64::INFINITY);
         let mut steps = 0;
-        while steps < MOST_STEPS {
+        while steps < MAX_NEWTON_ITERATIONS {
             steps += 1;
             let (z, z_v) = walk(v, &mut rested.held);
             let off = z - drop;

@@ -3,21 +3,21 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// Number of parameters: three of the whole line, and the unknown of the span that is being solved.
-pub const PARAMETERS: usize = 4;
+pub const PARAMETER_COUNT: usize = 4;
 /// The parameter that is the unknown of a span.
-pub const UNKNOWN: usize = 3;
+pub const SPAN_UNKNOWN: usize = 3;
 
 /// A value and its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Var {
     pub value: f64,
-    pub by: [f64; PARAMETERS],
+    pub by: [f64; PARAMETER_COUNT],
 }
 
 impl Var {
     /// A number that nothing changes.
     pub const fn constant(value: f64) -> Var {
-        Var { value, by: [0.0; PARAMETERS] }
+        Var { value, by: [0.0; PARAMETER_COUNT] }
     }
 
     /// A parameter; `slope` is its derivative by itself.
@@ -36,7 +36,7 @@ impl Var {
 
     /// A function of several numbers, each with the derivative by it.
     pub fn function<const N: usize>(value: f64, of: [(Var, f64); N]) -> Var {
-        let mut by = [0.0; PARAMETERS];
+        let mut by = [0.0; PARAMETER_COUNT];
         for (var, slope) in of {
             for (sum, b) in by.iter_mut().zip(var.by) {
                 if b != 0.0 {
@@ -61,7 +61,7 @@ impl Var {
                 *by -= share * z;
             }
         }
-        self.by[UNKNOWN] = 0.0;
+        self.by[SPAN_UNKNOWN] = 0.0;
         self
     }
 }

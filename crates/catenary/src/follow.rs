@@ -4,17 +4,17 @@
 //! one or two Newton steps are left. Wherever that does not lead to a proven answer at once, or leads so near another
 //! regime that rounding decides, the search of [`Segment::solve_end_forces`] answers as if nothing were known.
 
-use super::between::{PROOF, check, cold, in_contact, newton_change, prove, prove_contact};
+use super::between::{RESIDUAL_TOLERANCE, check, cold, in_contact, newton_change, prove, prove_contact};
 use super::end_forces::{Bottom, EndForces, Regime};
 use super::line::Segment;
 use super::refused::LineError;
 use super::segment::{Reach, hanging};
 
 /// Evaluations of the line after which the cold search takes over.
-const MOST_STEPS: usize = 8;
+const MAX_EVALUATIONS: usize = 8;
 /// Residual as a share of the tension at which a warm search ends: well inside the proof, so that the start does not
 /// show.
-const CLOSE: f64 = 1e-2 * PROOF;
+const WARM_START_TOLERANCE: f64 = 1e-2 * RESIDUAL_TOLERANCE;
 
 /// See [`Segment::follow`].
 pub fn follow(
@@ -76,7 +76,7 @@ fn contact(segment: &Segment, at: [f64; 2], friction: f64, last: &EndForces) -> 
 
 /// The force within which another regime is too near to tell.
 fn regime_margin(fairlead: [f64; 2]) -> f64 {
-    10.0 * PROOF * square(fairlead).sqrt()
+    10.0 * RESIDUAL_TOLERANCE * square(fairlead).sqrt()
 }
 
 fn square([h, v]: [f64; 2]) -> f64 {
@@ -96,12 +96,15 @@ fn newton(
     let mut forces = damped_step(last.fairlead, [a * dx + b * dz, c * dx + d * dz]);
     let fine = 2.0 * f64::EPSILON * (segment.length + x + z.abs());
     let mut before = f64::INFINITY;
-    for step in 1..=MOST_STEPS {
+    for step in 1..=MAX_EVALUATIONS {
         let (at, reach) = evaluate(forces);
         let (rx, rz) = (x - reach.x, z - reach.z);
         let change = newton_change(&reach, rx, rz)?;
         let off = rx.abs().max(rz.abs());
-        if off <= fine || (off <= 64.0 * fine && off >= before) || square(change) <= CLOSE * CLOSE * square(at) {
+        if off <= fine
+            || (off <= 64.0 * fine && off >= before)
+            || square(change) <= WARM_START_TOLERANCE * WARM_START_TOLERANCE * square(at)
+        {
             return (at[0] > 0.0).then_some((at, reach, step));
         }
         before = off;

@@ -56,4 +56,4 @@ pub use search::{Point, rising_root};
 pub use shape::ShapePoint;
 pub use state::{Buoy, Heap, JointState, SegmentState, State};
 pub use stretch_law::StretchLaw;
-pub use table::{MissingRow, ROWS, Row, first_force, table};
+pub use table::{DEFAULT_ROWS, MissingRow, Row, first_force, table};

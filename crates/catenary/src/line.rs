@@ -68,10 +68,10 @@ pub struct Line {
 }
 
 /// Lengths (m) and forces (N) from which on the squares that are formed of them have no room in a double.
-pub(super) const LARGEST: f64 = 1e140;
+pub(super) const MAX_MAGNITUDE: f64 = 1e140;
 
 /// Segments up to which all contacts of a line are found at once; more are laid down one after the other.
-const MOST_PLAIN: usize = 30;
+const MAX_JOINT_SEGMENTS: usize = 30;
 
 impl Segment {
     /// The forces when the fairlead lies `x` >= 0 beside and `z` above the anchor (m); with a `bottom` at the anchor's
@@ -100,9 +100,9 @@ impl Segment {
     /// Refuses values that no segment can have; `number` is the segment's, from 1.
     pub(super) fn check(&self, number: usize) -> Result<(), LineError> {
         for (what, value, good) in [
-            ("the length", self.length, self.length > 0.0 && self.length < LARGEST),
-            ("the axial stiffness", self.ea, self.ea > 0.0 && self.ea < LARGEST),
-            ("the weight", self.weight, (self.weight * self.length).abs() < LARGEST),
+            ("the length", self.length, self.length > 0.0 && self.length < MAX_MAGNITUDE),
+            ("the axial stiffness", self.ea, self.ea > 0.0 && self.ea < MAX_MAGNITUDE),
+            ("the weight", self.weight, (self.weight * self.length).abs() < MAX_MAGNITUDE),
         ] {
             if !(good && value.is_finite()) {
                 return Err(LineError::Value { what, segment: number, value });
@@ -201,7 +201,7 @@ impl Line {
             return Err(refused("the number of places of the bottom", places.len() as f64));
         };
         for (at, z) in places {
-            if !z.is_finite() || !at.is_finite() || z.abs().max(at.abs()) >= LARGEST {
+            if !z.is_finite() || !at.is_finite() || z.abs().max(at.abs()) >= MAX_MAGNITUDE {
                 return Err(refused("a place of the bottom", if z.is_finite() { *at } else { *z }));
             }
         }
@@ -298,7 +298,7 @@ impl Line {
 
     /// Whether its bottom is flat and smooth, and its parts so few that they are best solved all at once.
     pub(super) fn is_plain(&self) -> bool {
-        self.is_flat() && self.floor.is_none_or(|f| f.friction == 0.0) && self.segments.len() <= MOST_PLAIN
+        self.is_flat() && self.floor.is_none_or(|f| f.friction == 0.0) && self.segments.len() <= MAX_JOINT_SEGMENTS
     }
 
     /// Elevation from which heights above the bottom are counted (m).

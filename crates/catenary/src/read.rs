@@ -5,7 +5,7 @@ use super::line::{Joint, Line, Segment};
 use super::multi_segment::{Held, JointStatus, LineSolution};
 use super::refused::LineError;
 use super::segment::hanging;
-use super::solve::PROOF;
+use super::solve::RESIDUAL_TOLERANCE;
 use super::state::{Buoy, JointState, SegmentState, State};
 
 impl Line {
@@ -25,7 +25,7 @@ impl Line {
         let slack = wanted.is_some() && first.h <= 4.0 * least && off >= 0.0;
         let residual = if slack { 0.0 } else { (off / x_h).abs() * (1.0 + v_h.abs()) };
         let fine = 4.0 * f64::EPSILON * (self.length() + rested.x.abs());
-        if !(residual <= PROOF * scale || off.abs() <= fine) {
+        if !(residual <= RESIDUAL_TOLERANCE * scale || off.abs() <= fine) {
             return Err(LineError::Unproven { residual, tension: scale });
         }
         let loose = |h: &Held| h.ground > 0.0 || (h.v_hi > 0.0 && h.v_lo < 0.0);

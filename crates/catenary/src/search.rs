@@ -10,7 +10,7 @@ pub struct Point {
 }
 
 /// Steps after which a search gives up.
-const MOST_STEPS: usize = 200;
+const MAX_SEARCH_STEPS: usize = 200;
 
 /// The argument > 0 at which a rising function has the value `target`: Newton within a bracket, which is widened by
 /// factors until it holds the root, and halved in the logarithm where Newton leaves it. Returns the best argument met
@@ -19,7 +19,7 @@ pub fn rising_root(start: f64, target: f64, mut f: impl FnMut(f64) -> Point) -> 
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
     let mut at = start;
     let mut best = (f64::INFINITY, start);
-    for step in 1..=MOST_STEPS {
+    for step in 1..=MAX_SEARCH_STEPS {
         let Point { value, slope } = f(at);
         let off = value - target;
         if off.is_nan() {
@@ -53,5 +53,5 @@ pub fn rising_root(start: f64, target: f64, mut f: impl FnMut(f64) -> Point) -> 
         }
         at = next;
     }
-    (best.1, MOST_STEPS)
+    (best.1, MAX_SEARCH_STEPS)
 }

@@ -2,14 +2,14 @@
 
 use super::element::Element;
 use super::layout;
-use super::line::{LARGEST, Line};
+use super::line::{Line, MAX_MAGNITUDE};
 use super::multi_segment::{LineSolution, MultiSegmentLine};
 use super::refused::LineError;
 use super::search::{Point, rising_root};
 use super::state::State;
 
 /// Largest accepted residual as a share of the tension at the fairlead.
-pub(super) const PROOF: f64 = 1e-9;
+pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-9;
 
 impl Line {
     /// The configuration in which the fairlead at elevation `fairlead` (m) is pulled with the horizontal force `force`
@@ -46,7 +46,7 @@ impl Line {
 
     fn between_ends(&self, x: f64, fairlead: f64, last: Option<&State>) -> Result<State, LineError> {
         self.check_fairlead(fairlead)?;
-        if !(0.0..LARGEST).contains(&x) {
+        if !(0.0..MAX_MAGNITUDE).contains(&x) {
             return Err(LineError::Value { what: "the horizontal distance", segment: 1, value: x });
         }
         let lost = |error: &LineError| matches!(error, LineError::NotConverged { .. } | LineError::Unproven { .. });
@@ -155,7 +155,7 @@ impl Line {
         });
         let state = self.at_horizontal_force(force, fairlead)?;
         let off = (at(&state).0 - wanted).abs();
-        if off <= PROOF * wanted {
+        if off <= RESIDUAL_TOLERANCE * wanted {
             return Ok(state);
         }
         if let Ok(hanging) = self.at_distance(0.0, fairlead)

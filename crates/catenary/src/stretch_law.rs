@@ -33,9 +33,9 @@ pub enum StretchLaw {
 }
 
 /// Share of the stiffness that is left beyond the largest tension of [`StretchLaw::Capped`].
-const LEFT: f64 = 1e-6;
+const RESIDUAL_STIFFNESS_SHARE: f64 = 1e-6;
 /// Newton steps of the inverse polynomial.
-const STEPS: usize = 100;
+const MAX_NEWTON_ITERATIONS: usize = 100;
 
 impl StretchLaw {
     /// Elongation at a tension >= 0, and its derivative.
@@ -46,7 +46,9 @@ impl StretchLaw {
                 laws.iter().map(|l| l.stretch(tension)).fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))
             }
             StretchLaw::Capped { ea, most } if tension <= *most => (tension / ea, 1.0 / ea),
-            StretchLaw::Capped { ea, most } => (most / ea + (tension - most) / (LEFT * ea), 1.0 / (LEFT * ea)),
+            StretchLaw::Capped { ea, most } => {
+                (most / ea + (tension - most) / (RESIDUAL_STIFFNESS_SHARE * ea), 1.0 / (RESIDUAL_STIFFNESS_SHARE * ea))
+            }
             StretchLaw::Curve(points) => {
                 let mut from = (0.0, 0.0);
                 let mut last = (0.0, 0.0);
@@ -64,7 +66,7 @@ impl StretchLaw {
                 // T(e) grows: Newton within a bracket
                 let (mut low, mut high) = (0.0, f64::INFINITY);
                 let mut e = tension / ea;
-                for _ in 0..STEPS {
+                for _ in 0..MAX_NEWTON_ITERATIONS {
                     let (t, slope) = self.tension(e);
                     let off = t - tension;
                     if off > 0.0 {

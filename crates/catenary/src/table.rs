@@ -8,7 +8,7 @@ use super::refused::LineError;
 use super::state::State;
 
 /// Number of rows.
-pub const ROWS: usize = 30;
+pub const DEFAULT_ROWS: usize = 30;
 
 /// A row of the table.
 #[derive(Clone, Debug)]
@@ -54,7 +54,7 @@ pub fn table(
     if breaks.len() != line.segments.len() || !breaks.iter().all(positive) || !positive(&largest) {
         return Err(LineError::Breaks);
     }
-    let last = (ROWS - 1) as f64;
+    let last = (DEFAULT_ROWS - 1) as f64;
     let row = |force: f64| {
         let state = line.at_horizontal_force(force, fairlead)?;
         let mut row = Row { ratio: 0.0, critical: 1, critical_break: breaks.first().copied().unwrap_or(0.0), state };
@@ -66,8 +66,8 @@ pub fn table(
         }
         Ok(row)
     };
-    let (mut rows, mut missing) = (Vec::with_capacity(ROWS), Vec::new());
-    for n in 0..ROWS {
+    let (mut rows, mut missing) = (Vec::with_capacity(DEFAULT_ROWS), Vec::new());
+    for n in 0..DEFAULT_ROWS {
         let share = n as f64 / last;
         let force = if n == 0 { first_force(largest) } else { largest * share * share };
         match row(force) {

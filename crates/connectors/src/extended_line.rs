@@ -10,12 +10,12 @@ use windlass_base::pose::Six;
 use windlass_catenary::LineError;
 
 /// Newton steps.
-const STEPS: usize = 60;
+const MAX_NEWTON_ITERATIONS: usize = 60;
 /// Halvings of a step that does not come nearer.
-const HALVINGS: usize = 40;
+const MAX_STEP_HALVINGS: usize = 40;
 /// Residual, as a force over the tension, at which the search ends, and that which is proof enough.
-const CLOSE: f64 = 1e-13;
-const PROOF: f64 = 1e-9;
+const CONVERGENCE_TOLERANCE: f64 = 1e-13;
+const ACCEPTED_RESIDUAL: f64 = 1e-9;
 
 /// Forces in the line's vertical plane.
 #[derive(Clone, Debug)]
@@ -108,13 +108,13 @@ pub fn solve_with_link(
         _ => at(place)?,
     };
     let fine = 4.0 * f64::EPSILON * (size + place.norm());
-    for _ in 0..STEPS {
-        if now.rest.norm() <= fine || now.unbalance() <= CLOSE * now.tension() {
+    for _ in 0..MAX_NEWTON_ITERATIONS {
+        if now.rest.norm() <= fine || now.unbalance() <= CONVERGENCE_TOLERANCE * now.tension() {
             break;
         }
         let whole = Matrix2::identity() + now.give * matrix(now.plane.stiffness);
         let step = inverse(whole).map_or(now.rest, |inverse| inverse * now.rest);
-        let nearer = (0..HALVINGS).find_map(|halvings| {
+        let nearer = (0..MAX_STEP_HALVINGS).find_map(|halvings| {
             let tried = at(now.at + step * 0.5_f64.powi(halvings as i32)).ok()?;
             (tried.rest.norm() < now.rest.norm()).then_some(tried)
         });
@@ -122,7 +122,9 @@ pub fn solve_with_link(
         now = next;
     }
     let (tension, unbalance) = (now.tension(), now.unbalance());
-    if now.rest.norm() > fine && !(unbalance <= PROOF * tension && now.rest.norm() <= PROOF * (size + place.norm())) {
+    if now.rest.norm() > fine
+        && !(unbalance <= ACCEPTED_RESIDUAL * tension && now.rest.norm() <= ACCEPTED_RESIDUAL * (size + place.norm()))
+    {
         return Err(LineError::Unproven { residual: unbalance, tension });
     }
     let (k, give) = (matrix(now.plane.stiffness), now.give);

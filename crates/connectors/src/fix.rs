@@ -14,7 +14,7 @@ use windlass_model::{ClassRecord, ConnectorClass};
 pub static FIX: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
 
 /// Stiffness of what is rigid (N/m, N m/rad). Engines hold the forces of so stiff a tie, so that rounding of positions makes none.
-pub const RIGID: f64 = 1e12;
+pub const RIGID_STIFFNESS: f64 = 1e12;
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[o::DF.or("all six")],
@@ -46,5 +46,5 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
 }
 
 fn held_dof(dof: &str) -> Restraint {
-    Restraint { dof: dof.to_string(), stiffness: RIGID, allowable: None }
+    Restraint { dof: dof.to_string(), stiffness: RIGID_STIFFNESS, allowable: None }
 }

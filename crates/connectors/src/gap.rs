@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-REF cls_res].
 
-use super::fix::RIGID;
+use super::fix::RIGID_STIFFNESS;
 use super::restraint::Restraining;
 use super::spring::Restraint;
 use super::zero_law::Friction;
@@ -30,7 +30,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let mu = records.last().and_then(|r| r.args.number(0)).unwrap_or(0.0);
-    let push = Restraint { dof: "X".into(), stiffness: RIGID, allowable: None };
-    let friction = if mu > 0.0 { Friction::Stick { mu, stiffness: RIGID } } else { Friction::None };
+    let push = Restraint { dof: "X".into(), stiffness: RIGID_STIFFNESS, allowable: None };
+    let friction = if mu > 0.0 { Friction::Stick { mu, stiffness: RIGID_STIFFNESS } } else { Friction::None };
     Ok(Arc::new(Restraining::new("GAP", vec![push]).pushing(friction)))
 }

@@ -43,7 +43,7 @@ impl SlingObjective {
 }
 
 /// Share of a length by which rounding may stretch a line.
-const ROUNDING: f64 = 1e-9;
+const LENGTH_ROUNDING_SHARE: f64 = 1e-9;
 
 /// The best place in which no line is stretched; `None` where the lines do not reach one another.
 pub fn hook(lines: &[Reach], goal: SlingObjective) -> Option<Vector3<f64>> {
@@ -62,7 +62,8 @@ pub fn hook(lines: &[Reach], goal: SlingObjective) -> Option<Vector3<f64>> {
             }
         }
     }
-    let reached = |at: &Vector3<f64>| lines.iter().all(|l| (at - l.node).norm() <= l.length * (1.0 + ROUNDING));
+    let reached =
+        |at: &Vector3<f64>| lines.iter().all(|l| (at - l.node).norm() <= l.length * (1.0 + LENGTH_ROUNDING_SHARE));
     places.into_iter().filter(reached).min_by(|a, b| goal.distance_left(*a).total_cmp(&goal.distance_left(*b)))
 }
 
@@ -93,9 +94,9 @@ fn crossing(centre: Vector3<f64>, axis: Vector3<f64>, radius: f64, line: &Reach)
 /// The hook of a body that hangs from it: the place farthest from the centre of gravity, from a first one upward.
 pub fn hanging(lines: &[Reach], centre: Vector3<f64>, up: Vector3<f64>) -> Option<Vector3<f64>> {
     /// Most steps; each goes farther from the centre, and slings that meet in a point need two.
-    const MOST: usize = 500;
+    const MAX_STEPS: usize = 500;
     let mut at = hook(lines, SlingObjective::Along(up))?;
-    for _ in 0..MOST {
+    for _ in 0..MAX_STEPS {
         let Some(away) = (at - centre).try_normalize(0.0) else { break };
         let next = hook(lines, SlingObjective::Along(away))?;
         let moved = (next - at).norm();

@@ -12,7 +12,7 @@ use windlass_model::{Anchored, ClassError, Element, End, Guess, Placement, Respo
 
 /// Angle (rad) over which forces of a line on a bathymetry are compared: a hundredth of the distance between faces of a long line's
 /// profile, and forces that are proven to 1e-9 leave 1e-5 of the tension over it.
-const TURN: f64 = 1e-4;
+const AZIMUTH_DIFFERENCE_RAD: f64 = 1e-4;
 
 /// How the forces are found.
 #[derive(Clone, Debug)]
@@ -203,8 +203,10 @@ impl LineElement {
             let found = there.forces_with_link(x, z, by, &mut None).map_err(|e| self.mooring.error(&e))?;
             Ok(found.0)
         };
-        let (before, after) = (turned(-TURN)?, turned(TURN)?);
-        let rate = |a: [f64; 2], b: [f64; 2]| [(b[0] - a[0]) / (2.0 * TURN), (b[1] - a[1]) / (2.0 * TURN)];
+        let (before, after) = (turned(-AZIMUTH_DIFFERENCE_RAD)?, turned(AZIMUTH_DIFFERENCE_RAD)?);
+        let rate = |a: [f64; 2], b: [f64; 2]| {
+            [(b[0] - a[0]) / (2.0 * AZIMUTH_DIFFERENCE_RAD), (b[1] - a[1]) / (2.0 * AZIMUTH_DIFFERENCE_RAD)]
+        };
         Ok([rate(before.fairlead, after.fairlead), rate(before.anchor, after.anchor)])
     }
 

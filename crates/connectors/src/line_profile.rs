@@ -14,7 +14,7 @@ const FACES_PER_CELL: f64 = 16.0;
 const MAX_FACES: f64 = 400.0;
 /// How far the profile goes, over the unstretched length or the distance of the ends, whichever is longer: lines stretch, become longer,
 /// and are searched with larger forces than they bear.
-const REACH: f64 = 1.25;
+const PROFILE_REACH_RATIO: f64 = 1.25;
 
 /// The bathymetry along the azimuth of a line.
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ impl LineProfile {
     /// The profile of a grid for a line of an unstretched length or a distance of its ends (m) that comes to its anchor (m, global) in a
     /// direction, with a friction coefficient.
     pub fn new(grid: &Arc<Bathymetry>, anchor: [f64; 2], azimuth: [f64; 2], length: f64, friction: f64) -> LineProfile {
-        let reach = REACH * length;
+        let reach = PROFILE_REACH_RATIO * length;
         let finest = grid.finest_spacing() / FACES_PER_CELL;
         let faces = (reach / finest).ceil().clamp(1.0, MAX_FACES);
         LineProfile { grid: grid.clone(), anchor, azimuth, spacing: reach / faces, faces: faces as usize, friction }

@@ -11,11 +11,11 @@ use windlass_base::values::Given;
 use windlass_model::ClassError;
 
 /// Most evaluations of a search.
-const MOST: usize = 200;
+const MAX_EVALUATIONS: usize = 200;
 /// How near a held tension comes to its limit, as a share of it.
-const CLOSE: f64 = 1e-11;
+const TENSION_TOLERANCE: f64 = 1e-11;
 /// How far off it may be where the line leaves no better.
-const PROOF: f64 = 1e-8;
+const ACCEPTED_TENSION_ERROR: f64 = 1e-8;
 
 /// A piston; positions from 0, the shortest, to its stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,11 +141,11 @@ fn seek(
     wanted: f64,
 ) -> Result<(f64, bool), ClassError> {
     let side = (start.tension - wanted).signum();
-    let close = CLOSE * (wanted + start.tension.abs());
+    let close = TENSION_TOLERANCE * (wanted + start.tension.abs());
     // the wanted place lies between `near` and `far`, which is proven to be beyond it once it was met
     let (mut near, mut far, mut proven) = (start.position, end, false);
     let mut at = start;
-    for _ in 0..MOST {
+    for _ in 0..MAX_EVALUATIONS {
         let off = at.tension - wanted;
         if off.abs() <= close {
             return Ok((at.position, true));
@@ -170,7 +170,7 @@ fn seek(
         }
         at = met(next)?;
     }
-    if (at.tension - wanted).abs() <= PROOF * (wanted + start.tension.abs()) {
+    if (at.tension - wanted).abs() <= ACCEPTED_TENSION_ERROR * (wanted + start.tension.abs()) {
         return Ok((at.position, true));
     }
     let text = "the piston finds no position that holds {}; the nearest tension is {}";

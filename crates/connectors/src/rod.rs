@@ -84,7 +84,7 @@ const REFINE: OptionSpec =
 /// Options of the whole line.
 const PER_LINE: [OptionSpec; 4] = [m::SEABED, o::FRICTION, o::SLOPE, o::DEPANCHOR];
 /// Most elements of a line with its memory told: what the engine holds.
-const MOST: i64 = windlass_line_dynamics::MAX_ELEMENTS as i64;
+const MAX_ELEMENTS: i64 = windlass_line_dynamics::MAX_ELEMENTS as i64;
 
 #[derive(Debug, Default)]
 struct Rod {
@@ -124,10 +124,10 @@ impl ConnectorClass for Rod {
                 .label(format!("{} N/m", section.weight)));
         }
         let elements = self.elements.saturating_add(section.refine);
-        if elements > MOST {
+        if elements > MAX_ELEMENTS {
             let span = args.option(&o::REFINE).map_or(args.span, |g| g.span);
             let megabytes = elements as f64 * windlass_line_dynamics::BYTES_PER_ELEMENT / 1e6;
-            return Err(Diagnostic::error(format!("a ROD has at most {MOST} elements"), span)
+            return Err(Diagnostic::error(format!("a ROD has at most {MAX_ELEMENTS} elements"), span)
                 .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
         }
         let flexure = Flexure::read(record, &section)?;

@@ -50,7 +50,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 /// Stiffness of a physical roller whose SPV is not given (N/m).
-const STIFF: f64 = 1e9;
+const DEFAULT_ROLLER_STIFFNESS: f64 = 1e9;
 
 #[derive(Debug)]
 struct Roller {
@@ -82,7 +82,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let mut all = given.clone();
     for dof in ["Y", "Z"] {
         if !all.iter().any(|r| r.dof == dof) {
-            all.push(Restraint { dof: dof.into(), stiffness: STIFF, allowable: None });
+            all.push(Restraint { dof: dof.into(), stiffness: DEFAULT_ROLLER_STIFFNESS, allowable: None });
         }
     }
     let springs = Springs::from_options(args, all, false, Vec::new())?;

@@ -9,9 +9,9 @@ use windlass_base::values::{Args, Given};
 use windlass_language::spec::OptionSpec;
 
 /// Velocity below which a dashpot of an exponent below one is linear (m/s): its slope is without bound at rest.
-const SLOW: f64 = 1e-3;
+const LINEAR_DASHPOT_SPEED: f64 = 1e-3;
 /// Velocity at which friction against a velocity has 71 per cent of its value (m/s): at rest it has no direction.
-pub const SLIPPING: f64 = 0.01;
+pub const FRICTION_REFERENCE_SPEED: f64 = 0.01;
 
 /// A secant and a slope of a law that only knows a size: force over deflection, and its derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +94,7 @@ impl Dashpot {
     fn force(&self, speed: f64) -> Sized {
         let (c, ex) = (self.coefficient, self.exponent);
         // below one the power is rounded off at rest, and stays below the power
-        let soft = if ex < 1.0 { speed.hypot(SLOW) } else { speed };
+        let soft = if ex < 1.0 { speed.hypot(LINEAR_DASHPOT_SPEED) } else { speed };
         let secant = c * soft.powf(ex - 1.0);
         if secant * speed > self.most {
             return Sized { secant: self.most / speed, slope: 0.0 };
@@ -122,7 +122,7 @@ fn derivative_along(v: &Vector3<f64>, kept: &Matrix3<f64>, secant: f64, slope: f
 /// A force of a given size in the direction of a velocity, rounded off at rest: `size * v / sqrt(v2 + v0 2)`. The direction, and
 /// its derivative by the velocity.
 pub fn rubbing(rate: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
-    let soft = rate.norm().hypot(SLIPPING);
+    let soft = rate.norm().hypot(FRICTION_REFERENCE_SPEED);
     let n = rate / soft;
     (n, (Matrix3::identity() - n * n.transpose()) / soft)
 }

@@ -126,9 +126,9 @@ fn storage(x: f64) -> f64 {
 }
 
 /// Places on each side of the first search for the relaxation times.
-const GRID: usize = 16;
+const SEARCH_POINTS: usize = 16;
 /// Halvings of its spacing after it.
-const HALVINGS: usize = 24;
+const SEARCH_HALVINGS: usize = 24;
 
 /// Branches whose sum comes nearest to the points, by least squares with no negative stiffness: the relaxation times are spaced evenly
 /// on a log scale, between ends that are searched for.
@@ -141,7 +141,7 @@ fn fit_branches(points: &[(f64, f64)], count: usize, by_time: bool) -> Vec<Maxwe
     // a curve shows nothing of times far outside of its own
     let (low, high) = if by_time { (least / 5.0, most) } else { (0.2 / most, 5.0 / least) };
     let (low, high) = (low.ln(), high.ln());
-    let spacing = (high - low) / GRID as f64;
+    let spacing = (high - low) / SEARCH_POINTS as f64;
     let times = |a: f64, b: f64| -> Vec<f64> {
         let share = |i: usize| if count > 1 { i as f64 / (count - 1) as f64 } else { 0.0 };
         (0..count).map(|i| (a + (b - a) * share(i)).exp()).collect()
@@ -157,15 +157,15 @@ fn fit_branches(points: &[(f64, f64)], count: usize, by_time: bool) -> Vec<Maxwe
         }
         better
     };
-    for i in 0..=GRID {
+    for i in 0..=SEARCH_POINTS {
         // one branch has one time
-        let ends = if count == 1 { i..=i } else { i + 1..=GRID };
+        let ends = if count == 1 { i..=i } else { i + 1..=SEARCH_POINTS };
         for j in ends {
             keep(low + i as f64 * spacing, low + j as f64 * spacing, &mut best);
         }
     }
     let mut step = 0.5 * spacing;
-    for _ in 0..HALVINGS {
+    for _ in 0..SEARCH_HALVINGS {
         let (_, a, b, _) = best;
         let around = [(-step, 0.0), (step, 0.0), (0.0, -step), (0.0, step), (-step, -step), (step, step)];
         let moved = around.map(|(da, db)| a + da <= b + db && keep(a + da, b + db, &mut best));

@@ -15,9 +15,9 @@ type Wide = SMatrix<f64, 3, 12>;
 
 /// Stiffness (N/m, N m/rad) from which on an engine may hold the force of a linear spring: rounding of places a kilometre away is then
 /// a ten-thousandth of a newton.
-const STIFF: f64 = 1e9;
+const MIN_HELD_STIFFNESS: f64 = 1e9;
 /// Deflection that is rounding where the ends are near the origin (m, rad).
-const ROUNDING: f64 = 1e-13;
+const DEFLECTION_ROUNDING: f64 = 1e-13;
 
 /// A connector of a zero-length class.
 #[derive(Debug)]
@@ -170,7 +170,7 @@ impl ZeroLength {
         self.respond(&motion, &answer, out);
         let slopes = self.deflected_by(&motion).map(|by| answer.slopes * by);
         let far = at.ends.iter().map(|end| end.pose.origin.norm()).fold(0.0, f64::max);
-        let rounding = ROUNDING + 8.0 * f64::EPSILON * far;
+        let rounding = DEFLECTION_ROUNDING + 8.0 * f64::EPSILON * far;
         let lack = |i: usize| {
             let k = answer.slopes[(i, i)];
             if k > 0.0 { (more[i].abs() / k - rounding).max(0.0) } else { 0.0 }
@@ -304,7 +304,7 @@ impl Element for ZeroLength {
     }
 
     fn tie(&self, at: &Situation, held: Option<&Vector6<f64>>, out: &mut Response) -> Option<Result<Tie, ClassError>> {
-        self.law.linear_stiffness().filter(|k| *k >= STIFF).map(|_| self.held_tie(at, held, out))
+        self.law.linear_stiffness().filter(|k| *k >= MIN_HELD_STIFFNESS).map(|_| self.held_tie(at, held, out))
     }
 
     fn rigid(&self) -> bool {

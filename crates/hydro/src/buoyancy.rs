@@ -9,10 +9,10 @@ use windlass_base::units::Dim;
 use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, box_panels};
 
 /// Corners of panels nearer than this share of the size of a piece are one (files often keep seven digits).
-const WELD: f64 = 1e-6;
+const WELD_DISTANCE_SHARE: f64 = 1e-6;
 
 /// Sides of the prism that a tube is to wind and current: with 64 its width is within 0.1 % of the diameter from every side.
-pub(super) const SIDES: u32 = 64;
+pub(super) const TUBE_PRISM_SIDES: u32 = 64;
 
 #[derive(Debug)]
 enum Form {
@@ -25,7 +25,7 @@ impl Form {
     fn surface(self) -> Option<Surface> {
         match self {
             Form::Surface(surface) => Some(surface),
-            Form::Tube(tube) => tube.prism(SIDES),
+            Form::Tube(tube) => tube.prism(TUBE_PRISM_SIDES),
         }
     }
 }
@@ -147,7 +147,7 @@ impl Solidified {
         if panels.is_empty() {
             return failed("it has no panels".into());
         }
-        let mut surface = match Surface::from_panels(&panels, WELD * size(&panels)) {
+        let mut surface = match Surface::from_panels(&panels, WELD_DISTANCE_SHARE * size(&panels)) {
             Ok(surface) => surface,
             Err(error) => return failed(error.to_string()),
         };

@@ -78,11 +78,11 @@ pub fn mean(waves: &Waves, rows: &[(f64, [f64; 6])]) -> Six {
 
 /// The headings all round to which a table under way is drawn, beside those given: 5 degrees apart, between which what is straight
 /// differs from the cubic of [`ByHeading`] by some 0.1 %.
-const ROUND: u32 = 72;
+const TABLE_HEADINGS: u32 = 72;
 /// Headings nearer than this are one (rad).
-const NEAR: f64 = 1e-6;
+const EQUAL_HEADINGS_RAD: f64 = 1e-6;
 /// The most coefficients a table may have.
-const MOST: usize = 1_000_000;
+const MAX_COEFFICIENTS: usize = 1_000_000;
 
 /// The table of a part that stands turned about z by an angle (rad) in its body, at the frequencies of the waves of a sea.
 ///
@@ -99,13 +99,13 @@ pub fn table(
     frequencies.dedup();
     let mut lists: Vec<(f64, Vec<(f64, Six)>)> = rows.iter().map(|(h, rows)| (*h, by_frequency(rows))).collect();
     lists.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let round = (0..ROUND).map(|n| TAU * f64::from(n) / f64::from(ROUND));
+    let round = (0..TABLE_HEADINGS).map(|n| TAU * f64::from(n) / f64::from(TABLE_HEADINGS));
     let given = lists.iter().flat_map(|(h, _)| [*h, if symmetric { -h } else { *h }]);
     // waves go where they do not come from
     let mut headings: Vec<f64> = round.chain(given).map(|from| (from + angle + PI).rem_euclid(TAU)).collect();
     headings.sort_by(f64::total_cmp);
-    headings.dedup_by(|a, b| (*a - *b).abs() < NEAR);
-    if frequencies.len().saturating_mul(headings.len()) > MOST {
+    headings.dedup_by(|a, b| (*a - *b).abs() < EQUAL_HEADINGS_RAD);
+    if frequencies.len().saturating_mul(headings.len()) > MAX_COEFFICIENTS {
         return Err(ClassError::new("the sea has more waves, and the table more headings, than are tabulated"));
     }
     let mut values = vec![Vec::with_capacity(frequencies.len()); headings.len()];

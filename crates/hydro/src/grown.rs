@@ -10,10 +10,10 @@ use windlass_base::pose::{Pose, Six};
 use windlass_model::{Body, ClassError, Model, Shape, Surroundings};
 
 /// Length of a ring (m), and the greatest number of them on a tube.
-const LENGTH: f64 = 1.0;
-const RINGS: f64 = 500.0;
+const RING_LENGTH_M: f64 = 1.0;
+const MAX_RINGS: f64 = 500.0;
 /// By how much of a tube a station stands off a jump of the growth.
-const BESIDE: f64 = 1e-9;
+const JUMP_OFFSET_SHARE: f64 = 1e-9;
 
 /// A ring of growth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,7 +83,7 @@ pub fn build_growth_loads(model: &Model, body: &Body) -> Result<GrowthLoads, Cla
 fn rings(growth: &Growth, pose: &Pose, [from, to]: [Vector3<f64>; 2], diameter: f64) -> Vec<Ring> {
     let axis = to - from;
     let length = axis.norm();
-    let count = (length / LENGTH).ceil().clamp(1.0, RINGS);
+    let count = (length / RING_LENGTH_M).ceil().clamp(1.0, MAX_RINGS);
     let rise = if length > 0.0 { (pose.axes * axis).z.abs() / length } else { 0.0 };
     let across = (1.0 - rise * rise).max(0.0).sqrt();
     let ring = |n: usize| {
@@ -110,7 +110,7 @@ fn inertia(mass: f64, at: Vector3<f64>) -> Matrix6<f64> {
 pub fn stations(growth: &Growth, pose: &Pose, [from, to]: [Vector3<f64>; 2], diameter: f64) -> Vec<(f64, f64)> {
     let (low, high) = (pose.point(from).z, pose.point(to).z);
     let part = |z: f64| (z - low) / (high - low);
-    let inside = |t: &f64| *t > 2.0 * BESIDE && *t < 1.0 - 2.0 * BESIDE;
+    let inside = |t: &f64| *t > 2.0 * JUMP_OFFSET_SHARE && *t < 1.0 - 2.0 * JUMP_OFFSET_SHARE;
     let mut cuts: Vec<f64> = growth.elevations().map(part).filter(inside).collect();
     cuts.extend([0.0, 1.0]);
     cuts.sort_by(f64::total_cmp);
@@ -118,7 +118,7 @@ pub fn stations(growth: &Growth, pose: &Pose, [from, to]: [Vector3<f64>; 2], dia
     let mut made: Vec<(f64, f64)> = Vec::new();
     for pair in cuts.windows(2) {
         let [a, b] = pair else { continue };
-        made.extend([(*a, wide(a + BESIDE)), (*b, wide(b - BESIDE))]);
+        made.extend([(*a, wide(a + JUMP_OFFSET_SHARE)), (*b, wide(b - JUMP_OFFSET_SHARE))]);
     }
     made
 }

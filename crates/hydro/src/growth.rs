@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_4;
 use windlass_model::{ClassError, CurveKind, Environment, Model};
 
 /// Density of growth where none is given (kg/m3).
-pub const DENSITY: f64 = 1325.0;
+pub const DEFAULT_DENSITY: f64 = 1325.0;
 
 /// Marine growth of an environment.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ impl Growth {
         let Some(curve) = found else {
             return Err(ClassError::new(format!("there is no M_GROWTH curve {}", named.kind)).with_span(named.span));
         };
-        let density = named.value.unwrap_or(DENSITY);
+        let density = named.value.unwrap_or(DEFAULT_DENSITY);
         Growth::new(curve.points.clone(), density).map(Some).map_err(|e| e.with_span(curve.span))
     }
 
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     fn growth() -> Growth {
-        Growth::new(vec![(-40.0, 0.1), (0.0, 0.2), (2.0, 0.0)], DENSITY).unwrap()
+        Growth::new(vec![(-40.0, 0.1), (0.0, 0.2), (2.0, 0.0)], DEFAULT_DENSITY).unwrap()
     }
 
     #[test]
@@ -92,7 +92,7 @@ mod tests {
         for (z, added) in [(-40.0, 0.1), (-20.0, 0.15), (0.0, 0.2), (1.0, 0.1), (2.0, 0.0), (-40.1, 0.0), (5.0, 0.0)] {
             assert!((growth.added_diameter(z) - added).abs() < 1e-15, "{z}");
         }
-        let flat = Growth::new(vec![(-10.0, 0.1), (0.0, 0.1)], DENSITY).unwrap();
+        let flat = Growth::new(vec![(-10.0, 0.1), (0.0, 0.1)], DEFAULT_DENSITY).unwrap();
         assert_eq!((flat.added_diameter(0.0), flat.added_diameter(0.1)), (0.1, 0.0));
     }
 
@@ -104,8 +104,8 @@ mod tests {
 
     #[test]
     fn growth_that_takes_away_is_refused() {
-        assert!(Growth::new(vec![(-10.0, -0.1), (0.0, 0.1)], DENSITY).is_err());
-        assert!(Growth::new(vec![(0.0, 0.1), (-10.0, 0.1)], DENSITY).is_err());
+        assert!(Growth::new(vec![(-10.0, -0.1), (0.0, 0.1)], DEFAULT_DENSITY).is_err());
+        assert!(Growth::new(vec![(0.0, 0.1), (-10.0, 0.1)], DEFAULT_DENSITY).is_err());
         assert!(Growth::new(vec![(-10.0, 0.1), (0.0, 0.1)], 0.0).is_err());
     }
 }

@@ -14,17 +14,17 @@ use windlass_base::units::Dim;
 use windlass_model::{ClassError, Curve, CurveKind, Division, Environment, Formula, Model, Phasing};
 
 /// Lowest and highest frequency of gusts of a formula (Hz).
-pub const REACH: [f64; 2] = [1.0 / 3600.0, 1.0];
+pub const FREQUENCY_RANGE_HZ: [f64; 2] = [1.0 / 3600.0, 1.0];
 /// Number of components where none is given.
-pub const PARTS: usize = 100;
+pub const DEFAULT_COMPONENTS: usize = 100;
 /// Seed of the phases where none is given.
-pub const SEED: u64 = 1;
+pub const DEFAULT_SEED: u64 = 1;
 /// The numbers of a seed go to the sea, the added sea and then the gusts.
-const STREAM: u64 = 2;
+const SEED_STREAM: u64 = 2;
 /// Points that stand for a formula, in equal steps of the logarithm: straight lines between them are off by 2e-5.
-const POINTS: usize = 800;
+const SPECTRUM_POINTS: usize = 800;
 /// Height of the formulas (m).
-const HEIGHT: f64 = super::wind::REFERENCE;
+const FORMULA_HEIGHT_M: f64 = super::wind::REFERENCE_HEIGHT_M;
 
 /// A formula of gusts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,10 +62,10 @@ impl Shape {
 
     /// Density (m2/s2 per Hz) at a frequency (Hz) about a mean speed at 10 m (m/s).
     pub fn density(self, f: f64, speed: f64) -> f64 {
-        let (friction, reduced) = (drag_coefficient(speed) * speed * speed, f * HEIGHT / speed);
+        let (friction, reduced) = (drag_coefficient(speed) * speed * speed, f * FORMULA_HEIGHT_M / speed);
         match self {
             Shape::Api => {
-                let (s, peak) = (api_deviation(speed), 0.025 * speed / HEIGHT);
+                let (s, peak) = (api_deviation(speed), 0.025 * speed / FORMULA_HEIGHT_M);
                 s * s / peak * (1.0 + 1.5 * f / peak).powf(-5.0 / 3.0)
             }
             Shape::Froya => {
@@ -75,7 +75,7 @@ impl Shape {
             }
             Shape::Ochi => {
                 let fall = (1.0 + reduced.powf(0.35)).powf(-11.5);
-                let per = friction * HEIGHT / speed;
+                let per = friction * FORMULA_HEIGHT_M / speed;
                 match reduced {
                     x if x <= 0.003 => 583.0 * per,
                     x if x <= 0.1 => 420.0 * x.powf(-0.3) * fall * per,
@@ -90,7 +90,7 @@ impl Shape {
                 let length = 1200.0 / speed;
                 4.0 * friction * length * length * f * (1.0 + (f * length).powi(2)).powf(-4.0 / 3.0)
             }
-            Shape::Kaimal => 105.0 * friction * HEIGHT / speed * (1.0 + 33.0 * reduced).powf(-5.0 / 3.0),
+            Shape::Kaimal => 105.0 * friction * FORMULA_HEIGHT_M / speed * (1.0 + 33.0 * reduced).powf(-5.0 / 3.0),
         }
     }
 
@@ -118,7 +118,7 @@ pub fn drag_coefficient(speed: f64) -> f64 {
 }
 
 fn api_deviation(speed: f64) -> f64 {
-    0.15 * (HEIGHT / 20.0).powf(-0.125) * speed
+    0.15 * (FORMULA_HEIGHT_M / 20.0).powf(-0.125) * speed
 }
 
 /// The gusts of an environment.
@@ -170,7 +170,7 @@ impl Gusts {
                 .with_scaled_frequencies(1.0, deviation * deviation, None)
                 .map_err(|e| e.with_span(named.span))?;
         }
-        let number = parts.map_or(PARTS, |p| p.number);
+        let number = parts.map_or(DEFAULT_COMPONENTS, |p| p.number);
         let bands = if env.gust_periods.is_empty() {
             bands(&spectrum, number, Division::EqualEnergy, true)
         } else {
@@ -180,9 +180,9 @@ impl Gusts {
         // waves that are reinforced make a crest; gusts that are would make a wind of many times its deviation
         let seed = match env.phasing {
             Some(Phasing::Seeded(seed)) => seed,
-            _ => SEED,
+            _ => DEFAULT_SEED,
         };
-        let phases = phases(Phasing::Seeded(seed), STREAM, bands.iter().map(|b| b.frequency));
+        let phases = phases(Phasing::Seeded(seed), SEED_STREAM, bands.iter().map(|b| b.frequency));
         let whole = shape.filter(|_| intensity.is_none()).map(|s| s.deviation(wind.speed));
         let name = named.kind.clone();
         Ok(Some(Gusts { name, mean: wind.speed, spectrum, bands, phases, seed, whole, last: Mutex::new(None) }))
@@ -210,12 +210,12 @@ impl Gusts {
 
 /// A formula as frequency (rad/s) and density (m2/s).
 fn table(shape: Shape, speed: f64) -> Vec<(f64, f64)> {
-    let [low, high] = REACH;
+    let [low, high] = FREQUENCY_RANGE_HZ;
     let point = |i: usize| {
-        let f = low * (high / low).powf(i as f64 / (POINTS - 1) as f64);
+        let f = low * (high / low).powf(i as f64 / (SPECTRUM_POINTS - 1) as f64);
         (TAU * f, shape.density(f, speed) / TAU)
     };
-    (0..POINTS).map(point).collect()
+    (0..SPECTRUM_POINTS).map(point).collect()
 }
 
 /// A curve of the user: density over frequency, in the square of the unit of length, as it is.

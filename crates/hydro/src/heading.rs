@@ -13,7 +13,7 @@ pub struct ByHeading {
 }
 
 /// Which of the six change sign on the other side of a body that is symmetric about its x-z plane.
-const MIRROR: [f64; 6] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+const MIRROR_SIGNS: [f64; 6] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
 
 impl ByHeading {
     /// A table of headings that grow (rad) and their values.
@@ -37,7 +37,7 @@ impl ByHeading {
             if ends.0.abs() > 1e-9 || (ends.1 - PI).abs() > 1e-9 {
                 return Err(ClassError::new("a symmetric table goes from heading 0 to 180"));
             }
-            let mirror = Six::from(MIRROR);
+            let mirror = Six::from(MIRROR_SIGNS);
             let sideways = |row: &(f64, Six)| (row.1 - row.1.component_mul(&mirror)).amax() != 0.0;
             if all.first().is_some_and(sideways) || all.last().is_some_and(sideways) {
                 return Err(ClassError::new("sway, roll and yaw of a symmetric table are zero at headings 0 and 180"));
@@ -99,7 +99,7 @@ mod tests {
         let table = ByHeading::new(&rows, true).unwrap();
         for (heading, value) in rows {
             assert!((table.interpolate(heading + TAU).0 - Six::from(value)).amax() < 1e-12);
-            let mirrored = Six::from(value).component_mul(&Six::from(MIRROR));
+            let mirrored = Six::from(value).component_mul(&Six::from(MIRROR_SIGNS));
             assert!((table.interpolate(-heading).0 - mirrored).amax() < 1e-12);
         }
         for step in -50..50 {

@@ -27,11 +27,11 @@ struct Bottom {
 
 /// Height above the bottom from which on it carries a junction (m): small against any line, so that what lies there lies as
 /// good as on it, and above it, where a line to its anchor has an answer.
-const REACH: f64 = 0.01;
+const BOTTOM_REACH_M: f64 = 0.01;
 
 /// Share of the reach from which on the force grows straight: a thousand times what is carried in the middle, and more on the
 /// bottom than any line pulls.
-const STRAIGHT: f64 = 0.9999;
+const LINEAR_REACH_SHARE: f64 = 0.9999;
 
 /// The loads of a junction besides its weight.
 pub fn build_junction_loads(junction: &Junction, mass: &Mass, around: &Surroundings) -> Vec<Box<dyn BodyLoad>> {
@@ -43,7 +43,7 @@ pub fn build_junction_loads(junction: &Junction, mass: &Mass, around: &Surroundi
     if let Some(depth) = around.depth {
         // the weight and a ton of line
         let carried = mass.mass * around.gravity + 1e4;
-        list.push(Box::new(Bottom { elevation: -depth, reach: REACH, carried }));
+        list.push(Box::new(Bottom { elevation: -depth, reach: BOTTOM_REACH_M, carried }));
     }
     list
 }
@@ -77,7 +77,7 @@ impl BodyLoad for Bottom {
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let missing = (1.0 - (pose.origin.z - self.elevation) / self.reach).max(0.0);
         // s2 / (1 - s), straight from near its end on: a search may begin below
-        let s = missing.min(STRAIGHT);
+        let s = missing.min(LINEAR_REACH_SHARE);
         let force = s * s / (1.0 - s);
         let slope = s * (2.0 - s) / ((1.0 - s) * (1.0 - s));
         let force = force + slope * (missing - s);

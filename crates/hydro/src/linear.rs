@@ -10,7 +10,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_model::{Body, ClassError, LinearHydrostatics};
 
 /// Where roll and yaw are told apart no more: cosine of the pitch.
-const UPRIGHT: f64 = 1e-6;
+const MIN_PITCH_COSINE: f64 = 1e-6;
 
 /// Buoyancy of a body that has a linear stiffness.
 pub fn build_linear_buoyancy(body: &Body) -> Option<Box<dyn BodyLoad>> {
@@ -24,7 +24,7 @@ impl BodyLoad for LinearHydrostatics {
 
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(pose.axes).euler_angles();
-        if pitch.cos() < UPRIGHT {
+        if pitch.cos() < MIN_PITCH_COSINE {
             return Err(ClassError::new("a linear hydrostatic stiffness has no value at a pitch of 90 degrees"));
         }
         let heading: Matrix3<f64> = *Rotation3::from_axis_angle(&Vector3::z_axis(), yaw).matrix();

@@ -34,7 +34,7 @@ const LONGER_WAVES: f64 = 0.01;
 /// The frequency of the first zero of the filter over that of the dividing period: 1/cos(pi/10).
 const FIRST_ZERO: f64 = 1.051_462_224_238_267;
 /// The dividing period where there are no waves (s).
-const CALM: f64 = 15.0;
+const CALM_DIVIDING_PERIOD_S: f64 = 15.0;
 
 /// The dividing period of a model (s): as `TDOM -DIVIDING` gives it, else [`dividing_period_of`].
 pub fn dividing_period(model: &Model, sea: Option<&Sea>) -> f64 {
@@ -53,7 +53,7 @@ pub fn dividing_period_of(sea: Option<&Sea>) -> f64 {
         sum += energy;
         sum > LONGER_WAVES * whole
     });
-    found.map_or(CALM, |(frequency, _)| FIRST_ZERO * TAU / frequency)
+    found.map_or(CALM_DIVIDING_PERIOD_S, |(frequency, _)| FIRST_ZERO * TAU / frequency)
 }
 
 /// The filter of one signal.

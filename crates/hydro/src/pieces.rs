@@ -14,7 +14,7 @@
 //! body, both at the centroid of A of each axis, which moves with the body: so one that turns about its middle meets no more than
 //! the centroids do. At rest in the mean stream nothing is added; in a uniform stream all of it is exact.
 
-use super::buoyancy::{SIDES, skin};
+use super::buoyancy::{TUBE_PRISM_SIDES, skin};
 use super::exposed::{Exposed, Skin};
 use super::grown;
 use super::growth::Growth;
@@ -107,7 +107,7 @@ pub fn build_piece_load(
     let surface = match (growth, piece.shape.moved_by(&part.place)) {
         (Some((growth, pose)), Shape::Tube { ends, diameter }) => {
             let tube = Tube { ends: ends.map(Vector3::from), diameter };
-            tube.with_diameters(&grown::stations(growth, pose, tube.ends, diameter), SIDES)
+            tube.with_diameters(&grown::stations(growth, pose, tube.ends, diameter), TUBE_PRISM_SIDES)
         }
         _ => skin(part, piece)?,
     };

@@ -11,11 +11,11 @@ use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// Most Newton steps of one heel.
-const STEPS: usize = 200;
+const MAX_NEWTON_ITERATIONS: usize = 200;
 /// Largest change of trim in a step (rad).
-const MOST_TURN: f64 = 0.1;
+const MAX_TRIM_CHANGE_RAD: f64 = 0.1;
 /// What may be left of force and moment, as a share of the weight and of the weight times the size.
-const LEFT: f64 = 1e-10;
+const RESIDUAL_TOLERANCE: f64 = 1e-10;
 
 /// A body balanced at a heel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,7 @@ pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balan
     let [_, _, yaw] = place.turn;
     // the axes of the heading: forward along x, and across, about which the body trims
     let (along, across) = (Vector3::new(yaw.cos(), yaw.sin(), 0.0), Vector3::new(-yaw.sin(), yaw.cos(), 0.0));
-    for _ in 0..STEPS {
+    for _ in 0..MAX_NEWTON_ITERATIONS {
         let pose = Pose::of(&place);
         let total = sum(&pose)?;
         let arm = pose.axes * floating.mass.centre;
@@ -64,7 +64,7 @@ pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balan
         let [by_heave, by_trim] = [stiffness.column(2).into_owned(), stiffness.fixed_columns::<3>(3) * across];
         let size = (by_trim.fixed_rows::<3>(3).dot(&across).abs() / weight).max(arm.norm());
         let trim = about.dot(&across);
-        if force.z.abs() <= LEFT * weight && trim.abs() <= LEFT * weight * size {
+        if force.z.abs() <= RESIDUAL_TOLERANCE * weight && trim.abs() <= RESIDUAL_TOLERANCE * weight * size {
             return Ok(Balanced { place, arm: -about.dot(&along) / weight });
         }
         let matrix = Matrix2::new(
@@ -76,7 +76,7 @@ pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balan
         let step = Lu::new(matrix, &never).and_then(|lu| lu.solve(&Vector2::new(force.z, turn.dot(&across))));
         // without a waterplane nothing holds it: it rises or sinks by a tenth of what it is
         let step = step.unwrap_or_else(|_| Vector2::new(0.1 * size * force.z.signum(), 0.0));
-        let cut = (MOST_TURN / step[1].abs()).min(0.5 * size / step[0].abs()).min(1.0);
+        let cut = (MAX_TRIM_CHANGE_RAD / step[1].abs()).min(0.5 * size / step[0].abs()).min(1.0);
         place.shift[2] += cut * step[0];
         place.turn[1] += cut * step[1];
     }

@@ -10,7 +10,7 @@ use windlass_model::{ClassError, Environment, Model, Surroundings};
 
 /// Half the height over which what is decided by the height of a point passes from current to wind (m). The sources say
 /// only "above" and "below"; a jump would keep an equilibrium near it from being found.
-pub const PASSAGE: f64 = 0.25;
+pub const SURFACE_TRANSITION_M: f64 = 0.25;
 
 /// Air or water.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,8 +147,8 @@ impl Steady {
     /// How much a point at a global height (m) is in air or in water, from 0 to 1, and the change with the height (1/m):
     /// a smooth passage of half a metre about the surface.
     pub fn share(&self, medium: Medium, z: f64) -> (f64, f64) {
-        let s = ((z - self.around.tide) / PASSAGE).clamp(-1.0, 1.0);
-        let (air, change) = (0.5 + 0.75 * s - 0.25 * s * s * s, 0.75 * (1.0 - s * s) / PASSAGE);
+        let s = ((z - self.around.tide) / SURFACE_TRANSITION_M).clamp(-1.0, 1.0);
+        let (air, change) = (0.5 + 0.75 * s - 0.25 * s * s * s, 0.75 * (1.0 - s * s) / SURFACE_TRANSITION_M);
         match medium {
             Medium::Air => (air, change),
             Medium::Water => (1.0 - air, -change),

@@ -6,13 +6,13 @@
 //! within some 3e-4.
 
 use super::steady::{Medium, Steady};
-use super::wind::LOWEST;
+use super::wind::MIN_WIND_HEIGHT_M;
 use nalgebra::{SVector, Vector3};
 
 /// Highest strip of wind (m); above it the wind is that of its upper end.
-const HIGHEST: f64 = 1024.0;
+const MAX_WIND_HEIGHT_M: f64 = 1024.0;
 /// Into how many a strip is divided in which several currents are added: the length of a sum is no parabola.
-const PARTS: usize = 4;
+const PARTS_PER_STRIP: usize = 4;
 
 /// `w = a + b u + c u u`, u from the start of the strip; of D components.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +55,8 @@ impl Strips {
         let level = steady.around.tide;
         let (sense, mut levels) = match medium {
             Medium::Air => {
-                let doubled = std::iter::successors(Some(LOWEST), |z| Some(2.0 * z)).take_while(|z| *z <= HIGHEST);
+                let doubled = std::iter::successors(Some(MIN_WIND_HEIGHT_M), |z| Some(2.0 * z))
+                    .take_while(|z| *z <= MAX_WIND_HEIGHT_M);
                 (1.0, doubled.chain(steady.wind.iter().flat_map(|w| w.kinks())).collect())
             }
             Medium::Water => (-1.0, steady.current.kinks()),
@@ -137,7 +138,7 @@ fn divide_levels(levels: &[f64]) -> Vec<f64> {
         .flat_map(|w| {
             let (low, long) =
                 (w.first().copied().unwrap_or_default(), w.last().zip(w.first()).map_or(0.0, |(b, a)| b - a));
-            (0..PARTS).map(move |n| low + long * n as f64 / PARTS as f64)
+            (0..PARTS_PER_STRIP).map(move |n| low + long * n as f64 / PARTS_PER_STRIP as f64)
         })
         .collect();
     made.extend(levels.last());

@@ -10,9 +10,9 @@ use windlass_base::units::Dim;
 use windlass_model::{ClassError, Environment};
 
 /// Height at which the wind of `&ENV` blows (m).
-pub const REFERENCE: f64 = 10.0;
+pub const REFERENCE_HEIGHT_M: f64 = 10.0;
 /// Below this height (m) the wind is that of this height: the formulas do not hold among the waves.
-pub const LOWEST: f64 = 1.0;
+pub const MIN_WIND_HEIGHT_M: f64 = 1.0;
 
 /// Height of the surface layer of [API-RP-2A] (m).
 const SURFACE_LAYER: f64 = 20.0;
@@ -108,7 +108,7 @@ impl WindField {
 
     /// Heights above the water (m) at which its formula has a kink.
     pub fn kinks(&self) -> Vec<f64> {
-        let mut heights = vec![LOWEST];
+        let mut heights = vec![MIN_WIND_HEIGHT_M];
         if self.profile == Profile::Abs {
             heights.extend(ABS_BANDS.map(|band| band.0));
         }
@@ -120,22 +120,22 @@ impl WindField {
 
     /// Speed (m/s) at a height above the water (m), and its change with the height (1/s).
     pub fn speed(&self, height: f64) -> (f64, f64) {
-        let z = height.max(LOWEST);
-        let log = (z / REFERENCE).ln();
+        let z = height.max(MIN_WIND_HEIGHT_M);
+        let log = (z / REFERENCE_HEIGHT_M).ln();
         let (factor, rise) = match self.profile {
             Profile::Power(a) => {
                 let f = (a * log).exp();
                 (f, a * f / z)
             }
             Profile::Logarithmic(z0) => {
-                let whole = (REFERENCE / z0).ln();
+                let whole = (REFERENCE_HEIGHT_M / z0).ln();
                 (1.0 + log / whole, 1.0 / (whole * z))
             }
             Profile::Logarithm(c) => (1.0 + c * log, c / z),
             Profile::Abs => abs(z),
         };
         let (gust, growth) = self.gust.factor(z);
-        let change = if height > LOWEST { rise * gust + factor * growth } else { 0.0 };
+        let change = if height > MIN_WIND_HEIGHT_M { rise * gust + factor * growth } else { 0.0 };
         (self.speed * factor * gust, self.speed * change)
     }
 }
@@ -152,11 +152,11 @@ impl Gust {
                 (1.0 + g * intensity, g * intensity * exponent / z)
             }
             Gust::Froya(level, log) => {
-                let intensity = level * (z / REFERENCE).powf(-0.22);
+                let intensity = level * (z / REFERENCE_HEIGHT_M).powf(-0.22);
                 (1.0 - 0.41 * intensity * log, 0.41 * 0.22 * intensity * log / z)
             }
             Gust::Dnv(log) => {
-                let whole = 1.0 + 0.137 * (z / REFERENCE).ln();
+                let whole = 1.0 + 0.137 * (z / REFERENCE_HEIGHT_M).ln();
                 (1.0 - 0.047 * log / whole, 0.047 * log * 0.137 / (whole * whole * z))
             }
         }
@@ -194,7 +194,7 @@ fn roughness(speed: f64) -> f64 {
     let mut z0: f64 = 1e-4;
     // the logarithm changes slowly: each turn gains a figure or more
     for _ in 0..60 {
-        let shear = KARMAN * speed / (REFERENCE / z0).ln();
+        let shear = KARMAN * speed / (REFERENCE_HEIGHT_M / z0).ln();
         z0 = (CHARNOCK / windlass_base::units::STANDARD_GRAVITY * shear * shear).clamp(1e-7, 0.1);
     }
     z0

@@ -18,7 +18,7 @@ use windlass_base::wildcard::matches;
 pub const NAMES: &[&str] = &["NUMBER", "FORMAT", "STRING", "TOKEN", "LOGICAL", "V_EXIST"];
 
 /// What `&HELP` says of each: name, form, meaning.
-pub const HELP: &[(&str, &str, &str)] = &[
+pub const FUNCTION_HELP: &[(&str, &str, &str)] = &[
     (
         "&NUMBER",
         "&NUMBER(TYPE a b ..)",
@@ -115,7 +115,7 @@ fn number_function(words: &[Word], span: Span) -> Outcome<String> {
     }
     let value = vector_action(action, &x).ok_or_else(|| {
         Diagnostic::error(format!("&NUMBER({action} ..) cannot be formed from these {} numbers", x.len()), span)
-            .help(HELP.first().map_or("", |h| h.2))
+            .help(FUNCTION_HELP.first().map_or("", |h| h.2))
     })?;
     if let Some(bad) = value.iter().find(|v| !v.is_finite()) {
         return Err(

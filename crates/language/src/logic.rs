@@ -10,7 +10,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 
 /// Deepest nesting of parentheses and `.NOT.`.
-const DEEPEST: usize = 64;
+const MAX_NESTING: usize = 64;
 
 /// `.TRUE.` or `.FALSE.`.
 pub fn word(value: bool) -> &'static str {
@@ -121,7 +121,7 @@ impl Reader<'_> {
     }
 
     fn parse_negation(&mut self, depth: usize) -> Result<bool, String> {
-        if depth > DEEPEST {
+        if depth > MAX_NESTING {
             return Err("nested too deeply".into());
         }
         match self.peek() {

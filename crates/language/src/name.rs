@@ -7,7 +7,7 @@ use windlass_base::printable::is_acted_on;
 use windlass_base::span::Span;
 
 /// Longest name taken (characters, the marker included).
-pub const LONGEST: usize = 64;
+pub const MAX_NAME_CHARACTERS: usize = 64;
 
 /// The rule, as `&HELP` states it.
 pub const RULE: &str = "A name has 1 to 64 characters, a marker (~ class, * point, : selector) among them and at least \
@@ -39,8 +39,8 @@ pub fn check(name: &str, mark: Option<char>, what: &str, span: Span) -> Outcome<
         return refuse("there is no character besides the marker".into());
     }
     let count = name.chars().count();
-    if count > LONGEST {
-        return refuse(format!("this has {count} characters, and at most {LONGEST} are taken"));
+    if count > MAX_NAME_CHARACTERS {
+        return refuse(format!("this has {count} characters, and at most {MAX_NAME_CHARACTERS} are taken"));
     }
     if let Some(first) = name.chars().next().filter(|c| "&$-#%=+@".contains(*c)) {
         return refuse(format!("a name does not begin with {first}"));

@@ -11,9 +11,9 @@ use meval::tokenizer::{Operation, Token, tokenize};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Longest expression taken (bytes).
-const LONGEST: usize = 4096;
+const MAX_EXPRESSION_BYTES: usize = 4096;
 /// Deepest nesting of parentheses taken.
-const DEEPEST: usize = 200;
+const MAX_NESTING: usize = 200;
 
 /// Why a word is not a number.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -117,7 +117,7 @@ pub fn evaluate(word: &str) -> Result<f64, NumberError> {
     if let Some(value) = plain(word) {
         return if value.is_finite() { Ok(value) } else { Err(NumberError::NotFinite("reading it")) };
     }
-    if word.len() > LONGEST || word.bytes().filter(|b| *b == b'(').count() > DEEPEST {
+    if word.len() > MAX_EXPRESSION_BYTES || word.bytes().filter(|b| *b == b'(').count() > MAX_NESTING {
         return Err(NumberError::TooBig);
     }
     let text = to_meval(word)?;

@@ -86,7 +86,7 @@ struct Excerpt<'a> {
 /// Longest text of a message (characters).
 const LONGEST_TEXT: usize = 400;
 /// Longest piece of a source shown around a word (bytes).
-const SHOWN: usize = 400;
+const MAX_EXCERPT_BYTES: usize = 400;
 
 impl<'a> Excerpt<'a> {
     fn same_line(&self, other: &Self) -> bool {
@@ -114,7 +114,7 @@ impl<'a> Excerpt<'a> {
         let end = end.min(to);
         let line = source.first_line + head.bytes().filter(|b| *b == b'\n').count();
         let line_start = from;
-        let (from, to, end) = if to - from <= SHOWN {
+        let (from, to, end) = if to - from <= MAX_EXCERPT_BYTES {
             (from, to, end)
         } else {
             let from = floor_boundary(text, start.saturating_sub(60).max(from));

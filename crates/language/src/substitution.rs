@@ -11,7 +11,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
 
 /// Deepest nesting of functions within functions.
-const DEEPEST: usize = 32;
+const MAX_NESTING: usize = 32;
 
 /// What the floors above the language answer: string functions about the model and the session.
 pub trait World {
@@ -183,8 +183,8 @@ fn function(
         return Err(Diagnostic::error(format!("&{name}( without its `)`"), record.span(mark..open + 1)));
     };
     let span = record.span(mark..close + 1);
-    if depth >= DEEPEST {
-        return Err(Diagnostic::error(format!("functions are nested deeper than {DEEPEST}"), span));
+    if depth >= MAX_NESTING {
+        return Err(Diagnostic::error(format!("functions are nested deeper than {MAX_NESTING}"), span));
     }
     let known = functions::NAMES.iter().chain(world.function_names()).map(|n| (*n, Owner::Moses, *n));
     let name = match select::keyword(name, known.clone()) {

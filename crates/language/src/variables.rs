@@ -8,7 +8,7 @@ use indexmap::IndexMap;
 /// Longest value taken (bytes), so that a variable doubled in a loop cannot fill the memory.
 pub const LONGEST_VALUE: usize = 1 << 16;
 /// Most variables kept at a time.
-pub const MOST_VARIABLES: usize = 1_000_000;
+pub const MAX_VARIABLES: usize = 1_000_000;
 
 /// All variables of a session.
 #[derive(Clone, Debug, Default)]
@@ -74,7 +74,7 @@ fn set_variable(scope: &mut IndexMap<String, String>, key: String, value: &str) 
     if value.len() > LONGEST_VALUE {
         return Err(VariableError::TooLong);
     }
-    if scope.len() >= MOST_VARIABLES && !scope.contains_key(&key) {
+    if scope.len() >= MAX_VARIABLES && !scope.contains_key(&key) {
         return Err(VariableError::TooMany);
     }
     scope.insert(key, value.to_string());

@@ -11,7 +11,7 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 
 /// The most points of a grid: 32 bytes each, 128 MB together.
-pub const MOST_POINTS: usize = 4_000_000;
+pub const MAX_GRID_POINTS: usize = 4_000_000;
 
 /// A bottom over a grid.
 #[derive(Clone, Debug, PartialEq)]
@@ -174,13 +174,13 @@ impl Bathymetry {
 /// More than [`MOST_POINTS`].
 pub fn fits(columns: usize, rows: usize) -> Result<usize, ClassError> {
     match columns.checked_mul(rows) {
-        Some(count) if count <= MOST_POINTS => Ok(count),
+        Some(count) if count <= MAX_GRID_POINTS => Ok(count),
         count => {
             let size = size_of::<[f64; 4]>();
             let megabytes = count.map_or(f64::INFINITY, |n| n as f64 * size as f64 / 1e6);
             let text = format!(
-                "a bottom of {columns} by {rows} points asks for {megabytes:.0} MB: at most {MOST_POINTS} points, {} MB, are taken",
-                MOST_POINTS * size / 1_000_000
+                "a bottom of {columns} by {rows} points asks for {megabytes:.0} MB: at most {MAX_GRID_POINTS} points, {} MB, are taken",
+                MAX_GRID_POINTS * size / 1_000_000
             );
             Err(ClassError::new(text).help("leave points out: the bottom is smooth between them"))
         }

@@ -2,7 +2,7 @@
 //!
 //! Source: [W-DEFAULTS].
 
-use windlass_base::units::{INCH, KIP, STANDARD_GRAVITY};
+use windlass_base::units::{METRES_PER_INCH, NEWTONS_PER_KIP, STANDARD_GRAVITY};
 
 /// Material of a section where a record gives none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ pub struct Defaults {
 
 impl Default for Defaults {
     fn default() -> Self {
-        let ksi = KIP / (INCH * INCH);
+        let ksi = NEWTONS_PER_KIP / (METRES_PER_INCH * METRES_PER_INCH);
         Defaults {
             material: Material {
                 density: 7850.0,

@@ -85,7 +85,7 @@ pub struct TetherEnds {
 
 impl TetherEnds {
     /// Stiffness of a spring that is not given [AQWA-TETHER A.2 and 8.1.14], in N/m or N m/rad where the card's unit is a thousand.
-    pub const STIFF: f64 = 1.0e18;
+    pub const DEFAULT_SPRING_STIFFNESS: f64 = 1.0e18;
 
     /// How many tethers it stands for.
     pub fn count(&self) -> f64 {
@@ -96,11 +96,13 @@ impl TetherEnds {
     /// where not above zero; rotational ones below zero are none. Towed: STIFF where zero or not given.
     pub fn springs_in_force(&self) -> [[f64; 3]; 2] {
         self.springs.map(|given| {
-            let Some([first, second, third]) = given else { return [Self::STIFF; 3] };
+            let Some([first, second, third]) = given else { return [Self::DEFAULT_SPRING_STIFFNESS; 3] };
             match self.used {
-                TetherUse::Towed => [first, second, third].map(|k| if k == 0.0 { Self::STIFF } else { k }),
+                TetherUse::Towed => {
+                    [first, second, third].map(|k| if k == 0.0 { Self::DEFAULT_SPRING_STIFFNESS } else { k })
+                }
                 TetherUse::Installed => {
-                    let inline = if first > 0.0 { first } else { Self::STIFF };
+                    let inline = if first > 0.0 { first } else { Self::DEFAULT_SPRING_STIFFNESS };
                     [inline, second.max(0.0), third.max(0.0)]
                 }
             }

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// Samples of a cycle that AQWA takes.
 pub const AQWA_SAMPLES: usize = 16;
 /// Most samples of a cycle.
-const MOST_SAMPLES: usize = 4096;
+const MAX_CYCLE_SAMPLES: usize = 4096;
 
 /// One cycle.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +47,7 @@ impl Cycle {
         if !(period.is_finite() && period > 0.0) {
             return Err(SeriesError::Setting { what: "the period", expected: "greater than zero", value: period });
         }
-        if orders == 0 || 2 * orders >= samples || samples > MOST_SAMPLES {
+        if orders == 0 || 2 * orders >= samples || samples > MAX_CYCLE_SAMPLES {
             let text = format!("{samples} samples of a cycle do not give {orders} harmonics");
             return Err(SeriesError::Refused(text));
         }

@@ -3,7 +3,7 @@
 use super::{SeriesError, finite};
 
 /// Most bins or levels: a table larger than that has no reader.
-pub const MOST: usize = 10_000;
+pub const MAX_LEVELS: usize = 10_000;
 
 /// A bin of a histogram.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct Bin {
 
 fn span(values: &[f64], parts: usize, what: &'static str) -> Result<(f64, f64), SeriesError> {
     finite(values)?;
-    if !(1..=MOST).contains(&parts) {
+    if !(1..=MAX_LEVELS).contains(&parts) {
         return Err(SeriesError::Setting { what, expected: "between 1 and 10000", value: parts as f64 });
     }
     if values.is_empty() {

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use windlass_base::dense::{Cholesky, never};
 
 /// Most harmonics that are fitted.
-pub const MOST: usize = 50;
+pub const MAX_HARMONICS: usize = 50;
 
 /// One harmonic.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,7 @@ pub fn analyse(
     cycles: Option<usize>,
 ) -> Result<Harmonics, SeriesError> {
     check_times(times, values)?;
-    if !(1..=MOST).contains(&orders) {
+    if !(1..=MAX_HARMONICS).contains(&orders) {
         let expected = "between 1 and 50";
         return Err(SeriesError::Setting { what: "the number of harmonics", expected, value: orders as f64 });
     }

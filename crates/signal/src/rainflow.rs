@@ -89,7 +89,7 @@ pub struct RangeMean {
 }
 
 /// Most bins in either direction: a table larger than that has no reader.
-pub const MOST_BINS: usize = 1000;
+pub const MAX_BINS: usize = 1000;
 
 /// Counts cycles into equal bins of range, from 0 to the largest, and of mean, from the least to the largest. A cycle on
 /// an edge belongs to the bin above it, the largest to the last.
@@ -98,7 +98,7 @@ pub const MOST_BINS: usize = 1000;
 /// No cycles; a number of bins that is 0 or above [`MOST_BINS`].
 pub fn range_mean(cycles: &[Cycle], ranges: usize, means: usize) -> Result<RangeMean, SeriesError> {
     for bins in [ranges, means] {
-        if !(1..=MOST_BINS).contains(&bins) {
+        if !(1..=MAX_BINS).contains(&bins) {
             let expected = "between 1 and 1000";
             return Err(SeriesError::Setting { what: "the number of bins", expected, value: bins as f64 });
         }

@@ -17,7 +17,7 @@ pub struct Uniform<'a> {
 }
 
 /// Share of a step that a time may be off its place: stored files round their times.
-const SLACK: f64 = 1e-3;
+const STEP_TOLERANCE: f64 = 1e-3;
 
 /// The series on a uniform grid. Times that are uniform within a thousandth of the step keep their samples; others are
 /// interpolated linearly with the mean step, and [`Uniform::resampled`] says so.
@@ -32,7 +32,7 @@ pub fn uniform<'a>(times: &[f64], values: &'a [f64]) -> Result<Uniform<'a>, Seri
     let count = times.len();
     let step = (last - first) / (count - 1) as f64;
     let place = |i: usize| first + step * i as f64;
-    if times.iter().enumerate().all(|(i, t)| (t - place(i)).abs() <= SLACK * step) {
+    if times.iter().enumerate().all(|(i, t)| (t - place(i)).abs() <= STEP_TOLERANCE * step) {
         return Ok(Uniform { start: *first, step, values: Cow::Borrowed(values), resampled: false });
     }
     let mut out = Vec::with_capacity(count);

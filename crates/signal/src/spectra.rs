@@ -5,7 +5,7 @@ use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
 
 /// Longest series that is transformed: 2^26 samples.
-pub const LONGEST: usize = 1 << 26;
+pub const MAX_SAMPLES: usize = 1 << 26;
 
 /// Amplitudes of the harmonics of the whole series.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,7 @@ fn usable(values: &[f64], step: f64, least: usize) -> Result<(), SeriesError> {
     if values.len() < least {
         return Err(SeriesError::TooFew { what: "a spectrum of samples", need: least, got: values.len() });
     }
-    if values.len() > LONGEST {
+    if values.len() > MAX_SAMPLES {
         return Err(SeriesError::Refused(format!("{} samples are too many for a spectrum", values.len())));
     }
     Ok(())

@@ -27,12 +27,12 @@ pub struct Moments {
 }
 
 /// Deviations below this share of the largest magnitude are rounding: their powers have no meaning.
-const ROUNDING: f64 = 1e-13;
+const ROUNDING_SHARE: f64 = 1e-13;
 
 /// Skewness and excess kurtosis from the sums of powers of the deviations from the mean.
 pub(super) fn shape(count: f64, [m2, m3, m4]: [f64; 3], size: f64) -> (f64, f64) {
     let variance = m2 / count;
-    if variance.sqrt() <= ROUNDING * size {
+    if variance.sqrt() <= ROUNDING_SHARE * size {
         return (0.0, 0.0);
     }
     (m3 / count / variance.powf(1.5), m4 / count / (variance * variance) - 3.0)

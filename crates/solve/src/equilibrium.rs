@@ -48,23 +48,23 @@ pub struct Equilibrium {
 }
 
 /// A step ends where this share of the largest acceleration asked for is reached: Newton's last steps cost little.
-const POLISH: f64 = 1e-9;
+const FINAL_TOLERANCE_SHARE: f64 = 1e-9;
 /// Eigenvalue (rad2/s2) below which a motion is not stable: it grows by e in a quarter of an hour. What lies between is what a solution within
 /// its tolerance leaves of nothing.
-const UNSTABLE: f64 = -1e-6;
+const UNSTABLE_EIGENVALUE: f64 = -1e-6;
 /// Share of the largest eigenvalue that rounding makes of the least.
 const EIGENVALUE_ROUNDING: f64 = 1e-11;
 
 /// Whether an eigenvalue of a system whose largest is given is that of a motion that is not stable (rad2/s2).
 pub(super) fn is_unstable(eigenvalue: f64, largest: f64) -> bool {
-    eigenvalue < UNSTABLE.min(-EIGENVALUE_ROUNDING * largest.abs())
+    eigenvalue < UNSTABLE_EIGENVALUE.min(-EIGENVALUE_ROUNDING * largest.abs())
 }
 
 /// Square of a natural frequency (rad2/s2) below which nothing holds a motion: a period of 17 hours.
-pub(super) const LOOSE: f64 = 1e-8;
+pub(super) const UNRESTRAINED_EIGENVALUE: f64 = 1e-8;
 /// Share of the tolerance that rounding may leave, and steps without half as much left after which it has.
-const FINE: f64 = 1e-4;
-const STALE: usize = 3;
+const ROUNDING_TOLERANCE_SHARE: f64 = 1e-4;
+const MAX_STALLED_STEPS: usize = 3;
 /// Steps without half as much left after which a search within the tolerance ends wherever it is.
 const LONG_STALE: usize = 12;
 
@@ -121,9 +121,11 @@ fn find(
         if worst < best.0 {
             best = (worst, Stand::from_state(state));
         }
-        let polished = worst <= POLISH || unknowns.rows.is_empty();
+        let polished = worst <= FINAL_TOLERANCE_SHARE || unknowns.rows.is_empty();
         // within the tolerance the search goes on as long as it gets better
-        let rounded = (best.0 <= FINE && stale >= STALE) || stale >= LONG_STALE || steps == options.most;
+        let rounded = (best.0 <= ROUNDING_TOLERANCE_SHARE && stale >= MAX_STALLED_STEPS)
+            || stale >= LONG_STALE
+            || steps == options.most;
         if polished || (best.0 <= 1.0 && rounded) {
             if best.0 < worst {
                 best.1.restore(state);
@@ -164,7 +166,7 @@ fn check_weights(system: &System, options: &Options) -> Result<(), SolveError> {
 }
 
 /// A way (m) that no body goes to its equilibrium.
-const MILE: f64 = 5000.0;
+const MAX_TRAVEL_M: f64 = 5000.0;
 
 /// Degrees of freedom along which nothing holds a body.
 fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Result<Vec<(String, String)>, SolveError> {
@@ -177,7 +179,7 @@ fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Result<Vec<(Str
         .map_err(|e| unknowns.singular_stiffness_error(system, e))?;
     let mut found: Vec<usize> = Vec::new();
     for (value, vector) in made.values.iter().zip(made.vectors.column_iter()) {
-        if value.abs() <= LOOSE {
+        if value.abs() <= UNRESTRAINED_EIGENVALUE {
             found.extend(vector.iter().enumerate().filter(|(_, v)| v.abs() > 0.3).map(|(i, _)| i));
         }
     }
@@ -216,7 +218,7 @@ fn failure(system: &System, state: &State, unknowns: &Unknowns, at: usize, optio
     let mut free = loose(system, unknowns, state).unwrap_or_default();
     // nor does what holds so little that the body would go a mile
     let held = unknowns.stiffness(state)[(at, at)];
-    if dof < 3 && left.abs() > held.abs() * MILE {
+    if dof < 3 && left.abs() > held.abs() * MAX_TRAVEL_M {
         free.push((name.clone(), word.to_string()));
     }
     let error = match free.iter().filter(|(who, _)| *who == name).map(|(_, f)| f.as_str()).collect::<Vec<_>>() {

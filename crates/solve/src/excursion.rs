@@ -50,7 +50,7 @@ impl Moved {
 pub fn worst(lines: &[Summary]) -> Option<(f64, usize)> {
     let ratios = lines.iter().enumerate().filter_map(|(i, l)| Some((l.ratio?, i)));
     ratios.fold(None, |worst, one| match worst {
-        Some((ratio, _)) if one.0 <= ratio * (1.0 + SAME) => worst,
+        Some((ratio, _)) if one.0 <= ratio * (1.0 + EQUAL_RATIOS) => worst,
         _ => Some(one),
     })
 }
@@ -67,16 +67,16 @@ pub enum End {
 }
 
 /// Ratios that differ by less are those of lines that stand alike.
-const SAME: f64 = 1e-9;
+const EQUAL_RATIOS: f64 = 1e-9;
 /// Most steps in which a free body is taken from one excursion to the next.
-const MOST_STRIDES: f64 = 200.0;
+const MAX_STRIDES: f64 = 200.0;
 /// Largest share of the size of the mooring in one step of the search, and in one step of a body that is free.
-const STRIDE: f64 = 0.05;
+const MAX_STEP_SHARE: f64 = 0.05;
 /// A body without a break is not moved farther than so many sizes of its mooring.
-const FARTHEST: f64 = 10.0;
+const MAX_EXCURSION_SIZES: f64 = 10.0;
 
 /// A line breaks where its tension is its breaking tension to this share.
-const CLOSE: f64 = 1e-13;
+const BREAK_TOLERANCE: f64 = 1e-13;
 
 /// A body on its way.
 #[derive(Debug)]
@@ -120,7 +120,7 @@ impl<'a> Walk<'a> {
         if self.path.free {
             let before: Vec<Pose> = self.state.poses.clone();
             let gone = (before[body].origin - start.origin).dot(&self.along);
-            let strides = ((excursion - gone).abs() / (STRIDE * self.size)).ceil().clamp(1.0, MOST_STRIDES);
+            let strides = ((excursion - gone).abs() / (MAX_STEP_SHARE * self.size)).ceil().clamp(1.0, MAX_STRIDES);
             for n in 1..=strides as usize {
                 let to = if n as f64 >= strides { excursion } else { gone + (excursion - gone) * n as f64 / strides };
                 if let Err(error) = self.rest(start, to) {
@@ -167,7 +167,7 @@ impl<'a> Walk<'a> {
         let mut stride = 1e-3 * self.size;
         let most = self.path.most.unwrap_or(f64::INFINITY);
         while here.excursion < most {
-            if here.excursion > FARTHEST * self.size && most.is_infinite() {
+            if here.excursion > MAX_EXCURSION_SIZES * self.size && most.is_infinite() {
                 return Err(self.endless("none of its lines breaks"));
             }
             let next = (here.excursion + stride).min(most);
@@ -177,8 +177,8 @@ impl<'a> Walk<'a> {
                     here = there;
                     stride *= 1.6;
                     // so far that a break is looked for in steps
-                    if here.excursion <= FARTHEST * self.size {
-                        stride = stride.min(STRIDE * self.size);
+                    if here.excursion <= MAX_EXCURSION_SIZES * self.size {
+                        stride = stride.min(MAX_STEP_SHARE * self.size);
                     }
                 }
                 Err(error) if stride < 1e-9 * self.size => {
@@ -192,7 +192,7 @@ impl<'a> Walk<'a> {
 
     fn endless(&self, why: &str) -> SolveError {
         let who = self.system.nodes.get(self.path.body).map(|n| n.name.clone());
-        let far = FARTHEST * self.size;
+        let far = MAX_EXCURSION_SIZES * self.size;
         let error = ClassError::with_values(format!("{why} within {{}}"), &[(far, Dim::Length)]);
         SolveError { who, error: error.help("-DISTANCE says how far it is moved") }
     }
@@ -203,7 +203,7 @@ impl<'a> Walk<'a> {
         let (mut low, mut high) = (holds, broken);
         for _ in 0..100 {
             let width = high.excursion - low.excursion;
-            let close = high.overload().min(-low.overload()) <= CLOSE;
+            let close = high.overload().min(-low.overload()) <= BREAK_TOLERANCE;
             if close || width <= 4.0 * f64::EPSILON * high.excursion.max(1e-3 * self.size) {
                 break;
             }

@@ -96,13 +96,13 @@ pub(super) fn solve_least_motion(
 }
 
 /// Share of its largest element by which a matrix may differ from its transpose and be taken for symmetric.
-const SYMMETRIC: f64 = 1e-7;
+const SYMMETRY_TOLERANCE: f64 = 1e-7;
 
 /// Eigenvalues of a matrix, real and imaginary parts, with vectors, lowest first. Forces without an energy (a pin in a cone of
 /// unlike springs, friction, tables) make it unsymmetric.
 fn pairs(matrix: &DMatrix<f64>, stop: Stop) -> Result<Vec<(f64, f64, DVector<f64>)>, DenseError> {
     let size = matrix.amax();
-    let mut list: Vec<(f64, f64, DVector<f64>)> = if (matrix - matrix.transpose()).amax() <= SYMMETRIC * size {
+    let mut list: Vec<(f64, f64, DVector<f64>)> = if (matrix - matrix.transpose()).amax() <= SYMMETRY_TOLERANCE * size {
         let eigen = SymmetricEigen::new((matrix + matrix.transpose()) * 0.5, stop)?;
         let vectors = eigen.vectors.column_iter().map(|c| c.into_owned());
         eigen.values.iter().zip(vectors).map(|(value, vector)| (*value, 0.0, vector)).collect()

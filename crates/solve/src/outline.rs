@@ -7,9 +7,9 @@ use windlass_base::geometry::Position;
 use windlass_model::{Body, Model, Shape, box_panels};
 
 /// Cosine of the angle between two panels beyond which their common edge is sharp: 30 degrees.
-const SHARP: f64 = 0.866;
+const SHARP_EDGE_COSINE: f64 = 0.866;
 /// Corners of a drawn circle, and lines along a tube.
-const ROUND: (usize, usize) = (24, 4);
+const CIRCLE_CORNERS: (usize, usize) = (24, 4);
 
 /// How a body looks (m, global).
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -57,7 +57,7 @@ pub(super) fn corners_and_edges(shape: &Shape) -> (Vec<Position>, Vec<[Position;
             let across = if axis.z.abs() < 0.9 { Vector3::z() } else { Vector3::x() };
             let u = axis.cross(&across).normalize() * (0.5 * diameter);
             let v = axis.cross(&u);
-            let (count, along) = ROUND;
+            let (count, along) = CIRCLE_CORNERS;
             let ring = |centre: Vector3<f64>| -> Vec<Position> {
                 let angle = |i: usize| TAU * i as f64 / count as f64;
                 (0..count).map(|i| (centre + u * angle(i).cos() + v * angle(i).sin()).into()).collect()
@@ -90,7 +90,7 @@ fn sharp_edges(panels: &[Vec<Position>]) -> Vec<[Position; 2]> {
     }
     let seen = |normals: &[Vector3<f64>]| match normals {
         // panels turned the other way around are as smooth
-        [a, b] => a.dot(b).abs() < SHARP,
+        [a, b] => a.dot(b).abs() < SHARP_EDGE_COSINE,
         _ => true,
     };
     edges.into_values().filter(|(_, normals)| seen(normals)).map(|(edge, _)| edge).collect()

@@ -6,19 +6,19 @@ use windlass_hydro::ambient;
 use windlass_model::{ClassError, Condition, Connector, End, Model, Situation};
 
 /// Steps from the present length to one beyond the force, each half as long again as the one before.
-const STEPS: usize = 60;
+const MAX_BRACKETING_STEPS: usize = 60;
 /// Steps of the search between the two.
-const SOUGHT: usize = 60;
+const MAX_SEARCH_STEPS: usize = 60;
 /// Share of the force within which it is met. The mesh changes with the length: an element more or less moves the force by less.
-const PROOF: f64 = 1e-3;
+const FORCE_TOLERANCE: f64 = 1e-3;
 /// Steps in a row in which the force falls by less than that until the search gives up: what is added lies on the bottom. One of them may
 /// have a coarser mesh.
-const STALE: usize = 2;
+const MAX_STALLED_STEPS: usize = 2;
 /// Steps shorter than this share of the first segment say nothing of that.
-const TELLING: f64 = 0.02;
+const MIN_INFORMATIVE_STEP: f64 = 0.02;
 /// The longest line that is tried, in ways from end to end with a way to the surface and back from each: a heavy line pulls least where
 /// it is little longer than that way down.
-const LONGEST: f64 = 2.0;
+const MAX_LENGTH_RATIO: f64 = 2.0;
 
 /// The length (m) with which the force at the first end is as wanted between the ends as they are, in the mean current.
 ///
@@ -52,10 +52,10 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
     // a shorter line pulls harder
     let side = if near.1 < target { -1.0 } else { 1.0 };
     let [from, to] = ends.map(|e| e.pose.origin);
-    let longest = LONGEST * ((to - from).norm() + from.z.abs() + to.z.abs()).max(start);
+    let longest = MAX_LENGTH_RATIO * ((to - from).norm() + from.z.abs() + to.z.abs()).max(start);
     let mut step = 1e-3 * start;
     let (mut far, mut least, mut stale) = (near, near.1, 0);
-    for _ in 0..STEPS {
+    for _ in 0..MAX_BRACKETING_STEPS {
         let length = near.0 + side * step;
         if !(0.0..=longest).contains(&length) || length == 0.0 {
             break;
@@ -65,9 +65,9 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
             break;
         }
         // the tension of what hangs rises again with its weight, and does not fall with what lies: no length beyond gives less
-        if side > 0.0 && step > TELLING * start {
-            stale = if far.1 > least * (1.0 - PROOF) { stale + 1 } else { 0 };
-            if stale >= STALE || far.1 > least * (1.0 + PROOF) {
+        if side > 0.0 && step > MIN_INFORMATIVE_STEP * start {
+            stale = if far.1 > least * (1.0 - FORCE_TOLERANCE) { stale + 1 } else { 0 };
+            if stale >= MAX_STALLED_STEPS || far.1 > least * (1.0 + FORCE_TOLERANCE) {
                 break;
             }
             least = least.min(far.1);
@@ -81,12 +81,12 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
     };
     if (far.1 - target) * side > 0.0 {
         let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };
-        return if (found - target).abs() <= PROOF * target { Ok(length) } else { nothing(found) };
+        return if (found - target).abs() <= FORCE_TOLERANCE * target { Ok(length) } else { nothing(found) };
     }
     // the secant with halved weights of the end that stays [DOWELL-JARRATT-1971], and a halving now and then:
     // where the mesh changes the force jumps
     let (mut weights, mut stayed) = ([near.1 - target, far.1 - target], [false; 2]);
-    for turn in 0..SOUGHT {
+    for turn in 0..MAX_SEARCH_STEPS {
         let [a, b] = weights;
         let share = if turn % 3 == 2 || a == b { 0.5 } else { (a / (a - b)).clamp(1e-3, 1.0 - 1e-3) };
         let length = near.0 + share * (far.0 - near.0);
@@ -104,7 +104,7 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         }
     }
     let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };
-    if (found - target).abs() > PROOF * target {
+    if (found - target).abs() > FORCE_TOLERANCE * target {
         return nothing(found);
     }
     Ok(length)

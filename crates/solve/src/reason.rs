@@ -9,7 +9,7 @@ use windlass_model::ClassError;
 /// Radius of gyration (m) that no body has: weights without radii, at one point or in a row, leave rounding.
 const NO_RADIUS: f64 = 1e-4;
 /// Depth (m) from which on a body that goes down sinks.
-const SUNK: f64 = 1.0;
+const SINKING_DEPTH_M: f64 = 1.0;
 
 impl System {
     /// The error of a connector that has no answer, where it hangs on a body that sinks: that of the body, the connector's its help. `sunk` gives
@@ -20,7 +20,7 @@ impl System {
             Attachment::Body(body, _) => Some(*body),
             Attachment::Ground(_) => None,
         });
-        let found = bodies.filter_map(|body| Some((body, sunk(body)?))).find(|(_, depth)| *depth > SUNK);
+        let found = bodies.filter_map(|body| Some((body, sunk(body)?))).find(|(_, depth)| *depth > SINKING_DEPTH_M);
         let Some((body, depth)) = found else { return error };
         let name = self.nodes.get(body).map(|n| n.name.clone()).unwrap_or_default();
         let text = format!("it sinks: {{}} below where it began connector {} has no answer", link.name);

@@ -11,11 +11,11 @@ use windlass_base::table::{Cell, Table};
 use windlass_model::{Body, ClassError, Condition, Connector, Model, Placement};
 
 /// Largest turn of a drawn line between two points (rad); where it turns more it is given points between.
-const TURN: f64 = 0.05;
+const MAX_DRAWN_TURN_RAD: f64 = 0.05;
 /// Turn beyond which a line is taken to have a corner (rad).
-pub(super) const CORNER: f64 = 1.0;
+pub(super) const CORNER_TURN_RAD: f64 = 1.0;
 /// Most points given between two rows of a line's shape.
-const MOST_BETWEEN: usize = 12;
+const MAX_INSERTED_POINTS: usize = 12;
 
 /// What a polyline stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -294,7 +294,11 @@ fn smooth(rows: &[(f64, f64)], angles: &[Option<f64>], arcs: &[Option<f64>]) -> 
         };
         let arc = end - start;
         let turned = (to - from).abs();
-        let pieces = if turned < CORNER { ((turned / TURN).ceil() as usize).clamp(1, MOST_BETWEEN) } else { 1 };
+        let pieces = if turned < CORNER_TURN_RAD {
+            ((turned / MAX_DRAWN_TURN_RAD).ceil() as usize).clamp(1, MAX_INSERTED_POINTS)
+        } else {
+            1
+        };
         for step in 1..pieces {
             let (x, z) = cubic((*a, *b), (*from, *to), arc, step as f64 / pieces as f64);
             out.push((x, z));

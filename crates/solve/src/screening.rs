@@ -30,22 +30,22 @@ use windlass_model::{
 use windlass_signal::statistics::crossings;
 
 /// Lines that are replayed.
-pub const REPLAYED: usize = 3;
+pub const REPLAYED_LINES: usize = 3;
 /// Ratio of largest tensions above which a line is warned of.
 pub const LARGEST_RATIO: f64 = 1.1;
 /// Periods of a replay around the largest tension, and those before over which the motion grows.
-const PERIODS: f64 = 10.0;
-const GROWING: f64 = 2.0;
+const REPLAY_PERIODS: f64 = 10.0;
+const RAMP_PERIODS: f64 = 2.0;
 /// Steps of a replay in a period: the scheme of dynamic lines then damps less than 0.01 % of critical.
-const STEPS: f64 = 100.0;
+const STEPS_PER_PERIOD: f64 = 100.0;
 /// Stored instants that a period needs at least for its motion to be known between them: the polynomials of fifth degree miss a sine by
 /// `(2 pi/n)^6 / 46080` of its amplitude, 9e-5 of one of the period and 6e-3 of one of half of it.
 const LEAST_INSTANTS: f64 = 5.0;
 /// Longest elements (m), and least and most of them.
-const LONGEST: f64 = 20.0;
+const MAX_ELEMENT_LENGTH_M: f64 = 20.0;
 const ELEMENTS: [usize; 2] = [60, 200];
 /// How often a step is halved.
-const HALVINGS: u32 = 6;
+const MAX_STEP_HALVINGS: u32 = 6;
 
 /// A line that was replayed.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,7 +101,7 @@ pub fn quasi_static_lines(run: &Run) -> Vec<&str> {
 pub fn screen(run: &Run, goes_on: &dyn Fn() -> bool) -> Screening {
     let mut made = Screening::default();
     for (number, peak) in by_load(run) {
-        if made.replays.len() == REPLAYED {
+        if made.replays.len() == REPLAYED_LINES {
             break;
         }
         let Some(link) = run.history.layout.links.get(number) else { continue };
@@ -153,7 +153,7 @@ fn replay(
     let period = period(run, number, peak)?;
     let motion = EndMotion::around_peak(run, (number, link), connector, (peak, period))?;
     let mut line = Twin::new(run, (link, connector), &motion)?;
-    let dt = period / STEPS;
+    let dt = period / STEPS_PER_PERIOD;
     let steps = ((motion.window[1] - motion.begin) / dt - 1e-6).ceil().max(1.0) as usize;
     let mut dynamic = (f64::NEG_INFINITY, motion.begin);
     for step in 1..=steps {
@@ -243,7 +243,9 @@ impl EndMotion {
         let pulled_end = pulled_end.ok_or_else(|| ClassError::new("none of its ends is on a body"))?;
         let attached = end_attachments(&run.model, connector);
         // the stored instants around the peak at which it acts without a gap
-        let near = |row: &&[f64]| row.first().is_some_and(|t| (t - peak).abs() <= (PERIODS + GROWING + 1.0) * period);
+        let near = |row: &&[f64]| {
+            row.first().is_some_and(|t| (t - peak).abs() <= (REPLAY_PERIODS + RAMP_PERIODS + 1.0) * period)
+        };
         let all: Vec<&[f64]> = run.history.rows().filter(near).collect();
         let at = all.iter().position(|row| row.first().is_some_and(|t| *t >= peak)).unwrap_or(0);
         let idle = |row: &&&[f64]| !acts(layout, number, row);
@@ -255,16 +257,16 @@ impl EndMotion {
             return Err(ClassError::new("no instant around its largest tension is stored"));
         };
         let behind = first.max(run.settings.transient).min(last);
-        let begin = (peak - 0.5 * PERIODS * period).min(last - PERIODS * period).max(behind);
-        let end = (begin + PERIODS * period).min(last);
+        let begin = (peak - 0.5 * REPLAY_PERIODS * period).min(last - REPLAY_PERIODS * period).max(behind);
+        let end = (begin + REPLAY_PERIODS * period).min(last);
         let spacing = rows.array_windows().map(|[a, b]| b.time - a.time).fold(0.0, f64::max);
         if !(spacing > 0.0 && spacing <= period / LEAST_INSTANTS) {
             let text = "its stored instants, {} apart, are too few for a period of {}";
             return Err(ClassError::with_values(text, &[(spacing, Dim::Time), (period, Dim::Time)])
                 .help("-STORE keeps more instants"));
         }
-        let ramped = begin - GROWING * period;
-        let (start, growing) = if ramped > first { (ramped, GROWING * period) } else { (first, 0.0) };
+        let ramped = begin - RAMP_PERIODS * period;
+        let (start, growing) = if ramped > first { (ramped, RAMP_PERIODS * period) } else { (first, 0.0) };
         let within = |row: &&Stored| row.time >= start && row.time <= end;
         let count = rows.iter().filter(within).count().max(1) as f64;
         let place = |side: usize| rows.iter().filter(within).map(|r| r.ends[side].pose.origin).sum::<Vector3<f64>>();
@@ -404,7 +406,7 @@ impl Twin {
         element.start(&mut start);
         element.line_nodes(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &start, &mut nodes)?;
         let length = nodes.last().map_or(0.0, |n| n.arc);
-        let wanted = ((length / LONGEST).ceil() as usize).clamp(fewest, most);
+        let wanted = ((length / MAX_ELEMENT_LENGTH_M).ceil() as usize).clamp(fewest, most);
         let element = if wanted == fewest { element } else { of(wanted)? };
         let mut committed = vec![0.0; element.states()];
         element.start(&mut committed);
@@ -442,7 +444,7 @@ impl Twin {
             let ends = motion.ends(time).ok_or_else(|| ClassError::new("its motion is not stored"))?;
             match self.evaluate(&ends, time, time - self.time) {
                 Ok(()) => {}
-                Err(error) if error.lasting || level >= HALVINGS => return Err(error),
+                Err(error) if error.lasting || level >= MAX_STEP_HALVINGS => return Err(error),
                 Err(_) => level += 1,
             }
         }

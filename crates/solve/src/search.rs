@@ -4,7 +4,7 @@
 //! steps very short: a whole step stretches it first, and the next one mends that; so a search that has become slow goes on
 //! boldly for some steps, and comes back when they have led nowhere better.
 
-use super::equilibrium::{LOOSE, Options};
+use super::equilibrium::{Options, UNRESTRAINED_EIGENVALUE};
 use super::parts::Part;
 use super::system::{SolveError, State, System};
 use super::ties::interpolate_forces;
@@ -14,19 +14,19 @@ use windlass_base::dense::{Cholesky, DenseError, Lu, Stop};
 use windlass_base::pose::{Pose, Six};
 
 /// Deflection (m, rad) that the force held in a tie may leave unexplained at rest.
-const GAP: f64 = 1e-6;
+const TIE_TOLERANCE: f64 = 1e-6;
 /// Bold steps that may lead nowhere better.
-const PATIENCE: usize = 5;
+const MAX_NONMONOTONE_STEPS: usize = 5;
 /// Short steps in a row after which a search is bold, for the first time; twice as many each further time.
-const SLOW: usize = 3;
+const SHORT_STEPS_BEFORE_NONMONOTONE: usize = 3;
 /// Share of a step that is short.
-const SHORT: f64 = 0.2;
+const SHORT_STEP_SHARE: f64 = 0.2;
 /// Most trials of a step.
-const TRIALS: usize = 14;
+const MAX_LINE_SEARCH_TRIALS: usize = 14;
 /// Most times a trial place without an answer is brought nearer: by then the step is a trillionth of its length.
-const RETREATS: usize = 40;
+const MAX_RETREATS: usize = 40;
 /// Steps in a row without a place that has an answer, each with ten times the help of the one before, after which there is none.
-const BLOCKED: usize = 6;
+const MAX_BLOCKED_STEPS: usize = 6;
 
 /// Where bodies are, and the forces of stiff ties there.
 #[derive(Clone, Debug)]
@@ -66,7 +66,16 @@ pub(super) struct Search<'a> {
 
 impl<'a> Search<'a> {
     pub fn new(system: &'a System, options: &'a Options, part: Option<&'a Part>) -> Self {
-        Search { system, options, part, evaluations: 0, help: 0.0, slow: [0, SLOW], bold: None, blocked: 0 }
+        Search {
+            system,
+            options,
+            part,
+            evaluations: 0,
+            help: 0.0,
+            slow: [0, SHORT_STEPS_BEFORE_NONMONOTONE],
+            bold: None,
+            blocked: 0,
+        }
     }
 
     pub fn evaluate(&mut self, state: &mut State) -> Result<(), SolveError> {
@@ -79,7 +88,7 @@ impl<'a> Search<'a> {
     pub fn worst(&self, unknowns: &Unknowns, state: &State) -> (f64, usize) {
         let (worst, at) = unknowns.worst(&unknowns.residual(state), self.options);
         // a number that is none stays the worst
-        (if worst.is_nan() { worst } else { worst.max(state.ties.gap() / GAP) }, at)
+        (if worst.is_nan() { worst } else { worst.max(state.ties.gap() / TIE_TOLERANCE) }, at)
     }
 
     /// Goes on from a place where `worst` is left: a step, or back to a better place.
@@ -91,7 +100,7 @@ impl<'a> Search<'a> {
             } else {
                 *since += 1;
             }
-            if *since > PATIENCE {
+            if *since > MAX_NONMONOTONE_STEPS {
                 stand.clone().restore(state);
                 self.bold = None;
                 self.slow = [0, self.slow[1].saturating_mul(2)];
@@ -126,7 +135,7 @@ impl<'a> Search<'a> {
         let (mut before, mut behind): ((f64, f64), Option<(f64, f64)>) = ((0.0, work), None);
         let mut share = longest;
         let (mut error, mut trials, mut retreats) = (None, 0, 0);
-        while trials < TRIALS && retreats < RETREATS {
+        while trials < MAX_LINE_SEARCH_TRIALS && retreats < MAX_RETREATS {
             place(state, share);
             match self.evaluate(state) {
                 Ok(()) => {
@@ -172,7 +181,7 @@ impl<'a> Search<'a> {
         }
         from.restore(state);
         self.blocked = if error.is_some() { self.blocked + 1 } else { 0 };
-        if let Some(error) = error.filter(|_| self.blocked > BLOCKED) {
+        if let Some(error) = error.filter(|_| self.blocked > MAX_BLOCKED_STEPS) {
             return Err(error);
         }
         // no share of the step is good: a shorter step in pseudo-time
@@ -182,10 +191,10 @@ impl<'a> Search<'a> {
 
     /// Remembers how much of a step was taken, and what it left over what there was.
     fn record_step(&mut self, share: f64, needed: f64, left: f64, blind: bool) {
-        self.slow[0] = if share < SHORT && !blind { self.slow[0] + 1 } else { 0 };
+        self.slow[0] = if share < SHORT_STEP_SHARE && !blind { self.slow[0] + 1 } else { 0 };
         // a stiffness that needed help is helped less as the residual shrinks
         let change = if left <= 1.0 { (0.5 * left).max(0.1) } else { left.min(4.0) };
-        self.help = Some(needed * change).filter(|h| *h >= LOOSE).unwrap_or(0.0);
+        self.help = Some(needed * change).filter(|h| *h >= UNRESTRAINED_EIGENVALUE).unwrap_or(0.0);
     }
 }
 
@@ -212,10 +221,10 @@ fn direction(
         }
     }
     let mut needed = help;
-    let mut next = (1e-9 * size).max(10.0 * LOOSE);
+    let mut next = (1e-9 * size).max(10.0 * UNRESTRAINED_EIGENVALUE);
     loop {
         let mut held = symmetric.clone();
-        held.iter_mut().step_by(root.len() + 1).for_each(|d| *d += needed - LOOSE);
+        held.iter_mut().step_by(root.len() + 1).for_each(|d| *d += needed - UNRESTRAINED_EIGENVALUE);
         match Cholesky::new(held, stop) {
             Err(DenseError::NotPositive) if needed <= 1e3 * size => {}
             Ok(_) | Err(DenseError::NotPositive) => break,

@@ -7,7 +7,7 @@ use windlass_base::geometry::Place;
 use windlass_model::{ClassError, Model};
 
 /// Most times a system is made anew.
-const MOST: usize = 12;
+const MAX_REBUILDS: usize = 12;
 
 /// A model at rest.
 #[derive(Debug)]
@@ -41,7 +41,7 @@ pub fn settle(model: &mut Model, options: &Options) -> Result<EquilibriumResult,
     let mut found = equilibrium(&system, &mut state, options)?;
     system.place(&state, model);
     let mut settled = !system.made_for_place();
-    for _ in 0..MOST {
+    for _ in 0..MAX_REBUILDS {
         if !system.made_for_place() {
             break;
         }

@@ -28,7 +28,7 @@ fn with_components<'r, R>(table: TableBuilder<'r, R>, wrench: impl Fn(&'r R) -> 
 }
 
 /// Acceleration left, as a share of gravity, that is more than rounding.
-const STALLED: f64 = 1e-6;
+const STALLED_ACCELERATION_SHARE: f64 = 1e-6;
 
 /// Where the bodies are at rest, and what is left on them.
 pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
@@ -64,7 +64,7 @@ pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
         .column("Left", "Moment", Dim::Moment, Digits::Scientific(2), |row| row.moment)
         .column("Left", "Accel/g", Dim::None, Digits::Scientific(2), |row| row.share)
         .build();
-    if settled.found.measure > STALLED {
+    if settled.found.measure > STALLED_ACCELERATION_SHARE {
         table.note(format!(
             "warning: the search came no nearer: {:.1e} of gravity is left, within the tolerance; -TOLERANCE asks for less",
             settled.found.measure

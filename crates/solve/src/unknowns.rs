@@ -9,9 +9,9 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 
 /// Longest step (m), and largest rotation in it (rad).
-const LONGEST: [f64; 2] = [50.0, 0.3];
+const MAX_STEP: [f64; 2] = [50.0, 0.3];
 /// Share of what pulls at a junction that is taken for its weight where a residual is measured.
-const JUNCTION: f64 = 1e-3;
+const JUNCTION_WEIGHT_SHARE: f64 = 1e-3;
 
 /// Rows of the system with their shares in one unknown, the larger first.
 pub(super) type Direction = [(usize, f64); 2];
@@ -38,7 +38,7 @@ impl<'a> Unknowns<'a> {
             let mass = if node.junction || own.mass <= 0.0 { own.mass.max(pull).max(1e-3) } else { own.mass };
             let about = own.inertia.trace() / 3.0 - mass * own.centre.norm_squared() * 2.0 / 3.0;
             let radius = if about > 1e-12 * mass { (about / mass).sqrt() } else { 1.0 };
-            let weighs = if node.junction { own.mass.max(JUNCTION * pull).max(1e-3) } else { mass };
+            let weighs = if node.junction { own.mass.max(JUNCTION_WEIGHT_SHARE * pull).max(1e-3) } else { mass };
             for (dof, free) in node.free.iter().enumerate() {
                 if !free || options.ignored.contains(&(body, dof)) {
                     continue;
@@ -115,7 +115,7 @@ impl<'a> Unknowns<'a> {
 
     /// The share of a step that stays within the longest.
     pub fn limit(&self, step: &DVector<f64>) -> f64 {
-        let [far, turn] = LONGEST;
+        let [far, turn] = MAX_STEP;
         step.iter().enumerate().fold(1.0, |share: f64, (i, s)| {
             let most = if self.dof(i) >= 3 { turn } else { far };
             share.min(most / s.abs().max(1e-300))

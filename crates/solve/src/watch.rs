@@ -7,7 +7,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_model::Summary;
 
 /// Most steps of the solution from one direction to the next.
-const MOST: usize = 2000;
+const MAX_STEPS_BETWEEN_DIRECTIONS: usize = 2000;
 
 /// A body under the force from one direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +46,7 @@ pub fn watch(
     let all = (0..system.nodes.len()).flat_map(|b| (0..6).map(move |dof| (b, dof)));
     let ignored = all.filter(|(b, f)| !moves(*b, *f)).collect();
     // from one direction to the next is far for a body that hangs on stiff lines
-    let options = Rest { ignored, most: MOST, ..Rest::default() };
+    let options = Rest { ignored, most: MAX_STEPS_BETWEEN_DIRECTIONS, ..Rest::default() };
     let mut state = State::from_poses(start.to_vec());
     let mut list = Vec::with_capacity(directions.len());
     for direction in directions {

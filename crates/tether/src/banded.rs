@@ -4,25 +4,25 @@
 use windlass_model::ClassError;
 
 /// Filled entries of a row up to the diagonal.
-pub const WIDTH: usize = 4;
+pub const BANDWIDTH: usize = 4;
 
 /// A symmetric matrix with a band of [`WIDTH`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Banded {
     /// Row by row: the diagonal, then the entries one, two, three columns to its left.
-    rows: Vec<[f64; WIDTH]>,
+    rows: Vec<[f64; BANDWIDTH]>,
 }
 
 /// The factors of a [`Banded`]: rows of L (unit diagonal) with the diagonal matrix D in place of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factors {
-    rows: Vec<[f64; WIDTH]>,
+    rows: Vec<[f64; BANDWIDTH]>,
 }
 
 impl Banded {
     /// A matrix of zeros.
     pub fn zeros(order: usize) -> Self {
-        Banded { rows: vec![[0.0; WIDTH]; order] }
+        Banded { rows: vec![[0.0; BANDWIDTH]; order] }
     }
 
     /// Its order.
@@ -32,7 +32,7 @@ impl Banded {
 
     /// Makes all entries zero.
     pub fn clear(&mut self) {
-        self.rows.fill([0.0; WIDTH]);
+        self.rows.fill([0.0; BANDWIDTH]);
     }
 
     /// Adds to an entry and to its mirror image. `row - column` is 0 to 3; entries outside the band are zero and stay so.
@@ -57,7 +57,7 @@ impl Banded {
 
     /// Holds an unknown at zero: its row and column become those of the unit matrix times `diagonal`.
     pub fn hold(&mut self, unknown: usize, diagonal: f64) {
-        for (row, entries) in self.rows.iter_mut().enumerate().skip(unknown).take(WIDTH) {
+        for (row, entries) in self.rows.iter_mut().enumerate().skip(unknown).take(BANDWIDTH) {
             if row == unknown {
                 *entries = [diagonal, 0.0, 0.0, 0.0];
             } else {
@@ -71,7 +71,7 @@ impl Banded {
         product.fill(0.0);
         for (i, row) in self.rows.iter().enumerate() {
             product[i] += row[0] * vector[i];
-            for k in 1..=i.min(WIDTH - 1) {
+            for k in 1..=i.min(BANDWIDTH - 1) {
                 product[i] += row[k] * vector[i - k];
                 product[i - k] += row[k] * vector[i];
             }
@@ -128,9 +128,9 @@ impl Banded {
 
     /// A row of the factors from those above it.
     #[inline]
-    fn eliminate_row(&self, above: &[[f64; WIDTH]], row: usize) -> [f64; WIDTH] {
+    fn eliminate_row(&self, above: &[[f64; BANDWIDTH]], row: usize) -> [f64; BANDWIDTH] {
         let mut made = self.rows[row];
-        let reach = row.min(WIDTH - 1);
+        let reach = row.min(BANDWIDTH - 1);
         // made[k] holds L * D of column row - k until it is divided
         for k in (1..=reach).rev() {
             for m in k + 1..=reach {
@@ -155,7 +155,7 @@ impl Factors {
     /// Solves in place: the right-hand side becomes the solution.
     pub fn solve(&self, right: &mut [f64]) {
         for i in 0..self.rows.len() {
-            for k in 1..=i.min(WIDTH - 1) {
+            for k in 1..=i.min(BANDWIDTH - 1) {
                 right[i] -= self.rows[i][k] * right[i - k];
             }
         }
@@ -163,7 +163,7 @@ impl Factors {
             *value /= row[0];
         }
         for i in (0..self.rows.len()).rev() {
-            for k in 1..=i.min(WIDTH - 1) {
+            for k in 1..=i.min(BANDWIDTH - 1) {
                 right[i - k] -= self.rows[i][k] * right[i];
             }
         }

@@ -5,7 +5,7 @@ use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// More elements than this are refused: work and memory go with them.
-pub const MOST_ELEMENTS: usize = 10_000;
+pub const MAX_ELEMENTS: usize = 10_000;
 
 /// One element: a piece of tube between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,8 +79,8 @@ impl Line {
         if elements.is_empty() {
             return Err(ClassError::new("a tether needs at least one element"));
         }
-        if elements.len() > MOST_ELEMENTS {
-            let message = format!("a tether of {} elements is more than the {MOST_ELEMENTS} allowed", elements.len());
+        if elements.len() > MAX_ELEMENTS {
+            let message = format!("a tether of {} elements is more than the {MAX_ELEMENTS} allowed", elements.len());
             return Err(ClassError::new(message));
         }
         for (index, element) in elements.iter().enumerate() {
@@ -221,6 +221,6 @@ mod tests {
         );
         assert!(of(vec![TetherElement { wall_thickness: 0.51, ..element() }]).contains("thicker than its radius"));
         assert!(of(vec![TetherElement { drag: f64::NAN, ..element() }]).contains("drag coefficient"));
-        assert!(of(vec![element(); MOST_ELEMENTS + 1]).contains("more than"));
+        assert!(of(vec![element(); MAX_ELEMENTS + 1]).contains("more than"));
     }
 }

@@ -11,10 +11,10 @@ use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// Halvings of an interval at most; a double has no more to give.
-const HALVINGS: usize = 200;
+const MAX_BISECTIONS: usize = 200;
 /// Inverse iterations at most, and the change of the shape that ends them.
-const ITERATIONS: usize = 12;
-const STILL: f64 = 1e-14;
+const MAX_INVERSE_ITERATIONS: usize = 12;
+const SHAPE_TOLERANCE: f64 = 1e-14;
 /// Slope (rad) that counts as much as unit deflection when a shape is scaled: ten degrees [AQWA-TETHER 7.2].
 const TEN_DEGREES: f64 = PI / 18.0;
 
@@ -160,7 +160,7 @@ impl Search<'_> {
 
     /// A value close to eigenvalue `index` (from 0), between two that enclose it.
     fn enclose(&mut self, index: usize, mut low: f64, mut high: f64, rounding: f64) -> f64 {
-        for _ in 0..HALVINGS {
+        for _ in 0..MAX_BISECTIONS {
             if high - low <= 1e-9 * low.abs().max(high.abs()) || high - low <= rounding {
                 break;
             }
@@ -182,7 +182,7 @@ impl Search<'_> {
         let mut shape: Vec<f64> = (0..order).map(|i| 1.0 + 0.37 * (1.7 * i as f64 + 0.4).sin()).collect();
         let mut momentum = vec![0.0; order];
         let mut before = vec![0.0; order];
-        for _ in 0..ITERATIONS {
+        for _ in 0..MAX_INVERSE_ITERATIONS {
             self.pencil.mass.times(&shape, &mut momentum);
             shape.copy_from_slice(&momentum);
             self.factors.solve(&mut shape);
@@ -192,7 +192,7 @@ impl Search<'_> {
             let change =
                 shape.iter().zip(&before).fold(0.0, |most: f64, (a, b)| most.max((a - sign.signum() * b).abs()));
             before.copy_from_slice(&shape);
-            if change <= STILL * size {
+            if change <= SHAPE_TOLERANCE * size {
                 break;
             }
         }

@@ -1,10 +1,10 @@
 use super::*;
-use windlass_base::units::FOOT;
+use windlass_base::units::METRES_PER_FOOT;
 
 fn menu() -> Disposition {
     let t = Table::new("t")
         .with_rows(&[1.0, 2.0, 3.0, 4.0, 5.0])
-        .column("", "X", Dim::Length, Digits::Usual, |n| n * FOOT)
+        .column("", "X", Dim::Length, Digits::Usual, |n| n * METRES_PER_FOOT)
         .column("", "F", Dim::None, Digits::Usual, |n| n * n)
         .build();
     Disposition::new(t)
@@ -20,7 +20,7 @@ fn scale_and_shift_act_in_user_units_on_views_but_not_on_the_table() {
     let values: Vec<f64> = text.split(' ').map(|v| v.parse().unwrap()).collect();
     // feet to metres and back rounds once each way
     assert!(values.iter().zip([9.0, 19.0, 29.0, 39.0, 49.0]).all(|(a, b)| (a - b).abs() < 1e-13 * b), "{text}");
-    assert_eq!(d.table.columns[0].cells[0], Cell::Number(FOOT));
+    assert_eq!(d.table.columns[0].cells[0], Cell::Number(METRES_PER_FOOT));
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn cull_excludes_the_rows_inside_of_any_range_ends_included_in_user_units() {
     let us = UnitSystem::default();
     let kept = |column: &str, ranges: &[(f64, f64)]| {
         let rows = d.cull(column, ranges, us).map(|c| c.table.columns[0].clone());
-        rows.map(|c| c.numbers().iter().map(|x| (x / FOOT).round() as i32).collect::<Vec<_>>())
+        rows.map(|c| c.numbers().iter().map(|x| (x / METRES_PER_FOOT).round() as i32).collect::<Vec<_>>())
     };
     assert_eq!(kept("X", &[(2.0, 3.0), (4.5, 9.0)]), Ok(vec![1, 4]));
     assert_eq!(kept("1", &[(1.5, 3.5), (0.0, 1.0)]), Ok(vec![4, 5]));

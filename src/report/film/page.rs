@@ -6,7 +6,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_solve::film::{Actor, Film, State, Strand, Waves};
 
 /// The page without its data, and what is put into it.
-const PARTS: [(&str, &str); 5] = [
+const PAGE_PARTS: [(&str, &str); 5] = [
     ("page.html", include_str!("../../../share/film/page.html")),
     ("style.css", include_str!("../../../share/film/style.css")),
     ("view.js", include_str!("../../../share/film/view.js")),
@@ -14,20 +14,20 @@ const PARTS: [(&str, &str); 5] = [
     ("film.js", include_str!("../../../share/film/film.js")),
 ];
 /// The largest number a place in the box of the film is written as.
-const STEPS: f64 = 65_535.0;
+const MAX_QUANTISED: f64 = 65_535.0;
 
 /// The page of a film, with its title.
 ///
 /// # Errors
 /// What the template library reports.
 pub fn page(film: &Film, title: &str, units: UnitSystem) -> Result<String, minijinja::Error> {
-    embedded::page(&PARTS, title, data(film, title, units))
+    embedded::page(&PAGE_PARTS, title, data(film, title, units))
 }
 
 /// A share of the steps between two bounds; the lowest where it is no number.
 fn step(value: f64, low: f64, high: f64) -> u16 {
     let share = if high > low { (value - low) / (high - low) } else { 0.0 };
-    (share.clamp(0.0, 1.0) * STEPS).round() as u16
+    (share.clamp(0.0, 1.0) * MAX_QUANTISED).round() as u16
 }
 
 fn data(film: &Film, title: &str, units: UnitSystem) -> String {

@@ -1,11 +1,11 @@
 //! Names beside what they name: each stands where it hides the least, and none over another.
 
 /// How far a name may stand from its place, nearest first, in heights of a letter.
-const REACH: [f64; 5] = [0.35, 0.9, 1.7, 2.8, 4.2];
+const LABEL_DISTANCES: [f64; 5] = [0.35, 0.9, 1.7, 2.8, 4.2];
 /// Where a name may stand beside its place: to the right, upward (1, 0 or -1 each).
 const SIDES: [(i32, i32); 8] = [(1, 0), (1, 1), (1, -1), (0, 1), (0, -1), (-1, 0), (-1, 1), (-1, -1)];
 /// Names that are tried; those behind are counted as left out.
-const MOST: usize = 2000;
+const MAX_LABELS: usize = 2000;
 
 /// What is to be named.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,10 +84,10 @@ impl Sheet {
     pub fn place(&self, labels: Vec<Label>) -> (Vec<Placed>, usize) {
         let mut placed: Vec<Placed> = Vec::new();
         let count = labels.len();
-        for label in labels.into_iter().take(MOST) {
+        for label in labels.into_iter().take(MAX_LABELS) {
             let free = |at: &[i32; 4]| self.holds(at) && !placed.iter().any(|p| overlap(&p.at, at));
             let cost = |at: &[i32; 4], reach: f64| self.hidden(*at) + 0.12 * reach;
-            let spots = REACH.iter().flat_map(|reach| SIDES.iter().map(move |side| (*reach, *side)));
+            let spots = LABEL_DISTANCES.iter().flat_map(|reach| SIDES.iter().map(move |side| (*reach, *side)));
             let spots = spots.map(|(reach, side)| (reach, self.beside(&label, reach, side)));
             let best = spots.filter(|(_, at)| free(at)).map(|(reach, at)| (cost(&at, reach), at));
             // the first of equals, so that the picture is the same every time

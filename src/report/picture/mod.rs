@@ -24,13 +24,13 @@ use windlass_solve::scene::{Scene, Sign, Stroke};
 /// Width of a page and its margin (pixels).
 const PAGE: (i32, i32) = (1000, 16);
 /// Height of the title, of the words above a view, of the axes and scale below it, of a row of the legend (pixels).
-const ROWS: [i32; 4] = [44, 24, 68, 26];
+const ROW_HEIGHTS: [i32; 4] = [44, 24, 68, 26];
 /// Pixels left free within the frame of a view: at each side, above and below.
-const FREE: (i32, i32) = (70, 36);
+const FRAME_MARGINS: (i32, i32) = (70, 36);
 /// Least and largest height of a view (pixels): of a plan or isometric view, and of an elevation.
 const HEIGHTS: [(i32, i32); 2] = [(160, 620), (150, 420)];
 /// A coordinate beyond this (m) is not drawn.
-const LARGEST: f64 = 1e9;
+const MAX_COORDINATE_M: f64 = 1e9;
 
 /// A picture of a system.
 #[derive(Clone, Debug)]
@@ -59,7 +59,8 @@ fn around(scene: &Scene, z: f64) -> [Position; 4] {
 impl Picture {
     /// What a view reaches; water and ground belong to every view but the plan.
     fn extent(&self, view: &View) -> Result<Extent, PlotError> {
-        if let Some(far) = self.scene.places().find(|p| p.iter().any(|c| !c.is_finite() || c.abs() > LARGEST)) {
+        if let Some(far) = self.scene.places().find(|p| p.iter().any(|c| !c.is_finite() || c.abs() > MAX_COORDINATE_M))
+        {
             let size = |i: usize| far.get(i).copied().unwrap_or(f64::NAN);
             return Err(PlotError::Range(size(0), size(1)));
         }
@@ -110,7 +111,7 @@ impl Picture {
 
     /// The frames of the views on a page, one below the other, each as high as it needs.
     fn panels(&self) -> Result<Vec<(View, Frame)>, PlotError> {
-        let [title, head, foot, _] = ROWS;
+        let [title, head, foot, _] = ROW_HEIGHTS;
         let width = PAGE.0 - 2 * PAGE.1;
         let mut top = title;
         let mut panels = Vec::new();
@@ -119,16 +120,16 @@ impl Picture {
             let [w, h] = extent.size();
             let [plan, side] = HEIGHTS;
             let (least, most) = if view.kind == Seen::Elevation { side } else { plan };
-            let natural = f64::from(width - 2 * FREE.0) * h / w + f64::from(2 * FREE.1);
+            let natural = f64::from(width - 2 * FRAME_MARGINS.0) * h / w + f64::from(2 * FRAME_MARGINS.1);
             let height = (natural.round() as i32).clamp(least, most);
-            panels.push((*view, Frame::fit(&extent, [PAGE.1, top + head, width, height], FREE)));
+            panels.push((*view, Frame::fit(&extent, [PAGE.1, top + head, width, height], FRAME_MARGINS)));
             top += head + height + foot;
         }
         Ok(panels)
     }
 
     fn height(&self, panels: &[(View, Frame)]) -> i32 {
-        let [title, _, foot, legend] = ROWS;
+        let [title, _, foot, legend] = ROW_HEIGHTS;
         panels.last().map_or(title, |(_, frame)| frame.at[1] + frame.at[3] + foot) + legend + PAGE.1 / 2
     }
 
@@ -153,7 +154,7 @@ impl Picture {
             pen.scale((right - 10, low + 20), length, &words)?;
         }
         let mut x = PAGE.1;
-        let y = self.height(panels) - PAGE.1 / 2 - ROWS[3] / 2;
+        let y = self.height(panels) - PAGE.1 / 2 - ROW_HEIGHTS[3] / 2;
         let grey = RGBColor(60, 60, 60);
         let letters = |words: &str| 8 * i32::try_from(words.len()).unwrap_or(0);
         for (stroke, words) in self.strokes() {

@@ -6,7 +6,7 @@ use windlass_base::geometry::{Position, unit_vector};
 /// The altitude from which the three axes of a cube look equally long (rad): asin(1/sqrt 3).
 const ISOMETRIC: f64 = 0.615_479_708_670_387_3;
 /// A component smaller than this is none.
-const SMALL: f64 = 1e-9;
+const ZERO_COMPONENT: f64 = 1e-9;
 
 /// A parallel projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,13 +87,13 @@ impl View {
     pub fn axes(&self) -> Vec<(&'static str, [f64; 2])> {
         let mut axes = Vec::new();
         let units = [("X", [1.0, 0.0, 0.0]), ("Y", [0.0, 1.0, 0.0]), ("Z", [0.0, 0.0, 1.0])];
-        let aside = self.right.iter().all(|c| (c.abs() - 1.0).abs() > SMALL);
+        let aside = self.right.iter().all(|c| (c.abs() - 1.0).abs() > ZERO_COMPONENT);
         for (name, unit) in units {
             let [h, v] = self.project(unit);
             let v = if name == "Z" { v / self.stretch } else { v };
             // two axes that point along the same line are told as one across the view
             let crowded = self.kind == Seen::Elevation && aside && name != "Z";
-            if h.hypot(v) > SMALL && !crowded {
+            if h.hypot(v) > ZERO_COMPONENT && !crowded {
                 axes.push((name, [h, v]));
             }
         }

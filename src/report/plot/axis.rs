@@ -5,7 +5,7 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use std::ops::Range;
 
 /// Values beyond this are not drawn: the arithmetic of an axis would leave the range of double precision.
-pub const LARGEST: f64 = 1e100;
+pub const MAX_PLOTTED_VALUE: f64 = 1e100;
 
 /// The range of an axis, and about how many ticks it bears.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,9 +25,9 @@ impl Axis {
         }
         let (span, size) = (high - low, low.abs().max(high.abs()));
         // what differs by rounding only is one value
-        let room = if span > 1e-9 * size && span > 1.0 / LARGEST {
+        let room = if span > 1e-9 * size && span > 1.0 / MAX_PLOTTED_VALUE {
             0.03 * span
-        } else if size > 1.0 / LARGEST {
+        } else if size > 1.0 / MAX_PLOTTED_VALUE {
             0.5 * size
         } else {
             1.0
@@ -115,7 +115,7 @@ mod tests {
     proptest! {
         #[test]
         fn any_values_have_an_axis_with_ticks_inside_it(
-            values in prop::collection::vec(any::<f64>().prop_filter("drawable", |v| v.abs() <= LARGEST), 1..5),
+            values in prop::collection::vec(any::<f64>().prop_filter("drawable", |v| v.abs() <= MAX_PLOTTED_VALUE), 1..5),
             most in 2usize..12,
         ) {
             let axis = Axis::of(values.iter().copied(), most).unwrap();

@@ -21,9 +21,9 @@ pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 0, 0),
 ];
 /// Up to this many points a curve shows its points too, where no other column is of marks alone.
-const FEW: usize = 60;
+const MAX_MARKED_POINTS: usize = 60;
 /// Radius of a point of a curve, and of a mark that stands alone (pixels).
-const RADII: (i32, i32) = (3, 6);
+const MARK_RADII: (i32, i32) = (3, 6);
 /// Height of a line of the legend and length of the stroke in it (pixels).
 const LEGEND: (i32, i32) = (20, 26);
 
@@ -57,7 +57,7 @@ pub type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
 /// A chart without a point or with one beyond all measure, or a surface that refuses.
 pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look: &Look) -> Result<(), PlotError> {
     let points = || chart.series.iter().flat_map(Series::finite);
-    if let Some((x, y)) = points().find(|(x, y)| x.abs().max(y.abs()) > super::axis::LARGEST) {
+    if let Some((x, y)) = points().find(|(x, y)| x.abs().max(y.abs()) > super::axis::MAX_PLOTTED_VALUE) {
         return Err(PlotError::Range(x, y));
     }
     area.fill(&WHITE).map_err(refused)?;
@@ -182,7 +182,8 @@ fn colour(index: usize) -> RGBColor {
 
 /// Whether a curve shows its points: they are few, and would not be taken for the marks of another column.
 fn shows_points(chart: &Chart, series: &Series) -> bool {
-    series.finite().count() <= FEW && !chart.series.iter().any(|s| s.is_marks() && s.finite().next().is_some())
+    series.finite().count() <= MAX_MARKED_POINTS
+        && !chart.series.iter().any(|s| s.is_marks() && s.finite().next().is_some())
 }
 
 /// One line of the chart, broken where points are missing; its points too when they are to be shown, and always one that
@@ -197,8 +198,8 @@ fn curve<B: DrawingBackend>(
     let (colour, stroke) = if look.terminal { (terminal::colour(index, marks), 1) } else { (colour(index), 2) };
     let radius = match (look.terminal, marks) {
         (true, _) => 0,
-        (false, true) => RADII.1,
-        (false, false) => RADII.0,
+        (false, true) => MARK_RADII.1,
+        (false, false) => MARK_RADII.0,
     };
     for points in series.runs() {
         plane.draw_series(LineSeries::new(points.clone(), colour.stroke_width(stroke))).map_err(refused)?;
@@ -241,7 +242,7 @@ fn legend<B: DrawingBackend>(chart: &Chart, plane: &Plane<'_, B>, axes: (&Axis, 
             area.draw(&PathElement::new(stroke, colour(index).stroke_width(2))).map_err(refused)?;
         }
         if marks || shows_points(chart, series) {
-            let radius = if marks { RADII.1 } else { RADII.0 };
+            let radius = if marks { MARK_RADII.1 } else { MARK_RADII.0 };
             area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), radius, colour(index).filled())).map_err(refused)?;
         }
         let at = (left + 20 + LEGEND.1, y - 8);

@@ -5,9 +5,9 @@ use super::{Chart, PlotError, Series};
 use crate::report::embedded::{self, doubles, list, object, string};
 
 /// Most points of a page.
-pub const MOST: usize = 1_000_000;
+pub const MAX_PAGE_POINTS: usize = 1_000_000;
 
-const PARTS: [(&str, &str); 3] = [
+const PAGE_PARTS: [(&str, &str); 3] = [
     ("page.html", include_str!("../../../share/plot/page.html")),
     ("style.css", include_str!("../../../share/plot/style.css")),
     ("plot.js", include_str!("../../../share/plot/plot.js")),
@@ -26,11 +26,11 @@ impl Chart {
         if points().next().is_none() {
             return Err(PlotError::Empty);
         }
-        if let Some((x, y)) = points().find(|(x, y)| x.abs().max(y.abs()) > super::axis::LARGEST) {
+        if let Some((x, y)) = points().find(|(x, y)| x.abs().max(y.abs()) > super::axis::MAX_PLOTTED_VALUE) {
             return Err(PlotError::Range(x, y));
         }
         let count = self.series.iter().map(|s| s.points.len()).sum();
-        if count > MOST {
+        if count > MAX_PAGE_POINTS {
             return Err(PlotError::TooMany(count));
         }
         let curve = |(index, series): (usize, &Series)| {
@@ -54,7 +54,7 @@ impl Chart {
             ("right", self.right_label.as_ref().map_or("null".into(), |l| string(l))),
             ("curves", list(self.series.iter().enumerate().map(curve))),
         ]);
-        let page = embedded::page(&PARTS, &self.title, data).map_err(|e| PlotError::Backend(format!("{e:#}")))?;
+        let page = embedded::page(&PAGE_PARTS, &self.title, data).map_err(|e| PlotError::Backend(format!("{e:#}")))?;
         Ok(page.into_bytes())
     }
 }

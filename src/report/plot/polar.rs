@@ -19,7 +19,7 @@ const RAYS: (i32, i32) = (30, 90);
 /// Distance of the dots that a circle is on a terminal (degrees).
 const DOTS: i32 = 6;
 /// Height of the line below a page's plot (pixels).
-const FOOT: u32 = 34;
+const FOOTER_HEIGHT: u32 = 34;
 
 impl Chart {
     /// A polar chart of columns of a table over its first one, which holds directions.
@@ -78,7 +78,7 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
         area.clone()
     } else {
         let (_, height) = area.dim_in_pixel();
-        let (upper, lower) = area.split_vertically(height.saturating_sub(FOOT));
+        let (upper, lower) = area.split_vertically(height.saturating_sub(FOOTER_HEIGHT));
         let (width, _) = lower.dim_in_pixel();
         let middle = i32::try_from(width / 2).unwrap_or(0);
         lower.draw(&Text::new(chart.x_label.clone(), (middle, 8), centred(look, VPos::Top))).map_err(refused)?;

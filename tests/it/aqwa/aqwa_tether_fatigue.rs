@@ -6,7 +6,9 @@
 use crate::common;
 
 use serde_json::Value;
-use windlass_signal::tether::fatigue::{Asked, BINS, Endurance, Ranges, damage_rate, expected_peak, life_days};
+use windlass_signal::tether::fatigue::{
+    Asked, Endurance, Ranges, STRESS_RANGE_BINS, damage_rate, expected_peak, life_days,
+};
 use windlass_solve::tethered::Statistics;
 
 const RECORD: f64 = 350.25;
@@ -23,7 +25,7 @@ fn number(value: &Value) -> f64 {
 fn counts(listing: &Value, end: usize) -> Ranges {
     let (rows, column) = if end < 20 { (&listing["hist_first20"], end) } else { (&listing["hist_last6"], end - 20) };
     let mut ranges = Ranges::of_width(number(&listing["hist_bin_width"]));
-    for bin in 0..BINS {
+    for bin in 0..STRESS_RANGE_BINS {
         ranges.counts[bin] = rows[bin][column].as_u64().unwrap();
     }
     ranges

@@ -2,7 +2,7 @@
 
 use crate::common;
 
-use windlass_base::units::{FOOT, KIP};
+use windlass_base::units::{METRES_PER_FOOT, NEWTONS_PER_KIP};
 use windlass_model::{Connector, LineLoads, Model};
 
 /// What records leave: the model, what they print, the messages and their help.
@@ -88,14 +88,18 @@ fn after_each_option_that_solves_the_line_left_bears_the_force_asked_for_in_ever
             assert!(["exact", "weightless"].contains(&loads.solution), "{}", loads.solution);
             let [x, y, _] = loads.fairlead;
             let got = if option.ends_with("TENSION") { loads.tension } else { x.hypot(y) };
-            close(got / KIP, 160.0, 1e-8);
+            close(got / NEWTONS_PER_KIP, 160.0, 1e-8);
             // the line pulls toward 30 degrees as before
             close(y.atan2(x).to_degrees(), 30.0, 1e-9);
             let made = left.connector(name);
             assert_eq!(made.first_length.is_some(), option.starts_with("-L"), "{option} of {name}");
             let anchor = made.anchor.unwrap();
             close(anchor.direction.to_degrees(), 30.0, 1e-12);
-            close((anchor.at[0] - 400.0 * FOOT).hypot(anchor.at[1] - 50.0 * FOOT), anchor.distance, 1e-12);
+            close(
+                (anchor.at[0] - 400.0 * METRES_PER_FOOT).hypot(anchor.at[1] - 50.0 * METRES_PER_FOOT),
+                anchor.distance,
+                1e-12,
+            );
             assert_eq!(left.said().len(), 1, "{}", left.text);
             assert!(left.text.contains("160.00 kips"), "{}", left.text);
         }
@@ -119,7 +123,7 @@ fn the_anchor_lies_where_the_inelastic_catenary_has_it() {
     for force in [10.0, 50.0, 150.0] {
         for (option, value) in [("-A_HORIZONTAL", force), ("-A_TENSION", force + W * H)] {
             let left = clean(&format!("{STIFF}&CONNECTOR A {option} {value}\n"));
-            close(left.connector("A").anchor.unwrap().distance / FOOT, 4000.0 - spare(force), 1e-9);
+            close(left.connector("A").anchor.unwrap().distance / METRES_PER_FOOT, 4000.0 - spare(force), 1e-9);
         }
     }
 }
@@ -129,7 +133,7 @@ fn the_first_segment_is_as_long_as_the_inelastic_catenary_has_it() {
     for force in [10.0, 50.0, 150.0] {
         for (option, value) in [("-L_HORIZONTAL", force), ("-L_TENSION", force + W * H)] {
             let left = clean(&format!("{STIFF}&CONNECTOR A {option} {value}\n"));
-            close(left.connector("A").first_length.unwrap() / FOOT, 3950.0 + spare(force), 1e-9);
+            close(left.connector("A").first_length.unwrap() / METRES_PER_FOOT, 3950.0 + spare(force), 1e-9);
         }
     }
 }
@@ -152,7 +156,7 @@ fn the_anchors_of_the_multi_point_sample_lie_where_the_elastic_catenary_has_them
     let (h, s) = (horizontal(low), low / W);
     let want = (4000.0 - s) * (1.0 + h / ea) + h / W * (low / h).asinh() + h * s / ea;
     for connector in left.model.connectors.values() {
-        close(connector.anchor.unwrap().distance / FOOT, want, 1e-9);
+        close(connector.anchor.unwrap().distance / METRES_PER_FOOT, want, 1e-9);
     }
 }
 
@@ -175,7 +179,7 @@ fn a_slack_or_a_tight_spring_gets_the_length_of_hookes_law() {
                  CONNECTOR A -ANC 0 900 ~S *P\nEND\n&ENV -DEPTH 500\n&CONNECTOR A {option} 200\n"
             ));
             let want = chord / (1.0 + tension / ea) - 30.0;
-            close(left.connector("A").first_length.unwrap() / FOOT, want, 1e-9);
+            close(left.connector("A").first_length.unwrap() / METRES_PER_FOOT, want, 1e-9);
         }
     }
 }
@@ -209,7 +213,7 @@ fn a_hanging_line_gets_the_nearer_of_two_lengths_or_hears_the_least_tension() {
         (9000.0, [lengths[1], lengths[0]]),
     ] {
         let left = clean(&hung(present, w * span / 2.0 * ratio));
-        close(left.connector("L").first_length.unwrap() / FOOT, taken, 1e-8);
+        close(left.connector("L").first_length.unwrap() / METRES_PER_FOOT, taken, 1e-8);
         assert!(left.text.contains(&format!("a first segment of {named:.2} ft gives the same")), "{}", left.text);
     }
     let least = w * span / 2.0 * 1.508_879_561_538_3;
@@ -222,8 +226,8 @@ fn a_hanging_line_gets_the_nearer_of_two_lengths_or_hears_the_least_tension() {
 #[test]
 fn lengths_are_given_or_added_and_told_with_what_they_were() {
     let left = clean(&format!("{LINES}&CONNECTOR BOTTOM -LENGTH 3990 -L_DELTA 5.5 ROUGH -L_DELTA -10\n"));
-    close(left.connector("BOTTOM").first_length.unwrap(), 3995.5 * FOOT, 1e-12);
-    close(left.connector("ROUGH").first_length.unwrap(), 1490.0 * FOOT, 1e-12);
+    close(left.connector("BOTTOM").first_length.unwrap(), 3995.5 * METRES_PER_FOOT, 1e-12);
+    close(left.connector("ROUGH").first_length.unwrap(), 1490.0 * METRES_PER_FOOT, 1e-12);
     assert_eq!(left.connector("SLOPED").first_length, None);
     let said = left.said();
     assert_eq!(said.len(), 3);
@@ -235,7 +239,7 @@ fn lengths_are_given_or_added_and_told_with_what_they_were() {
 #[test]
 fn what_is_told_and_read_is_in_the_users_units() {
     let left = clean(&format!("{STIFF}&DIMEN -DIMEN METERS K-NTS\n&CONNECTOR A -L_HORIZONTAL 222.41108076\n"));
-    let want = (3950.0 + spare(50.0)) * FOOT;
+    let want = (3950.0 + spare(50.0)) * METRES_PER_FOOT;
     assert!(left.text.contains(&format!("first segment {want:.2} m (was 1219.20), horizontal force 222.41 kN")));
 }
 
@@ -256,7 +260,7 @@ fn an_option_acts_on_the_names_before_it_in_the_order_given_and_once_on_each() {
         "{LINES}&SELECT :TWO -SELECT CHORD PULLS\n\
          &CONNECTOR BO@ bottom -LENGTH 3990 -INACTIVE :TWO HANG -LENGTH 3995 @ -INACTIVE :TWO -ACTIVE\n"
     ));
-    let length = |name: &str| left.connector(name).first_length.map(|l| (l / FOOT).round());
+    let length = |name: &str| left.connector(name).first_length.map(|l| (l / METRES_PER_FOOT).round());
     assert_eq!(length("BOTTOM"), Some(3990.0));
     assert_eq!([length("CHORD"), length("PULLS"), length("HANG")], [Some(3995.0); 3]);
     assert_eq!([length("ROUGH"), length("AQWA")], [None; 2]);
@@ -292,7 +296,7 @@ fn an_anchor_given_by_x_y_z_has_its_own_depth_and_the_bottom_of_its_b_cat_goes_w
     assert_eq!(left.messages.len(), 1);
     assert!(left.messages[0].contains("450.00 ft, not the 500.00 ft of -DEPANCHOR"), "{:?}", left.messages);
     let anchor = left.connector("BOTTOM").anchor.unwrap();
-    close(anchor.distance, 3000.0_f64.hypot(1550.0) * FOOT, 1e-12);
+    close(anchor.distance, 3000.0_f64.hypot(1550.0) * METRES_PER_FOOT, 1e-12);
     close(anchor.direction, 1550.0_f64.atan2(3000.0), 1e-12);
     assert!(left.text.contains("anchor at 3400.00 1600.00 -450.00, "), "{}", left.text);
     // the same line with that depth in its class
@@ -303,8 +307,8 @@ fn an_anchor_given_by_x_y_z_has_its_own_depth_and_the_bottom_of_its_b_cat_goes_w
     clean(&put(-500.0));
     // solving its place keeps the elevation
     let solved = run(&format!("{}&CONNECTOR BOTTOM -A_TENSION 90\n", put(-450.0)));
-    close(solved.connector("BOTTOM").anchor.unwrap().elevation.unwrap(), -450.0 * FOOT, 1e-12);
-    close(solved.loads("BOTTOM").tension, 90.0 * KIP, 1e-8);
+    close(solved.connector("BOTTOM").anchor.unwrap().elevation.unwrap(), -450.0 * METRES_PER_FOOT, 1e-12);
+    close(solved.loads("BOTTOM").tension, 90.0 * NEWTONS_PER_KIP, 1e-8);
 }
 
 #[test]
@@ -315,7 +319,7 @@ fn an_anchor_moves_along_the_direction_it_has_when_its_body_has_moved() {
     let (_, [vx, vy]) = left.model.placement(left.connector("BOTTOM")).span();
     assert!((ux * vy - uy * vx).abs() < 1e-12 && ux * vx + uy * vy > 0.0);
     close(left.connector("BOTTOM").anchor.unwrap().direction, uy.atan2(ux), 1e-12);
-    close(left.loads("BOTTOM").fairlead[0].hypot(left.loads("BOTTOM").fairlead[1]), 70.0 * KIP, 1e-8);
+    close(left.loads("BOTTOM").fairlead[0].hypot(left.loads("BOTTOM").fairlead[1]), 70.0 * NEWTONS_PER_KIP, 1e-8);
 }
 
 #[test]
@@ -324,7 +328,7 @@ fn an_anchor_under_its_fairlead_moves_in_the_direction_it_was_given() {
     let left = clean(&format!("{records}&CONNECTOR BOTTOM -A_HORIZONTAL 70\n"));
     let [x, y, _] = left.loads("BOTTOM").fairlead;
     close(y.atan2(x).to_degrees(), 30.0, 1e-9);
-    close(x.hypot(y), 70.0 * KIP, 1e-8);
+    close(x.hypot(y), 70.0 * NEWTONS_PER_KIP, 1e-8);
 }
 
 #[test]

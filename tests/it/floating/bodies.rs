@@ -8,7 +8,7 @@ use nalgebra::{Vector3, Vector6};
 use windlass_base::diagnostic::Severity;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
-use windlass_base::units::{FOOT, KIP};
+use windlass_base::units::{METRES_PER_FOOT, NEWTONS_PER_KIP};
 use windlass_hydro::hull::Hydrostatics;
 use windlass_hydro::{Category, Floating, Hull, balance_heave_and_trim};
 use windlass_model::{Mass, Model};
@@ -43,16 +43,16 @@ fn the_barge_has_the_hydrostatics_of_its_box() {
     let (length, beam, draft, kg) = (400.0, 100.0, 9.0, 12.0);
     let found = state(&model(BARGE).0);
     let volume = length * beam * draft;
-    near(found.volume / FOOT.powi(3), volume, 1e-12);
-    near(found.displacement, volume * FOOT.powi(3) * 1025.0 * 9.80665, 1e-12);
-    near(found.kb / FOOT, draft / 2.0, 1e-12);
-    near(found.plane_area / FOOT.powi(2), length * beam, 1e-12);
-    near(found.wetted_area / FOOT.powi(2), length * beam + 2.0 * draft * (length + beam), 1e-12);
-    near(found.bm_t / FOOT, beam * beam / (12.0 * draft), 1e-12);
-    near(found.bm_l / FOOT, length * length / (12.0 * draft), 1e-12);
-    near(found.gm_t / FOOT, draft / 2.0 + beam * beam / (12.0 * draft) - kg, 1e-12);
+    near(found.volume / METRES_PER_FOOT.powi(3), volume, 1e-12);
+    near(found.displacement, volume * METRES_PER_FOOT.powi(3) * 1025.0 * 9.80665, 1e-12);
+    near(found.kb / METRES_PER_FOOT, draft / 2.0, 1e-12);
+    near(found.plane_area / METRES_PER_FOOT.powi(2), length * beam, 1e-12);
+    near(found.wetted_area / METRES_PER_FOOT.powi(2), length * beam + 2.0 * draft * (length + beam), 1e-12);
+    near(found.bm_t / METRES_PER_FOOT, beam * beam / (12.0 * draft), 1e-12);
+    near(found.bm_l / METRES_PER_FOOT, length * length / (12.0 * draft), 1e-12);
+    near(found.gm_t / METRES_PER_FOOT, draft / 2.0 + beam * beam / (12.0 * draft) - kg, 1e-12);
     let [x, y] = found.centre_of_flotation.unwrap();
-    near(x / FOOT, 200.0, 1e-12);
+    near(x / METRES_PER_FOOT, 200.0, 1e-12);
     assert!(y.abs() < 1e-9);
 }
 
@@ -104,15 +104,15 @@ fn a_part_that_is_moved_takes_its_pieces_and_weights_along() {
     let (model, _) = model(records);
     let mass = Mass::from_parts(model.parts_of(&model.bodies[0]), model.defaults.gravity);
     // the part's x is the body's y
-    assert!((mass.centre / FOOT - Vector3::new(100.0, 10.0, 6.0)).norm() < 1e-9, "{}", mass.centre);
-    let radii = mass.radii().map(|k| k.unwrap() / FOOT);
+    assert!((mass.centre / METRES_PER_FOOT - Vector3::new(100.0, 10.0, 6.0)).norm() < 1e-9, "{}", mass.centre);
+    let radii = mass.radii().map(|k| k.unwrap() / METRES_PER_FOOT);
     for (k, want) in radii.into_iter().zip([2.0, 1.0, 2.0]) {
         near(k, want, 1e-6);
     }
     let found = state(&model);
     // between z = -5 and 0: half of 20 x 10 x 10 ft
-    near(found.volume / FOOT.powi(3), 1000.0, 1e-12);
-    let centre = found.centre_of_buoyancy / FOOT;
+    near(found.volume / METRES_PER_FOOT.powi(3), 1000.0, 1e-12);
+    let centre = found.centre_of_buoyancy / METRES_PER_FOOT;
     assert!((centre - Vector3::new(95.0, 10.0, -2.5)).norm() < 1e-9, "{centre}");
 }
 
@@ -122,15 +122,15 @@ fn total_adds_the_one_weight_that_is_missing() {
         "MEDIT\n&DESCRIBE BODY B\n*A 100 0 10\n*C 0 20 0\n#WEIGHT *A 300 5 6 7\n#WEIGHT *C 200\nEND\n&WEIGHT -TOTAL B 1000 50 2 8 30 60 70\n",
     );
     let mass = Mass::from_parts(model.parts_of(&model.bodies[0]), model.defaults.gravity);
-    near(mass.mass * 9.80665, 1000.0 * KIP, 1e-12);
-    assert!((mass.centre / FOOT - Vector3::new(50.0, 2.0, 8.0)).norm() < 1e-9);
+    near(mass.mass * 9.80665, 1000.0 * NEWTONS_PER_KIP, 1e-12);
+    assert!((mass.centre / METRES_PER_FOOT - Vector3::new(50.0, 2.0, 8.0)).norm() < 1e-9);
     for (k, want) in mass.radii().into_iter().zip([30.0, 60.0, 70.0]) {
-        near(k.unwrap() / FOOT, want, 1e-9);
+        near(k.unwrap() / METRES_PER_FOOT, want, 1e-9);
     }
     // 500 kips at (1000 c - 300 a - 200 c') / 500, by hand: x (50000 - 30000) / 500 = 40, y (2000 - 4000) / 500 = -4, z (8000 - 3000) / 500 = 10
     let added = model.parts["B"].weights.last().unwrap();
-    near(added.weight, 500.0 * KIP, 1e-12);
-    assert!((Vector3::from(added.at) / FOOT - Vector3::new(40.0, -4.0, 10.0)).norm() < 1e-9);
+    near(added.weight, 500.0 * NEWTONS_PER_KIP, 1e-12);
+    assert!((Vector3::from(added.at) / METRES_PER_FOOT - Vector3::new(40.0, -4.0, 10.0)).norm() < 1e-9);
 }
 
 #[test]
@@ -138,9 +138,9 @@ fn margins_compound_and_keep_centre_and_radii() {
     let records = format!("{BARGE}&WEIGHT -MARGIN TBRG 10 -MARGIN TBRG 10\n");
     let (model, _) = model(&records);
     let mass = Mass::from_parts(model.parts_of(&model.bodies[0]), model.defaults.gravity);
-    near(mass.mass * 9.80665, 1.21 * 23000.0 * KIP, 1e-12);
+    near(mass.mass * 9.80665, 1.21 * 23000.0 * NEWTONS_PER_KIP, 1e-12);
     for (k, want) in mass.radii().into_iter().zip([38.0, 118.0, 120.0]) {
-        near(k.unwrap() / FOOT, want, 1e-9);
+        near(k.unwrap() / METRES_PER_FOOT, want, 1e-9);
     }
 }
 
@@ -168,7 +168,7 @@ fn weight_and_buoyancy_of_a_body_have_the_tangent_that_differences_show() {
 #[test]
 fn the_tide_lifts_the_surface() {
     let (low, high) = (state(&model(BARGE).0), state(&model(&format!("&DEFAULT -DEPTH 500\n{BARGE}&ENV -TIDE 2\n")).0));
-    near((high.volume - low.volume) / FOOT.powi(3), 400.0 * 100.0 * 2.0, 1e-12);
+    near((high.volume - low.volume) / METRES_PER_FOOT.powi(3), 400.0 * 100.0 * 2.0, 1e-12);
 }
 
 #[test]
@@ -183,10 +183,10 @@ fn a_linear_stiffness_is_the_buoyancy_of_an_aqwa_deck() {
     let pose = Pose::of(&body.place);
     let total: Vector6<f64> = floating.loads.iter().map(|l| l.load(&pose).unwrap().wrench).sum();
     let depth = 2.0 + 0.5 * (1.0 - 0.01f64.cos());
-    near(total[2] / KIP, 70.0 * depth, 1e-9);
+    near(total[2] / NEWTONS_PER_KIP, 70.0 * depth, 1e-9);
     let arm = pose.axes * floating.mass.centre;
     let about = Vector3::new(total[3], total[4], total[5]) - arm.cross(&Vector3::new(total[0], total[1], total[2]));
-    near(about.x / KIP / FOOT, -12.0, 1e-9);
+    near(about.x / NEWTONS_PER_KIP / METRES_PER_FOOT, -12.0, 1e-9);
 }
 
 #[test]
@@ -224,7 +224,8 @@ fn conditions_of_several_bodies_keep_their_place_and_heading() {
     );
     let values = |name: &str| {
         let [x, y, z, a, b, c] = model.bodies[name].place.values();
-        [x / FOOT, y / FOOT, z / FOOT, a.to_degrees(), b.to_degrees(), c.to_degrees()].map(|v| (v * 1e9).round() / 1e9)
+        [x / METRES_PER_FOOT, y / METRES_PER_FOOT, z / METRES_PER_FOOT, a.to_degrees(), b.to_degrees(), c.to_degrees()]
+            .map(|v| (v * 1e9).round() / 1e9)
     };
     assert_eq!(values("A"), [1.0, 2.0, -9.0, 1.0, 2.0, 6.0]);
     // the body described last, at 5 ft draft, upright
@@ -245,7 +246,14 @@ fn roll_lifts_starboard_and_trim_sinks_the_stern() {
 fn a_move_and_its_opposite_restore_the_configuration() {
     let records = "&DESCRIBE BODY A\n&INSTATE -LOCATE A 1 2 3 40 50 60\n&INSTATE -MOVE A 1 2 4 8 16 32\n&INSTATE -MOVE A -1 -2 -4 -8 -16 -32\n";
     let place = model(records).0.bodies["A"].place;
-    let want = [FOOT, 2.0 * FOOT, 3.0 * FOOT, 40f64.to_radians(), 50f64.to_radians(), 60f64.to_radians()];
+    let want = [
+        METRES_PER_FOOT,
+        2.0 * METRES_PER_FOOT,
+        3.0 * METRES_PER_FOOT,
+        40f64.to_radians(),
+        50f64.to_radians(),
+        60f64.to_radians(),
+    ];
     for (a, b) in place.values().into_iter().zip(want) {
         assert!((a - b).abs() < 1e-15 * (1.0 + b), "{place:?}");
     }
@@ -257,14 +265,14 @@ fn the_righting_arm_of_a_box_is_that_of_a_wall_sided_ship() {
     // that carries the weight; trim stays zero, and the heading does not matter
     let (model, _) = model(BARGE);
     let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
-    let draft = 23000.0 * KIP / (1025.0 * 9.80665) / FOOT.powi(3) / 40_000.0;
+    let draft = 23000.0 * NEWTONS_PER_KIP / (1025.0 * 9.80665) / METRES_PER_FOOT.powi(3) / 40_000.0;
     let bm = 10_000.0 / 12.0 / draft;
     let gm = draft / 2.0 + bm - 12.0;
     for (degrees, yaw) in [(0.5f64, 0.0), (5.0, 1.0), (10.0, -2.0), (-10.0, 3.0)] {
         let roll = degrees.to_radians();
         let found = balance_heave_and_trim(&floating, &Place::new([5.0, 6.0, -2.0, roll, 0.0, yaw])).unwrap();
         let want = roll.sin() * (gm + 0.5 * bm * roll.tan().powi(2));
-        near(found.arm / FOOT, want, 1e-8);
+        near(found.arm / METRES_PER_FOOT, want, 1e-8);
         assert!(found.place.turn[1].abs() < 1e-9, "{found:?}");
     }
 }

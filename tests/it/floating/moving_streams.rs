@@ -5,7 +5,7 @@ use crate::common;
 use nalgebra::Matrix6;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::gusts::{Gusts, REACH, Shape};
+use windlass_hydro::gusts::{FREQUENCY_RANGE_HZ, Gusts, Shape};
 use windlass_hydro::{BodyLoad, Category, Floating, MovingLoad, Underway};
 use windlass_model::Model;
 
@@ -267,9 +267,9 @@ fn the_variance_of_a_series_of_gusts_is_the_integral_of_its_spectrum() {
         let gusts = gusts(&format!("&ENV -WIND 50 180 -W_SPECTRUM {name}"));
         // the integral of the formula by Simpson's rule over the logarithm of the frequency
         let (parts, speed) = (4000, 50.0 * KNOT);
-        let step = (REACH[1] / REACH[0]).ln() / f64::from(parts);
+        let step = (FREQUENCY_RANGE_HZ[1] / FREQUENCY_RANGE_HZ[0]).ln() / f64::from(parts);
         let part = |i: i32| {
-            let f = REACH[0] * (step * f64::from(i)).exp();
+            let f = FREQUENCY_RANGE_HZ[0] * (step * f64::from(i)).exp();
             let weight = if i == 0 || i == parts { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
             weight * f * shape.density(f, speed) * step / 3.0
         };

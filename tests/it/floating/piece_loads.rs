@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use tangent::differences;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_base::units::FOOT;
+use windlass_base::units::METRES_PER_FOOT;
 use windlass_hydro::hull::{Fault, Surface, Tube};
 use windlass_hydro::steady::{Medium, Steady};
 use windlass_hydro::{Category, Floating};
@@ -42,7 +42,7 @@ fn sum(model: &Model, category: Category, pose: &Pose) -> Six {
 /// A pose of the origin in feet and turns in degrees.
 fn place(values: [f64; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = values;
-    let [x, y, z] = [x * FOOT, y * FOOT, z * FOOT];
+    let [x, y, z] = [x * METRES_PER_FOOT, y * METRES_PER_FOOT, z * METRES_PER_FOOT];
     Pose::of(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
 }
 
@@ -57,15 +57,15 @@ fn wind_on_the_freeboard_is_half_rho_area_speed_squared_at_its_centre() {
     let even = "-W_PROFILE POWER 0";
     // ahead: 11 x 100 ft2, 9 + 5.5 ft above the keel
     let ahead = sum(&body(HULL, &format!("&ENV -WIND 60 180 {even}")), Category::Wind, &place(AFLOAT));
-    let force = WIND * 11.0 * 100.0 * FOOT * FOOT;
+    let force = WIND * 11.0 * 100.0 * METRES_PER_FOOT * METRES_PER_FOOT;
     near(ahead[0], force, 1e-12);
-    near(ahead[4], 14.5 * FOOT * force, 1e-12);
+    near(ahead[4], 14.5 * METRES_PER_FOOT * force, 1e-12);
     assert!(ahead[1].abs() < 1e-6 * force && ahead[2].abs() < 1e-6 * force && ahead[5].abs() < 1e-6 * force);
     // abeam, from starboard (90): toward -y on 11 x 400 ft2, 200 ft aft of the origin
     let beam = sum(&body(HULL, &format!("&ENV -WIND 60 90 {even}")), Category::Wind, &place(AFLOAT));
     near(beam[1], -4.0 * force, 1e-12);
-    near(beam[3], 4.0 * force * 14.5 * FOOT, 1e-12);
-    near(beam[5], -4.0 * force * 200.0 * FOOT, 1e-12);
+    near(beam[3], 4.0 * force * 14.5 * METRES_PER_FOOT, 1e-12);
+    near(beam[5], -4.0 * force * 200.0 * METRES_PER_FOOT, 1e-12);
     // twice the coefficient across, none along
     let given = body(&format!("{HULL} -CS_WIND 0 2 1"), &format!("&ENV -WIND 60 90 {even}"));
     near(sum(&given, Category::Wind, &place(AFLOAT))[1], -8.0 * force, 1e-12);
@@ -74,22 +74,22 @@ fn wind_on_the_freeboard_is_half_rho_area_speed_squared_at_its_centre() {
 #[test]
 fn wind_of_a_profile_is_integrated_over_the_freeboard() {
     // z^(2/7) from 1 m to h = 3.3528 m, and that of 1 m below it
-    let (h, ten): (f64, f64) = (11.0 * FOOT, 10f64.powf(-2.0 / 7.0));
+    let (h, ten): (f64, f64) = (11.0 * METRES_PER_FOOT, 10f64.powf(-2.0 / 7.0));
     let factor = ten * (1.0 + 7.0 / 9.0 * (h.powf(9.0 / 7.0) - 1.0));
     let got = sum(&body(HULL, "&ENV -WIND 60 180"), Category::Wind, &place(AFLOAT))[0];
     // what the parabolas of a strip leave (hydro/strips.rs)
-    near(got, WIND * 100.0 * FOOT * factor, 5e-4);
+    near(got, WIND * 100.0 * METRES_PER_FOOT * factor, 5e-4);
 }
 
 #[test]
 fn every_profile_is_integrated_as_by_fine_slices() {
     for profile in ["POWER", "LOG", "ISO", "ABS", "DNV", "API -W_DESIGN API 15", "NPD -W_DESIGN NPD 60"] {
         let model = body("BLOCK TOWER 0 0 0 30 30 300", &format!("&ENV -WIND 60 180 -W_PROFILE {profile}"));
-        let (steady, high) = (Steady::new(&model).unwrap(), 300.0 * FOOT);
+        let (steady, high) = (Steady::new(&model).unwrap(), 300.0 * METRES_PER_FOOT);
         let slices = 100_000;
         let step = high / f64::from(slices);
         let at = |n: i32| steady.velocity(Medium::Air, (f64::from(n) + 0.5) * step).0.norm_squared();
-        let want = 0.5 * 1.226 * 30.0 * FOOT * step * (0..slices).map(at).sum::<f64>();
+        let want = 0.5 * 1.226 * 30.0 * METRES_PER_FOOT * step * (0..slices).map(at).sum::<f64>();
         near(sum(&model, Category::Wind, &Pose::default())[0], want, 5e-4);
     }
 }
@@ -99,9 +99,9 @@ fn current_acts_on_the_draft_and_is_integrated_over_it() {
     let current = |v: f64| 0.5 * 1025.0 * v * v;
     let even = body(HULL, "&ENV -CURRENT 2 90");
     let got = sum(&even, Category::ViscousDrag, &place(AFLOAT));
-    let force = current(2.0 * FOOT) * 9.0 * 400.0 * FOOT * FOOT;
+    let force = current(2.0 * METRES_PER_FOOT) * 9.0 * 400.0 * METRES_PER_FOOT * METRES_PER_FOOT;
     near(got[1], -force, 1e-12);
-    near(got[3], force * 4.5 * FOOT, 1e-12);
+    near(got[3], force * 4.5 * METRES_PER_FOOT, 1e-12);
     // v = 2 (1 - d/40): its square from 0 to 9 ft is 4 x 40/3 (1 - (31/40)^3) ft
     let curve = "&DATA CURVES C_PROFILE C 0 2 40 0\n&ENV -CURRENT C 90";
     let got = sum(&body(HULL, curve), Category::ViscousDrag, &place(AFLOAT));
@@ -109,20 +109,21 @@ fn current_acts_on_the_draft_and_is_integrated_over_it() {
     near(got[1], -force * long / 9.0, 1e-12);
     // int (1 - d/40)^2 d dd = 1600 (1/12 - q^3/3 + q^4/4), q = 31/40, at 9 - d above the keel
     let first = 1600.0 * (1.0 / 12.0 - 0.775f64.powi(3) / 3.0 + 0.775f64.powi(4) / 4.0);
-    near(got[3], force / 9.0 * (9.0 * long - first) * FOOT, 1e-12);
+    near(got[3], force / 9.0 * (9.0 * long - first) * METRES_PER_FOOT, 1e-12);
 }
 
 #[test]
 fn the_tide_lifts_the_waterline() {
     let model = body(HULL, "&ENV -WIND 60 180 -W_PROFILE POWER 0 -CURRENT 2 180 -DEPTH 600 -TIDE 5");
-    near(sum(&model, Category::Wind, &place(AFLOAT))[0], WIND * 600.0 * FOOT * FOOT, 1e-12);
-    near(sum(&model, Category::ViscousDrag, &place(AFLOAT))[0], 512.5 * 4.0 * 1400.0 * FOOT.powi(4), 1e-12);
+    near(sum(&model, Category::Wind, &place(AFLOAT))[0], WIND * 600.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-12);
+    near(sum(&model, Category::ViscousDrag, &place(AFLOAT))[0], 512.5 * 4.0 * 1400.0 * METRES_PER_FOOT.powi(4), 1e-12);
 }
 
 #[test]
 fn a_capsized_dry_or_sunken_box_has_the_areas_of_its_pose() {
     let model = body(HULL, "&ENV -WIND 60 180 -W_PROFILE POWER 0 -CURRENT 2 180");
-    let [air, water] = [WIND * 100.0 * FOOT * FOOT, 0.5 * 1025.0 * 4.0 * 100.0 * FOOT.powi(4)];
+    let [air, water] =
+        [WIND * 100.0 * METRES_PER_FOOT * METRES_PER_FOOT, 0.5 * 1025.0 * 4.0 * 100.0 * METRES_PER_FOOT.powi(4)];
     for (pose, out, under) in [
         ([0.0, 0.0, 11.0, 180.0, 0.0, 0.0], 11.0, 9.0),
         ([0.0, 0.0, 5.0, 0.0, 0.0, 0.0], 20.0, 0.0),
@@ -141,8 +142,8 @@ fn a_dry_box_that_is_pitched_shows_its_bottom_too() {
     let got = sum(&model, Category::Wind, &place([0.0, 0.0, 200.0, 0.0, 10.0, 0.0]));
     // along x: A_x cos^2 + A_z sin^2 with 2,000 and 40,000 ft2; up: (A_z - A_x) sin cos
     let (sin, cos) = 10f64.to_radians().sin_cos();
-    near(got[0], WIND * FOOT * FOOT * (2000.0 * cos * cos + 40_000.0 * sin * sin), 1e-12);
-    near(got[2], WIND * FOOT * FOOT * 38_000.0 * sin * cos, 1e-12);
+    near(got[0], WIND * METRES_PER_FOOT * METRES_PER_FOOT * (2000.0 * cos * cos + 40_000.0 * sin * sin), 1e-12);
+    near(got[2], WIND * METRES_PER_FOOT * METRES_PER_FOOT * 38_000.0 * sin * cos, 1e-12);
 }
 
 #[test]
@@ -154,8 +155,8 @@ fn afloat_on_an_even_keel_the_vertical_area_is_that_of_the_deck() {
         let mine = found.loads.iter().find(|l| l.category() == category).unwrap();
         mine.load(&place(AFLOAT)).unwrap().stiffness[(2, 4)]
     };
-    near(lift(Category::Wind), -WIND * FOOT * FOOT * (40_000.0 - 1100.0), 1e-12);
-    near(lift(Category::ViscousDrag), -0.5 * 1025.0 * 4.0 * FOOT.powi(4) * (40_000.0 - 900.0), 1e-12);
+    near(lift(Category::Wind), -WIND * METRES_PER_FOOT * METRES_PER_FOOT * (40_000.0 - 1100.0), 1e-12);
+    near(lift(Category::ViscousDrag), -0.5 * 1025.0 * 4.0 * METRES_PER_FOOT.powi(4) * (40_000.0 - 900.0), 1e-12);
 }
 
 #[test]
@@ -165,12 +166,12 @@ fn a_tube_shows_its_diameter_to_every_side() {
         // 40 ft x 60 ft and 40 ft x 300 ft; a prism of 64 sides is 0.04 % narrower at most, 0.08 % wider
         let model = body(spar, &format!("&ENV -WIND 60 {from} -W_PROFILE POWER 0 -CURRENT 2 {from}"));
         let [wind, current] = [Category::Wind, Category::ViscousDrag].map(|c| sum(&model, c, &Pose::default()));
-        near(wind.xy().norm(), WIND * 2400.0 * FOOT * FOOT, 1e-3);
-        near(current.xy().norm(), 0.5 * 1025.0 * 4.0 * 12_000.0 * FOOT.powi(4), 1e-3);
+        near(wind.xy().norm(), WIND * 2400.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-3);
+        near(current.xy().norm(), 0.5 * 1025.0 * 4.0 * 12_000.0 * METRES_PER_FOOT.powi(4), 1e-3);
     }
     // lying half in the water: its radius is above it
     let model = body("TUBE PONTOON *C *D 120 -PERM 1", "&ENV -WIND 60 90 -W_PROFILE POWER 0");
-    near(sum(&model, Category::Wind, &Pose::default())[1], -WIND * 500.0 * FOOT * FOOT, 1e-3);
+    near(sum(&model, Category::Wind, &Pose::default())[1], -WIND * 500.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-3);
 }
 
 #[test]
@@ -190,7 +191,11 @@ fn coefficients_go_along_the_axes_of_the_part() {
     session.run();
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     // y of the part is -x of the body: the area across it is 10 x 30 ft2
-    near(sum(&session.job.model, Category::Wind, &Pose::default())[0], 1.5 * WIND * 300.0 * FOOT * FOOT, 1e-12);
+    near(
+        sum(&session.job.model, Category::Wind, &Pose::default())[0],
+        1.5 * WIND * 300.0 * METRES_PER_FOOT * METRES_PER_FOOT,
+        1e-12,
+    );
 }
 
 #[test]
@@ -204,14 +209,18 @@ fn what_displaces_nothing_takes_wind_only_when_told() {
     assert_eq!(forces(&format!("{HULL} -PERM -1")), [0.0; 2]);
     assert_eq!(forces(&format!("{HULL} -PERM -1 -CS_WIND 1 1 1")), [0.0; 2]);
     let [wind, current] = forces("BLOCK HOUSE 300 -40 20 380 40 60 -PERM 0 -CS_WIND 1 1 1");
-    near(wind, WIND * 80.0 * 40.0 * FOOT * FOOT, 1e-12);
+    near(wind, WIND * 80.0 * 40.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-12);
     assert_eq!(current, 0.0);
 }
 
 #[test]
 fn multipliers_act_on_pieces() {
     let env = "&ENV -WIND 60 180 -W_PROFILE POWER 0\n&APPLY -PERCENT -FORCE WIND 50";
-    near(sum(&body(HULL, env), Category::Wind, &place(AFLOAT))[0], WIND * 550.0 * FOOT * FOOT, 1e-12);
+    near(
+        sum(&body(HULL, env), Category::Wind, &place(AFLOAT))[0],
+        WIND * 550.0 * METRES_PER_FOOT * METRES_PER_FOOT,
+        1e-12,
+    );
 }
 
 #[test]

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
 use windlass::session::Session;
-use windlass_solve::film::{Film, MOST_FRAMES, Take};
+use windlass_solve::film::{Film, MAX_FRAMES, Take};
 
 /// A box with a hull on two chains, away from rest; the chain `B` is let go at 3 s.
 const MOORED: &str = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100 -TIME 6 0.2\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE Z RX RY\n*CG 0 0 0\n\
@@ -149,7 +149,7 @@ fn a_film_beyond_its_bounds_is_thinned_evenly_and_says_so() {
     let all = |_: &str| true;
     let take = Take { connector: &|_| false, body: &all, window: None, points: 40, stop: &|| false };
     let film = Film::build(run, &take).unwrap();
-    assert!(film.times.len() <= MOST_FRAMES && film.times.len() == 1667, "{}", film.times.len());
+    assert!(film.times.len() <= MAX_FRAMES && film.times.len() == 1667, "{}", film.times.len());
     assert!(film.notes[0].contains("one in 3 of 5001"), "{:?}", film.notes);
     let stopped = Film::build(run, &Take { stop: &|| true, ..take });
     assert_eq!(stopped.unwrap_err().message, "interrupted");

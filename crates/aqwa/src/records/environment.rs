@@ -7,7 +7,7 @@ use crate::surroundings::{Flow, Layer};
 use crate::waves::{Spectrum, Waves};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
-use windlass_base::units::KNOT;
+use windlass_base::units::METRES_PER_SECOND_PER_KNOT;
 
 /// Names of the curves of a current profile.
 const PROFILE: [&str; 2] = ["CPRF_X", "CPRF_Y"];
@@ -163,5 +163,5 @@ fn wind(deck: &Deck, out: &mut Script) -> Option<String> {
     out.remark("the structures of a deck have no areas for the wind; #AREA of the model gives them");
     let speed = out.scale.length(flow.speed.value);
     let toward = if speed < 0.0 { flow.direction.value + 180.0 } else { flow.direction.value };
-    Some(format!("-WIND {}", numbers([round_value(speed.abs() / KNOT), opposite(toward)])))
+    Some(format!("-WIND {}", numbers([round_value(speed.abs() / METRES_PER_SECOND_PER_KNOT), opposite(toward)])))
 }

@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::Diagnostic;
 
 /// Diameter (m) of an elastic line as the class has it: only EA of the section counts.
-const DIAMETER: f64 = 1.0;
+const NOMINAL_DIAMETER_M: f64 = 1.0;
 
 /// Classes and connectors.
 pub(super) fn lines(deck: &Deck, out: &mut Script) {
@@ -106,11 +106,12 @@ fn elastic(number_of: usize, stiffness: f64, length: f64, line: &MooringLine, ou
     let name = format!("L{number_of}");
     let length = out.scale.length(length);
     // N/m times m over the area, in MPa
-    let modulus = out.scale.force(stiffness, -1) * 1e3 * length / (FRAC_PI_4 * DIAMETER * DIAMETER) / 1e6;
+    let modulus =
+        out.scale.force(stiffness, -1) * 1e3 * length / (FRAC_PI_4 * NOMINAL_DIAMETER_M * NOMINAL_DIAMETER_M) / 1e6;
     out.card("deck 14, LINE", line.span);
     out.record(format!(
         "~{name} SL_ELEM {} TENSION -LEN {} -EMODULUS {}",
-        number(1000.0 * DIAMETER),
+        number(1000.0 * NOMINAL_DIAMETER_M),
         number(length),
         number(round_value(modulus))
     ));

@@ -10,13 +10,13 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// Friction along a tube: fixed in AQWA [AQWA-REF TUBE].
-const FRICTION: f64 = 0.016;
+const AXIAL_FRICTION: f64 = 0.016;
 /// Products of inertia beyond this share of the largest moment of inertia are no rounding.
-const ROUNDING: f64 = 1e-9;
+const INERTIA_ROUNDING_SHARE: f64 = 1e-9;
 /// Tubes of less than this share of the mass of their structure have a nominal mass.
-const NOMINAL: f64 = 1e-10;
+const NOMINAL_MASS_SHARE: f64 = 1e-10;
 const DOFS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
-const ROWS: [&str; 6] = ["-KX", "-KY", "-KZ", "-KRX", "-KRY", "-KRZ"];
+const STIFFNESS_OPTIONS: [&str; 6] = ["-KX", "-KY", "-KZ", "-KRX", "-KRY", "-KRZ"];
 
 /// Name of the body of a structure.
 pub(super) fn body(structure: i64) -> String {
@@ -109,7 +109,7 @@ pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
 fn mass(deck: &Deck, of: &Structure, out: &mut Script) -> MassProperties {
     let whole = deck.mass_properties(of);
     let tubes = whole.kinds.iter().find(|kind| kind.shape == Shape::Tube).map_or(0.0, |kind| kind.mass);
-    if tubes == 0.0 || tubes > NOMINAL * whole.mass {
+    if tubes == 0.0 || tubes > NOMINAL_MASS_SHARE * whole.mass {
         return whole;
     }
     out.remark(&format!("the nominal mass of its tubes, {tubes:.1E} of {}, is left out", number(whole.mass)));
@@ -151,7 +151,7 @@ fn weight(deck: &Deck, of: &Structure, mass: &MassProperties, out: &mut Script) 
     let [xx, yy, zz] = [0, 1, 2].map(|i| mass.inertia[i][i]);
     let products = [(0, 1), (0, 2), (1, 2)].map(|(i, j)| mass.inertia[i][j].abs());
     let largest = [xx, yy, zz].into_iter().fold(0.0, f64::max);
-    if products.iter().any(|product| *product > ROUNDING * largest) {
+    if products.iter().any(|product| *product > INERTIA_ROUNDING_SHARE * largest) {
         let text = format!("deck 4: structure {} has products of inertia", of.number);
         out.refuse(
             Diagnostic::error(text, of.span)
@@ -199,7 +199,7 @@ fn hydrostatics(deck: &Deck, of: &Structure, known: &Hydrostatics, nominal: bool
     let mut text = format!("#HYDROSTATIC *{}_CG", body(of.number));
     text.push_str(&format!(" -BUOYANCY {}", number(out.scale.force(buoyancy.value, 0))));
     text.push_str(&format!(" -ZCGE {}", number(out.scale.length(height.value))));
-    for (row, name) in ROWS.iter().enumerate() {
+    for (row, name) in STIFFNESS_OPTIONS.iter().enumerate() {
         let values: Vec<f64> = (0..6)
             .map(|column| {
                 let power = i32::from(row > 2) + i32::from(column > 2) - 1;
@@ -254,7 +254,7 @@ fn tubes(deck: &Deck, of: &Structure, out: &mut Script) {
             point(of.number, *second),
             number(out.scale.section(geometry.parameters[0].value)),
             number(product(geometry.drag(), factors.drag)),
-            number(product(FRICTION, factors.drag)),
+            number(product(AXIAL_FRICTION, factors.drag)),
             number(product(geometry.added_mass(), factors.added_mass)),
         );
         out.card("deck 2, TUBE", tube.span);

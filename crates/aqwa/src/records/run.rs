@@ -12,7 +12,7 @@ use crate::waves::Waves;
 use windlass_base::diagnostic::Diagnostic;
 
 /// Hours for which the peak stress is expected when TPSH is not given (A.5).
-const HOURS: f64 = 3.0;
+const DEFAULT_PEAK_HOURS: f64 = 3.0;
 
 /// The records that run a deck.
 pub(super) fn job(deck: &Deck, out: &mut Script) {
@@ -228,7 +228,7 @@ fn statistics(deck: &Deck, name: &str, tether: &Tether, out: &mut Script) {
     }
     let Fatigue { concentration, intercept, slope } = tether.description.fatigue;
     let curve = format!("-SN {}", numbers([concentration, scale_intercept(intercept, slope, out), slope]));
-    let hours = number(tether.description.peak_hours.unwrap_or(HOURS));
+    let hours = number(tether.description.peak_hours.unwrap_or(DEFAULT_PEAK_HOURS));
     out.record(format!("TETHER {name} RANGES {between} {curve}"));
     out.record(format!("TETHER {name} FATIGUE {between} {curve} -HOURS {hours}"));
 }

@@ -13,7 +13,7 @@ const CURVE: &str = "DECK_13";
 /// err by 0.03 % of the density at the peak.
 const GAUSSIAN: (i32, f64) = (240, 6.0);
 /// Phases on a line.
-const PHASES: usize = 10;
+const PHASES_PER_LINE: usize = 10;
 /// Peakedness that the language takes.
 const GAMMA: std::ops::RangeInclusive<f64> = 1.0..=20.0;
 
@@ -75,7 +75,7 @@ fn irregular(deck: &Deck, sea: &Spectrum, out: &mut Script) -> Vec<String> {
         options.push(format!("-SEED {}", sea.seed.max(0)));
         out.remark("the phases are random as windlass makes them; those of that program are had with PHAS cards");
     } else {
-        let rows = sea.phases.chunks(PHASES).map(|row| numbers(row.iter().copied()));
+        let rows = sea.phases.chunks(PHASES_PER_LINE).map(|row| numbers(row.iter().copied()));
         options.push(format!("-PHASES \\\n    {}", rows.collect::<Vec<_>>().join(" \\\n    ")));
     }
     options.push("-STRETCHING EXPONENTIAL".into());

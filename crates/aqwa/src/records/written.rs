@@ -6,18 +6,22 @@ use windlass_base::span::Span;
 
 /// Digits kept of a number that is reckoned from those of the cards: a difference of places, a product with the factor of a unit. A
 /// double has 15 to 17, of which the last ones of such a number are rounding; without them the digits of the cards show again.
-const DIGITS: i32 = 13;
+const SIGNIFICANT_DIGITS: i32 = 13;
 /// From here on a number is written with an exponent.
-const LARGE: f64 = 1e9;
+const EXPONENT_ABOVE: f64 = 1e9;
 /// Below this too.
-const SMALL: f64 = 1e-4;
+const EXPONENT_BELOW: f64 = 1e-4;
 
 /// A number as a record has it: the shortest text that reads back as it.
 pub(super) fn number(value: f64) -> String {
     // a zero has no sign here
     let value = value + 0.0;
     let size = value.abs();
-    if value == 0.0 || (SMALL..LARGE).contains(&size) { format!("{value}") } else { format!("{value:E}") }
+    if value == 0.0 || (EXPONENT_BELOW..EXPONENT_ABOVE).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:E}")
+    }
 }
 
 /// Numbers with a blank between them.
@@ -30,7 +34,7 @@ fn rounded_to(value: f64, size: f64) -> f64 {
     if value == 0.0 || !(size > 0.0 && size.is_finite()) {
         return value;
     }
-    let power = DIGITS - 1 - size.log10().floor() as i32;
+    let power = SIGNIFICANT_DIGITS - 1 - size.log10().floor() as i32;
     let kept = if power >= 0 {
         (value * 10f64.powi(power)).round() / 10f64.powi(power)
     } else {

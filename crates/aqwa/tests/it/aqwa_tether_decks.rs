@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use windlass_aqwa::elements::Shape;
-use windlass_aqwa::end_springs::STIFF;
+use windlass_aqwa::end_springs::DEFAULT_SPRING_STIFFNESS;
 use windlass_aqwa::job::Program;
 use windlass_aqwa::lines::{LineKind, Property};
 use windlass_aqwa::tethers::{Constraint, Fatigue};
@@ -276,7 +276,7 @@ fn the_installed_example_is_what_chapter_8_says() {
     for (k, tether) in (1..).zip(&deck.mooring.tethers) {
         assert!(!tether.is_towed());
         assert_eq!((tether.node.value, tether.anchor.value), (1000 + 10 * k, 9000 + 10 * k));
-        assert_eq!(tether.springs(), [[STIFF, 5729.578, 5729.578]; 2]);
+        assert_eq!(tether.springs(), [[DEFAULT_SPRING_STIFFNESS, 5729.578, 5729.578]; 2]);
         assert_eq!((tether.description.group, tether.description.impact), (4, Some((3e5, 2.5))));
         let height = |node: i64| deck.nodes[&node].position[2];
         let length: f64 =
@@ -393,7 +393,7 @@ fn every_card_of_appendix_a_has_its_fields() {
         [104, 103, 101, 101]
     );
     // inline blank is 1E15, a negative rotational stiffness is 0 (A.2)
-    assert_eq!(first.springs(), [[1000.0, 200.0, 0.0], [STIFF, 4.0, 5.0]]);
+    assert_eq!(first.springs(), [[1000.0, 200.0, 0.0], [DEFAULT_SPRING_STIFFNESS, 4.0, 5.0]]);
     assert_eq!(tether.fatigue, Fatigue { concentration: 1.3, intercept: 1e24, slope: 3.0 });
     assert_eq!((tether.peak_hours, tether.group), (Some(6.0), 3));
     assert_eq!((tether.caps, tether.fluid), ((0.11, 0.22), (101.3, 0.85)));
@@ -1031,7 +1031,7 @@ proptest! {
         let reading = reading(&list.join("\n"));
         let _ = reading.deck.echo();
         reading.deck.data_tables();
-        prop_assert!(reading.deck.nodes.len() <= windlass_aqwa::nodes::MOST_NODES);
+        prop_assert!(reading.deck.nodes.len() <= windlass_aqwa::nodes::MAX_NODES);
         prop_assert!(reading.messages.len() <= 201);
     }
 

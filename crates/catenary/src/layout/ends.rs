@@ -9,17 +9,17 @@ use crate::search::{Point, rising_root};
 use crate::state::{Heap, State};
 
 /// Parameters of a layout: the horizontal force (or the length of a heap), and the place of the fairlead.
-const FORCE: usize = 0;
-const ASIDE: usize = 1;
-const ABOVE: usize = 2;
+const FORCE_PARAMETER: usize = 0;
+const DISTANCE_PARAMETER: usize = 1;
+const HEIGHT_PARAMETER: usize = 2;
 /// Share of the length by which a line falls short where the search has closed in on a jump, and share within which it has.
-const JUMP: f64 = 1e-9;
+const JUMP_SHARE: f64 = 1e-9;
 /// Steps of the search for the distance.
-const MOST_STEPS: usize = 200;
+const MAX_SEARCH_STEPS: usize = 200;
 
 impl Layout<'_> {
     fn top(&self, h: Var, x: f64, z: f64, near: Option<f64>) -> Top {
-        let (u, z) = (Var::parameter(x, ASIDE, 1.0), Var::parameter(z, ABOVE, 1.0));
+        let (u, z) = (Var::parameter(x, DISTANCE_PARAMETER, 1.0), Var::parameter(z, HEIGHT_PARAMETER, 1.0));
         Top { h, u, z, near, heap: Var::constant(0.0), hollow: None, hold: None }
     }
 
@@ -60,9 +60,9 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
     let mut hollow = None;
     let (_, steps) = rising_root(begin, x, |h| {
         let h = h.max(least);
-        match layout.lay(&layout.top(Var::parameter(h, FORCE, 1.0), x, z, near)) {
+        match layout.lay(&layout.top(Var::parameter(h, FORCE_PARAMETER, 1.0), x, z, near)) {
             Ok(laid) => {
-                let (short, slope) = (laid.short.value, -laid.short.by[FORCE]);
+                let (short, slope) = (laid.short.value, -laid.short.by[FORCE_PARAMETER]);
                 near = Some(laid.top.value);
                 if let Some((Heap::Hollow(sump), _)) = laid.heap {
                     hollow = Some((h, sump));
@@ -87,13 +87,13 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
     };
     laid.iterations += steps;
     let in_hollow = matches!(laid.heap, Some((Heap::Hollow(_), _)));
-    if let Some((force, sump)) = hollow.filter(|_| in_hollow || laid.short.value.abs() > JUMP * layout.length) {
+    if let Some((force, sump)) = hollow.filter(|_| in_hollow || laid.short.value.abs() > JUMP_SHARE * layout.length) {
         laid = heap_in_hollow(&layout, [x, z], force, sump)?;
-    } else if laid.short.value.abs() > JUMP * layout.length
+    } else if laid.short.value.abs() > JUMP_SHARE * layout.length
         && let [Some(low), Some(high)] = sides
-        && (high - low).abs() <= JUMP * high
+        && (high - low).abs() <= JUMP_SHARE * high
     {
-        let top = |h: f64| layout.top(Var::parameter(h, FORCE, 1.0), x, z, None);
+        let top = |h: f64| layout.top(Var::parameter(h, FORCE_PARAMETER, 1.0), x, z, None);
         if let Some(found) = layout.between_folds(&top, &|h, by: f64| h * by.exp(), [low, high]) {
             (h, laid) = found;
         }
@@ -104,7 +104,7 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
         let hanging = laid.top.value.abs();
         if hanging > least && hanging * 1e-11 < least {
             layout.least = 1e-11 * hanging;
-            let finer = layout.lay(&layout.top(Var::parameter(layout.least, FORCE, 1.0), x, z, near));
+            let finer = layout.lay(&layout.top(Var::parameter(layout.least, FORCE_PARAMETER, 1.0), x, z, near));
             laid = finer.unwrap_or(laid);
         }
         if line.weightless() && laid.short.value < -1e-9 * (layout.length + x) {
@@ -132,9 +132,9 @@ fn heap_at_touchdown(layout: &Layout, x: f64, z: f64, without: &Laid) -> Result<
     let start = -without.short.value;
     rising_root(start, 0.0, |length| {
         let top = layout.top(Var::constant(layout.least), x, z, Some(without.top.value));
-        match layout.lay(&Top { heap: Var::parameter(length, FORCE, 1.0), ..top }) {
+        match layout.lay(&Top { heap: Var::parameter(length, FORCE_PARAMETER, 1.0), ..top }) {
             Ok(laid) => {
-                let found = Point { value: laid.short.value, slope: laid.short.by[FORCE] };
+                let found = Point { value: laid.short.value, slope: laid.short.by[FORCE_PARAMETER] };
                 if best.as_ref().is_none_or(|b| found.value.abs() <= b.short.value.abs()) {
                     best = Some(laid);
                 }
@@ -162,10 +162,10 @@ fn heap_at_touchdown(layout: &Layout, x: f64, z: f64, without: &Laid) -> Result<
 /// it from the anchor on the other.
 fn heap_in_hollow(layout: &Layout, [x, z]: [f64; 2], force: f64, sump: f64) -> Result<Laid, LineError> {
     let mut near: Option<(f64, Laid)> = None;
-    let lost = |left| LineError::NotConverged { force, residual: left, iterations: MOST_STEPS };
-    rising_root(force, 0.0, |h| match layout.lay(&layout.top(Var::parameter(h, FORCE, 1.0), x, z, None)) {
+    let lost = |left| LineError::NotConverged { force, residual: left, iterations: MAX_SEARCH_STEPS };
+    rising_root(force, 0.0, |h| match layout.lay(&layout.top(Var::parameter(h, FORCE_PARAMETER, 1.0), x, z, None)) {
         Ok(laid) if laid.heap.is_some_and(|(place, _)| place == Heap::Hollow(sump)) => {
-            let found = Point { value: -laid.short.value, slope: -laid.short.by[FORCE] };
+            let found = Point { value: -laid.short.value, slope: -laid.short.by[FORCE_PARAMETER] };
             if near.as_ref().is_none_or(|(_, n)| laid.short.value < n.short.value) {
                 near = Some((h, laid));
             }
@@ -180,13 +180,13 @@ fn heap_in_hollow(layout: &Layout, [x, z]: [f64; 2], force: f64, sump: f64) -> R
 
 /// The line that hangs down from the anchor to a hollow, on whose other side it is known.
 fn beyond_hollow(layout: &Layout, [x, z]: [f64; 2], h: f64, sump: f64, above: Laid) -> Result<Laid, LineError> {
-    let lost = |left| LineError::NotConverged { force: h, residual: left, iterations: MOST_STEPS };
+    let lost = |left| LineError::NotConverged { force: h, residual: left, iterations: MAX_SEARCH_STEPS };
     let mut best: Option<Laid> = None;
     rising_root(0.01 * layout.length, 0.0, |length| {
         let top = layout.top(Var::constant(h), x, z, Some(above.top.value));
-        match layout.lay(&Top { hollow: Some((sump, Var::parameter(length, FORCE, 1.0))), ..top }) {
+        match layout.lay(&Top { hollow: Some((sump, Var::parameter(length, FORCE_PARAMETER, 1.0))), ..top }) {
             Ok(laid) => {
-                let found = Point { value: laid.short.value, slope: laid.short.by[FORCE] };
+                let found = Point { value: laid.short.value, slope: laid.short.by[FORCE_PARAMETER] };
                 if best.as_ref().is_none_or(|b| found.value.abs() <= b.short.value.abs()) {
                     best = Some(laid);
                 }
@@ -207,13 +207,13 @@ fn beyond_hollow(layout: &Layout, [x, z]: [f64; 2], h: f64, sump: f64, above: La
 /// The line with a horizontal force at its fairlead, at elevation `z`.
 pub fn at_force(line: &Line, force: f64, z: f64) -> Result<State, LineError> {
     let layout = Layout::new(line, line.length(), z);
-    let top = |at: f64| layout.top(Var::parameter(force, FORCE, 1.0), at, z, None);
+    let top = |at: f64| layout.top(Var::parameter(force, FORCE_PARAMETER, 1.0), at, z, None);
     let mut at = 0.9 * layout.length;
     let mut near = None;
     let mut sides: [Option<f64>; 2] = [None, None];
     let mut best: Option<(f64, Laid)> = None;
     let mut buried = f64::INFINITY;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_SEARCH_STEPS {
         let low = sides[1].unwrap_or(f64::NEG_INFINITY);
         if layout.fairlead_penetration(at, z).is_some() {
             buried = at;
@@ -222,7 +222,7 @@ pub fn at_force(line: &Line, force: f64, z: f64) -> Result<State, LineError> {
         }
         let laid = layout.lay(&Top { near, ..top(at) })?;
         near = Some(laid.top.value);
-        let (short, slope) = (laid.short.value, laid.short.by[ASIDE]);
+        let (short, slope) = (laid.short.value, laid.short.by[DISTANCE_PARAMETER]);
         let better = best.as_ref().is_none_or(|(_, b)| short.abs() < b.short.value.abs());
         if better {
             best = Some((at, laid));
@@ -249,11 +249,11 @@ pub fn at_force(line: &Line, force: f64, z: f64) -> Result<State, LineError> {
         at = next;
     }
     let Some((mut x, mut laid)) = best else {
-        return Err(LineError::NotConverged { force, residual: f64::NAN, iterations: MOST_STEPS });
+        return Err(LineError::NotConverged { force, residual: f64::NAN, iterations: MAX_SEARCH_STEPS });
     };
-    if laid.short.value.abs() > JUMP * layout.length
+    if laid.short.value.abs() > JUMP_SHARE * layout.length
         && let [Some(high), Some(low)] = sides
-        && (high - low).abs() <= JUMP * layout.length
+        && (high - low).abs() <= JUMP_SHARE * layout.length
         && let Some(found) = layout.between_folds(&top, &|at, by| at + by * layout.length, [high, low])
     {
         (x, laid) = found;

@@ -9,15 +9,15 @@
 use super::{Hold, Laid, Layout, Top};
 
 /// Difference of what lies before a span (share of all weights) that is a jump.
-const JUMP: f64 = 1e-9;
+const JUMP_SHARE: f64 = 1e-9;
 /// Places between the two sides of a jump that are tried.
-const PLACES: usize = 24;
+const PLACES_IN_JUMP: usize = 24;
 /// First change of the parameter in search of a landing, the factor by which it grows, and how often.
 const FIRST_SHIFT: f64 = 1e-12;
 const SHIFT_FACTOR: f64 = 8.0;
-const MOST_SHIFTS: usize = 15;
+const MAX_SHIFTS: usize = 15;
 /// Steps of a bracketed search.
-const MOST_STEPS: usize = 200;
+const MAX_SEARCH_STEPS: usize = 200;
 
 impl Layout<'_> {
     /// The line between the two sides of a jump, given by their parameters: the end falls short of the anchor at the first
@@ -34,7 +34,9 @@ impl Layout<'_> {
         let mut pairs = first.left_at.iter().zip(&second.left_at).enumerate();
         // where one side only just touches the bottom, none of it lies
         let (span, from, to, (at, side)) = pairs.find_map(|(span, sides)| match sides {
-            (Some(a), Some(b)) => ((a - b).abs() > JUMP * self.weight).then_some((span, *a, *b, (first_at, &first))),
+            (Some(a), Some(b)) => {
+                ((a - b).abs() > JUMP_SHARE * self.weight).then_some((span, *a, *b, (first_at, &first)))
+            }
             (Some(a), None) => Some((span, *a, 0.0, (first_at, &first))),
             (None, Some(b)) => Some((span, 0.0, *b, (second_at, &second))),
             (None, None) => None,
@@ -44,7 +46,7 @@ impl Layout<'_> {
         let found = |lands_in: Option<usize>| {
             let hold = Hold { span, weight: from, lands_in, goes_on: false };
             let found = self.between_places(top, shifted, (hold, to), (at, shorts));
-            found.filter(|(_, laid)| laid.short.value.abs() <= JUMP * self.length)
+            found.filter(|(_, laid)| laid.short.value.abs() <= JUMP_SHARE * self.length)
         };
         found(None).or_else(|| lands_in.and_then(|piece| found(Some(piece))))
     }
@@ -68,9 +70,9 @@ impl Layout<'_> {
             Some((parameter, laid))
         };
         let mut before = (0.0, short_at_first);
-        for step in 1..=PLACES {
-            let share = step as f64 / PLACES as f64;
-            let value = if step == PLACES { short_at_last } else { short(share)?.1.short.value };
+        for step in 1..=PLACES_IN_JUMP {
+            let share = step as f64 / PLACES_IN_JUMP as f64;
+            let value = if step == PLACES_IN_JUMP { short_at_last } else { short(share)?.1.short.value };
             if (value > 0.0) != (before.1 > 0.0) {
                 let mut best: Option<(f64, Laid)> = None;
                 bracketed_root(before, (share, value), |share| {
@@ -98,7 +100,7 @@ impl Layout<'_> {
         is_there: impl Fn(f64) -> bool,
     ) -> Option<(f64, Laid)> {
         let mut shift = 0.0;
-        for _ in 0..MOST_SHIFTS {
+        for _ in 0..MAX_SHIFTS {
             let parameter = shifted(at, outward * shift);
             let laid = self.lay(&top(parameter)).ok().filter(|l| is_there(l.short.value));
             if let Some(laid) = laid {
@@ -127,7 +129,7 @@ impl Layout<'_> {
         }
         let mut ends = [start, start];
         let mut shift = FIRST_SHIFT;
-        for _ in 0..MOST_SHIFTS {
+        for _ in 0..MAX_SHIFTS {
             for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
                 let at = shifted(near, sign * shift);
                 let Some(found) = gap(at) else { continue };
@@ -147,7 +149,7 @@ impl Layout<'_> {
 fn bracketed_root(a: (f64, f64), b: (f64, f64), mut f: impl FnMut(f64) -> Option<f64>) -> f64 {
     let ((mut a, mut at_a), (mut b, mut at_b)) = (a, b);
     let mut best = if at_a.abs() < at_b.abs() { (a, at_a.abs()) } else { (b, at_b.abs()) };
-    for step in 0..MOST_STEPS {
+    for step in 0..MAX_SEARCH_STEPS {
         let secant = b - at_b * (b - a) / (at_b - at_a);
         let inside = secant > a.min(b) && secant < a.max(b);
         let next = if inside && step % 3 != 2 { secant } else { 0.5 * (a + b) };

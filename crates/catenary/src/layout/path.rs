@@ -2,7 +2,7 @@
 
 use super::span::{Candidate, Departure, Kind, stretch_between};
 use super::{Laid, Layout, Manner, Point, Stretch};
-use crate::dual::{UNKNOWN, Var};
+use crate::dual::{SPAN_UNKNOWN, Var};
 use crate::element::{Element, mean_strain, strain};
 use crate::profile::Tilt;
 use crate::state::Heap;
@@ -401,12 +401,12 @@ impl Layout<'_> {
                     Some(Element::Length { segment, .. }) if segment.weight > 0.0 => segment.weight,
                     _ => return self.departure(Cursor { at: from, face, tension }, (index, unknown)),
                 };
-                let arc = Var::parameter(from.s.value + (share / weight).min(length.value), UNKNOWN, 1.0 / weight);
+                let arc = Var::parameter(from.s.value + (share / weight).min(length.value), SPAN_UNKNOWN, 1.0 / weight);
                 let there = self.lie(&Cursor { at: from, face, tension }, arc - from.s, limp);
                 self.departure(Cursor { at: Point { s: arc, ..there.at }, ..there }, (index, unknown))
             }
             What::Support { joint, at, face, along, normal, .. } => {
-                let carried = Var::parameter(share, UNKNOWN, 1.0);
+                let carried = Var::parameter(share, SPAN_UNKNOWN, 1.0);
                 let tilt = self.bottom.tilt(face);
                 let normal = normal + carried;
                 // friction leaves the line beyond at least upright
@@ -420,7 +420,7 @@ impl Layout<'_> {
             }
             What::Turn { vertex, at, tension, angle } => {
                 let slope = 1.0 / tension.value;
-                let turn = Var::parameter(share * slope, UNKNOWN, slope);
+                let turn = Var::parameter(share * slope, SPAN_UNKNOWN, slope);
                 let left = self.turned_by(tension, turn);
                 let angle = angle + turn;
                 let (sin, cos) = angle.value.sin_cos();
@@ -435,7 +435,7 @@ impl Layout<'_> {
                 if weight <= 0.0 {
                     return self.departure(cursor, (index, unknown));
                 }
-                let arc = Var::parameter(from.s.value + (share / weight).min(length.value), UNKNOWN, 1.0 / weight);
+                let arc = Var::parameter(from.s.value + (share / weight).min(length.value), SPAN_UNKNOWN, 1.0 / weight);
                 self.departure(Cursor { at: Point { s: arc, ..from }, ..cursor }, (index, unknown))
             }
         }

@@ -2,7 +2,7 @@
 
 use super::path::Spare;
 use super::{JointAt, Laid, Layout, Manner, Origin, Point, Stretch, Top};
-use crate::dual::{UNKNOWN, Var};
+use crate::dual::{SPAN_UNKNOWN, Var};
 use crate::element::{Element, strain, stretch};
 use crate::line::Segment;
 use crate::refused::LineError;
@@ -58,7 +58,7 @@ pub struct Departure {
 }
 
 /// Steps after which a search gives up.
-const MOST_STEPS: usize = 200;
+const MAX_SEARCH_STEPS: usize = 200;
 /// Steps after which every other one halves the bracket.
 const NEWTON_STEPS: usize = 25;
 
@@ -68,12 +68,12 @@ impl Layout<'_> {
     pub fn depart(&self, origin: &Origin, top: &Top, unknown: f64) -> Departure {
         match origin {
             Origin::Fairlead => {
-                let v = Var::parameter(unknown, UNKNOWN, 1.0);
+                let v = Var::parameter(unknown, SPAN_UNKNOWN, 1.0);
                 let point = Point { element: 0, s: Var::constant(0.0), u: top.u, z: top.z, h: top.h, v };
                 Departure { point, face: None, piece: 0, unknown }
             }
             Origin::Held { before, .. } => {
-                let v = before.v + Var::parameter(unknown, UNKNOWN, 1.0);
+                let v = before.v + Var::parameter(unknown, SPAN_UNKNOWN, 1.0);
                 let point = Point { element: before.element + 1, s: Var::constant(0.0), v, ..*before };
                 Departure { point, face: None, piece: 0, unknown }
             }
@@ -109,7 +109,7 @@ impl Layout<'_> {
         let lands_in = top.hold.filter(|h| h.span == span + 1).and_then(|h| h.lands_in);
         let mut best: Option<(f64, Departure, Candidate)> = None;
         let mut steps = 0;
-        while steps < MOST_STEPS {
+        while steps < MAX_SEARCH_STEPS {
             steps += 1;
             let departure = self.depart(origin, top, at);
             let found = self.least_of(&departure, sunk, lands_in, Candidate::room);
@@ -355,7 +355,7 @@ fn reach(segment: &Segment, law: Option<&StretchLaw>, from: &Point, length: f64,
     let (h, v) = (from.h.value, from.v.value);
     let (mut low, mut high) = (0.0, length);
     let mut s = 0.5 * length;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_SEARCH_STEPS {
         let end = v - segment.weight * s;
         let off = stretch(segment, law, s, h, end).x - aside;
         if off > 0.0 {

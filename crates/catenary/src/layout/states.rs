@@ -6,7 +6,7 @@ use crate::element::{Element, mean_strain, stretch};
 use crate::line::{Joint, Segment};
 use crate::refused::LineError;
 use crate::shape::ShapePoint;
-use crate::solve::PROOF;
+use crate::solve::RESIDUAL_TOLERANCE;
 use crate::state::{Buoy, JointState, SegmentState, State};
 
 impl Layout<'_> {
@@ -40,7 +40,7 @@ impl Layout<'_> {
         let short = laid.short.value;
         let residual = if slack { 0.0 } else { short.abs() * xx.hypot(zx) };
         let rounding = 2.0 * self.fine;
-        if !(slack || residual <= PROOF * scale || short.abs() <= rounding) {
+        if !(slack || residual <= RESIDUAL_TOLERANCE * scale || short.abs() <= rounding) {
             return Err(LineError::Unproven { residual, tension: scale });
         }
         if laid.left > 1e-12 * (self.length + x.abs()) + 64.0 * self.fine {

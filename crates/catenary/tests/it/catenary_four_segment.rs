@@ -1,8 +1,8 @@
 //! The example line that ends [MOSES-FLEX] against independent values (feet, kips; X within 0.1 ft,
 //! forces within 0.1 kips: the digits the values were given with).
 
-use windlass_base::units::{FOOT, KIP};
-use windlass_catenary::{Buoy, Joint, Line, ROWS, Row, Segment, table};
+use windlass_base::units::{METRES_PER_FOOT, NEWTONS_PER_KIP};
+use windlass_catenary::{Buoy, DEFAULT_ROWS, Joint, Line, Row, Segment, table};
 
 fn area(od: f64) -> f64 {
     std::f64::consts::FRAC_PI_4 * od * od
@@ -11,18 +11,18 @@ fn area(od: f64) -> f64 {
 /// The printed line with a spring buoy of this capacity (kips) on a pendant of this length (ft).
 fn line(capacity: f64, pendant: f64) -> Line {
     let segment = |od: f64, length: f64, weight: f64, e: f64| Segment {
-        length: length * FOOT,
-        weight: weight * KIP / FOOT,
-        ea: e * area(od) * KIP,
+        length: length * METRES_PER_FOOT,
+        weight: weight * NEWTONS_PER_KIP / METRES_PER_FOOT,
+        ea: e * area(od) * NEWTONS_PER_KIP,
     };
     let wire = |length: f64| segment(4.625, length, 37.51 / 1000.0, 2900.0);
     let segments = vec![wire(500.0), wire(4000.0), segment(4.375, 2000.0, 158.2 / 1000.0, 4350.0), wire(2000.0)];
-    let buoy = Joint::SpringBuoy { capacity: capacity * KIP, depth: pendant * FOOT };
-    Line::new(segments, vec![buoy, Joint::Free, Joint::Free], -3000.0 * FOOT, 0.0).unwrap()
+    let buoy = Joint::SpringBuoy { capacity: capacity * NEWTONS_PER_KIP, depth: pendant * METRES_PER_FOOT };
+    Line::new(segments, vec![buoy, Joint::Free, Joint::Free], -3000.0 * METRES_PER_FOOT, 0.0).unwrap()
 }
 
 fn example(capacity: f64, pendant: f64) -> (Vec<Row>, [f64; 4]) {
-    let breaks = [4.625, 4.625, 4.375, 4.625].map(|od| 60.0 * area(od) * KIP);
+    let breaks = [4.625, 4.625, 4.375, 4.625].map(|od| 60.0 * area(od) * NEWTONS_PER_KIP);
     (table(&line(capacity, pendant), &breaks, breaks[0], 0.0).unwrap().0, breaks)
 }
 
@@ -33,26 +33,26 @@ fn close(got: f64, want: f64, within: f64, what: &str) {
 #[test]
 fn the_buoy_of_the_printed_example_is_always_sunk_and_the_rows_agree() {
     let (rows, breaks) = example(100.0, 0.0);
-    assert_eq!(rows.len(), ROWS);
-    close(breaks[0] / KIP, 1008.0, 0.05, "break of the wire");
-    close(breaks[2] / KIP, 902.0, 0.05, "break of segment 3");
+    assert_eq!(rows.len(), DEFAULT_ROWS);
+    close(breaks[0] / NEWTONS_PER_KIP, 1008.0, 0.05, "break of the wire");
+    close(breaks[2] / NEWTONS_PER_KIP, 902.0, 0.05, "break of segment 3");
     assert!(rows.iter().all(|r| r.state.joints[0].buoy == Some(Buoy::Sunk)));
     for (n, depth) in [(1, 406.0), (15, 300.0), (29, 237.0)] {
-        close(-rows[n].state.joints[0].z / FOOT, depth, 0.5, "depth of the buoy");
+        close(-rows[n].state.joints[0].z / METRES_PER_FOOT, depth, 0.5, "depth of the buoy");
     }
     let (one, fifteen, last) = (&rows[1], &rows[15], &rows[29]);
-    close(one.state.x / FOOT, 5681.9, 0.1, "X of row 1");
-    close(one.state.top_tension / KIP, 17.2, 0.1, "top tension of row 1");
-    close(one.state.segments[1].top_tension / KIP, 98.4, 0.1, "segment 2 top of row 1");
+    close(one.state.x / METRES_PER_FOOT, 5681.9, 0.1, "X of row 1");
+    close(one.state.top_tension / NEWTONS_PER_KIP, 17.2, 0.1, "top tension of row 1");
+    close(one.state.segments[1].top_tension / NEWTONS_PER_KIP, 98.4, 0.1, "segment 2 top of row 1");
     assert!(one.state.segments[0].bottom_vertical < 0.0, "the first segment starts as a hanging U");
-    close(fifteen.state.force / KIP, 269.68, 0.01, "H of row 15");
-    close(fifteen.state.x / FOOT, 7536.6, 0.1, "X of row 15");
-    close(fifteen.state.top_tension / KIP, 341.5, 0.1, "top tension of row 15");
-    close(fifteen.state.segments[1].top_tension / KIP, 396.6, 0.1, "segment 2 top of row 15");
-    close(fifteen.state.grounded / FOOT, 3110.0, 1.0, "grounded length of row 15");
-    close(last.state.x / FOOT, 8021.1, 0.1, "X of row 29");
-    close(last.state.top_tension / KIP, 1142.3, 0.1, "top tension of row 29");
-    close(last.state.anchor_vertical / KIP, 77.1, 0.1, "anchor pull of row 29");
+    close(fifteen.state.force / NEWTONS_PER_KIP, 269.68, 0.01, "H of row 15");
+    close(fifteen.state.x / METRES_PER_FOOT, 7536.6, 0.1, "X of row 15");
+    close(fifteen.state.top_tension / NEWTONS_PER_KIP, 341.5, 0.1, "top tension of row 15");
+    close(fifteen.state.segments[1].top_tension / NEWTONS_PER_KIP, 396.6, 0.1, "segment 2 top of row 15");
+    close(fifteen.state.grounded / METRES_PER_FOOT, 3110.0, 1.0, "grounded length of row 15");
+    close(last.state.x / METRES_PER_FOOT, 8021.1, 0.1, "X of row 29");
+    close(last.state.top_tension / NEWTONS_PER_KIP, 1142.3, 0.1, "top tension of row 29");
+    close(last.state.anchor_vertical / NEWTONS_PER_KIP, 77.1, 0.1, "anchor pull of row 29");
     for (n, row) in rows.iter().enumerate().skip(1) {
         assert_eq!(row.critical, if n <= 22 { 2 } else { 3 }, "critical segment of row {n}");
     }
@@ -65,18 +65,18 @@ fn a_larger_buoy_on_a_pendant_is_held_and_then_sinks() {
         let want = if n <= 9 { Buoy::Held } else { Buoy::Sunk };
         assert_eq!(row.state.joints[0].buoy, Some(want), "row {n}");
     }
-    close(rows[5].state.x / FOOT, 6615.6, 0.1, "X of row 5");
-    close(rows[5].state.joints[0].z / FOOT, -50.0, 1e-9, "the held joint");
-    close(rows[5].state.joints[0].lift / KIP, 143.4, 0.1, "buoyancy used in row 5");
-    close(rows[10].state.x / FOOT, 7235.2, 0.1, "X of row 10");
-    close(-rows[10].state.joints[0].z / FOOT, 67.9, 0.1, "depth in row 10");
-    close(-rows[15].state.joints[0].z / FOOT, 191.2, 0.1, "depth in row 15");
+    close(rows[5].state.x / METRES_PER_FOOT, 6615.6, 0.1, "X of row 5");
+    close(rows[5].state.joints[0].z / METRES_PER_FOOT, -50.0, 1e-9, "the held joint");
+    close(rows[5].state.joints[0].lift / NEWTONS_PER_KIP, 143.4, 0.1, "buoyancy used in row 5");
+    close(rows[10].state.x / METRES_PER_FOOT, 7235.2, 0.1, "X of row 10");
+    close(-rows[10].state.joints[0].z / METRES_PER_FOOT, 67.9, 0.1, "depth in row 10");
+    close(-rows[15].state.joints[0].z / METRES_PER_FOOT, 191.2, 0.1, "depth in row 15");
 }
 
 #[test]
 fn segment_stiffness_is_that_of_the_solid_area() {
     let line = line(100.0, 0.0);
-    let ea: Vec<f64> = line.segments().iter().map(|s| s.ea / KIP).collect();
+    let ea: Vec<f64> = line.segments().iter().map(|s| s.ea / NEWTONS_PER_KIP).collect();
     close(ea[0], 48_720.0, 1.0, "AE of the wire");
     close(ea[2], 65_394.0, 1.0, "AE of segment 3");
 }

@@ -19,11 +19,11 @@ use windlass_model::{
 };
 
 /// An end may lie this much below the bottom (m).
-const BELOW: f64 = 1e-3;
+const MAX_END_PENETRATION_M: f64 = 1e-3;
 
 /// Share of its unstretched length that the ends of a line are apart at least while it pushes: nearer together it hangs or bows, and
 /// its force on an end may be away from the other while it pulls.
-const STRAIGHT: f64 = 0.98;
+const MIN_COMPRESSED_LENGTH_SHARE: f64 = 0.98;
 
 /// What is said of a line that was given memory not its own.
 const NO_MEMORY: &str = "the line has no memory";
@@ -120,7 +120,7 @@ impl DynamicLine {
         let outward = Vector3::new(-x, -y, 1.0).normalize();
         let [_, pull] = &mut made.force;
         let pressed = pull.dot(&outward).min(0.0);
-        if anchor.z - height < BELOW {
+        if anchor.z - height < MAX_END_PENETRATION_M {
             *pull -= outward * pressed;
         }
         made
@@ -139,7 +139,7 @@ impl DynamicLine {
             if let Some((bottom, _)) = &world.bottom.filter(|_| self.base.laid.is_none()) {
                 for (place, name) in places.iter().zip(["first", "second"]) {
                     let below = bottom.height(place.x, place.y).0 - place.z;
-                    if below > BELOW {
+                    if below > MAX_END_PENETRATION_M {
                         let text = format!("its {name} end lies {{}} below the bottom");
                         return Err(ClassError::with_values(text, &[(below, Dim::Length)])
                             .help("check its points, -DEPANCHOR and -DEPTH of &ENV"));
@@ -309,7 +309,7 @@ impl Element for DynamicLine {
         let wound = self.layout.elements + 1 > rod.nodes();
         let stiff = rod.segments().iter().all(|s| s.bending > 0.0);
         let length = || rod.each_of_mesh().map(|(rest, ..)| rest).sum::<f64>();
-        (stiff && !wound && self.base.laid.is_none()).then(|| STRAIGHT * length())
+        (stiff && !wound && self.base.laid.is_none()).then(|| MIN_COMPRESSED_LENGTH_SHARE * length())
     }
 
     fn nodes(&self) -> usize {

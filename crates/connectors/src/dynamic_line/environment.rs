@@ -8,15 +8,15 @@ use windlass_model::{Ambient, Flow, Surroundings};
 
 /// How far a line presses itself into the bottom by its own weight, as a share of its diameter: what the bottom's stiffness follows
 /// from where none is given.
-const PRESSED: f64 = 0.02;
+const DEFAULT_PENETRATION_DIAMETERS: f64 = 0.02;
 /// Weight by which a line that water carries meets the bottom, as a share of its weight in air: it comes there by its ends or a current.
-pub(super) const LIGHT: f64 = 0.1;
+pub(super) const BUOYANT_LINE_WEIGHT_SHARE: f64 = 0.1;
 /// Damping of the bottom against what is critical for the line on it, where none is given.
-const DAMPED: f64 = 0.5;
+const DEFAULT_DAMPING_RATIO: f64 = 0.5;
 /// Way within which friction comes to be whole (m).
-const GIVES: f64 = 0.005;
+const DEFAULT_FRICTION_TRAVEL_M: f64 = 0.005;
 /// Speed at which it is whole (m/s).
-const CREEP: f64 = 0.01;
+const DEFAULT_FRICTION_SPEED: f64 = 0.01;
 
 /// The water of an environment.
 #[derive(Debug)]
@@ -81,19 +81,21 @@ impl Bottom for Floor<'_> {
 /// How the bottom answers a line of these segments.
 pub(super) fn ground(seabed: &Seabed, segments: &[Segment], around: &Surroundings) -> SeabedLaw {
     // by the heaviest segment, so that none presses itself in deeper
-    let weight = |s: &Segment| (s.mass - around.water_density * s.displaced).max(LIGHT * s.mass) * around.gravity;
-    let press = |s: &Segment| weight(s) / (PRESSED * s.contact_diameter * s.contact_diameter);
+    let weight = |s: &Segment| {
+        (s.mass - around.water_density * s.displaced).max(BUOYANT_LINE_WEIGHT_SHARE * s.mass) * around.gravity
+    };
+    let press = |s: &Segment| weight(s) / (DEFAULT_PENETRATION_DIAMETERS * s.contact_diameter * s.contact_diameter);
     let stiffest = segments.iter().map(press).filter(|k| k.is_finite()).fold(0.0, f64::max);
     let stiffness = seabed.stiffness.unwrap_or(stiffest);
     let heavy = segments.iter().map(|s| s.mass / s.contact_diameter).filter(|m| m.is_finite()).fold(0.0, f64::max);
     SeabedLaw {
         stiffness,
-        damping: seabed.damping.unwrap_or(2.0 * DAMPED * (stiffness * heavy).sqrt()),
+        damping: seabed.damping.unwrap_or(2.0 * DEFAULT_DAMPING_RATIO * (stiffness * heavy).sqrt()),
         penetration_scale: 0.0,
         friction_along: seabed.along,
         friction_across: seabed.across.unwrap_or(seabed.along),
-        friction_speed: CREEP,
-        friction_travel: GIVES,
+        friction_speed: DEFAULT_FRICTION_SPEED,
+        friction_travel: DEFAULT_FRICTION_TRAVEL_M,
     }
 }
 

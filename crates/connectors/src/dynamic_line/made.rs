@@ -3,7 +3,7 @@
 use super::describe::{Description, Part};
 use super::element::DynamicLine;
 use super::environment::ground;
-use super::mesh::{Cut, SHORT, attachments, few, mesh, to_class_error};
+use super::mesh::{Cut, JOIN_BELOW_SHARE, attachments, few, mesh, to_class_error};
 use super::solver_cache::{Base, Held};
 use super::start;
 use super::state_layout::Layout;
@@ -64,7 +64,7 @@ impl DynamicLine {
             .map_err(to_class_error)?;
         // the same however much is wound: an element at the winch is never shorter than half of those of the class
         let of_first = counts.first().copied().unwrap_or(0);
-        let wound = connection.duty.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
+        let wound = connection.duty.longest.map(|l| (l / (JOIN_BELOW_SHARE * nominal)).ceil() as usize);
         let capacity =
             (rod.nodes() - 1 - of_first).saturating_add(wound.map_or(of_first, |most| most.saturating_add(2)));
         if capacity > rod::MAX_ELEMENTS {

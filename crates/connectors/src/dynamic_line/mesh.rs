@@ -1,7 +1,7 @@
 //! Elements of a line, and those that a winch lets out or takes in.
 
 use super::describe::{JointMass, Part};
-use super::environment::LIGHT;
+use super::environment::BUOYANT_LINE_WEIGHT_SHARE;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use windlass_base::units::Dim;
@@ -9,9 +9,9 @@ use windlass_line_dynamics::{self as rod, Attachment, Rod, RodError, Segment, St
 use windlass_model::{Ambient, ClassError};
 
 /// An element at the winch is divided when it is longer than this share of those of its part as the class has them.
-const LONG: f64 = 1.5;
+const DIVIDE_ABOVE_SHARE: f64 = 1.5;
 /// It becomes one with the next when it would be shorter than this.
-pub(super) const SHORT: f64 = 0.5;
+pub(super) const JOIN_BELOW_SHARE: f64 = 0.5;
 
 /// An error of a rod for the user, who is told its name elsewhere.
 pub(super) fn to_class_error(error: RodError) -> ClassError {
@@ -205,7 +205,8 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
         };
         let height = height(&joint, density);
         // it presses itself in as deep as the line beside it, by whatever mesh
-        let beside = part.submerged_weight(density, 1.0).max(LIGHT * part.segment.mass) / part.segment.contact_diameter;
+        let beside = part.submerged_weight(density, 1.0).max(BUOYANT_LINE_WEIGHT_SHARE * part.segment.mass)
+            / part.segment.contact_diameter;
         let bearing = (joint.mass - density * joint.volume).max(0.0) / beside;
         made.push(Attachment {
             node,
@@ -239,11 +240,11 @@ pub(super) fn wind(
         }
         return Ok(());
     }
-    if change > 0.0 && rest + change > LONG * nominal {
+    if change > 0.0 && rest + change > DIVIDE_ABOVE_SHARE * nominal {
         rod.divide(0, state).map_err(to_class_error)?;
         rest *= 0.5;
     }
-    if change < 0.0 && rest + change < SHORT * nominal && count > 1 {
+    if change < 0.0 && rest + change < JOIN_BELOW_SHARE * nominal && count > 1 {
         let next = rod.each_of_mesh().nth(1).map_or(0.0, |e| e.0);
         rod.join(0, state).map_err(to_class_error)?;
         rest += next;
@@ -264,7 +265,7 @@ pub(super) fn wind(
 /// The most by which a winch may change a line in one step (m): an element at the winch is divided or taken in once, and is then as long as
 /// [`LONG`] and [`SHORT`] say.
 pub(super) fn most_wound(nominal: f64) -> f64 {
-    SHORT * nominal
+    JOIN_BELOW_SHARE * nominal
 }
 
 #[cfg(test)]

@@ -7,28 +7,28 @@ use windlass_line_dynamics::{End, LineEnvironment, Mode, Rod, RodError, Solver, 
 use windlass_model::{ClassError, LineMode};
 
 /// Most modes that are found: the cost grows with the square of their number, and no one reads as many.
-const MOST: usize = 200;
+const MAX_MODES: usize = 200;
 /// Most memory that finding modes may take (bytes).
-const MEMORY: f64 = 1e9;
+const MAX_MEMORY_BYTES: f64 = 1e9;
 /// Two modes swing alike if their frequencies differ by no more than this share.
-const ALIKE: f64 = 1e-6;
+const EQUAL_FREQUENCIES_SHARE: f64 = 1e-6;
 
 /// Refuses more modes of a line of so many nodes than are worth their memory.
 ///
 /// # Errors
 /// Their number, or what memory they would take.
 pub(super) fn few(nodes: usize, number: usize) -> Result<(), ClassError> {
-    if number > MOST {
-        return Err(ClassError::new(format!("{number} modes of a line are not found: at most {MOST}")));
+    if number > MAX_MODES {
+        return Err(ClassError::new(format!("{number} modes of a line are not found: at most {MAX_MODES}")));
     }
     // vectors of all nodes, with their loads and what they are made of; twice as many as are asked, and the last told apart
     let bytes = 8.0 * 3.0 * nodes as f64 * 4.0 * (2.0 * (number as f64 + 1.0) + 8.0);
-    if bytes > MEMORY {
+    if bytes > MAX_MEMORY_BYTES {
         let text = format!(
             "{number} modes of {} elements would take about {:.1} GB of memory: more than {:.0} GB",
             nodes.saturating_sub(1),
             bytes / 1e9,
-            MEMORY / 1e9
+            MAX_MEMORY_BYTES / 1e9
         );
         return Err(ClassError::new(text).help("fewer modes, or fewer elements by -REFINE"));
     }
@@ -61,7 +61,7 @@ pub(super) fn find_line_modes(
     let across = Vector3::z().cross(&along);
     let mut index = 0;
     while let Some([a, b]) = found.get_mut(index..index + 2).and_then(|pair| <&mut [Mode; 2]>::try_from(pair).ok()) {
-        let alike = (b.frequency - a.frequency).abs() <= ALIKE * b.frequency;
+        let alike = (b.frequency - a.frequency).abs() <= EQUAL_FREQUENCIES_SHARE * b.frequency;
         if alike {
             set_apart(a, b, &across);
         }

@@ -15,19 +15,19 @@ use windlass_line_dynamics::{self as rod, Rod, State};
 use windlass_model::{ClassError, End, PipeLayout, Situation};
 
 /// Elements between two supports, where -REFINE does not say.
-const BETWEEN: usize = 8;
+const ELEMENTS_BETWEEN_SUPPORTS: usize = 8;
 /// Elements over a length sqrt(EI/H), in which the bend at an end decays, where -REFINE does not say.
 const PER_LAYER: f64 = 4.0;
 /// Fewest and most elements from the first support on, where -REFINE does not say.
-const FREE: [f64; 2] = [60.0, 3000.0];
+const FREE_SPAN_ELEMENTS: [f64; 2] = [60.0, 3000.0];
 /// Length over which the brake of the tensioner yields as the pipe does (m).
-const BRAKE: f64 = 10.0;
+const BRAKE_LENGTH_M: f64 = 10.0;
 /// How often it is cut at the tensioner until it ends there.
-const CUTS: usize = 4;
+const MAX_LENGTH_CORRECTIONS: usize = 4;
 /// How far from the tensioner it may end (m).
-const SHORT: f64 = 1e-3;
+const TENSIONER_TOLERANCE_M: f64 = 1e-3;
 /// Least cosine of the angle between the X axis of a support and the way of the pipe.
-const MOST_ASIDE: f64 = 0.5;
+const MIN_SUPPORT_COSINE: f64 = 0.5;
 
 /// Where a pipe goes before it comes to rest.
 struct PipePath {
@@ -81,12 +81,12 @@ impl PipePath {
         made.at.push(0);
         for pair in stations.windows(2).rev() {
             let [near, far] = pair else { continue };
-            made.extend_to(elements((near - far).norm(), BETWEEN as f64), |s| far + (near - far) * s);
+            made.extend_to(elements((near - far).norm(), ELEMENTS_BETWEEN_SUPPORTS as f64), |s| far + (near - far) * s);
             made.at.insert(0, made.points.len() - 1);
         }
         let layer = (segment.bending / horizontal).sqrt();
         if single {
-            let own = (height / layer * PER_LAYER).clamp(FREE[0], FREE[1]).ceil();
+            let own = (height / layer * PER_LAYER).clamp(FREE_SPAN_ELEMENTS[0], FREE_SPAN_ELEMENTS[1]).ceil();
             made.extend_to(elements(height, own), |s| first - Vector3::z() * (height * s));
             return Ok(made);
         }
@@ -97,7 +97,7 @@ impl PipePath {
         let a = horizontal / in_water;
         let arc = (height * height + 2.0 * height * a).sqrt();
         let whole = arc + arc.max(20.0 * layer);
-        let own = (whole / layer * PER_LAYER).clamp(FREE[0], FREE[1]).ceil();
+        let own = (whole / layer * PER_LAYER).clamp(FREE_SPAN_ELEMENTS[0], FREE_SPAN_ELEMENTS[1]).ceil();
         let landed = a * (arc / a).asinh();
         made.extend_to(elements(whole, own), |s| {
             let up = arc - whole * s;
@@ -169,8 +169,12 @@ impl DynamicLine {
                 end.map_or(0.0, |(end, x)| (end.pose.axes * turn * tensioner.along).dot(&(x - end.pose.origin)));
             course.points = rest.places();
             match course.spans.first_mut() {
-                Some((_, length)) if short.abs() > SHORT && cut < CUTS && *length + short > 0.0 => *length += short,
-                _ => (tensioner.at, tensioner.stiffness) = (short, part.ea() / BRAKE),
+                Some((_, length))
+                    if short.abs() > TENSIONER_TOLERANCE_M && cut < MAX_LENGTH_CORRECTIONS && *length + short > 0.0 =>
+                {
+                    *length += short
+                }
+                _ => (tensioner.at, tensioner.stiffness) = (short, part.ea() / BRAKE_LENGTH_M),
             }
         }
         Err(ClassError::new("it does not end at its tensioner"))
@@ -281,7 +285,7 @@ fn direction_through_support(
 ) -> Result<Vector3<f64>, ClassError> {
     let x = x.copied().unwrap_or_else(Vector3::x);
     let way = (place - node.origin).try_normalize(1e-9).map_or(0.0, |way| way.dot(&(node.axes * x)));
-    if way.abs() < MOST_ASIDE {
+    if way.abs() < MIN_SUPPORT_COSINE {
         let error = ClassError::new("a pipe runs along the X axes of its supports, and these lie across it");
         return Err(error.help("-EULER of the CONNECTOR turns the axes of a roller"));
     }

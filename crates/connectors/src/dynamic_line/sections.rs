@@ -32,7 +32,7 @@ const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static s
 }
 
 /// Relaxation time of a fibre rope (s) where none is given: beyond waves, within the slow drift of a vessel.
-const RELAXES: f64 = 100.0;
+const DEFAULT_RELAXATION_TIME_S: f64 = 100.0;
 
 /// Force per rate of strain.
 const PER_RATE: Dim = Dim::Derived { force: 1, length: 0, seconds: 1 };
@@ -268,7 +268,7 @@ fn rope(args: &Args, slow: Axial) -> Outcome<Axial> {
     Ok(Axial::Viscoelastic(Box::new(Viscoelastic {
         slow,
         fast,
-        relaxation: given.number(const { ROPE.number("TAU") }).unwrap_or(RELAXES),
+        relaxation: given.number(const { ROPE.number("TAU") }).unwrap_or(DEFAULT_RELAXATION_TIME_S),
     })))
 }
 

@@ -9,7 +9,7 @@ use windlass_line_dynamics::{self as rod, PlaneBottom, Rod, SeabedLaw, Settings,
 use windlass_model::{Ambient, Flow, SchemeWeights};
 
 /// How often a rod halves a step of the run by itself, before the run halves its own.
-const HALVINGS: u32 = 8;
+const MAX_STEP_HALVINGS: u32 = 8;
 
 /// The direction in which an end is held, in the axes of what holds it, and the stiffness of that (N m/rad); rigid where none.
 pub(super) type Held = (Vector3<f64>, Option<f64>);
@@ -74,7 +74,7 @@ impl SolverCache {
 /// A solver of a rod of a line.
 fn solver_of(base: &Base, rod: &Rod) -> Solver {
     let usual = Settings::default();
-    Solver::new(rod, Settings { halvings: HALVINGS, scheme: base.scheme.unwrap_or(usual.scheme), ..usual })
+    Solver::new(rod, Settings { halvings: MAX_STEP_HALVINGS, scheme: base.scheme.unwrap_or(usual.scheme), ..usual })
 }
 
 #[cfg(test)]

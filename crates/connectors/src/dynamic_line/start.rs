@@ -8,9 +8,9 @@ use windlass_line_dynamics::{Bottom, PlaneBottom};
 use windlass_model::Surroundings;
 
 /// Points of each part between its ends: so many that their chords follow a touchdown of a few metres' radius.
-const BETWEEN: usize = 400;
+const POINTS_PER_PART: usize = 400;
 /// Points of a shape that only has the right length.
-const ROUGH: usize = 60;
+const ROUGH_SHAPE_POINTS: usize = 60;
 
 /// How far from the bottom an end lies on it (m).
 const ON_BOTTOM: f64 = 0.1;
@@ -89,7 +89,7 @@ fn catenary(
     });
     let line = Line::new(segments, joints, to.z, around.tide).ok()?.with_seabed(floor).ok()?;
     let state = line.at_distance(distance, from.z).ok()?;
-    let shape = line.shape(&state, BETWEEN);
+    let shape = line.shape(&state, POINTS_PER_PART);
     let mut points: Vec<_> = shape.iter().map(|p| Vector3::new(from.x, from.y, p.z) + toward * p.x).collect();
     if turned {
         points.reverse();
@@ -110,9 +110,9 @@ fn bow(
         parts.iter().map(|p| p.submerged_weight(around.water_density, around.gravity) * p.segment.length).sum();
     let side = if weight < 0.0 { 1.0 } else { -1.0 };
     let shape = |sag: f64| -> Vec<Vector3<f64>> {
-        (0..=ROUGH)
+        (0..=ROUGH_SHAPE_POINTS)
             .map(|i| {
-                let s = i as f64 / ROUGH as f64;
+                let s = i as f64 / ROUGH_SHAPE_POINTS as f64;
                 let mut point = from + (to - from) * s;
                 point.z += side * 4.0 * sag * s * (1.0 - s);
                 if let Some((bottom, _)) = floor {

@@ -38,15 +38,15 @@ impl StateView<'_> {
     /// The elements of its mesh, as [`Rod::mesh`] tells them, but for their parts in place of segments: how many of these a part has
     /// may change during a run.
     pub fn mesh(&self) -> impl ExactSizeIterator<Item = (f64, f64, usize)> {
-        let (each, _) = self.mesh.as_chunks::<EACH>();
+        let (each, _) = self.mesh.as_chunks::<VALUES_PER_ELEMENT>();
         each.iter().map(|[rest, rate, part]| (*rest, *rate, *part as usize))
     }
 }
 
 /// Flag, the counts of elements and of values of the motion, and what a tensioner has paid out.
-const HEAD: usize = 4;
+const HEADER_VALUES: usize = 4;
 /// Values of an element of the mesh.
-const EACH: usize = 3;
+const VALUES_PER_ELEMENT: usize = 3;
 
 impl Layout {
     /// That of a line of so many elements at most; `motion` values are those of a mesh of so many.
@@ -56,7 +56,7 @@ impl Layout {
 
     /// Values of a state.
     pub fn size(&self) -> usize {
-        HEAD + EACH * self.elements + self.motion + self.books
+        HEADER_VALUES + VALUES_PER_ELEMENT * self.elements + self.motion + self.books
     }
 
     /// Whether books are kept.
@@ -81,7 +81,7 @@ impl Layout {
 
     /// How much pipe the tensioner of a state has paid out (m).
     pub fn paid(&self, state: &[f64]) -> f64 {
-        state.get(HEAD - 1).copied().unwrap_or(0.0)
+        state.get(HEADER_VALUES - 1).copied().unwrap_or(0.0)
     }
 
     /// Writes a state that has begun, and what its tensioner has paid out.
@@ -96,12 +96,12 @@ impl Layout {
         if out.len() != self.size() || mesh.len() > self.elements {
             return Err(wrong());
         }
-        let (head, rest) = out.split_first_chunk_mut::<HEAD>().ok_or_else(wrong)?;
-        let (elements, motion) = rest.split_at_mut_checked(EACH * self.elements).ok_or_else(wrong)?;
+        let (head, rest) = out.split_first_chunk_mut::<HEADER_VALUES>().ok_or_else(wrong)?;
+        let (elements, motion) = rest.split_at_mut_checked(VALUES_PER_ELEMENT * self.elements).ok_or_else(wrong)?;
         let count = state.pack_into(motion.get_mut(..self.motion).ok_or_else(wrong)?).ok_or_else(wrong)?;
         *head = [1.0, mesh.len() as f64, count as f64, paid];
-        let (own, free) = elements.split_at_mut_checked(EACH * mesh.len()).ok_or_else(wrong)?;
-        for (place, (rest, rate, segment)) in own.as_chunks_mut::<EACH>().0.iter_mut().zip(mesh) {
+        let (own, free) = elements.split_at_mut_checked(VALUES_PER_ELEMENT * mesh.len()).ok_or_else(wrong)?;
+        for (place, (rest, rate, segment)) in own.as_chunks_mut::<VALUES_PER_ELEMENT>().0.iter_mut().zip(mesh) {
             *place = [rest, rate, bands.part_of(segment) as f64];
         }
         free.fill(0.0);
@@ -112,14 +112,14 @@ impl Layout {
     /// Reads a state; none of one that has not begun.
     pub fn read<'a>(&self, state: &'a [f64]) -> Result<Option<StateView<'a>>, ClassError> {
         let wrong = || ClassError::new("the state of the line is not one of its own").lasting();
-        let (head, rest) = state.split_at_checked(HEAD).ok_or_else(wrong)?;
+        let (head, rest) = state.split_at_checked(HEADER_VALUES).ok_or_else(wrong)?;
         let [begun, elements, motion, paid] = head else { return Err(wrong()) };
         if *begun == 0.0 {
             return Ok(None);
         }
-        let (mesh, all) = rest.split_at_checked(EACH * self.elements).ok_or_else(wrong)?;
+        let (mesh, all) = rest.split_at_checked(VALUES_PER_ELEMENT * self.elements).ok_or_else(wrong)?;
         let (elements, motion) = (*elements as usize, *motion as usize);
-        let mesh = mesh.get(..EACH.saturating_mul(elements)).ok_or_else(wrong)?;
+        let mesh = mesh.get(..VALUES_PER_ELEMENT.saturating_mul(elements)).ok_or_else(wrong)?;
         let motion = all.get(..motion).ok_or_else(wrong)?;
         Ok(Some(StateView { mesh, motion, paid: *paid, balance: self.balance(state) }))
     }

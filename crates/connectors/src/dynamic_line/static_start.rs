@@ -8,8 +8,8 @@ use windlass_line_dynamics::{Bottom, End, EndForces, LineEnvironment, PlaneBotto
 use windlass_model::{ClassError, Surroundings};
 
 /// First and least share by which a bottom goes over from a plane to what it is.
-const FIRST: f64 = 0.25;
-const LEAST: f64 = 0.02;
+const FIRST_STEP_SHARE: f64 = 0.25;
+const MIN_STEP_SHARE: f64 = 0.02;
 
 /// A bottom on its way from a plane to another.
 struct Between<'a> {
@@ -99,7 +99,7 @@ impl DynamicLine {
         let last = rod.nodes() - 1;
         let mut state =
             self.fallen(places, &LineEnvironment { bottom: Some((&plane, ground)), ..*world }, around, false).ok()?;
-        let (mut share, mut step) = (0.0, FIRST);
+        let (mut share, mut step) = (0.0, FIRST_STEP_SHARE);
         let mut to = share;
         while share < 1.0 {
             let [before, bottom] = [share, to].map(|share| Between { plane: &plane, other, share });
@@ -112,7 +112,7 @@ impl DynamicLine {
             let world = LineEnvironment { bottom: Some((&bottom, ground)), ..*world };
             if solver.statics_with_friction(rod, &mut next, &world, ends).ok()?.is_some() {
                 (state, share) = (next, to);
-            } else if step < LEAST || to == 0.0 {
+            } else if step < MIN_STEP_SHARE || to == 0.0 {
                 return None;
             } else {
                 step *= 0.5;

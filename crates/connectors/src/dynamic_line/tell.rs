@@ -10,7 +10,7 @@ use windlass_line_dynamics::{Settings, Solver};
 use windlass_model::{ClassError, Guess, LineBooks, LineMode, LineNode, LineSide, Note, Situation, Summary};
 
 /// Longest elements at an end that is held, by sqrt(EI/T), of which nothing is said: moment there is then 3 % low.
-const COARSE: f64 = 0.5;
+const COARSE_MESH_RATIO: f64 = 0.5;
 
 impl DynamicLine {
     pub(super) fn tell_books(&self, state: &[f64]) -> Option<LineBooks> {
@@ -93,7 +93,7 @@ impl DynamicLine {
             let (part, [a, b]) = (part?, pair?);
             let fades = (part.segment.bending / a.effective.max(b.effective).max(f64::MIN_POSITIVE)).sqrt();
             let share = (b.arc - a.arc) / fades;
-            (share > COARSE).then(|| {
+            (share > COARSE_MESH_RATIO).then(|| {
                 format!(
                     "warning: elements at its {name} end, which is held, are {share:.1} sqrt(EI/T) long: moment and shear \
                      there are too small; -REFINE makes them shorter"

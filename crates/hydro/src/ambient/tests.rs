@@ -212,7 +212,7 @@ fn growth_is_half_of_what_it_adds_to_a_diameter() {
     let mut model = model(Environment { growth: named("GROW", None), ..Environment::default() });
     curve(&mut model, "GROW", CurveKind::MarineGrowth, &[(-40.0, 0.1), (0.0, 0.2)]);
     let (around, _) = of(&model);
-    assert_eq!(around.growth(0.0), (0.1, super::super::growth::DENSITY));
+    assert_eq!(around.growth(0.0), (0.1, super::super::growth::DEFAULT_DENSITY));
     assert!((around.growth(-20.0).0 - 0.075).abs() < 1e-15);
     assert_eq!(around.growth(0.1).0, 0.0);
     model.environment.growth = named("GROW", Some(1100.0));

@@ -1,7 +1,7 @@
 //! What the database of a body brings among its loads.
 
 use super::excitation::Excitation;
-use super::memory::{MOST_LAGS, Memory};
+use super::memory::{MAX_LAGS, Memory};
 use super::radiation::Radiation;
 use super::slow_drift::SlowDrift;
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
@@ -41,54 +41,56 @@ struct Linear {
 
 /// Where a state of [`Linear`] has the heading, what gives rates of small rotations of that of rotation, what is added to them in the step, and
 /// in the next one; and of the end of the last step whether there was one, the heading, the small rotation, its rates without what was added.
-const HEADING: usize = LowFrequency::STATES;
-const RATES: usize = HEADING + 1;
-const ADDED: usize = RATES + 9;
-const NEXT: usize = ADDED + 3;
-const LAST: usize = NEXT + 3;
+const HEADING_STATE: usize = LowFrequency::STATES;
+const RATES_STATE: usize = HEADING_STATE + 1;
+const ADDED_STATE: usize = RATES_STATE + 9;
+const NEXT_STATE: usize = ADDED_STATE + 3;
+const LAST_STATE: usize = NEXT_STATE + 3;
 
 impl Linear {
-    const STATES: usize = LAST + 8;
+    const STATES: usize = LAST_STATE + 8;
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) {
-        let (own, kept) = state.split_at_mut(HEADING);
+        let (own, kept) = state.split_at_mut(HEADING_STATE);
         let slow = self.slow.ahead(ahead, own);
         let rates = slow.rates(&ahead.pose.axes);
         kept.iter_mut()
             .zip(std::iter::once(&slow.heading).chain(rates.iter()))
             .for_each(|(kept, value)| *kept = *value);
-        state.copy_within(NEXT..LAST, ADDED);
+        state.copy_within(NEXT_STATE..LAST_STATE, ADDED_STATE);
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
-        let slow = Slow { heading: state[HEADING], ..Slow::default() };
+        let slow = Slow { heading: state[HEADING_STATE], ..Slow::default() };
         let (angle, rates) = (slow.rotation(&at.pose.axes), slow.rates(&at.pose.axes) * at.velocity.fixed_rows::<3>(3));
-        let last = |from: usize| Vector3::new(state[LAST + from], state[LAST + from + 1], state[LAST + from + 2]);
-        if state[LAST] > 0.0 && at.dt > 0.0 {
-            let turned = angle - last(2) + Vector3::z() * (slow.heading - state[LAST + 1]);
+        let last = |from: usize| {
+            Vector3::new(state[LAST_STATE + from], state[LAST_STATE + from + 1], state[LAST_STATE + from + 2])
+        };
+        if state[LAST_STATE] > 0.0 && at.dt > 0.0 {
+            let turned = angle - last(2) + Vector3::z() * (slow.heading - state[LAST_STATE + 1]);
             let added = turned / at.dt - (rates + last(5)) * 0.5;
-            state[NEXT..LAST].copy_from_slice(added.as_slice());
+            state[NEXT_STATE..LAST_STATE].copy_from_slice(added.as_slice());
         }
-        (state[LAST], state[LAST + 1]) = (1.0, slow.heading);
-        state[LAST + 2..LAST + 5].copy_from_slice(angle.as_slice());
-        state[LAST + 5..LAST + 8].copy_from_slice(rates.as_slice());
-        self.slow.commit(at, &mut state[..HEADING]);
+        (state[LAST_STATE], state[LAST_STATE + 1]) = (1.0, slow.heading);
+        state[LAST_STATE + 2..LAST_STATE + 5].copy_from_slice(angle.as_slice());
+        state[LAST_STATE + 5..LAST_STATE + 8].copy_from_slice(rates.as_slice());
+        self.slow.commit(at, &mut state[..HEADING_STATE]);
     }
 
     /// The axes of the heading.
     fn axes(state: &[f64]) -> Matrix3<f64> {
-        Slow { heading: state[HEADING], ..Slow::default() }.axes()
+        Slow { heading: state[HEADING_STATE], ..Slow::default() }.axes()
     }
 
     /// From a rate of rotation (global axes) to rates of small rotations about the axes of the heading.
     fn rates(state: &[f64]) -> Matrix3<f64> {
-        Matrix3::from_column_slice(&state[RATES..ADDED])
+        Matrix3::from_column_slice(&state[RATES_STATE..ADDED])
     }
 
     /// The rates of the place and of small rotations, in axes of the heading.
     fn velocity(at: &Underway, state: &[f64]) -> Six {
         let along = Linear::axes(state).transpose() * at.velocity.fixed_rows::<3>(0);
-        let added = Vector3::from_iterator(state.iter().skip(ADDED).copied().chain([0.0; 3]).take(3));
+        let added = Vector3::from_iterator(state.iter().skip(ADDED_STATE).copied().chain([0.0; 3]).take(3));
         let turning = Linear::rates(state) * at.velocity.fixed_rows::<3>(3) + added;
         Six::new(along.x, along.y, along.z, turning.x, turning.y, turning.z)
     }
@@ -129,8 +131,8 @@ impl RadiationLoad {
     /// More steps than are kept.
     pub fn new(radiation: &Radiation, (step, length): (f64, f64), dividing: f64) -> Result<Self, ClassError> {
         let lags = length / step;
-        if !(lags.is_finite() && lags >= 1.0 && lags <= MOST_LAGS as f64) {
-            let text = format!("a memory of {length} s in steps of {step} s is none of 1 to {MOST_LAGS} steps");
+        if !(lags.is_finite() && lags >= 1.0 && lags <= MAX_LAGS as f64) {
+            let text = format!("a memory of {length} s in steps of {step} s is none of 1 to {MAX_LAGS} steps");
             return Err(ClassError::new(text));
         }
         let kernel = |time: f64| radiation.faded_at(time, length);

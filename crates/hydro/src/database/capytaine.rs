@@ -4,7 +4,7 @@
 //! phases refer to the origin, rotations and moments to `rotation_center`; SI and radians. Complex numbers stand on a
 //! dimension `complex` of two. `omega` holds zero and infinity as well. A variable that a data set lacks is left out here.
 
-use super::checks::{MOST, check_database};
+use super::checks::{MAX_DATABASE_NUMBERS, check_database};
 use super::matrices::matrix;
 use super::nemoh::refer_phases;
 use super::rows::{DatabaseError, heading};
@@ -93,8 +93,8 @@ impl Set<'_> {
 
     fn small(&self, name: &str, sizes: &[usize]) -> Result<(), DatabaseError> {
         let cells = sizes.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
-        let fits = cells.is_some_and(|n| n <= MOST);
-        if fits { Ok(()) } else { Err(self.wrong(format!("{name} has more than {MOST} values"))) }
+        let fits = cells.is_some_and(|n| n <= MAX_DATABASE_NUMBERS);
+        if fits { Ok(()) } else { Err(self.wrong(format!("{name} has more than {MAX_DATABASE_NUMBERS} values"))) }
     }
 
     /// The directions of the body on a dimension of the data set.
@@ -151,7 +151,11 @@ impl Set<'_> {
 /// # Errors
 /// A file that is no NetCDF or no data set of Capytaine; frequencies, depths or bodies that are not told apart.
 pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database, DatabaseError> {
-    let options = NcOpenOptions { max_read_bytes: 8 * MOST, max_chunk_bytes: 8 * MOST, ..NcOpenOptions::default() };
+    let options = NcOpenOptions {
+        max_read_bytes: 8 * MAX_DATABASE_NUMBERS,
+        max_chunk_bytes: 8 * MAX_DATABASE_NUMBERS,
+        ..NcOpenOptions::default()
+    };
     let file = NcFile::from_bytes_with_options(bytes, options).map_err(|e| DatabaseError::File {
         file: source.to_string(),
         why: format!("it is no NetCDF file that can be read: {e}"),

@@ -7,12 +7,12 @@ use windlass_base::units::Dim;
 use windlass_model::{Amplitudes, Database};
 
 /// Asymmetry of added mass or damping, over the geometric mean of the diagonal, that is said.
-const ASYMMETRY: f64 = 0.05;
+const MAX_ASYMMETRY: f64 = 0.05;
 /// The most numbers a database may hold (1e7: 80 MB).
-pub(super) const MOST: usize = 10_000_000;
+pub(super) const MAX_DATABASE_NUMBERS: usize = 10_000_000;
 
 /// How the remark of a gap between headings begins.
-pub(super) const GAP: &str = "its headings leave a gap";
+pub(super) const HEADING_GAP_REMARK: &str = "its headings leave a gap";
 
 /// Names of the six directions.
 pub const MODES: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
@@ -101,7 +101,7 @@ fn find_invalid_value(data: &Database) -> Option<String> {
 
 /// The worst asymmetry of matrices, where it is to be said.
 fn unsymmetric(what: &str, list: &[Matrix6<f64>], frequencies: &[f64]) -> Option<String> {
-    let mut worst = (ASYMMETRY, 0, 0, 0.0);
+    let mut worst = (MAX_ASYMMETRY, 0, 0, 0.0);
     // the largest of each direction over all frequencies: damping of long waves is all noise
     let size = [0, 1, 2, 3, 4, 5].map(|i| list.iter().map(|m| m[(i, i)].abs()).fold(0.0, f64::max));
     let scale = |i: usize, j: usize| (size[i] * size[j]).sqrt();
@@ -117,7 +117,7 @@ fn unsymmetric(what: &str, list: &[Matrix6<f64>], frequencies: &[f64]) -> Option
     }
     let (off, i, j, frequency) = worst;
     let name = |i: usize| MODES.get(i).copied().unwrap_or_default();
-    (off > ASYMMETRY).then(|| {
+    (off > MAX_ASYMMETRY).then(|| {
         format!(
             "{what} is not symmetric: {}-{} differs by {:.1} % at {frequency:.4} rad/s",
             name(i),
@@ -151,7 +151,7 @@ pub(super) fn gaps(headings: &[f64]) -> Option<String> {
     let (from, to) = headings.iter().copied().zip(next).max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
     (to - from > super::at::WIDEST_GAP).then(|| {
         format!(
-            "{GAP} of {:.0} degrees: waves toward {:.0} to {:.0} in the body are refused",
+            "{HEADING_GAP_REMARK} of {:.0} degrees: waves toward {:.0} to {:.0} in the body are refused",
             (to - from).to_degrees(),
             from.to_degrees(),
             to.to_degrees() % 360.0

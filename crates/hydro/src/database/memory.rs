@@ -14,7 +14,7 @@ use nalgebra::Matrix6;
 use windlass_base::pose::Six;
 
 /// The most lags of a kernel.
-pub const MOST_LAGS: usize = 20_000;
+pub const MAX_LAGS: usize = 20_000;
 
 /// Where the parts of the state stand: whether anything has happened, the end of the last step (s), the time of the newest velocity on
 /// the grid (s), its place in the rings; velocity at the end of the last step; force of what is past; damping of the present.
@@ -26,9 +26,9 @@ const LAST: usize = 4;
 const PAST: usize = 10;
 const PRESENT: usize = 16;
 /// After it the rings: velocities of each direction, newest first, twice over so that every window of them is one slice.
-const RINGS: usize = 52;
+const RINGS_START: usize = 52;
 /// A time this near another, over the step of the grid, is the same.
-const SAME: f64 = 1e-6;
+const EQUAL_TIMES_SHARE: f64 = 1e-6;
 
 /// One pair of directions whose kernel is not nothing.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +68,7 @@ struct Integrals {
 impl Integrals {
     /// By Simpson's rule and the value in the middle of each part.
     fn new(kernel: &dyn Fn(f64) -> Matrix6<f64>, length: f64, step: f64) -> Self {
-        let count = (length / step).ceil().clamp(1.0, MOST_LAGS as f64);
+        let count = (length / step).ceil().clamp(1.0, MAX_LAGS as f64);
         let step = length / count;
         let mut now = Moments { kernel: kernel(0.0), ..Moments::default() };
         let mut list = vec![now];
@@ -140,7 +140,7 @@ impl Memory {
             let kind = if i < 3 { &sizes[..3] } else { &sizes[3..] };
             sizes[i] > 1e-18 * kind.iter().copied().fold(0.0, f64::max)
         };
-        let lags = (length / step).ceil().clamp(1.0, MOST_LAGS as f64) as usize + 1;
+        let lags = (length / step).ceil().clamp(1.0, MAX_LAGS as f64) as usize + 1;
         let seconds: Vec<Matrix6<f64>> =
             (0..=lags + 1).map(|n| integrals.integrals_at_lag(n as f64 * step).1).collect();
         let mut pairs = Vec::new();
@@ -161,7 +161,7 @@ impl Memory {
 
     /// Number of values it remembers.
     pub fn states(&self) -> usize {
-        RINGS + 12 * self.lags
+        RINGS_START + 12 * self.lags
     }
 
     /// Number of pairs of directions that are convolved.
@@ -172,14 +172,14 @@ impl Memory {
     /// Prepares a step, in a state of [`Memory::states`] values, that ends at a time (s) and is so long (s): what is past is summed once. Before the first step the velocity has come from
     /// nothing over one step of the grid.
     pub fn begin(&self, time: f64, dt: f64, state: &mut [f64]) {
-        let (head, rings) = state.split_at_mut(RINGS);
+        let (head, rings) = state.split_at_mut(RINGS_START);
         if head[STARTED] == 0.0 {
             (head[TIME], head[GRID]) = (time - dt, time - dt);
         }
         let dt = (time - head[TIME]).max(0.0);
         let (last, newest) = (six(head, LAST), head[HEAD] as usize);
         let (mut past, mut of_trial) = (Six::zeros(), Matrix6::zeros());
-        let same = SAME * self.step;
+        let same = EQUAL_TIMES_SHARE * self.step;
         if dt > same {
             let of_last;
             (of_trial, of_last) = self.integrals.straight(0.0, dt);
@@ -197,7 +197,7 @@ impl Memory {
         past += self.integrals.straight(near, near + self.step).0 * first;
         self.convolve(near, (rings, newest), &mut past);
         head[PAST..PRESENT].copy_from_slice(past.as_slice());
-        head[PRESENT..RINGS].copy_from_slice(of_trial.as_slice());
+        head[PRESENT..RINGS_START].copy_from_slice(of_trial.as_slice());
     }
 
     /// Adds what the velocities of the grid make but the newest, whose lag is given (s).
@@ -206,7 +206,7 @@ impl Memory {
         let whole = place.round();
         let slice = |pair: &Pair| &ring(rings, pair.column, self.lags, newest)[1..];
         // the weight of a lag of n steps is number n - 1
-        if (place - whole).abs() < SAME {
+        if (place - whole).abs() < EQUAL_TIMES_SHARE {
             for pair in &self.pairs {
                 past[pair.row] += dot(pair.behind(whole as usize), slice(pair));
             }
@@ -242,13 +242,13 @@ impl Memory {
 
     /// The force at a trial of the end of the step (body axes), and its change with the velocity, -dF/dv.
     pub fn force(&self, velocity: &Six, state: &[f64]) -> (Six, Matrix6<f64>) {
-        let damping = Matrix6::from_column_slice(&state[PRESENT..RINGS]);
+        let damping = Matrix6::from_column_slice(&state[PRESENT..RINGS_START]);
         (-(six(state, PAST) + damping * velocity), damping)
     }
 
     /// The step is accepted: it ended at a time (s) with a velocity.
     pub fn commit(&self, time: f64, dt: f64, velocity: &Six, state: &mut [f64]) {
-        let (head, rings) = state.split_at_mut(RINGS);
+        let (head, rings) = state.split_at_mut(RINGS_START);
         if head[STARTED] == 0.0 {
             (head[STARTED], head[TIME], head[GRID]) = (1.0, time - dt, time - dt);
             if dt == 0.0 {
@@ -259,9 +259,9 @@ impl Memory {
         // more than the rings hold need not be filled in
         let most = self.lags as f64 * self.step;
         head[GRID] = head[GRID].max(time - most);
-        while head[GRID] + self.step < time + SAME * self.step {
+        while head[GRID] + self.step < time + EQUAL_TIMES_SHARE * self.step {
             let next = head[GRID] + self.step;
-            if (next - time).abs() < SAME * self.step {
+            if (next - time).abs() < EQUAL_TIMES_SHARE * self.step {
                 head[GRID] = time;
                 self.push(velocity, head, rings);
                 break;

@@ -13,7 +13,7 @@ pub const USUAL_MEMORY: f64 = 60.0;
 /// The longest memory that is chosen (s).
 const LONGEST_MEMORY: f64 = 300.0;
 /// What is left of the kernel, over its largest value, that is let go.
-const LEFT: f64 = 2e-3;
+const TRUNCATION_TOLERANCE: f64 = 2e-3;
 /// How far beyond the last frequency damping is continued, over it, and in how many parts.
 const TAIL: (f64, usize) = (8.0, 60);
 
@@ -114,7 +114,7 @@ impl Radiation {
         let scale = |i: usize, j: usize| (largest[i] * largest[j]).abs().sqrt().max(f64::MIN_POSITIVE);
         let alive = |t: f64| {
             let kernel = self.kernel_at(t);
-            (0..6).any(|i| (0..=i).any(|j| kernel[(i, j)].abs() > LEFT * scale(i, j)))
+            (0..6).any(|i| (0..=i).any(|j| kernel[(i, j)].abs() > TRUNCATION_TOLERANCE * scale(i, j)))
         };
         let step = 0.25 * PI / self.frequencies.iter().rev().nth(TAIL.1).copied().unwrap_or(1.0).max(0.1);
         let from = (USUAL_MEMORY / step).ceil() as usize;

@@ -14,7 +14,7 @@
 use super::at::drift_at;
 use super::at::{bracket_frequency, bracket_heading};
 use super::excitation::{load_from_state, rotate_about_z, yaw};
-use super::waves::{ByHeading, Group, WIDE, groups};
+use super::waves::{ByHeading, Group, LANES, groups};
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::sea::Sea;
 use crate::{Category, Load, move_wrench, turning};
@@ -174,7 +174,7 @@ impl SlowDrift {
         let (a, b, share) = bracket_heading(&qtf.headings, heading)?;
         let mut gathered = vec![Complex::new(0.0, 0.0); qtf.frequencies.len()];
         for (group, near) in self.groups.iter().zip(near) {
-            let waves = group.amplitude.chunks(WIDE).zip(near.chunks(WIDE));
+            let waves = group.amplitude.chunks(LANES).zip(near.chunks(LANES));
             for ([cos, sin], (amplitudes, near)) in group.phasors(at).zip(waves) {
                 for ((cos, sin), (amplitude, (low, high, part))) in
                     cos.iter().zip(&sin).zip(amplitudes.iter().zip(near))

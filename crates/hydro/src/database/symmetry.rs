@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use windlass_model::Database;
 
 /// Which of the six change sign on the other side.
-const MIRROR: [f64; 6] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+const MIRROR_SIGNS: [f64; 6] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
 
 /// The same with the headings of the other side of a body that is symmetric about its x-z plane; those that are there stay.
 /// A reference point off that plane has no mirror: the database is left as it is.
@@ -15,23 +15,23 @@ pub fn mirror_headings(mut data: Database) -> Database {
         return data;
     }
     let own = data.headings.clone();
-    fill(&own, &mut data.excitation, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
+    fill(&own, &mut data.excitation, |six| std::array::from_fn(|i| six[i] * MIRROR_SIGNS[i]));
     if let Some(motions) = &mut data.motions {
-        fill(&own, motions, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
+        fill(&own, motions, |six| std::array::from_fn(|i| six[i] * MIRROR_SIGNS[i]));
     }
     data.headings = both_sides(&own);
     if let Some(drift) = &mut data.drift {
-        fill(&drift.headings, &mut drift.values, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
+        fill(&drift.headings, &mut drift.values, |six| std::array::from_fn(|i| six[i] * MIRROR_SIGNS[i]));
         drift.headings = both_sides(&drift.headings);
     }
     if let Some(qtf) = &mut data.qtf {
         let mirror = |row: &Vec<super::Amplitudes>| {
-            row.iter().map(|six| std::array::from_fn(|i| six[i] * MIRROR[i])).collect::<Vec<_>>()
+            row.iter().map(|six| std::array::from_fn(|i| six[i] * MIRROR_SIGNS[i])).collect::<Vec<_>>()
         };
         fill(&qtf.headings, &mut qtf.values, mirror);
         qtf.headings = both_sides(&qtf.headings);
     }
-    data.remarks.retain(|r| !r.starts_with(super::checks::GAP));
+    data.remarks.retain(|r| !r.starts_with(super::checks::HEADING_GAP_REMARK));
     data.remarks.extend(super::checks::gaps(&data.headings));
     data
 }

@@ -8,7 +8,7 @@
 //! WAMIT writes with exp(+i w t): amplitudes are conjugated here. Headings are degrees of the direction of travel, phases
 //! refer to the origin, about which moments are.
 
-use super::checks::{MOST, check_database};
+use super::checks::{MAX_DATABASE_NUMBERS, check_database};
 use super::matrices::{by_frequency, matrix};
 use super::rows::{ByWave, DatabaseError, ModeRow, Row, SourceFile, by_wave, heading, same_frequency, same_heading};
 use nalgebra::{Complex, Matrix6, Vector3};
@@ -222,7 +222,9 @@ fn hydrostatics(file: &SourceFile, scale: &WamitScale) -> Result<Matrix6<f64>, D
 /// Whether a table of so many numbers is small enough.
 pub(super) fn check_table_size(file: &SourceFile, sizes: &[usize]) -> Result<usize, DatabaseError> {
     let cells = sizes.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
-    cells.filter(|n| *n <= MOST).ok_or_else(|| file.wrong(format!("its table has more than {MOST} places")))
+    cells
+        .filter(|n| *n <= MAX_DATABASE_NUMBERS)
+        .ok_or_else(|| file.wrong(format!("its table has more than {MAX_DATABASE_NUMBERS} places")))
 }
 
 /// An empty QTF on its axes.

@@ -5,16 +5,16 @@
 //! that the digits are the same on all of them.
 
 use super::at::bracket_heading;
-use super::checks::MOST;
+use super::checks::MAX_DATABASE_NUMBERS;
 use crate::sea::Sea;
 use multiversion::multiversion;
 use std::f64::consts::FRAC_2_PI;
 use windlass_model::ClassError;
 
 /// Waves side by side.
-pub(super) const WIDE: usize = 8;
+pub(super) const LANES: usize = 8;
 /// One number of each of them.
-pub(super) type Wide = [f64; WIDE];
+pub(super) type Wide = [f64; LANES];
 /// Sine and cosine, or another pair, of each.
 pub(super) type Pairs = [Wide; 2];
 
@@ -37,11 +37,11 @@ impl Group {
     }
 
     fn push(&mut self, [amplitude, frequency, kx, ky, phase]: [f64; 5]) {
-        let place = self.amplitude.len() % WIDE;
+        let place = self.amplitude.len() % LANES;
         self.amplitude.push(amplitude);
         self.frequency.push(frequency);
         if place == 0 {
-            self.phases.push([[0.0; WIDE]; 4]);
+            self.phases.push([[0.0; LANES]; 4]);
         }
         if let Some(last) = self.phases.last_mut() {
             for (lane, value) in last.iter_mut().zip([frequency, kx, ky, phase]) {
@@ -54,8 +54,8 @@ impl Group {
 /// Cosines and sines of eight waves.
 #[inline(always)]
 fn phasors([w, kx, ky, phase]: &[Wide; 4], (time, x, y): (f64, f64, f64)) -> Pairs {
-    let [mut cos, mut sin] = [[0.0; WIDE]; 2];
-    for n in 0..WIDE {
+    let [mut cos, mut sin] = [[0.0; LANES]; 2];
+    for n in 0..LANES {
         let angle = kx[n] * x + ky[n] * y + phase[n] - w[n] * time;
         (sin[n], cos[n]) = sine_and_cosine(angle);
     }
@@ -103,14 +103,14 @@ impl<const WIDTH: usize> ByHeading<WIDTH> {
         headings: &[f64],
         mut value: impl FnMut(usize, f64, f64) -> Result<[f64; WIDTH], ClassError>,
     ) -> Result<Self, ClassError> {
-        if group.amplitude.len().saturating_mul(headings.len()).saturating_mul(WIDTH) > MOST {
+        if group.amplitude.len().saturating_mul(headings.len()).saturating_mul(WIDTH) > MAX_DATABASE_NUMBERS {
             return Err(ClassError::new("the sea has more waves, and the database more headings, than are tabulated"));
         }
         let mut tables = Vec::with_capacity(headings.len());
         for (index, _) in headings.iter().enumerate() {
             let mut table = Vec::with_capacity(group.phases.len());
-            for (frequencies, amplitudes) in group.frequency.chunks(WIDE).zip(group.amplitude.chunks(WIDE)) {
-                let mut lanes = [[0.0; WIDE]; WIDTH];
+            for (frequencies, amplitudes) in group.frequency.chunks(LANES).zip(group.amplitude.chunks(LANES)) {
+                let mut lanes = [[0.0; LANES]; WIDTH];
                 for (place, (w, a)) in frequencies.iter().zip(amplitudes).enumerate() {
                     let values = value(index, *w, *a)?;
                     lanes.iter_mut().zip(values).for_each(|(lane, v)| lane[place] = v);
@@ -158,12 +158,12 @@ impl ByHeading<7> {
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn real(waves: &[[Wide; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Share<'_, 12>; 2]) -> [f64; 6] {
-    let mut sums = [[0.0; WIDE]; 6];
+    let mut sums = [[0.0; LANES]; 6];
     for ((waves, first), second) in waves.iter().zip(first).zip(second) {
         let [cos, sin] = phasors(waves, at);
         for (mode, sum) in sums.iter_mut().enumerate() {
             let (low, high) = ([&first[mode], &first[mode + 6]], [&second[mode], &second[mode + 6]]);
-            for n in 0..WIDE {
+            for n in 0..LANES {
                 sum[n] += (a * low[0][n] + b * high[0][n]) * cos[n] - (a * low[1][n] + b * high[1][n]) * sin[n];
             }
         }
@@ -173,12 +173,12 @@ fn real(waves: &[[Wide; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Sh
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn whole(waves: &[[Wide; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Share<'_, 7>; 2]) -> [[f64; 7]; 2] {
-    let mut sums = [[[0.0; WIDE]; 7]; 2];
+    let mut sums = [[[0.0; LANES]; 7]; 2];
     for ((waves, first), second) in waves.iter().zip(first).zip(second) {
         let phasors = phasors(waves, at);
         for (sums, part) in sums.iter_mut().zip(&phasors) {
             for ((sum, low), high) in sums.iter_mut().zip(first).zip(second) {
-                for n in 0..WIDE {
+                for n in 0..LANES {
                     sum[n] += (a * low[n] + b * high[n]) * part[n];
                 }
             }
@@ -259,7 +259,7 @@ mod tests {
             let mut sums = [0.0; 3];
             for n in 0..203 {
                 let w = group.frequency[n];
-                let [_, kx, ky, phase] = group.phases[n / WIDE].map(|lane| lane[n % WIDE]);
+                let [_, kx, ky, phase] = group.phases[n / LANES].map(|lane| lane[n % LANES]);
                 let (sin, cos) = (kx * x + ky * y + phase - w * time).sin_cos();
                 let at =
                     |mode: usize| group.amplitude[n] * ((1.0 - share) * value(1, w, mode) + share * value(2, w, mode));

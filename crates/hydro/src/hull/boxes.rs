@@ -4,7 +4,7 @@ use super::Surface;
 use nalgebra::Vector3;
 
 /// Triangles of a leaf.
-const LEAF: usize = 4;
+const TRIANGLES_PER_LEAF: usize = 4;
 
 /// A box round the triangles of a part of the tree's order.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ impl Boxes {
         }
         let own = self.nodes.len();
         let middle = part.len() / 2;
-        let split = part.len() > LEAF;
+        let split = part.len() > TRIANGLES_PER_LEAF;
         if split {
             let side = (high - low).imax();
             let centre = |n: &usize| at(*n).iter().map(|p| p[side]).sum::<f64>();

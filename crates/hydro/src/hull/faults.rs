@@ -7,13 +7,13 @@ use nalgebra::Vector3;
 use std::fmt;
 
 /// Pairs of faces that cut each other, and parts that are inside out, are told up to this number.
-pub const MOST_CUTS: usize = 20;
+pub const MAX_REPORTED_FAULTS: usize = 20;
 
 /// Faces closer than this part of the size of the mesh touch and do not cut (files often keep seven digits).
-const TOUCH: f64 = 1e-7;
+const TOUCHING_DISTANCE_SHARE: f64 = 1e-7;
 
 /// Faces asked at most whether they are inside another surface.
-const MOST_ASKED: usize = 64;
+const MAX_CHECKED_FACES: usize = 64;
 
 /// A fault of a surface; places in body coordinates (m), faces counted from 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,14 +96,16 @@ impl Surface {
         boxes.pairs(&boxes, 0.0, |m, n| {
             let (m, n) = (m.min(n), m.max(n));
             if let (true, Some(a), Some(b)) = (m < n, self.corners(m), self.corners(n)) {
-                cuts.extend(intersect_triangles(&a, &b, TOUCH * size).map(|at| (m, n, at)));
+                cuts.extend(intersect_triangles(&a, &b, TOUCHING_DISTANCE_SHARE * size).map(|at| (m, n, at)));
             }
             // a pair may come twice
-            cuts.len() >= 2 * MOST_CUTS
+            cuts.len() >= 2 * MAX_REPORTED_FAULTS
         });
         cuts.sort_by_key(|&(m, n, _)| (m, n));
         cuts.dedup_by_key(|&mut (m, n, _)| (m, n));
-        list.extend(cuts.iter().take(MOST_CUTS).map(|&(m, n, at)| Fault::Cut { faces: [m, n], at: at.into() }));
+        list.extend(
+            cuts.iter().take(MAX_REPORTED_FAULTS).map(|&(m, n, at)| Fault::Cut { faces: [m, n], at: at.into() }),
+        );
         list
     }
 
@@ -169,7 +171,7 @@ impl Surface {
             if volume < 0.0 && others.map(|(_, p)| p.winding(at)).sum::<f64>() < 0.5 {
                 list.push(Fault::InsideOut { volume, at: at.into() });
             }
-            if list.len() >= told + MOST_CUTS {
+            if list.len() >= told + MAX_REPORTED_FAULTS {
                 break;
             }
         }
@@ -224,7 +226,7 @@ impl Surface {
 
     /// A point just inside one of its faces that is inside the other too.
     fn shared_point(&self, other: &Surface, depth: f64) -> Option<Vector3<f64>> {
-        let stride = self.faces.len().div_ceil(MOST_ASKED).max(1);
+        let stride = self.faces.len().div_ceil(MAX_CHECKED_FACES).max(1);
         (0..self.faces.len()).step_by(stride).filter_map(|n| self.corners(n)).find_map(|[a, b, c]| {
             let inward = -(b - a).cross(&(c - a)).try_normalize(0.0)?;
             let at = (a + b + c) / 3.0 + inward * depth;
@@ -236,7 +238,7 @@ impl Surface {
 /// A point (m) that two closed surfaces share: they cut each other, or one is within the other. None where they are apart or
 /// only touch, to 1e-7 of their size.
 pub fn intersect(a: &Surface, b: &Surface) -> Option<[f64; 3]> {
-    let margin = TOUCH * a.size().max(b.size());
+    let margin = TOUCHING_DISTANCE_SHARE * a.size().max(b.size());
     let mut found = None;
     Boxes::new(a).pairs(&Boxes::new(b), 0.0, |m, n| {
         let (Some(p), Some(q)) = (a.corners(m), b.corners(n)) else { return false };

@@ -14,7 +14,7 @@ mod state;
 mod surface;
 mod tube;
 
-pub use faults::{Fault, MOST_CUTS, intersect};
+pub use faults::{Fault, MAX_REPORTED_FAULTS, intersect};
 pub use mesh::{MeshFile, MeshKind, read_mesh};
 pub(super) use panelling::{Panel, Panelling};
 pub use state::Hydrostatics;

@@ -23,7 +23,7 @@ pub struct Panelling {
 }
 
 /// Lengths that differ by less than this share of themselves are equal: they come from coordinates with the errors of rounding.
-const EQUAL: f64 = 1e-9;
+const EQUAL_LENGTHS_SHARE: f64 = 1e-9;
 
 /// The nodes made so far, and the middle of each edge that has one.
 struct Nodes {
@@ -157,7 +157,7 @@ fn pair_triangles(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
     let turned = |[a, b, c]: [u32; 3]| {
         let turns = [[a, b, c], [b, c, a], [c, a, b]];
         turns.into_iter().find(|[p, q, r]| {
-            let long = length(*p, *q) * (1.0 - EQUAL);
+            let long = length(*p, *q) * (1.0 - EQUAL_LENGTHS_SHARE);
             long > length(*q, *r) && long > length(*r, *p)
         })
     };
@@ -168,7 +168,7 @@ fn pair_triangles(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
         let Some([p, q, r]) = turned(*face) else { continue };
         if let Some((other, s)) = open.remove(&(q, p)) {
             let gap = (place(r) + place(s) - place(p) - place(q)).norm();
-            if gap <= EQUAL * length(p, q) {
+            if gap <= EQUAL_LENGTHS_SHARE * length(p, q) {
                 parallelograms.push([p, s, q, r]);
                 for n in [index, other] {
                     if let Some(mark) = taken.get_mut(n) {
@@ -187,7 +187,7 @@ fn pair_triangles(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
 /// Cells of a parallelogram, two triangles each: their diagonals point to its middle, so that they are the same seen from each of its sides.
 /// A cell halfway along a side is four triangles about its own middle.
 fn divide_parallelogram(nodes: &mut Nodes, [a, b, c, d]: [u32; 4], side: f64, done: &mut Vec<[u32; 3]>) {
-    let parts = |length: f64| (length * (1.0 - EQUAL) / side).ceil().max(1.0) as usize;
+    let parts = |length: f64| (length * (1.0 - EQUAL_LENGTHS_SHARE) / side).ceil().max(1.0) as usize;
     let (columns, rows) = (parts(nodes.length(a, b)), parts(nodes.length(a, d)));
     let (low, high) = (nodes.divide_edge(a, b, columns), nodes.divide_edge(d, c, columns));
     let (left, right) = (nodes.divide_edge(a, d, rows), nodes.divide_edge(b, c, rows));
@@ -236,7 +236,7 @@ fn divide_triangle(nodes: &mut Nodes, [a, b, c]: [u32; 3], longest: f64) -> Opti
             // what is left of it has the corners a, x, y, c: cut along the shorter diagonal, and where they are equal along both
             let (one, other) = (nodes.length(a, y), nodes.length(x, c));
             let mut parts = vec![[x, b, y]];
-            if (one - other).abs() <= EQUAL * one {
+            if (one - other).abs() <= EQUAL_LENGTHS_SHARE * one {
                 let middle = nodes.add((nodes.place(a) + nodes.place(x) + nodes.place(y) + nodes.place(c)) * 0.25);
                 parts.extend([[a, x, middle], [x, y, middle], [y, c, middle], [c, a, middle]]);
             } else if one < other {

@@ -5,7 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use std::collections::HashMap;
 
 /// Corners of a polygon that is not convex: cutting it takes up to the cube of their number.
-const MOST_CORNERS: usize = 256;
+const MAX_POLYGON_CORNERS: usize = 256;
 
 /// Vertices of which no two are nearer than a distance. The map is only asked, never listed, so its order does not matter.
 struct Welded {
@@ -101,8 +101,8 @@ fn triangulate(corners: &[u32], vertices: &[Vector3<f64>], faces: &mut Vec<[u32;
         faces.extend(rest.windows(2).filter_map(|w| if let [b, c] = *w { Some([*first, b, c]) } else { None }));
         return Ok(());
     }
-    if corners.len() > MOST_CORNERS {
-        return Err(format!("not convex, with {} corners; at most {MOST_CORNERS} are cut", corners.len()));
+    if corners.len() > MAX_POLYGON_CORNERS {
+        return Err(format!("not convex, with {} corners; at most {MAX_POLYGON_CORNERS} are cut", corners.len()));
     }
     let mut left: Vec<(u32, Vector2<f64>, Vector3<f64>)> =
         corners.iter().zip(&flat).zip(&at).map(|((&n, &p), &q)| (n, p, q)).collect();

@@ -17,11 +17,11 @@ const GAUSS: [(f64, f64); 4] = [
 ];
 
 /// Stations of a part of the axis: four where it is wet all round, four where sections are cut by the surface.
-pub(super) const STATIONS: usize = 8;
+pub(super) const STATIONS_PER_SEGMENT: usize = 8;
 
 /// Least length over which sections of an upright member pass from wet to dry, as a share of the radius: so that there is a
 /// passage at every lean. What is integrated straight over it is the same for a passage of any length.
-const LEAST: f64 = 1e-3;
+const MIN_TRANSITION_SHARE: f64 = 1e-3;
 
 /// A member in its body, or a length of one that growth makes thicker or thinner than the next.
 #[derive(Clone, Debug)]
@@ -153,7 +153,9 @@ impl Rod {
     /// It in a pose.
     pub fn standing(&self, pose: &Pose) -> Standing {
         let axis = pose.axes * self.axis;
-        let rise = 0.5 * self.diameter * (axis.x * axis.x + axis.y * axis.y + LEAST * LEAST).sqrt();
+        let rise = 0.5
+            * self.diameter
+            * (axis.x * axis.x + axis.y * axis.y + MIN_TRANSITION_SHARE * MIN_TRANSITION_SHARE).sqrt();
         Standing { from: pose.axes * self.from, axis, origin: pose.origin.z, rise }
     }
 
@@ -164,7 +166,7 @@ impl Rod {
 
     /// Most stations it has in any pose, in a current with a number of heights where it changes.
     pub fn most_stations(&self, kinks: usize) -> usize {
-        STATIONS * (self.segments.len() + kinks)
+        STATIONS_PER_SEGMENT * (self.segments.len() + kinks)
     }
 
     /// Where each segment begins and ends on the axis.

@@ -47,13 +47,13 @@ use windlass_base::pose::{Pose, Six};
 use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, WaveAction};
 
 /// Most segments of a member.
-const MOST: usize = 64;
+const MAX_SEGMENTS: usize = 64;
 /// Length of a segment times the mean wave number of the sea. Over it exp(kz) is integrated by four points within 3e-7 of itself.
-const REACH: f64 = 2.0;
+const MAX_SEGMENT_KL: f64 = 2.0;
 /// Where growth tapers: how much of the bare diameter one length differs from the next, and the most lengths. The mean of squares over
 /// a length is then within 0.02^2/12 of the square of the mean.
-const TAPER: f64 = 0.02;
-const MOST_LENGTHS: f64 = 64.0;
+const MAX_TAPER_STEP: f64 = 0.02;
+const MAX_TAPER_LENGTHS: f64 = 64.0;
 
 /// The members of a body, and what acts on them.
 #[derive(Debug)]
@@ -83,7 +83,7 @@ pub fn build_members(
     let mean = Steady::streams(model, &model.environment)?;
     let steady = Arc::new(if under_way.is_some() { mean.under_way(model, &model.environment)? } else { mean });
     let sea = under_way.flatten();
-    let reach = REACH / sea.map_or(0.0, |sea| mean_number(sea));
+    let reach = MAX_SEGMENT_KL / sea.map_or(0.0, |sea| mean_number(sea));
     let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::of(&body.place));
     let mut made = Vec::new();
     for part in model.parts_of(body) {
@@ -152,7 +152,7 @@ fn rods(
         let length = (to - from).norm();
         let (section, core) = (circle(*diameter), circle(bare));
         let drags = 0.5 * density * diameter * of(Category::ViscousDrag);
-        let count = (length / reach).ceil().clamp(1.0, MOST as f64) as usize;
+        let count = (length / reach).ceil().clamp(1.0, MAX_SEGMENTS as f64) as usize;
         let corner = |n: usize| from + axis * (length * n as f64 / count as f64);
         let half_sphere = density * PI * diameter.powi(3) / 12.0 * own_waves;
         let [first, second] = own.end_added.map(|caa| half_sphere * caa);
@@ -194,7 +194,7 @@ fn lengths(stations: &[(f64, f64)], bare: f64) -> Vec<Length> {
         if to <= from {
             continue;
         }
-        let count = ((second - first).abs() / (TAPER * bare)).ceil().clamp(1.0, MOST_LENGTHS) as usize;
+        let count = ((second - first).abs() / (MAX_TAPER_STEP * bare)).ceil().clamp(1.0, MAX_TAPER_LENGTHS) as usize;
         for n in 0..count {
             let [start, end, middle] =
                 [n as f64, n as f64 + 1.0, n as f64 + 0.5].map(|at| (at / count as f64).clamp(0.0, 1.0));

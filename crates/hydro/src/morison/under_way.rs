@@ -11,15 +11,15 @@ use std::sync::Arc;
 use windlass_base::pose::Six;
 
 /// What is kept first: force of waves, difference of added mass.
-const WAVE: usize = 0;
-const ADDED: usize = 6;
-const HEAD: usize = 42;
+const WAVE_STATE: usize = 0;
+const ADDED_MASS_STATE: usize = 6;
+const HEADER_STATES: usize = 42;
 /// Of each segment: height of the surface over the mean level, and whether that may change what is wet of it.
-const SEGMENT: usize = 2;
+const STATES_PER_SEGMENT: usize = 2;
 /// Of each station: the drag factors times its length, the axis, its arm, and the velocity of the water.
-const EACH: usize = 11;
+const STATES_PER_STATION: usize = 11;
 /// How far a trial may be from where it was expected, for a segment to be taken as clear of the surface (m).
-const MARGIN: f64 = 1.0;
+const SURFACE_MARGIN_M: f64 = 1.0;
 
 /// What members meet under way.
 #[derive(Debug)]
@@ -110,7 +110,7 @@ impl UnderWay {
     }
 
     pub(super) fn states(&self) -> usize {
-        HEAD + SEGMENT * self.segments + EACH * self.stations
+        HEADER_STATES + STATES_PER_SEGMENT * self.segments + STATES_PER_STATION * self.stations
     }
 
     /// Finds the water at the stations, and the force of the waves.
@@ -118,22 +118,22 @@ impl UnderWay {
         let sea = self.sea.as_ref().map(|sea| sea.at(ahead.time));
         let streams = steady.streams_at_time(ahead.time);
         let water = Water { sea, steady, streams, origin: ahead.pose.origin, level: self.level };
-        let (head, rest) = state.split_at_mut(HEAD);
-        let (mut segments, mut stations) = rest.split_at_mut(SEGMENT * self.segments);
+        let (head, rest) = state.split_at_mut(HEADER_STATES);
+        let (mut segments, mut stations) = rest.split_at_mut(STATES_PER_SEGMENT * self.segments);
         stations.fill(0.0);
         let (mut wave, mut mass) = (Six::zeros(), Matrix6::zeros());
         for rod in rods {
-            let sizes = (SEGMENT * rod.segments.len(), EACH * rod.most_stations(self.kinks.len()));
+            let sizes = (STATES_PER_SEGMENT * rod.segments.len(), STATES_PER_STATION * rod.most_stations(self.kinks.len()));
             let (own, others) = segments.split_at_mut(sizes.0);
             let (slots, more) = stations.split_at_mut(sizes.1);
             wave += self.member(&water, (rod, &rod.standing(ahead.pose)), (own, slots), &mut mass) * rod.factor;
             (segments, stations) = (others, more);
         }
         mass -= in_pose(&self.held, ahead.pose);
-        for (kept, value) in head.iter_mut().skip(WAVE).zip(wave.iter()) {
+        for (kept, value) in head.iter_mut().skip(WAVE_STATE).zip(wave.iter()) {
             *kept = *value;
         }
-        for (kept, value) in head.iter_mut().skip(ADDED).zip(mass.iter()) {
+        for (kept, value) in head.iter_mut().skip(ADDED_MASS_STATE).zip(mass.iter()) {
             *kept = *value;
         }
     }
@@ -146,19 +146,19 @@ impl UnderWay {
         (kept, slots): (&mut [f64], &mut [f64]),
         mass: &mut Matrix6<f64>,
     ) -> Six {
-        let mut slots = slots.chunks_exact_mut(EACH);
+        let mut slots = slots.chunks_exact_mut(STATES_PER_STATION);
         let axis = &standing.axis;
         let mut sum = Six::zeros();
         // the heights of the surface at both ends, and where it cuts the axis
         let mut heights = [0.0; 2];
         let mut cut = None;
-        for (n, (range, own)) in rod.ranges().zip(kept.chunks_exact_mut(SEGMENT)).enumerate() {
+        for (n, (range, own)) in rod.ranges().zip(kept.chunks_exact_mut(STATES_PER_SEGMENT)).enumerate() {
             let (low, high) = standing.heights(range);
             let clear = high + standing.rise < self.level - self.reach;
             let over = if clear { 0.0 } else { water.surface(standing, range) };
             let level = self.level + over;
-            let near = high + standing.rise + MARGIN > self.level.min(level)
-                && low - standing.rise - MARGIN < self.level.max(level);
+            let near = high + standing.rise + SURFACE_MARGIN_M > self.level.min(level)
+                && low - standing.rise - SURFACE_MARGIN_M < self.level.max(level);
             if low < level && level <= high {
                 cut = Some(over);
             }
@@ -225,8 +225,8 @@ impl UnderWay {
     pub(super) fn drag(&self, at: &Underway, state: &[f64]) -> (Six, Matrix6<f64>) {
         let mut sum = (Six::zeros(), Matrix6::zeros());
         let (own, turn) = (three(at.velocity.as_slice()), three(&at.velocity.as_slice()[3..]));
-        let stations = &state[HEAD + SEGMENT * self.segments..];
-        for station in stations.chunks_exact(EACH) {
+        let stations = &state[HEADER_STATES + STATES_PER_SEGMENT * self.segments..];
+        for station in stations.chunks_exact(STATES_PER_STATION) {
             let [across, along, a, b, c, x, y, z, u, v, w] = station else { continue };
             if *across == 0.0 && *along == 0.0 {
                 continue;
@@ -243,9 +243,9 @@ impl UnderWay {
 
     pub(super) fn moving(&self, rods: &[Rod], at: &Underway, state: &[f64]) -> MovingLoad {
         let (drag, damping) = self.drag(at, state);
-        let mut load = Load { wrench: drag + six(state, WAVE), stiffness: Matrix6::zeros() };
+        let mut load = Load { wrench: drag + six(state, WAVE_STATE), stiffness: Matrix6::zeros() };
         let segments = rods.iter().flat_map(|rod| rod.segments.iter().map(move |tube| (rod, tube)));
-        for ((rod, tube), kept) in segments.zip(state[HEAD..].chunks_exact(SEGMENT)) {
+        for ((rod, tube), kept) in segments.zip(state[HEADER_STATES..].chunks_exact(STATES_PER_SEGMENT)) {
             let [over, near, ..] = kept else { continue };
             if *near == 0.0 {
                 continue;
@@ -262,7 +262,7 @@ impl UnderWay {
 
     /// Added mass of what is wet beyond what the body's inertia holds, global axes.
     pub(super) fn inertia(state: &[f64]) -> Matrix6<f64> {
-        Matrix6::from_iterator(state.iter().skip(ADDED).copied().chain([0.0; 36]).take(36))
+        Matrix6::from_iterator(state.iter().skip(ADDED_MASS_STATE).copied().chain([0.0; 36]).take(36))
     }
 }
 

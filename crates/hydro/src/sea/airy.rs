@@ -11,11 +11,11 @@ use nalgebra::Vector3;
 use windlass_model::Stretching;
 
 /// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
-const DEEP: f64 = 20.0;
+const DEEP_WATER_KD: f64 = 20.0;
 /// At this power of e, and below, nothing of a wave is left in sixteen digits.
-const GONE: f64 = -40.0;
+const VANISHED_EXPONENT: f64 = -40.0;
 /// The factor of delta stretching [RODENBUSCH-FORRISTALL-1986].
-const DELTA: f64 = 0.3;
+const DELTA_STRETCHING: f64 = 0.3;
 
 /// Components in blocks of eight, with what does not change.
 #[derive(Clone, Debug, Default)]
@@ -72,7 +72,7 @@ impl WaveLanes {
                 phase: each(&|c| c.phase),
                 x: each(&|c| c.toward[0]),
                 y: each(&|c| c.toward[1]),
-                q: each(&|c| if kd(c) > DEEP { 0.0 } else { (-2.0 * kd(c)).exp() }),
+                q: each(&|c| if kd(c) > DEEP_WATER_KD { 0.0 } else { (-2.0 * kd(c)).exp() }),
                 whole: each(&|c| -1.0 / (-2.0 * kd(c)).exp_m1()),
                 tanh: each(&|c| kd(c).tanh()),
                 longest: list.iter().map(|c| c.number).fold(f64::INFINITY, f64::min),
@@ -310,7 +310,7 @@ impl<'a> SeaAt<'a> {
             Stretching::Delta => {
                 let deep = sea.lanes.stretch;
                 let mapped = if height > -deep && deep + elevation > 0.0 {
-                    (height + deep) * (deep + DELTA * elevation) / (deep + elevation) - deep
+                    (height + deep) * (deep + DELTA_STRETCHING * elevation) / (deep + elevation) - deep
                 } else {
                     height
                 };
@@ -380,7 +380,7 @@ fn added_up(blocks: &[Block], phasors: &[[Eight; 2]], [x, y]: [f64; 2], [height,
     let mut sums = [[0.0; 8]; 8];
     for (block, [c, s]) in blocks.iter().zip(phasors) {
         let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
-        if block.longest * height < GONE {
+        if block.longest * height < VANISHED_EXPONENT {
             sums[0] = eight(|i| sums[0][i] + (c[i] * cos[i] - s[i] * sin[i]));
             continue;
         }

@@ -6,7 +6,7 @@ use windlass_base::units::Dim;
 use windlass_model::{ClassError, Division};
 
 /// Shares of the energy between which bands of equal width lie when no limits are given. The end bands carry the rest.
-const SHARES: [f64; 2] = [0.001, 0.995];
+const BAND_ENERGY_SHARES: [f64; 2] = [0.001, 0.995];
 
 /// A part of a spectrum that one component stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ pub fn bands(spectrum: &Spectrum, number: usize, division: Division, limited: bo
     let mut cuts: Vec<f64> = match division {
         Division::EqualEnergy => (0..=number).map(|i| spectrum.quantile(share(i))).collect(),
         Division::EqualFrequency => {
-            let [first, last] = if limited { [low, high] } else { SHARES.map(|s| spectrum.quantile(s)) };
+            let [first, last] = if limited { [low, high] } else { BAND_ENERGY_SHARES.map(|s| spectrum.quantile(s)) };
             (0..=number).map(|i| first + (last - first) * share(i)).collect()
         }
     };

@@ -16,7 +16,7 @@ const GAUSS: [(f64, f64); 4] = [
 ];
 /// Where the panels of a hump begin, grow coarser and end, in its peak frequencies: below there is no energy, beyond it is a
 /// power of the frequency to the last digit.
-const REACH: [f64; 3] = [0.2, 5.0, 1000.0];
+const PANEL_LIMITS: [f64; 3] = [0.2, 5.0, 1000.0];
 /// Panels of the fine and of the coarse part.
 const PANELS: [usize; 2] = [200, 80];
 
@@ -49,7 +49,7 @@ impl SpectralPeak {
     /// Density (m2 s) at a frequency (rad/s).
     pub fn density(&self, frequency: f64) -> f64 {
         let x = frequency / self.peak;
-        if x < 0.5 * REACH[0] {
+        if x < 0.5 * PANEL_LIMITS[0] {
             return 0.0;
         }
         let form = self.scale * (-self.exponent * (x.ln() + 0.25 * x.powi(-4))).exp();
@@ -87,8 +87,8 @@ impl Spectrum {
         let mut knots = Vec::with_capacity(humps.len() * (PANELS[0] + PANELS[1] + 1));
         let grow = |a: f64, b: f64, i: usize, n: usize| a * (b / a).powf(i as f64 / n as f64);
         for hump in &humps {
-            knots.extend((0..PANELS[0]).map(|i| hump.peak * grow(REACH[0], REACH[1], i, PANELS[0])));
-            knots.extend((0..=PANELS[1]).map(|i| hump.peak * grow(REACH[1], REACH[2], i, PANELS[1])));
+            knots.extend((0..PANELS[0]).map(|i| hump.peak * grow(PANEL_LIMITS[0], PANEL_LIMITS[1], i, PANELS[0])));
+            knots.extend((0..=PANELS[1]).map(|i| hump.peak * grow(PANEL_LIMITS[1], PANEL_LIMITS[2], i, PANELS[1])));
             knots.push(hump.peak);
         }
         let open = limits.is_none_or(|l| knots.iter().all(|k| l[1] > *k));
@@ -116,7 +116,7 @@ impl Spectrum {
             knots.retain(|k| *k > low && *k < high);
             knots.push(low);
             // beyond the last knot of humps the tail goes on by itself
-            let last = self.humps.iter().fold(0.0, |last: f64, h| last.max(h.peak * REACH[2]));
+            let last = self.humps.iter().fold(0.0, |last: f64, h| last.max(h.peak * PANEL_LIMITS[2]));
             if high < last || self.humps.is_empty() {
                 knots.push(high);
             }
@@ -178,7 +178,7 @@ impl Spectrum {
     }
 
     fn is_tail(&self, panel: &Panel) -> bool {
-        !self.humps.is_empty() && self.humps.iter().all(|h| panel.low >= h.peak * REACH[2] * (1.0 - 1e-9))
+        !self.humps.is_empty() && self.humps.iter().all(|h| panel.low >= h.peak * PANEL_LIMITS[2] * (1.0 - 1e-9))
     }
 
     /// The integral of the density times the frequency to a power (m2 (rad/s)^n).

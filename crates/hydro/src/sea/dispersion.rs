@@ -4,7 +4,7 @@ use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// Steps of Newton's method allowed; it takes some four.
-const STEPS: usize = 50;
+const MAX_NEWTON_ITERATIONS: usize = 50;
 
 /// The wave number (1/m) of a frequency (rad/s) in a depth (m; `None`: deep), to the last digit or two.
 ///
@@ -26,7 +26,7 @@ pub fn wave_number(frequency: f64, depth: Option<f64>, gravity: f64) -> Result<f
     if !sound(x) {
         x = y.sqrt();
     }
-    for _ in 0..STEPS {
+    for _ in 0..MAX_NEWTON_ITERATIONS {
         let tanh = x.tanh();
         let step = (x * tanh - y) / (tanh + x * (1.0 - tanh * tanh));
         x -= step;

@@ -9,9 +9,9 @@ use multiversion::multiversion;
 use std::f64::consts::{FRAC_1_PI, LOG2_E};
 
 /// At this power of two, and below, a wave is left out: a millionth of what it is at the mean level, twice that on a bottom.
-const FAINT: f64 = -19.931_568_569_324_174;
+const NEGLIGIBLE_LOG2: f64 = -19.931_568_569_324_174;
 /// At this power of two, and below, the mirror term of finite depth is left out: a thousand-millionth of the wave at the mean level.
-const MIRRORED: f64 = -29.897_352_853_986_26;
+const NEGLIGIBLE_MIRROR_LOG2: f64 = -29.897_352_853_986_26;
 /// Sine and cosine of r half turns, and two to a power f, by the squares of r and by f, lowest power first, with |r| and |f| up to a half:
 /// Chebyshev's series cut off, written out in powers. They are within 3e-11, 3e-10 and 5e-11.
 const SIN: [f64; 6] = [
@@ -90,7 +90,8 @@ impl FarDown {
             let bottom = depth.map_or(0.0, |d| {
                 let power = number * -d;
                 let [own, back] = decays(power, 0);
-                remaining_amplitude(own, power, FAINT) + remaining_amplitude(back * mirror, twice - power, MIRRORED)
+                remaining_amplitude(own, power, NEGLIGIBLE_LOG2)
+                    + remaining_amplitude(back * mirror, twice - power, NEGLIGIBLE_MIRROR_LOG2)
             });
             Wave {
                 turns: along.map(|share| share * c.number * FRAC_1_PI),
@@ -171,11 +172,11 @@ fn added_up<const SPREAD: bool, const LYING: bool>(waves: &[Wave], time: f64, pl
     }
     let mut sums = [[0.0; 8]; 7];
     for wave in waves {
-        if wave.number * highest < FAINT {
+        if wave.number * highest < NEGLIGIBLE_LOG2 {
             continue;
         }
         let phase = wave.phase - wave.rate * time;
-        let mirrored = wave.twice - wave.number * lowest >= MIRRORED;
+        let mirrored = wave.twice - wave.number * lowest >= NEGLIGIBLE_MIRROR_LOG2;
         if LYING {
             add::<SPREAD, true, false>(wave, phase, places, &mut sums);
         } else if mirrored {
@@ -224,14 +225,14 @@ fn add<const SPREAD: bool, const LYING: bool, const MIRROR: bool>(
         }
         let power = wave.number * places.height[i];
         let [own, back] = decays(power, turned);
-        let own = remaining_amplitude(own, power, FAINT);
+        let own = remaining_amplitude(own, power, NEGLIGIBLE_LOG2);
         let (mut cosh, mut sinh) = (own, own);
         if MIRROR {
             // where the wave itself is left out, so is its mirror term
             let back = remaining_amplitude(
-                remaining_amplitude(back * wave.mirror, wave.twice - power, MIRRORED),
+                remaining_amplitude(back * wave.mirror, wave.twice - power, NEGLIGIBLE_MIRROR_LOG2),
                 power,
-                FAINT,
+                NEGLIGIBLE_LOG2,
             );
             (cosh, sinh) = (own + back, own - back);
         }
@@ -268,7 +269,7 @@ mod tests {
                 assert_eq!(decays(power, 7), [-found, -inverse]);
             }
         }
-        assert_eq!(remaining_amplitude(f64::NAN, -1e300, FAINT), 0.0);
-        assert_eq!(remaining_amplitude(f64::INFINITY, f64::NEG_INFINITY, MIRRORED), 0.0);
+        assert_eq!(remaining_amplitude(f64::NAN, -1e300, NEGLIGIBLE_LOG2), 0.0);
+        assert_eq!(remaining_amplitude(f64::INFINITY, f64::NEG_INFINITY, NEGLIGIBLE_MIRROR_LOG2), 0.0);
     }
 }

@@ -10,9 +10,9 @@ use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// Share of the length that a wave breaks at in deep water [MICHE-1944]: H = 0.142 L tanh(k d).
-const MICHE: f64 = 0.142;
+const MICHE_BREAKING_STEEPNESS: f64 = 0.142;
 /// H L^2/d^3 up to which Stokes' series serves [HEDGES-1995].
-const URSELL: f64 = 40.0;
+const MAX_URSELL_NUMBER: f64 = 40.0;
 
 /// Refuses a wave higher than it can be.
 ///
@@ -20,7 +20,7 @@ const URSELL: f64 = 40.0;
 /// A height (m) beyond Miche's limit for a wave number (1/m) in this water.
 pub fn breaks(height: f64, number: f64, water: &Water) -> Result<(), ClassError> {
     let length = std::f64::consts::TAU / number;
-    let limit = MICHE * length * water.depth.map_or(1.0, |d| (number * d).tanh());
+    let limit = MICHE_BREAKING_STEEPNESS * length * water.depth.map_or(1.0, |d| (number * d).tanh());
     if height <= limit {
         return Ok(());
     }
@@ -33,7 +33,7 @@ pub fn breaks(height: f64, number: f64, water: &Water) -> Result<(), ClassError>
 fn serves(height: f64, number: f64, water: &Water) -> Result<(), ClassError> {
     let length = std::f64::consts::TAU / number;
     match water.depth {
-        Some(depth) if height * length * length > URSELL * depth.powi(3) => {
+        Some(depth) if height * length * length > MAX_URSELL_NUMBER * depth.powi(3) => {
             let text = "a wave {} high and {} long is too long for Stokes' theory in a depth of {}";
             let told = [(height, Dim::Length), (length, Dim::Length), (depth, Dim::Length)];
             Err(ClassError::with_values(text, &told).help("H L^2/d^3 may be 40; REGULAR is the linear wave"))

@@ -196,9 +196,12 @@ fn noun_fits(spec: &ValueSpec, noun: Noun, word: &Word, owner: &str, units: Unit
         )
         .label(format!("`{}` is not one", word.text)));
     }
-    if word.text.chars().count() > name::LONGEST {
-        return Err(Diagnostic::error(format!("a name may have at most {} characters", name::LONGEST), word.span)
-            .label(format!("this one has {}", word.text.chars().count())));
+    if word.text.chars().count() > name::MAX_NAME_CHARACTERS {
+        return Err(Diagnostic::error(
+            format!("a name may have at most {} characters", name::MAX_NAME_CHARACTERS),
+            word.span,
+        )
+        .label(format!("this one has {}", word.text.chars().count())));
     }
     Ok(())
 }

@@ -5,9 +5,9 @@ use crate::SeriesError;
 use crate::rainflow::Cycle;
 
 /// Seconds in a day.
-const DAY: f64 = 86_400.0;
+const SECONDS_PER_DAY: f64 = 86_400.0;
 /// Days in a year, as life is given in.
-pub const YEAR: f64 = 365.25;
+pub const DAYS_PER_YEAR: f64 = 365.25;
 
 /// What cycles come to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +69,7 @@ pub fn life(damage: f64, duration: f64, factor: f64) -> Result<Option<f64>, Seri
     if !(duration.is_finite() && duration > 0.0) {
         return Err(SeriesError::Setting { what: "the duration", expected: "greater than zero", value: duration });
     }
-    Ok((damage > 0.0).then(|| duration / DAY / YEAR / (damage * factor)))
+    Ok((damage > 0.0).then(|| duration / SECONDS_PER_DAY / DAYS_PER_YEAR / (damage * factor)))
 }
 
 #[cfg(test)]
@@ -90,12 +90,15 @@ mod tests {
     #[test]
     fn a_scatter_adds_up_by_days_and_life_is_its_inverse() {
         let hour = 3600.0;
-        let states =
-            [(1e-6, 300.0), (1e-5, 65.25)].map(|(damage, days)| State { damage, record: hour, duration: days * DAY });
+        let states = [(1e-6, 300.0), (1e-5, 65.25)].map(|(damage, days)| State {
+            damage,
+            record: hour,
+            duration: days * SECONDS_PER_DAY,
+        });
         let sum = sum_damage(&states).unwrap();
         assert!((sum - (1e-6 * 7200.0 + 1e-5 * 1566.0)).abs() < 1e-12, "{sum}");
         // one year of it, with a factor of 10
-        let years = life(sum, YEAR * DAY, 10.0).unwrap().unwrap();
+        let years = life(sum, DAYS_PER_YEAR * SECONDS_PER_DAY, 10.0).unwrap().unwrap();
         assert!((years - 1.0 / (10.0 * sum)).abs() < 1e-12);
         assert_eq!(life(0.0, 1.0, 1.0), Ok(None));
         assert!(life(1.0, 1.0, 0.5).is_err() && life(1.0, 0.0, 1.0).is_err());

@@ -37,7 +37,7 @@ impl Default for Round {
 }
 
 /// Most points round a circumference.
-pub const MOST_POINTS: usize = 360;
+pub const MAX_CIRCUMFERENCE_POINTS: usize = 360;
 
 /// What a record comes to at a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,7 @@ fn of_tube(
     thickness: Option<&ThicknessCorrection>,
     round: &Round,
 ) -> Result<NodeDamage, SeriesError> {
-    if !(1..=MOST_POINTS).contains(&round.points) {
+    if !(1..=MAX_CIRCUMFERENCE_POINTS).contains(&round.points) {
         let expected = "between 1 and 360";
         return Err(SeriesError::Setting { what: "the points round a tube", expected, value: round.points as f64 });
     }

@@ -70,7 +70,7 @@ impl Default for Factors {
 /// The ovality that is not gone below.
 pub const LEAST_OVALITY: f64 = 0.005;
 /// Most of alpha_c.
-const MOST_HARDENING: f64 = 1.20;
+const MAX_HARDENING: f64 = 1.20;
 
 /// What a tube resists.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,7 +134,7 @@ impl Resistance {
         let slenderness = self.tube.diameter / self.tube.wall;
         let hoop = (over / self.burst).max(0.0) * 2.0 / 3f64.sqrt();
         let beta = (0.4 + hoop) * ((60.0 - slenderness) / 45.0).clamp(0.0, 1.0);
-        (1.0 - beta + beta * self.tube.tensile / self.tube.yield_stress).clamp(1.0, MOST_HARDENING)
+        (1.0 - beta + beta * self.tube.tensile / self.tube.yield_stress).clamp(1.0, MAX_HARDENING)
     }
 
     /// Plastic moment M_k (N m) and tension T_k (N) at a net pressure inside (Pa).

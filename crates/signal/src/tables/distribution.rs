@@ -1,6 +1,6 @@
 //! Histograms, exceedance and rainflow of series as tables.
 
-use super::{Record, SIX, numbers};
+use super::{Record, SIX_DIGITS, numbers};
 use crate::distribution::{self, levels};
 use crate::rainflow::{cycles, range_mean};
 use crate::{SeriesError, statistics};
@@ -16,8 +16,8 @@ pub fn histogram(record: &Record, bins: usize) -> Result<Table, SeriesError> {
     for series in &record.series {
         let found = distribution::histogram(&series.values, bins)?;
         let (name, count) = (&series.name, series.values.len() as f64);
-        columns.push(Column::new(name, "From", series.dim, SIX, numbers(found.iter().map(|b| b.low))));
-        columns.push(Column::new(name, "To", series.dim, SIX, numbers(found.iter().map(|b| b.high))));
+        columns.push(Column::new(name, "From", series.dim, SIX_DIGITS, numbers(found.iter().map(|b| b.low))));
+        columns.push(Column::new(name, "To", series.dim, SIX_DIGITS, numbers(found.iter().map(|b| b.high))));
         columns.push(Column::new(name, "Count", Dim::None, Digits::Usual, found.iter().map(|b| b.count)));
         let shares = numbers(found.iter().map(|b| b.count as f64 / count));
         columns.push(Column::new(name, "Share", Dim::None, Digits::Decimals(6), shares));
@@ -47,16 +47,16 @@ pub fn exceedance(record: &Record, count: usize) -> Result<Table, SeriesError> {
             if moments.deviation > 0.0 { Cell::Number((-0.5 * over * over).exp()) } else { Cell::Missing }
         };
         let name = &series.name;
-        columns.push(Column::new(name, "Level", series.dim, SIX, numbers(at.iter().copied())));
+        columns.push(Column::new(name, "Level", series.dim, SIX_DIGITS, numbers(at.iter().copied())));
         columns.push(Column::new(
             name,
             "Values",
             Dim::None,
-            SIX,
+            SIX_DIGITS,
             numbers(distribution::exceedance(&series.values, &at)),
         ));
-        columns.push(Column::new(name, "Maxima", Dim::None, SIX, of_maxima));
-        columns.push(Column::new(name, "Rayleigh", Dim::None, SIX, at.iter().map(rayleigh)));
+        columns.push(Column::new(name, "Maxima", Dim::None, SIX_DIGITS, of_maxima));
+        columns.push(Column::new(name, "Rayleigh", Dim::None, SIX_DIGITS, at.iter().map(rayleigh)));
     }
     let mut table = Table::from_columns(format!("Exceedance of {}", record.title), columns);
     table.note("shares of values and of maxima between crossings of the mean that are greater than the level");
@@ -78,8 +78,8 @@ pub fn rainflow(record: &Record, bins: usize, means: usize) -> Result<Table, Ser
         };
         let count = Digits::Decimals(1);
         if bins == 0 {
-            add("Range", dim, SIX, numbers(found.iter().map(|c| c.range)));
-            add("Mean", dim, SIX, numbers(found.iter().map(|c| c.mean)));
+            add("Range", dim, SIX_DIGITS, numbers(found.iter().map(|c| c.range)));
+            add("Mean", dim, SIX_DIGITS, numbers(found.iter().map(|c| c.mean)));
             add("Cycles", Dim::None, count, numbers(found.iter().map(|c| c.count)));
             continue;
         }
@@ -93,11 +93,11 @@ pub fn rainflow(record: &Record, bins: usize, means: usize) -> Result<Table, Ser
             }
         }
         let of = |place: usize| numbers(rows.iter().filter_map(|r| r.get(place).copied()));
-        add("Range from", dim, SIX, of(0));
-        add("Range to", dim, SIX, of(1));
+        add("Range from", dim, SIX_DIGITS, of(0));
+        add("Range to", dim, SIX_DIGITS, of(1));
         if means > 1 {
-            add("Mean from", dim, SIX, of(2));
-            add("Mean to", dim, SIX, of(3));
+            add("Mean from", dim, SIX_DIGITS, of(2));
+            add("Mean to", dim, SIX_DIGITS, of(3));
         }
         add("Cycles", Dim::None, count, of(4));
     }

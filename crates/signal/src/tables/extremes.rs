@@ -1,6 +1,6 @@
 //! Extremes of series as a table: Rayleigh, Weibull and Gumbel beside each other.
 
-use super::{Record, SIX, Series};
+use super::{Record, SIX_DIGITS, Series};
 use crate::extremes::{Extreme, FEWEST_BLOCKS, Gumbel, Weibull, block_maxima, rayleigh};
 use crate::{SeriesError, statistics};
 use windlass_base::table::{Cell, Column, Digits, Table};
@@ -18,8 +18,8 @@ pub struct Extremes {
 }
 
 /// Blocks where nothing is said, and up-crossings that a block holds at least then.
-const BLOCKS: usize = 20;
-const CROSSINGS: usize = 10;
+const DEFAULT_BLOCKS: usize = 20;
+const MIN_CROSSINGS_PER_BLOCK: usize = 10;
 
 struct Found {
     extreme: Extreme,
@@ -56,11 +56,11 @@ pub fn extremes(record: &Record, asked: Extremes) -> Result<Table, SeriesError> 
         let mut add = |name: &str, dim: Dim, digits: Digits, cells: Vec<Cell>| {
             columns.push(Column::new(&series.name, name, dim, digits, cells));
         };
-        add("Most Probable", series.dim, SIX, of(&|f| Cell::Number(sign * f.extreme.most_probable)));
-        add("Expected", series.dim, SIX, of(&|f| Cell::Number(sign * f.extreme.expected)));
-        add("95% Low", series.dim, SIX, of(&|f| bound(f, false)));
-        add("95% High", series.dim, SIX, of(&|f| bound(f, true)));
-        add("Scale", series.dim, SIX, of(&|f| Cell::Number(f.scale)));
+        add("Most Probable", series.dim, SIX_DIGITS, of(&|f| Cell::Number(sign * f.extreme.most_probable)));
+        add("Expected", series.dim, SIX_DIGITS, of(&|f| Cell::Number(sign * f.extreme.expected)));
+        add("95% Low", series.dim, SIX_DIGITS, of(&|f| bound(f, false)));
+        add("95% High", series.dim, SIX_DIGITS, of(&|f| bound(f, true)));
+        add("Scale", series.dim, SIX_DIGITS, of(&|f| Cell::Number(f.scale)));
         add("Shape", Dim::None, Digits::Decimals(4), of(&|f| f.shape.into()));
         add("Fitted To", Dim::None, Digits::Usual, of(&|f| f.count.into()));
     }
@@ -101,7 +101,7 @@ fn of_series(
         let extreme = w.extreme(period, asked.duration)?;
         Ok(Found { extreme, count: Some(w.count), shape: Some(w.shape), scale: w.scale })
     });
-    let blocks = asked.blocks.unwrap_or_else(|| (crossings.up / CROSSINGS).min(BLOCKS));
+    let blocks = asked.blocks.unwrap_or_else(|| (crossings.up / MIN_CROSSINGS_PER_BLOCK).min(DEFAULT_BLOCKS));
     let by_gumbel = if blocks < FEWEST_BLOCKS {
         let what = "a Gumbel fit (of blocks, each with ten up-crossings of the mean unless their number is given)";
         Err(SeriesError::TooFew { what, need: FEWEST_BLOCKS, got: blocks })

@@ -1,6 +1,6 @@
 //! Harmonic analysis of series as a table.
 
-use super::{Record, SIX, numbers};
+use super::{Record, SIX_DIGITS, numbers};
 use crate::SeriesError;
 use crate::harmonics::{Harmonic, analyse, find_period};
 use windlass_base::table::{Cell, Column, Digits, Table};
@@ -18,7 +18,7 @@ pub struct Analysis {
 }
 
 /// Share of the largest amplitude, or of the mean, below which an amplitude is rounding.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING_SHARE: f64 = 1e-12;
 
 /// Amplitude and phase of the harmonics of each series, by order; order 0 is the mean.
 ///
@@ -31,17 +31,18 @@ pub fn harmonics(record: &Record, asked: Analysis) -> Result<Table, SeriesError>
     let periods = std::iter::once(Cell::Missing).chain((1..=asked.orders).map(|k| Cell::Number(period / k as f64)));
     let mut columns = vec![
         Column::new("", "Order", Dim::None, Digits::Usual, orders),
-        Column::new("", "Period", Dim::Time, SIX, periods),
+        Column::new("", "Period", Dim::Time, SIX_DIGITS, periods),
     ];
     let mut facts = Vec::new();
     let mut cycles = 0;
     for series in &record.series {
         let found = analyse(&record.times, &series.values, period, asked.orders, asked.cycles)?;
         let amplitudes = std::iter::once(found.mean).chain(found.harmonics.iter().map(|h| h.amplitude));
-        columns.push(Column::new(&series.name, "Amplitude", series.dim, SIX, numbers(amplitudes)));
+        columns.push(Column::new(&series.name, "Amplitude", series.dim, SIX_DIGITS, numbers(amplitudes)));
         // a harmonic that rounding left has no phase
         let size = found.harmonics.iter().fold(found.mean.abs(), |m, h| m.max(h.amplitude));
-        let phase = |h: &Harmonic| if h.amplitude > ROUNDING * size { Cell::Number(h.phase) } else { Cell::Missing };
+        let phase =
+            |h: &Harmonic| if h.amplitude > ROUNDING_SHARE * size { Cell::Number(h.phase) } else { Cell::Missing };
         let phases = std::iter::once(Cell::Missing).chain(found.harmonics.iter().map(phase));
         columns.push(Column::new(&series.name, "Phase", Dim::Angle, Digits::Usual, phases));
         facts.push((format!("Residual rms of {}", series.name), found.residual, series.dim));

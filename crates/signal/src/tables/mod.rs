@@ -85,7 +85,7 @@ impl Record {
 }
 
 /// Six figures: what a reader needs of a result whose size is not known beforehand.
-const SIX: Digits = Digits::Scientific(6);
+const SIX_DIGITS: Digits = Digits::Scientific(6);
 
 fn numbers(values: impl IntoIterator<Item = f64>) -> Vec<Cell> {
     values.into_iter().map(Cell::Number).collect()

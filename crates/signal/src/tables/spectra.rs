@@ -1,6 +1,6 @@
 //! Spectra of series as tables.
 
-use super::{Record, SIX, Series, numbers};
+use super::{Record, SIX_DIGITS, Series, numbers};
 use crate::spectra::{self, Density, SpectralMoments, Window};
 use crate::{SeriesError, sampling};
 use std::f64::consts::TAU;
@@ -60,8 +60,8 @@ pub fn density(record: &Record, length: Option<usize>) -> Result<Table, SeriesEr
     let Some((_, first)) = found.first() else { return Err(SeriesError::Constant) };
     let frequencies = first.frequencies.get(1..).unwrap_or_default();
     let mut columns = vec![
-        Column::new("", "Frequency", Dim::Frequency, SIX, numbers(frequencies.iter().copied())),
-        Column::new("", "Period", Dim::Time, SIX, periods(frequencies)),
+        Column::new("", "Frequency", Dim::Frequency, SIX_DIGITS, numbers(frequencies.iter().copied())),
+        Column::new("", "Period", Dim::Time, SIX_DIGITS, periods(frequencies)),
     ];
     let mut notes = Vec::new();
     for (series, density) in &found {
@@ -70,7 +70,7 @@ pub fn density(record: &Record, length: Option<usize>) -> Result<Table, SeriesEr
             notes.push(format!("the density of {} is in SI units", series.name));
         }
         let values = density.values.iter().skip(1).copied();
-        columns.push(Column::new(&series.name, "Density", dim.unwrap_or(Dim::None), SIX, numbers(values)));
+        columns.push(Column::new(&series.name, "Density", dim.unwrap_or(Dim::None), SIX_DIGITS, numbers(values)));
     }
     let mut table = Table::from_columns(format!("Spectrum of {}", record.title), columns);
     table = table.fact("Segments Averaged", first.segments, Dim::None);
@@ -109,10 +109,10 @@ pub fn amplitudes(record: &Record) -> Result<Table, SeriesError> {
             if let Some(first) = period.first_mut() {
                 *first = Cell::Missing;
             }
-            columns.push(Column::new("", "Frequency", Dim::Frequency, SIX, numbers(found.frequencies)));
-            columns.push(Column::new("", "Period", Dim::Time, SIX, period));
+            columns.push(Column::new("", "Frequency", Dim::Frequency, SIX_DIGITS, numbers(found.frequencies)));
+            columns.push(Column::new("", "Period", Dim::Time, SIX_DIGITS, period));
         }
-        columns.push(Column::new(&series.name, "Amplitude", series.dim, SIX, numbers(found.amplitudes)));
+        columns.push(Column::new(&series.name, "Amplitude", series.dim, SIX_DIGITS, numbers(found.amplitudes)));
         columns.push(Column::new(&series.name, "Phase", Dim::Angle, Digits::Usual, numbers(found.phases)));
     }
     let mut table = Table::from_columns(format!("Amplitudes of {}", record.title), columns);

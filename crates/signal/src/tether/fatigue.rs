@@ -5,12 +5,12 @@ use super::global::spread;
 use crate::SeriesError;
 
 /// Number of stress ranges that half cycles are counted into (figure 7.9).
-pub const BINS: usize = 50;
+pub const STRESS_RANGE_BINS: usize = 50;
 
 /// Lives are cut off here (days), as the listing does.
 pub const LONGEST_LIFE: f64 = 99_999.0;
 
-const ANGLES: usize = 18;
+const CIRCUMFERENCE_POINTS: usize = 18;
 
 /// S-N curve and concentration (card TFAT, appendix A.4).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,13 +50,13 @@ pub struct Ranges {
     /// Width of a bin.
     pub width: f64,
     /// Half cycles of each bin.
-    pub counts: [u64; BINS],
+    pub counts: [u64; STRESS_RANGE_BINS],
 }
 
 impl Ranges {
     /// Counts of no cycles, for bins of this width.
     pub fn of_width(width: f64) -> Ranges {
-        Ranges { width, counts: [0; BINS] }
+        Ranges { width, counts: [0; STRESS_RANGE_BINS] }
     }
 
     /// Counts the half cycles of a series. What is beyond the last bin counts there.
@@ -64,7 +64,7 @@ impl Ranges {
         let mut ranges = Ranges::of_width(width);
         for range in half_cycles(values) {
             let bin = if width > 0.0 { (range / width) as usize } else { 0 };
-            if let Some(count) = ranges.counts.get_mut(bin.min(BINS - 1)) {
+            if let Some(count) = ranges.counts.get_mut(bin.min(STRESS_RANGE_BINS - 1)) {
                 *count += 1;
             }
         }
@@ -172,7 +172,7 @@ fn largest_moment(record: &EndRecord) -> f64 {
 /// Width of the bins: fifty from zero to twice the largest stress of all ends.
 pub fn bin_width(ends: &[EndRecord]) -> f64 {
     let largest = ends.iter().map(|end| largest_moment(end) * end.stress_of_moment).fold(0.0, f64::max);
-    2.0 * largest / BINS as f64
+    2.0 * largest / STRESS_RANGE_BINS as f64
 }
 
 /// Fatigue and expected peak of every end; the places of most damage and of the largest expected peak are sought round the
@@ -216,7 +216,7 @@ fn of_end(end: &EndRecord, width: f64, asked: Asked) -> EndFatigue {
         expected_peak: -1.0,
         ranges: Ranges::of_width(width),
     };
-    for step in 0..ANGLES {
+    for step in 0..CIRCUMFERENCE_POINTS {
         let angle = (step as f64 * 10.0).to_radians();
         moment_at(end, angle, &mut moment);
         let (mean, rms) = spread(&moment);

@@ -1,7 +1,7 @@
 //! The statistics, histogram and fatigue tables of a tether [AQWA-TETHER figures 7.5 to 7.10, 7.12 and 7.13], with the
 //! columns and the order of that manual.
 
-use super::fatigue::{BINS, EndFatigue};
+use super::fatigue::{EndFatigue, STRESS_RANGE_BINS};
 use super::global::{Global, global};
 use crate::SeriesError;
 use windlass_base::table::{Cell, Column, Digits, Table};
@@ -48,7 +48,7 @@ fn channel_column(channel: &Channel, cells: impl IntoIterator<Item = f64>) -> Co
 /// A quantity of the statistics of type 1: its words and where it stands.
 type Row = (&'static str, fn(&Global) -> f64);
 
-const ROWS: [Row; 10] = [
+const TABLE_ROWS: [Row; 10] = [
     ("Mean", |g| g.mean),
     ("2 x RMS", |g| g.significant),
     ("Mean highest 1/3 peaks +", |g| g.highest_third),
@@ -68,9 +68,9 @@ const ROWS: [Row; 10] = [
 /// As [`global`].
 pub fn type_one(title: &str, place: &Place) -> Result<Table, SeriesError> {
     let found = of_place(place)?;
-    let mut columns = vec![Column::new("", "Parameter", Dim::None, Digits::Usual, ROWS.map(|(label, _)| label))];
+    let mut columns = vec![Column::new("", "Parameter", Dim::None, Digits::Usual, TABLE_ROWS.map(|(label, _)| label))];
     for (channel, of) in place.channels.iter().zip(&found) {
-        columns.push(channel_column(channel, ROWS.map(|(_, value)| value(of))));
+        columns.push(channel_column(channel, TABLE_ROWS.map(|(_, value)| value(of))));
     }
     Ok(Table::from_columns(title, columns).fact("Distance", place.distance, Dim::Length))
 }
@@ -124,9 +124,9 @@ pub type AtEnd = (usize, f64, EndFatigue);
 /// Half cycles by stress range at the place of most damage of every end (figure 7.9).
 pub fn histogram(title: &str, ends: &[AtEnd]) -> Table {
     let width = ends.first().map_or(0.0, |(_, _, found)| found.ranges.width);
-    let edge = |shift: usize| (0..BINS).map(move |bin| (bin + shift) as f64 * width);
+    let edge = |shift: usize| (0..STRESS_RANGE_BINS).map(move |bin| (bin + shift) as f64 * width);
     let mut columns = vec![
-        Column::new("", "Bin", Dim::None, Digits::Usual, 1..=BINS),
+        Column::new("", "Bin", Dim::None, Digits::Usual, 1..=STRESS_RANGE_BINS),
         Column::new("Stress Range", "From", STRESS, Digits::Scientific(5), edge(0)),
         Column::new("Stress Range", "To", STRESS, Digits::Scientific(5), edge(1)),
     ];
@@ -141,7 +141,7 @@ pub fn histogram(title: &str, ends: &[AtEnd]) -> Table {
 }
 
 const MOMENT: Dim = Dim::Moment;
-const THREE: Digits = Digits::Scientific(3);
+const THREE_DIGITS: Digits = Digits::Scientific(3);
 
 /// Fatigue life and expected peak stress of every end, and the worst along the tether below (figure 7.10).
 pub fn fatigue(title: &str, ends: &[AtEnd]) -> Table {
@@ -150,20 +150,20 @@ pub fn fatigue(title: &str, ends: &[AtEnd]) -> Table {
     let smaller: fn(f64, f64) -> f64 = f64::min;
     let larger: fn(f64, f64) -> f64 = f64::max;
     let fields: [Field; 14] = [
-        ("Significant Moment", "Y", MOMENT, THREE, |f| f.significant_moments[0], larger),
-        ("Significant Moment", "Z", MOMENT, THREE, |f| f.significant_moments[1], larger),
-        ("Significant Moment", "Max Dam", MOMENT, THREE, |f| f.significant_moments[2], larger),
-        ("Fatigue", "Eff Range", STRESS, THREE, |f| f.effective_range, larger),
+        ("Significant Moment", "Y", MOMENT, THREE_DIGITS, |f| f.significant_moments[0], larger),
+        ("Significant Moment", "Z", MOMENT, THREE_DIGITS, |f| f.significant_moments[1], larger),
+        ("Significant Moment", "Max Dam", MOMENT, THREE_DIGITS, |f| f.significant_moments[2], larger),
+        ("Fatigue", "Eff Range", STRESS, THREE_DIGITS, |f| f.effective_range, larger),
         ("Fatigue", "Pn", Dim::Angle, degrees, |f| f.angle, larger),
         ("Fatigue", "Cyc/Hour", Dim::None, degrees, |f| f.cycles * 3600.0, larger),
-        ("Fatigue", "Damage/Hour", Dim::None, THREE, |f| f.damage_rate * 3600.0, larger),
+        ("Fatigue", "Damage/Hour", Dim::None, THREE_DIGITS, |f| f.damage_rate * 3600.0, larger),
         ("Fatigue", "Life", Dim::Days, Digits::Decimals(1), |f| f.life_days * 86_400.0, smaller),
-        ("Max Bending Stress", "Max Pk", STRESS, THREE, |f| f.largest, larger),
-        ("Max Bending Stress", "Mean", STRESS, THREE, |f| f.mean, larger),
-        ("Max Bending Stress", "Signfcnt", STRESS, THREE, |f| f.significant, larger),
+        ("Max Bending Stress", "Max Pk", STRESS, THREE_DIGITS, |f| f.largest, larger),
+        ("Max Bending Stress", "Mean", STRESS, THREE_DIGITS, |f| f.mean, larger),
+        ("Max Bending Stress", "Signfcnt", STRESS, THREE_DIGITS, |f| f.significant, larger),
         ("Max Bending Stress", "Pn", Dim::Angle, degrees, |f| f.peak_angle, larger),
         ("Max Bending Stress", "Cyc/Hour", Dim::None, degrees, |f| f.peak_cycles * 3600.0, larger),
-        ("Max Bending Stress", "Peak", STRESS, THREE, |f| f.expected_peak, larger),
+        ("Max Bending Stress", "Peak", STRESS, THREE_DIGITS, |f| f.expected_peak, larger),
     ];
     let mut elements: Vec<Cell> = ends.iter().map(|(element, _, _)| Cell::Integer(*element as i64)).collect();
     elements.push(Cell::Text("Worst".into()));

@@ -1,7 +1,7 @@
 //! Connectors of a film: their shape at every instant.
 
 use crate::results::along::{Section, sections, segments_at, sides};
-use crate::scene::{CORNER, cubic};
+use crate::scene::{CORNER_TURN_RAD, cubic};
 use crate::time::{AlongColumns, Layout, LinkColumns};
 use windlass_base::geometry::Position;
 use windlass_base::table::{Cell, Table};
@@ -217,7 +217,7 @@ fn resample_shape(table: &Table, placement: &Placement, count: usize) -> Option<
         let t = if room > 0.0 { (wanted - arc_of(a)) / room } else { 1.0 };
         let [x, z, _, _, tension, ratio] = std::array::from_fn(|i| a[i] + t * (b[i] - a[i]));
         // as the picture draws it: a cubic with the directions at both rows, but for a corner
-        let turns = (b[3] - a[3]).abs() < CORNER;
+        let turns = (b[3] - a[3]).abs() < CORNER_TURN_RAD;
         let (x, z) = if turns { cubic(((a[0], a[1]), (b[0], b[1])), (a[3], b[3]), room, t) } else { (x, z) };
         shape.points.push([x0 + ux * x, y0 + uy * x, z]);
         shape.tensions.push(tension);

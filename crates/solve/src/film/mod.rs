@@ -20,11 +20,11 @@ use windlass_base::pose::Pose;
 use windlass_model::{ClassError, Model};
 
 /// Most instants of a film.
-pub const MOST_FRAMES: usize = 2_000;
+pub const MAX_FRAMES: usize = 2_000;
 /// Most numbers of a film, of all its instants: what a page bears that a browser opens at once.
-pub const MOST_NUMBERS: usize = 4_000_000;
+pub const MAX_NUMBERS: usize = 4_000_000;
 /// Most triangles of the bodies; a hull beyond is shown as a box.
-pub const MOST_TRIANGLES: usize = 60_000;
+pub const MAX_TRIANGLES: usize = 60_000;
 /// Numbers of a body at an instant: origin and rotation.
 const OF_BODY: usize = 7;
 /// Numbers of a point of a line at an instant: place, tension, share of break.
@@ -138,10 +138,10 @@ impl Film {
     fn instants(&mut self, run: &Run, take: &Take, numbers: usize) -> Result<Vec<Vec<f64>>, ClassError> {
         let chosen = events(&run.history, take.window.as_ref())?;
         let times: Vec<f64> = chosen.iter().filter_map(|e| e.time(&run.history)).collect();
-        let most = MOST_FRAMES.min(MOST_NUMBERS / numbers.max(1));
+        let most = MAX_FRAMES.min(MAX_NUMBERS / numbers.max(1));
         if most < 2 {
             return Err(ClassError::new(format!(
-                "an instant of these bodies and lines has {numbers} numbers, and a film bears {MOST_NUMBERS} in all"
+                "an instant of these bodies and lines has {numbers} numbers, and a film bears {MAX_NUMBERS} in all"
             ))
             .help("name fewer of them, or give their lines fewer points"));
         }
@@ -166,9 +166,9 @@ impl Film {
             let Some(body) = run.model.bodies.get(key) else { continue };
             let junction = body.junction.is_some();
             let mut solid = Solid::from_body(&run.model, body, if junction { 0.5 * least } else { least });
-            if triangles + solid.triangles.len() > MOST_TRIANGLES {
+            if triangles + solid.triangles.len() > MAX_TRIANGLES {
                 self.notes.push(format!(
-                    "{name} is shown as a box: its hull of {} triangles goes beyond the {MOST_TRIANGLES} of a film",
+                    "{name} is shown as a box: its hull of {} triangles goes beyond the {MAX_TRIANGLES} of a film",
                     solid.triangles.len()
                 ));
                 solid = Solid::bounding_box(&run.model, body, least);

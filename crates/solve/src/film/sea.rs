@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use windlass_hydro::sea::Sea;
 
 /// Harmonics kept of a regular wave that is not a cosine.
-const HARMONICS: usize = 8;
+const STORED_HARMONICS: usize = 8;
 /// Samples of such a wave over a period.
-const SAMPLES: usize = 64;
+const SAMPLES_PER_PERIOD: usize = 64;
 
 /// One wave of the surface: `amplitude cos(number (toward . (x, y)) - frequency t + phase)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,9 +73,9 @@ fn waves(sea: &Sea) -> Vec<Wave> {
     // behind the ramp, over one period at one place
     let period = TAU / only.frequency;
     let start = (sea.ramp.max(0.0) / period).ceil() * period;
-    let samples: Vec<f64> = (0..SAMPLES)
+    let samples: Vec<f64> = (0..SAMPLES_PER_PERIOD)
         .map(|n| {
-            let angle = TAU * n as f64 / SAMPLES as f64;
+            let angle = TAU * n as f64 / SAMPLES_PER_PERIOD as f64;
             // angle = phase - w t, at a time behind the ramp
             let turns = ((only.phase - angle) / TAU).rem_euclid(1.0);
             sea.elevation(0.0, 0.0, start + turns * period)
@@ -83,8 +83,9 @@ fn waves(sea: &Sea) -> Vec<Wave> {
         .collect();
     let harmonic = |n: usize| {
         let part = |f: fn(f64) -> f64| {
-            let sum: f64 = samples.iter().enumerate().map(|(i, v)| v * f(TAU * (n * i) as f64 / SAMPLES as f64)).sum();
-            2.0 * sum / SAMPLES as f64
+            let sum: f64 =
+                samples.iter().enumerate().map(|(i, v)| v * f(TAU * (n * i) as f64 / SAMPLES_PER_PERIOD as f64)).sum();
+            2.0 * sum / SAMPLES_PER_PERIOD as f64
         };
         let (cos, sin) = (part(f64::cos), part(f64::sin));
         let order = n as f64;
@@ -96,7 +97,7 @@ fn waves(sea: &Sea) -> Vec<Wave> {
             phase: order * only.phase + (-sin).atan2(cos),
         }
     };
-    let all: Vec<Wave> = (1..=HARMONICS).map(harmonic).collect();
+    let all: Vec<Wave> = (1..=STORED_HARMONICS).map(harmonic).collect();
     let largest = all.iter().map(|w| w.amplitude).fold(0.0, f64::max);
     all.into_iter().filter(|w| w.amplitude > 1e-9 * largest).collect()
 }

@@ -18,13 +18,13 @@ use windlass_model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, Drif
 pub type Motions = DVector<Complex<f64>>;
 
 /// Acceleration left, as a share of gravity, with which a place is not taken for one at rest.
-const RESTLESS: f64 = 2e-3;
+const MAX_REST_ACCELERATION_SHARE: f64 = 2e-3;
 /// Growth of a motion over that of its mass or its stiffness alone that is taken for one without bound.
-const BOUNDLESS: f64 = 1e9;
+const UNBOUNDED_RESPONSE_RATIO: f64 = 1e9;
 /// Share of the largest motion (m, rad) that is what rounding leaves.
-const ROUNDING: f64 = 1e-13;
+const ROUNDING_SHARE: f64 = 1e-13;
 /// The time over which dashpots in series with springs are taken (s).
-const STEP: f64 = 1.0;
+const DASHPOT_STEP_S: f64 = 1.0;
 
 /// What waves do to a body by its database.
 #[derive(Clone, Debug)]
@@ -129,7 +129,7 @@ impl Linear {
             let mass = node.floating.mass.mass;
             let force = (0..3).filter(|f| node.moves(*f)).map(|f| left[6 * index + f]);
             let force = force.fold(0.0, f64::hypot);
-            if mass > 0.0 && force > RESTLESS * mass * self.system.gravity {
+            if mass > 0.0 && force > MAX_REST_ACCELERATION_SHARE * mass * self.system.gravity {
                 restless.push(node.name.clone());
             }
             if !node.junction && self.floats.get(index).is_none_or(|f| f.is_none()) {
@@ -280,7 +280,7 @@ impl Linear {
             (0..size).map(|i| (largest(i), i)).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
         };
         let bound = inverse.as_ref().map(worst);
-        let (Some(inverse), Some((..=BOUNDLESS, _))) = (inverse, bound) else {
+        let (Some(inverse), Some((..=UNBOUNDED_RESPONSE_RATIO, _))) = (inverse, bound) else {
             let row = bound.and_then(|(_, i)| self.heavy.get(i)).copied();
             let text = "its motion has no bound at a period of {}: it is a natural period without damping";
             let error =
@@ -300,7 +300,7 @@ impl Linear {
             let own = DVector::from_fn(size, |i, _| own[i] * scale[i]);
             let moved = &inverse * own;
             let mut all = &follow * DVector::from_fn(size, |i, _| moved[i] * scale[i]);
-            let least = ROUNDING * all.iter().fold(0.0, |most: f64, v| most.max(v.norm()));
+            let least = ROUNDING_SHARE * all.iter().fold(0.0, |most: f64, v| most.max(v.norm()));
             all.iter_mut().filter(|v| v.norm() < least).for_each(|v| *v = Complex::new(0.0, 0.0));
             all
         };
@@ -346,8 +346,8 @@ fn damping(
     let motion = |(pose, velocity): (&Pose, &Six)| Motion { pose: *pose, velocity: *velocity, ..Motion::default() };
     let motions: Vec<Motion> = poses.iter().zip(velocities).map(motion).collect();
     let mut memory = Memory::new(system);
-    memory.begin(system, (&motions, &motions), (0.0, STEP))?;
-    forces.evaluate(system, &memory, &motions, (0.0, STEP))?;
+    memory.begin(system, (&motions, &motions), (0.0, DASHPOT_STEP_S))?;
+    forces.evaluate(system, &memory, &motions, (0.0, DASHPOT_STEP_S))?;
     match forces.damping.iter().all(|v| v.is_finite()) {
         true => Ok(forces.damping.clone()),
         false => Err(SolveError::new(ClassError::new("the damping has no value at some velocity of the bodies"))),

@@ -15,13 +15,13 @@ use windlass_base::pose::Six;
 use windlass_model::ClassError;
 
 /// Velocities over which the mean is taken.
-const POINTS: usize = 1024;
+const MEAN_SAMPLES: usize = 1024;
 /// Most rounds.
-const MOST: usize = 100;
+const MAX_ITERATIONS: usize = 100;
 /// Change of the deviation of a velocity, as its share, that is none.
-const SAME: f64 = 1e-5;
+const CONVERGENCE_TOLERANCE: f64 = 1e-5;
 /// Share of the largest variance below which a velocity of its own is none.
-const NOTHING: f64 = 1e-8;
+const NEGLIGIBLE_VARIANCE_SHARE: f64 = 1e-8;
 
 /// Linearises until damping and response agree; the response is then that of the result. Gives the rounds it took.
 ///
@@ -34,12 +34,12 @@ pub(super) fn settle(
 ) -> Result<usize, SolveError> {
     let mut before: Option<DVector<f64>> = None;
     let mut order = Vec::new();
-    for round in 0..MOST {
+    for round in 0..MAX_ITERATIONS {
         let spread = covariance(linear, response);
         let deviations = spread.diagonal().map(|v| v.max(0.0).sqrt());
         if let Some(before) = &before {
             let largest = deviations.amax();
-            let same = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME * b.max(1e-6 * largest);
+            let same = |(a, b): (&f64, &f64)| (a - b).abs() <= CONVERGENCE_TOLERANCE * b.max(1e-6 * largest);
             if deviations.iter().zip(before.iter()).all(same) {
                 return Ok(round);
             }
@@ -54,7 +54,7 @@ pub(super) fn settle(
         *response = again(linear)?;
         before = Some(deviations);
     }
-    let text = format!("the linearisation of its damping does not settle in {MOST} rounds");
+    let text = format!("the linearisation of its damping does not settle in {MAX_ITERATIONS} rounds");
     Err(SolveError::new(ClassError::new(text).help("TDOM has no need of it")))
 }
 
@@ -76,18 +76,18 @@ fn covariance(linear: &Linear, response: &Response) -> DMatrix<f64> {
 }
 
 /// A metre a second beside which a rotation of a radian a second counts ten: the arm of a point on a body (m).
-const ARM: f64 = 10.0;
+const ROTATION_ARM_M: f64 = 10.0;
 
 /// The velocities that tell all others of a covariance, each with what it has of its own: the pivots of its Cholesky factor.
 fn pivots(spread: &DMatrix<f64>) -> Vec<usize> {
-    let weigh = |i: usize| if i % 6 < 3 { 1.0 } else { ARM * ARM };
+    let weigh = |i: usize| if i % 6 < 3 { 1.0 } else { ROTATION_ARM_M * ROTATION_ARM_M };
     let mut rest = spread.clone();
     let mut order = Vec::new();
     let largest = (0..rest.nrows()).fold(0.0, |most: f64, i| most.max(rest[(i, i)] * weigh(i)));
     while order.len() < rest.nrows() {
         let own = (0..rest.nrows()).map(|i| (rest[(i, i)] * weigh(i), i));
         let (value, pivot) = own.fold((0.0, 0), |best, one| if one.0 > best.0 { one } else { best });
-        if value <= NOTHING * largest {
+        if value <= NEGLIGIBLE_VARIANCE_SHARE * largest {
             break;
         }
         let column = rest.column(pivot) / rest[(pivot, pivot)].sqrt();
@@ -120,12 +120,12 @@ fn mean_damping(linear: &Linear, spread: &DMatrix<f64>, order: &[usize]) -> Resu
     let steps = steps(axes.len());
     let normal = Normal::standard();
     let mut forces = Forces::default();
-    for n in 0..POINTS {
+    for n in 0..MEAN_SAMPLES {
         let mut velocity = DVector::zeros(spread.nrows());
         for (axis, step) in axes.iter().zip(&steps) {
             // one velocity in even steps, several in those of a sequence of low discrepancy
             let share = (0.5 + (n as f64 + 0.5) * step).fract();
-            let share = if axes.len() == 1 { (n as f64 + 0.5) / POINTS as f64 } else { share };
+            let share = if axes.len() == 1 { (n as f64 + 0.5) / MEAN_SAMPLES as f64 } else { share };
             velocity += axis * normal.inverse_cdf(share.clamp(1e-9, 1.0 - 1e-9));
         }
         let six = |body: usize| Six::from_fn(|i, _| velocity[6 * body + i]);
@@ -138,7 +138,7 @@ fn mean_damping(linear: &Linear, spread: &DMatrix<f64>, order: &[usize]) -> Resu
         sum += more;
     }
     match sum.iter().all(|v| v.is_finite()) {
-        true => Ok(Some(sum / POINTS as f64)),
+        true => Ok(Some(sum / MEAN_SAMPLES as f64)),
         false => Err(SolveError::new(ClassError::new("a damping has no mean over the velocities in this sea"))),
     }
 }

@@ -6,11 +6,11 @@ use crate::system::SolveError;
 use nalgebra::DVector;
 
 /// Times a mode's frequency is found again.
-const MOST: usize = 100;
+const MAX_ITERATIONS: usize = 100;
 /// Change of a frequency that is none.
-const SAME: f64 = 1e-9;
+const FREQUENCY_TOLERANCE: f64 = 1e-9;
 /// Eigenvalue below which nothing holds a motion (rad2/s2): a period of 17 hours.
-const LOOSE: f64 = 1e-8;
+const UNRESTRAINED_EIGENVALUE: f64 = 1e-8;
 
 /// A mode with its damping.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +38,7 @@ pub fn natural(linear: &Linear) -> Result<Vec<Natural>, SolveError> {
 fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Result<Natural, SolveError> {
     let frequency = |mode: &Mode| mode.eigenvalue.max(0.0).sqrt();
     let mut settled = !floats;
-    for _ in 0..MOST {
+    for _ in 0..MAX_ITERATIONS {
         if settled {
             break;
         }
@@ -56,11 +56,11 @@ fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Result<Natural, SolveEr
         };
         let best = list.into_iter().map(|m| (alike(&m), m)).reduce(|a, b| if b.0 > a.0 { b } else { a });
         let Some((_, next)) = best else { break };
-        settled = (frequency(&next) - w).abs() <= SAME * w.max(LOOSE.sqrt());
+        settled = (frequency(&next) - w).abs() <= FREQUENCY_TOLERANCE * w.max(UNRESTRAINED_EIGENVALUE.sqrt());
         mode = next;
     }
     let w = frequency(&mode);
-    let damping = (mode.eigenvalue > LOOSE).then(|| {
+    let damping = (mode.eigenvalue > UNRESTRAINED_EIGENVALUE).then(|| {
         let (mass, damping) = linear.inertia_and_damping(w);
         let of = |m: &nalgebra::DMatrix<f64>| mode.shape.dot(&(m * &mode.shape));
         of(&damping) / (2.0 * w * of(&mass))

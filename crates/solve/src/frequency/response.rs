@@ -14,7 +14,7 @@ use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// Most numbers kept.
-const MOST: usize = 20_000_000;
+const MAX_NUMBERS: usize = 20_000_000;
 
 /// Motions in a narrow band of frequencies.
 #[derive(Clone, Debug, PartialEq)]
@@ -152,7 +152,7 @@ fn point(
 /// Refuses more than memory is taken for.
 pub(super) fn check_memory(points: usize, parts: usize, linear: &Linear) -> Result<(), SolveError> {
     let size = points.saturating_mul(parts).saturating_mul(6 * linear.system.nodes.len());
-    if size > MOST {
+    if size > MAX_NUMBERS {
         let text = format!("{points} frequencies with {parts} parts of all bodies are more than are kept");
         return Err(SolveError::new(ClassError::new(text).help("fewer periods, or no -SPREAD")));
     }

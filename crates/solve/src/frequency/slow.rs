@@ -16,9 +16,9 @@ use windlass_hydro::database::drift_at;
 use windlass_hydro::move_wrench;
 
 /// Even points over the differences of frequency, and over the sea at each.
-const EVEN: (usize, usize) = (60, 120);
+const EVEN_POINTS: (usize, usize) = (60, 120);
 /// Share of the largest part of a spectrum below which another is nothing.
-const NOTHING: f64 = 1e-12;
+const NEGLIGIBLE_SHARE: f64 = 1e-12;
 
 /// A wave of a band: direction of travel (rad), its share of the energy, density (m2 s).
 type Directed = (f64, f64);
@@ -29,7 +29,7 @@ pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -
         .filter(|i| linear.floats.get(*i).is_some_and(|f| f.as_ref().is_some_and(|f| f.drift.is_some())))
         .collect();
     let Some(range) = trains.range().filter(|_| !drifting.is_empty()) else { return Ok(Vec::new()) };
-    let (differences, waves) = EVEN;
+    let (differences, waves) = EVEN_POINTS;
     // the first point is nothing: at rest
     let mut own = refine_near_resonance(even([0.0, range[0]], differences), resonant);
     own.retain(|w| *w > 0.0);
@@ -46,7 +46,7 @@ pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -
             .map_err(|e| linear.system.singular_matrix_error("spectrum of slow drift", &rows, e))?;
         let largest = eigen.values.max();
         for (value, vector) in eigen.values.iter().zip(eigen.vectors.column_iter()) {
-            if value.is_nan() || *value <= NOTHING * largest {
+            if value.is_nan() || *value <= NEGLIGIBLE_SHARE * largest {
                 continue;
             }
             let mut force = Motions::zeros(6 * linear.system.nodes.len());

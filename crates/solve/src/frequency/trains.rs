@@ -6,15 +6,15 @@ use windlass_hydro::sea::{Sea, spreading};
 use windlass_model::{ClassError, Environment, Model};
 
 /// Directions that stand for a spread sea, with equal shares of its energy.
-const DIRECTIONS: usize = 11;
+const SPREADING_DIRECTIONS: usize = 11;
 /// Shares of the energy between which frequencies are taken; the end ones stand for the rest.
-const SHARES: [f64; 2] = [0.0005, 0.9995];
+const ENERGY_SHARES: [f64; 2] = [0.0005, 0.9995];
 
 /// Points evenly over a sea, and at equal shares of its energy.
-const EVEN: usize = 120;
-const EQUAL: usize = 80;
+const EVEN_POINTS: usize = 120;
+const EQUAL_ENERGY_POINTS: usize = 80;
 /// Points beyond, and the factor from each to the next: accelerations come from there too.
-const BEYOND: (i32, f64) = (5, 1.2);
+const TAIL_POINTS: (i32, f64) = (5, 1.2);
 
 /// A spectrum with the directions its waves travel in.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +49,7 @@ impl Trains {
         for train in sea.trains {
             match train.spectrum {
                 Some(spectrum) => {
-                    let count = if exponent >= spreading::LONG_CRESTED { 1 } else { DIRECTIONS };
+                    let count = if exponent >= spreading::LONG_CRESTED { 1 } else { SPREADING_DIRECTIONS };
                     let turn = |i: usize| match count {
                         1 => 0.0,
                         _ => spreading::angle((i as f64 + 0.5) / count as f64, exponent),
@@ -71,16 +71,16 @@ impl Trains {
 
     /// Points that tell the seas: evenly over them, at equal shares of their energy, and a few beyond.
     pub(super) fn points(&self, [low, high]: [f64; 2]) -> Vec<f64> {
-        let shares = (1..EQUAL).map(|i| i as f64 / EQUAL as f64);
+        let shares = (1..EQUAL_ENERGY_POINTS).map(|i| i as f64 / EQUAL_ENERGY_POINTS as f64);
         let by_energy = self.irregular.iter().flat_map(|d| shares.clone().map(|s| d.spectrum.quantile(s)));
         let last = self.irregular.iter().fold(0.0, |last: f64, d| last.max(d.spectrum.range()[1]));
-        let beyond = (1..=BEYOND.0).map(|i| high * BEYOND.1.powi(i)).filter(|w| *w < last);
-        even([low, high], EVEN).into_iter().chain(by_energy).chain(beyond).collect()
+        let beyond = (1..=TAIL_POINTS.0).map(|i| high * TAIL_POINTS.1.powi(i)).filter(|w| *w < last);
+        even([low, high], EVEN_POINTS).into_iter().chain(by_energy).chain(beyond).collect()
     }
 
     /// The lowest and highest frequency (rad/s) with energy of irregular seas worth a point; `None` without one.
     pub(super) fn range(&self) -> Option<[f64; 2]> {
-        let of = |d: &Directional| SHARES.map(|s| d.spectrum.quantile(s));
+        let of = |d: &Directional| ENERGY_SHARES.map(|s| d.spectrum.quantile(s));
         let ranges = self.irregular.iter().map(of);
         ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }

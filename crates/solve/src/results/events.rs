@@ -5,7 +5,7 @@ use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// Most events of one table.
-const MOST: f64 = 2e6;
+const MAX_EVENTS: f64 = 2e6;
 
 /// The events a user asks for, by their times (s).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +70,7 @@ pub fn events(history: &History, window: Option<&Window>) -> Result<Vec<Event>, 
             // the first that is not before the run
             let from = ((first - near - window.begin) / increment).ceil().max(0.0);
             let to = ((end + near - window.begin) / increment).floor();
-            if to - from > MOST {
+            if to - from > MAX_EVENTS {
                 let text = "-EVENTS with an increment of {} makes more than two million events";
                 return Err(ClassError::with_values(text, &[(increment, Dim::Time)]).help("a larger INC"));
             }

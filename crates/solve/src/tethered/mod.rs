@@ -65,7 +65,7 @@ pub struct Tethered {
 }
 
 /// Values kept at most: some 4 GB.
-const MOST_VALUES: f64 = 5e8;
+const MAX_STORED_VALUES: f64 = 5e8;
 
 impl Settings {
     /// Number of states, the first counted.
@@ -84,10 +84,10 @@ impl Settings {
     /// Refuses to keep more than memory has.
     fn room(&self, values: usize) -> Result<(), ClassError> {
         let instants = self.states() as f64 / self.store.max(1) as f64;
-        if instants * values as f64 <= MOST_VALUES {
+        if instants * values as f64 <= MAX_STORED_VALUES {
             return Ok(());
         }
-        let store = (self.states() as f64 * values as f64 / MOST_VALUES).ceil();
+        let store = (self.states() as f64 * values as f64 / MAX_STORED_VALUES).ceil();
         Err(ClassError::new(format!("this run would keep {:.1E} numbers", instants * values as f64))
             .help(format!("-STORE {store} keeps fewer instants")))
     }

@@ -25,7 +25,7 @@ fn without_noise(value: f64, largest: f64) -> f64 {
     if value.abs() < 1e-12 * largest { 0.0 } else { value }
 }
 
-const SIX: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
+const DOF_NAMES: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 
 /// The motion of the structure's centre of gravity and the forces on it at an instant [AQWA-TETHER 8.2]: a motion or kind of force a row.
 /// Two tables: one of motions with the points asked for, one of forces.
@@ -41,12 +41,12 @@ pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, p
     let kind_name = |kind: &usize| StructureHistory::KINDS.get(*kind).copied().unwrap_or("");
     let pushed: Vec<usize> = (3..12).collect();
     let mut forces = named(title("Forces")).with_rows(&pushed).text("Kind", kind_name);
-    for (dof, name) in SIX.iter().enumerate() {
+    for (dof, name) in DOF_NAMES.iter().enumerate() {
         let (dim, digits) = six(3)[dof / 3];
         forces = forces.column("", name, dim, digits, |kind| at(*kind, dof));
     }
     // the six of a motion have two dimensions: metres and degrees stand in columns of their own
-    let dofs: Vec<(usize, &str)> = SIX.into_iter().enumerate().collect();
+    let dofs: Vec<(usize, &str)> = DOF_NAMES.into_iter().enumerate().collect();
     let mut motions = named(title("Motions")).with_rows(&dofs).text("Freedom", |(_, name)| *name);
     for kind in [0, 1, 2, 12] {
         for ((dim, digits), (part, range)) in six(kind).into_iter().zip([("Linear", 0..3), ("Angular", 3..6)]) {
@@ -72,14 +72,14 @@ const CODES: [&str; 13] = ["", "V", "A", "G", "H", "D", "FK", "WI", "DF", "GY", 
 pub fn structure_series(run: &Tethered, structure: &StructureHistory) -> Table {
     let mut columns = vec![Column::new("", "Time", Dim::Time, SECONDS, run.times.iter().copied())];
     for ((kind, name), code) in StructureHistory::KINDS.iter().enumerate().zip(CODES) {
-        for (dof, axis) in SIX.iter().enumerate() {
+        for (dof, axis) in DOF_NAMES.iter().enumerate() {
             let (dim, digits) = six(kind)[dof / 3];
             let values = structure.series(6 * kind + dof);
             columns.push(Column::new(name, &format!("{code}{axis}"), dim, digits, values));
         }
     }
     for (index, point) in structure.points.iter().enumerate() {
-        for (axis, name) in SIX.iter().take(3).enumerate() {
+        for (axis, name) in DOF_NAMES.iter().take(3).enumerate() {
             let values = structure.series(6 * StructureHistory::KINDS.len() + 3 * index + axis);
             let (dim, digits) = six(0)[0];
             columns.push(Column::new(point, name, dim, digits, values));
@@ -106,12 +106,12 @@ pub fn harmonics(
     let mut rows = Vec::new();
     for (kind, motion) in StructureHistory::KINDS.iter().enumerate().take(3) {
         let mut cycles = Vec::new();
-        for dof in 0..SIX.len() {
+        for dof in 0..DOF_NAMES.len() {
             let values = structure.series(6 * kind + dof);
             cycles.push(Cycle::new(&run.times, &values, (start, period), 4, AQWA_SAMPLES)?);
         }
         let largest = cycles.iter().fold(0.0, |most: f64, c| most.max(c.mean.abs()).max(c.drift.abs()));
-        for ((dof, axis), found) in SIX.iter().enumerate().zip(&cycles) {
+        for ((dof, axis), found) in DOF_NAMES.iter().enumerate().zip(&cycles) {
             rows.push(HarmonicRow { motion, dof, axis, largest, found: found.clone() });
         }
     }

@@ -19,15 +19,15 @@ pub const POOR_PERIOD: f64 = 0.05;
 pub const POOR_DAMPING: f64 = 0.02;
 /// Share of the largest velocity of its body from which on a degree of freedom is judged (rotations times the radius of gyration): below
 /// it has less than a ten-thousandth of the energy.
-const COUNTS: f64 = 1e-2;
+const MIN_JUDGED_VELOCITY_SHARE: f64 = 1e-2;
 /// The same of the largest velocity of all bodies.
 const COUNTS_AMONG_ALL: f64 = 1e-3;
 /// Velocity below which nothing moves (m/s).
-const STILL: f64 = 1e-6;
+const STANDSTILL_VELOCITY: f64 = 1e-6;
 /// Largest angle of a step for which the matrix is evaluated (rad): a step of a hundred and sixty periods.
-const MOST_ANGLE: f64 = 1e3;
+const MAX_STEP_ANGLE_RAD: f64 = 1e3;
 /// A rotation counts in the error of a step with this arm (m), as in `-ADAPTIVE`.
-const ARM: f64 = 10.0;
+const ROTATION_ARM_M: f64 = 10.0;
 
 /// What a scheme makes of an undamped oscillation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,7 @@ impl Scheme {
         if !angle.is_finite() {
             return none;
         }
-        let angle = angle.min(MOST_ANGLE);
+        let angle = angle.min(MAX_STEP_ANGLE_RAD);
         if angle < 1e-6 {
             return Distortion { period: 0.0, damping: 0.0 };
         }
@@ -113,7 +113,7 @@ impl Method {
 
     /// The error of place of a step (m) at whose end bodies move so; rotations count with an arm of 10 m.
     pub(super) fn error_of_step<'a>(&self, motions: impl Iterator<Item = &'a Motion>, dt: f64) -> f64 {
-        let jerk = |m: &Motion| m.jerk.fixed_rows::<3>(0).norm().max(ARM * m.jerk.fixed_rows::<3>(3).norm());
+        let jerk = |m: &Motion| m.jerk.fixed_rows::<3>(0).norm().max(ROTATION_ARM_M * m.jerk.fixed_rows::<3>(3).norm());
         self.errs_as().error_of_place() * dt.powi(3) * motions.map(jerk).fold(0.0, f64::max)
     }
 }
@@ -168,13 +168,13 @@ impl Accuracy {
         let arms: Vec<Six> = system.nodes.iter().zip(motions).map(|(n, m)| arms(n, m)).collect();
         let speed = |at: usize| arms[at / 6][at % 6] * moved(&self.sums[at]).sqrt();
         let fastest = (0..self.sums.len()).map(speed).fold(0.0, f64::max);
-        if fastest <= STILL * self.time.sqrt() {
+        if fastest <= STANDSTILL_VELOCITY * self.time.sqrt() {
             return None;
         }
         let of = |at: usize| {
             let own = (6 * (at / 6)..6 * (at / 6) + 6).map(speed).fold(0.0, f64::max);
             let (node, [_, _, aa, haha]) = (system.nodes.get(at / 6)?, self.sums.get(at)?);
-            if speed(at) < (COUNTS * own).max(COUNTS_AMONG_ALL * fastest) || *aa <= 0.0 {
+            if speed(at) < (MIN_JUDGED_VELOCITY_SHARE * own).max(COUNTS_AMONG_ALL * fastest) || *aa <= 0.0 {
                 return None;
             }
             let square = moved(self.sums.get(at)?);

@@ -36,7 +36,7 @@ pub struct Settings {
 }
 
 /// Most bytes of the rows of a run.
-const MOST_BYTES: f64 = 4e9;
+const MAX_RUN_BYTES: f64 = 4e9;
 
 impl Settings {
     /// Sees that the rows of a run have room in memory.
@@ -49,11 +49,11 @@ impl Settings {
         }
         let rows = (self.observed / self.dt / self.store.max(1) as f64).ceil() + 2.0;
         let bytes = rows * layout.width as f64 * size_of::<f64>() as f64;
-        if bytes <= MOST_BYTES {
+        if bytes <= MAX_RUN_BYTES {
             return Ok(());
         }
         let along: usize = layout.links.iter().filter_map(|l| l.along.as_ref()).map(AlongColumns::width).sum();
-        let (size, most) = (bytes / 1e9, MOST_BYTES / 1e9);
+        let (size, most) = (bytes / 1e9, MAX_RUN_BYTES / 1e9);
         let text = format!(
             "{rows} stored instants of {} numbers each, {along} of them of nodes of lines, take {size:.1} GB of memory: more than {most} GB",
             layout.width

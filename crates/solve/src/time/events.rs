@@ -13,7 +13,7 @@ use windlass_hydro::sea::Sea;
 use windlass_model::{ClassError, Model};
 
 /// Most parts of a step that is divided for what is wound in it.
-const MOST_PARTS: f64 = 1000.0;
+const MAX_STEP_PARTS: f64 = 1000.0;
 
 /// What is winched, and how long it was.
 #[derive(Debug, Default)]
@@ -38,11 +38,11 @@ impl Run {
         let Some(link) = self.system.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(1.0) };
         let Some(most) = link.element.most_wound() else { return Ok(1.0) };
         let parts = (rate.abs() * self.settings.dt / most).ceil().max(1.0);
-        if parts <= MOST_PARTS {
+        if parts <= MAX_STEP_PARTS {
             return Ok(parts);
         }
         let text = format!(
-            "its winch takes {{}} in a step of {{}}, which would need {parts:.0} parts of the step for elements of {{}} each; at most {MOST_PARTS} are taken"
+            "its winch takes {{}} in a step of {{}}, which would need {parts:.0} parts of the step for elements of {{}} each; at most {MAX_STEP_PARTS} are taken"
         );
         let values =
             [(rate.abs() * self.settings.dt, Dim::Length), (self.settings.dt, Dim::Time), (2.0 * most, Dim::Length)];

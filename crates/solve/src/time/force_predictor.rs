@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use windlass_base::pose::Six;
 
 /// A step this near another, over its length, is as long.
-const SAME: f64 = 1e-6;
+const EQUAL_STEPS_SHARE: f64 = 1e-6;
 
 /// A matrix at the ends of the last steps, and the mean of its value now and that expected at the end of the next.
 #[derive(Debug, Default)]
@@ -68,7 +68,7 @@ impl ForcePredictor {
 
     /// A step of a length (s) has ended with these.
     pub(super) fn take(&mut self, dt: f64, stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) {
-        if (dt - self.step).abs() > SAME * dt || self.stiffness.last.shape() != stiffness.shape() {
+        if (dt - self.step).abs() > EQUAL_STEPS_SHARE * dt || self.stiffness.last.shape() != stiffness.shape() {
             (self.count, self.known, self.step) = (0, 0, dt);
         }
         self.stiffness.take(stiffness, self.count);
@@ -78,7 +78,7 @@ impl ForcePredictor {
 
     /// With that of a step, its -d(sum)/d(acceleration) of dynamic lines: before [`ForcePredictor::take`].
     pub(super) fn take_inertia(&mut self, dt: f64, inertia: &DMatrix<f64>) {
-        let again = (dt - self.step).abs() <= SAME * dt && self.inertia.last.shape() == inertia.shape();
+        let again = (dt - self.step).abs() <= EQUAL_STEPS_SHARE * dt && self.inertia.last.shape() == inertia.shape();
         self.inertia.take(inertia, if again { self.count } else { 0 });
     }
 
@@ -138,7 +138,7 @@ impl ForcePredictor {
         (trial, start, over): (&[Motion], &[Motion], &[Six]),
         sum: &mut DVector<f64>,
     ) -> bool {
-        if self.count == 0 || (dt - self.step).abs() > SAME * dt {
+        if self.count == 0 || (dt - self.step).abs() > EQUAL_STEPS_SHARE * dt {
             return false;
         }
         for (body, ((trial, start), over)) in trial.iter().zip(start).zip(over).enumerate() {

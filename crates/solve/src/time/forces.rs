@@ -14,7 +14,7 @@ use windlass_hydro::{BodyLoad, Category, MovingLoad, Underway, move_stiffness, m
 use windlass_model::{Anchored, End, Guess, Response, Situation, TimeStep};
 
 /// Number of categories.
-pub const CATEGORIES: usize = Category::ALL.len();
+pub const CATEGORY_COUNT: usize = Category::ALL.len();
 
 /// A body's motion at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -135,7 +135,7 @@ pub struct Forces {
     /// Largest force of a connector on each body (N).
     pub pull: Vec<f64>,
     /// By body and category, those of inertia left out.
-    pub categories: Vec<[Six; CATEGORIES]>,
+    pub categories: Vec<[Six; CATEGORY_COUNT]>,
     /// Wrench on every end of every connector, in their order, about the end's point.
     pub wrenches: Vec<Six>,
     /// Stiff ties, whose forces a step holds.
@@ -178,7 +178,7 @@ impl Forces {
         self.pull.clear();
         self.pull.resize(system.nodes.len(), 0.0);
         self.categories.clear();
-        self.categories.resize(system.nodes.len(), [Six::zeros(); CATEGORIES]);
+        self.categories.resize(system.nodes.len(), [Six::zeros(); CATEGORY_COUNT]);
         self.wrenches.clear();
         self.carried = false;
         self.ties.begin(system.links.len(), system.nodes.len());

@@ -5,7 +5,7 @@
 
 use super::along::AlongColumns;
 use super::ends::end_of;
-use super::forces::{CATEGORIES, Forces, Motion, place_of};
+use super::forces::{CATEGORY_COUNT, Forces, Motion, place_of};
 use super::pushing::Pushing;
 use crate::link::{Attachment, Link};
 use crate::system::{Node, SolveError, System};
@@ -247,7 +247,7 @@ impl Layout {
             for category in &self.categories {
                 let of_inertia = |i: usize| told.inertia.get(body).and_then(|t| t.get(i)).copied();
                 let sums = forces.categories.get(body);
-                let of_loads = sums.and_then(|c: &[Six; CATEGORIES]| c.get(place_of(*category))).copied();
+                let of_loads = sums.and_then(|c: &[Six; CATEGORY_COUNT]| c.get(place_of(*category))).copied();
                 let force = match category {
                     Category::Inertia => of_inertia(0),
                     Category::AddedInertia => of_inertia(1).zip(of_loads).map(|(own, more)| own + more),

@@ -39,7 +39,7 @@ pub use history::{History, Layout, LinkColumns, LinkEnds, OF_BODY};
 pub use prescribed::{Prescribed, build_prescribed};
 pub use pushing::Pushing;
 pub use resolution::{Resolution, Swing};
-pub use run::{Run, SNAPSHOT};
+pub use run::{Run, STEPS_PER_SNAPSHOT};
 pub use scheme::{Method, Scheme};
 pub use snapshot::Snapshot;
 pub use statistics::{Series, Statistics, results};

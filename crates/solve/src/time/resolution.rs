@@ -8,7 +8,7 @@ use windlass_model::GivenMotion;
 /// Share of the energy of a sea that its shortest waves hold, whose longest is what a step has to follow.
 const SHORTEST_WAVES: f64 = 0.1;
 /// Degrees of freedom up to which modes are always found.
-const FEW: usize = 60;
+const MAX_DOFS_ALWAYS_MODAL: usize = 60;
 /// Steps of a run that cost more than twenty times its modes, of however many bodies: both grow with the cube of their number.
 const MANY_STEPS: f64 = 2000.0;
 
@@ -54,7 +54,7 @@ impl Run {
 
     fn natural(&self) -> Vec<Swing> {
         let free = self.system.nodes.iter().flat_map(|n| n.free).filter(|f| *f).count();
-        if free > FEW && self.settings.observed / self.settings.dt < MANY_STEPS {
+        if free > MAX_DOFS_ALWAYS_MODAL && self.settings.observed / self.settings.dt < MANY_STEPS {
             return Vec::new();
         }
         let poses: Vec<_> = self.now.motions.iter().map(|m| m.pose).collect();

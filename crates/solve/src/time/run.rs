@@ -20,11 +20,11 @@ use windlass_model::{ClassError, Model};
 use windlass_signal::SeriesError;
 
 /// Times a step may be halved.
-const HALVINGS: u32 = 12;
+const MAX_STEP_HALVINGS: u32 = 12;
 /// Times a step is halved to meet a condition.
-const SOUGHT: u32 = 6;
+const EVENT_BISECTIONS: u32 = 6;
 /// Steps between two snapshots, at which what solvers remember is forgotten.
-pub const SNAPSHOT: usize = 500;
+pub const STEPS_PER_SNAPSHOT: usize = 500;
 
 /// A run.
 #[derive(Debug)]
@@ -245,7 +245,7 @@ impl Run {
             if let Some(name) = capsized {
                 return Ok(Ending::Capsized(name));
             }
-            if self.taken.is_multiple_of(SNAPSHOT) {
+            if self.taken.is_multiple_of(STEPS_PER_SNAPSHOT) {
                 self.save(watcher)?;
             }
         }
@@ -261,7 +261,7 @@ impl Run {
             if left <= 1e-9 * self.settings.dt {
                 return Ok(None);
             }
-            let mut part = (self.settings.dt / f64::from(1u32 << (level + sought).min(HALVINGS))).min(left);
+            let mut part = (self.settings.dt / f64::from(1u32 << (level + sought).min(MAX_STEP_HALVINGS))).min(left);
             if !self.winches.is_empty() {
                 part = part.min(self.part_to_wind()?);
             }
@@ -284,8 +284,9 @@ impl Run {
                     self.counts.evaluations += evaluations;
                     if let Some(before) = before {
                         let error = self.settings.method.error_of_step(self.now.motions.iter(), part);
-                        let rough = self.settings.adaptive.is_some_and(|allowed| error > allowed) && level < HALVINGS;
-                        let sudden = sought < SOUGHT && self.comes_true();
+                        let rough =
+                            self.settings.adaptive.is_some_and(|allowed| error > allowed) && level < MAX_STEP_HALVINGS;
+                        let sudden = sought < EVENT_BISECTIONS && self.comes_true();
                         if rough || sudden {
                             self.unwind(winches);
                             self.go_back(before);
@@ -315,7 +316,7 @@ impl Run {
                     if error.error.lasting {
                         return Err(error);
                     }
-                    if level >= HALVINGS {
+                    if level >= MAX_STEP_HALVINGS {
                         return Err(self.nearly_taken_in().unwrap_or_else(|| self.reason(error)));
                     }
                     self.counts.cut += 1;

@@ -34,7 +34,7 @@ pub enum Method {
 }
 
 /// Spectral radius at infinite frequency of the default scheme.
-const RHO: f64 = 0.9;
+const DEFAULT_SPECTRAL_RADIUS: f64 = 0.9;
 
 /// That with dynamic lines: their own.
 const RHO_OF_LINES: f64 = 0.2;
@@ -51,7 +51,7 @@ impl Method {
 
 impl Default for Method {
     fn default() -> Self {
-        Method::Implicit(Scheme::generalised_alpha(RHO))
+        Method::Implicit(Scheme::generalised_alpha(DEFAULT_SPECTRAL_RADIUS))
     }
 }
 

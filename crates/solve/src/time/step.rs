@@ -15,7 +15,7 @@ use windlass_model::ClassError;
 
 /// Square of the time (s2) over which stiff ties hold their ends together where a run begins: times their stiffness it is large against the
 /// inertia of anything that floats.
-const SETTLING: f64 = 1.0;
+const TIE_SETTLING_TIME_SQUARED: f64 = 1.0;
 
 /// When a step is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,10 +142,10 @@ impl Stepper {
             let acceleration = now.motions[other].acceleration;
             for (i, at) in rows.iter().enumerate().filter(|(_, at)| **at / 6 == body) {
                 if given {
-                    right[i] -= SETTLING * block.row(at % 6).transpose().dot(&acceleration);
+                    right[i] -= TIE_SETTLING_TIME_SQUARED * block.row(at % 6).transpose().dot(&acceleration);
                 }
                 for (j, column) in rows.iter().enumerate().filter(|(_, column)| **column / 6 == other) {
-                    matrix[(i, j)] += SETTLING * block[(at % 6, column % 6)];
+                    matrix[(i, j)] += TIE_SETTLING_TIME_SQUARED * block[(at % 6, column % 6)];
                 }
             }
         }
@@ -162,7 +162,7 @@ impl Stepper {
             now.motions[at / 6].acceleration[at % 6] = solved[i];
         }
         if !now.forces.ties.is_empty() {
-            let accelerations: Vec<Six> = now.motions.iter().map(|m| m.acceleration * SETTLING).collect();
+            let accelerations: Vec<Six> = now.motions.iter().map(|m| m.acceleration * TIE_SETTLING_TIME_SQUARED).collect();
             let ties = now.forces.ties.predict(&|body| accelerations[body]);
             now.forces.ties.forces = ties;
             now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;

@@ -9,12 +9,12 @@ use windlass_base::pose::Six;
 use windlass_model::ClassError;
 
 /// Numbers kept at most: 400 MB.
-const MOST_NUMBERS: usize = 50_000_000;
+const MAX_STORED_NUMBERS: usize = 50_000_000;
 /// Numbers of the structure in a state: motions, kinds of force, error.
-const STRUCTURE: usize = 1 + 18 + 6 * Forces::KINDS.len() + 6;
+const NUMBERS_PER_STRUCTURE: usize = 1 + 18 + 6 * Forces::KINDS.len() + 6;
 /// Numbers of a node, and of an end of an element.
-const NODE: usize = 13;
-const END: usize = 12;
+const NUMBERS_PER_NODE: usize = 13;
+const NUMBERS_PER_END: usize = 12;
 
 /// When tethers are kept. The structure is kept at every state of [`History::every`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ pub struct History {
     /// Every how many states the run is kept.
     pub every: usize,
     keep: Keep,
-    structure: Vec<[f64; STRUCTURE]>,
+    structure: Vec<[f64; NUMBERS_PER_STRUCTURE]>,
     tethers: Vec<Kept>,
     events: Vec<Event>,
     numbers: usize,
@@ -89,21 +89,22 @@ impl History {
     /// A series of a node of a tether, X, Y, RX, RY, their velocities and their accelerations in this order. Nodes count from 0 at the anchor.
     pub fn node(&self, tether: usize, node: usize, motion: usize) -> Vec<f64> {
         let Some(kept) = self.tethers.get(tether) else { return Vec::new() };
-        kept.states().filter_map(|s| s.get(NODE * node + 1 + motion).copied()).collect()
+        kept.states().filter_map(|s| s.get(NUMBERS_PER_NODE * node + 1 + motion).copied()).collect()
     }
 
     /// A series of an end of an element of a tether, in the order effective and wall tension, shear along X and Y, moments about X and Y, shear stress, largest and smallest of bending and
     /// axial stress, von Mises, bending of the moment about Y, axial stress; `upper` is its upper end.
     pub fn end(&self, tether: usize, element: usize, upper: bool, load: usize) -> Vec<f64> {
         let Some(kept) = self.tethers.get(tether) else { return Vec::new() };
-        let at = NODE * kept.nodes + END * (2 * element + usize::from(upper)) + load;
+        let at = NUMBERS_PER_NODE * kept.nodes + NUMBERS_PER_END * (2 * element + usize::from(upper)) + load;
         kept.states().filter_map(|s| s.get(at).copied()).collect()
     }
 }
 
 impl Kept {
     fn states(&self) -> impl Iterator<Item = &[f64]> {
-        self.numbers.chunks_exact((NODE * self.nodes + END * 2 * self.nodes.saturating_sub(1)).max(1))
+        self.numbers
+            .chunks_exact((NUMBERS_PER_NODE * self.nodes + NUMBERS_PER_END * 2 * self.nodes.saturating_sub(1)).max(1))
     }
 
     fn take(&mut self, rig: &Rig, time: f64) {
@@ -134,14 +135,14 @@ impl Observer for History {
         self.events.extend(moment.events);
         let due = moment.state.is_multiple_of(self.every);
         if due {
-            let mut row = [0.0; STRUCTURE];
+            let mut row = [0.0; NUMBERS_PER_STRUCTURE];
             let place = Six::from(moment.pose.place(&Place::default()).values());
             let motions = [place, moment.velocity, moment.acceleration];
             let all = motions.into_iter().chain(moment.forces.kinds()).chain([moment.error]);
             row[0] = moment.time;
             row[1..].iter_mut().zip(all.flat_map(<[f64; 6]>::from)).for_each(|(to, from)| *to = from);
             self.structure.push(row);
-            self.numbers += STRUCTURE;
+            self.numbers += NUMBERS_PER_STRUCTURE;
         }
         for (index, (rig, kept)) in moment.tethers.iter().zip(&mut self.tethers).enumerate() {
             let now = match self.keep {
@@ -159,8 +160,8 @@ impl Observer for History {
                 self.numbers += kept.numbers.len() - before;
             }
         }
-        if self.numbers > MOST_NUMBERS {
-            let text = format!("the history of the run is larger than the {MOST_NUMBERS} numbers that are kept");
+        if self.numbers > MAX_STORED_NUMBERS {
+            let text = format!("the history of the run is larger than the {MAX_STORED_NUMBERS} numbers that are kept");
             return Err(ClassError::new(text).help("keep fewer states, or take the statistics as the run goes"));
         }
         Ok(())

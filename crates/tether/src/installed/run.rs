@@ -19,9 +19,9 @@ use windlass_hydro::{Underway, cross};
 use windlass_model::ClassError;
 
 /// Steps of a run at most.
-pub const MOST_STEPS: usize = 100_000_000;
+pub const MAX_TIME_STEPS: usize = 100_000_000;
 /// The longest step times the highest frequency of the structure on its tethers.
-const STABLE: f64 = 2.0;
+const MAX_STEP_TIMES_FREQUENCY: f64 = 2.0;
 
 /// Where a run starts and how it goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -226,7 +226,7 @@ impl<'a> Installation<'a> {
         let Some(whole) = half.solve_lower_triangular(&left.transpose()) else { return Ok(()) };
         let Ok(swings) = SymmetricEigen::new(whole, &never) else { return Ok(()) };
         let highest = swings.values.max().max(0.0).sqrt();
-        if highest * course.step <= STABLE {
+        if highest * course.step <= MAX_STEP_TIMES_FREQUENCY {
             return Ok(());
         }
         let text =
@@ -234,7 +234,7 @@ impl<'a> Installation<'a> {
         let period = TAU / highest;
         Err(ClassError::with_values(
             text,
-            &[(course.step, Dim::Time), (period, Dim::Time), (STABLE / highest, Dim::Time)],
+            &[(course.step, Dim::Time), (period, Dim::Time), (MAX_STEP_TIMES_FREQUENCY / highest, Dim::Time)],
         )
         .help(format!("a tenth of the period, {:.3} s, follows that motion", period / 10.0)))
     }
@@ -254,8 +254,8 @@ impl Course {
                 &[(self.step, Dim::Time)],
             ));
         }
-        if self.states == 0 || self.states > MOST_STEPS {
-            return Err(ClassError::new(format!("a run has 1 to {MOST_STEPS} steps, not {}", self.states)));
+        if self.states == 0 || self.states > MAX_TIME_STEPS {
+            return Err(ClassError::new(format!("a run has 1 to {MAX_TIME_STEPS} steps, not {}", self.states)));
         }
         Ok(())
     }

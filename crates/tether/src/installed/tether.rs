@@ -6,11 +6,11 @@ use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// The stiffness of an end that nothing gives way at [AQWA-TETHER A.2], in the units of its deck: N/m, N m/rad.
-pub const RIGID: f64 = 1e15;
+pub const RIGID_STIFFNESS: f64 = 1e15;
 /// Constraints of a tether at most [AQWA-TETHER A.14].
-pub const MOST_CONSTRAINTS: usize = 5;
+pub const MAX_CONSTRAINTS: usize = 5;
 /// Strain from which on a tether is taken for too short for its span: steel yields at a tenth of it.
-const MOST_STRAIN: f64 = 0.02;
+const MAX_STRAIN: f64 = 0.02;
 
 /// Springs at an end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct EndSprings {
 impl Default for EndSprings {
     /// Rigid, as of a card that is missing.
     fn default() -> Self {
-        EndSprings { inline: RIGID, rotation: [RIGID; 2] }
+        EndSprings { inline: RIGID_STIFFNESS, rotation: [RIGID_STIFFNESS; 2] }
     }
 }
 
@@ -60,7 +60,7 @@ impl EndSprings {
         // a value that is no number is left to the checks of the tether
         let inline = if inline <= 0.0 {
             taken.push(DefaultTaken::Inline);
-            RIGID
+            RIGID_STIFFNESS
         } else {
             inline
         };
@@ -215,7 +215,7 @@ impl InstalledTether {
         if !(self.group.is_finite() && self.group >= 0.0) {
             return refuse("the group factor must be zero or more");
         }
-        if self.constraints.len() > MOST_CONSTRAINTS {
+        if self.constraints.len() > MAX_CONSTRAINTS {
             return refuse("a tether has up to five constraints");
         }
         for constraint in &self.constraints {
@@ -245,7 +245,7 @@ impl InstalledTether {
         if !(span > 0.0 && span.is_finite()) {
             return Err(ClassError::new(format!("tether {}: anchor and attachment are at one place", self.name)));
         }
-        if span > length * (1.0 + MOST_STRAIN) {
+        if span > length * (1.0 + MAX_STRAIN) {
             let text = format!("tether {} is {{}} long, shorter than its span of {{}}", self.name);
             return Err(ClassError::with_values(text, &[(length, Dim::Length), (span, Dim::Length)])
                 .help("give longer elements, or see the anchor, the attachment and the place of the structure"));

@@ -27,8 +27,8 @@ use windlass_model::ClassError;
 pub const AQWA_FRICTION: f64 = 0.016;
 
 /// Gauss points of two and of three on 0 to 1, with weights.
-const TWO: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
-const THREE: [(f64, f64); 3] =
+const GAUSS_TWO_POINTS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+const GAUSS_THREE_POINTS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
 /// A member.
@@ -123,7 +123,7 @@ struct Straight([Vector3<f64>; 2]);
 impl Straight {
     /// At a place from 0 to 1.
     fn position(&self, x: f64) -> Vector3<f64> {
-        self.0[0] + (self.0[1] - self.0[0]) * ((x - TWO[0]) / (TWO[1] - TWO[0]))
+        self.0[0] + (self.0[1] - self.0[0]) * ((x - GAUSS_TWO_POINTS[0]) / (GAUSS_TWO_POINTS[1] - GAUSS_TWO_POINTS[0]))
     }
 }
 
@@ -144,7 +144,7 @@ impl Tube {
         let spin = Vector3::new(moves[3], moves[4], moves[5]);
         let arm = |share: f64| wet.point(share) - pose.origin;
         let across = |v: Vector3<f64>| v - axis * axis.dot(&v);
-        let found = TWO.map(|x| water.kinematics(wet.point(x * wet.share)));
+        let found = GAUSS_TWO_POINTS.map(|x| water.kinematics(wet.point(x * wet.share)));
         let (flow, rate) = (Straight(found.map(|k| k.velocity)), Straight(found.map(|k| k.acceleration)));
         // where along the fit a share of the whole member stands
         let along = |share: f64| if compatibility.whole_element_kinematics { share } else { share / wet.share };
@@ -156,7 +156,7 @@ impl Tube {
         out.froude_krylov += move_wrench(&force(axis * (section * (foot - head))), arm(0.0));
 
         let mut mean = Vector3::zeros();
-        for (x, weight) in THREE {
+        for (x, weight) in GAUSS_THREE_POINTS {
             let share = x * wet.share;
             let part = weight * length;
             let u = across(relative(share));

@@ -4,7 +4,7 @@ use super::flow::FlowAt;
 use nalgebra::Vector3;
 
 /// Halvings and secants to find the crossing: the surface is smooth along a member, some five serve.
-const STEPS: usize = 60;
+const MAX_CROSSING_ITERATIONS: usize = 60;
 
 /// The wet part of a member.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ impl WetPart {
 fn crossing([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
     let (mut a, mut b) = (0.0, 1.0);
     let mut last = 0;
-    for _ in 0..STEPS {
+    for _ in 0..MAX_CROSSING_ITERATIONS {
         if high <= 0.0 {
             return b;
         }

@@ -13,9 +13,9 @@ use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// Integration lengths at most: a long element in short waves has many.
-const MOST_LENGTHS: usize = 200_000;
+const MAX_INTEGRATION_LENGTHS: usize = 200_000;
 /// Turns kept at most for places that do not move (128 bytes each: 32 MB); beyond that they are taken anew.
-const MOST_KEPT: usize = 1 << 18;
+const MAX_CACHED_PHASES: usize = 1 << 18;
 
 /// A piece of an element short enough for the waves.
 #[derive(Clone, Debug)]
@@ -67,7 +67,7 @@ impl<'a> Loading<'a> {
         let mut lengths = Vec::new();
         for (element, (e, start)) in case.line.elements().iter().zip(case.line.distances()).enumerate() {
             let number = (e.length / limit).ceil().max(1.0);
-            if lengths.len() as f64 + number > MOST_LENGTHS as f64 {
+            if lengths.len() as f64 + number > MAX_INTEGRATION_LENGTHS as f64 {
                 let message =
                     "the elements of the tether make too many integration lengths of {}, a quarter of a wave length";
                 return Err(ClassError::with_values(message, &[(limit, Dim::Length)]));
@@ -87,7 +87,7 @@ impl<'a> Loading<'a> {
             }
         }
         let mut kept = Vec::new();
-        if 4 * lengths.len() * waters.blocks() <= MOST_KEPT {
+        if 4 * lengths.len() * waters.blocks() <= MAX_CACHED_PHASES {
             lengths.iter().flat_map(|l| l.x).for_each(|x| waters.at_place(x, 0.0, &mut kept));
         }
         let elements = case.line.elements();

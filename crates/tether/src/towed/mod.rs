@@ -32,7 +32,7 @@ pub use run::{History, Observer, Record, Steps};
 use wetted::Wetted;
 
 /// More waves than this are refused: memory goes with them times the elements.
-pub const MOST_WAVES: usize = 10_000;
+pub const MAX_WAVES: usize = 10_000;
 
 /// Springs of one end of a towed tether (cards TSPA, TSPV), slack where the tether is straight on its axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -150,8 +150,8 @@ impl Towed {
 
     /// Whether there are such waves.
     fn check_waves(&self) -> Result<(), ClassError> {
-        if self.waves.len() > MOST_WAVES {
-            let message = format!("{} wave components are more than the {MOST_WAVES} allowed", self.waves.len());
+        if self.waves.len() > MAX_WAVES {
+            let message = format!("{} wave components are more than the {MAX_WAVES} allowed", self.waves.len());
             return Err(ClassError::new(message));
         }
         for (wave, number) in self.waves.iter().zip(1..) {

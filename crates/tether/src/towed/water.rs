@@ -12,12 +12,12 @@ use windlass_hydro::sea::Component;
 use windlass_hydro::sea::eight::{Eight, sin_cos};
 
 /// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
-const DEEP: f64 = 20.0;
+const DEEP_WATER_KD: f64 = 20.0;
 
 /// Added to a number and subtracted again it rounds to a whole one, which then stands in the lowest bits.
-const ROUND: f64 = 6_755_399_441_055_744.0;
+const ROUNDING_SHIFT: f64 = 6_755_399_441_055_744.0;
 /// The Chebyshev series of the exponential over `-ln 2 / 2 .. ln 2 / 2` to the tenth power, highest first: within 4e-16 of it.
-const EXPONENTIAL: [f64; 11] = [
+const EXP_CHEBYSHEV: [f64; 11] = [
     2.7632640675430235e-07,
     2.7640182247362188e-06,
     2.480148547921643e-05,
@@ -44,11 +44,11 @@ fn four(value: impl Fn(usize) -> f64) -> Four {
 #[inline(always)]
 fn exp(powers: Four) -> Four {
     let powers = four(|i| powers[i].clamp(-690.0, 690.0));
-    let shifted = four(|i| powers[i] * LOG2_E + ROUND);
+    let shifted = four(|i| powers[i] * LOG2_E + ROUNDING_SHIFT);
     // one part of the logarithm is enough: an error of 1e-16 of the power is one of the value
-    let r = four(|i| powers[i] - (shifted[i] - ROUND) * LN_2);
-    let mut value = [EXPONENTIAL[0]; 4];
-    for c in &EXPONENTIAL[1..] {
+    let r = four(|i| powers[i] - (shifted[i] - ROUNDING_SHIFT) * LN_2);
+    let mut value = [EXP_CHEBYSHEV[0]; 4];
+    for c in &EXP_CHEBYSHEV[1..] {
         value = four(|i| value[i] * r[i] + c);
     }
     four(|i| value[i] * f64::from_bits(shifted[i].to_bits().wrapping_add(1023) << 52))
@@ -128,7 +128,7 @@ impl Waters {
             };
             let toward = |c: &Component| turned(c.toward);
             let kd = |c: &Component| case.depth.map_or(f64::INFINITY, |d| c.number * d);
-            let q = each(&|c| if kd(c) > DEEP { 0.0 } else { (-2.0 * kd(c)).exp() });
+            let q = each(&|c| if kd(c) > DEEP_WATER_KD { 0.0 } else { (-2.0 * kd(c)).exp() });
             Block {
                 kx: each(&|c| c.number * toward(c)[0]),
                 ky: each(&|c| c.number * toward(c)[1]),

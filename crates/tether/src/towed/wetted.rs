@@ -51,9 +51,9 @@ impl Wetted {
 }
 
 /// Places along an integration length where its fitted surface is looked at (3.4).
-const PLACES: usize = 23;
+const SURFACE_SAMPLES: usize = 23;
 /// Pieces of an integration length at most (3.4).
-pub const MOST_PIECES: usize = 7;
+pub const MAX_WETTED_PIECES: usize = 7;
 
 /// How the surface lies along an integration length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +65,7 @@ pub enum Wetness {
     /// In these pieces (fractions of the length) it does not pass the top or the bottom of the tube.
     Cut {
         /// Their limits, 0 to 1.
-        limits: [f64; MOST_PIECES + 1],
+        limits: [f64; MAX_WETTED_PIECES + 1],
         /// How many pieces there are.
         pieces: usize,
     },
@@ -74,14 +74,14 @@ pub enum Wetness {
 /// The cubic through the values at the Gauss points, at the places looked at: weights of the values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
-    weights: [[f64; 4]; PLACES],
+    weights: [[f64; 4]; SURFACE_SAMPLES],
 }
 
 impl Default for Scan {
     fn default() -> Self {
-        let mut weights = [[1.0; 4]; PLACES];
+        let mut weights = [[1.0; 4]; SURFACE_SAMPLES];
         for (place, row) in weights.iter_mut().enumerate() {
-            let at = place as f64 / (PLACES - 1) as f64;
+            let at = place as f64 / (SURFACE_SAMPLES - 1) as f64;
             for (i, weight) in row.iter_mut().enumerate() {
                 for (j, (other, _)) in GAUSS.iter().enumerate() {
                     if i != j {
@@ -97,7 +97,7 @@ impl Default for Scan {
 impl Scan {
     /// How the surface lies, of its heights over the axis at the Gauss points of the length and the radius of the tube.
     pub fn wetness(&self, heights: &[f64; 4], radius: f64) -> Wetness {
-        let mut values = [0.0; PLACES];
+        let mut values = [0.0; SURFACE_SAMPLES];
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         for (value, w) in values.iter_mut().zip(&self.weights) {
             *value = w[0] * heights[0] + w[1] * heights[1] + w[2] * heights[2] + w[3] * heights[3];
@@ -110,16 +110,16 @@ impl Scan {
         if most <= -radius {
             return Wetness::Dry;
         }
-        let mut limits = [0.0; MOST_PIECES + 1];
+        let mut limits = [0.0; MAX_WETTED_PIECES + 1];
         let mut pieces = 0;
-        for place in 1..PLACES {
+        for place in 1..SURFACE_SAMPLES {
             let (from, to) = (values[place - 1], values[place]);
             // in the order the line between them meets top and bottom
             let levels = if to >= from { [-radius, radius] } else { [radius, -radius] };
             for level in levels {
-                if (from < level) != (to < level) && pieces + 1 < MOST_PIECES {
+                if (from < level) != (to < level) && pieces + 1 < MAX_WETTED_PIECES {
                     pieces += 1;
-                    limits[pieces] = (place as f64 - 1.0 + (level - from) / (to - from)) / (PLACES - 1) as f64;
+                    limits[pieces] = (place as f64 - 1.0 + (level - from) / (to - from)) / (SURFACE_SAMPLES - 1) as f64;
                 }
             }
         }

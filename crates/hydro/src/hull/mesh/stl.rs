@@ -5,13 +5,14 @@ use super::{MeshFile, at_line, shorten_for_message, triple};
 use crate::hull::HullError;
 
 /// Bytes before the triangles of a binary file: a title and their count.
-const HEADER: usize = 84;
+const HEADER_BYTES: usize = 84;
 /// Bytes of a triangle: normal, three corners, two bytes that mean nothing.
-const TRIANGLE: usize = 50;
+const BYTES_PER_TRIANGLE: usize = 50;
 
 pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
-    let stated = bytes.get(80..HEADER).and_then(|b| b.try_into().ok()).map(|b| u32::from_le_bytes(b) as usize);
-    let fits = stated.and_then(|n| n.checked_mul(TRIANGLE)).and_then(|n| n.checked_add(HEADER)) == Some(bytes.len());
+    let stated = bytes.get(80..HEADER_BYTES).and_then(|b| b.try_into().ok()).map(|b| u32::from_le_bytes(b) as usize);
+    let fits = stated.and_then(|n| n.checked_mul(BYTES_PER_TRIANGLE)).and_then(|n| n.checked_add(HEADER_BYTES))
+        == Some(bytes.len());
     // a binary title may begin with `solid` too: the length decides
     let text = bytes.trim_ascii_start().get(..5).is_some_and(|b| b.eq_ignore_ascii_case(b"solid"));
     match stated {
@@ -21,7 +22,7 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
             at: 80,
             why: format!(
                 "{n} triangles stated, which take {} bytes; the file has {} (and does not begin with `solid`)",
-                n as u64 * TRIANGLE as u64 + HEADER as u64,
+                n as u64 * BYTES_PER_TRIANGLE as u64 + HEADER_BYTES as u64,
                 bytes.len()
             ),
         }),
@@ -33,17 +34,17 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
 }
 
 fn binary(bytes: &[u8]) -> Result<MeshFile, HullError> {
-    let (head, body) = bytes.split_at(HEADER.min(bytes.len()));
+    let (head, body) = bytes.split_at(HEADER_BYTES.min(bytes.len()));
     let title = head.get(..80).unwrap_or_default().split(|b| *b == 0).next().unwrap_or_default();
     let title = String::from_utf8_lossy(title).trim().to_string();
-    let mut panels = Vec::with_capacity(body.len() / TRIANGLE);
-    for (n, record) in body.chunks_exact(TRIANGLE).enumerate() {
+    let mut panels = Vec::with_capacity(body.len() / BYTES_PER_TRIANGLE);
+    for (n, record) in body.chunks_exact(BYTES_PER_TRIANGLE).enumerate() {
         let mut values = record.chunks_exact(4).skip(3).map(|b| b.try_into().map_or(f32::NAN, f32::from_le_bytes));
         let mut corner = || std::array::from_fn(|_| f64::from(values.next().unwrap_or(f32::NAN)));
         let panel: Vec<[f64; 3]> = (0..3).map(|_| corner()).collect();
         if panel.iter().flatten().any(|x| !x.is_finite()) {
             let why = format!("triangle {}: a coordinate is not a finite number", n + 1);
-            return Err(HullError::Byte { at: HEADER + n * TRIANGLE, why });
+            return Err(HullError::Byte { at: HEADER_BYTES + n * BYTES_PER_TRIANGLE, why });
         }
         panels.push(panel);
     }

@@ -9,7 +9,7 @@ use windlass_base::units::Dim;
 use windlass_model::DYNAMIC;
 
 /// Quantities told, with the head of their columns and the sign they have there.
-const TOLD: [(&str, &str, Quantity, Dim); 6] = [
+const ENVELOPE_QUANTITIES: [(&str, &str, Quantity, Dim); 6] = [
     ("Clearance", "C", Quantity::Clearance, Dim::Length),
     ("Effective Tension", "T", Quantity::Effective, Dim::Force),
     ("Wall Tension", "W", Quantity::Wall, Dim::Force),
@@ -36,7 +36,7 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
         _ => &made,
     };
     let wall = columns.bends && line.sections.iter().any(|s| s.tube.is_some());
-    let told: Vec<_> = TOLD
+    let told: Vec<_> = ENVELOPE_QUANTITIES
         .iter()
         .filter(|(.., quantity, _)| match quantity {
             Quantity::Clearance | Quantity::Effective => true,

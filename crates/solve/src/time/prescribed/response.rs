@@ -66,8 +66,8 @@ fn response_at(table: &Responses, heading: f64, frequency: f64) -> Result<[Pair;
 }
 
 fn response_between(table: &Responses, from: f64, frequency: f64) -> Result<[Pair; 6], ClassError> {
-    const NEAR: f64 = 1e-9;
-    if let Some((_, rows)) = table.headings.iter().find(|(h, _)| (h - from).abs() <= NEAR) {
+    const EQUAL_VALUES: f64 = 1e-9;
+    if let Some((_, rows)) = table.headings.iter().find(|(h, _)| (h - from).abs() <= EQUAL_VALUES) {
         return Ok(by_frequency(rows, frequency));
     }
     let after = table.headings.partition_point(|(h, _)| *h < from);
@@ -83,7 +83,7 @@ fn response_between(table: &Responses, from: f64, frequency: f64) -> Result<[Pai
     };
     match (low, high) {
         // a gap wider than a right angle is no table
-        (Some(low), Some(high)) if table.headings.len() > 1 && turn <= 0.5 * PI + NEAR => {
+        (Some(low), Some(high)) if table.headings.len() > 1 && turn <= 0.5 * PI + EQUAL_VALUES => {
             let share = whole(from - low.0) / turn;
             Ok(interpolate_pairs(by_frequency(&low.1, frequency), by_frequency(&high.1, frequency), share))
         }

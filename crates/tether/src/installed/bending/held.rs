@@ -3,7 +3,7 @@
 //! What is held rigidly has its acceleration given, and its place and velocity put right at the start of each step; the edge of an opening
 //! wider than the tether is a spring.
 
-use super::{Bending, EDGE, Stage};
+use super::{Bending, OPENING_EDGE_STIFFNESS_RATIO, Stage};
 use crate::installed::axis::{Axis, tilt};
 use nalgebra::Vector3;
 
@@ -103,7 +103,7 @@ impl Bending {
             if far <= gap {
                 continue;
             }
-            let spring = EDGE * self.mass.get(unknown, unknown) / (stage.dt * stage.dt);
+            let spring = OPENING_EDGE_STIFFNESS_RATIO * self.mass.get(unknown, unknown) / (stage.dt * stage.dt);
             let edge = middle[plane] + off[plane] * (gap / far);
             self.stiffness[plane].add(unknown, unknown, spring);
             self.right[unknown] += spring * edge;

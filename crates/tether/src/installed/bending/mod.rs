@@ -15,7 +15,7 @@ mod held;
 
 use super::axis::{Attachment, Axis, tilt};
 use super::tension::{Axial, Tension};
-use super::tether::{Constraint, InstalledTether, RIGID};
+use super::tether::{Constraint, InstalledTether, RIGID_STIFFNESS};
 use crate::banded::{Banded, Factors};
 use crate::beam::{self, Vector4};
 use crate::structure::flow::FlowAt;
@@ -26,10 +26,10 @@ use windlass_model::ClassError;
 /// How far a stage looks ahead with the stiffness ([AQWA-TETHER 3.6]: the best of its tests).
 pub const LOOK_AHEAD: f64 = 0.54;
 /// Rotational stiffness over 4 EI/L of its element from which on an end is held: it gives way by no more than rounding.
-const HELD: f64 = 1e6;
+const FIXED_END_STIFFNESS_RATIO: f64 = 1e6;
 /// Stiffness of an opening's edge over that at which a node's mass would swing in a step: it is soft enough for the step, and gives way by
 /// little.
-const EDGE: f64 = 10.0;
+const OPENING_EDGE_STIFFNESS_RATIO: f64 = 10.0;
 
 /// What an element has per length of it, unstretched where it is steel.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +136,9 @@ impl Bending {
         let order = 2 * line.nodes();
         let mut held = [vec![(0, Hold::Axis)], vec![(0, Hold::Axis)]];
         let mut springs = [tether.anchor_springs, tether.vessel_springs].map(|s| [s.rotation[1], s.rotation[0]]);
-        let stiff = |cell: Option<&Cell>| cell.map_or(RIGID, |c| 4.0 * c.bending / c.length) * HELD;
+        let stiff = |cell: Option<&Cell>| {
+            cell.map_or(RIGID_STIFFNESS, |c| 4.0 * c.bending / c.length) * FIXED_END_STIFFNESS_RATIO
+        };
         let limits = [stiff(cells.first()), stiff(cells.last())];
         for plane in 0..2 {
             held[plane].push((order - 2, Hold::Axis));
