@@ -328,7 +328,7 @@ fn over_break(verdict: &Verdict) -> String {
     format!("{text}{}", if more > 0 { format!("; and {more} connectors more") } else { String::new() })
 }
 
-/// Columns of standard output when it is a terminal; one that does not tell has 80.
+/// Columns of standard output when it is a terminal; one that does not say has 80.
 fn screen_columns() -> Option<usize> {
     let size = || terminal_size::terminal_size_of(stdout());
     stdout().is_terminal().then(|| size().map(|(width, _)| usize::from(width.0)).filter(|w| *w > 0).unwrap_or(80))

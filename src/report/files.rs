@@ -567,7 +567,7 @@ impl JobFolder {
         Ok(Spot { base: Arc::new(base), below, path, own: false })
     }
 
-    /// Takes note of a file that is read; one outside of the folders of the script and the job is to be told in the log.
+    /// Takes note of a file that is read; one outside of the folders of the script and the job is to be reported in the log.
     pub fn note_reading(&self, path: &Path) {
         let Some(path) = real(path) else { return };
         let inside = |folder: &Path| real(folder).is_some_and(|folder| path.starts_with(folder));

@@ -67,7 +67,7 @@ const DIMS: [Dim; 20] = [
     Dim::MassPerLength,
 ];
 
-/// A column as its head tells: name, dimension, and the units its numbers are in.
+/// A column as its head says: name, dimension, and the units its numbers are in.
 fn head(text: &str) -> (String, Dim, UnitSystem) {
     let plain = (text.to_string(), Dim::None, UnitSystem::SI);
     let Some((name, unit)) = text.strip_suffix(')').and_then(|t| t.rsplit_once(" (")) else { return plain };

@@ -1,4 +1,4 @@
-//! AQWA decks: read, told, and run as the records they amount to.
+//! AQWA decks: read, listed, and run as the records they amount to.
 
 use super::Session;
 use crate::command::{PLAIN, SCRIPT};
@@ -12,7 +12,7 @@ use windlass_language::source::Text;
 impl Session {
     /// Opens a text as the job: an AQWA deck as the records it amounts to, anything else as a script.
     ///
-    /// A deck is told first, as its listing has it. Its records are kept in the folder of answers as a script. A deck with an error
+    /// A deck is listed first, as its listing has it. Its records are kept in the folder of answers as a script. A deck with an error
     /// is not run, and an error in its records ends the run: what would follow would not be that of the deck.
     pub fn open_job(&mut self, name: &str, text: impl Into<Text>) {
         let text = text.into();
@@ -76,7 +76,7 @@ impl Session {
         said
     }
 
-    /// A deck with its records; nothing when it has an error, which is told.
+    /// A deck with its records; nothing when it has an error, which is reported.
     fn translated(
         &mut self,
         name: &str,

@@ -200,7 +200,7 @@ impl Session {
         }
     }
 
-    /// Output that could not be written is an error: the exit code tells of it.
+    /// Output that could not be written is an error: the exit code says so.
     fn report_lost_output(&mut self) {
         for trouble in self.job.output.troubles() {
             let mut error = Diagnostic::plain(Severity::Error, trouble.text);

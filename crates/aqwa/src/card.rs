@@ -173,7 +173,7 @@ fn begins_keyword(piece: &str) -> bool {
 }
 
 impl<'a> Face<'a> {
-    /// The face of a card; `keyworded` tells whether the cards of its deck have a keyword (all but those of decks 1 and 3).
+    /// The face of a card; `keyworded` says whether the cards of its deck have a keyword (all but those of decks 1 and 3).
     ///
     /// # Errors
     /// Which of the columns 1 to 10 hold what does not belong there, or where a tab stands; `label` names the deck.

@@ -71,7 +71,7 @@ pub enum Repeats {
     Once {
         /// A name that cards giving the same quantity share; empty for the keyword alone.
         same: &'static str,
-        /// First columns of the whole numbers that tell one such card from another (row, structure).
+        /// First columns of the whole numbers that distinguish one such card from another (row, structure).
         by: &'static [usize],
         /// Keywords of the cards after which it may come again.
         until: &'static [&'static str],
@@ -237,7 +237,7 @@ impl Layout {
         Ok((integers, reals))
     }
 
-    /// Refuses neighbouring fields whose values touch so that it cannot be told where one ends: one number may lie across both.
+    /// Refuses neighbouring fields whose values touch so that it cannot be determined where one ends: one number may lie across both.
     ///
     /// A sign begins a number. So does the first column of a field that is filled, if it is a whole number without a zero in front
     /// (numbers of nodes have five digits) or has an exponent and one digit before the point.

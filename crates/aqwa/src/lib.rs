@@ -1,6 +1,6 @@
 //! The AQWA card-image deck: a file of 80-column cards in decks 0 to 20, read into [`Deck`].
 //!
-//! Nothing is converted here: values are as given, in the units of the deck (any consistent set; [`Deck::units`] tells
+//! Nothing is converted here: values are as given, in the units of the deck (any consistent set; [`Deck::units`] gives
 //! which from gravity and the density of the water), angles in degrees, directions those towards which something
 //! travels. Card errors name the deck, the card and its columns, and carry the place. A card that does not fit its
 //! columns is refused. A card whose columns no source confirms is read with a note of what was assumed; a card that would change the answer and is not read is an error.

@@ -13,7 +13,7 @@ const LONGEST_STRAIN: f64 = 0.01;
 impl Deck {
     /// Position at the start of a node that moves with a structure: the node of deck 1 carried with the centre of gravity to
     /// its place of deck 15 and turned about it, by RX, then RY, then RZ about the fixed axes (assumed for large angles: no
-    /// page seen tells the order).
+    /// page seen gives the order).
     pub fn node_position(&self, structure: &Structure, node: i64) -> Option<[f64; 3]> {
         let node = Vector3::from(self.nodes.get(&node)?.position);
         let centre = Vector3::from(self.mass_properties(structure).centre);

@@ -99,7 +99,7 @@ pub struct Global {
     pub depth: f64,
     /// Density of the water.
     pub density: f64,
-    /// Acceleration due to gravity; it tells the unit of length.
+    /// Acceleration due to gravity; it shows the unit of length.
     pub gravity: f64,
     /// Where the depth was given.
     pub depth_span: Option<Span>,

@@ -44,7 +44,7 @@ impl Remarks {
         self.failed
     }
 
-    /// All messages; the last one tells how many more there were.
+    /// All messages; the last one says how many more there were.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         if self.dropped > 0 {
             let text = format!("{} more messages about this deck are not shown", self.dropped);

@@ -1,4 +1,4 @@
-//! Cards that are given twice: what would be in force cannot be told, so that the second one is refused with both places.
+//! Cards that are given twice: what would be in force cannot be determined, so that the second one is refused with both places.
 //!
 //! Each [`Layout`] says how often its card may come ([`Repeats`]); a card is allowed once unless its layout says otherwise.
 
@@ -13,7 +13,7 @@ struct Given<'a> {
     /// What it gives: its keyword, or the name that cards of the same meaning share.
     what: &'a str,
     keyword: &'a str,
-    /// Values of the fields that tell one such card from another.
+    /// Values of the fields that distinguish one such card from another.
     key: Vec<i64>,
     span: Span,
     until: &'static [&'static str],

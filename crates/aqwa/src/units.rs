@@ -1,4 +1,4 @@
-//! The units of a deck. A deck is in any consistent set of units and does not say which: gravity tells the unit of
+//! The units of a deck. A deck is in any consistent set of units and does not say which: gravity shows the unit of
 //! length, and then the density of the water the unit of mass; time is in seconds, force follows.
 
 use super::properties::Global;

@@ -305,7 +305,7 @@ impl Dim {
         }
     }
 
-    /// The number in SI, where it is one that can be reckoned with: zero, or of a size between [`LEAST`] and [`Dim::most`].
+    /// The number in SI, where it is one that can be reckoned with: zero, or of a size between [`MIN_INPUT_MAGNITUDE`] and [`Dim::most`].
     ///
     /// # Errors
     /// Why it is none.

@@ -23,7 +23,7 @@ pub struct Chord {
     pub left_out: f64,
 }
 
-/// Share of the tension from which on a weight that is left out is told, and warned of.
+/// Share of the tension from which on a weight that is left out is reported, and warned of.
 const LEFT_OUT: [f64; 2] = [0.01, 0.1];
 
 impl Chord {
@@ -81,7 +81,7 @@ impl Chord {
         limits.map(|(i, (limit, _))| (force.max(0.0) / limit, i + 1)).max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// What is told at a force (N), a distance between the ends, and what of it is left for the line (m).
+    /// What is reported at a force (N), a distance between the ends, and what of it is left for the line (m).
     fn remarks(&self, force: f64, chord: f64, left: f64, ratio: f64) -> Vec<Note> {
         let mut notes = self.line.notes.clone();
         if ratio > 1.0 {

@@ -43,7 +43,7 @@ impl Devices {
         self.piston.is_none() && self.dashpot.is_none() && self.convolution.is_none()
     }
 
-    /// What is told of a line whose piston does not move.
+    /// What is reported of a line whose piston does not move.
     pub fn notes(&self) -> Vec<Note> {
         self.piston.iter().map(|_| NOMINAL.into()).collect()
     }

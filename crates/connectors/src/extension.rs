@@ -41,7 +41,7 @@ pub trait Extended: Debug + Send + Sync {
     /// A situation for which no answer could be proven.
     fn pull(&self, ends: &[End], by: Extension, guess: &mut Guess, out: &mut Response) -> Result<Pull, ClassError>;
 
-    /// What a report tells of the line with the link.
+    /// What is reported of the line with the link.
     ///
     /// # Errors
     /// As [`Extended::pull`].

@@ -22,7 +22,7 @@ const SHAPE_POINTS: usize = 9;
 /// The same where the extremes of a shape are looked for: within 1e-4 of its sag.
 const CROSSING_POINTS: usize = 63;
 
-/// A line ready to be solved, with what is told of it.
+/// A line ready to be solved, with what is reported of it.
 #[derive(Clone, Debug)]
 pub struct Mooring {
     /// The line.
@@ -45,7 +45,7 @@ pub struct Mooring {
     pub bottom: Option<f64>,
     /// Records of the segments, for errors.
     pub places: Vec<Span>,
-    /// What is always told of it.
+    /// What is always reported of it.
     pub notes: Vec<Note>,
 }
 

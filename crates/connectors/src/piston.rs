@@ -61,7 +61,7 @@ impl PistonState {
         matches!(self, PistonState::HoldsMost | PistonState::HoldsLeast)
     }
 
-    /// What a user is told.
+    /// What is reported to the user.
     pub fn note(self) -> &'static str {
         match self {
             PistonState::Nothing => {

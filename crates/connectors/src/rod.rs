@@ -78,7 +78,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("ROD", "line with bending stiffness and its own dynamics")
 };
 
-/// `-REFINE N`, without the limit of what other classes cut: how many elements are too many is told with the memory they take.
+/// `-REFINE N`, without the limit of what other classes cut: how many elements are too many is reported with the memory they take.
 const REFINE: OptionSpec =
     OptionSpec { values: &[ValueSpec::new("N", Kind::Integer, "number of elements").positive()], ..o::REFINE };
 /// Options of the whole line.

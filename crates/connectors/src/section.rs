@@ -134,8 +134,8 @@ fn diameter_place(args: &Args) -> Span {
     args.option_if_declared(&o::TYPE).map_or(args.span, |given| given.place(DIAMETER))
 }
 
-/// What a record with `-TYPE` should tell its writer: a diameter outside the range of the formulas, and which options
-/// override the type. Diameters are told in the user's `units`.
+/// What a record with `-TYPE` should report to its writer: a diameter outside the range of the formulas, and which options
+/// override the type. Diameters are printed in the user's `units`.
 pub fn type_notices(args: &Args, units: UnitSystem) -> Vec<Diagnostic> {
     const OVERRIDE: [(OptionSpec, &str); 12] = [
         (o::WTPLEN, "weight"),
@@ -242,7 +242,7 @@ impl LineSection {
         })
     }
 
-    /// What fatigue goes by in this segment; its curve is told by the class.
+    /// What fatigue goes by in this segment; its curve is reported by the class.
     pub fn fatigue(&self) -> FatigueSegment {
         FatigueSegment {
             curve: None,

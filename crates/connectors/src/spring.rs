@@ -262,7 +262,7 @@ impl Generalized {
         })
     }
 
-    /// The same, told of in a FOUNDATION check.
+    /// The same, reported in a FOUNDATION check.
     #[must_use]
     pub fn with_foundation_check(self) -> Self {
         Generalized { foundation: true, ..self }

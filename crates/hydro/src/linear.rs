@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{Body, ClassError, LinearHydrostatics};
 
-/// Where roll and yaw are told apart no more: cosine of the pitch.
+/// Where roll and yaw are no longer distinguished: cosine of the pitch.
 const MIN_PITCH_COSINE: f64 = 1e-6;
 
 /// Buoyancy of a body that has a linear stiffness.

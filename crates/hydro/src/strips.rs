@@ -131,7 +131,7 @@ fn join(strips: &mut Vec<Strip>, strip: Strip) {
     }
 }
 
-/// Levels with [`PARTS`] strips for each.
+/// Levels with [`PARTS_PER_STRIP`] strips for each.
 fn divide_levels(levels: &[f64]) -> Vec<f64> {
     let mut made: Vec<f64> = levels
         .windows(2)

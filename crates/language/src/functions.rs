@@ -1,7 +1,7 @@
 //! String functions that need no model: `&NUMBER`, `&FORMAT`, `&STRING`, `&TOKEN`, `&LOGICAL`, `&V_EXIST`.
 //!
 //! Source: [MOSES-REF lang_sfun, lang_number, lang_info]. Where that text leaves a choice, the reading is in `&HELP` of the function
-//! ([`HELP`]).
+//! ([`FUNCTION_HELP`]).
 
 use super::logic;
 use super::number;

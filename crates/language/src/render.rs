@@ -74,7 +74,7 @@ fn shorten_texts(diagnostic: &Diagnostic) -> Diagnostic {
 /// The lines around a span, cut so that a huge record does not become a huge message.
 struct Excerpt<'a> {
     span: Span,
-    /// Stands for the place while the message is laid out, where the text shown does not tell the column: the line is cut or has
+    /// Stands for the place while the message is laid out, where the text shown does not give the column: the line is cut or has
     /// characters spelled.
     mark: Option<String>,
     name: std::borrow::Cow<'a, str>,
@@ -159,7 +159,7 @@ mod tests {
         let lines: Vec<&str> = text.lines().collect();
         let at = |mark: &str| lines.iter().find_map(|l| l.find(mark));
         assert_eq!(at("WRONG"), at("^^^^^"), "{text}");
-        // a line that is cut tells its true column
+        // a line that is cut gives its true column
         let long = sources.add("long.cif", format!("{} WRONG {}", "x".repeat(900), "y".repeat(900)), 7);
         let text = render(&Diagnostic::error("no", Span::new(long, 901, 906)), &sources, false);
         assert!(text.contains("long.cif:7:902\n") && text.contains("WRONG"), "{text}");

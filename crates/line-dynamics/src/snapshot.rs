@@ -23,7 +23,7 @@ impl Rod {
         self.elements.iter().map(|e| (e.rest, e.rate, e.segment))
     }
 
-    /// Makes a rod of given elements, as [`Rod::mesh`] tells them; `attachments` are on its nodes as they now are. A
+    /// Makes a rod of given elements, as [`Rod::mesh`] gives them; `attachments` are on its nodes as they now are. A
     /// shape free of load must be given again.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! What a dynamic line tells of its nodes, and of how it swings.
+//! What a dynamic line reports of its nodes, and of how it swings.
 
 use nalgebra::Vector3;
 

@@ -31,7 +31,7 @@ impl Bathymetry {
     /// A bottom of a name from the places of its columns and rows (m) and its heights (m, global z), row by row of one y.
     ///
     /// # Errors
-    /// Fewer than two columns or rows, places that do not grow, more points than [`MOST_POINTS`], heights that are too few or
+    /// Fewer than two columns or rows, places that do not grow, more points than [`MAX_GRID_POINTS`], heights that are too few or
     /// too many or no numbers.
     pub fn new(name: &str, x: Vec<f64>, y: Vec<f64>, heights: &[f64], span: Span) -> Result<Self, ClassError> {
         for (places, what) in [(&x, "x"), (&y, "y")] {
@@ -171,7 +171,7 @@ impl Bathymetry {
 /// How many points a grid of so many columns and rows has.
 ///
 /// # Errors
-/// More than [`MOST_POINTS`].
+/// More than [`MAX_GRID_POINTS`].
 pub fn fits(columns: usize, rows: usize) -> Result<usize, ClassError> {
     match columns.checked_mul(rows) {
         Some(count) if count <= MAX_GRID_POINTS => Ok(count),

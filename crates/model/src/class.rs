@@ -34,7 +34,7 @@ pub struct Class {
     pub name: String,
     /// Its records in order.
     pub records: Vec<ClassRecord>,
-    /// Whether its stiffness is left out of what is told of the bodies beside the one of a connector [MOSES-FLEX -IG_STIFF];
+    /// Whether its stiffness is left out of what is reported of the bodies beside the one of a connector [MOSES-FLEX -IG_STIFF];
     /// its force is not.
     pub ignored_stiffness: bool,
     /// What the records make.
@@ -120,7 +120,7 @@ impl Class {
 pub struct ClassError {
     /// One sentence for the user; `{}` stands for each of the values.
     pub message: String,
-    /// Values in SI with what they measure: told in the user's units.
+    /// Values in SI with what they measure: printed in the user's units.
     pub values: Vec<(f64, Dim)>,
     /// The record or value it is about, where one can be named.
     pub span: Option<Span>,
@@ -265,7 +265,7 @@ pub trait ConnectorClass: Debug + Send + Sync {
         false
     }
 
-    /// Whether the summaries of its connectors tell of a fender.
+    /// Whether the summaries of its connectors have a fender.
     fn is_fender(&self) -> bool {
         false
     }
@@ -281,7 +281,7 @@ pub trait ConnectorClass: Debug + Send + Sync {
         Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
     }
 
-    /// Whether its connectors are dynamic lines, as [`Element::moves`] tells of what they make.
+    /// Whether its connectors are dynamic lines, as [`Element::moves`] says of what they make.
     fn moves(&self) -> bool {
         false
     }

@@ -118,7 +118,7 @@ pub struct FenderState {
     pub rated_energy: f64,
 }
 
-/// What a report tells of an element in a situation, beside the wrench on its ends.
+/// What is reported of an element in a situation, beside the wrench on its ends.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
     /// Tension at the first end (N), of elements that have one; negative of a spring that pushes.
@@ -177,7 +177,7 @@ pub trait Element: Debug + Send + Sync {
     ) -> Result<(), ClassError>;
 
     /// Of an element from a body to the ground that remembers nothing and pulls with a force that the place of its first end alone
-    /// changes: what [`Element::evaluate`] tells, with less work. `None` of all others.
+    /// changes: what [`Element::evaluate`] gives, with less work. `None` of all others.
     fn find_anchored(&self, _at: &Situation, _guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
         None
     }
@@ -205,7 +205,7 @@ pub trait Element: Debug + Send + Sync {
         Ok(())
     }
 
-    /// What a report tells of it.
+    /// What is reported of it.
     ///
     /// # Errors
     /// As [`Element::evaluate`].
@@ -216,7 +216,7 @@ pub trait Element: Debug + Send + Sync {
         None
     }
 
-    /// The end by whose force its pull is told.
+    /// The end by whose force its pull is reported.
     fn pulling_end(&self) -> usize {
         0
     }
@@ -249,7 +249,7 @@ pub trait Element: Debug + Send + Sync {
         None
     }
 
-    /// How many nodes it tells of along itself at most: none of an element that is nothing between its ends.
+    /// How many nodes it reports along itself at most: none of an element that is nothing between its ends.
     fn nodes(&self) -> usize {
         0
     }
@@ -259,7 +259,7 @@ pub trait Element: Debug + Send + Sync {
         None
     }
 
-    /// Whether its nodes have a wall, shear and moments to tell.
+    /// Whether its nodes have a wall, shear and moments to report.
     fn bends(&self) -> bool {
         false
     }
@@ -316,7 +316,7 @@ pub struct RunRequirement {
     pub scheme: Option<SchemeWeights>,
 }
 
-/// What a class is told of the connector that an element is made of.
+/// What a class is given about the connector that an element is made of.
 #[derive(Clone)]
 pub struct Connection<'a> {
     /// The connector.
@@ -325,13 +325,13 @@ pub struct Connection<'a> {
     pub ends: [Pose; 2],
     /// Whether the second end is in the ground.
     pub to_ground: bool,
-    /// How the ends of a line are told to its class.
+    /// How the ends of a line are given to its class.
     pub placement: Placement,
     /// The curve of a name.
     pub curve: &'a dyn Fn(&str) -> Option<&'a Curve>,
     /// Water, depth, gravity.
     pub surroundings: &'a Surroundings,
-    /// What surrounds it all along, where an engine tells.
+    /// What surrounds it all along, where an engine gives it.
     pub ambient: Option<&'a Arc<dyn Ambient>>,
     /// What a run asks of it.
     pub duty: RunRequirement,

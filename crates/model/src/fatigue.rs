@@ -1,4 +1,4 @@
-//! Fatigue as the user chose it: curves of `&REP_SELECT -SN`, the correction of `-THICK_SN`, and what a class tells of its
+//! Fatigue as the user chose it: curves of `&REP_SELECT -SN`, the correction of `-THICK_SN`, and what a class reports of its
 //! segments. The curves that windlass ships are not here: they belong to the post floor.
 
 use super::Model;

@@ -1,7 +1,7 @@
 //! What things are called: the sorts of things that have names, which names are taken, and what uses a thing.
 //!
 //! Connectors, bodies, parts, pieces, curves, bathymetries, sets of T_PRESSURE data and environments share one set of names, so that a name means one thing;
-//! classes, points and selectors are told apart by their markers. A body and its own part have one name, and a piece may have
+//! classes, points and selectors are distinguished by their markers. A body and its own part have one name, and a piece may have
 //! that of its body or part.
 
 use super::{Assembly, AssemblyKind, Environment, Formula, Model, Piece};

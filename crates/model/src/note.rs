@@ -1,4 +1,4 @@
-//! Remarks whose values are told in the user's units.
+//! Remarks whose values are printed in the user's units.
 
 use std::fmt::Display;
 use std::ops::Deref;

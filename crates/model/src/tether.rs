@@ -92,7 +92,7 @@ impl TetherEnds {
         self.group.max(1) as f64
     }
 
-    /// Springs in force at the fairlead and at the far end. Installed: [`TetherEnds::STIFF`] all where none are given and along the tether
+    /// Springs in force at the fairlead and at the far end. Installed: [`TetherEnds::DEFAULT_SPRING_STIFFNESS`] all where none are given and along the tether
     /// where not above zero; rotational ones below zero are none. Towed: STIFF where zero or not given.
     pub fn springs_in_force(&self) -> [[f64; 3]; 2] {
         self.springs.map(|given| {

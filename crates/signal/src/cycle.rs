@@ -1,4 +1,4 @@
-//! Harmonics of one cycle of a response that still drifts, as AQWA-NAUT tells them.
+//! Harmonics of one cycle of a response that still drifts, as AQWA-NAUT reports them.
 //!
 //! The cycle from a start is sampled at equal times by cubics through four samples of the series; what it drifts from its start to its end is
 //! taken off as a straight line about the middle; the discrete Fourier sum gives mean and harmonics. Sixteen samples are those of AQWA

@@ -95,7 +95,7 @@ pub const MAX_BINS: usize = 1000;
 /// an edge belongs to the bin above it, the largest to the last.
 ///
 /// # Errors
-/// No cycles; a number of bins that is 0 or above [`MOST_BINS`].
+/// No cycles; a number of bins that is 0 or above [`MAX_BINS`].
 pub fn range_mean(cycles: &[Cycle], ranges: usize, means: usize) -> Result<RangeMean, SeriesError> {
     for bins in [ranges, means] {
         if !(1..=MAX_BINS).contains(&bins) {

@@ -24,7 +24,7 @@ fn bodies(ends: &[Attachment]) -> Vec<Option<usize>> {
     ends.iter().map(|e| if let Attachment::Body(body, _) = e { Some(*body) } else { None }).collect()
 }
 
-/// How many nodes an element tells of at most, and whether they bend.
+/// How many nodes an element reports at most, and whether they bend.
 fn nodes(element: &dyn Element) -> (usize, bool) {
     (element.nodes(), element.bends())
 }

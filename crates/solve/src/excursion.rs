@@ -31,7 +31,7 @@ pub struct Moved {
     pub poses: Vec<Pose>,
     /// Forces and moments of the connectors on the body about its origin, global axes.
     pub wrench: Six,
-    /// What is told of each of its connectors.
+    /// What is reported of each of its connectors.
     pub lines: Vec<Summary>,
 }
 

@@ -25,13 +25,13 @@ pub struct Systems {
 pub struct Asked<'a> {
     /// The body as written.
     pub name: &'a str,
-    /// Where it stands: its heading is told near this one.
+    /// Where it stands: its heading is reported near this one.
     pub place: &'a Place,
     /// The poses of all bodies before they are moved.
     pub start: &'a [Pose],
     /// How it is moved; the direction is that of the first of several.
     pub path: Path,
-    /// Units in which notes tell values.
+    /// Units of the values in notes.
     pub units: UnitSystem,
 }
 

@@ -88,7 +88,7 @@ impl Connectors {
         Ok(())
     }
 
-    /// What a report tells of each with the bodies in these poses.
+    /// What is reported of each with the bodies in these poses.
     ///
     /// # Errors
     /// A connector that has no answer there.
@@ -98,7 +98,7 @@ impl Connectors {
 }
 
 impl System {
-    /// What a report tells of each connector with the bodies in the poses of a state: its name first.
+    /// What is reported of each connector with the bodies in the poses of a state: its name first.
     ///
     /// # Errors
     /// Of each connector that has no answer there, why.

@@ -120,7 +120,7 @@ fn format_digits(value: f64) -> String {
     }
 }
 
-/// A share in percent; less than a ten-thousandth is not told.
+/// A share in percent; less than a ten-thousandth is not reported.
 fn percent(share: f64) -> String {
     if share.abs() < 1e-4 { "below 0.01 %".into() } else { format!("{} %", format_digits(100.0 * share)) }
 }

@@ -100,7 +100,7 @@ pub struct Choice<'a> {
 pub type Unshaped = (String, ClassError);
 
 impl Scene {
-    /// The scene of a model with the connectors whose shape could not be found; `None` when told to stop.
+    /// The scene of a model with the connectors whose shape could not be found; `None` when interrupted.
     pub fn build(model: &Model, choice: &Choice) -> Option<(Scene, Vec<Unshaped>)> {
         let surroundings = model.surroundings();
         let mut scene =

@@ -4,7 +4,7 @@
 //! out. Where they matter, tensions are larger by up to several times [DNV-OS-E301 ch. 2 sec. 2; API-RP-2SK 5.4]. After a run the most
 //! loaded of these lines are run again as dynamic lines, one by one, with their ends moved as the run had them, in the water of the run.
 //!
-//! - Which: the [`REPLAYED`] lines with the largest tension over break behind the transient, of those whose class has dynamics.
+//! - Which: the [`REPLAYED_LINES`] lines with the largest tension over break behind the transient, of those whose class has dynamics.
 //! - When: ten periods around the largest tension, cut at the ends of the run. The period is the energy period of the waves,
 //!   T(-1,0) = m(-1)/m(0); without waves the mean up-crossing period of the tension.
 //! - Start: at rest between the mean places of the ends, whose motion about these grows over the two periods before the ten. Where the run

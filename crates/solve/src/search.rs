@@ -211,7 +211,7 @@ fn direction(
     let symmetric = (&scaled + scaled.transpose()) * 0.5;
     let size = symmetric.amax().max(1e-6);
     let right = residual.component_mul(&root);
-    // forces without an energy: what their stiffness does is not told by its symmetric part
+    // forces without an energy: what their stiffness does is not given by its symmetric part
     if help == 0.0 && (&scaled - scaled.transpose()).amax() > 1e-6 * size {
         let solved = Lu::new(scaled.clone(), stop)?.solve(&right).ok();
         if let Some(step) = solved.filter(|s| s.dot(&right) > 0.0).map(|s| s.component_mul(&root))

@@ -28,7 +28,7 @@ pub fn settle(model: &mut Model, options: &Options) -> Result<EquilibriumResult,
     let start: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
     let made = |model: &Model| {
         let mut system = System::new(model, &[])?;
-        // what does not move in this solution is not told as free either
+        // what does not move in this solution is not reported as free either
         for (body, dof) in &options.ignored {
             if let Some(free) = system.nodes.get_mut(*body).and_then(|n| n.free.get_mut(*dof)) {
                 *free = false;

@@ -74,7 +74,7 @@ impl Node {
     }
 }
 
-/// A force on a body that is told apart.
+/// A force on a body that is listed by itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contribution {
     /// The body's number.
@@ -287,7 +287,7 @@ impl System {
         Ok(())
     }
 
-    /// Every force on every body, told apart: loads of the body by category, and each connector.
+    /// Every force on every body, listed one by one: loads of the body by category, and each connector.
     ///
     /// # Errors
     /// As [`System::evaluate`].

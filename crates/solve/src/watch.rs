@@ -16,7 +16,7 @@ pub struct Watched {
     pub direction: f64,
     /// The body at rest under it.
     pub pose: Pose,
-    /// What is told of each of its connectors.
+    /// What is reported of each of its connectors.
     pub lines: Vec<Summary>,
 }
 

@@ -6,7 +6,7 @@ use windlass_model::ClassError;
 /// Filled entries of a row up to the diagonal.
 pub const BANDWIDTH: usize = 4;
 
-/// A symmetric matrix with a band of [`WIDTH`].
+/// A symmetric matrix with a band of [`BANDWIDTH`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Banded {
     /// Row by row: the diagonal, then the entries one, two, three columns to its left.

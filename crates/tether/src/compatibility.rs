@@ -1,7 +1,7 @@
 //! Peculiarities of another program, each with a name.
 //!
 //! Where the listings of [AQWA-TETHER 8] come from something that is no part of the theory, it is a switch here: on when a deck is to give the
-//! numbers of that program ([`Compatibility::aqwa_5_4`]), off natively. What each makes is told of the installed example of [AQWA-TETHER 8.2],
+//! numbers of that program ([`Compatibility::aqwa_5_4`]), off natively. What each makes is reported of the installed example of [AQWA-TETHER 8.2],
 //! with that switch alone off (crates/tether/tests/it/aqwa_tether_installed.rs holds them there).
 
 /// How a structure with tethers goes from its two accelerations to the end of a step.

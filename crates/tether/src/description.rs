@@ -1,4 +1,4 @@
-//! The description of a tether: what the data listing [AQWA-TETHER 7.1] tells of it before a run.
+//! The description of a tether: what the data listing [AQWA-TETHER 7.1] reports of it before a run.
 
 use super::TetherElement;
 use super::line::{Label, Line};
@@ -30,7 +30,7 @@ pub struct Attachment {
     pub initial: [f64; 3],
 }
 
-/// What is told of a tether.
+/// What is reported of a tether.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description<'a> {
     /// Its number, from 1.

@@ -15,7 +15,7 @@
 //! | [`beam`] | matrices and loads of one element in one plane |
 //! | [`banded`] | symmetric band and its factors |
 //! | [`modes`] | natural modes of a plane |
-//! | [`description`] | what is told of a tether before a run |
+//! | [`description`] | what is reported of a tether before a run |
 //! | [`towed`] | the towed tether in waves |
 //! | [`structure`] | the structure that installed tethers hold, and the water around |
 //! | [`installed`] | tethers between anchors and a moving structure; their z runs along the axis, X and Y across |

@@ -66,7 +66,7 @@ fn text(film: &Film, title: &str, frame: usize) -> String {
         points.extend(actor.solid.points.iter().map(|at| <[f64; 3]>::from(pose.point((*at).into()))));
         for triangle in &actor.solid.triangles {
             polygons.push(triangle.map(|n| first + n as usize).to_vec());
-            // bodies below zero, so that they and lines are told apart
+            // bodies below zero, so that they and lines are distinguished
             owners.push(-(number as i64) - 1);
         }
     }

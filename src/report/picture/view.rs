@@ -91,7 +91,7 @@ impl View {
         for (name, unit) in units {
             let [h, v] = self.project(unit);
             let v = if name == "Z" { v / self.stretch } else { v };
-            // two axes that point along the same line are told as one across the view
+            // two axes that point along the same line are reported as one across the view
             let crowded = self.kind == Seen::Elevation && aside && name != "Z";
             if h.hypot(v) > ZERO_COMPONENT && !crowded {
                 axes.push((name, [h, v]));

@@ -16,7 +16,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis with at most `most` ticks that shows all `values` (finite, not beyond [`LARGEST`]) with a little room.
+    /// An axis with at most `most` ticks that shows all `values` (finite, not beyond [`MAX_PLOTTED_VALUE`]) with a little room.
     /// `None` without a value.
     pub fn of(values: impl Iterator<Item = f64>, most: usize) -> Option<Axis> {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));

@@ -13,7 +13,7 @@ use windlass_solve::results::along::{self, Line};
 use windlass_solve::results::{self, Magnitude};
 use windlass_solve::time::Run;
 
-/// Records of a pipe over five rollers of a barge that moves as it is told, in metres and newtons, up to its TDOM.
+/// Records of a pipe over five rollers of a barge that moves as it is reported, in metres and newtons, up to its TDOM.
 fn records(limits: [f64; 2], motion: &str) -> String {
     format!(
         "&DIMEN -DIMEN METERS N\n&ENV -DEPTH 50 -TIME 40 0.1\nMEDIT\n&DESCRIBE BODY BARGE\n*R1 35.65 0 1.70\n*R2 26.82 0 3.58\n\

@@ -95,7 +95,7 @@ fn a_pull_that_a_line_cannot_bear_names_time_line_and_element_and_is_met_again_b
     let pull = |row: &[f64]| row[at..at + 3].iter().map(|v| v * v).sum::<f64>().sqrt();
     let most = history.rows().map(pull).fold(0.0, f64::max);
     assert!((2e6..2.6e6).contains(&most), "{most}");
-    // what was kept is what it was: nothing has been put right, and the same is told
+    // what was kept is what it was: nothing has been put right, and the same is reported
     let (again, _kept) = run(records(&file, "-EA 1E8 -1E9", "-RESTART"), Some(&kept));
     assert_eq!(error(&again).split(" by steps").next(), told.split(" by steps").next());
     let bits =

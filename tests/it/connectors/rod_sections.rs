@@ -163,7 +163,7 @@ fn a_pipe_that_does_not_bend_keeps_its_contents_its_pressure_and_its_heat() {
         "{} {contents}",
         weight(&full) - weight(&empty)
     );
-    // a chain or rope: a bar has no contents, and is told without a wall
+    // a chain or rope: a bar has no contents, and is reported without a wall
     let bar = model(&between("&ENV -DEPTH 1000", &["ROD 100 50 -EI 0 -LEN 20 -REFINE 4"], ["0 0 -489", "0 0 -508"]));
     assert!(at_rest(&bar).get("Shear").is_none());
 }

@@ -1,4 +1,4 @@
-//! Names: an environment is told by its name, a selector follows what is renamed, DELETE says what it did and no more,
+//! Names: an environment is reported by its name, a selector follows what is renamed, DELETE says what it did and no more,
 //! and `&HELP` states the one rule of names.
 
 use crate::common;

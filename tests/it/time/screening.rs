@@ -85,7 +85,7 @@ fn screening_that_is_left_out_is_said_with_its_reason() {
 
 #[test]
 fn line_between_bodies_is_replayed_with_the_motion_of_both() {
-    // a mirror image: the other end moves the other way, and is told of
+    // a mirror image: the other end moves the other way, and is reported of
     let hung = |[moved, still]: [&str; 2], by: f64| {
         let (.., run) = ran(format!(
             "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 400 -TIME 60 0.2 20\nMEDIT\n~C H_CAT 120 EXACT -LEN 420\n\

@@ -26,7 +26,7 @@ pub const UNITS: &str = "&DIMEN -DIMEN METERS K-NTS";
 pub struct Records {
     /// Units, defaults, bodies with their places, connectors, the environment.
     pub model: Vec<String>,
-    /// What is run, and what is told.
+    /// What is run, and what is reported.
     pub job: Vec<String>,
     /// The cards that the records of `model` and `job` are made of, by place in the record.
     origins: Vec<Vec<(usize, Origin)>>,
@@ -88,7 +88,7 @@ impl Records {
 /// The records of a deck.
 ///
 /// # Errors
-/// Units that cannot be told; earlier stages that are not in the file; cards for which the model or its engines have no place: each
+/// Units that cannot be determined; earlier stages that are not in the file; cards for which the model or its engines have no place: each
 /// with the reason, and where there is one the native record to use.
 pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
     let mut out = written(deck)?;

@@ -88,7 +88,7 @@ pub struct Description {
     pub holds: [Option<Hold>; 2],
     /// Whether it is slammed where it enters the water.
     pub slam: bool,
-    /// What is always told of it.
+    /// What is always reported of it.
     pub notes: Vec<String>,
 }
 

@@ -13,7 +13,7 @@ const DIVIDE_ABOVE_SHARE: f64 = 1.5;
 /// It becomes one with the next when it would be shorter than this.
 pub(super) const JOIN_BELOW_SHARE: f64 = 0.5;
 
-/// An error of a rod for the user, who is told its name elsewhere.
+/// An error of a rod for the user, who sees its name elsewhere.
 pub(super) fn to_class_error(error: RodError) -> ClassError {
     // what a winch does to a line within a step it may do in two
     let lasting = matches!(error, RodError::Property { .. } | RodError::TooLarge { .. } | RodError::Interrupted { .. });
@@ -178,7 +178,7 @@ const SPHERE_CD: f64 = 0.5;
 /// Added mass of a sphere as a share of what it displaces (Lamb, Hydrodynamics, section 92).
 const SPHERE_CA: f64 = 0.5;
 
-/// Height over which a joint meets the surface (m): that of a sphere that displaces as much; of what is told to displace nothing that of
+/// Height over which a joint meets the surface (m): that of a sphere that displaces as much; of what is said to displace nothing that of
 /// the larger of two spheres, with its drag and with its added mass.
 fn height(joint: &JointMass, density: f64) -> f64 {
     let of_volume = |volume: f64| (6.0 * volume / PI).cbrt();
@@ -263,7 +263,7 @@ pub(super) fn wind(
 }
 
 /// The most by which a winch may change a line in one step (m): an element at the winch is divided or taken in once, and is then as long as
-/// [`LONG`] and [`SHORT`] say.
+/// [`DIVIDE_ABOVE_SHARE`] and [`JOIN_BELOW_SHARE`] say.
 pub(super) fn most_wound(nominal: f64) -> f64 {
     JOIN_BELOW_SHARE * nominal
 }

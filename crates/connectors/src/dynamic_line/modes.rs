@@ -21,7 +21,7 @@ pub(super) fn few(nodes: usize, number: usize) -> Result<(), ClassError> {
     if number > MAX_MODES {
         return Err(ClassError::new(format!("{number} modes of a line are not found: at most {MAX_MODES}")));
     }
-    // vectors of all nodes, with their loads and what they are made of; twice as many as are asked, and the last told apart
+    // vectors of all nodes, with their loads and what they are made of; twice as many as are asked, and the last distinguished
     let bytes = 8.0 * 3.0 * nodes as f64 * 4.0 * (2.0 * (number as f64 + 1.0) + 8.0);
     if bytes > MAX_MEMORY_BYTES {
         let text = format!(
@@ -47,7 +47,7 @@ pub(super) fn find_line_modes(
     ends: [End; 2],
     number: usize,
 ) -> Result<Vec<LineMode>, ClassError> {
-    // one more than asked, so that the last is told apart from its like
+    // one more than asked, so that the last is distinguished from its like
     let mut found = match solver.modes(rod, state, world, ends, number + 1) {
         Ok(found) => found,
         Err(stop @ RodError::Interrupted { .. }) => return Err(to_class_error(stop)),

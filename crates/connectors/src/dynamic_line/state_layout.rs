@@ -35,7 +35,7 @@ impl StateView<'_> {
         StateView { balance: None, ..self }
     }
 
-    /// The elements of its mesh, as [`Rod::mesh`] tells them, but for their parts in place of segments: how many of these a part has
+    /// The elements of its mesh, as [`Rod::mesh`] gives them, but for their parts in place of segments: how many of these a part has
     /// may change during a run.
     pub fn mesh(&self) -> impl ExactSizeIterator<Item = (f64, f64, usize)> {
         let (each, _) = self.mesh.as_chunks::<VALUES_PER_ELEMENT>();

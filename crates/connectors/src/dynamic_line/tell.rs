@@ -1,4 +1,4 @@
-//! What a dynamic line tells of itself: its nodes, modes and books.
+//! What a dynamic line reports of itself: its nodes, modes and books.
 
 use super::describe::Part;
 use super::element::DynamicLine;
@@ -41,7 +41,7 @@ impl DynamicLine {
         Ok(())
     }
 
-    /// What a row of a run keeps of its nodes, in the room of its memory; segments are not told.
+    /// What a row of a run keeps of its nodes, in the room of its memory; segments are not reported.
     pub(super) fn tell_row(
         &self,
         at: &Situation,

@@ -149,7 +149,7 @@ impl Set<'_> {
 /// Reads a data set; of several bodies one is chosen by its number, from 1.
 ///
 /// # Errors
-/// A file that is no NetCDF or no data set of Capytaine; frequencies, depths or bodies that are not told apart.
+/// A file that is no NetCDF or no data set of Capytaine; frequencies, depths or bodies that are not distinguished.
 pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database, DatabaseError> {
     let options = NcOpenOptions {
         max_read_bytes: 8 * MAX_DATABASE_NUMBERS,

@@ -3,7 +3,7 @@
 //!
 //! Source: [NEMOH-3 Output files] and the writers of both versions (Results.f90). A zone of the radiation file is one motion, its
 //! columns added mass and damping of each force; a zone of the excitation file one heading, its columns modulus and phase of
-//! each force. The first line tells the unit of frequency: rad/s, Hz or s. NEMOH writes with exp(-i w t), as is done here (documentation of Capytaine,
+//! each force. The first line gives the unit of frequency: rad/s, Hz or s. NEMOH writes with exp(-i w t), as is done here (documentation of Capytaine,
 //! "Conventions"). Phases are in rad where none exceeds pi, else in degrees: the documentation says degrees, what the versions known write is rad.
 //! Phases refer to the point XEFF YEFF of `Nemoh.cal`, moments to the point of its rotations.
 
@@ -16,7 +16,7 @@ use nalgebra::{Complex, Matrix6};
 use std::f64::consts::{PI, TAU};
 use windlass_model::Database;
 
-/// Reads the results of a run; files are told apart by their names.
+/// Reads the results of a run; files are distinguished by their names.
 ///
 /// # Errors
 /// A file that is missing or does not have the form; rows that are missing; a run of several bodies where none is chosen.

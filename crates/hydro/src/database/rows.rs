@@ -34,7 +34,7 @@ pub enum DatabaseError {
 /// A text file of a source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceFile {
-    /// Its name, for messages; its ending tells what it holds.
+    /// Its name, for messages; its ending says what it holds.
     pub name: String,
     /// Its text.
     pub text: String,

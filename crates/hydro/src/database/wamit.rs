@@ -30,7 +30,7 @@ pub struct WamitScale {
     pub body: Option<usize>,
 }
 
-/// Reads the files of a run, told apart by their endings; those of other endings are passed over.
+/// Reads the files of a run, distinguished by their endings; those of other endings are passed over.
 ///
 /// # Errors
 /// A file that does not have the form; rows that are missing or given twice; files of unlike frequencies; another body.

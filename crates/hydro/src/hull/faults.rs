@@ -6,7 +6,7 @@ use super::cutting::intersect_triangles;
 use nalgebra::Vector3;
 use std::fmt;
 
-/// Pairs of faces that cut each other, and parts that are inside out, are told up to this number.
+/// Pairs of faces that cut each other, and parts that are inside out, are reported up to this number.
 pub const MAX_REPORTED_FAULTS: usize = 20;
 
 /// Faces closer than this part of the size of the mesh touch and do not cut (files often keep seven digits).
@@ -42,7 +42,7 @@ pub enum Fault {
         /// A corner of it.
         at: [f64; 3],
     },
-    /// Two faces that cut each other; the first [`MOST_CUTS`] are told.
+    /// Two faces that cut each other; the first [`MAX_REPORTED_FAULTS`] are reported.
     Cut {
         /// The faces.
         faces: [usize; 2],

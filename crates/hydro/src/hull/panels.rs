@@ -51,7 +51,7 @@ impl Surface {
     ///
     /// # Errors
     /// A polygon with a corner that is no number, with less than three corners that differ, whose edges cross, or which is not
-    /// convex and has more than 256 corners: told with its number, from 1.
+    /// convex and has more than 256 corners: reported with its number, from 1.
     pub fn from_panels(panels: &[Vec<[f64; 3]>], weld: f64) -> Result<Surface, HullError> {
         let weld = if weld.is_finite() { weld.max(0.0) } else { 0.0 };
         let mut welded = Welded { vertices: Vec::new(), cells: HashMap::new(), weld };

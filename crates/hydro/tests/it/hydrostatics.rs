@@ -487,7 +487,7 @@ fn the_platform_of_aqwa_tether_has_its_buoyancy_in_closed_form_and_as_tubes() {
 fn the_printed_hydrostatic_force_in_the_wave_is_the_still_buoyancy_and_the_columns_crests() {
     // 8.2 prints 3.0121E6 kN at t = 0 in a wave of 15 m and 15 s, crest at x = 0 (POS1: columns at x = -6 and -86, depth 345: k
     // of deep water to 1e-5). With the elevation at the axes: 3.0127E6; averaged over the sections of the columns (2 J1(ka) / ka
-    // = 0.9904): 3.0105E6. The listing lies between, 0.05 % from either: how AQWA cuts a tube under a wave is not told.
+    // = 0.9904): 3.0105E6. The listing lies between, 0.05 % from either: how AQWA cuts a tube under a wave is not reported.
     let gamma = 1.025 * 9.81;
     let still = gamma * floating(&pose([-46.0, 0.0, -81.0], [0.0; 3])).volume;
     let k = (2.0 * PI / 15.0).powi(2) / 9.81;

@@ -54,7 +54,7 @@ pub(super) struct Collecting {
 }
 
 impl Interpreter {
-    /// The next raw record, or what to tell the session when the innermost place is empty.
+    /// The next raw record, or what to report to the session when the innermost place is empty.
     pub(super) fn fetch(&mut self) -> Outcome<Result<Record, Step>> {
         loop {
             let Some(frame) = self.frames.last_mut() else { return Ok(Err(Step::Done)) };
@@ -108,7 +108,7 @@ impl Interpreter {
         }
     }
 
-    /// Ends the innermost frame; an error tells of blocks it left open.
+    /// Ends the innermost frame; an error names the blocks it left open.
     pub(super) fn close_frame(&mut self) -> Outcome<()> {
         let result = self.check_closed();
         if let Some(Frame::Macro { .. }) = self.frames.pop() {

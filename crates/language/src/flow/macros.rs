@@ -24,7 +24,7 @@ impl Argument {
     }
 }
 
-/// An option of the picture: the variable that tells whether it was given, and its values.
+/// An option of the picture: the variable that says whether it was given, and its values.
 #[derive(Clone, Debug, PartialEq)]
 struct MacroOption {
     name: String,

@@ -63,7 +63,7 @@ pub struct Shipped {
     /// Cross-sections of the nominal diameter that bear the tension.
     #[serde(default = "unit_factor")]
     legs: f64,
-    /// Exponent of thickness its source gives, over 25 mm unless the source says else; told, not applied.
+    /// Exponent of thickness its source gives, over 25 mm unless the source says else; reported, not applied.
     #[serde(default)]
     pub thickness_exponent: f64,
     /// Key of its source.

@@ -142,7 +142,7 @@ pub struct SegmentLife {
 }
 
 /// Damage and life of each segment of a line over a scatter of environments, with a design fatigue factor (at least 1). Each
-/// segment goes by its own curve; the governing one of [MOSES-FLEX -C_SN] is told by [`LineDamage`].
+/// segment goes by its own curve; the governing one of [MOSES-FLEX -C_SN] is reported by [`LineDamage`].
 ///
 /// # Errors
 /// No environment; records of unlike numbers of segments; a record or duration without length; a factor below 1.

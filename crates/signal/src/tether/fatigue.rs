@@ -44,7 +44,7 @@ impl Endurance {
     }
 }
 
-/// Half cycles counted by stress range into [`BINS`] equal bins from zero.
+/// Half cycles counted by stress range into [`STRESS_RANGE_BINS`] equal bins from zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ranges {
     /// Width of a bin.

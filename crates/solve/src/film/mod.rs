@@ -84,7 +84,7 @@ impl Film {
     /// The film of a run.
     ///
     /// # Errors
-    /// A run without instants, or none in the window; more than a film bears; told to stop.
+    /// A run without instants, or none in the window; more than a film bears; interrupted.
     pub fn build(run: &Run, take: &Take) -> Result<Film, ClassError> {
         let layout = &run.history.layout;
         let links: Vec<usize> = (0..layout.links.len())

@@ -78,7 +78,7 @@ fn covariance(linear: &Linear, response: &Response) -> DMatrix<f64> {
 /// A metre a second beside which a rotation of a radian a second counts ten: the arm of a point on a body (m).
 const ROTATION_ARM_M: f64 = 10.0;
 
-/// The velocities that tell all others of a covariance, each with what it has of its own: the pivots of its Cholesky factor.
+/// The velocities that determine all others of a covariance, each with what it has of its own: the pivots of its Cholesky factor.
 fn pivots(spread: &DMatrix<f64>) -> Vec<usize> {
     let weigh = |i: usize| if i % 6 < 3 { 1.0 } else { ROTATION_ARM_M * ROTATION_ARM_M };
     let mut rest = spread.clone();
@@ -131,7 +131,7 @@ fn mean_damping(linear: &Linear, spread: &DMatrix<f64>, order: &[usize]) -> Resu
         let six = |body: usize| Six::from_fn(|i, _| velocity[6 * body + i]);
         let velocities: Vec<Six> = (0..linear.system.nodes.len()).map(six).collect();
         let more = linear.damping_under(&velocities, &mut forces)? - &linear.damping;
-        // one velocity of a linear damping tells of all
+        // one velocity of a linear damping gives all
         if n == 0 && more.amax() <= 1e-9 * linear.damping.amax() {
             return Ok(None);
         }

@@ -7,7 +7,7 @@ use super::quantity::{Derivative, Quantity};
 use super::response::{Point, Response};
 use std::f64::consts::TAU;
 
-/// Which amplitude about the mean is told as the extreme.
+/// Which amplitude about the mean is reported as the extreme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extreme {
     /// The most probable largest one in a time (s).

@@ -25,7 +25,7 @@ pub struct Told {
 }
 
 impl Told {
-    /// A quantity to be told of.
+    /// A quantity to be reported.
     pub fn new(name: impl Into<String>, dim: Dim, quantity: Quantity) -> Self {
         Told { name: name.into(), dim, quantity }
     }

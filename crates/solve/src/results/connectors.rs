@@ -13,7 +13,7 @@ use windlass_base::units::Dim;
 use windlass_hydro::Category;
 use windlass_model::ClassError;
 
-/// The force of a connector by which its pull is told ([`Layout::pull`]), global axes (N); none while the connector does not act.
+/// The force of a connector by which its pull is reported ([`Layout::pull`]), global axes (N); none while the connector does not act.
 pub(super) fn force(layout: &Layout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
     let columns = layout.links.get(link)?;
     let acts = row.get(columns.active).is_some_and(|a| *a > 0.0);

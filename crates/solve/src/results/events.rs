@@ -1,4 +1,4 @@
-//! Which instants of a run are told.
+//! Which instants of a run are reported.
 
 use super::super::time::History;
 use windlass_base::units::Dim;

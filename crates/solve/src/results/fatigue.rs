@@ -138,7 +138,7 @@ fn turning_points(series: &[f64]) -> impl Iterator<Item = usize> + '_ {
 /// is the design fatigue factor.
 ///
 /// # Errors
-/// Runs that do not tell of the same lines and segments; a duration or record without length.
+/// Runs that do not report the same lines and segments; a duration or record without length.
 pub fn scatter(runs: &[Exposed], factor: f64) -> Result<Table, SeriesError> {
     let days: f64 = runs.iter().map(|r| r.duration).sum();
     let mut table = Table::new("Fatigue of Lines")

@@ -1,7 +1,7 @@
 //! What a run found, as tables: motions of bodies and points, forces and lengths of connectors, forces on bodies.
 //!
 //! Source: [MOSES-REF ppo_conn, ppo_bodies]. A table has a row an event. A command says what it makes of a stored row of a
-//! [`History`]; which instants are told, and what lies between stored ones, is decided here for all of them.
+//! [`History`]; which instants are reported, and what lies between stored ones, is decided here for all of them.
 
 pub mod along;
 mod connectors;

@@ -10,7 +10,7 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_model::Mass;
 
-/// How motions are told.
+/// How motions are reported.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Told {
     /// Of the centre of gravity, instead of the origin.

@@ -9,7 +9,7 @@ use windlass_base::geometry::Position;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 
-/// A point that is told of.
+/// A point that is reported.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrackedPoint {
     /// Its name as written.

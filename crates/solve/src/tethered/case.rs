@@ -61,7 +61,7 @@ pub struct Installed {
     pub course: Course,
     /// The centre of gravity in the axes of the body (m).
     pub centre: Vector3<f64>,
-    /// Nodes of the body that are told of: names, and places from the centre of gravity in its axes (m).
+    /// Nodes of the body that are reported: names, and places from the centre of gravity in its axes (m).
     pub points: Vec<(String, Vector3<f64>)>,
 }
 

@@ -60,7 +60,7 @@ pub struct Tethered {
     pub seed: Option<u64>,
     /// What a user should know of how the case was made.
     pub notes: Vec<String>,
-    /// Whether it was told to stop before its end.
+    /// Whether it was interrupted before its end.
     pub interrupted: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What is told of a tether before it runs: its description and its natural modes.
+//! What is reported of a tether before it runs: its description and its natural modes.
 
 use super::case::{Kind, case, sections};
 use super::{Settings, case::Installed};
@@ -9,7 +9,7 @@ use windlass_model::{ClassError, Model};
 use windlass_tether::installed::description::Description;
 use windlass_tether::installed::modes::modes;
 
-/// Settings under which a case is made to be told of, not to be run.
+/// Settings under which a case is made to be reported, not to be run.
 const AT_REST: Settings =
     Settings { observed: 1.0, step: 1.0, store: 1, compatible: false, slam: 0.0, tow: [0.0; 2], transient: 0.0 };
 

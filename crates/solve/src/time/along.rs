@@ -19,7 +19,7 @@ const OF_BENT: usize = OF_NODE + 8;
 pub struct AlongColumns {
     /// Where they begin.
     pub at: usize,
-    /// Whether its nodes have a wall, shear and moments to tell.
+    /// Whether its nodes have a wall, shear and moments to report.
     pub bends: bool,
     /// Numbers of the nodes that are kept, from 1 at the first end.
     pub numbers: Vec<usize>,
@@ -116,7 +116,7 @@ impl AlongColumns {
             let (first, rest) = place.split_at_mut(OF_NODE);
             first.copy_from_slice(&told);
             if self.bends {
-                // of a line that tells its moment alone, all of it is about one direction
+                // of a line that reports its moment alone, all of it is about one direction
                 let bends = if node.bends == [0.0; 2] { [*moment, 0.0] } else { node.bends };
                 let behind = node.side_after();
                 let mises = [node.before.unwrap_or(behind), behind].map(|side| side.von_mises());
@@ -157,7 +157,7 @@ impl AlongColumns {
     }
 }
 
-/// Quantities of a node whose least, mean and most are told.
+/// Quantities of a node whose least, mean and most are reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Unstretched distance from the first end (m).

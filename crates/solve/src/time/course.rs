@@ -1,4 +1,4 @@
-//! How a run is to go, how it ended and what it did, and who is told as it goes.
+//! How a run is to go, how it ended and what it did, and who follows it.
 
 use super::along::AlongColumns;
 use super::history::Layout;
@@ -25,7 +25,7 @@ pub struct Settings {
     pub capsize: bool,
     /// Largest error of place of one step (m; rotations times 10 m): steps are halved as it asks. None: steps are as given.
     pub adaptive: Option<f64>,
-    /// Keeps rows. Without, only who is told of them has them.
+    /// Keeps rows. Without, only watchers have them.
     pub keep: bool,
     /// Of the nodes of dynamic lines every so manieth is kept; 0: none.
     pub along: usize,
@@ -68,7 +68,7 @@ impl Settings {
 pub enum Ending {
     /// At its end.
     Done,
-    /// It was told to stop.
+    /// It was interrupted.
     Interrupted,
     /// A body rolled or pitched beyond 90 degrees.
     Capsized(String),
@@ -89,7 +89,7 @@ pub struct Counts {
     pub evaluations: usize,
 }
 
-/// Who is told how a run goes.
+/// Who follows how a run goes.
 pub trait Watcher {
     /// A stored row.
     ///

@@ -7,7 +7,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_model::End;
 
 /// An end of a connector on a body that moves, or in the ground, and its arm from the origin of its body (m, global). Its acceleration
-/// is told where it is wanted.
+/// is reported where it is wanted.
 pub(crate) fn end_of(end: &Attachment, motions: &[Motion], accelerates: bool) -> (End, Vector3<f64>) {
     let (body, at) = match end {
         Attachment::Ground(pose) => return (End::still(*pose), Vector3::zeros()),

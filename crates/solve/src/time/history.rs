@@ -1,6 +1,6 @@
 //! What a run keeps: a row of numbers for every stored instant, in the order of a layout that does not change during the run.
 //!
-//! A row holds the motions of the bodies, the wrenches of the connectors, and the nodes of dynamic lines. What else is told of an instant (line on the bottom,
+//! A row holds the motions of the bodies, the wrenches of the connectors, and the nodes of dynamic lines. What else is reported of an instant (line on the bottom,
 //! pull on the anchor, share of the break) follows from these when it is asked for.
 
 use super::along::AlongColumns;
@@ -25,13 +25,13 @@ pub struct LinkColumns {
     pub name: String,
     /// The body at each end; none in the ground.
     pub ends: Vec<Option<usize>>,
-    /// The end by whose force its pull is told, where that is on a body.
+    /// The end by whose force its pull is reported, where that is on a body.
     pub pulling: usize,
     /// Where the wrenches on its ends on bodies begin, six each, in the order of the ends.
     pub wrench: usize,
     /// Where it says whether it acts, 1 or 0, and the length of its first segment (m; not a number without one).
     pub active: usize,
-    /// Where its nodes stand, where it tells of them and they are kept.
+    /// Where its nodes stand, where it reports them and they are kept.
     pub along: Option<AlongColumns>,
     /// Of one that may push, where it does.
     pub pushing: Option<Pushing>,
@@ -44,9 +44,9 @@ pub struct LinkEnds {
     pub name: String,
     /// The body at each end; none in the ground.
     pub ends: Vec<Option<usize>>,
-    /// The end by whose force its pull is told, where that is on a body.
+    /// The end by whose force its pull is reported, where that is on a body.
     pub pulling: usize,
-    /// How many nodes it tells of at most, and whether they bend.
+    /// How many nodes it reports at most, and whether they bend.
     pub nodes: (usize, bool),
     /// Of one that may push, where it does.
     pub pushing: Option<Pushing>,
@@ -109,7 +109,7 @@ impl Layout {
         Some(self.forces + 6 * (body * self.categories.len() + at))
     }
 
-    /// Where the wrench stands by which the pull of a connector is told: on the end that its element says, or else the first of its ends
+    /// Where the wrench stands by which the pull of a connector is reported: on the end that its element says, or else the first of its ends
     /// that is on a body; `None` where all are in the ground.
     pub fn pull(&self, link: usize) -> Option<usize> {
         let columns = self.links.get(link)?;
@@ -189,7 +189,7 @@ impl Layout {
     /// Writes the row of an instant. `near` are the places of the row before: angles go on from them without a jump.
     ///
     /// # Errors
-    /// A line that cannot tell of its nodes.
+    /// A line that cannot report its nodes.
     pub fn write(
         &self,
         (system, time): (&System, f64),

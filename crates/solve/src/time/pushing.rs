@@ -18,12 +18,12 @@ pub(super) fn pull(force: &Vector3<f64>, apart: &Vector3<f64>, from: f64) -> f64
 pub struct Pushing {
     /// Least distance of its ends from which on it does (m).
     from: f64,
-    /// The end whose force is told, and the other: a body with the point in its system, or a place in the ground (m).
+    /// The end whose force is reported, and the other: a body with the point in its system, or a place in the ground (m).
     ends: [(Option<usize>, Vector3<f64>); 2],
 }
 
 impl Pushing {
-    /// Of a connector between two ends, of which that of a number is told, or else the first on a body.
+    /// Of a connector between two ends, of which that of a number is reported, or else the first on a body.
     pub(crate) fn new(from: f64, ends: &[Attachment], told: usize) -> Option<Self> {
         let place = |end: &Attachment| match end {
             Attachment::Ground(pose) => (None, pose.origin),
@@ -36,7 +36,7 @@ impl Pushing {
         Some(Pushing { from, ends: [place(near), place(far)] })
     }
 
-    /// The pull by the force on the end that is told (N), where a row has the bodies.
+    /// The pull by the force on the end that is reported (N), where a row has the bodies.
     pub(super) fn pull(&self, force: &Vector3<f64>, row: &[f64]) -> f64 {
         let [near, far] = self.ends.map(|(body, at)| body.map_or(at, |b| pose(row, b).point(at)));
         pull(force, &(far - near), self.from)

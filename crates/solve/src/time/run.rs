@@ -77,7 +77,7 @@ struct Before {
     states: Vec<f64>,
 }
 
-/// A watcher could not keep what it was told: the disk is full, say.
+/// A watcher could not store what it was given: the disk is full, say.
 fn unkept(text: String) -> SolveError {
     SolveError::new(ClassError::new(text).help(
         "the run ends here and what it has stays for PRCPOST; with room for its file, TDOM -RESTART goes on from the last snapshot there",
@@ -326,7 +326,7 @@ impl Run {
         }
     }
 
-    /// What is behind a step without a solution, where that can be told.
+    /// What is behind a step without a solution, where that can be determined.
     fn reason(&self, error: SolveError) -> SolveError {
         let poses: Vec<_> = self.now.motions.iter().map(|m| m.pose).collect();
         if let Some(lacks) = self.system.without_inertia(&poses) {

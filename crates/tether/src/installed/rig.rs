@@ -190,7 +190,7 @@ impl Rig {
         }
     }
 
-    /// Finds what the elements bear and their stresses, of the stage just solved; `time` (s) is that they are told for.
+    /// Finds what the elements bear and their stresses, of the stage just solved; `time` (s) is that they are reported for.
     pub(super) fn bear(&mut self, which: Which, water: &FlowAt, dt: f64, time: f64) {
         let impact = self.impact_stress(time);
         let stage = Stage { axis: &self.axis, attachment: &self.attachment, tension: &self.tension, water, dt };

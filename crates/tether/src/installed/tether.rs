@@ -31,16 +31,16 @@ impl Default for EndSprings {
 /// A value of an end spring that was not taken as it was given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DefaultTaken {
-    /// No values were given: all are [`RIGID`].
+    /// No values were given: all are [`RIGID_STIFFNESS`].
     Missing,
-    /// The inline stiffness was blank, zero or negative: it is [`RIGID`].
+    /// The inline stiffness was blank, zero or negative: it is [`RIGID_STIFFNESS`].
     Inline,
     /// The rotational stiffness about X (0) or Y (1) was negative: it is zero.
     Rotation(usize),
 }
 
 impl DefaultTaken {
-    /// What to tell of it.
+    /// What to report of it.
     pub const fn text(self) -> &'static str {
         match self {
             DefaultTaken::Missing => "no end springs are given: all are rigid (1E15)",

@@ -37,7 +37,7 @@ pub const MAX_WAVES: usize = 10_000;
 /// Springs of one end of a towed tether (cards TSPA, TSPV), slack where the tether is straight on its axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EndSpring {
-    /// Along the axis (N/m): only the description tells it, nothing moves along the axis.
+    /// Along the axis (N/m): only the description reports it, nothing moves along the axis.
     pub along: f64,
     /// Along y (N/m).
     pub y: f64,

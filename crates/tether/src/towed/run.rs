@@ -1,4 +1,4 @@
-//! A run of a towed tether in time, and what is told of each step.
+//! A run of a towed tether in time, and what is reported of each step.
 
 use super::Towed;
 use super::scheme::{Scheme, State, USUAL_B};
@@ -38,7 +38,7 @@ pub struct End {
     pub stress: [f64; 3],
 }
 
-/// What a run tells of one time. Rotations are by the right hand: RY = -z', RZ = y'.
+/// What a run reports of one time. Rotations are by the right hand: RY = -z', RZ = y'.
 #[derive(Clone, Copy, Debug)]
 pub struct Record<'a> {
     /// Its number from 0.

@@ -106,7 +106,7 @@ impl<'a> Scheme<'a> {
         let result = self.stage(1, state, Some(&ahead));
         self.ahead = ahead;
         result?;
-        // one sum tells of any value that is not finite
+        // one sum shows any value that is not finite
         let sum: f64 = self.accelerations.iter().flatten().flatten().sum();
         if !sum.is_finite() {
             let message = "the motion of the towed tether has no bound at the time {}, with a step of {}";

@@ -114,7 +114,7 @@ fn the_twelve_periods_are_those_of_the_listing_and_the_shapes_with_them() {
             let shape = &want["shape"][(node + 1).to_string()];
             (number(&shape["height"]), ["X", "Y", "RX", "RY"].map(|key| number(&shape[key])))
         };
-        // a mode may be told either way round
+        // a mode may be given either way round
         let product: f64 = (0..4).flat_map(|n| mode.node(n).into_iter().zip(printed(n).1)).map(|(a, b)| a * b).sum();
         for node in 0..4 {
             let (height, shape) = printed(node);

@@ -28,14 +28,14 @@ pub struct MeshFile {
     pub mirrored: [bool; 2],
     /// Characteristic length ULEN of a GDF, in the file's unit; coordinates are not scaled by it.
     pub length: Option<f64>,
-    /// Gravity of a GDF, by which its unit can be told: 9.8 in metres, 32.2 in feet.
+    /// Gravity of a GDF, by which its unit can be determined: 9.8 in metres, 32.2 in feet.
     pub gravity: Option<f64>,
 }
 
 /// Reads a mesh file. Memory is in proportion to its length: numbers stated in it are checked against what follows.
 ///
 /// # Errors
-/// What does not have the form: told with its line, or its byte in a binary file.
+/// What does not have the form: reported with its line, or its byte in a binary file.
 pub fn read_mesh(kind: MeshKind, bytes: &[u8]) -> Result<MeshFile, HullError> {
     match kind {
         MeshKind::Stl => stl::read(bytes),

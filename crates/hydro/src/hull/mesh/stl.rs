@@ -1,5 +1,5 @@
 //! STL: triangles, in text (`solid` .. `facet` .. `vertex`) or binary (80 bytes, a count, 50 bytes a triangle). Normals stated in it are
-//! not used: the order of corners tells the outside, as the format demands of both.
+//! not used: the order of corners defines the outside, as the format demands of both.
 
 use super::{MeshFile, at_line, shorten_for_message, triple};
 use crate::hull::HullError;

@@ -13,7 +13,7 @@ use windlass_model::{DYNAMIC, Element, End, LineNode, Model, Situation};
 /// stand, and its state before anything has happened.
 ///
 /// # Errors
-/// What telling comes to.
+/// What reporting comes to.
 pub(crate) fn standing(
     model: &Model,
     fits: &dyn Fn(&str) -> bool,
@@ -36,7 +36,7 @@ pub(crate) fn standing(
         let element = match model.element_in(connector, Some(&around)) {
             Ok(element) => element,
             Err(error) if model.moves(connector) => return Err(SolveError::about(&connector.name)(error)),
-            // what makes no element here tells of no nodes; who needs its force says why
+            // what makes no element here reports no nodes; who needs its force says why
             Err(_) => continue,
         };
         told(&connector.name, element.as_ref(), &end_attachments(model, connector))?;

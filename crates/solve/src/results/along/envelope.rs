@@ -8,7 +8,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::DYNAMIC;
 
-/// Quantities told, with the head of their columns and the sign they have there.
+/// Quantities reported, with the head of their columns and the sign they have there.
 const ENVELOPE_QUANTITIES: [(&str, &str, Quantity, Dim); 6] = [
     ("Clearance", "C", Quantity::Clearance, Dim::Length),
     ("Effective Tension", "T", Quantity::Effective, Dim::Force),

@@ -131,7 +131,7 @@ impl<'a> Line<'a> {
     /// The line of a name.
     ///
     /// # Errors
-    /// No such connector in the run, one that tells of no nodes, or whose nodes the run did not keep.
+    /// No such connector in the run, one that reports no nodes, or whose nodes the run did not keep.
     pub fn find(run: &'a Run, name: &str) -> Result<Self, ClassError> {
         let layout = &run.history.layout;
         let name = line_name(name);

@@ -1,4 +1,4 @@
-//! What an installed tether tells of its ends and its length: arc, what elements bear, what the structure feels.
+//! What an installed tether reports of its ends and its length: arc, what elements bear, what the structure feels.
 
 use super::{Bending, Cell, LOOK_AHEAD, Motion, Stage};
 use crate::beam::{self, Vector4};
