@@ -12,10 +12,10 @@ use windlass_base::pose::Pose;
 use windlass_hydro::BodyLoad;
 use windlass_hydro::current::CurrentField;
 use windlass_hydro::exposed::Skin;
-use windlass_hydro::hull::{Solid, Surface, Tube};
+use windlass_hydro::hull::{Solid, Surface, TubeHull};
 use windlass_hydro::pieces::PieceLoad;
 use windlass_hydro::steady::{Medium, Steady};
-use windlass_hydro::wind::{Profile, WindField};
+use windlass_hydro::wind::{WindField, WindProfile};
 use windlass_model::Model;
 
 /// A sphere of radius 10 m between `rows` parallels and twice as many meridians.
@@ -35,13 +35,13 @@ fn sphere(rows: usize) -> Surface {
 fn benches(c: &mut Criterion) {
     let pose = Pose::of(&Place::new([100.0, 50.0, -1.0, 0.2, -0.1, 0.7]));
     let block = Surface::block([-10.0, -4.0, -3.0], [10.0, 4.0, 3.0]);
-    let tube = Tube { ends: [Vector3::new(-10.0, 0.0, 0.0), Vector3::new(10.0, 0.0, 1.0)], diameter: 4.0 };
+    let tube = TubeHull { ends: [Vector3::new(-10.0, 0.0, 0.0), Vector3::new(10.0, 0.0, 1.0)], diameter: 4.0 };
     let ball = sphere(23);
     assert!(ball.faces.len() > 2000 && ball.faults().is_empty());
     let mut group = c.benchmark_group("hydrostatics");
     group.bench_function("box", |b| b.iter(|| black_box(&block).wet(black_box(&pose), 0.0).load(1e4)));
     group.bench_function("tube", |b| b.iter(|| black_box(&tube).wet(black_box(&pose), 0.0).load(1e4)));
-    let wind = WindField::steady(30.0, 0.4, Profile::Power(1.0 / 7.0));
+    let wind = WindField::steady(30.0, 0.4, WindProfile::Power(1.0 / 7.0));
     let steady = Steady {
         around: Model::default().surroundings(),
         wind: Some(wind),

@@ -14,7 +14,7 @@ mod report;
 use report::report;
 use windlass_base::pose::Pose;
 use windlass_solve::System;
-use windlass_solve::offset::{Connectors, Pull};
+use windlass_solve::offset::{BodyConnectors, ConnectorPull};
 
 const OFFSETS: usize = 200;
 const FARTHEST: f64 = 40.0;
@@ -26,8 +26,8 @@ fn main() {
     let start: Vec<Pose> = system.state(&model).poses;
     let at = |n: usize| FARTHEST * n as f64 / (OFFSETS - 1) as f64;
     report("forces and tensions", OFFSETS, || {
-        let mut connectors = Connectors::on_body(&system, 0).unwrap();
-        let (mut poses, mut pull, mut sum) = (start.clone(), Pull::default(), 0.0);
+        let mut connectors = BodyConnectors::on_body(&system, 0).unwrap();
+        let (mut poses, mut pull, mut sum) = (start.clone(), ConnectorPull::default(), 0.0);
         for n in 0..OFFSETS {
             poses[0].origin.x = at(n);
             connectors.pull(&system, &poses, &mut pull).unwrap();
@@ -45,7 +45,8 @@ fn main() {
         }
         sum
     });
-    let (mut connectors, mut poses, mut pull) = (Connectors::on_body(&system, 0).unwrap(), start, Pull::default());
+    let (mut connectors, mut poses, mut pull) =
+        (BodyConnectors::on_body(&system, 0).unwrap(), start, ConnectorPull::default());
     for n in 0..OFFSETS {
         poses[0].origin.x = at(n);
         connectors.pull(&system, &poses, &mut pull).unwrap();

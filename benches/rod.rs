@@ -22,7 +22,7 @@ mod rods;
 use nalgebra::Vector3;
 use std::process::Command;
 use std::time::Instant;
-use windlass_line_dynamics::{End, Motion, Settings};
+use windlass_line_dynamics::{RodEnd, RodEndMotion, RodSettings};
 
 const SPAN: f64 = 120.0;
 const STEP: f64 = 0.1;
@@ -37,7 +37,7 @@ fn seconds(since: Instant) -> f64 {
 /// Fairlead force at each step, seconds it took, iterations. With `body` as a body at the fairlead asks for it: a trial
 /// at a motion a centimetre off, the end tangent there, and a second trial.
 fn run(elements: usize, step: f64, tolerance: f64, body: bool) -> (Vec<f64>, f64, usize) {
-    let settings = Settings { tolerance, ..Settings::default() };
+    let settings = RodSettings { tolerance, ..RodSettings::default() };
     moordyn::chain((elements, settings), |rod, solver, state, world, anchor, _| {
         let (since, mut iterations) = (Instant::now(), 0);
         let start = seconds(since);
@@ -46,16 +46,16 @@ fn run(elements: usize, step: f64, tolerance: f64, body: bool) -> (Vec<f64>, f64
             let motion = moordyn::driven(t);
             if body {
                 let off = Vector3::new(0.006, 0.0, -0.008);
-                let guess = Motion {
+                let guess = RodEndMotion {
                     position: motion.position + off,
                     velocity: motion.velocity + off * (2.0 / step),
                     acceleration: motion.acceleration + off * (4.0 / step / step),
                 };
-                let made = solver.trial(rod, state, world, t, [anchor, End::from_motion(guess)]).unwrap();
+                let made = solver.trial(rod, state, world, t, [anchor, RodEnd::from_motion(guess)]).unwrap();
                 iterations += made.iterations;
                 assert!(solver.end_tangent_from_factors(rod, world).unwrap().position[(6, 6)] < 0.0);
             }
-            let made = solver.step(rod, state, world, t, [anchor, End::from_motion(motion)]).unwrap();
+            let made = solver.step(rod, state, world, t, [anchor, RodEnd::from_motion(motion)]).unwrap();
             iterations += made.iterations;
             made.force[1].norm()
         };
@@ -130,7 +130,8 @@ fn main() {
     let mut speeds = Vec::new();
     for (name, body) in [("chain900", false), ("chain900 with a body", true)] {
         for elements in [20, 50, 100, 200, 400].into_iter().filter(|_| wanted(name)) {
-            let runs: Vec<_> = (0..PASSES).map(|_| run(elements, STEP, Settings::default().tolerance, body)).collect();
+            let runs: Vec<_> =
+                (0..PASSES).map(|_| run(elements, STEP, RodSettings::default().tolerance, body)).collect();
             let speed = SPAN / runs.iter().map(|r| r.1).fold(f64::INFINITY, f64::min);
             let (forces, _, iterations) = &runs[0];
             let error = converged.error(forces.iter().copied().enumerate().map(timed));

@@ -14,7 +14,7 @@ mod measured;
 use std::sync::Arc;
 use std::time::Instant;
 use windlass_model::{Database, Model};
-use windlass_solve::time::{Convergence, Method, Run, Settings, Watcher};
+use windlass_solve::time::{Convergence, Method, Run, RunSettings, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;
@@ -54,7 +54,7 @@ fn pass(name: &str, model: &Model, keep: bool) {
 
 /// A run over some seconds of the sea.
 fn pass_of(observed: f64, name: &str, model: &Model, keep: bool) {
-    let settings = Settings {
+    let settings = RunSettings {
         observed,
         dt: STEP,
         method: Method::default(),

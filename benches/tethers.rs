@@ -9,8 +9,8 @@ mod measured;
 
 use std::time::Instant;
 use windlass_model::Model;
-use windlass_signal::tether::fatigue::{Asked, Endurance};
-use windlass_solve::tethered::{Settings, Statistics, Tethered, run};
+use windlass_signal::tether::fatigue::{Endurance, FatigueSettings};
+use windlass_solve::tethered::{TetherRunSettings, TetherStatistics, Tethered, run};
 
 /// The model that a script has before its run.
 fn scripted(name: &str) -> Model {
@@ -32,8 +32,8 @@ fn afloat(elements: usize) -> Model {
 
 /// Everything that a listing tells of a run.
 fn told(made: &Tethered) {
-    let whole = Statistics::new(made, 24.75, f64::INFINITY);
-    let asked = Asked { duration: 1.0, curve: Endurance::KILONEWTONS.in_unit(1000.0), peak_time: 10_800.0 };
+    let whole = TetherStatistics::new(made, 24.75, f64::INFINITY);
+    let asked = FatigueSettings { duration: 1.0, curve: Endurance::KILONEWTONS.in_unit(1000.0), peak_time: 10_800.0 };
     for tether in &made.tethers {
         whole.type_one(made, tether).unwrap();
         whole.type_two(made, tether).unwrap();
@@ -43,7 +43,7 @@ fn told(made: &Tethered) {
     }
 }
 
-fn pass(name: &str, model: &Model, settings: Settings, statistics: bool) {
+fn pass(name: &str, model: &Model, settings: TetherRunSettings, statistics: bool) {
     let mut least = f64::INFINITY;
     let begin = Instant::now();
     let mut records;
@@ -65,7 +65,7 @@ fn pass(name: &str, model: &Model, settings: Settings, statistics: bool) {
 }
 
 fn main() {
-    let settings = |observed, step, store| Settings {
+    let settings = |observed, step, store| TetherRunSettings {
         observed,
         step,
         store,

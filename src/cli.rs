@@ -4,7 +4,7 @@ use crate::command::verdict::{OverBreak, Verdict};
 use crate::repl;
 use crate::report::files::JobFolder;
 use crate::report::output::Output;
-use crate::session::{End, Session, read_all};
+use crate::session::{Session, SessionEnd, read_all};
 use clap::Parser;
 use std::io::{BufWriter, ErrorKind, IsTerminal, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -136,7 +136,7 @@ impl Subcommand {
 }
 
 /// Where records come from.
-enum Input {
+enum RecordSource {
     /// All records of `-c`, one a line.
     Records(String),
     Script {
@@ -260,23 +260,23 @@ fn run_job(cli: JobArgs) -> u8 {
     let mut session = Session::new(Output::new(folder, screen, Box::new(stderr()), colour));
     session.job.output.columns = screen_columns;
     session.job.settings.batch = cli.batch;
-    session.job.output.keep_log = cli.out.is_some() || !matches!(input, Input::Records(_));
+    session.job.output.keep_log = cli.out.is_some() || !matches!(input, RecordSource::Records(_));
     // nothing has set it before
     let _ = running.set(Arc::clone(&session.interpreter.interrupt));
     let (end, stay) = match input {
-        Input::Records(records) => {
+        RecordSource::Records(records) => {
             session.open("-c", records);
             (session.run(), cli.interactive)
         }
-        Input::Script { name, text, then_terminal } => {
+        RecordSource::Script { name, text, then_terminal } => {
             session.open_job(&name, text);
             (session.run(), cli.interactive || then_terminal)
         }
-        Input::Terminal => (End::Done, true),
+        RecordSource::Terminal => (SessionEnd::Done, true),
     };
     session.job.output.flush();
     let of_script = exit_code(&session);
-    if stay && (end != End::Finished || (cli.interactive && !cli.batch)) {
+    if stay && (end != SessionEnd::Finished || (cli.interactive && !cli.batch)) {
         repl::run(&mut session, terminal);
     }
     session.finish();
@@ -334,7 +334,7 @@ fn screen_columns() -> Option<usize> {
     stdout().is_terminal().then(|| size().map(|(width, _)| usize::from(width.0)).filter(|w| *w > 0).unwrap_or(80))
 }
 
-fn input(cli: &JobArgs, terminal: bool) -> Result<(Input, PathBuf), String> {
+fn input(cli: &JobArgs, terminal: bool) -> Result<(RecordSource, PathBuf), String> {
     let here = PathBuf::from("windlass");
     if !cli.commands.is_empty() {
         if let Some(job) = &cli.job {
@@ -342,7 +342,7 @@ fn input(cli: &JobArgs, terminal: bool) -> Result<(Input, PathBuf), String> {
                 "a script and -c cannot be given together; if `{job}` is a record, it needs a -c of its own"
             ));
         }
-        return Ok((Input::Records(cli.commands.join("\n")), here));
+        return Ok((RecordSource::Records(cli.commands.join("\n")), here));
     }
     if let Some(surplus) = cli.surplus.first() {
         return Err(match cli.job.as_ref().and_then(|job| meant_command(job, true)) {
@@ -351,7 +351,7 @@ fn input(cli: &JobArgs, terminal: bool) -> Result<(Input, PathBuf), String> {
         });
     }
     let Some(job) = &cli.job else {
-        return if terminal { Ok((Input::Terminal, here)) } else { Ok((standard_input()?, here)) };
+        return if terminal { Ok((RecordSource::Terminal, here)) } else { Ok((standard_input()?, here)) };
     };
     if job == "-" {
         return Ok((standard_input()?, here));
@@ -359,11 +359,14 @@ fn input(cli: &JobArgs, terminal: bool) -> Result<(Input, PathBuf), String> {
     let path = Path::new(job);
     if path.is_file() {
         let text = crate::session::read_text(path)?;
-        return Ok((Input::Script { name: job.clone(), text, then_terminal: false }, path.with_extension("")));
+        return Ok((RecordSource::Script { name: job.clone(), text, then_terminal: false }, path.with_extension("")));
     }
     if let Some(script) = script_of_root(path) {
         let text = crate::session::read_text(&script)?;
-        return Ok((Input::Script { name: script.display().to_string(), text, then_terminal: true }, path.into()));
+        return Ok((
+            RecordSource::Script { name: script.display().to_string(), text, then_terminal: true },
+            path.into(),
+        ));
     }
     if path.is_dir() {
         return Err(format!("{job} is a folder"));
@@ -378,7 +381,7 @@ fn input(cli: &JobArgs, terminal: bool) -> Result<(Input, PathBuf), String> {
             if script { String::new() } else { format!(", nor {job}.cif") }
         ));
     }
-    Ok((Input::Terminal, path.into()))
+    Ok((RecordSource::Terminal, path.into()))
 }
 
 /// What to say of a word that is no file and is a command but for its case, or is near to one: a lone word may be a new ROOT.
@@ -401,7 +404,7 @@ fn script_of_root(root: &Path) -> Option<PathBuf> {
     [".cif", ".CIF"].map(with).into_iter().find(|script| script.is_file())
 }
 
-fn standard_input() -> Result<Input, String> {
+fn standard_input() -> Result<RecordSource, String> {
     let text = read_all(stdin(), "standard input")?;
-    Ok(Input::Script { name: "standard input".into(), text, then_terminal: false })
+    Ok(RecordSource::Script { name: "standard input".into(), text, then_terminal: false })
 }

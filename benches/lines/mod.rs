@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 use windlass_base::units::{METRES_PER_FOOT, NEWTONS_PER_KIP};
-use windlass_catenary::{Bottom, Joint, Line, Segment};
+use windlass_catenary::{FlatBottom, Joint, Line, Segment};
 
 /// Steps of the path.
 pub const STEPS: usize = 100;
@@ -14,7 +14,7 @@ pub struct Moving {
     segment: Segment,
     x: f64,
     z: f64,
-    bottom: Option<Bottom>,
+    bottom: Option<FlatBottom>,
 }
 
 impl Moving {
@@ -23,7 +23,7 @@ impl Moving {
         let read = |row: csv::StringRecord| {
             let v = |i: usize| row[i].parse::<f64>().unwrap();
             let segment = Segment { length: v(4), ea: v(5), weight: v(6) };
-            Moving { segment, x: v(2), z: v(3), bottom: (&row[8] == "0").then(|| Bottom { friction: v(7) }) }
+            Moving { segment, x: v(2), z: v(3), bottom: (&row[8] == "0").then(|| FlatBottom { friction: v(7) }) }
         };
         csv::Reader::from_path("tests/data/catenary_2000.csv").unwrap().records().map(|r| read(r.unwrap())).collect()
     }

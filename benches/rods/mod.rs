@@ -7,7 +7,7 @@ use crate::{eight, measured};
 use std::sync::Arc;
 use std::time::Instant;
 use windlass_model::{Database, Model};
-use windlass_solve::time::{Convergence, Counts, Method, Run, Settings, Watcher};
+use windlass_solve::time::{Convergence, Counts, Method, Run, RunSettings, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;
@@ -65,7 +65,7 @@ pub struct Made {
 /// The least of some runs over a span by a step (s), as TDOM makes them: every instant kept, with `along` every so manieth node.
 /// Each is made on one thread and on all, and must come to the same.
 pub fn run(model: &Model, (span, dt): (f64, f64), along: usize, passes: usize) -> Made {
-    let settings = Settings {
+    let settings = RunSettings {
         observed: span,
         dt,
         method: Method::default(),

@@ -27,10 +27,10 @@ use windlass_hydro::database::wamit::{self, WamitScale};
 use windlass_hydro::database::{SourceFile, capytaine, nemoh};
 use windlass_hydro::hull::{MeshKind, read_mesh};
 use windlass_language::args;
-use windlass_language::flow::{Interpreter, Step};
+use windlass_language::flow::{FlowStep, Interpreter};
 use windlass_language::record::Record;
 use windlass_language::source::{Sources, Text, floor_boundary};
-use windlass_language::token::Kind;
+use windlass_language::token::TokenKind;
 use windlass_solve::time::Snapshot;
 
 /// Records a script may execute: the loops of one input are not run for long.
@@ -60,9 +60,9 @@ pub fn records(data: &[u8]) {
     // an error is said and the next record read, as the session has it
     for _ in 0..4 * RECORDS {
         match interpreter.next_step(&mut job) {
-            Ok(Step::Record(record)) => read_record(&mut interpreter, &record),
-            Ok(Step::Ended(_)) | Err(_) => {}
-            Ok(Step::NeedLine | Step::Done) => return,
+            Ok(FlowStep::Record(record)) => read_record(&mut interpreter, &record),
+            Ok(FlowStep::Ended(_)) | Err(_) => {}
+            Ok(FlowStep::NeedLine | FlowStep::Done) => return,
         }
     }
 }
@@ -75,16 +75,16 @@ fn read_record(interpreter: &mut Interpreter, record: &Record) {
         let _ = interpreter.call(&called, record);
     }
     let name = match first.kind {
-        Kind::Class => "~CLASS",
-        Kind::Point => "*POINT",
-        Kind::Selector => ":SELECTOR",
+        TokenKind::Class => "~CLASS",
+        TokenKind::Point => "*POINT",
+        TokenKind::Selector => ":SELECTOR",
         _ => &first.text,
     };
     let given = words.get(1..).unwrap_or_default();
     for command in COMMANDS.iter().filter(|c| c.spec.name.eq_ignore_ascii_case(name)) {
         let _ = args::read(command.spec, first.span, given, UnitSystem::default());
     }
-    if let (Kind::Class, Some(kind)) = (first.kind, given.first()) {
+    if let (TokenKind::Class, Some(kind)) = (first.kind, given.first()) {
         for class in CLASSES.iter().filter(|c| c.spec.name.eq_ignore_ascii_case(&kind.text)) {
             let _ = args::read(class.spec, kind.span, words.get(2..).unwrap_or_default(), UnitSystem::SI);
         }

@@ -11,7 +11,7 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, PIPE, find, line_name};
 use windlass_solve::DOFS;
-use windlass_solve::time::{Action, Watched, What, When};
+use windlass_solve::time::{Action, ActionKind, Observable, Trigger};
 
 /// &ACTION.
 pub static ACTION: Command = Command { spec: &SPEC, edits: false, run };
@@ -125,54 +125,54 @@ fn only<'a>(args: &'a Args, options: &[OptionSpec], of: &str) -> Outcome<&'a Giv
     }
 }
 
-fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<When> {
+fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<Trigger> {
     let place = given.first_place();
     let name = given.first_word().unwrap_or_default();
     let number = |key| given.number(key).unwrap_or(0.0);
     let line = || match model.assemblies.get(&Model::key(line_name(name))) {
-        Some(pipe) if pipe.name == PIPE => Ok(Watched::Tension(pipe.name.clone())),
-        _ => find(&model.connectors, name, "connector", place).map(|c| Watched::Tension(c.name.clone())),
+        Some(pipe) if pipe.name == PIPE => Ok(Observable::Tension(pipe.name.clone())),
+        _ => find(&model.connectors, name, "connector", place).map(|c| Observable::Tension(c.name.clone())),
     };
-    let dof = || -> Outcome<(Watched, f64)> {
+    let dof = || -> Outcome<(Observable, f64)> {
         let body = find(&model.bodies, name, "body", place)?;
         let dof = DOFS.iter().position(|f| Some(*f) == given.word(const { ABOVE.word("DOF") })).unwrap_or(0);
         let dim = if dof < 3 { Dim::Length } else { Dim::Angle };
-        Ok((Watched::Dof(body.name.clone(), dof), dim.to_si(number(const { ABOVE.number("V") }), units)))
+        Ok((Observable::Dof(body.name.clone(), dof), dim.to_si(number(const { ABOVE.number("V") }), units)))
     };
     let point = || {
         let found = find(&model.points, name, "point", place)?;
         match model.body_of(found) {
-            Some(_) => Ok(Watched::Height(found.name.clone())),
+            Some(_) => Ok(Observable::Height(found.name.clone())),
             None => Err(Diagnostic::error(format!("point {name} belongs to no body"), place)),
         }
     };
     Ok(match given {
-        _ if given.is(&AT) => When::At(number(const { AT.number("T") })),
-        _ if given.is(&TENSION) => When::Above(line()?, number(const { TENSION.number("F") })),
-        _ if given.is(&SLACK) => When::Below(line()?, number(const { SLACK.number("F") })),
-        _ if given.is(&ABOVE) => dof().map(|(watched, value)| When::Above(watched, value))?,
-        _ if given.is(&BELOW) => dof().map(|(watched, value)| When::Below(watched, value))?,
-        _ if given.is(&HIGH) => When::Above(point()?, number(const { HIGH.number("Z") })),
-        _ => When::Below(point()?, number(const { LOW.number("Z") })),
+        _ if given.is(&AT) => Trigger::At(number(const { AT.number("T") })),
+        _ if given.is(&TENSION) => Trigger::Above(line()?, number(const { TENSION.number("F") })),
+        _ if given.is(&SLACK) => Trigger::Below(line()?, number(const { SLACK.number("F") })),
+        _ if given.is(&ABOVE) => dof().map(|(watched, value)| Trigger::Above(watched, value))?,
+        _ if given.is(&BELOW) => dof().map(|(watched, value)| Trigger::Below(watched, value))?,
+        _ if given.is(&HIGH) => Trigger::Above(point()?, number(const { HIGH.number("Z") })),
+        _ => Trigger::Below(point()?, number(const { LOW.number("Z") })),
     })
 }
 
-fn what(model: &Model, given: &Given) -> Outcome<What> {
+fn what(model: &Model, given: &Given) -> Outcome<ActionKind> {
     let names = |count: usize| -> Outcome<Vec<String>> {
         let keys = selected(model, given.values.get(..count).unwrap_or(&given.values))?;
         Ok(keys.iter().filter_map(|k| model.connectors.get(k)).map(|c| c.name.clone()).collect())
     };
     Ok(match given {
-        _ if given.is(&RELEASE) => What::Release(names(usize::MAX)?),
-        _ if given.is(&ACTIVATE) => What::Activate(names(usize::MAX)?),
+        _ if given.is(&RELEASE) => ActionKind::Release(names(usize::MAX)?),
+        _ if given.is(&ACTIVATE) => ActionKind::Activate(names(usize::MAX)?),
         _ if given.is(&WINCH) => {
             let [rate, length] = const { WINCH.numbers(["RATE", "LENGTH"]) };
-            What::Winch(names(1)?, given.number(rate).unwrap_or(0.0), given.number(length))
+            ActionKind::Winch(names(1)?, given.number(rate).unwrap_or(0.0), given.number(length))
         }
         _ if given.is(&ENVIRONMENT) => {
             let (name, place) = (given.first_word().unwrap_or_default(), given.first_place());
-            What::Environment(find(&model.environments, name, "environment", place)?.name.clone())
+            ActionKind::Environment(find(&model.environments, name, "environment", place)?.name.clone())
         }
-        _ => What::Stop,
+        _ => ActionKind::Stop,
     })
 }

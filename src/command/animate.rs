@@ -14,7 +14,7 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::EntityKind;
 use windlass_solve::film::{Film, Take};
-use windlass_solve::results::Window;
+use windlass_solve::results::EventWindow;
 
 /// &ANIMATE.
 pub static ANIMATE: Command = Command { spec: &SPEC, edits: false, run };
@@ -108,7 +108,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let take = Take {
         connector: &|c| chosen.takes(c),
         body: &|b| chosen.takes(b),
-        window: begin.map(|begin| Window { begin, end, increment }),
+        window: begin.map(|begin| EventWindow { begin, end, increment }),
         points: points.and_then(|n| usize::try_from(n).ok()).unwrap_or(POINTS),
         stop: &|| job.interrupted(),
     };

@@ -5,7 +5,8 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
-    Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, Model, Response, RunRequirement, Situation, Summary,
+    Assembly, AssemblyKind, ClassError, Connector, ElementResponse, ElementSummary, End, LaidPipe, Model,
+    RunRequirement, Situation,
 };
 
 /// What a row of the tip-hook sets shows: the hook of a set, or one of its lines.
@@ -28,7 +29,7 @@ struct HookLine<'m> {
     /// From the node to the hook (m).
     apart: Vector3<f64>,
     /// What it bears; `None` where it is inactive or has no solution.
-    summary: Option<Summary>,
+    summary: Option<ElementSummary>,
 }
 
 /// One table of the tip-hook sets: the hook, then its lines.
@@ -98,7 +99,7 @@ fn pipe(model: &Model, assembly: &Assembly, units: UnitSystem) -> Table {
 }
 
 /// Forces on nodes (N), and a summary.
-type OnSupports = (Vec<[f64; 3]>, Summary);
+type OnSupports = (Vec<[f64; 3]>, ElementSummary);
 
 /// The forces of a pipe on the nodes of its active supports (N), and what it tells of itself.
 fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>, ClassError> {
@@ -109,7 +110,7 @@ fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>,
     let ends: Vec<End> = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap_or_default())).collect();
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-    let mut out = Response::default();
+    let mut out = ElementResponse::default();
     let mut state = vec![0.0; element.states()];
     element.evaluate(&at, &state.clone(), &mut state, &mut None, &mut out)?;
     let forces = out.wrench.iter().map(|w| [w[0], w[1], w[2]]).collect();
@@ -151,13 +152,13 @@ fn hook_rows<'m>(
 }
 
 /// What a line bears between its ends.
-fn borne(model: &Model, connector: &Connector) -> Result<Summary, ClassError> {
+fn borne(model: &Model, connector: &Connector) -> Result<ElementSummary, ClassError> {
     let element = model.element(connector)?;
     let ends = model.end_poses(connector).map(End::still);
     let mut state = vec![0.0; element.states()];
     element.start(&mut state);
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-    element.evaluate(&at, &state.clone(), &mut state, &mut None, &mut Response::default())?;
+    element.evaluate(&at, &state.clone(), &mut state, &mut None, &mut ElementResponse::default())?;
     element.summary(&at, &state)
 }

@@ -13,7 +13,7 @@ use windlass_base::values::Value;
 use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, TextForm, ValueSpec};
 use windlass_model::bathymetry::{Bathymetry, MAX_GRID_POINTS, fits};
 use windlass_model::{EntityKind, Model};
 
@@ -57,7 +57,7 @@ static SPEC: CommandSpec = CommandSpec {
 static X_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &[&menu::BATHYMETRY],
-    form: Form::Text,
+    form: TextForm::Text,
     data: &[length("x", "place of a column, growing")],
     repeat: 1,
     detail: "Several X records before the first Y continue each other.",
@@ -68,7 +68,7 @@ static X_SPEC: CommandSpec = CommandSpec {
 static Y_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &[&menu::BATHYMETRY],
-    form: Form::Text,
+    form: TextForm::Text,
     data: &[length("y", "place of the row, growing from record to record"), length("z", "height at each X in turn")],
     repeat: 1,
     detail: "As many heights as there are X: a record goes on behind a \\ at its end. With -DEPTHS of &BATHYMETRY they are depths.",
@@ -77,8 +77,8 @@ static Y_SPEC: CommandSpec = CommandSpec {
 };
 
 /// What is behind X and Y: read here and not before, so that a record that is refused is known of.
-static X_WORDS: CommandSpec = CommandSpec { form: Form::Words, ..X_SPEC };
-static Y_WORDS: CommandSpec = CommandSpec { form: Form::Words, ..Y_SPEC };
+static X_WORDS: CommandSpec = CommandSpec { form: TextForm::Words, ..X_SPEC };
+static Y_WORDS: CommandSpec = CommandSpec { form: TextForm::Words, ..Y_SPEC };
 
 /// Rows of a bottom on their way to a grid.
 #[derive(Clone, Debug)]

@@ -9,7 +9,7 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
-use windlass_solve::frequency::{self, Linear};
+use windlass_solve::frequency::{self, LinearSystem};
 use windlass_solve::{System, tables};
 
 const fn number(name: &'static str) -> ValueSpec {
@@ -38,7 +38,7 @@ pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Ve
 /// A connector or body that cannot be evaluated.
 pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
     let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
-    let linear = Linear::new(&job.model).map_err(wrong)?;
+    let linear = LinearSystem::new(&job.model).map_err(wrong)?;
     Ok(frequency::tables::modes(&linear).map_err(wrong)?.into())
 }
 
@@ -65,6 +65,6 @@ pub fn stiffness(job: &Job, call: &Call, chosen: &Chosen) -> Outcome<Vec<Table>>
         let bodies = points.filter_map(|p| model.body_of(p)).filter(|b| b.junction.is_none()).count();
         bodies > 1 && model.classes.get(&Model::key(&connector.class)).is_some_and(|c| c.ignored_stiffness)
     };
-    let connectors = tables::Connectors { told: &connectors, left_out: &left_out };
+    let connectors = tables::ReportedConnectors { told: &connectors, left_out: &left_out };
     tables::stiffnesses(&system, &state, about, &bodies, &connectors).map_err(wrong)
 }

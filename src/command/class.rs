@@ -10,7 +10,7 @@ use windlass_connectors::{CLASSES, ClassKind, type_notices};
 use windlass_language::args;
 use windlass_language::name;
 use windlass_language::select::choose;
-use windlass_language::spec::{CommandSpec, Form};
+use windlass_language::spec::{CommandSpec, TextForm};
 use windlass_model::options::{C_SN, IG_STIFF};
 use windlass_model::{Class, ClassRecord, Curve, CurveKind, Model, find};
 
@@ -19,7 +19,7 @@ pub static CLASS: Command = Command { spec: &SPEC, edits: false, run };
 
 static SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::INMODEL, &menu::MEDIT],
-    form: Form::Text,
+    form: TextForm::Text,
     detail: "Repeating the name of a line class adds the next segment, fairlead first; for the other types it replaces the \
              class. In MEDIT the curves it names exist; in INMODEL they may be defined up to its END. &HELP ~CLASS TYPE \
              shows a type.",

@@ -2,7 +2,7 @@
 
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_connectors::viscous::Viscoelastic;
+use windlass_connectors::viscous::ViscoelasticLaw;
 use windlass_model::{Curve, Model};
 
 /// What the title of a fit begins with.
@@ -30,7 +30,7 @@ fn points(curve: &Curve) -> Table {
 }
 
 fn exponentials(curve: &Curve) -> Option<Table> {
-    let fit = Viscoelastic::fit(curve)?;
+    let fit = ViscoelasticLaw::fit(curve)?;
     let table = Table::new(format!("{FIT} {}", curve.name))
         .fact("Long-Term Stiffness", fit.law.long_term, Dim::ForcePerLength)
         .fact("Largest Error / Stiffness", fit.error, Dim::None)

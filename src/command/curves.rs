@@ -7,19 +7,19 @@ use super::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Noun;
-use windlass_connectors::viscous::Viscoelastic;
+use windlass_connectors::viscous::ViscoelasticLaw;
 use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::record::Word;
 use windlass_language::select::{Owner, choose};
-use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, TextForm, ValueSpec};
 use windlass_model::{Curve, CurveKind, EntityKind, Model};
 
 /// &DATA.
 pub static DATA: Command = Command { spec: &SPEC, edits: false, run };
 
 static SPEC: CommandSpec = CommandSpec {
-    form: Form::Text,
+    form: TextForm::Text,
     opens: Opens::AtMost(&menu::CURVES, 1),
     data: &[ValueSpec::new("KIND", Kind::Choice(&["CURVES", "CONVOLUTION", "ENVIRONMENT"]), "what is defined")],
     detail: "&DATA CURVES TYPE NAME a1 b1 a2 b2 .. with TYPE C_PROFILE (depth, velocity), P_SPECTRUM (period, density), \
@@ -283,7 +283,7 @@ fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
         args.option_if_declared(&NDOF_OPTION).and_then(|g| g.values.first()?.integer()).unwrap_or(EXPONENTIALS);
     let exponentials = usize::try_from(exponentials).unwrap_or(1);
     let made = Curve { name: name.to_string(), kind, points, exponentials, metres: job.units.metres(), span };
-    if let Some(fit) = Viscoelastic::fit(&made).filter(|fit| fit.error > POOR) {
+    if let Some(fit) = ViscoelasticLaw::fit(&made).filter(|fit| fit.error > POOR) {
         let text = format!(
             "the exponentials of curve {name} are off by {:.0} per cent of its largest stiffness",
             100.0 * fit.error

@@ -9,7 +9,7 @@ use windlass_base::geometry::{Place, Position, unit_vector};
 use windlass_base::units::Dim;
 use windlass_base::values::{Given, Noun, Value};
 use windlass_language::name as rule;
-use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, join_options};
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, TextForm, ValueSpec, join_options};
 use windlass_model::{Body, Coordinates, EntityKind, GROUND, Model, Part, Point, Shape, find};
 
 /// &DESCRIBE.
@@ -75,7 +75,7 @@ static POINT_SPEC: CommandSpec = CommandSpec {
         number("Y", Dim::Length, "y (with &DEFAULT -CYLINDER or -SPHERICAL: the angle in degrees)").or("0"),
         number("Z", Dim::Length, "z (with -SPHERICAL: the angle above the plane)").or("0"),
     ],
-    form: Form::Text,
+    form: TextForm::Text,
     detail: "In the system of the part described last; before any &DESCRIBE a point belongs to GROUND, in the global system.",
     example: "MEDIT\n*MLA 400 50 20\nEND\n&STATUS POINTS",
     ..CommandSpec::new("*POINT", "X Y Z: defines a point")

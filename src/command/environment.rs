@@ -13,7 +13,9 @@ use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::options::{PHASES, W_SPECTRUM};
-use windlass_model::{Current, Curve, CurveKind, EntityKind, Environment, Formula, Model, Sea, TimeWindow, find};
+use windlass_model::{
+    Current, Curve, CurveKind, CurveReference, EntityKind, Environment, Model, SeaDefinition, TimeWindow, find,
+};
 
 /// &ENV.
 pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };
@@ -351,15 +353,15 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
 }
 
 /// A name, with its number where the option has one.
-pub(super) fn formula(given: &Given, value: Option<ValueKey<f64>>) -> Formula {
+pub(super) fn formula(given: &Given, value: Option<ValueKey<f64>>) -> CurveReference {
     let value = value.and_then(|key| given.number(key));
-    Formula { kind: given.first_word().unwrap_or_default().to_string(), value, span: given.span }
+    CurveReference { kind: given.first_word().unwrap_or_default().to_string(), value, span: given.span }
 }
 
 /// The spectra known without a curve.
 const SPECTRA: [&str; 8] = ["ISSC", "JONSWAP", "2JONSWAP", "OCHI", "OCHI_HUBBLE", "TORSETHAUGEN", "REGULAR", "STOKES"];
 
-fn sea(job: &Job, given: &Given) -> Outcome<Sea> {
+fn sea(job: &Job, given: &Given) -> Outcome<SeaDefinition> {
     const NAME: ValueKey<str> = SEA_OPTION.word("NAME");
     const DIRECTION: ValueKey<f64> = SEA_OPTION.number("DIR");
     const HEIGHT: ValueKey<f64> = SEA_OPTION.number("HS");
@@ -369,7 +371,7 @@ fn sea(job: &Job, given: &Given) -> Outcome<Sea> {
     spectrum(job, given, &SPECTRA)?;
     let [direction, height, period] = given.numbers_or_zero([DIRECTION, HEIGHT, PERIOD]);
     let [at_direction, at_height, at_period, at_gamma] = [DIRECTION, HEIGHT, PERIOD, GAMMA].map(|key| given.place(key));
-    Ok(Sea {
+    Ok(SeaDefinition {
         spectrum: name.to_string(),
         direction,
         height,

@@ -13,7 +13,7 @@ use windlass_hydro::gusts::Gusts;
 use windlass_hydro::spectrum::gamma_of;
 use windlass_hydro::steady::Steady;
 use windlass_language::spec::OptionSpec;
-use windlass_model::{Current, Environment, Sea};
+use windlass_model::{Current, Environment, SeaDefinition};
 
 /// The environment in force, or those kept under a name that is chosen.
 pub(super) fn environments(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>) -> Vec<Table> {
@@ -46,7 +46,7 @@ fn depths(mut table: Table, steady: &Steady) -> Table {
     table
 }
 
-fn facts_of_sea(table: Table, name: &str, env: &Environment, sea: &Sea) -> Table {
+fn facts_of_sea(table: Table, name: &str, env: &Environment, sea: &SeaDefinition) -> Table {
     table
         .fact(name, sea.spectrum.as_str(), Dim::None)
         .fact("   comes from", sea.direction, Dim::Angle)

@@ -17,8 +17,10 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Body, Model, find};
-use windlass_solve::excursion::Path;
-use windlass_solve::excursion_tables::{Asked, Systems, circle, table_along_direction, table_of_directions};
+use windlass_solve::excursion::ExcursionPath;
+use windlass_solve::excursion_tables::{
+    ExcursionTableOptions, Systems, circle, table_along_direction, table_of_directions,
+};
 use windlass_solve::watch::watch;
 use windlass_solve::{SolveError, System};
 
@@ -196,9 +198,9 @@ fn moved(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let systems = systems(job, args)?;
     let directions = several.unwrap_or(given);
     let direction = directions.first().copied().unwrap_or(0.0);
-    let path = Path { body: index, direction, free: args.has(&FREE), most: args.option_number(&DISTANCE) };
+    let path = ExcursionPath { body: index, direction, free: args.has(&FREE), most: args.option_number(&DISTANCE) };
     let start = poses(job);
-    let asked = Asked { name: &body.name, place: &body.place, start: &start, path, units: job.units };
+    let asked = ExcursionTableOptions { name: &body.name, place: &body.place, start: &start, path, units: job.units };
     let made = if one {
         let rows = args.option_integer(&ROWS);
         table_along_direction(&systems, &asked, rows.and_then(|n| usize::try_from(n).ok()).unwrap_or(30))
@@ -231,8 +233,8 @@ fn watched(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Some(system) => Some(watch(system, &start, asked_for, &directions).map_err(wrong)?),
         None => None,
     };
-    let path = Path { body: index, direction: 0.0, free, most: None };
-    let asked = Asked { name: &body.name, place: &body.place, start: &start, path, units: job.units };
+    let path = ExcursionPath { body: index, direction: 0.0, free, most: None };
+    let asked = ExcursionTableOptions { name: &body.name, place: &body.place, start: &start, path, units: job.units };
     let made = circle((&asked, force), &systems, &found, intact.as_ref());
     Ok(dispose(job, made, args))
 }

@@ -14,7 +14,7 @@ use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::add_model_column;
-use windlass_solve::results::{self, Exposed};
+use windlass_solve::results::{self, ScatterExposure};
 
 /// FATIGUE.
 pub static FATIGUE: Command = Command { spec: &SPEC, edits: false, run };
@@ -67,7 +67,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (run, events) = asked_behind_transient(job, args)?;
     let span = args.option(&EVENTS).map_or(args.span, |g| g.span);
-    let time = |event: Option<&results::Event>| event.and_then(|e| e.time(&run.history)).unwrap_or(0.0);
+    let time = |event: Option<&results::RunEvent>| event.and_then(|e| e.time(&run.history)).unwrap_or(0.0);
     let record = time(events.last()) - time(events.first());
     if record <= 0.0 {
         return Err(Diagnostic::error("fatigue needs more than one instant", span));
@@ -83,7 +83,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("none of the connectors is of a class with sections", args.span)
             .help("lines, rods and elastic elements have them"));
     }
-    let own = Exposed { environment: env.name.clone(), record, duration, lines };
+    let own = ScatterExposure { environment: env.name.clone(), record, duration, lines };
     let mut runs = if args.has(&ADD) { job.scatter.clone() } else { Vec::new() };
     runs.push(own);
     let factor = args.option_number(&DFF).unwrap_or(1.0);

@@ -6,15 +6,15 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::options::C_SN;
 use windlass_model::{FatigueKind, FatigueSegment, Model};
-use windlass_signal::fatigue::{Curve, find, library};
+use windlass_signal::fatigue::{SnCurve, find, library};
 
 /// The tables for what follows SN: names of curves or classes, or patterns.
 pub fn tables(job: &Job, fits: &dyn Fn(&str) -> bool, all: bool) -> Vec<Table> {
     let model = &job.model;
     let mut tables = Vec::new();
     // what the user defined is asked for first
-    let own: Vec<Curve> =
-        model.fatigue.curves.values().filter(|c| fits(&c.name)).filter_map(|c| Curve::from_points(c).ok()).collect();
+    let own: Vec<SnCurve> =
+        model.fatigue.curves.values().filter(|c| fits(&c.name)).filter_map(|c| SnCurve::from_points(c).ok()).collect();
     if !own.is_empty() {
         tables.push(points(model, fits));
     }
@@ -62,7 +62,7 @@ struct SegmentRow<'m> {
     segment: FatigueSegment,
     /// The name of the curve.
     name: Option<String>,
-    curve: Option<Curve>,
+    curve: Option<SnCurve>,
 }
 
 /// What each segment of a line class goes by.

@@ -3,12 +3,12 @@
 use super::device::{existing, read_input, readable};
 use super::job::UserFile;
 use super::{Call, Command, Effect, Job, PLAIN};
-use crate::report::files::{FileError, Place, Side, lies_in};
+use crate::report::files::{FileError, FilePlace, Side, lies_in};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_language::record::Word;
 use windlass_language::select::{Owner, choose};
-use windlass_language::spec::{CommandSpec, Form, Kind, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, TextForm, ValueSpec};
 
 /// &INSERT.
 pub static INSERT: Command = Command { spec: &INSERT_SPEC, edits: false, run: insert };
@@ -30,7 +30,7 @@ static USE_MAC_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("USE_MAC", "loads a macro library")
 };
 static FILE_SPEC: CommandSpec = CommandSpec {
-    form: Form::Text,
+    form: TextForm::Text,
     data: &[ValueSpec::new("ACTION", Kind::Choice(ACTIONS), "what to do")],
     detail: "MKDIR A; RM A; MV A B; CP A B; ANS_DIRECTORY A (a folder where answers go from now on, made if it is not there); OPEN TYPE FILE, WRITE TYPE text, \
              CLOSE TYPE (writes the file, whole; a file still open when the job ends is written then); USE TYPE FILE (for \
@@ -183,7 +183,7 @@ fn write_unclosed(job: &mut Job, kind: &Word) -> Outcome<()> {
 }
 
 /// Writes a file that was not closed; the note that says so.
-fn written_unclosed(kind: &str, place: &Place, text: &str, opened: Span) -> Outcome<Box<Diagnostic>> {
+fn written_unclosed(kind: &str, place: &FilePlace, text: &str, opened: Span) -> Outcome<Box<Diagnostic>> {
     place.write(text.as_bytes()).map_err(|e| refused(&e, opened))?;
     let note = format!("{} was not closed and is written as it stands", place.path().display());
     Ok(Diagnostic::remark(note, opened).help(format!("&FILE CLOSE {kind} closes it")))

@@ -6,7 +6,9 @@ use windlass_base::pose::Six;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
-use windlass_model::{ClassError, Connector, End, Model, Response, Situation, SpringState, Summary, add_model_column};
+use windlass_model::{
+    ClassError, Connector, ElementResponse, ElementSummary, End, Model, Situation, SpringState, add_model_column,
+};
 use windlass_solve::results::fender_table;
 
 /// What one connector does between its ends.
@@ -17,7 +19,7 @@ struct Found {
     on_body: usize,
     /// Horizontal distance between the ends (m).
     distance: f64,
-    summary: Summary,
+    summary: ElementSummary,
 }
 
 /// One row a connector, and a second table with the springs of those that have some. Those that are inactive or without a
@@ -114,7 +116,7 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
 }
 
 /// Takes what a user should know out of a summary, in these units.
-fn told(summary: &mut Summary, units: UnitSystem) -> Vec<String> {
+fn told(summary: &mut ElementSummary, units: UnitSystem) -> Vec<String> {
     std::mem::take(&mut summary.notes).iter().map(|note| note.text(units)).collect()
 }
 
@@ -129,7 +131,7 @@ fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
     element.start(&mut committed);
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-    let (mut out, mut trial) = (Response::default(), committed.clone());
+    let (mut out, mut trial) = (ElementResponse::default(), committed.clone());
     element.evaluate(&at, &committed, &mut trial, &mut None, &mut out)?;
     // less than what a solution is exact to is no force
     let shown = |w: &Six| {
@@ -183,7 +185,7 @@ impl SpringRow<'_> {
     }
 }
 
-fn spring_rows<'m>(connector: &'m Connector, summary: &Summary) -> impl Iterator<Item = SpringRow<'m>> {
+fn spring_rows<'m>(connector: &'m Connector, summary: &ElementSummary) -> impl Iterator<Item = SpringRow<'m>> {
     summary.springs.iter().map(|spring| SpringRow { connector: &connector.name, spring: spring.clone() })
 }
 

@@ -18,7 +18,9 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Environment, Model, find};
-use windlass_solve::frequency::{Asked, Extreme, Linear, Operators, Response, Trains, respond};
+use windlass_solve::frequency::{
+    ExtremeKind, FrequencyResponse, LinearSystem, Operators, ResponseOptions, Trains, respond,
+};
 
 /// FREQ_RESPONSE.
 pub static FREQ_RESPONSE: Command = Command { spec: &MENU_SPEC, edits: false, run: open };
@@ -34,14 +36,14 @@ pub enum Found {
     #[default]
     Nothing,
     /// Motions of unit waves.
-    Operators(Arc<Linear>, Operators),
+    Operators(Arc<LinearSystem>, Operators),
     /// Motions in a sea, and the extreme its environment asks for.
-    Spectral(Arc<Linear>, Response, Option<Extreme>),
+    Spectral(Arc<LinearSystem>, FrequencyResponse, Option<ExtremeKind>),
 }
 
 impl Found {
     /// The equations it was found with.
-    pub(super) fn linear(&self) -> Option<&Arc<Linear>> {
+    pub(super) fn linear(&self) -> Option<&Arc<LinearSystem>> {
         match self {
             Found::Nothing => None,
             Found::Operators(linear, _) | Found::Spectral(linear, ..) => Some(linear),
@@ -140,8 +142,8 @@ fn keep(job: &mut Job, made: Found) {
 }
 
 /// The equations of a model, on whose bodies waves must act.
-fn linear(job: &Job, model: &Model, span: Span) -> Outcome<Linear> {
-    let made = Linear::new(model).map_err(|e| told(e, model, span, job.units))?;
+fn linear(job: &Job, model: &Model, span: Span) -> Outcome<LinearSystem> {
+    let made = LinearSystem::new(model).map_err(|e| told(e, model, span, job.units))?;
     if !made.is_excited() {
         return Err(Diagnostic::error("waves act on no body: none has a database with wave forces", span)
             .help("DATABASE BODY -WAMIT ROOT, -NEMOH FOLDER or -CAPYTAINE FILE reads one"));
@@ -209,7 +211,7 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     frequencies.sort_by(f64::total_cmp);
     frequencies.dedup();
-    let asked = Asked { frequencies, spectral: true };
+    let asked = ResponseOptions { frequencies, spectral: true };
     let made = respond(&mut linear, &trains, &asked).map_err(|e| told(e, &model, args.span, job.units))?;
     let mut table = Table::new("Motions in a Sea")
         .fact("Frequencies of Waves", made.waves.len(), Dim::None)

@@ -20,8 +20,10 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{DYNAMIC, EntityKind, Environment, Model, QUASI_STATIC, add_model_column, find};
-use windlass_solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
-use windlass_solve::frequency::{Asked, Derivative, Extreme, Linear, Quantity, Response, in_sea};
+use windlass_solve::frequency::tables::{NamedQuantity, body_statistics, operators, spectra, statistics};
+use windlass_solve::frequency::{
+    Derivative, ExtremeKind, FrequencyResponse, LinearQuantity, LinearSystem, ResponseOptions, in_sea,
+};
 
 /// MOTION.
 pub static MOTION: Command = Command { spec: &MOTION_SPEC, edits: false, run: motion };
@@ -133,7 +135,7 @@ fn dispose(job: &mut Job, made: Table, span: Span) -> Effect {
 }
 
 /// The table of what is found: amplitudes and phases, or spectra.
-fn shown(job: &Job, title: String, list: &[Told], derivative: Derivative, span: Span) -> Outcome<Table> {
+fn shown(job: &Job, title: String, list: &[NamedQuantity], derivative: Derivative, span: Span) -> Outcome<Table> {
     Ok(match found(job, span)? {
         Found::Operators(linear, made) => {
             let unit = Dim::Length.to_si(1.0, job.units);
@@ -145,7 +147,7 @@ fn shown(job: &Job, title: String, list: &[Told], derivative: Derivative, span: 
 }
 
 /// The number of a body of the motions by its name.
-fn body(job: &Job, linear: &Linear, name: Option<&str>, span: Span) -> Outcome<(usize, String)> {
+fn body(job: &Job, linear: &LinearSystem, name: Option<&str>, span: Span) -> Outcome<(usize, String)> {
     let gone = || Diagnostic::error("that body has no part in the motions found", span).help("RAO or SRESPONSE again");
     let Some(name) = name else {
         let first = linear.system.nodes.iter().position(|n| !n.junction).unwrap_or(0);
@@ -157,7 +159,7 @@ fn body(job: &Job, linear: &Linear, name: Option<&str>, span: Span) -> Outcome<(
 }
 
 /// The coordinates of a point of a body.
-fn coordinates(job: &Job, linear: &Linear, name: &str, span: Span) -> Outcome<[Quantity; 3]> {
+fn coordinates(job: &Job, linear: &LinearSystem, name: &str, span: Span) -> Outcome<[LinearQuantity; 3]> {
     let point = find(&job.model.points, name, "point", span)?;
     let Some(owner) = job.model.body_of(point) else {
         return Err(Diagnostic::error(format!("point {name} belongs to no body"), span));
@@ -165,11 +167,11 @@ fn coordinates(job: &Job, linear: &Linear, name: &str, span: Span) -> Outcome<[Q
     let (index, _) = body(job, linear, Some(&owner.name), span)?;
     let part = job.model.parts.get(&Model::key(&point.part));
     let at = part.map_or(point.at, |p| p.place.apply(point.at));
-    Ok(Quantity::point(linear, index, Vector3::from(at)))
+    Ok(LinearQuantity::point(linear, index, Vector3::from(at)))
 }
 
 /// A point, or one less another, with a name for both.
-fn points(job: &Job, linear: &Linear, args: &Args, from: usize) -> Outcome<(String, Vec<Told>)> {
+fn points(job: &Job, linear: &LinearSystem, args: &Args, from: usize) -> Outcome<(String, Vec<NamedQuantity>)> {
     let Some(first) = args.word(from) else {
         return Err(Diagnostic::error("a point is missing", args.span).help("form: STATISTICS POINT *PT [*PT]"));
     };
@@ -185,7 +187,7 @@ fn points(job: &Job, linear: &Linear, args: &Args, from: usize) -> Outcome<(Stri
     if args.word(from + 2).is_some() {
         return Err(Diagnostic::error("there are more than two points", args.place(from + 2)));
     }
-    let list = ["X", "Y", "Z"].into_iter().zip(axes).map(|(name, q)| Told::new(name, Dim::Length, q));
+    let list = ["X", "Y", "Z"].into_iter().zip(axes).map(|(name, q)| NamedQuantity::new(name, Dim::Length, q));
     Ok((title, list.collect()))
 }
 
@@ -194,7 +196,7 @@ fn motion(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let linear = found(job, args.span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
     let (index, name) = body(job, &linear, args.word(0), args.place(0))?;
-    let list = Told::dofs(&linear, index);
+    let list = NamedQuantity::dofs(&linear, index);
     let made = shown(job, format!("Motion of {name}"), &list, Derivative::Place, args.span)?;
     Ok(dispose(job, made, args.span))
 }
@@ -210,19 +212,25 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// Tensions of the connectors that a record's words from a position on choose; with `components` those of a single one.
-fn tensions(job: &Job, linear: &Linear, call: &Call, from: usize, components: bool) -> Outcome<Vec<Told>> {
+fn tensions(
+    job: &Job,
+    linear: &LinearSystem,
+    call: &Call,
+    from: usize,
+    components: bool,
+) -> Outcome<Vec<NamedQuantity>> {
     let chosen = Chosen::of(call, from, &job.model);
     let names: Vec<String> = linear.connectors().filter(|name| chosen.takes(name)).map(str::to_string).collect();
     chosen.check_used("the connectors that act", &[EntityKind::Connector])?;
     let span = call.args.span;
     let mut list = Vec::new();
     for name in &names {
-        let made = Quantity::tension(linear, name).map_err(|e| told(e, &job.model, span, job.units))?;
+        let made = LinearQuantity::tension(linear, name).map_err(|e| told(e, &job.model, span, job.units))?;
         let Some((axes, size)) = made else { continue };
-        list.extend(size.map(|q| Told::new(name.as_str(), Dim::Force, q)));
+        list.extend(size.map(|q| NamedQuantity::new(name.as_str(), Dim::Force, q)));
         if components && names.len() == 1 {
             let named = ["FX", "FY", "FZ"].into_iter().zip(axes);
-            list.extend(named.map(|(axis, q)| Told::new(axis, Dim::Force, q)));
+            list.extend(named.map(|(axis, q)| NamedQuantity::new(axis, Dim::Force, q)));
         }
     }
     if list.is_empty() {
@@ -254,7 +262,7 @@ fn sea(job: &Job, args: &Args) -> Outcome<Environment> {
 }
 
 /// The response that statistics are made of.
-fn response(job: &Job, args: &Args) -> Outcome<(Arc<Linear>, Response)> {
+fn response(job: &Job, args: &Args) -> Outcome<(Arc<LinearSystem>, FrequencyResponse)> {
     let given = [SEA_OPTION, A_SEA_OPTION, SPREAD_OPTION, SP_TYPE_OPTION].iter().find_map(|option| args.option(option));
     match (found(job, args.span)?, given) {
         (Found::Spectral(..), Some(given)) => Err(Diagnostic::error(
@@ -265,7 +273,7 @@ fn response(job: &Job, args: &Args) -> Outcome<(Arc<Linear>, Response)> {
         (Found::Spectral(linear, made, _), None) => Ok((Arc::clone(linear), made.clone())),
         (Found::Operators(linear, _), _) => {
             let trains = seas(job, &sea(job, args)?, args.span)?;
-            let made = in_sea(linear, &trains, &Asked::default());
+            let made = in_sea(linear, &trains, &ResponseOptions::default());
             Ok((Arc::clone(linear), made.map_err(|e| told(e, &job.model, args.span, job.units))?))
         }
         (Found::Nothing, _) => Err(Diagnostic::error("there are no motions yet", args.span)),
@@ -279,8 +287,8 @@ fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Found::Spectral(.., extreme) => *extreme,
         _ => probability::extreme(&job.model.environment),
     };
-    let given = args.option_number(&DURATION_OPTION).map(Extreme::MostProbable);
-    let extreme = given.or(of_env).unwrap_or(Extreme::MostProbable(DURATION));
+    let given = args.option_number(&DURATION_OPTION).map(ExtremeKind::MostProbable);
+    let extreme = given.or(of_env).unwrap_or(ExtremeKind::MostProbable(DURATION));
     let (linear, made) = response(job, args)?;
     let (both, how) = ((linear.as_ref(), &made), (derivative, extreme));
     let of = what(derivative);

@@ -14,7 +14,7 @@ use windlass_language::logic;
 use windlass_language::number;
 use windlass_language::record::Word;
 use windlass_language::select::{Owner, choose};
-use windlass_language::substitution::World;
+use windlass_language::substitution::FunctionHost;
 use windlass_model::{Mass, Model, Point};
 
 /// What `&HELP` says of each: name, form, meaning.
@@ -49,7 +49,7 @@ pub const HELP: &[(&str, &str, &str)] = &[
 
 const NAMES: &[&str] = &["INFO", "POINT", "BODY", "CONNECTOR", "NAMES", "GET", "F_READ"];
 
-impl World for Job {
+impl FunctionHost for Job {
     fn function_names(&self) -> &'static [&'static str] {
         NAMES
     }

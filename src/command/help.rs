@@ -19,7 +19,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("NAME", Kind::Text, "command, function, or ~CLASS").or("what this menu offers"),
         ValueSpec::new("TYPE", Kind::Text, "class type, after ~CLASS").or("all class types"),
     ],
-    form: windlass_language::spec::Form::Text,
+    form: windlass_language::spec::TextForm::Text,
     example: "&HELP\n&HELP &DIMEN\n&HELP ~CLASS B_CAT",
     ..CommandSpec::new("&HELP", "explains a command, a function or a class type")
 };

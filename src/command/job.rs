@@ -7,7 +7,7 @@ use super::menu;
 use super::pgen::Planes;
 use super::verdict::Verdict;
 use crate::report::disposition::Disposition;
-use crate::report::files::{Place, Question};
+use crate::report::files::{FilePlace, Question};
 use crate::report::output::Output;
 use crate::report::page::PageHead;
 use std::collections::HashMap;
@@ -22,7 +22,7 @@ use windlass_base::values::Args;
 use windlass_language::spec::MenuSpec;
 use windlass_model::Model;
 use windlass_solve::Options;
-use windlass_solve::results::Exposed;
+use windlass_solve::results::ScatterExposure;
 use windlass_solve::tethered::Tethered;
 use windlass_solve::time::{Action, Run};
 
@@ -156,7 +156,7 @@ pub enum UserFile {
     /// Being written.
     Writing {
         /// Where it will be.
-        place: Place,
+        place: FilePlace,
         /// The lines so far.
         text: String,
         /// The name in the record that opened it.
@@ -275,7 +275,7 @@ pub struct Job {
     /// The last run of tethers.
     pub tethered: Option<Tethered>,
     /// The runs that FATIGUE adds up.
-    pub scatter: Vec<Exposed>,
+    pub scatter: Vec<ScatterExposure>,
     /// What the exit code is to tell.
     pub verdict: Verdict,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.

@@ -8,7 +8,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Value;
 use windlass_base::wildcard::matches;
-use windlass_connectors::line_types::{Formula, LineType, library};
+use windlass_connectors::line_types::{DiameterFormula, LineType, library};
 use windlass_language::number;
 
 /// The tables for what follows LINE_TYPES: nothing, nominal diameters in the user's section unit, names or patterns.
@@ -94,7 +94,7 @@ fn values(types: &[LineType], diameter: f64, job: &Job) -> Table {
 
 /// The formulas of one type.
 fn formulas(line: &LineType) -> Table {
-    let text = |f: &Formula, unit: &str| match f.d3 {
+    let text = |f: &DiameterFormula, unit: &str| match f.d3 {
         0.0 => format!("{:e} d**2 {unit}", f.d2),
         d3 => format!("{:e} d**2 {} {:e} d**3 {unit}", f.d2, if d3 < 0.0 { '-' } else { '+' }, d3.abs()),
     };

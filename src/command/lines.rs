@@ -5,7 +5,7 @@ mod input;
 use super::menu;
 use super::{Call, Command, Effect, Job, file};
 use crate::report::csv::guarded;
-use crate::report::files::{Growing, Place};
+use crate::report::files::{FilePlace, Growing};
 use crate::report::format::number_in_full;
 use crate::report::page;
 use input::{Input, InputError, Row};
@@ -177,7 +177,7 @@ impl Tally {
     }
 
     /// The lines by regime, and how many rows were solved and refused.
-    fn summary(&self, name: &str, place: &Place, job: &Job) -> String {
+    fn summary(&self, name: &str, place: &FilePlace, job: &Job) -> String {
         let regimes: Vec<_> = self.regimes.iter().collect();
         let table = Table::new("")
             .with_rows(&regimes)

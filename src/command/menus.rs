@@ -12,7 +12,7 @@ use windlass_base::span::Span;
 use windlass_language::record::Word;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
-use windlass_language::token::Kind as Lex;
+use windlass_language::token::TokenKind as Lex;
 
 /// INMODEL.
 pub static INMODEL: Command = Command { spec: &INMODEL_SPEC, edits: false, run: inmodel };

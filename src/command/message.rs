@@ -3,13 +3,13 @@
 use super::{Call, Command, Effect, Job};
 use crate::report::page::centre;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
-use windlass_language::spec::{CommandSpec, Form, Kind, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, TextForm, ValueSpec};
 
 /// Width in which `&CTYPE` centres.
 const WIDTH: usize = 80;
 
 const fn text(name: &'static str, help: &'static str, example: &'static str) -> CommandSpec {
-    CommandSpec { form: Form::Text, example, ..CommandSpec::new(name, help) }
+    CommandSpec { form: TextForm::Text, example, ..CommandSpec::new(name, help) }
 }
 
 /// &TITLE.
@@ -35,7 +35,7 @@ static TYPE_SPEC: CommandSpec = text("&TYPE", "prints text", "&TYPE Hello");
 static CTYPE_SPEC: CommandSpec = text("&CTYPE", "prints text, centred", "&CTYPE Hello");
 static CUTYPE_SPEC: CommandSpec = text("&CUTYPE", "prints text, centred and underlined", "&CUTYPE Hello");
 static ERROR_SPEC: CommandSpec = CommandSpec {
-    form: Form::Text,
+    form: TextForm::Text,
     data: &[ValueSpec::new("CLASS", Kind::Choice(CLASSES), "how serious")],
     detail: "FATAL ends the job.",
     example: "&ERROR WARNING the depth is a guess",

@@ -11,7 +11,7 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::EntityKind;
-use windlass_solve::scene::{Choice, Scene};
+use windlass_solve::scene::{Scene, SceneOptions};
 
 /// &PICTURE.
 pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };
@@ -164,7 +164,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (views, file) = (views(args)?, file(job, args)?);
     let yes = |option: &OptionSpec| args.option_word(option).is_none_or(|w| w != "NO");
     let (chosen, light) = (Chosen::of(call, 1, &job.model), yes(&INACTIVE));
-    let choice = Choice {
+    let choice = SceneOptions {
         connector: &|c| (chosen.takes(&c.name)) && (c.active || light),
         body: &|b| chosen.takes(&b.name),
         stop: &|| job.interrupted(),

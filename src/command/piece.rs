@@ -15,8 +15,8 @@ use windlass_base::values::{Args, Value};
 use windlass_hydro as hydro;
 use windlass_language::args;
 use windlass_language::name as rule;
-use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec};
-use windlass_language::token::Kind as Lex;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, TextForm, ValueSpec};
+use windlass_language::token::TokenKind as Lex;
 use windlass_model::{EntityKind, Model, Part, Piece, Shape, WaveAction, find};
 
 /// PANEL.
@@ -113,7 +113,7 @@ pub const READING: &str = "A piece belongs to the part described last and is giv
 
 static PANEL_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::INMODEL, &menu::MEDIT, &menu::BLOCK, &menu::MESH],
-    form: Form::Text,
+    form: TextForm::Text,
     data: &[ValueSpec::new("*P", Kind::Name(Noun::Point), "a corner: a point, or X Y Z")],
     repeat: 1,
     detail: "PANEL *P1 *P2 *P3 [*P4 ..] or PANEL X1 Y1 Z1 X2 Y2 Z2 X3 Y3 Z3 ..: a panel of the piece described last by &DESCRIBE \
@@ -124,9 +124,9 @@ static PANEL_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("PANEL", "a panel of a piece, by points or coordinates")
 };
 
-static BY_POINTS: CommandSpec = CommandSpec { form: Form::Words, ..PANEL_SPEC };
+static BY_POINTS: CommandSpec = CommandSpec { form: TextForm::Words, ..PANEL_SPEC };
 static BY_COORDINATES: CommandSpec = CommandSpec {
-    form: Form::Words,
+    form: TextForm::Words,
     data: &[
         number("X", Dim::Length, "x of a corner"),
         number("Y", Dim::Length, "y of a corner"),

@@ -12,7 +12,7 @@ use windlass_hydro::sea::Sea as Waves;
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_hydro::spectrum;
 use windlass_language::spec::OptionSpec;
-use windlass_model::{Current, Environment, Model, Sea};
+use windlass_model::{Current, Environment, Model, SeaDefinition};
 
 /// The highest wind over a minute on record, 185 knots (m/s): hurricane Patricia, 2015 (NOAA, National Hurricane Center, EP202015).
 const HIGHEST_WIND: f64 = 185.0 * METRES_PER_SECOND_PER_KNOT;
@@ -91,7 +91,7 @@ pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
 }
 
 /// Why a sea cannot be: its wave or its significant wave breaks, or it is steeper than sea states are.
-fn breaking(model: &Model, env: &Environment, sea: &Sea, units: UnitSystem) -> Option<Diagnostic> {
+fn breaking(model: &Model, env: &Environment, sea: &SeaDefinition, units: UnitSystem) -> Option<Diagnostic> {
     let Ok(found) = spectrum::build_spectrum(model, env, sea, None) else {
         // an error where the sea is made
         return None;

@@ -17,7 +17,7 @@ use windlass_base::values::{Args, Value};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{EntityKind, Model};
 use windlass_solve::SolveError;
-use windlass_solve::results::{self, Event, Magnitude, Told, TrackedPoint, Window};
+use windlass_solve::results::{self, EventWindow, Magnitude, MotionOptions, RunEvent, TrackedPoint};
 use windlass_solve::time::Run;
 
 /// TRAJECTORY.
@@ -149,13 +149,13 @@ pub(super) fn last_run(job: &Job, span: Span) -> Outcome<&Run> {
 }
 
 /// The run a record is about, and its events.
-pub(super) fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<Event>)> {
+pub(super) fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<RunEvent>)> {
     let run = last_run(job, args.span)?;
     let given = args.option(&EVENTS);
     let window = given.and_then(|g| {
         let [begin, end] = const { EVENTS.numbers(["BEG", "END"]) }.map(|key| g.number(key));
         let increment = g.number_if_declared(const { EVENTS.number("INC") });
-        Some(Window { begin: begin?, end, increment })
+        Some(EventWindow { begin: begin?, end, increment })
     });
     let span = given.map_or(args.span, |g| g.span);
     let events = results::events(&run.history, window.as_ref()).map_err(|e| e.diagnostic(span, job.units))?;
@@ -163,13 +163,13 @@ pub(super) fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<Even
 }
 
 /// The same for what sums up a run: without -EVENTS the instants behind its transient.
-pub(super) fn asked_behind_transient<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<Event>)> {
+pub(super) fn asked_behind_transient<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<RunEvent>)> {
     let transient = transient_of(job, args);
     if transient <= 0.0 {
         return asked(job, args);
     }
     let run = last_run(job, args.span)?;
-    let window = Window { begin: transient, end: None, increment: None };
+    let window = EventWindow { begin: transient, end: None, increment: None };
     let found = results::events(&run.history, Some(&window)).map_err(|_| {
         let text = format!("the run has no instant behind TTRA_SET, {transient} s, which is left out");
         Diagnostic::error(text, args.span).help("-EVENTS takes a part of the run")
@@ -246,7 +246,7 @@ fn dispose(job: &mut Job, made: Result<Table, SolveError>, args: &Args) -> Outco
 fn trajectory(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (run, events) = asked(job, args)?;
-    let how = Told { centre: args.has(&CG), local: local(args), magnitude: magnitude(args) };
+    let how = MotionOptions { centre: args.has(&CG), local: local(args), magnitude: magnitude(args) };
     let made = results::trajectory(run, &bodies(job, run, args)?, &how, &events);
     dispose(job, made, args)
 }

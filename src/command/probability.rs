@@ -6,7 +6,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::Environment;
-use windlass_solve::frequency::Extreme;
+use windlass_solve::frequency::ExtremeKind;
 
 const STATISTICS: &[&str] = &["RMS", "SIGNIFICANT", "MAXIMUM", "TIME", "PROBABILITY"];
 
@@ -24,19 +24,21 @@ pub(super) const PROBABILITY: OptionSpec = OptionSpec::new(
 const DATA: ValueKey<f64> = PROBABILITY.number("DATA");
 
 /// What a record says.
-fn read(given: &Given) -> Result<Extreme, &'static str> {
+fn read(given: &Given) -> Result<ExtremeKind, &'static str> {
     let data = given.number(DATA);
     let or = |usual: f64| data.unwrap_or(usual);
     let made = match given.word(const { PROBABILITY.word("STAT") }) {
-        Some("RMS") => Extreme::Times(or(1.0)),
-        Some("SIGNIFICANT") => Extreme::Times(2.0 * or(1.0)),
-        Some("MAXIMUM") => Extreme::MostProbable(3600.0 * or(3.0)),
-        Some("TIME") => Extreme::MostProbable(or(10_800.0)),
-        _ => Extreme::Exceeded(or(1e-3)),
+        Some("RMS") => ExtremeKind::Times(or(1.0)),
+        Some("SIGNIFICANT") => ExtremeKind::Times(2.0 * or(1.0)),
+        Some("MAXIMUM") => ExtremeKind::MostProbable(3600.0 * or(3.0)),
+        Some("TIME") => ExtremeKind::MostProbable(or(10_800.0)),
+        _ => ExtremeKind::Exceeded(or(1e-3)),
     };
     match made {
-        Extreme::Exceeded(share) if !(share > 0.0 && share < 1.0) => Err("a share of the peaks is between 0 and 1"),
-        Extreme::Times(value) | Extreme::MostProbable(value) if value <= 0.0 => Err("DATA must be greater than zero"),
+        ExtremeKind::Exceeded(share) if !(share > 0.0 && share < 1.0) => Err("a share of the peaks is between 0 and 1"),
+        ExtremeKind::Times(value) | ExtremeKind::MostProbable(value) if value <= 0.0 => {
+            Err("DATA must be greater than zero")
+        }
         made => Ok(made),
     }
 }
@@ -51,6 +53,6 @@ pub(super) fn check(given: &Given) -> Outcome<()> {
 }
 
 /// The extreme that an environment asks for.
-pub(super) fn extreme(env: &Environment) -> Option<Extreme> {
+pub(super) fn extreme(env: &Environment) -> Option<ExtremeKind> {
     env.options.iter().rev().find(|given| given.is(&PROBABILITY)).and_then(|given| read(given).ok())
 }

@@ -10,7 +10,7 @@ use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{FatigueCurve, FatigueKind, Model, ThicknessCorrection};
-use windlass_signal::fatigue::{Curve, find};
+use windlass_signal::fatigue::{SnCurve, find};
 
 /// &REP_SELECT.
 pub static REP_SELECT: Command = Command { spec: &SPEC, edits: false, run };
@@ -110,6 +110,6 @@ fn defined(job: &Job, given: &Given, name: &str) -> Outcome<FatigueCurve> {
         points.push((dim.to_si(range.number().unwrap_or_default(), job.units), cycles.number().unwrap_or_default()));
     }
     let curve = FatigueCurve { name: name.to_string(), kind, points, span };
-    Curve::from_points(&curve).map_err(|e| Diagnostic::error(format!("{name}: {e}"), span))?;
+    SnCurve::from_points(&curve).map_err(|e| Diagnostic::error(format!("{name}: {e}"), span))?;
     Ok(curve)
 }

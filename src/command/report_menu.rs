@@ -5,7 +5,7 @@ use super::message::underlined;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::page::centre;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, TextForm, ValueSpec};
 
 /// &REPORT.
 pub static REPORT: Command = Command { spec: &REPORT_SPEC, edits: false, run: open };
@@ -33,7 +33,7 @@ static REPORT_SPEC: CommandSpec = CommandSpec {
 
 const fn writer(name: &'static str, help: &'static str) -> CommandSpec {
     CommandSpec {
-        form: Form::Text,
+        form: TextForm::Text,
         menus: const { &[&menu::REPORT] },
         example: "&REPORT\nTYPE text\nCTYPE text\nCUTYPE text\nEND",
         ..CommandSpec::new(name, help)

@@ -8,7 +8,7 @@ use windlass_base::pose::Pose;
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits};
 use windlass_base::units::{Dim, UnitSystem};
-use windlass_connectors::hook::{Reach, SlingObjective, hanging, hook};
+use windlass_connectors::hook::{SlingConstraint, SlingObjective, hanging, hook};
 use windlass_model::{Connector, Mass, Model};
 
 /// A tip-hook set that is being defined.
@@ -26,14 +26,14 @@ pub struct Rigging<'a> {
 }
 
 impl Rigging<'_> {
-    fn reach(&self, model: &Model, name: &str) -> Outcome<Reach> {
+    fn reach(&self, model: &Model, name: &str) -> Outcome<SlingConstraint> {
         let missing = || Diagnostic::error(format!("connector {name} has no length"), self.span);
         let connector = model.connectors.get(&Model::key(name)).ok_or_else(missing)?;
         let node = model.end_pose(connector, 0).ok_or_else(missing)?.origin;
-        Ok(Reach { node, length: model.first_length(connector).ok_or_else(missing)? })
+        Ok(SlingConstraint { node, length: model.first_length(connector).ok_or_else(missing)? })
     }
 
-    fn slings(&self, model: &Model) -> Outcome<Vec<Reach>> {
+    fn slings(&self, model: &Model) -> Outcome<Vec<SlingConstraint>> {
         self.slings.iter().map(|name| self.reach(model, name)).collect()
     }
 
@@ -106,7 +106,7 @@ impl Rigging<'_> {
         };
         let mut said = Vec::new();
         for name in std::iter::once(self.boom).chain(self.slings.iter().map(String::as_str)) {
-            let Reach { node, length } = self.reach(model, name)?;
+            let SlingConstraint { node, length } = self.reach(model, name)?;
             let straight = (at - node).norm();
             if (straight - length).abs() <= 1e-9 * length {
                 continue;

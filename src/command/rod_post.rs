@@ -17,10 +17,10 @@ use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::line::fatigue::{MAX_CIRCUMFERENCE_POINTS, Round};
-use windlass_signal::line::lrfd::{Factors, SafetyClass};
+use windlass_signal::line::lrfd::{LrfdFactors, SafetyClass};
 use windlass_signal::line::working_stress::DesignCase;
-use windlass_solve::results::along::{self, Code, Line, Where};
-use windlass_solve::results::{self, Event, Magnitude, Window};
+use windlass_solve::results::along::{self, Code, LineResults, Where};
+use windlass_solve::results::{self, EventWindow, Magnitude, RunEvent};
 
 /// ROD.
 pub static ROD: Command = Command { spec: &SPEC, edits: false, run };
@@ -163,7 +163,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
     let run = last_run(job, args.span)?;
-    let line = Line::find(run, args.word(0).unwrap_or_default()).map_err(|e| e.diagnostic(args.place(0), job.units))?;
+    let line =
+        LineResults::find(run, args.word(0).unwrap_or_default()).map_err(|e| e.diagnostic(args.place(0), job.units))?;
     let wrong = |e| told(e, &job.model, args.span, job.units);
     let what = args.word(1).unwrap_or("ENVELOPE");
     refuse_what_does_not_go(args, what)?;
@@ -243,11 +244,11 @@ fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
 }
 
 /// The line at instants.
-fn at(job: &Job, args: &Args, line: &Line) -> Outcome<Vec<Table>> {
+fn at(job: &Job, args: &Args, line: &LineResults) -> Outcome<Vec<Table>> {
     let history = &last_run(job, args.span)?.history;
     let times: Vec<(f64, Span)> = (2..args.data.len()).filter_map(|i| Some((args.number(i)?, args.place(i)))).collect();
     let stored = history.times();
-    let one = |begin: f64, span: Span| -> Outcome<Event> {
+    let one = |begin: f64, span: Span| -> Outcome<RunEvent> {
         if let (Some(first), Some(last)) = (stored.first(), stored.last())
             && !(*first - 1e-9..=last * (1.0 + 1e-9)).contains(&begin)
         {
@@ -255,7 +256,7 @@ fn at(job: &Job, args: &Args, line: &Line) -> Outcome<Vec<Table>> {
             return Err(Diagnostic::error(text, span));
         }
         // an increment, so that a time between two stored ones is one, too
-        let window = Window { begin, end: Some(begin), increment: Some(1.0) };
+        let window = EventWindow { begin, end: Some(begin), increment: Some(1.0) };
         let found = results::events(history, Some(&window)).map_err(|e| e.diagnostic(span, job.units))?;
         found.first().copied().ok_or_else(|| Diagnostic::error("the run has no such instant", span))
     };
@@ -272,7 +273,7 @@ fn at(job: &Job, args: &Args, line: &Line) -> Outcome<Vec<Table>> {
 }
 
 /// The places of NODE.
-fn places(args: &Args, line: &Line) -> Outcome<Vec<Where>> {
+fn places(args: &Args, line: &LineResults) -> Outcome<Vec<Where>> {
     let mut list = Vec::new();
     for index in 2..args.data.len() {
         let value = args.number(index).unwrap_or(f64::NAN);
@@ -309,13 +310,13 @@ fn code(args: &Args) -> Code {
         }
         Some("BREAK") => Code::Break,
         _ => {
-            let usual = Factors::default();
+            let usual = LrfdFactors::default();
             let class = match word(&SAFETY_OPTION) {
                 Some("LOW") => SafetyClass::Low,
                 Some("HIGH") => SafetyClass::High,
                 _ => SafetyClass::Normal,
             };
-            let factors = Factors {
+            let factors = LrfdFactors {
                 class,
                 functional: number(&FACTORS, const { FACTORS.number("GF") }).unwrap_or(usual.functional),
                 environmental: number(&FACTORS, const { FACTORS.number("GE") }).unwrap_or(usual.environmental),

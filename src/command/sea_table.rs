@@ -6,7 +6,7 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_hydro::sea::{Sea, Train};
+use windlass_hydro::sea::{EnvironmentSea, Sea};
 use windlass_model::{Division, Environment, Stretching};
 
 /// Points of a spectrum plotted, and the shares of the energy between which they lie.
@@ -51,13 +51,13 @@ fn sea(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Sea>> {
     Sea::new(&job.model, env).map_err(|e| e.diagnostic(at, job.units))
 }
 
-fn title(what: &str, env: &Environment, train: Option<&Train>) -> String {
+fn title(what: &str, env: &Environment, train: Option<&EnvironmentSea>) -> String {
     let added = if train.is_some_and(|t| t.components.start > 0) { ", Added Sea" } else { "" };
     let name = if env.name.is_empty() { String::new() } else { format!(" of {}", env.name) };
     format!("{what}{name}{added}")
 }
 
-fn components(env: &Environment, sea: &Sea, train: &Train) -> Table {
+fn components(env: &Environment, sea: &Sea, train: &EnvironmentSea) -> Table {
     let waves = sea.components.get(train.components.clone()).unwrap_or_default();
     let variance: f64 = waves.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
     let mut table = Table::new(title("Sea Spectrum", env, Some(train)))
@@ -154,7 +154,7 @@ fn above(sea: &Sea) -> &'static str {
     }
 }
 
-fn density(env: &Environment, train: &Train) -> Option<Table> {
+fn density(env: &Environment, train: &EnvironmentSea) -> Option<Table> {
     let spectrum = train.spectrum.as_ref()?;
     let [low, high] = SHOWN.map(|share| spectrum.quantile(share));
     let frequencies: Vec<f64> = (0..POINTS).map(|i| low + (high - low) * i as f64 / (POINTS - 1) as f64).collect();

@@ -16,7 +16,7 @@ use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::SeriesError;
-use windlass_signal::tables::{self, Analysis, Extremes, Record};
+use windlass_signal::tables::{self, Analysis, Extremes, SeriesRecord};
 
 const EXAMPLE: &str = "&BUILDG -CSV\nTime (s),Tension (kips),Z (ft)\n0,100,0\n1,120,2\n2,131,3\n3,128,2\n4,108,0\n5,90,-2\n6,80,-3\n\
                        7,83,-2\n8,101,0\n9,121,2\n10,133,3\n11,127,2\n12,107,0\n13,89,-2\n14,79,-3\n15,82,-2\n16,101,0\nEND\n\
@@ -206,10 +206,10 @@ fn whole(args: &Args, option: &OptionSpec) -> Option<usize> {
 }
 
 /// The record of the columns chosen, and what is to be said of the rows left out.
-fn record(job: &Job, args: &Args) -> Outcome<(Record, Option<String>)> {
+fn record(job: &Job, args: &Args) -> Outcome<(SeriesRecord, Option<String>)> {
     here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
     let (table, without) = chosen_for_statistics(job, args)?;
-    Ok((Record::from_table(&table).map_err(|e| wrong(args, &e))?, without))
+    Ok((SeriesRecord::from_table(&table).map_err(|e| wrong(args, &e))?, without))
 }
 
 fn wrong(args: &Args, error: &SeriesError) -> Box<Diagnostic> {
@@ -217,7 +217,11 @@ fn wrong(args: &Args, error: &SeriesError) -> Box<Diagnostic> {
 }
 
 /// Makes a table of the columns chosen and opens an inner menu over it.
-fn open(job: &mut Job, call: &Call, make: impl Fn(&Record, &Args) -> Result<Table, SeriesError>) -> Outcome<Effect> {
+fn open(
+    job: &mut Job,
+    call: &Call,
+    make: impl Fn(&SeriesRecord, &Args) -> Result<Table, SeriesError>,
+) -> Outcome<Effect> {
     let (record, without) = record(job, &call.args)?;
     let mut table = make(&record, &call.args).map_err(|e| wrong(&call.args, &e))?;
     table.notes.extend(without);

@@ -25,7 +25,7 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
 use windlass_solve::results::{fender_peaks, fender_table};
 use windlass_solve::screening::{self, Screening};
-use windlass_solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher, When};
+use windlass_solve::time::{Convergence, Ending, Method, Run, RunSettings, Snapshot, TimeScheme, Trigger, Watcher};
 use windlass_solve::{SolveError, run_tables, settle, tethered};
 
 /// TDOM.
@@ -192,7 +192,7 @@ fn usual(model: &Model) -> Method {
 const MOST_STEPS: f64 = 1e13;
 
 /// How a record wants its run to go.
-fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
+fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
     let Some(window) = job.model.environment.time else {
         return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", args.span)
             .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
@@ -215,7 +215,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         Some(given) if given.first_word() == Some("NO") => Method::Corrector,
         Some(given) => match given.number(const { NEWMARK.number("BETA") }) {
             Some(beta) => {
-                let scheme = Scheme::newmark(beta, given.number(const { NEWMARK.number("ALPHA") }).unwrap_or(0.5));
+                let scheme = TimeScheme::newmark(beta, given.number(const { NEWMARK.number("ALPHA") }).unwrap_or(0.5));
                 if scheme.gamma < 0.5 {
                     return Err(Diagnostic::error("an ALPHA below 0.5 makes every motion grow", given.span));
                 }
@@ -225,7 +225,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         },
         None => args
             .option_number(&RHO)
-            .map_or_else(|| usual(&job.model), |r| Method::Implicit(Scheme::generalised_alpha(r))),
+            .map_or_else(|| usual(&job.model), |r| Method::Implicit(TimeScheme::generalised_alpha(r))),
     };
     let mut convergence = Convergence::default();
     if let Some(given) = args.option(&CONVERGE) {
@@ -237,7 +237,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         let given = args.option(option).and_then(|g| g.values.first()).and_then(|v| v.integer());
         given.and_then(|n| usize::try_from(n).ok()).unwrap_or(1)
     };
-    Ok(Settings {
+    Ok(RunSettings {
         observed: window.observed,
         dt: window.step,
         method,
@@ -253,7 +253,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
 }
 
 /// A run that begins, and the file it is kept in.
-fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option<RunLog>)> {
+fn begun(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run, Option<RunLog>)> {
     let wrong = |e, job: &Job| told(e, &job.model, args.span, job.units);
     let mut model = job.model.clone();
     model.parameters.dividing = args.option_number(&DIVIDING);
@@ -346,7 +346,7 @@ fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
 fn warn_of_late_actions(job: &mut Job, made: &Run, span: Span) {
     let end = made.settings.observed;
     let late = made.actions.iter().filter_map(|action| match action.when {
-        When::At(time) if time > end => Some(format!("{} at {time} s", action.name)),
+        Trigger::At(time) if time > end => Some(format!("{} at {time} s", action.name)),
         _ => None,
     });
     let list: Vec<String> = late.collect();
@@ -469,7 +469,7 @@ fn screened(job: &Job, args: &Args, made: &Run, ending: Option<&Ending>) -> Resu
 
 /// The same run again with half the step, and what differs.
 fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
-    let mut again = first.begun_again(|s| Settings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
+    let mut again = first.begun_again(|s| RunSettings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
     let mut going = Going::new(job, &again, None);
     again.go(&mut going)?;
     Ok(run_tables::comparison_tables(first, &again.history))

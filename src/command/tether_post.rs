@@ -16,9 +16,9 @@ use windlass_base::values::{Args, Given};
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::SeriesError;
-use windlass_signal::tether::fatigue::{Asked, Endurance};
-use windlass_solve::tethered::{self, Of, Statistics, TetherHistory, Tethered};
-use windlass_tether::installed::Change;
+use windlass_signal::tether::fatigue::{Endurance, FatigueSettings};
+use windlass_solve::tethered::{self, Of, TetherHistory, TetherStatistics, Tethered};
+use windlass_tether::installed::RigChange;
 
 /// TETHER.
 pub static TETHER: Command = Command { spec: &TETHER_SPEC, edits: false, run: tether };
@@ -165,7 +165,7 @@ fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
 fn slack_alone(run: &Tethered, given: Option<&Given>, list: Vec<usize>) -> Vec<usize> {
     let Some(lasting) = given.and_then(|g| g.first_number()) else { return list };
     let slack = 1e-6 * run.settings.step;
-    let began: Vec<f64> = run.happened.iter().filter(|e| e.change == Change::Slack).map(|e| e.time).collect();
+    let began: Vec<f64> = run.happened.iter().filter(|e| e.change == RigChange::Slack).map(|e| e.time).collect();
     let near = |place: &usize| {
         let time = run.times.get(*place).copied().unwrap_or_default();
         began.iter().any(|from| time >= from - slack && time <= from + lasting + slack)
@@ -173,11 +173,11 @@ fn slack_alone(run: &Tethered, given: Option<&Given>, list: Vec<usize>) -> Vec<u
     list.into_iter().filter(near).collect()
 }
 
-fn window(run: &Tethered, args: &Args) -> Statistics {
+fn window(run: &Tethered, args: &Args) -> TetherStatistics {
     let given = args.option(&EVENTS);
     let from = given.and_then(|given| given.number(const { EVENTS.number("BEG") })).unwrap_or(run.settings.transient);
     let to = given.and_then(|given| given.number(const { EVENTS.number("END") })).unwrap_or(f64::INFINITY);
-    Statistics::new(run, from, to)
+    TetherStatistics::new(run, from, to)
 }
 
 /// A whole number of the data, within a range.
@@ -242,7 +242,7 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
 }
 
 /// Curve and hours of FATIGUE.
-fn asked(args: &Args) -> Asked {
+fn asked(args: &Args) -> FatigueSettings {
     let usual = Endurance::KILONEWTONS;
     let curve = args.option(&SN).map_or(usual, |g| Endurance {
         concentration: g.number(const { SN.number("SCF") }).unwrap_or(usual.concentration),
@@ -250,7 +250,7 @@ fn asked(args: &Args) -> Asked {
         slope: g.number(const { SN.number("M") }).unwrap_or(usual.slope),
     });
     let hours = args.option_number(&HOURS).unwrap_or(3.0);
-    Asked { duration: 1.0, curve: curve.in_unit(1000.0), peak_time: hours * 3600.0 }
+    FatigueSettings { duration: 1.0, curve: curve.in_unit(1000.0), peak_time: hours * 3600.0 }
 }
 
 fn along(run: &Tethered, tether: &TetherHistory, args: &Args) -> Outcome<Table> {

@@ -15,7 +15,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_solve::tethered::{self, Settings};
+use windlass_solve::tethered::{self, TetherRunSettings};
 
 /// -TETHERS.
 pub const TETHERS: OptionSpec = OptionSpec::new(
@@ -83,7 +83,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         let (cos, sin) = unit_vector(direction);
         [speed * cos, speed * sin]
     });
-    let settings = Settings {
+    let settings = TetherRunSettings {
         observed: window.observed,
         step: window.step,
         store: store.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
@@ -105,7 +105,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     job.say(&text);
     for event in
-        made.happened.iter().filter(|e| matches!(e.change, windlass_tether::installed::Change::LowerStop { .. }))
+        made.happened.iter().filter(|e| matches!(e.change, windlass_tether::installed::RigChange::LowerStop { .. }))
     {
         job.warn(format!("tether {} fell on its lower stop at {:.2} s", event.tether, event.time), span);
     }

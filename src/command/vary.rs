@@ -10,7 +10,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::{Class, ClassError, Condition, Configuration, Connector, LineChange, Placement, QUASI_STATIC};
+use windlass_model::{Class, ClassError, Condition, Connector, LineChange, LineConfiguration, Placement, QUASI_STATIC};
 
 /// -VARY.
 pub const VARY: OptionSpec = OptionSpec::new(
@@ -244,7 +244,7 @@ fn facts(parameter: Parameter, class: &Class, connector: &Connector, place: &Pla
 }
 
 /// The columns: the value, and the configuration it has, if any.
-fn with_columns(table: Table, parameter: Parameter, rows: &[(f64, Option<Configuration>)]) -> Table {
+fn with_columns(table: Table, parameter: Parameter, rows: &[(f64, Option<LineConfiguration>)]) -> Table {
     table
         .with_rows(rows)
         .column("Varied", parameter.name(), parameter.dim(), Digits::Usual, |(value, _)| *value)

@@ -1,7 +1,7 @@
 //! What a job comes to for who reads its exit code alone: results that are missing, tensions beyond a break.
 
-use windlass_model::{Model, Summary};
-use windlass_solve::time::{Run, What};
+use windlass_model::{ElementSummary, Model};
+use windlass_solve::time::{ActionKind, Run};
 
 /// A connector whose tension exceeds a break that was given, in a state that was asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub fn over_break(connector: &str, largest: Option<(f64, usize)>, command: &'sta
 }
 
 /// The same of what a report tells of it; one that is far too short for its ends is over its break whoever gives that.
-pub fn judged(connector: &str, told: &Summary, command: &'static str) -> Option<OverBreak> {
+pub fn judged(connector: &str, told: &ElementSummary, command: &'static str) -> Option<OverBreak> {
     let over = over_break(connector, told.over_given_break, command);
     over.or_else(|| {
         let too_short = told.too_short?;
@@ -68,10 +68,11 @@ pub fn over_break_in(run: &Run) -> Vec<OverBreak> {
         let happened =
             || run.actions.iter().zip(&run.fired).filter(|(_, fired)| fired.is_some()).map(|(action, _)| action);
         let released = happened().any(|action| {
-            let of_it = matches!(&action.what, What::Release(names) if names.iter().any(same));
+            let of_it = matches!(&action.what, ActionKind::Release(names) if names.iter().any(same));
             of_it && action.when.connector().is_some_and(same)
         });
-        released && !happened().any(|action| matches!(&action.what, What::Activate(names) if names.iter().any(same)))
+        released
+            && !happened().any(|action| matches!(&action.what, ActionKind::Activate(names) if names.iter().any(same)))
     };
     let mut made = Vec::new();
     for (series, running) in run.statistics.results() {

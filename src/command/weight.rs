@@ -131,7 +131,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let body = find(&job.model.bodies, given.first_word().unwrap_or_default(), "body", place)?.clone();
         match given {
             _ if given.is(&TOTAL) => {
-                let made = missing(job, given, &Mass::from_parts(job.model.parts_of(&body), job.model.defaults.gravity))?;
+                let made =
+                    missing(job, given, &Mass::from_parts(job.model.parts_of(&body), job.model.defaults.gravity))?;
                 if let [Some(x), Some(y), Some(z)] = RADII_OF_TOTAL.map(|key| given.number(key))
                     && let Some(text) = no_body_has([x, y, z], job.units)
                 {

@@ -8,7 +8,7 @@ use windlass_base::values::Given;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::options::W_SPECTRUM;
-use windlass_model::{CurveKind, Environment, Formula, GustParts, Wind};
+use windlass_model::{CurveKind, CurveReference, Environment, GustParts, Wind};
 
 /// Codes and laws of the mean wind; [MOSES-REF env] names no types, so these are the field's usual ones.
 const PROFILES: &[&str] = &["POWER", "LOGARITHMIC", "API", "NPD", "ISO", "ABS", "DNV"];
@@ -85,7 +85,7 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
         _ if given.is(&W_SPECTRUM) => {
             spectrum(job, given, &GUSTS)?;
             let named = formula(given, None);
-            env.gusts = Some(Formula { kind: named.kind.to_ascii_uppercase(), ..named });
+            env.gusts = Some(CurveReference { kind: named.kind.to_ascii_uppercase(), ..named });
         }
         _ if given.is(&PERIOD) => {
             periods(given)?;
@@ -102,7 +102,7 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
         }
         _ if given.is(&CORRELATION) => {
             env.drift_correlation =
-                Some(Formula { kind: String::new(), value: given.first_number(), span: given.span });
+                Some(CurveReference { kind: String::new(), value: given.first_number(), span: given.span });
         }
         _ => {}
     }

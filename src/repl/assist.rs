@@ -17,9 +17,9 @@ use windlass_connectors::CLASSES;
 use windlass_connectors::line_types::library;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::functions;
-use windlass_language::select::{Choice, keyword};
+use windlass_language::select::{SearchResult, keyword};
 use windlass_language::spec::{CommandSpec, Kind as ValueKind, MenuSpec, ValueSpec};
-use windlass_language::token::{self, Kind, Token};
+use windlass_language::token::{self, Token, TokenKind};
 use windlass_model::PIPE;
 
 /// Names to complete, taken from the session before each line.
@@ -139,15 +139,15 @@ fn spec_of(menu: &'static MenuSpec, text: &str, words: &[Token]) -> Option<(&'st
     let word = |i: usize| words.get(i).and_then(|t| text.get(t.range.clone()));
     let first = words.first()?;
     match first.kind {
-        Kind::Class => {
+        TokenKind::Class => {
             let kind = keyword(word(1)?, CLASSES.iter().map(|k| (k.spec.name, k.spec.owner, k.spec)));
-            if let Choice::One(spec) = kind { Some((spec, 2)) } else { None }
+            if let SearchResult::One(spec) = kind { Some((spec, 2)) } else { None }
         }
-        Kind::Point => COMMANDS.iter().find(|c| c.spec.name == "*POINT").map(|c| (c.spec, 1)),
-        Kind::Selector => COMMANDS.iter().find(|c| c.spec.name == ":SELECTOR").map(|c| (c.spec, 1)),
+        TokenKind::Point => COMMANDS.iter().find(|c| c.spec.name == "*POINT").map(|c| (c.spec, 1)),
+        TokenKind::Selector => COMMANDS.iter().find(|c| c.spec.name == ":SELECTOR").map(|c| (c.spec, 1)),
         _ => {
             let names = offered(menu).map(|c| c.spec).chain(CONTROL).map(|s| (s.name, s.owner, s));
-            if let Choice::One(spec) = keyword(word(0)?, names) { Some((spec, 1)) } else { None }
+            if let SearchResult::One(spec) = keyword(word(0)?, names) { Some((spec, 1)) } else { None }
         }
     }
 }
@@ -155,7 +155,7 @@ fn spec_of(menu: &'static MenuSpec, text: &str, words: &[Token]) -> Option<(&'st
 /// Whether the first datum of a `&STATUS` record is LINE_TYPES.
 fn tells_of_line_types(text: &str, words: &[Token]) -> bool {
     let word = words.get(1).and_then(|t| text.get(t.range.clone())).unwrap_or_default();
-    keyword(word, status_kinds()) == Choice::One("LINE_TYPES")
+    keyword(word, status_kinds()) == SearchResult::One("LINE_TYPES")
 }
 
 /// What stands at the end of the record: the value expected there, and whether an option must have it.
@@ -169,9 +169,9 @@ fn expected_value(
     let mut option: Option<(&'static windlass_language::spec::OptionSpec, usize)> = None;
     for token in words.get(from..).unwrap_or_default() {
         let word = text.get(token.range.clone()).unwrap_or_default();
-        if token.kind == Kind::Option {
+        if token.kind == TokenKind::Option {
             option = match keyword(word, spec.option_names()) {
-                Choice::One(found) => Some((found, 0)),
+                SearchResult::One(found) => Some((found, 0)),
                 _ => None,
             };
             continue;
@@ -250,7 +250,7 @@ impl Completer for Assistant {
         } else if let Some(at) = function_start(word) {
             let name = word.get(at..).unwrap_or_default();
             return Ok((start + at, sorted(string_functions().filter(|f| begins(f, name)).collect())));
-        } else if words.first().is_some_and(|w| w.kind == Kind::Class) && words.len() == 1 {
+        } else if words.first().is_some_and(|w| w.kind == TokenKind::Class) && words.len() == 1 {
             candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
         } else if let Some((spec, from)) = spec {
             let expected = expected_value(spec, head, &words, from);
@@ -325,9 +325,9 @@ impl Hinter for Assistant {
         let words = token::words(line);
         let (spec, from) = spec_of(known.menu(), line, &words)?;
         let value = expected_value(spec, line, &words, from).map(|(value, _)| value);
-        let last = words.last().filter(|t| t.kind == Kind::Option).and_then(|t| line.get(t.range.clone()));
+        let last = words.last().filter(|t| t.kind == TokenKind::Option).and_then(|t| line.get(t.range.clone()));
         let option = last.and_then(|name| match keyword(name, spec.option_names()) {
-            Choice::One(found) => Some(found),
+            SearchResult::One(found) => Some(found),
             _ => None,
         });
         let text = match (option, value) {
@@ -355,14 +355,14 @@ impl Highlighter for Assistant {
             };
             out.push_str(gap);
             let paint = match token.kind {
-                Kind::Internal => "\x1b[1;35m",
-                Kind::Class | Kind::Point | Kind::Selector | Kind::Load => "\x1b[36m",
-                Kind::Option => "\x1b[33m",
-                Kind::Number => "\x1b[32m",
-                Kind::Variable => "\x1b[35m",
-                Kind::Comment => "\x1b[2m",
-                Kind::Quoted => "\x1b[32m",
-                Kind::Word if end == 0 => "\x1b[1m",
+                TokenKind::Internal => "\x1b[1;35m",
+                TokenKind::Class | TokenKind::Point | TokenKind::Selector | TokenKind::Load => "\x1b[36m",
+                TokenKind::Option => "\x1b[33m",
+                TokenKind::Number => "\x1b[32m",
+                TokenKind::Variable => "\x1b[35m",
+                TokenKind::Comment => "\x1b[2m",
+                TokenKind::Quoted => "\x1b[32m",
+                TokenKind::Word if end == 0 => "\x1b[1m",
                 _ => "",
             };
             if paint.is_empty() {

@@ -3,7 +3,7 @@
 mod assist;
 
 use crate::report::files::Question;
-use crate::session::{End, Session};
+use crate::session::{Session, SessionEnd};
 use assist::{Assistant, Known};
 use rustyline::config::Configurer;
 use rustyline::error::ReadlineError;
@@ -24,7 +24,7 @@ use windlass_language::token;
 const HISTORY: usize = 5000;
 
 /// The one editor of a session: what is typed ahead waits in it for the next record or question.
-type Line = Editor<Assistant, FileHistory>;
+type SharedEditor = Editor<Assistant, FileHistory>;
 
 /// Talks with the user until `&FINISH` or Ctrl-D.
 pub fn run(session: &mut Session, terminal: bool) {
@@ -47,7 +47,7 @@ pub fn run(session: &mut Session, terminal: bool) {
         session.job.say("windlass: &HELP lists the commands, Tab completes, Ctrl-D leaves");
     }
     let mut line_number = 1;
-    while session.run() == End::NeedLine {
+    while session.run() == SessionEnd::NeedLine {
         session.job.output.flush();
         if let Ok(mut known) = known.lock() {
             known.update(session);
@@ -89,7 +89,7 @@ pub fn run(session: &mut Session, terminal: bool) {
     }
 }
 
-fn editor(assistant: Assistant) -> rustyline::Result<Line> {
+fn editor(assistant: Assistant) -> rustyline::Result<SharedEditor> {
     let config = Config::builder()
         .completion_type(CompletionType::List)
         .completion_show_all_if_ambiguous(true)
@@ -103,7 +103,7 @@ fn editor(assistant: Assistant) -> rustyline::Result<Line> {
 }
 
 /// What the user answers to a question; `None` when the answer is refused (Ctrl-C, Ctrl-D).
-fn answer(line: &Mutex<Line>, prompt: &str) -> Option<String> {
+fn answer(line: &Mutex<SharedEditor>, prompt: &str) -> Option<String> {
     let mut line = line.lock().ok()?;
     if let Some(assistant) = line.helper_mut() {
         assistant.asking = true;

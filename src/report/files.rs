@@ -82,12 +82,12 @@ impl Spot {
 
 /// A place that was found fit for a file, to be written now or later.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct FilePlace {
     spot: Spot,
     swept: Swept,
 }
 
-impl Place {
+impl FilePlace {
     /// Where the file will be.
     pub fn path(&self) -> &Path {
         &self.spot.path
@@ -401,7 +401,7 @@ impl JobFolder {
     /// A name that leads nowhere, a missing folder, a folder of that name, a place the system does not let write to,
     /// a file outside of the job's folder that may not be made or exists, a name inside of it that a link leads out of it,
     /// a file in use.
-    pub fn place(&self, name: &str) -> Result<Place, FileError> {
+    pub fn place(&self, name: &str) -> Result<FilePlace, FileError> {
         let spot = self.spot(name, true)?;
         self.not_in_use(&spot.path)?;
         let (dir, file) = spot.stand()?;
@@ -417,7 +417,7 @@ impl JobFolder {
         // gone again at once: it only shows that the folder takes files
         let (probe, _) = temporary(&dir).map_err(|source| spot.error(source))?;
         dir.remove_file(probe).map_err(|source| spot.error(source))?;
-        Ok(Place { spot, swept: self.swept.clone() })
+        Ok(FilePlace { spot, swept: self.swept.clone() })
     }
 
     /// Writes a file whole or not at all; returns where it went.
@@ -515,7 +515,7 @@ impl JobFolder {
             if !old.metadata().map_err(at)?.is_file() {
                 return Err(at(std::io::Error::other("only a file can be copied")));
             }
-            let place = Place { spot: to, swept: self.swept.clone() };
+            let place = FilePlace { spot: to, swept: self.swept.clone() };
             let mut new = place.begin().map_err(beyond)?;
             std::io::copy(&mut old, &mut new).map_err(at)?;
             new.finish().map_err(beyond)?;

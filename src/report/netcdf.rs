@@ -3,7 +3,7 @@
 //! Source: The NetCDF Classic Format (Unidata); attributes as the CF Conventions 1.11, sections 2.5 and 3.1. Text is an array of
 //! characters. Whole numbers are 32 bits wide, and doubles where that does not hold them.
 
-use super::stored::{SOURCE, StoreError, Values, stored};
+use super::stored::{ColumnValues, SOURCE, StoreError, stored};
 use netcdf3::{DataSet, FileWriter, Version};
 use std::cell::RefCell;
 use std::io::{Cursor, Seek, SeekFrom, Write};
@@ -116,10 +116,10 @@ fn refused(error: impl std::fmt::Debug) -> StoreError {
     StoreError::Library(format!("{error:?}"))
 }
 
-fn data(values: Values) -> Data {
+fn data(values: ColumnValues) -> Data {
     match values {
-        Values::Numbers(list) => Data::Doubles(list.into_iter().map(|v| v.unwrap_or(NO_NUMBER)).collect()),
-        Values::Wholes(list) => {
+        ColumnValues::Numbers(list) => Data::Doubles(list.into_iter().map(|v| v.unwrap_or(NO_NUMBER)).collect()),
+        ColumnValues::Wholes(list) => {
             let narrow = |v: &Option<i64>| match v {
                 Some(v) => i32::try_from(*v).ok().filter(|v| *v != NO_WHOLE),
                 None => Some(NO_WHOLE),
@@ -129,7 +129,7 @@ fn data(values: Values) -> Data {
                 None => Data::Doubles(list.into_iter().map(|v| v.map_or(NO_NUMBER, |v| v as f64)).collect()),
             }
         }
-        Values::Texts(list) => {
+        ColumnValues::Texts(list) => {
             let width = list.iter().flatten().map(String::len).max().unwrap_or(0).max(1);
             let mut letters = Vec::with_capacity(width * list.len());
             for (row, text) in list.iter().enumerate() {

@@ -83,10 +83,10 @@ pub fn view(table: &Table, numbers: &[usize], units: UnitSystem) -> Vec<String> 
 }
 
 /// How a cell becomes text.
-type Shown = fn(&Cell, Dim, Digits, UnitSystem) -> String;
+type CellFormat = fn(&Cell, Dim, Digits, UnitSystem) -> String;
 
 /// Aligns the rows with comfy-table and adds heads, units, group heads and dashes. Numbers stand to the right.
-fn lay_out(table: &Table, units: UnitSystem, shown: Shown) -> Vec<String> {
+fn lay_out(table: &Table, units: UnitSystem, shown: CellFormat) -> Vec<String> {
     let mut rows: Vec<Vec<String>> = vec![
         table.columns.iter().map(|c| c.name.clone()).collect(),
         table.columns.iter().map(|c| c.dim.label(units)).collect(),

@@ -3,7 +3,7 @@
 //! Columns have the heads of a CSV file; title, source, units and notes stand in the metadata of the file.
 
 use super::embedded::string;
-use super::stored::{SOURCE, StoreError, Values, stored};
+use super::stored::{ColumnValues, SOURCE, StoreError, stored};
 use ::parquet::basic::{LogicalType, Repetition, Type as Physical};
 use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use ::parquet::errors::ParquetError;
@@ -42,11 +42,11 @@ fn written(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
     let mut fields = Vec::new();
     for column in &columns {
         let physical = match column.values {
-            Values::Numbers(_) => Physical::DOUBLE,
-            Values::Wholes(_) => Physical::INT64,
-            Values::Texts(_) => Physical::BYTE_ARRAY,
+            ColumnValues::Numbers(_) => Physical::DOUBLE,
+            ColumnValues::Wholes(_) => Physical::INT64,
+            ColumnValues::Texts(_) => Physical::BYTE_ARRAY,
         };
-        let logical = matches!(column.values, Values::Texts(_)).then_some(LogicalType::String);
+        let logical = matches!(column.values, ColumnValues::Texts(_)).then_some(LogicalType::String);
         let field = Type::primitive_type_builder(&column.head, physical)
             .with_repetition(Repetition::OPTIONAL)
             .with_logical_type(logical)
@@ -68,9 +68,9 @@ fn written(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
     let mut group = writer.next_row_group()?;
     for column in columns {
         match column.values {
-            Values::Numbers(list) => put::<DoubleType>(&mut group, list)?,
-            Values::Wholes(list) => put::<Int64Type>(&mut group, list)?,
-            Values::Texts(list) => {
+            ColumnValues::Numbers(list) => put::<DoubleType>(&mut group, list)?,
+            ColumnValues::Wholes(list) => put::<Int64Type>(&mut group, list)?,
+            ColumnValues::Texts(list) => {
                 let list = list.into_iter().map(|t| t.map(|t| ByteArray::from(t.into_bytes()))).collect();
                 put::<ByteArrayType>(&mut group, list)?;
             }

@@ -24,7 +24,7 @@ pub struct RunLog {
 
 /// What a file of a run holds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
+pub struct StoredRun {
     /// The fingerprint of the run.
     pub fingerprint: u64,
     /// Numbers of a row.
@@ -76,7 +76,7 @@ impl RunLog {
     ///
     /// # Errors
     /// What the system refuses.
-    pub fn go_on(mut file: File, path: PathBuf, kept: &Kept) -> Result<Self, RunLogError> {
+    pub fn go_on(mut file: File, path: PathBuf, kept: &StoredRun) -> Result<Self, RunLogError> {
         let done = file.set_len(kept.end).and_then(|()| file.seek(SeekFrom::End(0)));
         let log = RunLog { file: BufWriter::new(file), path };
         done.map_err(|e| RunLogError::System(log.said(&e)))?;
@@ -123,7 +123,7 @@ impl Watcher for RunLog {
 ///
 /// # Errors
 /// A file that is none, or holds no such snapshot.
-pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<Kept, RunLogError> {
+pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<StoredRun, RunLogError> {
     let mut bytes = Vec::new();
     file.seek(SeekFrom::Start(0))
         .and_then(|_| file.read_to_end(&mut bytes))
@@ -161,7 +161,7 @@ pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<Kept, RunLogErro
     }
     let (snapshot, length, end) = found.ok_or(RunLogError::NoSnapshot)?;
     rows.truncate(length);
-    Ok(Kept { fingerprint, width, rows, snapshot, end })
+    Ok(StoredRun { fingerprint, width, rows, snapshot, end })
 }
 
 /// Whether a run can go on from here: its time and what moves.
@@ -197,7 +197,7 @@ mod tests {
         Snapshot { time, ..Snapshot::default() }
     }
 
-    fn kept(path: &std::path::Path) -> Result<Kept, RunLogError> {
+    fn kept(path: &std::path::Path) -> Result<StoredRun, RunLogError> {
         read(&mut File::open(path).unwrap(), f64::INFINITY)
     }
 

@@ -5,7 +5,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_signal::SeriesError;
 use windlass_signal::extremes::rayleigh;
 use windlass_signal::statistics::{self, Crossings, Moments};
-use windlass_signal::tables::{self, Record};
+use windlass_signal::tables::{self, SeriesRecord};
 
 /// Count, mean, standard deviation, and the extremes with the value of the independent column where they occur.
 ///
@@ -213,7 +213,7 @@ pub fn peaks(table: &Table) -> Result<Table, SeriesError> {
 ///
 /// # Errors
 /// As [`tables::moments`].
-pub fn spectral(record: &Record, length: Option<usize>, units: UnitSystem) -> Result<Table, SeriesError> {
+pub fn spectral(record: &SeriesRecord, length: Option<usize>, units: UnitSystem) -> Result<Table, SeriesError> {
     let dims: Vec<Dim> = record.series.iter().map(|s| s.dim).collect();
     let rows: Vec<_> = tables::moments(record, length)?.into_iter().zip(&dims).collect();
     let square = |dim: &Dim, m: f64| dim.from_si(dim.from_si(m, units), units);

@@ -20,7 +20,7 @@ pub enum StoreError {
 
 /// Values of a column; none where a cell has none.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Values {
+pub enum ColumnValues {
     /// Numbers in user units.
     Numbers(Vec<Option<f64>>),
     /// Whole numbers.
@@ -31,7 +31,7 @@ pub enum Values {
 
 /// A column with a name no other has.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stored {
+pub struct StoredColumn {
     /// Its name with its unit, as in a CSV file.
     pub head: String,
     /// Its name with its group.
@@ -39,18 +39,18 @@ pub struct Stored {
     /// Its unit; empty of plain numbers and text.
     pub unit: String,
     /// Its values.
-    pub values: Values,
+    pub values: ColumnValues,
 }
 
 /// The columns of a table.
 ///
 /// # Errors
 /// [`StoreError::Empty`].
-pub fn stored(table: &Table, units: UnitSystem) -> Result<Vec<Stored>, StoreError> {
+pub fn stored(table: &Table, units: UnitSystem) -> Result<Vec<StoredColumn>, StoreError> {
     if table.rows() == 0 {
         return Err(StoreError::Empty);
     }
-    let make = |(column, head): (&Column, String)| Stored {
+    let make = |(column, head): (&Column, String)| StoredColumn {
         head,
         long_name: super::columns::long_name(column),
         unit: column.dim.label(units),
@@ -60,19 +60,19 @@ pub fn stored(table: &Table, units: UnitSystem) -> Result<Vec<Stored>, StoreErro
 }
 
 /// The narrowest type that holds every cell.
-fn values(column: &Column, units: UnitSystem) -> Values {
+fn values(column: &Column, units: UnitSystem) -> ColumnValues {
     let cells = || column.cells.iter();
     if cells().any(|c| matches!(c, Cell::Text(_))) {
         let text = |c: &Cell| (*c != Cell::Missing).then(|| format::full(c, column.dim, units));
-        return Values::Texts(cells().map(text).collect());
+        return ColumnValues::Texts(cells().map(text).collect());
     }
     if cells().all(|c| matches!(c, Cell::Integer(_) | Cell::Missing)) && cells().any(|c| *c != Cell::Missing) {
         let whole = |c: &Cell| if let Cell::Integer(n) = c { Some(*n) } else { None };
-        return Values::Wholes(cells().map(whole).collect());
+        return ColumnValues::Wholes(cells().map(whole).collect());
     }
     let number = |c: &Cell| match c {
         Cell::Number(value) => Some(column.dim.from_si(*value, units)),
         other => other.number(),
     };
-    Values::Numbers(cells().map(number).collect())
+    ColumnValues::Numbers(cells().map(number).collect())
 }

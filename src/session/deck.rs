@@ -4,7 +4,7 @@ use super::Session;
 use crate::command::{PLAIN, SCRIPT};
 use crate::report::page;
 use std::path::Path;
-use windlass_aqwa::{self as aqwa, Deck, Records, Written};
+use windlass_aqwa::{self as aqwa, Deck, Records, WrittenRecords};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
 use windlass_language::source::Text;
@@ -47,7 +47,7 @@ impl Session {
     }
 
     /// Reads the records of a deck next; what is said of them later is said of the cards they are made of.
-    fn open_records(&mut self, name: &str, records: Written, tag: u32, span: Option<Span>) {
+    fn open_records(&mut self, name: &str, records: WrittenRecords, tag: u32, span: Option<Span>) {
         match self.interpreter.open(name, records.text.clone(), tag, span) {
             Ok(id) => self.decks.push((id, records)),
             Err(error) => self.report(*error),

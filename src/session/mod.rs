@@ -21,17 +21,17 @@ use windlass_base::values::Args;
 use windlass_language::args;
 use windlass_language::flow::macros::{self, Macro};
 use windlass_language::flow::specs::CONTROL;
-use windlass_language::flow::{Interpreter, Step};
+use windlass_language::flow::{FlowStep, Interpreter};
 use windlass_language::record::{Record, Word};
 use windlass_language::render::render;
-use windlass_language::select::{Choice, keyword};
+use windlass_language::select::{SearchResult, keyword};
 use windlass_language::source::Text;
-use windlass_language::spec::Form;
-use windlass_language::token::Kind;
+use windlass_language::spec::TextForm;
+use windlass_language::token::TokenKind;
 
 /// Why a run came back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum SessionEnd {
     /// The terminal must give a line.
     NeedLine,
     /// Everything has been read.
@@ -57,7 +57,7 @@ pub struct Session {
     /// Errors when the terminal was last asked for a line.
     errors_at_prompt: i64,
     /// Texts made of decks, with the cards they are made of.
-    decks: Vec<(SourceId, aqwa::Written)>,
+    decks: Vec<(SourceId, aqwa::WrittenRecords)>,
 }
 
 impl Session {
@@ -96,12 +96,12 @@ impl Session {
     }
 
     /// Runs until nothing is left, a line is needed, or the job ends.
-    pub fn run(&mut self) -> End {
+    pub fn run(&mut self) -> SessionEnd {
         loop {
             self.interpreter.passing = self.passing();
             let over = match self.interpreter.next_step(&mut self.job) {
-                Ok(Step::Record(record)) => self.execute(&record),
-                Ok(Step::Ended(tag)) => {
+                Ok(FlowStep::Record(record)) => self.execute(&record),
+                Ok(FlowStep::Ended(tag)) => {
                     while tag == INMODEL_FILE && self.passing() {
                         self.leave_menu(None);
                     }
@@ -110,13 +110,13 @@ impl Session {
                     }
                     false
                 }
-                Ok(Step::NeedLine) => {
+                Ok(FlowStep::NeedLine) => {
                     self.errors_at_prompt = self.errors;
-                    return End::NeedLine;
+                    return SessionEnd::NeedLine;
                 }
-                Ok(Step::Done) => {
+                Ok(FlowStep::Done) => {
                     self.say_open_menus();
-                    return End::Done;
+                    return SessionEnd::Done;
                 }
                 Err(error) => {
                     self.report(*error);
@@ -124,7 +124,7 @@ impl Session {
                 }
             };
             if over || self.too_many_errors() {
-                return End::Finished;
+                return SessionEnd::Finished;
             }
         }
     }
@@ -309,13 +309,13 @@ impl Session {
         if self.pass_over(first, words) {
             return Ok(Effect::Done);
         }
-        if matches!(self.job.menu(), Menu::Building(_)) && first.kind != Kind::Internal {
+        if matches!(self.job.menu(), Menu::Building(_)) && first.kind != TokenKind::Internal {
             return command::take_row(&mut self.job, record);
         }
         match first.kind {
-            Kind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
-            Kind::Point => return self.invoke(in_menu("*POINT", self.job.menu(), first)?, record, words),
-            Kind::Selector => return self.invoke(in_menu(":SELECTOR", self.job.menu(), first)?, record, words),
+            TokenKind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
+            TokenKind::Point => return self.invoke(in_menu("*POINT", self.job.menu(), first)?, record, words),
+            TokenKind::Selector => return self.invoke(in_menu(":SELECTOR", self.job.menu(), first)?, record, words),
             _ => {}
         }
         match self.resolve(first)? {
@@ -329,7 +329,7 @@ impl Session {
     /// Exact command, exact macro, abbreviated command, abbreviated macro: in this order.
     fn resolve(&self, first: &Word) -> Outcome<Meaning> {
         let menu = self.job.menu();
-        let internal = first.kind == Kind::Internal;
+        let internal = first.kind == TokenKind::Internal;
         let names = offered(menu.spec())
             .filter(move |c| c.spec.name.starts_with('&') == internal && !c.spec.name.starts_with(['~', '*', ':']))
             .map(|c| (c.spec.name, c.spec.owner, c));
@@ -341,10 +341,12 @@ impl Session {
         }
         let all = names.clone().map(|(n, o, c)| (n, o, Some(c))).chain(controls.map(|(n, o)| (n, o, None)));
         match keyword(&first.text, all) {
-            Choice::One(Some(command)) => Ok(Meaning::Command(command)),
-            Choice::Several(list) => Err(Diagnostic::error(format!("ambiguous command `{}`", first.text), first.span)
-                .label(format!("could be {}", list.join(", ")))),
-            Choice::One(None) | Choice::None => match found_macro {
+            SearchResult::One(Some(command)) => Ok(Meaning::Command(command)),
+            SearchResult::Several(list) => {
+                Err(Diagnostic::error(format!("ambiguous command `{}`", first.text), first.span)
+                    .label(format!("could be {}", list.join(", "))))
+            }
+            SearchResult::One(None) | SearchResult::None => match found_macro {
                 Some((_, found)) => Ok(Meaning::Macro(Arc::clone(found))),
                 None => Err(unknown(first, menu, names.map(|(n, _, _)| n), self.interpreter.macros())),
             },
@@ -354,8 +356,8 @@ impl Session {
     fn invoke(&mut self, command: &'static Command, record: &Record, words: &[Word]) -> Outcome<Effect> {
         let span = words.first().map_or(Span::default(), |w| w.span);
         let args = match command.spec.form {
-            Form::Words => args::read(command.spec, span, words.get(1..).unwrap_or_default(), self.job.units)?,
-            Form::Text => Args::empty(span),
+            TextForm::Words => args::read(command.spec, span, words.get(1..).unwrap_or_default(), self.job.units)?,
+            TextForm::Text => Args::empty(span),
         };
         let call = Call { record, words, args };
         let open = self.job.menus.len();

@@ -7,13 +7,13 @@ use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_language::flow::macros::Macro;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::record::Word;
-use windlass_language::token::Kind;
+use windlass_language::token::TokenKind;
 
 /// A description record's command, when the menu takes descriptions.
 pub(super) fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static Command> {
     offered(menu.spec()).find(|c| c.spec.name == name).ok_or_else(|| {
         let (what, help) = match first.kind {
-            Kind::Selector => ("a selector", "&SELECT opens the menu of selectors; &SELECT :NAME .. defines one"),
+            TokenKind::Selector => ("a selector", "&SELECT opens the menu of selectors; &SELECT :NAME .. defines one"),
             _ => ("a description record", "descriptions belong to INMODEL or MEDIT: enter MEDIT first"),
         };
         Diagnostic::error(format!("`{}` has no place in menu {}", first.text, menu.name()), first.span)

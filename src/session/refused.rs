@@ -5,7 +5,7 @@ use super::{Meaning, Session};
 use crate::command::{Command, Menu, opened_by};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_language::record::Word;
-use windlass_language::token::Kind;
+use windlass_language::token::TokenKind;
 
 impl Session {
     /// Hands back the error of a command; where the command would have opened a menu, and the run goes on, its place is
@@ -30,7 +30,7 @@ impl Session {
     /// Passes over a plain record of a refused menu; false when the record acts as in every menu. A command that opens a
     /// menu is one more for whose `END` to wait.
     pub(super) fn pass_over(&mut self, first: &Word, words: &[Word]) -> bool {
-        if !self.passing() || first.kind == Kind::Internal {
+        if !self.passing() || first.kind == TokenKind::Internal {
             return false;
         }
         match self.resolve(first) {

@@ -10,7 +10,7 @@ use windlass_base::span::SourceId;
 use windlass_connectors::CLASSES;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::record;
-use windlass_language::select::{Choice, Owner, keyword};
+use windlass_language::select::{Owner, SearchResult, keyword};
 use windlass_language::spec::{CommandSpec, MenuSpec, Opens};
 
 fn specs() -> Vec<&'static CommandSpec> {
@@ -34,7 +34,7 @@ fn every_full_name_selects_itself_and_options_are_unique() {
         for option in spec.options {
             assert_eq!(
                 keyword(option.name, spec.option_names()),
-                Choice::One(option),
+                SearchResult::One(option),
                 "{} of {}",
                 option.name,
                 spec.name
@@ -51,8 +51,8 @@ fn an_abbreviation_unique_among_moses_names_stays_valid_whatever_is_added() {
         let moses = || spec.option_names().filter(|(_, owner, _)| *owner == Owner::Moses);
         for (name, _, option) in moses() {
             for length in 2..name.len() {
-                if let Choice::One(found) = keyword(&name[..length], moses()) {
-                    assert_eq!(keyword(&name[..length], spec.option_names()), Choice::One(found), "{option:?}");
+                if let SearchResult::One(found) = keyword(&name[..length], moses()) {
+                    assert_eq!(keyword(&name[..length], spec.option_names()), SearchResult::One(found), "{option:?}");
                 }
             }
         }
@@ -65,8 +65,8 @@ fn an_abbreviation_unique_among_moses_names_stays_valid_whatever_is_added() {
         let moses = || all().filter(|(_, owner, _)| *owner == Owner::Moses);
         for (name, _, _) in moses() {
             for length in 1..name.len() {
-                if let Choice::One(found) = keyword(&name[..length], moses()) {
-                    assert_eq!(keyword(&name[..length], all()), Choice::One(found));
+                if let SearchResult::One(found) = keyword(&name[..length], moses()) {
+                    assert_eq!(keyword(&name[..length], all()), SearchResult::One(found));
                 }
             }
         }
@@ -84,16 +84,16 @@ fn the_abbreviations_seen_in_published_samples_are_accepted() {
         ("-EMOD", "-EMODULUS"),
     ] {
         let found = keyword(short, b_cat.option_names());
-        assert!(matches!(found, Choice::One(o) if o.name == long), "{short}: {found:?}");
+        assert!(matches!(found, SearchResult::One(o) if o.name == long), "{short}: {found:?}");
     }
     let command = |word: &str, menu: &'static MenuSpec| {
         let names = offered(menu).map(|c| (c.spec.name, c.spec.owner, c.spec.name));
         keyword(word, names.chain(CONTROL.iter().map(|s| (s.name, s.owner, s.name))).collect::<Vec<_>>().into_iter())
     };
-    assert_eq!(command("&INSTAT", &menu::MAIN), Choice::One("&INSTATE"));
-    assert_eq!(command("&SELEC", &menu::MAIN), Choice::One("&SELECT"));
+    assert_eq!(command("&INSTAT", &menu::MAIN), SearchResult::One("&INSTATE"));
+    assert_eq!(command("&SELEC", &menu::MAIN), SearchResult::One("&SELECT"));
     let connector = COMMANDS.iter().find(|c| c.spec.name == "CONNECTOR").unwrap().spec;
-    assert!(matches!(keyword("-ANC", connector.option_names()), Choice::One(o) if o.name == "-ANCHOR"));
+    assert!(matches!(keyword("-ANC", connector.option_names()), SearchResult::One(o) if o.name == "-ANCHOR"));
 }
 
 #[test]

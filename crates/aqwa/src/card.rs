@@ -35,7 +35,7 @@ impl<T: Copy + PartialEq + Default> Field<T> {
 
 /// One line of a deck that is neither blank nor a comment.
 #[derive(Clone, Debug)]
-pub struct Line<'a> {
+pub struct CardLine<'a> {
     /// The line without its end.
     pub text: &'a str,
     source: SourceId,
@@ -47,23 +47,23 @@ pub struct Line<'a> {
 
 /// The lines of a source that say something: no blank line, no comment (first character `*`, `!` or `/`).
 #[derive(Clone, Debug)]
-pub struct Lines<'a> {
+pub struct CardLines<'a> {
     rest: &'a str,
     start: usize,
     source: SourceId,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> CardLines<'a> {
     /// The lines of a source.
     pub fn new(source: &'a Source, id: SourceId) -> Self {
-        Lines { rest: &source.text, start: 0, source: id }
+        CardLines { rest: &source.text, start: 0, source: id }
     }
 }
 
-impl<'a> Iterator for Lines<'a> {
-    type Item = Line<'a>;
+impl<'a> Iterator for CardLines<'a> {
+    type Item = CardLine<'a>;
 
-    fn next(&mut self) -> Option<Line<'a>> {
+    fn next(&mut self) -> Option<CardLine<'a>> {
         while !self.rest.is_empty() {
             let (whole, rest) = self.rest.split_once('\n').unwrap_or((self.rest, ""));
             let start = self.start;
@@ -71,14 +71,14 @@ impl<'a> Iterator for Lines<'a> {
             self.rest = rest;
             let text = whole.trim_end();
             if !text.is_empty() && !text.trim_start().starts_with(['*', '!', '/']) {
-                return Some(Line { text, source: self.source, start, ascii: text.is_ascii() });
+                return Some(CardLine { text, source: self.source, start, ascii: text.is_ascii() });
             }
         }
         None
     }
 }
 
-impl<'a> Line<'a> {
+impl<'a> CardLine<'a> {
     fn offset(&self, column: usize) -> usize {
         let index = column.saturating_sub(1);
         if self.ascii {
@@ -177,7 +177,7 @@ impl<'a> Face<'a> {
     ///
     /// # Errors
     /// Which of the columns 1 to 10 hold what does not belong there, or where a tab stands; `label` names the deck.
-    pub fn new(line: &Line<'a>, label: &str, keyworded: bool) -> Result<Face<'a>, Box<Diagnostic>> {
+    pub fn new(line: &CardLine<'a>, label: &str, keyworded: bool) -> Result<Face<'a>, Box<Diagnostic>> {
         if let Some(tab) = line.tab() {
             return Err(line.tab_error(label, tab));
         }
@@ -215,7 +215,7 @@ impl<'a> Face<'a> {
     }
 
     /// Whether a line whose face does not fit seems to close its deck.
-    pub fn closes(line: &Line<'a>) -> bool {
+    pub fn closes(line: &CardLine<'a>) -> bool {
         let text = line.text.trim_start();
         is_end(text.get(..3).unwrap_or_default()) && !begins_keyword(text.get(3..).unwrap_or_default())
     }
@@ -249,7 +249,7 @@ mod tests {
     fn columns_are_characters_and_their_places_are_bytes() {
         let mut sources = Sources::default();
         let id = sources.add("a", "* comment\r\n\r\n    01\u{e9}\u{e9} 7\n", 1);
-        let lines: Vec<Line<'_>> = Lines::new(sources.get(id).unwrap(), id).collect();
+        let lines: Vec<CardLine<'_>> = CardLines::new(sources.get(id).unwrap(), id).collect();
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].columns(7, 8), "\u{e9}\u{e9}");
         assert_eq!(lines[0].columns(10, 10), "7");

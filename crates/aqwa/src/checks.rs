@@ -3,13 +3,13 @@
 
 use super::Deck;
 use super::card::Field;
-use super::elements::Shape;
+use super::elements::ElementShape;
 use super::job::Program;
 use super::lines::{LineKind, MooringLine};
 use super::placed;
 use super::remarks::Remarks;
 use super::tethers::Tether;
-use super::waves::Waves;
+use super::waves::WaveDeck;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
@@ -53,24 +53,26 @@ fn elements(deck: &Deck, remarks: &mut Remarks) {
                 missing(message, element.span, remarks);
             }
             match element.shape {
-                Shape::Quad | Shape::Triangle | Shape::FieldPoint => remarks.add_once("panels", || {
-                    Diagnostic::error(
-                        format!("deck 2, {keyword}: the diffraction analysis of panels is not done here"),
-                        element.span,
-                    )
-                    .help("take the coefficients of the hull from a hydrodynamic database of the model")
-                }),
-                Shape::Stub | Shape::Disc => remarks.add_once("stubs", || {
+                ElementShape::Quad | ElementShape::Triangle | ElementShape::FieldPoint => {
+                    remarks.add_once("panels", || {
+                        Diagnostic::error(
+                            format!("deck 2, {keyword}: the diffraction analysis of panels is not done here"),
+                            element.span,
+                        )
+                        .help("take the coefficients of the hull from a hydrodynamic database of the model")
+                    })
+                }
+                ElementShape::Stub | ElementShape::Disc => remarks.add_once("stubs", || {
                     Diagnostic::error(
                         format!("deck 2, {keyword}: no source tells the geometry of this element"),
                         element.span,
                     )
                     .help("give a TUBE instead")
                 }),
-                Shape::Tube | Shape::PointMass | Shape::PointBuoyancy => {}
+                ElementShape::Tube | ElementShape::PointMass | ElementShape::PointBuoyancy => {}
             }
             let ends = (element.nodes.first(), element.nodes.get(1));
-            if let (Shape::Tube, (Some(first), Some(second))) = (element.shape, ends)
+            if let (ElementShape::Tube, (Some(first), Some(second))) = (element.shape, ends)
                 && deck.nodes.get(first).zip(deck.nodes.get(second)).is_some_and(|(a, b)| a.position == b.position)
             {
                 let message = format!("deck 2, TUBE: nodes {first} and {second} are at one place");
@@ -124,7 +126,7 @@ fn tether_refers(deck: &Deck, tether: &Tether, remarks: &mut Remarks) {
             let message = format!("deck 14, TELM, columns 21-25: material group {} is not in deck 3", material.value);
             missing(message, material.span, remarks);
         }
-        match deck.geometry(Shape::Tube, geometry.value) {
+        match deck.geometry(ElementShape::Tube, geometry.value) {
             None => {
                 let message = format!("deck 14, TELM, columns 26-30: deck 4 has no TUBE group {}", geometry.value);
                 missing(message, geometry.span, remarks);
@@ -328,11 +330,11 @@ fn run(deck: &Deck, remarks: &mut Remarks) {
         remarks.add(Diagnostic::warning(message, last.span).help("the statistics end with the last step"));
     }
     match &deck.waves {
-        Waves::Regular(_) if deck.job.program == Program::Drift => remarks.add(
+        WaveDeck::Regular(_) if deck.job.program == Program::Drift => remarks.add(
             Diagnostic::warning("deck 13: a regular wave is for NAUT, this JOB is for DRIF", deck.job.span)
                 .help("SPEC is the deck of a spectrum"),
         ),
-        Waves::Spectra(spectra) => {
+        WaveDeck::Spectra(spectra) => {
             for spectrum in spectra {
                 let given = spectrum.phases.len();
                 if given > 0 && i64::try_from(given) != Ok(spectrum.lines) {

@@ -3,7 +3,7 @@
 //! Decks 1 to 4 are echoed when the option PRCE asks for it, the others always (so the listings of [AQWA-TETHER 8]).
 
 use super::Deck;
-use super::layout::Record;
+use super::layout::CardRecord;
 use super::reader::{Cards, HEADERS};
 
 /// The echo of one deck.
@@ -79,7 +79,7 @@ fn exponent(value: f64, decimals: usize) -> String {
     format!("{mantissa}E{sign}{digits:0>2}")
 }
 
-fn line(deck: u8, record: &Record) -> String {
+fn line(deck: u8, record: &CardRecord) -> String {
     let end = if record.last { "END" } else { "" };
     let mut text = format!(" {end:3}{:>2}", record.id);
     let (integers, first, reals, style) = grid(deck);

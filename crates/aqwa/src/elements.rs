@@ -7,7 +7,7 @@
 //! Source: [AQWA-REF deck 2]; [AQWA-TETHER 8.1.2 and 8.2.2].
 
 use super::card::{integer, real};
-use super::layout::{Layout, Record};
+use super::layout::{CardLayout, CardRecord};
 use super::remarks::Remarks;
 use std::collections::HashMap;
 use windlass_base::diagnostic::Diagnostic;
@@ -18,7 +18,7 @@ pub const MAX_ELEMENTS: usize = 60_000;
 
 /// Kinds of element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Shape {
+pub enum ElementShape {
     /// Morison tube between two nodes.
     Tube,
     /// Point mass.
@@ -38,49 +38,49 @@ pub enum Shape {
 }
 
 /// Keyword, kind, number of nodes, whether a material and whether a geometry follow.
-const KINDS: &[(&str, Shape, usize, bool, bool)] = &[
-    ("TUBE", Shape::Tube, 2, true, true),
-    ("PMAS", Shape::PointMass, 1, true, true),
-    ("STUB", Shape::Stub, 3, true, true),
-    ("DISC", Shape::Disc, 2, false, true),
-    ("PBOY", Shape::PointBuoyancy, 1, true, false),
-    ("QPPL", Shape::Quad, 4, false, false),
-    ("TPPL", Shape::Triangle, 3, false, false),
-    ("FPNT", Shape::FieldPoint, 1, false, false),
+const KINDS: &[(&str, ElementShape, usize, bool, bool)] = &[
+    ("TUBE", ElementShape::Tube, 2, true, true),
+    ("PMAS", ElementShape::PointMass, 1, true, true),
+    ("STUB", ElementShape::Stub, 3, true, true),
+    ("DISC", ElementShape::Disc, 2, false, true),
+    ("PBOY", ElementShape::PointBuoyancy, 1, true, false),
+    ("QPPL", ElementShape::Quad, 4, false, false),
+    ("TPPL", ElementShape::Triangle, 3, false, false),
+    ("FPNT", ElementShape::FieldPoint, 1, false, false),
 ];
 
 const DIFFRACTION_CARD_REASON: &str = "this card is for the diffraction analysis of a hull, which is not done here; \
                       a structure is made of TUBE, PMAS, STUB, DISC and PBOY elements or comes from a hydrodynamic database";
 
 /// Cards of deck 2.
-pub const LAYOUTS: &[Layout] = &[
-    Layout::text("TUBE").freely(),
-    Layout::text("PMAS").freely(),
-    Layout::text("STUB").freely(),
-    Layout::text("DISC").freely(),
-    Layout::text("PBOY").freely(),
-    Layout::text("QPPL").freely(),
-    Layout::text("TPPL").freely(),
-    Layout::text("FPNT").freely(),
-    Layout::text("ZLWL"),
-    Layout::refuse("FIXD", DIFFRACTION_CARD_REASON),
-    Layout::refuse("SYMX", DIFFRACTION_CARD_REASON),
-    Layout::refuse("SYMY", DIFFRACTION_CARD_REASON),
-    Layout::refuse("RMXS", DIFFRACTION_CARD_REASON),
-    Layout::refuse("RMYS", DIFFRACTION_CARD_REASON),
-    Layout::refuse("HYDI", DIFFRACTION_CARD_REASON),
-    Layout::refuse("ILID", DIFFRACTION_CARD_REASON),
-    Layout::refuse("VLID", DIFFRACTION_CARD_REASON),
-    Layout::pass_over("SEAG", "the grid of the sea is for pictures of AQWA and has no effect"),
-    Layout::refuse("MSTR", DIFFRACTION_CARD_REASON),
-    Layout::refuse("ASYM", DIFFRACTION_CARD_REASON),
+pub const LAYOUTS: &[CardLayout] = &[
+    CardLayout::text("TUBE").freely(),
+    CardLayout::text("PMAS").freely(),
+    CardLayout::text("STUB").freely(),
+    CardLayout::text("DISC").freely(),
+    CardLayout::text("PBOY").freely(),
+    CardLayout::text("QPPL").freely(),
+    CardLayout::text("TPPL").freely(),
+    CardLayout::text("FPNT").freely(),
+    CardLayout::text("ZLWL"),
+    CardLayout::refuse("FIXD", DIFFRACTION_CARD_REASON),
+    CardLayout::refuse("SYMX", DIFFRACTION_CARD_REASON),
+    CardLayout::refuse("SYMY", DIFFRACTION_CARD_REASON),
+    CardLayout::refuse("RMXS", DIFFRACTION_CARD_REASON),
+    CardLayout::refuse("RMYS", DIFFRACTION_CARD_REASON),
+    CardLayout::refuse("HYDI", DIFFRACTION_CARD_REASON),
+    CardLayout::refuse("ILID", DIFFRACTION_CARD_REASON),
+    CardLayout::refuse("VLID", DIFFRACTION_CARD_REASON),
+    CardLayout::pass_over("SEAG", "the grid of the sea is for pictures of AQWA and has no effect"),
+    CardLayout::refuse("MSTR", DIFFRACTION_CARD_REASON),
+    CardLayout::refuse("ASYM", DIFFRACTION_CARD_REASON),
 ];
 
 /// An element of a structure.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Element {
+pub struct StructureElement {
     /// What it is.
-    pub shape: Shape,
+    pub shape: ElementShape,
     /// Its nodes.
     pub nodes: Vec<i64>,
     /// Material group; 0 where the kind has none.
@@ -93,20 +93,20 @@ pub struct Element {
 
 /// A structure: the elements of one deck ELMn.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Structure {
+pub struct StructureDeck {
     /// Its number, 1 for ELM1.
     pub number: i64,
     /// Its elements in the order of input.
-    pub elements: Vec<Element>,
+    pub elements: Vec<StructureElement>,
     /// Height of the water line in the axes of deck 1 (ZLWL), where given.
     pub waterline: Option<(f64, Span)>,
     /// Header of its deck.
     pub span: Span,
 }
 
-impl Shape {
+impl ElementShape {
     /// The kind of a keyword.
-    pub fn from_keyword(keyword: &str) -> Option<Shape> {
+    pub fn from_keyword(keyword: &str) -> Option<ElementShape> {
         KINDS.iter().find(|(name, ..)| *name == keyword).map(|(_, shape, ..)| *shape)
     }
 
@@ -117,10 +117,10 @@ impl Shape {
 }
 
 /// The structure of the cards of one deck ELMn; `present` elements were made before.
-pub fn read(number: i64, span: Span, records: &[Record], present: usize, remarks: &mut Remarks) -> Structure {
-    let mut structure = Structure { number, span, ..Structure::default() };
+pub fn read(number: i64, span: Span, records: &[CardRecord], present: usize, remarks: &mut Remarks) -> StructureDeck {
+    let mut structure = StructureDeck { number, span, ..StructureDeck::default() };
     // elements by kind, nodes and groups, with their cards
-    let mut there: HashMap<(Shape, Vec<i64>, i64, i64), Span> = HashMap::new();
+    let mut there: HashMap<(ElementShape, Vec<i64>, i64, i64), Span> = HashMap::new();
     for record in records {
         if record.keyword == "ZLWL" {
             let height = groups(record).and_then(|(_, list)| match list.as_slice() {
@@ -166,13 +166,13 @@ pub fn read(number: i64, span: Span, records: &[Record], present: usize, remarks
 }
 
 fn elements(
-    record: &Record,
-    shape: Shape,
+    record: &CardRecord,
+    shape: ElementShape,
     nodes: usize,
     material: bool,
     geometry: bool,
     made: usize,
-) -> Result<Vec<Element>, Box<Diagnostic>> {
+) -> Result<Vec<StructureElement>, Box<Diagnostic>> {
     let (_, list) = groups(record)?;
     let wanted = 1 + nodes + usize::from(material) + usize::from(geometry);
     if list.len() != wanted {
@@ -200,7 +200,7 @@ fn elements(
         return Err(Diagnostic::error(message, record.text_place).label(label));
     }
     let at = |index: usize, k: i64| pairs.get(index).map_or(0, |(first, step)| first + k * step);
-    let element = |k: i64| Element {
+    let element = |k: i64| StructureElement {
         shape,
         nodes: (1..=nodes).map(|index| at(index, k)).collect(),
         material: if material { at(1 + nodes, k) } else { 0 },
@@ -210,13 +210,13 @@ fn elements(
     Ok((0..count).map(element).collect())
 }
 
-fn misread(record: &Record, wanted: &str) -> Box<Diagnostic> {
+fn misread(record: &CardRecord, wanted: &str) -> Box<Diagnostic> {
     Diagnostic::error(format!("deck 2, {}: `{}` is not understood", record.keyword, record.text), record.text_place)
         .label(format!("{wanted} belong from column 21 on"))
 }
 
 /// What stands before the brackets (the group of elements), and the numbers of each bracket.
-fn groups(record: &Record) -> Result<(i64, Vec<Vec<f64>>), Box<Diagnostic>> {
+fn groups(record: &CardRecord) -> Result<(i64, Vec<Vec<f64>>), Box<Diagnostic>> {
     let wrong = || misread(record, "numbers in brackets");
     let text = record.text.as_str();
     let open = text.find('(').ok_or_else(wrong)?;

@@ -12,7 +12,7 @@ use windlass_base::span::Span;
 pub const DEFAULT_SPRING_STIFFNESS: f64 = 1.0e15;
 /// A TSPA or TSPV card.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EndSpring {
+pub struct EndSpringCard {
     /// Whether the tether is towed.
     pub towed: bool,
     /// Installed: inline, then two rotational. Towed: three translational.
@@ -25,7 +25,7 @@ pub struct EndSpring {
 ///
 /// Installed (A.2): inline 1.0E15 where blank, zero or negative, rotational 0 where negative, all three 1.0E15 where the
 /// card is missing. Towed (8.1.14): 1.0E15 in place of zero.
-pub fn in_force(spring: Option<EndSpring>, towed: bool) -> [f64; 3] {
+pub fn in_force(spring: Option<EndSpringCard>, towed: bool) -> [f64; 3] {
     let Some(spring) = spring else { return [DEFAULT_SPRING_STIFFNESS; 3] };
     let [first, second, third] = spring.stiffness.map(|field| field.value);
     if towed {
@@ -64,7 +64,7 @@ pub fn check(tether: &Tether, remarks: &mut Remarks) {
     }
 }
 
-fn check_towed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut Remarks) {
+fn check_towed(keyword: &str, spring: Option<EndSpringCard>, at: Span, remarks: &mut Remarks) {
     let help = "a towed tether has soft springs at both ends, as of its mooring lines, a few kN/m (8.1.14)";
     let Some(spring) = spring else {
         let message = format!("deck 14: this towed tether has no {keyword} card; 1.0E15 is taken in each direction");
@@ -80,7 +80,7 @@ fn check_towed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut
     }
 }
 
-fn check_installed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut Remarks) {
+fn check_installed(keyword: &str, spring: Option<EndSpringCard>, at: Span, remarks: &mut Remarks) {
     let Some(spring) = spring else {
         remarks.add_once(&format!("{keyword} missing"), || {
             let message =

@@ -3,9 +3,9 @@
 //! Source: [AQWA-TETHER 6.2 and 8.1.7]; [AQWA-REF decks 6 to 10].
 
 use super::card::Field;
-use super::layout::{Layout, Record, Slot, int, num};
+use super::layout::{CardLayout, CardRecord, Slot, int, num};
 use super::remarks::Remarks;
-use super::surroundings::Flow;
+use super::surroundings::UniformStream;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
@@ -28,59 +28,59 @@ const VALUES: &[Slot] = &[
 ];
 
 /// Cards of deck 6.
-pub const FREQUENCIES: &[Layout] = &[
-    Layout::assume("FREQ", VALUES).freely(),
-    Layout::assume("PERD", VALUES).freely(),
-    Layout::assume("HRTZ", VALUES).freely(),
-    Layout::assume("DIRN", VALUES).freely(),
-    Layout::refuse("CSTR", UNPUBLISHED_CARD_REASON),
-    Layout::refuse("FILE", DATABASE),
-    Layout::refuse("MVEF", UNPUBLISHED_CARD_REASON),
-    Layout::refuse("FWDS", UNPUBLISHED_CARD_REASON),
+pub const FREQUENCIES: &[CardLayout] = &[
+    CardLayout::assume("FREQ", VALUES).freely(),
+    CardLayout::assume("PERD", VALUES).freely(),
+    CardLayout::assume("HRTZ", VALUES).freely(),
+    CardLayout::assume("DIRN", VALUES).freely(),
+    CardLayout::refuse("CSTR", UNPUBLISHED_CARD_REASON),
+    CardLayout::refuse("FILE", DATABASE),
+    CardLayout::refuse("MVEF", UNPUBLISHED_CARD_REASON),
+    CardLayout::refuse("FWDS", UNPUBLISHED_CARD_REASON),
 ];
 
 /// Cards of deck 7.
-pub const STIFFNESS: &[Layout] = &[
-    Layout::new("LSTF", ROW).repeated_by(&[16]),
-    Layout::new("ASTF", ROW).repeated_by(&[16]),
-    Layout::refuse("SSTF", "a stiffness between structures is not read"),
-    Layout::new("BFEQ", &[num("buoyancy force at equilibrium", 21)]),
-    Layout::new("ZCGE", &[num("Z of the centre of gravity at equilibrium", 21)]),
-    Layout::new("SPOS", &DOF_SLOTS),
-    Layout::new("FIAM", ROW).repeated_by(&[16]),
-    Layout::new("FIDP", ROW).repeated_by(&[16]),
-    Layout::refuse("WAMS", DATABASE),
-    Layout::refuse("WDMP", DATABASE),
-    Layout::refuse("FREQ", DATABASE),
-    Layout::refuse("PERD", DATABASE),
-    Layout::refuse("HRTZ", DATABASE),
-    Layout::refuse("DIRN", DATABASE),
-    Layout::refuse("FILE", DATABASE),
+pub const STIFFNESS: &[CardLayout] = &[
+    CardLayout::new("LSTF", ROW).repeated_by(&[16]),
+    CardLayout::new("ASTF", ROW).repeated_by(&[16]),
+    CardLayout::refuse("SSTF", "a stiffness between structures is not read"),
+    CardLayout::new("BFEQ", &[num("buoyancy force at equilibrium", 21)]),
+    CardLayout::new("ZCGE", &[num("Z of the centre of gravity at equilibrium", 21)]),
+    CardLayout::new("SPOS", &DOF_SLOTS),
+    CardLayout::new("FIAM", ROW).repeated_by(&[16]),
+    CardLayout::new("FIDP", ROW).repeated_by(&[16]),
+    CardLayout::refuse("WAMS", DATABASE),
+    CardLayout::refuse("WDMP", DATABASE),
+    CardLayout::refuse("FREQ", DATABASE),
+    CardLayout::refuse("PERD", DATABASE),
+    CardLayout::refuse("HRTZ", DATABASE),
+    CardLayout::refuse("DIRN", DATABASE),
+    CardLayout::refuse("FILE", DATABASE),
 ];
 
 /// Cards of deck 8.
-pub const DRIFT: &[Layout] = &[
-    Layout::refuse("DRFT", DATABASE),
-    Layout::refuse("FREQ", DATABASE),
-    Layout::refuse("DIRN", DATABASE),
-    Layout::refuse("FILE", DATABASE),
+pub const DRIFT: &[CardLayout] = &[
+    CardLayout::refuse("DRFT", DATABASE),
+    CardLayout::refuse("FREQ", DATABASE),
+    CardLayout::refuse("DIRN", DATABASE),
+    CardLayout::refuse("FILE", DATABASE),
 ];
 
 /// Cards of deck 9.
-pub const DAMPING: &[Layout] = &[
-    Layout::assume("FIDA", ROW).repeated_by(&[16]),
-    Layout::assume("FIDD", ROW).repeated_by(&[16]),
-    Layout::refuse("FILE", DATABASE),
+pub const DAMPING: &[CardLayout] = &[
+    CardLayout::assume("FIDA", ROW).repeated_by(&[16]),
+    CardLayout::assume("FIDD", ROW).repeated_by(&[16]),
+    CardLayout::refuse("FILE", DATABASE),
 ];
 
 /// Cards of deck 10.
-pub const HULL: &[Layout] = &[
-    Layout::assume("CURR", &[num("speed", 11), num("direction", 21)]),
-    Layout::refuse("RUFC", "forces from a routine of the user are not read"),
-    Layout::refuse("IUFC", "forces from a routine of the user are not read"),
-    Layout::refuse("CUFX", UNPUBLISHED_CARD_REASON),
-    Layout::refuse("THRS", UNPUBLISHED_CARD_REASON),
-    Layout::refuse("DIRN", UNPUBLISHED_CARD_REASON),
+pub const HULL: &[CardLayout] = &[
+    CardLayout::assume("CURR", &[num("speed", 11), num("direction", 21)]),
+    CardLayout::refuse("RUFC", "forces from a routine of the user are not read"),
+    CardLayout::refuse("IUFC", "forces from a routine of the user are not read"),
+    CardLayout::refuse("CUFX", UNPUBLISHED_CARD_REASON),
+    CardLayout::refuse("THRS", UNPUBLISHED_CARD_REASON),
+    CardLayout::refuse("DIRN", UNPUBLISHED_CARD_REASON),
 ];
 
 /// Six rows of six numbers, in the units of the deck, rotations in radians.
@@ -88,7 +88,7 @@ pub type SixBySix = [[f64; 6]; 6];
 
 /// What decks 6 to 10 say of one structure.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Hydrostatics {
+pub struct HydrostaticsDecks {
     /// Wave frequencies of deck 6 (rad/s).
     pub frequencies: Vec<f64>,
     /// Wave directions of deck 6 (degrees, towards).
@@ -108,13 +108,13 @@ pub struct Hydrostatics {
     /// Damping that does not depend on frequency (FIDP; FIDD at drift frequency).
     pub damping: Option<SixBySix>,
     /// Current of deck 10, as decks of 2006 have it for NAUT.
-    pub current: Option<Flow>,
+    pub current: Option<UniformStream>,
     /// First LSTF card, else the header.
     pub span: Span,
 }
 
 /// Takes the cards of one of the decks 6 to 10 into what is known of a structure.
-pub fn read(into: &mut Hydrostatics, deck: u8, records: &[Record], remarks: &mut Remarks) {
+pub fn read(into: &mut HydrostaticsDecks, deck: u8, records: &[CardRecord], remarks: &mut Remarks) {
     for record in records {
         match (deck, record.keyword.as_str()) {
             (6, "DIRN") => into.directions.extend(given_values(record)),
@@ -131,7 +131,10 @@ pub fn read(into: &mut Hydrostatics, deck: u8, records: &[Record], remarks: &mut
             (_, "BFEQ") => into.buoyancy = Some(record.real(21)),
             (_, "ZCGE") => into.height = Some(record.real(21)),
             (_, "SPOS") => into.position = Some(record.reals(21).map(|field| field.value)),
-            _ => into.current = Some(Flow { speed: record.real(11), direction: record.real(21), span: record.span }),
+            _ => {
+                into.current =
+                    Some(UniformStream { speed: record.real(11), direction: record.real(21), span: record.span })
+            }
         }
     }
     if deck == 7 && into.stiffness.is_some() {
@@ -147,7 +150,7 @@ pub fn read(into: &mut Hydrostatics, deck: u8, records: &[Record], remarks: &mut
     }
 }
 
-fn given_values(record: &Record) -> impl Iterator<Item = f64> + '_ {
+fn given_values(record: &CardRecord) -> impl Iterator<Item = f64> + '_ {
     record.reals::<6>(21).into_iter().filter(|field| field.given).map(|field| field.value)
 }
 
@@ -162,7 +165,7 @@ fn frequency(keyword: &str, value: f64) -> Option<f64> {
     (frequency.is_finite() && frequency > 0.0).then_some(frequency)
 }
 
-fn row(matrix: &mut Option<SixBySix>, record: &Record, remarks: &mut Remarks) {
+fn row(matrix: &mut Option<SixBySix>, record: &CardRecord, remarks: &mut Remarks) {
     let number = record.int(16);
     let matrix = matrix.get_or_insert([[0.0; 6]; 6]);
     match usize::try_from(number.value - 1).ok().and_then(|index| matrix.get_mut(index)) {

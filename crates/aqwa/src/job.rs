@@ -2,8 +2,8 @@
 //!
 //! Source: [AQWA-TETHER chapters 5, 6, 8.1.0 and 8.2.0]; [AQWA-REF deck 0].
 
-use super::card::{Line, integer};
-use super::reader::Reader;
+use super::card::{CardLine, integer};
+use super::reader::CardReader;
 use super::remarks::Remarks;
 use windlass_base::diagnostic::{Diagnostic, did_you_mean};
 use windlass_base::span::Span;
@@ -74,7 +74,7 @@ pub const OPTIONS: &[(&str, &str)] = &[
 
 /// Deck 0.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Job {
+pub struct JobDeck {
     /// Identifier of the run, up to four characters.
     pub run: String,
     /// The program.
@@ -93,7 +93,7 @@ pub struct Job {
     pub span: Span,
 }
 
-impl Job {
+impl JobDeck {
     /// Whether an option was given.
     pub fn option(&self, name: &str) -> bool {
         self.options.iter().any(|(option, _)| option == name)
@@ -130,12 +130,12 @@ pub fn is_deck(text: &str) -> bool {
 }
 
 /// Reads deck 0.
-pub fn read(reader: &mut Reader<'_>) -> Job {
-    let mut job = Job { stages: (1, 5), span: reader.current_span(), ..Job::default() };
+pub fn read(reader: &mut CardReader<'_>) -> JobDeck {
+    let mut job = JobDeck { stages: (1, 5), span: reader.current_span(), ..JobDeck::default() };
     let (mut restart, mut listed) = (None, None);
     let mut met: Vec<(&str, Span)> = Vec::new();
     while let Some(line) = reader.peek().cloned() {
-        let Some(word) = Line::words(line.text).next() else { break };
+        let Some(word) = CardLine::words(line.text).next() else { break };
         let rest =
             line.text.get(line.place_of(word).end as usize - line.place(0, 0).start as usize..).unwrap_or_default();
         let word = word.to_ascii_uppercase();
@@ -175,13 +175,13 @@ pub fn read(reader: &mut Reader<'_>) -> Job {
     job
 }
 
-fn read_job(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remarks) {
+fn read_job(job: &mut JobDeck, line: &CardLine<'_>, rest: &str, remarks: &mut Remarks) {
     let by_columns =
         line.blank(4, 4) && line.blank(9, 10) && line.blank(15, 16) && !line.blank(11, 14) && line.tab().is_none();
     let words: Vec<&str> = if by_columns {
         vec![line.columns(5, 8).trim(), line.columns(11, 14).trim(), line.columns(17, 20).trim()]
     } else {
-        Line::words(rest).collect()
+        CardLine::words(rest).collect()
     };
     let mut words = words.into_iter();
     job.run = words.next().unwrap_or_default().to_string();
@@ -207,8 +207,8 @@ fn read_job(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remarks) {
 }
 
 /// Adds the options of a line; whether END closed the list.
-fn read_options(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remarks) -> bool {
-    for word in Line::words(rest) {
+fn read_options(job: &mut JobDeck, line: &CardLine<'_>, rest: &str, remarks: &mut Remarks) -> bool {
+    for word in CardLine::words(rest) {
         let name = word.to_ascii_uppercase();
         if name == "END" {
             return true;
@@ -227,7 +227,7 @@ fn read_options(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remark
     false
 }
 
-fn read_restart(job: &mut Job, restart: Option<Line<'_>>, remarks: &mut Remarks) {
+fn read_restart(job: &mut JobDeck, restart: Option<CardLine<'_>>, remarks: &mut Remarks) {
     let Some(line) = restart else {
         if let Some((_, span)) = job.options.iter().find(|(name, _)| name == "REST") {
             remarks.add(
@@ -244,7 +244,7 @@ fn read_restart(job: &mut Job, restart: Option<Line<'_>>, remarks: &mut Remarks)
         );
         return;
     }
-    let mut words = Line::words(line.text).skip(1);
+    let mut words = CardLine::words(line.text).skip(1);
     let mut stage = |name: &str| {
         let word = words.next().unwrap_or_default();
         let value = integer(word).and_then(|n| u8::try_from(n).ok()).filter(|n| (1..=6).contains(n));

@@ -1,13 +1,13 @@
 //! Joins the decks: which cards a deck may hold, and where what they say belongs in [`Deck`].
 
-use super::layout::{Layout, Record};
-use super::reader::{Cards, Reader};
+use super::layout::{CardLayout, CardRecord};
+use super::reader::{CardReader, Cards};
 use super::{Deck, elements, hydrostatics, mooring, nodes, printing, properties, run, surroundings, waves};
-use hydrostatics::Hydrostatics;
+use hydrostatics::HydrostaticsDecks;
 use windlass_base::diagnostic::Diagnostic;
 
 /// Reads deck `number`, 1 to 20.
-pub fn read(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
+pub fn read(deck: &mut Deck, number: u8, reader: &mut CardReader<'_>) {
     match number {
         2 => structures(deck, reader),
         6..=10 => per_structure(deck, number, reader),
@@ -16,7 +16,7 @@ pub fn read(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
     }
 }
 
-fn layouts(number: u8, keyword: &str) -> &'static [Layout] {
+fn layouts(number: u8, keyword: &str) -> &'static [CardLayout] {
     match number {
         1 => nodes::LAYOUTS,
         2 => elements::LAYOUTS,
@@ -41,7 +41,7 @@ fn layouts(number: u8, keyword: &str) -> &'static [Layout] {
 }
 
 /// Reads a deck that is there once.
-fn single(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
+fn single(deck: &mut Deck, number: u8, reader: &mut CardReader<'_>) {
     let Some(header) = reader.header(number, false) else { return };
     if header.keyword == "NONE" {
         if number == 5 {
@@ -72,7 +72,7 @@ fn single(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
 }
 
 /// Reads the decks ELM1, ELM2, .. up to FINI.
-fn structures(deck: &mut Deck, reader: &mut Reader<'_>) {
+fn structures(deck: &mut Deck, reader: &mut CardReader<'_>) {
     let mut made = 0;
     while deck.structures.len() < run::MAX_STRUCTURES as usize {
         let next = reader.next_header();
@@ -109,7 +109,7 @@ fn structures(deck: &mut Deck, reader: &mut Reader<'_>) {
 }
 
 /// Reads the decks of one number for each structure: as many as there are structures, or fewer and FINI, or NONE.
-fn per_structure(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
+fn per_structure(deck: &mut Deck, number: u8, reader: &mut CardReader<'_>) {
     let count = deck.structures.len().max(1);
     for index in 0..count {
         let next = reader.next_header();
@@ -141,7 +141,7 @@ fn per_structure(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
     }
 }
 
-fn take(deck: &mut Deck, number: u8, keyword: &str, structure: i64, reader: &mut Reader<'_>) -> Vec<Record> {
+fn take(deck: &mut Deck, number: u8, keyword: &str, structure: i64, reader: &mut CardReader<'_>) -> Vec<CardRecord> {
     let label = format!("deck {number} {keyword}{structure}");
     let here = reader.current_span();
     let records = reader.records(number, &label, layouts(number, keyword));
@@ -152,7 +152,7 @@ fn take(deck: &mut Deck, number: u8, keyword: &str, structure: i64, reader: &mut
         reader.remarks.add(Diagnostic::error(message, here));
         return records;
     }
-    deck.hydrostatics.resize(count, Hydrostatics::default());
+    deck.hydrostatics.resize(count, HydrostaticsDecks::default());
     if let Some(into) = deck.hydrostatics.get_mut(index) {
         hydrostatics::read(into, number, &records, &mut reader.remarks);
     }

@@ -2,13 +2,13 @@
 //!
 //! A card that does not fit its columns is an error: no value is looked for elsewhere.
 
-use super::card::{CARD_WIDTH, Face, Field, Line, integer, real};
+use super::card::{CARD_WIDTH, CardLine, Face, Field, integer, real};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// What a field holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Holds {
+pub enum FieldType {
     /// A whole number without a point.
     Integer,
     /// A number with or without a point.
@@ -25,17 +25,17 @@ pub struct Slot {
     /// Number of columns.
     pub width: usize,
     /// What it holds.
-    pub holds: Holds,
+    pub holds: FieldType,
 }
 
 /// A whole number, five columns wide.
 pub const fn int(name: &'static str, column: usize) -> Slot {
-    Slot { name, column, width: 5, holds: Holds::Integer }
+    Slot { name, column, width: 5, holds: FieldType::Integer }
 }
 
 /// A number, ten columns wide.
 pub const fn num(name: &'static str, column: usize) -> Slot {
-    Slot { name, column, width: 10, holds: Holds::Real }
+    Slot { name, column, width: 10, holds: FieldType::Real }
 }
 
 impl Slot {
@@ -83,7 +83,7 @@ const ONCE: Repeats = Repeats::Once { same: "", by: &[], until: &[] };
 
 /// One kind of card of a deck.
 #[derive(Clone, Copy, Debug)]
-pub struct Layout {
+pub struct CardLayout {
     /// Keyword of columns 7-10; empty for the cards of decks 1 and 3.
     pub keyword: &'static str,
     /// Its fields, from left to right.
@@ -96,50 +96,50 @@ pub struct Layout {
     pub repeats: Repeats,
 }
 
-impl Layout {
+impl CardLayout {
     /// A card whose columns are sure.
     pub const fn new(keyword: &'static str, slots: &'static [Slot]) -> Self {
-        Layout { keyword, slots, text: false, standing: CardSupport::Sure, repeats: ONCE }
+        CardLayout { keyword, slots, text: false, standing: CardSupport::Sure, repeats: ONCE }
     }
 
     /// A card whose columns are assumed.
     pub const fn assume(keyword: &'static str, slots: &'static [Slot]) -> Self {
-        Layout { keyword, slots, text: false, standing: CardSupport::Assumed, repeats: ONCE }
+        CardLayout { keyword, slots, text: false, standing: CardSupport::Assumed, repeats: ONCE }
     }
 
     /// A card that is refused for a reason.
     pub const fn refuse(keyword: &'static str, reason: &'static str) -> Self {
-        Layout { keyword, slots: &[], text: true, standing: CardSupport::Refused(reason), repeats: ONCE }
+        CardLayout { keyword, slots: &[], text: true, standing: CardSupport::Refused(reason), repeats: ONCE }
     }
 
     /// A card that is passed over for a reason.
     pub const fn pass_over(keyword: &'static str, reason: &'static str) -> Self {
-        Layout { keyword, slots: &[], text: true, standing: CardSupport::Passed(reason), repeats: ONCE }
+        CardLayout { keyword, slots: &[], text: true, standing: CardSupport::Passed(reason), repeats: ONCE }
     }
 
     /// A card of text.
     pub const fn text(keyword: &'static str) -> Self {
-        Layout { keyword, slots: &[], text: true, standing: CardSupport::Sure, repeats: ONCE }
+        CardLayout { keyword, slots: &[], text: true, standing: CardSupport::Sure, repeats: ONCE }
     }
 
     /// The card may come any number of times.
     pub const fn freely(self) -> Self {
-        Layout { repeats: Repeats::Freely, ..self }
+        CardLayout { repeats: Repeats::Freely, ..self }
     }
 
     /// The card comes once for each value of the whole numbers that begin in these columns.
     pub const fn repeated_by(self, by: &'static [usize]) -> Self {
-        Layout { repeats: Repeats::Once { same: "", by, until: &[] }, ..self }
+        CardLayout { repeats: Repeats::Once { same: "", by, until: &[] }, ..self }
     }
 
     /// The card may come again after one of these.
     pub const fn repeatable_after(self, until: &'static [&'static str]) -> Self {
-        Layout { repeats: Repeats::Once { same: "", by: &[], until }, ..self }
+        CardLayout { repeats: Repeats::Once { same: "", by: &[], until }, ..self }
     }
 
     /// The card comes once among those that share a name, and again after one of these.
     pub const fn one_of(self, same: &'static str, until: &'static [&'static str]) -> Self {
-        Layout { repeats: Repeats::Once { same, by: &[], until }, ..self }
+        CardLayout { repeats: Repeats::Once { same, by: &[], until }, ..self }
     }
 
     /// The name of the field that begins in a column.
@@ -158,8 +158,8 @@ impl Layout {
     ///
     /// # Errors
     /// A message that names the columns and what belongs there.
-    pub fn read(&self, deck: &str, line: &Line<'_>, face: &Face<'_>) -> Result<Record, Box<Diagnostic>> {
-        let mut record = Record {
+    pub fn read(&self, deck: &str, line: &CardLine<'_>, face: &Face<'_>) -> Result<CardRecord, Box<Diagnostic>> {
+        let mut record = CardRecord {
             keyword: face.keyword.clone(),
             id: face.id.to_string(),
             last: face.last,
@@ -195,10 +195,10 @@ impl Layout {
         self.check_separation(deck, line)?;
         let (integers, reals) = self.by_columns(deck, line)?;
         self.in_place(deck, line)?;
-        Ok(Record { integers, reals, ..record })
+        Ok(CardRecord { integers, reals, ..record })
     }
 
-    fn by_columns(&self, deck: &str, line: &Line<'_>) -> Result<Values, Box<Diagnostic>> {
+    fn by_columns(&self, deck: &str, line: &CardLine<'_>) -> Result<FieldValues, Box<Diagnostic>> {
         let (mut integers, mut reals) = (Vec::new(), Vec::new());
         let mut free = if self.keyword.is_empty() { 7 } else { 11 };
         for slot in self.slots {
@@ -209,7 +209,7 @@ impl Layout {
             let span = if word.is_empty() { line.span(slot.column, slot.last_column()) } else { line.place_of(word) };
             let given = !word.is_empty();
             let wrong = || {
-                let kind = if slot.holds == Holds::Integer { "a whole number" } else { "a number" };
+                let kind = if slot.holds == FieldType::Integer { "a whole number" } else { "a number" };
                 Diagnostic::error(
                     format!(
                         "{}, columns {}-{}: `{word}` is not {kind}",
@@ -223,11 +223,11 @@ impl Layout {
                 .help(self.usage())
             };
             match slot.holds {
-                Holds::Integer => {
+                FieldType::Integer => {
                     let value = if given { integer(word).ok_or_else(wrong)? } else { 0 };
                     integers.push((slot.column, Field { value, given, span }));
                 }
-                Holds::Real => {
+                FieldType::Real => {
                     let value = if given { real(word).ok_or_else(wrong)? } else { 0.0 };
                     reals.push((slot.column, Field { value, given, span }));
                 }
@@ -241,7 +241,7 @@ impl Layout {
     ///
     /// A sign begins a number. So does the first column of a field that is filled, if it is a whole number without a zero in front
     /// (numbers of nodes have five digits) or has an exponent and one digit before the point.
-    fn check_separation(&self, deck: &str, line: &Line<'_>) -> Result<(), Box<Diagnostic>> {
+    fn check_separation(&self, deck: &str, line: &CardLine<'_>) -> Result<(), Box<Diagnostic>> {
         for pair in self.slots.windows(2) {
             let [left, right] = pair else { continue };
             if left.last_column() + 1 != right.column
@@ -271,7 +271,7 @@ impl Layout {
     }
 
     /// Refuses a value behind a blank field that does not end with its own: as a card that has slipped to the right has it.
-    fn in_place(&self, deck: &str, line: &Line<'_>) -> Result<(), Box<Diagnostic>> {
+    fn in_place(&self, deck: &str, line: &CardLine<'_>) -> Result<(), Box<Diagnostic>> {
         let blank = |slot: &Slot| line.blank(slot.column, slot.last_column());
         let slipped = self.slots.windows(2).find_map(|pair| match pair {
             [left, right] if left.last_column() + 1 == right.column && left.holds == right.holds => {
@@ -295,7 +295,13 @@ impl Layout {
             .help(self.usage()))
     }
 
-    fn nothing_between(&self, deck: &str, line: &Line<'_>, first: usize, last: usize) -> Result<(), Box<Diagnostic>> {
+    fn nothing_between(
+        &self,
+        deck: &str,
+        line: &CardLine<'_>,
+        first: usize,
+        last: usize,
+    ) -> Result<(), Box<Diagnostic>> {
         if first > last || line.blank(first, last) {
             return Ok(());
         }
@@ -311,10 +317,10 @@ impl Layout {
 }
 
 /// Whether a number that fills its field is the whole of a number, even behind another one.
-fn begins_itself(filled: &str, holds: Holds) -> bool {
+fn begins_itself(filled: &str, holds: FieldType) -> bool {
     match holds {
-        Holds::Integer => !filled.starts_with('0'),
-        Holds::Real => {
+        FieldType::Integer => !filled.starts_with('0'),
+        FieldType::Real => {
             let mantissa = filled.split(['E', 'e', 'D', 'd']).next().unwrap_or_default();
             mantissa.len() < filled.len() && mantissa.find('.') == Some(1)
         }
@@ -322,11 +328,11 @@ fn begins_itself(filled: &str, holds: Holds) -> bool {
 }
 
 /// Fields by the column they begin in.
-type Values = (Vec<(usize, Field<i64>)>, Vec<(usize, Field<f64>)>);
+type FieldValues = (Vec<(usize, Field<i64>)>, Vec<(usize, Field<f64>)>);
 
 /// A card that was read: its fields are asked for by their first column, as the manuals number them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Record {
+pub struct CardRecord {
     /// Keyword in capitals; empty for the cards of decks 1 and 3.
     pub keyword: String,
     /// The user's identifier.
@@ -345,7 +351,7 @@ pub struct Record {
     pub text_place: Span,
 }
 
-impl Record {
+impl CardRecord {
     /// The whole number that begins in a column; blank where the card has no such field.
     pub fn int(&self, column: usize) -> Field<i64> {
         let blank = Field { value: 0, given: false, span: self.span };

@@ -66,56 +66,56 @@ pub mod tethers;
 pub mod units;
 pub mod waves;
 
-use elements::{Shape, Structure};
-use hydrostatics::Hydrostatics;
-use job::Job;
-use mooring::Mooring;
-use nodes::Nodes;
+use elements::{ElementShape, StructureDeck};
+use hydrostatics::HydrostaticsDecks;
+use job::JobDeck;
+use mooring::MooringDeck;
+use nodes::NodeTable;
 use printing::Printing;
-use properties::{Geometries, Geometry, Global, Materials};
-use reader::{Cards, Reader};
-use run::{Multipliers, Start, Steps};
-use surroundings::{Held, Surroundings};
-use waves::Waves;
+use properties::{Geometries, Geometry, Materials, WaterAndGravity};
+use reader::{CardReader, Cards};
+use run::{MorisonMultipliers, Start, TimeSteps};
+use surroundings::{FixedDof, SurroundingsDeck};
+use waves::WaveDeck;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::SourceId;
 use windlass_language::source::Sources;
 
 pub use echo::Echo;
 pub use job::is_deck;
-pub use records::{Origin, Records, Written, model_records, records};
+pub use records::{CardOrigin, Records, WrittenRecords, model_records, records};
 
 /// A deck that was read.
 #[derive(Clone, Debug, Default)]
 pub struct Deck {
     /// Deck 0.
-    pub job: Job,
+    pub job: JobDeck,
     /// Deck 1.
-    pub nodes: Nodes,
+    pub nodes: NodeTable,
     /// Deck 2: the structures in order, 1 first.
-    pub structures: Vec<Structure>,
+    pub structures: Vec<StructureDeck>,
     /// Deck 3.
     pub materials: Materials,
     /// Deck 4.
     pub geometries: Geometries,
     /// Deck 5.
-    pub global: Global,
+    pub global: WaterAndGravity,
     /// Decks 6 to 10, one entry a structure.
-    pub hydrostatics: Vec<Hydrostatics>,
+    pub hydrostatics: Vec<HydrostaticsDecks>,
     /// Deck 11.
-    pub surroundings: Surroundings,
+    pub surroundings: SurroundingsDeck,
     /// Deck 12.
-    pub held: Vec<Held>,
+    pub held: Vec<FixedDof>,
     /// Deck 13.
-    pub waves: Waves,
+    pub waves: WaveDeck,
     /// Deck 14.
-    pub mooring: Mooring,
+    pub mooring: MooringDeck,
     /// Deck 15.
     pub starts: Vec<Start>,
     /// Deck 16.
-    pub steps: Option<Steps>,
+    pub steps: Option<TimeSteps>,
     /// Deck 17.
-    pub multipliers: Vec<Multipliers>,
+    pub multipliers: Vec<MorisonMultipliers>,
     /// Deck 18.
     pub printing: Printing,
     /// All cards from deck 1 on as they were read, for the echo.
@@ -135,18 +135,18 @@ pub struct Reading {
 
 impl Deck {
     /// A geometry group by the kind of element it is for and its number.
-    pub fn geometry(&self, shape: Shape, group: i64) -> Option<&Geometry> {
+    pub fn geometry(&self, shape: ElementShape, group: i64) -> Option<&Geometry> {
         self.geometries.get(&(shape, group))
     }
 
     /// A structure by its number.
-    pub fn structure(&self, number: i64) -> Option<&Structure> {
+    pub fn structure(&self, number: i64) -> Option<&StructureDeck> {
         self.structures.iter().find(|structure| structure.number == number)
     }
 
     /// Position of the centre of gravity of a structure at the start: X, Y, Z, RX, RY, RZ (degrees). The place of deck 15,
     /// else that of the structure as modelled.
-    pub fn start(&self, structure: &Structure) -> [f64; 6] {
+    pub fn start(&self, structure: &StructureDeck) -> [f64; 6] {
         let given = self.starts.iter().find(|start| start.structure == structure.number && !start.velocity);
         given.map_or_else(
             || {
@@ -158,9 +158,9 @@ impl Deck {
     }
 
     /// The loads of a structure's Morison elements are multiplied by these.
-    pub fn multipliers(&self, structure: i64) -> Multipliers {
+    pub fn multipliers(&self, structure: i64) -> MorisonMultipliers {
         let found = self.multipliers.iter().find(|m| m.structure.value == structure);
-        found.copied().unwrap_or(Multipliers {
+        found.copied().unwrap_or(MorisonMultipliers {
             structure: card::Field { value: structure, ..card::Field::default() },
             drag: 1.0,
             added_mass: 1.0,
@@ -187,7 +187,7 @@ impl Deck {
 /// Reads a file of cards.
 pub fn read(sources: &Sources, id: SourceId) -> Reading {
     let Some(source) = sources.get(id) else { return Reading::default() };
-    let mut reader = Reader::new(source, id);
+    let mut reader = CardReader::new(source, id);
     let mut deck = Deck { job: job::read(&mut reader), ..Deck::default() };
     for number in 1..=20 {
         if deck.job.has_deck(number) {

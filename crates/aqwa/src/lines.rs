@@ -6,7 +6,7 @@
 //! Source: [AQWA-REF deck 14]; [AQWA-CONN 5.8.3] for what a section holds.
 
 use super::card::Field;
-use super::layout::Record;
+use super::layout::CardRecord;
 use super::remarks::Remarks;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
@@ -105,7 +105,7 @@ pub struct MooringLine {
 
 /// A point between two sections of a composite line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Joint {
+pub struct CompositeJoint {
     /// Whether it is a buoy (BUOY); else a clump weight (CLMP).
     pub buoy: bool,
     /// Mass.
@@ -122,7 +122,7 @@ pub struct Joint {
 
 /// Added mass and drag of a section (ECAH).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Resistance {
+pub struct SectionResistance {
     /// Added mass coefficient.
     pub added_mass: f64,
     /// Drag coefficient.
@@ -135,7 +135,7 @@ pub struct Resistance {
 
 /// A section of a composite line (ECAT and the cards that follow it).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Section {
+pub struct CompositeSection {
     /// Mass a length.
     pub mass: f64,
     /// Area of the cross-section.
@@ -149,11 +149,11 @@ pub struct Section {
     /// ECAX: EA grows by k1 e + k2 e^2 + k3 e^3 with the strain e.
     pub growth: Option<[f64; 3]>,
     /// ECAH in force.
-    pub resistance: Option<Resistance>,
+    pub resistance: Option<SectionResistance>,
     /// ECAB: EI; 0 when not given.
     pub bending: f64,
     /// BUOY or CLMP at the upper end.
-    pub joint: Option<Joint>,
+    pub joint: Option<CompositeJoint>,
     /// The card.
     pub span: Span,
 }
@@ -170,7 +170,7 @@ pub struct Composite {
     /// Slope of the sea bed (degrees).
     pub slope: f64,
     /// The sections, from the anchor upwards.
-    pub sections: Vec<Section>,
+    pub sections: Vec<CompositeSection>,
     /// The card.
     pub span: Span,
 }
@@ -187,14 +187,14 @@ pub enum Property {
 /// The walk through the cards of mooring lines.
 #[derive(Clone, Debug, Default)]
 pub struct LineCardParser {
-    resistance: Option<Resistance>,
+    resistance: Option<SectionResistance>,
 }
 
 impl LineCardParser {
     /// Takes a card.
     pub fn take(
         &mut self,
-        record: &Record,
+        record: &CardRecord,
         properties: &mut Vec<Property>,
         lines: &mut Vec<MooringLine>,
         remarks: &mut Remarks,
@@ -288,12 +288,12 @@ impl LineCardParser {
         }
     }
 
-    fn section(&mut self, record: &Record, properties: &mut [Property], remarks: &mut Remarks) {
+    fn section(&mut self, record: &CardRecord, properties: &mut [Property], remarks: &mut Remarks) {
         let keyword = record.keyword.as_str();
         let value = |column: usize| record.real(column).value;
         if keyword == "ECAH" {
             let resistance =
-                Resistance { added_mass: value(31), drag: value(51), diameter: value(61), inline: value(71) };
+                SectionResistance { added_mass: value(31), drag: value(51), diameter: value(61), inline: value(71) };
             self.resistance = Some(resistance);
         }
         let Some(Property::Composite(composite)) = properties.last_mut() else {
@@ -324,7 +324,7 @@ impl LineCardParser {
             "ECAH" => section.resistance = self.resistance,
             "ECAB" => section.bending = value(31),
             _ => {
-                section.joint = Some(Joint {
+                section.joint = Some(CompositeJoint {
                     buoy: keyword == "BUOY",
                     mass: value(31),
                     displaced: value(41),
@@ -337,7 +337,7 @@ impl LineCardParser {
     }
 }
 
-fn composite(record: &Record, remarks: &mut Remarks) -> Composite {
+fn composite(record: &CardRecord, remarks: &mut Remarks) -> Composite {
     let points = (record.int(11).or(15), record.int(16).or(40));
     let announced = record.int(26);
     if !(1..=MAX_SECTIONS).contains(&announced.value) {
@@ -380,7 +380,7 @@ fn composite(record: &Record, remarks: &mut Remarks) -> Composite {
     }
 }
 
-fn ecat(record: &Record, resistance: Option<Resistance>) -> Result<Section, Box<Diagnostic>> {
+fn ecat(record: &CardRecord, resistance: Option<SectionResistance>) -> Result<CompositeSection, Box<Diagnostic>> {
     let (mass, length) = (record.real(31), record.real(71));
     if mass.value <= 0.0 {
         return Err(Diagnostic::error(
@@ -391,7 +391,7 @@ fn ecat(record: &Record, resistance: Option<Resistance>) -> Result<Section, Box<
     if length.value < 1.0 {
         return Err(Diagnostic::error("deck 14, ECAT, columns 71-80: a section is at least 1 long", length.span));
     }
-    Ok(Section {
+    Ok(CompositeSection {
         mass: mass.value,
         area: record.real(41).value,
         stiffness: record.real(51).or(5.0e6 * mass.value),

@@ -1,14 +1,14 @@
 //! Mass, centre of gravity and inertia of a structure from its elements, as the listing prints them.
 
 use super::Deck;
-use super::elements::{Element, Shape, Structure};
+use super::elements::{ElementShape, StructureDeck, StructureElement};
 use std::f64::consts::PI;
 
 /// Mass of the elements of one kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KindMass {
     /// The kind.
-    pub shape: Shape,
+    pub shape: ElementShape,
     /// Number of elements.
     pub count: usize,
     /// Their mass, in the units of the deck.
@@ -30,8 +30,8 @@ pub struct MassProperties {
 }
 
 /// A piece of mass: mass, centre, inertia about its own centre.
-struct Piece {
-    shape: Shape,
+struct MassPiece {
+    shape: ElementShape,
     mass: f64,
     centre: [f64; 3],
     inertia: [[f64; 3]; 3],
@@ -39,11 +39,11 @@ struct Piece {
 
 impl Deck {
     /// The mass properties of a structure; elements whose nodes or groups are missing are left out.
-    pub fn mass_properties(&self, structure: &Structure) -> MassProperties {
-        let pieces: Vec<Piece> = structure.elements.iter().filter_map(|element| self.piece(element)).collect();
+    pub fn mass_properties(&self, structure: &StructureDeck) -> MassProperties {
+        let pieces: Vec<MassPiece> = structure.elements.iter().filter_map(|element| self.piece(element)).collect();
         let mut found = MassProperties::default();
-        for shape in [Shape::Tube, Shape::PointMass] {
-            let of: Vec<&Piece> = pieces.iter().filter(|piece| piece.shape == shape).collect();
+        for shape in [ElementShape::Tube, ElementShape::PointMass] {
+            let of: Vec<&MassPiece> = pieces.iter().filter(|piece| piece.shape == shape).collect();
             if !of.is_empty() {
                 let mass = of.iter().map(|piece| piece.mass).sum();
                 found.kinds.push(KindMass { shape, count: of.len(), mass });
@@ -68,18 +68,18 @@ impl Deck {
         found
     }
 
-    fn piece(&self, element: &Element) -> Option<Piece> {
+    fn piece(&self, element: &StructureElement) -> Option<MassPiece> {
         let at = |index: usize| self.nodes.get(element.nodes.get(index)?).map(|node| node.position);
         let geometry = self.geometry(element.shape, element.geometry)?;
         let parameters = geometry.parameters.map(|field| field.value);
         let first = self.materials.get(&element.material)?.properties[0].value;
         match element.shape {
-            Shape::PointMass => {
+            ElementShape::PointMass => {
                 let [xx, xy, xz, yy, yz, zz] = parameters;
                 let inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-                Some(Piece { shape: element.shape, mass: first, centre: at(0)?, inertia })
+                Some(MassPiece { shape: element.shape, mass: first, centre: at(0)?, inertia })
             }
-            Shape::Tube => {
+            ElementShape::Tube => {
                 let (from, to) = (at(0)?, at(1)?);
                 let along: [f64; 3] = std::array::from_fn(|i| to[i] - from[i]);
                 let square: f64 = along.iter().map(|x| x * x).sum();
@@ -98,7 +98,7 @@ impl Deck {
                     })
                 });
                 let centre = std::array::from_fn(|i| (from[i] + to[i]) / 2.0);
-                Some(Piece { shape: element.shape, mass, centre, inertia })
+                Some(MassPiece { shape: element.shape, mass, centre, inertia })
             }
             _ => None,
         }

@@ -4,7 +4,7 @@
 //! Source: [AQWA-TETHER Appendix A]; [AQWA-REF deck 14].
 
 use super::card::Field;
-use super::layout::{Layout, Record, Slot, int, num};
+use super::layout::{CardLayout, CardRecord, Slot, int, num};
 use super::lines::{LineCardParser, MooringLine, Property};
 use super::remarks::Remarks;
 use super::tethers::{Builder, Tether};
@@ -21,13 +21,16 @@ const TETHER: &[&str] = &["TETH"];
 const SECTION: &[&str] = &["ECAT", "COMP"];
 
 /// Cards of deck 14.
-pub const LAYOUTS: &[Layout] = &[
-    Layout::new("TELM", &[int("node 1", 11), int("node 2", 16), int("material group", 21), int("geometry group", 26)])
-        .freely(),
-    Layout::new("TSPA", SPRING).repeatable_after(TETHER),
-    Layout::new("TSPV", SPRING).repeatable_after(TETHER),
-    Layout::new("TEIG", &[int("number of modes", 11)]),
-    Layout::new(
+pub const LAYOUTS: &[CardLayout] = &[
+    CardLayout::new(
+        "TELM",
+        &[int("node 1", 11), int("node 2", 16), int("material group", 21), int("geometry group", 26)],
+    )
+    .freely(),
+    CardLayout::new("TSPA", SPRING).repeatable_after(TETHER),
+    CardLayout::new("TSPV", SPRING).repeatable_after(TETHER),
+    CardLayout::new("TEIG", &[int("number of modes", 11)]),
+    CardLayout::new(
         "TFAT",
         &[
             num("reserved", 31),
@@ -37,32 +40,32 @@ pub const LAYOUTS: &[Layout] = &[
         ],
     )
     .repeatable_after(TETHER),
-    Layout::new("TPSH", &[int("hours", 11), num("hours", 31)]).repeatable_after(TETHER),
-    Layout::new("TSLK", &[num("time", 31)]),
-    Layout::new("TEGR", &[int("number of identical tethers", 11)]).repeatable_after(TETHER),
-    Layout::new("TCAP", &[num("anchor cap area", 31), num("vessel cap area", 41)]).repeatable_after(TETHER),
-    Layout::new("TIFL", &[num("internal pressure", 31), num("density of the internal fluid", 41)])
+    CardLayout::new("TPSH", &[int("hours", 11), num("hours", 31)]).repeatable_after(TETHER),
+    CardLayout::new("TSLK", &[num("time", 31)]),
+    CardLayout::new("TEGR", &[int("number of identical tethers", 11)]).repeatable_after(TETHER),
+    CardLayout::new("TCAP", &[num("anchor cap area", 31), num("vessel cap area", 41)]).repeatable_after(TETHER),
+    CardLayout::new("TIFL", &[num("internal pressure", 31), num("density of the internal fluid", 41)])
         .repeatable_after(TETHER),
-    Layout::new("TIMP", &[num("stress factor", 31), num("half life", 41)]).repeatable_after(TETHER),
-    Layout::new("TLOW", &[num("distance of the lower stop below the anchor", 31)]).repeatable_after(TETHER),
-    Layout::new("TLAC", &[]).freely(),
-    Layout::new("TROC", &[]).freely(),
-    Layout::new("TLAV", &[num("gap", 31)]).freely(),
-    Layout::new("TROV", &[]).freely(),
-    Layout::new(
+    CardLayout::new("TIMP", &[num("stress factor", 31), num("half life", 41)]).repeatable_after(TETHER),
+    CardLayout::new("TLOW", &[num("distance of the lower stop below the anchor", 31)]).repeatable_after(TETHER),
+    CardLayout::new("TLAC", &[]).freely(),
+    CardLayout::new("TROC", &[]).freely(),
+    CardLayout::new("TLAV", &[num("gap", 31)]).freely(),
+    CardLayout::new("TROV", &[]).freely(),
+    CardLayout::new(
         "TETH",
         &[int("structure", 11), int("node on it", 16), int("0 (fixed)", 21), int("anchor or trailing node", 26)],
     )
     .freely(),
-    Layout::pass_over("TSTE", NOT_YET),
-    Layout::pass_over("TTIM", NOT_YET),
-    Layout::pass_over("TRAO", NOT_YET),
-    Layout::refuse("TECP", "composite tethers are not read"),
-    Layout::refuse("TSEG", "composite tethers are not read"),
-    Layout::refuse("TSGH", "composite tethers are not read"),
-    Layout::new("LINE", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("stiffness", 31), num("unstretched length", 41)])
+    CardLayout::pass_over("TSTE", NOT_YET),
+    CardLayout::pass_over("TTIM", NOT_YET),
+    CardLayout::pass_over("TRAO", NOT_YET),
+    CardLayout::refuse("TECP", "composite tethers are not read"),
+    CardLayout::refuse("TSEG", "composite tethers are not read"),
+    CardLayout::refuse("TSGH", "composite tethers are not read"),
+    CardLayout::new("LINE", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("stiffness", 31), num("unstretched length", 41)])
         .freely(),
-    Layout::new(
+    CardLayout::new(
         "LNDW",
         &[
             ENDS[0],
@@ -77,8 +80,8 @@ pub const LAYOUTS: &[Layout] = &[
         ],
     )
     .freely(),
-    Layout::new("FORC", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("force", 31)]).freely(),
-    Layout::assume(
+    CardLayout::new("FORC", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("force", 31)]).freely(),
+    CardLayout::assume(
         "WNCH",
         &[
             ENDS[0],
@@ -92,10 +95,10 @@ pub const LAYOUTS: &[Layout] = &[
         ],
     )
     .freely(),
-    Layout::new("NLIN", NON_LINEAR).freely(),
-    Layout::new("NLID", NON_LINEAR).freely(),
-    Layout::new("POLY", &[num("P1", 31), num("P2", 41), num("P3", 51), num("P4", 61), num("P5", 71)]).freely(),
-    Layout::new(
+    CardLayout::new("NLIN", NON_LINEAR).freely(),
+    CardLayout::new("NLID", NON_LINEAR).freely(),
+    CardLayout::new("POLY", &[num("P1", 31), num("P2", 41), num("P3", 51), num("P4", 61), num("P5", 71)]).freely(),
+    CardLayout::new(
         "COMP",
         &[
             int("vertical levels", 11),
@@ -108,7 +111,7 @@ pub const LAYOUTS: &[Layout] = &[
         ],
     )
     .freely(),
-    Layout::new(
+    CardLayout::new(
         "ECAT",
         &[
             int("pretension flag", 26),
@@ -120,8 +123,8 @@ pub const LAYOUTS: &[Layout] = &[
         ],
     )
     .freely(),
-    Layout::new("ECAX", &[num("k1", 31), num("k2", 41), num("k3", 51)]).repeatable_after(SECTION),
-    Layout::new(
+    CardLayout::new("ECAX", &[num("k1", 31), num("k2", 41), num("k3", 51)]).repeatable_after(SECTION),
+    CardLayout::new(
         "ECAH",
         &[
             num("added mass coefficient", 31),
@@ -131,21 +134,21 @@ pub const LAYOUTS: &[Layout] = &[
         ],
     )
     .repeatable_after(SECTION),
-    Layout::new("ECAB", &[num("EI", 31)]).repeatable_after(SECTION),
-    Layout::assume("BUOY", JOINT).one_of("joint", SECTION),
-    Layout::assume("CLMP", JOINT).one_of("joint", SECTION),
-    Layout::pass_over("DYNM", "cable dynamics is chosen by the class of the line here; the card has no effect"),
-    Layout::pass_over("DOFF", "cable dynamics is chosen by the class of the line here; the card has no effect"),
-    Layout::refuse("NCEL", UNREAD_CARD_REASON),
-    Layout::refuse("LBRK", UNREAD_CARD_REASON),
-    Layout::refuse("SWIR", UNREAD_CARD_REASON),
-    Layout::refuse("FEND", UNREAD_CARD_REASON),
-    Layout::refuse("FLIN", UNREAD_CARD_REASON),
-    Layout::refuse("FENP", UNREAD_CARD_REASON),
-    Layout::refuse("DWT0", UNREAD_CARD_REASON),
-    Layout::refuse("DWAL", UNREAD_CARD_REASON),
-    Layout::refuse("PULY", UNREAD_CARD_REASON),
-    Layout::refuse("FILE", UNREAD_CARD_REASON),
+    CardLayout::new("ECAB", &[num("EI", 31)]).repeatable_after(SECTION),
+    CardLayout::assume("BUOY", JOINT).one_of("joint", SECTION),
+    CardLayout::assume("CLMP", JOINT).one_of("joint", SECTION),
+    CardLayout::pass_over("DYNM", "cable dynamics is chosen by the class of the line here; the card has no effect"),
+    CardLayout::pass_over("DOFF", "cable dynamics is chosen by the class of the line here; the card has no effect"),
+    CardLayout::refuse("NCEL", UNREAD_CARD_REASON),
+    CardLayout::refuse("LBRK", UNREAD_CARD_REASON),
+    CardLayout::refuse("SWIR", UNREAD_CARD_REASON),
+    CardLayout::refuse("FEND", UNREAD_CARD_REASON),
+    CardLayout::refuse("FLIN", UNREAD_CARD_REASON),
+    CardLayout::refuse("FENP", UNREAD_CARD_REASON),
+    CardLayout::refuse("DWT0", UNREAD_CARD_REASON),
+    CardLayout::refuse("DWAL", UNREAD_CARD_REASON),
+    CardLayout::refuse("PULY", UNREAD_CARD_REASON),
+    CardLayout::refuse("FILE", UNREAD_CARD_REASON),
 ];
 
 const SPRING: &[Slot] = &[
@@ -169,7 +172,7 @@ const JOINT: &[Slot] =
 
 /// Deck 14.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Mooring {
+pub struct MooringDeck {
     /// Properties that lines refer to, in the order of input.
     pub properties: Vec<Property>,
     /// Mooring lines in the order of input.
@@ -185,8 +188,8 @@ pub struct Mooring {
 }
 
 /// The mooring of the cards of deck 14.
-pub fn read(records: &[Record], remarks: &mut Remarks) -> Mooring {
-    let mut mooring = Mooring::default();
+pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> MooringDeck {
+    let mut mooring = MooringDeck::default();
     let mut tether = Builder::default();
     let mut walk = LineCardParser::default();
     for record in records {

@@ -6,7 +6,7 @@
 //! Source: [AQWA-REF deck 1]; [AQWA-TETHER 8.1.1] and the listing's card echo.
 
 use super::card::Field;
-use super::layout::{Layout, Record, int, num};
+use super::layout::{CardLayout, CardRecord, int, num};
 use super::remarks::Remarks;
 use indexmap::IndexMap;
 use windlass_base::diagnostic::Diagnostic;
@@ -16,7 +16,7 @@ use windlass_base::span::Span;
 pub const MAX_NODES: usize = 60_000;
 
 const SLOTS: &[super::layout::Slot] = &[
-    super::layout::Slot { name: "node number", column: 7, width: 4, holds: super::layout::Holds::Integer },
+    super::layout::Slot { name: "node number", column: 7, width: 4, holds: super::layout::FieldType::Integer },
     int("how many nodes to generate", 11),
     int("step of the node numbers", 16),
     num("X", 21),
@@ -29,15 +29,15 @@ const SLOTS: &[super::layout::Slot] = &[
 const UNPUBLISHED_CARD_REASON: &str = "the columns of this card are published nowhere; give the nodes one by one";
 
 /// Cards of deck 1.
-pub const LAYOUTS: &[Layout] = &[
-    Layout::new("", SLOTS).freely(),
-    Layout::refuse("STRC", UNPUBLISHED_CARD_REASON),
-    Layout::refuse("NODE", UNPUBLISHED_CARD_REASON),
+pub const LAYOUTS: &[CardLayout] = &[
+    CardLayout::new("", SLOTS).freely(),
+    CardLayout::refuse("STRC", UNPUBLISHED_CARD_REASON),
+    CardLayout::refuse("NODE", UNPUBLISHED_CARD_REASON),
 ];
 
 /// A node of deck 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Node {
+pub struct DeckNode {
     /// X, Y, Z as given.
     pub position: [f64; 3],
     /// The card that made it.
@@ -45,11 +45,11 @@ pub struct Node {
 }
 
 /// The nodes by number, in the order of input.
-pub type Nodes = IndexMap<i64, Node>;
+pub type NodeTable = IndexMap<i64, DeckNode>;
 
 /// The nodes of the cards of deck 1.
-pub fn read(records: &[Record], remarks: &mut Remarks) -> Nodes {
-    let mut nodes = Nodes::new();
+pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> NodeTable {
+    let mut nodes = NodeTable::new();
     for record in records {
         let (first, count, step) = (record.int(7), record.int(11), record.int(16));
         if first.value <= 0 {
@@ -92,7 +92,7 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Nodes {
                 );
                 break;
             }
-            nodes.insert(number, Node { position, span: record.span });
+            nodes.insert(number, DeckNode { position, span: record.span });
         }
     }
     nodes

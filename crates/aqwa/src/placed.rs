@@ -1,7 +1,7 @@
 //! Where nodes are at the start, and how long tethers are against what they span.
 
 use super::Deck;
-use super::elements::Structure;
+use super::elements::StructureDeck;
 use super::remarks::Remarks;
 use super::tethers::Tether;
 use nalgebra::{Rotation3, Vector3};
@@ -14,7 +14,7 @@ impl Deck {
     /// Position at the start of a node that moves with a structure: the node of deck 1 carried with the centre of gravity to
     /// its place of deck 15 and turned about it, by RX, then RY, then RZ about the fixed axes (assumed for large angles: no
     /// page seen gives the order).
-    pub fn node_position(&self, structure: &Structure, node: i64) -> Option<[f64; 3]> {
+    pub fn node_position(&self, structure: &StructureDeck, node: i64) -> Option<[f64; 3]> {
         let node = Vector3::from(self.nodes.get(&node)?.position);
         let centre = Vector3::from(self.mass_properties(structure).centre);
         let [x, y, z, rx, ry, rz] = self.start(structure);

@@ -3,7 +3,7 @@
 //! Source: [AQWA-TETHER Appendix B, 8.1.18 and 8.2.18]; [AQWA-REF deck 18].
 
 use super::card::Field;
-use super::layout::{Layout, Record, Slot, int};
+use super::layout::{CardLayout, CardRecord, Slot, int};
 use super::remarks::Remarks;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
@@ -12,29 +12,29 @@ const STEP_SLOTS: &[Slot] = &[int("number of steps", 11)];
 const PARAMETER: &[Slot] = &[int("structure", 11), int("parameter", 16)];
 
 /// Cards of deck 18.
-pub const LAYOUTS: &[Layout] = &[
-    Layout::new("PREV", STEP_SLOTS),
-    Layout::new("TPRV", STEP_SLOTS),
-    Layout::new("TGRV", STEP_SLOTS),
-    Layout::new("GREV", STEP_SLOTS),
-    Layout::new("PPRV", STEP_SLOTS),
-    Layout::new("TSTS", &[int("first step of the statistics", 11)]),
-    Layout::new("TSTF", &[int("last step of the statistics", 11)]),
-    Layout::new("PTEN", &[int("structure", 11)]).repeated_by(&[11]),
-    Layout::new(
+pub const LAYOUTS: &[CardLayout] = &[
+    CardLayout::new("PREV", STEP_SLOTS),
+    CardLayout::new("TPRV", STEP_SLOTS),
+    CardLayout::new("TGRV", STEP_SLOTS),
+    CardLayout::new("GREV", STEP_SLOTS),
+    CardLayout::new("PPRV", STEP_SLOTS),
+    CardLayout::new("TSTS", &[int("first step of the statistics", 11)]),
+    CardLayout::new("TSTF", &[int("last step of the statistics", 11)]),
+    CardLayout::new("PTEN", &[int("structure", 11)]).repeated_by(&[11]),
+    CardLayout::new(
         "NODE",
         &[int("structure", 11), int("node", 16), int("reference structure", 21), int("reference node", 26)],
     )
     .repeated_by(&[11, 16, 21, 26]),
-    Layout::new("NOPR", PARAMETER).freely(),
-    Layout::new("PRNT", PARAMETER).freely(),
-    Layout::pass_over("PCGP", "not available in AQWA nor here"),
-    Layout::pass_over("PMST", "tensions along dynamic lines are had with the reports of the session"),
-    Layout::pass_over("PRTD", "has no effect; PREV says how often a structure is printed"),
-    Layout::pass_over("SSPC", "is for FER"),
-    Layout::pass_over("ZRWS", "heights above the wave are had with the reports of the session"),
-    Layout::pass_over("PTST", "has no effect"),
-    Layout::pass_over("PTRT", "has no effect"),
+    CardLayout::new("NOPR", PARAMETER).freely(),
+    CardLayout::new("PRNT", PARAMETER).freely(),
+    CardLayout::pass_over("PCGP", "not available in AQWA nor here"),
+    CardLayout::pass_over("PMST", "tensions along dynamic lines are had with the reports of the session"),
+    CardLayout::pass_over("PRTD", "has no effect; PREV says how often a structure is printed"),
+    CardLayout::pass_over("SSPC", "is for FER"),
+    CardLayout::pass_over("ZRWS", "heights above the wave are had with the reports of the session"),
+    CardLayout::pass_over("PTST", "has no effect"),
+    CardLayout::pass_over("PTRT", "has no effect"),
 ];
 
 /// A node whose position is printed.
@@ -91,7 +91,7 @@ impl Printing {
 }
 
 /// The printing of the cards of deck 18.
-pub fn read(records: &[Record], remarks: &mut Remarks) -> Printing {
+pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> Printing {
     let mut printing = Printing::default();
     for record in records {
         printing.span = record.span;

@@ -3,8 +3,8 @@
 //! Source: [AQWA-REF decks 3, 4, 5]; [AQWA-TETHER 8.1.3 to 8.1.5] and the listing's card echo.
 
 use super::card::Field;
-use super::elements::Shape;
-use super::layout::{Layout, Record, Slot, int, num};
+use super::elements::ElementShape;
+use super::layout::{CardLayout, CardRecord, Slot, int, num};
 use super::remarks::Remarks;
 use indexmap::IndexMap;
 use windlass_base::diagnostic::Diagnostic;
@@ -17,7 +17,7 @@ pub const DEFAULT_DRAG: f64 = 0.75;
 pub const DEFAULT_ADDED_MASS: f64 = 1.0;
 
 /// Cards of deck 3.
-pub const MATERIALS: &[Layout] = &[Layout::new(
+pub const MATERIALS: &[CardLayout] = &[CardLayout::new(
     "",
     &[
         int("material group", 16),
@@ -39,24 +39,24 @@ const DOF_SLOTS: &[Slot] = &[
 ];
 
 /// Cards of deck 4.
-pub const GEOMETRIES: &[Layout] = &[
-    Layout::new("TUBE", DOF_SLOTS).freely(),
-    Layout::new("PMAS", DOF_SLOTS).freely(),
-    Layout::assume("STUB", DOF_SLOTS).freely(),
-    Layout::assume("DISC", DOF_SLOTS).freely(),
-    Layout::new("CONT", &[num("drag coefficient", 21), num("added mass coefficient", 31)]).freely(),
+pub const GEOMETRIES: &[CardLayout] = &[
+    CardLayout::new("TUBE", DOF_SLOTS).freely(),
+    CardLayout::new("PMAS", DOF_SLOTS).freely(),
+    CardLayout::assume("STUB", DOF_SLOTS).freely(),
+    CardLayout::assume("DISC", DOF_SLOTS).freely(),
+    CardLayout::new("CONT", &[num("drag coefficient", 21), num("added mass coefficient", 31)]).freely(),
 ];
 
 /// Cards of deck 5.
-pub const GLOBALS: &[Layout] = &[
-    Layout::new("DPTH", &[num("depth of water", 11)]),
-    Layout::new("DENS", &[num("density of water", 11)]),
-    Layout::new("ACCG", &[num("acceleration due to gravity", 11)]),
+pub const GLOBALS: &[CardLayout] = &[
+    CardLayout::new("DPTH", &[num("depth of water", 11)]),
+    CardLayout::new("DENS", &[num("density of water", 11)]),
+    CardLayout::new("ACCG", &[num("acceleration due to gravity", 11)]),
 ];
 
 /// A material group.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
+pub struct MaterialCard {
     /// TUBE: density, Young's modulus (tethers). PMAS: mass. STUB: mass and two inertias a length. PBOY: displaced mass.
     pub properties: [Field<f64>; 3],
     /// The card.
@@ -67,7 +67,7 @@ pub struct Material {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geometry {
     /// Kind of element it is for.
-    pub shape: Shape,
+    pub shape: ElementShape,
     /// Number of the group.
     pub group: i64,
     /// TUBE: diameter, wall thickness. PMAS: Ixx, Ixy, Ixz, Iyy, Iyz, Izz about the centre of gravity.
@@ -94,7 +94,7 @@ impl Geometry {
 
 /// The water and gravity, in the units of the deck.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Global {
+pub struct WaterAndGravity {
     /// Depth.
     pub depth: f64,
     /// Density of the water.
@@ -109,9 +109,9 @@ pub struct Global {
     pub density_span: Option<Span>,
 }
 
-impl Default for Global {
+impl Default for WaterAndGravity {
     fn default() -> Self {
-        Global {
+        WaterAndGravity {
             depth: 1000.0,
             density: 1025.0,
             gravity: 9.81,
@@ -123,13 +123,13 @@ impl Default for Global {
 }
 
 /// Materials by group.
-pub type Materials = IndexMap<i64, Material>;
+pub type Materials = IndexMap<i64, MaterialCard>;
 
 /// Geometries by the kind of element and the group: groups of different kinds may have the same number.
-pub type Geometries = IndexMap<(Shape, i64), Geometry>;
+pub type Geometries = IndexMap<(ElementShape, i64), Geometry>;
 
 /// The materials of the cards of deck 3.
-pub fn read_materials(records: &[Record], remarks: &mut Remarks) -> Materials {
+pub fn read_materials(records: &[CardRecord], remarks: &mut Remarks) -> Materials {
     let mut list = Materials::new();
     for record in records {
         let group = record.int(16);
@@ -141,25 +141,25 @@ pub fn read_materials(records: &[Record], remarks: &mut Remarks) -> Materials {
             continue;
         }
         if let Some(earlier) = list.get(&group.value) {
-            let earlier: &Material = earlier;
+            let earlier: &MaterialCard = earlier;
             remarks.add(
                 Diagnostic::error(format!("deck 3: material group {} is given twice", group.value), group.span)
                     .other(earlier.span, "given here first"),
             );
             continue;
         }
-        list.insert(group.value, Material { properties: record.reals(21), span: record.span });
+        list.insert(group.value, MaterialCard { properties: record.reals(21), span: record.span });
     }
     list
 }
 
 /// The geometries of the cards of deck 4.
-pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Geometries {
+pub fn read_geometries(records: &[CardRecord], remarks: &mut Remarks) -> Geometries {
     let mut list = Geometries::new();
     // what a CONT card continues: the card directly before it
     let mut continued = None;
     for record in records {
-        let Some(shape) = Shape::from_keyword(&record.keyword) else {
+        let Some(shape) = ElementShape::from_keyword(&record.keyword) else {
             match continued.take().and_then(|key| list.get_mut(&key)) {
                 Some(geometry) => {
                     geometry.drag = Some(record.real(21));
@@ -178,7 +178,7 @@ pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Geometries 
             remarks.add(Diagnostic::error(message, group.span).label("geometry group"));
         }
         let key = (shape, group.value);
-        continued = (shape != Shape::PointMass).then_some(key);
+        continued = (shape != ElementShape::PointMass).then_some(key);
         if let Some(earlier) = list.get(&key) {
             let message = format!("deck 4: {} group {} is given twice", record.keyword, group.value);
             remarks.add(Diagnostic::error(message, group.span).other(earlier.span, "given here first"));
@@ -187,7 +187,7 @@ pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Geometries 
         let parameters = record.reals(21);
         let geometry =
             Geometry { shape, group: group.value, parameters, drag: None, added_mass: None, span: record.span };
-        if shape == Shape::Tube {
+        if shape == ElementShape::Tube {
             check_tube(&geometry, remarks);
         }
         list.insert(key, geometry);
@@ -220,8 +220,8 @@ fn check_tube(geometry: &Geometry, remarks: &mut Remarks) {
 }
 
 /// The water of the cards of deck 5.
-pub fn read_global(records: &[Record], remarks: &mut Remarks) -> Global {
-    let mut global = Global::default();
+pub fn read_global(records: &[CardRecord], remarks: &mut Remarks) -> WaterAndGravity {
+    let mut global = WaterAndGravity::default();
     for record in records {
         let value = record.real(11);
         if value.given && value.value <= 0.0 {

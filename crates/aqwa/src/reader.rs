@@ -1,7 +1,7 @@
 //! Goes through the cards of a file deck by deck: headers, `END`, `NONE`, `FINI`, and cards whose decks are missing.
 
-use super::card::{Face, Line, Lines};
-use super::layout::{CardSupport, Layout, Record};
+use super::card::{CardLine, CardLines, Face};
+use super::layout::{CardLayout, CardRecord, CardSupport};
 use super::remarks::Remarks;
 use super::repeats;
 use windlass_base::diagnostic::{Diagnostic, did_you_mean};
@@ -58,13 +58,13 @@ pub struct Cards {
     /// Its header.
     pub header: Header,
     /// Its cards; none for NONE and FINI.
-    pub records: Vec<Record>,
+    pub records: Vec<CardRecord>,
 }
 
 /// Goes through the cards of a file.
-pub struct Reader<'a> {
-    lines: Lines<'a>,
-    current: Option<Line<'a>>,
+pub struct CardReader<'a> {
+    lines: CardLines<'a>,
+    current: Option<CardLine<'a>>,
     taken: usize,
     end: Span,
     /// Messages so far.
@@ -87,24 +87,24 @@ fn parse_header(word: &str) -> Option<(u8, &'static str, i64)> {
     })
 }
 
-impl<'a> Reader<'a> {
+impl<'a> CardReader<'a> {
     /// A reader at the first card of a source.
     pub fn new(source: &'a Source, id: SourceId) -> Self {
         let end = Span::new(id, source.text.len(), source.text.len());
         let mut reader =
-            Reader { lines: Lines::new(source, id), current: None, taken: 0, end, remarks: Remarks::default() };
+            CardReader { lines: CardLines::new(source, id), current: None, taken: 0, end, remarks: Remarks::default() };
         reader.take();
         reader
     }
 
     /// The next line, not taken.
-    pub fn peek(&self) -> Option<&Line<'a>> {
+    pub fn peek(&self) -> Option<&CardLine<'a>> {
         self.current.as_ref()
     }
 
     /// Takes the next line. A line that is far longer than a card, and all that follows the last card a file may have, is
     /// answered with an error and not seen.
-    pub fn take(&mut self) -> Option<Line<'a>> {
+    pub fn take(&mut self) -> Option<CardLine<'a>> {
         let mut next = self.lines.next();
         while let Some(line) = next.take_if(|line| line.text.len() > LONGEST_LINE) {
             self.remarks.add_once("a long line", || {
@@ -128,15 +128,15 @@ impl<'a> Reader<'a> {
 
     /// The place of the next line, or of the end of the file.
     pub fn current_span(&self) -> Span {
-        self.peek().map_or(self.end, Line::whole)
+        self.peek().map_or(self.end, CardLine::whole)
     }
 
     /// The header that a line is, if it is one: an identifier in columns 5-6 and a keyword from column 11 on.
-    fn header_of(line: &Line<'_>) -> Option<(u8, Header)> {
+    fn header_of(line: &CardLine<'_>) -> Option<(u8, Header)> {
         if !line.blank(1, 4) || !line.blank(7, 10) || line.blank(11, 11) || line.tab().is_some() {
             return None;
         }
-        let mut words = Line::words(line.columns(11, 80));
+        let mut words = CardLine::words(line.columns(11, 80));
         let word = words.next()?;
         let (deck, name, structure) = parse_header(&word.to_ascii_uppercase())?;
         if words.next().is_some() {
@@ -215,7 +215,7 @@ impl<'a> Reader<'a> {
                     complained = true;
                 }
                 None => {
-                    let word = Line::words(line.text).last().unwrap_or_default().to_ascii_uppercase();
+                    let word = CardLine::words(line.text).last().unwrap_or_default().to_ascii_uppercase();
                     let mut error = match line.tab() {
                         Some(column) => line.tab_error(&format!("deck {deck}"), column),
                         None => Diagnostic::error(format!("deck {deck}: this is no deck header"), line.whole())
@@ -232,12 +232,12 @@ impl<'a> Reader<'a> {
     }
 
     /// The cards of a deck up to the one marked `END`.
-    pub fn records(&mut self, deck: u8, label: &str, layouts: &'static [Layout]) -> Vec<Record> {
+    pub fn records(&mut self, deck: u8, label: &str, layouts: &'static [CardLayout]) -> Vec<CardRecord> {
         let mut list = Vec::new();
         let keyworded = !layouts.iter().any(|layout| layout.keyword.is_empty());
         loop {
             if self.next_header().is_some() || self.peek().is_none() {
-                let span = list.last().map_or(self.current_span(), |record: &Record| record.span);
+                let span = list.last().map_or(self.current_span(), |record: &CardRecord| record.span);
                 let message = format!("{label} has no END");
                 self.remarks.add(
                     Diagnostic::error(message, span).label("END belongs in columns 2-4 of the last card of the deck"),
@@ -276,11 +276,20 @@ impl<'a> Reader<'a> {
         list
     }
 
-    fn record(&mut self, label: &str, line: &Line<'a>, face: &Face<'a>, layouts: &'static [Layout]) -> Option<Record> {
+    fn record(
+        &mut self,
+        label: &str,
+        line: &CardLine<'a>,
+        face: &Face<'a>,
+        layouts: &'static [CardLayout],
+    ) -> Option<CardRecord> {
         let Some(layout) = layouts.iter().find(|layout| matches(layout.keyword, &face.keyword)) else {
             let known = || layouts.iter().map(|layout| layout.keyword).filter(|keyword| !keyword.is_empty());
-            let word =
-                if face.keyword.is_empty() { Line::words(face.rest).next().unwrap_or_default() } else { &face.keyword };
+            let word = if face.keyword.is_empty() {
+                CardLine::words(face.rest).next().unwrap_or_default()
+            } else {
+                &face.keyword
+            };
             let mut error = Diagnostic::error(format!("{label} has no card `{word}`"), face.place)
                 .label("a keyword of this deck belongs in columns 7-10");
             error.help.extend(did_you_mean(word, known()));

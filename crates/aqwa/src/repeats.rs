@@ -2,14 +2,14 @@
 //!
 //! Each [`Layout`] says how often its card may come ([`Repeats`]); a card is allowed once unless its layout says otherwise.
 
-use super::layout::{Layout, Record, Repeats};
+use super::layout::{CardLayout, CardRecord, Repeats};
 use super::reader::matches;
 use super::remarks::Remarks;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// A card that may not be given again.
-struct Given<'a> {
+struct SingleCard<'a> {
     /// What it gives: its keyword, or the name that cards of the same meaning share.
     what: &'a str,
     keyword: &'a str,
@@ -20,8 +20,8 @@ struct Given<'a> {
 }
 
 /// Refuses the cards of a deck that are given twice; `label` names the deck.
-pub fn check(label: &str, layouts: &'static [Layout], records: &[Record], remarks: &mut Remarks) {
-    let mut list: Vec<Given<'_>> = Vec::new();
+pub fn check(label: &str, layouts: &'static [CardLayout], records: &[CardRecord], remarks: &mut Remarks) {
+    let mut list: Vec<SingleCard<'_>> = Vec::new();
     for record in records {
         let keyword = record.keyword.as_str();
         list.retain(|given| !given.until.contains(&keyword));
@@ -30,7 +30,7 @@ pub fn check(label: &str, layouts: &'static [Layout], records: &[Record], remark
         let what = if same.is_empty() { keyword } else { same };
         let key: Vec<i64> = by.iter().map(|column| record.int(*column).value).collect();
         let Some(earlier) = list.iter().find(|given| given.what == what && given.key == key) else {
-            list.push(Given { what, keyword, key, span: record.span, until });
+            list.push(SingleCard { what, keyword, key, span: record.span, until });
             continue;
         };
         let which = by.iter().zip(&key).map(|(column, value)| format!(" of {} {value}", layout.name_of(*column)));

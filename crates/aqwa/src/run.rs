@@ -3,7 +3,7 @@
 //! Source: [AQWA-TETHER 8.1.15 to 8.1.17] and the listings' card echoes; [AQWA-REF decks 15, 16, 17].
 
 use super::card::Field;
-use super::layout::{Layout, Record, Slot, int, num};
+use super::layout::{CardLayout, CardRecord, Slot, int, num};
 use super::remarks::Remarks;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
@@ -12,25 +12,25 @@ const DOF_SLOTS: &[Slot] = &[num("X", 21), num("Y", 31), num("Z", 41), num("RX",
 const SLOW_DRIFT_REASON: &str = "slow drift positions are not read apart from the total ones";
 
 /// Cards of deck 15; `n` stands for the number of the structure.
-pub const STARTS: &[Layout] = &[
-    Layout::new("POSn", DOF_SLOTS).freely(),
-    Layout::new("VELn", DOF_SLOTS).freely(),
-    Layout::refuse("SLPn", SLOW_DRIFT_REASON),
-    Layout::refuse("SLVn", SLOW_DRIFT_REASON),
+pub const STARTS: &[CardLayout] = &[
+    CardLayout::new("POSn", DOF_SLOTS).freely(),
+    CardLayout::new("VELn", DOF_SLOTS).freely(),
+    CardLayout::refuse("SLPn", SLOW_DRIFT_REASON),
+    CardLayout::refuse("SLVn", SLOW_DRIFT_REASON),
 ];
 
 /// Cards of deck 16.
-pub const DECK_16_CARDS: &[Layout] = &[
-    Layout::new("TIME", &[int("number of time steps", 16), num("time step", 21), num("start time", 31)]),
-    Layout::refuse("HOTS", "a start from an earlier run is not read"),
+pub const DECK_16_CARDS: &[CardLayout] = &[
+    CardLayout::new("TIME", &[int("number of time steps", 16), num("time step", 21), num("start time", 31)]),
+    CardLayout::refuse("HOTS", "a start from an earlier run is not read"),
 ];
 
 /// Cards of deck 17.
-pub const MULTIPLIERS: &[Layout] = &[
-    Layout::new("SLMM", &[int("structure", 11), num("slam multiplier", 21)]).repeated_by(&[11]),
-    Layout::assume("DRGM", &[int("structure", 11), num("drag multiplier", 21)]).repeated_by(&[11]),
-    Layout::assume("ADMM", &[int("structure", 11), num("added mass multiplier", 21)]).repeated_by(&[11]),
-    Layout::refuse("SC1/", "drag that depends on the Reynolds number is not read"),
+pub const MULTIPLIERS: &[CardLayout] = &[
+    CardLayout::new("SLMM", &[int("structure", 11), num("slam multiplier", 21)]).repeated_by(&[11]),
+    CardLayout::assume("DRGM", &[int("structure", 11), num("drag multiplier", 21)]).repeated_by(&[11]),
+    CardLayout::assume("ADMM", &[int("structure", 11), num("added mass multiplier", 21)]).repeated_by(&[11]),
+    CardLayout::refuse("SC1/", "drag that depends on the Reynolds number is not read"),
 ];
 
 /// Position or velocity of the centre of gravity of a structure at the start.
@@ -48,7 +48,7 @@ pub struct Start {
 
 /// Steps in time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steps {
+pub struct TimeSteps {
     /// Number of steps; the first is the start, so that N steps last (N - 1) times the step.
     pub count: Field<i64>,
     /// Length of a step (s).
@@ -67,7 +67,7 @@ pub const MAX_TIME_STEPS: i64 = 10_000_000;
 
 /// Multipliers of the loads on the Morison elements of a structure, its tethers among them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Multipliers {
+pub struct MorisonMultipliers {
     /// The structure.
     pub structure: Field<i64>,
     /// Of drag; 1 by default.
@@ -79,7 +79,7 @@ pub struct Multipliers {
 }
 
 /// The starts of the cards of deck 15.
-pub fn read_starts(records: &[Record], remarks: &mut Remarks) -> Vec<Start> {
+pub fn read_starts(records: &[CardRecord], remarks: &mut Remarks) -> Vec<Start> {
     let mut list: Vec<Start> = Vec::new();
     for record in records {
         let number: String = record.keyword.chars().skip_while(|c| !c.is_ascii_digit()).collect();
@@ -96,9 +96,10 @@ pub fn read_starts(records: &[Record], remarks: &mut Remarks) -> Vec<Start> {
 }
 
 /// The time steps of the cards of deck 16.
-pub fn read_steps(records: &[Record], remarks: &mut Remarks) -> Option<Steps> {
+pub fn read_steps(records: &[CardRecord], remarks: &mut Remarks) -> Option<TimeSteps> {
     let record = records.last()?;
-    let steps = Steps { count: record.int(16), step: record.real(21), start: record.real(31).value, span: record.span };
+    let steps =
+        TimeSteps { count: record.int(16), step: record.real(21), start: record.real(31).value, span: record.span };
     if !(1..=MAX_TIME_STEPS).contains(&steps.count.value) {
         remarks.add(
             Diagnostic::error(
@@ -120,8 +121,8 @@ pub fn read_steps(records: &[Record], remarks: &mut Remarks) -> Option<Steps> {
 }
 
 /// The multipliers of the cards of deck 17.
-pub fn read_multipliers(records: &[Record], remarks: &mut Remarks) -> Vec<Multipliers> {
-    let mut list: Vec<Multipliers> = Vec::new();
+pub fn read_multipliers(records: &[CardRecord], remarks: &mut Remarks) -> Vec<MorisonMultipliers> {
+    let mut list: Vec<MorisonMultipliers> = Vec::new();
     for record in records {
         let (structure, factor) = (record.int(11), record.real(21));
         if !(1..=MAX_STRUCTURES).contains(&structure.value) {
@@ -137,7 +138,7 @@ pub fn read_multipliers(records: &[Record], remarks: &mut Remarks) -> Vec<Multip
             continue;
         }
         let index = list.iter().position(|m| m.structure.value == structure.value).unwrap_or_else(|| {
-            list.push(Multipliers { structure, drag: 1.0, added_mass: 1.0, slam: 0.0 });
+            list.push(MorisonMultipliers { structure, drag: 1.0, added_mass: 1.0, slam: 0.0 });
             list.len() - 1
         });
         if let Some(multipliers) = list.get_mut(index) {

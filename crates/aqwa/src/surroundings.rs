@@ -5,33 +5,33 @@
 //! Source: [AQWA-TETHER 6.4] and the listing; [AQWA-REF decks 11, 12]; directions and phases by [W-DIRECTIONS].
 
 use super::card::Field;
-use super::layout::{Layout, Record, int, num};
+use super::layout::{CardLayout, CardRecord, int, num};
 use super::remarks::Remarks;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// Cards of deck 11.
-pub const LAYOUTS: &[Layout] = &[
-    Layout::new("CURR", &[num("speed", 11), num("direction", 21)]),
-    Layout::new("WIND", &[num("speed", 11), num("direction", 21)]),
-    Layout::new("CPRF", &[num("Z of the current", 11), num("speed", 21), num("direction", 31)]).freely(),
-    Layout::new("CDRN", &[num("direction of the profile", 11)]),
+pub const LAYOUTS: &[CardLayout] = &[
+    CardLayout::new("CURR", &[num("speed", 11), num("direction", 21)]),
+    CardLayout::new("WIND", &[num("speed", 11), num("direction", 21)]),
+    CardLayout::new("CPRF", &[num("Z of the current", 11), num("speed", 21), num("direction", 31)]).freely(),
+    CardLayout::new("CDRN", &[num("direction of the profile", 11)]),
 ];
 
 const ARTICULATION: &str = "articulations are not read from a deck; join the bodies with connectors instead";
 
 /// Cards of deck 12.
-pub const CONSTRAINTS: &[Layout] = &[
-    Layout::assume("DACF", &[int("structure", 11), int("degree of freedom", 16)]).repeated_by(&[11, 16]),
-    Layout::refuse("DCON", ARTICULATION),
-    Layout::refuse("FDCN", ARTICULATION),
-    Layout::refuse("KFCN", ARTICULATION),
-    Layout::refuse("DFCN", ARTICULATION),
+pub const CONSTRAINTS: &[CardLayout] = &[
+    CardLayout::assume("DACF", &[int("structure", 11), int("degree of freedom", 16)]).repeated_by(&[11, 16]),
+    CardLayout::refuse("DCON", ARTICULATION),
+    CardLayout::refuse("FDCN", ARTICULATION),
+    CardLayout::refuse("KFCN", ARTICULATION),
+    CardLayout::refuse("DFCN", ARTICULATION),
 ];
 
 /// A uniform stream.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flow {
+pub struct UniformStream {
     /// Speed.
     pub speed: Field<f64>,
     /// Direction towards which it travels (degrees).
@@ -42,7 +42,7 @@ pub struct Flow {
 
 /// One depth of a current profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Layer {
+pub struct CurrentLayer {
     /// Z, negative below the water line.
     pub height: f64,
     /// Speed.
@@ -55,18 +55,18 @@ pub struct Layer {
 
 /// Deck 11.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Surroundings {
+pub struct SurroundingsDeck {
     /// Current that is the same at all depths.
-    pub current: Option<Flow>,
+    pub current: Option<UniformStream>,
     /// Wind.
-    pub wind: Option<Flow>,
+    pub wind: Option<UniformStream>,
     /// Current profile from the bottom upwards; it adds to the uniform current.
-    pub profile: Vec<Layer>,
+    pub profile: Vec<CurrentLayer>,
 }
 
 /// A degree of freedom of a structure that is held (DACF).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
+pub struct FixedDof {
     /// The structure.
     pub structure: Field<i64>,
     /// The degree of freedom, 1 to 6.
@@ -74,8 +74,8 @@ pub struct Held {
 }
 
 /// The current and wind of the cards of deck 11.
-pub fn read(records: &[Record], remarks: &mut Remarks) -> Surroundings {
-    let mut found = Surroundings::default();
+pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> SurroundingsDeck {
+    let mut found = SurroundingsDeck::default();
     let mut turn = None;
     for record in records {
         match record.keyword.as_str() {
@@ -95,11 +95,12 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Surroundings {
                     continue;
                 }
                 let (speed, direction) = (record.real(21).value, record.real(31).value);
-                found.profile.push(Layer { height: height.value, speed, direction, span: record.span });
+                found.profile.push(CurrentLayer { height: height.value, speed, direction, span: record.span });
             }
             "CDRN" => turn = Some(record.real(11).value),
             keyword => {
-                let flow = Some(Flow { speed: record.real(11), direction: record.real(21), span: record.span });
+                let flow =
+                    Some(UniformStream { speed: record.real(11), direction: record.real(21), span: record.span });
                 if keyword == "CURR" { found.current = flow } else { found.wind = flow }
             }
         }
@@ -119,12 +120,12 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Surroundings {
 }
 
 /// The degrees of freedom held by the cards of deck 12.
-pub fn read_constraints(records: &[Record], remarks: &mut Remarks) -> Vec<Held> {
+pub fn read_constraints(records: &[CardRecord], remarks: &mut Remarks) -> Vec<FixedDof> {
     let mut list = Vec::new();
     for record in records {
         let (structure, dof) = (record.int(11), record.int(16));
         if (1..=6).contains(&dof.value) {
-            list.push(Held { structure, dof });
+            list.push(FixedDof { structure, dof });
         } else {
             remarks.add(
                 Diagnostic::error(

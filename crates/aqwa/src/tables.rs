@@ -1,7 +1,7 @@
 //! The tables of the listing that show the data of decks 1 to 5, in the units of the deck.
 
 use super::Deck;
-use super::elements::{Element, Shape, Structure};
+use super::elements::{ElementShape, StructureDeck, StructureElement};
 use super::properties::Geometry;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
@@ -44,7 +44,7 @@ impl Deck {
 
     fn geometry_table(&self) -> Table {
         let geometries: Vec<_> = self.geometries.values().enumerate().collect();
-        let is_mass = |geometry: &Geometry| geometry.shape == Shape::PointMass;
+        let is_mass = |geometry: &Geometry| geometry.shape == ElementShape::PointMass;
         Table::new("Geometric Properties")
             .with_rows(&geometries)
             .column("Input", "Sequence", Dim::None, NO_DECIMALS, |(index, _)| index + 1)
@@ -75,7 +75,7 @@ impl Deck {
             .fact("Acceleration due to Gravity", self.global.gravity, Dim::None)
     }
 
-    fn mass_table(&self, structure: &Structure) -> Table {
+    fn mass_table(&self, structure: &StructureDeck) -> Table {
         let found = self.mass_properties(structure);
         let gravity = self.global.gravity;
         let mut rows: Vec<(&str, usize, f64)> =
@@ -102,8 +102,8 @@ impl Deck {
     }
 }
 
-fn topology(structure: &Structure) -> Table {
-    let elements: Vec<(usize, &Element)> = structure.elements.iter().enumerate().collect();
+fn topology(structure: &StructureDeck) -> Table {
+    let elements: Vec<(usize, &StructureElement)> = structure.elements.iter().enumerate().collect();
     Table::new(format!("Element Topology for Structure {}", structure.number))
         .with_rows(&elements)
         .column("Element", "Number", Dim::None, NO_DECIMALS, |(index, _)| index + 1)

@@ -7,8 +7,8 @@
 //! listing's card echo.
 
 use super::card::Field;
-use super::end_springs::{EndSpring, check, in_force};
-use super::layout::Record;
+use super::end_springs::{EndSpringCard, check, in_force};
+use super::layout::CardRecord;
 use super::remarks::Remarks;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
@@ -22,7 +22,7 @@ const MAX_CONSTRAINTS: usize = 5;
 
 /// A TELM card.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TetherElement {
+pub struct TelmCard {
     /// Node nearer to the anchor or trailing end.
     pub node1: Field<i64>,
     /// Node nearer to the vessel.
@@ -55,7 +55,7 @@ impl Default for Fatigue {
 
 /// Kinds of constraint of an installed tether.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Constraint {
+pub enum ConstraintKind {
     /// TLAC: lateral, fixed.
     LateralFixed,
     /// TROC: rotational, fixed.
@@ -68,13 +68,13 @@ pub enum Constraint {
 
 /// Everything about a tether but where it is fixed.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Description {
+pub struct TetherCards {
     /// Elements from the anchor or trailing end upwards.
-    pub elements: Vec<TetherElement>,
+    pub elements: Vec<TelmCard>,
     /// Springs at the anchor or trailing end.
-    pub anchor: Option<EndSpring>,
+    pub anchor: Option<EndSpringCard>,
     /// Springs at the vessel.
-    pub vessel: Option<EndSpring>,
+    pub vessel: Option<EndSpringCard>,
     /// Fatigue parameters; the defaults of A.4 where not given.
     pub fatigue: Fatigue,
     /// Hours for which the expected peak stress is computed; 3 where not given (A.5).
@@ -91,12 +91,12 @@ pub struct Description {
     /// no stop.
     pub lower_stop: Option<f64>,
     /// Constraints with the gap of TLAV and their cards.
-    pub constraints: Vec<(Constraint, f64, Span)>,
+    pub constraints: Vec<(ConstraintKind, f64, Span)>,
     /// Keywords and places of its cards.
     pub cards: Vec<(String, Span)>,
 }
 
-impl Description {
+impl TetherCards {
     /// Place of the card with a keyword, where it was given.
     pub fn card(&self, keyword: &str) -> Option<Span> {
         self.cards.iter().find(|(name, _)| name == keyword).map(|(_, span)| *span)
@@ -107,7 +107,7 @@ impl Description {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tether {
     /// What it is.
-    pub description: Description,
+    pub description: TetherCards,
     /// Number (from 1) of the tether that it copies.
     pub copy_of: Option<usize>,
     /// The structure it is fixed to.
@@ -141,13 +141,13 @@ impl Tether {
 /// A tether whose TETH card has not come yet.
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
-    description: Description,
+    description: TetherCards,
     first: Option<Span>,
 }
 
 impl Builder {
     /// Takes a card.
-    pub fn take(&mut self, record: &Record, remarks: &mut Remarks) {
+    pub fn take(&mut self, record: &CardRecord, remarks: &mut Remarks) {
         self.first.get_or_insert(record.span);
         let tether = &mut self.description;
         if record.keyword != "TELM" {
@@ -164,7 +164,7 @@ impl Builder {
                         Diagnostic::error(message, flag.span).label("1 for a towed tether, blank for an installed one"),
                     );
                 }
-                let spring = EndSpring { towed: flag.value == 1, stiffness: record.reals(31), span: record.span };
+                let spring = EndSpringCard { towed: flag.value == 1, stiffness: record.reals(31), span: record.span };
                 let place = if record.keyword == "TSPA" { &mut tether.anchor } else { &mut tether.vessel };
                 *place = Some(spring);
             }
@@ -222,10 +222,10 @@ impl Builder {
             }
             keyword => {
                 let kind = match keyword {
-                    "TLAC" => Constraint::LateralFixed,
-                    "TROC" => Constraint::RotationalFixed,
-                    "TLAV" => Constraint::LateralVessel,
-                    _ => Constraint::RotationalVessel,
+                    "TLAC" => ConstraintKind::LateralFixed,
+                    "TROC" => ConstraintKind::RotationalFixed,
+                    "TLAV" => ConstraintKind::LateralVessel,
+                    _ => ConstraintKind::RotationalVessel,
                 };
                 if tether.constraints.len() == MAX_CONSTRAINTS {
                     let message = format!("deck 14, {keyword}: a tether has at most {MAX_CONSTRAINTS} constraints");
@@ -242,8 +242,8 @@ impl Builder {
         }
     }
 
-    fn element(&mut self, record: &Record, remarks: &mut Remarks) {
-        let element = TetherElement {
+    fn element(&mut self, record: &CardRecord, remarks: &mut Remarks) {
+        let element = TelmCard {
             node1: record.int(11),
             node2: record.int(16),
             material: record.int(21),
@@ -272,7 +272,7 @@ impl Builder {
     }
 
     /// Closes the tether with its TETH card.
-    pub fn close(&mut self, record: &Record, earlier: &[Tether], remarks: &mut Remarks) -> Option<Tether> {
+    pub fn close(&mut self, record: &CardRecord, earlier: &[Tether], remarks: &mut Remarks) -> Option<Tether> {
         let (structure, fixed) = (record.int(11), record.int(21));
         if structure.value <= 0 {
             remarks.add(

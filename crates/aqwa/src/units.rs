@@ -1,7 +1,7 @@
 //! The units of a deck. A deck is in any consistent set of units and does not say which: gravity shows the unit of
 //! length, and then the density of the water the unit of mass; time is in seconds, force follows.
 
-use super::properties::Global;
+use super::properties::WaterAndGravity;
 use windlass_base::diagnostic::Diagnostic;
 
 /// Units of a deck in SI.
@@ -49,7 +49,7 @@ impl Units {
 /// # Errors
 /// When gravity is none within 1 % of the earth's in metres or feet, or the density none of water (950 to 1100 kg/m3) in any
 /// set known.
-pub fn units(global: &Global) -> Result<Units, Box<Diagnostic>> {
+pub fn units(global: &WaterAndGravity) -> Result<Units, Box<Diagnostic>> {
     let says = |message: String, span: Option<_>| match span {
         Some(span) => Diagnostic::error(message, span),
         None => Box::new(Diagnostic::plain(windlass_base::diagnostic::Severity::Error, message)),

@@ -8,9 +8,9 @@
 //! has the names the other way round); [AQWA-REF deck 13].
 
 use super::card::Field;
-use super::layout::{Layout, Record, Slot, int, num};
+use super::layout::{CardLayout, CardRecord, Slot, int, num};
 use super::remarks::Remarks;
-use super::surroundings::Flow;
+use super::surroundings::UniformStream;
 use std::f64::consts::PI;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
@@ -30,15 +30,15 @@ const UNPUBLISHED_CARD_REASON: &str = "the columns of this card are published no
 const FORMS: &[&str] = &["PSMZ", "JONS", "JONH", "GAUS", "UDEF"];
 
 /// Cards of deck 13 SPEC.
-pub const SPECTRA: &[Layout] = &[
-    Layout::new("HRTZ", &[]).freely(),
-    Layout::new("RADS", &[]).freely(),
-    Layout::new("SPGR", &[]).freely(),
-    Layout::new("NSPL", &[int("number of spectral lines", 16)]).repeatable_after(FORMS),
-    Layout::new("SPDN", &[int("spreading", 11), int("number of directions", 16), num("direction", 21)])
+pub const SPECTRA: &[CardLayout] = &[
+    CardLayout::new("HRTZ", &[]).freely(),
+    CardLayout::new("RADS", &[]).freely(),
+    CardLayout::new("SPGR", &[]).freely(),
+    CardLayout::new("NSPL", &[int("number of spectral lines", 16)]).repeatable_after(FORMS),
+    CardLayout::new("SPDN", &[int("spreading", 11), int("number of directions", 16), num("direction", 21)])
         .repeatable_after(FORMS),
-    Layout::assume("SEED", &[int("seed of the phases", 11), int("seed of the phases", 16)]).repeatable_after(FORMS),
-    Layout::new(
+    CardLayout::assume("SEED", &[int("seed of the phases", 11), int("seed of the phases", 16)]).repeatable_after(FORMS),
+    CardLayout::new(
         "PHAS",
         &[
             int("first spectral line of this card", 16),
@@ -51,45 +51,49 @@ pub const SPECTRA: &[Layout] = &[
         ],
     )
     .freely(),
-    Layout::new("PSMZ", &[START, FINISH, num("significant height", 41), num("zero crossing period", 51)]).freely(),
-    Layout::new("JONS", &[START, FINISH, num("gamma", 41), num("alpha", 51), num("peak frequency", 61)]).freely(),
-    Layout::new("JONH", &[START, FINISH, num("gamma", 41), num("significant height", 51), num("peak frequency", 61)])
-        .freely(),
-    Layout::new(
+    CardLayout::new("PSMZ", &[START, FINISH, num("significant height", 41), num("zero crossing period", 51)]).freely(),
+    CardLayout::new("JONS", &[START, FINISH, num("gamma", 41), num("alpha", 51), num("peak frequency", 61)]).freely(),
+    CardLayout::new(
+        "JONH",
+        &[START, FINISH, num("gamma", 41), num("significant height", 51), num("peak frequency", 61)],
+    )
+    .freely(),
+    CardLayout::new(
         "GAUS",
         &[START, FINISH, num("sigma (rad/s)", 41), num("significant height", 51), num("peak frequency", 61)],
     )
     .freely(),
-    Layout::assume("UDEF", &[num("frequency", 21), num("ordinate", 31)]).freely(),
-    Layout::new("CURR", &[num("speed", 21), num("direction", 31)]).repeatable_after(FORMS),
-    Layout::new("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]).repeatable_after(FORMS),
-    Layout::new("TOWS", &[num("towing speed", 31), num("towing direction", 41)]).repeatable_after(FORMS),
-    Layout::refuse("OHBS", "the Ochi-Hubble spectrum is not read; give it as UDEF"),
-    Layout::refuse("XSWL", "a second spectrum of swell is not read"),
-    Layout::refuse("UDWS", "a wind spectrum is not read"),
-    Layout::refuse("UDWD", "a wind spectrum is not read"),
-    Layout::refuse("IWHT", "an imported wave history is not read"),
-    Layout::pass_over("NAME", "the name of the spectrum has no effect"),
-    Layout::refuse("NODR", UNPUBLISHED_CARD_REASON),
-    Layout::refuse("GRAV", UNPUBLISHED_CARD_REASON),
+    CardLayout::assume("UDEF", &[num("frequency", 21), num("ordinate", 31)]).freely(),
+    CardLayout::new("CURR", &[num("speed", 21), num("direction", 31)]).repeatable_after(FORMS),
+    CardLayout::new("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)])
+        .repeatable_after(FORMS),
+    CardLayout::new("TOWS", &[num("towing speed", 31), num("towing direction", 41)]).repeatable_after(FORMS),
+    CardLayout::refuse("OHBS", "the Ochi-Hubble spectrum is not read; give it as UDEF"),
+    CardLayout::refuse("XSWL", "a second spectrum of swell is not read"),
+    CardLayout::refuse("UDWS", "a wind spectrum is not read"),
+    CardLayout::refuse("UDWD", "a wind spectrum is not read"),
+    CardLayout::refuse("IWHT", "an imported wave history is not read"),
+    CardLayout::pass_over("NAME", "the name of the spectrum has no effect"),
+    CardLayout::refuse("NODR", UNPUBLISHED_CARD_REASON),
+    CardLayout::refuse("GRAV", UNPUBLISHED_CARD_REASON),
 ];
 
 /// Cards of deck 13 WAVE.
-pub const REGULAR: &[Layout] = &[
-    Layout::new("WAMP", &[num("wave amplitude", 21)]).one_of("amplitude", &[]),
-    Layout::new("PERD", &[num("wave period", 21)]).one_of("period", &[]),
-    Layout::new("WVDN", &[num("wave direction", 21)]),
-    Layout::assume("HGHT", &[num("wave height", 21)]).one_of("amplitude", &[]),
-    Layout::assume("FREQ", &[num("wave frequency (rad/s)", 21)]).one_of("period", &[]),
-    Layout::assume("AIRY", &[]),
-    Layout::assume("WRMP", &[num("time of the ramp", 21)]),
-    Layout::assume("CURR", &[num("speed", 21), num("direction", 31)]),
-    Layout::assume("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]),
+pub const REGULAR: &[CardLayout] = &[
+    CardLayout::new("WAMP", &[num("wave amplitude", 21)]).one_of("amplitude", &[]),
+    CardLayout::new("PERD", &[num("wave period", 21)]).one_of("period", &[]),
+    CardLayout::new("WVDN", &[num("wave direction", 21)]),
+    CardLayout::assume("HGHT", &[num("wave height", 21)]).one_of("amplitude", &[]),
+    CardLayout::assume("FREQ", &[num("wave frequency (rad/s)", 21)]).one_of("period", &[]),
+    CardLayout::assume("AIRY", &[]),
+    CardLayout::assume("WRMP", &[num("time of the ramp", 21)]),
+    CardLayout::assume("CURR", &[num("speed", 21), num("direction", 31)]),
+    CardLayout::assume("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]),
 ];
 
 /// The form of a spectrum; frequencies in rad/s.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Form {
+pub enum SpectrumForm {
     /// Pierson-Moskowitz of a significant height and a zero crossing period.
     PiersonMoskowitz {
         /// Significant height.
@@ -130,9 +134,9 @@ pub enum Form {
 
 /// A spectrum with the settings in force at its card.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spectrum {
+pub struct SpectrumCard {
     /// Its form.
-    pub form: Form,
+    pub form: SpectrumForm,
     /// First and last frequency (rad/s); zero where left to the default.
     pub range: (f64, f64),
     /// Number of spectral lines.
@@ -144,9 +148,9 @@ pub struct Spectrum {
     /// Phases of the spectral lines (degrees), where given (PHAS).
     pub phases: Vec<f64>,
     /// Current of this spectrum.
-    pub current: Option<Flow>,
+    pub current: Option<UniformStream>,
     /// Wind of this spectrum.
-    pub wind: Option<Flow>,
+    pub wind: Option<UniformStream>,
     /// Speed and direction of towing (TOWS), the direction in degrees within 30 of the tether.
     pub towing: Option<(f64, f64)>,
     /// The card.
@@ -167,37 +171,37 @@ pub struct RegularWave {
     /// Time over which the wave grows (s); 0 for none.
     pub ramp: f64,
     /// Current.
-    pub current: Option<Flow>,
+    pub current: Option<UniformStream>,
     /// Wind.
-    pub wind: Option<Flow>,
+    pub wind: Option<UniformStream>,
     /// The first card.
     pub span: Span,
 }
 
 /// Deck 13.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub enum Waves {
+pub enum WaveDeck {
     /// No waves.
     #[default]
     Still,
     /// Irregular waves.
-    Spectra(Vec<Spectrum>),
+    Spectra(Vec<SpectrumCard>),
     /// A regular wave.
     Regular(RegularWave),
 }
 
-fn stream(record: &Record) -> Option<Flow> {
-    Some(Flow { speed: record.real(21), direction: record.real(31), span: record.span })
+fn stream(record: &CardRecord) -> Option<UniformStream> {
+    Some(UniformStream { speed: record.real(21), direction: record.real(31), span: record.span })
 }
 
 /// The spectra of the cards of deck 13 SPEC.
-pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
-    let mut list: Vec<Spectrum> = Vec::new();
+pub fn read_spectra(records: &[CardRecord], remarks: &mut Remarks) -> WaveDeck {
+    let mut list: Vec<SpectrumCard> = Vec::new();
     let mut unit = 1.0;
     // the last setting that no spectrum has come after
-    let mut idle: Option<&Record> = None;
-    let mut now = Spectrum {
-        form: Form::Given(Vec::new()),
+    let mut idle: Option<&CardRecord> = None;
+    let mut now = SpectrumCard {
+        form: SpectrumForm::Given(Vec::new()),
         range: (0.0, 0.0),
         lines: USUAL_LINES,
         direction: 0.0,
@@ -258,10 +262,10 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
                 now.towing = towing(record, remarks);
                 continue;
             }
-            "PSMZ" => Form::PiersonMoskowitz { height: third(41), period: third(51) },
-            "JONS" => Form::Jonswap { gamma: third(41), alpha: third(51), peak: unit * third(61) },
-            "JONH" => Form::JonswapHeight { gamma: third(41), height: third(51), peak: unit * third(61) },
-            "GAUS" => Form::Gaussian { sigma: third(41), height: third(51), peak: unit * third(61) },
+            "PSMZ" => SpectrumForm::PiersonMoskowitz { height: third(41), period: third(51) },
+            "JONS" => SpectrumForm::Jonswap { gamma: third(41), alpha: third(51), peak: unit * third(61) },
+            "JONH" => SpectrumForm::JonswapHeight { gamma: third(41), height: third(51), peak: unit * third(61) },
+            "GAUS" => SpectrumForm::Gaussian { sigma: third(41), height: third(51), peak: unit * third(61) },
             "UDEF" => {
                 given_pair(&mut list, &now, record, unit, remarks);
                 continue;
@@ -284,7 +288,7 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
             remarks.add_once("many spectra", || Diagnostic::error(message, record.span));
             continue;
         }
-        list.push(Spectrum { form, range, span: record.span, ..now.clone() });
+        list.push(SpectrumCard { form, range, span: record.span, ..now.clone() });
     }
     if list.is_empty() {
         remarks.add(
@@ -301,10 +305,10 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
                 .other(last.span, "the last spectrum"),
         );
     }
-    Waves::Spectra(list)
+    WaveDeck::Spectra(list)
 }
 
-fn check_wave_card(record: &Record, remarks: &mut Remarks) {
+fn check_wave_card(record: &CardRecord, remarks: &mut Remarks) {
     let columns: &[usize] = if record.keyword == "PSMZ" { &[41, 51] } else { &[41, 51, 61] };
     for column in columns {
         let field = record.real(*column);
@@ -329,7 +333,7 @@ fn lines(field: Field<i64>, remarks: &mut Remarks) -> i64 {
     USUAL_LINES
 }
 
-fn towing(record: &Record, remarks: &mut Remarks) -> Option<(f64, f64)> {
+fn towing(record: &CardRecord, remarks: &mut Remarks) -> Option<(f64, f64)> {
     let (speed, direction) = (record.real(31), record.real(41));
     if direction.value.abs() > 30.0 {
         remarks.add(
@@ -343,7 +347,7 @@ fn towing(record: &Record, remarks: &mut Remarks) -> Option<(f64, f64)> {
     Some((speed.value, direction.value))
 }
 
-fn phases(list: &mut Vec<f64>, record: &Record, remarks: &mut Remarks) {
+fn phases(list: &mut Vec<f64>, record: &CardRecord, remarks: &mut Remarks) {
     let first = record.int(16);
     let next = i64::try_from(list.len()).unwrap_or(i64::MAX).saturating_add(1);
     if first.value != next {
@@ -366,9 +370,9 @@ fn phases(list: &mut Vec<f64>, record: &Record, remarks: &mut Remarks) {
     list.extend(given);
 }
 
-fn given_pair(list: &mut Vec<Spectrum>, now: &Spectrum, record: &Record, unit: f64, remarks: &mut Remarks) {
+fn given_pair(list: &mut Vec<SpectrumCard>, now: &SpectrumCard, record: &CardRecord, unit: f64, remarks: &mut Remarks) {
     let (frequency, ordinate) = (unit * record.real(21).value, record.real(31).value / unit);
-    if let Some(Spectrum { form: Form::Given(pairs), range, .. }) = list.last_mut() {
+    if let Some(SpectrumCard { form: SpectrumForm::Given(pairs), range, .. }) = list.last_mut() {
         if frequency <= range.1 {
             remarks.add(
                 Diagnostic::error("deck 13, UDEF, columns 21-30: frequencies ascend", record.real(21).span)
@@ -380,12 +384,12 @@ fn given_pair(list: &mut Vec<Spectrum>, now: &Spectrum, record: &Record, unit: f
         range.1 = frequency;
         return;
     }
-    let form = Form::Given(vec![(frequency, ordinate)]);
-    list.push(Spectrum { form, range: (frequency, frequency), span: record.span, ..now.clone() });
+    let form = SpectrumForm::Given(vec![(frequency, ordinate)]);
+    list.push(SpectrumCard { form, range: (frequency, frequency), span: record.span, ..now.clone() });
 }
 
 /// The wave of the cards of deck 13 WAVE.
-pub fn read_regular(records: &[Record], remarks: &mut Remarks) -> Waves {
+pub fn read_regular(records: &[CardRecord], remarks: &mut Remarks) -> WaveDeck {
     let span = records.first().map(|record| record.span).unwrap_or_default();
     let mut wave = RegularWave { span, ..RegularWave::default() };
     for record in records {
@@ -409,5 +413,5 @@ pub fn read_regular(records: &[Record], remarks: &mut Remarks) -> Waves {
                 .help("still water is NONE in the place of WAVE"),
         );
     }
-    Waves::Regular(wave)
+    WaveDeck::Regular(wave)
 }

@@ -1,8 +1,8 @@
 //! Where a chain touches the bottom or is held, and the sections between such places.
 
-use super::element::Element;
-use super::multi_segment::{Held, JointStatus, MultiSegmentLine};
-use super::segment::Reach;
+use super::element::LinePiece;
+use super::multi_segment::{JointStatus, MultiSegmentLine, SegmentSolution};
+use super::segment::SpanReach;
 
 /// Which pieces rest on the bottom, and how the joints stand.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,7 +13,7 @@ pub struct ActiveSet {
 
 /// A run of line between two places of known height.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section {
+pub struct LineStretch {
     /// The first piece, and whether only its lower leg belongs to it.
     pub from: usize,
     pub begins_with_leg: bool,
@@ -22,7 +22,7 @@ pub struct Section {
     pub ends_with_leg: bool,
 }
 
-impl Section {
+impl LineStretch {
     /// The joint of known height at its upper end; none at the fairlead or on the bottom within a piece.
     pub fn start_joint(&self) -> Option<usize> {
         if self.begins_with_leg { None } else { self.from.checked_sub(1) }
@@ -39,7 +39,10 @@ impl Section {
     }
 
     /// Its parts: piece, part, whether that is the piece's lower leg.
-    pub fn parts<'a>(&self, held: &'a [Held]) -> impl Iterator<Item = (usize, &'a Reach, bool)> + use<'a> {
+    pub fn parts<'a>(
+        &self,
+        held: &'a [SegmentSolution],
+    ) -> impl Iterator<Item = (usize, &'a SpanReach, bool)> + use<'a> {
         let own = *self;
         held.iter().enumerate().skip(own.from).take(own.to + 1 - own.from).map(move |(i, h)| {
             let lower = i == own.from && own.begins_with_leg;
@@ -50,17 +53,17 @@ impl Section {
 
 impl ActiveSet {
     /// The sections of a chain of so many pieces, from the fairlead down.
-    pub fn sections(&self, count: usize) -> Vec<Section> {
+    pub fn sections(&self, count: usize) -> Vec<LineStretch> {
         let mut list = Vec::with_capacity(count);
         let (mut from, mut begins_with_leg) = (0, false);
         for i in 0..count {
             if self.rests[i] {
-                list.push(Section { from, begins_with_leg, to: i, ends_with_leg: true });
+                list.push(LineStretch { from, begins_with_leg, to: i, ends_with_leg: true });
                 (from, begins_with_leg) = (i, true);
             }
             let fast = self.stands.get(i).is_none_or(|s| !matches!(s, JointStatus::Free(_)));
             if fast {
-                list.push(Section { from, begins_with_leg, to: i, ends_with_leg: false });
+                list.push(LineStretch { from, begins_with_leg, to: i, ends_with_leg: false });
                 (from, begins_with_leg) = (i + 1, false);
             }
         }
@@ -80,7 +83,7 @@ pub fn first_policy(chain: &MultiSegmentLine) -> ActiveSet {
         })
         .collect();
     let low = |j: Option<usize>| j.is_none_or(|j| stands.get(j).is_none_or(|s| *s == JointStatus::Bottom));
-    let rests = |(i, e): (usize, &Element)| e.can_rest() && low(i.checked_sub(1)) && low(Some(i)) && i > 0;
+    let rests = |(i, e): (usize, &LinePiece)| e.can_rest() && low(i.checked_sub(1)) && low(Some(i)) && i > 0;
     let rests = chain.elements.iter().enumerate().map(rests).collect();
     ActiveSet { rests, stands }
 }

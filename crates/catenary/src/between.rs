@@ -6,13 +6,13 @@
 //! left. Friction takes `friction` times the weight on the bottom from the tension, down to zero (Coulomb, fully
 //! mobilised toward the fairlead) [JONKMAN-2007 2.7.2].
 
-use super::element::{Element, vertical_of_contact};
-use super::end_forces::{Bottom, EndForces, Regime};
+use super::element::{LinePiece, vertical_of_contact};
+use super::end_forces::{EndForces, FlatBottom, Regime};
 use super::line::{MAX_MAGNITUDE, Segment};
 use super::multi_segment::MultiSegmentLine;
 use super::refused::LineError;
-use super::search::{Point, rising_root};
-use super::segment::{Reach, hanging, lifted_reach};
+use super::search::{FunctionPoint, rising_root};
+use super::segment::{SpanReach, hanging, lifted_reach};
 
 /// Newton steps after which the nested search takes over.
 const MAX_NEWTON_ITERATIONS: usize = 40;
@@ -20,13 +20,13 @@ const MAX_NEWTON_ITERATIONS: usize = 40;
 pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-9;
 
 /// See [`Segment::solve_end_forces`].
-pub fn solve_end_forces(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
+pub fn solve_end_forces(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<EndForces, LineError> {
     check(segment, x, z, bottom)?;
     cold(segment, x, z, bottom)
 }
 
 /// Refuses what is no line or no place for its end.
-pub(super) fn check(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<(), LineError> {
+pub(super) fn check(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<(), LineError> {
     segment.check(1)?;
     let friction = bottom.map_or(0.0, |b| b.friction);
     for (what, value, good) in [
@@ -45,12 +45,12 @@ pub(super) fn check(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -
 }
 
 /// The forces without an answer to begin with, for numbers that were checked.
-pub(super) fn cold(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
+pub(super) fn cold(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<EndForces, LineError> {
     if segment.weight < 0.0 {
         // a buoyant line is a heavy one upside down; arched between ends above the bottom it never touches it
         return solve_suspended(&segment.upside_down(), x, -z).map(EndForces::upside_down);
     }
-    if let Some(Bottom { friction }) = bottom
+    if let Some(FlatBottom { friction }) = bottom
         && segment.weight > 0.0
     {
         if z == 0.0 {
@@ -127,14 +127,14 @@ fn touching(segment: &Segment, x: f64, z: f64, friction: f64) -> Result<Option<E
     let start = guess(segment, x, z).0.min(most);
     let (h, steps) = rising_root(start, x, |h| {
         let reach = in_contact(segment, h, z, friction).1;
-        Point { value: reach.x, slope: reach.x_h - reach.x_v * (reach.z_h / reach.z_v) }
+        FunctionPoint { value: reach.x, slope: reach.x_h - reach.x_v * (reach.z_h / reach.z_v) }
     });
     let (high, reach) = in_contact(segment, h, z, friction);
     prove_contact(segment, [x, z], [h, high], &reach, friction, steps).map(Some)
 }
 
 /// V at the fairlead of a line that touches down below it under the tension `h`, and its reach.
-pub(super) fn in_contact(segment: &Segment, h: f64, z: f64, friction: f64) -> (f64, Reach) {
+pub(super) fn in_contact(segment: &Segment, h: f64, z: f64, friction: f64) -> (f64, SpanReach) {
     let high = vertical_of_contact(segment, h, z);
     (high, with_friction(segment, h, high, friction))
 }
@@ -144,7 +144,7 @@ pub(super) fn prove_contact(
     segment: &Segment,
     at: [f64; 2],
     [h, high]: [f64; 2],
-    reach: &Reach,
+    reach: &SpanReach,
     friction: f64,
     steps: usize,
 ) -> Result<EndForces, LineError> {
@@ -160,7 +160,7 @@ pub(super) fn prove_contact(
 }
 
 /// The reach of a touching line, less the stretch that friction keeps from the grounded part.
-fn with_friction(segment: &Segment, h: f64, high: f64, friction: f64) -> Reach {
+fn with_friction(segment: &Segment, h: f64, high: f64, friction: f64) -> SpanReach {
     let (mut reach, ground) = lifted_reach(segment, h, high);
     if friction == 0.0 {
         return reach;
@@ -200,11 +200,11 @@ fn solve_suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineE
     {
         return Ok(answer);
     }
-    let elements = vec![Element::Length { segment: *segment, law: None, sees_bottom: false }];
+    let elements = vec![LinePiece::Length { segment: *segment, law: None, sees_bottom: false }];
     let chain = MultiSegmentLine { elements, pulls: Vec::new(), least: 0.0 };
     let (h, steps) = rising_root(h, x, |h| match chain.rest(h, z, 0.0, None) {
-        Ok(rested) => Point { value: rested.x, slope: rested.x_by[0] },
-        Err(_) => Point { value: f64::NAN, slope: f64::NAN },
+        Ok(rested) => FunctionPoint { value: rested.x, slope: rested.x_by[0] },
+        Err(_) => FunctionPoint { value: f64::NAN, slope: f64::NAN },
     });
     let v = chain.rest(h, z, 0.0, None)?.held.first().map_or(f64::NAN, |held| held.v_hi);
     let reach = hanging(segment, h, v - all);
@@ -212,7 +212,7 @@ fn solve_suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineE
 }
 
 /// Newton on both forces, each step shortened while it runs past the minimum along its own direction.
-fn newton(segment: &Segment, [x, z]: [f64; 2], start: [f64; 2]) -> Option<(f64, f64, Reach, usize)> {
+fn newton(segment: &Segment, [x, z]: [f64; 2], start: [f64; 2]) -> Option<(f64, f64, SpanReach, usize)> {
     let all = segment.weight * segment.length;
     let [mut h, mut v] = start;
     let mut reach = hanging(segment, h, v - all);
@@ -307,13 +307,13 @@ fn guess(segment: &Segment, x: f64, z: f64) -> (f64, f64) {
 }
 
 /// The change of (H, V) that makes the change (x, z).
-pub(super) fn newton_change(reach: &Reach, x: f64, z: f64) -> Option<[f64; 2]> {
+pub(super) fn newton_change(reach: &SpanReach, x: f64, z: f64) -> Option<[f64; 2]> {
     let [[a, b], [c, d]] = inverse(reach)?;
     Some([a * x + b * z, c * x + d * z])
 }
 
 /// The tangent stiffness of a reach.
-fn inverse(r: &Reach) -> Option<[[f64; 2]; 2]> {
+fn inverse(r: &SpanReach) -> Option<[[f64; 2]; 2]> {
     // eliminate V first: z_v is the sturdier pivot of a slack line, x_h that of a flat one
     let soft = 1.0 / r.z_v;
     let det = r.x_h - r.x_v * (r.z_h * soft);
@@ -333,7 +333,7 @@ pub(super) fn prove(
     [x, z]: [f64; 2],
     fairlead: [f64; 2],
     anchor: [f64; 2],
-    reach: &Reach,
+    reach: &SpanReach,
     grounded: f64,
     iterations: usize,
 ) -> Result<EndForces, LineError> {

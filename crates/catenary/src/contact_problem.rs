@@ -1,10 +1,10 @@
 //! The search for the places where a chain touches the bottom or is held, and for the forces between them.
 
-use super::active_set::{ActiveSet, Section, first_policy};
-use super::element::Element;
-use super::multi_segment::{Held, JointStatus, LineSolution, MultiSegmentLine};
+use super::active_set::{ActiveSet, LineStretch, first_policy};
+use super::element::LinePiece;
+use super::multi_segment::{JointStatus, LineSolution, MultiSegmentLine, SegmentSolution};
 use super::refused::LineError;
-use super::segment::Reach;
+use super::segment::SpanReach;
 
 /// A chain to be rested at a given horizontal force.
 pub struct ContactProblem<'a> {
@@ -80,7 +80,7 @@ impl<'a> ContactProblem<'a> {
         let count = self.chain.elements.len();
         let mut rested = LineSolution { policy: self.policy.clone(), ..LineSolution::default() };
         let start =
-            |rests: &bool| Held { h: if *rests { self.h_touching } else { self.h }, rests: *rests, ..Held::default() };
+            |rests: &bool| SegmentSolution { h: if *rests { self.h_touching } else { self.h }, rests: *rests, ..SegmentSolution::default() };
         rested.held = self.policy.rests.iter().map(start).collect();
         for section in self.policy.sections(count) {
             let from =
@@ -130,14 +130,14 @@ impl<'a> ContactProblem<'a> {
     }
 
     /// The vertical force at the upper end of a section, from its drop.
-    fn solve_section(&self, section: &Section, drop: f64, rested: &mut LineSolution) -> Result<(), LineError> {
+    fn solve_section(&self, section: &LineStretch, drop: f64, rested: &mut LineSolution) -> Result<(), LineError> {
         let elements = &self.chain.elements;
-        let run: Vec<(usize, &Element)> =
+        let run: Vec<(usize, &LinePiece)> =
             elements.iter().enumerate().skip(section.from).take(section.to + 1 - section.from).collect();
         let lone_leg = run.len() == 1 && (section.begins_with_leg || section.ends_with_leg);
         if lone_leg && drop == 0.0 {
             for held in rested.held.iter_mut().skip(section.from).take(1) {
-                let none = Reach { z_v: f64::INFINITY, ..Reach::default() };
+                let none = SpanReach { z_v: f64::INFINITY, ..SpanReach::default() };
                 if section.begins_with_leg {
                     (held.v_lo, held.lower) = (0.0, none);
                 } else {
@@ -146,7 +146,7 @@ impl<'a> ContactProblem<'a> {
             }
             return Ok(());
         }
-        let walk = |v: f64, held: &mut [Held]| {
+        let walk = |v: f64, held: &mut [SegmentSolution]| {
             let (mut v, mut z, mut z_v) = (v, 0.0, 0.0);
             for (i, element) in &run {
                 let Some(held) = held.get_mut(*i) else { continue };
@@ -239,7 +239,7 @@ impl<'a> ContactProblem<'a> {
     fn better(&self, rested: &LineSolution, one: bool) -> ActiveSet {
         let length = self.chain.length();
         let fine = 1e-12 * length;
-        let largest = |m: f64, held: &Held| m.max(held.v_hi.abs()).max(held.v_lo.abs()).max(held.h);
+        let largest = |m: f64, held: &SegmentSolution| m.max(held.v_hi.abs()).max(held.v_lo.abs()).max(held.h);
         let size = rested.held.iter().fold(self.chain.least, largest);
         let small = 1e-12 * size;
         // by how much a piece or joint is off, and what it becomes
@@ -317,7 +317,7 @@ impl<'a> ContactProblem<'a> {
     }
 
     /// The height of the lowest point of a free piece.
-    fn lowest(&self, element: &Element, held: &Held, hi: f64, lo: f64) -> f64 {
+    fn lowest(&self, element: &LinePiece, held: &SegmentSolution, hi: f64, lo: f64) -> f64 {
         if held.v_lo < 0.0 && held.v_hi > 0.0 {
             hi - element.upper_leg(self.h_touching, held.v_hi).z
         } else {

@@ -7,24 +7,24 @@
 //! Source: [IRVINE-1981 1.4]; contact: V = 0 at the touchdown.
 
 use super::line::Segment;
-use super::segment::{Reach, hanging};
+use super::segment::{SpanReach, hanging};
 use super::stretch_law::StretchLaw;
 
 /// A piece of a line.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Element {
+pub enum LinePiece {
     /// A length of line; `sees_bottom` when the bottom carries it.
     Length { segment: Segment, law: Option<StretchLaw>, sees_bottom: bool },
     /// A spring without length or weight, which stretches along its tension.
     Link(StretchLaw),
 }
 
-impl Element {
+impl LinePiece {
     /// The whole piece, hanging free with `h` and `v` at its upper end.
-    pub fn whole(&self, h: f64, v: f64) -> Reach {
+    pub fn whole(&self, h: f64, v: f64) -> SpanReach {
         match self {
-            Element::Link(law) => spring_reach(law, h, v),
-            Element::Length { segment, law, .. } => {
+            LinePiece::Link(law) => spring_reach(law, h, v),
+            LinePiece::Length { segment, law, .. } => {
                 stretch(segment, law.as_ref(), segment.length, h, v - segment.weight * segment.length)
             }
         }
@@ -32,20 +32,20 @@ impl Element {
 
     /// The leg from the upper end, with `h` and `v` there, down to where the piece meets the bottom and V is zero. With
     /// a negative `v` the rise is that of `-v`, negative: so it grows with `v` throughout.
-    pub fn upper_leg(&self, h: f64, v: f64) -> Reach {
-        let Element::Length { segment, law, .. } = self else { return Reach::default() };
+    pub fn upper_leg(&self, h: f64, v: f64) -> SpanReach {
+        let LinePiece::Length { segment, law, .. } = self else { return SpanReach::default() };
         let s = v.abs() / segment.weight;
         let r = stretch(segment, law.as_ref(), s, h, 0.0);
         // a longer leg begins lower: one more piece at the touchdown, along the bottom
         let more = (1.0 + strain(segment, law.as_ref(), h).0) / segment.weight;
         let sign = if v < 0.0 { -1.0 } else { 1.0 };
-        Reach { x: r.x, z: sign * r.z, x_h: r.x_h, x_v: sign * (r.x_v + more), z_h: sign * r.z_h, z_v: r.z_v }
+        SpanReach { x: r.x, z: sign * r.z, x_h: r.x_h, x_v: sign * (r.x_v + more), z_h: sign * r.z_h, z_v: r.z_v }
     }
 
     /// The leg from where the piece leaves the bottom to its lower end, with `h` and `v` there: `v` is negative and the
     /// rise with it; with a positive `v` as for [`Element::upper_leg`].
-    pub fn lower_leg(&self, h: f64, v: f64) -> Reach {
-        let Element::Length { segment, law, .. } = self else { return Reach::default() };
+    pub fn lower_leg(&self, h: f64, v: f64) -> SpanReach {
+        let LinePiece::Length { segment, law, .. } = self else { return SpanReach::default() };
         let s = v.abs() / segment.weight;
         let r = stretch(segment, law.as_ref(), s, h, -segment.weight * s);
         // a longer leg goes on at its end, along the tension there
@@ -53,57 +53,57 @@ impl Element {
         let more = (1.0 + strain(segment, law.as_ref(), tension).0) / (tension * segment.weight);
         let sign = if v < 0.0 { -1.0 } else { 1.0 };
         let z_v = more * segment.weight * s;
-        Reach { x: r.x, z: -sign * r.z, x_h: r.x_h, x_v: sign * more * h, z_h: -sign * r.z_h, z_v }
+        SpanReach { x: r.x, z: -sign * r.z, x_h: r.x_h, x_v: sign * more * h, z_h: -sign * r.z_h, z_v }
     }
 
     /// Unstretched length of a leg with |V| at its end (m).
     pub fn leg(&self, v: f64) -> f64 {
         match self {
-            Element::Length { segment, .. } => v.abs() / segment.weight,
-            Element::Link(_) => 0.0,
+            LinePiece::Length { segment, .. } => v.abs() / segment.weight,
+            LinePiece::Link(_) => 0.0,
         }
     }
 
     /// Whether the bottom can carry the piece.
     pub fn can_rest(&self) -> bool {
-        matches!(self, Element::Length { segment, sees_bottom: true, .. } if segment.weight > 0.0)
+        matches!(self, LinePiece::Length { segment, sees_bottom: true, .. } if segment.weight > 0.0)
     }
 
     /// Unstretched length (m).
     pub fn length(&self) -> f64 {
         match self {
-            Element::Length { segment, .. } => segment.length,
-            Element::Link(_) => 0.0,
+            LinePiece::Length { segment, .. } => segment.length,
+            LinePiece::Link(_) => 0.0,
         }
     }
 
     /// Weight of the whole piece (N).
     pub fn weight(&self) -> f64 {
         match self {
-            Element::Length { segment, .. } => segment.weight * segment.length,
-            Element::Link(_) => 0.0,
+            LinePiece::Length { segment, .. } => segment.weight * segment.length,
+            LinePiece::Link(_) => 0.0,
         }
     }
 
     /// Weight per unstretched length (N/m).
     pub fn weight_per_length(&self) -> f64 {
         match self {
-            Element::Length { segment, .. } => segment.weight,
-            Element::Link(_) => 0.0,
+            LinePiece::Length { segment, .. } => segment.weight,
+            LinePiece::Link(_) => 0.0,
         }
     }
 
     /// Strain at a tension, and its derivative.
     pub fn strain(&self, tension: f64) -> (f64, f64) {
         match self {
-            Element::Length { segment, law, .. } => strain(segment, law.as_ref(), tension),
-            Element::Link(_) => (0.0, 0.0),
+            LinePiece::Length { segment, law, .. } => strain(segment, law.as_ref(), tension),
+            LinePiece::Link(_) => (0.0, 0.0),
         }
     }
 }
 
 /// A stretch of line of unstretched length `length`, with `h` and `v` at its lower end.
-pub fn stretch(segment: &Segment, law: Option<&StretchLaw>, length: f64, h: f64, v: f64) -> Reach {
+pub fn stretch(segment: &Segment, law: Option<&StretchLaw>, length: f64, h: f64, v: f64) -> SpanReach {
     let part = Segment { length, ..*segment };
     let mut reach = hanging(&part, h, v);
     if let Some(law) = law {
@@ -113,12 +113,12 @@ pub fn stretch(segment: &Segment, law: Option<&StretchLaw>, length: f64, h: f64,
 }
 
 /// A spring along its own tension: z = y(T) V/T.
-pub(super) fn spring_reach(law: &StretchLaw, h: f64, v: f64) -> Reach {
+pub(super) fn spring_reach(law: &StretchLaw, h: f64, v: f64) -> SpanReach {
     let tension = h.hypot(v);
     let (y, slope) = law.stretch(tension);
     let share = if tension > 0.0 { y / tension } else { slope };
     let turn = if tension > 0.0 { (slope - share) / (tension * tension) } else { 0.0 };
-    Reach {
+    SpanReach {
         x: h * share,
         z: v * share,
         x_h: share + turn * h * h,

@@ -2,7 +2,7 @@
 
 /// A flat bottom at the anchor's elevation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bottom {
+pub struct FlatBottom {
     /// Friction coefficient, zero or more.
     pub friction: f64,
 }

@@ -5,10 +5,10 @@
 //! regime that rounding decides, the search of [`Segment::solve_end_forces`] answers as if nothing were known.
 
 use super::between::{RESIDUAL_TOLERANCE, check, cold, in_contact, newton_change, prove, prove_contact};
-use super::end_forces::{Bottom, EndForces, Regime};
+use super::end_forces::{EndForces, FlatBottom, Regime};
 use super::line::Segment;
 use super::refused::LineError;
-use super::segment::{Reach, hanging};
+use super::segment::{SpanReach, hanging};
 
 /// Evaluations of the line after which the cold search takes over.
 const MAX_EVALUATIONS: usize = 8;
@@ -21,7 +21,7 @@ pub fn follow(
     segment: &Segment,
     x: f64,
     z: f64,
-    bottom: Option<Bottom>,
+    bottom: Option<FlatBottom>,
     last: &EndForces,
 ) -> Result<EndForces, LineError> {
     check(segment, x, z, bottom)?;
@@ -32,7 +32,7 @@ pub fn follow(
 }
 
 /// The answer near the last one, if there is one in the same regime.
-fn warm(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>, last: &EndForces) -> Option<EndForces> {
+fn warm(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>, last: &EndForces) -> Option<EndForces> {
     if x == 0.0 {
         return None;
     }
@@ -43,11 +43,10 @@ fn warm(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>, last: &EndFor
         (Regime::Suspended, None) if segment.weight > 0.0 => warm_start_suspended(segment, [x, z], last),
         (Regime::Suspended, Some(_)) if segment.weight > 0.0 && z > 0.0 => warm_start_suspended(segment, [x, z], last)
             .filter(|answer| answer.anchor[1] > regime_margin(answer.fairlead)),
-        (Regime::Contact | Regime::ContactFriction | Regime::ContactFrictionAnchorZero, Some(Bottom { friction }))
-            if segment.weight > 0.0 && z > 0.0 =>
-        {
-            contact(segment, [x, z], friction, last)
-        }
+        (
+            Regime::Contact | Regime::ContactFriction | Regime::ContactFrictionAnchorZero,
+            Some(FlatBottom { friction }),
+        ) if segment.weight > 0.0 && z > 0.0 => contact(segment, [x, z], friction, last),
         _ => None,
     }
 }
@@ -89,8 +88,8 @@ fn newton(
     segment: &Segment,
     [x, z]: [f64; 2],
     last: &EndForces,
-    evaluate: impl Fn([f64; 2]) -> ([f64; 2], Reach),
-) -> Option<([f64; 2], Reach, usize)> {
+    evaluate: impl Fn([f64; 2]) -> ([f64; 2], SpanReach),
+) -> Option<([f64; 2], SpanReach, usize)> {
     let [[a, b], [c, d]] = last.stiffness;
     let (dx, dz) = (x - last.at[0], z - last.at[1]);
     let mut forces = damped_step(last.fairlead, [a * dx + b * dz, c * dx + d * dz]);

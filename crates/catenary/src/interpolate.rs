@@ -4,19 +4,19 @@
 //! that elevation is interpolated from the rows' own. Monotone cubic: [FRITSCH-CARLSON-1980].
 
 use super::refused::LineError;
-use super::table::Row;
+use super::table::TableRow;
 
 /// One quantity against the distance.
 #[derive(Clone, Debug)]
-struct Curve {
+struct InterpolatedQuantity {
     /// Values and slopes at the points, as many as those.
     y: Vec<f64>,
     slope: Vec<f64>,
 }
 
-impl Curve {
+impl InterpolatedQuantity {
     /// A curve through the points, with these slopes or slopes of its own, reduced until it is monotone.
-    fn new(x: &[f64], y: Vec<f64>, slopes: Option<Vec<f64>>) -> Curve {
+    fn new(x: &[f64], y: Vec<f64>, slopes: Option<Vec<f64>>) -> InterpolatedQuantity {
         let secants: Vec<f64> = x
             .iter()
             .zip(&y)
@@ -39,7 +39,7 @@ impl Curve {
                 *s = if *s * secant <= 0.0 { 0.0 } else { s.signum() * s.abs().min(3.0 * secant.abs()) };
             }
         }
-        Curve { y, slope }
+        InterpolatedQuantity { y, slope }
     }
 
     /// Value and slope between points `i` and `i + 1`, `h` apart, at the share `t` of the way.
@@ -58,18 +58,18 @@ impl Curve {
 pub struct Interpolated {
     /// Distances that grow, at least two; the curves have a point at each.
     x: Vec<f64>,
-    force: Curve,
-    vertical: Curve,
+    force: InterpolatedQuantity,
+    vertical: InterpolatedQuantity,
     /// What friction takes: without any, the anchor's pull is the force.
-    taken: Curve,
-    anchor_vertical: Curve,
-    grounded: Curve,
-    ratio: Curve,
+    taken: InterpolatedQuantity,
+    anchor_vertical: InterpolatedQuantity,
+    grounded: InterpolatedQuantity,
+    ratio: InterpolatedQuantity,
     /// Of d(H, V at the fairlead)/d(x, z): dH/dz less dV/dx, which friction makes, and dV/dz.
-    unlike: Curve,
-    heave: Curve,
+    unlike: InterpolatedQuantity,
+    heave: InterpolatedQuantity,
     /// d(H, V at the anchor)/d(x, z).
-    coupling: [Curve; 4],
+    coupling: [InterpolatedQuantity; 4],
 }
 
 /// What the ends of the line are pulled with.
@@ -105,8 +105,8 @@ impl Interpolated {
     ///
     /// # Errors
     /// [`LineError::Table`]: fewer than two rows, or distances that do not grow with the force.
-    pub fn new(rows: &[Row]) -> Result<Interpolated, LineError> {
-        let of = |f: fn(&Row) -> f64| rows.iter().map(f).collect::<Vec<f64>>();
+    pub fn new(rows: &[TableRow]) -> Result<Interpolated, LineError> {
+        let of = |f: fn(&TableRow) -> f64| rows.iter().map(f).collect::<Vec<f64>>();
         let x = of(|r| r.state.x);
         let growing = x.windows(2).take_while(|pair| pair[0] < pair[1]).count() + 1;
         if rows.len() < 2 || growing < rows.len() {
@@ -116,12 +116,18 @@ impl Interpolated {
         fn finite(v: f64) -> f64 {
             if v.is_finite() { v } else { 0.0 }
         }
-        let curve = |f: &dyn Fn(&Row) -> f64| Curve::new(&x, rows.iter().map(|r| finite(f(r))).collect(), None);
-        let place = |m: fn(&Row) -> [[f64; 2]; 2], i: usize, j: usize| curve(&|r: &Row| m(r)[i][j]);
+        let curve = |f: &dyn Fn(&TableRow) -> f64| {
+            InterpolatedQuantity::new(&x, rows.iter().map(|r| finite(f(r))).collect(), None)
+        };
+        let place = |m: fn(&TableRow) -> [[f64; 2]; 2], i: usize, j: usize| curve(&|r: &TableRow| m(r)[i][j]);
         let coupling = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| place(|r| r.state.coupling, i, j));
         Ok(Interpolated {
-            force: Curve::new(&x, of(|r| r.state.force), Some(of(|r| 1.0 / r.state.dx_dh))),
-            vertical: Curve::new(&x, of(|r| r.state.top_vertical), Some(of(|r| finite(r.state.stiffness[1][0])))),
+            force: InterpolatedQuantity::new(&x, of(|r| r.state.force), Some(of(|r| 1.0 / r.state.dx_dh))),
+            vertical: InterpolatedQuantity::new(
+                &x,
+                of(|r| r.state.top_vertical),
+                Some(of(|r| finite(r.state.stiffness[1][0]))),
+            ),
             taken: curve(&|r| r.state.force - r.state.anchor_horizontal),
             anchor_vertical: curve(&|r| r.state.anchor_vertical),
             grounded: curve(&|r| r.state.grounded),
@@ -149,11 +155,11 @@ impl Interpolated {
         let (i, h, t, beyond) = self.interval(x);
         let (mut force, slope) = self.force.evaluate(i, h, t);
         force += slope * beyond;
-        let straight = |curve: &Curve| {
+        let straight = |curve: &InterpolatedQuantity| {
             let (value, slope) = curve.evaluate(i, h, t);
             value + slope * beyond
         };
-        let inside = |curve: &Curve| curve.evaluate(i, h, t).0;
+        let inside = |curve: &InterpolatedQuantity| curve.evaluate(i, h, t).0;
         let (vertical, zx) = self.vertical.evaluate(i, h, t);
         let (xz, zz) = (zx + inside(&self.unlike), inside(&self.heave));
         let [axx, axz, azx, azz] = self.coupling.each_ref().map(inside);
@@ -167,9 +173,9 @@ impl Interpolated {
     }
 
     /// At a distance (m) not nearer than the first row; beyond the last one on straight lines.
-    pub fn evaluate(&self, x: f64, rows: &[Row]) -> FromTable {
+    pub fn evaluate(&self, x: f64, rows: &[TableRow]) -> FromTable {
         let (i, h, t, beyond) = self.interval(x);
-        let one = |curve: &Curve| {
+        let one = |curve: &InterpolatedQuantity| {
             let (value, slope) = curve.evaluate(i, h, t);
             (value + slope * beyond).max(0.0)
         };

@@ -48,12 +48,12 @@ mod stretch_law;
 mod table;
 
 pub use adjust::{Aim, Lengths};
-pub use end_forces::{Bottom, EndForces, Regime};
+pub use end_forces::{EndForces, FlatBottom, Regime};
 pub use interpolate::{FromTable, Interpolated, Pulled};
-pub use line::{Floor, Joint, Line, Segment};
+pub use line::{Joint, Line, SeabedModel, Segment};
 pub use refused::LineError;
-pub use search::{Point, rising_root};
+pub use search::{FunctionPoint, rising_root};
 pub use shape::ShapePoint;
-pub use state::{Buoy, Heap, JointState, SegmentState, State};
+pub use state::{Buoy, Heap, JointState, LineState, SegmentState};
 pub use stretch_law::StretchLaw;
-pub use table::{DEFAULT_ROWS, MissingRow, Row, first_force, table};
+pub use table::{DEFAULT_ROWS, MissingRow, TableRow, first_force, table};

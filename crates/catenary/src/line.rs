@@ -1,9 +1,9 @@
 //! What a line is made of, and what is refused.
 
-use super::element::Element;
-use super::end_forces::{Bottom, EndForces};
-use super::multi_segment::{MultiSegmentLine, Pull};
-use super::profile::{Profile, Tilt};
+use super::element::LinePiece;
+use super::end_forces::{EndForces, FlatBottom};
+use super::multi_segment::{JointPull, MultiSegmentLine};
+use super::profile::{SeabedProfile, Tilt};
 use super::refused::LineError;
 use super::stretch_law::StretchLaw;
 
@@ -43,7 +43,7 @@ pub enum Joint {
 
 /// The sea bottom under a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Floor {
+pub struct SeabedModel {
     /// Elevation under the anchor (m).
     pub elevation: f64,
     /// Vertical over horizontal distance, positive when it rises from the anchor toward the fairlead
@@ -62,8 +62,8 @@ pub struct Line {
     pub(super) joints: Vec<Joint>,
     pub(super) anchor: f64,
     pub(super) surface: f64,
-    pub(super) floor: Option<Floor>,
-    pub(super) profile: Profile,
+    pub(super) floor: Option<SeabedModel>,
+    pub(super) profile: SeabedProfile,
     pub(super) chain: MultiSegmentLine,
 }
 
@@ -79,7 +79,7 @@ impl Segment {
     ///
     /// # Errors
     /// [`LineError`]; forces that are returned have been proven.
-    pub fn solve_end_forces(&self, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
+    pub fn solve_end_forces(&self, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<EndForces, LineError> {
         super::between::solve_end_forces(self, x, z, bottom)
     }
 
@@ -88,7 +88,7 @@ impl Segment {
     ///
     /// # Errors
     /// Those of [`Segment::solve_end_forces`].
-    pub fn follow(&self, x: f64, z: f64, bottom: Option<Bottom>, last: &EndForces) -> Result<EndForces, LineError> {
+    pub fn follow(&self, x: f64, z: f64, bottom: Option<FlatBottom>, last: &EndForces) -> Result<EndForces, LineError> {
         super::follow::follow(self, x, z, bottom, last)
     }
 
@@ -151,11 +151,11 @@ impl Line {
                 return Err(LineError::Value { what, segment: segments.len(), value });
             }
         }
-        let floor = Floor { elevation: anchor, slope: 0.0, friction: 0.0 };
+        let floor = SeabedModel { elevation: anchor, slope: 0.0, friction: 0.0 };
         let laws = vec![None; segments.len()];
         let chain = MultiSegmentLine { elements: Vec::new(), pulls: Vec::new(), least: 0.0 };
         let springs = [None, None];
-        let profile = Profile::plane(anchor, 0.0);
+        let profile = SeabedProfile::plane(anchor, 0.0);
         Line { segments, laws, springs, joints, anchor, surface, floor: Some(floor), profile, chain }.assemble()
     }
 
@@ -163,15 +163,16 @@ impl Line {
     ///
     /// # Errors
     /// Values that are not finite, negative friction, an anchor below the bottom, a pendant longer than the depth.
-    pub fn with_seabed(self, floor: Option<Floor>) -> Result<Line, LineError> {
-        let profile = floor.map_or(Profile::plane(self.anchor, 0.0), |f| Profile::plane(f.elevation, f.slope));
+    pub fn with_seabed(self, floor: Option<SeabedModel>) -> Result<Line, LineError> {
+        let profile =
+            floor.map_or(SeabedProfile::plane(self.anchor, 0.0), |f| SeabedProfile::plane(f.elevation, f.slope));
         let line = self.with_profile(floor, profile)?;
         line.check_pendants()?;
         Ok(line)
     }
 
-    fn with_profile(self, floor: Option<Floor>, profile: Profile) -> Result<Line, LineError> {
-        if let Some(Floor { elevation, slope, friction }) = floor {
+    fn with_profile(self, floor: Option<SeabedModel>, profile: SeabedProfile) -> Result<Line, LineError> {
+        if let Some(SeabedModel { elevation, slope, friction }) = floor {
             for (what, value, good) in [
                 ("the bottom's elevation", elevation, true),
                 ("the bottom's slope", slope, true),
@@ -208,8 +209,8 @@ impl Line {
         if from != 0.0 || places.iter().zip(places.iter().skip(1)).any(|(a, b)| b.0 <= a.0) {
             return Err(refused("a distance along the bottom", last));
         }
-        let profile = Profile::new(places);
-        let floor = Floor { elevation, slope: profile.tilt(0).slope(), friction };
+        let profile = SeabedProfile::new(places);
+        let floor = SeabedModel { elevation, slope: profile.tilt(0).slope(), friction };
         self.with_profile(Some(floor), profile)
     }
 
@@ -287,7 +288,7 @@ impl Line {
     }
 
     /// The bottom, if there is one.
-    pub fn floor(&self) -> Option<Floor> {
+    pub fn floor(&self) -> Option<SeabedModel> {
         self.floor
     }
 
@@ -332,10 +333,11 @@ impl Line {
         let sees = |index: usize| self.floor.is_some() && !(blind && index == 0);
         let surface = self.surface - self.datum();
         let [first, last] = self.springs.clone();
-        let mut elements: Vec<Element> = first.map(Element::Link).into_iter().collect();
-        let mut pulls: Vec<Pull> = elements.iter().map(|_| Pull { on_bottom: sees(0), ..Pull::default() }).collect();
+        let mut elements: Vec<LinePiece> = first.map(LinePiece::Link).into_iter().collect();
+        let mut pulls: Vec<JointPull> =
+            elements.iter().map(|_| JointPull { on_bottom: sees(0), ..JointPull::default() }).collect();
         for (index, (segment, law)) in self.segments.iter().zip(&self.laws).enumerate() {
-            elements.push(Element::Length { segment: *segment, law: law.clone(), sees_bottom: sees(index) });
+            elements.push(LinePiece::Length { segment: *segment, law: law.clone(), sees_bottom: sees(index) });
             let Some(joint) = self.joints.get(index) else { continue };
             let on_bottom = sees(index) || sees(index + 1);
             let (lift, steps) = match joint {
@@ -347,11 +349,11 @@ impl Line {
                 }
                 Joint::Buoy { lift, weight } => (*lift, vec![(surface, lift + weight)]),
             };
-            pulls.push(Pull { lift, steps, on_bottom });
+            pulls.push(JointPull { lift, steps, on_bottom });
         }
         if let Some(law) = last {
-            elements.push(Element::Link(law));
-            pulls.push(Pull { on_bottom: sees(self.segments.len()), ..Pull::default() });
+            elements.push(LinePiece::Link(law));
+            pulls.push(JointPull { on_bottom: sees(self.segments.len()), ..JointPull::default() });
         }
         let weight: f64 =
             elements.iter().map(|e| e.weight().abs()).sum::<f64>() + pulls.iter().map(|p| p.lift.abs()).sum::<f64>();

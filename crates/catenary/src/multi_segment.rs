@@ -11,13 +11,13 @@
 
 use super::active_set::ActiveSet;
 use super::contact_problem::ContactProblem;
-use super::element::Element;
+use super::element::LinePiece;
 use super::refused::LineError;
-use super::segment::Reach;
+use super::segment::SpanReach;
 
 /// What pulls at a joint.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Pull {
+pub struct JointPull {
     /// Lift (N, upward) below all its steps.
     pub lift: f64,
     /// Elevations (m above the bottom at the anchor) from which on the lift is smaller, and by how much (N); rising.
@@ -26,7 +26,7 @@ pub struct Pull {
     pub on_bottom: bool,
 }
 
-impl Pull {
+impl JointPull {
     /// The lift when this many steps are passed (N).
     pub fn lift_after(&self, steps: usize) -> f64 {
         self.lift - self.steps.iter().take(steps).map(|s| s.1).sum::<f64>()
@@ -36,9 +36,9 @@ impl Pull {
 /// The pieces of a line from the fairlead to the anchor.
 #[derive(Clone, Debug)]
 pub struct MultiSegmentLine {
-    pub elements: Vec<Element>,
+    pub elements: Vec<LinePiece>,
     /// Between the pieces.
-    pub pulls: Vec<Pull>,
+    pub pulls: Vec<JointPull>,
     /// The force below which there is no tension left (N): keeps directions defined.
     pub least: f64,
 }
@@ -56,7 +56,7 @@ pub enum JointStatus {
 
 /// A piece of a chain at rest.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Held {
+pub struct SegmentSolution {
     /// Horizontal force (N); of a piece that rests, no smaller than the chain's least one.
     pub h: f64,
     /// Vertical force at the upper and at the lower end (N).
@@ -72,9 +72,9 @@ pub struct Held {
     /// Unstretched length that hangs above the touchdown (m); the whole length when nothing is on the bottom.
     pub above: f64,
     /// The piece when it is free, its upper leg when it rests.
-    pub upper: Reach,
+    pub upper: SpanReach,
     /// Its lower leg.
-    pub lower: Reach,
+    pub lower: SpanReach,
 }
 
 /// A chain at rest.
@@ -82,7 +82,7 @@ pub struct Held {
 pub struct LineSolution {
     /// Heights of all the ends of the pieces, the fairlead's first (m above the bottom).
     pub z: Vec<f64>,
-    pub held: Vec<Held>,
+    pub held: Vec<SegmentSolution>,
     pub policy: ActiveSet,
     /// Lift at each joint (N, upward).
     pub lifts: Vec<f64>,
@@ -125,7 +125,7 @@ impl MultiSegmentLine {
 
     /// A chain to begin with that nothing holds up.
     pub fn afloat(&self, h: f64) -> LineSolution {
-        let held = Held { h, ..Held::default() };
+        let held = SegmentSolution { h, ..SegmentSolution::default() };
         let policy =
             ActiveSet { rests: vec![false; self.elements.len()], stands: vec![JointStatus::Free(0); self.pulls.len()] };
         LineSolution { held: vec![held; self.elements.len()], policy, ..LineSolution::default() }
@@ -133,7 +133,7 @@ impl MultiSegmentLine {
 
     /// Unstretched length (m).
     pub fn length(&self) -> f64 {
-        self.elements.iter().map(Element::length).sum()
+        self.elements.iter().map(LinePiece::length).sum()
     }
 
     /// How the reach, V at the fairlead, H and V at the anchor change with the horizontal force and the height of the

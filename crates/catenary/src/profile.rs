@@ -34,7 +34,7 @@ impl Tilt {
 
 /// A bottom of plane faces. Beyond its first and last vertex the outer faces go on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Profile {
+pub struct SeabedProfile {
     /// Distances from the anchor toward the fairlead (m), growing; at least two.
     at: Vec<f64>,
     /// Elevations there (m).
@@ -43,14 +43,14 @@ pub struct Profile {
     tilts: Vec<Tilt>,
 }
 
-impl Profile {
+impl SeabedProfile {
     /// A plane through a place under the anchor.
-    pub fn plane(elevation: f64, slope: f64) -> Profile {
-        Profile { at: vec![0.0, 1.0], z: vec![elevation, elevation + slope], tilts: vec![Tilt::new(slope)] }
+    pub fn plane(elevation: f64, slope: f64) -> SeabedProfile {
+        SeabedProfile { at: vec![0.0, 1.0], z: vec![elevation, elevation + slope], tilts: vec![Tilt::new(slope)] }
     }
 
     /// From places (distance from the anchor, elevation), growing and at least two, so that it has a face; neighbours in one plane are one face.
-    pub fn new(places: &[(f64, f64)]) -> Profile {
+    pub fn new(places: &[(f64, f64)]) -> SeabedProfile {
         let mut kept: Vec<(f64, f64)> = Vec::with_capacity(places.len());
         let slope = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0);
         for place in places {
@@ -63,7 +63,7 @@ impl Profile {
         }
         let tilts = kept.iter().zip(kept.iter().skip(1)).map(|(a, b)| Tilt::new(slope(*a, *b))).collect();
         let (at, z) = kept.into_iter().unzip();
-        Profile { at, z, tilts }
+        SeabedProfile { at, z, tilts }
     }
 
     /// Number of faces.
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_profile_has_the_elevations_of_its_vertices_and_goes_on_beyond_them() {
-        let made = Profile::new(&[(0.0, -100.0), (50.0, -95.0), (100.0, -90.0), (200.0, -100.0)]);
+        let made = SeabedProfile::new(&[(0.0, -100.0), (50.0, -95.0), (100.0, -90.0), (200.0, -100.0)]);
         assert_eq!(made.faces(), 2, "two neighbours in one plane are one face");
         for (at, z) in [(-10.0, -101.0), (0.0, -100.0), (50.0, -95.0), (100.0, -90.0), (150.0, -95.0), (300.0, -110.0)]
         {

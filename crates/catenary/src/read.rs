@@ -1,16 +1,21 @@
 //! What a rested chain means: the state of the line, proven.
 
-use super::element::{Element, stretch};
+use super::element::{LinePiece, stretch};
 use super::line::{Joint, Line, Segment};
-use super::multi_segment::{Held, JointStatus, LineSolution};
+use super::multi_segment::{JointStatus, LineSolution, SegmentSolution};
 use super::refused::LineError;
 use super::segment::hanging;
 use super::solve::RESIDUAL_TOLERANCE;
-use super::state::{Buoy, JointState, SegmentState, State};
+use super::state::{Buoy, JointState, LineState, SegmentState};
 
 impl Line {
     /// The state of a rested chain; `wanted` is the distance that was asked for, if one was.
-    pub(super) fn state(&self, rested: LineSolution, wanted: Option<f64>, fairlead: f64) -> Result<State, LineError> {
+    pub(super) fn state(
+        &self,
+        rested: LineSolution,
+        wanted: Option<f64>,
+        fairlead: f64,
+    ) -> Result<LineState, LineError> {
         let (Some(first), Some(last)) = (rested.held.first().copied(), rested.held.last().copied()) else {
             return Err(LineError::Empty);
         };
@@ -28,7 +33,7 @@ impl Line {
         if !(residual <= RESIDUAL_TOLERANCE * scale || off.abs() <= fine) {
             return Err(LineError::Unproven { residual, tension: scale });
         }
-        let loose = |h: &Held| h.ground > 0.0 || (h.v_hi > 0.0 && h.v_lo < 0.0);
+        let loose = |h: &SegmentSolution| h.ground > 0.0 || (h.v_hi > 0.0 && h.v_lo < 0.0);
         let mut stiffness = by_place(rested.x_by, [1.0, 0.0], rested.v_by);
         let mut coupling = by_place(rested.x_by, rested.far_h_by, rested.far_v_by);
         if slack {
@@ -46,7 +51,7 @@ impl Line {
         let places = self.places(&rested, wanted, fairlead);
         let x = wanted.unwrap_or_else(|| places.last().map_or(0.0, |p| p.0));
         let segments = self.segment_states(&rested, slack.then_some(least));
-        let state = State {
+        let state = LineState {
             force: force.0,
             x,
             dx_dh: x_h,
@@ -114,9 +119,9 @@ impl Line {
     pub(super) fn lengths<'a>(
         &'a self,
         rested: &'a LineSolution,
-    ) -> impl Iterator<Item = (usize, &'a Element, &'a Held)> {
+    ) -> impl Iterator<Item = (usize, &'a LinePiece, &'a SegmentSolution)> {
         let parts = self.chain.elements.iter().zip(&rested.held).enumerate();
-        parts.filter(|(_, (e, _))| matches!(e, Element::Length { .. })).map(|(i, (e, h))| (i, e, h))
+        parts.filter(|(_, (e, _))| matches!(e, LinePiece::Length { .. })).map(|(i, (e, h))| (i, e, h))
     }
 
     fn segment_states(&self, rested: &LineSolution, slack: Option<f64>) -> Vec<SegmentState> {
@@ -161,7 +166,7 @@ impl Line {
     /// Where the line, seen from the fairlead, first meets the bottom: distance from the fairlead and elevation (m).
     fn touchdown(&self, rested: &LineSolution, places: &[(f64, f64)]) -> Option<(f64, f64)> {
         let (index, element, held) = self.lengths(rested).find(|(_, _, h)| h.ground > 0.0)?;
-        let Element::Length { segment, law, .. } = element else { return None };
+        let LinePiece::Length { segment, law, .. } = element else { return None };
         let (x, z) = places.get(index).copied()?;
         if held.above == 0.0 {
             return Some((x, z));
@@ -178,7 +183,7 @@ impl Line {
         let scale = 1e-9 * (self.length() + self.anchor.abs());
         let mut list = Vec::new();
         for (number, (index, element, held)) in self.lengths(rested).enumerate() {
-            let Element::Length { segment, law, sees_bottom: false } = element else { continue };
+            let LinePiece::Length { segment, law, sees_bottom: false } = element else { continue };
             let (high, low) = (rested.z[index], rested.z[index + 1]);
             let mut lowest = high.min(low);
             if held.v_lo < 0.0 && held.v_hi > 0.0 && segment.weight > 0.0 {
@@ -198,7 +203,7 @@ impl Line {
         let scale = 1e-9 * (self.length() + self.anchor.abs());
         let mut list = Vec::new();
         for (number, (index, element, held)) in self.lengths(rested).enumerate() {
-            let Element::Length { segment, .. } = element else { continue };
+            let LinePiece::Length { segment, .. } = element else { continue };
             let (_, low) = places[index + 1];
             let lifted = self.joints.get(number).is_some_and(|j| matches!(j, Joint::Weight(w) if *w < 0.0));
             let mut highest = if lifted { low } else { f64::NEG_INFINITY };

@@ -2,7 +2,7 @@
 
 /// A function's value and slope.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct FunctionPoint {
     /// Value of the function.
     pub value: f64,
     /// Its derivative by the argument.
@@ -15,12 +15,12 @@ const MAX_SEARCH_STEPS: usize = 200;
 /// The argument > 0 at which a rising function has the value `target`: Newton within a bracket, which is widened by
 /// factors until it holds the root, and halved in the logarithm where Newton leaves it. Returns the best argument met
 /// and the steps; the caller proves it.
-pub fn rising_root(start: f64, target: f64, mut f: impl FnMut(f64) -> Point) -> (f64, usize) {
+pub fn rising_root(start: f64, target: f64, mut f: impl FnMut(f64) -> FunctionPoint) -> (f64, usize) {
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
     let mut at = start;
     let mut best = (f64::INFINITY, start);
     for step in 1..=MAX_SEARCH_STEPS {
-        let Point { value, slope } = f(at);
+        let FunctionPoint { value, slope } = f(at);
         let off = value - target;
         if off.is_nan() {
             return (best.1, step);

@@ -8,7 +8,7 @@ use super::line::Segment;
 /// horizontal force at fixed vertical force (m/N); `_v`: with respect to the vertical force, which shifts by the same
 /// amount at both ends (m/N). A leg that ends on the bottom is longer the larger |V| is: its `_v` includes that.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reach {
+pub struct SpanReach {
     pub x: f64,
     pub z: f64,
     pub x_h: f64,
@@ -17,7 +17,7 @@ pub struct Reach {
     pub z_v: f64,
 }
 
-impl std::ops::AddAssign for Reach {
+impl std::ops::AddAssign for SpanReach {
     fn add_assign(&mut self, other: Self) {
         self.x += other.x;
         self.z += other.z;
@@ -34,7 +34,7 @@ impl std::ops::AddAssign for Reach {
 /// ([IRVINE-1981 eqs 1.36 and 1.37], in forces). With tan phi = V/H = sinh theta, half the change of theta has the
 /// hyperbolic tangent u = |V1 - V0|/(T0 + T1); what follows is in forces divided by T0 + T1, and forms no difference of
 /// nearly equal numbers for a weightless, a very taut or a vertical segment.
-pub fn hanging(segment: &Segment, h: f64, low: f64) -> Reach {
+pub fn hanging(segment: &Segment, h: f64, low: f64) -> SpanReach {
     let Segment { length, weight, ea } = *segment;
     let change = weight * length;
     let high = low + change;
@@ -52,7 +52,7 @@ pub fn hanging(segment: &Segment, h: f64, low: f64) -> Reach {
     let share = 1.0 / (half * tt);
     let (flexibility, compliance) = (length / ea, length * scale);
     let x_v = -compliance * a * (p + q) * (half * share);
-    Reach {
+    SpanReach {
         x: 2.0 * length * a * (1.0 + bend) + h * flexibility,
         z: length * (p + q) + 0.5 * (low + high) * flexibility,
         x_h: compliance * (2.0 * bend + (2.0 * half * over - aa * u * u) * share) + flexibility,
@@ -83,7 +83,7 @@ fn bend(u: f64, half: f64) -> f64 {
 /// force `high` >= 0; with the rest of the segment lying on the bottom under the tension H.
 ///
 /// Returns the reach of the whole segment and the unstretched length on the bottom. `weight` must be positive.
-pub fn lifted_reach(segment: &Segment, h: f64, high: f64) -> (Reach, f64) {
+pub fn lifted_reach(segment: &Segment, h: f64, high: f64) -> (SpanReach, f64) {
     let Segment { length, weight, ea } = *segment;
     let t = (h * h + high * high).sqrt();
     let hanging = high / weight;
@@ -95,7 +95,7 @@ pub fn lifted_reach(segment: &Segment, h: f64, high: f64) -> (Reach, f64) {
     let lift = high * u;
     let ratio = lift * per_t;
     let x_v = -ratio * per_weight;
-    let reach = Reach {
+    let reach = SpanReach {
         x: 2.0 * h * u / weight * (1.0 + bend) + h * per_ea * hanging + ground * (1.0 + h * per_ea),
         z: (lift + 0.5 * high * high * per_ea) / weight,
         // asinh(V/H) - V/T

@@ -1,10 +1,10 @@
 //! The shape of a solved line: positions and tensions at any arc length.
 
-use super::element::{Element, stretch};
-use super::layout::{Laid, Stretch, point};
+use super::element::{LinePiece, stretch};
+use super::layout::{LaidLine, PieceStretch, point};
 use super::line::Line;
-use super::multi_segment::Held;
-use super::state::State;
+use super::multi_segment::SegmentSolution;
+use super::state::LineState;
 
 /// A point of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ impl ShapePoint {
 impl Line {
     /// The shape of the line in a state of its own: both ends of each segment, `between` points evenly inside, and the
     /// places where it meets and leaves the bottom.
-    pub fn shape(&self, state: &State, between: usize) -> Vec<ShapePoint> {
+    pub fn shape(&self, state: &LineState, between: usize) -> Vec<ShapePoint> {
         if let Some(laid) = &state.laid {
             return self.laid_shape(laid, state.x, between);
         }
@@ -63,13 +63,13 @@ impl Line {
     }
 
     /// The point at an unstretched length from the fairlead (m); `None` outside the line.
-    pub fn point_at(&self, state: &State, length: f64) -> Option<ShapePoint> {
+    pub fn point_at(&self, state: &LineState, length: f64) -> Option<ShapePoint> {
         let mut arc = 0.0;
         if let Some(laid) = &state.laid {
             let mut stretches = laid.stretches.iter().peekable();
             let mut number = 0;
             for (index, element) in self.chain.elements.iter().enumerate() {
-                number += usize::from(matches!(element, Element::Length { .. }));
+                number += usize::from(matches!(element, LinePiece::Length { .. }));
                 let s = length - arc;
                 while let Some(part) = stretches.next_if(|p| p.element == index) {
                     if (part.from..=part.to).contains(&s) {
@@ -90,7 +90,7 @@ impl Line {
         None
     }
 
-    fn laid_shape(&self, laid: &Laid, x: f64, between: usize) -> Vec<ShapePoint> {
+    fn laid_shape(&self, laid: &LaidLine, x: f64, between: usize) -> Vec<ShapePoint> {
         let mut points = Vec::new();
         let mut stretches = laid.stretches.iter().peekable();
         let (mut arc, mut number) = (0.0, 0);
@@ -103,7 +103,7 @@ impl Line {
                 while let Some(s) = inside.next_if(|s| *s <= part.to + 1e-9 * length) {
                     points.extend(point(element, part, s, x, (number, arc)));
                 }
-                let goes_on = |next: &&Stretch| next.element == index && next.runs_on_from(part);
+                let goes_on = |next: &&PieceStretch| next.element == index && next.runs_on_from(part);
                 let last = !stretches.peek().is_some_and(goes_on);
                 if last && points.last().is_none_or(|p| (p.arc - arc - part.to).abs() > 1e-9 * length) {
                     points.extend(point(element, part, part.to, x, (number, arc)));
@@ -117,14 +117,14 @@ impl Line {
     /// A point of a piece, `s` below its upper end; `arc` is the length before it.
     fn point(
         &self,
-        state: &State,
+        state: &LineState,
         (segment, index): (usize, usize),
-        element: &Element,
-        held: &Held,
+        element: &LinePiece,
+        held: &SegmentSolution,
         s: f64,
         arc: f64,
     ) -> Option<ShapePoint> {
-        let Element::Length { segment: properties, law, .. } = element else { return None };
+        let LinePiece::Length { segment: properties, law, .. } = element else { return None };
         let least = self.chain.least;
         let weight = properties.weight;
         let (x, z) = state.places.get(index).copied()?;

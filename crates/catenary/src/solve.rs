@@ -1,12 +1,12 @@
 //! The configuration of a whole line: at a given horizontal force or tension, or between two given ends.
 
-use super::element::Element;
+use super::element::LinePiece;
 use super::layout;
 use super::line::{Line, MAX_MAGNITUDE};
 use super::multi_segment::{LineSolution, MultiSegmentLine};
 use super::refused::LineError;
-use super::search::{Point, rising_root};
-use super::state::State;
+use super::search::{FunctionPoint, rising_root};
+use super::state::LineState;
 
 /// Largest accepted residual as a share of the tension at the fairlead.
 pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-9;
@@ -17,7 +17,7 @@ impl Line {
     ///
     /// # Errors
     /// [`LineError`]; a state that is returned has been proven.
-    pub fn at_horizontal_force(&self, force: f64, fairlead: f64) -> Result<State, LineError> {
+    pub fn at_horizontal_force(&self, force: f64, fairlead: f64) -> Result<LineState, LineError> {
         self.check_fairlead(fairlead)?;
         positive("the horizontal force", force)?;
         if !self.is_plain() {
@@ -32,7 +32,7 @@ impl Line {
     ///
     /// # Errors
     /// [`LineError`]; a state that is returned has been proven.
-    pub fn at_distance(&self, x: f64, fairlead: f64) -> Result<State, LineError> {
+    pub fn at_distance(&self, x: f64, fairlead: f64) -> Result<LineState, LineError> {
         self.between_ends(x, fairlead, None)
     }
 
@@ -40,11 +40,11 @@ impl Line {
     ///
     /// # Errors
     /// As [`Line::at_distance`].
-    pub fn follow(&self, x: f64, fairlead: f64, last: &State) -> Result<State, LineError> {
+    pub fn follow(&self, x: f64, fairlead: f64, last: &LineState) -> Result<LineState, LineError> {
         self.between_ends(x, fairlead, Some(last)).or_else(|_| self.between_ends(x, fairlead, None))
     }
 
-    fn between_ends(&self, x: f64, fairlead: f64, last: Option<&State>) -> Result<State, LineError> {
+    fn between_ends(&self, x: f64, fairlead: f64, last: Option<&LineState>) -> Result<LineState, LineError> {
         self.check_fairlead(fairlead)?;
         if !(0.0..MAX_MAGNITUDE).contains(&x) {
             return Err(LineError::Value { what: "the horizontal distance", segment: 1, value: x });
@@ -60,7 +60,7 @@ impl Line {
     }
 
     /// The line between two ends over a flat and smooth bottom, all its contacts at once.
-    fn all_at_once(&self, x: f64, fairlead: f64, last: Option<&State>) -> Result<State, LineError> {
+    fn all_at_once(&self, x: f64, fairlead: f64, last: Option<&LineState>) -> Result<LineState, LineError> {
         let last = last.filter(|s| s.laid.is_none());
         let chain = &self.chain;
         let least = chain.least;
@@ -81,7 +81,7 @@ impl Line {
             Ok(rested) => {
                 // without horizontal force nothing changes any more
                 let limp = h <= least && rested.x >= x;
-                let point = Point { value: if limp { x } else { rested.x }, slope: rested.x_by[0] };
+                let point = FunctionPoint { value: if limp { x } else { rested.x }, slope: rested.x_by[0] };
                 near = Some(rested.clone());
                 if found.as_ref().is_none_or(|f| (rested.x - x).abs() <= (f.x - x).abs()) {
                     found = Some(rested);
@@ -90,7 +90,7 @@ impl Line {
             }
             Err(error) => {
                 failed = Some(error);
-                Point { value: f64::NAN, slope: f64::NAN }
+                FunctionPoint { value: f64::NAN, slope: f64::NAN }
             }
         });
         let Some(mut rested) = found else {
@@ -118,10 +118,10 @@ impl Line {
     ///
     /// # Errors
     /// [`LineError`]; among them a tension less than that of the line hanging straight down.
-    pub fn at_tension(&self, tension: f64, fairlead: f64) -> Result<State, LineError> {
+    pub fn at_tension(&self, tension: f64, fairlead: f64) -> Result<LineState, LineError> {
         positive("the tension", tension)?;
         // T dT = H dH + V dV
-        let by = |s: &State, turn: f64| (s.top_tension, (s.force + s.top_vertical * turn) / s.top_tension);
+        let by = |s: &LineState, turn: f64| (s.top_tension, (s.force + s.top_vertical * turn) / s.top_tension);
         self.at_value(("tension", tension), fairlead, 0.7 * tension, by)
     }
 
@@ -130,7 +130,7 @@ impl Line {
     ///
     /// # Errors
     /// [`LineError`]; among them a force less than that of the line hanging straight down.
-    pub fn at_vertical_force(&self, vertical: f64, fairlead: f64) -> Result<State, LineError> {
+    pub fn at_vertical_force(&self, vertical: f64, fairlead: f64) -> Result<LineState, LineError> {
         positive("the vertical force", vertical)?;
         self.at_value(("vertical force", vertical), fairlead, vertical, |s, turn| (s.top_vertical, turn))
     }
@@ -142,16 +142,16 @@ impl Line {
         (what, wanted): (&'static str, f64),
         fairlead: f64,
         start: f64,
-        by: impl Fn(&State, f64) -> (f64, f64),
-    ) -> Result<State, LineError> {
+        by: impl Fn(&LineState, f64) -> (f64, f64),
+    ) -> Result<LineState, LineError> {
         self.check_fairlead(fairlead)?;
-        let at = |s: &State| by(s, s.stiffness[1][0] / s.stiffness[0][0]);
+        let at = |s: &LineState| by(s, s.stiffness[1][0] / s.stiffness[0][0]);
         let (force, _) = rising_root(start, wanted, |h| match self.at_horizontal_force(h, fairlead) {
             Ok(s) => {
                 let (value, slope) = at(&s);
-                Point { value, slope }
+                FunctionPoint { value, slope }
             }
-            Err(_) => Point { value: f64::NAN, slope: f64::NAN },
+            Err(_) => FunctionPoint { value: f64::NAN, slope: f64::NAN },
         });
         let state = self.at_horizontal_force(force, fairlead)?;
         let off = (at(&state).0 - wanted).abs();
@@ -189,8 +189,8 @@ impl Line {
     /// Whether the bottom carries the first piece.
     fn elements_see_bottom(&self) -> bool {
         let lengths = self.chain.elements.iter().filter_map(|e| match e {
-            Element::Length { sees_bottom, segment, .. } => Some(*sees_bottom && segment.weight > 0.0),
-            Element::Link(_) => None,
+            LinePiece::Length { sees_bottom, segment, .. } => Some(*sees_bottom && segment.weight > 0.0),
+            LinePiece::Link(_) => None,
         });
         lengths.take(1).any(|sees| sees)
     }

@@ -1,6 +1,6 @@
 //! What a solved line looks like.
 
-use super::layout::Laid;
+use super::layout::LaidLine;
 use super::multi_segment::LineSolution;
 
 /// How a spring buoy stands.
@@ -61,7 +61,7 @@ pub struct JointState {
 
 /// A line in equilibrium.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct LineState {
     /// Horizontal force at the fairlead (N).
     pub force: f64,
     /// Horizontal distance from fairlead to anchor (m).
@@ -110,10 +110,10 @@ pub struct State {
     pub(super) places: Vec<(f64, f64)>,
     pub(super) rested: LineSolution,
     /// The stretches of a line over a bottom that is not flat and smooth.
-    pub(super) laid: Option<Box<Laid>>,
+    pub(super) laid: Option<Box<LaidLine>>,
 }
 
-impl State {
+impl LineState {
     /// Whether every number is one.
     pub(super) fn is_finite(&self) -> bool {
         let slope = if self.slack { 0.0 } else { self.dx_dh };

@@ -1,7 +1,7 @@
 //! How a line or a spring stretches under tension, where that is not one number.
 
 use super::line::Segment;
-use super::segment::Reach;
+use super::segment::SpanReach;
 
 /// Elongation against tension: strain for a length of line, metres for a spring. It grows with the tension and is odd.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,10 +139,10 @@ impl StretchLaw {
     }
 
     /// What a stretch of line reaches beyond the linear law of its `ea`, H and V at its lower end.
-    pub fn beyond_linear(&self, part: &Segment, h: f64, low: f64) -> Reach {
+    pub fn beyond_linear(&self, part: &Segment, h: f64, low: f64) -> SpanReach {
         let high = low + part.weight * part.length;
         let turn = self.kink().filter(|k| *k > h.abs()).map(|k| ((k - h) * (k + h)).sqrt());
-        let mut r = Reach::default();
+        let mut r = SpanReach::default();
         let mut add = |v: f64, weight: f64| {
             let t = h.hypot(v);
             if t == 0.0 {

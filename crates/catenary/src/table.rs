@@ -5,16 +5,16 @@
 
 use super::line::Line;
 use super::refused::LineError;
-use super::state::State;
+use super::state::LineState;
 
 /// Number of rows.
 pub const DEFAULT_ROWS: usize = 30;
 
 /// A row of the table.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct TableRow {
     /// The configuration.
-    pub state: State,
+    pub state: LineState,
     /// Largest tension / own break over the segments.
     pub ratio: f64,
     /// The segment that has it, from 1.
@@ -49,7 +49,7 @@ pub fn table(
     breaks: &[f64],
     largest: f64,
     fairlead: f64,
-) -> Result<(Vec<Row>, Vec<MissingRow>), LineError> {
+) -> Result<(Vec<TableRow>, Vec<MissingRow>), LineError> {
     let positive = |v: &f64| v.is_finite() && *v > 0.0;
     if breaks.len() != line.segments.len() || !breaks.iter().all(positive) || !positive(&largest) {
         return Err(LineError::Breaks);
@@ -57,7 +57,8 @@ pub fn table(
     let last = (DEFAULT_ROWS - 1) as f64;
     let row = |force: f64| {
         let state = line.at_horizontal_force(force, fairlead)?;
-        let mut row = Row { ratio: 0.0, critical: 1, critical_break: breaks.first().copied().unwrap_or(0.0), state };
+        let mut row =
+            TableRow { ratio: 0.0, critical: 1, critical_break: breaks.first().copied().unwrap_or(0.0), state };
         for (index, (segment, limit)) in row.state.segments.iter().zip(breaks).enumerate() {
             let ratio = segment.top_tension.max(segment.bottom_tension) / limit;
             if ratio > row.ratio {

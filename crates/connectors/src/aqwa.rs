@@ -3,7 +3,7 @@
 //!
 //! Source: [AQWA-CONN 5.8.3.1 and 5.8.3.2]; defaults of EA, maximum tension and coefficients: [AQWA-REF deck 14].
 
-use super::dynamic_line::{DynamicLine, JointMass, Part, Seabed, Strength, description};
+use super::dynamic_line::{DynamicLine, JointMass, LinePart, Seabed, Strength, description};
 use super::mooring::{Mooring, line_error, no_other_end};
 use super::options::aqwa;
 use super::per_line::PerLineOptions;
@@ -14,10 +14,10 @@ use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
-use windlass_catenary::{Floor, Joint, Line, Segment, StretchLaw};
+use windlass_catenary::{Joint, Line, SeabedModel, Segment, StretchLaw};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_line_dynamics::{self as rod, Axial};
+use windlass_line_dynamics::{self as rod, TensionLaw};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
 };
@@ -278,7 +278,7 @@ impl ConnectorClass for CatenaryClass {
         let joints = self.sections.iter().take(count.saturating_sub(1)).map(joint);
         let places: Vec<Span> = self.sections.iter().map(|s| s.span).collect();
         // ends on a structure see no bottom, an anchor lies on it
-        let floor = place.anchored.then_some(Floor { elevation: far, slope: 0.0, friction: 0.0 });
+        let floor = place.anchored.then_some(SeabedModel { elevation: far, slope: 0.0, friction: 0.0 });
         let line = Line::new(segments.collect(), joints.collect(), far, surroundings.tide)
             .and_then(|l| l.with_seabed(floor))
             .and_then(|l| l.with_laws(self.sections.iter().map(CatenarySection::law).collect()))
@@ -326,11 +326,11 @@ impl ConnectorClass for CatenaryClass {
             }
         }
         let whole: f64 = self.sections.iter().map(|s| s.length).sum();
-        let part = |s: &CatenarySection| Part {
-            segment: rod::Segment {
+        let part = |s: &CatenarySection| LinePart {
+            segment: rod::RodSegment {
                 axial: s
                     .coefficients
-                    .map_or(Axial::Linear(s.ea), |[k1, k2, k3]| Axial::of_powers(vec![s.ea, k1, k2, k3])),
+                    .map_or(TensionLaw::Linear(s.ea), |[k1, k2, k3]| TensionLaw::of_powers(vec![s.ea, k1, k2, k3])),
                 bending: s.ei,
                 compression: s.ei > 0.0,
                 displaced: s.area,
@@ -339,7 +339,7 @@ impl ConnectorClass for CatenaryClass {
                 drag_tangential: s.cx / PI,
                 added_area: s.area,
                 added_normal: s.ca,
-                ..rod::Segment::line(
+                ..rod::RodSegment::line(
                     s.length,
                     ((elements as f64 * s.length / whole).round() as usize).max(1),
                     s.mass,

@@ -16,7 +16,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
-use windlass_catenary::{Floor, Line, LineError, StretchLaw};
+use windlass_catenary::{Line, LineError, SeabedModel, StretchLaw};
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
@@ -131,7 +131,7 @@ impl Catenary {
         };
         let error = |e: LineError| line_error(&e, &self.places);
         let (segments, joints) = parts(&self.sections, place, |s| s.submerged_weight(surroundings));
-        let floor = Floor { elevation: -depth, slope: self.slope.unwrap_or(0.0), friction: self.friction };
+        let floor = SeabedModel { elevation: -depth, slope: self.slope.unwrap_or(0.0), friction: self.friction };
         let (distance, azimuth) = place.span();
         let length = segments.iter().map(|s| s.length).sum::<f64>().max(distance);
         let profile = place

@@ -1,13 +1,13 @@
 //! A spring along the chord between two ends: a weightless line, or one that also pushes.
 
-use super::extension::{Extended, Extension, Pull};
+use super::extension::{EndPull, Extended, Extension};
 use super::mooring::{Mooring, no_other_end, too_short, too_short_note};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::table::Table;
-use windlass_catenary::{Point, StretchLaw, rising_root};
+use windlass_catenary::{FunctionPoint, StretchLaw, rising_root};
 use windlass_model::{
-    AbsentRow, ClassError, Condition, Configuration, Element, End, FoundLength, Guess, LineChange, LineLoads,
-    LineModel, Note, Response, Situation, Summary,
+    AbsentRow, ClassError, Condition, Element, ElementResponse, ElementSummary, End, FoundLength, Guess, LineChange,
+    LineConfiguration, LineLoads, LineModel, Note, Situation,
 };
 
 /// A weightless line between two places.
@@ -63,7 +63,7 @@ impl Chord {
         let start = elongation.abs() / law.stretch(0.0).1;
         let at = |t: f64| {
             let (value, slope) = law.stretch(t);
-            Point { value, slope }
+            FunctionPoint { value, slope }
         };
         let (force, _) = rising_root(start, elongation.abs(), at);
         (force.copysign(elongation), 1.0 / law.stretch(force).1)
@@ -144,7 +144,13 @@ impl ChordElement {
 }
 
 impl Extended for ChordElement {
-    fn pull(&self, ends: &[End], by: Extension, _: &mut Guess, out: &mut Response) -> Result<Pull, ClassError> {
+    fn pull(
+        &self,
+        ends: &[End],
+        by: Extension,
+        _: &mut Guess,
+        out: &mut ElementResponse,
+    ) -> Result<EndPull, ClassError> {
         out.clear(2);
         let along = self.chord_vector(ends);
         let chord = along.norm();
@@ -161,14 +167,14 @@ impl Extended for ChordElement {
             let sign = if index == 0 || index == 3 { 1.0 } else { -1.0 };
             block.fixed_view_mut::<3, 3>(0, 0).copy_from(&(k * sign));
         }
-        Ok(Pull { tension: force, along: unit })
+        Ok(EndPull { tension: force, along: unit })
     }
 
-    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError> {
+    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ElementSummary, ClassError> {
         let chord = self.chord_vector(ends).norm();
         let (force, _) = self.with_link(by, chord);
         let (ratio, critical) = self.chord.ratio(force);
-        Ok(Summary {
+        Ok(ElementSummary {
             tension: Some(force),
             ratio: Some(ratio),
             critical: Some(critical),
@@ -194,12 +200,12 @@ impl Element for ChordElement {
         _committed: &[f64],
         _trial: &mut [f64],
         guess: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
     }
 
-    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
+    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<ElementSummary, ClassError> {
         self.summary_with_link(at.ends, Extension::NONE)
     }
 
@@ -224,7 +230,7 @@ impl LineModel for Chord {
         self.line.geometry(connector, condition)
     }
 
-    fn configuration(&self, condition: Condition) -> Result<Configuration, ClassError> {
+    fn configuration(&self, condition: Condition) -> Result<LineConfiguration, ClassError> {
         let distance = match condition {
             Condition::Placed => self.line.place.span().0,
             Condition::Distance(x) => x,
@@ -239,7 +245,7 @@ impl LineModel for Chord {
         let (horizontal, vertical) =
             if chord > 0.0 { (force * distance / chord, force * drop / chord) } else { (0.0, force) };
         let (ratio, critical) = self.ratio(force);
-        Ok(Configuration {
+        Ok(LineConfiguration {
             distance,
             horizontal,
             vertical,

@@ -5,16 +5,18 @@
 //! here along the chord between the two ends, against the rate of its length, on both ends alike, and only in time steps and while the
 //! line has a tension; it does not enter the tension that the piston controls.
 
-use super::extension::{Extended, Extension, Pull};
+use super::extension::{EndPull, Extended, Extension};
 use super::mooring::{convolution, no_curve};
 use super::options as o;
 use super::per_line::PerLineOptions;
 use super::piston::{Piston, PistonState};
 use super::spring_law::Dashpot;
-use super::viscous::{Affine, Viscoelastic};
+use super::viscous::{Affine, ViscoelasticLaw};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::span::Span;
-use windlass_model::{ClassError, Connection, Element, End, Guess, Note, Response, Situation, SpringState, Summary};
+use windlass_model::{
+    ClassError, Connection, Element, ElementResponse, ElementSummary, End, Guess, Note, Situation, SpringState,
+};
 
 /// The devices of a class.
 #[derive(Clone, Debug, Default)]
@@ -56,7 +58,7 @@ impl Devices {
         let viscous = match &self.convolution {
             None => None,
             Some((name, span)) => {
-                let law = (connection.curve)(name).and_then(Viscoelastic::fit).map(|fit| fit.law);
+                let law = (connection.curve)(name).and_then(ViscoelasticLaw::fit).map(|fit| fit.law);
                 let law = law.ok_or_else(|| no_curve(name, *span))?;
                 if law.long_term <= 0.0 {
                     let text = "a viscoelastic spring in a line must keep some stiffness at last";
@@ -75,12 +77,12 @@ struct DeviceElement {
     line: Box<dyn Extended>,
     piston: Option<Piston>,
     dashpot: Option<Dashpot>,
-    viscous: Option<Viscoelastic>,
+    viscous: Option<ViscoelasticLaw>,
 }
 
 /// Where the devices stand.
-struct Found {
-    pull: Pull,
+struct DeviceState {
+    pull: EndPull,
     /// Position of the piston and what it does.
     piston: Option<(f64, PistonState)>,
     /// Force against deflection of the viscoelastic spring.
@@ -103,8 +105,8 @@ impl DeviceElement {
         at: &Situation,
         committed: &[f64],
         guess: &mut Guess,
-        out: &mut Response,
-    ) -> Result<Found, ClassError> {
+        out: &mut ElementResponse,
+    ) -> Result<DeviceState, ClassError> {
         let dt = at.step.map(|s| s.dt);
         let (before, memory) = self.parts(committed);
         let affine = self.viscous.as_ref().map(|v| v.step(dt, memory));
@@ -116,7 +118,7 @@ impl DeviceElement {
         };
         let Some(piston) = self.piston else {
             let (extension, pull, _) = pull_at(0.0)?;
-            return Ok(Found { pull, piston: None, affine, extension });
+            return Ok(DeviceState { pull, piston: None, affine, extension });
         };
         let mut last = None;
         let stand = piston.stand(before.unwrap_or(piston.nominal), dt, |s| {
@@ -128,10 +130,10 @@ impl DeviceElement {
             Some((s, extension, pull)) if s == stand.0 => (extension, pull),
             _ => pull_at(stand.0 - piston.nominal).map(|(extension, pull, _)| (extension, pull))?,
         };
-        Ok(Found { pull, piston: Some(stand), affine, extension })
+        Ok(DeviceState { pull, piston: Some(stand), affine, extension })
     }
 
-    fn remember(&self, at: &Situation, committed: &[f64], trial: &mut [f64], found: &Found) {
+    fn remember(&self, at: &Situation, committed: &[f64], trial: &mut [f64], found: &DeviceState) {
         let (_, memory) = self.parts(committed);
         let (own, rest) = trial.split_at_mut(trial.len().min(usize::from(self.piston.is_some())));
         if let (Some((position, _)), Some(first)) = (found.piston, own.first_mut()) {
@@ -144,14 +146,14 @@ impl DeviceElement {
 }
 
 /// Stiffness of the first end along a direction (N/m).
-fn axial(out: &Response, along: &Vector3<f64>) -> f64 {
+fn axial(out: &ElementResponse, along: &Vector3<f64>) -> f64 {
     out.stiffness.first().map_or(0.0, |k| along.dot(&(k.fixed_view::<3, 3>(0, 0) * along)))
 }
 
 /// Takes the stiffness away with which the tension would change. A link at the first end that grows by da acts as that end moved by
 /// da along the tension t, so that with K the stiffness without control and da such that the tension stays,
 /// K'ij = Kij - (Ki1 t)(t' K1j) / (t' K11 t).
-fn hold(along: &Vector3<f64>, out: &mut Response) {
+fn hold(along: &Vector3<f64>, out: &mut ElementResponse) {
     let axial = axial(out, along);
     let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() else { return };
     if axial <= 0.0 {
@@ -169,7 +171,7 @@ fn hold(along: &Vector3<f64>, out: &mut Response) {
 }
 
 /// Adds a dashpot along the chord between two ends.
-fn damp(dashpot: &Dashpot, ends: &[End], out: &mut Response) {
+fn damp(dashpot: &Dashpot, ends: &[End], out: &mut ElementResponse) {
     let [first, second] = ends else { return };
     let along = second.pose.origin - first.pose.origin;
     let chord = along.norm();
@@ -203,7 +205,7 @@ fn damp(dashpot: &Dashpot, ends: &[End], out: &mut Response) {
 
 impl Element for DeviceElement {
     fn states(&self) -> usize {
-        usize::from(self.piston.is_some()) + self.viscous.as_ref().map_or(0, Viscoelastic::states)
+        usize::from(self.piston.is_some()) + self.viscous.as_ref().map_or(0, ViscoelasticLaw::states)
     }
 
     fn start(&self, state: &mut [f64]) {
@@ -218,7 +220,7 @@ impl Element for DeviceElement {
         committed: &[f64],
         trial: &mut [f64],
         guess: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let found = self.find_forces(at, committed, guess, out)?;
         if found.piston.is_some_and(|(_, does)| does.holds()) {
@@ -231,8 +233,8 @@ impl Element for DeviceElement {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
-        let found = self.find_forces(at, committed, &mut None, &mut Response::default())?;
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
+        let found = self.find_forces(at, committed, &mut None, &mut ElementResponse::default())?;
         let mut summary = self.line.summary_with_link(at.ends, found.extension)?;
         if let Some((position, does)) = found.piston {
             summary.notes.push(does.note().into());

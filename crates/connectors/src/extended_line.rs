@@ -19,7 +19,7 @@ const ACCEPTED_RESIDUAL: f64 = 1e-9;
 
 /// Forces in the line's vertical plane.
 #[derive(Clone, Debug)]
-pub struct Plane {
+pub struct PlaneForces {
     /// On the first end: toward the other, and downward (N).
     pub fairlead: [f64; 2],
     /// On the other end: toward the first, and upward (N).
@@ -30,7 +30,7 @@ pub struct Plane {
     pub coupling: [[f64; 2]; 2],
 }
 
-impl Plane {
+impl PlaneForces {
     /// The forces on both ends, with the direction from the first to the other.
     pub fn wrenches(&self, [ux, uy]: [f64; 2]) -> [Six; 2] {
         let ([h, v], [far_h, far_v]) = (self.fairlead, self.anchor);
@@ -52,7 +52,7 @@ fn rows(m: &Matrix2<f64>) -> [[f64; 2]; 2] {
 /// A place of the line's end with what is there.
 struct Tried {
     at: Vector2<f64>,
-    plane: Plane,
+    plane: PlaneForces,
     /// C.
     give: Matrix2<f64>,
     /// p - y - a t.
@@ -82,8 +82,8 @@ pub fn solve_with_link(
     straight: [f64; 2],
     start: Option<[f64; 2]>,
     size: f64,
-    mut line: impl FnMut(f64, f64) -> Result<Plane, LineError>,
-) -> Result<(Plane, [f64; 2]), LineError> {
+    mut line: impl FnMut(f64, f64) -> Result<PlaneForces, LineError>,
+) -> Result<(PlaneForces, [f64; 2]), LineError> {
     let place = Vector2::from(from);
     let straight = Vector2::from(straight);
     let link = |pull: [f64; 2]| {
@@ -130,7 +130,10 @@ pub fn solve_with_link(
     let (k, give) = (matrix(now.plane.stiffness), now.give);
     let whole = Matrix2::identity() + give * k;
     let inverse = inverse(whole).map_err(|_| LineError::Unproven { residual: f64::NAN, tension })?;
-    let plane =
-        Plane { stiffness: rows(&(k * inverse)), coupling: rows(&(matrix(now.plane.coupling) * inverse)), ..now.plane };
+    let plane = PlaneForces {
+        stiffness: rows(&(k * inverse)),
+        coupling: rows(&(matrix(now.plane.coupling) * inverse)),
+        ..now.plane
+    };
     Ok((plane, now.at.into()))
 }

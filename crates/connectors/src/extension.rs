@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use std::fmt::Debug;
-use windlass_model::{ClassError, End, Guess, Response, Summary};
+use windlass_model::{ClassError, ElementResponse, ElementSummary, End, Guess};
 
 /// A link of `length + compliance T` between the first end and the line, in the direction of the tension T. A negative length takes
 /// as much off the way between the ends.
@@ -26,7 +26,7 @@ impl Extension {
 
 /// How a line pulls on its first end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pull {
+pub struct EndPull {
     /// Tension (N); negative of a spring that pushes.
     pub tension: f64,
     /// Its direction, into the line.
@@ -39,13 +39,19 @@ pub trait Extended: Debug + Send + Sync {
     ///
     /// # Errors
     /// A situation for which no answer could be proven.
-    fn pull(&self, ends: &[End], by: Extension, guess: &mut Guess, out: &mut Response) -> Result<Pull, ClassError>;
+    fn pull(
+        &self,
+        ends: &[End],
+        by: Extension,
+        guess: &mut Guess,
+        out: &mut ElementResponse,
+    ) -> Result<EndPull, ClassError>;
 
     /// What is reported of the line with the link.
     ///
     /// # Errors
     /// As [`Extended::pull`].
-    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError>;
+    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ElementSummary, ClassError>;
 
     /// See [`windlass_model::Element::pushes`].
     fn pushes(&self) -> Option<f64> {

@@ -5,8 +5,8 @@
 //! unbounded plane of the second end's body, so that the push acts where the fender stands, wherever the hull has moved along it.
 
 use super::spring::no_anchor;
-use super::spring_law::{Dashpot, Elastic, Group};
-use super::zero_law::{Contact, Friction, Sense, ZeroLaw};
+use super::spring_law::{Dashpot, Elastic, SpringGroup};
+use super::zero_law::{ContactGeometry, Friction, Sense, ZeroLaw};
 use super::zero_length::ZeroLength;
 use super::{ClassKind, checks, options as o};
 use nalgebra::{Matrix3, Vector3};
@@ -20,8 +20,8 @@ use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FenderState, Guess, Response, Situation,
-    Summary, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
+    FenderState, Guess, Situation, Surroundings,
 };
 
 /// The class type.
@@ -239,10 +239,10 @@ impl ConnectorClass for Fender {
         let other_turn = euler * axes_along(&-self.normal);
         let [first, second] = connection.connector.defined;
         let turn = second.axes.transpose() * first.axes * other_turn;
-        let spring = Group { dofs: vec![0], elastic: Elastic::of_curve(&self.curve), viscous: None };
+        let spring = SpringGroup { dofs: vec![0], elastic: Elastic::of_curve(&self.curve), viscous: None };
         let law = ZeroLaw {
             sense: Sense::Compression,
-            contact: Contact::Whole,
+            contact: ContactGeometry::Whole,
             groups: vec![spring],
             dashpots: self.dashpot.map(|d| (d, [true, false, false])).into_iter().collect(),
             friction: self.friction,
@@ -250,20 +250,20 @@ impl ConnectorClass for Fender {
         };
         let rest = Vector3::x() * self.height;
         let spring = ZeroLength { holder: 1, turn, other_turn, rest, law, listed: vec![(0, None)], rigid: false };
-        Ok(Box::new(Standing { spring, curve: Arc::clone(&self.curve), height: self.height, rated: self.rated }))
+        Ok(Box::new(FenderGeometry { spring, curve: Arc::clone(&self.curve), height: self.height, rated: self.rated }))
     }
 }
 
 /// A fender between its base and its face.
 #[derive(Debug)]
-struct Standing {
+struct FenderGeometry {
     spring: ZeroLength,
     curve: Arc<Points>,
     height: f64,
     rated: f64,
 }
 
-impl Element for Standing {
+impl Element for FenderGeometry {
     fn states(&self) -> usize {
         self.spring.states()
     }
@@ -274,12 +274,12 @@ impl Element for Standing {
         committed: &[f64],
         trial: &mut [f64],
         guess: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         self.spring.evaluate(at, committed, trial, guess, out)
     }
 
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
         let mut told = self.spring.summary(at, committed)?;
         let deflection = told.springs.first().map_or(0.0, |s| (-s.deflection).max(0.0));
         told.springs.clear();

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 /// A line to the hook.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reach {
+pub struct SlingConstraint {
     /// Its node (m).
     pub node: Vector3<f64>,
     /// Its length (m).
@@ -46,7 +46,7 @@ impl SlingObjective {
 const LENGTH_ROUNDING_SHARE: f64 = 1e-9;
 
 /// The best place in which no line is stretched; `None` where the lines do not reach one another.
-pub fn hook(lines: &[Reach], goal: SlingObjective) -> Option<Vector3<f64>> {
+pub fn hook(lines: &[SlingConstraint], goal: SlingObjective) -> Option<Vector3<f64>> {
     let mut places = Vec::new();
     if let SlingObjective::Near(point) = goal {
         places.push(point);
@@ -68,7 +68,7 @@ pub fn hook(lines: &[Reach], goal: SlingObjective) -> Option<Vector3<f64>> {
 }
 
 /// The circle on which two lines end together: its centre, axis and radius.
-fn circle(a: &Reach, b: &Reach) -> Option<(Vector3<f64>, Vector3<f64>, f64)> {
+fn circle(a: &SlingConstraint, b: &SlingConstraint) -> Option<(Vector3<f64>, Vector3<f64>, f64)> {
     let apart = b.node - a.node;
     let distance = apart.norm();
     let axis = apart.try_normalize(0.0)?;
@@ -78,7 +78,12 @@ fn circle(a: &Reach, b: &Reach) -> Option<(Vector3<f64>, Vector3<f64>, f64)> {
 }
 
 /// The places of a circle at the length of a line from its node.
-fn crossing(centre: Vector3<f64>, axis: Vector3<f64>, radius: f64, line: &Reach) -> Option<[Vector3<f64>; 2]> {
+fn crossing(
+    centre: Vector3<f64>,
+    axis: Vector3<f64>,
+    radius: f64,
+    line: &SlingConstraint,
+) -> Option<[Vector3<f64>; 2]> {
     let to = line.node - centre;
     let height = axis.dot(&to);
     let flat = to - axis * height;
@@ -92,7 +97,7 @@ fn crossing(centre: Vector3<f64>, axis: Vector3<f64>, radius: f64, line: &Reach)
 }
 
 /// The hook of a body that hangs from it: the place farthest from the centre of gravity, from a first one upward.
-pub fn hanging(lines: &[Reach], centre: Vector3<f64>, up: Vector3<f64>) -> Option<Vector3<f64>> {
+pub fn hanging(lines: &[SlingConstraint], centre: Vector3<f64>, up: Vector3<f64>) -> Option<Vector3<f64>> {
     /// Most steps; each goes farther from the centre, and slings that meet in a point need two.
     const MAX_STEPS: usize = 500;
     let mut at = hook(lines, SlingObjective::Along(up))?;
@@ -112,9 +117,9 @@ pub fn hanging(lines: &[Reach], centre: Vector3<f64>, up: Vector3<f64>) -> Optio
 mod tests {
     use super::*;
 
-    fn lines(lengths: [f64; 4]) -> Vec<Reach> {
+    fn lines(lengths: [f64; 4]) -> Vec<SlingConstraint> {
         let nodes = [[3.0, 4.0], [-3.0, 4.0], [-3.0, -4.0], [3.0, -4.0]];
-        let make = |([x, y], length): ([f64; 2], f64)| Reach { node: Vector3::new(x, y, 0.0), length };
+        let make = |([x, y], length): ([f64; 2], f64)| SlingConstraint { node: Vector3::new(x, y, 0.0), length };
         nodes.into_iter().zip(lengths).map(make).collect()
     }
 
@@ -138,7 +143,7 @@ mod tests {
 
     #[test]
     fn one_line_points_to_the_boom_and_a_short_one_reaches_nothing() {
-        let one = [Reach { node: Vector3::zeros(), length: 5.0 }];
+        let one = [SlingConstraint { node: Vector3::zeros(), length: 5.0 }];
         let at = hook(&one, SlingObjective::Near(Vector3::new(30.0, 0.0, 40.0))).unwrap();
         assert!((at - Vector3::new(3.0, 0.0, 4.0)).norm() < 1e-12, "{at}");
         assert_eq!(hook(&lines([2.0; 4]), SlingObjective::Along(Vector3::z())), None);
@@ -147,7 +152,7 @@ mod tests {
     #[test]
     fn a_hanging_body_turns_its_centre_of_gravity_below_the_hook() {
         // one sling at the corner: in line with the centre
-        let one = [Reach { node: Vector3::new(3.0, 0.0, 0.0), length: 5.0 }];
+        let one = [SlingConstraint { node: Vector3::new(3.0, 0.0, 0.0), length: 5.0 }];
         let at = hanging(&one, Vector3::new(0.0, 0.0, -4.0), Vector3::z()).unwrap();
         assert!((at - Vector3::new(6.0, 0.0, 4.0)).norm() < 1e-9, "{at}");
     }

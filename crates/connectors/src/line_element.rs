@@ -1,14 +1,16 @@
 //! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
 
-use super::extended_line::{Plane, solve_with_link};
-use super::extension::{Extended, Extension, Pull};
+use super::extended_line::{PlaneForces, solve_with_link};
+use super::extension::{EndPull, Extended, Extension};
 use super::line_profile::LineProfile;
 use super::mooring::{Mooring, too_short, too_short_note};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::borrow::Cow;
 use windlass_base::pose::Six;
-use windlass_catenary::{Bottom, EndForces, Interpolated, Line, LineError, Pulled, Regime, Segment, State};
-use windlass_model::{Anchored, ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
+use windlass_catenary::{EndForces, FlatBottom, Interpolated, Line, LineError, LineState, Pulled, Regime, Segment};
+use windlass_model::{
+    Anchored, ClassError, Element, ElementResponse, ElementSummary, End, Guess, Placement, Situation,
+};
 
 /// Angle (rad) over which forces of a line on a bathymetry are compared: a hundredth of the distance between faces of a long line's
 /// profile, and forces that are proven to 1e-9 leave 1e-5 of the tension over it.
@@ -16,9 +18,9 @@ const AZIMUTH_DIFFERENCE_RAD: f64 = 1e-4;
 
 /// How the forces are found.
 #[derive(Clone, Debug)]
-enum Solver {
+enum ForceMethod {
     /// One segment without springs: the quickest.
-    Segment { segment: Segment, bottom: Option<Bottom> },
+    Segment { segment: Segment, bottom: Option<FlatBottom> },
     /// The whole line.
     Whole,
     /// Interpolated in its table, which is made anew at every elevation of its fairlead.
@@ -29,13 +31,13 @@ enum Solver {
 #[derive(Clone, Debug)]
 pub struct LineElement {
     mooring: Mooring,
-    solver: Solver,
+    solver: ForceMethod,
 }
 
 /// What the solver of a line remembers.
 enum Last {
     Segment(EndForces),
-    Whole(Box<State>),
+    Whole(Box<LineState>),
     Table(Box<TableAt>),
 }
 
@@ -64,12 +66,12 @@ impl LineElement {
         }
         let flat = line.floor().is_none_or(|f| f.slope == 0.0 && f.elevation == line.anchor());
         let solver = match line.single() {
-            _ if mooring.tabulated => Solver::Table,
+            _ if mooring.tabulated => ForceMethod::Table,
             Some(segment) if flat && mooring.profile.is_none() => {
-                let bottom = line.floor().map(|f| Bottom { friction: f.friction });
-                Solver::Segment { segment, bottom }
+                let bottom = line.floor().map(|f| FlatBottom { friction: f.friction });
+                ForceMethod::Segment { segment, bottom }
             }
-            _ => Solver::Whole,
+            _ => ForceMethod::Whole,
         };
         Ok(LineElement { mooring, solver })
     }
@@ -86,9 +88,9 @@ impl LineElement {
         (x, along, z)
     }
 
-    fn plane(&self, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
+    fn plane(&self, x: f64, z: f64, guess: &mut Guess) -> Result<PlaneForces, LineError> {
         match &self.solver {
-            Solver::Segment { segment, bottom } => {
+            ForceMethod::Segment { segment, bottom } => {
                 let rise = z - self.mooring.line.anchor();
                 let last = guess.as_mut().and_then(|g| g.downcast_mut::<Last>());
                 let found = match last {
@@ -103,20 +105,20 @@ impl LineElement {
                         found
                     }
                 };
-                Ok(Plane {
+                Ok(PlaneForces {
                     fairlead: found.fairlead,
                     anchor: found.anchor,
                     stiffness: found.stiffness,
                     coupling: at_anchor(&found, bottom.map_or(0.0, |b| b.friction)),
                 })
             }
-            Solver::Whole => whole(&self.mooring.line, x, z, guess),
-            Solver::Table => self.interpolate_forces(x, z, guess),
+            ForceMethod::Whole => whole(&self.mooring.line, x, z, guess),
+            ForceMethod::Table => self.interpolate_forces(x, z, guess),
         }
     }
 
     /// The forces from the table at the elevation `z` of the fairlead; exact ones nearer than its first row.
-    fn interpolate_forces(&self, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
+    fn interpolate_forces(&self, x: f64, z: f64, guess: &mut Guess) -> Result<PlaneForces, LineError> {
         let azimuth = self.mooring.profile.as_ref().map(LineProfile::azimuth);
         let kept = match guess.take().map(|g| g.downcast::<Last>()) {
             Some(Ok(last)) => {
@@ -140,7 +142,7 @@ impl LineElement {
         *guess = Some(last);
         match found {
             Some(Pulled { fairlead, anchor, stiffness, coupling }) => {
-                Ok(Plane { fairlead, anchor, stiffness, coupling })
+                Ok(PlaneForces { fairlead, anchor, stiffness, coupling })
             }
             None => self.mooring.line.at_distance(x, z).map(|state| plane_of(&state)),
         }
@@ -153,7 +155,7 @@ impl LineElement {
         z: f64,
         by: Extension,
         guess: &mut Guess,
-    ) -> Result<(Plane, [f64; 2]), LineError> {
+    ) -> Result<(PlaneForces, [f64; 2]), LineError> {
         if by == Extension::NONE {
             return self.plane(x, z, guess).map(|plane| (plane, [x, z]));
         }
@@ -169,7 +171,13 @@ impl LineElement {
     }
 
     /// The same; none of a weightless line that is not tight.
-    fn tight(&self, x: f64, z: f64, by: Extension, guess: &mut Guess) -> Result<Option<(Plane, [f64; 2])>, ClassError> {
+    fn tight(
+        &self,
+        x: f64,
+        z: f64,
+        by: Extension,
+        guess: &mut Guess,
+    ) -> Result<Option<(PlaneForces, [f64; 2])>, ClassError> {
         match self.forces_with_link(x, z, by, guess) {
             Ok(found) => Ok(Some(found)),
             Err(LineError::Undetermined) if self.mooring.weightless() => Ok(None),
@@ -197,7 +205,7 @@ impl LineElement {
             return Ok([[0.0; 2]; 2]);
         }
         let [ux, uy] = along;
-        let turned = |angle: f64| -> Result<Plane, ClassError> {
+        let turned = |angle: f64| -> Result<PlaneForces, ClassError> {
             let (sin, cos) = angle.sin_cos();
             let there = self.facing([ux * cos - uy * sin, uy * cos + ux * sin])?;
             let found = there.forces_with_link(x, z, by, &mut None).map_err(|e| self.mooring.error(&e))?;
@@ -246,8 +254,8 @@ fn at_anchor(found: &EndForces, friction: f64) -> [[f64; 2]; 2] {
     }
 }
 
-fn plane_of(state: &State) -> Plane {
-    Plane {
+fn plane_of(state: &LineState) -> PlaneForces {
+    PlaneForces {
         fairlead: [state.force, state.top_vertical],
         anchor: [state.anchor_horizontal, state.anchor_vertical],
         stiffness: state.stiffness,
@@ -255,7 +263,7 @@ fn plane_of(state: &State) -> Plane {
     }
 }
 
-fn whole(line: &Line, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
+fn whole(line: &Line, x: f64, z: f64, guess: &mut Guess) -> Result<PlaneForces, LineError> {
     let last = guess.as_ref().and_then(|g| g.downcast_ref::<Last>());
     let state = match last {
         Some(Last::Whole(last)) => line.follow(x, z, last)?,
@@ -305,12 +313,18 @@ fn xx_of(k: [[f64; 2]; 2]) -> f64 {
 }
 
 impl Extended for LineElement {
-    fn pull(&self, ends: &[End], by: Extension, guess: &mut Guess, out: &mut Response) -> Result<Pull, ClassError> {
+    fn pull(
+        &self,
+        ends: &[End],
+        by: Extension,
+        guess: &mut Guess,
+        out: &mut ElementResponse,
+    ) -> Result<EndPull, ClassError> {
         out.clear(2);
         let (x, along, z) = self.horizontal_distance(ends);
         let here = self.facing(along)?;
         let Some((plane, _)) = here.tight(x, z, by, guess)? else {
-            return Ok(Pull { tension: 0.0, along: Vector3::zeros() });
+            return Ok(EndPull { tension: 0.0, along: Vector3::zeros() });
         };
         let ([h, _], [far_h, _]) = (plane.fairlead, plane.anchor);
         let over = |force: f64, k: [[f64; 2]; 2]| if x > 0.0 { force / x } else { xx_of(k) };
@@ -327,10 +341,10 @@ impl Extended for LineElement {
         if let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() {
             (*k11, *k12, *k21, *k22) = (first, -first, other, -other);
         }
-        Ok(Pull { tension: pull.norm(), along: pull.try_normalize(0.0).unwrap_or_default() })
+        Ok(EndPull { tension: pull.norm(), along: pull.try_normalize(0.0).unwrap_or_default() })
     }
 
-    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError> {
+    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ElementSummary, ClassError> {
         let mut ends = ends.to_vec();
         if by != Extension::NONE {
             let (x, [ux, uy], z) = self.horizontal_distance(&ends);
@@ -354,7 +368,7 @@ impl Extended for LineElement {
         let too_short = too_short(chord / self.mooring.line.length(), loads.ratio);
         let mut notes = loads.notes;
         notes.extend(too_short.map(too_short_note));
-        Ok(Summary {
+        Ok(ElementSummary {
             tension: Some(loads.tension),
             ratio: Some(loads.ratio),
             critical: Some(loads.critical),
@@ -376,7 +390,7 @@ impl Element for LineElement {
         _committed: &[f64],
         _trial: &mut [f64],
         guess: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
     }
@@ -410,7 +424,7 @@ impl Element for LineElement {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
+    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<ElementSummary, ClassError> {
         self.summary_with_link(at.ends, Extension::NONE)
     }
 }

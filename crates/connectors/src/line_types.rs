@@ -11,19 +11,19 @@ use std::sync::LazyLock;
 const TEXT: &str = include_str!("../data/line_types.toml");
 
 /// Read once; the test below holds that the shipped text can be.
-static LIBRARY: LazyLock<Library> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());
+static LIBRARY: LazyLock<LineTypeLibrary> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());
 
 /// The shipped library.
-pub fn library() -> &'static Library {
+pub fn library() -> &'static LineTypeLibrary {
     &LIBRARY
 }
 
 /// Line types and the sources of their formulas.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Library {
+pub struct LineTypeLibrary {
     /// Sources by the key that formulas use.
-    pub sources: BTreeMap<String, Source>,
+    pub sources: BTreeMap<String, FormulaSource>,
     /// The types, in the order of the file.
     pub types: Vec<LineType>,
 }
@@ -31,7 +31,7 @@ pub struct Library {
 /// Where a formula comes from.
 #[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Source {
+pub struct FormulaSource {
     /// The document, and the formula where it is one of several.
     pub text: String,
     /// How sure its numbers are.
@@ -68,7 +68,7 @@ impl SourceConfidence {
 /// `d2 d**2 + d3 d**3` with the nominal diameter d in m; the value in kg/m or N.
 #[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Formula {
+pub struct DiameterFormula {
     /// Coefficient of d**2.
     pub d2: f64,
     /// Coefficient of d**3.
@@ -78,7 +78,7 @@ pub struct Formula {
     pub source: String,
 }
 
-impl Formula {
+impl DiameterFormula {
     /// Its value at a nominal diameter (m).
     pub fn evaluate(&self, diameter: f64) -> f64 {
         diameter * diameter * (self.d2 + self.d3 * diameter)
@@ -110,7 +110,7 @@ pub struct Drag {
 /// The nominal diameters formulas are held for.
 #[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Range {
+pub struct DiameterRange {
     /// Least nominal diameter (m).
     pub least: f64,
     /// Largest nominal diameter (m).
@@ -128,15 +128,15 @@ pub struct LineType {
     /// What it is, in a line.
     pub what: String,
     /// The nominal diameters (m) the formulas are held for.
-    pub diameter: Range,
+    pub diameter: DiameterRange,
     /// Mass per length in air, dry (kg/m).
-    pub mass: Formula,
+    pub mass: DiameterFormula,
     /// Diameter of the cylinder of the same displaced volume.
     pub volume: Ratio,
     /// Axial stiffness (N).
-    pub ea: Formula,
+    pub ea: DiameterFormula,
     /// Minimum breaking load (N).
-    pub breaking: Formula,
+    pub breaking: DiameterFormula,
     /// Diameter for drag.
     pub drag: Drag,
 }
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn the_shipped_library_parses_and_names_every_source_it_uses() {
-        let read: Result<Library, _> = toml::from_str(TEXT);
+        let read: Result<LineTypeLibrary, _> = toml::from_str(TEXT);
         let read = read.unwrap();
         assert_eq!(read.types.len(), 18);
         let mut used: Vec<&str> = read.types.iter().flat_map(|t| t.sources().map(|(_, key)| key)).collect();
@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn a_key_the_library_does_not_know_is_no_library() {
-        let wrong: Result<Library, _> = toml::from_str(&TEXT.replacen("\nvolume =", "\nvolumme =", 1));
+        let wrong: Result<LineTypeLibrary, _> = toml::from_str(&TEXT.replacen("\nvolume =", "\nvolumme =", 1));
         assert!(wrong.is_err());
     }
 

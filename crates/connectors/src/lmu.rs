@@ -4,7 +4,7 @@
 
 use super::foundation::OPTIONS;
 use super::spring::{Springs, no_anchor, restraint_table};
-use super::zero_law::{Contact, Sense};
+use super::zero_law::{ContactGeometry, Sense};
 use super::zero_length::{ZeroLength, element_turns};
 use super::{ClassKind, checks, options as o};
 use nalgebra::{Matrix3, Vector3};
@@ -99,7 +99,7 @@ impl ConnectorClass for PinInCone {
         // the cone carries the axes, the pin is displaced in them
         let holder = 1;
         let (turn, other_turn) = element_turns(connection, holder, UPRIGHT);
-        let contact = Contact::Cone { length: self.length, tangent: self.tangent() };
+        let contact = ContactGeometry::Cone { length: self.length, tangent: self.tangent() };
         let law = self.springs.law(connection, Sense::Compression, contact)?;
         let listed = self.springs.reported_stiffnesses();
         Ok(Box::new(ZeroLength { holder, turn, other_turn, rest: Vector3::zeros(), law, listed, rigid: false }))

@@ -1,7 +1,7 @@
 //! What a mooring line does to what it is attached to: exactly, or from its table.
 
 use super::mooring::{Mooring, line_error};
-use windlass_catenary::{Floor, FromTable, Interpolated, LineError};
+use windlass_catenary::{FromTable, Interpolated, LineError, SeabedModel};
 use windlass_model::{ClassError, Condition, LineChange, LineLoads};
 
 impl Mooring {
@@ -91,13 +91,13 @@ impl Mooring {
     /// A change of what it does not have.
     pub fn with_change(&self, change: LineChange) -> Result<Mooring, ClassError> {
         let line = self.line.clone();
-        let floor = |of: fn(f64, Floor) -> Floor, value: f64| {
+        let floor = |of: fn(f64, SeabedModel) -> SeabedModel, value: f64| {
             line.floor().map(|f| of(value, f)).ok_or_else(|| ClassError::new("the line sees no bottom"))
         };
         let mut profile = self.profile.clone();
         let made = match change {
             LineChange::Friction(value) => {
-                let floor = floor(|friction, f| Floor { friction, ..f }, value)?;
+                let floor = floor(|friction, f| SeabedModel { friction, ..f }, value)?;
                 profile = profile.map(|p| p.with_friction(value));
                 match &profile {
                     Some(profile) => profile.lay(line),
@@ -105,7 +105,7 @@ impl Mooring {
                 }
             }
             LineChange::Slope(value) => {
-                let floor = floor(|slope, f| Floor { slope, ..f }, value)?;
+                let floor = floor(|slope, f| SeabedModel { slope, ..f }, value)?;
                 profile = None;
                 line.with_seabed(Some(floor))
             }

@@ -10,10 +10,11 @@ use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_catenary::{
-    Aim, Heap, Joint, Line, LineError, MissingRow, Row, Segment, SegmentState, ShapePoint, State, StretchLaw, table,
+    Aim, Heap, Joint, Line, LineError, LineState, MissingRow, Segment, SegmentState, ShapePoint, StretchLaw, TableRow,
+    table,
 };
 use windlass_model::{
-    AbsentRow, ClassError, Condition, Configuration, Element, FoundLength, LineChange, LineLoads, LineModel, Note,
+    AbsentRow, ClassError, Condition, Element, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, Note,
     Placement, QUASI_STATIC,
 };
 
@@ -68,7 +69,7 @@ impl Mooring {
         Ok(self.place.span())
     }
 
-    pub(super) fn state(&self, condition: Condition) -> Result<State, ClassError> {
+    pub(super) fn state(&self, condition: Condition) -> Result<LineState, ClassError> {
         let z = self.fairlead();
         let found = match condition {
             Condition::Placed => self.line.at_distance(self.distance_and_direction()?.0, z),
@@ -81,7 +82,7 @@ impl Mooring {
     }
 
     /// The largest tension over own break, and the segment that has it, from 1.
-    pub(super) fn ratio(&self, state: &State) -> (f64, usize) {
+    pub(super) fn ratio(&self, state: &LineState) -> (f64, usize) {
         let one = |s: &SegmentState| s.top_tension.max(s.bottom_tension);
         state.segments.iter().zip(&self.breaks).enumerate().fold((0.0, 1), |best, (i, (s, limit))| {
             let ratio = one(s) / limit;
@@ -90,7 +91,7 @@ impl Mooring {
     }
 
     /// As [`Self::ratio`], of the segments whose break was given.
-    pub(super) fn over_given_break(&self, state: &State) -> Option<(f64, usize)> {
+    pub(super) fn over_given_break(&self, state: &LineState) -> Option<(f64, usize)> {
         let limits = self.breaks.iter().zip(&self.breaks_given);
         let ratios = state.segments.iter().zip(limits).enumerate().filter(|(_, (_, (_, given)))| **given);
         let one = |(i, (s, (limit, _))): (usize, (&SegmentState, (&f64, _)))| {
@@ -100,7 +101,7 @@ impl Mooring {
     }
 
     /// What is dangerous or surprising about a state.
-    pub(super) fn remarks(&self, state: &State) -> Vec<Note> {
+    pub(super) fn remarks(&self, state: &LineState) -> Vec<Note> {
         let mut notes = self.notes.clone();
         for (segment, _) in &state.below_bottom {
             let text = format!(
@@ -134,7 +135,7 @@ impl Mooring {
     }
 
     /// Where and by how much a line that sees neither passes below the bottom, and above the water surface.
-    fn crossings(&self, state: &State) -> Vec<Note> {
+    fn crossings(&self, state: &LineState) -> Vec<Note> {
         let shape = self.line.shape(state, CROSSING_POINTS);
         let Some(first) = shape.first() else { return Vec::new() };
         // an end at an elevation is computed with rounding
@@ -156,12 +157,12 @@ impl Mooring {
     }
 
     /// The rows of its table, and those without a configuration.
-    pub(super) fn rows(&self) -> Result<(Vec<Row>, Vec<MissingRow>), ClassError> {
+    pub(super) fn rows(&self) -> Result<(Vec<TableRow>, Vec<MissingRow>), ClassError> {
         self.table(self.fairlead()).map_err(|e| self.error(&e))
     }
 
     /// The same with its fairlead at an elevation (m).
-    pub(super) fn table(&self, fairlead: f64) -> Result<(Vec<Row>, Vec<MissingRow>), LineError> {
+    pub(super) fn table(&self, fairlead: f64) -> Result<(Vec<TableRow>, Vec<MissingRow>), LineError> {
         table(&self.line, &self.breaks, self.largest, fairlead)
     }
 }
@@ -348,10 +349,10 @@ impl LineModel for Mooring {
         Ok(out)
     }
 
-    fn configuration(&self, condition: Condition) -> Result<Configuration, ClassError> {
+    fn configuration(&self, condition: Condition) -> Result<LineConfiguration, ClassError> {
         let state = self.state(condition)?;
         let (ratio, critical) = self.ratio(&state);
-        Ok(Configuration {
+        Ok(LineConfiguration {
             distance: state.x,
             horizontal: state.force,
             vertical: state.top_vertical,
@@ -402,7 +403,7 @@ impl Mooring {
         AbsentRow { number: row.number, error: self.error(&row.error) }
     }
 
-    fn profile_point(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>) -> ProfilePoint {
+    fn profile_point(&self, state: &LineState, point: &ShapePoint, next: Option<&ShapePoint>) -> ProfilePoint {
         let near = |x: f64, z: f64| (point.x - x).abs() + (point.z - z).abs() <= 1e-9 * (self.line.length() + x.abs());
         // less than what a solution is proven to is no force
         let force = |f: f64| if f.abs() <= 1e-9 * state.top_tension { 0.0 } else { f };

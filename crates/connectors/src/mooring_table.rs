@@ -3,15 +3,15 @@
 use super::mooring::Mooring;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_catenary::{Buoy, JointState, MissingRow, Row};
+use windlass_catenary::{Buoy, JointState, MissingRow, TableRow};
 use windlass_model::QUASI_STATIC;
 
 /// The twelve columns of TABLE [MOSES-RUNS con_d]; a row without a configuration has its force alone.
-pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[MissingRow]) -> Table {
+pub fn report(mooring: &Mooring, connector: &str, found: &[TableRow], missing: &[MissingRow]) -> Table {
     let rows = merge_missing_rows(found, missing);
     let bottom = mooring.line.floor().map(|f| f.elevation).or(mooring.bottom);
     let force_of = |number: usize| missing.iter().find(|m| m.number == number).map(|m| m.force);
-    let outcomes: Vec<Result<&Row, Option<f64>>> =
+    let outcomes: Vec<Result<&TableRow, Option<f64>>> =
         rows.iter().enumerate().map(|(index, row)| row.ok_or_else(|| force_of(index + 1))).collect();
     let mut out = Table::new(format!("Properties of Line {connector}"))
         .fact("Model", QUASI_STATIC, Dim::None)
@@ -41,11 +41,11 @@ pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[Miss
             row.ok().and_then(first_joint).map(|j| j.lift)
         })
         .build();
-    let is = |which: fn(&Row) -> bool| move |row: &Option<&Row>| row.is_some_and(which);
+    let is = |which: fn(&TableRow) -> bool| move |row: &Option<&TableRow>| row.is_some_and(which);
     if let Some(first) = rows.iter().position(is(|r| r.ratio > 1.0)) {
         out.note(format!("{} beyond the breaking tension (Max T/TB above 1)", rows_from(first, rows.len() - 1)));
     }
-    let buoy = |row: &Option<&Row>| row.and_then(|r| r.state.joints.iter().find_map(|j| j.buoy));
+    let buoy = |row: &Option<&TableRow>| row.and_then(|r| r.state.joints.iter().find_map(|j| j.buoy));
     let states: Vec<Option<Buoy>> = rows.iter().map(buoy).collect();
     out.notes.extend(buoy_notes(&states));
     out.notes.extend(mooring.notes.iter().map(|n| n.to_string()));
@@ -64,12 +64,12 @@ pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[Miss
 }
 
 /// The joint next to the fairlead.
-fn first_joint(row: &Row) -> Option<&JointState> {
+fn first_joint(row: &TableRow) -> Option<&JointState> {
     row.state.joints.first()
 }
 
 /// The rows of a table in their order, those without a configuration among them.
-fn merge_missing_rows<'a>(found: &'a [Row], missing: &[MissingRow]) -> Vec<Option<&'a Row>> {
+fn merge_missing_rows<'a>(found: &'a [TableRow], missing: &[MissingRow]) -> Vec<Option<&'a TableRow>> {
     let mut found = found.iter();
     let all = found.len() + missing.len();
     (1..=all).map(|n| if missing.iter().any(|m| m.number == n) { None } else { found.next() }).collect()

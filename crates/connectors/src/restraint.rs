@@ -4,8 +4,8 @@
 
 use super::checks;
 use super::spring::{Restraint, no_anchor, restraint_table};
-use super::spring_law::{Elastic, Group};
-use super::zero_law::{Contact, Friction, Sense, ZeroLaw};
+use super::spring_law::{Elastic, SpringGroup};
+use super::zero_law::{ContactGeometry, Friction, Sense, ZeroLaw};
 use super::zero_length::{ZeroLength, defined_displacement, element_turns};
 use nalgebra::Matrix3;
 use windlass_base::diagnostic::Outcome;
@@ -59,10 +59,11 @@ impl ConnectorClass for Restraining {
             let dof = |r: &Restraint| super::options::DOFS.iter().position(|d| *d == r.dof);
             self.restraints.iter().filter_map(move |r| dof(r).map(|d| (d, r.stiffness)))
         };
-        let group = |(dof, stiffness)| Group { dofs: vec![dof], elastic: Elastic::new(stiffness, None), viscous: None };
+        let group =
+            |(dof, stiffness)| SpringGroup { dofs: vec![dof], elastic: Elastic::new(stiffness, None), viscous: None };
         let law = ZeroLaw {
             sense: self.sense,
-            contact: Contact::Whole,
+            contact: ContactGeometry::Whole,
             groups: list().map(group).collect(),
             dashpots: Vec::new(),
             friction: self.friction,

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-FLEX ROD]. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `windlass_line_dynamics`.
 
-use super::dynamic_line::{self as m, Description, DynamicLine, Flexure, Hold, Part, Seabed};
+use super::dynamic_line::{self as m, DynamicLine, EndFixity, Flexure, LineDescription, LinePart, Seabed};
 use super::per_line::PerLineOptions;
 use super::section::{LineSection, properties};
 use super::{ClassKind, append_all, checks, options as o};
@@ -16,7 +16,7 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, segmented: true, build: append_all::<Rod>, idle: &[] };
+pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, segmented: true, build: append_all::<RodClass>, idle: &[] };
 
 const NO_TORSION: &str = "a rod has no torsion";
 const NO_SHEAR: &str = "a rod does not deform in shear (Euler and Bernoulli)";
@@ -87,7 +87,7 @@ const PER_LINE: [OptionSpec; 4] = [m::SEABED, o::FRICTION, o::SLOPE, o::DEPANCHO
 const MAX_ELEMENTS: i64 = windlass_line_dynamics::MAX_ELEMENTS as i64;
 
 #[derive(Debug, Default)]
-struct Rod {
+struct RodClass {
     per_line: PerLineOptions,
     /// Every `-CLAMP`: two at most.
     clamps: Vec<Given>,
@@ -96,20 +96,20 @@ struct Rod {
     sections: Vec<LineSection>,
     flexures: Vec<Flexure>,
     seabed: Seabed,
-    holds: [Option<Hold>; 2],
+    holds: [Option<EndFixity>; 2],
     slam: bool,
 }
 
-impl Rod {
-    fn description(&self, around: &Surroundings) -> Description {
+impl RodClass {
+    fn description(&self, around: &Surroundings) -> LineDescription {
         let count = |s: &LineSection| usize::try_from(s.refine).unwrap_or(1).max(1);
-        let part = |(s, f): (&LineSection, &Flexure)| -> Part { f.part(s, count(s), around) };
+        let part = |(s, f): (&LineSection, &Flexure)| -> LinePart { f.part(s, count(s), around) };
         let parts = self.sections.iter().zip(&self.flexures).map(part).collect();
-        Description { slam: self.slam, ..m::description("ROD", parts, self.seabed, self.holds) }
+        LineDescription { slam: self.slam, ..m::description("ROD", parts, self.seabed, self.holds) }
     }
 }
 
-impl ConnectorClass for Rod {
+impl ConnectorClass for RodClass {
     fn kind(&self) -> &'static str {
         "ROD"
     }

@@ -3,7 +3,7 @@
 //! Source: [MOSES-FLEX ROLLER]. Gaps are in inches or mm; the second end is taken care of by the assembly.
 
 use super::spring::{Restraint, Springs, no_anchor, restraint_table, restraints};
-use super::zero_law::{Contact, Sense};
+use super::zero_law::{ContactGeometry, Sense};
 use super::{ClassKind, checks, options as o};
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -134,6 +134,6 @@ impl ConnectorClass for Roller {
     /// Between the node and the point of the pipe that an assembly gives: it asks with `to_ground` false.
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         checks::in_assembly("ROLLER", connection)?;
-        self.springs.element(connection, Sense::Both, Contact::Gaps(self.gaps()), Vector3::zeros())
+        self.springs.element(connection, Sense::Both, ContactGeometry::Gaps(self.gaps()), Vector3::zeros())
     }
 }

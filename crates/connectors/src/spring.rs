@@ -3,9 +3,9 @@
 //! Source: [MOSES-FLEX GSPR].
 
 use super::mooring::no_curve;
-use super::spring_law::{Dashpot, Elastic, Group};
-use super::viscous::Viscoelastic;
-use super::zero_law::{Contact, Friction, Sense, ZeroLaw};
+use super::spring_law::{Dashpot, Elastic, SpringGroup};
+use super::viscous::ViscoelasticLaw;
+use super::zero_law::{ContactGeometry, Friction, Sense, ZeroLaw};
 use super::zero_length::{ZeroLength, element_turns};
 use super::{checks, options as o};
 use nalgebra::{Matrix3, Vector3};
@@ -170,9 +170,9 @@ impl Springs {
     ///
     /// # Errors
     /// A convolution curve that is not there.
-    pub fn law(&self, connection: &Connection, sense: Sense, contact: Contact) -> Result<ZeroLaw, ClassError> {
+    pub fn law(&self, connection: &Connection, sense: Sense, contact: ContactGeometry) -> Result<ZeroLaw, ClassError> {
         let all = self.dof_stiffnesses();
-        let mut groups: Vec<Group> = Vec::new();
+        let mut groups: Vec<SpringGroup> = Vec::new();
         for (dof, stiffness, _) in &all {
             // of a symmetric element the second lateral translation acts with the first
             if self.symmetric && *dof == 2 {
@@ -183,7 +183,7 @@ impl Springs {
             }
             let curve = self.curves.get(*dof).and_then(Option::as_deref);
             let elastic = Elastic::new(*stiffness, curve);
-            groups.push(Group { dofs: vec![*dof], elastic, viscous: self.viscous(*dof, connection)? });
+            groups.push(SpringGroup { dofs: vec![*dof], elastic, viscous: self.viscous(*dof, connection)? });
         }
         let mut dashpots = Vec::new();
         for (axis, dashpot) in self.dashpots.iter().enumerate() {
@@ -198,7 +198,7 @@ impl Springs {
         Ok(ZeroLaw { sense, contact, groups, dashpots, friction, pushes_only: false })
     }
 
-    fn viscous(&self, dof: usize, connection: &Connection) -> Result<Option<Viscoelastic>, ClassError> {
+    fn viscous(&self, dof: usize, connection: &Connection) -> Result<Option<ViscoelasticLaw>, ClassError> {
         // Z of a symmetric element stands for Y and the other way round
         let like = |d: usize| if self.symmetric && d % 3 == 2 { d - 1 } else { d };
         let Some((_, name, span)) = self.convolutions.iter().find(|(d, ..)| like(*d) == like(dof)) else {
@@ -206,7 +206,7 @@ impl Springs {
         };
         let missing = || no_curve(name, *span);
         let curve = (connection.curve)(name).ok_or_else(missing)?;
-        let fit = Viscoelastic::fit(curve).ok_or_else(missing)?;
+        let fit = ViscoelasticLaw::fit(curve).ok_or_else(missing)?;
         let factor = if dof > 2 { curve.metres * curve.metres } else { 1.0 };
         Ok(Some(fit.law.times(factor)))
     }
@@ -219,7 +219,7 @@ impl Springs {
         &self,
         connection: &Connection,
         sense: Sense,
-        contact: Contact,
+        contact: ContactGeometry,
         rest: Vector3<f64>,
     ) -> Result<Box<dyn Element>, ClassError> {
         let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
@@ -321,7 +321,7 @@ impl ConnectorClass for Generalized {
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
-        self.springs.element(connection, self.sense, Contact::Whole, Vector3::x() * self.offset)
+        self.springs.element(connection, self.sense, ContactGeometry::Whole, Vector3::x() * self.offset)
     }
 }
 

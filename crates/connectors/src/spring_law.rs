@@ -3,7 +3,7 @@
 //! Source: [MOSES-FLEX -X_PY, -X_DAMPING, -FRICTION].
 
 use super::options::X_DAMPING;
-use super::viscous::{Affine, Viscoelastic};
+use super::viscous::{Affine, ViscoelasticLaw};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use windlass_base::values::{Args, Given};
 use windlass_language::spec::OptionSpec;
@@ -129,16 +129,16 @@ pub fn rubbing(rate: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
 
 /// The springs of one degree of freedom, or of two that act by their resultant: an elastic law in series with a viscoelastic one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Group {
+pub struct SpringGroup {
     /// Degrees of freedom, 0 to 5.
     pub dofs: Vec<usize>,
     /// Springs without memory.
     pub elastic: Elastic,
     /// The spring of -CONVOLUTION.
-    pub viscous: Option<Viscoelastic>,
+    pub viscous: Option<ViscoelasticLaw>,
 }
 
-impl Group {
+impl SpringGroup {
     /// Number of values of its state.
     pub fn states(&self) -> usize {
         self.viscous.as_ref().map_or(0, |v| self.dofs.len() * v.states())

@@ -14,8 +14,8 @@ use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
-    Surroundings, TetherSection, TetherUse,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess,
+    Situation, Surroundings, TetherSection, TetherUse,
 };
 
 /// The class type TETHER: an AQWA tether/riser section.
@@ -178,7 +178,7 @@ struct Bar {
 }
 
 /// The tension of a bar where it is.
-struct Pull {
+struct BarTension {
     /// Unit vector from the first end to the second.
     toward: Vector3<f64>,
     distance: f64,
@@ -209,7 +209,7 @@ impl Bar {
         }
     }
 
-    fn pull(&self, at: &Situation) -> Result<Pull, ClassError> {
+    fn pull(&self, at: &Situation) -> Result<BarTension, ClassError> {
         let [first, second] = at.ends else { return Err(ClassError::new("a tether has two ends")) };
         let chord = second.pose.origin - first.pose.origin;
         let distance = chord.norm();
@@ -237,7 +237,7 @@ impl Bar {
             let along = toward * self.stiffness;
             [of_depth(depths[0]) - along, of_depth(depths[1]) + along]
         };
-        Ok(Pull { toward, distance, weight, tension: taut.max(hanging), slopes, slack })
+        Ok(BarTension { toward, distance, weight, tension: taut.max(hanging), slopes, slack })
     }
 }
 
@@ -248,7 +248,7 @@ impl Element for Bar {
         _: &[f64],
         _: &mut [f64],
         _: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         out.clear(2);
         if self.towed {
@@ -269,10 +269,10 @@ impl Element for Bar {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, _: &[f64]) -> Result<Summary, ClassError> {
+    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
         if self.towed {
             let notes = vec!["a towed tether exerts nothing at rest: TDOM -TETHERS runs it".into()];
-            return Ok(Summary { solution: "exact", notes, ..Summary::default() });
+            return Ok(ElementSummary { solution: "exact", notes, ..ElementSummary::default() });
         }
         let found = self.pull(at)?;
         let mut notes = Vec::new();
@@ -283,6 +283,6 @@ impl Element for Bar {
             notes.push("warning: it is slack".into());
         }
         let at_fairlead = found.tension - 0.5 * found.toward.z * found.weight;
-        Ok(Summary { tension: Some(at_fairlead), solution: "exact", notes, ..Summary::default() })
+        Ok(ElementSummary { tension: Some(at_fairlead), solution: "exact", notes, ..ElementSummary::default() })
     }
 }

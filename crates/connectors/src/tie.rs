@@ -10,13 +10,13 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Note, Response, Situation, Summary,
-    Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess,
+    Note, Situation, Surroundings,
 };
 
 /// The force of a tie on its first end, toward the second.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tie {
+pub struct TieForce {
     /// AE (N).
     pub ea: f64,
     /// Unstretched length (m).
@@ -27,7 +27,7 @@ pub struct Tie {
     pub break_is_given: bool,
 }
 
-impl Tie {
+impl TieForce {
     /// Tension at a distance of its ends (N), and its slope (N/m).
     pub fn tension(&self, distance: f64) -> (f64, f64) {
         let stiffness = self.ea / self.length;
@@ -42,16 +42,16 @@ impl Tie {
     }
 }
 
-impl Element for Tie {
+impl Element for TieForce {
     fn evaluate(
         &self,
         at: &Situation,
         _: &[f64],
         _: &mut [f64],
         _: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
-        let (apart, distance) = Tie::chord(at)?;
+        let (apart, distance) = TieForce::chord(at)?;
         let (tension, slope) = self.tension(distance);
         out.clear(2);
         if tension == 0.0 {
@@ -68,8 +68,8 @@ impl Element for Tie {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, _: &[f64]) -> Result<Summary, ClassError> {
-        let (_, distance) = Tie::chord(at)?;
+    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
+        let (_, distance) = TieForce::chord(at)?;
         let (tension, _) = self.tension(distance);
         let ratio = tension / self.breaking;
         let mut notes: Vec<Note> = Vec::new();
@@ -81,7 +81,15 @@ impl Element for Tie {
         }
         let over_given_break = self.break_is_given.then_some((ratio, 1));
         let (tension, ratio, critical) = (Some(tension), Some(ratio), Some(1));
-        Ok(Summary { tension, ratio, critical, over_given_break, solution: "exact", notes, ..Summary::default() })
+        Ok(ElementSummary {
+            tension,
+            ratio,
+            critical,
+            over_given_break,
+            solution: "exact",
+            notes,
+            ..ElementSummary::default()
+        })
     }
 }
 
@@ -132,6 +140,11 @@ impl ConnectorClass for TieClass {
         let section = self.section.ok_or_else(|| ClassError::new("the class has no record"))?;
         checks::in_assembly(self.kind, connection)?;
         let length = connection.connector.first_length.unwrap_or(section.length);
-        Ok(Box::new(Tie { ea: section.ea, length, breaking: section.breaking, break_is_given: section.break_is_given }))
+        Ok(Box::new(TieForce {
+            ea: section.ea,
+            length,
+            breaking: section.breaking,
+            break_is_given: section.break_is_given,
+        }))
     }
 }

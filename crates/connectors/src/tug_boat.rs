@@ -11,8 +11,8 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
-    Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess,
+    Situation, Surroundings,
 };
 
 /// The class type.
@@ -34,7 +34,7 @@ struct Tugs {
 
 /// The force on its point (N, global).
 #[derive(Debug)]
-struct Pull {
+struct TugForce {
     force: [f64; 2],
 }
 
@@ -65,18 +65,18 @@ impl ConnectorClass for Tugs {
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         let tug = connection.connector.tug.ok_or_else(|| ClassError::new("the connector has no -TUG"))?;
         let (cos, sin) = unit_vector(tug.direction);
-        Ok(Box::new(Pull { force: [self.force * cos, self.force * sin] }))
+        Ok(Box::new(TugForce { force: [self.force * cos, self.force * sin] }))
     }
 }
 
-impl Element for Pull {
+impl Element for TugForce {
     fn evaluate(
         &self,
         _: &Situation,
         _: &[f64],
         _: &mut [f64],
         _: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         out.clear(2);
         let [x, y] = self.force;
@@ -87,8 +87,8 @@ impl Element for Pull {
         Ok(())
     }
 
-    fn summary(&self, _: &Situation, _: &[f64]) -> Result<Summary, ClassError> {
+    fn summary(&self, _: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
         let [x, y] = self.force;
-        Ok(Summary { tension: Some(x.hypot(y)), solution: "exact", ..Summary::default() })
+        Ok(ElementSummary { tension: Some(x.hypot(y)), solution: "exact", ..ElementSummary::default() })
     }
 }

@@ -30,7 +30,7 @@ impl Maxwell {
 ///
 /// Its state is the force of each branch (N), then the deflection (m), at the end of the last step.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Viscoelastic {
+pub struct ViscoelasticLaw {
     /// Stiffness that lasts (N/m or N m/rad), with which statics works.
     pub long_term: f64,
     /// Branches, the shortest time first.
@@ -41,7 +41,7 @@ pub struct Viscoelastic {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The law.
-    pub law: Viscoelastic,
+    pub law: ViscoelasticLaw,
     /// Largest difference between the law and a point of the curve, over the largest stiffness of the curve.
     pub error: f64,
 }
@@ -55,7 +55,7 @@ pub struct Affine {
     pub rest: f64,
 }
 
-impl Viscoelastic {
+impl ViscoelasticLaw {
     /// The law of a convolution curve; `None` for other curves.
     pub fn fit(curve: &Curve) -> Option<Fit> {
         let long_term = curve.long_term_stiffness()?;
@@ -64,7 +64,7 @@ impl Viscoelastic {
         // as many branches as there are points beside the one that gives the lasting stiffness
         let count = curve.exponentials.clamp(1, points.len().saturating_sub(1).max(1));
         let branches = fit_branches(&points, count, by_time);
-        let law = Viscoelastic { long_term, branches };
+        let law = ViscoelasticLaw { long_term, branches };
         let most = curve.points.iter().fold(f64::MIN_POSITIVE, |m, p| m.max(p.1.abs()));
         let at = |x: f64| if by_time { law.at_time(x) } else { law.at_frequency(x) };
         let error = curve.points.iter().fold(0.0, |m: f64, (x, k)| m.max((at(*x) - k).abs())) / most;
@@ -75,7 +75,7 @@ impl Viscoelastic {
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {
         let branches = self.branches.iter().map(|b| Maxwell { stiffness: b.stiffness * factor, ..*b }).collect();
-        Viscoelastic { long_term: self.long_term * factor, branches }
+        ViscoelasticLaw { long_term: self.long_term * factor, branches }
     }
 
     /// K(t), the force after a deflection of one held for a time (s).
@@ -243,13 +243,13 @@ mod tests {
         // long enough that the last point is the lasting stiffness to the last digits
         let by_time =
             (0..80).map(|i| 2.0 * f64::from(i)).map(|t| (t, lasting + stiffness * (-t / time).exp())).collect();
-        let fit = Viscoelastic::fit(&curve(CurveKind::ConvolutionTime, 1, by_time)).unwrap();
+        let fit = ViscoelasticLaw::fit(&curve(CurveKind::ConvolutionTime, 1, by_time)).unwrap();
         assert!(fit.error < 1e-6 && (fit.law.branches[0].time - time).abs() < 1e-4, "{fit:?}");
         let by_frequency = (0..60)
             .map(|i| 0.05 * f64::from(i))
             .map(|w| (w, lasting + stiffness * (w * time).powi(2) / (1.0 + (w * time).powi(2))))
             .collect();
-        let fit = Viscoelastic::fit(&curve(CurveKind::ConvolutionFrequency, 1, by_frequency)).unwrap();
+        let fit = ViscoelasticLaw::fit(&curve(CurveKind::ConvolutionFrequency, 1, by_frequency)).unwrap();
         assert!(fit.error < 1e-6 && (fit.law.branches[0].time - time).abs() < 1e-4, "{fit:?}");
         assert!((fit.law.branches[0].stiffness - stiffness).abs() < 1e-4 * stiffness);
     }
@@ -257,14 +257,14 @@ mod tests {
     #[test]
     fn five_exponentials_follow_a_power_law_within_a_percent_and_none_is_negative() {
         let points = (0..40).map(|i| 0.1 * 1.2_f64.powi(i)).map(|t| (t, 1e6 * (1.0 + t).powf(-0.4))).collect();
-        let fit = Viscoelastic::fit(&curve(CurveKind::ConvolutionTime, 5, points)).unwrap();
+        let fit = ViscoelasticLaw::fit(&curve(CurveKind::ConvolutionTime, 5, points)).unwrap();
         assert!(fit.error < 0.01, "{fit:?}");
         assert!(fit.law.branches.iter().all(|b| b.stiffness > 0.0));
     }
 
     #[test]
     fn a_held_deflection_relaxes_along_the_curve_and_a_ramp_gives_its_integral() {
-        let law = Viscoelastic {
+        let law = ViscoelasticLaw {
             long_term: 2.0,
             branches: vec![Maxwell { stiffness: 3.0, time: 4.0 }, Maxwell { stiffness: 1.0, time: 0.5 }],
         };

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-FLEX GSPR, FOUNDATION, LMU, ROLLER] and [MOSES-REF cls_res] (GAP).
 
-use super::spring_law::{Dashpot, Group, rubbing};
+use super::spring_law::{Dashpot, SpringGroup, rubbing};
 use nalgebra::{Matrix3, Matrix6, Vector2, Vector3, Vector6};
 
 /// The direction in which an element acts.
@@ -47,7 +47,7 @@ impl Sense {
 
 /// How displacements deflect the springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Contact {
+pub enum ContactGeometry {
     /// As they are.
     Whole,
     /// A pin in a cone whose axis is X, its mouth at the origin, opening toward +X.
@@ -72,13 +72,15 @@ struct Deflection {
     note: Option<&'static str>,
 }
 
-impl Contact {
+impl ContactGeometry {
     /// `None` where nothing touches.
     fn deflection(&self, u: &Vector3<f64>) -> Option<Deflection> {
         match self {
-            Contact::Whole => Some(Deflection { at: *u, slopes: Matrix3::identity(), touches: [true; 3], note: None }),
-            Contact::Cone { length, tangent } => in_cone(u, *length, *tangent),
-            Contact::Gaps(gaps) => {
+            ContactGeometry::Whole => {
+                Some(Deflection { at: *u, slopes: Matrix3::identity(), touches: [true; 3], note: None })
+            }
+            ContactGeometry::Cone { length, tangent } => in_cone(u, *length, *tangent),
+            ContactGeometry::Gaps(gaps) => {
                 let mut made = Deflection { at: *u, slopes: Matrix3::identity(), touches: [true; 3], note: None };
                 for (axis, gap) in gaps.iter().enumerate().map(|(i, gap)| (i + 1, gap)) {
                     let free = gap.map_or(u[axis], |[below, above]| u[axis].clamp(-below, above));
@@ -157,9 +159,9 @@ pub struct ZeroLaw {
     /// When it acts.
     pub sense: Sense,
     /// What is deflected.
-    pub contact: Contact,
+    pub contact: ContactGeometry,
     /// Springs.
-    pub groups: Vec<Group>,
+    pub groups: Vec<SpringGroup>,
     /// Dashpots and the axes they act in; two axes: their resultant.
     pub dashpots: Vec<(Dashpot, [bool; 3])>,
     /// Friction in Y and Z.
@@ -186,13 +188,13 @@ impl ZeroLaw {
     /// Number of values of its state.
     pub fn states(&self) -> usize {
         let stuck = if matches!(self.friction, Friction::Stick { .. }) { 2 } else { 0 };
-        self.groups.iter().map(Group::states).sum::<usize>() + stuck
+        self.groups.iter().map(SpringGroup::states).sum::<usize>() + stuck
     }
 
     /// The largest stiffness (N/m, N m/rad) of a law that is linear and acts both ways everywhere, from springs alone.
     pub fn linear_stiffness(&self) -> Option<f64> {
         let plain = self.sense == Sense::Both
-            && self.contact == Contact::Whole
+            && self.contact == ContactGeometry::Whole
             && self.friction == Friction::None
             && self.dashpots.is_empty()
             && !self.pushes_only
@@ -310,7 +312,7 @@ impl ZeroLaw {
                 }
             }
             Friction::Stick { mu, stiffness } => {
-                let from: usize = self.groups.iter().map(Group::states).sum();
+                let from: usize = self.groups.iter().map(SpringGroup::states).sum();
                 let stuck = committed.get(from..).and_then(|s| Some(Vector2::new(*s.first()?, *s.get(1)?)));
                 let stuck = stuck.unwrap_or_default();
                 let side = Vector3::new(0.0, stiffness * (u.y - stuck.x), stiffness * (u.z - stuck.y));

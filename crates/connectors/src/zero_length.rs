@@ -9,7 +9,9 @@
 use super::zero_law::{Answer, ZeroLaw};
 use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, UnitQuaternion, Vector3, Vector6};
 use windlass_base::geometry::Place;
-use windlass_model::{ClassError, Connection, Element, Guess, Note, Response, Situation, SpringState, Summary, Tie};
+use windlass_model::{
+    ClassError, Connection, Element, ElementResponse, ElementSummary, Guess, Note, Situation, SpringState, TieResponse,
+};
 
 type Wide = SMatrix<f64, 3, 12>;
 
@@ -91,7 +93,7 @@ fn coefficient(square: f64) -> (f64, f64) {
 }
 
 /// How the ends stand to one another, in element axes.
-struct Motion {
+struct RelativeMotion {
     /// Element axes, global.
     axes: Matrix3<f64>,
     /// From the holder's point to the other (m, global).
@@ -105,7 +107,7 @@ struct Motion {
 }
 
 impl ZeroLength {
-    fn motion(&self, at: &Situation) -> Result<Motion, ClassError> {
+    fn motion(&self, at: &Situation) -> Result<RelativeMotion, ClassError> {
         let [first, second] = at.ends else { return Err(ClassError::new("a spring has two ends")) };
         let (held, other) = if self.holder == 0 { (first, second) } else { (second, first) };
         let axes = held.pose.axes * self.turn;
@@ -123,17 +125,22 @@ impl ZeroLength {
         let mut q = Vector6::zeros();
         q.fixed_rows_mut::<3>(0).copy_from(&u);
         q.fixed_rows_mut::<3>(3).copy_from(&theta);
-        Ok(Motion { axes, apart, q, rate: axes.transpose() * moving, spin: [moving, turning] })
+        Ok(RelativeMotion { axes, apart, q, rate: axes.transpose() * moving, spin: [moving, turning] })
     }
 
-    fn answer(&self, at: &Situation, committed: &[f64], trial: &mut [f64]) -> Result<(Motion, Answer), ClassError> {
+    fn answer(
+        &self,
+        at: &Situation,
+        committed: &[f64],
+        trial: &mut [f64],
+    ) -> Result<(RelativeMotion, Answer), ClassError> {
         let motion = self.motion(at)?;
         let answer = self.law.answer(&motion.q, &motion.rate, at.step.map(|s| s.dt), committed, trial);
         Ok((motion, answer))
     }
 
     /// The wrenches on both ends, in their order, of forces in element axes.
-    fn wrenches_of(&self, motion: &Motion, force: &Vector6<f64>) -> [Vector6<f64>; 2] {
+    fn wrenches_of(&self, motion: &RelativeMotion, force: &Vector6<f64>) -> [Vector6<f64>; 2] {
         let theta = motion.q.fixed_rows::<3>(3).into_owned();
         let (c, _) = coefficient(theta.norm_squared());
         let turn = cross(&theta);
@@ -145,7 +152,7 @@ impl ZeroLength {
     }
 
     /// How displacement and rotation change with the motions of both ends, in their order.
-    fn deflected_by(&self, motion: &Motion) -> [Matrix6<f64>; 2] {
+    fn deflected_by(&self, motion: &RelativeMotion) -> [Matrix6<f64>; 2] {
         let rt = motion.axes.transpose();
         let theta = motion.q.fixed_rows::<3>(3).into_owned();
         let (c, _) = coefficient(theta.norm_squared());
@@ -160,7 +167,12 @@ impl ZeroLength {
         if self.holder == 0 { [held, other] } else { [other, held] }
     }
 
-    fn held_tie(&self, at: &Situation, held: Option<&Vector6<f64>>, out: &mut Response) -> Result<Tie, ClassError> {
+    fn held_tie(
+        &self,
+        at: &Situation,
+        held: Option<&Vector6<f64>>,
+        out: &mut ElementResponse,
+    ) -> Result<TieResponse, ClassError> {
         let motion = self.motion(at)?;
         let mut answer = self.law.answer(&motion.q, &Vector3::zeros(), None, &[], &mut []);
         let force = answer.force;
@@ -176,12 +188,12 @@ impl ZeroLength {
             if k > 0.0 { (more[i].abs() / k - rounding).max(0.0) } else { 0.0 }
         };
         let gap = (0..6).map(lack).fold(0.0, f64::max);
-        Ok(Tie { force, slopes, excess: self.wrenches_of(&motion, &more), gap })
+        Ok(TieResponse { force, slopes, excess: self.wrenches_of(&motion, &more), gap })
     }
 
     /// Writes forces and moments on both ends and their derivatives.
-    fn respond(&self, motion: &Motion, answer: &Answer, out: &mut Response) {
-        let Motion { axes: r, apart, q, spin: [moving, turning], .. } = motion;
+    fn respond(&self, motion: &RelativeMotion, answer: &Answer, out: &mut ElementResponse) {
+        let RelativeMotion { axes: r, apart, q, spin: [moving, turning], .. } = motion;
         let rt = r.transpose();
         let part = |six: &Vector6<f64>, from: usize| six.fixed_rows::<3>(from).into_owned();
         let (g, s_theta, theta) = (r * part(&answer.force, 0), part(&answer.force, 3), part(q, 3));
@@ -264,7 +276,7 @@ impl Element for ZeroLength {
         committed: &[f64],
         trial: &mut [f64],
         _: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let (motion, answer) = self.answer(at, committed, trial)?;
         self.respond(&motion, &answer, out);
@@ -275,7 +287,7 @@ impl Element for ZeroLength {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
         let mut trial = committed.to_vec();
         let (motion, answer) = self.answer(at, committed, &mut trial)?;
         // the law knows the force on the holder
@@ -300,10 +312,15 @@ impl Element for ZeroLength {
             notes.push("warning: the ends are turned by nearly half a turn against each other, beyond which a spring does not tell the sense".into());
         }
         let tension = self.listed.iter().any(|(dof, _)| *dof == 0).then(|| answer.force[0]);
-        Ok(Summary { tension, ratio, solution: "exact", springs, notes, ..Summary::default() })
+        Ok(ElementSummary { tension, ratio, solution: "exact", springs, notes, ..ElementSummary::default() })
     }
 
-    fn tie(&self, at: &Situation, held: Option<&Vector6<f64>>, out: &mut Response) -> Option<Result<Tie, ClassError>> {
+    fn tie(
+        &self,
+        at: &Situation,
+        held: Option<&Vector6<f64>>,
+        out: &mut ElementResponse,
+    ) -> Option<Result<TieResponse, ClassError>> {
         self.law.linear_stiffness().filter(|k| *k >= MIN_HELD_STIFFNESS).map(|_| self.held_tie(at, held, out))
     }
 

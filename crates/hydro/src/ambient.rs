@@ -10,7 +10,7 @@ use windlass_model::{Ambient, Bathymetry, ClassError, Contents, Flow, Model};
 
 /// Water, wind and bottom of the environment in force.
 #[derive(Debug)]
-struct Around {
+struct EnvironmentAmbient {
     steady: Steady,
     sea: Option<Arc<Sea>>,
     /// The sea as it was last asked about: lines ask one after the other at the same time.
@@ -47,10 +47,10 @@ pub fn ambient(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Arc<dyn Ambient>
     };
     let interrupt = Arc::clone(&model.interrupt);
     let (sea, growth) = (sea.cloned(), Growth::from_environment(model, env)?);
-    Ok(Arc::new(Around { steady, sea, prepared: Mutex::default(), growth, bottom, contents, interrupt }))
+    Ok(Arc::new(EnvironmentAmbient { steady, sea, prepared: Mutex::default(), growth, bottom, contents, interrupt }))
 }
 
-impl Ambient for Around {
+impl Ambient for EnvironmentAmbient {
     fn flow(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]) {
         let streams = self.steady.streams_at_time(time);
         let prepared = || self.prepared.lock().unwrap_or_else(PoisonError::into_inner);

@@ -5,7 +5,7 @@
 //! this is the drag of that area alone.
 
 use super::steady::{Medium, Steady};
-use super::stream::{InStream, Place, Push};
+use super::stream::{InStream, LoadPlace, Push};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Six;
@@ -14,7 +14,7 @@ use windlass_base::pose::Six;
 #[derive(Debug)]
 pub struct AreaLoad {
     steady: Arc<Steady>,
-    place: Place,
+    place: LoadPlace,
     /// Columns: directions of the areas in the body; their sizes times shape coefficients (m2).
     axes: nalgebra::Matrix3<f64>,
     areas: Vector3<f64>,
@@ -23,16 +23,16 @@ pub struct AreaLoad {
 impl AreaLoad {
     /// Wind on areas along the axes of the body (m2, shape coefficient included) at a point of it (m), whatever its height.
     pub fn wind(steady: Arc<Steady>, areas: [f64; 3], at: Vector3<f64>) -> Self {
-        AreaLoad::new(steady, Place { at, medium: Medium::Air, shared: false }, areas)
+        AreaLoad::new(steady, LoadPlace { at, medium: Medium::Air, shared: false }, areas)
     }
 
     /// The same for current.
     pub fn current(steady: Arc<Steady>, areas: [f64; 3], at: Vector3<f64>) -> Self {
-        AreaLoad::new(steady, Place { at, medium: Medium::Water, shared: false }, areas)
+        AreaLoad::new(steady, LoadPlace { at, medium: Medium::Water, shared: false }, areas)
     }
 
     /// Areas along the axes of the body, at a place.
-    pub fn new(steady: Arc<Steady>, place: Place, areas: [f64; 3]) -> Self {
+    pub fn new(steady: Arc<Steady>, place: LoadPlace, areas: [f64; 3]) -> Self {
         AreaLoad { steady, place, axes: nalgebra::Matrix3::identity(), areas: areas.into() }
     }
 
@@ -43,7 +43,7 @@ impl AreaLoad {
 }
 
 impl InStream for AreaLoad {
-    fn stands(&self) -> (&Place, &Steady) {
+    fn stands(&self) -> (&LoadPlace, &Steady) {
         (&self.place, &self.steady)
     }
 

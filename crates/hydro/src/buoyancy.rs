@@ -1,6 +1,6 @@
 //! Buoyancy of a body's hull: the pieces of its parts, as solids in the system of the body.
 
-use super::hull::{Fault, Solid, Surface, Tube, Wet, intersect};
+use super::hull::{Fault, Solid, Surface, TubeHull, Wet, intersect};
 use super::{BodyLoad, Category, Load};
 use nalgebra::Vector3;
 use windlass_base::geometry::Position;
@@ -15,17 +15,17 @@ const WELD_DISTANCE_SHARE: f64 = 1e-6;
 pub(super) const TUBE_PRISM_SIDES: u32 = 64;
 
 #[derive(Debug)]
-enum Form {
+enum SolidForm {
     Surface(Surface),
-    Tube(Tube),
+    Tube(TubeHull),
 }
 
-impl Form {
+impl SolidForm {
     /// Its surface, of a tube that of a prism; `None` of a tube without length.
     fn surface(self) -> Option<Surface> {
         match self {
-            Form::Surface(surface) => Some(surface),
-            Form::Tube(tube) => tube.prism(TUBE_PRISM_SIDES),
+            SolidForm::Surface(surface) => Some(surface),
+            SolidForm::Tube(tube) => tube.prism(TUBE_PRISM_SIDES),
         }
     }
 }
@@ -33,7 +33,7 @@ impl Form {
 /// The hull of a body in the water of the environment in force.
 #[derive(Debug)]
 pub struct Hull {
-    pieces: Vec<(f64, Form)>,
+    pieces: Vec<(f64, SolidForm)>,
     /// Height of the water's surface (m, global).
     level: f64,
     /// Weight of water (N/m3).
@@ -67,8 +67,8 @@ impl Hull {
         let mut sum = Wet::default();
         for (permeability, form) in &self.pieces {
             let wet = match form {
-                Form::Surface(surface) => surface.wet(pose, self.level),
-                Form::Tube(tube) => tube.wet(pose, self.level),
+                SolidForm::Surface(surface) => surface.wet(pose, self.level),
+                SolidForm::Tube(tube) => tube.wet(pose, self.level),
             };
             sum.add(&wet, *permeability);
         }
@@ -106,7 +106,7 @@ pub(super) fn skin(part: &Part, piece: &Piece) -> Result<Option<Surface>, ClassE
         (Some(fault), _) => Err(ClassError { span: Some(piece.span), ..fault.error.clone() }.help(
             "it takes no wind and current before this is corrected; or give it -CS_WIND 0 0 0 -CS_CURRENT 0 0 0",
         )),
-        (None, form) => Ok(form.and_then(Form::surface)),
+        (None, form) => Ok(form.and_then(SolidForm::surface)),
     }
 }
 
@@ -123,7 +123,7 @@ pub struct PieceFault {
 
 /// A piece as a solid of its body, with what is wrong with it.
 struct Solidified {
-    form: Option<Form>,
+    form: Option<SolidForm>,
     faults: Vec<PieceFault>,
 }
 
@@ -138,8 +138,8 @@ impl Solidified {
         };
         let panels = match piece.shape.moved_by(&part.place) {
             Shape::Tube { ends, diameter } => {
-                let tube = Tube { ends: ends.map(Vector3::from), diameter };
-                return Solidified { form: Some(Form::Tube(tube)), faults: Vec::new() };
+                let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
+                return Solidified { form: Some(SolidForm::Tube(tube)), faults: Vec::new() };
             }
             Shape::Block { low, high } => box_panels(low, high),
             Shape::Panels(panels) => panels,
@@ -160,7 +160,7 @@ impl Solidified {
             faults.push(PieceFault { error, fatal: false, remark: true });
         }
         faults.extend(summarise_faults(name, &check(&surface)));
-        Solidified { form: Some(Form::Surface(surface)), faults }
+        Solidified { form: Some(SolidForm::Surface(surface)), faults }
     }
 }
 
@@ -231,11 +231,11 @@ fn are_disjoint(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> bool {
 }
 
 /// A piece that is a tube, in its body.
-fn tube_of(part: &Part, piece: &Piece) -> Option<Tube> {
+fn tube_of(part: &Part, piece: &Piece) -> Option<TubeHull> {
     match &piece.shape {
         Shape::Tube { ends, diameter } => {
             let ends = ends.map(|at| Vector3::from(part.place.apply(at)));
-            Some(Tube { ends, diameter: *diameter })
+            Some(TubeHull { ends, diameter: *diameter })
         }
         _ => None,
     }
@@ -244,7 +244,7 @@ fn tube_of(part: &Part, piece: &Piece) -> Option<Tube> {
 /// What is wrong with a piece, by itself and beside the others of its body; places in the system of the body.
 pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> Vec<PieceFault> {
     let Solidified { form, mut faults } = Solidified::new(part, piece, Surface::faults);
-    let Some(surface) = form.and_then(Form::surface) else { return faults };
+    let Some(surface) = form.and_then(SolidForm::surface) else { return faults };
     let bounds = bounds(part, piece);
     let round = tube_of(part, piece);
     for other in model.parts_of(body).flat_map(|p| p.pieces.iter().map(move |piece| (p, piece))) {
@@ -261,7 +261,7 @@ pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> V
             continue;
         }
         let form = Solidified::new(other.0, other.1, Surface::leaks).form;
-        let Some(second) = form.and_then(Form::surface) else { continue };
+        let Some(second) = form.and_then(SolidForm::surface) else { continue };
         if let Some(at) = intersect(&surface, &second) {
             let text = format!(
                 "pieces {} and {} overlap at ({{}}, {{}}, {{}}); what they share counts twice",

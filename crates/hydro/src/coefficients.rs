@@ -5,7 +5,7 @@
 
 use super::heading::ByHeading;
 use super::steady::Steady;
-use super::stream::{InStream, Place, Push};
+use super::stream::{InStream, LoadPlace, Push};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 
@@ -13,19 +13,19 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct CoefficientLoad {
     steady: Arc<Steady>,
-    place: Place,
+    place: LoadPlace,
     table: ByHeading,
 }
 
 impl CoefficientLoad {
     /// Coefficients (N s2/m2 and N s2/m about the point, body axes) by heading, at a place.
-    pub fn new(steady: Arc<Steady>, place: Place, table: ByHeading) -> Self {
+    pub fn new(steady: Arc<Steady>, place: LoadPlace, table: ByHeading) -> Self {
         CoefficientLoad { steady, place, table }
     }
 }
 
 impl InStream for CoefficientLoad {
-    fn stands(&self) -> (&Place, &Steady) {
+    fn stands(&self) -> (&LoadPlace, &Steady) {
         (&self.place, &self.steady)
     }
 

@@ -9,9 +9,9 @@
 
 use super::heading::ByHeading;
 use super::sea::Sea;
-use super::spectrum::Waves;
+use super::spectrum::WaveEnergies;
 use super::steady::{Medium, Steady};
-use super::stream::{Place, Push};
+use super::stream::{LoadPlace, Push};
 use super::{BodyLoad, Category, Load};
 use nalgebra::{Matrix6x3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -40,7 +40,7 @@ impl DriftLoad {
     pub fn new(
         steady: Arc<Steady>,
         at: Vector3<f64>,
-        (toward, waves): (Vector3<f64>, &Waves),
+        (toward, waves): (Vector3<f64>, &WaveEnergies),
         rows: &[DriftRow],
         symmetric: bool,
     ) -> Result<Self, ClassError> {
@@ -71,7 +71,7 @@ fn interpolate_coefficients(list: &[(f64, Six)], w: f64) -> Six {
 }
 
 /// The mean over waves of coefficients over the square of the amplitude, by periods that grow.
-pub fn mean(waves: &Waves, rows: &[(f64, [f64; 6])]) -> Six {
+pub fn mean(waves: &WaveEnergies, rows: &[(f64, [f64; 6])]) -> Six {
     let list = by_frequency(rows);
     waves.energies.iter().map(|(w, energy)| interpolate_coefficients(&list, *w) * (2.0 * energy)).sum()
 }
@@ -135,7 +135,7 @@ impl BodyLoad for DriftLoad {
         let turned = nalgebra::RowVector3::new(-travel.y, travel.x, 0.0) / square;
         let by_velocity: Matrix6x3<f64> = slope * turned;
         // a stream of speed one: only its direction counts
-        let place = Place { at: self.at, medium: Medium::Water, shared: false };
+        let place = LoadPlace { at: self.at, medium: Medium::Water, shared: false };
         let push = Push { wrench: value, by_velocity };
         Ok(place.load_in(&self.steady, pose, (self.toward, Vector3::zeros()), |_| push))
     }

@@ -29,7 +29,7 @@ pub struct Skin {
 
 /// Sums of `w` times (1; x, y, z), and of its change with the lift, as the text above says.
 #[derive(Clone, Copy, Debug)]
-pub struct Pressed<const D: usize = 2> {
+pub struct PressureIntegral<const D: usize = 2> {
     /// Integral of w (m4/s2).
     pub force: SVector<f64, D>,
     /// Integral of r w (m5/s2).
@@ -51,9 +51,9 @@ pub struct Waterplane {
 
 /// What a stream finds of a skin.
 #[derive(Clone, Copy, Debug)]
-pub struct Exposed<const D: usize = 2> {
+pub struct SurfaceIntegrals<const D: usize = 2> {
     /// Along each axis of the part, by half of what of the skin is seen along it.
-    pub along: [Pressed<D>; 3],
+    pub along: [PressureIntegral<D>; 3],
     /// The waterplane.
     pub plane: Waterplane,
 }
@@ -103,10 +103,10 @@ impl<const D: usize> Sums<D> {
     }
 }
 
-impl<const D: usize> Pressed<D> {
+impl<const D: usize> PressureIntegral<D> {
     fn zero() -> Self {
         let zero = SMatrix::zeros();
-        Pressed { force: SVector::zeros(), arm: zero, force_by: SMatrix::zeros(), arm_by: [zero; 3] }
+        PressureIntegral { force: SVector::zeros(), arm: zero, force_by: SMatrix::zeros(), arm_by: [zero; 3] }
     }
 
     fn add(&mut self, sums: &Sums<D>, share: f64) {
@@ -159,14 +159,14 @@ impl Skin {
     }
 
     /// What a stream finds of it in a pose.
-    pub fn surface_integrals<const D: usize>(&self, pose: &Pose, strips: &Strips<D>) -> Exposed<D> {
+    pub fn surface_integrals<const D: usize>(&self, pose: &Pose, strips: &Strips<D>) -> SurfaceIntegrals<D> {
         let height = pose.origin.z - strips.level;
         let place = |p: &Vector3<f64>| {
             let r = pose.axes * p;
             (r, strips.sense * (r.z + height))
         };
         let placed: Vec<(Vector3<f64>, f64)> = self.vertices.iter().map(place).collect();
-        let mut found = Exposed { along: [Pressed::zero(); 3], plane: Waterplane::default() };
+        let mut found = SurfaceIntegrals { along: [PressureIntegral::zero(); 3], plane: Waterplane::default() };
         for facet in &self.facets {
             let [Some(a), Some(b), Some(c)] = facet.corners.map(|n| placed.get(n as usize).copied()) else { continue };
             let mut by_height = [a, b, c];

@@ -10,7 +10,7 @@ use super::heading::ByHeading;
 use super::plate::PlateLoad;
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
-use super::stream::Place;
+use super::stream::LoadPlace;
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, pieces};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use windlass_model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, P
 
 /// What records have put on a body.
 #[derive(Debug)]
-pub struct Gathered {
+pub struct BodyLoads {
     /// Its loads in the environment in force.
     pub loads: Vec<Box<dyn BodyLoad>>,
     /// Added mass about the origin of the body.
@@ -90,12 +90,12 @@ pub fn scale_load(load: Box<dyn BodyLoad>, factor: f64) -> Box<dyn BodyLoad> {
 }
 
 /// Where a part stands in its body.
-struct Frame<'a> {
+struct PartAxes<'a> {
     part: &'a Part,
     axes: Matrix3<f64>,
 }
 
-impl Frame<'_> {
+impl PartAxes<'_> {
     fn point(&self, load: &PartLoad) -> Vector3<f64> {
         self.part.place.apply(load.at).into()
     }
@@ -123,9 +123,9 @@ impl Frame<'_> {
 ///
 /// # Errors
 /// Loads that make no sense, or an environment that cannot be computed.
-pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) -> Result<Gathered, ClassError> {
+pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) -> Result<BodyLoads, ClassError> {
     let under_way = sea.is_some();
-    let mut sum = Gathered { loads: Vec::new(), added_mass: Matrix6::zeros(), damping: Matrix6::zeros() };
+    let mut sum = BodyLoads { loads: Vec::new(), added_mass: Matrix6::zeros(), damping: Matrix6::zeros() };
     let drifts = |l: &PartLoad| matches!(l.kind, LoadKind::Drift { .. });
     let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::of(&body.place));
     let mut around: Option<Arc<Steady>> = None;
@@ -146,7 +146,7 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
             }
         };
         around = Some(Arc::clone(&steady));
-        let frame = Frame { part, axes: *part.place.rotation().matrix() };
+        let frame = PartAxes { part, axes: *part.place.rotation().matrix() };
         let first = sum.loads.len();
         for load in &mine {
             add_part_load(&mut sum, &steady, &frame, load, under_way)?;
@@ -171,9 +171,9 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
 
 /// Adds one record but those of drift, of which several make one table.
 fn add_part_load(
-    sum: &mut Gathered,
+    sum: &mut BodyLoads,
     steady: &Arc<Steady>,
-    frame: &Frame,
+    frame: &PartAxes,
     load: &PartLoad,
     under_way: bool,
 ) -> Result<(), ClassError> {
@@ -196,7 +196,7 @@ fn add_part_load(
                 Fluid::Water => &[Medium::Water],
             };
             for medium in media.iter().copied().filter(|m| under_way || !steady.still(*m)) {
-                let place = Place { at, medium, shared: load.fluid == Fluid::ByHeight };
+                let place = LoadPlace { at, medium, shared: load.fluid == Fluid::ByHeight };
                 sum.loads.push(in_stream(Arc::clone(steady), frame, place, load)?);
             }
         }
@@ -207,8 +207,8 @@ fn add_part_load(
 /// The load that a stream makes of a record.
 fn in_stream(
     steady: Arc<Steady>,
-    frame: &Frame,
-    place: Place,
+    frame: &PartAxes,
+    place: LoadPlace,
     load: &PartLoad,
 ) -> Result<Box<dyn BodyLoad>, ClassError> {
     Ok(match &load.kind {
@@ -226,7 +226,7 @@ fn in_stream(
 }
 
 /// A table of a part as one of its body. The mirror of a symmetric one is that of the part.
-fn by_heading(frame: &Frame, rows: &[(f64, [f64; 6])], symmetric: bool) -> Result<ByHeading, ClassError> {
+fn by_heading(frame: &PartAxes, rows: &[(f64, [f64; 6])], symmetric: bool) -> Result<ByHeading, ClassError> {
     let table = ByHeading::new(rows, symmetric)?;
     let [_, _, yaw] = frame.part.place.turn;
     Ok(if yaw == 0.0 { table } else { table.rotated(yaw, |six| frame.to_body_axes(six.into()).into()) })
@@ -235,9 +235,9 @@ fn by_heading(frame: &Frame, rows: &[(f64, [f64; 6])], symmetric: bool) -> Resul
 /// Adds the drift, one table for each point that has records of it: at rest the mean of every sea, under way the slow drift of the sea
 /// there is.
 fn drift(
-    sum: &mut Gathered,
+    sum: &mut BodyLoads,
     (steady, sea): (&Arc<Steady>, Option<Option<&Arc<Sea>>>),
-    frame: &Frame,
+    frame: &PartAxes,
     mine: &[&PartLoad],
 ) -> Result<(), ClassError> {
     let mut tables: Vec<(&PartLoad, Vec<DriftRow>, bool)> = Vec::new();

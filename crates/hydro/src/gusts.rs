@@ -5,13 +5,13 @@
 //! height: that of API not at all up to 20 m.) The mean is over an hour, so that slower components belong to it: those taken
 //! reach from a period of an hour to one of a second. All formulas are from memory of the sources named, one-sided, f in Hz.
 
-use super::sea::components::{Band, bands, bands_about};
+use super::sea::components::{SpectrumBand, bands, bands_about};
 use super::sea::density::Spectrum;
 use super::sea::phases::phases;
 use std::f64::consts::TAU;
 use std::sync::Mutex;
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, Curve, CurveKind, Division, Environment, Formula, Model, Phasing};
+use windlass_model::{ClassError, Curve, CurveKind, CurveReference, Division, Environment, Model, Phasing};
 
 /// Lowest and highest frequency of gusts of a formula (Hz).
 pub const FREQUENCY_RANGE_HZ: [f64; 2] = [1.0 / 3600.0, 1.0];
@@ -28,7 +28,7 @@ const FORMULA_HEIGHT_M: f64 = super::wind::REFERENCE_HEIGHT_M;
 
 /// A formula of gusts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum GustFormula {
     /// [API-RP-2A 2.3.2], 20th edition: `s^2/fp (1 + 1.5 f/fp)^(-5/3)`, s = 0.15 (z/20)^-0.125 U, fp = 0.025 U/z. (The 21st
     /// edition has that of NPD.)
     Api,
@@ -46,16 +46,16 @@ pub enum Shape {
     Kaimal,
 }
 
-impl Shape {
+impl GustFormula {
     /// That of a name of `-W_SPECTRUM`.
     pub fn from_name(name: &str) -> Option<Self> {
         Some(match name {
-            "API" => Shape::Api,
-            "NPD" | "ISO" => Shape::Froya,
-            "OCHI" => Shape::Ochi,
-            "HARRIS" => Shape::Harris,
-            "DAVENPORT" => Shape::Davenport,
-            "KAIMAL" => Shape::Kaimal,
+            "API" => GustFormula::Api,
+            "NPD" | "ISO" => GustFormula::Froya,
+            "OCHI" => GustFormula::Ochi,
+            "HARRIS" => GustFormula::Harris,
+            "DAVENPORT" => GustFormula::Davenport,
+            "KAIMAL" => GustFormula::Kaimal,
             _ => return None,
         })
     }
@@ -64,16 +64,16 @@ impl Shape {
     pub fn density(self, f: f64, speed: f64) -> f64 {
         let (friction, reduced) = (drag_coefficient(speed) * speed * speed, f * FORMULA_HEIGHT_M / speed);
         match self {
-            Shape::Api => {
+            GustFormula::Api => {
                 let (s, peak) = (api_deviation(speed), 0.025 * speed / FORMULA_HEIGHT_M);
                 s * s / peak * (1.0 + 1.5 * f / peak).powf(-5.0 / 3.0)
             }
-            Shape::Froya => {
+            GustFormula::Froya => {
                 const N: f64 = 0.468;
                 let x = 172.0 * f * (speed / 10.0).powf(-0.75);
                 3.2 * speed * speed * (1.0 + x.powf(N)).powf(-5.0 / (3.0 * N))
             }
-            Shape::Ochi => {
+            GustFormula::Ochi => {
                 let fall = (1.0 + reduced.powf(0.35)).powf(-11.5);
                 let per = friction * FORMULA_HEIGHT_M / speed;
                 match reduced {
@@ -82,15 +82,17 @@ impl Shape {
                     _ => 838.0 * fall * per,
                 }
             }
-            Shape::Harris => {
+            GustFormula::Harris => {
                 let length = 1800.0 / speed;
                 4.0 * friction * length * (2.0 + (f * length).powi(2)).powf(-5.0 / 6.0)
             }
-            Shape::Davenport => {
+            GustFormula::Davenport => {
                 let length = 1200.0 / speed;
                 4.0 * friction * length * length * f * (1.0 + (f * length).powi(2)).powf(-4.0 / 3.0)
             }
-            Shape::Kaimal => 105.0 * friction * FORMULA_HEIGHT_M / speed * (1.0 + 33.0 * reduced).powf(-5.0 / 3.0),
+            GustFormula::Kaimal => {
+                105.0 * friction * FORMULA_HEIGHT_M / speed * (1.0 + 33.0 * reduced).powf(-5.0 / 3.0)
+            }
         }
     }
 
@@ -98,15 +100,15 @@ impl Shape {
     pub fn deviation(self, speed: f64) -> f64 {
         let friction = drag_coefficient(speed) * speed * speed;
         let variance = match self {
-            Shape::Api => return api_deviation(speed),
+            GustFormula::Api => return api_deviation(speed),
             // B(1/n, 2/(3n))/n, with B Euler's beta function, is 0.567222
-            Shape::Froya => 3.2 * speed * speed * (speed / 10.0).powf(0.75) / 172.0 * 0.567_222_117_5,
+            GustFormula::Froya => 3.2 * speed * speed * (speed / 10.0).powf(0.75) / 172.0 * 0.567_222_117_5,
             // by Simpson's rule
-            Shape::Ochi => 10.116_441 * friction,
+            GustFormula::Ochi => 10.116_441 * friction,
             // 4 2^(-1/3) sqrt(pi)/2 Gamma(1/3)/Gamma(5/6)
-            Shape::Harris => 6.677_476_047 * friction,
-            Shape::Davenport => 6.0 * friction,
-            Shape::Kaimal => 105.0 / 22.0 * friction,
+            GustFormula::Harris => 6.677_476_047 * friction,
+            GustFormula::Davenport => 6.0 * friction,
+            GustFormula::Kaimal => 105.0 / 22.0 * friction,
         };
         variance.sqrt()
     }
@@ -131,7 +133,7 @@ pub struct Gusts {
     /// What the components stand for: density (m2/s, over rad/s).
     pub spectrum: Spectrum,
     /// Its parts, one component each, by growing frequency.
-    pub bands: Vec<Band>,
+    pub bands: Vec<SpectrumBand>,
     /// Phase of each component (rad): `u = sum of a cos(w t - phase)`.
     pub phases: Vec<f64>,
     /// Seed of the phases.
@@ -156,7 +158,7 @@ impl Gusts {
         if wind.speed == 0.0 {
             return Ok(None);
         }
-        let shape = Shape::from_name(&named.kind);
+        let shape = GustFormula::from_name(&named.kind);
         let points = match shape {
             Some(shape) => table(shape, wind.speed),
             None => of_curve(model, named)?,
@@ -209,7 +211,7 @@ impl Gusts {
 }
 
 /// A formula as frequency (rad/s) and density (m2/s).
-fn table(shape: Shape, speed: f64) -> Vec<(f64, f64)> {
+fn table(shape: GustFormula, speed: f64) -> Vec<(f64, f64)> {
     let [low, high] = FREQUENCY_RANGE_HZ;
     let point = |i: usize| {
         let f = low * (high / low).powf(i as f64 / (SPECTRUM_POINTS - 1) as f64);
@@ -219,7 +221,7 @@ fn table(shape: Shape, speed: f64) -> Vec<(f64, f64)> {
 }
 
 /// A curve of the user: density over frequency, in the square of the unit of length, as it is.
-fn of_curve(model: &Model, named: &Formula) -> Result<Vec<(f64, f64)>, ClassError> {
+fn of_curve(model: &Model, named: &CurveReference) -> Result<Vec<(f64, f64)>, ClassError> {
     let points = |curve: &Curve| match curve.kind {
         CurveKind::FrequencySpectrum => Some(curve.points.clone()),
         CurveKind::PeriodSpectrum => {
@@ -238,10 +240,17 @@ pub const DENSITY: Dim = Dim::Derived { force: 0, length: 2, seconds: -1 };
 mod tests {
     use super::*;
 
-    const ALL: [Shape; 6] = [Shape::Api, Shape::Froya, Shape::Ochi, Shape::Harris, Shape::Davenport, Shape::Kaimal];
+    const ALL: [GustFormula; 6] = [
+        GustFormula::Api,
+        GustFormula::Froya,
+        GustFormula::Ochi,
+        GustFormula::Harris,
+        GustFormula::Davenport,
+        GustFormula::Kaimal,
+    ];
 
     /// The integral over frequencies from low to high (Hz), by Simpson's rule over the logarithm.
-    fn integral(shape: Shape, speed: f64, low: f64, high: f64) -> f64 {
+    fn integral(shape: GustFormula, speed: f64, low: f64, high: f64) -> f64 {
         let parts = 40_000;
         let step = (high / low).ln() / f64::from(parts);
         let sum: f64 = (0..=parts)
@@ -270,17 +279,20 @@ mod tests {
     fn the_spectra_have_the_values_of_their_sources() {
         let near = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-6, "{got} {want}");
         // Froya at f = 0 and U = 20 m/s: 320 x 4
-        near(Shape::Froya.density(1e-30, 20.0), 1280.0);
+        near(GustFormula::Froya.density(1e-30, 20.0), 1280.0);
         // at x = 1 it is 2^(-5/1.404) of that
-        near(Shape::Froya.density(2f64.powf(0.75) / 172.0, 20.0), 1280.0 * 2f64.powf(-5.0 / 1.404));
+        near(GustFormula::Froya.density(2f64.powf(0.75) / 172.0, 20.0), 1280.0 * 2f64.powf(-5.0 / 1.404));
         // the branches of Ochi and Shin meet at x = 0.003 and x = 0.1 to the figures published: 420 x 0.1^-0.3 = 838.0
         for x in [0.003, 0.1] {
-            let [a, b] = [x * 0.999_999, x * 1.000_001].map(|x| Shape::Ochi.density(x * 2.0, 20.0));
+            let [a, b] = [x * 0.999_999, x * 1.000_001].map(|x| GustFormula::Ochi.density(x * 2.0, 20.0));
             assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
         }
         // Davenport's reduced spectrum f S has its peak at x = sqrt(3), at 12 / 4^(4/3) = 1.8899 k U^2
         let f = 3f64.sqrt() * 20.0 / 1200.0;
-        near(f * Shape::Davenport.density(f, 20.0), 12.0 * 4f64.powf(-4.0 / 3.0) * drag_coefficient(20.0) * 400.0);
+        near(
+            f * GustFormula::Davenport.density(f, 20.0),
+            12.0 * 4f64.powf(-4.0 / 3.0) * drag_coefficient(20.0) * 400.0,
+        );
         // [WU-1982] at 20 m/s: 2.1e-3
         near(drag_coefficient(20.0), 2.1e-3);
     }

@@ -16,7 +16,7 @@ struct Sphere {
 
 /// A bottom that pushes the more the nearer the origin is to it.
 #[derive(Debug)]
-struct Bottom {
+struct JunctionBottom {
     /// Its elevation (m).
     elevation: f64,
     /// Height from which on it pushes (m).
@@ -43,7 +43,7 @@ pub fn build_junction_loads(junction: &Junction, mass: &Mass, around: &Surroundi
     if let Some(depth) = around.depth {
         // the weight and a ton of line
         let carried = mass.mass * around.gravity + 1e4;
-        list.push(Box::new(Bottom { elevation: -depth, reach: BOTTOM_REACH_M, carried }));
+        list.push(Box::new(JunctionBottom { elevation: -depth, reach: BOTTOM_REACH_M, carried }));
     }
     list
 }
@@ -69,7 +69,7 @@ impl BodyLoad for Sphere {
     }
 }
 
-impl BodyLoad for Bottom {
+impl BodyLoad for JunctionBottom {
     fn category(&self) -> Category {
         Category::Bottom
     }

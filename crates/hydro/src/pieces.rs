@@ -15,10 +15,10 @@
 //! the centroids do. At rest in the mean stream nothing is added; in a uniform stream all of it is exact.
 
 use super::buoyancy::{TUBE_PRISM_SIDES, skin};
-use super::exposed::{Exposed, Skin};
+use super::exposed::{Skin, SurfaceIntegrals};
 use super::grown;
 use super::growth::Growth;
-use super::hull::Tube;
+use super::hull::TubeHull;
 use super::steady::{Medium, Steady};
 use super::stream::category;
 use super::strips::Strips;
@@ -73,9 +73,9 @@ impl PieceLoad {
             let centre = area.arm / area.force;
             let z = at.pose.origin.z + centre.z;
             let (stream, slope) = now.velocity(self.medium, z);
-            let seen = Seen { stream: stream - own - spin.cross(&centre), slope, spin };
+            let seen = RelativeStream { stream: stream - own - spin.cross(&centre), slope, spin };
             let (stream, slope) = mean.velocity(self.medium, z);
-            let rest = Seen { stream, slope, spin: Vector3::zeros() };
+            let rest = RelativeStream { stream, slope, spin: Vector3::zeros() };
             for (seen, factor) in [(&seen, half), (&rest, -half)] {
                 let (wrench, stiffness) = seen.pushes(&area, &e);
                 sum.load.wrench += wrench * factor;
@@ -106,7 +106,7 @@ pub fn build_piece_load(
     }
     let surface = match (growth, piece.shape.moved_by(&part.place)) {
         (Some((growth, pose)), Shape::Tube { ends, diameter }) => {
-            let tube = Tube { ends: ends.map(Vector3::from), diameter };
+            let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
             tube.with_diameters(&grown::stations(growth, pose, tube.ends, diameter), TUBE_PRISM_SIDES)
         }
         _ => skin(part, piece)?,
@@ -119,7 +119,7 @@ pub fn build_piece_load(
 }
 
 /// Force along an axis, and force times its arm, with their changes by d_z and the three rotations.
-struct Along {
+struct AxisLoad {
     force: f64,
     arm: Vector3<f64>,
     change: [(f64, Vector3<f64>); 4],
@@ -128,14 +128,14 @@ struct Along {
 /// What the skin and the waterplane give along an axis `e` of the part. `of` is the combination of the components of w that acts
 /// along an axis, and `by` the same of a change of the axis.
 fn integrate_along<const D: usize>(
-    found: &Exposed<D>,
+    found: &SurfaceIntegrals<D>,
     axis: usize,
     e: &Vector3<f64>,
     strips: &Strips<D>,
     height: f64,
     of: impl Fn(&Vector3<f64>) -> SVector<f64, D>,
     by: impl Fn(&Vector3<f64>) -> SVector<f64, D>,
-) -> Option<Along> {
+) -> Option<AxisLoad> {
     let skin = found.along.get(axis)?;
     let flat = of(e);
     // the cut: at the height of the surface, which falls as the body rises
@@ -162,7 +162,7 @@ fn integrate_along<const D: usize>(
         (force, arm)
     });
     let force = skin.force.dot(&flat) + share * pressure * plane.sums.x;
-    Some(Along { force, arm: skin.arm * flat + at_cut * (share * pressure), change })
+    Some(AxisLoad { force, arm: skin.arm * flat + at_cut * (share * pressure), change })
 }
 
 /// The rotation of the n-th of the motions that change what is exposed: heave, roll, pitch, yaw.
@@ -175,7 +175,7 @@ fn rotation(n: usize) -> Vector3<f64> {
 }
 
 /// A stream as it is seen at the centroid of an area.
-struct Seen {
+struct RelativeStream {
     /// Velocity (m/s, global), and its change with the height (1/s).
     stream: Vector3<f64>,
     slope: Vector3<f64>,
@@ -187,7 +187,7 @@ fn six(force: Vector3<f64>, moment: Vector3<f64>) -> Vector6<f64> {
     Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
-impl Seen {
+impl RelativeStream {
     /// `|s| s.e`, its change with s, and |s|.
     fn pressure(&self, e: &Vector3<f64>) -> (f64, Vector3<f64>, f64) {
         let (speed, along) = (self.stream.norm(), self.stream.dot(e));
@@ -196,7 +196,7 @@ impl Seen {
     }
 
     /// Force and moment on an area seen along an axis, over half the density, and -d(them)/d(motion).
-    fn pushes(&self, area: &Along, e: &Vector3<f64>) -> (Vector6<f64>, Matrix6<f64>) {
+    fn pushes(&self, area: &AxisLoad, e: &Vector3<f64>) -> (Vector6<f64>, Matrix6<f64>) {
         let (q, by_stream, speed) = self.pressure(e);
         let centre = area.arm / area.force;
         let mut stiffness = Matrix6::zeros();
@@ -214,7 +214,7 @@ impl Seen {
     }
 
     /// -d(force and moment)/d(velocity of the origin, rotation), over half the density.
-    fn damps(&self, area: &Along, e: &Vector3<f64>) -> Matrix6<f64> {
+    fn damps(&self, area: &AxisLoad, e: &Vector3<f64>) -> Matrix6<f64> {
         let (_, by_stream, _) = self.pressure(e);
         // d(stream) = -d(velocity) + centre x d(spin)
         let turning = -cross(area.arm / area.force).transpose() * by_stream;
@@ -237,7 +237,8 @@ impl BodyLoad for PieceLoad {
         let height = pose.origin.z - self.strips.level;
         let level = |v: &Vector3<f64>| v.xy();
         for (n, e, half) in self.axes(pose) {
-            let Some(Along { force, arm, change }) = integrate_along(&found, n, &e, &self.strips, height, level, level)
+            let Some(AxisLoad { force, arm, change }) =
+                integrate_along(&found, n, &e, &self.strips, height, level, level)
             else {
                 continue;
             };

@@ -1,7 +1,7 @@
 //! `#PLATE`: a flat plate in wind or current, with drag along its normal alone: `1/2 rho Cd A |w.n| (w.n) n` at its centre.
 
 use super::steady::Steady;
-use super::stream::{InStream, Place, Push};
+use super::stream::{InStream, LoadPlace, Push};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Six;
@@ -10,7 +10,7 @@ use windlass_base::pose::Six;
 #[derive(Debug)]
 pub struct PlateLoad {
     steady: Arc<Steady>,
-    place: Place,
+    place: LoadPlace,
     /// Area times drag coefficient (m2).
     area: f64,
     normal: Vector3<f64>,
@@ -18,13 +18,13 @@ pub struct PlateLoad {
 
 impl PlateLoad {
     /// A plate of an area times drag coefficient (m2) and a unit normal in the body; its sense does not matter.
-    pub fn new(steady: Arc<Steady>, place: Place, area: f64, normal: Vector3<f64>) -> Self {
+    pub fn new(steady: Arc<Steady>, place: LoadPlace, area: f64, normal: Vector3<f64>) -> Self {
         PlateLoad { steady, place, area, normal }
     }
 }
 
 impl InStream for PlateLoad {
-    fn stands(&self) -> (&Place, &Steady) {
+    fn stands(&self) -> (&LoadPlace, &Steady) {
         (&self.place, &self.steady)
     }
 

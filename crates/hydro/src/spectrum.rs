@@ -13,22 +13,22 @@ use super::sea::density::Spectrum;
 use super::sea::spectra::{PeriodType, jonswap, most_probable, ochi_hubble, torsethaugen, usual_gamma};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, Curve, CurveKind, Environment, Model, Sea};
+use windlass_model::{ClassError, Curve, CurveKind, Environment, Model, SeaDefinition};
 
 /// A sea as energies.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Waves {
+pub struct WaveEnergies {
     /// Frequency (rad/s), half the square of the amplitude (m2); frequencies grow.
     pub energies: Vec<(f64, f64)>,
 }
 
 /// Whether a name of a sea is that of a regular wave.
-pub fn is_regular(sea: &Sea) -> bool {
+pub fn is_regular(sea: &SeaDefinition) -> bool {
     ["REGULAR", "STOKES"].iter().any(|name| sea.spectrum.eq_ignore_ascii_case(name))
 }
 
 /// The peakedness of a sea: given, or the usual one of JONSWAP; `None` for spectra without one.
-pub fn gamma_of(env: &Environment, sea: &Sea) -> Option<f64> {
+pub fn gamma_of(env: &Environment, sea: &SeaDefinition) -> Option<f64> {
     let kind = env.sea_period.as_ref().map_or(PeriodType::Peak, |g| PeriodType::from_word(&g.kind));
     let usual = || usual_gamma(sea.height, sea.period, kind);
     sea.spectrum.eq_ignore_ascii_case("JONSWAP").then(|| sea.gamma.unwrap_or_else(usual))
@@ -41,7 +41,7 @@ pub fn gamma_of(env: &Environment, sea: &Sea) -> Option<f64> {
 pub fn build_spectrum(
     model: &Model,
     env: &Environment,
-    sea: &Sea,
+    sea: &SeaDefinition,
     limits: Option<[f64; 2]>,
 ) -> Result<Option<Spectrum>, ClassError> {
     if is_regular(sea) {
@@ -66,7 +66,7 @@ pub fn build_spectrum(
     }))
 }
 
-fn whole(model: &Model, env: &Environment, sea: &Sea) -> Result<Spectrum, ClassError> {
+fn whole(model: &Model, env: &Environment, sea: &SeaDefinition) -> Result<Spectrum, ClassError> {
     let (height, period) = (sea.height, sea.period);
     let m0 = height * height / 16.0;
     let given = env.sea_period.as_ref();
@@ -128,21 +128,21 @@ pub fn of_curve(curve: &Curve, height: f64, period: f64) -> Result<Spectrum, Cla
         .map_err(|_| wrong("has no energy"))
 }
 
-impl Waves {
+impl WaveEnergies {
     /// The waves of a sea of an environment.
     ///
     /// # Errors
     /// As [`build_spectrum`].
-    pub fn new(model: &Model, env: &Environment, sea: &Sea) -> Result<Self, ClassError> {
+    pub fn new(model: &Model, env: &Environment, sea: &SeaDefinition) -> Result<Self, ClassError> {
         let regular = || vec![(TAU / sea.period, sea.height * sea.height / 8.0)];
-        Ok(Waves {
+        Ok(WaveEnergies {
             energies: build_spectrum(model, env, sea, None)?.map_or_else(regular, |spectrum| spectrum.energies()),
         })
     }
 
     /// JONSWAP of a significant height (m) and a period (s); ISSC with gamma 1.
     pub fn from_peak(height: f64, period: f64, kind: PeriodType, gamma: f64) -> Self {
-        Waves { energies: Spectrum::of_humps(jonswap(height, period, kind, gamma), None).energies() }
+        WaveEnergies { energies: Spectrum::of_humps(jonswap(height, period, kind, gamma), None).energies() }
     }
 
     /// The sum of energy times the frequency to a power: `m0`, `m1`, `m2` (m2 (rad/s)^n).
@@ -158,7 +158,7 @@ mod tests {
     #[test]
     fn periods_of_issc_are_those_of_its_closed_form() {
         // T1/Tp = (4/5)^(1/4) / Gamma(3/4), Tz/Tp = (4/(5 pi))^(1/4), Gamma(3/4) = 1.2254167024651776
-        let waves = Waves::from_peak(4.0, 10.0, PeriodType::Peak, 1.0);
+        let waves = WaveEnergies::from_peak(4.0, 10.0, PeriodType::Peak, 1.0);
         let (t1, tz) = (TAU * waves.moment(0) / waves.moment(1), TAU * (waves.moment(0) / waves.moment(2)).sqrt());
         assert!((waves.moment(0) - 1.0).abs() < 1e-12);
         assert!((t1 / 10.0 - 0.8f64.powf(0.25) / 1.225_416_702_465_177_6).abs() < 1e-5, "{t1}");
@@ -170,7 +170,7 @@ mod tests {
         // [DNV-RP-C205 3.5.5.5]: Tz/Tp = 0.6673 + 0.05037 g - 0.00623 g^2 + 0.0003341 g^3, T1/Tp = 0.7303 + 0.04936 g
         // - 0.006556 g^2 + 0.0003610 g^3: fits, good to some 0.5 %
         for gamma in [1.0, 2.0, 3.3, 5.0] {
-            let waves = Waves::from_peak(4.0, 10.0, PeriodType::Peak, gamma);
+            let waves = WaveEnergies::from_peak(4.0, 10.0, PeriodType::Peak, gamma);
             let (t1, tz) = (TAU * waves.moment(0) / waves.moment(1), TAU * (waves.moment(0) / waves.moment(2)).sqrt());
             let fit = |c: [f64; 4]| 10.0 * (c[0] + gamma * (c[1] + gamma * (c[2] + gamma * c[3])));
             assert!((tz / fit([0.6673, 0.05037, -0.00623, 0.0003341]) - 1.0).abs() < 5e-3, "{gamma} {tz}");
@@ -181,7 +181,7 @@ mod tests {
     #[test]
     fn a_period_of_another_type_comes_back() {
         for (kind, power) in [(PeriodType::Mean, 1), (PeriodType::ZeroCrossing, 2)] {
-            let waves = Waves::from_peak(3.0, 9.0, kind, 2.0);
+            let waves = WaveEnergies::from_peak(3.0, 9.0, kind, 2.0);
             let found = TAU * (waves.moment(0) / waves.moment(power)).powf(1.0 / f64::from(power));
             assert!((found - 9.0).abs() < 1e-9, "{kind:?} {found}");
         }

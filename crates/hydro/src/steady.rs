@@ -1,8 +1,8 @@
 //! What is steady around a body: water, wind, current, and the mean of the waves.
 
 use super::current::CurrentField;
-use super::spectrum::Waves;
-use super::variation::{Instant, Variation};
+use super::spectrum::WaveEnergies;
+use super::variation::{StreamVariation, Variation};
 use super::wind::WindField;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ pub struct Steady {
     /// Current.
     pub current: CurrentField,
     /// The seas, each with the horizontal direction it travels toward.
-    pub waves: Vec<(Vector3<f64>, Arc<Waves>)>,
+    pub waves: Vec<(Vector3<f64>, Arc<WaveEnergies>)>,
     /// What varies in time, for bodies under way.
     pub variation: Option<Arc<Variation>>,
 }
@@ -40,7 +40,7 @@ pub struct Steady {
 #[derive(Clone, Copy, Debug)]
 pub struct Streams<'a> {
     steady: &'a Steady,
-    instant: Instant,
+    instant: StreamVariation,
 }
 
 impl Streams<'_> {
@@ -84,7 +84,7 @@ impl Steady {
         let mut waves = Vec::new();
         for sea in [&env.sea, &env.added_sea].into_iter().flatten().filter(|s| s.height > 0.0) {
             let (cos, sin) = windlass_base::geometry::unit_vector(sea.direction);
-            waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(Waves::new(model, env, sea)?)));
+            waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(WaveEnergies::new(model, env, sea)?)));
         }
         Ok(Steady {
             around,
@@ -119,12 +119,12 @@ impl Steady {
 
     /// Wind and current without what varies in time.
     pub fn mean(&self) -> Streams<'_> {
-        Streams { steady: self, instant: Instant::default() }
+        Streams { steady: self, instant: StreamVariation::default() }
     }
 
     /// Wind and current at a time (s).
     pub fn streams_at_time(&self, time: f64) -> Streams<'_> {
-        let instant = self.variation.as_ref().map_or_else(Instant::default, |v| v.sample(time));
+        let instant = self.variation.as_ref().map_or_else(StreamVariation::default, |v| v.sample(time));
         Streams { steady: self, instant }
     }
 

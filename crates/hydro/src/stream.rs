@@ -25,7 +25,7 @@ impl Push {
 /// What a stream pushes at one point of a body: a load.
 pub trait InStream: std::fmt::Debug + Send + Sync {
     /// Where it stands, and the stream.
-    fn stands(&self) -> (&Place, &Steady);
+    fn stands(&self) -> (&LoadPlace, &Steady);
 
     /// The push of a stream of a velocity in body axes (m/s).
     fn push(&self, stream: Vector3<f64>) -> Push;
@@ -57,7 +57,7 @@ pub(super) fn category(medium: Medium) -> Category {
 
 /// Where and in what a point load acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct LoadPlace {
     /// The point, in the body (m).
     pub at: Vector3<f64>,
     /// In air or water.
@@ -66,7 +66,7 @@ pub struct Place {
     pub shared: bool,
 }
 
-impl Place {
+impl LoadPlace {
     /// The load on the body at rest that `push` makes in the mean stream at the point.
     pub fn load(&self, steady: &Steady, pose: &Pose, push: impl Fn(Vector3<f64>) -> Push) -> Load {
         let stream = steady.velocity(self.medium, pose.point(self.at).z);

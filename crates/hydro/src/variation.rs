@@ -6,11 +6,11 @@
 
 use super::gusts::Gusts;
 use super::ramp::ramp;
-use windlass_model::{ClassError, CurveKind, Environment, Formula, Model};
+use windlass_model::{ClassError, CurveKind, CurveReference, Environment, Model};
 
 /// What wind and current have beside their means at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Instant {
+pub struct StreamVariation {
     /// Speed that a history adds to the mean wind 10 m above the water (m/s).
     pub wind: f64,
     /// Gust along the mean wind, the same everywhere (m/s).
@@ -19,27 +19,27 @@ pub struct Instant {
     pub current: f64,
 }
 
-impl Default for Instant {
+impl Default for StreamVariation {
     fn default() -> Self {
-        Instant { wind: 0.0, gust: 0.0, current: 1.0 }
+        StreamVariation { wind: 0.0, gust: 0.0, current: 1.0 }
     }
 }
 
 /// A value over time, straight between its points.
 #[derive(Clone, Debug, PartialEq)]
-pub struct History {
+pub struct TimeCurve {
     /// Time (s), value; times grow.
     points: Vec<(f64, f64)>,
 }
 
-impl History {
+impl TimeCurve {
     /// That of a curve of a kind that an environment names.
     ///
     /// # Errors
     /// A curve that is not there.
-    fn new(model: &Model, named: &Formula, kind: CurveKind) -> Result<Self, ClassError> {
+    fn new(model: &Model, named: &CurveReference, kind: CurveKind) -> Result<Self, ClassError> {
         match model.curves.get(&Model::key(&named.kind)) {
-            Some(curve) if curve.kind == kind => Ok(History { points: curve.points.clone() }),
+            Some(curve) if curve.kind == kind => Ok(TimeCurve { points: curve.points.clone() }),
             _ => {
                 Err(ClassError::new(format!("there is no {} curve {}", kind.name(), named.kind)).with_span(named.span))
             }
@@ -61,9 +61,9 @@ impl History {
 #[derive(Debug)]
 pub struct Variation {
     /// Mean speed of the wind (m/s), and its history.
-    wind: Option<(f64, History)>,
+    wind: Option<(f64, TimeCurve)>,
     gusts: Option<Gusts>,
-    current: Option<History>,
+    current: Option<TimeCurve>,
     /// Time over which it grows (s).
     ramp: f64,
 }
@@ -83,7 +83,7 @@ impl Variation {
         let wind = match &env.wind_history {
             None => None,
             Some(named) => {
-                let history = History::new(model, named, CurveKind::WindHistory)?;
+                let history = TimeCurve::new(model, named, CurveKind::WindHistory)?;
                 let Some(mean) = env.wind else {
                     let text = format!("the wind history {} has no direction", named.kind);
                     return Err(ClassError::new(text).with_span(named.span).help(
@@ -97,7 +97,7 @@ impl Variation {
         let current = env
             .current_history
             .as_ref()
-            .map(|named| History::new(model, named, CurveKind::CurrentHistory))
+            .map(|named| TimeCurve::new(model, named, CurveKind::CurrentHistory))
             .transpose()?;
         let gusts = Gusts::new(model, env)?;
         if wind.is_none() && gusts.is_none() && current.is_none() {
@@ -107,11 +107,11 @@ impl Variation {
     }
 
     /// What there is at a time (s).
-    pub fn sample(&self, time: f64) -> Instant {
+    pub fn sample(&self, time: f64) -> StreamVariation {
         let (grown, _) = ramp(self.ramp, time);
         let wind = self.wind.as_ref().map_or(0.0, |(mean, history)| grown * (history.value_at_time(time) - mean));
         let current = self.current.as_ref().map_or(1.0, |history| 1.0 + grown * (history.value_at_time(time) - 1.0));
         let gust = self.gusts.as_ref().map_or(0.0, |gusts| grown * gusts.speed_at_time(time));
-        Instant { wind, gust, current }
+        StreamVariation { wind, gust, current }
     }
 }

@@ -6,7 +6,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_model::{ClassError, Mass};
 
 #[derive(Debug)]
-struct Weight {
+struct WeightLoad {
     /// In newtons.
     weight: f64,
     /// Centre of gravity in the body (m).
@@ -15,11 +15,11 @@ struct Weight {
 
 /// The weight of a mass; none of a body without mass.
 pub fn build_weight(mass: &Mass, gravity: f64) -> Option<Box<dyn BodyLoad>> {
-    let made = Weight { weight: mass.mass * gravity, centre: mass.centre };
+    let made = WeightLoad { weight: mass.mass * gravity, centre: mass.centre };
     (mass.mass != 0.0).then(|| Box::new(made) as Box<dyn BodyLoad>)
 }
 
-impl BodyLoad for Weight {
+impl BodyLoad for WeightLoad {
     fn category(&self) -> Category {
         Category::Weight
     }

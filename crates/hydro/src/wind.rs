@@ -19,7 +19,7 @@ const SURFACE_LAYER: f64 = 20.0;
 
 /// How the mean wind grows with height.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Profile {
+pub enum WindProfile {
     /// `(z/10)^exponent`.
     Power(f64),
     /// `ln(z/z0) / ln(10/z0)` with this roughness (m).
@@ -74,7 +74,7 @@ pub struct WindField {
     /// Horizontal direction it blows toward.
     pub toward: Vector3<f64>,
     /// Its growth with height.
-    pub profile: Profile,
+    pub profile: WindProfile,
     gust: Gust,
 }
 
@@ -97,11 +97,11 @@ impl WindField {
     }
 
     /// A wind of a speed (m/s, 10 m above the water) from a direction (rad), with a profile.
-    pub fn steady(speed: f64, from: f64, profile: Profile) -> Self {
+    pub fn steady(speed: f64, from: f64, profile: WindProfile) -> Self {
         WindField::new(speed, from, profile, Gust::None)
     }
 
-    fn new(speed: f64, from: f64, profile: Profile, gust: Gust) -> Self {
+    fn new(speed: f64, from: f64, profile: WindProfile, gust: Gust) -> Self {
         let (cos, sin) = windlass_base::geometry::unit_vector(from);
         WindField { speed, toward: Vector3::new(-cos, -sin, 0.0), profile, gust }
     }
@@ -109,7 +109,7 @@ impl WindField {
     /// Heights above the water (m) at which its formula has a kink.
     pub fn kinks(&self) -> Vec<f64> {
         let mut heights = vec![MIN_WIND_HEIGHT_M];
-        if self.profile == Profile::Abs {
+        if self.profile == WindProfile::Abs {
             heights.extend(ABS_BANDS.map(|band| band.0));
         }
         if matches!(self.gust, Gust::Api(_)) {
@@ -123,16 +123,16 @@ impl WindField {
         let z = height.max(MIN_WIND_HEIGHT_M);
         let log = (z / REFERENCE_HEIGHT_M).ln();
         let (factor, rise) = match self.profile {
-            Profile::Power(a) => {
+            WindProfile::Power(a) => {
                 let f = (a * log).exp();
                 (f, a * f / z)
             }
-            Profile::Logarithmic(z0) => {
+            WindProfile::Logarithmic(z0) => {
                 let whole = (REFERENCE_HEIGHT_M / z0).ln();
                 (1.0 + log / whole, 1.0 / (whole * z))
             }
-            Profile::Logarithm(c) => (1.0 + c * log, c / z),
-            Profile::Abs => abs(z),
+            WindProfile::Logarithm(c) => (1.0 + c * log, c / z),
+            WindProfile::Abs => abs(z),
         };
         let (gust, growth) = self.gust.factor(z);
         let change = if height > MIN_WIND_HEIGHT_M { rise * gust + factor * growth } else { 0.0 };
@@ -172,17 +172,17 @@ impl Gust {
 /// - ISO: [ISO-19901-1 A.7.3]: C = 0.0573 sqrt(1 + 0.15 U), hourly mean.
 /// - DNV: [DNV-RP-C205 2.3.2.11]: C = 0.137, mean over 10 minutes.
 /// - ABS: MODU Rules, mean over one minute; its steps are joined by straight lines between the middles of the bands.
-fn law(kind: &str, exponent: Option<f64>, speed: f64) -> Result<Profile, ClassError> {
+fn law(kind: &str, exponent: Option<f64>, speed: f64) -> Result<WindProfile, ClassError> {
     match (kind, exponent) {
-        ("POWER", a) => Ok(Profile::Power(a.unwrap_or(1.0 / 7.0))),
-        ("API", a) => Ok(Profile::Power(a.unwrap_or(0.125))),
+        ("POWER", a) => Ok(WindProfile::Power(a.unwrap_or(1.0 / 7.0))),
+        ("API", a) => Ok(WindProfile::Power(a.unwrap_or(0.125))),
         (_, Some(_)) => Err(ClassError::new(format!("the {kind} wind profile has no exponent"))
             .help("-W_PROFILE POWER and API take one")),
-        ("LOGARITHMIC", _) => Ok(Profile::Logarithmic(roughness(speed))),
-        ("NPD", _) => Ok(Profile::Logarithm(0.0573 * (1.0 + 0.148 * speed).sqrt())),
-        ("ISO", _) => Ok(Profile::Logarithm(0.0573 * (1.0 + 0.15 * speed).sqrt())),
-        ("DNV", _) => Ok(Profile::Logarithm(0.137)),
-        ("ABS", _) => Ok(Profile::Abs),
+        ("LOGARITHMIC", _) => Ok(WindProfile::Logarithmic(roughness(speed))),
+        ("NPD", _) => Ok(WindProfile::Logarithm(0.0573 * (1.0 + 0.148 * speed).sqrt())),
+        ("ISO", _) => Ok(WindProfile::Logarithm(0.0573 * (1.0 + 0.15 * speed).sqrt())),
+        ("DNV", _) => Ok(WindProfile::Logarithm(0.137)),
+        ("ABS", _) => Ok(WindProfile::Abs),
         _ => Err(ClassError::new(format!("there is no wind profile {kind}"))),
     }
 }

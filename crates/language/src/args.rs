@@ -9,7 +9,7 @@ mod convert;
 use super::record::Word;
 use super::select;
 use super::spec::{CommandSpec, Kind, OptionSpec, ValueSpec, describe_expected};
-use super::token::Kind as Lex;
+use super::token::TokenKind as Lex;
 use convert::{convert, take};
 use std::collections::BTreeMap;
 use windlass_base::diagnostic::{Diagnostic, Outcome};

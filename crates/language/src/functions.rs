@@ -7,7 +7,7 @@ use super::logic;
 use super::number;
 use super::record::{Record, Word};
 use super::select::{self, Owner};
-use super::token::Kind;
+use super::token::TokenKind;
 use super::variables::Variables;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -298,7 +298,7 @@ fn token_function(words: &[Word], span: Span) -> Outcome<String> {
     let Some((which, list)) = words.split_first() else {
         return Err(Diagnostic::error("&TOKEN lacks the number of the word", span));
     };
-    let text = |w: &Word| if w.kind == Kind::Quoted { format!("'{}'", w.text) } else { w.text.to_string() };
+    let text = |w: &Word| if w.kind == TokenKind::Quoted { format!("'{}'", w.text) } else { w.text.to_string() };
     let index = |s: &str| number::evaluate(s).ok().filter(|v| *v >= 1.0 && v.fract() == 0.0).map(|v| v as usize);
     if which.text.eq_ignore_ascii_case("N") {
         return Ok(list.len().to_string());

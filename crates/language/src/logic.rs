@@ -26,7 +26,7 @@ const OPERATORS: &[&str] =
 /// A phrase that cannot be read, or text compared as a number; the place is that of the whole phrase.
 pub fn evaluate(phrase: &str, span: Span) -> Outcome<bool> {
     let words = split(phrase);
-    let mut reader = Reader { words: &words, at: 0 };
+    let mut reader = LogicReader { words: &words, at: 0 };
     let result = reader.either(0).and_then(|value| match reader.peek() {
         None => Ok(value),
         Some(word) => Err(format!("`{word}` has no place here")),
@@ -86,12 +86,12 @@ fn operand(mut word: &str, words: &mut Vec<String>) {
     words.extend(std::iter::repeat_n(")".to_string(), closing));
 }
 
-struct Reader<'a> {
+struct LogicReader<'a> {
     words: &'a [String],
     at: usize,
 }
 
-impl Reader<'_> {
+impl LogicReader<'_> {
     fn peek(&self) -> Option<&str> {
         self.words.get(self.at).map(String::as_str)
     }

@@ -43,7 +43,9 @@ pub enum NumberError {
     #[error("{0} takes one argument")]
     Arguments(String),
     /// Longer or deeper than is taken.
-    #[error("the expression is too long or too deeply nested (at most {LONGEST} characters, {DEEPEST} parentheses)")]
+    #[error(
+        "the expression is too long or too deeply nested (at most {MAX_EXPRESSION_BYTES} characters, {MAX_NESTING} parentheses)"
+    )]
     TooBig,
 }
 

@@ -1,6 +1,6 @@
 //! Records: one logical line of text, joined over continuation lines, in which every byte still knows its place.
 
-use super::token::{self, Kind};
+use super::token::{self, TokenKind};
 use std::ops::Range;
 use std::sync::Arc;
 use windlass_base::span::{SourceId, Span};
@@ -10,7 +10,7 @@ pub const LONGEST_RECORD: usize = 1 << 20;
 
 /// A piece of a record's text and the place it came from.
 #[derive(Clone, Debug, PartialEq)]
-struct Piece {
+struct TextPiece {
     /// First byte in the record's text.
     at: usize,
     /// Where the piece stands in its source.
@@ -23,14 +23,14 @@ struct Piece {
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Record {
     text: String,
-    pieces: Vec<Piece>,
+    pieces: Vec<TextPiece>,
 }
 
 /// One word of a record, ready to be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Word {
     /// What its first characters say it is.
-    pub kind: Kind,
+    pub kind: TokenKind,
     /// Its text (quotes taken off).
     pub text: Arc<str>,
     /// Where it stands in the source.
@@ -57,7 +57,7 @@ impl Record {
 
     fn push(&mut self, text: &str, origin: Span, verbatim: bool) {
         if !text.is_empty() {
-            self.pieces.push(Piece { at: self.text.len(), origin, verbatim });
+            self.pieces.push(TextPiece { at: self.text.len(), origin, verbatim });
             self.text.push_str(text);
         }
     }
@@ -74,7 +74,7 @@ impl Record {
             let from = piece.at.max(range.start);
             let to = other.pieces.get(index + 1).map_or(other.text.len(), |next| next.at).min(range.end);
             if from < to {
-                self.pieces.push(Piece { at: base + from - range.start, ..piece.clone() });
+                self.pieces.push(TextPiece { at: base + from - range.start, ..piece.clone() });
                 if piece.verbatim
                     && from > piece.at
                     && let Some(last) = self.pieces.last_mut()

@@ -8,7 +8,7 @@ pub use windlass_base::spec::Owner;
 
 /// What a keyword search found.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Choice<T> {
+pub enum SearchResult<T> {
     /// Exactly one.
     One(T),
     /// Several begin with the word; their names.
@@ -21,13 +21,13 @@ pub enum Choice<T> {
 pub fn keyword<T: Copy + PartialEq>(
     word: &str,
     names: impl Iterator<Item = (&'static str, Owner, T)> + Clone,
-) -> Choice<T> {
+) -> SearchResult<T> {
     let begins = |name: &str| name.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));
     if word.is_empty() {
-        return Choice::None;
+        return SearchResult::None;
     }
     if let Some((_, _, found)) = names.clone().find(|(name, _, _)| name.eq_ignore_ascii_case(word)) {
-        return Choice::One(found);
+        return SearchResult::One(found);
     }
     for moses in [true, false] {
         let mut hits = names.clone().filter(|(name, owner, _)| (*owner == Owner::Moses) == moses && begins(name));
@@ -36,12 +36,12 @@ pub fn keyword<T: Copy + PartialEq>(
             let rest: Vec<&'static str> =
                 hits.filter(|(_, _, other)| *other != found).map(|(name, _, _)| name).collect();
             if rest.is_empty() {
-                return Choice::One(found);
+                return SearchResult::One(found);
             }
-            return Choice::Several(std::iter::once(first).chain(rest).collect());
+            return SearchResult::Several(std::iter::once(first).chain(rest).collect());
         }
     }
-    Choice::None
+    SearchResult::None
 }
 
 /// As [`keyword`], with the error a user sees: `what` says what is being chosen, e.g. `option of B_CAT`.
@@ -55,10 +55,10 @@ pub fn choose<T: Copy + PartialEq>(
     names: impl Iterator<Item = (&'static str, Owner, T)> + Clone,
 ) -> Outcome<T> {
     match keyword(word, names.clone()) {
-        Choice::One(found) => Ok(found),
-        Choice::Several(list) => Err(Diagnostic::error(format!("ambiguous {what} `{word}`"), span)
+        SearchResult::One(found) => Ok(found),
+        SearchResult::Several(list) => Err(Diagnostic::error(format!("ambiguous {what} `{word}`"), span)
             .label(format!("could be {}", list.join(", ")))),
-        Choice::None => {
+        SearchResult::None => {
             let mut error = Diagnostic::error(format!("unknown {what} `{word}`"), span);
             match did_you_mean(word, names.clone().map(|(name, _, _)| name)) {
                 Some(help) => error.help.push(help),
@@ -89,12 +89,12 @@ mod tests {
     #[test]
     fn exact_wins_then_a_unique_prefix_of_moses() {
         let find = |w: &str| keyword(w, NAMES.iter().copied());
-        assert_eq!(find("-len"), Choice::One(4));
-        assert_eq!(find("-L_T"), Choice::One(1));
-        assert_eq!(find("-LENG"), Choice::One(3));
-        assert_eq!(find("-LENS"), Choice::One(5));
-        assert_eq!(find("-L_"), Choice::Several(vec!["-L_TENSION", "-L_HORIZONTAL"]));
-        assert_eq!(find("-X"), Choice::None);
+        assert_eq!(find("-len"), SearchResult::One(4));
+        assert_eq!(find("-L_T"), SearchResult::One(1));
+        assert_eq!(find("-LENG"), SearchResult::One(3));
+        assert_eq!(find("-LENS"), SearchResult::One(5));
+        assert_eq!(find("-L_"), SearchResult::Several(vec!["-L_TENSION", "-L_HORIZONTAL"]));
+        assert_eq!(find("-X"), SearchResult::None);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use windlass_base::values::Noun;
 
 /// How the text behind a command word is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum TextForm {
     /// Words, as data and options.
     Words,
     /// Text as typed, to the end of the record.
@@ -74,7 +74,7 @@ pub struct CommandSpec {
     /// The menu it opens.
     pub opens: Opens,
     /// Words or raw text.
-    pub form: Form,
+    pub form: TextForm,
     /// Positional data in order.
     pub data: &'static [ValueSpec],
     /// The last this-many data repeat as a group (0: none do).
@@ -101,7 +101,7 @@ impl CommandSpec {
             owner: Owner::Moses,
             menus: &[],
             opens: Opens::Nothing,
-            form: Form::Words,
+            form: TextForm::Words,
             data: &[],
             repeat: 0,
             interleaved: false,
@@ -127,7 +127,7 @@ impl CommandSpec {
     pub fn syntax(&self) -> String {
         let mut text = self.name.to_string();
         text.push_str(&values_syntax(self.data, self.repeat));
-        if self.form == Form::Text {
+        if self.form == TextForm::Text {
             text.push_str(" text");
         }
         if !self.options.is_empty() {

@@ -5,7 +5,7 @@
 
 use super::functions;
 use super::record::{LONGEST_RECORD, Record, Word};
-use super::select::{self, Choice, Owner};
+use super::select::{self, Owner, SearchResult};
 use super::variables::Variables;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
@@ -14,7 +14,7 @@ use windlass_base::span::Span;
 const MAX_NESTING: usize = 32;
 
 /// What the floors above the language answer: string functions about the model and the session.
-pub trait World {
+pub trait FunctionHost {
     /// Names of the functions answered here, without `&`.
     fn function_names(&self) -> &'static [&'static str];
 
@@ -39,7 +39,7 @@ pub trait World {
 /// A world without functions, for a language used on its own.
 pub struct NoFunctions;
 
-impl World for NoFunctions {
+impl FunctionHost for NoFunctions {
     fn function_names(&self) -> &'static [&'static str] {
         &[]
     }
@@ -53,7 +53,7 @@ impl World for NoFunctions {
 ///
 /// # Errors
 /// An undefined variable, an unknown function or wrong arguments, unbalanced parentheses, a result that is too long.
-pub fn substitute(record: &Record, variables: &Variables, world: &mut dyn World) -> Outcome<Record> {
+pub fn substitute(record: &Record, variables: &Variables, world: &mut dyn FunctionHost) -> Outcome<Record> {
     let text = record.text();
     if !text.contains('%') && !text.contains('&') {
         return Ok(record.clone());
@@ -64,7 +64,7 @@ pub fn substitute(record: &Record, variables: &Variables, world: &mut dyn World)
     expand(record, variables, world, 0)
 }
 
-fn expand(record: &Record, variables: &Variables, world: &mut dyn World, depth: usize) -> Outcome<Record> {
+fn expand(record: &Record, variables: &Variables, world: &mut dyn FunctionHost, depth: usize) -> Outcome<Record> {
     let text = record.text();
     let mut out = Record::default();
     let mut kept = 0;
@@ -167,7 +167,7 @@ fn function(
     kept: usize,
     out: &mut Record,
     variables: &Variables,
-    world: &mut dyn World,
+    world: &mut dyn FunctionHost,
     depth: usize,
 ) -> Outcome<Option<usize>> {
     let text = record.text();
@@ -188,13 +188,13 @@ fn function(
     }
     let known = functions::NAMES.iter().chain(world.function_names()).map(|n| (*n, Owner::Moses, *n));
     let name = match select::keyword(name, known.clone()) {
-        Choice::One(name) => name,
+        SearchResult::One(name) => name,
         _ if mark == text.len() - text.trim_start().len() => return Ok(None),
-        Choice::Several(list) => {
+        SearchResult::Several(list) => {
             return Err(Diagnostic::error(format!("ambiguous function &{name}"), span)
                 .label(format!("could be &{}", list.join(", &"))));
         }
-        Choice::None => {
+        SearchResult::None => {
             let mut error = Diagnostic::error(format!("unknown function &{name}"), span);
             error.help.extend(did_you_mean(name, known.map(|(n, _, _)| n)));
             return Err(error);

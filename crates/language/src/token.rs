@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// What a token is, told from its first characters alone.
 #[derive(Logos, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum TokenKind {
     /// A run of blanks.
     #[regex(r"[ \t\r\n\u{b}\u{c}]+")]
     Blank,
@@ -61,14 +61,17 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Token {
     /// What it is.
-    pub kind: Kind,
+    pub kind: TokenKind,
     /// Where it is.
     pub range: Range<usize>,
 }
 
 /// All tokens of a text, blanks and comments included, in order and without gaps that matter.
 pub fn tokens(text: &str) -> Vec<Token> {
-    Kind::lexer(text).spanned().map(|(kind, range)| Token { kind: kind.unwrap_or(Kind::Word), range }).collect()
+    TokenKind::lexer(text)
+        .spanned()
+        .map(|(kind, range)| Token { kind: kind.unwrap_or(TokenKind::Word), range })
+        .collect()
 }
 
 /// The words of a record: no blanks, commas or comments; an [`Kind::Empty`] for each field left out between commas.
@@ -76,19 +79,19 @@ pub fn tokens(text: &str) -> Vec<Token> {
 pub fn words(text: &str) -> Vec<Token> {
     let mut list = Vec::with_capacity(8);
     let mut comma_open = false;
-    for (kind, range) in Kind::lexer(text).spanned() {
-        match kind.unwrap_or(Kind::Word) {
-            Kind::Blank | Kind::Continuation => {}
-            Kind::Comment => break,
-            Kind::Comma => {
+    for (kind, range) in TokenKind::lexer(text).spanned() {
+        match kind.unwrap_or(TokenKind::Word) {
+            TokenKind::Blank | TokenKind::Continuation => {}
+            TokenKind::Comment => break,
+            TokenKind::Comma => {
                 if comma_open || list.is_empty() {
-                    list.push(Token { kind: Kind::Empty, range: range.start..range.start });
+                    list.push(Token { kind: TokenKind::Empty, range: range.start..range.start });
                 }
                 comma_open = true;
             }
-            Kind::Quoted => {
+            TokenKind::Quoted => {
                 comma_open = false;
-                list.push(Token { kind: Kind::Quoted, range: range.start + 1..range.end - 1 });
+                list.push(Token { kind: TokenKind::Quoted, range: range.start + 1..range.end - 1 });
             }
             kind => {
                 comma_open = false;
@@ -106,11 +109,11 @@ pub fn line_end(line: &str) -> (usize, bool) {
         return (line.len(), false);
     }
     let mut mark = None;
-    for (kind, range) in Kind::lexer(line).spanned() {
-        match kind.unwrap_or(Kind::Word) {
-            Kind::Comment => return (mark.unwrap_or(range.start), mark.is_some()),
-            Kind::Continuation => mark = Some(range.start),
-            Kind::Blank => {}
+    for (kind, range) in TokenKind::lexer(line).spanned() {
+        match kind.unwrap_or(TokenKind::Word) {
+            TokenKind::Comment => return (mark.unwrap_or(range.start), mark.is_some()),
+            TokenKind::Continuation => mark = Some(range.start),
+            TokenKind::Blank => {}
             _ => mark = None,
         }
     }
@@ -124,10 +127,10 @@ pub fn goes_on(line: &str, inside: bool) -> bool {
 }
 
 /// Whether a word can only be read as a number or an arithmetic expression, as opposed to a name.
-pub fn is_numeric(kind: Kind, text: &str) -> bool {
+pub fn is_numeric(kind: TokenKind, text: &str) -> bool {
     match kind {
-        Kind::Number => true,
-        Kind::Word => {
+        TokenKind::Number => true,
+        TokenKind::Word => {
             // `SQRT(2)*3`: a name directly followed by a parenthesis
             text.starts_with(['+', '-', '(']) || text.find('(').is_some_and(|at| at > 0 && text.ends_with(')'))
         }
@@ -139,14 +142,22 @@ pub fn is_numeric(kind: Kind, text: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn kinds(text: &str) -> Vec<(Kind, String)> {
+    fn kinds(text: &str) -> Vec<(TokenKind, String)> {
         words(text).into_iter().map(|t| (t.kind, text[t.range].to_string())).collect()
     }
 
     #[test]
     fn a_minus_starts_an_option_only_before_a_letter() {
         let got = kinds("A -ANC -45 -.5 -(2+3) ~WIRE *MLB");
-        let want = [Kind::Word, Kind::Option, Kind::Number, Kind::Number, Kind::Number, Kind::Class, Kind::Point];
+        let want = [
+            TokenKind::Word,
+            TokenKind::Option,
+            TokenKind::Number,
+            TokenKind::Number,
+            TokenKind::Number,
+            TokenKind::Class,
+            TokenKind::Point,
+        ];
         assert_eq!(got.iter().map(|(k, _)| *k).collect::<Vec<_>>(), want);
     }
 
@@ -167,7 +178,10 @@ mod tests {
 
     #[test]
     fn quotes_keep_blanks_but_an_apostrophe_inside_a_word_is_a_letter() {
-        assert_eq!(kinds("STORE 'my file.csv'"), [(Kind::Word, "STORE".into()), (Kind::Quoted, "my file.csv".into())]);
+        assert_eq!(
+            kinds("STORE 'my file.csv'"),
+            [(TokenKind::Word, "STORE".into()), (TokenKind::Quoted, "my file.csv".into())]
+        );
         assert_eq!(kinds("Don't stop").len(), 2);
     }
 }

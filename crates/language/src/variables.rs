@@ -24,7 +24,7 @@ pub enum VariableError {
     #[error("the value is longer than {LONGEST_VALUE} characters")]
     TooLong,
     /// There are too many variables.
-    #[error("there are more than {MOST_VARIABLES} variables")]
+    #[error("there are more than {MAX_VARIABLES} variables")]
     TooMany,
 }
 

@@ -4,13 +4,13 @@ use super::bend::hinge;
 use super::element_batch::count_batchable;
 use super::environment::LineEnvironment;
 use super::hinges::spatial_hinges;
-use super::mesh::{Element, Rod};
+use super::mesh::{Rod, RodElement};
 use super::morison::{half_load, slam_load, water_entry, wet_share, wind_load};
 use super::nodal_loads::add_nodal_loads;
 use super::statics_friction::{NodeFriction, seabed_friction};
 use super::stick_friction::{StickFriction, stick_friction};
-use super::system::{System, Weights};
-use super::tension::{Stretch, Tension, TensionOptions, tension};
+use super::system::{RodSystem, Weights};
+use super::tension::{ElementStretch, ElementTension, TensionOptions, tension};
 use super::trial::Trial;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
@@ -55,7 +55,7 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
     trial: &Trial,
     weights: Weights,
     range: Range<usize>,
-    system: &mut System<W, H, S>,
+    system: &mut RodSystem<W, H, S>,
 ) {
     let gravity = world.gravity;
     let mut i = range.start;
@@ -127,7 +127,7 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
 #[inline(always)]
 fn axial(
     rod: &Rod,
-    element: &Element,
+    element: &RodElement,
     trial: &Trial,
     Weights { k, c, m }: Weights,
     edge: &ElementAxis,
@@ -144,9 +144,9 @@ fn axial(
         compression: (element.compression || trial.resists_shortening()) && !trial.tension_only,
         axial_stiffness_scale: trial.axial_stiffness_scale,
     };
-    let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z), datum: trial.origin.z };
+    let stretched = ElementStretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z), datum: trial.origin.z };
     let memory = trial.memory.get(*i);
-    let Tension { value, by_strain, by_rate, by_height } =
+    let ElementTension { value, by_strain, by_rate, by_height } =
         tension(rod, element, taken, &stretched, memory, [*i, i + 1].map(|node| &trial.fluid[node]), gravity);
     let force = t * value;
     let geometric = k * value * inverse;
@@ -189,7 +189,7 @@ fn axial(
 /// The water and the wind on each half.
 #[inline(always)]
 fn add_water_load<const TANGENT: bool>(
-    element: &Element,
+    element: &RodElement,
     trial: &Trial,
     weights: Weights,
     edge: &ElementAxis,
@@ -228,7 +228,7 @@ fn add_water_load<const TANGENT: bool>(
 /// The wind on a half with that wet share, and its slopes by the depths of its own node and of the middle.
 #[inline(never)]
 fn add_wind_load(
-    element: &Element,
+    element: &RodElement,
     trial: &Trial,
     Weights { k, c, .. }: Weights,
     edge: &ElementAxis,
@@ -249,7 +249,7 @@ fn add_wind_load(
 /// The slam on a half whose own node and middle lie that far below the surface (m).
 #[inline(never)]
 fn add_slam_load(
-    element: &Element,
+    element: &RodElement,
     trial: &Trial,
     Weights { k, c, .. }: Weights,
     edge: &ElementAxis,
@@ -321,7 +321,7 @@ fn bending<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     k: f64,
     edge: &ElementAxis,
     before: Option<(Vector3<f64>, f64)>,
-    system: &mut System<W, H, S>,
+    system: &mut RodSystem<W, H, S>,
 ) {
     let ElementAxis { i, t, length, .. } = edge;
     let (i, last) = (*i, rod.elements.len() - 1);

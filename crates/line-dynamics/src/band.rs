@@ -7,15 +7,15 @@
 
 /// A square band matrix; row i holds columns i - H .. i + H in `S` = 2 H + 1 places.
 #[derive(Clone, Debug)]
-pub(super) struct Band<const H: usize, const S: usize> {
+pub(super) struct BandMatrix<const H: usize, const S: usize> {
     rows: Vec<[f64; S]>,
 }
 
-impl<const H: usize, const S: usize> Band<H, S> {
+impl<const H: usize, const S: usize> BandMatrix<H, S> {
     /// The zero matrix.
     pub fn new(size: usize) -> Self {
         debug_assert_eq!(S, 2 * H + 1);
-        Band { rows: vec![[0.0; S]; size] }
+        BandMatrix { rows: vec![[0.0; S]; size] }
     }
 
     /// Sets all entries to zero.
@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn a_band_solves_what_it_multiplies() {
         let size = 23;
-        let mut band = Band::<5, 11>::new(size);
+        let mut band = BandMatrix::<5, 11>::new(size);
         for i in 0..size {
             for j in i.saturating_sub(5)..(i + 6).min(size) {
                 let value = ((i * 7 + j * 3) % 11) as f64 - 5.0 + if i == j { 30.0 } else { 0.0 };
@@ -197,7 +197,7 @@ mod tests {
             }
         }
         let x: Vec<f64> = (0..size).map(|i| (i as f64).sin()).collect();
-        let mut b: Vec<f64> = (0..size).map(|i| Band::<5, 11>::product(band.row(i), i, &x)).collect();
+        let mut b: Vec<f64> = (0..size).map(|i| BandMatrix::<5, 11>::product(band.row(i), i, &x)).collect();
         band.factor().unwrap();
         band.solve(&mut b);
         // diagonally dominant: rounding alone is left
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn the_transpose_gives_the_same_product_from_the_other_side() {
         let (size, filled, wanted) = (23, 9, 14);
-        let mut band = Band::<5, 11>::new(size);
+        let mut band = BandMatrix::<5, 11>::new(size);
         for i in 0..size {
             for j in i.saturating_sub(5)..(i + 6).min(size) {
                 band.add(i, j, ((i * 7 + j * 3) % 11) as f64 - 5.0 + if i == j { 30.0 } else { 0.0 });
@@ -235,7 +235,7 @@ mod tests {
 
     #[test]
     fn a_vanishing_pivot_is_named() {
-        let mut band = Band::<5, 11>::new(3);
+        let mut band = BandMatrix::<5, 11>::new(3);
         band.add(0, 0, 1.0);
         band.add(2, 2, 1.0);
         assert_eq!(band.factor(), Err(1));

@@ -3,7 +3,7 @@
 use super::environment::LineEnvironment;
 use super::hinges::{Clamp, clamp};
 use super::mesh::Rod;
-use super::step::{Solver, SolverPhase};
+use super::step::{RodSolver, SolverPhase};
 use super::system::Weights;
 use nalgebra::SMatrix;
 
@@ -79,7 +79,7 @@ impl EndJacobian {
     }
 }
 
-impl Solver {
+impl RodSolver {
     /// The tangent of the end forces at the last [`Solver::trial`], before it is accepted, or at rest after
     /// [`Solver::statics`], when velocities and accelerations have no part in it: the rod condensed to its ends. Of a
     /// step that was cut it is that of its last part.

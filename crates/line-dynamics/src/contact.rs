@@ -1,10 +1,10 @@
 //! A node on the bottom: normal support, damping, friction.
 
-use super::environment::{Bottom, SeabedLaw};
+use super::environment::{SeabedLaw, SeabedShape};
 use nalgebra::{Matrix3, Vector3};
 
 /// Force of the bottom on a node with its derivatives.
-pub(super) struct Contact {
+pub(super) struct SeabedContact {
     /// The force on the node (N): normal part, and friction.
     pub force: [Vector3<f64>; 2],
     /// Derivative of their sum by the position (N/m).
@@ -14,7 +14,7 @@ pub(super) struct Contact {
 }
 
 /// Normal of the bottom at a place below it, and the penetration along the normal (m).
-fn penetration(bottom: &dyn Bottom, x: &Vector3<f64>) -> Option<(Vector3<f64>, f64)> {
+fn penetration(bottom: &dyn SeabedShape, x: &Vector3<f64>) -> Option<(Vector3<f64>, f64)> {
     let (height, slope) = bottom.height(x.x, x.y);
     if x.z >= height {
         return None;
@@ -42,7 +42,7 @@ fn contact_force(depth: f64, soft: f64) -> ContactForce {
 }
 
 /// Elastic energy of the bottom under a node (J); `soft` as in [`contact`].
-pub(super) fn energy(bottom: &dyn Bottom, ground: &SeabedLaw, soft: f64, area: f64, x: &Vector3<f64>) -> f64 {
+pub(super) fn energy(bottom: &dyn SeabedShape, ground: &SeabedLaw, soft: f64, area: f64, x: &Vector3<f64>) -> f64 {
     penetration(bottom, x).map_or(0.0, |(_, depth)| ground.stiffness * area * contact_force(depth, soft).energy)
 }
 
@@ -59,7 +59,7 @@ fn cap_to_unit(u: &Vector3<f64>, exact: bool) -> (Vector3<f64>, Matrix3<f64>) {
 
 /// Where a node sticks from then on that has stuck at a place and is now at `x`.
 pub(super) fn update_stick_point(
-    bottom: &dyn Bottom,
+    bottom: &dyn SeabedShape,
     ground: &SeabedLaw,
     x: &Vector3<f64>,
     stuck: &Vector3<f64>,
@@ -81,7 +81,7 @@ pub(super) struct NormalReaction {
 
 /// Normal reaction on a node; `soft` and `area` as in [`contact`]. None above the bottom.
 pub(super) fn normal_reaction(
-    bottom: &dyn Bottom,
+    bottom: &dyn SeabedShape,
     ground: &SeabedLaw,
     soft: f64,
     area: f64,
@@ -102,7 +102,7 @@ pub(super) fn normal_reaction(
 #[inline]
 #[expect(clippy::too_many_arguments, reason = "a contact has that many causes")]
 pub(super) fn contact(
-    bottom: &dyn Bottom,
+    bottom: &dyn SeabedShape,
     ground: &SeabedLaw,
     soft: f64,
     area: f64,
@@ -111,7 +111,7 @@ pub(super) fn contact(
     lay: &Vector3<f64>,
     stuck: &Vector3<f64>,
     exact: bool,
-) -> Option<Contact> {
+) -> Option<SeabedContact> {
     let (normal, depth) = penetration(bottom, x)?;
     let ContactForce { depth: penetration, share, bend, .. } = contact_force(depth, soft);
     let sinking = -v.dot(&normal);
@@ -122,7 +122,7 @@ pub(super) fn contact(
     }
     let outer = normal * normal.transpose();
     let (by_depth, by_sinking) = (k * share + c * bend * sinking, c * share);
-    let mut made = Contact {
+    let mut made = SeabedContact {
         force: [normal * support, Vector3::zeros()],
         by_position: outer * -by_depth,
         by_velocity: outer * -by_sinking,

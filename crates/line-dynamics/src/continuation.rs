@@ -5,12 +5,12 @@
 //! the ends go over from the one to the other by steps, each of which is Newton's iteration from the step before. A step that does
 //! not converge is made shorter; where the shortest does not, as a strut buckles there, the rod falls into its next shape.
 
-use super::ends::{End, Motion};
+use super::ends::{RodEnd, RodEndMotion};
 use super::environment::LineEnvironment;
 use super::error::RodError;
 use super::mesh::Rod;
-use super::state::State;
-use super::step::Solver;
+use super::state::RodState;
+use super::step::RodSolver;
 use nalgebra::Vector3;
 
 /// First and least step, as shares of the whole way.
@@ -24,7 +24,7 @@ const STEP_GROWTH: f64 = 2.0;
 /// Where a continuation begins.
 #[derive(Clone, Debug)]
 struct ContinuationStart {
-    state: State,
+    state: RodState,
     /// Share of weight and given forces that is there already.
     loaded: f64,
 }
@@ -36,15 +36,15 @@ impl Rod {
     }
 }
 
-impl Solver {
+impl RodSolver {
     /// Rest of a stiff rod: from the state, if that rests where its ends are, or else from the straight rod free of load. None where
     /// neither way leads there.
     pub(super) fn rest_by_continuation(
         &mut self,
         rod: &Rod,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
-        ends: &[End; 2],
+        ends: &[RodEnd; 2],
         mass: &[f64],
     ) -> Result<Option<usize>, RodError> {
         let mut done = 0;
@@ -63,7 +63,7 @@ impl Solver {
         rod: &Rod,
         mut start: ContinuationStart,
         world: &LineEnvironment,
-        ends: &[End; 2],
+        ends: &[RodEnd; 2],
         mass: &[f64],
         done: &mut usize,
     ) -> Result<bool, RodError> {
@@ -80,9 +80,9 @@ impl Solver {
             let forces: Vec<_> = world.forces.iter().map(|(node, force)| (*node, force * loaded)).collect();
             let world = LineEnvironment { gravity: world.gravity * loaded, forces: &forces, ..*world };
             let between = [0, 1].map(|side| {
-                let place = |motion: Motion| from[side] + (motion.position - from[side]) * to;
-                End {
-                    motion: ends[side].motion.map(|m| if to < 1.0 { Motion::at_rest(place(m)) } else { m }),
+                let place = |motion: RodEndMotion| from[side] + (motion.position - from[side]) * to;
+                RodEnd {
+                    motion: ends[side].motion.map(|m| if to < 1.0 { RodEndMotion::at_rest(place(m)) } else { m }),
                     ..ends[side]
                 }
             });
@@ -114,10 +114,10 @@ impl Solver {
     fn next_shape(
         &mut self,
         rod: &Rod,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
         mass: &[f64],
-        ends: &[End; 2],
+        ends: &[RodEnd; 2],
     ) -> Result<Option<usize>, RodError> {
         self.set_trial_at_rest(rod, state, world, ends);
         let (length, last) = (rod.length(), rod.elements.len());
@@ -136,7 +136,7 @@ impl Solver {
 
 /// The straight rod free of load, from end A in the direction in which its ends are held, or to the other end; none of one whose shape free
 /// of load is not known or not straight, or that lies on something.
-fn straight_start(rod: &Rod, state: &State, ends: &[End; 2]) -> Option<ContinuationStart> {
+fn straight_start(rod: &Rod, state: &RodState, ends: &[RodEnd; 2]) -> Option<ContinuationStart> {
     let [a, b] = ends.map(|end| end.motion.map(|motion| motion.position));
     let held = ends[0].direction.or(ends[1].direction).and_then(|d| d.try_normalize(1e-12));
     let chord = a.zip(b).and_then(|(a, b)| (b - a).try_normalize(1e-9));
@@ -151,5 +151,5 @@ fn straight_start(rod: &Rod, state: &State, ends: &[End; 2]) -> Option<Continuat
         return None;
     }
     let position: Vec<Vector3<f64>> = arc.iter().map(|s| root + along * *s).collect();
-    Some(ContinuationStart { state: State { stuck: position.clone(), position, ..state.clone() }, loaded: 0.0 })
+    Some(ContinuationStart { state: RodState { stuck: position.clone(), position, ..state.clone() }, loaded: 0.0 })
 }

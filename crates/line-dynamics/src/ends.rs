@@ -1,11 +1,11 @@
 //! What holds the two ends of a rod.
 
-use super::mesh::Element;
+use super::mesh::RodElement;
 use nalgebra::Vector3;
 
 /// Where an end is and how it moves, at the end of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
+pub struct RodEndMotion {
     /// Position (m, global).
     pub position: Vector3<f64>,
     /// Velocity (m/s).
@@ -14,18 +14,18 @@ pub struct Motion {
     pub acceleration: Vector3<f64>,
 }
 
-impl Motion {
+impl RodEndMotion {
     /// At rest.
     pub fn at_rest(position: Vector3<f64>) -> Self {
-        Motion { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() }
+        RodEndMotion { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() }
     }
 }
 
 /// One end of a rod at the end of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct End {
+pub struct RodEnd {
     /// The motion it is given; none for a free end.
-    pub motion: Option<Motion>,
+    pub motion: Option<RodEndMotion>,
     /// The direction, from end A toward end B, that its holder gives it; none for a pin. It acts on rods with bending
     /// stiffness.
     pub direction: Option<Vector3<f64>>,
@@ -39,39 +39,39 @@ pub struct End {
     pub turning: Vector3<f64>,
 }
 
-impl End {
+impl RodEnd {
     /// A free end.
-    pub const FREE: End =
-        End { motion: None, direction: None, rotation: None, side: None, turning: Vector3::new(0.0, 0.0, 0.0) };
+    pub const FREE: RodEnd =
+        RodEnd { motion: None, direction: None, rotation: None, side: None, turning: Vector3::new(0.0, 0.0, 0.0) };
 
     /// Held in place, free to turn.
     pub fn pin(position: Vector3<f64>) -> Self {
-        End::from_motion(Motion::at_rest(position))
+        RodEnd::from_motion(RodEndMotion::at_rest(position))
     }
 
     /// Moved as given, free to turn.
-    pub fn from_motion(motion: Motion) -> Self {
-        End { motion: Some(motion), ..End::FREE }
+    pub fn from_motion(motion: RodEndMotion) -> Self {
+        RodEnd { motion: Some(motion), ..RodEnd::FREE }
     }
 
     /// The same with its direction held.
     pub fn with_clamp(self, direction: Vector3<f64>) -> Self {
-        End { direction: Some(direction), ..self }
+        RodEnd { direction: Some(direction), ..self }
     }
 
     /// The same with its twist held by a direction across.
     pub fn with_side(self, side: Vector3<f64>) -> Self {
-        End { side: Some(side), ..self }
+        RodEnd { side: Some(side), ..self }
     }
 
     /// The same with a holder that turns at a rate (rad/s, global).
     pub fn with_turning(self, turning: Vector3<f64>) -> Self {
-        End { turning, ..self }
+        RodEnd { turning, ..self }
     }
 
     /// Stiffness of the hinge (N m) between the holder and the half element beside it, and the direction held.
     #[inline]
-    pub(super) fn hinge(&self, element: &Element) -> Option<(f64, Vector3<f64>)> {
+    pub(super) fn hinge(&self, element: &RodElement) -> Option<(f64, Vector3<f64>)> {
         let direction = self.direction?.try_normalize(1e-12)?;
         let beam = 2.0 * element.bending / element.rest;
         let stiffness = self.rotation.map_or(beam, |k| if k > 0.0 { k * beam / (k + beam) } else { 0.0 });

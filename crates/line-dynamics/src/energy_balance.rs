@@ -5,15 +5,15 @@ use super::contact::{self, contact};
 use super::environment::LineEnvironment;
 use super::hinges::{HingePlace, hinge_sides};
 use super::local_environment::LocalEnvironment;
-use super::mesh::{Element, Rod};
+use super::mesh::{Rod, RodElement};
 use super::morison::{HalfNode, half_force, wet_prism};
 use super::spatial;
-use super::state::State;
-use super::step::{EndForces, Solver};
+use super::state::RodState;
+use super::step::{RodEndForces, RodSolver};
 use super::supports::{find_support_contact, support_load};
-use super::tension::{Stretch, TensionOptions, tension};
+use super::tension::{ElementStretch, TensionOptions, tension};
 use super::trial::Trial;
-use super::viscoelastic::Memory;
+use super::viscoelastic::MaxwellMemory;
 use nalgebra::Vector3;
 
 /// Energy a rod holds at one time (J).
@@ -104,7 +104,7 @@ struct BalanceSample {
 
 impl Balance {
     /// Opens the balance at a state; `made` is the trial or statics that led to it.
-    pub fn open(rod: &Rod, state: &State, world: &LineEnvironment, solver: &Solver, made: &EndForces) -> Self {
+    pub fn open(rod: &Rod, state: &RodState, world: &LineEnvironment, solver: &RodSolver, made: &RodEndForces) -> Self {
         let look = sample_balance(rod, state, world, solver, made);
         Balance {
             time: state.time,
@@ -120,7 +120,14 @@ impl Balance {
     }
 
     /// Enters an accepted step.
-    pub fn enter(&mut self, rod: &Rod, state: &State, world: &LineEnvironment, solver: &Solver, made: &EndForces) {
+    pub fn enter(
+        &mut self,
+        rod: &Rod,
+        state: &RodState,
+        world: &LineEnvironment,
+        solver: &RodSolver,
+        made: &RodEndForces,
+    ) {
         let look = sample_balance(rod, state, world, solver, made);
         let h = state.time - self.time;
         self.work.add(h, &self.power, &look.power);
@@ -159,17 +166,17 @@ impl Balance {
 /// A rod at the end of a step.
 struct StepView<'a> {
     rod: &'a Rod,
-    state: &'a State,
+    state: &'a RodState,
     world: &'a LineEnvironment<'a>,
     trial: &'a Trial,
 }
 
 fn sample_balance(
     rod: &Rod,
-    state: &State,
+    state: &RodState,
     world: &LineEnvironment,
-    solver: &Solver,
-    made: &EndForces,
+    solver: &RodSolver,
+    made: &RodEndForces,
 ) -> BalanceSample {
     let trial = &solver.trial;
     let near = LocalEnvironment::new(world, state.origin, Vec::new());
@@ -216,9 +223,9 @@ impl BalanceSample {
         let rate = (t.dot(&(v[i + 1] - v[i])) - length / element.rest * element.rate) / element.rest;
         let height = 0.5 * (x[i].z + x[i + 1].z);
         let taken = TensionOptions { compression: element.compression, axial_stiffness_scale: 1.0 };
-        let memory = state.yielded.get(i).map(|yielded| Memory::instantaneous(*yielded));
+        let memory = state.yielded.get(i).map(|yielded| MaxwellMemory::instantaneous(*yielded));
         let pull = |rate| {
-            let stretched = Stretch { strain, rate, height, datum: state.origin.z };
+            let stretched = ElementStretch { strain, rate, height, datum: state.origin.z };
             let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
             tension(rod, element, taken, &stretched, memory.as_ref(), fluids, world.gravity).value
         };
@@ -246,7 +253,7 @@ impl BalanceSample {
 
     /// The masses of the halves of an element, and the water and the wind on them.
     fn halves(&mut self, at: &StepView, i: usize) {
-        let StepView { rod, state: State { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
+        let StepView { rod, state: RodState { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
         let element = &rod.elements[i];
         let (t, _) = direction(x, element, i);
         let half = |node: usize| HalfNode {
@@ -296,7 +303,7 @@ impl BalanceSample {
 
     /// What is attached between elements, with its water.
     fn attachments(&mut self, at: &StepView) {
-        let StepView { rod, state: State { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
+        let StepView { rod, state: RodState { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
         for held in &rod.attachments {
             let node = held.node;
             self.lump(at, node, held.mass);
@@ -348,7 +355,7 @@ impl BalanceSample {
 }
 
 /// Direction of an element, and its length (m).
-fn direction(x: &[Vector3<f64>], element: &Element, i: usize) -> (Vector3<f64>, f64) {
+fn direction(x: &[Vector3<f64>], element: &RodElement, i: usize) -> (Vector3<f64>, f64) {
     let d = x[i + 1] - x[i];
     let length = d.norm().max(1e-9 * element.rest);
     (d / length, length)

@@ -97,7 +97,7 @@ impl FluidField for UniformFluid {
 }
 
 /// The shape of the bottom.
-pub trait Bottom {
+pub trait SeabedShape {
     /// Height (m, global z) and its slope toward x and y at a place.
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]);
 }
@@ -111,7 +111,7 @@ pub struct PlaneBottom {
     pub slope: [f64; 2],
 }
 
-impl Bottom for PlaneBottom {
+impl SeabedShape for PlaneBottom {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         (self.height + self.slope[0] * x + self.slope[1] * y, self.slope)
     }
@@ -223,7 +223,7 @@ pub struct LineEnvironment<'a> {
     /// The fluid.
     pub fluid: &'a dyn FluidField,
     /// The bottom and its contact law; none for a rod that never meets it.
-    pub bottom: Option<(&'a dyn Bottom, SeabedLaw)>,
+    pub bottom: Option<(&'a dyn SeabedShape, SeabedLaw)>,
     /// Acceleration of gravity (m/s2), downward.
     pub gravity: f64,
     /// Forces on nodes beside those the rod makes itself (N, global): node from end A, force.

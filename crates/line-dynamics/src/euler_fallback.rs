@@ -12,11 +12,11 @@
 //! [BROGLIATO-2008 10]. It is of the first order,
 //! but a motion that the step follows never comes to it, and so keeps its order.
 
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::mesh::Rod;
-use super::state::State;
-use super::step::{Failure, Solver};
+use super::state::RodState;
+use super::step::{Failure, RodSolver};
 
 /// Share of the energy of motion that the energy of the changes of speed by changed accelerations has at least in a step of
 /// a snap. Of an oscillation it is some (w h)^2, so that the step no longer follows one of w h > 0.3.
@@ -25,16 +25,16 @@ const MIN_JUMP_ENERGY_SHARE: f64 = 0.1;
 /// up by more than it falls in a step.
 const MIN_JUMP_ACCELERATION: f64 = 1.0;
 
-impl Solver {
+impl RodSolver {
     /// Newton's iterations of one step, from where the last trial ended if that is `near`, and once more where it was
     /// one of a snap: the iterations it took.
     pub(super) fn step_with_fallback(
         &mut self,
         rod: &Rod,
-        from: &State,
+        from: &RodState,
         world: &LineEnvironment,
         time: f64,
-        ends: [End; 2],
+        ends: [RodEnd; 2],
         near: bool,
     ) -> Result<usize, Failure> {
         // a trial that follows another is made as that one was, so that a body's iteration can end
@@ -48,7 +48,7 @@ impl Solver {
     }
 
     /// Whether accelerations have changed in the step at hand by more than it follows.
-    fn has_jump(&self, rod: &Rod, world: &LineEnvironment, from: &State) -> bool {
+    fn has_jump(&self, rod: &Rod, world: &LineEnvironment, from: &RodState) -> bool {
         let (last, h) = (rod.elements.len(), self.next.time - from.time);
         let known = self.trial.ends.map(|e| e.motion.is_some());
         let least = MIN_JUMP_ACCELERATION * world.gravity.abs();

@@ -1,10 +1,10 @@
 //! The hinges of a rod with torsion, and the moments at its ends.
 
 use super::bend::hinge;
-use super::ends::End;
+use super::ends::RodEnd;
 use super::mesh::Rod;
 use super::spatial::{HingeSide, Vector8, spatial, transport_director};
-use super::state::State;
+use super::state::RodState;
 use super::trial::Trial;
 use nalgebra::{Matrix3, Matrix4, Matrix4x3, SMatrix, Vector3, Vector4};
 
@@ -16,7 +16,7 @@ pub(super) fn hinge_sides(
     rod: &Rod,
     x: &[Vector3<f64>],
     directors: &[Vector3<f64>],
-    ends: &[End; 2],
+    ends: &[RodEnd; 2],
     hinge: HingePlace,
 ) -> Option<(f64, f64, HingeSide, HingeSide)> {
     let last = rod.elements.len();
@@ -24,7 +24,7 @@ pub(super) fn hinge_sides(
         let d = x[i + 1] - x[i];
         HingeSide { direction: d.normalize(), length: d.norm(), director: directors[i], natural }
     };
-    let held = |end: &End, i: usize, natural: [f64; 2]| {
+    let held = |end: &RodEnd, i: usize, natural: [f64; 2]| {
         let element = &rod.elements[i];
         let (k, direction) = end.hinge(element)?;
         let across = end.side.and_then(|s| (s - direction * direction.dot(&s)).try_normalize(1e-9));
@@ -76,12 +76,12 @@ pub(super) fn spatial_hinges(rod: &Rod, trial: &Trial, i: usize) -> impl Iterato
 }
 
 /// Moment of the rod on the holder of an end (N m): the hinge turns the rod toward the held direction, and the holder back.
-pub(super) fn end_moment(rod: &Rod, state: &State, end: &End, side: usize) -> Vector3<f64> {
+pub(super) fn end_moment(rod: &Rod, state: &RodState, end: &RodEnd, side: usize) -> Vector3<f64> {
     let (i, element) =
         if side == 0 { (0, rod.elements.first()) } else { (rod.elements.len() - 1, rod.elements.last()) };
     if rod.twists() {
         let at = if side == 0 { HingePlace::A } else { HingePlace::B };
-        let mut ends = [End::FREE; 2];
+        let mut ends = [RodEnd::FREE; 2];
         ends[side] = *end;
         return hinge_sides(rod, &state.position, &state.director, &ends, at).map_or_else(
             Vector3::zeros,

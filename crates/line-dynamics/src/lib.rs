@@ -74,18 +74,18 @@ mod winch;
 mod workspace;
 
 pub use condense::{EndTangent, Matrix12};
-pub use ends::{End, Motion};
+pub use ends::{RodEnd, RodEndMotion};
 pub use energy_balance::{Balance, Energy, Work};
 pub use environment::{
-    Bottom, FluidField, FluidState, LineEnvironment, PlaneBottom, SeabedLaw, Support, SupportLaw, SupportReaction,
+    FluidField, FluidState, LineEnvironment, PlaneBottom, SeabedLaw, SeabedShape, Support, SupportLaw, SupportReaction,
     SupportTarget, UniformFluid,
 };
 pub use error::RodError;
 pub use mesh::{BYTES_PER_ELEMENT, MAX_ELEMENTS, Rod};
-pub use modes::Mode;
-pub use scheme::Settings;
-pub use section::{Attachment, Axial, Segment, Tube};
-pub use state::State;
-pub use step::{EndForces, Solver};
+pub use modes::RodMode;
+pub use scheme::RodSettings;
+pub use section::{Attachment, RodSegment, TensionLaw, TubeSection};
+pub use state::RodState;
+pub use step::{RodEndForces, RodSolver};
 pub use supports::{SupportForce, SupportTangent};
-pub use viscoelastic::Viscoelastic;
+pub use viscoelastic::ViscoelasticRope;

@@ -4,9 +4,9 @@
 //! of a position far from the global origin is a force of its own. A [`State`](super::State) therefore has its positions from an
 //! origin beside the rod, and so has all that the solver does. What lies around the rod is in global places; this module takes it there.
 
-use super::ends::End;
-use super::environment::{Bottom, FluidField, FluidState, LineEnvironment, Support};
-use super::step::Solver;
+use super::ends::RodEnd;
+use super::environment::{FluidField, FluidState, LineEnvironment, SeabedShape, Support};
+use super::step::RodSolver;
 use nalgebra::Vector3;
 use std::cell::RefCell;
 
@@ -29,7 +29,7 @@ struct LocalFluid<'a> {
 
 /// A bottom in coordinates from an origin.
 struct LocalBottom<'a> {
-    bottom: &'a dyn Bottom,
+    bottom: &'a dyn SeabedShape,
     origin: Vector3<f64>,
 }
 
@@ -48,12 +48,12 @@ impl<'a> LocalEnvironment<'a> {
     /// The environment in coordinates from the origin.
     pub fn world(&self) -> LineEnvironment<'_> {
         let ground = self.world.bottom.map(|(_, ground)| ground);
-        let bottom = self.bottom.as_ref().map(|bottom| bottom as &dyn Bottom).zip(ground);
+        let bottom = self.bottom.as_ref().map(|bottom| bottom as &dyn SeabedShape).zip(ground);
         LineEnvironment { fluid: &self.fluid, bottom, supports: &self.supports, ..*self.world }
     }
 
     /// Ends in coordinates from the origin.
-    pub fn ends(&self, ends: [End; 2]) -> [End; 2] {
+    pub fn ends(&self, ends: [RodEnd; 2]) -> [RodEnd; 2] {
         ends.map(|mut end| {
             if let Some(motion) = &mut end.motion {
                 motion.position -= self.origin;
@@ -89,14 +89,14 @@ impl FluidField for LocalFluid<'_> {
     }
 }
 
-impl Bottom for LocalBottom<'_> {
+impl SeabedShape for LocalBottom<'_> {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         let (height, slope) = self.bottom.height(x + self.origin.x, y + self.origin.y);
         (height - self.origin.z, slope)
     }
 }
 
-impl Solver {
+impl RodSolver {
     /// Acts in a world as it is in coordinates from the origin of the trial.
     pub(super) fn in_local_coordinates<T>(
         &mut self,

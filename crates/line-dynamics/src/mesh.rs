@@ -1,7 +1,7 @@
 //! A rod cut into elements.
 
 use super::error::RodError;
-use super::section::{Attachment, Segment};
+use super::section::{Attachment, RodSegment};
 use super::spatial::transport_director;
 use nalgebra::Vector3;
 
@@ -13,7 +13,7 @@ pub const BYTES_PER_ELEMENT: f64 = 3000.0;
 
 /// What one element needs in every iteration; half quantities go to each of its two nodes.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Element {
+pub(super) struct RodElement {
     /// Unstretched length (m).
     pub rest: f64,
     /// Rate at which it grows (m/s), positive when paid out.
@@ -48,11 +48,11 @@ pub(super) struct Element {
     pub diameter: f64,
 }
 
-impl Element {
-    pub fn new(segment: &Segment, index: usize, rest: f64) -> Self {
+impl RodElement {
+    pub fn new(segment: &RodSegment, index: usize, rest: f64) -> Self {
         let half = 0.5 * rest;
-        let ea = if let super::section::Axial::Linear(ea) = segment.axial { ea } else { 0.0 };
-        Element {
+        let ea = if let super::section::TensionLaw::Linear(ea) = segment.axial { ea } else { 0.0 };
+        RodElement {
             rest,
             rate: 0.0,
             segment: index,
@@ -95,8 +95,8 @@ impl Element {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rod {
     pub(super) name: String,
-    pub(super) segments: Vec<Segment>,
-    pub(super) elements: Vec<Element>,
+    pub(super) segments: Vec<RodSegment>,
+    pub(super) elements: Vec<RodElement>,
     pub(super) attachments: Vec<Attachment>,
     /// The shape free of load, where it is not straight.
     pub(super) natural: Option<UnloadedShape>,
@@ -116,7 +116,7 @@ impl Rod {
     ///
     /// # Errors
     /// A property that makes no rod, more elements than [`MAX_ELEMENTS`], or an attachment to a node that is not there.
-    pub fn new(name: &str, segments: Vec<Segment>, attachments: Vec<Attachment>) -> Result<Self, RodError> {
+    pub fn new(name: &str, segments: Vec<RodSegment>, attachments: Vec<Attachment>) -> Result<Self, RodError> {
         let refuse = |why: String| RodError::Shape { rod: name.to_string(), why };
         if segments.is_empty() {
             return Err(refuse("a rod needs at least one segment".to_string()));
@@ -128,7 +128,7 @@ impl Rod {
         let elements = segments
             .iter()
             .enumerate()
-            .flat_map(|(i, s)| (0..s.elements).map(move |_| Element::new(s, i, s.length / s.elements as f64)))
+            .flat_map(|(i, s)| (0..s.elements).map(move |_| RodElement::new(s, i, s.length / s.elements as f64)))
             .collect();
         Rod::of_elements(name, segments, attachments, elements)
     }
@@ -136,9 +136,9 @@ impl Rod {
     /// Puts elements of the segments together.
     pub(super) fn of_elements(
         name: &str,
-        segments: Vec<Segment>,
+        segments: Vec<RodSegment>,
         attachments: Vec<Attachment>,
-        elements: Vec<Element>,
+        elements: Vec<RodElement>,
     ) -> Result<Self, RodError> {
         let refuse = |why: String| RodError::Shape { rod: name.to_string(), why };
         let count = elements.len();
@@ -218,7 +218,7 @@ impl Rod {
     }
 
     /// Its segments from end A.
-    pub fn segments(&self) -> &[Segment] {
+    pub fn segments(&self) -> &[RodSegment] {
         &self.segments
     }
 

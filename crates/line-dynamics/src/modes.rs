@@ -1,11 +1,11 @@
 //! Natural periods and shapes of a rod about where it rests.
 
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::error::RodError;
 use super::mesh::Rod;
-use super::state::State;
-use super::step::{Solver, SolverPhase};
+use super::state::RodState;
+use super::step::{RodSolver, SolverPhase};
 use super::system::Weights;
 use super::trial::{sample_fluid, set_friction_directions, set_seabed_penetration_scales};
 use super::viscoelastic::update_memory;
@@ -24,14 +24,14 @@ const MAX_STALLED_ITERATIONS: usize = 8;
 
 /// One natural mode without damping.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
+pub struct RodMode {
     /// Circular frequency (rad/s).
     pub frequency: f64,
     /// Displacement of each node; the largest component is 1.
     pub shape: Vec<Vector3<f64>>,
 }
 
-impl Solver {
+impl RodSolver {
     /// The `count` slowest modes about a state of rest, with added mass and the stiffness of the bottom.
     ///
     /// Subspace iteration [BATHE-1996 11.6] with the band's factors, so the cost is
@@ -43,11 +43,11 @@ impl Solver {
     pub fn modes(
         &mut self,
         rod: &Rod,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
-        ends: [End; 2],
+        ends: [RodEnd; 2],
         count: usize,
-    ) -> Result<Vec<Mode>, RodError> {
+    ) -> Result<Vec<RodMode>, RodError> {
         self.fits(rod, state)?;
         self.phase = SolverPhase::Idle;
         self.trial.origin = state.origin;
@@ -60,11 +60,11 @@ impl Solver {
     fn modes_nearby(
         &mut self,
         rod: &Rod,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
-        ends: [End; 2],
+        ends: [RodEnd; 2],
         count: usize,
-    ) -> Result<Vec<Mode>, RodError> {
+    ) -> Result<Vec<RodMode>, RodError> {
         let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
         let last = rod.elements.len();
         let stride = self.work.stride();
@@ -179,7 +179,7 @@ impl Solver {
                 let modes = found[..count].iter().zip(&vectors).map(|(value, vector)| {
                     let most = vector.iter().fold(0.0, |m: f64, v| if v.abs() > m.abs() { *v } else { m });
                     let shape = vector.chunks(stride).map(|d| Vector3::new(d[0], d[1], d[2]) / most).collect();
-                    Mode { frequency: value.max(0.0).sqrt(), shape }
+                    RodMode { frequency: value.max(0.0).sqrt(), shape }
                 });
                 return Ok(modes.collect());
             }

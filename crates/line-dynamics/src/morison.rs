@@ -1,7 +1,7 @@
 //! What the fluid does to half an element, and how much of it is under water.
 
 use super::environment::{FluidState, LineEnvironment};
-use super::mesh::Element;
+use super::mesh::RodElement;
 use nalgebra::{Matrix3, Vector3};
 
 /// Force of the fluid on half an element if all of it were wet, as a load to be overcome (N), with its derivatives.
@@ -24,7 +24,7 @@ pub(super) struct HalfLoad {
 /// DNV-RP-C205 6.2].
 #[inline(always)]
 pub(super) fn half_load(
-    half: &Element,
+    half: &RodElement,
     t: &Vector3<f64>,
     fluid: &FluidState,
     velocity: &Vector3<f64>,
@@ -71,7 +71,7 @@ pub(super) fn half_load(
 /// velocity relative to the air ([DNV-RP-C205 5]; the cross-flow principle as for Morison's drag).
 /// Its `by_acceleration` is zero.
 #[inline]
-pub(super) fn wind_load(half: &Element, t: &Vector3<f64>, fluid: &FluidState, velocity: &Vector3<f64>) -> HalfLoad {
+pub(super) fn wind_load(half: &RodElement, t: &Vector3<f64>, fluid: &FluidState, velocity: &Vector3<f64>) -> HalfLoad {
     let u = velocity - fluid.wind;
     let along = u.dot(t);
     let across = u - t * along;
@@ -100,7 +100,7 @@ pub(super) struct HalfNode<'a> {
 /// Force of water and wind (N) on the half element of direction `t` beside the first of its two nodes, the sum that
 /// assembly makes with its tangent.
 pub(super) fn half_force(
-    half: &Element,
+    half: &RodElement,
     t: &Vector3<f64>,
     world: &LineEnvironment,
     [node, other]: [HalfNode; 2],
@@ -156,7 +156,7 @@ pub(super) fn water_entry(own: f64, middle: f64, diameter: f64, rising: [f64; 2]
 /// DNV-RP-H103 3.2.9; DNV-RP-C205 8], C_s = 2 / (rho A_p) dA33/dh): on entry alone, as water that is left behind
 /// gives nothing back.
 pub(super) fn slam_load(
-    half: &Element,
+    half: &RodElement,
     t: &Vector3<f64>,
     fluid: &FluidState,
     velocity: &Vector3<f64>,
@@ -251,17 +251,17 @@ fn wet_curvature(a: f64, b: f64, diameter: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::section::Segment;
+    use crate::section::RodSegment;
     use crate::{Attachment, Rod};
 
-    fn element() -> Element {
-        let segment = Segment {
+    fn element() -> RodElement {
+        let segment = RodSegment {
             drag_normal: 1.2,
             drag_tangential: 0.1,
             added_normal: 1.0,
             added_tangential: 0.3,
             wind_drag: 1.1,
-            ..Segment::line(10.0, 1, 50.0, 1e8, 0.3)
+            ..RodSegment::line(10.0, 1, 50.0, 1e8, 0.3)
         };
         Rod::new("test", vec![segment], Vec::<Attachment>::new()).unwrap().elements[0].clone()
     }
@@ -279,7 +279,7 @@ mod tests {
             air_density: 1.226,
         };
         let (t, v, a) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.2, 0.7, -1.0), Vector3::new(0.3, -0.2, 0.9));
-        type Load = fn(&Element, Vector3<f64>, &FluidState, Vector3<f64>, Vector3<f64>) -> HalfLoad;
+        type Load = fn(&RodElement, Vector3<f64>, &FluidState, Vector3<f64>, Vector3<f64>) -> HalfLoad;
         let loads: [Load; 3] = [
             |half, t, fluid, v, a| half_load(half, &t, fluid, &v, &a, 9.81),
             |half, t, fluid, v, _| wind_load(half, &t, fluid, &v),

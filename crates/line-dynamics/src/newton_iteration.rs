@@ -1,11 +1,11 @@
 //! Predictor of a step, one Newton iteration of it, and its line search.
 
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::mesh::Rod;
-use super::scheme::Scheme;
-use super::state::State;
-use super::step::{Failure, Solver};
+use super::scheme::StepScheme;
+use super::state::RodState;
+use super::step::{Failure, RodSolver};
 use super::trial::{largest_change, transport_directors};
 
 /// Least share of a change, and of the way back, that is left where a change is cut short: a line of work that ends nearer to either
@@ -56,9 +56,9 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest.iter().zip(left).map(|(a, b)| a * b).sum::<f64>()
 }
 
-impl Solver {
+impl RodSolver {
     /// Where a step ends if its averaged accelerations stay.
-    pub(super) fn predict_step(&mut self, from: &State, scheme: &Scheme, time: f64, ends: &[End; 2]) {
+    pub(super) fn predict_step(&mut self, from: &RodState, scheme: &StepScheme, time: f64, ends: &[RodEnd; 2]) {
         let next = &mut self.next;
         next.bedding.copy_from_slice(&from.bedding);
         (next.time, next.origin) = (time, from.origin);

@@ -5,7 +5,7 @@ use super::environment::LineEnvironment;
 use super::mesh::Rod;
 use super::morison::wet_prism;
 use super::supports::{find_support_contact, support_load};
-use super::system::{System, Weights};
+use super::system::{RodSystem, Weights};
 use super::trial::Trial;
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -18,7 +18,7 @@ pub(super) fn add_nodal_loads<const TANGENT: bool, const W: usize, const H: usiz
     trial: &Trial,
     Weights { k, c, m }: Weights,
     range: Range<usize>,
-    system: &mut System<W, H, S>,
+    system: &mut RodSystem<W, H, S>,
 ) {
     if let Some((bottom, ground)) = &world.bottom {
         // at rest its friction is another: see `statics_friction`

@@ -2,9 +2,9 @@
 
 use super::environment::LineEnvironment;
 use super::error::RodError;
-use super::mesh::{Element, Rod};
-use super::step::Solver;
-use super::tension::{Stretch, TensionOptions, tension};
+use super::mesh::{Rod, RodElement};
+use super::step::RodSolver;
+use super::tension::{ElementStretch, TensionOptions, tension};
 use super::trial::{largest_change, sample_fluid, turn_directors};
 use nalgebra::Vector3;
 
@@ -34,7 +34,7 @@ const RESIDUAL_TOLERANCE: f64 = 1e-9;
 /// Residual, as a share of the rod's weight, that is accepted where no pseudo-step reduces it further.
 const ACCEPTED_RESIDUAL_SHARE: f64 = 1e-7;
 
-impl Solver {
+impl RodSolver {
     /// Pseudo-transient solution from the trial to rest. `done` counts the iterations so far, `most_iterations` bounds them.
     ///
     /// With friction the rod is not softened: the start is near its final shape.
@@ -234,7 +234,7 @@ impl Solver {
         }
         let stride = self.work.stride();
         let pairs = self.change.chunks_exact(stride).zip(self.change.chunks_exact(stride).skip(1));
-        let edge = |((a, b), element): ((&[f64], &[f64]), &Element)| {
+        let edge = |((a, b), element): ((&[f64], &[f64]), &RodElement)| {
             let square: f64 = a.iter().zip(b).take(3).map(|(a, b)| (b - a) * (b - a)).sum();
             square.sqrt() / element.rest
         };
@@ -247,7 +247,7 @@ impl Solver {
         let (element, trial) = (&rod.elements[i], &self.trial);
         let (a, b) = (&trial.x[i], &trial.x[i + 1]);
         let strain = (b - a).norm() / element.rest - 1.0;
-        let stretched = Stretch { strain, rate: 0.0, height: 0.5 * (a.z + b.z), datum: trial.origin.z };
+        let stretched = ElementStretch { strain, rate: 0.0, height: 0.5 * (a.z + b.z), datum: trial.origin.z };
         let taken = TensionOptions { compression: element.compression, axial_stiffness_scale: 1.0 };
         let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
         tension(rod, element, taken, &stretched, trial.memory.get(i), fluids, world.gravity).value

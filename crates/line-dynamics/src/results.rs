@@ -2,16 +2,16 @@
 
 use super::bend::hinge;
 use super::contact::contact;
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::{FluidState, LineEnvironment, UniformFluid};
 use super::hinges::{HingePlace, hinge_sides};
 use super::local_environment::LocalEnvironment;
 use super::mesh::Rod;
 use super::morison::{HalfNode, half_force};
 use super::spatial::{transport_director, twist};
-use super::state::State;
-use super::tension::{Stretch, TensionOptions, tension};
-use super::viscoelastic::Memory;
+use super::state::RodState;
+use super::tension::{ElementStretch, TensionOptions, tension};
+use super::viscoelastic::MaxwellMemory;
 use nalgebra::Vector3;
 use windlass_model::{LineNode, LineSide, LineStress};
 
@@ -22,7 +22,7 @@ impl Rod {
     /// sides; at an end it is what is left of that of the last element when the half of it beyond has been moved, borne
     /// and dragged along itself: all that the holder takes along the rod.
     /// Shear is the change of the moment over the elements beside a node.
-    pub fn results(&self, state: &State, world: &LineEnvironment, ends: &[End; 2]) -> Vec<LineNode> {
+    pub fn results(&self, state: &RodState, world: &LineEnvironment, ends: &[RodEnd; 2]) -> Vec<LineNode> {
         let near = LocalEnvironment::new(world, state.origin, Vec::new());
         let world = &near.world();
         let last = self.elements.len();
@@ -133,7 +133,7 @@ impl Rod {
 impl Rod {
     /// What a run keeps of the nodes of a state: [`Rod::results`], in memory that is there. Of a rod that neither bends nor has a
     /// tube velocity and curvature are left out, which takes most of the time.
-    pub fn row(&self, state: &State, world: &LineEnvironment, ends: &[End; 2], out: &mut Vec<LineNode>) {
+    pub fn row(&self, state: &RodState, world: &LineEnvironment, ends: &[RodEnd; 2], out: &mut Vec<LineNode>) {
         out.clear();
         let plain = self.elements.iter().all(|e| e.bending == 0.0) && self.segments.iter().all(|s| s.tube.is_none());
         if !plain {
@@ -180,7 +180,7 @@ impl Rod {
     fn tension_beside_node(
         &self,
         i: usize,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
         near: [&FluidState; 3],
         [before, behind]: [(&Vector3<f64>, f64); 2],
@@ -191,7 +191,7 @@ impl Rod {
     }
 
     /// The fluid at the two nodes beside end A, and at the two beside end B: each end first.
-    fn beside_ends(&self, state: &State, world: &LineEnvironment) -> [[FluidState; 2]; 2] {
+    fn beside_ends(&self, state: &RodState, world: &LineEnvironment) -> [[FluidState; 2]; 2] {
         let last = self.elements.len();
         let mut found = [UniformFluid::vacuum().0; 4];
         let places = [0, 1, last, last - 1].map(|node| state.position[node]);
@@ -205,7 +205,7 @@ impl Rod {
     fn element_force(
         &self,
         i: usize,
-        state: &State,
+        state: &RodState,
         beside: [&FluidState; 2],
         gravity: f64,
     ) -> ((Vector3<f64>, f64), f64) {
@@ -216,9 +216,9 @@ impl Rod {
         let stretch = length / element.rest;
         let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
         let stretched =
-            Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z), datum: state.origin.z };
+            ElementStretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z), datum: state.origin.z };
         let taken = TensionOptions { compression: element.compression, axial_stiffness_scale: 1.0 };
-        let memory = state.yielded.get(i).map(|yielded| Memory::instantaneous(*yielded));
+        let memory = state.yielded.get(i).map(|yielded| MaxwellMemory::instantaneous(*yielded));
         ((t, length), tension(self, element, taken, &stretched, memory.as_ref(), beside, gravity).value)
     }
 
@@ -227,7 +227,7 @@ impl Rod {
     fn tension_at_end(
         &self,
         side: usize,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
         beside: &[[FluidState; 2]; 2],
         (t, pull): (&Vector3<f64>, f64),
@@ -241,7 +241,7 @@ impl Rod {
     fn tension_at_node(
         &self,
         (element, side): (usize, usize),
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
         beside: [&FluidState; 2],
         (t, pull): (&Vector3<f64>, f64),
@@ -269,7 +269,7 @@ impl Rod {
     }
 
     /// Moment vector of each node of a rod with torsion, with the length it is spread over, and its torque.
-    fn spatial_moments(&self, state: &State, ends: &[End; 2]) -> (Vec<(Vector3<f64>, f64)>, Vec<f64>) {
+    fn spatial_moments(&self, state: &RodState, ends: &[RodEnd; 2]) -> (Vec<(Vector3<f64>, f64)>, Vec<f64>) {
         let last = self.elements.len();
         (0..=last)
             .map(|i| {
@@ -297,7 +297,7 @@ impl Rod {
 ///
 /// Without a holder's side it starts from a frame fixed in space by the shortest turn to the first element, which is
 /// smooth as the rod moves but for one direction: this one is askew to all axes and planes a model is laid out in.
-fn transport_to_end(edges: &[(Vector3<f64>, f64)], end: &End) -> Vec<Vector3<f64>> {
+fn transport_to_end(edges: &[(Vector3<f64>, f64)], end: &RodEnd) -> Vec<Vector3<f64>> {
     let first = edges[0].0;
     let held = end.side.and_then(|side| {
         let direction = end.direction.and_then(|d| d.try_normalize(1e-12)).unwrap_or(first);
@@ -332,7 +332,7 @@ fn clearance(world: &LineEnvironment, x: &Vector3<f64>) -> f64 {
 }
 
 /// Stresses by Lame's thick cylinder and the beam's bending.
-fn stress(wall: f64, moment: f64, [outer, inner]: [f64; 2], tube: &super::section::Tube) -> LineStress {
+fn stress(wall: f64, moment: f64, [outer, inner]: [f64; 2], tube: &super::section::TubeSection) -> LineStress {
     let (b, a) = (0.5 * tube.outer, 0.5 * tube.inner);
     let [outside, inside] = tube.areas();
     let axial = wall / (outside - inside);

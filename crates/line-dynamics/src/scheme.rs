@@ -1,13 +1,13 @@
 //! The scheme that steps in time.
 
-use super::state::State;
+use super::state::RodState;
 use super::system::Weights;
 use nalgebra::Vector3;
 use windlass_model::SchemeWeights;
 
 /// How a rod is stepped.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct RodSettings {
     /// The scheme. Of generalised-alpha a spectral radius at infinite frequency of 1 damps nothing, 0 kills what the step cannot follow.
     pub scheme: SchemeWeights,
     /// An iteration has converged when no node moves by more than this share of the shortest element, or none would
@@ -25,9 +25,9 @@ pub struct Settings {
 /// 0.40 % at 20, 0.055 % at 40, and it throws little up where a line snaps taut.
 const DEFAULT_SPECTRAL_RADIUS: f64 = 0.2;
 
-impl Default for Settings {
+impl Default for RodSettings {
     fn default() -> Self {
-        Settings {
+        RodSettings {
             scheme: SchemeWeights::generalised_alpha(DEFAULT_SPECTRAL_RADIUS),
             tolerance: 1e-5,
             iterations: 20,
@@ -39,7 +39,7 @@ impl Default for Settings {
 
 /// The scheme's constants for one step length, in the form of [ARNOLD-BRULS-2007], in which equilibrium holds at the end of the step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scheme {
+pub(super) struct StepScheme {
     pub h: f64,
     /// The new averaged acceleration by the move beyond v h, and by the old one.
     new_by_u: f64,
@@ -61,10 +61,10 @@ fn flush_to_zero(v: Vector3<f64>) -> Vector3<f64> {
     v.map(|c| (c + MIN_MAGNITUDE) - MIN_MAGNITUDE)
 }
 
-impl Scheme {
+impl StepScheme {
     pub fn new(h: f64, weights: &SchemeWeights) -> Self {
         let SchemeWeights { alpha_m, alpha_f, beta, gamma } = *weights;
-        Scheme {
+        StepScheme {
             h,
             new_by_u: 1.0 / (beta * h * h),
             new_by_old: (0.5 - beta) / beta,
@@ -78,7 +78,7 @@ impl Scheme {
 
     /// Implicit Euler in the same form: what happened before the step has no part in it but for speed.
     pub fn euler(h: f64) -> Self {
-        Scheme {
+        StepScheme {
             h,
             new_by_u: 1.0 / (h * h),
             new_by_old: 0.0,
@@ -96,7 +96,7 @@ impl Scheme {
 
     /// Averaged acceleration, velocity and acceleration of node `i` moved by `u` from where the step began.
     #[inline(always)]
-    pub fn node_motion(&self, from: &State, i: usize, u: Vector3<f64>) -> [Vector3<f64>; 3] {
+    pub fn node_motion(&self, from: &RodState, i: usize, u: Vector3<f64>) -> [Vector3<f64>; 3] {
         let (v, a, acc) = (&from.velocity[i], &from.averaged[i], &from.acceleration[i]);
         let new = flush_to_zero((u - v * self.h) * self.new_by_u - a * self.new_by_old);
         let velocity = flush_to_zero(v + a * self.v_by_old + new * self.v_by_new);

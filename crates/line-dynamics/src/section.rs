@@ -1,11 +1,11 @@
 //! The properties of a rod: its segments and what is attached between them.
 
 use super::error::RodError;
-use super::viscoelastic::Viscoelastic;
+use super::viscoelastic::ViscoelasticRope;
 
 /// Tension by strain.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Axial {
+pub enum TensionLaw {
     /// EA (N): tension is EA times strain.
     Linear(f64),
     /// Coefficients (N) of strain, strain squared, ... The slope at zero must be positive.
@@ -13,24 +13,24 @@ pub enum Axial {
     /// Points (strain, tension in N) by rising strain and tension, straight between and beyond.
     Table(Vec<(f64, f64)>),
     /// A rope with a static and a dynamic stiffness. Its static law is what [`Axial::evaluate`] and [`Axial::energy`] give.
-    Viscoelastic(Box<Viscoelastic>),
+    Viscoelastic(Box<ViscoelasticRope>),
 }
 
-impl Axial {
+impl TensionLaw {
     /// The law of coefficients as of [`Axial::Polynomial`], those of the highest powers left out that are zero: a line of one alone is
     /// linear, and quicker.
     pub fn of_powers(mut coefficients: Vec<f64>) -> Self {
         while coefficients.len() > 1 && coefficients.last() == Some(&0.0) {
             coefficients.pop();
         }
-        if let [ea] = coefficients[..] { Axial::Linear(ea) } else { Axial::Polynomial(coefficients) }
+        if let [ea] = coefficients[..] { TensionLaw::Linear(ea) } else { TensionLaw::Polynomial(coefficients) }
     }
 
     /// Tension (N) and its slope d(tension)/d(strain) (N) at a strain.
     pub fn evaluate(&self, strain: f64) -> (f64, f64) {
         match self {
-            Axial::Linear(ea) => (ea * strain, *ea),
-            Axial::Polynomial(coefficients) => {
+            TensionLaw::Linear(ea) => (ea * strain, *ea),
+            TensionLaw::Polynomial(coefficients) => {
                 let (mut sum, mut slope) = (0.0, 0.0);
                 for c in coefficients.iter().rev() {
                     slope = slope * strain + sum;
@@ -39,37 +39,37 @@ impl Axial {
                 // sum is tension over strain, slope its derivative
                 (sum * strain, sum + slope * strain)
             }
-            Axial::Table(points) => {
+            TensionLaw::Table(points) => {
                 let after = points.partition_point(|p| p.0 <= strain).clamp(1, points.len() - 1);
                 let (a, b) = (points[after - 1], points[after]);
                 let slope = (b.1 - a.1) / (b.0 - a.0);
                 (a.1 + slope * (strain - a.0), slope)
             }
-            Axial::Viscoelastic(rope) => rope.slow.evaluate(strain),
+            TensionLaw::Viscoelastic(rope) => rope.slow.evaluate(strain),
         }
     }
 
     /// Slope of the slope (N) at a strain.
     pub(super) fn second_derivative(&self, strain: f64) -> f64 {
         match self {
-            Axial::Linear(_) | Axial::Table(_) => 0.0,
-            Axial::Polynomial(coefficients) => {
+            TensionLaw::Linear(_) | TensionLaw::Table(_) => 0.0,
+            TensionLaw::Polynomial(coefficients) => {
                 let powers = coefficients.iter().enumerate().skip(1);
                 powers.map(|(k, c)| c * (k * (k + 1)) as f64 * strain.powi(k as i32 - 1)).sum()
             }
-            Axial::Viscoelastic(rope) => rope.slow.second_derivative(strain),
+            TensionLaw::Viscoelastic(rope) => rope.slow.second_derivative(strain),
         }
     }
 
     /// Energy per unstretched length (J/m) stored at a strain, from zero strain.
     pub fn energy(&self, strain: f64) -> f64 {
         match self {
-            Axial::Linear(ea) => 0.5 * ea * strain * strain,
-            Axial::Polynomial(coefficients) => {
+            TensionLaw::Linear(ea) => 0.5 * ea * strain * strain,
+            TensionLaw::Polynomial(coefficients) => {
                 let powers = coefficients.iter().enumerate();
                 powers.map(|(k, c)| c * strain.powi(k as i32 + 2) / (k as f64 + 2.0)).sum()
             }
-            Axial::Table(points) => {
+            TensionLaw::Table(points) => {
                 // the trapezoids between zero and the strain, each end of a piece once
                 let (low, high, sign) = if strain < 0.0 { (strain, 0.0, -1.0) } else { (0.0, strain, 1.0) };
                 let inner = points.iter().map(|p| p.0).filter(|e| (low..high).contains(e));
@@ -81,24 +81,24 @@ impl Axial {
                 }
                 sign * sum
             }
-            Axial::Viscoelastic(rope) => rope.slow.energy(strain),
+            TensionLaw::Viscoelastic(rope) => rope.slow.energy(strain),
         }
     }
 
     pub(super) fn find_fault(&self) -> Option<(f64, &'static str)> {
         match self {
-            Axial::Linear(ea) if !(ea.is_finite() && *ea > 0.0) => Some((*ea, "it must be positive")),
-            Axial::Polynomial(c) if !c.first().is_some_and(|c| *c > 0.0) || c.iter().any(|c| !c.is_finite()) => {
+            TensionLaw::Linear(ea) if !(ea.is_finite() && *ea > 0.0) => Some((*ea, "it must be positive")),
+            TensionLaw::Polynomial(c) if !c.first().is_some_and(|c| *c > 0.0) || c.iter().any(|c| !c.is_finite()) => {
                 Some((c.first().copied().unwrap_or(0.0), "its first coefficient must be positive and all finite"))
             }
-            Axial::Table(points)
+            TensionLaw::Table(points)
                 if points.len() < 2
                     || points.windows(2).any(|p| !(p[1].0 > p[0].0 && p[1].1 > p[0].1))
                     || points.iter().any(|p| !(p.0.is_finite() && p.1.is_finite())) =>
             {
                 Some((points.len() as f64, "its points must be two or more, with strain and tension both rising"))
             }
-            Axial::Viscoelastic(rope) => rope.find_fault(),
+            TensionLaw::Viscoelastic(rope) => rope.find_fault(),
             _ => None,
         }
     }
@@ -106,7 +106,7 @@ impl Axial {
 
 /// The section of a tube: what pressure, temperature and bending stress need.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tube {
+pub struct TubeSection {
     /// Outer diameter (m).
     pub outer: f64,
     /// Inner diameter (m).
@@ -125,10 +125,10 @@ pub struct Tube {
     pub contents: f64,
 }
 
-impl Tube {
+impl TubeSection {
     /// A tube without contents, pressure or temperature.
     pub fn empty(outer: f64, inner: f64) -> Self {
-        Tube { outer, inner, poisson: 0.3, expansion: 0.0, warmer: 0.0, pressure: 0.0, at: 0.0, contents: 0.0 }
+        TubeSection { outer, inner, poisson: 0.3, expansion: 0.0, warmer: 0.0, pressure: 0.0, at: 0.0, contents: 0.0 }
     }
 
     /// Outer and inner cross-section (m2).
@@ -144,7 +144,7 @@ impl Tube {
 
 /// A stretch of rod with one set of properties, cut into equal elements.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Segment {
+pub struct RodSegment {
     /// Unstretched length (m).
     pub length: f64,
     /// Number of elements.
@@ -152,7 +152,7 @@ pub struct Segment {
     /// Mass per unstretched length with contents, growth and coating (kg/m).
     pub mass: f64,
     /// Tension by strain. Without a `tube` it is the effective tension that follows it (Poisson's ratio one half).
-    pub axial: Axial,
+    pub axial: TensionLaw,
     /// Axial internal damping (N s): tension per strain rate.
     pub axial_damping: f64,
     /// Whether it resists being shortened; a chain or rope does not.
@@ -182,19 +182,19 @@ pub struct Segment {
     /// Normal drag coefficient of wind, on the wind diameter.
     pub wind_drag: f64,
     /// Its section, where pressure, temperature or stresses are wanted.
-    pub tube: Option<Tube>,
+    pub tube: Option<TubeSection>,
 }
 
-impl Segment {
+impl RodSegment {
     /// A chain or rope of a diameter that displaces, drags and lies: no bending, no compression, no hydrodynamic
     /// coefficients.
     pub fn line(length: f64, elements: usize, mass: f64, ea: f64, diameter: f64) -> Self {
         let area = std::f64::consts::FRAC_PI_4 * diameter * diameter;
-        Segment {
+        RodSegment {
             length,
             elements,
             mass,
-            axial: Axial::Linear(ea),
+            axial: TensionLaw::Linear(ea),
             axial_damping: 0.0,
             compression: false,
             bending: 0.0,
@@ -305,9 +305,9 @@ mod tests {
     #[test]
     fn energy_of_an_axial_law_is_the_integral_of_its_tension() {
         let laws = [
-            Axial::Linear(3.0),
-            Axial::Polynomial(vec![2.0, 5.0, 7.0]),
-            Axial::Table(vec![(-1.0, -2.0), (0.0, 0.0), (0.05, 1.0), (0.2, 9.0)]),
+            TensionLaw::Linear(3.0),
+            TensionLaw::Polynomial(vec![2.0, 5.0, 7.0]),
+            TensionLaw::Table(vec![(-1.0, -2.0), (0.0, 0.0), (0.05, 1.0), (0.2, 9.0)]),
         ];
         for law in laws {
             for strain in [-0.02, 0.03, 0.11] {
@@ -324,8 +324,8 @@ mod tests {
     }
     #[test]
     fn a_law_of_its_first_power_alone_is_linear() {
-        assert_eq!(Axial::of_powers(vec![3.0, 0.0, 0.0]), Axial::Linear(3.0));
-        assert_eq!(Axial::of_powers(vec![3.0, 0.0, 5.0, 0.0]), Axial::Polynomial(vec![3.0, 0.0, 5.0]));
-        assert_eq!(Axial::of_powers(vec![]), Axial::Polynomial(vec![]));
+        assert_eq!(TensionLaw::of_powers(vec![3.0, 0.0, 0.0]), TensionLaw::Linear(3.0));
+        assert_eq!(TensionLaw::of_powers(vec![3.0, 0.0, 5.0, 0.0]), TensionLaw::Polynomial(vec![3.0, 0.0, 5.0]));
+        assert_eq!(TensionLaw::of_powers(vec![]), TensionLaw::Polynomial(vec![]));
     }
 }

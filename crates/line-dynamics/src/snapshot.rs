@@ -1,9 +1,9 @@
 //! A rod and its state as rows of numbers, and back: what a snapshot of a run keeps.
 
 use super::error::RodError;
-use super::mesh::{Element, Rod};
-use super::section::{Attachment, Segment};
-use super::state::State;
+use super::mesh::{Rod, RodElement};
+use super::section::{Attachment, RodSegment};
+use super::state::RodState;
 use nalgebra::Vector3;
 
 /// Numbers before the nodes: time and origin.
@@ -31,16 +31,16 @@ impl Rod {
     /// element before it.
     pub fn with_mesh(
         name: &str,
-        segments: Vec<Segment>,
+        segments: Vec<RodSegment>,
         attachments: Vec<Attachment>,
         mesh: &[(f64, f64, usize)],
     ) -> Result<Self, RodError> {
-        let elements: Option<Vec<Element>> = mesh
+        let elements: Option<Vec<RodElement>> = mesh
             .iter()
             .map(|(rest, rate, index)| {
                 let sound = rest.is_finite() && *rest > 0.0 && rate.is_finite();
                 let segment = segments.get(*index).filter(|_| sound)?;
-                Some(Element { rate: *rate, ..Element::new(segment, *index, *rest) })
+                Some(RodElement { rate: *rate, ..RodElement::new(segment, *index, *rest) })
             })
             .collect();
         let refuse = |why: &str| RodError::Shape { rod: name.to_string(), why: why.to_string() };
@@ -52,7 +52,7 @@ impl Rod {
     }
 }
 
-impl State {
+impl RodState {
     /// Appends all of it to a row of numbers: the time and the origin; position, velocity, acceleration, averaged acceleration,
     /// place where it sticks and bedding of each node; the director of each element of a rod with torsion; the strain to which each element of
     /// one with viscoelastic rope has yielded.
@@ -89,7 +89,7 @@ impl State {
 
     /// How many numbers [`State::pack`] makes of a state of a rod.
     pub fn packed_len(rod: &Rod) -> usize {
-        State::packed_len_with(rod, rod.elements.len())
+        RodState::packed_len_with(rod, rod.elements.len())
     }
 
     /// The same of a rod of such segments that a winch has given so many elements.
@@ -104,7 +104,7 @@ impl State {
     /// # Errors
     /// Another count of numbers than a state of this rod has, or one that is no number.
     pub fn unpack(rod: &Rod, from: &[f64]) -> Result<Self, RodError> {
-        let mut made = State::default();
+        let mut made = RodState::default();
         made.unpack_into(rod, from)?;
         Ok(made)
     }
@@ -114,7 +114,7 @@ impl State {
     /// # Errors
     /// As [`State::unpack`].
     pub fn unpack_into(&mut self, rod: &Rod, from: &[f64]) -> Result<(), RodError> {
-        let wanted = State::packed_len(rod);
+        let wanted = RodState::packed_len(rod);
         let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
         if from.len() != wanted {
             return Err(refuse(format!("its state is {wanted} numbers, not {}", from.len())));

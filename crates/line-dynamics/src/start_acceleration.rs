@@ -1,25 +1,25 @@
 //! Accelerations with which a run starts.
 
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
-use super::state::State;
-use super::step::{EndForces, Solver, SolverPhase};
+use super::state::RodState;
+use super::step::{RodEndForces, RodSolver, SolverPhase};
 use super::system::Weights;
 use super::trial::{sample_fluid, set_friction_directions, set_seabed_penetration_scales};
 use super::viscoelastic::update_memory;
 use nalgebra::{Matrix3, Vector3};
 
-impl Solver {
+impl RodSolver {
     /// Copies where the last trial ended, without taking it as the new state of the solver's own run.
-    pub fn set_accelerations(&self, state: &mut State) {
+    pub fn set_accelerations(&self, state: &mut RodState) {
         state.copy_from(&self.next);
     }
 
     /// Where the last trial ended.
-    pub fn end(&self) -> &State {
+    pub fn end(&self) -> &RodState {
         &self.next
     }
 
@@ -50,10 +50,10 @@ impl Solver {
     pub fn start(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
-        ends: [End; 2],
-    ) -> Result<EndForces, RodError> {
+        ends: [RodEnd; 2],
+    ) -> Result<RodEndForces, RodError> {
         self.fits(rod, state)?;
         self.phase = SolverPhase::Idle;
         self.trial.origin = state.origin;
@@ -64,10 +64,10 @@ impl Solver {
     fn start_nearby(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
-        ends: [End; 2],
-    ) -> Result<EndForces, RodError> {
+        ends: [RodEnd; 2],
+    ) -> Result<RodEndForces, RodError> {
         let last = rod.elements.len();
         let known = ends.map(|e| e.motion.is_some());
         self.trial.time = state.time;
@@ -116,6 +116,6 @@ impl Solver {
         // forces are linear in the accelerations, so one solution has them whole
         self.work.carry_ends(&self.change);
         let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
-        Ok(EndForces { force: self.work.end_forces(), moment, iterations: 1, parts: 1 })
+        Ok(RodEndForces { force: self.work.end_forces(), moment, iterations: 1, parts: 1 })
     }
 }

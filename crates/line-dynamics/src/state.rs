@@ -1,6 +1,6 @@
 //! Where a rod is and how it moves.
 
-use super::ends::Motion;
+use super::ends::RodEndMotion;
 use super::error::RodError;
 use super::mesh::{Rod, transport_sides};
 use super::spatial::transport_director;
@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 /// Motion of a rod at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct State {
+pub struct RodState {
     /// Time (s).
     pub time: f64,
     /// From where positions are measured (m, global): where end A was at the last position of rest, or the first point of
@@ -33,7 +33,7 @@ pub struct State {
     pub(super) yielded: Vec<f64>,
 }
 
-impl State {
+impl RodState {
     /// At rest along a line of points, spread over it by unstretched length.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ impl State {
         };
         let rest = vec![Vector3::zeros(); rod.nodes()];
         let yielded = rod.yielded_strains(&position);
-        Ok(State {
+        Ok(RodState {
             time: 0.0,
             origin,
             stuck: position.clone(),
@@ -121,7 +121,7 @@ impl State {
     }
 
     /// Becomes another state of the same rod, in memory that is there.
-    pub(super) fn copy_from(&mut self, other: &State) {
+    pub(super) fn copy_from(&mut self, other: &RodState) {
         self.time = other.time;
         self.origin = other.origin;
         self.position.copy_from_slice(&other.position);
@@ -145,7 +145,7 @@ impl State {
     }
 
     /// Gives a node a motion.
-    pub(super) fn hold(&mut self, node: usize, motion: &Motion) {
+    pub(super) fn hold(&mut self, node: usize, motion: &RodEndMotion) {
         self.position[node] = motion.position;
         self.velocity[node] = motion.velocity;
         self.acceleration[node] = motion.acceleration;

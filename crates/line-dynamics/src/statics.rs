@@ -1,18 +1,18 @@
 //! The position of rest of a rod.
 
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
 use super::pseudo_transient::{pseudo_masses, total_weight};
-use super::state::State;
+use super::state::RodState;
 use super::statics_friction::{RESIDUAL_TENSION_SHARE, pulled_end};
-use super::step::{EndForces, Solver, SolverPhase};
+use super::step::{RodEndForces, RodSolver, SolverPhase};
 use super::stick_friction::StillFluid;
 use super::system::Weights;
 use super::trial::{sample_fluid, set_friction_directions, set_seabed_penetration_scales};
-use super::viscoelastic::Memory;
+use super::viscoelastic::MaxwellMemory;
 use nalgebra::Vector3;
 
 /// Newton iterations after which statics gives up.
@@ -26,7 +26,7 @@ const PILED_UP_STRAIN: f64 = -1e-3;
 /// Newton iterations allowed for adding friction to a rod at rest without it.
 const MAX_ITERATIONS_FRICTION_ADDED: usize = 1_500;
 
-impl Solver {
+impl RodSolver {
     /// Moves the state to where it is at rest, from wherever it is: the ends at their motions' positions, all
     /// velocities zero.
     ///
@@ -48,10 +48,10 @@ impl Solver {
     pub fn statics(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
-        ends: [End; 2],
-    ) -> Result<EndForces, RodError> {
+        ends: [RodEnd; 2],
+    ) -> Result<RodEndForces, RodError> {
         self.begin_statics(rod, state, world, &ends)?;
         let made = self
             .in_local_coordinates(world, |solver, world, near| solver.find_rest(rod, state, world, near.ends(ends)));
@@ -65,10 +65,10 @@ impl Solver {
     pub fn statics_with_friction(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
-        ends: [End; 2],
-    ) -> Result<Option<EndForces>, RodError> {
+        ends: [RodEnd; 2],
+    ) -> Result<Option<RodEndForces>, RodError> {
         self.begin_statics(rod, state, world, &ends)?;
         let mass = pseudo_masses(rod, world);
         let made = self.in_local_coordinates(world, |solver, world, near| {
@@ -81,9 +81,9 @@ impl Solver {
     fn begin_statics(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
-        ends: &[End; 2],
+        ends: &[RodEnd; 2],
     ) -> Result<(), RodError> {
         self.fits(rod, state)?;
         if let Some(motion) = ends[0].motion.filter(|motion| motion.position.iter().all(|c| c.is_finite())) {
@@ -116,10 +116,10 @@ impl Solver {
     fn find_rest(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
-        ends: [End; 2],
-    ) -> Result<EndForces, RodError> {
+        ends: [RodEnd; 2],
+    ) -> Result<RodEndForces, RodError> {
         let (mass, mut done) = (pseudo_masses(rod, world), 0);
         if let Some(made) = self.find_rest_with_friction(rod, state, world, ends, &mass, &mut done)? {
             return Ok(made);
@@ -169,12 +169,12 @@ impl Solver {
     fn find_rest_with_friction(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
-        ends: [End; 2],
+        ends: [RodEnd; 2],
         mass: &[f64],
         done: &mut usize,
-    ) -> Result<Option<EndForces>, RodError> {
+    ) -> Result<Option<RodEndForces>, RodError> {
         self.set_trial_at_rest(rod, state, world, &ends);
         let drawn = pulled_end(rod, world, &ends);
         if drawn.is_none() && self.touches_rough_bottom(rod, world) && self.has_moving_fluid(world) {
@@ -221,12 +221,12 @@ impl Solver {
     fn find_rest_stick_friction(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
-        ends: [End; 2],
+        ends: [RodEnd; 2],
         mass: &[f64],
         done: &mut usize,
-    ) -> Result<Option<EndForces>, RodError> {
+    ) -> Result<Option<RodEndForces>, RodError> {
         self.set_trial_at_rest(rod, state, world, &ends);
         if !self.has_moving_fluid(world) {
             return Ok(None);
@@ -272,7 +272,13 @@ impl Solver {
     }
 
     /// Takes the state as the trial, at rest with its ends where they are to be.
-    pub(super) fn set_trial_at_rest(&mut self, rod: &Rod, state: &State, world: &LineEnvironment, ends: &[End; 2]) {
+    pub(super) fn set_trial_at_rest(
+        &mut self,
+        rod: &Rod,
+        state: &RodState,
+        world: &LineEnvironment,
+        ends: &[RodEnd; 2],
+    ) {
         let (last, zero) = (rod.elements.len(), Vector3::zeros());
         self.weights = Weights { k: 1.0, c: 0.0, m: 0.0 };
         self.trial.time = state.time;
@@ -290,18 +296,18 @@ impl Solver {
         set_seabed_penetration_scales(state, world, &mut self.trial.seabed_penetration_scale);
         self.trial.laid_at.copy_from_slice(&state.stuck);
         // at rest viscoelastic rope has let go of everything
-        self.trial.memory.fill(Memory::default());
+        self.trial.memory.fill(MaxwellMemory::default());
     }
 
     /// Takes the trial, which rests, as the state.
     fn accept_rest(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
-        ends: &[End; 2],
+        ends: &[RodEnd; 2],
         done: usize,
-    ) -> EndForces {
+    ) -> RodEndForces {
         state.position.copy_from_slice(&self.trial.x);
         state.director.copy_from_slice(&self.trial.director);
         for list in [&mut state.velocity, &mut state.acceleration, &mut state.averaged] {
@@ -311,11 +317,11 @@ impl Solver {
         self.set_seabed_penetration_scale(rod, world, state);
         self.set_stick_points(rod, world, state);
         let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
-        EndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 }
+        RodEndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 }
     }
 
     /// Sets how softly each node meets the bottom: see [`Solver::statics`].
-    fn set_seabed_penetration_scale(&self, rod: &Rod, world: &LineEnvironment, state: &mut State) {
+    fn set_seabed_penetration_scale(&self, rod: &Rod, world: &LineEnvironment, state: &mut RodState) {
         let last = rod.elements.len();
         let sag = |i: usize| {
             let element = &rod.elements[i];

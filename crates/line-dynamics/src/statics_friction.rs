@@ -15,14 +15,14 @@
 //! tension that friction should have taken.
 
 use super::contact::{NormalReaction, normal_reaction};
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::mesh::Rod;
 use super::morison::{HalfNode, half_force};
-use super::state::State;
-use super::step::Solver;
+use super::state::RodState;
+use super::step::RodSolver;
 use super::stick_friction::stick_friction;
-use super::tension::{Stretch, TensionOptions, tension};
+use super::tension::{ElementStretch, TensionOptions, tension};
 use super::trial::{Trial, set_friction_directions, transport_directors};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
@@ -59,7 +59,7 @@ fn mobilised_share(tension: f64) -> (f64, f64) {
 const MIN_DRAG_FRICTION_SHARE: f64 = 1e-3;
 
 /// The pulled end: the one above the bottom where the other lies on it. None without friction, or with both ends up or down.
-pub(super) fn pulled_end(rod: &Rod, world: &LineEnvironment, ends: &[End; 2]) -> Option<usize> {
+pub(super) fn pulled_end(rod: &Rod, world: &LineEnvironment, ends: &[RodEnd; 2]) -> Option<usize> {
     let (bottom, _) = world.bottom.filter(|(_, ground)| ground.rough())?;
     let last = rod.elements.len() - 1;
     let lies = |side: usize| {
@@ -155,7 +155,7 @@ pub(super) fn seabed_friction(
         axial_stiffness_scale: trial.axial_stiffness_scale,
     };
     let height = 0.5 * (trial.x[node].z + trial.x[other].z);
-    let stretch = Stretch { strain: length / element.rest - 1.0, rate: 0.0, height, datum: trial.origin.z };
+    let stretch = ElementStretch { strain: length / element.rest - 1.0, rate: 0.0, height, datum: trial.origin.z };
     let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
     let pull = tension(rod, element, taken, &stretch, trial.memory.get(i), fluids, world.gravity);
     let drawn = if mu > 0.0 { pull.value / (spare * mu * n) } else { 0.0 };
@@ -196,7 +196,7 @@ const MAX_STUCK_SHARE: f64 = 0.9999;
 /// Stiffness that holds a grounded node about the start of the first pseudo-step, over its friction stiffness.
 const CREEP_STIFFNESS_RATIO: f64 = 10.0;
 
-impl Solver {
+impl RodSolver {
     /// Holds grounded nodes about the start of a pseudo-step; `hasty` is the length of the first pseudo-step over that of this one.
     ///
     /// A slack grounded line has no other resistance to compression: one pseudo-step from a start that is not quite at rest would fold it.
@@ -249,7 +249,7 @@ impl Solver {
     }
 
     /// Takes the nodes along with an end that has moved: the line swings round about the one it is held by.
-    pub(super) fn swing_with_end(&mut self, rod: &Rod, state: &State, world: &LineEnvironment) {
+    pub(super) fn swing_with_end(&mut self, rod: &Rod, state: &RodState, world: &LineEnvironment) {
         let (Some(side), Some((bottom, _))) = (self.trial.pulled_end, world.bottom) else { return };
         let last = rod.elements.len();
         let (tip, root) = (side * last, (1 - side) * last);
@@ -299,7 +299,7 @@ impl Solver {
     }
 
     /// Sets the stick points of a state at rest so that dynamics begins with the friction of statics.
-    pub(super) fn set_stick_points(&mut self, rod: &Rod, world: &LineEnvironment, state: &mut State) {
+    pub(super) fn set_stick_points(&mut self, rod: &Rod, world: &LineEnvironment, state: &mut RodState) {
         state.stuck.copy_from_slice(&state.position);
         if let (Some(side), Some((_, ground))) = (self.trial.pulled_end, world.bottom) {
             for i in 0..rod.elements.len() {

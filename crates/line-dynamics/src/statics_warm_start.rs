@@ -1,11 +1,11 @@
 //! Warm start of statics: a position of rest beside one that is known.
 
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::mesh::Rod;
 use super::pseudo_transient::{StepOutcome, first_pseudo_step};
-use super::state::State;
-use super::step::Solver;
+use super::state::RodState;
+use super::step::RodSolver;
 use super::trial::{largest_change, sample_fluid, turn_directors};
 use nalgebra::Vector3;
 
@@ -19,17 +19,17 @@ const SMALL_MOVE_SHARE: f64 = 0.01;
 /// that nothing else holds.
 const PSEUDO_STEP_RATIO: f64 = 1e4;
 
-impl Solver {
+impl RodSolver {
     /// Moves the trial, which is where the state is, to the position of rest beside it: by the linear response to the
     /// move of the ends, and Newton's iteration from there. The iterations it took; none if the state did not rest, or
     /// the ends have moved too far.
     pub(super) fn rest_from_warm_start(
         &mut self,
         rod: &Rod,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
         mass: &[f64],
-        ends: &[End; 2],
+        ends: &[RodEnd; 2],
     ) -> Option<usize> {
         let last = rod.elements.len();
         let pseudo = PSEUDO_STEP_RATIO * first_pseudo_step(rod, world);
@@ -60,10 +60,10 @@ impl Solver {
     fn move_with_ends(
         &mut self,
         rod: &Rod,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
         mass: &[f64],
-        ends: &[End; 2],
+        ends: &[RodEnd; 2],
         pseudo: f64,
     ) -> Option<()> {
         let (last, stride) = (rod.elements.len(), self.work.stride());

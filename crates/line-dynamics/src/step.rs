@@ -1,27 +1,27 @@
 //! One implicit step in time.
 
 use super::condense::EndJacobian;
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::{LineEnvironment, UniformFluid};
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
 use super::newton_iteration::LineSearch;
-use super::scheme::{Scheme, Settings};
-use super::state::State;
+use super::scheme::{RodSettings, StepScheme};
+use super::state::RodState;
 use super::system::Weights;
 use super::trial::{
     Trial, advance_stick_points, interpolate, resample_fluid, sample_fluid, set_friction_directions,
     set_seabed_penetration_scales, turn_directors,
 };
-use super::viscoelastic::{Memory, set_yielded_strains, update_memory};
+use super::viscoelastic::{MaxwellMemory, set_yielded_strains, update_memory};
 use super::warm_start::WarmStart;
 use super::workspace::Workspace;
 use nalgebra::Vector3;
 
 /// What a step came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EndForces {
+pub struct RodEndForces {
     /// Force on each holder from the rod (N, global): end A, end B. For a free end what is left of the residual.
     pub force: [Vector3<f64>; 2],
     /// Moment on each holder from the rod about the end (N m).
@@ -41,16 +41,16 @@ pub(super) struct Failure {
 
 /// Steps rods. It holds the memory of one rod; nothing is allocated in a step.
 #[derive(Clone, Debug)]
-pub struct Solver {
-    pub(super) settings: Settings,
+pub struct RodSolver {
+    pub(super) settings: RodSettings,
     pub(super) work: Workspace,
     pub(super) trial: Trial,
     pub(super) change: Vec<f64>,
     pub(super) line_search: LineSearch,
     /// Where the last trial ended.
-    pub(super) next: State,
+    pub(super) next: RodState,
     /// Where the part before it ended, when a step is cut.
-    part: State,
+    part: RodState,
     /// Whether the current step is made by implicit Euler: see [`super::euler_fallback`].
     pub(super) uses_implicit_euler: bool,
     pub(super) weights: Weights,
@@ -61,7 +61,7 @@ pub struct Solver {
     /// What the solver holds: see [`SolverPhase`].
     pub(super) phase: SolverPhase,
     /// Where the step of the last trial began, and whether it was made in one part.
-    pub(super) step_start: State,
+    pub(super) step_start: RodState,
     pub(super) is_single_part: bool,
     /// Columns of the ends in the current tangent matrix.
     pub(super) end_jacobian: EndJacobian,
@@ -84,12 +84,12 @@ pub(super) enum SolverPhase {
     Rest,
 }
 
-impl Solver {
+impl RodSolver {
     /// Memory for a rod.
-    pub fn new(rod: &Rod, settings: Settings) -> Self {
+    pub fn new(rod: &Rod, settings: RodSettings) -> Self {
         let nodes = rod.nodes();
         let zero = vec![Vector3::zeros(); nodes];
-        let state = State {
+        let state = RodState {
             time: 0.0,
             origin: Vector3::zeros(),
             position: zero.clone(),
@@ -114,7 +114,7 @@ impl Solver {
             stuck_at: zero.clone(),
             laid_at: zero,
             seabed_penetration_scale: vec![0.0; nodes],
-            ends: [End::FREE; 2],
+            ends: [RodEnd::FREE; 2],
             tension_only: false,
             axial_stiffness_scale: 1.0,
             exact_friction_tangent: false,
@@ -123,10 +123,10 @@ impl Solver {
             no_drag_friction: false,
             stick_friction: false,
             director: state.director.clone(),
-            memory: vec![Memory::default(); state.yielded.len()],
+            memory: vec![MaxwellMemory::default(); state.yielded.len()],
         };
         let work = Workspace::new(rod);
-        Solver {
+        RodSolver {
             settings,
             change: vec![0.0; work.stride() * nodes],
             line_search: LineSearch::new(work.stride() * nodes),
@@ -149,7 +149,7 @@ impl Solver {
     }
 
     /// Refuses a rod and state other than those it was made for.
-    pub(super) fn fits(&self, rod: &Rod, state: &State) -> Result<(), RodError> {
+    pub(super) fn fits(&self, rod: &Rod, state: &RodState) -> Result<(), RodError> {
         let nodes = rod.nodes();
         let own = [self.trial.x.len(), self.change.len() / self.work.stride()];
         let other = [self.trial.director.len(), self.trial.memory.len()] != [state.director.len(), state.yielded.len()];
@@ -173,11 +173,11 @@ impl Solver {
     pub fn trial(
         &mut self,
         rod: &Rod,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
         time: f64,
-        ends: [End; 2],
-    ) -> Result<EndForces, RodError> {
+        ends: [RodEnd; 2],
+    ) -> Result<RodEndForces, RodError> {
         self.fits(rod, state)?;
         let whole = time - state.time;
         if !(whole > 0.0 && whole.is_finite()) {
@@ -194,11 +194,11 @@ impl Solver {
     fn trial_nearby(
         &mut self,
         rod: &Rod,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
         time: f64,
-        ends: [End; 2],
-    ) -> Result<EndForces, RodError> {
+        ends: [RodEnd; 2],
+    ) -> Result<RodEndForces, RodError> {
         let mut iterations = 0;
         if self.is_same_step(state, time, &ends) {
             match self.step_with_fallback(rod, state, world, time, ends, true) {
@@ -217,7 +217,7 @@ impl Solver {
     }
 
     /// Takes the last trial as the new state.
-    pub fn accept(&mut self, state: &mut State) {
+    pub fn accept(&mut self, state: &mut RodState) {
         std::mem::swap(&mut self.next, state);
         self.phase = SolverPhase::Idle;
     }
@@ -229,11 +229,11 @@ impl Solver {
     pub fn step(
         &mut self,
         rod: &Rod,
-        state: &mut State,
+        state: &mut RodState,
         world: &LineEnvironment,
         time: f64,
-        ends: [End; 2],
-    ) -> Result<EndForces, RodError> {
+        ends: [RodEnd; 2],
+    ) -> Result<RodEndForces, RodError> {
         let made = self.trial(rod, state, world, time, ends)?;
         self.accept(state);
         Ok(made)
@@ -243,12 +243,12 @@ impl Solver {
     fn step_in_parts(
         &mut self,
         rod: &Rod,
-        state: &State,
+        state: &RodState,
         world: &LineEnvironment,
         time: f64,
-        ends: [End; 2],
+        ends: [RodEnd; 2],
         mut failure: Failure,
-    ) -> Result<EndForces, RodError> {
+    ) -> Result<RodEndForces, RodError> {
         let whole = time - state.time;
         let (mut level, mut done, mut parts, mut iterations) = (1u32, 0u64, 0usize, self.settings.iterations);
         // positions in the step are counted in the smallest parts, so that the last one ends at `time` exactly
@@ -302,14 +302,15 @@ impl Solver {
     pub(super) fn converge(
         &mut self,
         rod: &Rod,
-        from: &State,
+        from: &RodState,
         world: &LineEnvironment,
         time: f64,
-        ends: [End; 2],
+        ends: [RodEnd; 2],
         near: bool,
     ) -> Result<usize, Failure> {
         let h = time - from.time;
-        let scheme = if self.uses_implicit_euler { Scheme::euler(h) } else { Scheme::new(h, &self.settings.scheme) };
+        let scheme =
+            if self.uses_implicit_euler { StepScheme::euler(h) } else { StepScheme::new(h, &self.settings.scheme) };
         let last = rod.elements.len();
         self.weights = scheme.weights();
         let shortest = rod.shortest();
@@ -401,8 +402,8 @@ impl Solver {
         Err(Failure { node: self.work.largest_residual(known).0, why: "the iteration does not settle" })
     }
 
-    fn end_forces(&self, rod: &Rod, iterations: usize, parts: usize) -> EndForces {
+    fn end_forces(&self, rod: &Rod, iterations: usize, parts: usize) -> RodEndForces {
         let moment = [0, 1].map(|side| end_moment(rod, &self.next, &self.trial.ends[side], side));
-        EndForces { force: self.work.end_forces(), moment, iterations, parts }
+        RodEndForces { force: self.work.end_forces(), moment, iterations, parts }
     }
 }

@@ -3,8 +3,8 @@
 use super::environment::{LineEnvironment, Support, SupportReaction, SupportTarget};
 use super::local_environment::LocalEnvironment;
 use super::mesh::Rod;
-use super::state::State;
-use super::step::Solver;
+use super::state::RodState;
+use super::step::RodSolver;
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3};
 
 /// What a rod does to one of its supports.
@@ -33,7 +33,7 @@ const SUPPORT_NODES: usize = 3;
 
 /// Where a support holds a rod.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SupportContact {
+pub(super) struct SupportPoint {
     /// The first node it acts on, and how many.
     node: usize,
     count: usize,
@@ -102,7 +102,7 @@ impl SupportPiece {
     }
 
     /// Where it crosses the plane of a roller.
-    fn crossing(&self, support: &Support, along: Vector3<f64>, x: &[Vector3<f64>]) -> Option<SupportContact> {
+    fn crossing(&self, support: &Support, along: Vector3<f64>, x: &[Vector3<f64>]) -> Option<SupportPoint> {
         let nodes = x.get(self.node..self.node + self.count)?;
         // height over the plane by c0 + c1 s + c2 s^2 / 2
         let plane = along.dot(&support.place);
@@ -129,11 +129,11 @@ impl SupportPiece {
         let reach = edge.dot(&along);
         let at = SupportPiece::sum(shares.into_iter(), nodes) - support.place;
         let rolls = Some(RollerCrossing { along, slopes, edge, bend, reach });
-        (reach != 0.0).then_some(SupportContact { node: self.node, count: self.count, shares, at, rolls })
+        (reach != 0.0).then_some(SupportPoint { node: self.node, count: self.count, shares, at, rolls })
     }
 }
 
-impl SupportContact {
+impl SupportPoint {
     /// The nodes it acts on.
     pub fn nodes(&self) -> std::ops::Range<usize> {
         self.node..self.node + self.count
@@ -147,11 +147,11 @@ impl SupportContact {
 
 /// Where a support holds a rod: of a roller, where that crosses its plane nearest to its place. A rod is `smooth` where
 /// it bends: see [`Rod::smooth`].
-pub(super) fn find_support_contact(smooth: bool, support: &Support, x: &[Vector3<f64>]) -> Option<SupportContact> {
+pub(super) fn find_support_contact(smooth: bool, support: &Support, x: &[Vector3<f64>]) -> Option<SupportPoint> {
     let along = match support.target {
         SupportTarget::Node(node) => {
             let at = x.get(node)? - support.place;
-            return Some(SupportContact { node, count: 1, shares: [1.0, 0.0, 0.0], at, rolls: None });
+            return Some(SupportPoint { node, count: 1, shares: [1.0, 0.0, 0.0], at, rolls: None });
         }
         SupportTarget::Crossing(along) => along,
     };
@@ -164,7 +164,7 @@ pub(super) fn find_support_contact(smooth: bool, support: &Support, x: &[Vector3
 ///
 /// A roller is asked at the point where the rod crosses its plane, so that its force is at right angles to the rod, as
 /// that of something that rolls, and the rod slides from one element to the next without a jump.
-pub(super) fn support_load(support: &Support, meeting: &SupportContact, v: &[Vector3<f64>]) -> Option<SupportLoad> {
+pub(super) fn support_load(support: &Support, meeting: &SupportPoint, v: &[Vector3<f64>]) -> Option<SupportLoad> {
     let velocity = meeting.value_at_contact(v) - support.velocity;
     let none = [[Matrix3::zeros(); SUPPORT_NODES]; SUPPORT_NODES];
     let Some(RollerCrossing { along, slopes, edge, bend, reach }) = meeting.rolls else {
@@ -207,7 +207,7 @@ impl Rod {
     }
 
     /// What the rod does to each support of a world in a state.
-    pub fn support_forces(&self, state: &State, world: &LineEnvironment) -> Vec<SupportForce> {
+    pub fn support_forces(&self, state: &RodState, world: &LineEnvironment) -> Vec<SupportForce> {
         let look = |support: &Support| {
             let clear = SupportForce { force: Vector3::zeros(), moment: Vector3::zeros(), arc: None };
             let Some(found) = find_support_contact(self.smooth(), support, &state.position) else { return clear };
@@ -227,7 +227,7 @@ impl Rod {
 
 /// A support in contact with the rod at the solver's trial.
 struct SupportState {
-    meeting: SupportContact,
+    meeting: SupportPoint,
     load: SupportLoad,
     /// How its nodes move with it, as seen from the support: by its translation and turn.
     carried: [SMatrix<f64, 3, 6>; SUPPORT_NODES],
@@ -296,7 +296,7 @@ impl SupportState {
     }
 }
 
-impl Solver {
+impl RodSolver {
     /// How what the rod does to its supports follows their motion at the last [`Solver::trial`], before it is accepted,
     /// or at rest after [`Solver::statics`]: the rod condensed to its supports, each derivative with the other motion
     /// and the start of the step as they are. That the turn of a support changes how fast the rod goes by it is left out.

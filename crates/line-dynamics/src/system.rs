@@ -1,6 +1,6 @@
 //! The residual of a rod and its tangent, with what adds to them by nodes.
 
-use super::band::Band;
+use super::band::BandMatrix;
 use super::element_batch::{BATCH_SIZE, BatchTangent, ElementBatch};
 use super::spatial::Vector8;
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -15,8 +15,8 @@ pub(super) struct Weights {
 
 /// Residual (what the nodes need from outside, N) and its tangent; `W` unknowns a node.
 #[derive(Clone, Debug)]
-pub(super) struct System<const W: usize, const H: usize, const S: usize> {
-    pub band: Band<H, S>,
+pub(super) struct RodSystem<const W: usize, const H: usize, const S: usize> {
+    pub band: BandMatrix<H, S>,
     pub residual: Vec<f64>,
     /// Room for elements taken at once.
     pub abreast: ElementBatch,
@@ -26,10 +26,10 @@ pub(super) struct System<const W: usize, const H: usize, const S: usize> {
     rows: [[[f64; S]; 3]; 2],
 }
 
-impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
+impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
     pub fn new(nodes: usize) -> Self {
-        System {
-            band: Band::new(W * nodes),
+        RodSystem {
+            band: BandMatrix::new(W * nodes),
             residual: vec![0.0; W * nodes],
             abreast: ElementBatch::default(),
             ends: [Vector3::zeros(); 2],
@@ -128,7 +128,7 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
     /// Product of the kept rows of an end with a change of all unknowns.
     pub fn ends_by(&self, side: usize, change: &[f64]) -> Vector3<f64> {
         let node = if side == 0 { 0 } else { self.residual.len() / W - 1 };
-        Vector3::from_fn(|i, _| Band::<H, S>::product(&self.rows[side][i], W * node + i, change))
+        Vector3::from_fn(|i, _| BandMatrix::<H, S>::product(&self.rows[side][i], W * node + i, change))
     }
 
     /// Tells every entry of the kept rows of an end: row of the three, column, value.
@@ -166,7 +166,7 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
 /// Adds an element of a number, one of those taken at once.
 #[inline(always)]
 fn add_share<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
-    (band, residual): (&mut Band<H, S>, &mut [f64]),
+    (band, residual): (&mut BandMatrix<H, S>, &mut [f64]),
     (element, n): (usize, usize),
     shares: &BatchTangent,
 ) {

@@ -1,13 +1,13 @@
 //! The tension of an element.
 
 use super::environment::FluidState;
-use super::mesh::{Element, Rod};
-use super::section::{Axial, Segment, Tube};
-use super::viscoelastic::Memory;
+use super::mesh::{Rod, RodElement};
+use super::section::{RodSegment, TensionLaw, TubeSection};
+use super::viscoelastic::MaxwellMemory;
 use nalgebra::Vector3;
 
 /// Tension of an element (N) with its derivatives by strain, by strain rate and by the height of its middle.
-pub(super) struct Tension {
+pub(super) struct ElementTension {
     pub value: f64,
     pub by_strain: f64,
     pub by_rate: f64,
@@ -15,7 +15,7 @@ pub(super) struct Tension {
 }
 
 /// How an element is stretched.
-pub(super) struct Stretch {
+pub(super) struct ElementStretch {
     pub strain: f64,
     /// Strain rate (1/s).
     pub rate: f64,
@@ -49,7 +49,7 @@ pub(super) struct TubeAreas {
 impl TubeAreas {
     /// Of a tube, heights over a datum (m, global): (1 - 2 nu)(p_e A_e - p_i A_i) [SPARKS-2007 2.4].
     #[inline(always)]
-    pub fn from_tube(tube: &Tube, gravity: f64, datum: f64) -> Self {
+    pub fn from_tube(tube: &TubeSection, gravity: f64, datum: f64) -> Self {
         let share = 1.0 - 2.0 * tube.poisson;
         let [outside, inside] = tube.areas().map(|area| share * area);
         let contents = tube.contents * gravity * inside;
@@ -63,8 +63,8 @@ impl TubeAreas {
     }
 }
 
-impl Tension {
-    const NONE: Tension = Tension { value: 0.0, by_strain: 0.0, by_rate: 0.0, by_height: 0.0 };
+impl ElementTension {
+    const NONE: ElementTension = ElementTension { value: 0.0, by_strain: 0.0, by_rate: 0.0, by_height: 0.0 };
 }
 
 /// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does
@@ -76,19 +76,19 @@ impl Tension {
 #[inline(always)]
 pub(super) fn tension(
     rod: &Rod,
-    element: &Element,
+    element: &RodElement,
     taken: TensionOptions,
-    stretch: &Stretch,
-    memory: Option<&Memory>,
+    stretch: &ElementStretch,
+    memory: Option<&MaxwellMemory>,
     fluids: [&FluidState; 2],
     gravity: f64,
-) -> Tension {
+) -> ElementTension {
     let segment = &rod.segments[element.segment];
     let free = segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
     let mechanical = stretch.strain - free;
     let shortened = mechanical < 0.0 && !taken.compression;
     if shortened && segment.tube.is_none() {
-        return Tension::NONE;
+        return ElementTension::NONE;
     }
     let (value, by_strain) = if element.ea > 0.0 {
         (element.ea * mechanical, element.ea)
@@ -99,7 +99,7 @@ pub(super) fn tension(
     } else {
         segment.axial.evaluate(mechanical)
     };
-    let mut made = Tension {
+    let mut made = ElementTension {
         value: value * taken.axial_stiffness_scale,
         by_strain: by_strain * taken.axial_stiffness_scale,
         by_rate: element.damping,
@@ -119,18 +119,18 @@ pub(super) fn tension(
     }
     let still = made.value;
     made.value += element.damping * stretch.rate;
-    if !taken.compression && still.min(made.value) < 0.0 { Tension::NONE } else { made }
+    if !taken.compression && still.min(made.value) < 0.0 { ElementTension::NONE } else { made }
 }
 
 impl Rod {
     /// The first element that is stretched beyond the most that its law bears, where that falls again with more strain:
     /// nothing would hold it there.
     pub(super) fn find_overstretched(&self, x: &[Vector3<f64>]) -> Option<usize> {
-        let falls = |segment: &Segment| matches!(segment.axial, Axial::Polynomial(_));
+        let falls = |segment: &RodSegment| matches!(segment.axial, TensionLaw::Polynomial(_));
         if !self.segments.iter().any(falls) {
             return None;
         }
-        let beyond = |(element, x): (&Element, &[Vector3<f64>])| {
+        let beyond = |(element, x): (&RodElement, &[Vector3<f64>])| {
             let segment = &self.segments[element.segment];
             let free = segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
             let strain = (x[1] - x[0]).norm() / element.rest - 1.0 - free;

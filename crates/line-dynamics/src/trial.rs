@@ -1,12 +1,12 @@
 //! A trial motion of a rod, with the fluid sampled along it.
 
 use super::contact::update_stick_point;
-use super::ends::{End, Motion};
+use super::ends::{RodEnd, RodEndMotion};
 use super::environment::{FluidState, LineEnvironment};
 use super::mesh::Rod;
 use super::spatial::{rotate_director, transport_director};
-use super::state::State;
-use super::viscoelastic::Memory;
+use super::state::RodState;
+use super::viscoelastic::MaxwellMemory;
 use nalgebra::{Rotation3, Vector3};
 
 /// A trial motion of all nodes at one time, with the fluid at them.
@@ -29,7 +29,7 @@ pub(super) struct Trial {
     pub laid_at: Vec<Vector3<f64>>,
     /// Penetration over which the bottom's stiffness grows at each node (m).
     pub seabed_penetration_scale: Vec<f64>,
-    pub ends: [End; 2],
+    pub ends: [RodEnd; 2],
     /// Without resistance to compression and bending: on the way to a position of rest.
     pub tension_only: bool,
     /// Scale of the axial stiffness: below one on the way to a position of rest.
@@ -47,7 +47,7 @@ pub(super) struct Trial {
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
     /// How each element of a rod with viscoelastic rope follows its strain.
-    pub memory: Vec<Memory>,
+    pub memory: Vec<MaxwellMemory>,
 }
 
 impl Trial {
@@ -141,7 +141,7 @@ pub(super) fn sample_fluid(world: &LineEnvironment, time: f64, trial: &mut Trial
 }
 
 /// Direction of the rod at each node, where friction needs it.
-pub(super) fn set_friction_directions(rod: &Rod, state: &State, world: &LineEnvironment, lay: &mut [Vector3<f64>]) {
+pub(super) fn set_friction_directions(rod: &Rod, state: &RodState, world: &LineEnvironment, lay: &mut [Vector3<f64>]) {
     if world.bottom.is_some_and(|(_, g)| g.rough()) {
         let last = rod.elements.len();
         for (i, direction) in lay.iter_mut().enumerate() {
@@ -152,7 +152,7 @@ pub(super) fn set_friction_directions(rod: &Rod, state: &State, world: &LineEnvi
 }
 
 /// Where the nodes stick at the end of a step.
-pub(super) fn advance_stick_points(world: &LineEnvironment, from: &State, next: &mut State) {
+pub(super) fn advance_stick_points(world: &LineEnvironment, from: &RodState, next: &mut RodState) {
     next.stuck.copy_from_slice(&next.position);
     if let Some((bottom, ground)) = world.bottom.filter(|(_, g)| g.rough()) {
         for ((stuck, x), before) in next.stuck.iter_mut().zip(&next.position).zip(&from.stuck) {
@@ -162,7 +162,7 @@ pub(super) fn advance_stick_points(world: &LineEnvironment, from: &State, next: 
 }
 
 /// Penetration over which the bottom's stiffness grows at each node: the bottom's own, or the mesh's where it is larger.
-pub(super) fn set_seabed_penetration_scales(state: &State, world: &LineEnvironment, soft: &mut [f64]) {
+pub(super) fn set_seabed_penetration_scales(state: &RodState, world: &LineEnvironment, soft: &mut [f64]) {
     if let Some((_, ground)) = &world.bottom {
         for (soft, bedding) in soft.iter_mut().zip(&state.bedding) {
             *soft = bedding.max(ground.penetration_scale);
@@ -172,22 +172,22 @@ pub(super) fn set_seabed_penetration_scales(state: &State, world: &LineEnvironme
 
 /// An end part of the way through a step: a cubic through position and velocity at both ends of it, its direction and
 /// side turned back as the holder turns at the end of the step.
-pub(super) fn interpolate(state: &State, node: usize, end: &End, whole: f64, share: f64) -> End {
+pub(super) fn interpolate(state: &RodState, node: usize, end: &RodEnd, whole: f64, share: f64) -> RodEnd {
     if share >= 1.0 {
         return *end;
     }
     let back = Rotation3::new(end.turning * ((share - 1.0) * whole));
     let turned = |across: Option<Vector3<f64>>| across.map(|v| back * v);
-    let end = End { direction: turned(end.direction), side: turned(end.side), ..*end };
+    let end = RodEnd { direction: turned(end.direction), side: turned(end.side), ..*end };
     let Some(to) = end.motion else { return end };
     let (x0, v0) = (state.position[node], state.velocity[node] * whole);
     let (x1, v1) = (to.position, to.velocity * whole);
     let (s, d) = (share, x1 - x0);
     let (b, c) = (d * 3.0 - v0 * 2.0 - v1, v0 + v1 - d * 2.0);
-    let motion = Motion {
+    let motion = RodEndMotion {
         position: x0 + v0 * s + b * (s * s) + c * (s * s * s),
         velocity: (v0 + b * (2.0 * s) + c * (3.0 * s * s)) / whole,
         acceleration: (b * 2.0 + c * (6.0 * s)) / (whole * whole),
     };
-    End { motion: Some(motion), ..end }
+    RodEnd { motion: Some(motion), ..end }
 }

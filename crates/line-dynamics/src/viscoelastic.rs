@@ -1,8 +1,8 @@
 //! Viscoelastic rope: a standard linear solid with static and dynamic stiffness.
 
-use super::mesh::{Element, Rod};
-use super::section::Axial;
-use super::state::State;
+use super::mesh::{Rod, RodElement};
+use super::section::TensionLaw;
+use super::state::RodState;
 use nalgebra::Vector3;
 
 /// A rope with a static and a dynamic stiffness, as one of polyester: a standard linear solid, the slow law with a
@@ -14,9 +14,9 @@ use nalgebra::Vector3;
 /// the pair of static and dynamic stiffness after [FALKENBERG-2017]). In statics the slow law is left. Where the slow law is the stiffer of
 /// the two it acts alone.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Viscoelastic {
+pub struct ViscoelasticRope {
     /// Tension by strain when pulled slowly; not another viscoelastic law.
-    pub slow: Axial,
+    pub slow: TensionLaw,
     /// Stiffness when pulled fast: a (N), and b (N of stiffness per N of mean tension).
     pub fast: [f64; 2],
     /// Relaxation time (s) of the Maxwell element: its damper over its spring.
@@ -25,26 +25,26 @@ pub struct Viscoelastic {
 
 /// How the stretch of the Maxwell spring follows the strain: stretch = `kept` + `follows` * strain.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Memory {
+pub(super) struct MaxwellMemory {
     pub kept: f64,
     pub follows: f64,
 }
 
-impl Memory {
+impl MaxwellMemory {
     /// For an instantaneous change of strain, with the damper at its strain `yielded`.
     pub fn instantaneous(yielded: f64) -> Self {
-        Memory { kept: -yielded, follows: 1.0 }
+        MaxwellMemory { kept: -yielded, follows: 1.0 }
     }
 
     /// After a share `alpha` of the relaxation time in which the strain went evenly from `before` to where it is: the
     /// exact answer of dy/dt = d(strain)/dt - y / tau.
     fn over_step(alpha: f64, before: f64, yielded: f64) -> Self {
         let follows = if alpha > 0.0 { -(-alpha).exp_m1() / alpha } else { 1.0 };
-        Memory { kept: (-alpha).exp() * (before - yielded) - follows * before, follows }
+        MaxwellMemory { kept: (-alpha).exp() * (before - yielded) - follows * before, follows }
     }
 }
 
-impl Viscoelastic {
+impl ViscoelasticRope {
     /// Stiffness of the Maxwell spring (N) where its damper has yielded by a strain, and its slope.
     fn maxwell_stiffness(&self, yielded: f64) -> (f64, f64) {
         let (mean, slope) = self.slow.evaluate(yielded);
@@ -57,7 +57,7 @@ impl Viscoelastic {
     }
 
     /// Tension of the Maxwell element (N) at a strain, and its slope by the strain.
-    pub(super) fn maxwell_tension(&self, strain: f64, memory: &Memory) -> (f64, f64) {
+    pub(super) fn maxwell_tension(&self, strain: f64, memory: &MaxwellMemory) -> (f64, f64) {
         let y = memory.kept + memory.follows * strain;
         let (stiffness, slope) = self.maxwell_stiffness(strain - y);
         (stiffness * y, stiffness * memory.follows + y * slope * (1.0 - memory.follows))
@@ -72,7 +72,7 @@ impl Viscoelastic {
     }
 
     /// Strain of a rope that is slack: that at which it has no tension. It shrinks as its damper goes back.
-    fn slack_strain(&self, memory: &Memory) -> f64 {
+    fn slack_strain(&self, memory: &MaxwellMemory) -> f64 {
         // without the Maxwell spring's pull there is tension, at no strain there is none
         let (mut low, mut high) = (0.0, -memory.kept / memory.follows.max(f64::MIN_POSITIVE));
         for _ in 0..60 {
@@ -85,7 +85,7 @@ impl Viscoelastic {
 
     pub(super) fn find_fault(&self) -> Option<(f64, &'static str)> {
         let [a, b] = self.fast;
-        if matches!(self.slow, Axial::Viscoelastic(_)) {
+        if matches!(self.slow, TensionLaw::Viscoelastic(_)) {
             return Some((a, "its slow law must not be viscoelastic itself"));
         }
         if let Some(fault) = self.slow.find_fault() {
@@ -110,9 +110,9 @@ impl Rod {
         self.elements.iter().any(|e| self.viscoelastic_law(e).is_some())
     }
 
-    pub(super) fn viscoelastic_law(&self, element: &Element) -> Option<&Viscoelastic> {
+    pub(super) fn viscoelastic_law(&self, element: &RodElement) -> Option<&ViscoelasticRope> {
         match &self.segments[element.segment].axial {
-            Axial::Viscoelastic(rope) => Some(rope),
+            TensionLaw::Viscoelastic(rope) => Some(rope),
             _ => None,
         }
     }
@@ -120,10 +120,10 @@ impl Rod {
     /// Strain of the rope in an element between two places: less the thermal one, and of a slack one its own.
     pub(super) fn viscoelastic_tension(
         &self,
-        element: &Element,
-        rope: &Viscoelastic,
+        element: &RodElement,
+        rope: &ViscoelasticRope,
         [a, b]: [&Vector3<f64>; 2],
-        memory: &Memory,
+        memory: &MaxwellMemory,
     ) -> f64 {
         let free = self.segments[element.segment].tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
         let strain = (b - a).norm() / element.rest - 1.0 - free;
@@ -137,9 +137,9 @@ impl Rod {
             return Vec::new();
         }
         let pairs = self.elements.iter().zip(position.windows(2));
-        let strain = |(element, x): (&Element, &[Vector3<f64>])| {
+        let strain = |(element, x): (&RodElement, &[Vector3<f64>])| {
             // a spring that has let go of everything
-            let all = Memory::default();
+            let all = MaxwellMemory::default();
             self.viscoelastic_law(element)
                 .map_or(0.0, |rope| self.viscoelastic_tension(element, rope, [&x[0], &x[1]], &all))
         };
@@ -148,18 +148,19 @@ impl Rod {
 }
 
 /// How each element follows its strain over a step of `h` seconds from a state; zero for at once.
-pub(super) fn update_memory(rod: &Rod, from: &State, h: f64, memory: &mut [Memory]) {
+pub(super) fn update_memory(rod: &Rod, from: &RodState, h: f64, memory: &mut [MaxwellMemory]) {
     let elements = rod.elements.iter().zip(from.position.windows(2)).zip(&from.yielded);
     for (memory, ((element, x), yielded)) in memory.iter_mut().zip(elements) {
         if let Some(rope) = rod.viscoelastic_law(element) {
-            let before = rod.viscoelastic_tension(element, rope, [&x[0], &x[1]], &Memory::instantaneous(*yielded));
-            *memory = Memory::over_step(h / rope.relaxation, before, *yielded);
+            let before =
+                rod.viscoelastic_tension(element, rope, [&x[0], &x[1]], &MaxwellMemory::instantaneous(*yielded));
+            *memory = MaxwellMemory::over_step(h / rope.relaxation, before, *yielded);
         }
     }
 }
 
 /// Where the dampers have yielded to at the end of a step.
-pub(super) fn set_yielded_strains(rod: &Rod, memory: &[Memory], state: &mut State) {
+pub(super) fn set_yielded_strains(rod: &Rod, memory: &[MaxwellMemory], state: &mut RodState) {
     let elements = rod.elements.iter().zip(state.position.windows(2)).zip(memory);
     for (yielded, ((element, x), memory)) in state.yielded.iter_mut().zip(elements) {
         if let Some(rope) = rod.viscoelastic_law(element) {
@@ -176,15 +177,15 @@ mod tests {
     #[test]
     fn slope_of_a_viscoelastic_rope_is_the_difference_of_its_tension() {
         let slow = [
-            Axial::Linear(1e7),
-            Axial::Polynomial(vec![8e6, 3e7, 2e8]),
-            Axial::Table(vec![(0.0, 0.0), (0.02, 2e5), (0.1, 1.8e6)]),
+            TensionLaw::Linear(1e7),
+            TensionLaw::Polynomial(vec![8e6, 3e7, 2e8]),
+            TensionLaw::Table(vec![(0.0, 0.0), (0.02, 2e5), (0.1, 1.8e6)]),
         ];
         for slow in slow {
-            let rope = Viscoelastic { slow, fast: [2e7, 12.0], relaxation: 30.0 };
+            let rope = ViscoelasticRope { slow, fast: [2e7, 12.0], relaxation: 30.0 };
             assert_eq!(rope.find_fault(), None);
             for alpha in [0.0, 1e-3, 0.7, 1e3] {
-                let memory = Memory::over_step(alpha, 0.015, 0.012);
+                let memory = MaxwellMemory::over_step(alpha, 0.015, 0.012);
                 let (h, strain) = (1e-7, 0.031);
                 let slope = (rope.maxwell_tension(strain + h, &memory).0 - rope.maxwell_tension(strain - h, &memory).0)
                     / (2.0 * h);
@@ -203,7 +204,7 @@ mod tests {
         for steps in [1, 7, 200] {
             let alpha = 1.3 / steps as f64;
             let yielded = (0..steps).fold(0.0, |yielded, _| {
-                let memory = Memory::over_step(alpha, 0.02, yielded);
+                let memory = MaxwellMemory::over_step(alpha, 0.02, yielded);
                 0.02 - (memory.kept + memory.follows * 0.02)
             });
             // exact but for rounding

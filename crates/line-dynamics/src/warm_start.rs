@@ -1,11 +1,11 @@
 //! Warm start of a trial from the previous trial of the same step, as when a body iterates on its own motion.
 
-use super::ends::End;
+use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::mesh::Rod;
-use super::scheme::Scheme;
-use super::state::State;
-use super::step::{Solver, SolverPhase};
+use super::scheme::StepScheme;
+use super::state::RodState;
+use super::step::{RodSolver, SolverPhase};
 use super::trial::{largest_change, turn_directors};
 use nalgebra::Vector3;
 
@@ -25,7 +25,7 @@ pub(super) enum WarmStart {
     Converged,
 }
 
-impl Solver {
+impl RodSolver {
     /// Takes the end of the last trial as the trial's motion.
     pub(super) fn set_trial_from_next(&mut self) {
         self.trial.x.copy_from_slice(&self.next.position);
@@ -35,8 +35,8 @@ impl Solver {
     }
 
     /// Whether the last trial was of the same step, made in one part.
-    pub(super) fn is_same_step(&self, state: &State, time: f64, ends: &[End; 2]) -> bool {
-        let held = |ends: &[End; 2]| ends.map(|e| e.motion.is_some());
+    pub(super) fn is_same_step(&self, state: &RodState, time: f64, ends: &[RodEnd; 2]) -> bool {
+        let held = |ends: &[RodEnd; 2]| ends.map(|e| e.motion.is_some());
         self.phase == SolverPhase::Trial
             && self.is_single_part
             && self.next.time == time
@@ -49,10 +49,10 @@ impl Solver {
     pub(super) fn predict_from_last_trial(
         &mut self,
         rod: &Rod,
-        from: &State,
+        from: &RodState,
         world: &LineEnvironment,
-        scheme: &Scheme,
-        ends: &[End; 2],
+        scheme: &StepScheme,
+        ends: &[RodEnd; 2],
     ) -> Option<WarmStart> {
         let elsewhere = [0, 1].map(|side: usize| self.trial.ends[side].motion != ends[side].motion);
         self.linearise(rod, world, false, elsewhere)?;

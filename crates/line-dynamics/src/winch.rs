@@ -1,8 +1,8 @@
 //! Elements that appear at a winch and go back into it.
 
 use super::error::RodError;
-use super::mesh::{Element, Rod};
-use super::state::State;
+use super::mesh::{Rod, RodElement};
+use super::state::RodState;
 use nalgebra::Vector3;
 
 impl Rod {
@@ -16,8 +16,10 @@ impl Rod {
         if !(length.is_finite() && length > 0.0 && rate.is_finite()) {
             return Err(self.refuse(format!("element {} cannot be {length} m long", element + 1)));
         }
-        let made =
-            self.segments.get(segment).map(|properties| Element { rate, ..Element::new(properties, segment, length) });
+        let made = self
+            .segments
+            .get(segment)
+            .map(|properties| RodElement { rate, ..RodElement::new(properties, segment, length) });
         if let (Some(place), Some(made)) = (self.elements.get_mut(element), made) {
             *place = made;
         }
@@ -30,7 +32,7 @@ impl Rod {
     ///
     /// # Errors
     /// An element that is not there, too many elements, or a rod with torsional stiffness, whose elements cannot be divided.
-    pub fn divide(&mut self, element: usize, state: &mut State) -> Result<(), RodError> {
+    pub fn divide(&mut self, element: usize, state: &mut RodState) -> Result<(), RodError> {
         let old = self.changeable(element, state)?;
         if self.elements.len() >= super::MAX_ELEMENTS {
             return Err(self.refuse(format!("it has {} elements already", self.elements.len())));
@@ -45,7 +47,7 @@ impl Rod {
         } else {
             [half.rate, half.rate]
         };
-        self.elements.splice(element..=element, rates.map(|rate| Element { rate, ..half.clone() }));
+        self.elements.splice(element..=element, rates.map(|rate| RodElement { rate, ..half.clone() }));
         if let Some(strain) = state.yielded.get(element).copied() {
             state.yielded.insert(element, strain);
         }
@@ -75,14 +77,14 @@ impl Rod {
     ///
     /// # Errors
     /// An element that is not there or has none after it, something attached between the two, or a rod with torsional stiffness.
-    pub fn join(&mut self, element: usize, state: &mut State) -> Result<(), RodError> {
+    pub fn join(&mut self, element: usize, state: &mut RodState) -> Result<(), RodError> {
         let first = self.changeable(element, state)?;
         let second = self.changeable(element + 1, state)?;
         if self.attachments.iter().any(|a| a.node == element + 1) {
             let why = format!("elements {} and {} cannot be one", element + 1, element + 2);
             return Err(self.refuse(why));
         }
-        let joined = Element {
+        let joined = RodElement {
             rate: first.rate + second.rate,
             ..self.scaled_element(&second, (first.rest + second.rest) / second.rest)
         };
@@ -105,21 +107,24 @@ impl Rod {
     }
 
     /// An element of the same segment that is `share` as long, and grows by that share of its rate.
-    fn scaled_element(&self, element: &Element, share: f64) -> Element {
+    fn scaled_element(&self, element: &RodElement, share: f64) -> RodElement {
         let rest = element.rest * share;
         self.segments.get(element.segment).map_or_else(
             || element.clone(),
-            |properties| Element { rate: element.rate * share, ..Element::new(properties, element.segment, rest) },
+            |properties| RodElement {
+                rate: element.rate * share,
+                ..RodElement::new(properties, element.segment, rest)
+            },
         )
     }
 
-    fn element(&self, element: usize) -> Result<Element, RodError> {
+    fn element(&self, element: usize) -> Result<RodElement, RodError> {
         let there = self.elements.get(element).cloned();
         there.ok_or_else(|| self.refuse(format!("there is no element {}", element + 1)))
     }
 
     /// An element whose nodes may come and go.
-    fn changeable(&self, element: usize, state: &State) -> Result<Element, RodError> {
+    fn changeable(&self, element: usize, state: &RodState) -> Result<RodElement, RodError> {
         if !state.fits(self) {
             return Err(self.refuse("the state is not that of this rod".to_string()));
         }

@@ -4,7 +4,7 @@ use super::assemble::assemble;
 use super::condense::MAX_BANDWIDTH;
 use super::environment::LineEnvironment;
 use super::mesh::Rod;
-use super::system::{System, Weights};
+use super::system::{RodSystem, Weights};
 use super::trial::Trial;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
@@ -13,11 +13,11 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(super) enum Workspace {
     /// No bending stiffness: two nodes an equation.
-    Rope(System<3, 5, 11>),
+    Rope(RodSystem<3, 5, 11>),
     /// Bending: three nodes an equation.
-    Beam(System<3, 8, 17>),
+    Beam(RodSystem<3, 8, 17>),
     /// Bending and torsion: three nodes an equation, with the turns of two elements.
-    Twisted(System<4, 10, 21>),
+    Twisted(RodSystem<4, 10, 21>),
 }
 
 /// Calls the same with whichever system is there.
@@ -35,11 +35,11 @@ impl Workspace {
     /// The system that fits a rod.
     pub fn new(rod: &Rod) -> Self {
         if rod.twists() {
-            Workspace::Twisted(System::new(rod.nodes()))
+            Workspace::Twisted(RodSystem::new(rod.nodes()))
         } else if rod.elements.iter().all(|e| e.bending == 0.0) {
-            Workspace::Rope(System::new(rod.nodes()))
+            Workspace::Rope(RodSystem::new(rod.nodes()))
         } else {
-            Workspace::Beam(System::new(rod.nodes()))
+            Workspace::Beam(RodSystem::new(rod.nodes()))
         }
     }
 

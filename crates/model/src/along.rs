@@ -17,7 +17,7 @@ pub struct LineStress {
 
 /// The books of energy and momentum of a dynamic line, since its run began.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LineBooks {
+pub struct EnergyBalance {
     /// Energy now: of motion, of stretch and bending, of height in air, in what it lies on (J).
     pub energy: [f64; 4],
     /// Work done on it: by what holds its first and its second end, by water and air, by internal damping, by the bottom (J).

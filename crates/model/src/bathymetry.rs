@@ -117,8 +117,8 @@ impl Bathymetry {
 
     /// Elevation of the bottom (m, global z) and its slopes dz/dx, dz/dy at a place (m).
     pub fn elevation_and_slopes(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
-        let (column, across) = Cell::locate(&self.x, x);
-        let (row, up) = Cell::locate(&self.y, y);
+        let (column, across) = CubicCell::locate(&self.x, x);
+        let (row, up) = CubicCell::locate(&self.y, y);
         let columns = self.x.len();
         let corner =
             |i: usize, j: usize| self.points.get((row + j) * columns + column + i).copied().unwrap_or([f64::NAN; 4]);
@@ -231,16 +231,16 @@ fn slopes(places: &[f64], points: &mut [[f64; 4]], from: usize, to: usize) {
 }
 
 /// Hermite's cubics at a place of a cell: what its two ends give by their values and slopes, and how that changes with the place.
-struct Cell {
+struct CubicCell {
     value: [f64; 2],
     slope: [f64; 2],
     value_by: [f64; 2],
     slope_by: [f64; 2],
 }
 
-impl Cell {
+impl CubicCell {
     /// The number of the cell in which a place lies, and its cubics there; beyond the edges those of the edge, without change.
-    fn locate(places: &[f64], at: f64) -> (usize, Cell) {
+    fn locate(places: &[f64], at: f64) -> (usize, CubicCell) {
         let index = places.partition_point(|p| *p <= at).saturating_sub(1).min(places.len() - 2);
         let (low, high) = (places[index], places[index + 1]);
         let step = high - low;
@@ -249,7 +249,7 @@ impl Cell {
         // beyond the edge nothing changes
         let rate = if whole == t { 1.0 / step } else { 0.0 };
         let (t2, t3) = (t * t, t * t * t);
-        let cell = Cell {
+        let cell = CubicCell {
             value: [1.0 - 3.0 * t2 + 2.0 * t3, 3.0 * t2 - 2.0 * t3],
             slope: [step * (t - 2.0 * t2 + t3), step * (t3 - t2)],
             value_by: [6.0 * (t2 - t) * rate, 6.0 * (t - t2) * rate],

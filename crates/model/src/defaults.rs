@@ -6,7 +6,7 @@ use windlass_base::units::{METRES_PER_INCH, NEWTONS_PER_KIP, STANDARD_GRAVITY};
 
 /// Material of a section where a record gives none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
+pub struct DefaultMaterial {
     /// Mass density (kg/m3).
     pub density: f64,
     /// Young's modulus (Pa).
@@ -36,7 +36,7 @@ pub enum Coordinates {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defaults {
     /// Material.
-    pub material: Material,
+    pub material: DefaultMaterial,
     /// Sea water (kg/m3).
     pub water_density: f64,
     /// Air (kg/m3).
@@ -55,7 +55,7 @@ impl Default for Defaults {
     fn default() -> Self {
         let ksi = NEWTONS_PER_KIP / (METRES_PER_INCH * METRES_PER_INCH);
         Defaults {
-            material: Material {
+            material: DefaultMaterial {
                 density: 7850.0,
                 emodulus: 29_000.0 * ksi,
                 poisson: 0.3,
@@ -73,7 +73,7 @@ impl Default for Defaults {
     }
 }
 
-impl Material {
+impl DefaultMaterial {
     /// Ultimate stress (Pa): as given, else yield / 0.6 ([MOSES-REF cls] rounds 1/0.6 to 1.66).
     pub fn ultimate(&self) -> f64 {
         self.ultimate_stress.unwrap_or(self.yield_stress / 0.6)

@@ -4,7 +4,7 @@
 //! only with an accepted step. In statics there is no step: rates are zero and a trial state is where the element comes to
 //! rest.
 
-use super::along::{LineBooks, LineMode, LineNode};
+use super::along::{EnergyBalance, LineMode, LineNode};
 use super::ambient::Ambient;
 use super::class::ClassError;
 use super::connector::Connector;
@@ -13,7 +13,7 @@ use super::environment::Surroundings;
 use super::line::Placement;
 use super::note::Note;
 use super::scheme::SchemeWeights;
-use super::tie::Tie;
+use super::tie::TieResponse;
 use nalgebra::{Matrix3, Matrix6};
 use std::any::Any;
 use std::fmt::Debug;
@@ -66,7 +66,7 @@ pub type Guess = Option<Box<dyn Any + Send>>;
 /// What an element answers. Blocks are in the order of ends, row by row: block `i * ends + j` is that of the wrench on end `i` and
 /// the motion of end `j`.
 #[derive(Clone, Debug, Default)]
-pub struct Response {
+pub struct ElementResponse {
     /// Wrench on each end: force (N) and moment (N m) about the end's point, global axes.
     pub wrench: Vec<Six>,
     /// -d(wrench)/d(translation of the point, rotation vector), global axes (N/m, N/rad, N, N m/rad): positive where the
@@ -78,7 +78,7 @@ pub struct Response {
     pub inertia: Vec<Matrix6<f64>>,
 }
 
-impl Response {
+impl ElementResponse {
     /// All zero for so many ends, without rates.
     pub fn clear(&mut self, ends: usize) {
         self.wrench.clear();
@@ -120,7 +120,7 @@ pub struct FenderState {
 
 /// What is reported of an element in a situation, beside the wrench on its ends.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Summary {
+pub struct ElementSummary {
     /// Tension at the first end (N), of elements that have one; negative of a spring that pushes.
     pub tension: Option<f64>,
     /// Largest tension over own break, or force over allowable.
@@ -173,7 +173,7 @@ pub trait Element: Debug + Send + Sync {
         committed: &[f64],
         trial: &mut [f64],
         guess: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError>;
 
     /// Of an element from a body to the ground that remembers nothing and pulls with a force that the place of its first end alone
@@ -184,7 +184,12 @@ pub trait Element: Debug + Send + Sync {
 
     /// Of a linear tie so stiff that rounding of places makes forces: its answer in `out` with a force that an engine holds in place of that of
     /// its law, `None` for that of its law. `None` of all others.
-    fn tie(&self, _at: &Situation, _held: Option<&Six>, _out: &mut Response) -> Option<Result<Tie, ClassError>> {
+    fn tie(
+        &self,
+        _at: &Situation,
+        _held: Option<&Six>,
+        _out: &mut ElementResponse,
+    ) -> Option<Result<TieResponse, ClassError>> {
         None
     }
 
@@ -199,7 +204,7 @@ pub trait Element: Debug + Send + Sync {
         guess: &mut Guess,
         out: &mut Vec<Six>,
     ) -> Result<(), ClassError> {
-        let (mut all, mut trial) = (Response::default(), committed.to_vec());
+        let (mut all, mut trial) = (ElementResponse::default(), committed.to_vec());
         self.evaluate(at, committed, &mut trial, guess, &mut all)?;
         *out = all.wrench;
         Ok(())
@@ -209,7 +214,7 @@ pub trait Element: Debug + Send + Sync {
     ///
     /// # Errors
     /// As [`Element::evaluate`].
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError>;
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError>;
 
     /// The same in other surroundings along it, made no otherwise for them; none of what is to be made anew for them.
     fn with_ambient(&self, _ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
@@ -245,7 +250,7 @@ pub trait Element: Debug + Send + Sync {
     }
 
     /// The books of energy and momentum in a state, where a run keeps them.
-    fn books(&self, _state: &[f64]) -> Option<LineBooks> {
+    fn books(&self, _state: &[f64]) -> Option<EnergyBalance> {
         None
     }
 

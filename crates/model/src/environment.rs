@@ -9,7 +9,7 @@ use windlass_base::values::Noun;
 
 /// A sea: spectrum or regular wave.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sea {
+pub struct SeaDefinition {
     /// Spectrum name.
     pub spectrum: String,
     /// Direction it comes from (rad).
@@ -24,7 +24,7 @@ pub struct Sea {
     pub places: [Span; 5],
 }
 
-impl Sea {
+impl SeaDefinition {
     /// Where one of its values was written, by its position in `-SEA`.
     pub fn place(&self, index: usize) -> Span {
         self.places.get(index).copied().unwrap_or_default()
@@ -88,7 +88,7 @@ pub struct Wind {
 
 /// A formula or a curve that an option of the environment names.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Formula {
+pub struct CurveReference {
     /// Its name; that of a formula in upper case.
     pub kind: String,
     /// Its number: an exponent, an averaging time (s), a density (kg/m3), a factor.
@@ -141,37 +141,37 @@ pub struct Environment {
     /// Its name as written; empty for the unnamed one.
     pub name: String,
     /// Sea.
-    pub sea: Option<Sea>,
+    pub sea: Option<SeaDefinition>,
     /// Second sea added to the first.
-    pub added_sea: Option<Sea>,
+    pub added_sea: Option<SeaDefinition>,
     /// Wind.
     pub wind: Option<Wind>,
     /// Profile of the mean wind, with its exponent (`-W_PROFILE`).
-    pub wind_profile: Option<Formula>,
+    pub wind_profile: Option<CurveReference>,
     /// Design wind, with its averaging time (s) (`-W_DESIGN`).
-    pub design_wind: Option<Formula>,
+    pub design_wind: Option<CurveReference>,
     /// Gust spectrum (`-W_SPECTRUM`): a code, or a curve.
-    pub gusts: Option<Formula>,
+    pub gusts: Option<CurveReference>,
     /// Periods of the gusts (s) (`-W_PERIOD`); none: as `gust_parts` says.
     pub gust_periods: Vec<f64>,
     /// How gusts are cut from their spectrum (`-W_COMPONENTS`).
     pub gust_parts: Option<GustParts>,
     /// Curve of the wind over time (`-W_HISTORY`).
-    pub wind_history: Option<Formula>,
+    pub wind_history: Option<CurveReference>,
     /// Correlation of gusts and mean drift (`-W_MD_CORRELATION`).
-    pub drift_correlation: Option<Formula>,
+    pub drift_correlation: Option<CurveReference>,
     /// What the period of a sea is (`-SP_TYPE`).
-    pub sea_period: Option<Formula>,
+    pub sea_period: Option<CurveReference>,
     /// Current.
     pub current: Option<Current>,
     /// Curve of the factor of the current over time (`-C_HISTORY`).
-    pub current_history: Option<Formula>,
+    pub current_history: Option<CurveReference>,
     /// Curve of marine growth (`-M_GROWTH`), with the density of the growth (kg/m3).
-    pub growth: Option<Formula>,
+    pub growth: Option<CurveReference>,
     /// Bottom over a grid (`-BATHYMETRY`), by its name.
-    pub bathymetry: Option<Formula>,
+    pub bathymetry: Option<CurveReference>,
     /// What pipes hold (`-T_PRESSURE`), by its name.
-    pub filling: Option<Formula>,
+    pub filling: Option<CurveReference>,
     /// Water density (kg/m3).
     pub water_density: Option<f64>,
     /// Depth (m).

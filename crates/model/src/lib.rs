@@ -42,7 +42,7 @@ mod selector;
 mod tether;
 mod tie;
 
-pub use along::{LineBooks, LineMode, LineNode, LineSide, LineStress};
+pub use along::{EnergyBalance, LineMode, LineNode, LineSide, LineStress};
 pub use ambient::{Ambient, Contents, Filling, Flow};
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout, line_name};
 pub use bathymetry::Bathymetry;
@@ -51,19 +51,19 @@ pub use class::{Class, ClassError, ClassRecord, ConnectorClass, WallMaterial};
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
-pub use defaults::{Coordinates, Defaults, Material};
+pub use defaults::{Coordinates, DefaultMaterial, Defaults};
 pub use element::{
-    Anchored, Connection, Element, End, FenderState, Guess, Response, RunRequirement, Situation, SpringState, Summary,
-    TimeStep,
+    Anchored, Connection, Element, ElementResponse, ElementSummary, End, FenderState, Guess, RunRequirement, Situation,
+    SpringState, TimeStep,
 };
 pub use environment::{
-    Components, Current, Division, Environment, Formula, GustParts, Phasing, Sea, Stretching, Surroundings, TimeWindow,
-    Wind,
+    Components, Current, CurveReference, Division, Environment, GustParts, Phasing, SeaDefinition, Stretching,
+    Surroundings, TimeWindow, Wind,
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
 pub use idealisation::{DYNAMIC, MASSLESS, QUASI_STATIC, add_model_column};
-pub use line::{AbsentRow, Condition, Configuration, FoundLength, LineChange, LineLoads, LineModel, Placement};
+pub use line::{AbsentRow, Condition, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::EntityKind;
 pub use note::Note;
@@ -72,7 +72,7 @@ pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses,
 pub use scheme::SchemeWeights;
 pub use selector::Selector;
 pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, TetherUse};
-pub use tie::Tie;
+pub use tie::TieResponse;
 
 use indexmap::IndexMap;
 use std::sync::Arc;

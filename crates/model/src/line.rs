@@ -94,7 +94,7 @@ pub struct LineLoads {
 
 /// A line in one configuration, in its own vertical plane.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Configuration {
+pub struct LineConfiguration {
     /// Horizontal distance between the ends (m).
     pub distance: f64,
     /// Horizontal force of the line on its first end, toward the other (N).
@@ -170,7 +170,7 @@ pub trait LineModel {
     ///
     /// # Errors
     /// A condition that no configuration meets.
-    fn configuration(&self, condition: Condition) -> Result<Configuration, ClassError>;
+    fn configuration(&self, condition: Condition) -> Result<LineConfiguration, ClassError>;
 
     /// What the line does between its ends as they are.
     ///

@@ -4,7 +4,7 @@
 //! classes, points and selectors are distinguished by their markers. A body and its own part have one name, and a piece may have
 //! that of its body or part.
 
-use super::{Assembly, AssemblyKind, Environment, Formula, Model, Piece};
+use super::{Assembly, AssemblyKind, CurveReference, Environment, Model, Piece};
 use windlass_base::diagnostic::with_article;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -192,7 +192,7 @@ impl Model {
     }
 
     /// The environments that name a thing of this key, the one in force last.
-    fn environments_with(&self, of: impl Fn(&Environment) -> Option<&Formula>, key: &str) -> Vec<&str> {
+    fn environments_with(&self, of: impl Fn(&Environment) -> Option<&CurveReference>, key: &str) -> Vec<&str> {
         let uses = |e: &&Environment| of(e).is_some_and(|named| Model::key(&named.kind) == key);
         let kept = self.environments.values().filter(uses).map(|e| e.name.as_str());
         kept.chain(uses(&&self.environment).then_some("the environment in force")).collect()

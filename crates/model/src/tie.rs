@@ -10,7 +10,7 @@ use windlass_base::pose::Six;
 /// What a stiff linear tie answers while an engine holds its force. Forces are conjugate to the displacement and rotation of its second end
 /// against its first, or the reverse, in axes of its own.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tie {
+pub struct TieResponse {
     /// The force (N) and moment (N m) that its law has at its ends.
     pub force: Six,
     /// How they change with the translation (m) and rotation vector (rad) of each end, global axes.

@@ -15,7 +15,7 @@ const MAX_CYCLE_SAMPLES: usize = 4096;
 
 /// One cycle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cycle {
+pub struct HarmonicCycle {
     /// Its start (s).
     pub start: f64,
     /// Its period (s).
@@ -28,7 +28,7 @@ pub struct Cycle {
     pub harmonics: Vec<Harmonic>,
 }
 
-impl Cycle {
+impl HarmonicCycle {
     /// The cycle of a period (s) from a start (s), with as many harmonics as `orders`.
     ///
     /// # Errors
@@ -72,7 +72,13 @@ impl Cycle {
             let phase = (-s).atan2(c) - TAU * order as f64 * start / period;
             Harmonic { order, amplitude: c.hypot(s), phase: phase - TAU * (phase / TAU).round() }
         });
-        Ok(Cycle { start, period, mean: kept.iter().sum::<f64>() / count, drift, harmonics: harmonics.collect() })
+        Ok(HarmonicCycle {
+            start,
+            period,
+            mean: kept.iter().sum::<f64>() / count,
+            drift,
+            harmonics: harmonics.collect(),
+        })
     }
 }
 
@@ -104,7 +110,7 @@ mod tests {
         let times: Vec<f64> = (0..161).map(|i| 0.125 * f64::from(i)).collect();
         let value = |t: f64| 3.0 + 0.2 * (t - 10.0) + 2.0 * (TAU * t / 12.0 - 0.7).cos();
         let values: Vec<f64> = times.iter().map(|t| value(*t)).collect();
-        let found = Cycle::new(&times, &values, (4.0, 12.0), 3, 16).unwrap();
+        let found = HarmonicCycle::new(&times, &values, (4.0, 12.0), 3, 16).unwrap();
         // cubics over w h = 0.065: (w h)^4/24 of the amplitude, 1.5e-6
         assert!((found.mean - 3.0).abs() < 2e-6 && (found.drift - 2.4).abs() < 1e-5, "{found:?}");
         // what a straight line leaves between 16 samples of it goes into the mean alone when it is about the middle
@@ -116,7 +122,7 @@ mod tests {
     fn a_periodic_series_has_the_phase_of_time_zero() {
         let times: Vec<f64> = (0..301).map(|i| 0.1 * f64::from(i)).collect();
         let values: Vec<f64> = times.iter().map(|t| 2.0 * (TAU * t / 12.0 + 0.9).cos()).collect();
-        let found = Cycle::new(&times, &values, (7.0, 12.0), 2, 16).unwrap();
+        let found = HarmonicCycle::new(&times, &values, (7.0, 12.0), 2, 16).unwrap();
         let [one, two] = [found.harmonics[0], found.harmonics[1]];
         assert!(
             (one.amplitude - 2.0).abs() < 1e-6 && (one.phase - 0.9).abs() < 1e-6 && two.amplitude < 1e-6,
@@ -128,10 +134,10 @@ mod tests {
     fn a_cycle_outside_the_series_or_too_few_samples_are_refused() {
         let times: Vec<f64> = (0..21).map(f64::from).collect();
         let values = vec![0.0; 21];
-        assert!(Cycle::new(&times, &values, (10.0, 12.0), 2, 16).is_err());
+        assert!(HarmonicCycle::new(&times, &values, (10.0, 12.0), 2, 16).is_err());
         assert!(
-            Cycle::new(&times, &values, (0.0, 12.0), 8, 16).is_err()
-                && Cycle::new(&times, &values, (0.0, 0.0), 2, 16).is_err()
+            HarmonicCycle::new(&times, &values, (0.0, 12.0), 8, 16).is_err()
+                && HarmonicCycle::new(&times, &values, (0.0, 0.0), 2, 16).is_err()
         );
     }
 }

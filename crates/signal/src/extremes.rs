@@ -19,7 +19,7 @@ const NINETY_FIVE: f64 = 1.959_963_984_540_054;
 
 /// The largest value in a duration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extreme {
+pub struct ExpectedExtreme {
     /// Most probable maximum, the mode of its distribution.
     pub most_probable: f64,
     /// Expected maximum, the mean of its distribution.
@@ -48,13 +48,13 @@ fn number(duration: f64, period: f64) -> Result<f64, SeriesError> {
 ///
 /// # Errors
 /// A duration with fewer than two cycles; a deviation that is negative or not finite.
-pub fn rayleigh(mean: f64, deviation: f64, period: f64, duration: f64) -> Result<Extreme, SeriesError> {
+pub fn rayleigh(mean: f64, deviation: f64, period: f64, duration: f64) -> Result<ExpectedExtreme, SeriesError> {
     if !(deviation.is_finite() && deviation >= 0.0 && mean.is_finite()) {
         let expected = "finite and not negative";
         return Err(SeriesError::Setting { what: "the standard deviation", expected, value: deviation });
     }
     let root = (2.0 * number(duration, period)?.ln()).sqrt();
-    Ok(Extreme {
+    Ok(ExpectedExtreme {
         most_probable: mean + deviation * root,
         expected: mean + deviation * (root + EULER / root),
         interval: None,
@@ -134,7 +134,7 @@ impl Weibull {
     ///
     /// # Errors
     /// A duration with fewer than two cycles.
-    pub fn extreme(&self, period: f64, duration: f64) -> Result<Extreme, SeriesError> {
+    pub fn extreme(&self, period: f64, duration: f64) -> Result<ExpectedExtreme, SeriesError> {
         let log = number(duration, period)?.ln();
         let above = self.scale * log.powf(1.0 / self.shape);
         let spread = above / (self.shape * log);
@@ -147,7 +147,7 @@ impl Weibull {
         let var_shape = six * b * b / n;
         let deviation = (var_scale + 2.0 * slope * covariance + slope * slope * var_shape).max(0.0).sqrt();
         let factor = (NINETY_FIVE * deviation).exp();
-        Ok(Extreme {
+        Ok(ExpectedExtreme {
             most_probable: self.location + above,
             expected: self.location + above + EULER * spread,
             interval: Some((self.location + above / factor, self.location + above * factor)),
@@ -217,7 +217,7 @@ impl Gumbel {
     ///
     /// # Errors
     /// A duration or block that is not greater than zero.
-    pub fn extreme(&self, block: f64, duration: f64) -> Result<Extreme, SeriesError> {
+    pub fn extreme(&self, block: f64, duration: f64) -> Result<ExpectedExtreme, SeriesError> {
         for (what, value) in [("the duration", duration), ("the length of a block", block)] {
             if !(value.is_finite() && value > 0.0) {
                 return Err(SeriesError::Setting { what, expected: "greater than zero", value });
@@ -229,7 +229,7 @@ impl Gumbel {
         // variances 1.1087 and 0.6079, covariance 0.2570, in scale^2 / count
         let deviation = self.scale * ((1.0 + six * part * part) / self.count as f64).sqrt();
         let mode = self.location + self.scale * growth;
-        Ok(Extreme {
+        Ok(ExpectedExtreme {
             most_probable: mode,
             expected: mode + EULER * self.scale,
             interval: Some((mode - NINETY_FIVE * deviation, mode + NINETY_FIVE * deviation)),

@@ -5,7 +5,7 @@ use super::{SeriesError, finite};
 
 /// Cycles of one range and mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cycle {
+pub struct RainflowCycle {
     /// Peak to valley.
     pub range: f64,
     /// Mean of peak and valley.
@@ -14,9 +14,9 @@ pub struct Cycle {
     pub count: f64,
 }
 
-impl Cycle {
+impl RainflowCycle {
     fn from_extremes(a: f64, b: f64, count: f64) -> Self {
-        Cycle { range: (a - b).abs(), mean: a.midpoint(b), count }
+        RainflowCycle { range: (a - b).abs(), mean: a.midpoint(b), count }
     }
 }
 
@@ -41,7 +41,7 @@ pub fn reversals(values: &[f64]) -> Vec<f64> {
 ///
 /// # Errors
 /// A value that is not finite.
-pub fn cycles(values: &[f64]) -> Result<Vec<Cycle>, SeriesError> {
+pub fn cycles(values: &[f64]) -> Result<Vec<RainflowCycle>, SeriesError> {
     finite(values)?;
     let mut out = Vec::new();
     let mut open: Vec<f64> = Vec::new();
@@ -56,10 +56,10 @@ pub fn cycles(values: &[f64]) -> Result<Vec<Cycle>, SeriesError> {
             }
             if open.len() - start == 3 {
                 // the range holds the starting point: half a cycle, and the start moves on
-                out.push(Cycle::from_extremes(*a, *b, 0.5));
+                out.push(RainflowCycle::from_extremes(*a, *b, 0.5));
                 start += 1;
             } else {
-                out.push(Cycle::from_extremes(*a, *b, 1.0));
+                out.push(RainflowCycle::from_extremes(*a, *b, 1.0));
                 let keep = open.len() - 3;
                 let last = *c;
                 open.truncate(keep);
@@ -69,7 +69,7 @@ pub fn cycles(values: &[f64]) -> Result<Vec<Cycle>, SeriesError> {
     }
     let residual = open.get(start..).unwrap_or_default().windows(2);
     out.extend(residual.filter_map(|w| match w {
-        [a, b] => Some(Cycle::from_extremes(*a, *b, 0.5)),
+        [a, b] => Some(RainflowCycle::from_extremes(*a, *b, 0.5)),
         _ => None,
     }));
     Ok(out)
@@ -96,7 +96,7 @@ pub const MAX_BINS: usize = 1000;
 ///
 /// # Errors
 /// No cycles; a number of bins that is 0 or above [`MAX_BINS`].
-pub fn range_mean(cycles: &[Cycle], ranges: usize, means: usize) -> Result<RangeMean, SeriesError> {
+pub fn range_mean(cycles: &[RainflowCycle], ranges: usize, means: usize) -> Result<RangeMean, SeriesError> {
     for bins in [ranges, means] {
         if !(1..=MAX_BINS).contains(&bins) {
             let expected = "between 1 and 1000";
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn counted(cycles: &[Cycle], range: f64) -> f64 {
+    fn counted(cycles: &[RainflowCycle], range: f64) -> f64 {
         cycles.iter().filter(|c| c.range == range).map(|c| c.count).sum()
     }
 
@@ -140,7 +140,7 @@ mod tests {
         }
         assert_eq!(found.iter().map(|c| c.count).sum::<f64>(), 4.0);
         // the whole cycle is E-F, from -1 to 3
-        assert!(found.contains(&Cycle { range: 4.0, mean: 1.0, count: 1.0 }));
+        assert!(found.contains(&RainflowCycle { range: 4.0, mean: 1.0, count: 1.0 }));
     }
 
     #[test]
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn a_series_without_reversals_has_half_a_cycle_or_none() {
-        assert_eq!(cycles(&[1.0, 2.0, 4.0]), Ok(vec![Cycle { range: 3.0, mean: 2.5, count: 0.5 }]));
+        assert_eq!(cycles(&[1.0, 2.0, 4.0]), Ok(vec![RainflowCycle { range: 3.0, mean: 2.5, count: 0.5 }]));
         assert_eq!(cycles(&[2.0, 2.0]), Ok(vec![]));
         assert_eq!(cycles(&[]), Ok(vec![]));
         assert!(cycles(&[f64::NAN]).is_err());

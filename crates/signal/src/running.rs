@@ -23,7 +23,7 @@ pub struct Running {
 
 /// What an accumulator has seen; the same numbers as [`super::statistics`] but for rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Summary {
+pub struct RunningSummary {
     /// Number of samples.
     pub count: u64,
     /// Mean.
@@ -114,7 +114,7 @@ impl Running {
     }
 
     /// What it has seen; `None` without a sample.
-    pub fn summary(&self) -> Option<Summary> {
+    pub fn summary(&self) -> Option<RunningSummary> {
         let (minimum, maximum) = (self.minimum?, self.maximum?);
         let count = self.count as f64;
         let variance = self.sums[0] / count;
@@ -123,7 +123,7 @@ impl Running {
             (Some(first), Some(last)) if self.up > 1 => Some((last - first) / (self.up - 1) as f64),
             _ => None,
         };
-        Some(Summary {
+        Some(RunningSummary {
             count: self.count,
             mean: self.mean,
             rms: (self.mean * self.mean + variance).sqrt(),

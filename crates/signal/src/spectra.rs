@@ -9,7 +9,7 @@ pub const MAX_SAMPLES: usize = 1 << 26;
 
 /// Amplitudes of the harmonics of the whole series.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Amplitudes {
+pub struct HarmonicAmplitudes {
     /// Frequencies (rad/s), from 0.
     pub frequencies: Vec<f64>,
     /// Amplitude of each: at frequency 0 the mean, with its sign; of a sine that fits the series whole, its amplitude.
@@ -54,12 +54,12 @@ fn usable(values: &[f64], step: f64, least: usize) -> Result<(), SeriesError> {
 ///
 /// # Errors
 /// Fewer than two samples, a step that is not greater than zero, a value that is not finite.
-pub fn amplitudes(values: &[f64], step: f64) -> Result<Amplitudes, SeriesError> {
+pub fn amplitudes(values: &[f64], step: f64) -> Result<HarmonicAmplitudes, SeriesError> {
     usable(values, step, 2)?;
     let count = values.len();
     let found = transform(&mut values.to_vec())?;
     let spacing = TAU / (step * count as f64);
-    let mut made = Amplitudes { frequencies: Vec::new(), amplitudes: Vec::new(), phases: Vec::new() };
+    let mut made = HarmonicAmplitudes { frequencies: Vec::new(), amplitudes: Vec::new(), phases: Vec::new() };
     for (k, (re, im)) in found.into_iter().enumerate() {
         let sides = if k == 0 || 2 * k == count { 1.0 } else { 2.0 };
         let (amplitude, phase) = if k == 0 { (re, 0.0) } else { (re.hypot(im), im.atan2(re)) };

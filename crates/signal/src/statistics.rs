@@ -92,7 +92,7 @@ pub struct Peak {
 
 /// One cycle: from an up-crossing of the level to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wave {
+pub struct CrossingCycle {
     /// Time of the up-crossing it begins with, interpolated (s).
     pub start: f64,
     /// Time from that crossing to the next (s).
@@ -103,7 +103,7 @@ pub struct Wave {
     pub trough: Peak,
 }
 
-impl Wave {
+impl CrossingCycle {
     /// Crest to trough.
     pub fn range(&self) -> f64 {
         self.crest.value - self.trough.value
@@ -120,7 +120,7 @@ pub struct Crossings {
     /// Down-crossings: from the level or above to below it.
     pub down: usize,
     /// The whole cycles, between successive up-crossings.
-    pub waves: Vec<Wave>,
+    pub waves: Vec<CrossingCycle>,
     /// The highest sample of each stay above the level, between two crossings.
     pub maxima: Vec<Peak>,
     /// The lowest sample of each stay below the level, between two crossings.
@@ -138,7 +138,7 @@ impl Crossings {
     ///
     /// One third gives the significant range, as the significant wave height of a record (zero up-crossing method).
     pub fn mean_of_highest(&self, share: f64) -> Option<f64> {
-        let mut ranges: Vec<f64> = self.waves.iter().map(Wave::range).collect();
+        let mut ranges: Vec<f64> = self.waves.iter().map(CrossingCycle::range).collect();
         ranges.sort_unstable_by(|a, b| b.total_cmp(a));
         let count = ((ranges.len() as f64 * share).round() as usize).clamp(1, ranges.len().max(1));
         let taken = ranges.get(..count)?;
@@ -183,7 +183,7 @@ pub fn crossings(times: &[f64], values: &[f64], level: f64) -> Result<Crossings,
             if let Some(trough) = stay {
                 made.minima.push(trough);
                 if let Some((begun, crest)) = crest.take() {
-                    made.waves.push(Wave { start: begun, period: at - begun, crest, trough });
+                    made.waves.push(CrossingCycle { start: begun, period: at - begun, crest, trough });
                 }
             }
             start = Some(at);

@@ -1,8 +1,8 @@
 //! Changes of a system under way: connectors that come and go or change their length, loads of another environment.
 
-use super::link::{Attachment, Link, end_attachments, link};
+use super::link::{EndAttachment, Link, end_attachments, link};
 use super::system::{SolveError, System, moving_nodes};
-use super::time::{LinkEnds, Memory, Pushing};
+use super::time::{LinkEnds, LoadMemory, Pushing};
 use std::sync::Arc;
 use windlass_hydro::ambient;
 use windlass_hydro::sea::Sea;
@@ -20,8 +20,8 @@ fn connector<'a>(model: &'a Model, name: &str) -> Result<&'a Connector, SolveErr
 }
 
 /// The body at each end.
-fn bodies(ends: &[Attachment]) -> Vec<Option<usize>> {
-    ends.iter().map(|e| if let Attachment::Body(body, _) = e { Some(*body) } else { None }).collect()
+fn bodies(ends: &[EndAttachment]) -> Vec<Option<usize>> {
+    ends.iter().map(|e| if let EndAttachment::Body(body, _) = e { Some(*body) } else { None }).collect()
 }
 
 /// How many nodes an element reports at most, and whether they bend.
@@ -30,7 +30,7 @@ fn nodes(element: &dyn Element) -> (usize, bool) {
 }
 
 /// How rows tell that it pushes, of an element that may.
-fn pushing(element: &dyn Element, ends: &[Attachment]) -> Option<Pushing> {
+fn pushing(element: &dyn Element, ends: &[EndAttachment]) -> Option<Pushing> {
     Pushing::new(element.pushes()?, ends, element.pulling_end())
 }
 
@@ -119,7 +119,12 @@ impl System {
     ///
     /// # Errors
     /// An environment that cannot be computed, or one with other water.
-    pub fn load_anew(&mut self, model: &Model, sea: Option<&Arc<Sea>>, memory: &Memory) -> Result<Memory, SolveError> {
+    pub fn load_anew(
+        &mut self,
+        model: &Model,
+        sea: Option<&Arc<Sea>>,
+        memory: &LoadMemory,
+    ) -> Result<LoadMemory, SolveError> {
         if model.surroundings() != self.surroundings {
             let error = ClassError::new("depth, tide and density cannot change during a run")
                 .help("wind, waves and current can: give both environments the same water");
@@ -147,7 +152,7 @@ impl System {
             new.free = old.free;
         }
         let before = std::mem::replace(&mut self.nodes, nodes);
-        let mut made = Memory::new(self);
+        let mut made = LoadMemory::new(self);
         for (body, old) in before.iter().enumerate() {
             made.recall(body, self, (memory, old));
         }

@@ -5,9 +5,9 @@
 //! pseudo-time, which shrinks to none as the residual does (Kelley and Keyes, SIAM Journal on Numerical Analysis 35
 //! (1998), 508-523). Each step is shortened until the forces along it have not turned around.
 
-use super::parts::{Part, parts};
-use super::search::{Search, Stand};
-use super::system::{Contribution, DOFS, SolveError, State, System};
+use super::parts::{BodySubset, parts};
+use super::search::{EquilibriumSearch, Stand};
+use super::system::{Contribution, DOFS, SolveError, System, SystemState};
 use super::unknowns::{Turns, Unknowns, kept_turns};
 use nalgebra::DMatrix;
 use windlass_base::dense::SymmetricEigen;
@@ -73,14 +73,14 @@ const LONG_STALE: usize = 12;
 /// # Errors
 /// A place on the way that cannot be evaluated; no equilibrium within the steps: the body and degree of freedom that is left, and
 /// what acts on it most; a direction that nothing holds, with a force in it.
-pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Result<Equilibrium, SolveError> {
+pub fn equilibrium(system: &System, state: &mut SystemState, options: &Options) -> Result<Equilibrium, SolveError> {
     check_weights(system, options)?;
     let turns = kept_turns(system, state, options);
     let free = |body: usize, dof: usize| {
         system.nodes.get(body).and_then(|n| n.free.get(dof)) == Some(&true) && !options.ignored.contains(&(body, dof))
     };
-    let moves = |part: &Part| part.iter().enumerate().any(|(body, own)| *own && (0..6).any(|f| free(body, f)));
-    let parts: Vec<Part> = parts(system).into_iter().filter(moves).collect();
+    let moves = |part: &BodySubset| part.iter().enumerate().any(|(body, own)| *own && (0..6).any(|f| free(body, f)));
+    let parts: Vec<BodySubset> = parts(system).into_iter().filter(moves).collect();
     let (mut steps, mut evaluations) = (0, 0);
     if parts.len() > 1 {
         for part in &parts {
@@ -98,11 +98,11 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
 /// Brings a part to rest, `None` for everything together; what is loose in it is left open.
 fn find(
     system: &System,
-    state: &mut State,
+    state: &mut SystemState,
     options: &Options,
-    (turns, part): (&[Turns], Option<&Part>),
+    (turns, part): (&[Turns], Option<&BodySubset>),
 ) -> Result<Equilibrium, SolveError> {
-    let mut search = Search::new(system, options, part);
+    let mut search = EquilibriumSearch::new(system, options, part);
     search.evaluate(state)?;
     let start: Vec<f64> = state.poses.iter().map(|p| p.origin.z).collect();
     let mut best = (f64::INFINITY, Stand::from_state(state));
@@ -169,7 +169,7 @@ fn check_weights(system: &System, options: &Options) -> Result<(), SolveError> {
 const MAX_TRAVEL_M: f64 = 5000.0;
 
 /// Degrees of freedom along which nothing holds a body.
-fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Result<Vec<(String, String)>, SolveError> {
+fn loose(system: &System, unknowns: &Unknowns, state: &SystemState) -> Result<Vec<(String, String)>, SolveError> {
     let stiffness = unknowns.stiffness(state);
     let root = unknowns.inertia.map(|d| 1.0 / d.sqrt());
     let scaled = DMatrix::from_fn(root.len(), root.len(), |i, j| {
@@ -193,7 +193,7 @@ fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Result<Vec<(Str
 }
 
 /// The error of bodies that do not come to rest.
-fn failure(system: &System, state: &State, unknowns: &Unknowns, at: usize, options: &Options) -> SolveError {
+fn failure(system: &System, state: &SystemState, unknowns: &Unknowns, at: usize, options: &Options) -> SolveError {
     let (body, dof) = (unknowns.body(at), unknowns.dof(at));
     let name = system.nodes.get(body).map_or(String::new(), |n| n.name.clone());
     let dim = if dof >= 3 { Dim::Moment } else { Dim::Force };

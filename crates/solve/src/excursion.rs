@@ -1,16 +1,16 @@
 //! A body moved along a horizontal direction until a line breaks: what its connectors do to it on the way.
 
 use super::equilibrium::{Options as Rest, equilibrium};
-use super::offset::{Connectors, Pull};
-use super::system::{SolveError, State, System};
+use super::offset::{BodyConnectors, ConnectorPull};
+use super::system::{SolveError, System, SystemState};
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, Summary};
+use windlass_model::{ClassError, ElementSummary};
 
 /// How a body is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Path {
+pub struct ExcursionPath {
     /// The body's number.
     pub body: usize,
     /// The direction, from +X toward +Y (rad).
@@ -24,7 +24,7 @@ pub struct Path {
 
 /// A body at an excursion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Moved {
+pub struct ExcursionStep {
     /// The excursion along the direction (m).
     pub excursion: f64,
     /// Poses of all bodies.
@@ -32,10 +32,10 @@ pub struct Moved {
     /// Forces and moments of the connectors on the body about its origin, global axes.
     pub wrench: Six,
     /// What is reported of each of its connectors.
-    pub lines: Vec<Summary>,
+    pub lines: Vec<ElementSummary>,
 }
 
-impl Moved {
+impl ExcursionStep {
     /// The largest T/break of its connectors, and the number of the one that has it.
     pub fn worst(&self) -> Option<(f64, usize)> {
         worst(&self.lines)
@@ -47,7 +47,7 @@ impl Moved {
 }
 
 /// The largest T/break of connectors, and the number of the first that has it but for rounding.
-pub fn worst(lines: &[Summary]) -> Option<(f64, usize)> {
+pub fn worst(lines: &[ElementSummary]) -> Option<(f64, usize)> {
     let ratios = lines.iter().enumerate().filter_map(|(i, l)| Some((l.ratio?, i)));
     ratios.fold(None, |worst, one| match worst {
         Some((ratio, _)) if one.0 <= ratio * (1.0 + EQUAL_RATIOS) => worst,
@@ -57,7 +57,7 @@ pub fn worst(lines: &[Summary]) -> Option<(f64, usize)> {
 
 /// Where a path ends.
 #[derive(Clone, Debug, PartialEq)]
-pub enum End {
+pub enum ExcursionEnd {
     /// This connector breaks.
     Breaks(usize),
     /// The largest excursion asked for.
@@ -82,13 +82,13 @@ const BREAK_TOLERANCE: f64 = 1e-13;
 #[derive(Debug)]
 pub struct Walk<'a> {
     system: &'a System,
-    path: Path,
+    path: ExcursionPath,
     from: Vec<Pose>,
     along: Vector3<f64>,
-    connectors: Connectors,
+    connectors: BodyConnectors,
     size: f64,
     /// What follows the bodies where they are free.
-    state: State,
+    state: SystemState,
 }
 
 impl<'a> Walk<'a> {
@@ -96,12 +96,12 @@ impl<'a> Walk<'a> {
     ///
     /// # Errors
     /// A body without connectors.
-    pub fn new(system: &'a System, start: &[Pose], path: Path) -> Result<Self, SolveError> {
-        let connectors = Connectors::on_body(system, path.body)?;
+    pub fn new(system: &'a System, start: &[Pose], path: ExcursionPath) -> Result<Self, SolveError> {
+        let connectors = BodyConnectors::on_body(system, path.body)?;
         let from = start.to_vec();
         let size = connectors.size(system, &from).max(1.0);
         let along = Vector3::new(path.direction.cos(), path.direction.sin(), 0.0);
-        let state = State::from_poses(from.clone());
+        let state = SystemState::from_poses(from.clone());
         Ok(Walk { system, path, from, along, connectors, size, state })
     }
 
@@ -114,7 +114,7 @@ impl<'a> Walk<'a> {
     ///
     /// # Errors
     /// A connector without an answer there, bodies that do not come to rest.
-    pub fn move_to(&mut self, excursion: f64) -> Result<Moved, SolveError> {
+    pub fn move_to(&mut self, excursion: f64) -> Result<ExcursionStep, SolveError> {
         let body = self.path.body;
         let start = self.from[body];
         if self.path.free {
@@ -124,17 +124,17 @@ impl<'a> Walk<'a> {
             for n in 1..=strides as usize {
                 let to = if n as f64 >= strides { excursion } else { gone + (excursion - gone) * n as f64 / strides };
                 if let Err(error) = self.rest(start, to) {
-                    self.state = State::from_poses(before);
+                    self.state = SystemState::from_poses(before);
                     return Err(error);
                 }
             }
         } else if let Some(pose) = self.state.poses.get_mut(body) {
             pose.origin = start.origin + self.along * excursion;
         }
-        let mut pull = Pull::default();
+        let mut pull = ConnectorPull::default();
         self.connectors.pull(self.system, &self.state.poses, &mut pull)?;
         let lines = self.connectors.summaries(self.system, &self.state.poses)?;
-        Ok(Moved { excursion, poses: self.state.poses.clone(), wrench: pull.wrench, lines })
+        Ok(ExcursionStep { excursion, poses: self.state.poses.clone(), wrench: pull.wrench, lines })
     }
 
     /// Puts the body at an excursion and lets all else come to rest.
@@ -149,17 +149,17 @@ impl<'a> Walk<'a> {
 
     /// All bodies where they were.
     pub fn back(&mut self) {
-        self.state = State::from_poses(self.from.clone());
+        self.state = SystemState::from_poses(self.from.clone());
     }
 
     /// The end of the path: the first line to break, or the largest excursion.
     ///
     /// # Errors
     /// No answer where the body is; nothing that breaks, and no largest excursion.
-    pub fn end(&mut self) -> Result<(Moved, End), SolveError> {
+    pub fn end(&mut self) -> Result<(ExcursionStep, ExcursionEnd), SolveError> {
         let mut here = self.move_to(0.0)?;
         if let Some((_, line)) = here.worst().filter(|(ratio, _)| *ratio >= 1.0) {
-            return Ok((here, End::Breaks(line)));
+            return Ok((here, ExcursionEnd::Breaks(line)));
         }
         if here.worst().is_none() && self.path.most.is_none() {
             return Err(self.endless("none of its connectors has a breaking tension"));
@@ -182,12 +182,12 @@ impl<'a> Walk<'a> {
                     }
                 }
                 Err(error) if stride < 1e-9 * self.size => {
-                    return if here.excursion > 0.0 { Ok((here, End::Lost(error))) } else { Err(error) };
+                    return if here.excursion > 0.0 { Ok((here, ExcursionEnd::Lost(error))) } else { Err(error) };
                 }
                 Err(_) => stride *= 0.25,
             }
         }
-        Ok((here, End::Most))
+        Ok((here, ExcursionEnd::Most))
     }
 
     fn endless(&self, why: &str) -> SolveError {
@@ -199,7 +199,11 @@ impl<'a> Walk<'a> {
 
     /// The excursion at which the first line breaks, between one that holds and one that does not:
     /// [RIDDERS-1979], which is exact for a tension that grows exponentially.
-    fn breaking(&mut self, holds: Moved, broken: Moved) -> Result<(Moved, End), SolveError> {
+    fn breaking(
+        &mut self,
+        holds: ExcursionStep,
+        broken: ExcursionStep,
+    ) -> Result<(ExcursionStep, ExcursionEnd), SolveError> {
         let (mut low, mut high) = (holds, broken);
         for _ in 0..100 {
             let width = high.excursion - low.excursion;
@@ -224,14 +228,14 @@ impl<'a> Walk<'a> {
         }
         let nearest = if high.overload() <= -low.overload() { high } else { low };
         let line = nearest.worst().map_or(0, |(_, line)| line);
-        Ok((nearest, End::Breaks(line)))
+        Ok((nearest, ExcursionEnd::Breaks(line)))
     }
 
     /// Equal steps from where the body is to the end of its path, `rows` in all.
     ///
     /// # Errors
     /// As [`Walk::end`] and [`Walk::move_to`].
-    pub fn rows(&mut self, rows: usize) -> Result<(Vec<Moved>, End), SolveError> {
+    pub fn rows(&mut self, rows: usize) -> Result<(Vec<ExcursionStep>, ExcursionEnd), SolveError> {
         let (last, end) = self.end()?;
         self.back();
         let count = if last.excursion > 0.0 { rows.max(2) - 1 } else { 0 };

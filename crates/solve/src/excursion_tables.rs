@@ -1,9 +1,9 @@
 //! Excursions and watch circles as tables.
 
 use super::excursion;
-use super::excursion::{End, Moved, Path, Walk, worst};
+use super::excursion::{ExcursionEnd, ExcursionPath, ExcursionStep, Walk, worst};
 use super::system::{DOFS, SolveError, System, without_rounding};
-use super::watch::{Circle, Watched};
+use super::watch::{Circle, WatchedBody};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::table::{Digits, Table, TableBuilder};
@@ -22,7 +22,7 @@ pub struct Systems {
 
 /// What a table of excursions is made of.
 #[derive(Clone, Copy, Debug)]
-pub struct Asked<'a> {
+pub struct ExcursionTableOptions<'a> {
     /// The body as written.
     pub name: &'a str,
     /// Where it stands: its heading is reported near this one.
@@ -30,7 +30,7 @@ pub struct Asked<'a> {
     /// The poses of all bodies before they are moved.
     pub start: &'a [Pose],
     /// How it is moved; the direction is that of the first of several.
-    pub path: Path,
+    pub path: ExcursionPath,
     /// Units of the values in notes.
     pub units: UnitSystem,
 }
@@ -41,13 +41,13 @@ fn sum(value: f64, scale: f64) -> f64 {
 }
 
 /// Restoring, transverse and vertical force.
-fn restoring_cells(moved: &Moved, direction: f64) -> [f64; 3] {
+fn restoring_cells(moved: &ExcursionStep, direction: f64) -> [f64; 3] {
     let scale = moved.lines.iter().filter_map(|l| l.tension).fold(0.0, |sum, t| sum + t.abs());
     excursion::resolve_wrench(&moved.wrench, direction).map(|force| sum(force, scale))
 }
 
 /// The facts that hold for all rows.
-fn build_table(title: String, asked: &Asked, systems: &Systems) -> Table {
+fn build_table(title: String, asked: &ExcursionTableOptions, systems: &Systems) -> Table {
     let others = if asked.path.free { "free" } else { "held" };
     let table = Table::new(title).fact("Other Freedoms", others, Dim::None);
     if systems.removed.is_empty() { table } else { table.fact("Removed", systems.removed.join(" "), Dim::None) }
@@ -89,10 +89,10 @@ fn degrees(angle: f64) -> String {
 }
 
 /// How a path ended, as a note.
-fn note(end: &End, names: &[String], at: f64, units: UnitSystem) -> Option<String> {
+fn note(end: &ExcursionEnd, names: &[String], at: f64, units: UnitSystem) -> Option<String> {
     let told = |dim: Dim, value: f64| format!("{:.2} {}", dim.from_si(value, units), dim.label(units));
     match end {
-        End::Breaks(line) => {
+        ExcursionEnd::Breaks(line) => {
             let name = names.get(*line).map_or("", String::as_str);
             Some(if at > 0.0 {
                 format!("line {name} breaks at an excursion of {}", told(Dim::Length, at))
@@ -100,8 +100,8 @@ fn note(end: &End, names: &[String], at: f64, units: UnitSystem) -> Option<Strin
                 format!("warning: line {name} is beyond its breaking tension where the body is")
             })
         }
-        End::Most => None,
-        End::Lost(SolveError { who, error }) => {
+        ExcursionEnd::Most => None,
+        ExcursionEnd::Lost(SolveError { who, error }) => {
             let who = who.as_deref().map_or(String::new(), |w| format!("{w}: "));
             let at = told(Dim::Length, at);
             Some(format!("warning: the table ends at an excursion of {at}: farther on {who}{}", error.text(units)))
@@ -113,8 +113,12 @@ fn note(end: &End, names: &[String], at: f64, units: UnitSystem) -> Option<Strin
 ///
 /// # Errors
 /// As [`Walk::rows`].
-pub fn table_along_direction(systems: &Systems, asked: &Asked, rows: usize) -> Result<Table, SolveError> {
-    let Asked { path, units, start, .. } = *asked;
+pub fn table_along_direction(
+    systems: &Systems,
+    asked: &ExcursionTableOptions,
+    rows: usize,
+) -> Result<Table, SolveError> {
+    let ExcursionTableOptions { path, units, start, .. } = *asked;
     let mut walk = Walk::new(&systems.system, start, path)?;
     let names = walk.names();
     let (list, end) = walk.rows(rows)?;
@@ -180,7 +184,7 @@ pub fn table_along_direction(systems: &Systems, asked: &Asked, rows: usize) -> R
 
 /// A place of a body that is moved in one direction.
 struct AlongRow<'m> {
-    moved: &'m Moved,
+    moved: &'m ExcursionStep,
     place: Place,
     critical: Critical,
     /// The restoring force (N) and the critical line of the intact mooring there.
@@ -194,7 +198,7 @@ struct AlongRow<'m> {
 /// As [`Walk::end`].
 pub fn table_of_directions(
     systems: &Systems,
-    asked: &Asked,
+    asked: &ExcursionTableOptions,
     directions: &[f64],
     at: &[(f64, String)],
 ) -> Result<Table, SolveError> {
@@ -202,12 +206,12 @@ pub fn table_of_directions(
     let mut rows = Vec::new();
     let mut lost = None;
     for direction in directions {
-        let path = Path { direction: *direction, ..asked.path };
+        let path = ExcursionPath { direction: *direction, ..asked.path };
         let mut walk = Walk::new(&systems.system, asked.start, path)?;
         let names = walk.names();
         let (last, end) = walk.end()?;
-        let broken = matches!(end, End::Breaks(_));
-        let plain = matches!(end, End::Most) || (broken && last.excursion > 0.0);
+        let broken = matches!(end, ExcursionEnd::Breaks(_));
+        let plain = matches!(end, ExcursionEnd::Most) || (broken && last.excursion > 0.0);
         if !plain && lost.is_none() {
             lost = note(&end, &names, last.excursion, asked.units)
                 .map(|text| format!("{text} (toward {} degrees)", degrees(*direction)));
@@ -287,7 +291,12 @@ struct DirectionRow {
 }
 
 /// The places of a watch circle, with those of the intact mooring beside them where lines are removed.
-pub fn circle((asked, force): (&Asked, f64), systems: &Systems, found: &Circle, intact: Option<&Circle>) -> Table {
+pub fn circle(
+    (asked, force): (&ExcursionTableOptions, f64),
+    systems: &Systems,
+    found: &Circle,
+    intact: Option<&Circle>,
+) -> Table {
     let title = format!("Watch Circle of {}", asked.name);
     let Circle { names, places } = found;
     let start = asked.start.get(asked.path.body).copied().unwrap_or_default();
@@ -299,7 +308,7 @@ pub fn circle((asked, force): (&Asked, f64), systems: &Systems, found: &Circle, 
     };
     let mut broken: Vec<String> = Vec::new();
     let mut rows = Vec::new();
-    for (index, Watched { direction, pose, lines }) in places.iter().enumerate() {
+    for (index, WatchedBody { direction, pose, lines }) in places.iter().enumerate() {
         let most = worst(lines);
         if let Some((_, line)) = most.filter(|(ratio, _)| *ratio > 1.0)
             && let Some(name) = names.get(line).filter(|n| !broken.contains(n))

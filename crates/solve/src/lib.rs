@@ -56,6 +56,6 @@ mod unknowns;
 pub mod watch;
 
 pub use equilibrium::{Equilibrium, Options, equilibrium};
-pub use modes::{Mode, modes};
+pub use modes::{SystemMode, modes};
 pub use settle::{EquilibriumResult, settle};
-pub use system::{Contribution, DOFS, Node, SolveError, State, System};
+pub use system::{Contribution, DOFS, SolveError, System, SystemBody, SystemState};

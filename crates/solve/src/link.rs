@@ -9,7 +9,7 @@ use windlass_model::{Ambient, Assembly, Connector, Element, LaidPipe, Model};
 
 /// What an end of a connector is fixed to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Attachment {
+pub(super) enum EndAttachment {
     Ground(Pose),
     /// A body by its number, and the point in its system (m).
     Body(usize, Vector3<f64>),
@@ -20,7 +20,7 @@ pub(super) enum Attachment {
 pub(super) struct Link {
     pub name: String,
     pub element: Box<dyn Element>,
-    pub ends: Vec<Attachment>,
+    pub ends: Vec<EndAttachment>,
     /// Where its values stand in the vector of states.
     pub states: std::ops::Range<usize>,
 }
@@ -37,13 +37,13 @@ pub(super) fn link(
 }
 
 /// What a pipe is, and what its ends are fixed to.
-pub(super) type Laid = (Box<dyn Element>, Vec<Attachment>);
+pub(super) type PipeLink = (Box<dyn Element>, Vec<EndAttachment>);
 
 /// The pipe of an assembly of a model, where it has one that acts.
 pub(super) fn build_pipe_link(
     (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &RunRequirements),
     assembly: &Assembly,
-) -> Result<Option<Laid>, SolveError> {
+) -> Result<Option<PipeLink>, SolveError> {
     let made = model.pipe(assembly, Some(ambient), duties.requirement(&assembly.name));
     let of = |LaidPipe { supports, element }: LaidPipe| {
         (element, supports.iter().map(|c| end_attachments(model, c)[0]).collect())
@@ -53,7 +53,7 @@ pub(super) fn build_pipe_link(
 
 impl Link {
     /// Of an element; its states go behind the others.
-    pub(super) fn new(name: &str, element: Box<dyn Element>, ends: Vec<Attachment>, states: &mut Vec<f64>) -> Link {
+    pub(super) fn new(name: &str, element: Box<dyn Element>, ends: Vec<EndAttachment>, states: &mut Vec<f64>) -> Link {
         let from = states.len();
         states.resize(from + element.states(), 0.0);
         if let Some(own) = states.get_mut(from..) {
@@ -64,23 +64,23 @@ impl Link {
 }
 
 /// What the ends of a connector are fixed to.
-pub(super) fn end_attachments(model: &Model, connector: &Connector) -> [Attachment; 2] {
+pub(super) fn end_attachments(model: &Model, connector: &Connector) -> [EndAttachment; 2] {
     let poses = model.end_poses(connector);
     let on_body = |i: usize| {
         let point = connector.points.get(i).and_then(|name| model.points.get(&Model::key(name)))?;
         let body = model.body_of(point)?;
         let index = model.bodies.get_index_of(&Model::key(&body.name))?;
         let at = poses.get(i)?.origin;
-        Some(Attachment::Body(index, Pose::of(&body.place).local(at)))
+        Some(EndAttachment::Body(index, Pose::of(&body.place).local(at)))
     };
     let [first, second] = poses;
-    [on_body(0).unwrap_or(Attachment::Ground(first)), on_body(1).unwrap_or(Attachment::Ground(second))]
+    [on_body(0).unwrap_or(EndAttachment::Ground(first)), on_body(1).unwrap_or(EndAttachment::Ground(second))]
 }
 
-pub(super) fn pose_of(end: &Attachment, poses: &[Pose]) -> Pose {
+pub(super) fn pose_of(end: &EndAttachment, poses: &[Pose]) -> Pose {
     match end {
-        Attachment::Ground(pose) => *pose,
-        Attachment::Body(index, at) => {
+        EndAttachment::Ground(pose) => *pose,
+        EndAttachment::Body(index, at) => {
             let body = poses[*index];
             Pose { origin: body.point(*at), axes: body.axes }
         }
@@ -88,9 +88,9 @@ pub(super) fn pose_of(end: &Attachment, poses: &[Pose]) -> Pose {
 }
 
 /// From the body's origin to the end (m, global).
-pub(super) fn arm(end: &Attachment, poses: &[Pose]) -> Vector3<f64> {
+pub(super) fn arm(end: &EndAttachment, poses: &[Pose]) -> Vector3<f64> {
     match end {
-        Attachment::Ground(_) => Vector3::zeros(),
-        Attachment::Body(index, at) => poses[*index].axes * at,
+        EndAttachment::Ground(_) => Vector3::zeros(),
+        EndAttachment::Body(index, at) => poses[*index].axes * at,
     }
 }

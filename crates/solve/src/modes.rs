@@ -1,13 +1,13 @@
 //! Small motions about a place: the eigenvalues of the stiffness against the mass, and natural periods.
 
-use super::system::{DOFS, SolveError, State, System};
+use super::system::{DOFS, SolveError, System, SystemState};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 use windlass_base::dense::{Cholesky, DenseError, Lu, Stop, SymmetricEigen, eigenvalues, least_squares};
 
 /// A small motion of the whole system.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
+pub struct SystemMode {
     /// Eigenvalue of the stiffness against the mass (rad2/s2), its real part; negative: not stable.
     pub eigenvalue: f64,
     /// Its imaginary part: other than zero where forces without an energy couple two motions; these feed each other.
@@ -24,7 +24,7 @@ pub struct Mode {
 ///
 /// # Errors
 /// A mass or stiffness that is not finite, with its body and degree of freedom; eigenvalues that do not converge; an interrupt.
-pub fn modes(system: &System, state: &State) -> Result<Vec<Mode>, SolveError> {
+pub fn modes(system: &System, state: &SystemState) -> Result<Vec<SystemMode>, SolveError> {
     modes_with(system, &system.mass_matrix(&state.poses), &state.stiffness)
 }
 
@@ -33,7 +33,7 @@ pub(super) fn modes_with(
     system: &System,
     mass: &DMatrix<f64>,
     stiffness: &DMatrix<f64>,
-) -> Result<Vec<Mode>, SolveError> {
+) -> Result<Vec<SystemMode>, SolveError> {
     let free = |i: usize| system.nodes.get(i / 6).and_then(|n| n.free.get(i % 6)).copied().unwrap_or(false);
     let rows: Vec<usize> = (0..mass.nrows()).filter(|i| free(*i)).collect();
     let (heavy, light): (Vec<usize>, Vec<usize>) = rows.iter().partition(|i| mass[(**i, **i)] > 0.0);
@@ -74,7 +74,7 @@ pub(super) fn modes_with(
         let weigh = |i: usize| shape[i].abs() * mass[(i, i)].max(0.0).sqrt();
         let most = (0..shape.len()).max_by(|a, b| weigh(*a).total_cmp(&weigh(*b))).unwrap_or(0);
         let body = system.nodes.get(most / 6).map_or(String::new(), |n| n.name.clone());
-        Mode {
+        SystemMode {
             eigenvalue,
             beside,
             period: (eigenvalue > 0.0).then(|| TAU / eigenvalue.sqrt()),

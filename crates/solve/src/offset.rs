@@ -1,15 +1,15 @@
 //! What the connectors of one body do to it at a place: their sum and their tensions, without how they change. A solver
 //! that moves a body to many places pays for no stiffness.
 
-use super::link::{Attachment, Link, arm, pose_of};
-use super::system::{SolveError, State, System};
+use super::link::{EndAttachment, Link, arm, pose_of};
+use super::system::{SolveError, System, SystemState};
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::move_wrench;
-use windlass_model::{ClassError, End, Guess, Situation, Summary};
+use windlass_model::{ClassError, ElementSummary, End, Guess, Situation};
 
 /// The connectors on one body, followed from place to place.
 #[derive(Debug)]
-pub struct Connectors {
+pub struct BodyConnectors {
     body: usize,
     /// Their numbers in the system.
     links: Vec<usize>,
@@ -18,20 +18,20 @@ pub struct Connectors {
 
 /// What the connectors of a body do to it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pull {
+pub struct ConnectorPull {
     /// Sum of their forces and moments about the body's origin, global axes (N, N m).
     pub wrench: Six,
     /// Force of each on the body (N): of a line, the tension at that end.
     pub tensions: Vec<f64>,
 }
 
-impl Connectors {
+impl BodyConnectors {
     /// Those on a body that act, in the order of the model.
     ///
     /// # Errors
     /// None acts on it.
     pub fn on_body(system: &System, body: usize) -> Result<Self, SolveError> {
-        let holds = |link: &Link| link.ends.iter().any(|e| matches!(e, Attachment::Body(b, _) if *b == body));
+        let holds = |link: &Link| link.ends.iter().any(|e| matches!(e, EndAttachment::Body(b, _) if *b == body));
         let links: Vec<usize> = (0..system.links.len()).filter(|i| system.links.get(*i).is_some_and(holds)).collect();
         if links.is_empty() {
             let who = system.nodes.get(body).map(|n| n.name.clone());
@@ -40,7 +40,7 @@ impl Connectors {
             return Err(SolveError { who, error });
         }
         let guesses = links.iter().map(|_| None).collect();
-        Ok(Connectors { body, links, guesses })
+        Ok(BodyConnectors { body, links, guesses })
     }
 
     fn links<'a>(&'a self, system: &'a System) -> impl Iterator<Item = &'a Link> {
@@ -65,7 +65,7 @@ impl Connectors {
     ///
     /// # Errors
     /// A connector that has no answer there.
-    pub fn pull(&mut self, system: &System, poses: &[Pose], out: &mut Pull) -> Result<(), SolveError> {
+    pub fn pull(&mut self, system: &System, poses: &[Pose], out: &mut ConnectorPull) -> Result<(), SolveError> {
         out.wrench = Six::zeros();
         out.tensions.clear();
         let (mut ends, mut wrenches) = (Vec::new(), Vec::new());
@@ -78,7 +78,7 @@ impl Connectors {
             link.element.wrenches(&at, committed, guess, &mut wrenches).map_err(SolveError::about(&link.name))?;
             let mut tension = 0.0;
             for (end, wrench) in link.ends.iter().zip(&wrenches) {
-                if matches!(end, Attachment::Body(body, _) if *body == self.body) {
+                if matches!(end, EndAttachment::Body(body, _) if *body == self.body) {
                     out.wrench += move_wrench(wrench, arm(end, poses));
                     tension = wrench.fixed_rows::<3>(0).norm();
                 }
@@ -92,7 +92,7 @@ impl Connectors {
     ///
     /// # Errors
     /// A connector that has no answer there.
-    pub fn summaries(&self, system: &System, poses: &[Pose]) -> Result<Vec<Summary>, SolveError> {
+    pub fn summaries(&self, system: &System, poses: &[Pose]) -> Result<Vec<ElementSummary>, SolveError> {
         self.links(system).map(|link| summary(system, link, poses)).collect()
     }
 }
@@ -104,13 +104,13 @@ impl System {
     /// Of each connector that has no answer there, why.
     pub fn summaries<'a>(
         &'a self,
-        state: &'a State,
-    ) -> impl Iterator<Item = (&'a str, Result<Summary, SolveError>)> + use<'a> {
+        state: &'a SystemState,
+    ) -> impl Iterator<Item = (&'a str, Result<ElementSummary, SolveError>)> + use<'a> {
         self.links.iter().map(|link| (link.name.as_str(), summary(self, link, &state.poses)))
     }
 }
 
-fn summary(system: &System, link: &Link, poses: &[Pose]) -> Result<Summary, SolveError> {
+fn summary(system: &System, link: &Link, poses: &[Pose]) -> Result<ElementSummary, SolveError> {
     let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
     let committed = &system.states[link.states.clone()];
     let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };

@@ -3,20 +3,20 @@
 //! What is not joined shares neither a step nor the help of a search, so that one part does not hold up another. The parts are found
 //! by joining sets [TARJAN-1975].
 
-use super::link::Attachment;
+use super::link::EndAttachment;
 use super::system::System;
 
 /// The bodies of a system that one search brings to rest: one a body, whether it is among them.
-pub(super) type Part = Vec<bool>;
+pub(super) type BodySubset = Vec<bool>;
 
 /// The parts of a system, in the order of their first bodies.
-pub(super) fn parts(system: &System) -> Vec<Part> {
+pub(super) fn parts(system: &System) -> Vec<BodySubset> {
     let count = system.nodes.len();
     // each body points at another of its part, the first of a part at itself
     let mut leads: Vec<usize> = (0..count).collect();
     for link in &system.links {
         let mut bodies = link.ends.iter().filter_map(|end| match end {
-            Attachment::Body(body, _) if *body < count => Some(*body),
+            EndAttachment::Body(body, _) if *body < count => Some(*body),
             _ => None,
         });
         let Some(first) = bodies.next() else { continue };

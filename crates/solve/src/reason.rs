@@ -1,6 +1,6 @@
 //! Reasons behind a solution that was not found: what a user changes, where a connector or a step alone tells what gave up.
 
-use super::link::Attachment;
+use super::link::EndAttachment;
 use super::system::{DOFS, SolveError, System};
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
@@ -17,8 +17,8 @@ impl System {
     pub(super) fn because_it_sinks(&self, error: SolveError, sunk: &dyn Fn(usize) -> Option<f64>) -> SolveError {
         let Some(link) = self.links.iter().find(|l| Some(&l.name) == error.who.as_ref()) else { return error };
         let bodies = link.ends.iter().filter_map(|end| match end {
-            Attachment::Body(body, _) => Some(*body),
-            Attachment::Ground(_) => None,
+            EndAttachment::Body(body, _) => Some(*body),
+            EndAttachment::Ground(_) => None,
         });
         let found = bodies.filter_map(|body| Some((body, sunk(body)?))).find(|(_, depth)| *depth > SINKING_DEPTH_M);
         let Some((body, depth)) = found else { return error };

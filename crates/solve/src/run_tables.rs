@@ -1,7 +1,7 @@
 //! What a run says of itself, and how it compares with another.
 
 use super::screening::quasi_static_lines;
-use super::time::{Counts, Followed, History, Method, POOR_PERIOD, Resolution, Run, Series, Swing, results};
+use super::time::{Counts, Followed, History, Method, POOR_PERIOD, Resolution, ResultSeries, Run, Swing, results};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
@@ -244,7 +244,7 @@ pub fn comparison_tables(run: &Run, second: &History) -> Vec<Table> {
                 let pairs = first.rows().zip(second.rows()).filter(|(row, _)| is_behind(row, transient));
                 let differences = pairs.map(|(a, b)| (a.first().copied(), (series.value(a) - series.value(b)).abs()));
                 let (time, size) = differences.fold((None, -1.0), |worst, at| if at.1 > worst.1 { at } else { worst });
-                let moments = [first, second].map(|history| Moments::new(history, series, transient));
+                let moments = [first, second].map(|history| ComparedMoments::new(history, series, transient));
                 Difference { name: &series.name, size, time, moments }
             })
             .collect();
@@ -282,18 +282,18 @@ fn is_behind(row: &[f64], transient: f64) -> bool {
 }
 
 /// Deviation and largest value of a result.
-struct Moments {
+struct ComparedMoments {
     deviation: f64,
     most: f64,
 }
 
-impl Moments {
-    fn new(history: &History, series: &Series, transient: f64) -> Self {
+impl ComparedMoments {
+    fn new(history: &History, series: &ResultSeries, transient: f64) -> Self {
         let values = || history.rows().filter(|row| is_behind(row, transient)).map(|row| series.value(row));
         let count = values().count().max(1) as f64;
         let mean = values().sum::<f64>() / count;
         let variance = values().map(|v| (v - mean) * (v - mean)).sum::<f64>() / count;
-        Moments { deviation: variance.sqrt(), most: values().fold(f64::NEG_INFINITY, f64::max) }
+        ComparedMoments { deviation: variance.sqrt(), most: values().fold(f64::NEG_INFINITY, f64::max) }
     }
 }
 
@@ -304,7 +304,7 @@ struct Difference<'r> {
     size: f64,
     time: Option<f64>,
     /// Of the run, and of that with half the step.
-    moments: [Moments; 2],
+    moments: [ComparedMoments; 2],
 }
 
 /// The books of energy and momentum of dynamic lines, where the run kept them.

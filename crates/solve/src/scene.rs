@@ -49,7 +49,7 @@ pub enum Sign {
 
 /// A polyline in the global system (m).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Path {
+pub struct Polyline {
     /// What it stands for.
     pub stroke: Stroke,
     /// The connector it belongs to.
@@ -77,7 +77,7 @@ pub struct Scene {
     /// Bodies.
     pub bodies: Vec<Outline>,
     /// Lines, other connectors, uneven bottoms.
-    pub paths: Vec<Path>,
+    pub paths: Vec<Polyline>,
     /// Marked places.
     pub marks: Vec<Mark>,
     /// Elevation of the water surface (m).
@@ -87,7 +87,7 @@ pub struct Scene {
 }
 
 /// What a scene is made of.
-pub struct Choice<'a> {
+pub struct SceneOptions<'a> {
     /// Whether a connector is drawn.
     pub connector: &'a dyn Fn(&Connector) -> bool,
     /// Whether a body is drawn; one on which a drawn connector ends always is.
@@ -101,7 +101,7 @@ pub type Unshaped = (String, ClassError);
 
 impl Scene {
     /// The scene of a model with the connectors whose shape could not be found; `None` when interrupted.
-    pub fn build(model: &Model, choice: &Choice) -> Option<(Scene, Vec<Unshaped>)> {
+    pub fn build(model: &Model, choice: &SceneOptions) -> Option<(Scene, Vec<Unshaped>)> {
         let surroundings = model.surroundings();
         let mut scene =
             Scene { surface: surroundings.tide, bottom: surroundings.depth.map(|d| -d), ..Scene::default() };
@@ -146,7 +146,7 @@ impl Scene {
         if self.bottom.is_some() || uneven.is_empty() {
             self.bottom = Some(level);
         }
-        let path = |(name, points)| Path { stroke: Stroke::Bottom, name, points, grounded: false };
+        let path = |(name, points)| Polyline { stroke: Stroke::Bottom, name, points, grounded: false };
         self.paths.extend(uneven.into_iter().map(path));
     }
 
@@ -161,7 +161,7 @@ impl Scene {
 /// What is drawn of one connector.
 #[derive(Default)]
 struct Drawn {
-    path: Option<Path>,
+    path: Option<Polyline>,
     marks: Vec<Mark>,
     bottom: Option<Vec<Position>>,
     error: Option<ClassError>,
@@ -173,7 +173,7 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
     let solved = || solve(model, connector, &placement);
     let stroke = |active: Stroke| if connector.active { active } else { Stroke::Inactive };
     let grounded = !connector.points.get(1).is_some_and(|p| on_body(model, p));
-    let path = |stroke, points| Some(Path { stroke, name: connector.name.clone(), points, grounded });
+    let path = |stroke, points| Some(Polyline { stroke, name: connector.name.clone(), points, grounded });
     if connector.active && model.moves(connector) {
         let [from, to] = model.end_poses(connector).map(|p| Position::from(p.origin));
         return match at_rest(model, connector) {
@@ -185,7 +185,7 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
     }
     match solved() {
         Ok(Some(table)) => {
-            let shape = Shape::from_table(&table, &placement);
+            let shape = LineShape::from_table(&table, &placement);
             Drawn {
                 path: path(stroke(Stroke::Line), shape.points),
                 marks: shape.marks,
@@ -233,7 +233,7 @@ fn on_body(model: &Model, point: &str) -> bool {
 }
 
 /// The marks at the ends of a connector: its points, and the anchor behind a single one.
-fn ends(model: &Model, connector: &Connector, path: Option<&Path>) -> Vec<Mark> {
+fn ends(model: &Model, connector: &Connector, path: Option<&Polyline>) -> Vec<Mark> {
     let sign = |body: bool| if body { Sign::Fairlead } else { Sign::Anchor };
     let named = connector.points.iter().enumerate().filter_map(|(index, name)| {
         // an end set off from its point is elsewhere than the name
@@ -251,15 +251,15 @@ fn ends(model: &Model, connector: &Connector, path: Option<&Path>) -> Vec<Mark> 
 }
 
 /// The shape of a line in the global system.
-struct Shape {
+struct LineShape {
     points: Vec<Position>,
     marks: Vec<Mark>,
     bottom: Option<Vec<Position>>,
 }
 
-impl Shape {
+impl LineShape {
     /// From the table of a line's geometry.
-    fn from_table(table: &Table, placement: &Placement) -> Shape {
+    fn from_table(table: &Table, placement: &Placement) -> LineShape {
         let column = |name: &str| -> Vec<Option<f64>> {
             let found = table.columns.iter().find(|c| c.name == name);
             found.map_or(Vec::new(), |c| c.cells.iter().map(Cell::number).collect())
@@ -279,7 +279,7 @@ impl Shape {
         }
         let bottom = at(column("Bottom"));
         let bottom = bottom.first().zip(bottom.last()).map(|(a, b)| vec![place(a.0, a.1), place(b.0, b.1)]);
-        Shape { points: curve.into_iter().map(|(x, z)| place(x, z)).collect(), marks, bottom }
+        LineShape { points: curve.into_iter().map(|(x, z)| place(x, z)).collect(), marks, bottom }
     }
 }
 

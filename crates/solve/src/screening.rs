@@ -14,8 +14,8 @@
 //! Between stored instants ends move along the polynomials of fifth degree that have place, velocity and acceleration of both. What the line
 //! would do to the bodies, were it a dynamic line in the run, is not found.
 
-use crate::link::{Attachment, end_attachments};
-use crate::time::{Layout, LinkColumns, Motion, OF_BODY, Run, end_of};
+use crate::link::{EndAttachment, end_attachments};
+use crate::time::{BodyMotion, LinkColumns, OF_BODY, RowLayout, Run, end_of};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use windlass_base::geometry::Place;
@@ -24,8 +24,8 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
-    ClassError, Connector, Element, End, Guess, Model, Response, RunRequirement, Situation, Surroundings, TimeStep,
-    list_names,
+    ClassError, Connector, Element, ElementResponse, End, Guess, Model, RunRequirement, Situation, Surroundings,
+    TimeStep, list_names,
 };
 use windlass_signal::statistics::crossings;
 
@@ -197,14 +197,14 @@ fn period(run: &Run, link: usize, peak: f64) -> Result<f64, ClassError> {
 }
 
 /// Whether a connector acts in a row.
-fn acts(layout: &Layout, link: usize, row: &[f64]) -> bool {
+fn acts(layout: &RowLayout, link: usize, row: &[f64]) -> bool {
     let active = layout.links.get(link).and_then(|l| row.get(l.active));
     active.is_some_and(|a| *a > 0.0)
 }
 
 /// The ends of a line at a stored instant.
 #[derive(Clone, Debug)]
-struct Stored {
+struct StoredEnds {
     time: f64,
     ends: [End; 2],
     tension: f64,
@@ -213,7 +213,7 @@ struct Stored {
 /// How the ends of a line move in a replay.
 #[derive(Debug)]
 struct EndMotion {
-    rows: Vec<Stored>,
+    rows: Vec<StoredEnds>,
     /// Time at which the replay begins (s), and from when on the motion is that of the run.
     begin: f64,
     /// From when to when tensions are compared (s).
@@ -252,7 +252,7 @@ impl EndMotion {
         let from = at - all.iter().take(at + 1).rev().take_while(|row| !idle(row)).count().saturating_sub(1).min(at);
         let until = at + all.iter().skip(at).take_while(|row| !idle(row)).count();
         let used = all.get(from..until).unwrap_or_default();
-        let rows: Vec<Stored> = used.iter().filter_map(|row| stored_ends(layout, number, &attached, row)).collect();
+        let rows: Vec<StoredEnds> = used.iter().filter_map(|row| stored_ends(layout, number, &attached, row)).collect();
         let (Some(first), Some(last)) = (rows.first().map(|r| r.time), rows.last().map(|r| r.time)) else {
             return Err(ClassError::new("no instant around its largest tension is stored"));
         };
@@ -267,7 +267,7 @@ impl EndMotion {
         }
         let ramped = begin - RAMP_PERIODS * period;
         let (start, growing) = if ramped > first { (ramped, RAMP_PERIODS * period) } else { (first, 0.0) };
-        let within = |row: &&Stored| row.time >= start && row.time <= end;
+        let within = |row: &&StoredEnds| row.time >= start && row.time <= end;
         let count = rows.iter().filter(within).count().max(1) as f64;
         let place = |side: usize| rows.iter().filter(within).map(|r| r.ends[side].pose.origin).sum::<Vector3<f64>>();
         let mean = [0, 1].map(|side| place(side) / count);
@@ -310,23 +310,23 @@ impl EndMotion {
 }
 
 /// The ends of a line in a row.
-fn stored_ends(layout: &Layout, number: usize, attached: &[Attachment; 2], row: &[f64]) -> Option<Stored> {
+fn stored_ends(layout: &RowLayout, number: usize, attached: &[EndAttachment; 2], row: &[f64]) -> Option<StoredEnds> {
     let motion = |body: usize| {
         let at = layout.body(body);
-        let Some(numbers) = row.get(at..at + OF_BODY) else { return Motion::default() };
+        let Some(numbers) = row.get(at..at + OF_BODY) else { return BodyMotion::default() };
         let (place, rest) = numbers.split_at(6);
         let place = Place { shift: [place[0], place[1], place[2]], turn: [place[3], place[4], place[5]] };
         let (velocity, acceleration) = rest.split_at(6);
-        Motion {
+        BodyMotion {
             pose: Pose::of(&place),
             velocity: Six::from_column_slice(velocity),
             acceleration: Six::from_column_slice(acceleration),
-            ..Motion::default()
+            ..BodyMotion::default()
         }
     };
-    let motions: Vec<Motion> = (0..layout.bodies.len()).map(motion).collect();
+    let motions: Vec<BodyMotion> = (0..layout.bodies.len()).map(motion).collect();
     let ends = attached.map(|end| end_of(&end, &motions, true).0);
-    Some(Stored { time: *row.first()?, ends, tension: layout.tension(number, row)? })
+    Some(StoredEnds { time: *row.first()?, ends, tension: layout.tension(number, row)? })
 }
 
 fn linear(v: &Vector3<f64>) -> Six {
@@ -377,7 +377,7 @@ struct Twin {
     committed: Vec<f64>,
     trial: Vec<f64>,
     guess: Guess,
-    response: Response,
+    response: ElementResponse,
 }
 
 impl Twin {
@@ -419,7 +419,7 @@ impl Twin {
             trial: committed.clone(),
             committed,
             guess: None,
-            response: Response::default(),
+            response: ElementResponse::default(),
         };
         made.evaluate(&ends, motion.begin, 0.0)?;
         Ok(made)

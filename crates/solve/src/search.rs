@@ -5,8 +5,8 @@
 //! boldly for some steps, and comes back when they have led nowhere better.
 
 use super::equilibrium::{Options, UNRESTRAINED_EIGENVALUE};
-use super::parts::Part;
-use super::system::{SolveError, State, System};
+use super::parts::BodySubset;
+use super::system::{SolveError, System, SystemState};
 use super::ties::interpolate_forces;
 use super::unknowns::Unknowns;
 use nalgebra::{DMatrix, DVector};
@@ -36,23 +36,23 @@ pub(super) struct Stand {
 }
 
 impl Stand {
-    pub fn from_state(state: &State) -> Self {
+    pub fn from_state(state: &SystemState) -> Self {
         Stand { poses: state.poses.clone(), ties: state.ties.forces.clone() }
     }
 
     /// Puts a state there.
-    pub fn restore(self, state: &mut State) {
+    pub fn restore(self, state: &mut SystemState) {
         state.poses = self.poses;
         state.ties.forces = self.ties;
     }
 }
 
 /// A search on its way.
-pub(super) struct Search<'a> {
+pub(super) struct EquilibriumSearch<'a> {
     pub system: &'a System,
     pub options: &'a Options,
     /// The bodies that it brings to rest; all where there is none.
-    part: Option<&'a Part>,
+    part: Option<&'a BodySubset>,
     pub evaluations: usize,
     /// Share of the inertia added to the stiffness (1/s2).
     help: f64,
@@ -64,9 +64,9 @@ pub(super) struct Search<'a> {
     blocked: usize,
 }
 
-impl<'a> Search<'a> {
-    pub fn new(system: &'a System, options: &'a Options, part: Option<&'a Part>) -> Self {
-        Search {
+impl<'a> EquilibriumSearch<'a> {
+    pub fn new(system: &'a System, options: &'a Options, part: Option<&'a BodySubset>) -> Self {
+        EquilibriumSearch {
             system,
             options,
             part,
@@ -78,21 +78,21 @@ impl<'a> Search<'a> {
         }
     }
 
-    pub fn evaluate(&mut self, state: &mut State) -> Result<(), SolveError> {
+    pub fn evaluate(&mut self, state: &mut SystemState) -> Result<(), SolveError> {
         self.evaluations += 1;
         state.ties.holds = true;
         self.system.evaluate_part(state, self.part)
     }
 
     /// The largest acceleration left over what is tolerated, or deflection of a tie that its force does not explain, and the unknown.
-    pub fn worst(&self, unknowns: &Unknowns, state: &State) -> (f64, usize) {
+    pub fn worst(&self, unknowns: &Unknowns, state: &SystemState) -> (f64, usize) {
         let (worst, at) = unknowns.worst(&unknowns.residual(state), self.options);
         // a number that is none stays the worst
         (if worst.is_nan() { worst } else { worst.max(state.ties.gap() / TIE_TOLERANCE) }, at)
     }
 
     /// Goes on from a place where `worst` is left: a step, or back to a better place.
-    pub fn go(&mut self, unknowns: &Unknowns, state: &mut State, worst: f64) -> Result<(), SolveError> {
+    pub fn go(&mut self, unknowns: &Unknowns, state: &mut SystemState, worst: f64) -> Result<(), SolveError> {
         if let Some((stand, least, since)) = &mut self.bold {
             if worst < *least {
                 (*least, *since) = (worst, 0);
@@ -113,7 +113,7 @@ impl<'a> Search<'a> {
         self.step(unknowns, state, worst)
     }
 
-    fn step(&mut self, unknowns: &Unknowns, state: &mut State, worst: f64) -> Result<(), SolveError> {
+    fn step(&mut self, unknowns: &Unknowns, state: &mut SystemState, worst: f64) -> Result<(), SolveError> {
         let residual = unknowns.residual(state);
         let asked = &residual + unknowns.project_forces(&state.ties.excess);
         let stop = || self.system.is_interrupted();
@@ -123,7 +123,7 @@ impl<'a> Search<'a> {
         let from = Stand::from_state(state);
         let motions = unknowns.motions(from.poses.len(), &step, 1.0);
         let ties = state.ties.predict(&|body| motions[body]);
-        let place = |state: &mut State, share: f64| {
+        let place = |state: &mut SystemState, share: f64| {
             state.poses = unknowns.move_bodies(&from.poses, &step, share);
             state.ties.forces = interpolate_forces(&from.ties, &ties, share);
         };

@@ -2,7 +2,7 @@
 //! rest.
 
 use super::equilibrium::{Equilibrium, Options, equilibrium};
-use super::system::{SolveError, State, System};
+use super::system::{SolveError, System, SystemState};
 use windlass_base::geometry::Place;
 use windlass_model::{ClassError, Model};
 
@@ -17,7 +17,7 @@ pub struct EquilibriumResult {
     /// The system there.
     pub system: System,
     /// Its forces and stiffness there.
-    pub state: State,
+    pub state: SystemState,
 }
 
 /// Brings the bodies of a model to rest and leaves them there; their `previous` place is the one they came from.

@@ -1,8 +1,8 @@
 //! The system of bodies and connectors: who hangs on whom, what acts on each body, how that changes with their places.
 
-use super::link::{Attachment, Link, arm, build_pipe_link, link, pose_of};
+use super::link::{EndAttachment, Link, arm, build_pipe_link, link, pose_of};
 use super::modes::solve_least_motion;
-use super::parts::Part;
+use super::parts::BodySubset;
 use super::ties::Ties;
 use super::time::{Prescribed, RunRequirements, build_prescribed};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
@@ -12,7 +12,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::Sea;
 use windlass_hydro::{Category, Floating, Load, ambient, move_stiffness, move_wrench, turning};
-use windlass_model::{Ambient, Body, ClassError, End, Guess, Mass, Model, Response, Situation, Surroundings};
+use windlass_model::{Ambient, Body, ClassError, ElementResponse, End, Guess, Mass, Model, Situation, Surroundings};
 
 /// Degrees of freedom of a body, in order.
 pub const DOFS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
@@ -39,7 +39,7 @@ impl SolveError {
 
 /// A body of the system.
 #[derive(Debug)]
-pub struct Node {
+pub struct SystemBody {
     /// Its name as written.
     pub name: String,
     /// Its key in the model.
@@ -58,14 +58,14 @@ pub struct Node {
     pub prescribed: Option<Box<dyn Prescribed>>,
 }
 
-impl Node {
+impl SystemBody {
     fn new(model: &Model, key: &str, body: &Body, floating: Floating) -> Self {
         // what moves as it is given stands still for forces
         let idle = model.idle_hook(body) || body.prescribed.is_some();
         let free = DOFS.map(|f| !idle && !body.ignored.iter().any(|i| i == f));
         let (damped, added) = (floating.damping != Matrix6::zeros(), floating.added_mass != Matrix6::zeros());
         let (name, key, junction) = (body.name.clone(), key.to_string(), body.junction.is_some());
-        Node { name, key, floating, junction, free, damped, added, prescribed: None }
+        SystemBody { name, key, floating, junction, free, damped, added, prescribed: None }
     }
 
     /// Whether a degree of freedom moves as forces make it.
@@ -89,7 +89,7 @@ pub struct Contribution {
 
 /// Where everything is, and what is left unbalanced there.
 #[derive(Debug, Default)]
-pub struct State {
+pub struct SystemState {
     /// Poses of the bodies.
     pub poses: Vec<Pose>,
     /// Sum of forces and moments about the origins of the bodies, six a body, global axes.
@@ -101,14 +101,14 @@ pub struct State {
     /// Stiff ties, whose forces a search holds.
     pub(super) ties: Ties,
     guesses: Vec<Guess>,
-    response: Response,
+    response: ElementResponse,
     trial: Vec<f64>,
 }
 
-impl State {
+impl SystemState {
     /// Bodies in these poses, with nothing evaluated yet.
     pub fn from_poses(poses: Vec<Pose>) -> Self {
-        State { poses, ..State::default() }
+        SystemState { poses, ..SystemState::default() }
     }
 }
 
@@ -116,7 +116,7 @@ impl State {
 #[derive(Debug)]
 pub struct System {
     /// Its bodies, in the order of the model.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<SystemBody>,
     pub(super) links: Vec<Link>,
     /// States of all connectors, committed.
     pub states: Vec<f64>,
@@ -141,7 +141,7 @@ impl System {
     pub fn new(model: &Model, left_out: &[String]) -> Result<Self, SolveError> {
         let node = |(key, body): (&String, &Body)| {
             let floating = Floating::at_rest(model, body).map_err(SolveError::about(&body.name))?;
-            Ok(Node::new(model, key, body, floating))
+            Ok(SystemBody::new(model, key, body, floating))
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
         System::build(model, (nodes, None), left_out, RunRequirements::default())
@@ -158,7 +158,7 @@ impl System {
 
     fn build(
         model: &Model,
-        (nodes, sea): (Vec<Node>, Option<&Arc<Sea>>),
+        (nodes, sea): (Vec<SystemBody>, Option<&Arc<Sea>>),
         left_out: &[String],
         duties: RunRequirements,
     ) -> Result<Self, SolveError> {
@@ -191,16 +191,16 @@ impl System {
     }
 
     /// A state with the bodies where they stand in the model.
-    pub fn state(&self, model: &Model) -> State {
+    pub fn state(&self, model: &Model) -> SystemState {
         let poses = self.nodes.iter().map(|n| model.bodies.get(&n.key).map(|b| Pose::of(&b.place)).unwrap_or_default());
-        State::from_poses(poses.collect())
+        SystemState::from_poses(poses.collect())
     }
 
     /// Evaluates everything at the poses of a state.
     ///
     /// # Errors
     /// The connector or body that has no answer there.
-    pub fn evaluate(&self, state: &mut State) -> Result<(), SolveError> {
+    pub fn evaluate(&self, state: &mut SystemState) -> Result<(), SolveError> {
         self.evaluate_part(state, None)
     }
 
@@ -208,7 +208,7 @@ impl System {
     ///
     /// # Errors
     /// As [`System::evaluate`].
-    pub(super) fn evaluate_part(&self, state: &mut State, part: Option<&Part>) -> Result<(), SolveError> {
+    pub(super) fn evaluate_part(&self, state: &mut SystemState, part: Option<&BodySubset>) -> Result<(), SolveError> {
         let size = 6 * self.nodes.len();
         state.residual.resize_vertically_mut(size, 0.0);
         if state.stiffness.nrows() != size {
@@ -242,7 +242,7 @@ impl System {
         }
         let (mut ends, mut arms) = (Vec::new(), Vec::new());
         for (index, (link, guess)) in self.links.iter().zip(&mut state.guesses).enumerate() {
-            let joined = |end: &Attachment| matches!(end, Attachment::Body(body, _) if belongs(*body));
+            let joined = |end: &EndAttachment| matches!(end, EndAttachment::Body(body, _) if belongs(*body));
             if part.is_some() && !link.ends.iter().any(joined) {
                 continue;
             }
@@ -267,13 +267,13 @@ impl System {
             }
             let count = link.ends.len();
             for (i, ((end, wrench), own)) in link.ends.iter().zip(&state.response.wrench).zip(&arms).enumerate() {
-                let Attachment::Body(body, _) = end else { continue };
+                let EndAttachment::Body(body, _) = end else { continue };
                 let mut at = state.residual.fixed_rows_mut::<6>(6 * body);
                 at += move_wrench(wrench, *own);
                 let force = wrench.fixed_rows::<3>(0).norm();
                 state.pull[*body] = state.pull[*body].max(force);
                 for (j, (other, far)) in link.ends.iter().zip(&arms).enumerate() {
-                    let Attachment::Body(column, _) = other else { continue };
+                    let EndAttachment::Body(column, _) = other else { continue };
                     let Some(block) = state.response.stiffness.get(count * i + j) else { continue };
                     let mut moved = move_stiffness(block, *own, *far);
                     if i == j {
@@ -299,7 +299,7 @@ impl System {
                 list.push(Contribution { body, connector: None, category, load });
             }
         }
-        let (mut response, mut trial) = (Response::default(), vec![0.0; self.states.len()]);
+        let (mut response, mut trial) = (ElementResponse::default(), vec![0.0; self.states.len()]);
         for link in &self.links {
             let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
             let committed = &self.states[link.states.clone()];
@@ -309,13 +309,13 @@ impl System {
             evaluated.map_err(SolveError::about(&link.name))?;
             let category = if link.element.rigid() { Category::RigidConnectors } else { Category::FlexConnectors };
             for (i, end) in link.ends.iter().enumerate() {
-                let Attachment::Body(body, _) = end else { continue };
+                let EndAttachment::Body(body, _) = end else { continue };
                 let (own, count) = (arm(end, poses), link.ends.len());
                 let wrench = &response.wrench[i];
                 let mut stiffness = turning(wrench, own);
                 // all ends on the body move with it
                 for (j, far) in link.ends.iter().enumerate() {
-                    if let (Attachment::Body(other, _), Some(block)) = (far, response.stiffness.get(count * i + j))
+                    if let (EndAttachment::Body(other, _), Some(block)) = (far, response.stiffness.get(count * i + j))
                         && other == body
                     {
                         stiffness += move_stiffness(block, own, arm(far, poses));
@@ -333,7 +333,7 @@ impl System {
     ///
     /// # Errors
     /// A stiffness that is not finite; an interrupt.
-    pub fn followed_stiffness(&self, state: &State, body: usize) -> Result<Matrix6<f64>, SolveError> {
+    pub fn followed_stiffness(&self, state: &SystemState, body: usize) -> Result<Matrix6<f64>, SolveError> {
         let own: Vec<usize> = (6 * body..6 * body + 6).collect();
         let junctions = self.nodes.iter().enumerate().filter(|(index, n)| n.junction && *index != body);
         let follow: Vec<usize> = junctions
@@ -383,7 +383,7 @@ impl System {
     }
 
     /// Puts the bodies of a model where a state has them, remembering where they were.
-    pub fn place(&self, state: &State, model: &mut Model) {
+    pub fn place(&self, state: &SystemState, model: &mut Model) {
         let before: Vec<_> = model.bodies.values().map(|b| b.place).collect();
         for (body, place) in model.bodies.values_mut().zip(before) {
             body.previous = place;
@@ -403,10 +403,10 @@ pub(super) fn without_rounding(place: Place) -> Place {
 }
 
 /// The bodies of a model under way.
-pub(super) fn moving_nodes(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Vec<Node>, SolveError> {
+pub(super) fn moving_nodes(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Vec<SystemBody>, SolveError> {
     let node = |(key, body): (&String, &Body)| {
         let floating = Floating::under_way(model, body, sea).map_err(SolveError::about(&body.name))?;
-        let mut made = Node::new(model, key, body, floating);
+        let mut made = SystemBody::new(model, key, body, floating);
         made.prescribed = build_prescribed(body, sea).map_err(SolveError::about(&body.name))?;
         Ok(made)
     };

@@ -1,9 +1,9 @@
 //! What engines found, as tables.
 
 use super::equilibrium::is_unstable;
-use super::modes::{Mode, modes};
+use super::modes::{SystemMode, modes};
 use super::settle::EquilibriumResult;
-use super::system::{Contribution, DOFS, SolveError, State, System};
+use super::system::{Contribution, DOFS, SolveError, System, SystemState};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::geometry::{Place, Position};
 use windlass_base::pose::Six;
@@ -91,7 +91,7 @@ struct RestRow<'m> {
 ///
 /// # Errors
 /// A connector that cannot be evaluated.
-pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) -> Result<Table, SolveError> {
+pub fn by_category(system: &System, state: &SystemState, fits: &dyn Fn(&str) -> bool) -> Result<Table, SolveError> {
     let all = system.contributions(&state.poses)?;
     let mut rows: Vec<(&str, &str, Six)> = Vec::new();
     for (body, node) in system.nodes.iter().enumerate().filter(|(_, n)| fits(&n.name)) {
@@ -138,7 +138,7 @@ fn without_rounding(wrench: &Six, size: &Six) -> Six {
 ///
 /// # Errors
 /// As [`modes`].
-pub fn periods(system: &System, state: &State) -> Result<Table, SolveError> {
+pub fn periods(system: &System, state: &SystemState) -> Result<Table, SolveError> {
     let mut table = Table::new("Natural Periods");
     let list = modes(system, state)?;
     let largest = list.iter().map(|m| m.eigenvalue.abs()).fold(0.0, f64::max);
@@ -160,7 +160,7 @@ pub fn periods(system: &System, state: &State) -> Result<Table, SolveError> {
         "eigenvalues in rad2/s2, of the stiffness against mass and the added mass of #AMASS and members; undamped",
     );
     // a period of 17 hours holds nothing
-    let held = |mode: &Mode| mode.eigenvalue.abs() > 1e-8;
+    let held = |mode: &SystemMode| mode.eigenvalue.abs() > 1e-8;
     let rows: Vec<_> = list.iter().enumerate().collect();
     let table = table
         .with_rows(&rows)
@@ -182,7 +182,7 @@ pub fn periods(system: &System, state: &State) -> Result<Table, SolveError> {
 }
 
 /// Connectors of a stiffness report.
-pub struct Connectors<'a> {
+pub struct ReportedConnectors<'a> {
     /// Those told one by one.
     pub told: &'a [&'a str],
     /// Whether the stiffness of one of this name is left out of that of a body.
@@ -196,10 +196,10 @@ pub struct Connectors<'a> {
 /// A connector that cannot be evaluated.
 pub fn stiffnesses(
     system: &System,
-    state: &State,
+    state: &SystemState,
     about: Option<Position>,
     fits: &dyn Fn(&str) -> bool,
-    connectors: &Connectors,
+    connectors: &ReportedConnectors,
 ) -> Result<Vec<Table>, SolveError> {
     let all = system.contributions(&state.poses)?;
     let mut list = Vec::new();

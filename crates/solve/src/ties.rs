@@ -4,16 +4,16 @@
 //! the residual `r` under the force `f` that is held and the excess of the law over it. Then `f` becomes `k (q + G dx)`, in which rounding
 //! of places cancels, and what is left on the bodies does not feel it.
 
-use super::link::Attachment;
+use super::link::EndAttachment;
 use nalgebra::{DVector, Matrix6, Vector3};
 use windlass_base::pose::Six;
 use windlass_hydro::move_wrench;
-use windlass_model::Tie;
+use windlass_model::TieResponse;
 
 /// A tie at the places of its ends.
 #[derive(Debug)]
-struct Held {
-    tie: Tie,
+struct TieAtEnds {
+    tie: TieResponse,
     /// Of each end its body and the arm from there (m, global); none in the ground.
     ends: [Option<(usize, Vector3<f64>)>; 2],
     /// -d(wrench)/d(motion) of the ends, two by two.
@@ -29,7 +29,7 @@ pub(crate) struct Ties {
     pub forces: Vec<Option<Six>>,
     /// What the laws have beyond the forces held, six a body about its origin, global axes (N, N m).
     pub excess: DVector<f64>,
-    made: Vec<(usize, Held)>,
+    made: Vec<(usize, TieAtEnds)>,
 }
 
 impl Ties {
@@ -47,22 +47,22 @@ impl Ties {
     pub fn take(
         &mut self,
         link: usize,
-        tie: Tie,
+        tie: TieResponse,
         stiffness: &[Matrix6<f64>],
-        (ends, arms): (&[Attachment], &[Vector3<f64>]),
+        (ends, arms): (&[EndAttachment], &[Vector3<f64>]),
     ) {
         if let Some(force) = self.forces.get_mut(link) {
             force.get_or_insert(tie.force);
         }
         let mut on = [None, None];
         for (((slot, end), arm), excess) in on.iter_mut().zip(ends).zip(arms).zip(&tie.excess) {
-            if let Attachment::Body(body, _) = end {
+            if let EndAttachment::Body(body, _) = end {
                 *slot = Some((*body, *arm));
                 let mut at = self.excess.fixed_rows_mut::<6>(6 * body);
                 at += move_wrench(excess, *arm);
             }
         }
-        self.made.push((link, Held { tie, ends: on, stiffness: stiffness.to_vec() }));
+        self.made.push((link, TieAtEnds { tie, ends: on, stiffness: stiffness.to_vec() }));
     }
 
     pub fn is_empty(&self) -> bool {

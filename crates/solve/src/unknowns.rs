@@ -1,8 +1,8 @@
 //! The unknowns of an equilibrium: degrees of freedom that move, what they weigh, and how a step in them moves the bodies.
 
 use super::equilibrium::Options;
-use super::parts::Part;
-use super::system::{Node, SolveError, State, System};
+use super::parts::BodySubset;
+use super::system::{SolveError, System, SystemBody, SystemState};
 use nalgebra::{DMatrix, DVector};
 use windlass_base::dense::DenseError;
 use windlass_base::geometry::Place;
@@ -14,12 +14,12 @@ const MAX_STEP: [f64; 2] = [50.0, 0.3];
 const JUNCTION_WEIGHT_SHARE: f64 = 1e-3;
 
 /// Rows of the system with their shares in one unknown, the larger first.
-pub(super) type Direction = [(usize, f64); 2];
+pub(super) type UnknownDirection = [(usize, f64); 2];
 
 /// The free unknowns and their measures.
 pub(super) struct Unknowns<'a> {
     /// The direction of each: a row of the system, or two with their shares.
-    pub rows: Vec<Direction>,
+    pub rows: Vec<UnknownDirection>,
     /// Inertia of each (kg or kg m2).
     pub inertia: DVector<f64>,
     /// Force (N) or moment (N m) that is gravity's on it; of a junction a thousandth of what pulls at it.
@@ -29,7 +29,12 @@ pub(super) struct Unknowns<'a> {
 
 impl<'a> Unknowns<'a> {
     /// Those of a part, `None` for all bodies, that keep some of their angles.
-    pub fn new(system: &System, state: &State, options: &Options, (turns, part): (&'a [Turns], Option<&Part>)) -> Self {
+    pub fn new(
+        system: &System,
+        state: &SystemState,
+        options: &Options,
+        (turns, part): (&'a [Turns], Option<&BodySubset>),
+    ) -> Self {
         let (mut rows, mut inertia, mut measure) = (Vec::new(), Vec::new(), Vec::new());
         let belongs = |body: usize| part.is_none_or(|p| p[body]);
         for (body, node) in system.nodes.iter().enumerate().filter(|(body, _)| belongs(*body)) {
@@ -60,17 +65,17 @@ impl<'a> Unknowns<'a> {
         Unknowns { rows, inertia: DVector::from_vec(inertia), measure: DVector::from_vec(measure), turns }
     }
 
-    pub fn residual(&self, state: &State) -> DVector<f64> {
+    pub fn residual(&self, state: &SystemState) -> DVector<f64> {
         self.project_forces(&state.residual)
     }
 
     /// Forces of the system, six a body, along the unknowns.
     pub fn project_forces(&self, forces: &DVector<f64>) -> DVector<f64> {
-        let along = |d: &Direction| d.iter().map(|(r, share)| share * forces[*r]).sum();
+        let along = |d: &UnknownDirection| d.iter().map(|(r, share)| share * forces[*r]).sum();
         DVector::from_iterator(self.rows.len(), self.rows.iter().map(along))
     }
 
-    pub fn stiffness(&self, state: &State) -> DMatrix<f64> {
+    pub fn stiffness(&self, state: &SystemState) -> DMatrix<f64> {
         DMatrix::from_fn(self.rows.len(), self.rows.len(), |i, j| {
             let (rows, columns) = (&self.rows[i], &self.rows[j]);
             rows.iter()
@@ -149,7 +154,7 @@ impl<'a> Unknowns<'a> {
 }
 
 /// The horizontal direction across an angle (rad), where the body is free in both.
-fn transverse_direction(body: usize, angle: f64, free: &[bool; 6]) -> Option<Direction> {
+fn transverse_direction(body: usize, angle: f64, free: &[bool; 6]) -> Option<UnknownDirection> {
     let [x, y, ..] = *free;
     let (x_share, y_share) = (-angle.sin(), angle.cos());
     let (x_row, y_row) = ((6 * body, x_share), (6 * body + 1, y_share));
@@ -161,8 +166,8 @@ fn transverse_direction(body: usize, angle: f64, free: &[bool; 6]) -> Option<Dir
 pub(super) type Turns = [Option<f64>; 3];
 
 /// The angles each body of a system keeps.
-pub(super) fn kept_turns(system: &System, state: &State, options: &Options) -> Vec<Turns> {
-    let kept = |(body, (node, pose)): (usize, (&Node, &Pose))| {
+pub(super) fn kept_turns(system: &System, state: &SystemState, options: &Options) -> Vec<Turns> {
+    let kept = |(body, (node, pose)): (usize, (&SystemBody, &Pose))| {
         let free = [3, 4, 5].map(|f| node.free.get(f) == Some(&true) && !options.ignored.contains(&(body, f)));
         let some = free.contains(&true) && free.contains(&false);
         let [roll, pitch, yaw] = pose.place(&Place::default()).turn;

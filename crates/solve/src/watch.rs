@@ -1,23 +1,23 @@
 //! A watch circle: where a horizontal force from each direction takes a body.
 
 use super::equilibrium::{Options as Rest, equilibrium};
-use super::offset::Connectors;
-use super::system::{SolveError, State, System};
+use super::offset::BodyConnectors;
+use super::system::{SolveError, System, SystemState};
 use windlass_base::pose::{Pose, Six};
-use windlass_model::Summary;
+use windlass_model::ElementSummary;
 
 /// Most steps of the solution from one direction to the next.
 const MAX_STEPS_BETWEEN_DIRECTIONS: usize = 2000;
 
 /// A body under the force from one direction.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Watched {
+pub struct WatchedBody {
     /// Where the force comes from, from +X toward +Y (rad).
     pub direction: f64,
     /// The body at rest under it.
     pub pose: Pose,
     /// What is reported of each of its connectors.
-    pub lines: Vec<Summary>,
+    pub lines: Vec<ElementSummary>,
 }
 
 /// A body under a force from each of several directions.
@@ -26,7 +26,7 @@ pub struct Circle {
     /// Names of its connectors.
     pub names: Vec<String>,
     /// One for each direction.
-    pub places: Vec<Watched>,
+    pub places: Vec<WatchedBody>,
 }
 
 /// A body at rest under a horizontal force (N) at its origin that comes from each of these directions in turn, beside all
@@ -41,13 +41,13 @@ pub fn watch(
     (body, force, free): (usize, f64, bool),
     directions: &[f64],
 ) -> Result<Circle, SolveError> {
-    let connectors = Connectors::on_body(system, body)?;
+    let connectors = BodyConnectors::on_body(system, body)?;
     let moves = |b: usize, dof: usize| free || (b == body && [0, 1, 5].contains(&dof));
     let all = (0..system.nodes.len()).flat_map(|b| (0..6).map(move |dof| (b, dof)));
     let ignored = all.filter(|(b, f)| !moves(*b, *f)).collect();
     // from one direction to the next is far for a body that hangs on stiff lines
     let options = Rest { ignored, most: MAX_STEPS_BETWEEN_DIRECTIONS, ..Rest::default() };
-    let mut state = State::from_poses(start.to_vec());
+    let mut state = SystemState::from_poses(start.to_vec());
     let mut list = Vec::with_capacity(directions.len());
     for direction in directions {
         let wrong = |e: SolveError| {
@@ -58,7 +58,7 @@ pub fn watch(
         system.applied = vec![(body, Six::new(-force * cos, -force * sin, 0.0, 0.0, 0.0, 0.0))];
         equilibrium(system, &mut state, &options).map_err(wrong)?;
         let lines = connectors.summaries(system, &state.poses).map_err(wrong)?;
-        list.push(Watched { direction: *direction, pose: state.poses[body], lines });
+        list.push(WatchedBody { direction: *direction, pose: state.poses[body], lines });
     }
     let names = connectors.names(system).map(str::to_string).collect();
     system.applied.clear();

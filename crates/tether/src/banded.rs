@@ -15,7 +15,7 @@ pub struct Banded {
 
 /// The factors of a [`Banded`]: rows of L (unit diagonal) with the diagonal matrix D in place of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Factors {
+pub struct BandedFactors {
     rows: Vec<[f64; BANDWIDTH]>,
 }
 
@@ -82,8 +82,8 @@ impl Banded {
     ///
     /// # Errors
     /// A pivot that is not above zero: a mass is missing, or a motion has neither stiffness nor mass.
-    pub fn factor(&self) -> Result<Factors, ClassError> {
-        let mut factors = Factors { rows: Vec::with_capacity(self.rows.len()) };
+    pub fn factor(&self) -> Result<BandedFactors, ClassError> {
+        let mut factors = BandedFactors { rows: Vec::with_capacity(self.rows.len()) };
         self.factor_into(&mut factors)?;
         Ok(factors)
     }
@@ -92,7 +92,7 @@ impl Banded {
     ///
     /// # Errors
     /// Those of [`Banded::factor`].
-    pub fn factor_into(&self, factors: &mut Factors) -> Result<(), ClassError> {
+    pub fn factor_into(&self, factors: &mut BandedFactors) -> Result<(), ClassError> {
         factors.rows.clear();
         for row in 0..self.rows.len() {
             let made = self.eliminate_row(&factors.rows, row);
@@ -111,7 +111,7 @@ impl Banded {
     /// Factors it whatever the signs of its pivots; one that vanishes against the row becomes a rounding of it (the matrix is
     /// then taken a rounding beside itself). Returned with the number of negative pivots, which by Sylvester's law is that of the
     /// negative eigenvalues.
-    pub(super) fn factor_indefinite(&self, factors: &mut Factors) -> usize {
+    pub(super) fn factor_indefinite(&self, factors: &mut BandedFactors) -> usize {
         let mut negative = 0;
         factors.rows.clear();
         for row in 0..self.rows.len() {
@@ -146,10 +146,10 @@ impl Banded {
     }
 }
 
-impl Factors {
+impl BandedFactors {
     /// Factors of no matrix yet, with room for an order.
     pub fn with_room(order: usize) -> Self {
-        Factors { rows: Vec::with_capacity(order) }
+        BandedFactors { rows: Vec::with_capacity(order) }
     }
 
     /// Solves in place: the right-hand side becomes the solution.

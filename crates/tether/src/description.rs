@@ -1,7 +1,7 @@
 //! The description of a tether: what the data listing [AQWA-TETHER 7.1] reports of it before a run.
 
 use super::TetherElement;
-use super::line::{Label, Line};
+use super::line::{ElementLabel, TetherLine};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 
@@ -12,7 +12,7 @@ const BENDING: Dim = Dim::Derived { force: 1, length: 2, seconds: 0 };
 
 /// How a tether is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Configuration {
+pub enum TetherArrangement {
     /// Afloat behind a vessel.
     Towed,
     /// Between an anchor and a vessel.
@@ -21,7 +21,7 @@ pub enum Configuration {
 
 /// A place where a tether ends.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Attachment {
+pub struct TetherEnd {
     /// What the user calls its node.
     pub node: String,
     /// Where it was given (m).
@@ -32,15 +32,15 @@ pub struct Attachment {
 
 /// What is reported of a tether.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Description<'a> {
+pub struct TetherDescription<'a> {
     /// Its number, from 1.
     pub number: usize,
     /// How it is used.
-    pub configuration: Configuration,
+    pub configuration: TetherArrangement,
     /// Its elements.
-    pub line: &'a Line,
+    pub line: &'a TetherLine,
     /// Its ends: anchor or trailing, vessel.
-    pub ends: [Attachment; 2],
+    pub ends: [TetherEnd; 2],
     /// Springs of the same ends. Installed: inline (N/m) and two rotational (N m/rad); towed: along the axis, y, z (N/m).
     pub springs: [[f64; 3]; 2],
     /// Areas of the same ends that water does not press on (m2).
@@ -68,7 +68,7 @@ struct DescriptionRow<'t> {
     end: Option<usize>,
 }
 
-impl Description<'_> {
+impl TetherDescription<'_> {
     /// Distance between its ends at the start (m).
     pub fn initial_distance(&self) -> f64 {
         let [one, other] = [self.ends[0].initial, self.ends[1].initial];
@@ -106,7 +106,7 @@ impl Description<'_> {
 
     /// The table of 7.1: nodes from the vessel down with the element below each, and the facts under it in the listing.
     pub fn table(&self) -> Table {
-        let towed = self.configuration == Configuration::Towed;
+        let towed = self.configuration == TetherArrangement::Towed;
         let second = if towed { Dim::ForcePerLength } else { Dim::MomentPerRadian };
         let names = if towed { ["Along", "Y", "Z"] } else { ["Inline", "X Rot", "Y Rot"] };
         let last = self.line.nodes() - 1;
@@ -118,7 +118,7 @@ impl Description<'_> {
                 end: if node == 0 { Some(0) } else { (node == last).then_some(1) },
             })
             .collect();
-        let label = |row: &DescriptionRow, value: fn(&Label) -> i64| row.element.map(|e| value(&e.label));
+        let label = |row: &DescriptionRow, value: fn(&ElementLabel) -> i64| row.element.map(|e| value(&e.label));
         self.facts(Table::new(format!("Description of Tether {}", self.number)))
             .with_rows(&nodes)
             .column("", "Tether Node", Dim::None, Digits::Usual, |row| row.node + 1)
@@ -148,7 +148,7 @@ impl Description<'_> {
 
     /// The facts under the table of the listing, in its order.
     fn facts(&self, out: Table) -> Table {
-        let word = if self.configuration == Configuration::Towed { "TOWED" } else { "INSTALLED" };
+        let word = if self.configuration == TetherArrangement::Towed { "TOWED" } else { "INSTALLED" };
         let mut out = out.fact("Configuration", word, Dim::None);
         for (name, end) in [("Vessel Attachment", &self.ends[1]), ("Anchor Attachment", &self.ends[0])] {
             out = out.fact(&format!("{name} Node"), end.node.as_str(), Dim::None);

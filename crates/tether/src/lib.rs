@@ -56,5 +56,5 @@ pub mod section;
 pub mod structure;
 pub mod towed;
 
-pub use line::{Line, TetherElement};
-pub use section::Tube;
+pub use line::{TetherElement, TetherLine};
+pub use section::TetherTube;

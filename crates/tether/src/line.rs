@@ -1,6 +1,6 @@
 //! The elements of a tether one after the other, from the trailing or anchor end to the vessel.
 
-use super::section::Tube;
+use super::section::TetherTube;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
@@ -25,12 +25,12 @@ pub struct TetherElement {
     /// Added mass coefficient across the axis, on the displaced mass.
     pub added_mass: f64,
     /// What the user calls its nodes and groups; plays no part in the mechanics.
-    pub label: Label,
+    pub label: ElementLabel,
 }
 
 /// Numbers of an element as the user gave them (card TELM).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Label {
+pub struct ElementLabel {
     /// Node at the trailing or anchor side, and at the vessel's side.
     pub nodes: [i64; 2],
     /// Material group.
@@ -41,8 +41,8 @@ pub struct Label {
 
 impl TetherElement {
     /// Its cross section.
-    pub fn tube(&self) -> Tube {
-        Tube { outer_diameter: self.outer_diameter, wall_thickness: self.wall_thickness }
+    pub fn tube(&self) -> TetherTube {
+        TetherTube { outer_diameter: self.outer_diameter, wall_thickness: self.wall_thickness }
     }
 
     /// Mass of the wall per length (kg/m).
@@ -63,13 +63,13 @@ impl TetherElement {
 
 /// Elements that follow each other without a gap, each of which can be reckoned with.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Line {
+pub struct TetherLine {
     elements: Vec<TetherElement>,
     /// Distances of the nodes from the first, unstretched (m).
     distances: Vec<f64>,
 }
 
-impl Line {
+impl TetherLine {
     /// A line of elements, first the one at the trailing or anchor end. Each begins at the node where the one before ends.
     ///
     /// # Errors
@@ -104,7 +104,7 @@ impl Line {
             along += element.length;
             distances.push(along);
         }
-        Ok(Line { elements, distances })
+        Ok(TetherLine { elements, distances })
     }
 
     /// The same with the nodes called 1, 2, 3 ... from the trailing or anchor end.
@@ -115,7 +115,7 @@ impl Line {
         for (element, number) in elements.iter_mut().zip(1..) {
             element.label.nodes = [number, number + 1];
         }
-        Line::new(elements)
+        TetherLine::new(elements)
     }
 
     /// The elements from the trailing or anchor end.
@@ -199,22 +199,23 @@ mod tests {
             youngs_modulus: 2.1e11,
             drag: 0.75,
             added_mass: 1.0,
-            label: Label::default(),
+            label: ElementLabel::default(),
         }
     }
 
     #[test]
     fn distances_run_from_the_first_node() {
-        let line = Line::with_numbered_nodes(vec![element(), TetherElement { length: 5.0, ..element() }]).unwrap();
+        let line =
+            TetherLine::with_numbered_nodes(vec![element(), TetherElement { length: 5.0, ..element() }]).unwrap();
         assert_eq!(line.distances(), [0.0, 10.0, 15.0]);
         assert_eq!((line.nodes(), line.length(), line.elements()[1].label.nodes), (3, 15.0, [2, 3]));
     }
 
     #[test]
     fn a_line_that_cannot_be_is_an_error_that_names_the_element() {
-        let of = |list: Vec<TetherElement>| Line::new(list).unwrap_err().to_string();
+        let of = |list: Vec<TetherElement>| TetherLine::new(list).unwrap_err().to_string();
         assert!(of(Vec::new()).contains("at least one"));
-        let gap = |nodes| TetherElement { label: Label { nodes, ..Label::default() }, ..element() };
+        let gap = |nodes| TetherElement { label: ElementLabel { nodes, ..ElementLabel::default() }, ..element() };
         assert!(of(vec![gap([1, 2]), gap([3, 4])]).contains("elements 1 and 2 of the tether are not contiguous"));
         assert!(
             of(vec![TetherElement { length: 0.0, ..element() }]).contains("element 1 of the tether has the length 0")

@@ -5,7 +5,7 @@
 //! the shape. The error of the last is the square of that of the shape, and the energy of bending leaves out rigid motion to
 //! the last digit, so that modes held by soft springs alone keep all their digits beside a stiffness a million times theirs.
 
-use super::banded::{Banded, Factors};
+use super::banded::{Banded, BandedFactors};
 use std::f64::consts::{PI, TAU};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
@@ -30,7 +30,7 @@ pub struct Pencil<'a> {
 
 /// A mode of one plane.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
+pub struct PlaneMode {
     /// Square of its frequency (rad2/s2); negative where it is not stable.
     pub eigenvalue: f64,
     /// Deflection and slope of each node; `phi' M phi = 1`.
@@ -39,7 +39,7 @@ pub struct Mode {
 
 /// The plane a mode lies in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Plane {
+pub enum ModePlane {
     /// Deflections along y, rotations RZ.
     Y,
     /// Deflections along z, rotations RY.
@@ -50,7 +50,7 @@ pub enum Plane {
 #[derive(Clone, Debug, PartialEq)]
 pub struct NaturalMode {
     /// Its plane.
-    pub plane: Plane,
+    pub plane: ModePlane,
     /// Square of its frequency (rad2/s2).
     pub eigenvalue: f64,
     /// Deflection of each node from the first: largest 1, positive, unless a slope would exceed ten degrees, which then is
@@ -76,9 +76,9 @@ impl NaturalMode {
         let value = |list: &[f64]| list.get(index).copied().unwrap_or_default();
         let (deflection, slope) = (value(&self.deflections), value(&self.slopes));
         match self.plane {
-            Plane::Y => [deflection, 0.0, 0.0, slope],
+            ModePlane::Y => [deflection, 0.0, 0.0, slope],
             // 0 - x: no minus before a zero
-            Plane::Z => [0.0, deflection, 0.0 - slope, 0.0],
+            ModePlane::Z => [0.0, deflection, 0.0 - slope, 0.0],
         }
     }
 }
@@ -87,7 +87,7 @@ impl NaturalMode {
 ///
 /// # Errors
 /// A matrix with an entry that is no finite number.
-pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<Mode>, ClassError> {
+pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<PlaneMode>, ClassError> {
     let order = pencil.mass.order();
     let mut ratio: f64 = 0.0;
     for i in 0..order {
@@ -103,7 +103,7 @@ pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<Mode>, ClassError> {
     }
     let massive = (0..order).filter(|i| pencil.mass.get(*i, *i) > 0.0).count();
     let number = number.min(massive);
-    let mut search = Search { pencil, factors: Factors::with_room(order), shifted: Banded::zeros(order) };
+    let mut search = ModeSearch { pencil, factors: BandedFactors::with_room(order), shifted: Banded::zeros(order) };
     let ratio = ratio.max(f64::MIN_POSITIVE);
     let mut high = ratio;
     while search.count_eigenvalues_below(high) < number && high < ratio * 1e12 {
@@ -113,7 +113,7 @@ pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<Mode>, ClassError> {
     while search.count_eigenvalues_below(low) > 0 && low > -ratio * 1e12 {
         low *= 4.0;
     }
-    let mut found: Vec<Mode> = Vec::with_capacity(number);
+    let mut found: Vec<PlaneMode> = Vec::with_capacity(number);
     for index in 0..number {
         let shift = search.enclose(index, low, high, ratio * f64::EPSILON);
         found.push(search.shape(shift, &found)?);
@@ -123,16 +123,16 @@ pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<Mode>, ClassError> {
 }
 
 /// The modes of both planes together, lowest eigenvalue first and those in z before their like in y, scaled for the listing.
-pub fn together(y: &[Mode], z: &[Mode], number: usize) -> Vec<NaturalMode> {
+pub fn together(y: &[PlaneMode], z: &[PlaneMode], number: usize) -> Vec<NaturalMode> {
     let mut all: Vec<NaturalMode> =
-        z.iter().map(|m| scale_mode(Plane::Z, m)).chain(y.iter().map(|m| scale_mode(Plane::Y, m))).collect();
+        z.iter().map(|m| scale_mode(ModePlane::Z, m)).chain(y.iter().map(|m| scale_mode(ModePlane::Y, m))).collect();
     all.sort_by(|a, b| a.eigenvalue.total_cmp(&b.eigenvalue));
     all.truncate(number);
     all
 }
 
 /// A mode scaled for the listing.
-fn scale_mode(plane: Plane, mode: &Mode) -> NaturalMode {
+fn scale_mode(plane: ModePlane, mode: &PlaneMode) -> NaturalMode {
     let deflections: Vec<f64> = mode.shape.iter().step_by(2).copied().collect();
     let slopes: Vec<f64> = mode.shape.iter().skip(1).step_by(2).copied().collect();
     let largest = |list: &[f64]| list.iter().fold(0.0, |most: f64, v| if v.abs() > most.abs() { *v } else { most });
@@ -144,13 +144,13 @@ fn scale_mode(plane: Plane, mode: &Mode) -> NaturalMode {
 }
 
 /// A search with its work space.
-struct Search<'a> {
+struct ModeSearch<'a> {
     pencil: &'a Pencil<'a>,
-    factors: Factors,
+    factors: BandedFactors,
     shifted: Banded,
 }
 
-impl Search<'_> {
+impl ModeSearch<'_> {
     /// How many eigenvalues are below a value; leaves the factors of `K - s M`.
     fn count_eigenvalues_below(&mut self, value: f64) -> usize {
         self.shifted.clone_from(self.pencil.stiffness);
@@ -175,7 +175,7 @@ impl Search<'_> {
     }
 
     /// The mode next to a value, across all that are found.
-    fn shape(&mut self, shift: f64, found: &[Mode]) -> Result<Mode, ClassError> {
+    fn shape(&mut self, shift: f64, found: &[PlaneMode]) -> Result<PlaneMode, ClassError> {
         let order = self.pencil.mass.order();
         self.count_eigenvalues_below(shift);
         // no symmetry that a mode could lack, and the same every time
@@ -201,11 +201,11 @@ impl Search<'_> {
             let message = "the natural mode of the tether near a squared frequency of {} cannot be found";
             return Err(ClassError::with_values(message, &[(shift, Dim::None)]));
         }
-        Ok(Mode { eigenvalue, shape })
+        Ok(PlaneMode { eigenvalue, shape })
     }
 
     /// Takes the found modes out of a shape (twice: once leaves the rounding of what was taken out) and gives it unit mass.
-    fn normalise(&self, shape: &mut [f64], momentum: &mut [f64], found: &[Mode]) {
+    fn normalise(&self, shape: &mut [f64], momentum: &mut [f64], found: &[PlaneMode]) {
         for _ in 0..2 {
             self.pencil.mass.times(shape, momentum);
             for mode in found {
@@ -231,7 +231,7 @@ mod tests {
     use super::*;
 
     /// A uniform beam of unit length, EI and mass, under a tension, its ends on springs; `held` unknowns do not move.
-    fn uniform(elements: usize, tension: f64, springs: f64, held: &[usize], number: usize) -> Vec<Mode> {
+    fn uniform(elements: usize, tension: f64, springs: f64, held: &[usize], number: usize) -> Vec<PlaneMode> {
         let length = 1.0 / elements as f64;
         let order = 2 * (elements + 1);
         let (mut k, mut m) = (Banded::zeros(order), Banded::zeros(order));
@@ -314,9 +314,9 @@ mod tests {
 
     #[test]
     fn a_shape_is_scaled_to_unit_deflection_or_ten_degrees() {
-        let mode = |shape: Vec<f64>| Mode { eigenvalue: 1.0, shape };
+        let mode = |shape: Vec<f64>| PlaneMode { eigenvalue: 1.0, shape };
         let found = together(&[mode(vec![2.0, 0.1, -4.0, 0.2])], &[mode(vec![0.1, 0.5, 0.0, -1.0])], 9);
-        assert_eq!((found[0].plane, found[1].plane), (Plane::Z, Plane::Y));
+        assert_eq!((found[0].plane, found[1].plane), (ModePlane::Z, ModePlane::Y));
         assert_eq!(found[1].deflections, [-0.5, 1.0]);
         assert!((found[0].slopes[1] - TEN_DEGREES).abs() < 1e-15);
         assert_eq!(found[0].node(1), [0.0, found[0].deflections[1], -found[0].slopes[1], 0.0]);

@@ -4,14 +4,14 @@ use std::f64::consts::{FRAC_PI_4, PI};
 
 /// A round tube.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tube {
+pub struct TetherTube {
     /// Outer diameter (m).
     pub outer_diameter: f64,
     /// Wall thickness (m), at most the radius (a solid bar).
     pub wall_thickness: f64,
 }
 
-impl Tube {
+impl TetherTube {
     /// Inner diameter (m).
     pub fn inner_diameter(&self) -> f64 {
         (self.outer_diameter - 2.0 * self.wall_thickness).max(0.0)
@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn a_solid_bar_has_the_moments_of_a_circle() {
-        let bar = Tube { outer_diameter: 2.0, wall_thickness: 1.0 };
+        let bar = TetherTube { outer_diameter: 2.0, wall_thickness: 1.0 };
         assert!((bar.area() - PI).abs() < 1e-15 && (bar.second_moment() - PI / 4.0).abs() < 1e-15);
         assert_eq!((bar.area(), bar.internal_area()), (bar.external_area(), 0.0));
     }
@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn the_main_body_of_the_manual_has_its_printed_section() {
         // [AQWA-TETHER 8.2 listing]: area 0.1289, I 0.018801, external area 0.981
-        let tube = Tube { outer_diameter: 1.1176, wall_thickness: 0.038 };
+        let tube = TetherTube { outer_diameter: 1.1176, wall_thickness: 0.038 };
         assert!((tube.area() - 0.1289).abs() < 5e-5);
         assert!((tube.second_moment() - 0.018_801).abs() < 5e-7);
         assert!((tube.external_area() - 0.981).abs() < 5e-4);

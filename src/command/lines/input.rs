@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use windlass_base::diagnostic::nearest;
-use windlass_catenary::{Bottom, Segment};
+use windlass_catenary::{FlatBottom, Segment};
 use windlass_language::source::LARGEST_FILE;
 use windlass_language::spec::Range;
 
@@ -52,7 +52,7 @@ pub struct Case {
     /// Elevation of the fairlead above the anchor (m).
     pub z: f64,
     /// The bottom; none for a suspended line.
-    pub bottom: Option<Bottom>,
+    pub bottom: Option<FlatBottom>,
 }
 
 /// Where the data of a case stand in a row.
@@ -197,7 +197,7 @@ impl Row<'_> {
         let friction = optional(c.friction, FRICTION, Range::NotNegative)?;
         let suspended = optional(c.suspended, SUSPENDED, Range::Any)?;
         let bottom = match suspended {
-            0.0 => Some(Bottom { friction }),
+            0.0 => Some(FlatBottom { friction }),
             1.0 => None,
             other => return Err(format!("{SUSPENDED} must be 0 or 1, this is {other}")),
         };
@@ -330,7 +330,7 @@ mod tests {
             segment: Segment { length: 7.0, weight: 5.0, ea: 1e6 },
             x: 4.0,
             z: 3.0,
-            bottom: Some(Bottom { friction: 0.0 }),
+            bottom: Some(FlatBottom { friction: 0.0 }),
         };
         assert_eq!(case(text), Ok(want));
     }
@@ -340,8 +340,8 @@ mod tests {
         let with = |friction: &str, suspended: &str| {
             case(&format!("{HEAD},friction,suspended\n1,4,3,7,1e6,5,{friction},{suspended}\n")).map(|c| c.bottom)
         };
-        assert_eq!(with("", " "), Ok(Some(Bottom { friction: 0.0 })));
-        assert_eq!(with("0.5", "0"), Ok(Some(Bottom { friction: 0.5 })));
+        assert_eq!(with("", " "), Ok(Some(FlatBottom { friction: 0.0 })));
+        assert_eq!(with("0.5", "0"), Ok(Some(FlatBottom { friction: 0.5 })));
         assert_eq!(with("0.5", "1.0"), Ok(None));
         assert_eq!(with("0.5", "2"), Err("suspended must be 0 or 1, this is 2".into()));
         assert_eq!(with("-1", "0"), Err("friction must be zero or more, this is -1".into()));

@@ -4,4 +4,4 @@ mod page;
 mod vtk;
 
 pub use page::page;
-pub use vtk::{Step, series, steps};
+pub use vtk::{VtkStep, series, steps};

@@ -3,7 +3,7 @@
 use crate::report::embedded::{self, doubles, list, number, object, quoted, shorts, singles, string, wholes};
 use nalgebra::{Rotation3, UnitQuaternion};
 use windlass_base::units::{Dim, UnitSystem};
-use windlass_solve::film::{Actor, Film, State, Strand, Waves};
+use windlass_solve::film::{Actor, ConnectorState, Film, FilmWaves, Strand};
 
 /// The page without its data, and what is put into it.
 const PAGE_PARTS: [(&str, &str); 5] = [
@@ -76,10 +76,10 @@ fn actor(actor: &Actor) -> String {
 
 fn strand(strand: &Strand, [low, high]: [[f64; 3]; 2], (tension, share): (f64, f64)) -> String {
     let place = |at: &[f64; 3]| -> [u16; 3] { std::array::from_fn(|i| step(at[i], low[i], high[i])) };
-    let state = |s: &State| match s {
-        State::Inactive => 0u8,
-        State::Acting => 1,
-        State::Unsolved => 2,
+    let state = |s: &ConnectorState| match s {
+        ConnectorState::Inactive => 0u8,
+        ConnectorState::Acting => 1,
+        ConnectorState::Unsolved => 2,
     };
     object([
         ("name", string(&strand.name)),
@@ -92,7 +92,7 @@ fn strand(strand: &Strand, [low, high]: [[f64; 3]; 2], (tension, share): (f64, f
     ])
 }
 
-fn sea(waves: &Waves) -> String {
+fn sea(waves: &FilmWaves) -> String {
     let numbers = waves.waves.iter().flat_map(|w| {
         let [tx, ty] = w.toward;
         [w.frequency, w.number * tx, w.number * ty, w.amplitude, w.phase]

@@ -4,10 +4,10 @@
 
 use crate::report::embedded::string;
 use std::fmt::Write;
-use windlass_solve::film::{Film, State};
+use windlass_solve::film::{ConnectorState, Film};
 
 /// One file of the series.
-pub struct Step {
+pub struct VtkStep {
     /// Its name.
     pub name: String,
     /// Its text.
@@ -20,19 +20,19 @@ fn name(file: &str, frame: usize) -> String {
 }
 
 /// The files of a film, made one by one. `file` is the name that ends in `.vtk`.
-pub fn steps<'a>(film: &'a Film, title: &'a str, file: &'a str) -> impl Iterator<Item = Step> + 'a {
-    (0..film.times.len()).map(move |frame| Step { name: name(file, frame), text: text(film, title, frame) })
+pub fn steps<'a>(film: &'a Film, title: &'a str, file: &'a str) -> impl Iterator<Item = VtkStep> + 'a {
+    (0..film.times.len()).map(move |frame| VtkStep { name: name(file, frame), text: text(film, title, frame) })
 }
 
 /// The list of a series with the time of each file: the name and the text.
-pub fn series(film: &Film, file: &str) -> Step {
+pub fn series(film: &Film, file: &str) -> VtkStep {
     let folder = |path: &str| path.rsplit(['/', '\\']).next().unwrap_or_default().to_string();
     let row = |(frame, time): (usize, &f64)| {
         format!("    {{ \"name\": {}, \"time\": {time:?} }}", string(&folder(&name(file, frame))))
     };
     let rows: Vec<String> = film.times.iter().enumerate().map(row).collect();
     let text = format!("{{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n{}\n  ]\n}}\n", rows.join(",\n"));
-    Step { name: format!("{file}.series"), text }
+    VtkStep { name: format!("{file}.series"), text }
 }
 
 /// One instant: lines as polylines, bodies as triangles; tension (N) and share of the break at points, what a cell
@@ -45,7 +45,7 @@ fn text(film: &Film, title: &str, frame: usize) -> String {
         .collect();
     let (mut points, mut lines, mut polygons) = (Vec::new(), Vec::new(), Vec::new());
     let (mut tensions, mut shares, mut owners) = (Vec::new(), Vec::new(), Vec::new());
-    let strands = film.strands.iter().filter(|s| s.states.get(frame).is_some_and(|s| *s != State::Inactive));
+    let strands = film.strands.iter().filter(|s| s.states.get(frame).is_some_and(|s| *s != ConnectorState::Inactive));
     for strand in strands {
         let first = points.len();
         points.extend_from_slice(strand.points_at(frame));

@@ -1,7 +1,7 @@
 //! Drawing a scene in one view on any surface of plotters.
 
 use super::labels::{Label, Sheet};
-use super::view::{Frame, Seen, View, hull};
+use super::view::{View, ViewFrame, ViewKind, hull};
 use crate::report::plot::draw::refused;
 use crate::report::plot::{PlotError, terminal};
 use plotters::coord::Shift;
@@ -42,47 +42,47 @@ pub const SIGNS: [(Sign, &str); 5] = [
 ];
 
 /// A surface: a page, or the characters of a terminal.
-pub struct Look {
+pub struct PictureStyle {
     /// Whether it is made of characters.
     pub terminal: bool,
     /// Width and height of a letter (pixels).
     pub letter: (i32, i32),
 }
 
-type Outcome<T> = Result<T, PlotError>;
+type DrawOutcome<T> = Result<T, PlotError>;
 
 /// A surface with its look: every element goes through it.
 pub struct Pen<'a, B: DrawingBackend> {
     area: &'a DrawingArea<B, Shift>,
-    look: &'a Look,
+    look: &'a PictureStyle,
 }
 
 impl<'a, B: DrawingBackend> Pen<'a, B> {
     /// On a surface.
-    pub fn new(area: &'a DrawingArea<B, Shift>, look: &'a Look) -> Self {
+    pub fn new(area: &'a DrawingArea<B, Shift>, look: &'a PictureStyle) -> Self {
         Pen { area, look }
     }
 
     /// Writes text, its upper left corner at a pixel.
-    pub fn text(&self, text: &str, at: (i32, i32), size: i32, colour: RGBColor) -> Outcome<()> {
+    pub fn text(&self, text: &str, at: (i32, i32), size: i32, colour: RGBColor) -> DrawOutcome<()> {
         let style: TextStyle = ("sans-serif", size).into_text_style(self.area).color(&colour);
         self.area.draw(&Text::new(text.to_string(), at, style)).map_err(refused)
     }
 
-    fn path(&self, points: Vec<(i32, i32)>, colour: RGBColor, width: u32) -> Outcome<()> {
+    fn path(&self, points: Vec<(i32, i32)>, colour: RGBColor, width: u32) -> DrawOutcome<()> {
         let width = if self.look.terminal { 1 } else { width };
         self.area.draw(&PathElement::new(points, colour.stroke_width(width))).map_err(refused)
     }
 
     /// A path of dashes and gaps of so many pixels.
-    fn dashed(&self, points: &[(i32, i32)], (colour, width): (RGBColor, u32), dash: [f64; 2]) -> Outcome<()> {
+    fn dashed(&self, points: &[(i32, i32)], (colour, width): (RGBColor, u32), dash: [f64; 2]) -> DrawOutcome<()> {
         for piece in dashes(points, dash) {
             self.path(piece.to_vec(), colour, width)?;
         }
         Ok(())
     }
 
-    fn fill(&self, corners: [(i32, i32); 2], colour: RGBColor) -> Outcome<()> {
+    fn fill(&self, corners: [(i32, i32); 2], colour: RGBColor) -> DrawOutcome<()> {
         if self.look.terminal {
             return Ok(());
         }
@@ -90,7 +90,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// A sample of a stroke, from left to right.
-    pub fn stroke(&self, stroke: Stroke, points: Vec<(i32, i32)>) -> Outcome<()> {
+    pub fn stroke(&self, stroke: Stroke, points: Vec<(i32, i32)>) -> DrawOutcome<()> {
         let (short, long) = if self.look.terminal { (2.0, 4.0) } else { (4.0, 8.0) };
         match stroke {
             Stroke::Bottom => self.path(points, GROUND.1, 2),
@@ -102,7 +102,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// A sign at a pixel.
-    pub fn sign(&self, sign: Sign, at: (i32, i32)) -> Outcome<()> {
+    pub fn sign(&self, sign: Sign, at: (i32, i32)) -> DrawOutcome<()> {
         if self.look.terminal {
             let colour = terminal::colour(mark_index(sign), true);
             return self.area.draw_pixel(at, &colour).map_err(refused);
@@ -126,7 +126,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// The axes of a view, about a pixel.
-    pub fn axes(&self, view: &View, at: (i32, i32)) -> Outcome<()> {
+    pub fn axes(&self, view: &View, at: (i32, i32)) -> DrawOutcome<()> {
         for (name, [h, v]) in view.axes() {
             let off = |length: f64| (at.0 + (length * h).round() as i32, at.1 - (length * v).round() as i32);
             let tip = off(ARROW);
@@ -145,7 +145,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// A scale bar that ends at a pixel, of a length in pixels, with its words.
-    pub fn scale(&self, (right, y): (i32, i32), length: i32, words: &str) -> Outcome<()> {
+    pub fn scale(&self, (right, y): (i32, i32), length: i32, words: &str) -> DrawOutcome<()> {
         let left = right - length;
         self.path(vec![(left, y), (right, y)], BLACK, 2)?;
         for x in [left, right] {
@@ -156,21 +156,21 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// The edge of a view.
-    pub fn frame(&self, frame: &Frame) -> Outcome<()> {
+    pub fn frame(&self, frame: &ViewFrame) -> DrawOutcome<()> {
         let [left, top, width, height] = frame.at;
         let corners = [(left, top), (left + width, top + height)];
         self.area.draw(&Rectangle::new(corners, FAINT.stroke_width(1))).map_err(refused)
     }
 
     /// One view of a scene within its frame; the number of names that found no place.
-    pub fn view(&self, scene: &Scene, view: &View, frame: &Frame, names: bool) -> Outcome<usize> {
+    pub fn view(&self, scene: &Scene, view: &View, frame: &ViewFrame, names: bool) -> DrawOutcome<usize> {
         let mut sheet = Sheet::new(frame.at, self.look.letter);
         let mut labels = Vec::new();
         let pixel = |at: [f64; 3]| frame.pixel(view.project(at));
         match view.kind {
-            Seen::Plan => {}
-            Seen::Elevation => self.levels(scene, view, frame, (&mut sheet, &mut labels))?,
-            Seen::Axonometric => self.planes(scene, view, frame)?,
+            ViewKind::Plan => {}
+            ViewKind::Elevation => self.levels(scene, view, frame, (&mut sheet, &mut labels))?,
+            ViewKind::Axonometric => self.planes(scene, view, frame)?,
         }
         for body in &scene.bodies {
             self.body(body, &pixel, &mut sheet)?;
@@ -198,7 +198,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// A body: each shape filled within its convex hull, then its edges, thin; edges that fall together are drawn once.
-    fn body(&self, body: &Outline, pixel: &dyn Fn([f64; 3]) -> (i32, i32), sheet: &mut Sheet) -> Outcome<()> {
+    fn body(&self, body: &Outline, pixel: &dyn Fn([f64; 3]) -> (i32, i32), sheet: &mut Sheet) -> DrawOutcome<()> {
         let rings: Vec<_> = body.shapes.iter().map(|s| hull(s.iter().map(|at| pixel(*at)).collect())).collect();
         for ring in rings.iter().filter(|ring| ring.len() > 2 && !self.look.terminal) {
             self.area.draw(&Polygon::new(ring.clone(), BODY.filled())).map_err(refused)?;
@@ -218,7 +218,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// Writes the names; those of water and ground whether names are wanted or not.
-    fn names(&self, sheet: &Sheet, mut labels: Vec<Label>, names: bool) -> Outcome<usize> {
+    fn names(&self, sheet: &Sheet, mut labels: Vec<Label>, names: bool) -> DrawOutcome<usize> {
         labels.retain(|l| names || l.tone >= 3);
         // what is largest is named first
         labels.sort_by_key(|l| if l.tone >= 3 { 0 } else { l.tone + 1 });
@@ -241,7 +241,13 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// Water surface and level bottom, seen from the side.
-    fn levels(&self, scene: &Scene, view: &View, frame: &Frame, on: (&mut Sheet, &mut Vec<Label>)) -> Outcome<()> {
+    fn levels(
+        &self,
+        scene: &Scene,
+        view: &View,
+        frame: &ViewFrame,
+        on: (&mut Sheet, &mut Vec<Label>),
+    ) -> DrawOutcome<()> {
         let [left, top, width, height] = frame.at;
         let (right, low) = (left + width, top + height);
         let level = |z: f64| frame.pixel(view.project([0.0, 0.0, z])).1.clamp(top, low);
@@ -263,7 +269,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     }
 
     /// Water surface and level bottom, seen slantwise: rectangles about all that is drawn.
-    fn planes(&self, scene: &Scene, view: &View, frame: &Frame) -> Outcome<()> {
+    fn planes(&self, scene: &Scene, view: &View, frame: &ViewFrame) -> DrawOutcome<()> {
         let levels = [(scene.bottom, GROUND), (Some(scene.surface), WATER)];
         for (z, (inside, edge)) in levels {
             let Some(z) = z else { continue };

@@ -20,7 +20,7 @@ pub struct Label {
 
 /// A name that found its place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Placed {
+pub struct PlacedLabel {
     /// The name.
     pub label: Label,
     /// Left, top, width, height (pixels).
@@ -81,8 +81,8 @@ impl Sheet {
 
     /// Places names in the order given: each where it covers the least ink near its place, inside of the sheet and over
     /// no other name. Those that find no place are left out; their number is the second value.
-    pub fn place(&self, labels: Vec<Label>) -> (Vec<Placed>, usize) {
-        let mut placed: Vec<Placed> = Vec::new();
+    pub fn place(&self, labels: Vec<Label>) -> (Vec<PlacedLabel>, usize) {
+        let mut placed: Vec<PlacedLabel> = Vec::new();
         let count = labels.len();
         for label in labels.into_iter().take(MAX_LABELS) {
             let free = |at: &[i32; 4]| self.holds(at) && !placed.iter().any(|p| overlap(&p.at, at));
@@ -95,7 +95,7 @@ impl Sheet {
                 Some(old) if old.0 <= new.0 => Some(old),
                 _ => Some(new),
             });
-            placed.extend(best.map(|(_, at)| Placed { label, at }));
+            placed.extend(best.map(|(_, at)| PlacedLabel { label, at }));
         }
         let left_out = count - placed.len();
         (placed, left_out)

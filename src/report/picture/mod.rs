@@ -10,13 +10,13 @@ use crate::report::format;
 use crate::report::page;
 use crate::report::plot::draw::refused;
 use crate::report::plot::{PlotError, raster, terminal};
-use draw::{Look, Pen, SIGNS, STROKES, mark_index};
+use draw::{Pen, PictureStyle, SIGNS, STROKES, mark_index};
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::prelude::{BLACK, DrawingBackend, RGBColor, SVGBackend, WHITE};
 use std::cell::RefCell;
 use std::rc::Rc;
-use view::{Extent, Frame, Seen, round_length};
+use view::{Extent, ViewFrame, ViewKind, round_length};
 use windlass_base::geometry::Position;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_solve::scene::{Scene, Sign, Stroke};
@@ -68,9 +68,9 @@ impl Picture {
         let first = *places.first().ok_or(PlotError::Empty)?;
         let levels = [Some(self.scene.surface), self.scene.bottom].into_iter().flatten();
         match view.kind {
-            Seen::Plan => {}
-            Seen::Elevation => places.extend(levels.map(|z| [first[0], first[1], z])),
-            Seen::Axonometric => places.extend(levels.flat_map(|z| around(&self.scene, z))),
+            ViewKind::Plan => {}
+            ViewKind::Elevation => places.extend(levels.map(|z| [first[0], first[1], z])),
+            ViewKind::Axonometric => places.extend(levels.flat_map(|z| around(&self.scene, z))),
         }
         Extent::of(places.into_iter().map(|at| view.project(at))).ok_or(PlotError::Empty)
     }
@@ -103,14 +103,14 @@ impl Picture {
     fn png(&self) -> Result<(Vec<u8>, usize), PlotError> {
         let panels = self.panels()?;
         let size = (PAGE.0.unsigned_abs(), self.height(&panels).unsigned_abs());
-        let canvas = Rc::new(RefCell::new(raster::Canvas::new(size.0, size.1)));
+        let canvas = Rc::new(RefCell::new(raster::RasterCanvas::new(size.0, size.1)));
         let left_out = self.page(&DrawingArea::from(&canvas), &panels)?;
         let bytes = canvas.borrow().encode().map_err(|e| PlotError::Backend(e.to_string()))?;
         Ok((bytes, left_out))
     }
 
     /// The frames of the views on a page, one below the other, each as high as it needs.
-    fn panels(&self) -> Result<Vec<(View, Frame)>, PlotError> {
+    fn panels(&self) -> Result<Vec<(View, ViewFrame)>, PlotError> {
         let [title, head, foot, _] = ROW_HEIGHTS;
         let width = PAGE.0 - 2 * PAGE.1;
         let mut top = title;
@@ -119,16 +119,16 @@ impl Picture {
             let extent = self.extent(view)?;
             let [w, h] = extent.size();
             let [plan, side] = HEIGHTS;
-            let (least, most) = if view.kind == Seen::Elevation { side } else { plan };
+            let (least, most) = if view.kind == ViewKind::Elevation { side } else { plan };
             let natural = f64::from(width - 2 * FRAME_MARGINS.0) * h / w + f64::from(2 * FRAME_MARGINS.1);
             let height = (natural.round() as i32).clamp(least, most);
-            panels.push((*view, Frame::fit(&extent, [PAGE.1, top + head, width, height], FRAME_MARGINS)));
+            panels.push((*view, ViewFrame::fit(&extent, [PAGE.1, top + head, width, height], FRAME_MARGINS)));
             top += head + height + foot;
         }
         Ok(panels)
     }
 
-    fn height(&self, panels: &[(View, Frame)]) -> i32 {
+    fn height(&self, panels: &[(View, ViewFrame)]) -> i32 {
         let [title, _, foot, legend] = ROW_HEIGHTS;
         panels.last().map_or(title, |(_, frame)| frame.at[1] + frame.at[3] + foot) + legend + PAGE.1 / 2
     }
@@ -136,9 +136,9 @@ impl Picture {
     fn page<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
-        panels: &[(View, Frame)],
+        panels: &[(View, ViewFrame)],
     ) -> Result<usize, PlotError> {
-        let look = Look { terminal: false, letter: (8, 16) };
+        let look = PictureStyle { terminal: false, letter: (8, 16) };
         let pen = Pen::new(area, &look);
         area.fill(&WHITE).map_err(refused)?;
         pen.text(&self.title, (PAGE.1, 12), 22, BLACK)?;
@@ -171,7 +171,7 @@ impl Picture {
     }
 
     /// A round length in user units that takes at most so many pixels: its pixels, and its words.
-    fn scale(&self, frame: &Frame, most: f64) -> (i32, String) {
+    fn scale(&self, frame: &ViewFrame, most: f64) -> (i32, String) {
         let unit = Dim::Length.from_si(1.0, self.units);
         let round = round_length(most / frame.scale * unit);
         let pixels = (round / unit * frame.scale).round() as i32;
@@ -199,7 +199,7 @@ impl Picture {
     /// [`PlotError`].
     pub fn terminal(&self, columns: usize, lines: usize) -> Result<String, PlotError> {
         let (columns, lines) = (columns.clamp(20, 200), lines.clamp(10, 100));
-        let look = Look { terminal: true, letter: (2, 4) };
+        let look = PictureStyle { terminal: true, letter: (2, 4) };
         let mut text = String::new();
         for view in &self.views {
             // three lines are for the title, the view and the scale
@@ -211,8 +211,8 @@ impl Picture {
             let needed = f64::from(width - 2 * free.0) * h / w + f64::from(2 * free.1);
             let height = ((needed / 4.0).ceil() as usize + 2).min(lines - 3);
             let at = [0, 0, width, size(height, 4)];
-            let frame = Frame::fit(&extent, at, free);
-            let canvas = Rc::new(RefCell::new(terminal::Canvas::new(columns, height)));
+            let frame = ViewFrame::fit(&extent, at, free);
+            let canvas = Rc::new(RefCell::new(terminal::TextCanvas::new(columns, height)));
             Pen::new(&DrawingArea::from(&canvas), &look).view(&self.scene, view, &frame, self.names)?;
             for line in [page::centre(&self.title, columns), page::centre(&view.title(), columns)] {
                 text.push_str(line.trim_end());

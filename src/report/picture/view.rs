@@ -17,14 +17,14 @@ pub struct View {
     /// Horizontal direction to the viewer, from +X toward +Y (rad).
     from: f64,
     /// Which of the three it is.
-    pub kind: Seen,
+    pub kind: ViewKind,
     /// Factor on heights.
     pub stretch: f64,
 }
 
 /// The kinds of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Seen {
+pub enum ViewKind {
     /// From above, X to the right and Y up.
     Plan,
     /// From the side, Z up.
@@ -36,22 +36,22 @@ pub enum Seen {
 impl View {
     /// From above, X to the right and Y up.
     pub fn plan() -> View {
-        View { right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], from: -FRAC_PI_2, kind: Seen::Plan, stretch: 1.0 }
+        View { right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], from: -FRAC_PI_2, kind: ViewKind::Plan, stretch: 1.0 }
     }
 
     /// Horizontally, by a viewer who stands in the direction `from`, counted from +X toward +Y (rad); heights are drawn
     /// `stretch` times as large as they are.
     pub fn elevation(from: f64, stretch: f64) -> View {
-        View::toward(from, 0.0, Seen::Elevation, stretch)
+        View::toward(from, 0.0, ViewKind::Elevation, stretch)
     }
 
     /// Slantwise from above, by a viewer who stands in the direction `from` (rad): isometric.
     pub fn isometric(from: f64, stretch: f64) -> View {
-        View::toward(from, ISOMETRIC, Seen::Axonometric, stretch)
+        View::toward(from, ISOMETRIC, ViewKind::Axonometric, stretch)
     }
 
     /// The viewer looks along -w, w = (cos a cos b, sin a cos b, sin b); right is z x w, up is w x right.
-    fn toward(from: f64, above: f64, kind: Seen, stretch: f64) -> View {
+    fn toward(from: f64, above: f64, kind: ViewKind, stretch: f64) -> View {
         let ((c, s), (ca, sa)) = (unit_vector(from), unit_vector(above));
         // no component is zero without a sign
         let right = [0.0 - s, c, 0.0];
@@ -77,9 +77,9 @@ impl View {
         };
         let stretch = if self.stretch == 1.0 { String::new() } else { format!(", heights {} times", self.stretch) };
         match self.kind {
-            Seen::Plan => "Plan".into(),
-            Seen::Elevation => format!("Elevation, seen from {side}{stretch}"),
-            Seen::Axonometric => format!("Isometric view, from {side}{stretch}"),
+            ViewKind::Plan => "Plan".into(),
+            ViewKind::Elevation => format!("Elevation, seen from {side}{stretch}"),
+            ViewKind::Axonometric => format!("Isometric view, from {side}{stretch}"),
         }
     }
 
@@ -92,12 +92,12 @@ impl View {
             let [h, v] = self.project(unit);
             let v = if name == "Z" { v / self.stretch } else { v };
             // two axes that point along the same line are reported as one across the view
-            let crowded = self.kind == Seen::Elevation && aside && name != "Z";
+            let crowded = self.kind == ViewKind::Elevation && aside && name != "Z";
             if h.hypot(v) > ZERO_COMPONENT && !crowded {
                 axes.push((name, [h, v]));
             }
         }
-        if self.kind == Seen::Elevation && aside {
+        if self.kind == ViewKind::Elevation && aside {
             axes.insert(0, ("X'", [1.0, 0.0]));
         }
         axes
@@ -157,7 +157,7 @@ impl Extent {
 
 /// A rectangle of pixels with one scale for both directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct ViewFrame {
     /// Left, top, width, height (pixels).
     pub at: [i32; 4],
     /// Pixels a metre.
@@ -165,9 +165,9 @@ pub struct Frame {
     centre: [f64; 2],
 }
 
-impl Frame {
+impl ViewFrame {
     /// Fits an extent into a rectangle, leaving so many pixels free at each side and above and below.
-    pub fn fit(extent: &Extent, at: [i32; 4], free: (i32, i32)) -> Frame {
+    pub fn fit(extent: &Extent, at: [i32; 4], free: (i32, i32)) -> ViewFrame {
         let [_, _, width, height] = at;
         let [w, h] = extent.size();
         let room = |whole: i32, free: i32| f64::from((whole - 2 * free).max(2));
@@ -176,7 +176,7 @@ impl Frame {
             let (low, high) = (extent.low.get(i), extent.high.get(i));
             low.zip(high).map_or(0.0, |(l, h)| 0.5 * (l + h))
         };
-        Frame { at, scale, centre: [middle(0), middle(1)] }
+        ViewFrame { at, scale, centre: [middle(0), middle(1)] }
     }
 
     /// The pixel of a place in the picture.
@@ -272,12 +272,12 @@ mod tests {
     #[test]
     fn a_frame_keeps_one_scale_and_holds_the_extent() {
         let extent = Extent::of([[0.0, 0.0], [100.0, 10.0]].into_iter()).unwrap();
-        let frame = Frame::fit(&extent, [10, 20, 240, 140], (20, 20));
+        let frame = ViewFrame::fit(&extent, [10, 20, 240, 140], (20, 20));
         assert_eq!(frame.scale, 2.0);
         assert_eq!((frame.pixel([0.0, 5.0]), frame.pixel([100.0, 5.0])), ((30, 90), (230, 90)));
         assert_eq!(frame.pixel([0.0, 10.0]), (30, 80));
         let single = Extent::of(std::iter::once([5e6, 5e6])).unwrap();
-        assert_eq!(Frame::fit(&single, [0, 0, 100, 100], (0, 0)).pixel([5e6, 5e6]), (50, 50));
+        assert_eq!(ViewFrame::fit(&single, [0, 0, 100, 100], (0, 0)).pixel([5e6, 5e6]), (50, 50));
         assert_eq!(Extent::of(std::iter::empty()), None);
     }
 

@@ -9,16 +9,16 @@ pub const MAX_PLOTTED_VALUE: f64 = 1e100;
 
 /// The range of an axis, and about how many ticks it bears.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct PlotAxis {
     low: f64,
     high: f64,
     most: usize,
 }
 
-impl Axis {
+impl PlotAxis {
     /// An axis with at most `most` ticks that shows all `values` (finite, not beyond [`MAX_PLOTTED_VALUE`]) with a little room.
     /// `None` without a value.
-    pub fn of(values: impl Iterator<Item = f64>, most: usize) -> Option<Axis> {
+    pub fn of(values: impl Iterator<Item = f64>, most: usize) -> Option<PlotAxis> {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low > high {
             return None;
@@ -32,12 +32,12 @@ impl Axis {
         } else {
             1.0
         };
-        Some(Axis { low: low - room, high: high + room, most: most.max(2) })
+        Some(PlotAxis { low: low - room, high: high + room, most: most.max(2) })
     }
 
     /// An axis from one value to a larger one.
-    pub fn spanning(low: f64, high: f64, most: usize) -> Axis {
-        Axis { low, high, most }
+    pub fn spanning(low: f64, high: f64, most: usize) -> PlotAxis {
+        PlotAxis { low, high, most }
     }
 
     /// Where a value stands: 0 at the low end, 1 at the high one.
@@ -71,7 +71,7 @@ impl Axis {
     }
 }
 
-impl Ranged for Axis {
+impl Ranged for PlotAxis {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
 
@@ -91,7 +91,7 @@ impl Ranged for Axis {
     }
 }
 
-impl ValueFormatter<f64> for Axis {
+impl ValueFormatter<f64> for PlotAxis {
     fn format_ext(&self, value: &f64) -> String {
         self.label(*value)
     }
@@ -104,10 +104,10 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_few() {
-        let axis = Axis::of([5449.0, 8021.0].into_iter(), 8).unwrap();
+        let axis = PlotAxis::of([5449.0, 8021.0].into_iter(), 8).unwrap();
         let labels: Vec<String> = axis.ticks(8).into_iter().map(|t| axis.label(t)).collect();
         assert_eq!(labels, ["5500", "6000", "6500", "7000", "7500", "8000"]);
-        let axis = Axis::of([0.0, 2.5e-4].into_iter(), 6).unwrap();
+        let axis = PlotAxis::of([0.0, 2.5e-4].into_iter(), 6).unwrap();
         let labels: Vec<String> = axis.ticks(6).into_iter().map(|t| axis.label(t)).collect();
         assert_eq!(labels, ["0", "0.00005", "0.00010", "0.00015", "0.00020", "0.00025"]);
     }
@@ -118,7 +118,7 @@ mod tests {
             values in prop::collection::vec(any::<f64>().prop_filter("drawable", |v| v.abs() <= MAX_PLOTTED_VALUE), 1..5),
             most in 2usize..12,
         ) {
-            let axis = Axis::of(values.iter().copied(), most).unwrap();
+            let axis = PlotAxis::of(values.iter().copied(), most).unwrap();
             prop_assert!(values.iter().all(|v| (0.0..=1.0).contains(&axis.share(*v))));
             let ticks = axis.ticks(most);
             prop_assert!(ticks.len() <= most + 1);

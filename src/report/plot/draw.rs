@@ -1,7 +1,7 @@
 //! Drawing a chart on any surface of plotters: axes, mesh, curves, legend.
 
-use super::axis::Axis;
-use super::{Chart, PlotError, Series, terminal};
+use super::axis::PlotAxis;
+use super::{Chart, PlotError, PlotSeries, terminal};
 use plotters::chart::{ChartBuilder, DualCoordChartContext};
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
@@ -28,7 +28,7 @@ const MARK_RADII: (i32, i32) = (3, 6);
 const LEGEND: (i32, i32) = (20, 26);
 
 /// What differs between a page and a terminal: sizes in pixels of the surface, numbers of ticks.
-pub struct Look {
+pub struct PlotStyle {
     pub terminal: bool,
     pub text: i32,
     margin: i32,
@@ -37,26 +37,27 @@ pub struct Look {
     mark: i32,
 }
 
-impl Look {
+impl PlotStyle {
     /// A page of 900 by 600 pixels.
-    pub const PAGE: Look = Look { terminal: false, text: 15, margin: 16, areas: (54, 92), ticks: (10, 10), mark: 5 };
+    pub const PAGE: PlotStyle =
+        PlotStyle { terminal: false, text: 15, margin: 16, areas: (54, 92), ticks: (10, 10), mark: 5 };
 
     /// A terminal of so many characters; titles stand outside of the drawing.
-    pub fn terminal(columns: usize, lines: usize) -> Look {
+    pub fn terminal(columns: usize, lines: usize) -> PlotStyle {
         let ticks = ((columns / 12).clamp(2, 10), (lines / 4).clamp(2, 10));
-        Look { terminal: true, text: 4, margin: 0, areas: (8, 22), ticks, mark: 3 }
+        PlotStyle { terminal: true, text: 4, margin: 0, areas: (8, 22), ticks, mark: 3 }
     }
 }
 
 /// A surface with its axes.
-pub type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
+pub type PlotSurface<'a, B> = ChartContext<'a, B, Cartesian2d<PlotAxis, PlotAxis>>;
 
 /// Draws a chart.
 ///
 /// # Errors
 /// A chart without a point or with one beyond all measure, or a surface that refuses.
-pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look: &Look) -> Result<(), PlotError> {
-    let points = || chart.series.iter().flat_map(Series::finite);
+pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look: &PlotStyle) -> Result<(), PlotError> {
+    let points = || chart.series.iter().flat_map(PlotSeries::finite);
     if let Some((x, y)) = points().find(|(x, y)| x.abs().max(y.abs()) > super::axis::MAX_PLOTTED_VALUE) {
         return Err(PlotError::Range(x, y));
     }
@@ -82,18 +83,18 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
 }
 
 /// A surface with the axes on the left and those on the right.
-type TwoPlanes<'a, B> = DualCoordChartContext<'a, B, Cartesian2d<Axis, Axis>, Cartesian2d<Axis, Axis>>;
+type TwoPlanes<'a, B> = DualCoordChartContext<'a, B, Cartesian2d<PlotAxis, PlotAxis>, Cartesian2d<PlotAxis, PlotAxis>>;
 
 /// What a chart is drawn on.
 enum Paper<'a, B: DrawingBackend> {
-    One(Box<Plane<'a, B>>),
+    One(Box<PlotSurface<'a, B>>),
     /// With an axis on the right.
     Two(Box<TwoPlanes<'a, B>>),
 }
 
 impl<'a, B: DrawingBackend> Paper<'a, B> {
     /// The plane of the axes below and on the left.
-    fn plane(&mut self) -> &mut Plane<'a, B> {
+    fn plane(&mut self) -> &mut PlotSurface<'a, B> {
         match self {
             Paper::One(plane) => plane,
             Paper::Two(both) => both,
@@ -102,14 +103,14 @@ impl<'a, B: DrawingBackend> Paper<'a, B> {
 }
 
 /// The axis on the right, of the curves that go by it.
-fn right_axis(chart: &Chart, look: &Look) -> Option<Axis> {
+fn right_axis(chart: &Chart, look: &PlotStyle) -> Option<PlotAxis> {
     chart.right_label.as_ref()?;
-    Axis::of(chart.series.iter().filter(|s| s.right).flat_map(Series::finite).map(|p| p.1), look.ticks.1)
+    PlotAxis::of(chart.series.iter().filter(|s| s.right).flat_map(PlotSeries::finite).map(|p| p.1), look.ticks.1)
 }
 
 impl Chart {
     /// The same with all points in terms of the axis on the left, at the same place of the picture.
-    fn on_the_left(&self, left: &Axis, right: Option<&Axis>) -> Chart {
+    fn on_the_left(&self, left: &PlotAxis, right: Option<&PlotAxis>) -> Chart {
         let mut made = self.clone();
         if let Some(right) = right {
             for point in made.series.iter_mut().filter(|s| s.right).flat_map(|s| &mut s.points).flatten() {
@@ -124,14 +125,14 @@ impl Chart {
 fn meshed<'a, B: DrawingBackend + 'a>(
     chart: &Chart,
     area: &DrawingArea<B, Shift>,
-    look: &Look,
-) -> Result<(Paper<'a, B>, Axis, Axis), PlotError> {
-    let points = || chart.series.iter().flat_map(Series::finite);
-    let x = Axis::of(points().map(|p| p.0), look.ticks.0).ok_or(PlotError::Empty)?;
+    look: &PlotStyle,
+) -> Result<(Paper<'a, B>, PlotAxis, PlotAxis), PlotError> {
+    let points = || chart.series.iter().flat_map(PlotSeries::finite);
+    let x = PlotAxis::of(points().map(|p| p.0), look.ticks.0).ok_or(PlotError::Empty)?;
     let right = right_axis(chart, look);
-    let left = chart.series.iter().filter(|s| right.is_none() || !s.right).flat_map(Series::finite);
+    let left = chart.series.iter().filter(|s| right.is_none() || !s.right).flat_map(PlotSeries::finite);
     // with points on the right alone the left axis has their numbers
-    let y = Axis::of(left.map(|p| p.1), look.ticks.1).or_else(|| right.clone()).ok_or(PlotError::Empty)?;
+    let y = PlotAxis::of(left.map(|p| p.1), look.ticks.1).or_else(|| right.clone()).ok_or(PlotError::Empty)?;
     let mut builder = ChartBuilder::on(area);
     builder.margin(look.margin).x_label_area_size(look.areas.0).y_label_area_size(look.areas.1);
     if !look.terminal {
@@ -181,7 +182,7 @@ fn colour(index: usize) -> RGBColor {
 }
 
 /// Whether a curve shows its points: they are few, and would not be taken for the marks of another column.
-fn shows_points(chart: &Chart, series: &Series) -> bool {
+fn shows_points(chart: &Chart, series: &PlotSeries) -> bool {
     series.finite().count() <= MAX_MARKED_POINTS
         && !chart.series.iter().any(|s| s.is_marks() && s.finite().next().is_some())
 }
@@ -189,10 +190,10 @@ fn shows_points(chart: &Chart, series: &Series) -> bool {
 /// One line of the chart, broken where points are missing; its points too when they are to be shown, and always one that
 /// stands alone.
 fn curve<B: DrawingBackend>(
-    plane: &mut Plane<'_, B>,
+    plane: &mut PlotSurface<'_, B>,
     index: usize,
-    series: &Series,
-    (look, points_too): (&Look, bool),
+    series: &PlotSeries,
+    (look, points_too): (&PlotStyle, bool),
 ) -> Result<(), PlotError> {
     let marks = series.is_marks();
     let (colour, stroke) = if look.terminal { (terminal::colour(index, marks), 1) } else { (colour(index), 2) };
@@ -211,7 +212,11 @@ fn curve<B: DrawingBackend>(
 }
 
 /// The legend, in the corner where it hides the fewest points.
-fn legend<B: DrawingBackend>(chart: &Chart, plane: &Plane<'_, B>, axes: (&Axis, &Axis)) -> Result<(), PlotError> {
+fn legend<B: DrawingBackend>(
+    chart: &Chart,
+    plane: &PlotSurface<'_, B>,
+    axes: (&PlotAxis, &PlotAxis),
+) -> Result<(), PlotError> {
     let area = plane.plotting_area().strip_coord_spec();
     let (width, height) = area.dim_in_pixel();
     let (width, height) = (i32::try_from(width).unwrap_or(0), i32::try_from(height).unwrap_or(0));
@@ -222,7 +227,7 @@ fn legend<B: DrawingBackend>(chart: &Chart, plane: &Plane<'_, B>, axes: (&Axis, 
     let hidden = |corner: &(i32, i32)| {
         let inside = |at: i32, from: i32, size: i32| (from - 8..from + size + 8).contains(&at);
         let pixel = |share: f64, size: i32| (share * f64::from(size)).round() as i32;
-        let points = chart.series.iter().flat_map(Series::finite);
+        let points = chart.series.iter().flat_map(PlotSeries::finite);
         let covered = points.filter(|p| {
             inside(pixel(axes.0.share(p.0), width), corner.0, box_width)
                 && inside(pixel(1.0 - axes.1.share(p.1), height), corner.1, box_height)

@@ -1,7 +1,7 @@
 //! A chart as one page of HTML with nothing to be fetched from elsewhere (share/plot): it tells values, zooms, hides curves.
 
 use super::draw::COLOURS;
-use super::{Chart, PlotError, Series};
+use super::{Chart, PlotError, PlotSeries};
 use crate::report::embedded::{self, doubles, list, object, string};
 
 /// Most points of a page.
@@ -22,7 +22,7 @@ impl Chart {
         if self.polar {
             return Err(PlotError::PolarPage);
         }
-        let points = || self.series.iter().flat_map(Series::finite);
+        let points = || self.series.iter().flat_map(PlotSeries::finite);
         if points().next().is_none() {
             return Err(PlotError::Empty);
         }
@@ -33,7 +33,7 @@ impl Chart {
         if count > MAX_PAGE_POINTS {
             return Err(PlotError::TooMany(count));
         }
-        let curve = |(index, series): (usize, &Series)| {
+        let curve = |(index, series): (usize, &PlotSeries)| {
             let of = |pick: fn((f64, f64)) -> f64| {
                 doubles(series.points.iter().map(|p| super::finite(*p).map_or(f64::NAN, pick)))
             };

@@ -8,7 +8,7 @@ pub(super) mod raster;
 pub(super) mod terminal;
 
 use crate::report::{format, page};
-use draw::{Look, draw, refused};
+use draw::{PlotStyle, draw, refused};
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::prelude::SVGBackend;
 use std::cell::RefCell;
@@ -21,7 +21,7 @@ const SIZE: (u32, u32) = (900, 600);
 
 /// A line of a chart; points without a finite value break it, and where no two neighbours have one there are marks alone.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Series {
+pub struct PlotSeries {
     /// Name in the legend.
     pub name: String,
     /// Points in user units.
@@ -42,7 +42,7 @@ pub struct Chart {
     /// Label of the axis on the right, with its unit, where there is one.
     pub right_label: Option<String>,
     /// The lines.
-    pub series: Vec<Series>,
+    pub series: Vec<PlotSeries>,
     /// Whether it is a polar plot: both axes have one scale, and circles and rays stand in place of a mesh.
     pub polar: bool,
 }
@@ -81,11 +81,11 @@ pub enum PlotError {
     #[error("a polar plot goes to .svg, .png or the terminal")]
     PolarPage,
     /// More points than a page bears.
-    #[error("a page bears {most} points, and these are {0}: -RECORD or -VALUES takes a part of the rows", most = html::MOST)]
+    #[error("a page bears {most} points, and these are {0}: -RECORD or -VALUES takes a part of the rows", most = html::MAX_PAGE_POINTS)]
     TooMany(usize),
 }
 
-impl Series {
+impl PlotSeries {
     /// The points that can be drawn.
     fn finite(&self) -> impl Iterator<Item = (f64, f64)> {
         self.points.iter().filter_map(|p| finite(*p))
@@ -154,7 +154,7 @@ impl Chart {
         let value = |cell: Option<&Cell>, dim: Dim| {
             cell.and_then(Cell::number).map(|v| dim.from_si(v, units)).filter(|v| v.is_finite())
         };
-        let series = ys.iter().zip(&sides).map(|(y, right)| Series {
+        let series = ys.iter().zip(&sides).map(|(y, right)| PlotSeries {
             name: super::columns::long_name(y),
             points: (0..table.rows())
                 .map(|row| {
@@ -202,7 +202,7 @@ impl Chart {
         let mut text = String::new();
         {
             let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-            draw(self, &area, &Look::PAGE)?;
+            draw(self, &area, &PlotStyle::PAGE)?;
             area.present().map_err(refused)?;
         }
         Ok(text.into_bytes())
@@ -213,8 +213,8 @@ impl Chart {
     /// # Errors
     /// [`PlotError`].
     pub fn png(&self) -> Result<Vec<u8>, PlotError> {
-        let canvas = Rc::new(RefCell::new(raster::Canvas::new(SIZE.0, SIZE.1)));
-        draw(self, &DrawingArea::from(&canvas), &Look::PAGE)?;
+        let canvas = Rc::new(RefCell::new(raster::RasterCanvas::new(SIZE.0, SIZE.1)));
+        draw(self, &DrawingArea::from(&canvas), &PlotStyle::PAGE)?;
         canvas.borrow().encode().map_err(|e| PlotError::Backend(e.to_string()))
     }
 
@@ -225,8 +225,8 @@ impl Chart {
     pub fn terminal(&self, columns: usize, lines: usize) -> Result<String, PlotError> {
         let (columns, lines) = (columns.clamp(20, 200), lines.clamp(10, 100));
         // three lines are for the title and the names of the axes
-        let canvas = Rc::new(RefCell::new(terminal::Canvas::new(columns, lines - 3)));
-        draw(self, &DrawingArea::from(&canvas), &Look::terminal(columns, lines - 3))?;
+        let canvas = Rc::new(RefCell::new(terminal::TextCanvas::new(columns, lines - 3)));
+        draw(self, &DrawingArea::from(&canvas), &PlotStyle::terminal(columns, lines - 3))?;
         let mut text = String::new();
         let heads = match &self.right_label {
             Some(right) => {

@@ -1,8 +1,8 @@
 //! A polar plot: the distance from the middle over the direction, which is counted from +X, to the right, toward +Y, up.
 
-use super::axis::Axis;
-use super::draw::{Look, Plane, refused};
-use super::{Chart, PlotError, Series};
+use super::axis::PlotAxis;
+use super::draw::{PlotStyle, PlotSurface, refused};
+use super::{Chart, PlotError, PlotSeries};
 use crate::report::format;
 use plotters::chart::ChartBuilder;
 use plotters::coord::Shift;
@@ -62,16 +62,16 @@ impl Chart {
 pub fn plane<'a, B: DrawingBackend + 'a>(
     chart: &Chart,
     area: &DrawingArea<B, Shift>,
-    look: &Look,
-) -> Result<(Plane<'a, B>, Axis, Axis), PlotError> {
+    look: &PlotStyle,
+) -> Result<(PlotSurface<'a, B>, PlotAxis, PlotAxis), PlotError> {
     let farthest = chart
         .series
         .iter()
-        .flat_map(Series::finite)
+        .flat_map(PlotSeries::finite)
         .map(|(x, y)| x.hypot(y))
         .fold(None, |far, r| Some(far.map_or(r, |f: f64| f.max(r))));
     let farthest = farthest.ok_or(PlotError::Empty)?;
-    let radii = Axis::of([0.0, farthest].into_iter(), 5).ok_or(PlotError::Empty)?;
+    let radii = PlotAxis::of([0.0, farthest].into_iter(), 5).ok_or(PlotError::Empty)?;
     let rings: Vec<f64> = radii.ticks(5).into_iter().filter(|r| *r > 0.0).collect();
     let rim = rings.iter().copied().fold(if farthest > 0.0 { farthest } else { 1.0 }, f64::max);
     let upper = if look.terminal {
@@ -89,7 +89,7 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
     // room for the names of the directions
     let reach = 1.15 * rim;
     let scale = reach / (0.5 * width.min(height));
-    let axis = |pixels: f64| Axis::spanning(-0.5 * pixels * scale, 0.5 * pixels * scale, 5);
+    let axis = |pixels: f64| PlotAxis::spanning(-0.5 * pixels * scale, 0.5 * pixels * scale, 5);
     let (x, y) = (axis(width), axis(height));
     let mut plane = ChartBuilder::on(&upper).build_cartesian_2d(x.clone(), y.clone()).map_err(refused)?;
     let at = |degrees: i32, r: f64| {
@@ -122,7 +122,7 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
     Ok((plane, x, y))
 }
 
-fn centred(look: &Look, vertical: VPos) -> TextStyle<'static> {
+fn centred(look: &PlotStyle, vertical: VPos) -> TextStyle<'static> {
     TextStyle::from(("sans-serif", look.text).into_font()).pos(Pos::new(HPos::Center, vertical))
 }
 

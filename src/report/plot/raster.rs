@@ -9,16 +9,16 @@ use plotters_backend::{
 use std::convert::Infallible;
 
 /// An RGB image.
-pub struct Canvas {
+pub struct RasterCanvas {
     width: u32,
     height: u32,
     pixels: Vec<u8>,
 }
 
-impl Canvas {
+impl RasterCanvas {
     /// A white image.
     pub fn new(width: u32, height: u32) -> Self {
-        Canvas { width, height, pixels: vec![255; 3 * width as usize * height as usize] }
+        RasterCanvas { width, height, pixels: vec![255; 3 * width as usize * height as usize] }
     }
 
     /// The image as PNG.
@@ -60,7 +60,7 @@ fn text_size(text: &str, size: f64) -> (i32, i32) {
     (pixels(letter * text.chars().count()), pixels(raster(size).val()))
 }
 
-impl DrawingBackend for Canvas {
+impl DrawingBackend for RasterCanvas {
     type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {

@@ -9,7 +9,7 @@ use plotters_backend::{
 use std::convert::Infallible;
 
 /// A grid of characters.
-pub struct Canvas {
+pub struct TextCanvas {
     columns: usize,
     lines: usize,
     dots: Vec<u8>,
@@ -31,11 +31,11 @@ pub fn colour(index: usize, alone: bool) -> RGBColor {
     RGBColor(1, if alone { 2 } else { 1 }, u8::try_from(index % MARKS.len()).unwrap_or(0))
 }
 
-impl Canvas {
+impl TextCanvas {
     /// An empty surface.
     pub fn new(columns: usize, lines: usize) -> Self {
         let cells = columns * lines;
-        Canvas { columns, lines, dots: vec![0; cells], marks: vec![None; cells], letters: vec![None; cells] }
+        TextCanvas { columns, lines, dots: vec![0; cells], marks: vec![None; cells], letters: vec![None; cells] }
     }
 
     /// The surface as text, trailing blanks taken off.
@@ -72,7 +72,7 @@ fn bit(x: i32, y: i32) -> u8 {
     }
 }
 
-impl DrawingBackend for Canvas {
+impl DrawingBackend for TextCanvas {
     type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {

@@ -28,7 +28,7 @@ fn every_surface_shows_title_axes_and_units_and_is_the_same_twice() {
 
 #[test]
 fn nothing_finite_is_an_error_and_one_point_is_not() {
-    let series = |points| Chart { series: vec![Series { points, ..Series::default() }], ..Chart::default() };
+    let series = |points| Chart { series: vec![PlotSeries { points, ..PlotSeries::default() }], ..Chart::default() };
     assert_eq!(series(vec![None]).svg(), Err(PlotError::Empty));
     assert_eq!(series(vec![Some((f64::NAN, 1.0)), Some((0.0, f64::INFINITY))]).png(), Err(PlotError::Empty));
     assert_eq!(series(vec![Some((0.0, 1e300))]).svg(), Err(PlotError::Range(0.0, 1e300)));
@@ -53,10 +53,11 @@ fn a_missing_point_breaks_the_line_and_many_points_have_no_marks() {
 
 #[test]
 fn a_column_of_single_points_is_marks_that_no_line_hides_and_no_line_joins() {
-    let line = Series { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect(), right: false };
+    let line =
+        PlotSeries { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect(), right: false };
     let at = |rows: &[usize]| {
         let point = |n: usize| rows.contains(&n).then_some((n as f64, 1.0));
-        Series { name: "Joint".into(), points: (0..9).map(point).collect(), right: false }
+        PlotSeries { name: "Joint".into(), points: (0..9).map(point).collect(), right: false }
     };
     let chart = |series| Chart { series, ..Chart::default() };
     // a gap, then a point by itself within a line, then marks that stand before the line among the columns
@@ -131,7 +132,7 @@ fn a_third_unit_and_an_axis_of_two_are_refused_and_curves_of_one_unit_may_be_par
 #[test]
 fn a_curve_on_the_right_fills_the_picture_as_one_on_the_left_does() {
     // both rise over their whole axis: drawn by axes of their own they are one line
-    let rise = |size: f64, right: bool| Series {
+    let rise = |size: f64, right: bool| PlotSeries {
         name: String::new(),
         points: (0..3).map(|n| Some((f64::from(n), size * f64::from(n)))).collect(),
         right,
@@ -156,8 +157,8 @@ proptest! {
         lines in 0usize..60,
     ) {
         let series = vec![
-            Series { name: "a".into(), points: points.clone(), right: false },
-            Series { name: "b".into(), points, right: columns % 2 == 1 },
+            PlotSeries { name: "a".into(), points: points.clone(), right: false },
+            PlotSeries { name: "b".into(), points, right: columns % 2 == 1 },
         ];
         let title = "\u{1b}t".to_string();
         for polar in [false, true] {

@@ -11,7 +11,7 @@ use windlass_aqwa::{self as aqwa, Records};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_language::source::Sources;
 use windlass_solve::tethered::Tethered;
-use windlass_tether::installed::Change;
+use windlass_tether::installed::RigChange;
 
 fn file(name: &str) -> String {
     std::fs::read_to_string(format!("scripts/{name}")).unwrap()
@@ -78,7 +78,7 @@ fn the_installed_deck_comes_to_the_printed_places_and_goes_slack_when_printed() 
             assert!(off < if time <= 5.0 { 4e-4 } else { 6e-3 }, "{axis} at {time} s: {off}");
         }
     }
-    let slack = |e: &&windlass_solve::tethered::Happening| e.change == Change::Slack;
+    let slack = |e: &&windlass_solve::tethered::Happening| e.change == RigChange::Slack;
     let (slack, struck): (Vec<_>, Vec<_>) = run.happened.iter().partition(slack);
     let named = |list: &[&windlass_solve::tethered::Happening]| -> Vec<(String, f64)> {
         list.iter().map(|e| (e.tether.clone(), e.time)).collect()
@@ -86,7 +86,7 @@ fn the_installed_deck_comes_to_the_printed_places_and_goes_slack_when_printed() 
     assert_eq!(named(&slack), [("T1".to_string(), 6.5), ("T2".to_string(), 6.5)]);
     assert_eq!(named(&struck), [("T1".to_string(), 7.5), ("T2".to_string(), 7.5)]);
     for event in struck {
-        let Change::Impact { stress, .. } = event.change else { panic!("{event:?}") };
+        let RigChange::Impact { stress, .. } = event.change else { panic!("{event:?}") };
         // printed 7.557E4 and 7.558E4 kN/m2; asked 0.1 %
         assert!((stress / 7.557e7 - 1.0).abs() < 1e-3, "{stress}");
     }
@@ -356,7 +356,7 @@ fn pulls(model: &windlass_model::Model) -> Vec<[f64; 3]> {
         let element = model.element(connector).unwrap();
         let ends = model.end_poses(connector).map(windlass_model::End::still);
         let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
-        let mut out = windlass_model::Response::default();
+        let mut out = windlass_model::ElementResponse::default();
         let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
         element.evaluate(&at, &committed, &mut trial, &mut None, &mut out).unwrap();
         [0, 1, 2].map(|axis| out.wrench[0][axis])

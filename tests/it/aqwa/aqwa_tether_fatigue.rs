@@ -7,9 +7,9 @@ use crate::common;
 
 use serde_json::Value;
 use windlass_signal::tether::fatigue::{
-    Asked, Endurance, Ranges, STRESS_RANGE_BINS, damage_rate, expected_peak, life_days,
+    Endurance, FatigueSettings, Ranges, STRESS_RANGE_BINS, damage_rate, expected_peak, life_days,
 };
-use windlass_solve::tethered::Statistics;
+use windlass_solve::tethered::TetherStatistics;
 
 const RECORD: f64 = 350.25;
 
@@ -92,8 +92,8 @@ fn the_simulated_series_have_the_printed_lives_and_peaks() {
     session.open_job("he01_phases.dat", std::fs::read_to_string("scripts/he01_phases.dat").unwrap());
     session.run();
     let run = session.job.tethered.as_ref().unwrap_or_else(|| panic!("{}", screen.text()));
-    let asked = Asked { duration: 1.0, curve: Endurance::KILONEWTONS.in_unit(1000.0), peak_time: 10_800.0 };
-    let [_, table] = Statistics::new(run, 24.75, 375.0).fatigue(run, &run.tethers[0], asked).unwrap();
+    let asked = FatigueSettings { duration: 1.0, curve: Endurance::KILONEWTONS.in_unit(1000.0), peak_time: 10_800.0 };
+    let [_, table] = TetherStatistics::new(run, 24.75, 375.0).fatigue(run, &run.tethers[0], asked).unwrap();
     let column = |name: &str| table.columns.iter().find(|c| c.name == name).unwrap().numbers();
     let (lives, peaks, ranges) = (column("Life"), column("Peak"), column("Eff Range"));
     let (mut worst_life, mut worst_peak): (f64, f64) = (0.0, 0.0);

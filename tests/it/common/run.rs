@@ -2,7 +2,7 @@
 
 use crate::common;
 use windlass_model::Model;
-use windlass_solve::time::{Action, Convergence, Ending, Method, Run, Scheme, Settings, Watcher};
+use windlass_solve::time::{Action, Convergence, Ending, Method, Run, RunSettings, TimeScheme, Watcher};
 
 /// Takes rows and says nothing.
 pub struct Quiet;
@@ -23,8 +23,8 @@ pub fn model(records: &str) -> Model {
 }
 
 /// A run over a time with a step (s) by the usual scheme, every step kept.
-pub fn settings(observed: f64, dt: f64) -> Settings {
-    Settings {
+pub fn settings(observed: f64, dt: f64) -> RunSettings {
+    RunSettings {
         observed,
         dt,
         method: Method::default(),
@@ -41,11 +41,11 @@ pub fn settings(observed: f64, dt: f64) -> Settings {
 
 /// The trapezoidal rule.
 pub fn trapezoidal() -> Method {
-    Method::Implicit(Scheme::newmark(0.25, 0.5))
+    Method::Implicit(TimeScheme::newmark(0.25, 0.5))
 }
 
 /// A run that comes to its end.
-pub fn run(model: &Model, settings: Settings, actions: Vec<Action>) -> Run {
+pub fn run(model: &Model, settings: RunSettings, actions: Vec<Action>) -> Run {
     let mut run = Run::new(model, settings, actions).unwrap();
     assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
     run

@@ -4,9 +4,9 @@ use crate::common::run;
 
 use run::{Quiet, model, settings};
 use windlass_base::table::Table;
-use windlass_solve::results::along::{Line, Where, envelope, histories, lines_at_rest, touchdown};
+use windlass_solve::results::along::{LineResults, Where, envelope, histories, lines_at_rest, touchdown};
 use windlass_solve::results::events;
-use windlass_solve::time::{Ending, Run, Settings, Snapshot, Watcher};
+use windlass_solve::time::{Ending, Run, RunSettings, Snapshot, Watcher};
 
 const DEPTH: f64 = 100.0;
 
@@ -30,7 +30,7 @@ fn a_chain_at_rest_comes_down_where_the_catenary_does() {
         let model = model(&chain(elements, ""));
         let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
         run.go(&mut Quiet).unwrap();
-        let line = Line::find(&run, "a").unwrap();
+        let line = LineResults::find(&run, "a").unwrap();
         let table = touchdown(&line, &events(&run.history, None).unwrap()[..1]).unwrap();
         // w = 2000 N/m, H the tension on the bottom: a catenary of parameter a = H/w rises h over an arc sqrt(h^2 + 2 h a)
         let parameter = last(&table, "Tension") / 2000.0;
@@ -51,7 +51,7 @@ fn the_line_at_rest_and_the_first_row_of_a_run_in_still_water_are_one() {
     let rest = &lines_at_rest(&model, &|_| true).unwrap()[0];
     let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
     run.go(&mut Quiet).unwrap();
-    let line = Line::find(&run, "A").unwrap();
+    let line = LineResults::find(&run, "A").unwrap();
     assert_eq!(line.nodes(), 21);
     let first = &events(&run.history, None).unwrap()[..1];
     let table = envelope(&line, first).unwrap();
@@ -65,15 +65,15 @@ fn the_line_at_rest_and_the_first_row_of_a_run_in_still_water_are_one() {
 #[test]
 fn fewer_nodes_kept_and_none_kept_tell_what_all_tell() {
     let model = model(&chain(12, "-SEA REGULAR 180 4 9"));
-    let ran = |change: fn(Settings) -> Settings| {
+    let ran = |change: fn(RunSettings) -> RunSettings| {
         let mut run = Run::new(&model, change(settings(10.0, 0.25)), Vec::new()).unwrap();
         assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
         run
     };
-    let (all, fourth) = (ran(|s| s), ran(|s| Settings { along: 4, ..s }));
-    let (bare, none) = (ran(|s| Settings { keep: false, ..s }), ran(|s| Settings { along: 0, ..s }));
+    let (all, fourth) = (ran(|s| s), ran(|s| RunSettings { along: 4, ..s }));
+    let (bare, none) = (ran(|s| RunSettings { keep: false, ..s }), ran(|s| RunSettings { along: 0, ..s }));
     let told = |run: &Run| {
-        let line = Line::find(run, "A").unwrap();
+        let line = LineResults::find(run, "A").unwrap();
         let kept = if run.history.is_empty() { Vec::new() } else { events(&run.history, None).unwrap() };
         envelope(&line, &kept).unwrap()
     };
@@ -87,10 +87,10 @@ fn fewer_nodes_kept_and_none_kept_tell_what_all_tell() {
         }
         assert_eq!(a, &c.unwrap().cells, "{column}");
     }
-    assert!(Line::find(&none, "A").unwrap_err().help[0].contains("-ALONG"));
-    assert!(Line::find(&all, "B").is_err());
+    assert!(LineResults::find(&none, "A").unwrap_err().help[0].contains("-ALONG"));
+    assert!(LineResults::find(&all, "B").is_err());
     // a place between two nodes is between them
-    let line = Line::find(&all, "A").unwrap();
+    let line = LineResults::find(&all, "A").unwrap();
     let kept = events(&all.history, None).unwrap();
     let arcs = whole.get("Arc").unwrap().numbers();
     let middle = 0.5 * (arcs[1] + arcs[2]);
@@ -150,6 +150,6 @@ fn rows_that_would_not_fit_in_memory_are_refused_before_the_run() {
     let model = model(&chain(100, ""));
     let refused = Run::new(&model, settings(1e6, 0.01), Vec::new()).unwrap_err().error;
     assert!(refused.message.contains("GB of memory") && refused.help[0].contains("-STORE"), "{refused:?}");
-    assert!(Run::new(&model, Settings { keep: false, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
-    assert!(Run::new(&model, Settings { store: 1000, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
+    assert!(Run::new(&model, RunSettings { keep: false, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
+    assert!(Run::new(&model, RunSettings { store: 1000, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
 }

@@ -8,7 +8,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_connectors::CLASSES;
 use windlass_model::{
-    ClassError, Connection, Connector, Element, End, Model, Placement, Response, RunRequirement, Situation,
+    ClassError, Connection, Connector, Element, ElementResponse, End, Model, Placement, RunRequirement, Situation,
     Surroundings, TimeStep,
 };
 
@@ -285,8 +285,8 @@ fn ask(
     ends: &[End; 2],
     dt: Option<f64>,
     committed: &[f64],
-) -> (Response, Vec<f64>) {
-    let mut out = Response::default();
+) -> (ElementResponse, Vec<f64>) {
+    let mut out = ElementResponse::default();
     let mut trial = vec![f64::NAN; committed.len()];
     let step = dt.map(|dt| TimeStep { time: 10.0, dt });
     let at = Situation { ends, step, surroundings };

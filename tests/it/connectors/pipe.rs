@@ -5,7 +5,7 @@ use crate::common;
 use windlass::session::Session;
 use windlass_base::diagnostic::Severity;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Element, End, Model, PIPE, Response, RunRequirement, Situation};
+use windlass_model::{Element, ElementResponse, End, Model, PIPE, RunRequirement, Situation};
 
 fn model(records: &str) -> Model {
     let (mut session, _screen, _folder): (Session, _, _) = common::session();
@@ -32,10 +32,10 @@ fn pipe(model: &Model) -> (Box<dyn Element>, Vec<End>) {
     (element, ends)
 }
 
-fn answer(model: &Model, element: &dyn Element, ends: &[End]) -> Response {
+fn answer(model: &Model, element: &dyn Element, ends: &[End]) -> ElementResponse {
     let surroundings = model.surroundings();
     let at = Situation { ends, step: None, surroundings: &surroundings };
-    let mut out = Response::default();
+    let mut out = ElementResponse::default();
     let mut state = vec![0.0; element.states()];
     element.evaluate(&at, &state.clone(), &mut state, &mut None, &mut out).unwrap();
     out

@@ -9,7 +9,7 @@ use windlass_base::diagnostic::Severity;
 use windlass_base::table::Cell;
 use windlass_hydro::Category;
 use windlass_model::PIPE;
-use windlass_solve::results::along::{self, Line};
+use windlass_solve::results::along::{self, LineResults};
 use windlass_solve::results::{self, Magnitude};
 use windlass_solve::time::Run;
 
@@ -164,7 +164,7 @@ fn a_sea_that_comes_during_a_run_finds_the_pipe_on_its_supports() {
 fn the_forces_on_supports_add_up_to_what_the_barge_feels() {
     let session = laid([4.3e5, 4.7e5], MOVES, "");
     let run = session.job.run.as_ref().unwrap();
-    let line = Line::find(run, PIPE).unwrap();
+    let line = LineResults::find(run, PIPE).unwrap();
     let events = results::events(&run.history, None).unwrap();
     let table = along::supports(&line, Magnitude::default(), &events).unwrap();
     let number = |column: usize, row: usize| match table.columns[column].cells[row] {

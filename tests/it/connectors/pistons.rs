@@ -5,7 +5,7 @@ use crate::common;
 use nalgebra::Vector3;
 use windlass::session::Session;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Element, End, Response, Situation, Summary, TimeStep};
+use windlass_model::{Element, ElementResponse, ElementSummary, End, Situation, TimeStep};
 
 /// A line between *A of body ONE at the origin and another end.
 struct Rig {
@@ -46,7 +46,7 @@ impl Rig {
     }
 
     /// The answer with the second end moved along X from where it was defined, with a velocity.
-    fn at(&self, moved: f64, speed: f64, dt: Option<f64>) -> (Response, Vec<f64>) {
+    fn at(&self, moved: f64, speed: f64, dt: Option<f64>) -> (ElementResponse, Vec<f64>) {
         let [first, second] = self.ends;
         let there = [
             End::still(Pose::from_position(first.into())),
@@ -56,16 +56,16 @@ impl Rig {
         self.answer([there[0], End { velocity, ..there[1] }], dt)
     }
 
-    fn answer(&self, ends: [End; 2], dt: Option<f64>) -> (Response, Vec<f64>) {
+    fn answer(&self, ends: [End; 2], dt: Option<f64>) -> (ElementResponse, Vec<f64>) {
         let surroundings = self.session.job.model.surroundings();
         let step = dt.map(|dt| TimeStep { time: dt, dt });
-        let (mut out, mut trial) = (Response::default(), vec![f64::NAN; self.state.len()]);
+        let (mut out, mut trial) = (ElementResponse::default(), vec![f64::NAN; self.state.len()]);
         let at = Situation { ends: &ends, step, surroundings: &surroundings };
         self.element.evaluate(&at, &self.state, &mut trial, &mut None, &mut out).unwrap();
         (out, trial)
     }
 
-    fn summary(&self, moved: f64) -> Summary {
+    fn summary(&self, moved: f64) -> ElementSummary {
         let surroundings = self.session.job.model.surroundings();
         let [first, second] = self.ends;
         let ends = [first, second + Vector3::x() * moved].map(|p| End::still(Pose::from_position(p.into())));
@@ -297,7 +297,7 @@ fn a_viscoelastic_spring_in_series_relaxes_by_the_exponential_of_both() {
     // K(t) = 2E4 + 3E4 exp(-t/tau) in series with k = 1E4; the fit of two points is exact, and tells tau
     let mut rig = Rig::spring("-CONVOLUTION SOFT");
     let curve = rig.session.job.model.curves.values().next().unwrap();
-    let law = windlass_connectors::viscous::Viscoelastic::fit(curve).unwrap().law;
+    let law = windlass_connectors::viscous::ViscoelasticLaw::fit(curve).unwrap().law;
     assert_eq!(law.branches.len(), 1);
     let (k, lasting, branch, tau) = (1e4, law.long_term, law.branches[0].stiffness, law.branches[0].time);
     near(lasting, 2e4);

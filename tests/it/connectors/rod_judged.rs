@@ -6,9 +6,9 @@ use crate::common::run as runs;
 use runs::{model, run, settings};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::table::Table;
-use windlass_signal::line::lrfd::Factors;
+use windlass_signal::line::lrfd::LrfdFactors;
 use windlass_signal::line::working_stress::DesignCase;
-use windlass_solve::results::along::{Code, Line, check, lines_at_rest};
+use windlass_solve::results::along::{Code, LineResults, check, lines_at_rest};
 use windlass_solve::results::events;
 use windlass_solve::time::Run;
 
@@ -36,7 +36,7 @@ fn there(run: &Run) -> Vec<usize> {
 #[test]
 fn a_wave_is_not_felt_by_a_riser_far_below_it() {
     let made = deep(-500.0);
-    let line = Line::find(&made, "A").unwrap();
+    let line = LineResults::find(&made, "A").unwrap();
     let all = events(&made.history, None).unwrap();
     // exp(-k 500) of a wave of 98.7 m is 1.5e-14, and statics leave 1e-9 of 1.1 MN
     let columns = made.history.layout.links[0].along.as_ref().unwrap();
@@ -51,7 +51,7 @@ fn a_wave_is_not_felt_by_a_riser_far_below_it() {
         assert!(swing(&|n| n.effective) < 1.0, "{place}: {}", swing(&|n| n.effective));
         assert!(swing(&|n| n.bent.unwrap().wall) < 1.0, "{place}: {}", swing(&|n| n.bent.unwrap().wall));
     }
-    let table = check(&line, &Code::Lrfd(Factors::default(), 0.0), &all).unwrap();
+    let table = check(&line, &Code::Lrfd(LrfdFactors::default(), 0.0), &all).unwrap();
     for (net, arc) in column(&table, "Net Pressure").iter().zip(column(&table, "Arc")) {
         // rho g h, empty; it stretches by a thousandth at most
         let want = -1025.0 * 9.80665 * (500.0 + arc);
@@ -129,9 +129,9 @@ fn a_pipe_that_a_winch_pays_out_is_checked_by_what_was_at_rest_where_it_hangs() 
     session.run();
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let made = session.job.run.as_ref().unwrap();
-    let line = Line::find(made, "R").unwrap();
+    let line = LineResults::find(made, "R").unwrap();
     let all = events(&made.history, None).unwrap();
-    let factors = Factors::default();
+    let factors = LrfdFactors::default();
     let table = check(&line, &Code::Lrfd(factors, 0.0), &all[all.len() - 1..]).unwrap();
     assert!(table.notes.iter().any(|n| n.contains("winch")), "{:?}", table.notes);
     // design tension gamma_F T0 + gamma_E (T - T0), T0 that of 50 m from the place to the load and 1000 N
@@ -158,7 +158,7 @@ fn corrosion_thins_the_wall_that_bears_the_tension_and_the_pressure_inside() {
                    *F 0 0 -2990\n*E 0 0 -3000\n#WEIGHT *F 1E6 5 5 5\n\
                    ~R ROD 300 20 -LEN 9.999 -REFINE 10 -FYIELD 450 -WTPLEN 20\nCONNECTOR A ~R *F *E\nEND\n";
     let made = run(&model(records), settings(0.2, 0.1), vec![]);
-    let line = Line::find(&made, "A").unwrap();
+    let line = LineResults::find(&made, "A").unwrap();
     let all = events(&made.history, None).unwrap();
     let columns = made.history.layout.links[0].along.as_ref().unwrap();
     let node = columns.node(0, made.history.rows().next().unwrap()).unwrap();

@@ -6,7 +6,7 @@ use crate::common;
 use nalgebra::Vector3;
 use windlass_base::pose::Six;
 use windlass_hydro::ambient;
-use windlass_model::{Element, End, LineNode, Response, Situation, TimeStep};
+use windlass_model::{Element, ElementResponse, End, LineNode, Situation, TimeStep};
 
 /// A line of a class between two points in the ground 100 m apart, 50 m below the surface along X or, `dry`, 10 m above it.
 struct Held {
@@ -33,9 +33,9 @@ fn held(class: &str, environment: &str, (z, dynamics): (f64, bool)) -> Held {
 
 impl Held {
     /// What it answers at rest, or at the beginning of a run.
-    fn answer(&self, step: Option<TimeStep>) -> Response {
+    fn answer(&self, step: Option<TimeStep>) -> ElementResponse {
         let mut state = vec![0.0; self.element.states()];
-        let mut out = Response::default();
+        let mut out = ElementResponse::default();
         let at = Situation { ends: &self.ends, step, surroundings: &self.around };
         let committed = state.clone();
         self.element.evaluate(&at, &committed, &mut state, &mut None, &mut out).unwrap();

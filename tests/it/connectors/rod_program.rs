@@ -6,10 +6,10 @@ use crate::common::run as runs;
 use runs::{model, run, settings, trapezoidal};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use windlass_base::table::Table;
-use windlass_model::{End, Model, Response, Situation};
+use windlass_model::{ElementResponse, End, Model, Situation};
 use windlass_solve::System;
 use windlass_solve::results::along::lines_at_rest;
-use windlass_solve::time::{Run, Settings};
+use windlass_solve::time::{Run, RunSettings};
 
 /// Force of a connector on the first body it is fixed to, at rest where its ends stand (N).
 fn pull(model: &Model, name: &str) -> [f64; 3] {
@@ -94,7 +94,7 @@ fn anchor_of_a_grounded_dynamic_line_bears_the_pull_along_the_bottom_alone() {
         let (element, ends) = (made.element(&made.connectors["L"]).unwrap(), made.end_poses(&made.connectors["L"]));
         let ends = ends.map(End::still);
         let at = Situation { ends: &ends, step: None, surroundings: &made.surroundings() };
-        let (mut state, mut out) = (vec![0.0; element.states()], Response::default());
+        let (mut state, mut out) = (vec![0.0; element.states()], ElementResponse::default());
         element.start(&mut state);
         let committed = state.clone();
         element.evaluate(&at, &committed, &mut state, &mut None, &mut out).unwrap();
@@ -199,7 +199,7 @@ fn a_body_on_a_bar_as_heavy_as_itself_swings_up_and_down_with_the_exact_frequenc
     let exact = TAU / (0.860_333_589 * (1e7f64 / 100.0).sqrt() / 100.0);
     let records = "MEDIT\n*G 0 0 150\n&DESCRIBE BODY BOB -IGNORE X Y RX RY RZ\n*C 0 0 0\n#WEIGHT *C 98066.5 1 1 1\n\
          ~R ROD 200 10 -LEN 100 -REFINE 40 -WTPLEN 100*9.80665 -EA 1E7\nCONNECTOR R ~R *C *G\nEND\n&INSTATE -LOCATE BOB 0 0 48\n";
-    let made = run(&model(records), Settings { method: trapezoidal(), ..settings(60.0, 0.01) }, vec![]);
+    let made = run(&model(records), RunSettings { method: trapezoidal(), ..settings(60.0, 0.01) }, vec![]);
     let z = made.history.series(made.history.layout.body(0) + 2);
     let found = period(&made, 2, z.iter().sum::<f64>() / z.len() as f64);
     // (w h)^2/12 of the step is 6e-5, (b/n)^2/24 of the mesh 2e-5

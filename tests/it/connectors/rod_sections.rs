@@ -10,9 +10,9 @@ use std::sync::atomic::Ordering;
 use windlass_base::table::Table;
 use windlass_model::Model;
 use windlass_signal::line::fatigue::Round;
-use windlass_signal::line::lrfd::Factors;
+use windlass_signal::line::lrfd::LrfdFactors;
 use windlass_solve::System;
-use windlass_solve::results::along::{Code, Line, check, envelope, fatigue_along, lines_at_rest, shape};
+use windlass_solve::results::along::{Code, LineResults, check, envelope, fatigue_along, lines_at_rest, shape};
 use windlass_solve::results::events;
 
 const RHO: f64 = 1025.0;
@@ -87,12 +87,12 @@ fn at_a_junction_the_side_that_uses_more_is_told_whichever_way_the_line_is_laid(
 
     let runs = [false, true].map(|turned| run(&junction(turned), settings(18.0, 0.25), vec![]));
     let tables = runs.each_ref().map(|run| {
-        let line = Line::find(run, "L").unwrap();
+        let line = LineResults::find(run, "L").unwrap();
         let all = events(&run.history, None).unwrap();
         [
             envelope(&line, &all).unwrap(),
             shape(&line, &all[40]).unwrap(),
-            check(&line, &Code::Lrfd(Factors::default(), 0.0), &all).unwrap(),
+            check(&line, &Code::Lrfd(LrfdFactors::default(), 0.0), &all).unwrap(),
             fatigue_along(&line, &run.model.fatigue, (&Round::default(), 1.0), &all).unwrap(),
         ]
     });

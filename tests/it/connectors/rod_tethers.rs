@@ -12,11 +12,13 @@ use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use std::sync::LazyLock;
 use windlass::session::Session;
-use windlass_line_dynamics::{End, FluidState, LineEnvironment, Rod, Segment, Settings, Solver, State, UniformFluid};
-use windlass_signal::cycle::{AQWA_SAMPLES, Cycle};
+use windlass_line_dynamics::{
+    FluidState, LineEnvironment, Rod, RodEnd, RodSegment, RodSettings, RodSolver, RodState, UniformFluid,
+};
+use windlass_signal::cycle::{AQWA_SAMPLES, HarmonicCycle};
 use windlass_solve::results::along::{lines_at_rest, natural_modes};
 use windlass_solve::tethered::Tethered;
-use windlass_tether::Line;
+use windlass_tether::TetherLine;
 use windlass_tether::compatibility::Compatibility;
 use windlass_tether::installed::modes::modes;
 
@@ -122,7 +124,7 @@ fn tether_frequencies(elements: usize, count: usize) -> Vec<f64> {
     let mut tether = example::tethers().remove(0);
     let mut element = tether.line.elements()[0];
     element.length = LENGTH / elements as f64;
-    tether.line = Line::with_numbered_nodes(vec![element; elements]).unwrap();
+    tether.line = TetherLine::with_numbered_nodes(vec![element; elements]).unwrap();
     let top = example::course().pose.point(tether.attachment);
     let found = modes(&tether, top, &example::water(), 2 * count, &Compatibility::aqwa_5_4()).unwrap();
     found.iter().step_by(2).map(|m| m.mode.frequency().unwrap()).collect()
@@ -270,7 +272,7 @@ fn a_rod_pushes_where_a_tether_of_the_listing_is_slack() {
 
 #[test]
 fn the_platform_on_rods_has_the_harmonics_of_the_listing_but_for_its_half_wet_tubes() {
-    let harmonics = |m: &Motion, f: usize| Cycle::new(&m.0, &m.1[f], (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
+    let harmonics = |m: &Motion, f: usize| HarmonicCycle::new(&m.0, &m.1[f], (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
     let aqwa = of_tethers(0.25, 3, "AQWA").0;
     // means, drifts and first amplitudes of surge and heave, as printed
     let listing = [[-56.0, -7.6679, 6.3223], [-19.5151, -1.5671, 1.3677]];
@@ -319,18 +321,19 @@ fn added(diameter: f64, upward: bool) -> f64 {
 fn towed_periods(cut: usize, plane: Option<bool>) -> Vec<(f64, [f64; 3])> {
     // afloat the ends rise by centimetres
     let (spring, tail) = (500.0, if plane.is_some() { 0.02 } else { 0.2 });
-    let rope = Segment { displaced: 0.0, added_area: 0.0, ..Segment::line(tail / 2.0, 1, 1e-3, spring * tail, 0.01) };
+    let rope =
+        RodSegment { displaced: 0.0, added_area: 0.0, ..RodSegment::line(tail / 2.0, 1, 1e-3, spring * tail, 0.01) };
     let mut segments = vec![rope.clone()];
     for (length, elements, outer, wall, density, modulus) in TOWED {
         let inner = outer - 2.0 * wall;
         let circle = FRAC_PI_4 * outer * outer;
         let area = circle - FRAC_PI_4 * inner * inner;
-        segments.push(Segment {
+        segments.push(RodSegment {
             bending: modulus * PI / 64.0 * (outer.powi(4) - inner.powi(4)),
             compression: true,
             displaced: if plane.is_some() { 0.0 } else { circle },
             added_normal: if plane.is_some() { 0.0 } else { 1.0 },
-            ..Segment::line(
+            ..RodSegment::line(
                 length,
                 elements * cut,
                 density * area + plane.map_or(0.0, |upward| added(outer, upward)),
@@ -347,10 +350,10 @@ fn towed_periods(cut: usize, plane: Option<bool>) -> Vec<(f64, [f64; 3])> {
     // tails at twice their length; 10 N do not stretch the pipe
     let place = |arc: f64| arc.min(tail / 2.0) + arc + (arc - (rod.length() - tail / 2.0)).max(0.0);
     let places: Vec<Vector3<f64>> = rod.arc().iter().map(|s| Vector3::new(place(*s), 0.0, -0.5)).collect();
-    let ends = [places[0], places[places.len() - 1]].map(End::pin);
-    let mut state = State::along_points(&rod, &places).unwrap();
+    let ends = [places[0], places[places.len() - 1]].map(RodEnd::pin);
+    let mut state = RodState::along_points(&rod, &places).unwrap();
     state.position = places.iter().map(|place| place - state.origin).collect();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     if plane.is_none() {
         solver.statics(&rod, &mut state, &world, ends).unwrap();
     }

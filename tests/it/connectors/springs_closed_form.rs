@@ -6,7 +6,7 @@ use windlass::session::Session;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{
-    Connection, Element, End, Model, Placement, Response, RunRequirement, Situation, Summary, TimeStep,
+    Connection, Element, ElementResponse, ElementSummary, End, Model, Placement, RunRequirement, Situation, TimeStep,
 };
 
 /// A spring between a point of a body and another, or the ground, as records define it.
@@ -53,7 +53,7 @@ impl Joint {
     }
 
     /// The wrench on the first end: the second stands at these places and moves with this velocity.
-    fn at(&self, first: [f64; 6], second: [f64; 6], rate: [f64; 3], dt: Option<f64>) -> (Response, Vec<f64>) {
+    fn at(&self, first: [f64; 6], second: [f64; 6], rate: [f64; 3], dt: Option<f64>) -> (ElementResponse, Vec<f64>) {
         let [x, y, z] = rate;
         let ends = [
             End::still(Pose::of(&Place::new(first))),
@@ -61,7 +61,7 @@ impl Joint {
         ];
         let surroundings = self.session.job.model.surroundings();
         let step = dt.map(|dt| TimeStep { time: dt, dt });
-        let (mut out, mut trial) = (Response::default(), vec![0.0; self.state.len()]);
+        let (mut out, mut trial) = (ElementResponse::default(), vec![0.0; self.state.len()]);
         let at = Situation { ends: &ends, step, surroundings: &surroundings };
         self.element.evaluate(&at, &self.state, &mut trial, &mut None, &mut out).unwrap();
         (out, trial)
@@ -80,7 +80,7 @@ impl Joint {
         [w[0], w[1], w[2]]
     }
 
-    fn summary(&self, first: [f64; 6], second: [f64; 6]) -> Summary {
+    fn summary(&self, first: [f64; 6], second: [f64; 6]) -> ElementSummary {
         let ends = [first, second].map(|p| End::still(Pose::of(&Place::new(p))));
         let surroundings = self.session.job.model.surroundings();
         self.element.summary(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &self.state).unwrap()
@@ -142,7 +142,7 @@ fn a_single_node_is_held_to_where_it_was_when_the_connector_was_defined() {
         duty: RunRequirement::default(),
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
-    let mut out = Response::default();
+    let mut out = ElementResponse::default();
     let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };
     element.evaluate(&at, &[], &mut [], &mut None, &mut out).unwrap();
     near(out.wrench[0].as_slice(), &[-500.0, 0.0, 0.0, 0.0, 0.0, 0.0]);

@@ -9,9 +9,9 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_catenary::{Line, Segment};
 use windlass_model::{Model, Weight};
-use windlass_solve::excursion::{End, Path, Walk, resolve_wrench};
-use windlass_solve::offset::{Connectors, Pull};
-use windlass_solve::watch::{Watched, watch};
+use windlass_solve::excursion::{ExcursionEnd, ExcursionPath, Walk, resolve_wrench};
+use windlass_solve::offset::{BodyConnectors, ConnectorPull};
+use windlass_solve::watch::{WatchedBody, watch};
 use windlass_solve::{SolveError, System};
 
 /// The session that has run records, in metres and newtons.
@@ -35,8 +35,8 @@ fn table(records: &str) -> Table {
     }
 }
 
-fn path(direction: f64) -> Path {
-    Path { body: 0, direction, free: false, most: None }
+fn path(direction: f64) -> ExcursionPath {
+    ExcursionPath { body: 0, direction, free: false, most: None }
 }
 
 /// EA of the springs: 29,000 ksi and a diameter of 50 mm (N).
@@ -76,7 +76,7 @@ fn four_taut_springs_restore_as_their_closed_form_and_break_where_the_windward_o
     let start = system.state(&made).poses;
     let mut walk = Walk::new(&system, &start, path(0.0)).unwrap();
     let (rows, end) = walk.rows(30).unwrap();
-    assert_eq!((rows.len(), end), (30, End::Breaks(2)));
+    assert_eq!((rows.len(), end), (30, ExcursionEnd::Breaks(2)));
     for row in &rows {
         let [restoring, transverse, vertical] = resolve_wrench(&row.wrench, 0.0);
         let want = closed_form(row.excursion);
@@ -105,7 +105,7 @@ fn a_pair_of_chains_restores_with_the_difference_of_its_lines() {
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
     let (rows, end) = Walk::new(&system, &start, path(0.0)).unwrap().rows(30).unwrap();
-    assert_eq!(end, End::Breaks(1));
+    assert_eq!(end, ExcursionEnd::Breaks(1));
     let segment = Segment { length: 900.0, weight: 1700.0, ea: 108734.2e6 * FRAC_PI_4 * 0.01 };
     let line = Line::new(vec![segment], vec![], -300.0, 0.0).unwrap();
     for row in &rows {
@@ -170,7 +170,7 @@ fn held_it_stays_on_its_line_and_free_it_turns_aside_until_nothing_pushes_it_acr
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
     let angle = 20.0_f64.to_radians();
-    let held = Path { most: Some(6.0), ..path(angle) };
+    let held = ExcursionPath { most: Some(6.0), ..path(angle) };
     let (rows, _) = Walk::new(&system, &start, held).unwrap().rows(5).unwrap();
     for row in &rows {
         let gone = row.poses[0].origin - start[0].origin;
@@ -178,9 +178,9 @@ fn held_it_stays_on_its_line_and_free_it_turns_aside_until_nothing_pushes_it_acr
         assert!((gone.y - row.excursion * angle.sin()).abs() < 1e-12);
         assert!(gone.z == 0.0 && row.poses[0].axes == start[0].axes);
     }
-    let free = Path { free: true, ..held };
+    let free = ExcursionPath { free: true, ..held };
     let (rows, end) = Walk::new(&system, &start, free).unwrap().rows(5).unwrap();
-    assert_eq!((rows.len(), end), (5, End::Most));
+    assert_eq!((rows.len(), end), (5, ExcursionEnd::Most));
     for row in &rows {
         let gone = row.poses[0].origin - start[0].origin;
         let along = gone.x * angle.cos() + gone.y * angle.sin();
@@ -202,14 +202,14 @@ fn held_it_stays_on_its_line_and_free_it_turns_aside_until_nothing_pushes_it_acr
 }
 
 /// The places of a watch circle, and the force left on the body there.
-fn watched(made: &Model, force: f64, free: bool, count: usize) -> Vec<Watched> {
+fn watched(made: &Model, force: f64, free: bool, count: usize) -> Vec<WatchedBody> {
     let mut system = System::new(made, &[]).unwrap();
     let start: Vec<Pose> = system.state(made).poses;
     let directions: Vec<f64> = (0..=count).map(|n| TAU * n as f64 / count as f64).collect();
     let list = watch(&mut system, &start, (0, force, free), &directions).unwrap().places;
     for one in &list {
-        let mut pull = Pull::default();
-        Connectors::on_body(&system, 0).unwrap().pull(&system, &[one.pose], &mut pull).unwrap();
+        let mut pull = ConnectorPull::default();
+        BodyConnectors::on_body(&system, 0).unwrap().pull(&system, &[one.pose], &mut pull).unwrap();
         let left = pull.wrench - Six::new(force * one.direction.cos(), force * one.direction.sin(), 0.0, 0.0, 0.0, 0.0);
         let left = left[0].abs().max(left[1].abs());
         assert!(left < 1e-7 * force, "{left}");
@@ -222,7 +222,7 @@ fn the_watch_circle_of_a_symmetric_mooring_repeats_and_of_many_lines_is_a_circle
     // with n lines the stiffness of a small excursion e varies over the direction with (e/100)^(n-2): 32 lines, nothing
     let made = model(&springs(32));
     let list = watched(&made, 3e5, false, 24);
-    let radius = |w: &Watched| w.pose.origin.xy().norm();
+    let radius = |w: &WatchedBody| w.pose.origin.xy().norm();
     let mean = list.iter().map(radius).sum::<f64>() / list.len() as f64;
     // less than 0.01 m, where the lee springs would go slack
     assert!(mean > 0.004 && mean < 0.009, "{mean}");
@@ -262,9 +262,9 @@ fn a_mooring_that_cannot_break_asks_for_a_distance_and_a_body_without_one_is_tol
     let SolveError { who, error } = Walk::new(&system, &start, path(0.3)).unwrap().end().unwrap_err();
     assert_eq!(who.as_deref(), Some("SHIP"));
     assert!(error.message.contains("none of its lines breaks"), "{error}");
-    let near = Path { most: Some(5.0), ..path(0.3) };
+    let near = ExcursionPath { most: Some(5.0), ..path(0.3) };
     let (last, end) = Walk::new(&system, &start, near).unwrap().end().unwrap();
-    assert!(end == End::Most && last.excursion == 5.0);
+    assert!(end == ExcursionEnd::Most && last.excursion == 5.0);
     let names: Vec<String> = (0..4).map(|n| format!("L{n}")).collect();
     let bare = System::new(&made, &names).unwrap();
     assert!(Walk::new(&bare, &start, near).unwrap_err().error.message.contains("no connector acts on it"));
@@ -275,7 +275,7 @@ fn forces_alone_are_those_of_the_evaluation_with_its_stiffness() {
     let made = model(PAIR);
     let system = System::new(&made, &[]).unwrap();
     let mut state = system.state(&made);
-    let (mut connectors, mut pull) = (Connectors::on_body(&system, 0).unwrap(), Pull::default());
+    let (mut connectors, mut pull) = (BodyConnectors::on_body(&system, 0).unwrap(), ConnectorPull::default());
     for n in 0..20 {
         state.poses[0].origin.x = f64::from(n);
         state.poses[0].origin.y = 3.0 * f64::from(n);
@@ -296,7 +296,7 @@ fn a_body_whose_freedoms_are_all_left_out_is_moved_free_as_it_is_held() {
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
     let (held, _) = Walk::new(&system, &start, path(0.4)).unwrap().rows(5).unwrap();
-    let (free, _) = Walk::new(&system, &start, Path { free: true, ..path(0.4) }).unwrap().rows(5).unwrap();
+    let (free, _) = Walk::new(&system, &start, ExcursionPath { free: true, ..path(0.4) }).unwrap().rows(5).unwrap();
     for (a, b) in held.iter().zip(&free) {
         assert!((a.wrench - b.wrench).norm() < 1e-6 * BREAK, "{:?} {:?}", a.wrench, b.wrench);
     }

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use tangent::differences;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::hull::{Solid, Tube};
+use windlass_hydro::hull::{Solid, TubeHull};
 use windlass_hydro::sea::{Component, Sea, Water, dispersion::wave_number};
 use windlass_hydro::{BodyLoad, Category, Floating, MovingLoad, Underway, morison};
 use windlass_model::{Model, Stretching};
@@ -166,7 +166,7 @@ fn in_a_level_that_rises_everywhere_the_buoyancy_is_that_of_the_tube_in_the_new_
         ("TUBE T *A *B 9000", [0.0, 0.0, -50.0], [0.0, 0.0, 20.0], 9.0),
     ] {
         let model = body(piece, "");
-        let tube = Tube { ends: [from, to].map(Vector3::from), diameter: od };
+        let tube = TubeHull { ends: [from, to].map(Vector3::from), diameter: od };
         let floating = Floating::under_way(&model, &model.bodies["B"], Some(&sea)).unwrap();
         for pose in [place([0.0; 6]), place([3.0, 2.0, -1.0, 4.0, -7.0, 30.0]), place([0.0, 0.0, 1.5, 80.0, 0.0, 10.0])]
         {

@@ -5,7 +5,7 @@ use crate::common;
 use nalgebra::Matrix6;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::gusts::{FREQUENCY_RANGE_HZ, Gusts, Shape};
+use windlass_hydro::gusts::{FREQUENCY_RANGE_HZ, GustFormula, Gusts};
 use windlass_hydro::{BodyLoad, Category, Floating, MovingLoad, Underway};
 use windlass_model::Model;
 
@@ -257,12 +257,12 @@ fn statistics(gusts: &Gusts, time: f64) -> (f64, f64) {
 #[test]
 fn the_variance_of_a_series_of_gusts_is_the_integral_of_its_spectrum() {
     for (name, shape) in [
-        ("API", Shape::Api),
-        ("NPD", Shape::Froya),
-        ("OCHI", Shape::Ochi),
-        ("HARRIS", Shape::Harris),
-        ("DAVENPORT", Shape::Davenport),
-        ("KAIMAL", Shape::Kaimal),
+        ("API", GustFormula::Api),
+        ("NPD", GustFormula::Froya),
+        ("OCHI", GustFormula::Ochi),
+        ("HARRIS", GustFormula::Harris),
+        ("DAVENPORT", GustFormula::Davenport),
+        ("KAIMAL", GustFormula::Kaimal),
     ] {
         let gusts = gusts(&format!("&ENV -WIND 50 180 -W_SPECTRUM {name}"));
         // the integral of the formula by Simpson's rule over the logarithm of the frequency

@@ -9,7 +9,7 @@ use tangent::differences;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::METRES_PER_FOOT;
-use windlass_hydro::hull::{Fault, Surface, Tube};
+use windlass_hydro::hull::{Fault, Surface, TubeHull};
 use windlass_hydro::steady::{Medium, Steady};
 use windlass_hydro::{Category, Floating};
 use windlass_model::Model;
@@ -176,7 +176,7 @@ fn a_tube_shows_its_diameter_to_every_side() {
 
 #[test]
 fn the_prism_of_a_tube_is_a_closed_surface_of_its_perimeter() {
-    let tube = Tube { ends: [Vector3::new(1.0, 2.0, 3.0), Vector3::new(4.0, -2.0, 3.0)], diameter: 2.0 };
+    let tube = TubeHull { ends: [Vector3::new(1.0, 2.0, 3.0), Vector3::new(4.0, -2.0, 3.0)], diameter: 2.0 };
     let prism = tube.prism(64).unwrap();
     assert!(prism.faults().is_empty());
     near(prism.volume(), std::f64::consts::PI * 5.0, 1e-3);

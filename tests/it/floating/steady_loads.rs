@@ -9,7 +9,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::area::AreaLoad;
 use windlass_hydro::steady::{Medium, Steady};
-use windlass_hydro::wind::{Profile, WindField};
+use windlass_hydro::wind::{WindField, WindProfile};
 use windlass_hydro::{BodyLoad, Category, Floating};
 use windlass_model::Model;
 
@@ -93,7 +93,7 @@ fn published_wind_profiles_have_their_values() {
 #[test]
 fn charnocks_roughness_fulfils_its_equation() {
     let model = model("&ENV -WIND 60 0 -W_PROFILE LOG");
-    let Profile::Logarithmic(z0) = WindField::from_environment(&model.environment).unwrap().unwrap().profile else {
+    let WindProfile::Logarithmic(z0) = WindField::from_environment(&model.environment).unwrap().unwrap().profile else {
         panic!()
     };
     let shear = 0.4 * 60.0 * KNOT / (10.0 / z0).ln();

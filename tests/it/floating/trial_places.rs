@@ -8,7 +8,8 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::pose::Six;
 use windlass_base::table::Table;
 use windlass_model::{
-    ClassError, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary, Surroundings,
+    ClassError, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess, Situation,
+    Surroundings,
 };
 use windlass_solve::{Options, settle};
 
@@ -27,7 +28,7 @@ impl Element for Rope {
         _: &[f64],
         _: &mut [f64],
         _: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let d = -at.ends[0].pose.origin.z;
         if d >= LIMIT {
@@ -42,8 +43,8 @@ impl Element for Rope {
         Ok(())
     }
 
-    fn summary(&self, _: &Situation, _: &[f64]) -> Result<Summary, ClassError> {
-        Ok(Summary::default())
+    fn summary(&self, _: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
+        Ok(ElementSummary::default())
     }
 }
 

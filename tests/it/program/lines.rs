@@ -9,7 +9,7 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 use windlass_base::diagnostic::Severity;
-use windlass_catenary::{Bottom, Segment};
+use windlass_catenary::{FlatBottom, Segment};
 
 const HEAD: &str = "id,x_m,z_m,length_m,EA_N,w_N_per_m";
 const GOOD: &str = "g,850,155,914,6.5E6,196";
@@ -88,7 +88,7 @@ fn columns_go_through_as_they_are_in_their_order_and_numbers_read_back_to_the_la
     let through = "\"a \"\"b\"\", c\", 6.5E6 ,  q ,914.10,155,850,1.96e2,kept,,";
     let added: Vec<&str> = row.strip_prefix(through).unwrap_or_else(|| panic!("{row}")).split(',').collect();
     let segment = Segment { length: 914.1, weight: 196.0, ea: 6.5e6 };
-    let exact = segment.solve_end_forces(850.0, 155.0, Some(Bottom::default())).unwrap();
+    let exact = segment.solve_end_forces(850.0, 155.0, Some(FlatBottom::default())).unwrap();
     let want = [exact.fairlead[0], exact.fairlead[1], exact.anchor[0], exact.anchor[1], exact.grounded];
     for (got, want) in added.iter().zip(want) {
         assert_eq!(got.parse::<f64>().unwrap().to_bits(), want.to_bits());

@@ -4,14 +4,14 @@
 
 use crate::common;
 
-use windlass::session::{End, Session};
+use windlass::session::{Session, SessionEnd};
 
 /// What a script prints, its messages, and the session behind it.
 struct Run {
     text: String,
     messages: Vec<String>,
     session: Session,
-    end: End,
+    end: SessionEnd,
 }
 
 fn run_with(script: &str, prepare: impl Fn(&mut Session)) -> Run {
@@ -91,17 +91,17 @@ fn a_wrong_internal_command_is_still_an_error_and_a_wrong_end_too() {
 #[test]
 fn the_end_of_the_file_and_finish_end_the_run_as_in_any_menu() {
     let open = run(&format!("{MODEL}CONN_DESIGN\nTABLE NOPE\nREPORT\n"));
-    assert_eq!((open.end, open.session.errors), (End::Done, 1));
+    assert_eq!((open.end, open.session.errors), (SessionEnd::Done, 1));
     assert_eq!(open.messages[1..], ["the input ends inside menu DISPOSITION, which END_DISPOSE leaves"]);
     let finished = run(&format!("{MODEL}CONN_DESIGN\nTABLE NOPE\nREPORT\n&FINISH\nEND\n"));
-    assert_eq!((finished.end, finished.messages.len()), (End::Finished, 1));
+    assert_eq!((finished.end, finished.messages.len()), (SessionEnd::Finished, 1));
 }
 
 #[test]
 fn a_run_that_stops_at_the_error_does_not_say_what_it_passes_over() {
     for prepare in [|s: &mut Session| s.job.settings.batch = true, |s: &mut Session| s.job.settings.error_limit = 1] {
         let run = run_with("CONN_DESIGN -FAST\nTABLE A\nEND\nEND\n", prepare);
-        assert_eq!((run.end, run.session.errors), (End::Finished, 1));
+        assert_eq!((run.end, run.session.errors), (SessionEnd::Finished, 1));
         assert!(!run.session.reports[0].help.iter().any(|h| h == PASSED));
     }
 }
@@ -128,7 +128,7 @@ fn the_terminal_after_a_script_passes_over_nothing() {
     assert_eq!(run.session.job.menu().name(), "CONN_DESIGN");
     run.session.interpreter.open_terminal();
     run.session.interpreter.feed("terminal", "TABLE A", 1);
-    assert_eq!(run.session.run(), End::NeedLine);
+    assert_eq!(run.session.run(), SessionEnd::NeedLine);
     assert_eq!((run.session.job.menus.len(), run.session.errors), (3, 1));
 }
 

@@ -4,7 +4,7 @@ use crate::common;
 
 use common::session;
 use windlass_model::{Condition, Model};
-use windlass_solve::scene::{Choice, Scene, Sign, Stroke};
+use windlass_solve::scene::{Scene, SceneOptions, Sign, Stroke};
 
 const MOORING: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY BARGE\n*BOW 0 0 5\n*STERN 100 0 5\n&INSTATE -CONDITION 0\n\
     ~W B_CAT 100 EXACT -LEN 700 -DEP 120 -BUOY 0 -WTPL 0.5\n\
@@ -19,7 +19,7 @@ fn run(text: &str) -> (Model, Vec<String>, String, tempfile::TempDir) {
 }
 
 fn scene(model: &Model) -> (Scene, usize) {
-    let choice = Choice { connector: &|_| true, body: &|_| true, stop: &|| false };
+    let choice = SceneOptions { connector: &|_| true, body: &|_| true, stop: &|| false };
     let (scene, unshaped) = Scene::build(model, &choice).unwrap();
     (scene, unshaped.len())
 }

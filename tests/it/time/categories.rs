@@ -8,7 +8,7 @@ use windlass_base::table::{Cell, Table};
 use windlass_connectors::CLASSES;
 use windlass_model::{Mass, Model};
 use windlass_solve::results::{self, Magnitude};
-use windlass_solve::time::{Action, Run, What, When};
+use windlass_solve::time::{Action, ActionKind, Run, Trigger};
 use windlass_solve::{System, tables};
 
 /// A body on which every kind of load acts, one with a database, and a junction on the bottom.
@@ -154,7 +154,7 @@ fn categories_of_all_loads_add_up_to_inertia_in_a_run() {
 #[test]
 fn categories_that_an_action_brings_have_a_place_from_the_start() {
     let made = model(&format!("{LOADS}END\n&ENV CALM"));
-    let storm = Action { name: "S".into(), when: When::At(1.0), what: What::Environment("STORM".into()) };
+    let storm = Action { name: "S".into(), when: Trigger::At(1.0), what: ActionKind::Environment("STORM".into()) };
     let (shares, groups) = left(&made, vec![storm], 0);
     assert!(["WIND", "V_DRAG", "WAVE", "W_DRIFT"].iter().all(|g| groups.contains(g)), "{groups:?}");
     assert!(shares.iter().all(|s| *s < 2e-7), "{shares:?}");

@@ -12,7 +12,7 @@ use windlass_hydro::Category;
 use windlass_model::Model;
 use windlass_solve::System;
 use windlass_solve::time::{
-    Convergence, Ending, Forces, Memory, Method, Motion, Run, RunRequirements, Settings, Watcher,
+    BodyForces, BodyMotion, Convergence, Ending, LoadMemory, Method, Run, RunRequirements, RunSettings, Watcher,
 };
 
 /// Takes rows and says nothing.
@@ -42,7 +42,7 @@ fn moored(sea: bool) -> Model {
 }
 
 fn run(model: &Model, observed: f64, tolerance: f64) -> Run {
-    let settings = Settings {
+    let settings = RunSettings {
         observed,
         dt: 0.1,
         method: Method::default(),
@@ -112,11 +112,11 @@ fn damping_that_turns_with_its_body_has_that_in_its_stiffness() {
     let mut model = eight::model(&hull, &line, "");
     model.connectors.clear();
     let system = System::under_way(&model, None::<&Arc<_>>, RunRequirements::default()).unwrap();
-    let memory = Memory::new(&system);
+    let memory = LoadMemory::new(&system);
     let pose = Pose::default().after_motion(&Six::new(1.0, 2.0, -1.0, 0.4, -0.7, 1.1));
-    let start = Motion { pose, velocity: Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2), ..Motion::default() };
-    let at = |motion: Motion| {
-        let mut forces = Forces::default();
+    let start = BodyMotion { pose, velocity: Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2), ..BodyMotion::default() };
+    let at = |motion: BodyMotion| {
+        let mut forces = BodyForces::default();
         forces.evaluate(&system, &memory, &[motion], (0.0, 0.0)).unwrap();
         forces
     };
@@ -124,8 +124,8 @@ fn damping_that_turns_with_its_body_has_that_in_its_stiffness() {
     for n in 0..6 {
         let mut by = Six::zeros();
         by[n] = 1e-5;
-        let turned = |by: Six| at(Motion { pose: pose.after_motion(&by), ..start }).sum;
-        let faster = |by: Six| at(Motion { velocity: start.velocity + by, ..start }).sum;
+        let turned = |by: Six| at(BodyMotion { pose: pose.after_motion(&by), ..start }).sum;
+        let faster = |by: Six| at(BodyMotion { velocity: start.velocity + by, ..start }).sum;
         let stiffness = (turned(-by) - turned(by)) / 2e-5 - whole.stiffness.column(n);
         let damping = (faster(-by) - faster(by)) / 2e-5 - whole.damping.column(n);
         // forces of 1e7: rounded 1e-9, over 1e-5; the third derivative 1e7 times 1e-10

@@ -11,7 +11,8 @@ use windlass_hydro::database::DatabaseLookup;
 use windlass_hydro::database::{Database, DriftTable};
 use windlass_model::{AttachedDatabase, DriftMethod, Model};
 use windlass_solve::frequency::{
-    Asked, Derivative, Extreme, Linear, Operators, Quantity, Statistics, Trains, in_sea, natural, respond,
+    Derivative, ExtremeKind, LinearQuantity, LinearSystem, Operators, ResponseOptions, ResponseStatistics, Trains,
+    in_sea, natural, respond,
 };
 
 const G: f64 = 9.80665;
@@ -89,7 +90,7 @@ fn oscillator(force: Complex<f64>, stiffness: f64, damping: f64, w: f64) -> Comp
 fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", "");
     attach(&mut model, DriftMethod::None);
-    let linear = Linear::new(&model).unwrap();
+    let linear = LinearSystem::new(&model).unwrap();
     // waves from 150 degrees travel toward -30; the body stands at (30, -20)
     let (from, w) = (150f64.to_radians(), 0.7);
     let found = Operators::new(&linear, &[w, 0.4], &[from]).unwrap();
@@ -101,7 +102,7 @@ fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
         assert!((motions[dof] - want).norm() < 1e-9 * want.norm(), "{dof} {} {want}", motions[dof]);
     }
     // the acceleration of a point of an unturned body is that of its origin
-    let [_, _, z] = Quantity::point(&linear, 0, nalgebra::Vector3::new(3.0, 4.0, 5.0));
+    let [_, _, z] = LinearQuantity::point(&linear, 0, nalgebra::Vector3::new(3.0, 4.0, 5.0));
     let ratio = z.amplitude(motions, w, Derivative::Acceleration) / motions[2];
     assert!((ratio + w * w).norm() < 1e-12, "{ratio}");
 }
@@ -110,7 +111,7 @@ fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
 fn natural_periods_and_damping_ratios_are_those_of_oscillators() {
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", "");
     attach(&mut model, DriftMethod::None);
-    let modes = natural(&Linear::new(&model).unwrap()).unwrap();
+    let modes = natural(&LinearSystem::new(&model).unwrap()).unwrap();
     for (mode, (stiffness, damping)) in modes.iter().zip([(3e5, 5e4 + RADIATED), (8e5, 9e4 + RADIATED)]) {
         let w = f64::sqrt(stiffness / (1e6 + ADDED));
         assert!((mode.mode.period.unwrap() * w / TAU - 1.0).abs() < 1e-9 && mode.settled);
@@ -125,7 +126,7 @@ fn a_motion_without_damping_at_its_natural_period_is_refused() {
     attach(&mut model, DriftMethod::None);
     let attached = model.bodies.get_mut("BUOY").unwrap().database.as_mut().unwrap();
     Arc::get_mut(&mut attached.data).unwrap().damping.iter_mut().for_each(|b| b.fill(0.0));
-    let linear = Linear::new(&model).unwrap();
+    let linear = LinearSystem::new(&model).unwrap();
     let w = (8e5f64 / (1e6 + ADDED)).sqrt();
     let wrong = Operators::new(&linear, &[w], &[0.0]).unwrap_err();
     assert!(wrong.error.message.contains("BUOY in Z"), "{wrong:?}");
@@ -135,20 +136,20 @@ fn a_motion_without_damping_at_its_natural_period_is_refused() {
 #[test]
 fn statistics_are_those_of_rayleigh() {
     // sigma 2, Tz 10 s: in 10800 s 1080 maxima, the most probable largest 2 sqrt(2 ln 1080) = 7.47514
-    let made = Statistics::from_moments(1.0, [4.0, 0.0], 4.0 * (TAU / 10.0).powi(2));
+    let made = ResponseStatistics::from_moments(1.0, [4.0, 0.0], 4.0 * (TAU / 10.0).powi(2));
     assert!((made.period.unwrap() - 10.0).abs() < 1e-12 && made.significant() == 4.0);
     assert!((made.most_probable(10_800.0).unwrap() - 2.0 * (2.0 * 1080f64.ln()).sqrt()).abs() < 1e-12);
     assert!((made.most_probable(10_800.0).unwrap() - 7.475_14).abs() < 1e-5);
     assert_eq!(made.most_probable(5.0), None);
     // exp(-2) of the amplitudes are above twice the deviation
-    let twice = [Extreme::Times(2.0), Extreme::Exceeded((-2f64).exp())].map(|e| made.extreme(e).unwrap());
+    let twice = [ExtremeKind::Times(2.0), ExtremeKind::Exceeded((-2f64).exp())].map(|e| made.extreme(e).unwrap());
     assert!(twice.iter().all(|x| (x - made.significant()).abs() < 1e-12), "{twice:?}");
 }
 
 /// Response in the sea of a model.
-fn seen(model: &Model, asked: &Asked) -> (Linear, windlass_solve::frequency::Response) {
+fn seen(model: &Model, asked: &ResponseOptions) -> (LinearSystem, windlass_solve::frequency::FrequencyResponse) {
     let trains = Trains::new(model, &model.environment).unwrap().unwrap();
-    let mut linear = Linear::new(model).unwrap();
+    let mut linear = LinearSystem::new(model).unwrap();
     let made = respond(&mut linear, &trains, asked).unwrap();
     (linear, made)
 }
@@ -164,9 +165,9 @@ fn a_body_that_rides_on_the_waves_has_the_height_and_period_of_the_sea() {
     // held beyond the last frequency, where the excitation would fade
     data.frequencies.iter_mut().for_each(|w| *w *= 10.0);
     data.excitation.iter_mut().flatten().for_each(|x| x[2] = Complex::new(1e15, 0.0));
-    let (linear, made) = seen(&model, &Asked::default());
-    let z = Quantity::dof(&linear, 0, 2);
-    let told = Statistics::new(&made, &z, Derivative::Place);
+    let (linear, made) = seen(&model, &ResponseOptions::default());
+    let z = LinearQuantity::dof(&linear, 0, 2);
+    let told = ResponseStatistics::new(&made, &z, Derivative::Place);
     // the energy is exact; what is above 15 times the frequency of the peak is counted there, which takes 0.3 % of the second moment
     assert!((told.significant() / 2.0 - 1.0).abs() < 1e-6, "{told:?}");
     let tz = 10.0 * (0.8 / PI).powf(0.25);
@@ -189,8 +190,8 @@ fn a_spread_sea_moves_a_body_by_the_mean_square_over_its_directions() {
             vec![six; data.frequencies.len()]
         };
         data.excitation = data.headings.iter().map(one).collect();
-        let (linear, made) = seen(&model, &Asked::default());
-        Statistics::new(&made, &Quantity::dof(&linear, 0, 0), Derivative::Place).deviation
+        let (linear, made) = seen(&model, &ResponseOptions::default());
+        ResponseStatistics::new(&made, &LinearQuantity::dof(&linear, 0, 0), Derivative::Place).deviation
     };
     let ratio = of("-SPREAD 2") / of("");
     // eleven directions of equal shares
@@ -203,8 +204,8 @@ fn slow_drift_of_a_rectangular_spectrum_is_that_of_pinkster_by_hand() {
     let curve = format!("&DATA CURVES\nF_SPECTRUM BOX {low} 1 {high} 1\nEND\n");
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", &format!("{curve}&ENV -SEA BOX 180 4 {}", TAU / low));
     attach(&mut model, DriftMethod::Newman);
-    let (linear, made) = seen(&model, &Asked { spectral: true, ..Asked::default() });
-    let x = Quantity::dof(&linear, 0, 0);
+    let (linear, made) = seen(&model, &ResponseOptions { spectral: true, ..ResponseOptions::default() });
+    let x = LinearQuantity::dof(&linear, 0, 0);
     // S = 1 m2 over 0.3 rad/s; S_F = 8 S2 D2 (high - low - mu)
     let s = 1.0 / (high - low);
     assert!(made.slow.len() > 50);
@@ -219,7 +220,7 @@ fn slow_drift_of_a_rectangular_spectrum_is_that_of_pinkster_by_hand() {
     }
     // no drift, no slow motion
     attach(&mut model, DriftMethod::Mean);
-    let (_, none) = seen(&model, &Asked { spectral: true, ..Asked::default() });
+    let (_, none) = seen(&model, &ResponseOptions { spectral: true, ..ResponseOptions::default() });
     assert!(none.slow.is_empty());
 }
 
@@ -229,10 +230,10 @@ fn a_quadratic_dashpot_is_linearised_as_borgman_has_it() {
     let dashpot = "~D GSPR BOTH Z 1E-6 1000 -LEN 0 -Z_DAMPING 400 2\nCONNECTOR D ~D *C *G\n";
     let mut model = model(dashpot, "&ENV -SEA ISSC 180 4 9");
     attach(&mut model, DriftMethod::None);
-    let (mut linear, made) = seen(&model, &Asked { spectral: true, ..Asked::default() });
+    let (mut linear, made) = seen(&model, &ResponseOptions { spectral: true, ..ResponseOptions::default() });
     assert!(made.rounds > 1);
-    let z = Quantity::dof(&linear, 0, 2);
-    let velocity = Statistics::new(&made, &z, Derivative::Velocity).deviation;
+    let z = LinearQuantity::dof(&linear, 0, 2);
+    let velocity = ResponseStatistics::new(&made, &z, Derivative::Velocity).deviation;
     let (_, damping) = linear.inertia_and_damping(1.0);
     let want = RADIATED + 4e5 * (8.0 / PI).sqrt() * velocity;
     // 1024 velocities stand for the normal distribution
@@ -240,12 +241,12 @@ fn a_quadratic_dashpot_is_linearised_as_borgman_has_it() {
     // a dashpot so strong that nothing else holds the body settles too
     let mut strong = self::model(&dashpot.replace("400 2", "4E5 2"), "&ENV -SEA ISSC 180 4 9");
     attach(&mut strong, DriftMethod::None);
-    assert!(seen(&strong, &Asked { spectral: true, ..Asked::default() }).1.rounds > 1);
+    assert!(seen(&strong, &ResponseOptions { spectral: true, ..ResponseOptions::default() }).1.rounds > 1);
     // without it waves are answered as by a body without the dashpot
     let trains = Trains::new(&model, &model.environment).unwrap().unwrap();
-    linear = Linear::new(&model).unwrap();
-    let free = in_sea(&linear, &trains, &Asked::default()).unwrap();
-    assert!(Statistics::new(&free, &z, Derivative::Velocity).deviation > 1.2 * velocity);
+    linear = LinearSystem::new(&model).unwrap();
+    let free = in_sea(&linear, &trains, &ResponseOptions::default()).unwrap();
+    assert!(ResponseStatistics::new(&free, &z, Derivative::Velocity).deviation > 1.2 * velocity);
 }
 
 const RADIUS: f64 = 10.0;
@@ -279,7 +280,7 @@ const HULME: [(f64, f64, f64); 6] = [
 fn heave_of_the_hemisphere_is_that_of_its_formula_and_of_hulme() {
     let session = hemisphere("-IGNORE X Y RX RY RZ", "", "");
     let model = &session.job.model;
-    let linear = Linear::new(model).unwrap();
+    let linear = LinearSystem::new(model).unwrap();
     let data = Arc::clone(&model.bodies["BALL"].database.as_ref().unwrap().data);
     let mass = 1025.0 * 2.0 / 3.0 * PI * RADIUS.powi(3);
     let mut worst = 0.0f64;
@@ -327,7 +328,7 @@ fn a_moored_hemisphere_in_small_waves_moves_in_time_as_in_the_frequency_domain()
     let w = TAU / period;
     let rest = format!("&EQUI\n&ENV -DEPTH 100 -SEA REGULAR 200 0.2 {period} -RAMP 60 -TIME 540 {step}\nTDOM\n");
     let session = hemisphere("-IGNORE RZ", &lines, &rest);
-    let linear = Linear::new(&session.job.model).unwrap();
+    let linear = LinearSystem::new(&session.job.model).unwrap();
     let found = Operators::new(&linear, &[w], &[200f64.to_radians()]).unwrap();
     let motions = &found.motions[0][0];
     let history = &session.job.run.as_ref().unwrap().history;
@@ -343,7 +344,7 @@ fn a_moored_hemisphere_in_small_waves_moves_in_time_as_in_the_frequency_domain()
         assert!((lag - own.arg() + PI).rem_euclid(TAU) - PI < 0.02, "{dof}: {lag} {}", own.arg());
     }
     for n in 0..4 {
-        let (_, size) = Quantity::tension(&linear, &format!("L{n}")).unwrap().unwrap();
+        let (_, size) = LinearQuantity::tension(&linear, &format!("L{n}")).unwrap().unwrap();
         let size = size.unwrap();
         let own = size.amplitude(motions, w, Derivative::Place) * 0.1;
         let at = history.layout.wrench(n, 0).unwrap();
@@ -361,7 +362,7 @@ fn lines_that_move_by_themselves_are_said_to_follow_without_dynamics() {
     for (more, told) in [(rod, true), ("", false)] {
         let mut model = model(more, "");
         attach(&mut model, DriftMethod::None);
-        let linear = Linear::new(&model).unwrap();
+        let linear = LinearSystem::new(&model).unwrap();
         let found = linear.notes.iter().any(|n| n.starts_with("ROD: ") && n.contains("without dynamics"));
         assert_eq!(found, told, "{:?}", linear.notes);
     }

@@ -4,7 +4,7 @@ use crate::common::run as runs;
 use runs::{model, run, settings};
 use std::f64::consts::TAU;
 use windlass_solve::run_tables::run_table;
-use windlass_solve::time::{Method, Run, Scheme, Settings};
+use windlass_solve::time::{Method, Run, RunSettings, TimeScheme};
 
 /// Mass of the line (kg), and of what hangs on it.
 const LINE: f64 = 1000.0;
@@ -27,7 +27,7 @@ fn swung(method: Method, steps: f64, periods: f64) -> Run {
         LINE * g / length,
         -below
     );
-    run(&model(&records), Settings { method, ..settings(periods * period, period / steps) }, vec![])
+    run(&model(&records), RunSettings { method, ..settings(periods * period, period / steps) }, vec![])
 }
 
 /// Share of critical damping of the oscillation, from one turn of its phase to another, by place and velocity.
@@ -51,12 +51,12 @@ fn line_mode_is_damped_as_the_scheme_of_the_run_damps() {
     // numpy's eigenvalues of the amplification matrix of the form of [CHUNG-HULBERT-1993 eq. 5 to 8]:
     // M a[n+1-am] + K d[n+1-af] = 0 with Newmark's d and v; damping is -ln|z| / |ln z|
     for (method, steps, closed) in [
-        (Scheme::generalised_alpha(0.2), 10.0, 0.022552),
-        (Scheme::generalised_alpha(0.2), 20.0, 0.003954),
-        (Scheme::generalised_alpha(0.5), 10.0, 0.003780),
-        (Scheme::generalised_alpha(0.9), 10.0, 0.000017),
-        (Scheme::generalised_alpha(0.0), 10.0, 0.054905),
-        (Scheme::newmark(0.3025, 0.6), 20.0, 0.015453),
+        (TimeScheme::generalised_alpha(0.2), 10.0, 0.022552),
+        (TimeScheme::generalised_alpha(0.2), 20.0, 0.003954),
+        (TimeScheme::generalised_alpha(0.5), 10.0, 0.003780),
+        (TimeScheme::generalised_alpha(0.9), 10.0, 0.000017),
+        (TimeScheme::generalised_alpha(0.0), 10.0, 0.054905),
+        (TimeScheme::newmark(0.3025, 0.6), 20.0, 0.015453),
     ] {
         let made = swung(Method::Implicit(method), steps, 30.0);
         // velocity and acceleration of a decay are not quite those of a sine; phases are met to a step
@@ -67,7 +67,7 @@ fn line_mode_is_damped_as_the_scheme_of_the_run_damps() {
 
 #[test]
 fn line_of_the_trapezoidal_rule_keeps_its_energy() {
-    let made = swung(Method::Implicit(Scheme::generalised_alpha(1.0)), 10.0, 30.0);
+    let made = swung(Method::Implicit(TimeScheme::generalised_alpha(1.0)), 10.0, 30.0);
     assert!(damping(&made, [4, 24], 10.0).abs() < 1e-6);
 }
 

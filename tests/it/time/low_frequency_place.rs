@@ -8,7 +8,7 @@ use runs::{Quiet, settings};
 use std::f64::consts::TAU;
 use windlass_hydro::Category;
 use windlass_model::Model;
-use windlass_solve::frequency::Linear;
+use windlass_solve::frequency::LinearSystem;
 use windlass_solve::time::{History, Run};
 
 /// A hemisphere on soft linear springs, its centre of gravity off its axis so that it yaws; in an environment, with more records.
@@ -143,7 +143,7 @@ fn surge_of_a_moored_ball_in_a_sea_is_that_by_frequency() {
     // at the springs, by their pull of 22 kN/m
     let pull = made.history.layout.category(0, Category::FlexConnectors).unwrap();
     let surge = made.history.series(pull).split_off(3000).into_iter().map(|f| -f / 22e3);
-    let linear = Linear::new(&model).unwrap();
+    let linear = LinearSystem::new(&model).unwrap();
     let waves: Vec<_> = (made.sea.as_ref().unwrap().components.iter())
         .map(|c| {
             let motion = &linear.operators(c.frequency, &[c.toward[1].atan2(c.toward[0])]).unwrap()[0];

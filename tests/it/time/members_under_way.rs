@@ -9,11 +9,11 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::hull::{Solid, Tube};
+use windlass_hydro::hull::{Solid, TubeHull};
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_hydro::{BodyLoad, Category, Floating, Underway, grown};
 use windlass_model::{Model, Stretching};
-use windlass_solve::time::Settings;
+use windlass_solve::time::RunSettings;
 
 const RHO: f64 = 1025.0;
 const G: f64 = 9.80665;
@@ -120,7 +120,7 @@ fn in_a_level_that_rises_everywhere_growth_floats_as_a_larger_tube_does() {
     let floating = Floating::under_way(&model, &model.bodies["B"], Some(&long)).unwrap();
     let mine = floating.loads.iter().filter(|l| l.category() != Category::Weight);
     let got: Six = mine.map(|l| at(l.as_ref(), 0.0, &Pose::default(), &Six::zeros())).sum();
-    let tube = Tube { ends: [Vector3::new(0.0, 0.0, -50.0), Vector3::new(0.0, 0.0, 20.0)], diameter: 2.6 };
+    let tube = TubeHull { ends: [Vector3::new(0.0, 0.0, -50.0), Vector3::new(0.0, 0.0, 20.0)], diameter: 2.6 };
     near(got[2], tube.wet(&Pose::default(), 1.7).load(RHO * G).wrench[2], 1e-7);
 }
 
@@ -149,7 +149,7 @@ fn a_member_meets_the_current_of_the_time() {
 
 /// Time, place and velocity of one degree of freedom of the only body in a run by the trapezoidal rule.
 fn run(model: &Model, (observed, dt): (f64, f64), dof: usize) -> Vec<[f64; 3]> {
-    let settings = Settings { method: trapezoidal(), ..settings(observed, dt) };
+    let settings = RunSettings { method: trapezoidal(), ..settings(observed, dt) };
     let run = runs::run(model, settings, vec![]);
     let first = run.history.layout.body(0) + dof;
     run.history.rows().map(|row| [row[0], row[first], row[first + 6]]).collect()

@@ -12,8 +12,8 @@ use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{FatigueSelection, Model, Stretching};
 use windlass_signal::fatigue::{find, of_cycles};
 use windlass_signal::rainflow::cycles;
-use windlass_solve::results::{self, Exposed, Magnitude, Told, TrackedPoint, Window};
-use windlass_solve::time::{Action, Ending, Run, What, When};
+use windlass_solve::results::{self, EventWindow, Magnitude, MotionOptions, ScatterExposure, TrackedPoint};
+use windlass_solve::time::{Action, ActionKind, Ending, Run, Trigger};
 
 fn run(model: &Model, (observed, dt): (f64, f64), start: &[(usize, Six)], actions: Vec<Action>) -> Run {
     let mut run = Run::new(model, settings(observed, dt), actions).unwrap();
@@ -59,7 +59,7 @@ fn a_point_of_a_turning_body_goes_round_a_circle() {
     let events = results::events(&made.history, None).unwrap();
     let spin = Vector3::new(0.0, 0.0, SPIN);
     let (origin, centre) = (Vector3::new(10.0, 20.0, 5.0), Vector3::new(4.0, 0.0, 2.0));
-    let told = Told { centre: true, ..Told::default() };
+    let told = MotionOptions { centre: true, ..MotionOptions::default() };
     let table = results::trajectory(&made, &[0], &told, &events).unwrap();
     let at = |t: f64| turned(SPIN * t, centre);
     near(&vectors(&table, "Location", ["X", "Y", "Z"]), |t| origin + at(t), dt, tolerance);
@@ -74,7 +74,7 @@ fn a_point_of_a_turning_body_goes_round_a_circle() {
     assert!(column(&table, "Velocity", "V Mag.").iter().all(|v| (v - 4.0 * SPIN).abs() < tolerance));
 
     // along its own axes what turns with it stands still
-    let told = Told { centre: true, local: true, magnitude: Magnitude([true, false, false]) };
+    let told = MotionOptions { centre: true, local: true, magnitude: Magnitude([true, false, false]) };
     let table = results::trajectory(&made, &[0], &told, &events).unwrap();
     near(&vectors(&table, "Velocity", ["VX", "VY", "VZ"]), |_| spin.cross(&centre), dt, tolerance);
     near(&vectors(&table, "Acceleration", ["AX", "AY", "AZ"]), |_| spin.cross(&spin.cross(&centre)), dt, tolerance);
@@ -96,7 +96,7 @@ fn points_of_interest_move_with_their_body_under_the_wave_of_the_run() {
     let marked = point.interest.unwrap();
     let on_body = TrackedPoint { name: "*P".into(), body: Some(0), at: point.at, marked };
     let fixed = TrackedPoint { name: "*G".into(), body: None, at: [100.0, 50.0, 3.0], marked: [100.0, 50.0, 3.0] };
-    let window = Window { begin: 0.0, end: Some(99.0), increment: Some(0.2) };
+    let window = EventWindow { begin: 0.0, end: Some(99.0), increment: Some(0.2) };
     let events = results::events(&made.history, Some(&window)).unwrap();
     let table = results::points(&made, &[on_body, fixed], (false, Magnitude::default()), &events).unwrap();
     assert_eq!(table.rows(), 21);
@@ -159,10 +159,11 @@ fn ends(model: &Model, line: &str, point: &str) -> (Vector3<f64>, Vector3<f64>) 
 fn the_forces_of_a_line_are_those_of_its_catenary_at_every_event() {
     let model = moored("");
     // A is paid out from 10 s on
-    let winch = Action { name: "W".into(), when: When::At(10.0), what: What::Winch(vec!["A".into()], 0.3, None) };
+    let winch =
+        Action { name: "W".into(), when: Trigger::At(10.0), what: ActionKind::Winch(vec!["A".into()], 0.3, None) };
     let made = run(&model, (30.0, 0.5), &[], vec![winch]);
     let events = results::events(&made.history, None).unwrap();
-    let places = results::trajectory(&made, &[0], &Told::default(), &events).unwrap();
+    let places = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
     let (at, yaw) = (vectors(&places, "Location", ["X", "Y", "Z"]), column(&places, "Location", "Yaw"));
     let lengths = results::lengths(&made, &[0, 1, 2], &events).unwrap();
     for (link, (line, point)) in [("A", "*A"), ("B", "*B"), ("D", "*D")].into_iter().enumerate() {
@@ -199,7 +200,7 @@ fn the_total_force_of_connectors_is_the_sum_of_their_forces_and_moments() {
     let model = moored("");
     let made = run(&model, (10.0, 0.5), &[], vec![]);
     let events = results::events(&made.history, None).unwrap();
-    let places = results::trajectory(&made, &[0], &Told::default(), &events).unwrap();
+    let places = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
     let yaw = column(&places, "Location", "Yaw");
     let total = results::total_forces(&made, &[0], Magnitude::default(), &events).unwrap();
     let all = results::connector_forces(&made, &[0, 1, 2], Magnitude::default(), &events).unwrap();
@@ -241,9 +242,9 @@ fn the_forces_of_all_categories_with_inertia_are_in_balance_at_every_event() {
 
 #[test]
 fn a_line_that_is_let_go_has_no_numbers_from_then_on() {
-    let gone = Action { name: "R".into(), when: When::At(5.0), what: What::Release(vec!["D".into()]) };
+    let gone = Action { name: "R".into(), when: Trigger::At(5.0), what: ActionKind::Release(vec!["D".into()]) };
     let made = run(&moored(""), (10.0, 0.5), &[], vec![gone]);
-    let window = Window { begin: 4.0, end: Some(6.0), increment: Some(0.25) };
+    let window = EventWindow { begin: 4.0, end: Some(6.0), increment: Some(0.25) };
     let events = results::events(&made.history, Some(&window)).unwrap();
     let table = results::connector_forces(&made, &[2], Magnitude::default(), &events).unwrap();
     let lengths = results::lengths(&made, &[2], &events).unwrap();
@@ -261,7 +262,7 @@ fn what_lies_between_two_stored_instants_is_on_the_line_between_them() {
     let made = run(&moored(""), (4.0, 0.5), &[], vec![]);
     let all = results::magnitudes(&made, &[0], Magnitude::default(), &results::events(&made.history, None).unwrap());
     let stored = column(&all.unwrap(), "Force Magnitude", "A");
-    let window = Window { begin: 1.2, end: Some(1.2), increment: Some(1.0) };
+    let window = EventWindow { begin: 1.2, end: Some(1.2), increment: Some(1.0) };
     let events = results::events(&made.history, Some(&window)).unwrap();
     let between = results::magnitudes(&made, &[0], Magnitude::default(), &events).unwrap();
     let want = 0.6 * stored[2] + 0.4 * stored[3];
@@ -279,7 +280,7 @@ fn segments_are_damaged_by_the_tension_at_their_upper_ends_and_a_scatter_adds_up
     let link = made.history.layout.links.iter().position(|l| l.name == "T").unwrap();
     let damages = results::line_damages(&made, &[link], &selection, &events).unwrap();
     let segments = &damages[0].1.segments;
-    let places = results::trajectory(&made, &[0], &Told::default(), &events).unwrap();
+    let places = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
     let (at, yaw) = (vectors(&places, "Location", ["X", "Y", "Z"]), column(&places, "Location", "Yaw"));
     let (anchor, own) = ends(&made.model, "T", "*B");
     let (mut top, mut joint) = (Vec::new(), Vec::new());
@@ -299,8 +300,12 @@ fn segments_are_damaged_by_the_tension_at_their_upper_ends_and_a_scatter_adds_up
         assert!(want.sum > 0.0 && (segment.damage / want.sum - 1.0).abs() < 2e-3, "{segment:?} {want:?}");
     }
     let day = 86_400.0;
-    let exposed =
-        |days: f64| Exposed { environment: "E".into(), record: 60.0, duration: days * day, lines: damages.clone() };
+    let exposed = |days: f64| ScatterExposure {
+        environment: "E".into(),
+        record: 60.0,
+        duration: days * day,
+        lines: damages.clone(),
+    };
     let table = results::scatter(&[exposed(10.0), exposed(5.0)], 2.0).unwrap();
     let (cdr, years) = (column(&table, "All Environments", "CDR"), column(&table, "All Environments", "Life, Years"));
     for (segment, (cdr, years)) in segments.iter().zip(cdr.iter().zip(years)) {

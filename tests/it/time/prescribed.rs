@@ -11,7 +11,9 @@ use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{Model, Stretching};
-use windlass_solve::time::{Action, Ending, Motion, Prescribed, Run, Settings, What, When, build_prescribed};
+use windlass_solve::time::{
+    Action, ActionKind, BodyMotion, Ending, Prescribed, Run, RunSettings, Trigger, build_prescribed,
+};
 
 /// A model with a body B and a file in the job's folder; the text of what was said.
 fn session(file: &str, records: &str) -> (Model, i64, String) {
@@ -33,7 +35,7 @@ fn motion(file: &str, records: &str, sea: Option<&Arc<Sea>>) -> Box<dyn Prescrib
     build_prescribed(&model.bodies["B"], sea).unwrap().unwrap()
 }
 
-fn at(motion: &dyn Prescribed, time: f64) -> Motion {
+fn at(motion: &dyn Prescribed, time: f64) -> BodyMotion {
     motion.motion_at(time).unwrap()
 }
 
@@ -289,7 +291,7 @@ fn a_mass_on_a_spring_whose_other_end_swings_follows_its_closed_form() {
     );
     let (model, errors, text) = session("", &records);
     assert_eq!(errors, 0, "{text}");
-    let settings = Settings { method: trapezoidal(), ..settings(20.0, 0.01) };
+    let settings = RunSettings { method: trapezoidal(), ..settings(20.0, 0.01) };
     let run = runs::run(&model, settings, vec![]);
     let cart = model.bodies.get_index_of("CART").unwrap();
     let (w0, w) = (2.0, TAU / period);
@@ -311,8 +313,9 @@ fn a_body_that_rides_on_the_waves_rides_on_those_of_the_sea_it_comes_into() {
                    &ENV LATER -SEA REGULAR 60 2.6 7.5\n&ENV NOW -SEA REGULAR 200 4 11";
     let (model, errors, text) = session(&file, records);
     assert_eq!(errors, 0, "{text}");
-    let settings = Settings { method: trapezoidal(), ..settings(40.0, 0.1) };
-    let change = Action { name: "CHANGE".into(), when: When::At(20.0), what: What::Environment("LATER".into()) };
+    let settings = RunSettings { method: trapezoidal(), ..settings(40.0, 0.1) };
+    let change =
+        Action { name: "CHANGE".into(), when: Trigger::At(20.0), what: ActionKind::Environment("LATER".into()) };
     let mut run = Run::new(&model, settings, vec![change]).unwrap();
     let seas = ["NOW", "LATER"].map(|name| Sea::new(&model, &model.environments[name]).unwrap().unwrap());
     assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));

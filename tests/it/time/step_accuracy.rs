@@ -8,7 +8,7 @@ use runs::{model, run, settings, trapezoidal};
 use std::f64::consts::TAU;
 use windlass_model::Model;
 use windlass_solve::run_tables::{warning_of_accuracy, warnings_of_step};
-use windlass_solve::time::{History, Method, Run, Scheme, Settings};
+use windlass_solve::time::{History, Method, Run, RunSettings, TimeScheme};
 
 /// 1000 kg on a spring of 4000 N/m along X, 2 rad/s, drawn out 0.5 m; a second body of 1 kg hangs beside it, at rest.
 fn mass_on_a_spring() -> Model {
@@ -21,7 +21,7 @@ fn mass_on_a_spring() -> Model {
 
 fn oscillated(method: Method, steps: f64, periods: f64) -> Run {
     let period = TAU / 2.0;
-    run(&mass_on_a_spring(), Settings { method, ..settings(periods * period, period / steps) }, vec![])
+    run(&mass_on_a_spring(), RunSettings { method, ..settings(periods * period, period / steps) }, vec![])
 }
 
 /// Period and damping (share of critical) of an oscillation, by a fit of its zeros and of its envelope.
@@ -63,7 +63,7 @@ fn error_and_damping_of_generalised_alpha_are_those_of_the_oscillation_itself() 
     for (rho, steps, period, damping) in
         [(0.2, 10.0, 0.080910, 0.022552), (0.2, 20.0, 0.023147, 0.003954), (0.5, 12.0, 0.032954, 0.002313)]
     {
-        let made = oscillated(Method::Implicit(Scheme::generalised_alpha(rho)), steps, 16.0);
+        let made = oscillated(Method::Implicit(TimeScheme::generalised_alpha(rho)), steps, 16.0);
         let worst = made.followed_worst().unwrap();
         let (own, decay) = seen(&made.history);
         let own = own / (TAU / 2.0) - 1.0;
@@ -127,7 +127,7 @@ fn natural_periods_at_the_start_are_those_of_springs_and_masses() {
 #[test]
 fn run_of_very_many_steps_is_announced() {
     // 1e12 steps of 1e-5 s: 1e7 s, or 2778 h
-    let long = Settings { keep: false, ..settings(1e9, 1e-3) };
+    let long = RunSettings { keep: false, ..settings(1e9, 1e-3) };
     let said = warnings_of_step(&Run::new(&mass_on_a_spring(), long, vec![]).unwrap());
     assert!(said.len() == 1 && said[0].contains("1.0e12 steps") && said[0].contains("2778 hours"), "{said:?}");
 }

@@ -6,7 +6,7 @@ use crate::common::run as runs;
 
 use runs::{model, run, settings, trapezoidal};
 use windlass_model::Model;
-use windlass_solve::time::{Convergence, Run, Settings};
+use windlass_solve::time::{Convergence, Run, RunSettings};
 use windlass_solve::{Options, settle};
 
 const G: f64 = 9.80665;
@@ -56,7 +56,7 @@ fn bodies_joined_by_fix_heave_as_one_and_share_their_weight() {
         // a deflection that is rounding, as a step leaves it, rings on with 1e12 N/m under a rule that damps nothing
         let ring = 4.0 * 1e12 * (1e-13 + 8.0 * f64::EPSILON * far);
         let convergence = Convergence { tolerance: 1e-9, ..Convergence::default() };
-        let made = run(&model, Settings { method: trapezoidal(), convergence, ..settings(10.0, h) }, vec![]);
+        let made = run(&model, RunSettings { method: trapezoidal(), convergence, ..settings(10.0, h) }, vec![]);
         assert_eq!(made.counts.cut, 0, "{weight} {far} {off}");
         // from rest on an unstretched spring: z = -g/w2 (1 - cos W t), with the trapezoidal rule's tan(W h/2) = w h/2
         let rule = 2.0 / h * (0.5 * natural * h).atan();

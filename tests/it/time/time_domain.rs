@@ -8,7 +8,7 @@ use runs::{Quiet, model, run, settings, trapezoidal};
 use std::f64::consts::TAU;
 use windlass_base::pose::Six;
 use windlass_model::Model;
-use windlass_solve::time::{Ending, History, Method, Run, Scheme, Settings};
+use windlass_solve::time::{Ending, History, Method, Run, RunSettings, TimeScheme};
 
 fn x(history: &History) -> Vec<f64> {
     history.series(history.layout.body(0))
@@ -27,7 +27,7 @@ fn mass_on_a_spring(more: &str, start: f64) -> Model {
 fn energy_of_a_linear_spring_drifts_less_than_1e_9_over_a_thousand_periods_of_20_steps() {
     let model = mass_on_a_spring("", 0.5);
     let period = TAU / 2.0;
-    let made = run(&model, Settings { method: trapezoidal(), ..settings(1000.0 * period, period / 20.0) }, vec![]);
+    let made = run(&model, RunSettings { method: trapezoidal(), ..settings(1000.0 * period, period / 20.0) }, vec![]);
     let at = made.history.layout.body(0);
     let energy = |row: &[f64]| 0.5 * 4000.0 * row[at] * row[at] + 0.5 * 1000.0 * row[at + 6] * row[at + 6];
     let mut rows = made.history.rows();
@@ -43,7 +43,7 @@ fn the_trapezoidal_rule_oscillates_with_its_own_known_period() {
     // tan(W h/2) = w h/2 [HUGHES-1987 9.1]: x = cos(W t) at the steps
     let model = mass_on_a_spring("", 0.5);
     let h: f64 = 0.1;
-    let made = run(&model, Settings { method: trapezoidal(), ..settings(50.0, h) }, vec![]);
+    let made = run(&model, RunSettings { method: trapezoidal(), ..settings(50.0, h) }, vec![]);
     let frequency = 2.0 / h * (2.0 * h / 2.0).atan();
     for (row, time) in x(&made.history).iter().zip(made.history.times()) {
         assert!((row - 0.5 * (frequency * time).cos()).abs() < 1e-9, "{time} {row}");
@@ -54,10 +54,10 @@ fn the_trapezoidal_rule_oscillates_with_its_own_known_period() {
 fn halving_the_step_quarters_the_error_of_every_scheme() {
     let model = mass_on_a_spring("", 0.5);
     for method in
-        [Method::default(), trapezoidal(), Method::Implicit(Scheme::generalised_alpha(0.5)), Method::Corrector]
+        [Method::default(), trapezoidal(), Method::Implicit(TimeScheme::generalised_alpha(0.5)), Method::Corrector]
     {
         let error = |h: f64| {
-            let made = run(&model, Settings { method, ..settings(10.0, h) }, vec![]);
+            let made = run(&model, RunSettings { method, ..settings(10.0, h) }, vec![]);
             (x(&made.history).last().unwrap() - 0.5 * 20f64.cos()).abs()
         };
         let errors = [0.05, 0.025, 0.0125].map(error);
@@ -73,7 +73,7 @@ fn linear_damping_has_its_logarithmic_decrement_and_damped_period() {
     // 5 % of critical: c = 2 * 0.05 * sqrt(k m)
     let (ratio, w) = (0.05f64, 2.0);
     let model = mass_on_a_spring(&format!("#DAMP *C {} 0 0 0 0 0\n", 2.0 * ratio * 2000.0), 0.5);
-    let made = run(&model, Settings { method: trapezoidal(), ..settings(20.0, 0.005) }, vec![]);
+    let made = run(&model, RunSettings { method: trapezoidal(), ..settings(20.0, 0.005) }, vec![]);
     let damped = w * (1.0 - ratio * ratio).sqrt();
     for (row, t) in x(&made.history).iter().zip(made.history.times()) {
         let exact = 0.5 * (-ratio * w * t).exp() * ((damped * t).cos() + ratio * w / damped * (damped * t).sin());
@@ -170,7 +170,7 @@ fn a_berthing_fender_takes_the_energy_of_the_ship_and_friction_its_impulse() {
         "MEDIT\n*Q 0 0 0\n&DESCRIBE BODY SHIP -IGNORE Z RX RY RZ\n*C 0 0 0\n*SIDE 0 1.5 0\n#WEIGHT *C 9806650 5 5 5\n\
          ~F FENDER 1.5 9E4 0.25 4E5 0.6 -NORMAL 0 1 0 -RATED 0.2 -FRICTION 0.2\nCONNECTOR F ~F *Q *SIDE\nEND\n",
     );
-    let mut made = Run::new(&ship, Settings { method: trapezoidal(), ..settings(8.0, 0.01) }, vec![]).unwrap();
+    let mut made = Run::new(&ship, RunSettings { method: trapezoidal(), ..settings(8.0, 0.01) }, vec![]).unwrap();
     made.begin_with(&[(0, Six::new(1.0, -0.15, 0.0, 0.0, 0.0, 0.0))]).unwrap();
     made.go(&mut Quiet).unwrap();
     let peaks = windlass_solve::results::fender_peaks(&made).unwrap();

@@ -3,8 +3,8 @@
 use super::sea;
 use super::written::{Script, difference, number, numbers, opposite, round_value};
 use crate::Deck;
-use crate::surroundings::{Flow, Layer};
-use crate::waves::{Spectrum, Waves};
+use crate::surroundings::{CurrentLayer, UniformStream};
+use crate::waves::{SpectrumCard, WaveDeck};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 use windlass_base::units::METRES_PER_SECOND_PER_KNOT;
@@ -23,9 +23,9 @@ pub(super) fn environment(deck: &Deck, out: &mut Script) {
         out.word("-DEPTH", "deck 5, DPTH", span);
     }
     let of_waves = match &deck.waves {
-        Waves::Spectra(list) => list.first().map(|sea| sea.span),
-        Waves::Regular(wave) => Some(wave.span),
-        Waves::Still => None,
+        WaveDeck::Spectra(list) => list.first().map(|sea| sea.span),
+        WaveDeck::Regular(wave) => Some(wave.span),
+        WaveDeck::Still => None,
     };
     if let Some(span) = of_waves {
         out.word("-SEA", "deck 13", span);
@@ -43,9 +43,9 @@ pub(super) fn environment(deck: &Deck, out: &mut Script) {
 }
 
 /// The first spectrum, which is the one that is run.
-pub(super) fn spectrum(deck: &Deck) -> Option<&Spectrum> {
+pub(super) fn spectrum(deck: &Deck) -> Option<&SpectrumCard> {
     match &deck.waves {
-        Waves::Spectra(list) => list.first(),
+        WaveDeck::Spectra(list) => list.first(),
         _ => None,
     }
 }
@@ -71,7 +71,7 @@ fn time(deck: &Deck, out: &mut Script) -> Option<String> {
 }
 
 /// A stream as x and y of its velocity (m/s).
-fn components(flow: &Flow, out: &Script) -> [f64; 2] {
+fn components(flow: &UniformStream, out: &Script) -> [f64; 2] {
     let (speed, angle) = (out.scale.length(flow.speed.value), flow.direction.value);
     [round_value(speed * cosine(angle)), round_value(speed * cosine(angle - 90.0))]
 }
@@ -87,11 +87,11 @@ fn current_span(deck: &Deck) -> Option<(&'static str, Span)> {
 }
 
 /// The uniform currents that are given, with their cards; the first one is in force.
-fn uniform(deck: &Deck) -> Vec<(&'static str, Flow)> {
+fn uniform(deck: &Deck) -> Vec<(&'static str, UniformStream)> {
     let own = match &deck.waves {
-        Waves::Spectra(list) => list.first().and_then(|s| s.current),
-        Waves::Regular(wave) => wave.current,
-        Waves::Still => None,
+        WaveDeck::Spectra(list) => list.first().and_then(|s| s.current),
+        WaveDeck::Regular(wave) => wave.current,
+        WaveDeck::Still => None,
     };
     let of_hulls = deck.hydrostatics.iter().find_map(|h| h.current);
     [("deck 13, CURR", own), ("deck 11, CURR", deck.surroundings.current), ("deck 10, CURR", of_hulls)]
@@ -121,7 +121,7 @@ fn current(deck: &Deck, out: &mut Script) -> Option<String> {
 }
 
 /// A profile with a uniform current added, as curves along X and Y: the direction may turn with the depth.
-fn profile(layers: &[Layer], added: [f64; 2], out: &mut Script) -> String {
+fn profile(layers: &[CurrentLayer], added: [f64; 2], out: &mut Script) -> String {
     let mut rows: Vec<(f64, [f64; 2])> = Vec::new();
     for layer in layers.iter().rev() {
         let speed = out.scale.length(layer.speed);
@@ -147,11 +147,11 @@ fn profile(layers: &[Layer], added: [f64; 2], out: &mut Script) -> String {
 }
 
 /// The wind in force, with its card.
-fn wind_of(deck: &Deck) -> Option<(&'static str, Flow)> {
+fn wind_of(deck: &Deck) -> Option<(&'static str, UniformStream)> {
     let own = match &deck.waves {
-        Waves::Spectra(list) => list.first().and_then(|s| s.wind),
-        Waves::Regular(wave) => wave.wind,
-        Waves::Still => None,
+        WaveDeck::Spectra(list) => list.first().and_then(|s| s.wind),
+        WaveDeck::Regular(wave) => wave.wind,
+        WaveDeck::Still => None,
     };
     let own = own.map(|flow| ("deck 13, WIND", flow));
     let found = own.or(deck.surroundings.wind.map(|flow| ("deck 11, WIND", flow)));

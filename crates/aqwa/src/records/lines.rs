@@ -3,7 +3,7 @@
 use super::model::point;
 use super::written::{Script, difference, number, numbers, round_value};
 use crate::Deck;
-use crate::lines::{Composite, Ends, Joint, LineKind, MooringLine, Property, Section};
+use crate::lines::{Composite, CompositeJoint, CompositeSection, Ends, LineKind, MooringLine, Property};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::Diagnostic;
 
@@ -135,9 +135,9 @@ fn catenary(name: &str, composite: &Composite, depth: Option<f64>, out: &mut Scr
         );
     }
     // the joint of a section of the deck is at its upper end, which is the lower end of the next one
-    let mut below: Vec<Option<Joint>> = vec![None];
+    let mut below: Vec<Option<CompositeJoint>> = vec![None];
     below.extend(composite.sections.iter().map(|section| section.joint));
-    let rows: Vec<(&Section, Option<Joint>)> = composite.sections.iter().zip(below).collect();
+    let rows: Vec<(&CompositeSection, Option<CompositeJoint>)> = composite.sections.iter().zip(below).collect();
     let mut depth = depth.map_or(String::new(), |depth| format!(" -DEPANCHOR {}", number(depth)));
     for (section, joint) in rows.into_iter().rev() {
         let text = record(name, section, joint, out) + &std::mem::take(&mut depth);
@@ -150,7 +150,7 @@ fn catenary(name: &str, composite: &Composite, depth: Option<f64>, out: &mut Scr
     }
 }
 
-fn record(name: &str, section: &Section, joint: Option<Joint>, out: &Script) -> String {
+fn record(name: &str, section: &CompositeSection, joint: Option<CompositeJoint>, out: &Script) -> String {
     let scale = out.scale;
     let mut text = format!(
         "~{name} CATENARY {} -LEN {} -EA {} -TMAX {}",

@@ -14,9 +14,9 @@ mod written;
 
 use super::Deck;
 use windlass_base::diagnostic::Diagnostic;
-use written::{Line, Scale, Script, number};
+use written::{RecordLine, Scale, Script, number};
 
-pub use written::Origin;
+pub use written::CardOrigin;
 
 /// The record that sets the units of the others.
 pub const UNITS: &str = "&DIMEN -DIMEN METERS K-NTS";
@@ -29,20 +29,20 @@ pub struct Records {
     /// What is run, and what is reported.
     pub job: Vec<String>,
     /// The cards that the records of `model` and `job` are made of, by place in the record.
-    origins: Vec<Vec<(usize, Origin)>>,
+    origins: Vec<Vec<(usize, CardOrigin)>>,
 }
 
 /// Records as one text, with the cards they are made of.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Written {
+pub struct WrittenRecords {
     /// The script.
     pub text: String,
     /// From which byte on the text is made of which card, in order.
-    pub origins: Vec<(usize, Origin)>,
+    pub origins: Vec<(usize, CardOrigin)>,
 }
 
-impl Written {
-    fn add(&mut self, record: &str, origins: &[(usize, Origin)]) {
+impl WrittenRecords {
+    fn add(&mut self, record: &str, origins: &[(usize, CardOrigin)]) {
         let start = self.text.len();
         self.origins.extend(origins.iter().map(|(at, origin)| (start + at, origin.clone())));
         self.text.push_str(record);
@@ -50,22 +50,22 @@ impl Written {
     }
 
     /// The card that a byte of the text is made of; none before the first record of a deck.
-    pub fn origin(&self, byte: usize) -> Option<&Origin> {
+    pub fn origin(&self, byte: usize) -> Option<&CardOrigin> {
         let behind = self.origins.partition_point(|(at, _)| *at <= byte);
         behind.checked_sub(1).and_then(|index| self.origins.get(index)).map(|(_, origin)| origin)
     }
 }
 
 impl Records {
-    fn new(model: Vec<Line>, job: Vec<Line>) -> Self {
+    fn new(model: Vec<RecordLine>, job: Vec<RecordLine>) -> Self {
         let origins = model.iter().chain(&job).map(|line| line.origins.clone()).collect();
-        let texts = |lines: Vec<Line>| lines.into_iter().map(|line| line.text).collect();
+        let texts = |lines: Vec<RecordLine>| lines.into_iter().map(|line| line.text).collect();
         Records { model: texts(model), job: texts(job), origins }
     }
 
     /// The whole as a script.
-    pub fn script(&self) -> Written {
-        let mut made = Written::default();
+    pub fn script(&self) -> WrittenRecords {
+        let mut made = WrittenRecords::default();
         made.add(UNITS, &[]);
         for (record, origins) in self.model.iter().chain(&self.job).zip(&self.origins) {
             made.add(record, origins);
@@ -74,8 +74,8 @@ impl Records {
     }
 
     /// The model alone, after which the units are as before.
-    pub fn model_alone(&self) -> Written {
-        let mut made = Written::default();
+    pub fn model_alone(&self) -> WrittenRecords {
+        let mut made = WrittenRecords::default();
         made.add(&UNITS.replacen("&DIMEN", "&DIMEN -SAVE", 1), &[]);
         for (record, origins) in self.model.iter().zip(&self.origins) {
             made.add(record, origins);

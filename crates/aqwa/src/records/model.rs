@@ -2,8 +2,8 @@
 
 use super::written::{Script, difference, number, numbers, round_value};
 use crate::Deck;
-use crate::elements::{Element, Shape, Structure};
-use crate::hydrostatics::{Hydrostatics, SixBySix};
+use crate::elements::{ElementShape, StructureDeck, StructureElement};
+use crate::hydrostatics::{HydrostaticsDecks, SixBySix};
 use crate::mass::MassProperties;
 use nalgebra::Matrix6;
 use windlass_base::diagnostic::Diagnostic;
@@ -49,10 +49,10 @@ pub(super) fn ground(deck: &Deck, out: &mut Script) {
 }
 
 /// The nodes of a structure that something refers to, in order.
-fn nodes(deck: &Deck, structure: &Structure) -> Vec<i64> {
+fn nodes(deck: &Deck, structure: &StructureDeck) -> Vec<i64> {
     let own = structure.number;
     let mut list: Vec<i64> = Vec::new();
-    let tubes = structure.elements.iter().filter(|element| element.shape == Shape::Tube);
+    let tubes = structure.elements.iter().filter(|element| element.shape == ElementShape::Tube);
     list.extend(tubes.flat_map(|element| element.nodes.iter().copied()));
     list.extend(deck.mooring.tethers.iter().filter(|t| t.structure.value == own).map(|t| t.node.value));
     for line in &deck.mooring.lines {
@@ -67,7 +67,7 @@ fn nodes(deck: &Deck, structure: &Structure) -> Vec<i64> {
 }
 
 /// A structure as a body whose origin is its centre of gravity.
-pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
+pub(super) fn structure(deck: &Deck, of: &StructureDeck, out: &mut Script) {
     let mass = mass(deck, of, out);
     let nominal = deck.mooring.tethers.iter().any(|tether| tether.is_towed());
     let name = body(of.number);
@@ -87,7 +87,7 @@ pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
             out.record(format!("{} {}", point(of.number, node), numbers(place)));
         }
     }
-    let massive = of.elements.iter().find(|element| element.shape == Shape::PointMass);
+    let massive = of.elements.iter().find(|element| element.shape == ElementShape::PointMass);
     match massive {
         Some(element) => out.card("deck 2, PMAS", element.span),
         None => out.card(&header, of.span),
@@ -106,19 +106,19 @@ pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
 /// Mass, centre and inertia of a structure. Tubes whose mass is a nominal one (decks of structures whose whole mass stands in PMAS give
 /// them a density of 1E-10) are left out: they would move the centre of gravity by what nobody can measure, and spoil the digits of
 /// the cards.
-fn mass(deck: &Deck, of: &Structure, out: &mut Script) -> MassProperties {
+fn mass(deck: &Deck, of: &StructureDeck, out: &mut Script) -> MassProperties {
     let whole = deck.mass_properties(of);
-    let tubes = whole.kinds.iter().find(|kind| kind.shape == Shape::Tube).map_or(0.0, |kind| kind.mass);
+    let tubes = whole.kinds.iter().find(|kind| kind.shape == ElementShape::Tube).map_or(0.0, |kind| kind.mass);
     if tubes == 0.0 || tubes > NOMINAL_MASS_SHARE * whole.mass {
         return whole;
     }
     out.remark(&format!("the nominal mass of its tubes, {tubes:.1E} of {}, is left out", number(whole.mass)));
-    let elements = of.elements.iter().filter(|element| element.shape != Shape::Tube).cloned().collect();
-    deck.mass_properties(&Structure { elements, ..of.clone() })
+    let elements = of.elements.iter().filter(|element| element.shape != ElementShape::Tube).cloned().collect();
+    deck.mass_properties(&StructureDeck { elements, ..of.clone() })
 }
 
 /// The degrees of freedom that are held, as an option.
-fn fixed_dof_option(deck: &Deck, of: &Structure, nominal: bool, out: &mut Script) -> String {
+fn fixed_dof_option(deck: &Deck, of: &StructureDeck, nominal: bool, out: &mut Script) -> String {
     if nominal {
         out.remark("a towed tether runs by itself: its nominal vessel is held where it is");
         return format!(" -IGNORE {}", DOFS.join(" "));
@@ -140,7 +140,7 @@ fn fixed_dof_option(deck: &Deck, of: &Structure, nominal: bool, out: &mut Script
     if names.is_empty() { String::new() } else { format!(" -IGNORE {}", names.join(" ")) }
 }
 
-fn weight(deck: &Deck, of: &Structure, mass: &MassProperties, out: &mut Script) {
+fn weight(deck: &Deck, of: &StructureDeck, mass: &MassProperties, out: &mut Script) {
     if mass.mass <= 0.0 {
         out.refuse(
             Diagnostic::error(format!("deck 2: structure {} has no mass", of.number), of.span)
@@ -168,7 +168,7 @@ fn refuse_card(what: &str, at: Span, help: &str, out: &mut Script) {
     out.refuse(Diagnostic::error(format!("deck 7: {what} is not read into the model"), at).help(help));
 }
 
-fn hydrostatics(deck: &Deck, of: &Structure, known: &Hydrostatics, nominal: bool, out: &mut Script) {
+fn hydrostatics(deck: &Deck, of: &StructureDeck, known: &HydrostaticsDecks, nominal: bool, out: &mut Script) {
     if !nominal {
         if known.added_mass.is_some() {
             refuse_card("added mass (FIAM, FIDA)", known.span, "#AMASS of the model adds mass to a body", out);
@@ -186,7 +186,7 @@ fn hydrostatics(deck: &Deck, of: &Structure, known: &Hydrostatics, nominal: bool
         }
         return;
     };
-    if !nominal && of.elements.iter().any(|element| element.shape == Shape::Tube) {
+    if !nominal && of.elements.iter().any(|element| element.shape == ElementShape::Tube) {
         refuse_card(
             "LSTF of a structure of tubes",
             known.span,
@@ -228,21 +228,23 @@ fn sum(a: Option<SixBySix>, b: Option<SixBySix>) -> Matrix6<f64> {
 }
 
 /// The tubes of a structure, and what elements have no place in the model.
-fn tubes(deck: &Deck, of: &Structure, out: &mut Script) {
-    if let Some(other) = of.elements.iter().find(|e| e.shape == Shape::PointBuoyancy) {
+fn tubes(deck: &Deck, of: &StructureDeck, out: &mut Script) {
+    if let Some(other) = of.elements.iter().find(|e| e.shape == ElementShape::PointBuoyancy) {
         out.refuse(
             Diagnostic::error("deck 2, PBOY: a buoyancy at a point has no place in the model", other.span)
                 .help("give a TUBE of the same volume, or BFEQ of deck 7"),
         );
     }
-    let tubes: Vec<&Element> = of.elements.iter().filter(|element| element.shape == Shape::Tube).collect();
+    let tubes: Vec<&StructureElement> =
+        of.elements.iter().filter(|element| element.shape == ElementShape::Tube).collect();
     if tubes.is_empty() {
         return;
     }
     let factors = deck.multipliers(of.number);
     out.record("&SURFACE");
     for (index, tube) in tubes.iter().enumerate() {
-        let (Some(geometry), [first, second]) = (deck.geometry(Shape::Tube, tube.geometry), tube.nodes.as_slice())
+        let (Some(geometry), [first, second]) =
+            (deck.geometry(ElementShape::Tube, tube.geometry), tube.nodes.as_slice())
         else {
             continue;
         };

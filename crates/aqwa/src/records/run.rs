@@ -5,10 +5,10 @@ use super::model::{body, point};
 use super::tethers::name;
 use super::written::{Script, number, numbers, opposite, round_value};
 use crate::Deck;
-use crate::elements::Shape;
+use crate::elements::ElementShape;
 use crate::job::Program;
 use crate::tethers::{Fatigue, Tether};
-use crate::waves::Waves;
+use crate::waves::WaveDeck;
 use windlass_base::diagnostic::Diagnostic;
 
 /// Hours for which the peak stress is expected when TPSH is not given (A.5).
@@ -76,16 +76,16 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
 /// A run in waves needs loads of the waves on each structure: those of its tubes, as the coefficients of decks 6 to 8 are not read.
 fn wave_loads(deck: &Deck, out: &mut Script) {
     let waves = match &deck.waves {
-        Waves::Still => false,
-        Waves::Regular(wave) => wave.amplitude > 0.0,
-        Waves::Spectra(_) => true,
+        WaveDeck::Still => false,
+        WaveDeck::Regular(wave) => wave.amplitude > 0.0,
+        WaveDeck::Spectra(_) => true,
     };
     // the vessel of a towed tether is a nominal one and is held
     if !waves || deck.mooring.tethers.iter().any(Tether::is_towed) {
         return;
     }
     for structure in &deck.structures {
-        if structure.elements.iter().all(|element| element.shape != Shape::Tube) {
+        if structure.elements.iter().all(|element| element.shape != ElementShape::Tube) {
             let message =
                 format!("decks 6 to 8: structure {} has no wave coefficients, and no tubes", structure.number);
             out.refuse(
@@ -191,7 +191,7 @@ fn structure(deck: &Deck, out: &mut Script) {
         }
         out.record(format!("{text} {}", events(deck, steps)));
     }
-    let Waves::Regular(wave) = &deck.waves else { return };
+    let WaveDeck::Regular(wave) = &deck.waves else { return };
     if deck.job.program != Program::Naut || wave.amplitude == 0.0 {
         return;
     }

@@ -2,7 +2,7 @@
 
 use super::written::{Script, number, numbers, opposite, round_value};
 use crate::Deck;
-use crate::waves::{Form, RegularWave, Spectrum, Waves};
+use crate::waves::{RegularWave, SpectrumCard, SpectrumForm, WaveDeck};
 use std::f64::consts::{PI, TAU};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_hydro::sea::density::{SpectralPeak, Spectrum as Density};
@@ -20,9 +20,9 @@ const GAMMA: std::ops::RangeInclusive<f64> = 1.0..=20.0;
 /// Options of the waves; none for still water.
 pub(super) fn options(deck: &Deck, out: &mut Script) -> Vec<String> {
     match &deck.waves {
-        Waves::Still => Vec::new(),
-        Waves::Regular(wave) => regular(deck, wave, out),
-        Waves::Spectra(list) => {
+        WaveDeck::Still => Vec::new(),
+        WaveDeck::Regular(wave) => regular(deck, wave, out),
+        WaveDeck::Spectra(list) => {
             let Some(first) = list.first() else { return Vec::new() };
             if let Some(second) = list.get(1) {
                 out.refuse(
@@ -58,12 +58,12 @@ fn regular(deck: &Deck, wave: &RegularWave, out: &mut Script) -> Vec<String> {
     options
 }
 
-fn irregular(deck: &Deck, sea: &Spectrum, out: &mut Script) -> Vec<String> {
+fn irregular(deck: &Deck, sea: &SpectrumCard, out: &mut Script) -> Vec<String> {
     let from = opposite(sea.direction);
     let Some(mut options) = form(deck, sea, from, out) else { return Vec::new() };
     let mut components = format!("-COMPONENTS {} EQUAL_ENERGY", sea.lines);
     let (low, high) = sea.range;
-    let given = matches!(sea.form, Form::Given(_));
+    let given = matches!(sea.form, SpectrumForm::Given(_));
     if high > 0.0 && !given {
         // from 0 on is from where no wave is long enough for the last digit
         components.push_str(&format!(" {}", numbers([if low > 0.0 { low } else { 1e-3 }, high])));
@@ -84,7 +84,7 @@ fn irregular(deck: &Deck, sea: &Spectrum, out: &mut Script) -> Vec<String> {
 }
 
 /// The spectrum.
-fn form(deck: &Deck, sea: &Spectrum, from: f64, out: &mut Script) -> Option<Vec<String>> {
+fn form(deck: &Deck, sea: &SpectrumCard, from: f64, out: &mut Script) -> Option<Vec<String>> {
     let peaked = |gamma: f64, height: f64, peak: f64, out: &mut Script| {
         if !GAMMA.contains(&gamma) {
             out.refuse(
@@ -95,11 +95,11 @@ fn form(deck: &Deck, sea: &Spectrum, from: f64, out: &mut Script) -> Option<Vec<
         Some(vec![format!("-SEA JONSWAP {}", numbers(values))])
     };
     match &sea.form {
-        Form::PiersonMoskowitz { height, period } => {
+        SpectrumForm::PiersonMoskowitz { height, period } => {
             let values = [from, out.scale.length(*height), *period];
             Some(vec![format!("-SEA ISSC {}", numbers(values)), "-SP_TYPE ZERO_CROSSING".into()])
         }
-        Form::Jonswap { gamma, alpha, peak } => {
+        SpectrumForm::Jonswap { gamma, alpha, peak } => {
             let gravity = out.scale.length(deck.global.gravity);
             let hump = SpectralPeak::of_alpha(*alpha, *peak, *gamma, gravity);
             let energy = Density::of_humps(vec![hump], None).moment(0);
@@ -111,8 +111,8 @@ fn form(deck: &Deck, sea: &Spectrum, from: f64, out: &mut Script) -> Option<Vec<
             ));
             peaked(*gamma, 4.0 * energy.sqrt(), *peak, out)
         }
-        Form::JonswapHeight { gamma, height, peak } => peaked(*gamma, out.scale.length(*height), *peak, out),
-        Form::Gaussian { sigma, height, peak } => {
+        SpectrumForm::JonswapHeight { gamma, height, peak } => peaked(*gamma, out.scale.length(*height), *peak, out),
+        SpectrumForm::Gaussian { sigma, height, peak } => {
             let height = out.scale.length(*height);
             let (count, reach) = GAUSSIAN;
             let density = |w: f64| {
@@ -124,7 +124,7 @@ fn form(deck: &Deck, sea: &Spectrum, from: f64, out: &mut Script) -> Option<Vec<
             out.remark("GAUS: a curve of the Gaussian spectrum");
             curve(points, from, sea, out)
         }
-        Form::Given(pairs) => {
+        SpectrumForm::Given(pairs) => {
             let square = out.scale.area(1.0);
             curve(pairs.iter().map(|(w, s)| (*w, round_value(s * square))).collect(), from, sea, out)
         }
@@ -133,7 +133,7 @@ fn form(deck: &Deck, sea: &Spectrum, from: f64, out: &mut Script) -> Option<Vec<
 
 /// A spectrum by its points: frequency (rad/s), density (m2 s). The language scales a curve to a height and moves its peak to a period;
 /// here both are its own.
-fn curve(points: Vec<(f64, f64)>, from: f64, sea: &Spectrum, out: &mut Script) -> Option<Vec<String>> {
+fn curve(points: Vec<(f64, f64)>, from: f64, sea: &SpectrumCard, out: &mut Script) -> Option<Vec<String>> {
     let energy: f64 = points.windows(2).map(|p| 0.5 * (p[0].1 + p[1].1) * (p[1].0 - p[0].0)).sum();
     let top = points.iter().fold((0.0, 0.0), |best: (f64, f64), p| if p.1 > best.1 { *p } else { best });
     if !(energy > 0.0 && top.0 > 0.0) || points.iter().any(|p| p.1 < 0.0) {

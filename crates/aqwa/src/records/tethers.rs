@@ -3,9 +3,9 @@
 use super::model::{point, product};
 use super::written::{Script, difference, number, numbers, round_value};
 use crate::Deck;
-use crate::elements::Shape;
-use crate::end_springs::EndSpring;
-use crate::tethers::{Constraint, Description, Tether, TetherElement};
+use crate::elements::ElementShape;
+use crate::end_springs::EndSpringCard;
+use crate::tethers::{ConstraintKind, TelmCard, Tether, TetherCards};
 use windlass_base::span::Span;
 
 /// Cards of an installed tether with the options they become.
@@ -34,7 +34,7 @@ fn class(deck: &Deck, index: usize, tether: &Tether, out: &mut Script) {
         let (Some(length), Some(material), Some(geometry)) = (
             length(deck, element, out),
             deck.materials.get(&element.material.value),
-            deck.geometry(Shape::Tube, element.geometry.value),
+            deck.geometry(ElementShape::Tube, element.geometry.value),
         ) else {
             continue;
         };
@@ -68,7 +68,7 @@ fn class(deck: &Deck, index: usize, tether: &Tether, out: &mut Script) {
 }
 
 /// Length of an element (m).
-fn length(deck: &Deck, element: &TetherElement, out: &Script) -> Option<f64> {
+fn length(deck: &Deck, element: &TelmCard, out: &Script) -> Option<f64> {
     let place = |node: i64| deck.nodes.get(&node).map(|node| node.position.map(|x| out.scale.length(x)));
     let (from, to) = (place(element.node1.value)?, place(element.node2.value)?);
     let along = [0, 1, 2].map(|i| difference(to[i], from[i]));
@@ -111,7 +111,7 @@ fn connector(index: usize, tether: &Tether, out: &mut Script) {
     out.record(text);
 }
 
-fn springs(spring: EndSpring, side: char, towed: bool, out: &Script) -> String {
+fn springs(spring: EndSpringCard, side: char, towed: bool, out: &Script) -> String {
     let values = spring.stiffness.map(|field| field.value);
     let (kind, powers) = if towed { ("MOORING", [-1; 3]) } else { ("SPRINGS", [-1, 1, 1]) };
     let values = values.into_iter().zip(powers).map(|(value, power)| out.scale.force(value, power));
@@ -119,7 +119,7 @@ fn springs(spring: EndSpring, side: char, towed: bool, out: &Script) -> String {
 }
 
 /// Says which cards have no effect on a towed tether.
-fn not_of_towed(description: &Description, out: &mut Script) {
+fn not_of_towed(description: &TetherCards, out: &mut Script) {
     let cards = [
         ("TCAP", description.caps != (0.0, 0.0)),
         ("TIFL", description.fluid != (0.0, 0.0)),
@@ -134,7 +134,7 @@ fn not_of_towed(description: &Description, out: &mut Script) {
     }
 }
 
-fn of_installed(description: &Description, out: &mut Script) -> String {
+fn of_installed(description: &TetherCards, out: &mut Script) -> String {
     let mut text = String::new();
     for (keyword, word) in OPTIONS {
         if let Some(span) = description.card(keyword) {
@@ -168,7 +168,7 @@ fn of_installed(description: &Description, out: &mut Script) -> String {
     for (kind, gap, span) in &description.constraints {
         let node = constrained_node(description, *kind, *span, out);
         text.push_str(&format!(" \\\n  -CONSTRAINT {} {node}", hold(*kind)));
-        if *kind == Constraint::LateralVessel && *gap > 0.0 {
+        if *kind == ConstraintKind::LateralVessel && *gap > 0.0 {
             text.push_str(&format!(" {}", number(out.scale.length(*gap))));
         }
     }
@@ -178,27 +178,27 @@ fn of_installed(description: &Description, out: &mut Script) -> String {
     text
 }
 
-fn card(kind: Constraint) -> &'static str {
+fn card(kind: ConstraintKind) -> &'static str {
     match kind {
-        Constraint::LateralFixed => "TLAC",
-        Constraint::RotationalFixed => "TROC",
-        Constraint::LateralVessel => "TLAV",
-        Constraint::RotationalVessel => "TROV",
+        ConstraintKind::LateralFixed => "TLAC",
+        ConstraintKind::RotationalFixed => "TROC",
+        ConstraintKind::LateralVessel => "TLAV",
+        ConstraintKind::RotationalVessel => "TROV",
     }
 }
 
-fn hold(kind: Constraint) -> &'static str {
+fn hold(kind: ConstraintKind) -> &'static str {
     match kind {
-        Constraint::LateralFixed => "LATERAL_FIXED",
-        Constraint::RotationalFixed => "ROTATIONAL_FIXED",
-        Constraint::LateralVessel => "LATERAL_VESSEL",
-        Constraint::RotationalVessel => "ROTATIONAL_VESSEL",
+        ConstraintKind::LateralFixed => "LATERAL_FIXED",
+        ConstraintKind::RotationalFixed => "ROTATIONAL_FIXED",
+        ConstraintKind::LateralVessel => "LATERAL_VESSEL",
+        ConstraintKind::RotationalVessel => "ROTATIONAL_VESSEL",
     }
 }
 
 /// The node that a constraint holds, 1 at the anchor. The cards name none (A.14): a card between two TELM cards is taken for the node
 /// between them; else it is next to the end that its kind belongs to.
-fn constrained_node(description: &Description, kind: Constraint, at: Span, out: &mut Script) -> usize {
+fn constrained_node(description: &TetherCards, kind: ConstraintKind, at: Span, out: &mut Script) -> usize {
     let count = description.elements.len();
     let before = description.elements.iter().filter(|element| element.span.start < at.start).count();
     let card = card(kind);
@@ -207,8 +207,8 @@ fn constrained_node(description: &Description, kind: Constraint, at: Span, out: 
         return before + 1;
     }
     let (node, end) = match kind {
-        Constraint::LateralFixed | Constraint::RotationalFixed => (2, "anchor"),
-        Constraint::LateralVessel | Constraint::RotationalVessel => (count.max(1), "vessel"),
+        ConstraintKind::LateralFixed | ConstraintKind::RotationalFixed => (2, "anchor"),
+        ConstraintKind::LateralVessel | ConstraintKind::RotationalVessel => (count.max(1), "vessel"),
     };
     out.remark(&format!("assumed: {card} names no node and holds the one next to the {end}"));
     node.min(count + 1)

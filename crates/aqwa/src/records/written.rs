@@ -124,7 +124,7 @@ impl Scale {
 
 /// The card that a record, or an option of one, is made of.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Origin {
+pub struct CardOrigin {
     /// `deck 14, TETH`.
     pub card: String,
     /// The card, or its field.
@@ -133,10 +133,10 @@ pub struct Origin {
 
 /// A record with what it is made of.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Line {
+pub(super) struct RecordLine {
     pub(super) text: String,
     /// Where in the text each card begins to speak, in order; the first is at 0.
-    pub(super) origins: Vec<(usize, Origin)>,
+    pub(super) origins: Vec<(usize, CardOrigin)>,
 }
 
 /// Records being written.
@@ -145,11 +145,11 @@ pub(super) struct Script {
     /// The factors of the units.
     pub(super) scale: Scale,
     /// The lines so far.
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<RecordLine>,
     /// The card that the records to come are made of.
-    card: Origin,
+    card: CardOrigin,
     /// Words of the next record, in their order, that other cards give.
-    words: Vec<(&'static str, Origin)>,
+    words: Vec<(&'static str, CardOrigin)>,
     /// What could not be written.
     pub(super) wrong: Vec<Diagnostic>,
 }
@@ -157,18 +157,18 @@ pub(super) struct Script {
 impl Script {
     /// A script whose records are made of a card until another one is named.
     pub(super) fn new(scale: Scale, card: &str, span: Span) -> Self {
-        let card = Origin { card: card.into(), span };
+        let card = CardOrigin { card: card.into(), span };
         Script { scale, lines: Vec::new(), card, words: Vec::new(), wrong: Vec::new() }
     }
 
     /// The card that the records to come are made of.
     pub(super) fn card(&mut self, card: impl Into<String>, span: Span) {
-        self.card = Origin { card: card.into(), span };
+        self.card = CardOrigin { card: card.into(), span };
     }
 
     /// A word of the next record from which on another card gives its values.
     pub(super) fn word(&mut self, word: &'static str, card: impl Into<String>, span: Span) {
-        self.words.push((word, Origin { card: card.into(), span }));
+        self.words.push((word, CardOrigin { card: card.into(), span }));
     }
 
     /// Adds a record.
@@ -186,7 +186,7 @@ impl Script {
             origins.extend(found.map(|at| (at, origin)));
         }
         origins.sort_by_key(|(at, _)| *at);
-        self.lines.push(Line { text, origins });
+        self.lines.push(RecordLine { text, origins });
     }
 
     /// Adds a remark line.
@@ -195,7 +195,7 @@ impl Script {
         let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         let text = format!("$ {text}");
         if self.lines.last().is_none_or(|line| line.text != text) {
-            self.lines.push(Line { text, origins: vec![(0, self.card.clone())] });
+            self.lines.push(RecordLine { text, origins: vec![(0, self.card.clone())] });
         }
     }
 

@@ -2,12 +2,12 @@
 //! ways a card may be written, what is refused and where, and random text.
 
 use proptest::prelude::*;
-use windlass_aqwa::elements::Shape;
+use windlass_aqwa::elements::ElementShape;
 use windlass_aqwa::end_springs::DEFAULT_SPRING_STIFFNESS;
 use windlass_aqwa::job::Program;
 use windlass_aqwa::lines::{LineKind, Property};
-use windlass_aqwa::tethers::{Constraint, Fatigue};
-use windlass_aqwa::waves::{Form, Waves};
+use windlass_aqwa::tethers::{ConstraintKind, Fatigue};
+use windlass_aqwa::waves::{SpectrumForm, WaveDeck};
 use windlass_aqwa::{Deck, Reading, is_deck, read};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_language::render::render;
@@ -210,7 +210,7 @@ fn a_tube_has_the_inertia_of_a_hollow_cylinder() {
     let text = edited(&text, "    01 999 ", "    01   1\n    01   2                 6.0\n    01 999 ");
     let text = edited(&text, "(1) (51) (52) (2) (3)", "(1) (1) (2) (4) (4)");
     let deck = deck(&text);
-    let alone = windlass_aqwa::elements::Structure {
+    let alone = windlass_aqwa::elements::StructureDeck {
         elements: deck.structures[0].elements.iter().filter(|e| e.material == 4).cloned().collect(),
         ..Default::default()
     };
@@ -236,10 +236,10 @@ fn the_towed_example_is_what_chapter_8_says() {
     let diagonal: Vec<f64> = (0..6).map(|k| vessel.stiffness.unwrap()[k][k]).collect();
     assert_eq!(diagonal, [0.0, 0.0, 1e10, 1e10, 1e10, 0.0]);
     assert_eq!((vessel.buoyancy.unwrap().value, vessel.height.unwrap().value), (9.81e10, -0.5));
-    let Waves::Spectra(spectra) = &deck.waves else { panic!() };
+    let WaveDeck::Spectra(spectra) = &deck.waves else { panic!() };
     let sea = &spectra[0];
     // the prose of 8.1.13 names alpha before gamma; the listing and the columns have gamma first
-    assert_eq!(sea.form, Form::Jonswap { gamma: 5.2273, alpha: 0.01146, peak: 0.6411 });
+    assert_eq!(sea.form, SpectrumForm::Jonswap { gamma: 5.2273, alpha: 0.01146, peak: 0.6411 });
     assert_eq!((sea.range, sea.lines, sea.direction, sea.seed), ((0.37, 2.5), 50, 180.0, 1));
     let [tether] = deck.mooring.tethers.as_slice() else { panic!() };
     assert!(tether.is_towed());
@@ -248,7 +248,7 @@ fn the_towed_example_is_what_chapter_8_says() {
     assert_eq!((tether.description.impact, tether.description.lower_stop), (Some((100.0, 100.0)), Some(100.0)));
     assert_eq!((tether.description.fatigue, tether.description.peak_hours), (Fatigue::default(), None));
     assert_eq!((tether.description.elements.len(), deck.mooring.modes.unwrap().value), (13, 6));
-    let tube = deck.geometry(Shape::Tube, 4).unwrap();
+    let tube = deck.geometry(ElementShape::Tube, 4).unwrap();
     assert_eq!(
         (tube.parameters[0].value, tube.parameters[1].value, tube.drag(), tube.added_mass()),
         (1.9993, 0.0389, 0.75, 1.0)
@@ -268,7 +268,7 @@ fn the_towed_example_is_what_chapter_8_says() {
 fn the_installed_example_is_what_chapter_8_says() {
     let deck = deck(&script("mint.dat"));
     assert_eq!((deck.job.program, deck.job.analysis.as_str()), (Program::Naut, ""));
-    let Waves::Regular(wave) = deck.waves else { panic!() };
+    let WaveDeck::Regular(wave) = deck.waves else { panic!() };
     assert_eq!((wave.amplitude, wave.period, wave.direction, wave.linear), (15.0, 15.0, 0.0, false));
     assert!((2.0 * std::f64::consts::PI / wave.period - 0.41888).abs() < 5e-6);
     assert_eq!((deck.mooring.slack_time.unwrap().value, deck.mooring.modes.unwrap().value), (0.001, 16));
@@ -398,8 +398,8 @@ fn every_card_of_appendix_a_has_its_fields() {
     assert_eq!((tether.peak_hours, tether.group), (Some(6.0), 3));
     assert_eq!((tether.caps, tether.fluid), ((0.11, 0.22), (101.3, 0.85)));
     assert_eq!((tether.impact, tether.lower_stop), (Some((3e5, 2.5)), Some(1.5)));
-    let kinds: Vec<(Constraint, f64)> = tether.constraints.iter().map(|(kind, gap, _)| (*kind, *gap)).collect();
-    use Constraint::*;
+    let kinds: Vec<(ConstraintKind, f64)> = tether.constraints.iter().map(|(kind, gap, _)| (*kind, *gap)).collect();
+    use ConstraintKind::*;
     assert_eq!(kinds, [(LateralFixed, 0.0), (RotationalFixed, 0.0), (LateralVessel, 0.1), (RotationalVessel, 0.0)]);
 }
 
@@ -498,7 +498,7 @@ fn spectra_have_their_settings_and_units_of_frequency() {
     )
     .waves
     {
-        Waves::Spectra(list) => list,
+        WaveDeck::Spectra(list) => list,
         other => panic!("{other:?}"),
     };
     let list = spec(&[
@@ -511,12 +511,12 @@ fn spectra_have_their_settings_and_units_of_frequency() {
         "    13HRTZ",
         " END13JONH                0.05      0.30       3.3       5.0      0.10",
     ]);
-    assert_eq!(list[0].form, Form::PiersonMoskowitz { height: 4.0, period: 9.0 });
+    assert_eq!(list[0].form, SpectrumForm::PiersonMoskowitz { height: 4.0, period: 9.0 });
     assert_eq!((list[0].lines, list[0].seed, list[0].direction, list[0].range), (30, 9, 135.0, (0.3, 1.5)));
     assert_eq!(list[0].current.unwrap().speed.value, 1.5);
     assert_eq!(list[1].wind.unwrap().direction.value, 45.0);
     let turn = 2.0 * std::f64::consts::PI;
-    let Form::JonswapHeight { gamma, height, peak } = list[1].form else { panic!() };
+    let SpectrumForm::JonswapHeight { gamma, height, peak } = list[1].form else { panic!() };
     assert!(gamma == 3.3 && height == 5.0 && close(peak, 0.1 * turn) && close(list[1].range.1, 0.3 * turn));
     let list = spec(&[
         "    13NSPL         3",
@@ -525,9 +525,9 @@ fn spectra_have_their_settings_and_units_of_frequency() {
         "    13UDEF                 0.7       2.0",
         " END13UDEF                 0.9       1.5",
     ]);
-    assert_eq!(list[0].form, Form::Given(vec![(0.5, 1.0), (0.7, 2.0), (0.9, 1.5)]));
+    assert_eq!(list[0].form, SpectrumForm::Given(vec![(0.5, 1.0), (0.7, 2.0), (0.9, 1.5)]));
     assert_eq!(list[0].phases, [10.0, 20.0, 30.0]);
-    let Waves::Spectra(list) = deck(&script("he01_phases.dat")).waves else { panic!() };
+    let WaveDeck::Spectra(list) = deck(&script("he01_phases.dat")).waves else { panic!() };
     assert_eq!((list[0].phases.len(), list[0].phases[0], list[0].phases[49]), (50, 0.0028, 157.1081));
 }
 
@@ -656,7 +656,7 @@ fn the_towed_example_becomes_one_for_naut_as_8_1_22_says() {
         let got = reading(&text);
         assert_eq!(got.messages, []);
         assert_eq!(got.deck.job.program, Program::Naut);
-        assert_eq!(got.deck.waves == Waves::Still, still);
+        assert_eq!(got.deck.waves == WaveDeck::Still, still);
         assert_eq!(got.deck.statistics(), (1, 1501));
     }
     assert_eq!(deck(&script("he01.dat")).statistics(), (100, 1501));

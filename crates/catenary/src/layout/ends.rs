@@ -1,12 +1,12 @@
 //! The line between two given ends, or with a given horizontal force.
 
-use super::{Laid, Layout, Manner, Top};
+use super::{LaidLine, LineLayout, Manner, Top};
 use crate::dual::Var;
-use crate::element::Element;
+use crate::element::LinePiece;
 use crate::line::Line;
 use crate::refused::LineError;
-use crate::search::{Point, rising_root};
-use crate::state::{Heap, State};
+use crate::search::{FunctionPoint, rising_root};
+use crate::state::{Heap, LineState};
 
 /// Parameters of a layout: the horizontal force (or the length of a heap), and the place of the fairlead.
 const FORCE_PARAMETER: usize = 0;
@@ -17,29 +17,29 @@ const JUMP_SHARE: f64 = 1e-9;
 /// Steps of the search for the distance.
 const MAX_SEARCH_STEPS: usize = 200;
 
-impl Layout<'_> {
+impl LineLayout<'_> {
     fn top(&self, h: Var, x: f64, z: f64, near: Option<f64>) -> Top {
         let (u, z) = (Var::parameter(x, DISTANCE_PARAMETER, 1.0), Var::parameter(z, HEIGHT_PARAMETER, 1.0));
         Top { h, u, z, near, heap: Var::constant(0.0), hollow: None, hold: None }
     }
 
     /// The least force stands for none: what hangs under it is upright but for this (m).
-    fn aside(&self, laid: &Laid) -> f64 {
+    fn aside(&self, laid: &LaidLine) -> f64 {
         let hanging = laid.stretches.iter().filter(|s| s.manner == Manner::Hangs && s.h <= 2.0 * self.least);
         hanging.map(|s| s.u - s.low[0]).sum()
     }
 
     /// By how much a fairlead lies below a bottom that carries the first piece (m).
     fn fairlead_penetration(&self, x: f64, z: f64) -> Option<f64> {
-        let first = self.elements.iter().find(|e| matches!(e, Element::Length { .. }))?;
+        let first = self.elements.iter().find(|e| matches!(e, LinePiece::Length { .. }))?;
         let by = self.bottom.elevation(x) - z;
         (first.can_rest() && by > self.fine).then_some(by)
     }
 }
 
 /// The line with its fairlead `x` beside the anchor, at elevation `z`.
-pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result<State, LineError> {
-    let mut layout = Layout::new(line, x, z);
+pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&LineState>) -> Result<LineState, LineError> {
+    let mut layout = LineLayout::new(line, x, z);
     if let Some(by) = layout.fairlead_penetration(x, z) {
         return Err(LineError::BelowBottom(by));
     }
@@ -54,7 +54,7 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
         }
         _ => (0.3 * layout.weight).max(16.0 * least),
     };
-    let mut best: Option<(f64, Laid)> = None;
+    let mut best: Option<(f64, LaidLine)> = None;
     let mut sides: [Option<f64>; 2] = [None, None];
     let mut failed = None;
     let mut hollow = None;
@@ -73,12 +73,12 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
                 if limp || best.as_ref().is_none_or(|(_, b)| short.abs() <= b.short.value.abs()) {
                     best = Some((h, laid));
                 }
-                Point { value: if limp { x } else { x - short }, slope }
+                FunctionPoint { value: if limp { x } else { x - short }, slope }
             }
             Err(error) => {
                 // too little force, as far as the search knows; what is found is proven
                 failed = Some(error);
-                Point { value: x - layout.length, slope: f64::NAN }
+                FunctionPoint { value: x - layout.length, slope: f64::NAN }
             }
         }
     });
@@ -126,15 +126,15 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
 }
 
 /// The line without horizontal force: it hangs straight down, and what it has too much lies in a heap there.
-fn heap_at_touchdown(layout: &Layout, x: f64, z: f64, without: &Laid) -> Result<Laid, LineError> {
-    let mut best: Option<Laid> = None;
+fn heap_at_touchdown(layout: &LineLayout, x: f64, z: f64, without: &LaidLine) -> Result<LaidLine, LineError> {
+    let mut best: Option<LaidLine> = None;
     let mut failed = None;
     let start = -without.short.value;
     rising_root(start, 0.0, |length| {
         let top = layout.top(Var::constant(layout.least), x, z, Some(without.top.value));
         match layout.lay(&Top { heap: Var::parameter(length, FORCE_PARAMETER, 1.0), ..top }) {
             Ok(laid) => {
-                let found = Point { value: laid.short.value, slope: laid.short.by[FORCE_PARAMETER] };
+                let found = FunctionPoint { value: laid.short.value, slope: laid.short.by[FORCE_PARAMETER] };
                 if best.as_ref().is_none_or(|b| found.value.abs() <= b.short.value.abs()) {
                     best = Some(laid);
                 }
@@ -142,7 +142,7 @@ fn heap_at_touchdown(layout: &Layout, x: f64, z: f64, without: &Laid) -> Result<
             }
             Err(error) => {
                 failed = Some(error);
-                Point { value: f64::NAN, slope: f64::NAN }
+                FunctionPoint { value: f64::NAN, slope: f64::NAN }
             }
         }
     });
@@ -160,39 +160,45 @@ fn heap_at_touchdown(layout: &Layout, x: f64, z: f64, without: &Laid) -> Result<
 
 /// The line whose spare length lies in a hollow: without tension it comes down to it from the one side, and hangs down to
 /// it from the anchor on the other.
-fn heap_in_hollow(layout: &Layout, [x, z]: [f64; 2], force: f64, sump: f64) -> Result<Laid, LineError> {
-    let mut near: Option<(f64, Laid)> = None;
+fn heap_in_hollow(layout: &LineLayout, [x, z]: [f64; 2], force: f64, sump: f64) -> Result<LaidLine, LineError> {
+    let mut near: Option<(f64, LaidLine)> = None;
     let lost = |left| LineError::NotConverged { force, residual: left, iterations: MAX_SEARCH_STEPS };
     rising_root(force, 0.0, |h| match layout.lay(&layout.top(Var::parameter(h, FORCE_PARAMETER, 1.0), x, z, None)) {
         Ok(laid) if laid.heap.is_some_and(|(place, _)| place == Heap::Hollow(sump)) => {
-            let found = Point { value: -laid.short.value, slope: -laid.short.by[FORCE_PARAMETER] };
+            let found = FunctionPoint { value: -laid.short.value, slope: -laid.short.by[FORCE_PARAMETER] };
             if near.as_ref().is_none_or(|(_, n)| laid.short.value < n.short.value) {
                 near = Some((h, laid));
             }
             found
         }
         // with tension beyond the hollow
-        _ => Point { value: layout.length, slope: f64::NAN },
+        _ => FunctionPoint { value: layout.length, slope: f64::NAN },
     });
     let Some((h, above)) = near else { return Err(lost(f64::NAN)) };
     beyond_hollow(layout, [x, z], h, sump, above)
 }
 
 /// The line that hangs down from the anchor to a hollow, on whose other side it is known.
-fn beyond_hollow(layout: &Layout, [x, z]: [f64; 2], h: f64, sump: f64, above: Laid) -> Result<Laid, LineError> {
+fn beyond_hollow(
+    layout: &LineLayout,
+    [x, z]: [f64; 2],
+    h: f64,
+    sump: f64,
+    above: LaidLine,
+) -> Result<LaidLine, LineError> {
     let lost = |left| LineError::NotConverged { force: h, residual: left, iterations: MAX_SEARCH_STEPS };
-    let mut best: Option<Laid> = None;
+    let mut best: Option<LaidLine> = None;
     rising_root(0.01 * layout.length, 0.0, |length| {
         let top = layout.top(Var::constant(h), x, z, Some(above.top.value));
         match layout.lay(&Top { hollow: Some((sump, Var::parameter(length, FORCE_PARAMETER, 1.0))), ..top }) {
             Ok(laid) => {
-                let found = Point { value: laid.short.value, slope: laid.short.by[FORCE_PARAMETER] };
+                let found = FunctionPoint { value: laid.short.value, slope: laid.short.by[FORCE_PARAMETER] };
                 if best.as_ref().is_none_or(|b| found.value.abs() <= b.short.value.abs()) {
                     best = Some(laid);
                 }
                 found
             }
-            Err(_) => Point { value: f64::NAN, slope: f64::NAN },
+            Err(_) => FunctionPoint { value: f64::NAN, slope: f64::NAN },
         }
     });
     let below = best.ok_or_else(|| lost(f64::NAN))?;
@@ -201,17 +207,17 @@ fn beyond_hollow(layout: &Layout, [x, z]: [f64; 2], h: f64, sump: f64, above: La
     }
     // the two sides do not feel each other
     let end = below.end.map(|v| Var::constant(v.value));
-    Ok(Laid { short: above.short, top: above.top, end, ..below })
+    Ok(LaidLine { short: above.short, top: above.top, end, ..below })
 }
 
 /// The line with a horizontal force at its fairlead, at elevation `z`.
-pub fn at_force(line: &Line, force: f64, z: f64) -> Result<State, LineError> {
-    let layout = Layout::new(line, line.length(), z);
+pub fn at_force(line: &Line, force: f64, z: f64) -> Result<LineState, LineError> {
+    let layout = LineLayout::new(line, line.length(), z);
     let top = |at: f64| layout.top(Var::parameter(force, FORCE_PARAMETER, 1.0), at, z, None);
     let mut at = 0.9 * layout.length;
     let mut near = None;
     let mut sides: [Option<f64>; 2] = [None, None];
-    let mut best: Option<(f64, Laid)> = None;
+    let mut best: Option<(f64, LaidLine)> = None;
     let mut buried = f64::INFINITY;
     for _ in 0..MAX_SEARCH_STEPS {
         let low = sides[1].unwrap_or(f64::NEG_INFINITY);

@@ -6,7 +6,7 @@
 //! the end of the line jumps. The equilibria between are those of a line that begins its span between the two places: there
 //! the place is given, and the force (or the place of the fairlead) sought with which the span lands.
 
-use super::{Hold, Laid, Layout, Top};
+use super::{FixedDeparture, LaidLine, LineLayout, Top};
 
 /// Difference of what lies before a span (share of all weights) that is a jump.
 const JUMP_SHARE: f64 = 1e-9;
@@ -19,7 +19,7 @@ const MAX_SHIFTS: usize = 15;
 /// Steps of a bracketed search.
 const MAX_SEARCH_STEPS: usize = 200;
 
-impl Layout<'_> {
+impl LineLayout<'_> {
     /// The line between the two sides of a jump, given by their parameters: the end falls short of the anchor at the first
     /// and is beyond it at the second. `top` makes the fairlead of a parameter, `shifted` moves a parameter by a share.
     pub fn between_folds(
@@ -27,7 +27,7 @@ impl Layout<'_> {
         top: &impl Fn(f64) -> Top,
         shifted: &impl Fn(f64, f64) -> f64,
         [short_at, beyond_at]: [f64; 2],
-    ) -> Option<(f64, Laid)> {
+    ) -> Option<(f64, LaidLine)> {
         let outward = (short_at - beyond_at).signum();
         let (first_at, first) = self.side(top, shifted, short_at, outward, |short| short > 0.0)?;
         let (second_at, second) = self.side(top, shifted, beyond_at, -outward, |short| short <= 0.0)?;
@@ -44,7 +44,7 @@ impl Layout<'_> {
         let lands_in = span.checked_sub(1).and_then(|before| side.lands_in.get(before).copied());
         let shorts = [first.short.value, second.short.value];
         let found = |lands_in: Option<usize>| {
-            let hold = Hold { span, weight: from, lands_in, goes_on: false };
+            let hold = FixedDeparture { span, weight: from, lands_in, goes_on: false };
             let found = self.between_places(top, shifted, (hold, to), (at, shorts));
             found.filter(|(_, laid)| laid.short.value.abs() <= JUMP_SHARE * self.length)
         };
@@ -57,16 +57,17 @@ impl Layout<'_> {
         &self,
         top: &impl Fn(f64) -> Top,
         shifted: &impl Fn(f64, f64) -> f64,
-        (hold, to): (Hold, f64),
+        (hold, to): (FixedDeparture, f64),
         (at, [short_at_first, short_at_last]): (f64, [f64; 2]),
-    ) -> Option<(f64, Laid)> {
+    ) -> Option<(f64, LaidLine)> {
         // how far the line falls short with the span beginning at a place, and its parameter there
         let mut near = at;
         let mut short = |share: f64| {
-            let hold = Hold { weight: hold.weight + share * (to - hold.weight), ..hold };
+            let hold = FixedDeparture { weight: hold.weight + share * (to - hold.weight), ..hold };
             let parameter = self.parameter_of_landing(top, shifted, near, hold)?;
             near = parameter;
-            let laid = self.lay(&Top { hold: Some(Hold { goes_on: true, ..hold }), ..top(parameter) }).ok()?;
+            let laid =
+                self.lay(&Top { hold: Some(FixedDeparture { goes_on: true, ..hold }), ..top(parameter) }).ok()?;
             Some((parameter, laid))
         };
         let mut before = (0.0, short_at_first);
@@ -74,7 +75,7 @@ impl Layout<'_> {
             let share = step as f64 / PLACES_IN_JUMP as f64;
             let value = if step == PLACES_IN_JUMP { short_at_last } else { short(share)?.1.short.value };
             if (value > 0.0) != (before.1 > 0.0) {
-                let mut best: Option<(f64, Laid)> = None;
+                let mut best: Option<(f64, LaidLine)> = None;
                 bracketed_root(before, (share, value), |share| {
                     let found = short(share)?;
                     let value = found.1.short.value;
@@ -98,7 +99,7 @@ impl Layout<'_> {
         at: f64,
         outward: f64,
         is_there: impl Fn(f64) -> bool,
-    ) -> Option<(f64, Laid)> {
+    ) -> Option<(f64, LaidLine)> {
         let mut shift = 0.0;
         for _ in 0..MAX_SHIFTS {
             let parameter = shifted(at, outward * shift);
@@ -117,7 +118,7 @@ impl Layout<'_> {
         top: &impl Fn(f64) -> Top,
         shifted: &impl Fn(f64, f64) -> f64,
         near: f64,
-        hold: Hold,
+        hold: FixedDeparture,
     ) -> Option<f64> {
         let gap = |parameter: f64| {
             let laid = self.lay(&Top { hold: Some(hold), ..top(parameter) }).ok()?;

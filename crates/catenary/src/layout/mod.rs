@@ -32,18 +32,18 @@ pub(super) use ends::{at_force, between_ends};
 pub(super) use states::point;
 
 use super::dual::Var;
-use super::element::{Element, spring_reach, strain, stretch};
+use super::element::{LinePiece, spring_reach, strain, stretch};
 use super::line::Line;
-use super::multi_segment::Pull;
-use super::profile::{Profile, Tilt};
+use super::multi_segment::JointPull;
+use super::profile::{SeabedProfile, Tilt};
 use super::refused::LineError;
 use super::state::Heap;
-use path::{End, Path, Spare};
-use span::{Candidate, Kind};
+use path::{LaidPath, PathEnd, Spare};
+use span::{Candidate, TouchKind};
 
 /// A point of the line.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Point {
+pub(super) struct LinePoint {
     /// The piece, and the unstretched length from its upper end (m).
     pub element: usize,
     pub s: Var,
@@ -53,10 +53,10 @@ pub(super) struct Point {
     pub v: Var,
 }
 
-impl Point {
-    fn eliminate(self, zero: &Var) -> Point {
-        let Point { element, s, u, z, h, v } = self;
-        Point {
+impl LinePoint {
+    fn eliminate(self, zero: &Var) -> LinePoint {
+        let LinePoint { element, s, u, z, h, v } = self;
+        LinePoint {
             element,
             s: s.eliminate(zero),
             u: u.eliminate(zero),
@@ -80,7 +80,7 @@ pub(super) enum Manner {
 
 /// A stretch of a piece.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stretch {
+pub(super) struct PieceStretch {
     pub element: usize,
     /// Unstretched lengths from the upper end of the piece (m).
     pub from: f64,
@@ -95,9 +95,9 @@ pub(super) struct Stretch {
     pub manner: Manner,
 }
 
-impl Stretch {
+impl PieceStretch {
     /// Whether it lies on the same face as the one before it.
-    pub fn runs_on_from(&self, before: &Stretch) -> bool {
+    pub fn runs_on_from(&self, before: &PieceStretch) -> bool {
         match (self.manner, before.manner) {
             (Manner::Lies { tilt, .. }, Manner::Lies { tilt: same, .. }) => tilt == same,
             _ => false,
@@ -120,14 +120,14 @@ pub(super) struct JointAt {
 
 /// A line laid down.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Laid {
+pub(super) struct LaidLine {
     /// How far from the anchor the line ends, along u (m): positive when it falls short.
     pub short: Var,
     /// Vertical force at the fairlead (N).
     pub top: Var,
     /// Forces at the anchor (N).
     pub end: [Var; 2],
-    pub stretches: Vec<Stretch>,
+    pub stretches: Vec<PieceStretch>,
     pub joints: Vec<JointAt>,
     pub heap: Option<(Heap, f64)>,
     /// Whether it has slid down to the anchor: `short` is that of the place without tension.
@@ -142,9 +142,9 @@ pub(super) struct Laid {
     pub iterations: usize,
 }
 
-impl Laid {
+impl LaidLine {
     /// The line ends at a point. Where it has slid down to the anchor, only its tension from there on counts.
-    fn arrive(&mut self, at: &Point) {
+    fn arrive(&mut self, at: &LinePoint) {
         if self.slid {
             self.end = [at.h, at.v].map(|v| Var::constant(v.value));
         } else {
@@ -153,30 +153,30 @@ impl Laid {
     }
 
     /// The line slides down to the anchor from a point where its tension ends.
-    fn slide(&mut self, from: &Point) {
+    fn slide(&mut self, from: &LinePoint) {
         (self.slid, self.short) = (true, from.u);
         self.heap = Some((Heap::Anchor, 0.0));
     }
 }
 
 /// Where a span begins.
-pub(super) enum Origin {
+pub(super) enum SpanStart {
     Fairlead,
     /// At a joint that stands at a step of its lift.
     Held {
-        before: Point,
+        before: LinePoint,
         low: f64,
         high: f64,
     },
-    Ground(Path),
+    Ground(LaidPath),
 }
 
 /// The line to be laid.
-pub(super) struct Layout<'a> {
+pub(super) struct LineLayout<'a> {
     line: &'a Line,
-    elements: &'a [Element],
-    pulls: &'a [Pull],
-    bottom: &'a Profile,
+    elements: &'a [LinePiece],
+    pulls: &'a [JointPull],
+    bottom: &'a SeabedProfile,
     friction: f64,
     least: f64,
     /// Unstretched length (m), all weights (N), and the rounding of a place (m).
@@ -197,12 +197,12 @@ pub(super) struct Top {
     pub heap: Var,
     /// A hollow of the bottom (distance from the anchor) in which a length lies in a heap.
     pub hollow: Option<(f64, Var)>,
-    pub hold: Option<Hold>,
+    pub hold: Option<FixedDeparture>,
 }
 
 /// A span that leaves the bottom at a given place: what it lands on is at a gap from it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hold {
+pub(super) struct FixedDeparture {
     pub span: usize,
     /// Weight that lies before it (N).
     pub weight: f64,
@@ -212,13 +212,13 @@ pub(super) struct Hold {
     pub goes_on: bool,
 }
 
-impl<'a> Layout<'a> {
-    pub fn new(line: &'a Line, x: f64, z: f64) -> Layout<'a> {
+impl<'a> LineLayout<'a> {
+    pub fn new(line: &'a Line, x: f64, z: f64) -> LineLayout<'a> {
         let chain = &line.chain;
         let length = chain.length();
         let weight = chain.elements.iter().map(|e| e.weight().abs()).sum::<f64>()
             + chain.pulls.iter().map(|p| p.lift.abs()).sum::<f64>();
-        Layout {
+        LineLayout {
             line,
             elements: &chain.elements,
             pulls: &chain.pulls,
@@ -232,10 +232,10 @@ impl<'a> Layout<'a> {
     }
 
     /// The piece below a point over an unstretched length.
-    fn hang(&self, from: &Point, length: Var) -> Point {
+    fn hang(&self, from: &LinePoint, length: Var) -> LinePoint {
         let (h, v) = (from.h, from.v);
         match self.elements.get(from.element) {
-            Some(Element::Length { segment, law, .. }) => {
+            Some(LinePiece::Length { segment, law, .. }) => {
                 let low = v - length * segment.weight;
                 let r = stretch(segment, law.as_ref(), length.value, h.value, low.value);
                 let tension = h.value.hypot(low.value);
@@ -243,13 +243,13 @@ impl<'a> Layout<'a> {
                 let more = if tension > 0.0 { (1.0 + strain(segment, law.as_ref(), tension).0) / tension } else { 0.0 };
                 let x = Var::function(r.x, [(h, r.x_h), (v, r.x_v), (length, more * h.value)]);
                 let z = Var::function(r.z, [(h, r.z_h), (v, r.z_v), (length, more * low.value)]);
-                Point { s: from.s + length, u: from.u - x, z: from.z - z, v: low, ..*from }
+                LinePoint { s: from.s + length, u: from.u - x, z: from.z - z, v: low, ..*from }
             }
-            Some(Element::Link(law)) => {
+            Some(LinePiece::Link(law)) => {
                 let part = spring_reach(law, h.value, v.value);
                 let x = Var::function(part.x, [(h, part.x_h), (v, part.x_v)]);
                 let z = Var::function(part.z, [(h, part.z_h), (v, part.z_v)]);
-                Point { u: from.u - x, z: from.z - z, ..*from }
+                LinePoint { u: from.u - x, z: from.z - z, ..*from }
             }
             None => *from,
         }
@@ -271,7 +271,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Lays the line.
-    pub fn lay(&self, top: &Top) -> Result<Laid, LineError> {
+    pub fn lay(&self, top: &Top) -> Result<LaidLine, LineError> {
         let mut sunk = vec![false; self.pulls.len()];
         // a joint that sinks may take one before it along
         for _ in 0..=self.pulls.len() {
@@ -284,14 +284,14 @@ impl<'a> Layout<'a> {
 
     /// Lays the line with joints that are past the step of their lift; `None` when one more of them is found behind
     /// another that is held.
-    fn lay_with(&self, top: &Top, sunk: &mut [bool]) -> Result<Option<Laid>, LineError> {
-        let mut laid = Laid { joints: vec![JointAt::default(); self.pulls.len()], ..Laid::default() };
-        let mut origin = Origin::Fairlead;
+    fn lay_with(&self, top: &Top, sunk: &mut [bool]) -> Result<Option<LaidLine>, LineError> {
+        let mut laid = LaidLine { joints: vec![JointAt::default(); self.pulls.len()], ..LaidLine::default() };
+        let mut origin = SpanStart::Fairlead;
         let mut spare = if top.heap.value > 0.0 { Spare::Length(top.heap) } else { Spare::None };
         if let Some(lying) = self.fairlead_on_bottom(top) {
             laid.top = lying.at.v;
             match self.begin(&lying, spare, top.hollow, &mut laid) {
-                Some(path) => origin = Origin::Ground(path),
+                Some(path) => origin = SpanStart::Ground(path),
                 None => return Ok(Some(laid)),
             }
         }
@@ -302,31 +302,31 @@ impl<'a> Layout<'a> {
             if laid.gap.is_some() && hold.is_some_and(|h| !h.goes_on) {
                 return Ok(Some(laid));
             }
-            if let Kind::Held(joint) = landing.kind {
+            if let TouchKind::Held(joint) = landing.kind {
                 let before = landing.at;
                 let (low, high) = self.lifts(joint);
-                let free = self.depart(&Origin::Held { before, low, high }, top, high);
+                let free = self.depart(&SpanStart::Held { before, low, high }, top, high);
                 if self.limit(&free, sunk).gap.value >= 0.0 {
                     // all of its lift does not hold it
                     if let Some(s) = sunk.get_mut(joint) {
                         *s = true;
                     }
-                    if matches!(origin, Origin::Held { .. }) {
+                    if matches!(origin, SpanStart::Held { .. }) {
                         return Ok(None);
                     }
                     continue;
                 }
                 spare = self.record(&origin, &departure, &landing, sunk, &mut laid).unwrap_or(spare);
-                origin = Origin::Held { before, low, high };
+                origin = SpanStart::Held { before, low, high };
                 continue;
             }
             spare = self.record(&origin, &departure, &landing, sunk, &mut laid).unwrap_or(spare);
-            if matches!(landing.kind, Kind::End) {
+            if matches!(landing.kind, TouchKind::End) {
                 laid.arrive(&landing.at);
                 return Ok(Some(laid));
             }
             match self.begin(&landing, spare, top.hollow, &mut laid) {
-                Some(path) => origin = Origin::Ground(path),
+                Some(path) => origin = SpanStart::Ground(path),
                 None => return Ok(Some(laid)),
             }
         }
@@ -334,16 +334,22 @@ impl<'a> Layout<'a> {
     }
 
     /// Begins to lie; `None` when the line lies up to its end.
-    fn begin(&self, landing: &Candidate, spare: Spare, hollow: Option<(f64, Var)>, laid: &mut Laid) -> Option<Path> {
+    fn begin(
+        &self,
+        landing: &Candidate,
+        spare: Spare,
+        hollow: Option<(f64, Var)>,
+        laid: &mut LaidLine,
+    ) -> Option<LaidPath> {
         let path = self.path(landing, spare, hollow, laid);
-        if let End::Lifted = path.end {
+        if let PathEnd::Lifted = path.end {
             return Some(path);
         }
         self.record_path(&path, None, laid);
         match path.end {
-            End::Lifted => {}
-            End::Anchor(at) => laid.arrive(&at),
-            End::Hollow { at, sump } => {
+            PathEnd::Lifted => {}
+            PathEnd::Anchor(at) => laid.arrive(&at),
+            PathEnd::Hollow { at, sump } => {
                 laid.short = at.u + -sump;
                 laid.end = [Var::constant(0.0); 2];
             }
@@ -353,16 +359,21 @@ impl<'a> Layout<'a> {
 
     /// The landing of a fairlead that lies on the bottom itself.
     fn fairlead_on_bottom(&self, top: &Top) -> Option<Candidate> {
-        let first = self.elements.iter().position(|e| matches!(e, Element::Length { .. }))?;
-        if !self.elements.get(first).is_some_and(Element::can_rest) {
+        let first = self.elements.iter().position(|e| matches!(e, LinePiece::Length { .. }))?;
+        if !self.elements.get(first).is_some_and(LinePiece::can_rest) {
             return None;
         }
         let face = self.bottom.face(top.u.value);
         let gap = top.z.value - self.bottom.elevation_of(face, top.u.value);
         (first == 0 && gap.abs() <= self.fine).then(|| {
-            let at =
-                Point { u: top.u, z: top.z, h: top.h, v: top.h * self.bottom.tilt(face).slope(), ..Point::default() };
-            Candidate { kind: Kind::Tangent(face), gap: Var::constant(gap), at }
+            let at = LinePoint {
+                u: top.u,
+                z: top.z,
+                h: top.h,
+                v: top.h * self.bottom.tilt(face).slope(),
+                ..LinePoint::default()
+            };
+            Candidate { kind: TouchKind::Tangent(face), gap: Var::constant(gap), at }
         })
     }
 }

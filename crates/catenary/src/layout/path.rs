@@ -1,35 +1,35 @@
 //! What lies: from the place where a span lands to the last one from which the line can leave.
 
-use super::span::{Candidate, Departure, Kind, stretch_between};
-use super::{Laid, Layout, Manner, Point, Stretch};
+use super::span::{Candidate, Departure, TouchKind, stretch_between};
+use super::{LaidLine, LineLayout, LinePoint, Manner, PieceStretch};
 use crate::dual::{SPAN_UNKNOWN, Var};
-use crate::element::{Element, mean_strain, strain};
+use crate::element::{LinePiece, mean_strain, strain};
 use crate::profile::Tilt;
 use crate::state::Heap;
 
 /// A piece of the path.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct PathPiece {
     /// Weight that lies before it, and on it (N).
     before: f64,
     weight: f64,
     /// What is left of the spare length: before a heap, behind any other piece.
     spare: Spare,
-    what: What,
+    what: PathPieceKind,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum What {
+enum PathPieceKind {
     /// A stretch along a face, with its tension at the upper end; `limp` when there is none.
-    Lie { from: Point, face: usize, tension: Var, length: Var, limp: bool },
+    Lie { from: LinePoint, face: usize, tension: Var, length: Var, limp: bool },
     /// A joint that presses on a face: the line's forces along and normal to it, with the joint's lift.
-    Support { joint: usize, at: Point, face: usize, along: Var, normal: Var, lift: f64 },
+    Support { joint: usize, at: LinePoint, face: usize, along: Var, normal: Var, lift: f64 },
     /// A ridge; the line comes to it at an angle and could leave it along the next face.
-    Turn { vertex: usize, at: Point, tension: Var, angle: Var },
+    Turn { vertex: usize, at: LinePoint, tension: Var, angle: Var },
     /// The place from which the line slides down to the anchor, without tension.
-    Slide { from: Point },
+    Slide { from: LinePoint },
     /// Line in a heap: so much of it, from a point on.
-    Heap { from: Point, length: Var },
+    Heap { from: LinePoint, length: Var },
 }
 
 /// Length without tension that has to lie in a heap.
@@ -54,22 +54,22 @@ impl Spare {
 
 /// How the path ends.
 #[derive(Clone, Copy, Debug)]
-pub enum End {
+pub enum PathEnd {
     /// The line has to leave before: something lifts it, or a hollow is ahead.
     Lifted,
     /// It lies up to its end.
-    Anchor(Point),
+    Anchor(LinePoint),
     /// Without tension: what is left slides down to a hollow at this distance from the anchor.
-    Hollow { at: Point, sump: f64 },
+    Hollow { at: LinePoint, sump: f64 },
 }
 
 /// What lies.
 #[derive(Clone, Debug)]
-pub struct Path {
-    pieces: Vec<Piece>,
+pub struct LaidPath {
+    pieces: Vec<PathPiece>,
     /// Weight of all of it (N).
     pub weight: f64,
-    pub end: End,
+    pub end: PathEnd,
     /// The spare length that is left at its beginning and behind it.
     begun: Spare,
     spare: Spare,
@@ -87,7 +87,7 @@ enum Next {
 
 /// A place on the path.
 struct Cursor {
-    at: Point,
+    at: LinePoint,
     face: usize,
     tension: Var,
 }
@@ -95,32 +95,34 @@ struct Cursor {
 /// Length of a span over a hollow (share of the line's) that is left out.
 const SHORTEST_SPAN: f64 = 1e-11;
 
-impl Path {
+impl LaidPath {
     /// What is left of the spare length where the line leaves.
     pub fn spare_at(&self, departure: &Departure) -> Spare {
         match self.pieces.get(departure.piece) {
-            Some(Piece { what: What::Heap { from, .. }, spare, .. }) => spare.less(departure.point.s - from.s),
+            Some(PathPiece { what: PathPieceKind::Heap { from, .. }, spare, .. }) => {
+                spare.less(departure.point.s - from.s)
+            }
             Some(piece) => piece.spare,
             None => self.begun,
         }
     }
 
-    fn push(&mut self, weight: f64, what: What) {
+    fn push(&mut self, weight: f64, what: PathPieceKind) {
         let weight = weight.max(0.0);
-        self.pieces.push(Piece { before: self.weight, weight, spare: self.spare, what });
+        self.pieces.push(PathPiece { before: self.weight, weight, spare: self.spare, what });
         self.weight += weight;
     }
 }
 
-impl Layout<'_> {
+impl LineLayout<'_> {
     /// The path from a landing; `spare` lies in a heap there, and `hollow` is the place and length of a heap in a hollow
     /// of the bottom.
-    pub fn path(&self, landing: &Candidate, spare: Spare, hollow: Option<(f64, Var)>, laid: &mut Laid) -> Path {
-        let mut path = Path { pieces: Vec::new(), weight: 0.0, end: End::Lifted, begun: spare, spare };
+    pub fn path(&self, landing: &Candidate, spare: Spare, hollow: Option<(f64, Var)>, laid: &mut LaidLine) -> LaidPath {
+        let mut path = LaidPath { pieces: Vec::new(), weight: 0.0, end: PathEnd::Lifted, begun: spare, spare };
         let at = landing.at;
         let cursor = match landing.kind {
-            Kind::Tangent(face) => Cursor { at, face, tension: along_face(self.bottom.tilt(face), &at) },
-            Kind::Vertex(vertex) => {
+            TouchKind::Tangent(face) => Cursor { at, face, tension: along_face(self.bottom.tilt(face), &at) },
+            TouchKind::Vertex(vertex) => {
                 let (h, v) = (at.h, at.v);
                 let t = h.value.hypot(v.value);
                 let tension = Var::function(t, [(h, h.value / t), (v, v.value / t)]);
@@ -128,30 +130,30 @@ impl Layout<'_> {
                 let angle = Var::function(angle, [(h, -v.value / (t * t)), (v, h.value / (t * t))]);
                 self.turn(&mut path, vertex, at, tension, angle)
             }
-            Kind::Joint(joint) => {
+            TouchKind::Joint(joint) => {
                 let (above, _) = self.lifts(joint);
                 let face = self.bottom.face(at.u.value);
                 self.support(&mut path, joint, at, face, above)
             }
-            Kind::Held(_) | Kind::End => return path,
+            TouchKind::Held(_) | TouchKind::End => return path,
         };
         if let Spare::Length(_) = spare {
             laid.heap = laid.heap.or(Some((Heap::Touchdown, 0.0)));
         }
         self.extend(&mut path, cursor);
-        if let End::Hollow { at, sump } = path.end {
-            let rest: f64 = self.elements.iter().skip(at.element).map(Element::length).sum();
+        if let PathEnd::Hollow { at, sump } = path.end {
+            let rest: f64 = self.elements.iter().skip(at.element).map(LinePiece::length).sum();
             laid.heap = Some((Heap::Hollow(sump), rest - at.s.value));
             if let Some((place, length)) = hollow
                 && sump == place
             {
                 let vertex = self.bottom.face(sump);
                 let (u, z) = self.bottom.vertex(vertex);
-                let at = Point { u: Var::constant(u), z: Var::constant(z), ..at };
+                let at = LinePoint { u: Var::constant(u), z: Var::constant(z), ..at };
                 let cursor = Cursor { at, face: vertex.saturating_sub(1), tension: Var::constant(self.least) };
                 laid.heap = Some((Heap::Hollow(sump), 0.0));
                 path.spare = Spare::Length(length);
-                path.end = End::Lifted;
+                path.end = PathEnd::Lifted;
                 self.extend(&mut path, cursor);
             }
         }
@@ -164,16 +166,16 @@ impl Layout<'_> {
     }
 
     /// Goes on with a path that could be lifted anywhere, up to where it must be or to its end.
-    fn extend(&self, path: &mut Path, mut cursor: Cursor) {
+    fn extend(&self, path: &mut LaidPath, mut cursor: Cursor) {
         loop {
             let tilt = self.bottom.tilt(cursor.face);
             let Some(element) = self.elements.get(cursor.at.element) else {
                 if !self.is_anchor_raised() {
-                    path.end = End::Anchor(with_forces(&cursor, tilt));
+                    path.end = PathEnd::Anchor(with_forces(&cursor, tilt));
                 }
                 return;
             };
-            if let Element::Length { segment, sees_bottom, .. } = element {
+            if let LinePiece::Length { segment, sees_bottom, .. } = element {
                 if segment.weight < 0.0 || !*sees_bottom {
                     return;
                 }
@@ -188,11 +190,11 @@ impl Layout<'_> {
                 }
             } else {
                 let hung = self.hang(&with_forces(&cursor, tilt), Var::constant(0.0));
-                cursor.at = Point { h: Var::default(), v: Var::default(), ..hung };
+                cursor.at = LinePoint { h: Var::default(), v: Var::default(), ..hung };
             }
             let joint = cursor.at.element;
             if joint >= self.pulls.len() {
-                cursor.at = Point { element: joint + 1, s: Var::constant(0.0), ..cursor.at };
+                cursor.at = LinePoint { element: joint + 1, s: Var::constant(0.0), ..cursor.at };
                 continue;
             }
             let (above, below) = self.lifts(joint);
@@ -206,7 +208,7 @@ impl Layout<'_> {
     }
 
     /// Heaps the rest of a piece, or what is left of the spare length.
-    fn heap(&self, path: &mut Path, cursor: &mut Cursor, spare: Spare) -> Next {
+    fn heap(&self, path: &mut LaidPath, cursor: &mut Cursor, spare: Spare) -> Next {
         let from = cursor.at;
         let room = -from.s + self.element_length(from.element);
         let (length, next) = match spare {
@@ -214,7 +216,7 @@ impl Layout<'_> {
             _ => (room, Next::Joint),
         };
         let weight = self.elements[from.element].weight_per_length();
-        path.push(weight * length.value, What::Heap { from, length });
+        path.push(weight * length.value, PathPieceKind::Heap { from, length });
         path.spare = spare.less(length);
         cursor.at.s = from.s + length;
         cursor.tension = Var::constant(self.least);
@@ -222,9 +224,9 @@ impl Layout<'_> {
     }
 
     /// Lies on a face: up to the end of the piece, to the next face, or to where no tension is left.
-    fn lie_on(&self, path: &mut Path, cursor: &mut Cursor) -> Next {
+    fn lie_on(&self, path: &mut LaidPath, cursor: &mut Cursor) -> Next {
         let tilt = self.bottom.tilt(cursor.face);
-        let Some(Element::Length { segment, law, .. }) = self.elements.get(cursor.at.element) else {
+        let Some(LinePiece::Length { segment, law, .. }) = self.elements.get(cursor.at.element) else {
             return Next::Joint;
         };
         let loss = segment.weight * (tilt.sin + self.friction * tilt.cos);
@@ -233,13 +235,13 @@ impl Layout<'_> {
         if limp && tilt.sin > self.friction * tilt.cos {
             let sump = self.sump(cursor.face);
             if sump > 0.0 {
-                path.end = End::Hollow { at: cursor.at, sump };
+                path.end = PathEnd::Hollow { at: cursor.at, sump };
                 return Next::Stop;
             }
-            path.push(0.0, What::Slide { from: cursor.at });
+            path.push(0.0, PathPieceKind::Slide { from: cursor.at });
             path.spare = Spare::All;
             let (u, z) = (Var::constant(0.0), Var::constant(self.bottom.elevation_of(0, 0.0)));
-            *cursor = Cursor { at: Point { u, z, ..cursor.at }, face: 0, tension: Var::constant(self.least) };
+            *cursor = Cursor { at: LinePoint { u, z, ..cursor.at }, face: 0, tension: Var::constant(self.least) };
             return Next::Piece;
         }
         let mut spent = false;
@@ -270,7 +272,7 @@ impl Layout<'_> {
             reached = self.lie(cursor, length, limp);
             (at_edge, spent) = (true, false);
         }
-        let what = What::Lie { from: cursor.at, face: cursor.face, tension: cursor.tension, length, limp };
+        let what = PathPieceKind::Lie { from: cursor.at, face: cursor.face, tension: cursor.tension, length, limp };
         path.push(segment.weight * length.value, what);
         *cursor = reached;
         if at_edge {
@@ -298,7 +300,7 @@ impl Layout<'_> {
     /// Along a face for a length.
     fn lie(&self, from: &Cursor, length: Var, limp: bool) -> Cursor {
         let tilt = self.bottom.tilt(from.face);
-        let Some(Element::Length { segment, law, .. }) = self.elements.get(from.at.element) else {
+        let Some(LinePiece::Length { segment, law, .. }) = self.elements.get(from.at.element) else {
             return Cursor { ..*from };
         };
         let tension = from.tension;
@@ -312,7 +314,7 @@ impl Layout<'_> {
             let end = 1.0 + strain(segment, law.as_ref(), left.value).0;
             (Var::function(length.value * (1.0 + mean), [(tension, length.value * by), (length, end)]), left)
         };
-        let at = Point {
+        let at = LinePoint {
             s: from.at.s + length,
             u: from.at.u - along * tilt.cos,
             z: from.at.z - along * tilt.sin,
@@ -322,22 +324,25 @@ impl Layout<'_> {
     }
 
     /// A joint that presses on a face, and the line beyond it along that face.
-    fn support(&self, path: &mut Path, joint: usize, at: Point, face: usize, lift: f64) -> Cursor {
+    fn support(&self, path: &mut LaidPath, joint: usize, at: LinePoint, face: usize, lift: f64) -> Cursor {
         let tilt = self.bottom.tilt(face);
         let (along, normal) = to_face(tilt, at.h, at.v + lift);
         let presses = if normal.value < 0.0 { -normal } else { Var::constant(0.0) };
         let pulled = along - presses * self.friction;
         let held = self.held_by_heap(path, pulled, presses);
-        path.push(presses.value, What::Support { joint, at, face, along: along - held, normal: -presses, lift });
+        path.push(
+            presses.value,
+            PathPieceKind::Support { joint, at, face, along: along - held, normal: -presses, lift },
+        );
         let tension = pulled - held;
         let tension = if tension.value <= self.least { Var::constant(self.least) } else { tension };
-        let at = Point { element: joint + 1, s: Var::constant(0.0), ..at };
+        let at = LinePoint { element: joint + 1, s: Var::constant(0.0), ..at };
         Cursor { at, face, tension }
     }
 
     /// What a heap holds of the force that pulls a joint down its face. A joint at the edge of a heap takes as much of the
     /// spare length as a line of its weight, and is held by the share of that which is there: so no force is jumped over.
-    fn held_by_heap(&self, path: &mut Path, pulled: Var, presses: Var) -> Var {
+    fn held_by_heap(&self, path: &mut LaidPath, pulled: Var, presses: Var) -> Var {
         match path.spare {
             Spare::Length(left) if pulled.value > self.least => {
                 let all = presses * (self.length / self.weight);
@@ -354,10 +359,10 @@ impl Layout<'_> {
     }
 
     /// A ridge, and the line beyond it along the next face.
-    fn turn(&self, path: &mut Path, vertex: usize, at: Point, tension: Var, angle: Var) -> Cursor {
+    fn turn(&self, path: &mut LaidPath, vertex: usize, at: LinePoint, tension: Var, angle: Var) -> Cursor {
         let face = vertex.saturating_sub(1);
         let by = self.bottom.tilt(face).angle() - angle.value;
-        path.push(tension.value * by, What::Turn { vertex, at, tension, angle });
+        path.push(tension.value * by, PathPieceKind::Turn { vertex, at, tension, angle });
         let next = self.turned_by(tension, -angle + self.bottom.tilt(face).angle());
         Cursor { at, face, tension: next }
     }
@@ -384,11 +389,11 @@ impl Layout<'_> {
     }
 
     /// The place where so much weight lies before, and the curve that leaves there.
-    pub fn leave(&self, path: &Path, unknown: f64) -> Departure {
+    pub fn leave(&self, path: &LaidPath, unknown: f64) -> Departure {
         let index = path.pieces.partition_point(|p| p.before <= unknown).max(1) - 1;
         let Some(piece) = path.pieces.get(index) else {
             return Departure {
-                point: Point { h: Var::constant(f64::NAN), ..Point::default() },
+                point: LinePoint { h: Var::constant(f64::NAN), ..LinePoint::default() },
                 face: None,
                 piece: index,
                 unknown,
@@ -396,16 +401,16 @@ impl Layout<'_> {
         };
         let share = (unknown - piece.before).clamp(0.0, piece.weight);
         match piece.what {
-            What::Lie { from, face, tension, length, limp } => {
+            PathPieceKind::Lie { from, face, tension, length, limp } => {
                 let weight = match self.elements.get(from.element) {
-                    Some(Element::Length { segment, .. }) if segment.weight > 0.0 => segment.weight,
+                    Some(LinePiece::Length { segment, .. }) if segment.weight > 0.0 => segment.weight,
                     _ => return self.departure(Cursor { at: from, face, tension }, (index, unknown)),
                 };
                 let arc = Var::parameter(from.s.value + (share / weight).min(length.value), SPAN_UNKNOWN, 1.0 / weight);
                 let there = self.lie(&Cursor { at: from, face, tension }, arc - from.s, limp);
-                self.departure(Cursor { at: Point { s: arc, ..there.at }, ..there }, (index, unknown))
+                self.departure(Cursor { at: LinePoint { s: arc, ..there.at }, ..there }, (index, unknown))
             }
-            What::Support { joint, at, face, along, normal, .. } => {
+            PathPieceKind::Support { joint, at, face, along, normal, .. } => {
                 let carried = Var::parameter(share, SPAN_UNKNOWN, 1.0);
                 let tilt = self.bottom.tilt(face);
                 let normal = normal + carried;
@@ -415,10 +420,10 @@ impl Layout<'_> {
                 let tension = if tension.value <= upright.value { upright } else { tension };
                 let h = tension * tilt.cos - normal * tilt.sin;
                 let v = tension * tilt.sin + normal * tilt.cos;
-                let point = Point { element: joint + 1, s: Var::constant(0.0), h, v, ..at };
+                let point = LinePoint { element: joint + 1, s: Var::constant(0.0), h, v, ..at };
                 Departure { point, face: Some(face), piece: index, unknown }
             }
-            What::Turn { vertex, at, tension, angle } => {
+            PathPieceKind::Turn { vertex, at, tension, angle } => {
                 let slope = 1.0 / tension.value;
                 let turn = Var::parameter(share * slope, SPAN_UNKNOWN, slope);
                 let left = self.turned_by(tension, turn);
@@ -426,17 +431,22 @@ impl Layout<'_> {
                 let (sin, cos) = angle.value.sin_cos();
                 let h = Var::function(left.value * cos, [(left, cos), (angle, -left.value * sin)]);
                 let v = Var::function(left.value * sin, [(left, sin), (angle, left.value * cos)]);
-                Departure { point: Point { h, v, ..at }, face: Some(vertex.saturating_sub(1)), piece: index, unknown }
+                Departure {
+                    point: LinePoint { h, v, ..at },
+                    face: Some(vertex.saturating_sub(1)),
+                    piece: index,
+                    unknown,
+                }
             }
-            What::Slide { from } => Departure { point: from, face: None, piece: index, unknown },
-            What::Heap { from, length, .. } => {
+            PathPieceKind::Slide { from } => Departure { point: from, face: None, piece: index, unknown },
+            PathPieceKind::Heap { from, length, .. } => {
                 let cursor = Cursor { at: from, face: self.bottom.face(from.u.value), tension: Var::constant(self.least) };
                 let weight = self.elements[from.element].weight_per_length();
                 if weight <= 0.0 {
                     return self.departure(cursor, (index, unknown));
                 }
                 let arc = Var::parameter(from.s.value + (share / weight).min(length.value), SPAN_UNKNOWN, 1.0 / weight);
-                self.departure(Cursor { at: Point { s: arc, ..from }, ..cursor }, (index, unknown))
+                self.departure(Cursor { at: LinePoint { s: arc, ..from }, ..cursor }, (index, unknown))
             }
         }
     }
@@ -448,12 +458,12 @@ impl Layout<'_> {
     }
 
     /// Keeps what lies up to a departure, or all of it.
-    pub fn record_path(&self, path: &Path, departure: Option<&Departure>, laid: &mut Laid) {
+    pub fn record_path(&self, path: &LaidPath, departure: Option<&Departure>, laid: &mut LaidLine) {
         let until = departure.map_or(path.pieces.len(), |d| d.piece.saturating_add(1));
         for (index, piece) in path.pieces.iter().enumerate().take(until) {
             let here = departure.filter(|d| d.piece == index).map(|d| d.point);
             match piece.what {
-                What::Lie { from, face, tension, length, limp } => {
+                PathPieceKind::Lie { from, face, tension, length, limp } => {
                     let tilt = self.bottom.tilt(face);
                     let start = Cursor { at: from, face, tension };
                     let length = here.map_or(length, |d| d.s - from.s);
@@ -462,7 +472,7 @@ impl Layout<'_> {
                     }
                     let low = self.lie(&start, length, limp);
                     let loss = match self.elements.get(from.element) {
-                        Some(Element::Length { segment, .. }) if !limp => {
+                        Some(LinePiece::Length { segment, .. }) if !limp => {
                             segment.weight * (tilt.sin + self.friction * tilt.cos)
                         }
                         _ => 0.0,
@@ -470,7 +480,7 @@ impl Layout<'_> {
                     let (at, low) = (with_forces(&start, tilt), with_forces(&low, tilt));
                     laid.stretches.push(stretch_between(&at, &low, Manner::Lies { tilt, loss }));
                 }
-                What::Support { joint, at, face, normal, lift, .. } => {
+                PathPieceKind::Support { joint, at, face, normal, lift, .. } => {
                     // the curve may leave at the joint itself, which then carries what is missing
                     let tilt = self.bottom.tilt(face);
                     let carried = here.map_or(-normal.value, |d| {
@@ -479,9 +489,9 @@ impl Layout<'_> {
                     });
                     self.keep_joint(joint, &at, (lift, carried), [false, false], laid);
                 }
-                What::Turn { .. } => {}
-                What::Slide { from } => laid.slide(&from),
-                What::Heap { from, length } => {
+                PathPieceKind::Turn { .. } => {}
+                PathPieceKind::Slide { from } => laid.slide(&from),
+                PathPieceKind::Heap { from, length } => {
                     let length = here.map_or(length.value, |d| d.s.value - from.s.value);
                     if here.is_some() && length <= 0.0 {
                         return;
@@ -489,7 +499,7 @@ impl Layout<'_> {
                     if let Some((_, heaped)) = &mut laid.heap {
                         *heaped += length;
                     }
-                    let low = Point { s: from.s + length, ..from };
+                    let low = LinePoint { s: from.s + length, ..from };
                     laid.stretches.push(heap_stretch(&from, &low));
                 }
             }
@@ -497,18 +507,18 @@ impl Layout<'_> {
     }
 }
 
-fn heap_stretch(from: &Point, low: &Point) -> Stretch {
+fn heap_stretch(from: &LinePoint, low: &LinePoint) -> PieceStretch {
     let none = Var::constant(0.0);
-    let still = |p: &Point| Point { h: none, v: none, ..*p };
+    let still = |p: &LinePoint| LinePoint { h: none, v: none, ..*p };
     stretch_between(&still(from), &still(low), Manner::Heap)
 }
 
 /// The point of a cursor with its forces.
-fn with_forces(cursor: &Cursor, tilt: Tilt) -> Point {
-    Point { h: cursor.tension * tilt.cos, v: cursor.tension * tilt.sin, ..cursor.at }
+fn with_forces(cursor: &Cursor, tilt: Tilt) -> LinePoint {
+    LinePoint { h: cursor.tension * tilt.cos, v: cursor.tension * tilt.sin, ..cursor.at }
 }
 
-fn along_face(tilt: Tilt, at: &Point) -> Var {
+fn along_face(tilt: Tilt, at: &LinePoint) -> Var {
     to_face(tilt, at.h, at.v).0
 }
 

@@ -1,16 +1,16 @@
 //! A span: the free curve that just touches what it must not pass.
 
 use super::path::Spare;
-use super::{JointAt, Laid, Layout, Manner, Origin, Point, Stretch, Top};
+use super::{JointAt, LaidLine, LineLayout, LinePoint, Manner, PieceStretch, SpanStart, Top};
 use crate::dual::{SPAN_UNKNOWN, Var};
-use crate::element::{Element, strain, stretch};
+use crate::element::{LinePiece, strain, stretch};
 use crate::line::Segment;
 use crate::refused::LineError;
 use crate::stretch_law::StretchLaw;
 
 /// What a curve may touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind {
+pub enum TouchKind {
     /// A face, along which the line goes on.
     Tangent(usize),
     /// A ridge.
@@ -26,10 +26,10 @@ pub enum Kind {
 /// A place where a curve touches, or by how much it does not.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
-    pub kind: Kind,
+    pub kind: TouchKind,
     /// Height above what is touched (m).
     pub gap: Var,
-    pub at: Point,
+    pub at: LinePoint,
 }
 
 impl Candidate {
@@ -49,7 +49,7 @@ impl Candidate {
 /// Where a curve begins, and the face that it leaves.
 #[derive(Clone, Copy, Debug)]
 pub struct Departure {
-    pub point: Point,
+    pub point: LinePoint,
     pub face: Option<usize>,
     /// The piece of the path in which it is.
     pub piece: usize,
@@ -62,48 +62,48 @@ const MAX_SEARCH_STEPS: usize = 200;
 /// Steps after which every other one halves the bracket.
 const NEWTON_STEPS: usize = 25;
 
-impl Layout<'_> {
+impl LineLayout<'_> {
     /// The beginning of a span with its unknown at a value: the vertical force, the lift of the joint, or the weight that
     /// lies before it.
-    pub fn depart(&self, origin: &Origin, top: &Top, unknown: f64) -> Departure {
+    pub fn depart(&self, origin: &SpanStart, top: &Top, unknown: f64) -> Departure {
         match origin {
-            Origin::Fairlead => {
+            SpanStart::Fairlead => {
                 let v = Var::parameter(unknown, SPAN_UNKNOWN, 1.0);
-                let point = Point { element: 0, s: Var::constant(0.0), u: top.u, z: top.z, h: top.h, v };
+                let point = LinePoint { element: 0, s: Var::constant(0.0), u: top.u, z: top.z, h: top.h, v };
                 Departure { point, face: None, piece: 0, unknown }
             }
-            Origin::Held { before, .. } => {
+            SpanStart::Held { before, .. } => {
                 let v = before.v + Var::parameter(unknown, SPAN_UNKNOWN, 1.0);
-                let point = Point { element: before.element + 1, s: Var::constant(0.0), v, ..*before };
+                let point = LinePoint { element: before.element + 1, s: Var::constant(0.0), v, ..*before };
                 Departure { point, face: None, piece: 0, unknown }
             }
-            Origin::Ground(path) => self.leave(path, unknown),
+            SpanStart::Ground(path) => self.leave(path, unknown),
         }
     }
 
     /// Finds the span: its beginning and where it lands.
     pub fn next_span(
         &self,
-        origin: &Origin,
+        origin: &SpanStart,
         top: &Top,
         sunk: &[bool],
-        laid: &mut Laid,
+        laid: &mut LaidLine,
     ) -> Result<(Departure, Candidate), LineError> {
         let span = laid.left_at.len();
         let hold = top.hold.filter(|h| h.span == span);
-        if let (Some(hold), Origin::Ground(_)) = (hold, origin) {
+        if let (Some(hold), SpanStart::Ground(_)) = (hold, origin) {
             let departure = self.depart(origin, top, hold.weight);
             let landing = self.lowest(&departure, sunk);
             laid.gap = Some(landing.gap);
             return Ok(self.land_span(origin, hold.weight, departure, landing, laid));
         }
         let (mut low, mut high, mut at) = match origin {
-            Origin::Fairlead => {
+            SpanStart::Fairlead => {
                 let guess = 0.5 * self.weight + top.h.value * 0.1;
                 (f64::NEG_INFINITY, f64::INFINITY, top.near.unwrap_or(guess))
             }
-            Origin::Held { low, high, .. } => (*low, *high, 0.5 * (low + high)),
-            Origin::Ground(path) => (0.0, path.weight, path.weight),
+            SpanStart::Held { low, high, .. } => (*low, *high, 0.5 * (low + high)),
+            SpanStart::Ground(path) => (0.0, path.weight, path.weight),
         };
         let mut grow = self.weight + top.h.value;
         let lands_in = top.hold.filter(|h| h.span == span + 1).and_then(|h| h.lands_in);
@@ -157,15 +157,15 @@ impl Layout<'_> {
     /// The span with the numbers that keep it in touch with what it lands on.
     fn land_span(
         &self,
-        origin: &Origin,
+        origin: &SpanStart,
         unknown: f64,
         departure: Departure,
         landing: Candidate,
-        laid: &mut Laid,
+        laid: &mut LaidLine,
     ) -> (Departure, Candidate) {
         laid.left = laid.left.max(landing.gap.value.abs());
         let zero = landing.gap;
-        if matches!(origin, Origin::Fairlead) {
+        if matches!(origin, SpanStart::Fairlead) {
             laid.top = departure.point.v.eliminate(&zero);
         }
         let departure = Departure { point: departure.point.eliminate(&zero), ..departure };
@@ -192,7 +192,7 @@ impl Layout<'_> {
     ) -> Candidate {
         let mut best: Option<Candidate> = None;
         let mut take = |candidate: Candidate| {
-            let (element, held) = (candidate.at.element, matches!(candidate.kind, Kind::Held(_) | Kind::End));
+            let (element, held) = (candidate.at.element, matches!(candidate.kind, TouchKind::Held(_) | TouchKind::End));
             if lands_in.is_some_and(|last| element > last || (element == last && held)) {
                 return;
             }
@@ -214,32 +214,39 @@ impl Layout<'_> {
             };
             let face = self.bottom.face(low.u.value);
             if pull.on_bottom && departed != Some(face) {
-                take(Candidate { kind: Kind::Joint(element), gap: self.height_above_face(&low, face), at: low });
+                take(Candidate { kind: TouchKind::Joint(element), gap: self.height_above_face(&low, face), at: low });
             }
             let (above, below) = self.lifts(element);
             let past = sunk.get(element).copied().unwrap_or(false);
             if let (Some(step), false) = (self.step(element), past) {
-                take(Candidate { kind: Kind::Held(element), gap: low.z + -step, at: low });
+                take(Candidate { kind: TouchKind::Held(element), gap: low.z + -step, at: low });
             }
             let lift = if past { below } else { above };
-            at = Point { element: element + 1, s: Var::constant(0.0), v: low.v + lift, ..low };
+            at = LinePoint { element: element + 1, s: Var::constant(0.0), v: low.v + lift, ..low };
             departed = departed.filter(|_| lift <= 0.0);
         }
         let line = self.bottom.tilt(0).slope();
         let gap = at.z - at.u * line + -self.line.anchor;
-        take(Candidate { kind: Kind::End, gap, at });
-        best.unwrap_or(Candidate { kind: Kind::End, gap, at })
+        take(Candidate { kind: TouchKind::End, gap, at });
+        best.unwrap_or(Candidate { kind: TouchKind::End, gap, at })
     }
 
     /// The height of a point above the plane of a face.
-    fn height_above_face(&self, at: &Point, face: usize) -> Var {
+    fn height_above_face(&self, at: &LinePoint, face: usize) -> Var {
         let (from, z) = self.bottom.vertex(face);
         at.z - (at.u + -from) * self.bottom.tilt(face).slope() + -z
     }
 
     /// Where a stretch of a piece between two points comes nearest to the bottom.
-    fn touches(&self, at: &Point, low: &Point, length: f64, departed: Option<usize>, take: &mut impl FnMut(Candidate)) {
-        let Some(Element::Length { segment, law, sees_bottom: true }) = self.elements.get(at.element) else { return };
+    fn touches(
+        &self,
+        at: &LinePoint,
+        low: &LinePoint,
+        length: f64,
+        departed: Option<usize>,
+        take: &mut impl FnMut(Candidate),
+    ) {
+        let Some(LinePiece::Length { segment, law, sees_bottom: true }) = self.elements.get(at.element) else { return };
         let (first, last) = (self.bottom.face(at.u.value), self.bottom.face(low.u.value));
         for face in (last..=first).rev() {
             if segment.weight > 0.0 && departed != Some(face) {
@@ -250,7 +257,7 @@ impl Layout<'_> {
                     let (from, to) = self.bottom.extent(face);
                     if touch.u.value >= from && touch.u.value <= to {
                         take(Candidate {
-                            kind: Kind::Tangent(face),
+                            kind: TouchKind::Tangent(face),
                             gap: self.height_above_face(&touch, face),
                             at: touch,
                         });
@@ -269,7 +276,7 @@ impl Layout<'_> {
                 let by = rate(segment, law.as_ref(), &over);
                 let s = Var { value: reached, by: aside.by.map(|b| b / by) };
                 let gap = over.z - aside * steep + -z;
-                take(Candidate { kind: Kind::Vertex(face), gap, at: self.hang(at, s) });
+                take(Candidate { kind: TouchKind::Vertex(face), gap, at: self.hang(at, s) });
             }
         }
     }
@@ -277,30 +284,31 @@ impl Layout<'_> {
     /// Keeps what hangs between a beginning and a landing; the spare length left behind what lies before it, if any does.
     pub fn record(
         &self,
-        origin: &Origin,
+        origin: &SpanStart,
         from: &Departure,
         to: &Candidate,
         sunk: &[bool],
-        laid: &mut Laid,
+        laid: &mut LaidLine,
     ) -> Option<Spare> {
         let mut spare = None;
         laid.lands_in.push(to.at.element);
-        laid.left_at.push(matches!(origin, Origin::Ground(_)).then_some(from.unknown));
+        laid.left_at.push(matches!(origin, SpanStart::Ground(_)).then_some(from.unknown));
         match origin {
-            Origin::Ground(path) => {
+            SpanStart::Ground(path) => {
                 self.record_path(path, Some(from), laid);
                 spare = Some(path.spare_at(from));
             }
-            Origin::Held { before, .. } => {
+            SpanStart::Held { before, .. } => {
                 let lift = from.point.v.value - before.v.value;
                 self.keep_joint(before.element, before, (lift, 0.0), [true, false], laid);
             }
-            Origin::Fairlead => {}
+            SpanStart::Fairlead => {}
         }
-        let last = if matches!(to.kind, Kind::End) { self.elements.len() } else { to.at.element + 1 };
+        let last = if matches!(to.kind, TouchKind::End) { self.elements.len() } else { to.at.element + 1 };
         let mut at = from.point;
         for element in from.point.element..last {
-            let whole = element + 1 < last || matches!(to.kind, Kind::End | Kind::Joint(_) | Kind::Held(_));
+            let whole =
+                element + 1 < last || matches!(to.kind, TouchKind::End | TouchKind::Joint(_) | TouchKind::Held(_));
             let length = if whole { -at.s + self.element_length(element) } else { to.at.s - at.s };
             let low = self.hang(&at, length);
             laid.stretches.push(stretch_between(&at, &low, Manner::Hangs));
@@ -309,7 +317,7 @@ impl Layout<'_> {
                 let past = sunk.get(element).copied().unwrap_or(false);
                 let lift = if past { below } else { above };
                 self.keep_joint(element, &low, (lift, 0.0), [false, past], laid);
-                at = Point { element: element + 1, s: Var::constant(0.0), v: low.v + lift, ..low };
+                at = LinePoint { element: element + 1, s: Var::constant(0.0), v: low.v + lift, ..low };
             }
         }
         spare
@@ -318,10 +326,10 @@ impl Layout<'_> {
     pub fn keep_joint(
         &self,
         joint: usize,
-        at: &Point,
+        at: &LinePoint,
         (lift, reaction): (f64, f64),
         [held, passed]: [bool; 2],
-        laid: &mut Laid,
+        laid: &mut LaidLine,
     ) {
         if let Some(place) = laid.joints.get_mut(joint) {
             *place = JointAt { u: at.u.value, z: at.z.value, lift, reaction, held, passed };
@@ -330,8 +338,8 @@ impl Layout<'_> {
 }
 
 /// The stretch between two points of a piece.
-pub fn stretch_between(at: &Point, low: &Point, manner: Manner) -> Stretch {
-    Stretch {
+pub fn stretch_between(at: &LinePoint, low: &LinePoint, manner: Manner) -> PieceStretch {
+    PieceStretch {
         element: at.element,
         from: at.s.value,
         to: low.s.value,
@@ -345,13 +353,13 @@ pub fn stretch_between(at: &Point, low: &Point, manner: Manner) -> Stretch {
 }
 
 /// How fast u falls along the line at a point (unstretched length).
-fn rate(segment: &Segment, law: Option<&StretchLaw>, at: &Point) -> f64 {
+fn rate(segment: &Segment, law: Option<&StretchLaw>, at: &LinePoint) -> f64 {
     let tension = at.h.value.hypot(at.v.value);
     at.h.value / tension * (1.0 + strain(segment, law, tension).0)
 }
 
 /// The unstretched length below a point after which the line is `aside` nearer to the anchor.
-fn reach(segment: &Segment, law: Option<&StretchLaw>, from: &Point, length: f64, aside: f64) -> f64 {
+fn reach(segment: &Segment, law: Option<&StretchLaw>, from: &LinePoint, length: f64, aside: f64) -> f64 {
     let (h, v) = (from.h.value, from.v.value);
     let (mut low, mut high) = (0.0, length);
     let mut s = 0.5 * length;

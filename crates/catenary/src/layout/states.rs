@@ -1,17 +1,17 @@
 //! What a laid line means: its state, proven, and its shape.
 
-use super::{Laid, Layout, Manner, Stretch};
+use super::{LaidLine, LineLayout, Manner, PieceStretch};
 use crate::dual::Var;
-use crate::element::{Element, mean_strain, stretch};
+use crate::element::{LinePiece, mean_strain, stretch};
 use crate::line::{Joint, Segment};
 use crate::refused::LineError;
 use crate::shape::ShapePoint;
 use crate::solve::RESIDUAL_TOLERANCE;
-use crate::state::{Buoy, JointState, SegmentState, State};
+use crate::state::{Buoy, JointState, LineState, SegmentState};
 
-impl Layout<'_> {
+impl LineLayout<'_> {
     /// The state of a line laid from a fairlead at `x` beside the anchor and elevation `z`.
-    pub fn state(&self, laid: Laid, [x, z]: [f64; 2], slack: bool) -> Result<State, LineError> {
+    pub fn state(&self, laid: LaidLine, [x, z]: [f64; 2], slack: bool) -> Result<LineState, LineError> {
         let [by_first, by_x, by_z, _] = laid.short.by;
         let Some(first) = laid.stretches.first().copied() else { return Err(LineError::Empty) };
         // the least tension stands for none
@@ -62,7 +62,7 @@ impl Layout<'_> {
             let (Some(head), Some(tail)) = (parts.first(), parts.last()) else { return Err(LineError::Empty) };
             let [u, z, low_h, low_v] = tail.low;
             places.push(place(u, z));
-            let Element::Length { segment, sees_bottom, .. } = element else { continue };
+            let LinePiece::Length { segment, sees_bottom, .. } = element else { continue };
             let number = segments.len() + 1;
             let mut on_bottom = 0.0;
             for part in parts.iter().filter(|p| p.manner != Manner::Hangs) {
@@ -109,7 +109,7 @@ impl Layout<'_> {
             JointState { x, z, lift, reaction: at.reaction, buoy }
         });
         let (force, vertical) = (clean(first.h), clean(first.v));
-        let state = State {
+        let state = LineState {
             force,
             x,
             dx_dh: if slack { 0.0 } else { 1.0 / xx },
@@ -142,7 +142,7 @@ impl Layout<'_> {
     }
 
     /// How far a hanging stretch that does not see the bottom is below it (m).
-    fn depth_below(&self, segment: &Segment, part: &Stretch) -> Option<f64> {
+    fn depth_below(&self, segment: &Segment, part: &PieceStretch) -> Option<f64> {
         let mut lowest: f64 = self.bottom.elevation(part.low[0]) - part.low[1];
         for face in self.bottom.face(part.low[0])..=self.bottom.face(part.u) {
             let s = (part.v - part.h * self.bottom.tilt(face).slope()) / segment.weight;
@@ -157,7 +157,7 @@ impl Layout<'_> {
 }
 
 /// The highest place of a buoyant segment, which does not lie, and of its lower end `joint` (m) where that is lifted.
-fn highest(segment: &Segment, part: &Stretch, joint: f64) -> f64 {
+fn highest(segment: &Segment, part: &PieceStretch, joint: f64) -> f64 {
     let [_, low, _, v] = part.low;
     let mut highest = joint;
     if segment.weight < 0.0 {
@@ -172,8 +172,14 @@ fn highest(segment: &Segment, part: &Stretch, joint: f64) -> f64 {
 
 /// A point of a stretch, `s` from the upper end of its piece; `x` is the distance of the ends and `arc` the length before
 /// the piece.
-pub fn point(element: &Element, part: &Stretch, s: f64, x: f64, (segment, arc): (usize, f64)) -> Option<ShapePoint> {
-    let Element::Length { segment: properties, law, .. } = element else { return None };
+pub fn point(
+    element: &LinePiece,
+    part: &PieceStretch,
+    s: f64,
+    x: f64,
+    (segment, arc): (usize, f64),
+) -> Option<ShapePoint> {
+    let LinePiece::Length { segment: properties, law, .. } = element else { return None };
     let length = (s - part.from).clamp(0.0, part.to - part.from);
     let (u, z, h, v) = match part.manner {
         Manner::Hangs => {

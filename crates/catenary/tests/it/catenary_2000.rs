@@ -1,14 +1,14 @@
 //! The 2,000 random single lines of tests/data/catenary_2000.csv, solved by nested bracketing to 1e-12 of the length:
 //! forces within 1e-8 of the fairlead tension, the same regime, and a tangent that is the difference of the force.
 
-use windlass_catenary::{Bottom, EndForces, Segment};
+use windlass_catenary::{EndForces, FlatBottom, Segment};
 
 struct Case {
     id: String,
     segment: Segment,
     x: f64,
     z: f64,
-    bottom: Option<Bottom>,
+    bottom: Option<FlatBottom>,
     fairlead: [f64; 2],
     anchor: [f64; 2],
     grounded: f64,
@@ -24,7 +24,7 @@ fn cases() -> Vec<Case> {
             x: v(2),
             z: v(3),
             segment: Segment { length: v(4), ea: v(5), weight: v(6) },
-            bottom: (&row[8] == "0").then(|| Bottom { friction: v(7) }),
+            bottom: (&row[8] == "0").then(|| FlatBottom { friction: v(7) }),
             fairlead: [v(9), v(10)],
             anchor: [v(11), v(12)],
             grounded: v(13),
@@ -105,7 +105,7 @@ fn hostile_numbers_are_errors_and_never_nan() {
         for weight in values {
             for ea in values {
                 for (x, z) in values.into_iter().flat_map(|x| values.map(|z| (x, z))) {
-                    for bottom in [None, Some(Bottom { friction: 0.0 }), Some(Bottom { friction: 0.7 })] {
+                    for bottom in [None, Some(FlatBottom { friction: 0.0 }), Some(FlatBottom { friction: 0.7 })] {
                         let Ok(got) = (Segment { length, weight, ea }).solve_end_forces(x, z, bottom) else { continue };
                         let all = got.fairlead.into_iter().chain(got.anchor).chain([got.grounded]);
                         assert!(all.into_iter().all(f64::is_finite), "{length} {weight} {ea} {x} {z}: {got:?}");
@@ -122,7 +122,7 @@ fn weightless_line_is_a_spring_that_only_pulls() {
     let got = spring.solve_end_forces(60.6, 80.8, None).unwrap();
     assert!((got.fairlead[0] - 6e3).abs() < 1e-6 && (got.fairlead[1] - 8e3).abs() < 1e-6, "{got:?}");
     for (x, z, bottom) in
-        [(30.0, 40.0, None), (0.0, 40.0, None), (0.0, 0.0, None), (30.0, 40.0, Some(Bottom { friction: 0.3 }))]
+        [(30.0, 40.0, None), (0.0, 40.0, None), (0.0, 0.0, None), (30.0, 40.0, Some(FlatBottom { friction: 0.3 }))]
     {
         let slack = spring.solve_end_forces(x, z, bottom).unwrap();
         assert_eq!((slack.fairlead, slack.anchor, slack.stiffness), ([0.0; 2], [0.0; 2], [[0.0; 2]; 2]), "{x} {z}");

@@ -1,14 +1,14 @@
 //! Lines over slopes and uneven bottoms, with friction, lifted by buoys, and of very many segments, against numbers that
 //! were not made here.
 
-use windlass_catenary::{Floor, Heap, Joint, Line, Segment};
+use windlass_catenary::{Heap, Joint, Line, SeabedModel, Segment};
 
 fn close(got: f64, want: f64, scale: f64, what: &str) {
     assert!((got - want).abs() <= scale, "{what}: {got} for {want}");
 }
 
-fn flat(depth: f64, friction: f64) -> Option<Floor> {
-    Some(Floor { elevation: -depth, slope: 0.0, friction })
+fn flat(depth: f64, friction: f64) -> Option<SeabedModel> {
+    Some(SeabedModel { elevation: -depth, slope: 0.0, friction })
 }
 
 #[test]
@@ -21,7 +21,7 @@ fn moorings_over_slopes_agree_with_the_closed_forms() {
         let v = |i: usize| row[i].parse::<f64>().unwrap();
         let told = format!("mooring {} line {}", &row[0], &row[1]);
         let segment = Segment { length: v(4), weight: v(5), ea: v(6) };
-        let floor = Floor { elevation: -v(3), slope: v(7), friction: v(8) };
+        let floor = SeabedModel { elevation: -v(3), slope: v(7), friction: v(8) };
         let line = Line::new(vec![segment], vec![], -v(3), 1e4).unwrap().with_seabed(Some(floor)).unwrap();
         let state = line.at_distance(v(2), 0.0).unwrap_or_else(|e| panic!("{told}: {e}"));
         // 1e-8 of the tension at the fairlead, as for the lines over a flat bottom
@@ -221,7 +221,7 @@ fn slack_line_with_buoy_on_a_slope_stands_above_its_heap() {
     for (first, second, slope, want) in cases {
         let part = |length| Segment { length, weight: 1000.0, ea: 6e8 };
         let line = Line::new(vec![part(first), part(second)], vec![Joint::Weight(-30e3)], -100.0, 0.0).unwrap();
-        let line = line.with_seabed(Some(Floor { elevation: -100.0, slope, friction: 0.0 })).unwrap();
+        let line = line.with_seabed(Some(SeabedModel { elevation: -100.0, slope, friction: 0.0 })).unwrap();
         let state = line.at_distance(400.0, -10.0).unwrap_or_else(|e| panic!("{slope}: {e}"));
         let (_, heap) = state.heap.unwrap();
         let joint = state.joints[0];
@@ -239,7 +239,7 @@ fn line_between_two_folds_of_friction_is_solved() {
     let part = |length, weight, ea| Segment { length, weight, ea };
     let parts = vec![part(360.3, 4250.0, 1.97e9), part(341.3, 1510.0, 7.5e8), part(126.0, 13.0, 2.8e9)];
     let line = Line::new(parts, vec![Joint::Weight(-185.3e3), Joint::Free], -182.4, 0.0).unwrap();
-    let line = line.with_seabed(Some(Floor { elevation: -303.0, slope: -0.147, friction: 0.914 })).unwrap();
+    let line = line.with_seabed(Some(SeabedModel { elevation: -303.0, slope: -0.147, friction: 0.914 })).unwrap();
     let state = line.at_distance(538.0, -46.0).unwrap();
     close(state.force, 267802.28263, 1e-2, "H");
     close(state.top_vertical, 1458587.41372, 1e-2, "V");
@@ -257,7 +257,7 @@ fn distance_of_a_force_is_found_on_a_slope_of_two_weights() {
         Segment { length: 363.7, weight: 17.7, ea: 1.04e7 },
     ];
     let line = Line::new(parts, vec![Joint::Free], -294.2, 0.0).unwrap();
-    let line = line.with_seabed(Some(Floor { elevation: -294.2, slope: 0.0835, friction: 0.0 })).unwrap();
+    let line = line.with_seabed(Some(SeabedModel { elevation: -294.2, slope: 0.0835, friction: 0.0 })).unwrap();
     let state = line.at_horizontal_force(26_700.0, -60.8).unwrap();
     close(state.x, 434.663283781, 1e-6, "distance");
     close(state.top_vertical, 580660.7392, 1e-3, "V");
@@ -286,7 +286,7 @@ fn clump_at_the_edge_of_a_heap_is_held_by_what_the_length_asks_for() {
     let (second, ea) = (400.3, 6e6);
     let part = |length| Segment { length, weight: 1000.0, ea };
     let line = Line::new(vec![part(200.0), part(second)], vec![Joint::Weight(1e5)], -100.0, 0.0).unwrap();
-    let line = line.with_seabed(Some(Floor { elevation: -100.0, slope: -0.1, friction: 0.0 })).unwrap();
+    let line = line.with_seabed(Some(SeabedModel { elevation: -100.0, slope: -0.1, friction: 0.0 })).unwrap();
     let state = line.at_distance(400.0, -10.0).unwrap();
     let way = 400f64.hypot(40.0);
     let (sin, cos) = (40.0 / way, 400.0 / way);

@@ -2,7 +2,7 @@
 //! forces within 0.1 kips: the digits the values were given with).
 
 use windlass_base::units::{METRES_PER_FOOT, NEWTONS_PER_KIP};
-use windlass_catenary::{Buoy, DEFAULT_ROWS, Joint, Line, Row, Segment, table};
+use windlass_catenary::{Buoy, DEFAULT_ROWS, Joint, Line, Segment, TableRow, table};
 
 fn area(od: f64) -> f64 {
     std::f64::consts::FRAC_PI_4 * od * od
@@ -21,7 +21,7 @@ fn line(capacity: f64, pendant: f64) -> Line {
     Line::new(segments, vec![buoy, Joint::Free, Joint::Free], -3000.0 * METRES_PER_FOOT, 0.0).unwrap()
 }
 
-fn example(capacity: f64, pendant: f64) -> (Vec<Row>, [f64; 4]) {
+fn example(capacity: f64, pendant: f64) -> (Vec<TableRow>, [f64; 4]) {
     let breaks = [4.625, 4.625, 4.375, 4.625].map(|od| 60.0 * area(od) * NEWTONS_PER_KIP);
     (table(&line(capacity, pendant), &breaks, breaks[0], 0.0).unwrap().0, breaks)
 }

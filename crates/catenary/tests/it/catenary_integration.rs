@@ -1,7 +1,7 @@
 //! Properties of a line at a given horizontal force that need no reference numbers.
 
 use proptest::prelude::*;
-use windlass_catenary::{Bottom, Buoy, Joint, Line, Segment, State};
+use windlass_catenary::{Buoy, FlatBottom, Joint, Line, LineState, Segment};
 
 fn segment() -> impl Strategy<Value = Segment> {
     (20.0..1500.0_f64, 1.0..3.7_f64, 4.5..10.0_f64).prop_map(|(length, weight, ea)| Segment {
@@ -33,7 +33,7 @@ fn line_and_joints() -> impl Strategy<Value = (Line, Vec<Joint>, f64)> {
 }
 
 /// The vertical forces on the line add up to nothing: the fairlead carries the weight that hangs less the lifts.
-fn balance(line: &Line, state: &State) -> f64 {
+fn balance(line: &Line, state: &LineState) -> f64 {
     let hanging: f64 =
         line.segments().iter().zip(&state.segments).map(|(s, at)| s.weight * (s.length - at.grounded)).sum();
     state.top_vertical - state.anchor_vertical - hanging + state.joints.iter().map(|j| j.lift).sum::<f64>()
@@ -47,8 +47,8 @@ proptest! {
         let h = 10f64.powf(h);
         let at = |h: f64| line.at_horizontal_force(h, -draft);
         let (Ok(middle), Ok(plus), Ok(minus)) = (at(h), at(h * 1.00001), at(h * 0.99999)) else { return Ok(()) };
-        let buoys = |s: &State| s.joints.iter().map(|j| j.buoy).collect::<Vec<_>>();
-        let aground = |s: &State| s.segments.iter().map(|g| g.grounded > 0.0).collect::<Vec<_>>();
+        let buoys = |s: &LineState| s.joints.iter().map(|j| j.buoy).collect::<Vec<_>>();
+        let aground = |s: &LineState| s.segments.iter().map(|g| g.grounded > 0.0).collect::<Vec<_>>();
         prop_assume!(buoys(&plus) == buoys(&minus) && aground(&plus) == aground(&minus));
         let slope = (plus.x - minus.x) / (2e-5 * h);
         prop_assert!((slope - middle.dx_dh).abs() <= 1e-4 * middle.dx_dh + 1e-10 * line.length() / (1e-5 * h),
@@ -88,7 +88,7 @@ proptest! {
         let line = Line::new(vec![s], vec![], -depth, 0.0).unwrap();
         let state = line.at_horizontal_force(h, 0.0).unwrap();
         prop_assume!(state.x > 0.0);
-        let back = s.solve_end_forces(state.x, depth, Some(Bottom::default())).unwrap();
+        let back = s.solve_end_forces(state.x, depth, Some(FlatBottom::default())).unwrap();
         // what the rounding of the distance makes of the force
         let slack = 1e-8 * state.top_tension + 1e-15 * (s.length + depth + state.x) * back.stiffness[0][0];
         prop_assert!((back.fairlead[0] - h).abs() <= slack, "{back:?} {state:?}");
@@ -122,7 +122,7 @@ proptest! {
 
 /// Adds up a state along the line in small steps, with nothing of the engine but its end forces; what contradicts
 /// equilibrium, geometry or the states of the buoys.
-fn contradiction(line: &Line, joints: &[Joint], depth: f64, h: f64, state: &State) -> Option<String> {
+fn contradiction(line: &Line, joints: &[Joint], depth: f64, h: f64, state: &LineState) -> Option<String> {
     const STEPS: usize = 20_000;
     let (mut x, mut z) = (0.0, 0.0);
     let force = 1e-7 * (h + state.top_tension + line.segments().iter().map(|s| s.weight * s.length).sum::<f64>());

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use windlass_catenary::{Floor, Heap, Joint, Line, LineError, Segment};
+use windlass_catenary::{Heap, Joint, Line, LineError, SeabedModel, Segment};
 
 struct Case {
     x: f64,
@@ -42,7 +42,7 @@ fn check(pieces: usize) {
     for (row, case) in cases().iter().enumerate() {
         let part = Segment { length: case.segment.length / pieces as f64, ..case.segment };
         let line = Line::new(vec![part; pieces], vec![Joint::Free; pieces - 1], 0.0, 1e4).unwrap();
-        let floor = Floor { elevation: 0.0, slope: 0.0, friction: case.friction };
+        let floor = SeabedModel { elevation: 0.0, slope: 0.0, friction: case.friction };
         let line = line.with_seabed((!case.suspended).then_some(floor)).unwrap();
         match line.at_distance(case.x, case.z) {
             Ok(s) => {
@@ -95,7 +95,7 @@ impl Dice {
 fn contradiction(
     line: &Line,
     joints: &[Joint],
-    floor: Floor,
+    floor: SeabedModel,
     fairlead: f64,
     anchor: f64,
     x: f64,
@@ -242,7 +242,7 @@ fn random_lines(count: usize, slopes: f64, frictions: f64, lifts: bool, refused:
         let (slope, friction) = (slopes * dice.between(-1.0, 1.0), frictions * dice.roll());
         let up =
             if slopes == 0.0 && frictions == 0.0 && dice.roll() < 0.3 { dice.between(0.0, 0.8 * depth) } else { 0.0 };
-        let floor = Floor { elevation: -depth, slope, friction };
+        let floor = SeabedModel { elevation: -depth, slope, friction };
         let anchor = -depth + up;
         let line = Line::new(segments.clone(), joints.clone(), anchor, 0.0).unwrap().with_seabed(Some(floor)).unwrap();
         let x = line.length() * dice.between(0.05, 1.1);
@@ -307,7 +307,7 @@ fn random_lines_on_a_rough_slope_with_buoys_are_in_equilibrium_or_refused() {
 #[test]
 fn slack_on_a_smooth_slope_hangs_on_the_anchor_or_slides_to_it() {
     let heavy = Segment { length: 600.0, weight: 1000.0, ea: 1e15 };
-    let on = |slope: f64, friction: f64| Some(Floor { elevation: -100.0, slope, friction });
+    let on = |slope: f64, friction: f64| Some(SeabedModel { elevation: -100.0, slope, friction });
     let line = |slope, friction| {
         Line::new(vec![heavy], vec![], -100.0, 0.0).unwrap().with_seabed(on(slope, friction)).unwrap()
     };
@@ -343,7 +343,7 @@ fn slack_on_a_smooth_slope_hangs_on_the_anchor_or_slides_to_it() {
     let soft = Segment { length: 32.5, weight: 139.0, ea: 168_000.0 };
     let below = Segment { length: 138.0, weight: 12.0, ea: 540_000.0 };
     let clump = Line::new(vec![soft, below], vec![Joint::Weight(23_500.0)], -45.0, 0.0).unwrap();
-    let clump = clump.with_seabed(Some(Floor { elevation: -45.0, slope: 0.25, friction: 1.3 })).unwrap();
+    let clump = clump.with_seabed(Some(SeabedModel { elevation: -45.0, slope: 0.25, friction: 1.3 })).unwrap();
     if let Ok(state) = clump.at_distance(28.8, 0.0) {
         assert!(state.force > -1.0, "it does not push: {state:?}");
     }

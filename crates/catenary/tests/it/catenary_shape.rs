@@ -1,12 +1,12 @@
 //! The shape of a line, springs at its ends, stretch laws, and the line found from a tension.
 
-use windlass_catenary::{Floor, Joint, Line, LineError, Segment, StretchLaw};
+use windlass_catenary::{Joint, Line, LineError, SeabedModel, Segment, StretchLaw};
 
 const CHAIN: Segment = Segment { length: 800.0, weight: 1200.0, ea: 6e8 };
 const ROPE: Segment = Segment { length: 500.0, weight: 40.0, ea: 8e7 };
 
 fn mixed(slope: f64, friction: f64) -> Line {
-    let floor = Floor { elevation: -250.0, slope, friction };
+    let floor = SeabedModel { elevation: -250.0, slope, friction };
     let line = Line::new(vec![CHAIN, ROPE, CHAIN], vec![Joint::Weight(3e4), Joint::Weight(-6e4)], -250.0, 0.0).unwrap();
     line.with_seabed(Some(floor)).unwrap()
 }
@@ -147,7 +147,10 @@ fn a_pendant_longer_than_the_depth_and_a_law_that_falls_are_refused() {
     let buoy = Joint::SpringBuoy { capacity: 1e5, depth: 300.0 };
     let line = Line::new(vec![CHAIN, CHAIN], vec![buoy], -250.0, 0.0).unwrap();
     let error = line.at_distance(900.0, 0.0).unwrap_err();
-    assert_eq!(line.with_seabed(Some(Floor { elevation: -250.0, slope: 0.0, friction: 0.5 })).unwrap_err(), error);
+    assert_eq!(
+        line.with_seabed(Some(SeabedModel { elevation: -250.0, slope: 0.0, friction: 0.5 })).unwrap_err(),
+        error
+    );
     assert!(matches!(error, LineError::Pendant { segment: 1, .. }), "{error}");
     let line = Line::new(vec![CHAIN], vec![], -250.0, 0.0).unwrap();
     let falling = StretchLaw::Polynomial { ea: 1e8, k: [-5e9, 0.0, 0.0], most: 0.05 };

@@ -1,6 +1,6 @@
 //! Single lines solved by the engine of single segments and by that of whole lines, which share no search: the same forces.
 
-use windlass_catenary::{Bottom, Floor, Line, Segment};
+use windlass_catenary::{FlatBottom, Line, SeabedModel, Segment};
 
 /// A random number from 0 to 1, the same in every run.
 struct Dice(u64);
@@ -44,10 +44,10 @@ fn two_engines_agree_on_random_lines_of_every_kind() {
             z = -z;
         }
         let segment = Segment { length, weight, ea };
-        let floor = Floor { elevation: 0.0, slope: 0.0, friction };
+        let floor = SeabedModel { elevation: 0.0, slope: 0.0, friction };
         let line = Line::new(vec![segment], vec![], 0.0, 1e5).unwrap().with_seabed(bottom.then_some(floor)).unwrap();
         let (one, two) =
-            (segment.solve_end_forces(x, z, bottom.then_some(Bottom { friction })), line.at_distance(x, z));
+            (segment.solve_end_forces(x, z, bottom.then_some(FlatBottom { friction })), line.at_distance(x, z));
         let told = format!("{number}: {segment:?} x {x} z {z} friction {friction} bottom {bottom}");
         let (Ok(one), Ok(two)) = (&one, &two) else {
             wrong.push(format!("{told}: {one:?} {two:?}"));

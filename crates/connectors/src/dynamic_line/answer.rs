@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::pose::Six;
-use windlass_line_dynamics::{EndForces, EndTangent, Matrix12, SupportForce, SupportTangent};
-use windlass_model::{ClassError, Response};
+use windlass_line_dynamics::{EndTangent, Matrix12, RodEndForces, SupportForce, SupportTangent};
+use windlass_model::{ClassError, ElementResponse};
 
 fn six(force: &Vector3<f64>, moment: &Vector3<f64>) -> Six {
     Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
@@ -11,8 +11,8 @@ fn six(force: &Vector3<f64>, moment: &Vector3<f64>) -> Six {
 
 /// Wrenches on the two ends, and their changes where they are known: by rates and accelerations where it is `moving`.
 pub(super) fn on_ends(
-    out: &mut Response,
-    forces: &EndForces,
+    out: &mut ElementResponse,
+    forces: &RodEndForces,
     tangent: Option<&EndTangent>,
     moving: bool,
 ) -> Result<(), ClassError> {
@@ -38,7 +38,7 @@ pub(super) fn on_ends(
 
 /// Wrenches on the supports of a pipe, and their changes where they are known.
 pub(super) fn on_supports(
-    out: &mut Response,
+    out: &mut ElementResponse,
     loads: &[SupportForce],
     tangent: Option<&SupportTangent>,
 ) -> Result<(), ClassError> {
@@ -53,7 +53,7 @@ pub(super) fn on_supports(
     finite(out)
 }
 
-fn finite(out: &Response) -> Result<(), ClassError> {
+fn finite(out: &ElementResponse) -> Result<(), ClassError> {
     if out.wrench.iter().any(|w| w.iter().any(|v| !v.is_finite())) {
         return Err(ClassError::new("its force is no number"));
     }

@@ -1,7 +1,7 @@
 //! What a dynamic line is made of, as its class says.
 
 use std::f64::consts::FRAC_PI_4;
-use windlass_line_dynamics::{Axial, Segment};
+use windlass_line_dynamics::{RodSegment, TensionLaw};
 use windlass_model::{Ambient, Contents};
 
 /// What stands where a part ends and the next begins.
@@ -30,9 +30,9 @@ pub struct Strength {
 
 /// A part of a line: one record of its class.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct LinePart {
     /// Its properties; the number of elements is that of the class.
-    pub segment: Segment,
+    pub segment: RodSegment,
     /// What it bears.
     pub strength: Strength,
     /// What stands at its end, if anything.
@@ -67,7 +67,7 @@ impl Seabed {
 
 /// How an end is held in its direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hold {
+pub struct EndFixity {
     /// Declination from straight down of the line where it leaves its first end, in the vertical plane of the ends (rad); along
     /// the chord of the ends as defined where not given.
     pub declination: Option<f64>,
@@ -77,24 +77,24 @@ pub struct Hold {
 
 /// A dynamic line.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Description {
+pub struct LineDescription {
     /// The class type, for messages.
     pub kind: &'static str,
     /// Its parts from the first end.
-    pub parts: Vec<Part>,
+    pub parts: Vec<LinePart>,
     /// The bottom under it.
     pub seabed: Seabed,
     /// How its two ends are held; pinned where not.
-    pub holds: [Option<Hold>; 2],
+    pub holds: [Option<EndFixity>; 2],
     /// Whether it is slammed where it enters the water.
     pub slam: bool,
     /// What is always reported of it.
     pub notes: Vec<String>,
 }
 
-impl Part {
+impl LinePart {
     /// Its properties at an elevation (m, global z), with what grows on it there and with what it holds.
-    pub fn grown(&self, ambient: Option<&dyn Ambient>, z: f64) -> Segment {
+    pub fn grown(&self, ambient: Option<&dyn Ambient>, z: f64) -> RodSegment {
         let mut made = self.segment.clone();
         let Some(ambient) = ambient else { return made };
         let (thickness, density) = ambient.growth(z);
@@ -124,7 +124,7 @@ impl Part {
     /// Tension over strain at no strain (N).
     pub fn ea(&self) -> f64 {
         match &self.segment.axial {
-            Axial::Linear(ea) => *ea,
+            TensionLaw::Linear(ea) => *ea,
             other => other.evaluate(0.0).1,
         }
     }
@@ -156,9 +156,9 @@ mod tests {
 
     #[test]
     fn growth_sits_on_the_outside_of_a_line_whatever_it_displaces() {
-        let bare = Segment { displaced: 0.0, ..Segment::line(10.0, 1, 100.0, 1e6, 0.3) };
+        let bare = RodSegment { displaced: 0.0, ..RodSegment::line(10.0, 1, 100.0, 1e6, 0.3) };
         let strength = Strength { breaking: 1.0, is_given: true };
-        let grown = Part { segment: bare.clone(), strength, joint: None }.grown(Some(&Foul), -10.0);
+        let grown = LinePart { segment: bare.clone(), strength, joint: None }.grown(Some(&Foul), -10.0);
         // a ring from 0.3 to 0.4 m
         let ring = FRAC_PI_4 * 0.07;
         assert!((grown.mass - 100.0 - 1400.0 * ring).abs() < 1e-9);

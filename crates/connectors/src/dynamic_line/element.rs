@@ -1,21 +1,22 @@
 //! A dynamic line as an engine sees it.
 
 use super::answer::{on_ends, on_supports};
-use super::environment::{Floor, Water};
+use super::environment::{LineSeabed, LineWater};
 use super::mesh::{most_wound, to_class_error, wind};
 use super::pipelay_supports::{PipeLay, SupportContact};
-use super::solver_cache::{Base, Held, SolverCache};
-use super::state_layout::{Layout, StateView};
+use super::solver_cache::{Base, EndDirection, SolverCache};
+use super::state_layout::{StateLayout, StateView};
 use nalgebra::Vector3;
 use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Six;
 use windlass_base::units::Dim;
 use windlass_line_dynamics::{
-    self as rod, Balance, EndForces, EndTangent, LineEnvironment, Motion, Rod, SeabedLaw, State,
+    self as rod, Balance, EndTangent, LineEnvironment, Rod, RodEndForces, RodEndMotion, RodState, SeabedLaw,
 };
 use windlass_model::{
-    Ambient, ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Summary,
+    Ambient, ClassError, Element, ElementResponse, ElementSummary, End, EnergyBalance, Flow, Guess, LineMode, LineNode,
+    Situation,
 };
 
 /// An end may lie this much below the bottom (m).
@@ -32,7 +33,7 @@ const NO_MEMORY: &str = "the line has no memory";
 #[derive(Debug)]
 pub struct DynamicLine {
     pub(super) base: Arc<Base>,
-    pub(super) layout: Layout,
+    pub(super) layout: StateLayout,
     /// Length of the first part (m), and of its elements as the class has them.
     pub(super) first: f64,
     pub(super) nominal: f64,
@@ -44,9 +45,9 @@ fn places(ends: &[End]) -> [Vector3<f64>; 2] {
 }
 
 /// A line at rest.
-pub(super) struct Rest {
-    pub state: State,
-    pub forces: EndForces,
+pub(super) struct LineAtRest {
+    pub state: RodState,
+    pub forces: RodEndForces,
 }
 
 impl DynamicLine {
@@ -70,11 +71,11 @@ impl DynamicLine {
     ) -> T {
         let around = at.surroundings;
         let ambient = self.base.ambient.as_deref();
-        let water = Water { ambient, around, mean, flows: RefCell::new(std::mem::take(flows)) };
+        let water = LineWater { ambient, around, mean, flows: RefCell::new(std::mem::take(flows)) };
         let charted = ambient.filter(|a| a.has_bottom_grid());
-        let floor = Floor { plane: self.base.plane, charted, flat: self.base.flat.unwrap_or(f64::NEG_INFINITY) };
+        let floor = LineSeabed { plane: self.base.plane, charted, flat: self.base.flat.unwrap_or(f64::NEG_INFINITY) };
         let known = self.base.plane.is_some() || self.base.flat.is_some() || charted.is_some();
-        let bottom: Option<(&dyn rod::Bottom, SeabedLaw)> = known.then_some((&floor, self.base.ground));
+        let bottom: Option<(&dyn rod::SeabedShape, SeabedLaw)> = known.then_some((&floor, self.base.ground));
         let felt = self.base.laid.as_ref().map(|laid| laid.find_contacts(at.ends, around, paid)).unwrap_or_default();
         let supports: Vec<_> = felt.iter().map(SupportContact::support).collect();
         let slam = self.base.description.slam;
@@ -85,35 +86,35 @@ impl DynamicLine {
     }
 
     /// What holds the ends.
-    pub(super) fn end_conditions(&self, ends: &[End], still: bool) -> Result<[rod::End; 2], ClassError> {
+    pub(super) fn end_conditions(&self, ends: &[End], still: bool) -> Result<[rod::RodEnd; 2], ClassError> {
         if let Some(laid) = &self.base.laid {
-            return Ok([rod::End::FREE, rod::End::pin(laid.anchor)]);
+            return Ok([rod::RodEnd::FREE, rod::RodEnd::pin(laid.anchor)]);
         }
         let [first, second] = ends else { return Err(ClassError::new("a line has two ends").lasting()) };
-        let made = |end: &End, hold: &Option<Held>| {
+        let made = |end: &End, hold: &Option<EndDirection>| {
             let three = |six: &Six| Vector3::new(six[0], six[1], six[2]);
-            let mut motion = Motion::at_rest(end.pose.origin);
+            let mut motion = RodEndMotion::at_rest(end.pose.origin);
             let mut turning = Vector3::zeros();
             if !still {
                 (motion.velocity, motion.acceleration) = (three(&end.velocity), three(&end.acceleration));
                 turning = end.velocity.fixed_rows::<3>(3).into_owned();
             }
-            let moved = rod::End::from_motion(motion).with_turning(turning);
+            let moved = rod::RodEnd::from_motion(motion).with_turning(turning);
             match hold {
                 Some((direction, stiffness)) => {
-                    rod::End { rotation: *stiffness, ..moved.with_clamp(end.pose.axes * direction) }
+                    rod::RodEnd { rotation: *stiffness, ..moved.with_clamp(end.pose.axes * direction) }
                 }
                 None => moved,
             }
         };
         let [a, b] = &self.base.holds;
-        let first = if self.base.freed { rod::End::FREE } else { made(first, a) };
+        let first = if self.base.freed { rod::RodEnd::FREE } else { made(first, a) };
         Ok([first, made(second, b)])
     }
 
     /// What its holders bear. An anchor on the bottom does not bear what the end of the line presses on the bottom with: the half of its
     /// last element that has its weight at the anchor's node lies beside it.
-    fn on_holders(&self, forces: EndForces, places: &[Vector3<f64>; 2], world: &LineEnvironment) -> EndForces {
+    fn on_holders(&self, forces: RodEndForces, places: &[Vector3<f64>; 2], world: &LineEnvironment) -> RodEndForces {
         let mut made = forces;
         let (Some((bottom, _)), false, [_, anchor]) = (&world.bottom, self.base.felt[1], places) else { return made };
         let (height, [x, y]) = bottom.height(anchor.x, anchor.y);
@@ -127,7 +128,7 @@ impl DynamicLine {
     }
 
     /// Where it hangs at rest between ends.
-    pub(super) fn rest(&self, at: &Situation, warm: &mut SolverCache) -> Result<Rest, ClassError> {
+    pub(super) fn rest(&self, at: &Situation, warm: &mut SolverCache) -> Result<LineAtRest, ClassError> {
         let ends = self.end_conditions(at.ends, true)?;
         if warm.rod != self.base.rod {
             warm.rod = self.base.rod.clone();
@@ -164,7 +165,7 @@ impl DynamicLine {
                 },
             };
             *rest = Some(state.clone());
-            Ok(Rest { state, forces })
+            Ok(LineAtRest { state, forces })
         })
     }
 
@@ -187,12 +188,16 @@ impl DynamicLine {
 
     /// Its motion as a state has it, or where it rests if it has not begun, with its rod where that is not the one it was made with;
     /// and whether that is without the waves.
-    pub(super) fn where_it_is(&self, at: &Situation, state: &[f64]) -> Result<(Option<Rod>, State, bool), ClassError> {
+    pub(super) fn where_it_is(
+        &self,
+        at: &Situation,
+        state: &[f64],
+    ) -> Result<(Option<Rod>, RodState, bool), ClassError> {
         let base = &self.base.rod;
         match self.layout.read(state)? {
             Some(kept) => {
                 let other = self.rod_with_mesh(&kept, base)?;
-                let state = State::unpack(other.as_ref().unwrap_or(base), kept.motion).map_err(to_class_error)?;
+                let state = RodState::unpack(other.as_ref().unwrap_or(base), kept.motion).map_err(to_class_error)?;
                 Ok((other, state, at.step.is_none()))
             }
             None => Ok((None, self.rest(at, &mut SolverCache::new(&self.base))?.state, true)),
@@ -207,7 +212,7 @@ impl DynamicLine {
         kept: &StateView,
         trial: &mut [f64],
         warm: &mut SolverCache,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let (ends, places) = (self.end_conditions(at.ends, false)?, places(at.ends));
         if let Some(rod) = self.rod_with_mesh(kept, &warm.rod)? {
@@ -330,7 +335,7 @@ impl Element for DynamicLine {
         committed: &[f64],
         trial: &mut [f64],
         guess: &mut Guess,
-        out: &mut Response,
+        out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let kept = self.layout.read(committed)?;
         let Some(warm) = self.warm(guess) else { return Err(ClassError::new(NO_MEMORY).lasting()) };
@@ -364,7 +369,7 @@ impl Element for DynamicLine {
         Ok(())
     }
 
-    fn books(&self, state: &[f64]) -> Option<LineBooks> {
+    fn books(&self, state: &[f64]) -> Option<EnergyBalance> {
         self.tell_books(state)
     }
 
@@ -380,7 +385,7 @@ impl Element for DynamicLine {
         self.tell_modes(at, state, number)
     }
 
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
         self.tell_summary(at, committed)
     }
 }

@@ -3,7 +3,7 @@
 use super::describe::Seabed;
 use nalgebra::Vector3;
 use std::cell::RefCell;
-use windlass_line_dynamics::{Bottom, FluidField, FluidState, PlaneBottom, SeabedLaw, Segment, UniformFluid};
+use windlass_line_dynamics::{FluidField, FluidState, PlaneBottom, RodSegment, SeabedLaw, SeabedShape, UniformFluid};
 use windlass_model::{Ambient, Flow, Surroundings};
 
 /// How far a line presses itself into the bottom by its own weight, as a share of its diameter: what the bottom's stiffness follows
@@ -20,7 +20,7 @@ const DEFAULT_FRICTION_SPEED: f64 = 0.01;
 
 /// The water of an environment.
 #[derive(Debug)]
-pub(super) struct Water<'a> {
+pub(super) struct LineWater<'a> {
     pub ambient: Option<&'a dyn Ambient>,
     pub around: &'a Surroundings,
     /// Whether waves are left out: at rest.
@@ -29,7 +29,7 @@ pub(super) struct Water<'a> {
     pub flows: RefCell<Vec<Flow>>,
 }
 
-impl FluidField for Water<'_> {
+impl FluidField for LineWater<'_> {
     fn sample(&self, position: &Vector3<f64>, time: f64) -> FluidState {
         let mut found = [UniformFluid::vacuum().0];
         self.sample_into(std::slice::from_ref(position), time, &mut found);
@@ -62,14 +62,14 @@ impl FluidField for Water<'_> {
 
 /// The bottom: a plane of the line's own, the environment's over a grid, or flat at the depth the line or the environment says.
 #[derive(Debug)]
-pub(super) struct Floor<'a> {
+pub(super) struct LineSeabed<'a> {
     pub plane: Option<PlaneBottom>,
     /// The environment, where its bottom is a grid.
     pub charted: Option<&'a dyn Ambient>,
     pub flat: f64,
 }
 
-impl Bottom for Floor<'_> {
+impl SeabedShape for LineSeabed<'_> {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         match &self.plane {
             Some(plane) => plane.height(x, y),
@@ -79,12 +79,12 @@ impl Bottom for Floor<'_> {
 }
 
 /// How the bottom answers a line of these segments.
-pub(super) fn ground(seabed: &Seabed, segments: &[Segment], around: &Surroundings) -> SeabedLaw {
+pub(super) fn ground(seabed: &Seabed, segments: &[RodSegment], around: &Surroundings) -> SeabedLaw {
     // by the heaviest segment, so that none presses itself in deeper
-    let weight = |s: &Segment| {
+    let weight = |s: &RodSegment| {
         (s.mass - around.water_density * s.displaced).max(BUOYANT_LINE_WEIGHT_SHARE * s.mass) * around.gravity
     };
-    let press = |s: &Segment| weight(s) / (DEFAULT_PENETRATION_DIAMETERS * s.contact_diameter * s.contact_diameter);
+    let press = |s: &RodSegment| weight(s) / (DEFAULT_PENETRATION_DIAMETERS * s.contact_diameter * s.contact_diameter);
     let stiffest = segments.iter().map(press).filter(|k| k.is_finite()).fold(0.0, f64::max);
     let stiffness = seabed.stiffness.unwrap_or(stiffest);
     let heavy = segments.iter().map(|s| s.mass / s.contact_diameter).filter(|m| m.is_finite()).fold(0.0, f64::max);
@@ -107,7 +107,7 @@ mod tests {
     fn a_line_sinks_into_the_bottom_by_a_share_of_its_diameter() {
         let around =
             Surroundings { water_density: 1000.0, air_density: 1.2, gravity: 10.0, depth: Some(50.0), tide: 0.0 };
-        let segment = |mass: f64| Segment { displaced: 0.01, ..Segment::line(10.0, 1, mass, 1e6, 0.1) };
+        let segment = |mass: f64| RodSegment { displaced: 0.01, ..RodSegment::line(10.0, 1, mass, 1e6, 0.1) };
         let stiffness = |mass: f64| ground(&Seabed::default(), &[segment(mass), segment(5.0)], &around).stiffness;
         // 100 N/m on a shadow of 0.1 m sink in by 2 mm
         assert!((stiffness(20.0) - 100.0 / (0.1 * 0.002)).abs() < 1e-6);

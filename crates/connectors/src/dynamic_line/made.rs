@@ -1,16 +1,16 @@
 //! How a dynamic line is made of its class and the ends of its connector.
 
-use super::describe::{Description, Part};
+use super::describe::{LineDescription, LinePart};
 use super::element::DynamicLine;
 use super::environment::ground;
 use super::mesh::{Cut, JOIN_BELOW_SHARE, attachments, few, mesh, to_class_error};
-use super::solver_cache::{Base, Held};
+use super::solver_cache::{Base, EndDirection};
 use super::start;
-use super::state_layout::Layout;
+use super::state_layout::StateLayout;
 use crate::mooring::no_other_end;
 use nalgebra::Vector3;
 use std::sync::Arc;
-use windlass_line_dynamics::{self as rod, Bottom, PlaneBottom, Rod, State};
+use windlass_line_dynamics::{self as rod, PlaneBottom, Rod, RodState, SeabedShape};
 use windlass_model::{ClassError, Connection};
 
 impl DynamicLine {
@@ -18,14 +18,14 @@ impl DynamicLine {
     ///
     /// # Errors
     /// Properties that make no rod, more elements than memory should hold, no direction for an end that is held.
-    pub fn build(description: Description, connection: &Connection) -> Result<Self, ClassError> {
+    pub fn build(description: LineDescription, connection: &Connection) -> Result<Self, ClassError> {
         let around = connection.surroundings;
         if connection.placement.other.is_none() {
             return Err(no_other_end());
         }
         let ambient = connection.ambient.cloned();
         let ends = connection.ends.map(|p| p.origin);
-        let known = |p: &Part| p.segment.length;
+        let known = |p: &LinePart| p.segment.length;
         let class_first = description.parts.first().map_or(0.0, known);
         let first = connection.placement.first_length.unwrap_or(class_first);
         let mut lengths: Vec<f64> = description.parts.iter().map(known).collect();
@@ -48,7 +48,7 @@ impl DynamicLine {
         let bottom = plane.or(flat.map(|height| PlaneBottom { height, slope: [0.0; 2] }));
         let shape = match &ambient {
             Some(a) if a.grows() => {
-                let floor = bottom.as_ref().map(|b| (b as &dyn Bottom, description.seabed.along));
+                let floor = bottom.as_ref().map(|b| (b as &dyn SeabedShape, description.seabed.along));
                 start::points(&description.parts, &lengths, ends, floor, around)
             }
             _ => Vec::new(),
@@ -75,7 +75,7 @@ impl DynamicLine {
         }
         let holds = holds(&description, connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
-        let layout = Layout::new(capacity, State::packed_len_with(&rod, capacity), connection.duty.books);
+        let layout = StateLayout::new(capacity, RodState::packed_len_with(&rod, capacity), connection.duty.books);
         let base = Base {
             description,
             rod,
@@ -96,7 +96,7 @@ impl DynamicLine {
 }
 
 /// The directions in which the ends are held, in the axes of their holders as defined.
-fn holds(description: &Description, connection: &Connection) -> Result<[Option<Held>; 2], ClassError> {
+fn holds(description: &LineDescription, connection: &Connection) -> Result<[Option<EndDirection>; 2], ClassError> {
     let [a, b] = connection.connector.defined;
     let b = if connection.to_ground { windlass_base::pose::Pose { origin: connection.ends[1].origin, ..b } } else { b };
     let chord = b.origin - a.origin;

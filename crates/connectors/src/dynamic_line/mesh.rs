@@ -1,11 +1,11 @@
 //! Elements of a line, and those that a winch lets out or takes in.
 
-use super::describe::{JointMass, Part};
+use super::describe::{JointMass, LinePart};
 use super::environment::BUOYANT_LINE_WEIGHT_SHARE;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use windlass_base::units::Dim;
-use windlass_line_dynamics::{self as rod, Attachment, Rod, RodError, Segment, State};
+use windlass_line_dynamics::{self as rod, Attachment, Rod, RodError, RodSegment, RodState};
 use windlass_model::{Ambient, ClassError};
 
 /// An element at the winch is divided when it is longer than this share of those of its part as the class has them.
@@ -43,14 +43,14 @@ pub(super) fn to_class_error(error: RodError) -> ClassError {
 }
 
 /// Elements of a part as it is wound to a length (m) other than that of its class.
-fn wound(part: &Part, length: f64) -> f64 {
+fn wound(part: &LinePart, length: f64) -> f64 {
     (length / part.segment.length * part.segment.elements as f64).round().max(1.0)
 }
 
 /// Refuses more elements than a rod may have before any of them takes memory: those of the class, and those of a first part with a
 /// length (m).
-pub(super) fn few(parts: &[Part], first: f64) -> Result<(), ClassError> {
-    let own = |part: &Part| part.segment.elements as f64;
+pub(super) fn few(parts: &[LinePart], first: f64) -> Result<(), ClassError> {
+    let own = |part: &LinePart| part.segment.elements as f64;
     let whole: f64 = parts.iter().map(own).sum();
     let longer = parts.first().map_or(0.0, |part| wound(part, first) - own(part));
     let most = whole.max(whole + longer);
@@ -67,14 +67,14 @@ pub(super) fn few(parts: &[Part], first: f64) -> Result<(), ClassError> {
 
 /// Segments of a line: one a part, or one an element of the class where properties change along a part.
 pub(super) struct Cut {
-    pub segments: Vec<Segment>,
+    pub segments: Vec<RodSegment>,
     pub bands: Bands,
 }
 
 impl Cut {
     /// As the class says; with growth along the line, which is at `shape` when it is made, by element. The parts have these lengths (m)
     /// as they are wound.
-    pub fn new(parts: &[Part], lengths: &[f64], ambient: Option<&dyn Ambient>, shape: &[Vector3<f64>]) -> Cut {
+    pub fn new(parts: &[LinePart], lengths: &[f64], ambient: Option<&dyn Ambient>, shape: &[Vector3<f64>]) -> Cut {
         let mut made = Cut { segments: Vec::new(), bands: Bands::default() };
         let whole: f64 = lengths.iter().sum();
         let mut behind = whole;
@@ -82,12 +82,12 @@ impl Cut {
             behind -= now;
             let count = if shape.is_empty() { 1 } else { part.segment.elements.max(1) };
             let long = part.segment.length;
-            made.bands.each.push(Band { from: made.segments.len(), count, long });
+            made.bands.each.push(EqualLengths { from: made.segments.len(), count, long });
             for band in 0..count {
                 let back = behind + long * (1.0 - (band as f64 + 0.5) / count as f64);
                 let segment = part.grown(ambient, elevation(shape, (1.0 - back / whole).max(0.0)));
                 let (length, elements) = (long / count as f64, part.segment.elements / count);
-                made.segments.push(Segment { length, elements, ..segment });
+                made.segments.push(RodSegment { length, elements, ..segment });
                 made.bands.part.push(index);
             }
         }
@@ -97,7 +97,7 @@ impl Cut {
 
 /// Equal lengths of a part, each a segment of the rod.
 #[derive(Clone, Copy, Debug)]
-struct Band {
+struct EqualLengths {
     /// First of the segments.
     from: usize,
     count: usize,
@@ -108,7 +108,7 @@ struct Band {
 /// The segments of each part. How many there are is up to the environment; a mesh is one of parts, the same in all of them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bands {
-    each: Vec<Band>,
+    each: Vec<EqualLengths>,
     /// Part of each segment.
     part: Vec<usize>,
 }
@@ -132,7 +132,7 @@ impl Bands {
             if *place != part {
                 (part, behind) = (*place, 0.0);
             }
-            let Some(Band { from, count, long }) = self.each.get(part) else { continue };
+            let Some(EqualLengths { from, count, long }) = self.each.get(part) else { continue };
             let back = ((behind + 0.5 * *rest) / long * *count as f64) as usize;
             *place = from + count.saturating_sub(1 + back);
             behind += *rest;
@@ -141,7 +141,7 @@ impl Bands {
 }
 
 /// The mesh of a line whose first part has a length (m): unstretched length, rate and part of each element.
-pub(super) fn mesh(parts: &[Part], first: f64) -> Vec<(f64, f64, usize)> {
+pub(super) fn mesh(parts: &[LinePart], first: f64) -> Vec<(f64, f64, usize)> {
     let mut made = Vec::new();
     for (index, part) in parts.iter().enumerate() {
         let (mut length, mut count) = (part.segment.length, part.segment.elements);
@@ -192,7 +192,7 @@ fn height(joint: &JointMass, density: f64) -> f64 {
 }
 
 /// What is attached at the ends of parts, on a mesh.
-pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec<Attachment> {
+pub(super) fn attachments(parts: &[LinePart], counts: &[usize], density: f64) -> Vec<Attachment> {
     let mut node = 0;
     let mut made = Vec::new();
     for (part, count) in parts.iter().zip(counts) {
@@ -226,7 +226,7 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
 /// [`most_wound`] the element there stays longer than it should.
 pub(super) fn wind(
     rod: &mut Rod,
-    state: &mut State,
+    state: &mut RodState,
     (first, nominal, dt): (f64, f64, f64),
     bands: &Bands,
 ) -> Result<(), ClassError> {

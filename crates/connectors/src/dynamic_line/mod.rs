@@ -19,7 +19,7 @@ mod state_layout;
 mod static_start;
 mod tell;
 
-pub use describe::{Description, Hold, JointMass, Part, Seabed, Strength};
+pub use describe::{EndFixity, JointMass, LineDescription, LinePart, Seabed, Strength};
 pub use element::DynamicLine;
 pub use sections::{
     AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, Flexure, ROPE, SEABED, SLAM, STRETCH, chain, description, holds,

@@ -3,7 +3,7 @@
 use super::mesh::to_class_error;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use windlass_base::dense::{DenseError, SymmetricEigen, never};
-use windlass_line_dynamics::{End, LineEnvironment, Mode, Rod, RodError, Solver, State};
+use windlass_line_dynamics::{LineEnvironment, Rod, RodEnd, RodError, RodMode, RodSolver, RodState};
 use windlass_model::{ClassError, LineMode};
 
 /// Most modes that are found: the cost grows with the square of their number, and no one reads as many.
@@ -41,10 +41,10 @@ pub(super) fn few(nodes: usize, number: usize) -> Result<(), ClassError> {
 /// told in the vertical plane of its ends and one across it, in that order.
 pub(super) fn find_line_modes(
     rod: &Rod,
-    solver: &mut Solver,
-    state: &State,
+    solver: &mut RodSolver,
+    state: &RodState,
     world: &LineEnvironment,
-    ends: [End; 2],
+    ends: [RodEnd; 2],
     number: usize,
 ) -> Result<Vec<LineMode>, ClassError> {
     // one more than asked, so that the last is distinguished from its like
@@ -60,7 +60,7 @@ pub(super) fn find_line_modes(
     let along = if level.norm() > 1e-3 * chord.norm() { level.normalize() } else { Vector3::x() };
     let across = Vector3::z().cross(&along);
     let mut index = 0;
-    while let Some([a, b]) = found.get_mut(index..index + 2).and_then(|pair| <&mut [Mode; 2]>::try_from(pair).ok()) {
+    while let Some([a, b]) = found.get_mut(index..index + 2).and_then(|pair| <&mut [RodMode; 2]>::try_from(pair).ok()) {
         let alike = (b.frequency - a.frequency).abs() <= EQUAL_FREQUENCIES_SHARE * b.frequency;
         if alike {
             set_apart(a, b, &across);
@@ -68,7 +68,7 @@ pub(super) fn find_line_modes(
         index += if alike { 2 } else { 1 };
     }
     found.truncate(number);
-    let told = |mode: Mode| {
+    let told = |mode: RodMode| {
         // of two signs the one in which the largest component is positive
         let most = mode.shape.iter().map(|d| d.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
         let peak = mode
@@ -83,7 +83,7 @@ pub(super) fn find_line_modes(
 }
 
 /// Makes of two modes of one frequency one with the least motion in a direction, and one with the least beside it.
-fn set_apart(a: &mut Mode, b: &mut Mode, across: &Vector3<f64>) {
+fn set_apart(a: &mut RodMode, b: &mut RodMode, across: &Vector3<f64>) {
     let least = |part: &dyn Fn(&Vector3<f64>, &Vector3<f64>) -> f64| -> Result<Vector2<f64>, DenseError> {
         let mut sums = Matrix2::zeros();
         for (p, q) in a.shape.iter().zip(&b.shape) {

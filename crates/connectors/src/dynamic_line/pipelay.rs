@@ -1,17 +1,17 @@
 //! How a pipe is laid: its course over the supports to the bottom, and its length.
 
-use super::describe::{Description, Part};
+use super::describe::{LineDescription, LinePart};
 use super::element::DynamicLine;
 use super::environment::ground;
 use super::mesh::{Cut, few, mesh, to_class_error};
-use super::pipelay_supports::{Held, PipeLay, Tensioner};
+use super::pipelay_supports::{PipeLay, SupportedPart, Tensioner};
 use super::solver_cache::{Base, SolverCache};
-use super::state_layout::Layout;
+use super::state_layout::StateLayout;
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
-use windlass_line_dynamics::{self as rod, Rod, State};
+use windlass_line_dynamics::{self as rod, Rod, RodState};
 use windlass_model::{ClassError, End, PipeLayout, Situation};
 
 /// Elements between two supports, where -REFINE does not say.
@@ -43,7 +43,7 @@ struct PipePath {
 
 impl PipePath {
     /// Straight from support to support; a catenary from the first to the bottom, and as much again on it.
-    fn new(part: &Part, layout: &PipeLayout, bottom: f64) -> Result<PipePath, ClassError> {
+    fn new(part: &LinePart, layout: &PipeLayout, bottom: f64) -> Result<PipePath, ClassError> {
         let around = layout.surroundings;
         let segment = part.grown(layout.ambient.map(|a| a.as_ref()), 0.5 * bottom);
         let weight = |density: f64| (segment.mass - density * segment.displaced) * around.gravity;
@@ -136,7 +136,7 @@ impl DynamicLine {
     ///
     /// # Errors
     /// No depth, a support below the bottom, a tension too small to reach the bottom, supports along which it cannot run, no rest.
-    pub fn build_pipe(description: Description, layout: PipeLayout) -> Result<Self, ClassError> {
+    pub fn build_pipe(description: LineDescription, layout: PipeLayout) -> Result<Self, ClassError> {
         let PipeLayout { supports, nodes, surroundings, .. } = &layout;
         check_options(&description, &layout)?;
         let part = description.parts.first().ok_or_else(|| ClassError::new("the class has no record"))?;
@@ -182,7 +182,7 @@ impl DynamicLine {
 }
 
 /// What of its class a pipe cannot have.
-fn check_options(description: &Description, layout: &PipeLayout) -> Result<(), ClassError> {
+fn check_options(description: &LineDescription, layout: &PipeLayout) -> Result<(), ClassError> {
     if description.seabed.slope.is_some_and(|s| s != 0.0) {
         let error = ClassError::new("a pipe is laid on the bottom of the environment, and its class has a -SLOPE");
         return Err(error.help("&BATHYMETRY and &ENV -BATHYMETRY make a bottom that slopes"));
@@ -201,7 +201,7 @@ fn check_options(description: &Description, layout: &PipeLayout) -> Result<(), C
 }
 
 /// Elevation of the bottom (m) below the support nearest to it.
-fn bottom(description: &Description, layout: &PipeLayout) -> Result<f64, ClassError> {
+fn bottom(description: &LineDescription, layout: &PipeLayout) -> Result<f64, ClassError> {
     let first = layout.nodes.first().map(|n| n.origin).unwrap_or_default();
     let charted = layout.ambient.filter(|a| a.has_bottom_grid()).and_then(|a| a.bottom(first.x, first.y));
     let flat = description.seabed.depth.or(layout.surroundings.depth).map(|depth| -depth);
@@ -212,8 +212,8 @@ fn bottom(description: &Description, layout: &PipeLayout) -> Result<f64, ClassEr
 
 /// The pipe of a course.
 fn along_course(
-    description: &Description,
-    part: &Part,
+    description: &LineDescription,
+    part: &LinePart,
     layout: &PipeLayout,
     (course, laid): (&PipePath, PipeLay),
 ) -> Result<DynamicLine, ClassError> {
@@ -223,7 +223,7 @@ fn along_course(
         (made.segment.length, made.segment.elements) = (*length, *elements);
         made
     };
-    let parts: Vec<Part> = course.spans.iter().map(sized).collect();
+    let parts: Vec<LinePart> = course.spans.iter().map(sized).collect();
     let lengths: Vec<f64> = course.spans.iter().map(|(_, length)| *length).collect();
     let (elements, first) = course.spans.first().copied().unwrap_or((1, 0.0));
     let grown = if layout.ambient.is_some_and(|a| a.grows()) { course.points.as_slice() } else { &[] };
@@ -233,7 +233,7 @@ fn along_course(
     cut.bands.lay(&mut mesh);
     let rod = Rod::with_mesh(layout.name, cut.segments, Vec::new(), &mesh).map_err(to_class_error)?;
     Ok(DynamicLine {
-        layout: Layout::new(rod.nodes() - 1, State::packed_len(&rod) + 2, layout.books),
+        layout: StateLayout::new(rod.nodes() - 1, RodState::packed_len(&rod) + 2, layout.books),
         first,
         nominal: first / elements as f64,
         base: Arc::new(Base {
@@ -265,14 +265,14 @@ fn tensioner(layout: &PipeLayout, pulled: f64) -> Result<Option<Tensioner>, Clas
 }
 
 /// What each support holds: davits the nodes below them, rollers what crosses them, and the last of them the end.
-fn holds(layout: &PipeLayout, course: &PipePath) -> Result<Vec<Held>, ClassError> {
+fn holds(layout: &PipeLayout, course: &PipePath) -> Result<Vec<SupportedPart>, ClassError> {
     let last = layout.nodes.len().saturating_sub(1);
     let of =
         |(i, (node, at)): (usize, (&Pose, &usize))| match layout.nodes.get(i + 1).filter(|_| layout.upper.is_some()) {
             Some(next) if i < last => {
-                Ok(Held::Crossing(-direction_through_support(node, layout.ways.get(i), &next.origin)?))
+                Ok(SupportedPart::Crossing(-direction_through_support(node, layout.ways.get(i), &next.origin)?))
             }
-            _ => Ok(Held::Node(*at)),
+            _ => Ok(SupportedPart::Node(*at)),
         };
     layout.nodes.iter().zip(&course.at).enumerate().map(of).collect()
 }

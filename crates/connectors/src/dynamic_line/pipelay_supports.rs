@@ -8,14 +8,14 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Pose;
 use windlass_line_dynamics::{Support, SupportLaw, SupportReaction, SupportTarget};
-use windlass_model::{Element, End, Response, Situation, Surroundings};
+use windlass_model::{Element, ElementResponse, End, Situation, Surroundings};
 
 /// What a pipe lies on.
 #[derive(Clone, Debug)]
 pub(super) struct PipeLay {
     /// The law of each support, between its node and a point of the pipe.
     pub supports: Arc<[Box<dyn Element>]>,
-    pub holds: Vec<Held>,
+    pub holds: Vec<SupportedPart>,
     pub tensioner: Option<Tensioner>,
     /// Axes of the pipe at a support in those of its node.
     pub turn: Matrix3<f64>,
@@ -27,7 +27,7 @@ pub(super) struct PipeLay {
 
 /// What of the pipe a support holds.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Held {
+pub(super) enum SupportedPart {
     Node(usize),
     /// What crosses the plane through its node at right angles to this, in the axes of the pipe.
     Crossing(Vector3<f64>),
@@ -73,12 +73,12 @@ pub(super) struct SupportContact<'a> {
     law: &'a dyn Element,
     /// With what it has paid out (m).
     tensioner: Option<(&'a Tensioner, f64)>,
-    holds: Held,
+    holds: SupportedPart,
     /// The node, and the axes of the pipe there.
     pose: Pose,
     velocity: Vector3<f64>,
     around: &'a Surroundings,
-    room: RefCell<Response>,
+    room: RefCell<ElementResponse>,
 }
 
 impl SupportLaw for SupportContact<'_> {
@@ -111,8 +111,8 @@ impl SupportContact<'_> {
     pub fn support(&self) -> Support<'_> {
         let Pose { origin, axes } = self.pose;
         let holds = match self.holds {
-            Held::Node(node) => SupportTarget::Node(node),
-            Held::Crossing(along) => SupportTarget::Crossing(axes * along),
+            SupportedPart::Node(node) => SupportTarget::Node(node),
+            SupportedPart::Crossing(along) => SupportTarget::Crossing(axes * along),
         };
         Support { place: origin, velocity: self.velocity, target: holds, law: self }
     }

@@ -1,6 +1,6 @@
 //! Parts of a line from the records of ROD, B_CAT and H_CAT.
 
-use super::describe::{Description, Hold, JointMass, Part, Seabed, Strength};
+use super::describe::{EndFixity, JointMass, LineDescription, LinePart, Seabed, Strength};
 use crate::options as o;
 use crate::per_line::PerLineOptions;
 use crate::section::LineSection;
@@ -11,7 +11,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_line_dynamics::{Axial, Segment, Tube, Viscoelastic};
+use windlass_line_dynamics::{RodSegment, TensionLaw, TubeSection, ViscoelasticRope};
 use windlass_model::{ClassError, ClassRecord, Surroundings};
 
 /// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics [AQWA-CONN 5.8.3.1].
@@ -146,7 +146,7 @@ pub struct Flexure {
     /// Across, of the skin, of the wind.
     cd: [f64; 3],
     ca: [f64; 2],
-    axial: Axial,
+    axial: TensionLaw,
     damping: f64,
     bending: f64,
     /// Poisson's ratio and thermal expansion of a tube.
@@ -225,16 +225,16 @@ impl Flexure {
     }
 
     /// The part of a section.
-    pub fn part(&self, section: &LineSection, elements: usize, around: &Surroundings) -> Part {
+    pub fn part(&self, section: &LineSection, elements: usize, around: &Surroundings) -> LinePart {
         let area = |d: f64| FRAC_PI_4 * d * d;
         let displaced = area(section.buoyancy_diameter) + section.displacement / around.water_weight();
         let inner = section.thickness.map_or(0.0, |t| section.od - 2.0 * t);
-        let tube = self.tube.map(|[poisson, expansion]| Tube {
+        let tube = self.tube.map(|[poisson, expansion]| TubeSection {
             poisson,
             expansion,
-            ..Tube::empty(section.od, inner.max(0.0))
+            ..TubeSection::empty(section.od, inner.max(0.0))
         });
-        let segment = Segment {
+        let segment = RodSegment {
             axial: self.axial.clone(),
             axial_damping: self.damping,
             compression: self.bending > 0.0,
@@ -249,15 +249,15 @@ impl Flexure {
             added_normal: self.ca[0],
             added_tangential: self.ca[1],
             tube,
-            ..Segment::line(section.length, elements, section.weight / around.gravity, section.ea, section.od)
+            ..RodSegment::line(section.length, elements, section.weight / around.gravity, section.ea, section.od)
         };
         let strength = Strength { breaking: section.breaking, is_given: section.break_is_given };
-        Part { segment, strength, joint: self.joint(section, around) }
+        LinePart { segment, strength, joint: self.joint(section, around) }
     }
 }
 
 /// The law of a fibre rope, whose static one is given; that itself of another line.
-fn rope(args: &Args, slow: Axial) -> Outcome<Axial> {
+fn rope(args: &Args, slow: TensionLaw) -> Outcome<TensionLaw> {
     let Some(given) = args.option_if_declared(&ROPE) else { return Ok(slow) };
     let fast = given.numbers_or_zero(const { ROPE.numbers(["EAD", "B"]) });
     let stiffest = slow.evaluate(0.0).1;
@@ -265,7 +265,7 @@ fn rope(args: &Args, slow: Axial) -> Outcome<Axial> {
         return Err(Diagnostic::error("the dynamic stiffness EAD must be larger than the static one", given.span)
             .help("-EA K1 or -STRETCH gives the static stiffness of the rope; without them it is that of OD and T"));
     }
-    Ok(Axial::Viscoelastic(Box::new(Viscoelastic {
+    Ok(TensionLaw::Viscoelastic(Box::new(ViscoelasticRope {
         slow,
         fast,
         relaxation: given.number(const { ROPE.number("TAU") }).unwrap_or(DEFAULT_RELAXATION_TIME_S),
@@ -273,14 +273,14 @@ fn rope(args: &Args, slow: Axial) -> Outcome<Axial> {
 }
 
 /// Tension by strain.
-fn law(args: &Args, ea: f64) -> Outcome<Axial> {
+fn law(args: &Args, ea: f64) -> Outcome<TensionLaw> {
     let (polynomial, table) = (args.option_if_declared(&EA), args.option_if_declared(&STRETCH));
     match (polynomial, table) {
         (Some(given), Some(other)) => {
             Err(Diagnostic::error("tension by strain is given twice", other.span).other(given.span, "and here"))
         }
         (Some(given), None) => {
-            Ok(Axial::of_powers(given.numbers_or_zero(const { EA.numbers(["K1", "K2", "K3"]) }).to_vec()))
+            Ok(TensionLaw::of_powers(given.numbers_or_zero(const { EA.numbers(["K1", "K2", "K3"]) }).to_vec()))
         }
         (None, Some(given)) => {
             let mut points = vec![(0.0, 0.0)];
@@ -299,9 +299,9 @@ fn law(args: &Args, ea: f64) -> Outcome<Axial> {
                 }
                 points.push((e, t));
             }
-            Ok(Axial::Table(points))
+            Ok(TensionLaw::Table(points))
         }
-        (None, None) => Ok(Axial::Linear(ea)),
+        (None, None) => Ok(TensionLaw::Linear(ea)),
     }
 }
 
@@ -324,14 +324,14 @@ pub fn parse_seabed(options: &PerLineOptions) -> Seabed {
 ///
 /// # Errors
 /// An end held twice, or one that does not bend.
-pub fn holds(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<Hold>; 2]> {
+pub fn holds(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<EndFixity>; 2]> {
     let mut made = [None, None];
     let bends = ends.map(|f| f.bending > 0.0);
     for given in clamps {
         let word = given.word(const { CLAMP.word("WHICH") }).unwrap_or_default();
         const DECLINATION: ValueKey<f64> = CLAMP.number("DEC");
         const STIFFNESS: ValueKey<f64> = CLAMP.number("K");
-        let hold = Hold { declination: given.number(DECLINATION), stiffness: given.number(STIFFNESS) };
+        let hold = EndFixity { declination: given.number(DECLINATION), stiffness: given.number(STIFFNESS) };
         if let (Some(value), true) =
             (given.value(DECLINATION), hold.declination.is_some_and(|d| !(0.0..=PI).contains(&d)))
         {
@@ -370,7 +370,7 @@ pub fn chain(
     seabed: Seabed,
     elements: usize,
     around: &Surroundings,
-) -> Result<Description, ClassError> {
+) -> Result<LineDescription, ClassError> {
     if !plain {
         let text = "springs, dashpots, convolutions and pistons of a class do not go with dynamics of the line";
         return Err(ClassError::new(text).help("take -DYNAMICS 0, or a class without them"));
@@ -383,6 +383,11 @@ pub fn chain(
 }
 
 /// A line of these parts.
-pub fn description(kind: &'static str, parts: Vec<Part>, seabed: Seabed, holds: [Option<Hold>; 2]) -> Description {
-    Description { kind, parts, seabed, holds, slam: false, notes: Vec::new() }
+pub fn description(
+    kind: &'static str,
+    parts: Vec<LinePart>,
+    seabed: Seabed,
+    holds: [Option<EndFixity>; 2],
+) -> LineDescription {
+    LineDescription { kind, parts, seabed, holds, slam: false, notes: Vec::new() }
 }

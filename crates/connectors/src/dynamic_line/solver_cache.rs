@@ -1,23 +1,23 @@
 //! What a dynamic line is made of, and what its solver remembers.
 
-use super::describe::Description;
+use super::describe::LineDescription;
 use super::mesh::Bands;
 use super::pipelay_supports::PipeLay;
 use nalgebra::Vector3;
 use std::sync::Arc;
-use windlass_line_dynamics::{self as rod, PlaneBottom, Rod, SeabedLaw, Settings, Solver, State};
+use windlass_line_dynamics::{self as rod, PlaneBottom, Rod, RodSettings, RodSolver, RodState, SeabedLaw};
 use windlass_model::{Ambient, Flow, SchemeWeights};
 
 /// How often a rod halves a step of the run by itself, before the run halves its own.
 const MAX_STEP_HALVINGS: u32 = 8;
 
 /// The direction in which an end is held, in the axes of what holds it, and the stiffness of that (N m/rad); rigid where none.
-pub(super) type Held = (Vector3<f64>, Option<f64>);
+pub(super) type EndDirection = (Vector3<f64>, Option<f64>);
 
 /// What does not change while it is wound.
 #[derive(Clone, Debug)]
 pub(super) struct Base {
-    pub description: Description,
+    pub description: LineDescription,
     pub rod: Rod,
     pub attached: Vec<rod::Attachment>,
     /// Which segments of the rod are those of each part.
@@ -28,7 +28,7 @@ pub(super) struct Base {
     pub flat: Option<f64>,
     pub ground: SeabedLaw,
     /// Direction in which each end is held, in the axes of what holds it, and the stiffness of that.
-    pub holds: [Option<Held>; 2],
+    pub holds: [Option<EndDirection>; 2],
     /// Whether the first end is let go.
     pub freed: bool,
     /// The scheme that steps it; that of the engine where none.
@@ -44,20 +44,20 @@ pub(super) struct SolverCache {
     pub base: Arc<Base>,
     pub rod: Rod,
     /// What solves it, as long as [`SolverCache::fit`] is asked when the rod has become another.
-    pub solver: Solver,
+    pub solver: RodSolver,
     /// Nodes that the solver has memory for.
     nodes: usize,
     /// Where it last hung at rest.
-    pub rest: Option<State>,
+    pub rest: Option<RodState>,
     /// Room for its state on the way, and for the water at its nodes.
-    pub state: State,
+    pub state: RodState,
     pub flows: Vec<Flow>,
 }
 
 impl SolverCache {
     pub fn new(base: &Arc<Base>) -> Self {
         let rod = base.rod.clone();
-        let (state, flows) = (State::default(), Vec::new());
+        let (state, flows) = (RodState::default(), Vec::new());
         let nodes = rod.nodes();
         SolverCache { base: base.clone(), solver: solver_of(base, &rod), nodes, rod, rest: None, state, flows }
     }
@@ -72,20 +72,23 @@ impl SolverCache {
 }
 
 /// A solver of a rod of a line.
-fn solver_of(base: &Base, rod: &Rod) -> Solver {
-    let usual = Settings::default();
-    Solver::new(rod, Settings { halvings: MAX_STEP_HALVINGS, scheme: base.scheme.unwrap_or(usual.scheme), ..usual })
+fn solver_of(base: &Base, rod: &Rod) -> RodSolver {
+    let usual = RodSettings::default();
+    RodSolver::new(
+        rod,
+        RodSettings { halvings: MAX_STEP_HALVINGS, scheme: base.scheme.unwrap_or(usual.scheme), ..usual },
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::dynamic_line::{Seabed, description};
-    use windlass_line_dynamics::{End, LineEnvironment, Segment, UniformFluid};
+    use windlass_line_dynamics::{LineEnvironment, RodEnd, RodSegment, UniformFluid};
 
     #[test]
     fn a_solver_lasts_while_a_winch_changes_lengths_alone() {
-        let rod = Rod::new("R", vec![Segment::line(10.0, 5, 10.0, 1e6, 0.1)], vec![]).unwrap();
+        let rod = Rod::new("R", vec![RodSegment::line(10.0, 5, 10.0, 1e6, 0.1)], vec![]).unwrap();
         let ground = SeabedLaw::elastic(0.0);
         let base = Base {
             description: description("ROD", vec![], Seabed::default(), [None, None]),
@@ -106,8 +109,8 @@ mod tests {
         let fluid = UniformFluid::vacuum();
         let world = LineEnvironment::new(&fluid, 9.81);
         let ends = [Vector3::zeros(), Vector3::new(8.0, 0.0, 0.0)];
-        let mut state = State::along_points(&rod, &ends).unwrap();
-        warm.solver.statics(&rod, &mut state, &world, ends.map(End::pin)).unwrap();
+        let mut state = RodState::along_points(&rod, &ends).unwrap();
+        warm.solver.statics(&rod, &mut state, &world, ends.map(RodEnd::pin)).unwrap();
         warm.rod.set_length(0, 2.5, 0.5).unwrap();
         warm.fit();
         assert!(warm.solver.end_tangent(&rod, &world).is_some());

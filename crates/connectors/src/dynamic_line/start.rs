@@ -1,10 +1,10 @@
 //! From where a line falls into its first position of rest.
 
-use super::describe::Part;
+use super::describe::LinePart;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use windlass_catenary::{self as catenary, Joint, Line, Segment};
-use windlass_line_dynamics::{Bottom, PlaneBottom};
+use windlass_line_dynamics::{PlaneBottom, SeabedShape};
 use windlass_model::Surroundings;
 
 /// Points of each part between its ends: so many that their chords follow a touchdown of a few metres' radius.
@@ -16,14 +16,14 @@ const ROUGH_SHAPE_POINTS: usize = 60;
 const ON_BOTTOM: f64 = 0.1;
 
 /// What a line may lie on, and its friction.
-pub(super) type Floor<'a> = Option<(&'a dyn Bottom, f64)>;
+pub(super) type StartSeabed<'a> = Option<(&'a dyn SeabedShape, f64)>;
 
 /// Points from the first end to the second: the catenary of the line, or, where that has no answer, a bow of its length.
 pub(super) fn points(
-    parts: &[Part],
+    parts: &[LinePart],
     lengths: &[f64],
     ends: [Vector3<f64>; 2],
-    floor: Floor,
+    floor: StartSeabed,
     around: &Surroundings,
 ) -> Vec<Vector3<f64>> {
     catenary(parts, lengths, ends, floor, around)
@@ -42,7 +42,7 @@ pub(super) fn bow_aside(points: &mut [Vector3<f64>], [from, to]: [Vector3<f64>; 
 
 /// The plane through that of two ends that is on a bottom, the second if both are, with the mean slope from there to half way to the other,
 /// and level across; with it whether it is the first. None where neither is.
-pub(super) fn plane([first, second]: [Vector3<f64>; 2], bottom: &dyn Bottom) -> Option<(PlaneBottom, bool)> {
+pub(super) fn plane([first, second]: [Vector3<f64>; 2], bottom: &dyn SeabedShape) -> Option<(PlaneBottom, bool)> {
     let height = |place: Vector3<f64>| bottom.height(place.x, place.y).0;
     let on = |end: Vector3<f64>| (end.z - height(end)).abs() < ON_BOTTOM;
     let turned = !on(second) && on(first);
@@ -55,16 +55,16 @@ pub(super) fn plane([first, second]: [Vector3<f64>; 2], bottom: &dyn Bottom) -> 
 }
 
 fn catenary(
-    parts: &[Part],
+    parts: &[LinePart],
     lengths: &[f64],
     ends: [Vector3<f64>; 2],
-    floor: Floor,
+    floor: StartSeabed,
     around: &Surroundings,
 ) -> Option<Vec<Vector3<f64>>> {
-    let weight = |p: &Part| p.submerged_weight(around.water_density, around.gravity);
+    let weight = |p: &LinePart| p.submerged_weight(around.water_density, around.gravity);
     let mut segments: Vec<_> =
         parts.iter().zip(lengths).map(|(p, l)| Segment { length: *l, weight: weight(p), ea: p.ea() }).collect();
-    let joint = |p: &Part| {
+    let joint = |p: &LinePart| {
         p.joint.map_or(Joint::Free, |j| Joint::Weight((j.mass - around.water_density * j.volume) * around.gravity))
     };
     let mut joints: Vec<_> = parts.iter().take(parts.len().saturating_sub(1)).map(joint).collect();
@@ -85,7 +85,7 @@ fn catenary(
     // the catenary engine knows a plane bottom under the second end alone
     let floor = floor.map(|((plane, _), friction)| {
         let slope = -Vector3::new(plane.slope[0], plane.slope[1], 0.0).dot(&toward);
-        catenary::Floor { elevation: to.z, slope, friction }
+        catenary::SeabedModel { elevation: to.z, slope, friction }
     });
     let line = Line::new(segments, joints, to.z, around.tide).ok()?.with_seabed(floor).ok()?;
     let state = line.at_distance(distance, from.z).ok()?;
@@ -102,8 +102,8 @@ fn catenary(
 fn bow(
     length: f64,
     [from, to]: [Vector3<f64>; 2],
-    floor: Floor,
-    parts: &[Part],
+    floor: StartSeabed,
+    parts: &[LinePart],
     around: &Surroundings,
 ) -> Vec<Vector3<f64>> {
     let weight: f64 =

@@ -2,12 +2,12 @@
 //! mesh needs.
 
 use super::mesh::Bands;
-use windlass_line_dynamics::{Balance, Rod, State};
+use windlass_line_dynamics::{Balance, Rod, RodState};
 use windlass_model::ClassError;
 
 /// Where what stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Layout {
+pub(super) struct StateLayout {
     /// Most elements.
     pub elements: usize,
     /// Values of the motion of a mesh of so many.
@@ -48,10 +48,10 @@ const HEADER_VALUES: usize = 4;
 /// Values of an element of the mesh.
 const VALUES_PER_ELEMENT: usize = 3;
 
-impl Layout {
+impl StateLayout {
     /// That of a line of so many elements at most; `motion` values are those of a mesh of so many.
     pub fn new(elements: usize, motion: usize, books: bool) -> Self {
-        Layout { elements, motion, books: if books { Balance::PACKED_LEN } else { 0 } }
+        StateLayout { elements, motion, books: if books { Balance::PACKED_LEN } else { 0 } }
     }
 
     /// Values of a state.
@@ -88,7 +88,7 @@ impl Layout {
     pub fn write(
         &self,
         (rod, bands): (&Rod, &Bands),
-        (state, paid): (&State, f64),
+        (state, paid): (&RodState, f64),
         out: &mut [f64],
     ) -> Result<(), ClassError> {
         let wrong = || ClassError::new("the line has grown beyond what its winch was to pay out").lasting();

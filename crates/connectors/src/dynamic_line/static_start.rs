@@ -4,7 +4,9 @@ use super::element::DynamicLine;
 use super::mesh::to_class_error;
 use super::start;
 use nalgebra::Vector3;
-use windlass_line_dynamics::{Bottom, End, EndForces, LineEnvironment, PlaneBottom, Rod, Solver, State};
+use windlass_line_dynamics::{
+    LineEnvironment, PlaneBottom, Rod, RodEnd, RodEndForces, RodSolver, RodState, SeabedShape,
+};
 use windlass_model::{ClassError, Surroundings};
 
 /// First and least share by which a bottom goes over from a plane to what it is.
@@ -12,13 +14,13 @@ const FIRST_STEP_SHARE: f64 = 0.25;
 const MIN_STEP_SHARE: f64 = 0.02;
 
 /// A bottom on its way from a plane to another.
-struct Between<'a> {
+struct TransitionBottom<'a> {
     plane: &'a PlaneBottom,
-    other: &'a dyn Bottom,
+    other: &'a dyn SeabedShape,
     share: f64,
 }
 
-impl Bottom for Between<'_> {
+impl SeabedShape for TransitionBottom<'_> {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         let ((from, before), (to, after)) = (self.plane.height(x, y), self.other.height(x, y));
         let mean = |a: f64, b: f64| a + (b - a) * self.share;
@@ -30,11 +32,11 @@ impl DynamicLine {
     /// Where it comes to rest from its catenary, from a bow in the plane of its ends, or from one aside of that.
     pub(super) fn static_shape_from_catenary(
         &self,
-        (rod, solver): (&Rod, &mut Solver),
+        (rod, solver): (&Rod, &mut RodSolver),
         places: [Vector3<f64>; 2],
         world: &LineEnvironment,
-        (around, ends): (&Surroundings, [End; 2]),
-    ) -> Result<(State, EndForces), ClassError> {
+        (around, ends): (&Surroundings, [RodEnd; 2]),
+    ) -> Result<(RodState, RodEndForces), ClassError> {
         let mut from = |aside: bool| {
             let laid = if aside { None } else { self.laid_down((rod, solver), places, world, (around, ends)) };
             let mut state = match laid {
@@ -64,9 +66,9 @@ impl DynamicLine {
         world: &LineEnvironment,
         around: &Surroundings,
         aside: bool,
-    ) -> Result<State, ClassError> {
+    ) -> Result<RodState, ClassError> {
         if let Some(laid) = &self.base.laid {
-            return State::along_points(&self.base.rod, &laid.shape).map_err(to_class_error);
+            return RodState::along_points(&self.base.rod, &laid.shape).map_err(to_class_error);
         }
         let parts = &self.base.description.parts;
         let mut lengths: Vec<f64> = parts.iter().map(|p| p.segment.length).collect();
@@ -78,18 +80,18 @@ impl DynamicLine {
         if aside {
             start::bow_aside(&mut points, places, lengths.iter().sum());
         }
-        State::along_points(&self.base.rod, &points).map_err(to_class_error)
+        RodState::along_points(&self.base.rod, &points).map_err(to_class_error)
     }
 
     /// Where it rests by friction on a bottom over a grid: laid on a plane, where its catenary is known, which then takes the shape of the
     /// bottom step by step.
     fn laid_down(
         &self,
-        (rod, solver): (&Rod, &mut Solver),
+        (rod, solver): (&Rod, &mut RodSolver),
         places: [Vector3<f64>; 2],
         world: &LineEnvironment,
-        (around, ends): (&Surroundings, [End; 2]),
-    ) -> Option<State> {
+        (around, ends): (&Surroundings, [RodEnd; 2]),
+    ) -> Option<RodState> {
         let (other, ground) = world.bottom.filter(|(_, ground)| ground.rough())?;
         self.base
             .ambient
@@ -102,7 +104,7 @@ impl DynamicLine {
         let (mut share, mut step) = (0.0, FIRST_STEP_SHARE);
         let mut to = share;
         while share < 1.0 {
-            let [before, bottom] = [share, to].map(|share| Between { plane: &plane, other, share });
+            let [before, bottom] = [share, to].map(|share| TransitionBottom { plane: &plane, other, share });
             let mut next = state.clone();
             let origin = next.origin;
             for x in next.position.iter_mut().take(last).skip(1) {

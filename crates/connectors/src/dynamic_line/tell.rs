@@ -1,22 +1,22 @@
 //! What a dynamic line reports of itself: its nodes, modes and books.
 
-use super::describe::Part;
+use super::describe::LinePart;
 use super::element::DynamicLine;
 use super::mesh::to_class_error;
 use super::modes;
 use super::solver_cache::SolverCache;
 use std::f64::consts::PI;
-use windlass_line_dynamics::{Settings, Solver};
-use windlass_model::{ClassError, Guess, LineBooks, LineMode, LineNode, LineSide, Note, Situation, Summary};
+use windlass_line_dynamics::{RodSettings, RodSolver};
+use windlass_model::{ClassError, ElementSummary, EnergyBalance, Guess, LineMode, LineNode, LineSide, Note, Situation};
 
 /// Longest elements at an end that is held, by sqrt(EI/T), of which nothing is said: moment there is then 3 % low.
 const COARSE_MESH_RATIO: f64 = 0.5;
 
 impl DynamicLine {
-    pub(super) fn tell_books(&self, state: &[f64]) -> Option<LineBooks> {
+    pub(super) fn tell_books(&self, state: &[f64]) -> Option<EnergyBalance> {
         let found = self.layout.balance(state)?;
         let (e, w) = (&found.energy, &found.work);
-        Some(LineBooks {
+        Some(EnergyBalance {
             energy: [e.kinetic, e.elastic, e.gravity, e.bottom + e.supports],
             work: [w.ends[0], w.ends[1], w.fluid + w.given, w.damping, w.bottom + w.supports],
             energy_error: found.energy_error(),
@@ -68,7 +68,7 @@ impl DynamicLine {
         let (other, state, _) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.end_conditions(at.ends, true)?;
-        let mut solver = Solver::new(rod, Settings::default());
+        let mut solver = RodSolver::new(rod, RodSettings::default());
         self.with_environment((at, true, paid), &mut Vec::new(), |world| {
             modes::find_line_modes(rod, &mut solver, &state, world, ends, number)
         })
@@ -89,7 +89,7 @@ impl DynamicLine {
     /// What is said of ends that are held where elements are too long for the bending there, which fades over sqrt(EI/T).
     fn coarse(&self, nodes: &[LineNode]) -> Vec<String> {
         let parts = &self.base.description.parts;
-        let of = |part: Option<&Part>, pair: Option<&[LineNode; 2]>, name: &str| {
+        let of = |part: Option<&LinePart>, pair: Option<&[LineNode; 2]>, name: &str| {
             let (part, [a, b]) = (part?, pair?);
             let fades = (part.segment.bending / a.effective.max(b.effective).max(f64::MIN_POSITIVE)).sqrt();
             let share = (b.arc - a.arc) / fades;
@@ -109,7 +109,7 @@ impl DynamicLine {
     /// What is said of segments with elements that are pushed harder than one with hinged ends bears: they are straight between their
     /// nodes, and buckle at nodes alone.
     fn stocky(&self, nodes: &[LineNode]) -> Vec<String> {
-        let beyond = |number: usize, part: &Part| {
+        let beyond = |number: usize, part: &LinePart| {
             let mut own = nodes.array_windows().filter(|[a, _]| a.segment == number);
             let euler = |length: f64| PI.powi(2) * part.segment.bending / length.powi(2);
             part.segment.bending > 0.0 && own.any(|[a, b]| -0.5 * (a.effective + b.effective) > euler(b.arc - a.arc))
@@ -125,11 +125,11 @@ impl DynamicLine {
         told.collect()
     }
 
-    pub(super) fn tell_summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
+    pub(super) fn tell_summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
         let mut nodes = Vec::new();
         self.tell_along(at, committed, &mut nodes)?;
         let notes = self.base.description.notes.iter().map(|n| n.as_str().into()).collect();
-        let mut told = Summary { solution: "rod", notes, ..Summary::default() };
+        let mut told = ElementSummary { solution: "rod", notes, ..ElementSummary::default() };
         told.tension = nodes.first().map(|n| n.effective);
         let sides = nodes.iter().flat_map(|n| n.sides().map(move |s| (n.effective, s.segment)));
         let parts = &self.base.description.parts;

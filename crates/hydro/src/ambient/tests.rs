@@ -2,18 +2,25 @@ use super::*;
 use std::f64::consts::{PI, TAU};
 use windlass_base::span::Span;
 use windlass_model::{
-    Components, Current, Curve, CurveKind, Division, Environment, Filling, Formula, Phasing, Stretching, Wind,
+    Components, Current, Curve, CurveKind, CurveReference, Division, Environment, Filling, Phasing, Stretching, Wind,
 };
 
 const GRAVITY: f64 = 9.80665;
 
-fn named(kind: &str, value: Option<f64>) -> Option<Formula> {
-    Some(Formula { kind: kind.into(), value, span: Span::default() })
+fn named(kind: &str, value: Option<f64>) -> Option<CurveReference> {
+    Some(CurveReference { kind: kind.into(), value, span: Span::default() })
 }
 
-fn sea(spectrum: &str, height: f64, period: f64) -> Option<windlass_model::Sea> {
+fn sea(spectrum: &str, height: f64, period: f64) -> Option<windlass_model::SeaDefinition> {
     let places = [Span::default(); 5];
-    Some(windlass_model::Sea { spectrum: spectrum.into(), direction: PI, height, period, gamma: None, places })
+    Some(windlass_model::SeaDefinition {
+        spectrum: spectrum.into(),
+        direction: PI,
+        height,
+        period,
+        gamma: None,
+        places,
+    })
 }
 
 /// A model whose environment in force is this.

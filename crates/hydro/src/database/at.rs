@@ -9,10 +9,10 @@ use windlass_model::{Amplitudes, ClassError, Database, DriftTable};
 pub const WIDEST_GAP: f64 = std::f64::consts::FRAC_PI_2 + 1e-6;
 
 /// Two neighbours in a list and the share of the second.
-pub(super) type Between = (usize, usize, f64);
+pub(super) type Bracket = (usize, usize, f64);
 
 /// The neighbours of a frequency in a list that grows; the ends hold beyond it.
-pub(super) fn bracket_frequency(list: &[f64], at: f64) -> Between {
+pub(super) fn bracket_frequency(list: &[f64], at: f64) -> Bracket {
     let next = list.partition_point(|w| *w <= at);
     match (next.checked_sub(1), list.get(next)) {
         (Some(low), Some(high)) => {
@@ -28,7 +28,7 @@ pub(super) fn bracket_frequency(list: &[f64], at: f64) -> Between {
 ///
 /// # Errors
 /// No headings; a gap wider than [`WIDEST_GAP`] around the heading.
-pub(super) fn bracket_heading(headings: &[f64], heading: f64) -> Result<Between, ClassError> {
+pub(super) fn bracket_heading(headings: &[f64], heading: f64) -> Result<Bracket, ClassError> {
     let turn = heading.rem_euclid(TAU);
     if !turn.is_finite() {
         return Err(ClassError::new("the heading is no number"));
@@ -160,7 +160,7 @@ pub fn drift_at(table: &DriftTable, heading: f64, frequency: f64) -> Result<[f64
 }
 
 /// A matrix between two of a list.
-fn interpolate_matrix(list: &[Matrix6<f64>], (low, high, share): Between) -> Option<Matrix6<f64>> {
+fn interpolate_matrix(list: &[Matrix6<f64>], (low, high, share): Bracket) -> Option<Matrix6<f64>> {
     let (a, b) = (list.get(low)?, list.get(high)?);
     Some(a + (b - a) * share)
 }

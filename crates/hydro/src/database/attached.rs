@@ -1,7 +1,7 @@
 //! What the database of a body brings among its loads.
 
 use super::excitation::Excitation;
-use super::memory::{MAX_LAGS, Memory};
+use super::memory::{MAX_LAGS, RetardationMemory};
 use super::radiation::Radiation;
 use super::slow_drift::SlowDrift;
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
@@ -35,7 +35,7 @@ pub struct DatabaseLoads {
 /// of a product of two motions. The rates of a step have that of the step before added, by which its rotation went beyond the mean of its rates:
 /// their mean is that of the rotation itself.
 #[derive(Clone, Copy, Debug)]
-struct Linear {
+struct LinearMotion {
     slow: LowFrequency,
 }
 
@@ -47,7 +47,7 @@ const ADDED_STATE: usize = RATES_STATE + 9;
 const NEXT_STATE: usize = ADDED_STATE + 3;
 const LAST_STATE: usize = NEXT_STATE + 3;
 
-impl Linear {
+impl LinearMotion {
     const STATES: usize = LAST_STATE + 8;
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) {
@@ -89,29 +89,29 @@ impl Linear {
 
     /// The rates of the place and of small rotations, in axes of the heading.
     fn velocity(at: &Underway, state: &[f64]) -> Six {
-        let along = Linear::axes(state).transpose() * at.velocity.fixed_rows::<3>(0);
+        let along = LinearMotion::axes(state).transpose() * at.velocity.fixed_rows::<3>(0);
         let added = Vector3::from_iterator(state.iter().skip(ADDED_STATE).copied().chain([0.0; 3]).take(3));
-        let turning = Linear::rates(state) * at.velocity.fixed_rows::<3>(3) + added;
+        let turning = LinearMotion::rates(state) * at.velocity.fixed_rows::<3>(3) + added;
         Six::new(along.x, along.y, along.z, turning.x, turning.y, turning.z)
     }
 
     /// A force in axes of the heading in global ones.
     fn global(force: &Six, state: &[f64]) -> Six {
-        let axes = Linear::axes(state);
+        let axes = LinearMotion::axes(state);
         let (a, b) = (axes * force.fixed_rows::<3>(0), axes * force.fixed_rows::<3>(3));
         Six::new(a.x, a.y, a.z, b.x, b.y, b.z)
     }
 
     /// A force, and its change with [`Linear::velocity`], -dF/dv, in global axes.
     fn load(force: &Six, damping: &Matrix6<f64>, state: &[f64]) -> MovingLoad {
-        let (axes, rates) = (Linear::axes(state), Linear::rates(state));
+        let (axes, rates) = (LinearMotion::axes(state), LinearMotion::rates(state));
         let mut global = Matrix6::zeros();
         for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
             let turned = if column == 0 { axes.transpose() } else { rates };
             let block = axes * damping.fixed_view::<3, 3>(row, column) * turned;
             global.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
         }
-        let wrench = Linear::global(force, state);
+        let wrench = LinearMotion::global(force, state);
         MovingLoad { load: Load { wrench, ..Load::none() }, damping: global }
     }
 }
@@ -120,8 +120,8 @@ impl Linear {
 /// that the mean force of a motion that comes back to where it was is nothing.
 #[derive(Clone, Debug)]
 pub struct RadiationLoad {
-    memory: Memory,
-    linear: Linear,
+    memory: RetardationMemory,
+    linear: LinearMotion,
 }
 
 impl RadiationLoad {
@@ -136,8 +136,8 @@ impl RadiationLoad {
             return Err(ClassError::new(text));
         }
         let kernel = |time: f64| radiation.faded_at(time, length);
-        let memory = Memory::new(&kernel, (radiation.finest(), length), step);
-        Ok(RadiationLoad { memory, linear: Linear { slow: LowFrequency::new(dividing) } })
+        let memory = RetardationMemory::new(&kernel, (radiation.finest(), length), step);
+        Ok(RadiationLoad { memory, linear: LinearMotion { slow: LowFrequency::new(dividing) } })
     }
 }
 
@@ -152,30 +152,30 @@ impl BodyLoad for RadiationLoad {
     }
 
     fn states(&self) -> usize {
-        Linear::STATES + self.memory.states()
+        LinearMotion::STATES + self.memory.states()
     }
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
-        let (own, memory) = state.split_at_mut(Linear::STATES);
+        let (own, memory) = state.split_at_mut(LinearMotion::STATES);
         self.linear.begin(ahead, own);
         self.memory.begin(ahead.time, ahead.dt, memory);
         Ok(())
     }
 
     fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
-        let (own, memory) = state.split_at(Linear::STATES);
-        Some(Linear::global(&self.memory.force(&Linear::velocity(at, own), memory).0, own))
+        let (own, memory) = state.split_at(LinearMotion::STATES);
+        Some(LinearMotion::global(&self.memory.force(&LinearMotion::velocity(at, own), memory).0, own))
     }
 
     fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        let (own, memory) = state.split_at(Linear::STATES);
-        let (force, damping) = self.memory.force(&Linear::velocity(at, own), memory);
-        Ok(Linear::load(&force, &damping, own))
+        let (own, memory) = state.split_at(LinearMotion::STATES);
+        let (force, damping) = self.memory.force(&LinearMotion::velocity(at, own), memory);
+        Ok(LinearMotion::load(&force, &damping, own))
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
-        let (own, memory) = state.split_at_mut(Linear::STATES);
-        self.memory.commit(at.time, at.dt, &Linear::velocity(at, own), memory);
+        let (own, memory) = state.split_at_mut(LinearMotion::STATES);
+        self.memory.commit(at.time, at.dt, &LinearMotion::velocity(at, own), memory);
         self.linear.commit(at, own);
     }
 }
@@ -185,7 +185,7 @@ impl BodyLoad for RadiationLoad {
 struct DampingLoad {
     /// About the origin of the body.
     damping: Matrix6<f64>,
-    linear: Linear,
+    linear: LinearMotion,
 }
 
 impl BodyLoad for DampingLoad {
@@ -198,7 +198,7 @@ impl BodyLoad for DampingLoad {
     }
 
     fn states(&self) -> usize {
-        Linear::STATES
+        LinearMotion::STATES
     }
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
@@ -207,11 +207,11 @@ impl BodyLoad for DampingLoad {
     }
 
     fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
-        Some(Linear::global(&-(self.damping * Linear::velocity(at, state)), state))
+        Some(LinearMotion::global(&-(self.damping * LinearMotion::velocity(at, state)), state))
     }
 
     fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(Linear::load(&-(self.damping * Linear::velocity(at, state)), &self.damping, state))
+        Ok(LinearMotion::load(&-(self.damping * LinearMotion::velocity(at, state)), &self.damping, state))
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
@@ -224,7 +224,7 @@ impl BodyLoad for DampingLoad {
 struct AddedMassLoad {
     /// About the origin of the body.
     infinite: Matrix6<f64>,
-    linear: Linear,
+    linear: LinearMotion,
 }
 
 impl BodyLoad for AddedMassLoad {
@@ -237,7 +237,7 @@ impl BodyLoad for AddedMassLoad {
     }
 
     fn states(&self) -> usize {
-        Linear::STATES
+        LinearMotion::STATES
     }
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
@@ -246,7 +246,7 @@ impl BodyLoad for AddedMassLoad {
     }
 
     fn inertia(&self, state: &[f64]) -> Option<Matrix6<f64>> {
-        Some(in_pose(&self.infinite, &Pose { axes: Linear::axes(state), ..Pose::default() }))
+        Some(in_pose(&self.infinite, &Pose { axes: LinearMotion::axes(state), ..Pose::default() }))
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
@@ -272,7 +272,7 @@ pub fn gather_database_loads(
     let mut added_mass = Matrix6::zeros();
     let mut carried: Vec<Box<dyn BodyLoad>> = Vec::new();
     let dividing = dividing_period(model, under_way.flatten().map(|sea| sea.as_ref()));
-    let linear = Linear { slow: LowFrequency::new(dividing) };
+    let linear = LinearMotion { slow: LowFrequency::new(dividing) };
     if under_way.is_some() && *damping != Matrix6::zeros() {
         carried.push(Box::new(DampingLoad { damping: std::mem::take(damping), linear }));
     }
@@ -398,8 +398,8 @@ mod tests {
             Matrix6::from_fn(pair) / (1.0 + 2.0 * time)
         };
         let load = RadiationLoad {
-            memory: Memory::new(&kernel, (0.1, 5.0), 0.1),
-            linear: Linear { slow: LowFrequency::new(5.0) },
+            memory: RetardationMemory::new(&kernel, (0.1, 5.0), 0.1),
+            linear: LinearMotion { slow: LowFrequency::new(5.0) },
         };
         let mut state = vec![0.0; load.states()];
         let pose = Pose::default().after_motion(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));

@@ -16,7 +16,7 @@ use windlass_model::{Amplitudes, Database};
 const DOFS: [&str; 6] = ["SURGE", "SWAY", "HEAVE", "ROLL", "PITCH", "YAW"];
 
 /// Which directions of a data set are those of a body: place in the data set, 0 to 5.
-type Chosen = Vec<(usize, usize)>;
+type BodyDirections = Vec<(usize, usize)>;
 
 /// A variable: its dimensions and its values, the last dimension the fastest.
 struct Variable {
@@ -98,7 +98,7 @@ impl Set<'_> {
     }
 
     /// The directions of the body on a dimension of the data set.
-    fn directions(&self, dimension: &str, body: Option<usize>) -> Result<Chosen, DatabaseError> {
+    fn directions(&self, dimension: &str, body: Option<usize>) -> Result<BodyDirections, DatabaseError> {
         let words = self.words(dimension)?;
         let split = |w: &String| match w.rsplit_once("__") {
             Some((body, dof)) => (body.to_string(), dof.to_ascii_uppercase()),
@@ -123,7 +123,7 @@ impl Set<'_> {
                 None => return Err(self.wrong(format!("there is no body {n}: it has {}", list.len()))),
             },
         };
-        let mut found: Chosen = Vec::new();
+        let mut found: BodyDirections = Vec::new();
         for (index, (_, dof)) in named.iter().enumerate().filter(|(_, (b, _))| b == chosen) {
             let Some(mode) = DOFS.iter().position(|d| d == dof) else {
                 return Err(self.wrong(format!("{dof} is none of the six directions of a rigid body")));
@@ -137,7 +137,13 @@ impl Set<'_> {
     }
 
     /// A matrix of two dimensions of directions, at places of the others.
-    fn matrix(&self, of: &Variable, (rows, columns): (&Chosen, &Chosen), at: usize, along: &str) -> Matrix6<f64> {
+    fn matrix(
+        &self,
+        of: &Variable,
+        (rows, columns): (&BodyDirections, &BodyDirections),
+        at: usize,
+        along: &str,
+    ) -> Matrix6<f64> {
         matrix(rows.iter().flat_map(|(r, i)| {
             columns.iter().map(move |(c, j)| {
                 (6 * i + j, of.value_at(&[(along, at), ("influenced_dof", *r), ("radiating_dof", *c)]))
@@ -242,7 +248,7 @@ fn single_places(set: &Set, name: &str, of: &Variable, used: &[&str]) -> Result<
 fn excitation(
     set: &Set,
     data: &mut Database,
-    rigid: &Chosen,
+    rigid: &BodyDirections,
     (along, between): (&str, &mut Vec<(usize, f64)>),
 ) -> Result<(), DatabaseError> {
     let force = set.numbers("excitation_force")?;

@@ -7,7 +7,7 @@
 //! [`low_frequency`]: crate::low_frequency
 
 use super::at::DatabaseLookup;
-use super::waves::{ByHeading, Group, groups};
+use super::waves::{WaveGroup, WaveTable, groups};
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::low_frequency::{LowFrequency, Slow, dividing_period_of};
 use crate::sea::Sea;
@@ -24,7 +24,7 @@ pub struct Excitation {
     /// The point it is about, in the body (m).
     reference: Vector3<f64>,
     /// Waves of a direction, with amplitude times excitation: six real parts, then six imaginary ones.
-    groups: Vec<(Group, ByHeading<12>)>,
+    groups: Vec<(WaveGroup, WaveTable<12>)>,
     slow: LowFrequency,
     /// The share of the sea's energy that is at frequencies beyond those of the database.
     pub outside: f64,
@@ -40,7 +40,7 @@ impl Excitation {
         let about = Database { reference: Vector3::zeros(), ..data.clone() };
         let mut list = Vec::new();
         for group in groups(sea) {
-            let table = ByHeading::build(&group, &data.headings, |h, w, a| {
+            let table = WaveTable::build(&group, &data.headings, |h, w, a| {
                 let heading = data.headings[h];
                 let x = about.excitation_at(heading, w)?;
                 Ok(std::array::from_fn(|n| if n < 6 { x[n].re * a } else { x[n - 6].im * a }))

@@ -32,7 +32,7 @@ const EQUAL_TIMES_SHARE: f64 = 1e-6;
 
 /// One pair of directions whose kernel is not nothing.
 #[derive(Clone, Debug, PartialEq)]
-struct Pair {
+struct DirectionPair {
     row: usize,
     column: usize,
     /// What a velocity of the grid takes by its lag in steps, from one step on.
@@ -48,7 +48,7 @@ impl Pair {
 
 /// A kernel and its integrals at a lag.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Moments {
+struct KernelIntegrals {
     /// K.
     kernel: Matrix6<f64>,
     /// K1.
@@ -62,7 +62,7 @@ struct Moments {
 struct Integrals {
     /// Between two of the list (s).
     step: f64,
-    list: Vec<Moments>,
+    list: Vec<KernelIntegrals>,
 }
 
 impl Integrals {
@@ -70,7 +70,7 @@ impl Integrals {
     fn new(kernel: &dyn Fn(f64) -> Matrix6<f64>, length: f64, step: f64) -> Self {
         let count = (length / step).ceil().clamp(1.0, MAX_LAGS as f64);
         let step = length / count;
-        let mut now = Moments { kernel: kernel(0.0), ..Moments::default() };
+        let mut now = KernelIntegrals { kernel: kernel(0.0), ..KernelIntegrals::default() };
         let mut list = vec![now];
         for n in 1..=count as usize {
             let end = n as f64 * step;
@@ -118,16 +118,16 @@ impl Integrals {
 
 /// A kernel ready to be convolved.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Memory {
+pub struct RetardationMemory {
     /// Between the times of the grid (s).
     step: f64,
     /// Velocities of the grid that it keeps.
     lags: usize,
     integrals: Integrals,
-    pairs: Vec<Pair>,
+    pairs: Vec<DirectionPair>,
 }
 
-impl Memory {
+impl RetardationMemory {
     /// A kernel (N/m, N, N m) over a length (s) with a grid of a step (s); within `fine` (s) it is as good as a cubic. Pairs of directions below 1e-9
     /// of their diagonals are nothing: planes of symmetry. So are those of a direction whose own is below 1e-18 of the largest of the three
     /// translations or rotations, as of the yaw of a round body: radiated power is never negative, so that no pair is above the geometric mean of
@@ -152,11 +152,11 @@ impl Memory {
                         [a, b, c] => (a[at] - 2.0 * b[at] + c[at]) / step,
                         _ => 0.0,
                     };
-                    pairs.push(Pair { row, column, weights: seconds.windows(3).map(of).collect() });
+                    pairs.push(DirectionPair { row, column, weights: seconds.windows(3).map(of).collect() });
                 }
             }
         }
-        Memory { step, lags, integrals, pairs }
+        RetardationMemory { step, lags, integrals, pairs }
     }
 
     /// Number of values it remembers.
@@ -204,7 +204,7 @@ impl Memory {
     fn convolve(&self, near: f64, (rings, newest): (&[f64], usize), past: &mut Six) {
         let place = near / self.step;
         let whole = place.round();
-        let slice = |pair: &Pair| &ring(rings, pair.column, self.lags, newest)[1..];
+        let slice = |pair: &DirectionPair| &ring(rings, pair.column, self.lags, newest)[1..];
         // the weight of a lag of n steps is number n - 1
         if (place - whole).abs() < EQUAL_TIMES_SHARE {
             for pair in &self.pairs {
@@ -317,12 +317,12 @@ mod tests {
     use super::*;
 
     /// K(t) = exp(-t), of which the memory of any velocity is known.
-    fn exponential(step: f64) -> Memory {
-        Memory::new(&|t| Matrix6::identity() * (-t).exp(), (0.05, 30.0), step)
+    fn exponential(step: f64) -> RetardationMemory {
+        RetardationMemory::new(&|t| Matrix6::identity() * (-t).exp(), (0.05, 30.0), step)
     }
 
     /// The force in surge after steps of given lengths, with the velocity of a time.
-    fn run(memory: &Memory, steps: &[f64], velocity: fn(f64) -> f64) -> f64 {
+    fn run(memory: &RetardationMemory, steps: &[f64], velocity: fn(f64) -> f64) -> f64 {
         let mut state = vec![0.0; memory.states()];
         let six = |t: f64| Six::new(velocity(t), 0.0, 0.0, 0.0, 0.0, 0.0);
         memory.begin(0.0, 0.0, &mut state);
@@ -395,9 +395,9 @@ mod tests {
         let mut kernel = Matrix6::from_diagonal_element(1.0);
         (kernel[(0, 4)], kernel[(4, 0)], kernel[(1, 3)], kernel[(3, 1)]) = (0.2, 0.2, -0.2, -0.2);
         kernel[(0, 1)] = 1e-12;
-        assert_eq!(Memory::new(&|_| kernel, (0.1, 0.4), 0.1).pairs(), 10);
+        assert_eq!(RetardationMemory::new(&|_| kernel, (0.1, 0.4), 0.1).pairs(), 10);
         // a round body does not radiate by its yaw, whatever rounding has left there
         (kernel[(5, 5)], kernel[(5, 0)], kernel[(0, 5)]) = (1e-27, 1e-14, 1e-14);
-        assert_eq!(Memory::new(&|_| kernel, (0.1, 0.4), 0.1).pairs(), 9);
+        assert_eq!(RetardationMemory::new(&|_| kernel, (0.1, 0.4), 0.1).pairs(), 9);
     }
 }

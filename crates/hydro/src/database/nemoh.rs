@@ -9,7 +9,7 @@
 
 use super::checks::check_database;
 use super::matrices::{PairRow, by_frequency};
-use super::nemoh_case::{Case, Direction};
+use super::nemoh_case::{NemohCase, NemohDirection};
 use super::rows::{DatabaseError, ModeRow, SourceFile, by_wave, heading, number, same_frequency, separates};
 use crate::sea::dispersion::wave_number;
 use nalgebra::{Complex, Matrix6};
@@ -110,13 +110,13 @@ pub(super) fn refer_phases(data: &mut Database, dx: f64, dy: f64) {
 type ToFrequency = fn(f64) -> f64;
 
 /// A zone of a Tecplot file.
-struct Zone {
+struct TecplotZone {
     title: String,
     rows: Vec<(usize, Vec<f64>)>,
 }
 
 /// The zones, and what makes a frequency (rad/s) of the first column.
-fn zones(file: &SourceFile) -> Result<(Vec<Zone>, ToFrequency), DatabaseError> {
+fn zones(file: &SourceFile) -> Result<(Vec<TecplotZone>, ToFrequency), DatabaseError> {
     let head = file.text.lines().next().unwrap_or_default().to_ascii_lowercase();
     let frequency: ToFrequency = if head.contains("(hz)") {
         |f| TAU * f
@@ -125,11 +125,11 @@ fn zones(file: &SourceFile) -> Result<(Vec<Zone>, ToFrequency), DatabaseError> {
     } else {
         |w| w
     };
-    let mut zones: Vec<Zone> = Vec::new();
+    let mut zones: Vec<TecplotZone> = Vec::new();
     for (index, line) in file.text.lines().enumerate() {
         if line.trim_start().get(..4).is_some_and(|w| w.eq_ignore_ascii_case("zone")) {
             let title = line.split('"').nth(1).unwrap_or_default().to_string();
-            zones.push(Zone { title, rows: Vec::new() });
+            zones.push(TecplotZone { title, rows: Vec::new() });
             continue;
         }
         let Some(zone) = zones.last_mut() else { continue };
@@ -163,14 +163,14 @@ fn columns(
 }
 
 /// The forces of a body with their place among all forces.
-fn forces(case: &Case, body: usize) -> Vec<(usize, Direction)> {
+fn forces(case: &NemohCase, body: usize) -> Vec<(usize, NemohDirection)> {
     let before: usize = case.bodies.iter().take(body).map(|b| b.1.len()).sum();
     let own = case.bodies.get(body).map_or(&[][..], |b| b.1.as_slice());
     own.iter().enumerate().map(|(n, d)| (before + n, *d)).collect()
 }
 
 /// Rows of added mass and damping.
-fn radiation(file: &SourceFile, case: &Case, body: usize) -> Result<Vec<PairRow>, DatabaseError> {
+fn radiation(file: &SourceFile, case: &NemohCase, body: usize) -> Result<Vec<PairRow>, DatabaseError> {
     let (zones, frequency) = zones(file)?;
     let mut rows = Vec::new();
     for zone in &zones {
@@ -198,7 +198,7 @@ fn radiation(file: &SourceFile, case: &Case, body: usize) -> Result<Vec<PairRow>
 }
 
 /// Rows of excitation, and whether phases are in degrees.
-fn excitation(file: &SourceFile, case: &Case, body: usize) -> Result<(Vec<ModeRow>, bool), DatabaseError> {
+fn excitation(file: &SourceFile, case: &NemohCase, body: usize) -> Result<(Vec<ModeRow>, bool), DatabaseError> {
     let (zones, frequency) = zones(file)?;
     let mut rows = Vec::new();
     let mut largest: f64 = 0.0;

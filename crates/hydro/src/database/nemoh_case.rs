@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 /// One direction of a motion or a force of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Direction {
+pub(super) struct NemohDirection {
     /// 0 to 5.
     pub mode: usize,
     /// The point a rotation or moment is about.
@@ -16,7 +16,7 @@ pub(super) struct Direction {
 
 /// What is read of a `Nemoh.cal`.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Case {
+pub(super) struct NemohCase {
     /// Density (kg/m3).
     pub density: f64,
     /// Gravity (m/s2).
@@ -26,17 +26,17 @@ pub(super) struct Case {
     /// Where phases of waves refer to (m).
     pub waves_at: [f64; 2],
     /// Motions and forces of each body.
-    pub bodies: Vec<(Vec<Direction>, Vec<Direction>)>,
+    pub bodies: Vec<(Vec<NemohDirection>, Vec<NemohDirection>)>,
 }
 
 /// The lines of the file, read one by one.
-struct Lines<'a> {
+struct FileLines<'a> {
     file: &'a SourceFile,
     rest: std::iter::Enumerate<std::str::Lines<'a>>,
     at: usize,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> FileLines<'a> {
     fn next_line(&mut self) -> Result<&'a str, DatabaseError> {
         let (index, line) = self.rest.next().ok_or_else(|| self.file.wrong("it ends too early"))?;
         self.at = index + 1;
@@ -65,15 +65,15 @@ impl<'a> Lines<'a> {
     }
 
     /// A line of a motion or a force: `1 dx dy dz ..` or `2 dx dy dz x y z`.
-    fn direction(&mut self) -> Result<Direction, DatabaseError> {
+    fn direction(&mut self) -> Result<NemohDirection, DatabaseError> {
         let line = self.numbers(7)?;
         let at = |i: usize| line.get(i).copied().unwrap_or_default();
         let axis = [1, 2, 3].into_iter().position(|k| at(k) == 1.0);
         let others = [1, 2, 3].into_iter().filter(|k| at(*k) != 0.0).count();
         match (at(0), axis) {
-            (1.0, Some(axis)) if others == 1 => Ok(Direction { mode: axis, about: None }),
+            (1.0, Some(axis)) if others == 1 => Ok(NemohDirection { mode: axis, about: None }),
             (2.0, Some(axis)) if others == 1 => {
-                Ok(Direction { mode: 3 + axis, about: Some(Vector3::new(at(4), at(5), at(6))) })
+                Ok(NemohDirection { mode: 3 + axis, about: Some(Vector3::new(at(4), at(5), at(6))) })
             }
             _ => Err(self.file.wrong_at(self.at, "only motions along and about the axes x, y and z are read")),
         }
@@ -84,9 +84,9 @@ impl<'a> Lines<'a> {
 ///
 /// # Errors
 /// A file that does not have the form; motions that are not along or about the axes.
-pub(super) fn read(file: &SourceFile) -> Result<Case, DatabaseError> {
-    let mut lines = Lines { file, rest: file.text.lines().enumerate(), at: 0 };
-    let mut case = Case::default();
+pub(super) fn read(file: &SourceFile) -> Result<NemohCase, DatabaseError> {
+    let mut lines = FileLines { file, rest: file.text.lines().enumerate(), at: 0 };
+    let mut case = NemohCase::default();
     let first = |list: Vec<f64>| list.first().copied().unwrap_or_default();
     lines.next_line()?;
     case.density = first(lines.numbers(1)?);
@@ -112,7 +112,7 @@ pub(super) fn read(file: &SourceFile) -> Result<Case, DatabaseError> {
     Ok(case)
 }
 
-impl Case {
+impl NemohCase {
     /// The point that rotations and moments of a body are about: the same for all, else `None`; the origin where none turns.
     pub(super) fn reference_point(&self, body: usize) -> Option<Vector3<f64>> {
         let (motions, forces) = self.bodies.get(body)?;

@@ -5,7 +5,7 @@
 //! OrcaFlex's usual conventions: rotations in degrees a metre of wave amplitude, phases lag behind the crest at the origin of the RAOs.
 
 use super::checks::check_database;
-use super::rows::{DatabaseError, ModeRow, Row, SourceFile, by_wave, heading, separates};
+use super::rows::{DatabaseError, ModeRow, NumberRow, SourceFile, by_wave, heading, separates};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 use windlass_model::Database;
@@ -93,7 +93,7 @@ fn find_columns(file: &SourceFile) -> Result<Vec<usize>, DatabaseError> {
 }
 
 /// The frequency of a row (rad/s).
-fn frequency(file: &SourceFile, row: &Row, column: usize, kind: usize) -> Result<f64, DatabaseError> {
+fn frequency(file: &SourceFile, row: &NumberRow, column: usize, kind: usize) -> Result<f64, DatabaseError> {
     let value = row.number(column);
     let frequency = match kind {
         RADIANS => value,

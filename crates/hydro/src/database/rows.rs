@@ -57,7 +57,7 @@ impl SourceFile {
     }
 
     /// Its rows of numbers; heads before the first of them are passed over, blank lines anywhere.
-    pub(super) fn rows(&self, least: usize) -> Result<Vec<Row>, DatabaseError> {
+    pub(super) fn rows(&self, least: usize) -> Result<Vec<NumberRow>, DatabaseError> {
         let mut rows = Vec::new();
         for (index, line) in self.text.lines().enumerate() {
             let number = index + 1;
@@ -89,7 +89,7 @@ impl SourceFile {
 
 /// A row of up to sixteen numbers.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row {
+pub(super) struct NumberRow {
     /// Its line, from 1.
     pub line: usize,
     /// How many numbers it has.
@@ -97,7 +97,7 @@ pub(super) struct Row {
     values: [f64; 16],
 }
 
-impl Row {
+impl NumberRow {
     /// A number of it; zero past the end.
     pub fn number(&self, index: usize) -> f64 {
         self.values.get(index).copied().unwrap_or(0.0)
@@ -126,8 +126,8 @@ pub(super) fn number(word: &str) -> Option<f64> {
 }
 
 /// The numbers of a line, up to sixteen; else which word is none.
-fn row(line: usize, text: &str) -> Result<Row, usize> {
-    let mut row = Row { line, count: 0, values: [0.0; 16] };
+fn row(line: usize, text: &str) -> Result<NumberRow, usize> {
+    let mut row = NumberRow { line, count: 0, values: [0.0; 16] };
     let words = text.split(separates).filter(|w| !w.is_empty());
     for (index, (word, place)) in words.zip(row.values.iter_mut()).enumerate() {
         *place = number(word).ok_or(index)?;

@@ -14,7 +14,7 @@
 use super::at::drift_at;
 use super::at::{bracket_frequency, bracket_heading};
 use super::excitation::{load_from_state, rotate_about_z, yaw};
-use super::waves::{ByHeading, Group, LANES, groups};
+use super::waves::{LANES, WaveGroup, WaveTable, groups};
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::sea::Sea;
 use crate::{Category, Load, move_wrench, turning};
@@ -29,7 +29,7 @@ enum Way {
     /// The mean over the sea by heading of the table, for the groups.
     Mean,
     /// Newman's approximation: amplitude times drift, amplitude; the last of the seven.
-    Newman(Vec<ByHeading<7>>),
+    Newman(Vec<WaveTable<7>>),
     /// The QTF, the neighbours of each wave of each group in its frequencies, and the mean direction of the sea (rad).
     Full(Arc<Qtf>, Vec<Vec<(usize, usize, f64)>>, f64),
 }
@@ -40,7 +40,7 @@ pub struct SlowDrift {
     /// The point it is about, in the body (m).
     reference: Vector3<f64>,
     sea: Option<Arc<Sea>>,
-    groups: Vec<Group>,
+    groups: Vec<WaveGroup>,
     /// Mean force by heading of the table: direction of travel of the waves (rad), headings, values.
     means: Vec<(f64, Vec<Six>)>,
     headings: Vec<f64>,
@@ -95,7 +95,7 @@ impl SlowDrift {
     pub fn newman(table: &DriftTable, reference: Vector3<f64>, sea: &Arc<Sea>) -> Result<Self, ClassError> {
         let made = SlowDrift::mean(table, reference, sea)?;
         let lanes = made.groups.iter().map(|group| {
-            ByHeading::build(group, &table.headings, |h, w, a| {
+            WaveTable::build(group, &table.headings, |h, w, a| {
                 let heading = table.headings[h];
                 let [x, y, z, rx, ry, rz] = drift_at(table, heading, w)?.map(|d| d * a);
                 Ok([x, y, z, rx, ry, rz, a])
@@ -112,7 +112,7 @@ impl SlowDrift {
     pub fn full(qtf: &Arc<Qtf>, reference: Vector3<f64>, sea: &Arc<Sea>) -> Result<Self, ClassError> {
         let diagonal = mean_drift(qtf);
         let made = SlowDrift::mean(&diagonal, reference, sea)?;
-        let near = |g: &Group| g.frequency.iter().map(|w| bracket_frequency(&qtf.frequencies, *w)).collect();
+        let near = |g: &WaveGroup| g.frequency.iter().map(|w| bracket_frequency(&qtf.frequencies, *w)).collect();
         let near: Vec<Vec<(usize, usize, f64)>> = made.groups.iter().map(near).collect();
         let (mut x, mut y) = (0.0, 0.0);
         for wave in &sea.components {
@@ -153,7 +153,7 @@ impl SlowDrift {
         Ok(force * ramp)
     }
 
-    fn by_newman(&self, lanes: &[ByHeading<7>], at: (f64, f64, f64), yaw: f64) -> Result<Six, ClassError> {
+    fn by_newman(&self, lanes: &[WaveTable<7>], at: (f64, f64, f64), yaw: f64) -> Result<Six, ClassError> {
         let mut sums = [[0.0; 7]; 2];
         for (group, table) in self.groups.iter().zip(lanes) {
             for (sums, parts) in sums.iter_mut().zip(table.whole(group, at, group.toward - yaw)?) {

@@ -10,7 +10,9 @@
 
 use super::checks::{MAX_DATABASE_NUMBERS, check_database};
 use super::matrices::{by_frequency, matrix};
-use super::rows::{ByWave, DatabaseError, ModeRow, Row, SourceFile, by_wave, heading, same_frequency, same_heading};
+use super::rows::{
+    ByWave, DatabaseError, ModeRow, NumberRow, SourceFile, by_wave, heading, same_frequency, same_heading,
+};
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::f64::consts::TAU;
 use windlass_model::{Amplitudes, Database, DriftTable, Qtf};
@@ -76,7 +78,7 @@ pub fn read(source: &str, files: &[SourceFile], scale: &WamitScale) -> Result<Da
 /// The direction of this body that a number of a mode means; `None` for another body.
 pub(super) fn mode_of(
     file: &SourceFile,
-    row: &Row,
+    row: &NumberRow,
     column: usize,
     scale: &WamitScale,
 ) -> Result<Option<usize>, DatabaseError> {
@@ -92,7 +94,7 @@ pub(super) fn mode_of(
 }
 
 /// A frequency of a period that is greater than zero.
-pub(super) fn frequency(file: &SourceFile, row: &Row, column: usize) -> Result<f64, DatabaseError> {
+pub(super) fn frequency(file: &SourceFile, row: &NumberRow, column: usize) -> Result<f64, DatabaseError> {
     let frequency = TAU / row.number(column);
     if frequency > 0.0 && frequency.is_finite() && frequency < 1e6 {
         Ok(frequency)

@@ -9,7 +9,7 @@ use nalgebra::Complex;
 use windlass_model::Qtf;
 
 /// One row.
-struct Pair {
+struct QtfRow {
     heading: f64,
     first: f64,
     second: f64,
@@ -34,7 +34,7 @@ pub(super) fn read(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitSc
         let unit = scale.density * scale.gravity * scale.length.powi(if mode < 3 { 1 } else { 2 });
         let (first, second) = (frequency(file, &row, 0)?, frequency(file, &row, 1)?);
         let value = Complex::new(row.number(7), -row.number(8)) * unit;
-        pairs.push(Pair { heading: of_first, first, second, mode, value });
+        pairs.push(QtfRow { heading: of_first, first, second, mode, value });
     }
     if crossing > 0 {
         remarks.push(format!("{}: {crossing} rows of crossing waves are not used", file.name));

@@ -14,23 +14,23 @@ use windlass_model::ClassError;
 /// Waves side by side.
 pub(super) const LANES: usize = 8;
 /// One number of each of them.
-pub(super) type Wide = [f64; LANES];
+pub(super) type LaneValues = [f64; LANES];
 /// Sine and cosine, or another pair, of each.
-pub(super) type Pairs = [Wide; 2];
+pub(super) type Pairs = [LaneValues; 2];
 
 /// Waves of one direction of travel.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Group {
+pub(super) struct WaveGroup {
     /// Direction of travel (rad, global).
     pub toward: f64,
     /// Amplitudes (m), frequencies (rad/s).
     pub amplitude: Vec<f64>,
     pub frequency: Vec<f64>,
     /// Frequencies, wave numbers by x and y (1/m) and phases (rad), eight waves at a time; of what fills the last eight, nothing.
-    phases: Vec<[Wide; 4]>,
+    phases: Vec<[LaneValues; 4]>,
 }
 
-impl Group {
+impl WaveGroup {
     /// Cosines and sines of `k . x - w t + phase`, eight waves at a time.
     pub fn phasors(&self, at: (f64, f64, f64)) -> impl Iterator<Item = Pairs> + '_ {
         self.phases.iter().map(move |waves| phasors(waves, at))
@@ -53,7 +53,7 @@ impl Group {
 
 /// Cosines and sines of eight waves.
 #[inline(always)]
-fn phasors([w, kx, ky, phase]: &[Wide; 4], (time, x, y): (f64, f64, f64)) -> Pairs {
+fn phasors([w, kx, ky, phase]: &[LaneValues; 4], (time, x, y): (f64, f64, f64)) -> Pairs {
     let [mut cos, mut sin] = [[0.0; LANES]; 2];
     for n in 0..LANES {
         let angle = kx[n] * x + ky[n] * y + phase[n] - w[n] * time;
@@ -63,14 +63,14 @@ fn phasors([w, kx, ky, phase]: &[Wide; 4], (time, x, y): (f64, f64, f64)) -> Pai
 }
 
 /// The waves of a sea by their directions, in the order in which they come.
-pub(super) fn groups(sea: &Sea) -> Vec<Group> {
-    let mut groups: Vec<([f64; 2], Group)> = Vec::new();
+pub(super) fn groups(sea: &Sea) -> Vec<WaveGroup> {
+    let mut groups: Vec<([f64; 2], WaveGroup)> = Vec::new();
     for wave in &sea.components {
         let index = match groups.iter().position(|g| g.0 == wave.toward) {
             Some(index) => index,
             None => {
                 let toward = wave.toward[1].atan2(wave.toward[0]);
-                groups.push((wave.toward, Group { toward, ..Group::default() }));
+                groups.push((wave.toward, WaveGroup { toward, ..WaveGroup::default() }));
                 groups.len() - 1
             }
         };
@@ -83,23 +83,23 @@ pub(super) fn groups(sea: &Sea) -> Vec<Group> {
 }
 
 /// Values of a heading, eight waves at a time, and the share of the heading.
-type Share<'a, const WIDTH: usize> = (&'a [[Wide; WIDTH]], f64);
+type Share<'a, const WIDTH: usize> = (&'a [[LaneValues; WIDTH]], f64);
 
 /// Values of each wave of a group at each heading of a table, `WIDTH` of them.
 #[derive(Clone, Debug)]
-pub(super) struct ByHeading<const WIDTH: usize> {
+pub(super) struct WaveTable<const WIDTH: usize> {
     headings: Vec<f64>,
     /// By heading, values of the waves of the group, eight at a time; of what fills the last eight, nothing.
-    tables: Vec<Vec<[Wide; WIDTH]>>,
+    tables: Vec<Vec<[LaneValues; WIDTH]>>,
 }
 
-impl<const WIDTH: usize> ByHeading<WIDTH> {
+impl<const WIDTH: usize> WaveTable<WIDTH> {
     /// A table of values of the waves of a group.
     ///
     /// # Errors
     /// More values than memory is taken for; values that are not there.
     pub fn build(
-        group: &Group,
+        group: &WaveGroup,
         headings: &[f64],
         mut value: impl FnMut(usize, f64, f64) -> Result<[f64; WIDTH], ClassError>,
     ) -> Result<Self, ClassError> {
@@ -119,7 +119,7 @@ impl<const WIDTH: usize> ByHeading<WIDTH> {
             }
             tables.push(table);
         }
-        Ok(ByHeading { headings: headings.to_vec(), tables })
+        Ok(WaveTable { headings: headings.to_vec(), tables })
     }
 
     /// The tables around a heading (rad), and the share of the second.
@@ -135,29 +135,29 @@ impl<const WIDTH: usize> ByHeading<WIDTH> {
     }
 }
 
-impl ByHeading<12> {
+impl WaveTable<12> {
     /// `Re sum X exp(i q)` of the waves of the group, `q = k . x - w t + phase`, at a time (s) and place (m), toward a heading (rad): six
     /// real parts are followed by six imaginary ones.
     ///
     /// # Errors
     /// A heading in a gap of the table.
-    pub fn real(&self, group: &Group, at: (f64, f64, f64), heading: f64) -> Result<[f64; 6], ClassError> {
+    pub fn real(&self, group: &WaveGroup, at: (f64, f64, f64), heading: f64) -> Result<[f64; 6], ClassError> {
         Ok(real(&group.phases, at, self.bracket_tables(heading)?))
     }
 }
 
-impl ByHeading<7> {
+impl WaveTable<7> {
     /// `sum D exp(i q)` of the waves of the group, real and imaginary parts, as [`ByHeading::real`].
     ///
     /// # Errors
     /// A heading in a gap of the table.
-    pub fn whole(&self, group: &Group, at: (f64, f64, f64), heading: f64) -> Result<[[f64; 7]; 2], ClassError> {
+    pub fn whole(&self, group: &WaveGroup, at: (f64, f64, f64), heading: f64) -> Result<[[f64; 7]; 2], ClassError> {
         Ok(whole(&group.phases, at, self.bracket_tables(heading)?))
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn real(waves: &[[Wide; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Share<'_, 12>; 2]) -> [f64; 6] {
+fn real(waves: &[[LaneValues; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Share<'_, 12>; 2]) -> [f64; 6] {
     let mut sums = [[0.0; LANES]; 6];
     for ((waves, first), second) in waves.iter().zip(first).zip(second) {
         let [cos, sin] = phasors(waves, at);
@@ -172,7 +172,11 @@ fn real(waves: &[[Wide; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Sh
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn whole(waves: &[[Wide; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Share<'_, 7>; 2]) -> [[f64; 7]; 2] {
+fn whole(
+    waves: &[[LaneValues; 4]],
+    at: (f64, f64, f64),
+    [(first, a), (second, b)]: [Share<'_, 7>; 2],
+) -> [[f64; 7]; 2] {
     let mut sums = [[[0.0; LANES]; 7]; 2];
     for ((waves, first), second) in waves.iter().zip(first).zip(second) {
         let phasors = phasors(waves, at);
@@ -240,7 +244,7 @@ mod tests {
 
     #[test]
     fn sums_over_the_waves_are_those_of_each_by_itself() {
-        let mut group = Group::default();
+        let mut group = WaveGroup::default();
         for n in 0..203 {
             let n = f64::from(n);
             group.push([1.0 + (0.3 * n).sin(), 0.2 + 0.011 * n, 0.02 * n.cos(), 0.03 * (1.7 * n).sin(), 2.3 * n]);
@@ -248,9 +252,9 @@ mod tests {
         let value = |h: usize, w: f64, mode: usize| (w * (h as f64 + 1.7) * (mode as f64 + 0.6)).sin();
         let headings = [0.0, 1.2, 2.4, 3.6, 4.8];
         let excitation =
-            ByHeading::<12>::build(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
+            WaveTable::<12>::build(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
         let drift =
-            ByHeading::<7>::build(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
+            WaveTable::<7>::build(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
         let (time, x, y) = (9876.5, 12.25, -3.5);
         let found = excitation.unwrap().real(&group, (time, x, y), 1.5).unwrap();
         let [real, imaginary] = drift.unwrap().whole(&group, (time, x, y), 1.5).unwrap();

@@ -8,7 +8,7 @@ const TRIANGLES_PER_LEAF: usize = 4;
 
 /// A box round the triangles of a part of the tree's order.
 #[derive(Debug)]
-struct Node {
+struct BoxNode {
     low: Vector3<f64>,
     high: Vector3<f64>,
     first: usize,
@@ -20,7 +20,7 @@ struct Node {
 /// The tree: halved at the median across its longest side, so its depth is the logarithm of its size.
 #[derive(Debug)]
 pub struct Boxes {
-    nodes: Vec<Node>,
+    nodes: Vec<BoxNode>,
     order: Vec<usize>,
 }
 
@@ -52,7 +52,7 @@ impl Boxes {
             let centre = |n: &usize| at(*n).iter().map(|p| p[side]).sum::<f64>();
             part.select_nth_unstable_by(middle, |a, b| centre(a).total_cmp(&centre(b)).then(a.cmp(b)));
         }
-        self.nodes.push(Node { low, high, first, last, halves: None });
+        self.nodes.push(BoxNode { low, high, first, last, halves: None });
         if split {
             let halves = [self.grow(corners, first, first + middle), self.grow(corners, first + middle, last)];
             if let Some(node) = self.nodes.get_mut(own) {

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 type Triangle = [Vector3<f64>; 3];
 /// A point and its height over a plane.
-type Placed<'a> = (&'a Vector3<f64>, &'a f64);
+type HeightedPoint<'a> = (&'a Vector3<f64>, &'a f64);
 
 /// A point common to two triangles that pass through each other, or that lie on each other in one plane with normals to the
 /// same side, by more than `margin` (m); none where they only touch, as neighbours do along an edge.
@@ -52,7 +52,7 @@ fn common(a: &Triangle, b: &Triangle, normal: Vector3<f64>) -> Vector3<f64> {
     let heights: Vec<f64> = shape.iter().map(|p| normal.dot(p) - height).collect();
     if heights.iter().any(|h| *h < 0.0) && heights.iter().any(|h| *h > 0.0) {
         let next = shape.iter().zip(&heights).cycle().skip(1);
-        let through = |((p, h), (q, k)): (Placed, Placed)| {
+        let through = |((p, h), (q, k)): (HeightedPoint, HeightedPoint)| {
             (h * k < 0.0).then(|| p + (q - p) * (h / (h - k))).or((*h == 0.0).then_some(*p))
         };
         shape = shape.iter().zip(&heights).zip(next).filter_map(through).collect();

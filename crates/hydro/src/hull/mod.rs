@@ -19,7 +19,7 @@ pub use mesh::{MeshFile, MeshKind, read_mesh};
 pub(super) use panelling::{Panel, Panelling};
 pub use state::Hydrostatics;
 pub use surface::Surface;
-pub use tube::Tube;
+pub use tube::TubeHull;
 
 use super::Load;
 use nalgebra::{Matrix6, Vector3};

@@ -26,14 +26,14 @@ pub struct Panelling {
 const EQUAL_LENGTHS_SHARE: f64 = 1e-9;
 
 /// The nodes made so far, and the middle of each edge that has one.
-struct Nodes {
+struct PanelNodes {
     at: Vec<Vector3<f64>>,
     middles: BTreeMap<(u32, u32), u32>,
     /// The nodes within an edge of a parallelogram, by its ends and the number of its parts.
     rows: BTreeMap<(u32, u32, usize), Vec<u32>>,
 }
 
-impl Nodes {
+impl PanelNodes {
     fn place(&self, node: u32) -> Vector3<f64> {
         self.at[node as usize]
     }
@@ -85,7 +85,7 @@ impl Panelling {
         let longest = longest.max((8.0 * area / most.max(1) as f64).sqrt());
         // so that the corners of a cell are no farther from each other either
         let side = longest / 2f64.sqrt();
-        let mut nodes = Nodes { at: surface.vertices.clone(), middles: BTreeMap::new(), rows: BTreeMap::new() };
+        let mut nodes = PanelNodes { at: surface.vertices.clone(), middles: BTreeMap::new(), rows: BTreeMap::new() };
         let (parallelograms, mut triangles) = pair_triangles(surface);
         let mut done = Vec::new();
         for corners in parallelograms {
@@ -123,7 +123,7 @@ impl Panelling {
 
     /// The same with these limits; `None` where they make more than `most`.
     fn try_refine(&self, limit: &dyn Fn(&[Vector3<f64>; 3]) -> f64, most: usize) -> Option<Self> {
-        let mut nodes = Nodes { at: self.nodes.clone(), middles: BTreeMap::new(), rows: BTreeMap::new() };
+        let mut nodes = PanelNodes { at: self.nodes.clone(), middles: BTreeMap::new(), rows: BTreeMap::new() };
         for [a, b, c, x, y, z] in &self.panels {
             for (p, q, middle) in [(a, b, x), (b, c, y), (c, a, z)] {
                 nodes.middles.insert((*p.min(q), *p.max(q)), *middle);
@@ -186,7 +186,7 @@ fn pair_triangles(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
 
 /// Cells of a parallelogram, two triangles each: their diagonals point to its middle, so that they are the same seen from each of its sides.
 /// A cell halfway along a side is four triangles about its own middle.
-fn divide_parallelogram(nodes: &mut Nodes, [a, b, c, d]: [u32; 4], side: f64, done: &mut Vec<[u32; 3]>) {
+fn divide_parallelogram(nodes: &mut PanelNodes, [a, b, c, d]: [u32; 4], side: f64, done: &mut Vec<[u32; 3]>) {
     let parts = |length: f64| (length * (1.0 - EQUAL_LENGTHS_SHARE) / side).ceil().max(1.0) as usize;
     let (columns, rows) = (parts(nodes.length(a, b)), parts(nodes.length(a, d)));
     let (low, high) = (nodes.divide_edge(a, b, columns), nodes.divide_edge(d, c, columns));
@@ -220,7 +220,7 @@ fn divide_parallelogram(nodes: &mut Nodes, [a, b, c, d]: [u32; 4], side: f64, do
 }
 
 /// The parts of a triangle whose edges longer than a length are halved; `None` where none is.
-fn divide_triangle(nodes: &mut Nodes, [a, b, c]: [u32; 3], longest: f64) -> Option<Vec<[u32; 3]>> {
+fn divide_triangle(nodes: &mut PanelNodes, [a, b, c]: [u32; 3], longest: f64) -> Option<Vec<[u32; 3]>> {
     let mut half = |p: u32, q: u32| (nodes.length(p, q) > longest).then(|| nodes.middle(p, q));
     // turned so that what is halved comes first
     let ([a, b, c], halves) = match [half(a, b), half(b, c), half(c, a)] {

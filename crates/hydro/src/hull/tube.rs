@@ -14,14 +14,14 @@ use windlass_base::pose::Pose;
 
 /// A circular cylinder with flat ends, body coordinates (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tube {
+pub struct TubeHull {
     /// The centres of its ends (m).
     pub ends: [Vector3<f64>; 2],
     /// Its outer diameter (m).
     pub diameter: f64,
 }
 
-impl Tube {
+impl TubeHull {
     /// The prism of a number of sides whose width, in the mean of all sides, is the diameter: its perimeter is that of the tube
     /// (Cauchy). `None` of a tube without length or diameter.
     pub fn prism(&self, sides: u32) -> Option<Surface> {
@@ -29,7 +29,7 @@ impl Tube {
     }
 
     /// Whether nothing of one can lie in the other: their axes are further apart than both radii.
-    pub fn is_apart(&self, other: &Tube) -> bool {
+    pub fn is_apart(&self, other: &TubeHull) -> bool {
         // the prisms that stand for them are wider than the tubes by 0.04 %
         let reach = 0.5 * 1.001 * (self.diameter + other.diameter);
         segment_distance(&self.ends, &other.ends) > reach
@@ -90,7 +90,7 @@ const GAUSS: [(f64, f64); 8] = [
 ];
 
 /// The tube as it stands to the water: the axis runs from the lower end.
-struct Standing {
+struct TubeInWater {
     /// The lower end, about the pose's origin.
     foot: Vector3<f64>,
     /// Unit vector along the axis, upward or level.
@@ -107,7 +107,7 @@ struct Standing {
 }
 
 /// The length of the axis along which sections are cut by the water's surface, with the half angles of their segments.
-struct Zone {
+struct CutZone {
     /// Where it begins on the axis; nearer the foot sections are wet, beyond the zone dry.
     from: f64,
     /// How long it is.
@@ -122,8 +122,8 @@ struct Zone {
     ends: [f64; 2],
 }
 
-impl Standing {
-    fn new(tube: &Tube, pose: &Pose, level: f64) -> Option<Standing> {
+impl TubeInWater {
+    fn new(tube: &TubeHull, pose: &Pose, level: f64) -> Option<TubeInWater> {
         let [mut foot, mut head] = tube.ends.map(|end| pose.axes * end);
         if foot.z > head.z {
             std::mem::swap(&mut foot, &mut head);
@@ -138,7 +138,7 @@ impl Standing {
         // by `hypot`, as squares of a small lean vanish
         let ahead = if cosine > 0.0 { Vector2::new(axis.x / cosine, axis.y / cosine) } else { Vector2::x() };
         let height = foot.z + (pose.origin.z - level);
-        Some(Standing { foot, axis, ahead, height, sine: axis.z, cosine, length, radius })
+        Some(TubeInWater { foot, axis, ahead, height, sine: axis.z, cosine, length, radius })
     }
 
     /// Where sections are cut. With the rise R of a section's highest point over its centre, h1 and h2 the heights of the
@@ -146,10 +146,10 @@ impl Standing {
     /// differences of two of them follow without loss from
     /// sin(mean) = (A1 B2 + A2 B1) / 2, cos(mean) = (B1 B2 - A1 A2) / 2,
     /// tan(half) = 2 (h2 - h1) / R / (A1 B2 + A2 B1) / (B1 B2 + A1 A2).
-    fn zone(&self) -> Zone {
+    fn zone(&self) -> CutZone {
         let rise = self.cosine * self.radius;
         let (foot, head) = (self.height, self.height + self.sine * self.length);
-        let all = |from: f64, angle: f64| Zone {
+        let all = |from: f64, angle: f64| CutZone {
             from,
             long: 0.0,
             mean: angle,
@@ -167,7 +167,7 @@ impl Standing {
         let (below, above) = (foot + rise <= 0.0 && self.sine > 0.0, head >= rise && self.sine > 0.0);
         let from = if below { (-(foot + rise) / self.sine).min(self.length) } else { 0.0 };
         if rise == 0.0 {
-            return Zone { from, long: 0.0, mean: FRAC_PI_2, sin: 1.0, cos: 0.0, half: FRAC_PI_2, ends: [PI, 0.0] };
+            return CutZone { from, long: 0.0, mean: FRAC_PI_2, sin: 1.0, cos: 0.0, half: FRAC_PI_2, ends: [PI, 0.0] };
         }
         let (h1, h2) = (if below { -rise } else { foot }, if above { rise } else { head });
         let difference = if below || above { h2 - h1 } else { self.sine * self.length };
@@ -182,7 +182,7 @@ impl Standing {
         }
         let (sin, cos) = (crossed / 2.0, (b1 * b2 - a1 * a2) / 2.0);
         let half = (2.0 * (difference / rise) / crossed).max(0.0).atan2(b1 * b2 + a1 * a2);
-        Zone { from, long, mean: sin.atan2(cos), sin, cos, half, ends: [2.0 * a1.atan2(b1), 2.0 * a2.atan2(b2)] }
+        CutZone { from, long, mean: sin.atan2(cos), sin, cos, half, ends: [2.0 * a1.atan2(b1), 2.0 * a2.atan2(b2)] }
     }
 
     /// Adds the length from the foot that is wet all round.
@@ -194,9 +194,9 @@ impl Standing {
     }
 
     /// Adds what is wet, and the waterplane, along the zone.
-    fn add_wet_part(&self, zone: &Zone, wet: &mut Wet) {
+    fn add_wet_part(&self, zone: &CutZone, wet: &mut Wet) {
         let (r, s, c) = (self.radius, self.sine, self.cosine);
-        let Zone { long, half, .. } = *zone;
+        let CutZone { long, half, .. } = *zone;
         // sin(half y) / sin(half), and its limit
         let part = |y: f64| if half > 0.0 { (half * y).sin() / half.sin() } else { y };
         let stretch = if half > 0.0 { half / half.sin() } else { 1.0 };
@@ -254,12 +254,12 @@ fn segment(angle: f64, sin: f64, cos: f64) -> f64 {
     sum
 }
 
-impl Solid for Tube {
+impl Solid for TubeHull {
     /// What is level with the surface is treated as by a [`super::Surface`]: an end or a side that just touches it from above is dry,
     /// an upright tube whose head is just awash has its waterplane.
     fn wet(&self, pose: &Pose, level: f64) -> Wet {
         let mut wet = Wet::default();
-        let Some(tube) = Standing::new(self, pose, level) else { return wet };
+        let Some(tube) = TubeInWater::new(self, pose, level) else { return wet };
         let zone = tube.zone();
         if zone.from > 0.0 {
             tube.whole(zone.from, &mut wet);

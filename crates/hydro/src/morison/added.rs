@@ -1,6 +1,6 @@
 //! Added mass of members.
 
-use super::member::{Rod, Standing};
+use super::member::{MemberInPose, MemberLength};
 use crate::{cross, in_pose};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::Pose;
@@ -21,7 +21,7 @@ pub(super) fn transverse_inertia(axis: &Vector3<f64>, mass: f64) -> Matrix3<f64>
 }
 
 /// Adds that of a member in a pose under a surface of a height (m, global).
-fn add_member_added_mass(sum: &mut Matrix6<f64>, rod: &Rod, standing: &Standing, level: f64) {
+fn add_member_added_mass(sum: &mut Matrix6<f64>, rod: &MemberLength, standing: &MemberInPose, level: f64) {
     let axis = &standing.axis;
     if rod.added != 0.0 {
         for station in rod.ranges().flat_map(|range| standing.stations(range, level)) {
@@ -35,7 +35,7 @@ fn add_member_added_mass(sum: &mut Matrix6<f64>, rod: &Rod, standing: &Standing,
 }
 
 /// That of members under a level surface, body axes.
-pub(super) fn at_rest(rods: &[Rod], pose: &Pose, level: f64) -> Matrix6<f64> {
+pub(super) fn at_rest(rods: &[MemberLength], pose: &Pose, level: f64) -> Matrix6<f64> {
     let mut sum = Matrix6::zeros();
     for rod in rods {
         add_member_added_mass(&mut sum, rod, &rod.standing(pose), level);

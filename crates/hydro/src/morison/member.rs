@@ -1,9 +1,9 @@
 //! A round member as it stands to the water: where along its axis it is wet, and how much of its sections.
 
 use super::super::Load;
-use super::super::hull::Tube;
+use super::super::hull::TubeHull;
 use super::super::steady::{Medium, Steady};
-use super::super::stream::{Place, Push};
+use super::super::stream::{LoadPlace, Push};
 use nalgebra::{Matrix3, Matrix6x3, RowVector6, Vector3};
 use std::f64::consts::PI;
 use windlass_base::pose::{Pose, Six};
@@ -25,7 +25,7 @@ const MIN_TRANSITION_SHARE: f64 = 1e-3;
 
 /// A member in its body, or a length of one that growth makes thicker or thinner than the next.
 #[derive(Clone, Debug)]
-pub(super) struct Rod {
+pub(super) struct MemberLength {
     /// Where its axis begins, body coordinates (m).
     pub from: Vector3<f64>,
     /// Unit vector along it, in the body.
@@ -45,10 +45,10 @@ pub(super) struct Rod {
     /// Factor of the force of waves.
     pub factor: f64,
     /// Its segments, as tubes.
-    pub segments: Vec<Tube>,
+    pub segments: Vec<TubeHull>,
 }
 
-impl Rod {
+impl MemberLength {
     /// Whether a stream drags it.
     pub fn drags(&self) -> bool {
         self.across != 0.0 || self.along != 0.0
@@ -57,7 +57,7 @@ impl Rod {
 
 /// A member in a pose.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Standing {
+pub(super) struct MemberInPose {
     /// Arm from the body's origin to where the axis begins, global axes (m).
     pub from: Vector3<f64>,
     /// Unit vector along the axis, global axes.
@@ -97,7 +97,7 @@ impl Station {
     }
 }
 
-impl Standing {
+impl MemberInPose {
     /// Arm to a place on the axis.
     pub fn arm(&self, at: f64) -> Vector3<f64> {
         self.from + self.axis * at
@@ -149,14 +149,14 @@ fn interval_between(a: f64, b: f64, low: f64, high: f64) -> Option<(f64, f64)> {
     (p < q).then_some((p, q))
 }
 
-impl Rod {
+impl MemberLength {
     /// It in a pose.
-    pub fn standing(&self, pose: &Pose) -> Standing {
+    pub fn standing(&self, pose: &Pose) -> MemberInPose {
         let axis = pose.axes * self.axis;
         let rise = 0.5
             * self.diameter
             * (axis.x * axis.x + axis.y * axis.y + MIN_TRANSITION_SHARE * MIN_TRANSITION_SHARE).sqrt();
-        Standing { from: pose.axes * self.from, axis, origin: pose.origin.z, rise }
+        MemberInPose { from: pose.axes * self.from, axis, origin: pose.origin.z, rise }
     }
 
     /// The share of its volume that displaces water.
@@ -182,7 +182,7 @@ impl Rod {
         let level = steady.around.tide;
         for station in self.ranges().flat_map(|r| standing.parts(r, kinks)).flat_map(|r| standing.stations(r, level)) {
             let arm = standing.arm(station.at);
-            let place = Place { at: self.from + self.axis * station.at, medium: Medium::Water, shared: false };
+            let place = LoadPlace { at: self.from + self.axis * station.at, medium: Medium::Water, shared: false };
             let stream = steady.velocity(Medium::Water, pose.origin.z + arm.z);
             let load = place.load_in(steady, pose, stream, |flow| {
                 let (force, by_flow) = drag((self.across, self.along), &self.axis, &flow);
@@ -201,8 +201,8 @@ impl Rod {
     }
 
     /// How much less of a section is wet after a small motion of the body: -d(share)/d(motion).
-    fn drying(&self, standing: &Standing, station: &Station, arm: &Vector3<f64>) -> RowVector6<f64> {
-        let Standing { axis, rise, .. } = *standing;
+    fn drying(&self, standing: &MemberInPose, station: &Station, arm: &Vector3<f64>) -> RowVector6<f64> {
+        let MemberInPose { axis, rise, .. } = *standing;
         // height over rise; rise^2 = r^2 (1 - axis_z^2 + ..), and d(axis_z) = (axis x e_z) . turn
         let radius = 0.5 * self.diameter;
         let by_turn = arm.cross(&Vector3::z()) / rise

@@ -33,12 +33,12 @@ mod under_way;
 
 use super::grown;
 use super::growth::Growth;
-use super::hull::Tube;
+use super::hull::TubeHull;
 use super::low_frequency::{SlowWrench, dividing_period};
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway};
-use member::Rod;
+use member::MemberLength;
 use nalgebra::{Matrix6, Vector3};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -58,7 +58,7 @@ const MAX_TAPER_LENGTHS: f64 = 64.0;
 /// The members of a body, and what acts on them.
 #[derive(Debug)]
 pub struct Members {
-    rods: Vec<Rod>,
+    rods: Vec<MemberLength>,
     steady: Arc<Steady>,
     /// Heights at which the current begins to change otherwise (m, global), highest first.
     kinks: Vec<f64>,
@@ -94,7 +94,7 @@ pub fn build_members(
     }
     let rods = made;
     let added = added::at_rest(&rods, &pose, steady.around.tide);
-    let dragged = rods.iter().any(Rod::drags) && !steady.still(Medium::Water);
+    let dragged = rods.iter().any(MemberLength::drags) && !steady.still(Medium::Water);
     let acts = !rods.is_empty() && (under_way.is_some() || dragged);
     let load = acts.then(|| {
         let kinks = kinks(&steady);
@@ -131,7 +131,7 @@ fn rods(
     (part, piece): (&Part, &Piece),
     reach: f64,
     growth: Option<(&Growth, &Pose)>,
-) -> Vec<Rod> {
+) -> Vec<MemberLength> {
     let (Some(own), Shape::Tube { ends, diameter: bare }) = (piece.member, piece.shape.moved_by(&part.place)) else {
         return Vec::new();
     };
@@ -156,7 +156,7 @@ fn rods(
         let corner = |n: usize| from + axis * (length * n as f64 / count as f64);
         let half_sphere = density * PI * diameter.powi(3) / 12.0 * own_waves;
         let [first, second] = own.end_added.map(|caa| half_sphere * caa);
-        Rod {
+        MemberLength {
             from,
             axis,
             length,
@@ -167,7 +167,7 @@ fn rods(
             added: density * section * own.added * own_waves,
             end_added: [if n == 0 { first } else { 0.0 }, if n == last { second } else { 0.0 }],
             factor: of(Category::Wave),
-            segments: (0..count).map(|n| Tube { ends: [corner(n), corner(n + 1)], diameter: *diameter }).collect(),
+            segments: (0..count).map(|n| TubeHull { ends: [corner(n), corner(n + 1)], diameter: *diameter }).collect(),
         }
     });
     made.collect()

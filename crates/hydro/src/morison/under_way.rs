@@ -1,7 +1,7 @@
 //! Members in waves, and moving.
 
 use super::added;
-use super::member::{Rod, Standing, Station, drag};
+use super::member::{MemberInPose, MemberLength, Station, drag};
 use crate::hull::{Solid, Wet};
 use crate::sea::{Kinematics, Sea, SeaAt};
 use crate::steady::{Medium, Steady, Streams};
@@ -50,7 +50,7 @@ fn three(values: &[f64]) -> Vector3<f64> {
 }
 
 /// The water at a time.
-struct Water<'a> {
+struct WaterAtTime<'a> {
     sea: Option<SeaAt<'a>>,
     steady: &'a Steady,
     streams: Streams<'a>,
@@ -58,9 +58,9 @@ struct Water<'a> {
     level: f64,
 }
 
-impl Water<'_> {
+impl WaterAtTime<'_> {
     /// At a station, in the middle of what is wet of it.
-    fn kinematics_at(&self, standing: &Standing, station: &Station) -> Kinematics {
+    fn kinematics_at(&self, standing: &MemberInPose, station: &Station) -> Kinematics {
         let mut place = self.origin + standing.arm(station.at);
         place.z -= station.lower() * standing.rise;
         self.sea.as_ref().map_or(Kinematics::still(0.0), |sea| sea.kinematics(place))
@@ -71,7 +71,7 @@ impl Water<'_> {
     }
 
     /// Height of the surface over the mean level where it cuts the axis in a range, or else at the range's middle (m).
-    fn surface(&self, standing: &Standing, (from, to): (f64, f64)) -> f64 {
+    fn surface(&self, standing: &MemberInPose, (from, to): (f64, f64)) -> f64 {
         let Some(sea) = &self.sea else { return 0.0 };
         let mut at = 0.5 * (from + to);
         let mut found = 0.0;
@@ -93,7 +93,7 @@ impl Water<'_> {
 impl UnderWay {
     pub(super) fn new(
         sea: Option<Arc<Sea>>,
-        (rods, kinks): (&[Rod], &[f64]),
+        (rods, kinks): (&[MemberLength], &[f64]),
         steady: &Steady,
         held: &Matrix6<f64>,
     ) -> Self {
@@ -114,10 +114,10 @@ impl UnderWay {
     }
 
     /// Finds the water at the stations, and the force of the waves.
-    pub(super) fn begin(&self, rods: &[Rod], steady: &Steady, ahead: &Underway, state: &mut [f64]) {
+    pub(super) fn begin(&self, rods: &[MemberLength], steady: &Steady, ahead: &Underway, state: &mut [f64]) {
         let sea = self.sea.as_ref().map(|sea| sea.at(ahead.time));
         let streams = steady.streams_at_time(ahead.time);
-        let water = Water { sea, steady, streams, origin: ahead.pose.origin, level: self.level };
+        let water = WaterAtTime { sea, steady, streams, origin: ahead.pose.origin, level: self.level };
         let (head, rest) = state.split_at_mut(HEADER_STATES);
         let (mut segments, mut stations) = rest.split_at_mut(STATES_PER_SEGMENT * self.segments);
         stations.fill(0.0);
@@ -141,8 +141,8 @@ impl UnderWay {
     /// One member: the force of the waves on it but for hydrostatics, and its added mass; its segments are kept.
     fn member(
         &self,
-        water: &Water,
-        (rod, standing): (&Rod, &Standing),
+        water: &WaterAtTime,
+        (rod, standing): (&MemberLength, &MemberInPose),
         (kept, slots): (&mut [f64], &mut [f64]),
         mass: &mut Matrix6<f64>,
     ) -> Six {
@@ -194,8 +194,8 @@ impl UnderWay {
     /// One segment under a surface: inertia across the axis, and its stations.
     fn segment<'a>(
         &self,
-        water: &Water,
-        (rod, standing): (&Rod, &Standing),
+        water: &WaterAtTime,
+        (rod, standing): (&MemberLength, &MemberInPose),
         (range, level): ((f64, f64), f64),
         slots: &mut impl Iterator<Item = &'a mut [f64]>,
         (sum, mass): (&mut Six, &mut Matrix6<f64>),
@@ -241,7 +241,7 @@ impl UnderWay {
         sum
     }
 
-    pub(super) fn moving(&self, rods: &[Rod], at: &Underway, state: &[f64]) -> MovingLoad {
+    pub(super) fn moving(&self, rods: &[MemberLength], at: &Underway, state: &[f64]) -> MovingLoad {
         let (drag, damping) = self.drag(at, state);
         let mut load = Load { wrench: drag + six(state, WAVE_STATE), stiffness: Matrix6::zeros() };
         let segments = rods.iter().flat_map(|rod| rod.segments.iter().map(move |tube| (rod, tube)));

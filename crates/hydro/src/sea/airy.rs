@@ -20,7 +20,7 @@ const DELTA_STRETCHING: f64 = 0.3;
 /// Components in blocks of eight, with what does not change.
 #[derive(Clone, Debug, Default)]
 pub(super) struct WaveLanes {
-    blocks: Vec<Block>,
+    blocks: Vec<ComponentBlock>,
     /// The one direction of travel of a long-crested sea.
     toward: Option<[f64; 2]>,
     /// Depth of delta stretching: two standard deviations of the surface (m).
@@ -33,7 +33,7 @@ pub(super) struct WaveLanes {
 
 /// Eight components; those that fill up the last block have no amplitude.
 #[derive(Clone, Copy, Debug)]
-struct Block {
+struct ComponentBlock {
     /// Wave number along x and y, and itself (1/m).
     kx: Eight,
     ky: Eight,
@@ -63,7 +63,7 @@ impl WaveLanes {
                 lanes
             };
             let kd = |c: &Component| depth.map_or(f64::INFINITY, |d| c.number * d);
-            Block {
+            ComponentBlock {
                 kx: each(&|c| c.number * c.toward[0]),
                 ky: each(&|c| c.number * c.toward[1]),
                 k: each(&|c| c.number),
@@ -92,13 +92,13 @@ impl WaveLanes {
 
 /// Places far down, up to eight, until their waves are added up together.
 #[derive(Clone, Debug, Default)]
-struct Gathered {
+struct DeepPlaces {
     indices: [usize; 8],
     places: Places,
     count: usize,
 }
 
-impl Gathered {
+impl DeepPlaces {
     /// Takes a place at a height over the mean level (m); of waves that all go one way its way along them is enough.
     fn push(&mut self, index: usize, at: &Vector3<f64>, height: f64, toward: Option<[f64; 2]>) {
         let [x, y] = toward.map_or([at.x, at.y], |[x, y]| [at.x * x + at.y * y, 0.0]);
@@ -226,7 +226,7 @@ impl<'a> SeaAt<'a> {
         let sea = self.sea;
         let (reach, near) = (sea.lanes.far.reach, -sea.lanes.highest);
         let airy = sea.stokes.is_none() && sea.stretching == Stretching::Linear;
-        let mut groups = [Gathered::default(), Gathered::default()];
+        let mut groups = [DeepPlaces::default(), DeepPlaces::default()];
         for (index, at) in places.iter().enumerate() {
             let height = at.z - sea.level;
             // a place that is no number is not far down
@@ -248,7 +248,7 @@ impl<'a> SeaAt<'a> {
     }
 
     /// The water at places far down, which are then taken off their list.
-    fn far_down(&self, group: &mut Gathered, lies: bool, take: &mut impl FnMut(usize, Kinematics)) {
+    fn far_down(&self, group: &mut DeepPlaces, lies: bool, take: &mut impl FnMut(usize, Kinematics)) {
         let count = std::mem::take(&mut group.count);
         if count == 0 {
             return;
@@ -364,7 +364,7 @@ impl<'a> SeaAt<'a> {
 
 /// Elevation at a place (m).
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn sum_elevation(blocks: &[Block], phasors: &[[Eight; 2]], [x, y]: [f64; 2]) -> f64 {
+fn sum_elevation(blocks: &[ComponentBlock], phasors: &[[Eight; 2]], [x, y]: [f64; 2]) -> f64 {
     let mut sums = [0.0; 8];
     for (block, [c, s]) in blocks.iter().zip(phasors) {
         let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
@@ -376,7 +376,7 @@ fn sum_elevation(blocks: &[Block], phasors: &[[Eight; 2]], [x, y]: [f64; 2]) -> 
 /// Elevation, pressure over rho g, velocity and acceleration, each added up over the waves, at a place, a height over the mean
 /// level and a rise above it (m).
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn added_up(blocks: &[Block], phasors: &[[Eight; 2]], [x, y]: [f64; 2], [height, rise]: [f64; 2]) -> [f64; 8] {
+fn added_up(blocks: &[ComponentBlock], phasors: &[[Eight; 2]], [x, y]: [f64; 2], [height, rise]: [f64; 2]) -> [f64; 8] {
     let mut sums = [[0.0; 8]; 8];
     for (block, [c, s]) in blocks.iter().zip(phasors) {
         let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));

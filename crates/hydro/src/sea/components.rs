@@ -10,7 +10,7 @@ const BAND_ENERGY_SHARES: [f64; 2] = [0.001, 0.995];
 
 /// A part of a spectrum that one component stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Band {
+pub struct SpectrumBand {
     /// Lowest frequency (rad/s).
     pub low: f64,
     /// Highest frequency (rad/s); may be infinite.
@@ -21,7 +21,7 @@ pub struct Band {
     pub energy: f64,
 }
 
-impl Band {
+impl SpectrumBand {
     /// Mean density over the band (m2 s), as AQWA lists it; `None` where the band has no end.
     pub fn mean_density(&self) -> Option<f64> {
         self.high.is_finite().then(|| self.energy / (self.high - self.low))
@@ -33,7 +33,12 @@ impl Band {
 ///
 /// # Errors
 /// A band without a finite frequency.
-pub fn bands(spectrum: &Spectrum, number: usize, division: Division, limited: bool) -> Result<Vec<Band>, ClassError> {
+pub fn bands(
+    spectrum: &Spectrum,
+    number: usize,
+    division: Division,
+    limited: bool,
+) -> Result<Vec<SpectrumBand>, ClassError> {
     let number = number.max(1);
     let [low, high] = spectrum.range();
     let share = |i: usize| i as f64 / number as f64;
@@ -69,7 +74,7 @@ pub fn bands(spectrum: &Spectrum, number: usize, division: Division, limited: bo
 ///
 /// # Errors
 /// Periods none of which has energy about it.
-pub fn bands_about(spectrum: &Spectrum, periods: &[f64]) -> Result<Vec<Band>, ClassError> {
+pub fn bands_about(spectrum: &Spectrum, periods: &[f64]) -> Result<Vec<SpectrumBand>, ClassError> {
     let mut frequencies: Vec<f64> = periods.iter().map(|t| TAU / t).collect();
     frequencies.sort_by(f64::total_cmp);
     let [low, high] = spectrum.range();
@@ -79,7 +84,7 @@ pub fn bands_about(spectrum: &Spectrum, periods: &[f64]) -> Result<Vec<Band>, Cl
     split_between(spectrum, &cuts, Some(&frequencies))
 }
 
-fn split_between(spectrum: &Spectrum, cuts: &[f64], at: Option<&[f64]>) -> Result<Vec<Band>, ClassError> {
+fn split_between(spectrum: &Spectrum, cuts: &[f64], at: Option<&[f64]>) -> Result<Vec<SpectrumBand>, ClassError> {
     let below: Vec<[f64; 2]> = cuts.iter().map(|w| spectrum.moments_below(*w)).collect();
     let mut made = Vec::with_capacity(cuts.len());
     for (index, (edges, sums)) in cuts.windows(2).zip(below.windows(2)).enumerate() {
@@ -95,7 +100,7 @@ fn split_between(spectrum: &Spectrum, cuts: &[f64], at: Option<&[f64]>) -> Resul
                 ClassError::with_values(text, &[(*low, Dim::Frequency)]).help("give -COMPONENTS limits of frequency")
             );
         }
-        made.push(Band { low: *low, high: *high, frequency, energy });
+        made.push(SpectrumBand { low: *low, high: *high, frequency, energy });
     }
     if made.is_empty() {
         return Err(ClassError::new("the spectrum has no energy about any component"));

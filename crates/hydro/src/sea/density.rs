@@ -63,7 +63,7 @@ impl SpectralPeak {
 
 /// A part of the frequencies with its integrals, from the lowest frequency on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Panel {
+struct FrequencyPanel {
     low: f64,
     high: f64,
     /// Energy (m2) and first moment (m2 rad/s) below it.
@@ -78,7 +78,7 @@ pub struct Spectrum {
     humps: Vec<SpectralPeak>,
     /// Frequency (rad/s), density (m2 s).
     curve: Vec<(f64, f64)>,
-    panels: Vec<Panel>,
+    panels: Vec<FrequencyPanel>,
 }
 
 impl Spectrum {
@@ -98,7 +98,7 @@ impl Spectrum {
             let (low, high) = (last.high, limits.map_or(f64::INFINITY, |l| l[1]));
             let before = [0, 1].map(|i| last.before[i] + last.within[i]);
             let (near, far) = (made.beyond(low), made.beyond(high));
-            made.panels.push(Panel { low, high, before, within: [near[0] - far[0], near[1] - far[1]] });
+            made.panels.push(FrequencyPanel { low, high, before, within: [near[0] - far[0], near[1] - far[1]] });
         }
         made
     }
@@ -127,7 +127,7 @@ impl Spectrum {
         for pair in knots.windows(2) {
             let [low, high] = *pair else { continue };
             let within = self.integrals(low, high);
-            self.panels.push(Panel { low, high, before, within });
+            self.panels.push(FrequencyPanel { low, high, before, within });
             before = [before[0] + within[0], before[1] + within[1]];
         }
     }
@@ -177,7 +177,7 @@ impl Spectrum {
         all
     }
 
-    fn is_tail(&self, panel: &Panel) -> bool {
+    fn is_tail(&self, panel: &FrequencyPanel) -> bool {
         !self.humps.is_empty() && self.humps.iter().all(|h| panel.low >= h.peak * PANEL_LIMITS[2] * (1.0 - 1e-9))
     }
 

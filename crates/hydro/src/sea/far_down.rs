@@ -44,14 +44,14 @@ const POWER: [f64; 8] = [
 /// The waves of a sea.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FarDown {
-    waves: Vec<Wave>,
+    waves: Vec<FarWave>,
     /// Farthest from x = y = 0 at which the phase of the shortest wave is known (m).
     pub reach: f64,
 }
 
 /// A wave, with what does not change.
 #[derive(Clone, Copy, Debug)]
-struct Wave {
+struct FarWave {
     /// Half turns a metre along x and y; the first alone holds all of them where all waves go one way.
     turns: [f64; 2],
     /// Half turns at x = y = 0 and no time, and how many go by a second.
@@ -93,7 +93,7 @@ impl FarDown {
                 remaining_amplitude(own, power, NEGLIGIBLE_LOG2)
                     + remaining_amplitude(back * mirror, twice - power, NEGLIGIBLE_MIRROR_LOG2)
             });
-            Wave {
+            FarWave {
                 turns: along.map(|share| share * c.number * FRAC_1_PI),
                 phase: c.phase * FRAC_1_PI,
                 rate: c.frequency * FRAC_1_PI,
@@ -164,7 +164,7 @@ fn polynomial<const N: usize>(factors: &[f64; N], at: f64) -> f64 {
 /// What comes out at a place is the same whatever the other places are: a wave that is left out at one of them is left out there
 /// alone.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn added_up<const SPREAD: bool, const LYING: bool>(waves: &[Wave], time: f64, places: &Places) -> [Eight; 7] {
+fn added_up<const SPREAD: bool, const LYING: bool>(waves: &[FarWave], time: f64, places: &Places) -> [Eight; 7] {
     let (mut highest, mut lowest) = (places.height[0], places.height[0]);
     for height in &places.height {
         highest = highest.max(*height);
@@ -195,7 +195,7 @@ fn added_up<const SPREAD: bool, const LYING: bool>(waves: &[Wave], time: f64, pl
     reason = "a lane is a place of several lists, and closures keep the loop from wide vectors"
 )]
 fn add<const SPREAD: bool, const LYING: bool, const MIRROR: bool>(
-    wave: &Wave,
+    wave: &FarWave,
     phase: f64,
     places: &Places,
     sums: &mut [Eight; 7],

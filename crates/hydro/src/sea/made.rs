@@ -1,6 +1,6 @@
 //! The sea of an environment: its components, with their phases and directions.
 
-use super::components::{Band, bands, bands_about};
+use super::components::{SpectrumBand, bands, bands_about};
 use super::density::Spectrum;
 use super::stokes::{Stokes, breaks};
 use super::{Component, Sea, Water, dispersion, phases, spreading};
@@ -19,7 +19,7 @@ pub const USUAL_ORDER: u8 = 5;
 
 /// One sea of an environment, the first or the added one, with what its components came from.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Train {
+pub struct EnvironmentSea {
     /// Name of its spectrum, as written.
     pub name: String,
     /// Direction it comes from (rad).
@@ -29,7 +29,7 @@ pub struct Train {
     /// Its spectrum; `None` for a regular wave.
     pub spectrum: Option<Spectrum>,
     /// The bands its components stand for; none for a regular wave.
-    pub bands: Vec<Band>,
+    pub bands: Vec<SpectrumBand>,
     /// Its components in those of the sea.
     pub components: std::ops::Range<usize>,
 }
@@ -84,7 +84,7 @@ impl Sea {
             }
             let gamma = spectrum::gamma_of(env, sea);
             let components = first..components.len();
-            trains.push(Train {
+            trains.push(EnvironmentSea {
                 name: sea.spectrum.clone(),
                 direction: sea.direction,
                 gamma,
@@ -110,7 +110,7 @@ impl Sea {
 }
 
 /// The bands of a spectrum, as the environment says.
-fn cut_into_bands(spectrum: &Spectrum, env: &Environment) -> Result<Vec<Band>, ClassError> {
+fn cut_into_bands(spectrum: &Spectrum, env: &Environment) -> Result<Vec<SpectrumBand>, ClassError> {
     let asked = env.components;
     if !env.sea_periods.is_empty() {
         return bands_about(spectrum, &env.sea_periods);
@@ -123,7 +123,7 @@ fn cut_into_bands(spectrum: &Spectrum, env: &Environment) -> Result<Vec<Band>, C
 /// A regular wave: its Airy component, and its Stokes wave if it is one.
 fn regular(
     env: &Environment,
-    sea: &model::Sea,
+    sea: &model::SeaDefinition,
     given: Option<f64>,
     water: Water,
 ) -> Result<(Component, Option<Stokes>), ClassError> {
@@ -164,7 +164,7 @@ mod tests {
     /// A model whose environment has a sea of this name, 4 m and 10 s, from 30 degrees.
     fn model(spectrum: &str) -> Model {
         let mut model = Model::default();
-        let sea = |direction| model::Sea {
+        let sea = |direction| model::SeaDefinition {
             spectrum: spectrum.into(),
             direction,
             height: 4.0,

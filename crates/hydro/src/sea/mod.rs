@@ -21,7 +21,7 @@ use windlass_model::Stretching;
 
 pub use airy::{Prepared, SeaAt};
 pub use grid::{FilledGrid, PressureGrid};
-pub use made::Train;
+pub use made::EnvironmentSea;
 
 /// One wave of the sea.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +95,7 @@ pub struct Sea {
     /// Whether its phases were given one by one.
     pub phases_given: bool,
     /// The seas it is made of, in the order of the components.
-    pub trains: Vec<Train>,
+    pub trains: Vec<EnvironmentSea>,
     /// The Stokes wave it is. Its only component is then the Airy wave of the same height, frequency and wave number, for what
     /// is linear in the waves; elevation and kinematics are Stokes'.
     pub stokes: Option<stokes::Stokes>,

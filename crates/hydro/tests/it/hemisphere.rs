@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass_base::pose::Six;
 use windlass_hydro::database::excitation::Excitation;
-use windlass_hydro::database::memory::Memory;
+use windlass_hydro::database::memory::RetardationMemory;
 use windlass_hydro::database::radiation::Radiation;
 use windlass_hydro::database::slow_drift::SlowDrift;
 use windlass_hydro::database::{Database, DriftTable, Qtf, capytaine};
@@ -162,7 +162,7 @@ fn heave_in_time_is_heave_by_frequency() {
     let radiation = Radiation::new(&data).unwrap().unwrap();
     let (dt, mass) = (0.05, data.mass.unwrap());
     let stiffness = data.hydrostatics.unwrap()[(2, 2)];
-    let memory = Memory::new(&|t| radiation.faded_at(t, 100.0), (radiation.finest(), 100.0), dt);
+    let memory = RetardationMemory::new(&|t| radiation.faded_at(t, 100.0), (radiation.finest(), 100.0), dt);
     for w in [0.6, 0.9, 1.2, 1.8] {
         let sea = sea(vec![wave(w, 1.0, 0.0, 0.0)]);
         let excitation = Excitation::new(&data, &sea).unwrap();
@@ -363,7 +363,7 @@ fn the_mean_of_slow_drift_is_that_at_rest() {
 #[test]
 fn the_kernel_of_a_symmetric_body_has_few_pairs() {
     let radiation = Radiation::new(&hemisphere()).unwrap().unwrap();
-    let pairs = Memory::new(&|t| radiation.faded_at(t, 60.0), (radiation.finest(), 60.0), 0.1).pairs();
+    let pairs = RetardationMemory::new(&|t| radiation.faded_at(t, 60.0), (radiation.finest(), 60.0), 0.1).pairs();
     assert!(pairs < 30, "{pairs}");
 }
 
@@ -379,7 +379,7 @@ fn slow_and_wave_motions_are_damped_as_the_source_says_at_any_step() {
         let critical = 2.0 * inertia * w;
         let want = data.damping_at(w).unwrap()[(0, 0)];
         for step in steps {
-            let memory = Memory::new(&|t| radiation.faded_at(t, 100.0), (radiation.finest(), 100.0), step);
+            let memory = RetardationMemory::new(&|t| radiation.faded_at(t, 100.0), (radiation.finest(), 100.0), step);
             let mut state = vec![0.0; memory.states()];
             let dt = period / (period / step).round();
             let (count, surge) = ((period / dt).round() as usize, |v: f64| Six::new(v, 0.0, 0.0, 0.0, 0.0, 0.0));

@@ -6,7 +6,9 @@ use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::hull::{Fault, HullError, Hydrostatics, MeshKind, Solid, Surface, Tube, Wet, intersect, read_mesh};
+use windlass_hydro::hull::{
+    Fault, HullError, Hydrostatics, MeshKind, Solid, Surface, TubeHull, Wet, intersect, read_mesh,
+};
 
 const WATER: f64 = 1025.0 * 9.81;
 
@@ -68,7 +70,7 @@ fn sphere(radius: f64, parts: i32) -> Surface {
 }
 
 /// A tube as a prism of many sides, of the same section area.
-fn prism(tube: &Tube, sides: usize) -> Surface {
+fn prism(tube: &TubeHull, sides: usize) -> Surface {
     let step = 2.0 * PI / sides as f64;
     let radius = tube.diameter / 2.0 * (step / step.sin()).sqrt();
     let axis = (tube.ends[1] - tube.ends[0]).normalize();
@@ -227,7 +229,7 @@ fn a_mesh_open_above_the_water_counts_as_the_closed_one() {
 fn a_submerged_body_is_lifted_the_same_in_any_attitude() {
     let ball = sphere(3.0, 6);
     let own = ball.volume();
-    let tube = Tube { ends: [Vector3::new(-4.0, 1.0, 0.5), Vector3::new(3.0, -2.0, 1.0)], diameter: 1.7 };
+    let tube = TubeHull { ends: [Vector3::new(-4.0, 1.0, 0.5), Vector3::new(3.0, -2.0, 1.0)], diameter: 1.7 };
     let [a, b] = tube.ends;
     for step in 0..40 {
         let angles = [31.0, 47.0, 11.0].map(|d| d * f64::from(step));
@@ -249,7 +251,7 @@ fn a_submerged_body_is_lifted_the_same_in_any_attitude() {
 
 #[test]
 fn an_upright_tube_is_its_section_times_its_draft() {
-    let tube = Tube { ends: [Vector3::new(5.0, 0.0, 10.0), Vector3::new(5.0, 0.0, -20.0)], diameter: 6.0 };
+    let tube = TubeHull { ends: [Vector3::new(5.0, 0.0, 10.0), Vector3::new(5.0, 0.0, -20.0)], diameter: 6.0 };
     let wet = tube.wet(&pose([0.0, 0.0, 3.0], [0.0; 3]), 0.0);
     let area = 9.0 * PI;
     close(wet.volume, 17.0 * area, 1e-12 * 481.0, "volume");
@@ -268,7 +270,7 @@ fn an_upright_tube_is_its_section_times_its_draft() {
 #[test]
 fn a_level_tube_is_its_segment_times_its_length() {
     let (r, l) = (1.5, 12.0);
-    let tube = Tube { ends: [Vector3::new(-6.0, 0.0, 0.0), Vector3::new(6.0, 0.0, 0.0)], diameter: 2.0 * r };
+    let tube = TubeHull { ends: [Vector3::new(-6.0, 0.0, 0.0), Vector3::new(6.0, 0.0, 0.0)], diameter: 2.0 * r };
     for half in [1e-5, 1e-3, 0.2, 1.0, FRAC_PI_2, 2.5, PI - 1e-5] {
         // the chord is r cos(half) below the axis; for small angles from the depth of the lowest point
         let depth = 2.0 * r * (half / 2.0f64).sin().powi(2);
@@ -297,7 +299,7 @@ fn the_hoof_of_a_cylinder_has_the_volume_of_archimedes() {
         let slope = (h / r).atan();
         // the axis at 90 - slope to the vertical; foot's centre in the surface
         let axis = Vector3::new(slope.sin(), 0.0, slope.cos());
-        let tube = Tube { ends: [Vector3::zeros(), -axis * (h + 1.0)], diameter: 2.0 * r };
+        let tube = TubeHull { ends: [Vector3::zeros(), -axis * (h + 1.0)], diameter: 2.0 * r };
         let all = PI * r * r * (h + 1.0);
         let wet = tube.wet(&Pose::default(), 0.0);
         // the surface cuts the end at its diameter: half of the end is dry, and beyond it a hoof is missing
@@ -315,7 +317,7 @@ fn an_oblique_tube_cut_between_its_ends_is_its_axis_and_an_ellipse() {
     for degrees in [2.5, 10.0, 45.0, 80.0, 89.9, 89.999_999, 90.0f64] {
         let slope = degrees.to_radians();
         let axis = Vector3::new(slope.cos(), 0.0, slope.sin());
-        let tube = Tube { ends: [-axis * l, axis * l], diameter: 2.0 * r };
+        let tube = TubeHull { ends: [-axis * l, axis * l], diameter: 2.0 * r };
         let level = 0.2;
         let t = l + level / slope.sin();
         let wet = tube.wet(&Pose::default(), level);
@@ -377,7 +379,7 @@ fn a_tube_cut_across_an_end_agrees_with_slices_by_another_rule() {
         for height in [-8.0, -3.0, -1.0, -0.4, 0.0, 0.3, 0.9] {
             let axis = Vector3::new(slope.cos(), 0.0, slope.sin());
             let foot = Vector3::new(0.0, 0.0, height);
-            let tube = Tube { ends: [foot, foot + axis * l], diameter: 2.0 * r };
+            let tube = TubeHull { ends: [foot, foot + axis * l], diameter: 2.0 * r };
             let wet = tube.wet(&Pose::default(), 0.0);
             let [volume, along, plane] = by_slices(r, l, slope, height);
             let what = format!("slope {slope} height {height}");
@@ -391,7 +393,7 @@ fn a_tube_cut_across_an_end_agrees_with_slices_by_another_rule() {
 #[test]
 fn a_tube_agrees_with_a_prism_of_many_sides_in_all_integrals() {
     // a prism of n sides of the same area differs by (pi / n)^2 of the radius: 1.2e-6 with 2000
-    let tube = Tube { ends: [Vector3::new(-3.0, 1.0, -0.5), Vector3::new(4.0, -2.0, 1.0)], diameter: 2.4 };
+    let tube = TubeHull { ends: [Vector3::new(-3.0, 1.0, -0.5), Vector3::new(4.0, -2.0, 1.0)], diameter: 2.4 };
     let prism = prism(&tube, 2000);
     for step in 0..60 {
         let pose = pose([0.3, -0.2, 0.1], [17.0 * f64::from(step), 29.0 * f64::from(step), 41.0]);
@@ -408,7 +410,7 @@ fn a_nearly_level_and_a_nearly_upright_tube_go_smoothly_to_the_limit() {
     for depth in [0.3, 0.999, 1.0, 1.7] {
         let at = |slope: f64| {
             let axis = Vector3::new(slope.cos(), 0.0, slope.sin()) * (l / 2.0);
-            Tube { ends: [-axis, axis], diameter: 2.0 * r }.wet(&Pose::default(), depth - r)
+            TubeHull { ends: [-axis, axis], diameter: 2.0 * r }.wet(&Pose::default(), depth - r)
         };
         let level = at(0.0);
         for power in 5..17 {
@@ -423,7 +425,7 @@ fn a_nearly_level_and_a_nearly_upright_tube_go_smoothly_to_the_limit() {
     }
     let at = |lean: f64| {
         let axis = Vector3::new(lean.sin(), 0.0, lean.cos()) * 50.0;
-        Tube { ends: [-axis, axis], diameter: 2.0 * r }.wet(&Pose::default(), 0.4)
+        TubeHull { ends: [-axis, axis], diameter: 2.0 * r }.wet(&Pose::default(), 0.4)
     };
     let upright = at(0.0);
     for power in 5..306 {
@@ -436,17 +438,17 @@ fn a_nearly_level_and_a_nearly_upright_tube_go_smoothly_to_the_limit() {
 // the platform of [AQWA-TETHER 8.2]
 
 /// [AQWA-TETHER 8.2, figure 8.4]: its 16 tubes, about the keel.
-fn platform() -> Vec<Tube> {
+fn platform() -> Vec<TubeHull> {
     let mut tubes = Vec::new();
     for (x, y) in [(40.0, 40.0), (-40.0, 40.0), (-40.0, -40.0), (40.0, -40.0)] {
         for (low, high) in [(0.0, 28.5), (28.5, 57.0), (57.0, 114.0)] {
-            tubes.push(Tube { ends: [Vector3::new(x, y, low), Vector3::new(x, y, high)], diameter: 31.1 });
+            tubes.push(TubeHull { ends: [Vector3::new(x, y, low), Vector3::new(x, y, high)], diameter: 31.1 });
         }
     }
     let (half, off, up) = (28.3377, 47.43, 8.124);
     for side in [off, -off] {
-        tubes.push(Tube { ends: [Vector3::new(-half, side, up), Vector3::new(half, side, up)], diameter: 13.0 });
-        tubes.push(Tube { ends: [Vector3::new(side, -half, up), Vector3::new(side, half, up)], diameter: 13.0 });
+        tubes.push(TubeHull { ends: [Vector3::new(-half, side, up), Vector3::new(half, side, up)], diameter: 13.0 });
+        tubes.push(TubeHull { ends: [Vector3::new(side, -half, up), Vector3::new(side, half, up)], diameter: 13.0 });
     }
     tubes
 }
@@ -522,7 +524,7 @@ fn stiffness_agrees(solid: &dyn Solid, pose: &Pose, size: f64, part: f64, what: 
 
 #[test]
 fn stiffness_is_the_difference_of_the_buoyancy_at_oblique_poses() {
-    let tube = Tube { ends: [Vector3::new(-3.0, 1.0, -0.5), Vector3::new(4.0, -2.0, 1.0)], diameter: 2.4 };
+    let tube = TubeHull { ends: [Vector3::new(-3.0, 1.0, -0.5), Vector3::new(4.0, -2.0, 1.0)], diameter: 2.4 };
     let ball = sphere(3.0, 5);
     let barge = barge();
     for (n, angles) in [[13.0, -21.0, 40.0], [100.0, 12.0, -70.0], [-33.0, 55.0, 160.0]].into_iter().enumerate() {
@@ -558,7 +560,7 @@ fn cube_panels() -> Vec<Vec<[f64; 3]>> {
 
 #[test]
 fn good_meshes_have_no_faults() {
-    let tube = Tube { ends: [Vector3::zeros(), Vector3::new(5.0, 1.0, 2.0)], diameter: 2.0 };
+    let tube = TubeHull { ends: [Vector3::zeros(), Vector3::new(5.0, 1.0, 2.0)], diameter: 2.0 };
     for good in [barge(), sphere(2.0, 8), prism(&tube, 40)] {
         assert_eq!(good.faults(), vec![]);
     }
@@ -804,7 +806,7 @@ proptest! {
     fn the_wet_and_the_dry_part_of_a_tube_make_the_whole(
         ends in prop::array::uniform2(prop::array::uniform3(-2.0..2.0f64)), diameter in 0.01..3.0f64, pose in some_pose()
     ) {
-        let tube = Tube { ends: ends.map(Vector3::from), diameter };
+        let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
         let volume = PI / 4.0 * diameter * diameter * (tube.ends[1] - tube.ends[0]).norm();
         parts_make_the_whole(&tube, &pose, volume)?;
     }
@@ -813,7 +815,7 @@ proptest! {
     fn stiffness_of_tubes_is_the_difference_wherever_they_are_cut(
         ends in prop::array::uniform2(prop::array::uniform3(-2.0..2.0f64)), diameter in 0.5..3.0f64, pose in some_pose()
     ) {
-        let tube = Tube { ends: ends.map(Vector3::from), diameter };
+        let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
         // where the surface just touches an end or the side the waterplane grows as a root: differences do not follow it
         let areas = [-1e-3, 0.0, 1e-3].map(|z| tube.wet(&pose, z).plane_area);
         if (areas[2] - 2.0 * areas[1] + areas[0]).abs() < 1e-4 {

@@ -5,7 +5,7 @@ use crate::number;
 use crate::record::Word;
 use crate::select::{self, Owner};
 use crate::spec::{Kind, Need, OptionSpec, Range, ValueSpec, describe_expected};
-use crate::token::{Kind as Lex, is_numeric};
+use crate::token::{TokenKind as Lex, is_numeric};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -53,7 +53,7 @@ fn fits(kind: Kind, word: &Word) -> bool {
         Kind::Choice(choices) => {
             word.kind == Lex::Word
                 && select::keyword(&word.text, choices.iter().map(|c| (*c, Owner::Moses, ())))
-                    == select::Choice::One(())
+                    == select::SearchResult::One(())
         }
         Kind::Name(Noun::Class) => word.kind == Lex::Class,
         Kind::Name(Noun::Point) => word.kind == Lex::Point,

@@ -1,11 +1,11 @@
 //! Carrying out control records: branches, loops, macros, variables.
 
 use super::Interpreter;
-use super::frames::{Branch, Collected, Collecting, Frame, Trips};
+use super::frames::{Collected, Collecting, ConditionalBranch, FlowFrame, Trips};
 use super::macros::{Macro, control_word};
 use super::specs::CONTROL;
 use crate::record::Record;
-use crate::substitution::{World, substitute};
+use crate::substitution::{FunctionHost, substitute};
 use crate::{logic, number};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
@@ -35,7 +35,7 @@ impl Interpreter {
         match done.what {
             Collected::Nothing => Ok(()),
             Collected::Loop(trips) => {
-                self.frames.push(Frame::Loop { body, at: 0, trips, header: done.span });
+                self.frames.push(FlowFrame::Loop { body, at: 0, trips, header: done.span });
                 self.trip();
                 Ok(())
             }
@@ -52,12 +52,12 @@ impl Interpreter {
         &mut self,
         record: &Record,
         control: Option<&'static str>,
-        world: &mut dyn World,
+        world: &mut dyn FunctionHost,
     ) -> Outcome<()> {
         match control {
             Some("&IF") => {
                 let depth = self.frames.len();
-                self.branches.push(Branch { span: record.whole(), active: false, settled: true, depth });
+                self.branches.push(ConditionalBranch { span: record.whole(), active: false, settled: true, depth });
                 Ok(())
             }
             Some(name @ ("&ELSEIF" | "&ELSE" | "&ENDIF")) => self.control(name, record, world),
@@ -65,7 +65,7 @@ impl Interpreter {
         }
     }
 
-    pub(super) fn control(&mut self, name: &'static str, record: &Record, world: &mut dyn World) -> Outcome<()> {
+    pub(super) fn control(&mut self, name: &'static str, record: &Record, world: &mut dyn FunctionHost) -> Outcome<()> {
         match name {
             "&SET" | "&LOCAL" => self.assign(name, record, world),
             "&IF" => {
@@ -73,7 +73,7 @@ impl Interpreter {
                 let value = self.phrase(record, world);
                 let active = matches!(value, Ok(true));
                 let settled = active || value.is_err();
-                self.branches.push(Branch { span: record.whole(), active, settled, depth });
+                self.branches.push(ConditionalBranch { span: record.whole(), active, settled, depth });
                 value.map(|_| ())
             }
             "&ELSEIF" | "&ELSE" => self.other_branch(name, record, world),
@@ -98,7 +98,7 @@ impl Interpreter {
             }
             "&NEXT" | "&EXIT" => {
                 let depth = self.frames.len();
-                if !matches!(self.frames.last(), Some(Frame::Loop { .. })) {
+                if !matches!(self.frames.last(), Some(FlowFrame::Loop { .. })) {
                     return Err(Diagnostic::error(format!("{name} outside of a &LOOP"), record.whole()));
                 }
                 if record.rest().0.is_empty() || self.phrase(record, world)? {
@@ -123,13 +123,13 @@ impl Interpreter {
     fn end_of_file(&mut self) {
         while let Some(frame) = self.frames.last_mut() {
             match frame {
-                Frame::Source { id, at, .. } => {
+                FlowFrame::Source { id, at, .. } => {
                     *at = self.sources.get(*id).map_or(usize::MAX, |s| s.text.len());
                     break;
                 }
-                Frame::Terminal { .. } => break,
-                Frame::Macro { .. } => self.variables.leave(),
-                Frame::Loop { .. } => {}
+                FlowFrame::Terminal { .. } => break,
+                FlowFrame::Macro { .. } => self.variables.leave(),
+                FlowFrame::Loop { .. } => {}
             }
             self.frames.pop();
         }
@@ -138,7 +138,7 @@ impl Interpreter {
     }
 
     /// A header whose macro can be called, with a warning where a command of some menus has its name.
-    fn callable(&self, header: Macro, world: &dyn World) -> Outcome<(Macro, Outcome<()>)> {
+    fn callable(&self, header: Macro, world: &dyn FunctionHost) -> Outcome<(Macro, Outcome<()>)> {
         let taken = |command: &str, place: &str| {
             Diagnostic::error(format!("macro {} cannot be called{place}", header.name), header.span)
                 .label(format!("this is the command {command}"))
@@ -170,7 +170,7 @@ impl Interpreter {
     }
 
     /// The value of the phrase behind a control word; a final `&THEN` is not part of it.
-    fn phrase(&self, record: &Record, world: &mut dyn World) -> Outcome<bool> {
+    fn phrase(&self, record: &Record, world: &mut dyn FunctionHost) -> Outcome<bool> {
         let record = substitute(record, &self.variables, world)?;
         let (text, range) = record.rest();
         let upper = text.to_ascii_uppercase();
@@ -182,7 +182,7 @@ impl Interpreter {
         logic::evaluate(text, record.span(range.start..range.start + text.len()))
     }
 
-    fn other_branch(&mut self, name: &str, record: &Record, world: &mut dyn World) -> Outcome<()> {
+    fn other_branch(&mut self, name: &str, record: &Record, world: &mut dyn FunctionHost) -> Outcome<()> {
         let depth = self.frames.len();
         let Some(branch) = self.branches.last().filter(|b| b.depth == depth) else {
             return Err(Diagnostic::error(format!("{name} without an &IF"), record.whole()));
@@ -196,7 +196,7 @@ impl Interpreter {
         value.map(|_| ())
     }
 
-    fn assign(&mut self, name: &str, record: &Record, world: &mut dyn World) -> Outcome<()> {
+    fn assign(&mut self, name: &str, record: &Record, world: &mut dyn FunctionHost) -> Outcome<()> {
         let record = substitute(record, &self.variables, world)?;
         let words = record.words();
         let form = || format!("form: {name} VAR = value (a blank follows the =)");

@@ -1,7 +1,7 @@
 //! What records are read from: sources, loops and macro calls inside each other, and the blocks that are open in them.
 
 use super::macros::Macro;
-use super::{Interpreter, Step};
+use super::{FlowStep, Interpreter};
 use crate::record::{self, Record};
 use crate::source::Sources;
 use std::collections::VecDeque;
@@ -10,7 +10,7 @@ use std::sync::atomic::Ordering;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::{SourceId, Span};
 
-pub(super) enum Frame {
+pub(super) enum FlowFrame {
     /// A text being read from byte `at`.
     Source { id: SourceId, at: usize, tag: u32 },
     /// What was typed at a terminal and is not read yet; each text from a byte.
@@ -27,7 +27,7 @@ pub(super) enum Trips {
     Endless,
 }
 
-pub(super) struct Branch {
+pub(super) struct ConditionalBranch {
     pub(super) span: Span,
     /// The records of the current branch are read.
     pub(super) active: bool,
@@ -55,23 +55,23 @@ pub(super) struct Collecting {
 
 impl Interpreter {
     /// The next raw record, or what to report to the session when the innermost place is empty.
-    pub(super) fn fetch(&mut self) -> Outcome<Result<Record, Step>> {
+    pub(super) fn fetch(&mut self) -> Outcome<Result<Record, FlowStep>> {
         loop {
-            let Some(frame) = self.frames.last_mut() else { return Ok(Err(Step::Done)) };
+            let Some(frame) = self.frames.last_mut() else { return Ok(Err(FlowStep::Done)) };
             match frame {
-                Frame::Terminal { typed } => {
-                    let Some((id, at)) = typed.front_mut() else { return Ok(Err(Step::NeedLine)) };
+                FlowFrame::Terminal { typed } => {
+                    let Some((id, at)) = typed.front_mut() else { return Ok(Err(FlowStep::NeedLine)) };
                     if let Some((record, _)) = record_at(&self.sources, *id, at)? {
                         return Ok(Ok(record));
                     }
                     typed.pop_front();
                     continue;
                 }
-                Frame::Source { id, at, tag } => {
+                FlowFrame::Source { id, at, tag } => {
                     let tag = *tag;
                     let Some((record, open)) = record_at(&self.sources, *id, at)? else {
                         self.close_frame()?;
-                        return Ok(Err(Step::Ended(tag)));
+                        return Ok(Err(FlowStep::Ended(tag)));
                     };
                     if open {
                         return Err(Diagnostic::error(
@@ -82,14 +82,14 @@ impl Interpreter {
                     }
                     return Ok(Ok(record));
                 }
-                Frame::Macro { body, at, .. } | Frame::Loop { body, at, .. } => {
+                FlowFrame::Macro { body, at, .. } | FlowFrame::Loop { body, at, .. } => {
                     if let Some(record) = body.get(*at).cloned() {
                         *at += 1;
                         return Ok(Ok(record));
                     }
                 }
             }
-            if matches!(frame, Frame::Macro { .. }) {
+            if matches!(frame, FlowFrame::Macro { .. }) {
                 self.close_frame()?;
                 continue;
             }
@@ -100,7 +100,7 @@ impl Interpreter {
             if self.spent > self.budget || self.interrupt.load(Ordering::Relaxed) {
                 // a loop without records inside: let the caller count this one and stop
                 let header = match self.frames.last() {
-                    Some(Frame::Loop { header, .. }) => *header,
+                    Some(FlowFrame::Loop { header, .. }) => *header,
                     _ => Span::default(),
                 };
                 return Ok(Ok(Record::verbatim("&LOOP", header)));
@@ -111,7 +111,7 @@ impl Interpreter {
     /// Ends the innermost frame; an error names the blocks it left open.
     pub(super) fn close_frame(&mut self) -> Outcome<()> {
         let result = self.check_closed();
-        if let Some(Frame::Macro { .. }) = self.frames.pop() {
+        if let Some(FlowFrame::Macro { .. }) = self.frames.pop() {
             self.variables.leave();
         }
         result
@@ -142,7 +142,7 @@ impl Interpreter {
 
     /// Starts the next trip of the innermost loop, or ends it.
     pub(super) fn trip(&mut self) {
-        let Some(Frame::Loop { at, trips, .. }) = self.frames.last_mut() else { return };
+        let Some(FlowFrame::Loop { at, trips, .. }) = self.frames.last_mut() else { return };
         *at = 0;
         let assignment = match trips {
             Trips::Endless => return,

@@ -3,8 +3,8 @@
 //! Source: [MOSES-REF lang_macros].
 
 use crate::record::{Record, Word};
-use crate::select::{self, Choice, Owner};
-use crate::token::Kind;
+use crate::select::{self, Owner, SearchResult};
+use crate::token::TokenKind;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -19,7 +19,7 @@ struct Argument {
 impl Argument {
     /// The local that a word of a call makes; a field left out takes the default.
     fn argument_value(&self, word: &Word) -> (String, String) {
-        let value = if word.kind == Kind::Empty { self.default.clone() } else { word.text.to_string() };
+        let value = if word.kind == TokenKind::Empty { self.default.clone() } else { word.text.to_string() };
         (self.name.clone(), value)
     }
 }
@@ -55,7 +55,7 @@ impl Macro {
         let Some(name) = words.get(1) else {
             return Err(Diagnostic::error("&MACRO lacks its name", record.whole()));
         };
-        let fit = matches!(name.kind, Kind::Word | Kind::Internal) && name.text.chars().count() <= 64;
+        let fit = matches!(name.kind, TokenKind::Word | TokenKind::Internal) && name.text.chars().count() <= 64;
         if !fit {
             return Err(Diagnostic::error(format!("`{}` cannot name a macro", name.text), name.span));
         }
@@ -68,7 +68,7 @@ impl Macro {
         };
         let mut at = 2;
         while let Some(word) = words.get(at) {
-            if word.kind == Kind::Option {
+            if word.kind == TokenKind::Option {
                 made.options.push(MacroOption { name: word.text.to_string(), flag: None, values: Vec::new() });
                 at += 1;
                 continue;
@@ -128,13 +128,13 @@ impl Macro {
         let mut at = 0;
         while let Some(word) = words.get(at) {
             at += 1;
-            if word.kind == Kind::Option {
+            if word.kind == TokenKind::Option {
                 let option = self.option(word)?;
                 if let Some(flag) = &option.flag {
                     locals.push((flag.clone(), ".TRUE.".into()));
                 }
                 for value in &option.values {
-                    let Some(word) = words.get(at).filter(|w| w.kind != Kind::Option) else { break };
+                    let Some(word) = words.get(at).filter(|w| w.kind != TokenKind::Option) else { break };
                     locals.push(value.argument_value(word));
                     at += 1;
                 }
@@ -193,7 +193,7 @@ pub fn control_word(word: &str, internal: &[(&'static str, Owner)]) -> Option<&'
         return None;
     }
     match select::keyword(word, internal.iter().map(|(name, owner)| (*name, *owner, *name))) {
-        Choice::One(name) => Some(name),
+        SearchResult::One(name) => Some(name),
         _ => None,
     }
 }

@@ -11,9 +11,9 @@ pub mod specs;
 use super::record::{LONGEST_RECORD, Record};
 use super::select::Owner;
 use super::source::{Sources, Text};
-use super::substitution::{World, substitute};
+use super::substitution::{FunctionHost, substitute};
 use super::variables::Variables;
-use frames::{Branch, Collecting, Frame};
+use frames::{Collecting, ConditionalBranch, FlowFrame};
 use indexmap::IndexMap;
 use macros::{Macro, control_word};
 use std::collections::VecDeque;
@@ -31,7 +31,7 @@ pub const RECORD_BUDGET: u64 = 2_000_000;
 
 /// What the interpreter has to say next.
 #[derive(Debug)]
-pub enum Step {
+pub enum FlowStep {
     /// A record to execute, every variable replaced.
     Record(Record),
     /// A source that was opened with this tag has been read to its end.
@@ -56,8 +56,8 @@ pub struct Interpreter {
     pub interrupt: Arc<AtomicBool>,
     /// Whether it has ever been set.
     pub was_interrupted: bool,
-    frames: Vec<Frame>,
-    branches: Vec<Branch>,
+    frames: Vec<FlowFrame>,
+    branches: Vec<ConditionalBranch>,
     collecting: Option<Collecting>,
     macros: IndexMap<String, Arc<Macro>>,
     spent: u64,
@@ -90,7 +90,7 @@ impl Interpreter {
     /// # Errors
     /// Too many files open inside each other.
     pub fn open(&mut self, name: &str, text: impl Into<Text>, tag: u32, span: Option<Span>) -> Outcome<SourceId> {
-        let depth = self.frames.iter().filter(|f| matches!(f, Frame::Source { .. })).count();
+        let depth = self.frames.iter().filter(|f| matches!(f, FlowFrame::Source { .. })).count();
         if depth >= DEEPEST_INSERTION {
             let text = format!("files are inserted into each other deeper than {DEEPEST_INSERTION}");
             let mut error = Box::new(Diagnostic::plain(windlass_base::diagnostic::Severity::Error, text));
@@ -98,13 +98,13 @@ impl Interpreter {
             return Err(error.help("does the file insert itself?"));
         }
         let id = self.sources.add(name, text, 1);
-        self.frames.push(Frame::Source { id, at: 0, tag });
+        self.frames.push(FlowFrame::Source { id, at: 0, tag });
         Ok(id)
     }
 
     /// Opens the terminal as the lowest place to read from.
     pub fn open_terminal(&mut self) {
-        self.frames.insert(0, Frame::Terminal { typed: VecDeque::new() });
+        self.frames.insert(0, FlowFrame::Terminal { typed: VecDeque::new() });
         for branch in &mut self.branches {
             branch.depth += 1;
         }
@@ -118,7 +118,9 @@ impl Interpreter {
     pub fn feed(&mut self, name: &str, text: impl Into<Text>, first_line: usize) {
         self.spent = 0;
         let id = self.sources.add(name, text, first_line);
-        if let Some(Frame::Terminal { typed }) = self.frames.iter_mut().find(|f| matches!(f, Frame::Terminal { .. })) {
+        if let Some(FlowFrame::Terminal { typed }) =
+            self.frames.iter_mut().find(|f| matches!(f, FlowFrame::Terminal { .. }))
+        {
             typed.push_back((id, 0));
         }
     }
@@ -134,12 +136,12 @@ impl Interpreter {
 
     /// Nothing is being read but what is typed.
     pub fn at_terminal(&self) -> bool {
-        matches!(self.frames.last(), Some(Frame::Terminal { .. }) | None)
+        matches!(self.frames.last(), Some(FlowFrame::Terminal { .. }) | None)
     }
 
     /// The record that came last stands in what was typed itself: in no loop, macro or file.
     pub fn reads_what_is_typed(&self) -> bool {
-        matches!(self.frames.last(), Some(Frame::Terminal { .. }))
+        matches!(self.frames.last(), Some(FlowFrame::Terminal { .. }))
     }
 
     /// Abandons everything open but the terminal: after Ctrl-C or a fatal error.
@@ -148,12 +150,12 @@ impl Interpreter {
         self.branches.clear();
         while let Some(frame) = self.frames.pop() {
             match frame {
-                Frame::Macro { .. } => self.variables.leave(),
-                Frame::Terminal { .. } => {
-                    self.frames.push(Frame::Terminal { typed: VecDeque::new() });
+                FlowFrame::Macro { .. } => self.variables.leave(),
+                FlowFrame::Terminal { .. } => {
+                    self.frames.push(FlowFrame::Terminal { typed: VecDeque::new() });
                     return;
                 }
-                Frame::Source { .. } | Frame::Loop { .. } => {}
+                FlowFrame::Source { .. } | FlowFrame::Loop { .. } => {}
             }
         }
     }
@@ -178,7 +180,7 @@ impl Interpreter {
             .iter()
             .rev()
             .filter_map(|f| match f {
-                Frame::Macro { name, called, .. } => Some((name, *called)),
+                FlowFrame::Macro { name, called, .. } => Some((name, *called)),
                 _ => None,
             })
             .collect();
@@ -197,7 +199,7 @@ impl Interpreter {
     ///
     /// # Errors
     /// Whatever is wrong with a control record or a substitution; the flow stays whole and goes on behind it.
-    pub fn next_step(&mut self, world: &mut dyn World) -> Outcome<Step> {
+    pub fn next_step(&mut self, world: &mut dyn FunctionHost) -> Outcome<FlowStep> {
         loop {
             if self.interrupt.swap(false, Ordering::Relaxed) {
                 self.was_interrupted = true;
@@ -237,14 +239,14 @@ impl Interpreter {
                     substituted => substituted?,
                 };
                 self.take_assignments(world, record.whole())?;
-                return Ok(Step::Record(record));
+                return Ok(FlowStep::Record(record));
             }
             self.take_assignments(world, Span::default())?;
         }
     }
 
     /// Sets the variables that string functions (`&F_READ`) have filled.
-    fn take_assignments(&mut self, world: &mut dyn World, span: Span) -> Outcome<()> {
+    fn take_assignments(&mut self, world: &mut dyn FunctionHost, span: Span) -> Outcome<()> {
         for (name, value) in world.assignments() {
             self.variables.set(&name, &value).map_err(|e| Diagnostic::error(e.to_string(), span))?;
         }
@@ -256,7 +258,7 @@ impl Interpreter {
     /// # Errors
     /// Wrong arguments, or calls nested deeper than [`DEEPEST_MACRO`].
     pub fn call(&mut self, called: &Arc<Macro>, record: &Record) -> Outcome<()> {
-        let depth = self.frames.iter().filter(|f| matches!(f, Frame::Macro { .. })).count();
+        let depth = self.frames.iter().filter(|f| matches!(f, FlowFrame::Macro { .. })).count();
         let span = record.whole();
         if depth >= DEEPEST_MACRO {
             return Err(Diagnostic::error(format!("macros call each other deeper than {DEEPEST_MACRO}"), span));
@@ -270,7 +272,12 @@ impl Interpreter {
                 return Err(Diagnostic::error(error.to_string(), span));
             }
         }
-        self.frames.push(Frame::Macro { name: called.name.clone(), body: called.body.clone(), at: 0, called: span });
+        self.frames.push(FlowFrame::Macro {
+            name: called.name.clone(),
+            body: called.body.clone(),
+            at: 0,
+            called: span,
+        });
         Ok(())
     }
 }

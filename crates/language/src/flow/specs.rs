@@ -3,10 +3,10 @@
 //! Source: [MOSES-REF lang_local, lang_loop_if, lang_macros].
 
 use crate::select::Owner;
-use crate::spec::{CommandSpec, Form};
+use crate::spec::{CommandSpec, TextForm};
 
 const fn control(name: &'static str, help: &'static str, detail: &'static str, example: &'static str) -> CommandSpec {
-    CommandSpec { form: Form::Text, owner: Owner::Moses, detail, example, ..CommandSpec::new(name, help) }
+    CommandSpec { form: TextForm::Text, owner: Owner::Moses, detail, example, ..CommandSpec::new(name, help) }
 }
 
 /// The control records; they act in every menu and before any command is looked up.

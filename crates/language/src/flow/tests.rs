@@ -13,7 +13,7 @@ fn run_with(text: &str, budget: u64) -> Vec<String> {
     let mut out = Vec::new();
     loop {
         match interpreter.next_step(&mut NoFunctions) {
-            Ok(Step::Record(record)) => {
+            Ok(FlowStep::Record(record)) => {
                 let known = macros::find(record.first_word(), interpreter.macros()).map(|(_, m)| m.clone());
                 match known {
                     Some(found) => {
@@ -24,8 +24,8 @@ fn run_with(text: &str, budget: u64) -> Vec<String> {
                     None => out.push(record.text().trim().to_string()),
                 }
             }
-            Ok(Step::Ended(_)) => {}
-            Ok(Step::Done | Step::NeedLine) => return out,
+            Ok(FlowStep::Ended(_)) => {}
+            Ok(FlowStep::Done | FlowStep::NeedLine) => return out,
             Err(error) => out.push(format!("! {}", error.message)),
         }
     }

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use windlass_model::SchemeWeights;
 
 fn beam(length: f64, elements: usize, bending: f64, ea: f64) -> Rod {
-    let segment = Segment { bending, compression: true, ..Segment::line(length, elements, 1.0, ea, 0.1) };
+    let segment = RodSegment { bending, compression: true, ..RodSegment::line(length, elements, 1.0, ea, 0.1) };
     Rod::new("beam", vec![segment], vec![]).unwrap()
 }
 
@@ -15,15 +15,15 @@ fn a_moment_of_two_pi_ei_over_l_bends_a_beam_into_a_circle() {
     let rod = beam(length, 20, bending, 1e7);
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 0.0);
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
     // beyond half a turn the rod could swing out of its plane and straighten, as nothing resists its twist
-    let mut solver = Solver::new(&rod, Settings { unstable: true, ..Settings::default() });
-    let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::x());
+    let mut solver = RodSolver::new(&rod, RodSettings { unstable: true, ..RodSettings::default() });
+    let clamp = RodEnd::pin(Vector3::zeros()).with_clamp(Vector3::x());
     let steps = 16;
     let mut moment = 0.0;
     for i in 1..=steps {
         let angle = 2.0 * std::f64::consts::PI * i as f64 / steps as f64;
-        let tip = End::FREE.with_clamp(Vector3::new(angle.cos(), 0.0, angle.sin()));
+        let tip = RodEnd::FREE.with_clamp(Vector3::new(angle.cos(), 0.0, angle.sin()));
         let made = solver.statics(&rod, &mut state, &world, [clamp, tip]).unwrap();
         moment = made.moment[1].norm();
     }
@@ -42,12 +42,12 @@ fn a_cantilever_with_a_tip_load_takes_the_shape_of_the_elastica() {
             let (length, bending) = (1.0, 1.0);
             let rod = beam(length, elements, bending, 1e7);
             let fluid = UniformFluid::vacuum();
-            let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
-            let mut solver = Solver::new(&rod, Settings::default());
-            let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::x());
+            let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+            let mut solver = RodSolver::new(&rod, RodSettings::default());
+            let clamp = RodEnd::pin(Vector3::zeros()).with_clamp(Vector3::x());
             let forces = [(elements, Vector3::new(0.0, 0.0, -load))];
             let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
-            let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
+            let made = solver.statics(&rod, &mut state, &world, [clamp, RodEnd::FREE]).unwrap();
             let tip = state.position[elements];
             let exact_moment = load * (1.0 - u);
             assert!((made.moment[0].norm() / exact_moment - 1.0).abs() < 0.01, "{}", made.moment[0]);
@@ -65,20 +65,20 @@ fn short_stiff_cantilever_far_from_the_origin_bends_as_near_it() {
     let (length, elements, bending) = (1.0, 100, 2.16e8);
     let exact = 5e5 / (3.0 * bending) + 2332.0 / (8.0 * bending);
     let segment =
-        Segment { bending, compression: true, ..Segment::line(length, elements, 2332.0 / 9.80665, 5e10, 0.1) };
+        RodSegment { bending, compression: true, ..RodSegment::line(length, elements, 2332.0 / 9.80665, 5e10, 0.1) };
     let rod = Rod::new("short", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let forces = [(elements, Vector3::new(0.0, 0.0, -5e5))];
     let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 9.80665) };
     for root in [Vector3::zeros(), Vector3::new(0.0, 0.0, 500.0), Vector3::new(7071.0678, -7071.0679, 500.0)] {
-        let mut state = State::along_points(&rod, &[root, root + Vector3::x() * length]).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
-        let clamp = End::pin(root).with_clamp(Vector3::x());
-        let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
+        let mut state = RodState::along_points(&rod, &[root, root + Vector3::x() * length]).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
+        let clamp = RodEnd::pin(root).with_clamp(Vector3::x());
+        let made = solver.statics(&rod, &mut state, &world, [clamp, RodEnd::FREE]).unwrap();
         let bent = -state.position[elements].z;
         // a chain of n elements is stiffer by 1 / (4 n^2) of a cantilever under a tip load, 2.5e-5 here
         assert!((bent / exact - 1.0).abs() < 1e-4, "{root}: {bent} {exact}");
-        let node = rod.results(&state, &world, &[clamp, End::FREE])[elements].position;
+        let node = rod.results(&state, &world, &[clamp, RodEnd::FREE])[elements].position;
         assert!((node.z - root.z + bent).abs() < 1e-12 * (1.0 + root.norm()));
         assert!((made.moment[0].norm() / (5e5 + 1166.0) - 1.0).abs() < 1e-4, "{root}: {}", made.moment[0]);
     }
@@ -99,10 +99,10 @@ fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
         })
         .collect();
     let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     // pinned at both heights: the far end slides, held in height by a stiff clamp of symmetry, is left for the pinned case
-    let end = |x: f64| End::pin(Vector3::new(x, 0.0, 0.0)).with_clamp(Vector3::x());
+    let end = |x: f64| RodEnd::pin(Vector3::new(x, 0.0, 0.0)).with_clamp(Vector3::x());
     let stretched = length;
     let made = solver.statics(&rod, &mut state, &world, [end(0.0), end(stretched)]).unwrap();
     // tension comes from the sag of an inextensible rod; take the one found and check the moments against it
@@ -127,12 +127,12 @@ fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
 /// one, E = 1e7, G = E/2, clamped at the origin along y; its tip under a load along z.
 fn forty_five_degrees(elements: usize, load: f64) -> Vector3<f64> {
     let (radius, quarter) = (100.0, std::f64::consts::FRAC_PI_4);
-    let segment = Segment {
+    let segment = RodSegment {
         compression: true,
         bending: 1e7 / 12.0,
         // both papers take the polar moment of the square, GJ = EI
         torsion: 1e7 / 12.0,
-        ..Segment::line(radius * quarter, elements, 1.0, 1e7, 1.0)
+        ..RodSegment::line(radius * quarter, elements, 1.0, 1e7, 1.0)
     };
     let mut rod = Rod::new("bend", vec![segment], vec![]).unwrap();
     let at = |i: usize| {
@@ -143,12 +143,12 @@ fn forty_five_degrees(elements: usize, load: f64) -> Vector3<f64> {
     let root = Vector3::y();
     rod.set_shape(&points, [root, Vector3::new(quarter.sin(), quarter.cos(), 0.0)]).unwrap();
     let fluid = UniformFluid::vacuum();
-    let mut state = State::along_points(&rod, &points).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    let clamp = End::pin(Vector3::zeros()).with_clamp(root).with_side(rod.sides().unwrap()[0]);
+    let mut state = RodState::along_points(&rod, &points).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let clamp = RodEnd::pin(Vector3::zeros()).with_clamp(root).with_side(rod.sides().unwrap()[0]);
     let forces = [(elements, Vector3::new(0.0, 0.0, load))];
     let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
-    let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
+    let made = solver.statics(&rod, &mut state, &world, [clamp, RodEnd::FREE]).unwrap();
     let tip = state.position[elements];
     // the clamp carries the load and its moment
     assert!((made.force[0].z - load).abs() < 1e-6 * load.abs().max(1.0));
@@ -175,20 +175,20 @@ fn the_forty_five_degree_bend_comes_to_the_published_places() {
 }
 
 /// A beam of which end A is clamped in a holder that turns about y at a steady rate, at a time; end B is free.
-fn turned(rate: f64, time: f64) -> [End; 2] {
+fn turned(rate: f64, time: f64) -> [RodEnd; 2] {
     let (s, c) = (rate * time).sin_cos();
-    let held = End::pin(Vector3::zeros()).with_clamp(Vector3::new(c, 0.0, -s)).with_side(Vector3::y());
-    [held.with_turning(Vector3::y() * rate), End::FREE]
+    let held = RodEnd::pin(Vector3::zeros()).with_clamp(Vector3::new(c, 0.0, -s)).with_side(Vector3::y());
+    [held.with_turning(Vector3::y() * rate), RodEnd::FREE]
 }
 
 /// A beam that is stepped at these times, in as many parts as there are, from rest along x.
-fn swung(times: &[f64], rate: f64, settings: Settings) -> (State, usize) {
-    let segment = Segment { compression: true, bending: 2e5, ..Segment::line(10.0, 10, 20.0, 1e8, 0.1) };
+fn swung(times: &[f64], rate: f64, settings: RodSettings) -> (RodState, usize) {
+    let segment = RodSegment { compression: true, bending: 2e5, ..RodSegment::line(10.0, 10, 20.0, 1e8, 0.1) };
     let rod = Rod::new("beam", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.81);
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * 10.0]).unwrap();
-    let mut solver = Solver::new(&rod, settings);
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * 10.0]).unwrap();
+    let mut solver = RodSolver::new(&rod, settings);
     let mut parts = 0;
     for time in times {
         parts += solver.step(&rod, &mut state, &world, *time, turned(rate, *time)).unwrap().parts;
@@ -201,10 +201,10 @@ fn a_step_that_is_cut_turns_its_clamp_as_the_steps_it_is_cut_in() {
     // so few iterations that a step of 0.8 s fails and its halves do not
     let rate = 1.0;
     let cut = (3..20).rev().find_map(|iterations| {
-        let (state, parts) = swung(&[0.8], rate, Settings { iterations, ..Settings::default() });
+        let (state, parts) = swung(&[0.8], rate, RodSettings { iterations, ..RodSettings::default() });
         (parts == 2).then_some(state)
     });
-    let (halves, parts) = swung(&[0.4, 0.8], rate, Settings::default());
+    let (halves, parts) = swung(&[0.4, 0.8], rate, RodSettings::default());
     let off = cut.unwrap().position.iter().zip(&halves.position).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
     // the tolerance of a step is 1e-5 of an element of 1 m
     assert!(off < 1e-5 && parts == 2, "{off} {parts}");
@@ -213,14 +213,16 @@ fn a_step_that_is_cut_turns_its_clamp_as_the_steps_it_is_cut_in() {
 #[test]
 fn the_books_of_a_beam_know_the_work_of_a_clamp_that_turns() {
     let run = |h: f64| {
-        let segment = Segment { compression: true, bending: 2e5, ..Segment::line(10.0, 10, 20.0, 1e8, 0.1) };
+        let segment = RodSegment { compression: true, bending: 2e5, ..RodSegment::line(10.0, 10, 20.0, 1e8, 0.1) };
         let rod = Rod::new("beam", vec![segment], vec![]).unwrap();
         let fluid = UniformFluid::vacuum();
         let world = LineEnvironment::new(&fluid, 9.81);
         let rate = 0.5;
-        let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * 10.0]).unwrap();
-        let mut solver =
-            Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(1.0), ..Settings::default() });
+        let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * 10.0]).unwrap();
+        let mut solver = RodSolver::new(
+            &rod,
+            RodSettings { scheme: SchemeWeights::generalised_alpha(1.0), ..RodSettings::default() },
+        );
         solver.statics(&rod, &mut state, &world, turned(0.0, 0.0)).unwrap();
         for (x, v) in state.position.iter().zip(state.velocity.iter_mut()) {
             *v = (Vector3::y() * rate).cross(x);

@@ -12,8 +12,11 @@ fn pipe(elements: usize, weight: f64) -> Rod {
     let quarter = std::f64::consts::FRAC_PI_4;
     let area = quarter * (outer * outer - inner * inner);
     let bending = 2e11 * quarter / 16.0 * (outer.powi(4) - inner.powi(4));
-    let segment =
-        Segment { bending, compression: true, ..Segment::line(LENGTH, elements, weight / GRAVITY, 2e11 * area, outer) };
+    let segment = RodSegment {
+        bending,
+        compression: true,
+        ..RodSegment::line(LENGTH, elements, weight / GRAVITY, 2e11 * area, outer)
+    };
     Rod::new("pipe", vec![segment], vec![]).unwrap()
 }
 
@@ -35,10 +38,10 @@ fn cantilever_under_a_dead_tip_load_is_the_elastica_at_any_mesh() {
             let rod = pipe(elements, weight.max(1e-9));
             let forces = [(elements, Vector3::new(0.0, 0.0, -load))];
             let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, GRAVITY) };
-            let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * LENGTH]).unwrap();
-            let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::x());
-            let mut solver = Solver::new(&rod, Settings::default());
-            let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
+            let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * LENGTH]).unwrap();
+            let clamp = RodEnd::pin(Vector3::zeros()).with_clamp(Vector3::x());
+            let mut solver = RodSolver::new(&rod, RodSettings::default());
+            let made = solver.statics(&rod, &mut state, &world, [clamp, RodEnd::FREE]).unwrap();
             (state.place(elements).unwrap(), made.moment[0].norm())
         };
         let made = [20, 40, 80, 160].map(rest);
@@ -63,10 +66,10 @@ fn cantilever_with_its_tip_held_far_from_where_it_began_pulls_with_the_load() {
     for (load, weight, tip, _) in elastica() {
         let [coarse, fine] = [80, 160].map(|elements| {
             let rod = pipe(elements, weight.max(1e-9));
-            let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * LENGTH]).unwrap();
-            let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::x());
-            let mut solver = Solver::new(&rod, Settings::default());
-            solver.statics(&rod, &mut state, &world, [clamp, End::pin(tip)]).unwrap().force[1]
+            let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * LENGTH]).unwrap();
+            let clamp = RodEnd::pin(Vector3::zeros()).with_clamp(Vector3::x());
+            let mut solver = RodSolver::new(&rod, RodSettings::default());
+            solver.statics(&rod, &mut state, &world, [clamp, RodEnd::pin(tip)]).unwrap().force[1]
         });
         let force = (fine * 4.0 - coarse) / 3.0;
         // across the rod EI is soft, along it EA: the fourth-order term and the nine figures of the place, 1e-9 of EA / L
@@ -85,15 +88,16 @@ fn weightless_rope_with_a_clump_hangs_as_two_straight_halves() {
         *(if 2.0 * pull(sag) * sag / half.hypot(sag) < load { &mut low } else { &mut high }) = sag;
     }
     for bending in [0.0, 1e-3] {
-        let segment = Segment { bending, compression: bending > 0.0, ..Segment::line(10.0, 20, 1e-7, ea, 0.1683) };
+        let segment =
+            RodSegment { bending, compression: bending > 0.0, ..RodSegment::line(10.0, 20, 1e-7, ea, 0.1683) };
         let clump = Attachment::mass(20, load / GRAVITY);
         let rod = Rod::new("light", vec![segment.clone(), segment], vec![clump]).unwrap();
         let fluid = UniformFluid::vacuum();
         let ends = [0.0, 2.0 * half].map(|x| Vector3::new(x, 0.0, 0.0));
-        let mut state = State::along_points(&rod, &ends).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
+        let mut state = RodState::along_points(&rod, &ends).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
         let made =
-            solver.statics(&rod, &mut state, &LineEnvironment::new(&fluid, GRAVITY), ends.map(End::pin)).unwrap();
+            solver.statics(&rod, &mut state, &LineEnvironment::new(&fluid, GRAVITY), ends.map(RodEnd::pin)).unwrap();
         assert!((state.place(20).unwrap().z + low).abs() < 1e-6, "{bending}: {} {low}", state.place(20).unwrap());
         assert!((made.force[0].norm() / pull(low) - 1.0).abs() < 1e-8, "{bending}: {} {}", made.force[0], pull(low));
     }

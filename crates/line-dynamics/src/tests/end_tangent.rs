@@ -12,17 +12,17 @@ type Change = [[Vector3<f64>; 4]; 2];
 struct Case {
     name: &'static str,
     rod: Rod,
-    state: State,
-    ends: [End; 2],
+    state: RodState,
+    ends: [RodEnd; 2],
 }
 
 impl Case {
-    fn moved(&self, change: &Change) -> [End; 2] {
+    fn moved(&self, change: &Change) -> [RodEnd; 2] {
         [0, 1].map(|side| {
             let (end, [x, v, a, angle]) = (self.ends[side], change[side]);
             let turn = Rotation3::new(angle);
-            End {
-                motion: end.motion.map(|m| Motion {
+            RodEnd {
+                motion: end.motion.map(|m| RodEndMotion {
                     position: m.position + x,
                     velocity: m.velocity + v,
                     acceleration: m.acceleration + a,
@@ -35,7 +35,7 @@ impl Case {
     }
 }
 
-fn outputs(made: &EndForces) -> Column {
+fn outputs(made: &RodEndForces) -> Column {
     let mut all = Column::zeros();
     for side in 0..2 {
         all.fixed_rows_mut::<3>(6 * side).copy_from(&made.force[side]);
@@ -48,23 +48,23 @@ fn cases() -> Vec<Case> {
     let (a, b) = (Vector3::new(0.0, 0.0, -60.0), Vector3::new(35.0, 8.0, -25.0));
     let along = (b - a).normalize();
     let held = |at: Vector3<f64>, v: f64| {
-        End::from_motion(Motion { velocity: Vector3::new(v, 0.1, 0.2), ..Motion::at_rest(at) })
+        RodEnd::from_motion(RodEndMotion { velocity: Vector3::new(v, 0.1, 0.2), ..RodEndMotion::at_rest(at) })
     };
-    let segment = |length: f64, elements, bending: f64, torsion| Segment {
+    let segment = |length: f64, elements, bending: f64, torsion| RodSegment {
         axial_damping: 1e4,
         compression: bending > 0.0,
         bending,
         torsion,
         drag_normal: 1.2,
         added_normal: 1.0,
-        ..Segment::line(length, elements, 80.0, 1e6, 0.2)
+        ..RodSegment::line(length, elements, 80.0, 1e6, 0.2)
     };
     let d = [Vector3::new(0.6, 0.3, 0.9), Vector3::new(0.9, -0.1, 0.4)];
-    let elastic = End { rotation: Some(3e3), ..held(b, 0.4).with_clamp(d[1]) };
+    let elastic = RodEnd { rotation: Some(3e3), ..held(b, 0.4).with_clamp(d[1]) };
     let sides = [Vector3::new(0.1, 1.0, 0.0), Vector3::new(0.3, 0.9, 0.4)];
     let mut list = Vec::new();
     let mut add = |name, rod: Rod, points: &[Vector3<f64>], ends| {
-        let state = State::along_points(&rod, points).unwrap();
+        let state = RodState::along_points(&rod, points).unwrap();
         list.push(Case { name, rod, state, ends });
     };
     let one = |length: f64, elements, bending, torsion| {
@@ -84,21 +84,21 @@ fn cases() -> Vec<Case> {
         add("twisted", one(52.0, elements, 1e4, 8e3), &[a, b], twisted);
         add("one twist held", one(52.0, elements, 1e4, 8e3), &[a, b], [twisted[0], elastic]);
     }
-    let slow = Axial::Polynomial(vec![8e5, 1e6]);
-    let rope = Viscoelastic { slow, fast: [2e6, 8.0], relaxation: 0.3 };
-    let axial = Axial::Viscoelastic(Box::new(rope));
-    let rope = Rod::new("rope", vec![Segment { axial, ..segment(50.0, 6, 0.0, 0.0) }], vec![]).unwrap();
+    let slow = TensionLaw::Polynomial(vec![8e5, 1e6]);
+    let rope = ViscoelasticRope { slow, fast: [2e6, 8.0], relaxation: 0.3 };
+    let axial = TensionLaw::Viscoelastic(Box::new(rope));
+    let rope = Rod::new("rope", vec![RodSegment { axial, ..segment(50.0, 6, 0.0, 0.0) }], vec![]).unwrap();
     add("viscoelastic rope", rope, &[a, b], [held(a, 0.2), held(b, 0.4)]);
     let hung = [a, a + along * 20.0];
-    add("cantilever", one(20.0, 7, 2e6, 0.0), &hung, [held(a, 0.2).with_clamp(d[0]), End::FREE]);
-    add("cantilever at B", one(20.0, 7, 2e6, 0.0), &hung, [End::FREE, held(hung[1], 0.2).with_clamp(d[0])]);
+    add("cantilever", one(20.0, 7, 2e6, 0.0), &hung, [held(a, 0.2).with_clamp(d[0]), RodEnd::FREE]);
+    add("cantilever at B", one(20.0, 7, 2e6, 0.0), &hung, [RodEnd::FREE, held(hung[1], 0.2).with_clamp(d[0])]);
     add(
         "twisted cantilever",
         one(20.0, 7, 2e6, 1e6),
         &hung,
-        [held(a, 0.2).with_clamp(d[0]).with_side(sides[0]), End::FREE],
+        [held(a, 0.2).with_clamp(d[0]).with_side(sides[0]), RodEnd::FREE],
     );
-    add("hanging chain", one(20.0, 7, 0.0, 0.0), &[a, a - Vector3::z() * 20.0], [held(a, 0.2), End::FREE]);
+    add("hanging chain", one(20.0, 7, 0.0, 0.0), &[a, a - Vector3::z() * 20.0], [held(a, 0.2), RodEnd::FREE]);
     // bent when free of load
     let mut bent = one(50.0, 6, 1e5, 8e4);
     let at = |i: usize| Vector3::new(50.0 * (i as f64 / 6.0).sin(), 50.0 * (1.0 - (i as f64 / 6.0).cos()), -40.0);
@@ -145,13 +145,13 @@ fn end_tangent_is_the_difference_of_end_forces_and_moments() {
     let world = LineEnvironment::new(&fluid, 9.81);
     for case in cases() {
         let mut state = case.state.clone();
-        let mut solver = Solver::new(&case.rod, Settings { tolerance: 1e-12, ..Settings::default() });
-        let rest = case.ends.map(|e| End { motion: e.motion.map(|m| Motion::at_rest(m.position)), ..e });
+        let mut solver = RodSolver::new(&case.rod, RodSettings { tolerance: 1e-12, ..RodSettings::default() });
+        let rest = case.ends.map(|e| RodEnd { motion: e.motion.map(|m| RodEndMotion::at_rest(m.position)), ..e });
         solver.statics(&case.rod, &mut state, &world, rest).unwrap();
         for again in [false, true] {
-            let at = |change: &Change, solver: &mut Solver| {
+            let at = |change: &Change, solver: &mut RodSolver| {
                 // with and without what the trial before has left
-                let mut fresh = Solver::new(&case.rod, Settings { tolerance: 1e-12, ..Settings::default() });
+                let mut fresh = RodSolver::new(&case.rod, RodSettings { tolerance: 1e-12, ..RodSettings::default() });
                 let solver = if again { solver } else { &mut fresh };
                 let made = solver.trial(&case.rod, &state, &world, 0.1, case.moved(change)).unwrap();
                 (outputs(&made), *solver.end_tangent(&case.rod, &world).unwrap())
@@ -172,7 +172,7 @@ fn static_end_stiffness_is_the_difference_of_forces_and_moments_at_rest() {
     let world = LineEnvironment::new(&fluid, 9.81);
     for case in cases() {
         let mut state = case.state.clone();
-        let mut solver = Solver::new(&case.rod, Settings::default());
+        let mut solver = RodSolver::new(&case.rod, RodSettings::default());
         solver.statics(&case.rod, &mut state, &world, case.moved(&[[Vector3::zeros(); 4]; 2])).unwrap();
         let whole = *solver.end_tangent(&case.rod, &world).unwrap();
         let at = |change: &Change| {

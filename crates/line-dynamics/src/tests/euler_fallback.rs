@@ -13,16 +13,18 @@ const MASS: f64 = 100.0;
 fn rebound([elements, ea]: [f64; 2], [height, aside]: [f64; 2], rho_inf: f64, h: f64) -> f64 {
     let (length, elements) = (2.0, elements as usize);
     let load = Attachment::mass(elements, MASS);
-    let rod = Rod::new("rope", vec![Segment::line(length, elements, 0.05, ea, 0.01)], vec![load]).unwrap();
+    let rod = Rod::new("rope", vec![RodSegment::line(length, elements, 0.05, ea, 0.01)], vec![load]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, GRAVITY);
     let top = Vector3::zeros();
     let low = Vector3::new(aside, 0.0, height - length);
     let belly = (0.25 * (length * length - low.norm_squared())).max(0.0).sqrt();
-    let mut state = State::along_points(&rod, &[top, 0.5 * low + Vector3::y() * belly, low]).unwrap();
-    let mut solver =
-        Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(rho_inf), ..Settings::default() });
-    let ends = [End::pin(top), End::FREE];
+    let mut state = RodState::along_points(&rod, &[top, 0.5 * low + Vector3::y() * belly, low]).unwrap();
+    let mut solver = RodSolver::new(
+        &rod,
+        RodSettings { scheme: SchemeWeights::generalised_alpha(rho_inf), ..RodSettings::default() },
+    );
+    let ends = [RodEnd::pin(top), RodEnd::FREE];
     solver.start(&rod, &mut state, &world, ends).unwrap();
     let (mut bounced, mut highest) = (false, f64::MIN);
     for i in 1..=(30.0 / h) as usize {
@@ -71,15 +73,17 @@ fn a_bounce_that_the_steps_follow_keeps_its_height_and_its_period_to_the_second_
     let hang = 2.0 * (std::f64::consts::PI - (speed / (w * sag)).atan()) / w;
     let period = 2.0 * speed / GRAVITY + hang;
     let load = Attachment::mass(1, MASS);
-    let rod = Rod::new("rope", vec![Segment::line(length, 1, 1e-6, ea, 0.01)], vec![load]).unwrap();
+    let rod = Rod::new("rope", vec![RodSegment::line(length, 1, 1e-6, ea, 0.01)], vec![load]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, GRAVITY);
     let (top, from) = (Vector3::zeros(), Vector3::z() * (height - length));
-    let ends = [End::pin(top), End::FREE];
+    let ends = [RodEnd::pin(top), RodEnd::FREE];
     let away = |steps: usize| {
-        let mut state = State::along_points(&rod, &[top, from]).unwrap();
-        let mut solver =
-            Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(0.9), ..Settings::default() });
+        let mut state = RodState::along_points(&rod, &[top, from]).unwrap();
+        let mut solver = RodSolver::new(
+            &rod,
+            RodSettings { scheme: SchemeWeights::generalised_alpha(0.9), ..RodSettings::default() },
+        );
         solver.start(&rod, &mut state, &world, ends).unwrap();
         for i in 1..=steps {
             solver.step(&rod, &mut state, &world, i as f64 * period / steps as f64, ends).unwrap();

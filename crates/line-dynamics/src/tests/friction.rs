@@ -8,7 +8,7 @@ const GRAVITY: f64 = 9.81;
 const MASS: f64 = 100.0;
 
 fn chain(length: f64, elements: usize) -> Rod {
-    let segment = Segment { axial_damping: 1e6, ..Segment::line(length, elements, MASS, 1e8, 0.1) };
+    let segment = RodSegment { axial_damping: 1e6, ..RodSegment::line(length, elements, MASS, 1e8, 0.1) };
     Rod::new("chain", vec![segment], vec![]).unwrap()
 }
 
@@ -30,9 +30,9 @@ fn a_line_at_rest_by_friction_stays_as_it_is_and_its_anchor_feels_nothing() {
         if side == 0 {
             points.reverse();
         }
-        let ends = [End::pin(points[0]), End::pin(points[2])];
-        let mut state = State::along_points(&rod, &points).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
+        let ends = [RodEnd::pin(points[0]), RodEnd::pin(points[2])];
+        let mut state = RodState::along_points(&rod, &points).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
         // once for how softly nodes meet the bottom from then on
         solver.statics(&rod, &mut state, &world, ends).unwrap();
         let rested = solver.statics(&rod, &mut state, &world, ends).unwrap();
@@ -63,12 +63,12 @@ fn a_line_that_is_dragged_is_pulled_by_its_friction_and_stays_where_it_is_left()
     let world = LineEnvironment { bottom: Some((&bottom, rough(friction))), ..LineEnvironment::new(&fluid, GRAVITY) };
     let sunk = -Vector3::z() * (MASS * GRAVITY / (1e6 * 0.1));
     let b = Vector3::x() * length + sunk;
-    let mut state = State::along_points(&rod, &[sunk, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut state = RodState::along_points(&rod, &[sunk, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     let at = |x: f64, v: f64, a: f64| {
         let motion =
-            Motion { position: b + Vector3::x() * x, velocity: Vector3::x() * v, acceleration: Vector3::x() * a };
-        [End::FREE, End::from_motion(motion)]
+            RodEndMotion { position: b + Vector3::x() * x, velocity: Vector3::x() * v, acceleration: Vector3::x() * a };
+        [RodEnd::FREE, RodEnd::from_motion(motion)]
     };
     let made = solver.start(&rod, &mut state, &world, at(0.0, 0.0, 0.0)).unwrap();
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
@@ -115,10 +115,10 @@ fn stiffness_at_rest_by_friction_is_the_difference_of_the_force() {
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
     let world = LineEnvironment { bottom: Some((&bottom, rough(0.4))), ..LineEnvironment::new(&fluid, GRAVITY) };
     let (near, far) = (Vector3::zeros(), Vector3::new(360.0, 0.0, 100.0));
-    let mut state = State::along_points(&rod, &[near, Vector3::new(280.0, 0.0, 0.0), far]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut state = RodState::along_points(&rod, &[near, Vector3::new(280.0, 0.0, 0.0), far]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     let mut rest = |by: Vector3<f64>| {
-        let ends = [End::pin(near), End::pin(far + by)];
+        let ends = [RodEnd::pin(near), RodEnd::pin(far + by)];
         let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
         (made.force[1], solver.end_tangent(&rod, &world).unwrap().position)
     };

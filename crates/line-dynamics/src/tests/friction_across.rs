@@ -20,18 +20,18 @@ fn rough(along: f64, across: f64) -> SeabedLaw {
 /// A chain laid on a slope in still water, in a current; at rest, with the forces at its ends.
 struct Rested {
     rod: Rod,
-    state: State,
-    solver: Solver,
-    made: EndForces,
-    ends: [End; 2],
+    state: RodState,
+    solver: RodSolver,
+    made: RodEndForces,
+    ends: [RodEnd; 2],
 }
 
 fn rest(bottom: &PlaneBottom, length: f64, current: Vector3<f64>) -> Rested {
-    let segment = Segment {
+    let segment = RodSegment {
         axial_damping: 1e6,
         drag_normal: 1.2,
         drag_tangential: 0.2,
-        ..Segment::line(length, 88, MASS, 1e9, DIAMETER)
+        ..RodSegment::line(length, 88, MASS, 1e9, DIAMETER)
     };
     let unit = (MASS - DENSITY * segment.displaced) * GRAVITY;
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
@@ -40,9 +40,9 @@ fn rest(bottom: &PlaneBottom, length: f64, current: Vector3<f64>) -> Rested {
         LineEnvironment { bottom: Some((bottom, rough(FRICTION, FRICTION))), ..LineEnvironment::new(&fluid, GRAVITY) };
     let down = Vector3::z() * bottom.height;
     let points: Vec<_> = lying(unit, bottom.slope[0], length, FAIRLEAD).1.iter().map(|p| p + down).collect();
-    let ends = [End::pin(down), End::pin(Vector3::new(FAIRLEAD[0], 0.0, FAIRLEAD[1]) + down)];
-    let mut state = State::along_points(&rod, &points).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let ends = [RodEnd::pin(down), RodEnd::pin(Vector3::new(FAIRLEAD[0], 0.0, FAIRLEAD[1]) + down)];
+    let mut state = RodState::along_points(&rod, &points).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
     Rested { rod, state, solver, made, ends }
@@ -117,10 +117,10 @@ fn derivatives_of_friction_at_rest_are_its_differences() {
         let fluid = UniformFluid::vacuum();
         let world =
             LineEnvironment { bottom: Some((&bottom, rough(along, across))), ..LineEnvironment::new(&fluid, GRAVITY) };
-        let rod = Rod::new("chain", vec![Segment::line(10.0, 2, MASS, 1e6, DIAMETER)], vec![]).unwrap();
+        let rod = Rod::new("chain", vec![RodSegment::line(10.0, 2, MASS, 1e6, DIAMETER)], vec![]).unwrap();
         for (stretch, aside) in [(1e-3, 0.0), (2e-3, 0.002), (-1e-3, 0.004), (5e-3, -0.03)] {
             for side in [0, 1] {
-                let mut solver = Solver::new(&rod, Settings::default());
+                let mut solver = RodSolver::new(&rod, RodSettings::default());
                 let way = Vector3::new(1.0, 0.1, slope[0] + 0.1 * slope[1]).normalize();
                 for (i, x) in solver.trial.x.iter_mut().enumerate() {
                     *x = way * (5.0 * i as f64 * (1.0 + stretch)) - Vector3::z() * 0.01;
@@ -155,9 +155,9 @@ fn derivatives_of_friction_at_rest_are_its_differences() {
 #[test]
 fn a_current_across_a_line_that_lies_from_end_to_end_does_not_move_it() {
     let bottom = PlaneBottom { height: -100.0, slope: [0.0, 0.0] };
-    let segment = Segment { drag_normal: 1.2, ..Segment::line(200.0, 100, MASS, 1e9, DIAMETER) };
+    let segment = RodSegment { drag_normal: 1.2, ..RodSegment::line(200.0, 100, MASS, 1e9, DIAMETER) };
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
-    let ends = [0.0, 199.5].map(|x| End::pin(Vector3::new(x, 0.0, -100.0)));
+    let ends = [0.0, 199.5].map(|x| RodEnd::pin(Vector3::new(x, 0.0, -100.0)));
     let points = [0.0, 199.5].map(|x| Vector3::new(x, 0.0, -100.0));
     let rest = |friction: f64, speed: f64| {
         let fluid = UniformFluid::moving(DENSITY, Vector3::y() * speed);
@@ -165,8 +165,8 @@ fn a_current_across_a_line_that_lies_from_end_to_end_does_not_move_it() {
             bottom: Some((&bottom, rough(friction, friction))),
             ..LineEnvironment::new(&fluid, GRAVITY)
         };
-        let mut state = State::along_points(&rod, &points).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
+        let mut state = RodState::along_points(&rod, &points).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
         solver.statics(&rod, &mut state, &world, ends).unwrap();
         let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
         let aside = state.places().iter().map(|x| x.y).fold(0.0, f64::max);

@@ -7,13 +7,13 @@ use nalgebra::Vector3;
 fn a_load_lowered_by_a_winch_hangs_by_its_weight_and_goes_down_at_the_rate() {
     let (mass, rate): (f64, f64) = (5000.0, 0.5);
     let load = Attachment::mass(10, mass);
-    let segment = Segment { axial_damping: 1e6, ..Segment::line(50.0, 10, 5.0, 1e8, 0.05) };
+    let segment = RodSegment { axial_damping: 1e6, ..RodSegment::line(50.0, 10, 5.0, 1e8, 0.05) };
     let mut rod = Rod::new("wire", vec![segment], vec![load]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.81);
-    let ends = [End::pin(Vector3::zeros()), End::FREE];
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -50.0)]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::FREE];
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -50.0)]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let (start, h) = (state.position[10].z, 0.05);
     let mut force = Vector3::zeros();
@@ -37,13 +37,13 @@ fn a_load_lowered_by_a_winch_hangs_by_its_weight_and_goes_down_at_the_rate() {
 fn elements_that_appear_at_a_winch_leave_the_load_where_it_was() {
     let (mass, rate): (f64, f64) = (5000.0, 0.5);
     let load = Attachment::mass(5, mass);
-    let segment = Segment { axial_damping: 1e6, ..Segment::line(25.0, 5, 5.0, 1e8, 0.05) };
+    let segment = RodSegment { axial_damping: 1e6, ..RodSegment::line(25.0, 5, 5.0, 1e8, 0.05) };
     let mut rod = Rod::new("wire", vec![segment], vec![load]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.81);
-    let ends = [End::pin(Vector3::zeros()), End::FREE];
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -25.0)]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::FREE];
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -25.0)]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let (start, h, mut first) = (state.position[5].z, 0.05, 5.0);
     for i in 1..=400 {
@@ -55,7 +55,7 @@ fn elements_that_appear_at_a_winch_leave_the_load_where_it_was() {
             // the first element is divided, and the part at the winch goes on growing
             rod.divide(0, &mut state).unwrap();
             first *= 0.5;
-            solver = Solver::new(&rod, Settings::default());
+            solver = RodSolver::new(&rod, RodSettings::default());
         }
         solver.step(&rod, &mut state, &world, t, ends).unwrap();
     }
@@ -71,7 +71,7 @@ fn elements_that_appear_at_a_winch_leave_the_load_where_it_was() {
         rod.join(0, &mut state).unwrap();
     }
     assert!((rod.length() - 25.0 - out).abs() < 1e-9);
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     assert!((state.position[5].z - last).abs() < 2e-3, "{} {last}", state.position[5].z);
     assert!(rod.join(4, &mut state).is_err() && rod.divide(9, &mut state).is_err());
@@ -85,12 +85,12 @@ fn a_heave_of_the_top_swings_a_load_by_its_own_spring_at_any_mass() {
         let (length, frequency, heave): (f64, f64, f64) = (30.0, 1.0, 0.1);
         // the wire's stiffness is that of a natural frequency of three
         let ea = 9.0 * mass * length;
-        let rod = Rod::new("wire", vec![Segment::line(length, 6, 1e-3 * mass, ea, 0.05)], vec![load]).unwrap();
+        let rod = Rod::new("wire", vec![RodSegment::line(length, 6, 1e-3 * mass, ea, 0.05)], vec![load]).unwrap();
         let fluid = UniformFluid::vacuum();
         let world = LineEnvironment::new(&fluid, 9.81);
-        let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -length)]).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
-        let still = [End::pin(Vector3::zeros()), End::FREE];
+        let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -length)]).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
+        let still = [RodEnd::pin(Vector3::zeros()), RodEnd::FREE];
         solver.statics(&rod, &mut state, &world, still).unwrap();
         let start = state.position[6].z;
         let (mut high, mut low) = (f64::MIN, f64::MAX);
@@ -99,12 +99,12 @@ fn a_heave_of_the_top_swings_a_load_by_its_own_spring_at_any_mass() {
             let rise = (t / 40.0).min(1.0);
             let (s, c) = (frequency * t).sin_cos();
             let ramp = if t < 40.0 { 1.0 / 40.0 } else { 0.0 };
-            let motion = Motion {
+            let motion = RodEndMotion {
                 position: Vector3::z() * (heave * rise * s),
                 velocity: Vector3::z() * (heave * (ramp * s + rise * frequency * c)),
                 acceleration: Vector3::z() * (heave * (2.0 * ramp * frequency * c - rise * frequency * frequency * s)),
             };
-            solver.step(&rod, &mut state, &world, t, [End::from_motion(motion), End::FREE]).unwrap();
+            solver.step(&rod, &mut state, &world, t, [RodEnd::from_motion(motion), RodEnd::FREE]).unwrap();
             if t > 60.0 {
                 high = high.max(state.position[6].z - start);
                 low = low.min(state.position[6].z - start);

@@ -11,14 +11,14 @@ fn vacuum(fluid: &UniformFluid, gravity: f64) -> LineEnvironment<'_> {
 
 #[test]
 fn a_pendulum_let_go_level_takes_the_period_of_the_elliptic_integral() {
-    let rod =
-        Rod::new("pendulum", vec![Segment::line(2.0, 1, 0.01, 1e8, 0.01)], vec![Attachment::mass(1, 100.0)]).unwrap();
+    let rod = Rod::new("pendulum", vec![RodSegment::line(2.0, 1, 0.01, 1e8, 0.01)], vec![Attachment::mass(1, 100.0)])
+        .unwrap();
     let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 9.81);
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * 2.0]).unwrap();
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * 2.0]).unwrap();
     let mut solver =
-        Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(1.0), ..Settings::default() });
-    let ends = [End::pin(Vector3::zeros()), End::FREE];
+        RodSolver::new(&rod, RodSettings { scheme: SchemeWeights::generalised_alpha(1.0), ..RodSettings::default() });
+    let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::FREE];
     solver.start(&rod, &mut state, &world, ends).unwrap();
     let h = 0.002;
     // 4 K(sin 45 degrees) sqrt(L/g); K = 1.854074677
@@ -41,12 +41,13 @@ fn a_pendulum_let_go_level_takes_the_period_of_the_elliptic_integral() {
 #[test]
 fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
     let (length, mass, ea, speed) = (1000.0, 100.0, 4e8, 1.0);
-    let rod = Rod::new("bar", vec![Segment { compression: true, ..Segment::line(length, 400, mass, ea, 0.1) }], vec![])
-        .unwrap();
+    let rod =
+        Rod::new("bar", vec![RodSegment { compression: true, ..RodSegment::line(length, 400, mass, ea, 0.1) }], vec![])
+            .unwrap();
     let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 0.0);
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     let sound = (ea / mass).sqrt();
     let h = length / sound / 2000.0;
     let mut arrival = None;
@@ -60,13 +61,14 @@ fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
         } else {
             (speed * (t - 0.5 * rise), speed, 0.0)
         };
-        let motion = Motion {
+        let motion = RodEndMotion {
             position: Vector3::x() * (length + x),
             velocity: Vector3::x() * v,
             acceleration: Vector3::x() * a,
         };
-        let made =
-            solver.step(&rod, &mut state, &world, t, [End::pin(Vector3::zeros()), End::from_motion(motion)]).unwrap();
+        let made = solver
+            .step(&rod, &mut state, &world, t, [RodEnd::pin(Vector3::zeros()), RodEnd::from_motion(motion)])
+            .unwrap();
         if t > 2.0 * rise {
             forces.push(-made.force[1].x);
         }
@@ -93,10 +95,10 @@ fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
     let (length, elements) = (1.0, env("N", 200.0) as usize);
     let rod = Rod::new(
         "chain",
-        vec![Segment {
+        vec![RodSegment {
             compression: env("COMP", 0.0) > 0.0,
             axial_damping: env("BA", 0.0),
-            ..Segment::line(length, elements, 0.02, env("EA", 2e3), 0.001)
+            ..RodSegment::line(length, elements, 0.02, env("EA", 2e3), 0.001)
         }],
         vec![],
     )
@@ -106,19 +108,19 @@ fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
     let gap = 0.02;
     let (a, b) = (Vector3::zeros(), Vector3::x() * gap);
     let low = Vector3::new(0.5 * gap, 0.0, -0.5 * length);
-    let mut state = State::along_points(&rod, &[a, low, b]).unwrap();
-    let mut solver = Solver::new(
+    let mut state = RodState::along_points(&rod, &[a, low, b]).unwrap();
+    let mut solver = RodSolver::new(
         &rod,
-        Settings { scheme: SchemeWeights::generalised_alpha(env("RHO", 0.2)), ..Settings::default() },
+        RodSettings { scheme: SchemeWeights::generalised_alpha(env("RHO", 0.2)), ..RodSettings::default() },
     );
-    solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
     let free = (2.0 * length / 9.81f64).sqrt();
     let h = free / env("STEPS", 2000.0);
     let (mut fallen, mut ahead) = (None, true);
     let mut energy = (0.0, 0.0);
     for i in 1..=(0.95 * env("STEPS", 2000.0)) as usize {
         let t = i as f64 * h;
-        solver.step(&rod, &mut state, &world, t, [End::pin(a), End::FREE]).unwrap();
+        solver.step(&rod, &mut state, &world, t, [RodEnd::pin(a), RodEnd::FREE]).unwrap();
         let drop = -state.position[elements].z;
         if i % 100 == 0 {
             println!("{:.3} {:.4} stone {:.4}", t / free, drop, 0.5 * 9.81 * t * t);
@@ -142,21 +144,22 @@ fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
 #[test]
 fn a_free_cylinder_drifts_up_to_the_current_as_the_closed_form() {
     let (length, diameter, mass, current) = (20.0, 0.5, 300.0, 1.5);
-    let segment = Segment { drag_normal: 1.2, added_normal: 1.0, ..Segment::line(length, 10, mass, 1e7, diameter) };
+    let segment =
+        RodSegment { drag_normal: 1.2, added_normal: 1.0, ..RodSegment::line(length, 10, mass, 1e7, diameter) };
     let rod = Rod::new("cylinder", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::y() * current);
     let world = vacuum(&fluid, 0.0);
     let x = |x: f64| Vector3::new(x, 0.0, -30.0);
-    let mut state = State::along_points(&rod, &[x(0.0), x(length)]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut state = RodState::along_points(&rod, &[x(0.0), x(length)]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     let moving = mass + 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter;
     let k = 0.5 * 1025.0 * 1.2 * diameter / moving;
-    solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
+    solver.start(&rod, &mut state, &world, [RodEnd::FREE; 2]).unwrap();
     assert!((state.acceleration[3].y / (k * current * current) - 1.0).abs() < 1e-12);
     let mut worst: f64 = 0.0;
     for i in 1..=1000 {
         let t = i as f64 * 0.02;
-        solver.step(&rod, &mut state, &world, t, [End::FREE; 2]).unwrap();
+        solver.step(&rod, &mut state, &world, t, [RodEnd::FREE; 2]).unwrap();
         let exact = current * (1.0 - 1.0 / (1.0 + k * current * t));
         worst = worst.max((state.velocity[5].y - exact).abs() / current);
     }
@@ -167,12 +170,12 @@ fn a_free_cylinder_drifts_up_to_the_current_as_the_closed_form() {
 
 #[test]
 fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
-    let segment = Segment {
+    let segment = RodSegment {
         axial_damping: 1e3,
         drag_normal: 1.2,
         drag_tangential: 0.05,
         added_normal: 1.0,
-        ..Segment::line(100.0, 40, 30.0, 1e6, 0.1)
+        ..RodSegment::line(100.0, 40, 30.0, 1e6, 0.1)
     };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
@@ -187,21 +190,23 @@ fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
     let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.81) };
     let (a, b) = (Vector3::new(0.0, 0.0, -50.0), Vector3::new(75.0, 0.0, -5.0));
     let run = |h: f64| {
-        let mut state = State::along_points(&rod, &[a, b]).unwrap();
-        let mut solver =
-            Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(0.9), ..Settings::default() });
-        let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+        let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+        let mut solver = RodSolver::new(
+            &rod,
+            RodSettings { scheme: SchemeWeights::generalised_alpha(0.9), ..RodSettings::default() },
+        );
+        let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
         let mut books = Balance::open(&rod, &state, &world, &solver, &made);
         let mut worst = (0.0f64, 0.0f64);
         for i in 1..=(20.0 / h) as usize {
             let t = i as f64 * h;
             let (w, r) = (1.0f64, 2.0f64);
-            let motion = Motion {
+            let motion = RodEndMotion {
                 position: b + Vector3::new(0.0, 0.0, r * (1.0 - (w * t).cos())) * 0.5,
                 velocity: Vector3::new(0.0, 0.0, r * w * (w * t).sin()) * 0.5,
                 acceleration: Vector3::new(0.0, 0.0, r * w * w * (w * t).cos()) * 0.5,
             };
-            let made = solver.step(&rod, &mut state, &world, t, [End::pin(a), End::from_motion(motion)]).unwrap();
+            let made = solver.step(&rod, &mut state, &world, t, [RodEnd::pin(a), RodEnd::from_motion(motion)]).unwrap();
             books.enter(&rod, &state, &world, &solver, &made);
             worst.0 = worst.0.max(books.energy_error().abs() / books.turnover);
             worst.1 = worst.1.max(books.momentum_error().norm() / (30.0 * 100.0));
@@ -222,8 +227,12 @@ fn energy_of_a_swinging_twisted_beam_adds_up() {
     // a curved cantilever with torsion let go under its own weight: no damping, no outer work but that of its clamp,
     // which stands
     let (elements, quarter) = (24, std::f64::consts::FRAC_PI_4);
-    let segment =
-        Segment { compression: true, bending: 400.0, torsion: 300.0, ..Segment::line(7.854, elements, 2.0, 1e6, 0.1) };
+    let segment = RodSegment {
+        compression: true,
+        bending: 400.0,
+        torsion: 300.0,
+        ..RodSegment::line(7.854, elements, 2.0, 1e6, 0.1)
+    };
     let mut rod = Rod::new("bend", vec![segment], vec![]).unwrap();
     let at = |i: usize| {
         let angle = quarter * i as f64 / elements as f64;
@@ -233,15 +242,17 @@ fn energy_of_a_swinging_twisted_beam_adds_up() {
     rod.set_shape(&points, [Vector3::y(), Vector3::new(quarter.sin(), quarter.cos(), 0.0)]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 9.81);
-    let clamp = End::pin(Vector3::zeros()).with_clamp(Vector3::y()).with_side(rod.sides().unwrap()[0]);
+    let clamp = RodEnd::pin(Vector3::zeros()).with_clamp(Vector3::y()).with_side(rod.sides().unwrap()[0]);
     let run = |h: f64| {
-        let mut state = State::along_points(&rod, &points).unwrap();
-        let mut solver =
-            Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(1.0), ..Settings::default() });
+        let mut state = RodState::along_points(&rod, &points).unwrap();
+        let mut solver = RodSolver::new(
+            &rod,
+            RodSettings { scheme: SchemeWeights::generalised_alpha(1.0), ..RodSettings::default() },
+        );
         let mut books: Option<Balance> = None;
         let mut worst: f64 = 0.0;
         for i in 1..=(3.0 / h) as usize {
-            let made = solver.step(&rod, &mut state, &world, i as f64 * h, [clamp, End::FREE]).unwrap();
+            let made = solver.step(&rod, &mut state, &world, i as f64 * h, [clamp, RodEnd::FREE]).unwrap();
             match &mut books {
                 None => books = Some(Balance::open(&rod, &state, &world, &solver, &made)),
                 Some(books) => {
@@ -260,22 +271,23 @@ fn energy_of_a_swinging_twisted_beam_adds_up() {
 
 #[test]
 fn a_step_that_cannot_be_made_is_cut_and_then_named() {
-    let rod = Rod::new("LINE7", vec![Segment::line(100.0, 20, 50.0, 1e8, 0.1)], vec![]).unwrap();
+    let rod = Rod::new("LINE7", vec![RodSegment::line(100.0, 20, 50.0, 1e8, 0.1)], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 9.81);
     let (a, b) = (Vector3::zeros(), Vector3::new(80.0, 0.0, 0.0));
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings { halvings: 3, ..Settings::default() });
-    solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings { halvings: 3, ..RodSettings::default() });
+    solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
     let before = state.clone();
     // an end that is no place at all
-    let nowhere = Motion::at_rest(Vector3::new(f64::NAN, 0.0, 0.0));
-    let failed = solver.step(&rod, &mut state, &world, 0.5, [End::pin(a), End::from_motion(nowhere)]).unwrap_err();
+    let nowhere = RodEndMotion::at_rest(Vector3::new(f64::NAN, 0.0, 0.0));
+    let failed =
+        solver.step(&rod, &mut state, &world, 0.5, [RodEnd::pin(a), RodEnd::from_motion(nowhere)]).unwrap_err();
     let told = failed.to_string();
     assert!(told.starts_with("LINE7: no solution at t = 0.5 s") && told.contains("element"), "{told}");
     assert_eq!(state, before);
     // and goes on from the state it had
-    solver.step(&rod, &mut state, &world, 0.5, [End::pin(a), End::pin(b)]).unwrap();
+    solver.step(&rod, &mut state, &world, 0.5, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
 }
 
 /// Water that swings to and fro along y.
@@ -301,18 +313,18 @@ fn a_rod_as_light_as_its_water_goes_with_it() {
     // nothing to do
     let (diameter, frequency, speed): (f64, f64, f64) = (0.5, 0.8, 1.2);
     let mass = 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter;
-    let segment = Segment { drag_normal: 1.0, added_normal: 1.0, ..Segment::line(20.0, 8, mass, 1e7, diameter) };
+    let segment = RodSegment { drag_normal: 1.0, added_normal: 1.0, ..RodSegment::line(20.0, 8, mass, 1e7, diameter) };
     let rod = Rod::new("drifter", vec![segment], vec![]).unwrap();
     let swell = Swell { speed, frequency };
     let world = LineEnvironment::new(&swell, 9.81);
     let x = |x: f64| Vector3::new(x, 0.0, -30.0);
-    let mut state = State::along_points(&rod, &[x(0.0), x(20.0)]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
+    let mut state = RodState::along_points(&rod, &[x(0.0), x(20.0)]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    solver.start(&rod, &mut state, &world, [RodEnd::FREE; 2]).unwrap();
     let mut worst: f64 = 0.0;
     for i in 1..=500 {
         let t = i as f64 * 0.02;
-        solver.step(&rod, &mut state, &world, t, [End::FREE; 2]).unwrap();
+        solver.step(&rod, &mut state, &world, t, [RodEnd::FREE; 2]).unwrap();
         let exact = speed / frequency * (1.0 - (frequency * t).cos());
         worst = worst.max((state.position[4].y - exact).abs());
     }
@@ -332,16 +344,16 @@ impl FluidField for Shear {
 #[test]
 fn the_water_of_a_step_is_that_where_its_nodes_come_to_be() {
     // a slack rope thrown down through a sheared current in long steps, which take many iterations
-    let segment = Segment { drag_normal: 1.2, added_normal: 1.0, ..Segment::line(60.0, 12, 60.0, 1e8, 0.2) };
+    let segment = RodSegment { drag_normal: 1.2, added_normal: 1.0, ..RodSegment::line(60.0, 12, 60.0, 1e8, 0.2) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
     let world = LineEnvironment::new(&Shear, 9.81);
     let (a, b) = (Vector3::new(0.0, 0.0, -5.0), Vector3::new(40.0, 0.0, -5.0));
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
     state.velocity.fill(Vector3::z() * -3.0);
-    let mut solver = Solver::new(&rod, Settings { halvings: 0, iterations: 60, ..Settings::default() });
+    let mut solver = RodSolver::new(&rod, RodSettings { halvings: 0, iterations: 60, ..RodSettings::default() });
     let mut most = 0;
     for i in 1..=8 {
-        let made = solver.step(&rod, &mut state, &world, f64::from(i) * 0.5, [End::pin(a), End::FREE]);
+        let made = solver.step(&rod, &mut state, &world, f64::from(i) * 0.5, [RodEnd::pin(a), RodEnd::FREE]);
         let Ok(made) = made else { continue };
         most = most.max(made.iterations);
         for (node, asked) in solver.trial.sampled_at.iter().enumerate() {
@@ -360,7 +372,7 @@ fn a_chain_on_a_slope_slides_when_friction_is_less_than_the_slope() {
     let angle = slope.atan();
     let bottom = PlaneBottom { height: 0.0, slope: [-slope, 0.0] };
     let fluid = UniformFluid::vacuum();
-    let rod = Rod::new("chain", vec![Segment::line(20.0, 10, 50.0, 1e7, 0.1)], vec![]).unwrap();
+    let rod = Rod::new("chain", vec![RodSegment::line(20.0, 10, 50.0, 1e7, 0.1)], vec![]).unwrap();
     let run = |mu: f64| {
         let ground = SeabedLaw {
             damping: 1e5,
@@ -374,12 +386,12 @@ fn a_chain_on_a_slope_slides_when_friction_is_less_than_the_slope() {
         let down = Vector3::new(angle.cos(), 0.0, -angle.sin());
         // laid as deep as it sinks in by its own weight
         let sunk = Vector3::new(angle.sin(), 0.0, angle.cos()) * (-50.0 * 9.81 * angle.cos() / (1e6 * 0.1));
-        let mut state = State::along_points(&rod, &[sunk, sunk + down * 20.0]).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
-        solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
+        let mut state = RodState::along_points(&rod, &[sunk, sunk + down * 20.0]).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
+        solver.start(&rod, &mut state, &world, [RodEnd::FREE; 2]).unwrap();
         let mut half = 0.0;
         for i in 1..=200 {
-            solver.step(&rod, &mut state, &world, i as f64 * 0.01, [End::FREE; 2]).unwrap();
+            solver.step(&rod, &mut state, &world, i as f64 * 0.01, [RodEnd::FREE; 2]).unwrap();
             if i == 100 {
                 half = state.velocity[5].dot(&down);
             }

@@ -5,27 +5,27 @@ use nalgebra::Vector3;
 
 const E: f64 = 2.07e11;
 
-fn pipe(tube: Tube) -> Rod {
+fn pipe(tube: TubeSection) -> Rod {
     let [outside, inside] = tube.areas();
-    let segment = Segment {
+    let segment = RodSegment {
         compression: true,
         bending: E * tube.second_moment(),
         tube: Some(tube),
-        ..Segment::line(20.0, 10, 100.0, E * (outside - inside), tube.outer)
+        ..RodSegment::line(20.0, 10, 100.0, E * (outside - inside), tube.outer)
     };
     Rod::new("pipe", vec![segment], vec![]).unwrap()
 }
 
 #[test]
 fn a_heated_pipe_under_pressure_between_fixed_ends_is_pressed_as_the_closed_form() {
-    let tube = Tube { expansion: 1.17e-5, warmer: 50.0, pressure: 1e7, ..Tube::empty(0.3239, 0.2985) };
+    let tube = TubeSection { expansion: 1.17e-5, warmer: 50.0, pressure: 1e7, ..TubeSection::empty(0.3239, 0.2985) };
     let rod = pipe(tube);
     let fluid = UniformFluid::still(1025.0);
     let depth = 100.0;
     let world = LineEnvironment::new(&fluid, 9.80665);
     let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
-    let state = State::along_points(&rod, &[a, b]).unwrap();
-    let found = rod.results(&state, &world, &[End::pin(a), End::pin(b)])[5];
+    let state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let found = rod.results(&state, &world, &[RodEnd::pin(a), RodEnd::pin(b)])[5];
     // rho g h, and what the pipe was filled to
     assert_eq!(found.pressures, [1025.0 * 9.80665 * depth, 1e7]);
     let [outside, inside] = tube.areas();
@@ -82,15 +82,15 @@ fn outer_pressure_of_a_deep_pipe_is_that_of_the_wave_at_its_depth() {
     let number = (std::f64::consts::TAU / 8.0).powi(2) / G;
     let waves = Waves { amplitude: 5.0, number };
     let world = LineEnvironment::new(&waves, G);
-    let tube = Tube::empty(0.5, 0.46);
+    let tube = TubeSection::empty(0.5, 0.46);
     let rod = pipe(tube);
     let [outside, _] = tube.areas();
     for depth in [2.0, 20.0, 300.0] {
         let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
-        let ends = [End::pin(a), End::pin(b)];
+        let ends = [RodEnd::pin(a), RodEnd::pin(b)];
         let pressure = |x: f64, time: f64| 1025.0 * G * (depth + waves.elevation(x, time) * (-number * depth).exp());
         for time in [0.0, 2.0, 4.0] {
-            let state = State { time, ..State::along_points(&rod, &[a, b]).unwrap() };
+            let state = RodState { time, ..RodState::along_points(&rod, &[a, b]).unwrap() };
             let found = rod.results(&state, &world, &ends);
             for (i, node) in found.iter().enumerate() {
                 // at a trough of 5 m the first depth lies above the surface
@@ -122,14 +122,16 @@ fn outer_pressure_of_a_deep_pipe_is_that_of_the_wave_at_its_depth() {
 #[test]
 fn a_pipe_that_cools_between_fixed_ends_meets_the_bottom_as_softly_as_its_tension_says() {
     // sag w l^2 / (8 T) of an element, T by Poisson's ratio and what cooling by 50 K pulls: EA alpha dT, 1.5 MN
-    let tube = Tube { expansion: 1.17e-5, warmer: -50.0, ..Tube::empty(0.3239, 0.2985) };
+    let tube = TubeSection { expansion: 1.17e-5, warmer: -50.0, ..TubeSection::empty(0.3239, 0.2985) };
     let rod = pipe(tube);
     let [outside, inside] = tube.areas();
     let fluid = UniformFluid::still(1025.0);
     let world = LineEnvironment::new(&fluid, G);
     let (a, b) = (Vector3::new(0.0, 0.0, -100.0), Vector3::new(20.0, 0.0, -100.0));
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    RodSolver::new(&rod, RodSettings::default())
+        .statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)])
+        .unwrap();
     let pull = E * (outside - inside) * 1.17e-5 * 50.0 + 0.4 * 1025.0 * G * 100.0 * outside;
     let sag = (100.0 - 1025.0 * outside) * G * 4.0 / (8.0 * pull);
     for bedding in &state.bedding {
@@ -144,13 +146,13 @@ fn a_tube_that_does_not_resist_shortening_is_held_taut_by_pressure_and_never_pus
     let world = LineEnvironment::new(&fluid, G);
     let depth = 1000.0;
     let pull = |pressure: f64, compression: bool, stretch: f64| {
-        let tube = Tube { pressure, ..Tube::empty(0.3, 0.28) };
+        let tube = TubeSection { pressure, ..TubeSection::empty(0.3, 0.28) };
         let [outside, inside] = tube.areas();
-        let segment = Segment { compression, tube: Some(tube), ..Segment::line(20.0, 10, 100.0, 1e9, 0.3) };
+        let segment = RodSegment { compression, tube: Some(tube), ..RodSegment::line(20.0, 10, 100.0, 1e9, 0.3) };
         let rod = Rod::new("hose", vec![segment], vec![]).unwrap();
         let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0 * (1.0 + stretch), 0.0, -depth));
-        let state = State::along_points(&rod, &[a, b]).unwrap();
-        let found = rod.results(&state, &world, &[End::pin(a), End::pin(b)])[5].effective;
+        let state = RodState::along_points(&rod, &[a, b]).unwrap();
+        let found = rod.results(&state, &world, &[RodEnd::pin(a), RodEnd::pin(b)])[5].effective;
         (found, 1e9 * stretch + 0.4 * (1025.0 * G * depth * outside - pressure * inside))
     };
     for (pressure, stretch) in [(0.0, 0.0), (0.0, -1e-4), (0.0, -1e-3), (3e7, 1e-3), (3e7, 1e-4), (1e7, 0.0)] {
@@ -188,56 +190,62 @@ fn pressure_goes_to_nothing_at_the_surface_without_a_jump_and_has_its_slope() {
 
 #[test]
 fn what_makes_no_rod_is_refused_with_its_reason() {
-    let good = Segment::line(10.0, 5, 10.0, 1e6, 0.1);
-    let told = |segment: Segment| Rod::new("R", vec![segment], vec![]).unwrap_err().to_string();
-    assert!(told(Segment { elements: 0, ..good.clone() }).contains("number of elements"));
-    assert!(told(Segment { mass: 0.0, ..good.clone() }).contains("mass per length is 0"));
-    assert!(told(Segment { axial: Axial::Linear(0.0), ..good.clone() }).contains("axial stiffness"));
-    assert!(told(Segment { axial: Axial::Table(vec![(0.0, 0.0)]), ..good.clone() }).contains("axial stiffness"));
-    assert!(told(Segment { length: f64::NAN, ..good.clone() }).contains("length"));
-    assert!(told(Segment { bending: -1.0, ..good.clone() }).contains("bending stiffness"));
-    assert!(told(Segment { tube: Some(Tube::empty(0.1, 0.1)), ..good.clone() }).contains("thinner than the radius"));
-    let huge = told(Segment { elements: usize::MAX, ..good.clone() });
+    let good = RodSegment::line(10.0, 5, 10.0, 1e6, 0.1);
+    let told = |segment: RodSegment| Rod::new("R", vec![segment], vec![]).unwrap_err().to_string();
+    assert!(told(RodSegment { elements: 0, ..good.clone() }).contains("number of elements"));
+    assert!(told(RodSegment { mass: 0.0, ..good.clone() }).contains("mass per length is 0"));
+    assert!(told(RodSegment { axial: TensionLaw::Linear(0.0), ..good.clone() }).contains("axial stiffness"));
+    assert!(
+        told(RodSegment { axial: TensionLaw::Table(vec![(0.0, 0.0)]), ..good.clone() }).contains("axial stiffness")
+    );
+    assert!(told(RodSegment { length: f64::NAN, ..good.clone() }).contains("length"));
+    assert!(told(RodSegment { bending: -1.0, ..good.clone() }).contains("bending stiffness"));
+    assert!(
+        told(RodSegment { tube: Some(TubeSection::empty(0.1, 0.1)), ..good.clone() })
+            .contains("thinner than the radius")
+    );
+    let huge = told(RodSegment { elements: usize::MAX, ..good.clone() });
     assert!(huge.contains("MB"), "{huge}");
     assert!(Rod::new("R", vec![], vec![]).is_err());
     let attachment = Attachment::mass(6, 1.0);
     assert!(Rod::new("R", vec![good.clone()], vec![attachment]).unwrap_err().to_string().contains("from 0 to 5"));
     let rod = Rod::new("R", vec![good], vec![]).unwrap();
-    assert!(State::along_points(&rod, &[Vector3::zeros(), Vector3::zeros()]).is_err());
+    assert!(RodState::along_points(&rod, &[Vector3::zeros(), Vector3::zeros()]).is_err());
     // a state of another rod
-    let other = Rod::new("S", vec![Segment::line(10.0, 7, 10.0, 1e6, 0.1)], vec![]).unwrap();
-    let mut state = State::along_points(&other, &[Vector3::zeros(), Vector3::x()]).unwrap();
+    let other = Rod::new("S", vec![RodSegment::line(10.0, 7, 10.0, 1e6, 0.1)], vec![]).unwrap();
+    let mut state = RodState::along_points(&other, &[Vector3::zeros(), Vector3::x()]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.81);
-    let mut solver = Solver::new(&rod, Settings::default());
-    assert!(solver.statics(&rod, &mut state, &world, [End::FREE; 2]).unwrap_err().to_string().contains("6 nodes"));
-    assert!(solver.step(&rod, &mut state, &world, 1.0, [End::FREE; 2]).is_err());
-    assert!(solver.modes(&other, &state, &world, [End::FREE; 2], 1).is_err());
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    assert!(solver.statics(&rod, &mut state, &world, [RodEnd::FREE; 2]).unwrap_err().to_string().contains("6 nodes"));
+    assert!(solver.step(&rod, &mut state, &world, 1.0, [RodEnd::FREE; 2]).is_err());
+    assert!(solver.modes(&other, &state, &world, [RodEnd::FREE; 2], 1).is_err());
 }
 
 #[test]
 fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.81);
-    let stretch = |axial: Axial| {
-        let rod = Rod::new("R", vec![Segment { axial, ..Segment::line(10.0, 50, 20.0, 1e4, 0.1) }], vec![]).unwrap();
+    let stretch = |axial: TensionLaw| {
+        let rod =
+            Rod::new("R", vec![RodSegment { axial, ..RodSegment::line(10.0, 50, 20.0, 1e4, 0.1) }], vec![]).unwrap();
         let top = Vector3::zeros();
-        let mut state = State::along_points(&rod, &[top, Vector3::new(0.0, 0.0, -10.0)]).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
-        solver.statics(&rod, &mut state, &world, [End::pin(top), End::FREE]).unwrap();
+        let mut state = RodState::along_points(&rod, &[top, Vector3::new(0.0, 0.0, -10.0)]).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
+        solver.statics(&rod, &mut state, &world, [RodEnd::pin(top), RodEnd::FREE]).unwrap();
         -state.place(50).unwrap().z - 10.0
     };
     // own weight w over length L: w L^2 / 2 EA
     let linear = 20.0 * 9.81 * 100.0 / (2.0 * 1e4);
     // weight in lumps is exact for the sum of strains of a straight line
-    assert!((stretch(Axial::Linear(1e4)) / linear - 1.0).abs() < 1e-6);
+    assert!((stretch(TensionLaw::Linear(1e4)) / linear - 1.0).abs() < 1e-6);
     let table = (0..=40).map(|i| (i as f64 * 0.01, i as f64 * 100.0)).collect();
-    assert!((stretch(Axial::Table(table)) / linear - 1.0).abs() < 1e-6);
+    assert!((stretch(TensionLaw::Table(table)) / linear - 1.0).abs() < 1e-6);
     // T = c e + d e^2: strain at tension T is (sqrt(c^2 + 4 d T) - c) / 2 d, integrated over T = w s
     let (c, d, w) = (1e4, 4e4, 20.0 * 9.81);
     let curved =
         ((c * c + 4.0 * d * w * 10.0f64).powf(1.5) - c * c * c) / (6.0 * d * w) / (2.0 * d) - c * 10.0 / (2.0 * d);
-    let found = stretch(Axial::Polynomial(vec![c, d]));
+    let found = stretch(TensionLaw::Polynomial(vec![c, d]));
     // midpoint rule over 50 elements
     assert!((found / curved - 1.0).abs() < 1e-3, "{found} {curved}");
 }
@@ -251,11 +259,11 @@ fn moments_along_a_helix_turn_against_the_untwisted_frame_by_its_torsion() {
     let point = |s: f64| Vector3::new(r * s.cos(), r * s.sin(), c * s);
     let points: Vec<_> = (0..=elements).map(|i| point(whole * i as f64 / elements as f64)).collect();
     let (half, length) = (elements / 2, speed * whole);
-    let segment = |elements| Segment { bending, ..Segment::line(0.5 * length, elements, 10.0, 1e9, 0.1) };
+    let segment = |elements| RodSegment { bending, ..RodSegment::line(0.5 * length, elements, 10.0, 1e9, 0.1) };
     let rod = Rod::new("helix", vec![segment(half), segment(half)], vec![]).unwrap();
-    let state = State::along_points(&rod, &points).unwrap();
+    let state = RodState::along_points(&rod, &points).unwrap();
     let fluid = UniformFluid::vacuum();
-    let found = rod.results(&state, &LineEnvironment::new(&fluid, 9.81), &[End::FREE; 2]);
+    let found = rod.results(&state, &LineEnvironment::new(&fluid, 9.81), &[RodEnd::FREE; 2]);
     let (curvature, torsion) = (r / (speed * speed), c / (speed * speed));
     let inner = &found[1..elements];
     let start = inner[0].bends[1].atan2(inner[0].bends[0]);
@@ -274,14 +282,14 @@ fn moments_along_a_helix_turn_against_the_untwisted_frame_by_its_torsion() {
 #[test]
 fn a_bend_is_told_about_the_side_of_the_holder() {
     // a cantilever along y under a load along -z: its moment is about x alone, load times the arm
-    let segment = Segment { bending: 1e9, compression: true, ..Segment::line(10.0, 20, 1.0, 1e12, 0.1) };
+    let segment = RodSegment { bending: 1e9, compression: true, ..RodSegment::line(10.0, 20, 1.0, 1e12, 0.1) };
     let rod = Rod::new("arm", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let forces = [(20, Vector3::z() * -100.0)];
     let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::y() * 10.0]).unwrap();
-    let ends = [End::pin(Vector3::zeros()).with_clamp(Vector3::y()).with_side(Vector3::x()), End::FREE];
-    Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::y() * 10.0]).unwrap();
+    let ends = [RodEnd::pin(Vector3::zeros()).with_clamp(Vector3::y()).with_side(Vector3::x()), RodEnd::FREE];
+    RodSolver::new(&rod, RodSettings::default()).statics(&rod, &mut state, &world, ends).unwrap();
     let found = rod.results(&state, &world, &ends);
     for node in &found[..20] {
         let moment = 100.0 * (10.0 - node.arc);

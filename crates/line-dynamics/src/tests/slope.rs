@@ -9,7 +9,7 @@ const MASS: f64 = 100.0;
 const FRICTION: f64 = 0.6;
 
 fn chain(length: f64, elements: usize) -> Rod {
-    let segment = Segment { axial_damping: 1e6, ..Segment::line(length, elements, MASS, 1e10, 0.1) };
+    let segment = RodSegment { axial_damping: 1e6, ..RodSegment::line(length, elements, MASS, 1e10, 0.1) };
     Rod::new("chain", vec![segment], vec![]).unwrap()
 }
 
@@ -51,11 +51,11 @@ const FAIRLEAD: [f64; 2] = [400.0, 90.0];
 /// A chain at rest on a slope, begun at its shape, with the forces at its ends and the closed form of its horizontal one.
 struct Rested {
     rod: Rod,
-    state: State,
-    solver: Solver,
-    made: EndForces,
+    state: RodState,
+    solver: RodSolver,
+    made: RodEndForces,
     exact: f64,
-    ends: [End; 2],
+    ends: [RodEnd; 2],
 }
 
 fn rest(bottom: &PlaneBottom, length: f64, elements: usize, [x, z]: [f64; 2]) -> Rested {
@@ -63,9 +63,9 @@ fn rest(bottom: &PlaneBottom, length: f64, elements: usize, [x, z]: [f64; 2]) ->
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment { bottom: Some((bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
     let (exact, points) = lying(MASS * GRAVITY, bottom.slope[0], length, [x, z]);
-    let ends = [End::pin(Vector3::zeros()), End::pin(Vector3::new(x, 0.0, z))];
-    let mut state = State::along_points(&rod, &points).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::pin(Vector3::new(x, 0.0, z))];
+    let mut state = RodState::along_points(&rod, &points).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     // once for how softly nodes meet the bottom from then on
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
@@ -119,7 +119,7 @@ fn a_fairlead_that_moves_takes_the_chain_on_the_slope_along_as_one_laid_there_an
     for by in [-3.0, -0.5, 0.5, 3.0] {
         let anew = rest(&bottom, 440.0, 88, [FAIRLEAD[0] + by, FAIRLEAD[1]]).made.force[1];
         let Rested { rod, mut state, mut solver, .. } = rest(&bottom, 440.0, 88, FAIRLEAD);
-        let ends = [End::pin(Vector3::zeros()), End::pin(Vector3::new(FAIRLEAD[0] + by, 0.0, FAIRLEAD[1]))];
+        let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::pin(Vector3::new(FAIRLEAD[0] + by, 0.0, FAIRLEAD[1]))];
         let made = solver.statics(&rod, &mut state, &world, ends).unwrap().force[1];
         println!("{by}: {} {} {}", made.x, anew.x, solver.has_slid_without_friction());
         assert!((made - anew).norm() < 1e-3 * anew.norm(), "{by}: {made} {anew}");
@@ -127,7 +127,7 @@ fn a_fairlead_that_moves_takes_the_chain_on_the_slope_along_as_one_laid_there_an
     // aside: it swings round, and lies on the slope without sliding down across it
     let Rested { rod, mut state, mut solver, made, .. } = rest(&bottom, 440.0, 88, FAIRLEAD);
     let (x, y) = (FAIRLEAD[0], 15.0);
-    let ends = [End::pin(Vector3::zeros()), End::pin(Vector3::new(x, y, FAIRLEAD[1]))];
+    let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::pin(Vector3::new(x, y, FAIRLEAD[1]))];
     let aside = solver.statics(&rod, &mut state, &world, ends).unwrap().force[1];
     let along = (aside.x * x + aside.y * y) / x.hypot(y);
     println!("{along} {} {}", made.force[1].x, (aside.y / aside.x) / (y / x));
@@ -145,7 +145,7 @@ fn stiffness_on_a_slope_is_the_difference_of_the_force() {
         let Rested { rod, mut state, mut solver, .. } = rest(&bottom, length, 88, FAIRLEAD);
         let mut pull = |by: Vector3<f64>| {
             let far = Vector3::new(FAIRLEAD[0], 0.0, FAIRLEAD[1]) + by;
-            let made = solver.statics(&rod, &mut state, &world, [End::pin(Vector3::zeros()), End::pin(far)]);
+            let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(Vector3::zeros()), RodEnd::pin(far)]);
             (made.unwrap().force[1], solver.end_tangent(&rod, &world).unwrap().position)
         };
         let told = pull(Vector3::zeros()).1;
@@ -176,9 +176,9 @@ fn a_chain_longer_than_from_its_anchor_to_straight_under_its_fairlead_hangs_stra
                 Vector3::new(FAIRLEAD[0] * s, 0.0, sags)
             })
             .collect();
-        let ends = [End::pin(Vector3::zeros()), End::pin(far)];
-        let mut state = State::along_points(&rod, &points).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
+        let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::pin(far)];
+        let mut state = RodState::along_points(&rod, &points).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
         let weight = MASS * GRAVITY * (FAIRLEAD[1] - slope * FAIRLEAD[0]);
         for _ in 0..3 {
             let made = solver.statics(&rod, &mut state, &world, ends).unwrap();

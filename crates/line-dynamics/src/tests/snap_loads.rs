@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 /// A line in 300 m of water and its run.
 struct Line {
-    segment: Segment,
+    segment: RodSegment,
     start: Vec<Vector3<f64>>,
     /// Amplitude of the end's motion (m) and its period (s).
     amplitude: Vector3<f64>,
@@ -16,14 +16,14 @@ struct Line {
     parts: f64,
 }
 
-fn chain(elements: usize) -> Segment {
-    Segment {
+fn chain(elements: usize) -> RodSegment {
+    RodSegment {
         axial_damping: 1e6,
         drag_normal: 1.333,
         drag_tangential: 0.639,
         added_normal: 1.0,
         added_tangential: 0.5,
-        ..Segment::line(900.0, elements, 199.0, 8.54e8, 0.18)
+        ..RodSegment::line(900.0, elements, 199.0, 8.54e8, 0.18)
     }
 }
 
@@ -36,10 +36,10 @@ fn run(line: &Line) -> (f64, f64, f64) {
     let (friction_along, friction_across) = (line.friction, line.friction);
     let ground = SeabedLaw { damping: 3e4, friction_along, friction_across, ..SeabedLaw::elastic(3e6) };
     let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.81) };
-    let mut state = State::along_points(&rod, &line.start).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut state = RodState::along_points(&rod, &line.start).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     let (a, b) = (line.start[0], line.start[line.start.len() - 1]);
-    let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     let w = 2.0 * std::f64::consts::PI / line.period;
     let (mut gained, mut lost): (f64, f64) = (0.0, 0.0);
@@ -47,13 +47,13 @@ fn run(line: &Line) -> (f64, f64, f64) {
         let t = i as f64 * 0.1;
         let (r, rate) = if t < 20.0 { (t / 20.0, 1.0 / 20.0) } else { (1.0, 0.0) };
         let (s, c) = (w * t).sin_cos();
-        let motion = Motion {
+        let motion = RodEndMotion {
             position: b + line.amplitude * (r * s),
             velocity: line.amplitude * (r * w * c + rate * s),
             acceleration: line.amplitude * (2.0 * rate * w * c - r * w * w * s),
         };
-        let end = if t > line.parts { End::FREE } else { End::from_motion(motion) };
-        let made = solver.step(&rod, &mut state, &world, t, [End::pin(a), end]).unwrap();
+        let end = if t > line.parts { RodEnd::FREE } else { RodEnd::from_motion(motion) };
+        let made = solver.step(&rod, &mut state, &world, t, [RodEnd::pin(a), end]).unwrap();
         books.enter(&rod, &state, &world, &solver, &made);
         gained = gained.max(books.energy_error() / books.turnover);
         lost = -books.energy_error() / books.turnover;
@@ -73,14 +73,18 @@ fn lines_that_snap_part_and_fall_neither_stop_nor_gain_energy() {
         friction,
         parts: f64::INFINITY,
     };
-    let rope =
-        Segment { axial_damping: 1e5, drag_normal: 1.2, added_normal: 1.0, ..Segment::line(850.0, 60, 25.0, 3e7, 0.2) };
-    let pipe = Segment {
+    let rope = RodSegment {
+        axial_damping: 1e5,
+        drag_normal: 1.2,
+        added_normal: 1.0,
+        ..RodSegment::line(850.0, 60, 25.0, 3e7, 0.2)
+    };
+    let pipe = RodSegment {
         compression: true,
         bending: 2e8,
         drag_normal: 1.0,
         added_normal: 1.0,
-        ..Segment::line(900.0, 100, 400.0, 6e9, 0.4)
+        ..RodSegment::line(900.0, 100, 400.0, 6e9, 0.4)
     };
     let cases = [
         // slack and taut every eight seconds: eight times its pretension

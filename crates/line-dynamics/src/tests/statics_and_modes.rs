@@ -4,14 +4,14 @@ use super::super::*;
 use nalgebra::Vector3;
 
 /// A rope in vacuum hung between two points, cut into elements; end forces and positions.
-fn hung(elements: usize, b: Vector3<f64>) -> (EndForces, State) {
-    let rod = Rod::new("rope", vec![Segment::line(100.0, elements, 50.0, 1e6, 0.1)], vec![]).unwrap();
+fn hung(elements: usize, b: Vector3<f64>) -> (RodEndForces, RodState) {
+    let rod = Rod::new("rope", vec![RodSegment::line(100.0, elements, 50.0, 1e6, 0.1)], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.81);
     let a = Vector3::zeros();
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
     (made, state)
 }
 
@@ -53,7 +53,7 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
     for (mass, diameter) in [(100.0, 0.1), (20.0, 0.3)] {
         for bending in [0.0, 1e5, 1e6] {
             let segment =
-                Segment { bending, compression: bending > 0.0, ..Segment::line(100.0, 60, mass, 1e8, diameter) };
+                RodSegment { bending, compression: bending > 0.0, ..RodSegment::line(100.0, 60, mass, 1e8, diameter) };
             let rod = Rod::new("line", vec![segment], vec![]).unwrap();
             for (a, b) in [
                 ([0.0, 0.0, -49.9], [20.0, 0.0, -10.0]),
@@ -69,9 +69,9 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
                     continue;
                 }
                 let (a, b) = (Vector3::from(a), Vector3::from(b));
-                let mut state = State::along_points(&rod, &[a, b]).unwrap();
-                let mut solver = Solver::new(&rod, Settings::default());
-                let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]);
+                let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+                let mut solver = RodSolver::new(&rod, RodSettings::default());
+                let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]);
                 let made = made.unwrap_or_else(|e| panic!("{mass} {bending} {a} {b}: {e}"));
                 // whatever the shape, the holders and the bottom carry the submerged weight; free of the bottom, the
                 // holders alone
@@ -90,12 +90,12 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
 
 #[test]
 fn a_hanging_chain_swings_at_the_zeros_of_j0() {
-    let rod = Rod::new("chain", vec![Segment::line(10.0, 200, 5.0, 1e8, 0.1)], vec![]).unwrap();
+    let rod = Rod::new("chain", vec![RodSegment::line(10.0, 200, 5.0, 1e8, 0.1)], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.81);
-    let ends = [End::pin(Vector3::zeros()), End::FREE];
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -10.0)]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::FREE];
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -10.0)]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let modes = solver.modes(&rod, &state, &world, ends, 6).unwrap();
     // zeros of J0 (Abramowitz and Stegun, table 9.5); each mode stands twice, in x and in y
@@ -111,14 +111,14 @@ fn a_hanging_chain_swings_at_the_zeros_of_j0() {
 #[test]
 fn a_taut_string_and_a_bar_sound_at_their_closed_forms() {
     let (length, mass, ea, stretch) = (50.0, 2.0, 1e7, 0.001);
-    let segment = Segment { compression: true, ..Segment::line(length, 80, mass, ea, 0.1) };
+    let segment = RodSegment { compression: true, ..RodSegment::line(length, 80, mass, ea, 0.1) };
     let rod = Rod::new("string", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 0.0);
     let (a, b) = (Vector3::zeros(), Vector3::new(length * (1.0 + stretch), 0.0, 0.0));
-    let ends = [End::pin(a), End::pin(b)];
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let ends = [RodEnd::pin(a), RodEnd::pin(b)];
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let modes = solver.modes(&rod, &state, &world, ends, 12).unwrap();
     let wave = (ea * stretch / (mass / (1.0 + stretch))).sqrt();
@@ -132,16 +132,17 @@ fn a_taut_string_and_a_bar_sound_at_their_closed_forms() {
 
 #[test]
 fn rest_beside_a_position_of_rest_takes_a_few_iterations() {
-    let segment = Segment { drag_normal: 1.2, ..Segment::line(900.0, 50, 199.0, 8.54e8, 0.18) };
+    let segment = RodSegment { drag_normal: 1.2, ..RodSegment::line(900.0, 50, 199.0, 8.54e8, 0.18) };
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
     let world =
         LineEnvironment { bottom: Some((&bottom, SeabedLaw::elastic(3e6))), ..LineEnvironment::new(&fluid, 9.80665) };
     let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
-    let mut state = State::along_points(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    let mut at = |state: &mut State, b| solver.statics(&rod, state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let mut at =
+        |state: &mut RodState, b| solver.statics(&rod, state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
     at(&mut state, b);
     // the first time on a bottom that has become as soft as the elements are long
     assert!(at(&mut state, b).iterations <= 10);
@@ -157,7 +158,7 @@ fn rest_beside_a_position_of_rest_takes_a_few_iterations() {
         let made = at(&mut near, b + move_by);
         assert!(made.iterations <= most, "{move_by} {}", made.iterations);
         // the same as from far away, on a bottom as soft
-        let mut far = State::along_points(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b + move_by]).unwrap();
+        let mut far = RodState::along_points(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b + move_by]).unwrap();
         far.bedding.clone_from(&state.bedding);
         let other = at(&mut far, b + move_by);
         // what a residual of 1e-9 of the largest force leaves, through a line fifty elements long
@@ -173,10 +174,10 @@ fn tension_at_the_ends_of_a_hanging_rope_is_its_weight_and_nothing() {
     let area = std::f64::consts::FRAC_PI_4 * diameter * diameter;
     // in air, and from 15 m above to 25 m below the surface
     for (top, wet) in [(100.0, 0.0), (15.0, 25.0)] {
-        let rod = Rod::new("rope", vec![Segment::line(40.0, 8, mass, 1e12, diameter)], vec![]).unwrap();
-        let ends = [End::pin(Vector3::z() * top), End::FREE];
-        let mut state = State::along_points(&rod, &[Vector3::z() * top, Vector3::z() * (top - 40.0)]).unwrap();
-        Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
+        let rod = Rod::new("rope", vec![RodSegment::line(40.0, 8, mass, 1e12, diameter)], vec![]).unwrap();
+        let ends = [RodEnd::pin(Vector3::z() * top), RodEnd::FREE];
+        let mut state = RodState::along_points(&rod, &[Vector3::z() * top, Vector3::z() * (top - 40.0)]).unwrap();
+        RodSolver::new(&rod, RodSettings::default()).statics(&rod, &mut state, &world, ends).unwrap();
         let found = rod.results(&state, &world, &ends);
         let exact = 9.81 * (40.0 * mass - 1025.0 * area * wet);
         // stretch of 1e-8, and the residual of statics, 1e-9 of the weight
@@ -193,25 +194,25 @@ fn tension_at_the_end_of_a_rope_is_never_below_nothing_and_that_of_its_holder_wh
     let bottom = PlaneBottom { height: -60.0, slope: [0.0; 2] };
     let world =
         LineEnvironment { bottom: Some((&bottom, SeabedLaw::elastic(1e5))), ..LineEnvironment::new(&fluid, 9.81) };
-    let segment = Segment {
+    let segment = RodSegment {
         drag_normal: 1.2,
         drag_tangential: 0.1,
         added_normal: 1.0,
         added_tangential: 0.2,
-        ..Segment::line(185.0, 12, 150.0, 1e8, 0.3)
+        ..RodSegment::line(185.0, 12, 150.0, 1e8, 0.3)
     };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
     let (a, b) = (Vector3::new(0.0, 0.0, -5.0), Vector3::new(150.0, 0.0, -60.0));
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    let mut ends = [End::pin(a), End::pin(b)];
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let mut ends = [RodEnd::pin(a), RodEnd::pin(b)];
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     for i in 0..=100 {
         let told = rod.results(&state, &world, &ends);
         assert!(told.iter().all(|n| n.effective >= 0.0), "{i}: {told:?}");
         let t = f64::from(i + 1) * 0.05;
         let (s, c) = t.sin_cos();
-        ends[0] = End::from_motion(Motion {
+        ends[0] = RodEnd::from_motion(RodEndMotion {
             position: a + Vector3::z() * (1.0 - c),
             velocity: Vector3::z() * s,
             acceleration: Vector3::z() * c,
@@ -232,11 +233,11 @@ fn a_rope_that_floats_up_comes_to_rest_as_its_mirror_image_that_sinks_and_as_soo
     let world = LineEnvironment::new(&fluid, 9.81);
     let water = 1025.0 * std::f64::consts::FRAC_PI_4 * 0.09;
     let rest = |mass: f64, up: f64| {
-        let rod = Rod::new("rope", vec![Segment::line(100.0, 40, mass, 1e8, 0.3)], vec![]).unwrap();
+        let rod = Rod::new("rope", vec![RodSegment::line(100.0, 40, mass, 1e8, 0.3)], vec![]).unwrap();
         let (a, b) = (Vector3::new(0.0, 0.0, -300.0), Vector3::new(60.0, 0.0, -300.0 + up));
-        let mut state = State::along_points(&rod, &[a, b]).unwrap();
-        let ends = [End::pin(a), End::pin(b)];
-        let made = Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
+        let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+        let ends = [RodEnd::pin(a), RodEnd::pin(b)];
+        let made = RodSolver::new(&rod, RodSettings::default()).statics(&rod, &mut state, &world, ends).unwrap();
         (state.places(), made.iterations)
     };
     let ((light, few), (heavy, many)) = (rest(0.2, 10.0), rest(2.0 * water - 0.2, -10.0));

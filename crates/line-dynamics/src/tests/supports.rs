@@ -86,7 +86,8 @@ fn plain(x: f64, stiffness: f64) -> Cradle {
 
 /// A pipe of a weight per length (N/m).
 fn pipe(length: f64, elements: usize, weight: f64, bending: f64) -> Rod {
-    let segment = Segment { bending, compression: true, ..Segment::line(length, elements, weight / 9.81, 1e9, 0.3) };
+    let segment =
+        RodSegment { bending, compression: true, ..RodSegment::line(length, elements, weight / 9.81, 1e9, 0.3) };
     Rod::new("pipe", vec![segment], vec![]).unwrap()
 }
 
@@ -107,9 +108,9 @@ fn a_beam_over_three_rollers_has_the_reactions_of_the_continuous_beam() {
         let fluid = UniformFluid::vacuum();
         let world = LineEnvironment { supports: &supports(&rollers), ..LineEnvironment::new(&fluid, 9.81) };
         let (a, b) = (Vector3::zeros(), Vector3::x() * rod.length());
-        let mut state = State::along_points(&rod, &[a, b]).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
-        let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::FREE]).unwrap();
+        let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
+        let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::FREE]).unwrap();
         let told = rod.support_forces(&state, &world);
         for (told, wanted) in told.iter().zip(wanted) {
             // second order in the element, (1/80)^2; a support sinks by 2e-5 m, which takes 12 EI / L^3 of it
@@ -118,7 +119,7 @@ fn a_beam_over_three_rollers_has_the_reactions_of_the_continuous_beam() {
         let sum = -told.iter().map(|r| r.force.z).sum::<f64>() - made.force[0].z;
         // of the whole weight, to the residual of statics
         assert!((sum / (w * rod.length()) - 1.0).abs() < 1e-6, "{sum}");
-        let moment = rod.results(&state, &world, &[End::pin(a), End::FREE]);
+        let moment = rod.results(&state, &world, &[RodEnd::pin(a), RodEnd::FREE]);
         let most = moment.iter().filter(|n| (n.arc - span).abs() < 1.0).fold(0.0, |m: f64, n| m.max(n.moment));
         // the nodes beside a roller share its force, which rounds the peak by a quarter of force times element at most
         let rounded = 0.25 * wanted[0] * rod.length() / elements as f64;
@@ -134,19 +135,19 @@ fn slid(elements: usize) -> (Vec<f64>, f64) {
     let rollers: Vec<Cradle> = (0..7).map(|i| Cradle { damping: 1e4, ..plain(span * i as f64 + 4.0, 1e7) }).collect();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment { supports: &supports(&rollers), ..LineEnvironment::new(&fluid, 9.81) };
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    solver.statics(&rod, &mut state, &world, [End::pin(Vector3::zeros()), End::FREE]).unwrap();
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    solver.statics(&rod, &mut state, &world, [RodEnd::pin(Vector3::zeros()), RodEnd::FREE]).unwrap();
     let (mut reactions, mut pull) = (Vec::new(), 0.0f64);
     let (speed, h) = (0.1, 0.1);
     for i in 1..=200 {
         let t = h * i as f64;
-        let motion = Motion {
+        let motion = RodEndMotion {
             position: Vector3::x() * (-speed * t),
             velocity: Vector3::x() * -speed,
             acceleration: Vector3::zeros(),
         };
-        let made = solver.step(&rod, &mut state, &world, t, [End::from_motion(motion), End::FREE]).unwrap();
+        let made = solver.step(&rod, &mut state, &world, t, [RodEnd::from_motion(motion), RodEnd::FREE]).unwrap();
         // the jolt of the start has died out after two seconds
         if i > 20 {
             reactions.push(-rod.support_forces(&state, &world)[3].force.z);
@@ -175,16 +176,16 @@ fn a_pipe_that_slides_over_rollers_presses_evenly_as_nodes_go_by() {
 
 /// A heavy point on a hinge of light rope along x, let down into a cradle and pulled aside.
 fn lying(cradle: Cradle, load: Vector3<f64>) -> (Vector3<f64>, SupportForce) {
-    let segment = Segment { compression: true, ..Segment::line(200.0, 2, 1e-3, 1e7, 0.1) };
+    let segment = RodSegment { compression: true, ..RodSegment::line(200.0, 2, 1e-3, 1e7, 0.1) };
     let rod = Rod::new("line", vec![segment], vec![]).unwrap();
     let forces = [(1, load)];
     let fluid = UniformFluid::vacuum();
     let rollers = [cradle];
     let world = LineEnvironment { supports: &supports(&rollers), forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
     let (a, b) = (Vector3::x() * -100.0, Vector3::x() * 100.0);
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
     (state.position[1], rod.support_forces(&state, &world)[0])
 }
 
@@ -213,7 +214,7 @@ fn a_cradle_holds_a_pipe_by_the_balance_of_its_faces() {
 /// The books of a pipe dropped on two rollers that heave, by steps of `h` seconds.
 fn dropped(h: f64) -> Balance {
     // soft along, so that its steps follow the waves of its landing
-    let segment = Segment { bending: 1e6, compression: true, ..Segment::line(40.0, 40, 30.0, 1e6, 0.3) };
+    let segment = RodSegment { bending: 1e6, compression: true, ..RodSegment::line(40.0, 40, 30.0, 1e6, 0.3) };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let w = 0.9;
@@ -229,10 +230,10 @@ fn dropped(h: f64) -> Balance {
         })
     };
     let start = Vector3::zeros();
-    let mut state = State::along_points(&rod, &[start, Vector3::new(40.0, 0.0, 1.0)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[start, Vector3::new(40.0, 0.0, 1.0)]).unwrap();
     let mut solver =
-        Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(0.9), ..Settings::default() });
-    let ends = [End::pin(start), End::FREE];
+        RodSolver::new(&rod, RodSettings { scheme: SchemeWeights::generalised_alpha(0.9), ..RodSettings::default() });
+    let ends = [RodEnd::pin(start), RodEnd::FREE];
     let at = rollers(0.0);
     solver
         .start(
@@ -269,9 +270,10 @@ fn a_pipe_dropped_on_moving_rollers_keeps_its_books() {
 #[test]
 fn tangent_of_a_rod_on_rollers_is_the_difference_of_its_residual() {
     // soft along, so that rounding of its tension does not hide the rollers
-    let segment = Segment { bending: 1e4, compression: true, ..Segment::line(20.0, 5, 30.0, 1e5, 0.3) };
+    let segment = RodSegment { bending: 1e4, compression: true, ..RodSegment::line(20.0, 5, 30.0, 1e5, 0.3) };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
-    let mut state = State::along_points(&rod, &[Vector3::new(0.0, 0.0, -0.3), Vector3::new(19.0, 2.0, 0.0)]).unwrap();
+    let mut state =
+        RodState::along_points(&rod, &[Vector3::new(0.0, 0.0, -0.3), Vector3::new(19.0, 2.0, 0.0)]).unwrap();
     state.move_origin(Vector3::zeros());
     for i in 0..rod.nodes() {
         let s = i as f64;
@@ -294,7 +296,7 @@ fn tangent_of_a_rod_on_rollers_is_the_difference_of_its_residual() {
         "{:?}",
         rod.support_forces(&state, &world)
     );
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     compare(&rod, &state, &world, &mut solver);
 }
 
@@ -313,7 +315,7 @@ impl SupportLaw for Sling {
 /// A pipe on two cradles, the first turned by `motion` about its place and the second tilted, its first node on a sling: forces and
 /// moments on all three, and how they follow.
 fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) {
-    let segment = Segment { bending: 1e4, compression: true, ..Segment::line(30.0, 30, 30.0, 1e6, 0.3) };
+    let segment = RodSegment { bending: 1e4, compression: true, ..RodSegment::line(30.0, 30, 30.0, 1e6, 0.3) };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
     let placed = |i: usize, place: Vector3<f64>| place + Vector3::from_row_slice(&motion[i][..3]);
     let turned = |i: usize, tilt: f64| {
@@ -336,9 +338,9 @@ fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) 
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment { supports: &held, ..LineEnvironment::new(&fluid, 9.81) };
     let (a, b) = (Vector3::zeros(), Vector3::new(30.0, 0.0, -0.5));
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    solver.statics(&rod, &mut state, &world, [End::FREE, End::pin(b)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    solver.statics(&rod, &mut state, &world, [RodEnd::FREE, RodEnd::pin(b)]).unwrap();
     let told = rod.support_forces(&state, &world).iter().map(|s| [s.force, s.moment]).collect();
     (told, solver.support_tangent(&rod, &world).unwrap())
 }

@@ -15,14 +15,14 @@ fn windy(wind: Vector3<f64>) -> UniformFluid {
 fn a_rope_that_hangs_in_wind_takes_the_critical_angle() {
     // a straight line of weight w with normal drag alone: 1/2 rho Cd D V^2 cos^2(a) = w sin(a), a from the vertical
     let (diameter, speed, mass, cd): (f64, f64, f64, f64) = (0.1, 30.0, 4.0, 1.2);
-    let segment = Segment { wind_drag: cd, ..Segment::line(20.0, 10, mass, 1e8, diameter) };
+    let segment = RodSegment { wind_drag: cd, ..RodSegment::line(20.0, 10, mass, 1e8, diameter) };
     let rod = Rod::new("flag", vec![segment], vec![]).unwrap();
     let fluid = windy(Vector3::x() * speed);
     let world = LineEnvironment::new(&fluid, 9.81);
     let top = Vector3::new(0.0, 0.0, 40.0);
-    let mut state = State::along_points(&rod, &[top, Vector3::new(0.0, 0.0, 20.0)]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    let made = solver.statics(&rod, &mut state, &world, [End::pin(top), End::FREE]).unwrap();
+    let mut state = RodState::along_points(&rod, &[top, Vector3::new(0.0, 0.0, 20.0)]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(top), RodEnd::FREE]).unwrap();
     let (q, w) = (0.5 * AIR * cd * diameter * speed * speed, mass * 9.81);
     let sine = (-w + (w * w + 4.0 * q * q).sqrt()) / (2.0 * q);
     for pair in state.position.windows(2) {
@@ -40,13 +40,13 @@ fn wind_takes_hold_of_the_dry_part_alone() {
     let fluid = windy(Vector3::y() * 25.0);
     let world = LineEnvironment::new(&fluid, 0.0);
     for low in [-14.0, -10.0, -7.3] {
-        let segment = Segment { wind_drag: 1.0, wind_diameter: 0.5, ..Segment::line(20.0, 8, 100.0, 1e12, 0.2) };
+        let segment = RodSegment { wind_drag: 1.0, wind_diameter: 0.5, ..RodSegment::line(20.0, 8, 100.0, 1e12, 0.2) };
         let rod = Rod::new("pile", vec![segment], vec![]).unwrap();
         let (a, b) = (Vector3::new(0.0, 0.0, low), Vector3::new(0.0, 0.0, low + 20.0));
-        let state = State::along_points(&rod, &[a, b]).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
+        let state = RodState::along_points(&rod, &[a, b]).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
         let mut started = state.clone();
-        solver.start(&rod, &mut started, &world, [End::FREE; 2]).unwrap();
+        solver.start(&rod, &mut started, &world, [RodEnd::FREE; 2]).unwrap();
         let push: f64 = started.acceleration.iter().enumerate().map(|(i, a)| a.y * lumped(i, 8, 100.0 * 20.0)).sum();
         let wanted = 0.5 * AIR * 0.5 * 25.0 * 25.0 * (low + 20.0);
         // the share goes over a section evenly: the length in air is exact, but for rounding
@@ -64,23 +64,24 @@ fn a_cylinder_pressed_through_the_surface_takes_up_the_momentum_of_its_added_mas
     let (length, diameter, speed) = (12.0f64, 0.8, 3.0);
     let added = 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter * length;
     for (tilt, slam) in [(0.0f64, true), (0.3, true), (0.3, false)] {
-        let segment = Segment { added_normal: 1.0, compression: true, ..Segment::line(length, 1, 50.0, 1e9, diameter) };
+        let segment =
+            RodSegment { added_normal: 1.0, compression: true, ..RodSegment::line(length, 1, 50.0, 1e9, diameter) };
         let rod = Rod::new("cylinder", vec![segment], vec![]).unwrap();
         let fluid = UniformFluid::still(1025.0);
         let world = LineEnvironment { slam, ..LineEnvironment::new(&fluid, 0.0) };
         let along = Vector3::new(tilt.cos(), 0.0, tilt.sin()) * length;
         let start = Vector3::new(0.0, 0.0, 1.0);
-        let mut state = State::along_points(&rod, &[start, start + along]).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
+        let mut state = RodState::along_points(&rod, &[start, start + along]).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
         let sink = |t: f64, from: Vector3<f64>, speed: f64| {
-            End::from_motion(Motion {
+            RodEnd::from_motion(RodEndMotion {
                 position: from - Vector3::z() * (speed * t),
                 velocity: Vector3::z() * -speed,
                 acceleration: Vector3::zeros(),
             })
         };
         let (steps, h) = (2000, 1e-3);
-        let run = |state: &mut State, solver: &mut Solver, speed: f64| {
+        let run = |state: &mut RodState, solver: &mut RodSolver, speed: f64| {
             let (t0, from) = (state.time, [0, 1].map(|node| state.place(node).unwrap()));
             (1..=steps).fold(Vector3::zeros(), |sum, i| {
                 let t = i as f64 * h;
@@ -105,20 +106,20 @@ fn a_cylinder_pressed_through_the_surface_takes_up_the_momentum_of_its_added_mas
 fn a_cylinder_thrown_at_the_surface_shares_its_momentum_with_the_water() {
     // [VON-KARMAN-1929]: m v0 = (m + m_a) v
     let (length, diameter, mass, speed) = (10.0, 0.5, 150.0, 4.0);
-    let segment = Segment { added_normal: 1.0, ..Segment::line(length, 4, mass, 1e8, diameter) };
+    let segment = RodSegment { added_normal: 1.0, ..RodSegment::line(length, 4, mass, 1e8, diameter) };
     let rod = Rod::new("cylinder", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::still(1025.0);
     let world = LineEnvironment { slam: true, ..LineEnvironment::new(&fluid, 0.0) };
     let at = |x: f64| Vector3::new(x, 0.0, 0.6);
-    let mut state = State::along_points(&rod, &[at(0.0), at(length)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[at(0.0), at(length)]).unwrap();
     state.velocity.fill(Vector3::z() * -speed);
     let mut solver =
-        Solver::new(&rod, Settings { scheme: SchemeWeights::generalised_alpha(1.0), ..Settings::default() });
-    solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
-    let made = EndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
+        RodSolver::new(&rod, RodSettings { scheme: SchemeWeights::generalised_alpha(1.0), ..RodSettings::default() });
+    solver.start(&rod, &mut state, &world, [RodEnd::FREE; 2]).unwrap();
+    let made = RodEndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     for i in 1..=1000 {
-        let made = solver.step(&rod, &mut state, &world, i as f64 * 5e-4, [End::FREE; 2]).unwrap();
+        let made = solver.step(&rod, &mut state, &world, i as f64 * 5e-4, [RodEnd::FREE; 2]).unwrap();
         books.enter(&rod, &state, &world, &solver, &made);
     }
     let added = 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter;
@@ -135,22 +136,22 @@ fn a_pipe_that_drops_level_on_the_sea_slams_and_floats() {
     // the worst for an iteration: every element meets the water at once, in long steps
     let (length, diameter): (f64, f64) = (60.0, 0.6);
     let mass = 0.4 * 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter;
-    let segment = Segment {
+    let segment = RodSegment {
         compression: true,
         bending: 5e7,
         drag_normal: 1.2,
         added_normal: 1.0,
-        ..Segment::line(length, 30, mass, 1e9, diameter)
+        ..RodSegment::line(length, 30, mass, 1e9, diameter)
     };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::still(1025.0);
     let world = LineEnvironment { slam: true, ..LineEnvironment::new(&fluid, 9.81) };
     for h in [0.02, 0.1, 0.3] {
-        let mut state = State::along_points(&rod, &[Vector3::z() * 4.0, Vector3::new(length, 0.0, 4.0)]).unwrap();
-        let mut solver = Solver::new(&rod, Settings::default());
-        solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
+        let mut state = RodState::along_points(&rod, &[Vector3::z() * 4.0, Vector3::new(length, 0.0, 4.0)]).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
+        solver.start(&rod, &mut state, &world, [RodEnd::FREE; 2]).unwrap();
         for i in 1..=(60.0 / h) as usize {
-            solver.step(&rod, &mut state, &world, i as f64 * h, [End::FREE; 2]).unwrap();
+            solver.step(&rod, &mut state, &world, i as f64 * h, [RodEnd::FREE; 2]).unwrap();
         }
         // afloat with two fifths of its section under: 3 s^2 - 2 s^3 = 0.4 at s = 0.432932
         let wanted = (0.5 - 0.432_932) * diameter;
@@ -171,21 +172,21 @@ fn tangent_of_rods_in_the_surface_is_the_difference_of_their_residual() {
         ..UniformFluid::still(1025.0).0
     });
     let world = LineEnvironment { slam: true, ..LineEnvironment::new(&fluid, 9.81) };
-    let segment = Segment {
+    let segment = RodSegment {
         drag_normal: 1.2,
         added_normal: 1.0,
         added_tangential: 0.2,
         wind_drag: 1.1,
-        ..Segment::line(20.0, 4, 80.0, 1e6, 0.9)
+        ..RodSegment::line(20.0, 4, 80.0, 1e6, 0.9)
     };
     let rod = Rod::new("floating", vec![segment], vec![]).unwrap();
-    let mut state = State::along_points(&rod, &[Vector3::new(0.0, 0.0, 0.0), Vector3::new(20.1, 1.0, 0.2)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[Vector3::new(0.0, 0.0, 0.0), Vector3::new(20.1, 1.0, 0.2)]).unwrap();
     for i in 0..rod.nodes() {
         let s = i as f64;
         state.position[i] += Vector3::new((s * 1.3).sin(), (s * 2.1).cos(), (s * 0.7).sin()) * 0.15;
         state.velocity[i] = Vector3::new((s * 0.9).cos(), (s * 1.7).sin(), -1.0 - 0.5 * (s * 2.3).cos());
         state.acceleration[i] = Vector3::new((s * 1.9).cos(), (s * 0.4).sin(), (s * 1.3).cos());
     }
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     compare(&rod, &state, &world, &mut solver);
 }

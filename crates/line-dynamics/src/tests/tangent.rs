@@ -5,8 +5,8 @@ use super::super::*;
 use nalgebra::Vector3;
 
 /// A rod with everything on it that has a tangent, in a bent and moving position through surface and bottom.
-fn everything(bending: f64) -> (Rod, State) {
-    let segment = |law, tube| Segment {
+fn everything(bending: f64) -> (Rod, RodState) {
+    let segment = |law, tube| RodSegment {
         axial: law,
         axial_damping: 2e4,
         compression: true,
@@ -17,13 +17,16 @@ fn everything(bending: f64) -> (Rod, State) {
         added_tangential: 0.3,
         wind_drag: 1.1,
         tube,
-        ..Segment::line(20.0, 4, 80.0, 1e6, 0.4)
+        ..RodSegment::line(20.0, 4, 80.0, 1e6, 0.4)
     };
-    let tube = Tube { warmer: 40.0, expansion: 1e-5, pressure: 2e5, contents: 800.0, ..Tube::empty(0.4, 0.3) };
-    let segments = vec![segment(Axial::Linear(1e6), Some(tube)), segment(Axial::Polynomial(vec![1e6, 3e6]), None)];
+    let tube =
+        TubeSection { warmer: 40.0, expansion: 1e-5, pressure: 2e5, contents: 800.0, ..TubeSection::empty(0.4, 0.3) };
+    let segments =
+        vec![segment(TensionLaw::Linear(1e6), Some(tube)), segment(TensionLaw::Polynomial(vec![1e6, 3e6]), None)];
     let buoy = super::buoy(7);
     let rod = Rod::new("all", segments, vec![buoy]).unwrap();
-    let mut state = State::along_points(&rod, &[Vector3::new(0.0, 0.0, -9.0), Vector3::new(30.0, 5.0, 8.0)]).unwrap();
+    let mut state =
+        RodState::along_points(&rod, &[Vector3::new(0.0, 0.0, -9.0), Vector3::new(30.0, 5.0, 8.0)]).unwrap();
     state.move_origin(Vector3::zeros());
     for i in 0..rod.nodes() {
         let s = i as f64;
@@ -57,9 +60,9 @@ fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
     for bending in [0.0, 4e5] {
         let (mut rod, state) = everything(bending);
         rod.elements[2].rate = 0.3;
-        let mut solver = Solver::new(&rod, Settings::default());
-        solver.trial.ends[0] = End::FREE.with_clamp(Vector3::new(0.8, 0.3, 0.5));
-        solver.trial.ends[1] = End { rotation: Some(2e5), ..End::FREE.with_clamp(Vector3::new(0.5, -0.3, 0.5)) };
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
+        solver.trial.ends[0] = RodEnd::FREE.with_clamp(Vector3::new(0.8, 0.3, 0.5));
+        solver.trial.ends[1] = RodEnd { rotation: Some(2e5), ..RodEnd::FREE.with_clamp(Vector3::new(0.5, -0.3, 0.5)) };
         compare(&rod, &state, &world, &mut solver);
         for side in [0, 1] {
             solver.trial.pulled_end = Some(side);
@@ -69,7 +72,7 @@ fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
 }
 
 /// Compares the tangent of a rod in a state, by each of position, velocity and acceleration, with differences.
-pub(super) fn compare(rod: &Rod, state: &State, world: &LineEnvironment, solver: &mut Solver) {
+pub(super) fn compare(rod: &Rod, state: &RodState, world: &LineEnvironment, solver: &mut RodSolver) {
     let mut at = |position: &[Vector3<f64>], velocity: &[Vector3<f64>], acceleration: &[Vector3<f64>], w: Weights| {
         solver.trial.x.copy_from_slice(position);
         solver.trial.v.copy_from_slice(velocity);
@@ -118,11 +121,12 @@ fn elements_taken_at_once_are_what_each_is_alone() {
         ..UniformFluid::still(1025.0).0
     });
     let world = LineEnvironment::new(&fluid, 9.81);
-    let full = Tube { expansion: 1e-5, warmer: 40.0, pressure: 2e6, contents: 800.0, ..Tube::empty(0.4, 0.36) };
+    let full =
+        TubeSection { expansion: 1e-5, warmer: 40.0, pressure: 2e6, contents: 800.0, ..TubeSection::empty(0.4, 0.36) };
     for (bending, compression, tube) in
         [(0.0, false, None), (0.0, true, None), (4e5, true, None), (0.0, false, Some(full)), (4e5, true, Some(full))]
     {
-        let segment = Segment {
+        let segment = RodSegment {
             axial_damping: 2e4,
             compression,
             bending,
@@ -131,12 +135,12 @@ fn elements_taken_at_once_are_what_each_is_alone() {
             drag_tangential: 0.1,
             added_normal: 1.0,
             added_tangential: 0.3,
-            ..Segment::line(95.0, 19, 80.0, 1e6, 0.4)
+            ..RodSegment::line(95.0, 19, 80.0, 1e6, 0.4)
         };
         let mut rod = Rod::new("plain", vec![segment], vec![]).unwrap();
         // the top comes out of the water, some elements are slack, one is wound, one node stands still in the water
         let mut state =
-            State::along_points(&rod, &[Vector3::new(0.0, 0.0, -90.0), Vector3::new(30.0, 5.0, 6.0)]).unwrap();
+            RodState::along_points(&rod, &[Vector3::new(0.0, 0.0, -90.0), Vector3::new(30.0, 5.0, 6.0)]).unwrap();
         state.move_origin(Vector3::zeros());
         for i in 0..rod.nodes() {
             let s = i as f64;
@@ -149,7 +153,7 @@ fn elements_taken_at_once_are_what_each_is_alone() {
         let weights = Weights { k: 1.0, c: 30.0, m: 900.0 };
         let mut made = [true, false].map(|plain| {
             rod.elements.iter_mut().for_each(|e| e.plain = plain);
-            let mut solver = Solver::new(&rod, Settings::default());
+            let mut solver = RodSolver::new(&rod, RodSettings::default());
             solver.trial.x.copy_from_slice(&state.position);
             solver.trial.v.copy_from_slice(&state.velocity);
             solver.trial.a.copy_from_slice(&state.acceleration);

@@ -1,6 +1,6 @@
 //! Ropes with a static and a dynamic stiffness, against the standard linear solid.
 
-use super::super::viscoelastic::Memory;
+use super::super::viscoelastic::MaxwellMemory;
 use super::super::*;
 use super::tangent::compare;
 use nalgebra::Vector3;
@@ -24,18 +24,18 @@ struct Cycle {
 }
 
 /// Stretches one massless element by a mean strain and swings it at `frequency` (rad/s) for some cycles of `steps` steps.
-fn cycle(rope: Viscoelastic, mean: f64, frequency: f64, steps: usize) -> Cycle {
-    let axial = Axial::Viscoelastic(Box::new(rope));
-    let segment = Segment { axial, ..Segment::line(LENGTH, 1, 1e-6, 1.0, 0.1) };
+fn cycle(rope: ViscoelasticRope, mean: f64, frequency: f64, steps: usize) -> Cycle {
+    let axial = TensionLaw::Viscoelastic(Box::new(rope));
+    let segment = RodSegment { axial, ..RodSegment::line(LENGTH, 1, 1e-6, 1.0, 0.1) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 0.0);
     let (a, b) = (Vector3::zeros(), Vector3::x() * (LENGTH * (1.0 + mean)));
     let swing = Vector3::x() * (LENGTH * SWING);
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    let held = End::pin(a);
-    let made = solver.statics(&rod, &mut state, &world, [held, End::pin(b + swing)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let held = RodEnd::pin(a);
+    let made = solver.statics(&rod, &mut state, &world, [held, RodEnd::pin(b + swing)]).unwrap();
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     let mut found = Cycle { storage: 0.0, lost: 0.0, mean: 0.0, booked: [0.0; 2] };
     let (mut before, mut damped) = ((-made.force[1].x, b.x + swing.x), 0.0);
@@ -44,12 +44,12 @@ fn cycle(rope: Viscoelastic, mean: f64, frequency: f64, steps: usize) -> Cycle {
     for i in 1..=(settling + 1) * steps {
         let t = 2.0 * PI / frequency * i as f64 / steps as f64;
         let (s, c) = (2.0 * PI * (i % steps) as f64 / steps as f64).sin_cos();
-        let motion = Motion {
+        let motion = RodEndMotion {
             position: b + swing * c,
             velocity: swing * (-frequency * s),
             acceleration: swing * (-frequency * frequency * c),
         };
-        let made = solver.step(&rod, &mut state, &world, t, [held, End::from_motion(motion)]).unwrap();
+        let made = solver.step(&rod, &mut state, &world, t, [held, RodEnd::from_motion(motion)]).unwrap();
         books.enter(&rod, &state, &world, &solver, &made);
         let now = (-made.force[1].x, motion.position.x);
         if i == settling * steps {
@@ -70,7 +70,7 @@ fn cycle(rope: Viscoelastic, mean: f64, frequency: f64, steps: usize) -> Cycle {
 fn a_cycled_rope_has_the_modulus_and_the_loss_of_the_standard_linear_solid() {
     let (slow, fast, tau) = (1e7, 2.5e7, 20.0);
     for frequency in [1e-3, 0.02, 0.05, 0.3, 6.0] {
-        let rope = Viscoelastic { slow: Axial::Linear(slow), fast: [fast, 0.0], relaxation: tau };
+        let rope = ViscoelasticRope { slow: TensionLaw::Linear(slow), fast: [fast, 0.0], relaxation: tau };
         let found = cycle(rope, 0.02, frequency, 400);
         let wt = frequency * tau;
         // E' = E0 + E1 (w tau)^2 / (1 + (w tau)^2), E'' = E1 w tau / (1 + (w tau)^2), loss pi e^2 E''
@@ -91,8 +91,8 @@ fn a_slow_cycle_has_the_static_stiffness_and_a_fast_one_the_dynamic_of_its_mean_
     for (mean, tension) in [(0.01, 1.1e5), (0.03, 3.9e5)] {
         // T = 1e7 e + 1e8 e^2; dynamic 1.8e7 + 12 T
         let (a, b) = (1.8e7, 12.0);
-        let slow = Axial::Polynomial(vec![1e7, 1e8]);
-        let rope = || Viscoelastic { slow: slow.clone(), fast: [a, b], relaxation: 20.0 };
+        let slow = TensionLaw::Polynomial(vec![1e7, 1e8]);
+        let rope = || ViscoelasticRope { slow: slow.clone(), fast: [a, b], relaxation: 20.0 };
         let (still, quick) = (cycle(rope(), mean, 1e-4, 100), cycle(rope(), mean, 6.0, 100));
         let (told, at) = (slow.evaluate(mean), a + b * tension);
         assert!((told.0 / tension - 1.0).abs() < 1e-12);
@@ -109,18 +109,21 @@ fn a_slow_cycle_has_the_static_stiffness_and_a_fast_one_the_dynamic_of_its_mean_
 fn a_hanging_load_creeps_to_the_static_length_and_its_books_add_up() {
     // pulled by a weight at once the rope stretches by W / E_d, then creeps with tau E_d / E_s to W / E_s
     let (slow, fast, tau, load) = (1e7, 2.5e7, 20.0, 1e5);
-    let axial =
-        Axial::Viscoelastic(Box::new(Viscoelastic { slow: Axial::Linear(slow), fast: [fast, 0.0], relaxation: tau }));
-    let segment = Segment { axial, axial_damping: 2e5, ..Segment::line(LENGTH, 4, 1.0, 1.0, 0.1) };
+    let axial = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope {
+        slow: TensionLaw::Linear(slow),
+        fast: [fast, 0.0],
+        relaxation: tau,
+    }));
+    let segment = RodSegment { axial, axial_damping: 2e5, ..RodSegment::line(LENGTH, 4, 1.0, 1.0, 0.1) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let forces = [(4, Vector3::x() * load)];
     let world = LineEnvironment { forces: &forces, ..LineEnvironment::new(&fluid, 0.0) };
     let (a, b) = (Vector3::zeros(), Vector3::x() * LENGTH);
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    let ends = [End::pin(a), End::FREE];
-    let made = EndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let ends = [RodEnd::pin(a), RodEnd::FREE];
+    let made = RodEndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     let h = 0.01;
     for i in 1..=10_000 {
@@ -148,27 +151,27 @@ fn a_hanging_load_creeps_to_the_static_length_and_its_books_add_up() {
 
 #[test]
 fn a_rope_that_is_let_go_slack_never_pushes() {
-    let slow = Axial::Linear(1e7);
-    let axial = Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast: [3e7, 5.0], relaxation: 50.0 }));
-    let segment = Segment { axial, ..Segment::line(LENGTH, 1, 10.0, 1.0, 0.1) };
+    let slow = TensionLaw::Linear(1e7);
+    let axial = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope { slow, fast: [3e7, 5.0], relaxation: 50.0 }));
+    let segment = RodSegment { axial, ..RodSegment::line(LENGTH, 1, 10.0, 1.0, 0.1) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 0.0);
     let (a, b) = (Vector3::zeros(), Vector3::x() * (1.02 * LENGTH));
-    let mut state = State::along_points(&rod, &[a, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     for i in 1..=400 {
         let t = i as f64 * 0.05;
         let (s, c) = (0.5 * t).sin_cos();
         let (r, w) = (0.03 * LENGTH, 0.5);
-        let motion = Motion {
+        let motion = RodEndMotion {
             position: b - Vector3::x() * (r * (1.0 - c)),
             velocity: Vector3::x() * (-r * w * s),
             acceleration: Vector3::x() * (-r * w * w * c),
         };
-        let made = solver.step(&rod, &mut state, &world, t, [End::pin(a), End::from_motion(motion)]).unwrap();
+        let made = solver.step(&rod, &mut state, &world, t, [RodEnd::pin(a), RodEnd::from_motion(motion)]).unwrap();
         // one massless element but for 50 kg at an acceleration of 0.075 m/s2
         assert!(made.force[1].x < 4.0, "{t}: {}", made.force[1].x);
         books.enter(&rod, &state, &world, &solver, &made);
@@ -179,35 +182,38 @@ fn a_rope_that_is_let_go_slack_never_pushes() {
 
 #[test]
 fn a_viscoelastic_law_that_makes_no_rope_is_refused() {
-    let told = |slow: Axial, fast, relaxation| {
-        let axial = Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast, relaxation }));
-        let segment = Segment { axial, ..Segment::line(10.0, 1, 1.0, 1.0, 0.1) };
+    let told = |slow: TensionLaw, fast, relaxation| {
+        let axial = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope { slow, fast, relaxation }));
+        let segment = RodSegment { axial, ..RodSegment::line(10.0, 1, 1.0, 1.0, 0.1) };
         Rod::new("rope", vec![segment], vec![]).unwrap_err().to_string()
     };
-    assert!(told(Axial::Linear(2e7), [1e7, 1.0], 10.0).contains("no less than the static one"));
-    assert!(told(Axial::Linear(1e7), [f64::NAN, 1.0], 10.0).contains("no less than the static one"));
-    assert!(told(Axial::Linear(1e7), [2e7, -1.0], 10.0).contains("mean tension"));
-    assert!(told(Axial::Linear(1e7), [2e7, 1.0], 0.0).contains("relaxation time"));
-    assert!(told(Axial::Linear(0.0), [2e7, 1.0], 1.0).contains("positive"));
-    let inner =
-        Axial::Viscoelastic(Box::new(Viscoelastic { slow: Axial::Linear(1.0), fast: [2.0, 0.0], relaxation: 1.0 }));
+    assert!(told(TensionLaw::Linear(2e7), [1e7, 1.0], 10.0).contains("no less than the static one"));
+    assert!(told(TensionLaw::Linear(1e7), [f64::NAN, 1.0], 10.0).contains("no less than the static one"));
+    assert!(told(TensionLaw::Linear(1e7), [2e7, -1.0], 10.0).contains("mean tension"));
+    assert!(told(TensionLaw::Linear(1e7), [2e7, 1.0], 0.0).contains("relaxation time"));
+    assert!(told(TensionLaw::Linear(0.0), [2e7, 1.0], 1.0).contains("positive"));
+    let inner = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope {
+        slow: TensionLaw::Linear(1.0),
+        fast: [2.0, 0.0],
+        relaxation: 1.0,
+    }));
     assert!(told(inner, [2e7, 1.0], 1.0).contains("viscoelastic itself"));
 }
 
 #[test]
 fn tangent_of_a_viscoelastic_rod_is_the_difference_of_its_residual() {
-    let slow = Axial::Polynomial(vec![1e6, 4e6]);
-    let axial = Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast: [2e6, 9.0], relaxation: 5.0 }));
-    let segment = Segment { axial, axial_damping: 1e4, ..Segment::line(20.0, 4, 30.0, 1.0, 0.1) };
+    let slow = TensionLaw::Polynomial(vec![1e6, 4e6]);
+    let axial = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope { slow, fast: [2e6, 9.0], relaxation: 5.0 }));
+    let segment = RodSegment { axial, axial_damping: 1e4, ..RodSegment::line(20.0, 4, 30.0, 1.0, 0.1) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
-    let mut state = State::along_points(&rod, &[Vector3::zeros(), Vector3::new(20.0, 3.0, 8.0)]).unwrap();
+    let mut state = RodState::along_points(&rod, &[Vector3::zeros(), Vector3::new(20.0, 3.0, 8.0)]).unwrap();
     for i in 0..rod.nodes() {
         let s = i as f64;
         state.position[i] += Vector3::new((s * 1.3).sin(), (s * 2.1).cos(), (s * 0.7).sin()) * 0.1;
         state.velocity[i] = Vector3::new((s * 0.9).cos(), (s * 1.7).sin(), 0.5 * (s * 2.3).cos());
     }
-    let mut solver = Solver::new(&rod, Settings::default());
-    solver.trial.memory.fill(Memory { kept: -0.04, follows: 0.7 });
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    solver.trial.memory.fill(MaxwellMemory { kept: -0.04, follows: 0.7 });
     let fluid = UniformFluid::vacuum();
     compare(&rod, &state, &LineEnvironment::new(&fluid, 9.81), &mut solver);
 }
@@ -216,27 +222,27 @@ fn tangent_of_a_viscoelastic_rod_is_the_difference_of_its_residual() {
 fn a_rope_that_is_let_in_fast_does_not_push_through_its_damper() {
     // one massless element let in at a steady speed: T = EA e - c v / L, but never less than nothing; its books add up
     let (ea, damping, speed, strain) = (1e7, 2e6, 0.05, 0.01);
-    for rope in [None, Some(Viscoelastic { slow: Axial::Linear(ea), fast: [ea, 0.0], relaxation: 5.0 })] {
-        let axial = rope.map_or(Axial::Linear(ea), |rope| Axial::Viscoelastic(Box::new(rope)));
-        let segment = Segment { axial, axial_damping: damping, ..Segment::line(LENGTH, 1, 1e-6, 1.0, 0.1) };
+    for rope in [None, Some(ViscoelasticRope { slow: TensionLaw::Linear(ea), fast: [ea, 0.0], relaxation: 5.0 })] {
+        let axial = rope.map_or(TensionLaw::Linear(ea), |rope| TensionLaw::Viscoelastic(Box::new(rope)));
+        let segment = RodSegment { axial, axial_damping: damping, ..RodSegment::line(LENGTH, 1, 1e-6, 1.0, 0.1) };
         let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
         let fluid = UniformFluid::vacuum();
         let world = LineEnvironment::new(&fluid, 0.0);
-        let held = End::pin(Vector3::zeros());
-        let at = |t: f64| Motion {
+        let held = RodEnd::pin(Vector3::zeros());
+        let at = |t: f64| RodEndMotion {
             position: Vector3::x() * (LENGTH * (1.0 + strain) - speed * t),
             velocity: Vector3::x() * -speed,
             acceleration: Vector3::zeros(),
         };
-        let mut state = State::along_points(&rod, &[Vector3::zeros(), at(0.0).position]).unwrap();
+        let mut state = RodState::along_points(&rod, &[Vector3::zeros(), at(0.0).position]).unwrap();
         state.velocity[1] = at(0.0).velocity;
-        let mut solver = Solver::new(&rod, Settings::default());
-        let made = solver.start(&rod, &mut state, &world, [held, End::from_motion(at(0.0))]).unwrap();
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
+        let made = solver.start(&rod, &mut state, &world, [held, RodEnd::from_motion(at(0.0))]).unwrap();
         let mut books = Balance::open(&rod, &state, &world, &solver, &made);
         let mut slack = 0;
         for i in 1..=250 {
             let t = i as f64 * 0.01;
-            let ends = [held, End::from_motion(at(t))];
+            let ends = [held, RodEnd::from_motion(at(t))];
             let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
             books.enter(&rod, &state, &world, &solver, &made);
             let exact = (ea * (strain - speed * t / LENGTH) - damping * speed / LENGTH).max(0.0);

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 const A: Vector3<f64> = Vector3::new(-800.0, 0.0, -300.0);
 const B: Vector3<f64> = Vector3::new(0.0, 0.0, -10.0);
 
-fn chain(bending: f64) -> (Rod, State) {
-    let segment = Segment {
+fn chain(bending: f64) -> (Rod, RodState) {
+    let segment = RodSegment {
         axial_damping: 1e6,
         drag_normal: 1.333,
         drag_tangential: 0.639,
@@ -15,10 +15,10 @@ fn chain(bending: f64) -> (Rod, State) {
         added_tangential: 0.5,
         compression: bending > 0.0,
         bending,
-        ..Segment::line(900.0, 50, 199.0, 8.54e8, 0.18)
+        ..RodSegment::line(900.0, 50, 199.0, 8.54e8, 0.18)
     };
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
-    let state = State::along_points(&rod, &[A, Vector3::new(-350.0, 0.0, -300.0), B]).unwrap();
+    let state = RodState::along_points(&rod, &[A, Vector3::new(-350.0, 0.0, -300.0), B]).unwrap();
     (rod, state)
 }
 
@@ -29,9 +29,9 @@ fn sea() -> (UniformFluid, PlaneBottom, SeabedLaw) {
     (UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0)), bottom, ground)
 }
 
-fn surge(t: f64) -> Motion {
+fn surge(t: f64) -> RodEndMotion {
     let (s, c) = (0.6 * t).sin_cos();
-    Motion {
+    RodEndMotion {
         position: B + Vector3::x() * (5.0 * (1.0 - c)),
         velocity: Vector3::x() * (3.0 * s),
         acceleration: Vector3::x() * (1.8 * c),
@@ -44,11 +44,11 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
     let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.80665) };
     for bending in [0.0, 1e5] {
         let (rod, mut state) = chain(bending);
-        let clamp = |m: Motion, tilt: f64| End::from_motion(m).with_clamp(Vector3::new(0.6, tilt, 0.7));
-        let mut solver = Solver::new(&rod, Settings::default());
-        solver.statics(&rod, &mut state, &world, [End::pin(A), clamp(surge(0.0), 0.0)]).unwrap();
-        let mut alone = Solver::new(&rod, Settings::default());
-        let mut exact = Solver::new(&rod, Settings { tolerance: 1e-8, ..Settings::default() });
+        let clamp = |m: RodEndMotion, tilt: f64| RodEnd::from_motion(m).with_clamp(Vector3::new(0.6, tilt, 0.7));
+        let mut solver = RodSolver::new(&rod, RodSettings::default());
+        solver.statics(&rod, &mut state, &world, [RodEnd::pin(A), clamp(surge(0.0), 0.0)]).unwrap();
+        let mut alone = RodSolver::new(&rod, RodSettings::default());
+        let mut exact = RodSolver::new(&rod, RodSettings { tolerance: 1e-8, ..RodSettings::default() });
         let h = 0.1;
         let (mut iterations, mut worst, mut apart): (usize, [f64; 2], f64) = (0, [0.0; 2], 0.0);
         for i in 1..=200 {
@@ -56,22 +56,22 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
             let to = surge(t);
             // a body's guess that is a centimetre off, in a scheme of its own
             let off = Vector3::new(0.006, -0.003, 0.008);
-            let guess = Motion {
+            let guess = RodEndMotion {
                 position: to.position + off,
                 velocity: to.velocity + off * (2.0 / h),
                 acceleration: to.acceleration + off * (4.0 / h / h),
             };
-            solver.trial(&rod, &state, &world, t, [End::pin(A), clamp(guess, 0.001)]).unwrap();
+            solver.trial(&rod, &state, &world, t, [RodEnd::pin(A), clamp(guess, 0.001)]).unwrap();
             if i % 2 == 0 {
                 let near = *solver.end_tangent_from_factors(&rod, &world).unwrap();
                 let b = |t: &EndTangent| t.by_position(20.0, 400.0).fixed_view::<6, 6>(6, 6).into_owned();
                 let exact = solver.end_tangent(&rod, &world).unwrap();
                 apart = apart.max(b(&near).metric_distance(&b(exact)) / b(exact).norm());
             }
-            let made = solver.trial(&rod, &state, &world, t, [End::pin(A), clamp(to, 0.0)]).unwrap();
+            let made = solver.trial(&rod, &state, &world, t, [RodEnd::pin(A), clamp(to, 0.0)]).unwrap();
             iterations += made.iterations;
-            let other = alone.trial(&rod, &state, &world, t, [End::pin(A), clamp(to, 0.0)]).unwrap();
-            let wanted = exact.trial(&rod, &state, &world, t, [End::pin(A), clamp(to, 0.0)]).unwrap();
+            let other = alone.trial(&rod, &state, &world, t, [RodEnd::pin(A), clamp(to, 0.0)]).unwrap();
+            let wanted = exact.trial(&rod, &state, &world, t, [RodEnd::pin(A), clamp(to, 0.0)]).unwrap();
             for (worst, found) in worst.iter_mut().zip([made, other]).filter(|_| wanted.parts == 1) {
                 *worst = worst.max((found.force[1] - wanted.force[1]).norm() / wanted.force[1].norm());
             }
@@ -91,18 +91,18 @@ fn forces_at_a_start_are_what_momentum_wants() {
     let (rod, mut state) = chain(0.0);
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.80665);
-    let mut solver = Solver::new(&rod, Settings::default());
-    let made = solver.statics(&rod, &mut state, &world, [End::pin(A), End::pin(B)]).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(A), RodEnd::pin(B)]).unwrap();
     // at rest they are those of statics
-    let again = solver.start(&rod, &mut state, &world, [End::pin(A), End::pin(B)]).unwrap();
+    let again = solver.start(&rod, &mut state, &world, [RodEnd::pin(A), RodEnd::pin(B)]).unwrap();
     assert!((made.force[1] - again.force[1]).norm() < 1e-7 * made.force[1].norm());
     // a holder that is jerked feels the half element in its hand at once, and nothing else yet
     let jerk = Vector3::new(0.5, -0.2, 0.3);
-    let jerked = End::from_motion(Motion { acceleration: jerk, ..Motion::at_rest(B) });
-    let hit = solver.start(&rod, &mut state, &world, [End::pin(A), jerked]).unwrap();
+    let jerked = RodEnd::from_motion(RodEndMotion { acceleration: jerk, ..RodEndMotion::at_rest(B) });
+    let hit = solver.start(&rod, &mut state, &world, [RodEnd::pin(A), jerked]).unwrap();
     assert!((hit.force[1] - again.force[1] + jerk * (199.0 * 9.0)).norm() < 1e-9 * made.force[1].norm());
     // end B parts: what the holder of A still gives and weight are the change of momentum
-    let parted = solver.start(&rod, &mut state, &world, [End::pin(A), End::FREE]).unwrap();
+    let parted = solver.start(&rod, &mut state, &world, [RodEnd::pin(A), RodEnd::FREE]).unwrap();
     let mass = |i: usize| 199.0 * 18.0 * if i == 50 { 0.5 } else { 1.0 };
     let change: Vector3<f64> = (1..=50).map(|i| state.acceleration[i] * mass(i)).sum();
     let outer = -parted.force[0] - Vector3::z() * (199.0 * 900.0 * 9.80665);
@@ -117,26 +117,26 @@ fn a_trial_moved_slightly_needs_no_iteration_and_has_the_forces_of_one_made_anew
     for bending in [0.0, 1e5] {
         let (rod, mut state) = chain(bending);
         // so that what is left of the first trial is less than what the move makes
-        let settings = Settings { tolerance: 1e-6, ..Settings::default() };
-        let (mut solver, mut alone) = (Solver::new(&rod, settings), Solver::new(&rod, settings));
-        solver.statics(&rod, &mut state, &world, [End::pin(A), End::pin(surge(0.0).position)]).unwrap();
+        let settings = RodSettings { tolerance: 1e-6, ..RodSettings::default() };
+        let (mut solver, mut alone) = (RodSolver::new(&rod, settings), RodSolver::new(&rod, settings));
+        solver.statics(&rod, &mut state, &world, [RodEnd::pin(A), RodEnd::pin(surge(0.0).position)]).unwrap();
         for i in 1..=50 {
             let t = 0.1 * i as f64;
             let at = |by: f64| {
                 let (to, off) = (surge(t), Vector3::new(0.6, -0.3, 0.8) * by);
-                let moved = Motion {
+                let moved = RodEndMotion {
                     position: to.position + off,
                     velocity: to.velocity + off * 20.0,
                     acceleration: to.acceleration + off * 400.0,
                 };
-                [End::pin(A), End::from_motion(moved)]
+                [RodEnd::pin(A), RodEnd::from_motion(moved)]
             };
             solver.trial(&rod, &state, &world, t, at(0.0)).unwrap();
             let first = solver.trial(&rod, &state, &world, t, at(0.0)).unwrap();
             let made = solver.trial(&rod, &state, &world, t, at(1e-8)).unwrap();
             assert_eq!((first.iterations, made.iterations), (0, 0));
             let start = alone.trial(&rod, &state, &world, t, at(0.0)).unwrap();
-            alone = Solver::new(&rod, settings);
+            alone = RodSolver::new(&rod, settings);
             let wanted = alone.trial(&rod, &state, &world, t, at(1e-8)).unwrap();
             for side in [0, 1] {
                 let away = (made.force[side] - wanted.force[side] - (first.force[side] - start.force[side])).norm();
@@ -145,7 +145,7 @@ fn a_trial_moved_slightly_needs_no_iteration_and_has_the_forces_of_one_made_anew
                 assert!(away < 0.02 * change + 1e-4, "{bending} {i} {side}: {away} of {change}");
             }
             solver.accept(&mut state);
-            alone = Solver::new(&rod, settings);
+            alone = RodSolver::new(&rod, settings);
         }
     }
 }
@@ -155,10 +155,10 @@ fn an_end_that_goes_on_with_another_velocity_alone_is_not_moved_slightly() {
     let (rod, mut state) = chain(0.0);
     let fluid = UniformFluid::still(1025.0);
     let world = LineEnvironment::new(&fluid, 9.80665);
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
     let end = |velocity: f64| {
-        let still = Motion::at_rest(B);
-        [End::pin(A), End::from_motion(Motion { velocity: Vector3::y() * velocity, ..still })]
+        let still = RodEndMotion::at_rest(B);
+        [RodEnd::pin(A), RodEnd::from_motion(RodEndMotion { velocity: Vector3::y() * velocity, ..still })]
     };
     solver.statics(&rod, &mut state, &world, end(0.0)).unwrap();
     solver.trial(&rod, &state, &world, 0.1, end(0.0)).unwrap();

@@ -3,12 +3,12 @@
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use windlass_line_dynamics::{
-    End, EndForces, LineEnvironment, Motion, PlaneBottom, Rod, SeabedLaw, Segment, Settings, Solver, State,
-    UniformFluid,
+    LineEnvironment, PlaneBottom, Rod, RodEnd, RodEndForces, RodEndMotion, RodSegment, RodSettings, RodSolver,
+    RodState, SeabedLaw, UniformFluid,
 };
 
 /// The fairlead: 5 m of surge, 10 s of period, brought up over 20 s.
-pub fn driven(t: f64) -> Motion {
+pub fn driven(t: f64) -> RodEndMotion {
     let (w, p) = (2.0 * PI / 10.0, PI / 20.0);
     let (r, rate, bend) = if t < 20.0 {
         (0.5 * (1.0 - (p * t).cos()), 0.5 * p * (p * t).sin(), 0.5 * p * p * (p * t).cos())
@@ -16,7 +16,7 @@ pub fn driven(t: f64) -> Motion {
         (1.0, 0.0, 0.0)
     };
     let (s, c) = (w * t).sin_cos();
-    Motion {
+    RodEndMotion {
         position: Vector3::new(5.0 * r * s, 0.0, -10.0),
         velocity: Vector3::x() * (5.0 * (rate * s + r * w * c)),
         acceleration: Vector3::x() * (5.0 * (bend * s + 2.0 * rate * w * c - r * w * w * s)),
@@ -25,16 +25,16 @@ pub fn driven(t: f64) -> Motion {
 
 /// Gives the chain at rest in its world to `act`: its rod, solver and state, the end at the anchor, and the forces at rest.
 pub fn chain<T>(
-    (elements, settings): (usize, Settings),
-    act: impl FnOnce(&Rod, &mut Solver, &mut State, &LineEnvironment, End, EndForces) -> T,
+    (elements, settings): (usize, RodSettings),
+    act: impl FnOnce(&Rod, &mut RodSolver, &mut RodState, &LineEnvironment, RodEnd, RodEndForces) -> T,
 ) -> T {
-    let chain = Segment {
+    let chain = RodSegment {
         axial_damping: 1e6,
         drag_normal: 1.333,
         drag_tangential: 0.639,
         added_normal: 1.0,
         added_tangential: 0.5,
-        ..Segment::line(900.0, elements, 199.0, 8.54e8, 0.18)
+        ..RodSegment::line(900.0, elements, 199.0, 8.54e8, 0.18)
     };
     let rod = Rod::new("chain", vec![chain], vec![]).unwrap();
     let fluid = UniformFluid::still(1025.0);
@@ -42,10 +42,10 @@ pub fn chain<T>(
     let ground = SeabedLaw { damping: 3e5, ..SeabedLaw::elastic(3e6) };
     let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.80665) };
     let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
-    let mut state = State::along_points(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
-    let mut solver = Solver::new(&rod, settings);
-    let rest = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
-    act(&rod, &mut solver, &mut state, &world, End::pin(a), rest)
+    let mut state = RodState::along_points(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
+    let mut solver = RodSolver::new(&rod, settings);
+    let rest = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
+    act(&rod, &mut solver, &mut state, &world, RodEnd::pin(a), rest)
 }
 
 /// MoorDyn's force on the fairlead from 20 s on: time (s), size (N); and its range (N).

@@ -3,14 +3,14 @@
 use crate::moordyn;
 
 use moordyn::{chain, driven, reference};
-use windlass_line_dynamics::{End, Settings};
+use windlass_line_dynamics::{RodEnd, RodSettings};
 
 /// Fairlead force at every step up to 120 s, and at rest.
 fn run(elements: usize, step: f64) -> (f64, Vec<f64>) {
-    chain((elements, Settings::default()), |rod, solver, state, world, anchor, rest| {
+    chain((elements, RodSettings::default()), |rod, solver, state, world, anchor, rest| {
         let force = |i: usize| {
             let t = i as f64 * step;
-            solver.step(rod, state, world, t, [anchor, End::from_motion(driven(t))]).unwrap().force[1].norm()
+            solver.step(rod, state, world, t, [anchor, RodEnd::from_motion(driven(t))]).unwrap().force[1].norm()
         };
         let count = (120.0 / step).round() as usize;
         (rest.force[1].norm(), (1..=count).map(force).collect())

@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 use windlass_catenary as catenary;
 use windlass_line_dynamics::{
-    Bottom, End, FluidState, LineEnvironment, PlaneBottom, Rod, SeabedLaw, Segment, Settings, Solver, State,
-    UniformFluid,
+    FluidState, LineEnvironment, PlaneBottom, Rod, RodEnd, RodSegment, RodSettings, RodSolver, RodState, SeabedLaw,
+    SeabedShape, UniformFluid,
 };
 
 const GRAVITY: f64 = 9.80665;
@@ -27,21 +27,24 @@ fn rest(case: &Case, elements: usize, sinks: f64) -> ([f64; 2], usize) {
     // the submerged weight as mass and displacement, buoyant or heavy
     let area = weight.abs() / GRAVITY / WATER * if weight < 0.0 { 2.0 } else { 0.1 };
     let mass = weight / GRAVITY + area * WATER;
-    let segment =
-        Segment { displaced: area, contact_diameter: 1.0, ..Segment::line(case.length, elements, mass, case.ea, 1.0) };
+    let segment = RodSegment {
+        displaced: area,
+        contact_diameter: 1.0,
+        ..RodSegment::line(case.length, elements, mass, case.ea, 1.0)
+    };
     let rod = Rod::new("line", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid(FluidState { surface: 1e5, ..UniformFluid::still(WATER).0 });
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
     let ground =
         SeabedLaw { friction_along: case.friction, ..SeabedLaw::elastic(weight.abs() / (sinks * case.length)) };
-    let bottom = case.grounded.then_some((&bottom as &dyn Bottom, ground));
+    let bottom = case.grounded.then_some((&bottom as &dyn SeabedShape, ground));
     let world = LineEnvironment { bottom, ..LineEnvironment::new(&fluid, GRAVITY) };
     let (a, b) = (Vector3::zeros(), Vector3::new(case.x, 0.0, case.z));
     let foot = Vector3::new(0.999 * case.x, 0.0, 0.01 * case.z);
     let start = if case.grounded { vec![a, foot, b] } else { vec![a, b] };
-    let mut state = State::along_points(&rod, &start).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
-    let made = solver.statics(&rod, &mut state, &world, [End::pin(a), End::pin(b)]).unwrap();
+    let mut state = RodState::along_points(&rod, &start).unwrap();
+    let mut solver = RodSolver::new(&rod, RodSettings::default());
+    let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
     ([-made.force[1].x, -made.force[1].z], made.iterations)
 }
 
@@ -55,7 +58,7 @@ fn a_rod_at_rest_tends_to_the_catenary_with_the_square_of_its_elements() {
     // suspended, taut; with a touchdown; the same slack
     for case in [line(700.0, 500.0, false), line(800.0, 290.0, true), line(700.0, 290.0, true)] {
         let segment = catenary::Segment { length: case.length, weight: case.weight, ea: case.ea };
-        let bottom = case.grounded.then_some(catenary::Bottom { friction: 0.0 });
+        let bottom = case.grounded.then_some(catenary::FlatBottom { friction: 0.0 });
         let exact = segment.solve_end_forces(case.x, case.z, bottom).unwrap().fairlead;
         let errors = [50, 100, 200, 400, 800].map(|n| away(rest(&case, n, 1e-8).0, exact));
         assert!(errors[4] < 1e-4, "{errors:?}");
@@ -73,7 +76,7 @@ fn a_rod_that_is_drawn_over_a_rough_bottom_tends_to_the_catenary_with_friction()
     {
         let case = Case { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded: true, friction };
         let segment = catenary::Segment { length: case.length, weight: case.weight, ea: case.ea };
-        let wanted = segment.solve_end_forces(case.x, case.z, Some(catenary::Bottom { friction })).unwrap();
+        let wanted = segment.solve_end_forces(case.x, case.z, Some(catenary::FlatBottom { friction })).unwrap();
         let errors = [50, 100, 200, 400, 800].map(|n| away(rest(&case, n, 1e-8).0, wanted.fairlead));
         assert!(errors[4] < 1e-5, "{friction}: {errors:?}");
         let order = (errors[0] / errors[4]).log2() / 4.0;

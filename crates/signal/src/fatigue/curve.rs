@@ -5,7 +5,7 @@ use windlass_model::{FatigueCurve, FatigueKind};
 
 /// A branch of a curve: N = 10^log_a / S^slope for ranges from its own lower end up to that of the branch above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Branch {
+pub struct CurveBranch {
     /// Exponent m.
     pub slope: f64,
     /// log10 of a, for stress ranges in MPa or tension ranges over the breaking tension.
@@ -14,7 +14,7 @@ pub struct Branch {
     pub from: f64,
 }
 
-impl Branch {
+impl CurveBranch {
     /// Cycles to failure at a range, whether the branch holds there or not.
     pub fn cycles(&self, range: f64) -> f64 {
         10f64.powf(self.log_a - self.slope * range.log10())
@@ -23,13 +23,13 @@ impl Branch {
 
 /// A fatigue curve.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct SnCurve {
     /// Its name.
     pub name: String,
     /// What its ranges are: stress in MPa, or tension over the breaking tension.
     pub kind: FatigueKind,
     /// Branches from the largest ranges down.
-    pub branches: Vec<Branch>,
+    pub branches: Vec<CurveBranch>,
     /// Range below which there is no damage; 0 for none.
     pub limit: f64,
     /// What log10 of a gains for each unit of mean tension over breaking tension ([API-RP-2SK], wire rope); negative.
@@ -40,13 +40,13 @@ pub struct Curve {
     pub unconfirmed: bool,
 }
 
-impl Curve {
+impl SnCurve {
     /// A curve through the points of `&REP_SELECT -SN`: straight in the logarithms of range and cycles, and so beyond its
     /// ends.
     ///
     /// # Errors
     /// Fewer than two points; ranges or cycles that are not greater than zero; ranges that do not fall while cycles grow.
-    pub fn from_points(given: &FatigueCurve) -> Result<Curve, SeriesError> {
+    pub fn from_points(given: &FatigueCurve) -> Result<SnCurve, SeriesError> {
         let points = &given.points;
         if points.len() < 2 {
             let got = points.len();
@@ -68,12 +68,12 @@ impl Curve {
                 return Err(SeriesError::Refused("ranges of a fatigue curve fall while its cycles grow".into()));
             }
             let slope = (n2 / n1).log10() / (s1 / s2).log10();
-            branches.push(Branch { slope, log_a: n1.log10() + slope * s1.log10(), from: s2 });
+            branches.push(CurveBranch { slope, log_a: n1.log10() + slope * s1.log10(), from: s2 });
         }
         if let Some(last) = branches.last_mut() {
             last.from = 0.0;
         }
-        Ok(Curve {
+        Ok(SnCurve {
             name: given.name.clone(),
             kind: given.kind,
             branches,
@@ -85,7 +85,7 @@ impl Curve {
     }
 
     /// The branch that holds at a range; `None` at a range of zero or within the limit.
-    fn branch(&self, range: f64) -> Option<&Branch> {
+    fn branch(&self, range: f64) -> Option<&CurveBranch> {
         if range <= 0.0 || range < self.limit {
             return None;
         }
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_curve_through_points_meets_them_and_is_straight_between_and_beyond() {
-        let curve = Curve::from_points(&user(&[(0.8, 1e3), (0.2, 1e5), (0.1, 1e7)])).unwrap();
+        let curve = SnCurve::from_points(&user(&[(0.8, 1e3), (0.2, 1e5), (0.1, 1e7)])).unwrap();
         for (s, n) in [(0.8, 1e3), (0.2, 1e5), (0.1, 1e7)] {
             assert!((curve.cycles(s, 0.0).unwrap() / n - 1.0).abs() < 1e-12, "{s}");
         }
@@ -129,9 +129,9 @@ mod tests {
 
     #[test]
     fn points_in_a_wrong_order_make_no_curve() {
-        assert!(Curve::from_points(&user(&[(0.5, 1e3)])).is_err());
-        assert!(Curve::from_points(&user(&[(0.5, 1e3), (0.6, 1e4)])).is_err());
-        assert!(Curve::from_points(&user(&[(0.5, 1e3), (0.4, 1e2)])).is_err());
-        assert!(Curve::from_points(&user(&[(0.5, 1e3), (0.0, 1e4)])).is_err());
+        assert!(SnCurve::from_points(&user(&[(0.5, 1e3)])).is_err());
+        assert!(SnCurve::from_points(&user(&[(0.5, 1e3), (0.6, 1e4)])).is_err());
+        assert!(SnCurve::from_points(&user(&[(0.5, 1e3), (0.4, 1e2)])).is_err());
+        assert!(SnCurve::from_points(&user(&[(0.5, 1e3), (0.0, 1e4)])).is_err());
     }
 }

@@ -1,8 +1,8 @@
 //! Damage by the rule of Palmgren and Miner, and life.
 
-use super::curve::Curve;
+use super::curve::SnCurve;
 use crate::SeriesError;
-use crate::rainflow::Cycle;
+use crate::rainflow::RainflowCycle;
 
 /// Seconds in a day.
 const SECONDS_PER_DAY: f64 = 86_400.0;
@@ -23,7 +23,7 @@ pub struct Damage {
 ///
 /// # Errors
 /// A damage that is no number: ranges beyond all meaning.
-pub fn of_cycles(cycles: &[Cycle], curve: &Curve, mean: f64) -> Result<Damage, SeriesError> {
+pub fn of_cycles(cycles: &[RainflowCycle], curve: &SnCurve, mean: f64) -> Result<Damage, SeriesError> {
     let sum: f64 = cycles.iter().map(|c| c.count * curve.damage(c.range, mean)).sum();
     if !sum.is_finite() {
         return Err(SeriesError::Refused(format!("the damage by curve {} is no number", curve.name)));
@@ -33,7 +33,7 @@ pub fn of_cycles(cycles: &[Cycle], curve: &Curve, mean: f64) -> Result<Damage, S
 
 /// One environment of a scatter: what a record in it came to, and how long it lasts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
+pub struct ScatterState {
     /// Damage of the record.
     pub damage: f64,
     /// Length of the record (s).
@@ -46,7 +46,7 @@ pub struct State {
 ///
 /// # Errors
 /// A record or duration without length.
-pub fn sum_damage(states: &[State]) -> Result<f64, SeriesError> {
+pub fn sum_damage(states: &[ScatterState]) -> Result<f64, SeriesError> {
     states.iter().try_fold(0.0, |sum, state| {
         for (what, value) in [("the length of a record", state.record), ("the duration", state.duration)] {
             if !(value.is_finite() && value > 0.0) {
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn damage_is_cycles_over_cycles_to_failure() {
         let chain = find("CHAIN", &FatigueSelection::default()).unwrap();
-        let cycles = [(0.1, 1.0), (0.2, 0.5)].map(|(range, count)| Cycle { range, mean: 0.3, count });
+        let cycles = [(0.1, 1.0), (0.2, 0.5)].map(|(range, count)| RainflowCycle { range, mean: 0.3, count });
         let d = of_cycles(&cycles, &chain, 0.3).unwrap();
         // K 1000, M 3: 1/1e6 + 0.5/125e3
         assert!((d.sum - (1e-6 + 4e-6)).abs() < 1e-18 && d.cycles == 1.5, "{d:?}");
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn a_scatter_adds_up_by_days_and_life_is_its_inverse() {
         let hour = 3600.0;
-        let states = [(1e-6, 300.0), (1e-5, 65.25)].map(|(damage, days)| State {
+        let states = [(1e-6, 300.0), (1e-5, 65.25)].map(|(damage, days)| ScatterState {
             damage,
             record: hour,
             duration: days * SECONDS_PER_DAY,
@@ -102,6 +102,6 @@ mod tests {
         assert!((years - 1.0 / (10.0 * sum)).abs() < 1e-12);
         assert_eq!(life(0.0, 1.0, 1.0), Ok(None));
         assert!(life(1.0, 1.0, 0.5).is_err() && life(1.0, 0.0, 1.0).is_err());
-        assert!(sum_damage(&[State { damage: 0.1, record: 0.0, duration: 1.0 }]).is_err());
+        assert!(sum_damage(&[ScatterState { damage: 0.1, record: 0.0, duration: 1.0 }]).is_err());
     }
 }

@@ -1,6 +1,6 @@
 //! The curves windlass ships: `data/fatigue_curves.toml`, where each curve names its source and how sure it is.
 
-use super::curve::{Branch, Curve};
+use super::curve::{CurveBranch, SnCurve};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -10,19 +10,19 @@ use windlass_model::{FatigueKind, FatigueSelection};
 const TEXT: &str = include_str!("../../data/fatigue_curves.toml");
 
 /// Read once; the test below holds that the shipped text can be.
-static LIBRARY: LazyLock<Library> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());
+static LIBRARY: LazyLock<FatigueLibrary> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());
 
 /// The shipped library.
-pub fn library() -> &'static Library {
+pub fn library() -> &'static FatigueLibrary {
     &LIBRARY
 }
 
 /// Curves and the sources of their numbers.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Library {
+pub struct FatigueLibrary {
     /// Sources by the key that curves use.
-    pub sources: BTreeMap<String, Source>,
+    pub sources: BTreeMap<String, CurveSource>,
     /// The curves, in the order of the file.
     pub curves: Vec<Shipped>,
 }
@@ -30,7 +30,7 @@ pub struct Library {
 /// Where the numbers of a curve come from.
 #[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Source {
+pub struct CurveSource {
     /// The document.
     pub text: String,
     /// Whether nobody independent was found who quotes the same numbers.
@@ -93,14 +93,14 @@ struct ShippedBranch {
 
 impl Shipped {
     /// The curve, ready to be asked.
-    pub fn curve(&self) -> Curve {
-        let branches = self.branches.iter().map(|b| Branch {
+    pub fn curve(&self) -> SnCurve {
+        let branches = self.branches.iter().map(|b| CurveBranch {
             slope: b.m,
             log_a: b.log_a,
             // the range at which the branch itself comes to its last number of cycles
             from: b.to.map_or(0.0, |n| 10f64.powf((b.log_a - n.log10()) / b.m)),
         });
-        Curve {
+        SnCurve {
             name: self.name.clone(),
             kind: match self.kind {
                 Word::Stress => FatigueKind::Stress,
@@ -121,10 +121,10 @@ impl Shipped {
 }
 
 /// The curve of a name: a user's own goes before one of the library. `None` when nothing is called so.
-pub fn find(name: &str, selection: &FatigueSelection) -> Option<Curve> {
+pub fn find(name: &str, selection: &FatigueSelection) -> Option<SnCurve> {
     let own = selection.curves.values().find(|c| c.name.eq_ignore_ascii_case(name));
     match own {
-        Some(given) => Curve::from_points(given).ok(),
+        Some(given) => SnCurve::from_points(given).ok(),
         None => library().curves.iter().find(|c| c.is_called(name)).map(Shipped::curve),
     }
 }
@@ -133,13 +133,13 @@ pub fn find(name: &str, selection: &FatigueSelection) -> Option<Curve> {
 mod tests {
     use super::*;
 
-    fn named(name: &str) -> Curve {
+    fn named(name: &str) -> SnCurve {
         find(name, &FatigueSelection::default()).unwrap()
     }
 
     #[test]
     fn the_shipped_text_is_read_and_its_curves_are_sound() {
-        let read: Library = toml::from_str(TEXT).unwrap();
+        let read: FatigueLibrary = toml::from_str(TEXT).unwrap();
         assert!(read.curves.len() > 50);
         for shipped in &read.curves {
             assert!(read.sources.contains_key(&shipped.source), "{}", shipped.name);

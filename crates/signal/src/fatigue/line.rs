@@ -1,8 +1,8 @@
 //! Damage of a mooring line's segments from a record of their tension.
 
-use super::curve::Curve;
-use super::damage::{State, life, of_cycles, sum_damage};
-use crate::rainflow::{Cycle, cycles};
+use super::curve::SnCurve;
+use super::damage::{ScatterState, life, of_cycles, sum_damage};
+use crate::rainflow::{RainflowCycle, cycles};
 use crate::{SeriesError, statistics};
 use windlass_model::{FatigueKind, FatigueSegment, ThicknessCorrection};
 
@@ -45,7 +45,7 @@ pub struct Loaded<'a> {
     /// What it is.
     pub segment: &'a FatigueSegment,
     /// Its curve.
-    pub curve: &'a Curve,
+    pub curve: &'a SnCurve,
     /// Its tension (N), at its upper end.
     pub tension: &'a [f64],
 }
@@ -102,8 +102,10 @@ fn segment_damage(
         FatigueKind::Stress => stress * thickness.map_or(1.0, |t| t.factor(segment.thickness.unwrap_or(segment.od))),
     };
     let mean = moments.mean / segment.breaking;
-    let ranges: Vec<Cycle> =
-        found.iter().map(|c| Cycle { range: c.range * factor, mean: c.mean * factor, count: c.count }).collect();
+    let ranges: Vec<RainflowCycle> = found
+        .iter()
+        .map(|c| RainflowCycle { range: c.range * factor, mean: c.mean * factor, count: c.count })
+        .collect();
     let damage = of_cycles(&ranges, curve, mean)?;
     Ok(SegmentDamage {
         segment: number,
@@ -156,11 +158,11 @@ pub fn line_life(scatter: &[Exposure], factor: f64) -> Result<Vec<SegmentLife>, 
     let total: f64 = scatter.iter().map(|e| e.duration).sum();
     let mut out = Vec::new();
     for (index, segment) in first.line.segments.iter().enumerate() {
-        let states: Vec<State> = scatter
+        let states: Vec<ScatterState> = scatter
             .iter()
             .filter_map(|e| {
                 let damage = e.line.segments.get(index)?.damage;
-                Some(State { damage, record: e.record, duration: e.duration })
+                Some(ScatterState { damage, record: e.record, duration: e.duration })
             })
             .collect();
         let damage = sum_damage(&states)?;
@@ -176,7 +178,7 @@ mod tests {
     use crate::fatigue::find;
     use windlass_model::FatigueSelection;
 
-    fn named(name: &str) -> Curve {
+    fn named(name: &str) -> SnCurve {
         find(name, &FatigueSelection::default()).unwrap()
     }
 
@@ -214,7 +216,7 @@ mod tests {
     fn stress_goes_by_both_legs_of_a_chain_and_by_the_thickness() {
         let (chain, plain, tension) = (named("DNV_STUDLESS"), named("DNV_D_FREE"), record());
         let a = segment(5e6, 0.1);
-        let of = |curve: &Curve, t: Option<&ThicknessCorrection>| {
+        let of = |curve: &SnCurve, t: Option<&ThicknessCorrection>| {
             line_damage(&[Loaded { segment: &a, curve, tension: &tension }], t).unwrap().segments[0].damage
         };
         let stress = 0.2 / (std::f64::consts::FRAC_PI_2 * 0.01);

@@ -6,7 +6,7 @@ pub mod library;
 pub mod line;
 pub mod spectral;
 
-pub use curve::{Branch, Curve};
-pub use damage::{Damage, State, life, of_cycles, sum_damage};
+pub use curve::{CurveBranch, SnCurve};
+pub use damage::{Damage, ScatterState, life, of_cycles, sum_damage};
 pub use library::{find, library};
 pub use line::{Exposure, LineDamage, Loaded, SegmentDamage, SegmentLife, line_damage, line_life};

@@ -2,15 +2,15 @@
 //!
 //! Both integrate a density of ranges over every branch of a curve in closed form, by incomplete gamma functions.
 
-use super::curve::Curve;
+use super::curve::SnCurve;
 use crate::SeriesError;
 use statrs::function::gamma::{checked_gamma_lr, gamma};
 use std::f64::consts::TAU;
 
 /// Moments 0, 1, 2 and 4 of a spectrum of stress (MPa) or of tension over breaking tension, over rad/s.
-pub type Moments = [f64; 4];
+pub type StressMoments = [f64; 4];
 
-fn sound(m: &Moments) -> Result<(), SeriesError> {
+fn sound(m: &StressMoments) -> Result<(), SeriesError> {
     if m.iter().all(|v| v.is_finite() && *v > 0.0) {
         return Ok(());
     }
@@ -31,7 +31,7 @@ fn incomplete_gamma(a: f64, low: f64, high: Option<f64>) -> Result<f64, SeriesEr
 
 /// Sum over the branches of a curve of `integral of S^m p(S) dS / a`, the inner integral being given by slope and bounds.
 fn sum_branches(
-    curve: &Curve,
+    curve: &SnCurve,
     mean: f64,
     integral: impl Fn(f64, f64, Option<f64>) -> Result<f64, SeriesError>,
 ) -> Result<f64, SeriesError> {
@@ -54,7 +54,7 @@ fn sum_branches(
 ///
 /// # Errors
 /// Moments that are not greater than zero.
-pub fn narrow_band(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesError> {
+pub fn narrow_band(m: &StressMoments, curve: &SnCurve, mean: f64) -> Result<f64, SeriesError> {
     sound(m)?;
     let rate = (m[2] / m[0]).sqrt() / TAU;
     let eight = 8.0 * m[0];
@@ -69,7 +69,7 @@ pub fn narrow_band(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesE
 ///
 /// # Errors
 /// Moments that are not greater than zero, or that no process has.
-pub fn dirlik(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesError> {
+pub fn dirlik(m: &StressMoments, curve: &SnCurve, mean: f64) -> Result<f64, SeriesError> {
     sound(m)?;
     let [m0, m1, m2, m4] = *m;
     let peaks = (m4 / m2).sqrt() / TAU;
@@ -114,12 +114,12 @@ mod tests {
     use std::f64::consts::PI;
     use windlass_model::FatigueSelection;
 
-    fn named(name: &str) -> Curve {
+    fn named(name: &str) -> SnCurve {
         find(name, &FatigueSelection::default()).unwrap()
     }
 
     /// Moments of a flat spectrum of a variance between two frequencies.
-    fn flat(variance: f64, low: f64, high: f64) -> Moments {
+    fn flat(variance: f64, low: f64, high: f64) -> StressMoments {
         [0, 1, 2, 4].map(|n| {
             let n = n + 1;
             variance / (high - low) * (high.powi(n) - low.powi(n)) / f64::from(n)

@@ -5,7 +5,7 @@ use crate::statistics::Peak;
 
 /// What was seen of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
+pub struct EnvelopeValue {
     /// Samples.
     pub count: u64,
     /// Their mean.
@@ -72,9 +72,9 @@ impl Envelope {
     }
 
     /// What was seen of a quantity by its place; none where it never was there.
-    pub fn extremes(&self, place: usize) -> Option<Seen> {
+    pub fn extremes(&self, place: usize) -> Option<EnvelopeValue> {
         let Track { count, mean, squares, least, most } = *self.tracks.get(place)?.as_ref()?;
-        Some(Seen { count, mean, deviation: (squares / count as f64).max(0.0).sqrt(), least, most })
+        Some(EnvelopeValue { count, mean, deviation: (squares / count as f64).max(0.0).sqrt(), least, most })
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Cycles are those of rainflow, damage is Palmgren's and Miner's sum, as for lines of the catenary classes ([`crate::fatigue`]).
 
-use crate::fatigue::{Curve, Loaded, line_damage, of_cycles};
-use crate::rainflow::{Cycle, cycles};
+use crate::fatigue::{Loaded, SnCurve, line_damage, of_cycles};
+use crate::rainflow::{RainflowCycle, cycles};
 use crate::{SeriesError, finite, statistics};
 use std::f64::consts::{FRAC_PI_4, TAU};
 use windlass_model::{FatigueKind, FatigueSegment, ThicknessCorrection};
@@ -14,7 +14,7 @@ pub struct NodeRecord<'a> {
     /// Its section.
     pub segment: &'a FatigueSegment,
     /// Its curve.
-    pub curve: &'a Curve,
+    pub curve: &'a SnCurve,
     /// Tension (N): in the wall of a tube, else effective.
     pub tension: &'a [f64],
     /// Moments about two directions across the line (N m); none where nothing bends.
@@ -123,8 +123,10 @@ fn of_tube(
         // a moment about the first direction pulls where the second points
         stress.extend(all.map(|(t, (one, other))| t * pull + bend * (one * sine - other * cosine)));
         let found = cycles(&stress)?;
-        let ranges: Vec<Cycle> =
-            found.iter().map(|c| Cycle { range: c.range * factor, mean: c.mean * factor, count: c.count }).collect();
+        let ranges: Vec<RainflowCycle> = found
+            .iter()
+            .map(|c| RainflowCycle { range: c.range * factor, mean: c.mean * factor, count: c.count })
+            .collect();
         let damage = of_cycles(&ranges, node.curve, mean)?;
         if damage.sum > worst.damage {
             let largest = found.iter().map(|c| c.range * round.concentration).fold(0.0, f64::max);
@@ -153,7 +155,7 @@ mod tests {
         }
     }
 
-    fn curve() -> Curve {
+    fn curve() -> SnCurve {
         find("DNV_D_FREE", &FatigueSelection::default()).unwrap()
     }
 

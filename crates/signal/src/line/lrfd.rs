@@ -8,7 +8,7 @@
 //! here, which are those known of its editions 2001 to 2018, the formula of alpha_c with its bound 1.20 (that of [DNV-OS-F101], 2000), and
 //! gamma_SC 1.04 and 1.14.
 
-use super::Tube;
+use super::CheckedTube;
 use crate::SeriesError;
 use std::f64::consts::{FRAC_PI_3, PI};
 
@@ -37,7 +37,7 @@ impl SafetyClass {
 
 /// Factors of a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Factors {
+pub struct LrfdFactors {
     /// Safety class.
     pub class: SafetyClass,
     /// gamma_m.
@@ -53,10 +53,10 @@ pub struct Factors {
     pub ovality: f64,
 }
 
-impl Default for Factors {
+impl Default for LrfdFactors {
     /// Ultimate limit state, class Normal, seamless pipe with the least ovality of the standard.
     fn default() -> Self {
-        Factors {
+        LrfdFactors {
             class: SafetyClass::Normal,
             material: 1.15,
             functional: 1.1,
@@ -74,9 +74,9 @@ const MAX_HARDENING: f64 = 1.20;
 
 /// What a tube resists.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Resistance {
-    tube: Tube,
-    factors: Factors,
+pub struct TubeResistance {
+    tube: CheckedTube,
+    factors: LrfdFactors,
     /// Bursting pressure p_b (Pa).
     pub burst: f64,
     /// Collapse pressure p_c (Pa).
@@ -99,12 +99,12 @@ pub fn collapse(elastic: f64, plastic: f64, ovality: f64, slenderness: f64) -> f
     scale * (-2.0 * (-u).sqrt() * (phase / 3.0 + FRAC_PI_3).cos() - b / 3.0)
 }
 
-impl Resistance {
+impl TubeResistance {
     /// That of a tube.
     ///
     /// # Errors
     /// What is no tube, a factor that is not above zero.
-    pub fn new(tube: Tube, factors: Factors) -> Result<Self, SeriesError> {
+    pub fn new(tube: CheckedTube, factors: LrfdFactors) -> Result<Self, SeriesError> {
         tube.check()?;
         for (what, value) in [
             ("gamma_m", factors.material),
@@ -120,12 +120,12 @@ impl Resistance {
             let expected = "between 0 and 0.1";
             return Err(SeriesError::Setting { what: "the ovality", expected, value: factors.ovality });
         }
-        let Tube { diameter, wall, yield_stress, tensile, modulus, poisson } = tube;
+        let CheckedTube { diameter, wall, yield_stress, tensile, modulus, poisson } = tube;
         let burst = 2.0 / 3f64.sqrt() * 2.0 * wall / (diameter - wall) * yield_stress.min(tensile / 1.15);
         let elastic = 2.0 * modulus * (wall / diameter).powi(3) / (1.0 - poisson * poisson);
         let plastic = 2.0 * yield_stress * factors.fabrication * wall / diameter;
         let collapse = collapse(elastic, plastic, factors.ovality.max(LEAST_OVALITY), diameter / wall);
-        Ok(Resistance { tube, factors, burst, collapse })
+        Ok(TubeResistance { tube, factors, burst, collapse })
     }
 
     /// alpha_c, what strain hardening adds to the plastic moment and tension at a net pressure inside (Pa):
@@ -139,7 +139,7 @@ impl Resistance {
 
     /// Plastic moment M_k (N m) and tension T_k (N) at a net pressure inside (Pa).
     pub fn plastic(&self, over: f64) -> [f64; 2] {
-        let Tube { diameter, wall, yield_stress, .. } = self.tube;
+        let CheckedTube { diameter, wall, yield_stress, .. } = self.tube;
         let strength = yield_stress * self.hardening(over);
         let middle = diameter - wall;
         [strength * middle * middle * wall, strength * PI * middle * wall]
@@ -185,14 +185,14 @@ impl Resistance {
 mod tests {
     use super::*;
 
-    const X65: Tube =
-        Tube { diameter: 0.66, wall: 0.0197, yield_stress: 444e6, tensile: 535e6, modulus: 207e9, poisson: 0.3 };
+    const X65: CheckedTube =
+        CheckedTube { diameter: 0.66, wall: 0.0197, yield_stress: 444e6, tensile: 535e6, modulus: 207e9, poisson: 0.3 };
 
     #[test]
     fn a_pipe_collapses_as_another_program_has_it() {
         // [PDOVER2T-PY], examples/DNVGL-ST-F101_pipe_collapse_external_pressure.ipynb: UOE pipe, printed to 0.1 Pa
-        let factors = Factors { fabrication: 0.85, ..Factors::default() };
-        let found = Resistance::new(X65, factors).unwrap();
+        let factors = LrfdFactors { fabrication: 0.85, ..LrfdFactors::default() };
+        let found = TubeResistance::new(X65, factors).unwrap();
         assert!((found.collapse - 10_831_164.1).abs() < 0.1, "{}", found.collapse);
         assert!((collapse(12_098_341.0, 22_529_636.4, 0.005, 0.66 / 0.0197) - 10_831_164.1).abs() < 0.5);
     }
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn each_load_alone_uses_all_at_its_own_resistance() {
-        let found = Resistance::new(X65, Factors::default()).unwrap();
+        let found = TubeResistance::new(X65, LrfdFactors::default()).unwrap();
         let g = 1.14 * 1.15;
         let [moment, tension] = found.plastic(0.0);
         assert!((found.utilisation(-moment / g, 0.0, [0.0; 2]) - 1.0).abs() < 1e-12);
@@ -223,7 +223,7 @@ mod tests {
 
     #[test]
     fn the_two_forms_meet_at_equal_pressures() {
-        let found = Resistance::new(X65, Factors::default()).unwrap();
+        let found = TubeResistance::new(X65, LrfdFactors::default()).unwrap();
         let [inside, outside] = [[1.0, 0.0], [0.0, 1.0]].map(|p| found.utilisation(1e6, 2e6, p));
         assert!((inside - outside).abs() < 1e-6, "{inside} {outside}");
     }
@@ -231,7 +231,9 @@ mod tests {
     #[test]
     fn hardening_fades_with_slenderness_and_is_bounded() {
         let of = |diameter: f64, tensile: f64| {
-            Resistance::new(Tube { diameter, tensile, ..X65 }, Factors::default()).unwrap().hardening(0.0)
+            TubeResistance::new(CheckedTube { diameter, tensile, ..X65 }, LrfdFactors::default())
+                .unwrap()
+                .hardening(0.0)
         };
         // beta 0.4 up to D/t of 15, half of that at 37.5, none from 60 on
         assert!((of(0.0197 * 14.0, 535e6) - (0.6 + 0.4 * 535.0 / 444.0)).abs() < 1e-12);
@@ -242,12 +244,12 @@ mod tests {
 
     #[test]
     fn what_relieves_takes_the_inverse_factor() {
-        let found = Resistance::new(X65, Factors::default()).unwrap();
+        let found = TubeResistance::new(X65, LrfdFactors::default()).unwrap();
         let at = [0.0; 2];
         let worse = found.used_now([1e6, 0.0, 0.0], [1.5e6, 0.0, 0.0], at);
         assert!((worse - found.utilisation(1.1e6 + 0.65e6, 0.0, at)).abs() < 1e-12);
         let relieved = found.used_now([1e6, 0.0, 0.0], [0.5e6, 0.0, 0.0], at);
         assert!((relieved - found.utilisation(1.1e6 - 0.5e6 / 1.3, 0.0, at)).abs() < 1e-12);
-        assert!(Resistance::new(X65, Factors { material: 0.0, ..Factors::default() }).is_err());
+        assert!(TubeResistance::new(X65, LrfdFactors { material: 0.0, ..LrfdFactors::default() }).is_err());
     }
 }

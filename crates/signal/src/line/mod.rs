@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_4;
 
 /// A tube as a check sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tube {
+pub struct CheckedTube {
     /// Outside diameter (m).
     pub diameter: f64,
     /// Wall (m), less what corrodes.
@@ -25,7 +25,7 @@ pub struct Tube {
     pub poisson: f64,
 }
 
-impl Tube {
+impl CheckedTube {
     /// Inside diameter (m).
     pub fn bore(&self) -> f64 {
         self.diameter - 2.0 * self.wall
@@ -101,7 +101,8 @@ mod tests {
 
     #[test]
     fn the_section_of_a_tube_is_that_of_two_circles() {
-        let tube = Tube { diameter: 0.3, wall: 0.02, yield_stress: 4e8, tensile: 5e8, modulus: 2e11, poisson: 0.3 };
+        let tube =
+            CheckedTube { diameter: 0.3, wall: 0.02, yield_stress: 4e8, tensile: 5e8, modulus: 2e11, poisson: 0.3 };
         // pi / 4 0.3^2, pi / 4 0.26^2
         let [outer, bore] = tube.areas();
         assert!((outer - 0.070_685_8).abs() < 1e-7 && (bore - 0.053_092_9).abs() < 1e-7);
@@ -111,10 +112,16 @@ mod tests {
 
     #[test]
     fn what_is_no_tube_is_refused() {
-        let tube = Tube { diameter: 0.3, wall: 0.02, yield_stress: 4e8, tensile: 5e8, modulus: 2e11, poisson: 0.3 };
+        let tube =
+            CheckedTube { diameter: 0.3, wall: 0.02, yield_stress: 4e8, tensile: 5e8, modulus: 2e11, poisson: 0.3 };
         assert!(tube.check().is_ok());
-        assert!(Tube { wall: 0.16, ..tube }.check().is_err() && Tube { wall: 0.0, ..tube }.check().is_err());
-        assert!(Tube { poisson: 0.6, ..tube }.check().is_err() && Tube { modulus: f64::NAN, ..tube }.check().is_err());
+        assert!(
+            CheckedTube { wall: 0.16, ..tube }.check().is_err() && CheckedTube { wall: 0.0, ..tube }.check().is_err()
+        );
+        assert!(
+            CheckedTube { poisson: 0.6, ..tube }.check().is_err()
+                && CheckedTube { modulus: f64::NAN, ..tube }.check().is_err()
+        );
         assert_eq!(over_break(2.0, 8.0), Ok(0.25));
         assert_eq!(over_break(-2.0, 8.0), Ok(0.0));
         assert!(over_break(1.0, 0.0).is_err());

@@ -5,7 +5,7 @@
 //! usage 0.67, 0.8 and 1.0 for operating, extreme and survival loads [BAI-2001 table 21.2]. Its text
 //! could not be read, so equation numbers are not given.
 
-use super::{Acting, Tube};
+use super::{Acting, CheckedTube};
 use crate::SeriesError;
 
 /// Design case, by its factor C_f on the basic allowable stress.
@@ -32,7 +32,7 @@ impl DesignCase {
 }
 
 /// Von Mises stress (Pa) at the middle of the wall, the larger of the two sides of the bend.
-pub fn membrane(tube: &Tube, acting: &Acting) -> f64 {
+pub fn membrane(tube: &CheckedTube, acting: &Acting) -> f64 {
     let (outer, bore) = (tube.diameter, tube.bore());
     let [whole, hole] = tube.areas();
     let Acting { moment, wall, inside, outside, .. } = *acting;
@@ -51,7 +51,7 @@ pub fn membrane(tube: &Tube, acting: &Acting) -> f64 {
 ///
 /// # Errors
 /// What is no tube.
-pub fn utilisation(tube: &Tube, acting: &Acting, case: DesignCase) -> Result<f64, SeriesError> {
+pub fn utilisation(tube: &CheckedTube, acting: &Acting, case: DesignCase) -> Result<f64, SeriesError> {
     tube.check()?;
     Ok(membrane(tube, acting) / (case.factor() * 2.0 / 3.0 * tube.yield_stress))
 }
@@ -60,7 +60,8 @@ pub fn utilisation(tube: &Tube, acting: &Acting, case: DesignCase) -> Result<f64
 mod tests {
     use super::*;
 
-    const TUBE: Tube = Tube { diameter: 0.3, wall: 0.02, yield_stress: 4e8, tensile: 5e8, modulus: 2e11, poisson: 0.3 };
+    const TUBE: CheckedTube =
+        CheckedTube { diameter: 0.3, wall: 0.02, yield_stress: 4e8, tensile: 5e8, modulus: 2e11, poisson: 0.3 };
 
     #[test]
     fn tension_alone_is_its_own_von_mises_stress() {
@@ -89,6 +90,6 @@ mod tests {
         let pulled = Acting { wall: -1e6, ..acting };
         let pushed = Acting { wall: 1e6, ..acting };
         assert!((membrane(&TUBE, &pulled) - membrane(&TUBE, &pushed)).abs() < 1e-6);
-        assert!(utilisation(&Tube { wall: 0.2, ..TUBE }, &acting, DesignCase::Operating).is_err());
+        assert!(utilisation(&CheckedTube { wall: 0.2, ..TUBE }, &acting, DesignCase::Operating).is_err());
     }
 }

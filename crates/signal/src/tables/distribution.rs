@@ -1,6 +1,6 @@
 //! Histograms, exceedance and rainflow of series as tables.
 
-use super::{Record, SIX_DIGITS, numbers};
+use super::{SIX_DIGITS, SeriesRecord, numbers};
 use crate::distribution::{self, levels};
 use crate::rainflow::{cycles, range_mean};
 use crate::{SeriesError, statistics};
@@ -11,7 +11,7 @@ use windlass_base::units::Dim;
 ///
 /// # Errors
 /// As [`distribution::histogram`].
-pub fn histogram(record: &Record, bins: usize) -> Result<Table, SeriesError> {
+pub fn histogram(record: &SeriesRecord, bins: usize) -> Result<Table, SeriesError> {
     let mut columns = Vec::new();
     for series in &record.series {
         let found = distribution::histogram(&series.values, bins)?;
@@ -30,7 +30,7 @@ pub fn histogram(record: &Record, bins: usize) -> Result<Table, SeriesError> {
 ///
 /// # Errors
 /// As [`distribution::levels`].
-pub fn exceedance(record: &Record, count: usize) -> Result<Table, SeriesError> {
+pub fn exceedance(record: &SeriesRecord, count: usize) -> Result<Table, SeriesError> {
     let mut columns = Vec::new();
     for series in &record.series {
         let at = levels(&series.values, count)?;
@@ -68,7 +68,7 @@ pub fn exceedance(record: &Record, count: usize) -> Result<Table, SeriesError> {
 ///
 /// # Errors
 /// As [`range_mean`].
-pub fn rainflow(record: &Record, bins: usize, means: usize) -> Result<Table, SeriesError> {
+pub fn rainflow(record: &SeriesRecord, bins: usize, means: usize) -> Result<Table, SeriesError> {
     let mut columns = Vec::new();
     for series in &record.series {
         let found = cycles(&series.values)?;
@@ -108,13 +108,17 @@ pub fn rainflow(record: &Record, bins: usize, means: usize) -> Result<Table, Ser
 
 #[cfg(test)]
 mod tests {
-    use super::super::Series;
+    use super::super::TableSeries;
     use super::*;
 
-    fn record() -> Record {
+    fn record() -> SeriesRecord {
         let values = vec![-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0];
         let times = (0..9).map(f64::from).collect();
-        Record { title: "t".into(), series: vec![Series { name: "S".into(), dim: Dim::Force, values }], times }
+        SeriesRecord {
+            title: "t".into(),
+            series: vec![TableSeries { name: "S".into(), dim: Dim::Force, values }],
+            times,
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Extremes of series as a table: Rayleigh, Weibull and Gumbel beside each other.
 
-use super::{Record, SIX_DIGITS, Series};
-use crate::extremes::{Extreme, FEWEST_BLOCKS, Gumbel, Weibull, block_maxima, rayleigh};
+use super::{SIX_DIGITS, SeriesRecord, TableSeries};
+use crate::extremes::{ExpectedExtreme, FEWEST_BLOCKS, Gumbel, Weibull, block_maxima, rayleigh};
 use crate::{SeriesError, statistics};
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
@@ -21,8 +21,8 @@ pub struct Extremes {
 const DEFAULT_BLOCKS: usize = 20;
 const MIN_CROSSINGS_PER_BLOCK: usize = 10;
 
-struct Found {
-    extreme: Extreme,
+struct FoundExtremes {
+    extreme: ExpectedExtreme,
     count: Option<usize>,
     shape: Option<f64>,
     scale: f64,
@@ -32,7 +32,7 @@ struct Found {
 ///
 /// # Errors
 /// A series that does not vary or crosses its mean fewer than twice; no method that answers for any of them.
-pub fn extremes(record: &Record, asked: Extremes) -> Result<Table, SeriesError> {
+pub fn extremes(record: &SeriesRecord, asked: Extremes) -> Result<Table, SeriesError> {
     let methods = ["Rayleigh", "Weibull", "Gumbel"];
     let mut columns = vec![Column::new("", "Method", Dim::None, Digits::Usual, methods)];
     let (mut notes, mut answered) = (Vec::new(), false);
@@ -44,11 +44,11 @@ pub fn extremes(record: &Record, asked: Extremes) -> Result<Table, SeriesError> 
                 Err(error) => notes.push(format!("{method} of {}: {error}", series.name)),
             }
         }
-        let of = |take: &dyn Fn(&Found) -> Cell| -> Vec<Cell> {
+        let of = |take: &dyn Fn(&FoundExtremes) -> Cell| -> Vec<Cell> {
             found.iter().map(|f| f.as_ref().map_or(Cell::Missing, take)).collect()
         };
         let sign = if asked.lows { -1.0 } else { 1.0 };
-        let bound = |f: &Found, upper: bool| {
+        let bound = |f: &FoundExtremes, upper: bool| {
             // turned over, the bounds change places
             let take = |(low, high): (f64, f64)| if upper != asked.lows { high } else { low };
             f.extreme.interval.map(|i| sign * take(i)).into()
@@ -79,17 +79,17 @@ pub fn extremes(record: &Record, asked: Extremes) -> Result<Table, SeriesError> 
 }
 
 fn of_series(
-    record: &Record,
-    series: &Series,
+    record: &SeriesRecord,
+    series: &TableSeries,
     asked: Extremes,
-) -> Result<[Result<Found, SeriesError>; 3], SeriesError> {
+) -> Result<[Result<FoundExtremes, SeriesError>; 3], SeriesError> {
     let values: Vec<f64> = if asked.lows { series.values.iter().map(|v| -v).collect() } else { series.values.clone() };
     let moments = statistics::moments(&values)?;
     let crossings = statistics::crossings(&record.times, &values, moments.mean)?;
     let Some(period) = crossings.period() else {
         return Err(SeriesError::Refused(format!("{} crosses its mean upward fewer than twice", series.name)));
     };
-    let by_rayleigh = rayleigh(moments.mean, moments.deviation, period, asked.duration).map(|extreme| Found {
+    let by_rayleigh = rayleigh(moments.mean, moments.deviation, period, asked.duration).map(|extreme| FoundExtremes {
         extreme,
         count: None,
         shape: None,
@@ -99,7 +99,7 @@ fn of_series(
     let maxima: Vec<f64> = crossings.maxima.iter().map(|p| p.value).filter(|v| *v > moments.mean).collect();
     let by_weibull = Weibull::fit(&maxima, moments.mean).and_then(|w| {
         let extreme = w.extreme(period, asked.duration)?;
-        Ok(Found { extreme, count: Some(w.count), shape: Some(w.shape), scale: w.scale })
+        Ok(FoundExtremes { extreme, count: Some(w.count), shape: Some(w.shape), scale: w.scale })
     });
     let blocks = asked.blocks.unwrap_or_else(|| (crossings.up / MIN_CROSSINGS_PER_BLOCK).min(DEFAULT_BLOCKS));
     let by_gumbel = if blocks < FEWEST_BLOCKS {
@@ -108,7 +108,7 @@ fn of_series(
     } else {
         block_maxima(&values, blocks).and_then(|m| Gumbel::fit(&m)).and_then(|g| {
             let extreme = g.extreme(record.length() / blocks as f64, asked.duration)?;
-            Ok(Found { extreme, count: Some(g.count), shape: None, scale: g.scale })
+            Ok(FoundExtremes { extreme, count: Some(g.count), shape: None, scale: g.scale })
         })
     };
     Ok([by_rayleigh, by_weibull, by_gumbel])
@@ -119,11 +119,15 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    fn record(length: f64) -> Record {
+    fn record(length: f64) -> SeriesRecord {
         let times: Vec<f64> = (0..(length * 2.0) as usize).map(|i| 0.5 * i as f64).collect();
         let beat = |t: &f64| (TAU * t / 9.7).sin() + 0.8 * (TAU * t / 8.3).sin() + 0.5 * (TAU * t / 12.9).cos();
         let values = times.iter().map(beat).collect();
-        Record { title: "t".into(), series: vec![Series { name: "S".into(), dim: Dim::Length, values }], times }
+        SeriesRecord {
+            title: "t".into(),
+            series: vec![TableSeries { name: "S".into(), dim: Dim::Length, values }],
+            times,
+        }
     }
 
     #[test]

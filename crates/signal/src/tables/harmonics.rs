@@ -1,6 +1,6 @@
 //! Harmonic analysis of series as a table.
 
-use super::{Record, SIX_DIGITS, numbers};
+use super::{SIX_DIGITS, SeriesRecord, numbers};
 use crate::SeriesError;
 use crate::harmonics::{Harmonic, analyse, find_period};
 use windlass_base::table::{Cell, Column, Digits, Table};
@@ -24,7 +24,7 @@ const ROUNDING_SHARE: f64 = 1e-12;
 ///
 /// # Errors
 /// As [`analyse`] and [`find_period`].
-pub fn harmonics(record: &Record, asked: Analysis) -> Result<Table, SeriesError> {
+pub fn harmonics(record: &SeriesRecord, asked: Analysis) -> Result<Table, SeriesError> {
     let first = record.series.first().ok_or(SeriesError::Constant)?;
     let period = asked.period.map_or_else(|| find_period(&record.times, &first.values), Ok)?;
     let orders: Vec<Cell> = (0..=asked.orders).map(Cell::from).collect();
@@ -63,7 +63,7 @@ pub fn harmonics(record: &Record, asked: Analysis) -> Result<Table, SeriesError>
 
 #[cfg(test)]
 mod tests {
-    use super::super::Series;
+    use super::super::TableSeries;
     use super::*;
     use std::f64::consts::TAU;
 
@@ -71,9 +71,9 @@ mod tests {
     fn the_period_of_the_first_series_serves_for_all() {
         let times: Vec<f64> = (0..400).map(|i| 0.25 * f64::from(i)).collect();
         let of = |a: f64, p: f64| times.iter().map(|t| 5.0 + a * (TAU * t / 10.0 + p).cos()).collect();
-        let series = |name: &str, values| Series { name: name.into(), dim: Dim::Force, values };
+        let series = |name: &str, values| TableSeries { name: name.into(), dim: Dim::Force, values };
         let series = vec![series("A", of(2.0, 0.5)), series("B", of(3.0, -0.5))];
-        let r = Record { title: "t".into(), series, times };
+        let r = SeriesRecord { title: "t".into(), series, times };
         let t = harmonics(&r, Analysis { period: None, orders: 2, cycles: None }).unwrap();
         assert_eq!((t.columns.len(), t.rows()), (6, 3));
         let b = t.columns[4].numbers();

@@ -17,7 +17,7 @@ use windlass_base::units::Dim;
 
 /// A series of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct TableSeries {
     /// Name of its column, with the group head.
     pub name: String,
     /// What it measures.
@@ -28,13 +28,13 @@ pub struct Series {
 
 /// Times and the series over them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Record {
+pub struct SeriesRecord {
     /// Title of the table they come from.
     pub title: String,
     /// Times (s).
     pub times: Vec<f64>,
     /// The series.
-    pub series: Vec<Series>,
+    pub series: Vec<TableSeries>,
 }
 
 /// Name of a column with its group, as `Tension: Ten Top`.
@@ -50,12 +50,12 @@ fn values(column: &Column) -> Result<Vec<f64>, SeriesError> {
     column.cells.iter().enumerate().map(number).collect()
 }
 
-impl Record {
+impl SeriesRecord {
     /// The record of a table whose first column is time, or a plain number that stands for seconds.
     ///
     /// # Errors
     /// A table of one column, a first column that measures something else, a cell without a number, times that do not grow.
-    pub fn from_table(table: &Table) -> Result<Record, SeriesError> {
+    pub fn from_table(table: &Table) -> Result<SeriesRecord, SeriesError> {
         let Some((time, rest)) = table.columns.split_first().filter(|(_, rest)| !rest.is_empty()) else {
             return Err(SeriesError::Refused("the time and at least one more column are needed".into()));
         };
@@ -68,9 +68,9 @@ impl Record {
         let series = rest.iter().map(|c| {
             let values = values(c)?;
             super::finite(&values)?;
-            Ok(Series { name: long_name(c), dim: c.dim, values })
+            Ok(TableSeries { name: long_name(c), dim: c.dim, values })
         });
-        Ok(Record { title: table.title.clone(), series: series.collect::<Result<_, SeriesError>>()?, times })
+        Ok(SeriesRecord { title: table.title.clone(), series: series.collect::<Result<_, SeriesError>>()?, times })
     }
 
     /// Seconds from the first time to one step behind the last.
@@ -102,12 +102,12 @@ mod tests {
             .column("", "Time", Dim::Time, Digits::Usual, |time| *time)
             .column("A", "F", Dim::Force, Digits::Usual, |_| 5usize)
             .build();
-        let r = Record::from_table(&t).unwrap();
+        let r = SeriesRecord::from_table(&t).unwrap();
         assert_eq!((r.series[0].name.as_str(), r.length()), ("A: F", 3.0));
         t.columns[1].cells[1] = Cell::Missing;
-        assert!(Record::from_table(&t).unwrap_err().to_string().contains("row 2"));
+        assert!(SeriesRecord::from_table(&t).unwrap_err().to_string().contains("row 2"));
         t.columns[0].dim = Dim::Length;
-        assert!(Record::from_table(&t).unwrap_err().to_string().contains("no time"));
-        assert!(Record::from_table(&Table::new("t")).is_err());
+        assert!(SeriesRecord::from_table(&t).unwrap_err().to_string().contains("no time"));
+        assert!(SeriesRecord::from_table(&Table::new("t")).is_err());
     }
 }

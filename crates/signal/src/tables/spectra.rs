@@ -1,6 +1,6 @@
 //! Spectra of series as tables.
 
-use super::{Record, SIX_DIGITS, Series, numbers};
+use super::{SIX_DIGITS, SeriesRecord, TableSeries, numbers};
 use crate::spectra::{self, Density, SpectralMoments, Window};
 use crate::{SeriesError, sampling};
 use std::f64::consts::TAU;
@@ -30,9 +30,9 @@ fn usual_length(samples: usize) -> usize {
 }
 
 /// The series of a record with their densities, and whether any was interpolated to uniform times.
-type Densities<'a> = (Vec<(&'a Series, Density)>, bool);
+type Densities<'a> = (Vec<(&'a TableSeries, Density)>, bool);
 
-fn densities(record: &Record, length: Option<usize>) -> Result<Densities<'_>, SeriesError> {
+fn densities(record: &SeriesRecord, length: Option<usize>) -> Result<Densities<'_>, SeriesError> {
     let mut resampled = false;
     let mut out = Vec::new();
     for series in &record.series {
@@ -55,7 +55,7 @@ fn periods(frequencies: &[f64]) -> Vec<Cell> {
 ///
 /// # Errors
 /// As [`spectra::welch`].
-pub fn density(record: &Record, length: Option<usize>) -> Result<Table, SeriesError> {
+pub fn density(record: &SeriesRecord, length: Option<usize>) -> Result<Table, SeriesError> {
     let (found, resampled) = densities(record, length)?;
     let Some((_, first)) = found.first() else { return Err(SeriesError::Constant) };
     let frequencies = first.frequencies.get(1..).unwrap_or_default();
@@ -88,7 +88,7 @@ pub fn density(record: &Record, length: Option<usize>) -> Result<Table, SeriesEr
 ///
 /// # Errors
 /// As [`density`]; a series that does not vary.
-pub fn moments(record: &Record, length: Option<usize>) -> Result<Vec<(String, SpectralMoments)>, SeriesError> {
+pub fn moments(record: &SeriesRecord, length: Option<usize>) -> Result<Vec<(String, SpectralMoments)>, SeriesError> {
     let (found, _) = densities(record, length)?;
     found.iter().map(|(series, d)| Ok((series.name.clone(), spectra::moments(d)?))).collect()
 }
@@ -97,7 +97,7 @@ pub fn moments(record: &Record, length: Option<usize>) -> Result<Vec<(String, Sp
 ///
 /// # Errors
 /// As [`spectra::amplitudes`].
-pub fn amplitudes(record: &Record) -> Result<Table, SeriesError> {
+pub fn amplitudes(record: &SeriesRecord) -> Result<Table, SeriesError> {
     let mut columns = Vec::new();
     let mut resampled = false;
     for series in &record.series {
@@ -127,10 +127,10 @@ pub fn amplitudes(record: &Record) -> Result<Table, SeriesError> {
 mod tests {
     use super::*;
 
-    fn record(step: f64, dim: Dim) -> Record {
+    fn record(step: f64, dim: Dim) -> SeriesRecord {
         let times: Vec<f64> = (0..4096).map(|i| step * f64::from(i)).collect();
         let values = times.iter().map(|t| 2.0 * (TAU * t / (64.0 * step)).sin()).collect();
-        Record { title: "t".into(), series: vec![Series { name: "S".into(), dim, values }], times }
+        SeriesRecord { title: "t".into(), series: vec![TableSeries { name: "S".into(), dim, values }], times }
     }
 
     #[test]

@@ -150,7 +150,7 @@ pub struct EndRecord<'a> {
 
 /// What holds for all ends of a tether.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Asked {
+pub struct FatigueSettings {
     /// Time the record lasts (s).
     pub duration: f64,
     /// S-N curve.
@@ -180,7 +180,7 @@ pub fn bin_width(ends: &[EndRecord]) -> f64 {
 ///
 /// # Errors
 /// A curve, a duration or a time for peaks that is not above zero, moments of unlike number or not finite.
-pub fn fatigue_of_ends(ends: &[EndRecord], asked: Asked) -> Result<Vec<EndFatigue>, SeriesError> {
+pub fn fatigue_of_ends(ends: &[EndRecord], asked: FatigueSettings) -> Result<Vec<EndFatigue>, SeriesError> {
     asked.curve.check()?;
     for (what, value) in [("the time of the record", asked.duration), ("the time of expected peaks", asked.peak_time)] {
         if !(value.is_finite() && value > 0.0) {
@@ -198,7 +198,7 @@ pub fn fatigue_of_ends(ends: &[EndRecord], asked: Asked) -> Result<Vec<EndFatigu
     Ok(ends.iter().map(|end| of_end(end, width, asked)).collect())
 }
 
-fn of_end(end: &EndRecord, width: f64, asked: Asked) -> EndFatigue {
+fn of_end(end: &EndRecord, width: f64, asked: FatigueSettings) -> EndFatigue {
     let significant = |values: &[f64]| 2.0 * spread(values).1;
     let mut moment = Vec::with_capacity(end.about_y.len());
     let mut found = EndFatigue {
@@ -255,7 +255,7 @@ mod tests {
         let about_y: Vec<f64> = (0..400).map(|i| wave(i) * cosine).collect();
         let about_z: Vec<f64> = (0..400).map(|i| wave(i) * sine).collect();
         let end = EndRecord { about_y: &about_y, about_z: &about_z, stress_of_moment: 30.0 };
-        let asked = Asked { duration: 200.0, curve: Endurance::KILONEWTONS, peak_time: 10_800.0 };
+        let asked = FatigueSettings { duration: 200.0, curve: Endurance::KILONEWTONS, peak_time: 10_800.0 };
         let found = fatigue_of_ends(&[end], asked).unwrap_or_default();
         assert!(found.iter().all(|f| (f.angle.to_degrees() - 40.0).abs() < 1e-9 && f.angle == f.peak_angle));
         assert!(found.iter().all(|f| (f.significant_moments[2] - f.significant / 30.0).abs() < 1e-9));
@@ -265,7 +265,7 @@ mod tests {
     fn a_tether_at_rest_lives_longest_and_expects_no_stress() {
         let still = [0.0; 10];
         let end = EndRecord { about_y: &still, about_z: &still, stress_of_moment: 1.0 };
-        let asked = Asked { duration: 5.0, curve: Endurance::KILONEWTONS, peak_time: 10_800.0 };
+        let asked = FatigueSettings { duration: 5.0, curve: Endurance::KILONEWTONS, peak_time: 10_800.0 };
         let found = fatigue_of_ends(&[end], asked).unwrap_or_default();
         assert!(found.iter().all(|f| f.life_days == LONGEST_LIFE && f.expected_peak == 0.0 && f.cycles == 0.0));
     }

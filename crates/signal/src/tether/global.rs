@@ -5,7 +5,7 @@ use crate::{SeriesError, finite};
 
 /// The ten numbers of one column of the statistics of type 1.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Global {
+pub struct GlobalStatistics {
     /// Mean.
     pub mean: f64,
     /// Twice the root mean square about the mean, "significant" in the manual's words.
@@ -32,7 +32,7 @@ pub fn spread(values: &[f64]) -> (f64, f64) {
 ///
 /// # Errors
 /// No values, or one that is not finite.
-pub fn global(values: &[f64]) -> Result<Global, SeriesError> {
+pub fn global(values: &[f64]) -> Result<GlobalStatistics, SeriesError> {
     finite(values)?;
     if values.is_empty() {
         return Err(SeriesError::TooFew { what: "statistics of records", need: 1, got: 0 });
@@ -56,7 +56,7 @@ pub fn global(values: &[f64]) -> Result<Global, SeriesError> {
     maxima.sort_by(|a, b| b.total_cmp(a));
     minima.sort_by(f64::total_cmp);
     let three = |found: &[f64]| std::array::from_fn(|i| found.get(i).copied().unwrap_or(0.0));
-    Ok(Global {
+    Ok(GlobalStatistics {
         mean,
         significant: 2.0 * rms,
         highest_third,
@@ -82,6 +82,9 @@ mod tests {
 
     #[test]
     fn a_record_at_rest_has_no_peaks() {
-        assert_eq!(global(&[1.0; 5]).unwrap_or_default(), Global { mean: 1.0, ..Global::default() });
+        assert_eq!(
+            global(&[1.0; 5]).unwrap_or_default(),
+            GlobalStatistics { mean: 1.0, ..GlobalStatistics::default() }
+        );
     }
 }

@@ -2,7 +2,7 @@
 //! columns and the order of that manual.
 
 use super::fatigue::{EndFatigue, STRESS_RANGE_BINS};
-use super::global::{Global, global};
+use super::global::{GlobalStatistics, global};
 use crate::SeriesError;
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
@@ -27,7 +27,7 @@ pub struct Channel<'a> {
 
 /// A node, or an end of an element, with its series.
 #[derive(Clone, Debug)]
-pub struct Place<'a> {
+pub struct NodeSeries<'a> {
     /// Number of the node or the element.
     pub number: usize,
     /// Distance from the trailing end or the anchor (m).
@@ -36,7 +36,7 @@ pub struct Place<'a> {
     pub channels: Vec<Channel<'a>>,
 }
 
-fn of_place(place: &Place) -> Result<Vec<Global>, SeriesError> {
+fn of_place(place: &NodeSeries) -> Result<Vec<GlobalStatistics>, SeriesError> {
     place.channels.iter().map(|channel| global(channel.values)).collect()
 }
 
@@ -46,9 +46,9 @@ fn channel_column(channel: &Channel, cells: impl IntoIterator<Item = f64>) -> Co
 }
 
 /// A quantity of the statistics of type 1: its words and where it stands.
-type Row = (&'static str, fn(&Global) -> f64);
+type StatisticRow = (&'static str, fn(&GlobalStatistics) -> f64);
 
-const TABLE_ROWS: [Row; 10] = [
+const TABLE_ROWS: [StatisticRow; 10] = [
     ("Mean", |g| g.mean),
     ("2 x RMS", |g| g.significant),
     ("Mean highest 1/3 peaks +", |g| g.highest_third),
@@ -66,7 +66,7 @@ const TABLE_ROWS: [Row; 10] = [
 ///
 /// # Errors
 /// As [`global`].
-pub fn type_one(title: &str, place: &Place) -> Result<Table, SeriesError> {
+pub fn type_one(title: &str, place: &NodeSeries) -> Result<Table, SeriesError> {
     let found = of_place(place)?;
     let mut columns = vec![Column::new("", "Parameter", Dim::None, Digits::Usual, TABLE_ROWS.map(|(label, _)| label))];
     for (channel, of) in place.channels.iter().zip(&found) {
@@ -76,7 +76,7 @@ pub fn type_one(title: &str, place: &Place) -> Result<Table, SeriesError> {
 }
 
 /// The pages of the statistics of type 2, in their order.
-pub const PAGES: [Row; 4] = [
+pub const PAGES: [StatisticRow; 4] = [
     ("Mean value", |g| g.mean),
     ("2 x RMS", |g| g.significant),
     ("Maximum peaks", |g| g.maxima[0]),
@@ -88,9 +88,9 @@ pub const PAGES: [Row; 4] = [
 ///
 /// # Errors
 /// As [`global`].
-pub fn type_two(title: &str, what: &str, places: &[Place]) -> Result<Vec<Table>, SeriesError> {
+pub fn type_two(title: &str, what: &str, places: &[NodeSeries]) -> Result<Vec<Table>, SeriesError> {
     let found = places.iter().map(of_place).collect::<Result<Vec<_>, _>>()?;
-    let page = |(index, (name, value)): (usize, &Row)| {
+    let page = |(index, (name, value)): (usize, &StatisticRow)| {
         let last = match index {
             2 => "Largest",
             3 => "Smallest",

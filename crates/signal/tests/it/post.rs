@@ -3,7 +3,7 @@
 
 use windlass_model::FatigueKind;
 use windlass_signal::extremes::{Gumbel, Weibull, block_maxima};
-use windlass_signal::fatigue::{Branch, Curve, spectral};
+use windlass_signal::fatigue::{CurveBranch, SnCurve, spectral};
 use windlass_signal::rainflow::cycles;
 use windlass_signal::running::Running;
 use windlass_signal::spectra::{Window, amplitudes, welch};
@@ -104,10 +104,10 @@ fn maxima_and_the_distributions_fitted_to_them_are_those_of_scipy() {
 fn damage_of_a_spectrum_is_that_of_flife() {
     let m = [0, 1, 2, 4].map(|i| expected(&format!("fatigue_m{i}")));
     for (slope, log_a) in [(3.0, 11.687), (5.0, 15.606)] {
-        let curve = Curve {
+        let curve = SnCurve {
             name: "straight".into(),
             kind: FatigueKind::Stress,
-            branches: vec![Branch { slope, log_a, from: 0.0 }],
+            branches: vec![CurveBranch { slope, log_a, from: 0.0 }],
             limit: 0.0,
             mean_slope: 0.0,
             legs: 1.0,

@@ -1,15 +1,15 @@
 //! Connectors of a film: their shape at every instant.
 
-use crate::results::along::{Section, sections, segments_at, sides};
+use crate::results::along::{ResultSection, sections, segments_at, sides};
 use crate::scene::{CORNER_TURN_RAD, cubic};
-use crate::time::{AlongColumns, Layout, LinkColumns};
+use crate::time::{AlongColumns, LinkColumns, RowLayout};
 use windlass_base::geometry::Position;
 use windlass_base::table::{Cell, Table};
 use windlass_model::{ClassError, Condition, Connector, Model, Placement};
 
 /// How a connector is at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
+pub enum ConnectorState {
     /// It does not act.
     Inactive,
     /// It acts.
@@ -34,7 +34,7 @@ pub struct Strand {
     /// Tension over the break there; empty where no break is known.
     pub shares: Vec<f64>,
     /// How it is, instant by instant.
-    pub states: Vec<State>,
+    pub states: Vec<ConnectorState>,
     /// Elevation of the bottom below it (m), where that is known.
     pub(super) bottom: Option<f64>,
     /// Why it was last without a shape.
@@ -42,12 +42,12 @@ pub struct Strand {
     /// Whether it is a dynamic line and the run kept none of its nodes.
     pub(super) nodeless: bool,
     /// What it is made of, of one whose nodes were kept.
-    sections: Vec<Section>,
+    sections: Vec<ResultSection>,
     link: usize,
 }
 
 /// The points of a line at an instant with what it bears there.
-struct Shape {
+struct FilmShape {
     points: Vec<Position>,
     tensions: Vec<f64>,
     shares: Vec<f64>,
@@ -77,7 +77,7 @@ impl Strand {
     }
 
     /// Adds an instant: the bodies of the model stand where they are then.
-    pub(super) fn shoot(&mut self, model: &mut Model, layout: &Layout, row: &[f64], points: usize) {
+    pub(super) fn shoot(&mut self, model: &mut Model, layout: &RowLayout, row: &[f64], points: usize) {
         let columns = layout.links.get(self.link);
         let number = |at: Option<usize>| at.and_then(|at| row.get(at)).copied();
         let active = number(columns.map(|c| c.active)).unwrap_or(0.0) > 0.5;
@@ -97,18 +97,18 @@ impl Strand {
         self.count = if self.line { points.max(2) } else { 2 };
         let moved = || dynamic_shape(columns?.along.as_ref()?, row, &self.sections, self.count);
         let (shape, state) = match (active, self.line) {
-            (false, _) => (self.straight(model, connector, 0.0), State::Inactive),
+            (false, _) => (self.straight(model, connector, 0.0), ConnectorState::Inactive),
             (true, _) if self.has_stored_nodes(columns) => match moved() {
-                Some(shape) => (shape, State::Acting),
-                None => (self.straight(model, connector, pull), State::Unsolved),
+                Some(shape) => (shape, ConnectorState::Acting),
+                None => (self.straight(model, connector, pull), ConnectorState::Unsolved),
             },
-            (true, false) => (self.straight(model, connector, pull), State::Acting),
+            (true, false) => (self.straight(model, connector, pull), ConnectorState::Acting),
             (true, true) => match hanging(model, connector, self.count) {
-                Ok(Some(shape)) => (shape, State::Acting),
-                Ok(None) => (self.straight(model, connector, pull), State::Acting),
+                Ok(Some(shape)) => (shape, ConnectorState::Acting),
+                Ok(None) => (self.straight(model, connector, pull), ConnectorState::Acting),
                 Err(error) => {
                     self.error = Some(error.to_string());
-                    (self.straight(model, connector, pull), State::Unsolved)
+                    (self.straight(model, connector, pull), ConnectorState::Unsolved)
                 }
             },
         };
@@ -125,14 +125,14 @@ impl Strand {
     }
 
     /// Straight between the ends.
-    fn straight(&self, model: &Model, connector: &Connector, tension: f64) -> Shape {
+    fn straight(&self, model: &Model, connector: &Connector, tension: f64) -> FilmShape {
         let [from, to] = model.end_poses(connector).map(|p| Position::from(p.origin));
         let along = |n: usize| {
             let share = n as f64 / (self.count - 1).max(1) as f64;
             let [x, y, z] = from;
             [x + share * (to[0] - x), y + share * (to[1] - y), z + share * (to[2] - z)]
         };
-        Shape {
+        FilmShape {
             points: (0..self.count).map(along).collect(),
             tensions: vec![tension; self.count],
             // where a line is straight its share of the break is not known: as before
@@ -153,10 +153,10 @@ impl Strand {
 
 /// A dynamic line as its nodes were, a number of points evenly along its length, straight between nodes; `None` where none
 /// of them is there.
-fn dynamic_shape(along: &AlongColumns, row: &[f64], sections: &[Section], count: usize) -> Option<Shape> {
+fn dynamic_shape(along: &AlongColumns, row: &[f64], sections: &[ResultSection], count: usize) -> Option<FilmShape> {
     let nodes: Vec<_> = along.nodes(row).map(|(_, node)| node).collect();
     let (first, last) = (nodes.first()?.arc, nodes.last()?.arc);
-    let mut shape = Shape { points: Vec::new(), tensions: Vec::new(), shares: Vec::new(), bottom: None };
+    let mut shape = FilmShape { points: Vec::new(), tensions: Vec::new(), shares: Vec::new(), bottom: None };
     for n in 0..count {
         let share = n as f64 / (count - 1).max(1) as f64;
         let wanted = if n + 1 == count { last } else { first + (last - first) * share };
@@ -176,7 +176,7 @@ fn dynamic_shape(along: &AlongColumns, row: &[f64], sections: &[Section], count:
 }
 
 /// A mooring line as it hangs between its ends; `None` of one that is straight.
-fn hanging(model: &Model, connector: &Connector, count: usize) -> Result<Option<Shape>, ClassError> {
+fn hanging(model: &Model, connector: &Connector, count: usize) -> Result<Option<FilmShape>, ClassError> {
     let placement = model.placement(connector);
     let class = model.classes.get(&Model::key(&connector.class));
     let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
@@ -190,7 +190,7 @@ fn hanging(model: &Model, connector: &Connector, count: usize) -> Result<Option<
 }
 
 /// A number of points evenly along the length of a line, between the rows of its geometry.
-fn resample_shape(table: &Table, placement: &Placement, count: usize) -> Option<Shape> {
+fn resample_shape(table: &Table, placement: &Placement, count: usize) -> Option<FilmShape> {
     let column = |name: &str| -> Vec<Option<f64>> {
         table.get(name).map_or(Vec::new(), |c| c.cells.iter().map(Cell::number).collect())
     };
@@ -207,7 +207,7 @@ fn resample_shape(table: &Table, placement: &Placement, count: usize) -> Option<
     let (first, last) = (arc_of(rows.first()?), arc_of(rows.last()?));
     let (_, [ux, uy]) = placement.span();
     let [x0, y0, _] = placement.fairlead;
-    let mut shape = Shape { points: Vec::new(), tensions: Vec::new(), shares: Vec::new(), bottom: None };
+    let mut shape = FilmShape { points: Vec::new(), tensions: Vec::new(), shares: Vec::new(), bottom: None };
     for n in 0..count {
         let share = n as f64 / (count - 1).max(1) as f64;
         let wanted = if n + 1 == count { last } else { first + (last - first) * share };

@@ -8,11 +8,11 @@ mod lines;
 mod sea;
 mod solid;
 
-pub use lines::{State, Strand};
-pub use sea::{Wave, Waves};
-pub use solid::Solid;
+pub use lines::{ConnectorState, Strand};
+pub use sea::{FilmWave, FilmWaves};
+pub use solid::FilmSolid;
 
-use super::results::{Window, events};
+use super::results::{EventWindow, events};
 use super::time::Run;
 use nalgebra::Vector3;
 use windlass_base::geometry::{Place, Position};
@@ -37,7 +37,7 @@ pub struct Take<'a> {
     /// Whether a body of this name is; one on which a shown connector ends always is.
     pub body: &'a dyn Fn(&str) -> bool,
     /// Which instants.
-    pub window: Option<Window>,
+    pub window: Option<EventWindow>,
     /// Points of a mooring line.
     pub points: usize,
     /// Whether to give up.
@@ -52,7 +52,7 @@ pub struct Actor {
     /// Whether it is a junction, a point where connectors meet.
     pub junction: bool,
     /// Its form, in its axes.
-    pub solid: Solid,
+    pub solid: FilmSolid,
     /// Where it stands at every instant.
     pub poses: Vec<Pose>,
 }
@@ -73,7 +73,7 @@ pub struct Film {
     /// Elevation of the bottom (m), where there is one.
     pub bottom: Option<f64>,
     /// The waves.
-    pub waves: Option<Waves>,
+    pub waves: Option<FilmWaves>,
     /// Corners of a box about all that is shown (m).
     pub extent: [Position; 2],
     /// What was left out or thinned, a sentence each.
@@ -128,7 +128,7 @@ impl Film {
         }
         film.ends(&model);
         film.tell_unsolved();
-        film.waves = Waves::from_run(run, &mut film.notes);
+        film.waves = FilmWaves::from_run(run, &mut film.notes);
         film.cast(run, &bodies, poses);
         film.measure()?;
         Ok(film)
@@ -165,13 +165,13 @@ impl Film {
             let Some((name, key)) = run.history.layout.bodies.get(*index) else { continue };
             let Some(body) = run.model.bodies.get(key) else { continue };
             let junction = body.junction.is_some();
-            let mut solid = Solid::from_body(&run.model, body, if junction { 0.5 * least } else { least });
+            let mut solid = FilmSolid::from_body(&run.model, body, if junction { 0.5 * least } else { least });
             if triangles + solid.triangles.len() > MAX_TRIANGLES {
                 self.notes.push(format!(
                     "{name} is shown as a box: its hull of {} triangles goes beyond the {MAX_TRIANGLES} of a film",
                     solid.triangles.len()
                 ));
-                solid = Solid::bounding_box(&run.model, body, least);
+                solid = FilmSolid::bounding_box(&run.model, body, least);
             }
             triangles += solid.triangles.len();
             let poses = poses.get_mut(*index).map(std::mem::take).unwrap_or_default();
@@ -230,7 +230,7 @@ impl Film {
 
     fn tell_unsolved(&mut self) {
         for strand in &self.strands {
-            let count = strand.states.iter().filter(|s| **s == State::Unsolved).count();
+            let count = strand.states.iter().filter(|s| **s == ConnectorState::Unsolved).count();
             if let (Some(error), 1..) = (&strand.error, count) {
                 self.notes.push(format!("{} is straight at {count} instants: {error}", strand.name));
             }

@@ -11,7 +11,7 @@ const SAMPLES_PER_PERIOD: usize = 64;
 
 /// One wave of the surface: `amplitude cos(number (toward . (x, y)) - frequency t + phase)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wave {
+pub struct FilmWave {
     /// Frequency (rad/s).
     pub frequency: f64,
     /// Wave number (1/m).
@@ -26,24 +26,24 @@ pub struct Wave {
 
 /// The surface as waves added up.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Waves {
+pub struct FilmWaves {
     /// The waves.
-    pub waves: Vec<Wave>,
+    pub waves: Vec<FilmWave>,
     /// Time over which they grow from nothing, by `(1 - cos(pi t / T)) / 2` (s).
     pub ramp: f64,
     /// Since when they are there (s).
     pub since: f64,
 }
 
-impl Waves {
+impl FilmWaves {
     /// Those of a run.
-    pub(super) fn from_run(run: &Run, notes: &mut Vec<String>) -> Option<Waves> {
+    pub(super) fn from_run(run: &Run, notes: &mut Vec<String>) -> Option<FilmWaves> {
         let since = run.seas.iter().skip(1).last().map_or(f64::NEG_INFINITY, |(time, _)| *time);
         let sea = run.sea.as_deref();
         if since.is_finite() {
             notes.push(format!("an action changed the environment at {since} s: the surface is flat before"));
         }
-        sea.map(|sea| Waves { waves: waves(sea), ramp: sea.ramp, since })
+        sea.map(|sea| FilmWaves { waves: waves(sea), ramp: sea.ramp, since })
     }
 
     /// Height of the surface above the mean level (m).
@@ -52,7 +52,7 @@ impl Waves {
             return 0.0;
         }
         let factor = if self.ramp > 0.0 { 0.5 * (1.0 - (PI * (time / self.ramp).clamp(0.0, 1.0)).cos()) } else { 1.0 };
-        let wave = |w: &Wave| {
+        let wave = |w: &FilmWave| {
             let [tx, ty] = w.toward;
             w.amplitude * (w.number * (tx * x + ty * y) - w.frequency * time + w.phase).cos()
         };
@@ -61,8 +61,8 @@ impl Waves {
 }
 
 /// The components of a sea; those of one regular wave by the harmonics its surface has, so that a steep one keeps its form.
-fn waves(sea: &Sea) -> Vec<Wave> {
-    let linear = |c: &windlass_hydro::sea::Component| Wave {
+fn waves(sea: &Sea) -> Vec<FilmWave> {
+    let linear = |c: &windlass_hydro::sea::Component| FilmWave {
         frequency: c.frequency,
         number: c.number,
         amplitude: c.amplitude,
@@ -89,7 +89,7 @@ fn waves(sea: &Sea) -> Vec<Wave> {
         };
         let (cos, sin) = (part(f64::cos), part(f64::sin));
         let order = n as f64;
-        Wave {
+        FilmWave {
             frequency: order * only.frequency,
             number: order * only.number,
             amplitude: cos.hypot(sin),
@@ -97,7 +97,7 @@ fn waves(sea: &Sea) -> Vec<Wave> {
             phase: order * only.phase + (-sin).atan2(cos),
         }
     };
-    let all: Vec<Wave> = (1..=STORED_HARMONICS).map(harmonic).collect();
+    let all: Vec<FilmWave> = (1..=STORED_HARMONICS).map(harmonic).collect();
     let largest = all.iter().map(|w| w.amplitude).fold(0.0, f64::max);
     all.into_iter().filter(|w| w.amplitude > 1e-9 * largest).collect()
 }
@@ -117,7 +117,7 @@ mod tests {
         let water = Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
         for components in [vec![component(0.6, 1.5, 0.4)], vec![component(0.5, 1.0, 0.1), component(0.9, 0.4, -2.0)]] {
             let sea = Sea::airy(components, water, 20.0, Stretching::Linear);
-            let made = Waves { waves: waves(&sea), ramp: sea.ramp, since: f64::NEG_INFINITY };
+            let made = FilmWaves { waves: waves(&sea), ramp: sea.ramp, since: f64::NEG_INFINITY };
             for n in 0..60 {
                 let (x, y, t) = (13.0 * f64::from(n), -7.0 * f64::from(n), 1.7 * f64::from(n));
                 // sums of a few cosines of arguments up to 1e3

@@ -7,7 +7,7 @@ use windlass_model::{Body, Model, Shape, box_panels};
 
 /// A surface in the axes of a body (m).
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct Solid {
+pub struct FilmSolid {
     /// Corners of the triangles and ends of the edges.
     pub points: Vec<Position>,
     /// Triangles, each by its corners' numbers.
@@ -18,21 +18,21 @@ pub struct Solid {
     pub stands_for: bool,
 }
 
-impl Solid {
+impl FilmSolid {
     /// That of a body: its hull, or a box about its points, no side shorter than `least` (m).
-    pub fn from_body(model: &Model, body: &Body, least: f64) -> Solid {
-        let mut made = Solid::default();
+    pub fn from_body(model: &Model, body: &Body, least: f64) -> FilmSolid {
+        let mut made = FilmSolid::default();
         for part in model.parts_of(body) {
             for piece in &part.pieces {
                 let place = |at: Position| part.place.apply(at);
                 made.add(&piece.shape, &place);
             }
         }
-        if made.triangles.is_empty() { Solid::bounding_box(model, body, least) } else { made }
+        if made.triangles.is_empty() { FilmSolid::bounding_box(model, body, least) } else { made }
     }
 
     /// A box about the points and pieces of a body, no side shorter than `least` (m).
-    pub fn bounding_box(model: &Model, body: &Body, least: f64) -> Solid {
+    pub fn bounding_box(model: &Model, body: &Body, least: f64) -> FilmSolid {
         let mut places: Vec<Vector3<f64>> = Vec::new();
         for part in model.parts_of(body) {
             let key = Model::key(&part.name);
@@ -45,7 +45,7 @@ impl Solid {
         let (low, high) = places.iter().fold((first, first), |(low, high), at| (low.inf(at), high.sup(at)));
         let middle = (low + high) * 0.5;
         let half = ((high - low) * 0.5).map(|h| h.max(0.5 * least));
-        let mut made = Solid { stands_for: true, ..Solid::default() };
+        let mut made = FilmSolid { stands_for: true, ..FilmSolid::default() };
         made.add(&Shape::Block { low: (middle - half).into(), high: (middle + half).into() }, &|at| at);
         made
     }
@@ -102,18 +102,18 @@ mod tests {
     use super::*;
 
     /// The volume triangles enclose, by the divergence of the position: positive when they face outward.
-    fn volume(solid: &Solid) -> f64 {
+    fn volume(solid: &FilmSolid) -> f64 {
         let at = |n: u32| Vector3::from(solid.points[n as usize]);
         solid.triangles.iter().map(|[a, b, c]| at(*a).dot(&at(*b).cross(&at(*c))) / 6.0).sum()
     }
 
     #[test]
     fn a_box_and_a_tube_are_closed_and_have_their_volume() {
-        let mut block = Solid::default();
+        let mut block = FilmSolid::default();
         block.add(&Shape::Block { low: [-1.0, 0.0, 2.0], high: [3.0, 2.0, 3.0] }, &|at| at);
         assert!((volume(&block) - 8.0).abs() < 1e-12);
         assert_eq!((block.triangles.len(), block.edges.len()), (12, 12));
-        let mut tube = Solid::default();
+        let mut tube = FilmSolid::default();
         tube.add(&Shape::Tube { ends: [[0.0, 0.0, -10.0], [0.0, 0.0, 5.0]], diameter: 4.0 }, &|at| at);
         // a prism over a polygon of 24 corners on the circle
         let want = 15.0 * 0.5 * 24.0 * 4.0 * (std::f64::consts::TAU / 24.0).sin();

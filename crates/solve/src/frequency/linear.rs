@@ -1,8 +1,8 @@
 //! The linear equations of motion about a place, and the motions of unit waves.
 
 use crate::modes::solve_least_motion;
-use crate::system::{DOFS, SolveError, State, System, mass_block};
-use crate::time::{Forces, Memory, Motion, RunRequirements};
+use crate::system::{DOFS, SolveError, System, SystemState, mass_block};
+use crate::time::{BodyForces, BodyMotion, LoadMemory, RunRequirements};
 use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
 use windlass_base::dense::{DenseError, Lu, SymmetricEigen, never};
@@ -42,7 +42,7 @@ pub(super) struct Floats {
 
 /// The linear equations about a place, usually that of an equilibrium.
 #[derive(Debug)]
-pub struct Linear {
+pub struct LinearSystem {
     /// The system there.
     pub system: System,
     /// The same without waves and databases, in which velocities are resisted.
@@ -80,7 +80,7 @@ impl Floats {
     }
 }
 
-impl Linear {
+impl LinearSystem {
     /// The equations of a model about its present configuration, in the environment in force.
     ///
     /// # Errors
@@ -108,15 +108,27 @@ impl Linear {
         }
         let moving = calm(model)?;
         let still = vec![Six::zeros(); state.poses.len()];
-        let damping = damping(&moving, &state.poses, &still, &mut Forces::default())?;
+        let damping = damping(&moving, &state.poses, &still, &mut BodyForces::default())?;
         let (heavy, follow) = reduce_to_inertial_dofs(&system, &state)?;
         let around = &system.surroundings;
         let depth = around.depth.map(|d| d + around.tide);
         let linearised = DMatrix::zeros(mass.nrows(), mass.nrows());
         let notes = model.caveats();
         let (poses, stiffness) = (state.poses.clone(), state.stiffness.clone());
-        let mut made =
-            Linear { system, moving, poses, stiffness, mass, damping, linearised, follow, heavy, floats, depth, notes };
+        let mut made = LinearSystem {
+            system,
+            moving,
+            poses,
+            stiffness,
+            mass,
+            damping,
+            linearised,
+            follow,
+            heavy,
+            floats,
+            depth,
+            notes,
+        };
         made.look(model, &state.residual);
         made.look_at_lines(model);
         Ok(made)
@@ -176,7 +188,11 @@ impl Linear {
     ///
     /// # Errors
     /// A connector or load that has no answer.
-    pub(super) fn damping_under(&self, velocities: &[Six], forces: &mut Forces) -> Result<DMatrix<f64>, SolveError> {
+    pub(super) fn damping_under(
+        &self,
+        velocities: &[Six],
+        forces: &mut BodyForces,
+    ) -> Result<DMatrix<f64>, SolveError> {
         damping(&self.moving, &self.poses, velocities, forces)
     }
 
@@ -341,11 +357,12 @@ fn damping(
     system: &System,
     poses: &[Pose],
     velocities: &[Six],
-    forces: &mut Forces,
+    forces: &mut BodyForces,
 ) -> Result<DMatrix<f64>, SolveError> {
-    let motion = |(pose, velocity): (&Pose, &Six)| Motion { pose: *pose, velocity: *velocity, ..Motion::default() };
-    let motions: Vec<Motion> = poses.iter().zip(velocities).map(motion).collect();
-    let mut memory = Memory::new(system);
+    let motion =
+        |(pose, velocity): (&Pose, &Six)| BodyMotion { pose: *pose, velocity: *velocity, ..BodyMotion::default() };
+    let motions: Vec<BodyMotion> = poses.iter().zip(velocities).map(motion).collect();
+    let mut memory = LoadMemory::new(system);
     memory.begin(system, (&motions, &motions), (0.0, DASHPOT_STEP_S))?;
     forces.evaluate(system, &memory, &motions, (0.0, DASHPOT_STEP_S))?;
     match forces.damping.iter().all(|v| v.is_finite()) {
@@ -355,7 +372,7 @@ fn damping(
 }
 
 /// The degrees of freedom that have inertia, and the motions of all degrees of freedom by theirs.
-fn reduce_to_inertial_dofs(system: &System, state: &State) -> Result<(Vec<usize>, DMatrix<f64>), SolveError> {
+fn reduce_to_inertial_dofs(system: &System, state: &SystemState) -> Result<(Vec<usize>, DMatrix<f64>), SolveError> {
     let mass = system.mass_matrix(&state.poses);
     let moves = |i: &usize| system.nodes.get(i / 6).is_some_and(|n| n.moves(i % 6));
     let (heavy, light): (Vec<usize>, Vec<usize>) = (0..mass.nrows()).filter(moves).partition(|i| mass[(*i, *i)] > 0.0);

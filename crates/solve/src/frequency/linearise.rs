@@ -5,10 +5,10 @@
 //! `c sqrt(8/pi) sigma` [BORGMAN-1967]. The mean is taken over points
 //! of equal probability, so that any connector and any load is linearised, alone or together.
 
-use super::linear::Linear;
-use super::response::Response;
+use super::linear::LinearSystem;
+use super::response::FrequencyResponse;
 use crate::system::SolveError;
-use crate::time::Forces;
+use crate::time::BodyForces;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 use windlass_base::pose::Six;
@@ -28,9 +28,9 @@ const NEGLIGIBLE_VARIANCE_SHARE: f64 = 1e-8;
 /// # Errors
 /// It does not settle; a load that has no answer.
 pub(super) fn settle(
-    linear: &mut Linear,
-    response: &mut Response,
-    again: impl Fn(&Linear) -> Result<Response, SolveError>,
+    linear: &mut LinearSystem,
+    response: &mut FrequencyResponse,
+    again: impl Fn(&LinearSystem) -> Result<FrequencyResponse, SolveError>,
 ) -> Result<usize, SolveError> {
     let mut before: Option<DVector<f64>> = None;
     let mut order = Vec::new();
@@ -59,7 +59,7 @@ pub(super) fn settle(
 }
 
 /// Covariance of the velocities of all bodies, six a body.
-fn covariance(linear: &Linear, response: &Response) -> DMatrix<f64> {
+fn covariance(linear: &LinearSystem, response: &FrequencyResponse) -> DMatrix<f64> {
     let size = 6 * linear.system.nodes.len();
     let mut sum = DMatrix::zeros(size, size);
     for point in response.waves.iter().chain(&response.slow) {
@@ -111,7 +111,11 @@ fn factor(spread: &DMatrix<f64>, order: &[usize]) -> Vec<DVector<f64>> {
 }
 
 /// What velocities of a covariance meet on the mean beyond the damping at rest; `None` where it is linear.
-fn mean_damping(linear: &Linear, spread: &DMatrix<f64>, order: &[usize]) -> Result<Option<DMatrix<f64>>, SolveError> {
+fn mean_damping(
+    linear: &LinearSystem,
+    spread: &DMatrix<f64>,
+    order: &[usize],
+) -> Result<Option<DMatrix<f64>>, SolveError> {
     if order.is_empty() {
         return Ok(None);
     }
@@ -119,7 +123,7 @@ fn mean_damping(linear: &Linear, spread: &DMatrix<f64>, order: &[usize]) -> Resu
     let mut sum = DMatrix::zeros(spread.nrows(), spread.nrows());
     let steps = steps(axes.len());
     let normal = Normal::standard();
-    let mut forces = Forces::default();
+    let mut forces = BodyForces::default();
     for n in 0..MEAN_SAMPLES {
         let mut velocity = DVector::zeros(spread.nrows());
         for (axis, step) in axes.iter().zip(&steps) {

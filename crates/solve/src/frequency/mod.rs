@@ -15,10 +15,10 @@ mod statistics;
 pub mod tables;
 mod trains;
 
-pub use linear::{Linear, Motions};
+pub use linear::{LinearSystem, Motions};
 pub use natural::{Natural, natural};
 pub use operators::Operators;
-pub use quantity::{Derivative, Quantity};
-pub use response::{Asked, Point, Response, in_sea, respond};
-pub use statistics::{Extreme, Statistics};
+pub use quantity::{Derivative, LinearQuantity};
+pub use response::{FrequencyResponse, ResponseOptions, ResponsePoint, in_sea, respond};
+pub use statistics::{ExtremeKind, ResponseStatistics};
 pub use trains::Trains;

@@ -1,7 +1,7 @@
 //! Natural periods with added mass at each mode's own frequency, and damping ratios.
 
-use super::linear::Linear;
-use crate::modes::{Mode, modes_with};
+use super::linear::LinearSystem;
+use crate::modes::{SystemMode, modes_with};
 use crate::system::SolveError;
 use nalgebra::DVector;
 
@@ -16,7 +16,7 @@ const UNRESTRAINED_EIGENVALUE: f64 = 1e-8;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Natural {
     /// Its eigenvalue, undamped period and shape, with added mass at its own frequency.
-    pub mode: Mode,
+    pub mode: SystemMode,
     /// Damping over critical damping, at its own frequency; `None` where nothing holds it. It is that of the mode by itself:
     /// damping that couples modes is left out.
     pub damping: Option<f64>,
@@ -28,15 +28,15 @@ pub struct Natural {
 ///
 /// # Errors
 /// As [`crate::modes`].
-pub fn natural(linear: &Linear) -> Result<Vec<Natural>, SolveError> {
+pub fn natural(linear: &LinearSystem) -> Result<Vec<Natural>, SolveError> {
     let stiffness = &linear.stiffness;
     let start = modes_with(&linear.system, &linear.system.mass_matrix(&linear.poses), stiffness)?;
     let floats = linear.floats.iter().any(Option::is_some);
     start.into_iter().map(|mode| own(linear, mode, floats)).collect()
 }
 
-fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Result<Natural, SolveError> {
-    let frequency = |mode: &Mode| mode.eigenvalue.max(0.0).sqrt();
+fn own(linear: &LinearSystem, mut mode: SystemMode, floats: bool) -> Result<Natural, SolveError> {
+    let frequency = |mode: &SystemMode| mode.eigenvalue.max(0.0).sqrt();
     let mut settled = !floats;
     for _ in 0..MAX_ITERATIONS {
         if settled {
@@ -50,7 +50,7 @@ fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Result<Natural, SolveEr
         let product = |a: &DVector<f64>, b: &DVector<f64>| -> f64 {
             a.iter().zip(b.iter()).enumerate().map(|(i, (a, b))| weigh(i) * a * b).sum()
         };
-        let alike = |other: &Mode| {
+        let alike = |other: &SystemMode| {
             let size = product(&other.shape, &other.shape) * product(&mode.shape, &mode.shape);
             if size > 0.0 { product(&mode.shape, &other.shape).powi(2) / size } else { 0.0 }
         };

@@ -1,6 +1,6 @@
 //! Response amplitude operators: motions in waves of unit amplitude by heading and frequency.
 
-use super::linear::{Linear, Motions};
+use super::linear::{LinearSystem, Motions};
 use super::response::check_memory;
 use crate::system::SolveError;
 use std::f64::consts::PI;
@@ -21,7 +21,7 @@ impl Operators {
     ///
     /// # Errors
     /// As [`Linear::operators`]; more than memory is taken for.
-    pub fn new(linear: &Linear, frequencies: &[f64], headings: &[f64]) -> Result<Self, SolveError> {
+    pub fn new(linear: &LinearSystem, frequencies: &[f64], headings: &[f64]) -> Result<Self, SolveError> {
         check_memory(frequencies.len(), headings.len(), linear)?;
         let toward: Vec<f64> = headings.iter().map(|h| h + PI).collect();
         let mut motions: Vec<Vec<Motions>> = vec![Vec::with_capacity(frequencies.len()); headings.len()];

@@ -1,12 +1,12 @@
 //! What is asked of motions: a number that is linear in them.
 
-use super::linear::{Linear, Motions};
-use crate::link::{Attachment, arm, pose_of};
+use super::linear::{LinearSystem, Motions};
+use crate::link::{EndAttachment, arm, pose_of};
 use crate::system::SolveError;
 use nalgebra::{Complex, DVector, Vector3};
 use windlass_base::pose::Six;
 use windlass_hydro::move_stiffness;
-use windlass_model::{End, Response, Situation, TimeStep};
+use windlass_model::{ElementResponse, End, Situation, TimeStep};
 
 /// Which derivative with time is meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,7 +33,7 @@ impl Derivative {
 
 /// A number linear in the motions of all bodies and their velocities.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Quantity {
+pub struct LinearQuantity {
     /// Its value at rest.
     pub mean: f64,
     /// Its change with the motions, six a body.
@@ -44,22 +44,22 @@ pub struct Quantity {
 
 /// The force of a connector on its first end on a body: its components in global axes, and its size, which for a line is its
 /// tension; `None` where there is no force at rest.
-pub type Pull = ([Quantity; 3], Option<Quantity>);
+pub type PullQuantity = ([LinearQuantity; 3], Option<LinearQuantity>);
 
-impl Quantity {
+impl LinearQuantity {
     /// A degree of freedom of the origin of a body.
-    pub fn dof(linear: &Linear, body: usize, dof: usize) -> Self {
+    pub fn dof(linear: &LinearSystem, body: usize, dof: usize) -> Self {
         let size = 6 * linear.system.nodes.len();
         let place = DVector::from_fn(size, |i, _| if i == 6 * body + dof { 1.0 } else { 0.0 });
-        Quantity { mean: 0.0, place, rate: DVector::zeros(size) }
+        LinearQuantity { mean: 0.0, place, rate: DVector::zeros(size) }
     }
 
     /// The three coordinates of a point of a body, given in the body (m).
-    pub fn point(linear: &Linear, body: usize, at: Vector3<f64>) -> [Self; 3] {
+    pub fn point(linear: &LinearSystem, body: usize, at: Vector3<f64>) -> [Self; 3] {
         let pose = linear.poses[body];
         let (arm, start) = (pose.axes * at, pose.point(at));
         [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| {
-            let mut made = Quantity { mean: start.dot(&axis), ..Quantity::dof(linear, body, 0) };
+            let mut made = LinearQuantity { mean: start.dot(&axis), ..LinearQuantity::dof(linear, body, 0) };
             // axis . (turn x arm) = turn . (arm x axis)
             let turn = arm.cross(&axis);
             let six = [axis.x, axis.y, axis.z, turn.x, turn.y, turn.z];
@@ -69,22 +69,22 @@ impl Quantity {
     }
 
     /// What this is more than another.
-    pub fn minus(self, other: &Quantity) -> Self {
-        Quantity { mean: self.mean - other.mean, place: self.place - &other.place, rate: self.rate - &other.rate }
+    pub fn minus(self, other: &LinearQuantity) -> Self {
+        LinearQuantity { mean: self.mean - other.mean, place: self.place - &other.place, rate: self.rate - &other.rate }
     }
 
     /// The force of a connector; `None` of a name that does not act on a body.
     ///
     /// # Errors
     /// The connector that has no answer.
-    pub fn tension(linear: &Linear, name: &str) -> Result<Option<Pull>, SolveError> {
+    pub fn tension(linear: &LinearSystem, name: &str) -> Result<Option<PullQuantity>, SolveError> {
         let (system, poses) = (&linear.system, &linear.poses);
         let Some(link) = system.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(None) };
-        let Some(first) = link.ends.iter().position(|e| matches!(e, Attachment::Body(..))) else { return Ok(None) };
+        let Some(first) = link.ends.iter().position(|e| matches!(e, EndAttachment::Body(..))) else { return Ok(None) };
         let ends: Vec<End> = link.ends.iter().map(|e| End::still(pose_of(e, poses))).collect();
         let committed = &system.states[link.states.clone()];
         let mut trial = committed.to_vec();
-        let (mut rest, mut under_way) = (Response::default(), Response::default());
+        let (mut rest, mut under_way) = (ElementResponse::default(), ElementResponse::default());
         let step = Some(TimeStep { time: 0.0, dt: 1.0 });
         for (step, out) in [(None, &mut rest), (step, &mut under_way)] {
             let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
@@ -94,10 +94,13 @@ impl Quantity {
         let count = link.ends.len();
         let own = link.ends.get(first).map_or(Vector3::zeros(), |e| arm(e, poses));
         let wrench = rest.wrench.get(first).copied().unwrap_or_else(Six::zeros);
-        let mut made =
-            [0, 1, 2].map(|i| Quantity { mean: wrench[i], place: DVector::zeros(size), rate: DVector::zeros(size) });
+        let mut made = [0, 1, 2].map(|i| LinearQuantity {
+            mean: wrench[i],
+            place: DVector::zeros(size),
+            rate: DVector::zeros(size),
+        });
         for (j, end) in link.ends.iter().enumerate() {
-            let Attachment::Body(body, _) = end else { continue };
+            let EndAttachment::Body(body, _) = end else { continue };
             let far = arm(end, poses);
             let block =
                 |all: &[nalgebra::Matrix6<f64>]| all.get(count * first + j).map(|b| move_stiffness(b, own, far));
@@ -114,8 +117,9 @@ impl Quantity {
         let [x, y, z] = &made;
         let along = (tension > 0.0).then(|| {
             let unit = force / tension;
-            let sum = |part: fn(&Quantity) -> &DVector<f64>| part(x) * unit.x + part(y) * unit.y + part(z) * unit.z;
-            Quantity { mean: tension, place: sum(|q| &q.place), rate: sum(|q| &q.rate) }
+            let sum =
+                |part: fn(&LinearQuantity) -> &DVector<f64>| part(x) * unit.x + part(y) * unit.y + part(z) * unit.z;
+            LinearQuantity { mean: tension, place: sum(|q| &q.place), rate: sum(|q| &q.rate) }
         });
         Ok(Some((made, along)))
     }

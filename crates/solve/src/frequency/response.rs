@@ -3,9 +3,9 @@
 //! A point is a small band of frequencies with complex amplitudes that add up without phase between them: one for each direction of
 //! the waves. The variance of a quantity g is `sum |g v|2` over them; its density the same over the width of the band.
 
-use super::linear::{Linear, Motions};
+use super::linear::{LinearSystem, Motions};
 use super::natural::{Natural, natural};
-use super::quantity::{Derivative, Quantity};
+use super::quantity::{Derivative, LinearQuantity};
 use super::trains::{Trains, bounds, refine_near_resonance};
 use super::{linearise, slow};
 use crate::system::SolveError;
@@ -18,7 +18,7 @@ const MAX_NUMBERS: usize = 20_000_000;
 
 /// Motions in a narrow band of frequencies.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub struct ResponsePoint {
     /// Its frequency (rad/s).
     pub frequency: f64,
     /// Its width (rad/s); `None` for a regular wave or a band without an end.
@@ -29,27 +29,27 @@ pub struct Point {
     pub parts: Vec<Motions>,
 }
 
-impl Point {
+impl ResponsePoint {
     /// Variance of a quantity, or a derivative of it, in this band.
-    pub fn variance(&self, quantity: &Quantity, derivative: Derivative) -> f64 {
+    pub fn variance(&self, quantity: &LinearQuantity, derivative: Derivative) -> f64 {
         self.parts.iter().map(|v| quantity.amplitude(v, self.frequency, derivative).norm_sqr()).sum()
     }
 }
 
 /// Motions in a sea.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Response {
+pub struct FrequencyResponse {
     /// At the frequencies of the waves.
-    pub waves: Vec<Point>,
+    pub waves: Vec<ResponsePoint>,
     /// Slow drift.
-    pub slow: Vec<Point>,
+    pub slow: Vec<ResponsePoint>,
     /// Rounds of linearisation; 0: nothing was to be linearised.
     pub rounds: usize,
 }
 
 /// What of a response is asked for.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Asked {
+pub struct ResponseOptions {
     /// Frequencies (rad/s), growing; empty: as the sea and the natural periods need them.
     pub frequencies: Vec<f64>,
     /// Linearises what is not linear in velocity, and adds the slow drift.
@@ -60,7 +60,11 @@ pub struct Asked {
 ///
 /// # Errors
 /// A heading in a gap of a database, a motion without bound, a linearisation that does not settle.
-pub fn respond(linear: &mut Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
+pub fn respond(
+    linear: &mut LinearSystem,
+    trains: &Trains,
+    asked: &ResponseOptions,
+) -> Result<FrequencyResponse, SolveError> {
     // the same points in every round
     let resonant = resonances(linear)?;
     let mut made = response_within_memory(linear, trains, asked, &resonant)?;
@@ -74,28 +78,37 @@ pub fn respond(linear: &mut Linear, trains: &Trains, asked: &Asked) -> Result<Re
 ///
 /// # Errors
 /// As [`respond`].
-pub fn in_sea(linear: &Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
+pub fn in_sea(
+    linear: &LinearSystem,
+    trains: &Trains,
+    asked: &ResponseOptions,
+) -> Result<FrequencyResponse, SolveError> {
     response_within_memory(linear, trains, asked, &resonances(linear)?)
 }
 
 /// Natural frequencies (rad/s) with their damping ratios.
-fn resonances(linear: &Linear) -> Result<Vec<(f64, f64)>, SolveError> {
+fn resonances(linear: &LinearSystem) -> Result<Vec<(f64, f64)>, SolveError> {
     let of = |m: &Natural| Some((TAU / m.mode.period?, m.damping?));
     Ok(natural(linear)?.iter().filter_map(of).filter(|(w, _)| w.is_finite()).collect())
 }
 
 fn response_within_memory(
-    linear: &Linear,
+    linear: &LinearSystem,
     trains: &Trains,
-    asked: &Asked,
+    asked: &ResponseOptions,
     resonant: &[(f64, f64)],
-) -> Result<Response, SolveError> {
+) -> Result<FrequencyResponse, SolveError> {
     let waves = waves(linear, trains, asked, resonant)?;
     let slow = if asked.spectral { slow::drift(linear, trains, resonant)? } else { Vec::new() };
-    Ok(Response { waves, slow, rounds: 0 })
+    Ok(FrequencyResponse { waves, slow, rounds: 0 })
 }
 
-fn waves(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64)]) -> Result<Vec<Point>, SolveError> {
+fn waves(
+    linear: &LinearSystem,
+    trains: &Trains,
+    asked: &ResponseOptions,
+    resonant: &[(f64, f64)],
+) -> Result<Vec<ResponsePoint>, SolveError> {
     let mut points = Vec::new();
     if let Some(range) = trains.range() {
         let usual = || refine_near_resonance(trains.points(range), resonant);
@@ -133,11 +146,11 @@ fn waves(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64)
 }
 
 fn point(
-    linear: &Linear,
+    linear: &LinearSystem,
     frequency: f64,
     width: Option<f64>,
     (toward, energies): (&[f64], &[f64]),
-) -> Result<Point, SolveError> {
+) -> Result<ResponsePoint, SolveError> {
     let mut parts = if toward.is_empty() { Vec::new() } else { linear.operators(frequency, toward)? };
     for (part, energy) in parts.iter_mut().zip(energies) {
         part.iter_mut().for_each(|v| *v *= energy.sqrt());
@@ -146,11 +159,11 @@ fn point(
         let text = "the motions at a period of {} are no numbers";
         return Err(SolveError::new(ClassError::with_values(text, &[(TAU / frequency, Dim::Time)])));
     }
-    Ok(Point { frequency, width, energy: energies.iter().sum(), parts })
+    Ok(ResponsePoint { frequency, width, energy: energies.iter().sum(), parts })
 }
 
 /// Refuses more than memory is taken for.
-pub(super) fn check_memory(points: usize, parts: usize, linear: &Linear) -> Result<(), SolveError> {
+pub(super) fn check_memory(points: usize, parts: usize, linear: &LinearSystem) -> Result<(), SolveError> {
     let size = points.saturating_mul(parts).saturating_mul(6 * linear.system.nodes.len());
     if size > MAX_NUMBERS {
         let text = format!("{points} frequencies with {parts} parts of all bodies are more than are kept");

@@ -5,8 +5,8 @@
 //! both, as in time; pairs of forces on one or several bodies have their cross spectra, with the phase of `k(w + mu) - k(w)`
 //! between the bodies.
 
-use super::linear::{Linear, Motions};
-use super::response::{Point, check_memory};
+use super::linear::{LinearSystem, Motions};
+use super::response::{ResponsePoint, check_memory};
 use super::trains::{Trains, bounds, even, refine_near_resonance};
 use crate::system::SolveError;
 use nalgebra::{Complex, DMatrix};
@@ -24,7 +24,11 @@ const NEGLIGIBLE_SHARE: f64 = 1e-12;
 type Directed = (f64, f64);
 
 /// The motions of slow drift, below the lowest frequency of the waves.
-pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -> Result<Vec<Point>, SolveError> {
+pub(super) fn drift(
+    linear: &LinearSystem,
+    trains: &Trains,
+    resonant: &[(f64, f64)],
+) -> Result<Vec<ResponsePoint>, SolveError> {
     let drifting: Vec<usize> = (0..linear.floats.len())
         .filter(|i| linear.floats.get(*i).is_some_and(|f| f.as_ref().is_some_and(|f| f.drift.is_some())))
         .collect();
@@ -58,14 +62,14 @@ pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -
             list.push(force);
         }
         let parts = linear.motions(*frequency, &list)?;
-        points.push(Point { frequency: *frequency, width: Some(width), energy: 0.0, parts });
+        points.push(ResponsePoint { frequency: *frequency, width: Some(width), energy: 0.0, parts });
     }
     Ok(points)
 }
 
 /// The cross spectra of the forces on the bodies that drift, at a difference of frequencies (N2 s, N2 m s, N2 m2 s).
 fn forces(
-    linear: &Linear,
+    linear: &LinearSystem,
     trains: &Trains,
     drifting: &[usize],
     (difference, [low, high], count): (f64, [f64; 2], usize),
@@ -118,7 +122,7 @@ fn densities(trains: &Trains, frequency: f64) -> Vec<Directed> {
 
 /// Drift over the square of the amplitude of each direction on each body that drifts, about its origin, global axes.
 fn drifts(
-    linear: &Linear,
+    linear: &LinearSystem,
     drifting: &[usize],
     waves: &[Directed],
     frequency: f64,

@@ -3,13 +3,13 @@
 //! Maxima of a narrow-banded Gaussian process have Rayleigh's distribution [LONGUET-HIGGINS-1952]: of N of them the most probable
 //! largest is `sigma sqrt(2 ln N)` [DNV-RP-C205 3.5.11], with `N = duration / Tz`, `Tz = 2 pi sqrt(m0/m2)`.
 
-use super::quantity::{Derivative, Quantity};
-use super::response::{Point, Response};
+use super::quantity::{Derivative, LinearQuantity};
+use super::response::{FrequencyResponse, ResponsePoint};
 use std::f64::consts::TAU;
 
 /// Which amplitude about the mean is reported as the extreme.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Extreme {
+pub enum ExtremeKind {
     /// The most probable largest one in a time (s).
     MostProbable(f64),
     /// A multiple of the standard deviation.
@@ -20,7 +20,7 @@ pub enum Extreme {
 
 /// Statistics of a quantity about its mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Statistics {
+pub struct ResponseStatistics {
     /// Its mean; zero of a derivative.
     pub mean: f64,
     /// Standard deviation at the frequencies of the waves.
@@ -33,10 +33,10 @@ pub struct Statistics {
     pub period: Option<f64>,
 }
 
-impl Statistics {
+impl ResponseStatistics {
     /// Those of a quantity, or a derivative of it, in a response.
-    pub fn new(response: &Response, quantity: &Quantity, derivative: Derivative) -> Self {
-        let moments = |points: &[Point]| {
+    pub fn new(response: &FrequencyResponse, quantity: &LinearQuantity, derivative: Derivative) -> Self {
+        let moments = |points: &[ResponsePoint]| {
             points.iter().fold([0.0; 2], |[m0, m2], p| {
                 let own = p.variance(quantity, derivative);
                 [m0 + own, m2 + own * p.frequency * p.frequency]
@@ -44,14 +44,14 @@ impl Statistics {
         };
         let ([waves, waves_2], [slow, slow_2]) = (moments(&response.waves), moments(&response.slow));
         let mean = if derivative == Derivative::Place { quantity.mean } else { 0.0 };
-        Statistics::from_moments(mean, [waves, slow], waves_2 + slow_2)
+        ResponseStatistics::from_moments(mean, [waves, slow], waves_2 + slow_2)
     }
 
     /// Those of variances of waves and slow drift, and the second moment of both together.
     pub fn from_moments(mean: f64, [waves, slow]: [f64; 2], second: f64) -> Self {
         let all = waves + slow;
         let period = (all > 0.0 && second > 0.0).then(|| TAU * (all / second).sqrt());
-        Statistics { mean, waves: waves.sqrt(), slow: slow.sqrt(), deviation: all.sqrt(), period }
+        ResponseStatistics { mean, waves: waves.sqrt(), slow: slow.sqrt(), deviation: all.sqrt(), period }
     }
 
     /// The mean of the highest third of the amplitudes: twice the deviation.
@@ -60,11 +60,11 @@ impl Statistics {
     }
 
     /// An extreme amplitude about the mean; `None` where it is not defined.
-    pub fn extreme(&self, extreme: Extreme) -> Option<f64> {
+    pub fn extreme(&self, extreme: ExtremeKind) -> Option<f64> {
         match extreme {
-            Extreme::MostProbable(duration) => self.most_probable(duration),
-            Extreme::Times(factor) => Some(factor * self.deviation),
-            Extreme::Exceeded(share) => Some(self.deviation * (-2.0 * share.ln()).sqrt()),
+            ExtremeKind::MostProbable(duration) => self.most_probable(duration),
+            ExtremeKind::Times(factor) => Some(factor * self.deviation),
+            ExtremeKind::Exceeded(share) => Some(self.deviation * (-2.0 * share.ln()).sqrt()),
         }
     }
 

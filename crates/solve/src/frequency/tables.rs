@@ -1,40 +1,40 @@
 //! The frequency domain as tables.
 
 use super::Motions;
-use super::linear::Linear;
+use super::linear::LinearSystem;
 use super::natural::{Natural, natural};
 use super::operators::Operators;
-use super::quantity::{Derivative, Quantity};
-use super::response::{Point, Response};
-use super::statistics::{Extreme, Statistics};
+use super::quantity::{Derivative, LinearQuantity};
+use super::response::{FrequencyResponse, ResponsePoint};
+use super::statistics::{ExtremeKind, ResponseStatistics};
 use crate::equilibrium::is_unstable;
-use crate::system::{DOFS, Node, SolveError};
+use crate::system::{DOFS, SolveError, SystemBody};
 use std::f64::consts::TAU;
 use windlass_base::table::{Digits, Table, TableBuilder};
 use windlass_base::units::Dim;
 
 /// A quantity with its name and what it measures.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Told {
+pub struct NamedQuantity {
     /// Its name: `X`, `L1`.
     pub name: String,
     /// Its dimension, before any derivative.
     pub dim: Dim,
     /// Itself.
-    pub quantity: Quantity,
+    pub quantity: LinearQuantity,
 }
 
-impl Told {
+impl NamedQuantity {
     /// A quantity to be reported.
-    pub fn new(name: impl Into<String>, dim: Dim, quantity: Quantity) -> Self {
-        Told { name: name.into(), dim, quantity }
+    pub fn new(name: impl Into<String>, dim: Dim, quantity: LinearQuantity) -> Self {
+        NamedQuantity { name: name.into(), dim, quantity }
     }
 
     /// The six degrees of freedom of a body's origin.
-    pub fn dofs(linear: &Linear, body: usize) -> Vec<Self> {
+    pub fn dofs(linear: &LinearSystem, body: usize) -> Vec<Self> {
         let one = |(i, name): (usize, &&str)| {
             let dim = if i < 3 { Dim::Length } else { Dim::Angle };
-            Told::new(*name, dim, Quantity::dof(linear, body, i))
+            NamedQuantity::new(*name, dim, LinearQuantity::dof(linear, body, i))
         };
         DOFS.iter().enumerate().map(one).collect()
     }
@@ -67,8 +67,8 @@ fn density(dim: Dim, derivative: Derivative) -> Dim {
 /// Amplitudes and phases of quantities in waves of an amplitude (m), by heading and period.
 pub fn operators(
     title: String,
-    (linear, operators): (&Linear, &Operators),
-    list: &[Told],
+    (linear, operators): (&LinearSystem, &Operators),
+    list: &[NamedQuantity],
     (derivative, amplitude): (Derivative, f64),
 ) -> Table {
     let rows: Vec<_> = operators.operators().collect();
@@ -78,7 +78,7 @@ pub fn operators(
         .column("", "Heading", Dim::Angle, Digits::Usual, |(heading, ..)| *heading)
         .column("", "Period", Dim::Time, Digits::Usual, |(_, frequency, _)| TAU / frequency)
         .column("", "Frequency", Dim::Frequency, Digits::Usual, |(_, frequency, _)| *frequency);
-    for Told { name, dim, quantity } in list {
+    for NamedQuantity { name, dim, quantity } in list {
         let value = |(_, frequency, motions): &(f64, f64, &Motions)| {
             quantity.amplitude(motions, *frequency, derivative) * amplitude
         };
@@ -103,13 +103,13 @@ pub fn operators(
 /// Spectra of quantities in a sea: its own density and theirs. Bands without a width, of regular waves, have none.
 pub fn spectra(
     title: String,
-    (linear, response): (&Linear, &Response),
-    list: &[Told],
+    (linear, response): (&LinearSystem, &FrequencyResponse),
+    list: &[NamedQuantity],
     derivative: Derivative,
 ) -> Table {
     let slow = response.slow.iter().map(|p| (p, false));
     let bands = slow.chain(response.waves.iter().map(|p| (p, true)));
-    let rows: Vec<(&Point, bool, f64)> =
+    let rows: Vec<(&ResponsePoint, bool, f64)> =
         bands.filter_map(|(point, is_wave)| Some((point, is_wave, point.width?))).collect();
     let mut table = Table::new(title)
         .with_rows(&rows)
@@ -118,7 +118,7 @@ pub fn spectra(
         .column("Density", "Wave", Dim::SpectralDensity, Digits::Usual, |(point, is_wave, width)| {
             is_wave.then_some(point.energy / width)
         });
-    for Told { name, dim, quantity } in list {
+    for NamedQuantity { name, dim, quantity } in list {
         let dim = density(*dim, derivative);
         table = table.column("Density", name, dim, Digits::Scientific(5), |(point, _, width)| {
             point.variance(quantity, derivative) / width
@@ -129,7 +129,7 @@ pub fn spectra(
     table
 }
 
-fn notes(table: &mut Table, linear: &Linear, response: &Response) {
+fn notes(table: &mut Table, linear: &LinearSystem, response: &FrequencyResponse) {
     if !response.slow.is_empty() {
         table.note("slow drift by Newman's approximation stands below the frequencies of the waves");
     }
@@ -143,8 +143,8 @@ fn notes(table: &mut Table, linear: &Linear, response: &Response) {
 fn statistic_columns<'r, R>(
     table: TableBuilder<'r, R>,
     (group, prefix): (&str, &str),
-    (dim, extreme): (Dim, Extreme),
-    made: impl Fn(&'r R) -> &'r Statistics,
+    (dim, extreme): (Dim, ExtremeKind),
+    made: impl Fn(&'r R) -> &'r ResponseStatistics,
 ) -> TableBuilder<'r, R> {
     let named = |name: &str| format!("{prefix}{name}");
     table
@@ -158,33 +158,35 @@ fn statistic_columns<'r, R>(
 }
 
 /// A table of statistics that says what its maxima are.
-fn statistics_table(title: String, extreme: Extreme) -> Table {
+fn statistics_table(title: String, extreme: ExtremeKind) -> Table {
     let table = Table::new(title);
     match extreme {
-        Extreme::MostProbable(duration) => table.fact("Duration", duration, Dim::Time),
-        Extreme::Times(factor) => table.fact("Maximum over RMS", factor, Dim::None),
-        Extreme::Exceeded(share) => table.fact("Share above Maximum", share, Dim::None),
+        ExtremeKind::MostProbable(duration) => table.fact("Duration", duration, Dim::Time),
+        ExtremeKind::Times(factor) => table.fact("Maximum over RMS", factor, Dim::None),
+        ExtremeKind::Exceeded(share) => table.fact("Share above Maximum", share, Dim::None),
     }
 }
 
 /// What the maxima are, in a note.
-fn told_of(extreme: Extreme) -> &'static str {
+fn told_of(extreme: ExtremeKind) -> &'static str {
     match extreme {
-        Extreme::MostProbable(_) => "most probable maximum",
-        Extreme::Times(_) | Extreme::Exceeded(_) => "maximum (by -PROBABILITY of the environment)",
+        ExtremeKind::MostProbable(_) => "most probable maximum",
+        ExtremeKind::Times(_) | ExtremeKind::Exceeded(_) => "maximum (by -PROBABILITY of the environment)",
     }
 }
 
 /// Statistics of quantities of one dimension, a row each. The maximum is the extreme asked for.
 pub fn statistics(
     title: String,
-    (linear, response): (&Linear, &Response),
-    list: &[Told],
-    (derivative, extreme): (Derivative, Extreme),
+    (linear, response): (&LinearSystem, &FrequencyResponse),
+    list: &[NamedQuantity],
+    (derivative, extreme): (Derivative, ExtremeKind),
 ) -> Table {
     let dim = list.first().map_or(Dim::None, |t| derivative_dimension(t.dim, derivative));
-    let rows: Vec<(&str, Statistics)> =
-        list.iter().map(|told| (told.name.as_str(), Statistics::new(response, &told.quantity, derivative))).collect();
+    let rows: Vec<(&str, ResponseStatistics)> = list
+        .iter()
+        .map(|told| (told.name.as_str(), ResponseStatistics::new(response, &told.quantity, derivative)))
+        .collect();
     let table = statistics_table(title, extreme).with_rows(&rows).text("Result", |(name, _)| *name);
     let mut table = statistic_columns(table, ("", ""), (dim, extreme), |(_, made)| made).build();
     let told = told_of(extreme);
@@ -196,11 +198,11 @@ pub fn statistics(
 /// Statistics of the six degrees of freedom of a body: along each axis, and about it.
 pub fn body_statistics(
     title: String,
-    (linear, response): (&Linear, &Response),
+    (linear, response): (&LinearSystem, &FrequencyResponse),
     body: usize,
-    (derivative, extreme): (Derivative, Extreme),
+    (derivative, extreme): (Derivative, ExtremeKind),
 ) -> Table {
-    let of_dof = |dof: usize| Statistics::new(response, &Quantity::dof(linear, body, dof), derivative);
+    let of_dof = |dof: usize| ResponseStatistics::new(response, &LinearQuantity::dof(linear, body, dof), derivative);
     let rows: Vec<_> =
         ["X", "Y", "Z"].into_iter().enumerate().map(|(axis, name)| (name, of_dof(axis), of_dof(axis + 3))).collect();
     let [shift, turn] = [Dim::Length, Dim::Angle].map(|dim| (derivative_dimension(dim, derivative), extreme));
@@ -216,7 +218,7 @@ pub fn body_statistics(
 ///
 /// # Errors
 /// As [`crate::modes`].
-pub fn modes(linear: &Linear) -> Result<[Table; 2], SolveError> {
+pub fn modes(linear: &LinearSystem) -> Result<[Table; 2], SolveError> {
     let mut periods = Table::new("Natural Periods");
     let list = natural(linear)?;
     let largest = list.iter().map(|n| n.mode.eigenvalue.abs()).fold(0.0, f64::max);
@@ -245,7 +247,7 @@ pub fn modes(linear: &Linear) -> Result<[Table; 2], SolveError> {
         .build();
     let nodes = linear.system.nodes.iter().enumerate();
     let of_mode = |(index, n)| nodes.clone().map(move |(number, node)| (index, n, number, node));
-    let rows: Vec<(usize, &Natural, usize, &Node)> = rows.iter().copied().flat_map(of_mode).collect();
+    let rows: Vec<(usize, &Natural, usize, &SystemBody)> = rows.iter().copied().flat_map(of_mode).collect();
     let [x, y, z, rx, ry, rz] = DOFS;
     let moves = |n: &Natural, first: usize| [0, 1, 2].map(|i| n.mode.shape.get(first + i).copied());
     let mut shapes = Table::new("Mode Shapes")

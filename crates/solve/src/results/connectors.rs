@@ -1,10 +1,10 @@
 //! What connectors exert.
 
 use super::super::system::SolveError;
-use super::super::time::{Layout, Run};
+use super::super::time::{RowLayout, Run};
 use super::forces::{add, no_wrench, wrench_columns};
-use super::settled::{Rest, Settling};
-use super::{Event, EventTable, Magnitude, group_head};
+use super::settled::{SettledConnector, Settling};
+use super::{EventTable, Magnitude, RunEvent, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
@@ -14,7 +14,7 @@ use windlass_hydro::Category;
 use windlass_model::ClassError;
 
 /// The force of a connector by which its pull is reported ([`Layout::pull`]), global axes (N); none while the connector does not act.
-pub(super) fn force(layout: &Layout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
+pub(super) fn force(layout: &RowLayout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
     let columns = layout.links.get(link)?;
     let acts = row.get(columns.active).is_some_and(|a| *a > 0.0);
     let at = layout.pull(link).filter(|_| acts)?;
@@ -22,7 +22,7 @@ pub(super) fn force(layout: &Layout, link: usize, row: &[f64]) -> Option<Vector3
 }
 
 /// Where the bodies are in a row.
-pub(super) fn poses(layout: &Layout, row: &[f64], list: &mut Vec<Pose>) {
+pub(super) fn poses(layout: &RowLayout, row: &[f64], list: &mut Vec<Pose>) {
     list.clear();
     for body in 0..layout.bodies.len() {
         let at = layout.body(body);
@@ -44,7 +44,7 @@ pub fn connector_forces(
     run: &Run,
     links: &[usize],
     magnitude: Magnitude,
-    events: &[Event],
+    events: &[RunEvent],
 ) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let several = links.len() > 1;
@@ -66,8 +66,10 @@ pub fn connector_forces(
             let acting = force(layout, *link, row);
             let length = row.get(columns.active + 1).copied().filter(|l| l.is_finite());
             let rest = match settling {
-                Some(settling) if acting.is_some() => settling.at(&places, length).map_err(|e| at_time(e, row))?,
-                _ => Rest::NONE,
+                Some(settling) if acting.is_some() => {
+                    settling.solve_at(&places, length).map_err(|e| at_time(e, row))?
+                }
+                _ => SettledConnector::NONE,
             };
             list.push((acting.unwrap_or(Vector3::repeat(f64::NAN)), rest));
         }
@@ -78,15 +80,17 @@ pub fn connector_forces(
         if !several {
             table = table.fact("Connector", name, Dim::None).fact("Model", run.model.idealisation(name), Dim::None);
         }
-        let rest = |all: &Vec<(Vector3<f64>, Rest)>| all.get(index).map_or(Rest::NONE, |(_, rest)| *rest);
-        let group = headed(several, name, "Force");
+        let rest = |all: &Vec<(Vector3<f64>, SettledConnector)>| {
+            all.get(index).map_or(SettledConnector::NONE, |(_, rest)| *rest)
+        };
+        let group = group_head(several, name, "Force");
         table = table
             .columns(&group, ["FX", "FY", "FZ", "Mag."], Dim::Force, |all| {
                 all.get(index).map_or([f64::NAN; 4], |(force, _)| magnitude.with(force))
             })
             .column(&group, "Mag./Break", Dim::None, Digits::Decimals(3), |all| rest(all).ratio)
-            .columns(&headed(several, name, "On Bottom"), ["Length"], Dim::Length, |all| [rest(all).grounded])
-            .columns(&headed(several, name, "Anchor"), ["V. Pull", "H. Pull"], Dim::Force, |all| {
+            .columns(&group_head(several, name, "On Bottom"), ["Length"], Dim::Length, |all| [rest(all).grounded])
+            .columns(&group_head(several, name, "Anchor"), ["V. Pull", "H. Pull"], Dim::Force, |all| {
                 [rest(all).vertical, rest(all).horizontal]
             });
     }
@@ -125,10 +129,10 @@ fn at_time(error: SolveError, row: &[f64]) -> SolveError {
 ///
 /// # Errors
 /// None of its own.
-pub fn magnitudes(run: &Run, links: &[usize], magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
+pub fn magnitudes(run: &Run, links: &[usize], magnitude: Magnitude, events: &[RunEvent]) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let mut table = EventTable::new("Magnitude of Connector Forces", (&run.history, events), |row| {
-        let size = |link: &usize| force(layout, *link, row).map_or(f64::NAN, |f| magnitude.of(&f));
+        let size = |link: &usize| force(layout, *link, row).map_or(f64::NAN, |f| magnitude.evaluate(&f));
         Ok(links.iter().map(size).collect::<Vec<f64>>())
     })?;
     for (index, link) in links.iter().enumerate() {
@@ -146,7 +150,12 @@ pub fn magnitudes(run: &Run, links: &[usize], magnitude: Magnitude, events: &[Ev
 ///
 /// # Errors
 /// None of its own.
-pub fn total_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
+pub fn total_forces(
+    run: &Run,
+    bodies: &[usize],
+    magnitude: Magnitude,
+    events: &[RunEvent],
+) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let several = bodies.len() > 1;
     let mut table = EventTable::new("Total Force of Connectors", (&run.history, events), |row| {
@@ -165,7 +174,7 @@ pub fn total_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &
         if !several {
             table = table.fact("Body", name.as_str(), Dim::None);
         }
-        table = wrench_columns(table, &headed(several, name, "Connectors"), magnitude, |sums| {
+        table = wrench_columns(table, &group_head(several, name, "Connectors"), magnitude, |sums| {
             sums.get(index).copied().unwrap_or_else(no_wrench)
         });
     }
@@ -176,7 +185,7 @@ pub fn total_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &
 ///
 /// # Errors
 /// None of its own.
-pub fn lengths(run: &Run, links: &[usize], events: &[Event]) -> Result<Table, SolveError> {
+pub fn lengths(run: &Run, links: &[usize], events: &[RunEvent]) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let chosen: Vec<_> = links.iter().filter_map(|l| layout.links.get(*l)).collect();
     let mut table = EventTable::new("Lengths of Connectors", (&run.history, events), |row| Ok(row.to_vec()))?;

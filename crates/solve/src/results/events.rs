@@ -9,7 +9,7 @@ const MAX_EVENTS: f64 = 2e6;
 
 /// The events a user asks for, by their times (s).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Window {
+pub struct EventWindow {
     /// The first.
     pub begin: f64,
     /// The last; none, or one behind the last of the run: that.
@@ -20,12 +20,12 @@ pub struct Window {
 
 /// An instant of a run: a stored row, or a share of the way from it to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Event {
+pub struct RunEvent {
     pub(super) row: usize,
     pub(super) share: f64,
 }
 
-impl Event {
+impl RunEvent {
     /// Its time (s), where it is a stored row of this history or behind one.
     pub fn time(&self, history: &History) -> Option<f64> {
         let at = |row: usize| history.values.get(row * history.layout.width.max(1)).copied();
@@ -38,13 +38,13 @@ impl Event {
 ///
 /// # Errors
 /// A run without rows; a window that chooses nothing, or more than two million events.
-pub fn events(history: &History, window: Option<&Window>) -> Result<Vec<Event>, ClassError> {
+pub fn events(history: &History, window: Option<&EventWindow>) -> Result<Vec<RunEvent>, ClassError> {
     let times = history.times();
     let (Some(first), Some(last)) = (times.first().copied(), times.last().copied()) else {
         return Err(ClassError::new("the run kept no instants").help("TDOM without -STATISTICS keeps them"));
     };
     let Some(window) = window else {
-        return Ok((0..times.len()).map(|row| Event { row, share: 0.0 }).collect());
+        return Ok((0..times.len()).map(|row| RunEvent { row, share: 0.0 }).collect());
     };
     // what a user types is a stored time but for rounding
     let near = 1e-9 * last.abs().max(1.0);
@@ -64,7 +64,7 @@ pub fn events(history: &History, window: Option<&Window>) -> Result<Vec<Event>, 
         None => {
             let within = |t: &f64| *t >= window.begin - near && *t <= end + near;
             let rows = times.iter().enumerate().filter(|(_, t)| within(t));
-            found.extend(rows.map(|(row, _)| Event { row, share: 0.0 }));
+            found.extend(rows.map(|(row, _)| RunEvent { row, share: 0.0 }));
         }
         Some(increment) => {
             // the first that is not before the run
@@ -86,7 +86,7 @@ pub fn events(history: &History, window: Option<&Window>) -> Result<Vec<Event>, 
                     Some(next) if time > here + near => ((time - here) / (next - here)).clamp(0.0, 1.0),
                     _ => 0.0,
                 };
-                found.push(Event { row, share });
+                found.push(RunEvent { row, share });
             }
         }
     }
@@ -96,17 +96,17 @@ pub fn events(history: &History, window: Option<&Window>) -> Result<Vec<Event>, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::time::Layout;
+    use crate::time::RowLayout;
 
     /// Rows of the time alone, every half second to ten.
     fn history() -> History {
-        let mut layout = Layout::default();
+        let mut layout = RowLayout::default();
         layout.width = 1;
         History { layout, values: (0..=20).map(|n| 0.5 * f64::from(n)).collect() }
     }
 
     fn asked(begin: f64, end: Option<f64>, increment: Option<f64>) -> Result<Vec<(usize, f64)>, ClassError> {
-        let found = events(&history(), Some(&Window { begin, end, increment }))?;
+        let found = events(&history(), Some(&EventWindow { begin, end, increment }))?;
         Ok(found.into_iter().map(|e| (e.row, e.share)).collect())
     }
 

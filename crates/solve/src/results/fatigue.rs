@@ -7,7 +7,7 @@
 use super::super::link::{end_attachments, pose_of};
 use super::super::system::SolveError;
 use super::super::time::Run;
-use super::Event;
+use super::RunEvent;
 use super::connectors::{force, poses};
 use windlass_base::pose::Pose;
 use windlass_base::table::{Cell, Digits, Table};
@@ -15,12 +15,12 @@ use windlass_base::units::Dim;
 use windlass_model::{Class, ClassError, Condition, Connector, FatigueSelection, Model, Placement};
 use windlass_signal::SeriesError;
 use windlass_signal::fatigue::{
-    Curve, Exposure, LineDamage, Loaded, SegmentDamage, SegmentLife, find, line_damage, line_life,
+    Exposure, LineDamage, Loaded, SegmentDamage, SegmentLife, SnCurve, find, line_damage, line_life,
 };
 
 /// A run in a scatter of environments.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Exposed {
+pub struct ScatterExposure {
     /// Name of its environment.
     pub environment: String,
     /// Length of the record (s).
@@ -40,7 +40,7 @@ pub fn line_damages(
     run: &Run,
     links: &[usize],
     selection: &FatigueSelection,
-    events: &[Event],
+    events: &[RunEvent],
 ) -> Result<Vec<(String, LineDamage)>, SolveError> {
     let mut list = Vec::new();
     for columns_of in links.iter().filter_map(|l| run.history.layout.links.get(*l)) {
@@ -61,7 +61,7 @@ pub fn line_damages(
             let found = curve.and_then(|c| find(c, selection));
             found.ok_or_else(|| wrong(missing().help("-C_SN of its class, or &REP_SELECT -SN, names one")))
         });
-        let curves = curves.collect::<Result<Vec<Curve>, SolveError>>()?;
+        let curves = curves.collect::<Result<Vec<SnCurve>, SolveError>>()?;
         let tensions = tensions(run, (name, connector, class), segments.len(), events).map_err(wrong)?;
         let loaded = segments.iter().zip(&curves).zip(&tensions);
         let loaded: Vec<Loaded> =
@@ -78,11 +78,11 @@ fn tensions(
     run: &Run,
     (name, connector, class): (&str, &Connector, &Class),
     segments: usize,
-    events: &[Event],
+    events: &[RunEvent],
 ) -> Result<Vec<Vec<f64>>, ClassError> {
     let (layout, width) = (&run.history.layout, run.history.layout.width.max(1));
     let link = layout.links.iter().position(|l| l.name == name).unwrap_or(usize::MAX);
-    let row = |event: &Event| run.history.values.get(event.row * width..(event.row + 1) * width).unwrap_or_default();
+    let row = |event: &RunEvent| run.history.values.get(event.row * width..(event.row + 1) * width).unwrap_or_default();
     let idle =
         || ClassError::new("it does not act at every event").help("-EVENTS BEG END chooses those at which it does");
     let top: Vec<f64> = events
@@ -139,7 +139,7 @@ fn turning_points(series: &[f64]) -> impl Iterator<Item = usize> + '_ {
 ///
 /// # Errors
 /// Runs that do not report the same lines and segments; a duration or record without length.
-pub fn scatter(runs: &[Exposed], factor: f64) -> Result<Table, SeriesError> {
+pub fn scatter(runs: &[ScatterExposure], factor: f64) -> Result<Table, SeriesError> {
     let days: f64 = runs.iter().map(|r| r.duration).sum();
     let mut table = Table::new("Fatigue of Lines")
         .fact("Environments", runs.len(), Dim::None)
@@ -148,7 +148,7 @@ pub fn scatter(runs: &[Exposed], factor: f64) -> Result<Table, SeriesError> {
     let mut rows: Vec<ScatterRow> = Vec::new();
     let lines = runs.last().map_or(&[][..], |last| &last.lines);
     for (name, own) in lines {
-        let of = |run: &Exposed| -> Option<(f64, f64, LineDamage)> {
+        let of = |run: &ScatterExposure| -> Option<(f64, f64, LineDamage)> {
             let found = run.lines.iter().find(|(n, _)| n == name)?;
             Some((run.record, run.duration, found.1.clone()))
         };

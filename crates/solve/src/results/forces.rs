@@ -2,7 +2,7 @@
 
 use super::super::system::SolveError;
 use super::super::time::Run;
-use super::{Event, EventTable, Magnitude, group_head};
+use super::{EventTable, Magnitude, RunEvent, group_head};
 use nalgebra::Vector3;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
@@ -42,7 +42,12 @@ pub(super) fn add(row: &[f64], from: Option<usize>, sum: &mut [Vector3<f64>; 2])
 ///
 /// # Errors
 /// None of its own.
-pub fn body_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
+pub fn body_forces(
+    run: &Run,
+    bodies: &[usize],
+    magnitude: Magnitude,
+    events: &[RunEvent],
+) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let several = bodies.len() > 1;
     // by body the wrenches of the categories, then their sum

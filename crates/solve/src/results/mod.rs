@@ -14,11 +14,11 @@ mod points;
 mod settled;
 
 pub use connectors::{connector_forces, lengths, magnitudes, total_forces};
-pub use events::{Event, Window, events};
-pub use fatigue::{Exposed, line_damages, scatter};
+pub use events::{EventWindow, RunEvent, events};
+pub use fatigue::{ScatterExposure, line_damages, scatter};
 pub use fenders::{FenderPeak, fender_peaks, fender_table};
 pub use forces::body_forces;
-pub use motions::{Told, trajectory};
+pub use motions::{MotionOptions, trajectory};
 pub use points::{TrackedPoint, points};
 
 use super::system::SolveError;
@@ -80,7 +80,7 @@ impl<T> EventTable<T> {
     /// What `sample` says.
     fn new(
         title: impl Into<String>,
-        (history, events): (&History, &[Event]),
+        (history, events): (&History, &[RunEvent]),
         mut sample: impl FnMut(&[f64]) -> Result<T, SolveError>,
     ) -> Result<Self, SolveError> {
         let width = history.layout.width.max(1);

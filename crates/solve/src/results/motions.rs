@@ -2,7 +2,7 @@
 
 use super::super::system::SolveError;
 use super::super::time::{OF_BODY, Run};
-use super::{Event, EventTable, Magnitude, group_head};
+use super::{EventTable, Magnitude, RunEvent, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
@@ -12,7 +12,7 @@ use windlass_model::Mass;
 
 /// How motions are reported.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Told {
+pub struct MotionOptions {
     /// Of the centre of gravity, instead of the origin.
     pub centre: bool,
     /// Velocities, accelerations and displacements along the axes of the body, instead of the global ones.
@@ -64,7 +64,7 @@ pub(super) fn moving(row: &[f64], from: usize, own: Vector3<f64>) -> Moving {
 ///
 /// # Errors
 /// None of its own.
-pub fn trajectory(run: &Run, bodies: &[usize], told: &Told, events: &[Event]) -> Result<Table, SolveError> {
+pub fn trajectory(run: &Run, bodies: &[usize], told: &MotionOptions, events: &[RunEvent]) -> Result<Table, SolveError> {
     let (layout, model) = (&run.history.layout, &run.model);
     let several = bodies.len() > 1;
     let depth = model.surroundings().depth.unwrap_or(f64::NAN);

@@ -3,7 +3,7 @@
 use super::super::system::SolveError;
 use super::super::time::Run;
 use super::motions::moving;
-use super::{Event, EventTable, Magnitude, group_head};
+use super::{EventTable, Magnitude, RunEvent, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Position;
 use windlass_base::table::Table;
@@ -32,7 +32,7 @@ pub fn points(
     run: &Run,
     chosen: &[TrackedPoint],
     (local, magnitude): (bool, Magnitude),
-    events: &[Event],
+    events: &[RunEvent],
 ) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let still = run.model.surroundings().tide;
@@ -70,7 +70,7 @@ pub fn points(
         let with = |all: &Vec<PointRow>, vector: fn(&PointRow) -> &Vector3<f64>| {
             all.get(index).map_or([f64::NAN; 4], |row| magnitude.with(vector(row)))
         };
-        let head = |group: &str| headed(several, &point.name, group);
+        let head = |group: &str| group_head(several, &point.name, group);
         table = table
             .columns(&head("Location"), ["X", "Y", "Z", "Mag."], Dim::Length, |all| with(all, |row| &row.at))
             .columns(&head("Velocity"), ["VX", "VY", "VZ", "V Mag."], Dim::Velocity, |all| {

@@ -1,13 +1,13 @@
 //! A connector between its ends where a run had them: what a row does not keep follows from its element there.
 
-use super::super::link::{Attachment, end_attachments, pose_of};
+use super::super::link::{EndAttachment, end_attachments, pose_of};
 use super::super::system::SolveError;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{Connector, Element, End, Guess, Model, Situation, Surroundings};
 
 /// What a row does not keep of a connector.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Rest {
+pub(super) struct SettledConnector {
     /// Largest tension over own break, or force over allowable.
     pub ratio: f64,
     /// Unstretched length on the bottom (m).
@@ -18,16 +18,17 @@ pub(super) struct Rest {
     pub horizontal: f64,
 }
 
-impl Rest {
+impl SettledConnector {
     /// Nothing is known.
-    pub const NONE: Rest = Rest { ratio: f64::NAN, grounded: f64::NAN, vertical: f64::NAN, horizontal: f64::NAN };
+    pub const NONE: SettledConnector =
+        SettledConnector { ratio: f64::NAN, grounded: f64::NAN, vertical: f64::NAN, horizontal: f64::NAN };
 }
 
 /// A connector that is settled between other ends again and again.
 pub(super) struct Settling<'a> {
     model: &'a Model,
     connector: Connector,
-    ends: [Attachment; 2],
+    ends: [EndAttachment; 2],
     element: Box<dyn Element>,
     surroundings: Surroundings,
     /// Length of its first segment now (m).
@@ -66,7 +67,7 @@ impl<'a> Settling<'a> {
     ///
     /// # Errors
     /// No answer there.
-    pub fn solve_at(&mut self, poses: &[Pose], length: Option<f64>) -> Result<Rest, SolveError> {
+    pub fn solve_at(&mut self, poses: &[Pose], length: Option<f64>) -> Result<SettledConnector, SolveError> {
         let name = self.connector.name.as_str();
         if length.is_some() && length != self.length {
             // as the run did when a winch changed it
@@ -80,13 +81,13 @@ impl<'a> Settling<'a> {
         let told = self.element.summary(&at, &[]).map_err(SolveError::about(name))?;
         let [_, far] = self.ends;
         let (mut vertical, mut horizontal) = (f64::NAN, f64::NAN);
-        if told.tension.is_some() && matches!(far, Attachment::Ground(_)) {
+        if told.tension.is_some() && matches!(far, EndAttachment::Ground(_)) {
             self.element.wrenches(&at, &[], &mut self.guess, &mut self.wrenches).map_err(SolveError::about(name))?;
             if let Some(pull) = self.wrenches.get(1) {
                 (vertical, horizontal) = (pull[2], pull[0].hypot(pull[1]));
             }
         }
         let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        Ok(Rest { ratio: known(told.ratio), grounded: known(told.grounded), vertical, horizontal })
+        Ok(SettledConnector { ratio: known(told.ratio), grounded: known(told.grounded), vertical, horizontal })
     }
 }

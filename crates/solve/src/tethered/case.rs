@@ -1,6 +1,6 @@
 //! A case of the tether engine from the model.
 
-use super::Settings;
+use super::TetherRunSettings;
 use super::moored::Moored;
 use crate::SolveError;
 use nalgebra::Vector3;
@@ -14,21 +14,23 @@ use windlass_model::{
     Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse,
 };
 use windlass_tether::compatibility::Compatibility;
-use windlass_tether::installed::{Constraint, Course, EndSprings, Impact, InstalledTether, InternalFluid};
-use windlass_tether::line::Label;
+use windlass_tether::installed::{
+    EndSprings, Impact, InstalledRunSettings, InstalledTether, InternalFluid, NodeConstraint,
+};
+use windlass_tether::line::ElementLabel;
 use windlass_tether::structure::Structure;
 use windlass_tether::structure::afloat::Afloat;
-use windlass_tether::structure::flow::{Flow, Waves};
-use windlass_tether::structure::tubes::{Tube, Tubes};
+use windlass_tether::structure::flow::{FlowWaves, WaterFlow};
+use windlass_tether::structure::tubes::{TubeMember, Tubes};
 use windlass_tether::structure::wave::DeepWave;
 use windlass_tether::towed::{self, EndSpring, Towed};
-use windlass_tether::{Line, TetherElement};
+use windlass_tether::{TetherElement, TetherLine};
 
 /// A case, ready to run.
 #[derive(Debug)]
-pub struct Case {
+pub struct TetherCase {
     /// What it is.
-    pub kind: Kind,
+    pub kind: TetherCaseKind,
     /// Seed of the random phases, where they are random.
     pub seed: Option<u64>,
     /// What a user should know of how it was made.
@@ -37,7 +39,7 @@ pub struct Case {
 
 /// The two sorts of case.
 #[derive(Debug)]
-pub enum Kind {
+pub enum TetherCaseKind {
     /// One towed tether, with its name.
     Towed(Box<(String, Towed)>),
     /// Installed tethers with their structure.
@@ -54,11 +56,11 @@ pub struct Installed {
     /// The tethers.
     pub tethers: Vec<InstalledTether>,
     /// The water.
-    pub flow: Flow,
+    pub flow: WaterFlow,
     /// Peculiarities kept.
     pub compatibility: Compatibility,
     /// Where and how it starts, its step and number of states.
-    pub course: Course,
+    pub course: InstalledRunSettings,
     /// The centre of gravity in the axes of the body (m).
     pub centre: Vector3<f64>,
     /// Nodes of the body that are reported: names, and places from the centre of gravity in its axes (m).
@@ -71,7 +73,7 @@ pub(super) fn sections<'a>(model: &'a Model, connector: &Connector) -> &'a [Teth
 }
 
 /// The elements of a tether from its anchor or trailing end; the class has them from the vessel.
-pub(super) fn line(sections: &[TetherSection]) -> Result<Line, ClassError> {
+pub(super) fn line(sections: &[TetherSection]) -> Result<TetherLine, ClassError> {
     let mut elements = Vec::new();
     let mut node = 0;
     for (index, section) in sections.iter().enumerate().rev() {
@@ -88,11 +90,11 @@ pub(super) fn line(sections: &[TetherSection]) -> Result<Line, ClassError> {
                 youngs_modulus: section.youngs_modulus,
                 drag: section.drag,
                 added_mass: section.added_mass,
-                label: Label { nodes: [n1, n2], material, geometry },
+                label: ElementLabel { nodes: [n1, n2], material, geometry },
             });
         }
     }
-    Line::new(elements)
+    TetherLine::new(elements)
 }
 
 /// The case of a model.
@@ -100,7 +102,7 @@ pub(super) fn line(sections: &[TetherSection]) -> Result<Line, ClassError> {
 /// # Errors
 /// No tether; a towed one with another; installed ones of several bodies, or between bodies; what the environment or the model has that
 /// does not run with tethers.
-pub fn case(model: &Model, settings: &Settings) -> Result<Case, SolveError> {
+pub fn case(model: &Model, settings: &TetherRunSettings) -> Result<TetherCase, SolveError> {
     let of = |c: &&Connector| c.active && !sections(model, c).is_empty();
     let tethers: Vec<&Connector> = model.connectors.values().filter(of).collect();
     let Some(first) = tethers.first() else {
@@ -125,10 +127,10 @@ pub fn case(model: &Model, settings: &Settings) -> Result<Case, SolveError> {
         }
         let made = towed_case(model, first, sea.as_deref(), settings, &mut notes);
         let made = made.map_err(|error| SolveError { who: Some(first.name.clone()), error })?;
-        return Ok(Case { kind: Kind::Towed(Box::new((first.name.clone(), made))), seed, notes });
+        return Ok(TetherCase { kind: TetherCaseKind::Towed(Box::new((first.name.clone(), made))), seed, notes });
     }
     let made = installed_case(model, &tethers, sea.as_ref(), settings, &mut notes)?;
-    Ok(Case { kind: Kind::Installed(Box::new(made)), seed, notes })
+    Ok(TetherCase { kind: TetherCaseKind::Installed(Box::new(made)), seed, notes })
 }
 
 fn current(model: &Model) -> Result<CurrentField, ClassError> {
@@ -140,7 +142,7 @@ fn towed_case(
     model: &Model,
     connector: &Connector,
     sea: Option<&Sea>,
-    settings: &Settings,
+    settings: &TetherRunSettings,
     notes: &mut Vec<String>,
 ) -> Result<Towed, ClassError> {
     let ends = connector.tether.clone().unwrap_or_default();
@@ -191,11 +193,11 @@ fn towed_case(
         waves: sea.map(|s| s.components.clone()).unwrap_or_default(),
         current,
         tow: settings.tow,
-        multipliers: towed::Multipliers { slam: settings.slam, ..towed::Multipliers::default() },
+        multipliers: towed::WaterForceMultipliers { slam: settings.slam, ..towed::WaterForceMultipliers::default() },
         compatibility: if settings.compatible {
-            towed::Compatibility::aqwa_5_4()
+            towed::TowedCompatibility::aqwa_5_4()
         } else {
-            towed::Compatibility::native()
+            towed::TowedCompatibility::native()
         },
     };
     made.check()?;
@@ -237,13 +239,13 @@ fn tethered_body<'a>(model: &'a Model, tethers: &[&Connector]) -> Result<&'a Bod
     found.ok_or_else(|| SolveError::new(ClassError::new("no tether holds a body")))
 }
 
-fn constraint(node: usize, hold: TetherHold) -> Constraint {
+fn constraint(node: usize, hold: TetherHold) -> NodeConstraint {
     let node = node.saturating_sub(1);
     match hold {
-        TetherHold::LateralFixed => Constraint::FixedLateral { node },
-        TetherHold::RotationalFixed => Constraint::FixedRotation { node },
-        TetherHold::LateralVessel { gap } => Constraint::VesselLateral { node, gap },
-        TetherHold::RotationalVessel => Constraint::VesselRotation { node },
+        TetherHold::LateralFixed => NodeConstraint::FixedLateral { node },
+        TetherHold::RotationalFixed => NodeConstraint::FixedRotation { node },
+        TetherHold::LateralVessel { gap } => NodeConstraint::VesselLateral { node, gap },
+        TetherHold::RotationalVessel => NodeConstraint::VesselRotation { node },
     }
 }
 
@@ -291,7 +293,7 @@ pub(super) fn installed_tether(
 }
 
 /// The members of a body when it has nothing else that water or wind acts on; in axes of the body from its centre of gravity.
-fn tubes_alone(model: &Model, body: &Body, centre: Vector3<f64>) -> Option<Vec<Tube>> {
+fn tubes_alone(model: &Model, body: &Body, centre: Vector3<f64>) -> Option<Vec<TubeMember>> {
     if body.linear.is_some() || body.database.is_some() {
         return None;
     }
@@ -305,7 +307,7 @@ fn tubes_alone(model: &Model, body: &Body, centre: Vector3<f64>) -> Option<Vec<T
             else {
                 return None;
             };
-            tubes.push(Tube {
+            tubes.push(TubeMember {
                 ends: ends.map(|end| Vector3::from(end) - centre),
                 diameter,
                 drag: member.drag,
@@ -332,7 +334,7 @@ fn installed_case(
     model: &Model,
     tethers: &[&Connector],
     sea: Option<&Arc<Sea>>,
-    settings: &Settings,
+    settings: &TetherRunSettings,
     notes: &mut Vec<String>,
 ) -> Result<Installed, SolveError> {
     let body = tethered_body(model, tethers)?;
@@ -346,14 +348,14 @@ fn installed_case(
         list.push(made.map_err(|error| SolveError { who: Some(connector.name.clone()), error })?);
     }
     let around = model.surroundings();
-    let mut flow = Flow::still(around.water_density, gravity).map_err(SolveError::new)?;
+    let mut flow = WaterFlow::still(around.water_density, gravity).map_err(SolveError::new)?;
     flow.level = around.tide;
     flow.current = current(model).map_err(SolveError::new)?;
     if let Some(sea) = sea {
         let deep = if settings.compatible { deep_wave(model) } else { None };
         flow.waves = match deep {
-            Some(wave) => Waves::Deep(wave.map_err(SolveError::new)?),
-            None => Waves::Sea(Arc::clone(sea)),
+            Some(wave) => FlowWaves::Deep(wave.map_err(SolveError::new)?),
+            None => FlowWaves::Sea(Arc::clone(sea)),
         };
     }
     let compatibility = if settings.compatible { Compatibility::aqwa_5_4() } else { Compatibility::native() };
@@ -376,7 +378,7 @@ fn installed_case(
     };
     let structure = Moored::build(structure, model, body, centre)?;
     let pose = Pose::of(&body.place);
-    let course = Course {
+    let course = InstalledRunSettings {
         start: 0.0,
         step: settings.step,
         states: settings.states(),

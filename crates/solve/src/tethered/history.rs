@@ -7,14 +7,14 @@ use windlass_base::geometry::Place;
 use windlass_base::table::Digits;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
-use windlass_tether::Line;
-use windlass_tether::installed::{Change, Installation, Moment, Observer};
-use windlass_tether::structure::Forces;
-use windlass_tether::towed::{self, History, Steps, Towed};
+use windlass_tether::TetherLine;
+use windlass_tether::installed::{Installation, InstalledObserver, Moment, RigChange};
+use windlass_tether::structure::StructureForces;
+use windlass_tether::towed::{self, Towed, TowedHistory, TowedSteps};
 
 /// A quantity of nodes or of ends of elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quantity {
+pub struct TetherQuantity {
     /// What a record calls it.
     pub code: &'static str,
     /// Head shared with others of its kind.
@@ -27,8 +27,14 @@ pub struct Quantity {
     pub digits: Digits,
 }
 
-const fn quantity(code: &'static str, group: &'static str, name: &'static str, dim: Dim, digits: Digits) -> Quantity {
-    Quantity { code, group, name, dim, digits }
+const fn quantity(
+    code: &'static str,
+    group: &'static str,
+    name: &'static str,
+    dim: Dim,
+    digits: Digits,
+) -> TetherQuantity {
+    TetherQuantity { code, group, name, dim, digits }
 }
 
 const FOUR: Digits = Digits::Scientific(4);
@@ -45,7 +51,7 @@ const ANGULAR: [(Dim, Digits); 3] = [
     (Dim::AngularAcceleration, Digits::Decimals(3)),
 ];
 
-const fn of_nodes(codes: [[&'static str; 4]; 3]) -> [Quantity; 13] {
+const fn of_nodes(codes: [[&'static str; 4]; 3]) -> [TetherQuantity; 13] {
     let names = codes[0];
     let mut out = [quantity("ALONG", "", "Along", Dim::Length, Digits::Decimals(2)); 13];
     let mut kind = 0;
@@ -62,13 +68,13 @@ const fn of_nodes(codes: [[&'static str; 4]; 3]) -> [Quantity; 13] {
 }
 
 /// Quantities of the nodes of a towed tether.
-pub const TOWED_NODE: [Quantity; 13] =
+pub const TOWED_NODE: [TetherQuantity; 13] =
     of_nodes([["Y", "Z", "RY", "RZ"], ["VY", "VZ", "VRY", "VRZ"], ["AY", "AZ", "ARY", "ARZ"]]);
 /// Quantities of the nodes of an installed tether.
-pub const INSTALLED_NODE: [Quantity; 13] =
+pub const INSTALLED_NODE: [TetherQuantity; 13] =
     of_nodes([["X", "Y", "RX", "RY"], ["VX", "VY", "VRX", "VRY"], ["AX", "AY", "ARX", "ARY"]]);
 /// Quantities of the ends of elements of a towed tether.
-pub const TOWED_END: [Quantity; 7] = [
+pub const TOWED_END: [TetherQuantity; 7] = [
     quantity("SY", "Shear Force", "Y", Dim::Force, FOUR),
     quantity("SZ", "Shear Force", "Z", Dim::Force, FOUR),
     quantity("MY", "Bending Moment", "Y", Dim::Moment, FOUR),
@@ -78,7 +84,7 @@ pub const TOWED_END: [Quantity; 7] = [
     quantity("STZ", "Bending Stress", "Z", STRESS, FOUR),
 ];
 /// Quantities of the ends of elements of an installed tether.
-pub const INSTALLED_END: [Quantity; 11] = [
+pub const INSTALLED_END: [TetherQuantity; 11] = [
     quantity("EFF", "Tension", "Effective", Dim::Force, FOUR),
     quantity("WALL", "Tension", "Wall", Dim::Force, FOUR),
     quantity("SX", "Shear Force", "X", Dim::Force, FOUR),
@@ -100,7 +106,7 @@ pub struct TetherHistory {
     /// Whether it is towed.
     pub towed: bool,
     /// Its elements from the anchor or the trailing end.
-    pub line: Line,
+    pub line: TetherLine,
     /// `nodes[(instant * number of nodes + node) * 13 + quantity]`, nodes from the anchor or the trailing end.
     pub nodes: Vec<f64>,
     /// `ends[(instant * 2 * number of elements + 2 * element + end) * quantities + quantity]`, the lower or trailing end of an element first.
@@ -109,12 +115,12 @@ pub struct TetherHistory {
 
 impl TetherHistory {
     /// Quantities of its nodes.
-    pub fn of_a_node(&self) -> &'static [Quantity] {
+    pub fn of_a_node(&self) -> &'static [TetherQuantity] {
         if self.towed { &TOWED_NODE } else { &INSTALLED_NODE }
     }
 
     /// Quantities of the ends of its elements.
-    pub fn of_an_end(&self) -> &'static [Quantity] {
+    pub fn of_an_end(&self) -> &'static [TetherQuantity] {
         if self.towed { &TOWED_END } else { &INSTALLED_END }
     }
 
@@ -160,15 +166,15 @@ impl StructureHistory {
         "POSITION",
         "VELOCITY",
         "ACCELERATION",
-        Forces::KINDS[0],
-        Forces::KINDS[1],
-        Forces::KINDS[2],
-        Forces::KINDS[3],
-        Forces::KINDS[4],
-        Forces::KINDS[5],
-        Forces::KINDS[6],
-        Forces::KINDS[7],
-        Forces::KINDS[8],
+        StructureForces::KINDS[0],
+        StructureForces::KINDS[1],
+        StructureForces::KINDS[2],
+        StructureForces::KINDS[3],
+        StructureForces::KINDS[4],
+        StructureForces::KINDS[5],
+        StructureForces::KINDS[6],
+        StructureForces::KINDS[7],
+        StructureForces::KINDS[8],
         "ERROR PER TIMESTEP",
     ];
 
@@ -196,7 +202,7 @@ pub struct Happening {
     /// Its name.
     pub tether: String,
     /// What.
-    pub change: Change,
+    pub change: RigChange,
 }
 
 /// Runs a towed tether.
@@ -211,8 +217,8 @@ pub fn run_towed(
     let settings = kept.settings;
     let per = case.line.nodes() * TOWED_NODE.len() + 2 * case.line.elements().len() * TOWED_END.len();
     settings.room(per)?;
-    let steps = Steps { step: settings.step, number: settings.states(), ..Steps::default() };
-    let mut history = History { every: settings.store.max(1), ..History::default() };
+    let steps = TowedSteps { step: settings.step, number: settings.states(), ..TowedSteps::default() };
+    let mut history = TowedHistory { every: settings.store.max(1), ..TowedHistory::default() };
     let mut keeper = Keeper { history: &mut history, goes_on, interrupted: false };
     case.run(&steps, &mut keeper)?;
     kept.interrupted = keeper.interrupted;
@@ -223,13 +229,13 @@ pub fn run_towed(
 }
 
 struct Keeper<'a> {
-    history: &'a mut History,
+    history: &'a mut TowedHistory,
     goes_on: &'a mut dyn FnMut(f64) -> bool,
     interrupted: bool,
 }
 
-impl towed::Observer for Keeper<'_> {
-    fn record(&mut self, record: &towed::Record<'_>) -> ControlFlow<()> {
+impl towed::TowedObserver for Keeper<'_> {
+    fn record(&mut self, record: &towed::TowedRecord<'_>) -> ControlFlow<()> {
         if !(self.goes_on)(record.time) {
             self.interrupted = true;
             return ControlFlow::Break(());
@@ -283,7 +289,7 @@ struct Taker<'a> {
     stopped: bool,
 }
 
-impl Observer for Taker<'_> {
+impl InstalledObserver for Taker<'_> {
     fn observe(&mut self, moment: &Moment) -> Result<(), ClassError> {
         if !(self.goes_on)(moment.time) {
             self.stopped = true;

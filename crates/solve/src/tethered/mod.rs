@@ -14,10 +14,10 @@ mod statistics;
 mod structure;
 mod tables;
 
-pub use case::{Case, case};
-pub use history::{Happening, Quantity, StructureHistory, TetherHistory};
+pub use case::{TetherCase, case};
+pub use history::{Happening, StructureHistory, TetherHistory, TetherQuantity};
 pub use modal::{description_table, names, natural};
-pub use statistics::Statistics;
+pub use statistics::TetherStatistics;
 pub use structure::{harmonics, structure, structure_series};
 pub use tables::{Of, events, forces, motions, run_table, series, table_along_tether};
 
@@ -26,7 +26,7 @@ use windlass_model::{ClassError, Model};
 
 /// How a run of tethers goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct TetherRunSettings {
     /// Time of its end (s); it starts at 0.
     pub observed: f64,
     /// Step (s).
@@ -47,7 +47,7 @@ pub struct Settings {
 #[derive(Clone, Debug)]
 pub struct Tethered {
     /// How it went.
-    pub settings: Settings,
+    pub settings: TetherRunSettings,
     /// The stored instants (s).
     pub times: Vec<f64>,
     /// The structure, of installed tethers.
@@ -67,7 +67,7 @@ pub struct Tethered {
 /// Values kept at most: some 4 GB.
 const MAX_STORED_VALUES: f64 = 5e8;
 
-impl Settings {
+impl TetherRunSettings {
     /// Number of states, the first counted.
     fn states(&self) -> usize {
         (self.observed / self.step + 1e-9).floor().max(0.0) as usize + 1
@@ -102,7 +102,11 @@ pub fn has_tethers(model: &Model) -> bool {
 ///
 /// # Errors
 /// A model without tethers, or with what does not run with them; what the engine refuses.
-pub fn run(model: &Model, settings: Settings, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<Tethered, SolveError> {
+pub fn run(
+    model: &Model,
+    settings: TetherRunSettings,
+    goes_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<Tethered, SolveError> {
     settings.check().map_err(SolveError::new)?;
     let made = case(model, &settings)?;
     let mut kept = Tethered {
@@ -116,8 +120,10 @@ pub fn run(model: &Model, settings: Settings, goes_on: &mut dyn FnMut(f64) -> bo
         interrupted: false,
     };
     match made.kind {
-        case::Kind::Towed(towed) => history::run_towed(&towed, &mut kept, goes_on).map_err(SolveError::new)?,
-        case::Kind::Installed(installed) => {
+        case::TetherCaseKind::Towed(towed) => {
+            history::run_towed(&towed, &mut kept, goes_on).map_err(SolveError::new)?
+        }
+        case::TetherCaseKind::Installed(installed) => {
             history::run_installed(*installed, &mut kept, goes_on).map_err(SolveError::new)?;
         }
     }

@@ -1,17 +1,24 @@
 //! What is reported of a tether before it runs: its description and its natural modes.
 
-use super::case::{Kind, case, sections};
-use super::{Settings, case::Installed};
+use super::case::{TetherCaseKind, case, sections};
+use super::{TetherRunSettings, case::Installed};
 use crate::SolveError;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, Model};
-use windlass_tether::installed::description::Description;
+use windlass_tether::installed::description::InstalledDescription;
 use windlass_tether::installed::modes::modes;
 
 /// Settings under which a case is made to be reported, not to be run.
-const AT_REST: Settings =
-    Settings { observed: 1.0, step: 1.0, store: 1, compatible: false, slam: 0.0, tow: [0.0; 2], transient: 0.0 };
+const AT_REST: TetherRunSettings = TetherRunSettings {
+    observed: 1.0,
+    step: 1.0,
+    store: 1,
+    compatible: false,
+    slam: 0.0,
+    tow: [0.0; 2],
+    transient: 0.0,
+};
 
 /// A tether of the case, by its name.
 fn find_tether<'a>(
@@ -38,11 +45,11 @@ pub fn description_table(model: &Model, name: &str) -> Result<Table, SolveError>
     let point = |end: usize| connector.and_then(|c| c.points.get(end)).map_or("", String::as_str);
     let nodes = [point(1), point(0)];
     let mut table = match &made.kind {
-        Kind::Towed(towed) => towed.1.description(1, nodes).table(),
-        Kind::Installed(case) => {
+        TetherCaseKind::Towed(towed) => towed.1.description(1, nodes).table(),
+        TetherCaseKind::Installed(case) => {
             let tether = find_tether(case, name)?;
             let attachment = case.course.pose.point(tether.attachment);
-            let description = Description::new(tether, attachment, &case.flow).map_err(SolveError::new)?;
+            let description = InstalledDescription::new(tether, attachment, &case.flow).map_err(SolveError::new)?;
             let table = description.to_listing(tether, (1, nodes), case.centre, &case.flow).table();
             table.fact("Effective Tension in the Middle", description.tension, Dim::Force)
         }
@@ -66,10 +73,10 @@ pub fn description_table(model: &Model, name: &str) -> Result<Table, SolveError>
 /// # Errors
 /// As [`case`]; a name that is no tether's; modes that cannot be found.
 pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Result<Vec<Table>, SolveError> {
-    let made = case(model, &Settings { compatible, ..AT_REST })?;
+    let made = case(model, &TetherRunSettings { compatible, ..AT_REST })?;
     type Page = (Option<f64>, Option<f64>, Vec<(f64, [f64; 4])>);
     let (heads, pages): ([&str; 4], Vec<Page>) = match &made.kind {
-        Kind::Towed(towed) => {
+        TetherCaseKind::Towed(towed) => {
             let distances = towed.1.line.distances();
             let list = towed.1.modes(number).map_err(SolveError::new)?;
             let page = |m: &windlass_tether::modes::NaturalMode| {
@@ -78,7 +85,7 @@ pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Re
             };
             (["Y", "Z", "RY", "RZ"], list.iter().map(page).collect())
         }
-        Kind::Installed(case) => {
+        TetherCaseKind::Installed(case) => {
             let tether = find_tether(case, name)?;
             let attachment = case.course.pose.point(tether.attachment);
             let list = modes(tether, attachment, &case.flow, number, &case.compatibility).map_err(SolveError::new)?;

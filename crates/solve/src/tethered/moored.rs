@@ -1,15 +1,15 @@
 //! The other connectors of a structure that tethers hold.
 
-use crate::link::{Attachment, Link, link, pose_of};
+use crate::link::{EndAttachment, Link, link, pose_of};
 use crate::system::SolveError;
 use crate::time::RunRequirements;
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{Underway, ambient, move_wrench};
 use windlass_model::{Body, ClassError, Model};
-use windlass_model::{End, Response, Situation, Surroundings, TimeStep};
+use windlass_model::{ElementResponse, End, Situation, Surroundings, TimeStep};
 use windlass_tether::structure::flow::FlowAt;
-use windlass_tether::structure::{Forces, Structure};
+use windlass_tether::structure::{Structure, StructureForces};
 
 /// A structure with connectors to the ground that are no tethers.
 #[derive(Debug)]
@@ -22,7 +22,7 @@ pub struct Moored {
     body: usize,
     centre: Vector3<f64>,
     surroundings: Surroundings,
-    response: Response,
+    response: ElementResponse,
 }
 
 impl Moored {
@@ -50,8 +50,8 @@ impl Moored {
                 let error = error.help("release it, or give a class without dynamics of its own");
                 return Err(SolveError { who: Some(connector.name.clone()), error });
             }
-            let on = |end: &Attachment| matches!(end, Attachment::Body(i, _) if *i == index);
-            let elsewhere = |end: &Attachment| matches!(end, Attachment::Body(i, _) if *i != index);
+            let on = |end: &EndAttachment| matches!(end, EndAttachment::Body(i, _) if *i == index);
+            let elsewhere = |end: &EndAttachment| matches!(end, EndAttachment::Body(i, _) if *i != index);
             if !made.ends.iter().any(on) {
                 continue;
             }
@@ -75,13 +75,19 @@ impl Moored {
             body: index,
             centre,
             surroundings,
-            response: Response::default(),
+            response: ElementResponse::default(),
         }))
     }
 }
 
 impl Structure for Moored {
-    fn forces(&mut self, at: &Underway, water: &FlowAt, accepted: bool, out: &mut Forces) -> Result<(), ClassError> {
+    fn forces(
+        &mut self,
+        at: &Underway,
+        water: &FlowAt,
+        accepted: bool,
+        out: &mut StructureForces,
+    ) -> Result<(), ClassError> {
         self.inner.forces(at, water, accepted, out)?;
         let arm = at.pose.axes * self.centre;
         let pose = Pose { origin: at.pose.origin - arm, axes: at.pose.axes };
@@ -99,7 +105,7 @@ impl Structure for Moored {
                 .map(|end| {
                     let place = pose_of(end, &poses);
                     let mut moves = Six::zeros();
-                    if matches!(end, Attachment::Body(..)) {
+                    if matches!(end, EndAttachment::Body(..)) {
                         let own = velocity + spin.cross(&(place.origin - at.pose.origin));
                         moves.fixed_rows_mut::<3>(0).copy_from(&own);
                         moves.fixed_rows_mut::<3>(3).copy_from(&spin);
@@ -119,7 +125,7 @@ impl Structure for Moored {
             };
             link.element.evaluate(&situation, before, after, &mut None, &mut self.response).map_err(named)?;
             for ((end, kind), wrench) in ends.iter().zip(&link.ends).zip(&self.response.wrench) {
-                if matches!(kind, Attachment::Body(..)) {
+                if matches!(kind, EndAttachment::Body(..)) {
                     out.floating += move_wrench(wrench, end.pose.origin - at.pose.origin);
                 }
             }

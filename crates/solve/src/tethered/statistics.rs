@@ -1,29 +1,29 @@
 //! Statistics and fatigue of tethers [AQWA-TETHER 7.5 to 7.10, 7.12, 7.13].
 
 use super::Tethered;
-use super::history::{Quantity, TetherHistory};
+use super::history::{TetherHistory, TetherQuantity};
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_signal::SeriesError;
-use windlass_signal::tether::fatigue::{self, Asked, EndRecord};
-use windlass_signal::tether::tables::{AtEnd, Channel, Place, histogram, type_one, type_two};
+use windlass_signal::tether::fatigue::{self, EndRecord, FatigueSettings};
+use windlass_signal::tether::tables::{AtEnd, Channel, NodeSeries, histogram, type_one, type_two};
 
 /// Which of the stored instants statistics and fatigue are of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Statistics {
+pub struct TetherStatistics {
     /// First of them.
     pub first: usize,
     /// One behind the last.
     pub end: usize,
 }
 
-impl Statistics {
+impl TetherStatistics {
     /// Those between two times (s), both counted.
     pub fn new(run: &Tethered, from: f64, to: f64) -> Self {
         let slack = 1e-6 * run.settings.step;
         let first = run.times.iter().position(|t| *t >= from - slack).unwrap_or(run.times.len());
         let end = run.times.iter().rposition(|t| *t <= to + slack).map_or(first, |i| i + 1);
-        Statistics { first, end: end.max(first) }
+        TetherStatistics { first, end: end.max(first) }
     }
 
     fn pick(self, values: Vec<f64>) -> Vec<f64> {
@@ -58,7 +58,7 @@ impl Statistics {
         let mut out = Vec::new();
         for (places, what) in [(self.nodes(tether), "Node"), (self.ends(tether), "Elem")] {
             let title = self.title(run, &format!("Statistics of Tether {}", tether.name));
-            let borrowed: Vec<Place> = places.iter().map(Owned::as_place).collect();
+            let borrowed: Vec<NodeSeries> = places.iter().map(Owned::as_place).collect();
             out.extend(type_two(&title, what, &borrowed)?);
         }
         Ok(out)
@@ -85,7 +85,7 @@ impl Statistics {
     }
 
     /// The seven columns of figure 7.12.
-    fn installed_end(self, tether: &TetherHistory, end: usize) -> Vec<(Quantity, Vec<f64>)> {
+    fn installed_end(self, tether: &TetherHistory, end: usize) -> Vec<(TetherQuantity, Vec<f64>)> {
         let of = tether.of_an_end();
         let told = [0, 1, 6, 7, 8, 9, 10];
         told.iter().filter_map(|q| Some((*of.get(*q)?, self.pick(tether.end(end, *q))))).collect()
@@ -93,7 +93,7 @@ impl Statistics {
 
     /// The seven columns of figure 7.6: both moments, the moment where its deviation round the tube is largest, the largest stress, both
     /// stresses, the stress where its deviation is largest.
-    fn towed_end(self, tether: &TetherHistory, end: usize) -> Vec<(Quantity, Vec<f64>)> {
+    fn towed_end(self, tether: &TetherHistory, end: usize) -> Vec<(TetherQuantity, Vec<f64>)> {
         let of = tether.of_an_end();
         let values = |q: usize| self.pick(tether.end(end, q));
         let (y, z) = (values(2), values(3));
@@ -113,7 +113,7 @@ impl Statistics {
         let worst = turned(best.0);
         let tube = tether.line.elements().get(end / 2).map(|e| e.tube().stress_of_moment()).unwrap_or_default();
         let stress = worst.iter().map(|m| m * tube).collect();
-        let named = |q: usize, name: &'static str| of.get(q).map(|q| Quantity { name, ..*q });
+        let named = |q: usize, name: &'static str| of.get(q).map(|q| TetherQuantity { name, ..*q });
         let list = [
             (named(2, "Y"), y.clone()),
             (named(3, "Z"), z.clone()),
@@ -131,7 +131,12 @@ impl Statistics {
     ///
     /// # Errors
     /// Fewer than two instants; what [`fatigue::fatigue_of_ends`] refuses.
-    pub fn fatigue(self, run: &Tethered, tether: &TetherHistory, asked: Asked) -> Result<[Table; 2], SeriesError> {
+    pub fn fatigue(
+        self,
+        run: &Tethered,
+        tether: &TetherHistory,
+        asked: FatigueSettings,
+    ) -> Result<[Table; 2], SeriesError> {
         let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
         let duration = time(self.end.saturating_sub(1)) - time(self.first);
         let count = 2 * tether.line.elements().len();
@@ -142,7 +147,7 @@ impl Statistics {
             .enumerate()
             .map(|(end, [y, z])| EndRecord { about_y: y, about_z: z, stress_of_moment: tube(end).unwrap_or_default() })
             .collect();
-        let found = fatigue::fatigue_of_ends(&records, Asked { duration, ..asked })?;
+        let found = fatigue::fatigue_of_ends(&records, FatigueSettings { duration, ..asked })?;
         let distance = |end: usize| tether.line.distances().get(end.div_ceil(2)).copied().unwrap_or_default();
         let ends: Vec<AtEnd> = found.into_iter().enumerate().map(|(end, f)| (end / 2 + 1, distance(end), f)).collect();
         let title = |what: &str| self.title(run, &format!("{what} of Tether {}", tether.name));
@@ -163,12 +168,12 @@ impl Statistics {
 struct Owned {
     number: usize,
     distance: f64,
-    channels: Vec<(Quantity, Vec<f64>)>,
+    channels: Vec<(TetherQuantity, Vec<f64>)>,
 }
 
 impl Owned {
-    fn as_place(&self) -> Place<'_> {
-        Place {
+    fn as_place(&self) -> NodeSeries<'_> {
+        NodeSeries {
             number: self.number,
             distance: self.distance,
             channels: self

@@ -6,7 +6,7 @@ use super::tables::SECONDS;
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_signal::SeriesError;
-use windlass_signal::cycle::{AQWA_SAMPLES, Cycle};
+use windlass_signal::cycle::{AQWA_SAMPLES, HarmonicCycle};
 
 /// Dimensions and digits of the six of a kind of [`StructureHistory`].
 fn six(kind: usize) -> [(Dim, Digits); 2] {
@@ -108,7 +108,7 @@ pub fn harmonics(
         let mut cycles = Vec::new();
         for dof in 0..DOF_NAMES.len() {
             let values = structure.series(6 * kind + dof);
-            cycles.push(Cycle::new(&run.times, &values, (start, period), 4, AQWA_SAMPLES)?);
+            cycles.push(HarmonicCycle::new(&run.times, &values, (start, period), 4, AQWA_SAMPLES)?);
         }
         let largest = cycles.iter().fold(0.0, |most: f64, c| most.max(c.mean.abs()).max(c.drift.abs()));
         for ((dof, axis), found) in DOF_NAMES.iter().enumerate().zip(&cycles) {
@@ -147,7 +147,7 @@ struct HarmonicRow<'r> {
     dof: usize,
     /// The largest mean or drift of the six: what is rounding beside it is nothing.
     largest: f64,
-    found: Cycle,
+    found: HarmonicCycle,
 }
 
 impl HarmonicRow<'_> {

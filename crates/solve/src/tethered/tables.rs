@@ -1,16 +1,16 @@
 //! Tables of a run of tethers, in the columns of [AQWA-TETHER 7.3 to 7.10].
 
 use super::Tethered;
-use super::history::{Quantity, TetherHistory};
+use super::history::{TetherHistory, TetherQuantity};
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_signal::tether::tables::STRESS;
-use windlass_tether::installed::Change;
+use windlass_tether::installed::RigChange;
 
 pub(super) const SECONDS: Digits = Digits::Decimals(2);
 
 /// A column of a quantity, with its values.
-fn column(of: &Quantity, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Column {
+fn column(of: &TetherQuantity, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Column {
     Column::new(of.group, of.name, of.dim, of.digits, cells)
 }
 
@@ -41,20 +41,20 @@ pub fn events(run: &Tethered) -> Table {
         .column("", "Time", Dim::Time, SECONDS, |event| event.time)
         .text("Tether", |event| &event.tether)
         .text("Event", |event| match event.change {
-            Change::Slack => "slack",
-            Change::Impact { .. } => "impact",
-            Change::LowerStop { .. } => "on the lower stop",
+            RigChange::Slack => "slack",
+            RigChange::Impact { .. } => "impact",
+            RigChange::LowerStop { .. } => "on the lower stop",
         })
         .column("", "Velocity", Dim::Velocity, Digits::Decimals(3), |event| match event.change {
-            Change::Impact { velocity, .. } => Some(velocity),
+            RigChange::Impact { velocity, .. } => Some(velocity),
             _ => None,
         })
         .column("", "Stress", STRESS, Digits::Scientific(4), |event| match event.change {
-            Change::Impact { stress, .. } => Some(stress),
+            RigChange::Impact { stress, .. } => Some(stress),
             _ => None,
         })
         .column("", "Drop", Dim::Length, Digits::Decimals(3), |event| match event.change {
-            Change::LowerStop { drop } => Some(drop),
+            RigChange::LowerStop { drop } => Some(drop),
             _ => None,
         })
         .build()
@@ -144,7 +144,7 @@ pub fn table_along_tether(
         false => tether.end_at(instant, place, index),
     };
     let whole = |place: &usize| if at_nodes { tether.node(*place, index) } else { tether.end(*place, index) };
-    let Quantity { dim, digits, .. } = *quantity;
+    let TetherQuantity { dim, digits, .. } = *quantity;
     let mut table = Table::new(format!("{} {} along Tether {}", quantity.group, quantity.name, tether.name))
         .with_rows(&places)
         .column("", "Distance", Dim::Length, Digits::Decimals(2), distance);

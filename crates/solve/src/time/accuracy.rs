@@ -5,9 +5,9 @@
 //! degree of freedom is measured as the run goes: the square root of `sum h (h a)^2 / sum h (v - mean v)^2`, exact of a sine. It does not
 //! follow what is between two instants: a load that comes and goes within a step is not seen.
 
-use super::forces::Motion;
-use super::scheme::{Method, Scheme};
-use crate::system::{DOFS, Node, System, mass_block};
+use super::forces::BodyMotion;
+use super::scheme::{Method, TimeScheme};
+use crate::system::{DOFS, System, SystemBody, mass_block};
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 use windlass_base::dense::{eigenvalues, never};
@@ -45,7 +45,7 @@ impl Distortion {
     }
 }
 
-impl Scheme {
+impl TimeScheme {
     /// What it makes of an oscillation whose phase advances by an angle in a step (rad).
     pub fn distortion(&self, angle: f64) -> Distortion {
         let none = Distortion { period: f64::INFINITY, damping: 1.0 };
@@ -56,7 +56,7 @@ impl Scheme {
         if angle < 1e-6 {
             return Distortion { period: 0.0, damping: 0.0 };
         }
-        let Scheme { alpha_m, alpha_f, beta, gamma } = *self;
+        let TimeScheme { alpha_m, alpha_f, beta, gamma } = *self;
         let (square, share, gain) = (angle * angle, 1.0 / (1.0 - alpha_m), self.gain());
         // x, h v and h^2 times the auxiliary acceleration, with a = -w^2 x
         let whole = 1.0 + beta * gain * square;
@@ -84,10 +84,10 @@ impl Scheme {
 
 impl Method {
     /// The scheme whose errors it has: that of the corrector is the trapezoidal rule.
-    fn errs_as(&self) -> Scheme {
+    fn errs_as(&self) -> TimeScheme {
         match self {
             Method::Implicit(scheme) => *scheme,
-            Method::Corrector => Scheme::newmark(0.25, 0.5),
+            Method::Corrector => TimeScheme::newmark(0.25, 0.5),
         }
     }
 
@@ -112,8 +112,9 @@ impl Method {
     }
 
     /// The error of place of a step (m) at whose end bodies move so; rotations count with an arm of 10 m.
-    pub(super) fn error_of_step<'a>(&self, motions: impl Iterator<Item = &'a Motion>, dt: f64) -> f64 {
-        let jerk = |m: &Motion| m.jerk.fixed_rows::<3>(0).norm().max(ROTATION_ARM_M * m.jerk.fixed_rows::<3>(3).norm());
+    pub(super) fn error_of_step<'a>(&self, motions: impl Iterator<Item = &'a BodyMotion>, dt: f64) -> f64 {
+        let jerk =
+            |m: &BodyMotion| m.jerk.fixed_rows::<3>(0).norm().max(ROTATION_ARM_M * m.jerk.fixed_rows::<3>(3).norm());
         self.errs_as().error_of_place() * dt.powi(3) * motions.map(jerk).fold(0.0, f64::max)
     }
 }
@@ -143,7 +144,13 @@ pub struct Accuracy {
 
 impl Accuracy {
     /// Takes a step (s) that was accepted.
-    pub(super) fn take(&mut self, nodes: &[Node], motions: &[Motion], method: &Method, (now, dt): (f64, f64)) {
+    pub(super) fn take(
+        &mut self,
+        nodes: &[SystemBody],
+        motions: &[BodyMotion],
+        method: &Method,
+        (now, dt): (f64, f64),
+    ) {
         self.sums.resize(6 * nodes.len(), [0.0; 4]);
         self.time += dt;
         for (body, ((node, motion), sums)) in nodes.iter().zip(motions).zip(self.sums.chunks_exact_mut(6)).enumerate() {
@@ -162,7 +169,7 @@ impl Accuracy {
     }
 
     /// The degree of freedom that its scheme follows worst, of those that move enough to count; none where nothing moves.
-    pub(super) fn worst(&self, system: &System, motions: &[Motion], method: &Method) -> Option<Followed> {
+    pub(super) fn worst(&self, system: &System, motions: &[BodyMotion], method: &Method) -> Option<Followed> {
         // integrals of the squares of the velocity without its mean
         let moved = |[v, vv, ..]: &[f64; 4]| if self.time > 0.0 { (vv - v * v / self.time).max(0.0) } else { 0.0 };
         let arms: Vec<Six> = system.nodes.iter().zip(motions).map(|(n, m)| arms(n, m)).collect();
@@ -201,7 +208,7 @@ impl Accuracy {
 }
 
 /// What makes a velocity of each degree of freedom: 1 of translations, the radii of gyration of rotations (m); 0 where nothing has inertia.
-fn arms(node: &Node, motion: &Motion) -> Six {
+fn arms(node: &SystemBody, motion: &BodyMotion) -> Six {
     let mass = mass_block(&node.floating.mass, &motion.pose) + node.floating.added_mass(&motion.pose);
     let heaviest = (0..3).map(|i| mass[(i, i)]).fold(0.0, f64::max);
     Six::from_fn(|i, _| match mass[(i, i)] {
@@ -227,7 +234,7 @@ mod tests {
             (0.2, 10.0, 0.080910, 0.022552),
             (0.2, 5.0, 0.247201, 0.083954),
         ] {
-            let made = Scheme::generalised_alpha(rho).distortion(TAU / steps);
+            let made = TimeScheme::generalised_alpha(rho).distortion(TAU / steps);
             // they are printed to a millionth
             assert!(
                 (made.period - period).abs() < 6e-7 && (made.damping - damping).abs() < 6e-7,
@@ -236,7 +243,7 @@ mod tests {
         }
         // tan(W h/2) = w h/2 [HUGHES-1987 9.1]
         for angle in [0.01f64, 0.5, 4.0] {
-            let made = Scheme::newmark(0.25, 0.5).distortion(angle);
+            let made = TimeScheme::newmark(0.25, 0.5).distortion(angle);
             let exact = angle / (2.0 * (0.5 * angle).atan()) - 1.0;
             assert!((made.period - exact).abs() < 1e-9 && made.damping.abs() < 1e-9, "{angle} {made:?}");
         }

@@ -5,7 +5,7 @@ use windlass_model::{Body, ClassError, Model};
 
 /// What a condition watches.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Watched {
+pub enum Observable {
     /// The tension of a connector: the size of the force at the end that pulls, its first one but of a pipe (N); negative where it pushes.
     Tension(String),
     /// A degree of freedom of a body's origin (m; roll, pitch and yaw in rad).
@@ -16,18 +16,18 @@ pub enum Watched {
 
 /// When something happens.
 #[derive(Clone, Debug, PartialEq)]
-pub enum When {
+pub enum Trigger {
     /// At the first step that ends at this time (s) or after it; the step is made to end there.
     At(f64),
     /// When what is watched is first above the value, within a 64th of a step.
-    Above(Watched, f64),
+    Above(Observable, f64),
     /// When it is first below.
-    Below(Watched, f64),
+    Below(Observable, f64),
 }
 
 /// What happens.
 #[derive(Clone, Debug, PartialEq)]
-pub enum What {
+pub enum ActionKind {
     /// Connectors stop to act: they break, or are released.
     Release(Vec<String>),
     /// Connectors begin to act.
@@ -47,16 +47,16 @@ pub struct Action {
     /// Its name as written.
     pub name: String,
     /// When.
-    pub when: When,
+    pub when: Trigger,
     /// What.
-    pub what: What,
+    pub what: ActionKind,
 }
 
-impl When {
+impl Trigger {
     /// The connector whose tension is watched.
     pub fn connector(&self) -> Option<&String> {
         match self {
-            When::Above(Watched::Tension(name), _) | When::Below(Watched::Tension(name), _) => Some(name),
+            Trigger::Above(Observable::Tension(name), _) | Trigger::Below(Observable::Tension(name), _) => Some(name),
             _ => None,
         }
     }
@@ -66,15 +66,15 @@ impl Action {
     /// The connectors it is about.
     pub fn connectors(&self) -> &[String] {
         match &self.what {
-            What::Release(names) | What::Activate(names) | What::Winch(names, ..) => names,
-            What::Environment(_) | What::Stop => &[],
+            ActionKind::Release(names) | ActionKind::Activate(names) | ActionKind::Winch(names, ..) => names,
+            ActionKind::Environment(_) | ActionKind::Stop => &[],
         }
     }
 
     /// The environment it brings, where it does.
     pub fn environment(&self) -> Option<&String> {
         match &self.what {
-            What::Environment(name) => Some(name),
+            ActionKind::Environment(name) => Some(name),
             _ => None,
         }
     }

@@ -5,7 +5,7 @@
 
 use windlass_model::{ClassError, LineNode};
 use windlass_signal::SeriesError;
-use windlass_signal::line::envelope::{Envelope, Seen};
+use windlass_signal::line::envelope::{Envelope, EnvelopeValue};
 
 /// Numbers of every node: unstretched distance from the first end, x, y, z, clearance of the bottom (m; none: not a number), effective
 /// tension (N).
@@ -159,7 +159,7 @@ impl AlongColumns {
 
 /// Quantities of a node whose least, mean and most are reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
+pub enum NodeQuantity {
     /// Unstretched distance from the first end (m).
     Arc,
     /// Height over the bottom (m).
@@ -180,32 +180,32 @@ pub enum Quantity {
     VonMisesBehind,
 }
 
-impl Quantity {
-    const ALL: [Quantity; 9] = [
-        Quantity::Arc,
-        Quantity::Clearance,
-        Quantity::Effective,
-        Quantity::Wall,
-        Quantity::Shear,
-        Quantity::Moment,
-        Quantity::VonMises,
-        Quantity::VonMisesBefore,
-        Quantity::VonMisesBehind,
+impl NodeQuantity {
+    const ALL: [NodeQuantity; 9] = [
+        NodeQuantity::Arc,
+        NodeQuantity::Clearance,
+        NodeQuantity::Effective,
+        NodeQuantity::Wall,
+        NodeQuantity::Shear,
+        NodeQuantity::Moment,
+        NodeQuantity::VonMises,
+        NodeQuantity::VonMisesBefore,
+        NodeQuantity::VonMisesBehind,
     ];
 
     /// Its value; not a number of a node that has none.
     pub fn value(self, node: &NodeRow) -> f64 {
         let bent = |of: fn(&BentRow) -> f64| node.bent.as_ref().map_or(f64::NAN, of);
         match self {
-            Quantity::Arc => node.arc,
-            Quantity::Clearance => node.clearance,
-            Quantity::Effective => node.effective,
-            Quantity::Wall => bent(|b| b.wall),
-            Quantity::Shear => bent(|b| b.shear),
-            Quantity::Moment => bent(BentRow::moment),
-            Quantity::VonMises => bent(BentRow::worse),
-            Quantity::VonMisesBefore => bent(|b| b.von_mises[0]),
-            Quantity::VonMisesBehind => bent(|b| b.von_mises[1]),
+            NodeQuantity::Arc => node.arc,
+            NodeQuantity::Clearance => node.clearance,
+            NodeQuantity::Effective => node.effective,
+            NodeQuantity::Wall => bent(|b| b.wall),
+            NodeQuantity::Shear => bent(|b| b.shear),
+            NodeQuantity::Moment => bent(BentRow::moment),
+            NodeQuantity::VonMises => bent(BentRow::worse),
+            NodeQuantity::VonMisesBefore => bent(|b| b.von_mises[0]),
+            NodeQuantity::VonMisesBehind => bent(|b| b.von_mises[1]),
         }
     }
 }
@@ -223,14 +223,14 @@ impl AlongEnvelope {
         let time = row.first().copied().unwrap_or(f64::NAN);
         let all = (0..along.numbers.len()).flat_map(|place| {
             let node = along.node(place, row);
-            Quantity::ALL.map(|quantity| node.as_ref().map_or(f64::NAN, |node| quantity.value(node)))
+            NodeQuantity::ALL.map(|quantity| node.as_ref().map_or(f64::NAN, |node| quantity.value(node)))
         });
         self.0.take(time, all)
     }
 
     /// What was seen of a quantity at the node of a place; none where it never was there.
-    pub fn extremes(&self, place: usize, quantity: Quantity) -> Option<Seen> {
-        self.0.extremes(place * Quantity::ALL.len() + quantity as usize)
+    pub fn extremes(&self, place: usize, quantity: NodeQuantity) -> Option<EnvelopeValue> {
+        self.0.extremes(place * NodeQuantity::ALL.len() + quantity as usize)
     }
 }
 
@@ -296,11 +296,11 @@ mod tests {
             columns.write(&nodes, &mut row).unwrap();
             envelope.take(&columns, &row).unwrap();
         }
-        let top = envelope.extremes(0, Quantity::Effective).unwrap();
+        let top = envelope.extremes(0, NodeQuantity::Effective).unwrap();
         assert_eq!((top.least.value, top.most.value, top.most.time, top.count), (100.0, 200.0, 2.0, 2));
-        assert_eq!(envelope.extremes(1, Quantity::Moment).unwrap().count, 1);
-        assert_eq!(envelope.extremes(2, Quantity::Arc).unwrap().least.value, 1.0);
-        assert_eq!(envelope.extremes(2, Quantity::Clearance), None);
+        assert_eq!(envelope.extremes(1, NodeQuantity::Moment).unwrap().count, 1);
+        assert_eq!(envelope.extremes(2, NodeQuantity::Arc).unwrap().least.value, 1.0);
+        assert_eq!(envelope.extremes(2, NodeQuantity::Clearance), None);
     }
 
     #[test]

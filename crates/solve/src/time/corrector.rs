@@ -1,8 +1,8 @@
 //! A step by predictor and corrector, for `-NEWMARK NO`.
 
-use super::forces::Motion;
-use super::scheme::Scheme;
-use super::step::{Convergence, Effort, Instant, Stepper, not_finite, unsolved_error};
+use super::forces::BodyMotion;
+use super::scheme::TimeScheme;
+use super::step::{Convergence, Effort, Stepper, SystemInstant, not_finite, unsolved_error};
 use crate::system::{SolveError, System};
 use windlass_base::pose::Six;
 use windlass_model::ClassError;
@@ -12,7 +12,7 @@ impl Stepper {
     pub(super) fn corrector(
         &mut self,
         system: &mut System,
-        now: &mut Instant,
+        now: &mut SystemInstant,
         dt: f64,
         wanted: &Convergence,
     ) -> Result<Effort, SolveError> {
@@ -26,12 +26,16 @@ impl Stepper {
             return Err(SolveError { who: name, error });
         }
         let start = now.motions.clone();
-        let mut ahead =
-            Instant { time, motions: start.clone(), memory: std::mem::take(&mut now.memory), ..Instant::default() };
+        let mut ahead = SystemInstant {
+            time,
+            motions: start.clone(),
+            memory: std::mem::take(&mut now.memory),
+            ..SystemInstant::default()
+        };
         std::mem::swap(&mut ahead.forces, &mut now.forces);
         // Euler's step first, with the place to second order; then the mean of both ends
-        let euler = Scheme::newmark(0.0, 0.0);
-        let trapezoid = Scheme::newmark(0.25, 0.5);
+        let euler = TimeScheme::newmark(0.0, 0.0);
+        let trapezoid = TimeScheme::newmark(0.25, 0.5);
         let outcome = self.correct(system, &start, &mut ahead, dt, ([euler, trapezoid], wanted, &mut effort));
         std::mem::swap(&mut ahead.forces, &mut now.forces);
         now.memory = std::mem::take(&mut ahead.memory);
@@ -44,10 +48,10 @@ impl Stepper {
     fn correct(
         &mut self,
         system: &System,
-        start: &[Motion],
-        ahead: &mut Instant,
+        start: &[BodyMotion],
+        ahead: &mut SystemInstant,
         dt: f64,
-        ([euler, trapezoid], wanted, effort): ([Scheme; 2], &Convergence, &mut Effort),
+        ([euler, trapezoid], wanted, effort): ([TimeScheme; 2], &Convergence, &mut Effort),
     ) -> Result<(), SolveError> {
         let mut scheme = euler;
         loop {

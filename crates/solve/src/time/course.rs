@@ -1,7 +1,7 @@
 //! How a run is to go, how it ended and what it did, and who follows it.
 
 use super::along::AlongColumns;
-use super::history::Layout;
+use super::history::RowLayout;
 use super::scheme::Method;
 use super::snapshot::Snapshot;
 use super::step::Convergence;
@@ -10,7 +10,7 @@ use windlass_model::ClassError;
 
 /// How a run goes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct RunSettings {
     /// Length of the run (s).
     pub observed: f64,
     /// Step (s).
@@ -38,12 +38,12 @@ pub struct Settings {
 /// Most bytes of the rows of a run.
 const MAX_RUN_BYTES: f64 = 4e9;
 
-impl Settings {
+impl RunSettings {
     /// Sees that the rows of a run have room in memory.
     ///
     /// # Errors
     /// They would take more than 4 GB.
-    pub fn fits(&self, layout: &Layout) -> Result<(), SolveError> {
+    pub fn fits(&self, layout: &RowLayout) -> Result<(), SolveError> {
         if !self.keep {
             return Ok(());
         }

@@ -1,7 +1,7 @@
 //! What a run asks of its dynamic lines: they are made for it.
 
-use super::action::{Action, What};
-use super::course::Settings;
+use super::action::{Action, ActionKind};
+use super::course::RunSettings;
 use super::scheme::Method;
 use std::collections::{BTreeMap, BTreeSet};
 use windlass_model::{Model, RunRequirement, SchemeWeights};
@@ -21,15 +21,15 @@ pub struct RunRequirements {
 
 impl RunRequirements {
     /// Those of a run at its start.
-    pub fn foreseen(model: &Model, actions: &[Action], settings: &Settings) -> Self {
-        let Settings { observed, books, .. } = *settings;
+    pub fn foreseen(model: &Model, actions: &[Action], settings: &RunSettings) -> Self {
+        let RunSettings { observed, books, .. } = *settings;
         let scheme = match &settings.method {
             Method::Implicit(scheme) => Some(scheme.weights()),
             Method::Corrector => None,
         };
         let mut longest: BTreeMap<String, f64> = BTreeMap::new();
         for action in actions {
-            let What::Winch(names, rate, to) = &action.what else { continue };
+            let ActionKind::Winch(names, rate, to) = &action.what else { continue };
             for name in names {
                 let key = Model::key(name);
                 let Some(now) = model.connectors.get(&key).and_then(|c| model.first_length(c)) else { continue };

@@ -1,17 +1,17 @@
 //! Ends of connectors under way.
 
-use super::forces::Motion;
-use crate::link::Attachment;
+use super::forces::BodyMotion;
+use crate::link::EndAttachment;
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::End;
 
 /// An end of a connector on a body that moves, or in the ground, and its arm from the origin of its body (m, global). Its acceleration
 /// is reported where it is wanted.
-pub(crate) fn end_of(end: &Attachment, motions: &[Motion], accelerates: bool) -> (End, Vector3<f64>) {
+pub(crate) fn end_of(end: &EndAttachment, motions: &[BodyMotion], accelerates: bool) -> (End, Vector3<f64>) {
     let (body, at) = match end {
-        Attachment::Ground(pose) => return (End::still(*pose), Vector3::zeros()),
-        Attachment::Body(body, at) => (motions[*body], at),
+        EndAttachment::Ground(pose) => return (End::still(*pose), Vector3::zeros()),
+        EndAttachment::Body(body, at) => (motions[*body], at),
     };
     let pose = Pose { origin: body.pose.point(*at), axes: body.pose.axes };
     let arm = pose.origin - body.pose.origin;

@@ -1,10 +1,10 @@
 //! What happens on the way of a run: conditions are looked at behind every step, which is cut where one comes true, connectors come and go, lengths change.
 
-use super::action::{Watched, What, When, point_in_body};
+use super::action::{ActionKind, Observable, Trigger, point_in_body};
 use super::ends::end_of;
 use super::pushing::pull;
 use super::run::Run;
-use crate::link::Attachment;
+use crate::link::EndAttachment;
 use crate::system::SolveError;
 use std::sync::Arc;
 use windlass_base::geometry::Position;
@@ -65,10 +65,12 @@ impl Run {
             let wrong = |error: ClassError| {
                 SolveError::new(ClassError { message: format!("action {}: {}", action.name, error.message), ..error })
             };
-            if let When::Above(Watched::Height(point), _) | When::Below(Watched::Height(point), _) = &action.when {
+            if let Trigger::Above(Observable::Height(point), _) | Trigger::Below(Observable::Height(point), _) =
+                &action.when
+            {
                 point_in_body(&self.model, point).map_err(wrong)?;
             }
-            if let What::Winch(names, rate, _) = &action.what {
+            if let ActionKind::Winch(names, rate, _) = &action.what {
                 for name in names {
                     self.parts_to_wind(name, *rate)?;
                     let connector = self.model.connectors.get(&Model::key(name));
@@ -84,7 +86,7 @@ impl Run {
     /// The next time an action waits for, up to `end`.
     pub(super) fn next_action(&self, end: f64) -> Option<f64> {
         let waits = self.actions.iter().zip(&self.fired).filter(|(_, f)| f.is_none());
-        let times = waits.filter_map(|(a, _)| if let When::At(t) = a.when { Some(t) } else { None });
+        let times = waits.filter_map(|(a, _)| if let Trigger::At(t) = a.when { Some(t) } else { None });
         times.filter(|t| *t > self.now.time && *t < end).min_by(f64::total_cmp)
     }
 
@@ -122,8 +124,8 @@ impl Run {
 
     /// The error of a winch that has nothing left to haul in so much later than now (s).
     fn taken_in(&self, name: &str, left: f64) -> SolveError {
-        let winds = |what: &What| match what {
-            What::Winch(names, ..) => names.iter().any(|n| n.eq_ignore_ascii_case(name)),
+        let winds = |what: &ActionKind| match what {
+            ActionKind::Winch(names, ..) => names.iter().any(|n| n.eq_ignore_ascii_case(name)),
             _ => false,
         };
         let since = self.actions.iter().zip(&self.fired).filter(|(a, _)| winds(&a.what));
@@ -160,33 +162,33 @@ impl Run {
 
     /// Whether a condition is still waited for.
     pub(super) fn waits(&self) -> bool {
-        self.actions.iter().zip(&self.fired).any(|(a, f)| f.is_none() && !matches!(a.when, When::At(_)))
+        self.actions.iter().zip(&self.fired).any(|(a, f)| f.is_none() && !matches!(a.when, Trigger::At(_)))
     }
 
     /// Whether a condition that is waited for is true now.
     pub(super) fn comes_true(&self) -> bool {
         let waited = self.actions.iter().zip(&self.fired).filter(|(_, f)| f.is_none());
-        waited.into_iter().any(|(a, _)| !matches!(a.when, When::At(_)) && self.due(&a.when))
+        waited.into_iter().any(|(a, _)| !matches!(a.when, Trigger::At(_)) && self.due(&a.when))
     }
 
-    fn due(&self, when: &When) -> bool {
+    fn due(&self, when: &Trigger) -> bool {
         match when {
-            When::At(time) => self.now.time >= time - 1e-9 * self.settings.dt,
-            When::Above(watched, value) => self.observed_value(watched).is_some_and(|v| v > *value),
-            When::Below(watched, value) => self.observed_value(watched).is_some_and(|v| v < *value),
+            Trigger::At(time) => self.now.time >= time - 1e-9 * self.settings.dt,
+            Trigger::Above(watched, value) => self.observed_value(watched).is_some_and(|v| v > *value),
+            Trigger::Below(watched, value) => self.observed_value(watched).is_some_and(|v| v < *value),
         }
     }
 
     /// The value of what is watched.
-    fn observed_value(&self, watched: &Watched) -> Option<f64> {
+    fn observed_value(&self, watched: &Observable) -> Option<f64> {
         match watched {
-            Watched::Tension(name) => {
+            Observable::Tension(name) => {
                 let mut first = 0;
                 for link in &self.system.links {
                     if link.name.eq_ignore_ascii_case(name) {
                         let told = link.element.pulling_end();
                         let force = self.now.forces.wrenches.get(first + told)?.fixed_rows::<3>(0).into_owned();
-                        let at = |end: &Attachment| end_of(end, &self.now.motions, false).0.pose.origin;
+                        let at = |end: &EndAttachment| end_of(end, &self.now.motions, false).0.pose.origin;
                         let away = |from| {
                             Some(pull(
                                 &force,
@@ -200,12 +202,12 @@ impl Run {
                 }
                 None
             }
-            Watched::Dof(body, dof) => {
+            Observable::Dof(body, dof) => {
                 let index = self.model.bodies.get_index_of(&Model::key(body))?;
                 let place = self.now.motions.get(index)?.pose.place(self.near.get(index)?);
                 place.shift.iter().chain(&place.turn).nth(*dof).copied()
             }
-            Watched::Height(point) => {
+            Observable::Height(point) => {
                 let (body, at): (usize, Position) = point_in_body(&self.model, point).ok()?;
                 let place = self.now.motions.get(body)?.pose.point(at.into());
                 Some(place.z - self.system.surroundings.tide)
@@ -228,10 +230,10 @@ impl Run {
             if let Some(fired) = self.fired.get_mut(index) {
                 *fired = Some(self.now.time);
             }
-            changed |= !matches!(action.what, What::Stop | What::Winch(..));
+            changed |= !matches!(action.what, ActionKind::Stop | ActionKind::Winch(..));
             match &action.what {
-                What::Stop => stop = Some(action.name.clone()),
-                What::Winch(names, rate, to) => {
+                ActionKind::Stop => stop = Some(action.name.clone()),
+                ActionKind::Winch(names, rate, to) => {
                     for name in names {
                         self.winds(&action.name, name, *rate, *to)?;
                         self.winches.retain(|(n, ..)| !n.eq_ignore_ascii_case(name));
@@ -273,9 +275,9 @@ impl Run {
         Ok(())
     }
 
-    pub(super) fn change(&mut self, what: &What) -> Result<(), SolveError> {
+    pub(super) fn change(&mut self, what: &ActionKind) -> Result<(), SolveError> {
         match what {
-            What::Release(names) => {
+            ActionKind::Release(names) => {
                 for name in names {
                     self.winches.retain(|(n, ..)| !n.eq_ignore_ascii_case(name));
                     // a dynamic line is let go at its first end, and falls
@@ -291,7 +293,7 @@ impl Run {
                     }
                 }
             }
-            What::Activate(names) => {
+            ActionKind::Activate(names) => {
                 for name in names {
                     if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
                         connector.active = true;
@@ -303,7 +305,7 @@ impl Run {
                     self.system.take_in(&self.model, name)?;
                 }
             }
-            What::Environment(name) => {
+            ActionKind::Environment(name) => {
                 let found = self.model.environments.get(&Model::key(name)).cloned();
                 let missing = || SolveError::new(ClassError::new(format!("there is no environment {name}")));
                 self.model.environment = found.ok_or_else(missing)?;
@@ -314,7 +316,7 @@ impl Run {
                 // a body that rides on the waves is where the new ones have it, as they are there at once
                 self.prescribe()?;
             }
-            What::Winch(..) | What::Stop => {}
+            ActionKind::Winch(..) | ActionKind::Stop => {}
         }
         Ok(())
     }

@@ -7,7 +7,7 @@
 //! A dynamic line changes its pull without its ends, and by their accelerations: `- (M0 + M1)/2 (a1 - a0)` more, and by how much
 //! all this was off in the last steps, continued by a parabola, too.
 
-use super::forces::Motion;
+use super::forces::BodyMotion;
 use nalgebra::{DMatrix, DVector};
 use windlass_base::pose::Six;
 
@@ -16,13 +16,13 @@ const EQUAL_STEPS_SHARE: f64 = 1e-6;
 
 /// A matrix at the ends of the last steps, and the mean of its value now and that expected at the end of the next.
 #[derive(Debug, Default)]
-struct Course {
+struct MatrixHistory {
     mean: DMatrix<f64>,
     last: DMatrix<f64>,
     before: DMatrix<f64>,
 }
 
-impl Course {
+impl MatrixHistory {
     /// Goes on to its value now, after so many others in a row.
     fn take(&mut self, now: &DMatrix<f64>, count: usize) {
         let [a, b, c] = match count {
@@ -50,9 +50,9 @@ pub(super) struct ForcePredictor {
     count: usize,
     /// That length (s).
     step: f64,
-    stiffness: Course,
-    damping: Course,
-    inertia: Course,
+    stiffness: MatrixHistory,
+    damping: MatrixHistory,
+    inertia: MatrixHistory,
     /// By how much the ends of the last steps in a row were off, the latest first (N, N m), and how many of these there are.
     off: [DVector<f64>; 3],
     known: usize,
@@ -89,7 +89,7 @@ impl ForcePredictor {
 
     /// Adds to the forces of the start of a step what accelerations make of them over it, and by how much the steps before were off.
     /// False without enough of these to go by.
-    pub(super) fn add_moving(&self, (trial, start): (&[Motion], &[Motion]), sum: &mut DVector<f64>) -> bool {
+    pub(super) fn add_moving(&self, (trial, start): (&[BodyMotion], &[BodyMotion]), sum: &mut DVector<f64>) -> bool {
         let weights = match self.known {
             0 => return false,
             1 => [1.0, 0.0, 0.0],
@@ -104,7 +104,7 @@ impl ForcePredictor {
     }
 
     /// Adds to the forces of the start of a step what accelerations make of them over it.
-    pub(super) fn add_inertia(&self, (trial, start): (&[Motion], &[Motion]), sum: &mut DVector<f64>) {
+    pub(super) fn add_inertia(&self, (trial, start): (&[BodyMotion], &[BodyMotion]), sum: &mut DVector<f64>) {
         if self.inertia.mean.nrows() != sum.len() {
             return;
         }
@@ -115,7 +115,7 @@ impl ForcePredictor {
     }
 
     /// Learns from the forces at the end of a step by how much they would have been off.
-    pub(super) fn learn(&mut self, dt: f64, motions: (&[Motion], &[Motion], &[Six]), sum: &DVector<f64>) {
+    pub(super) fn learn(&mut self, dt: f64, motions: (&[BodyMotion], &[BodyMotion], &[Six]), sum: &DVector<f64>) {
         let mut told = std::mem::take(&mut self.start);
         if told.len() == sum.len() && self.add(dt, motions, &mut told) {
             self.add_inertia((motions.0, motions.1), &mut told);
@@ -135,7 +135,7 @@ impl ForcePredictor {
     pub(super) fn add(
         &self,
         dt: f64,
-        (trial, start, over): (&[Motion], &[Motion], &[Six]),
+        (trial, start, over): (&[BodyMotion], &[BodyMotion], &[Six]),
         sum: &mut DVector<f64>,
     ) -> bool {
         if self.count == 0 || (dt - self.step).abs() > EQUAL_STEPS_SHARE * dt {
@@ -162,7 +162,8 @@ mod tests {
         for t in [-0.2, -0.1, 0.0] {
             made.take(0.1, &whole(stiffness(t)), &whole(damping(t)));
         }
-        let (start, trial) = (Motion::default(), Motion { velocity: Six::repeat(0.4), ..Motion::default() });
+        let (start, trial) =
+            (BodyMotion::default(), BodyMotion { velocity: Six::repeat(0.4), ..BodyMotion::default() });
         let mut sum = DVector::zeros(6);
         let (start, over) = ([start], [Six::repeat(0.3)]);
         assert!(!made.add(0.05, (&[trial], &start, &over), &mut sum));
@@ -178,10 +179,10 @@ mod tests {
         let whole = |value: f64| DMatrix::from_diagonal_element(6, 6, value);
         let own = |t: f64| 7.0 * t * t * t - 4.0 * t * t + t;
         let place = |t: f64| 0.3 * t * t;
-        let motion = |t: f64| Motion {
+        let motion = |t: f64| BodyMotion {
             velocity: Six::repeat(0.6 * t),
             acceleration: Six::repeat(0.6 * (10.0 * t).sin()),
-            ..Motion::default()
+            ..BodyMotion::default()
         };
         let force = |t: f64| {
             let at = motion(t);

@@ -4,21 +4,21 @@ use super::ends::end_of;
 use super::force_predictor::ForcePredictor;
 use super::inertia::of_added;
 use super::parallel::LineTask;
-use crate::link::{Attachment, Link};
-use crate::system::{Node, SolveError, System};
+use crate::link::{EndAttachment, Link};
+use crate::system::{SolveError, System, SystemBody};
 use crate::ties::Ties;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{BodyLoad, Category, MovingLoad, Underway, move_stiffness, move_wrench, turning};
-use windlass_model::{Anchored, End, Guess, Response, Situation, TimeStep};
+use windlass_model::{Anchored, ElementResponse, End, Guess, Situation, TimeStep};
 
 /// Number of categories.
 pub const CATEGORY_COUNT: usize = Category::ALL.len();
 
 /// A body's motion at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Motion {
+pub struct BodyMotion {
     /// Where it is.
     pub pose: Pose,
     /// Velocity of its origin (m/s) and its rotation (rad/s), global axes.
@@ -33,7 +33,7 @@ pub struct Motion {
 
 /// What bodies and connectors remember: the states of loads, one vector, each load with its range.
 #[derive(Clone, Debug, Default)]
-pub struct Memory {
+pub struct LoadMemory {
     /// Values of all loads.
     pub loads: Vec<f64>,
     /// Where those of each load of each body stand.
@@ -42,10 +42,10 @@ pub struct Memory {
     ahead: Vec<Six>,
 }
 
-impl Memory {
+impl LoadMemory {
     /// That of a system before anything has happened.
     pub fn new(system: &System) -> Self {
-        let mut memory = Memory::default();
+        let mut memory = LoadMemory::default();
         for node in &system.nodes {
             let mut ranges = Vec::new();
             for load in &node.floating.loads {
@@ -70,7 +70,7 @@ impl Memory {
     }
 
     /// Gives the loads of a body what those of an earlier system, in their order, remembered.
-    pub(crate) fn recall(&mut self, body: usize, system: &System, (memory, old): (&Memory, &Node)) {
+    pub(crate) fn recall(&mut self, body: usize, system: &System, (memory, old): (&LoadMemory, &SystemBody)) {
         let (Some(node), Some(ranges)) = (system.nodes.get(body), self.ranges.get(body)) else { return };
         let Some(before) = memory.ranges.get(body) else { return };
         let mut earlier: Vec<_> = old.floating.loads.iter().map(|l| l.category()).zip(before).collect();
@@ -87,7 +87,7 @@ impl Memory {
     pub(crate) fn begin(
         &mut self,
         system: &System,
-        (start, ahead): (&[Motion], &[Motion]),
+        (start, ahead): (&[BodyMotion], &[BodyMotion]),
         (time, dt): (f64, f64),
     ) -> Result<(), SolveError> {
         self.ahead.clear();
@@ -111,7 +111,7 @@ impl Memory {
     }
 
     /// Tells every load that a step is accepted.
-    pub(super) fn commit(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
+    pub(super) fn commit(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) {
         for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(motions) {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
             for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
@@ -123,7 +123,7 @@ impl Memory {
 
 /// Forces at an instant, six a body about its origin, global axes.
 #[derive(Debug, Default)]
-pub struct Forces {
+pub struct BodyForces {
     /// All that acts but inertia (N, N m).
     pub sum: DVector<f64>,
     /// -d(sum)/d(motion of the bodies).
@@ -152,7 +152,7 @@ pub struct Forces {
     /// Those of them, evaluated side by side.
     pub(super) alone: Vec<LineTask>,
     made: MovingLoad,
-    response: Response,
+    response: ElementResponse,
     pub(super) ends: Vec<End>,
     arms: Vec<Vector3<f64>>,
 }
@@ -162,7 +162,7 @@ pub fn place_of(category: Category) -> usize {
     Category::ALL.iter().position(|c| *c == category).unwrap_or(0)
 }
 
-impl Forces {
+impl BodyForces {
     fn clear(&mut self, system: &System) {
         let size = 6 * system.nodes.len();
         if self.stiffness.nrows() != size {
@@ -203,7 +203,11 @@ impl Forces {
 
     /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and
     /// the change of velocity of each body over the step, with what its loads hold ready. False without a step to go by.
-    pub(super) fn foretell(&mut self, (memory, dt): (&Memory, f64), motions: (&[Motion], &[Motion], &[Six])) -> bool {
+    pub(super) fn foretell(
+        &mut self,
+        (memory, dt): (&LoadMemory, f64),
+        motions: (&[BodyMotion], &[BodyMotion], &[Six]),
+    ) -> bool {
         for (body, held) in memory.ahead.iter().enumerate() {
             let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
             at += held;
@@ -220,7 +224,7 @@ impl Forces {
     }
 
     /// They are those of a trial that holds, of a step of a length (s): what foretells the next learns by it.
-    pub(super) fn learn(&mut self, dt: f64, motions: (&[Motion], &[Motion], &[Six])) {
+    pub(super) fn learn(&mut self, dt: f64, motions: (&[BodyMotion], &[BodyMotion], &[Six])) {
         if self.moving {
             self.foretelling.learn(dt, motions, &self.sum);
         }
@@ -233,8 +237,8 @@ impl Forces {
     pub fn evaluate(
         &mut self,
         system: &System,
-        memory: &Memory,
-        motions: &[Motion],
+        memory: &LoadMemory,
+        motions: &[BodyMotion],
         (time, dt): (f64, f64),
     ) -> Result<(), SolveError> {
         self.clear(system);
@@ -298,7 +302,7 @@ impl Forces {
     }
 
     /// Adds what connectors exert.
-    fn connect(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
+    fn connect(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
         self.connect_moving(system, motions, (time, dt));
         let mut alone = 0..;
         let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
@@ -309,7 +313,7 @@ impl Forces {
             let Some(guess) = self.guesses.get_mut(index) else { continue };
             let step = (dt > 0.0).then_some(TimeStep { time, dt });
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
-            let anchored = matches!(link.ends.as_slice(), [Attachment::Body(..), Attachment::Ground(_)]);
+            let anchored = matches!(link.ends.as_slice(), [EndAttachment::Body(..), EndAttachment::Ground(_)]);
             if let (true, Some(found)) = (anchored, link.element.find_anchored(&at, guess)) {
                 let Anchored { wrenches, stiffness } = found.map_err(SolveError::about(&link.name))?;
                 self.wrenches.extend_from_slice(&wrenches);
@@ -341,7 +345,7 @@ impl Forces {
             let category = if link.element.rigid() { rigid } else { flexible };
             let count = link.ends.len();
             for (i, (end, own)) in link.ends.iter().zip(&self.arms).enumerate() {
-                let Attachment::Body(body, _) = end else { continue };
+                let EndAttachment::Body(body, _) = end else { continue };
                 let wrench = &self.response.wrench[i];
                 let about = move_wrench(wrench, *own);
                 let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
@@ -351,7 +355,7 @@ impl Forces {
                 }
                 self.pull[*body] = self.pull[*body].max(wrench.fixed_rows::<3>(0).norm());
                 for (j, (other, far)) in link.ends.iter().zip(&self.arms).enumerate() {
-                    let Attachment::Body(column, _) = other else { continue };
+                    let EndAttachment::Body(column, _) = other else { continue };
                     if let Some(block) = self.response.stiffness.get(count * i + j) {
                         let mut moved = move_stiffness(block, *own, *far);
                         if i == j {
@@ -375,7 +379,7 @@ impl Forces {
     }
 
     /// Where the ends of a connector are and how they move, and their arms from the origins of their bodies.
-    pub(super) fn place_ends(&mut self, link: &Link, motions: &[Motion]) {
+    pub(super) fn place_ends(&mut self, link: &Link, motions: &[BodyMotion]) {
         self.ends.clear();
         self.arms.clear();
         for end in &link.ends {
@@ -387,7 +391,7 @@ impl Forces {
 
     /// Adds a force at the first end of a connector that the place of that end alone changes.
     fn hold(&mut self, link: &Link, wrenches: &[Six; 2], stiffness: &Matrix3<f64>, category: usize) {
-        let (Some(Attachment::Body(body, _)), Some(arm)) = (link.ends.first(), self.arms.first()) else { return };
+        let (Some(EndAttachment::Body(body, _)), Some(arm)) = (link.ends.first(), self.arms.first()) else { return };
         let [first, _] = wrenches;
         let force = Vector3::new(first[0], first[1], first[2]);
         let crossed = arm.cross_matrix();

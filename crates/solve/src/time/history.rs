@@ -5,10 +5,10 @@
 
 use super::along::AlongColumns;
 use super::ends::end_of;
-use super::forces::{CATEGORY_COUNT, Forces, Motion, place_of};
+use super::forces::{BodyForces, BodyMotion, CATEGORY_COUNT, place_of};
 use super::pushing::Pushing;
-use crate::link::{Attachment, Link};
-use crate::system::{Node, SolveError, System};
+use crate::link::{EndAttachment, Link};
+use crate::system::{SolveError, System, SystemBody};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
@@ -54,7 +54,7 @@ pub struct LinkEnds {
 
 /// Which number of a row is what.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Layout {
+pub struct RowLayout {
     /// Bodies as written, each with its key in the model.
     pub bodies: Vec<(String, String)>,
     /// Which degrees of freedom of each body move: the others stay as they are.
@@ -68,10 +68,10 @@ pub struct Layout {
     forces: usize,
 }
 
-impl Layout {
+impl RowLayout {
     /// That of a system; `links` are the connectors that act at some time; of their nodes every so manieth is kept, 0 for none.
     /// `later` are the loads of bodies in environments that come during the run: their categories have a place from the start.
-    pub fn new(system: &System, later: &[Node], links: Vec<LinkEnds>, every: usize) -> Self {
+    pub fn new(system: &System, later: &[SystemBody], links: Vec<LinkEnds>, every: usize) -> Self {
         let bodies: Vec<_> = system.nodes.iter().map(|n| (n.name.clone(), n.key.clone())).collect();
         let moves = system.nodes.iter().map(|n| n.free.map(|free| free || n.prescribed.is_some())).collect();
         let mut at = 1 + OF_BODY * bodies.len();
@@ -95,7 +95,7 @@ impl Layout {
         categories.extend(applied);
         let categories: Vec<Category> = Category::ALL.into_iter().filter(|c| categories.contains(c)).collect();
         let width = at + 6 * categories.len() * bodies.len();
-        Layout { bodies, moves, links: columns, categories, width, forces: at }
+        RowLayout { bodies, moves, links: columns, categories, width, forces: at }
     }
 
     /// Where the numbers of a body begin.
@@ -135,7 +135,7 @@ impl Layout {
 
 /// What a row is made of beside motions and forces.
 #[derive(Clone, Debug, Default)]
-pub struct Told {
+pub struct RowSources {
     /// Inertia, added inertia and turning of each body, as forces.
     pub inertia: Vec<[Six; 3]>,
     /// Length of the first segment of each connector of the layout (m).
@@ -148,14 +148,14 @@ pub struct Told {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     /// Which number is what.
-    pub layout: Layout,
+    pub layout: RowLayout,
     /// All rows, one behind the other.
     pub values: Vec<f64>,
 }
 
 impl History {
     /// Without rows.
-    pub fn new(layout: Layout) -> Self {
+    pub fn new(layout: RowLayout) -> Self {
         History { layout, values: Vec::new() }
     }
 
@@ -185,7 +185,7 @@ impl History {
     }
 }
 
-impl Layout {
+impl RowLayout {
     /// Writes the row of an instant. `near` are the places of the row before: angles go on from them without a jump.
     ///
     /// # Errors
@@ -193,7 +193,7 @@ impl Layout {
     pub fn write(
         &self,
         (system, time): (&System, f64),
-        (motions, forces, told): (&[Motion], &mut Forces, &mut Told),
+        (motions, forces, told): (&[BodyMotion], &mut BodyForces, &mut RowSources),
         near: &mut [Place],
         row: &mut Vec<f64>,
     ) -> Result<(), SolveError> {
@@ -228,7 +228,7 @@ impl Layout {
                 }
                 let mut at = columns.wrench;
                 for (end, wrench) in link.ends.iter().zip(forces.wrenches.iter().skip(first)) {
-                    if let (Attachment::Body(..), Some(place)) = (end, row.get_mut(at..at + 6)) {
+                    if let (EndAttachment::Body(..), Some(place)) = (end, row.get_mut(at..at + 6)) {
                         place.copy_from_slice(wrench.as_slice());
                         at += 6;
                     }
@@ -267,7 +267,7 @@ impl Layout {
 /// The nodes of a line at an instant.
 fn nodes_of(
     (system, link, guess): (&System, &Link, &mut Guess),
-    (time, motions): (f64, &[Motion]),
+    (time, motions): (f64, &[BodyMotion]),
     nodes: &mut Vec<LineNode>,
 ) -> Result<(), ClassError> {
     let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions, true).0).collect();

@@ -1,19 +1,19 @@
 //! The inertia of bodies under way, and how it changes as they turn.
 
-use super::forces::Motion;
-use crate::system::{Node, mass_block};
+use super::forces::BodyMotion;
+use crate::system::{SystemBody, mass_block};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_model::Mass;
 
 /// The inertia of a body about its origin in a pose, with added mass, global axes.
-pub fn inertia(node: &Node, pose: &Pose) -> Matrix6<f64> {
+pub fn inertia(node: &SystemBody, pose: &Pose) -> Matrix6<f64> {
     let own = mass_block(&node.floating.mass, pose);
     if node.added { own + node.floating.added_mass(pose) } else { own }
 }
 
 /// What turning adds to inertia: `m w x (w x r)` and `w x (I w)` about the origin, as what the forces have to balance.
-pub fn gyroscopic(mass: &Mass, motion: &Motion) -> Six {
+pub fn gyroscopic(mass: &Mass, motion: &BodyMotion) -> Six {
     let v = &motion.velocity;
     let turn = Vector3::new(v[3], v[4], v[5]);
     let axes = &motion.pose.axes;
@@ -24,7 +24,7 @@ pub fn gyroscopic(mass: &Mass, motion: &Motion) -> Six {
 
 /// How inertia about the origin changes with the rotation vector and with the rate of turning: `d(M a + gyroscopic)/d(motion)` and
 /// `/d(velocity)`.
-pub(super) fn turned_inertia(node: &Node, motion: &Motion) -> [Matrix6<f64>; 2] {
+pub(super) fn turned_inertia(node: &SystemBody, motion: &BodyMotion) -> [Matrix6<f64>; 2] {
     let [mut place, velocity] = of_mass(&node.floating.mass, motion);
     if node.added {
         place += of_added(&node.floating.added_mass(&motion.pose), &motion.acceleration);
@@ -48,7 +48,7 @@ pub(super) fn of_added(matrix: &Matrix6<f64>, a: &Six) -> Matrix6<f64> {
 }
 
 /// The same of a mass. A lever turns by -[lever] times the rotation, a moment of inertia as its axes do.
-fn of_mass(mass: &Mass, motion: &Motion) -> [Matrix6<f64>; 2] {
+fn of_mass(mass: &Mass, motion: &BodyMotion) -> [Matrix6<f64>; 2] {
     let (a, v, axes) = (&motion.acceleration, &motion.velocity, &motion.pose.axes);
     let [linear, alpha] = [Vector3::new(a[0], a[1], a[2]), Vector3::new(a[3], a[4], a[5])].map(|x| x.cross_matrix());
     let omega = Vector3::new(v[3], v[4], v[5]).cross_matrix();
@@ -76,9 +76,13 @@ mod tests {
         let mass = Mass { mass: 100.0, centre: Vector3::new(3.0, -2.0, 5.0), inertia };
         let pose = Pose::default().after_motion(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
         let velocity = Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2);
-        let start =
-            Motion { pose, velocity, acceleration: Six::new(0.7, -1.1, 0.4, 0.2, 0.6, -0.9), ..Motion::default() };
-        let whole = |m: &Motion| mass_block(&mass, &m.pose) * m.acceleration + gyroscopic(&mass, m);
+        let start = BodyMotion {
+            pose,
+            velocity,
+            acceleration: Six::new(0.7, -1.1, 0.4, 0.2, 0.6, -0.9),
+            ..BodyMotion::default()
+        };
+        let whole = |m: &BodyMotion| mass_block(&mass, &m.pose) * m.acceleration + gyroscopic(&mass, m);
         let [place, rate] = of_mass(&mass, &start);
         for n in 0..6 {
             // central differences of 1e-6 of numbers of 1e4: rounding 1e-16 * 1e4 / 1e-6, the third derivative 1e-12 * 1e4
@@ -86,8 +90,8 @@ mod tests {
             let moved = |sign: f64| {
                 let mut by = Six::zeros();
                 by[n] = sign * step;
-                let turned = Motion { pose: start.pose.after_motion(&by), ..start };
-                let faster = Motion { velocity: start.velocity + by, ..start };
+                let turned = BodyMotion { pose: start.pose.after_motion(&by), ..start };
+                let faster = BodyMotion { velocity: start.velocity + by, ..start };
                 [whole(&turned), whole(&faster)]
             };
             let ([a, c], [b, d]) = (moved(1.0), moved(-1.0));

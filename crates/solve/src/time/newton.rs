@@ -1,16 +1,16 @@
 //! Newton's correction of a trial: what is left of the balance, how it changes with the unknowns, and the trial moved by what that asks for.
 
-use super::forces::{Forces, Motion};
+use super::forces::{BodyForces, BodyMotion};
 use super::inertia::{gyroscopic, turned_inertia};
 use super::step::Stepper;
-use crate::system::{Node, System};
+use crate::system::{System, SystemBody};
 use nalgebra::{DMatrix, DVector, Matrix6};
 use windlass_base::dense::{DenseError, Lu, least_squares_of_one};
 use windlass_base::pose::Six;
 
 impl Stepper {
     /// Fills the right side with what is left; gives its measure (m/s2).
-    pub(super) fn residual(&mut self, system: &System, forces: &Forces) -> f64 {
+    pub(super) fn residual(&mut self, system: &System, forces: &BodyForces) -> f64 {
         if self.right.nrows() != self.rows.len() {
             self.right = DVector::zeros(self.rows.len());
         }
@@ -42,14 +42,14 @@ impl Stepper {
     }
 
     /// Adds to what is left what stiff ties have beyond the forces held in them: together they ask for a correction of both.
-    pub(super) fn ask(&mut self, forces: &Forces) {
+    pub(super) fn ask(&mut self, forces: &BodyForces) {
         for (i, row) in self.rows.iter().enumerate() {
             self.right[i] += forces.ties.excess[row.at];
         }
     }
 
     /// The forces of stiff ties follow the correction that was found.
-    pub(super) fn follow(&self, forces: &mut Forces, by_place: f64) {
+    pub(super) fn follow(&self, forces: &mut BodyForces, by_place: f64) {
         if forces.ties.is_empty() {
             return;
         }
@@ -63,11 +63,11 @@ impl Stepper {
     /// What turning changes in the inertia of each body.
     pub(super) fn turn(&mut self, system: &System) {
         self.turned.clear();
-        let made = |(node, trial): (&Node, &Motion)| turned_inertia(node, trial);
+        let made = |(node, trial): (&SystemBody, &BodyMotion)| turned_inertia(node, trial);
         self.turned.extend(system.nodes.iter().zip(&self.trial).map(made));
     }
 
-    pub(super) fn jacobian(&mut self, forces: &Forces, dt: f64, by_place: f64, by_velocity: f64) {
+    pub(super) fn jacobian(&mut self, forces: &BodyForces, dt: f64, by_place: f64, by_velocity: f64) {
         let size = self.rows.len();
         if self.matrix.nrows() != size {
             self.matrix = DMatrix::zeros(size, size);
@@ -134,7 +134,7 @@ impl Stepper {
     pub(super) fn correct_trial(
         &mut self,
         system: &System,
-        start: &[Motion],
+        start: &[BodyMotion],
         dt: f64,
         (gain, by_place, by_velocity): (f64, f64, f64),
     ) {

@@ -1,9 +1,9 @@
 //! Dynamic lines, evaluated side by side: each by itself, so that the number of threads changes nothing.
 
-use super::forces::{Forces, Motion};
+use super::forces::{BodyForces, BodyMotion};
 use crate::system::System;
 use std::sync::{Mutex, PoisonError};
-use windlass_model::{ClassError, End, Guess, Response, Situation, TimeStep};
+use windlass_model::{ClassError, ElementResponse, End, Guess, Situation, TimeStep};
 
 /// One of them, with what its evaluation needs and finds.
 #[derive(Default)]
@@ -13,7 +13,7 @@ pub(super) struct LineTask {
     pub ends: Vec<End>,
     pub trial: Vec<f64>,
     pub guess: Guess,
-    pub response: Response,
+    pub response: ElementResponse,
     pub failed: Option<ClassError>,
 }
 
@@ -23,9 +23,9 @@ impl std::fmt::Debug for LineTask {
     }
 }
 
-impl Forces {
+impl BodyForces {
     /// Evaluates the dynamic lines.
-    pub(super) fn connect_moving(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
+    pub(super) fn connect_moving(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) {
         if !self.moving {
             self.alone.clear();
             return;

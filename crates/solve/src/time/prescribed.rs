@@ -6,7 +6,7 @@
 mod response;
 mod spline;
 
-use super::forces::Motion;
+use super::forces::BodyMotion;
 use nalgebra::Vector3;
 use response::Riding;
 use spline::Spline;
@@ -24,7 +24,7 @@ pub trait Prescribed: Debug + Send + Sync {
     ///
     /// # Errors
     /// A time for which there is none.
-    fn motion_at(&self, time: f64) -> Result<Motion, ClassError>;
+    fn motion_at(&self, time: f64) -> Result<BodyMotion, ClassError>;
 }
 
 /// The motion a body of a model is given in a sea, from where it stands; `None` of one that forces move.
@@ -53,7 +53,7 @@ pub(super) type Freedoms = [[f64; 6]; 3];
 /// The axes are those of yaw about z, pitch about y and roll about x, each about the axes already turned. With e1 the body's x axis, e2 the
 /// y axis after the yaw alone and e3 the vertical, the rotation is `roll' e1 + pitch' e2 + yaw' e3`; e2 turns with the yaw and e1 with
 /// yaw and pitch, which gives its derivative.
-pub(super) fn motion_from_dofs([values, rates, seconds]: &Freedoms) -> Motion {
+pub(super) fn motion_from_dofs([values, rates, seconds]: &Freedoms) -> BodyMotion {
     let place = Place::new(*values);
     let pose = Pose::of(&place);
     let [_, _, yaw] = place.turn;
@@ -65,7 +65,7 @@ pub(super) fn motion_from_dofs([values, rates, seconds]: &Freedoms) -> Motion {
     let [ax, ay, az, by_roll, by_pitch, by_yaw] = *seconds;
     let change = e1 * by_roll + e2 * by_pitch + e3 * by_yaw + e3.cross(&e2) * (turn * pitch) + before.cross(&e1) * roll;
     let acceleration = Six::new(ax, ay, az, change.x, change.y, change.z);
-    Motion {
+    BodyMotion {
         pose,
         velocity: Six::new(x, y, z, rotation.x, rotation.y, rotation.z),
         acceleration,
@@ -99,7 +99,7 @@ pub(super) fn product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 impl Prescribed for Swinging {
-    fn motion_at(&self, time: f64) -> Result<Motion, ClassError> {
+    fn motion_at(&self, time: f64) -> Result<BodyMotion, ClassError> {
         let grown = ramp(time, self.ramp);
         let mut dofs = [self.place.values(), [0.0; 6], [0.0; 6]];
         for sine in &self.list {

@@ -1,7 +1,7 @@
 //! The pull of a connector as a number: its tension, negative of one that pushes.
 
 use super::history::OF_BODY;
-use crate::link::Attachment;
+use crate::link::EndAttachment;
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
@@ -24,13 +24,13 @@ pub struct Pushing {
 
 impl Pushing {
     /// Of a connector between two ends, of which that of a number is reported, or else the first on a body.
-    pub(crate) fn new(from: f64, ends: &[Attachment], told: usize) -> Option<Self> {
-        let place = |end: &Attachment| match end {
-            Attachment::Ground(pose) => (None, pose.origin),
-            Attachment::Body(body, at) => (Some(*body), *at),
+    pub(crate) fn new(from: f64, ends: &[EndAttachment], told: usize) -> Option<Self> {
+        let place = |end: &EndAttachment| match end {
+            EndAttachment::Ground(pose) => (None, pose.origin),
+            EndAttachment::Body(body, at) => (Some(*body), *at),
         };
         let [first, second] = ends else { return None };
-        let on_body = |end: &Attachment| matches!(end, Attachment::Body(..));
+        let on_body = |end: &EndAttachment| matches!(end, EndAttachment::Body(..));
         let second_told = if on_body(first) && on_body(second) { told == 1 } else { on_body(second) };
         let (near, far) = if second_told { (second, first) } else { (first, second) };
         Some(Pushing { from, ends: [place(near), place(far)] })

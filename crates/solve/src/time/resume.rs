@@ -1,7 +1,7 @@
 //! A run that goes on from a snapshot, and how it knows its own.
 
 use super::action::Action;
-use super::course::Settings;
+use super::course::RunSettings;
 use super::run::Run;
 use super::snapshot::Snapshot;
 use crate::system::SolveError;
@@ -51,7 +51,7 @@ impl Run {
             }
             made.numbers(&[sea.ramp]);
         }
-        let Settings { dt, method, convergence, adaptive, .. } = &self.settings;
+        let RunSettings { dt, method, convergence, adaptive, .. } = &self.settings;
         made.numbers(&[*dt, convergence.tolerance, adaptive.unwrap_or(0.0)]);
         made.bytes(format!("{method:?} {:?}", self.actions).as_bytes());
         made.numbers(self.model.parameters.dividing.as_slice());
@@ -68,7 +68,7 @@ impl Run {
     /// As [`Run::new`]; a snapshot of another system.
     pub fn resume(
         model: &Model,
-        settings: Settings,
+        settings: RunSettings,
         actions: Vec<Action>,
         (snapshot, rows): (&Snapshot, Vec<f64>),
     ) -> Result<Run, SolveError> {

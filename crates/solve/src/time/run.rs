@@ -3,14 +3,14 @@
 use super::accuracy::Accuracy;
 use super::action::Action;
 use super::along::AlongEnvelope;
-use super::course::{Counts, Ending, Settings, Watcher};
+use super::course::{Counts, Ending, RunSettings, Watcher};
 use super::duties::RunRequirements;
-use super::forces::{Memory, Motion};
-use super::history::{History, Layout, Told};
+use super::forces::{BodyMotion, LoadMemory};
+use super::history::{History, RowLayout, RowSources};
 use super::inertia::gyroscopic;
 use super::resolution::Resolution;
-use super::statistics::Statistics;
-use super::step::{Effort, Instant, Stepper};
+use super::statistics::RunStatistics;
+use super::step::{Effort, Stepper, SystemInstant};
 use crate::system::{SolveError, System, mass_block, moving_nodes};
 use std::sync::Arc;
 use windlass_base::geometry::Place;
@@ -32,7 +32,7 @@ pub struct Run {
     /// The model, with the connectors and lengths of now; bodies stand where they began.
     pub model: Model,
     /// How it goes.
-    pub settings: Settings,
+    pub settings: RunSettings,
     /// What happens.
     pub actions: Vec<Action>,
     /// When each action happened (s).
@@ -40,7 +40,7 @@ pub struct Run {
     /// Rows.
     pub history: History,
     /// Statistics of the stored instants behind the transient.
-    pub statistics: Statistics,
+    pub statistics: RunStatistics,
     /// Least and most along each line of the layout behind the transient, of a run that keeps no rows.
     pub envelopes: Vec<AlongEnvelope>,
     /// What it did.
@@ -52,13 +52,13 @@ pub struct Run {
     /// The sea now.
     pub sea: Option<Arc<Sea>>,
     pub(super) system: System,
-    pub(super) now: Instant,
+    pub(super) now: SystemInstant,
     pub(super) taken: usize,
     pub(super) winches: Vec<(String, f64, Option<f64>)>,
     stepper: Stepper,
     pub(super) near: Vec<Place>,
     row: Vec<f64>,
-    told: Told,
+    told: RowSources,
     /// Whether a length has changed since the last row.
     pub(super) wound: bool,
     /// The seas of the run, each with the time since when it has been there (s).
@@ -72,8 +72,8 @@ pub struct Run {
 /// What stood before a part of a step.
 struct Before {
     time: f64,
-    motions: Vec<Motion>,
-    memory: Memory,
+    motions: Vec<BodyMotion>,
+    memory: LoadMemory,
     states: Vec<f64>,
 }
 
@@ -89,7 +89,7 @@ impl Run {
     ///
     /// # Errors
     /// The body or connector that makes no part of it; an action on what is not there.
-    pub fn new(model: &Model, settings: Settings, actions: Vec<Action>) -> Result<Self, SolveError> {
+    pub fn new(model: &Model, settings: RunSettings, actions: Vec<Action>) -> Result<Self, SolveError> {
         model.check_added_mass().map_err(SolveError::new)?;
         let (origin, model) = (model.clone(), model.clone());
         let sea = Sea::new(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
@@ -112,21 +112,21 @@ impl Run {
             let sea = Sea::new(&changed, environment).map_err(SolveError::new)?.map(Arc::new);
             later.extend(moving_nodes(&changed, sea.as_ref())?);
         }
-        let layout = Layout::new(&system, &later, links, settings.along);
+        let layout = RowLayout::new(&system, &later, links, settings.along);
         settings.fits(&layout)?;
-        let motions: Vec<Motion> =
-            system.state(&model).poses.into_iter().map(|pose| Motion { pose, ..Motion::default() }).collect();
-        let memory = Memory::new(&system);
+        let motions: Vec<BodyMotion> =
+            system.state(&model).poses.into_iter().map(|pose| BodyMotion { pose, ..BodyMotion::default() }).collect();
+        let memory = LoadMemory::new(&system);
         let fired = vec![None; actions.len()];
         let near = model.bodies.values().map(|b| b.place).collect();
         let from = settings.transient;
         let mut run = Run {
-            now: Instant { motions, memory, ..Instant::default() },
+            now: SystemInstant { motions, memory, ..SystemInstant::default() },
             model,
             settings,
             actions,
             fired,
-            statistics: Statistics::new(&layout, from),
+            statistics: RunStatistics::new(&layout, from),
             envelopes: vec![AlongEnvelope::default(); layout.links.len()],
             history: History::new(layout),
             counts: Counts::default(),
@@ -140,7 +140,7 @@ impl Run {
             stepper: Stepper::default(),
             near,
             row: Vec::new(),
-            told: Told::default(),
+            told: RowSources::default(),
             wound: true,
             began: "as the bodies stand, at rest".into(),
             origin,
@@ -160,7 +160,7 @@ impl Run {
     ///
     /// # Errors
     /// As [`Run::new`].
-    pub fn begun_again(&self, change: impl FnOnce(Settings) -> Settings) -> Result<Run, SolveError> {
+    pub fn begun_again(&self, change: impl FnOnce(RunSettings) -> RunSettings) -> Result<Run, SolveError> {
         let mut again = Run::new(&self.origin, change(self.settings.clone()), self.actions.clone())?;
         again.began.clone_from(&self.began);
         if !self.start.is_empty() {
@@ -188,7 +188,7 @@ impl Run {
         self.now.memory.begin(&self.system, (&self.now.motions, &self.now.motions), (self.now.time, 0.0))?;
         self.stepper.balance(&self.system, &mut self.now, 0.0)?;
         // with the accelerations found, which what has inertia of its own feels
-        let Instant { time, motions, memory, forces } = &mut self.now;
+        let SystemInstant { time, motions, memory, forces } = &mut self.now;
         forces.evaluate(&self.system, memory, motions, (*time, 0.0))?;
         // a dynamic line begins where it hangs
         self.system.begin_moving(&self.now.forces.trial);
@@ -409,7 +409,7 @@ impl Run {
         if self.settings.capsize {
             return None;
         }
-        let over = |m: &Motion| m.pose.axes[(2, 2)] < 0.0;
+        let over = |m: &BodyMotion| m.pose.axes[(2, 2)] < 0.0;
         let found = self.system.nodes.iter().zip(&self.now.motions).find(|(n, m)| !n.junction && over(m));
         found.map(|(n, _)| n.name.clone())
     }

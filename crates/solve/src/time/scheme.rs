@@ -12,7 +12,7 @@ use windlass_model::SchemeWeights;
 
 /// Weights of an implicit scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scheme {
+pub struct TimeScheme {
     /// Share of the old auxiliary acceleration.
     pub alpha_m: f64,
     /// Share of the old acceleration.
@@ -27,7 +27,7 @@ pub struct Scheme {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
     /// An implicit scheme, each step solved by Newton's iteration.
-    Implicit(Scheme),
+    Implicit(TimeScheme),
     /// Predictor and corrector (`-NEWMARK NO`): Euler's step ahead, corrected by the trapezoidal rule, over and over up to the
     /// number and tolerance of `-CONVERGE`. Needs small steps.
     Corrector,
@@ -45,32 +45,32 @@ impl Method {
     /// A stiff line that goes slack within a step leaves its last pull in the acceleration with which the next step begins. With a
     /// spectral radius near one that throws what hangs on it up, faster from bounce to bounce; damped as the line is itself it does not.
     pub fn with_moving_lines() -> Self {
-        Method::Implicit(Scheme::generalised_alpha(RHO_OF_LINES))
+        Method::Implicit(TimeScheme::generalised_alpha(RHO_OF_LINES))
     }
 }
 
 impl Default for Method {
     fn default() -> Self {
-        Method::Implicit(Scheme::generalised_alpha(DEFAULT_SPECTRAL_RADIUS))
+        Method::Implicit(TimeScheme::generalised_alpha(DEFAULT_SPECTRAL_RADIUS))
     }
 }
 
-impl Scheme {
+impl TimeScheme {
     /// The generalised-alpha scheme of a spectral radius at infinite frequency, 0 to 1: second order, unconditionally stable for
     /// linear systems, least damping of low frequencies [CHUNG-HULBERT-1993 eq. 25].
     pub fn generalised_alpha(rho: f64) -> Self {
         let SchemeWeights { alpha_m, alpha_f, beta, gamma } = SchemeWeights::generalised_alpha(rho);
-        Scheme { alpha_m, alpha_f, beta, gamma }
+        TimeScheme { alpha_m, alpha_f, beta, gamma }
     }
 
     /// Newmark's scheme; 0.25 and 0.5 make the trapezoidal rule.
     pub fn newmark(beta: f64, gamma: f64) -> Self {
-        Scheme { alpha_m: 0.0, alpha_f: 0.0, beta, gamma }
+        TimeScheme { alpha_m: 0.0, alpha_f: 0.0, beta, gamma }
     }
 
     /// The same for what is stepped beside the bodies.
     pub fn weights(&self) -> SchemeWeights {
-        let Scheme { alpha_m, alpha_f, beta, gamma } = *self;
+        let TimeScheme { alpha_m, alpha_f, beta, gamma } = *self;
         SchemeWeights { alpha_m, alpha_f, beta, gamma }
     }
 

@@ -1,12 +1,12 @@
 //! What can be seen of a run from outside, and all that is needed to go on from where it is.
 
 use super::accuracy::Followed;
-use super::forces::Motion;
+use super::forces::BodyMotion;
 use super::run::Run;
 use super::snapshot::Snapshot;
 use crate::link::Link;
 use windlass_hydro::sea::Sea;
-use windlass_model::{LineBooks, Model};
+use windlass_model::{EnergyBalance, Model};
 
 impl Run {
     /// Time reached (s).
@@ -25,7 +25,7 @@ impl Run {
     }
 
     /// The books of the dynamic lines, by name, where they are kept.
-    pub fn books(&self) -> Vec<(String, LineBooks)> {
+    pub fn books(&self) -> Vec<(String, EnergyBalance)> {
         let of = |link: &Link| {
             let state = &self.system.states[link.states.clone()];
             link.element.books(state).map(|books| (link.name.clone(), books))
@@ -34,7 +34,7 @@ impl Run {
     }
 
     /// Motions now.
-    pub fn motions(&self) -> &[Motion] {
+    pub fn motions(&self) -> &[BodyMotion] {
         &self.now.motions
     }
 

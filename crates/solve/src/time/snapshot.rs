@@ -2,7 +2,7 @@
 
 use super::accuracy::Accuracy;
 use super::course::Counts;
-use super::forces::Motion;
+use super::forces::BodyMotion;
 use nalgebra::Matrix3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
@@ -15,7 +15,7 @@ pub struct Snapshot {
     /// Steps of the run's own length taken.
     pub taken: usize,
     /// Motions of the bodies.
-    pub motions: Vec<Motion>,
+    pub motions: Vec<BodyMotion>,
     /// What loads remember.
     pub loads: Vec<f64>,
     /// What connectors remember.
@@ -38,9 +38,9 @@ pub struct Snapshot {
 
 /// Writes numbers one behind the other; a text as the number of its bytes and these.
 #[derive(Default)]
-struct Written(Vec<u8>);
+struct NumberWriter(Vec<u8>);
 
-impl Written {
+impl NumberWriter {
     fn number(&mut self, value: f64) {
         self.0.extend_from_slice(&value.to_le_bytes());
     }
@@ -110,13 +110,13 @@ impl Read<'_> {
 impl Snapshot {
     /// As bytes.
     pub fn bytes(&self) -> Vec<u8> {
-        let mut out = Written::default();
+        let mut out = NumberWriter::default();
         out.number(self.time);
         out.count(self.taken);
         out.count(self.motions.len());
         for motion in &self.motions {
             out.numbers(motion.pose.origin.iter().chain(motion.pose.axes.iter()));
-            let Motion { velocity, acceleration, auxiliary, jerk, .. } = motion;
+            let BodyMotion { velocity, acceleration, auxiliary, jerk, .. } = motion;
             [velocity, acceleration, auxiliary, jerk].into_iter().for_each(|six| out.numbers(six.iter()));
         }
         out.list(&self.loads);
@@ -151,7 +151,7 @@ impl Snapshot {
             let six = |from: &mut Read| from.array::<6>().map(Six::from);
             let pose = Pose { origin: origin.into(), axes: Matrix3::from_column_slice(&axes) };
             let [velocity, acceleration] = [six(from)?, six(from)?];
-            Some(Motion { pose, velocity, acceleration, auxiliary: six(from)?, jerk: six(from)? })
+            Some(BodyMotion { pose, velocity, acceleration, auxiliary: six(from)?, jerk: six(from)? })
         };
         let motions = (0..count).map(|_| motion(&mut from)).collect::<Option<_>>()?;
         let (loads, states) = (from.list()?, from.list()?);
@@ -199,11 +199,11 @@ mod tests {
 
     #[test]
     fn a_snapshot_comes_back_from_its_bytes_and_from_no_part_of_them() {
-        let motion = Motion { velocity: Six::repeat(0.25), ..Motion::default() };
+        let motion = BodyMotion { velocity: Six::repeat(0.25), ..BodyMotion::default() };
         let snapshot = Snapshot {
             time: 12.5,
             taken: 7,
-            motions: vec![motion, Motion::default()],
+            motions: vec![motion, BodyMotion::default()],
             loads: vec![1.0, f64::MIN_POSITIVE],
             states: vec![],
             lengths: vec![None, Some(3.0)],

@@ -1,6 +1,6 @@
 //! The results a run is judged by, and their statistics as it goes, in flat memory.
 
-use super::history::Layout;
+use super::history::RowLayout;
 use super::pushing::Pushing;
 use crate::system::DOFS;
 use nalgebra::Vector3;
@@ -10,7 +10,7 @@ use windlass_signal::running::Running;
 
 /// A result against time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct ResultSeries {
     /// What it is of, and which: `TBRG X`, `A Tension`.
     pub name: String,
     /// Its dimension.
@@ -21,7 +21,7 @@ pub struct Series {
     pub pushing: Option<Pushing>,
 }
 
-impl Series {
+impl ResultSeries {
     /// Its value in a row.
     pub fn value(&self, row: &[f64]) -> f64 {
         match (row.get(self.columns.clone()), &self.pushing) {
@@ -34,19 +34,19 @@ impl Series {
 }
 
 /// The results a run is judged by: places and angles of the bodies in the degrees of freedom that move, tensions of the connectors.
-pub fn results(layout: &Layout) -> Vec<Series> {
+pub fn results(layout: &RowLayout) -> Vec<ResultSeries> {
     let mut list = Vec::new();
     for (body, (name, _)) in layout.bodies.iter().enumerate() {
         let at = layout.body(body);
         let moves = layout.moves.get(body).copied().unwrap_or([true; 6]);
         for (i, dof) in DOFS.iter().enumerate().filter(|(i, _)| moves.get(*i) == Some(&true)) {
             let dim = if i < 3 { Dim::Length } else { Dim::Angle };
-            list.push(Series { name: format!("{name} {dof}"), dim, columns: at + i..at + i + 1, pushing: None });
+            list.push(ResultSeries { name: format!("{name} {dof}"), dim, columns: at + i..at + i + 1, pushing: None });
         }
     }
     for (link, columns) in layout.links.iter().enumerate() {
         if let Some(at) = layout.pull(link) {
-            list.push(Series {
+            list.push(ResultSeries {
                 name: format!("{} Tension", columns.name),
                 dim: Dim::Force,
                 columns: at..at + 3,
@@ -59,15 +59,15 @@ pub fn results(layout: &Layout) -> Vec<Series> {
 
 /// Statistics of all results of a run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Statistics {
-    list: Vec<(Series, Running)>,
+pub struct RunStatistics {
+    list: Vec<(ResultSeries, Running)>,
     from: f64,
 }
 
-impl Statistics {
+impl RunStatistics {
     /// Of the results of a layout, from a time on (s).
-    pub fn new(layout: &Layout, from: f64) -> Self {
-        Statistics { list: results(layout).into_iter().map(|s| (s, Running::with_level(0.0))).collect(), from }
+    pub fn new(layout: &RowLayout, from: f64) -> Self {
+        RunStatistics { list: results(layout).into_iter().map(|s| (s, Running::with_level(0.0))).collect(), from }
     }
 
     /// Takes the results of a row.
@@ -85,7 +85,7 @@ impl Statistics {
     }
 
     /// Every result with what was seen of it.
-    pub fn results(&self) -> impl Iterator<Item = (&Series, &Running)> {
+    pub fn results(&self) -> impl Iterator<Item = (&ResultSeries, &Running)> {
         self.list.iter().map(|(series, running)| (series, running))
     }
 }

@@ -3,9 +3,9 @@
 //! Unknowns are the accelerations of the degrees of freedom that move. A degree of freedom without inertia (a junction without weight) has none: its
 //! unknown is its motion over the step, and it stands where nothing is left on it, as in statics.
 
-use super::forces::{Forces, Memory, Motion};
+use super::forces::{BodyForces, BodyMotion, LoadMemory};
 use super::inertia::{gyroscopic, inertia};
-use super::scheme::{Method, Scheme};
+use super::scheme::{Method, TimeScheme};
 use crate::reason::no_inertia;
 use crate::system::{DOFS, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix6, U6};
@@ -35,15 +35,15 @@ impl Default for Convergence {
 
 /// Everything that moves, at an instant.
 #[derive(Debug, Default)]
-pub struct Instant {
+pub struct SystemInstant {
     /// Time (s).
     pub time: f64,
     /// Motions of the bodies.
-    pub motions: Vec<Motion>,
+    pub motions: Vec<BodyMotion>,
     /// What loads remember.
-    pub memory: Memory,
+    pub memory: LoadMemory,
     /// Forces there.
-    pub forces: Forces,
+    pub forces: BodyForces,
 }
 
 /// How a step went.
@@ -57,7 +57,7 @@ pub struct Effort {
 
 /// A row of the unknowns.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row {
+pub(super) struct UnknownRow {
     /// Body and degree of freedom: six a body.
     pub(super) at: usize,
     /// Whether it has inertia.
@@ -67,10 +67,10 @@ pub(super) struct Row {
 /// Solves steps of a system.
 #[derive(Debug, Default)]
 pub struct Stepper {
-    pub(super) trial: Vec<Motion>,
+    pub(super) trial: Vec<BodyMotion>,
     /// Motion of each body over the step: translation and rotation vector.
     pub(super) over: Vec<Six>,
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<UnknownRow>,
     pub(super) matrix: DMatrix<f64>,
     pub(super) right: DVector<f64>,
     pub(super) moved: Vec<f64>,
@@ -83,7 +83,7 @@ pub struct Stepper {
 
 impl Stepper {
     /// Finds the rows that move.
-    pub(super) fn choose(&mut self, system: &System, forces: &Forces) {
+    pub(super) fn choose(&mut self, system: &System, forces: &BodyForces) {
         self.rows.clear();
         for (body, node) in system.nodes.iter().enumerate() {
             let mass = &self.masses[body];
@@ -94,13 +94,13 @@ impl Stepper {
                     // what hangs on it may have inertia where it has none itself
                     let carried = forces.inertia[(at, at)];
                     let heavy = mass[(dof, dof)] > 1e-12 * largest || carried > 1e-12 * largest;
-                    self.rows.push(Row { at, heavy });
+                    self.rows.push(UnknownRow { at, heavy });
                 }
             }
         }
     }
 
-    pub(super) fn weigh(&mut self, system: &System, motions: &[Motion]) {
+    pub(super) fn weigh(&mut self, system: &System, motions: &[BodyMotion]) {
         self.masses.clear();
         self.masses.extend(system.nodes.iter().zip(motions).map(|(n, m)| inertia(n, &m.pose)));
     }
@@ -109,7 +109,7 @@ impl Stepper {
     ///
     /// # Errors
     /// A body or connector without an answer; a degree of freedom without inertia in the mass matrix.
-    pub fn balance(&mut self, system: &System, now: &mut Instant, dt: f64) -> Result<(), SolveError> {
+    pub fn balance(&mut self, system: &System, now: &mut SystemInstant, dt: f64) -> Result<(), SolveError> {
         // at a start stiff ties begin with the force of their law; an explicit step knows no other
         now.forces.ties.holds = dt == 0.0;
         now.forces.ties.forces.clear();
@@ -190,7 +190,7 @@ impl Stepper {
     pub fn step(
         &mut self,
         system: &mut System,
-        now: &mut Instant,
+        now: &mut SystemInstant,
         dt: f64,
         (method, wanted): (&Method, &Convergence),
     ) -> Result<Effort, SolveError> {
@@ -207,7 +207,7 @@ impl Stepper {
     }
 
     /// Trial motions for the present accelerations of the trial.
-    pub(super) fn place(&mut self, system: &System, start: &[Motion], dt: f64, scheme: &Scheme) {
+    pub(super) fn place(&mut self, system: &System, start: &[BodyMotion], dt: f64, scheme: &TimeScheme) {
         for (((trial, over), old), node) in self.trial.iter_mut().zip(&mut self.over).zip(start).zip(&system.nodes) {
             if node.prescribed.is_some() {
                 continue;
@@ -219,7 +219,7 @@ impl Stepper {
     }
 
     /// Puts the trial bodies where their motion over the step takes them.
-    pub(super) fn pose(&mut self, system: &System, start: &[Motion]) {
+    pub(super) fn pose(&mut self, system: &System, start: &[BodyMotion]) {
         for (((trial, over), old), node) in self.trial.iter_mut().zip(&self.over).zip(start).zip(&system.nodes) {
             if node.prescribed.is_none() {
                 trial.pose = old.pose.after_motion(over);
@@ -244,9 +244,9 @@ impl Stepper {
     fn implicit(
         &mut self,
         system: &mut System,
-        now: &mut Instant,
+        now: &mut SystemInstant,
         dt: f64,
-        (scheme, wanted): (&Scheme, &Convergence),
+        (scheme, wanted): (&TimeScheme, &Convergence),
     ) -> Result<Effort, SolveError> {
         let (time, mut effort) = (now.time + dt, Effort::default());
         self.trial.clear();
@@ -336,7 +336,7 @@ impl Stepper {
     }
 
     /// Makes the trial the present.
-    pub(super) fn accept(&mut self, system: &mut System, now: &mut Instant, (time, dt): (f64, f64)) {
+    pub(super) fn accept(&mut self, system: &mut System, now: &mut SystemInstant, (time, dt): (f64, f64)) {
         now.time = time;
         for (trial, old) in self.trial.iter_mut().zip(&now.motions) {
             trial.jerk = (trial.acceleration - old.acceleration) / dt;

@@ -5,7 +5,7 @@ use windlass_base::pose::{Pose, Six};
 
 /// The end at the structure: place, velocity and what turns with it.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Attachment {
+pub struct AxisAttachment {
     /// Where it is (m, global).
     pub at: Vector3<f64>,
     /// Its velocity (m/s).
@@ -18,12 +18,12 @@ pub struct Attachment {
     pub upright: Vector3<f64>,
 }
 
-impl Attachment {
+impl AxisAttachment {
     /// A point of a structure, `local` from its centre of gravity (m).
     pub fn new(local: Vector3<f64>, pose: &Pose, velocity: &Six) -> Self {
         let spin = Vector3::new(velocity[3], velocity[4], velocity[5]);
         let arm = pose.axes * local;
-        Attachment {
+        AxisAttachment {
             at: pose.origin + arm,
             velocity: Vector3::new(velocity[0], velocity[1], velocity[2]) + spin.cross(&arm),
             acceleration: Vector3::zeros(),
@@ -45,7 +45,7 @@ impl Attachment {
 
 /// The axis with its cross directions.
 #[derive(Clone, Copy, Debug)]
-pub struct Axis {
+pub struct TetherAxis {
     /// Distance from the anchor to the attachment (m).
     pub chord: f64,
     /// Unit vector from the anchor to the attachment.
@@ -56,13 +56,13 @@ pub struct Axis {
     pub tilt: [f64; 2],
 }
 
-impl Default for Axis {
+impl Default for TetherAxis {
     fn default() -> Self {
-        Axis { chord: 1.0, along: Vector3::z(), across: [Vector3::x(), Vector3::y()], tilt: [0.0; 2] }
+        TetherAxis { chord: 1.0, along: Vector3::z(), across: [Vector3::x(), Vector3::y()], tilt: [0.0; 2] }
     }
 }
 
-impl Axis {
+impl TetherAxis {
     /// That from an anchor to an attachment (m, global); `None` where they are at one place or the attachment is straight below.
     pub fn new(anchor: Vector3<f64>, attachment: Vector3<f64>) -> Option<Self> {
         let chord = (attachment - anchor).norm();
@@ -77,7 +77,7 @@ impl Axis {
             Vector3::new(1.0 - x * x * share, -x * y * share, -x),
             Vector3::new(-x * y * share, 1.0 - y * y * share, -y),
         ];
-        Some(Axis { chord, along, across, tilt: tilt(along) })
+        Some(TetherAxis { chord, along, across, tilt: tilt(along) })
     }
 
     /// Parts of a vector across the axis.
@@ -101,13 +101,13 @@ mod tests {
     #[test]
     fn the_cross_directions_are_those_of_a_turn() {
         for end in [Vector3::new(3.0, -4.0, 12.0), Vector3::new(0.0, 0.0, 2.0), Vector3::new(-5.0, 0.1, 0.3)] {
-            let axis = Axis::new(Vector3::zeros(), end).unwrap();
+            let axis = TetherAxis::new(Vector3::zeros(), end).unwrap();
             let [x, y] = axis.across;
             assert!((x.cross(&y) - axis.along).norm() < 1e-15 && (x.norm() - 1.0).abs() < 1e-15);
             let [rx, ry] = [-axis.tilt[1], axis.tilt[0]];
             let turn = nalgebra::Rotation3::new(Vector3::new(rx, ry, 0.0));
             assert!((turn * Vector3::x() - x).norm() < 1e-15 && (turn * Vector3::z() - axis.along).norm() < 1e-15);
         }
-        assert!(Axis::new(Vector3::zeros(), -Vector3::z()).is_none());
+        assert!(TetherAxis::new(Vector3::zeros(), -Vector3::z()).is_none());
     }
 }

@@ -1,16 +1,16 @@
 //! The description of an installed tether [AQWA-TETHER 7.1 and 8.2]: what it is made of and how it hangs at the start.
 
-use super::axis::Axis;
-use super::tension::Axial;
+use super::axis::TetherAxis;
+use super::tension::TensionModel;
 use super::tether::InstalledTether;
-use crate::description::{Attachment, Configuration, Description as Listed};
-use crate::structure::flow::Flow;
+use crate::description::{TetherArrangement, TetherDescription as Listed, TetherEnd};
+use crate::structure::flow::WaterFlow;
 use nalgebra::Vector3;
 use windlass_model::ClassError;
 
 /// The numbers of the description beside those of the elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Description {
+pub struct InstalledDescription {
     /// The attachment at the start (m, global).
     pub attachment: Vector3<f64>,
     /// Length unstretched (m).
@@ -31,20 +31,20 @@ pub struct Description {
     pub tension: f64,
 }
 
-impl Description {
+impl InstalledDescription {
     /// That of a tether with its attachment at a place (m, global).
     ///
     /// # Errors
     /// A tether that cannot be reckoned with, or is too short for its span.
-    pub fn new(tether: &InstalledTether, attachment: Vector3<f64>, flow: &Flow) -> Result<Self, ClassError> {
+    pub fn new(tether: &InstalledTether, attachment: Vector3<f64>, flow: &WaterFlow) -> Result<Self, ClassError> {
         tether.check()?;
         let distance = (attachment - tether.anchor).norm();
         tether.spans(distance)?;
-        let Some(axis) = Axis::new(tether.anchor, attachment) else {
+        let Some(axis) = TetherAxis::new(tether.anchor, attachment) else {
             return Err(ClassError::new(format!("tether {} hangs straight below its anchor", tether.name)));
         };
         let (density, gravity) = (flow.density, flow.gravity);
-        let axial = Axial::new(tether, [density, gravity], false);
+        let axial = TensionModel::new(tether, [density, gravity], false);
         let water = flow.at_time(0.0);
         let tension = axial.tension(&axis, attachment.z, 0.0, &water);
         let line = &tether.line;
@@ -53,7 +53,7 @@ impl Description {
         let buoyancy = -line.buoyancy(density, gravity);
         let top = tether.anchor.z + line.length();
         let caps = tether.caps[0] * water.hydrostatic(tether.anchor.z) - tether.caps[1] * water.hydrostatic(top);
-        Ok(Description {
+        Ok(InstalledDescription {
             attachment,
             unstretched: line.length(),
             distance,
@@ -73,11 +73,11 @@ impl Description {
         tether: &'a InstalledTether,
         (number, [anchor, vessel]): (usize, [&str; 2]),
         centre: Vector3<f64>,
-        flow: &Flow,
+        flow: &WaterFlow,
     ) -> Listed<'a> {
         let ends = [
-            Attachment { node: anchor.into(), given: tether.anchor.into(), initial: tether.anchor.into() },
-            Attachment {
+            TetherEnd { node: anchor.into(), given: tether.anchor.into(), initial: tether.anchor.into() },
+            TetherEnd {
                 node: vessel.into(),
                 given: (centre + tether.attachment).into(),
                 initial: self.attachment.into(),
@@ -86,7 +86,7 @@ impl Description {
         let springs = [tether.anchor_springs, tether.vessel_springs].map(|s| [s.inline, s.rotation[0], s.rotation[1]]);
         Listed {
             number,
-            configuration: Configuration::Installed,
+            configuration: TetherArrangement::Installed,
             line: &tether.line,
             ends,
             springs,

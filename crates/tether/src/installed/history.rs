@@ -1,9 +1,9 @@
 //! What is kept of a run as series: structure, tethers, events.
 
-use super::rig::Change;
 use super::rig::Rig;
-use super::run::{Event, Moment, Observer};
-use crate::structure::Forces;
+use super::rig::RigChange;
+use super::run::{InstalledObserver, Moment, TetherEvent};
+use crate::structure::StructureForces;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
 use windlass_model::ClassError;
@@ -11,7 +11,7 @@ use windlass_model::ClassError;
 /// Numbers kept at most: 400 MB.
 const MAX_STORED_NUMBERS: usize = 50_000_000;
 /// Numbers of the structure in a state: motions, kinds of force, error.
-const NUMBERS_PER_STRUCTURE: usize = 1 + 18 + 6 * Forces::KINDS.len() + 6;
+const NUMBERS_PER_STRUCTURE: usize = 1 + 18 + 6 * StructureForces::KINDS.len() + 6;
 /// Numbers of a node, and of an end of an element.
 const NUMBERS_PER_NODE: usize = 13;
 const NUMBERS_PER_END: usize = 12;
@@ -27,7 +27,7 @@ pub enum Keep {
 
 /// A tether's states.
 #[derive(Clone, Debug, Default)]
-struct Kept {
+struct TetherStates {
     times: Vec<f64>,
     /// Node by node, then end by end, of each state.
     numbers: Vec<f64>,
@@ -38,25 +38,25 @@ struct Kept {
 
 /// What is kept of a run.
 #[derive(Clone, Debug)]
-pub struct History {
+pub struct InstalledHistory {
     /// Every how many states the run is kept.
     pub every: usize,
     keep: Keep,
     structure: Vec<[f64; NUMBERS_PER_STRUCTURE]>,
-    tethers: Vec<Kept>,
-    events: Vec<Event>,
+    tethers: Vec<TetherStates>,
+    events: Vec<TetherEvent>,
     numbers: usize,
 }
 
-impl History {
+impl InstalledHistory {
     /// A history of every state, or of one in a number of them.
     pub fn new(every: usize, keep: Keep) -> Self {
         let every = every.max(1);
-        History { every, keep, structure: Vec::new(), tethers: Vec::new(), events: Vec::new(), numbers: 0 }
+        InstalledHistory { every, keep, structure: Vec::new(), tethers: Vec::new(), events: Vec::new(), numbers: 0 }
     }
 
     /// The events, in order.
-    pub fn events(&self) -> &[Event] {
+    pub fn events(&self) -> &[TetherEvent] {
         &self.events
     }
 
@@ -77,7 +77,7 @@ impl History {
 
     /// A series of the error expected of the step in a direction (0 to 5).
     pub fn error(&self, direction: usize) -> Vec<f64> {
-        let at = 19 + 6 * Forces::KINDS.len() + direction;
+        let at = 19 + 6 * StructureForces::KINDS.len() + direction;
         self.structure.iter().filter_map(|row| row.get(at).copied()).collect()
     }
 
@@ -101,7 +101,7 @@ impl History {
     }
 }
 
-impl Kept {
+impl TetherStates {
     fn states(&self) -> impl Iterator<Item = &[f64]> {
         self.numbers
             .chunks_exact((NUMBERS_PER_NODE * self.nodes + NUMBERS_PER_END * 2 * self.nodes.saturating_sub(1)).max(1))
@@ -126,10 +126,10 @@ impl Kept {
     }
 }
 
-impl Observer for History {
+impl InstalledObserver for InstalledHistory {
     fn observe(&mut self, moment: &Moment) -> Result<(), ClassError> {
         if self.tethers.is_empty() {
-            let kept = |rig: &Rig| Kept { nodes: rig.nodes(), ..Kept::default() };
+            let kept = |rig: &Rig| TetherStates { nodes: rig.nodes(), ..TetherStates::default() };
             self.tethers = moment.tethers.iter().map(kept).collect();
         }
         self.events.extend(moment.events);
@@ -148,7 +148,7 @@ impl Observer for History {
             let now = match self.keep {
                 Keep::Always => due,
                 Keep::WhenSlack(time) => {
-                    if moment.events.iter().any(|e| e.tether == index && e.change == Change::Slack) {
+                    if moment.events.iter().any(|e| e.tether == index && e.change == RigChange::Slack) {
                         kept.until = Some(moment.time + time);
                     }
                     kept.until.is_some_and(|until| moment.time <= until)

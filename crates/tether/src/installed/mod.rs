@@ -16,7 +16,7 @@ pub mod stress;
 pub mod tension;
 pub mod tether;
 
-pub use history::{History, Keep};
-pub use rig::{Change, Rig};
-pub use run::{Course, Event, Installation, Moment, Observer};
-pub use tether::{Constraint, DefaultTaken, EndSprings, Impact, InstalledTether, InternalFluid};
+pub use history::{InstalledHistory, Keep};
+pub use rig::{Rig, RigChange};
+pub use run::{Installation, InstalledObserver, InstalledRunSettings, Moment, TetherEvent};
+pub use tether::{DefaultTaken, EndSprings, Impact, InstalledTether, InternalFluid, NodeConstraint};

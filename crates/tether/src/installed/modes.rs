@@ -3,14 +3,14 @@
 //! `K` is bending, tension and the springs of the ends, `M` wall, contents and added mass; deflections at the ends are held. All as the run has
 //! them, of a straight tether ([AQWA-TETHER 7.2 and 8.2.21]; [W-INSTALLED 2]).
 
-use super::axis::Axis;
+use super::axis::TetherAxis;
 use super::bending::{Bending, Matrices};
-use super::tension::Axial;
+use super::tension::TensionModel;
 use super::tether::InstalledTether;
 use crate::beam;
 use crate::compatibility::Compatibility;
-use crate::modes::{self, NaturalMode, Pencil, Plane};
-use crate::structure::flow::Flow;
+use crate::modes::{self, ModePlane, NaturalMode, Pencil};
+use crate::structure::flow::WaterFlow;
 use nalgebra::Vector3;
 use windlass_model::ClassError;
 
@@ -30,8 +30,8 @@ impl InstalledMode {
         let (deflection, slope) = (value(&self.mode.deflections), value(&self.mode.slopes));
         match self.mode.plane {
             // the planes of the beam are those of X and Y here
-            Plane::Z => [deflection, 0.0, 0.0, slope],
-            Plane::Y => [0.0, deflection, 0.0 - slope, 0.0],
+            ModePlane::Z => [deflection, 0.0, 0.0, slope],
+            ModePlane::Y => [0.0, deflection, 0.0 - slope, 0.0],
         }
     }
 }
@@ -43,16 +43,16 @@ impl InstalledMode {
 pub fn modes(
     tether: &InstalledTether,
     attachment: Vector3<f64>,
-    flow: &Flow,
+    flow: &WaterFlow,
     number: usize,
     compatibility: &Compatibility,
 ) -> Result<Vec<InstalledMode>, ClassError> {
     tether.check()?;
     tether.spans((attachment - tether.anchor).norm())?;
-    let Some(axis) = Axis::new(tether.anchor, attachment) else {
+    let Some(axis) = TetherAxis::new(tether.anchor, attachment) else {
         return Err(ClassError::new(format!("tether {} hangs straight below its anchor", tether.name)));
     };
-    let axial = Axial::new(tether, [flow.density, flow.gravity], compatibility.uniform_tension);
+    let axial = TensionModel::new(tether, [flow.density, flow.gravity], compatibility.uniform_tension);
     let tension = axial.tension(&axis, attachment.z, 0.0, &flow.at_time(0.0));
     let bending = Bending::new(tether, flow.density, flow.gravity);
     let mut found = [Vec::new(), Vec::new()];

@@ -1,9 +1,9 @@
 //! One tether of a run: where it is, how it stands, what it does to the structure, what its elements bear.
 
-use super::axis::{Attachment, Axis};
-use super::bending::{Bending, Motion, Stage};
+use super::axis::{AxisAttachment, TetherAxis};
+use super::bending::{Bending, PlaneMotion, Stage};
 use super::stress::{EndLoads, Stresses};
-use super::tension::{Axial, Standing, Tension};
+use super::tension::{TensionCase, TensionModel, TetherTension};
 use super::tether::InstalledTether;
 use crate::compatibility::{Compatibility, SpringReference};
 use crate::structure::flow::FlowAt;
@@ -25,14 +25,14 @@ pub enum Which {
 #[derive(Clone, Debug)]
 pub struct Rig {
     tether: InstalledTether,
-    axial: Axial,
+    axial: TensionModel,
     bending: Bending,
-    axis: Axis,
-    attachment: Attachment,
-    tension: Tension,
+    axis: TetherAxis,
+    attachment: AxisAttachment,
+    tension: TetherTension,
     /// How it stood, and the tension and axis of it, at the start of the step.
-    start: (Axis, Tension),
-    before: Option<Standing>,
+    start: (TetherAxis, TetherTension),
+    before: Option<TensionCase>,
     /// Axial stress of the last impact (Pa), and its time (s).
     impact: Option<(f64, f64)>,
     ends: Vec<[EndLoads; 2]>,
@@ -41,7 +41,7 @@ pub struct Rig {
 
 /// What changes in how a tether stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Change {
+pub enum RigChange {
     /// It has become slack, or is so at the start of the run.
     Slack,
     /// It is in tension again after it was slack, and has struck its upper anchor constraint.
@@ -71,12 +71,12 @@ impl Rig {
         tether.check()?;
         let elements = tether.line.elements().len();
         Ok(Rig {
-            axial: Axial::new(&tether, [density, gravity], compatibility.uniform_tension),
+            axial: TensionModel::new(&tether, [density, gravity], compatibility.uniform_tension),
             bending: Bending::new(&tether, density, gravity),
-            axis: Axis::default(),
-            attachment: Attachment::default(),
-            tension: Tension::default(),
-            start: (Axis::default(), Tension::default()),
+            axis: TetherAxis::default(),
+            attachment: AxisAttachment::default(),
+            tension: TetherTension::default(),
+            start: (TetherAxis::default(), TetherTension::default()),
             before: None,
             impact: None,
             ends: vec![[EndLoads::default(); 2]; elements],
@@ -93,8 +93,8 @@ impl Rig {
         water: &FlowAt,
         compatibility: &Compatibility,
     ) -> Result<Six, ClassError> {
-        self.attachment = Attachment::new(self.tether.attachment, pose, velocity);
-        let Some(axis) = Axis::new(self.tether.anchor, self.attachment.at) else {
+        self.attachment = AxisAttachment::new(self.tether.attachment, pose, velocity);
+        let Some(axis) = TetherAxis::new(self.tether.anchor, self.attachment.at) else {
             return Err(ClassError::new("its attachment is at the anchor or straight below it"));
         };
         self.axis = axis;
@@ -103,7 +103,7 @@ impl Rig {
         }
         if which == Which::First {
             // what is held goes by the length; that of a slack one differs by its slack alone
-            self.tension = Tension { length: axis.chord, ..self.tension };
+            self.tension = TetherTension { length: axis.chord, ..self.tension };
             let Rig { bending, axis, attachment, tension, .. } = self;
             bending.place_held(&Stage { axis, attachment, tension, water, dt: 0.0 });
         }
@@ -165,18 +165,20 @@ impl Rig {
     }
 
     /// What changed since the last state, at a time (s).
-    pub(super) fn change(&mut self, time: f64, compatibility: &Compatibility) -> Option<Change> {
+    pub(super) fn change(&mut self, time: f64, compatibility: &Compatibility) -> Option<RigChange> {
         let now = self.tension.standing;
         let before = self.before.replace(now).unwrap_or_default();
         match (before, now) {
-            (Standing::Taut, Standing::Slack) => Some(Change::Slack),
-            (Standing::Taut | Standing::Slack, Standing::OnStop) => Some(Change::LowerStop { drop: self.tension.drop }),
-            (Standing::Slack | Standing::OnStop, Standing::Taut) => {
+            (TensionCase::Taut, TensionCase::Slack) => Some(RigChange::Slack),
+            (TensionCase::Taut | TensionCase::Slack, TensionCase::OnStop) => {
+                Some(RigChange::LowerStop { drop: self.tension.drop })
+            }
+            (TensionCase::Slack | TensionCase::OnStop, TensionCase::Taut) => {
                 let closing = self.attachment.velocity.dot(&self.axis.along).max(0.0);
                 let velocity = if compatibility.vertical_impact { closing / self.axis.along.z } else { closing };
                 let made = self.tether.impact.map_or(0.0, |i| i.factor * velocity);
                 self.impact = Some((self.impact_stress(time) + made, time));
-                Some(Change::Impact { velocity, stress: made })
+                Some(RigChange::Impact { velocity, stress: made })
             }
             _ => None,
         }
@@ -224,7 +226,7 @@ impl Rig {
         self.bending.advance(dt);
     }
 
-    fn motion(&self, which: Which) -> &[Motion; 2] {
+    fn motion(&self, which: Which) -> &[PlaneMotion; 2] {
         match which {
             Which::First => &self.bending.now,
             Which::Second => &self.bending.trial,
@@ -237,12 +239,12 @@ impl Rig {
     }
 
     /// The axis at the time of the moment.
-    pub fn axis(&self) -> &Axis {
+    pub fn axis(&self) -> &TetherAxis {
         &self.start.0
     }
 
     /// How it stands at the time of the moment, with its tension.
-    pub fn tension(&self) -> &Tension {
+    pub fn tension(&self) -> &TetherTension {
         &self.start.1
     }
 

@@ -5,11 +5,11 @@
 //! the tethers, which goes by places alone, is found first, then the acceleration of the structure, then that of the tethers, which ride on
 //! it. For a spring w the scheme is stable to w h = 2 (its roots: determinant `1 - (w h)^4/12`, trace `2 - (w h)^2 + (w h)^4/12`).
 
-use super::rig::{Change, Rig, Which};
+use super::rig::{Rig, RigChange, Which};
 use super::tether::InstalledTether;
 use crate::compatibility::{Compatibility, VesselScheme};
-use crate::structure::flow::{Flow, FlowAt};
-use crate::structure::{Forces, Structure};
+use crate::structure::flow::{FlowAt, WaterFlow};
+use crate::structure::{Structure, StructureForces};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 use windlass_base::dense::{Cholesky, SymmetricEigen, never};
@@ -25,7 +25,7 @@ const MAX_STEP_TIMES_FREQUENCY: f64 = 2.0;
 
 /// Where a run starts and how it goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Course {
+pub struct InstalledRunSettings {
     /// Time of the first state (s).
     pub start: f64,
     /// Step (s).
@@ -40,13 +40,13 @@ pub struct Course {
 
 /// What happened to a tether.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Event {
+pub struct TetherEvent {
     /// When (s).
     pub time: f64,
     /// Its number, from 0.
     pub tether: usize,
     /// What.
-    pub change: Change,
+    pub change: RigChange,
 }
 
 /// A state of the history, as an observer sees it.
@@ -63,17 +63,17 @@ pub struct Moment<'a> {
     /// Their change with time.
     pub acceleration: Six,
     /// What acts on the structure.
-    pub forces: &'a Forces,
+    pub forces: &'a StructureForces,
     /// Expected error of the step (m, rad): `-(a_n - 2 a_n-1 + a_n-2) h^2/24`, nothing being before the start.
     pub error: Six,
     /// The tethers.
     pub tethers: &'a [Rig],
     /// What happened to them.
-    pub events: &'a [Event],
+    pub events: &'a [TetherEvent],
 }
 
 /// Who is shown each state of a run.
-pub trait Observer {
+pub trait InstalledObserver {
     /// Takes a state.
     ///
     /// # Errors
@@ -86,7 +86,7 @@ pub trait Observer {
 pub struct Installation<'a> {
     structure: &'a mut dyn Structure,
     rigs: Vec<Rig>,
-    flow: &'a Flow,
+    flow: &'a WaterFlow,
     compatibility: Compatibility,
 }
 
@@ -98,7 +98,7 @@ impl<'a> Installation<'a> {
     pub fn new(
         structure: &'a mut dyn Structure,
         tethers: Vec<InstalledTether>,
-        flow: &'a Flow,
+        flow: &'a WaterFlow,
         compatibility: Compatibility,
     ) -> Result<Self, ClassError> {
         let rigs = tethers.into_iter().map(|tether| Rig::new(tether, [flow.density, flow.gravity], &compatibility));
@@ -110,7 +110,11 @@ impl<'a> Installation<'a> {
     /// # Errors
     /// A course that cannot be run, a step too long for the structure on its tethers, a tether too short for its span; what has no value on
     /// the way, with its time; what the observer says.
-    pub fn run(&mut self, course: &Course, observer: &mut dyn Observer) -> Result<(), ClassError> {
+    pub fn run(
+        &mut self,
+        course: &InstalledRunSettings,
+        observer: &mut dyn InstalledObserver,
+    ) -> Result<(), ClassError> {
         course.check()?;
         for rig in &self.rigs {
             let at = course.pose.point(rig.attachment());
@@ -118,7 +122,7 @@ impl<'a> Installation<'a> {
         }
         let dt = course.step;
         let mut water = self.flow.at_time(course.start);
-        let mut forces = [Forces::default(), Forces::default()];
+        let mut forces = [StructureForces::default(), StructureForces::default()];
         let mut events = Vec::with_capacity(self.rigs.len());
         let (mut pose, mut velocity) = (course.pose, course.velocity);
         let mut earlier = [Six::zeros(); 2];
@@ -135,7 +139,7 @@ impl<'a> Installation<'a> {
             events.clear();
             for (tether, rig) in self.rigs.iter_mut().enumerate() {
                 let change = rig.change(time, &self.compatibility);
-                events.extend(change.map(|change| Event { time, tether, change }));
+                events.extend(change.map(|change| TetherEvent { time, tether, change }));
             }
             self.tethers(Which::First, (&pose, &a1), &water, (dt, time))?;
             let ahead = (pose.after_motion(&(velocity * dt + a1 * (0.5 * dt * dt))), velocity + a1 * dt);
@@ -173,7 +177,7 @@ impl<'a> Installation<'a> {
         which: Which,
         at: &Underway,
         water: &FlowAt,
-        forces: &mut Forces,
+        forces: &mut StructureForces,
     ) -> Result<Six, ClassError> {
         forces.mooring = Six::zeros();
         for rig in &mut self.rigs {
@@ -212,7 +216,7 @@ impl<'a> Installation<'a> {
     }
 
     /// Sees that the step is short enough for the structure on its tethers.
-    fn bears(&self, course: &Course, forces: &Forces) -> Result<(), ClassError> {
+    fn bears(&self, course: &InstalledRunSettings, forces: &StructureForces) -> Result<(), ClassError> {
         let mut stiffness = Matrix6::zeros();
         for rig in &self.rigs {
             let (along, arm) = (rig.axis().along, course.pose.axes * rig.attachment());
@@ -240,7 +244,7 @@ impl<'a> Installation<'a> {
     }
 }
 
-impl Course {
+impl InstalledRunSettings {
     /// Sees that it can be run.
     fn check(&self) -> Result<(), ClassError> {
         let finite = self.start.is_finite() && self.velocity.iter().all(|v| v.is_finite());

@@ -6,7 +6,7 @@
 //! - von Mises at both extreme fibres, outside and inside, of the axial and bending stress there and of the hoop and radial ones of Lame's
 //!   thick cylinder [TIMOSHENKO-1956 44]; the shear stress, which is least there, is left out.
 
-use crate::Tube;
+use crate::TetherTube;
 
 /// What an end of an element bears.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,7 +48,7 @@ pub struct Stresses {
 
 impl EndLoads {
     /// The stresses in a tube.
-    pub fn stresses(&self, tube: &Tube) -> Stresses {
+    pub fn stresses(&self, tube: &TetherTube) -> Stresses {
         let (outer, inner) = (tube.radius(), 0.5 * tube.inner_diameter());
         let second = tube.second_moment();
         let [mx, my] = self.moment;
@@ -89,7 +89,7 @@ fn von_mises([a, b, c]: [f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    const TUBE: Tube = Tube { outer_diameter: 1.1176, wall_thickness: 0.038 };
+    const TUBE: TetherTube = TetherTube { outer_diameter: 1.1176, wall_thickness: 0.038 };
 
     #[test]
     fn a_row_of_the_listing_gives_its_own_stresses() {
@@ -117,9 +117,12 @@ mod tests {
     #[test]
     fn pressure_alone_on_a_capped_tube_gives_the_stress_of_lame() {
         // all around, ends too: a bar feels no von Mises stress; a tube at its inner side sqrt(3) p R^2/(R^2 - r^2)
-        let bar = Tube { outer_diameter: 1.0, wall_thickness: 0.5 };
-        let of =
-            |tube: &Tube| EndLoads { wall: -1e6 * tube.external_area(), pressure: [1e6, 0.0], ..EndLoads::default() };
+        let bar = TetherTube { outer_diameter: 1.0, wall_thickness: 0.5 };
+        let of = |tube: &TetherTube| EndLoads {
+            wall: -1e6 * tube.external_area(),
+            pressure: [1e6, 0.0],
+            ..EndLoads::default()
+        };
         assert!(of(&bar).stresses(&bar).von_mises < 1e-6);
         let (outer, inner) = (TUBE.radius(), 0.5 * TUBE.inner_diameter());
         let want = 3f64.sqrt() * 1e6 * outer * outer / (outer * outer - inner * inner);

@@ -10,13 +10,13 @@
 //! A tether is slack when the anchor would have to push. It then hangs from the structure with nothing at its lower end; where that falls on
 //! the lower stop, it is pushed up by its axial stiffness. With a stop at the anchor itself it never hangs free.
 
-use super::axis::Axis;
+use super::axis::TetherAxis;
 use super::tether::InstalledTether;
 use crate::structure::flow::FlowAt;
 
 /// How a tether stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Standing {
+pub enum TensionCase {
     /// In tension.
     #[default]
     Taut,
@@ -28,7 +28,7 @@ pub enum Standing {
 
 /// One element with what its tension needs.
 #[derive(Clone, Copy, Debug)]
-struct Span {
+struct ElementSpan {
     /// Share of the length at its lower end, its middle and its upper end.
     shares: [f64; 3],
     /// Axial flexibility (m/N).
@@ -41,8 +41,8 @@ struct Span {
 
 /// What the tension of a tether goes by.
 #[derive(Clone, Debug)]
-pub struct Axial {
-    spans: Vec<Span>,
+pub struct TensionModel {
+    spans: Vec<ElementSpan>,
     /// Unstretched length (m).
     length: f64,
     flexibility: f64,
@@ -60,9 +60,9 @@ pub struct Axial {
 
 /// The tension at one moment.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Tension {
+pub struct TetherTension {
     /// How it stands.
-    pub standing: Standing,
+    pub standing: TensionCase,
     /// Effective tension at the lower end (N).
     pub bottom: f64,
     /// Cosine of the axis and the vertical.
@@ -77,20 +77,20 @@ pub struct Tension {
     pub pull: f64,
 }
 
-impl Axial {
+impl TensionModel {
     /// That of a tether in water of a density (kg/m3) under a gravity (m/s2); `uniform`: what bends it is the tension in its middle all along.
     pub fn new(tether: &InstalledTether, [density, gravity]: [f64; 2], uniform: bool) -> Self {
         let line = &tether.line;
         let (mut below, mut start) = (0.0, 0.0);
         let length = line.length();
-        let spans: Vec<Span> = line
+        let spans: Vec<ElementSpan> = line
             .elements()
             .iter()
             .map(|e| {
                 let tube = e.tube();
                 let inside = tube.internal_area() * tether.fluid.density;
                 let weight = (e.mass_per_length() + inside - density * tube.external_area()) * gravity * e.length;
-                let span = Span {
+                let span = ElementSpan {
                     shares: [start, start + 0.5 * e.length, start + e.length].map(|s| s / length),
                     flexibility: e.length / e.axial_stiffness(),
                     areas: [tube.external_area(), tube.internal_area()],
@@ -102,7 +102,7 @@ impl Axial {
             })
             .collect();
         let ends = [tether.anchor_springs.inline, tether.vessel_springs.inline].map(f64::recip);
-        Axial {
+        TensionModel {
             flexibility: spans.iter().map(|s| s.flexibility).sum::<f64>() + ends[0] + ends[1],
             spans,
             length,
@@ -131,9 +131,9 @@ impl Axial {
     }
 
     /// The tension of an axis whose tether is longer than the chord by an arc (m), attached at a height (m, global).
-    pub fn tension(&self, axis: &Axis, top: f64, arc: f64, water: &FlowAt) -> Tension {
+    pub fn tension(&self, axis: &TetherAxis, top: f64, arc: f64, water: &FlowAt) -> TetherTension {
         let cosine = axis.along.z;
-        let mut made = Tension { cosine, length: axis.chord, ..Tension::default() };
+        let mut made = TetherTension { cosine, length: axis.chord, ..TetherTension::default() };
         made.heights = [top - axis.chord * cosine, top];
         let loads = self.extension_by_weight_and_pressure(&made, water);
         let pressed = self.caps[0] * water.hydrostatic(made.heights[0]);
@@ -142,14 +142,14 @@ impl Axial {
         if taut < pressed {
             // what the lower end would fall until nothing pushes it
             made.drop = (pressed - taut) * self.flexibility;
-            made.standing = Standing::Slack;
+            made.standing = TensionCase::Slack;
             made.bottom = pressed;
             if let Some(stop) = self.stop.filter(|stop| made.drop > *stop) {
                 made.bottom = taut + stop / self.flexibility;
                 made.drop = stop;
-                made.standing = if stop > 0.0 { Standing::OnStop } else { Standing::Taut };
+                made.standing = if stop > 0.0 { TensionCase::OnStop } else { TensionCase::Taut };
             }
-            if made.standing != Standing::Taut {
+            if made.standing != TensionCase::Taut {
                 made.length = self.length;
                 made.heights[0] = top - self.length * cosine;
             }
@@ -159,7 +159,7 @@ impl Axial {
     }
 
     /// How much longer the tether is by weight and pressure than by its tension at the lower end (m).
-    fn extension_by_weight_and_pressure(&self, at: &Tension, water: &FlowAt) -> f64 {
+    fn extension_by_weight_and_pressure(&self, at: &TetherTension, water: &FlowAt) -> f64 {
         let height = |share: f64| at.heights[0] + (at.heights[1] - at.heights[0]) * share;
         let mut sum = 0.0;
         for span in &self.spans {
@@ -172,15 +172,15 @@ impl Axial {
     }
 
     /// Effective tension that bends an element: that in its middle, or in the middle of a taut tether (N).
-    pub fn middle(&self, element: usize, at: &Tension) -> f64 {
-        if self.uniform && at.standing == Standing::Taut {
+    pub fn middle(&self, element: usize, at: &TetherTension) -> f64 {
+        if self.uniform && at.standing == TensionCase::Taut {
             return at.bottom + 0.5 * self.weight * at.cosine;
         }
         at.bottom + self.spans[element].below[0] * at.cosine
     }
 
     /// At the ends of an element, lower and upper: effective tension, wall tension (N), pressure outside and inside (Pa).
-    pub fn ends(&self, element: usize, at: &Tension, water: &FlowAt) -> [[f64; 4]; 2] {
+    pub fn ends(&self, element: usize, at: &TetherTension, water: &FlowAt) -> [[f64; 4]; 2] {
         let span = &self.spans[element];
         let [low, _, high] = span.shares;
         let under = 2.0 * span.below[0] - span.below[1];

@@ -1,6 +1,6 @@
 //! An installed tether as it is given.
 
-use crate::Line;
+use crate::TetherLine;
 use nalgebra::Vector3;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
@@ -77,7 +77,7 @@ impl EndSprings {
 
 /// What holds a node beside the ends [AQWA-TETHER A.14]. Nodes count from 0 at the anchor.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Constraint {
+pub enum NodeConstraint {
     /// A node stays at the place across the axis that it has when the tether is vertical over its anchor (TLAC).
     FixedLateral {
         /// The node.
@@ -102,14 +102,14 @@ pub enum Constraint {
     },
 }
 
-impl Constraint {
+impl NodeConstraint {
     /// Its node.
     pub const fn node(self) -> usize {
         match self {
-            Constraint::FixedLateral { node }
-            | Constraint::FixedRotation { node }
-            | Constraint::VesselLateral { node, .. }
-            | Constraint::VesselRotation { node } => node,
+            NodeConstraint::FixedLateral { node }
+            | NodeConstraint::FixedRotation { node }
+            | NodeConstraint::VesselLateral { node, .. }
+            | NodeConstraint::VesselRotation { node } => node,
         }
     }
 }
@@ -145,7 +145,7 @@ pub struct InstalledTether {
     /// What the user calls it.
     pub name: String,
     /// Its elements from the anchor.
-    pub line: Line,
+    pub line: TetherLine,
     /// The anchor (m, global).
     pub anchor: Vector3<f64>,
     /// Where it is attached, from the centre of gravity of the structure, in its axes (m).
@@ -165,12 +165,12 @@ pub struct InstalledTether {
     /// How many tethers it stands for in the force on the structure.
     pub group: f64,
     /// What holds it between its ends.
-    pub constraints: Vec<Constraint>,
+    pub constraints: Vec<NodeConstraint>,
 }
 
 impl InstalledTether {
     /// A tether with rigid ends, without caps, fluid, impact, stop and constraints.
-    pub fn new(name: impl Into<String>, line: Line, anchor: Vector3<f64>, attachment: Vector3<f64>) -> Self {
+    pub fn new(name: impl Into<String>, line: TetherLine, anchor: Vector3<f64>, attachment: Vector3<f64>) -> Self {
         InstalledTether {
             name: name.into(),
             line,
@@ -220,14 +220,15 @@ impl InstalledTether {
         }
         for constraint in &self.constraints {
             let (node, last) = (constraint.node(), self.line.nodes() - 1);
-            let lateral = matches!(constraint, Constraint::FixedLateral { .. } | Constraint::VesselLateral { .. });
+            let lateral =
+                matches!(constraint, NodeConstraint::FixedLateral { .. } | NodeConstraint::VesselLateral { .. });
             if node > last {
                 return refuse(&format!("a constraint is on node {}, and the last is {}", node + 1, last + 1));
             }
             if lateral && (node == 0 || node == last) {
                 return refuse("a lateral constraint is on an end, which is held already");
             }
-            if let Constraint::VesselLateral { gap, .. } = constraint
+            if let NodeConstraint::VesselLateral { gap, .. } = constraint
                 && !(gap.is_finite() && *gap >= 0.0)
             {
                 return refuse("the gap of a lateral constraint must be zero or more");

@@ -1,7 +1,7 @@
 //! A body of the model as the structure of tethers: hull, members, hydrodynamic database, wind and current as the hydrodynamic floor has them.
 
 use super::flow::FlowAt;
-use super::{Forces, Structure};
+use super::{Structure, StructureForces};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{BodyLoad, Category, Floating, Underway, in_pose, move_stiffness, move_wrench};
@@ -61,9 +61,15 @@ impl Afloat {
 }
 
 impl Structure for Afloat {
-    fn forces(&mut self, at: &Underway, _: &FlowAt, accepted: bool, out: &mut Forces) -> Result<(), ClassError> {
+    fn forces(
+        &mut self,
+        at: &Underway,
+        _: &FlowAt,
+        accepted: bool,
+        out: &mut StructureForces,
+    ) -> Result<(), ClassError> {
         let mooring = out.mooring;
-        *out = Forces { mooring, ..Forces::default() };
+        *out = StructureForces { mooring, ..StructureForces::default() };
         let arm = at.pose.axes * self.centre;
         let spin = Vector3::new(at.velocity[3], at.velocity[4], at.velocity[5]);
         let origin = Pose { origin: at.pose.origin - arm, axes: at.pose.axes };

@@ -9,7 +9,7 @@ use windlass_model::ClassError;
 
 /// The waves.
 #[derive(Clone, Debug)]
-pub enum Waves {
+pub enum FlowWaves {
     /// Still water.
     None,
     /// A regular wave in deep water.
@@ -20,7 +20,7 @@ pub enum Waves {
 
 /// Water, with what moves in it.
 #[derive(Clone, Debug)]
-pub struct Flow {
+pub struct WaterFlow {
     /// Density (kg/m3).
     pub density: f64,
     /// Gravity (m/s2).
@@ -28,12 +28,12 @@ pub struct Flow {
     /// Height of the mean level, tide in it (m, global z).
     pub level: f64,
     /// The waves.
-    pub waves: Waves,
+    pub waves: FlowWaves,
     /// The current.
     pub current: CurrentField,
 }
 
-impl Flow {
+impl WaterFlow {
     /// Still water of a density (kg/m3) under a gravity (m/s2), its surface at z = 0.
     ///
     /// # Errors
@@ -43,18 +43,18 @@ impl Flow {
         if !(sound(density) && sound(gravity)) {
             return Err(ClassError::new("the water needs a density and a gravity greater than zero"));
         }
-        Ok(Flow { density, gravity, level: 0.0, waves: Waves::None, current: CurrentField::default() })
+        Ok(WaterFlow { density, gravity, level: 0.0, waves: FlowWaves::None, current: CurrentField::default() })
     }
 
     /// The same with waves.
-    pub fn with_waves(self, waves: Waves) -> Self {
-        Flow { waves, ..self }
+    pub fn with_waves(self, waves: FlowWaves) -> Self {
+        WaterFlow { waves, ..self }
     }
 
     /// The water at a time (s), ready to be asked at many places.
     pub fn at_time(&self, time: f64) -> FlowAt<'_> {
         let sea = match &self.waves {
-            Waves::Sea(sea) => Some(sea.at(time)),
+            FlowWaves::Sea(sea) => Some(sea.at(time)),
             _ => None,
         };
         FlowAt { flow: self, time, sea }
@@ -64,7 +64,7 @@ impl Flow {
 /// The water at one time.
 #[derive(Clone, Debug)]
 pub struct FlowAt<'a> {
-    flow: &'a Flow,
+    flow: &'a WaterFlow,
     time: f64,
     sea: Option<SeaAt<'a>>,
 }
@@ -79,7 +79,7 @@ impl FlowAt<'_> {
     }
 
     /// The water it is.
-    pub fn flow(&self) -> &Flow {
+    pub fn flow(&self) -> &WaterFlow {
         self.flow
     }
 
@@ -91,7 +91,7 @@ impl FlowAt<'_> {
     /// Height of the surface (m, global z).
     pub fn surface(&self, x: f64, y: f64) -> f64 {
         let waves = match (&self.flow.waves, &self.sea) {
-            (Waves::Deep(wave), _) => wave.elevation(x, y, self.time),
+            (FlowWaves::Deep(wave), _) => wave.elevation(x, y, self.time),
             (_, Some(sea)) => sea.elevation(x, y),
             _ => 0.0,
         };
@@ -102,7 +102,9 @@ impl FlowAt<'_> {
     pub fn kinematics(&self, at: Vector3<f64>) -> Kinematics {
         let flow = self.flow;
         let mut found = match (&flow.waves, &self.sea) {
-            (Waves::Deep(wave), _) => wave.kinematics(at, at.z - flow.level, self.time, [flow.density, flow.gravity]),
+            (FlowWaves::Deep(wave), _) => {
+                wave.kinematics(at, at.z - flow.level, self.time, [flow.density, flow.gravity])
+            }
             (_, Some(sea)) => sea.kinematics(at),
             _ => Kinematics::still(0.0),
         };

@@ -20,7 +20,7 @@ use windlass_model::ClassError;
 
 /// Forces (N) and moments (N m) about the centre of gravity, global axes, by what makes them, and the inertia they move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Forces {
+pub struct StructureForces {
     /// Weight.
     pub gravity: Six,
     /// Hydrostatic pressure up to the surface as it is.
@@ -41,10 +41,10 @@ pub struct Forces {
     pub inertia: Matrix6<f64>,
 }
 
-impl Default for Forces {
+impl Default for StructureForces {
     fn default() -> Self {
         let none = Six::zeros();
-        Forces {
+        StructureForces {
             gravity: none,
             hydrostatic: none,
             drag: none,
@@ -58,7 +58,7 @@ impl Default for Forces {
     }
 }
 
-impl Forces {
+impl StructureForces {
     /// Names of the kinds, in the order of [`Forces::kinds`]; the total is the last.
     pub const KINDS: [&'static str; 9] = [
         "GRAVITY",
@@ -121,5 +121,11 @@ pub trait Structure: Debug {
     ///
     /// # Errors
     /// A place for which it has no forces.
-    fn forces(&mut self, at: &Underway, water: &FlowAt, accepted: bool, out: &mut Forces) -> Result<(), ClassError>;
+    fn forces(
+        &mut self,
+        at: &Underway,
+        water: &FlowAt,
+        accepted: bool,
+        out: &mut StructureForces,
+    ) -> Result<(), ClassError>;
 }

@@ -14,7 +14,7 @@
 
 use super::flow::FlowAt;
 use super::wet::WetPart;
-use super::{Forces, Structure};
+use super::{Structure, StructureForces};
 use crate::compatibility::Compatibility;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::f64::consts::PI;
@@ -33,7 +33,7 @@ const GAUSS_THREE_POINTS: [(f64, f64); 3] =
 
 /// A member.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tube {
+pub struct TubeMember {
     /// Its ends, axes of the structure from its centre of gravity (m). Its ends are closed: what joins another tube end to end cancels.
     pub ends: [Vector3<f64>; 2],
     /// Outer diameter (m).
@@ -53,7 +53,7 @@ pub struct Tubes {
     mass: f64,
     /// Moments of inertia about the centre of gravity, axes of the structure (kg m2).
     inertia: Matrix3<f64>,
-    tubes: Vec<Tube>,
+    tubes: Vec<TubeMember>,
     compatibility: Compatibility,
 }
 
@@ -65,7 +65,7 @@ impl Tubes {
     pub fn new(
         mass: f64,
         inertia: Matrix3<f64>,
-        tubes: Vec<Tube>,
+        tubes: Vec<TubeMember>,
         compatibility: Compatibility,
     ) -> Result<Self, ClassError> {
         if !(mass > 0.0 && mass.is_finite()) || Cholesky::new(inertia, &never).is_err() {
@@ -86,15 +86,15 @@ impl Tubes {
     }
 
     /// Its tubes.
-    pub fn tubes(&self) -> &[Tube] {
+    pub fn tubes(&self) -> &[TubeMember] {
         &self.tubes
     }
 }
 
 impl Structure for Tubes {
-    fn forces(&mut self, at: &Underway, water: &FlowAt, _: bool, out: &mut Forces) -> Result<(), ClassError> {
+    fn forces(&mut self, at: &Underway, water: &FlowAt, _: bool, out: &mut StructureForces) -> Result<(), ClassError> {
         let mooring = out.mooring;
-        *out = Forces { mooring, ..Forces::default() };
+        *out = StructureForces { mooring, ..StructureForces::default() };
         let turned = at.pose.axes * self.inertia * at.pose.axes.transpose();
         let spin = Vector3::new(at.velocity[3], at.velocity[4], at.velocity[5]);
         out.gravity[2] = -self.mass * water.flow().gravity;
@@ -127,7 +127,7 @@ impl Straight {
     }
 }
 
-impl Tube {
+impl TubeMember {
     /// Adds what acts on the wet part of it.
     fn add(
         &self,
@@ -135,7 +135,7 @@ impl Tube {
         (pose, moves): (&Pose, &Six),
         water: &FlowAt,
         compatibility: &Compatibility,
-        out: &mut Forces,
+        out: &mut StructureForces,
     ) {
         let (density, gravity) = (water.flow().density, water.flow().gravity);
         let section = PI * self.diameter * self.diameter / 4.0;

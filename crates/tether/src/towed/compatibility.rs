@@ -13,7 +13,7 @@
 
 /// Which peculiarities of AQWATM-TETHER are kept. [`Compatibility::native`] keeps none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Compatibility {
+pub struct TowedCompatibility {
     /// Slam `dm/ds v^2` pushes up when the tube leaves the water, too. Natively it acts on entry alone: added mass that is
     /// left behind takes its momentum along [VON-KARMAN-1929; DNV-RP-C205 8.6].
     pub exit_slam: bool,
@@ -26,20 +26,20 @@ pub struct Compatibility {
     pub acceleration_of_step_before: bool,
 }
 
-impl Compatibility {
+impl TowedCompatibility {
     /// None of them.
     pub fn native() -> Self {
-        Compatibility { exit_slam: false, unstretched_crests: false, acceleration_of_step_before: false }
+        TowedCompatibility { exit_slam: false, unstretched_crests: false, acceleration_of_step_before: false }
     }
 
     /// All of them: the listing of [AQWA-TETHER 8.1] (AQWA-DRIFT with the tether enhancement), and every deck.
     pub fn aqwa_5_4() -> Self {
-        Compatibility { exit_slam: true, unstretched_crests: true, acceleration_of_step_before: true }
+        TowedCompatibility { exit_slam: true, unstretched_crests: true, acceleration_of_step_before: true }
     }
 }
 
-impl Default for Compatibility {
+impl Default for TowedCompatibility {
     fn default() -> Self {
-        Compatibility::native()
+        TowedCompatibility::native()
     }
 }

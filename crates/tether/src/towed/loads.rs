@@ -6,8 +6,8 @@
 use super::super::beam::{self, GAUSS, Matrix4, Vector4, add, deflection, dot, of_element, slope};
 use super::super::line::TetherElement;
 use super::Towed;
-use super::scheme::State;
-use super::water::{Flow, Turn, Waters};
+use super::scheme::TowedState;
+use super::water::{TowedFlow, Turn, Waters};
 use super::wetted::{Scan, Wetness, Wetted};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
@@ -31,7 +31,7 @@ struct IntegrationLength {
 }
 
 /// How an element stands and moves in both planes (y, z).
-struct Motion {
+struct ElementMotion {
     at: [Vector4; 2],
     velocity: [Vector4; 2],
 }
@@ -107,7 +107,7 @@ impl<'a> Loading<'a> {
     }
 
     /// Finds the loads at a time (s) of a state.
-    pub fn find(&mut self, time: f64, state: &State) {
+    pub fn find(&mut self, time: f64, state: &TowedState) {
         self.waters.at_time(time, &mut self.time);
         for ((forces, added), gravity) in self.forces.iter_mut().zip(&mut self.added).zip(&self.gravity) {
             *forces = [[0.0; 4], *gravity];
@@ -129,8 +129,8 @@ impl<'a> Loading<'a> {
     }
 
     /// Adds the loads of an integration length.
-    fn add_loads(&mut self, index: usize, length: &IntegrationLength, state: &State) {
-        let motion = Motion {
+    fn add_loads(&mut self, index: usize, length: &IntegrationLength, state: &TowedState) {
+        let motion = ElementMotion {
             at: [of_element(&state.at[0], length.element), of_element(&state.at[1], length.element)],
             velocity: [of_element(&state.velocity[0], length.element), of_element(&state.velocity[1], length.element)],
         };
@@ -160,7 +160,7 @@ impl<'a> Loading<'a> {
                 for i in 0..4 {
                     let z = elevations[i] - heights[i];
                     let flow = self.waters.flow(&self.time, &turns[i * blocks..(i + 1) * blocks], z, elevations[i]);
-                    let place = Place {
+                    let place = AxisPlace {
                         weight: GAUSS[i].1 * length.share * element.length,
                         deflection: length.deflections[i],
                         slope: length.slopes[i],
@@ -180,7 +180,14 @@ impl<'a> Loading<'a> {
     }
 
     /// Adds the loads of a piece of a length, from one fraction of it to another, with the actual surface.
-    fn piece(&mut self, length: &IntegrationLength, element: &TetherElement, motion: &Motion, from: f64, to: f64) {
+    fn piece(
+        &mut self,
+        length: &IntegrationLength,
+        element: &TetherElement,
+        motion: &ElementMotion,
+        from: f64,
+        to: f64,
+    ) {
         let case = self.case;
         let start = length.x[0] - (length.from + length.share * GAUSS[0].0) * element.length;
         for (at, weight) in GAUSS {
@@ -195,7 +202,7 @@ impl<'a> Loading<'a> {
             if wet.height == 0.0 {
                 continue;
             }
-            let place = Place {
+            let place = AxisPlace {
                 weight: weight * (to - from) * length.share * element.length,
                 slope: slope(a, element.length),
                 flow: self.waters.flow(&self.time, &self.place, z, elevation),
@@ -209,24 +216,24 @@ impl<'a> Loading<'a> {
 }
 
 /// A place of the axis in the water.
-struct Place {
+struct AxisPlace {
     /// Length it stands for (m).
     weight: f64,
     /// Shapes there.
     deflection: Vector4,
     slope: Vector4,
     wet: Wetted,
-    flow: Flow,
+    flow: TowedFlow,
 }
 
-impl Place {
+impl AxisPlace {
     /// Adds its loads and its mass of water to those of its element (the upper triangle of the mass alone).
     #[inline]
     fn load(
         &self,
         case: &Towed,
         element: &TetherElement,
-        motion: &Motion,
+        motion: &ElementMotion,
         forces: &mut [Vector4; 2],
         added: &mut [Matrix4; 2],
     ) {

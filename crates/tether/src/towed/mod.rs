@@ -21,14 +21,14 @@ pub mod wetted;
 
 use super::banded::Banded;
 use super::beam::{self, Matrix4};
-use super::line::Line;
+use super::line::TetherLine;
 use super::modes::{self, NaturalMode, Pencil};
 use windlass_base::units::Dim;
 use windlass_hydro::sea::Component;
 use windlass_model::ClassError;
 
-pub use compatibility::Compatibility;
-pub use run::{History, Observer, Record, Steps};
+pub use compatibility::TowedCompatibility;
+pub use run::{TowedHistory, TowedObserver, TowedRecord, TowedSteps};
 use wetted::Wetted;
 
 /// More waves than this are refused: memory goes with them times the elements.
@@ -47,7 +47,7 @@ pub struct EndSpring {
 
 /// Factors on the forces of the water (deck 17: cards DRGM, ADMM, SLMM).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Multipliers {
+pub struct WaterForceMultipliers {
     /// On drag.
     pub drag: f64,
     /// On added mass, and with it on wave inertia and slam.
@@ -56,10 +56,10 @@ pub struct Multipliers {
     pub slam: f64,
 }
 
-impl Default for Multipliers {
+impl Default for WaterForceMultipliers {
     /// Those of the manual: no slam.
     fn default() -> Self {
-        Multipliers { drag: 1.0, added_mass: 1.0, slam: 0.0 }
+        WaterForceMultipliers { drag: 1.0, added_mass: 1.0, slam: 0.0 }
     }
 }
 
@@ -67,7 +67,7 @@ impl Default for Multipliers {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Towed {
     /// Its elements from the trailing end.
-    pub line: Line,
+    pub line: TetherLine,
     /// Place of the trailing end on the straight axis (m); z from the still water level.
     pub origin: [f64; 3],
     /// Direction of the axis toward the vessel (rad from global +X toward +Y). AQWA knows 0 only.
@@ -88,9 +88,9 @@ pub struct Towed {
     /// Velocity of the tow over the ground (m/s), along global X and Y (card TOWS).
     pub tow: [f64; 2],
     /// Factors on the forces of the water.
-    pub multipliers: Multipliers,
+    pub multipliers: WaterForceMultipliers,
     /// Which program's peculiarities are kept.
-    pub compatibility: Compatibility,
+    pub compatibility: TowedCompatibility,
 }
 
 impl Towed {

@@ -1,14 +1,14 @@
 //! A run of a towed tether in time, and what is reported of each step.
 
 use super::Towed;
-use super::scheme::{Scheme, State, USUAL_B};
+use super::scheme::{TowedScheme, TowedState, USUAL_B};
 use std::ops::ControlFlow;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
 /// Steps of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steps {
+pub struct TowedSteps {
     /// Time of the first record (s).
     pub start: f64,
     /// Length of a step (s).
@@ -19,16 +19,16 @@ pub struct Steps {
     pub b: f64,
 }
 
-impl Default for Steps {
+impl Default for TowedSteps {
     /// The start alone, with a step of 0.25 s and the manual's b.
     fn default() -> Self {
-        Steps { start: 0.0, step: 0.25, number: 1, b: USUAL_B }
+        TowedSteps { start: 0.0, step: 0.25, number: 1, b: USUAL_B }
     }
 }
 
 /// Forces, moments and stresses at an end of an element, with the signs of the listing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct End {
+pub struct ElementEnd {
     /// Shear forces SY, SZ (N): of the element on the node.
     pub shear: [f64; 2],
     /// Bending moments MY = EI z'', MZ = EI y'' (N m).
@@ -40,7 +40,7 @@ pub struct End {
 
 /// What a run reports of one time. Rotations are by the right hand: RY = -z', RZ = y'.
 #[derive(Clone, Copy, Debug)]
-pub struct Record<'a> {
+pub struct TowedRecord<'a> {
     /// Its number from 0.
     pub index: usize,
     /// Its time (s).
@@ -54,17 +54,17 @@ pub struct Record<'a> {
     /// Their accelerations (m/s2, rad/s2).
     pub accelerations: &'a [[f64; 4]],
     /// Both ends of each element: first end, second end of element 1, then of element 2 and so on.
-    pub ends: &'a [End],
+    pub ends: &'a [ElementEnd],
 }
 
 /// Who looks at the records of a run as they come: statistics need not keep them.
-pub trait Observer {
+pub trait TowedObserver {
     /// Takes a record; [`ControlFlow::Break`] ends the run.
-    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()>;
+    fn record(&mut self, record: &TowedRecord<'_>) -> ControlFlow<()>;
 }
 
-impl<F: FnMut(&Record<'_>)> Observer for F {
-    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+impl<F: FnMut(&TowedRecord<'_>)> TowedObserver for F {
+    fn record(&mut self, record: &TowedRecord<'_>) -> ControlFlow<()> {
         self(record);
         ControlFlow::Continue(())
     }
@@ -72,7 +72,7 @@ impl<F: FnMut(&Record<'_>)> Observer for F {
 
 /// Keeps the records whole, in flat lists.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct History {
+pub struct TowedHistory {
     /// Every how many records one is kept; 0 is taken for 1.
     pub every: usize,
     /// Their times (s).
@@ -83,7 +83,7 @@ pub struct History {
     pub ends: Vec<f64>,
 }
 
-impl History {
+impl TowedHistory {
     /// Values of a node in [`History::nodes`].
     pub const OF_A_NODE: usize = 13;
     /// Values of an end in [`History::ends`].
@@ -102,8 +102,8 @@ impl History {
     }
 }
 
-impl Observer for History {
-    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+impl TowedObserver for TowedHistory {
+    fn record(&mut self, record: &TowedRecord<'_>) -> ControlFlow<()> {
         if record.index.is_multiple_of(self.every.max(1)) {
             self.times.push(record.time);
             for (i, along) in record.along.iter().enumerate() {
@@ -128,31 +128,36 @@ impl Towed {
     /// # Errors
     /// Those of [`Towed::check`]; steps that cannot be, or too large for the end springs; a motion without bound, or slopes
     /// beyond one radian, where the theory of small deflections has long ended.
-    pub fn run(&self, steps: &Steps, observer: &mut dyn Observer) -> Result<State, ClassError> {
+    pub fn run(&self, steps: &TowedSteps, observer: &mut dyn TowedObserver) -> Result<TowedState, ClassError> {
         let order = 2 * self.line.nodes();
         let zeros = || [vec![0.0; order], vec![0.0; order]];
-        self.run_from(State { at: zeros(), velocity: zeros() }, steps, observer)
+        self.run_from(TowedState { at: zeros(), velocity: zeros() }, steps, observer)
     }
 
     /// The same from a state.
     ///
     /// # Errors
     /// Those of [`Towed::run`]; a state of another number of nodes.
-    pub fn run_from(&self, mut state: State, steps: &Steps, observer: &mut dyn Observer) -> Result<State, ClassError> {
+    pub fn run_from(
+        &self,
+        mut state: TowedState,
+        steps: &TowedSteps,
+        observer: &mut dyn TowedObserver,
+    ) -> Result<TowedState, ClassError> {
         self.check()?;
         steps.check()?;
         let order = 2 * self.line.nodes();
         if state.at.iter().chain(&state.velocity).any(|list| list.len() != order) {
             return Err(ClassError::new(format!("the state of the towed tether is not one of {} nodes", order / 2)));
         }
-        let mut scheme = Scheme::new(self, steps.step, steps.b)?;
+        let mut scheme = TowedScheme::new(self, steps.step, steps.b)?;
         scheme.check_step()?;
-        let mut shown = Shown::new(order / 2);
+        let mut shown = RecordLists::new(order / 2);
         for index in 0..steps.number {
             let time = steps.start + index as f64 * steps.step;
             scheme.stages(time, &state)?;
             shown.fill(self, &scheme, &state, index)?;
-            let record = Record {
+            let record = TowedRecord {
                 index,
                 time,
                 along: &shown.along,
@@ -171,7 +176,7 @@ impl Towed {
     }
 }
 
-impl Steps {
+impl TowedSteps {
     /// Whether there are such steps.
     fn check(&self) -> Result<(), ClassError> {
         if !(self.step.is_finite() && self.step > 0.0 && self.start.is_finite()) {
@@ -187,31 +192,31 @@ impl Steps {
 }
 
 /// The lists of a record, filled anew at each.
-struct Shown {
+struct RecordLists {
     along: Vec<f64>,
     positions: Vec<[f64; 4]>,
     velocities: Vec<[f64; 4]>,
     accelerations: Vec<[f64; 4]>,
-    ends: Vec<End>,
+    ends: Vec<ElementEnd>,
     /// Mean accelerations of the step before, in the planes y and z.
     before: [Vec<f64>; 2],
 }
 
-impl Shown {
+impl RecordLists {
     fn new(nodes: usize) -> Self {
         let list = || vec![[0.0; 4]; nodes];
-        Shown {
+        RecordLists {
             along: vec![0.0; nodes],
             positions: list(),
             velocities: list(),
             accelerations: list(),
-            ends: vec![End::default(); 2 * (nodes - 1)],
+            ends: vec![ElementEnd::default(); 2 * (nodes - 1)],
             before: [vec![0.0; 2 * nodes], vec![0.0; 2 * nodes]],
         }
     }
 
     /// Fills them from a state and the stages that start from it.
-    fn fill(&mut self, case: &Towed, scheme: &Scheme, state: &State, index: usize) -> Result<(), ClassError> {
+    fn fill(&mut self, case: &Towed, scheme: &TowedScheme, state: &TowedState, index: usize) -> Result<(), ClassError> {
         // 0 - x: no minus before a zero
         let turned = |y: &[f64], z: &[f64], i: usize| [y[2 * i], z[2 * i], 0.0 - z[2 * i + 1], y[2 * i + 1]];
         let [first, second] = &scheme.accelerations;
@@ -255,7 +260,7 @@ impl Shown {
     }
 
     /// Keeps the mean accelerations of a step that is done.
-    fn keep(&mut self, scheme: &Scheme) {
+    fn keep(&mut self, scheme: &TowedScheme) {
         let [first, second] = &scheme.accelerations;
         for p in 0..2 {
             for (kept, (a, b)) in self.before[p].iter_mut().zip(first[p].iter().zip(&second[p])) {

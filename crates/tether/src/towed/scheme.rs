@@ -6,10 +6,10 @@
 //! The term of `a1` in the second is not in the manual, but in its numbers; it is what the first says with v* in the part
 //! that is ahead of the middle of the step. Without it the highest modes would swing on undamped. End springs are in F.
 
-use super::super::banded::{Banded, Factors};
+use super::super::banded::{Banded, BandedFactors};
 use super::super::beam::{self, Matrix4, Vector4, of_element, times};
 use super::loads::Loading;
-use super::{Towed, run::End};
+use super::{Towed, run::ElementEnd};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
@@ -18,7 +18,7 @@ pub const USUAL_B: f64 = 0.54;
 
 /// Deflections and slopes of the nodes in the planes y and z, and their rates.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct State {
+pub struct TowedState {
     /// Deflection (m) and slope d/dx (rad) of each node.
     pub at: [Vec<f64>; 2],
     /// Their rates (m/s, rad/s).
@@ -27,7 +27,7 @@ pub struct State {
 
 /// The step of a case, with its work space: it allocates nothing once made.
 #[derive(Clone, Debug)]
-pub struct Scheme<'a> {
+pub struct TowedScheme<'a> {
     case: &'a Towed,
     loading: Loading<'a>,
     step: f64,
@@ -37,8 +37,8 @@ pub struct Scheme<'a> {
     dry: Banded,
     matrix: [Banded; 2],
     factored: [Banded; 2],
-    factors: [Factors; 2],
-    ahead: State,
+    factors: [BandedFactors; 2],
+    ahead: TowedState,
     taken: Vec<f64>,
     pull: Vec<f64>,
     /// Accelerations of the two stages in the two planes (m/s2, rad/s2).
@@ -47,7 +47,7 @@ pub struct Scheme<'a> {
     pub ends: Vec<[Vector4; 2]>,
 }
 
-impl<'a> Scheme<'a> {
+impl<'a> TowedScheme<'a> {
     /// The scheme of a case, a step (s) and b.
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl<'a> Scheme<'a> {
             beam::assemble(&mut dry, i, 1.0, m);
         }
         let zeros = || [vec![0.0; order], vec![0.0; order]];
-        Ok(Scheme {
+        Ok(TowedScheme {
             case,
             loading: Loading::new(case)?,
             step,
@@ -74,8 +74,8 @@ impl<'a> Scheme<'a> {
             dry,
             matrix: [Banded::zeros(order), Banded::zeros(order)],
             factored: [Banded::zeros(order), Banded::zeros(order)],
-            factors: [Factors::with_room(order), Factors::with_room(order)],
-            ahead: State { at: zeros(), velocity: zeros() },
+            factors: [BandedFactors::with_room(order), BandedFactors::with_room(order)],
+            ahead: TowedState { at: zeros(), velocity: zeros() },
             taken: vec![0.0; order],
             pull: vec![0.0; order],
             accelerations: [zeros(), zeros()],
@@ -88,7 +88,7 @@ impl<'a> Scheme<'a> {
     ///
     /// # Errors
     /// A matrix that is singular, or an acceleration that is not finite: the motion has no bound.
-    pub fn stages(&mut self, time: f64, state: &State) -> Result<(), ClassError> {
+    pub fn stages(&mut self, time: f64, state: &TowedState) -> Result<(), ClassError> {
         self.ends.iter_mut().for_each(|end| *end = [[0.0; 4]; 2]);
         self.loading.find(time, state);
         self.stage(0, state, None)?;
@@ -117,7 +117,7 @@ impl<'a> Scheme<'a> {
     }
 
     /// Brings a state to the end of the step whose stages were found for it.
-    pub fn advance(&self, state: &mut State) {
+    pub fn advance(&self, state: &mut TowedState) {
         let dt = self.step;
         for p in 0..2 {
             let [first, second] = [&self.accelerations[0][p], &self.accelerations[1][p]];
@@ -131,7 +131,7 @@ impl<'a> Scheme<'a> {
     }
 
     /// One stage: accelerations of the loads found, and half of the forces on the ends of the elements.
-    fn stage(&mut self, number: usize, state: &State, ahead: Option<&State>) -> Result<(), ClassError> {
+    fn stage(&mut self, number: usize, state: &TowedState, ahead: Option<&TowedState>) -> Result<(), ClassError> {
         let (dt, b) = (self.step, self.b);
         let implicit = 0.5 * b * dt * dt;
         let springs_at = ahead.unwrap_or(state);
@@ -180,14 +180,14 @@ impl<'a> Scheme<'a> {
     }
 
     /// Forces and stresses at an end (0, 1) of an element: signs and stresses of the listing.
-    pub fn end(&self, element: usize, end: usize) -> End {
+    pub fn end(&self, element: usize, end: usize) -> ElementEnd {
         let Some(([y, z], e)) = self.ends.get(element).zip(self.case.line.elements().get(element)) else {
-            return End::default();
+            return ElementEnd::default();
         };
         let sign = if end == 0 { -1.0 } else { 1.0 };
         let moment = [sign * z[2 * end + 1], sign * y[2 * end + 1]];
         let factor = e.tube().stress_of_moment();
-        End {
+        ElementEnd {
             shear: [-y[2 * end], -z[2 * end]],
             moment,
             stress: [factor * moment[0].hypot(moment[1]), factor * moment[0], factor * moment[1]],

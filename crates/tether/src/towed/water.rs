@@ -59,7 +59,7 @@ pub type Turn = [Eight; 2];
 
 /// Eight waves in the axes of the tether; those that fill up the last block have no amplitude.
 #[derive(Clone, Debug)]
-struct Block {
+struct WaveBlock {
     kx: Eight,
     ky: Eight,
     k: Eight,
@@ -82,7 +82,7 @@ struct Block {
 /// The water of a towed tether.
 #[derive(Clone, Debug)]
 pub struct Waters {
-    blocks: Vec<Block>,
+    blocks: Vec<WaveBlock>,
     /// Whether a wave goes across the axis.
     pub lateral: bool,
     /// Current less tow in the axes of the tether: height (m) and velocity along x and y (m/s), heights falling.
@@ -93,7 +93,7 @@ pub struct Waters {
 
 /// Velocity and acceleration of the water in the axes of the tether; the tow is taken off the velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Flow {
+pub struct TowedFlow {
     /// Along x, y, z (m/s).
     pub velocity: [f64; 3],
     /// Along x, y, z (m/s2).
@@ -129,7 +129,7 @@ impl Waters {
             let toward = |c: &Component| turned(c.toward);
             let kd = |c: &Component| case.depth.map_or(f64::INFINITY, |d| c.number * d);
             let q = each(&|c| if kd(c) > DEEP_WATER_KD { 0.0 } else { (-2.0 * kd(c)).exp() });
-            Block {
+            WaveBlock {
                 kx: each(&|c| c.number * toward(c)[0]),
                 ky: each(&|c| c.number * toward(c)[1]),
                 k: each(&|c| c.number),
@@ -148,7 +148,7 @@ impl Waters {
                 deep: q.iter().all(|v| *v == 0.0),
             }
         };
-        let blocks: Vec<Block> = case.waves.chunks(8).map(block).collect();
+        let blocks: Vec<WaveBlock> = case.waves.chunks(8).map(block).collect();
         // a wave along the axis has the rounding of its direction's sine across it
         let lateral = blocks.iter().any(|b| b.ky.iter().zip(&b.k).any(|(y, k)| y.abs() > 1e-12 * k));
         let stretched = !case.compatibility.unstretched_crests;
@@ -184,12 +184,12 @@ impl Waters {
     }
 
     /// The water at a height above the still water level (m), under a surface of an elevation (m).
-    pub fn flow(&self, time: &[Turn], place: &[Turn], height: f64, elevation: f64) -> Flow {
+    pub fn flow(&self, time: &[Turn], place: &[Turn], height: f64, elevation: f64) -> TowedFlow {
         let z = self.reach(height, elevation);
         let sums = flows(&self.blocks, time, place, z, self.lateral);
         let [u, v, w, ax, ay, az] = sums.map(|s| (s[0] + s[2]) + (s[1] + s[3]));
         let [cx, cy] = self.current_at(height);
-        Flow { velocity: [u + cx, v + cy, w], acceleration: [ax, ay, az] }
+        TowedFlow { velocity: [u + cx, v + cy, w], acceleration: [ax, ay, az] }
     }
 
     /// The height at which the waves are taken for that of a place [WHEELER-1970]: the actual surface is taken for the still
@@ -228,7 +228,7 @@ impl Waters {
 
 /// Sums of the elevations of every eighth wave (m).
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn elevations(blocks: &[Block], time: &[Turn], place: &[Turn]) -> Eight {
+fn elevations(blocks: &[WaveBlock], time: &[Turn], place: &[Turn]) -> Eight {
     let mut sums = [0.0; 8];
     for ((block, t), p) in blocks.iter().zip(time).zip(place) {
         for (i, sum) in sums.iter_mut().enumerate() {
@@ -240,7 +240,7 @@ fn elevations(blocks: &[Block], time: &[Turn], place: &[Turn]) -> Eight {
 
 /// Sums of the velocities and accelerations of every fourth wave at a height.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn flows(blocks: &[Block], time: &[Turn], place: &[Turn], z: f64, lateral: bool) -> [Four; 6] {
+fn flows(blocks: &[WaveBlock], time: &[Turn], place: &[Turn], z: f64, lateral: bool) -> [Four; 6] {
     let mut sums = [[0.0; 4]; 6];
     for ((b, t), p) in blocks.iter().zip(time).zip(place) {
         if b.deep {
@@ -257,7 +257,7 @@ fn flows(blocks: &[Block], time: &[Turn], place: &[Turn], z: f64, lateral: bool)
 /// Adds the velocities and accelerations of four waves of a block, from number `FROM`, at a height.
 #[inline(always)]
 fn half<const DEEP: bool, const FROM: usize>(
-    b: &Block,
+    b: &WaveBlock,
     t: &Turn,
     p: &Turn,
     z: f64,

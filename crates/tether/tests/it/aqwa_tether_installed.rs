@@ -7,12 +7,12 @@ use std::sync::LazyLock;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::Underway;
-use windlass_signal::cycle::{AQWA_SAMPLES, Cycle};
+use windlass_signal::cycle::{AQWA_SAMPLES, HarmonicCycle};
 use windlass_tether::compatibility::Compatibility;
-use windlass_tether::installed::description::Description;
+use windlass_tether::installed::description::InstalledDescription;
 use windlass_tether::installed::modes::modes;
-use windlass_tether::installed::{Change, History, Installation, Keep};
-use windlass_tether::structure::{Forces, Structure};
+use windlass_tether::installed::{Installation, InstalledHistory, Keep, RigChange};
+use windlass_tether::structure::{Structure, StructureForces};
 
 static LISTING: LazyLock<Value> = LazyLock::new(|| {
     serde_json::from_str(&std::fs::read_to_string("../../tests/data/installed_tether.json").unwrap()).unwrap()
@@ -44,9 +44,9 @@ fn prints(value: f64, printed: f64, digits: usize) -> bool {
     format!("{value:.*e}", digits - 1) == format!("{printed:.*e}", digits - 1)
 }
 
-static RUN: LazyLock<History> = LazyLock::new(|| {
+static RUN: LazyLock<InstalledHistory> = LazyLock::new(|| {
     let (flow, mut platform) = (example::water(), example::platform(Compatibility::aqwa_5_4()));
-    let mut history = History::new(1, Keep::Always);
+    let mut history = InstalledHistory::new(1, Keep::Always);
     let mut installation =
         Installation::new(&mut platform, example::tethers(), &flow, Compatibility::aqwa_5_4()).unwrap();
     installation.run(&example::course(), &mut history).unwrap();
@@ -62,7 +62,7 @@ fn the_description_is_that_of_the_listing_to_its_digits() {
         let want = &LISTING["tether_description"][key];
         let tether = &example::tethers()[index];
         let attachment = example::course().pose.point(tether.attachment);
-        let found = Description::new(tether, attachment, &example::water()).unwrap();
+        let found = InstalledDescription::new(tether, attachment, &example::water()).unwrap();
         let at = numbers(&want["attachment_initial"]);
         // printed to three decimals
         assert!((0..3).all(|i| (found.attachment[i] - at[i]).abs() < 5e-4 + 1e-9), "{found:?}");
@@ -136,7 +136,8 @@ fn the_forces_on_the_structure_are_those_of_the_listing_at_all_printed_times() {
     for state in LISTING["structure_history"].as_array().unwrap() {
         let time = number(&state["time"]);
         let at = Underway { time, dt: 0.0, pose: &pose(&state["POSITION"]), velocity: &six(&state["VELOCITY"]) };
-        let mut forces = Forces { mooring: Six::from_vec(numbers(&state["MOORING"])) * 1e3, ..Forces::default() };
+        let mut forces =
+            StructureForces { mooring: Six::from_vec(numbers(&state["MOORING"])) * 1e3, ..StructureForces::default() };
         platform.forces(&at, &flow.at_time(time), true, &mut forces).unwrap();
         let off = |found: Six, name: &str| found / 1e3 - Six::from_vec(numbers(&state[name]));
         // kN and kN m of 3e6 and 1.2e7, 2.5e5 and 1.3e7: places are printed to 1e-4 m and deg, forces to five digits
@@ -206,12 +207,12 @@ fn the_structure_goes_as_in_the_listing() {
 fn tethers_one_and_two_go_slack_and_strike_when_the_listing_says() {
     let events = RUN.events();
     let of = |slack: bool| -> Vec<(usize, f64)> {
-        let kind = |change: &Change| matches!(change, Change::Slack) == slack;
+        let kind = |change: &RigChange| matches!(change, RigChange::Slack) == slack;
         events.iter().filter(|e| kind(&e.change)).map(|e| (e.tether + 1, e.time)).collect()
     };
     assert_eq!((of(true), of(false)), (vec![(1, 6.5), (2, 6.5)], vec![(1, 7.5), (2, 7.5)]));
     for event in &events[2..] {
-        let Change::Impact { velocity, stress } = event.change else { panic!("{event:?}") };
+        let RigChange::Impact { velocity, stress } = event.change else { panic!("{event:?}") };
         assert_eq!(format!("{velocity:.2}"), "0.25");
         assert!((stress / 7.557e7 - 1.0).abs() < 1e-3, "{stress}");
     }
@@ -294,7 +295,7 @@ fn the_harmonics_of_the_structure_are_those_of_the_listing() {
             let turn = direction > 2;
             let scale = if turn { 1f64.to_degrees() } else { 1.0 };
             let series: Vec<f64> = RUN.motion(order, direction).iter().map(|x| x * scale).collect();
-            let found = Cycle::new(&times, &series, (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
+            let found = HarmonicCycle::new(&times, &series, (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
             let want = &LISTING["harmonic"][name][axis];
             let printed: Vec<Vec<f64>> = want["harm"].as_array().unwrap().iter().map(numbers).collect();
             // required: surge and heave 1 % of the fundamental, pitch 0.001 in deg, deg/s, deg/s2
@@ -319,17 +320,17 @@ fn each_peculiarity_makes_the_difference_that_its_doc_tells() {
     let all = Compatibility::aqwa_5_4();
     let run = |compatibility: Compatibility| {
         let (flow, mut platform) = (example::water(), example::platform(compatibility));
-        let mut history = History::new(1, Keep::Always);
+        let mut history = InstalledHistory::new(1, Keep::Always);
         let mut made = Installation::new(&mut platform, example::tethers(), &flow, compatibility).unwrap();
         made.run(&example::course(), &mut history).unwrap();
         history
     };
-    let impact = |history: &History| match history.events()[2].change {
-        Change::Impact { velocity, .. } => (history.events()[2].time, velocity),
+    let impact = |history: &InstalledHistory| match history.events()[2].change {
+        RigChange::Impact { velocity, .. } => (history.events()[2].time, velocity),
         _ => panic!("{:?}", history.events()),
     };
     let near = |got: f64, want: f64, most: f64| assert!((got - want).abs() < most, "{got} {want}");
-    let surge = |history: &History| {
+    let surge = |history: &InstalledHistory| {
         let pairs = history.motion(0, 0).into_iter().zip(RUN.motion(0, 0));
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };

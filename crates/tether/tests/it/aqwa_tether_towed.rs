@@ -5,8 +5,10 @@
 
 use serde_json::Value;
 use windlass_hydro::sea::Component;
-use windlass_tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};
-use windlass_tether::{Line, TetherElement};
+use windlass_tether::towed::{
+    EndSpring, Towed, TowedCompatibility, TowedHistory, TowedRecord, TowedSteps, WaterForceMultipliers,
+};
+use windlass_tether::{TetherElement, TetherLine};
 
 /// The printed numbers.
 fn printed() -> Value {
@@ -18,7 +20,7 @@ fn number(value: &Value) -> f64 {
 }
 
 /// The tether of deck HE01.
-fn line() -> Line {
+fn line() -> TetherLine {
     // outer diameter, wall, density, modulus of the geometric and material groups 1 to 5
     const GROUPS: [[f64; 4]; 5] = [
         [2.0, 0.84010, 7.850263, 2.0e5],
@@ -33,8 +35,11 @@ fn line() -> Line {
     let groups = [1, 2, 3, 3, 3, 3, 3, 3, 3, 3, 3, 4, 5];
     let element = |(i, group): (usize, &i64)| {
         let [outer_diameter, wall_thickness, density, youngs_modulus] = GROUPS[*group as usize - 1];
-        let label =
-            windlass_tether::line::Label { nodes: [i as i64 + 1, i as i64 + 2], material: *group, geometry: *group };
+        let label = windlass_tether::line::ElementLabel {
+            nodes: [i as i64 + 1, i as i64 + 2],
+            material: *group,
+            geometry: *group,
+        };
         let length = nodes[i + 1] - nodes[i];
         TetherElement {
             length,
@@ -47,7 +52,7 @@ fn line() -> Line {
             label,
         }
     };
-    Line::new(groups.iter().enumerate().map(element).collect()).unwrap()
+    TetherLine::new(groups.iter().enumerate().map(element).collect()).unwrap()
 }
 
 /// The fifty waves with their printed wave numbers and phases; amplitudes are equal, 1/50 of the energy within the limits.
@@ -76,14 +81,14 @@ fn case() -> Towed {
         waves: waves(),
         current: Vec::new(),
         tow: [0.0; 2],
-        multipliers: Multipliers { slam: 1.0, ..Multipliers::default() },
-        compatibility: Compatibility::aqwa_5_4(),
+        multipliers: WaterForceMultipliers { slam: 1.0, ..WaterForceMultipliers::default() },
+        compatibility: TowedCompatibility::aqwa_5_4(),
     }
 }
 
 /// The run of the deck: 1501 records at 0.25 s.
-fn steps() -> Steps {
-    Steps { step: 0.25, number: 1501, ..Steps::default() }
+fn steps() -> TowedSteps {
+    TowedSteps { step: 0.25, number: 1501, ..TowedSteps::default() }
 }
 
 fn rms(values: impl Iterator<Item = f64>) -> f64 {
@@ -186,7 +191,7 @@ fn accelerations_and_moments_at_the_start_are_the_printed_ones() {
     let listed = |column: usize| move |i: usize| number(&motion[13 - i][column]);
     let mut seen = 0;
     case()
-        .run(&Steps { number: 1, ..steps() }, &mut |r: &Record| {
+        .run(&TowedSteps { number: 1, ..steps() }, &mut |r: &TowedRecord| {
             // asked: 0.2 % of the root mean square; found 0.05 %, where half a printed unit is 0.0003
             let (error, size) = misfit(|i| r.accelerations[i][1], listed(11));
             assert!(error < 0.002 * size && error < 0.0016, "{error} of {size}");
@@ -211,7 +216,7 @@ fn the_run_passes_through_the_printed_states() {
     let p = printed();
     let mut seen = 0;
     case()
-        .run(&steps(), &mut |r: &Record| {
+        .run(&steps(), &mut |r: &TowedRecord| {
             // asked: 0.025 m; moments of rms 1048, 814, 1343 kNm as towed-tether.md, section 5, achieves
             let moment = match r.index {
                 500 => 42.0,
@@ -242,7 +247,7 @@ fn the_run_passes_through_the_printed_states() {
 fn the_statistics_are_the_printed_ones() {
     let p = printed();
     // the listing takes every second step: records 50 to 751
-    let mut history = History { every: 2, ..History::default() };
+    let mut history = TowedHistory { every: 2, ..TowedHistory::default() };
     case().run(&steps(), &mut history).unwrap();
     assert_eq!(history.times.len(), 751);
     let statistics = |series: Vec<f64>| {
@@ -273,19 +278,19 @@ fn the_statistics_are_the_printed_ones() {
 fn each_peculiarity_of_the_program_makes_the_difference_its_documents_say() {
     let p = printed();
     let motion = &p["history"]["0"]["motion"];
-    let start = |compatibility: Compatibility| {
+    let start = |compatibility: TowedCompatibility| {
         let mut error = 0.0;
         let case = Towed { compatibility, ..case() };
-        case.run(&Steps { number: 1, ..steps() }, &mut |r: &Record| {
+        case.run(&TowedSteps { number: 1, ..steps() }, &mut |r: &TowedRecord| {
             error = misfit(|i| r.accelerations[i][1], |i| number(&motion[13 - i][11])).0;
         })
         .unwrap();
         error
     };
-    let aqwa = Compatibility::aqwa_5_4();
+    let aqwa = TowedCompatibility::aqwa_5_4();
     // towed-tether.md, section 4: Wheeler .157, slam on entry alone .116, of an acceleration of 2.86 m/s2
-    assert!((start(Compatibility { unstretched_crests: false, ..aqwa }) - 0.157).abs() < 0.01);
-    assert!((start(Compatibility { exit_slam: false, ..aqwa }) - 0.116).abs() < 0.005);
+    assert!((start(TowedCompatibility { unstretched_crests: false, ..aqwa }) - 0.157).abs() < 0.01);
+    assert!((start(TowedCompatibility { exit_slam: false, ..aqwa }) - 0.116).abs() < 0.005);
     // of a step of 0.25 s, half of the change of the acceleration
-    assert!(start(Compatibility { acceleration_of_step_before: false, ..aqwa }) > 0.2);
+    assert!(start(TowedCompatibility { acceleration_of_step_before: false, ..aqwa }) > 0.2);
 }

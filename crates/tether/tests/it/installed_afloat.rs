@@ -12,11 +12,13 @@ use windlass_hydro::Floating;
 use windlass_hydro::database::Database;
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{AttachedDatabase, Body, DriftMethod, LinearHydrostatics, Model, Part, Stretching, Weight};
-use windlass_tether::Line;
+use windlass_tether::TetherLine;
 use windlass_tether::compatibility::Compatibility;
-use windlass_tether::installed::{Course, EndSprings, History, Installation, InstalledTether, Keep};
+use windlass_tether::installed::{
+    EndSprings, Installation, InstalledHistory, InstalledRunSettings, InstalledTether, Keep,
+};
 use windlass_tether::structure::afloat::Afloat;
-use windlass_tether::structure::flow::{Flow, Waves};
+use windlass_tether::structure::flow::{FlowWaves, WaterFlow};
 
 const MASS: f64 = 4e7;
 const ADDED: f64 = 2e7;
@@ -79,7 +81,7 @@ fn model(pull: f64, height: f64) -> Model {
 fn a_moored_body_of_a_database_heaves_as_an_oscillator() {
     let mut element = example::tethers()[0].line.elements()[0];
     element.length = 50.0;
-    let line = Line::with_numbered_nodes(vec![element; 4]).unwrap();
+    let line = TetherLine::with_numbered_nodes(vec![element; 4]).unwrap();
     let (gravity, density) = (Model::default().defaults.gravity, 1025.0);
     let (anchor, stretch, group) = (Vector3::new(0.0, 0.0, -230.0), 0.1, 4.0);
     // the attachment 20 m below the centre of gravity, right over the anchor
@@ -116,9 +118,9 @@ fn a_moored_body_of_a_database_heaves_as_an_oscillator() {
     // the phase of the excitation is of where the body stands in plan: the reference point over the origin
     let pose = Pose::from_position([0.0, 0.0, height + amplitude]);
     // waves across the tether are another matter: still water for it
-    let flow = Flow { waves: Waves::None, ..Flow::still(density, gravity).unwrap() };
-    let course = Course { start: 0.0, step: 0.02, states: 1001, pose, velocity: Six::zeros() };
-    let mut history = History::new(1, Keep::Always);
+    let flow = WaterFlow { waves: FlowWaves::None, ..WaterFlow::still(density, gravity).unwrap() };
+    let course = InstalledRunSettings { start: 0.0, step: 0.02, states: 1001, pose, velocity: Six::zeros() };
+    let mut history = InstalledHistory::new(1, Keep::Always);
     let mut installation = Installation::new(&mut structure, vec![tether], &flow, Compatibility::native()).unwrap();
     installation.run(&course, &mut history).unwrap();
     for (time, z) in history.times().iter().zip(history.motion(0, 2)) {

@@ -6,7 +6,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use windlass_model::ClassError;
 use windlass_tether::compatibility::Compatibility;
-use windlass_tether::installed::{Installation, Moment, Observer};
+use windlass_tether::installed::{Installation, InstalledObserver, Moment};
 
 thread_local! {
     static TAKEN: Cell<usize> = const { Cell::new(0) };
@@ -34,7 +34,7 @@ static ALLOCATOR: Counting = Counting;
 #[derive(Default)]
 struct Counts([usize; 2]);
 
-impl Observer for Counts {
+impl InstalledObserver for Counts {
     fn observe(&mut self, moment: &Moment) -> Result<(), ClassError> {
         let now = TAKEN.with(Cell::get);
         if moment.state == 1 {

@@ -5,31 +5,31 @@
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_tether::compatibility::Compatibility;
-use windlass_tether::installed::{Course, EndSprings, Impact, InstalledTether};
-use windlass_tether::line::Label;
-use windlass_tether::structure::flow::{Flow, Waves};
-use windlass_tether::structure::tubes::{AQWA_FRICTION, Tube, Tubes};
+use windlass_tether::installed::{EndSprings, Impact, InstalledRunSettings, InstalledTether};
+use windlass_tether::line::ElementLabel;
+use windlass_tether::structure::flow::{FlowWaves, WaterFlow};
+use windlass_tether::structure::tubes::{AQWA_FRICTION, TubeMember, Tubes};
 use windlass_tether::structure::wave::DeepWave;
-use windlass_tether::{Line, TetherElement};
+use windlass_tether::{TetherElement, TetherLine};
 
 /// The centre of gravity above the keel (m).
 const CENTRE: Vector3<f64> = Vector3::new(0.0, 0.0, 63.6);
 const CORNERS: [[f64; 2]; 4] = [[-52.63, 52.63], [-52.63, -52.63], [52.63, -52.63], [52.63, 52.63]];
 
 /// Its tubes, from the centre of gravity.
-pub fn tubes() -> Vec<Tube> {
+pub fn tubes() -> Vec<TubeMember> {
     let at = |x: f64, y: f64, z: f64| Vector3::new(x, y, z) - CENTRE;
     let mut made = Vec::new();
     for [x, y] in [[40.0, 40.0], [-40.0, 40.0], [-40.0, -40.0], [40.0, -40.0]] {
         for [from, to] in [[0.0, 28.5], [28.5, 57.0], [57.0, 114.0]] {
             let ends = [at(x, y, from), at(x, y, to)];
-            made.push(Tube { ends, diameter: 31.1, drag: 0.75, added: 1.0, friction: AQWA_FRICTION });
+            made.push(TubeMember { ends, diameter: 31.1, drag: 0.75, added: 1.0, friction: AQWA_FRICTION });
         }
     }
     let (a, b, z) = (28.3377, 47.43, 8.124);
     for [from, to] in [[[-a, b], [a, b]], [[-b, -a], [-b, a]], [[-a, -b], [a, -b]], [[b, -a], [b, a]]] {
         let ends = [at(from[0], from[1], z), at(to[0], to[1], z)];
-        made.push(Tube { ends, diameter: 13.0, drag: 0.75, added: 1.48, friction: AQWA_FRICTION });
+        made.push(TubeMember { ends, diameter: 13.0, drag: 0.75, added: 1.48, friction: AQWA_FRICTION });
     }
     made
 }
@@ -50,9 +50,9 @@ pub fn tethers() -> Vec<InstalledTether> {
             youngs_modulus: 2.15e11,
             drag: 0.75,
             added_mass: 1.0,
-            label: Label { nodes: nodes.map(|n| hundred + n), material: 101, geometry: 101 },
+            label: ElementLabel { nodes: nodes.map(|n| hundred + n), material: 101, geometry: 101 },
         };
-        let line = Line::new([[4, 3], [3, 2], [2, 1]].map(element).to_vec()).unwrap();
+        let line = TetherLine::new([[4, 3], [3, 2], [2, 1]].map(element).to_vec()).unwrap();
         let (anchor, top) = (Vector3::new(*x, *y, -329.73543), Vector3::new(*x, *y, 12.85) - CENTRE);
         let springs = EndSprings::of_card(Some([0.0, 5729.578e3, 5729.578e3])).0;
         InstalledTether {
@@ -67,11 +67,11 @@ pub fn tethers() -> Vec<InstalledTether> {
     CORNERS.iter().enumerate().map(tether).collect()
 }
 
-pub fn water() -> Flow {
-    Flow::still(1025.0, 9.81).unwrap().with_waves(Waves::Deep(DeepWave::new(15.0, 15.0, 0.0, 9.81).unwrap()))
+pub fn water() -> WaterFlow {
+    WaterFlow::still(1025.0, 9.81).unwrap().with_waves(FlowWaves::Deep(DeepWave::new(15.0, 15.0, 0.0, 9.81).unwrap()))
 }
 
-pub fn course() -> Course {
+pub fn course() -> InstalledRunSettings {
     let pose = Pose::from_position([-46.0, 0.0, -17.4]);
-    Course { start: 0.0, step: 0.25, states: 101, pose, velocity: Six::zeros() }
+    InstalledRunSettings { start: 0.0, step: 0.25, states: 101, pose, velocity: Six::zeros() }
 }

@@ -9,15 +9,16 @@ use windlass_hydro::Underway;
 use windlass_hydro::current::CurrentField;
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{ClassError, Stretching};
-use windlass_tether::Line;
+use windlass_tether::TetherLine;
 use windlass_tether::compatibility::Compatibility;
-use windlass_tether::installed::description::Description;
+use windlass_tether::installed::description::InstalledDescription;
 use windlass_tether::installed::{
-    Change, Constraint, Course, DefaultTaken, EndSprings, History, Installation, InstalledTether, InternalFluid, Keep,
+    DefaultTaken, EndSprings, Installation, InstalledHistory, InstalledRunSettings, InstalledTether, InternalFluid,
+    Keep, NodeConstraint, RigChange,
 };
-use windlass_tether::structure::flow::{Flow, FlowAt, Waves};
+use windlass_tether::structure::flow::{FlowAt, FlowWaves, WaterFlow};
 use windlass_tether::structure::wave::DeepWave;
-use windlass_tether::structure::{Forces, Structure};
+use windlass_tether::structure::{Structure, StructureForces};
 
 const NATIVE: Compatibility = Compatibility::native();
 
@@ -26,8 +27,9 @@ const NATIVE: Compatibility = Compatibility::native();
 struct Unmoved;
 
 impl Structure for Unmoved {
-    fn forces(&mut self, _: &Underway, _: &FlowAt, _: bool, out: &mut Forces) -> Result<(), ClassError> {
-        *out = Forces { mooring: out.mooring, inertia: Matrix6::identity() * 1e30, ..Forces::default() };
+    fn forces(&mut self, _: &Underway, _: &FlowAt, _: bool, out: &mut StructureForces) -> Result<(), ClassError> {
+        *out =
+            StructureForces { mooring: out.mooring, inertia: Matrix6::identity() * 1e30, ..StructureForces::default() };
         Ok(())
     }
 }
@@ -37,7 +39,7 @@ impl Structure for Unmoved {
 fn upright(elements: usize, stretch: f64) -> (InstalledTether, Vector3<f64>) {
     let mut element = example::tethers()[0].line.elements()[0];
     element.length = 200.0 / elements as f64;
-    let line = Line::with_numbered_nodes(vec![element; elements]).unwrap();
+    let line = TetherLine::with_numbered_nodes(vec![element; elements]).unwrap();
     let anchor = Vector3::new(3.0, -2.0, -250.0);
     let springs = EndSprings { rotation: [0.0; 2], ..EndSprings::default() };
     let tether = InstalledTether {
@@ -48,22 +50,22 @@ fn upright(elements: usize, stretch: f64) -> (InstalledTether, Vector3<f64>) {
     (tether, anchor + Vector3::z() * (200.0 + stretch))
 }
 
-fn still() -> Flow {
-    Flow::still(1025.0, 9.81).unwrap()
+fn still() -> WaterFlow {
+    WaterFlow::still(1025.0, 9.81).unwrap()
 }
 
 /// A run of an unmoved structure.
 fn hold(
     tether: InstalledTether,
     at: Vector3<f64>,
-    flow: &Flow,
+    flow: &WaterFlow,
     [step, time]: [f64; 2],
     velocity: Vector3<f64>,
-) -> History {
-    let mut history = History::new(1, Keep::Always);
+) -> InstalledHistory {
+    let mut history = InstalledHistory::new(1, Keep::Always);
     let velocity = Six::new(velocity.x, velocity.y, velocity.z, 0.0, 0.0, 0.0);
     let states = (time / step) as usize + 1;
-    let course = Course { start: 0.0, step, states, pose: Pose::from_position(at.into()), velocity };
+    let course = InstalledRunSettings { start: 0.0, step, states, pose: Pose::from_position(at.into()), velocity };
     let mut structure = Unmoved;
     Installation::new(&mut structure, vec![tether], flow, NATIVE).unwrap().run(&course, &mut history).unwrap();
     history
@@ -93,7 +95,7 @@ fn tension_is_that_of_stretch_pressure_weight_contents_and_caps() {
     near(history.end(0, 0, false, 0)[0], effective - 0.5 * weight);
     near(history.end(0, 3, true, 1)[0], effective + 0.5 * weight - out(high) * outer + inside(high) * inner);
     near(history.force(7, 2)[0], -(effective + 0.5 * weight - out(high) * 0.4));
-    let told = Description::new(&tether, at, &still()).unwrap();
+    let told = InstalledDescription::new(&tether, at, &still()).unwrap();
     near(told.tension, effective);
     // the free hanging reaction balances steel, contents, displaced water and the caps
     near(told.hanging, weight + out(deep) * 0.3 - out(250.0 - 200.0) * 0.4);
@@ -102,7 +104,7 @@ fn tension_is_that_of_stretch_pressure_weight_contents_and_caps() {
 #[test]
 fn a_current_bows_it_as_a_stretched_string() {
     let (tether, at) = upright(10, 0.2);
-    let flow = Flow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still() };
+    let flow = WaterFlow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still() };
     let history = hold(tether, at, &flow, [0.25, 200.0], Vector3::zeros());
     // ends pinned: w = (q/T) (s (L - s)/2 - (1 - cosh ...)/k^2) with k^2 = T/EI; q on the tension with the bow's own stretch
     let load = 0.5 * 1025.0 * 0.75 * 1.1176;
@@ -122,16 +124,16 @@ fn a_current_bows_it_as_a_stretched_string() {
 #[test]
 fn a_constraint_of_the_structure_takes_its_share_and_a_gap_gives_room() {
     let (mut tether, at) = upright(10, 0.2);
-    let flow = Flow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still() };
+    let flow = WaterFlow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still() };
     let load = 0.5 * 1025.0 * 0.75 * 1.1176 * 200.2;
-    tether.constraints = vec![Constraint::VesselLateral { node: 5, gap: 0.0 }];
+    tether.constraints = vec![NodeConstraint::VesselLateral { node: 5, gap: 0.0 }];
     let held = hold(tether.clone(), at, &flow, [0.25, 200.0], Vector3::zeros());
     assert!(last(&held.node(0, 5, 0)).abs() < 1e-12);
     // two spans: a middle support bears 5/8 of a stiff beam's load and 1/2 of a string's, an end 3/16 and 1/4
     let push = last(&held.force(7, 0));
     assert!(push > 0.75 * load - 1.0 && push < 0.8125 * load, "{push} {load}");
 
-    tether.constraints = vec![Constraint::VesselLateral { node: 5, gap: 0.04 }];
+    tether.constraints = vec![NodeConstraint::VesselLateral { node: 5, gap: 0.04 }];
     let gap = hold(tether.clone(), at, &flow, [0.25, 200.0], Vector3::zeros());
     let off = last(&gap.node(0, 5, 0));
     let free = last(
@@ -147,7 +149,7 @@ fn a_constraint_of_the_structure_takes_its_share_and_a_gap_gives_room() {
     // the edge is ten times the node's mass over the square of the step: 75 kN on 6.7e6 N/m at most
     assert!(free > 0.06 && off > 0.04 && off < 0.052, "{free} {off}");
 
-    tether.constraints = vec![Constraint::FixedLateral { node: 5 }, Constraint::VesselRotation { node: 10 }];
+    tether.constraints = vec![NodeConstraint::FixedLateral { node: 5 }, NodeConstraint::VesselRotation { node: 10 }];
     let fixed = hold(tether, at, &flow, [0.25, 100.0], Vector3::zeros());
     assert!(last(&fixed.node(0, 5, 0)).abs() < 1e-12 && last(&fixed.node(0, 10, 3)).abs() < 1e-12);
     // a fixed support's share is not the structure's
@@ -177,13 +179,13 @@ fn a_tether_that_is_lowered_hangs_free_strikes_its_stop_and_never_hangs_with_the
     let depth = 150.0;
     let short = 1025.0 * 9.81 * depth * tube.external_area() * 200.0 / ea;
     // the weight in water, 3.8 kN, shares in it by 3 %; states are 5 mm apart
-    assert!(event.change == Change::Slack && (event.time * 0.1 - short).abs() < 5.5e-3, "{event:?} {short}");
+    assert!(event.change == RigChange::Slack && (event.time * 0.1 - short).abs() < 5.5e-3, "{event:?} {short}");
     // then it pulls with its weight in water
     let weight = (7816.94 * tube.area() - 1025.0 * tube.external_area()) * 9.81 * 200.0;
     assert!((last(&free.force(7, 2)) / -weight - 1.0).abs() < 1e-9);
 
     let stopped = down(Some(0.5));
-    let hit = stopped.events().iter().find(|e| matches!(e.change, Change::LowerStop { .. })).unwrap();
+    let hit = stopped.events().iter().find(|e| matches!(e.change, RigChange::LowerStop { .. })).unwrap();
     assert!((hit.time - event.time - 5.0).abs() < 0.15, "{hit:?}");
     // 1 m down, half a metre of it on the stop less what it was short
     let pushed = last(&stopped.force(7, 2)) / (ea / 200.0);
@@ -196,7 +198,7 @@ fn a_tether_that_is_lowered_hangs_free_strikes_its_stop_and_never_hangs_with_the
 #[test]
 fn only_what_is_slack_is_kept_when_asked() {
     let (flow, mut platform) = (example::water(), example::platform(Compatibility::aqwa_5_4()));
-    let mut history = History::new(10, Keep::WhenSlack(0.001));
+    let mut history = InstalledHistory::new(10, Keep::WhenSlack(0.001));
     let mut all = Installation::new(&mut platform, example::tethers(), &flow, Compatibility::aqwa_5_4()).unwrap();
     all.run(&example::course(), &mut history).unwrap();
     assert_eq!((history.tether_times(0), history.tether_times(2)), (&[6.5][..], &[][..]));
@@ -204,16 +206,16 @@ fn only_what_is_slack_is_kept_when_asked() {
 }
 
 /// A run of the example in a water.
-fn example_in(flow: &Flow, states: usize) -> History {
+fn example_in(flow: &WaterFlow, states: usize) -> InstalledHistory {
     example_by(flow, 0.25, states)
 }
 
 /// The same by a step.
-fn example_by(flow: &Flow, step: f64, states: usize) -> History {
+fn example_by(flow: &WaterFlow, step: f64, states: usize) -> InstalledHistory {
     let mut platform = example::platform(NATIVE);
-    let mut history = History::new(1, Keep::Always);
+    let mut history = InstalledHistory::new(1, Keep::Always);
     let pose = Pose::from_position([0.0, 0.0, -17.4]);
-    let course = Course { pose, step, states, ..example::course() };
+    let course = InstalledRunSettings { pose, step, states, ..example::course() };
     // anchors so deep that it rests upright at this height: 140,489 kN over sixteen (tests/it/floating/aqwa_tether_platform.rs), of which 1,981 kN are of
     // the pressure on the middle of the tether
     let stretch = (140_489e3 / 16.0 - 1_981e3) / 1.044_058e8;
@@ -231,8 +233,8 @@ fn a_sea_of_one_component_is_the_regular_wave_of_airy() {
         Component { frequency: wave.frequency, number: wave.number, amplitude: 2.0, toward: wave.toward, phase: 0.0 };
     let water = Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
     let sea = Sea::airy(vec![component], water, 0.0, Stretching::Exponential);
-    let regular = example_in(&still().with_waves(Waves::Deep(wave)), 200);
-    let irregular = example_in(&still().with_waves(Waves::Sea(Arc::new(sea))), 200);
+    let regular = example_in(&still().with_waves(FlowWaves::Deep(wave)), 200);
+    let irregular = example_in(&still().with_waves(FlowWaves::Sea(Arc::new(sea))), 200);
     for direction in 0..6 {
         for (a, b) in regular.motion(0, direction).iter().zip(irregular.motion(0, direction)) {
             // rounding of 200 steps
@@ -256,7 +258,7 @@ fn an_irregular_sea_gives_the_same_series_again_and_tensions_about_the_pretensio
     };
     let water = Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
     let sea = Arc::new(Sea::airy((0..40).map(component).collect(), water, 20.0, Stretching::Exponential));
-    let flow = still().with_waves(Waves::Sea(sea));
+    let flow = still().with_waves(FlowWaves::Sea(sea));
     let (one, other) = (example_in(&flow, 1200), example_in(&flow, 1200));
     assert_eq!(one.motion(0, 4), other.motion(0, 4));
     let tension = one.end(0, 1, true, 0);
@@ -269,7 +271,7 @@ fn an_irregular_sea_gives_the_same_series_again_and_tensions_about_the_pretensio
 #[test]
 fn halving_the_step_changes_little_and_the_order_is_two() {
     let wave = DeepWave::new(1.0, 12.0, 0.0, 9.81).unwrap();
-    let flow = still().with_waves(Waves::Deep(wave));
+    let flow = still().with_waves(FlowWaves::Deep(wave));
     let surge = |step: f64| last(&example_by(&flow, step, (20.0 / step).round() as usize + 1).motion(0, 0));
     let [a, b, c] = [0.2, 0.1, 0.05].map(surge);
     let ratio = (a - b) / (b - c);
@@ -291,13 +293,13 @@ fn the_defaults_of_missing_springs_are_taken_and_said() {
 #[test]
 fn rigid_coils_hold_the_ends_and_soft_inline_springs_are_in_series() {
     let (mut tether, at) = upright(6, 0.1);
-    let stiffness = Description::new(&tether, at, &still()).unwrap().stiffness;
+    let stiffness = InstalledDescription::new(&tether, at, &still()).unwrap().stiffness;
     tether.anchor_springs = EndSprings { inline: stiffness, ..EndSprings::default() };
     tether.vessel_springs = EndSprings { inline: stiffness, ..EndSprings::default() };
-    let soft = Description::new(&tether, at, &still()).unwrap().stiffness;
+    let soft = InstalledDescription::new(&tether, at, &still()).unwrap().stiffness;
     // but for what 1e15 N/m gives way
     assert!((soft / stiffness - 1.0 / 3.0).abs() < 1e-6);
-    let flow = Flow { current: CurrentField::uniform(1.0, 0.0), ..still() };
+    let flow = WaterFlow { current: CurrentField::uniform(1.0, 0.0), ..still() };
     let history = hold(tether, at, &flow, [0.1, 20.0], Vector3::zeros());
     for node in [0, 6] {
         assert!(history.node(0, node, 3).iter().all(|slope| slope.abs() < 1e-12));
@@ -308,27 +310,30 @@ fn rigid_coils_hold_the_ends_and_soft_inline_springs_are_in_series() {
 #[test]
 fn what_cannot_be_run_is_refused_and_says_why() {
     let (tether, at) = upright(3, 0.1);
-    let run = |tether: InstalledTether, course: Course| {
+    let run = |tether: InstalledTether, course: InstalledRunSettings| {
         let (flow, mut structure) = (still(), example::platform(NATIVE));
-        let mut history = History::new(1, Keep::Always);
+        let mut history = InstalledHistory::new(1, Keep::Always);
         let made = Installation::new(&mut structure, vec![tether], &flow, NATIVE);
         made.and_then(|mut i| i.run(&course, &mut history)).unwrap_err().to_string()
     };
-    let course = Course { pose: Pose::from_position(at.into()), states: 3, ..example::course() };
-    let far = Course { pose: Pose::from_position((at + Vector3::z() * 30.0).into()), ..course };
+    let course = InstalledRunSettings { pose: Pose::from_position(at.into()), states: 3, ..example::course() };
+    let far = InstalledRunSettings { pose: Pose::from_position((at + Vector3::z() * 30.0).into()), ..course };
     assert!(run(tether.clone(), far).contains("is 200 m long, shorter than its span of 230.1 m"));
-    let said = run(InstalledTether { group: 16.0, ..tether.clone() }, Course { step: 5.0, ..course });
+    let said = run(InstalledTether { group: 16.0, ..tether.clone() }, InstalledRunSettings { step: 5.0, ..course });
     assert!(said.contains("a step of 5 s is too long") && said.contains("at most is stable"), "{said}");
-    assert!(run(tether.clone(), Course { step: 0.0, ..course }).contains("step"));
-    assert!(run(tether.clone(), Course { states: 0, ..course }).contains("steps"));
-    assert!(run(tether.clone(), Course { velocity: Six::repeat(f64::NAN), ..course }).contains("finite"));
-    let held = |c: Constraint| run(InstalledTether { constraints: vec![c], ..tether.clone() }, course);
-    assert!(held(Constraint::FixedLateral { node: 0 }).contains("held already"));
-    assert!(held(Constraint::FixedRotation { node: 4 }).contains("node 5, and the last is 4"));
-    assert!(held(Constraint::VesselLateral { node: 1, gap: -1.0 }).contains("gap"));
-    let many = vec![Constraint::FixedRotation { node: 1 }; 6];
+    assert!(run(tether.clone(), InstalledRunSettings { step: 0.0, ..course }).contains("step"));
+    assert!(run(tether.clone(), InstalledRunSettings { states: 0, ..course }).contains("steps"));
+    assert!(run(tether.clone(), InstalledRunSettings { velocity: Six::repeat(f64::NAN), ..course }).contains("finite"));
+    let held = |c: NodeConstraint| run(InstalledTether { constraints: vec![c], ..tether.clone() }, course);
+    assert!(held(NodeConstraint::FixedLateral { node: 0 }).contains("held already"));
+    assert!(held(NodeConstraint::FixedRotation { node: 4 }).contains("node 5, and the last is 4"));
+    assert!(held(NodeConstraint::VesselLateral { node: 1, gap: -1.0 }).contains("gap"));
+    let many = vec![NodeConstraint::FixedRotation { node: 1 }; 6];
     assert!(run(InstalledTether { constraints: many, ..tether.clone() }, course).contains("up to five"));
     assert!(run(InstalledTether { lower_stop: Some(f64::NAN), ..tether.clone() }, course).contains("lower stop"));
     let upside = Vector3::new(tether.anchor.x, tether.anchor.y, -449.0);
-    assert!(run(tether, Course { pose: Pose::from_position(upside.into()), ..course }).contains("straight below"));
+    assert!(
+        run(tether, InstalledRunSettings { pose: Pose::from_position(upside.into()), ..course })
+            .contains("straight below")
+    );
 }

@@ -2,14 +2,16 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass_hydro::sea::Component;
-use windlass_tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};
-use windlass_tether::{Line, TetherElement};
+use windlass_tether::towed::{
+    EndSpring, Towed, TowedCompatibility, TowedHistory, TowedRecord, TowedSteps, WaterForceMultipliers,
+};
+use windlass_tether::{TetherElement, TetherLine};
 
 const DENSITY: f64 = 1025.0;
 const GRAVITY: f64 = 9.81;
 
 /// A tube of 1 m as heavy as a share of its displacement, in ten elements of 10 m.
-fn line(share: f64) -> Line {
+fn line(share: f64) -> TetherLine {
     let area = FRAC_PI_4 * (1.0 - 0.96f64.powi(2));
     let element = TetherElement {
         length: 10.0,
@@ -21,7 +23,7 @@ fn line(share: f64) -> Line {
         added_mass: 1.0,
         label: Default::default(),
     };
-    Line::with_numbered_nodes(vec![element; 10]).unwrap()
+    TetherLine::with_numbered_nodes(vec![element; 10]).unwrap()
 }
 
 fn case(share: f64, depth: f64) -> Towed {
@@ -36,8 +38,8 @@ fn case(share: f64, depth: f64) -> Towed {
         waves: Vec::new(),
         current: Vec::new(),
         tow: [0.0; 2],
-        multipliers: Multipliers { slam: 1.0, ..Multipliers::default() },
-        compatibility: Compatibility::native(),
+        multipliers: WaterForceMultipliers { slam: 1.0, ..WaterForceMultipliers::default() },
+        compatibility: TowedCompatibility::native(),
     }
 }
 
@@ -47,14 +49,14 @@ fn wave(amplitude: f64, frequency: f64, toward: f64, phase: f64) -> Component {
 }
 
 /// Y, Z, RY, RZ of each node at each record.
-fn positions(case: &Towed, steps: &Steps) -> Vec<[f64; 4]> {
+fn positions(case: &Towed, steps: &TowedSteps) -> Vec<[f64; 4]> {
     let mut found = Vec::new();
-    case.run(steps, &mut |r: &Record| found.extend_from_slice(r.positions)).unwrap();
+    case.run(steps, &mut |r: &TowedRecord| found.extend_from_slice(r.positions)).unwrap();
     found
 }
 
-fn steps(number: usize) -> Steps {
-    Steps { step: 0.1, number, ..Steps::default() }
+fn steps(number: usize) -> TowedSteps {
+    TowedSteps { step: 0.1, number, ..TowedSteps::default() }
 }
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
@@ -71,12 +73,17 @@ fn a_tube_of_half_the_density_of_water_rests_half_under() {
 #[test]
 fn a_light_tube_let_go_under_water_comes_to_rest_where_its_weight_says() {
     // a quarter of the area under water: the wet segment spans the angle a with a - sin a = pi/2, a = 2.309881460
-    let bare = Towed { multipliers: Multipliers { slam: 0.0, ..Multipliers::default() }, ..case(0.25, 0.0) };
+    let bare = Towed {
+        multipliers: WaterForceMultipliers { slam: 0.0, ..WaterForceMultipliers::default() },
+        ..case(0.25, 0.0)
+    };
     let soft = EndSpring { along: 0.0, y: 1.0, z: 1.0 };
     let run = Towed { springs: [soft; 2], ..bare };
     let mut last = 0.0;
-    run.run(&Steps { step: 0.1, number: 6001, ..Steps::default() }, &mut |r: &Record| last = r.positions[5][1])
-        .unwrap();
+    run.run(&TowedSteps { step: 0.1, number: 6001, ..TowedSteps::default() }, &mut |r: &TowedRecord| {
+        last = r.positions[5][1]
+    })
+    .unwrap();
     // the chord is r cos(a/2) under the axis, which is above the water by as much
     let rest = 0.5 * (2.309_881_460_010_057f64 / 2.0).cos();
     // quadratic drag leaves a motion that dies with one over the time
@@ -91,7 +98,7 @@ fn a_tube_as_heavy_as_water_goes_with_a_small_wave_from_abeam_as_the_water_does(
     let run = Towed {
         waves: vec![wave(amplitude, frequency, PI / 2.0, 0.3)],
         springs: [free; 2],
-        multipliers: Multipliers { drag: 0.0, ..Multipliers::default() },
+        multipliers: WaterForceMultipliers { drag: 0.0, ..WaterForceMultipliers::default() },
         ..case(1.0, depth)
     };
     assert_eq!(run.warnings().len(), 4);
@@ -166,15 +173,15 @@ fn a_tether_under_way_meets_the_waves_at_their_frequency_of_encounter() {
     let number = frequency * frequency / GRAVITY;
     let stiff = |e: &TetherElement| TetherElement { youngs_modulus: 1e4 * e.youngs_modulus, ..*e };
     let run = Towed {
-        line: Line::new(line(1.0).elements().iter().map(stiff).collect()).unwrap(),
+        line: TetherLine::new(line(1.0).elements().iter().map(stiff).collect()).unwrap(),
         waves: vec![wave(1e-3, frequency, PI, 0.0)],
         tow: [speed, 0.0],
         springs: [EndSpring::default(); 2],
-        multipliers: Multipliers { drag: 0.0, ..Multipliers::default() },
+        multipliers: WaterForceMultipliers { drag: 0.0, ..WaterForceMultipliers::default() },
         ..case(1.0, 10.0)
     };
-    let mut history = History::default();
-    run.run(&Steps { step: 0.05, number: 400, ..Steps::default() }, &mut history).unwrap();
+    let mut history = TowedHistory::default();
+    run.run(&TowedSteps { step: 0.05, number: 400, ..TowedSteps::default() }, &mut history).unwrap();
     let series = history.node(5, 11, 9);
     // x(t+h) + x(t-h) = 2 cos(w h) x(t) of a harmonic
     let h = 20;
@@ -191,18 +198,19 @@ fn a_tether_under_way_meets_the_waves_at_their_frequency_of_encounter() {
 fn a_step_too_large_for_the_springs_is_refused_and_the_one_told_would_do() {
     let stiff = EndSpring { along: 0.0, y: 1e6, z: 1e6 };
     let run = Towed { springs: [stiff; 2], ..case(0.95, 0.3) };
-    let told = run.run(&Steps { step: 0.5, number: 2, ..Steps::default() }, &mut |_: &Record| {}).unwrap_err();
+    let told =
+        run.run(&TowedSteps { step: 0.5, number: 2, ..TowedSteps::default() }, &mut |_: &TowedRecord| {}).unwrap_err();
     assert!(told.message.contains("too large for the end springs"), "{told}");
     let longest = told.values[1].0;
     let mut most: f64 = 0.0;
-    let good = Steps { step: 0.99 * longest, number: 500, ..Steps::default() };
-    run.run(&good, &mut |r: &Record| most = most.max(r.positions[0][1].abs())).unwrap();
+    let good = TowedSteps { step: 0.99 * longest, number: 500, ..TowedSteps::default() };
+    run.run(&good, &mut |r: &TowedRecord| most = most.max(r.positions[0][1].abs())).unwrap();
     assert!(longest > 0.01 && most < 1.0, "{longest} {most}");
 }
 
 #[test]
 fn what_cannot_be_is_an_error() {
-    let go = |case: Towed, steps: Steps| case.run(&steps, &mut |_: &Record| {}).unwrap_err().to_string();
+    let go = |case: Towed, steps: TowedSteps| case.run(&steps, &mut |_: &TowedRecord| {}).unwrap_err().to_string();
     let usual = || case(0.95, 0.3);
     assert!(go(Towed { density: 0.0, ..usual() }, steps(2)).contains("density of the water"));
     assert!(go(Towed { depth: Some(f64::NAN), ..usual() }, steps(2)).contains("depth"));
@@ -215,8 +223,8 @@ fn what_cannot_be_is_an_error() {
         go(Towed { current: vec![(-5.0, [0.0; 2]), (0.0, [0.0; 2])], ..usual() }, steps(2))
             .contains("heights do not fall")
     );
-    assert!(go(usual(), Steps { step: 0.0, ..steps(2) }).contains("step above zero"));
-    assert!(go(usual(), Steps { b: 0.4, ..steps(2) }).contains("not stable"));
+    assert!(go(usual(), TowedSteps { step: 0.0, ..steps(2) }).contains("step above zero"));
+    assert!(go(usual(), TowedSteps { b: 0.4, ..steps(2) }).contains("not stable"));
     let gale = Towed { tow: [0.0, 1e9], ..usual() };
     assert!(go(gale, steps(200)).contains("towed tether"));
 }

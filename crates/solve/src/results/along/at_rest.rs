@@ -1,7 +1,7 @@
 //! A line at rest between its ends where they stand.
 
 use super::{CLEARANCE, sections};
-use crate::link::{Attachment, build_pipe_link, end_attachments, pose_of};
+use crate::link::{EndAttachment, build_pipe_link, end_attachments, pose_of};
 use crate::system::SolveError;
 use crate::time::RunRequirements;
 use windlass_base::table::{Digits, Table};
@@ -22,7 +22,7 @@ pub(crate) fn standing(
     let around = ambient(model, None).map_err(SolveError::new)?;
     let poses: Vec<_> = model.bodies.values().map(|b| windlass_base::pose::Pose::of(&b.place)).collect();
     let surroundings = model.surroundings();
-    let mut told = |name: &str, element: &dyn Element, ends: &[Attachment]| {
+    let mut told = |name: &str, element: &dyn Element, ends: &[EndAttachment]| {
         if element.nodes() == 0 {
             return Ok(());
         }

@@ -1,22 +1,22 @@
 //! Unity checks along a line.
 
-use super::{Line, Section, wall_tension};
-use crate::results::Event;
+use super::{LineResults, ResultSection, wall_tension};
+use crate::results::RunEvent;
 use crate::system::SolveError;
 use crate::time::NodeRow;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, DYNAMIC};
 use windlass_signal::SeriesError;
-use windlass_signal::line::lrfd::{Factors, Resistance};
+use windlass_signal::line::lrfd::{LrfdFactors, TubeResistance};
 use windlass_signal::line::working_stress::{self, DesignCase};
-use windlass_signal::line::{Acting, Tube, over_break};
+use windlass_signal::line::{Acting, CheckedTube, over_break};
 
 /// What a tube is checked by; other sections go by tension over break.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Code {
     /// DNV-ST-F201, with what corrodes of the wall (m).
-    Lrfd(Factors, f64),
+    Lrfd(LrfdFactors, f64),
     /// API RP 2RD, with what corrodes of the wall (m).
     WorkingStress(DesignCase, f64),
     /// Tension over break for tubes, too.
@@ -36,25 +36,25 @@ impl Code {
 /// A segment as it is checked.
 #[derive(Debug)]
 enum Checked {
-    Lrfd(Box<Resistance>),
-    WorkingStress(Tube, DesignCase),
+    Lrfd(Box<TubeResistance>),
+    WorkingStress(CheckedTube, DesignCase),
     Break(f64),
 }
 
 impl Checked {
-    fn new(section: &Section, code: &Code, bends: bool) -> Result<Checked, ClassError> {
+    fn new(section: &ResultSection, code: &Code, bends: bool) -> Result<Checked, ClassError> {
         let tube = section.tube.filter(|_| bends);
         let wrong = |e: SeriesError| ClassError::new(e.to_string());
-        let thinner = |tube: Tube, corroded: f64| {
+        let thinner = |tube: CheckedTube, corroded: f64| {
             if corroded < tube.wall {
-                return Ok(Tube { wall: tube.wall - corroded, ..tube });
+                return Ok(CheckedTube { wall: tube.wall - corroded, ..tube });
             }
             let values = [(corroded, Dim::Section), (tube.wall, Dim::Section)];
             Err(ClassError::with_values("-CORROSION of {} leaves nothing of a wall of {}", &values))
         };
         Ok(match (code, tube) {
             (Code::Lrfd(factors, corroded), Some(tube)) => {
-                Checked::Lrfd(Box::new(Resistance::new(thinner(tube, *corroded)?, *factors).map_err(wrong)?))
+                Checked::Lrfd(Box::new(TubeResistance::new(thinner(tube, *corroded)?, *factors).map_err(wrong)?))
             }
             (Code::WorkingStress(case, corroded), Some(tube)) => {
                 let thinner = thinner(tube, *corroded)?;
@@ -90,7 +90,7 @@ struct Worst {
 ///
 /// # Errors
 /// A section that is no tube, a factor out of range.
-pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveError> {
+pub fn check(line: &LineResults, code: &Code, events: &[RunEvent]) -> Result<Table, SolveError> {
     let wrong = |e: SeriesError| SolveError { who: Some(line.name.to_string()), error: ClassError::new(e.to_string()) };
     let (run, columns) = (line.run, line.columns);
     let checked: Vec<Checked> = line
@@ -154,13 +154,13 @@ fn design(node: &NodeRow) -> [f64; 3] {
     [one, other, node.effective]
 }
 
-fn acting(node: &NodeRow, section: &Section) -> Acting {
+fn acting(node: &NodeRow, section: &ResultSection) -> Acting {
     let Some(bent) = &node.bent else { return Acting { effective: node.effective, ..Acting::default() } };
     let [outside, inside] = bent.pressures;
     Acting { moment: bent.moment(), effective: node.effective, wall: section.stress_tension(node), inside, outside }
 }
 
-fn check_table(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Table {
+fn check_table(line: &LineResults, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Table {
     let bends = line.columns.bends;
     let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
     let table = Table::new("Unity Checks Along a Line")

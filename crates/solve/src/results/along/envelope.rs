@@ -1,21 +1,21 @@
 //! The least, mean and most at each node.
 
-use super::{CLEARANCE, Line, segments_at, sides};
-use crate::results::Event;
+use super::{CLEARANCE, LineResults, segments_at, sides};
+use crate::results::RunEvent;
 use crate::system::SolveError;
-use crate::time::{AlongEnvelope, Quantity};
+use crate::time::{AlongEnvelope, NodeQuantity};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::DYNAMIC;
 
 /// Quantities reported, with the head of their columns and the sign they have there.
-const ENVELOPE_QUANTITIES: [(&str, &str, Quantity, Dim); 6] = [
-    ("Clearance", "C", Quantity::Clearance, Dim::Length),
-    ("Effective Tension", "T", Quantity::Effective, Dim::Force),
-    ("Wall Tension", "W", Quantity::Wall, Dim::Force),
-    ("Shear", "V", Quantity::Shear, Dim::Force),
-    ("Bending Moment", "M", Quantity::Moment, Dim::Moment),
-    ("Von Mises", "S", Quantity::VonMises, Dim::Stress),
+const ENVELOPE_QUANTITIES: [(&str, &str, NodeQuantity, Dim); 6] = [
+    ("Clearance", "C", NodeQuantity::Clearance, Dim::Length),
+    ("Effective Tension", "T", NodeQuantity::Effective, Dim::Force),
+    ("Wall Tension", "W", NodeQuantity::Wall, Dim::Force),
+    ("Shear", "V", NodeQuantity::Shear, Dim::Force),
+    ("Bending Moment", "M", NodeQuantity::Moment, Dim::Moment),
+    ("Von Mises", "S", NodeQuantity::VonMises, Dim::Stress),
 ];
 
 /// Least, mean and most of clearance, tensions, shear, moment and von Mises stress at each node over some events, and the largest share
@@ -23,7 +23,7 @@ const ENVELOPE_QUANTITIES: [(&str, &str, Quantity, Dim); 6] = [
 ///
 /// # Errors
 /// Numbers that make no table.
-pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
+pub fn envelope(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveError> {
     let (run, columns) = (line.run, line.columns);
     let mut made = AlongEnvelope::default();
     let mut row = Vec::new();
@@ -39,20 +39,20 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
     let told: Vec<_> = ENVELOPE_QUANTITIES
         .iter()
         .filter(|(.., quantity, _)| match quantity {
-            Quantity::Clearance | Quantity::Effective => true,
-            Quantity::Wall | Quantity::VonMises => wall,
+            NodeQuantity::Clearance | NodeQuantity::Effective => true,
+            NodeQuantity::Wall | NodeQuantity::VonMises => wall,
             _ => columns.bends,
         })
         .collect();
     let mut rows = Vec::new();
-    let length = line.places.last().and_then(|p| seen.extremes(*p, Quantity::Arc)).map_or(f64::NAN, |s| s.mean);
+    let length = line.places.last().and_then(|p| seen.extremes(*p, NodeQuantity::Arc)).map_or(f64::NAN, |s| s.mean);
     let (mut worst, mut wound): (Option<(f64, usize)>, bool) = (None, false);
     for (number, place) in line.numbered_nodes() {
-        let of = |quantity: Quantity| seen.extremes(place, quantity);
-        let arc = of(Quantity::Arc).map(|s| s.mean);
-        wound |= of(Quantity::Arc).is_some_and(|s| s.most.value - s.least.value > 1e-6 * length);
-        let used = arc.zip(of(Quantity::Effective)).and_then(|(arc, tension)| {
-            let stress = [Quantity::VonMisesBefore, Quantity::VonMisesBehind].map(of);
+        let of = |quantity: NodeQuantity| seen.extremes(place, quantity);
+        let arc = of(NodeQuantity::Arc).map(|s| s.mean);
+        wound |= of(NodeQuantity::Arc).is_some_and(|s| s.most.value - s.least.value > 1e-6 * length);
+        let used = arc.zip(of(NodeQuantity::Effective)).and_then(|(arc, tension)| {
+            let stress = [NodeQuantity::VonMisesBefore, NodeQuantity::VonMisesBehind].map(of);
             let sides = sides(&line.sections, segments_at(&line.sections, length - arc));
             let used = sides.map(|(side, _, section)| {
                 section.utilisation(tension.most.value, stress.get(side).and_then(|s| Some(s.as_ref()?.most.value)))
@@ -76,7 +76,7 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
         let digits = if *sign == "C" { CLEARANCE } else { Digits::Usual };
         let names = ["Min", "Mean", "Max"].map(|part| format!("{sign} {part}"));
         table = table.columns(group, names.each_ref().map(String::as_str), *dim, digits, |(_, place, ..)| {
-            let found = seen.seen(*place, *quantity);
+            let found = seen.extremes(*place, *quantity);
             found.map_or([None; 3], |s| [s.least.value, s.mean, s.most.value].map(Some))
         });
     }

@@ -1,13 +1,13 @@
 //! Fatigue along a line.
 
-use super::Line;
-use crate::results::Event;
+use super::LineResults;
+use crate::results::RunEvent;
 use crate::system::SolveError;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, DYNAMIC, FatigueKind, FatigueSelection};
 use windlass_signal::SeriesError;
-use windlass_signal::fatigue::{Curve, find, life};
+use windlass_signal::fatigue::{SnCurve, find, life};
 use windlass_signal::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage};
 
 /// Damage of each node over the stored instants of some events, round a tube at some points, and the life in years that it leaves
@@ -16,10 +16,10 @@ use windlass_signal::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage}
 /// # Errors
 /// A segment without a curve, a record without length, what [`node_damage`] says.
 pub fn fatigue_table(
-    line: &Line,
+    line: &LineResults,
     selection: &FatigueSelection,
     (round, factor): (&Round, f64),
-    events: &[Event],
+    events: &[RunEvent],
 ) -> Result<Table, SolveError> {
     let wrong = |error: ClassError| SolveError { who: Some(line.name.to_string()), error };
     let refused = |e: SeriesError| wrong(ClassError::new(e.to_string()));
@@ -35,7 +35,7 @@ pub fn fatigue_table(
     }
     let mut row = Vec::new();
     // one for each side: where two segments meet they go by curves and stresses of their own
-    let mut records: Vec<[Record; 2]> = line.places.iter().map(|_| Default::default()).collect();
+    let mut records: Vec<[NodeHistory; 2]> = line.places.iter().map(|_| Default::default()).collect();
     for event in events {
         line.row(event, &mut row);
         let time = row.first().copied().unwrap_or(f64::NAN);
@@ -54,7 +54,7 @@ pub fn fatigue_table(
     let mut table = Table::new("Fatigue Along a Line")
         .fact("Line", line.name, Dim::None)
         .fact("Model", DYNAMIC, Dim::None)
-        .fact("Record", records.iter().flatten().map(Record::length).fold(0.0, f64::max), Dim::Time)
+        .fact("Record", records.iter().flatten().map(NodeHistory::length).fold(0.0, f64::max), Dim::Time)
         .fact("Design Fatigue Factor", factor, Dim::None);
     let by = |kind: FatigueKind| curves.iter().any(|c| c.kind == kind);
     let round_tubes = line.columns.bends && by(FatigueKind::Stress) && line.sections.iter().any(|s| s.tube.is_some());
@@ -125,7 +125,7 @@ pub fn fatigue_table(
     Ok(table)
 }
 
-fn note_once(table: &mut Table, curve: &Curve) {
+fn note_once(table: &mut Table, curve: &SnCurve) {
     let text = format!("the numbers of curve {} are not confirmed: &STATUS SN", curve.name);
     if !table.notes.contains(&text) {
         table.note(text);
@@ -136,8 +136,8 @@ fn note_once(table: &mut Table, curve: &Curve) {
 struct FatigueRow<'r> {
     /// From 1.
     node: usize,
-    record: &'r Record,
-    curve: &'r Curve,
+    record: &'r NodeHistory,
+    curve: &'r SnCurve,
     found: NodeDamage,
     /// Years until the damage is 1; none without damage.
     years: Option<f64>,
@@ -145,7 +145,7 @@ struct FatigueRow<'r> {
 
 /// What a node bore while it was there.
 #[derive(Debug, Default)]
-struct Record {
+struct NodeHistory {
     from: Option<f64>,
     to: f64,
     arc: f64,
@@ -154,7 +154,7 @@ struct Record {
     bends: [Vec<f64>; 2],
 }
 
-impl Record {
+impl NodeHistory {
     fn take(&mut self, (time, arc, segment): (f64, f64, usize)) {
         self.from = self.from.or(Some(time));
         (self.to, self.arc, self.segment) = (time, arc, segment);

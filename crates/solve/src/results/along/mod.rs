@@ -23,25 +23,25 @@ pub use supports::supports;
 pub use touchdown::touchdown;
 
 use super::super::system::SolveError;
-use super::super::time::{AlongColumns, NodeRow, Quantity, Run};
-use super::Event;
+use super::super::time::{AlongColumns, NodeQuantity, NodeRow, Run};
+use super::RunEvent;
 use windlass_base::table::Digits;
 use windlass_model::{AssemblyKind, ClassError, FatigueSegment, Model, WallMaterial, line_name};
-use windlass_signal::line::Tube;
+use windlass_signal::line::CheckedTube;
 
 /// Digits of the height over the bottom, into which a line that lies presses itself by millimetres.
 pub(super) const CLEARANCE: Digits = Digits::Decimals(3);
 
 /// A segment of the line.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Section {
+pub(crate) struct ResultSection {
     /// What fatigue and break go by.
     pub segment: FatigueSegment,
     /// Its tube, where it has a wall.
-    pub tube: Option<Tube>,
+    pub tube: Option<CheckedTube>,
 }
 
-impl Section {
+impl ResultSection {
     /// Largest von Mises stress of a tube over yield, or tension over break of another section.
     pub(crate) fn utilisation(&self, tension: f64, von_mises: Option<f64>) -> f64 {
         match (&self.tube, von_mises) {
@@ -57,14 +57,14 @@ impl Section {
 }
 
 /// Tension in the wall of a tube at a node (N).
-pub(super) fn wall_tension(tube: &Tube, node: &NodeRow) -> f64 {
+pub(super) fn wall_tension(tube: &CheckedTube, node: &NodeRow) -> f64 {
     let Some(bent) = &node.bent else { return node.effective };
     let ([outer, bore], [outside, inside]) = (tube.areas(), bent.pressures);
     node.effective - outside * outer + inside * bore
 }
 
 /// The segments of the class of a line, from its first end; of a pipe the one it is made of.
-pub(crate) fn sections(model: &Model, name: &str) -> Vec<Section> {
+pub(crate) fn sections(model: &Model, name: &str) -> Vec<ResultSection> {
     let connector = model.connectors.get(&Model::key(name)).map(|c| (&c.class, usize::MAX));
     let pipe = model.assemblies.get(&Model::key(name)).and_then(|a| match &a.kind {
         AssemblyKind::Pipe { class, .. } => Some((class, 1)),
@@ -76,7 +76,7 @@ pub(crate) fn sections(model: &Model, name: &str) -> Vec<Section> {
     let made = class.fatigue_segments().into_iter().zip(class.wall_materials()).zip(bends);
     let of = |((segment, material), bends): ((FatigueSegment, WallMaterial), bool)| {
         // a bar that does not bend is a chain or rope
-        let tube = segment.thickness.filter(|wall| bends || 2.0 * wall < segment.od).map(|wall| Tube {
+        let tube = segment.thickness.filter(|wall| bends || 2.0 * wall < segment.od).map(|wall| CheckedTube {
             diameter: segment.od,
             wall,
             yield_stress: material.yield_stress,
@@ -84,14 +84,14 @@ pub(crate) fn sections(model: &Model, name: &str) -> Vec<Section> {
             modulus: material.modulus,
             poisson: material.poisson,
         });
-        Section { segment, tube }
+        ResultSection { segment, tube }
     };
     made.map(of).take(few).collect()
 }
 
 /// The numbers of the segments (from 0) that a place is in, by its unstretched distance from the second end (m): toward the first end
 /// and toward the second, which differ where two meet. The first segment is as long as a winch has made it.
-pub(crate) fn segments_at(sections: &[Section], from_second: f64) -> [usize; 2] {
+pub(crate) fn segments_at(sections: &[ResultSection], from_second: f64) -> [usize; 2] {
     let mut left = from_second;
     for (index, section) in sections.iter().enumerate().skip(1).rev() {
         left -= section.segment.length;
@@ -107,27 +107,27 @@ pub(crate) fn segments_at(sections: &[Section], from_second: f64) -> [usize; 2] 
 /// The sides of such a place, from the first end: 0 toward the first end, only where two segments meet, and 1 toward the second, with
 /// the number of the segment and the segment.
 pub(crate) fn sides(
-    sections: &[Section],
+    sections: &[ResultSection],
     [before, behind]: [usize; 2],
-) -> impl Iterator<Item = (usize, usize, &Section)> {
+) -> impl Iterator<Item = (usize, usize, &ResultSection)> {
     let both = [(before != behind).then_some((0, before)), Some((1, behind))];
     both.into_iter().flatten().filter_map(|(side, index)| Some((side, index, sections.get(index)?)))
 }
 
 /// A line of a run.
 #[derive(Debug)]
-pub struct Line<'a> {
+pub struct LineResults<'a> {
     run: &'a Run,
     /// Its name as written.
     pub name: &'a str,
     link: usize,
     columns: &'a AlongColumns,
-    sections: Vec<Section>,
+    sections: Vec<ResultSection>,
     /// Places of the nodes that were ever there, among those that are kept.
     places: Vec<usize>,
 }
 
-impl<'a> Line<'a> {
+impl<'a> LineResults<'a> {
     /// The line of a name.
     ///
     /// # Errors
@@ -150,7 +150,7 @@ impl<'a> Line<'a> {
             return Err(ClassError::new(format!("{name} tells of no nodes along itself")).help(help));
         };
         let there = |place: &usize| match run.history.is_empty() {
-            true => run.envelopes.get(link).is_some_and(|e| e.extremes(*place, Quantity::Arc).is_some()),
+            true => run.envelopes.get(link).is_some_and(|e| e.extremes(*place, NodeQuantity::Arc).is_some()),
             false => run.history.rows().any(|row| columns.node(*place, row).is_some()),
         };
         let places: Vec<usize> = (0..columns.numbers.len()).filter(there).collect();
@@ -158,7 +158,7 @@ impl<'a> Line<'a> {
             return Err(ClassError::new(format!("{name} did not act at any stored instant")));
         }
         let sections = sections(&run.model, &found.name);
-        Ok(Line { run, name: &found.name, link, columns, sections, places })
+        Ok(LineResults { run, name: &found.name, link, columns, sections, places })
     }
 
     /// How many nodes it has.
@@ -172,7 +172,7 @@ impl<'a> Line<'a> {
     }
 
     /// The row of an event: between two stored ones on the straight line.
-    fn row(&self, event: &Event, row: &mut Vec<f64>) {
+    fn row(&self, event: &RunEvent, row: &mut Vec<f64>) {
         let history = &self.run.history;
         let width = history.layout.width.max(1);
         let stored = |at: usize| history.values.get(at * width..(at + 1) * width).unwrap_or_default();
@@ -192,13 +192,13 @@ impl<'a> Line<'a> {
     }
 
     /// The sides of a node in a row on which it is judged: see [`sides`].
-    fn sides(&self, node: &NodeRow, row: &[f64]) -> impl Iterator<Item = (usize, usize, &Section)> {
+    fn sides(&self, node: &NodeRow, row: &[f64]) -> impl Iterator<Item = (usize, usize, &ResultSection)> {
         sides(&self.sections, segments_at(&self.sections, self.length(row) - node.arc))
     }
 
     /// The most a node uses in a row, of its sides.
     fn node_utilisation(&self, node: &NodeRow, row: &[f64]) -> Option<f64> {
-        let used = |(side, _, section): (usize, usize, &Section)| {
+        let used = |(side, _, section): (usize, usize, &ResultSection)| {
             let stress = node.bent.and_then(|b| b.von_mises.get(side).copied());
             section.utilisation(node.effective, stress)
         };
@@ -216,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_place_is_in_the_segment_that_its_distance_from_the_second_end_says() {
-        let segment = |length: f64| Section {
+        let segment = |length: f64| ResultSection {
             segment: FatigueSegment {
                 curve: None,
                 breaking: 1.0,

@@ -1,7 +1,7 @@
 //! Where a line is at an instant, with its forces there; and its nodes over time.
 
-use super::{CLEARANCE, Line};
-use crate::results::{Event, EventTable};
+use super::{CLEARANCE, LineResults};
+use crate::results::{EventTable, RunEvent};
 use crate::system::SolveError;
 use crate::time::{BentRow, NodeRow};
 use windlass_base::table::{Cell, Digits, Table};
@@ -48,13 +48,13 @@ fn node_columns(bends: bool) -> impl Iterator<Item = &'static NodeColumn> {
 ///
 /// # Errors
 /// Numbers that make no table.
-pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
+pub fn shape(line: &LineResults, event: &RunEvent) -> Result<Table, SolveError> {
     let mut row = Vec::new();
     line.row(event, &mut row);
     let bends = line.columns.bends;
     let time = row.first().copied().unwrap_or(f64::NAN);
     // a node that a winch has not made yet has no row
-    let numbered = line.numbered();
+    let numbered = line.numbered_nodes();
     let nodes: Vec<(usize, NodeRow)> =
         numbered.filter_map(|(number, place)| Some((number, line.columns.node(place, &row)?))).collect();
     let mut table = Table::new("Along a Line at an Instant")
@@ -68,7 +68,8 @@ pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
         table =
             table.column("", name, *dim, *digits, |(_, node)| value(node).filter(|v| v.is_finite()).map(|v| v + 0.0));
     }
-    let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3), |(_, node)| line.used(node, &row)).build();
+    let mut table =
+        table.column("", "Used", Dim::None, Digits::Decimals(3), |(_, node)| line.node_utilisation(node, &row)).build();
     if table.rows() == 0 {
         table.note("the line does not act then");
     }
@@ -79,7 +80,7 @@ pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
 ///
 /// # Errors
 /// A node that the line has not, a distance beyond its ends at every event.
-pub fn histories(line: &Line, wanted: &[Where], events: &[Event]) -> Result<Table, SolveError> {
+pub fn histories(line: &LineResults, wanted: &[Where], events: &[RunEvent]) -> Result<Table, SolveError> {
     let (run, bends) = (line.run, line.columns.bends);
     let (mut places, mut groups, mut arcs) = (Vec::new(), Vec::new(), Vec::new());
     for (index, place) in wanted.iter().enumerate() {
@@ -131,7 +132,7 @@ pub fn histories(line: &Line, wanted: &[Where], events: &[Event]) -> Result<Tabl
     Ok(table)
 }
 
-impl Line<'_> {
+impl LineResults<'_> {
     /// The line at an unstretched distance from its first end (m) in a row; none beyond its ends.
     pub(super) fn at_arc(&self, arc: f64, row: &[f64]) -> Option<NodeRow> {
         let mut before: Option<NodeRow> = None;

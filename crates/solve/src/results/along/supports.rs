@@ -1,7 +1,7 @@
 //! What a pipe does to each of its supports over time.
 
-use super::Line;
-use crate::results::{Event, EventTable, Magnitude};
+use super::LineResults;
+use crate::results::{EventTable, Magnitude, RunEvent};
 use crate::system::SolveError;
 use nalgebra::Vector3;
 use windlass_base::table::Table;
@@ -13,7 +13,7 @@ use windlass_model::{AssemblyKind, Model};
 ///
 /// # Errors
 /// A line that no supports hold.
-pub fn supports(line: &Line, magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
+pub fn supports(line: &LineResults, magnitude: Magnitude, events: &[RunEvent]) -> Result<Table, SolveError> {
     let (model, layout) = (&line.run.model, &line.run.history.layout);
     let names = match model.assemblies.get(&Model::key(line.name)).map(|a| &a.kind) {
         Some(AssemblyKind::Pipe { supports, .. }) => supports,

@@ -1,7 +1,7 @@
 //! Where a line meets the bottom.
 
-use super::Line;
-use crate::results::{Event, EventTable};
+use super::LineResults;
+use crate::results::{EventTable, RunEvent};
 use crate::system::SolveError;
 use crate::time::NodeRow;
 use windlass_base::table::{Digits, Table};
@@ -13,7 +13,7 @@ use windlass_model::DYNAMIC;
 ///
 /// # Errors
 /// None of its own.
-pub fn touchdown(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
+pub fn touchdown(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveError> {
     let mut table = EventTable::new("Touchdown", (&line.run.history, events), |row| {
         let there: Vec<(usize, NodeRow)> = line
             .numbered_nodes()

@@ -1,6 +1,6 @@
 //! A body that answers each wave of the sea as a table says.
 
-use super::super::forces::Motion;
+use super::super::forces::BodyMotion;
 use super::{Freedoms, Prescribed, motion_from_dofs};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -19,19 +19,19 @@ pub(super) struct Riding {
 }
 
 /// A complex response: real and imaginary part, of `amplitude exp(i lag)`.
-type Pair = (f64, f64);
+type ComplexPair = (f64, f64);
 
-fn interpolate_pairs(a: [Pair; 6], b: [Pair; 6], share: f64) -> [Pair; 6] {
+fn interpolate_pairs(a: [ComplexPair; 6], b: [ComplexPair; 6], share: f64) -> [ComplexPair; 6] {
     std::array::from_fn(|i| (a[i].0 + (b[i].0 - a[i].0) * share, a[i].1 + (b[i].1 - a[i].1) * share))
 }
 
-fn pairs(row: &ResponseRow) -> [Pair; 6] {
+fn pairs(row: &ResponseRow) -> [ComplexPair; 6] {
     row.values.map(|(amplitude, lag)| (amplitude * lag.cos(), amplitude * lag.sin()))
 }
 
 /// Responses at a frequency, straight between the rows in their real and imaginary parts. Waves longer than the longest have its
 /// response; shorter ones than the shortest none.
-fn by_frequency(rows: &[ResponseRow], frequency: f64) -> [Pair; 6] {
+fn by_frequency(rows: &[ResponseRow], frequency: f64) -> [ComplexPair; 6] {
     let after = rows.partition_point(|r| r.frequency < frequency);
     match (after.checked_sub(1).and_then(|n| rows.get(n)), rows.get(after)) {
         (Some(low), Some(high)) => {
@@ -52,7 +52,7 @@ fn whole(angle: f64) -> f64 {
 ///
 /// # Errors
 /// A heading that lies between none of the table.
-fn response_at(table: &Responses, heading: f64, frequency: f64) -> Result<[Pair; 6], ClassError> {
+fn response_at(table: &Responses, heading: f64, frequency: f64) -> Result<[ComplexPair; 6], ClassError> {
     let from = whole(heading);
     if table.symmetric && from > PI {
         // mirrored in the plane of x and z: sway, roll and yaw change their sign
@@ -65,7 +65,7 @@ fn response_at(table: &Responses, heading: f64, frequency: f64) -> Result<[Pair;
     response_between(table, from, frequency)
 }
 
-fn response_between(table: &Responses, from: f64, frequency: f64) -> Result<[Pair; 6], ClassError> {
+fn response_between(table: &Responses, from: f64, frequency: f64) -> Result<[ComplexPair; 6], ClassError> {
     const EQUAL_VALUES: f64 = 1e-9;
     if let Some((_, rows)) = table.headings.iter().find(|(h, _)| (h - from).abs() <= EQUAL_VALUES) {
         return Ok(by_frequency(rows, frequency));
@@ -137,7 +137,7 @@ impl Riding {
 }
 
 impl Prescribed for Riding {
-    fn motion_at(&self, time: f64) -> Result<Motion, ClassError> {
+    fn motion_at(&self, time: f64) -> Result<BodyMotion, ClassError> {
         let mut sums: Freedoms = [[0.0; 6]; 3];
         for (w, pairs) in &self.waves {
             let (sin, cos) = (w * time).sin_cos();

@@ -1,6 +1,6 @@
 //! A motion through places at times.
 
-use super::super::forces::Motion;
+use super::super::forces::BodyMotion;
 use super::{Freedoms, Prescribed, motion_from_dofs};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
@@ -64,7 +64,7 @@ fn bends(rows: &[PathRow]) -> Vec<[f64; 6]> {
 }
 
 impl Prescribed for Spline {
-    fn motion_at(&self, time: f64) -> Result<Motion, ClassError> {
+    fn motion_at(&self, time: f64) -> Result<BodyMotion, ClassError> {
         let ends = self.rows.first().zip(self.rows.last());
         let (first, last) = ends.map(|(a, b)| (a.0, b.0)).unwrap_or_default();
         // a step's end may be a rounding beyond the last row

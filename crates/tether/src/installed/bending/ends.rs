@@ -1,18 +1,19 @@
 //! What an installed tether reports of its ends and its length: arc, what elements bear, what the structure feels.
 
-use super::{Bending, Cell, LOOK_AHEAD, Motion, Stage};
+use super::{Bending, LOOK_AHEAD, PerLength, PlaneMotion, Stage};
 use crate::beam::{self, Vector4};
-use crate::installed::axis::{Axis, tilt};
-use crate::installed::tension::{Axial, Tension};
+use crate::installed::axis::{TetherAxis, tilt};
+use crate::installed::tension::{TensionModel, TetherTension};
 use nalgebra::Vector3;
 
 impl Bending {
     /// How much longer the tether is than its axis (m): `1/2 int w'^2 ds` with the cubic of each element, of a length altogether (m).
-    pub fn arc(&self, motion: &[Motion; 2], length: f64) -> f64 {
+    pub fn arc(&self, motion: &[PlaneMotion; 2], length: f64) -> f64 {
         let stretch = length / self.length;
-        let of = |(index, cell): (usize, &Cell)| -> f64 {
-            let part =
-                |m: &Motion| beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.place, index));
+        let of = |(index, cell): (usize, &PerLength)| -> f64 {
+            let part = |m: &PlaneMotion| {
+                beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.place, index))
+            };
             0.5 * motion.iter().map(part).sum::<f64>()
         };
         self.cells.iter().enumerate().map(of).sum()
@@ -20,7 +21,7 @@ impl Bending {
 
     /// What each end of an element bears at a stage, by plane: force across and moment of its slope on it, `K x + M a - F` with the place that
     /// the stage looks ahead to, so that those of two elements at a node balance.
-    pub fn end_loads(&self, element: usize, second: bool, stage: &Stage, axial: &Axial) -> [Vector4; 2] {
+    pub fn end_loads(&self, element: usize, second: bool, stage: &Stage, axial: &TensionModel) -> [Vector4; 2] {
         let Some(cell) = self.cells.get(element) else { return [[0.0; 4]; 2] };
         let stretch = stage.tension.length / self.length;
         let length = cell.length * stretch;
@@ -48,7 +49,7 @@ impl Bending {
     /// What the structure bears across the axis, by plane (N): what is missing in the balance of the unknown at the top but for the inertia
     /// that it has with the axis ([`Bending::entrained_mass`]). Places and loads are those of the stage now gathered; the acceleration against the
     /// axis is that of the stage before.
-    pub fn top_shear(&self, second: bool, tension: &Tension, axial: &Axial) -> [f64; 2] {
+    pub fn top_shear(&self, second: bool, tension: &TetherTension, axial: &TensionModel) -> [f64; 2] {
         let last = self.cells.len().saturating_sub(1);
         let Some(cell) = self.cells.get(last) else { return [0.0; 2] };
         let length = cell.length * tension.length / self.length;
@@ -65,14 +66,14 @@ impl Bending {
     }
 
     /// The row of the top's deflection in the mass of the last element.
-    fn top_mass(&self, tension: &Tension) -> Vector4 {
+    fn top_mass(&self, tension: &TetherTension) -> Vector4 {
         let stretch = tension.length / self.length;
-        let mass = |c: &Cell| beam::mass(c.mass[0] / stretch + c.mass[1], c.length * stretch)[2];
+        let mass = |c: &PerLength| beam::mass(c.mass[0] / stretch + c.mass[1], c.length * stretch)[2];
         self.cells.last().map_or([0.0; 4], mass)
     }
 
     /// The mass (kg) across the axis that rides on the structure's end with the axis itself.
-    pub fn entrained_mass(&self, tension: &Tension) -> f64 {
+    pub fn entrained_mass(&self, tension: &TetherTension) -> f64 {
         let nodes = self.shares.len();
         let share = |node: Option<usize>| node.and_then(|n| self.shares.get(n)).copied().unwrap_or_default();
         let turn = 1.0 / tension.length;
@@ -81,12 +82,12 @@ impl Bending {
     }
 
     /// Slopes at the structure by plane (rad).
-    pub fn top_slopes(&self, motion: &[Motion; 2]) -> [f64; 2] {
+    pub fn top_slopes(&self, motion: &[PlaneMotion; 2]) -> [f64; 2] {
         [0, 1].map(|p| motion[p].place.last().copied().unwrap_or_default())
     }
 
     /// What the coil at the structure does to it by plane (N m), against the slope.
-    pub fn coil(&self, motion: &[Motion; 2], axis: &Axis, upright: Vector3<f64>) -> [f64; 2] {
+    pub fn coil(&self, motion: &[PlaneMotion; 2], axis: &TetherAxis, upright: Vector3<f64>) -> [f64; 2] {
         let (slopes, vessel) = (self.top_slopes(motion), tilt(upright));
         [0, 1].map(|p| self.springs[1][p] * (slopes[p] + axis.tilt[p] - vessel[p] - self.rest[1][p]))
     }

@@ -4,12 +4,12 @@
 //! wider than the tether is a spring.
 
 use super::{Bending, OPENING_EDGE_STIFFNESS_RATIO, Stage};
-use crate::installed::axis::{Axis, tilt};
+use crate::installed::axis::{TetherAxis, tilt};
 use nalgebra::Vector3;
 
 /// What an unknown is held to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Hold {
+pub(super) enum DofConstraint {
     /// The axis: an end.
     Axis,
     /// A place across, vertical over the anchor.
@@ -24,7 +24,7 @@ pub(super) enum Hold {
 
 impl Bending {
     /// Takes the springs of the ends for at rest along an axis, the structure standing as it does.
-    pub fn rest_along(&mut self, axis: &Axis, upright: Vector3<f64>) {
+    pub fn rest_along(&mut self, axis: &TetherAxis, upright: Vector3<f64>) {
         let vessel = tilt(upright);
         self.rest = [axis.tilt, [0, 1].map(|p| axis.tilt[p] - vessel[p])];
     }
@@ -42,7 +42,7 @@ impl Bending {
     }
 
     /// What an unknown is held to: place, velocity and acceleration in the moving axis.
-    fn target(&self, unknown: usize, hold: Hold, plane: usize, stage: &Stage) -> [f64; 3] {
+    fn target(&self, unknown: usize, hold: DofConstraint, plane: usize, stage: &Stage) -> [f64; 3] {
         let Stage { axis, attachment, tension, .. } = stage;
         let parts = |v: Vector3<f64>| axis.parts(v)[plane];
         let [rate, growth] =
@@ -53,19 +53,19 @@ impl Bending {
         let rest = |end: usize| if unknown == [1, last][end] { self.rest[end][plane] } else { 0.0 };
         let turn = |v: Vector3<f64>| if plane == 0 { v.y } else { -v.x };
         match hold {
-            Hold::Axis => [0.0; 3],
-            Hold::Vertical => [rest(0) - axis.tilt[plane], -rate, -growth],
-            Hold::Upright => {
+            DofConstraint::Axis => [0.0; 3],
+            DofConstraint::Vertical => [rest(0) - axis.tilt[plane], -rate, -growth],
+            DofConstraint::Upright => {
                 let [spin, change] = attachment.spin;
                 let place = rest(1) + tilt(attachment.upright)[plane] - axis.tilt[plane];
                 [place, turn(spin) - rate, turn(change) - growth]
             }
-            Hold::Fixed => {
+            DofConstraint::Fixed => {
                 let at = anchor(stage) + Vector3::z() * (share * tension.length);
                 let [here, speed, change] = self.on_axis(share, stage);
                 [parts(at - here), -parts(speed), -parts(change)]
             }
-            Hold::Opening => {
+            DofConstraint::Opening => {
                 let [at, velocity, acceleration] = self.opening(share, stage);
                 let [here, speed, change] = self.on_axis(share, stage);
                 [parts(at - here), parts(velocity - speed), parts(acceleration - change)]
@@ -130,7 +130,7 @@ impl Bending {
 
     /// What the constraints on the structure do to it, by what is missing in the balance of the unknowns they hold.
     pub(super) fn react(&mut self, plane: usize, stage: &Stage, implicit: f64) {
-        if !self.held[plane].iter().any(|h| h.1 == Hold::Opening) {
+        if !self.held[plane].iter().any(|h| h.1 == DofConstraint::Opening) {
             return;
         }
         self.frame_acceleration(plane, stage);
@@ -142,7 +142,7 @@ impl Bending {
         }
         for index in 0..self.held[plane].len() {
             let (unknown, hold) = self.held[plane][index];
-            if hold != Hold::Opening {
+            if hold != DofConstraint::Opening {
                 continue;
             }
             let reach = unknown.saturating_sub(3)..(unknown + 4).min(self.right.len());

@@ -13,13 +13,13 @@
 mod ends;
 mod held;
 
-use super::axis::{Attachment, Axis, tilt};
-use super::tension::{Axial, Tension};
-use super::tether::{Constraint, InstalledTether, RIGID_STIFFNESS};
-use crate::banded::{Banded, Factors};
+use super::axis::{AxisAttachment, TetherAxis, tilt};
+use super::tension::{TensionModel, TetherTension};
+use super::tether::{InstalledTether, NodeConstraint, RIGID_STIFFNESS};
+use crate::banded::{Banded, BandedFactors};
 use crate::beam::{self, Vector4};
 use crate::structure::flow::FlowAt;
-use held::Hold;
+use held::DofConstraint;
 use nalgebra::Vector3;
 use windlass_model::ClassError;
 
@@ -33,7 +33,7 @@ const OPENING_EDGE_STIFFNESS_RATIO: f64 = 10.0;
 
 /// What an element has per length of it, unstretched where it is steel.
 #[derive(Clone, Copy, Debug)]
-struct Cell {
+struct PerLength {
     length: f64,
     bending: f64,
     /// Wall and what is inside (kg/m), and the water that goes along (kg/m).
@@ -48,7 +48,7 @@ struct Cell {
 
 /// Deflections and slopes of a plane.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct PlaneMotion {
     /// Deflection (m) and slope (rad) of each node.
     pub place: Vec<f64>,
     /// Their velocities.
@@ -72,11 +72,11 @@ pub struct Matrices {
 #[derive(Clone, Copy, Debug)]
 pub struct Stage<'a> {
     /// The axis.
-    pub axis: &'a Axis,
+    pub axis: &'a TetherAxis,
     /// Its end at the structure.
-    pub attachment: &'a Attachment,
+    pub attachment: &'a AxisAttachment,
     /// The tension.
-    pub tension: &'a Tension,
+    pub tension: &'a TetherTension,
     /// The water at the stage's time.
     pub water: &'a FlowAt<'a>,
     /// Length of the step (s).
@@ -86,7 +86,7 @@ pub struct Stage<'a> {
 /// One tether across its axis.
 #[derive(Clone, Debug)]
 pub struct Bending {
-    cells: Vec<Cell>,
+    cells: Vec<PerLength>,
     /// Unstretched distance of each node from the anchor over the length.
     shares: Vec<f64>,
     length: f64,
@@ -95,20 +95,20 @@ pub struct Bending {
     /// Slopes at which the springs are at rest, by end and plane (rad).
     rest: [[f64; 2]; 2],
     /// Unknowns that do not go by their forces, by plane.
-    held: [Vec<(usize, Hold)>; 2],
+    held: [Vec<(usize, DofConstraint)>; 2],
     openings: Vec<(usize, f64)>,
     stiffness: [Banded; 2],
     mass: Banded,
     system: Banded,
-    factors: Factors,
+    factors: BandedFactors,
     loads: [Vec<Vector4>; 2],
     right: Vec<f64>,
     ahead: Vec<f64>,
     frame: Vec<f64>,
     /// At the start of the step, by plane.
-    pub now: [Motion; 2],
+    pub now: [PlaneMotion; 2],
     /// As predicted for its end.
-    pub trial: [Motion; 2],
+    pub trial: [PlaneMotion; 2],
     /// Acceleration found by the first and by the second stage, by plane.
     pub found: [[Vec<f64>; 2]; 2],
     /// What the openings and the constraints on the structure did at the last stage: force (N) on the structure with its place (m, global).
@@ -123,7 +123,7 @@ impl Bending {
             let tube = e.tube();
             let displaced = density * tube.external_area();
             let mass = e.mass_per_length() + tether.fluid.density * tube.internal_area();
-            Cell {
+            PerLength {
                 length: e.length,
                 bending: e.bending_stiffness(),
                 mass: [mass, displaced * e.added_mass],
@@ -132,20 +132,24 @@ impl Bending {
                 weight: (mass - displaced) * gravity,
             }
         };
-        let cells: Vec<Cell> = line.elements().iter().map(cell).collect();
+        let cells: Vec<PerLength> = line.elements().iter().map(cell).collect();
         let order = 2 * line.nodes();
-        let mut held = [vec![(0, Hold::Axis)], vec![(0, Hold::Axis)]];
+        let mut held = [vec![(0, DofConstraint::Axis)], vec![(0, DofConstraint::Axis)]];
         let mut springs = [tether.anchor_springs, tether.vessel_springs].map(|s| [s.rotation[1], s.rotation[0]]);
-        let stiff = |cell: Option<&Cell>| {
+        let stiff = |cell: Option<&PerLength>| {
             cell.map_or(RIGID_STIFFNESS, |c| 4.0 * c.bending / c.length) * FIXED_END_STIFFNESS_RATIO
         };
         let limits = [stiff(cells.first()), stiff(cells.last())];
         for plane in 0..2 {
-            held[plane].push((order - 2, Hold::Axis));
+            held[plane].push((order - 2, DofConstraint::Axis));
             for (end, limit) in limits.iter().enumerate() {
                 if springs[end][plane] >= *limit {
                     springs[end][plane] = 0.0;
-                    held[plane].push(if end == 0 { (1, Hold::Vertical) } else { (order - 1, Hold::Upright) });
+                    held[plane].push(if end == 0 {
+                        (1, DofConstraint::Vertical)
+                    } else {
+                        (order - 1, DofConstraint::Upright)
+                    });
                 }
             }
         }
@@ -153,11 +157,11 @@ impl Bending {
         for constraint in &tether.constraints {
             let at = 2 * constraint.node();
             let hold = match constraint {
-                Constraint::FixedLateral { .. } => (at, Hold::Fixed),
-                Constraint::FixedRotation { .. } => (at + 1, Hold::Vertical),
-                Constraint::VesselRotation { .. } => (at + 1, Hold::Upright),
-                Constraint::VesselLateral { gap: 0.0, .. } => (at, Hold::Opening),
-                Constraint::VesselLateral { gap, .. } => {
+                NodeConstraint::FixedLateral { .. } => (at, DofConstraint::Fixed),
+                NodeConstraint::FixedRotation { .. } => (at + 1, DofConstraint::Vertical),
+                NodeConstraint::VesselRotation { .. } => (at + 1, DofConstraint::Upright),
+                NodeConstraint::VesselLateral { gap: 0.0, .. } => (at, DofConstraint::Opening),
+                NodeConstraint::VesselLateral { gap, .. } => {
                     openings.push((at, *gap));
                     continue;
                 }
@@ -165,7 +169,7 @@ impl Bending {
             held.iter_mut().filter(|list| !list.iter().any(|h| h.0 == hold.0)).for_each(|list| list.push(hold));
         }
         let zeros = || vec![0.0; order];
-        let rest = || Motion { place: zeros(), velocity: zeros() };
+        let rest = || PlaneMotion { place: zeros(), velocity: zeros() };
         let length = line.length();
         Bending {
             shares: line.distances().iter().map(|s| s / length).collect(),
@@ -178,7 +182,7 @@ impl Bending {
             stiffness: [Banded::zeros(order), Banded::zeros(order)],
             mass: Banded::zeros(order),
             system: Banded::zeros(order),
-            factors: Factors::with_room(order),
+            factors: BandedFactors::with_room(order),
             loads: [vec![[0.0; 4]; cells.len()], vec![[0.0; 4]; cells.len()]],
             right: zeros(),
             ahead: zeros(),
@@ -191,7 +195,7 @@ impl Bending {
     }
 
     /// The matrices of a plane in a tension.
-    pub fn matrices(&self, plane: usize, tension: &Tension, axial: &Axial) -> Matrices {
+    pub fn matrices(&self, plane: usize, tension: &TetherTension, axial: &TensionModel) -> Matrices {
         let (order, stretch) = (self.mass.order(), tension.length / self.length);
         let (mut stiffness, mut mass) = (Banded::zeros(order), Banded::zeros(order));
         let mut beams = Vec::with_capacity(self.cells.len());
@@ -213,7 +217,7 @@ impl Bending {
     }
 
     /// Finds matrices and loads of a stage, with the place and velocity at that stage. The acceleration of the attachment need not be known.
-    pub fn gather(&mut self, second: bool, stage: &Stage, axial: &Axial) {
+    pub fn gather(&mut self, second: bool, stage: &Stage, axial: &TensionModel) {
         let stretch = stage.tension.length / self.length;
         self.stiffness.iter_mut().for_each(Banded::clear);
         self.mass.clear();
@@ -310,7 +314,7 @@ impl Bending {
     pub fn advance(&mut self, dt: f64) {
         for plane in 0..2 {
             let [first, second] = [&self.found[0][plane], &self.found[1][plane]];
-            let Motion { place, velocity } = &mut self.now[plane];
+            let PlaneMotion { place, velocity } = &mut self.now[plane];
             for (i, (a, b)) in first.iter().zip(second).enumerate() {
                 let before = velocity[i];
                 velocity[i] += 0.5 * (a + b) * dt;
@@ -320,7 +324,7 @@ impl Bending {
     }
 }
 
-impl Cell {
+impl PerLength {
     /// What the water does across the axis to a length of the tether, at a share of it, with a deflection and its velocity by plane.
     fn force(&self, share: f64, [w, dw]: [[f64; 2]; 2], stage: &Stage) -> [f64; 2] {
         let axis = stage.axis;

@@ -1,13 +1,13 @@
 //! Water on a towed tether against closed forms and the sea as it is elsewhere.
 
-use super::super::{Compatibility, EndSpring, Multipliers};
+use super::super::{EndSpring, TowedCompatibility, WaterForceMultipliers};
 use super::*;
-use crate::{Line, TetherElement};
+use crate::{TetherElement, TetherLine};
 use nalgebra::Vector3;
 use windlass_hydro::sea::{Sea, Water};
 use windlass_model::Stretching;
 
-fn case(compatibility: Compatibility, depth: Option<f64>) -> Towed {
+fn case(compatibility: TowedCompatibility, depth: Option<f64>) -> Towed {
     let element = TetherElement {
         length: 10.0,
         outer_diameter: 1.0,
@@ -25,7 +25,7 @@ fn case(compatibility: Compatibility, depth: Option<f64>) -> Towed {
         Component { frequency, number, amplitude: 0.2 + 0.01 * i, toward, phase: 1.3 * i }
     };
     Towed {
-        line: Line::with_numbered_nodes(vec![element]).unwrap(),
+        line: TetherLine::with_numbered_nodes(vec![element]).unwrap(),
         origin: [-20.0, 4.0, -0.5],
         heading: 0.7,
         springs: [EndSpring::default(); 2],
@@ -35,13 +35,13 @@ fn case(compatibility: Compatibility, depth: Option<f64>) -> Towed {
         waves: (0..11).map(wave).collect(),
         current: Vec::new(),
         tow: [0.0; 2],
-        multipliers: Multipliers::default(),
+        multipliers: WaterForceMultipliers::default(),
         compatibility,
     }
 }
 
 /// Elevation and flow at a place of the tether's axes.
-fn at(waters: &Waters, time: f64, x: f64, y: f64, height: f64) -> (f64, Flow) {
+fn at(waters: &Waters, time: f64, x: f64, y: f64, height: f64) -> (f64, TowedFlow) {
     let (mut turns, mut place) = (Vec::new(), Vec::new());
     waters.at_time(time, &mut turns);
     waters.at_place(x, y, &mut place);
@@ -63,7 +63,7 @@ fn the_exponential_is_that_of_the_standard_library() {
 #[test]
 fn the_water_is_that_of_the_sea_in_the_axes_of_the_tether() {
     for (depth, exponential) in [(None, true), (Some(30.0), true), (None, false), (Some(30.0), false)] {
-        let compatibility = Compatibility { unstretched_crests: exponential, ..Compatibility::native() };
+        let compatibility = TowedCompatibility { unstretched_crests: exponential, ..TowedCompatibility::native() };
         let case = case(compatibility, depth);
         let waters = Waters::new(&case);
         let stretching = if exponential { Stretching::Exponential } else { Stretching::Wheeler };
@@ -88,7 +88,7 @@ fn the_water_is_that_of_the_sea_in_the_axes_of_the_tether() {
 
 #[test]
 fn under_way_the_surface_is_that_of_the_place_passed() {
-    let still = case(Compatibility::native(), None);
+    let still = case(TowedCompatibility::native(), None);
     let (vx, vy) = (1.7, -0.6);
     let under_way = Towed { tow: [vx, vy], ..still.clone() };
     let (one, other) = (Waters::new(&still), Waters::new(&under_way));
@@ -107,7 +107,7 @@ fn under_way_the_surface_is_that_of_the_place_passed() {
 #[test]
 fn the_current_is_straight_between_its_heights() {
     let current = vec![(0.0, [1.0, 0.0]), (-10.0, [0.5, 0.0]), (-20.0, [0.0, 0.0])];
-    let waters = Waters::new(&Towed { heading: 0.0, current, ..case(Compatibility::native(), None) });
+    let waters = Waters::new(&Towed { heading: 0.0, current, ..case(TowedCompatibility::native(), None) });
     let found: Vec<f64> = [3.0, 0.0, -4.0, -10.0, -15.0, -30.0].iter().map(|z| waters.current_at(*z)[0]).collect();
     for (a, b) in found.iter().zip([1.0, 1.0, 0.8, 0.5, 0.25, 0.0]) {
         assert!((a - b).abs() < 1e-15);
