@@ -73,7 +73,7 @@ fn pass_of(observed: f64, name: &str, model: &Model, keep: bool) {
     while begin.elapsed().as_secs_f64() < 4.0 {
         let mut run = Run::new(model, settings.clone(), Vec::new()).unwrap();
         let (start, clock) = (measured::processor(), Instant::now());
-        run.go(&mut Quiet).unwrap();
+        run.run(&mut Quiet).unwrap();
         let spent = measured::processor().zip(start).map(|(end, start)| end - start);
         least = least.min(spent.unwrap_or(clock.elapsed().as_secs_f64()));
         counts = Some(run.counts);

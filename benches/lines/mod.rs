@@ -59,7 +59,7 @@ impl Moving {
         let mut last = self.segment.solve_end_forces(self.x, self.z, self.bottom).unwrap();
         let mut sum = 0.0;
         for (x, z) in (1..=STEPS).map(|n| self.at(n)) {
-            last = self.segment.follow(x, z, self.bottom, &last).unwrap();
+            last = self.segment.solve_warm_start(x, z, self.bottom, &last).unwrap();
             sum += last.fairlead[0];
         }
         sum

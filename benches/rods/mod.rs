@@ -81,7 +81,7 @@ pub fn run(model: &Model, (span, dt): (f64, f64), along: usize, passes: usize) -
     let once = || {
         let mut run = Run::new(model, settings.clone(), Vec::new()).unwrap();
         let (clock, start) = (Instant::now(), measured::thread_time());
-        run.go(&mut Quiet).unwrap();
+        run.run(&mut Quiet).unwrap();
         let wall = clock.elapsed().as_secs_f64();
         let spent = measured::thread_time().zip(start).map_or(wall, |(end, start)| end - start);
         let at = run.history.layout.wrench(0, 0).unwrap();

@@ -227,7 +227,7 @@ fn report(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let d = here(job, args.span)?;
     let table = d
-        .reported(&selectors(args, 0))
+        .report_columns(&selectors(args, 0))
         .and_then(|c| d.extract(&c, &rows(args), false, job.units))
         .map_err(|e| refused(args, &e))?;
     let text = page::render(&table, job.units, &job.page_head());

@@ -132,7 +132,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             Diagnostic::error("there is no body to bring to rest", call.args.span).help("&DESCRIBE BODY describes one")
         );
     }
-    let settled = settle(&mut job.model, &options).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
+    let settled = find_equilibrium_with_rebuilds(&mut job.model, &options).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
     let forces = tables::by_category(&settled.system, &settled.state, &|_| true)
         .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
     let (mut over, mut unknown) = (Vec::new(), Vec::new());

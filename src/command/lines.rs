@@ -4,7 +4,7 @@ mod input;
 
 use super::menu;
 use super::{Call, Command, Effect, Job, file};
-use crate::report::csv::guarded;
+use crate::report::csv::guard_formula;
 use crate::report::files::{FilePlace, Growing};
 use crate::report::format::number_in_full;
 use crate::report::page;
@@ -68,7 +68,7 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let place = job.output.folder.place(&out).map_err(refused)?;
     let lost = |error: csv::Error| Diagnostic::error(format!("{}: {error}", place.path().display()), args.place(1));
     let mut writer = csv::Writer::from_writer(place.begin().map_err(refused)?);
-    writer.write_record(heads(&input.heads).iter().map(|head| guarded(head).into_owned())).map_err(lost)?;
+    writer.write_record(heads(&input.heads).iter().map(|head| guard_formula(head).into_owned())).map_err(lost)?;
     let width = input.heads.len();
     let mut tally = Tally::default();
     while let Some(row) = input.next().map_err(unusable)? {
@@ -124,7 +124,7 @@ fn write_row(
     for at in 0..width {
         let cell = row.cells.get(at).unwrap_or_default();
         match std::str::from_utf8(cell) {
-            Ok(text) => writer.write_field(guarded(text).as_bytes())?,
+            Ok(text) => writer.write_field(guard_formula(text).as_bytes())?,
             Err(_) => writer.write_field(cell)?,
         }
     }

@@ -239,7 +239,7 @@ fn dispose(job: &mut Job, made: Result<Table, SolveError>, args: &Args) -> Outco
         note_caveats(&run.model, std::slice::from_mut(&mut table));
     }
     let transient = transient_of(job, args);
-    job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).behind(transient))));
+    job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).after_transient(transient))));
     Ok(Effect::Done)
 }
 

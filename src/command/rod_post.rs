@@ -151,7 +151,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             return Err(Diagnostic::error(text, given.span));
         };
         raise(job, &table, args.place(0));
-        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).behind(transient_of(job, args)))));
+        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).after_transient(transient_of(job, args)))));
         return Ok(Effect::Done);
     }
     let head = job.page_head();

@@ -214,7 +214,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     let (columns, lines) = job.plot_size();
     for table in &charts {
-        let drawn = Chart::of(table, job.units).and_then(|chart| chart.terminal(columns, lines));
+        let drawn = Chart::from_table(table, job.units).and_then(|chart| chart.terminal(columns, lines));
         text.push('\n');
         text.push_str(&drawn.map_err(|e| Diagnostic::error(e.to_string(), args.span))?);
     }

@@ -267,7 +267,7 @@ fn begun(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run, Opt
     }
     if args.has(&EQUI) {
         let options = job.equilibrium.clone();
-        settle(&mut model, &options).map_err(|e| wrong(e, job))?;
+        find_equilibrium_with_rebuilds(&mut model, &options).map_err(|e| wrong(e, job))?;
         began = Some("at the equilibrium with the mean forces, as &EQUI finds it".into());
     }
     let mut made = Run::new(&model, settings, job.actions.clone()).map_err(|e| wrong(e, job))?;
@@ -384,7 +384,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         going.bar.println(format!("warning: {text}"));
         job.warn(text, span);
     }
-    let ended = made.go(&mut going);
+    let ended = made.run(&mut going);
     drop(going);
     let screening = screened(job, args, &made, ended.as_ref().ok());
     let mut first = run_tables::run_table(&made);
@@ -471,7 +471,7 @@ fn screened(job: &Job, args: &Args, made: &Run, ending: Option<&Ending>) -> Resu
 fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
     let mut again = first.begun_again(|s| RunSettings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
     let mut going = Going::new(job, &again, None);
-    again.go(&mut going)?;
+    again.run(&mut going)?;
     Ok(run_tables::comparison_tables(first, &again.history))
 }
 

@@ -325,7 +325,7 @@ fn out(job: &mut Job, args: &Args, tables: Vec<Table>) -> Outcome<Effect> {
         };
         let run = job.tethered.as_ref().filter(|_| !args.has(&EVENTS));
         let transient = run.map_or(0.0, |run| run.settings.transient);
-        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).behind(transient))));
+        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).after_transient(transient))));
         return Ok(Effect::Done);
     }
     let head = job.page_head();

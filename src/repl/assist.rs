@@ -74,7 +74,7 @@ impl Known {
         };
     }
 
-    fn of(&self, noun: Noun) -> Vec<String> {
+    fn names_of(&self, noun: Noun) -> Vec<String> {
         match noun {
             Noun::Class => self.classes.clone(),
             Noun::Point => self.points.clone(),
@@ -224,7 +224,7 @@ impl Completer for Assistant {
         let mut candidates: Vec<String> = Vec::new();
         if let Some(name) = word.strip_prefix('%') {
             candidates.extend(known.variables.iter().filter(|v| begins(v, name)).map(|v| format!("%{v}")));
-            return Ok((start, sorted(candidates)));
+            return Ok((start, sort_candidates(candidates)));
         }
         let spec = spec_of(known.menu(), head, &words);
         if words.is_empty() {
@@ -246,10 +246,10 @@ impl Completer for Assistant {
             }
             candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
             candidates.retain(|c| begins(c, word) || c.strip_prefix('&').is_some_and(|bare| begins(bare, word)));
-            return Ok((start, sorted(candidates)));
+            return Ok((start, sort_candidates(candidates)));
         } else if let Some(at) = function_start(word) {
             let name = word.get(at..).unwrap_or_default();
-            return Ok((start + at, sorted(string_functions().filter(|f| begins(f, name)).collect())));
+            return Ok((start + at, sort_candidates(string_functions().filter(|f| begins(f, name)).collect())));
         } else if words.first().is_some_and(|w| w.kind == TokenKind::Class) && words.len() == 1 {
             candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
         } else if let Some((spec, from)) = spec {
@@ -262,9 +262,9 @@ impl Completer for Assistant {
             } else if let (false, Some((value, _))) = (begins_option, expected) {
                 match value.kind {
                     ValueKind::Choice(choices) => candidates.extend(choices.iter().map(|c| (*c).to_string())),
-                    ValueKind::Name(noun) => candidates.extend(known.of(noun)),
+                    ValueKind::Name(noun) => candidates.extend(known.names_of(noun)),
                     ValueKind::ChoiceOrName(choices, noun) => {
-                        candidates.extend(choices.iter().map(|c| (*c).to_string()).chain(known.of(noun)));
+                        candidates.extend(choices.iter().map(|c| (*c).to_string()).chain(known.names_of(noun)));
                     }
                     ValueKind::File => {
                         drop(known);
@@ -282,7 +282,7 @@ impl Completer for Assistant {
             }
         }
         candidates.retain(|c| begins(c, word));
-        Ok((start, sorted(candidates)))
+        Ok((start, sort_candidates(candidates)))
     }
 }
 
@@ -291,7 +291,7 @@ fn begins(name: &str, word: &str) -> bool {
 }
 
 /// The candidates in order, each once; a word that is complete is followed by a blank.
-fn sorted(mut candidates: Vec<String>) -> Vec<Pair> {
+fn sort_candidates(mut candidates: Vec<String>) -> Vec<Pair> {
     candidates.retain(|text| !text.contains(is_acted_on));
     candidates.sort();
     candidates.dedup();

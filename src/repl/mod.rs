@@ -53,7 +53,7 @@ pub fn run(session: &mut Session, terminal: bool) {
             known.update(session);
         }
         if !terminal {
-            let Some(bytes) = piped() else {
+            let Some(bytes) = read_piped_record() else {
                 session.end_of_typing();
                 break;
             };
@@ -132,7 +132,7 @@ impl ConditionalEventHandler for WipeHint {
 }
 
 /// The next record of a standard input that is no terminal, with the lines it is continued over; `None` at the end.
-fn piped() -> Option<Vec<u8>> {
+fn read_piped_record() -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     loop {
         let start = bytes.len();

@@ -89,7 +89,7 @@ pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn>
 ///
 /// # Errors
 /// As [`choose`].
-pub fn reported(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn> {
+pub fn report_columns(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn> {
     let of_group = |(index, column): (usize, &Column)| in_group(column, selector).then_some(index);
     let mut group: Vec<usize> = table.columns.iter().enumerate().filter_map(of_group).collect();
     if group.is_empty() || table.columns.iter().any(|c| is_called(c, selector)) {
@@ -132,14 +132,14 @@ mod tests {
         let groups =
             [("", "Time"), ("A Location", "X"), ("A Location", "Y"), ("B Location", "X"), ("A Velocity", "VX")];
         let table = heads(groups);
-        assert_eq!(reported(&table, "LOCATION"), Ok(vec![0, 1, 2, 3]));
+        assert_eq!(report_columns(&table, "LOCATION"), Ok(vec![0, 1, 2, 3]));
         // a pattern that fits columns by their long names chooses these alone
-        assert_eq!(reported(&table, "a@"), Ok(vec![1, 2, 4]));
-        assert_eq!(reported(&table, "B Location"), Ok(vec![0, 3]));
-        assert_eq!(reported(&table, "X"), Ok(vec![1, 3]));
-        assert!(choose(&table, "LOCATION").is_err() && reported(&table, "PLACE").is_err());
+        assert_eq!(report_columns(&table, "a@"), Ok(vec![1, 2, 4]));
+        assert_eq!(report_columns(&table, "B Location"), Ok(vec![0, 3]));
+        assert_eq!(report_columns(&table, "X"), Ok(vec![1, 3]));
+        assert!(choose(&table, "LOCATION").is_err() && report_columns(&table, "PLACE").is_err());
         let named = heads([("Force", "FX"), ("Horizontal", "Force")]);
-        assert_eq!(reported(&named, "Force"), Ok(vec![1]));
+        assert_eq!(report_columns(&named, "Force"), Ok(vec![1]));
     }
 
     #[test]

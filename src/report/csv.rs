@@ -13,7 +13,7 @@ use windlass_base::units::{Dim, UnitSystem};
 /// What the CSV writer reports; writing to memory does not fail otherwise.
 pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(heads(table, units).iter().map(|head| guarded(head).into_owned()))?;
+    writer.write_record(heads(table, units).iter().map(|head| guard_formula(head).into_owned()))?;
     for row in 0..table.rows() {
         writer.write_record(
             table.columns.iter().map(|c| c.cells.get(row).map_or(String::new(), |cell| written(cell, c.dim, units))),
@@ -24,19 +24,19 @@ pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, csv::Error> {
 
 fn written(cell: &Cell, dim: Dim, units: UnitSystem) -> String {
     let text = format::full(cell, dim, units);
-    if matches!(cell, Cell::Text(_)) { guarded(&text).into_owned() } else { text }
+    if matches!(cell, Cell::Text(_)) { guard_formula(&text).into_owned() } else { text }
 }
 
 /// Text of a cell so that no spreadsheet takes it for a formula: an apostrophe goes before `=`, `+`, `-`, `@`, a tab or a carriage
 /// return, unless the text is a number.
-pub fn guarded(text: &str) -> Cow<'_, str> {
+pub fn guard_formula(text: &str) -> Cow<'_, str> {
     let formula = text.starts_with(['=', '+', '@', '\t', '\r']) || (text.starts_with('-') && text.len() > 1);
     if formula && text.trim().parse::<f64>().is_err() { Cow::Owned(format!("'{text}")) } else { Cow::Borrowed(text) }
 }
 
 /// Text of a cell as it was before it was [`guarded`].
-pub fn unguarded(text: &str) -> &str {
-    text.strip_prefix('\'').filter(|bare| guarded(bare) != *bare).unwrap_or(text)
+pub fn remove_guard(text: &str) -> &str {
+    text.strip_prefix('\'').filter(|bare| guard_formula(bare) != *bare).unwrap_or(text)
 }
 
 /// The heads, no two alike: a name that several columns have goes with its group, and if that does not tell them
@@ -46,7 +46,7 @@ pub(super) fn heads(table: &Table, units: UnitSystem) -> Vec<String> {
         table.columns.iter().filter(|c| of(c) == of(column)).count() > 1
     };
     let short = |c: &Column| format::head(c, units);
-    let long = |c: &Column| format::named(&long_name(c), c.dim, units);
+    let long = |c: &Column| format::name_with_unit(&long_name(c), c.dim, units);
     let heads =
         table.columns.iter().enumerate().map(|(index, column)| match (twice(&short, column), twice(&long, column)) {
             (false, _) => short(column),
@@ -100,8 +100,8 @@ mod tests {
         ];
         assert_eq!(first, want);
         assert!(String::from_utf8(text).unwrap().lines().nth(1).unwrap().ends_with(",-1.5"));
-        assert!(want.iter().skip(1).zip(texts).all(|(written, text)| unguarded(written) == text));
-        assert_eq!(unguarded("'quoted'"), "'quoted'");
+        assert!(want.iter().skip(1).zip(texts).all(|(written, text)| remove_guard(written) == text));
+        assert_eq!(remove_guard("'quoted'"), "'quoted'");
     }
 
     #[test]

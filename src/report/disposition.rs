@@ -4,7 +4,7 @@
 //! Source: [MOSES-REF disp_men]. C_SCALE and C_SHIFT last until the menu ends and act on VIEW,
 //! STORE, PLOT, STATISTIC and SET_VARIABLE, not on the formatted REPORT. -RECORD counts rows, from 1.
 
-use super::columns::{Choose, NoSuchColumn, choose, reported};
+use super::columns::{Choose, NoSuchColumn, choose, report_columns};
 use super::format;
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
@@ -91,7 +91,7 @@ impl Disposition {
     }
 
     /// The same over a run whose transient lasts so long (s): its statistics leave that out.
-    pub fn behind(self, transient: f64) -> Self {
+    pub fn after_transient(self, transient: f64) -> Self {
         let times = self.table.columns.first().is_some_and(|c| c.dim == Dim::Time);
         Disposition { transient: Some(transient).filter(|t| times && *t > 0.0), ..self }
     }
@@ -113,8 +113,8 @@ impl Disposition {
     ///
     /// # Errors
     /// As [`Disposition::columns`].
-    pub fn reported(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
-        self.columns_by(selectors, reported)
+    pub fn report_columns(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
+        self.columns_by(selectors, report_columns)
     }
 
     fn columns_by(&self, selectors: &[&str], choose: Choose) -> Result<Vec<usize>, DispositionError> {
@@ -194,7 +194,7 @@ impl Disposition {
         for index in columns {
             let Some(column) = self.table.columns.get(*index) else { continue };
             let change =
-                |cell: &Cell| if adjusted { self.adjusted(*index, cell, column.dim, units) } else { cell.clone() };
+                |cell: &Cell| if adjusted { self.adjust_cell(*index, cell, column.dim, units) } else { cell.clone() };
             let cells = taken.iter().filter_map(|row| column.cells.get(*row)).map(change).collect();
             out.columns.push(Column { cells, ..column.clone() });
         }
@@ -202,7 +202,7 @@ impl Disposition {
     }
 
     /// A cell of a column with C_SCALE and C_SHIFT applied.
-    fn adjusted(&self, index: usize, cell: &Cell, dim: Dim, units: UnitSystem) -> Cell {
+    fn adjust_cell(&self, index: usize, cell: &Cell, dim: Dim, units: UnitSystem) -> Cell {
         let (factor, shift) = self.adjust.get(index).copied().unwrap_or((1.0, 0.0));
         match cell.number() {
             Some(value) if (factor, shift) != (1.0, 0.0) => Cell::Number(value * factor + dim.to_si(shift, units)),
@@ -233,12 +233,12 @@ impl Disposition {
             }
         }
         if let Some((selector, low, high)) = &choice.values {
-            taken = self.within(taken, selector, *low, *high, units)?;
+            taken = self.rows_within(taken, selector, *low, *high, units)?;
         }
         Ok(taken)
     }
 
-    fn within(
+    fn rows_within(
         &self,
         mut rows: Vec<usize>,
         selector: &str,
@@ -247,13 +247,13 @@ impl Disposition {
         units: UnitSystem,
     ) -> Result<Vec<usize>, DispositionError> {
         for index in self.numeric(&[selector])? {
-            rows.retain(|row| self.shown(index, *row, units).is_some_and(|value| (low..=high).contains(&value)));
+            rows.retain(|row| self.displayed_value(index, *row, units).is_some_and(|value| (low..=high).contains(&value)));
         }
         if rows.is_empty() { Err(DispositionError::NoRow) } else { Ok(rows) }
     }
 
     /// The number of a cell as VIEW shows it: user units, scaled and shifted, without the rounding of the conversion.
-    fn shown(&self, column: usize, row: usize, units: UnitSystem) -> Option<f64> {
+    fn displayed_value(&self, column: usize, row: usize, units: UnitSystem) -> Option<f64> {
         let (factor, shift) = self.adjust.get(column).copied().unwrap_or((1.0, 0.0));
         let column = self.table.columns.get(column)?;
         let value = column.dim.from_si(column.cells.get(row)?.number()?, units) * factor + shift;
@@ -277,7 +277,7 @@ impl Disposition {
             return Err(DispositionError::NotOne { selector: selector.into(), count: chosen.len() });
         };
         let outside = |row: &usize| {
-            let value = self.shown(index, *row, units);
+            let value = self.displayed_value(index, *row, units);
             !value.is_some_and(|value| excluded.iter().any(|(low, high)| (*low..=*high).contains(&value)))
         };
         let rows: Vec<usize> = (0..self.table.rows()).filter(outside).collect();
@@ -302,7 +302,7 @@ impl Disposition {
         let names: Vec<String> = self.table.columns.iter().map(super::columns::long_name).collect();
         let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
         let lines = self.table.columns.iter().zip(names).enumerate().map(|(index, (column, name))| {
-            let cells: Vec<Cell> = column.cells.iter().map(|c| self.adjusted(index, c, column.dim, units)).collect();
+            let cells: Vec<Cell> = column.cells.iter().map(|c| self.adjust_cell(index, c, column.dim, units)).collect();
             let range = cells.iter().filter_map(Cell::number).fold(None, |range: Option<(f64, f64)>, v| {
                 Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
             });

@@ -22,26 +22,26 @@ pub fn base64(bytes: &[u8]) -> String {
 
 /// Numbers of 64 bits, little end first, as base64 in quotes.
 pub fn doubles(values: impl IntoIterator<Item = f64>) -> String {
-    quoted(values.into_iter().flat_map(f64::to_le_bytes))
+    quote_base64(values.into_iter().flat_map(f64::to_le_bytes))
 }
 
 /// Numbers of 32 bits, little end first, as base64 in quotes.
 pub fn singles(values: impl IntoIterator<Item = f64>) -> String {
-    quoted(values.into_iter().flat_map(|v| (v as f32).to_le_bytes()))
+    quote_base64(values.into_iter().flat_map(|v| (v as f32).to_le_bytes()))
 }
 
 /// Whole numbers of 32 bits, little end first, as base64 in quotes.
 pub fn wholes(values: impl IntoIterator<Item = u32>) -> String {
-    quoted(values.into_iter().flat_map(u32::to_le_bytes))
+    quote_base64(values.into_iter().flat_map(u32::to_le_bytes))
 }
 
 /// Whole numbers of 16 bits, little end first, as base64 in quotes.
 pub fn shorts(values: impl IntoIterator<Item = u16>) -> String {
-    quoted(values.into_iter().flat_map(u16::to_le_bytes))
+    quote_base64(values.into_iter().flat_map(u16::to_le_bytes))
 }
 
 /// Bytes as base64 in quotes.
-pub fn quoted(bytes: impl IntoIterator<Item = u8>) -> String {
+pub fn quote_base64(bytes: impl IntoIterator<Item = u8>) -> String {
     let bytes: Vec<u8> = bytes.into_iter().collect();
     format!("\"{}\"", base64(&bytes))
 }

@@ -113,7 +113,7 @@ impl FilePlace {
             return Err(self.spot.error(ErrorKind::IsADirectory.into()));
         }
         if self.spot.own {
-            self.swept.once(folder_of(&self.spot.path), &dir);
+            self.swept.sweep_once(folder_of(&self.spot.path), &dir);
         }
         let name = name.to_os_string();
         let (temporary, file) = temporary(&dir).map_err(|source| self.spot.error(source))?;
@@ -176,7 +176,7 @@ struct Swept(Arc<Mutex<HashSet<PathBuf>>>);
 
 impl Swept {
     /// Removes the temporary files of killed jobs, the first time that a folder is met.
-    fn once(&self, path: &Path, dir: &Dir) {
+    fn sweep_once(&self, path: &Path, dir: &Dir) {
         let new = self.0.lock().is_ok_and(|mut swept| swept.insert(path.to_path_buf()));
         if new && let Ok(entries) = dir.entries() {
             for name in entries.flatten().map(|entry| entry.file_name()).filter(|name| is_temporary(name)) {
@@ -323,7 +323,7 @@ impl JobFolder {
             })?
         };
         let dir = Arc::clone(self.handle.get_or_init(|| Arc::new(dir)));
-        self.swept.once(&self.folder, &dir);
+        self.swept.sweep_once(&self.folder, &dir);
         Ok(dir)
     }
 
@@ -351,20 +351,20 @@ impl JobFolder {
 
     /// The part of a path that is below the job's folder, links and `..` followed. A path through a link that leads nowhere
     /// has none: what is made there would be wherever the link points to.
-    fn below(&self, path: &Path) -> Option<PathBuf> {
+    fn path_below(&self, path: &Path) -> Option<PathBuf> {
         let (folder, path) = real(&self.folder).zip(real(path))?;
         path.strip_prefix(folder).ok().filter(|below| !below.as_os_str().is_empty()).map(Path::to_path_buf)
     }
 
     /// Whether a path lies below the job's folder, links and `..` followed.
     pub fn owns(&self, path: &Path) -> bool {
-        self.below(path).is_some()
+        self.path_below(path).is_some()
     }
 
     /// Where a name of a record leads. Outside of the job's folder that needs `--allow-files`, or somebody who can be asked.
     fn spot(&self, name: &str, can_ask: bool) -> Result<Spot, FileError> {
         let path = self.resolve(name)?;
-        if let Some(below) = self.below(&path) {
+        if let Some(below) = self.path_below(&path) {
             return Ok(Spot { base: self.dir()?, below, path, own: true });
         }
         let can_ask = can_ask && self.typed && self.question.is_some();

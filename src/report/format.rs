@@ -9,12 +9,12 @@ const MISSING: &str = "";
 
 /// A cell of a formatted report: fixed digits, as wide as it needs.
 pub fn report(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem) -> String {
-    shown(cell, dim, digits, units, 0)
+    format_cell(cell, dim, digits, units, 0)
 }
 
 /// A cell of `VIEW`: three digits more than the report has.
 pub fn view(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem) -> String {
-    shown(cell, dim, digits, units, 3)
+    format_cell(cell, dim, digits, units, 3)
 }
 
 /// A cell of a file: the shortest text that reads back to the same number.
@@ -45,7 +45,7 @@ pub fn number_in_full(value: f64) -> String {
     if (1e-5..1e16).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }
 
-fn shown(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem, more: u8) -> String {
+fn format_cell(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem, more: u8) -> String {
     match cell {
         Cell::Missing => MISSING.into(),
         Cell::Text(text) => one_line(text),
@@ -56,8 +56,8 @@ fn shown(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem, more: u8) -> 
                 return value.to_string();
             }
             match digits {
-                Digits::Usual => fixed(value, usual(dim, units).saturating_add(more)),
-                Digits::Decimals(count) => fixed(value, count.saturating_add(more)),
+                Digits::Usual => format_fixed(value, usual(dim, units).saturating_add(more)),
+                Digits::Decimals(count) => format_fixed(value, count.saturating_add(more)),
                 Digits::Scientific(count) => exponent(value, usize::from(count.saturating_add(more)).saturating_sub(1)),
             }
         }
@@ -70,7 +70,7 @@ fn one_line(text: &str) -> String {
 }
 
 /// Fixed decimals; a number that would lose all its digits, or is very long, is printed in E format instead.
-fn fixed(value: f64, decimals: u8) -> String {
+fn format_fixed(value: f64, decimals: u8) -> String {
     let decimals = usize::from(decimals);
     let smallest = 10f64.powi(-i32::try_from(decimals).unwrap_or(0));
     if value != 0.0 && (value.abs() <= 0.5 * smallest || value.abs() >= 1e12) {
@@ -134,11 +134,11 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
 
 /// A column's head in a file or an axis: `X (ft)`.
 pub fn head(column: &Column, units: UnitSystem) -> String {
-    named(&column.name, column.dim, units)
+    name_with_unit(&column.name, column.dim, units)
 }
 
 /// A name with its unit behind it.
-pub fn named(name: &str, dim: Dim, units: UnitSystem) -> String {
+pub fn name_with_unit(name: &str, dim: Dim, units: UnitSystem) -> String {
     let label = dim.label(units);
     if label.is_empty() { name.to_string() } else { format!("{name} ({label})") }
 }
@@ -224,7 +224,7 @@ mod tests {
             for dim in [Dim::Length, Dim::Force, Dim::ForcePerLength, Dim::Section, Dim::Stress, Dim::None] {
                 let want = dim.from_si(value, units);
                 prop_assume!(want.is_finite());
-                let text = shown(&Cell::Number(value), dim, Digits::Usual, units, more);
+                let text = format_cell(&Cell::Number(value), dim, Digits::Usual, units, more);
                 let got: f64 = text.parse().unwrap();
                 let place = 10f64.powi(-i32::from(usual(dim, units) + more));
                 prop_assert!((got - want).abs() <= (0.5001 * place).max(0.000_51 * want.abs()), "{want} as {text}");

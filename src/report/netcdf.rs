@@ -3,7 +3,7 @@
 //! Source: The NetCDF Classic Format (Unidata); attributes as the CF Conventions 1.11, sections 2.5 and 3.1. Text is an array of
 //! characters. Whole numbers are 32 bits wide, and doubles where that does not hold them.
 
-use super::stored::{ColumnValues, SOURCE, StoreError, stored};
+use super::stored::{ColumnValues, SOURCE, StoreError, stored_columns};
 use netcdf3::{DataSet, FileWriter, Version};
 use std::cell::RefCell;
 use std::io::{Cursor, Seek, SeekFrom, Write};
@@ -55,37 +55,37 @@ enum Data {
 /// # Errors
 /// Columns that the format cannot hold, and what the writer refuses.
 pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
-    let columns = stored(table, units)?;
+    let columns = stored_columns(table, units)?;
     let names = names(columns.iter().map(|c| c.long_name.as_str()));
     let mut set = DataSet::new();
-    set.add_fixed_dim(ROW, table.rows()).map_err(refused)?;
-    set.add_global_attr_string("title", &table.title).map_err(refused)?;
-    set.add_global_attr_string("source", SOURCE).map_err(refused)?;
-    set.add_global_attr_string("Conventions", "CF-1.11").map_err(refused)?;
+    set.add_fixed_dim(ROW, table.rows()).map_err(to_store_error)?;
+    set.add_global_attr_string("title", &table.title).map_err(to_store_error)?;
+    set.add_global_attr_string("source", SOURCE).map_err(to_store_error)?;
+    set.add_global_attr_string("Conventions", "CF-1.11").map_err(to_store_error)?;
     let mut all = Vec::new();
     for (column, name) in columns.into_iter().zip(names) {
         let data = data(column.values);
         match &data {
             Data::Doubles(_) => {
-                set.add_var_f64(&name, &[ROW]).map_err(refused)?;
-                set.add_var_attr_f64(&name, "_FillValue", vec![NO_NUMBER]).map_err(refused)?;
+                set.add_var_f64(&name, &[ROW]).map_err(to_store_error)?;
+                set.add_var_attr_f64(&name, "_FillValue", vec![NO_NUMBER]).map_err(to_store_error)?;
             }
             Data::Wholes(_) => {
-                set.add_var_i32(&name, &[ROW]).map_err(refused)?;
-                set.add_var_attr_i32(&name, "_FillValue", vec![NO_WHOLE]).map_err(refused)?;
+                set.add_var_i32(&name, &[ROW]).map_err(to_store_error)?;
+                set.add_var_attr_i32(&name, "_FillValue", vec![NO_WHOLE]).map_err(to_store_error)?;
             }
             Data::Letters(_, width) => {
                 let long = format!("{name}_length");
-                set.add_fixed_dim(&long, *width).map_err(refused)?;
-                set.add_var_u8(&name, &[ROW, &long]).map_err(refused)?;
+                set.add_fixed_dim(&long, *width).map_err(to_store_error)?;
+                set.add_var_u8(&name, &[ROW, &long]).map_err(to_store_error)?;
             }
         }
         if !matches!(data, Data::Letters(..)) {
             // plain numbers have the unit 1
             let unit = if column.unit.is_empty() { "1" } else { &column.unit };
-            set.add_var_attr_string(&name, "units", unit).map_err(refused)?;
+            set.add_var_attr_string(&name, "units", unit).map_err(to_store_error)?;
         }
-        set.add_var_attr_string(&name, "long_name", &column.long_name).map_err(refused)?;
+        set.add_var_attr_string(&name, "long_name", &column.long_name).map_err(to_store_error)?;
         all.push((name, data));
     }
     let size: usize = all
@@ -98,21 +98,21 @@ pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
         .sum();
     let version = if size > MAX_CLASSIC_BYTES { Version::Offset64Bit } else { Version::Classic };
     let shared = Shared::default();
-    let mut writer = FileWriter::open_seek_write("", Box::new(shared.clone())).map_err(refused)?;
-    writer.set_def(&set, version, 0).map_err(refused)?;
+    let mut writer = FileWriter::open_seek_write("", Box::new(shared.clone())).map_err(to_store_error)?;
+    writer.set_def(&set, version, 0).map_err(to_store_error)?;
     for (name, data) in &all {
         match data {
             Data::Doubles(list) => writer.write_var_f64(name, list),
             Data::Wholes(list) => writer.write_var_i32(name, list),
             Data::Letters(list, _) => writer.write_var_u8(name, list),
         }
-        .map_err(refused)?;
+        .map_err(to_store_error)?;
     }
-    writer.close().map_err(refused)?;
+    writer.close().map_err(to_store_error)?;
     Ok(shared.0.take().into_inner())
 }
 
-fn refused(error: impl std::fmt::Debug) -> StoreError {
+fn to_store_error(error: impl std::fmt::Debug) -> StoreError {
     StoreError::Library(format!("{error:?}"))
 }
 

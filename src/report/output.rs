@@ -69,7 +69,7 @@ impl Output {
     /// Writes text to the screen and the log; a newline is added where it lacks one.
     pub fn text(&mut self, text: &str) {
         let text = printable(text);
-        let written = put(&mut self.screen, &text);
+        let written = write_text(&mut self.screen, &text);
         self.lose_screen(written);
         self.log(&text);
     }
@@ -80,7 +80,7 @@ impl Output {
         self.flush();
         // a message that cannot be written has nowhere else to go but the log
         let _ =
-            if self.colour { put(&mut self.messages, coloured) } else { put(&mut self.messages, &printable(plain)) };
+            if self.colour { write_text(&mut self.messages, coloured) } else { write_text(&mut self.messages, &printable(plain)) };
         let _ = self.messages.flush();
         self.log(plain);
     }
@@ -169,7 +169,7 @@ fn append(file: &mut std::fs::File, text: &str) -> std::io::Result<()> {
 }
 
 /// Writes text and ends its last line.
-fn put(to: &mut dyn Write, text: &str) -> std::io::Result<()> {
+fn write_text(to: &mut dyn Write, text: &str) -> std::io::Result<()> {
     to.write_all(text.as_bytes())?;
     if text.ends_with('\n') { Ok(()) } else { to.write_all(b"\n") }
 }

@@ -32,7 +32,7 @@ pub fn render(table: &Table, units: UnitSystem, head: &PageHead) -> String {
     let width = body.iter().map(|l| l.chars().count()).max().unwrap_or(0).clamp(MIN_PAGE_WIDTH, MAX_PAGE_WIDTH);
     let mut lines = vec![String::new()];
     lines.extend(banner(head, width));
-    let spaced = spaced(&table.title);
+    let spaced = space_letters(&table.title);
     let title = format!("+++ {spaced} +++");
     lines.push(centre(&title, width));
     lines.push(centre(&"=".repeat(title.len()), width));
@@ -180,7 +180,7 @@ fn banner(head: &PageHead, width: usize) -> Vec<String> {
 }
 
 /// `+++ L I K E   T H I S +++` without the plus signs.
-fn spaced(title: &str) -> String {
+fn space_letters(title: &str) -> String {
     let words: Vec<String> = title
         .to_uppercase()
         .split_whitespace()

@@ -3,7 +3,7 @@
 //! Columns have the heads of a CSV file; title, source, units and notes stand in the metadata of the file.
 
 use super::embedded::string;
-use super::stored::{ColumnValues, SOURCE, StoreError, stored};
+use super::stored::{ColumnValues, SOURCE, StoreError, stored_columns};
 use ::parquet::basic::{LogicalType, Repetition, Type as Physical};
 use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use ::parquet::errors::ParquetError;
@@ -38,7 +38,7 @@ impl From<ParquetError> for Failed {
 }
 
 fn written(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
-    let columns = stored(table, units).map_err(Failed::Store)?;
+    let columns = stored_columns(table, units).map_err(Failed::Store)?;
     let mut fields = Vec::new();
     for column in &columns {
         let physical = match column.values {
@@ -68,11 +68,11 @@ fn written(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
     let mut group = writer.next_row_group()?;
     for column in columns {
         match column.values {
-            ColumnValues::Numbers(list) => put::<DoubleType>(&mut group, list)?,
-            ColumnValues::Wholes(list) => put::<Int64Type>(&mut group, list)?,
+            ColumnValues::Numbers(list) => write_column::<DoubleType>(&mut group, list)?,
+            ColumnValues::Wholes(list) => write_column::<Int64Type>(&mut group, list)?,
             ColumnValues::Texts(list) => {
                 let list = list.into_iter().map(|t| t.map(|t| ByteArray::from(t.into_bytes()))).collect();
-                put::<ByteArrayType>(&mut group, list)?;
+                write_column::<ByteArrayType>(&mut group, list)?;
             }
         }
     }
@@ -82,7 +82,7 @@ fn written(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
 }
 
 /// Writes the next column: the values that are there, and for each row whether there is one.
-fn put<T: DataType>(
+fn write_column<T: DataType>(
     group: &mut SerializedRowGroupWriter<'_, &mut Vec<u8>>,
     list: Vec<Option<T::T>>,
 ) -> Result<(), ParquetError> {

@@ -4,7 +4,7 @@
 //! `&BUILDG -CSV` a line of heads and rows. A head that ends in a unit in parentheses, as STORE writes it, gives its column
 //! that dimension, whatever units the user has now.
 
-use super::csv::unguarded;
+use super::csv::remove_guard;
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 
@@ -97,13 +97,13 @@ struct Made {
 }
 
 impl Made {
-    fn of(title: &str, heads: &[&str]) -> Result<Made, ReadError> {
+    fn from_heads(title: &str, heads: &[&str]) -> Result<Made, ReadError> {
         if heads.len() > MAX_COLUMNS {
             return Err(ReadError::Wide(heads.len()));
         }
         let mut made = Made { table: Table::new(title), units: Vec::new() };
         for (index, text) in heads.iter().enumerate() {
-            let (name, dim, units) = head(unguarded(text.trim()));
+            let (name, dim, units) = head(remove_guard(text.trim()));
             let name = if name.is_empty() { format!("Column {}", index + 1) } else { name };
             let digits = if dim == Dim::None { SIX_DIGITS } else { Digits::Usual };
             made.table.columns.push(Column::new("", &name, dim, digits, [] as [Cell; 0]));
@@ -128,14 +128,14 @@ impl Made {
                     Cell::Number(si)
                 }
                 None if word.is_empty() => Cell::Missing,
-                None => Cell::Text(unguarded(word).into()),
+                None => Cell::Text(remove_guard(word).into()),
             };
             column.cells.push(cell);
         }
         Ok(())
     }
 
-    fn done(self) -> Result<Table, ReadError> {
+    fn into_table(self) -> Result<Table, ReadError> {
         if self.table.rows() == 0 { Err(ReadError::NoRows) } else { Ok(self.table) }
     }
 }
@@ -157,15 +157,15 @@ pub fn csv(title: &str, text: &str) -> Result<Table, ReadError> {
         let values = words.iter().all(|w| number(w.trim()).is_some());
         let table = match &mut made {
             Some(table) => table,
-            None if values => made.insert(Made::of(title, &vec![""; words.len()])?),
+            None if values => made.insert(Made::from_heads(title, &vec![""; words.len()])?),
             None => {
-                made = Some(Made::of(title, &words)?);
+                made = Some(Made::from_heads(title, &words)?);
                 continue;
             }
         };
         table.push(line, &words)?;
     }
-    made.ok_or(ReadError::NoRows)?.done()
+    made.ok_or(ReadError::NoRows)?.into_table()
 }
 
 /// A table from labels, one a line, and rows of numbers parted by blanks or commas, behind a blank line or not: the rows begin
@@ -185,7 +185,7 @@ pub fn brief(title: &str, text: &str) -> Result<Table, ReadError> {
             Some(table) => table,
             None if words.iter().all(|w| number(w).is_some()) => {
                 let heads = if labels.is_empty() { vec![""; words.len()] } else { std::mem::take(&mut labels) };
-                made.insert(Made::of(title, &heads)?)
+                made.insert(Made::from_heads(title, &heads)?)
             }
             None => {
                 labels.push(line);
@@ -194,7 +194,7 @@ pub fn brief(title: &str, text: &str) -> Result<Table, ReadError> {
         };
         table.push(index + 1, &words)?;
     }
-    made.ok_or(ReadError::NoRows)?.done()
+    made.ok_or(ReadError::NoRows)?.into_table()
 }
 
 #[cfg(test)]

@@ -68,7 +68,7 @@ impl RunLog {
         let mut head = MARK.to_vec();
         head.extend_from_slice(&fingerprint.to_le_bytes());
         head.extend_from_slice(&(width as u64).to_le_bytes());
-        log.file.write_all(&head).map_err(|e| RunLogError::System(log.said(&e)))?;
+        log.file.write_all(&head).map_err(|e| RunLogError::System(log.write_error_text(&e)))?;
         Ok(log)
     }
 
@@ -79,11 +79,11 @@ impl RunLog {
     pub fn go_on(mut file: File, path: PathBuf, kept: &StoredRun) -> Result<Self, RunLogError> {
         let done = file.set_len(kept.end).and_then(|()| file.seek(SeekFrom::End(0)));
         let log = RunLog { file: BufWriter::new(file), path };
-        done.map_err(|e| RunLogError::System(log.said(&e)))?;
+        done.map_err(|e| RunLogError::System(log.write_error_text(&e)))?;
         Ok(log)
     }
 
-    fn said(&self, error: &std::io::Error) -> String {
+    fn write_error_text(&self, error: &std::io::Error) -> String {
         format!("{}: {error}", self.path.display())
     }
 
@@ -104,17 +104,17 @@ impl RunLog {
 impl Watcher for RunLog {
     fn row(&mut self, row: &[f64]) -> Result<(), String> {
         let bytes: Vec<u8> = row.iter().flat_map(|v| v.to_le_bytes()).collect();
-        self.block(b'R', &bytes).map_err(|e| self.said(&e))
+        self.block(b'R', &bytes).map_err(|e| self.write_error_text(&e))
     }
 
     fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), String> {
         let bytes = snapshot.bytes();
-        self.block(b'S', &bytes).and_then(|()| self.file.flush()).map_err(|e| self.said(&e))?;
+        self.block(b'S', &bytes).and_then(|()| self.file.flush()).map_err(|e| self.write_error_text(&e))?;
         self.still_there()
     }
 
     fn finish(&mut self) -> Result<(), String> {
-        self.file.flush().map_err(|e| self.said(&e))?;
+        self.file.flush().map_err(|e| self.write_error_text(&e))?;
         self.still_there()
     }
 }

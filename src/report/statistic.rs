@@ -93,7 +93,7 @@ struct Described<'a> {
     times: Option<Vec<f64>>,
 }
 
-fn described(table: &Table) -> Vec<Described<'_>> {
+fn describe_columns(table: &Table) -> Vec<Described<'_>> {
     let (first, rest) = match table.columns.split_first() {
         Some((only, [])) => (None, std::slice::from_ref(only)),
         Some((first, rest)) => (Some(first), rest),
@@ -113,7 +113,7 @@ fn described(table: &Table) -> Vec<Described<'_>> {
 
 impl Described<'_> {
     /// Its moments, and its crossings of the mean where times grow; `None` without a value.
-    fn known(&self) -> Result<Option<(Moments, Option<Crossings>)>, SeriesError> {
+    fn moments_and_crossings(&self) -> Result<Option<(Moments, Option<Crossings>)>, SeriesError> {
         if self.values.is_empty() {
             return Ok(None);
         }
@@ -134,9 +134,9 @@ fn independent(table: &Table) -> Dim {
 /// A value that is not finite or too large.
 pub fn cycles(table: &Table, units: UnitSystem) -> Result<Table, SeriesError> {
     let (mut rows, mut dims) = (Vec::new(), Vec::new());
-    for series in described(table) {
+    for series in describe_columns(table) {
         dims.push(series.column.dim);
-        let known = series.known()?;
+        let known = series.moments_and_crossings()?;
         let (moments, crossings) = known.map_or((None, None), |(moments, crossings)| (Some(moments), crossings));
         rows.push((series.column, moments, crossings));
     }
@@ -169,9 +169,9 @@ pub fn expected_extremes(table: &Table, duration: f64, units: UnitSystem) -> Res
         return Err(SeriesError::Refused("-DURATION asks for a first column of time".into()));
     }
     let (mut rows, mut dims) = (Vec::new(), Vec::new());
-    for series in described(table) {
+    for series in describe_columns(table) {
         let name = super::columns::long_name(series.column);
-        let Some((m, Some(period))) = series.known()?.map(|(m, c)| (m, c.and_then(|c| c.period()))) else {
+        let Some((m, Some(period))) = series.moments_and_crossings()?.map(|(m, c)| (m, c.and_then(|c| c.period()))) else {
             return Err(SeriesError::Refused(format!("{name} has no two up-crossings of its mean over growing times")));
         };
         let above = rayleigh(0.0, m.deviation, period, duration)?;
@@ -196,9 +196,9 @@ pub fn expected_extremes(table: &Table, duration: f64, units: UnitSystem) -> Res
 pub fn peaks(table: &Table) -> Result<Table, SeriesError> {
     let mut columns = Vec::new();
     let at = independent(table);
-    for series in described(table) {
+    for series in describe_columns(table) {
         let name = super::columns::long_name(series.column);
-        let Some((_, Some(found))) = series.known()? else {
+        let Some((_, Some(found))) = series.moments_and_crossings()? else {
             return Err(SeriesError::Refused(format!("the peaks of {name} need a first column that grows")));
         };
         for (head, peaks) in [("Maximum", &found.maxima), ("Minimum", &found.minima)] {

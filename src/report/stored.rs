@@ -46,7 +46,7 @@ pub struct StoredColumn {
 ///
 /// # Errors
 /// [`StoreError::Empty`].
-pub fn stored(table: &Table, units: UnitSystem) -> Result<Vec<StoredColumn>, StoreError> {
+pub fn stored_columns(table: &Table, units: UnitSystem) -> Result<Vec<StoredColumn>, StoreError> {
     if table.rows() == 0 {
         return Err(StoreError::Empty);
     }

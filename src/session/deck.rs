@@ -20,7 +20,7 @@ impl Session {
             self.open(name, text);
             return;
         }
-        let Some((deck, records)) = self.translated(name, text, aqwa::records) else { return };
+        let Some((deck, records)) = self.translate_deck(name, text, aqwa::records) else { return };
         self.tell(&deck);
         let script = records.script();
         let named = format!("{}.cif", stem(name));
@@ -39,7 +39,7 @@ impl Session {
             self.report(*error.help("a deck begins with a JOB line that names a program, as JOB HE01  DRIF"));
             return;
         }
-        let Some((_, records)) = self.translated(name, text, aqwa::model_records) else { return };
+        let Some((_, records)) = self.translate_deck(name, text, aqwa::model_records) else { return };
         // the first points of a deck are in the ground
         self.job.model.current_part = None;
         let named = format!("records of {name}");
@@ -77,7 +77,7 @@ impl Session {
     }
 
     /// A deck with its records; nothing when it has an error, which is reported.
-    fn translated(
+    fn translate_deck(
         &mut self,
         name: &str,
         text: Text,

@@ -22,7 +22,7 @@ pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-9;
 /// See [`Segment::solve_end_forces`].
 pub fn solve_end_forces(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<EndForces, LineError> {
     check(segment, x, z, bottom)?;
-    cold(segment, x, z, bottom)
+    solve_cold_start(segment, x, z, bottom)
 }
 
 /// Refuses what is no line or no place for its end.
@@ -45,7 +45,7 @@ pub(super) fn check(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom
 }
 
 /// The forces without an answer to begin with, for numbers that were checked.
-pub(super) fn cold(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<EndForces, LineError> {
+pub(super) fn solve_cold_start(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<EndForces, LineError> {
     if segment.weight < 0.0 {
         // a buoyant line is a heavy one upside down; arched between ends above the bottom it never touches it
         return solve_suspended(&segment.upside_down(), x, -z).map(EndForces::upside_down);

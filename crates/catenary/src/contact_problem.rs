@@ -52,7 +52,7 @@ impl<'a> ContactProblem<'a> {
     }
 
     /// Policy iteration.
-    pub fn settle(&mut self) -> Result<LineSolution, LineError> {
+    pub fn solve_active_set(&mut self) -> Result<LineSolution, LineError> {
         let mut iterations = 0;
         for change in 0..MAX_SINGLE_CHANGES {
             let rested = self.solve()?;

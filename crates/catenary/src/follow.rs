@@ -4,7 +4,7 @@
 //! one or two Newton steps are left. Wherever that does not lead to a proven answer at once, or leads so near another
 //! regime that rounding decides, the search of [`Segment::solve_end_forces`] answers as if nothing were known.
 
-use super::between::{RESIDUAL_TOLERANCE, check, cold, in_contact, newton_change, prove, prove_contact};
+use super::between::{RESIDUAL_TOLERANCE, check, solve_cold_start, in_contact, newton_change, prove, prove_contact};
 use super::end_forces::{EndForces, FlatBottom, Regime};
 use super::line::Segment;
 use super::refused::LineError;
@@ -17,7 +17,7 @@ const MAX_EVALUATIONS: usize = 8;
 const WARM_START_TOLERANCE: f64 = 1e-2 * RESIDUAL_TOLERANCE;
 
 /// See [`Segment::follow`].
-pub fn follow(
+pub fn solve_warm_start(
     segment: &Segment,
     x: f64,
     z: f64,
@@ -27,7 +27,7 @@ pub fn follow(
     check(segment, x, z, bottom)?;
     match warm(segment, x, z, bottom, last) {
         Some(answer) => Ok(answer),
-        None => cold(segment, x, z, bottom),
+        None => solve_cold_start(segment, x, z, bottom),
     }
 }
 

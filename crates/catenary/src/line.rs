@@ -88,8 +88,8 @@ impl Segment {
     ///
     /// # Errors
     /// Those of [`Segment::solve_end_forces`].
-    pub fn follow(&self, x: f64, z: f64, bottom: Option<FlatBottom>, last: &EndForces) -> Result<EndForces, LineError> {
-        super::follow::follow(self, x, z, bottom, last)
+    pub fn solve_warm_start(&self, x: f64, z: f64, bottom: Option<FlatBottom>, last: &EndForces) -> Result<EndForces, LineError> {
+        super::follow::solve_warm_start(self, x, z, bottom, last)
     }
 
     /// The same segment upside down: a buoyant one for a heavy one.

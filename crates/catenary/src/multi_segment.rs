@@ -110,7 +110,7 @@ impl MultiSegmentLine {
     /// # Errors
     /// [`LineError::NotConverged`].
     pub fn rest(&self, h: f64, top: f64, bottom: f64, near: Option<&LineSolution>) -> Result<LineSolution, LineError> {
-        let mut rested = ContactProblem::new(self, h, top, bottom, near).settle()?;
+        let mut rested = ContactProblem::new(self, h, top, bottom, near).solve_active_set()?;
         for (index, (dh, dtop)) in [(1.0, 0.0), (0.0, 1.0)].into_iter().enumerate() {
             let values = self.change(&rested, dh, dtop);
             let lists = [&mut rested.x_by, &mut rested.v_by, &mut rested.far_h_by, &mut rested.far_v_by];

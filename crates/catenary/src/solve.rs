@@ -40,7 +40,7 @@ impl Line {
     ///
     /// # Errors
     /// As [`Line::at_distance`].
-    pub fn follow(&self, x: f64, fairlead: f64, last: &LineState) -> Result<LineState, LineError> {
+    pub fn solve_warm_start(&self, x: f64, fairlead: f64, last: &LineState) -> Result<LineState, LineError> {
         self.between_ends(x, fairlead, Some(last)).or_else(|_| self.between_ends(x, fairlead, None))
     }
 

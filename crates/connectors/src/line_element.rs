@@ -95,7 +95,7 @@ impl LineElement {
                 let last = guess.as_mut().and_then(|g| g.downcast_mut::<Last>());
                 let found = match last {
                     Some(Last::Segment(last)) => {
-                        let found = segment.follow(x, rise, *bottom, last)?;
+                        let found = segment.solve_warm_start(x, rise, *bottom, last)?;
                         *last = found;
                         found
                     }
@@ -266,7 +266,7 @@ fn plane_of(state: &LineState) -> PlaneForces {
 fn whole(line: &Line, x: f64, z: f64, guess: &mut Guess) -> Result<PlaneForces, LineError> {
     let last = guess.as_ref().and_then(|g| g.downcast_ref::<Last>());
     let state = match last {
-        Some(Last::Whole(last)) => line.follow(x, z, last)?,
+        Some(Last::Whole(last)) => line.solve_warm_start(x, z, last)?,
         _ => line.at_distance(x, z)?,
     };
     let plane = plane_of(&state);

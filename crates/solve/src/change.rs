@@ -54,7 +54,7 @@ impl System {
     pub fn ends_of(&self, model: &Model, name: &str) -> Result<LinkEnds, SolveError> {
         let found = connector(model, name)?;
         if model.holds_pipe(name) {
-            return Err(SolveError::about(name)(ClassError::new(HOLDS_PIPE)));
+            return Err(SolveError::error_about(name)(ClassError::new(HOLDS_PIPE)));
         }
         // one that cannot be made says so when it is to act
         let element = self.element(model, found).ok();
@@ -102,7 +102,7 @@ impl System {
     /// A connector that makes no element.
     pub fn make_anew(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
         let Some(at) = self.links.iter().position(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(()) };
-        let made = self.element(model, connector(model, name)?).map_err(SolveError::about(name))?;
+        let made = self.element(model, connector(model, name)?).map_err(SolveError::error_about(name))?;
         if let Some(link) = self.links.get_mut(at) {
             link.element = made;
         }

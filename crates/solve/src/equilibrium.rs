@@ -137,7 +137,7 @@ fn find(
         if steps == options.most {
             return Err(failure(system, state, &unknowns, at, options));
         }
-        if let Err(error) = search.go(&unknowns, state, worst) {
+        if let Err(error) = search.advance(&unknowns, state, worst) {
             let sunk = |body: usize| {
                 let down = *state.residual.get(6 * body + 2)? < 0.0;
                 down.then_some(start.get(body)? - state.poses.get(body)?.origin.z)

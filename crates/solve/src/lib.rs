@@ -57,5 +57,5 @@ pub mod watch;
 
 pub use equilibrium::{Equilibrium, Options, equilibrium};
 pub use modes::{SystemMode, modes};
-pub use settle::{EquilibriumResult, settle};
+pub use settle::{EquilibriumResult, find_equilibrium_with_rebuilds};
 pub use system::{Contribution, DOFS, SolveError, System, SystemBody, SystemState};

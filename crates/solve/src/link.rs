@@ -32,7 +32,7 @@ pub(super) fn link(
     states: &mut Vec<f64>,
 ) -> Result<Link, SolveError> {
     let made = model.element_of_run(connector, Some(ambient), duties.requirement(&connector.name));
-    let element = made.map_err(SolveError::about(&connector.name))?;
+    let element = made.map_err(SolveError::error_about(&connector.name))?;
     Ok(Link::new(&connector.name, element, end_attachments(model, connector).to_vec(), states))
 }
 
@@ -48,7 +48,7 @@ pub(super) fn build_pipe_link(
     let of = |LaidPipe { supports, element }: LaidPipe| {
         (element, supports.iter().map(|c| end_attachments(model, c)[0]).collect())
     };
-    Ok(made.map_err(SolveError::about(&assembly.name))?.map(of))
+    Ok(made.map_err(SolveError::error_about(&assembly.name))?.map(of))
 }
 
 impl Link {

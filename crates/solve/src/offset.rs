@@ -75,7 +75,7 @@ impl BodyConnectors {
             ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, poses))));
             let committed = &system.states[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
-            link.element.wrenches(&at, committed, guess, &mut wrenches).map_err(SolveError::about(&link.name))?;
+            link.element.wrenches(&at, committed, guess, &mut wrenches).map_err(SolveError::error_about(&link.name))?;
             let mut tension = 0.0;
             for (end, wrench) in link.ends.iter().zip(&wrenches) {
                 if matches!(end, EndAttachment::Body(body, _) if *body == self.body) {
@@ -114,5 +114,5 @@ fn summary(system: &System, link: &Link, poses: &[Pose]) -> Result<ElementSummar
     let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
     let committed = &system.states[link.states.clone()];
     let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
-    link.element.summary(&at, committed).map_err(SolveError::about(&link.name))
+    link.element.summary(&at, committed).map_err(SolveError::error_about(&link.name))
 }

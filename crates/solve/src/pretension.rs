@@ -25,7 +25,7 @@ const MAX_LENGTH_RATIO: f64 = 2.0;
 /// # Errors
 /// A condition that is no force, a line that finds no rest, a force that no length near the present one gives.
 pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> Result<f64, SolveError> {
-    let wrong = SolveError::about(&connector.name);
+    let wrong = SolveError::error_about(&connector.name);
     let ambient = ambient(model, None).map_err(&wrong)?;
     let (target, level) = match wanted {
         Condition::Tension(force) => (force, false),

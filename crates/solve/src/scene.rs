@@ -210,7 +210,7 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
 fn at_rest(model: &Model, connector: &Connector) -> Result<Vec<Position>, SolveError> {
     let mut nodes = Vec::new();
     standing(model, &|name| name == connector.name, |_, element, at, state| {
-        element.line_nodes(at, state, &mut nodes).map_err(SolveError::about(&connector.name))
+        element.line_nodes(at, state, &mut nodes).map_err(SolveError::error_about(&connector.name))
     })?;
     Ok(nodes.iter().map(|node| node.position.into()).collect())
 }

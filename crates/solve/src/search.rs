@@ -92,7 +92,7 @@ impl<'a> EquilibriumSearch<'a> {
     }
 
     /// Goes on from a place where `worst` is left: a step, or back to a better place.
-    pub fn go(&mut self, unknowns: &Unknowns, state: &mut SystemState, worst: f64) -> Result<(), SolveError> {
+    pub fn advance(&mut self, unknowns: &Unknowns, state: &mut SystemState, worst: f64) -> Result<(), SolveError> {
         if let Some((stand, least, since)) = &mut self.bold {
             if worst < *least {
                 (*least, *since) = (worst, 0);

@@ -24,7 +24,7 @@ pub struct EquilibriumResult {
 ///
 /// # Errors
 /// As [`equilibrium`]; the model is then where the last solution had it: callers keep a copy.
-pub fn settle(model: &mut Model, options: &Options) -> Result<EquilibriumResult, SolveError> {
+pub fn find_equilibrium_with_rebuilds(model: &mut Model, options: &Options) -> Result<EquilibriumResult, SolveError> {
     let start: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
     let made = |model: &Model| {
         let mut system = System::new(model, &[])?;

@@ -32,7 +32,7 @@ impl SolveError {
         SolveError { who: None, error }
     }
 
-    pub(super) fn about(who: &str) -> impl Fn(ClassError) -> SolveError + '_ {
+    pub(super) fn error_about(who: &str) -> impl Fn(ClassError) -> SolveError + '_ {
         move |error| SolveError { who: Some(who.to_string()), error }
     }
 }
@@ -140,7 +140,7 @@ impl System {
     /// The connector or body that makes no part of it, and why.
     pub fn new(model: &Model, left_out: &[String]) -> Result<Self, SolveError> {
         let node = |(key, body): (&String, &Body)| {
-            let floating = Floating::at_rest(model, body).map_err(SolveError::about(&body.name))?;
+            let floating = Floating::at_rest(model, body).map_err(SolveError::error_about(&body.name))?;
             Ok(SystemBody::new(model, key, body, floating))
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
@@ -229,7 +229,7 @@ impl System {
         }
         for (index, (node, pose)) in self.nodes.iter().zip(&state.poses).enumerate().filter(|(i, _)| belongs(*i)) {
             for load in &node.floating.loads {
-                let load = load.load(pose).map_err(SolveError::about(&node.name))?;
+                let load = load.load(pose).map_err(SolveError::error_about(&node.name))?;
                 let mut at = state.residual.fixed_rows_mut::<6>(6 * index);
                 at += load.wrench;
                 let mut block = state.stiffness.fixed_view_mut::<6, 6>(6 * index, 6 * index);
@@ -257,13 +257,13 @@ impl System {
             let tie = if state.ties.holds { link.element.tie(&at, held, &mut state.response) } else { None };
             match tie {
                 Some(tie) => {
-                    let tie = tie.map_err(SolveError::about(&link.name))?;
+                    let tie = tie.map_err(SolveError::error_about(&link.name))?;
                     state.ties.take(index, tie, &state.response.stiffness, (&link.ends, &arms));
                 }
                 None => link
                     .element
                     .evaluate(&at, committed, trial, guess, &mut state.response)
-                    .map_err(SolveError::about(&link.name))?,
+                    .map_err(SolveError::error_about(&link.name))?,
             }
             let count = link.ends.len();
             for (i, ((end, wrench), own)) in link.ends.iter().zip(&state.response.wrench).zip(&arms).enumerate() {
@@ -295,7 +295,7 @@ impl System {
         let mut list = Vec::new();
         for (body, (node, pose)) in self.nodes.iter().zip(poses).enumerate() {
             for load in &node.floating.loads {
-                let (category, load) = (load.category(), load.load(pose).map_err(SolveError::about(&node.name))?);
+                let (category, load) = (load.category(), load.load(pose).map_err(SolveError::error_about(&node.name))?);
                 list.push(Contribution { body, connector: None, category, load });
             }
         }
@@ -306,7 +306,7 @@ impl System {
             let own = &mut trial[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
             let evaluated = link.element.evaluate(&at, committed, own, &mut None, &mut response);
-            evaluated.map_err(SolveError::about(&link.name))?;
+            evaluated.map_err(SolveError::error_about(&link.name))?;
             let category = if link.element.rigid() { Category::RigidConnectors } else { Category::FlexConnectors };
             for (i, end) in link.ends.iter().enumerate() {
                 let EndAttachment::Body(body, _) = end else { continue };
@@ -405,9 +405,9 @@ pub(super) fn without_rounding(place: Place) -> Place {
 /// The bodies of a model under way.
 pub(super) fn moving_nodes(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Vec<SystemBody>, SolveError> {
     let node = |(key, body): (&String, &Body)| {
-        let floating = Floating::under_way(model, body, sea).map_err(SolveError::about(&body.name))?;
+        let floating = Floating::under_way(model, body, sea).map_err(SolveError::error_about(&body.name))?;
         let mut made = SystemBody::new(model, key, body, floating);
-        made.prescribed = build_prescribed(body, sea).map_err(SolveError::about(&body.name))?;
+        made.prescribed = build_prescribed(body, sea).map_err(SolveError::error_about(&body.name))?;
         Ok(made)
     };
     model.bodies.iter().map(node).collect()

@@ -9,7 +9,7 @@ use std::path::Path;
 /// # Errors
 /// What the system refuses; a file that is not regular.
 pub fn open_regular(path: &Path) -> Result<File> {
-    let file = opened(path)?;
+    let file = open_file(path)?;
     if !file.metadata()?.is_file() || is_of_kernel(&file) {
         return Err(Error::other("this is not a regular file"));
     }
@@ -30,7 +30,7 @@ pub fn read_regular(path: &Path, largest: u64) -> Result<Vec<u8>> {
 }
 
 #[cfg(unix)]
-fn opened(path: &Path) -> Result<File> {
+fn open_file(path: &Path) -> Result<File> {
     use std::os::unix::fs::OpenOptionsExt;
     // a pipe that nobody writes to would be waited for
     let nonblock = i32::try_from(rustix::fs::OFlags::NONBLOCK.bits()).unwrap_or_default();
@@ -38,7 +38,7 @@ fn opened(path: &Path) -> Result<File> {
 }
 
 #[cfg(not(unix))]
-fn opened(path: &Path) -> Result<File> {
+fn open_file(path: &Path) -> Result<File> {
     File::open(path)
 }
 

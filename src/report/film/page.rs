@@ -1,6 +1,6 @@
 //! The page: data, and a viewer of our own that draws them (share/film), with nothing to be fetched from anywhere.
 
-use crate::report::embedded::{self, doubles, list, number, object, quoted, shorts, singles, string, wholes};
+use crate::report::embedded::{self, doubles, list, number, object, quote_base64, shorts, singles, string, wholes};
 use nalgebra::{Rotation3, UnitQuaternion};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_solve::film::{Actor, ConnectorState, Film, FilmWaves, Strand};
@@ -88,7 +88,7 @@ fn strand(strand: &Strand, [low, high]: [[f64; 3]; 2], (tension, share): (f64, f
         ("points", shorts(strand.points.iter().flat_map(place))),
         ("tensions", shorts(strand.tensions.iter().map(|t| step(*t, 0.0, tension)))),
         ("shares", shorts(strand.shares.iter().map(|t| step(*t, 0.0, share)))),
-        ("states", quoted(strand.states.iter().map(state))),
+        ("states", quote_base64(strand.states.iter().map(state))),
     ])
 }
 

@@ -2,7 +2,7 @@
 
 use super::labels::{Label, Sheet};
 use super::view::{View, ViewFrame, ViewKind, hull};
-use crate::report::plot::draw::refused;
+use crate::report::plot::draw::to_plot_error;
 use crate::report::plot::{PlotError, terminal};
 use plotters::coord::Shift;
 use plotters::drawing::DrawingArea;
@@ -66,16 +66,16 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     /// Writes text, its upper left corner at a pixel.
     pub fn text(&self, text: &str, at: (i32, i32), size: i32, colour: RGBColor) -> DrawOutcome<()> {
         let style: TextStyle = ("sans-serif", size).into_text_style(self.area).color(&colour);
-        self.area.draw(&Text::new(text.to_string(), at, style)).map_err(refused)
+        self.area.draw(&Text::new(text.to_string(), at, style)).map_err(to_plot_error)
     }
 
     fn path(&self, points: Vec<(i32, i32)>, colour: RGBColor, width: u32) -> DrawOutcome<()> {
         let width = if self.look.terminal { 1 } else { width };
-        self.area.draw(&PathElement::new(points, colour.stroke_width(width))).map_err(refused)
+        self.area.draw(&PathElement::new(points, colour.stroke_width(width))).map_err(to_plot_error)
     }
 
     /// A path of dashes and gaps of so many pixels.
-    fn dashed(&self, points: &[(i32, i32)], (colour, width): (RGBColor, u32), dash: [f64; 2]) -> DrawOutcome<()> {
+    fn draw_dashed(&self, points: &[(i32, i32)], (colour, width): (RGBColor, u32), dash: [f64; 2]) -> DrawOutcome<()> {
         for piece in dashes(points, dash) {
             self.path(piece.to_vec(), colour, width)?;
         }
@@ -86,7 +86,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         if self.look.terminal {
             return Ok(());
         }
-        self.area.draw(&Rectangle::new(corners, colour.filled())).map_err(refused)
+        self.area.draw(&Rectangle::new(corners, colour.filled())).map_err(to_plot_error)
     }
 
     /// A sample of a stroke, from left to right.
@@ -94,10 +94,10 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         let (short, long) = if self.look.terminal { (2.0, 4.0) } else { (4.0, 8.0) };
         match stroke {
             Stroke::Bottom => self.path(points, GROUND.1, 2),
-            Stroke::Inactive => self.dashed(&points, (FAINT, 1), [short, short]),
+            Stroke::Inactive => self.draw_dashed(&points, (FAINT, 1), [short, short]),
             Stroke::Straight => self.path(points, RGBColor(0, 128, 96), 2),
             Stroke::Line => self.path(points, LINE, 2),
-            Stroke::Unsolved => self.dashed(&points, (RGBColor(213, 94, 0), 2), [long, long]),
+            Stroke::Unsolved => self.draw_dashed(&points, (RGBColor(213, 94, 0), 2), [long, long]),
         }
     }
 
@@ -105,7 +105,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     pub fn sign(&self, sign: Sign, at: (i32, i32)) -> DrawOutcome<()> {
         if self.look.terminal {
             let colour = terminal::colour(mark_index(sign), true);
-            return self.area.draw_pixel(at, &colour).map_err(refused);
+            return self.area.draw_pixel(at, &colour).map_err(to_plot_error);
         }
         let (x, y) = at;
         match sign {
@@ -114,14 +114,14 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
                 self.path(vec![(x, y - 6), (x, y + 6)], BLACK, 1)
             }
             Sign::Joint => {
-                self.area.draw(&Rectangle::new([(x - 3, y - 3), (x + 3, y + 3)], LINE.filled())).map_err(refused)
+                self.area.draw(&Rectangle::new([(x - 3, y - 3), (x + 3, y + 3)], LINE.filled())).map_err(to_plot_error)
             }
             Sign::Touchdown => {
-                self.area.draw(&Circle::new(at, 4, WHITE.filled())).map_err(refused)?;
-                self.area.draw(&Circle::new(at, 4, LINE.stroke_width(1))).map_err(refused)
+                self.area.draw(&Circle::new(at, 4, WHITE.filled())).map_err(to_plot_error)?;
+                self.area.draw(&Circle::new(at, 4, LINE.stroke_width(1))).map_err(to_plot_error)
             }
-            Sign::Fairlead => self.area.draw(&Circle::new(at, 3, BLACK.filled())).map_err(refused),
-            Sign::Anchor => self.area.draw(&TriangleMarker::new(at, 7, GROUND.1.filled())).map_err(refused),
+            Sign::Fairlead => self.area.draw(&Circle::new(at, 3, BLACK.filled())).map_err(to_plot_error),
+            Sign::Anchor => self.area.draw(&TriangleMarker::new(at, 7, GROUND.1.filled())).map_err(to_plot_error),
         }
     }
 
@@ -159,7 +159,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     pub fn frame(&self, frame: &ViewFrame) -> DrawOutcome<()> {
         let [left, top, width, height] = frame.at;
         let corners = [(left, top), (left + width, top + height)];
-        self.area.draw(&Rectangle::new(corners, FAINT.stroke_width(1))).map_err(refused)
+        self.area.draw(&Rectangle::new(corners, FAINT.stroke_width(1))).map_err(to_plot_error)
     }
 
     /// One view of a scene within its frame; the number of names that found no place.
@@ -201,7 +201,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     fn body(&self, body: &Outline, pixel: &dyn Fn([f64; 3]) -> (i32, i32), sheet: &mut Sheet) -> DrawOutcome<()> {
         let rings: Vec<_> = body.shapes.iter().map(|s| hull(s.iter().map(|at| pixel(*at)).collect())).collect();
         for ring in rings.iter().filter(|ring| ring.len() > 2 && !self.look.terminal) {
-            self.area.draw(&Polygon::new(ring.clone(), BODY.filled())).map_err(refused)?;
+            self.area.draw(&Polygon::new(ring.clone(), BODY.filled())).map_err(to_plot_error)?;
         }
         let mut drawn = BTreeSet::new();
         for [a, b] in body.edges.iter().map(|edge| edge.map(pixel)) {
@@ -259,7 +259,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         }
         let line = [(left, surface), (right, surface)];
         let dash = if self.look.terminal { [2.0, 2.0] } else { [f64::from(width), 1.0] };
-        self.dashed(&line, (WATER.1, 1), dash)?;
+        self.draw_dashed(&line, (WATER.1, 1), dash)?;
         for (y, text, tone) in [(Some(surface), "water surface", 3), (bottom, "sea bottom", 4)] {
             let Some(y) = y else { continue };
             on.0.mark(&[(left, y), (right, y)]);
@@ -273,13 +273,13 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         let levels = [(scene.bottom, GROUND), (Some(scene.surface), WATER)];
         for (z, (inside, edge)) in levels {
             let Some(z) = z else { continue };
-            let corners: Vec<_> = super::around(scene, z).map(|at| frame.pixel(view.project(at))).to_vec();
+            let corners: Vec<_> = super::corners_around(scene, z).map(|at| frame.pixel(view.project(at))).to_vec();
             if !self.look.terminal && edge == GROUND.1 {
-                self.area.draw(&Polygon::new(corners.clone(), inside.filled())).map_err(refused)?;
+                self.area.draw(&Polygon::new(corners.clone(), inside.filled())).map_err(to_plot_error)?;
             }
             let closed: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
             let dash = if self.look.terminal { [1.0, 3.0] } else { [6.0, 4.0] };
-            self.dashed(&closed, (edge, 1), dash)?;
+            self.draw_dashed(&closed, (edge, 1), dash)?;
         }
         Ok(())
     }

@@ -88,7 +88,7 @@ impl Sheet {
             let free = |at: &[i32; 4]| self.holds(at) && !placed.iter().any(|p| overlap(&p.at, at));
             let cost = |at: &[i32; 4], reach: f64| self.hidden(*at) + 0.12 * reach;
             let spots = LABEL_DISTANCES.iter().flat_map(|reach| SIDES.iter().map(move |side| (*reach, *side)));
-            let spots = spots.map(|(reach, side)| (reach, self.beside(&label, reach, side)));
+            let spots = spots.map(|(reach, side)| (reach, self.label_rectangle(&label, reach, side)));
             let best = spots.filter(|(_, at)| free(at)).map(|(reach, at)| (cost(&at, reach), at));
             // the first of equals, so that the picture is the same every time
             let best = best.fold(None, |best: Option<(f64, [i32; 4])>, new| match best {
@@ -102,7 +102,7 @@ impl Sheet {
     }
 
     /// The rectangle of a name on a side of its place, on whole letters where the sheet is made of them.
-    fn beside(&self, label: &Label, reach: f64, (h, v): (i32, i32)) -> [i32; 4] {
+    fn label_rectangle(&self, label: &Label, reach: f64, (h, v): (i32, i32)) -> [i32; 4] {
         let width = self.letter.0.saturating_mul(i32::try_from(label.text.chars().count()).unwrap_or(0));
         let height = self.letter.1;
         let slant = if h != 0 && v != 0 { 0.7 } else { 1.0 };

@@ -8,7 +8,7 @@ pub use view::View;
 
 use crate::report::format;
 use crate::report::page;
-use crate::report::plot::draw::refused;
+use crate::report::plot::draw::to_plot_error;
 use crate::report::plot::{PlotError, raster, terminal};
 use draw::{Pen, PictureStyle, SIGNS, STROKES, mark_index};
 use plotters::coord::Shift;
@@ -48,8 +48,8 @@ pub struct Picture {
 }
 
 /// The corners of a rectangle at an elevation about all that a scene holds, with a little room.
-fn around(scene: &Scene, z: f64) -> [Position; 4] {
-    let extent = Extent::of(scene.places().map(|[x, y, _]| [x, y]));
+fn corners_around(scene: &Scene, z: f64) -> [Position; 4] {
+    let extent = Extent::from_points(scene.places().map(|[x, y, _]| [x, y]));
     let extent = extent.unwrap_or(Extent { low: [0.0; 2], high: [0.0; 2] });
     let [w, h] = extent.size().map(|s| 0.05 * s);
     let ([x0, y0], [x1, y1]) = (extent.low, extent.high);
@@ -70,9 +70,9 @@ impl Picture {
         match view.kind {
             ViewKind::Plan => {}
             ViewKind::Elevation => places.extend(levels.map(|z| [first[0], first[1], z])),
-            ViewKind::Axonometric => places.extend(levels.flat_map(|z| around(&self.scene, z))),
+            ViewKind::Axonometric => places.extend(levels.flat_map(|z| corners_around(&self.scene, z))),
         }
-        Extent::of(places.into_iter().map(|at| view.project(at))).ok_or(PlotError::Empty)
+        Extent::from_points(places.into_iter().map(|at| view.project(at))).ok_or(PlotError::Empty)
     }
 
     /// The picture as a file, by the ending of its name, with the number of names that found no place.
@@ -94,7 +94,7 @@ impl Picture {
             let size = (PAGE.0.unsigned_abs(), self.height(&panels).unsigned_abs());
             let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
             let left_out = self.page(&area, &panels)?;
-            area.present().map_err(refused)?;
+            area.present().map_err(to_plot_error)?;
             left_out
         };
         Ok((text.into_bytes(), left_out))
@@ -140,7 +140,7 @@ impl Picture {
     ) -> Result<usize, PlotError> {
         let look = PictureStyle { terminal: false, letter: (8, 16) };
         let pen = Pen::new(area, &look);
-        area.fill(&WHITE).map_err(refused)?;
+        area.fill(&WHITE).map_err(to_plot_error)?;
         pen.text(&self.title, (PAGE.1, 12), 22, BLACK)?;
         let mut left_out = 0;
         for (view, frame) in panels {

@@ -138,7 +138,7 @@ pub struct Extent {
 
 impl Extent {
     /// That of points; `None` without one.
-    pub fn of(points: impl Iterator<Item = [f64; 2]>) -> Option<Extent> {
+    pub fn from_points(points: impl Iterator<Item = [f64; 2]>) -> Option<Extent> {
         points.fold(None, |extent, [x, y]| {
             let Extent { low, high } = extent.unwrap_or(Extent { low: [x, y], high: [x, y] });
             Some(Extent { low: [low[0].min(x), low[1].min(y)], high: [high[0].max(x), high[1].max(y)] })
@@ -271,14 +271,14 @@ mod tests {
 
     #[test]
     fn a_frame_keeps_one_scale_and_holds_the_extent() {
-        let extent = Extent::of([[0.0, 0.0], [100.0, 10.0]].into_iter()).unwrap();
+        let extent = Extent::from_points([[0.0, 0.0], [100.0, 10.0]].into_iter()).unwrap();
         let frame = ViewFrame::fit(&extent, [10, 20, 240, 140], (20, 20));
         assert_eq!(frame.scale, 2.0);
         assert_eq!((frame.pixel([0.0, 5.0]), frame.pixel([100.0, 5.0])), ((30, 90), (230, 90)));
         assert_eq!(frame.pixel([0.0, 10.0]), (30, 80));
-        let single = Extent::of(std::iter::once([5e6, 5e6])).unwrap();
+        let single = Extent::from_points(std::iter::once([5e6, 5e6])).unwrap();
         assert_eq!(ViewFrame::fit(&single, [0, 0, 100, 100], (0, 0)).pixel([5e6, 5e6]), (50, 50));
-        assert_eq!(Extent::of(std::iter::empty()), None);
+        assert_eq!(Extent::from_points(std::iter::empty()), None);
     }
 
     #[test]

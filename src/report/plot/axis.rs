@@ -18,7 +18,7 @@ pub struct PlotAxis {
 impl PlotAxis {
     /// An axis with at most `most` ticks that shows all `values` (finite, not beyond [`MAX_PLOTTED_VALUE`]) with a little room.
     /// `None` without a value.
-    pub fn of(values: impl Iterator<Item = f64>, most: usize) -> Option<PlotAxis> {
+    pub fn fit(values: impl Iterator<Item = f64>, most: usize) -> Option<PlotAxis> {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low > high {
             return None;
@@ -104,10 +104,10 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_few() {
-        let axis = PlotAxis::of([5449.0, 8021.0].into_iter(), 8).unwrap();
+        let axis = PlotAxis::fit([5449.0, 8021.0].into_iter(), 8).unwrap();
         let labels: Vec<String> = axis.ticks(8).into_iter().map(|t| axis.label(t)).collect();
         assert_eq!(labels, ["5500", "6000", "6500", "7000", "7500", "8000"]);
-        let axis = PlotAxis::of([0.0, 2.5e-4].into_iter(), 6).unwrap();
+        let axis = PlotAxis::fit([0.0, 2.5e-4].into_iter(), 6).unwrap();
         let labels: Vec<String> = axis.ticks(6).into_iter().map(|t| axis.label(t)).collect();
         assert_eq!(labels, ["0", "0.00005", "0.00010", "0.00015", "0.00020", "0.00025"]);
     }
@@ -118,7 +118,7 @@ mod tests {
             values in prop::collection::vec(any::<f64>().prop_filter("drawable", |v| v.abs() <= MAX_PLOTTED_VALUE), 1..5),
             most in 2usize..12,
         ) {
-            let axis = PlotAxis::of(values.iter().copied(), most).unwrap();
+            let axis = PlotAxis::fit(values.iter().copied(), most).unwrap();
             prop_assert!(values.iter().all(|v| (0.0..=1.0).contains(&axis.share(*v))));
             let ticks = axis.ticks(most);
             prop_assert!(ticks.len() <= most + 1);

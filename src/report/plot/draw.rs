@@ -61,12 +61,12 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
     if let Some((x, y)) = points().find(|(x, y)| x.abs().max(y.abs()) > super::axis::MAX_PLOTTED_VALUE) {
         return Err(PlotError::Range(x, y));
     }
-    area.fill(&WHITE).map_err(refused)?;
+    area.fill(&WHITE).map_err(to_plot_error)?;
     let (mut paper, x, y) = if chart.polar {
         let (plane, x, y) = super::polar::plane(chart, area, look)?;
         (Paper::One(Box::new(plane)), x, y)
     } else {
-        meshed(chart, area, look)?
+        draw_mesh(chart, area, look)?
     };
     let taken = chart.on_the_left(&y, right_axis(chart, look).as_ref());
     let (chart, plane) = (&taken, paper.plane());
@@ -105,7 +105,7 @@ impl<'a, B: DrawingBackend> Paper<'a, B> {
 /// The axis on the right, of the curves that go by it.
 fn right_axis(chart: &Chart, look: &PlotStyle) -> Option<PlotAxis> {
     chart.right_label.as_ref()?;
-    PlotAxis::of(chart.series.iter().filter(|s| s.right).flat_map(PlotSeries::finite).map(|p| p.1), look.ticks.1)
+    PlotAxis::fit(chart.series.iter().filter(|s| s.right).flat_map(PlotSeries::finite).map(|p| p.1), look.ticks.1)
 }
 
 impl Chart {
@@ -122,17 +122,17 @@ impl Chart {
 }
 
 /// Draws the axes and mesh of a chart, and returns the paper for its curves with its axes.
-fn meshed<'a, B: DrawingBackend + 'a>(
+fn draw_mesh<'a, B: DrawingBackend + 'a>(
     chart: &Chart,
     area: &DrawingArea<B, Shift>,
     look: &PlotStyle,
 ) -> Result<(Paper<'a, B>, PlotAxis, PlotAxis), PlotError> {
     let points = || chart.series.iter().flat_map(PlotSeries::finite);
-    let x = PlotAxis::of(points().map(|p| p.0), look.ticks.0).ok_or(PlotError::Empty)?;
+    let x = PlotAxis::fit(points().map(|p| p.0), look.ticks.0).ok_or(PlotError::Empty)?;
     let right = right_axis(chart, look);
     let left = chart.series.iter().filter(|s| right.is_none() || !s.right).flat_map(PlotSeries::finite);
     // with points on the right alone the left axis has their numbers
-    let y = PlotAxis::of(left.map(|p| p.1), look.ticks.1).or_else(|| right.clone()).ok_or(PlotError::Empty)?;
+    let y = PlotAxis::fit(left.map(|p| p.1), look.ticks.1).or_else(|| right.clone()).ok_or(PlotError::Empty)?;
     let mut builder = ChartBuilder::on(area);
     builder.margin(look.margin).x_label_area_size(look.areas.0).y_label_area_size(look.areas.1);
     if !look.terminal {
@@ -141,7 +141,7 @@ fn meshed<'a, B: DrawingBackend + 'a>(
     if right.is_some() {
         builder.right_y_label_area_size(look.areas.1);
     }
-    let plane = builder.build_cartesian_2d(x.clone(), y.clone()).map_err(refused)?;
+    let plane = builder.build_cartesian_2d(x.clone(), y.clone()).map_err(to_plot_error)?;
     let mut paper = match &right {
         Some(axis) => Paper::Two(Box::new(plane.set_secondary_coord(x.clone(), axis.clone()))),
         None => Paper::One(Box::new(plane)),
@@ -160,7 +160,7 @@ fn meshed<'a, B: DrawingBackend + 'a>(
         mesh.x_desc(&chart.x_label).y_desc(&chart.y_label).axis_desc_style(("sans-serif", look.text));
         mesh.light_line_style(RGBColor(240, 240, 240)).bold_line_style(RGBColor(215, 215, 215));
     }
-    mesh.draw().map_err(refused)?;
+    mesh.draw().map_err(to_plot_error)?;
     if let (Paper::Two(both), Some(axis)) = (&mut paper, &right) {
         let label = |v: &f64| axis.label(*v);
         let mut ticks = both.configure_secondary_axes();
@@ -172,7 +172,7 @@ fn meshed<'a, B: DrawingBackend + 'a>(
         if !look.terminal {
             ticks.y_desc(chart.right_label.clone().unwrap_or_default()).axis_desc_style(("sans-serif", look.text));
         }
-        ticks.draw().map_err(refused)?;
+        ticks.draw().map_err(to_plot_error)?;
     }
     Ok((paper, x, y))
 }
@@ -203,9 +203,9 @@ fn curve<B: DrawingBackend>(
         (false, false) => MARK_RADII.0,
     };
     for points in series.runs() {
-        plane.draw_series(LineSeries::new(points.clone(), colour.stroke_width(stroke))).map_err(refused)?;
+        plane.draw_series(LineSeries::new(points.clone(), colour.stroke_width(stroke))).map_err(to_plot_error)?;
         if points.len() == 1 || (points_too && !look.terminal) {
-            plane.draw_series(points.iter().map(|p| Circle::new(*p, radius, colour.filled()))).map_err(refused)?;
+            plane.draw_series(points.iter().map(|p| Circle::new(*p, radius, colour.filled()))).map_err(to_plot_error)?;
         }
     }
     Ok(())
@@ -220,7 +220,7 @@ fn legend<B: DrawingBackend>(
     let area = plane.plotting_area().strip_coord_spec();
     let (width, height) = area.dim_in_pixel();
     let (width, height) = (i32::try_from(width).unwrap_or(0), i32::try_from(height).unwrap_or(0));
-    let letters = chart.series.iter().map(|s| s.shown().chars().count()).max().unwrap_or(0);
+    let letters = chart.series.iter().map(|s| s.legend_name().chars().count()).max().unwrap_or(0);
     let box_width = 8 * i32::try_from(letters).unwrap_or(0) + LEGEND.1 + 30;
     let box_height = LEGEND.0 * i32::try_from(chart.series.len()).unwrap_or(0) + 10;
     let (right, low) = (width - box_width - 10, height - box_height - 10);
@@ -237,26 +237,26 @@ fn legend<B: DrawingBackend>(
     let corners = [(10, 10), (right, 10), (right, low), (10, low)];
     let (left, top) = corners.into_iter().min_by_key(hidden).unwrap_or((10, 10));
     let frame = [(left, top), (left + box_width, top + box_height)];
-    area.draw(&Rectangle::new(frame, WHITE.mix(0.9).filled())).map_err(refused)?;
-    area.draw(&Rectangle::new(frame, RGBColor(150, 150, 150))).map_err(refused)?;
+    area.draw(&Rectangle::new(frame, WHITE.mix(0.9).filled())).map_err(to_plot_error)?;
+    area.draw(&Rectangle::new(frame, RGBColor(150, 150, 150))).map_err(to_plot_error)?;
     for (index, series) in chart.series.iter().enumerate() {
         let y = top + 5 + LEGEND.0 * i32::try_from(index).unwrap_or(0) + LEGEND.0 / 2;
         let stroke = vec![(left + 10, y), (left + 10 + LEGEND.1, y)];
         let marks = series.is_marks();
         if !marks {
-            area.draw(&PathElement::new(stroke, colour(index).stroke_width(2))).map_err(refused)?;
+            area.draw(&PathElement::new(stroke, colour(index).stroke_width(2))).map_err(to_plot_error)?;
         }
         if marks || shows_points(chart, series) {
             let radius = if marks { MARK_RADII.1 } else { MARK_RADII.0 };
-            area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), radius, colour(index).filled())).map_err(refused)?;
+            area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), radius, colour(index).filled())).map_err(to_plot_error)?;
         }
         let at = (left + 20 + LEGEND.1, y - 8);
-        area.draw(&Text::new(series.shown(), at, ("sans-serif", 15))).map_err(refused)?;
+        area.draw(&Text::new(series.legend_name(), at, ("sans-serif", 15))).map_err(to_plot_error)?;
     }
     Ok(())
 }
 
 /// What a surface refuses, as an error of ours.
-pub fn refused<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> PlotError {
+pub fn to_plot_error<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> PlotError {
     PlotError::Backend(error.to_string())
 }

@@ -39,7 +39,7 @@ impl Chart {
             };
             let colour = COLOURS.get(index % COLOURS.len()).map_or((0, 0, 0), |c| (c.0, c.1, c.2));
             object([
-                ("name", string(&series.shown())),
+                ("name", string(&series.legend_name())),
                 ("right", series.right.to_string()),
                 ("marks", series.is_marks().to_string()),
                 ("colour", string(&format!("rgb({}, {}, {})", colour.0, colour.1, colour.2))),

@@ -8,7 +8,7 @@ pub(super) mod raster;
 pub(super) mod terminal;
 
 use crate::report::{format, page};
-use draw::{PlotStyle, draw, refused};
+use draw::{PlotStyle, draw, to_plot_error};
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::prelude::SVGBackend;
 use std::cell::RefCell;
@@ -92,7 +92,7 @@ impl PlotSeries {
     }
 
     /// Its name in the legend.
-    fn shown(&self) -> String {
+    fn legend_name(&self) -> String {
         if self.right { format!("{} (right)", self.name) } else { self.name.clone() }
     }
 
@@ -132,7 +132,7 @@ impl Chart {
     ///
     /// # Errors
     /// More than two units.
-    pub fn of(table: &Table, units: UnitSystem) -> Result<Chart, PlotError> {
+    pub fn from_table(table: &Table, units: UnitSystem) -> Result<Chart, PlotError> {
         Chart::with_right(table, &[], units)
     }
 
@@ -203,7 +203,7 @@ impl Chart {
         {
             let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
             draw(self, &area, &PlotStyle::PAGE)?;
-            area.present().map_err(refused)?;
+            area.present().map_err(to_plot_error)?;
         }
         Ok(text.into_bytes())
     }
@@ -245,7 +245,7 @@ impl Chart {
         text.push('\n');
         if self.series.len() > 1 {
             for (index, series) in self.series.iter().enumerate() {
-                text.push_str(&format!("   {}  {}\n", terminal::mark(index), series.shown()));
+                text.push_str(&format!("   {}  {}\n", terminal::mark(index), series.legend_name()));
             }
         }
         Ok(text)

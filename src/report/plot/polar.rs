@@ -1,7 +1,7 @@
 //! A polar plot: the distance from the middle over the direction, which is counted from +X, to the right, toward +Y, up.
 
 use super::axis::PlotAxis;
-use super::draw::{PlotStyle, PlotSurface, refused};
+use super::draw::{PlotStyle, PlotSurface, to_plot_error};
 use super::{Chart, PlotError, PlotSeries};
 use crate::report::format;
 use plotters::chart::ChartBuilder;
@@ -31,7 +31,7 @@ impl Chart {
         let angles = angles.ok_or_else(|| {
             PlotError::NoAngle(table.columns.first().map_or(String::new(), super::super::columns::long_name))
         })?;
-        let mut made = Chart { polar: true, ..Chart::of(table, units)? };
+        let mut made = Chart { polar: true, ..Chart::from_table(table, units)? };
         if made.right_label.is_some() {
             let names: Vec<String> = table.columns.iter().skip(1).map(|c| format::head(c, units)).collect();
             return Err(PlotError::Units(names.join(", ")));
@@ -71,7 +71,7 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
         .map(|(x, y)| x.hypot(y))
         .fold(None, |far, r| Some(far.map_or(r, |f: f64| f.max(r))));
     let farthest = farthest.ok_or(PlotError::Empty)?;
-    let radii = PlotAxis::of([0.0, farthest].into_iter(), 5).ok_or(PlotError::Empty)?;
+    let radii = PlotAxis::fit([0.0, farthest].into_iter(), 5).ok_or(PlotError::Empty)?;
     let rings: Vec<f64> = radii.ticks(5).into_iter().filter(|r| *r > 0.0).collect();
     let rim = rings.iter().copied().fold(if farthest > 0.0 { farthest } else { 1.0 }, f64::max);
     let upper = if look.terminal {
@@ -81,8 +81,8 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
         let (upper, lower) = area.split_vertically(height.saturating_sub(FOOTER_HEIGHT));
         let (width, _) = lower.dim_in_pixel();
         let middle = i32::try_from(width / 2).unwrap_or(0);
-        lower.draw(&Text::new(chart.x_label.clone(), (middle, 8), centred(look, VPos::Top))).map_err(refused)?;
-        upper.titled(&chart.title, ("sans-serif", 22)).map_err(refused)?
+        lower.draw(&Text::new(chart.x_label.clone(), (middle, 8), centred_style(look, VPos::Top))).map_err(to_plot_error)?;
+        upper.titled(&chart.title, ("sans-serif", 22)).map_err(to_plot_error)?
     };
     let (width, height) = upper.dim_in_pixel();
     let (width, height) = (f64::from(width.max(1)), f64::from(height.max(1)));
@@ -91,7 +91,7 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
     let scale = reach / (0.5 * width.min(height));
     let axis = |pixels: f64| PlotAxis::spanning(-0.5 * pixels * scale, 0.5 * pixels * scale, 5);
     let (x, y) = (axis(width), axis(height));
-    let mut plane = ChartBuilder::on(&upper).build_cartesian_2d(x.clone(), y.clone()).map_err(refused)?;
+    let mut plane = ChartBuilder::on(&upper).build_cartesian_2d(x.clone(), y.clone()).map_err(to_plot_error)?;
     let at = |degrees: i32, r: f64| {
         let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
         (r * cos, r * sin)
@@ -100,29 +100,29 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
     for ring in &rings {
         if look.terminal {
             let dots = (0..360).step_by(DOTS as usize).map(|d| Pixel::new(at(d, *ring), BLACK));
-            plane.draw_series(dots).map_err(refused)?;
+            plane.draw_series(dots).map_err(to_plot_error)?;
         } else {
             let circle: Vec<(f64, f64)> = (0..=360).step_by(3).map(|d| at(d, *ring)).collect();
-            plane.draw_series(std::iter::once(PathElement::new(circle, grey.stroke_width(1)))).map_err(refused)?;
+            plane.draw_series(std::iter::once(PathElement::new(circle, grey.stroke_width(1)))).map_err(to_plot_error)?;
         }
     }
     let every = if look.terminal { RAYS.1 } else { RAYS.0 };
     for degrees in (0..360).step_by(every as usize) {
         if !look.terminal {
             let ray = PathElement::new(vec![(0.0, 0.0), at(degrees, rim)], grey.stroke_width(1));
-            plane.draw_series(std::iter::once(ray)).map_err(refused)?;
+            plane.draw_series(std::iter::once(ray)).map_err(to_plot_error)?;
         }
-        let name = Text::new(degrees.to_string(), at(degrees, 1.08 * rim), centred(look, VPos::Center));
-        plane.draw_series(std::iter::once(name)).map_err(refused)?;
+        let name = Text::new(degrees.to_string(), at(degrees, 1.08 * rim), centred_style(look, VPos::Center));
+        plane.draw_series(std::iter::once(name)).map_err(to_plot_error)?;
     }
     for ring in &rings {
-        let name = Text::new(radii.label(*ring), at(75, *ring), centred(look, VPos::Center));
-        plane.draw_series(std::iter::once(name)).map_err(refused)?;
+        let name = Text::new(radii.label(*ring), at(75, *ring), centred_style(look, VPos::Center));
+        plane.draw_series(std::iter::once(name)).map_err(to_plot_error)?;
     }
     Ok((plane, x, y))
 }
 
-fn centred(look: &PlotStyle, vertical: VPos) -> TextStyle<'static> {
+fn centred_style(look: &PlotStyle, vertical: VPos) -> TextStyle<'static> {
     TextStyle::from(("sans-serif", look.text).into_font()).pos(Pos::new(HPos::Center, vertical))
 }
 

@@ -9,7 +9,7 @@ fn chart() -> Chart {
         .column("", "X", Dim::Length, Digits::Usual, |x| *x)
         .column("", "Force", Dim::Force, Digits::Usual, |x| (*x != 10.0).then_some(x * x))
         .build();
-    Chart::of(&t, UnitSystem::SI).unwrap()
+    Chart::from_table(&t, UnitSystem::SI).unwrap()
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn a_second_unit_has_an_axis_on_the_right_and_the_legend_tells_the_lines() {
         .column("", "Force", Dim::Force, Digits::Usual, |row| row.1)
         .column("", "On Bottom", Dim::Length, Digits::Usual, |row| row.2)
         .build();
-    let chart = Chart::of(&t, UnitSystem::SI).unwrap();
+    let chart = Chart::from_table(&t, UnitSystem::SI).unwrap();
     assert_eq!((chart.y_label.as_str(), chart.right_label.as_deref()), ("Force (N)", Some("On Bottom (m)")));
     let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
     let screen = chart.terminal(60, 16).unwrap();
@@ -122,7 +122,7 @@ fn a_third_unit_and_an_axis_of_two_are_refused_and_curves_of_one_unit_may_be_par
     let taken =
         |list: &[usize]| Table { columns: list.iter().map(|n| t.columns[*n].clone()).collect(), ..Table::new("t") };
     let refused = Err(PlotError::Units("L (m), T (s)".into()));
-    assert_eq!(Chart::of(&t, UnitSystem::SI), refused);
+    assert_eq!(Chart::from_table(&t, UnitSystem::SI), refused);
     assert_eq!(Chart::with_right(&taken(&[0, 1, 2]), &[2], UnitSystem::SI).unwrap().right_label.unwrap(), "G (N)");
     let mixed = Chart::with_right(&taken(&[0, 1, 2, 3]), &[2], UnitSystem::SI);
     assert_eq!(mixed, Err(PlotError::Units("F (N), L (m)".into())));

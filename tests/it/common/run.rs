@@ -47,6 +47,6 @@ pub fn trapezoidal() -> Method {
 /// A run that comes to its end.
 pub fn run(model: &Model, settings: RunSettings, actions: Vec<Action>) -> Run {
     let mut run = Run::new(model, settings, actions).unwrap();
-    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
     run
 }

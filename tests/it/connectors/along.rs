@@ -29,7 +29,7 @@ fn a_chain_at_rest_comes_down_where_the_catenary_does() {
     for elements in [40, 80] {
         let model = model(&chain(elements, ""));
         let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
-        run.go(&mut Quiet).unwrap();
+        run.run(&mut Quiet).unwrap();
         let line = LineResults::find(&run, "a").unwrap();
         let table = touchdown(&line, &events(&run.history, None).unwrap()[..1]).unwrap();
         // w = 2000 N/m, H the tension on the bottom: a catenary of parameter a = H/w rises h over an arc sqrt(h^2 + 2 h a)
@@ -50,7 +50,7 @@ fn the_line_at_rest_and_the_first_row_of_a_run_in_still_water_are_one() {
     let model = model(&chain(20, ""));
     let rest = &lines_at_rest(&model, &|_| true).unwrap()[0];
     let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
-    run.go(&mut Quiet).unwrap();
+    run.run(&mut Quiet).unwrap();
     let line = LineResults::find(&run, "A").unwrap();
     assert_eq!(line.nodes(), 21);
     let first = &events(&run.history, None).unwrap()[..1];
@@ -67,7 +67,7 @@ fn fewer_nodes_kept_and_none_kept_tell_what_all_tell() {
     let model = model(&chain(12, "-SEA REGULAR 180 4 9"));
     let ran = |change: fn(RunSettings) -> RunSettings| {
         let mut run = Run::new(&model, change(settings(10.0, 0.25)), Vec::new()).unwrap();
-        assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+        assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
         run
     };
     let (all, fourth) = (ran(|s| s), ran(|s| RunSettings { along: 4, ..s }));
@@ -131,13 +131,13 @@ fn a_run_that_goes_on_has_the_nodes_of_an_unbroken_one() {
     let wanted = settings(60.0, 0.1);
     let mut whole = Run::new(&model, wanted.clone(), Vec::new()).unwrap();
     let mut kept = Keeper::default();
-    assert_eq!(whole.go(&mut kept), Ok(Ending::Done));
+    assert_eq!(whole.run(&mut kept), Ok(Ending::Done));
     // one at the start, one after 500 steps
     assert_eq!(kept.snapshots.iter().map(|s| s.taken).collect::<Vec<_>>(), [0, 500]);
     for snapshot in &kept.snapshots {
         let rows: Vec<f64> = kept.rows[..snapshot.rows].concat();
         let mut again = Run::resume(&model, wanted.clone(), Vec::new(), (snapshot, rows)).unwrap();
-        assert_eq!(again.go(&mut Quiet), Ok(Ending::Done));
+        assert_eq!(again.run(&mut Quiet), Ok(Ending::Done));
         // bit by bit: what is not there is not a number
         let bits = |run: &Run| run.history.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         assert_eq!(again.history.len(), whole.history.len());

@@ -303,7 +303,7 @@ fn unconnected_junctions_come_to_rest_though_one_is_slow() {
     session.open("records", records.to_string());
     session.run();
     let mut model = session.job.model.clone();
-    let found = settle(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
     assert!(found.found.steps < 60, "{:?}", found.found);
     // the line hangs straight down from nothing: it lies on the bottom, and so does its end; scipy's fsolve of the catenary above gives
     // H = V = 0 for ends less than 1240 m apart at one height
@@ -332,12 +332,12 @@ fn random_networks_rest_where_catenaries_in_closed_form_balance() {
         let mut model = network.model();
         // as &EQUI has it; where that is stable, once more to a thousandth of what it leaves
         let mut allowed = 1e-3;
-        match settle(&mut model, &Options { most: 200, ..Options::default() }) {
+        match find_equilibrium_with_rebuilds(&mut model, &Options { most: 200, ..Options::default() }) {
             Ok(found) => {
                 if modes(&found.system, &found.state).unwrap().iter().all(|m| m.eigenvalue > -1e-6) {
                     (allowed, stable) = (TOLERANCE, stable + 1);
                     let fine = Options { most: 200, tolerance: [TOLERANCE; 2], ..Options::default() };
-                    refused.extend(settle(&mut model, &fine).err().map(|error| (number, error)));
+                    refused.extend(find_equilibrium_with_rebuilds(&mut model, &fine).err().map(|error| (number, error)));
                 }
             }
             Err(error) => refused.push((number, error)),

@@ -19,7 +19,7 @@ fn a_run_onto_a_full_disk_says_so_and_keeps_its_rows() {
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let mut run = Run::new(&runs::model(CART), runs::settings(100.0, 0.1), vec![]).unwrap();
     let mut log = RunLog::begin(full, "/dev/full".into(), run.fingerprint(), run.history.layout.width).unwrap();
-    let error = run.go(&mut log).unwrap_err();
+    let error = run.run(&mut log).unwrap_err();
     let text = format!("{error:?}");
     assert!(text.contains("/dev/full: No space left on device") && text.contains("-RESTART"), "{text}");
     assert_eq!(run.history.len(), 1);

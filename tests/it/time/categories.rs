@@ -100,7 +100,7 @@ const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "MX", "MY", "MZ"];
 /// leaves 1e-7; and the categories.
 fn left(model: &Model, actions: Vec<Action>, body: usize) -> ([f64; 2], Vec<&'static str>) {
     let mut made = Run::new(model, settings(2.0, 0.1), actions).unwrap();
-    made.go(&mut Quiet).unwrap();
+    made.run(&mut Quiet).unwrap();
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[body], Magnitude::default(), &events).unwrap();
     let groups: Vec<&str> = made.history.layout.categories.iter().map(|c| c.name()).collect();
@@ -130,7 +130,7 @@ fn tube_across_a_current_has_its_drag_and_a_total_of_zero() {
          *G 0 0 -20\n#WEIGHT *G 1000 5 5 5\nEND\n&SURFACE\nTUBE T *A *E 1000 -CD 1",
     );
     let mut made = Run::new(&model, settings(1.0, 0.1), vec![]).unwrap();
-    made.go(&mut Quiet).unwrap();
+    made.run(&mut Quiet).unwrap();
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[0], Magnitude::default(), &events).unwrap();
     assert!((column(&table, "V_DRAG", "FX")[0].abs() / 5125.0 - 1.0).abs() < 1e-12);

@@ -56,7 +56,7 @@ fn run(model: &Model, observed: f64, tolerance: f64) -> Run {
         transient: 0.0,
     };
     let mut run = Run::new(model, settings, Vec::new()).unwrap();
-    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
     run
 }
 

@@ -31,7 +31,7 @@ fn ball(environment: &str, more: &str) -> Model {
 
 fn run(model: &Model, (time, dt): (f64, f64)) -> Run {
     let mut made = Run::new(model, settings(time, dt), vec![]).unwrap();
-    made.go(&mut Quiet).unwrap();
+    made.run(&mut Quiet).unwrap();
     made
 }
 

@@ -18,7 +18,7 @@ use windlass_solve::time::{Action, ActionKind, Ending, Run, Trigger};
 fn run(model: &Model, (observed, dt): (f64, f64), start: &[(usize, Six)], actions: Vec<Action>) -> Run {
     let mut run = Run::new(model, settings(observed, dt), actions).unwrap();
     run.begin_with(start).unwrap();
-    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
     run
 }
 

@@ -318,7 +318,7 @@ fn a_body_that_rides_on_the_waves_rides_on_those_of_the_sea_it_comes_into() {
         Action { name: "CHANGE".into(), when: Trigger::At(20.0), what: ActionKind::Environment("LATER".into()) };
     let mut run = Run::new(&model, settings, vec![change]).unwrap();
     let seas = ["NOW", "LATER"].map(|name| Sea::new(&model, &model.environments[name]).unwrap().unwrap());
-    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
     let at = run.history.layout.body(0);
     for row in run.history.rows() {
         let sea = if row[0] < 20.0 - 1e-9 { &seas[0] } else { &seas[1] };

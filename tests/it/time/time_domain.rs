@@ -92,7 +92,7 @@ fn a_free_top_keeps_energy_and_angular_momentum_to_the_order_of_the_step() {
     let drift = |h: f64| {
         let mut made = Run::new(&model, settings(20.0, h), vec![]).unwrap();
         made.begin_with(&[(0, Six::new(0.0, 0.0, 0.0, 0.3, 0.6, 0.2))]).unwrap();
-        assert_eq!(made.go(&mut Quiet), Ok(Ending::Done));
+        assert_eq!(made.run(&mut Quiet), Ok(Ending::Done));
         let inertia = nalgebra::Matrix3::from_diagonal(&nalgebra::Vector3::new(1.0, 4.0, 9.0)) * 1000.0;
         let motion = made.motions()[0];
         let turn = motion.velocity.fixed_rows::<3>(3).into_owned();
@@ -172,7 +172,7 @@ fn a_berthing_fender_takes_the_energy_of_the_ship_and_friction_its_impulse() {
     );
     let mut made = Run::new(&ship, RunSettings { method: trapezoidal(), ..settings(8.0, 0.01) }, vec![]).unwrap();
     made.begin_with(&[(0, Six::new(1.0, -0.15, 0.0, 0.0, 0.0, 0.0))]).unwrap();
-    made.go(&mut Quiet).unwrap();
+    made.run(&mut Quiet).unwrap();
     let peaks = windlass_solve::results::fender_peaks(&made).unwrap();
     let [peak] = peaks.as_slice() else { panic!("{peaks:?}") };
     for (got, want) in [(peak.state.deflection, 0.25), (peak.state.reaction, 9e4), (peak.state.energy, 11_250.0)] {

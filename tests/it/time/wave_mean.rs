@@ -40,7 +40,7 @@ fn mean_pressure_on_a_flared_hull_is_that_of_its_waterline() {
     // waterline: two sides of 40 m, 1 m in 2 m: 374.0 kN. The waterline is closed: none along the waves
     let model = held("PGEN HULL -PERM 1 -DIFTYPE FK\nPLANE -20 20 -CARTESIAN 5 -5 10 5\nEND PGEN");
     let mut made = Run::new(&model, settings(210.0, 0.1), vec![]).unwrap();
-    made.go(&mut Quiet).unwrap();
+    made.run(&mut Quiet).unwrap();
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[0], Magnitude::default(), &events).unwrap();
     let (a, k) = (2.0f64, (std::f64::consts::TAU / 7.0).powi(2) / 9.80665);
@@ -61,7 +61,7 @@ fn mean_pressure_on_a_flared_hull_is_that_of_its_waterline() {
 fn mean_wave_force_on_a_member_is_apart_from_its_waves_and_its_drag() {
     let model = held("END\n&SURFACE\nTUBE T *T1 *T2 2000 -CD 1");
     let mut made = Run::new(&model, settings(210.0, 0.1), vec![]).unwrap();
-    made.go(&mut Quiet).unwrap();
+    made.run(&mut Quiet).unwrap();
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[0], Magnitude::default(), &events).unwrap();
     // pressure and inertia up to the surface: a ~ sin, zeta ~ cos have no mean along the waves; drag has: 1/2 rho Cd D <u|u| zeta> above

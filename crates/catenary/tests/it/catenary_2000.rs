@@ -164,7 +164,7 @@ fn a_followed_line_is_the_cold_one_all_along_its_path() {
             let rise = 0.005 * c.segment.length * (phase.cos() - 1.0);
             let z = if c.bottom.is_some() { (c.z + rise).max(0.0) } else { c.z + rise };
             let cold = c.segment.solve_end_forces(x, z, c.bottom).unwrap();
-            last = c.segment.follow(x, z, c.bottom, &last).unwrap();
+            last = c.segment.solve_warm_start(x, z, c.bottom, &last).unwrap();
             assert_eq!(last.regime, cold.regime, "{} step {n}", c.id);
             assert_eq!(last.at, [x, z]);
             assert!((last.grounded - cold.grounded).abs() <= 1e-8 * c.segment.length, "{} step {n}", c.id);
@@ -190,13 +190,13 @@ fn whatever_a_line_is_followed_from_it_comes_out_the_same() {
                 [at, forces, EndForces { stiffness: [[v, 0.0], [v, -v]], ..*answer }]
             });
             for last in [*far, EndForces { regime: answer.regime, ..*far }].into_iter().chain(spoilt) {
-                let got = c.segment.follow(c.x, c.z, c.bottom, &last).unwrap();
+                let got = c.segment.solve_warm_start(c.x, c.z, c.bottom, &last).unwrap();
                 assert_eq!(got.regime, answer.regime, "{} from {last:?}", c.id);
                 let error = apart(answer, &got);
                 assert!(error <= 1e-9, "{} from {last:?}: {error:.2e}", c.id);
             }
         }
-        assert!(c.segment.follow(-1.0, c.z, c.bottom, answer).is_err());
-        assert!(c.segment.follow(c.x, f64::NAN, c.bottom, answer).is_err());
+        assert!(c.segment.solve_warm_start(-1.0, c.z, c.bottom, answer).is_err());
+        assert!(c.segment.solve_warm_start(c.x, f64::NAN, c.bottom, answer).is_err());
     }
 }

@@ -94,11 +94,11 @@ impl LinearSystem {
         for (index, (node, pose)) in system.nodes.iter().zip(&state.poses).enumerate() {
             if model.bodies.get(&node.key).is_some_and(|b| b.prescribed.is_some()) {
                 let text = "its motion is given in time: the frequency domain has none for it";
-                return Err(SolveError::about(&node.name)(ClassError::new(text)));
+                return Err(SolveError::error_about(&node.name)(ClassError::new(text)));
             }
             let attached = model.bodies.get(&node.key).and_then(|b| b.database.as_ref());
             let made = attached.map(|a| Floats::new(model, &node.name, a, pose)).transpose();
-            let made = made.map_err(SolveError::about(&node.name))?;
+            let made = made.map_err(SolveError::error_about(&node.name))?;
             if let Some(made) = &made {
                 let block = mass_block(&node.floating.mass, pose) + node.floating.added_mass(pose)
                     - in_pose(&made.infinite, pose);
@@ -255,7 +255,7 @@ impl LinearSystem {
         for (index, ((floats, pose), node)) in self.floats.iter().zip(&self.poses).zip(&self.system.nodes).enumerate() {
             let Some(floats) = floats.as_ref().filter(|f| !f.attached.data.excitation.is_empty()) else { continue };
             let x = floats.attached.data.excitation_at(toward - floats.yaw, frequency);
-            let x = rotate_amplitudes(x.map_err(SolveError::about(&node.name))?, floats.yaw);
+            let x = rotate_amplitudes(x.map_err(SolveError::error_about(&node.name))?, floats.yaw);
             let [factor, ..] = floats.factors;
             let phase = k * (pose.origin.x * cos + pose.origin.y * sin);
             for (i, value) in x.into_iter().enumerate() {

@@ -27,7 +27,7 @@ const NEGLIGIBLE_VARIANCE_SHARE: f64 = 1e-8;
 ///
 /// # Errors
 /// It does not settle; a load that has no answer.
-pub(super) fn settle(
+pub(super) fn linearise_to_convergence(
     linear: &mut LinearSystem,
     response: &mut FrequencyResponse,
     again: impl Fn(&LinearSystem) -> Result<FrequencyResponse, SolveError>,

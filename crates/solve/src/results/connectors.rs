@@ -86,7 +86,7 @@ pub fn connector_forces(
         let group = group_head(several, name, "Force");
         table = table
             .columns(&group, ["FX", "FY", "FZ", "Mag."], Dim::Force, |all| {
-                all.get(index).map_or([f64::NAN; 4], |(force, _)| magnitude.with(force))
+                all.get(index).map_or([f64::NAN; 4], |(force, _)| magnitude.components_and_magnitude(force))
             })
             .column(&group, "Mag./Break", Dim::None, Digits::Decimals(3), |all| rest(all).ratio)
             .columns(&group_head(several, name, "On Bottom"), ["Length"], Dim::Length, |all| [rest(all).grounded])

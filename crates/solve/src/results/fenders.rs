@@ -32,7 +32,7 @@ pub fn fender_peaks(run: &Run) -> Result<Vec<FenderPeak>, SolveError> {
         if !class.is_some_and(|c| c.object.is_fender()) {
             continue;
         }
-        let element = model.element(connector).map_err(SolveError::about(&connector.name))?;
+        let element = model.element(connector).map_err(SolveError::error_about(&connector.name))?;
         let (attached, start) = (end_attachments(model, connector), vec![0.0; element.states()]);
         let mut bodies = Vec::new();
         let mut peak: Option<FenderPeak> = None;
@@ -41,7 +41,7 @@ pub fn fender_peaks(run: &Run) -> Result<Vec<FenderPeak>, SolveError> {
             poses(&run.history.layout, row, &mut bodies);
             let ends = attached.map(|end| End::still(pose_of(&end, &bodies)));
             let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-            let told = element.summary(&at, &start).map_err(SolveError::about(&connector.name))?;
+            let told = element.summary(&at, &start).map_err(SolveError::error_about(&connector.name))?;
             let Some(state) = told.fender.filter(|s| s.deflection > 0.0) else { continue };
             if peak.as_ref().is_none_or(|p| state.deflection > p.state.deflection) {
                 peak = Some(FenderPeak { name: connector.name.clone(), time, state });

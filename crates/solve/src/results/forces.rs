@@ -15,11 +15,11 @@ pub(super) fn wrench_columns<T>(
     magnitude: Magnitude,
     wrench: impl Fn(&T) -> [Vector3<f64>; 2],
 ) -> EventTable<T> {
-    table.columns(group, ["FX", "FY", "FZ", "F Mag."], Dim::Force, |row| magnitude.with(&wrench(row)[0])).columns(
+    table.columns(group, ["FX", "FY", "FZ", "F Mag."], Dim::Force, |row| magnitude.components_and_magnitude(&wrench(row)[0])).columns(
         group,
         ["MX", "MY", "MZ", "M Mag."],
         Dim::Moment,
-        |row| magnitude.with(&wrench(row)[1]),
+        |row| magnitude.components_and_magnitude(&wrench(row)[1]),
     )
 }
 

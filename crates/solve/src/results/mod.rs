@@ -43,7 +43,7 @@ impl Magnitude {
     }
 
     /// A vector and its magnitude.
-    fn with(&self, vector: &Vector3<f64>) -> [f64; 4] {
+    fn components_and_magnitude(&self, vector: &Vector3<f64>) -> [f64; 4] {
         [vector.x, vector.y, vector.z, self.evaluate(vector)]
     }
 }

@@ -89,7 +89,7 @@ pub fn trajectory(run: &Run, bodies: &[usize], told: &MotionOptions, events: &[R
             table = table.fact("Body", name.as_str(), Dim::None);
         }
         let body = |all: &Vec<Displaced>| all.get(index).copied().unwrap_or(none);
-        let with = |vector: &Vector3<f64>| told.magnitude.with(vector);
+        let with = |vector: &Vector3<f64>| told.magnitude.components_and_magnitude(vector);
         let head = |group: &str| group_head(several, name, group);
         table = table
             .columns(&head("Location"), ["X", "Y", "Z", "Mag."], Dim::Length, |all| with(&body(all).at))

@@ -68,7 +68,7 @@ pub fn points(
             table = table.fact("Point", point.name.as_str(), Dim::None);
         }
         let with = |all: &Vec<PointRow>, vector: fn(&PointRow) -> &Vector3<f64>| {
-            all.get(index).map_or([f64::NAN; 4], |row| magnitude.with(vector(row)))
+            all.get(index).map_or([f64::NAN; 4], |row| magnitude.components_and_magnitude(vector(row)))
         };
         let head = |group: &str| group_head(several, &point.name, group);
         table = table

@@ -46,7 +46,7 @@ impl<'a> Settling<'a> {
     /// A connector that makes no element.
     pub fn new(model: &'a Model, name: &str) -> Result<Option<Self>, SolveError> {
         let Some(connector) = model.connectors.get(&Model::key(name)) else { return Ok(None) };
-        let element = model.element(connector).map_err(SolveError::about(name))?;
+        let element = model.element(connector).map_err(SolveError::error_about(name))?;
         if element.states() > 0 {
             return Ok(None);
         }
@@ -72,17 +72,17 @@ impl<'a> Settling<'a> {
         if length.is_some() && length != self.length {
             // as the run did when a winch changed it
             let wound = Connector { first_length: length, ..self.connector.clone() };
-            self.element = self.model.element(&wound).map_err(SolveError::about(name))?;
+            self.element = self.model.element(&wound).map_err(SolveError::error_about(name))?;
             self.length = length;
         }
         self.between.clear();
         self.between.extend(self.ends.iter().map(|end| End::still(pose_of(end, poses))));
         let at = Situation { ends: &self.between, step: None, surroundings: &self.surroundings };
-        let told = self.element.summary(&at, &[]).map_err(SolveError::about(name))?;
+        let told = self.element.summary(&at, &[]).map_err(SolveError::error_about(name))?;
         let [_, far] = self.ends;
         let (mut vertical, mut horizontal) = (f64::NAN, f64::NAN);
         if told.tension.is_some() && matches!(far, EndAttachment::Ground(_)) {
-            self.element.wrenches(&at, &[], &mut self.guess, &mut self.wrenches).map_err(SolveError::about(name))?;
+            self.element.wrenches(&at, &[], &mut self.guess, &mut self.wrenches).map_err(SolveError::error_about(name))?;
             if let Some(pull) = self.wrenches.get(1) {
                 (vertical, horizontal) = (pull[2], pull[0].hypot(pull[1]));
             }

@@ -121,8 +121,8 @@ pub fn harmonics(
         .with_rows(&rows)
         .text("Motion", |row| row.motion)
         .text("Freedom", |row| row.axis)
-        .column("", "Mean", Dim::None, Digits::Decimals(4), |row| row.shown(row.found.mean))
-        .column("", "Drift", Dim::None, Digits::Decimals(4), |row| row.shown(row.found.drift));
+        .column("", "Mean", Dim::None, Digits::Decimals(4), |row| row.user_value(row.found.mean))
+        .column("", "Drift", Dim::None, Digits::Decimals(4), |row| row.user_value(row.found.drift));
     for (order, head) in ["1", "2", "3", "4"].into_iter().enumerate() {
         table = table.column(head, "Amplitude", Dim::None, Digits::Decimals(4), |row| row.amplitude(order)).column(
             head,
@@ -152,13 +152,13 @@ struct HarmonicRow<'r> {
 
 impl HarmonicRow<'_> {
     /// A value in metres or degrees: one column holds both, as numbers without a dimension.
-    fn shown(&self, value: f64) -> f64 {
+    fn user_value(&self, value: f64) -> f64 {
         let value = without_noise(value, self.largest);
         if self.dof < 3 { value } else { value.to_degrees() }
     }
 
     /// The amplitude of a harmonic, the first from 0.
     fn amplitude(&self, order: usize) -> Option<f64> {
-        self.found.harmonics.get(order).map(|harmonic| self.shown(harmonic.amplitude))
+        self.found.harmonics.get(order).map(|harmonic| self.user_value(harmonic.amplitude))
     }
 }

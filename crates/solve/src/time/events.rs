@@ -27,7 +27,7 @@ impl Run {
     pub(super) fn prescribe(&mut self) -> Result<(), SolveError> {
         for (motion, node) in self.now.motions.iter_mut().zip(&self.system.nodes) {
             if let Some(prescribed) = &node.prescribed {
-                *motion = prescribed.motion_at(self.now.time).map_err(SolveError::about(&node.name))?;
+                *motion = prescribed.motion_at(self.now.time).map_err(SolveError::error_about(&node.name))?;
             }
         }
         Ok(())
@@ -166,7 +166,7 @@ impl Run {
     }
 
     /// Whether a condition that is waited for is true now.
-    pub(super) fn comes_true(&self) -> bool {
+    pub(super) fn trigger_crossed(&self) -> bool {
         let waited = self.actions.iter().zip(&self.fired).filter(|(_, f)| f.is_none());
         waited.into_iter().any(|(a, _)| !matches!(a.when, Trigger::At(_)) && self.due(&a.when))
     }
@@ -216,7 +216,7 @@ impl Run {
     }
 
     /// Does what has come due; gives the name of an action that ends the run.
-    pub(super) fn happens(&mut self) -> Result<Option<String>, SolveError> {
+    pub(super) fn process_events(&mut self) -> Result<Option<String>, SolveError> {
         let mut changed = false;
         let mut stop = None;
         for index in 0..self.actions.len() {
@@ -247,7 +247,7 @@ impl Run {
         }
         if changed {
             // the forces have changed at once: the acceleration of the step before is not that of the next
-            self.forget();
+            self.clear_caches();
             self.prepare()?;
         }
         Ok(stop)

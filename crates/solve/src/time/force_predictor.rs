@@ -62,7 +62,7 @@ pub(super) struct ForcePredictor {
 
 impl ForcePredictor {
     /// Nothing foretells the next step.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn clear(&mut self) {
         (self.count, self.known) = (0, 0);
     }
 

@@ -100,7 +100,7 @@ impl LoadMemory {
             for (load, range) in node.floating.loads.iter().zip(ranges) {
                 let state = &mut self.loads[range.clone()];
                 let before = load.held(&on_the_way, state);
-                load.begin(&at, state).map_err(SolveError::about(&node.name))?;
+                load.begin(&at, state).map_err(SolveError::error_about(&node.name))?;
                 if let (Some(before), Some(now)) = (before, load.held(&on_the_way, state)) {
                     more += now - before;
                 }
@@ -190,11 +190,11 @@ impl BodyForces {
 
     /// Nothing foretells the next step.
     pub(super) fn unsettle(&mut self) {
-        self.foretelling.forget();
+        self.foretelling.clear();
     }
 
     /// They are those of the end of a step of a length (s).
-    pub(super) fn settle(&mut self, dt: f64) {
+    pub(super) fn end_step(&mut self, dt: f64) {
         if self.moving || self.carried {
             self.foretelling.take_inertia(dt, &self.inertia);
         }
@@ -249,7 +249,7 @@ impl BodyForces {
             for (load, range) in memory.body_loads(system, body) {
                 let state = &memory.loads[range];
                 self.made.load.wrench.fill(0.0);
-                load.add(&at, state, &mut self.made).map_err(SolveError::about(&node.name))?;
+                load.add(&at, state, &mut self.made).map_err(SolveError::error_about(&node.name))?;
                 let wrench = self.made.load.wrench;
                 self.add(body, place_of(load.category()), &wrench);
                 if let Some(inertia) = load.inertia(state) {
@@ -315,7 +315,7 @@ impl BodyForces {
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
             let anchored = matches!(link.ends.as_slice(), [EndAttachment::Body(..), EndAttachment::Ground(_)]);
             if let (true, Some(found)) = (anchored, link.element.find_anchored(&at, guess)) {
-                let Anchored { wrenches, stiffness } = found.map_err(SolveError::about(&link.name))?;
+                let Anchored { wrenches, stiffness } = found.map_err(SolveError::error_about(&link.name))?;
                 self.wrenches.extend_from_slice(&wrenches);
                 self.hold(link, &wrenches, &stiffness, flexible);
                 continue;
@@ -323,7 +323,7 @@ impl BodyForces {
             if link.element.moves() {
                 let Some(found) = alone.next().and_then(|at| self.alone.get_mut(at)) else { continue };
                 if let Some(error) = found.failed.take() {
-                    return Err(SolveError::about(&link.name)(error));
+                    return Err(SolveError::error_about(&link.name)(error));
                 }
                 trial.copy_from_slice(&found.trial);
                 std::mem::swap(&mut self.response, &mut found.response);
@@ -332,13 +332,13 @@ impl BodyForces {
                 let tie = if self.ties.holds { link.element.tie(&at, held, &mut self.response) } else { None };
                 match tie {
                     Some(tie) => {
-                        let tie = tie.map_err(SolveError::about(&link.name))?;
+                        let tie = tie.map_err(SolveError::error_about(&link.name))?;
                         self.ties.take(index, tie, &self.response.stiffness, (&link.ends, &self.arms));
                     }
                     None => link
                         .element
                         .evaluate(&at, committed, trial, guess, &mut self.response)
-                        .map_err(SolveError::about(&link.name))?,
+                        .map_err(SolveError::error_about(&link.name))?,
                 }
             }
             self.wrenches.extend_from_slice(&self.response.wrench);

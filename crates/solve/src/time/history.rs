@@ -238,7 +238,7 @@ impl RowLayout {
                     let guess = forces.guesses.get_mut(index).unwrap_or(&mut none);
                     nodes_of((system, link, guess), (time, motions), &mut told.nodes)
                         .and_then(|()| along.write(&told.nodes, row))
-                        .map_err(|e| SolveError::about(&link.name)(at_time(e, time)))?;
+                        .map_err(|e| SolveError::error_about(&link.name)(at_time(e, time)))?;
                 }
             }
             first += link.ends.len();

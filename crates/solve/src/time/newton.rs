@@ -49,7 +49,7 @@ impl Stepper {
     }
 
     /// The forces of stiff ties follow the correction that was found.
-    pub(super) fn follow(&self, forces: &mut BodyForces, by_place: f64) {
+    pub(super) fn update_tie_forces(&self, forces: &mut BodyForces, by_place: f64) {
         if forces.ties.is_empty() {
             return;
         }

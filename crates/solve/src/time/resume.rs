@@ -117,7 +117,7 @@ impl Run {
         self.taken = snapshot.taken;
         self.counts = snapshot.counts;
         self.accuracy.clone_from(&snapshot.accuracy);
-        self.forget();
+        self.clear_caches();
         self.history.values = rows;
         let wrong = |e: SeriesError| SolveError::new(ClassError::new(e.to_string()));
         for row in self.history.rows() {

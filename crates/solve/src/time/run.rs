@@ -200,7 +200,7 @@ impl Run {
     ///
     /// # Errors
     /// A body or connector without an answer, or a watcher that could not keep a row; rows so far are kept.
-    pub fn go(&mut self, watcher: &mut dyn Watcher) -> Result<Ending, SolveError> {
+    pub fn run(&mut self, watcher: &mut dyn Watcher) -> Result<Ending, SolveError> {
         let ended = self.steps(watcher);
         let kept = watcher.finish().map_err(unkept);
         ended.and_then(|ending| kept.map(|()| ending))
@@ -210,8 +210,8 @@ impl Run {
         let steps = (self.settings.observed / self.settings.dt - 1e-9).ceil().max(0.0) as usize;
         // one that goes on from its start has that row
         if self.taken == 0 && self.history.is_empty() {
-            self.keep(watcher)?;
-            self.save(watcher)?;
+            self.record(watcher)?;
+            self.write_snapshot(watcher)?;
         }
         while self.taken < steps {
             if !watcher.goes_on(self.now.time) {
@@ -224,7 +224,7 @@ impl Run {
                 Err(_) if !watcher.goes_on(self.now.time) => return Ok(Ending::Interrupted),
                 Err(error) => {
                     // from here -RESTART goes on, with what made it fail put right
-                    self.save(watcher)?;
+                    self.write_snapshot(watcher)?;
                     return Err(error);
                 }
             };
@@ -232,12 +232,12 @@ impl Run {
             if stop.is_none() {
                 // the step's own time, so that no rounding adds up
                 self.now.time = end;
-                stop = self.happens()?;
+                stop = self.process_events()?;
             }
             let capsized = self.find_capsized_body();
             let last = self.taken == steps || stop.is_some() || capsized.is_some();
             if last || self.taken.is_multiple_of(self.settings.store.max(1)) {
-                self.keep(watcher)?;
+                self.record(watcher)?;
             }
             if let Some(name) = stop {
                 return Ok(Ending::Stopped(name));
@@ -246,7 +246,7 @@ impl Run {
                 return Ok(Ending::Capsized(name));
             }
             if self.taken.is_multiple_of(STEPS_PER_SNAPSHOT) {
-                self.save(watcher)?;
+                self.write_snapshot(watcher)?;
             }
         }
         Ok(Ending::Done)
@@ -286,10 +286,10 @@ impl Run {
                         let error = self.settings.method.error_of_step(self.now.motions.iter(), part);
                         let rough =
                             self.settings.adaptive.is_some_and(|allowed| error > allowed) && level < MAX_STEP_HALVINGS;
-                        let sudden = sought < EVENT_BISECTIONS && self.comes_true();
+                        let sudden = sought < EVENT_BISECTIONS && self.trigger_crossed();
                         if rough || sudden {
                             self.unwind(winches);
-                            self.go_back(before);
+                            self.rollback(before);
                             level += u32::from(rough);
                             sought += u32::from(!rough);
                             continue;
@@ -303,7 +303,7 @@ impl Run {
                     self.accuracy.take(nodes, motions, &self.settings.method, (self.now.time, part));
                     if part < self.settings.dt * 0.999 {
                         let fired = self.fired.iter().flatten().count();
-                        if let Some(name) = self.happens()? {
+                        if let Some(name) = self.process_events()? {
                             return Ok(Some(name));
                         }
                         if self.fired.iter().flatten().count() > fired {
@@ -352,25 +352,25 @@ impl Run {
     }
 
     /// Forgets a part of a step.
-    fn go_back(&mut self, before: Before) {
+    fn rollback(&mut self, before: Before) {
         (self.now.time, self.now.motions) = (before.time, before.motions);
         (self.now.memory, self.system.states) = (before.memory, before.states);
         self.now.forces.unsettle();
     }
 
     /// Forgets what solvers remember, so that a run that goes on from a snapshot finds the same digits.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn clear_caches(&mut self) {
         self.now.forces.guesses.clear();
         self.now.forces.ties.forces.clear();
         self.now.forces.unsettle();
     }
 
-    fn save(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
-        self.forget();
+    fn write_snapshot(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
+        self.clear_caches();
         watcher.snapshot(&self.snapshot()).map_err(unkept)
     }
 
-    fn keep(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
+    fn record(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
         let mut told = std::mem::take(&mut self.told);
         told.inertia.clear();
         for (node, motion) in self.system.nodes.iter().zip(&self.now.motions) {

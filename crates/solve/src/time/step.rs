@@ -199,7 +199,7 @@ impl Stepper {
             Method::Corrector => self.corrector(system, now, dt, wanted),
         };
         match made {
-            Ok(effort) if effort.iterations > 0 => now.forces.settle(dt),
+            Ok(effort) if effort.iterations > 0 => now.forces.end_step(dt),
             // a trial that held as it was needs no foretelling, nor does most likely the next
             _ => now.forces.unsettle(),
         }
@@ -231,7 +231,7 @@ impl Stepper {
         for ((trial, over), node) in self.trial.iter_mut().zip(&mut self.over).zip(&system.nodes) {
             if let Some(prescribed) = &node.prescribed {
                 let before = *trial;
-                *trial = prescribed.motion_at(time).map_err(SolveError::about(&node.name))?;
+                *trial = prescribed.motion_at(time).map_err(SolveError::error_about(&node.name))?;
                 let by = trial.pose.origin - before.pose.origin;
                 let turn = (before.velocity + trial.velocity) * (0.5 * dt);
                 // to the order of the step, as a forecast needs it
@@ -319,7 +319,7 @@ impl Stepper {
             self.jacobian(&now.forces, dt, by_place, by_velocity);
             self.ask(&now.forces);
             self.solve(system).map_err(|e| self.unsolvable(system, e, left, (time, dt)))?;
-            self.follow(&mut now.forces, by_place);
+            self.update_tie_forces(&mut now.forces, by_place);
             self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
             self.weigh_again(system);
         }

@@ -35,7 +35,7 @@ pub(crate) fn standing(
     for connector in model.connectors.values().filter(|c| c.active && fits(&c.name) && !model.holds_pipe(&c.name)) {
         let element = match model.element_in(connector, Some(&around)) {
             Ok(element) => element,
-            Err(error) if model.moves(connector) => return Err(SolveError::about(&connector.name)(error)),
+            Err(error) if model.moves(connector) => return Err(SolveError::error_about(&connector.name)(error)),
             // what makes no element here reports no nodes; who needs its force says why
             Err(_) => continue,
         };
@@ -70,7 +70,7 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
     let mut tables = Vec::new();
     standing(model, fits, |name, element, at, state| {
         let mut nodes = Vec::new();
-        element.line_nodes(at, state, &mut nodes).map_err(SolveError::about(name))?;
+        element.line_nodes(at, state, &mut nodes).map_err(SolveError::error_about(name))?;
         let sections = sections(model, name);
         let tube = sections.iter().any(|s| s.tube.is_some());
         let rows: Vec<(usize, &LineNode)> = nodes.iter().enumerate().collect();

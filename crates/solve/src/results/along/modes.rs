@@ -20,7 +20,7 @@ pub fn natural_modes(
 ) -> Result<Vec<Table>, SolveError> {
     let mut tables = Vec::new();
     standing(model, fits, |name, element, at, state| {
-        let wrong = SolveError::about(name);
+        let wrong = SolveError::error_about(name);
         // what is too much is refused before anything is solved
         let modes = element.swings(at, state, number).map_err(&wrong)?;
         let mut nodes = Vec::new();

@@ -30,7 +30,7 @@ pub fn supports(line: &LineResults, magnitude: Magnitude, events: &[RunEvent]) -
     }
     let mut table = EventTable::new("Forces on Supports", (&line.run.history, events), |row| {
         let force = |at: usize| row.get(at..at + 3).map_or(Vector3::repeat(f64::NAN), Vector3::from_column_slice);
-        Ok(places.iter().map(|(_, at)| magnitude.with(&force(*at))).collect::<Vec<_>>())
+        Ok(places.iter().map(|(_, at)| magnitude.components_and_magnitude(&force(*at))).collect::<Vec<_>>())
     })?
     .fact("Line", line.name, Dim::None);
     for (index, (name, _)) in places.iter().enumerate() {
