@@ -11,10 +11,10 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_hydro::BodyLoad;
 use windlass_hydro::current::CurrentField;
-use windlass_hydro::exposed::Skin;
 use windlass_hydro::hull::{Solid, Surface, TubeHull};
 use windlass_hydro::pieces::PieceLoad;
 use windlass_hydro::steady::{Medium, Steady};
+use windlass_hydro::surface_integrals::Skin;
 use windlass_hydro::wind::{WindField, WindProfile};
 use windlass_model::Model;
 

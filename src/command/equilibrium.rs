@@ -16,7 +16,7 @@ use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, find};
 use windlass_solve::results::along::cautions;
-use windlass_solve::{DOFS, Options, SolveError, settle, tables};
+use windlass_solve::{DOFS, Options, SolveError, find_equilibrium_with_rebuilds, tables};
 
 /// &EQUI.
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
@@ -132,7 +132,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             Diagnostic::error("there is no body to bring to rest", call.args.span).help("&DESCRIBE BODY describes one")
         );
     }
-    let settled = find_equilibrium_with_rebuilds(&mut job.model, &options).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
+    let settled = find_equilibrium_with_rebuilds(&mut job.model, &options)
+        .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
     let forces = tables::by_category(&settled.system, &settled.state, &|_| true)
         .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
     let (mut over, mut unknown) = (Vec::new(), Vec::new());

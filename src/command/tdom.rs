@@ -26,7 +26,7 @@ use windlass_model::Model;
 use windlass_solve::results::{fender_peaks, fender_table};
 use windlass_solve::screening::{self, Screening};
 use windlass_solve::time::{Convergence, Ending, Method, Run, RunSettings, Snapshot, TimeScheme, Trigger, Watcher};
-use windlass_solve::{SolveError, run_tables, settle, tethered};
+use windlass_solve::{SolveError, find_equilibrium_with_rebuilds, run_tables, tethered};
 
 /// TDOM.
 pub static TDOM: Command = Command { spec: &SPEC, edits: true, run };

@@ -247,7 +247,9 @@ impl Disposition {
         units: UnitSystem,
     ) -> Result<Vec<usize>, DispositionError> {
         for index in self.numeric(&[selector])? {
-            rows.retain(|row| self.displayed_value(index, *row, units).is_some_and(|value| (low..=high).contains(&value)));
+            rows.retain(|row| {
+                self.displayed_value(index, *row, units).is_some_and(|value| (low..=high).contains(&value))
+            });
         }
         if rows.is_empty() { Err(DispositionError::NoRow) } else { Ok(rows) }
     }

@@ -79,8 +79,11 @@ impl Output {
     pub fn message(&mut self, coloured: &str, plain: &str) {
         self.flush();
         // a message that cannot be written has nowhere else to go but the log
-        let _ =
-            if self.colour { write_text(&mut self.messages, coloured) } else { write_text(&mut self.messages, &printable(plain)) };
+        let _ = if self.colour {
+            write_text(&mut self.messages, coloured)
+        } else {
+            write_text(&mut self.messages, &printable(plain))
+        };
         let _ = self.messages.flush();
         self.log(plain);
     }

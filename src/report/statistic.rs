@@ -171,7 +171,8 @@ pub fn expected_extremes(table: &Table, duration: f64, units: UnitSystem) -> Res
     let (mut rows, mut dims) = (Vec::new(), Vec::new());
     for series in describe_columns(table) {
         let name = super::columns::long_name(series.column);
-        let Some((m, Some(period))) = series.moments_and_crossings()?.map(|(m, c)| (m, c.and_then(|c| c.period()))) else {
+        let Some((m, Some(period))) = series.moments_and_crossings()?.map(|(m, c)| (m, c.and_then(|c| c.period())))
+        else {
             return Err(SeriesError::Refused(format!("{name} has no two up-crossings of its mean over growing times")));
         };
         let above = rayleigh(0.0, m.deviation, period, duration)?;

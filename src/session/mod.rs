@@ -4,7 +4,7 @@
 mod deck;
 mod named;
 mod reading;
-mod refused;
+mod skipped_menu;
 
 pub use reading::{read_all, read_text};
 

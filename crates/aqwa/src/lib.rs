@@ -41,12 +41,12 @@
 
 pub mod card;
 mod checks;
+mod deck_dispatch;
 mod echo;
 pub mod elements;
 pub mod end_springs;
 pub mod hydrostatics;
 pub mod job;
-mod joined;
 pub mod layout;
 pub mod lines;
 pub mod mass;
@@ -191,7 +191,7 @@ pub fn read(sources: &Sources, id: SourceId) -> Reading {
     let mut deck = Deck { job: job::read(&mut reader), ..Deck::default() };
     for number in 1..=20 {
         if deck.job.has_deck(number) {
-            joined::read(&mut deck, number, &mut reader);
+            deck_dispatch::read(&mut deck, number, &mut reader);
         }
     }
     if let Some(line) = reader.peek() {

@@ -5,8 +5,8 @@
 //! and each extreme between two samples is closed in. Solutions nearer to each other than two samples can be missed where the force has
 //! more than one extreme between these.
 
+use super::error::LineError;
 use super::line::Line;
-use super::refused::LineError;
 
 /// The force that is wanted at the fairlead.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 use super::active_set::{ActiveSet, LineStretch, first_policy};
 use super::element::LinePiece;
+use super::error::LineError;
 use super::multi_segment::{JointStatus, LineSolution, MultiSegmentLine, SegmentSolution};
-use super::refused::LineError;
 use super::segment::SpanReach;
 
 /// A chain to be rested at a given horizontal force.
@@ -79,8 +79,11 @@ impl<'a> ContactProblem<'a> {
     fn solve(&self) -> Result<LineSolution, LineError> {
         let count = self.chain.elements.len();
         let mut rested = LineSolution { policy: self.policy.clone(), ..LineSolution::default() };
-        let start =
-            |rests: &bool| SegmentSolution { h: if *rests { self.h_touching } else { self.h }, rests: *rests, ..SegmentSolution::default() };
+        let start = |rests: &bool| SegmentSolution {
+            h: if *rests { self.h_touching } else { self.h },
+            rests: *rests,
+            ..SegmentSolution::default()
+        };
         rested.held = self.policy.rests.iter().map(start).collect();
         for section in self.policy.sections(count) {
             let from =

@@ -3,7 +3,7 @@
 //! Source: [MOSES-FLEX -TAB_LIM]; [W-TABLE] for the rows. The rows are of one elevation of the fairlead; stiffness by
 //! that elevation is interpolated from the rows' own. Monotone cubic: [FRITSCH-CARLSON-1980].
 
-use super::refused::LineError;
+use super::error::LineError;
 use super::table::TableRow;
 
 /// One quantity against the distance.

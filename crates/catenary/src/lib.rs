@@ -26,19 +26,19 @@
 
 mod active_set;
 mod adjust;
-mod between;
 mod contact_problem;
 mod dual;
 mod element;
 mod end_forces;
-mod follow;
+mod end_forces_cold;
+mod end_forces_warm;
+mod error;
 mod interpolate;
 mod layout;
 mod line;
 mod multi_segment;
 mod profile;
 mod read;
-mod refused;
 mod search;
 mod segment;
 mod shape;
@@ -49,9 +49,9 @@ mod table;
 
 pub use adjust::{Aim, Lengths};
 pub use end_forces::{EndForces, FlatBottom, Regime};
+pub use error::LineError;
 pub use interpolate::{FromTable, Interpolated, Pulled};
 pub use line::{Joint, Line, SeabedModel, Segment};
-pub use refused::LineError;
 pub use search::{FunctionPoint, rising_root};
 pub use shape::ShapePoint;
 pub use state::{Buoy, Heap, JointState, LineState, SegmentState};

@@ -2,9 +2,9 @@
 
 use super::element::LinePiece;
 use super::end_forces::{EndForces, FlatBottom};
+use super::error::LineError;
 use super::multi_segment::{JointPull, MultiSegmentLine};
 use super::profile::{SeabedProfile, Tilt};
-use super::refused::LineError;
 use super::stretch_law::StretchLaw;
 
 /// A piece of line with the same properties all along.
@@ -80,7 +80,7 @@ impl Segment {
     /// # Errors
     /// [`LineError`]; forces that are returned have been proven.
     pub fn solve_end_forces(&self, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<EndForces, LineError> {
-        super::between::solve_end_forces(self, x, z, bottom)
+        super::end_forces_cold::solve_end_forces(self, x, z, bottom)
     }
 
     /// The same as [`Segment::solve_end_forces`], sooner: for a fairlead that has moved a little since `last`. What `last` holds
@@ -88,8 +88,14 @@ impl Segment {
     ///
     /// # Errors
     /// Those of [`Segment::solve_end_forces`].
-    pub fn solve_warm_start(&self, x: f64, z: f64, bottom: Option<FlatBottom>, last: &EndForces) -> Result<EndForces, LineError> {
-        super::follow::solve_warm_start(self, x, z, bottom, last)
+    pub fn solve_warm_start(
+        &self,
+        x: f64,
+        z: f64,
+        bottom: Option<FlatBottom>,
+        last: &EndForces,
+    ) -> Result<EndForces, LineError> {
+        super::end_forces_warm::solve_warm_start(self, x, z, bottom, last)
     }
 
     /// The same segment upside down: a buoyant one for a heavy one.

@@ -12,7 +12,7 @@
 use super::active_set::ActiveSet;
 use super::contact_problem::ContactProblem;
 use super::element::LinePiece;
-use super::refused::LineError;
+use super::error::LineError;
 use super::segment::SpanReach;
 
 /// What pulls at a joint.

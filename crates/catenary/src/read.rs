@@ -1,9 +1,9 @@
 //! What a rested chain means: the state of the line, proven.
 
 use super::element::{LinePiece, stretch};
+use super::error::LineError;
 use super::line::{Joint, Line, Segment};
 use super::multi_segment::{JointStatus, LineSolution, SegmentSolution};
-use super::refused::LineError;
 use super::segment::hanging;
 use super::solve::RESIDUAL_TOLERANCE;
 use super::state::{Buoy, JointState, LineState, SegmentState};

@@ -1,10 +1,10 @@
 //! The configuration of a whole line: at a given horizontal force or tension, or between two given ends.
 
 use super::element::LinePiece;
+use super::error::LineError;
 use super::layout;
 use super::line::{Line, MAX_MAGNITUDE};
 use super::multi_segment::{LineSolution, MultiSegmentLine};
-use super::refused::LineError;
 use super::search::{FunctionPoint, rising_root};
 use super::state::LineState;
 

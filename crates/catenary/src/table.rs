@@ -3,8 +3,8 @@
 //! Source: [W-TABLE]: H_n = T (n/29)^2, n = 0..29, with T the table limit or the largest break
 //! of all segments; row 0 uses 1.4e-4 T in place of zero.
 
+use super::error::LineError;
 use super::line::Line;
-use super::refused::LineError;
 use super::state::LineState;
 
 /// Number of rows.

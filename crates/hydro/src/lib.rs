@@ -17,16 +17,15 @@
 mod ambient;
 pub mod area;
 mod body_load;
+mod body_loads;
 mod buoyancy;
 pub mod coefficients;
 pub mod current;
 pub mod database;
 pub mod drag;
 pub mod drift;
-pub mod exposed;
-mod gathered;
-pub mod grown;
 pub mod growth;
+pub mod growth_loads;
 pub mod gusts;
 pub mod heading;
 pub mod hull;
@@ -44,6 +43,7 @@ pub mod spectrum;
 pub mod steady;
 pub mod stream;
 pub mod strips;
+pub mod surface_integrals;
 pub mod variation;
 mod weight;
 pub mod wind;
@@ -265,9 +265,9 @@ impl Floating {
         }
         loads.extend(hull.map(|hull| Box::new(hull) as Box<dyn BodyLoad>));
         loads.extend(linear::build_linear_buoyancy(body));
-        let gathered = gathered::gather_loads(model, body, under_way)?;
+        let gathered = body_loads::gather_loads(model, body, under_way)?;
         loads.extend(gathered.loads);
-        let grown = grown::build_growth_loads(model, body)?;
+        let grown = growth_loads::build_growth_loads(model, body)?;
         loads.extend(grown.loads);
         let (members, of_members) = morison::build_members(model, body, under_way)?;
         loads.extend(members.map(|load| Box::new(load) as Box<dyn BodyLoad>));

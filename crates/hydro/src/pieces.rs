@@ -15,13 +15,13 @@
 //! the centroids do. At rest in the mean stream nothing is added; in a uniform stream all of it is exact.
 
 use super::buoyancy::{TUBE_PRISM_SIDES, skin};
-use super::exposed::{Skin, SurfaceIntegrals};
-use super::grown;
 use super::growth::Growth;
+use super::growth_loads;
 use super::hull::TubeHull;
 use super::steady::{Medium, Steady};
 use super::stream::category;
 use super::strips::Strips;
+use super::surface_integrals::{Skin, SurfaceIntegrals};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
 use nalgebra::{Matrix3, Matrix6, RowVector6, SVector, Vector3, Vector6};
 use std::sync::Arc;
@@ -107,7 +107,7 @@ pub fn build_piece_load(
     let surface = match (growth, piece.shape.moved_by(&part.place)) {
         (Some((growth, pose)), Shape::Tube { ends, diameter }) => {
             let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
-            tube.with_diameters(&grown::stations(growth, pose, tube.ends, diameter), TUBE_PRISM_SIDES)
+            tube.with_diameters(&growth_loads::stations(growth, pose, tube.ends, diameter), TUBE_PRISM_SIDES)
         }
         _ => skin(part, piece)?,
     };

@@ -2,7 +2,7 @@
 
 use super::equilibrium::is_unstable;
 use super::modes::{SystemMode, modes};
-use super::settle::EquilibriumResult;
+use super::rebuild::EquilibriumResult;
 use super::system::{Contribution, DOFS, SolveError, System, SystemState};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::geometry::{Place, Position};

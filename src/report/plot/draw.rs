@@ -205,7 +205,9 @@ fn curve<B: DrawingBackend>(
     for points in series.runs() {
         plane.draw_series(LineSeries::new(points.clone(), colour.stroke_width(stroke))).map_err(to_plot_error)?;
         if points.len() == 1 || (points_too && !look.terminal) {
-            plane.draw_series(points.iter().map(|p| Circle::new(*p, radius, colour.filled()))).map_err(to_plot_error)?;
+            plane
+                .draw_series(points.iter().map(|p| Circle::new(*p, radius, colour.filled())))
+                .map_err(to_plot_error)?;
         }
     }
     Ok(())
@@ -248,7 +250,8 @@ fn legend<B: DrawingBackend>(
         }
         if marks || shows_points(chart, series) {
             let radius = if marks { MARK_RADII.1 } else { MARK_RADII.0 };
-            area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), radius, colour(index).filled())).map_err(to_plot_error)?;
+            area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), radius, colour(index).filled()))
+                .map_err(to_plot_error)?;
         }
         let at = (left + 20 + LEGEND.1, y - 8);
         area.draw(&Text::new(series.legend_name(), at, ("sans-serif", 15))).map_err(to_plot_error)?;

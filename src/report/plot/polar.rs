@@ -81,7 +81,9 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
         let (upper, lower) = area.split_vertically(height.saturating_sub(FOOTER_HEIGHT));
         let (width, _) = lower.dim_in_pixel();
         let middle = i32::try_from(width / 2).unwrap_or(0);
-        lower.draw(&Text::new(chart.x_label.clone(), (middle, 8), centred_style(look, VPos::Top))).map_err(to_plot_error)?;
+        lower
+            .draw(&Text::new(chart.x_label.clone(), (middle, 8), centred_style(look, VPos::Top)))
+            .map_err(to_plot_error)?;
         upper.titled(&chart.title, ("sans-serif", 22)).map_err(to_plot_error)?
     };
     let (width, height) = upper.dim_in_pixel();
@@ -103,7 +105,9 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
             plane.draw_series(dots).map_err(to_plot_error)?;
         } else {
             let circle: Vec<(f64, f64)> = (0..=360).step_by(3).map(|d| at(d, *ring)).collect();
-            plane.draw_series(std::iter::once(PathElement::new(circle, grey.stroke_width(1)))).map_err(to_plot_error)?;
+            plane
+                .draw_series(std::iter::once(PathElement::new(circle, grey.stroke_width(1))))
+                .map_err(to_plot_error)?;
         }
     }
     let every = if look.terminal { RAYS.1 } else { RAYS.0 };

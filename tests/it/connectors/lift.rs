@@ -9,7 +9,7 @@ use crate::common;
 use windlass::session::Session;
 use windlass_base::diagnostic::Severity;
 use windlass_model::{End, Model, Situation};
-use windlass_solve::{Options, settle};
+use windlass_solve::{Options, find_equilibrium_with_rebuilds};
 
 /// AE of 100 mm of the default steel (N).
 const EA: f64 = 29000.0 * 6894757.293168361 * std::f64::consts::FRAC_PI_4 * 0.01;

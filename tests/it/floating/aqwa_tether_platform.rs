@@ -5,7 +5,7 @@ use crate::common;
 use std::f64::consts::PI;
 use windlass_base::geometry::Place;
 use windlass_model::Model;
-use windlass_solve::{Options, modes, settle};
+use windlass_solve::{Options, find_equilibrium_with_rebuilds, modes};
 
 const G: f64 = 9.81;
 const MASS: f64 = 268.8e6;

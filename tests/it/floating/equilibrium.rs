@@ -5,7 +5,7 @@ use crate::common;
 use windlass::session::Session;
 use windlass_base::span::Span;
 use windlass_model::{Model, Weight};
-use windlass_solve::{Options, SolveError, System, modes, settle};
+use windlass_solve::{Options, SolveError, System, find_equilibrium_with_rebuilds, modes};
 
 /// The model that records make, in metres and newtons; each `weights` is one of the body's own part.
 fn model(records: &str, weights: &[(&str, [f64; 3], f64, [f64; 3])]) -> Model {

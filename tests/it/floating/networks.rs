@@ -12,7 +12,7 @@ use crate::common;
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::pose::Pose;
 use windlass_model::{LinearHydrostatics, Model};
-use windlass_solve::{Options, modes, settle};
+use windlass_solve::{Options, find_equilibrium_with_rebuilds, modes};
 
 /// A line by itself.
 #[derive(Clone, Copy, Debug)]
@@ -337,7 +337,8 @@ fn random_networks_rest_where_catenaries_in_closed_form_balance() {
                 if modes(&found.system, &found.state).unwrap().iter().all(|m| m.eigenvalue > -1e-6) {
                     (allowed, stable) = (TOLERANCE, stable + 1);
                     let fine = Options { most: 200, tolerance: [TOLERANCE; 2], ..Options::default() };
-                    refused.extend(find_equilibrium_with_rebuilds(&mut model, &fine).err().map(|error| (number, error)));
+                    refused
+                        .extend(find_equilibrium_with_rebuilds(&mut model, &fine).err().map(|error| (number, error)));
                 }
             }
             Err(error) => refused.push((number, error)),

@@ -11,7 +11,7 @@ use windlass_model::{
     ClassError, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess, Situation,
     Surroundings,
 };
-use windlass_solve::{Options, settle};
+use windlass_solve::{Options, find_equilibrium_with_rebuilds};
 
 /// A rope that stiffens without bound: at a stretch d it pulls by k d/(1 - d/LIMIT), and beyond LIMIT it has no answer.
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::hull::{Solid, TubeHull};
 use windlass_hydro::sea::{Component, Sea, Water};
-use windlass_hydro::{BodyLoad, Category, Floating, Underway, grown};
+use windlass_hydro::{BodyLoad, Category, Floating, Underway, growth_loads};
 use windlass_model::{Model, Stretching};
 use windlass_solve::time::RunSettings;
 
@@ -66,7 +66,7 @@ fn drag(model: &Model) -> Six {
 /// Added mass without the growth's own.
 fn added(model: &Model) -> Matrix6<f64> {
     let body = &model.bodies["B"];
-    Floating::at_rest(model, body).unwrap().added_mass - grown::build_growth_loads(model, body).unwrap().mass
+    Floating::at_rest(model, body).unwrap().added_mass - growth_loads::build_growth_loads(model, body).unwrap().mass
 }
 
 const PILE: &str = "-CD 0.8 -CDA 0.03 -CA 0.9 -CAA 0.6";

@@ -7,7 +7,7 @@ use crate::common::run as runs;
 use runs::{model, run, settings, trapezoidal};
 use windlass_model::Model;
 use windlass_solve::time::{Convergence, Run, RunSettings};
-use windlass_solve::{Options, settle};
+use windlass_solve::{Options, find_equilibrium_with_rebuilds};
 
 const G: f64 = 9.80665;
 

@@ -3,8 +3,8 @@
 use super::{LaidLine, LineLayout, Manner, Top};
 use crate::dual::Var;
 use crate::element::LinePiece;
+use crate::error::LineError;
 use crate::line::Line;
-use crate::refused::LineError;
 use crate::search::{FunctionPoint, rising_root};
 use crate::state::{Heap, LineState};
 

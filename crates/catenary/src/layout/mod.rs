@@ -33,10 +33,10 @@ pub(super) use states::point;
 
 use super::dual::Var;
 use super::element::{LinePiece, spring_reach, strain, stretch};
+use super::error::LineError;
 use super::line::Line;
 use super::multi_segment::JointPull;
 use super::profile::{SeabedProfile, Tilt};
-use super::refused::LineError;
 use super::state::Heap;
 use path::{LaidPath, PathEnd, Spare};
 use span::{Candidate, TouchKind};

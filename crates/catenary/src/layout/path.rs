@@ -440,7 +440,8 @@ impl LineLayout<'_> {
             }
             PathPieceKind::Slide { from } => Departure { point: from, face: None, piece: index, unknown },
             PathPieceKind::Heap { from, length, .. } => {
-                let cursor = Cursor { at: from, face: self.bottom.face(from.u.value), tension: Var::constant(self.least) };
+                let cursor =
+                    Cursor { at: from, face: self.bottom.face(from.u.value), tension: Var::constant(self.least) };
                 let weight = self.elements[from.element].weight_per_length();
                 if weight <= 0.0 {
                     return self.departure(cursor, (index, unknown));

@@ -4,8 +4,8 @@ use super::path::Spare;
 use super::{JointAt, LaidLine, LineLayout, LinePoint, Manner, PieceStretch, SpanStart, Top};
 use crate::dual::{SPAN_UNKNOWN, Var};
 use crate::element::{LinePiece, strain, stretch};
+use crate::error::LineError;
 use crate::line::Segment;
-use crate::refused::LineError;
 use crate::stretch_law::StretchLaw;
 
 /// What a curve may touch.

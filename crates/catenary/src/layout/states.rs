@@ -3,8 +3,8 @@
 use super::{LaidLine, LineLayout, Manner, PieceStretch};
 use crate::dual::Var;
 use crate::element::{LinePiece, mean_strain, stretch};
+use crate::error::LineError;
 use crate::line::{Joint, Segment};
-use crate::refused::LineError;
 use crate::shape::ShapePoint;
 use crate::solve::RESIDUAL_TOLERANCE;
 use crate::state::{Buoy, JointState, LineState, SegmentState};

@@ -4,12 +4,13 @@
 //! along itself, and is held at its ends by bodies or the ground; what is between its ends is solved and condensed here.
 
 mod answer;
+mod build;
 mod describe;
 mod element;
 mod environment;
-mod made;
 mod mesh;
 mod modes;
+mod node_output;
 mod pipelay;
 mod pipelay_supports;
 mod sections;
@@ -17,7 +18,6 @@ mod solver_cache;
 mod start;
 mod state_layout;
 mod static_start;
-mod tell;
 
 pub use describe::{EndFixity, JointMass, LineDescription, LinePart, Seabed, Strength};
 pub use element::DynamicLine;

@@ -84,7 +84,7 @@ impl LinearMotion {
 
     /// From a rate of rotation (global axes) to rates of small rotations about the axes of the heading.
     fn rates(state: &[f64]) -> Matrix3<f64> {
-        Matrix3::from_column_slice(&state[RATES_STATE..ADDED])
+        Matrix3::from_column_slice(&state[RATES_STATE..ADDED_STATE])
     }
 
     /// The rates of the place and of small rotations, in axes of the heading.
@@ -304,7 +304,7 @@ pub fn gather_database_loads(
     }
     let loads = loads.into_iter().map(|load| {
         let factor = model.multipliers.of(load.category().name(), &body.name);
-        if factor == 1.0 { load } else { crate::gathered::scale_load(load, factor) }
+        if factor == 1.0 { load } else { crate::body_loads::scale_load(load, factor) }
     });
     Ok(Some(DatabaseLoads { loads: loads.chain(carried).collect(), added_mass }))
 }

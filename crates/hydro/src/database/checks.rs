@@ -149,7 +149,7 @@ pub(super) fn gaps(headings: &[f64]) -> Option<String> {
     let first = *headings.first()?;
     let next = headings.iter().skip(1).copied().chain([first + TAU]);
     let (from, to) = headings.iter().copied().zip(next).max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
-    (to - from > super::at::WIDEST_GAP).then(|| {
+    (to - from > super::interpolation::WIDEST_GAP).then(|| {
         format!(
             "{HEADING_GAP_REMARK} of {:.0} degrees: waves toward {:.0} to {:.0} in the body are refused",
             (to - from).to_degrees(),

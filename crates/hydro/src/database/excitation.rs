@@ -6,7 +6,7 @@
 //!
 //! [`low_frequency`]: crate::low_frequency
 
-use super::at::DatabaseLookup;
+use super::interpolation::DatabaseLookup;
 use super::waves::{WaveGroup, WaveTable, groups};
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::low_frequency::{LowFrequency, Slow, dividing_period_of};

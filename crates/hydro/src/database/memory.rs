@@ -39,9 +39,9 @@ struct DirectionPair {
     weights: Vec<f64>,
 }
 
-impl Pair {
+impl DirectionPair {
     /// The weights from a number on; beyond the kernel nothing is left.
-    fn behind(&self, from: usize) -> &[f64] {
+    fn weights_from(&self, from: usize) -> &[f64] {
         self.weights.get(from..).unwrap_or_default()
     }
 }
@@ -208,7 +208,7 @@ impl RetardationMemory {
         // the weight of a lag of n steps is number n - 1
         if (place - whole).abs() < EQUAL_TIMES_SHARE {
             for pair in &self.pairs {
-                past[pair.row] += dot(pair.behind(whole as usize), slice(pair));
+                past[pair.row] += dot(pair.weights_from(whole as usize), slice(pair));
             }
             return;
         }
@@ -235,7 +235,7 @@ impl RetardationMemory {
             let velocities = &slice(pair)[direct..];
             for (n, factor) in cubic.into_iter().enumerate() {
                 let from = (whole + direct + n).saturating_sub(1);
-                past[pair.row] += factor * dot(pair.behind(from), velocities);
+                past[pair.row] += factor * dot(pair.weights_from(from), velocities);
             }
         }
     }

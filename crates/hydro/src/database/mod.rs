@@ -3,11 +3,11 @@
 //! The data and its conventions are [`Database`] of the model. Sources are read by [`wamit`], [`nemoh`], [`capytaine`] and [`rao`]; [`at`]
 //! interpolates; [`radiation`], [`excitation`] and [`slow_drift`] make the loads on a body, which [`attached`] puts together.
 
-pub mod at;
 pub mod attached;
 pub mod capytaine;
 pub mod checks;
 pub mod excitation;
+pub mod interpolation;
 mod matrices;
 pub mod memory;
 pub mod nemoh;
@@ -21,7 +21,7 @@ pub mod wamit;
 mod wamit_qtf;
 mod waves;
 
-pub use at::{DatabaseLookup, drift_at};
+pub use interpolation::{DatabaseLookup, drift_at};
 pub use rows::{DatabaseError, SourceFile};
 pub use slow_drift::mean_drift;
 pub use symmetry::mirror_headings;

@@ -3,7 +3,7 @@
 //! [CUMMINS-1962]: `F = -A_inf a - int_0^inf K(s) v(t - s) ds`. [OGILVIE-1964]:
 //! `K(t) = 2/pi int_0^inf B(w) cos(w t) dw`, `A_inf = A(w) + 1/w int_0^inf K(t) sin(w t) dt`.
 
-use super::at::moved_matrix;
+use super::interpolation::moved_matrix;
 use nalgebra::Matrix6;
 use std::f64::consts::PI;
 use windlass_model::{ClassError, Database};

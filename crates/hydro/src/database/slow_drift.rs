@@ -11,9 +11,9 @@
 //! The place and heading are those that the body has, first-order motion included: a force of second order changes with that in the third order
 //! only. A heading that lags would take damping from a body that drift turns back.
 
-use super::at::drift_at;
-use super::at::{bracket_frequency, bracket_heading};
 use super::excitation::{load_from_state, rotate_about_z, yaw};
+use super::interpolation::drift_at;
+use super::interpolation::{bracket_frequency, bracket_heading};
 use super::waves::{LANES, WaveGroup, WaveTable, groups};
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::sea::Sea;

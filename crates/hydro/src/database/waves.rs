@@ -4,8 +4,8 @@
 //! widths of vector register and the machine takes the widest that it has (multiversion); no product is contracted with its sum, so
 //! that the digits are the same on all of them.
 
-use super::at::bracket_heading;
 use super::checks::MAX_DATABASE_NUMBERS;
+use super::interpolation::bracket_heading;
 use crate::sea::Sea;
 use multiversion::multiversion;
 use std::f64::consts::FRAC_2_PI;

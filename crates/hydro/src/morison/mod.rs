@@ -31,8 +31,8 @@ mod added;
 mod member;
 mod under_way;
 
-use super::grown;
 use super::growth::Growth;
+use super::growth_loads;
 use super::hull::TubeHull;
 use super::low_frequency::{SlowWrench, dividing_period};
 use super::sea::Sea;
@@ -144,7 +144,7 @@ fn rods(
     let own_waves = if piece.waves == WaveAction::Database { 0.0 } else { 1.0 };
     let lengths = growth.map_or_else(
         || vec![Length { ends: [0.0, 1.0], diameter: bare }],
-        |(growth, pose)| lengths(&grown::stations(growth, pose, ends, bare), bare),
+        |(growth, pose)| lengths(&growth_loads::stations(growth, pose, ends, bare), bare),
     );
     let last = lengths.len().saturating_sub(1);
     let made = lengths.iter().enumerate().map(|(n, Length { ends: [start, end], diameter })| {

@@ -123,7 +123,8 @@ impl UnderWay {
         stations.fill(0.0);
         let (mut wave, mut mass) = (Six::zeros(), Matrix6::zeros());
         for rod in rods {
-            let sizes = (STATES_PER_SEGMENT * rod.segments.len(), STATES_PER_STATION * rod.most_stations(self.kinks.len()));
+            let sizes =
+                (STATES_PER_SEGMENT * rod.segments.len(), STATES_PER_STATION * rod.most_stations(self.kinks.len()));
             let (own, others) = segments.split_at_mut(sizes.0);
             let (slots, more) = stations.split_at_mut(sizes.1);
             wave += self.member(&water, (rod, &rod.standing(ahead.pose)), (own, slots), &mut mass) * rod.factor;

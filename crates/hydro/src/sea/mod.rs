@@ -10,18 +10,18 @@ pub mod dispersion;
 pub mod eight;
 mod far_down;
 mod grid;
-mod made;
 pub mod phases;
 pub mod spectra;
 pub mod spreading;
 pub mod stokes;
+mod synthesis;
 
 use nalgebra::Vector3;
 use windlass_model::Stretching;
 
 pub use airy::{Prepared, SeaAt};
 pub use grid::{FilledGrid, PressureGrid};
-pub use made::EnvironmentSea;
+pub use synthesis::EnvironmentSea;
 
 /// One wave of the sea.
 #[derive(Clone, Copy, Debug, PartialEq)]

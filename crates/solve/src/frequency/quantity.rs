@@ -88,7 +88,9 @@ impl LinearQuantity {
         let step = Some(TimeStep { time: 0.0, dt: 1.0 });
         for (step, out) in [(None, &mut rest), (step, &mut under_way)] {
             let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
-            link.element.evaluate(&at, committed, &mut trial, &mut None, out).map_err(SolveError::error_about(&link.name))?;
+            link.element
+                .evaluate(&at, committed, &mut trial, &mut None, out)
+                .map_err(SolveError::error_about(&link.name))?;
         }
         let size = 6 * system.nodes.len();
         let count = link.ends.len();

@@ -69,7 +69,9 @@ pub fn respond(
     let resonant = resonances(linear)?;
     let mut made = response_within_memory(linear, trains, asked, &resonant)?;
     if asked.spectral {
-        made.rounds = linearise::linearise_to_convergence(linear, &mut made, |l| response_within_memory(l, trains, asked, &resonant))?;
+        made.rounds = linearise::linearise_to_convergence(linear, &mut made, |l| {
+            response_within_memory(l, trains, asked, &resonant)
+        })?;
     }
     Ok(made)
 }

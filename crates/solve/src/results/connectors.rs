@@ -3,7 +3,7 @@
 use super::super::system::SolveError;
 use super::super::time::{RowLayout, Run};
 use super::forces::{add, no_wrench, wrench_columns};
-use super::settled::{SettledConnector, Settling};
+use super::rest_state::{SettledConnector, Settling};
 use super::{EventTable, Magnitude, RunEvent, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;

@@ -15,12 +15,13 @@ pub(super) fn wrench_columns<T>(
     magnitude: Magnitude,
     wrench: impl Fn(&T) -> [Vector3<f64>; 2],
 ) -> EventTable<T> {
-    table.columns(group, ["FX", "FY", "FZ", "F Mag."], Dim::Force, |row| magnitude.components_and_magnitude(&wrench(row)[0])).columns(
-        group,
-        ["MX", "MY", "MZ", "M Mag."],
-        Dim::Moment,
-        |row| magnitude.components_and_magnitude(&wrench(row)[1]),
-    )
+    table
+        .columns(group, ["FX", "FY", "FZ", "F Mag."], Dim::Force, |row| {
+            magnitude.components_and_magnitude(&wrench(row)[0])
+        })
+        .columns(group, ["MX", "MY", "MZ", "M Mag."], Dim::Moment, |row| {
+            magnitude.components_and_magnitude(&wrench(row)[1])
+        })
 }
 
 /// A force and a moment without numbers.

@@ -11,7 +11,7 @@ mod fenders;
 mod forces;
 mod motions;
 mod points;
-mod settled;
+mod rest_state;
 
 pub use connectors::{connector_forces, lengths, magnitudes, total_forces};
 pub use events::{EventWindow, RunEvent, events};

@@ -1,8 +1,8 @@
 //! What happens on the way of a run: conditions are looked at behind every step, which is cut where one comes true, connectors come and go, lengths change.
 
 use super::action::{ActionKind, Observable, Trigger, point_in_body};
+use super::compression::pull;
 use super::ends::end_of;
-use super::pushing::pull;
 use super::run::Run;
 use crate::link::EndAttachment;
 use crate::system::SolveError;

@@ -4,9 +4,9 @@
 //! pull on the anchor, share of the break) follows from these when it is asked for.
 
 use super::along::AlongColumns;
+use super::compression::Pushing;
 use super::ends::end_of;
 use super::forces::{BodyForces, BodyMotion, CATEGORY_COUNT, place_of};
-use super::pushing::Pushing;
 use crate::link::{EndAttachment, Link};
 use crate::system::{SolveError, System, SystemBody};
 use nalgebra::Vector3;

@@ -1,7 +1,7 @@
 //! The results a run is judged by, and their statistics as it goes, in flat memory.
 
+use super::compression::Pushing;
 use super::history::RowLayout;
-use super::pushing::Pushing;
 use crate::system::DOFS;
 use nalgebra::Vector3;
 use windlass_base::units::Dim;

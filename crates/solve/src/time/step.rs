@@ -162,7 +162,8 @@ impl Stepper {
             now.motions[at / 6].acceleration[at % 6] = solved[i];
         }
         if !now.forces.ties.is_empty() {
-            let accelerations: Vec<Six> = now.motions.iter().map(|m| m.acceleration * TIE_SETTLING_TIME_SQUARED).collect();
+            let accelerations: Vec<Six> =
+                now.motions.iter().map(|m| m.acceleration * TIE_SETTLING_TIME_SQUARED).collect();
             let ties = now.forces.ties.predict(&|body| accelerations[body]);
             now.forces.ties.forces = ties;
             now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;

@@ -8,7 +8,7 @@ use super::super::line::TetherElement;
 use super::Towed;
 use super::scheme::TowedState;
 use super::water::{TowedFlow, Turn, Waters};
-use super::wetted::{Scan, Wetness, Wetted};
+use super::wet_section::{Scan, Wetness, Wetted};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 

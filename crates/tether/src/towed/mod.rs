@@ -17,7 +17,7 @@ pub mod loads;
 pub mod run;
 pub mod scheme;
 pub mod water;
-pub mod wetted;
+pub mod wet_section;
 
 use super::banded::Banded;
 use super::beam::{self, Matrix4};
@@ -29,7 +29,7 @@ use windlass_model::ClassError;
 
 pub use compatibility::TowedCompatibility;
 pub use run::{TowedHistory, TowedObserver, TowedRecord, TowedSteps};
-use wetted::Wetted;
+use wet_section::Wetted;
 
 /// More waves than this are refused: memory goes with them times the elements.
 pub const MAX_WAVES: usize = 10_000;

@@ -10,8 +10,8 @@
 //!
 //! End springs are at rest where the tether is vertical at the anchor, and upright in the structure at its other end.
 
+mod constraints;
 mod ends;
-mod held;
 
 use super::axis::{AxisAttachment, TetherAxis, tilt};
 use super::tension::{TensionModel, TetherTension};
@@ -19,7 +19,7 @@ use super::tether::{InstalledTether, NodeConstraint, RIGID_STIFFNESS};
 use crate::banded::{Banded, BandedFactors};
 use crate::beam::{self, Vector4};
 use crate::structure::flow::FlowAt;
-use held::DofConstraint;
+use constraints::DofConstraint;
 use nalgebra::Vector3;
 use windlass_model::ClassError;
 

@@ -8,9 +8,9 @@
 
 use super::element::{LinePiece, vertical_of_contact};
 use super::end_forces::{EndForces, FlatBottom, Regime};
+use super::error::LineError;
 use super::line::{MAX_MAGNITUDE, Segment};
 use super::multi_segment::MultiSegmentLine;
-use super::refused::LineError;
 use super::search::{FunctionPoint, rising_root};
 use super::segment::{SpanReach, hanging, lifted_reach};
 
@@ -45,7 +45,12 @@ pub(super) fn check(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom
 }
 
 /// The forces without an answer to begin with, for numbers that were checked.
-pub(super) fn solve_cold_start(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<EndForces, LineError> {
+pub(super) fn solve_cold_start(
+    segment: &Segment,
+    x: f64,
+    z: f64,
+    bottom: Option<FlatBottom>,
+) -> Result<EndForces, LineError> {
     if segment.weight < 0.0 {
         // a buoyant line is a heavy one upside down; arched between ends above the bottom it never touches it
         return solve_suspended(&segment.upside_down(), x, -z).map(EndForces::upside_down);

@@ -4,10 +4,12 @@
 //! one or two Newton steps are left. Wherever that does not lead to a proven answer at once, or leads so near another
 //! regime that rounding decides, the search of [`Segment::solve_end_forces`] answers as if nothing were known.
 
-use super::between::{RESIDUAL_TOLERANCE, check, solve_cold_start, in_contact, newton_change, prove, prove_contact};
 use super::end_forces::{EndForces, FlatBottom, Regime};
+use super::end_forces_cold::{
+    RESIDUAL_TOLERANCE, check, in_contact, newton_change, prove, prove_contact, solve_cold_start,
+};
+use super::error::LineError;
 use super::line::Segment;
-use super::refused::LineError;
 use super::segment::{SpanReach, hanging};
 
 /// Evaluations of the line after which the cold search takes over.

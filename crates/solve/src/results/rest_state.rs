@@ -82,7 +82,9 @@ impl<'a> Settling<'a> {
         let [_, far] = self.ends;
         let (mut vertical, mut horizontal) = (f64::NAN, f64::NAN);
         if told.tension.is_some() && matches!(far, EndAttachment::Ground(_)) {
-            self.element.wrenches(&at, &[], &mut self.guess, &mut self.wrenches).map_err(SolveError::error_about(name))?;
+            self.element
+                .wrenches(&at, &[], &mut self.guess, &mut self.wrenches)
+                .map_err(SolveError::error_about(name))?;
             if let Some(pull) = self.wrenches.get(1) {
                 (vertical, horizontal) = (pull[2], pull[0].hypot(pull[1]));
             }
