@@ -108,8 +108,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let Some(mut made) = job.model.connectors.get(&key).cloned() else { continue };
             let text = change(&job.model, &mut made, given, &mut said).map_err(|error| {
                 let elsewhere = error.span.is_some();
-                let message = format!("connector {}: {}", made.name, error.message);
-                let error = ClassError { message, ..error }.diagnostic(given.span, units);
+                let error = error.about(format!("connector {}", made.name)).diagnostic(given.span, units);
                 if elsewhere { error.other(given.span, "asked for here") } else { error }
             })?;
             said.lines.push(format!("connector {}: {text}", made.name));

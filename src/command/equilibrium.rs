@@ -103,7 +103,7 @@ pub(super) fn told(wrong: SolveError, model: &Model, span: Span, units: UnitSyst
     let SolveError { who, mut error } = wrong;
     if let Some(who) = who {
         let what = if model.bodies.contains_key(&Model::key(&who)) { "body" } else { "connector" };
-        error.message = format!("{what} {who}: {}", error.message);
+        error.message = error.message.about(format!("{what} {who}"));
     }
     error.diagnostic(span, units)
 }

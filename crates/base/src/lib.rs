@@ -21,6 +21,7 @@
 pub mod dense;
 pub mod diagnostic;
 pub mod geometry;
+pub mod message;
 pub mod pose;
 pub mod printable;
 pub mod span;

@@ -4,7 +4,7 @@ use super::mooring::Mooring;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_catenary::{Buoy, JointState, MissingRow, TableRow};
-use windlass_model::QUASI_STATIC;
+use windlass_model::{Note, QUASI_STATIC};
 
 /// The twelve columns of TABLE [MOSES-RUNS con_d]; a row without a configuration has its force alone.
 pub fn report(mooring: &Mooring, connector: &str, found: &[TableRow], missing: &[MissingRow]) -> Table {
@@ -48,7 +48,7 @@ pub fn report(mooring: &Mooring, connector: &str, found: &[TableRow], missing: &
     let buoy = |row: &Option<&TableRow>| row.and_then(|r| r.state.joints.iter().find_map(|j| j.buoy));
     let states: Vec<Option<Buoy>> = rows.iter().map(buoy).collect();
     out.notes.extend(buoy_notes(&states));
-    out.notes.extend(mooring.notes.iter().map(|n| n.to_string()));
+    out.notes.extend(mooring.notes.iter().map(Note::without_values));
     if rows.iter().any(is(|r| !r.state.below_bottom.is_empty())) {
         out.note("warning: a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
     }

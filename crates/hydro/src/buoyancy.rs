@@ -180,7 +180,7 @@ fn summarise_faults(name: &str, faults: &[Fault]) -> Vec<PieceFault> {
             .map(|fault| {
                 let mut error = sentence(name, fault);
                 if more > 0 {
-                    error.message.push_str(&format!("; and {more} more such faults"));
+                    error.message = error.message.then(format!("; and {more} more such faults"));
                 }
                 PieceFault { error, fatal, remark: false }
             })

@@ -106,8 +106,7 @@ impl Bathymetry {
                     "the first place without a height is x = {}, y = {}",
                     &[length(x), length(y)],
                 );
-                error.message = format!("{}; {}", error.message, told.message);
-                error.values = told.values;
+                error.message = error.message.then("; ").then(told.message);
             }
             return Err(error.with_span(span).help("every x has a point at every y"));
         }

@@ -7,15 +7,15 @@ use super::element::{Connection, Element};
 use super::environment::Surroundings;
 use super::fatigue::FatigueSegment;
 use super::line::{LineModel, Placement};
-use super::note::in_eight_figures;
 use super::tether::TetherSection;
 use crate::options::{C_SN, EI, EMODULUS, FYIELD, IG_STIFF, POI_RAT, TENSTR};
 use std::fmt::Debug;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::message::Message;
 use windlass_base::span::Span;
 use windlass_base::table::Table;
-use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
+use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem, eight_figures};
 use windlass_base::values::Args;
 
 /// One record of a class: SI values with their places, and the defaults in force when it was read.
@@ -118,10 +118,8 @@ impl Class {
 /// Why a class could not answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClassError {
-    /// One sentence for the user; `{}` stands for each of the values.
-    pub message: String,
-    /// Values in SI with what they measure: printed in the user's units.
-    pub values: Vec<(f64, Dim)>,
+    /// One sentence for the user.
+    pub message: Message,
     /// The record or value it is about, where one can be named.
     pub span: Option<Span>,
     /// What to change.
@@ -142,18 +140,23 @@ impl std::error::Error for ClassError {}
 
 impl ClassError {
     /// An error with a message alone.
-    pub fn new(message: impl Into<String>) -> Self {
-        ClassError { message: message.into(), values: Vec::new(), span: None, help: Vec::new(), lasting: false }
+    pub fn new(message: impl Into<Message>) -> Self {
+        ClassError { message: message.into(), span: None, help: Vec::new(), lasting: false }
     }
 
     /// An error that names values: `{}` in the message stands for each.
-    pub fn with_values(message: impl Into<String>, values: &[(f64, Dim)]) -> Self {
-        ClassError { values: values.to_vec(), ..ClassError::new(message) }
+    pub fn with_values(message: impl AsRef<str>, values: &[(f64, Dim)]) -> Self {
+        ClassError::new(Message::with_values(message, values))
     }
 
     /// The sentence with its values in these units.
     pub fn text(&self, units: UnitSystem) -> String {
-        in_eight_figures(&self.message, &self.values, units)
+        self.message.text(units, eight_figures)
+    }
+
+    /// The same about a subject: `subject: sentence`.
+    pub fn about(self, subject: impl Into<Message>) -> Self {
+        ClassError { message: self.message.about(subject), ..self }
     }
 
     /// The same at a place.

@@ -25,7 +25,7 @@ impl System {
         let name = self.nodes.get(body).map(|n| n.name.clone()).unwrap_or_default();
         let text = format!("it sinks: {{}} below where it began connector {} has no answer", link.name);
         let made = ClassError::with_values(text, &[(depth, Dim::Length)])
-            .help(format!("connector {}: {}", link.name, error.error.message.replace("{}", "..")))
+            .help(format!("connector {}: {}", link.name, error.error.message.without_values()))
             .help(format!("nothing carries its weight: see the weight, hull and lines of {name}, and where it begins"));
         SolveError { who: Some(name), error: ClassError { lasting: error.error.lasting, ..made } }
     }

@@ -149,7 +149,7 @@ fn a_run_that_goes_on_has_the_nodes_of_an_unbroken_one() {
 fn rows_that_would_not_fit_in_memory_are_refused_before_the_run() {
     let model = model(&chain(100, ""));
     let refused = Run::new(&model, settings(1e6, 0.01), Vec::new()).unwrap_err().error;
-    assert!(refused.message.contains("GB of memory") && refused.help[0].contains("-STORE"), "{refused:?}");
+    assert!(refused.to_string().contains("GB of memory") && refused.help[0].contains("-STORE"), "{refused:?}");
     assert!(Run::new(&model, RunSettings { keep: false, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
     assert!(Run::new(&model, RunSettings { store: 1000, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
 }

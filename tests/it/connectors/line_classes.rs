@@ -263,7 +263,7 @@ fn beyond_the_table_the_force_goes_on_straight_and_that_is_said() {
     let last = |column: usize| rows.row(29)[column].number().unwrap();
     let got = loads(TABLED, at(last(0) + 2.0));
     near(got.fairlead[0], last(1) + 2.0 * last(2), 1e-9);
-    assert!(got.notes.iter().any(|n| n.contains("beyond the table")), "{:?}", got.notes);
+    assert!(got.notes.iter().any(|n| n.without_values().contains("beyond the table")), "{:?}", got.notes);
 }
 
 #[test]
@@ -273,7 +273,7 @@ fn nearer_than_its_first_row_a_tabled_line_is_solved_exactly() {
         let (got, want) = (loads(TABLED, at(x)), loads(&exact, at(x)));
         assert_eq!((got.fairlead, got.grounded), (want.fairlead, want.grounded));
         assert!(got.fairlead[2] < 0.0 && got.grounded < 1500.0, "{got:?}");
-        assert!(got.notes.iter().any(|n| n.contains("solved exactly")), "{:?}", got.notes);
+        assert!(got.notes.iter().any(|n| n.without_values().contains("solved exactly")), "{:?}", got.notes);
     }
 }
 
@@ -399,14 +399,18 @@ fn aqwa_buoys_and_clumps_have_their_masses_and_do_not_know_the_surface() {
     assert!(-clump.fairlead[2] > -bare.fairlead[2] + 1e4);
     // a buoy so large that it lifts its joint out of the water, which it does not know
     let buoy = notes("-BUOY 1000 300000");
-    assert!(buoy.notes.iter().any(|n| n.contains("rises above the water surface")), "{:?}", buoy.notes);
+    assert!(
+        buoy.notes.iter().any(|n| n.without_values().contains("rises above the water surface")),
+        "{:?}",
+        buoy.notes
+    );
 }
 
 #[test]
 fn a_line_that_sees_neither_bottom_nor_surface_says_when_it_crosses_them() {
     let got = loads("~L H_CAT 100 EXACT -LEN 4000 -WTPL 500", place([0.0, 0.0, 10.0], [100.0, 0.0, 5.0], false));
     for text in ["below the sea bottom", "above the water surface"] {
-        assert!(got.notes.iter().any(|n| n.contains(text)), "{:?}", got.notes);
+        assert!(got.notes.iter().any(|n| n.without_values().contains(text)), "{:?}", got.notes);
     }
 }
 
@@ -430,7 +434,7 @@ fn a_viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
     let class = &missing.job.model.classes["~L"];
     let error =
         class.object.line(&place([0.0; 3], [52.0, 0.0, 0.0], false), &missing.job.model.surroundings()).err().unwrap();
-    assert!(error.message.contains("no convolution curve is called NONE"), "{error}");
+    assert!(error.to_string().contains("no convolution curve is called NONE"), "{error}");
 }
 
 #[test]

@@ -206,8 +206,13 @@ fn at_rest_the_piston_slides_to_hold_a_limit_or_to_its_stop() {
     assert_eq!((tension, position), (0.0, 1.0));
     let told = rig.summary(1.3);
     near(told.springs[0].deflection, 1.5);
-    assert!(told.notes.iter().any(|n| n.contains("holds TMAX")), "{told:?}");
-    assert!(rig.summary(3.5).notes.iter().any(|n| n.starts_with("warning") && n.contains("end of its stroke")));
+    assert!(told.notes.iter().any(|n| n.without_values().contains("holds TMAX")), "{told:?}");
+    assert!(
+        rig.summary(3.5)
+            .notes
+            .iter()
+            .any(|n| n.without_values().starts_with("warning") && n.without_values().contains("end of its stroke"))
+    );
 }
 
 #[test]

@@ -190,7 +190,7 @@ fn a_search_for_a_position_of_rest_may_be_interrupted() {
     let model = model(&between("&ENV -DEPTH 1000", &["ROD 120 60 -EI 0 -LEN 400 -REFINE 50"], ["0 0 -5", "150 0 -60"]));
     model.interrupt.store(true, Ordering::Relaxed);
     let told = lines_at_rest(&model, &|_| true).unwrap_err();
-    assert_eq!(told.error.message, "interrupted");
+    assert_eq!(told.error.to_string(), "interrupted");
     assert!(told.error.lasting);
 }
 

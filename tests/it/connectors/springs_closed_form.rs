@@ -322,7 +322,7 @@ fn the_report_has_deflections_forces_and_the_largest_share_of_an_allowable() {
     let list: Vec<(&str, f64, f64)> = told.springs.iter().map(|s| (s.dof.as_str(), s.deflection, s.force)).collect();
     assert_eq!(list.iter().map(|s| s.0).collect::<Vec<_>>(), ["X", "Y", "Z"]);
     near(&[list[1].1, list[1].2], &[0.3, 60.0]);
-    assert!(told.notes[0].contains("beyond its allowable"));
+    assert!(told.notes[0].without_values().contains("beyond its allowable"));
     assert!(!joint.element.rigid());
     assert!(joint.session.job.model.classes.values().all(|c| c.object.foundation() && c.ignored_stiffness));
 }
@@ -377,7 +377,11 @@ fn the_cone_turns_with_its_body_and_with_euler() {
 #[test]
 fn a_pin_that_enters_beside_the_mouth_is_warned_of() {
     let joint = Joint::between(LMU);
-    assert!(joint.summary([0.3, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 6]).notes[0].contains("outside of the cone's mouth"));
+    assert!(
+        joint.summary([0.3, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 6]).notes[0]
+            .without_values()
+            .contains("outside of the cone's mouth")
+    );
     assert!(joint.summary([0.15, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 6]).notes.is_empty());
 }
 
@@ -488,9 +492,13 @@ fn a_fender_tells_its_deflection_and_energy_and_warns_beyond_the_rated_one() {
         &[state.deflection, state.reaction, state.energy, state.rated_energy],
         &[0.65, 2.25e5, 93.125e3, 65e3 + 17.5e3],
     );
-    assert!(told.notes[0].contains("warning: deflected to 108 per cent of the rated deflection"), "{:?}", told.notes);
+    assert!(
+        told.notes[0].without_values().contains("warning: deflected to 108 per cent of the rated deflection"),
+        "{:?}",
+        told.notes
+    );
     let crushed = joint.summary([0.0; 6], [0.0, -0.1, 0.0, 0.0, 0.0, 0.0]);
-    assert!(crushed.notes[0].contains("stands behind the base"), "{:?}", crushed.notes);
+    assert!(crushed.notes[0].without_values().contains("stands behind the base"), "{:?}", crushed.notes);
     assert!(joint.summary([0.0; 6], [0.0, 0.95, 0.0, 0.0, 0.0, 0.0]).notes.is_empty());
 }
 

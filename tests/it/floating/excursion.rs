@@ -261,13 +261,13 @@ fn a_mooring_that_cannot_break_asks_for_a_distance_and_a_body_without_one_is_tol
     let start = system.state(&made).poses;
     let SolveError { who, error } = Walk::new(&system, &start, path(0.3)).unwrap().end().unwrap_err();
     assert_eq!(who.as_deref(), Some("SHIP"));
-    assert!(error.message.contains("none of its lines breaks"), "{error}");
+    assert!(error.to_string().contains("none of its lines breaks"), "{error}");
     let near = ExcursionPath { most: Some(5.0), ..path(0.3) };
     let (last, end) = Walk::new(&system, &start, near).unwrap().end().unwrap();
     assert!(end == ExcursionEnd::Most && last.excursion == 5.0);
     let names: Vec<String> = (0..4).map(|n| format!("L{n}")).collect();
     let bare = System::new(&made, &names).unwrap();
-    assert!(Walk::new(&bare, &start, near).unwrap_err().error.message.contains("no connector acts on it"));
+    assert!(Walk::new(&bare, &start, near).unwrap_err().error.to_string().contains("no connector acts on it"));
 }
 
 #[test]

@@ -228,7 +228,7 @@ fn an_open_piece_has_no_wind_but_an_error() {
     let records = "BLOCK SAIL -PERM 0 -CS_WIND 1 1 1\nPANEL 0 0 0 0 9 0 0 9 9 0 0 9\nEND_BLOCK";
     let model = body(records, "&ENV -WIND 60 180");
     let error = Floating::at_rest(&model, &model.bodies["B"]).unwrap_err();
-    assert!(error.message.contains("SAIL") && error.message.contains("open"), "{}", error.message);
+    assert!(error.to_string().contains("SAIL") && error.to_string().contains("open"), "{error}");
 }
 
 #[test]

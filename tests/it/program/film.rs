@@ -152,7 +152,7 @@ fn a_film_beyond_its_bounds_is_thinned_evenly_and_says_so() {
     assert!(film.times.len() <= MAX_FRAMES && film.times.len() == 1667, "{}", film.times.len());
     assert!(film.notes[0].contains("one in 3 of 5001"), "{:?}", film.notes);
     let stopped = Film::build(run, &Take { stop: &|| true, ..take });
-    assert_eq!(stopped.unwrap_err().message, "interrupted");
+    assert_eq!(stopped.unwrap_err().to_string(), "interrupted");
 }
 
 #[test]

@@ -137,7 +137,7 @@ fn drift_of_records_and_of_a_database_on_one_body_is_refused() {
     };
     model.bodies["B"].database = Some(attached.clone());
     let error = Floating::at_rest(&model, &model.bodies["B"]).unwrap_err();
-    assert!(error.message.contains("#DRIFT") && error.span == Some(span), "{error:?}");
+    assert!(error.to_string().contains("#DRIFT") && error.span == Some(span), "{error:?}");
     assert!(Floating::under_way(&model, &model.bodies["B"], Some(&sea(&model))).is_err());
     attached.drift = windlass_model::DriftMethod::None;
     model.bodies["B"].database = Some(attached);

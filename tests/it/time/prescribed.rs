@@ -172,7 +172,7 @@ fn a_table_without_the_headings_of_the_sea_is_refused() {
     let (model, errors, text) = session(&file, "MEDIT\nPRESCRIBE B -RAO FILE.CSV\nEND");
     assert_eq!(errors, 0, "{text}");
     let error = build_prescribed(&model.bodies["B"], Some(&sea(&[(0.6, 1.0, 0.0, 0.0)], 0.0))).unwrap_err();
-    assert!(error.message.contains("no headings within 90 degrees"), "{}", error.message);
+    assert!(error.to_string().contains("no headings within 90 degrees"), "{error}");
     assert!(error.span.is_some());
 }
 

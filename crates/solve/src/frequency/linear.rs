@@ -306,7 +306,7 @@ impl LinearSystem {
                 Some(format!("{} in {}", node.name, DOFS.get(row % 6)?))
             };
             return Err(match row.and_then(name) {
-                Some(who) => SolveError::new(ClassError { message: format!("{who}: {}", error.message), ..error }),
+                Some(who) => SolveError::new(error.about(who)),
                 None => SolveError::new(error),
             });
         };

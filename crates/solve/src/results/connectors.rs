@@ -11,7 +11,6 @@ use windlass_base::pose::Pose;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
-use windlass_model::ClassError;
 
 /// The force of a connector by which its pull is reported ([`Layout::pull`]), global axes (N); none while the connector does not act.
 pub(super) fn force(layout: &RowLayout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
@@ -122,7 +121,7 @@ fn idealisations(run: &Run, links: &[usize]) -> Option<String> {
 fn at_time(error: SolveError, row: &[f64]) -> SolveError {
     let time = row.first().copied().unwrap_or(0.0);
     let SolveError { who, error } = error;
-    SolveError { who, error: ClassError { message: format!("at {time} s: {}", error.message), ..error } }
+    SolveError { who, error: error.about(format!("at {time} s")) }
 }
 
 /// The magnitude of the force of connectors of a run.

@@ -114,7 +114,10 @@ mod tests {
     fn events_are_times_and_an_end_beyond_the_data_is_clipped() {
         assert_eq!(asked(9.0, Some(9000.0), None).unwrap(), [(18, 0.0), (19, 0.0), (20, 0.0)]);
         assert_eq!(asked(8.0, Some(9000.0), Some(1.0)).unwrap(), [(16, 0.0), (18, 0.0), (20, 0.0)]);
-        assert_eq!(asked(-3.0, Some(0.0), Some(2.0)).unwrap_err().message.matches("none of the instants").count(), 1);
+        assert_eq!(
+            asked(-3.0, Some(0.0), Some(2.0)).unwrap_err().to_string().matches("none of the instants").count(),
+            1
+        );
         assert_eq!(asked(-2.0, Some(0.0), Some(2.0)).unwrap(), [(0, 0.0)]);
         assert_eq!(events(&history(), None).unwrap().len(), 21);
     }
@@ -128,8 +131,8 @@ mod tests {
     fn windows_that_choose_nothing_or_too_much_are_refused() {
         assert!(asked(11.0, None, None).is_err());
         assert!(asked(0.6, Some(0.7), None).is_err());
-        assert!(asked(5.0, Some(4.0), None).unwrap_err().message.contains("before it begins"));
-        assert!(asked(0.0, None, Some(1e-9)).unwrap_err().message.contains("two million"));
+        assert!(asked(5.0, Some(4.0), None).unwrap_err().to_string().contains("before it begins"));
+        assert!(asked(0.0, None, Some(1e-9)).unwrap_err().to_string().contains("two million"));
         assert!(events(&History::default(), None).is_err());
     }
 }

@@ -120,7 +120,7 @@ impl Structure for Moored {
                 continue;
             };
             let named = |mut error: ClassError| {
-                error.message = format!("connector {}: {}", link.name, error.message);
+                error.message = error.message.about(format!("connector {}", link.name));
                 error
             };
             link.element.evaluate(&situation, before, after, &mut None, &mut self.response).map_err(named)?;

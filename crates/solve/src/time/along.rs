@@ -309,6 +309,6 @@ mod tests {
         let mut row = vec![0.0; columns.width()];
         let mut nodes = line(3);
         nodes[1].shear = f64::NAN;
-        assert!(columns.write(&nodes, &mut row).unwrap_err().message.contains("node 2"));
+        assert!(columns.write(&nodes, &mut row).unwrap_err().to_string().contains("node 2"));
     }
 }

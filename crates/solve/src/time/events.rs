@@ -62,9 +62,7 @@ impl Run {
 
     pub(super) fn check_actions(&self) -> Result<(), SolveError> {
         for action in &self.actions {
-            let wrong = |error: ClassError| {
-                SolveError::new(ClassError { message: format!("action {}: {}", action.name, error.message), ..error })
-            };
+            let wrong = |error: ClassError| SolveError::new(error.about(format!("action {}", action.name)));
             if let Trigger::Above(Observable::Height(point), _) | Trigger::Below(Observable::Height(point), _) =
                 &action.when
             {

@@ -277,5 +277,5 @@ fn nodes_of(
 }
 
 fn at_time(error: ClassError, time: f64) -> ClassError {
-    ClassError { message: format!("at {time} s: {}", error.message), ..error }
+    error.about(format!("at {time} s"))
 }

@@ -330,7 +330,7 @@ impl Run {
     fn reason(&self, error: SolveError) -> SolveError {
         let poses: Vec<_> = self.now.motions.iter().map(|m| m.pose).collect();
         if let Some(lacks) = self.system.without_inertia(&poses) {
-            let help = error.error.message.replace("{}", "..");
+            let help = error.error.message.without_values();
             return SolveError { error: lacks.error.help(help), ..lacks };
         }
         let sunk = |body: usize| {

@@ -357,7 +357,7 @@ impl Stepper {
                 let rows: Vec<usize> = self.rows.iter().map(|r| r.at).collect();
                 let made = system.singular_matrix_error("stiffness, damping or inertia", &rows, other);
                 SolveError {
-                    error: ClassError { message: format!("{} at {time} s", made.error.message), ..made.error },
+                    error: ClassError { message: made.error.message.then(format!(" at {time} s")), ..made.error },
                     ..made
                 }
             }

@@ -13,6 +13,7 @@ use crate::structure::{Structure, StructureForces};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 use windlass_base::dense::{Cholesky, SymmetricEigen, never};
+use windlass_base::message::Message;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
 use windlass_hydro::{Underway, cross};
@@ -191,8 +192,8 @@ impl<'a> Installation<'a> {
             }
         }
         forces.acceleration().map_err(|mut e| {
-            e.message.push_str(" (time {})");
-            e.values.push((at.time, Dim::Time));
+            e.message =
+                std::mem::take(&mut e.message).then(Message::with_values(" (time {})", &[(at.time, Dim::Time)]));
             e
         })
     }
@@ -267,7 +268,8 @@ impl InstalledRunSettings {
 
 /// An error of a tether with its name and the time.
 fn with_tether_and_time(mut error: ClassError, tether: &InstalledTether, time: f64) -> ClassError {
-    error.message = format!("tether {} at {{}}: {}", tether.name, error.message);
-    error.values.insert(0, (time, Dim::Time));
+    let subject =
+        Message::from(format!("tether {}", tether.name)).then(Message::with_values(" at {}", &[(time, Dim::Time)]));
+    error.message = error.message.about(subject);
     error
 }

@@ -25,6 +25,7 @@ pub use touchdown::touchdown;
 use super::super::system::SolveError;
 use super::super::time::{AlongColumns, NodeQuantity, NodeRow, Run};
 use super::RunEvent;
+use windlass_base::message::Message;
 use windlass_base::table::Digits;
 use windlass_model::{AssemblyKind, ClassError, FatigueSegment, Model, WallMaterial, line_name};
 use windlass_signal::line::CheckedTube;
@@ -205,7 +206,7 @@ impl<'a> LineResults<'a> {
         self.sides(node, row).map(used).reduce(f64::max)
     }
 
-    fn wrong(&self, text: impl Into<String>) -> SolveError {
+    fn wrong(&self, text: impl Into<Message>) -> SolveError {
         SolveError { who: Some(self.name.to_string()), error: ClassError::new(text) }
     }
 }
