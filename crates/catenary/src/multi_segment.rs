@@ -179,7 +179,7 @@ impl MultiSegmentLine {
                 *x += held.ground * by_h * far + (1.0 + strain) * longer;
             }
         }
-        let end = |list: Option<&f64>| list.copied().unwrap_or(0.0);
-        [dx.iter().sum(), end(dv_hi.first()), far, end(dv_lo.last())]
+        let last = self.elements.len() - 1;
+        [dx.iter().sum(), dv_hi[0], far, dv_lo[last]]
     }
 }

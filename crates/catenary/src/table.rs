@@ -58,7 +58,7 @@ pub fn table(
     let row = |force: f64| {
         let state = line.at_horizontal_force(force, fairlead)?;
         let mut row =
-            TableRow { ratio: 0.0, critical: 1, critical_break: breaks.first().copied().unwrap_or(0.0), state };
+            TableRow { ratio: 0.0, critical: 1, critical_break: breaks[0], state };
         for (index, (segment, limit)) in row.state.segments.iter().zip(breaks).enumerate() {
             let ratio = segment.top_tension.max(segment.bottom_tension) / limit;
             if ratio > row.ratio {

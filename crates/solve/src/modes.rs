@@ -34,7 +34,7 @@ pub(super) fn modes_with(
     mass: &DMatrix<f64>,
     stiffness: &DMatrix<f64>,
 ) -> Result<Vec<SystemMode>, SolveError> {
-    let free = |i: usize| system.nodes.get(i / 6).and_then(|n| n.free.get(i % 6)).copied().unwrap_or(false);
+    let free = |i: usize| system.nodes[i / 6].free[i % 6];
     let rows: Vec<usize> = (0..mass.nrows()).filter(|i| free(*i)).collect();
     let (heavy, light): (Vec<usize>, Vec<usize>) = rows.iter().partition(|i| mass[(**i, **i)] > 0.0);
     if heavy.is_empty() {

@@ -251,7 +251,7 @@ impl EndMotion {
         let idle = |row: &&&[f64]| !acts(layout, number, row);
         let from = at - all.iter().take(at + 1).rev().take_while(|row| !idle(row)).count().saturating_sub(1).min(at);
         let until = at + all.iter().skip(at).take_while(|row| !idle(row)).count();
-        let used = all.get(from..until).unwrap_or_default();
+        let used = &all[from..until];
         let rows: Vec<StoredEnds> = used.iter().filter_map(|row| stored_ends(layout, number, &attached, row)).collect();
         let (Some(first), Some(last)) = (rows.first().map(|r| r.time), rows.last().map(|r| r.time)) else {
             return Err(ClassError::new("no instant around its largest tension is stored"));

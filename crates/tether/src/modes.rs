@@ -73,7 +73,7 @@ impl NaturalMode {
 
     /// Y, Z (scaled), RY, RZ (rad) of a node by the right hand.
     pub fn node(&self, index: usize) -> [f64; 4] {
-        let value = |list: &[f64]| list.get(index).copied().unwrap_or_default();
+        let value = |list: &[f64]| list[index];
         let (deflection, slope) = (value(&self.deflections), value(&self.slopes));
         match self.plane {
             ModePlane::Y => [deflection, 0.0, 0.0, slope],

@@ -267,7 +267,8 @@ impl<'a> LineLayout<'a> {
 
     /// The lift above and below the step of a joint.
     fn lifts(&self, joint: usize) -> (f64, f64) {
-        self.pulls.get(joint).map_or((0.0, 0.0), |p| (p.lift_after(p.steps.len()), p.lift))
+        let pull = &self.pulls[joint];
+        (pull.lift_after(pull.steps.len()), pull.lift)
     }
 
     /// Lays the line.
@@ -308,9 +309,7 @@ impl<'a> LineLayout<'a> {
                 let free = self.depart(&SpanStart::Held { before, low, high }, top, high);
                 if self.limit(&free, sunk).gap.value >= 0.0 {
                     // all of its lift does not hold it
-                    if let Some(s) = sunk.get_mut(joint) {
-                        *s = true;
-                    }
+                    sunk[joint] = true;
                     if matches!(origin, SpanStart::Held { .. }) {
                         return Ok(None);
                     }

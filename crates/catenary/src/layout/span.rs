@@ -217,7 +217,7 @@ impl LineLayout<'_> {
                 take(Candidate { kind: TouchKind::Joint(element), gap: self.height_above_face(&low, face), at: low });
             }
             let (above, below) = self.lifts(element);
-            let past = sunk.get(element).copied().unwrap_or(false);
+            let past = sunk.get(element).is_some_and(|past| *past);
             if let (Some(step), false) = (self.step(element), past) {
                 take(Candidate { kind: TouchKind::Held(element), gap: low.z + -step, at: low });
             }
@@ -314,7 +314,7 @@ impl LineLayout<'_> {
             laid.stretches.push(stretch_between(&at, &low, Manner::Hangs));
             if element + 1 < last && element < self.pulls.len() {
                 let (above, below) = self.lifts(element);
-                let past = sunk.get(element).copied().unwrap_or(false);
+                let past = sunk.get(element).is_some_and(|past| *past);
                 let lift = if past { below } else { above };
                 self.keep_joint(element, &low, (lift, 0.0), [false, past], laid);
                 at = LinePoint { element: element + 1, s: Var::constant(0.0), v: low.v + lift, ..low };

@@ -180,18 +180,14 @@ impl SlowDrift {
                     cos.iter().zip(&sin).zip(amplitudes.iter().zip(near))
                 {
                     let wave = Complex::new(*cos, *sin) * *amplitude;
-                    if let Some(c) = gathered.get_mut(*low) {
-                        *c += wave * (1.0 - part);
-                    }
-                    if let Some(c) = gathered.get_mut(*high) {
-                        *c += wave * *part;
-                    }
+                    gathered[*low] += wave * (1.0 - part);
+                    gathered[*high] += wave * *part;
                 }
             }
         }
         let mut sum = Six::zeros();
         for (index, weight) in [(a, 1.0 - share), (b, share)].into_iter().filter(|t| t.1 != 0.0) {
-            let Some(table) = qtf.values.get(index) else { continue };
+            let table = &qtf.values[index];
             for (p, (row, first)) in table.iter().zip(&gathered).enumerate() {
                 for (q, (six, second)) in row.iter().zip(&gathered).enumerate().take(p + 1) {
                     // the pair and its mirror are conjugate
@@ -218,9 +214,8 @@ impl SlowDrift {
 
 /// The mean drift: each frequency with itqtf.
 pub fn mean_drift(qtf: &Qtf) -> DriftTable {
-    let real = |table: &Vec<Vec<[Complex<f64>; 6]>>| {
-        table.iter().enumerate().map(|(i, row)| row.get(i).map_or([0.0; 6], |six| six.map(|v| v.re))).collect()
-    };
+    let real =
+        |table: &Vec<Vec<[Complex<f64>; 6]>>| table.iter().enumerate().map(|(i, row)| row[i].map(|v| v.re)).collect();
     DriftTable {
         frequencies: qtf.frequencies.clone(),
         headings: qtf.headings.clone(),

@@ -37,7 +37,7 @@ impl Boxes {
     }
 
     fn grow(&mut self, corners: &[Option<[Vector3<f64>; 3]>], first: usize, last: usize) -> usize {
-        let part = self.order.get_mut(first..last).unwrap_or_default();
+        let part = &mut self.order[first..last];
         let at = |n: usize| corners.get(n).copied().flatten().unwrap_or_default();
         let mut low = Vector3::repeat(f64::INFINITY);
         let mut high = -low;
@@ -68,7 +68,7 @@ impl Boxes {
         let itself = std::ptr::eq(self, other);
         let mut open = if self.nodes.is_empty() || other.nodes.is_empty() { vec![] } else { vec![(0, 0)] };
         while let Some((m, n)) = open.pop() {
-            let (Some(a), Some(b)) = (self.nodes.get(m), other.nodes.get(n)) else { continue };
+            let (a, b) = (&self.nodes[m], &other.nodes[n]);
             if (0..3).any(|i| a.low[i] > b.high[i] + margin || b.low[i] > a.high[i] + margin) {
                 continue;
             }
@@ -79,9 +79,9 @@ impl Boxes {
                 }
                 (_, Some(halves)) => open.extend(halves.map(|h| (m, h))),
                 _ => {
-                    let (from, with) = (self.order.get(a.first..a.last), other.order.get(b.first..b.last));
-                    for &f in from.unwrap_or_default() {
-                        if with.unwrap_or_default().iter().any(|&g| meet(f, g)) {
+                    let (from, with) = (&self.order[a.first..a.last], &other.order[b.first..b.last]);
+                    for &f in from {
+                        if with.iter().any(|&g| meet(f, g)) {
                             return true;
                         }
                     }

@@ -4,7 +4,6 @@ use super::linear::{LinearSystem, Motions};
 use crate::link::{EndAttachment, arm, pose_of};
 use crate::system::SolveError;
 use nalgebra::{Complex, DVector, Vector3};
-use windlass_base::pose::Six;
 use windlass_hydro::move_stiffness;
 use windlass_model::{ElementResponse, End, Situation, TimeStep};
 
@@ -94,8 +93,8 @@ impl LinearQuantity {
         }
         let size = 6 * system.nodes.len();
         let count = link.ends.len();
-        let own = link.ends.get(first).map_or(Vector3::zeros(), |e| arm(e, poses));
-        let wrench = rest.wrench.get(first).copied().unwrap_or_else(Six::zeros);
+        let own = arm(&link.ends[first], poses);
+        let wrench = rest.wrench[first];
         let mut made = [0, 1, 2].map(|i| LinearQuantity {
             mean: wrench[i],
             place: DVector::zeros(size),

@@ -97,7 +97,7 @@ fn forces(
                     let at = linear.poses[*body].origin;
                     let along = |angle: f64| at.x * angle.cos() + at.y * angle.sin();
                     let phase = Complex::from_polar(1.0, k_beside * along(*b) - k * along(*a));
-                    let (Some(one), Some(two)) = (one.get(place), two.get(place)) else { continue };
+                    let (one, two) = (&one[place], &two[place]);
                     for i in 0..6 {
                         force[6 * place + i] = phase * (0.5 * (one[i] + two[i]));
                     }

@@ -254,9 +254,8 @@ impl RowLayout {
                     Category::Coriolis => of_inertia(2),
                     _ => of_loads,
                 };
-                let at = self.category(body, *category).unwrap_or(0);
-                if let (Some(force), Some(place)) = (force, row.get_mut(at..at + 6)) {
-                    place.copy_from_slice(force.as_slice());
+                if let (Some(force), Some(at)) = (force, self.category(body, *category)) {
+                    row[at..at + 6].copy_from_slice(force.as_slice());
                 }
             }
         }

@@ -26,7 +26,7 @@ pub struct InstalledMode {
 impl InstalledMode {
     /// X, Y (scaled), RX, RY (rad) of a node.
     pub fn node(&self, index: usize) -> [f64; 4] {
-        let value = |list: &[f64]| list.get(index).copied().unwrap_or_default();
+        let value = |list: &[f64]| list[index];
         let (deflection, slope) = (value(&self.mode.deflections), value(&self.mode.slopes));
         match self.mode.plane {
             // the planes of the beam are those of X and Y here

@@ -255,7 +255,7 @@ impl Rig {
 
     /// Distance of a node from the lower end along the axis (m).
     pub fn height(&self, node: usize) -> f64 {
-        let share = self.tether.line.distances().get(node).copied().unwrap_or_default() / self.tether.line.length();
+        let share = self.tether.line.distances()[node] / self.tether.line.length();
         share * self.start.1.length
     }
 
