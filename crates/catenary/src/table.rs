@@ -57,8 +57,7 @@ pub fn table(
     let last = (DEFAULT_ROWS - 1) as f64;
     let row = |force: f64| {
         let state = line.at_horizontal_force(force, fairlead)?;
-        let mut row =
-            TableRow { ratio: 0.0, critical: 1, critical_break: breaks[0], state };
+        let mut row = TableRow { ratio: 0.0, critical: 1, critical_break: breaks[0], state };
         for (index, (segment, limit)) in row.state.segments.iter().zip(breaks).enumerate() {
             let ratio = segment.top_tension.max(segment.bottom_tension) / limit;
             if ratio > row.ratio {
