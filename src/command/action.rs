@@ -1,6 +1,6 @@
 //! &ACTION: what happens during a run.
 
-use super::alter::selected;
+use super::alter::select_connectors;
 use super::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::units::{Dim, UnitSystem};
@@ -104,15 +104,15 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Ok(Effect::Done);
     }
     rule::check(name, None, "action", args.place(0))?;
-    let when = when(&job.model, only(args, &WHEN, "when it happens")?, job.units)?;
-    let what = what(&job.model, only(args, &WHAT, "what happens")?)?;
+    let when = parse_trigger(&job.model, single_option(args, &WHEN, "when it happens")?, job.units)?;
+    let what = parse_action(&job.model, single_option(args, &WHAT, "what happens")?)?;
     job.actions.retain(|a| !a.name.eq_ignore_ascii_case(name));
     job.actions.push(Action { name: name.to_string(), when, what });
     Ok(Effect::Done)
 }
 
 /// The one option of a list that is given.
-fn only<'a>(args: &'a Args, options: &[OptionSpec], of: &str) -> Outcome<&'a Given> {
+fn single_option<'a>(args: &'a Args, options: &[OptionSpec], of: &str) -> Outcome<&'a Given> {
     let mut given = args.options.iter().filter(|given| given.is_any(options));
     match (given.next(), given.next()) {
         (Some(one), None) => Ok(one),
@@ -125,7 +125,7 @@ fn only<'a>(args: &'a Args, options: &[OptionSpec], of: &str) -> Outcome<&'a Giv
     }
 }
 
-fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<Trigger> {
+fn parse_trigger(model: &Model, given: &Given, units: UnitSystem) -> Outcome<Trigger> {
     let place = given.first_place();
     let name = given.first_word().unwrap_or_default();
     let number = |key| given.number(key).unwrap_or(0.0);
@@ -157,9 +157,9 @@ fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<Trigger> {
     })
 }
 
-fn what(model: &Model, given: &Given) -> Outcome<ActionKind> {
+fn parse_action(model: &Model, given: &Given) -> Outcome<ActionKind> {
     let names = |count: usize| -> Outcome<Vec<String>> {
-        let keys = selected(model, given.values.get(..count).unwrap_or(&given.values))?;
+        let keys = select_connectors(model, given.values.get(..count).unwrap_or(&given.values))?;
         Ok(keys.iter().filter_map(|k| model.connectors.get(k)).map(|c| c.name.clone()).collect())
     };
     Ok(match given {

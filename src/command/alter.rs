@@ -23,10 +23,10 @@ use windlass_solve::pretension;
 pub static ALTER: Command = Command { spec: &SPEC, edits: true, run };
 
 /// Share of a force within which what is found must bear what was asked for.
-const PROOF: f64 = 1e-6;
+const FORCE_TOLERANCE: f64 = 1e-6;
 
 /// Share of a force by which the table of a class may miss it before a warning.
-const TABLE: f64 = 0.01;
+const TABLE_TOLERANCE: f64 = 0.01;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -96,13 +96,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let mut said = Said { units: job.units, lines: Vec::new(), warnings: Vec::new() };
     for (given, names) in groups(args)? {
-        let keys = selected(&job.model, names).map_err(|error| match job.deferred.as_slice() {
+        let keys = select_connectors(&job.model, names).map_err(|error| match job.deferred.as_slice() {
             [] => error,
             _ => error.help("the connectors of INMODEL are made at its END"),
         })?;
         let units = job.units;
         for key in keys {
-            if job.interrupted() {
+            if job.is_interrupted() {
                 return Err(Diagnostic::error("&CONNECTOR is given up: nothing is changed", args.span));
             }
             let Some(mut made) = job.model.connectors.get(&key).cloned() else { continue };
@@ -152,7 +152,7 @@ fn groups(args: &Args) -> Outcome<Vec<(&Given, &[Value])>> {
 ///
 /// # Errors
 /// A name that is none, a pattern or selector that chooses no connector.
-pub(super) fn selected(model: &Model, names: &[Value]) -> Outcome<Vec<String>> {
+pub(super) fn select_connectors(model: &Model, names: &[Value]) -> Outcome<Vec<String>> {
     let mut keys: Vec<String> = Vec::new();
     for value in names {
         let name = value.word().unwrap_or_default();
@@ -189,7 +189,7 @@ impl Said {
         report(&Cell::Number(si), dim, Digits::Usual, self.units)
     }
 
-    fn measured(&self, si: f64, dim: Dim) -> String {
+    fn format_value(&self, si: f64, dim: Dim) -> String {
         format!("{} {}", self.digits(si, dim), dim.label(self.units))
     }
 
@@ -244,7 +244,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             }
             let length = old.0.unwrap_or(0.0) + value;
             if length <= 0.0 {
-                let text = format!("its first segment is {} long", said.measured(length - value, Dim::Length));
+                let text = format!("its first segment is {} long", said.format_value(length - value, Dim::Length));
                 return Err(ClassError::new(text).help("-L_DELTA must leave more than nothing of it"));
             }
             made.first_length = Some(length);
@@ -254,7 +254,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         }
         Some(aim) if pulled => {
             line(model, made)?;
-            placed(model, made)?;
+            check_placed(model, made)?;
             let found = line(model, made)?.first_length(aim)?;
             made.first_length = Some(found.length);
             also = others(&found, said);
@@ -271,7 +271,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             alone(made)?;
             let made_of = line(model, made)?;
             let anchor = made.anchor.ok_or_else(no_anchor)?;
-            placed(model, made)?;
+            check_placed(model, made)?;
             let distance = made_of.distance(aim)?;
             if distance < 0.0 {
                 return Err(ClassError::new("the anchor would lie beyond the fairlead, against its direction"));
@@ -292,26 +292,26 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
     let placed_anew = given.is(&ANCHOR) && old.1.is_some();
     if model.moves(made) && pulled {
         // found and proven by the dynamic line itself
-        return Ok(told(made, given, old, said));
+        return Ok(describe_change(made, given, old, said));
     }
     if adjustable(model, made) && (placed_anew || lengthened || pulled) {
-        return Ok(told(made, given, old, said));
+        return Ok(describe_change(made, given, old, said));
     }
     let found = line(model, made)?;
     let forces = forces(found.as_ref(), model, made, given, said)?;
-    Ok(format!("{}{forces}{also}", told(made, given, old, said)))
+    Ok(format!("{}{forces}{also}", describe_change(made, given, old, said)))
 }
 
 /// The further lengths that give the same force, and those without a configuration.
 fn others(found: &FoundLength, said: &Said) -> String {
-    let list: Vec<String> = found.others.iter().map(|l| said.measured(*l, Dim::Length)).collect();
+    let list: Vec<String> = found.others.iter().map(|l| said.format_value(*l, Dim::Length)).collect();
     let mut text = if list.is_empty() {
         String::new()
     } else {
         format!("; a first segment of {} gives the same", list.join(" or "))
     };
     for [from, to] in &found.unsolved {
-        let [from, to] = [from, to].map(|l| said.measured(*l, Dim::Length));
+        let [from, to] = [from, to].map(|l| said.format_value(*l, Dim::Length));
         text.push_str(&format!("; of {from} to {to} it has no configuration"));
     }
     text
@@ -343,7 +343,7 @@ fn no_anchor() -> ClassError {
 }
 
 /// A connector whose other end has a place.
-fn placed(model: &Model, connector: &Connector) -> Result<(), ClassError> {
+fn check_placed(model: &Model, connector: &Connector) -> Result<(), ClassError> {
     model.placement(connector).other.map(|_| ()).ok_or_else(no_anchor)
 }
 
@@ -374,19 +374,19 @@ fn move_anchor(model: &Model, connector: &mut Connector, at: [f64; 2]) {
 }
 
 /// The new length or place beside the old one.
-fn told(made: &Connector, given: &Given, old: (Option<f64>, Option<Anchor>), said: &Said) -> String {
+fn describe_change(made: &Connector, given: &Given, old: (Option<f64>, Option<Anchor>), said: &Said) -> String {
     let length = |l: f64| said.digits(l, Dim::Length);
     match made.anchor.filter(|_| [ANCHOR, A_HORIZONTAL, A_TENSION].iter().any(|option| given.is(option))) {
         Some(anchor) => {
             let [x, y] = anchor.at.map(length);
             let z = anchor.elevation.map_or(String::new(), |z| format!(" {}", length(z)));
             let was = old.1.map_or("no anchor".into(), |a| length(a.distance));
-            let away = said.measured(anchor.distance, Dim::Length);
-            let toward = said.measured(anchor.direction, Dim::Angle);
+            let away = said.format_value(anchor.distance, Dim::Length);
+            let toward = said.format_value(anchor.direction, Dim::Angle);
             format!("anchor at {x} {y}{z}, {away} from the fairlead toward {toward} (was {was})")
         }
         None => {
-            let now = said.measured(made.first_length.unwrap_or(0.0), Dim::Length);
+            let now = said.format_value(made.first_length.unwrap_or(0.0), Dim::Length);
             format!("first segment {now} (was {})", old.0.map_or("none".into(), length))
         }
     }
@@ -405,7 +405,7 @@ fn forces(
     if let (true, Some(depth)) = (given.is(&ANCHOR), model.anchor_depth(made))
         && (depth + anchor).abs() > 1e-3 * depth
     {
-        let (own, other) = (said.measured(-anchor, Dim::Length), said.measured(depth, Dim::Length));
+        let (own, other) = (said.format_value(-anchor, Dim::Length), said.format_value(depth, Dim::Length));
         said.warn(made, given, &format!("the depth of its anchor is now {own}, not the {other} of -DEPANCHOR or &ENV"));
     }
     let LineLoads { fairlead: [fx, fy, _], tension, solution, notes, .. } = found.loads()?;
@@ -416,19 +416,20 @@ fn forces(
         }
     }
     let horizontal = fx.hypot(fy);
-    let [h, t] = [horizontal, tension].map(|f| said.measured(f, Dim::Force));
+    let [h, t] = [horizontal, tension].map(|f| said.format_value(f, Dim::Force));
     let asked = match aim {
         Some(Condition::Horizontal(force)) => Some(("horizontal force", force, horizontal)),
         Some(Condition::Tension(force)) => Some(("tension", force, tension)),
         _ => None,
     };
     let table = solution == "table";
-    if let Some((what, wanted, got)) = asked.filter(|(_, wanted, got)| (got - wanted).abs() > PROOF * wanted) {
-        let [wants, gets] = [wanted, got].map(|f| said.measured(f, Dim::Force));
+    if let Some((what, wanted, got)) = asked.filter(|(_, wanted, got)| (got - wanted).abs() > FORCE_TOLERANCE * wanted)
+    {
+        let [wants, gets] = [wanted, got].map(|f| said.format_value(f, Dim::Force));
         if !table {
             return Err(ClassError::new(format!("its {what} would be {gets}, not {wants}")));
         }
-        if (got - wanted).abs() > TABLE * wanted {
+        if (got - wanted).abs() > TABLE_TOLERANCE * wanted {
             let text = format!(
                 "its table of thirty points gives a {what} of {gets}, not {wants}: its class without -TABLE does"
             );

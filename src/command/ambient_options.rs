@@ -2,7 +2,7 @@
 
 use super::Job;
 use super::environment::formula;
-use super::plausible::shown;
+use super::plausible::format_value;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
@@ -52,7 +52,7 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
 
 /// A plane bottom that a line lies on whatever the environment says.
 #[derive(Clone, Copy, PartialEq)]
-enum Plane {
+enum PlaneBottomOption {
     /// Through the anchor, of a line that is not dynamic.
     Anchor,
     /// As -SLOPE of the class says, of one that does.
@@ -60,13 +60,13 @@ enum Plane {
 }
 
 /// The plane of its own that a line lies on, if any.
-fn plane_of(model: &Model, connector: &Connector) -> Option<Plane> {
+fn plane_of(model: &Model, connector: &Connector) -> Option<PlaneBottomOption> {
     let class = &model.classes.get(&Model::key(&connector.class))?.object;
     if model.moves(connector) {
-        return class.slopes().then_some(Plane::Slope);
+        return class.slopes().then_some(PlaneBottomOption::Slope);
     }
     let on_plane = connector.points.len() < 2 && class.lies_on_plane() && model.bathymetry_under(connector).is_none();
-    on_plane.then_some(Plane::Anchor)
+    on_plane.then_some(PlaneBottomOption::Anchor)
 }
 
 /// Warns of a connector whose anchor, or whose fairlead where it lies on the bathymetry, is beyond the edges of the grid.
@@ -78,7 +78,7 @@ fn warn_outside(job: &mut Job, connector: &str, span: Span) {
     let ends = [Some(("anchor", anchor.at)), fairlead.map(|[x, y, _]| ("fairlead", [x, y]))];
     let outside = ends.into_iter().flatten().map(|(end, at)| (end, grid.distance_outside(at)));
     let Some((end, by)) = outside.filter(|(_, by)| *by > 0.0).max_by(|a, b| a.1.total_cmp(&b.1)) else { return };
-    let by = shown(by, Dim::Length, job.units);
+    let by = format_value(by, Dim::Length, job.units);
     let text = format!(
         "the {end} of {} lies {by} beyond the edge of bathymetry {}: the depth at the edge is taken there",
         connector.name, grid.name
@@ -94,7 +94,7 @@ pub(super) fn planes(job: &mut Job, given: Option<&Given>) {
     for line in lines {
         warn_outside(job, &line, given.span);
     }
-    for which in [Plane::Anchor, Plane::Slope] {
+    for which in [PlaneBottomOption::Anchor, PlaneBottomOption::Slope] {
         let lies = |c: &&Connector| plane_of(&job.model, c) == Some(which);
         let lines: Vec<&str> = job.model.connectors.values().filter(lies).map(|c| c.name.as_str()).collect();
         let few = match lines.as_slice() {
@@ -106,8 +106,10 @@ pub(super) fn planes(job: &mut Job, given: Option<&Given>) {
             all => format!("{} lie", all.join(", ")),
         };
         let text = match which {
-            Plane::Anchor => format!("{few} on the plane bottom through the anchor, not on bathymetry {grid}"),
-            Plane::Slope => format!("{few} on the plane bottom of -SLOPE, not on bathymetry {grid}"),
+            PlaneBottomOption::Anchor => {
+                format!("{few} on the plane bottom through the anchor, not on bathymetry {grid}")
+            }
+            PlaneBottomOption::Slope => format!("{few} on the plane bottom of -SLOPE, not on bathymetry {grid}"),
         };
         job.remark(text, given.span);
     }
@@ -120,10 +122,12 @@ pub(super) fn plane(job: &mut Job, connector: &str, span: Span) {
     let found = model.connectors.get(&Model::key(connector)).and_then(|c| plane_of(model, c));
     let (Some(which), Some(named)) = (found, &model.environment.bathymetry) else { return };
     let text = match which {
-        Plane::Anchor => {
+        PlaneBottomOption::Anchor => {
             format!("{connector} lies on the plane bottom through its anchor, not on bathymetry {}", named.kind)
         }
-        Plane::Slope => format!("{connector} lies on the plane bottom of its -SLOPE, not on bathymetry {}", named.kind),
+        PlaneBottomOption::Slope => {
+            format!("{connector} lies on the plane bottom of its -SLOPE, not on bathymetry {}", named.kind)
+        }
     };
     job.remark(text, span);
 }

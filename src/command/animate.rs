@@ -1,6 +1,6 @@
 //! `&ANIMATE`: the last run as a film.
 
-use super::chosen::Chosen;
+use super::chosen::NameFilter;
 use super::{Call, Command, Effect, Job};
 use crate::report::files::JobFolder;
 use crate::report::film;
@@ -20,9 +20,9 @@ use windlass_solve::results::EventWindow;
 pub static ANIMATE: Command = Command { spec: &SPEC, edits: false, run };
 
 /// Points of a line where none are asked for.
-const POINTS: usize = 40;
+const DEFAULT_LINE_POINTS: usize = 40;
 /// Most bytes of all the files of a series.
-const LARGEST: usize = 1 << 30;
+const MAX_SERIES_BYTES: usize = 1 << 30;
 
 const EVENTS: OptionSpec = OptionSpec::new(
     "-EVENTS",
@@ -78,19 +78,19 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 /// The form of a file, by the ending of its name.
-enum Form {
+enum FileForm {
     Page,
     Series,
 }
 
 /// The name of the file with its ending, and its form.
-fn form(args: &Args) -> Outcome<(String, Form)> {
+fn form(args: &Args) -> Outcome<(String, FileForm)> {
     let name = args.word(0).unwrap_or_default();
     let ending = std::path::Path::new(name).extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
-        None => Ok((format!("{name}.html"), Form::Page)),
-        Some("html" | "htm") => Ok((name.to_string(), Form::Page)),
-        Some("vtk") => Ok((name.to_string(), Form::Series)),
+        None => Ok((format!("{name}.html"), FileForm::Page)),
+        Some("html" | "htm") => Ok((name.to_string(), FileForm::Page)),
+        Some("vtk") => Ok((name.to_string(), FileForm::Series)),
         Some(_) => Err(Diagnostic::error(format!("a film ends in .html or .vtk, not `{name}`"), args.place(0))),
     }
 }
@@ -104,13 +104,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [begin, end, increment] =
         const { EVENTS.numbers(["BEG", "END", "INC"]) }.map(|key| events.and_then(|given| given.number(key)));
     let points = args.option_integer(&POINTS_OPTION);
-    let chosen = Chosen::of(call, 1, &job.model);
+    let chosen = NameFilter::new(call, 1, &job.model);
     let take = Take {
         connector: &|c| chosen.takes(c),
         body: &|b| chosen.takes(b),
         window: begin.map(|begin| EventWindow { begin, end, increment }),
-        points: points.and_then(|n| usize::try_from(n).ok()).unwrap_or(POINTS),
-        stop: &|| job.interrupted(),
+        points: points.and_then(|n| usize::try_from(n).ok()).unwrap_or(DEFAULT_LINE_POINTS),
+        stop: &|| job.is_interrupted(),
     };
     let film = Film::build(run, &take);
     chosen.check_used("what moves in the run", &[EntityKind::Connector, EntityKind::Body])?;
@@ -123,14 +123,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     let frames = film.times.len();
     let text = match form {
-        Form::Page => {
+        FileForm::Page => {
             let page = film::page(&film, title, job.units);
             let page = page.map_err(|e| Diagnostic::error(format!("the page could not be made: {e:#}"), args.span))?;
             let path = job.output.folder.write(&name, page.as_bytes());
-            let path = path.map_err(|e| super::file::refused(&e, args.place(0)))?;
+            let path = path.map_err(|e| super::file::to_diagnostic(&e, args.place(0)))?;
             format!("wrote {}: {frames} instants", path.display())
         }
-        Form::Series => {
+        FileForm::Series => {
             let path = series(&job.output.folder, &film, (title, &name), args.place(0))?;
             format!("wrote {}, a series of {frames} files", path.display())
         }
@@ -149,11 +149,11 @@ fn series(folder: &JobFolder, film: &Film, (title, name): (&str, &str), span: Sp
     let mut size = 0;
     for step in film::steps(film, title, name).chain(std::iter::once_with(|| film::series(film, name))) {
         size += step.text.len();
-        let done = if size > LARGEST {
-            Err(Diagnostic::error(format!("the series would be larger than {} MB", LARGEST >> 20), span)
+        let done = if size > MAX_SERIES_BYTES {
+            Err(Diagnostic::error(format!("the series would be larger than {} MB", MAX_SERIES_BYTES >> 20), span)
                 .help("-EVENTS takes a part of the run, -POINTS fewer points"))
         } else {
-            folder.write(&step.name, step.text.as_bytes()).map_err(|e| super::file::refused(&e, span))
+            folder.write(&step.name, step.text.as_bytes()).map_err(|e| super::file::to_diagnostic(&e, span))
         };
         match done {
             Ok(path) => written.push((step.name, path)),

@@ -16,7 +16,7 @@ use windlass_model::{Assembly, AssemblyKind, Body, Connector, Model, find};
 pub static ASSEMBLY: Command = Command { spec: &SPEC, edits: true, run };
 
 /// Most slings of a hook [MOSES-REF conn_sling].
-const MOST: usize = 4;
+const MAX_SLINGS: usize = 4;
 
 const INITIAL: OptionSpec =
     OptionSpec::new("-INITIAL", &[], "moves the body under the boom; of a later set, takes the sag out of its lines");
@@ -72,8 +72,8 @@ pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
     let model = &job.model;
     let name = args.word(1).unwrap_or_default().to_string();
     junction::free(model, &name, "assembly", args.place(1))?;
-    if let Some(extra) = args.data.get(3 + MOST) {
-        return Err(Diagnostic::error(format!("a hook takes at most {MOST} slings"), extra.span));
+    if let Some(extra) = args.data.get(3 + MAX_SLINGS) {
+        return Err(Diagnostic::error(format!("a hook takes at most {MAX_SLINGS} slings"), extra.span));
     }
     let mut members: Vec<&Connector> = Vec::new();
     for index in 2..args.data.len() {

@@ -130,7 +130,7 @@ fn hook_rows<'m>(
     for name in assembly.members() {
         let Some(connector) = model.connectors.get(&Model::key(name)) else { continue };
         let [node, end] = model.end_poses(connector).map(|p| p.origin);
-        let summary = match connector.active.then(|| borne(model, connector)) {
+        let summary = match connector.active.then(|| line_summary(model, connector)) {
             Some(Ok(summary)) => Some(summary),
             Some(Err(error)) => {
                 table.note_absent(format!("{name}: {}", error.text(units)));
@@ -152,7 +152,7 @@ fn hook_rows<'m>(
 }
 
 /// What a line bears between its ends.
-fn borne(model: &Model, connector: &Connector) -> Result<ElementSummary, ClassError> {
+fn line_summary(model: &Model, connector: &Connector) -> Result<ElementSummary, ClassError> {
     let element = model.element(connector)?;
     let ends = model.end_poses(connector).map(End::still);
     let mut state = vec![0.0; element.states()];

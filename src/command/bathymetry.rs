@@ -138,7 +138,7 @@ fn record(
     taken.map(|()| Effect::Done)
 }
 
-fn after(last: Option<&f64>, next: f64, what: &str, span: Span) -> Outcome<()> {
+fn check_growing(last: Option<&f64>, next: f64, what: &str, span: Span) -> Outcome<()> {
     match last {
         Some(last) if next <= *last => {
             let text = format!("{what} of a bottom must grow from one to the next");
@@ -155,7 +155,7 @@ fn columns(soundings: &mut Soundings, data: &[Value], span: Span) -> Outcome<()>
     let mut x = soundings.x.clone();
     for value in data {
         let next = value.number().unwrap_or_default();
-        after(x.last(), next, "X", value.span)?;
+        check_growing(x.last(), next, "X", value.span)?;
         x.push(next);
     }
     fits(x.len(), 2).map_err(|e| e.diagnostic(span, Default::default()))?;
@@ -175,7 +175,7 @@ fn row(soundings: &mut Soundings, data: &[Value], span: Span) -> Outcome<()> {
         return Err(Diagnostic::error(text, at).help("form: Y y z1 z2 .."));
     }
     let y = place.number().unwrap_or_default();
-    after(soundings.y.last(), y, "Y", place.span)?;
+    check_growing(soundings.y.last(), y, "Y", place.span)?;
     fits(wanted, soundings.y.len() + 1).map_err(|e| e.diagnostic(span, Default::default()))?;
     soundings.y.push(y);
     soundings.heights.extend(heights.iter().map(|v| soundings.sign * v.number().unwrap_or_default()));
@@ -186,7 +186,7 @@ fn row(soundings: &mut Soundings, data: &[Value], span: Span) -> Outcome<()> {
 ///
 /// # Errors
 /// Records that were refused, or too few.
-pub fn made(job: &mut Job, soundings: Soundings, at: Option<Span>) -> Outcome<()> {
+pub fn finish_grid(job: &mut Job, soundings: Soundings, at: Option<Span>) -> Outcome<()> {
     let Soundings { name, x, y, heights, refused, span, .. } = soundings;
     let place = at.unwrap_or(span);
     if let Some(refused) = refused {

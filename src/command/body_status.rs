@@ -1,7 +1,7 @@
 //! `&STATUS FORCE`, `STIFFNESS` and `MODES`: what acts on the bodies where they stand, how it changes, how they swing.
 
-use super::chosen::Chosen;
-use super::equilibrium::told;
+use super::chosen::NameFilter;
+use super::equilibrium::to_diagnostic;
 use super::{Call, Job};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::geometry::Position;
@@ -26,7 +26,7 @@ pub const ABOUT: OptionSpec =
 /// # Errors
 /// A connector or body that cannot be evaluated.
 pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
-    let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(0), job.units);
     let system = System::new(&job.model, &[]).map_err(wrong)?;
     let state = system.state(&job.model);
     Ok(vec![tables::by_category(&system, &state, fits).map_err(wrong)?])
@@ -37,7 +37,7 @@ pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Ve
 /// # Errors
 /// A connector or body that cannot be evaluated.
 pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
-    let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(0), job.units);
     let linear = LinearSystem::new(&job.model).map_err(wrong)?;
     Ok(frequency::tables::modes(&linear).map_err(wrong)?.into())
 }
@@ -46,14 +46,14 @@ pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
 ///
 /// # Errors
 /// A connector or body that cannot be evaluated.
-pub fn stiffness(job: &Job, call: &Call, chosen: &Chosen) -> Outcome<Vec<Table>> {
-    let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
+pub fn stiffness(job: &Job, call: &Call, chosen: &NameFilter) -> Outcome<Vec<Table>> {
+    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(0), job.units);
     let about: Option<Position> =
         call.args.option(&ABOUT).map(|given| given.numbers_or_zero(const { ABOUT.numbers(["X", "Y", "Z"]) }));
     let system = System::new(&job.model, &[]).map_err(wrong)?;
     let mut state = system.state(&job.model);
     system.evaluate(&mut state).map_err(wrong)?;
-    let named = |name: &str| !chosen.all() && chosen.takes(name);
+    let named = |name: &str| !chosen.chooses_all() && chosen.takes(name);
     let connectors: Vec<&str> =
         job.model.connectors.values().map(|c| c.name.as_str()).filter(|name| named(name)).collect();
     let bodies = |name: &str| chosen.takes(name);

@@ -139,8 +139,8 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
         table.note(format!("{} has no hull and no linear stiffness", body.name));
     }
     let force = weight.abs().max((wrench[2] + weight).abs());
-    table = table.fact("Buoyancy less Weight", settled(wrench[2], force), Dim::Force);
-    let about = moment_about(&wrench, arm).map(|m| settled(m, force * size));
+    table = table.fact("Buoyancy less Weight", round_to_zero(wrench[2], force), Dim::Force);
+    let about = moment_about(&wrench, arm).map(|m| round_to_zero(m, force * size));
     table = table.fact("Moment X", about.x, Dim::Moment).fact("Moment Y", about.y, Dim::Moment);
     table.note("moments and stiffness are about the center of gravity, in global axes; KB, KG and BM are vertical, from the origin of the body");
     let about = about_point(&stiffness, &wrench, arm);
@@ -150,14 +150,14 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
 }
 
 /// A number that is zero but for rounding as zero; `size` is that of the numbers it was made of.
-pub(super) fn settled(value: f64, size: f64) -> f64 {
+pub(super) fn round_to_zero(value: f64, size: f64) -> f64 {
     if value.abs() <= 1e-11 * size { 0.0 } else { value }
 }
 
 /// The facts of a place.
 fn place(mut table: Table, name: &str, at: [f64; 3], size: f64) -> Table {
     for (axis, value) in ["X", "Y", "Z"].into_iter().zip(at) {
-        table = table.fact(&format!("{name} {axis}"), settled(value, size), Dim::Length);
+        table = table.fact(&format!("{name} {axis}"), round_to_zero(value, size), Dim::Length);
     }
     table
 }
@@ -166,7 +166,7 @@ fn facts(mut table: Table, found: &Hydrostatics, size: f64) -> Table {
     table = table.fact("Displacement", found.displacement, Dim::Force).fact("Volume", found.volume, Dim::Volume);
     table = place(table, "Center of Buoyancy", found.centre_of_buoyancy.into(), size);
     table = table.fact("Waterplane Area", found.plane_area, Dim::Area);
-    let flotation = found.centre_of_flotation.map_or([None; 2], |at| at.map(|x| Some(settled(x, size))));
+    let flotation = found.centre_of_flotation.map_or([None; 2], |at| at.map(|x| Some(round_to_zero(x, size))));
     for (axis, value) in ["X", "Y"].into_iter().zip(flotation) {
         table = table.fact(&format!("Center of Flotation {axis}"), value, Dim::Length);
     }
@@ -217,7 +217,7 @@ fn stiffness_rows(table: Table, matrix: &Matrix6<f64>, first: usize) -> Table {
         .enumerate()
         .skip(first)
         .take(3)
-        .map(|(n, name)| (name, [0, 1, 2, 3, 4, 5].map(|i| settled(matrix[(n, i)], whole))))
+        .map(|(n, name)| (name, [0, 1, 2, 3, 4, 5].map(|i| round_to_zero(matrix[(n, i)], whole))))
         .collect();
     table
         .with_rows(&rows)

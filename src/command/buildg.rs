@@ -45,7 +45,7 @@ pub struct Building {
 }
 
 /// Largest table given by records or a file (bytes).
-const LARGEST: u64 = 256 << 20;
+const MAX_TABLE_BYTES: u64 = 256 << 20;
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
@@ -61,7 +61,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let name = file.word().unwrap_or_default();
     let path = readable(job, name, file.span)?;
     let at = |e: std::io::Error| Diagnostic::error(format!("{}: {e}", path.display()), file.span);
-    let text = String::from_utf8(read_input(job, &path, LARGEST).map_err(at)?)
+    let text = String::from_utf8(read_input(job, &path, MAX_TABLE_BYTES).map_err(at)?)
         .map_err(|e| Diagnostic::error(format!("{}: {e}", path.display()), file.span))?;
     open(job, brief, name, &text).map_err(|e| Diagnostic::error(format!("{name}: {e}"), file.span))?;
     Ok(Effect::Done)
@@ -74,7 +74,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 pub fn take(job: &mut Job, record: &Record) -> Outcome<Effect> {
     if let Some(Menu::Building(building)) = job.menus.last_mut() {
         let line = record.text().trim();
-        if (building.text.len() + line.len()) as u64 > LARGEST {
+        if (building.text.len() + line.len()) as u64 > MAX_TABLE_BYTES {
             return Err(Diagnostic::error("the table grows too large", record.whole()));
         }
         building.text.push_str(line);

@@ -10,26 +10,26 @@ use windlass_base::wildcard::matches;
 use windlass_model::{EntityKind, Model};
 
 /// Names, patterns and selectors; none given chooses all. It remembers which of them chose something.
-pub struct Chosen<'a> {
+pub struct NameFilter<'a> {
     model: &'a Model,
     given: Vec<(&'a str, Span, Cell<bool>)>,
     asked: Cell<bool>,
 }
 
-impl<'a> Chosen<'a> {
+impl<'a> NameFilter<'a> {
     /// The words of a record from a position on.
-    pub fn of(call: &'a Call, from: usize, model: &'a Model) -> Self {
-        Chosen::among(call.args.data.get(from..).unwrap_or_default().iter(), model)
+    pub fn new(call: &'a Call, from: usize, model: &'a Model) -> Self {
+        NameFilter::among(call.args.data.get(from..).unwrap_or_default().iter(), model)
     }
 
     /// The words among some values.
     pub fn among(values: impl Iterator<Item = &'a Value>, model: &'a Model) -> Self {
         let given = values.filter_map(|v| Some((v.word()?, v.span, Cell::new(false)))).collect();
-        Chosen { model, given, asked: Cell::new(false) }
+        NameFilter { model, given, asked: Cell::new(false) }
     }
 
     /// Whether no name is given.
-    pub fn all(&self) -> bool {
+    pub fn chooses_all(&self) -> bool {
         self.given.is_empty()
     }
 
@@ -74,9 +74,9 @@ impl<'a> Chosen<'a> {
 }
 
 /// The remarks of several things, each text once, with the names of all it holds for; `warning: ` stays in front.
-pub fn gathered(list: &[(String, Vec<String>)]) -> Vec<String> {
+pub fn merge_remarks(list: &[(String, Vec<String>)]) -> Vec<String> {
     /// Names written out; of more the number is told.
-    const MOST: usize = 8;
+    const MAX_NAMES: usize = 8;
     let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
     for (name, notes) in list {
         for note in notes {
@@ -88,8 +88,8 @@ pub fn gathered(list: &[(String, Vec<String>)]) -> Vec<String> {
     }
     let line = |(text, names): (&str, Vec<&str>)| {
         let (mark, text) = text.strip_prefix(WARNING).map_or(("", text), |rest| (WARNING, rest));
-        let more = names.len().saturating_sub(MOST);
-        let names = names.into_iter().take(MOST).collect::<Vec<_>>().join(", ");
+        let more = names.len().saturating_sub(MAX_NAMES);
+        let names = names.into_iter().take(MAX_NAMES).collect::<Vec<_>>().join(", ");
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         format!("{mark}{names}{more}: {text}")
     };
@@ -115,14 +115,14 @@ pub fn note_caveats(model: &Model, tables: &mut [Table]) {
 
 #[cfg(test)]
 mod tests {
-    use super::gathered;
+    use super::merge_remarks;
 
     #[test]
     fn a_remark_of_several_things_is_told_once_with_all_their_names() {
         let both = || vec!["warning: it breaks".to_string(), "it is slack".into()];
         let list = [("A".to_string(), both()), ("B".into(), vec!["warning: it breaks".into()])];
-        assert_eq!(gathered(&list), ["warning: A, B: it breaks", "A: it is slack"]);
+        assert_eq!(merge_remarks(&list), ["warning: A, B: it breaks", "A: it is slack"]);
         let many: Vec<_> = (1..=10).map(|n| (n.to_string(), both())).collect();
-        assert_eq!(gathered(&many)[1], "1, 2, 3, 4, 5, 6, 7, 8 and 2 more: it is slack");
+        assert_eq!(merge_remarks(&many)[1], "1, 2, 3, 4, 5, 6, 7, 8 and 2 more: it is slack");
     }
 }

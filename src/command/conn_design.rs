@@ -1,6 +1,6 @@
 //! The CONN_DESIGN menu.
 
-use super::chosen::{Chosen, WARNING, raise};
+use super::chosen::{NameFilter, WARNING, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::menu;
 use super::{Call, Command, Effect, Job, Menu, status, vary};
@@ -99,7 +99,7 @@ static PROPERTIES_SPEC: CommandSpec = CommandSpec {
 };
 
 /// The connector that a record's first datum names, and its class.
-fn named<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Connector, &'a Class)> {
+fn find_connector<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Connector, &'a Class)> {
     let connector = find(&job.model.connectors, args.word(0).unwrap_or_default(), "connector", args.place(0))?;
     Ok((connector, find(&job.model.classes, &connector.class, "class", args.place(0))?))
 }
@@ -137,7 +137,7 @@ fn dispose(job: &mut Job, class: &str, mut made: Table, span: Span) -> Effect {
 
 fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.place(0));
-    let (connector, class) = named(job, args)?;
+    let (connector, class) = find_connector(job, args)?;
     let name = class.name.clone();
     let held = condition(args)?;
     if let Some(vary) = args.option(&vary::VARY) {
@@ -163,7 +163,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.place(0));
-    let (connector, class) = named(job, args)?;
+    let (connector, class) = find_connector(job, args)?;
     let (name, condition) = (class.name.clone(), condition(args)?);
     let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());
     let made = line
@@ -179,9 +179,9 @@ fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn properties(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let text = {
-        let chosen = Chosen::of(call, 0, &job.model);
+        let chosen = NameFilter::new(call, 0, &job.model);
         let tables = status::classes(job, &|class| {
-            if chosen.all() { class.object.is_line() } else { chosen.takes(&class.name) }
+            if chosen.chooses_all() { class.object.is_line() } else { chosen.takes(&class.name) }
         });
         chosen.check("the classes", &tables, &[EntityKind::Class])?;
         if tables.is_empty() {

@@ -211,15 +211,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Ok(Effect::Done);
     };
     // one curve in one record: read as the menu's record is
-    let kinds =
-        super::offered(&menu::CURVES).filter(|c| !c.spec.menus.is_empty()).map(|c| (c.spec.name, c.spec.owner, c));
+    let kinds = super::commands_of_menu(&menu::CURVES)
+        .filter(|c| !c.spec.menus.is_empty())
+        .map(|c| (c.spec.name, c.spec.owner, c));
     let command = choose(&kind.text, kind.span, "type of curve", kinds)?;
     let args = args::read(command.spec, kind.span, values, job.units)?;
     (command.run)(job, &Call { record: call.record, words, args })
 }
 
 /// Exponentials where `-NDOF` says nothing.
-const EXPONENTIALS: i64 = 5;
+const DEFAULT_EXPONENTIALS: i64 = 5;
 
 const NDOF_OPTION: OptionSpec = OptionSpec::new(
     "-NDOF",
@@ -258,7 +259,7 @@ fn convolution(job: &mut Job, call: &Call, span: Span, words: &[Word]) -> Outcom
 }
 
 /// Share of the largest stiffness above which a fit is warned of.
-const POOR: f64 = 0.05;
+const POOR_FIT_SHARE: f64 = 0.05;
 
 fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
     let args = &call.args;
@@ -280,10 +281,10 @@ fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
         return Err(Diagnostic::error("a curve has at least two points", span));
     }
     let exponentials =
-        args.option_if_declared(&NDOF_OPTION).and_then(|g| g.values.first()?.integer()).unwrap_or(EXPONENTIALS);
+        args.option_if_declared(&NDOF_OPTION).and_then(|g| g.values.first()?.integer()).unwrap_or(DEFAULT_EXPONENTIALS);
     let exponentials = usize::try_from(exponentials).unwrap_or(1);
     let made = Curve { name: name.to_string(), kind, points, exponentials, metres: job.units.metres(), span };
-    if let Some(fit) = ViscoelasticLaw::fit(&made).filter(|fit| fit.error > POOR) {
+    if let Some(fit) = ViscoelasticLaw::fit(&made).filter(|fit| fit.error > POOR_FIT_SHARE) {
         let text = format!(
             "the exponentials of curve {name} are off by {:.0} per cent of its largest stiffness",
             100.0 * fit.error

@@ -1,6 +1,6 @@
 //! `DATABASE`: the hydrodynamic database of a body, read from the files of another program.
 
-use super::device::found;
+use super::device::find_file;
 use super::menu;
 use super::{Call, Command, Effect, Job};
 use nalgebra::Vector3;
@@ -28,14 +28,14 @@ pub static DATABASE: Command = Command { spec: &SPEC, edits: false, run };
 /// Endings of the files of WAMIT that are read.
 const WAMIT_ENDINGS: [&str; 9] = ["1", "2", "3", "4", "8", "9", "12d", "12s", "hst"];
 /// The largest difference of the mass of a body from that of its database that is let pass.
-const UNLIKE: f64 = 0.2;
+const MAX_MASS_DIFFERENCE: f64 = 0.2;
 /// The largest added mass of a translation in long waves over the mass of the body: generous on both sides, a slender ship along its
 /// length being let pass by its heave and a plate under water by its size.
 const ADDED: RangeInclusive<f64> = 0.02..=50.0;
 /// Natural periods of heave that are let pass (s): from a small buoy to a slender spar.
 const HEAVE: RangeInclusive<f64> = 0.5..=200.0;
 /// The share of the mass of Ogilvie's relation by which frequencies may stray before it is said.
-const STRAY: f64 = 0.05;
+const MAX_OGILVIE_ERROR: f64 = 0.05;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -180,9 +180,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             data.source,
             100.0 * stray
         );
-        if stray > STRAY { job.warn(text, source) } else { job.remark(text, source) }
+        if stray > MAX_OGILVIE_ERROR { job.warn(text, source) } else { job.remark(text, source) }
     }
-    if let Some(other) = data.mass.filter(|m| mass > 0.0 && (m / mass - 1.0).abs() > UNLIKE) {
+    if let Some(other) = data.mass.filter(|m| mass > 0.0 && (m / mass - 1.0).abs() > MAX_MASS_DIFFERENCE) {
         let text = format!("{name} has {:.4} times the mass that {} was computed for", mass / other, data.source);
         job.warn(text, source);
     }
@@ -306,7 +306,7 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
 fn files(job: &Job, names: impl Iterator<Item = String>, span: Span) -> Outcome<Vec<SourceFile>> {
     let mut list = Vec::new();
     for name in names {
-        let path = found(job, &name);
+        let path = find_file(job, &name);
         if path.is_file() {
             list.push(text(job, &path, &name, span)?);
         }

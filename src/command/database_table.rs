@@ -11,7 +11,7 @@ use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_model::{AttachedDatabase, Body, DriftMethod, Model};
 
 /// What is below this share of the largest of its kind is rounding.
-const NOTHING: f64 = 1e-9;
+const ROUNDING_SHARE: f64 = 1e-9;
 
 /// A body with its database, and the memory of its radiation where there is one.
 type BodyDatabase<'m> = (&'m Body, &'m AttachedDatabase, Option<f64>);
@@ -33,7 +33,7 @@ pub(super) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
             let text = format!("{}: added mass at infinite frequency by Ogilvie's relation", body.name);
             whole.note(format!("{text}; frequencies stray from it by {:.1} %", 100.0 * stray));
         }
-        tables.extend(radiation.map(|r| radiated(body, attached, &r)));
+        tables.extend(radiation.map(|r| radiation_table(body, attached, &r)));
         let by_wave = |title: &str, table: &[Vec<Amplitudes>], dims: [Dim; 2]| {
             amplitudes(format!("{title} of {}", body.name), (&data.headings, &data.frequencies), table, dims)
         };
@@ -78,7 +78,7 @@ fn drift_word(attached: &AttachedDatabase) -> &'static str {
 }
 
 /// Diagonals of added mass and damping by frequency, about the body's origin.
-fn radiated(body: &Body, attached: &AttachedDatabase, radiation: &Radiation) -> Table {
+fn radiation_table(body: &Body, attached: &AttachedDatabase, radiation: &Radiation) -> Table {
     let data = &attached.data;
     let at = |w: f64| Some((Some(w), data.added_mass_at(w)?, Some(data.damping_at(w)?)));
     let mut rows: Vec<_> = data.frequencies.iter().filter_map(|w| at(*w)).collect();
@@ -101,7 +101,7 @@ fn radiated(body: &Body, attached: &AttachedDatabase, radiation: &Radiation) -> 
 /// The diagonal of a matrix, without what rounding leaves.
 fn diagonal(matrix: &Matrix6<f64>) -> [f64; 6] {
     let largest = matrix.diagonal().amax();
-    matrix.diagonal().map(|v| if v.abs() > NOTHING * largest { v } else { 0.0 }).into()
+    matrix.diagonal().map(|v| if v.abs() > ROUNDING_SHARE * largest { v } else { 0.0 }).into()
 }
 
 /// Values by heading and frequency as rows: the heading, the frequency, the values.
@@ -131,7 +131,7 @@ fn amplitudes(
     // what is nothing but rounding has no phase
     let sound = |six: &Amplitudes| {
         let largest = six.iter().map(|x| x.norm()).fold(0.0, f64::max);
-        six.map(|x| Some(x).filter(|x| x.norm() > NOTHING * largest))
+        six.map(|x| Some(x).filter(|x| x.norm() > ROUNDING_SHARE * largest))
     };
     let size = |x: Option<Complex<f64>>| x.map_or(0.0, |x| x.norm());
     let [surge, sway, heave, roll, pitch, yaw] = MODES;

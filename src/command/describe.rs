@@ -1,6 +1,6 @@
 //! `&DESCRIBE`, points, and `&INSTATE`.
 
-use super::chosen::Chosen;
+use super::chosen::NameFilter;
 use super::menu;
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job};
@@ -20,7 +20,7 @@ pub static POINT: Command = Command { spec: &POINT_SPEC, edits: false, run: poin
 pub static INSTATE: Command = Command { spec: &INSTATE_SPEC, edits: true, run: instate };
 
 /// Most bodies [MOSES-REF bod_par].
-const MOST_BODIES: usize = 50;
+const MAX_BODIES: usize = 50;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -133,7 +133,7 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
         });
     }
     if kind == "PIECE" {
-        let piece = piece::begun(job, args, &name, span, Shape::Panels(Vec::new()))?;
+        let piece = piece::begin_piece(job, args, &name, span, Shape::Panels(Vec::new()))?;
         piece::add(job, piece, false);
         return Ok(Effect::Done);
     }
@@ -149,8 +149,8 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     model.free_name(&name, mine, span)?;
     if args.word(0) == Some("BODY") {
         if !model.bodies.contains_key(&key) {
-            if model.bodies.values().filter(|b| b.junction.is_none()).count() >= MOST_BODIES {
-                return Err(Diagnostic::error(format!("a model has at most {MOST_BODIES} bodies"), span));
+            if model.bodies.values().filter(|b| b.junction.is_none()).count() >= MAX_BODIES {
+                return Err(Diagnostic::error(format!("a model has at most {MAX_BODIES} bodies"), span));
             }
             let place = Place::default();
             let (junction, linear) = (None, None);
@@ -187,7 +187,7 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     }
     model.current_part = Some(name.clone());
-    piece::finished(job);
+    piece::finish_piece(job);
     job.note_name(&name, span);
     Ok(Effect::Done)
 }
@@ -199,7 +199,7 @@ fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error(format!("{} does not belong to INTEREST", given.name()), given.span));
     }
     let marked: Vec<(String, Position)> = {
-        let (model, chosen) = (&job.model, Chosen::of(call, 1, &job.model));
+        let (model, chosen) = (&job.model, NameFilter::new(call, 1, &job.model));
         let points = model.points.iter().filter(|(_, p)| chosen.takes(&p.name));
         let marked = points.map(|(key, point)| (key.clone(), model.global(point))).collect();
         chosen.check_used("the points", &[EntityKind::Point])?;

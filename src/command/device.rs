@@ -16,7 +16,7 @@ const FILE: ValueSpec = ValueSpec::new("FILE", Kind::File, "file name");
 const ANY: ValueSpec = ValueSpec::new("VALUE", Kind::Text, "as MOSES takes it").or("none");
 
 /// An option of MOSES that has no meaning here: it is read, kept out of the way and said.
-const fn unused(name: &'static str) -> OptionSpec {
+const fn ignored_option(name: &'static str) -> OptionSpec {
     OptionSpec::new(name, &[ANY], "read and without effect: windlass has no such device")
 }
 
@@ -65,15 +65,15 @@ const PLOT_SIZE: OptionSpec = OptionSpec::new(
 )
 .default("the terminal's width, else 90; 26")
 .owner(Owner::Ours);
-const US_DATE: OptionSpec = unused("-US_DATE");
-const CONT_ENTRY: OptionSpec = unused("-CONT_ENTRY");
-const G_DEFAULT: OptionSpec = unused("-G_DEFAULT");
-const IDISPLAY: OptionSpec = unused("-IDISPLAY");
-const CLIENT: OptionSpec = unused("-CLIENT");
-const FN_LOWER: OptionSpec = unused("-FN_LOWER");
-const LICENSE: OptionSpec = unused("-LICENSE");
-const PROJ_ID: OptionSpec = unused("-PROJ_ID");
-const PRIMARY: OptionSpec = unused("-PRIMARY");
+const US_DATE: OptionSpec = ignored_option("-US_DATE");
+const CONT_ENTRY: OptionSpec = ignored_option("-CONT_ENTRY");
+const G_DEFAULT: OptionSpec = ignored_option("-G_DEFAULT");
+const IDISPLAY: OptionSpec = ignored_option("-IDISPLAY");
+const CLIENT: OptionSpec = ignored_option("-CLIENT");
+const FN_LOWER: OptionSpec = ignored_option("-FN_LOWER");
+const LICENSE: OptionSpec = ignored_option("-LICENSE");
+const PROJ_ID: OptionSpec = ignored_option("-PROJ_ID");
+const PRIMARY: OptionSpec = ignored_option("-PRIMARY");
 
 static SPEC: CommandSpec = CommandSpec {
     options: &[
@@ -151,17 +151,17 @@ pub fn beside_root(job: &Job, name: &str) -> PathBuf {
 }
 
 /// A file that a script may have written: in the job's folder when it is there, else as [`beside_root`].
-pub fn found(job: &Job, name: &str) -> PathBuf {
+pub fn find_file(job: &Job, name: &str) -> PathBuf {
     let own = job.output.folder.resolve(name).ok().filter(|path| path.exists());
     own.unwrap_or_else(|| beside_root(job, name))
 }
 
-/// A file to be read that a script may have written, as [`found`].
+/// A file to be read that a script may have written, as [`find_file`].
 ///
 /// # Errors
 /// A file that is not there.
 pub fn readable(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
-    let path = found(job, name);
+    let path = find_file(job, name);
     if path.is_file() { Ok(path) } else { existing(job, name, span) }
 }
 

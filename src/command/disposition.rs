@@ -133,7 +133,7 @@ static CULL_SPEC: CommandSpec = CommandSpec {
 };
 
 /// The menu a command works in.
-pub(super) fn here(job: &Job, span: Span) -> Outcome<&Disposition> {
+pub(super) fn open_disposition(job: &Job, span: Span) -> Outcome<&Disposition> {
     match job.menu() {
         Menu::Disposition(d) => Ok(d),
         _ => Err(Diagnostic::error("no result is being disposed of", span)),
@@ -141,7 +141,7 @@ pub(super) fn here(job: &Job, span: Span) -> Outcome<&Disposition> {
 }
 
 /// An error of the library at the word it is about, else at the command.
-pub(super) fn refused(args: &Args, error: &DispositionError) -> Box<Diagnostic> {
+pub(super) fn to_diagnostic(args: &Args, error: &DispositionError) -> Box<Diagnostic> {
     let named = match error {
         // the last of that name: a file or variable before the columns may have it too
         DispositionError::Column(c) => {
@@ -184,7 +184,7 @@ pub(super) fn chosen(job: &Job, args: &Args, from: usize) -> Outcome<Table> {
 /// The same for statistics, which leave the transient of a run out unless -RECORD or -VALUES choose rows; with what is to be said of that.
 pub(super) fn chosen_for_statistics(job: &Job, args: &Args) -> Outcome<(Table, Option<String>)> {
     let chosen = args.has(&RECORD) || args.has(&VALUES);
-    let from = here(job, args.span)?.transient().filter(|_| !chosen);
+    let from = open_disposition(job, args.span)?.transient().filter(|_| !chosen);
     let table = chosen_rows(job, args, 0, &RowChoice { from, ..rows(args) })?;
     let said =
         from.map(|t| format!("without the transient: rows from TTRA_SET, {t} s, on; -RECORD or -VALUES take others"));
@@ -192,9 +192,9 @@ pub(super) fn chosen_for_statistics(job: &Job, args: &Args) -> Outcome<(Table, O
 }
 
 fn chosen_rows(job: &Job, args: &Args, from: usize, rows: &RowChoice) -> Outcome<Table> {
-    let d = here(job, args.span)?;
+    let d = open_disposition(job, args.span)?;
     let result = d.columns(&selectors(args, from)).and_then(|c| d.extract(&c, rows, true, job.units));
-    let mut table = result.map_err(|e| refused(args, &e))?;
+    let mut table = result.map_err(|e| to_diagnostic(args, &e))?;
     if args.option_if_declared(&MAG_USE).is_some() {
         for cell in table.columns.iter_mut().flat_map(|c| c.cells.iter_mut()) {
             if let windlass_base::table::Cell::Number(value) = cell {
@@ -225,18 +225,18 @@ pub(super) fn send(job: &mut Job, args: &Args, text: &str) -> Outcome<()> {
 
 fn report(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let d = here(job, args.span)?;
+    let d = open_disposition(job, args.span)?;
     let table = d
         .report_columns(&selectors(args, 0))
         .and_then(|c| d.extract(&c, &rows(args), false, job.units))
-        .map_err(|e| refused(args, &e))?;
+        .map_err(|e| to_diagnostic(args, &e))?;
     let text = page::render(&table, job.units, &job.page_head());
     send(job, args, &text)?;
     Ok(Effect::Done)
 }
 
 fn vlist(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let lines = here(job, call.args.span)?.vlist(job.units).join("\n");
+    let lines = open_disposition(job, call.args.span)?.vlist(job.units).join("\n");
     job.say(&lines);
     Ok(Effect::Done)
 }
@@ -244,8 +244,8 @@ fn vlist(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn view(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let numbers = {
-        let d = here(job, args.span)?;
-        d.rows(&rows(args), job.units).map_err(|e| refused(args, &e))?
+        let d = open_disposition(job, args.span)?;
+        d.rows(&rows(args), job.units).map_err(|e| to_diagnostic(args, &e))?
     };
     let table = chosen(job, args, 0)?;
     let text = page::view(&table, &numbers, job.units).join("\n");
@@ -255,7 +255,7 @@ fn view(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 /// Writes a file, and says where it went.
 pub(super) fn write_file(job: &mut Job, name: &str, bytes: &[u8], span: Span) -> Outcome<()> {
-    let path = job.output.folder.write(name, bytes).map_err(|e| super::file::refused(&e, span))?;
+    let path = job.output.folder.write(name, bytes).map_err(|e| super::file::to_diagnostic(&e, span))?;
     let text = format!("wrote {}", path.display());
     job.say(&text);
     Ok(())
@@ -268,8 +268,9 @@ fn set_variable(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if !good {
         return Err(Diagnostic::error(format!("`{name}` cannot name a variable"), args.place(0)));
     }
-    let d = here(job, args.span)?;
-    let text = d.values(args.word(1).unwrap_or_default(), &rows(args), job.units).map_err(|e| refused(args, &e))?;
+    let d = open_disposition(job, args.span)?;
+    let text =
+        d.values(args.word(1).unwrap_or_default(), &rows(args), job.units).map_err(|e| to_diagnostic(args, &e))?;
     Ok(Effect::Set(name.to_string(), text))
 }
 
@@ -280,7 +281,7 @@ fn adjust(
 ) -> Outcome<Effect> {
     let value = args.number(0).unwrap_or(0.0);
     if let Some(Menu::Disposition(d)) = job.menus.last_mut() {
-        change(d, value, &selectors(args, 1)).map_err(|e| refused(args, &e))?;
+        change(d, value, &selectors(args, 1)).map_err(|e| to_diagnostic(args, &e))?;
     }
     Ok(Effect::Done)
 }
@@ -308,7 +309,8 @@ fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     }
     let column = args.word(0).unwrap_or_default();
-    let culled = here(job, args.span)?.cull(column, &excluded, job.units).map_err(|e| refused(args, &e))?;
+    let culled =
+        open_disposition(job, args.span)?.cull(column, &excluded, job.units).map_err(|e| to_diagnostic(args, &e))?;
     let (rows, columns) = (culled.table.rows(), culled.table.columns.len());
     job.menus.push(Menu::Disposition(Box::new(culled)));
     job.say(&format!("{rows} rows of {columns} columns kept; END returns to all rows"));

@@ -3,7 +3,7 @@
 //! Source: [MOSES-REF env].
 
 use super::menu;
-use super::plausible::shown;
+use super::plausible::format_value;
 use super::{Call, Command, Effect, Job, ambient_options, plausible, probability, sea_options, wind_options};
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::spec::ValueKey;
@@ -321,8 +321,8 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
             {
                 let text = format!(
                     "the transient set aside, {}, leaves nothing of the {} observed",
-                    shown(transient, Dim::Time, job.units),
-                    shown(observed, Dim::Time, job.units)
+                    format_value(transient, Dim::Time, job.units),
+                    format_value(observed, Dim::Time, job.units)
                 );
                 return Err(Diagnostic::error(text, given.place(TRANSIENT))
                     .help("TTRA_SET is part of TOBSERV, at its beginning"));

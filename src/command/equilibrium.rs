@@ -4,7 +4,7 @@
 
 use super::chosen::{WARNING, note_caveats, raise};
 use super::disposition::{BOTH, HARD, send};
-use super::verdict::{OverBreak, judged};
+use super::verdict::{OverBreak, check_over_break};
 use super::{Call, Command, Effect, Job};
 use crate::report::page;
 use indexmap::IndexMap;
@@ -71,7 +71,7 @@ static SPEC: CommandSpec = CommandSpec {
 const MORE: ValueSpec = ValueSpec::new("DOF", Kind::Choice(&DOFS), "a further one").or("no more");
 
 /// The degrees of freedom one -IGNORE holds, each with the number of its body.
-fn ignored(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
+fn ignored_dofs(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
     let place = given.first_place();
     let body = find(&model.bodies, given.first_word().unwrap_or_default(), "body", place)?;
     let index = model.bodies.get_index_of(&Model::key(&body.name)).unwrap_or(0);
@@ -93,13 +93,13 @@ fn options(job: &Job, call: &Call) -> Outcome<Options> {
         made.tolerance = [shift, turn.unwrap_or(shift)];
     }
     for given in args.occurrences(&IGNORE) {
-        made.ignored.extend(ignored(&job.model, given)?);
+        made.ignored.extend(ignored_dofs(&job.model, given)?);
     }
     Ok(made)
 }
 
 /// The message of an engine, with who it is about.
-pub(super) fn told(wrong: SolveError, model: &Model, span: Span, units: UnitSystem) -> Box<Diagnostic> {
+pub(super) fn to_diagnostic(wrong: SolveError, model: &Model, span: Span, units: UnitSystem) -> Box<Diagnostic> {
     let SolveError { who, mut error } = wrong;
     if let Some(who) = who {
         let what = if model.bodies.contains_key(&Model::key(&who)) { "body" } else { "connector" };
@@ -133,13 +133,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         );
     }
     let settled = find_equilibrium_with_rebuilds(&mut job.model, &options)
-        .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
+        .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?;
     let forces = tables::by_category(&settled.system, &settled.state, &|_| true)
-        .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
+        .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?;
     let (mut over, mut unknown) = (Vec::new(), Vec::new());
     for (name, summary) in settled.system.summaries(&settled.state) {
         match summary {
-            Ok(summary) => over.extend(judged(name, &summary, "&EQUI")),
+            Ok(summary) => over.extend(check_over_break(name, &summary, "&EQUI")),
             Err(error) => unknown.push(format!("the tension of {name} is not known: {}", error.error.text(job.units))),
         }
     }
@@ -148,7 +148,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     match job.model.check_added_mass() {
         Ok(()) => list.push(
             tables::periods(&settled.system, &settled.state)
-                .map_err(|e| told(e, &job.model, call.args.span, job.units))?,
+                .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?,
         ),
         Err(error) => {
             let text = format!("{WARNING}natural periods are left out: {}", error.text(job.units));

@@ -3,7 +3,7 @@
 //! Source: [MOSES-RUNS con_d]: MOVE body [angle]; its sixth column is the restoring force.
 
 use super::chosen::{note_caveats, raise};
-use super::equilibrium::told;
+use super::equilibrium::to_diagnostic;
 use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
@@ -25,12 +25,12 @@ use windlass_solve::watch::watch;
 use windlass_solve::{SolveError, System};
 
 /// MOVE.
-pub static MOVE: Command = Command { spec: &MOVE_SPEC, edits: false, run: moved };
+pub static MOVE: Command = Command { spec: &MOVE_SPEC, edits: false, run: run_excursion };
 /// WATCH.
-pub static WATCH: Command = Command { spec: &WATCH_SPEC, edits: false, run: watched };
+pub static WATCH: Command = Command { spec: &WATCH_SPEC, edits: false, run: run_watch_circle };
 
 /// Most directions of one record.
-const MOST: usize = 3600;
+const MAX_DIRECTIONS: usize = 3600;
 
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
 const ANGLE: ValueSpec =
@@ -142,8 +142,8 @@ fn range(args: &Args) -> Outcome<Option<Vec<f64>>> {
     if count < 0.0 {
         return Err(Diagnostic::error("-ANGLES holds no direction: it ends before it begins", given.span));
     }
-    if count >= MOST as f64 {
-        return Err(Diagnostic::error(format!("-ANGLES holds more than {MOST} directions"), given.span));
+    if count >= MAX_DIRECTIONS as f64 {
+        return Err(Diagnostic::error(format!("-ANGLES holds more than {MAX_DIRECTIONS} directions"), given.span));
     }
     Ok(Some((0..=count as usize).map(|n| from + step * n as f64).collect()))
 }
@@ -159,7 +159,7 @@ fn systems(job: &Job, args: &Args) -> Outcome<Systems> {
         }
         removed.push(connector.name.clone());
     }
-    let wrong = |e: SolveError| told(e, &job.model, args.place(0), job.units);
+    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.place(0), job.units);
     let system = System::new(&job.model, &removed).map_err(wrong)?;
     let intact = (!removed.is_empty()).then(|| System::new(&job.model, &[])).transpose().map_err(wrong)?;
     Ok(Systems { system, intact, removed })
@@ -179,7 +179,7 @@ fn poses(job: &Job) -> Vec<Pose> {
     job.model.bodies.values().map(|b| Pose::of(&b.place)).collect()
 }
 
-fn moved(job: &mut Job, call: &Call) -> Outcome<Effect> {
+fn run_excursion(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (body, index) = body(job, args)?;
     let given: Vec<f64> = args.data.iter().skip(1).filter_map(|v| v.number()).collect();
@@ -214,11 +214,11 @@ fn moved(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .collect();
         table_of_directions(&systems, &asked, &directions, &at)
     };
-    let made = made.map_err(|e| told(e, &job.model, args.place(0), job.units))?;
+    let made = made.map_err(|e| to_diagnostic(e, &job.model, args.place(0), job.units))?;
     Ok(dispose(job, made, args))
 }
 
-fn watched(job: &mut Job, call: &Call) -> Outcome<Effect> {
+fn run_watch_circle(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (body, index) = body(job, args)?;
     let force = args.number(1).unwrap_or(0.0);
@@ -226,7 +226,7 @@ fn watched(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let directions = range(args)?.unwrap_or_else(|| around.collect());
     let mut systems = systems(job, args)?;
     let (free, start) = (args.has(&FREE), poses(job));
-    let wrong = |e: SolveError| told(e, &job.model, args.place(0), job.units);
+    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.place(0), job.units);
     let asked_for = (index, force, free);
     let found = watch(&mut systems.system, &start, asked_for, &directions).map_err(wrong)?;
     let intact = match &mut systems.intact {

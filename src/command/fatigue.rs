@@ -4,7 +4,7 @@
 
 use super::chosen::note_caveats;
 use super::environment;
-use super::equilibrium::told;
+use super::equilibrium::to_diagnostic;
 use super::menu;
 use super::prcpost::{CONNECTORS, asked_behind_transient, connectors};
 use super::{Call, Command, Effect, Job, Menu};
@@ -78,7 +78,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Diagnostic::error("how long the environment lasts is not said", args.span).help("-DURATION, here or of &ENV")
     })?;
     let lines = results::line_damages(run, &connectors(job, run, call)?, &job.model.fatigue, &events)
-        .map_err(|e| told(e, &job.model, args.span, job.units))?;
+        .map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
     if lines.is_empty() {
         return Err(Diagnostic::error("none of the connectors is of a class with sections", args.span)
             .help("lines, rods and elastic elements have them"));

@@ -19,7 +19,7 @@ pub fn tables(job: &Job, fits: &dyn Fn(&str) -> bool, all: bool) -> Vec<Table> {
         tables.push(points(model, fits));
     }
     tables.extend(segments(model, fits));
-    let shipped = shipped(fits);
+    let shipped = library_table(fits);
     if all || shipped.rows() > 0 {
         tables.push(shipped);
     }
@@ -112,7 +112,7 @@ fn segments(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
 }
 
 /// The curves of the library.
-fn shipped(fits: &dyn Fn(&str) -> bool) -> Table {
+fn library_table(fits: &dyn Fn(&str) -> bool) -> Table {
     let chosen = library().curves.iter().filter(|c| fits(&c.name) || c.aliases.iter().any(|a| fits(a)));
     let rows: Vec<_> = chosen.map(|shipped| (shipped, shipped.curve())).collect();
     let mut used: Vec<&str> = Vec::new();

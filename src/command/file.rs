@@ -91,7 +91,7 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(word) = call.words.get(most) {
         return Err(Diagnostic::error(format!("&FILE {action} takes no further word"), word.span));
     }
-    let at = |error| refused(&error, first.span);
+    let at = |error| to_diagnostic(&error, first.span);
     match action {
         "MKDIR" => job.output.folder.make_folder(&first.text).map_err(at).map(|_| ())?,
         "RM" => {
@@ -105,7 +105,7 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
             }
             job.output.folder.transfer(&first.text, &to.text, keep).map_err(|(side, error)| match side {
                 Side::From => at(error),
-                Side::To => refused(&error, to.span),
+                Side::To => to_diagnostic(&error, to.span),
             })?;
         }
         "ANS_DIRECTORY" => {
@@ -120,7 +120,7 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
         _ => {
             let name = second()?;
             let path = readable(job, &name.text, name.span)?;
-            let bytes = read_input(job, &path, LARGEST as u64)
+            let bytes = read_input(job, &path, MAX_FILE_BYTES as u64)
                 .map_err(|e| Diagnostic::error(format!("{}: {e}", path.display()), name.span))?;
             let text = String::from_utf8(bytes)
                 .map_err(|e| Diagnostic::error(format!("{}: it is no text: {e}", path.display()), name.span))?;
@@ -141,7 +141,7 @@ fn not_open(job: &Job, name: &Word) -> Outcome<()> {
     };
     match job.user_files.iter().find(|(_, file)| of(file)) {
         Some((kind, _)) => {
-            Err(refused(&FileError::InUse(path), name.span).help(format!("&FILE CLOSE {kind} closes it")))
+            Err(to_diagnostic(&FileError::InUse(path), name.span).help(format!("&FILE CLOSE {kind} closes it")))
         }
         None => Ok(()),
     }
@@ -153,7 +153,7 @@ pub fn with_csv_ending(name: &str) -> String {
 }
 
 /// A file that could not be written or touched, at the word that names it.
-pub fn refused(error: &FileError, span: Span) -> Box<Diagnostic> {
+pub fn to_diagnostic(error: &FileError, span: Span) -> Box<Diagnostic> {
     let mut made = Diagnostic::error(error.to_string(), span);
     made.help.extend(error.help().map(str::to_string));
     made
@@ -161,7 +161,7 @@ pub fn refused(error: &FileError, span: Span) -> Box<Diagnostic> {
 
 fn open(job: &mut Job, kind: &Word, name: &Word) -> Outcome<()> {
     write_unclosed(job, kind)?;
-    let place = job.output.folder.place(&name.text).map_err(|e| refused(&e, name.span))?;
+    let place = job.output.folder.place(&name.text).map_err(|e| to_diagnostic(&e, name.span))?;
     if let Some(other) = job.user_files.writing_at(place.path()) {
         let text = format!("{} is open already, as type {other}", place.path().display());
         return Err(Diagnostic::error(text, name.span));
@@ -184,7 +184,7 @@ fn write_unclosed(job: &mut Job, kind: &Word) -> Outcome<()> {
 
 /// Writes a file that was not closed; the note that says so.
 fn written_unclosed(kind: &str, place: &FilePlace, text: &str, opened: Span) -> Outcome<Box<Diagnostic>> {
-    place.write(text.as_bytes()).map_err(|e| refused(&e, opened))?;
+    place.write(text.as_bytes()).map_err(|e| to_diagnostic(&e, opened))?;
     let note = format!("{} was not closed and is written as it stands", place.path().display());
     Ok(Diagnostic::remark(note, opened).help(format!("&FILE CLOSE {kind} closes it")))
 }
@@ -204,13 +204,13 @@ pub fn write_open_files(job: &mut Job) -> Vec<Box<Diagnostic>> {
 }
 
 /// Largest text a user's file may grow to (bytes).
-const LARGEST: usize = 256 << 20;
+const MAX_FILE_BYTES: usize = 256 << 20;
 
 fn write(job: &mut Job, call: &Call, name: &Word) -> Outcome<()> {
     let words = windlass_language::token::words(call.record.text());
     let text = words.get(3).and_then(|t| call.record.text().get(t.range.start..)).unwrap_or_default().trim_end();
     match job.user_files.get_mut(&name.text.to_ascii_uppercase()) {
-        Some(UserFile::Writing { text: lines, .. }) if lines.len() + text.len() < LARGEST => {
+        Some(UserFile::Writing { text: lines, .. }) if lines.len() + text.len() < MAX_FILE_BYTES => {
             lines.push_str(text);
             lines.push('\n');
             Ok(())
@@ -226,7 +226,7 @@ fn close(job: &mut Job, name: &Word) -> Outcome<()> {
     match job.user_files.get(&key) {
         // a file that cannot be written now stays open, and is tried again at the end of the job
         Some(UserFile::Writing { place, text, .. }) => {
-            place.write(text.as_bytes()).map_err(|e| refused(&e, name.span))?;
+            place.write(text.as_bytes()).map_err(|e| to_diagnostic(&e, name.span))?;
         }
         Some(UserFile::Reading { .. }) => {}
         None => return Err(Diagnostic::error(format!("no file of type {} is open", name.text), name.span)),

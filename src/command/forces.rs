@@ -1,7 +1,7 @@
 //! `&STATUS F_CONNECTOR`: the forces of the connectors between their ends as they are.
 
-use super::chosen::{WARNING, gathered};
-use super::verdict::{Verdict, judged};
+use super::chosen::{WARNING, merge_remarks};
+use super::verdict::{Verdict, check_over_break};
 use windlass_base::pose::Six;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
@@ -12,7 +12,7 @@ use windlass_model::{
 use windlass_solve::results::fender_table;
 
 /// What one connector does between its ends.
-struct Found {
+struct ConnectorForces {
     /// Force on the first end, and on the other (N, global).
     forces: [[f64; 3]; 2],
     /// The first of its ends that is on a body; the first where none is.
@@ -32,9 +32,9 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
         let (solution, found) = match connector.active {
             false => ("inactive", None),
             true if model.holds_pipe(&connector.name) => ("in pipe", None),
-            true => match found(model, connector) {
+            true => match find_forces(model, connector) {
                 Ok(mut found) => {
-                    notes.push((connector.name.clone(), told(&mut found.summary, units)));
+                    notes.push((connector.name.clone(), take_remarks(&mut found.summary, units)));
                     (found.summary.solution, Some(found))
                 }
                 Err(error) => {
@@ -45,13 +45,13 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
             },
         };
         if let Some(found) = &found {
-            verdict.over_break.extend(judged(&connector.name, &found.summary, "&STATUS F_CONNECTOR"));
+            verdict.over_break.extend(check_over_break(&connector.name, &found.summary, "&STATUS F_CONNECTOR"));
             springs.extend(spring_rows(connector, &found.summary));
             fenders.extend(found.summary.fender.map(|state| (connector.name.as_str(), state)));
         }
         rows.push((connector, solution, found));
     }
-    table.notes = gathered(&notes);
+    table.notes = merge_remarks(&notes);
     let mut table = force_columns(table, &rows);
     add_model_column(&mut table, |name| model.idealisation(name));
     let springs = Some(spring_table("Springs of Connectors", &springs)).filter(|s| s.rows() > 0);
@@ -60,7 +60,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
 }
 
 /// The columns of the forces: a connector, the word of its solution, what it does if it has one.
-fn force_columns(table: Table, rows: &[(&Connector, &str, Option<Found>)]) -> Table {
+fn force_columns(table: Table, rows: &[(&Connector, &str, Option<ConnectorForces>)]) -> Table {
     table
         .with_rows(rows)
         .text("Name", |(connector, ..)| &connector.name)
@@ -76,7 +76,7 @@ fn force_columns(table: Table, rows: &[(&Connector, &str, Option<Found>)]) -> Ta
         })
         .column("Tension", "Crit. Seg", Dim::None, Digits::Usual, |(.., f)| f.as_ref().and_then(|f| f.summary.critical))
         .columns("Anchor", ["V. Pull", "H. Pull"], Dim::Force, Digits::Usual, |(.., f)| {
-            f.as_ref().and_then(Found::anchor_pull).map_or([None; 2], |pull| pull.map(Some))
+            f.as_ref().and_then(ConnectorForces::anchor_pull).map_or([None; 2], |pull| pull.map(Some))
         })
         .column("On Bottom", "Unstretched", Dim::Length, Digits::Usual, |(.., f)| {
             f.as_ref().and_then(|f| f.summary.grounded)
@@ -93,14 +93,14 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
         model.classes.get(&Model::key(&c.class)).is_some_and(|class| class.object.foundation()) && fits(&c.name)
     };
     for connector in model.connectors.values().filter(foundation).filter(|c| c.active) {
-        match found(model, connector) {
+        match find_forces(model, connector) {
             Ok(mut found) => {
                 springs.extend(spring_rows(connector, &found.summary));
                 let ratio = found.summary.ratio.unwrap_or(0.0);
                 if largest.is_none_or(|(most, _)| ratio > most) {
                     largest = Some((ratio, &connector.name));
                 }
-                notes.push((connector.name.clone(), told(&mut found.summary, units)));
+                notes.push((connector.name.clone(), take_remarks(&mut found.summary, units)));
             }
             Err(error) => {
                 absent += 1;
@@ -108,7 +108,7 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
             }
         }
     }
-    let mut table = Table { absent, notes: gathered(&notes), ..spring_table("Foundation Check", &springs) };
+    let mut table = Table { absent, notes: merge_remarks(&notes), ..spring_table("Foundation Check", &springs) };
     if let Some((ratio, name)) = largest {
         table = table.fact("Largest Unity", ratio, Dim::None).fact("Of", name, Dim::None);
     }
@@ -116,11 +116,11 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
 }
 
 /// Takes what a user should know out of a summary, in these units.
-fn told(summary: &mut ElementSummary, units: UnitSystem) -> Vec<String> {
+fn take_remarks(summary: &mut ElementSummary, units: UnitSystem) -> Vec<String> {
     std::mem::take(&mut summary.notes).iter().map(|note| note.text(units)).collect()
 }
 
-fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
+fn find_forces(model: &Model, connector: &Connector) -> Result<ConnectorForces, ClassError> {
     let mut element = model.element(connector)?;
     if element.moves() {
         // it feels current, bottom and contents all along itself
@@ -149,10 +149,10 @@ fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
         // that at the end on the body, as the force; a push is negative
         *tension = force(1).iter().fold(0.0, |size: f64, f| size.hypot(*f)).copysign(*tension);
     }
-    Ok(Found { forces: [force(0), force(1)], on_body, distance, summary })
+    Ok(ConnectorForces { forces: [force(0), force(1)], on_body, distance, summary })
 }
 
-impl Found {
+impl ConnectorForces {
     /// The force on the end that is on a body (N).
     fn on_body(&self) -> [f64; 3] {
         self.forces.get(self.on_body).copied().unwrap_or_default()

@@ -4,7 +4,7 @@
 
 use super::chosen::{WARNING, raise};
 use super::environment;
-use super::equilibrium::told;
+use super::equilibrium::to_diagnostic;
 use super::menu;
 use super::{Call, Command, Effect, Job, Menu, probability};
 use crate::report::page;
@@ -31,7 +31,7 @@ pub static SRESPONSE: Command = Command { spec: &SRESPONSE_SPEC, edits: false, r
 
 /// What the menu has found.
 #[derive(Clone, Debug, Default)]
-pub enum Found {
+pub enum FrequencyResults {
     /// Nothing yet.
     #[default]
     Nothing,
@@ -41,12 +41,12 @@ pub enum Found {
     Spectral(Arc<LinearSystem>, FrequencyResponse, Option<ExtremeKind>),
 }
 
-impl Found {
+impl FrequencyResults {
     /// The equations it was found with.
     pub(super) fn linear(&self) -> Option<&Arc<LinearSystem>> {
         match self {
-            Found::Nothing => None,
-            Found::Operators(linear, _) | Found::Spectral(linear, ..) => Some(linear),
+            FrequencyResults::Nothing => None,
+            FrequencyResults::Operators(linear, _) | FrequencyResults::Spectral(linear, ..) => Some(linear),
         }
     }
 }
@@ -122,20 +122,20 @@ fn open(job: &mut Job, _: &Call) -> Outcome<Effect> {
 ///
 /// # Errors
 /// Nothing yet.
-pub(super) fn found(job: &Job, span: Span) -> Outcome<&Found> {
+pub(super) fn open_results(job: &Job, span: Span) -> Outcome<&FrequencyResults> {
     let menu = job.menus.iter().rev().find_map(|menu| match menu {
         Menu::Frequency(found) => Some(found.as_ref()),
         _ => None,
     });
     match menu {
-        Some(Found::Nothing) | None => {
+        Some(FrequencyResults::Nothing) | None => {
             Err(Diagnostic::error("there are no motions yet", span).help("RAO or SRESPONSE finds them"))
         }
         Some(found) => Ok(found),
     }
 }
 
-fn keep(job: &mut Job, made: Found) {
+fn keep(job: &mut Job, made: FrequencyResults) {
     if let Some(Menu::Frequency(found)) = job.menus.last_mut() {
         **found = made;
     }
@@ -143,7 +143,7 @@ fn keep(job: &mut Job, made: Found) {
 
 /// The equations of a model, on whose bodies waves must act.
 fn linear(job: &Job, model: &Model, span: Span) -> Outcome<LinearSystem> {
-    let made = LinearSystem::new(model).map_err(|e| told(e, model, span, job.units))?;
+    let made = LinearSystem::new(model).map_err(|e| to_diagnostic(e, model, span, job.units))?;
     if !made.is_excited() {
         return Err(Diagnostic::error("waves act on no body: none has a database with wave forces", span)
             .help("DATABASE BODY -WAMIT ROOT, -NEMOH FOLDER or -CAPYTAINE FILE reads one"));
@@ -164,7 +164,8 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
         periods = linear.frequencies();
     }
     let headings = args.option(&HEADING).map_or_else(|| linear.headings(), |g| g.numbers());
-    let made = Operators::new(&linear, &periods, &headings).map_err(|e| told(e, &job.model, args.span, job.units))?;
+    let made =
+        Operators::new(&linear, &periods, &headings).map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
     let mut table = Table::new("Motions in Unit Waves").fact("Periods", periods.len(), Dim::None).fact(
         "Headings",
         headings.len(),
@@ -172,7 +173,7 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
     );
     table.notes.extend(linear.notes.iter().cloned());
     say(job, &table, args.span);
-    keep(job, Found::Operators(Arc::new(linear), made));
+    keep(job, FrequencyResults::Operators(Arc::new(linear), made));
     Ok(Effect::Done)
 }
 
@@ -212,13 +213,13 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
     frequencies.sort_by(f64::total_cmp);
     frequencies.dedup();
     let asked = ResponseOptions { frequencies, spectral: true };
-    let made = respond(&mut linear, &trains, &asked).map_err(|e| told(e, &model, args.span, job.units))?;
+    let made = respond(&mut linear, &trains, &asked).map_err(|e| to_diagnostic(e, &model, args.span, job.units))?;
     let mut table = Table::new("Motions in a Sea")
         .fact("Frequencies of Waves", made.waves.len(), Dim::None)
         .fact("Frequencies of Slow Drift", made.slow.len(), Dim::None)
         .fact("Rounds of Linearisation", made.rounds, Dim::None);
     table.notes.extend(linear.notes.iter().cloned());
     say(job, &table, args.span);
-    keep(job, Found::Spectral(Arc::new(linear), made, probability::extreme(&model.environment)));
+    keep(job, FrequencyResults::Spectral(Arc::new(linear), made, probability::extreme(&model.environment)));
     Ok(Effect::Done)
 }

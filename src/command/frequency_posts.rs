@@ -2,10 +2,10 @@
 //!
 //! Source: [MOSES-REF freq_mot]; the forms of MOTION, CONFORCE and STATISTICS are ours.
 
-use super::chosen::{Chosen, raise};
+use super::chosen::{NameFilter, raise};
 use super::environment::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_OPTION};
-use super::equilibrium::told;
-use super::frequency::{Found, found, heaving, seas};
+use super::equilibrium::to_diagnostic;
+use super::frequency::{FrequencyResults, heaving, open_results, seas};
 use super::menu;
 use super::{Call, Command, Effect, Job, Menu, probability};
 use crate::report::disposition::Disposition;
@@ -35,7 +35,7 @@ pub static CONFORCE: Command = Command { spec: &FORCE_SPEC, edits: false, run: f
 pub static STATISTICS: Command = Command { spec: &STATISTICS_SPEC, edits: false, run: told_statistics };
 
 /// The duration of the most probable maximum (s): three hours.
-const DURATION: f64 = 10_800.0;
+const MPM_DURATION_S: f64 = 10_800.0;
 const KINDS: &[&str] = &["MOTION", "POINT", "TENSION"];
 
 const VELOCITY: OptionSpec = OptionSpec::new("-VELOCITY", &[], "velocities instead of motions");
@@ -114,7 +114,7 @@ fn derivative(args: &Args) -> Outcome<Derivative> {
     }
 }
 
-fn what(derivative: Derivative) -> &'static str {
+fn derivative_name(derivative: Derivative) -> &'static str {
     match derivative {
         Derivative::Place => "Motion",
         Derivative::Velocity => "Velocity",
@@ -135,14 +135,20 @@ fn dispose(job: &mut Job, made: Table, span: Span) -> Effect {
 }
 
 /// The table of what is found: amplitudes and phases, or spectra.
-fn shown(job: &Job, title: String, list: &[NamedQuantity], derivative: Derivative, span: Span) -> Outcome<Table> {
-    Ok(match found(job, span)? {
-        Found::Operators(linear, made) => {
+fn results_table(
+    job: &Job,
+    title: String,
+    list: &[NamedQuantity],
+    derivative: Derivative,
+    span: Span,
+) -> Outcome<Table> {
+    Ok(match open_results(job, span)? {
+        FrequencyResults::Operators(linear, made) => {
             let unit = Dim::Length.to_si(1.0, job.units);
             operators(title, (linear, made), list, (derivative, unit))
         }
-        Found::Spectral(linear, made, _) => spectra(title, (linear, made), list, derivative),
-        Found::Nothing => Table::new(title),
+        FrequencyResults::Spectral(linear, made, _) => spectra(title, (linear, made), list, derivative),
+        FrequencyResults::Nothing => Table::new(title),
     })
 }
 
@@ -193,21 +199,21 @@ fn points(job: &Job, linear: &LinearSystem, args: &Args, from: usize) -> Outcome
 
 fn motion(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let linear = found(job, args.span)?.linear().cloned();
+    let linear = open_results(job, args.span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
     let (index, name) = body(job, &linear, args.word(0), args.place(0))?;
     let list = NamedQuantity::dofs(&linear, index);
-    let made = shown(job, format!("Motion of {name}"), &list, Derivative::Place, args.span)?;
+    let made = results_table(job, format!("Motion of {name}"), &list, Derivative::Place, args.span)?;
     Ok(dispose(job, made, args.span))
 }
 
 fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let linear = found(job, args.span)?.linear().cloned();
+    let linear = open_results(job, args.span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
     let derivative = derivative(args)?;
     let (name, list) = points(job, &linear, args, 0)?;
-    let made = shown(job, format!("{} of {name}", what(derivative)), &list, derivative, args.span)?;
+    let made = results_table(job, format!("{} of {name}", derivative_name(derivative)), &list, derivative, args.span)?;
     Ok(dispose(job, made, args.span))
 }
 
@@ -219,13 +225,13 @@ fn tensions(
     from: usize,
     components: bool,
 ) -> Outcome<Vec<NamedQuantity>> {
-    let chosen = Chosen::of(call, from, &job.model);
+    let chosen = NameFilter::new(call, from, &job.model);
     let names: Vec<String> = linear.connectors().filter(|name| chosen.takes(name)).map(str::to_string).collect();
     chosen.check_used("the connectors that act", &[EntityKind::Connector])?;
     let span = call.args.span;
     let mut list = Vec::new();
     for name in &names {
-        let made = LinearQuantity::tension(linear, name).map_err(|e| told(e, &job.model, span, job.units))?;
+        let made = LinearQuantity::tension(linear, name).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
         let Some((axes, size)) = made else { continue };
         list.extend(size.map(|q| NamedQuantity::new(name.as_str(), Dim::Force, q)));
         if components && names.len() == 1 {
@@ -241,10 +247,10 @@ fn tensions(
 
 fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let span = call.args.span;
-    let linear = found(job, span)?.linear().cloned();
+    let linear = open_results(job, span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
     let list = tensions(job, &linear, call, 0, true)?;
-    let made = shown(job, "Forces of Connectors".into(), &list, Derivative::Place, span)?;
+    let made = results_table(job, "Forces of Connectors".into(), &list, Derivative::Place, span)?;
     Ok(dispose(job, made, span))
 }
 
@@ -264,34 +270,34 @@ fn sea(job: &Job, args: &Args) -> Outcome<Environment> {
 /// The response that statistics are made of.
 fn response(job: &Job, args: &Args) -> Outcome<(Arc<LinearSystem>, FrequencyResponse)> {
     let given = [SEA_OPTION, A_SEA_OPTION, SPREAD_OPTION, SP_TYPE_OPTION].iter().find_map(|option| args.option(option));
-    match (found(job, args.span)?, given) {
-        (Found::Spectral(..), Some(given)) => Err(Diagnostic::error(
+    match (open_results(job, args.span)?, given) {
+        (FrequencyResults::Spectral(..), Some(given)) => Err(Diagnostic::error(
             format!("{} cannot follow SRESPONSE, whose sea is in its damping and drift", given.name()),
             given.span,
         )
         .help("SRESPONSE ENV takes another environment; a new sea may follow RAO")),
-        (Found::Spectral(linear, made, _), None) => Ok((Arc::clone(linear), made.clone())),
-        (Found::Operators(linear, _), _) => {
+        (FrequencyResults::Spectral(linear, made, _), None) => Ok((Arc::clone(linear), made.clone())),
+        (FrequencyResults::Operators(linear, _), _) => {
             let trains = seas(job, &sea(job, args)?, args.span)?;
             let made = in_sea(linear, &trains, &ResponseOptions::default());
-            Ok((Arc::clone(linear), made.map_err(|e| told(e, &job.model, args.span, job.units))?))
+            Ok((Arc::clone(linear), made.map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?))
         }
-        (Found::Nothing, _) => Err(Diagnostic::error("there are no motions yet", args.span)),
+        (FrequencyResults::Nothing, _) => Err(Diagnostic::error("there are no motions yet", args.span)),
     }
 }
 
 fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let derivative = derivative(args)?;
-    let of_env = match found(job, args.span)? {
-        Found::Spectral(.., extreme) => *extreme,
+    let of_env = match open_results(job, args.span)? {
+        FrequencyResults::Spectral(.., extreme) => *extreme,
         _ => probability::extreme(&job.model.environment),
     };
     let given = args.option_number(&DURATION_OPTION).map(ExtremeKind::MostProbable);
-    let extreme = given.or(of_env).unwrap_or(ExtremeKind::MostProbable(DURATION));
+    let extreme = given.or(of_env).unwrap_or(ExtremeKind::MostProbable(MPM_DURATION_S));
     let (linear, made) = response(job, args)?;
     let (both, how) = ((linear.as_ref(), &made), (derivative, extreme));
-    let of = what(derivative);
+    let of = derivative_name(derivative);
     let table = match args.word(0) {
         Some("POINT") => {
             let (name, list) = points(job, &linear, args, 1)?;

@@ -18,7 +18,7 @@ use windlass_language::substitution::FunctionHost;
 use windlass_model::{Mass, Model, Point};
 
 /// What `&HELP` says of each: name, form, meaning.
-pub const HELP: &[(&str, &str, &str)] = &[
+pub const FUNCTION_HELP: &[(&str, &str, &str)] = &[
     (
         "&INFO",
         "&INFO(NAME data)",
@@ -64,7 +64,7 @@ impl FunctionHost for Job {
             return f_read(self, words, span);
         }
         let Some((action, rest)) = words.split_first() else {
-            let form = HELP.iter().find(|h| h.0.get(1..) == Some(name)).map_or("", |h| h.1);
+            let form = FUNCTION_HELP.iter().find(|h| h.0.get(1..) == Some(name)).map_or("", |h| h.1);
             return Err(Diagnostic::error(format!("&{name} lacks its first word"), span).help(format!("form: {form}")));
         };
         match name {
@@ -135,11 +135,11 @@ fn info(job: &Job, action: &Word, rest: &[Word]) -> Outcome<String> {
         "CWD" => std::env::current_dir().map(|d| format!("{}/", d.display())).unwrap_or_default(),
         "BFORCE" | "LFORCE" => job.units.words().1.into(),
         "BLENGTH" | "LLENGTH" => job.units.words().0.into(),
-        _ => logic::word(super::device::found(job, &first()).exists()).into(),
+        _ => logic::word(super::device::find_file(job, &first()).exists()).into(),
     })
 }
 
-fn known<'a>(job: &'a Job, word: Option<&Word>) -> Option<&'a Point> {
+fn find_point<'a>(job: &'a Job, word: Option<&Word>) -> Option<&'a Point> {
     word.and_then(|w| job.model.points.get(&Model::key(&w.text)))
 }
 
@@ -173,7 +173,7 @@ fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String>
         "NEAREST",
         "REL_MOTION",
     ];
-    let at = |i: usize| known(job, rest.get(i)).map(|p| model.global(p));
+    let at = |i: usize| find_point(job, rest.get(i)).map(|p| model.global(p));
     let joined = |list: Vec<&Point>| list.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(" ");
     let lengths = |i: usize| {
         number_words(rest.get(i..).unwrap_or_default())
@@ -181,7 +181,7 @@ fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String>
     };
     Ok(match pick(action, "POINT", list)? {
         "COORDINATES" => {
-            let Some(found) = known(job, rest.first()) else { return Ok(String::new()) };
+            let Some(found) = find_point(job, rest.first()) else { return Ok(String::new()) };
             let system = rest.get(1).map(|w| w.text.to_ascii_uppercase()).unwrap_or_default();
             let place = if !system.is_empty() && "-GLOBAL".starts_with(&system) {
                 model.global(found)
@@ -193,7 +193,7 @@ fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String>
             numbers(&place, Dim::Length, job)
         }
         "D_NODE" => at(0).zip(at(1)).map_or(String::new(), |(a, b)| numbers(&[distance(a, b)], Dim::Length, job)),
-        "PART" => known(job, rest.first()).map_or(String::new(), |p| p.part.clone()),
+        "PART" => find_point(job, rest.first()).map_or(String::new(), |p| p.part.clone()),
         "EULER_ANGLES" => {
             let (Some(o), Some(x), Some(xy)) = (at(0), at(1), at(2)) else { return Ok(String::new()) };
             let v = |p: Position| nalgebra::Vector3::from(p) - nalgebra::Vector3::from(o);

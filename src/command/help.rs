@@ -1,7 +1,7 @@
 //! `&HELP`: everything a spec says, in words.
 
-use super::menu::named;
-use super::{COMMANDS, Call, Command, Effect, Job, offered, status};
+use super::menu::join_names;
+use super::{COMMANDS, Call, Command, Effect, Job, commands_of_menu, status};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
 use windlass_connectors::CLASSES;
@@ -38,7 +38,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             }
         },
         Some(word) => {
-            let functions = functions::FUNCTION_HELP.iter().chain(super::functions::HELP);
+            let functions = functions::FUNCTION_HELP.iter().chain(super::functions::FUNCTION_HELP);
             let function = find_function(functions.into_iter(), &word.text).map(|(name, form, meaning)| {
                 let meaning = wrap(meaning, 92).join("\n   ");
                 format!("{name}: string function\n\n   {form}\n   {meaning}")
@@ -90,14 +90,23 @@ fn overview(job: &Job) -> String {
     let menu = job.menu();
     let mut lines = vec![format!("Menu {} ({} leaves it). Its commands:", menu.name(), menu.end())];
     let line = |name: &str, help: &str| format!("   {name:<14} {help}");
-    lines.extend(offered(menu.spec()).filter(|c| !c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)));
+    lines.extend(
+        commands_of_menu(menu.spec()).filter(|c| !c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)),
+    );
     lines.push("Commands of every menu:".into());
-    lines.extend(offered(menu.spec()).filter(|c| c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)));
+    lines.extend(
+        commands_of_menu(menu.spec()).filter(|c| c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)),
+    );
     lines.push("Variables, branches, loops, macros:".into());
     lines.extend(CONTROL.iter().map(|s| line(s.name, s.help)));
     lines.push(
         "String functions: ".to_string()
-            + &functions::FUNCTION_HELP.iter().chain(super::functions::HELP).map(|f| f.0).collect::<Vec<_>>().join(" "),
+            + &functions::FUNCTION_HELP
+                .iter()
+                .chain(super::functions::FUNCTION_HELP)
+                .map(|f| f.0)
+                .collect::<Vec<_>>()
+                .join(" "),
     );
     lines.extend(wrap(name::RULE, 96));
     lines.push("&HELP NAME explains one; &HELP ~CLASS lists the class types.".into());
@@ -108,7 +117,7 @@ fn overview(job: &Job) -> String {
 pub fn describe(spec: &CommandSpec, lead: &str, units: UnitSystem) -> String {
     let mut lines = vec![format!("{}: {}", spec.name, spec.help), String::new(), format!("   {lead}{}", spec.syntax())];
     if !spec.menus.is_empty() {
-        lines.push(format!("   in menu {}", named(spec.menus, " or ")));
+        lines.push(format!("   in menu {}", join_names(spec.menus, " or ")));
     }
     match spec.owner {
         Owner::Moses => {}

@@ -26,7 +26,7 @@ pub static CFORM: Command = Command { spec: &CFORM_SPEC, edits: false, run: cfor
 pub static RARM: Command = Command { spec: &RARM_SPEC, edits: false, run: rarm };
 
 /// Most rows of a table.
-const MOST: f64 = 1000.0;
+const MAX_ROWS: f64 = 1000.0;
 
 static HSTATICS_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::MAIN],
@@ -43,7 +43,7 @@ static CFORM_SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::new("DRAFT", Kind::Number(Dim::Length), "first draft of the body's origin"),
         ValueSpec::new("INC", Kind::Number(Dim::Length), "step").positive(),
-        ValueSpec::new("NUM", Kind::Integer, "number of drafts").in_range(1.0, MOST),
+        ValueSpec::new("NUM", Kind::Integer, "number of drafts").in_range(1.0, MAX_ROWS),
     ],
     detail: "Curves of form against draft: the body upright, at its x, y and yaw. KB, KM are above its origin, LCB and LCF its x there; \
              the moment to trim is that of BM, or of GM where the body has a weight. Drafts at which nothing is wet have no numbers. The \
@@ -56,7 +56,7 @@ static RARM_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu(&menu::DISPOSITION),
     data: &[
         ValueSpec::new("INC", Kind::Number(Dim::Angle), "step of roll"),
-        ValueSpec::new("NUM", Kind::Integer, "number of steps").in_range(1.0, MOST),
+        ValueSpec::new("NUM", Kind::Integer, "number of steps").in_range(1.0, MAX_ROWS),
     ],
     detail: "Righting arms of the body rolled from upright in steps, at constant displacement, heave and trim balanced under weight and \
              buoyancy. The arm is positive where it turns the body back from a positive roll. Area is that under the arm from upright, by \

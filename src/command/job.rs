@@ -2,7 +2,7 @@
 
 use super::bathymetry::Soundings;
 use super::buildg::Building;
-use super::frequency::Found;
+use super::frequency::FrequencyResults;
 use super::menu;
 use super::pgen::Planes;
 use super::verdict::Verdict;
@@ -63,7 +63,7 @@ pub enum Menu {
     /// Hydrostatics of the body of this name.
     Hydrostatics(String),
     /// The frequency domain, with what it has found.
-    Frequency(Box<Found>),
+    Frequency(Box<FrequencyResults>),
     /// A table being given by the records of `&BUILDG`.
     Building(Box<Building>),
     /// Rows of a bottom being given by the records of `&BATHYMETRY`.
@@ -113,7 +113,7 @@ impl Menu {
 
 /// What `&DEVICE` sets.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct DeviceSettings {
     /// Stop at the first error.
     pub batch: bool,
     /// Errors after which a script ends.
@@ -134,9 +134,9 @@ pub struct Settings {
     pub plot_size: Option<(usize, usize)>,
 }
 
-impl Default for Settings {
+impl Default for DeviceSettings {
     fn default() -> Self {
-        Settings {
+        DeviceSettings {
             batch: false,
             error_limit: 10,
             date: None,
@@ -243,7 +243,7 @@ pub struct Job {
     /// `&TITLE` and `&SUBTITLE`.
     pub titles: [String; 2],
     /// `&DEVICE`.
-    pub settings: Settings,
+    pub settings: DeviceSettings,
     /// The channels.
     pub output: Output,
     /// Warnings and notes a handler raised; the session prints them.
@@ -291,7 +291,7 @@ impl Job {
             saved_units: Vec::new(),
             menus: vec![Menu::Main],
             titles: Default::default(),
-            settings: Settings::default(),
+            settings: DeviceSettings::default(),
             output,
             notices: Vec::new(),
             idle_said: Vec::new(),
@@ -314,7 +314,7 @@ impl Job {
     }
 
     /// Whether Ctrl-C has been pressed since the record began.
-    pub fn interrupted(&self) -> bool {
+    pub fn is_interrupted(&self) -> bool {
         self.interrupt.load(Ordering::Relaxed)
     }
 

@@ -17,7 +17,7 @@ use windlass_model::{Body, Junction, Model, Part, Point, Weight};
 pub static JUNCTION: Command = Command { spec: &SPEC, edits: false, run };
 
 /// Most junctions: a solution takes the cube of their number.
-const MOST: usize = 200;
+const MAX_JUNCTIONS: usize = 200;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -78,8 +78,8 @@ pub(super) fn free(model: &Model, name: &str, what: &str, span: Span) -> Outcome
             .other(old.span, "defined here")
             .help(format!("{} makes the point of its name", with_article(what))));
     }
-    if model.bodies.values().filter(|b| b.junction.is_some()).count() >= MOST {
-        return Err(Diagnostic::error(format!("a model has at most {MOST} junctions and hooks"), span));
+    if model.bodies.values().filter(|b| b.junction.is_some()).count() >= MAX_JUNCTIONS {
+        return Err(Diagnostic::error(format!("a model has at most {MAX_JUNCTIONS} junctions and hooks"), span));
     }
     Ok(())
 }

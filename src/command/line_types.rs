@@ -20,7 +20,7 @@ pub fn tables(job: &Job, data: &[Value]) -> Outcome<Vec<Table>> {
     let mut tables = Vec::new();
     for given in data.iter().skip(1) {
         if let Some(word) = given.word() {
-            let found = named(job, types, word, given.span)?;
+            let found = tables_of_types(job, types, word, given.span)?;
             if found.is_empty() {
                 return Err(Diagnostic::error(format!("nothing among LINE_TYPES is called {word}"), given.span));
             }
@@ -34,7 +34,7 @@ pub fn tables(job: &Job, data: &[Value]) -> Outcome<Vec<Table>> {
 }
 
 /// The tables of a diameter, a name or a pattern.
-fn named(job: &Job, types: &[LineType], word: &str, place: Span) -> Outcome<Vec<Table>> {
+fn tables_of_types(job: &Job, types: &[LineType], word: &str, place: Span) -> Outcome<Vec<Table>> {
     if let Ok(value) = number::evaluate(word) {
         let diameter = Dim::Section.to_si(value, job.units);
         if diameter > 0.0 && types.iter().any(|t| t.has_values(diameter)) {

@@ -8,7 +8,7 @@ use crate::report::csv::guard_formula;
 use crate::report::files::{FilePlace, Growing};
 use crate::report::format::number_in_full;
 use crate::report::page;
-use input::{Input, InputError, Row};
+use input::{Input, InputError, InputRow};
 use std::collections::BTreeMap;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::table::{Digits, Table};
@@ -48,7 +48,7 @@ const ADDED: [&str; 8] =
     ["fairlead_H_N", "fairlead_V_N", "anchor_H_N", "anchor_V_N", "grounded_length_m", "regime", "residual", "error"];
 
 /// Refused rows that are told one by one.
-const TOLD: u64 = 10;
+const MAX_REPORTED_ROWS: u64 = 10;
 
 fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
@@ -64,15 +64,15 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let opened = super::device::open_input(job, &path).map_err(|e| InputError::Unreadable(e.to_string()));
     let mut input = opened.and_then(Input::open).map_err(unusable)?;
     let out = file::with_csv_ending(args.word(1).unwrap_or_default());
-    let refused = |error| file::refused(&error, args.place(1));
+    let refused = |error| file::to_diagnostic(&error, args.place(1));
     let place = job.output.folder.place(&out).map_err(refused)?;
     let lost = |error: csv::Error| Diagnostic::error(format!("{}: {error}", place.path().display()), args.place(1));
     let mut writer = csv::Writer::from_writer(place.begin().map_err(refused)?);
     writer.write_record(heads(&input.heads).iter().map(|head| guard_formula(head).into_owned())).map_err(lost)?;
     let width = input.heads.len();
     let mut tally = Tally::default();
-    while let Some(row) = input.next().map_err(unusable)? {
-        if job.interrupted() {
+    while let Some(row) = input.next_row().map_err(unusable)? {
+        if job.is_interrupted() {
             let text = format!("LINES is given up at line {} of {name}: {out} is not written", row.line);
             return Err(Diagnostic::error(text, args.span));
         }
@@ -87,15 +87,17 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
     whole.finish().map_err(refused)?;
     job.verdict.absent += usize::try_from(tally.refused).unwrap_or(usize::MAX);
     job.notices.append(&mut tally.warnings);
-    if tally.refused > TOLD {
-        let text =
-            format!("{} further rows of {name} are refused; the column error of {out} says why", tally.refused - TOLD);
+    if tally.refused > MAX_REPORTED_ROWS {
+        let text = format!(
+            "{} further rows of {name} are refused; the column error of {out} says why",
+            tally.refused - MAX_REPORTED_ROWS
+        );
         job.notices.push(Diagnostic::plain(Severity::Warning, text));
     }
     Ok(Effect::Say(tally.summary(name, &place, job)))
 }
 
-fn solve(row: &Row) -> Result<EndForces, String> {
+fn solve(row: &InputRow) -> Result<EndForces, String> {
     let case = row.case()?;
     case.segment.solve_end_forces(case.x, case.z, case.bottom).map_err(|error| error.to_string())
 }
@@ -117,7 +119,7 @@ fn heads(given: &[String]) -> Vec<String> {
 
 fn write_row(
     writer: &mut csv::Writer<Growing>,
-    row: &Row,
+    row: &InputRow,
     width: usize,
     solved: &Result<EndForces, String>,
 ) -> csv::Result<()> {
@@ -158,7 +160,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn count(&mut self, name: &str, row: &Row, solved: &Result<EndForces, String>) {
+    fn count(&mut self, name: &str, row: &InputRow, solved: &Result<EndForces, String>) {
         match solved {
             Ok(forces) => {
                 self.solved += 1;
@@ -166,7 +168,7 @@ impl Tally {
             }
             Err(reason) => {
                 self.refused += 1;
-                if self.refused <= TOLD {
+                if self.refused <= MAX_REPORTED_ROWS {
                     let id = row.id();
                     let id = if id.is_empty() { id } else { format!(" (id {id})") };
                     let text = format!("{name}:{}: {reason}{id}", row.line);

@@ -47,7 +47,7 @@ const FLUID: OptionSpec = OptionSpec::new(
 const SYMMETRIC: OptionSpec =
     OptionSpec::new("-SYMMETRIC", &[], "headings 0 to 180 only; the other side mirrors them").owner(Owner::Ours);
 
-const fn derived(force: i8, length: i8, seconds: i8) -> Dim {
+const fn derived_dimension(force: i8, length: i8, seconds: i8) -> Dim {
     Dim::Derived { force, length, seconds }
 }
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
@@ -64,8 +64,8 @@ const fn six(force: Dim, moment: Dim) -> [ValueSpec; 6] {
         number("MZ", moment, "yaw"),
     ]
 }
-const STREAM: [ValueSpec; 6] = six(derived(1, -2, 2), derived(1, -1, 2));
-const WAVE: [ValueSpec; 6] = six(derived(1, -2, 0), derived(1, -1, 0));
+const STREAM: [ValueSpec; 6] = six(derived_dimension(1, -2, 2), derived_dimension(1, -1, 2));
+const WAVE: [ValueSpec; 6] = six(derived_dimension(1, -2, 0), derived_dimension(1, -1, 0));
 const ENTRIES: [&str; 36] = [
     "M11", "M12", "M13", "M14", "M15", "M16", "M21", "M22", "M23", "M24", "M25", "M26", "M31", "M32", "M33", "M34",
     "M35", "M36", "M41", "M42", "M43", "M44", "M45", "M46", "M51", "M52", "M53", "M54", "M55", "M56", "M61", "M62",
@@ -78,14 +78,15 @@ const fn whole(seconds: i8) -> [ValueSpec; 36] {
     while at < 36 {
         let lengths = (at / 6 / 3 + at % 6 / 3) as i8;
         let base = if seconds == 0 { 0 } else { -1 };
-        made[at] = number(ENTRIES[at], derived(1, lengths + base, seconds), "entry of the matrix, row by row");
+        made[at] =
+            number(ENTRIES[at], derived_dimension(1, lengths + base, seconds), "entry of the matrix, row by row");
         at += 1;
     }
     made
 }
 const fn diagonal(seconds: i8) -> [ValueSpec; 7] {
     let base = if seconds == 0 { 0 } else { -1 };
-    let (force, moment) = (derived(1, base, seconds), derived(1, base + 2, seconds));
+    let (force, moment) = (derived_dimension(1, base, seconds), derived_dimension(1, base + 2, seconds));
     [
         POINT,
         number("X", force, "surge").or("0").not_negative(),

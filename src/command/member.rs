@@ -1,6 +1,6 @@
 //! The options that make a TUBE a member in waves and current, and the table of members.
 
-use super::body_tables::settled;
+use super::body_tables::round_to_zero;
 use super::piece;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Digits, Table};
@@ -47,7 +47,7 @@ const CAA_OPTION: OptionSpec = factor("-CAA", &CAA, "coefficient of added mass o
 pub const OPTIONS: [OptionSpec; 4] = [CD_OPTION, CDA_OPTION, CA_OPTION, CAA_OPTION];
 
 /// What the help of TUBE says.
-pub const READING: &str = "A round member with flat ends between two points of the body; it displaces the water of its whole section. \
+pub const TUBE_HELP: &str = "A round member with flat ends between two points of the body; it displaces the water of its whole section. \
      Members that run into each other at a joint are each counted up to their point. In current, in waves and where it moves it is a member by Morison's formula. A length of it feels \
      1/2 rho CD OD |u| u across its axis and 1/2 rho CDA pi OD |u| u along it, u being the velocity of waves and current less its own; \
      (1 + CA) rho pi/4 OD^2 times the acceleration of the water across its axis; the pressure of the waves on its ends; and hydrostatic \
@@ -157,7 +157,7 @@ pub fn added_mass(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Tabl
         }
         for (half, first) in halves.iter_mut().zip([0, 3]) {
             half.extend(names.into_iter().enumerate().skip(first).take(3).map(|(n, name)| {
-                (body.name.as_str(), name, [0, 1, 2, 3, 4, 5].map(|i| settled(added[(n, i)], whole)))
+                (body.name.as_str(), name, [0, 1, 2, 3, 4, 5].map(|i| round_to_zero(added[(n, i)], whole)))
             }));
         }
     }

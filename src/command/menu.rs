@@ -62,6 +62,6 @@ pub static ALL: [&MenuSpec; 18] = [
 ];
 
 /// The names of menus, joined by a word.
-pub fn named(menus: &[&MenuSpec], by: &str) -> String {
+pub fn join_names(menus: &[&MenuSpec], by: &str) -> String {
     menus.iter().map(|menu| menu.name).collect::<Vec<_>>().join(by)
 }

@@ -136,13 +136,15 @@ fn conn_design(job: &mut Job, _: &Call) -> Outcome<Effect> {
 pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Diagnostic> {
     match left {
         Menu::Inmodel => {
-            let mut told = piece::completed(job, at);
+            let mut told = piece::complete_piece(job, at);
             told.extend(finish_inmodel(job));
             told
         }
-        Menu::Medit | Menu::Block | Menu::Mesh => piece::completed(job, at),
+        Menu::Medit | Menu::Block | Menu::Mesh => piece::complete_piece(job, at),
         Menu::Building(building) => buildg::built(job, &building, at).err().into_iter().map(|e| *e).collect(),
-        Menu::Soundings(soundings) => bathymetry::made(job, *soundings, at).err().into_iter().map(|e| *e).collect(),
+        Menu::Soundings(soundings) => {
+            bathymetry::finish_grid(job, *soundings, at).err().into_iter().map(|e| *e).collect()
+        }
         Menu::Planes(planes) => pgen::build(job, *planes, at).err().into_iter().map(|e| *e).collect(),
         _ => Vec::new(),
     }

@@ -6,7 +6,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_language::spec::{CommandSpec, Kind, TextForm, ValueSpec};
 
 /// Width in which `&CTYPE` centres.
-const WIDTH: usize = 80;
+const CENTRING_WIDTH: usize = 80;
 
 const fn text(name: &'static str, help: &'static str, example: &'static str) -> CommandSpec {
     CommandSpec { form: TextForm::Text, example, ..CommandSpec::new(name, help) }
@@ -62,19 +62,19 @@ fn say(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 fn say_centred(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    job.say(&centre(call.record.rest().0, WIDTH));
+    job.say(&centre(call.record.rest().0, CENTRING_WIDTH));
     Ok(Effect::Done)
 }
 
 fn say_underlined(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    job.say(&underlined(call.record.rest().0));
+    job.say(&underline(call.record.rest().0));
     Ok(Effect::Done)
 }
 
 /// Text centred, with a line under it.
-pub fn underlined(text: &str) -> String {
+pub fn underline(text: &str) -> String {
     let line = "=".repeat(text.chars().count());
-    format!("{}\n{}", centre(text, WIDTH), centre(&line, WIDTH))
+    format!("{}\n{}", centre(text, CENTRING_WIDTH), centre(&line, CENTRING_WIDTH))
 }
 
 fn error(_: &mut Job, call: &Call) -> Outcome<Effect> {

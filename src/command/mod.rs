@@ -95,7 +95,7 @@ mod written;
 
 pub use buildg::take as take_row;
 pub use file::write_open_files;
-pub use job::{Job, Menu, Settings};
+pub use job::{DeviceSettings, Job, Menu};
 pub use menus::{finish, opened_by};
 pub use status::kinds as status_kinds;
 
@@ -310,6 +310,6 @@ pub fn internal_names() -> impl Iterator<Item = (&'static str, Owner)> {
 }
 
 /// The commands a menu offers: its own and those of every menu.
-pub fn offered(menu: &'static MenuSpec) -> impl Iterator<Item = &'static Command> + Clone {
+pub fn commands_of_menu(menu: &'static MenuSpec) -> impl Iterator<Item = &'static Command> + Clone {
     COMMANDS.iter().copied().filter(move |c| c.spec.menus.is_empty() || c.spec.menus.contains(&menu))
 }

@@ -138,9 +138,9 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(error);
     };
     name::check(new, name::marker(old), thing.word(), place)?;
-    taken(model, new, place)?;
+    check_name_free(model, new, place)?;
     if thing == EntityKind::Assembly {
-        taken(model, &format!("*{new}"), place)?;
+        check_name_free(model, &format!("*{new}"), place)?;
     }
     let (from, to) = (Model::key(old), Model::key(new));
     let follow = |name: &mut String| {
@@ -206,7 +206,7 @@ fn hook_renamed(model: &mut Model, from: &str, to: &str, new: &str) {
 }
 
 /// Sees that nothing has a name yet.
-fn taken(model: &Model, new: &str, place: Span) -> Outcome<()> {
+fn check_name_free(model: &Model, new: &str, place: Span) -> Outcome<()> {
     match EntityKind::ALL.into_iter().find_map(|thing| model.definition_span(thing, new)) {
         Some(span) => Err(Diagnostic::error(format!("{new} exists already"), place).other(span, "defined here")),
         None => Ok(()),

@@ -8,7 +8,7 @@ use windlass_base::units::Dim;
 use windlass_language::source::LARGEST_FILE;
 
 /// A row of numbers, with its line in the file.
-pub(super) type Row<const N: usize> = (u64, [f64; N]);
+pub(super) type NumberLine<const N: usize> = (u64, [f64; N]);
 
 /// The numbers of a CSV file, N a row and at most so many rows; a first line without numbers is one of heads.
 ///
@@ -19,7 +19,7 @@ pub(super) fn rows<const N: usize>(
     (name, span): (&str, Span),
     what: &str,
     most: usize,
-) -> Outcome<Vec<Row<N>>> {
+) -> Outcome<Vec<NumberLine<N>>> {
     let path = existing(job, name, span)?;
     let refused =
         |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span).help(format!("a row is {what}"));

@@ -65,21 +65,21 @@ static PLANE_SPEC: CommandSpec = CommandSpec {
 };
 
 /// A section: its x and the points of its half with y >= 0, from the keel up (m).
-type Section = (f64, Vec<[f64; 2]>);
+type HullSection = (f64, Vec<[f64; 2]>);
 
 /// Sections on their way to a piece.
 #[derive(Clone, Debug)]
 pub struct Planes {
     /// What the sections are to make; `None`: the panels of the piece of this name.
     piece: Result<Piece, String>,
-    sections: Vec<Section>,
+    sections: Vec<HullSection>,
     span: Span,
 }
 
 fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let piece = match args.word(0) {
-        Some(name) => Ok(piece::begun(job, args, name, args.place(0), Shape::Panels(Vec::new()))?),
+        Some(name) => Ok(piece::begin_piece(job, args, name, args.place(0), Shape::Panels(Vec::new()))?),
         None => {
             let described = job.model.current_piece.as_ref().and_then(|name| job.model.piece(name));
             let empty = described.filter(|(_, p)| matches!(&p.shape, Shape::Panels(panels) if panels.is_empty()));
@@ -184,13 +184,13 @@ pub fn build(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
             job.model.current_piece = Some(name);
         }
     }
-    let told = piece::completed(job, at);
+    let told = piece::complete_piece(job, at);
     job.notices.extend(told);
     Ok(())
 }
 
 /// The panels of a hull, their corners counterclockwise from outside; panels without area are left out.
-fn panels(mut sections: Vec<Section>) -> Vec<Vec<Position>> {
+fn panels(mut sections: Vec<HullSection>) -> Vec<Vec<Position>> {
     if sections.first().zip(sections.last()).is_some_and(|(a, b)| a.0 > b.0) {
         sections.reverse();
     }
@@ -200,7 +200,7 @@ fn panels(mut sections: Vec<Section>) -> Vec<Vec<Position>> {
         list.push(corners.iter().rev().map(|at| mirror(*at)).collect());
         list.push(corners);
     };
-    let placed = |(x, outline): &Section| outline.iter().map(|[y, z]| [*x, *y, *z]).collect::<Vec<Position>>();
+    let placed = |(x, outline): &HullSection| outline.iter().map(|[y, z]| [*x, *y, *z]).collect::<Vec<Position>>();
     let halves: Vec<Vec<Position>> = sections.iter().map(placed).collect();
     for pair in halves.windows(2) {
         let [a, b] = pair else { continue };
@@ -211,7 +211,7 @@ fn panels(mut sections: Vec<Section>) -> Vec<Vec<Position>> {
         }
     }
     for (end, reversed) in [(halves.first(), false), (halves.last(), true)] {
-        for mut corners in end.into_iter().flat_map(|half| closed(half)) {
+        for mut corners in end.into_iter().flat_map(|half| close_section(half)) {
             if reversed {
                 corners.reverse();
             }
@@ -229,7 +229,7 @@ fn panels(mut sections: Vec<Section>) -> Vec<Vec<Position>> {
 }
 
 /// The polygons of a whole section seen toward -x, one between each two points at y = 0 that lie apart along its outline.
-fn closed(half: &[Position]) -> Vec<Vec<Position>> {
+fn close_section(half: &[Position]) -> Vec<Vec<Position>> {
     let mut runs: Vec<Vec<Position>> = vec![Vec::new()];
     for at in half {
         let run = runs.last_mut();

@@ -1,6 +1,6 @@
 //! `&PICTURE`: the system as it stands, in plan, elevation or slantwise.
 
-use super::chosen::{Chosen, WARNING, gathered};
+use super::chosen::{NameFilter, WARNING, merge_remarks};
 use super::{Call, Command, Effect, Job};
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
@@ -163,11 +163,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (views, file) = (views(args)?, file(job, args)?);
     let yes = |option: &OptionSpec| args.option_word(option).is_none_or(|w| w != "NO");
-    let (chosen, light) = (Chosen::of(call, 1, &job.model), yes(&INACTIVE));
+    let (chosen, light) = (NameFilter::new(call, 1, &job.model), yes(&INACTIVE));
     let choice = SceneOptions {
         connector: &|c| (chosen.takes(&c.name)) && (c.active || light),
         body: &|b| chosen.takes(&b.name),
-        stop: &|| job.interrupted(),
+        stop: &|| job.is_interrupted(),
     };
     let Some((scene, unshaped)) = Scene::build(&job.model, &choice) else {
         return Err(Diagnostic::error("interrupted", args.span));
@@ -192,7 +192,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Some((name, numbered)) => {
             let (bytes, left_out) = picture.file(&name).map_err(wrong)?;
             let span = args.option(&FILE).map_or(args.span, |g| g.span);
-            let path = job.output.folder.write(&name, &bytes).map_err(|e| super::file::refused(&e, span))?;
+            let path = job.output.folder.write(&name, &bytes).map_err(|e| super::file::to_diagnostic(&e, span))?;
             job.settings.figure_number += i64::from(numbered);
             job.say(&format!("wrote {}", path.display()));
             if left_out > 0 {
@@ -205,7 +205,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             job.say(&text);
         }
     }
-    for text in gathered(&problems) {
+    for text in merge_remarks(&problems) {
         job.warn(text.strip_prefix(WARNING).unwrap_or(&text), args.span);
     }
     Ok(Effect::Done)

@@ -95,7 +95,7 @@ pub const OPTIONS: [OptionSpec; 12] = [
 ];
 
 /// How pieces are read, for the help of the commands that make them.
-pub const READING: &str = "A piece belongs to the part described last and is given in its system. Its surface must be closed; \
+pub const PIECE_HELP: &str = "A piece belongs to the part described last and is given in its system. Its surface must be closed; \
      the corners of its panels go round the same way seen from outside, all counterclockwise or all clockwise. When it is \
      complete it is checked. Open edges and panels that look the wrong way are warned of with their places, and a body with such a \
      piece has no buoyancy until it is corrected; panels that cut each other and pieces that overlap are warned of, and count \
@@ -214,7 +214,7 @@ pub fn current_part(model: &Model, span: Span) -> Outcome<&Part> {
 ///
 /// # Errors
 /// A name that is taken, no part, an unknown curve.
-pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -> Outcome<Piece> {
+pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -> Outcome<Piece> {
     rule::check(name, None, "piece", span)?;
     let model = &job.model;
     current_part(model, span)?;
@@ -271,7 +271,7 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
 
 /// Puts a piece into the part described last; `complete` when nothing more is to come, so that it is checked.
 pub fn add(job: &mut Job, piece: Piece, complete: bool) {
-    finished(job);
+    finish_piece(job);
     let (name, span) = (piece.name.clone(), piece.span);
     let part = job.model.current_part.as_ref().map(|p| Model::key(p));
     if let Some(part) = part.and_then(|key| job.model.parts.get_mut(&key)) {
@@ -280,18 +280,18 @@ pub fn add(job: &mut Job, piece: Piece, complete: bool) {
     job.note_name(&name, span);
     job.model.current_piece = Some(name);
     if complete {
-        finished(job);
+        finish_piece(job);
     }
 }
 
 /// A record begins something else: the piece whose panels were being given is complete. Its faults are warned of.
-pub fn finished(job: &mut Job) {
-    let found = completed(job, None);
+pub fn finish_piece(job: &mut Job) {
+    let found = complete_piece(job, None);
     job.notices.extend(found);
 }
 
 /// The piece whose panels were being given is complete: what is wrong with it, at the record that completes it, else at its name.
-pub fn completed(job: &mut Job, at: Option<Span>) -> Vec<Diagnostic> {
+pub fn complete_piece(job: &mut Job, at: Option<Span>) -> Vec<Diagnostic> {
     let Some(name) = job.model.current_piece.take() else { return Vec::new() };
     let Some((part, piece)) = job.model.piece(&name) else { return Vec::new() };
     let Some(body) = job.model.bodies.get(&Model::key(&part.body)) else { return Vec::new() };

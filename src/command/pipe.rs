@@ -15,9 +15,9 @@ use windlass_model::{Assembly, AssemblyKind, Model, PIPE, find};
 pub static PIPE_COMMAND: Command = Command { spec: &SPEC, edits: true, run };
 
 /// Most supports.
-const MOST: usize = 100;
+const MAX_SUPPORTS: usize = 100;
 /// How far a support may be from the global X axis (m).
-const BESIDE: f64 = 1e-3;
+const MAX_SUPPORT_OFFSET_M: f64 = 1e-3;
 
 const PIPE_TENSION: OptionSpec = OptionSpec::new(
     "-PIPE_TENSION",
@@ -80,8 +80,8 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
         let text = format!("{} is of class type {}, and a pipe is a ROD", class.name, class.object.kind());
         return Err(Diagnostic::error(text, args.place(0)));
     }
-    if let Some(extra) = args.data.get(1 + MOST) {
-        return Err(Diagnostic::error(format!("a pipe has at most {MOST} supports"), extra.span));
+    if let Some(extra) = args.data.get(1 + MAX_SUPPORTS) {
+        return Err(Diagnostic::error(format!("a pipe has at most {MAX_SUPPORTS} supports"), extra.span));
     }
     let (mut supports, mut places): (Vec<String>, Vec<f64>) = (Vec::new(), Vec::new());
     let mut first = "";
@@ -103,7 +103,7 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
             return Err(Diagnostic::error(format!("{} is given twice", connector.name), span));
         }
         let [x, y, _] = model.end(connector, 0).unwrap_or_default();
-        if y.abs() > BESIDE {
+        if y.abs() > MAX_SUPPORT_OFFSET_M {
             let text = format!("{} is not on the global X axis", connector.name);
             return Err(Diagnostic::error(text, span).help("a pipe is laid along X with Y = 0"));
         }

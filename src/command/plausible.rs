@@ -19,14 +19,14 @@ const HIGHEST_WIND: f64 = 185.0 * METRES_PER_SECOND_PER_KNOT;
 /// Faster than every ocean current and all but a few tidal races (m/s): the Gulf Stream reaches 2.5 m/s.
 const FASTEST_CURRENT: f64 = 5.0;
 /// The deepest place of the ocean (m): Challenger Deep.
-const DEEPEST: f64 = 10_935.0;
+const MAX_OCEAN_DEPTH_M: f64 = 10_935.0;
 /// Fresh water at its lightest to brine (kg/m3).
-const WATER: [f64; 2] = [900.0, 1300.0];
+const WATER_DENSITIES: [f64; 2] = [900.0, 1300.0];
 /// Coefficients of chain on soil go up to 1.0 to 1.5 ([API-RP-2SK] gives 1.0 for chain, 0.6 for wire).
-const MOST_FRICTION: f64 = 2.0;
+const MAX_FRICTION: f64 = 2.0;
 
 /// A value as the user wrote it, to four figures, with its unit.
-pub(super) fn shown(value: f64, dim: Dim, units: UnitSystem) -> String {
+pub(super) fn format_value(value: f64, dim: Dim, units: UnitSystem) -> String {
     let own = dim.from_si(value, units);
     let short = format!("{own:.3e}").parse().unwrap_or(own);
     format!("{} {}", eight_figures(short), dim.label(units)).trim_end().to_string()
@@ -47,21 +47,24 @@ pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
         let value = given.values.first()?;
         Some((value.number()?, value.span))
     };
-    if let Some((depth, at)) = given(&DEPTH).filter(|(depth, _)| *depth > DEEPEST) {
-        let (depth, deepest) = (shown(depth, Dim::Length, units), shown(DEEPEST, Dim::Length, units));
+    if let Some((depth, at)) = given(&DEPTH).filter(|(depth, _)| *depth > MAX_OCEAN_DEPTH_M) {
+        let (depth, deepest) =
+            (format_value(depth, Dim::Length, units), format_value(MAX_OCEAN_DEPTH_M, Dim::Length, units));
         warn(format!("a depth of {depth}: the deepest ocean has {deepest}"), at);
     }
     for option in [WATER_OPTION, SPGWATER] {
         let Some((_, at)) = given(&option) else { continue };
         let density = model.surroundings_in(env).water_density;
-        if !(WATER[0]..=WATER[1]).contains(&density) {
-            let text =
-                format!("water of {}: sea water has about 1025 kg/m3, 64 lb/ft3", shown(density, Dim::Density, units));
+        if !(WATER_DENSITIES[0]..=WATER_DENSITIES[1]).contains(&density) {
+            let text = format!(
+                "water of {}: sea water has about 1025 kg/m3, 64 lb/ft3",
+                format_value(density, Dim::Density, units)
+            );
             warn(text, at);
         }
     }
     if let Some((speed, at)) = given(&WIND).filter(|(speed, _)| *speed > HIGHEST_WIND) {
-        let speed = shown(speed, Dim::WindSpeed, units);
+        let speed = format_value(speed, Dim::WindSpeed, units);
         warn(format!("a wind of {speed}: the highest on record over a minute had 185 knots"), at);
     }
     if let Some(option) = args.option(&CURRENT) {
@@ -75,7 +78,7 @@ pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
             None => 0.0,
         };
         if fastest > FASTEST_CURRENT {
-            let (speed, gulf) = (shown(fastest, Dim::Velocity, units), shown(2.5, Dim::Velocity, units));
+            let (speed, gulf) = (format_value(fastest, Dim::Velocity, units), format_value(2.5, Dim::Velocity, units));
             let at = option.first_place();
             warn(format!("a current of {speed}: the Gulf Stream reaches {gulf}, tidal races four times as much"), at);
         }
@@ -107,12 +110,12 @@ fn breaking(model: &Model, env: &Environment, sea: &SeaDefinition, units: UnitSy
     let k = wave_number(found.peak(), depth, around.gravity).ok()?;
     // [MICHE-1944]
     let highest = 0.142 * TAU / k * depth.map_or(1.0, |d| (k * d).tanh());
-    let height = shown(sea.height, Dim::Length, units);
+    let height = format_value(sea.height, Dim::Length, units);
     if sea.height > highest {
-        let highest = shown(highest, Dim::Length, units);
+        let highest = format_value(highest, Dim::Length, units);
         let text = format!(
             "a significant height of {height} with a peak period of {} breaks: the highest wave of that period here is 0.142 L tanh(k d) = {highest}",
-            shown(peak, Dim::Time, units)
+            format_value(peak, Dim::Time, units)
         );
         return Some(*Diagnostic::warning(text, sea.place(2)));
     }
@@ -120,7 +123,7 @@ fn breaking(model: &Model, env: &Environment, sea: &SeaDefinition, units: UnitSy
     (steepness > limit).then(|| {
         let text = format!(
             "a significant height of {height} with a peak period of {}: 2 pi HS/(g Tp2) is {steepness:.3}, and sea states have {limit:.3} at most (DNV-RP-C205 3.5.4)",
-            shown(peak, Dim::Time, units)
+            format_value(peak, Dim::Time, units)
         );
         *Diagnostic::warning(text, sea.place(2))
     })
@@ -129,7 +132,7 @@ fn breaking(model: &Model, env: &Environment, sea: &SeaDefinition, units: UnitSy
 /// What is said of a coefficient of friction of a class that nothing has.
 pub(super) fn friction(args: &Args) -> Option<Diagnostic> {
     let value = args.option_if_declared(&FRICTION)?.values.first()?;
-    let mu = value.number().filter(|mu| *mu > MOST_FRICTION)?;
+    let mu = value.number().filter(|mu| *mu > MAX_FRICTION)?;
     let text =
         format!("a coefficient of friction of {}: chain on soil has 0.6 to 1.5, wire 0.3 to 0.6", eight_figures(mu));
     Some(*Diagnostic::warning(text, value.span))

@@ -1,7 +1,8 @@
 //! PLOT: columns of a result against one of them, in the terminal or as a file.
 
 use super::disposition::{
-    ANY_COLUMN, COLUMN, HEADING, MAG_USE, RECORD, VALUES, chosen, here, refused, selectors, spec, write_file,
+    ANY_COLUMN, COLUMN, HEADING, MAG_USE, RECORD, VALUES, chosen, open_disposition, selectors, spec, to_diagnostic,
+    write_file,
 };
 use super::{Call, Command, Effect, Job};
 use crate::report::plot::{Chart, PlotError};
@@ -69,14 +70,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let on_right = args.option(&RAX).cloned();
     let first = args.data.len();
     args.data.extend(on_right.iter().flat_map(|g| g.values.iter().cloned()));
-    let menu = here(job, args.span)?;
-    let numbers = menu.numeric(&selectors(&args, 0)).map_err(|e| refused(&args, &e))?;
+    let menu = open_disposition(job, args.span)?;
+    let numbers = menu.numeric(&selectors(&args, 0)).map_err(|e| to_diagnostic(&args, &e))?;
     if numbers.len() < 2 {
         return Err(Diagnostic::error("a plot needs the independent column and at least one more", args.span)
             .help("VLIST lists the columns"));
     }
     let right = match &on_right {
-        Some(_) => menu.numeric(&selectors(&args, first)).map_err(|e| refused(&args, &e))?,
+        Some(_) => menu.numeric(&selectors(&args, first)).map_err(|e| to_diagnostic(&args, &e))?,
         None => Vec::new(),
     };
     // places in the table of the chosen columns

@@ -3,8 +3,8 @@
 //! Source: [MOSES-REF ppo_conn, ppo_bodies, ppo_afor]. In MOSES the events of a run are times, its increment is one of time, and what lies between
 //! two stored instants is on the straight line between them.
 
-use super::chosen::{Chosen, note_caveats};
-use super::equilibrium::told;
+use super::chosen::{NameFilter, note_caveats};
+use super::equilibrium::to_diagnostic;
 use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
@@ -149,7 +149,7 @@ pub(super) fn last_run(job: &Job, span: Span) -> Outcome<&Run> {
 }
 
 /// The run a record is about, and its events.
-pub(super) fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<RunEvent>)> {
+pub(super) fn run_and_events<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<RunEvent>)> {
     let run = last_run(job, args.span)?;
     let given = args.option(&EVENTS);
     let window = given.and_then(|g| {
@@ -166,7 +166,7 @@ pub(super) fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<RunE
 pub(super) fn asked_behind_transient<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<RunEvent>)> {
     let transient = transient_of(job, args);
     if transient <= 0.0 {
-        return asked(job, args);
+        return run_and_events(job, args);
     }
     let run = last_run(job, args.span)?;
     let window = EventWindow { begin: transient, end: None, increment: None };
@@ -195,7 +195,7 @@ fn local(args: &Args) -> bool {
 }
 
 /// The places among some names of those that a record chooses.
-fn places<'n>(chosen: &Chosen, names: impl Iterator<Item = &'n str>) -> Vec<usize> {
+fn places<'n>(chosen: &NameFilter, names: impl Iterator<Item = &'n str>) -> Vec<usize> {
     names.enumerate().filter(|(_, name)| chosen.takes(name)).map(|(place, _)| place).collect()
 }
 
@@ -203,11 +203,11 @@ fn places<'n>(chosen: &Chosen, names: impl Iterator<Item = &'n str>) -> Vec<usiz
 fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
     let given: Vec<&Value> =
         args.data.iter().chain(args.option(&BODY).map_or(&[][..], |g| g.values.as_slice())).collect();
-    let chosen = Chosen::among(given.into_iter(), &job.model);
+    let chosen = NameFilter::among(given.into_iter(), &job.model);
     let names = run.history.layout.bodies.iter();
     let mut list = places(&chosen, names.clone().map(|(name, _)| name.as_str()));
     chosen.check_used("the bodies of the run", &[EntityKind::Body])?;
-    if chosen.all() {
+    if chosen.chooses_all() {
         // junctions are told by name: they are many
         let junction = |body: &usize| {
             let key = run.history.layout.bodies.get(*body).map(|(_, key)| key);
@@ -223,7 +223,7 @@ fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
 
 /// The connectors of a run that a record chooses.
 pub(super) fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize>> {
-    let chosen = Chosen::of(call, 0, &job.model);
+    let chosen = NameFilter::new(call, 0, &job.model);
     let list = places(&chosen, run.history.layout.links.iter().map(|l| l.name.as_str()));
     chosen.check_used("the connectors of the run", &[EntityKind::Connector, EntityKind::Assembly])?;
     if list.is_empty() {
@@ -234,7 +234,7 @@ pub(super) fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize
 
 /// Opens the disposition menu over what a run came to.
 fn dispose(job: &mut Job, made: Result<Table, SolveError>, args: &Args) -> Outcome<Effect> {
-    let mut table = made.map_err(|e| told(e, &job.model, args.span, job.units))?;
+    let mut table = made.map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
     if let Some(run) = &job.run {
         note_caveats(&run.model, std::slice::from_mut(&mut table));
     }
@@ -245,7 +245,7 @@ fn dispose(job: &mut Job, made: Result<Table, SolveError>, args: &Args) -> Outco
 
 fn trajectory(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let (run, events) = asked(job, args)?;
+    let (run, events) = run_and_events(job, args)?;
     let how = MotionOptions { centre: args.has(&CG), local: local(args), magnitude: magnitude(args) };
     let made = results::trajectory(run, &bodies(job, run, args)?, &how, &events);
     dispose(job, made, args)
@@ -253,8 +253,8 @@ fn trajectory(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn points(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let (run, events) = asked(job, args)?;
-    let (model, chosen) = (&job.model, Chosen::of(call, 0, &job.model));
+    let (run, events) = run_and_events(job, args)?;
+    let (model, chosen) = (&job.model, NameFilter::new(call, 0, &job.model));
     let mut list = Vec::new();
     for point in model.points.values().filter(|p| p.interest.is_some()) {
         if !chosen.takes(&point.name) {
@@ -285,31 +285,31 @@ fn points(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 fn conforce(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (run, events) = asked(job, &call.args)?;
+    let (run, events) = run_and_events(job, &call.args)?;
     let made = results::connector_forces(run, &connectors(job, run, call)?, magnitude(&call.args), &events);
     dispose(job, made, &call.args)
 }
 
 fn cf_magnitude(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (run, events) = asked(job, &call.args)?;
+    let (run, events) = run_and_events(job, &call.args)?;
     let made = results::magnitudes(run, &connectors(job, run, call)?, magnitude(&call.args), &events);
     dispose(job, made, &call.args)
 }
 
 fn tot_cforce(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (run, events) = asked(job, &call.args)?;
+    let (run, events) = run_and_events(job, &call.args)?;
     let made = results::total_forces(run, &bodies(job, run, &call.args)?, magnitude(&call.args), &events);
     dispose(job, made, &call.args)
 }
 
 fn c_length(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (run, events) = asked(job, &call.args)?;
+    let (run, events) = run_and_events(job, &call.args)?;
     let made = results::lengths(run, &connectors(job, run, call)?, &events);
     dispose(job, made, &call.args)
 }
 
 fn body_force(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (run, events) = asked(job, &call.args)?;
+    let (run, events) = run_and_events(job, &call.args)?;
     let made = results::body_forces(run, &bodies(job, run, &call.args)?, magnitude(&call.args), &events);
     dispose(job, made, &call.args)
 }

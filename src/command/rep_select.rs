@@ -61,7 +61,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let name = given.word(const { SN.word("CURVE") }).unwrap_or_default();
         let place = given.first_place();
         if given.values.len() > 1 {
-            let made = defined(job, given, name)?;
+            let made = define_curve(job, given, name)?;
             if selection.curves.insert(Model::key(name), made).is_some() {
                 job.remark(format!("fatigue curve {name} is redefined"), place);
             }
@@ -92,7 +92,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// A curve of points.
-fn defined(job: &Job, given: &Given, name: &str) -> Outcome<FatigueCurve> {
+fn define_curve(job: &Job, given: &Given, name: &str) -> Outcome<FatigueCurve> {
     let span = given.first_place();
     rule::check(name, None, "fatigue curve", span)?;
     let kind = if given.word(const { SN.word("TYPE") }) == Some("STRESS") {

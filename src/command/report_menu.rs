@@ -1,7 +1,7 @@
 //! `&REPORT`: a small menu that writes a report line by line.
 
 use super::menu;
-use super::message::underlined;
+use super::message::underline;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::page::centre;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -12,7 +12,7 @@ pub static REPORT: Command = Command { spec: &REPORT_SPEC, edits: false, run: op
 /// TYPE.
 pub static TYPE: Command = Command { spec: &TYPE_SPEC, edits: false, run: line };
 /// CTYPE.
-pub static CTYPE: Command = Command { spec: &CTYPE_SPEC, edits: false, run: centred };
+pub static CTYPE: Command = Command { spec: &CTYPE_SPEC, edits: false, run: print_centred };
 /// CUTYPE.
 pub static CUTYPE: Command = Command { spec: &CUTYPE_SPEC, edits: false, run: headline };
 
@@ -49,7 +49,7 @@ fn open(job: &mut Job, call: &Call) -> Outcome<Effect> {
     job.menus.push(Menu::Report { screen: !hard || both, hard });
     let heads: Vec<String> = call.args.data.iter().filter_map(|v| v.word()).map(str::to_string).collect();
     for head in heads {
-        write(job, call, &underlined(&head))?;
+        write(job, call, &underline(&head))?;
     }
     Ok(Effect::Done)
 }
@@ -70,12 +70,12 @@ fn line(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
-fn centred(job: &mut Job, call: &Call) -> Outcome<Effect> {
+fn print_centred(job: &mut Job, call: &Call) -> Outcome<Effect> {
     write(job, call, &centre(call.record.rest().0, 80))?;
     Ok(Effect::Done)
 }
 
 fn headline(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    write(job, call, &underlined(call.record.rest().0))?;
+    write(job, call, &underline(call.record.rest().0))?;
     Ok(Effect::Done)
 }

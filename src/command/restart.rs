@@ -1,7 +1,7 @@
 //! TDOM -RESTART: a run that is kept in a file goes on.
 
 use super::Job;
-use super::equilibrium::told;
+use super::equilibrium::to_diagnostic;
 use super::tdom::FILE;
 use crate::report::run_log::{self, RunLog};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -33,7 +33,7 @@ pub(super) fn go_on(job: &mut Job, made: &mut Run, again: &Given, span: Span) ->
         ));
     }
     let log = RunLog::go_on(file, path, &kept).map_err(|e| refused(e.to_string()))?;
-    made.take_up(&kept.snapshot, kept.rows).map_err(|e| told(e, &job.model, span, job.units))?;
+    made.take_up(&kept.snapshot, kept.rows).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
     job.remark(format!("goes on from {} s", kept.snapshot.time), again.span);
     Ok(log)
 }

@@ -2,9 +2,9 @@
 
 use super::chosen::raise;
 use super::disposition::{BOTH, HARD, send};
-use super::equilibrium::told;
+use super::equilibrium::to_diagnostic;
 use super::menu;
-use super::prcpost::{asked, asked_behind_transient, last_run, transient_of};
+use super::prcpost::{asked_behind_transient, last_run, run_and_events, transient_of};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::page;
@@ -30,7 +30,7 @@ const CODES: &[&str] = &["F201", "2RD", "BREAK"];
 const SAFETY: &[&str] = &["LOW", "NORMAL", "HIGH"];
 const CASES: &[&str] = &["OPERATING", "EXTREME", "SURVIVAL"];
 /// Most places told side by side.
-const MOST_PLACES: usize = 100;
+const MAX_PLACES: usize = 100;
 
 const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
     OptionSpec::new(name, values, help).owner(Owner::Ours)
@@ -165,11 +165,11 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
     let run = last_run(job, args.span)?;
     let line =
         LineResults::find(run, args.word(0).unwrap_or_default()).map_err(|e| e.diagnostic(args.place(0), job.units))?;
-    let wrong = |e| told(e, &job.model, args.span, job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, args.span, job.units);
     let what = args.word(1).unwrap_or("ENVELOPE");
     refuse_what_does_not_go(args, what)?;
     if what == "AT" {
-        return at(job, args, &line);
+        return tables_at_instants(job, args, &line);
     }
     // of a run without rows its own envelope is told
     let bare = what == "ENVELOPE" && run.history.is_empty() && !args.has(&EVENTS);
@@ -177,7 +177,7 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
     let events = match sums_up {
         _ if bare => Vec::new(),
         true => asked_behind_transient(job, args)?.1,
-        false => asked(job, args)?.1,
+        false => run_and_events(job, args)?.1,
     };
     let made = match what {
         "ENVELOPE" => along::envelope(&line, &events),
@@ -244,7 +244,7 @@ fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
 }
 
 /// The line at instants.
-fn at(job: &Job, args: &Args, line: &LineResults) -> Outcome<Vec<Table>> {
+fn tables_at_instants(job: &Job, args: &Args, line: &LineResults) -> Outcome<Vec<Table>> {
     let history = &last_run(job, args.span)?.history;
     let times: Vec<(f64, Span)> = (2..args.data.len()).filter_map(|i| Some((args.number(i)?, args.place(i)))).collect();
     let stored = history.times();
@@ -269,7 +269,7 @@ fn at(job: &Job, args: &Args, line: &LineResults) -> Outcome<Vec<Table>> {
         events.extend(all.last().copied());
     }
     let made = events.iter().map(|event| along::shape(line, event));
-    made.collect::<Result<_, _>>().map_err(|e| told(e, &job.model, args.span, job.units))
+    made.collect::<Result<_, _>>().map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))
 }
 
 /// The places of NODE.
@@ -287,8 +287,8 @@ fn places(args: &Args, line: &LineResults) -> Outcome<Vec<Where>> {
     if list.is_empty() {
         list.push(Where::Node(1));
     }
-    if list.len() > MOST_PLACES {
-        let text = format!("{} places: {MOST_PLACES} at most stand side by side", list.len());
+    if list.len() > MAX_PLACES {
+        let text = format!("{} places: {MAX_PLACES} at most stand side by side", list.len());
         return Err(Diagnostic::error(text, args.span));
     }
     Ok(list)

@@ -1,7 +1,7 @@
 //! `&STATUS ROD` and `&STATUS ROD_MODES`.
 
 use super::Job;
-use super::equilibrium::told;
+use super::equilibrium::to_diagnostic;
 use super::status;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -19,7 +19,7 @@ pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> 
         "ROD_MODES" => natural_modes(&job.model, fits, number, args.has(&status::SHAPE)),
         _ => lines_at_rest(&job.model, fits),
     };
-    let tables = found.map_err(|e| told(e, &job.model, args.span, job.units))?;
+    let tables = found.map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
     if tables.is_empty() {
         return Err(Diagnostic::error("the model has no such active dynamic line", args.span)
             .help("a connector of class type ROD is one, or a line with &CONNECTOR -DYNAMICS"));

@@ -10,8 +10,8 @@ use windlass_hydro::sea::{EnvironmentSea, Sea};
 use windlass_model::{Division, Environment, Stretching};
 
 /// Points of a spectrum plotted, and the shares of the energy between which they lie.
-const POINTS: usize = 241;
-const SHOWN: [f64; 2] = [1e-6, 0.997];
+const SPECTRUM_POINTS: usize = 241;
+const ENERGY_SHARES: [f64; 2] = [1e-6, 0.997];
 
 /// One table for each sea of the environment in force, or of those kept under a name that is chosen.
 pub(super) fn spectra(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span) -> Outcome<Vec<Table>> {
@@ -98,7 +98,7 @@ fn components(env: &Environment, sea: &Sea, train: &EnvironmentSea) -> Table {
         .fact("Sum of Amplitudes", highest, Dim::Length)
         .fact("Phases", phasing(sea), Dim::None)
         .fact("Ramp", sea.ramp, Dim::Time)
-        .fact("Above the Mean Level", above(sea), Dim::None);
+        .fact("Above the Mean Level", stretching_name(sea), Dim::None);
     let rows: Vec<_> = waves
         .iter()
         .enumerate()
@@ -144,7 +144,7 @@ pub(super) fn phasing(sea: &Sea) -> String {
     }
 }
 
-fn above(sea: &Sea) -> &'static str {
+fn stretching_name(sea: &Sea) -> &'static str {
     match sea.stretching {
         _ if sea.stokes.is_some() => "by Stokes' theory",
         Stretching::Linear => "LINEAR",
@@ -156,8 +156,9 @@ fn above(sea: &Sea) -> &'static str {
 
 fn density(env: &Environment, train: &EnvironmentSea) -> Option<Table> {
     let spectrum = train.spectrum.as_ref()?;
-    let [low, high] = SHOWN.map(|share| spectrum.quantile(share));
-    let frequencies: Vec<f64> = (0..POINTS).map(|i| low + (high - low) * i as f64 / (POINTS - 1) as f64).collect();
+    let [low, high] = ENERGY_SHARES.map(|share| spectrum.quantile(share));
+    let frequencies: Vec<f64> =
+        (0..SPECTRUM_POINTS).map(|i| low + (high - low) * i as f64 / (SPECTRUM_POINTS - 1) as f64).collect();
     let table = Table::new(title("Wave Spectrum", env, Some(train)))
         .with_rows(&frequencies)
         .column("", "Frequency", Dim::Frequency, Digits::Usual, |frequency| *frequency)

@@ -3,7 +3,8 @@
 //! Source: [MOSES-REF disp_men], for SPECTRUM and FFT; the others are ours.
 
 use super::disposition::{
-    ANY_COLUMN, COLUMN, MAG_USE, MENU, RECORD, VALUES, chosen_for_statistics, here, refused, selectors,
+    ANY_COLUMN, COLUMN, MAG_USE, MENU, RECORD, VALUES, chosen_for_statistics, open_disposition, selectors,
+    to_diagnostic,
 };
 use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
@@ -207,7 +208,7 @@ fn whole(args: &Args, option: &OptionSpec) -> Option<usize> {
 
 /// The record of the columns chosen, and what is to be said of the rows left out.
 fn record(job: &Job, args: &Args) -> Outcome<(SeriesRecord, Option<String>)> {
-    here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
+    open_disposition(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| to_diagnostic(args, &e))?;
     let (table, without) = chosen_for_statistics(job, args)?;
     Ok((SeriesRecord::from_table(&table).map_err(|e| wrong(args, &e))?, without))
 }

@@ -4,7 +4,7 @@
 //! its help.
 
 use super::disposition::{ANY_COLUMN, BOTH, COLUMN, HARD, MAG_USE, RECORD, VALUES};
-use super::disposition::{chosen_for_statistics, here, refused, selectors, send, spec};
+use super::disposition::{chosen_for_statistics, open_disposition, selectors, send, spec, to_diagnostic};
 use super::{Call, Command, Effect, Job};
 use crate::report::{page, statistic};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -40,7 +40,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
+    open_disposition(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| to_diagnostic(args, &e))?;
     let (table, without) = chosen_for_statistics(job, args)?;
     let count = table.columns.len();
     let (independent, described) = if count > 1 { (Some(0), (1..count).collect()) } else { (None, vec![0]) };

@@ -1,7 +1,7 @@
 //! `&STATUS`: what the model and the program hold.
 
 use super::assembly_table::assemblies;
-use super::chosen::{Chosen, note_caveats, raise};
+use super::chosen::{NameFilter, note_caveats, raise};
 use super::curve_table::{chart, curves};
 use super::disposition::{BOTH, HARD, send};
 use super::environment_table::environments;
@@ -143,7 +143,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         None => "SUMMARY",
     };
     let model = &job.model;
-    let chosen = Chosen::of(call, 1, model);
+    let chosen = NameFilter::new(call, 1, model);
     let fits = |name: &str| chosen.takes(name);
     let mut verdict = Verdict::default();
     let mut tables = match kind {
@@ -159,9 +159,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "CURVES" => curves(model, &fits),
         "BATHYMETRY" => vec![bathymetry::table(model, &fits)],
         "T_PRESSURE" => vec![t_pressure::table(model, &fits)],
-        "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
-        "SEA_SPECTRUM" => sea_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
-        "WIND_SPECTRUM" => wind_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
+        "ENVIRONMENT" => environments(job, (!chosen.chooses_all()).then_some(&fits)),
+        "SEA_SPECTRUM" => sea_table::spectra(job, (!chosen.chooses_all()).then_some(&fits), args.place(0))?,
+        "WIND_SPECTRUM" => wind_table::spectra(job, (!chosen.chooses_all()).then_some(&fits), args.place(0))?,
         "LOADS" => loads(job, &fits),
         "WEIGHT" => vec![body_tables::weights(model, &fits)],
         "PIECES" => {
@@ -183,7 +183,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "ROD" | "ROD_MODES" => rod_status::tables(job, args, kind, &fits)?,
         "TETHERS" | "TETHER_MODES" => tether_status::tables(job, args, kind, &fits)?,
         "SELECTORS" => vec![model_tables::selectors(model, &fits)],
-        "SN" => fatigue_table::tables(job, &fits, chosen.all()),
+        "SN" => fatigue_table::tables(job, &fits, chosen.chooses_all()),
         "LINE_TYPES" => line_types::tables(job, &args.data)?,
         _ => vec![model_tables::summary(model)],
     };
@@ -208,8 +208,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let charts: Vec<Table> = match kind {
         _ if !args.has(&PLOT) => Vec::new(),
         "CURVES" => tables.iter().filter(|t| chart(t)).cloned().collect(),
-        "SEA_SPECTRUM" => sea_table::densities(job, (!chosen.all()).then_some(&fits), args.place(0))?,
-        "WIND_SPECTRUM" => wind_table::densities(job, (!chosen.all()).then_some(&fits), args.place(0))?,
+        "SEA_SPECTRUM" => sea_table::densities(job, (!chosen.chooses_all()).then_some(&fits), args.place(0))?,
+        "WIND_SPECTRUM" => wind_table::densities(job, (!chosen.chooses_all()).then_some(&fits), args.place(0))?,
         _ => Vec::new(),
     };
     let (columns, lines) = job.plot_size();

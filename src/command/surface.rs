@@ -7,7 +7,7 @@ use super::describe::PLACE;
 use super::device::existing;
 use super::member;
 use super::menu;
-use super::piece::{self, OPTIONS, READING};
+use super::piece::{self, OPTIONS, PIECE_HELP};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::page;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -42,7 +42,7 @@ const NEW: ValueSpec = ValueSpec::new("NAME", Kind::Name(Noun::New), "name of th
 
 static SURFACE_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu(&menu::SURFACE),
-    detail: READING,
+    detail: PIECE_HELP,
     example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20 -PERM 1\nBLOCK POOL 180 -10 0 220 10 20 -PERM -1\n\
               LIST_BLOCK\nEND_&SURFACE\n&STATUS PIECES",
     ..CommandSpec::new("&SURFACE", "opens the menu of surfaces, up to END")
@@ -120,7 +120,7 @@ static TUBE_SPEC: CommandSpec = CommandSpec {
         number("OD2", Dim::Section, "diameter at the other end: refused where it differs").or("OD").positive(),
     ],
     options: &TUBE_OPTIONS,
-    detail: member::READING,
+    detail: member::TUBE_HELP,
     example: "MEDIT\n&DESCRIBE BODY SPAR\n*BOT 0 0 -300\n*TOP 0 0 50\nEND\n&SURFACE\nTUBE HULL *BOT *TOP 480 -CD 0.7 -CAA 0.64\nEND\n&STATUS PIECES",
     ..CommandSpec::new("TUBE", "a round member that displaces water")
 };
@@ -150,14 +150,15 @@ static LIST_SPEC: CommandSpec = CommandSpec {
 
 fn surface(job: &mut Job, call: &Call) -> Outcome<Effect> {
     piece::current_part(&job.model, call.args.span)?;
-    piece::finished(job);
+    piece::finish_piece(job);
     job.menus.push(Menu::Surface);
     Ok(Effect::Done)
 }
 
 /// A piece of a record without a surface: panels follow in a menu.
 fn panels_follow(job: &mut Job, args: &Args, menu: Menu) -> Outcome<Effect> {
-    let piece = piece::begun(job, args, args.word(0).unwrap_or_default(), args.place(0), Shape::Panels(Vec::new()))?;
+    let piece =
+        piece::begin_piece(job, args, args.word(0).unwrap_or_default(), args.place(0), Shape::Panels(Vec::new()))?;
     piece::add(job, piece, false);
     job.menus.push(menu);
     Ok(Effect::Done)
@@ -165,7 +166,7 @@ fn panels_follow(job: &mut Job, args: &Args, menu: Menu) -> Outcome<Effect> {
 
 /// A piece that its record gives whole.
 fn whole(job: &mut Job, args: &Args, shape: Shape) -> Outcome<Effect> {
-    let piece = piece::begun(job, args, args.word(0).unwrap_or_default(), args.place(0), shape)?;
+    let piece = piece::begin_piece(job, args, args.word(0).unwrap_or_default(), args.place(0), shape)?;
     piece::add(job, piece, true);
     Ok(Effect::Done)
 }
@@ -256,7 +257,7 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     *shape = shape.moved_by(&by);
     job.model.current_piece = Some(name.clone());
-    piece::finished(job);
+    piece::finish_piece(job);
     Ok(Effect::Done)
 }
 

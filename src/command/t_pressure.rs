@@ -17,7 +17,7 @@ use windlass_model::{Contents, EntityKind, Filling, Model};
 pub static T_PRESSURE: Command = Command { spec: &SPEC, edits: false, run };
 
 /// Pressure of the standard atmosphere (Pa): that of nothing is as far below it.
-const ATMOSPHERE: f64 = 101_325.0;
+const STANDARD_ATMOSPHERE_PA: f64 = 101_325.0;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -74,8 +74,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error(text, second.span).other(first.span, "given here already"));
     }
     let pressure = args.number(2).unwrap_or(0.0);
-    if pressure < -ATMOSPHERE {
-        let least = Dim::Stress.from_si(-ATMOSPHERE, job.units);
+    if pressure < -STANDARD_ATMOSPHERE_PA {
+        let least = Dim::Stress.from_si(-STANDARD_ATMOSPHERE_PA, job.units);
         let text = format!("PRESSURE is over the atmosphere's, and {least:.4} is that of nothing");
         return Err(Diagnostic::error(text, args.place(2)).label("less than none"));
     }

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-REF timdom].
 
-use super::equilibrium::{told, warn_of_breaks, warn_of_lines};
+use super::equilibrium::{to_diagnostic, warn_of_breaks, warn_of_lines};
 use super::menu;
 use super::restart::go_on;
 use super::verdict::over_break_in;
@@ -189,7 +189,7 @@ fn usual(model: &Model) -> Method {
 }
 
 /// Most steps of a run: a million a second, which only a single spring reaches, would take a third of a year.
-const MOST_STEPS: f64 = 1e13;
+const MAX_TIME_STEPS: f64 = 1e13;
 
 /// How a record wants its run to go.
 fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
@@ -198,8 +198,8 @@ fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
             .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
     };
     let steps = (window.observed / window.step).ceil();
-    if steps > MOST_STEPS {
-        let text = format!("-TIME asks for {steps:.3e} steps; at most {MOST_STEPS:.0e} are taken");
+    if steps > MAX_TIME_STEPS {
+        let text = format!("-TIME asks for {steps:.3e} steps; at most {MAX_TIME_STEPS:.0e} are taken");
         return Err(Diagnostic::error(text, args.span)
             .help("&ENV NAME -TIME TOBSERV DELTA_TIME: a longer step, or a shorter time"));
     }
@@ -253,8 +253,8 @@ fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
 }
 
 /// A run that begins, and the file it is kept in.
-fn begun(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run, Option<RunLog>)> {
-    let wrong = |e, job: &Job| told(e, &job.model, args.span, job.units);
+fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run, Option<RunLog>)> {
+    let wrong = |e, job: &Job| to_diagnostic(e, &job.model, args.span, job.units);
     let mut model = job.model.clone();
     model.parameters.dividing = args.option_number(&DIVIDING);
     let mut velocities = Vec::new();
@@ -367,7 +367,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if job.model.bodies.is_empty() {
         return Err(Diagnostic::error("there is no body to move", span).help("&DESCRIBE BODY describes one"));
     }
-    let (mut made, log) = begun(job, args, settings)?;
+    let (mut made, log) = begin_run(job, args, settings)?;
     warn_of_still_pieces(job, &made, span);
     if tethered::has_tethers(&job.model) {
         job.remark(
@@ -378,7 +378,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     warn_of_throwing(job, args, &made.settings.method);
     warn_of_late_actions(job, &made, span);
     warn_of_lines(job, span);
-    let mut going = Going::new(job, &made, log);
+    let mut going = RunProgress::new(job, &made, log);
     for text in run_tables::warnings_of_step(&made) {
         // at once for who looks on; for the log with the record
         going.bar.println(format!("warning: {text}"));
@@ -386,7 +386,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let ended = made.run(&mut going);
     drop(going);
-    let screening = screened(job, args, &made, ended.as_ref().ok());
+    let screening = screen_lines(job, args, &made, ended.as_ref().ok());
     let mut first = run_tables::run_table(&made);
     if let Err(Some(reason)) = &screening {
         first.note(format!("the quasi-static lines are not replayed as dynamic lines: {reason}"));
@@ -430,7 +430,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             format!("fender {} is deflected to {share:.0} per cent of its rated deflection at {:.1} s", p.name, p.time);
         job.warn(text, span);
     }
-    let wrong = |e| told(e, &job.model, span, job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, span, job.units);
     let ended = ended.map_err(wrong)?;
     checked.transpose().map_err(wrong)?;
     peaks.map_err(wrong)?;
@@ -454,7 +454,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// The quasi-static lines of a run that ended, replayed as dynamic lines; or why not, where there are such lines.
-fn screened(job: &Job, args: &Args, made: &Run, ending: Option<&Ending>) -> Result<Screening, Option<&'static str>> {
+fn screen_lines(
+    job: &Job,
+    args: &Args,
+    made: &Run,
+    ending: Option<&Ending>,
+) -> Result<Screening, Option<&'static str>> {
     let off = args.option_word(&SCREEN) == Some("NO");
     let reason = match ending {
         _ if screening::quasi_static_lines(made).is_empty() => return Err(None),
@@ -462,7 +467,7 @@ fn screened(job: &Job, args: &Args, made: &Run, ending: Option<&Ending>) -> Resu
         None => "the run failed",
         Some(Ending::Interrupted) => "the run was interrupted",
         Some(_) if !made.settings.keep => "-STATISTICS keeps no motion of their ends",
-        Some(_) => return Ok(screening::screen(made, &|| !job.interrupted())),
+        Some(_) => return Ok(screening::screen(made, &|| !job.is_interrupted())),
     };
     Err(Some(reason))
 }
@@ -470,13 +475,13 @@ fn screened(job: &Job, args: &Args, made: &Run, ending: Option<&Ending>) -> Resu
 /// The same run again with half the step, and what differs.
 fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
     let mut again = first.begun_again(|s| RunSettings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
-    let mut going = Going::new(job, &again, None);
+    let mut going = RunProgress::new(job, &again, None);
     again.run(&mut going)?;
     Ok(run_tables::comparison_tables(first, &again.history))
 }
 
 /// Who is told how a run goes: its file, the terminal, Ctrl-C.
-struct Going {
+struct RunProgress {
     log: Option<RunLog>,
     interrupt: Arc<AtomicBool>,
     bar: ProgressBar,
@@ -484,26 +489,26 @@ struct Going {
 }
 
 /// Steps between two looks at the terminal.
-const LOOK: u64 = 256;
+const STEPS_PER_TERMINAL_CHECK: u64 = 256;
 
-impl Going {
+impl RunProgress {
     fn new(job: &Job, run: &Run, log: Option<RunLog>) -> Self {
         // hidden when nobody looks: it goes to the terminal behind stderr alone
         let bar = ProgressBar::new(run.settings.observed.ceil() as u64);
         if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}, {elapsed} gone, {eta} to go") {
             bar.set_style(style);
         }
-        Going { log, interrupt: Arc::clone(&job.interrupt), bar, asked: 0 }
+        RunProgress { log, interrupt: Arc::clone(&job.interrupt), bar, asked: 0 }
     }
 }
 
-impl Drop for Going {
+impl Drop for RunProgress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
 }
 
-impl Watcher for Going {
+impl Watcher for RunProgress {
     fn row(&mut self, row: &[f64]) -> Result<(), String> {
         self.log.as_mut().map_or(Ok(()), |log| log.row(row))
     }
@@ -517,7 +522,7 @@ impl Watcher for Going {
     }
 
     fn goes_on(&mut self, time: f64) -> bool {
-        if self.asked.is_multiple_of(LOOK) {
+        if self.asked.is_multiple_of(STEPS_PER_TERMINAL_CHECK) {
             let rate = time / self.bar.elapsed().as_secs_f64().max(1e-9);
             self.bar.set_position(time as u64);
             self.bar.set_message(format!("{time:.1} s, {rate:.0} times real time"));

@@ -103,7 +103,7 @@ pub const GROUP: OptionSpec = option(
 .default("1");
 
 /// Most constraints of a tether [AQWA-TETHER A.14].
-const MOST_CONSTRAINTS: usize = 5;
+const MAX_CONSTRAINTS: usize = 5;
 
 const OF_INSTALLED: [OptionSpec; 8] = [INSTALLED, V_SPRINGS, A_SPRINGS, CAPS, FLUID, IMPACT, LOW_STOP, CONSTRAINT];
 const OF_TOWED: [OptionSpec; 3] = [TOWED, V_MOORING, A_MOORING];
@@ -171,8 +171,8 @@ fn constraints(args: &Args) -> Outcome<Vec<TetherConstraint>> {
             _ => TetherHold::RotationalVessel,
         };
         found.push(TetherConstraint { node, hold });
-        if found.len() > MOST_CONSTRAINTS {
-            return Err(Diagnostic::error(format!("a tether has {MOST_CONSTRAINTS} constraints at most"), given.span));
+        if found.len() > MAX_CONSTRAINTS {
+            return Err(Diagnostic::error(format!("a tether has {MAX_CONSTRAINTS} constraints at most"), given.span));
         }
     }
     Ok(found)

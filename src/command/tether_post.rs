@@ -28,7 +28,7 @@ pub static STRUCTURE: Command = Command { spec: &STRUCTURE_SPEC, edits: false, r
 const WHAT: &[&str] = &["MOTIONS", "FORCES", "NODE", "END_OF", "ALONG", "STATISTICS", "RANGES", "FATIGUE", "EVENTS"];
 const OF_STRUCTURE: &[&str] = &["PAGES", "HISTORY", "HARMONICS"];
 /// Times on one graph [AQWA-TETHER 2.2].
-const MOST_CURVES: usize = 20;
+const MAX_CURVES: usize = 20;
 
 const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
     OptionSpec::new(name, values, help).owner(Owner::Ours)
@@ -222,7 +222,7 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
             let end = whole(args, 2, 2 * tether.line.elements().len(), "end of an element of the tether")?;
             vec![tethered::series(run, tether, Of::End(end - 1))]
         }
-        "ALONG" => vec![along(run, tether, args)?],
+        "ALONG" => vec![table_along(run, tether, args)?],
         "STATISTICS" => {
             let window = window(run, args);
             let made = match args.word(2) {
@@ -234,7 +234,7 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         }
         what @ ("RANGES" | "FATIGUE") => {
             towed_alone()?;
-            let [ranges, fatigue] = window(run, args).fatigue(run, tether, asked(args)).map_err(wrong)?;
+            let [ranges, fatigue] = window(run, args).fatigue(run, tether, fatigue_settings(args)).map_err(wrong)?;
             vec![if what == "RANGES" { ranges } else { fatigue }]
         }
         _ => vec![tethered::events(run)],
@@ -242,7 +242,7 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
 }
 
 /// Curve and hours of FATIGUE.
-fn asked(args: &Args) -> FatigueSettings {
+fn fatigue_settings(args: &Args) -> FatigueSettings {
     let usual = Endurance::KILONEWTONS;
     let curve = args.option(&SN).map_or(usual, |g| Endurance {
         concentration: g.number(const { SN.number("SCF") }).unwrap_or(usual.concentration),
@@ -253,15 +253,15 @@ fn asked(args: &Args) -> FatigueSettings {
     FatigueSettings { duration: 1.0, curve: curve.in_unit(1000.0), peak_time: hours * 3600.0 }
 }
 
-fn along(run: &Tethered, tether: &TetherHistory, args: &Args) -> Outcome<Table> {
+fn table_along(run: &Tethered, tether: &TetherHistory, args: &Args) -> Outcome<Table> {
     let quantities = |at_nodes: bool| if at_nodes { tether.of_a_node() } else { tether.of_an_end() };
     let codes = || [true, false].into_iter().flat_map(|n| quantities(n).iter().map(|q| (q.code, Owner::Ours, q.code)));
     let word = args.word(2).unwrap_or("Y");
     let code = choose(word, args.place(2), "quantity of the tether", codes())?;
     let found = [true, false].into_iter().find_map(|n| Some((n, quantities(n).iter().position(|q| q.code == code)?)));
     let times = args.option(&AT).map(Given::numbers).unwrap_or_default();
-    if times.len() > MOST_CURVES {
-        let text = format!("{} instants: {MOST_CURVES} at most on one graph", times.len());
+    if times.len() > MAX_CURVES {
+        let text = format!("{} instants: {MAX_CURVES} at most on one graph", times.len());
         return Err(Diagnostic::error(text, args.option(&AT).map_or(args.span, |g| g.span)));
     }
     let far = |place: &usize, time: f64| (run.times.get(*place).copied().unwrap_or_default() - time).abs();

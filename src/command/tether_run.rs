@@ -3,7 +3,7 @@
 //! Source: [AQWA-TETHER chapters 1 to 4]; [AQWA-REF decks 16, 17].
 
 use super::chosen::note_caveats;
-use super::equilibrium::told;
+use super::equilibrium::to_diagnostic;
 use super::tdom;
 use super::{Effect, Job};
 use crate::report::page;
@@ -94,7 +94,8 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     };
     let interrupt = Arc::clone(&job.interrupt);
     let mut goes_on = |_: f64| !interrupt.load(Ordering::Relaxed);
-    let made = tethered::run(&job.model, settings, &mut goes_on).map_err(|e| told(e, &job.model, span, job.units))?;
+    let made =
+        tethered::run(&job.model, settings, &mut goes_on).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
     let mut tables = vec![tethered::run_table(&made)];
     note_caveats(&job.model, &mut tables);
     let events = tethered::events(&made);

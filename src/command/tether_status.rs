@@ -1,7 +1,7 @@
 //! `&STATUS TETHERS` and `TETHER_MODES`.
 
 use super::Job;
-use super::equilibrium::told;
+use super::equilibrium::to_diagnostic;
 use super::status;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -13,7 +13,7 @@ use windlass_solve::tethered;
 /// # Errors
 /// No tether, or one that cannot be reckoned with.
 pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
-    let wrong = |e| told(e, &job.model, args.span, job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, args.span, job.units);
     let names: Vec<String> = tethered::names(&job.model).into_iter().filter(|name| fits(name)).collect();
     if names.is_empty() {
         return Err(Diagnostic::error("the model has no such tether that acts", args.span)

@@ -1,7 +1,7 @@
 //! `TABLE LINE -VARY`: what a line does for each of several values of one parameter.
 
 use super::Job;
-use super::chosen::gathered;
+use super::chosen::merge_remarks;
 use crate::report::format::number_in_full;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -55,7 +55,7 @@ enum Parameter {
 }
 
 impl Parameter {
-    fn of(word: &str) -> Parameter {
+    fn from_word(word: &str) -> Parameter {
         match word {
             "LENGTH" => Parameter::Length,
             "FAIRLEAD" => Parameter::Fairlead,
@@ -134,7 +134,7 @@ pub fn tabulate(
     held: Condition,
     args: &Args,
 ) -> Outcome<(Table, Missing)> {
-    let parameter = Parameter::of(vary.first_word().unwrap_or_default());
+    let parameter = Parameter::from_word(vary.first_word().unwrap_or_default());
     let (unit, around) = (parameter.dim().label(job.units), job.model.surroundings());
     let place = job.model.placement(connector);
     if parameter.is_condition()
@@ -148,7 +148,7 @@ pub fn tabulate(
     for (given, span) in vary.values.iter().filter_map(|v| Some((v.number()?, v.span))) {
         let value = value(parameter, given, span, job)?;
         let named = format!("{} {} {unit}", parameter.name(), number_in_full(given));
-        let (place, condition) = at(parameter, value, &place, held);
+        let (place, condition) = apply(parameter, value, &place, held);
         let line = class.object.line(&place, &around);
         let line = match parameter.change(value) {
             Some(change) => line.and_then(|l| l.with_change(change)),
@@ -168,10 +168,10 @@ pub fn tabulate(
         }
     }
     if let (true, Some((error, span))) = (notes.is_empty(), first) {
-        return Err(without(error, span, connector, job.units));
+        return Err(to_diagnostic(error, span, connector, job.units));
     }
     let mut table = with_columns(facts(parameter, class, connector, &place, held), parameter, &rows);
-    table.notes = gathered(&notes);
+    table.notes = merge_remarks(&notes);
     if place.bathymetry.is_some() && matches!(parameter, Parameter::Depth | Parameter::Slope) {
         table.note("the line lies on a plane through its anchor here, not on the bathymetry");
     }
@@ -181,7 +181,7 @@ pub fn tabulate(
 }
 
 /// The error when none of the values has a configuration.
-fn without(error: ClassError, span: Span, connector: &Connector, units: UnitSystem) -> Box<Diagnostic> {
+fn to_diagnostic(error: ClassError, span: Span, connector: &Connector, units: UnitSystem) -> Box<Diagnostic> {
     error
         .diagnostic(span, units)
         .help(format!("connector {} has a configuration for none of the values", connector.name))
@@ -202,7 +202,7 @@ fn value(parameter: Parameter, given: f64, span: Span, job: &Job) -> Outcome<f64
 }
 
 /// Where the ends are, and the configuration, with a value of the parameter.
-fn at(parameter: Parameter, value: f64, place: &Placement, held: Condition) -> (Placement, Condition) {
+fn apply(parameter: Parameter, value: f64, place: &Placement, held: Condition) -> (Placement, Condition) {
     let [x, y, _] = place.fairlead;
     let place = place.clone();
     match parameter {

@@ -51,7 +51,7 @@ pub fn over_break(connector: &str, largest: Option<(f64, usize)>, command: &'sta
 }
 
 /// The same of what a report tells of it; one that is far too short for its ends is over its break whoever gives that.
-pub fn judged(connector: &str, told: &ElementSummary, command: &'static str) -> Option<OverBreak> {
+pub fn check_over_break(connector: &str, told: &ElementSummary, command: &'static str) -> Option<OverBreak> {
     let over = over_break(connector, told.over_given_break, command);
     over.or_else(|| {
         let too_short = told.too_short?;

@@ -11,8 +11,8 @@ use windlass_hydro::gusts::{DENSITY, Gusts};
 use windlass_model::Environment;
 
 /// Points of a spectrum plotted, and the share of the energy up to which they lie.
-const POINTS: usize = 241;
-const SHOWN: f64 = 0.8;
+const SPECTRUM_POINTS: usize = 241;
+const ENERGY_SHARE: f64 = 0.8;
 
 /// The gusts of the environment in force, or of those kept under a name that is chosen.
 pub(super) fn spectra(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span) -> Outcome<Vec<Table>> {
@@ -87,10 +87,11 @@ fn components(job: &Job, env: &Environment, gusts: &Gusts) -> Table {
 }
 
 fn density(env: &Environment, gusts: &Gusts) -> Table {
-    let high = gusts.spectrum.quantile(SHOWN);
+    let high = gusts.spectrum.quantile(ENERGY_SHARE);
     let low = gusts.spectrum.range()[0].max(1e-3 * high);
     // close where it is steep
-    let frequencies: Vec<f64> = (0..POINTS).map(|i| low * (high / low).powf(i as f64 / (POINTS - 1) as f64)).collect();
+    let frequencies: Vec<f64> =
+        (0..SPECTRUM_POINTS).map(|i| low * (high / low).powf(i as f64 / (SPECTRUM_POINTS - 1) as f64)).collect();
     Table::new(title("Gust Spectrum", env))
         .with_rows(&frequencies)
         .column("", "Frequency", Dim::Frequency, Digits::Usual, |frequency| *frequency)

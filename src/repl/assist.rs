@@ -2,7 +2,7 @@
 //! from the lexer and the specs.
 
 use crate::command::menu;
-use crate::command::{COMMANDS, offered, status_kinds};
+use crate::command::{COMMANDS, commands_of_menu, status_kinds};
 use crate::session::Session;
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::highlight::{CmdKind, Highlighter};
@@ -146,7 +146,7 @@ fn spec_of(menu: &'static MenuSpec, text: &str, words: &[Token]) -> Option<(&'st
         TokenKind::Point => COMMANDS.iter().find(|c| c.spec.name == "*POINT").map(|c| (c.spec, 1)),
         TokenKind::Selector => COMMANDS.iter().find(|c| c.spec.name == ":SELECTOR").map(|c| (c.spec, 1)),
         _ => {
-            let names = offered(menu).map(|c| c.spec).chain(CONTROL).map(|s| (s.name, s.owner, s));
+            let names = commands_of_menu(menu).map(|c| c.spec).chain(CONTROL).map(|s| (s.name, s.owner, s));
             if let SearchResult::One(spec) = keyword(word(0)?, names) { Some((spec, 1)) } else { None }
         }
     }
@@ -200,7 +200,10 @@ fn expected_value(
 
 /// The string functions, each as it begins.
 fn string_functions() -> impl Iterator<Item = String> {
-    functions::FUNCTION_HELP.iter().chain(crate::command::functions::HELP).map(|(name, _, _)| format!("{name}("))
+    functions::FUNCTION_HELP
+        .iter()
+        .chain(crate::command::functions::FUNCTION_HELP)
+        .map(|(name, _, _)| format!("{name}("))
 }
 
 /// Where a string function may begin within a word.
@@ -229,7 +232,7 @@ impl Completer for Assistant {
         let spec = spec_of(known.menu(), head, &words);
         if words.is_empty() {
             candidates.extend(
-                offered(known.menu())
+                commands_of_menu(known.menu())
                     .map(|c| c.spec.name)
                     .filter(|n| !n.starts_with(['~', '*', ':']))
                     .map(str::to_string),

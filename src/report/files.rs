@@ -588,7 +588,7 @@ impl JobFolder {
 
 /// Whether a name is inside the job's folder by its spelling: relative, and not beginning with `./` or `../`.
 pub fn is_inside(name: &str) -> bool {
-    !Path::new(name).components().next().is_some_and(|first| !matches!(first, Component::Normal(_)))
+    Path::new(name).components().next().is_none_or(|first| matches!(first, Component::Normal(_)))
 }
 
 /// Whether a path is a file or folder, or lies in that folder, links and `..` followed.

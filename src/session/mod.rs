@@ -9,7 +9,7 @@ mod skipped_menu;
 pub use reading::{read_all, read_text};
 
 use self::named::{in_menu, unknown};
-use crate::command::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
+use crate::command::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
 use crate::report::output::Output;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -330,7 +330,7 @@ impl Session {
     fn resolve(&self, first: &Word) -> Outcome<Meaning> {
         let menu = self.job.menu();
         let internal = first.kind == TokenKind::Internal;
-        let names = offered(menu.spec())
+        let names = commands_of_menu(menu.spec())
             .filter(move |c| c.spec.name.starts_with('&') == internal && !c.spec.name.starts_with(['~', '*', ':']))
             .map(|c| (c.spec.name, c.spec.owner, c));
         let controls = CONTROL.iter().filter(move |_| internal).map(|s| (s.name, s.owner));

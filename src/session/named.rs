@@ -1,7 +1,7 @@
 //! What a word names in a menu, and what is said where it names nothing.
 
-use crate::command::menu::named;
-use crate::command::{COMMANDS, Command, Menu, offered};
+use crate::command::menu::join_names;
+use crate::command::{COMMANDS, Command, Menu, commands_of_menu};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_language::flow::macros::Macro;
@@ -11,7 +11,7 @@ use windlass_language::token::TokenKind;
 
 /// A description record's command, when the menu takes descriptions.
 pub(super) fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static Command> {
-    offered(menu.spec()).find(|c| c.spec.name == name).ok_or_else(|| {
+    commands_of_menu(menu.spec()).find(|c| c.spec.name == name).ok_or_else(|| {
         let (what, help) = match first.kind {
             TokenKind::Selector => ("a selector", "&SELECT opens the menu of selectors; &SELECT :NAME .. defines one"),
             _ => ("a description record", "descriptions belong to INMODEL or MEDIT: enter MEDIT first"),
@@ -41,7 +41,11 @@ pub(super) fn unknown<'a>(
         .collect();
     match elsewhere {
         Some(command) => {
-            error.help.push(format!("{} belongs to menu {}", command.spec.name, named(command.spec.menus, " and ")));
+            error.help.push(format!(
+                "{} belongs to menu {}",
+                command.spec.name,
+                join_names(command.spec.menus, " and ")
+            ));
         }
         None => error.help.extend(did_you_mean(&first.text, candidates.iter().map(String::as_str))),
     }

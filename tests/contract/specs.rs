@@ -2,7 +2,7 @@
 //! script for every command.
 
 use std::fs;
-use windlass::command::{COMMANDS, menu, offered, opened_by};
+use windlass::command::{COMMANDS, commands_of_menu, menu, opened_by};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
@@ -20,7 +20,8 @@ fn specs() -> Vec<&'static CommandSpec> {
 #[test]
 fn names_are_unique_in_every_menu() {
     for menu in menu::ALL {
-        let mut names: Vec<&str> = offered(menu).map(|c| c.spec.name).chain(CONTROL.iter().map(|s| s.name)).collect();
+        let mut names: Vec<&str> =
+            commands_of_menu(menu).map(|c| c.spec.name).chain(CONTROL.iter().map(|s| s.name)).collect();
         let count = names.len();
         names.sort_unstable();
         names.dedup();
@@ -59,7 +60,7 @@ fn an_abbreviation_unique_among_moses_names_stays_valid_whatever_is_added() {
     }
     for menu in menu::ALL {
         let all = || {
-            let commands = offered(menu).map(|c| (c.spec.name, c.spec.owner, c.spec.name));
+            let commands = commands_of_menu(menu).map(|c| (c.spec.name, c.spec.owner, c.spec.name));
             commands.chain(CONTROL.iter().map(|s| (s.name, s.owner, s.name)))
         };
         let moses = || all().filter(|(_, owner, _)| *owner == Owner::Moses);
@@ -87,7 +88,7 @@ fn the_abbreviations_seen_in_published_samples_are_accepted() {
         assert!(matches!(found, SearchResult::One(o) if o.name == long), "{short}: {found:?}");
     }
     let command = |word: &str, menu: &'static MenuSpec| {
-        let names = offered(menu).map(|c| (c.spec.name, c.spec.owner, c.spec.name));
+        let names = commands_of_menu(menu).map(|c| (c.spec.name, c.spec.owner, c.spec.name));
         keyword(word, names.chain(CONTROL.iter().map(|s| (s.name, s.owner, s.name))).collect::<Vec<_>>().into_iter())
     };
     assert_eq!(command("&INSTAT", &menu::MAIN), SearchResult::One("&INSTATE"));
@@ -144,7 +145,7 @@ fn a_command_opens_a_menu_in_its_example_exactly_when_its_spec_says_so() {
             let (read, _, _) = record::read(line, SourceId::default(), 0);
             let words = read.words();
             let first = words.first().map(|w| w.text.to_ascii_uppercase()).unwrap_or_default();
-            let command = offered(session.job.menu().spec()).find(|c| c.spec.name == first);
+            let command = commands_of_menu(session.job.menu().spec()).find(|c| c.spec.name == first);
             let said = command.and_then(|c| opened_by(&session.job, c.spec, &words));
             let depth = session.job.menus.len();
             session.interpreter.feed("example", line, 1);

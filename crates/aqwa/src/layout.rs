@@ -44,7 +44,7 @@ impl Slot {
     }
 
     /// `11-15 node 1`.
-    fn to_text(&self) -> String {
+    fn slot_text(&self) -> String {
         format!("{}-{} {}", self.column, self.last_column(), self.name)
     }
 }
@@ -149,7 +149,7 @@ impl CardLayout {
 
     /// The columns of the card in words, for help lines.
     pub fn usage(&self) -> String {
-        let fields: Vec<String> = self.slots.iter().map(Slot::to_text).collect();
+        let fields: Vec<String> = self.slots.iter().map(Slot::slot_text).collect();
         let fields = if fields.is_empty() { "no fields".to_string() } else { fields.join(", ") };
         format!("columns of {}: {fields}", if self.keyword.is_empty() { "this card" } else { self.keyword })
     }

@@ -12,7 +12,7 @@ use windlass_language::spec::Range;
 /// Longest row taken (bytes); a quote that is never closed ends here.
 const LONGEST_ROW: usize = 1 << 20;
 /// Headers listed in a message.
-const LISTED: usize = 16;
+const MAX_LISTED_HEADERS: usize = 16;
 
 /// Why a file of lines cannot be used at all.
 #[derive(Debug, thiserror::Error)]
@@ -44,7 +44,7 @@ impl From<csv::Error> for InputError {
 
 /// One line to be solved, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Case {
+pub struct LineCase {
     /// The line.
     pub segment: Segment,
     /// Horizontal distance of the fairlead from the anchor (m).
@@ -73,7 +73,7 @@ const FRICTION: &str = "friction";
 const SUSPENDED: &str = "suspended";
 
 impl Columns {
-    fn of(heads: &[String]) -> Result<Self, InputError> {
+    fn from_heads(heads: &[String]) -> Result<Self, InputError> {
         let find = |name: &'static str| {
             let mut places = (0..).zip(heads).filter(|(_, head)| head.eq_ignore_ascii_case(name)).map(|(at, _)| at);
             match (places.next(), places.next()) {
@@ -81,7 +81,7 @@ impl Columns {
                 _ => Err(InputError::Twice(name)),
             }
         };
-        let needed = |name| find(name)?.ok_or_else(|| InputError::NoColumn { name, help: near(name, heads) });
+        let needed = |name| find(name)?.ok_or_else(|| InputError::NoColumn { name, help: similar_heads(name, heads) });
         let [id, x, z, length, ea, weight] = NEEDED;
         Ok(Columns {
             id: needed(id)?,
@@ -97,7 +97,7 @@ impl Columns {
 }
 
 /// What stands in a header instead of a column that is not there.
-fn near(name: &str, heads: &[String]) -> String {
+fn similar_heads(name: &str, heads: &[String]) -> String {
     let known = |head: &str| NEEDED.iter().chain(&[FRICTION, SUSPENDED]).any(|n| n.eq_ignore_ascii_case(head));
     let others = || heads.iter().map(String::as_str).filter(|head| !known(head));
     let all =
@@ -108,7 +108,7 @@ fn near(name: &str, heads: &[String]) -> String {
             all(heads.iter().map(String::as_str).collect())
         ),
         close if !close.is_empty() => format!("the nearest header is {}", all(close)),
-        _ => format!("its headers are {}", all(heads.iter().map(String::as_str).take(LISTED).collect())),
+        _ => format!("its headers are {}", all(heads.iter().map(String::as_str).take(MAX_LISTED_HEADERS).collect())),
     }
 }
 
@@ -143,7 +143,7 @@ impl Input {
             return Err(InputError::Empty);
         }
         let heads: Vec<String> = record.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_string()).collect();
-        let columns = Columns::of(&heads)?;
+        let columns = Columns::from_heads(&heads)?;
         Ok(Input { heads, columns, reader, record })
     }
 
@@ -151,19 +151,19 @@ impl Input {
     ///
     /// # Errors
     /// What the system or the CSV reader refuses.
-    pub fn next(&mut self) -> Result<Option<Row<'_>>, InputError> {
+    pub fn next_row(&mut self) -> Result<Option<InputRow<'_>>, InputError> {
         self.reader.get_mut().row = 0;
         if !self.reader.read_byte_record(&mut self.record)? {
             return Ok(None);
         }
         let inner = self.record.as_slice().iter().filter(|byte| **byte == b'\n').count() as u64;
         let line = self.reader.get_ref().lines.saturating_sub(inner);
-        Ok(Some(Row { line, cells: &self.record, heads: self.heads.len(), columns: &self.columns }))
+        Ok(Some(InputRow { line, cells: &self.record, heads: self.heads.len(), columns: &self.columns }))
     }
 }
 
 /// One row of the file.
-pub struct Row<'a> {
+pub struct InputRow<'a> {
     /// The line of the file it begins at, from 1.
     pub line: u64,
     /// What it holds.
@@ -172,12 +172,12 @@ pub struct Row<'a> {
     columns: &'a Columns,
 }
 
-impl Row<'_> {
+impl InputRow<'_> {
     /// The line it describes.
     ///
     /// # Errors
     /// What is wrong with the row, in one sentence.
-    pub fn case(&self) -> Result<Case, String> {
+    pub fn case(&self) -> Result<LineCase, String> {
         let surplus = self.cells.iter().skip(self.heads).any(|cell| !cell.trim_ascii().is_empty());
         if self.cells.len() < self.heads || surplus {
             return Err(format!("it has {} cells under {} headers", self.cells.len(), self.heads));
@@ -185,11 +185,11 @@ impl Row<'_> {
         let c = self.columns;
         let [_, x, z, length, ea, weight] = NEEDED;
         let segment = Segment {
-            length: self.needed(c.length, length, Range::Positive)?,
-            weight: self.needed(c.weight, weight, Range::Any)?,
-            ea: self.needed(c.ea, ea, Range::Positive)?,
+            length: self.required_number(c.length, length, Range::Positive)?,
+            weight: self.required_number(c.weight, weight, Range::Any)?,
+            ea: self.required_number(c.ea, ea, Range::Positive)?,
         };
-        let (x, z) = (self.needed(c.x, x, Range::NotNegative)?, self.needed(c.z, z, Range::Any)?);
+        let (x, z) = (self.required_number(c.x, x, Range::NotNegative)?, self.required_number(c.z, z, Range::Any)?);
         let optional = |at: Option<usize>, name, range| match at {
             Some(at) => self.number(at, name, range).map(|value| value.unwrap_or(0.0)),
             None => Ok(0.0),
@@ -201,7 +201,7 @@ impl Row<'_> {
             1.0 => None,
             other => return Err(format!("{SUSPENDED} must be 0 or 1, this is {other}")),
         };
-        Ok(Case { segment, x, z, bottom })
+        Ok(LineCase { segment, x, z, bottom })
     }
 
     /// What the row calls its line.
@@ -216,7 +216,7 @@ impl Row<'_> {
         }
     }
 
-    fn needed(&self, at: usize, name: &str, range: Range) -> Result<f64, String> {
+    fn required_number(&self, at: usize, name: &str, range: Range) -> Result<f64, String> {
         self.number(at, name, range)?.ok_or_else(|| format!("{name} is missing"))
     }
 
@@ -297,14 +297,14 @@ mod tests {
     fn rows(bytes: &[u8]) -> Vec<(u64, String)> {
         let mut input = open(bytes).unwrap();
         let mut rows = Vec::new();
-        while let Some(row) = input.next().unwrap() {
+        while let Some(row) = input.next_row().unwrap() {
             rows.push((row.line, row.id()));
         }
         rows
     }
 
-    fn case(text: &str) -> Result<Case, String> {
-        open(text.as_bytes()).unwrap().next().unwrap().unwrap().case()
+    fn case(text: &str) -> Result<LineCase, String> {
+        open(text.as_bytes()).unwrap().next_row().unwrap().unwrap().case()
     }
 
     #[test]
@@ -326,7 +326,7 @@ mod tests {
     #[test]
     fn names_are_found_in_any_order_and_case_with_blanks_quotes_and_a_byte_order_mark() {
         let text = "\u{feff} w_n_per_m ,\"length_m\",ID, Z_M,x_m ,ea_n\r\n 5 ,\" 7\",q,3,4,1e6\r\n";
-        let want = Case {
+        let want = LineCase {
             segment: Segment { length: 7.0, weight: 5.0, ea: 1e6 },
             x: 4.0,
             z: 3.0,
@@ -384,9 +384,9 @@ mod tests {
     #[test]
     fn a_quote_that_is_never_closed_ends_at_the_longest_row() {
         let mut input = open(format!("{HEAD}\n\"{}", "a,b\n".repeat(1 << 20)).as_bytes()).unwrap();
-        let error = input.next().map(|_| ()).unwrap_err().to_string();
+        let error = input.next_row().map(|_| ()).unwrap_err().to_string();
         assert!(error.contains("more than 1048576 bytes; is a quote not closed?"), "{error}");
-        assert!(input.next().is_ok_and(|row| row.is_none()), "nothing is read behind it");
+        assert!(input.next_row().is_ok_and(|row| row.is_none()), "nothing is read behind it");
         assert!(open(&vec![b'x'; 2 << 20]).is_err());
     }
 }

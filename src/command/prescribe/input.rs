@@ -1,7 +1,7 @@
 //! Files of places at times, and of responses to waves.
 
 use super::super::Job;
-use super::super::number_rows::{Row, rows};
+use super::super::number_rows::{NumberLine, rows};
 use std::f64::consts::TAU;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -15,7 +15,7 @@ use windlass_model::{PathRow, ResponseRow, Responses};
 pub(super) fn path(job: &Job, file: (&str, Span)) -> Outcome<Vec<PathRow>> {
     let (name, span) = file;
     let what = "time, x, y, z, roll, pitch, yaw; times grow, and angles are in degrees";
-    let read: Vec<Row<7>> = rows(job, file, what, usize::MAX)?;
+    let read: Vec<NumberLine<7>> = rows(job, file, what, usize::MAX)?;
     let refused = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
     let wrong = read.windows(2).find_map(|w| w.last().zip(w.first()).filter(|(b, a)| b.1[0] <= a.1[0]));
     if let Some((late, early)) = wrong {
@@ -29,7 +29,7 @@ pub(super) fn path(job: &Job, file: (&str, Span)) -> Outcome<Vec<PathRow>> {
     if first > 0.0 || last <= 0.0 {
         return Err(refused(format!("it goes from {first} s to {last} s, and runs begin at 0 s")));
     }
-    let si = |(_, row): &Row<7>| {
+    let si = |(_, row): &NumberLine<7>| {
         let [time, x, y, z, roll, pitch, yaw] = *row;
         let long = |v: f64| Dim::Length.to_si(v, job.units);
         let angle = |v: f64| Dim::Angle.to_si(v, job.units);
@@ -46,7 +46,7 @@ pub(super) fn responses(job: &Job, file: (&str, Span), symmetric: bool) -> Outco
     let (name, span) = file;
     let what =
         "heading, period, and for surge, sway, heave, roll, pitch, yaw each amplitude and lag; angles are in degrees";
-    let read: Vec<Row<14>> = rows(job, file, what, usize::MAX)?;
+    let read: Vec<NumberLine<14>> = rows(job, file, what, usize::MAX)?;
     let refused = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
     let mut headings: Vec<(f64, Vec<ResponseRow>)> = Vec::new();
     for (line, row) in read {
