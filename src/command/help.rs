@@ -64,7 +64,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 let lead = if CLASSES.iter().any(|k| std::ptr::eq(k.spec, spec)) { "~NAME " } else { "" };
                 let mut text = describe(spec, lead, units);
                 if std::ptr::eq(spec, status::STATUS.spec) {
-                    text.push_str("\n\n   It tells of:");
+                    text.push_str("\n\n   It reports:");
                     status::kinds_told().for_each(|(name, help)| text.push_str(&format!("\n      {name:<14} {help}")));
                 }
                 text

@@ -130,6 +130,6 @@ pub fn summary(model: &Model) -> Table {
         .text("What", |(name, _)| *name)
         .column("", "Number", Dim::None, Digits::Usual, |(_, count)| *count)
         .build();
-    table.note(format!("&STATUS tells of: {}", kinds_told().map(|k| k.0).collect::<Vec<_>>().join(" ")));
+    table.note(format!("&STATUS reports: {}", kinds_told().map(|k| k.0).collect::<Vec<_>>().join(" ")));
     table
 }

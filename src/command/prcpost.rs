@@ -45,7 +45,7 @@ const EVENTS: OptionSpec = OptionSpec::new(
             .or("the stored instants")
             .not_negative(),
     ],
-    "the events that are told",
+    "the events that are reported",
 )
 .default("all stored instants; STATISTIC, SPECTRUM, EXTREMES and their like leave out those before TTRA_SET");
 const AXES: &[&str] = &["X", "Y", "Z"];
@@ -216,7 +216,7 @@ fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
         list.retain(|body| !junction(body));
     }
     if list.is_empty() {
-        return Err(Diagnostic::error("the run has no body to tell of", args.span));
+        return Err(Diagnostic::error("the run has no body to report", args.span));
     }
     Ok(list)
 }

@@ -48,7 +48,7 @@ const EVENTS: OptionSpec = ours(
             .or("the stored instants")
             .not_negative(),
     ],
-    "the instants that are told or counted",
+    "the instants that are reported or counted",
 )
 .default("all stored instants; ENVELOPE, FATIGUE and CHECK leave out those before TTRA_SET");
 const ARC: OptionSpec = ours(
@@ -117,7 +117,7 @@ static SPEC: CommandSpec = CommandSpec {
     opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::Line), "a line of the run; &PIPE that of a pipe assembly"),
-        ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to tell of").or("ENVELOPE"),
+        ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to report").or("ENVELOPE"),
         plain("N", "times of AT (s), numbers of NODE").or("the last instant; node 1"),
     ],
     repeat: 1,

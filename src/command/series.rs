@@ -70,7 +70,7 @@ const MEANS: OptionSpec = ours(
     &[ValueSpec::new("N", Kind::Integer, "number of bins").in_range(1.0, 1e3)],
     "bins of the mean of the cycles",
 )
-.default("1: means are not told apart");
+.default("1: means are not distinguished");
 const CYCLES: OptionSpec = ours("-CYCLES", &[], "lists every cycle instead of counting them into bins");
 const PERIOD: OptionSpec = ours(
     "-PERIOD",

@@ -107,7 +107,7 @@ const DISPOSE: OptionSpec = OptionSpec::new(
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[
-        ValueSpec::new("WHAT", Kind::Text, "what to tell of, as listed below").or("a summary"),
+        ValueSpec::new("WHAT", Kind::Text, "what to report, as listed below").or("a summary"),
         ValueSpec::new(
             "NAME",
             Kind::Name(Noun::Selector),

@@ -218,8 +218,8 @@ fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Po
         "GDF" => MeshKind::Gdf,
         "OBJ" => MeshKind::Obj,
         _ => {
-            return Err(Diagnostic::error(format!("the format of {name} is not told by its name"), span)
-                .help("-FORMAT STL, GDF or OBJ tells it"));
+            return Err(Diagnostic::error(format!("the format of {name} does not follow from its name"), span)
+                .help("give -FORMAT STL, GDF or OBJ"));
         }
     };
     let unusable = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);

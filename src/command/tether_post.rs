@@ -40,7 +40,7 @@ const EVENTS: OptionSpec = ours(
         ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last").or("the end of the run"),
         ValueSpec::new("INC", Kind::Number(Dim::Time), "time from one to the next").or("every one").not_negative(),
     ],
-    "the stored instants that are told or counted",
+    "the stored instants that are reported or counted",
 )
 .default("all; STATISTICS, RANGES and FATIGUE leave out those before TTRA_SET");
 const DISPOSE: OptionSpec = ours(
@@ -51,7 +51,7 @@ const DISPOSE: OptionSpec = ours(
 
 const SLACK: OptionSpec = ours(
     "-SLACK",
-    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time told from each time a tether goes slack").not_negative()],
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time reported from each time a tether goes slack").not_negative()],
     "only instants after a tether of the run went slack",
 );
 const AT: OptionSpec =
@@ -81,7 +81,7 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
     opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::Connector), "a tether of the run"),
-        ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to tell of"),
+        ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to report"),
         ValueSpec::new("N", Kind::Text, "number of the node or the element, or what ALONG is of")
             .or("1, and 2 of STATISTICS"),
     ],
@@ -108,8 +108,8 @@ static STRUCTURE_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::PRCPOST],
     opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     data: &[
-        ValueSpec::new("WHAT", Kind::Choice(OF_STRUCTURE), "what to tell of").or("PAGES"),
-        ValueSpec::new("*P", Kind::Name(Noun::Point), "points of the structure whose places are told").or("none"),
+        ValueSpec::new("WHAT", Kind::Choice(OF_STRUCTURE), "what to report").or("PAGES"),
+        ValueSpec::new("*P", Kind::Name(Noun::Point), "points of the structure whose places are reported").or("none"),
     ],
     repeat: 1,
     options: &[EVENTS, DISPOSE, HARD, BOTH],

@@ -64,7 +64,7 @@ fn elements(deck: &Deck, remarks: &mut Remarks) {
                 }
                 ElementShape::Stub | ElementShape::Disc => remarks.add_once("stubs", || {
                     Diagnostic::error(
-                        format!("deck 2, {keyword}: no source tells the geometry of this element"),
+                        format!("deck 2, {keyword}: no source gives the geometry of this element"),
                         element.span,
                     )
                     .help("give a TUBE instead")

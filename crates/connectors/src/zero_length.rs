@@ -309,7 +309,7 @@ impl Element for ZeroLength {
         }
         let turned = motion.q.fixed_rows::<3>(3).norm();
         if turned > HALF_TURN && self.listed.iter().any(|(dof, _)| *dof > 2) {
-            notes.push("warning: the ends are turned by nearly half a turn against each other, beyond which a spring does not tell the sense".into());
+            notes.push("warning: the ends are turned by nearly half a turn against each other, beyond which a spring does not determine the sense".into());
         }
         let tension = self.listed.iter().any(|(dof, _)| *dof == 0).then(|| answer.force[0]);
         Ok(ElementSummary { tension, ratio, solution: "exact", springs, notes, ..ElementSummary::default() })

@@ -142,7 +142,7 @@ impl RodSolver {
             let stop = || world.fluid.is_interrupted();
             let wrong = |e| match e {
                 DenseError::Interrupted => RodError::Interrupted { rod: rod.name.clone() },
-                _ => refuse("its modes cannot be told apart".to_string()),
+                _ => refuse("its modes cannot be distinguished".to_string()),
             };
             let inverse = Cholesky::new(m, &stop).and_then(|factor| factor.inverse_of_lower()).map_err(wrong)?;
             let eigen = SymmetricEigen::new(&inverse * k * inverse.transpose(), &stop).map_err(wrong)?;

@@ -90,7 +90,7 @@ pub fn analyse(
     let right = DVector::from_iterator(rows, kept.iter().map(|(_, x)| *x));
     let normal = Cholesky::new(matrix.tr_mul(&matrix), &never);
     let Ok(found) = normal.and_then(|factor| factor.solve(&matrix.tr_mul(&right))) else {
-        return Err(SeriesError::Refused("the samples do not tell the harmonics apart".into()));
+        return Err(SeriesError::Refused("the samples do not determine the harmonics".into()));
     };
     let left = &right - &matrix * &found;
     let at = |i: usize| found.get(i).copied().unwrap_or(0.0);

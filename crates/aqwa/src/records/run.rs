@@ -36,7 +36,7 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
     if !deck.job.runs() {
         let (_, finish) = deck.job.stages;
         out.remark(if deck.job.option("DATA") {
-            "DATA: the data are checked and told; nothing is run"
+            "DATA: the data are checked and listed; nothing is run"
         } else if finish < 4 {
             "the stages end before the analysis: the model is made, and nothing is run"
         } else {
@@ -159,7 +159,7 @@ fn write_tether_run(deck: &Deck, out: &mut Script) {
     };
     let silent = !deck.mooring.tethers.iter().any(asked);
     if silent {
-        out.remark("without PTEN nothing is told of the tethers over time");
+        out.remark("without PTEN nothing is reported of the tethers over time");
     }
     for (index, tether) in deck.mooring.tethers.iter().enumerate() {
         if asked(tether) {
@@ -186,7 +186,7 @@ fn structure(deck: &Deck, out: &mut Script) {
         for printed in &printing.nodes {
             text.push_str(&format!(" {}", point(printed.structure.value, printed.node.value)));
             if printed.reference.0.value > 0 || printed.reference.1.value > 0 {
-                out.remark("NODE: places are told in the fixed system, also those with a reference");
+                out.remark("NODE: places are reported in the fixed system, also those with a reference");
             }
         }
         out.record(format!("{text} {}", events(deck, steps)));

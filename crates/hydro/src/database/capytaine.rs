@@ -115,7 +115,7 @@ impl Set<'_> {
             (None, [one]) => *one,
             (None, list) => {
                 let names = list.iter().map(|n| n.as_str()).collect::<Vec<_>>().join(", ");
-                let text = format!("it has {} bodies ({names}): -INDEX tells which one to take", list.len());
+                let text = format!("it has {} bodies ({names}): -INDEX says which one to take", list.len());
                 return Err(self.wrong(text));
             }
             (Some(n), list) => match n.checked_sub(1).and_then(|i| list.get(i)) {

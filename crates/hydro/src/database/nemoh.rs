@@ -34,7 +34,7 @@ pub fn read(source: &str, files: &[SourceFile], body: Option<usize>) -> Result<D
     let chosen = match (body, case.bodies.len()) {
         (None, 1) => 0,
         (None, count) => {
-            return Err(file.wrong(format!("it has {count} bodies: -INDEX tells which one to take")));
+            return Err(file.wrong(format!("it has {count} bodies: -INDEX says which one to take")));
         }
         (Some(n), count) if n == 0 || n > count => {
             return Err(file.wrong(format!("there is no body {n}: it has {count}")));
@@ -177,7 +177,7 @@ fn radiation(file: &SourceFile, case: &NemohCase, body: usize) -> Result<Vec<Pai
         let whole: Vec<usize> = zone.title.split_whitespace().filter_map(|w| w.parse().ok()).collect();
         let [of, n] = whole.as_slice() else {
             return Err(
-                file.wrong(format!("the zone `{}` tells no motion of a body", shorten_for_message(&zone.title)))
+                file.wrong(format!("the zone `{}` names no motion of a body", shorten_for_message(&zone.title)))
             );
         };
         if *of != body + 1 {
@@ -205,7 +205,7 @@ fn excitation(file: &SourceFile, case: &NemohCase, body: usize) -> Result<(Vec<M
     for zone in &zones {
         let beta = zone.title.split('=').nth(1).and_then(|t| t.split_whitespace().next()).and_then(number);
         let Some(beta) = beta else {
-            return Err(file.wrong(format!("the zone `{}` tells no heading", shorten_for_message(&zone.title))));
+            return Err(file.wrong(format!("the zone `{}` names no heading", shorten_for_message(&zone.title))));
         };
         for row in &zone.rows {
             for (column, force) in forces(case, body) {

@@ -86,7 +86,7 @@ pub(super) fn mode_of(
         return Err(file.wrong_at(row.line, format!("{} is no number of a mode", row.number(column))));
     };
     if number > 6 && scale.body.is_none() {
-        let text = format!("mode {number} is of a second body: -INDEX tells which body to take");
+        let text = format!("mode {number} is of a second body: -INDEX says which body to take");
         return Err(file.wrong_at(row.line, text));
     }
     let first = 6 * (scale.body.unwrap_or(1) - 1);

@@ -153,8 +153,8 @@ pub fn scatter(runs: &[ScatterExposure], factor: f64) -> Result<Table, SeriesErr
             Some((run.record, run.duration, found.1.clone()))
         };
         let all: Option<Vec<_>> = runs.iter().map(of).collect();
-        let all =
-            all.ok_or_else(|| SeriesError::Refused(format!("an earlier run of the scatter tells nothing of {name}")))?;
+        let all = all
+            .ok_or_else(|| SeriesError::Refused(format!("an earlier run of the scatter reports nothing of {name}")))?;
         let exposures: Vec<Exposure> = all
             .iter()
             .map(|(record, duration, line)| Exposure { line, record: *record, duration: *duration })

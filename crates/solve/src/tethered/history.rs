@@ -293,7 +293,7 @@ impl InstalledObserver for Taker<'_> {
     fn observe(&mut self, moment: &Moment) -> Result<(), ClassError> {
         if !(self.goes_on)(moment.time) {
             self.stopped = true;
-            return Err(ClassError::new("the run was told to stop"));
+            return Err(ClassError::new("the run was interrupted"));
         }
         let kept = &mut *self.kept;
         for event in moment.events {

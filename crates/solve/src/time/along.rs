@@ -126,7 +126,7 @@ impl AlongColumns {
                 rest.copy_from_slice(&bent);
             }
             if !whole {
-                return Err(ClassError::new(format!("what node {number} tells is no number")));
+                return Err(ClassError::new(format!("node {number}: result is not finite")));
             }
         }
         Ok(())

@@ -148,7 +148,7 @@ impl<'a> LineResults<'a> {
                 (_, []) => "a ROD does, and a line of &CONNECTOR -DYNAMICS".to_string(),
                 (_, some) => format!("of the run these do: {}", some.join(" ")),
             };
-            return Err(ClassError::new(format!("{name} tells of no nodes along itself")).help(help));
+            return Err(ClassError::new(format!("{name} has no nodes along its length")).help(help));
         };
         let there = |place: &usize| match run.history.is_empty() {
             true => run.envelopes.get(link).is_some_and(|e| e.extremes(*place, NodeQuantity::Arc).is_some()),
