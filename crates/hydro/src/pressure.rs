@@ -18,6 +18,7 @@
 use super::buoyancy::skin;
 use super::hull::{Panel, Panelling, Surface};
 use super::low_frequency::{SlowWrench, dividing_period, dividing_period_of};
+use super::parts::map_parts;
 use super::sea::{FilledGrid, PressureGrid, Sea, SeaAt};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway};
 use nalgebra::Vector3;
@@ -32,6 +33,10 @@ const EDGE: f64 = 0.8;
 const EDGE_AT_SURFACE: f64 = 0.45;
 /// Standard deviations of the surface from the mean level within which waves may cut a panel.
 const NEAR: f64 = 3.0;
+/// Nodes taken together by one thread.
+const NODES_A_PART: usize = 256;
+/// Panels at the surface taken together by one thread.
+const PANELS_A_PART: usize = 64;
 /// Panels of a piece beyond which all their edges are longer.
 const MOST: usize = 20_000;
 
@@ -169,6 +174,19 @@ const QUARTERS: [[usize; 3]; 4] = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]];
 /// Barycentric coordinates of the nodes of a panel.
 const NODES: [[f64; 3]; 6] =
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]];
+/// Integrals over a panel, by its area, of the quadratic polynomial that is one at one of its nodes and zero at the others, times each
+/// barycentric coordinate (`2 a! b! c! / (a + b + c + 2)!` for powers a, b, c).
+const QUADRATIC_MOMENTS: [[f64; 3]; 6] = {
+    let (own, other, beside, opposite) = (1.0 / 30.0, -1.0 / 60.0, 2.0 / 15.0, 1.0 / 15.0);
+    [
+        [own, other, other],
+        [other, own, other],
+        [other, other, own],
+        [beside, beside, opposite],
+        [opposite, beside, beside],
+        [beside, opposite, beside],
+    ]
+};
 
 /// A corner of a part of a panel: its barycentric coordinates, and what a [`Near`] says of it.
 #[derive(Clone, Copy, Debug)]
@@ -179,61 +197,37 @@ struct Corner {
     kink: f64,
 }
 
-/// What a panel is cut along: where it is zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Along {
-    Surface,
-    Kink,
+/// Where the line through the corners' zeros of a value divides a triangle.
+enum Division {
+    /// The whole triangle is below it.
+    Below,
+    /// The whole triangle is above it.
+    Above,
+    /// It parts one corner from the others: that corner, the other two in turn, and the ends of the line on the edges to them.
+    Across { below: bool, corners: [Corner; 3], ends: [Corner; 2] },
 }
 
-/// The parts of a triangle on the two sides of a line: corners, share of the part that counts, and whether it is on the lower side.
-struct Parts {
-    list: [([Corner; 3], f64, bool); 5],
-    count: usize,
-}
-
-impl Parts {
-    fn iter(&self) -> impl Iterator<Item = &([Corner; 3], f64, bool)> {
-        self.list.iter().take(self.count)
-    }
-}
-
-/// The parts of a triangle on the two sides of where a value of its corners is zero. A quadrangle is cut along each of its diagonals, and each
-/// way counts half, so that a mirrored one gives the same.
-fn divide(corners: &[Corner; 3], along: Along) -> Parts {
-    let value = |c: &Corner| if along == Along::Surface { c.over } else { c.kink };
-    let [a, b, c] = corners;
-    let whole = |below| Parts { list: [(*corners, 1.0, below); 5], count: 1 };
-    // the corner that is alone on its side comes first
+/// How the zeros of a value divide a triangle; zero counts as below.
+#[inline(always)]
+fn divide([a, b, c]: &[Corner; 3], value: impl Fn(&Corner) -> f64) -> Division {
     let [p, q, r] = match [value(a) <= 0.0, value(b) <= 0.0, value(c) <= 0.0] {
-        [true, true, true] => return whole(true),
-        [false, false, false] => return whole(false),
+        [true, true, true] => return Division::Below,
+        [false, false, false] => return Division::Above,
         [true, false, false] | [false, true, true] => [a, b, c],
         [false, true, false] | [true, false, true] => [b, c, a],
         _ => [c, a, b],
     };
-    let cut = |q: &Corner| {
+    let end = |q: &Corner| {
         let share = value(p) / (value(p) - value(q));
         let between = |a: f64, b: f64| a + (b - a) * share;
-        let mut made = Corner {
+        Corner {
             place: std::array::from_fn(|i| between(p.place[i], q.place[i])),
             over: between(p.over, q.over),
             extra: between(p.extra, q.extra),
             kink: between(p.kink, q.kink),
-        };
-        *(if along == Along::Surface { &mut made.over } else { &mut made.kink }) = 0.0;
-        made
+        }
     };
-    let (pq, pr) = (cut(q), cut(r));
-    let below = value(p) <= 0.0;
-    let list = [
-        ([*p, pq, pr], 1.0, below),
-        ([pq, *q, *r], 0.5, !below),
-        ([pq, *r, pr], 0.5, !below),
-        ([pq, *q, pr], 0.5, !below),
-        ([*q, *r, pr], 0.5, !below),
-    ];
-    Parts { list, count: 5 }
+    Division::Across { below: value(p) <= 0.0, ends: [end(q), end(r)], corners: [*p, *q, *r] }
 }
 
 /// Integrals of a pressure over parts of a panel, times each of its barycentric coordinates, over the panel's area.
@@ -241,16 +235,42 @@ fn divide(corners: &[Corner; 3], along: Along) -> Parts {
 struct Moments([f64; 3]);
 
 impl Moments {
-    /// Adds those over a triangle, which counts by a share, by the pressure at the middles of its edges.
+    /// Adds those over a triangle, which counts by a share, of a pressure that is linear on it, by its values at the corners.
     #[inline(always)]
-    fn add(&mut self, corners: &[Corner; 3], counts: f64, pressure: impl Fn(&[f64; 3], usize) -> f64) {
+    fn add_linear(&mut self, corners: &[Corner; 3], counts: f64, [a, b, c]: [f64; 3]) {
+        let twelfth = share(corners) * counts / 12.0;
+        let [u, v, w] = corners.each_ref().map(|corner| &corner.place);
+        for (i, sum) in self.0.iter_mut().enumerate() {
+            *sum += twelfth * ((a + b + c) * (u[i] + v[i] + w[i]) + a * u[i] + b * v[i] + c * w[i]);
+        }
+    }
+
+    /// Adds those over a triangle, which counts by a share, of a polynomial of the second degree by its values at the panel's nodes; by the
+    /// middles of the edges.
+    #[inline(always)]
+    fn add_quadratic(&mut self, corners: &[Corner; 3], counts: f64, values: &[f64; 6]) {
         let third = share(corners) * counts / 3.0;
-        for (edge, [p, q]) in [[0, 1], [1, 2], [2, 0]].into_iter().enumerate() {
-            let place = std::array::from_fn(|i| 0.5 * (corners[p].place[i] + corners[q].place[i]));
-            let part = third * pressure(&place, edge);
+        let [a, b, c] = corners.each_ref().map(|corner| &corner.place);
+        for (p, q) in [(a, b), (b, c), (c, a)] {
+            let place = std::array::from_fn(|i| 0.5 * (p[i] + q[i]));
+            let part = third * quadratic(values, &place);
             for (sum, share) in self.0.iter_mut().zip(place) {
                 *sum += part * share;
             }
+        }
+    }
+}
+
+/// Applies an integral, which takes a triangle and by how much it counts, to the part of a triangle below the surface.
+#[inline(always)]
+fn below_surface(corners: &[Corner; 3], counts: f64, mut integral: impl FnMut(&[Corner; 3], f64)) {
+    match divide(corners, |c| c.over) {
+        Division::Above => {}
+        Division::Below => integral(corners, counts),
+        Division::Across { below: true, corners: [p, ..], ends: [q, r] } => integral(&[p, q, r], counts),
+        Division::Across { below: false, corners: [p, ..], ends: [q, r] } => {
+            integral(corners, counts);
+            integral(&[p, q, r], -counts);
         }
     }
 }
@@ -262,68 +282,70 @@ fn quadratic(values: &[f64; 6], [u, v, w]: &[f64; 3]) -> f64 {
     corners + 4.0 * (values[3] * u * v + values[4] * v * w + values[5] * w * u)
 }
 
+/// Adds what the waves differ from water at rest below their surface, linear on the part of a triangle below the end of the stretching and zero at that
+/// end, over what of it is wet. A quadrangle is cut along each of its diagonals, and each way counts half, so that a mirrored one gives the same.
+#[inline(always)]
+fn add_stretched(sum: &mut Moments, corners: &[Corner; 3], ends_at_surface: bool) {
+    let mut wet = |part: [Corner; 3], counts: f64| {
+        below_surface(&part, counts, |part, counts| sum.add_linear(part, counts, part.each_ref().map(|c| c.extra)));
+    };
+    // what is cut there is then at the surface, and not beside it by rounding
+    let at_end = |c: Corner| Corner { extra: 0.0, over: if ends_at_surface { 0.0 } else { c.over }, ..c };
+    let ended = |c: Corner| if c.kink == 0.0 { at_end(c) } else { c };
+    match divide(corners, |c| c.kink) {
+        Division::Above => {}
+        Division::Below => wet(corners.map(ended), 1.0),
+        Division::Across { below, corners: [p, q, r], ends: [pq, pr] } => {
+            let ([p, q, r], pq, pr) = ([p, q, r].map(ended), at_end(pq), at_end(pr));
+            if below {
+                wet([p, pq, pr], 1.0);
+            } else {
+                wet([pq, q, r], 0.5);
+                wet([pq, r, pr], 0.5);
+                wet([pq, q, pr], 0.5);
+                wet([q, r, pr], 0.5);
+            }
+        }
+    }
+}
+
 /// Force and moment of the waves on a panel near the surface, beyond those of the mean level. Of its quarters the wet parts are taken: on each
 /// the pressure of water at rest below the surface of the waves, which is of the second degree between the nodes, and linearly what the
 /// waves differ from it, up to where the stretching ends. What the mean level gives is linear.
 fn near_surface(near: &[Near; 6], weight: f64) -> Six {
     let over = near.map(|n| n.over);
-    // what is cut there is then at the surface, and not beside it by rounding
     let ends_at_surface = near.iter().all(|n| n.kink == n.over);
+    let all_wet = over.iter().all(|over| *over <= 0.0);
     let mut sum = Moments::default();
-    let wet = |sum: &mut Moments, part: &[Corner; 3], counts: f64| {
-        let [a, b, c] = part;
-        let extra = [a.extra + b.extra, b.extra + c.extra, c.extra + a.extra];
-        sum.add(part, counts, |place, edge| 0.5 * extra[edge] - weight * quadratic(&over, place));
-    };
-    // beyond the end of the stretching there is no more than water at rest
-    let within = |c: &mut Corner, stretched: bool| {
-        if !stretched || c.kink == 0.0 {
-            c.extra = 0.0;
+    if all_wet {
+        for (value, moments) in over.iter().zip(&QUADRATIC_MOMENTS) {
+            for (sum, moment) in sum.0.iter_mut().zip(moments) {
+                *sum -= weight * value * moment;
+            }
         }
-        if ends_at_surface {
-            c.over = c.kink;
-        }
-    };
+    }
     for quarter in QUARTERS {
-        let corner = |n: usize| {
+        let corners = quarter.map(|n| {
             let Near { over, extra, kink, .. } = near[n];
             Corner { place: NODES[n], over, extra, kink }
-        };
-        let [a, b, c] = quarter;
-        let mut corners = [corner(a), corner(b), corner(c)];
+        });
         if corners.iter().all(|c| c.over > 0.0) {
             continue;
         }
-        let below = corners.iter().filter(|c| c.kink <= 0.0).count();
-        if below == 0 || below == 3 {
-            corners.iter_mut().for_each(|c| within(c, below == 3));
-            if corners.iter().all(|c| c.over <= 0.0) {
-                wet(&mut sum, &corners, 1.0);
-                continue;
-            }
-            for (part, half, _) in divide(&corners, Along::Surface).iter().filter(|part| part.2) {
-                wet(&mut sum, part, *half);
-            }
-            continue;
+        if !all_wet {
+            below_surface(&corners, -weight, |part, counts| sum.add_quadratic(part, counts, &over));
         }
-        for (part, counts, stretched) in divide(&corners, Along::Kink).iter() {
-            let mut part = *part;
-            part.iter_mut().for_each(|c| within(c, *stretched));
-            for (part, half, _) in divide(&part, Along::Surface).iter().filter(|part| part.2) {
-                wet(&mut sum, part, counts * half);
-            }
+        let below = |value: fn(&Corner) -> f64| corners.iter().filter(|c| value(c) < 0.0).count();
+        match (below(|c| c.kink), below(|c| c.over)) {
+            (0, _) => {}
+            (3, 3) => sum.add_linear(&corners, 1.0, corners.each_ref().map(|c| c.extra)),
+            _ => add_stretched(&mut sum, &corners, ends_at_surface),
         }
     }
     let corner = |n: usize| Corner { place: NODES[n], over: near[n].height, extra: 0.0, kink: 0.0 };
-    let corners = [corner(0), corner(1), corner(2)];
-    let at_rest = |[u, v, w]: &[f64; 3], _| weight * (near[0].height * u + near[1].height * v + near[2].height * w);
-    if corners.iter().all(|c| c.over <= 0.0) {
-        sum.add(&corners, 1.0, at_rest);
-    } else if corners.iter().any(|c| c.over <= 0.0) {
-        for (part, half, _) in divide(&corners, Along::Surface).iter().filter(|part| part.2) {
-            sum.add(part, *half, at_rest);
-        }
-    }
+    below_surface(&[corner(0), corner(1), corner(2)], weight, |part, counts| {
+        sum.add_linear(part, counts, part.each_ref().map(|c| c.over));
+    });
     // against the normal
     let area = (near[1].arm - near[0].arm).cross(&(near[2].arm - near[0].arm)) * -0.5;
     let [u, v, w] = sum.0;
@@ -347,6 +369,8 @@ struct Around<'a> {
     /// Depth of the origin below the mean level (m).
     sunk: f64,
     weight: f64,
+    /// Heights over the mean level below which all nodes are deep, and above which all are dry (m).
+    range: [f64; 2],
 }
 
 /// How a node lies in the water of an instant.
@@ -360,17 +384,31 @@ enum Lies {
     Dry,
 }
 
-impl Around<'_> {
+impl<'a> Around<'a> {
+    /// That around an origin, and over a mean level (m), in water of a weight (N/m3).
+    fn new(sea: SeaAt<'a>, grid: Option<FilledGrid<'a>>, (origin, level): (Vector3<f64>, f64), weight: f64) -> Self {
+        let highest = sea.highest();
+        let [low, high] = grid.as_ref().map_or([-highest, highest], FilledGrid::range);
+        let range = [low.min(0.0), high.max(0.0)];
+        Around { sunk: level - origin.z, sea, grid, origin, weight, range }
+    }
+
     /// How a place at an arm from the origin lies, with the waves of this instant near it.
     fn lies(&self, arm: &Vector3<f64>) -> Lies {
         let height = arm.z - self.sunk;
-        let deep = match self.grid.as_ref().and_then(|grid| grid.bounds(arm)) {
-            Some([_, high]) if height > high.max(0.0) => return Lies::Dry,
-            Some([low, _]) => height < low.min(0.0),
-            None if height < -self.sea.highest() => true,
-            None => height < 0.0 && height < self.sea.elevation(self.origin.x + arm.x, self.origin.y + arm.y),
+        let [low, high] = match self.grid.as_ref() {
+            _ if height < self.range[0] => return Lies::Deep,
+            _ if height > self.range[1] => return Lies::Dry,
+            Some(grid) => grid.bounds(arm).unwrap_or(self.range),
+            None => [self.sea.elevation(self.origin.x + arm.x, self.origin.y + arm.y); 2],
         };
-        if deep { Lies::Deep } else { Lies::Near }
+        if height < low.min(0.0) {
+            Lies::Deep
+        } else if height > high.max(0.0) {
+            Lies::Dry
+        } else {
+            Lies::Near
+        }
     }
 
     /// The surface and the pressure at an arm from the origin.
@@ -403,62 +441,84 @@ impl Around<'_> {
 }
 
 impl WavePressure {
-    /// The force of the waves at a time in a pose, beyond that of the mean level.
+    /// The force of the waves at a time in a pose, beyond that of the mean level. Nodes and panels are taken in parts of a fixed size side by
+    /// side, whose sums are added in their order: the digits do not depend on the number of threads.
     pub fn at(&self, time: f64, pose: &Pose) -> Six {
         let arms: Vec<Vector3<f64>> = self.nodes.iter().map(|node| pose.axes * node.place).collect();
         let origin = pose.origin;
         let grid = self.grid.as_ref().map(|grid| grid.fill(&self.sea, time, origin, &arms));
-        let around =
-            Around { sea: self.sea.at(time), grid, origin, sunk: self.sea.level - origin.z, weight: self.weight };
-        let lies: Vec<Lies> = arms.iter().map(|arm| around.lies(arm)).collect();
+        let around = Around::new(self.sea.at(time), grid, (origin, self.sea.level), self.weight);
         // of all that is deep, by the middles of the edges
-        let mut pressures = vec![0.0; self.nodes.len()];
-        let mut sum = Six::zeros();
-        for (((node, arm), lies), kept) in self.nodes.iter().zip(&arms).zip(&lies).zip(&mut pressures) {
-            if *lies == Lies::Deep && node.counts {
-                *kept = around.dynamic(arm);
-                sum += node.wrench * *kept;
+        let mut lies = vec![Lies::Dry; arms.len()];
+        let mut pressures = vec![0.0; arms.len()];
+        let inputs = self.nodes.chunks(NODES_A_PART).zip(arms.chunks(NODES_A_PART));
+        let outputs = lies.chunks_mut(NODES_A_PART).zip(pressures.chunks_mut(NODES_A_PART));
+        let sums = map_parts(inputs.zip(outputs), |((nodes, arms), (lies, pressures))| {
+            let mut sum = Six::zeros();
+            for (((node, arm), lies), kept) in nodes.iter().zip(arms).zip(lies).zip(pressures) {
+                *lies = around.lies(arm);
+                if *lies == Lies::Deep && node.counts {
+                    *kept = around.dynamic(arm);
+                    sum += node.wrench * *kept;
+                }
             }
-        }
+            sum
+        });
+        let sum = sums.iter().fold(Six::zeros(), |sum, part| sum + part);
         let turned = |first: usize| pose.axes * sum.fixed_rows::<3>(first);
         let (force, moment) = (turned(0), turned(3));
-        let mut sum = Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+        let whole = Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
         // the other panels: what their deep middles gave is replaced
-        let (mut asked, mut known) = (Vec::new(), vec![0u32; self.nodes.len()]);
-        for Pressed { panel, factor } in &self.panels {
-            let all = |how: Lies| panel.iter().all(|n| lies.get(*n as usize) == Some(&how));
+        let (mut asked, mut places) = (Vec::new(), vec![u32::MAX; arms.len()]);
+        let mut at_surface: Vec<([u32; 6], &Pressed)> = Vec::new();
+        for pressed in &self.panels {
+            let all = |how: Lies| pressed.panel.iter().all(|n| lies.get(*n as usize) == Some(&how));
             // of a dry panel no middle is deep
             if all(Lies::Deep) || all(Lies::Dry) {
                 continue;
             }
-            let mut near = [Near::default(); 6];
-            for (found, n) in near.iter_mut().zip(panel) {
-                let (Some(arm), Some(known)) = (arms.get(*n as usize), known.get_mut(*n as usize)) else { continue };
-                if *known == 0 {
-                    asked.push(around.near(arm));
-                    *known = asked.len() as u32;
+            let own = pressed.panel.map(|n| match places.get_mut(n as usize) {
+                Some(place) if *place == u32::MAX => {
+                    *place = asked.len() as u32;
+                    asked.push(n as usize);
+                    *place
                 }
-                if let Some(one) = asked.get(*known as usize - 1) {
-                    *found = *one;
-                }
-            }
-            let third = (near[1].arm - near[0].arm).cross(&(near[2].arm - near[0].arm)) / 6.0;
-            let wet = near.iter().all(|n| n.over < 0.0 && n.height < 0.0);
-            let mut own = if wet || near.iter().all(|n| n.over > 0.0 && n.height > 0.0) {
-                Six::zeros()
-            } else {
-                near_surface(&near, self.weight)
-            };
-            for (node, n) in near.iter().zip(panel).skip(3) {
-                let counted = pressures.get(*n as usize).copied().unwrap_or_default();
-                let dynamic = if wet { node.extra + self.weight * (node.height - node.over) } else { 0.0 };
-                if counted != dynamic {
-                    own += about_origin(&node.arm, &third) * (counted - dynamic);
-                }
-            }
-            sum += own * *factor;
+                Some(place) => *place,
+                None => u32::MAX,
+            });
+            at_surface.push((own, pressed));
         }
-        sum
+        let near = |n: &usize| arms.get(*n).map(|arm| (around.near(arm), pressures.get(*n).copied()));
+        let known =
+            map_parts(asked.chunks(NODES_A_PART / 4), |part| part.iter().map(near).collect::<Vec<_>>()).concat();
+        let sums = map_parts(at_surface.chunks(PANELS_A_PART), |panels| {
+            panels.iter().fold(Six::zeros(), |sum, panel| sum + self.beyond_deep(panel, &known))
+        });
+        sums.iter().fold(whole, |sum, part| sum + part)
+    }
+
+    /// The force on a panel at the surface, less that of the deep ones among the middles of its edges, by what is known of its nodes.
+    fn beyond_deep(&self, (nodes, pressed): &([u32; 6], &Pressed), known: &[Option<(Near, Option<f64>)>]) -> Six {
+        let (mut near, mut counted) = ([Near::default(); 6], [0.0; 6]);
+        for ((near, counted), n) in near.iter_mut().zip(&mut counted).zip(nodes) {
+            if let Some(Some((found, deep))) = known.get(*n as usize) {
+                (*near, *counted) = (*found, deep.unwrap_or_default());
+            }
+        }
+        let third = (near[1].arm - near[0].arm).cross(&(near[2].arm - near[0].arm)) / 6.0;
+        let wet = near.iter().all(|n| n.over < 0.0 && n.height < 0.0);
+        let mut own = if wet || near.iter().all(|n| n.over > 0.0 && n.height > 0.0) {
+            Six::zeros()
+        } else {
+            near_surface(&near, self.weight)
+        };
+        for (node, counted) in near.iter().zip(counted).skip(3) {
+            let dynamic = if wet { node.extra + self.weight * (node.height - node.over) } else { 0.0 };
+            if counted != dynamic {
+                own += about_origin(&node.arm, &third) * (counted - dynamic);
+            }
+        }
+        own * pressed.factor
     }
 }
 

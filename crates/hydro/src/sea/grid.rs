@@ -11,6 +11,7 @@
 //! exponential for each place and component; only nodes that a place needs are summed. Short-crested seas have a direction for each component,
 //! and take the direct sum.
 
+use super::super::parts::map_parts;
 use super::eight::{Eight, sin_cos};
 use super::{Component, Sea};
 use multiversion::multiversion;
@@ -35,6 +36,8 @@ const MOST_DIRECTIONS: usize = 4;
 const NODE_COST: f64 = 0.1;
 /// Levels summed together: their sums stay in registers.
 const TILE: usize = 4;
+/// Stations summed by one thread.
+const STATIONS_A_PART: usize = 32;
 /// The spacing of a layer over that of the layer above it.
 const COARSER: f64 = 1.5;
 /// Halvings of the depth range in which a layer's beginning is looked for.
@@ -63,8 +66,9 @@ struct Train {
 struct Layer {
     /// Depth from which on it is taken (m), down to that of the next one.
     top: f64,
-    /// Distance of stations, and of levels (m).
+    /// Distance of stations, and of levels (m), and one over it (1/m).
     spacing: f64,
+    per_metre: f64,
     /// Cosine and sine of k times the spacing.
     turns: Vec<[Eight; 2]>,
     /// Pressure head over elevation at each level, blocks innermost; level [`BEFORE`] is at the top, and each next one is deeper.
@@ -172,13 +176,20 @@ impl PressureGrid {
                     windows.fill((0, layer.levels));
                 }
             }
-            for (index, (layer, windows)) in filled.layers.iter_mut().zip(&windows).enumerate() {
-                let from = begin + layer.first * layer.layer.spacing;
+            let parts = filled.layers.iter_mut().zip(&windows).enumerate().flat_map(|(index, (layer, windows))| {
+                let FilledLayer { layer: own, heads, levels, first } = layer;
+                let (own, first, levels, windows) = (*own, *first, *levels, spread(windows));
+                heads.chunks_mut(STATIONS_A_PART * levels.max(1)).enumerate().map(move |(part, heads)| {
+                    let before = part * STATIONS_A_PART;
+                    let windows = windows.get(before..).unwrap_or_default().to_vec();
+                    let from = begin + (first + before as f64) * own.spacing;
+                    (own, levels, (windows, index == 0), from, heads)
+                })
+            });
+            map_parts(parts, |(layer, levels, (windows, surface), from, heads)| {
                 let phasors = train.blocks.iter().map(|b| b.at(time, from, factor)).collect();
-                let windows = spread(windows);
-                let own = layer.layer;
-                sum_waves(phasors, (&own.turns, &own.decay), layer.levels, (&windows, index == 0), &mut layer.heads);
-            }
+                sum_waves(phasors, (&layer.turns, &layer.decay), levels, (&windows, surface), heads);
+            });
             if let Some(top) = filled.layers.first() {
                 filled.surface = top.heads.iter().skip(BEFORE).step_by(top.levels.max(1)).copied().collect();
                 filled.bounds = filled.surface.windows(POINTS).map(bounds).collect();
@@ -272,7 +283,14 @@ impl Train {
             });
             let turn = |b: &Block| [b.k.map(|k| (k * spacing).cos()), b.k.map(|k| (k * spacing).sin())];
             let decay = decay.collect();
-            Layer { top: *top, spacing: *spacing, turns: blocks.iter().map(turn).collect(), decay, levels }
+            Layer {
+                top: *top,
+                spacing: *spacing,
+                per_metre: 1.0 / spacing,
+                turns: blocks.iter().map(turn).collect(),
+                decay,
+                levels,
+            }
         });
         Train { toward, layers: layers.collect(), blocks }
     }
@@ -374,13 +392,19 @@ fn bounds(nodes: &[f64]) -> [f64; 2] {
     [low - beyond, high + beyond]
 }
 
+/// Bounds that hold all of some bounds.
+fn bounds_of_all(list: &[[f64; 2]]) -> [f64; 2] {
+    let join = |[low, high]: [f64; 2], [a, b]: [f64; 2]| [low.min(a), high.max(b)];
+    list.iter().copied().reduce(join).unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
+}
+
 impl<'a> FilledLayer<'a> {
     /// One without values for places between ends along the direction of travel, down to a depth (m).
     fn new(layer: &'a Layer, [low, high]: [f64; 2], lowest: f64) -> Self {
         // up to the level below the deepest place, and the nodes beyond it
-        let levels = (((lowest - layer.top).max(0.0) / layer.spacing) as usize + POINTS).min(layer.levels);
-        let first = (low / layer.spacing).floor() - BEFORE as f64;
-        let stations = ((high / layer.spacing).floor() - first) as usize + POINTS - BEFORE;
+        let levels = (((lowest - layer.top).max(0.0) * layer.per_metre) as usize + POINTS).min(layer.levels);
+        let first = (low * layer.per_metre).floor() - BEFORE as f64;
+        let stations = ((high * layer.per_metre).floor() - first) as usize + POINTS - BEFORE;
         FilledLayer { layer, heads: vec![f64::NAN; stations * levels], levels, first }
     }
 
@@ -391,7 +415,7 @@ impl<'a> FilledLayer<'a> {
     /// First station of the interpolation of a place along the direction of travel (m), and where the place is from there.
     #[inline(always)]
     fn station(&self, along: f64) -> Option<(usize, f64)> {
-        let along = along / self.layer.spacing - self.first;
+        let along = along * self.layer.per_metre - self.first;
         let station = (along as usize).checked_sub(BEFORE)?;
         Some((station, along - station as f64))
     }
@@ -410,7 +434,7 @@ impl FilledTrain<'_> {
     fn locate(&self, along: f64, depth: f64) -> Option<Found> {
         let index = self.layers.iter().rposition(|layer| layer.layer.top <= depth)?;
         let layer = self.layers.get(index)?;
-        let down = (depth - layer.layer.top) / layer.layer.spacing + BEFORE as f64;
+        let down = (depth - layer.layer.top) * layer.layer.per_metre + BEFORE as f64;
         let (station, x) = layer.station(along)?;
         let level = (down as usize).checked_sub(BEFORE)?;
         (level + POINTS <= layer.levels).then_some(Found { layer: index, station, level, x, z: down - level as f64 })
@@ -441,6 +465,14 @@ impl FilledGrid<'_> {
     /// Elevation of the waves (m) at an arm from the origin.
     pub fn elevation(&self, arm: &Vector3<f64>) -> Option<f64> {
         self.parts.iter().try_fold(0.0, |sum, part| Some(sum + part.elevation(arm)?))
+    }
+
+    /// Bounds of the elevation of the waves around the body, lower and upper (m).
+    pub fn range(&self) -> [f64; 2] {
+        self.parts.iter().fold([0.0; 2], |[low, high], part| {
+            let [a, b] = bounds_of_all(&part.bounds);
+            [low + a, high + b]
+        })
     }
 
     /// Bounds of the elevation of the waves at an arm from the origin, lower and upper (m).
