@@ -444,7 +444,9 @@ impl WavePressure {
     /// The force of the waves at a time in a pose, beyond that of the mean level. Nodes and panels are taken in parts of a fixed size side by
     /// side, whose sums are added in their order: the digits do not depend on the number of threads.
     pub fn at(&self, time: f64, pose: &Pose) -> Six {
-        let arms: Vec<Vector3<f64>> = self.nodes.iter().map(|node| pose.axes * node.place).collect();
+        let [x, y, z] = [0, 1, 2].map(|axis| pose.axes.column(axis).into_owned());
+        let arm = |Node { place: p, .. }: &Node| x * p.x + y * p.y + z * p.z;
+        let arms: Vec<Vector3<f64>> = self.nodes.iter().map(arm).collect();
         let origin = pose.origin;
         let grid = self.grid.as_ref().map(|grid| grid.fill(&self.sea, time, origin, &arms));
         let around = Around::new(self.sea.at(time), grid, (origin, self.sea.level), self.weight);

@@ -35,7 +35,7 @@ const MOST_DIRECTIONS: usize = 4;
 /// A node of the grid costs about this share of a place of the direct sum (measured with 200 components).
 const NODE_COST: f64 = 0.1;
 /// Levels summed together: their sums stay in registers.
-const TILE: usize = 4;
+const TILE: usize = 8;
 /// Stations summed by one thread.
 const STATIONS_A_PART: usize = 32;
 /// The spacing of a layer over that of the layer above it.
@@ -70,10 +70,29 @@ struct Layer {
     spacing: f64,
     per_metre: f64,
     /// Cosine and sine of k times the spacing.
-    turns: Vec<[Eight; 2]>,
-    /// Pressure head over elevation at each level, blocks innermost; level [`BEFORE`] is at the top, and each next one is deeper.
-    decay: Vec<Eight>,
+    turns: Phasors,
+    /// Pressure head over elevation at each level, levels innermost, with [`TILE`] more for each wave; level [`BEFORE`] is at the top, and each next one
+    /// is deeper.
+    decay: Vec<f64>,
     levels: usize,
+}
+
+/// Cosines and sines of all waves of a direction.
+#[derive(Clone, Debug, Default)]
+struct Phasors {
+    cos: Vec<f64>,
+    sin: Vec<f64>,
+}
+
+impl FromIterator<[Eight; 2]> for Phasors {
+    fn from_iter<I: IntoIterator<Item = [Eight; 2]>>(blocks: I) -> Self {
+        let mut made = Phasors::default();
+        for [cos, sin] in blocks {
+            made.cos.extend(cos);
+            made.sin.extend(sin);
+        }
+        made
+    }
 }
 
 /// Eight waves; those that fill up the last block have no amplitude.
@@ -277,10 +296,9 @@ impl Train {
         let bottoms = tops.iter().skip(1).map(|[top, _]| *top).chain([deepest]);
         let layers = tops.iter().zip(bottoms).map(|([top, spacing], bottom)| {
             let levels = ((bottom - top) / spacing) as usize + POINTS + 1;
-            let decay = (0..levels).flat_map(|level| {
-                let height = (BEFORE as f64 - level as f64) * spacing - top;
-                blocks.iter().map(move |b| b.k.map(|k| head(k, height, depth)))
-            });
+            let height = move |level: usize| (BEFORE as f64 - level as f64) * spacing - top;
+            let of_wave = |k: f64| (0..levels + TILE).map(move |level| head(k, height(level), depth));
+            let decay = blocks.iter().flat_map(|b| b.k.map(of_wave).into_iter().flatten());
             let turn = |b: &Block| [b.k.map(|k| (k * spacing).cos()), b.k.map(|k| (k * spacing).sin())];
             let decay = decay.collect();
             Layer {
@@ -317,38 +335,56 @@ fn spread(first: &[Window]) -> Vec<Window> {
 /// first station.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn sum_waves(
-    mut phasors: Vec<[Eight; 2]>,
-    (turns, decay): (&[[Eight; 2]], &[Eight]),
+    Phasors { mut cos, mut sin }: Phasors,
+    (turns, decay): (&Phasors, &[f64]),
     levels: usize,
     (windows, surface): (&[Window], bool),
     values: &mut [f64],
 ) {
-    let count = turns.len();
+    let stride = decay.len() / turns.cos.len().max(1);
     for (station, (low, high)) in values.chunks_exact_mut(levels).zip(windows) {
         let alone = surface && !(*low..*high).contains(&BEFORE);
         for (from, to) in [(*low, *high), if alone { (BEFORE, BEFORE + 1) } else { CLOSED }] {
             let Some(window) = station.get_mut(from..to.max(from)) else { continue };
             for (tile, out) in window.chunks_mut(TILE).enumerate() {
-                let mut sums = [[0.0; 8]; TILE];
-                for (row, sum) in sums.iter_mut().enumerate().take(out.len()) {
-                    let begin = (from + tile * TILE + row) * count;
-                    let Some(heads) = decay.get(begin..begin + count) else { break };
-                    for ([cos, _], head) in phasors.iter().zip(heads) {
-                        for i in 0..8 {
-                            sum[i] += cos[i] * head[i];
-                        }
-                    }
-                }
-                for (out, sum) in out.iter_mut().zip(&sums) {
-                    *out = sum.iter().sum();
-                }
+                let sums = sum_tile(&cos, decay, stride, from + tile * TILE);
+                out.iter_mut().zip(sums).for_each(|(out, sum)| *out = sum);
             }
         }
-        for ([cos, sin], [c, s]) in phasors.iter_mut().zip(turns) {
-            for i in 0..8 {
-                (cos[i], sin[i]) = (cos[i] * c[i] - sin[i] * s[i], sin[i] * c[i] + cos[i] * s[i]);
-            }
+        let turns = turns.cos.iter().zip(&turns.sin);
+        for ((cos, sin), (c, s)) in cos.iter_mut().zip(&mut sin).zip(turns) {
+            (*cos, *sin) = (*cos * c - *sin * s, *sin * c + *cos * s);
         }
+    }
+}
+
+/// The waves summed at a level and the next ones, by their cosines and their heads, which stand a stride apart.
+#[inline(always)]
+fn sum_tile(cos: &[f64], decay: &[f64], stride: usize, level: usize) -> [f64; TILE] {
+    let [mut a, mut b, mut c, mut d] = [[0.0; TILE]; 4];
+    let mut at = level;
+    for cos in cos.as_chunks::<4>().0 {
+        add_scaled(&mut a, cos[0], tile(decay, at));
+        add_scaled(&mut b, cos[1], tile(decay, at + stride));
+        add_scaled(&mut c, cos[2], tile(decay, at + 2 * stride));
+        add_scaled(&mut d, cos[3], tile(decay, at + 3 * stride));
+        at += 4 * stride;
+    }
+    std::array::from_fn(|i| (a[i] + b[i]) + (c[i] + d[i]))
+}
+
+/// The heads from one on: each wave has that many more than levels.
+#[inline(always)]
+fn tile(heads: &[f64], from: usize) -> &[f64; TILE] {
+    const NONE: &[f64; TILE] = &[f64::NAN; TILE];
+    heads.get(from..).and_then(|heads| heads.first_chunk()).unwrap_or(NONE)
+}
+
+/// Adds numbers times a factor to sums.
+#[inline(always)]
+fn add_scaled(sums: &mut [f64; TILE], factor: f64, numbers: &[f64; TILE]) {
+    for i in 0..TILE {
+        sums[i] += factor * numbers[i];
     }
 }
 
@@ -443,16 +479,28 @@ impl FilledTrain<'_> {
     fn head(&self, arm: &Vector3<f64>, depth: f64) -> Option<f64> {
         let found = self.locate(self.toward[0] * arm.x + self.toward[1] * arm.y, depth)?;
         let layer = self.layers.get(found.layer)?;
-        let (x, z) = (weights(found.x), weights(found.z));
-        let mut sums = [0.0; POINTS];
-        for (column, x) in layer.heads.get(found.station * layer.levels + found.level..)?.chunks(layer.levels).zip(x) {
-            let column = column.first_chunk::<POINTS>()?;
-            for i in 0..POINTS {
-                sums[i] += x * column[i];
-            }
-        }
-        Some(sums.iter().zip(z).map(|(sum, z)| sum * z).sum())
+        interpolate(layer.heads.get(found.station * layer.levels + found.level..)?, layer.levels, [found.x, found.z])
     }
+}
+
+/// What is interpolated at a place among eight by eight nodes, by those from its first one on, levels innermost.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn interpolate(nodes: &[f64], levels: usize, [x, z]: [f64; 2]) -> Option<f64> {
+    let (x, z) = (weights(x), weights(z));
+    let mut sums = [0.0; POINTS];
+    let mut first = 0;
+    for x in x {
+        let column = nodes.get(first..)?.first_chunk::<POINTS>()?;
+        for i in 0..POINTS {
+            sums[i] += x * column[i];
+        }
+        first += levels;
+    }
+    for i in 0..POINTS {
+        sums[i] *= z[i];
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    Some(((a + b) + (c + d)) + ((e + f) + (g + h)))
 }
 
 impl FilledGrid<'_> {
