@@ -198,6 +198,7 @@ struct Corner {
 }
 
 /// Where the line through the corners' zeros of a value divides a triangle.
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack, for a few instructions")]
 enum Division {
     /// The whole triangle is below it.
     Below,
