@@ -3,10 +3,9 @@
 //!
 //! Source: [MOSES-REF conn_alter].
 
-use super::chosen::WARNING;
 use super::{Call, Command, Effect, Job};
 use crate::report::format::report;
-use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::geometry::unit_vector;
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits};
@@ -410,10 +409,8 @@ fn forces(
     }
     let LineLoads { fairlead: [fx, fy, _], tension, solution, notes, .. } = found.loads()?;
     let units = said.units;
-    for note in notes.iter().map(|n| n.text(units)) {
-        if let Some(text) = note.strip_prefix(WARNING) {
-            said.warn(made, given, text);
-        }
+    for note in notes.iter().filter(|note| note.severity == Severity::Warning) {
+        said.warn(made, given, &note.sentence(units));
     }
     let horizontal = fx.hypot(fy);
     let [h, t] = [horizontal, tension].map(|f| said.format_value(f, Dim::Force));

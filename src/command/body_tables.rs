@@ -1,6 +1,5 @@
 //! Tables of `&STATUS` about bodies: weights, pieces of hulls, hydrostatics.
 
-use super::chosen::WARNING;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::{Digits, Table};
@@ -62,7 +61,7 @@ fn note_mass(table: &mut Table, body: &Body, mass: &Mass) {
     if mass.mass == 0.0 {
         table.note(format!("{} has no weight", body.name));
     } else if mass.mass < 0.0 {
-        table.note(format!("{WARNING}{}: the weights take off more than they put on", body.name));
+        table.warn(format!("{}: the weights take off more than they put on", body.name));
     } else if mass.radii().iter().any(|k| k.is_none_or(|k| k == 0.0)) {
         table.note(format!(
             "{} has a radius of gyration of zero: it can be in equilibrium and cannot be moved in time",

@@ -2,6 +2,7 @@
 
 use super::{Call, Job};
 use std::cell::Cell;
+use windlass_base::diagnostic::Severity;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -97,7 +98,7 @@ pub fn merge_remarks(list: &[(String, Vec<String>)]) -> Vec<String> {
 }
 
 /// What stands before a note that warns.
-pub const WARNING: &str = "warning: ";
+pub const WARNING: &str = Severity::Warning.mark();
 
 /// Raises the warnings among the notes of a table at once: they concern all of it, whatever is then printed of it.
 pub fn raise(job: &mut Job, table: &Table, span: Span) {

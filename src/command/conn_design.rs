@@ -1,6 +1,6 @@
 //! The CONN_DESIGN menu.
 
-use super::chosen::{NameFilter, WARNING, raise};
+use super::chosen::{NameFilter, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::menu;
 use super::{Call, Command, Effect, Job, Menu, status, vary};
@@ -156,7 +156,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .map_err(|e| e.diagnostic(span, job.units).help(format!("while tabulating connector {}", connector.name)))?;
     made.absent = absent.len();
     for AbsentRow { number, error } in absent {
-        made.note(format!("{WARNING}row {number} has no configuration: {}", error.text(job.units)));
+        made.warn(format!("row {number} has no configuration: {}", error.text(job.units)));
     }
     Ok(dispose(job, &name, made, span))
 }

@@ -1,7 +1,6 @@
 //! The part of `&STATUS` that tells of environments.
 
 use super::Job;
-use super::chosen::WARNING;
 use super::environment;
 use super::sea_table::phasing;
 use super::wind_options;
@@ -81,7 +80,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
                 );
             }
             Ok(None) => {}
-            Err(error) => table.note(format!("{WARNING}{}", error.text(job.units))),
+            Err(error) => table.warn(format!("{}", error.text(job.units))),
         }
     }
     let steady = Steady::streams(model, env);
@@ -104,7 +103,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
     match Gusts::new(model, env) {
         Ok(Some(gusts)) => table = wind_table::facts(table, &gusts),
         Ok(None) => {}
-        Err(error) => table.note(format!("{WARNING}{}", error.text(job.units))),
+        Err(error) => table.warn(format!("{}", error.text(job.units))),
     }
     table = match &env.current {
         None => table,
@@ -120,7 +119,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
         }
     };
     if let Err(error) = &steady {
-        table.note(format!("{WARNING}{}", error.text(job.units)));
+        table.warn(format!("{}", error.text(job.units)));
     }
     if let Some(time) = env.time {
         table = table

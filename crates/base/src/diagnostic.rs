@@ -15,6 +15,16 @@ pub enum Severity {
     Fatal,
 }
 
+impl Severity {
+    /// What a remark of this severity begins with where it is printed with others, in a table or a list.
+    pub const fn mark(self) -> &'static str {
+        match self {
+            Severity::Warning => "warning: ",
+            Severity::Note | Severity::Error | Severity::Fatal => "",
+        }
+    }
+}
+
 /// A message about a place in the input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {

@@ -91,7 +91,7 @@ mod tests {
         let units = UnitSystem { length: LengthUnit::Feet, force: ForceUnit::Kips };
         let message =
             Message::with_values("it is {} long, not {}", &[(3.048, Dim::Length), (2.0, Dim::None)]).about("line {}");
-        assert_eq!(message.text(units, |value| format!("{value:.1}")), "line {}: it is 10.0 feet long, not 2.0");
+        assert_eq!(message.text(units, |value| format!("{value:.1}")), "line {}: it is 10.0 ft long, not 2.0");
         assert_eq!(message.without_values(), "line {}: it is .. long, not ..");
     }
 }

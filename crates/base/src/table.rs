@@ -1,6 +1,7 @@
 //! Results as data: named columns with dimensions, SI values inside. Engines and post-processing return a [`Table`];
 //! every report, plot, file and test reads one. A table knows nothing of how it is printed.
 
+use crate::diagnostic::Severity;
 use crate::units::Dim;
 
 /// One value of a column.
@@ -139,6 +140,11 @@ impl Table {
         self
     }
 
+    /// Adds a warning below the table.
+    pub fn warn(&mut self, text: impl std::fmt::Display) {
+        self.notes.push(format!("{}{text}", Severity::Warning.mark()));
+    }
+
     /// Adds a remark.
     pub fn note(&mut self, text: impl Into<String>) {
         self.notes.push(text.into());
@@ -147,7 +153,7 @@ impl Table {
     /// Counts a result that was asked for and could not be found, and warns of the reason.
     pub fn note_absent(&mut self, reason: impl std::fmt::Display) {
         self.absent += 1;
-        self.notes.push(format!("warning: {reason}"));
+        self.warn(reason);
     }
 
     /// Number of rows.

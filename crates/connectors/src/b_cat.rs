@@ -18,6 +18,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
 use windlass_catenary::{Line, LineError, SeabedModel, StretchLaw};
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::Note;
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
     Surroundings,
@@ -159,13 +160,12 @@ impl Catenary {
         let mut notes = Vec::new();
         if let Some(known) = surroundings.depth.filter(|d| (d - depth).abs() > 0.2 * d.max(depth) && flat) {
             let share = depth / known;
-            notes.push(format!("warning: the depth of the anchor is {share:.2} of the depth of &ENV").into());
+            notes.push(Note::warning(format!("the depth of the anchor is {share:.2} of the depth of &ENV")));
         }
         if let Some(coarse) = profile.as_ref().map(LineProfile::coarseness).filter(|c| *c > 1.0) {
-            notes.push(
-                format!("warning: the profile under the line has {coarse:.1} times the spacing of the bathymetry")
-                    .into(),
-            );
+            notes.push(Note::warning(format!(
+                "the profile under the line has {coarse:.1} times the spacing of the bathymetry"
+            )));
         }
         Ok(Mooring {
             line,

@@ -85,18 +85,16 @@ impl Chord {
     fn remarks(&self, force: f64, chord: f64, left: f64, ratio: f64) -> Vec<Note> {
         let mut notes = self.line.notes.clone();
         if ratio > 1.0 {
-            notes.push("warning: the line is beyond its breaking tension".into());
+            notes.push(Note::warning("the line is beyond its breaking tension"));
         }
         if force != 0.0 && chord == 0.0 {
-            notes
-                .push("warning: its ends coincide; the direction of its force is not defined, and taken upward".into());
+            notes.push(Note::warning("its ends coincide; the direction of its force is not defined, and taken upward"));
         }
         notes.extend(too_short(chord / self.line.line.length(), ratio).map(too_short_note));
         let share = if force == 0.0 { 0.0 } else { self.left_out.abs() / force.abs() };
         if share >= LEFT_OUT[0] {
-            let warning = if share >= LEFT_OUT[1] { "warning: " } else { "" };
-            notes
-                .push(format!("{warning}it has no weight here: its own in water is {share:.3} of this tension").into());
+            let text = format!("it has no weight here: its own in water is {share:.3} of this tension");
+            notes.push(if share >= LEFT_OUT[1] { Note::warning(text) } else { text.into() });
         }
         if force == 0.0 && left < self.line.line.length() {
             notes.push("the line is slack".into());

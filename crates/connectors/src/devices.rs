@@ -237,7 +237,7 @@ impl Element for DeviceElement {
         let found = self.find_forces(at, committed, &mut None, &mut ElementResponse::default())?;
         let mut summary = self.line.summary_with_link(at.ends, found.extension)?;
         if let Some((position, does)) = found.piston {
-            summary.notes.push(does.note().into());
+            summary.notes.push(does.note());
             let force = found.pull.tension;
             summary.springs.push(SpringState { dof: "PISTON".into(), deflection: position, force, allowable: None });
         }

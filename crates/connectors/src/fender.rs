@@ -19,6 +19,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::Note;
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
     FenderState, Guess, Situation, Surroundings,
@@ -286,12 +287,13 @@ impl Element for FenderGeometry {
         let (reaction, energy) = reaction_and_energy(&self.curve, deflection);
         let rated_energy = reaction_and_energy(&self.curve, self.rated).1;
         if deflection > self.height {
-            told.notes.push("warning: the face stands behind the base of the fender: it is crushed, or its normal points away from the face".into());
+            told.notes.push(Note::warning(
+                "the face stands behind the base of the fender: it is crushed, or its normal points away from the face",
+            ));
         } else if deflection > self.rated {
             let share = 100.0 * deflection / self.rated;
-            told.notes.push(
-                format!("warning: deflected to {share:.0} per cent of the rated deflection of the fender").into(),
-            );
+            told.notes
+                .push(Note::warning(format!("deflected to {share:.0} per cent of the rated deflection of the fender")));
         }
         told.fender = Some(FenderState { deflection, rated: self.rated, reaction, energy, rated_energy });
         Ok(told)

@@ -2,6 +2,7 @@
 
 use super::mooring::{Mooring, line_error};
 use windlass_catenary::{FromTable, Interpolated, LineError, SeabedModel};
+use windlass_model::Note;
 use windlass_model::{ClassError, Condition, LineChange, LineLoads};
 
 impl Mooring {
@@ -56,15 +57,15 @@ impl Mooring {
                 .push(format!("rows of its table without a configuration are left out: {}", numbers.join(", ")).into());
         }
         if beyond {
-            notes.push("warning: beyond the table; its last slope is continued".into());
+            notes.push(Note::warning("beyond the table; its last slope is continued"));
         }
         if rows.iter().any(|r| !r.state.below_bottom.is_empty()) {
-            notes.push(
-                "warning: a segment above the spring buoy hangs below the bottom in some rows of its table".into(),
-            );
+            notes.push(Note::warning(
+                "a segment above the spring buoy hangs below the bottom in some rows of its table",
+            ));
         }
         if ratio > 1.0 {
-            notes.push("warning: the line is beyond its breaking tension".into());
+            notes.push(Note::warning("the line is beyond its breaking tension"));
         }
         let across = if distance > 0.0 { force / distance } else { pulled.stiffness[0][0] };
         Ok(LineLoads {

@@ -6,6 +6,7 @@ use super::mooring_table::{buoy_word, report};
 use super::options as o;
 use super::per_line::PerLineOptions;
 use super::section::LineSection;
+use windlass_base::message::Message;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
@@ -105,9 +106,9 @@ impl Mooring {
         let mut notes = self.notes.clone();
         for (segment, _) in &state.below_bottom {
             let text = format!(
-                "warning: segment {segment} hangs below the bottom, which it does not see above the spring buoy at its end"
+                "segment {segment} hangs below the bottom, which it does not see above the spring buoy at its end"
             );
-            notes.push(text.into());
+            notes.push(Note::warning(text));
         }
         if let Some((heap, _)) = state.heap {
             notes.push(
@@ -122,14 +123,14 @@ impl Mooring {
             );
         }
         for (segment, _) in &state.above_surface {
-            let text = format!("warning: segment {segment} or the buoy at its end rises above the water surface");
-            notes.push(text.into());
+            let text = format!("segment {segment} or the buoy at its end rises above the water surface");
+            notes.push(Note::warning(text));
         }
         if self.line.floor().is_none() {
             notes.extend(self.crossings(state));
         }
         if self.ratio(state).0 > 1.0 {
-            notes.push("warning: the line is beyond its breaking tension".into());
+            notes.push(Note::warning("the line is beyond its breaking tension"));
         }
         notes
     }
@@ -146,9 +147,8 @@ impl Mooring {
         };
         let ((low_x, low), (high_x, high)) = (extreme(-1.0), extreme(1.0));
         let told = |by: f64, what: &str, x: f64| {
-            let text =
-                format!("warning: the line passes up to {{}} {what}, {{}} beside its first end, which it does not see");
-            Note::new(text, &[(by, Dim::Length), (x, Dim::Length)])
+            let text = format!("the line passes up to {{}} {what}, {{}} beside its first end, which it does not see");
+            Note::warning(Message::with_values(text, &[(by, Dim::Length), (x, Dim::Length)]))
         };
         let below = self.bottom.map(|bottom| bottom - low).filter(|by| *by > rounding);
         let above = Some(high - self.surface).filter(|by| *by > rounding && low < self.surface - rounding);
@@ -441,5 +441,5 @@ pub fn too_short(taut: f64, ratio: f64) -> Option<f64> {
 
 /// What is said of it.
 pub fn too_short_note(share: f64) -> Note {
-    format!("warning: it is {:.1} per cent too short for its ends", 100.0 * share).into()
+    Note::warning(format!("it is {:.1} per cent too short for its ends", 100.0 * share))
 }

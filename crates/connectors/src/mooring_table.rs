@@ -50,15 +50,13 @@ pub fn report(mooring: &Mooring, connector: &str, found: &[TableRow], missing: &
     out.notes.extend(buoy_notes(&states));
     out.notes.extend(mooring.notes.iter().map(Note::without_values));
     if rows.iter().any(is(|r| !r.state.below_bottom.is_empty())) {
-        out.note("warning: a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
+        out.warn("a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
     }
     let above = is(|r| !r.state.above_surface.is_empty());
     if let Some(first) = rows.iter().position(above) {
         let last = rows.iter().rposition(above).unwrap_or(first);
         let which = rows_from(first, last);
-        out.note(format!(
-            "warning: {which} with a buoyant part of the line above the water surface, which it does not see"
-        ));
+        out.warn(format!("{which} with a buoyant part of the line above the water surface, which it does not see"));
     }
     out
 }

@@ -9,6 +9,7 @@ use super::options::PISTON;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_model::ClassError;
+use windlass_model::Note;
 
 /// Most evaluations of a search.
 const MAX_EVALUATIONS: usize = 200;
@@ -62,17 +63,21 @@ impl PistonState {
     }
 
     /// What is reported to the user.
-    pub fn note(self) -> &'static str {
-        match self {
+    pub fn note(self) -> Note {
+        let text = match self {
             PistonState::Nothing => {
                 "the piston is at rest or on its way to its nominal position, the tension within its limits"
             }
             PistonState::HoldsMost => "the piston holds TMAX; the line has no stiffness along its tension",
             PistonState::HoldsLeast => "the piston holds TMIN; the line has no stiffness along its tension",
-            PistonState::LagsMost => "warning: the piston cannot lengthen fast enough; the tension is beyond TMAX",
-            PistonState::LagsLeast => "warning: the piston cannot shorten fast enough; the tension is below TMIN",
-            PistonState::StopsLong => "warning: the piston is at the end of its stroke; the tension is beyond TMAX",
-            PistonState::StopsShort => "warning: the piston is at its shortest; the tension is below TMIN",
+            PistonState::LagsMost => "the piston cannot lengthen fast enough; the tension is beyond TMAX",
+            PistonState::LagsLeast => "the piston cannot shorten fast enough; the tension is below TMIN",
+            PistonState::StopsLong => "the piston is at the end of its stroke; the tension is beyond TMAX",
+            PistonState::StopsShort => "the piston is at its shortest; the tension is below TMIN",
+        };
+        match self {
+            PistonState::Nothing | PistonState::HoldsMost | PistonState::HoldsLeast => text.into(),
+            _ => Note::warning(text),
         }
     }
 }

@@ -84,7 +84,7 @@ impl ConnectorClass for Spring {
         let section = LineSection::read(record, "SL_ELEM", false)?;
         // nothing is refused from here on
         if section.clump != 0.0 && self.notes.is_empty() {
-            self.notes.push("warning: -CLUMP does not act on an SL_ELEM, which is straight".into());
+            self.notes.push(Note::warning("-CLUMP does not act on an SL_ELEM, which is straight"));
         }
         self.sections.push(section);
         self.places.push(args.span);

@@ -13,6 +13,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::Note;
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess,
     Situation, Surroundings, TetherSection, TetherUse,
@@ -280,7 +281,7 @@ impl Element for Bar {
             notes.push(format!("the tension is of one of {} tethers", self.count).into());
         }
         if found.slack {
-            notes.push("warning: it is slack".into());
+            notes.push(Note::warning("it is slack"));
         }
         let at_fairlead = found.tension - 0.5 * found.toward.z * found.weight;
         Ok(ElementSummary { tension: Some(at_fairlead), solution: "exact", notes, ..ElementSummary::default() })

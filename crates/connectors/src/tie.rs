@@ -77,7 +77,7 @@ impl Element for TieForce {
             notes.push("it is slack".into());
         }
         if ratio > 1.0 {
-            notes.push("warning: it is beyond its breaking tension".into());
+            notes.push(Note::warning("it is beyond its breaking tension"));
         }
         let over_given_break = self.break_is_given.then_some((ratio, 1));
         let (tension, ratio, critical) = (Some(tension), Some(ratio), Some(1));

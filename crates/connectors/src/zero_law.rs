@@ -4,6 +4,7 @@
 
 use super::spring_law::{Dashpot, SpringGroup, rubbing};
 use nalgebra::{Matrix3, Matrix6, Vector2, Vector3, Vector6};
+use windlass_model::Note;
 
 /// The direction in which an element acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +70,7 @@ struct Deflection {
     slopes: Matrix3<f64>,
     /// Which springs touch; a dashpot acts with its spring.
     touches: [bool; 3],
-    note: Option<&'static str>,
+    outside: bool,
 }
 
 impl ContactGeometry {
@@ -77,11 +78,11 @@ impl ContactGeometry {
     fn deflection(&self, u: &Vector3<f64>) -> Option<Deflection> {
         match self {
             ContactGeometry::Whole => {
-                Some(Deflection { at: *u, slopes: Matrix3::identity(), touches: [true; 3], note: None })
+                Some(Deflection { at: *u, slopes: Matrix3::identity(), touches: [true; 3], outside: false })
             }
             ContactGeometry::Cone { length, tangent } => in_cone(u, *length, *tangent),
             ContactGeometry::Gaps(gaps) => {
-                let mut made = Deflection { at: *u, slopes: Matrix3::identity(), touches: [true; 3], note: None };
+                let mut made = Deflection { at: *u, slopes: Matrix3::identity(), touches: [true; 3], outside: false };
                 for (axis, gap) in gaps.iter().enumerate().map(|(i, gap)| (i + 1, gap)) {
                     let free = gap.map_or(u[axis], |[below, above]| u[axis].clamp(-below, above));
                     made.at[axis] = u[axis] - free;
@@ -130,9 +131,8 @@ fn in_cone(u: &Vector3<f64>, length: f64, tangent: f64) -> Option<Deflection> {
         slopes[(0, 0)] += 1.0;
     }
     let outside = below <= length && off > tangent * length;
-    let note = outside.then_some("warning: the tip of the pin stands outside of the cone's mouth");
     let side = d * n;
-    Some(Deflection { at: Vector3::new(-c, side.y, side.z), slopes, touches: [c > 0.0, touches, touches], note })
+    Some(Deflection { at: Vector3::new(-c, side.y, side.z), slopes, touches: [c > 0.0, touches, touches], outside })
 }
 
 /// What limits or makes a lateral force.
@@ -181,7 +181,7 @@ pub struct Answer {
     /// Derivative of the forces X, Y, Z by the rates (N s/m).
     pub by_rate: Matrix3<f64>,
     /// What a user should know.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl ZeroLaw {
@@ -223,7 +223,9 @@ impl ZeroLaw {
         let deflection = if self.sense.takes(u.x) { self.contact.deflection(&u) } else { None };
         let Some(deflection) = deflection else { return self.release(&u, dt, committed, trial, answer) };
         answer.deflection.fixed_rows_mut::<3>(0).copy_from(&deflection.at);
-        answer.notes.extend(deflection.note.map(String::from));
+        if deflection.outside {
+            answer.notes.push(Note::warning("the tip of the pin stands outside of the cone's mouth"));
+        }
         let mut by_deflection = Matrix6::zeros();
         let mut from = 0;
         for group in &self.groups {

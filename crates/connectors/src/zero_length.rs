@@ -303,13 +303,13 @@ impl Element for ZeroLength {
             })
             .collect();
         let ratio = springs.iter().filter_map(|s| s.allowable.map(|most| s.force.abs() / most)).reduce(f64::max);
-        let mut notes: Vec<Note> = answer.notes.into_iter().map(Note::from).collect();
+        let mut notes: Vec<Note> = answer.notes;
         if ratio.is_some_and(|r| r > 1.0) {
-            notes.push("warning: a force is beyond its allowable".into());
+            notes.push(Note::warning("a force is beyond its allowable"));
         }
         let turned = motion.q.fixed_rows::<3>(3).norm();
         if turned > HALF_TURN && self.listed.iter().any(|(dof, _)| *dof > 2) {
-            notes.push("warning: the ends are turned by nearly half a turn against each other, beyond which a spring does not determine the sense".into());
+            notes.push(Note::warning("the ends are turned by nearly half a turn against each other, beyond which a spring does not determine the sense"));
         }
         let tension = self.listed.iter().any(|(dof, _)| *dof == 0).then(|| answer.force[0]);
         Ok(ElementSummary { tension, ratio, solution: "exact", springs, notes, ..ElementSummary::default() })

@@ -342,7 +342,7 @@ pub fn circle(
     }
     let mut table = table.build();
     for name in broken {
-        table.note(format!("warning: line {name} is beyond its breaking tension under the force"));
+        table.warn(format!("line {name} is beyond its breaking tension under the force"));
     }
     table.note("the force comes from the direction, from +X toward +Y; excursions are from where the body stands");
     table

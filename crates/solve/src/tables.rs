@@ -65,13 +65,13 @@ pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
         .column("Left", "Accel/g", Dim::None, Digits::Scientific(2), |row| row.share)
         .build();
     if settled.found.measure > STALLED_ACCELERATION_SHARE {
-        table.note(format!(
-            "warning: the search came no nearer: {:.1e} of gravity is left, within the tolerance; -TOLERANCE asks for less",
+        table.warn(format!(
+            "the search came no nearer: {:.1e} of gravity is left, within the tolerance; -TOLERANCE asks for less",
             settled.found.measure
         ));
     }
     for (body, dof) in &settled.found.loose {
-        table.note(format!("warning: nothing holds {body} in {dof} where it rests: other places there are as good"));
+        table.warn(format!("nothing holds {body} in {dof} where it rests: other places there are as good"));
     }
     table
 }
@@ -145,13 +145,13 @@ pub fn periods(system: &System, state: &SystemState) -> Result<Table, SolveError
     for (index, mode) in list.iter().enumerate() {
         if is_unstable(mode.eigenvalue, largest) {
             let (body, dof) = &mode.most;
-            table.note(format!("warning: not stable: mode {} moves {body} in {dof}", index + 1));
+            table.warn(format!("not stable: mode {} moves {body} in {dof}", index + 1));
         }
         // what half a hundredth of critical damping does not hold
         if mode.beside.abs() > 1e-2 * mode.eigenvalue.abs().max(1e-6) {
             let (body, dof) = &mode.most;
-            table.note(format!(
-                "warning: mode {} of {body} in {dof} is coupled by forces without an energy: without damping it grows",
+            table.warn(format!(
+                "mode {} of {body} in {dof} is coupled by forces without an energy: without damping it grows",
                 index + 1
             ));
         }

@@ -87,17 +87,17 @@ impl DynamicLine {
     }
 
     /// What is said of ends that are held where elements are too long for the bending there, which fades over sqrt(EI/T).
-    fn coarse(&self, nodes: &[LineNode]) -> Vec<String> {
+    fn coarse(&self, nodes: &[LineNode]) -> Vec<Note> {
         let parts = &self.base.description.parts;
         let of = |part: Option<&LinePart>, pair: Option<&[LineNode; 2]>, name: &str| {
             let (part, [a, b]) = (part?, pair?);
             let fades = (part.segment.bending / a.effective.max(b.effective).max(f64::MIN_POSITIVE)).sqrt();
             let share = (b.arc - a.arc) / fades;
             (share > COARSE_MESH_RATIO).then(|| {
-                format!(
-                    "warning: elements at its {name} end, which is held, are {share:.1} sqrt(EI/T) long: moment and shear \
+                Note::warning(format!(
+                    "elements at its {name} end, which is held, are {share:.1} sqrt(EI/T) long: moment and shear \
                      there are too small; -REFINE makes them shorter"
-                )
+                ))
             })
         };
         let [first, second] = &self.base.holds;
@@ -108,7 +108,7 @@ impl DynamicLine {
 
     /// What is said of segments with elements that are pushed harder than one with hinged ends bears: they are straight between their
     /// nodes, and buckle at nodes alone.
-    fn stocky(&self, nodes: &[LineNode]) -> Vec<String> {
+    fn stocky(&self, nodes: &[LineNode]) -> Vec<Note> {
         let beyond = |number: usize, part: &LinePart| {
             let mut own = nodes.array_windows().filter(|[a, _]| a.segment == number);
             let euler = |length: f64| PI.powi(2) * part.segment.bending / length.powi(2);
@@ -116,11 +116,11 @@ impl DynamicLine {
         };
         let parts = self.base.description.parts.iter().enumerate();
         let told = parts.filter(|(number, part)| beyond(*number, part)).map(|(number, _)| {
-            format!(
-                "warning: elements of its segment {} are pushed beyond Euler's load of their length: they cannot bend between \
+            Note::warning(format!(
+                "elements of its segment {} are pushed beyond Euler's load of their length: they cannot bend between \
                  nodes; -REFINE makes them shorter",
                 number + 1
-            )
+            ))
         });
         told.collect()
     }
@@ -145,13 +145,13 @@ impl DynamicLine {
         if let Some((ratio, segment)) = largest(&mut ratios.iter()) {
             (told.ratio, told.critical) = (Some(ratio), Some(segment));
             if ratio > 1.0 {
-                told.notes.push("warning: the line is beyond its breaking tension".into());
+                told.notes.push(Note::warning("the line is beyond its breaking tension"));
             }
         }
-        told.notes.extend(self.coarse(&nodes).into_iter().map(Note::from));
-        told.notes.extend(self.stocky(&nodes).into_iter().map(Note::from));
+        told.notes.extend(self.coarse(&nodes));
+        told.notes.extend(self.stocky(&nodes));
         if at.step.is_none() {
-            told.notes.extend(self.told_of_friction(at).map(|text| format!("warning: {text}").into()));
+            told.notes.extend(self.told_of_friction(at).map(Note::warning));
         }
         let lies = |pair: &[LineNode]| pair.iter().all(|n| n.clearance <= 0.0);
         told.grounded = Some(nodes.windows(2).filter(|p| lies(p)).map(|p| p[1].arc - p[0].arc).sum());

@@ -226,10 +226,10 @@ pub fn modes(linear: &LinearSystem) -> Result<[Table; 2], SolveError> {
         let (body, dof) = (mode.most.0.as_str(), mode.most.1);
         let told = format!("mode {} of {body} in {dof}", index + 1);
         if is_unstable(mode.eigenvalue, largest) {
-            periods.note(format!("warning: not stable: {told}"));
+            periods.warn(format!("not stable: {told}"));
         }
         if !settled {
-            periods.note(format!("warning: {told} finds no period that agrees with its added mass"));
+            periods.warn(format!("{told} finds no period that agrees with its added mass"));
         }
     }
     periods.note("periods are undamped, with added mass at the period of each mode; the ratio is to critical damping");
