@@ -34,7 +34,7 @@ pub fn guard_formula(text: &str) -> Cow<'_, str> {
     if formula && text.trim().parse::<f64>().is_err() { Cow::Owned(format!("'{text}")) } else { Cow::Borrowed(text) }
 }
 
-/// Text of a cell as it was before it was [`guarded`].
+/// Text of a cell as it was before it was [`guard_formula`].
 pub fn remove_guard(text: &str) -> &str {
     text.strip_prefix('\'').filter(|bare| guard_formula(bare) != *bare).unwrap_or(text)
 }

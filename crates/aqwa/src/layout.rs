@@ -1,4 +1,4 @@
-//! What belongs in the columns of a card, as data: one [`Layout`] a keyword, and the [`Record`] that reading one gives.
+//! What belongs in the columns of a card, as data: one [`CardLayout`] a keyword, and the [`CardRecord`] that reading one gives.
 //!
 //! A card that does not fit its columns is an error: no value is looked for elsewhere.
 

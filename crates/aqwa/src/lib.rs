@@ -9,20 +9,20 @@
 //!
 //! | deck | here | in the model |
 //! |---|---|---|
-//! | 0 | [`job::Job`] | title, kind of run (DRIF spectrum, NAUT regular wave), stages |
-//! | 1 | [`nodes::Nodes`] | points; a node of a structure moves with the body |
-//! | 2 | [`elements::Structure`] | one body each: TUBE and STUB Morison members, PMAS weight, DISC plate, PBOY buoyancy |
-//! | 3, 4 | [`properties::Material`], [`properties::Geometry`] | sizes, densities and coefficients of the members and of tether elements |
-//! | 5 | [`properties::Global`] | depth, density, gravity of the environment |
-//! | 7 | [`hydrostatics::Hydrostatics`] | linear stiffness of a body about (X, Y, ZCGE) with buoyancy BFEQ, as of a hydrodynamic database |
-//! | 10, 11, 13 CURR, WIND | [`surroundings::Surroundings`], [`surroundings::Flow`] | current profile and wind; the model's directions are those they come FROM, so add 180 degrees |
-//! | 12 | [`surroundings::Held`] | fixed degrees of freedom of a body |
-//! | 13 | [`waves::Waves`] | sea of spectral components, or regular wave (second order unless AIRY) |
+//! | 0 | [`job::JobDeck`] | title, kind of run (DRIF spectrum, NAUT regular wave), stages |
+//! | 1 | [`nodes::NodeTable`] | points; a node of a structure moves with the body |
+//! | 2 | [`elements::StructureDeck`] | one body each: TUBE and STUB Morison members, PMAS weight, DISC plate, PBOY buoyancy |
+//! | 3, 4 | [`properties::MaterialCard`], [`properties::Geometry`] | sizes, densities and coefficients of the members and of tether elements |
+//! | 5 | [`properties::WaterAndGravity`] | depth, density, gravity of the environment |
+//! | 7 | [`hydrostatics::HydrostaticsDecks`] | linear stiffness of a body about (X, Y, ZCGE) with buoyancy BFEQ, as of a hydrodynamic database |
+//! | 10, 11, 13 CURR, WIND | [`surroundings::SurroundingsDeck`], [`surroundings::UniformStream`] | current profile and wind; the model's directions are those they come FROM, so add 180 degrees |
+//! | 12 | [`surroundings::FixedDof`] | fixed degrees of freedom of a body |
+//! | 13 | [`waves::WaveDeck`] | sea of spectral components, or regular wave (second order unless AIRY) |
 //! | 14 LINE, FORC, WNCH, POLY, COMP | [`lines::MooringLine`] | connectors of the classes LINEAR_ELASTIC, CATENARY, POLYNOMIAL and so on |
 //! | 14 TELM .. TETH | [`tethers::Tether`] | a tether connector, towed or installed |
 //! | 15 | [`run::Start`] | position and velocity of the bodies at the start (of their centres of gravity) |
-//! | 16 | [`run::Steps`] | steps of the time domain: the first is the start |
-//! | 17 | [`run::Multipliers`] | multipliers of drag, added mass and slam |
+//! | 16 | [`run::TimeSteps`] | steps of the time domain: the first is the start |
+//! | 17 | [`run::MorisonMultipliers`] | multipliers of drag, added mass and slam |
 //! | 18 | [`printing::Printing`] | what the listing prints, and how often |
 //!
 //! Sources: [AQWA-TETHER] (the AQWATM-TETHER manual of 2006) and [AQWA-REF].

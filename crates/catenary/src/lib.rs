@@ -6,7 +6,7 @@
 //!
 //! Two directions: [`Line::at_horizontal_force`] and its inverse [`Line::at_distance`] for whole lines. On a flat bottom
 //! without friction all contacts of a line are found at once; on any other, and for very many segments, the line is laid
-//! down from the fairlead to the anchor. [`Segment::solve_end_forces`] for one segment in every regime, with or without a bottom, with friction, and [`Segment::follow`] for the
+//! down from the fairlead to the anchor. [`Segment::solve_end_forces`] for one segment in every regime, with or without a bottom, with friction, and [`Segment::solve_warm_start`] for the
 //! same at a fairlead that moves.
 //!
 //! Source of the formulas: the elastic catenary [IRVINE-1981 1.4], written so that no
@@ -16,7 +16,7 @@
 //! A line of 235.04 m hangs between two points 200 m apart: sinh(1) = 235.04/200, so that H is its weight times 100 m.
 //! ```
 //! let line = windlass_catenary::Segment { length: 200.0 * 1f64.sinh(), weight: 1000.0, ea: 1e15 };
-//! let forces = line.between(200.0, 0.0, None)?;
+//! let forces = line.solve_end_forces(200.0, 0.0, None)?;
 //! assert!((forces.fairlead[0] - 1000.0 * 100.0).abs() < 1e-3);
 //! # Ok::<(), windlass_catenary::LineError>(())
 //! ```

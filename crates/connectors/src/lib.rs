@@ -7,7 +7,7 @@
 //! let types = &windlass_connectors::line_types::library().types;
 //! let chain = types.iter().find(|t| t.name == "CHAIN_R4").ok_or("no such chain")?;
 //! let by_hand = 0.0274 * 84.0 * 84.0 * (44.0 - 0.08 * 84.0) * 1e3;
-//! assert!((chain.breaking.at(0.084) / by_hand - 1.0).abs() < 1e-9);
+//! assert!((chain.breaking.evaluate(0.084) / by_hand - 1.0).abs() < 1e-9);
 //! # Ok::<(), &str>(())
 //! ```
 

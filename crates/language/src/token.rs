@@ -74,7 +74,7 @@ pub fn tokens(text: &str) -> Vec<Token> {
         .collect()
 }
 
-/// The words of a record: no blanks, commas or comments; an [`Kind::Empty`] for each field left out between commas.
+/// The words of a record: no blanks, commas or comments; an [`TokenKind::Empty`] for each field left out between commas.
 /// The range of a quoted word is what stands inside the quotes.
 pub fn words(text: &str) -> Vec<Token> {
     let mut list = Vec::with_capacity(8);

@@ -80,8 +80,8 @@ impl EndJacobian {
 }
 
 impl RodSolver {
-    /// The tangent of the end forces at the last [`Solver::trial`], before it is accepted, or at rest after
-    /// [`Solver::statics`], when velocities and accelerations have no part in it: the rod condensed to its ends. Of a
+    /// The tangent of the end forces at the last [`RodSolver::trial`], before it is accepted, or at rest after
+    /// [`RodSolver::statics`], when velocities and accelerations have no part in it: the rod condensed to its ends. Of a
     /// step that was cut it is that of its last part.
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.

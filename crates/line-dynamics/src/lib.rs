@@ -1,10 +1,10 @@
 //! Dynamic lines: rods with their own inertia, hydrodynamic loads, bending and seabed contact.
 //!
-//! A [`Rod`] is what the line is: [`Segment`]s cut into elements, and [`Attachment`]s on their nodes. A [`State`] is
-//! where it is and how it moves. A [`Solver`] holds the memory of a run: [`Solver::statics`] brings a state to rest,
-//! [`Solver::step`] takes it on in time, or [`Solver::trial`] and [`Solver::accept`] with a body at an end that must
-//! find its own motion by [`Solver::end_tangent`]; [`Solver::modes`] finds how it swings. A [`LineEnvironment`] says what
-//! surrounds it, an [`End`] what holds it. [`Rod::results`] gives tensions, moments and stresses along it,
+//! A [`Rod`] is what the line is: [`RodSegment`]s cut into elements, and [`Attachment`]s on their nodes. A [`RodState`] is
+//! where it is and how it moves. A [`RodSolver`] holds the memory of a run: [`RodSolver::statics`] brings a state to rest,
+//! [`RodSolver::step`] takes it on in time, or [`RodSolver::trial`] and [`RodSolver::accept`] with a body at an end that must
+//! find its own motion by [`RodSolver::end_tangent`]; [`RodSolver::modes`] finds how it swings. A [`LineEnvironment`] says what
+//! surrounds it, an [`RodEnd`] what holds it. [`Rod::results`] gives tensions, moments and stresses along it,
 //! [`Balance`] is the energy and momentum balance.
 //!
 //! SI units (m, kg, s, N, rad), global axes with z up. End A is the first node. Nothing is allocated in a step, and a
@@ -14,14 +14,14 @@
 //! A chain of 100 kg/m hangs in air between two points 90 m apart: both ends together carry its weight.
 //! ```
 //! use nalgebra::Vector3;
-//! use windlass_line_dynamics::{End, Rod, Segment, Settings, Solver, State, UniformFluid, LineEnvironment};
+//! use windlass_line_dynamics::{LineEnvironment, Rod, RodEnd, RodSegment, RodSettings, RodSolver, RodState, UniformFluid};
 //!
-//! let rod = Rod::new("chain", vec![Segment::line(100.0, 20, 100.0, 1e9, 0.1)], vec![])?;
+//! let rod = Rod::new("chain", vec![RodSegment::line(100.0, 20, 100.0, 1e9, 0.1)], vec![])?;
 //! let ends = [Vector3::zeros(), Vector3::new(90.0, 0.0, 0.0)];
-//! let mut state = State::along(&rod, &[ends[0], Vector3::new(45.0, 0.0, -20.0), ends[1]])?;
-//! let air = UniformFluid::none();
-//! let mut solver = Solver::new(&rod, Settings::default());
-//! let held = solver.statics(&rod, &mut state, &LineEnvironment::new(&air, 9.81), ends.map(End::pinned))?;
+//! let mut state = RodState::along_points(&rod, &[ends[0], Vector3::new(45.0, 0.0, -20.0), ends[1]])?;
+//! let air = UniformFluid::vacuum();
+//! let mut solver = RodSolver::new(&rod, RodSettings::default());
+//! let held = solver.statics(&rod, &mut state, &LineEnvironment::new(&air, 9.81), ends.map(RodEnd::pin))?;
 //! assert!((held.force[0].z + held.force[1].z + 100.0 * 100.0 * 9.81).abs() < 1.0);
 //! # Ok::<(), windlass_line_dynamics::RodError>(())
 //! ```

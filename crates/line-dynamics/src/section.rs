@@ -12,12 +12,12 @@ pub enum TensionLaw {
     Polynomial(Vec<f64>),
     /// Points (strain, tension in N) by rising strain and tension, straight between and beyond.
     Table(Vec<(f64, f64)>),
-    /// A rope with a static and a dynamic stiffness. Its static law is what [`Axial::evaluate`] and [`Axial::energy`] give.
+    /// A rope with a static and a dynamic stiffness. Its static law is what [`TensionLaw::evaluate`] and [`TensionLaw::energy`] give.
     Viscoelastic(Box<ViscoelasticRope>),
 }
 
 impl TensionLaw {
-    /// The law of coefficients as of [`Axial::Polynomial`], those of the highest powers left out that are zero: a line of one alone is
+    /// The law of coefficients as of [`TensionLaw::Polynomial`], those of the highest powers left out that are zero: a line of one alone is
     /// linear, and quicker.
     pub fn of_powers(mut coefficients: Vec<f64>) -> Self {
         while coefficients.len() > 1 && coefficients.last() == Some(&0.0) {

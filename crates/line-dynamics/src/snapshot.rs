@@ -87,7 +87,7 @@ impl RodState {
         Some(count)
     }
 
-    /// How many numbers [`State::pack`] makes of a state of a rod.
+    /// How many numbers [`RodState::pack`] makes of a state of a rod.
     pub fn packed_len(rod: &Rod) -> usize {
         RodState::packed_len_with(rod, rod.elements.len())
     }
@@ -99,7 +99,7 @@ impl RodState {
         HEADER_LEN + NUMBERS_PER_NODE * elements.saturating_add(1) + turns + strains
     }
 
-    /// The state that [`State::pack`] made numbers of, to the last bit.
+    /// The state that [`RodState::pack`] made numbers of, to the last bit.
     ///
     /// # Errors
     /// Another count of numbers than a state of this rod has, or one that is no number.
@@ -109,10 +109,10 @@ impl RodState {
         Ok(made)
     }
 
-    /// Becomes the state of [`State::unpack`], in memory that is there. It is left as it was where there is an error.
+    /// Becomes the state of [`RodState::unpack`], in memory that is there. It is left as it was where there is an error.
     ///
     /// # Errors
-    /// As [`State::unpack`].
+    /// As [`RodState::unpack`].
     pub fn unpack_into(&mut self, rod: &Rod, from: &[f64]) -> Result<(), RodError> {
         let wanted = RodState::packed_len(rod);
         let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };

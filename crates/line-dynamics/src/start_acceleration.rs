@@ -23,7 +23,7 @@ impl RodSolver {
         &self.next
     }
 
-    /// What each holder feels of inertia at the instant of the last [`Solver::start`]: d(force the holder needs)/d(its
+    /// What each holder feels of inertia at the instant of the last [`RodSolver::start`]: d(force the holder needs)/d(its
     /// acceleration) (kg), zero of a free end. At one instant the nodes beside an end do not follow it yet.
     pub fn end_masses(&self) -> [Matrix3<f64>; 2] {
         let last = self.change.len() - self.work.stride();
@@ -43,7 +43,7 @@ impl RodSolver {
 
     /// Gives a state the accelerations that its forces make, as at the start of a run that is not at rest, or after a
     /// line has parted, and tells the forces at that instant on holders with the given accelerations. A state from
-    /// [`Solver::statics`] has its accelerations.
+    /// [`RodSolver::statics`] has its accelerations.
     ///
     /// # Errors
     /// A force that is no number, a node without mass, or a state of another rod.

@@ -12,9 +12,9 @@ pub struct RodState {
     /// Time (s).
     pub time: f64,
     /// From where positions are measured (m, global): where end A was at the last position of rest, or the first point of
-    /// [`State::along_points`].
+    /// [`RodState::along_points`].
     pub origin: Vector3<f64>,
-    /// Position of each node (m, global axes, from [`State::origin`]): [`State::place`] is the global one.
+    /// Position of each node (m, global axes, from [`RodState::origin`]): [`RodState::place`] is the global one.
     pub position: Vec<Vector3<f64>>,
     /// Velocity of each node (m/s).
     pub velocity: Vec<Vector3<f64>>,

@@ -58,10 +58,10 @@ impl RodSolver {
         self.end_statics(made, |_| true)
     }
 
-    /// As [`Solver::statics`], for a state that is near rest with friction of the bottom: none where that is not found soon.
+    /// As [`RodSolver::statics`], for a state that is near rest with friction of the bottom: none where that is not found soon.
     ///
     /// # Errors
-    /// As [`Solver::statics`].
+    /// As [`RodSolver::statics`].
     pub fn statics_with_friction(
         &mut self,
         rod: &Rod,

@@ -161,7 +161,7 @@ impl RodSolver {
     }
 
     /// Tries the step from `state` to `time`, at which the ends move as given; the state stays as it is until
-    /// [`Solver::accept`], so that a body can try again with another motion of an end.
+    /// [`RodSolver::accept`], so that a body can try again with another motion of an end.
     ///
     /// The second and later trials of a step begin where the one before ended, and cost about one iteration if the ends
     /// have moved little since.
@@ -225,7 +225,7 @@ impl RodSolver {
     /// A trial and its acceptance.
     ///
     /// # Errors
-    /// As [`Solver::trial`]; the state is then as before.
+    /// As [`RodSolver::trial`]; the state is then as before.
     pub fn step(
         &mut self,
         rod: &Rod,

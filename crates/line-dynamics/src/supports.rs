@@ -297,8 +297,8 @@ impl SupportState {
 }
 
 impl RodSolver {
-    /// How what the rod does to its supports follows their motion at the last [`Solver::trial`], before it is accepted,
-    /// or at rest after [`Solver::statics`]: the rod condensed to its supports, each derivative with the other motion
+    /// How what the rod does to its supports follows their motion at the last [`RodSolver::trial`], before it is accepted,
+    /// or at rest after [`RodSolver::statics`]: the rod condensed to its supports, each derivative with the other motion
     /// and the start of the step as they are. That the turn of a support changes how fast the rod goes by it is left out.
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.

@@ -82,7 +82,7 @@ pub struct LineLoads {
     pub ratio: f64,
     /// The segment that has it, from 1.
     pub critical: usize,
-    /// As [`super::Summary::over_given_break`].
+    /// As [`super::ElementSummary::over_given_break`].
     pub over_given_break: Option<(f64, usize)>,
     /// Unstretched length on the bottom (m).
     pub grounded: f64,

@@ -24,7 +24,7 @@
 //! # Example
 //! The weight in air of a tendon of three steel tubes:
 //! ```
-//! use windlass_tether::{Line, TetherElement, line::Label};
+//! use windlass_tether::{TetherElement, TetherLine, line::ElementLabel};
 //!
 //! let element = TetherElement {
 //!     length: 100.0,
@@ -34,9 +34,9 @@
 //!     youngs_modulus: 2.1e11,
 //!     drag: 1.0,
 //!     added_mass: 1.0,
-//!     label: Label::default(),
+//!     label: ElementLabel::default(),
 //! };
-//! let line = Line::numbered(vec![element; 3])?;
+//! let line = TetherLine::with_numbered_nodes(vec![element; 3])?;
 //! let steel = std::f64::consts::PI * 0.95 * 0.05 * 300.0 * 7850.0 * 9.81;
 //! assert!((line.weight(9.81) / steel - 1.0).abs() < 1e-12);
 //! # Ok::<(), windlass_model::ClassError>(())

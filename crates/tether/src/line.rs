@@ -110,7 +110,7 @@ impl TetherLine {
     /// The same with the nodes called 1, 2, 3 ... from the trailing or anchor end.
     ///
     /// # Errors
-    /// Those of [`Line::new`].
+    /// Those of [`TetherLine::new`].
     pub fn with_numbered_nodes(mut elements: Vec<TetherElement>) -> Result<Self, ClassError> {
         for (element, number) in elements.iter_mut().zip(1..) {
             element.label.nodes = [number, number + 1];

@@ -169,7 +169,7 @@ impl RetardationMemory {
         self.pairs.len()
     }
 
-    /// Prepares a step, in a state of [`Memory::states`] values, that ends at a time (s) and is so long (s): what is past is summed once. Before the first step the velocity has come from
+    /// Prepares a step, in a state of [`RetardationMemory::states`] values, that ends at a time (s) and is so long (s): what is past is summed once. Before the first step the velocity has come from
     /// nothing over one step of the grid.
     pub fn begin(&self, time: f64, dt: f64, state: &mut [f64]) {
         let (head, rings) = state.split_at_mut(RINGS_START);

@@ -1,6 +1,6 @@
 //! Hydrodynamic databases: what programs of potential flow computed, and the forces it makes in time.
 //!
-//! The data and its conventions are [`Database`] of the model. Sources are read by [`wamit`], [`nemoh`], [`capytaine`] and [`rao`]; [`at`]
+//! The data and its conventions are [`Database`] of the model. Sources are read by [`wamit`], [`nemoh`], [`capytaine`] and [`rao`]; [`interpolation`]
 //! interpolates; [`radiation`], [`excitation`] and [`slow_drift`] make the loads on a body, which [`attached`] puts together.
 
 pub mod attached;

@@ -1,6 +1,6 @@
 //! Hydrostatics of solids: the part below the water's surface, its buoyancy and exact stiffness, and meshes that bound it.
 //!
-//! A [`Surface`] of triangles and a [`Tube`] answer what of them is wet in a pose ([`Solid::wet`]); a [`Wet`] gives the
+//! A [`Surface`] of triangles and a [`TubeHull`] answer what of them is wet in a pose ([`Solid::wet`]); a [`Wet`] gives the
 //! buoyancy on the body ([`Wet::load`]) and its [`Hydrostatics`]. Meshes are read by [`read_mesh`] and examined by
 //! [`Surface::faults`] and [`intersect`]. Nothing here knows a record, a class or a body.
 

@@ -25,7 +25,7 @@
 //!
 //! Growth widens D in drag, in inertia and in what waves press on, by the elevations at which the body stands when its loads are made: a
 //! member is taken as lengths of one diameter each. The growth's own mass and weight, and its buoyancy under the mean level, are
-//! [`grown`]'s. A current with a history drags as it is at the time; how fast it changes is not counted as an acceleration.
+//! [`growth_loads`]'s. A current with a history drags as it is at the time; how fast it changes is not counted as an acceleration.
 
 mod added;
 mod member;

@@ -85,7 +85,7 @@ impl Interpreter {
         }
     }
 
-    /// Opens a text and returns its id; it is read before what is already open goes on. `tag` comes back with [`Step::Ended`].
+    /// Opens a text and returns its id; it is read before what is already open goes on. `tag` comes back with [`FlowStep::Ended`].
     ///
     /// # Errors
     /// Too many files open inside each other.

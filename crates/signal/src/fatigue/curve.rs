@@ -98,7 +98,7 @@ impl SnCurve {
         self.branch(range).map_or(0.0, |b| 10f64.powf(-self.mean_slope * mean) / b.cycles(range))
     }
 
-    /// Cycles to failure at a range and mean, as [`Curve::damage`]; `None` where there is no damage.
+    /// Cycles to failure at a range and mean, as [`SnCurve::damage`]; `None` where there is no damage.
     pub fn cycles(&self, range: f64, mean: f64) -> Option<f64> {
         let damage = self.damage(range, mean);
         (damage > 0.0).then(|| 1.0 / damage)

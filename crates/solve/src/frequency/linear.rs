@@ -326,7 +326,7 @@ impl LinearSystem {
     /// Motions in waves of unit amplitude (m) of a frequency (rad/s), one for each direction of travel (rad).
     ///
     /// # Errors
-    /// As [`Linear::excitation`] and [`Linear::motions`].
+    /// As [`LinearSystem::excitation`] and [`LinearSystem::motions`].
     pub fn operators(&self, frequency: f64, toward: &[f64]) -> Result<Vec<Motions>, SolveError> {
         let forces = toward.iter().map(|b| self.excitation(frequency, *b)).collect::<Result<Vec<_>, _>>()?;
         self.motions(frequency, &forces)

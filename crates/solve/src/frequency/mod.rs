@@ -1,8 +1,8 @@
 //! The frequency domain: small motions about a place, linear in the waves.
 //!
 //! The equations are `(K - w2 (M + A(w)) - i w (B + B(w))) q = X(w, b)` with `q(t) = Re(q exp(-i w t))`, the signs of
-//! [`windlass_model::Database`]: the argument of an amplitude is its lag behind the crest at the global origin. [`Linear`] holds them,
-//! [`Quantity`] what is asked of the motions, [`Response`] the motions in a sea with their spectra and statistics.
+//! [`windlass_model::Database`]: the argument of an amplitude is its lag behind the crest at the global origin. [`LinearSystem`] holds them,
+//! [`LinearQuantity`] what is asked of the motions, [`FrequencyResponse`] the motions in a sea with their spectra and statistics.
 
 mod linear;
 mod linearise;

@@ -20,7 +20,7 @@ impl Operators {
     /// Those of a system.
     ///
     /// # Errors
-    /// As [`Linear::operators`]; more than memory is taken for.
+    /// As [`LinearSystem::operators`]; more than memory is taken for.
     pub fn new(linear: &LinearSystem, frequencies: &[f64], headings: &[f64]) -> Result<Self, SolveError> {
         check_memory(frequencies.len(), headings.len(), linear)?;
         let toward: Vec<f64> = headings.iter().map(|h| h + PI).collect();

@@ -16,7 +16,7 @@ const NUMBERS_PER_STRUCTURE: usize = 1 + 18 + 6 * StructureForces::KINDS.len() +
 const NUMBERS_PER_NODE: usize = 13;
 const NUMBERS_PER_END: usize = 12;
 
-/// When tethers are kept. The structure is kept at every state of [`History::every`].
+/// When tethers are kept. The structure is kept at every state of [`InstalledHistory::every`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Keep {
     /// At the same states as the structure.
@@ -70,7 +70,7 @@ impl InstalledHistory {
         self.structure.iter().filter_map(|row| row.get(1 + 6 * order + direction).copied()).collect()
     }
 
-    /// A series of a kind of force on the structure, by the order of [`Forces::KINDS`].
+    /// A series of a kind of force on the structure, by the order of [`StructureForces::KINDS`].
     pub fn force(&self, kind: usize, direction: usize) -> Vec<f64> {
         self.structure.iter().filter_map(|row| row.get(19 + 6 * kind + direction).copied()).collect()
     }

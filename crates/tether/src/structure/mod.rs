@@ -59,7 +59,7 @@ impl Default for StructureForces {
 }
 
 impl StructureForces {
-    /// Names of the kinds, in the order of [`Forces::kinds`]; the total is the last.
+    /// Names of the kinds, in the order of [`StructureForces::kinds`]; the total is the last.
     pub const KINDS: [&'static str; 9] = [
         "GRAVITY",
         "HYDROSTATIC",

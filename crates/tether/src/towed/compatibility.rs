@@ -11,7 +11,7 @@
 //! | `acceleration_of_step_before` | above 0.2 | none | none | -1.5 to +0.7 % | none |
 //! | all | | -15 to -1 % | +0.23 to +0.43 m | -17 to +6 % | -13 to 0 % |
 
-/// Which peculiarities of AQWATM-TETHER are kept. [`Compatibility::native`] keeps none.
+/// Which peculiarities of AQWATM-TETHER are kept. [`TowedCompatibility::native`] keeps none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TowedCompatibility {
     /// Slam `dm/ds v^2` pushes up when the tube leaves the water, too. Natively it acts on entry alone: added mass that is

@@ -2,7 +2,7 @@
 //!
 //! Source: [AQWA-TETHER chapter 3], with the formulas of [W-TOWED], which give the numbers of its listing. Force
 //! across the axis per length, with the surface `s` above the axis, on the wet part of the cross section:
-//! gravity, buoyancy, Froude-Krylov and wave inertia, drag, slam ([`wetted`], [`loads`]). Tension is zero (chapter 4). Wave and
+//! gravity, buoyancy, Froude-Krylov and wave inertia, drag, slam ([`wet_section`], [`loads`]). Tension is zero (chapter 4). Wave and
 //! current act at the deflected place; motions along the axis do not exist.
 //!
 //! The frame moves with the tow. Water runs past it with the current less the tow, and waves meet it with the encounter

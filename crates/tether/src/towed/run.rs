@@ -84,9 +84,9 @@ pub struct TowedHistory {
 }
 
 impl TowedHistory {
-    /// Values of a node in [`History::nodes`].
+    /// Values of a node in [`TowedHistory::nodes`].
     pub const OF_A_NODE: usize = 13;
-    /// Values of an end in [`History::ends`].
+    /// Values of an end in [`TowedHistory::ends`].
     pub const OF_AN_END: usize = 7;
 
     /// The series of a quantity of a node (from 0) out of a number of nodes.

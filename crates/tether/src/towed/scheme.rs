@@ -84,7 +84,7 @@ impl<'a> TowedScheme<'a> {
         })
     }
 
-    /// The two stages of the step from a time (s); the state is left for [`Scheme::advance`].
+    /// The two stages of the step from a time (s); the state is left for [`TowedScheme::advance`].
     ///
     /// # Errors
     /// A matrix that is singular, or an acceleration that is not finite: the motion has no bound.
