@@ -18,7 +18,7 @@ const MAX_EVALUATIONS: usize = 8;
 /// show.
 const WARM_START_TOLERANCE: f64 = 1e-2 * RESIDUAL_TOLERANCE;
 
-/// See [`Segment::follow`].
+/// See [`Segment::solve_warm_start`].
 pub fn solve_warm_start(
     segment: &Segment,
     x: f64,
