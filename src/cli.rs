@@ -1,6 +1,6 @@
 //! The command line: what is run, from where, and the exit code.
 
-use crate::command::verdict::{OverBreak, Verdict};
+use crate::commands::verdict::{OverBreak, Verdict};
 use crate::repl;
 use crate::report::files::JobFolder;
 use crate::report::output::Output;

@@ -1,6 +1,6 @@
 //! windlass, the program: a MOSES-style command interpreter for marine mooring analysis.
 //!
-//! From top to bottom: `cli` and `repl` (the two front doors), `session` (records one after the other), `command` (a spec and a
+//! From top to bottom: `cli` and `repl` (the two front doors), `session` (records one after the other), `commands` (a spec and a
 //! handler each), `report` (tables, files, plots, films). The engines are crates of their own, `windlass-*`, and the dependency
 //! graph of Cargo keeps their order; none of them knows of commands, files or printing.
 
@@ -8,7 +8,7 @@
 #![deny(missing_docs)]
 
 pub mod cli;
-pub mod command;
+pub mod commands;
 pub mod repl;
 pub mod report;
 pub mod session;

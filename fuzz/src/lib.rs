@@ -13,7 +13,7 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{LazyLock, Mutex, OnceLock};
 use std::time::Duration;
-use windlass::command::{COMMANDS, Job, internal_names};
+use windlass::commands::{COMMANDS, Job, internal_names};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::report::run_log;

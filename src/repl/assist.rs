@@ -1,8 +1,8 @@
 //! What the editor offers while a record is being typed: completion, hints, colours, and whether it goes on. All of it
 //! from the lexer and the specs.
 
-use crate::command::menu;
-use crate::command::{COMMANDS, commands_of_menu, status_kinds};
+use crate::commands::menu;
+use crate::commands::{COMMANDS, commands_of_menu, status_kinds};
 use crate::session::Session;
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::highlight::{CmdKind, Highlighter};
@@ -66,7 +66,7 @@ impl Known {
             environments: model.environments.values().map(|e| e.name.clone()).collect(),
             selectors: model.selectors.values().map(|s| s.name.clone()).collect(),
             columns: match menu {
-                crate::command::Menu::Disposition(d) => d.table.columns.iter().map(|c| c.name.clone()).collect(),
+                crate::commands::Menu::Disposition(d) => d.table.columns.iter().map(|c| c.name.clone()).collect(),
                 _ => Vec::new(),
             },
             macros: session.interpreter.macros().map(|m| m.name.clone()).collect(),
@@ -202,7 +202,7 @@ fn expected_value(
 fn string_functions() -> impl Iterator<Item = String> {
     functions::FUNCTION_HELP
         .iter()
-        .chain(crate::command::functions::FUNCTION_HELP)
+        .chain(crate::commands::functions::FUNCTION_HELP)
         .map(|(name, _, _)| format!("{name}("))
 }
 

@@ -1,7 +1,7 @@
 //! AQWA decks: read, listed, and run as the records they amount to.
 
 use super::Session;
-use crate::command::{PLAIN, SCRIPT};
+use crate::commands::{PLAIN, SCRIPT};
 use crate::report::page;
 use std::path::Path;
 use windlass_aqwa::{self as aqwa, Deck, Records, WrittenRecords};

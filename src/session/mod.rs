@@ -9,7 +9,7 @@ mod skipped_menu;
 pub use reading::{read_all, read_text};
 
 use self::named::{in_menu, unknown};
-use crate::command::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
+use crate::commands::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
 use crate::report::output::Output;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -63,7 +63,7 @@ pub struct Session {
 impl Session {
     /// A session writing to these channels.
     pub fn new(output: Output) -> Self {
-        let interpreter = Interpreter::new(command::internal_names());
+        let interpreter = Interpreter::new(commands::internal_names());
         let mut job = Job { interrupt: Arc::clone(&interpreter.interrupt), ..Job::new(output) };
         job.model.interrupt = Arc::clone(&interpreter.interrupt);
         Session {
@@ -175,7 +175,7 @@ impl Session {
 
     /// Ends the job: files that were opened and never closed are written, and said.
     pub fn finish(&mut self) {
-        for said in command::write_open_files(&mut self.job) {
+        for said in commands::write_open_files(&mut self.job) {
             self.report(*said);
         }
         self.job.output.flush();
@@ -310,7 +310,7 @@ impl Session {
             return Ok(Effect::Done);
         }
         if matches!(self.job.menu(), Menu::Building(_)) && first.kind != TokenKind::Internal {
-            return command::take_row(&mut self.job, record);
+            return commands::take_row(&mut self.job, record);
         }
         match first.kind {
             TokenKind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
@@ -396,7 +396,7 @@ impl Session {
             return;
         }
         if let Some(menu) = self.job.menus.pop() {
-            for told in command::finish(&mut self.job, menu, at) {
+            for told in commands::finish(&mut self.job, menu, at) {
                 self.report(told);
             }
         }

@@ -1,7 +1,7 @@
 //! What a word names in a menu, and what is said where it names nothing.
 
-use crate::command::menu::join_names;
-use crate::command::{COMMANDS, Command, Menu, commands_of_menu};
+use crate::commands::menu::join_names;
+use crate::commands::{COMMANDS, Command, Menu, commands_of_menu};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_language::flow::macros::Macro;

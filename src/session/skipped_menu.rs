@@ -2,7 +2,7 @@
 //! passed over up to its `END`, so that one mistake gives one message and every `END` leaves the menu it was written for.
 
 use super::{Meaning, Session};
-use crate::command::{Command, Menu, opened_by};
+use crate::commands::{Command, Menu, opened_by};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_language::record::Word;
 use windlass_language::token::TokenKind;

@@ -2,7 +2,7 @@
 //! script for every command.
 
 use std::fs;
-use windlass::command::{COMMANDS, commands_of_menu, menu, opened_by};
+use windlass::commands::{COMMANDS, commands_of_menu, menu, opened_by};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;

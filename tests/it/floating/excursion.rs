@@ -30,7 +30,7 @@ fn model(records: &str) -> Model {
 /// The table in the disposition menu that records leave open.
 fn table(records: &str) -> Table {
     match ran(records).job.menu() {
-        windlass::command::Menu::Disposition(d) => d.table.clone(),
+        windlass::commands::Menu::Disposition(d) => d.table.clone(),
         other => panic!("{other:?}"),
     }
 }

@@ -1,0 +1,129 @@
+//! The names a record gives to choose among what the model holds.
+
+use crate::commands::{Call, Job};
+use std::cell::Cell;
+use windlass_base::diagnostic::Severity;
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::values::Value;
+use windlass_base::wildcard::matches;
+use windlass_model::{EntityKind, Model};
+
+/// Names, patterns and selectors; none given chooses all. It remembers which of them chose something.
+pub struct NameFilter<'a> {
+    model: &'a Model,
+    given: Vec<(&'a str, Span, Cell<bool>)>,
+    asked: Cell<bool>,
+}
+
+impl<'a> NameFilter<'a> {
+    /// The words of a record from a position on.
+    pub fn new(call: &'a Call, from: usize, model: &'a Model) -> Self {
+        NameFilter::among(call.args.data.get(from..).unwrap_or_default().iter(), model)
+    }
+
+    /// The words among some values.
+    pub fn among(values: impl Iterator<Item = &'a Value>, model: &'a Model) -> Self {
+        let given = values.filter_map(|v| Some((v.word()?, v.span, Cell::new(false)))).collect();
+        NameFilter { model, given, asked: Cell::new(false) }
+    }
+
+    /// Whether no name is given.
+    pub fn chooses_all(&self) -> bool {
+        self.given.is_empty()
+    }
+
+    /// Whether a name is chosen.
+    pub fn takes(&self, name: &str) -> bool {
+        self.asked.set(true);
+        self.given.iter().fold(self.given.is_empty(), |taken, (pattern, _, used)| {
+            let fits = match self.model.selectors.get(&Model::key(pattern)) {
+                Some(selector) => selector.takes(name, self.model),
+                None => matches(pattern, name),
+            };
+            used.set(used.get() || fits);
+            taken || fits
+        })
+    }
+
+    /// Refuses a name that chose nothing for these tables of such things.
+    ///
+    /// # Errors
+    /// The first such name, at its place, with near ones.
+    pub fn check(&self, what: &str, tables: &[Table], things: &[EntityKind]) -> Outcome<()> {
+        let empty = tables.iter().all(|t| t.rows() == 0 && t.facts.is_empty());
+        self.refuse(what, things, |used| empty || (self.asked.get() && !used))
+    }
+
+    /// Refuses a name that chose nothing.
+    ///
+    /// # Errors
+    /// The first such name, at its place, with near ones.
+    pub fn check_used(&self, what: &str, things: &[EntityKind]) -> Outcome<()> {
+        self.refuse(what, things, |used| !used)
+    }
+
+    fn refuse(&self, what: &str, things: &[EntityKind], wrong: impl Fn(bool) -> bool) -> Outcome<()> {
+        let unused = self.given.iter().find(|(_, _, used)| wrong(used.get()));
+        unused.map_or(Ok(()), |(name, span, _)| {
+            let mut error = Diagnostic::error(format!("nothing among {what} is called {name}"), *span);
+            error.help.extend(did_you_mean(name, things.iter().flat_map(|t| self.model.names(*t))));
+            Err(error)
+        })
+    }
+}
+
+/// The remarks of several things, each text once, with the names of all it holds for; `warning: ` stays in front.
+pub fn merge_remarks(list: &[(String, Vec<String>)]) -> Vec<String> {
+    /// Names written out; of more the number is told.
+    const MAX_NAMES: usize = 8;
+    let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (name, notes) in list {
+        for note in notes {
+            match texts.iter_mut().find(|(text, _)| text == note) {
+                Some((_, names)) => names.push(name),
+                None => texts.push((note, vec![name])),
+            }
+        }
+    }
+    let line = |(text, names): (&str, Vec<&str>)| {
+        let (mark, text) = text.strip_prefix(WARNING).map_or(("", text), |rest| (WARNING, rest));
+        let more = names.len().saturating_sub(MAX_NAMES);
+        let names = names.into_iter().take(MAX_NAMES).collect::<Vec<_>>().join(", ");
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        format!("{mark}{names}{more}: {text}")
+    };
+    texts.into_iter().map(line).collect()
+}
+
+/// What stands before a note that warns.
+pub const WARNING: &str = Severity::Warning.mark();
+
+/// Raises the warnings among the notes of a table at once: they concern all of it, whatever is then printed of it.
+pub fn raise(job: &mut Job, table: &Table, span: Span) {
+    job.verdict.absent += table.absent;
+    let warnings = table.notes.iter().filter_map(|n| n.strip_prefix(WARNING));
+    warnings.for_each(|text| job.warn(text, span));
+}
+
+/// Notes what is computed by a shortcut or is missing and accepted, under the first of some tables.
+pub fn note_caveats(model: &Model, tables: &mut [Table]) {
+    if let Some(table) = tables.first_mut() {
+        table.notes.extend(model.caveats());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::merge_remarks;
+
+    #[test]
+    fn a_remark_of_several_things_is_told_once_with_all_their_names() {
+        let both = || vec!["warning: it breaks".to_string(), "it is slack".into()];
+        let list = [("A".to_string(), both()), ("B".into(), vec!["warning: it breaks".into()])];
+        assert_eq!(merge_remarks(&list), ["warning: A, B: it breaks", "A: it is slack"]);
+        let many: Vec<_> = (1..=10).map(|n| (n.to_string(), both())).collect();
+        assert_eq!(merge_remarks(&many)[1], "1, 2, 3, 4, 5, 6, 7, 8 and 2 more: it is slack");
+    }
+}

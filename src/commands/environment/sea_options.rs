@@ -1,0 +1,122 @@
+//! The options of `&ENV` that make wave components of its seas.
+
+use crate::commands::environment::env;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
+use windlass_base::units::Dim;
+use windlass_base::values::{Args, Given};
+use windlass_language::select::Owner;
+use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::options::PHASES;
+use windlass_model::{Components, Division, Environment, Phasing, Stretching};
+
+const BY_WIDTH: &str = "EQUAL_FREQUENCY";
+const DIVISIONS: &[&str] = &["EQUAL_ENERGY", BY_WIDTH];
+const STRETCHINGS: &[&str] = &["LINEAR", "WHEELER", "DELTA", "EXPONENTIAL"];
+/// The options of which the last one holds.
+const PHASINGS: [OptionSpec; 3] = [env::T_REINFORCE, SEED, PHASES];
+
+/// -COMPONENTS.
+pub(crate) const COMPONENTS: OptionSpec = OptionSpec::new(
+    "-COMPONENTS",
+    &[
+        ValueSpec::new("N", Kind::Integer, "how many for each sea").in_range(1.0, 5000.0),
+        ValueSpec::new("TYPE", Kind::Choice(DIVISIONS), "how the spectrum is cut").or("EQUAL_ENERGY"),
+        ValueSpec::new("LOW", Kind::Number(Dim::Frequency), "lowest frequency").or("none").positive(),
+        ValueSpec::new("HIGH", Kind::Number(Dim::Frequency), "highest frequency, given with LOW").or("none").positive(),
+    ],
+    "wave components",
+)
+.default("200 EQUAL_ENERGY")
+.owner(Owner::Ours);
+
+/// -SEED.
+pub(crate) const SEED: OptionSpec = OptionSpec::new(
+    "-SEED",
+    &[ValueSpec::new("N", Kind::Integer, "whole number").in_range(0.0, 9e15)],
+    "random phases of the wave components, from this seed",
+)
+.default("1, without -T_REINFORCE")
+.owner(Owner::Ours);
+
+/// -STRETCHING.
+pub(crate) const STRETCHING: OptionSpec = OptionSpec::new(
+    "-STRETCHING",
+    &[ValueSpec::new("TYPE", Kind::Choice(STRETCHINGS), "method")],
+    "kinematics of waves above the mean level",
+)
+.default("LINEAR")
+.owner(Owner::Ours);
+
+/// -STOKES.
+pub(crate) const STOKES: OptionSpec = OptionSpec::new(
+    "-STOKES",
+    &[ValueSpec::new("N", Kind::Integer, "order").in_range(2.0, 5.0)],
+    "order of a STOKES wave",
+)
+.default("5")
+.owner(Owner::Ours);
+
+/// Takes one of these options, or one of MOSES's on the components.
+pub(crate) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
+    let whole = || given.first_integer().and_then(|n| u64::try_from(n).ok());
+    match given {
+        _ if given.is(&COMPONENTS) => env.components = Some(components(given)?),
+        _ if given.is(&env::S_PERIOD) => env.sea_periods = given.numbers(),
+        _ if given.is(&PHASES) => env.sea_phases = given.numbers(),
+        _ if given.is(&SEED) => env.phasing = whole().map(Phasing::Seeded),
+        _ if given.is(&env::T_REINFORCE) => env.phasing = given.first_number().map(Phasing::Reinforced),
+        _ if given.is(&STOKES) => env.stokes = whole().and_then(|n| u8::try_from(n).ok()),
+        _ if given.is(&STRETCHING) => {
+            env.stretching = Some(match given.first_word() {
+                Some("WHEELER") => Stretching::Wheeler,
+                Some("DELTA") => Stretching::Delta,
+                Some("EXPONENTIAL") => Stretching::Exponential,
+                _ => Stretching::Linear,
+            });
+        }
+        _ => return Ok(()),
+    }
+    if given.is_any(&PHASINGS) {
+        env.options.retain(|g| !g.is_any(&PHASINGS));
+        if given.is(&PHASES) {
+            env.phasing = None;
+        } else {
+            env.sea_phases.clear();
+        }
+    }
+    Ok(())
+}
+
+/// Refuses two ways to make phases in one record.
+pub(crate) fn one_phasing(args: &Args) -> Outcome<()> {
+    let mut given = PHASINGS.iter().filter_map(|option| args.option(option));
+    match (given.next(), given.next()) {
+        (Some(one), Some(other)) => {
+            let text = format!("phases come from {} or from {}, not from both", one.name(), other.name());
+            Err(Diagnostic::error(text, other.span).other(one.span, "the other one"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn components(given: &Given) -> Outcome<Components> {
+    let number = given.integer(const { COMPONENTS.integer("N") }).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
+    let by_width = given.word(const { COMPONENTS.word("TYPE") }).is_some_and(|w| w == BY_WIDTH);
+    const LOW: ValueKey<f64> = COMPONENTS.number("LOW");
+    const HIGH: ValueKey<f64> = COMPONENTS.number("HIGH");
+    let limits = match (given.number(LOW), given.number(HIGH)) {
+        (Some(low), Some(high)) if high > low => Some([low, high]),
+        (Some(_), Some(_)) => {
+            return Err(Diagnostic::error("the highest frequency is not above the lowest", given.place(HIGH))
+                .other(given.place(LOW), "the lowest"));
+        }
+        (None, None) => None,
+        _ => {
+            return Err(Diagnostic::error("a lowest frequency needs a highest one", given.place(LOW))
+                .help("form: -COMPONENTS N TYPE LOW HIGH"));
+        }
+    };
+    let division = if by_width { Division::EqualFrequency } else { Division::EqualEnergy };
+    Ok(Components { number, division, limits, span: given.span })
+}

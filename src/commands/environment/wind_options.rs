@@ -1,0 +1,110 @@
+//! The options of `&ENV` on wind.
+
+use crate::commands::Job;
+use crate::commands::environment::env::{PERIODS, curve, formula, known_curve, number, periods, spectrum};
+use windlass_base::diagnostic::Outcome;
+use windlass_base::units::Dim;
+use windlass_base::values::Given;
+use windlass_language::select::Owner;
+use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::options::W_SPECTRUM;
+use windlass_model::{CurveKind, CurveReference, Environment, GustParts, Wind};
+
+/// Codes and laws of the mean wind; [MOSES-REF env] names no types, so these are the field's usual ones.
+const PROFILES: &[&str] = &["POWER", "LOGARITHMIC", "API", "NPD", "ISO", "ABS", "DNV"];
+/// Codes of a design wind.
+const DESIGN_WINDS: &[&str] = &["API", "NPD", "ISO", "ABS", "DNV"];
+/// Gust spectra known without a curve.
+const GUSTS: [&str; 7] = ["API", "NPD", "ISO", "OCHI", "HARRIS", "DAVENPORT", "KAIMAL"];
+
+const fn choice(name: &'static str, words: &'static [&'static str], help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Choice(words), help)
+}
+
+/// -WIND.
+pub(crate) const WIND: OptionSpec = OptionSpec::new(
+    "-WIND",
+    &[number("SPEED", Dim::WindSpeed, "speed").not_negative(), number("DIR", Dim::Angle, "direction it comes from")],
+    "wind, in knots",
+)
+.default("none");
+
+/// -W_PROFILE.
+pub(crate) const PROFILE: OptionSpec = OptionSpec::new(
+    "-W_PROFILE",
+    &[choice("TYPE", PROFILES, "type"), number("EXP", Dim::None, "exponent").or("that of the type").not_negative()],
+    "wind profile",
+);
+
+/// -W_DESIGN.
+pub(crate) const DESIGN: OptionSpec = OptionSpec::new(
+    "-W_DESIGN",
+    &[
+        choice("TYPE", DESIGN_WINDS, "type"),
+        number("DURATION", Dim::Time, "averaging time").or("that of the type").positive(),
+    ],
+    "design wind",
+);
+
+/// -W_HISTORY.
+pub(crate) const HISTORY: OptionSpec = OptionSpec::new("-W_HISTORY", &[curve("W_HISTORY curve")], "wind history");
+
+/// -W_PERIOD.
+pub(crate) const PERIOD: OptionSpec = OptionSpec::new("-W_PERIOD", PERIODS, "periods of the gusts").repeating(1);
+
+/// -W_COMPONENTS.
+pub(crate) const COMPONENTS: OptionSpec = OptionSpec::new(
+    "-W_COMPONENTS",
+    &[
+        ValueSpec::new("N", Kind::Integer, "number of components").in_range(1.0, 10_000.0),
+        number("INTENSITY", Dim::None, "standard deviation over mean speed")
+            .or("that of the spectrum")
+            .in_range(0.001, 1.0),
+    ],
+    "components of the gusts",
+)
+.owner(Owner::Ours)
+.default("100");
+
+/// -W_MD_CORRELATION.
+pub(crate) const CORRELATION: OptionSpec = OptionSpec::new(
+    "-W_MD_CORRELATION",
+    &[number("F", Dim::None, "factor").in_range(-1.0, 1.0)],
+    "correlation of gusts and mean drift",
+);
+
+/// Takes one of these options.
+pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
+    match given {
+        _ if given.is(&WIND) => {
+            let [speed, direction] = const { WIND.numbers(["SPEED", "DIR"]) }.map(|key| given.number(key));
+            env.wind = speed.zip(direction).map(|(speed, direction)| Wind { speed, direction });
+        }
+        _ if given.is(&PROFILE) => env.wind_profile = Some(formula(given, Some(const { PROFILE.number("EXP") }))),
+        _ if given.is(&DESIGN) => env.design_wind = Some(formula(given, Some(const { DESIGN.number("DURATION") }))),
+        _ if given.is(&W_SPECTRUM) => {
+            spectrum(job, given, &GUSTS)?;
+            let named = formula(given, None);
+            env.gusts = Some(CurveReference { kind: named.kind.to_ascii_uppercase(), ..named });
+        }
+        _ if given.is(&PERIOD) => {
+            periods(given)?;
+            env.gust_periods = given.numbers();
+        }
+        _ if given.is(&COMPONENTS) => {
+            let number = given.integer(const { COMPONENTS.integer("N") }).and_then(|n| usize::try_from(n).ok());
+            let intensity = given.number(const { COMPONENTS.number("INTENSITY") });
+            env.gust_parts = number.map(|number| GustParts { number, intensity, span: given.span });
+        }
+        _ if given.is(&HISTORY) => {
+            known_curve(job, given.values.first(), given, CurveKind::WindHistory)?;
+            env.wind_history = Some(formula(given, None));
+        }
+        _ if given.is(&CORRELATION) => {
+            env.drift_correlation =
+                Some(CurveReference { kind: String::new(), value: given.first_number(), span: given.span });
+        }
+        _ => {}
+    }
+    Ok(())
+}

@@ -1,0 +1,367 @@
+//! The job that commands act on: model, units, menus, titles, settings, output.
+
+use crate::commands::environment::bathymetry::Soundings;
+use crate::commands::menu;
+use crate::commands::model::pgen::Planes;
+use crate::commands::output::buildg::Building;
+use crate::commands::solve::frequency::FrequencyResults;
+use crate::commands::verdict::Verdict;
+use crate::report::disposition::Disposition;
+use crate::report::files::{FilePlace, Question};
+use crate::report::output::Output;
+use crate::report::page::PageHead;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_base::span::Span;
+use windlass_base::units::UnitSystem;
+use windlass_base::values::Args;
+use windlass_language::spec::MenuSpec;
+use windlass_model::Model;
+use windlass_solve::Options;
+use windlass_solve::results::ScatterExposure;
+use windlass_solve::tethered::Tethered;
+use windlass_solve::time::{Action, Run};
+
+/// A menu that is open.
+#[derive(Clone, Debug)]
+pub enum Menu {
+    /// The main menu.
+    Main,
+    /// Model descriptions; names may be used before they are defined.
+    Inmodel,
+    /// Model editing; names must be defined before they are used.
+    Medit,
+    /// Connector design.
+    ConnDesign,
+    /// Post-processing of the last run.
+    Post,
+    /// A result being disposed of.
+    Disposition(Box<Disposition>),
+    /// A report being written: to the screen, to the report file.
+    Report {
+        /// To the screen.
+        screen: bool,
+        /// To the report file.
+        hard: bool,
+    },
+    /// Environments being defined by `&DATA ENVIRONMENT`.
+    Environments,
+    /// Curves being defined by `&DATA CURVES`.
+    Curves,
+    /// Selectors being defined by `&SELECT`.
+    Selectors,
+    /// Surfaces of hulls being defined by `&SURFACE`.
+    Surface,
+    /// A surface of panels being given by `BLOCK`.
+    Block,
+    /// A surface of panels being given by `MESH`.
+    Mesh,
+    /// Hydrostatics of the body of this name.
+    Hydrostatics(String),
+    /// The frequency domain, with what it has found.
+    Frequency(Box<FrequencyResults>),
+    /// A table being given by the records of `&BUILDG`.
+    Building(Box<Building>),
+    /// Rows of a bottom being given by the records of `&BATHYMETRY`.
+    Soundings(Box<Soundings>),
+    /// Sections of a hull being given by `PGEN`.
+    Planes(Box<Planes>),
+    /// The menu whose opener was refused: its commands are passed over up to its `END`.
+    Refused(&'static MenuSpec),
+}
+
+impl Menu {
+    /// What it is called and what leaves it.
+    pub fn spec(&self) -> &'static MenuSpec {
+        match self {
+            Menu::Main => &menu::MAIN,
+            Menu::Inmodel => &menu::INMODEL,
+            Menu::Medit => &menu::MEDIT,
+            Menu::ConnDesign => &menu::CONN_DESIGN,
+            Menu::Post => &menu::PRCPOST,
+            Menu::Disposition(_) => &menu::DISPOSITION,
+            Menu::Report { .. } => &menu::REPORT,
+            Menu::Environments => &menu::ENVIRONMENT,
+            Menu::Curves => &menu::CURVES,
+            Menu::Selectors => &menu::SELECT,
+            Menu::Surface => &menu::SURFACE,
+            Menu::Block => &menu::BLOCK,
+            Menu::Mesh => &menu::MESH,
+            Menu::Building(_) => &menu::BUILDG,
+            Menu::Soundings(_) => &menu::BATHYMETRY,
+            Menu::Planes(_) => &menu::PGEN,
+            Menu::Hydrostatics(_) => &menu::HSTATICS,
+            Menu::Frequency(_) => &menu::FREQ_RESPONSE,
+            Menu::Refused(menu) => menu,
+        }
+    }
+
+    /// Its name, as specs and prompts use it.
+    pub fn name(&self) -> &'static str {
+        self.spec().name
+    }
+
+    /// The long form of `END`.
+    pub fn end(&self) -> &'static str {
+        self.spec().end
+    }
+}
+
+/// What `&DEVICE` sets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeviceSettings {
+    /// Stop at the first error.
+    pub batch: bool,
+    /// Errors after which a script ends.
+    pub error_limit: i64,
+    /// Date printed in reports instead of today's.
+    pub date: Option<String>,
+    /// Records are shown as they are executed.
+    pub echo: bool,
+    /// Nothing goes to the screen but errors.
+    pub silent: bool,
+    /// Prefix of the names of plot files.
+    pub figure_name: String,
+    /// Number of the next figure.
+    pub figure_number: i64,
+    /// The file INMODEL reads instead of ROOT.DAT.
+    pub auxiliary: Option<PathBuf>,
+    /// Columns and lines of a terminal plot, when they were set.
+    pub plot_size: Option<(usize, usize)>,
+}
+
+impl Default for DeviceSettings {
+    fn default() -> Self {
+        DeviceSettings {
+            batch: false,
+            error_limit: 10,
+            date: None,
+            echo: false,
+            silent: false,
+            figure_name: "FIGURE".into(),
+            figure_number: 1,
+            auxiliary: None,
+            plot_size: None,
+        }
+    }
+}
+
+/// A user's file opened by `&FILE OPEN` or `USE`.
+#[derive(Debug)]
+pub enum UserFile {
+    /// Being written.
+    Writing {
+        /// Where it will be.
+        place: FilePlace,
+        /// The lines so far.
+        text: String,
+        /// The name in the record that opened it.
+        opened: Span,
+    },
+    /// Being read.
+    Reading {
+        /// Where it is.
+        path: PathBuf,
+        /// The lines left, last first.
+        lines: Vec<String>,
+    },
+}
+
+/// Files of `&FILE`, by their type.
+#[derive(Debug, Default)]
+pub struct UserFiles {
+    /// With the number that says in which order they were opened.
+    by_type: HashMap<String, (u64, UserFile)>,
+    /// The types of those being written, by their places.
+    types: HashMap<PathBuf, String>,
+    opened: u64,
+}
+
+impl UserFiles {
+    /// The file of a type.
+    pub fn get(&self, kind: &str) -> Option<&UserFile> {
+        self.by_type.get(kind).map(|(_, file)| file)
+    }
+
+    /// The file of a type.
+    pub fn get_mut(&mut self, kind: &str) -> Option<&mut UserFile> {
+        self.by_type.get_mut(kind).map(|(_, file)| file)
+    }
+
+    /// Gives a type its file.
+    pub fn insert(&mut self, kind: String, file: UserFile) {
+        self.remove(&kind);
+        if let UserFile::Writing { place, .. } = &file {
+            self.types.insert(place.path().to_path_buf(), kind.clone());
+        }
+        self.opened += 1;
+        self.by_type.insert(kind, (self.opened, file));
+    }
+
+    /// Takes away the file of a type.
+    pub fn remove(&mut self, kind: &str) {
+        if let Some((_, UserFile::Writing { place, .. })) = self.by_type.remove(kind) {
+            self.types.remove(place.path());
+        }
+    }
+
+    /// The type of the file that is being written at a place.
+    pub fn writing_at(&self, path: &Path) -> Option<&str> {
+        self.types.get(path).map(String::as_str)
+    }
+
+    /// All files with their types, in the order they were opened.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &UserFile)> {
+        let mut all: Vec<_> = self.by_type.iter().collect();
+        all.sort_by_key(|(_, (order, _))| *order);
+        all.into_iter().map(|(kind, (_, file))| (kind.as_str(), file))
+    }
+
+    /// Takes away all files, in the order they were opened.
+    pub fn take(&mut self) -> Vec<(String, UserFile)> {
+        self.types.clear();
+        let mut all: Vec<_> = self.by_type.drain().collect();
+        all.sort_by_key(|(_, (order, _))| *order);
+        all.into_iter().map(|(kind, (_, file))| (kind, file)).collect()
+    }
+}
+
+/// One running job.
+pub struct Job {
+    /// The model.
+    pub model: Model,
+    /// The user's units.
+    pub units: UnitSystem,
+    /// Units saved by `&DIMEN -SAVE`.
+    pub saved_units: Vec<UnitSystem>,
+    /// Open menus, the main one first.
+    pub menus: Vec<Menu>,
+    /// `&TITLE` and `&SUBTITLE`.
+    pub titles: [String; 2],
+    /// `&DEVICE`.
+    pub settings: DeviceSettings,
+    /// The channels.
+    pub output: Output,
+    /// Warnings and notes a handler raised; the session prints them.
+    pub notices: Vec<Diagnostic>,
+    /// Options that do nothing in their class type, of which the user has been told: type and option.
+    pub idle_said: Vec<(&'static str, &'static str)>,
+    /// Severity of the last record, for `&INFO(SEVERITY ..)`.
+    pub last_severity: Option<Severity>,
+    /// CONNECTOR records of an open INMODEL, waiting for names defined later.
+    pub deferred: Vec<Args>,
+    /// ASSEMBLY records of an open INMODEL, waiting for their connectors.
+    pub deferred_assemblies: Vec<Args>,
+    /// Files of `&FILE`.
+    pub user_files: UserFiles,
+    /// Variables that `&F_READ` sets.
+    pub assignments: Vec<(String, String)>,
+    /// Processor time at the last `&DCPTIME`.
+    pub clock: Instant,
+    /// How `&GET` asks; absent without a terminal.
+    pub ask: Option<Question>,
+    /// Names longer than MOSES takes have been remarked on.
+    pub long_name_said: bool,
+    /// What `&EQUI` was last given.
+    pub equilibrium: Options,
+    /// What happens during runs.
+    pub actions: Vec<Action>,
+    /// The last run.
+    pub run: Option<Run>,
+    /// The last run of tethers.
+    pub tethered: Option<Tethered>,
+    /// The runs that FATIGUE adds up.
+    pub scatter: Vec<ScatterExposure>,
+    /// What the exit code is to tell.
+    pub verdict: Verdict,
+    /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
+    pub interrupt: Arc<AtomicBool>,
+}
+
+impl Job {
+    /// A new job writing to these channels.
+    pub fn new(output: Output) -> Self {
+        Job {
+            model: Model::default(),
+            units: UnitSystem::default(),
+            saved_units: Vec::new(),
+            menus: vec![Menu::Main],
+            titles: Default::default(),
+            settings: DeviceSettings::default(),
+            output,
+            notices: Vec::new(),
+            idle_said: Vec::new(),
+            last_severity: None,
+            deferred: Vec::new(),
+            deferred_assemblies: Vec::new(),
+            user_files: UserFiles::default(),
+            assignments: Vec::new(),
+            clock: Instant::now(),
+            ask: None,
+            long_name_said: false,
+            equilibrium: Options::default(),
+            actions: Vec::new(),
+            run: None,
+            tethered: None,
+            scatter: Vec::new(),
+            verdict: Verdict::default(),
+            interrupt: Arc::default(),
+        }
+    }
+
+    /// Whether Ctrl-C has been pressed since the record began.
+    pub fn is_interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
+    }
+
+    /// The innermost menu.
+    pub fn menu(&self) -> &Menu {
+        self.menus.last().unwrap_or(&Menu::Main)
+    }
+
+    /// Prints text for the user (nothing when silent).
+    pub fn say(&mut self, text: &str) {
+        if self.settings.silent {
+            self.output.log(text);
+        } else {
+            self.output.text(text);
+        }
+    }
+
+    /// Raises a remark.
+    pub fn remark(&mut self, text: impl Into<String>, span: Span) {
+        self.notices.push(*Diagnostic::remark(text, span));
+    }
+
+    /// Raises a warning.
+    pub fn warn(&mut self, text: impl Into<String>, span: Span) {
+        self.notices.push(*Diagnostic::warning(text, span));
+    }
+
+    /// Says once that MOSES itself takes shorter names.
+    pub fn note_name(&mut self, name: &str, span: Span) {
+        if !self.long_name_said && name.chars().count() > 8 {
+            self.long_name_said = true;
+            self.remark(format!("{name} is longer than the 8 characters MOSES takes (said once)"), span);
+        }
+    }
+
+    /// Columns and lines of a terminal plot: those of `&DEVICE -PLOT_SIZE`, else as wide as the terminal, else 90.
+    pub fn plot_size(&self) -> (usize, usize) {
+        self.settings.plot_size.unwrap_or_else(|| ((self.output.columns)().unwrap_or(90), 26))
+    }
+
+    /// What stands at the head of a page.
+    pub fn page_head(&self) -> PageHead {
+        PageHead { date: Some(self.date()), titles: self.titles.clone(), process: "DEFAULT".into() }
+    }
+
+    /// The date of reports: that of `&DEVICE -SET_DATE`, else today (UTC).
+    pub fn date(&self) -> String {
+        self.settings.date.clone().unwrap_or_else(|| time::OffsetDateTime::now_utc().date().to_string())
+    }
+}

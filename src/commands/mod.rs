@@ -1,0 +1,253 @@
+//! What a user can type: one file a family of commands, each command one spec and one handler.
+//!
+//! A handler changes the [`Job`] only after everything that can fail has been checked, so that a record that is refused
+//! changes nothing; a command that edits in several steps says so with [`Command::edits`], and the session restores the
+//! model when it fails.
+
+mod chosen;
+mod environment;
+mod files;
+pub mod functions;
+pub mod help;
+mod job;
+pub mod menu;
+mod menus;
+mod model;
+mod output;
+mod post;
+mod settings;
+mod solve;
+mod status;
+pub mod verdict;
+mod written;
+
+use environment::{bathymetry, curves, env};
+use files::file;
+pub use files::file::write_open_files;
+pub use job::{DeviceSettings, Job, Menu};
+pub use menus::{finish, opened_by};
+use model::{
+    alter, apply, assembly, class, connector, database, describe, hydrostatic, junction, loads, names, pgen, piece,
+    pipe, select, surface, t_pressure, weight,
+};
+pub use output::buildg::take as take_row;
+use output::{animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
+use post::{fatigue, frequency_posts, prcpost, rep_select, rod_post, tether_post};
+use settings::{device, parameter, units};
+use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};
+pub use status::kinds as status_kinds;
+
+use std::path::PathBuf;
+use windlass_base::diagnostic::Outcome;
+use windlass_base::values::Args;
+use windlass_language::record::{Record, Word};
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, MenuSpec};
+
+/// A record on its way to a handler.
+pub struct Call<'a> {
+    /// The record, substituted.
+    pub record: &'a Record,
+    /// Its words, the command word first.
+    pub words: &'a [Word],
+    /// Data and options, read by the command's spec (empty when the spec takes text).
+    pub args: Args,
+}
+
+/// What the session has to do after a handler.
+#[derive(Debug, PartialEq)]
+pub enum Effect {
+    /// Nothing.
+    Done,
+    /// Read a file next; the tag comes back when it ends.
+    Insert {
+        /// Name for messages.
+        name: String,
+        /// Where it is.
+        path: PathBuf,
+        /// [`PLAIN`] or [`INMODEL_FILE`].
+        tag: u32,
+    },
+    /// Read the model of an AQWA deck next.
+    Deck {
+        /// Name for messages.
+        name: String,
+        /// Where it is.
+        path: PathBuf,
+    },
+    /// End the job.
+    Finish,
+    /// Set the number of records a run may execute.
+    Budget(u64),
+    /// Set a variable.
+    Set(String, String),
+    /// Print this after the notices.
+    Say(String),
+}
+
+/// Tag of a file that is simply inserted.
+pub const PLAIN: u32 = 0;
+/// Tag of the model file INMODEL reads; its end closes the menu.
+pub const INMODEL_FILE: u32 = 1;
+/// Tag of the job's own script.
+pub const SCRIPT: u32 = 2;
+
+/// A command: its declaration and what it does.
+pub struct Command {
+    /// The declaration.
+    pub spec: &'static CommandSpec,
+    /// True when it edits the model in several steps that may fail half way.
+    pub edits: bool,
+    /// What it does.
+    pub run: fn(&mut Job, &Call) -> Outcome<Effect>,
+}
+
+impl PartialEq for Command {
+    /// A command is its spec.
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.spec, other.spec)
+    }
+}
+
+/// Every command, in the order of the manual.
+pub static COMMANDS: &[&Command] = &[
+    &menus::INMODEL,
+    &menus::MEDIT,
+    &menus::CONN_DESIGN,
+    &menus::PRCPOST,
+    &describe::DESCRIBE,
+    &describe::POINT,
+    &describe::INSTATE,
+    &loads::AREA,
+    &loads::PLATE,
+    &loads::TABLE,
+    &loads::DRIFT,
+    &loads::DRAG,
+    &loads::DAMP,
+    &loads::AMASS,
+    &apply::APPLY,
+    &weight::ITEM,
+    &weight::WEIGHT,
+    &hydrostatic::HYDROSTATIC,
+    &database::DATABASE,
+    &piece::PANEL,
+    &pgen::PGEN,
+    &pgen::PLANE,
+    &surface::SURFACE,
+    &surface::BLOCK,
+    &surface::MESH,
+    &surface::TUBE,
+    &surface::MOVE_BLOCK,
+    &surface::LIST_BLOCK,
+    &hstatics::HSTATICS,
+    &hstatics::CFORM,
+    &hstatics::RARM,
+    &class::CLASS,
+    &connector::CONNECTOR,
+    &junction::JUNCTION,
+    &assembly::ASSEMBLY,
+    &pipe::PIPE_COMMAND,
+    &prescribe::PRESCRIBE,
+    &names::DELETE,
+    &names::RENAME,
+    &alter::ALTER,
+    &equilibrium::EQUI,
+    &frequency::FREQ_RESPONSE,
+    &frequency::RAO,
+    &frequency::SRESPONSE,
+    &frequency_posts::MOTION,
+    &frequency_posts::FR_POINT,
+    &frequency_posts::CONFORCE,
+    &frequency_posts::STATISTICS,
+    &tdom::TDOM,
+    &action::ACTION,
+    &select::SELECT,
+    &select::SELECTOR,
+    &env::ENV,
+    &env::NAMED_ENV,
+    &curves::DATA,
+    &curves::C_PROFILE,
+    &curves::P_SPECTRUM,
+    &curves::F_SPECTRUM,
+    &curves::M_GROWTH,
+    &curves::W_HISTORY,
+    &curves::C_HISTORY,
+    &curves::LT_MULTIPLIER,
+    &curves::CT_LENGTH,
+    &curves::EFFICIENCY,
+    &curves::CS_VELOCITY,
+    &curves::AM_PRESSURE,
+    &bathymetry::BATHYMETRY,
+    &bathymetry::X,
+    &bathymetry::Y,
+    &t_pressure::T_PRESSURE,
+    &conn_design::TABLE,
+    &conn_design::GEOMETRY,
+    &conn_design::PROPERTIES,
+    &excursion::MOVE,
+    &excursion::WATCH,
+    &lines::LINES,
+    &prcpost::TRAJECTORY,
+    &prcpost::POINTS,
+    &prcpost::CONFORCE,
+    &prcpost::CF_MAGNITUDE,
+    &prcpost::TOT_CFORCE,
+    &prcpost::C_LENGTH,
+    &prcpost::BODY_FORCE,
+    &fatigue::FATIGUE,
+    &rod_post::ROD,
+    &tether_post::TETHER,
+    &tether_post::STRUCTURE,
+    &disposition::REPORT,
+    &disposition::VLIST,
+    &disposition::VIEW,
+    &store::STORE,
+    &plot::PLOT,
+    &statistic::STATISTIC,
+    &disposition::SET_VARIABLE,
+    &disposition::C_SCALE,
+    &disposition::C_SHIFT,
+    &disposition::CULL,
+    &series::SPECTRUM,
+    &series::FFT,
+    &series::EXTREMES,
+    &series::EXCEEDANCE,
+    &series::HISTOGRAM,
+    &series::RAINFLOW,
+    &series::HARMONIC,
+    &buildg::BUILDG,
+    &rep_select::REP_SELECT,
+    &status::STATUS,
+    &picture::PICTURE,
+    &animate::ANIMATE,
+    &units::DIMEN,
+    &units::DEFAULT,
+    &parameter::PARAMETER,
+    &device::DEVICE,
+    &file::FILE,
+    &message::TITLE,
+    &message::SUBTITLE,
+    &message::TYPE,
+    &message::CTYPE,
+    &message::CUTYPE,
+    &message::ERROR,
+    &message::DCPTIME,
+    &report_menu::REPORT,
+    &report_menu::TYPE,
+    &report_menu::CTYPE,
+    &report_menu::CUTYPE,
+    &file::INSERT,
+    &file::USE_MAC,
+    &message::FINISH,
+    &help::HELP,
+];
+
+/// The internal commands, whose names the language's control records share.
+pub fn internal_names() -> impl Iterator<Item = (&'static str, Owner)> {
+    COMMANDS.iter().filter(|c| c.spec.name.starts_with('&')).map(|c| (c.spec.name, c.spec.owner))
+}
+
+/// The commands a menu offers: its own and those of every menu.
+pub fn commands_of_menu(menu: &'static MenuSpec) -> impl Iterator<Item = &'static Command> + Clone {
+    COMMANDS.iter().copied().filter(move |c| c.spec.menus.is_empty() || c.spec.menus.contains(&menu))
+}

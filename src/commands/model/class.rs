@@ -1,0 +1,144 @@
+//! `~NAME TYPE ...`: defines a class, or adds a segment to one.
+
+use crate::commands::environment::plausible;
+use crate::commands::menu;
+use crate::commands::{Call, Command, Effect, Job, Menu};
+use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
+use windlass_connectors::{CLASSES, ClassKind, type_notices};
+use windlass_language::args;
+use windlass_language::name;
+use windlass_language::select::choose;
+use windlass_language::spec::{CommandSpec, TextForm};
+use windlass_model::options::{C_SN, IG_STIFF};
+use windlass_model::{Class, ClassRecord, Curve, CurveKind, Model, find};
+
+/// ~CLASS.
+pub static CLASS: Command = Command { spec: &SPEC, edits: false, run };
+
+static SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::INMODEL, &menu::MEDIT],
+    form: TextForm::Text,
+    detail: "Repeating the name of a line class adds the next segment, fairlead first; for the other types it replaces the \
+             class. In MEDIT the curves it names exist; in INMODEL they may be defined up to its END. &HELP ~CLASS TYPE \
+             shows a type.",
+    example: "MEDIT\n~WIRE B_CAT 4 -LEN 2000\n~WIRE B_CAT 3.5 -LEN 1000\nEND",
+    ..CommandSpec::new("~CLASS", "NAME TYPE ...: defines a class")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let [name, rest @ ..] = call.words else { return Ok(Effect::Done) };
+    let known = || CLASSES.iter().map(|k| (k.spec.name, k.spec.owner, *k));
+    let Some(word) = rest.first() else {
+        let types: Vec<&str> = known().map(|(n, _, _)| n).collect();
+        return Err(Diagnostic::error(format!("class {} lacks its type", name.text), name.span)
+            .label("expected a class type after this")
+            .help(format!("known: {}", types.join(" "))));
+    };
+    name::check(&name.text, Some('~'), "class", name.span)?;
+    let kind = choose(&word.text, word.span, "class type", known())?;
+    let read = args::read(kind.spec, name.span, rest.get(1..).unwrap_or_default(), job.units)?;
+    if matches!(job.menu(), Menu::Medit) {
+        known_curves(job, &read)?;
+    }
+    let mut notices = type_notices(&read, job.units);
+    notices.extend(unknown_fatigue(&read, job));
+    let record = ClassRecord { args: read, defaults: job.model.defaults };
+    let key = Model::key(&name.text);
+    let mut remark = None;
+    if let Some(class) = job.model.classes.get(&key) {
+        if class.object.kind() != kind.spec.name {
+            return Err(Diagnostic::error(format!("{} is a {} already", class.name, class.object.kind()), word.span)
+                .other(class.span, "defined here")
+                .help(format!("DELETE {} first, or use another name", class.name)));
+        }
+        let users = job.model.users_of_class(&name.text);
+        if kind.segmented {
+            if let Some(user) = users.first() {
+                return Err(Diagnostic::error(
+                    format!("{} is used by connector {user}; a further segment would change it", class.name),
+                    name.span,
+                )
+                .other(class.span, "defined here")
+                .help("define all segments before the connector, or DELETE the connector first"));
+            }
+        } else {
+            remark = Some(match users.len() {
+                0 => format!("{} is replaced", class.name),
+                n => format!("{} is replaced; {n} connectors use it", class.name),
+            });
+        }
+    }
+    let last = record.args.clone();
+    let object = match job.model.classes.get_mut(&key).filter(|_| kind.segmented) {
+        Some(class) => {
+            class.append(record, kind.build)?;
+            class.name = name.text.to_string();
+            Arc::clone(&class.object)
+        }
+        None => {
+            let object = (kind.build)(std::slice::from_ref(&record))?;
+            let ignored_stiffness = record.args.option_if_declared(&IG_STIFF).is_some();
+            let (name, span, built) = (name.text.to_string(), name.span, Arc::clone(&object));
+            let class = Class { name, records: vec![record], ignored_stiffness, object: built, span };
+            job.model.classes.insert(key, class);
+            object
+        }
+    };
+    notices.extend(object.notices(&last, job.units, &job.model.surroundings()));
+    notices.extend(plausible::friction(&last));
+    notices.extend(idle(job, kind, &last));
+    job.note_name(&name.text, name.span);
+    job.notices.extend(notices);
+    if let Some(text) = remark {
+        job.remark(text, name.span);
+    }
+    Ok(Effect::Done)
+}
+
+/// Sees that the curves a record names exist and are convolutions: no other curve has a place in a class.
+///
+/// # Errors
+/// An unknown curve, or one of another sort, at its word.
+pub fn known_curves(job: &Job, args: &Args) -> Outcome<()> {
+    for value in args.options.iter().flat_map(|given| given.names(Noun::Curve)) {
+        let Some(name) = value.word() else { continue };
+        let curve: &Curve = find(&job.model.curves, name, "curve", value.span)
+            .map_err(|e| e.help(format!("&DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .. defines it")))?;
+        if !matches!(curve.kind, CurveKind::ConvolutionTime | CurveKind::ConvolutionFrequency) {
+            let text = format!("curve {name} is a {}, not a CONVOLUTION", curve.kind.name());
+            return Err(Diagnostic::error(text, value.span).other(curve.span, "defined here"));
+        }
+    }
+    Ok(())
+}
+
+/// What is said, once for each class type, of options that do nothing in it.
+fn idle(job: &mut Job, kind: &'static ClassKind, args: &Args) -> Vec<Diagnostic> {
+    let mut made = Vec::new();
+    for (option, with) in kind.idle {
+        let Some(given) = args.option(option) else { continue };
+        let said = (kind.spec.name, option.name);
+        if job.idle_said.contains(&said) {
+            continue;
+        }
+        job.idle_said.push(said);
+        let text = match *with {
+            "" => format!("{} does nothing in {} (said once)", option.name, kind.spec.name),
+            with => format!("{} of {} acts with {with} alone (said once)", option.name, kind.spec.name),
+        };
+        made.push(*Diagnostic::remark(text, given.span));
+    }
+    made
+}
+
+/// What is said of a fatigue curve that nothing defines yet.
+fn unknown_fatigue(args: &Args, job: &Job) -> Option<Diagnostic> {
+    let value = args.option_if_declared(&C_SN).and_then(|given| given.values.first())?;
+    let name = value.word().filter(|w| windlass_signal::fatigue::find(w, &job.model.fatigue).is_none())?;
+    let text = format!("{name} is kept as the name of an S-N curve that is not defined here");
+    let made = Diagnostic::remark(text, value.span);
+    Some(*made.help("&STATUS SN lists the curves; &REP_SELECT -SN CURVE TYPE S N S N .. defines one"))
+}

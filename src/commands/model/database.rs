@@ -1,0 +1,351 @@
+//! `DATABASE`: the hydrodynamic database of a body, read from the files of another program.
+
+use crate::commands::menu;
+use crate::commands::settings::device::find_file;
+use crate::commands::{Call, Command, Effect, Job};
+use nalgebra::Vector3;
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+use std::path::Path;
+use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
+use windlass_hydro::database::mirror_headings;
+use windlass_hydro::database::rao::RaoConvention;
+use windlass_hydro::database::wamit::WamitScale;
+use windlass_hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
+use windlass_language::select::Owner;
+use windlass_language::source::LARGEST_FILE;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{AttachedDatabase, DriftMethod, Mass, Model, find};
+
+/// DATABASE.
+pub static DATABASE: Command = Command { spec: &SPEC, edits: false, run };
+
+/// Endings of the files of WAMIT that are read.
+const WAMIT_ENDINGS: [&str; 9] = ["1", "2", "3", "4", "8", "9", "12d", "12s", "hst"];
+/// The largest difference of the mass of a body from that of its database that is let pass.
+const MAX_MASS_DIFFERENCE: f64 = 0.2;
+/// The largest added mass of a translation in long waves over the mass of the body: generous on both sides, a slender ship along its
+/// length being let pass by its heave and a plate under water by its size.
+const ADDED: RangeInclusive<f64> = 0.02..=50.0;
+/// Natural periods of heave that are let pass (s): from a small buoy to a slender spar.
+const HEAVE: RangeInclusive<f64> = 0.5..=200.0;
+/// The share of the mass of Ogilvie's relation by which frequencies may stray before it is said.
+const MAX_OGILVIE_ERROR: f64 = 0.05;
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
+    OptionSpec::new(name, values, help).owner(Owner::Ours)
+}
+const YES_NO: &[ValueSpec] = &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "yes or no").or("YES")];
+
+const WAMIT: OptionSpec = ours(
+    "-WAMIT",
+    &[ValueSpec::new("ROOT", Kind::File, "name of the files without their endings")],
+    "reads ROOT.1, .3, .4, .8, .9, .12d, .hst, those that there are",
+);
+const ULEN: OptionSpec = ours(
+    "-ULEN",
+    &[number("L", Dim::Length, "length").positive()],
+    "length by which WAMIT made its output dimensionless",
+)
+.default("one metre");
+const NEMOH: OptionSpec =
+    ours("-NEMOH", &[ValueSpec::new("FOLDER", Kind::File, "folder of Nemoh.cal")], "reads results of NEMOH 2 or 3");
+const CAPYTAINE: OptionSpec = ours(
+    "-CAPYTAINE",
+    &[ValueSpec::new("FILE", Kind::File, "NetCDF file, classic or version 4")],
+    "reads a data set of Capytaine",
+);
+const RAO: OptionSpec = ours(
+    "-RAO",
+    &[ValueSpec::new("FILE", Kind::File, "text or CSV file")],
+    "reads a table of motions, with the columns of OrcaFlex",
+);
+const PHASE: OptionSpec = ours(
+    "-PHASE",
+    &[ValueSpec::new("LAG/LEAD", Kind::Choice(&["LAG", "LEAD"]), "sense")],
+    "whether phases of -RAO lag behind the crest or lead it",
+)
+.default("LAG");
+const ROTATION: OptionSpec = ours(
+    "-ROTATION",
+    &[ValueSpec::new("DEG/RAD", Kind::Choice(&["DEG", "RAD"]), "unit")],
+    "unit of rotations of -RAO a metre of wave amplitude",
+)
+.default("DEG");
+const INDEX: OptionSpec = ours(
+    "-INDEX",
+    &[ValueSpec::new("N", Kind::Integer, "number").in_range(1.0, 1000.0)],
+    "which body of a source of several, from 1",
+);
+const AT: OptionSpec = ours(
+    "-AT",
+    &[
+        number("X", Dim::Length, "in the body"),
+        number("Y", Dim::Length, "in the body"),
+        number("Z", Dim::Length, "in the body"),
+    ],
+    "where the origin of the source stands in the body; its axes are those of the body",
+)
+.default("the body's origin");
+const SYMMETRIC: OptionSpec =
+    ours("-SYMMETRIC", YES_NO, "adds the headings of the other side of a body with port like starboard").default("NO");
+const INFINITE: OptionSpec = ours(
+    "-INFINITE",
+    YES_NO,
+    "uses the added mass at infinite frequency of the source; NO finds it by Ogilvie's relation",
+)
+.default("YES, where the source has it");
+const MEMORY: OptionSpec = ours("-MEMORY", &[number("T", Dim::Time, "length").positive()], "memory of radiated waves")
+    .default("60 s, or up to 300 s until the kernel has died away");
+const DRIFT: OptionSpec = ours(
+    "-DRIFT",
+    &[ValueSpec::new("METHOD", Kind::Choice(&["NEWMAN", "MEAN", "QTF", "NONE"]), "method")],
+    "slow drift in time: by Newman's approximation, the mean only, by the QTF of the source, or none",
+)
+.default("QTF where the source has one, else NEWMAN");
+const HYDROSTATICS: OptionSpec = ours(
+    "-HYDROSTATICS",
+    YES_NO,
+    "whether the hydrostatic stiffness of the source bears the body, which then has no hull",
+)
+.default("NO");
+
+static SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &[&menu::INMODEL, &menu::MEDIT],
+    data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body")],
+    options: &[
+        WAMIT,
+        ULEN,
+        NEMOH,
+        CAPYTAINE,
+        RAO,
+        PHASE,
+        ROTATION,
+        INDEX,
+        AT,
+        SYMMETRIC,
+        INFINITE,
+        MEMORY,
+        DRIFT,
+        HYDROSTATICS,
+    ],
+    detail: "One of -WAMIT, -NEMOH, -CAPYTAINE and -RAO is given; a second DATABASE of a body replaces the first. The matrices make added \
+             mass at infinite frequency and a memory of radiated waves, the excitation wave forces by the heading of the body, \
+             drift coefficients mean and slow drift; a table of motions makes no force. #DRIFT of the same body would count twice, and is refused but with -DRIFT NONE. Headings of a source are the direction waves travel toward, from its x axis; gaps of more than 90 degrees \
+             between them are refused when waves come from there. Density and gravity of WAMIT and RAO are those in force. \
+             &STATUS DATABASE reports what was read.",
+    example: "&FILE OPEN R ship.rao\n&FILE WRITE R WD WP XA XP ZA ZP RYA RYP\n&FILE WRITE R 0 8 .3 90 .5 20 1.1 -80\n\
+              &FILE WRITE R 0 12 .7 90 .9 5 1.4 -85\n&FILE CLOSE R\nMEDIT\n&DESCRIBE BODY SHIP\nDATABASE SHIP -RAO job.ans/ship.rao -AT 100 0 0\nEND\n\
+              &STATUS DATABASE",
+    ..CommandSpec::new("DATABASE", "the hydrodynamic database of a body")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let body = find(&job.model.bodies, args.word(0).unwrap_or_default(), "body", args.place(0))?;
+    let (key, name) = (Model::key(&body.name), body.name.clone());
+    let mass = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity).mass;
+    let (source, mut data) = read(job, args)?;
+    let at = args.option(&AT).map_or([0.0; 3], |given| given.numbers_or_zero(const { AT.numbers(["X", "Y", "Z"]) }));
+    data.reference += Vector3::from(at);
+    if yes(args, &SYMMETRIC, false) {
+        data = mirror_headings(data);
+    }
+    if !yes(args, &INFINITE, true) {
+        data.infinite = None;
+    }
+    let drift = method(args, &data)?;
+    let hydrostatics = yes(args, &HYDROSTATICS, false);
+    if hydrostatics && data.hydrostatics.is_none() {
+        return Err(Diagnostic::error(format!("{} has no hydrostatics", data.source), source)
+            .help("leave out -HYDROSTATICS YES, and give the body a hull or #HYDROSTATIC"));
+    }
+    let radiation = windlass_hydro::database::radiation::Radiation::new(&data);
+    let radiation = radiation.map_err(|e| Diagnostic::error(e.to_string(), source))?;
+    for text in &data.remarks {
+        job.warn(format!("{}: {text}", data.source), source);
+    }
+    if let Some(stray) = radiation.and_then(|r| r.estimated) {
+        let text = format!(
+            "{}: added mass at infinite frequency is by Ogilvie's relation; single frequencies stray from it by {:.1} %",
+            data.source,
+            100.0 * stray
+        );
+        if stray > MAX_OGILVIE_ERROR { job.warn(text, source) } else { job.remark(text, source) }
+    }
+    if let Some(other) = data.mass.filter(|m| mass > 0.0 && (m / mass - 1.0).abs() > MAX_MASS_DIFFERENCE) {
+        let text = format!("{name} has {:.4} times the mass that {} was computed for", mass / other, data.source);
+        job.warn(text, source);
+    }
+    if let Some(text) = unlike(&data, mass) {
+        job.warn(format!("{name}: {text}"), source);
+    }
+    let memory = args.option_number(&MEMORY);
+    let made = AttachedDatabase { data: Arc::new(data), at, memory, drift, hydrostatics, span: args.span };
+    let old = job.model.bodies.get_mut(&key).and_then(|b| b.database.replace(made));
+    if old.is_some() {
+        job.remark(format!("the database of {name} is replaced"), args.span);
+    }
+    Ok(Effect::Done)
+}
+
+/// What tells that a database is of a body of another size, where its source does not say the mass it was computed for: added
+/// mass in no proportion to the mass (kg) of the body, or a stiffness by which it would heave like nothing that floats.
+fn unlike(data: &Database, mass: f64) -> Option<String> {
+    if data.mass.is_some() || mass <= 0.0 {
+        return None;
+    }
+    let long = data.zero.as_ref().or(data.added_mass.first()).or(data.infinite.as_ref())?;
+    let largest = (0..3).map(|i| long[(i, i)].abs()).fold(0.0, f64::max);
+    let help = "is it another body's, or are -ULEN or the weight of the body in another unit?";
+    let share = largest / mass;
+    if !ADDED.contains(&share) {
+        return Some(format!(
+            "the largest added mass of {} is {share:.2e} of the mass of the body: {help}",
+            data.source
+        ));
+    }
+    let stiffness = data.hydrostatics.as_ref().map(|c| c[(2, 2)]).filter(|c| *c > 0.0)?;
+    let period = TAU * ((mass + long[(2, 2)].max(0.0)) / stiffness).sqrt();
+    (!HEAVE.contains(&period)).then(|| {
+        format!(
+            "by the stiffness and added mass of {} the body heaves with a period of {period:.2e} s: {help}",
+            data.source
+        )
+    })
+}
+
+/// Whether an option says yes.
+fn yes(args: &Args, option: &OptionSpec, usual: bool) -> bool {
+    args.option(option).map_or(usual, |g| g.first_word() != Some("NO"))
+}
+
+/// How slow drift is found.
+fn method(args: &Args, data: &Database) -> Outcome<DriftMethod> {
+    let Some(given) = args.option(&DRIFT) else {
+        return Ok(if data.qtf.is_some() { DriftMethod::Full } else { DriftMethod::Newman });
+    };
+    let lacks = |what: &str| Diagnostic::error(format!("{} has no {what}", data.source), given.span);
+    match given.first_word() {
+        Some("NONE") => Ok(DriftMethod::None),
+        Some("QTF") if data.qtf.is_none() => Err(lacks("QTF")),
+        Some("QTF") => Ok(DriftMethod::Full),
+        _ if data.drift.is_none() && data.qtf.is_none() => Err(lacks("mean drift")),
+        Some("MEAN") => Ok(DriftMethod::Mean),
+        _ => Ok(DriftMethod::Newman),
+    }
+}
+
+/// Reads the source that is given, with its place.
+fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
+    const SOURCES: [OptionSpec; 4] = [WAMIT, NEMOH, CAPYTAINE, RAO];
+    let mut given = args.options.iter().filter(|given| given.is_any(&SOURCES));
+    let Some(source) = given.next() else {
+        return Err(Diagnostic::error("DATABASE lacks its source", args.span)
+            .help("form: DATABASE BODY -WAMIT ROOT | -NEMOH FOLDER | -CAPYTAINE FILE | -RAO FILE"));
+    };
+    if let Some(second) = given.next() {
+        return Err(Diagnostic::error("a body has one database", second.span).other(source.span, "first given here"));
+    }
+    let name = source.first_word().unwrap_or_default();
+    let span = source.first_place();
+    let body = args.option_integer(&INDEX).and_then(|n| usize::try_from(n).ok());
+    let around = job.model.surroundings();
+    let (density, gravity, depth) = (around.water_density, around.gravity, around.depth);
+    let made = match source {
+        _ if source.is(&WAMIT) => {
+            let files = files(job, WAMIT_ENDINGS.iter().map(|e| format!("{name}.{e}")), span)?;
+            if files.is_empty() {
+                return Err(Diagnostic::error(
+                    format!("there is no file {name}.1, {name}.3 or of another ending"),
+                    span,
+                ));
+            }
+            let length = args.option_number(&ULEN).unwrap_or(1.0);
+            wamit::read(name, &files, &WamitScale { length, density, gravity, depth, body })
+        }
+        _ if source.is(&NEMOH) => {
+            let n = body.unwrap_or(1) - 1;
+            let inner = ["results", "Results"]
+                .iter()
+                .flat_map(|f| ["RadiationCoefficients.tec", "ExcitationForce.tec"].map(|e| format!("{name}/{f}/{e}")));
+            let hull = ["mesh", "Mesh"].iter().flat_map(|f| {
+                [
+                    format!("{name}/{f}/KH.dat"),
+                    format!("{name}/{f}/KH_{n}.dat"),
+                    format!("{name}/{f}/Hydrostatics.dat"),
+                    format!("{name}/{f}/Hydrostatics_{n}.dat"),
+                ]
+            });
+            let names = std::iter::once(format!("{name}/Nemoh.cal")).chain(inner).chain(hull);
+            nemoh::read(name, &files(job, names, span)?, body)
+        }
+        _ if source.is(&CAPYTAINE) => capytaine::read(
+            name,
+            &bytes(job, &crate::commands::settings::device::readable(job, name, span)?, name, span)?,
+            body,
+        ),
+        _ => {
+            let file = text(job, &crate::commands::settings::device::readable(job, name, span)?, name, span)?;
+            let lag = args.option_word(&PHASE) != Some("LEAD");
+            let degrees = args.option_word(&ROTATION) != Some("RAD");
+            rao::read(name, &file, &RaoConvention { lag, degrees, density, gravity, depth })
+        }
+    };
+    Ok((span, made.map_err(|e: DatabaseError| Diagnostic::error(format!("{e}"), span))?))
+}
+
+/// Those files that there are.
+fn files(job: &Job, names: impl Iterator<Item = String>, span: Span) -> Outcome<Vec<SourceFile>> {
+    let mut list = Vec::new();
+    for name in names {
+        let path = find_file(job, &name);
+        if path.is_file() {
+            list.push(text(job, &path, &name, span)?);
+        }
+    }
+    Ok(list)
+}
+
+/// A file as text; what is no UTF-8 is replaced, and then refused as no number where it matters.
+fn text(job: &Job, path: &Path, name: &str, span: Span) -> Outcome<SourceFile> {
+    let bytes = bytes(job, path, name, span)?;
+    Ok(SourceFile { name: name.to_string(), text: String::from_utf8_lossy(&bytes).into_owned() })
+}
+
+/// The bytes of a file that is not too large.
+fn bytes(job: &Job, path: &Path, name: &str, span: Span) -> Outcome<Vec<u8>> {
+    let unusable = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
+    crate::commands::settings::device::read_input(job, path, LARGEST_FILE).map_err(|e| unusable(e.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix6, Vector6};
+
+    #[test]
+    fn a_database_of_another_size_is_told_from_one_of_this_body() {
+        // a hemisphere of 10 m: 2.1E6 kg, added mass of 0.83 of it in long waves, 3.2E6 N/m
+        let data = |size: f64, stiffness: f64| Database {
+            zero: Some(Matrix6::identity() * 1.8e6 * size.powi(3)),
+            hydrostatics: Some(Matrix6::from_diagonal(&Vector6::new(0.0, 0.0, 3.2e6 * stiffness, 0.0, 0.0, 0.0))),
+            ..Database::default()
+        };
+        assert_eq!(unlike(&data(1.0, 1.0), 2.1e6), None);
+        assert!(unlike(&data(0.1, 0.01), 2.1e6).is_some_and(|t| t.contains("8.57e-4 of the mass")));
+        assert!(unlike(&data(10.0, 100.0), 2.1e6).is_some_and(|t| t.contains("8.57e2 of the mass")));
+        // 2 pi sqrt(3.9E6 / 32)
+        assert!(unlike(&data(1.0, 1e-5), 2.1e6).is_some_and(|t| t.contains("period of 2.19e3 s")));
+        assert_eq!(unlike(&data(0.1, 1.0), 0.0), None);
+    }
+}

@@ -1,0 +1,111 @@
+//! `JUNCTION`: a point in the sea where lines meet.
+
+use crate::commands::menu;
+use crate::commands::{Call, Command, Effect, Job};
+use windlass_base::diagnostic::with_article;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::{Place, Position};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_language::name as rule;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Body, Junction, Model, Part, Point, Weight};
+
+/// JUNCTION.
+pub static JUNCTION: Command = Command { spec: &SPEC, edits: false, run };
+
+/// Most junctions: a solution takes the cube of their number.
+const MAX_JUNCTIONS: usize = 200;
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+
+const WEIGHT: OptionSpec =
+    OptionSpec::new("-WEIGHT", &[number("W", Dim::Force, "weight in air").not_negative()], "weight of what is there")
+        .default("0");
+const DISPLACEMENT: OptionSpec = OptionSpec::new(
+    "-DISPLACEMENT",
+    &[number("B", Dim::Force, "buoyancy when it is all under water").not_negative()],
+    "a buoy: a sphere of this largest buoyancy",
+)
+.default("0");
+
+static SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &[&menu::INMODEL, &menu::MEDIT],
+    data: &[
+        ValueSpec::new("NAME", Kind::Name(Noun::New), "its name"),
+        number("X", Dim::Length, "global X where it begins").or("0"),
+        number("Y", Dim::Length, "global Y").or("0"),
+        number("Z", Dim::Length, "global Z, negative below the surface").or("0"),
+    ],
+    options: &[WEIGHT, DISPLACEMENT],
+    detail: "A point with three degrees of freedom that &EQUI solves with the bodies: the knot of a bridle or a Y-line, a buoy between two \
+             lines, a clump weight where three meet. It makes the point *NAME, which connectors name as any other; lines between it and a \
+             body or another junction are H_CAT, its lines to anchors B_CAT. X Y Z is where the solution begins; &INSTATE moves it by \
+             its NAME. The sea bottom carries it within 10 mm of the depth of &ENV, without friction. The sphere of \
+             -DISPLACEMENT floats with as much of it under water as it needs.",
+    example: "&ENV -DEPTH 100\nMEDIT\n*A 0 0 10\nJUNCTION KNOT 60 0 -60 -WEIGHT 5\n~UP H_CAT 3 EXACT -LEN 95\n~LEG B_CAT 3 EXACT -LEN 250\n\
+              CONNECTOR UP ~UP *A *KNOT\nCONNECTOR L1 -ANC 30 230 ~LEG *KNOT\nCONNECTOR L2 -ANC -30 230 ~LEG *KNOT\nEND\n&EQUI\n&STATUS F_CONNECTOR",
+    ..CommandSpec::new("JUNCTION", "a point in the sea where lines meet")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let name = args.word(0).unwrap_or_default();
+    let at = [1, 2, 3].map(|i| args.number(i).unwrap_or(0.0));
+    let displacement = args.option_number(&DISPLACEMENT).unwrap_or(0.0);
+    let weight = args.option_number(&WEIGHT).unwrap_or(0.0);
+    free(&job.model, name, "junction", args.place(0))?;
+    insert(&mut job.model, name, at, [weight, displacement], args.place(0));
+    job.note_name(name, args.place(0));
+    Ok(Effect::Done)
+}
+
+/// Sees that a junction, or what makes one, may have a name.
+///
+/// # Errors
+/// A name that is none or is taken, also that of its point; too many junctions.
+pub(crate) fn free(model: &Model, name: &str, what: &str, span: Span) -> Outcome<()> {
+    rule::check(name, None, what, span)?;
+    model.free_name(name, &[], span)?;
+    let point = format!("*{name}");
+    if let Some(old) = model.points.get(&Model::key(&point)) {
+        return Err(Diagnostic::error(format!("there is a point {point} already"), span)
+            .other(old.span, "defined here")
+            .help(format!("{} makes the point of its name", with_article(what))));
+    }
+    if model.bodies.values().filter(|b| b.junction.is_some()).count() >= MAX_JUNCTIONS {
+        return Err(Diagnostic::error(format!("a model has at most {MAX_JUNCTIONS} junctions and hooks"), span));
+    }
+    Ok(())
+}
+
+/// Adds a junction at a place (m), with its weight and displacement (N) and its point.
+pub(crate) fn insert(model: &mut Model, name: &str, at: Position, [weight, displacement]: [f64; 2], span: Span) {
+    let key = Model::key(name);
+    let point = format!("*{name}");
+    let [x, y, z] = at;
+    let volume = displacement / (model.defaults.water_density * model.defaults.gravity);
+    let weights = if weight > 0.0 { vec![Weight { at: [0.0; 3], weight, radii: [0.0; 3], span }] } else { Vec::new() };
+    let place = Place::new([x, y, z, 0.0, 0.0, 0.0]);
+    let body = Body {
+        name: name.to_string(),
+        place,
+        previous: place,
+        ignored: ["RX", "RY", "RZ"].map(str::to_string).into(),
+        junction: Some(Junction { displacement, volume }),
+        linear: None,
+        database: None,
+        prescribed: None,
+        span,
+    };
+    let part = Part { weights, ..Part::new(name, name, Place::default(), span) };
+    model.bodies.insert(key.clone(), body);
+    model.parts.insert(key, part);
+    let made = Point { name: point.clone(), part: name.to_string(), at: [0.0; 3], interest: None, span };
+    model.points.insert(Model::key(&point), made);
+}

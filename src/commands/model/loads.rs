@@ -1,0 +1,362 @@
+//! `#AREA`, `#PLATE`, `#TABLE`, `#DRIFT`: loads of wind, current and waves on a part; `#DRAG`, `#DAMP`, `#AMASS`: its matrices.
+//!
+//! Source: [MOSES-HELP lgroup]; `#AREA *PT AX AY AZ` as in [MOSES-RUNS sea_keep/cargo]. The
+//! order of the values of the others is ours: no source gives it.
+
+use crate::commands::menu;
+use crate::commands::{Call, Command, Effect, Job};
+use nalgebra::{Matrix6, Vector3};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::{Position, unit_vector};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::units::eight_figures;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Given, Value};
+use windlass_hydro::heading::ByHeading;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, MenuSpec, OptionSpec, ValueSpec};
+use windlass_model::{Fluid, GROUND, LoadKind, Model, PartLoad, find};
+
+/// #AREA.
+pub static AREA: Command = Command { spec: &AREA_SPEC, edits: false, run: area };
+/// #PLATE.
+pub static PLATE: Command = Command { spec: &PLATE_SPEC, edits: false, run: plate };
+/// #TABLE.
+pub static TABLE: Command = Command { spec: &TABLE_SPEC, edits: false, run: table };
+/// #DRIFT.
+pub static DRIFT: Command = Command { spec: &DRIFT_SPEC, edits: false, run: drift };
+/// #DRAG.
+pub static DRAG: Command =
+    Command { spec: &DRAG_SPEC, edits: false, run: |job, call| matrix(job, call, LoadKind::Drag) };
+/// #DAMP.
+pub static DAMP: Command =
+    Command { spec: &DAMP_SPEC, edits: false, run: |job, call| matrix(job, call, LoadKind::Damping) };
+/// #AMASS.
+pub static AMASS: Command = Command { spec: &AMASS_SPEC, edits: false, run: added_mass };
+
+const MENUS: &[&MenuSpec] = &[&menu::INMODEL, &menu::MEDIT];
+const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "a point of the part");
+const FLUID: OptionSpec = OptionSpec::new(
+    "-FLUID",
+    &[ValueSpec::new("FLUID", Kind::Choice(&["AIR", "WATER"]), "AIR or WATER")],
+    "wind or current, whatever the height of the point",
+)
+.default("the global height of the point decides")
+.owner(Owner::Ours);
+const SYMMETRIC: OptionSpec =
+    OptionSpec::new("-SYMMETRIC", &[], "headings 0 to 180 only; the other side mirrors them").owner(Owner::Ours);
+
+const fn derived_dimension(force: i8, length: i8, seconds: i8) -> Dim {
+    Dim::Derived { force, length, seconds }
+}
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+/// Force and moment over something that a force and a moment are told in.
+const fn six(force: Dim, moment: Dim) -> [ValueSpec; 6] {
+    [
+        number("FX", force, "surge"),
+        number("FY", force, "sway"),
+        number("FZ", force, "heave"),
+        number("MX", moment, "roll"),
+        number("MY", moment, "pitch"),
+        number("MZ", moment, "yaw"),
+    ]
+}
+const STREAM: [ValueSpec; 6] = six(derived_dimension(1, -2, 2), derived_dimension(1, -1, 2));
+const WAVE: [ValueSpec; 6] = six(derived_dimension(1, -2, 0), derived_dimension(1, -1, 0));
+const ENTRIES: [&str; 36] = [
+    "M11", "M12", "M13", "M14", "M15", "M16", "M21", "M22", "M23", "M24", "M25", "M26", "M31", "M32", "M33", "M34",
+    "M35", "M36", "M41", "M42", "M43", "M44", "M45", "M46", "M51", "M52", "M53", "M54", "M55", "M56", "M61", "M62",
+    "M63", "M64", "M65", "M66",
+];
+/// A 6x6 matrix row by row; a moment has one length more, and so has a rotation.
+const fn whole(seconds: i8) -> [ValueSpec; 36] {
+    let mut made = [number("M", Dim::None, "entry of the matrix"); 36];
+    let mut at = 0;
+    while at < 36 {
+        let lengths = (at / 6 / 3 + at % 6 / 3) as i8;
+        let base = if seconds == 0 { 0 } else { -1 };
+        made[at] =
+            number(ENTRIES[at], derived_dimension(1, lengths + base, seconds), "entry of the matrix, row by row");
+        at += 1;
+    }
+    made
+}
+const fn diagonal(seconds: i8) -> [ValueSpec; 7] {
+    let base = if seconds == 0 { 0 } else { -1 };
+    let (force, moment) = (derived_dimension(1, base, seconds), derived_dimension(1, base + 2, seconds));
+    [
+        POINT,
+        number("X", force, "surge").or("0").not_negative(),
+        number("Y", force, "sway").or("0").not_negative(),
+        number("Z", force, "heave").or("0").not_negative(),
+        number("RX", moment, "roll").or("0").not_negative(),
+        number("RY", moment, "pitch").or("0").not_negative(),
+        number("RZ", moment, "yaw").or("0").not_negative(),
+    ]
+}
+const OF_RATE: &[ValueSpec] = &diagonal(1);
+const OF_WEIGHT: &[ValueSpec] = &diagonal(0);
+const FULL_RATE: OptionSpec =
+    OptionSpec::new("-MATRIX", &whole(1), "the whole matrix, row by row, instead of its diagonal").owner(Owner::Ours);
+const FULL_WEIGHT: OptionSpec =
+    OptionSpec::new("-MATRIX", &whole(0), "the whole matrix, row by row, instead of its diagonal").owner(Owner::Ours);
+
+static AREA_SPEC: CommandSpec = CommandSpec {
+    menus: MENUS,
+    data: &[
+        POINT,
+        number("AX", Dim::Area, "area times shape coefficient along x").not_negative(),
+        number("AY", Dim::Area, "along y").or("0").not_negative(),
+        number("AZ", Dim::Area, "along z").or("0").not_negative(),
+    ],
+    options: &[FLUID],
+    detail: "The force along each axis of the part is 1/2 rho A |w| w, with w the component and |w| the speed of the stream in \
+             these axes, on the point. Above the water it is wind, below it current, by the global height of the point, with a \
+             passage of 0.5 m about the surface in which both act in part (our reading: a jump would hide equilibria).",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\n*CAR 90 0 40\n#AREA *CAR 50*20 80*20\nEND\n&ENV -WIND 60 180\n&STATUS LOADS",
+    ..CommandSpec::new("#AREA", "area in wind or current")
+};
+
+const CD: OptionSpec =
+    OptionSpec::new("-CD", &[number("CD", Dim::None, "drag coefficient").not_negative()], "drag coefficient")
+        .default("1")
+        .owner(Owner::Ours);
+
+static PLATE_SPEC: CommandSpec = CommandSpec {
+    menus: MENUS,
+    data: &[POINT, POINT, POINT, ValueSpec { name: "*PT", help: "a further corner", ..POINT }.or("none")],
+    repeat: 1,
+    options: &[CD, FLUID],
+    detail: "Corners in order round the plate, at least three, not on one line. The drag 1/2 rho CD A |w.n| (w.n) is along the \
+             normal alone, on the centre of the area; the sense of the normal does not matter. Wind or current as with #AREA, by \
+             the height of the centre.",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\n*A 0 -50 20\n*B 0 50 20\n*C 0 50 60\n*D 0 -50 60\n#PLATE *A *B *C *D -CD 1.2\nEND\n\
+              &ENV -WIND 60 150\n&STATUS LOADS",
+    ..CommandSpec::new("#PLATE", "flat plate in wind or current")
+};
+
+static TABLE_SPEC: CommandSpec = CommandSpec {
+    menus: MENUS,
+    data: &[
+        POINT,
+        number("HEADING", Dim::Angle, "direction the stream comes from; grows"),
+        STREAM[0],
+        STREAM[1],
+        STREAM[2],
+        STREAM[3],
+        STREAM[4],
+        STREAM[5],
+    ],
+    repeat: 7,
+    options: &[SYMMETRIC, FLUID],
+    detail: "Groups of a heading and six coefficients: force and moment about the point, in the axes of the part, over the \
+             square of the speed, which is in ft/s or m/s for wind too. The heading is the direction the stream comes from, \
+             from x toward y of the part: 180 is a stream from ahead for a vessel with x aft, and pushes with a positive FX; a force \
+             against the stream is noted. Between headings the values are \
+             cubic and smooth all round. Wind or current as with #AREA: a table whose point is above the water has no current.",
+    example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY TBRG\n*MID 60 0 -3\n\
+              #TABLE *MID 0 -90 0 0 0 0 0 90 0 -900 0 0 0 0 180 90 0 0 0 0 0 -SYMMETRIC\nEND\n&ENV -CURRENT 1 150\n&STATUS LOADS",
+    ..CommandSpec::new("#TABLE", "wind or current coefficients by heading")
+};
+
+static DRIFT_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: MENUS,
+    data: &[
+        POINT,
+        number("HEADING", Dim::Angle, "direction the waves come from"),
+        number("PERIOD", Dim::Time, "period; grows").positive(),
+        WAVE[0],
+        WAVE[1],
+        WAVE[2],
+        WAVE[3],
+        WAVE[4],
+        WAVE[5],
+    ],
+    repeat: 7,
+    options: &[SYMMETRIC],
+    detail: "One record a heading: groups of a period and six mean forces and moments about the point, in the axes of the part, \
+             over the square of the wave amplitude, as MOSES reports mean drift forces. Records of one point make one table, of at \
+             least two headings. The mean in a sea is twice the sum of its energies S dw times the coefficient, in a regular wave \
+             the coefficient times the square of the amplitude. Coefficients are straight over frequency and constant beyond the \
+             first and last period, cubic and smooth over heading; spreading is not regarded in equilibrium. In the time domain \
+             the waves make slow drift of it by Newman's approximation, each wave with the coefficient of its own direction; its mean \
+             is the mean drift, and all there is in a regular wave. With a DATABASE that has drift of its own it is an error.",
+    example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY TBRG\n*MID 60 0 0\n#DRIFT *MID 0 6 -40 0 0 0 0 0 14 -5 0 0 0 0 0 -SYMM\n\
+              #DRIFT *MID 180 6 40 0 0 0 0 0 14 5 0 0 0 0 0 -SYMM\nEND\n&ENV -SEA ISSC 170 4 9\n&STATUS LOADS",
+    ..CommandSpec::new("#DRIFT", "mean wave drift by period and heading")
+};
+
+static DRAG_SPEC: CommandSpec = CommandSpec {
+    menus: MENUS,
+    data: OF_RATE,
+    options: &[FULL_RATE],
+    detail: "Linear drag of the water at a point: force over velocity, moment over rate, in the axes of the part. In statics the \
+             current at the depth of the point acts through it, above the water that of the surface. Forces, never masses.",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 8\n#DRAG *CG 50 400\nEND\n&ENV -CURRENT 3 150\n&STATUS LOADS",
+    ..CommandSpec::new("#DRAG", "linear drag matrix at a point")
+};
+
+static DAMP_SPEC: CommandSpec = CommandSpec {
+    menus: MENUS,
+    data: OF_RATE,
+    options: &[FULL_RATE],
+    detail: "Linear damping of the part's own motion: force over velocity, moment over rate, in the axes of the part. No current \
+             acts through it (our reading; #DRAG is for that).",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 8\n#DAMP *CG 50 400 900\nEND\n&STATUS LOADS",
+    ..CommandSpec::new("#DAMP", "linear damping matrix at a point")
+};
+
+static AMASS_SPEC: CommandSpec = CommandSpec {
+    menus: MENUS,
+    data: OF_WEIGHT,
+    options: &[FULL_WEIGHT],
+    detail: "Added mass as a weight (never a mass): X Y Z in force, RX RY RZ in force times length squared, about the point and in \
+             the axes of the part; divided by gravity when computed.",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 8\n#AMASS *CG 4E3 2E4 6E4 5E7 6E8 5E8\nEND\n&STATUS LOADS",
+    ..CommandSpec::new("#AMASS", "added mass at a point")
+};
+
+/// Where a record's point stands in the part being described, and that part.
+fn place(job: &Job, args: &Args, index: usize) -> Outcome<(String, Position)> {
+    let (name, span) = (args.word(index).unwrap_or_default(), args.place(index));
+    let point = find(&job.model.points, name, "point", span)?;
+    let Some(part) = job.model.current_part.clone().filter(|p| Model::key(p) != GROUND) else {
+        return Err(Diagnostic::error("a load belongs to a part, and none is described yet", args.span)
+            .help("&DESCRIBE BODY describes one"));
+    };
+    if Model::key(&point.part) != Model::key(&part) {
+        let text = format!("{} belongs to {}, and the load to {part}", point.name, point.part);
+        return Err(Diagnostic::error(text, span)
+            .other(point.span, "defined here")
+            .help(format!("&DESCRIBE PART {} goes on with the other part", point.part)));
+    }
+    Ok((part, point.at))
+}
+
+fn keep(job: &mut Job, args: &Args, (part, at): (String, Position), kind: LoadKind) -> Outcome<Effect> {
+    let fluid = match args.option_if_declared(&FLUID).and_then(|given| given.first_word()) {
+        Some("AIR") => Fluid::Air,
+        Some(_) => Fluid::Water,
+        None => Fluid::ByHeight,
+    };
+    job.model.loads.push(PartLoad { part, at, fluid, kind, span: args.span });
+    Ok(Effect::Done)
+}
+
+fn area(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let areas = [1, 2, 3].map(|i| args.number(i).unwrap_or(0.0));
+    keep(job, args, place(job, args, 0)?, LoadKind::Area(areas))
+}
+
+fn plate(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let mut corners: Vec<Vector3<f64>> = Vec::new();
+    let mut part = String::new();
+    for index in (0..args.data.len()).filter(|i| args.word(*i).is_some()) {
+        let (of, at) = place(job, args, index)?;
+        part = of;
+        corners.push(at.into());
+    }
+    let Some((first, rest)) = corners.split_first() else { return Ok(Effect::Done) };
+    // triangles that share the first corner
+    let triangles = || rest.iter().zip(rest.iter().skip(1)).map(|(b, c)| (b, c, (b - first).cross(&(c - first)) * 0.5));
+    let whole: Vector3<f64> = triangles().map(|(_, _, area)| area).sum();
+    let size = whole.norm();
+    let span = corners.iter().map(|c| (c - first).norm_squared()).fold(0.0, f64::max);
+    if size <= 1e-9 * span {
+        return Err(Diagnostic::error("the corners of a plate lie on one line", args.span));
+    }
+    let normal = whole / size;
+    let off = corners.iter().map(|c| (c - first).dot(&normal).abs()).fold(0.0, f64::max);
+    if off > 0.01 * span.sqrt() {
+        return Err(Diagnostic::error("the corners of a plate do not lie in one plane", args.span)
+            .label("more than a hundredth of its size off")
+            .help("give it as several plates"));
+    }
+    let moment: Vector3<f64> = triangles().map(|(b, c, area)| (first + b + c) / 3.0 * area.dot(&normal)).sum();
+    let drag = args.option_number(&CD).unwrap_or(1.0);
+    let kind = LoadKind::Plate { area: drag * size, normal: normal.into() };
+    keep(job, args, (part, (moment / size).into()), kind)
+}
+
+/// Groups of seven numbers, whose first grows; the span of the first that does not.
+fn sevens(values: &[Value]) -> Outcome<Vec<(f64, [f64; 6])>> {
+    let mut rows: Vec<(f64, [f64; 6])> = Vec::new();
+    for group in values.chunks_exact(7) {
+        let at = |i: usize| group.get(i).and_then(Value::number).unwrap_or(0.0);
+        if rows.last().is_some_and(|last| at(0) <= last.0) {
+            let span = group.first().map_or(Span::default(), |v| v.span);
+            return Err(Diagnostic::error("the first value of each group must grow", span)
+                .label("not larger than that of the group before"));
+        }
+        rows.push((at(0), [1, 2, 3, 4, 5, 6].map(at)));
+    }
+    Ok(rows)
+}
+
+fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let place = place(job, args, 0)?;
+    let rows = sevens(args.data.get(1..).unwrap_or_default())?;
+    let symmetric = args.has(&SYMMETRIC);
+    ByHeading::new(&rows, symmetric).map_err(|e| e.diagnostic(args.span, job.units))?;
+    against(job, args, rows.iter().map(|(heading, six)| (*heading, six)));
+    keep(job, args, place, LoadKind::Coefficients { rows, symmetric })
+}
+
+fn drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let place = place(job, args, 0)?;
+    let rows = sevens(args.data.get(2..).unwrap_or_default())?;
+    let heading = args.number(1).unwrap_or(0.0);
+    let same = |l: &&PartLoad| {
+        let again = matches!(&l.kind, LoadKind::Drift { heading: h, .. } if *h == heading);
+        again && Model::key(&l.part) == Model::key(&place.0) && l.at == place.1
+    };
+    if let Some(old) = job.model.loads.iter().find(same) {
+        return Err(Diagnostic::error("this heading is given already at this point", args.place(1))
+            .other(old.span, "given here"));
+    }
+    against(job, args, rows.iter().map(|(_, six)| (heading, six)));
+    keep(job, args, place, LoadKind::Drift { heading, rows, symmetric: args.has(&SYMMETRIC) })
+}
+
+/// Notes the first force that is against what comes from its heading: signs or headings are easily taken the other way.
+fn against<'a>(job: &mut Job, args: &Args, mut rows: impl Iterator<Item = (f64, &'a [f64; 6])>) {
+    let wrong = |(heading, [fx, fy, ..]): &(f64, &[f64; 6])| {
+        let (cos, sin) = unit_vector(*heading);
+        fx * cos + fy * sin > 1e-6 * fx.hypot(*fy)
+    };
+    if let Some((heading, _)) = rows.find(wrong) {
+        let told = eight_figures(heading.to_degrees());
+        job.remark(format!("the force at heading {told} is against what comes from there"), args.span);
+    }
+}
+
+/// The matrix of a record: its diagonal, or whole.
+fn values(args: &Args) -> Outcome<Matrix6<f64>> {
+    let given = (1..args.data.len()).any(|i| args.number(i).is_some());
+    match args.option(&FULL_RATE).map(Given::numbers) {
+        Some(_) if given => Err(Diagnostic::error("-MATRIX and a diagonal contradict each other", args.place(1))),
+        Some(all) => Ok(Matrix6::from_row_iterator(all.into_iter().chain(std::iter::repeat(0.0)).take(36))),
+        None if !given => Err(Diagnostic::error("a matrix without values", args.span)
+            .help("give its diagonal, or all of it with -MATRIX")),
+        None => Ok(Matrix6::from_diagonal(&[1, 2, 3, 4, 5, 6].map(|i| args.number(i).unwrap_or(0.0)).into())),
+    }
+}
+
+fn matrix(job: &mut Job, call: &Call, kind: fn(Matrix6<f64>) -> LoadKind) -> Outcome<Effect> {
+    let place = place(job, &call.args, 0)?;
+    keep(job, &call.args, place, kind(values(&call.args)?))
+}
+
+fn added_mass(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let place = place(job, &call.args, 0)?;
+    let (matrix, gravity) = (values(&call.args)?, job.model.defaults.gravity);
+    keep(job, &call.args, place, LoadKind::AddedMass(matrix / gravity))
+}

@@ -1,0 +1,306 @@
+//! Pieces of a hull: the options all of them take, `PANEL`, and what is checked when a piece is complete.
+//!
+//! Source: [MOSES-REF pieces].
+
+use crate::commands::menu;
+use crate::commands::model::member;
+use crate::commands::written::option_as_written;
+use crate::commands::{Call, Command, Effect, Job};
+use nalgebra::Vector3;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Position;
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Value};
+use windlass_hydro as hydro;
+use windlass_language::args;
+use windlass_language::name as rule;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, TextForm, ValueSpec};
+use windlass_language::token::TokenKind as Lex;
+use windlass_model::{EntityKind, Model, Part, Piece, Shape, WaveAction, find};
+
+/// PANEL.
+pub static PANEL: Command = Command { spec: &PANEL_SPEC, edits: false, run: panel };
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+const FACTORS: &[ValueSpec] = &[
+    number("X", Dim::None, "factor in the part's x").not_negative(),
+    number("Y", Dim::None, "factor in the part's y").not_negative(),
+    number("Z", Dim::None, "factor in the part's z").not_negative(),
+];
+/// What holds without -CS_WIND and -CS_CURRENT.
+const CS: &str = "1 1 1; 0 0 0 of a piece that displaces no water";
+const FACTOR: &[ValueSpec] = &[number("F", Dim::None, "factor").not_negative()];
+
+const PERMEABILITY: OptionSpec = OptionSpec::new(
+    "-PERMEABILITY",
+    &[number("P", Dim::None, "1 exterior, -1 interior open to the sea, or a fraction").in_range(-1.0, 1.0)],
+    "share of the volume that displaces water",
+)
+.default("1");
+const CS_WIND: OptionSpec =
+    OptionSpec::new("-CS_WIND", FACTORS, "shape coefficients of the wind force along the part's x y z").default(CS);
+/// `-CS_CURRENT`.
+pub(crate) const CS_CURRENT: OptionSpec =
+    OptionSpec::new("-CS_CURRENT", FACTORS, "shape coefficients of the current force along the part's x y z")
+        .default(CS);
+const OBSTACLE: OptionSpec = OptionSpec::new("-OBSTACLE", &[], "stops what moves against it; kept");
+const DIFTYPE: OptionSpec = OptionSpec::new(
+        "-DIFTYPE",
+        &[ValueSpec::new(
+            "TYPE",
+            Kind::Choice(&["3DDIF", "NONE", "FK"]),
+            "3DDIF: in the hull of a hydrodynamic database; NONE: as its form says; FK (ours): the pressure of waves it does not change",
+        )],
+        "what waves do to it",
+    )
+    .default("NONE: a TUBE is a member, any other piece feels no waves");
+const CS_VELOCITY: OptionSpec = OptionSpec::new(
+    "-CS_VELOCITY",
+    &[ValueSpec::new("NAME", Kind::Name(Noun::Curve), "curve of factors by velocity")],
+    "factors of drag by velocity; kept",
+);
+const DD_MULT: OptionSpec = OptionSpec::new("-DD_MULT", FACTOR, "factor of drift damping; kept");
+const AMASS: OptionSpec = OptionSpec::new(
+    "-AMASS",
+    &[
+        number("M", Dim::None, "factor of added mass").not_negative(),
+        ValueSpec::new("CURVE", Kind::Name(Noun::Curve), "curve of pressures").or("none"),
+    ],
+    "added mass; kept",
+);
+const TANAKA: OptionSpec = OptionSpec::new("-TANAKA", FACTOR, "factor of Tanaka's roll damping; kept");
+const ROLL_DAMPING: OptionSpec = OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping; kept");
+const COLOR: OptionSpec =
+    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures; kept");
+const TEXTURE: OptionSpec =
+    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures; kept");
+
+/// What every piece takes, however its surface is given.
+pub const OPTIONS: [OptionSpec; 12] = [
+    PERMEABILITY,
+    CS_WIND,
+    CS_CURRENT,
+    OBSTACLE,
+    DIFTYPE,
+    CS_VELOCITY,
+    DD_MULT,
+    AMASS,
+    TANAKA,
+    ROLL_DAMPING,
+    COLOR,
+    TEXTURE,
+];
+
+/// How pieces are read, for the help of the commands that make them.
+pub const PIECE_HELP: &str = "A piece belongs to the part described last and is given in its system. Its surface must be closed; \
+     the corners of its panels go round the same way seen from outside, all counterclockwise or all clockwise. When it is \
+     complete it is checked. Open edges and panels that look the wrong way are warned of with their places, and a body with such a \
+     piece has no buoyancy until it is corrected; panels that cut each other and pieces that overlap are warned of, and count \
+     twice where they do. With -PERMEABILITY 1 the volume displaces water, with \
+     -1 it is taken off again (a moonpool, a flooded tank), with 0 the surface is for wind and current alone. Wind pushes on \
+     what of a piece is above the water, current on what is below it: along each axis of the part with 1/2 rho CS A |v| v, where v \
+     is the stream's component along that axis, |v| its whole speed, and A the area projected along it, half of what is seen \
+     from its two sides (a hollow counts as if nothing sheltered it). |v| v is integrated over the height, by the profiles of \
+     &ENV. CS is 1 1 1 where it is not given, so that wind in force is never without effect on a hull; -CS_WIND 0 0 0 turns it \
+     off. A piece of permeability 0 or less takes none unless CS is given, an interior (less than 0) never. Tubes are \
+     prisms of 64 sides for it. Under way in waves a TUBE is a member by Morison's formula (&HELP TUBE). Any other piece feels no waves of first order, \
+     and keeps the buoyancy of the mean level, unless a hydrodynamic database holds it (-DIFTYPE 3DDIF) or it has -DIFTYPE FK: then the \
+     pressure that the waves have without it is integrated up to their surface, without diffraction and radiation. TDOM warns of pieces \
+     that feel none. &STATUS PIECES lists CS, &STATUS LOADS the forces.";
+
+static PANEL_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::INMODEL, &menu::MEDIT, &menu::BLOCK, &menu::MESH],
+    form: TextForm::Text,
+    data: &[ValueSpec::new("*P", Kind::Name(Noun::Point), "a corner: a point, or X Y Z")],
+    repeat: 1,
+    detail: "PANEL *P1 *P2 *P3 [*P4 ..] or PANEL X1 Y1 Z1 X2 Y2 Z2 X3 Y3 Z3 ..: a panel of the piece described last by &DESCRIBE \
+             PIECE, BLOCK or MESH. Three or more corners, round the panel, in the system of the part; points of another part of \
+             the same body are taken where they stand. What counts is where a point stands when the record is read.",
+    example: "MEDIT\n&DESCRIBE BODY TET\n*O 0 0 0\n*X 3 0 0\n*Y 0 3 0\n*Z 0 0 3\n&DESCRIBE PIECE SKIN\nPANEL *O *Y *X\n\
+              PANEL *O *X *Z\nPANEL *O *Z *Y\nPANEL 3 0 0  0 3 0  0 0 3\nEND\n&STATUS PIECES",
+    ..CommandSpec::new("PANEL", "a panel of a piece, by points or coordinates")
+};
+
+static BY_POINTS: CommandSpec = CommandSpec { form: TextForm::Words, ..PANEL_SPEC };
+static BY_COORDINATES: CommandSpec = CommandSpec {
+    form: TextForm::Words,
+    data: &[
+        number("X", Dim::Length, "x of a corner"),
+        number("Y", Dim::Length, "y of a corner"),
+        number("Z", Dim::Length, "z of a corner"),
+    ],
+    repeat: 3,
+    ..PANEL_SPEC
+};
+
+fn panel(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let [command, rest @ ..] = call.words else { return Ok(Effect::Done) };
+    let by_points = rest.first().is_some_and(|w| w.kind == Lex::Point);
+    let spec = if by_points { &BY_POINTS } else { &BY_COORDINATES };
+    let args = args::read(spec, command.span, rest, job.units)?;
+    let name = job.model.current_piece.clone().ok_or_else(|| {
+        Diagnostic::error("a panel belongs to a piece, and none is described", command.span)
+            .help("&DESCRIBE PIECE NAME describes one")
+    })?;
+    let found = job.model.piece(&name).map(|(part, piece)| (part.clone(), piece.shape.clone()));
+    let Some((part, Shape::Panels(_))) = found else {
+        return Err(Diagnostic::error(format!("piece {name} is not made of panels"), command.span));
+    };
+    let corners: Vec<Position> = if by_points {
+        let points = args.data.iter().filter_map(|v| Some((v.word()?, v.span)));
+        points.map(|(word, span)| point_in_part(&job.model, word, &part, span)).collect::<Outcome<_>>()?
+    } else {
+        let numbers: Vec<f64> = args.data.iter().filter_map(Value::number).collect();
+        numbers.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect()
+    };
+    if corners.len() < 3 {
+        return Err(Diagnostic::error("a panel has three or more corners", command.span)
+            .label(format!("this one has {}", corners.len())));
+    }
+    if area(&corners) == 0.0 {
+        return Err(Diagnostic::error("the panel has no area", command.span).label("its corners lie on one line"));
+    }
+    if let Some(Piece { shape: Shape::Panels(panels), .. }) = job.model.piece_mut(&name) {
+        panels.push(corners);
+    }
+    Ok(Effect::Done)
+}
+
+/// Area of a polygon, of one that is not plane that of its projection along its mean normal (m2); zero where rounding is all
+/// there is.
+pub fn area(corners: &[Position]) -> f64 {
+    let Some(first) = corners.first().map(|at| Vector3::from(*at)) else { return 0.0 };
+    let arms: Vec<Vector3<f64>> = corners.iter().map(|at| Vector3::from(*at) - first).collect();
+    let normal: Vector3<f64> = arms.windows(2).map(|w| w[0].cross(&w[1])).sum();
+    let size = arms.iter().map(|a| a.norm_squared()).fold(0.0, f64::max);
+    if normal.norm() <= 1e-12 * size { 0.0 } else { 0.5 * normal.norm() }
+}
+
+/// Where a point stands in a part (m).
+///
+/// # Errors
+/// An unknown point, or one of another body.
+pub fn point_in_part(model: &Model, name: &str, part: &Part, span: Span) -> Outcome<Position> {
+    let point = find(&model.points, name, "point", span)?;
+    if Model::key(&point.part) == Model::key(&part.name) {
+        return Ok(point.at);
+    }
+    let own = model.parts.get(&Model::key(&point.part)).filter(|p| Model::key(&p.body) == Model::key(&part.body));
+    let own = own.ok_or_else(|| {
+        Diagnostic::error(format!("{} is not a point of body {}", point.name, part.body), span)
+            .label(format!("it belongs to {}", model.body_of(point).map_or("the ground", |b| &b.name)))
+            .other(point.span, "defined here")
+    })?;
+    let in_body = Vector3::from(own.place.apply(point.at));
+    Ok((part.place.rotation().inverse() * (in_body - Vector3::from(part.place.shift))).into())
+}
+
+/// The part described last.
+///
+/// # Errors
+/// None is described yet.
+pub fn current_part(model: &Model, span: Span) -> Outcome<&Part> {
+    let part = model.current_part.as_ref().and_then(|name| model.parts.get(&Model::key(name)));
+    part.ok_or_else(|| {
+        Diagnostic::error("a piece belongs to a body, and none is described yet", span)
+            .help("&DESCRIBE BODY describes one")
+    })
+}
+
+/// A new piece of the part described last, with the options of its record; it is not yet in the model.
+///
+/// # Errors
+/// A name that is taken, no part, an unknown curve.
+pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -> Outcome<Piece> {
+    rule::check(name, None, "piece", span)?;
+    let model = &job.model;
+    current_part(model, span)?;
+    if let Some((_, old)) = model.piece(name) {
+        return Err(Diagnostic::error(format!("piece {} exists already", old.name), span)
+            .other(old.span, "defined here")
+            .help(format!("DELETE {} first, or use another name", old.name)));
+    }
+    model.free_name(name, &[EntityKind::Body, EntityKind::Part], span)?;
+    let own = args.options.iter().filter(|given| given.is_any(&OPTIONS));
+    for value in own.clone().flat_map(|g| g.names(Noun::Curve)) {
+        if let Some(word) = value.word() {
+            find(&model.curves, word, "curve", value.span)?;
+        }
+    }
+    let acting = [PERMEABILITY, CS_WIND, CS_CURRENT, DIFTYPE];
+    let kept: Vec<_> = own.filter(|given| !given.is_any(&acting)).cloned().collect();
+    if !kept.is_empty() {
+        let list: Vec<String> = kept.iter().map(|g| option_as_written(g, job.units)).collect();
+        job.remark(format!("kept, without effect yet: {}", list.join(" ")), span);
+    }
+    let permeability = args.option_number(&PERMEABILITY).unwrap_or(1.0);
+    let member = matches!(shape, Shape::Tube { .. }).then(|| member::coefficients(args, permeability)).transpose()?;
+    let waves = match args.option_word(&DIFTYPE) {
+        Some("3DDIF") => WaveAction::Database,
+        Some("FK") if member.is_none() => WaveAction::Pressure,
+        _ => WaveAction::ByForm,
+    };
+    let usual = if permeability > 0.0 { [1.0; 3] } else { [0.0; 3] };
+    // a member's drag is its own, unless -CS_CURRENT says other
+    let by_area = member.is_none() || args.has(&CS_CURRENT);
+    let mut factors = |option: &OptionSpec| {
+        let given = args.option(option).map(|given| {
+            (given.span, const { CS_WIND.numbers(["X", "Y", "Z"]) }.map(|key| given.number(key).unwrap_or(1.0)))
+        });
+        if let Some((at, _)) = given.filter(|(_, cs)| permeability < 0.0 && *cs != [0.0; 3]) {
+            job.remark(format!("an interior takes no wind and no current: {} of {name} is 0 0 0", option.name), at);
+            return usual;
+        }
+        given.map_or(usual, |(_, cs)| cs)
+    };
+    Ok(Piece {
+        name: name.to_string(),
+        permeability,
+        shape,
+        cs_wind: factors(&CS_WIND),
+        cs_current: if by_area { factors(&CS_CURRENT) } else { [0.0; 3] },
+        member,
+        waves,
+        kept,
+        span,
+    })
+}
+
+/// Puts a piece into the part described last; `complete` when nothing more is to come, so that it is checked.
+pub fn add(job: &mut Job, piece: Piece, complete: bool) {
+    finish_piece(job);
+    let (name, span) = (piece.name.clone(), piece.span);
+    let part = job.model.current_part.as_ref().map(|p| Model::key(p));
+    if let Some(part) = part.and_then(|key| job.model.parts.get_mut(&key)) {
+        part.pieces.push(piece);
+    }
+    job.note_name(&name, span);
+    job.model.current_piece = Some(name);
+    if complete {
+        finish_piece(job);
+    }
+}
+
+/// A record begins something else: the piece whose panels were being given is complete. Its faults are warned of.
+pub fn finish_piece(job: &mut Job) {
+    let found = complete_piece(job, None);
+    job.notices.extend(found);
+}
+
+/// The piece whose panels were being given is complete: what is wrong with it, at the record that completes it, else at its name.
+pub fn complete_piece(job: &mut Job, at: Option<Span>) -> Vec<Diagnostic> {
+    let Some(name) = job.model.current_piece.take() else { return Vec::new() };
+    let Some((part, piece)) = job.model.piece(&name) else { return Vec::new() };
+    let Some(body) = job.model.bodies.get(&Model::key(&part.body)) else { return Vec::new() };
+    let faults = hydro::piece_faults(&job.model, body, part, piece);
+    let told = faults.into_iter().map(|fault| {
+        let (text, span) = (fault.error.text(job.units), at.unwrap_or(piece.span));
+        let told = if fault.remark { Diagnostic::remark(text, span) } else { Diagnostic::warning(text, span) };
+        *if at.is_some() { told.other(piece.span, "the piece") } else { told }
+    });
+    told.collect()
+}

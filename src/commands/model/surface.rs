@@ -1,0 +1,268 @@
+//! `&SURFACE`: pieces as boxes, meshes of files, and round members.
+//!
+//! Source: [MOSES-REF surface], for the names; it does not give the forms, which are ours and stand in the help.
+
+use crate::commands::menu;
+use crate::commands::model::describe::PLACE;
+use crate::commands::model::member;
+use crate::commands::model::piece::{self, OPTIONS, PIECE_HELP};
+use crate::commands::settings::device::existing;
+use crate::commands::status::body_tables::pieces;
+use crate::commands::{Call, Command, Effect, Job, Menu};
+use crate::report::page;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::{Place, Position};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
+use windlass_hydro::hull::{MeshKind, read_mesh};
+use windlass_language::select::Owner;
+use windlass_language::source::LARGEST_FILE;
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec, join_options};
+use windlass_model::{Piece, Shape};
+
+/// &SURFACE.
+pub static SURFACE: Command = Command { spec: &SURFACE_SPEC, edits: false, run: surface };
+/// BLOCK.
+pub static BLOCK: Command = Command { spec: &BLOCK_SPEC, edits: false, run: block };
+/// MESH.
+pub static MESH: Command = Command { spec: &MESH_SPEC, edits: false, run: mesh };
+/// TUBE.
+pub static TUBE: Command = Command { spec: &TUBE_SPEC, edits: false, run: tube };
+/// MOVE_BLOCK.
+pub static MOVE_BLOCK: Command = Command { spec: &MOVE_SPEC, edits: false, run: move_block };
+/// LIST_BLOCK.
+pub static LIST_BLOCK: Command = Command { spec: &LIST_SPEC, edits: false, run: list_block };
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+const NEW: ValueSpec = ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the piece");
+
+static SURFACE_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::Menu(&menu::SURFACE),
+    detail: PIECE_HELP,
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20 -PERM 1\nBLOCK POOL 180 -10 0 220 10 20 -PERM -1\n\
+              LIST_BLOCK\nEND_&SURFACE\n&STATUS PIECES",
+    ..CommandSpec::new("&SURFACE", "opens the menu of surfaces, up to END")
+};
+
+static BLOCK_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::SURFACE],
+    opens: Opens::Short(&menu::BLOCK, 1),
+    data: &[
+        NEW,
+        number("X1", Dim::Length, "a corner of a box").or("PANEL records follow, up to END_BLOCK"),
+        number("Y1", Dim::Length, "a corner of a box").or("as X1"),
+        number("Z1", Dim::Length, "a corner of a box").or("as X1"),
+        number("X2", Dim::Length, "the corner opposite").or("as X1"),
+        number("Y2", Dim::Length, "the corner opposite").or("as X1"),
+        number("Z2", Dim::Length, "the corner opposite").or("as X1"),
+    ],
+    options: &OPTIONS,
+    detail: "BLOCK NAME X1 Y1 Z1 X2 Y2 Z2 is a box along the axes of the part, complete in one record. BLOCK NAME alone opens a menu of \
+             PANEL records, up to END_BLOCK or END. Options stand behind the corners.",
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nBLOCK FIN -CS_WIND 0 0 0\nPANEL 0 0 -3  3 0 -3  0 3 -3\n\
+              PANEL 0 0 -3  0 0 -1  3 0 -3\nPANEL 0 0 -3  0 3 -3  0 0 -1\nPANEL 3 0 -3  0 0 -1  0 3 -3\nEND_BLOCK\nEND\n&STATUS PIECES",
+    ..CommandSpec::new("BLOCK", "a box, or a surface of panels")
+};
+
+const FORMAT: OptionSpec = OptionSpec::new(
+    "-FORMAT",
+    &[ValueSpec::new("FORMAT", Kind::Choice(&["STL", "GDF", "OBJ"]), "format of the file")],
+    "format of the file",
+)
+.owner(Owner::Ours)
+.default("as the ending of its name says");
+const SCALE: OptionSpec = OptionSpec::new(
+    "-SCALE",
+    &[number("S", Dim::None, "long length units of &DIMEN in a unit of the file").positive()],
+    "size of the file's unit",
+)
+.owner(Owner::Ours)
+.default("1");
+const MOVE: OptionSpec = OptionSpec::new("-MOVE", &PLACE, "places the mesh in the part").owner(Owner::Ours);
+
+/// What a mesh of a file takes besides.
+const OF_FILE: &[OptionSpec] = &[FORMAT, SCALE, MOVE];
+static MESH_OPTIONS: [OptionSpec; OPTIONS.len() + OF_FILE.len()] = join_options(&OPTIONS, OF_FILE);
+
+static MESH_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::SURFACE],
+    opens: Opens::Short(&menu::MESH, 1),
+    data: &[
+        NEW,
+        ValueSpec::new("FILE", Kind::File, "mesh file; looked for where it says, then beside the script")
+            .or("PANEL records follow, up to END_MESH"),
+    ],
+    options: &MESH_OPTIONS,
+    detail: "MESH NAME FILE reads an STL file (text or binary), a WAMIT GDF file, or a Wavefront OBJ file, complete in one record; \
+             its numbers are lengths in the unit of &DIMEN times -SCALE (3.280839895 reads a file in metres where &DIMEN says feet). MESH NAME alone opens \
+             a menu of PANEL records, up to END_MESH or END.",
+    example: "&FILE OPEN M tet.obj\n&FILE WRITE M v 0 0 0\n&FILE WRITE M v 30 0 0\n&FILE WRITE M v 0 30 0\n&FILE WRITE M v 0 0 30\n\
+              &FILE WRITE M f 1 3 2\n&FILE WRITE M f 1 2 4\n&FILE WRITE M f 1 4 3\n&FILE WRITE M f 2 3 4\n&FILE CLOSE M\n\
+              &DESCRIBE BODY TET\n&SURFACE\nMESH SKIN job.ans/tet.obj -SCALE 2\nMESH FIN\nPANEL 0 0 -3  3 0 -3  0 3 -3\nPANEL 0 0 -3  0 0 -1  3 0 -3\n\
+              PANEL 0 0 -3  0 3 -3  0 0 -1\nPANEL 3 0 -3  0 0 -1  0 3 -3\nEND_MESH\nEND\n&STATUS PIECES",
+    ..CommandSpec::new("MESH", "a surface of a file, or of panels")
+};
+
+static TUBE_OPTIONS: [OptionSpec; OPTIONS.len() + member::OPTIONS.len()] = join_options(&OPTIONS, &member::OPTIONS);
+
+static TUBE_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &[&menu::SURFACE],
+    data: &[
+        NEW,
+        ValueSpec::new("*P1", Kind::Name(Noun::Point), "centre of one end"),
+        ValueSpec::new("*P2", Kind::Name(Noun::Point), "centre of the other end"),
+        number("OD", Dim::Section, "outer diameter").positive(),
+        number("OD2", Dim::Section, "diameter at the other end: refused where it differs").or("OD").positive(),
+    ],
+    options: &TUBE_OPTIONS,
+    detail: member::TUBE_HELP,
+    example: "MEDIT\n&DESCRIBE BODY SPAR\n*BOT 0 0 -300\n*TOP 0 0 50\nEND\n&SURFACE\nTUBE HULL *BOT *TOP 480 -CD 0.7 -CAA 0.64\nEND\n&STATUS PIECES",
+    ..CommandSpec::new("TUBE", "a round member that displaces water")
+};
+
+static MOVE_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::SURFACE],
+    data: &[
+        ValueSpec::new("NAME", Kind::Text, "the piece"),
+        PLACE[0],
+        PLACE[1],
+        PLACE[2],
+        PLACE[3],
+        PLACE[4],
+        PLACE[5],
+    ],
+    detail: "From where it is: first turned about the axes of its part (yaw, pitch, roll as of a body), then shifted.",
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nMOVE_BLOCK HULL -200\nLIST_BLOCK\nEND",
+    ..CommandSpec::new("MOVE_BLOCK", "moves a piece within its part")
+};
+
+static LIST_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::SURFACE],
+    detail: "What &STATUS PIECES reports.",
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nLIST_BLOCK\nEND",
+    ..CommandSpec::new("LIST_BLOCK", "lists the pieces")
+};
+
+fn surface(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    piece::current_part(&job.model, call.args.span)?;
+    piece::finish_piece(job);
+    job.menus.push(Menu::Surface);
+    Ok(Effect::Done)
+}
+
+/// A piece of a record without a surface: panels follow in a menu.
+fn panels_follow(job: &mut Job, args: &Args, menu: Menu) -> Outcome<Effect> {
+    let piece =
+        piece::begin_piece(job, args, args.word(0).unwrap_or_default(), args.place(0), Shape::Panels(Vec::new()))?;
+    piece::add(job, piece, false);
+    job.menus.push(menu);
+    Ok(Effect::Done)
+}
+
+/// A piece that its record gives whole.
+fn whole(job: &mut Job, args: &Args, shape: Shape) -> Outcome<Effect> {
+    let piece = piece::begin_piece(job, args, args.word(0).unwrap_or_default(), args.place(0), shape)?;
+    piece::add(job, piece, true);
+    Ok(Effect::Done)
+}
+
+fn block(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let corners: Vec<f64> = (1..7).filter_map(|i| args.number(i)).collect();
+    let [x1, y1, z1, x2, y2, z2] = corners.as_slice() else {
+        if args.data.len() < 2 {
+            return panels_follow(job, args, Menu::Block);
+        }
+        return Err(Diagnostic::error("a box has two opposite corners", args.place(args.data.len() - 1))
+            .label(format!("{} of six coordinates are given", corners.len()))
+            .help("form: BLOCK NAME X1 Y1 Z1 X2 Y2 Z2"));
+    };
+    let pairs = [(x1, x2), (y1, y2), (z1, z2)];
+    if let Some(flat) = pairs.iter().position(|(a, b)| a == b) {
+        let axis = ["X", "Y", "Z"].get(flat).copied().unwrap_or_default();
+        return Err(Diagnostic::error(format!("the box has no volume: {axis}1 is {axis}2"), args.place(4 + flat)));
+    }
+    let shape = Shape::Block { low: pairs.map(|(a, b)| a.min(*b)), high: pairs.map(|(a, b)| a.max(*b)) };
+    whole(job, args, shape)
+}
+
+fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let Some(name) = args.word(1) else { return panels_follow(job, args, Menu::Mesh) };
+    let span = args.place(1);
+    let panels = mesh_of(job, args, name, span)?;
+    let scale = Dim::Length.to_si(args.option_number(&SCALE).unwrap_or(1.0), job.units);
+    let largest = panels.iter().flatten().flatten().fold(0.0_f64, |most, x| most.max((scale * x).abs()));
+    if largest > Dim::Length.most() {
+        let text = format!("{name} cannot be used: a coordinate of {largest:e} m is no ship's");
+        return Err(Diagnostic::error(text, span).help("-SCALE gives its unit"));
+    }
+    let scaled = panels.into_iter().map(|p| p.into_iter().map(|at| at.map(|x| scale * x)).collect()).collect();
+    let by = args.option(&MOVE).map_or(Place::default(), |given| {
+        Place::new(given.numbers_or_zero(const { MOVE.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }))
+    });
+    whole(job, args, Shape::Panels(scaled).moved_by(&by))
+}
+
+/// The panels of a mesh file, in its own unit.
+fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Position>>> {
+    let path = existing(job, name, span)?;
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_uppercase()).unwrap_or_default();
+    let kind = match args.option_word(&FORMAT).unwrap_or(&ending) {
+        "STL" => MeshKind::Stl,
+        "GDF" => MeshKind::Gdf,
+        "OBJ" => MeshKind::Obj,
+        _ => {
+            return Err(Diagnostic::error(format!("the format of {name} does not follow from its name"), span)
+                .help("give -FORMAT STL, GDF or OBJ"));
+        }
+    };
+    let unusable = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
+    let bytes =
+        crate::commands::settings::device::read_input(job, &path, LARGEST_FILE).map_err(|e| unusable(e.to_string()))?;
+    let panels = read_mesh(kind, &bytes).map_err(|e| unusable(e.to_string()))?.panels;
+    if panels.is_empty() { Err(unusable("it has no panels".into())) } else { Ok(panels) }
+}
+
+fn tube(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let part = piece::current_part(&job.model, args.span)?;
+    let end = |i: usize| piece::point_in_part(&job.model, args.word(i).unwrap_or_default(), part, args.place(i));
+    let ends = [end(1)?, end(2)?];
+    if ends[0] == ends[1] {
+        return Err(Diagnostic::error("a tube needs two points at different places", args.place(2)));
+    }
+    if args.number(4).is_some_and(|other| Some(other) != args.number(3)) {
+        return Err(Diagnostic::error("a TUBE has one diameter: tapers are not supported", args.place(4)).help(
+            "divide it into TUBEs of steps in diameter; PGEN makes a cone that floats, without a member's forces",
+        ));
+    }
+    whole(job, args, Shape::Tube { ends, diameter: args.number(3).unwrap_or_default() })
+}
+
+fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let name = args.word(0).unwrap_or_default();
+    let by = Place::new([1, 2, 3, 4, 5, 6].map(|i| args.number(i).unwrap_or(0.0)));
+    let known = job.model.names(windlass_model::EntityKind::Piece);
+    let help = windlass_base::diagnostic::did_you_mean(name, known);
+    let Some(Piece { shape, name, .. }) = job.model.piece_mut(name) else {
+        let mut error = Diagnostic::error(format!("unknown piece {name}"), args.place(0));
+        error.help.extend(help);
+        return Err(error);
+    };
+    *shape = shape.moved_by(&by);
+    job.model.current_piece = Some(name.clone());
+    piece::finish_piece(job);
+    Ok(Effect::Done)
+}
+
+fn list_block(job: &mut Job, _: &Call) -> Outcome<Effect> {
+    let table = pieces(&job.model, &|_| true);
+    Ok(Effect::Say(page::grid(&table, job.units).join("\n")))
+}

@@ -1,0 +1,216 @@
+//! `&PICTURE`: the system as it stands, in plan, elevation or slantwise.
+
+use crate::commands::chosen::{NameFilter, WARNING, merge_remarks};
+use crate::commands::{Call, Command, Effect, Job};
+use crate::report::picture::{Picture, View};
+use crate::report::plot::PlotError;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::EntityKind;
+use windlass_solve::scene::{Scene, SceneOptions};
+
+/// &PICTURE.
+pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };
+
+const YES_NO: ValueSpec = ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "shown or not").or("YES");
+
+const NO: OptionSpec = OptionSpec::new("-NO", &[], "accepted: nothing is asked before drawing").owner(Owner::Ours);
+const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the next figure file, FIGUREn.svg").owner(Owner::Ours);
+const FILE: OptionSpec = OptionSpec::new(
+    "-FILE",
+    &[ValueSpec::new("FILE", Kind::File, "file name; .svg, or that of -FORMAT, is added when it has no ending")],
+    "to a file ending in .svg or .png",
+)
+.owner(Owner::Ours);
+const FORMAT: OptionSpec = OptionSpec::new(
+    "-FORMAT",
+    &[ValueSpec::new("FORMAT", Kind::Choice(&["SVG", "PNG", "TERMINAL"]), "form of the picture")],
+    "SVG or PNG: to the next figure file, or the file of -FILE",
+)
+.default("TERMINAL")
+.owner(Owner::Ours);
+const FROM: OptionSpec = OptionSpec::new(
+    "-FROM",
+    &[ValueSpec::new("ANGLE", Kind::Number(Dim::Angle), "direction to the viewer, from +X toward +Y")],
+    "where the viewer of ELEVATION, ISO or BOTH stands",
+)
+.default("-90; of ISO -60")
+.owner(Owner::Ours);
+const EXAGGERATE: OptionSpec = OptionSpec::new(
+    "-EXAGGERATE",
+    &[ValueSpec::new("FACTOR", Kind::Number(Dim::None), "factor").in_range(0.1, 100.0)],
+    "draws heights so many times as large",
+)
+.default("1")
+.owner(Owner::Ours);
+const NAMES: OptionSpec =
+    OptionSpec::new("-NAMES", &[YES_NO], "names of bodies, connectors and points").default("YES").owner(Owner::Ours);
+const INACTIVE: OptionSpec = OptionSpec::new("-INACTIVE", &[YES_NO], "connectors that do not act, in a light stroke")
+    .default("YES")
+    .owner(Owner::Ours);
+const HEADING: OptionSpec = OptionSpec::new(
+    "-HEADING",
+    &[ValueSpec::new("TEXT", Kind::Text, "title, in quotes when it holds blanks")],
+    "title of the picture",
+)
+.default("that of &TITLE")
+.owner(Owner::Ours);
+
+static SPEC: CommandSpec = CommandSpec {
+    data: &[
+        ValueSpec::new(
+            "VIEW",
+            Kind::Choice(&["BOTH", "PLAN", "TOP", "ELEVATION", "SIDE", "PORT", "STARBOARD", "BOW", "STERN", "ISO"]),
+            "PLAN (or TOP), ELEVATION (or SIDE, PORT), STARBOARD, BOW, STERN, ISO, or BOTH plan and elevation",
+        )
+        .or("BOTH"),
+        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "connector or body, pattern or selector").or("all"),
+    ],
+    repeat: 1,
+    options: &[NO, HARD, FILE, FORMAT, FROM, EXAGGERATE, NAMES, INACTIVE, HEADING],
+    detail: "Draws the system as it stands now: bodies as their hull pieces, each as its convex \
+             outline with its sharp edges, or as the convex outline of their points where they have none, mooring lines in the shape they \
+             hang in between their ends, dynamic lines by their nodes at rest, other connectors straight, with anchors, fairleads, touchdowns and joints. Both \
+             directions of a view have the same scale, but for heights with -EXAGGERATE. The viewer of an elevation looks \
+             horizontally from the direction of -FROM: from -90 (-Y) X runs to the right. SIDE and PORT look from -Y, \
+             STARBOARD from +Y, BOW from -X and STERN from +X, X taken to run aft and Y to starboard. In an elevation the \
+             water stands at the tide and the bottom at the depth of &ENV, else at that of the lines. Lines are solved \
+             exactly, whatever their forces come from; one without a solution is dashed between its ends, with a warning. \
+             A NAME chooses connectors and bodies, and with a connector come its bodies; the VIEW may be left out, but for a NAME \
+             that begins one. Without -HARD, -FILE or -FORMAT the \
+             picture is drawn in the terminal; in a terminal names that find no place are left out, in a file that is said. \
+             A relative file name is inside the job's folder: &HELP &FILE.",
+    example: "MEDIT\n&DESCRIBE BODY BARGE\n*BOW 0 0 20\n*STERN 400 0 20\n~W B_CAT 4 -LEN 2200 -DEP 500\n\
+              CONNECTOR A -ANC 180 2100 ~W *BOW\nCONNECTOR B -ANC 0 2100 ~W *STERN\nEND\n&PICTURE\n\
+              &PICTURE ELEVATION A -EXAGGERATE 2\n&PICTURE ISO -HARD -FROM -45\n&PICTURE BOTH -FILE mooring.png",
+    ..CommandSpec::new("&PICTURE", "draws plan and elevation of the system")
+};
+
+/// The views a record asks for.
+fn views(args: &Args) -> Outcome<Vec<View>> {
+    let word = args.word(0).unwrap_or("BOTH");
+    let degrees = |given: f64| given.to_radians();
+    let fixed = match word {
+        "PLAN" | "TOP" => Some(None),
+        "SIDE" | "PORT" => Some(Some(-90.0)),
+        "STARBOARD" => Some(Some(90.0)),
+        "BOW" => Some(Some(180.0)),
+        "STERN" => Some(Some(0.0)),
+        _ => None,
+    };
+    let from = args.option(&FROM);
+    if let (Some(given), Some(_)) = (from, fixed) {
+        return Err(Diagnostic::error(
+            format!("{word} is seen from where it says: -FROM goes with ELEVATION, ISO or BOTH"),
+            given.span,
+        ));
+    }
+    let exaggerate = args.option(&EXAGGERATE);
+    if let (Some(given), Some(None)) = (exaggerate, fixed) {
+        return Err(Diagnostic::error("a plan shows no heights to exaggerate", given.span));
+    }
+    let stretch = exaggerate.and_then(|g| g.first_number()).unwrap_or(1.0);
+    let asked = from.and_then(|g| g.first_number());
+    Ok(match (word, fixed) {
+        (_, Some(None)) => vec![View::plan()],
+        (_, Some(Some(angle))) => vec![View::elevation(degrees(angle), stretch)],
+        ("ISO", _) => vec![View::isometric(asked.unwrap_or(degrees(-60.0)), stretch)],
+        ("ELEVATION", _) => vec![View::elevation(asked.unwrap_or(degrees(-90.0)), stretch)],
+        _ => vec![View::plan(), View::elevation(asked.unwrap_or(degrees(-90.0)), stretch)],
+    })
+}
+
+/// The file a record asks for, and whether its name takes the number of a figure; `None` for the terminal.
+fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
+    let format = args.option(&FORMAT);
+    let ending = match format.and_then(|g| g.first_word()) {
+        Some("PNG") => Some("png"),
+        Some("SVG") => Some("svg"),
+        Some(_) => None,
+        None if args.has(&HARD) || args.has(&FILE) => Some("svg"),
+        None => return Ok(None),
+    };
+    let Some(ending) = ending else {
+        let other = [FILE, HARD].iter().find_map(|option| args.option(option));
+        return match (other, format) {
+            (Some(other), Some(format)) => Err(Diagnostic::error(
+                format!("a picture for the terminal goes to no file: {}", other.name()),
+                other.span,
+            )
+            .other(format.span, "the terminal is asked for here")),
+            _ => Ok(None),
+        };
+    };
+    let Some(given) = args.option(&FILE) else {
+        return Ok(Some((format!("{}{}.{ending}", job.settings.figure_name, job.settings.figure_number), true)));
+    };
+    let name = given.first_word().unwrap_or_default();
+    match (std::path::Path::new(name).extension(), format) {
+        (None, _) => Ok(Some((format!("{name}.{ending}"), false))),
+        (Some(own), Some(format)) if !own.eq_ignore_ascii_case(ending) => {
+            Err(Diagnostic::error(format!("`{name}` does not end in .{ending}"), given.span)
+                .other(format.span, "the form is asked for here"))
+        }
+        _ => Ok(Some((name.to_string(), false))),
+    }
+}
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let (views, file) = (views(args)?, file(job, args)?);
+    let yes = |option: &OptionSpec| args.option_word(option).is_none_or(|w| w != "NO");
+    let (chosen, light) = (NameFilter::new(call, 1, &job.model), yes(&INACTIVE));
+    let choice = SceneOptions {
+        connector: &|c| (chosen.takes(&c.name)) && (c.active || light),
+        body: &|b| chosen.takes(&b.name),
+        stop: &|| job.is_interrupted(),
+    };
+    let Some((scene, unshaped)) = Scene::build(&job.model, &choice) else {
+        return Err(Diagnostic::error("interrupted", args.span));
+    };
+    chosen.check_used("what can be drawn", &[EntityKind::Connector, EntityKind::Body])?;
+    let problems: Vec<(String, Vec<String>)> = unshaped
+        .into_iter()
+        .map(|(name, error)| {
+            let straight = scene.paths.iter().any(|p| p.name == name);
+            let how = if straight { "dashed between its ends" } else { "not drawn" };
+            (name, vec![format!("{WARNING}{how}: {}", error.text(job.units))])
+        })
+        .collect();
+    let title = args.option_word(&HEADING).unwrap_or(&job.titles[0]).to_string();
+    let picture = Picture { title, scene, views, names: yes(&NAMES), units: job.units };
+    let wrong = |error: PlotError| match error {
+        PlotError::Empty => Diagnostic::error("there is nothing to draw: no body and no connector", args.span)
+            .help("-INACTIVE NO leaves out what does not act; &STATUS counts what the model holds"),
+        other => Diagnostic::error(other.to_string(), args.span),
+    };
+    match file {
+        Some((name, numbered)) => {
+            let (bytes, left_out) = picture.file(&name).map_err(wrong)?;
+            let span = args.option(&FILE).map_or(args.span, |g| g.span);
+            let path = job
+                .output
+                .folder
+                .write(&name, &bytes)
+                .map_err(|e| crate::commands::files::file::to_diagnostic(&e, span))?;
+            job.settings.figure_number += i64::from(numbered);
+            job.say(&format!("wrote {}", path.display()));
+            if left_out > 0 {
+                job.remark(format!("{left_out} names found no place in the picture"), args.span);
+            }
+        }
+        None => {
+            let (columns, lines) = job.plot_size();
+            let text = picture.terminal(columns, lines).map_err(wrong)?;
+            job.say(&text);
+        }
+    }
+    for text in merge_remarks(&problems) {
+        job.warn(text.strip_prefix(WARNING).unwrap_or(&text), args.span);
+    }
+    Ok(Effect::Done)
+}

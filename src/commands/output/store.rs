@@ -1,0 +1,37 @@
+//! STORE: columns of a result as a file, by the ending of its name.
+
+use crate::commands::output::disposition::{MAG_USE, RECORD, VALUES, chosen, write_file};
+use crate::commands::{Call, Command, Effect, Job};
+use crate::report::{csv, netcdf, parquet};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_language::spec::CommandSpec;
+
+/// STORE.
+pub static STORE: Command = Command { spec: &SPEC, edits: false, run };
+
+static SPEC: CommandSpec = CommandSpec {
+    data: &[crate::commands::output::disposition::STORED, crate::commands::output::disposition::ANY_COLUMN],
+    repeat: 1,
+    options: &[RECORD, VALUES, MAG_USE],
+    detail: "By the ending of the name. CSV, also for any other ending: a header of the column names with units, then numbers with full \
+             precision. Parquet (.parquet): columns with the same names, of doubles, whole numbers or text, not compressed; title, source, units \
+             and notes in the metadata. NetCDF-3 (.nc): a variable for each column over the dimension row, named in letters, digits and \
+             underscores, with units and long_name; text as characters. All are in user units, and a value that is missing is missing in the \
+             file. A relative file name is inside the job's folder: &HELP &FILE.",
+    ..crate::commands::output::disposition::spec("STORE", "writes columns to a CSV, Parquet or NetCDF file")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let table = chosen(job, args, 1)?;
+    let name = crate::commands::files::file::with_csv_ending(args.word(0).unwrap_or_default());
+    let ending = std::path::Path::new(&name).extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let bytes = match ending.as_deref() {
+        Some("parquet") => parquet::bytes(&table, job.units).map_err(|e| e.to_string()),
+        Some("nc") => netcdf::bytes(&table, job.units).map_err(|e| e.to_string()),
+        _ => csv::bytes(&table, job.units).map_err(|e| e.to_string()),
+    };
+    let bytes = bytes.map_err(|text| Diagnostic::error(text, args.place(0)))?;
+    write_file(job, &name, &bytes, args.place(0))?;
+    Ok(Effect::Done)
+}

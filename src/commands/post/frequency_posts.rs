@@ -1,0 +1,325 @@
+//! What the FREQ_RESPONSE menu shows of motions: of bodies, points and connectors, and their statistics.
+//!
+//! Source: [MOSES-REF freq_mot]; the forms of MOTION, CONFORCE and STATISTICS are ours.
+
+use crate::commands::chosen::{NameFilter, raise};
+use crate::commands::environment::env::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_OPTION};
+use crate::commands::environment::probability;
+use crate::commands::menu;
+use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::solve::frequency::{FrequencyResults, heaving, open_results, seas};
+use crate::commands::{Call, Command, Effect, Job, Menu};
+use crate::report::disposition::Disposition;
+use nalgebra::Vector3;
+use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{DYNAMIC, EntityKind, Environment, Model, QUASI_STATIC, add_model_column, find};
+use windlass_solve::frequency::tables::{NamedQuantity, body_statistics, operators, spectra, statistics};
+use windlass_solve::frequency::{
+    Derivative, ExtremeKind, FrequencyResponse, LinearQuantity, LinearSystem, ResponseOptions, in_sea,
+};
+
+/// MOTION.
+pub static MOTION: Command = Command { spec: &MOTION_SPEC, edits: false, run: motion };
+/// FR_POINT.
+pub static FR_POINT: Command = Command { spec: &POINT_SPEC, edits: false, run: point };
+/// CONFORCE.
+pub static CONFORCE: Command = Command { spec: &FORCE_SPEC, edits: false, run: force };
+/// STATISTICS.
+pub static STATISTICS: Command = Command { spec: &STATISTICS_SPEC, edits: false, run: told_statistics };
+
+/// The duration of the most probable maximum (s): three hours.
+const MPM_DURATION_S: f64 = 10_800.0;
+const KINDS: &[&str] = &["MOTION", "POINT", "TENSION"];
+
+const VELOCITY: OptionSpec = OptionSpec::new("-VELOCITY", &[], "velocities instead of motions");
+const ACCELERATION: OptionSpec = OptionSpec::new("-ACCELERATION", &[], "accelerations instead of motions");
+const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "point of a body");
+
+static MOTION_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &[&menu::FREQ_RESPONSE],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body").or("the first one")],
+    detail: "Motions of the origin of a body along and about the global axes. After RAO: amplitudes in waves of an amplitude of one \
+             length unit, and their lag behind the crest at the global origin. After SRESPONSE: spectral densities.",
+    example: concat!(heaving!(), "SRESPONSE\nMOTION BALL\nVIEW Frequency Wave Z\nEND\nEND"),
+    ..CommandSpec::new("MOTION", "motions of a body")
+};
+static POINT_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::FREQ_RESPONSE],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    data: &[POINT, POINT.or("none: the motion of the first")],
+    options: &[VELOCITY, ACCELERATION],
+    detail: "Motions of a point of a body, or of one point less those of another; as MOTION.",
+    example: concat!(heaving!(), "RAO\nFR_POINT *CG -ACCELERATION\nREPORT\nEND\nEND"),
+    ..CommandSpec::new("FR_POINT", "motions of points")
+};
+static FORCE_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &[&menu::FREQ_RESPONSE],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    data: &[ValueSpec::new(":CONN", Kind::Name(Noun::Selector), "connector, pattern or selector").or("all")],
+    repeat: 1,
+    detail: "How the sizes of the forces of connectors on their first ends vary, by their stiffness and damping there: for a line its tension. \
+             Of a single connector also its components in global axes. Lines follow without dynamics of their own. As MOTION.",
+    example: concat!(heaving!(), "RAO\nCONFORCE LINE\nREPORT\nEND\nEND"),
+    ..CommandSpec::new("CONFORCE", "forces of connectors")
+};
+const DURATION_OPTION: OptionSpec = OptionSpec::new(
+    "-DURATION",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").positive()],
+    "time of the most probable maximum",
+)
+.default("by -PROBABILITY of &ENV, else 10800: three hours")
+.owner(Owner::Ours);
+
+static STATISTICS_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &[&menu::FREQ_RESPONSE],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    data: &[
+        ValueSpec::new("WHAT", Kind::Choice(KINDS), "of what"),
+        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "a body; one or two points; connectors")
+            .or("the first body; all connectors"),
+    ],
+    repeat: 1,
+    options: &[VELOCITY, ACCELERATION, DURATION_OPTION, SEA_OPTION, A_SEA_OPTION, SPREAD_OPTION, SP_TYPE_OPTION],
+    detail: "Standard deviations at the frequencies of the waves, of slow drift and of both; twice that is the significant amplitude; the most \
+             probable maximum is Rayleigh's, by the number of zero up-crossings in the duration. After RAO the sea is that of the \
+             environment in force, or the one given here; after SRESPONSE it is that of SRESPONSE. Accelerations are global and \
+             without gravity.",
+    example: concat!(
+        heaving!(),
+        "RAO\nSTATISTICS MOTION BALL -SEA JONSWAP 0 3 9 3.3\nREPORT\nEND\nSTATISTICS TENSION\nREPORT\nEND\nEND"
+    ),
+    ..CommandSpec::new("STATISTICS", "statistics of motions and forces in a sea")
+};
+
+fn derivative(args: &Args) -> Outcome<Derivative> {
+    match (args.option(&VELOCITY), args.option(&ACCELERATION)) {
+        (Some(first), Some(second)) => {
+            Err(Diagnostic::error("-VELOCITY and -ACCELERATION cannot hold at once", second.span)
+                .other(first.span, "first given here"))
+        }
+        (Some(_), None) => Ok(Derivative::Velocity),
+        (None, Some(_)) => Ok(Derivative::Acceleration),
+        (None, None) => Ok(Derivative::Place),
+    }
+}
+
+fn derivative_name(derivative: Derivative) -> &'static str {
+    match derivative {
+        Derivative::Place => "Motion",
+        Derivative::Velocity => "Velocity",
+        Derivative::Acceleration => "Acceleration",
+    }
+}
+
+/// How a connector is idealised here: a dynamic line follows the bodies as at rest.
+fn idealisation(model: &Model, name: &str) -> Option<&'static str> {
+    model.idealisation(name).map(|kind| if kind == DYNAMIC { QUASI_STATIC } else { kind })
+}
+
+/// Opens the disposition menu over a table.
+fn dispose(job: &mut Job, made: Table, span: Span) -> Effect {
+    raise(job, &made, span);
+    job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
+    Effect::Done
+}
+
+/// The table of what is found: amplitudes and phases, or spectra.
+fn results_table(
+    job: &Job,
+    title: String,
+    list: &[NamedQuantity],
+    derivative: Derivative,
+    span: Span,
+) -> Outcome<Table> {
+    Ok(match open_results(job, span)? {
+        FrequencyResults::Operators(linear, made) => {
+            let unit = Dim::Length.to_si(1.0, job.units);
+            operators(title, (linear, made), list, (derivative, unit))
+        }
+        FrequencyResults::Spectral(linear, made, _) => spectra(title, (linear, made), list, derivative),
+        FrequencyResults::Nothing => Table::new(title),
+    })
+}
+
+/// The number of a body of the motions by its name.
+fn body(job: &Job, linear: &LinearSystem, name: Option<&str>, span: Span) -> Outcome<(usize, String)> {
+    let gone = || Diagnostic::error("that body has no part in the motions found", span).help("RAO or SRESPONSE again");
+    let Some(name) = name else {
+        let first = linear.system.nodes.iter().position(|n| !n.junction).unwrap_or(0);
+        return Ok((first, linear.system.nodes.get(first).ok_or_else(gone)?.name.clone()));
+    };
+    let found = find(&job.model.bodies, name, "body", span)?;
+    let index = linear.system.nodes.iter().position(|n| n.name == found.name).ok_or_else(gone)?;
+    Ok((index, found.name.clone()))
+}
+
+/// The coordinates of a point of a body.
+fn coordinates(job: &Job, linear: &LinearSystem, name: &str, span: Span) -> Outcome<[LinearQuantity; 3]> {
+    let point = find(&job.model.points, name, "point", span)?;
+    let Some(owner) = job.model.body_of(point) else {
+        return Err(Diagnostic::error(format!("point {name} belongs to no body"), span));
+    };
+    let (index, _) = body(job, linear, Some(&owner.name), span)?;
+    let part = job.model.parts.get(&Model::key(&point.part));
+    let at = part.map_or(point.at, |p| p.place.apply(point.at));
+    Ok(LinearQuantity::point(linear, index, Vector3::from(at)))
+}
+
+/// A point, or one less another, with a name for both.
+fn points(job: &Job, linear: &LinearSystem, args: &Args, from: usize) -> Outcome<(String, Vec<NamedQuantity>)> {
+    let Some(first) = args.word(from) else {
+        return Err(Diagnostic::error("a point is missing", args.span).help("form: STATISTICS POINT *PT [*PT]"));
+    };
+    let mut axes = coordinates(job, linear, first, args.place(from))?;
+    let mut title = first.to_string();
+    if let Some(second) = args.word(from + 1) {
+        let other = coordinates(job, linear, second, args.place(from + 1))?;
+        let [x, y, z] = axes;
+        let [a, b, c] = &other;
+        axes = [x.minus(a), y.minus(b), z.minus(c)];
+        title = format!("{first} less {second}");
+    }
+    if args.word(from + 2).is_some() {
+        return Err(Diagnostic::error("there are more than two points", args.place(from + 2)));
+    }
+    let list = ["X", "Y", "Z"].into_iter().zip(axes).map(|(name, q)| NamedQuantity::new(name, Dim::Length, q));
+    Ok((title, list.collect()))
+}
+
+fn motion(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let linear = open_results(job, args.span)?.linear().cloned();
+    let Some(linear) = linear else { return Ok(Effect::Done) };
+    let (index, name) = body(job, &linear, args.word(0), args.place(0))?;
+    let list = NamedQuantity::dofs(&linear, index);
+    let made = results_table(job, format!("Motion of {name}"), &list, Derivative::Place, args.span)?;
+    Ok(dispose(job, made, args.span))
+}
+
+fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let linear = open_results(job, args.span)?.linear().cloned();
+    let Some(linear) = linear else { return Ok(Effect::Done) };
+    let derivative = derivative(args)?;
+    let (name, list) = points(job, &linear, args, 0)?;
+    let made = results_table(job, format!("{} of {name}", derivative_name(derivative)), &list, derivative, args.span)?;
+    Ok(dispose(job, made, args.span))
+}
+
+/// Tensions of the connectors that a record's words from a position on choose; with `components` those of a single one.
+fn tensions(
+    job: &Job,
+    linear: &LinearSystem,
+    call: &Call,
+    from: usize,
+    components: bool,
+) -> Outcome<Vec<NamedQuantity>> {
+    let chosen = NameFilter::new(call, from, &job.model);
+    let names: Vec<String> = linear.connectors().filter(|name| chosen.takes(name)).map(str::to_string).collect();
+    chosen.check_used("the connectors that act", &[EntityKind::Connector])?;
+    let span = call.args.span;
+    let mut list = Vec::new();
+    for name in &names {
+        let made = LinearQuantity::tension(linear, name).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
+        let Some((axes, size)) = made else { continue };
+        list.extend(size.map(|q| NamedQuantity::new(name.as_str(), Dim::Force, q)));
+        if components && names.len() == 1 {
+            let named = ["FX", "FY", "FZ"].into_iter().zip(axes);
+            list.extend(named.map(|(axis, q)| NamedQuantity::new(axis, Dim::Force, q)));
+        }
+    }
+    if list.is_empty() {
+        return Err(Diagnostic::error("no connector bears a force whose size could vary", span));
+    }
+    Ok(list)
+}
+
+fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let span = call.args.span;
+    let linear = open_results(job, span)?.linear().cloned();
+    let Some(linear) = linear else { return Ok(Effect::Done) };
+    let list = tensions(job, &linear, call, 0, true)?;
+    let made = results_table(job, "Forces of Connectors".into(), &list, Derivative::Place, span)?;
+    Ok(dispose(job, made, span))
+}
+
+/// The sea a record of STATISTICS gives, in the environment in force.
+fn sea(job: &Job, args: &Args) -> Outcome<Environment> {
+    let mut env = job.model.environment.clone();
+    if let Some(given) = args.option(&SEA_OPTION) {
+        env.added_sea = None;
+        env::apply(job, &mut env, given)?;
+    }
+    for given in [A_SEA_OPTION, SPREAD_OPTION, SP_TYPE_OPTION].iter().filter_map(|option| args.option(option)) {
+        env::apply(job, &mut env, given)?;
+    }
+    Ok(env)
+}
+
+/// The response that statistics are made of.
+fn response(job: &Job, args: &Args) -> Outcome<(Arc<LinearSystem>, FrequencyResponse)> {
+    let given = [SEA_OPTION, A_SEA_OPTION, SPREAD_OPTION, SP_TYPE_OPTION].iter().find_map(|option| args.option(option));
+    match (open_results(job, args.span)?, given) {
+        (FrequencyResults::Spectral(..), Some(given)) => Err(Diagnostic::error(
+            format!("{} cannot follow SRESPONSE, whose sea is in its damping and drift", given.name()),
+            given.span,
+        )
+        .help("SRESPONSE ENV takes another environment; a new sea may follow RAO")),
+        (FrequencyResults::Spectral(linear, made, _), None) => Ok((Arc::clone(linear), made.clone())),
+        (FrequencyResults::Operators(linear, _), _) => {
+            let trains = seas(job, &sea(job, args)?, args.span)?;
+            let made = in_sea(linear, &trains, &ResponseOptions::default());
+            Ok((Arc::clone(linear), made.map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?))
+        }
+        (FrequencyResults::Nothing, _) => Err(Diagnostic::error("there are no motions yet", args.span)),
+    }
+}
+
+fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let derivative = derivative(args)?;
+    let of_env = match open_results(job, args.span)? {
+        FrequencyResults::Spectral(.., extreme) => *extreme,
+        _ => probability::extreme(&job.model.environment),
+    };
+    let given = args.option_number(&DURATION_OPTION).map(ExtremeKind::MostProbable);
+    let extreme = given.or(of_env).unwrap_or(ExtremeKind::MostProbable(MPM_DURATION_S));
+    let (linear, made) = response(job, args)?;
+    let (both, how) = ((linear.as_ref(), &made), (derivative, extreme));
+    let of = derivative_name(derivative);
+    let table = match args.word(0) {
+        Some("POINT") => {
+            let (name, list) = points(job, &linear, args, 1)?;
+            statistics(format!("Statistics: {of} of {name}"), both, &list, how)
+        }
+        Some("TENSION") => {
+            if let Some(given) = args.option(&VELOCITY).or(args.option(&ACCELERATION)) {
+                return Err(Diagnostic::error(format!("a tension has no {}", given.name()), given.span));
+            }
+            let list = tensions(job, &linear, call, 1, false)?;
+            let mut table = statistics("Statistics: Forces of Connectors".into(), both, &list, how);
+            add_model_column(&mut table, |name| idealisation(&job.model, name));
+            table
+        }
+        _ => {
+            if args.word(2).is_some() {
+                return Err(Diagnostic::error("MOTION takes one body", args.place(2)));
+            }
+            let (index, name) = body(job, &linear, args.word(1), args.place(1))?;
+            body_statistics(format!("Statistics: {of} of {name}"), both, index, how)
+        }
+    };
+    Ok(dispose(job, table, args.span))
+}

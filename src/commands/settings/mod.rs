@@ -1,0 +1,5 @@
+//! Units, parameters and how the program behaves.
+
+pub(crate) mod device;
+pub(crate) mod parameter;
+pub(crate) mod units;

@@ -1,0 +1,185 @@
+//! `&DIMEN` and `&DEFAULT`.
+
+use crate::commands::{Call, Command, Effect, Job};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::Coordinates;
+
+/// &DIMEN.
+pub static DIMEN: Command = Command { spec: &DIMEN_SPEC, edits: false, run: dimen };
+/// &DEFAULT.
+pub static DEFAULT: Command = Command { spec: &DEFAULT_SPEC, edits: false, run: default };
+
+const SAVE: OptionSpec = OptionSpec::new("-SAVE", &[], "keeps the present units for -REMEMBER");
+const DIMEN_OPTION: OptionSpec = OptionSpec::new(
+    "-DIMEN",
+    &[
+        ValueSpec::new("LENGTH", Kind::Choice(&["FEET", "METERS"]), "length unit"),
+        ValueSpec::new("FORCE", Kind::Choice(FORCES), "force unit"),
+    ],
+    "sets the units of all that follows",
+);
+const REMEMBER: OptionSpec = OptionSpec::new("-REMEMBER", &[], "goes back to the units saved last");
+
+static DIMEN_SPEC: CommandSpec = CommandSpec {
+    options: &[SAVE, DIMEN_OPTION, REMEMBER],
+    detail: "FEET go with KIPS, L-TONS and S-TONS (sections in inches, stress in ksi), METERS with K-NTS and M-TONS (mm, \
+             MPa); KN, N and NEWTONS are ours. The model is kept in SI: changing units never changes it.",
+    example: "&DIMEN -SAVE -DIMEN METERS K-NTS\n&STATUS DIMENSIONS\n&DIMEN -REMEMBER",
+    ..CommandSpec::new("&DIMEN", "sets the units")
+};
+
+const FORCES: &[&str] = &["KIPS", "L-TONS", "S-TONS", "K-NTS", "M-TONS", "KN", "N", "NEWTONS"];
+
+fn dimen(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let mut units = job.units;
+    let mut saved = job.saved_units.clone();
+    for given in &call.args.options {
+        match given {
+            _ if given.is(&SAVE) => saved.push(units),
+            _ if given.is(&REMEMBER) => {
+                units = saved.pop().ok_or_else(|| {
+                    Diagnostic::error("no units have been saved", given.span).help("&DIMEN -SAVE saves them")
+                })?;
+            }
+            _ => {
+                let length = if given.word(const { DIMEN_OPTION.word("LENGTH") }) == Some("FEET") {
+                    LengthUnit::Feet
+                } else {
+                    LengthUnit::Meters
+                };
+                let force = match given.word(const { DIMEN_OPTION.word("FORCE") }) {
+                    Some("KIPS") => ForceUnit::Kips,
+                    Some("L-TONS") => ForceUnit::LongTons,
+                    Some("S-TONS") => ForceUnit::ShortTons,
+                    Some("M-TONS") => ForceUnit::MetricTons,
+                    Some("K-NTS" | "KN") => ForceUnit::Kilonewtons,
+                    _ => ForceUnit::Newtons,
+                };
+                let feet = matches!(force, ForceUnit::Kips | ForceUnit::LongTons | ForceUnit::ShortTons);
+                if feet != (length == LengthUnit::Feet) {
+                    let span = given.place(const { DIMEN_OPTION.word("FORCE") });
+                    let fitting =
+                        if length == LengthUnit::Feet { "KIPS, L-TONS or S-TONS" } else { "K-NTS, M-TONS or N" };
+                    return Err(Diagnostic::error("this force unit does not go with this length unit", span)
+                        .label(format!("expected {fitting}")));
+                }
+                units = UnitSystem { length, force };
+            }
+        }
+    }
+    (job.units, job.saved_units) = (units, saved);
+    Ok(Effect::Done)
+}
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+
+const SAVE_DEFAULTS: OptionSpec = OptionSpec::new("-SAVE", &[], "keeps the present defaults for -REMEMBER");
+const REMEMBER_DEFAULTS: OptionSpec = OptionSpec::new("-REMEMBER", &[], "goes back to the defaults saved last");
+const SPGRAVITY: OptionSpec = OptionSpec::new(
+    "-SPGRAVITY",
+    &[number("SPGR", Dim::None, "specific gravity").positive()],
+    "specific gravity of materials",
+);
+const DENSITY: OptionSpec =
+    OptionSpec::new("-DENSITY", &[number("RHO", Dim::Density, "density").positive()], "density of materials");
+const EMODULUS: OptionSpec =
+    OptionSpec::new("-EMODULUS", &[number("EMOD", Dim::Stress, "Young's modulus").positive()], "Young's modulus");
+const POI_RAT: OptionSpec = OptionSpec::new(
+    "-POI_RAT",
+    &[number("POIRAT", Dim::None, "Poisson's ratio").in_range(0.0, 0.5)],
+    "Poisson's ratio",
+);
+const ALPHA: OptionSpec =
+    OptionSpec::new("-ALPHA", &[number("ALPHA", Dim::ThermalExpansion, "thermal expansion")], "thermal expansion");
+const FYIELD: OptionSpec =
+    OptionSpec::new("-FYIELD", &[number("FYIELD", Dim::Stress, "yield stress").positive()], "yield stress");
+const TENSTR: OptionSpec =
+    OptionSpec::new("-TENSTR", &[number("TENSTR", Dim::Stress, "ultimate stress").positive()], "ultimate stress")
+        .default("yield / 0.6");
+const WATER: OptionSpec =
+    OptionSpec::new("-WATER", &[number("RHO", Dim::Density, "density").positive()], "density of sea water");
+const SPGWATER: OptionSpec = OptionSpec::new(
+    "-SPGWATER",
+    &[number("SG", Dim::None, "specific gravity").positive()],
+    "specific gravity of sea water",
+);
+const DEPTH: OptionSpec = OptionSpec::new("-DEPTH", &[number("DEPTH", Dim::Length, "depth").positive()], "water depth");
+const RAMP: OptionSpec =
+    OptionSpec::new("-RAMP", &[number("T", Dim::Time, "time").not_negative()], "ramp of time-domain runs");
+/// `-RECT`.
+pub(crate) const RECT: OptionSpec = OptionSpec::new("-RECT", &[], "points are given by x y z");
+/// `-CYLINDER`.
+pub(crate) const CYLINDER: OptionSpec = OptionSpec::new("-CYLINDER", &[], "points are given by radius, angle, z");
+/// `-SPHERICAL`.
+pub(crate) const SPHERICAL: OptionSpec =
+    OptionSpec::new("-SPHERICAL", &[], "points are given by radius, angle, angle above the plane");
+const AIR: OptionSpec =
+    OptionSpec::new("-AIR", &[number("RHO", Dim::Density, "density").positive()], "density of air").owner(Owner::Ours);
+const GRAVITY: OptionSpec =
+    OptionSpec::new("-GRAVITY", &[number("G", Dim::Acceleration, "gravity").positive()], "gravity").owner(Owner::Ours);
+
+static DEFAULT_SPEC: CommandSpec = CommandSpec {
+    options: &[
+        SAVE_DEFAULTS,
+        REMEMBER_DEFAULTS,
+        SPGRAVITY,
+        DENSITY,
+        EMODULUS,
+        POI_RAT,
+        ALPHA,
+        FYIELD,
+        TENSTR,
+        WATER,
+        SPGWATER,
+        DEPTH,
+        RAMP,
+        RECT,
+        CYLINDER,
+        SPHERICAL,
+        AIR,
+        GRAVITY,
+    ],
+    detail: "What holds where a record gives no value; &STATUS DEFAULTS lists all. Defaults hold for classes defined after.",
+    example: "&DEFAULT -SAVE -EMODULUS 12000\n&STATUS DEFAULTS\n&DEFAULT -REMEMBER",
+    ..CommandSpec::new("&DEFAULT", "sets defaults")
+};
+
+fn default(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let mut defaults = job.model.defaults;
+    let mut saved = job.model.saved_defaults.clone();
+    for given in &call.args.options {
+        let value = given.first_number().unwrap_or(0.0);
+        let material = &mut defaults.material;
+        match given {
+            _ if given.is(&SAVE_DEFAULTS) => saved.push(defaults),
+            _ if given.is(&REMEMBER_DEFAULTS) => {
+                defaults = saved.pop().ok_or_else(|| {
+                    Diagnostic::error("no defaults have been saved", given.span).help("&DEFAULT -SAVE saves them")
+                })?;
+            }
+            _ if given.is(&SPGRAVITY) => material.density = 1000.0 * value,
+            _ if given.is(&DENSITY) => material.density = value,
+            _ if given.is(&EMODULUS) => material.emodulus = value,
+            _ if given.is(&POI_RAT) => material.poisson = value,
+            _ if given.is(&ALPHA) => material.expansion = value,
+            _ if given.is(&FYIELD) => material.yield_stress = value,
+            _ if given.is(&TENSTR) => material.ultimate_stress = Some(value),
+            _ if given.is(&WATER) => defaults.water_density = value,
+            _ if given.is(&SPGWATER) => defaults.water_density = 1000.0 * value,
+            _ if given.is(&DEPTH) => defaults.depth = Some(value),
+            _ if given.is(&RAMP) => defaults.ramp = value,
+            _ if given.is(&RECT) => defaults.coordinates = Coordinates::Rectangular,
+            _ if given.is(&CYLINDER) => defaults.coordinates = Coordinates::Cylindrical,
+            _ if given.is(&SPHERICAL) => defaults.coordinates = Coordinates::Spherical,
+            _ if given.is(&AIR) => defaults.air_density = value,
+            _ => defaults.gravity = value,
+        }
+    }
+    (job.model.defaults, job.model.saved_defaults) = (defaults, saved);
+    Ok(Effect::Done)
+}

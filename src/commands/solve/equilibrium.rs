@@ -1,0 +1,167 @@
+//! `&EQUI`: brings the bodies to rest.
+//!
+//! Source: [MOSES-REF equi].
+
+use crate::commands::chosen::{WARNING, note_caveats, raise};
+use crate::commands::output::disposition::{BOTH, HARD, send};
+use crate::commands::verdict::{OverBreak, check_over_break};
+use crate::commands::{Call, Command, Effect, Job};
+use crate::report::page;
+use indexmap::IndexMap;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::Given;
+use windlass_base::values::Noun;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Model, find};
+use windlass_solve::results::along::cautions;
+use windlass_solve::{DOFS, Options, SolveError, find_equilibrium_with_rebuilds, tables};
+
+/// &EQUI.
+pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
+
+const TOLERANCE: ValueSpec =
+    ValueSpec::new("T", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity")
+        .in_range(1e-12, 1.0);
+
+const DEFAULTS: OptionSpec = OptionSpec::new("-DEFAULTS", &[], "forgets what was given before");
+const ITER_MAX: OptionSpec = OptionSpec::new(
+    "-ITER_MAX",
+    &[ValueSpec::new("N", Kind::Integer, "steps").in_range(1.0, 100_000.0)],
+    "most steps of the solution",
+)
+.default("50");
+const TOLERANCE_OPTION: OptionSpec = OptionSpec::new(
+    "-TOLERANCE",
+    &[TOLERANCE, ValueSpec { name: "R", ..TOLERANCE }.or("the same: rotation, times the radius of gyration")],
+    "largest accelerations left",
+)
+.default("0.001");
+const IGNORE: OptionSpec = OptionSpec::new(
+    "-IGNORE",
+    &[
+        ValueSpec::new("BODY", Kind::Name(Noun::Body), "body"),
+        ValueSpec::new("DOF", Kind::Choice(&DOFS), "a degree of freedom that does not move in this solution"),
+        MORE,
+        MORE,
+        MORE,
+        MORE,
+        MORE,
+    ],
+    "holds degrees of freedom of a body, this time",
+)
+.many();
+
+static SPEC: CommandSpec = CommandSpec {
+    options: &[DEFAULTS, ITER_MAX, TOLERANCE_OPTION, IGNORE, HARD, BOTH],
+    detail: "All bodies and active connectors in the environment in force. Newton's iteration with the analytic stiffness goes on as \
+             far as rounding lets it, of each group of bodies and junctions that connectors join by itself and then of all; what is left is reported, and must be less than the tolerance, which is a \
+             share of gravity: 0.001 means a force of a thousandth of the body's weight. Far from rest, or where the stiffness is not \
+             stable, a share of the mass helps it. Options but -IGNORE are remembered. Freedoms are global directions at the body's \
+             origin. A direction that nothing holds, and no force acts in, stays as it is and is told. The result is the \
+             configuration from then on; &INSTATE -PREVIOUS goes back. \
+             Several equilibria may exist; none is promised.",
+    example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*A 0 0 20\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\n*CG 0 0 0\n#WEIGHT *CG 500 1 1 1\n\
+              ~TIE SL_ELEM 60 TENSION -LEN 10\nCONNECTOR T ~TIE *HOOK *A\nEND\n&INSTATE -LOCATE LOAD 0 0 8\n\
+              &EQUI -ITER_MAX 100 -IGNORE LOAD RZ\n&STATUS F_CONNECTOR",
+    ..CommandSpec::new("&EQUI", "finds the equilibrium of bodies and connectors")
+};
+
+const MORE: ValueSpec = ValueSpec::new("DOF", Kind::Choice(&DOFS), "a further one").or("no more");
+
+/// The degrees of freedom one -IGNORE holds, each with the number of its body.
+fn ignored_dofs(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
+    let place = given.first_place();
+    let body = find(&model.bodies, given.first_word().unwrap_or_default(), "body", place)?;
+    let index = model.bodies.get_index_of(&Model::key(&body.name)).unwrap_or(0);
+    let words = given.values.iter().skip(1).filter_map(|v| v.word());
+    Ok(words.filter_map(|w| DOFS.iter().position(|f| *f == w)).map(|f| (index, f)).collect())
+}
+
+/// What a record asks for, beside what was asked for before.
+fn options(job: &Job, call: &Call) -> Outcome<Options> {
+    let args = &call.args;
+    let before = if args.has(&DEFAULTS) { Options::default() } else { job.equilibrium.clone() };
+    let mut made = Options { ignored: Vec::new(), ..before };
+    if let Some(most) = args.option_integer(&ITER_MAX) {
+        made.most = usize::try_from(most).unwrap_or(made.most);
+    }
+    if let Some(given) = args.option(&TOLERANCE_OPTION) {
+        let [shift, turn] = const { TOLERANCE_OPTION.numbers([TOLERANCE.name, "R"]) }.map(|key| given.number(key));
+        let shift = shift.unwrap_or(made.tolerance[0]);
+        made.tolerance = [shift, turn.unwrap_or(shift)];
+    }
+    for given in args.occurrences(&IGNORE) {
+        made.ignored.extend(ignored_dofs(&job.model, given)?);
+    }
+    Ok(made)
+}
+
+/// The message of an engine, with who it is about.
+pub(crate) fn to_diagnostic(wrong: SolveError, model: &Model, span: Span, units: UnitSystem) -> Box<Diagnostic> {
+    let SolveError { who, mut error } = wrong;
+    if let Some(who) = who {
+        let what = if model.bodies.contains_key(&Model::key(&who)) { "body" } else { "connector" };
+        error.message = error.message.about(format!("{what} {who}"));
+    }
+    error.diagnostic(span, units)
+}
+
+/// Warns of what is to be known of dynamic lines where they rest.
+pub(crate) fn warn_of_lines(job: &mut Job, span: Span) {
+    let mut texts: IndexMap<&str, Vec<String>> = IndexMap::new();
+    for (name, text) in cautions(&job.model) {
+        texts.entry(text).or_default().push(name);
+    }
+    for (text, names) in texts {
+        job.warn(format!("{}: {text}", names.join(", ")), span);
+    }
+}
+
+/// Warns of tensions beyond a break, and keeps them for the exit code.
+pub(crate) fn warn_of_breaks(job: &mut Job, list: Vec<OverBreak>, span: Span) {
+    list.iter().for_each(|over| job.warn(over.text(), span));
+    job.verdict.over_break.extend(list);
+}
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let options = options(job, call)?;
+    if job.model.bodies.is_empty() {
+        return Err(
+            Diagnostic::error("there is no body to bring to rest", call.args.span).help("&DESCRIBE BODY describes one")
+        );
+    }
+    let settled = find_equilibrium_with_rebuilds(&mut job.model, &options)
+        .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?;
+    let forces = tables::by_category(&settled.system, &settled.state, &|_| true)
+        .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?;
+    let (mut over, mut unknown) = (Vec::new(), Vec::new());
+    for (name, summary) in settled.system.summaries(&settled.state) {
+        match summary {
+            Ok(summary) => over.extend(check_over_break(name, &summary, "&EQUI")),
+            Err(error) => unknown.push(format!("the tension of {name} is not known: {}", error.error.text(job.units))),
+        }
+    }
+    job.equilibrium = Options { ignored: Vec::new(), ..options };
+    let mut list = vec![tables::rest(&job.model, &settled), forces];
+    match job.model.check_added_mass() {
+        Ok(()) => list.push(
+            tables::periods(&settled.system, &settled.state)
+                .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?,
+        ),
+        Err(error) => {
+            let text = format!("{WARNING}natural periods are left out: {}", error.text(job.units));
+            list.iter_mut().take(1).for_each(|t| t.note(text.as_str()));
+        }
+    }
+    note_caveats(&job.model, &mut list);
+    let head = job.page_head();
+    let text = list.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
+    send(job, &call.args, &text)?;
+    list.iter().for_each(|t| raise(job, t, call.args.span));
+    warn_of_lines(job, call.args.span);
+    warn_of_breaks(job, over, call.args.span);
+    unknown.into_iter().for_each(|text| job.warn(text, call.args.span));
+    Ok(Effect::Done)
+}

@@ -1,0 +1,226 @@
+//! The FREQ_RESPONSE menu: motions of unit waves, and those in a sea.
+//!
+//! Source: [MOSES-REF freq_mot].
+
+use crate::commands::chosen::{WARNING, raise};
+use crate::commands::environment::env;
+use crate::commands::environment::probability;
+use crate::commands::menu;
+use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::{Call, Command, Effect, Job, Menu};
+use crate::report::page;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Environment, Model, find};
+use windlass_solve::frequency::{
+    ExtremeKind, FrequencyResponse, LinearSystem, Operators, ResponseOptions, Trains, respond,
+};
+
+/// FREQ_RESPONSE.
+pub static FREQ_RESPONSE: Command = Command { spec: &MENU_SPEC, edits: false, run: open };
+/// RAO.
+pub static RAO: Command = Command { spec: &RAO_SPEC, edits: false, run: rao };
+/// SRESPONSE.
+pub static SRESPONSE: Command = Command { spec: &SRESPONSE_SPEC, edits: false, run: sresponse };
+
+/// What the menu has found.
+#[derive(Clone, Debug, Default)]
+pub enum FrequencyResults {
+    /// Nothing yet.
+    #[default]
+    Nothing,
+    /// Motions of unit waves.
+    Operators(Arc<LinearSystem>, Operators),
+    /// Motions in a sea, and the extreme its environment asks for.
+    Spectral(Arc<LinearSystem>, FrequencyResponse, Option<ExtremeKind>),
+}
+
+impl FrequencyResults {
+    /// The equations it was found with.
+    pub(crate) fn linear(&self) -> Option<&Arc<LinearSystem>> {
+        match self {
+            FrequencyResults::Nothing => None,
+            FrequencyResults::Operators(linear, _) | FrequencyResults::Spectral(linear, ..) => Some(linear),
+        }
+    }
+}
+
+/// The records of a body that heaves in waves, and the menu open, for examples.
+macro_rules! heaving {
+    () => {
+        "&DIMEN -DIMEN METERS K-NTS\n&FILE OPEN A ball.1\n&FILE WRITE A 6 3 3 900 300\n&FILE WRITE A 9 3 3 1100 400\n&FILE CLOSE A\n\
+         &FILE OPEN X ball.3\n&FILE WRITE X 6 180 3 150 0 150 0\n&FILE WRITE X 9 180 3 220 0 220 0\n&FILE CLOSE X\n\
+         MEDIT\n*G 0 0 1\n&DESCRIBE BODY BALL -IGNORE X Y RX RY RZ\n*CG 0 0 0\n#WEIGHT *CG 20000 4 4 4\n\
+         #HYDROSTATIC *CG 3000 0 0 -BUOYANCY 20000 -ZCGE 0\n~S GSPR BOTH Z 100 1000 -LEN 0\nCONNECTOR LINE ~S *CG *G\n\
+         DATABASE BALL -WAMIT job.ans/ball\nEND\n&EQUI\n&ENV -SEA ISSC 0 2 8\nFREQ_RESPONSE\n"
+    };
+}
+pub(crate) use heaving;
+
+static MENU_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::MAIN],
+    opens: Opens::Menu(&menu::FREQ_RESPONSE),
+    detail: "RAO or SRESPONSE finds the motions of all bodies about their present places, which &EQUI should have found: the stiffness \
+             is that of everything there. MOTION, FR_POINT and CONFORCE then show them, STATISTICS tells what they come to in a sea. \
+             Waves act on the bodies that have a DATABASE; they do not on members, whose drag meets the body alone, and gusts have no part in it.",
+    example: concat!(heaving!(), "RAO\nMOTION BALL\nREPORT\nEND\nEND"),
+    ..CommandSpec::new("FREQ_RESPONSE", "motions in the frequency domain, up to END")
+};
+
+const PERIOD: OptionSpec = OptionSpec::new(
+    "-PERIOD",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "period of the waves").positive()],
+    "periods",
+)
+.repeating(1);
+
+const HEADING: OptionSpec = OptionSpec::new(
+    "-HEADING",
+    &[ValueSpec::new("H", Kind::Number(Dim::Angle), "where the waves come from, from +X toward +Y")],
+    "headings",
+)
+.repeating(1)
+.default("those of the first body's database");
+
+static RAO_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::FREQ_RESPONSE],
+    options: &[PERIOD.default("those of the databases"), HEADING],
+    detail: "Motions in waves of unit amplitude, at each heading and period. Damping is that of radiated waves, #DAMP, #DRAG and \
+             connectors, as it is at rest: what grows with the velocity has none. A new sea may then be given with STATISTICS. Slow drift \
+             has no part in it.",
+    example: concat!(
+        heaving!(),
+        "RAO -PERIOD 6 7 8 9 -HEADING 0\nMOTION BALL\nVIEW Period 'Z Amp' 'Z Phase'\nEND\nEND"
+    ),
+    ..CommandSpec::new("RAO", "motions in unit waves")
+};
+
+static SRESPONSE_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::FREQ_RESPONSE],
+    data: &[ValueSpec::new("ENV", Kind::Name(Noun::Environment), "environment").or("the environment in force")],
+    options: &[PERIOD.default("those of -E_PERIOD, else as the sea and the natural periods need them")],
+    detail: "Motions in the seas of an environment, as spectra. Damping that grows with the velocity is linearised in that sea: it is the mean \
+             that the velocities meet, found anew until both agree. Slow drift is added for bodies whose database has drift, by Newman's approximation, \
+             with all damping; -DRIFT MEAN or NONE of DATABASE leaves it out, and QTF takes the mean drift of the QTF. Spread seas have eleven directions. Mean forces, also of \
+             wind and current, are in the place at rest and its stiffness; gusts have no part in it.",
+    example: concat!(heaving!(), "SRESPONSE\nSTATISTICS MOTION BALL\nREPORT\nEND\nEND"),
+    ..CommandSpec::new("SRESPONSE", "motions in a sea")
+};
+
+fn open(job: &mut Job, _: &Call) -> Outcome<Effect> {
+    job.menus.push(Menu::Frequency(Box::default()));
+    Ok(Effect::Done)
+}
+
+/// What the open menu has found.
+///
+/// # Errors
+/// Nothing yet.
+pub(crate) fn open_results(job: &Job, span: Span) -> Outcome<&FrequencyResults> {
+    let menu = job.menus.iter().rev().find_map(|menu| match menu {
+        Menu::Frequency(found) => Some(found.as_ref()),
+        _ => None,
+    });
+    match menu {
+        Some(FrequencyResults::Nothing) | None => {
+            Err(Diagnostic::error("there are no motions yet", span).help("RAO or SRESPONSE finds them"))
+        }
+        Some(found) => Ok(found),
+    }
+}
+
+fn keep(job: &mut Job, made: FrequencyResults) {
+    if let Some(Menu::Frequency(found)) = job.menus.last_mut() {
+        **found = made;
+    }
+}
+
+/// The equations of a model, on whose bodies waves must act.
+fn linear(job: &Job, model: &Model, span: Span) -> Outcome<LinearSystem> {
+    let made = LinearSystem::new(model).map_err(|e| to_diagnostic(e, model, span, job.units))?;
+    if !made.is_excited() {
+        return Err(Diagnostic::error("waves act on no body: none has a database with wave forces", span)
+            .help("DATABASE BODY -WAMIT ROOT, -NEMOH FOLDER or -CAPYTAINE FILE reads one"));
+    }
+    Ok(made)
+}
+
+/// Frequencies of the periods of a record (rad/s).
+fn frequencies(args: &Args) -> Vec<f64> {
+    args.option(&PERIOD).map_or(Vec::new(), |g| g.numbers().iter().map(|t| TAU / t).collect())
+}
+
+fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let linear = linear(job, &job.model, args.span)?;
+    let mut periods = frequencies(args);
+    if periods.is_empty() {
+        periods = linear.frequencies();
+    }
+    let headings = args.option(&HEADING).map_or_else(|| linear.headings(), |g| g.numbers());
+    let made =
+        Operators::new(&linear, &periods, &headings).map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
+    let mut table = Table::new("Motions in Unit Waves").fact("Periods", periods.len(), Dim::None).fact(
+        "Headings",
+        headings.len(),
+        Dim::None,
+    );
+    table.notes.extend(linear.notes.iter().cloned());
+    say(job, &table, args.span);
+    keep(job, FrequencyResults::Operators(Arc::new(linear), made));
+    Ok(Effect::Done)
+}
+
+/// Prints facts, and raises warnings.
+fn say(job: &mut Job, table: &Table, span: Span) {
+    raise(job, table, span);
+    let mut plain = table.clone();
+    plain.notes.retain(|n| !n.starts_with(WARNING));
+    let head = job.page_head();
+    job.say(&page::render(&plain, job.units, &head));
+}
+
+/// The seas of an environment.
+///
+/// # Errors
+/// Calm water; a sea that cannot be.
+pub(crate) fn seas(job: &Job, env: &Environment, span: Span) -> Outcome<Trains> {
+    match Trains::new(&job.model, env).map_err(|e| e.diagnostic(span, job.units))? {
+        Some(made) => Ok(made),
+        None => Err(Diagnostic::error("the environment has no sea", span).help("&ENV -SEA gives it one")),
+    }
+}
+
+fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let mut model = job.model.clone();
+    if let Some(name) = args.word(0) {
+        model.environment = find(&job.model.environments, name, "environment", args.place(0))?.clone();
+    }
+    let trains = seas(job, &model.environment, args.span)?;
+    let mut linear = linear(job, &model, args.span)?;
+    let mut frequencies = frequencies(args);
+    if frequencies.is_empty() {
+        let of_env = model.environment.options.iter().find(|given| given.is(&env::E_PERIOD));
+        frequencies = of_env.map_or(Vec::new(), |g| g.numbers().iter().map(|t| TAU / t).collect());
+    }
+    frequencies.sort_by(f64::total_cmp);
+    frequencies.dedup();
+    let asked = ResponseOptions { frequencies, spectral: true };
+    let made = respond(&mut linear, &trains, &asked).map_err(|e| to_diagnostic(e, &model, args.span, job.units))?;
+    let mut table = Table::new("Motions in a Sea")
+        .fact("Frequencies of Waves", made.waves.len(), Dim::None)
+        .fact("Frequencies of Slow Drift", made.slow.len(), Dim::None)
+        .fact("Rounds of Linearisation", made.rounds, Dim::None);
+    table.notes.extend(linear.notes.iter().cloned());
+    say(job, &table, args.span);
+    keep(job, FrequencyResults::Spectral(Arc::new(linear), made, probability::extreme(&model.environment)));
+    Ok(Effect::Done)
+}

@@ -1,0 +1,534 @@
+//! TDOM: the time domain.
+//!
+//! Source: [MOSES-REF timdom].
+
+use crate::commands::menu;
+use crate::commands::solve::equilibrium::{to_diagnostic, warn_of_breaks, warn_of_lines};
+use crate::commands::solve::restart::go_on;
+use crate::commands::solve::tether_run;
+use crate::commands::verdict::over_break_in;
+use crate::commands::{Call, Command, Effect, Job};
+use crate::report::page;
+use crate::report::run_log::RunLog;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Place;
+use windlass_base::pose::Six;
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_hydro::morison::pieces_without_wave_load;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::Model;
+use windlass_solve::results::{fender_peaks, fender_table};
+use windlass_solve::screening::{self, Screening};
+use windlass_solve::time::{Convergence, Ending, Method, Run, RunSettings, Snapshot, TimeScheme, Trigger, Watcher};
+use windlass_solve::{SolveError, find_equilibrium_with_rebuilds, run_tables, tethered};
+
+/// TDOM.
+pub static TDOM: Command = Command { spec: &SPEC, edits: true, run };
+
+/// The file of a run, in the job's folder.
+pub(crate) const FILE: &str = "TDOM.run";
+
+const YES_NO: &[&str] = &["YES", "NO"];
+
+const fn yes_no(help: &'static str) -> ValueSpec {
+    ValueSpec::new("YES/NO", Kind::Choice(YES_NO), help)
+}
+
+/// `-NO_CAPSIZE`.
+pub(crate) const NO_CAPSIZE: OptionSpec =
+    OptionSpec::new("-NO_CAPSIZE", &[yes_no("YES goes on")], "goes on beyond a roll or pitch of 90 degrees")
+        .default("NO: the run ends there");
+/// `-EQUI`.
+pub(crate) const EQUI: OptionSpec =
+    OptionSpec::new("-EQUI", &[], "begins at the equilibrium with the mean forces, as &EQUI finds it");
+/// `-NEWMARK`.
+pub(crate) const NEWMARK: OptionSpec = OptionSpec::new(
+    "-NEWMARK",
+    &[
+        yes_no("NO is the predictor and corrector"),
+        ValueSpec::new("BETA", Kind::Number(Dim::None), "beta").or("that of generalised-alpha").in_range(1e-3, 1.0),
+        ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma of the books").or("0.5").in_range(0.0, 2.0),
+    ],
+    "the scheme of bodies and dynamic lines; with NO dynamic lines keep generalised-alpha with spectral radius 0.2",
+)
+.default("generalised-alpha with spectral radius 0.9; 0.2 with dynamic lines");
+/// `-CONVERGE`.
+pub(crate) const CONVERGE: OptionSpec = OptionSpec::new(
+    "-CONVERGE",
+    &[
+        ValueSpec::new("NUMB", Kind::Integer, "most iterations of a step").in_range(1.0, 1000.0),
+        ValueSpec::new("TOL", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity")
+            .or("1E-7")
+            .in_range(1e-14, 0.1),
+    ],
+    "when a step is solved",
+)
+.default("20 1E-7");
+/// `-RESTART`.
+pub(crate) const RESTART: OptionSpec = OptionSpec::new(
+    "-RESTART",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").or("where the run ended").not_negative()],
+    "goes on with the run that was kept, from the last snapshot at or before a time",
+);
+/// `-RESET`.
+pub(crate) const RESET: OptionSpec = OptionSpec::new(
+    "-RESET",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()],
+    "begins with the bodies as they were in the run at a time, at rest or moving, and time zero",
+);
+/// `-STORE`.
+pub(crate) const STORE: OptionSpec = OptionSpec::new(
+    "-STORE",
+    &[ValueSpec::new("INCR", Kind::Integer, "steps").in_range(1.0, 1e9)],
+    "steps from one stored instant to the next",
+)
+.default("1");
+/// `-RHO`.
+pub(crate) const RHO: OptionSpec = OptionSpec::new(
+    "-RHO",
+    &[ValueSpec::new("R", Kind::Number(Dim::None), "spectral radius at infinite frequency").in_range(0.0, 1.0)],
+    "generalised-alpha with another spectral radius, of bodies and dynamic lines: 1 damps nothing, 0 damps most",
+)
+.owner(Owner::Ours)
+.default("0.9; 0.2 with dynamic lines");
+/// `-ADAPTIVE`.
+pub(crate) const ADAPTIVE: OptionSpec = OptionSpec::new(
+    "-ADAPTIVE",
+    &[ValueSpec::new("TOL", Kind::Number(Dim::Length), "largest error of place in a step").positive()],
+    "halves steps where they err more; rotations count times 10 m",
+)
+.owner(Owner::Ours)
+.default("steps are as given");
+const DIVIDING: OptionSpec = OptionSpec::new(
+            "-DIVIDING",
+            &[ValueSpec::new("T", Kind::Number(Dim::Time), "period").positive()],
+            "period that divides motion: what is quicker is of first order, about the place and heading at which waves act on databases",
+        )
+        .owner(Owner::Ours)
+        .default("1.05 times the period above which a hundredth of the energy of the sea is; 15 s without waves");
+/// `-CHECK`.
+pub(crate) const CHECK: OptionSpec =
+    OptionSpec::new("-CHECK", &[], "runs again with half the step and prints the difference of every result")
+        .owner(Owner::Ours);
+/// `-STATISTICS`.
+pub(crate) const STATISTICS: OptionSpec =
+    OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
+        .owner(Owner::Ours);
+const BALANCE: OptionSpec =
+    OptionSpec::new("-BALANCE", &[], "prints the books of energy and momentum of dynamic lines").owner(Owner::Ours);
+/// `-ALONG`.
+pub(crate) const ALONG: OptionSpec = OptionSpec::new(
+    "-ALONG",
+    &[ValueSpec::new("N", Kind::Integer, "every Nth; 0: none").in_range(0.0, 1e6)],
+    "keeps every Nth node of dynamic lines, counted from their second ends, and both ends",
+)
+.owner(Owner::Ours)
+.default("1: all nodes");
+/// `-SCREEN`.
+pub(crate) const SCREEN: OptionSpec = OptionSpec::new(
+    "-SCREEN",
+    &[yes_no("NO leaves it out")],
+    "replays the three most loaded quasi-static lines as dynamic lines after the run",
+)
+.owner(Owner::Ours)
+.default("YES");
+
+static SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::MAIN],
+    options: &[
+        NO_CAPSIZE,
+        EQUI,
+        NEWMARK,
+        CONVERGE,
+        RESTART,
+        RESET,
+        STORE,
+        RHO,
+        ADAPTIVE,
+        DIVIDING,
+        CHECK,
+        STATISTICS,
+        BALANCE,
+        ALONG,
+        SCREEN,
+        tether_run::TETHERS,
+        tether_run::SLAM,
+        tether_run::TOW,
+    ],
+    detail: "Runs bodies and connectors from where they stand, at rest, over TOBSERV with the step of &ENV -TIME, in the wind, current \
+             and waves of the environment, which -RAMP lets grow; the statistics it prints leave out TTRA_SET. Each step balances forces, inertia included, by Newton's iteration; a \
+             step that finds no balance is cut in halves, which is counted. -NEWMARK YES 0.25 0.5 is the trapezoidal rule; -NEWMARK NO \
+             needs small steps. The bodies of the model stay where they stand. Results go to PRCPOST, and as the run goes to the file \
+             TDOM.run in the job's folder, from which -RESTART goes on, also after the program was killed, with the digits of an \
+             unbroken run. Ctrl-C ends a run and keeps what it has. Lines without &CONNECTOR -DYNAMICS are quasi-static: at every instant they hang as \
+             at rest, without inertia and drag. After the run -SCREEN replays the three of these with the largest tension over break as dynamic \
+             lines, ten periods around that tension, with their ends moved as in the run, and warns where they pull more than 1.1 times as hard. \
+             A replay has elements of at most 20 m (60 to 200) and takes 1000 to 1200 steps. -TETHERS runs the connectors of class TETHER by the scheme of two stages of AQWA: a towed one \
+             alone, its vessel at rest; installed ones with the one body they hold and its other connectors. It takes -STORE, -SLAM and -TOW of the \
+             options here, and PRCPOST has TETHER and STRUCTURE for it. &ACTION says what happens during a run: lines that break, winches. \
+             The first-order loads of a database are linear about the low-frequency place and heading of its body, what a filter leaves of them: \
+             of motion with the dividing period and shorter ones 4 % at most, of ten and twenty times the period all within 25 % and 6 %. The period is printed.",
+    example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\
+              ~S GSPR BOTH X 40 1000 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART 0.5 0 0\n&ENV -TIME 10 0.1\nTDOM",
+    ..CommandSpec::new("TDOM", "runs the system in time")
+};
+
+/// The scheme where a record says none.
+fn usual(model: &Model) -> Method {
+    if model.connectors.values().any(|c| c.active && (model.moves(c) || model.holds_pipe(&c.name))) {
+        Method::with_moving_lines()
+    } else {
+        Method::default()
+    }
+}
+
+/// Most steps of a run: a million a second, which only a single spring reaches, would take a third of a year.
+const MAX_TIME_STEPS: f64 = 1e13;
+
+/// How a record wants its run to go.
+fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
+    let Some(window) = job.model.environment.time else {
+        return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", args.span)
+            .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
+    };
+    let steps = (window.observed / window.step).ceil();
+    if steps > MAX_TIME_STEPS {
+        let text = format!("-TIME asks for {steps:.3e} steps; at most {MAX_TIME_STEPS:.0e} are taken");
+        return Err(Diagnostic::error(text, args.span)
+            .help("&ENV NAME -TIME TOBSERV DELTA_TIME: a longer step, or a shorter time"));
+    }
+    let ramp = job.model.environment.ramp.unwrap_or(job.model.defaults.ramp);
+    if ramp > 0.0 && window.step > ramp {
+        let shown = |time: f64| Dim::Time.from_si(time, job.units);
+        let text = format!("a step of {} s is longer than the ramp of {} s", shown(window.step), shown(ramp));
+        return Err(Diagnostic::error(text, args.span)
+            .help("the loads would come at once: a longer -RAMP, a shorter step, or -RAMP 0 to have them at once"));
+    }
+    let said = |option: &OptionSpec| args.option_word(option).is_some_and(|w| w == "YES");
+    let method = match args.option(&NEWMARK) {
+        Some(given) if given.first_word() == Some("NO") => Method::Corrector,
+        Some(given) => match given.number(const { NEWMARK.number("BETA") }) {
+            Some(beta) => {
+                let scheme = TimeScheme::newmark(beta, given.number(const { NEWMARK.number("ALPHA") }).unwrap_or(0.5));
+                if scheme.gamma < 0.5 {
+                    return Err(Diagnostic::error("an ALPHA below 0.5 makes every motion grow", given.span));
+                }
+                Method::Implicit(scheme)
+            }
+            None => usual(&job.model),
+        },
+        None => args
+            .option_number(&RHO)
+            .map_or_else(|| usual(&job.model), |r| Method::Implicit(TimeScheme::generalised_alpha(r))),
+    };
+    let mut convergence = Convergence::default();
+    if let Some(given) = args.option(&CONVERGE) {
+        let most = given.integer(const { CONVERGE.integer("NUMB") }).and_then(|n| usize::try_from(n).ok());
+        convergence.most = most.unwrap_or(convergence.most);
+        convergence.tolerance = given.number(const { CONVERGE.number("TOL") }).unwrap_or(convergence.tolerance);
+    }
+    let whole = |option: &OptionSpec| {
+        let given = args.option(option).and_then(|g| g.values.first()).and_then(|v| v.integer());
+        given.and_then(|n| usize::try_from(n).ok()).unwrap_or(1)
+    };
+    Ok(RunSettings {
+        observed: window.observed,
+        dt: window.step,
+        method,
+        convergence,
+        store: whole(&STORE),
+        capsize: said(&NO_CAPSIZE),
+        adaptive: args.option_number(&ADAPTIVE),
+        keep: !args.has(&STATISTICS),
+        along: whole(&ALONG),
+        books: args.has(&BALANCE),
+        transient: window.transient.unwrap_or(0.0),
+    })
+}
+
+/// A run that begins, and the file it is kept in.
+fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run, Option<RunLog>)> {
+    let wrong = |e, job: &Job| to_diagnostic(e, &job.model, args.span, job.units);
+    let mut model = job.model.clone();
+    model.parameters.dividing = args.option_number(&DIVIDING);
+    let mut velocities = Vec::new();
+    let mut began = None;
+    if let Some(given) = args.option(&RESET) {
+        let time = given.first_number().unwrap_or(0.0);
+        velocities = reset(job, &mut model, time)
+            .ok_or_else(|| Diagnostic::error("there is no run of these bodies to begin from", given.span))?;
+        began = Some(format!("as the run before had the bodies at {} s", Dim::Time.from_si(time, job.units)));
+    }
+    if args.has(&EQUI) {
+        let options = job.equilibrium.clone();
+        find_equilibrium_with_rebuilds(&mut model, &options).map_err(|e| wrong(e, job))?;
+        began = Some("at the equilibrium with the mean forces, as &EQUI finds it".into());
+    }
+    let mut made = Run::new(&model, settings, job.actions.clone()).map_err(|e| wrong(e, job))?;
+    if let Some(text) = began {
+        made.began = text;
+    }
+    if !velocities.is_empty() {
+        made.begin_with(&velocities).map_err(|e| wrong(e, job))?;
+    }
+    if !made.settings.keep {
+        return Ok((made, None));
+    }
+    let folder = &mut job.output.folder;
+    let path = folder.folder.join(FILE);
+    let refused = |text: String| Diagnostic::error(text, args.span);
+    let Some(again) = args.option(&RESTART) else {
+        let file = folder.create(FILE).map_err(|e| refused(e.to_string()))?;
+        let log = RunLog::begin(file, path, made.fingerprint(), made.history.layout.width);
+        return Ok((made, Some(log.map_err(|e| refused(e.to_string()))?)));
+    };
+    let log = go_on(job, &mut made, again, args.span)?;
+    Ok((made, Some(log)))
+}
+
+/// Puts the bodies of a model where those of the last run were at the stored instant nearest to a time; their velocities.
+fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
+    let history = &job.run.as_ref()?.history;
+    let far = |row: &[f64]| (row.first().copied().unwrap_or(f64::INFINITY) - time).abs();
+    let row = history.rows().min_by(|a, b| far(a).total_cmp(&far(b)))?;
+    let mut velocities = Vec::new();
+    for (body, (_, key)) in history.layout.bodies.iter().enumerate() {
+        let at = history.layout.body(body);
+        let numbers = row.get(at..at + 12)?;
+        let found = model.bodies.get_mut(key)?;
+        found.place = Place { shift: numbers.get(..3)?.try_into().ok()?, turn: numbers.get(3..6)?.try_into().ok()? };
+        velocities.push((model.bodies.get_index_of(key)?, Six::from_column_slice(numbers.get(6..)?)));
+    }
+    Some(velocities)
+}
+
+/// Warns of a scheme that damps dynamic lines too little.
+fn warn_of_throwing(job: &mut Job, args: &Args, method: &Method) {
+    let Some(given) = args.option(&RHO).or(args.option(&NEWMARK)) else { return };
+    let damps = given.is(&RHO) && given.first_number().is_some_and(|r| r <= 0.2);
+    if damps || usual(&job.model) != Method::with_moving_lines() {
+        return;
+    }
+    let text = match method {
+        Method::Corrector => return,
+        Method::Implicit(scheme) if !scheme.unconditionally_stable() => {
+            "dynamic lines have short natural periods: with 2 BETA below ALPHA the step must be shorter than these, or the lines become unstable"
+        }
+        Method::Implicit(_) => {
+            "with dynamic lines a scheme that damps less than -RHO 0.2 can throw up what hangs on a stiff line that goes slack within a step"
+        }
+    };
+    job.warn(text, given.span);
+}
+
+/// Warns of pieces that displace water and that the waves of a run move by no pressure.
+fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
+    if made.sea.is_none() {
+        return;
+    }
+    let pieces =
+        made.model.bodies.values().flat_map(|b| pieces_without_wave_load(&made.model, b)).map(|p| p.name.as_str());
+    let list: Vec<&str> = pieces.collect();
+    if !list.is_empty() {
+        let text =
+            format!("waves of first order exert nothing on {}: neither members nor of a database", list.join(" "));
+        job.warn(format!("{text}; -DIFTYPE FK gives them the pressure of the waves"), span);
+    }
+}
+
+/// Warns of actions at times that the run does not reach.
+fn warn_of_late_actions(job: &mut Job, made: &Run, span: Span) {
+    let end = made.settings.observed;
+    let late = made.actions.iter().filter_map(|action| match action.when {
+        Trigger::At(time) if time > end => Some(format!("{} at {time} s", action.name)),
+        _ => None,
+    });
+    let list: Vec<String> = late.collect();
+    if !list.is_empty() {
+        job.warn(format!("the run ends at {end} s, before the actions {}", list.join(", ")), span);
+    }
+}
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let (args, span) = (&call.args, call.args.span);
+    if args.has(&tether_run::TETHERS) {
+        return tether_run::run(job, args);
+    }
+    if let Some(given) = args.option(&tether_run::SLAM).or(args.option(&tether_run::TOW)) {
+        return Err(Diagnostic::error(format!("{} goes with -TETHERS", given.name()), given.span));
+    }
+    let settings = settings(job, args)?;
+    if job.model.bodies.is_empty() {
+        return Err(Diagnostic::error("there is no body to move", span).help("&DESCRIBE BODY describes one"));
+    }
+    let (mut made, log) = begin_run(job, args, settings)?;
+    warn_of_still_pieces(job, &made, span);
+    if tethered::has_tethers(&job.model) {
+        job.remark(
+            "tethers are bars without mass in this run: -TETHERS gives them bending and dynamics of their own",
+            span,
+        );
+    }
+    warn_of_throwing(job, args, &made.settings.method);
+    warn_of_late_actions(job, &made, span);
+    warn_of_lines(job, span);
+    let mut going = RunProgress::new(job, &made, log);
+    for text in run_tables::warnings_of_step(&made) {
+        // at once for who looks on; for the log with the record
+        going.bar.println(format!("warning: {text}"));
+        job.warn(text, span);
+    }
+    let ended = made.run(&mut going);
+    drop(going);
+    let screening = screen_lines(job, args, &made, ended.as_ref().ok());
+    let mut first = run_tables::run_table(&made);
+    if let Err(Some(reason)) = &screening {
+        first.note(format!("the quasi-static lines are not replayed as dynamic lines: {reason}"));
+    }
+    let screening = screening.unwrap_or_default();
+    first.notes.extend(screening::remarks(&screening, job.units));
+    let mut tables = vec![first];
+    tables.extend(run_tables::extremes(&made));
+    tables.extend(run_tables::books(&made));
+    // what is not found of them costs no run
+    let peaks = fender_peaks(&made);
+    let fenders = peaks.as_deref().unwrap_or_default();
+    if !fenders.is_empty() {
+        let rows = fenders.iter().map(|p| (p.name.as_str(), &p.state, Some(p.time)));
+        tables.push(fender_table("Fenders at Their Largest Deflection", rows));
+    }
+    tables.extend(screening::table(&screening));
+    let checked = match &ended {
+        Ok(_) if args.has(&CHECK) => Some(check(job, &made)),
+        _ => None,
+    };
+    if let Some(Ok(list)) = &checked {
+        tables.extend(list.iter().cloned());
+    }
+    let head = job.page_head();
+    let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
+    let over = over_break_in(&made);
+    let (poor, kept) = (ended.as_ref().ok().and_then(|_| run_tables::warning_of_accuracy(&made)), made.settings.keep);
+    job.run = Some(made);
+    job.say(&text);
+    if let Some(text) = poor {
+        job.warn(text, span);
+    }
+    for text in screening::warnings(&screening, job.units) {
+        job.warn(text, span);
+    }
+    warn_of_breaks(job, over, span);
+    for p in fenders.iter().filter(|p| p.state.deflection > p.state.rated) {
+        let share = 100.0 * p.state.deflection / p.state.rated;
+        let text =
+            format!("fender {} is deflected to {share:.0} per cent of its rated deflection at {:.1} s", p.name, p.time);
+        job.warn(text, span);
+    }
+    let wrong = |e| to_diagnostic(e, &job.model, span, job.units);
+    let ended = ended.map_err(wrong)?;
+    checked.transpose().map_err(wrong)?;
+    peaks.map_err(wrong)?;
+    match ended {
+        Ending::Done => {}
+        Ending::Interrupted if kept => {
+            job.warn("the run was interrupted: what it has is kept, and -RESTART goes on", span);
+        }
+        Ending::Interrupted => {
+            job.warn("the run was interrupted: the statistics are those up to there; -STATISTICS keeps no file to go on from", span);
+        }
+        Ending::Capsized(name) => {
+            job.warn(
+                format!("body {name} rolled or pitched beyond 90 degrees: the run ended there (-NO_CAPSIZE YES)"),
+                span,
+            );
+        }
+        Ending::Stopped(name) => job.remark(format!("action {name} ended the run"), span),
+    }
+    Ok(Effect::Done)
+}
+
+/// The quasi-static lines of a run that ended, replayed as dynamic lines; or why not, where there are such lines.
+fn screen_lines(
+    job: &Job,
+    args: &Args,
+    made: &Run,
+    ending: Option<&Ending>,
+) -> Result<Screening, Option<&'static str>> {
+    let off = args.option_word(&SCREEN) == Some("NO");
+    let reason = match ending {
+        _ if screening::quasi_static_lines(made).is_empty() => return Err(None),
+        _ if off => "-SCREEN NO",
+        None => "the run failed",
+        Some(Ending::Interrupted) => "the run was interrupted",
+        Some(_) if !made.settings.keep => "-STATISTICS keeps no motion of their ends",
+        Some(_) => return Ok(screening::screen(made, &|| !job.is_interrupted())),
+    };
+    Err(Some(reason))
+}
+
+/// The same run again with half the step, and what differs.
+fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
+    let mut again = first.begun_again(|s| RunSettings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
+    let mut going = RunProgress::new(job, &again, None);
+    again.run(&mut going)?;
+    Ok(run_tables::comparison_tables(first, &again.history))
+}
+
+/// Who is told how a run goes: its file, the terminal, Ctrl-C.
+struct RunProgress {
+    log: Option<RunLog>,
+    interrupt: Arc<AtomicBool>,
+    bar: ProgressBar,
+    asked: u64,
+}
+
+/// Steps between two looks at the terminal.
+const STEPS_PER_TERMINAL_CHECK: u64 = 256;
+
+impl RunProgress {
+    fn new(job: &Job, run: &Run, log: Option<RunLog>) -> Self {
+        // hidden when nobody looks: it goes to the terminal behind stderr alone
+        let bar = ProgressBar::new(run.settings.observed.ceil() as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}, {elapsed} gone, {eta} to go") {
+            bar.set_style(style);
+        }
+        RunProgress { log, interrupt: Arc::clone(&job.interrupt), bar, asked: 0 }
+    }
+}
+
+impl Drop for RunProgress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Watcher for RunProgress {
+    fn row(&mut self, row: &[f64]) -> Result<(), String> {
+        self.log.as_mut().map_or(Ok(()), |log| log.row(row))
+    }
+
+    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), String> {
+        self.log.as_mut().map_or(Ok(()), |log| log.snapshot(snapshot))
+    }
+
+    fn finish(&mut self) -> Result<(), String> {
+        self.log.as_mut().map_or(Ok(()), |log| log.finish())
+    }
+
+    fn goes_on(&mut self, time: f64) -> bool {
+        if self.asked.is_multiple_of(STEPS_PER_TERMINAL_CHECK) {
+            let rate = time / self.bar.elapsed().as_secs_f64().max(1e-9);
+            self.bar.set_position(time as u64);
+            self.bar.set_message(format!("{time:.1} s, {rate:.0} times real time"));
+        }
+        self.asked += 1;
+        !self.interrupt.load(Ordering::Relaxed)
+    }
+}

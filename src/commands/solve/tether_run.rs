@@ -1,0 +1,118 @@
+//! `TDOM -TETHERS`: tethers in time, with bending and dynamics of their own.
+//!
+//! Source: [AQWA-TETHER chapters 1 to 4]; [AQWA-REF decks 16, 17].
+
+use crate::commands::chosen::note_caveats;
+use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::solve::tdom;
+use crate::commands::{Effect, Job};
+use crate::report::page;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::unit_vector;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_language::select::Owner;
+use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_solve::tethered::{self, TetherRunSettings};
+
+/// -TETHERS.
+pub const TETHERS: OptionSpec = OptionSpec::new(
+    "-TETHERS",
+    &[ValueSpec::new("AS", Kind::Choice(&["NATIVE", "AQWA"]), "AQWA keeps the peculiarities of that program")
+        .or("NATIVE")],
+    "runs tethers with bending and dynamics of their own, and the body that installed ones hold",
+)
+.owner(Owner::Ours)
+.default("they are bars without mass");
+/// -SLAM.
+pub const SLAM: OptionSpec = OptionSpec::new(
+    "-SLAM",
+    &[ValueSpec::new("C", Kind::Number(Dim::None), "factor on the force of entry into the water").not_negative()],
+    "slam on a towed tether",
+)
+.owner(Owner::Ours)
+.default("0: none");
+/// -TOW.
+pub const TOW: OptionSpec = OptionSpec::new(
+    "-TOW",
+    &[
+        ValueSpec::new("V", Kind::Number(Dim::Velocity), "speed over the ground").not_negative(),
+        ValueSpec::new("TO", Kind::Number(Dim::Angle), "direction it goes toward, from +X toward +Y"),
+    ],
+    "the tow of a towed tether: waves meet it with their encounter frequency",
+)
+.owner(Owner::Ours)
+.default("0: it stays");
+
+/// Options of TDOM that a run of tethers does not take.
+const NOT_TAKEN: [OptionSpec; 12] = [
+    tdom::NO_CAPSIZE,
+    tdom::EQUI,
+    tdom::NEWMARK,
+    tdom::CONVERGE,
+    tdom::RESTART,
+    tdom::RESET,
+    tdom::RHO,
+    tdom::ADAPTIVE,
+    tdom::CHECK,
+    tdom::STATISTICS,
+    tdom::ALONG,
+    tdom::SCREEN,
+];
+
+/// Runs the tethers of the model.
+///
+/// # Errors
+/// No -TIME, an option that does not go with it, what the engine refuses.
+pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
+    let span = args.span;
+    if let Some(given) = NOT_TAKEN.iter().find_map(|option| args.option(option)) {
+        let text = format!("{} does not go with -TETHERS", given.name());
+        return Err(Diagnostic::error(text, given.span).help("tethers run by a scheme of two stages with fixed steps"));
+    }
+    let Some(window) = job.model.environment.time else {
+        return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", span)
+            .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
+    };
+    let compatible = args.option_word(&TETHERS) == Some("AQWA");
+    let store = args.option_integer(&tdom::STORE);
+    let tow = args.option(&TOW).map(|given| {
+        let [speed, direction] = given.numbers_or_zero(const { TOW.numbers(["V", "TO"]) });
+        let (cos, sin) = unit_vector(direction);
+        [speed * cos, speed * sin]
+    });
+    let settings = TetherRunSettings {
+        observed: window.observed,
+        step: window.step,
+        store: store.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
+        compatible,
+        slam: args.option_number(&SLAM).unwrap_or(0.0),
+        tow: tow.unwrap_or_default(),
+        transient: window.transient.unwrap_or(0.0),
+    };
+    let interrupt = Arc::clone(&job.interrupt);
+    let mut goes_on = |_: f64| !interrupt.load(Ordering::Relaxed);
+    let made =
+        tethered::run(&job.model, settings, &mut goes_on).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
+    let mut tables = vec![tethered::run_table(&made)];
+    note_caveats(&job.model, &mut tables);
+    let events = tethered::events(&made);
+    if events.rows() > 0 {
+        tables.push(events);
+    }
+    let head = job.page_head();
+    let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
+    job.say(&text);
+    for event in
+        made.happened.iter().filter(|e| matches!(e.change, windlass_tether::installed::RigChange::LowerStop { .. }))
+    {
+        job.warn(format!("tether {} fell on its lower stop at {:.2} s", event.tether, event.time), span);
+    }
+    if made.interrupted {
+        job.warn("the run was interrupted: what it has is kept", span);
+    }
+    job.tethered = Some(made);
+    Ok(Effect::Done)
+}

@@ -1,0 +1,88 @@
+//! `&STATUS LOADS`: the loads of wind, current and waves that records have put on parts, and what they come to.
+
+use crate::commands::Job;
+use windlass_base::pose::{Pose, Six};
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
+use windlass_hydro::{Category, Floating};
+use windlass_model::{Body, ClassError, Fluid, LoadKind, Model, PartLoad};
+
+/// One table of the records, one of the forces on each body as it stands.
+pub(crate) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
+    let model = &job.model;
+    let chosen = |part: &str| {
+        let body = model.parts.get(&Model::key(part)).map_or("", |p| p.body.as_str());
+        fits(part) || fits(body)
+    };
+    let loads: Vec<&PartLoad> = model.loads.iter().filter(|l| chosen(&l.part)).collect();
+    let mut records = Table::new("Loads of Wind, Current and Waves")
+        .with_rows(&loads)
+        .text("Part", |load| &load.part)
+        .text("Record", |load| load.kind.name())
+        .text("Acts in", |load| match (&load.kind, load.fluid) {
+            (LoadKind::Drift { .. }, _) => "waves",
+            (LoadKind::Drag(_) | LoadKind::Damping(_) | LoadKind::AddedMass(_), _) => "water",
+            (_, Fluid::ByHeight) => "by height",
+            (_, Fluid::Air) => "air",
+            (_, Fluid::Water) => "water",
+        })
+        .columns("Point in Part", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |load| load.at)
+        .columns("Area x Coefficient", ["X", "Y", "Z"], Dim::Area, Digits::Usual, |load| match &load.kind {
+            LoadKind::Area(areas) => areas.map(Some),
+            LoadKind::Plate { area, normal } => normal.map(|n| Some(area * n.abs())),
+            _ => [None; 3],
+        })
+        .column("", "Headings", Dim::None, Digits::Usual, |load| match &load.kind {
+            LoadKind::Coefficients { rows, .. } => Some(rows.len()),
+            _ => None,
+        })
+        .column("", "Heading", Dim::Angle, Digits::Usual, |load| match &load.kind {
+            LoadKind::Drift { heading, .. } => Some(*heading),
+            _ => None,
+        })
+        .build();
+    for (name, factor) in model.multipliers.categories.iter().chain(&model.multipliers.parts) {
+        records.note(format!("&APPLY multiplies loads of {name} by {factor}"));
+    }
+    vec![records, forces(job, &chosen)]
+}
+
+/// Force and moment of each category on each body that has such loads, about its origin.
+fn forces(job: &Job, chosen: &dyn Fn(&str) -> bool) -> Table {
+    let model = &job.model;
+    let mut table = Table::new("Steady Forces");
+    let loaded = |b: &&Body| {
+        let mut parts = model.parts_of(b);
+        parts.any(|p| !p.pieces.is_empty() || model.loads.iter().any(|l| Model::key(&l.part) == Model::key(&p.name)))
+    };
+    let mut rows: Vec<(&str, Category, Six)> = Vec::new();
+    for body in model.bodies.values().filter(|b| chosen(&b.name)).filter(loaded) {
+        match sums(model, body) {
+            Ok(list) => rows.extend(list.into_iter().map(|(category, wrench)| (body.name.as_str(), category, wrench))),
+            Err(error) => table.note_absent(format!("{}: {}", body.name, error.text(job.units))),
+        }
+    }
+    table
+        .with_rows(&rows)
+        .text("Body", |(body, ..)| *body)
+        .text("Category", |(_, category, _)| category.name())
+        .columns("Force, Global", ["FX", "FY", "FZ"], Dim::Force, Digits::Usual, |(.., w)| [w[0], w[1], w[2]])
+        .columns("Moment about the Origin", ["MX", "MY", "MZ"], Dim::Moment, Digits::Usual, |(.., w)| {
+            [w[3], w[4], w[5]]
+        })
+        .build()
+}
+
+fn sums(model: &Model, body: &Body) -> Result<Vec<(Category, Six)>, ClassError> {
+    let floating = Floating::at_rest(model, body)?;
+    let pose = Pose::of(&body.place);
+    let mut list = Vec::new();
+    for category in [Category::Wind, Category::ViscousDrag, Category::WaveDrift] {
+        let mut mine = floating.loads.iter().filter(|l| l.category() == category).peekable();
+        if mine.peek().is_some() {
+            let sum = mine.try_fold(Six::zeros(), |sum, load| load.load(&pose).map(|l| sum + l.wrench))?;
+            list.push((category, sum));
+        }
+    }
+    Ok(list)
+}
