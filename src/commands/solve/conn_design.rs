@@ -181,7 +181,7 @@ fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn properties(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let text = {
         let chosen = NameFilter::new(call, 0, &job.model);
-        let tables = status::classes(job, &|class| {
+        let tables = status::class_tables::classes(job, &|class| {
             if chosen.chooses_all() { class.object.is_line() } else { chosen.takes(&class.name) }
         });
         chosen.check("the classes", &tables, &[EntityKind::Class])?;

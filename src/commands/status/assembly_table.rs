@@ -1,13 +1,22 @@
 //! `&STATUS ASSEMBLIES`: where hooks are and what their lines bear.
 
+use crate::commands::status::kind::StatusKind;
 use nalgebra::Vector3;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
+use windlass_model::EntityKind;
 use windlass_model::{
     Assembly, AssemblyKind, ClassError, Connector, ElementResponse, ElementSummary, End, LaidPipe, Model,
     RunRequirement, Situation,
 };
+
+/// `&STATUS ASSEMBLIES`.
+pub static ASSEMBLIES: StatusKind =
+    StatusKind::new("ASSEMBLIES", "tip-hook sets: where the hook is, what its lines bear", |query, _| {
+        Ok(assemblies(query.model(), &query.fits(), query.job.units))
+    })
+    .named(&[EntityKind::Assembly]);
 
 /// What a row of the tip-hook sets shows: the hook of a set, or one of its lines.
 struct HookRow<'m> {

@@ -2,15 +2,43 @@
 
 use crate::commands::chosen::NameFilter;
 use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::status::kind::StatusKind;
 use crate::commands::{Call, Job};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::geometry::Position;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::EntityKind;
 use windlass_model::Model;
 use windlass_solve::frequency::{self, LinearSystem};
 use windlass_solve::{System, tables};
+
+/// `&STATUS FORCE`.
+pub static FORCE: StatusKind = StatusKind {
+    caveats: true,
+    ..StatusKind::new("FORCE", "what acts on the bodies where they stand, by category", |query, _| {
+        forces(query.job, query.call, &query.fits())
+    })
+    .named(&[EntityKind::Body])
+    .of_moses()
+};
+
+/// `&STATUS STIFFNESS`.
+pub static STIFFNESS: StatusKind = StatusKind {
+    caveats: true,
+    ..StatusKind::new("STIFFNESS", "stiffness of bodies and connectors about a point", |query, _| {
+        stiffness(query.job, query.call, query.names)
+    })
+    .named(&[EntityKind::Body, EntityKind::Connector])
+};
+
+/// `&STATUS MODES`.
+pub static MODES: StatusKind = StatusKind::new(
+    "MODES",
+    "natural periods, damping and shapes of small motions about where the bodies stand",
+    |query, _| modes(query.job, query.call),
+);
 
 const fn number(name: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::Length), "global coordinate")

@@ -1,12 +1,38 @@
 //! Tables of `&STATUS` about bodies: weights, pieces of hulls, hydrostatics.
 
+use crate::commands::model::member;
+use crate::commands::status::kind::StatusKind;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::hull::Hydrostatics;
 use windlass_hydro::{Category, Floating, Hull};
+use windlass_model::EntityKind;
 use windlass_model::{Body, ClassError, Mass, Model, Shape};
+
+/// `&STATUS WEIGHT`.
+pub static WEIGHT: StatusKind =
+    StatusKind::new("WEIGHT", "weights, centers and radii of gyration of bodies and parts", |query, _| {
+        Ok(vec![weights(query.model(), &query.fits())])
+    })
+    .named(&[EntityKind::Body, EntityKind::Part]);
+
+/// `&STATUS PIECES`.
+pub static PIECES: StatusKind = StatusKind::new("PIECES", "pieces of hulls", |query, _| {
+    let (model, fits) = (query.model(), query.fits());
+    let added = member::added_mass(model, &fits).map_err(|e| e.diagnostic(query.place(), query.job.units))?;
+    Ok(std::iter::once(pieces(model, &fits)).chain(member::members(model, &fits)).chain(added).collect())
+})
+.named(&[EntityKind::Piece, EntityKind::Body, EntityKind::Part]);
+
+/// `&STATUS HYDROSTATICS`.
+pub static HYDROSTATICS: StatusKind = StatusKind::new(
+    "HYDROSTATICS",
+    "what bodies displace where they are, and their hydrostatic stiffness",
+    |query, _| Ok(hydrostatics(query.model(), &query.fits(), query.job.units)),
+)
+.named(&[EntityKind::Body]);
 
 /// Whether a body or part is chosen.
 type Fits<'a> = &'a dyn Fn(&str) -> bool;

@@ -1,9 +1,19 @@
 //! The tables of `&STATUS CURVES`.
 
+use crate::commands::status::kind::StatusKind;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_connectors::viscous::ViscoelasticLaw;
+use windlass_model::EntityKind;
 use windlass_model::{Curve, Model};
+
+/// `&STATUS CURVES`.
+pub static CURVES: StatusKind = StatusKind {
+    charts: |_, tables| Ok(tables.iter().filter(|table| chart(table)).cloned().collect()),
+    ..StatusKind::new("CURVES", "curves", |query, _| Ok(curves(query.model(), &query.fits())))
+        .named(&[EntityKind::Curve])
+        .of_moses()
+};
 
 /// What the title of a fit begins with.
 const FIT: &str = "Exponentials of Curve";

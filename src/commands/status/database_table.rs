@@ -1,5 +1,6 @@
 //! `&STATUS DATABASE`: the hydrodynamic databases of bodies.
 
+use crate::commands::status::kind::StatusKind;
 use nalgebra::{Complex, Matrix6};
 use std::f64::consts::TAU;
 use windlass_base::table::{Cell, Digits, Table, TableBuilder};
@@ -8,7 +9,16 @@ use windlass_hydro::database::Amplitudes;
 use windlass_hydro::database::checks::MODES;
 use windlass_hydro::database::radiation::Radiation;
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
+use windlass_model::EntityKind;
 use windlass_model::{AttachedDatabase, Body, DriftMethod, Model};
+
+/// `&STATUS DATABASE`.
+pub static DATABASE: StatusKind = StatusKind::new(
+    "DATABASE",
+    "hydrodynamic databases of bodies: radiation, excitation, drift, memory",
+    |query, _| Ok(tables(query.model(), &query.fits())),
+)
+.named(&[EntityKind::Body]);
 
 /// What is below this share of the largest of its kind is rounding.
 const ROUNDING_SHARE: f64 = 1e-9;

@@ -3,6 +3,7 @@
 use crate::commands::Job;
 use crate::commands::environment::env;
 use crate::commands::environment::wind_options;
+use crate::commands::status::kind::StatusKind;
 use crate::commands::status::sea_table::phasing;
 use crate::commands::status::wind_table;
 use crate::commands::written::option_as_written;
@@ -12,7 +13,16 @@ use windlass_hydro::gusts::Gusts;
 use windlass_hydro::spectrum::gamma_of;
 use windlass_hydro::steady::Steady;
 use windlass_language::spec::OptionSpec;
+use windlass_model::EntityKind;
 use windlass_model::{Current, Environment, SeaDefinition};
+
+/// `&STATUS ENVIRONMENT`.
+pub static ENVIRONMENT: StatusKind =
+    StatusKind::new("ENVIRONMENT", "the environment in force, or one kept under a name", |query, _| {
+        Ok(environments(query.job, query.is_named().then_some(&query.fits())))
+    })
+    .named(&[EntityKind::Environment])
+    .of_moses();
 
 /// The environment in force, or those kept under a name that is chosen.
 pub(crate) fn environments(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>) -> Vec<Table> {

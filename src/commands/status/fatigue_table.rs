@@ -2,11 +2,20 @@
 
 use crate::commands::Job;
 use crate::commands::help::wrap;
+use crate::commands::status::kind::StatusKind;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::EntityKind;
 use windlass_model::options::C_SN;
 use windlass_model::{FatigueKind, FatigueSegment, Model};
 use windlass_signal::fatigue::{SnCurve, find, library};
+
+/// `&STATUS SN`.
+pub static SN: StatusKind =
+    StatusKind::new("SN", "fatigue curves, and those the segments of line classes go by", |query, _| {
+        Ok(tables(query.job, &query.fits(), !query.is_named()))
+    })
+    .named(&[EntityKind::Class]);
 
 /// The tables for what follows SN: names of curves or classes, or patterns.
 pub fn tables(job: &Job, fits: &dyn Fn(&str) -> bool, all: bool) -> Vec<Table> {

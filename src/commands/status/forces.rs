@@ -1,15 +1,34 @@
 //! `&STATUS F_CONNECTOR`: the forces of the connectors between their ends as they are.
 
 use crate::commands::chosen::{WARNING, merge_remarks};
+use crate::commands::status::kind::StatusKind;
 use crate::commands::verdict::{Verdict, check_over_break};
 use windlass_base::pose::Six;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
+use windlass_model::EntityKind;
 use windlass_model::{
     ClassError, Connector, ElementResponse, ElementSummary, End, Model, Situation, SpringState, add_model_column,
 };
 use windlass_solve::results::fender_table;
+
+/// `&STATUS F_CONNECTOR`.
+pub static F_CONNECTOR: StatusKind = StatusKind {
+    caveats: true,
+    ..StatusKind::new("F_CONNECTOR", "forces of the connectors between their ends as they are", |query, verdict| {
+        Ok(forces(query.model(), &query.fits(), query.job.units, verdict))
+    })
+    .named(&[EntityKind::Connector])
+    .of_moses()
+};
+
+/// `&STATUS FOUNDATION`.
+pub static FOUNDATION: StatusKind =
+    StatusKind::new("FOUNDATION", "the FOUNDATION check: forces of foundations over their allowables", |query, _| {
+        Ok(vec![foundations(query.model(), &query.fits(), query.job.units)])
+    })
+    .named(&[EntityKind::Connector]);
 
 /// What one connector does between its ends.
 struct ConnectorForces {

@@ -2,6 +2,7 @@
 
 use crate::commands::Job;
 use crate::commands::help::wrap;
+use crate::commands::status::kind::StatusKind;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
@@ -10,6 +11,12 @@ use windlass_base::values::Value;
 use windlass_base::wildcard::matches;
 use windlass_connectors::line_types::{DiameterFormula, LineType, library};
 use windlass_language::number;
+
+/// `&STATUS LINE_TYPES`.
+pub static LINE_TYPES: StatusKind =
+    StatusKind::new("LINE_TYPES", "chains and ropes of the library, for -TYPE", |query, _| {
+        tables(query.job, &query.args().data)
+    });
 
 /// The tables for what follows LINE_TYPES: nothing, nominal diameters in the user's section unit, names or patterns.
 ///

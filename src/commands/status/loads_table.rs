@@ -1,11 +1,20 @@
 //! `&STATUS LOADS`: the loads of wind, current and waves that records have put on parts, and what they come to.
 
 use crate::commands::Job;
+use crate::commands::status::kind::StatusKind;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::{Category, Floating};
+use windlass_model::EntityKind;
 use windlass_model::{Body, ClassError, Fluid, LoadKind, Model, PartLoad};
+
+/// `&STATUS LOADS`.
+pub static LOADS: StatusKind =
+    StatusKind::new("LOADS", "loads of wind, current and waves on parts, and the forces they come to", |query, _| {
+        Ok(loads(query.job, &query.fits()))
+    })
+    .named(&[EntityKind::Body, EntityKind::Part]);
 
 /// One table of the records, one of the forces on each body as it stands.
 pub(crate) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {

@@ -3,11 +3,13 @@
 pub(crate) mod assembly_table;
 pub(crate) mod body_status;
 pub(crate) mod body_tables;
+pub(crate) mod class_tables;
 pub(crate) mod curve_table;
 pub(crate) mod database_table;
 pub(crate) mod environment_table;
 pub(crate) mod fatigue_table;
 pub(crate) mod forces;
+pub(crate) mod kind;
 pub(crate) mod line_types;
 pub(crate) mod loads_table;
 pub(crate) mod model_tables;
@@ -19,83 +21,72 @@ pub(crate) mod tether_status;
 pub(crate) mod wind_table;
 
 use crate::commands::chosen::{NameFilter, note_caveats, raise};
-use crate::commands::environment::bathymetry;
 use crate::commands::menu;
-use crate::commands::model::{member, t_pressure};
 use crate::commands::output::disposition::{BOTH, HARD, send};
-use crate::commands::post::prcpost::last_run;
-use crate::commands::solve::prescribe;
-use crate::commands::status::assembly_table::assemblies;
-use crate::commands::status::curve_table::{chart, curves};
-use crate::commands::status::environment_table::environments;
-use crate::commands::status::forces::{forces, foundations};
-use crate::commands::status::loads_table::loads;
-use crate::commands::status::offsets::offsets;
+use crate::commands::status::kind::{Query, StatusKind};
 use crate::commands::verdict::Verdict;
-use crate::commands::written::{as_written, option_as_written};
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::table::Table;
 use windlass_base::values::Noun;
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{Class, EntityKind};
-use windlass_solve::run_tables;
 
 /// &STATUS.
 pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };
 
-const KINDS: &[(&str, Owner, &str)] = &[
-    ("CONFIGURATION", Owner::Moses, "where the bodies stand"),
-    ("CL_FLEX", Owner::Moses, "flexible connector classes with W/L, AE, break"),
-    ("G_CONNECTOR", Owner::Moses, "connector geometry"),
-    ("F_CONNECTOR", Owner::Moses, "forces of the connectors between their ends as they are"),
-    ("FOUNDATION", Owner::Ours, "the FOUNDATION check: forces of foundations over their allowables"),
-    ("FORCE", Owner::Moses, "what acts on the bodies where they stand, by category"),
-    ("ASSEMBLIES", Owner::Ours, "tip-hook sets: where the hook is, what its lines bear"),
-    ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
-    ("MODES", Owner::Ours, "natural periods, damping and shapes of small motions about where the bodies stand"),
-    ("CURVES", Owner::Moses, "curves"),
-    ("BATHYMETRY", Owner::Ours, "bottoms over a grid: extent, least and greatest depth"),
-    ("T_PRESSURE", Owner::Ours, "temperature, pressure and contents of pipes"),
-    ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
-    ("WIND_SPECTRUM", Owner::Ours, "the components of the gusts of an environment, and with -PLOT their spectrum"),
-    (
-        "SEA_SPECTRUM",
-        Owner::Moses,
-        "the wave components of the seas of the environment in force, or of one kept under a name",
-    ),
-    ("RUN", Owner::Ours, "how the last run went"),
-    ("ROD", Owner::Ours, "dynamic lines, at rest between their ends as they stand"),
-    ("ROD_MODES", Owner::Ours, "how dynamic lines swing about that, -NUMBER modes of each"),
-    ("TETHERS", Owner::Ours, "what tethers are made of and hang on, as TDOM -TETHERS has them"),
-    ("TETHER_MODES", Owner::Ours, "natural modes of tethers where they stand, -NUMBER of each"),
-    ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
-    ("LOADS", Owner::Ours, "loads of wind, current and waves on parts, and the forces they come to"),
-    ("WEIGHT", Owner::Ours, "weights, centers and radii of gyration of bodies and parts"),
-    ("PIECES", Owner::Ours, "pieces of hulls"),
-    ("HYDROSTATICS", Owner::Ours, "what bodies displace where they are, and their hydrostatic stiffness"),
-    ("DATABASE", Owner::Ours, "hydrodynamic databases of bodies: radiation, excitation, drift, memory"),
-    ("BODIES", Owner::Ours, "bodies and their parts"),
-    ("POINTS", Owner::Ours, "points, in their parts and in the global system"),
-    ("DIMENSIONS", Owner::Ours, "units"),
-    ("DEFAULTS", Owner::Ours, "defaults"),
-    ("SELECTORS", Owner::Ours, "selectors"),
-    ("SN", Owner::Ours, "fatigue curves, and those the segments of line classes go by"),
-    ("LINE_TYPES", Owner::Ours, "chains and ropes of the library, for -TYPE"),
+/// Every kind, in the order of the help.
+static KINDS: &[&StatusKind] = &[
+    &model_tables::CONFIGURATION,
+    &class_tables::CL_FLEX,
+    &model_tables::G_CONNECTOR,
+    &forces::F_CONNECTOR,
+    &forces::FOUNDATION,
+    &body_status::FORCE,
+    &assembly_table::ASSEMBLIES,
+    &body_status::STIFFNESS,
+    &body_status::MODES,
+    &curve_table::CURVES,
+    &model_tables::BATHYMETRY,
+    &model_tables::T_PRESSURE,
+    &environment_table::ENVIRONMENT,
+    &wind_table::WIND_SPECTRUM,
+    &sea_table::SEA_SPECTRUM,
+    &settings_table::RUN,
+    &rod_status::ROD,
+    &rod_status::ROD_MODES,
+    &tether_status::TETHERS,
+    &tether_status::TETHER_MODES,
+    &class_tables::CLASSES,
+    &loads_table::LOADS,
+    &body_tables::WEIGHT,
+    &body_tables::PIECES,
+    &body_tables::HYDROSTATICS,
+    &database_table::DATABASE,
+    &model_tables::BODIES,
+    &model_tables::POINTS,
+    &settings_table::DIMENSIONS,
+    &settings_table::DEFAULTS,
+    &model_tables::SELECTORS,
+    &fatigue_table::SN,
+    &line_types::LINE_TYPES,
 ];
 
 /// What &STATUS can tell of, with one line each, for its help.
 pub fn kinds_told() -> impl Iterator<Item = (&'static str, &'static str)> {
-    KINDS.iter().map(|(name, _, help)| (*name, *help))
+    KINDS.iter().map(|kind| (kind.name, kind.help))
 }
 
 /// What &STATUS can tell of, for completion.
 pub fn kinds() -> impl Iterator<Item = (&'static str, Owner, &'static str)> + Clone {
-    KINDS.iter().map(|(name, owner, _)| (*name, *owner, *name))
+    KINDS.iter().map(|kind| (kind.name, kind.owner, kind.name))
+}
+
+/// The kind of a name of [`kinds`].
+fn find_kind(name: &str) -> &'static StatusKind {
+    KINDS.iter().find(|kind| kind.name == name).copied().unwrap_or(&model_tables::SUMMARY)
 }
 
 const PLOT: OptionSpec =
@@ -157,64 +148,24 @@ static SPEC: CommandSpec = CommandSpec {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let kind = match args.word(0) {
-        Some(word) => choose(word, args.place(0), "kind of &STATUS", kinds())?,
-        None => "SUMMARY",
+        Some(word) => find_kind(choose(word, args.place(0), "kind of &STATUS", kinds())?),
+        None => &model_tables::SUMMARY,
     };
-    let model = &job.model;
-    let chosen = NameFilter::new(call, 1, model);
-    let fits = |name: &str| chosen.takes(name);
+    let names = NameFilter::new(call, 1, &job.model);
+    let query = Query { job, call, names: &names };
     let mut verdict = Verdict::default();
-    let mut tables = match kind {
-        "CONFIGURATION" => vec![model_tables::configuration(model, &fits)],
-        "CL_FLEX" | "CLASSES" => classes(job, &|class| fits(&class.name)),
-        "G_CONNECTOR" => std::iter::once(model_tables::connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
-        "F_CONNECTOR" => forces(model, &fits, job.units, &mut verdict),
-        "FOUNDATION" => vec![foundations(model, &fits, job.units)],
-        "ASSEMBLIES" => assemblies(model, &fits, job.units),
-        "FORCE" => body_status::forces(job, call, &fits)?,
-        "STIFFNESS" => body_status::stiffness(job, call, &chosen)?,
-        "MODES" => body_status::modes(job, call)?,
-        "CURVES" => curves(model, &fits),
-        "BATHYMETRY" => vec![bathymetry::table(model, &fits)],
-        "T_PRESSURE" => vec![t_pressure::table(model, &fits)],
-        "ENVIRONMENT" => environments(job, (!chosen.chooses_all()).then_some(&fits)),
-        "SEA_SPECTRUM" => sea_table::spectra(job, (!chosen.chooses_all()).then_some(&fits), args.place(0))?,
-        "WIND_SPECTRUM" => wind_table::spectra(job, (!chosen.chooses_all()).then_some(&fits), args.place(0))?,
-        "LOADS" => loads(job, &fits),
-        "WEIGHT" => vec![body_tables::weights(model, &fits)],
-        "PIECES" => {
-            let added = member::added_mass(model, &fits).map_err(|e| e.diagnostic(args.place(0), job.units))?;
-            std::iter::once(body_tables::pieces(model, &fits))
-                .chain(member::members(model, &fits))
-                .chain(added)
-                .collect()
-        }
-        "HYDROSTATICS" => body_tables::hydrostatics(model, &fits, job.units),
-        "DATABASE" => database_table::tables(model, &fits),
-        "BODIES" => {
-            std::iter::once(model_tables::bodies(model, &fits)).chain(prescribe::motions(model, &fits)).collect()
-        }
-        "POINTS" => vec![model_tables::points(model, &fits)],
-        "DIMENSIONS" => vec![settings_table::dimensions(job)],
-        "DEFAULTS" => vec![settings_table::defaults(model)],
-        "RUN" => vec![run_tables::run_table(last_run(job, args.span)?)],
-        "ROD" | "ROD_MODES" => rod_status::tables(job, args, kind, &fits)?,
-        "TETHERS" | "TETHER_MODES" => tether_status::tables(job, args, kind, &fits)?,
-        "SELECTORS" => vec![model_tables::selectors(model, &fits)],
-        "SN" => fatigue_table::tables(job, &fits, chosen.chooses_all()),
-        "LINE_TYPES" => line_types::tables(job, &args.data)?,
-        _ => vec![model_tables::summary(model)],
-    };
-    chosen.check(kind, &tables, things(kind))?;
-    if ["F_CONNECTOR", "FORCE", "STIFFNESS"].contains(&kind) {
-        note_caveats(model, &mut tables);
+    let mut tables = (kind.tables)(&query, &mut verdict)?;
+    names.check(kind.name, &tables, kind.names)?;
+    if kind.caveats {
+        note_caveats(&job.model, &mut tables);
     }
+    let charts = if args.has(&PLOT) { (kind.charts)(&query, &tables)? } else { Vec::new() };
     job.verdict.over_break.append(&mut verdict.over_break);
     if let Some(given) = args.option(&DISPOSE) {
         let wanted = given.first_integer().unwrap_or(1);
         let index = usize::try_from(wanted - 1).unwrap_or(0);
         let Some(table) = tables.get(index).cloned() else {
-            let text = format!("{kind} makes no table {wanted} here: there are {}", tables.len());
+            let text = format!("{} makes no table {wanted} here: there are {}", kind.name, tables.len());
             return Err(Diagnostic::error(text, given.span));
         };
         raise(job, &table, args.place(1));
@@ -223,13 +174,6 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let head = job.page_head();
     let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
-    let charts: Vec<Table> = match kind {
-        _ if !args.has(&PLOT) => Vec::new(),
-        "CURVES" => tables.iter().filter(|t| chart(t)).cloned().collect(),
-        "SEA_SPECTRUM" => sea_table::densities(job, (!chosen.chooses_all()).then_some(&fits), args.place(0))?,
-        "WIND_SPECTRUM" => wind_table::densities(job, (!chosen.chooses_all()).then_some(&fits), args.place(0))?,
-        _ => Vec::new(),
-    };
     let (columns, lines) = job.plot_size();
     for table in &charts {
         let drawn = Chart::from_table(table, job.units).and_then(|chart| chart.terminal(columns, lines));
@@ -239,47 +183,4 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     send(job, args, &text)?;
     tables.iter().for_each(|t| raise(job, t, args.place(1)));
     Ok(Effect::Done)
-}
-
-/// The things whose names a kind of &STATUS takes.
-fn things(kind: &str) -> &'static [EntityKind] {
-    match kind {
-        "CONFIGURATION" | "FORCE" | "DATABASE" => &[EntityKind::Body],
-        "STIFFNESS" => &[EntityKind::Body, EntityKind::Connector],
-        "BODIES" | "LOADS" | "WEIGHT" => &[EntityKind::Body, EntityKind::Part],
-        "HYDROSTATICS" => &[EntityKind::Body],
-        "PIECES" => &[EntityKind::Piece, EntityKind::Body, EntityKind::Part],
-        "ASSEMBLIES" => &[EntityKind::Assembly],
-        "CL_FLEX" | "CLASSES" | "SN" => &[EntityKind::Class],
-        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "TETHERS" | "TETHER_MODES" => &[EntityKind::Connector],
-        "ROD" | "ROD_MODES" => &[EntityKind::Connector, EntityKind::Assembly],
-        "CURVES" => &[EntityKind::Curve],
-        "BATHYMETRY" => &[EntityKind::Bathymetry],
-        "T_PRESSURE" => &[EntityKind::Filling],
-        "ENVIRONMENT" | "SEA_SPECTRUM" | "WIND_SPECTRUM" => &[EntityKind::Environment],
-        "POINTS" => &[EntityKind::Point],
-        "SELECTORS" => &[EntityKind::Selector],
-        _ => &[],
-    }
-}
-
-/// The property tables of the classes that fit, with their records as they were given.
-pub(crate) fn classes(job: &Job, fits: &dyn Fn(&Class) -> bool) -> Vec<Table> {
-    let model = &job.model;
-    let surroundings = model.surroundings();
-    model
-        .classes
-        .values()
-        .filter(|c| fits(c))
-        .map(|class| {
-            let mut table = class.object.properties(&class.name, &surroundings);
-            for (index, record) in class.records.iter().enumerate() {
-                let data = as_written(&record.args.data, job.units);
-                let options = record.args.options.iter().map(|g| option_as_written(g, job.units));
-                let words: Vec<String> = data.into_iter().chain(options).collect();
-                table.note(format!("record {}: {} {}", index + 1, class.object.kind(), words.join(" ")));
-            }
-            table
-        })
-        .collect()
 }

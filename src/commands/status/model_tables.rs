@@ -1,10 +1,68 @@
 //! The tables of &STATUS that list what the model itself holds: bodies, points, connectors, selectors.
 
+use crate::commands::environment::bathymetry;
+use crate::commands::model::t_pressure;
+use crate::commands::solve::prescribe::motions;
+use crate::commands::status::kind::StatusKind;
 use crate::commands::status::kinds_told;
+use crate::commands::status::offsets::offsets;
 use windlass_base::geometry::Place;
 use windlass_base::table::{Digits, Table, TableBuilder};
 use windlass_base::units::Dim;
+use windlass_model::EntityKind;
 use windlass_model::{Body, Connector, Model, Part, Point, Selector};
+
+/// `&STATUS` alone.
+pub static SUMMARY: StatusKind =
+    StatusKind::new("SUMMARY", "what the model holds", |query, _| Ok(vec![summary(query.model())]));
+
+/// `&STATUS CONFIGURATION`.
+pub static CONFIGURATION: StatusKind = StatusKind::new("CONFIGURATION", "where the bodies stand", |query, _| {
+    Ok(vec![configuration(query.model(), &query.fits())])
+})
+.named(&[EntityKind::Body])
+.of_moses();
+
+/// `&STATUS G_CONNECTOR`.
+pub static G_CONNECTOR: StatusKind = StatusKind::new("G_CONNECTOR", "connector geometry", |query, _| {
+    let (model, fits) = (query.model(), query.fits());
+    Ok(std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect())
+})
+.named(&[EntityKind::Connector])
+.of_moses();
+
+/// `&STATUS BATHYMETRY`.
+pub static BATHYMETRY: StatusKind =
+    StatusKind::new("BATHYMETRY", "bottoms over a grid: extent, least and greatest depth", |query, _| {
+        Ok(vec![bathymetry::table(query.model(), &query.fits())])
+    })
+    .named(&[EntityKind::Bathymetry]);
+
+/// `&STATUS T_PRESSURE`.
+pub static T_PRESSURE: StatusKind =
+    StatusKind::new("T_PRESSURE", "temperature, pressure and contents of pipes", |query, _| {
+        Ok(vec![t_pressure::table(query.model(), &query.fits())])
+    })
+    .named(&[EntityKind::Filling]);
+
+/// `&STATUS BODIES`.
+pub static BODIES: StatusKind = StatusKind::new("BODIES", "bodies and their parts", |query, _| {
+    let (model, fits) = (query.model(), query.fits());
+    Ok(std::iter::once(bodies(model, &fits)).chain(motions(model, &fits)).collect())
+})
+.named(&[EntityKind::Body, EntityKind::Part]);
+
+/// `&STATUS POINTS`.
+pub static POINTS: StatusKind =
+    StatusKind::new("POINTS", "points, in their parts and in the global system", |query, _| {
+        Ok(vec![points(query.model(), &query.fits())])
+    })
+    .named(&[EntityKind::Point]);
+
+/// `&STATUS SELECTORS`.
+pub static SELECTORS: StatusKind =
+    StatusKind::new("SELECTORS", "selectors", |query, _| Ok(vec![selectors(query.model(), &query.fits())]))
+        .named(&[EntityKind::Selector]);
 
 fn place_columns<'r, R>(table: TableBuilder<'r, R>, place: impl Fn(&'r R) -> &'r Place) -> TableBuilder<'r, R> {
     table.columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| place(row).shift).columns(

@@ -1,13 +1,27 @@
 //! `&STATUS SEA_SPECTRUM`: the wave components of the seas of an environment, and their spectra to plot.
 
 use crate::commands::Job;
+use crate::commands::status::kind::StatusKind;
 use std::f64::consts::{PI, TAU};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::sea::{EnvironmentSea, Sea};
+use windlass_model::EntityKind;
 use windlass_model::{Division, Environment, Stretching};
+
+/// `&STATUS SEA_SPECTRUM`.
+pub static SEA_SPECTRUM: StatusKind = StatusKind {
+    charts: |query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.place()),
+    ..StatusKind::new(
+        "SEA_SPECTRUM",
+        "the wave components of the seas of the environment in force, or of one kept under a name",
+        |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.place()),
+    )
+    .named(&[EntityKind::Environment])
+    .of_moses()
+};
 
 /// Points of a spectrum plotted, and the shares of the energy between which they lie.
 const SPECTRUM_POINTS: usize = 241;

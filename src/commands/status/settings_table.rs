@@ -1,10 +1,24 @@
 //! `&STATUS DIMENSIONS` and `DEFAULTS`.
 
 use crate::commands::Job;
+use crate::commands::post::prcpost::last_run;
 use crate::commands::settings::units;
+use crate::commands::status::kind::StatusKind;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{Coordinates, Model};
+use windlass_solve::run_tables::run_table;
+
+/// `&STATUS RUN`.
+pub static RUN: StatusKind = StatusKind::new("RUN", "how the last run went", |query, _| {
+    Ok(vec![run_table(last_run(query.job, query.args().span)?)])
+});
+
+/// `&STATUS DIMENSIONS`.
+pub static DIMENSIONS: StatusKind = StatusKind::new("DIMENSIONS", "units", |query, _| Ok(vec![dimensions(query.job)]));
+
+/// `&STATUS DEFAULTS`.
+pub static DEFAULTS: StatusKind = StatusKind::new("DEFAULTS", "defaults", |query, _| Ok(vec![defaults(query.model())]));
 
 /// Units.
 pub(crate) fn dimensions(job: &Job) -> Table {

@@ -1,19 +1,34 @@
 //! `&STATUS TETHERS` and `TETHER_MODES`.
 
-use crate::commands::Job;
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::status;
+use crate::commands::status::kind::{Query, StatusKind};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
-use windlass_base::values::Args;
-use windlass_solve::tethered;
+use windlass_model::{EntityKind, Model};
+use windlass_solve::{SolveError, tethered};
 
-/// The tables of the tethers that fit.
+/// `&STATUS TETHERS`.
+pub static TETHERS: StatusKind =
+    StatusKind::new("TETHERS", "what tethers are made of and hang on, as TDOM -TETHERS has them", |query, _| {
+        tables(query, |model, name, _| Ok(vec![tethered::description_table(model, name)?]))
+    })
+    .named(&[EntityKind::Connector]);
+
+/// `&STATUS TETHER_MODES`.
+pub static TETHER_MODES: StatusKind =
+    StatusKind::new("TETHER_MODES", "natural modes of tethers where they stand, -NUMBER of each", |query, _| {
+        let with_aqwa = query.args().has(&status::AQWA);
+        tables(query, |model, name, number| tethered::natural(model, name, number, with_aqwa))
+    })
+    .named(&[EntityKind::Connector]);
+
+/// The tables that a function makes of each tether that fits: by the model, its name and the number of modes asked for.
 ///
 /// # Errors
 /// No tether, or one that cannot be reckoned with.
-pub(crate) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
-    let wrong = |e| to_diagnostic(e, &job.model, args.span, job.units);
+fn tables(query: &Query, table: impl Fn(&Model, &str, usize) -> Result<Vec<Table>, SolveError>) -> Outcome<Vec<Table>> {
+    let (job, args, fits) = (query.job, query.args(), query.fits());
     let names: Vec<String> = tethered::names(&job.model).into_iter().filter(|name| fits(name)).collect();
     if names.is_empty() {
         return Err(Diagnostic::error("the model has no such tether that acts", args.span)
@@ -23,11 +38,8 @@ pub(crate) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> 
     let number = number.and_then(|n| usize::try_from(n).ok()).unwrap_or(6);
     let mut tables = Vec::new();
     for name in names {
-        if kind == "TETHERS" {
-            tables.push(tethered::description_table(&job.model, &name).map_err(wrong)?);
-        } else {
-            tables.extend(tethered::natural(&job.model, &name, number, args.has(&status::AQWA)).map_err(wrong)?);
-        }
+        let made = table(&job.model, &name, number);
+        tables.extend(made.map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?);
     }
     Ok(tables)
 }

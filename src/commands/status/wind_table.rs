@@ -1,6 +1,7 @@
 //! `&STATUS WIND_SPECTRUM`: the components of the gusts of an environment, and their spectrum to plot.
 
 use crate::commands::Job;
+use crate::commands::status::kind::StatusKind;
 use crate::commands::status::sea_table::{chosen_environments, turn};
 use std::f64::consts::TAU;
 use windlass_base::diagnostic::Outcome;
@@ -8,7 +9,19 @@ use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::gusts::{DENSITY, Gusts};
+use windlass_model::EntityKind;
 use windlass_model::Environment;
+
+/// `&STATUS WIND_SPECTRUM`.
+pub static WIND_SPECTRUM: StatusKind = StatusKind {
+    charts: |query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.place()),
+    ..StatusKind::new(
+        "WIND_SPECTRUM",
+        "the components of the gusts of an environment, and with -PLOT their spectrum",
+        |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.place()),
+    )
+    .named(&[EntityKind::Environment])
+};
 
 /// Points of a spectrum plotted, and the share of the energy up to which they lie.
 const SPECTRUM_POINTS: usize = 241;

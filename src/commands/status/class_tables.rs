@@ -1,0 +1,45 @@
+//! `&STATUS CL_FLEX`: the property tables of classes.
+
+use crate::commands::Job;
+use crate::commands::status::kind::Query;
+use crate::commands::status::kind::StatusKind;
+use crate::commands::written::{as_written, option_as_written};
+use windlass_base::table::Table;
+use windlass_model::Class;
+use windlass_model::EntityKind;
+
+/// `&STATUS CL_FLEX`.
+pub static CL_FLEX: StatusKind =
+    StatusKind::new("CL_FLEX", "flexible connector classes with W/L, AE, break", |query, _| Ok(tables(query)))
+        .named(&[EntityKind::Class])
+        .of_moses();
+
+/// `&STATUS CLASSES`.
+pub static CLASSES: StatusKind =
+    StatusKind::new("CLASSES", "the same as CL_FLEX", |query, _| Ok(tables(query))).named(&[EntityKind::Class]);
+
+/// The property tables of the classes that fit, with their records as they were given.
+pub(crate) fn classes(job: &Job, fits: &dyn Fn(&Class) -> bool) -> Vec<Table> {
+    let model = &job.model;
+    let surroundings = model.surroundings();
+    model
+        .classes
+        .values()
+        .filter(|c| fits(c))
+        .map(|class| {
+            let mut table = class.object.properties(&class.name, &surroundings);
+            for (index, record) in class.records.iter().enumerate() {
+                let data = as_written(&record.args.data, job.units);
+                let options = record.args.options.iter().map(|g| option_as_written(g, job.units));
+                let words: Vec<String> = data.into_iter().chain(options).collect();
+                table.note(format!("record {}: {} {}", index + 1, class.object.kind(), words.join(" ")));
+            }
+            table
+        })
+        .collect()
+}
+
+fn tables(query: &Query) -> Vec<Table> {
+    let fits = query.fits();
+    classes(query.job, &|class| fits(&class.name))
+}
