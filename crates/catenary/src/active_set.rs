@@ -1,4 +1,7 @@
-//! Where a chain touches the bottom or is held, and the sections between such places.
+//! The active set of a line of several segments: which segments rest on the seabed and which joints are held (on the seabed, or by a
+//! pendant), and the stretches of line between them.
+//!
+//! For a given active set each stretch is a problem of its own; `contact_problem` solves them and changes the set.
 
 use super::element::LinePiece;
 use super::multi_segment::{JointStatus, MultiSegmentLine, SegmentSolution};

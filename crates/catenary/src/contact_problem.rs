@@ -1,4 +1,9 @@
-//! The search for the places where a chain touches the bottom or is held, and for the forces between them.
+//! Active-set iteration for seabed contact of a line of several segments, at a given horizontal force.
+//!
+//! With the active set given, the vertical force at the top of each stretch follows by a safeguarded Newton iteration on its drop; a
+//! solution beside is the warm start. Then the set is changed where the solution contradicts it: everywhere at once for the first
+//! `MAX_JOINT_CHANGES` changes, then where it is furthest off alone, against cycling. Lines with friction or on a slope are laid by
+//! `layout` instead.
 
 use super::active_set::{ActiveSet, LineStretch, first_policy};
 use super::element::LinePiece;

@@ -1,4 +1,4 @@
-//! One segment whose fairlead moves: Newton from the last answer.
+//! Warm start of one segment whose fairlead moves: Newton iteration from the last end forces.
 //!
 //! The last forces plus the last stiffness times the displacement are off by the square of the displacement, so that
 //! one or two Newton steps are left. Wherever that does not lead to a proven answer at once, or leads so near another

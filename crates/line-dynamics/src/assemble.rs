@@ -1,4 +1,5 @@
-//! One pass over the elements of a rod.
+//! Assembly of the residual of a dynamic line and its Jacobian (the tangent stiffness with damping and mass terms), element by
+//! element: tension, inertia, drag, bending, seabed friction at rest; then the loads at nodes (`nodal_loads`).
 
 use super::bend::hinge;
 use super::element_batch::count_batchable;

@@ -1,4 +1,8 @@
-//! A node on the bottom: normal support, damping, friction.
+//! Seabed contact and seabed friction of a node of a dynamic line in time, with their derivatives.
+//!
+//! Normal reaction: a spring and a dashpot per contact area, the stiffness growing from zero over a small penetration. Friction:
+//! Coulomb, with coefficients along the line and across it, mobilised over a displacement from the stick point and over a speed.
+//! At rest friction is that of `statics_friction` and `stick_friction` instead.
 
 use super::environment::{SeabedLaw, SeabedShape};
 use nalgebra::{Matrix3, Vector3};

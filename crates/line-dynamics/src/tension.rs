@@ -1,4 +1,6 @@
-//! The tension of an element.
+//! Effective tension of an element of a dynamic line: axial law, internal damping, temperature and pressure [SPARKS-2007 2.4].
+//!
+//! Wall tension and stress follow from it in `results`.
 
 use super::environment::FluidState;
 use super::mesh::{Rod, RodElement};

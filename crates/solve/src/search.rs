@@ -1,8 +1,9 @@
-//! The search for rest: which step is taken, and how much of it.
+//! Newton step and line search of the equilibrium search (`&EQUI`).
 //!
-//! With care, a step is shortened until the forces along it have not turned around. Where something stiff turns, that makes
-//! steps very short: a whole step stretches it first, and the next one mends that; so a search that has become slow goes on
-//! boldly for some steps, and comes back when they have led nowhere better.
+//! The step solves the tangent stiffness against the residual. Where the stiffness is not positive definite, a share of the inertia is
+//! added to it: a pseudo-transient step, whose share shrinks with the residual. The line search shortens a step until the work of the
+//! residual along it has not changed sign. Where something stiff turns, that makes steps very short; after several short steps, up to
+//! five non-monotone steps are tried, and the search returns to the best place when they do not reduce the residual.
 
 use super::equilibrium::{Options, UNRESTRAINED_EIGENVALUE};
 use super::parts::BodySubset;

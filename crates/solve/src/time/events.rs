@@ -1,4 +1,5 @@
-//! What happens on the way of a run: conditions are looked at behind every step, which is cut where one comes true, connectors come and go, lengths change.
+//! Events of a run (`&ACTION`): triggers are checked after each step, and the step is bisected to locate them; connectors are released
+//! or activated, winches change lengths, the environment changes.
 
 use super::action::{ActionKind, Observable, Trigger, point_in_body};
 use super::compression::pull;

@@ -1,4 +1,5 @@
-//! Newton's correction of a trial: what is left of the balance, how it changes with the unknowns, and the trial moved by what that asks for.
+//! Newton iteration of one time step: the residual of the equations of motion, its Jacobian (inertia, damping and stiffness by the
+//! weights of the scheme), and the correction of the trial accelerations. There is no line search: a step that fails is halved.
 
 use super::forces::{BodyForces, BodyMotion};
 use super::inertia::{gyroscopic, turned_inertia};

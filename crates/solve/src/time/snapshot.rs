@@ -1,4 +1,5 @@
-//! Everything a run needs to go on from an instant with the same digits, as numbers and as bytes.
+//! The snapshot of a run, its checkpoint for `TDOM -RESTART`: all state needed to continue from an instant to the same digits, and
+//! its bytes in the run file. Warm starts of solvers are not part of it; they are discarded when a snapshot is written.
 
 use super::accuracy::Accuracy;
 use super::course::Counts;
