@@ -1,4 +1,4 @@
-//! What is done with bytes that nobody has looked at: one function a target of cargo-fuzz. `tests/it/program/fuzzed.rs` calls the same
+//! What is done with bytes that nobody has looked at: one function a target of cargo-fuzz. `tests/it/program/fuzz_corpus.rs` calls the same
 //! functions with the corpus and with changed pieces of it.
 //!
 //! A target panics where windlass would: on a panic of its own, and on a message that tells of a defect. Refusals are right answers.

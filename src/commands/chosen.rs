@@ -119,7 +119,7 @@ mod tests {
     use super::merge_remarks;
 
     #[test]
-    fn a_remark_of_several_things_is_told_once_with_all_their_names() {
+    fn remark_on_several_items_is_reported_once_with_all_names() {
         let both = || vec!["warning: it breaks".to_string(), "it is slack".into()];
         let list = [("A".to_string(), both()), ("B".into(), vec!["warning: it breaks".into()])];
         assert_eq!(merge_remarks(&list), ["warning: A, B: it breaks", "A: it is slack"]);

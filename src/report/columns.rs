@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn by_number_range_name_wild_character_and_prefix() {
+    fn columns_are_selected_by_number_range_name_wildcard_and_prefix() {
         let table = table(&["X", "Force", "DF/DX", "Ten Top"]);
         assert_eq!(choose(&table, "2"), Ok(vec![1]));
         assert_eq!(choose(&table, "3:4"), Ok(vec![2, 3]));
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn in_a_report_the_name_of_a_group_is_all_its_columns_and_a_column_of_that_name_goes_before() {
+    fn report_group_name_selects_its_columns_unless_a_column_has_it() {
         let groups =
             [("", "Time"), ("A Location", "X"), ("A Location", "Y"), ("B Location", "X"), ("A Velocity", "VX")];
         let table = heads(groups);
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_no_column_are_refused_and_two_readings_are_told() {
+    fn column_numbers_out_of_range_and_ambiguous_selectors_are_refused() {
         let table = table(&["Force", "Form"]);
         for beyond in ["0", "3", "0:1", "1:3", "99999999999999999999999", "3:99999999999999999999999"] {
             assert!(choose(&table, beyond).unwrap_err().to_string().contains("their numbers are 1 to 2"), "{beyond}");
@@ -155,7 +155,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_selector_chooses_columns_that_exist_or_is_refused(selector in "[0-9:@/a-zA-Z \\-\u{e9}\u{df}]{0,12}|\\PC{0,20}") {
+        fn any_selector_selects_existing_columns_or_is_refused(selector in "[0-9:@/a-zA-Z \\-\u{e9}\u{df}]{0,12}|\\PC{0,20}") {
             let table = table(&["X", "Force", "\u{df}e", "DF/DX"]);
             if let Ok(chosen) = choose(&table, &selector) {
                 prop_assert!(chosen.iter().all(|i| *i < 4));

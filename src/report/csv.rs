@@ -63,7 +63,7 @@ mod tests {
     use windlass_base::table::{Column, Digits};
 
     #[test]
-    fn heads_have_units_and_numbers_read_back_exactly() {
+    fn csv_headers_have_units_and_numbers_read_back_exactly() {
         let table = Table::new("t")
             .with_rows(&[(Some(1.0 / 3.0), "a,b"), (None, "c")])
             .column("", "X", Dim::Length, Digits::Usual, |(x, _)| *x)
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn text_that_a_spreadsheet_would_run_gets_an_apostrophe_and_numbers_do_not() {
+    fn text_read_as_a_formula_is_escaped_and_numbers_are_not() {
         let texts = ["=cmd|' /C calc'!A0", "+1+1", "@SUM(A1)", "-2+3", "-", "-5", "+5", "-1e3", "x=1", "\t=1", "\r=1"];
         let table = Table::new("t")
             .with_rows(&texts)
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn no_two_heads_are_alike() {
+    fn column_headers_are_unique() {
         let names = [("A", "F"), ("B", "F"), ("", "X"), ("", "X")];
         let column = |(group, name): &(&str, &str)| Column::new(group, name, Dim::Force, Digits::Usual, [0.0]);
         let t = Table::from_columns("t", names.iter().map(column).collect());
@@ -114,7 +114,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_file_reads_back_to_the_last_bit(rows in prop::collection::vec((any::<f64>(), any::<i64>(), "\\PC{0,8}|[,\"\n\r]{0,4}"), 0..20)) {
+        fn csv_file_reads_back_bit_for_bit(rows in prop::collection::vec((any::<f64>(), any::<i64>(), "\\PC{0,8}|[,\"\n\r]{0,4}"), 0..20)) {
             let t = Table::new("t")
                 .with_rows(&rows)
                 .column("", "X", Dim::None, Digits::Usual, |(x, ..)| *x)

@@ -104,7 +104,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn base64_is_that_of_the_standard() {
+    fn base64_matches_standard() {
         // RFC 4648, section 10
         let pairs =
             [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("foobar", "Zm9vYmFy")];
@@ -113,7 +113,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn text_and_numbers_read_back_and_end_no_script(text in "\\PC{0,20}|[<>&\"\\\\/\u{0}-\u{1f}\u{2028}]{0,9}", value in any::<f64>()) {
+        fn embedded_text_and_numbers_read_back_and_end_no_script(text in "\\PC{0,20}|[<>&\"\\\\/\u{0}-\u{1f}\u{2028}]{0,9}", value in any::<f64>()) {
             let made = list([string(&text), number(value)]);
             prop_assert!(!made.contains(['<', '>', '&', '\n']));
             let read: serde_json::Value = serde_json::from_str(&made).unwrap();

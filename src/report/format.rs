@@ -165,7 +165,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn digits_stay_meaningful_in_every_unit() {
+    fn printed_digits_stay_significant_in_every_unit() {
         let us = UnitSystem::default();
         let show = |v: f64, dim: Dim, units| report(&Cell::Number(dim.to_si(v, units)), dim, Digits::Usual, units);
         assert_eq!(show(0.03751, Dim::ForcePerLength, us), "0.0375");
@@ -179,14 +179,14 @@ mod tests {
     }
 
     #[test]
-    fn a_file_number_reads_back_to_the_same_bits() {
+    fn number_in_file_reads_back_to_same_bits() {
         for value in [1.0 / 3.0, 1e-300, 123_456_789.123_456_79, -2.5e17] {
             assert_eq!(number_in_full(value).parse::<f64>().unwrap().to_bits(), value.to_bits());
         }
     }
 
     #[test]
-    fn ticks_have_the_digits_that_tell_them_apart() {
+    fn tick_labels_have_enough_digits_to_differ() {
         let ticks = |step: f64, last: i32| (0..=last).map(|k| tick(f64::from(k) * step, step, step * 10.0)).collect();
         let list: Vec<Vec<String>> = vec![ticks(0.5, 2), ticks(200.0, 2), ticks(2e-9, 2), ticks(5e9, 2)];
         assert_eq!(list[0], ["0", "0.5", "1.0"]);
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn text_keeps_to_its_line() {
+    fn control_characters_do_not_break_a_line() {
         let cell = Cell::Text("a\nb\t\u{1b}[31mc".into());
         assert_eq!(report(&cell, Dim::None, Digits::Usual, UnitSystem::default()), "a b  [31mc");
     }
@@ -216,7 +216,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_printed_number_is_rounded_never_lost(
+        fn printed_number_is_rounded_and_never_lost(
             value in prop_oneof![-1e7..1e7f64, -1e-3..1e-3f64, any::<f64>().prop_filter("finite", |v| v.is_finite())],
             units in systems(),
             more in 0u8..4,

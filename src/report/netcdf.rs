@@ -172,7 +172,7 @@ mod tests {
     use windlass_base::units::Dim;
 
     #[test]
-    fn a_file_reads_back_with_its_values_to_the_last_bit_its_units_names_and_text() {
+    fn netcdf_values_units_names_and_text_read_back_bit_for_bit() {
         let tops = [1.0 / 3.0, -1e300, 5e-324];
         let rows = [(0i64, tops[0], "A"), (1, tops[1], "BOW"), (2, tops[2], "")];
         let t = Table::new("A run")
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn names_become_plain_and_stay_apart() {
+    fn names_are_sanitised_and_stay_unique() {
         let made = names(["Ten Top", "ten-top", "", "\u{e9}", "3:X", "X"].into_iter());
         assert_eq!(made, ["Ten_Top", "ten_top_2", "column_", "column__4", "column_3_X", "X"]);
     }

@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_said_is_in_the_files_before_the_job_ends() {
+    fn log_is_written_before_the_job_ends() {
         let dir = tempfile::tempdir().unwrap();
         let mut out = output(dir.path());
         out.log("> TABLE A");
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_cannot_be_made_costs_the_log_and_refuses_the_report() {
+    fn unwritable_answers_folder_loses_log_and_refuses_report() {
         let dir = tempfile::tempdir().unwrap();
         std::fs::write(dir.path().join("job.ans"), "in the way").unwrap();
         let mut out = output(dir.path());

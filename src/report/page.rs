@@ -199,7 +199,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_report_has_its_title_units_groups_and_aligned_rows() {
+    fn page_report_has_title_units_groups_and_aligned_rows() {
         let mut table = Table::new("Properties of Line A")
             .fact("Water Depth", 100.0 * 0.3048, Dim::Length)
             .with_rows(&[(0.3048, 44_482.216_152_605, 0.25)])

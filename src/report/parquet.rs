@@ -105,7 +105,7 @@ mod tests {
     use windlass_base::units::Dim;
 
     #[test]
-    fn a_file_reads_back_with_its_values_to_the_last_bit_its_units_and_what_is_missing() {
+    fn parquet_values_units_and_missing_data_read_back_bit_for_bit() {
         let tops = [1.0 / 3.0, f64::MIN_POSITIVE, -1e300, f64::NAN];
         let rows: Vec<(i64, f64)> = (1..).zip(tops).collect();
         let t = Table::new("A, of B")
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_without_rows_is_refused() {
+    fn table_without_rows_is_refused() {
         let t = Table::new("t").with_rows(&[] as &[f64]).column("", "X", Dim::None, Digits::Usual, |x| *x).build();
         assert_eq!(bytes(&t, UnitSystem::SI), Err(StoreError::Empty));
     }

@@ -203,7 +203,7 @@ mod tests {
     use crate::report::csv as written;
 
     #[test]
-    fn what_store_wrote_reads_back_in_any_units() {
+    fn stored_table_reads_back_in_any_units() {
         let t = Table::new("t")
             .with_rows(&[(0.5, Some(1e6), 0.25, "a,b"), (1.0, None, -0.5, "c")])
             .column("", "Time", Dim::Time, Digits::Usual, |row| row.0)
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_one_a_line_stand_above_rows_with_or_without_a_blank() {
+    fn one_label_per_line_is_read_above_rows_with_or_without_blank() {
         for blank in ["", "\n"] {
             let t = brief("t", &format!("Time (s)\nPower of 2\n{blank}0 1\n1, 2\n2\t4\n")).unwrap();
             assert_eq!((t.columns[1].name.as_str(), t.columns[1].numbers()), ("Power of 2", vec![1.0, 2.0, 4.0]));
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_table_is_told_with_its_line() {
+    fn text_that_is_not_a_table_is_reported_with_its_line() {
         assert_eq!(csv("t", "a,b\n1,2\n3\n"), Err(ReadError::Cells { line: 3, got: 1, want: 2 }));
         assert_eq!(csv("t", "a\n1\ninf\n"), Err(ReadError::NotFinite { line: 3, text: "inf".into() }));
         assert_eq!(csv("t", "a,b\n"), Err(ReadError::NoRows));

@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_file_with_a_time_that_is_no_number_is_refused() {
+    fn run_file_with_time_not_a_number_is_refused() {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let folder = tempfile::tempdir().unwrap();
             let (mut log, path) = begun(folder.path());
@@ -221,7 +221,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_run_file_deleted_under_way_ends_the_run() {
+    fn run_file_deleted_during_run_ends_run() {
         let folder = tempfile::tempdir().unwrap();
         let (mut log, path) = begun(folder.path());
         log.snapshot(&at(1.0)).unwrap();

@@ -243,7 +243,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn mean_deviation_and_extremes_with_their_places() {
+    fn mean_deviation_and_extremes_have_their_positions() {
         let t = Table::new("t")
             .with_rows(&[(10.0, 1.0), (20.0, 5.0), (30.0, 3.0)])
             .column("", "X", Dim::None, Digits::Usual, |(x, _)| *x)
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn cycles_extremes_and_peaks_of_a_sine_in_feet() {
+    fn cycles_extremes_and_peaks_of_sine_in_feet() {
         let us = UnitSystem::default();
         let times: Vec<f64> = (0..=1000).map(|i| 0.1 * f64::from(i)).collect();
         let mut t = Table::new("t")

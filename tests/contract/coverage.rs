@@ -73,7 +73,7 @@ fn faults(item: &toml::Value, files: &[(String, String)]) -> Vec<String> {
 }
 
 #[test]
-fn coverage_list_names_existing_tests_and_honest_states() {
+fn coverage_list_names_existing_tests_and_valid_states() {
     let list: toml::Table = toml::from_str(&fs::read_to_string("tests/coverage.toml").unwrap()).unwrap();
     let mut paths = Vec::new();
     for folder in ["tests", "src", "crates"] {

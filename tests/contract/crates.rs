@@ -19,7 +19,7 @@ fn dependencies(manifest: &toml::Table) -> Vec<&str> {
 }
 
 #[test]
-fn engines_do_not_depend_on_the_language() {
+fn engines_do_not_depend_on_language() {
     let crates = crates();
     for name in ["base", "catenary", "line-dynamics", "tether", "hydro", "signal", "solve", "model"] {
         let (_, manifest) = &crates[&format!("windlass-{name}")];
@@ -28,7 +28,7 @@ fn engines_do_not_depend_on_the_language() {
 }
 
 #[test]
-fn each_library_is_used_where_it_belongs() {
+fn each_library_is_used_in_its_own_crates() {
     let program: toml::Table = fs::read_to_string("Cargo.toml").unwrap().parse().unwrap();
     let mut users: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let all = crates().into_iter().map(|(name, (_, manifest))| (name, manifest));
@@ -47,7 +47,7 @@ fn each_library_is_used_where_it_belongs() {
 }
 
 #[test]
-fn every_crate_forbids_unsafe_code_and_documents_what_is_public() {
+fn every_crate_forbids_unsafe_code_and_documents_public_items() {
     for (name, (folder, _)) in crates() {
         let root = fs::read_to_string(folder.join("src/lib.rs")).unwrap();
         for attribute in ["#![forbid(unsafe_code)]", "#![deny(missing_docs)]"] {
@@ -93,7 +93,7 @@ fn code(text: &str) -> impl Iterator<Item = &str> {
 }
 
 #[test]
-fn dense_factorisations_stand_in_one_place() {
+fn dense_factorisations_are_in_one_crate() {
     let methods = [
         "lu",
         "full_piv_lu",

@@ -56,7 +56,7 @@ fn bibliography() -> Vec<String> {
 }
 
 #[test]
-fn every_cited_key_stands_in_the_bibliography() {
+fn every_cited_key_is_in_the_bibliography() {
     let keys: BTreeSet<String> = bibliography().into_iter().collect();
     assert_eq!(keys.len(), bibliography().len(), "a key stands twice");
     let mut missing = BTreeSet::new();
@@ -85,7 +85,7 @@ fn numbers_an_issue(line: &str) -> bool {
 }
 
 #[test]
-fn no_file_cites_documents_that_a_reader_does_not_have() {
+fn no_file_cites_unpublished_documents() {
     // put together here, so that this file has none of them
     let pages = ["model", "solve", "language", "aqwa-cards", "moses-commands", "studies", "diffraction", "ecosystem"];
     let pages = pages.map(|page| format!("reference/{page}"));

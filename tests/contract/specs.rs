@@ -47,7 +47,7 @@ fn every_full_name_selects_itself_and_options_are_unique() {
 }
 
 #[test]
-fn an_abbreviation_unique_among_moses_names_stays_valid_whatever_is_added() {
+fn abbreviation_unique_among_moses_names_stays_valid() {
     for spec in specs() {
         let moses = || spec.option_names().filter(|(_, owner, _)| *owner == Owner::Moses);
         for (name, _, option) in moses() {
@@ -75,7 +75,7 @@ fn an_abbreviation_unique_among_moses_names_stays_valid_whatever_is_added() {
 }
 
 #[test]
-fn the_abbreviations_seen_in_published_samples_are_accepted() {
+fn abbreviations_seen_in_published_samples_are_accepted() {
     let b_cat = CLASSES.iter().find(|k| k.spec.name == "B_CAT").unwrap().spec;
     for (short, long) in [
         ("-DEP", "-DEPANCHOR"),
@@ -98,7 +98,7 @@ fn the_abbreviations_seen_in_published_samples_are_accepted() {
 }
 
 #[test]
-fn everything_has_help() {
+fn every_command_and_option_has_help() {
     for spec in specs() {
         assert!(!spec.help.is_empty(), "{} has no help", spec.name);
         for value in spec.data {
@@ -115,7 +115,7 @@ fn everything_has_help() {
 }
 
 #[test]
-fn every_example_of_the_help_runs_without_an_error() {
+fn every_example_of_help_runs_without_error() {
     for spec in specs() {
         if spec.example.is_empty() {
             // these two name files of the user's own
@@ -133,7 +133,7 @@ fn every_example_of_the_help_runs_without_an_error() {
 }
 
 #[test]
-fn a_command_opens_a_menu_in_its_example_exactly_when_its_spec_says_so() {
+fn command_opens_menu_in_example_exactly_when_its_spec_says() {
     let mut opened = Vec::new();
     for spec in specs() {
         let folder = tempfile::tempdir().unwrap();
@@ -163,7 +163,7 @@ fn a_command_opens_a_menu_in_its_example_exactly_when_its_spec_says_so() {
 }
 
 #[test]
-fn every_command_and_class_type_stands_in_a_golden_script() {
+fn every_command_and_class_type_is_in_a_golden_script() {
     let mut text = String::new();
     for entry in fs::read_dir("scripts").unwrap().chain(fs::read_dir("scripts/insert").unwrap()).flatten() {
         if entry.path().is_file() {

@@ -11,47 +11,47 @@ mod program {
     mod editor;
     mod file_names;
     mod film;
-    mod fuzzed;
-    mod hostile;
+    mod fuzz_corpus;
+    mod hostile_input;
     mod lines;
     mod menus;
     mod names;
     mod never_panics;
     mod picture;
-    mod varied;
+    mod table_vary;
 }
 
 /// Springs, lines, pipes: forces and laws.
 mod connectors {
-    mod along;
     mod appended_segments;
     mod bathymetry_lines;
     mod class_records;
     mod closed_form_lines;
     mod connector_closed_form;
+    mod dynamic_line_cantilever;
+    mod dynamic_line_checks;
+    mod dynamic_line_closed_forms;
+    mod dynamic_line_events;
+    mod dynamic_line_growth;
+    mod dynamic_line_loads;
+    mod dynamic_line_modes;
+    mod dynamic_line_restart;
+    mod dynamic_line_results;
+    mod dynamic_line_sections;
+    mod dynamic_line_slope;
+    mod dynamic_line_tethers;
     mod element_laws;
+    mod exact_catenary;
     mod force_on_body;
-    mod laws;
     mod lift;
     mod line_classes;
+    mod line_laws;
     mod line_types;
     mod lmu_stages;
-    mod one_catenary;
+    mod negative_tension;
     mod pipe;
-    mod pipe_under_way;
+    mod pipe_time_domain;
     mod pistons;
-    mod pushing;
-    mod rod_cantilever;
-    mod rod_events;
-    mod rod_growth;
-    mod rod_judged;
-    mod rod_loads;
-    mod rod_modes;
-    mod rod_program;
-    mod rod_restart;
-    mod rod_sections;
-    mod rod_slope;
-    mod rod_tethers;
     mod springs_closed_form;
 }
 
@@ -61,33 +61,33 @@ mod floating {
     mod aqwa_tether_platform;
     mod bodies;
     mod equilibrium;
+    mod equilibrium_distant_starts;
+    mod equilibrium_trials;
     mod excursion;
-    mod far_starts;
     mod members;
     mod moorpy_equilibrium;
-    mod moving_streams;
     mod networks;
     mod piece_loads;
     mod side_by_side;
     mod steady_loads;
-    mod trial_places;
+    mod wind_current_time_domain;
 }
 
 /// Frequency domain and time domain.
 mod time {
     mod categories;
-    mod drift_in_time;
-    mod foretold_steps;
+    mod drift_time_domain;
+    mod fix_connectors;
     mod frequency;
     mod line_scheme;
-    mod low_frequency_place;
-    mod members_under_way;
+    mod low_frequency_position;
+    mod members_time_domain;
     mod missing_added_mass;
     mod prcpost;
-    mod prescribed;
+    mod prescribed_motion;
     mod screening;
     mod step_accuracy;
-    mod stiff_ties;
+    mod step_prediction;
     mod time_domain;
     mod time_runs;
     mod transient;

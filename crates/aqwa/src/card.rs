@@ -246,7 +246,7 @@ mod tests {
     use windlass_language::source::Sources;
 
     #[test]
-    fn columns_are_characters_and_their_places_are_bytes() {
+    fn columns_count_characters_and_positions_count_bytes() {
         let mut sources = Sources::default();
         let id = sources.add("a", "* comment\r\n\r\n    01\u{e9}\u{e9} 7\n", 1);
         let lines: Vec<CardLine<'_>> = CardLines::new(sources.get(id).unwrap(), id).collect();
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_those_of_fortran_and_finite() {
+    fn numbers_are_read_like_fortran_and_finite() {
         assert_eq!(real("1.0E10"), Some(1.0e10));
         assert_eq!(real("-2.5d-3"), Some(-2.5e-3));
         assert_eq!(real("5."), Some(5.0));

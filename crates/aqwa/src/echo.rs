@@ -119,7 +119,7 @@ mod tests {
     use super::exponent;
 
     #[test]
-    fn exponents_have_a_sign_and_two_digits() {
+    fn exponents_are_written_with_sign_and_two_digits() {
         assert_eq!(exponent(1.0698e12, 3), "1.070E+12");
         assert_eq!(exponent(0.0, 3), "0.000E+00");
         assert_eq!(exponent(-2.5e-3, 2), "-2.50E-03");

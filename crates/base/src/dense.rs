@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn entry_that_is_not_finite_is_refused_with_its_place() {
+    fn entry_not_finite_is_refused_with_its_position() {
         let at = DenseError::NotFinite { row: 4, column: 2 };
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let right = DMatrix::zeros(7, 1);
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn largest_finite_entries_end_with_an_answer_or_an_error() {
+    fn largest_finite_entries_end_with_answer_or_error() {
         // squares of such entries are no numbers; what matters is that each call returns
         for size in [1e152, 1e154, 1e200, f64::MAX] {
             let matrix = damaged(size) * 1.0;
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn matrix_without_rows_has_a_plain_answer() {
+    fn matrix_without_rows_gives_empty_answer() {
         assert_eq!(Lu::new(empty(), &never).unwrap().solve(&DMatrix::zeros(0, 3)).unwrap().shape(), (0, 3));
         assert_eq!(Lu::new(empty(), &never).unwrap().inverse().unwrap().shape(), (0, 0));
         assert_eq!(Cholesky::new(empty(), &never).unwrap().inverse_of_lower().unwrap().shape(), (0, 0));
@@ -355,7 +355,7 @@ mod tests {
     }
 
     #[test]
-    fn interrupt_is_listened_to() {
+    fn interrupt_stops_every_factorisation() {
         let stop = || true;
         let identity = || DMatrix::<f64>::identity(3, 3);
         assert_eq!(Lu::new(identity(), &stop).unwrap_err(), DenseError::Interrupted);
@@ -366,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn small_matrices_have_the_answers_worked_out_by_hand() {
+    fn small_matrices_match_hand_solutions() {
         // [[2 1][1 2]]: 1 and 3; a turn by a right angle: i and -i; a dyad: the least answer lies along it
         let mut values: Vec<f64> =
             SymmetricEigen::new(Matrix2::new(2.0, 1.0, 1.0, 2.0), &never).unwrap().values.iter().copied().collect();

@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn yaw_then_pitch_then_roll_about_turned_axes() {
+    fn rotation_is_yaw_then_pitch_then_roll_about_rotated_axes() {
         let quarter = std::f64::consts::FRAC_PI_2;
         // yaw by 90 takes x to y; a pitch then acts about the turned y axis, which is -x
         let place = Place { shift: [1.0, 2.0, 3.0], turn: [0.0, quarter, quarter] };
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn rotations_are_those_of_euler_angles() {
+    fn rotations_match_euler_angles() {
         for step in 0..200 {
             let [roll, pitch, yaw] = [0.37, 0.91, -1.13].map(|rate| rate * f64::from(step));
             let place = Place::new([0.0, 0.0, 0.0, roll, pitch, yaw]);

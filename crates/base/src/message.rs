@@ -87,7 +87,7 @@ mod tests {
     use crate::units::{ForceUnit, LengthUnit};
 
     #[test]
-    fn values_are_told_in_the_units_of_the_user_and_braces_of_a_name_stay() {
+    fn message_values_are_in_user_units_and_name_braces_are_kept() {
         let units = UnitSystem { length: LengthUnit::Feet, force: ForceUnit::Kips };
         let message =
             Message::with_values("it is {} long, not {}", &[(3.048, Dim::Length), (2.0, Dim::None)]).about("line {}");

@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_comes_back_from_its_pose() {
+    fn point_transforms_to_pose_and_back() {
         for step in 0..100 {
             let [roll, pitch, yaw] = [0.37, 0.011, -1.13].map(|rate| rate * f64::from(step));
             let place = Place::new([1.0, 2.0, 3.0, roll, pitch, yaw]);
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_turns_about_global_axes() {
+    fn rotation_acts_about_global_axes() {
         let quarter = std::f64::consts::FRAC_PI_2;
         let pose = Pose::of(&Place::new([0.0, 0.0, 0.0, 0.0, 0.0, quarter]));
         let turned = pose.after_motion(&Six::new(0.0, 0.0, 5.0, quarter, 0.0, 0.0));

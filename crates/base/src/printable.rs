@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_terminal_acts_on_is_spelled_and_letters_are_kept() {
+    fn terminal_control_characters_are_escaped_and_letters_kept() {
         // OSC 52 (clipboard), clear screen, C1 CSI, a carriage return, DEL, a right-to-left override, an isolate
         for (text, shown) in [
             ("\u{1b}]52;c;AAAA\u{7}", r"\u{1b}]52;c;AAAA\u{7}"),
@@ -50,7 +50,7 @@ mod tests {
     }
 
     #[test]
-    fn the_characters_are_those_of_the_unicode_tables() {
+    fn characters_match_unicode_tables() {
         // category Cc has 65 characters, of which newline and tab stay; Bidi_Control has 12 (Unicode 16, PropList)
         let acted = ('\0'..=char::MAX).filter(|c| is_acted_on(*c)).count();
         assert_eq!(acted, 65 - 2 + 12);

@@ -423,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn derived_units_are_products_of_their_powers() {
+    fn derived_units_are_products_of_powers() {
         let us = UnitSystem::default();
         let dim = Dim::Derived { force: 1, length: -2, seconds: 2 };
         assert_eq!(dim.to_si(1.0, us), NEWTONS_PER_KIP / (METRES_PER_FOOT * METRES_PER_FOOT));
@@ -432,7 +432,7 @@ mod tests {
     }
 
     #[test]
-    fn an_expansion_is_the_same_in_fahrenheit_and_in_celsius() {
+    fn expansion_coefficient_is_same_in_fahrenheit_and_celsius() {
         // steel, 6.5e-6 per F over 90 F, is 11.7e-6 per C over 50 C
         let (us, si) = (UnitSystem::default(), UnitSystem::SI);
         let strain =
@@ -441,7 +441,7 @@ mod tests {
     }
 
     #[test]
-    fn going_to_si_and_back_returns_the_number() {
+    fn conversion_to_si_and_back_returns_number() {
         for force in [ForceUnit::LongTons, ForceUnit::MetricTons, ForceUnit::Newtons] {
             let units = UnitSystem { length: LengthUnit::Meters, force };
             for dim in [Dim::Section, Dim::Damping(1.5), Dim::MomentPerRadian, Dim::Angle, Dim::Days] {

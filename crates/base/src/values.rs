@@ -316,7 +316,7 @@ mod tests {
     const OTHER: OptionSpec = OptionSpec::new("-OTHER", &[], "an option of another command");
 
     #[test]
-    fn option_of_the_command_is_found_where_given() {
+    fn command_option_is_found_where_given() {
         let (span, declared) = (Span::default(), &[TAKEN]);
         let given = Given { option: &TAKEN, span, values: Vec::new(), after: 0 };
         let args = Args { span, declared, data: Vec::new(), options: vec![given] };

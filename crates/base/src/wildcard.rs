@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wild_characters() {
+    fn wildcards_match_any_characters() {
         assert!(matches("@", ""));
         assert!(matches("ML@", "mla"));
         assert!(matches("/LA", "MLA"));

@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_profile_has_the_elevations_of_its_vertices_and_goes_on_beyond_them() {
+    fn profile_has_vertex_elevations_and_extrapolates_beyond() {
         let made = SeabedProfile::new(&[(0.0, -100.0), (50.0, -95.0), (100.0, -90.0), (200.0, -100.0)]);
         assert_eq!(made.faces(), 2, "two neighbours in one plane are one face");
         for (at, z) in [(-10.0, -101.0), (0.0, -100.0), (50.0, -95.0), (100.0, -90.0), (150.0, -95.0), (300.0, -110.0)]

@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_are_the_differences_of_reach_and_rise() {
+    fn derivatives_match_reach_and_rise_finite_differences() {
         for weight in [500.0, -300.0, 0.01] {
             for (h, low) in [(1e5, 2e4), (1e5, -4e4), (3e3, 0.0), (2e6, -1e5), (50.0, 9e4)] {
                 check_derivatives(h, low, &Segment { length: 700.0, weight, ea: 5e8 });
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bend_is_that_of_the_library_on_both_sides_of_its_series() {
+    fn bend_matches_library_on_both_sides_of_series_limit() {
         for u in [1e-3, 0.05, 0.12, 0.124_999, 0.125_001, 0.3, 0.9, 0.999_9] {
             let (got, want) = (bend(u, 0.5 * (1.0 - u) * (1.0 + u)), u.atanh() / u - 1.0);
             assert!((got - want).abs() < 4e-16 * (1.0 + want), "{u}: {got} {want}");
@@ -161,13 +161,13 @@ mod tests {
     }
 
     #[test]
-    fn a_nearly_weightless_segment_is_a_straight_spring() {
+    fn nearly_weightless_segment_matches_straight_spring() {
         let reach = hanging(&Segment { length: 100.0, weight: 1e-9, ea: 1e6 }, 3e3, 4e3);
         assert!((reach.x - (60.0 + 0.3)).abs() < 1e-9 && (reach.z - (80.0 + 0.4)).abs() < 1e-9, "{reach:?}");
     }
 
     #[test]
-    fn lifted_and_hanging_agree_at_touchdown_of_the_lower_end() {
+    fn lifted_and_hanging_solutions_agree_at_lower_end_touchdown() {
         let chain = Segment { length: 900.0, weight: 1500.0, ea: 8e8 };
         let (a, ground) = lifted_reach(&chain, 2e5, 900.0 * 1500.0);
         let b = hanging(&chain, 2e5, 0.0);

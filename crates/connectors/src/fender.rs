@@ -305,7 +305,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn energy_is_the_area_under_the_curve() {
+    fn fender_energy_is_area_under_curve() {
         // a buckling fender: 100 kN at 0.3 m, 80 kN at 0.5 m, 110 kN at 0.7 m: triangles and trapezia by hand
         let curve = [(0.0, 0.0), (100e3, 0.3), (80e3, 0.5), (110e3, 0.7)];
         for (y, p, e) in

@@ -124,13 +124,13 @@ mod tests {
     }
 
     #[test]
-    fn equal_slings_meet_above_the_middle() {
+    fn equal_slings_meet_above_middle() {
         let at = hook(&lines([13.0; 4]), SlingObjective::Along(Vector3::z())).unwrap();
         assert!((at - Vector3::new(0.0, 0.0, 12.0)).norm() < 1e-12, "{at}");
     }
 
     #[test]
-    fn longer_slings_on_one_diagonal_are_slack() {
+    fn longer_slings_on_one_diagonal_go_slack() {
         // the short pair alone: still 12 above its middle
         let at = hook(&lines([13.0, 13.5, 13.0, 13.5]), SlingObjective::Along(Vector3::z())).unwrap();
         assert!((at - Vector3::new(0.0, 0.0, 12.0)).norm() < 1e-12, "{at}");
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn one_line_points_to_the_boom_and_a_short_one_reaches_nothing() {
+    fn one_line_points_to_boom_and_short_one_is_refused() {
         let one = [SlingConstraint { node: Vector3::zeros(), length: 5.0 }];
         let at = hook(&one, SlingObjective::Near(Vector3::new(30.0, 0.0, 40.0))).unwrap();
         assert!((at - Vector3::new(3.0, 0.0, 4.0)).norm() < 1e-12, "{at}");
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hanging_body_turns_its_centre_of_gravity_below_the_hook() {
+    fn hanging_body_rotates_centre_of_gravity_below_hook() {
         // one sling at the corner: in line with the centre
         let one = [SlingConstraint { node: Vector3::new(3.0, 0.0, 0.0), length: 5.0 }];
         let at = hanging(&one, Vector3::new(0.0, 0.0, -4.0), Vector3::z()).unwrap();

@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn the_shipped_library_parses_and_names_every_source_it_uses() {
+    fn shipped_library_parses_and_names_every_used_source() {
         let read: Result<LineTypeLibrary, _> = toml::from_str(TEXT);
         let read = read.unwrap();
         assert_eq!(read.types.len(), 18);
@@ -212,13 +212,13 @@ mod tests {
     }
 
     #[test]
-    fn a_key_the_library_does_not_know_is_no_library() {
+    fn unknown_library_key_is_refused() {
         let wrong: Result<LineTypeLibrary, _> = toml::from_str(&TEXT.replacen("\nvolume =", "\nvolumme =", 1));
         assert!(wrong.is_err());
     }
 
     #[test]
-    fn every_type_is_sane_over_its_whole_range() {
+    fn every_type_is_valid_over_its_whole_range() {
         for line in &library().types {
             let (least, most) = (line.diameter.least, line.diameter.most);
             assert!(0.0 < least && least < most && most < 0.5, "{}", line.name);
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn chain_breaks_as_the_makers_table_to_the_rules_says() {
+    fn chain_break_matches_makers_table_to_rules() {
         // pilotfits.com/products/offshore-mooring-chain (to [DNV-OS-E302; IACS-W22]): whole kN, rounded up or to nearest
         for (grade, rows) in [
             ("R3", [(0.034, 1065.0), (0.050, 2230.0), (0.070, 4196.0)]),
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn chain_mass_and_stiffness_agree_with_other_published_formulas() {
+    fn chain_mass_and_stiffness_match_other_published_formulas() {
         // MoorPy's fits to four makers: 20.0e3 and 21.9e3 d**2 kg/m; 1 % is their difference from OrcaFlex
         near("CHAIN_R4", "mass", named("CHAIN_R4").mass.evaluate(0.084), 20.0e3 * 0.084 * 0.084, 0.01);
         near("CHAIN_R4_STUD", "mass", named("CHAIN_R4_STUD").mass.evaluate(0.084), 21.9e3 * 0.084 * 0.084, 1e-9);
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn wire_agrees_with_published_tables() {
+    fn wire_matches_published_tables() {
         // API Spec 9A mooring rope, IWRC, galvanized (Standard Handbook of Petroleum and Natural Gas Engineering, Table
         // 4-25): 1 in 1.89 lb/ft 414 kN; 2 in 1590 kN; 3 in 16.6 lb/ft 3400 kN. One formula for ropes of several
         // constructions: 10 %
@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn fibre_rope_agrees_with_published_tables() {
+    fn fibre_rope_matches_published_tables() {
         // 8-strand polyester, 48 mm: 1.74 kg/m (engineeringtoolbox.com); DIN 83331 36.7 t
         // [OCIMF-MEG2 table 6.5]. Makers exceed the standards: 12 %
         let rope = named("POLYESTER");
@@ -334,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ends_of_a_range_are_inside_it_in_inches_too() {
+    fn diameter_range_ends_are_inside_in_inches_too() {
         let chain = named("CHAIN_R4");
         assert!(chain.covers(0.034) && chain.covers(0.185 / 0.0254 * 0.0254));
         assert!(!chain.covers(0.033) && !chain.covers(0.186));

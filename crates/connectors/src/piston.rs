@@ -199,7 +199,7 @@ mod tests {
         Piston { both: true, stroke: 3.0, nominal: 1.0, lengthening: 0.5, shortening: 0.25, most: 800.0, least: 300.0 };
 
     #[test]
-    fn a_step_goes_as_far_as_the_limit_asks_and_the_velocity_allows() {
+    fn piston_step_is_bounded_by_limit_and_velocity() {
         let after = |both: bool, before: f64, stretch: f64| {
             let (s, does) = Piston { both, ..PISTON }.stand(before, Some(1.0), spring(stretch)).unwrap();
             ((s * 1e9).round() / 1e9, does)
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn in_statics_it_slides_from_its_nominal_position_as_far_as_it_must() {
+    fn static_piston_slides_from_nominal_position_as_needed() {
         let at_rest = |both: bool, stretch: f64| {
             let (s, does) = Piston { both, ..PISTON }.stand(2.5, None, spring(stretch)).unwrap();
             ((s * 1e9).round() / 1e9, does)

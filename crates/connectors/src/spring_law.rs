@@ -206,7 +206,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn series_springs_share_one_force_and_the_last_slope_goes_on() {
+    fn series_springs_share_one_force_and_extrapolate_last_slope() {
         // 1000 N/m in series with (100 N, 0.3 m), (300 N, 0.5 m): at 200 N 0.2 + 0.4 m; beyond 300 N a slope of 1000 N/m
         let law = Elastic::new(1000.0, Some(&[(0.0, 0.0), (100.0, 0.3), (300.0, 0.5)]));
         for (u, f) in [(0.2, 50.0), (0.4, 100.0), (0.6, 200.0), (0.8, 300.0), (1.2, 500.0)] {

@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_of_one_exponential_gives_it_back_by_time_and_by_frequency() {
+    fn single_exponential_fit_is_exact_in_time_and_frequency() {
         let (lasting, stiffness, time) = (2e6, 3e6, 4.0);
         // long enough that the last point is the lasting stiffness to the last digits
         let by_time =
@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn five_exponentials_follow_a_power_law_within_a_percent_and_none_is_negative() {
+    fn five_exponentials_fit_power_law_within_percent_without_negatives() {
         let points = (0..40).map(|i| 0.1 * 1.2_f64.powi(i)).map(|t| (t, 1e6 * (1.0 + t).powf(-0.4))).collect();
         let fit = ViscoelasticLaw::fit(&curve(CurveKind::ConvolutionTime, 5, points)).unwrap();
         assert!(fit.error < 0.01, "{fit:?}");
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn a_held_deflection_relaxes_along_the_curve_and_a_ramp_gives_its_integral() {
+    fn held_deflection_follows_relaxation_curve_and_ramp_its_integral() {
         let law = ViscoelasticLaw {
             long_term: 2.0,
             branches: vec![Maxwell { stiffness: 3.0, time: 4.0 }, Maxwell { stiffness: 1.0, time: 0.5 }],

@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn growth_is_straight_between_its_points_and_none_outside() {
+    fn growth_is_linear_between_its_points_and_zero_outside() {
         let growth = growth();
         for (z, added) in [(-40.0, 0.1), (-20.0, 0.15), (0.0, 0.2), (1.0, 0.1), (2.0, 0.0), (-40.1, 0.0), (5.0, 0.0)] {
             assert!((growth.added_diameter(z) - added).abs() < 1e-15, "{z}");
@@ -97,13 +97,13 @@ mod tests {
     }
 
     #[test]
-    fn mass_of_growth_is_that_of_its_ring() {
+    fn growth_mass_matches_its_ring() {
         // a ring of 50 mm about 1 m at -40 m: pi (0.55^2 - 0.5^2) x 1325 = pi x 0.0525 x 1325
         assert!((growth().mass(1.0, -40.0) - std::f64::consts::PI * 0.0525 * 1325.0).abs() < 1e-10);
     }
 
     #[test]
-    fn growth_that_takes_away_is_refused() {
+    fn negative_growth_is_refused() {
         assert!(Growth::new(vec![(-10.0, -0.1), (0.0, 0.1)], DEFAULT_DENSITY).is_err());
         assert!(Growth::new(vec![(0.0, 0.1), (-10.0, 0.1)], DEFAULT_DENSITY).is_err());
         assert!(Growth::new(vec![(-10.0, 0.1), (0.0, 0.1)], 0.0).is_err());

@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn the_integral_of_a_spectrum_is_its_variance() {
+    fn wind_spectrum_integrates_to_its_variance() {
         for shape in ALL {
             for speed in [8.0, 25.0, 45.0] {
                 // what is left out: below 1e-9 Hz nothing, above 1e9 Hz a share of 1e-6, as all fall with the power -5/3
@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn the_spectra_have_the_values_of_their_sources() {
+    fn wind_spectra_match_published_values() {
         let near = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-6, "{got} {want}");
         // Froya at f = 0 and U = 20 m/s: 320 x 4
         near(GustFormula::Froya.density(1e-30, 20.0), 1280.0);

@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_table_is_smooth_and_periodic_and_mirrors() {
+    fn heading_table_is_smooth_periodic_and_mirrored() {
         let row = |h: f64, x: f64, y: f64| (f64::to_radians(h), [x, y, 0.0, 0.0, 0.0, -y]);
         let rows = [row(0.0, -2.0, 0.0), row(60.0, -1.0, -3.0), row(90.0, 0.1, -4.0), row(180.0, 2.5, 0.0)];
         let table = ByHeading::new(&rows, true).unwrap();
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cosine_between_headings_of_thirty_degrees_is_near() {
+    fn cosine_is_interpolated_closely_between_30_degree_headings() {
         // the cubic with slopes by differences errs by some h^3/24 for h = 0.52: below 1 %
         let rows: Vec<_> = (0..12).map(|i| f64::from(i * 30).to_radians()).map(|h| (h, [h.cos(); 6])).collect();
         let table = ByHeading::new(&rows, false).unwrap();

@@ -84,13 +84,13 @@ mod tests {
     }
 
     #[test]
-    fn at_rest_there_is_the_buoyancy_at_the_point_and_nothing_else() {
+    fn linear_force_at_rest_is_buoyancy_at_its_point() {
         let load = linear(1e6).load(&Pose::of(&Place::new([-60.0, -1.0, -2.0, 0.0, 0.0, 0.0]))).unwrap();
         assert_eq!(load.wrench, Six::new(0.0, 0.0, 1e8, 1e8, -60.0 * 1e8, 0.0));
     }
 
     #[test]
-    fn heave_and_roll_are_held_back_by_their_stiffness_whatever_the_heading() {
+    fn heave_and_roll_restoring_is_independent_of_heading() {
         for yaw in [0.0f64, 1.0, -2.5] {
             let linear = LinearHydrostatics {
                 stiffness: Matrix6::from_diagonal(&Six::new(0.0, 0.0, 4e6, 9e8, 8e10, 0.0)),
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn the_stiffness_is_the_difference_of_the_force() {
+    fn stiffness_matches_finite_difference_of_force() {
         let linear = linear(2e5);
         for place in [[3.0, -2.0, -1.0, 0.2, -0.3, 1.1], [0.0, 0.0, 5.0, -0.8, 0.9, -2.0]] {
             let pose = Pose::of(&Place::new(place));

@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn sines_come_through_as_the_transfer_function_says() {
+    fn filtered_sines_match_transfer_function() {
         // scipy: |H| and |1 - H| of the filter at the dividing period over the period
         for (times, whole, off) in [
             (0.5, 0.007063, 0.994294),
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn constant_speed_is_followed_without_lag_by_any_steps() {
+    fn constant_speed_is_followed_without_lag_at_any_step() {
         let filter = LowPass::new(12.0);
         let mut state = LowPass::at_rest(0.0);
         let mut time = 0.0;
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn heading_goes_on_through_half_a_turn() {
+    fn filtered_heading_is_continuous_through_half_turn() {
         let slow = LowFrequency::new(10.0);
         let mut state = [0.0; LowFrequency::STATES];
         let mut found = Slow::default();
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn rates_of_small_rotations_are_their_differences() {
+    fn small_rotation_rates_match_finite_differences() {
         let slow = Slow { heading: 0.7, ..Slow::default() };
         let turned = |angle: Vector3<f64>| slow.axes() * Rotation3::new(angle).matrix();
         for angle in [Vector3::new(0.3, -0.2, 0.4), Vector3::new(1e-4, 0.0, -2e-4), Vector3::zeros()] {

@@ -32,7 +32,7 @@ mod tests {
     use super::map_parts;
 
     #[test]
-    fn results_of_parts_stand_in_their_order() {
+    fn parallel_results_keep_their_order() {
         let squares = map_parts(0..1000u64, |n| n * n);
         assert!(squares.iter().zip(0..1000u64).all(|(square, n)| *square == n * n) && squares.len() == 1000);
         assert!(map_parts(std::iter::empty::<u8>(), |n| n).is_empty());

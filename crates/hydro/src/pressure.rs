@@ -619,7 +619,7 @@ mod tests {
     ];
 
     #[test]
-    fn submerged_box_in_oblique_wave_has_its_closed_form() {
+    fn submerged_box_in_oblique_wave_matches_closed_form() {
         let (toward, a, [long, wide], [low, high]) = (0.7f64, 0.8, [90.0, 15.0], [-21.0, -12.0]);
         let sea = sea(1, toward, a, Stretching::Linear);
         let made = pressed(&sea, &[[[-45.0, -7.5, low], [45.0, 7.5, high]]], 1.0);
@@ -642,7 +642,7 @@ mod tests {
     }
 
     #[test]
-    fn hull_far_from_its_origin_has_the_closed_form_of_its_waves() {
+    fn hull_far_from_origin_matches_closed_form_of_waves() {
         // the box is 6500 km from the origin of its body, as in a projection of maps; two hundred waves, each of the closed form above
         let far = 6.5e6;
         let sea = sea(200, 0.0, 0.15, Stretching::Linear);
@@ -667,7 +667,7 @@ mod tests {
     }
 
     #[test]
-    fn hull_and_sea_of_one_symmetry_give_forces_of_it() {
+    fn symmetric_hull_and_sea_give_symmetric_forces() {
         // waves along x on hulls symmetric about y = 0: no sway, roll or yaw
         for (count, stretching) in [(1, Stretching::Linear), (200, Stretching::Wheeler)] {
             let sea = sea(count, std::f64::consts::PI, 1.0 / f64::from(count).sqrt(), stretching);
@@ -694,7 +694,7 @@ mod tests {
     }
 
     #[test]
-    fn forces_on_a_semi_converge_with_its_panels_and_do_not_depend_on_the_grid() {
+    fn semi_submersible_forces_converge_and_do_not_depend_on_grid() {
         let sea = sea(200, 0.64, 0.15, Stretching::Linear);
         let (usual, finer) = (pressed(&sea, &SEMI, 1.0), pressed(&sea, &SEMI, 4.0));
         let direct = WavePressure { grid: None, ..pressed(&sea, &SEMI, 1.0) };

@@ -156,7 +156,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn periods_of_issc_are_those_of_its_closed_form() {
+    fn periods_of_issc_match_closed_form() {
         // T1/Tp = (4/5)^(1/4) / Gamma(3/4), Tz/Tp = (4/(5 pi))^(1/4), Gamma(3/4) = 1.2254167024651776
         let waves = WaveEnergies::from_peak(4.0, 10.0, PeriodType::Peak, 1.0);
         let (t1, tz) = (TAU * waves.moment(0) / waves.moment(1), TAU * (waves.moment(0) / waves.moment(2)).sqrt());
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn periods_of_jonswap_are_those_of_dnv() {
+    fn periods_of_jonswap_match_dnv() {
         // [DNV-RP-C205 3.5.5.5]: Tz/Tp = 0.6673 + 0.05037 g - 0.00623 g^2 + 0.0003341 g^3, T1/Tp = 0.7303 + 0.04936 g
         // - 0.006556 g^2 + 0.0003610 g^3: fits, good to some 0.5 %
         for gamma in [1.0, 2.0, 3.3, 5.0] {
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_period_of_another_type_comes_back() {
+    fn period_converts_to_another_type_and_back() {
         for (kind, power) in [(PeriodType::Mean, 1), (PeriodType::ZeroCrossing, 2)] {
             let waves = WaveEnergies::from_peak(3.0, 9.0, kind, 2.0);
             let found = TAU * (waves.moment(0) / waves.moment(power)).powf(1.0 / f64::from(power));

@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn comparisons_and_precedence() {
+    fn comparisons_follow_precedence() {
         assert!(is("1 .EQ. 1.0"));
         assert!(is("abc .eq. ABC"));
         assert!(is("2.EQ.2 .AND. .NOT. 1 .GT. 2"));
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn parentheses_of_arithmetic_and_functions_stay_in_their_words() {
+    fn arithmetic_and_function_parentheses_stay_in_their_words() {
         assert!(is("(1+2)*3 .EQ. 9") && is("((1+2)*3 .EQ. 9)") && is("9 .EQ. 3*(1+2)"));
         assert!(is("(SQRT(16) .EQ. 4)") && is("(3*(1+2) .EQ. (4+5))") && is("((3) .GT. (2))"));
         for phrase in ["(1 .EQ. 1", "1 .EQ. 1)", "((1 .EQ. 1)", "1) .EQ. 1", "()"] {
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_compared_is_an_error() {
+    fn incomparable_values_are_errors() {
         for phrase in ["", "A", "A .LT. 2", "1 .LT.", ".TRUE. .TRUE.", "( .TRUE."] {
             assert!(evaluate(phrase, Span::default()).is_err(), "{phrase}");
         }

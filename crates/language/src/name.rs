@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_rule_for_names_with_and_without_a_marker() {
+    fn name_rule_holds_with_and_without_a_marker() {
         let good = |name: &str, mark: Option<char>| check(name, mark, "thing", Span::default()).is_ok();
         for name in ["A", "5", "TBRG", "END_A", "a.b", "A-B", "A$", "\u{e9}", &"N".repeat(64)] {
             assert!(good(name, None), "{name}");

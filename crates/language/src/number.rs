@@ -256,7 +256,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fortran_spelling_and_precedence() {
+    fn numbers_follow_fortran_spelling_and_precedence() {
         for (text, want) in [
             ("29000*0.1", 2900.0),
             ("37.51/1000", 0.03751),
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn degrees_are_exact_at_the_quarters_and_where_a_double_can_be() {
+    fn degrees_are_exact_at_quarters_and_representable_values() {
         for (text, want) in [
             ("SIND(180)", 0.0),
             ("SIND(-360)", 0.0),
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn degrees_agree_with_radians_all_round() {
+    fn degrees_agree_with_radians_over_full_circle() {
         for tenth in -8000..8000 {
             let degrees = f64::from(tenth) / 10.0 + 0.03;
             let radians = degrees.to_radians();
@@ -320,14 +320,14 @@ mod tests {
     }
 
     #[test]
-    fn names_are_never_constants() {
+    fn names_cannot_be_constants() {
         for text in ["e", "pi", "E", "2*e", "inf", "nan", "infinity", "NaN"] {
             assert!(evaluate(text).is_err(), "{text} was read as a number");
         }
     }
 
     #[test]
-    fn division_by_zero_is_found_even_inside_a_finite_result() {
+    fn division_by_zero_is_found_inside_finite_result() {
         assert_eq!(evaluate("1/0"), Err(NumberError::DivisionByZero));
         assert_eq!(evaluate("5/(1/0)"), Err(NumberError::DivisionByZero));
         assert_eq!(evaluate("0/0"), Err(NumberError::DivisionByZero));
@@ -337,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_an_error_and_never_a_panic() {
+    fn invalid_expression_is_error_and_never_panics() {
         for text in ["", " ", "\t", "(", ")", "1+", "*", "2 3", "1..2", "1e", "2^3", "7%3", "abc", "1,2", "é", "()"] {
             assert!(evaluate(text).is_err(), "{text:?} was read as a number");
         }

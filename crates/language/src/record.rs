@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_comment_line_inside_a_continued_record_is_passed_over() {
+    fn comment_line_inside_continued_record_is_skipped() {
         let text = "~W B_CAT 4 -LEN 3000 \\\n$ a remark\n   $ another \\\n  -DEP 500\nEND\n";
         let mut sources = super::super::source::Sources::default();
         let id = sources.add("a.cif", text, 1);
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_range_taken_over_keeps_its_place() {
+    fn copied_range_keeps_its_position() {
         let text = "ABC DEF";
         let mut sources = super::super::source::Sources::default();
         let id = sources.add("a", text, 1);

@@ -146,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_terminal_acts_on_is_spelled_and_the_word_stays_underlined() {
+    fn terminal_control_characters_are_escaped_and_word_stays_underlined() {
         let mut sources = Sources::default();
         let id = sources.add("a\u{1b}.cif", "&TYPE \u{1b}[2J x\u{9b} WRONG\r\nEND\r\n", 1);
         let start = "&TYPE \u{1b}[2J x\u{9b} ".len();

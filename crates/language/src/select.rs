@@ -87,7 +87,7 @@ mod tests {
     ];
 
     #[test]
-    fn exact_wins_then_a_unique_prefix_of_moses() {
+    fn exact_match_wins_then_unique_moses_prefix() {
         let find = |w: &str| keyword(w, NAMES.iter().copied());
         assert_eq!(find("-len"), SearchResult::One(4));
         assert_eq!(find("-L_T"), SearchResult::One(1));
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_word_where_nothing_is_known_lists_nothing() {
+    fn unknown_word_without_candidates_lists_nothing() {
         let none: [(&'static str, Owner, u8); 0] = [];
         let help = |names: &[(&'static str, Owner, u8)]| {
             choose("-Q", Span::default(), "option of A", names.iter().copied()).unwrap_err().help

@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_byte_keeps_its_place_and_the_bad_ones_are_found() {
+    fn every_byte_keeps_its_position_and_bad_bytes_are_found() {
         let mut sources = Sources::default();
         let id = sources.add("a", Text::from_bytes(b"\xef\xbb\xbfa\xe9b\n\0\n\xc3\xa9\xff".to_vec()), 1);
         let source = sources.get(id).unwrap();

@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn the_three_forms_of_reference_section_4() {
+    fn three_substitution_forms_of_reference_are_replaced() {
         assert_eq!(run("%DOG%A %(DOG)A %DOG, x").unwrap(), "20A 20A 20, x");
         assert_eq!(run("%CAT").unwrap(), "20*2000");
         assert_eq!(run("%(P%I)").unwrap(), "third");
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_known_is_an_error() {
+    fn unknown_variable_is_error() {
         assert!(run("%NONE").unwrap_err().contains("undefined variable NONE"));
         assert!(run("x &NONSENSE(1)").unwrap_err().contains("unknown function"));
         assert!(run("x &NUMBER(REAL 1").unwrap_err().contains("without its"));

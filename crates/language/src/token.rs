@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn a_minus_starts_an_option_only_before_a_letter() {
+    fn minus_starts_option_only_before_letter() {
         let got = kinds("A -ANC -45 -.5 -(2+3) ~WIRE *MLB");
         let want = [
             TokenKind::Word,
@@ -162,13 +162,13 @@ mod tests {
     }
 
     #[test]
-    fn two_commas_leave_an_empty_field_and_one_comma_none() {
+    fn two_commas_leave_empty_field_and_single_comma_does_not() {
         assert_eq!(kinds("A , B,,C").len(), 4);
         assert_eq!(kinds("A,B , -OPT").len(), 3);
     }
 
     #[test]
-    fn comments_and_continuation_end_the_record_text() {
+    fn comments_and_continuation_end_record_text() {
         assert_eq!(line_end("A B \\ "), (4, true));
         assert_eq!(line_end("A B \\ $ why"), (4, true));
         assert_eq!(line_end("A $ B \\"), (2, false));
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn quotes_keep_blanks_but_an_apostrophe_inside_a_word_is_a_letter() {
+    fn quotes_keep_blanks_but_apostrophe_inside_word_is_letter() {
         assert_eq!(
             kinds("STORE 'my file.csv'"),
             [(TokenKind::Word, "STORE".into()), (TokenKind::Quoted, "my file.csv".into())]

@@ -187,7 +187,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_band_solves_what_it_multiplies() {
+    fn banded_solve_inverts_banded_product() {
         let size = 23;
         let mut band = BandMatrix::<5, 11>::new(size);
         for i in 0..size {
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn the_transpose_gives_the_same_product_from_the_other_side() {
+    fn transpose_gives_same_bilinear_product() {
         let (size, filled, wanted) = (23, 9, 14);
         let mut band = BandMatrix::<5, 11>::new(size);
         for i in 0..size {
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vanishing_pivot_is_named() {
+    fn vanishing_pivot_is_named() {
         let mut band = BandMatrix::<5, 11>::new(3);
         band.add(0, 0, 1.0);
         band.add(2, 2, 1.0);

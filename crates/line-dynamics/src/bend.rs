@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn stiffness_of_a_hinge_is_the_difference_of_its_force() {
+    fn hinge_stiffness_matches_force_finite_difference() {
         let h = 1e-6;
         for f in [Vector3::new(1.0, 0.4, -0.3), Vector3::new(-0.5, 1.0, 0.2), Vector3::new(1.0, 0.005, 0.01)] {
             let e = Vector3::new(1.3, 0.0, 0.0);
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn force_of_a_hinge_is_the_difference_of_its_energy() {
+    fn hinge_force_matches_energy_finite_difference() {
         let (e, f, h) = (Vector3::new(1.3, 0.1, 0.0), Vector3::new(0.2, 1.0, 0.5), 1e-6);
         let energy = |e: Vector3<f64>, f: Vector3<f64>| e.angle(&f).powi(2);
         for i in 0..3 {

@@ -152,7 +152,7 @@ mod tests {
     use crate::PlaneBottom;
 
     #[test]
-    fn derivatives_of_contact_and_friction_are_their_differences() {
+    fn contact_and_friction_derivatives_match_finite_differences() {
         let bottom = PlaneBottom { height: -3.0, slope: [0.2, -0.1] };
         let ground = SeabedLaw {
             stiffness: 1e5,
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn friction_of_a_fast_slide_is_mu_times_the_normal_force() {
+    fn fast_sliding_friction_is_mu_times_normal_force() {
         let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
         let ground =
             SeabedLaw { friction_along: 0.4, friction_across: 0.9, friction_speed: 1e-6, ..SeabedLaw::elastic(1e5) };

@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_of_the_fluid_load_are_its_differences() {
+    fn fluid_load_derivatives_match_finite_differences() {
         let half = element();
         let fluid = FluidState {
             velocity: Vector3::new(1.0, -0.3, 0.2),
@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn wet_share_is_the_length_under_water_and_has_its_slopes() {
+    fn wet_share_is_submerged_length_with_its_slopes() {
         assert_eq!(wet_share(3.0, 5.0, 0.2).0, 1.0);
         assert_eq!(wet_share(-3.0, -5.0, 0.2).0, 0.0);
         // a length through the surface is wet by what lies under it
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn wet_share_of_a_section_is_near_the_segment_of_the_circle() {
+    fn wet_share_of_section_approximates_circle_segment() {
         for i in 0..=20 {
             let s = i as f64 / 20.0;
             let angle = (1.0 - 2.0 * s).acos();

@@ -303,7 +303,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn energy_of_an_axial_law_is_the_integral_of_its_tension() {
+    fn axial_energy_matches_integral_of_tension() {
         let laws = [
             TensionLaw::Linear(3.0),
             TensionLaw::Polynomial(vec![2.0, 5.0, 7.0]),
@@ -323,7 +323,7 @@ mod tests {
         }
     }
     #[test]
-    fn a_law_of_its_first_power_alone_is_linear() {
+    fn first_power_law_is_linear() {
         assert_eq!(TensionLaw::of_powers(vec![3.0, 0.0, 0.0]), TensionLaw::Linear(3.0));
         assert_eq!(TensionLaw::of_powers(vec![3.0, 0.0, 5.0, 0.0]), TensionLaw::Polynomial(vec![3.0, 0.0, 5.0]));
         assert_eq!(TensionLaw::of_powers(vec![]), TensionLaw::Polynomial(vec![]));

@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn forces_and_torques_of_a_spatial_hinge_are_differences_of_its_energy() {
+    fn spatial_hinge_forces_match_energy_finite_differences() {
         let (start, h) = (start(), 1e-6);
         let (gradient, matrix) = spatial(2.0, 1.5, &start[0], &start[1]);
         for i in 0..8 {

@@ -175,7 +175,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slope_of_a_viscoelastic_rope_is_the_difference_of_its_tension() {
+    fn viscoelastic_slope_matches_tension_finite_difference() {
         let slow = [
             TensionLaw::Linear(1e7),
             TensionLaw::Polynomial(vec![8e6, 3e7, 2e8]),
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_held_strain_is_let_go_exponentially_however_long_the_steps() {
+    fn held_strain_relaxes_exponentially_at_any_step() {
         // y = y0 exp(-t / tau)
         for steps in [1, 7, 200] {
             let alpha = 1.3 / steps as f64;

@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_segment_goes_by_its_own_curve_before_the_last_chosen() {
+    fn segment_curve_takes_precedence_over_last_chosen_curve() {
         let chosen = vec!["X".to_string(), "WIRE".to_string()];
         let selection = FatigueSelection { chosen, ..FatigueSelection::default() };
         let mut segment = FatigueSegment {
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn the_thickness_factor_is_the_formula_of_the_page() {
+    fn thickness_factor_matches_published_formula() {
         let t = ThicknessCorrection { reference: 0.025, power: 0.25, most: 1.3 };
         assert!((t.factor(0.05) - 2f64.powf(0.25)).abs() < 1e-15);
         assert_eq!(t.factor(1.0), 1.3);

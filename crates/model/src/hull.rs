@@ -147,7 +147,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_shape_reaches_as_far_when_moved_there_and_back() {
+    fn hull_extent_is_restored_after_moving_back() {
         let block = Shape::Block { low: [0.0, -50.0, 0.0], high: [400.0, 50.0, 20.0] };
         let turned = block.moved_by(&Place::new([0.0, 0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2]));
         assert_eq!(turned.extent(), Some([[-50.0, 0.0, 0.0], [50.0, 400.0, 20.0]]));
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn the_faces_of_a_box_look_outward() {
+    fn faces_of_box_look_outward() {
         for panel in box_panels([0.0; 3], [2.0, 3.0, 4.0]) {
             let at = |i: usize| Vector3::from(panel[i]);
             let normal = (at(1) - at(0)).cross(&(at(2) - at(0)));

@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_drifting_cosine_gives_its_own_mean_drift_and_harmonic() {
+    fn drifting_cosine_gives_mean_drift_and_harmonic() {
         let times: Vec<f64> = (0..161).map(|i| 0.125 * f64::from(i)).collect();
         let value = |t: f64| 3.0 + 0.2 * (t - 10.0) + 2.0 * (TAU * t / 12.0 - 0.7).cos();
         let values: Vec<f64> = times.iter().map(|t| value(*t)).collect();
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_periodic_series_has_the_phase_of_time_zero() {
+    fn periodic_series_phase_is_relative_to_time_zero() {
         let times: Vec<f64> = (0..301).map(|i| 0.1 * f64::from(i)).collect();
         let values: Vec<f64> = times.iter().map(|t| 2.0 * (TAU * t / 12.0 + 0.9).cos()).collect();
         let found = HarmonicCycle::new(&times, &values, (7.0, 12.0), 2, 16).unwrap();
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cycle_outside_the_series_or_too_few_samples_are_refused() {
+    fn cycle_outside_series_or_too_few_samples_are_refused() {
         let times: Vec<f64> = (0..21).map(f64::from).collect();
         let values = vec![0.0; 21];
         assert!(HarmonicCycle::new(&times, &values, (10.0, 12.0), 2, 16).is_err());

@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_value_lies_in_one_bin() {
+    fn every_value_is_in_one_bin() {
         let bins = histogram(&[0.0, 1.0, 1.9, 2.0, 3.9, 4.0], 4).unwrap();
         assert_eq!(bins.iter().map(|b| b.count).collect::<Vec<_>>(), [1, 2, 1, 2]);
         assert_eq!((bins[0].low, bins[3].high), (0.0, 4.0));
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn exceedance_of_a_ramp_falls_evenly() {
+    fn exceedance_of_ramp_falls_evenly() {
         let ramp: Vec<f64> = (1..=100).map(f64::from).collect();
         assert_eq!(exceedance(&ramp, &[0.0, 25.0, 99.5, 100.0]), [1.0, 0.75, 0.01, 0.0]);
         let l = levels(&ramp, 4).unwrap();

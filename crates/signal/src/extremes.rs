@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_of_a_thousand_rayleigh_crests_is_three_point_seven_deviations() {
+    fn largest_of_1000_rayleigh_crests_is_3_7_standard_deviations() {
         // sqrt(2 ln 1000) = 3.7169; 3.7169 + 0.5772/3.7169 = 3.8722 [LONGUET-HIGGINS-1952]
         let e = rayleigh(10.0, 2.0, 10.0, 1e4).unwrap();
         assert!((e.most_probable - 17.4338).abs() < 1e-4, "{e:?}");
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fit_finds_the_distribution_its_sample_is_of() {
+    fn fit_recovers_parent_distribution() {
         let x = sample(2000, |p| 5.0 + 3.0 * (-(1.0 - p).ln()).powf(1.0 / 1.5));
         let w = Weibull::fit(&x, 5.0).unwrap();
         // 2000 plotting positions cut the tail off: a per cent of the exponent
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn rayleigh_maxima_give_the_extreme_of_rayleigh() {
+    fn rayleigh_maxima_give_rayleigh_extreme() {
         let w = Weibull { location: 10.0, scale: 2.0 * 2.0f64.sqrt(), shape: 2.0, count: 1000 };
         let (e, r) = (w.extreme(10.0, 1e4).unwrap(), rayleigh(10.0, 2.0, 10.0, 1e4).unwrap());
         assert!((e.most_probable - r.most_probable).abs() < 1e-12 && (e.expected - r.expected).abs() < 1e-12);
@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn the_interval_of_the_mode_of_one_block_is_that_of_the_location() {
+    fn mode_interval_of_one_block_matches_location_interval() {
         // variance of the fitted location 1.1087 s^2 / n (Johnson and Kotz, ch. 22)
         let g = Gumbel { location: 4.0, scale: 2.0, count: 100 };
         let (low, high) = g.extreme(60.0, 60.0).unwrap().interval.unwrap();
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn blocks_share_the_samples_evenly() {
+    fn blocks_share_samples_evenly() {
         assert_eq!(block_maxima(&[1.0, 5.0, 2.0, 3.0, 9.0], 2), Ok(vec![5.0, 3.0]));
         assert!(block_maxima(&[1.0], 2).is_err() && block_maxima(&[], 0).is_err());
     }

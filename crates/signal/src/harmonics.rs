@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn harmonics_of_a_known_period_are_found_to_rounding() {
+    fn harmonics_of_known_period_are_exact_to_rounding() {
         // 0.7 s does not divide the period; 100 s hold 8 cycles
         let t: Vec<f64> = (0..143).map(|i| 5.0 + 0.7 * f64::from(i)).collect();
         let x: Vec<f64> = t.iter().map(|t| signal(*t)).collect();
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_cycles_leave_a_start_from_rest_out() {
+    fn last_cycles_exclude_start_from_rest() {
         let t: Vec<f64> = (0..1201).map(|i| 0.1 * f64::from(i)).collect();
         let x: Vec<f64> = t.iter().map(|t| signal(*t) * (t / 30.0).min(1.0)).collect();
         let h = analyse(&t, &x, 12.0, 2, Some(5)).unwrap();
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_harmonic_is_the_residual() {
+    fn non_harmonic_part_is_residual() {
         let t: Vec<f64> = (0..1200).map(|i| 0.1 * f64::from(i)).collect();
         let x: Vec<f64> = t.iter().map(|t| signal(*t) + 0.2 * (TAU * t / 3.0).sin()).collect();
         let h = analyse(&t, &x, 12.0, 2, None).unwrap();
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_period_is_found_between_the_harmonics_of_the_record() {
+    fn period_is_found_between_harmonics_of_record() {
         let t: Vec<f64> = (0..800).map(|i| 0.25 * f64::from(i)).collect();
         let x: Vec<f64> = t.iter().map(|t| 1.0 + 2.0 * (TAU * t / 13.37 + 1.0).sin()).collect();
         // golden section on a smooth minimum: half the digits of the sum of squares
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn too_short_or_too_coarse_a_series_is_refused() {
+    fn too_short_or_too_coarse_series_is_refused() {
         let t: Vec<f64> = (0..20).map(f64::from).collect();
         assert!(analyse(&t, &[0.0; 20], 30.0, 1, None).is_err());
         assert!(analyse(&t, &[0.0; 20], 4.0, 2, None).is_err());

@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn the_example_of_the_standard_is_counted_as_printed() {
+    fn rainflow_counts_match_standard_example() {
         // [ASTM-E1049 figure 6]: A -2, B 1, C -3, D 5, E -1, F 3, G -4, H 4, I -2
         let found = cycles(&[-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]).unwrap();
         let want = [(3.0, 0.5), (4.0, 1.5), (6.0, 0.5), (8.0, 1.0), (9.0, 0.5)];
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_between_reversals_change_nothing() {
+    fn samples_between_reversals_do_not_change_cycles() {
         let fine = [-2.0, -1.0, 0.0, 1.0, 1.0, -1.0, -3.0, 0.0, 5.0, 5.0, 2.0, -1.0, 3.0, -4.0, -4.0, 4.0, -2.0];
         let coarse = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0];
         assert_eq!(cycles(&fine), cycles(&coarse));
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_series_without_reversals_has_half_a_cycle_or_none() {
+    fn series_without_reversals_has_at_most_half_cycle() {
         assert_eq!(cycles(&[1.0, 2.0, 4.0]), Ok(vec![RainflowCycle { range: 3.0, mean: 2.5, count: 0.5 }]));
         assert_eq!(cycles(&[2.0, 2.0]), Ok(vec![]));
         assert_eq!(cycles(&[]), Ok(vec![]));
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_histogram_keeps_every_cycle_in_its_bin() {
+    fn histogram_keeps_every_cycle_in_its_bin() {
         let found = cycles(&[-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]).unwrap();
         let table = range_mean(&found, 3, 2).unwrap();
         assert_eq!(table.range_width, 3.0);

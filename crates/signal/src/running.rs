@@ -151,7 +151,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn one_pass_gives_the_numbers_of_two(x in prop::collection::vec(-10.0f64..10.0, 2..300), shift in -1e3f64..1e3) {
+        fn running_statistics_match_two_pass_statistics(x in prop::collection::vec(-10.0f64..10.0, 2..300), shift in -1e3f64..1e3) {
             let x: Vec<f64> = x.iter().map(|v| v + shift).collect();
             let t: Vec<f64> = (0..x.len()).map(|i| i as f64 * 0.5).collect();
             let m = moments(&x).unwrap();
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_offset_series_keeps_its_deviation() {
+    fn long_offset_series_keeps_its_standard_deviation() {
         // 1e6 samples of +-1 about 1e6: naive sums of squares lose ten digits of the variance
         let mut r = Running::with_level(1e6);
         for i in 0..1_000_000u32 {
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_that_is_no_number_or_not_later_is_refused() {
+    fn sample_not_a_number_or_not_later_is_refused() {
         let mut r = Running::with_level(0.0);
         assert!(r.summary().is_none());
         r.push(0.0, 1.0).unwrap();

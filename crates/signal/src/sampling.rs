@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_straight_line_stays_one_whatever_its_times() {
+    fn straight_line_stays_straight_after_resampling() {
         let times = [0.0, 0.1, 0.5, 0.6, 1.3, 2.0];
         let values = times.map(|t| 3.0 * t - 1.0);
         let grid = uniform(&times, &values).unwrap();
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn uniform_times_keep_their_samples() {
+    fn uniform_samples_are_unchanged() {
         let grid = uniform(&[0.0, 0.5, 1.0], &[1.0, 2.0, 4.0]).unwrap();
         assert!(!grid.resampled && matches!(grid.values, Cow::Borrowed(_)));
         assert!(uniform(&[0.0, 0.0], &[1.0, 2.0]).is_err());

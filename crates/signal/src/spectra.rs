@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sum_of_harmonics_gives_their_amplitudes_and_phases() {
+    fn sum_of_harmonics_gives_amplitudes_and_phases() {
         for count in [200, 201] {
             let w = |k: f64| TAU * k / (0.5 * f64::from(count));
             let x: Vec<f64> = (0..count)
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sum_of_a_density_is_the_variance() {
+    fn spectral_density_sums_to_variance() {
         for count in [500, 501] {
             // Parseval: exact for one whole segment without a window
             let x = noise(count);
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sine_has_its_period_and_half_its_amplitude_squared() {
+    fn sine_spectrum_has_its_period_and_half_amplitude_squared() {
         let x: Vec<f64> = (0..4096).map(|i| 3.0 * (TAU * f64::from(i) / 64.0).sin()).collect();
         let d = welch(&x, 0.25, 1024, Window::Hann).unwrap();
         let m = moments(&d).unwrap();
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn a_series_without_energy_or_of_few_samples_is_refused() {
+    fn series_without_energy_or_of_few_samples_is_refused() {
         let flat = welch(&[2.0; 64], 0.1, 32, Window::Hann).unwrap();
         assert_eq!(moments(&flat), Err(SeriesError::Constant));
         assert!(welch(&[1.0; 4], 0.1, 4, Window::Hann).is_err());

@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sine_has_the_moments_of_a_sine() {
+    fn sine_moments_match_closed_form() {
         let x: Vec<f64> = (0..1000).map(|i| 5.0 + 2.0 * (TAU * i as f64 / 100.0).sin()).collect();
         let m = moments(&x).unwrap();
         // sums of a sine over whole periods are exact but for rounding; its kurtosis is 3/2, excess -3/2
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn the_moments_of_one_to_four_are_those_of_the_book() {
+    fn four_moments_match_textbook_values() {
         // discrete uniform on n = 4 points: variance (n2 - 1)/12, excess kurtosis -6/5 (n2 + 1)/(n2 - 1)
         let m = moments(&[1.0, 2.0, 3.0, 4.0]).unwrap();
         close(m.deviation * m.deviation, 1.25, 1e-15);
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_constant_has_no_shape_and_no_value_no_mean() {
+    fn constant_series_has_no_skewness_and_no_value_no_mean() {
         let m = moments(&[0.1; 7]).unwrap();
         assert_eq!((m.skewness, m.kurtosis), (0.0, 0.0));
         assert!(moments(&[]).is_err());
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sine_crosses_its_mean_once_a_period_and_its_waves_are_twice_its_amplitude() {
+    fn sine_has_one_mean_crossing_a_period_and_double_amplitude_waves() {
         let t: Vec<f64> = (0..2001).map(|i| 0.05 * i as f64).collect();
         let x: Vec<f64> = t.iter().map(|t| 1.0 + 3.0 * (TAU * t / 8.0 + 0.3).sin()).collect();
         let c = crossings(&t, &x, 1.0).unwrap();
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn the_highest_third_and_tenth_are_means_of_the_largest() {
+    fn highest_third_and_tenth_are_means_of_largest() {
         // waves with amplitudes 1..=10, two samples a side
         let mut x = vec![-1.0];
         for a in 1..=10 {

@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_box_shows_its_twelve_edges_and_a_flat_mesh_its_border_alone() {
+    fn box_outline_has_twelve_edges_and_flat_mesh_its_border_alone() {
         let (corners, edges) = corners_and_edges(&Shape::Block { low: [0.0; 3], high: [4.0, 2.0, 1.0] });
         assert_eq!((corners.len(), edges.len()), (24, 12));
         let at = |i: u32, j: u32| [f64::from(i), f64::from(j), 0.0];
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tube_is_drawn_on_its_radius() {
+    fn tube_outline_has_its_radius() {
         let (corners, _) =
             corners_and_edges(&Shape::Tube { ends: [[1.0, 0.0, -20.0], [1.0, 0.0, 5.0]], diameter: 6.0 });
         assert!(corners.iter().all(|[x, y, _]| ((x - 1.0).hypot(*y) - 3.0).abs() < 1e-12));

@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn the_solution_times_the_matrix_is_the_right_hand_side() {
+    fn solution_times_matrix_equals_right_hand_side() {
         let m = matrix(31);
         let want: Vec<f64> = (0..31).map(|i| f64::from(i).sin()).collect();
         let mut product = vec![0.0; 31];
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_that_is_held_stays_at_zero_and_moves_no_other() {
+    fn fixed_unknown_stays_zero_and_does_not_affect_others() {
         let mut m = matrix(9);
         m.hold(4, 1.0);
         let mut right = vec![1.0; 9];
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_matrix_that_is_not_positive_definite_is_refused() {
+    fn matrix_not_positive_definite_is_refused() {
         assert!(Banded::zeros(4).factor().unwrap_err().to_string().contains("node 1"));
         let mut m = matrix(6);
         m.add(3, 3, f64::NAN);

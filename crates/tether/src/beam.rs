@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn the_matrices_are_the_integrals_of_the_shapes_they_stand_for() {
+    fn beam_matrices_match_integrals_of_shape_functions() {
         near(mass(1.0, L), integral(deflection));
         near(geometric(1.0, L), integral(slope));
         near(stiffness(1.0, L), integral(curvature));
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn slope_and_curvature_are_the_derivatives_of_the_deflection() {
+    fn slope_and_curvature_are_derivatives_of_deflection() {
         let h = 1e-5;
         for a in [0.1, 0.5, 0.83] {
             let (before, after) = (deflection(a - h, L), deflection(a + h, L));
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn the_energy_is_that_of_the_matrices_and_nothing_for_a_rigid_motion() {
+    fn energy_matches_matrices_and_is_zero_for_rigid_motion() {
         let at = [0.3, -0.2, 0.7, 0.45];
         let matrix = dot(&at, &times(&stiffness(5.0, L), &at)) + dot(&at, &times(&geometric(2.0, L), &at));
         assert!((twice_energy(5.0, 2.0, L, &at) / matrix - 1.0).abs() < 1e-14);

@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn distances_run_from_the_first_node() {
+    fn distances_run_from_first_node() {
         let line =
             TetherLine::with_numbered_nodes(vec![element(), TetherElement { length: 5.0, ..element() }]).unwrap();
         assert_eq!(line.distances(), [0.0, 10.0, 15.0]);
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_cannot_be_is_an_error_that_names_the_element() {
+    fn invalid_line_is_error_that_names_element() {
         let of = |list: Vec<TetherElement>| TetherLine::new(list).unwrap_err().to_string();
         assert!(of(Vec::new()).contains("at least one"));
         let gap = |nodes| TetherElement { label: ElementLabel { nodes, ..ElementLabel::default() }, ..element() };

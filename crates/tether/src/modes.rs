@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn a_free_beam_has_two_rigid_modes_and_the_known_flexible_ones() {
+    fn free_beam_has_two_rigid_modes_and_closed_form_flexible_modes() {
         // [BLEVINS-1979 table 8-1]: lambda 4.73004074, 7.85320462, 10.9956078
         let found = uniform(40, 0.0, 0.0, &[], 5);
         assert!(found[0].eigenvalue.abs() < 1e-12 && found[1].eigenvalue.abs() < 1e-12);
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn a_beam_between_pins_under_tension_has_the_known_modes() {
+    fn pinned_tensioned_beam_modes_match_closed_form() {
         // (n pi)^4 + T (n pi)^2 [BLEVINS-1979 8.1.7]
         let found = uniform(40, 25.0, 0.0, &[0, 80], 4);
         for (mode, n) in found.iter().zip(1..) {
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn soft_springs_keep_their_digits_beside_a_stiff_beam() {
+    fn soft_spring_modes_keep_accuracy_beside_stiff_beam() {
         // a rigid bar has 2k/m and 6k/m; bending under its own inertia takes k L^3/(60 EI) and k L^3/(420 EI) of them. The
         // stiffest entry of the matrix is 8e9 times the spring; what is left is the next order, k^2 of the whole
         let k = 1e-4;
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn every_mode_can_be_had_and_they_are_across_each_other() {
+    fn all_modes_are_available_and_orthogonal() {
         let found = uniform(6, 0.0, 2.0, &[], 99);
         assert_eq!(found.len(), 14);
         for (i, one) in found.iter().enumerate() {
@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn a_beam_pushed_over_its_buckling_load_has_a_negative_eigenvalue() {
+    fn beam_above_buckling_load_has_negative_eigenvalue() {
         // Euler's load is pi^2
         let found = uniform(20, -12.0, 0.0, &[0, 40], 2);
         assert!(found[0].eigenvalue < 0.0 && found[1].eigenvalue > 0.0);
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shape_is_scaled_to_unit_deflection_or_ten_degrees() {
+    fn shape_is_scaled_to_unit_deflection_or_ten_degrees() {
         let mode = |shape: Vec<f64>| PlaneMode { eigenvalue: 1.0, shape };
         let found = together(&[mode(vec![2.0, 0.1, -4.0, 0.2])], &[mode(vec![0.1, 0.5, 0.0, -1.0])], 9);
         assert_eq!((found[0].plane, found[1].plane), (ModePlane::Z, ModePlane::Y));

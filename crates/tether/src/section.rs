@@ -53,14 +53,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_solid_bar_has_the_moments_of_a_circle() {
+    fn solid_bar_section_moments_match_circle() {
         let bar = TetherTube { outer_diameter: 2.0, wall_thickness: 1.0 };
         assert!((bar.area() - PI).abs() < 1e-15 && (bar.second_moment() - PI / 4.0).abs() < 1e-15);
         assert_eq!((bar.area(), bar.internal_area()), (bar.external_area(), 0.0));
     }
 
     #[test]
-    fn the_main_body_of_the_manual_has_its_printed_section() {
+    fn main_body_section_matches_manual() {
         // [AQWA-TETHER 8.2 listing]: area 0.1289, I 0.018801, external area 0.981
         let tube = TetherTube { outer_diameter: 1.1176, wall_thickness: 0.038 };
         assert!((tube.area() - 0.1289).abs() < 5e-5);

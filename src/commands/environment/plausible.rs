@@ -145,7 +145,7 @@ mod tests {
     use super::steepest;
 
     #[test]
-    fn steepness_is_limited_as_dnv_rp_c205_says() {
+    fn steepness_limit_matches_dnv_rp_c205() {
         // 3.5.4: 1/15 for Tp <= 8 s, 1/25 for Tp >= 15 s, linear between
         for (tp, limit) in
             [(5.0, 1.0 / 15.0), (8.0, 1.0 / 15.0), (11.5, 0.5 / 15.0 + 0.5 / 25.0), (15.0, 0.04), (20.0, 0.04)]

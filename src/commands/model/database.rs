@@ -334,7 +334,7 @@ mod tests {
     use nalgebra::{Matrix6, Vector6};
 
     #[test]
-    fn a_database_of_another_size_is_told_from_one_of_this_body() {
+    fn database_of_another_body_size_is_detected() {
         // a hemisphere of 10 m: 2.1E6 kg, added mass of 0.83 of it in long waves, 3.2E6 N/m
         let data = |size: f64, stiffness: f64| Database {
             zero: Some(Matrix6::identity() * 1.8e6 * size.powi(3)),

@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn two_rectangles_enclose_a_box_in_either_order() {
+    fn two_rectangles_enclose_box_in_either_order() {
         for x in [[0.0, 400.0], [400.0, 0.0]] {
             let sections = x.map(|x| (x, vec![[50.0, 0.0], [50.0, 20.0]])).to_vec();
             let (found, open) = volume(&panels(sections));
@@ -311,14 +311,14 @@ mod tests {
     }
 
     #[test]
-    fn a_wedge_from_a_stem_has_half_the_volume_of_its_box() {
+    fn wedge_has_half_volume_of_its_box() {
         let sections = vec![(0.0, vec![[0.0, 0.0], [0.0, 20.0]]), (100.0, vec![[30.0, 0.0], [30.0, 20.0]])];
         let (found, open) = volume(&panels(sections));
         assert!((found - 60_000.0).abs() < 1e-6 && open < 1e-9, "{found} {open}");
     }
 
     #[test]
-    fn sections_of_unlike_numbers_of_points_close_too() {
+    fn sections_with_different_point_counts_form_a_closed_hull() {
         // the same rectangle, once with a point more on its side
         let sections = vec![(0.0, vec![[5.0, 0.0], [5.0, 4.0]]), (10.0, vec![[5.0, 0.0], [5.0, 1.0], [5.0, 4.0]])];
         let (found, open) = volume(&panels(sections));

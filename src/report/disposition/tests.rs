@@ -11,7 +11,7 @@ fn menu() -> Disposition {
 }
 
 #[test]
-fn scale_and_shift_act_in_user_units_on_views_but_not_on_the_table() {
+fn scale_and_shift_act_on_views_in_user_units_but_not_on_table() {
     let mut d = menu();
     let us = UnitSystem::default();
     d.scale(10.0, &["X"]).unwrap();
@@ -36,7 +36,7 @@ fn rows_are_chosen_by_number_and_by_value() {
 }
 
 #[test]
-fn a_column_chosen_twice_is_scaled_once_and_the_list_shows_it() {
+fn column_chosen_twice_is_scaled_once_and_listed() {
     let mut d = menu();
     d.scale(10.0, &["X", "1:2"]).unwrap();
     d.shift(1.0, &["F", "F"]).unwrap();
@@ -47,7 +47,7 @@ fn a_column_chosen_twice_is_scaled_once_and_the_list_shows_it() {
 }
 
 #[test]
-fn culled_rows_keep_their_values_and_the_scales_and_shifts_made_before() {
+fn culled_rows_keep_values_and_earlier_scales_and_shifts() {
     let mut d = menu();
     let us = UnitSystem::default();
     d.scale(2.0, &["F"]).unwrap();
@@ -66,7 +66,7 @@ fn culled_rows_keep_their_values_and_the_scales_and_shifts_made_before() {
 }
 
 #[test]
-fn cull_excludes_the_rows_inside_of_any_range_ends_included_in_user_units() {
+fn cull_excludes_closed_ranges_in_user_units() {
     let mut d = menu();
     d.table.columns[1].cells[2] = Cell::Missing;
     let us = UnitSystem::default();
@@ -84,7 +84,7 @@ fn cull_excludes_the_rows_inside_of_any_range_ends_included_in_user_units() {
 }
 
 #[test]
-fn the_ends_of_a_range_hold_after_the_conversion_of_units() {
+fn range_ends_survive_unit_conversion() {
     let us = UnitSystem::default();
     let lengths: Vec<f64> = (1..=2000).map(|n| Dim::Length.to_si(f64::from(n) * 0.1, us)).collect();
     let t = Table::new("t").with_rows(&lengths).column("", "X", Dim::Length, Digits::Usual, |x| *x).build();
@@ -98,7 +98,7 @@ fn the_ends_of_a_range_hold_after_the_conversion_of_units() {
 }
 
 #[test]
-fn notes_of_a_culled_table_say_once_that_they_are_of_the_whole_table() {
+fn culled_table_notes_state_once_they_cover_the_whole_table() {
     let mut d = menu();
     d.table.note("row 5 is beyond the breaking tension");
     let us = UnitSystem::default();
@@ -111,7 +111,7 @@ fn notes_of_a_culled_table_say_once_that_they_are_of_the_whole_table() {
 }
 
 #[test]
-fn a_value_that_is_missing_is_told_not_skipped() {
+fn missing_value_is_reported_not_skipped() {
     let mut d = menu();
     d.table.columns[1].cells[2] = Cell::Missing;
     let us = UnitSystem::default();

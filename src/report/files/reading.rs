@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_pipe_a_device_a_folder_and_a_file_of_the_kernel_are_refused_at_once() {
+    fn pipe_device_folder_and_kernel_file_are_refused_without_blocking() {
         let dir = tempfile::tempdir().unwrap();
         let fifo = dir.path().join("fifo");
         assert!(std::process::Command::new("mkfifo").arg(&fifo).status().unwrap().success());
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_read_up_to_the_size_that_is_allowed() {
+    fn file_is_read_up_to_size_limit() {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("file");
         std::fs::write(&file, "12345").unwrap();

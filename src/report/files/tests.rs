@@ -9,7 +9,7 @@ fn job() -> (tempfile::TempDir, JobFolder) {
 }
 
 #[test]
-fn an_earlier_answer_is_kept_under_a_number() {
+fn earlier_answer_is_kept_under_a_number() {
     let (_dir, job) = job();
     for text in ["one", "two", "three"] {
         job.write("t.csv", text.as_bytes()).unwrap();
@@ -19,7 +19,7 @@ fn an_earlier_answer_is_kept_under_a_number() {
 }
 
 #[test]
-fn nothing_outside_the_folder_is_overwritten() {
+fn file_outside_answers_folder_is_not_overwritten() {
     let (dir, mut job) = job();
     let path = dir.path().join("mine.txt");
     std::fs::write(&path, "mine").unwrap();
@@ -36,7 +36,7 @@ fn nothing_outside_the_folder_is_overwritten() {
 }
 
 #[test]
-fn file_commands_stay_below_the_folder_even_through_links_and_dots() {
+fn file_commands_stay_inside_folder_through_links_and_dots() {
     let (dir, job) = job();
     let secret = dir.path().join("secret");
     std::fs::write(&secret, "x").unwrap();
@@ -63,7 +63,7 @@ fn file_commands_stay_below_the_folder_even_through_links_and_dots() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_that_leads_nowhere_is_no_way_out() {
+fn dangling_link_does_not_lead_out_of_folder() {
     let (dir, job) = job();
     job.write("a", b"1").unwrap();
     let outside = dir.path().join("new");
@@ -77,7 +77,7 @@ fn a_link_that_leads_nowhere_is_no_way_out() {
 }
 
 #[test]
-fn a_folder_is_neither_written_over_nor_moved_away() {
+fn folder_is_neither_overwritten_nor_moved() {
     let (_dir, mut job) = job();
     job.make_folder("sub").unwrap();
     assert!(job.write("sub", b"1").is_err() && job.create("sub").is_err());
@@ -86,7 +86,7 @@ fn a_folder_is_neither_written_over_nor_moved_away() {
 }
 
 #[test]
-fn a_name_means_the_same_file_whatever_is_allowed() {
+fn file_name_means_same_file_with_and_without_allow_files() {
     let (dir, mut job) = job();
     job.write("a", b"1").unwrap();
     job.allow_files = true;
@@ -108,7 +108,7 @@ fn names_keep_case_blanks_and_letters_of_any_alphabet() {
 }
 
 #[test]
-fn every_relative_name_is_inside_the_folder_and_a_dot_or_root_in_front_leads_to_the_shells_place() {
+fn relative_name_is_in_answers_folder_and_dot_or_root_is_shell_path() {
     let (_dir, job) = job();
     for (name, below) in
         [("x", "x"), ("a/x", "a/x"), ("a/./b/../x", "a/x"), ("a/../x", "x"), (".x", ".x"), ("..x", "..x")]
@@ -124,7 +124,7 @@ fn every_relative_name_is_inside_the_folder_and_a_dot_or_root_in_front_leads_to_
 }
 
 #[test]
-fn a_subfolder_is_made_by_mkdir_and_then_takes_files() {
+fn mkdir_makes_a_subfolder_that_takes_files() {
     let (_dir, job) = job();
     assert!(matches!(job.write("sub/x", b"1"), Err(FileError::NoFolder(_))));
     job.make_folder("sub").unwrap();
@@ -137,7 +137,7 @@ fn a_subfolder_is_made_by_mkdir_and_then_takes_files() {
 }
 
 #[test]
-fn a_place_is_refused_when_asked_for_and_leaves_nothing_behind() {
+fn refused_path_leaves_nothing_behind() {
     let (dir, mut job) = job();
     assert!(matches!(job.place(dir.path().join("new").to_str().unwrap()), Err(FileError::NotOwn { .. })));
     job.allow_files = true;
@@ -160,7 +160,7 @@ fn a_place_is_refused_when_asked_for_and_leaves_nothing_behind() {
 
 #[cfg(unix)]
 #[test]
-fn no_file_is_made_through_a_link_that_leads_out_of_the_folder_unless_everything_is_allowed() {
+fn link_out_of_folder_makes_no_file_without_allow_files() {
     let (dir, mut job) = job();
     std::fs::create_dir_all(&job.folder).unwrap();
     let outside = dir.path().join("outside");
@@ -175,7 +175,7 @@ fn no_file_is_made_through_a_link_that_leads_out_of_the_folder_unless_everything
 }
 
 #[test]
-fn a_file_that_grows_is_neither_deleted_nor_moved_nor_written_over() {
+fn growing_file_is_not_deleted_moved_or_overwritten() {
     let (_dir, mut job) = job();
     let _log = job.create("log").unwrap();
     assert!(matches!(job.remove("log"), Err(FileError::InUse(_))));
@@ -202,7 +202,7 @@ fn asked(job: &mut JobFolder, answer: Option<&'static str>) -> Arc<Mutex<Vec<Str
 }
 
 #[test]
-fn a_typed_record_creates_a_file_elsewhere_after_one_question_and_overwrites_none() {
+fn typed_record_creates_outside_file_after_one_question_only() {
     let (dir, mut job) = job();
     job.write("own", b"1").unwrap();
     let outside = |name: &str| dir.path().join(name).to_str().unwrap().to_string();
@@ -244,7 +244,7 @@ fn a_typed_record_creates_a_file_elsewhere_after_one_question_and_overwrites_non
 
 #[cfg(unix)]
 #[test]
-fn an_answers_folder_that_is_a_link_is_refused_unless_the_user_named_it() {
+fn linked_answers_folder_is_refused_unless_user_named_it() {
     let dir = tempfile::tempdir().unwrap();
     let victim = dir.path().join("victim");
     std::fs::create_dir(&victim).unwrap();
@@ -279,7 +279,7 @@ fn an_answers_folder_that_is_a_link_is_refused_unless_the_user_named_it() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_put_in_the_way_between_finding_a_place_and_writing_leads_nowhere() {
+fn link_made_between_check_and_write_does_not_lead_out() {
     let (dir, job) = job();
     let (outside, sub) = (dir.path().join("outside"), job.folder.join("sub"));
     std::fs::create_dir(&outside).unwrap();
@@ -297,7 +297,7 @@ fn a_link_put_in_the_way_between_finding_a_place_and_writing_leads_nowhere() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_swapped_in_while_files_are_written_never_leads_out() {
+fn link_swapped_in_during_write_does_not_lead_out() {
     use std::sync::atomic::AtomicBool;
     let (dir, job) = job();
     let outside = dir.path().join("outside");
@@ -331,7 +331,7 @@ fn a_link_swapped_in_while_files_are_written_never_leads_out() {
 }
 
 #[test]
-fn temporary_files_of_killed_jobs_are_removed_and_those_of_living_ones_stay() {
+fn temporary_files_of_killed_jobs_are_removed_and_others_kept() {
     let (dir, job) = job();
     job.make_folder("sub").unwrap();
     let left = ["", "sub/"].map(|sub| job.folder.join(format!("{sub}.windlass-1-0.tmp")));
@@ -350,7 +350,7 @@ fn temporary_files_of_killed_jobs_are_removed_and_those_of_living_ones_stay() {
 }
 
 #[test]
-fn a_number_is_found_for_an_earlier_file_however_many_there_are() {
+fn number_for_an_earlier_file_is_found_among_many() {
     let (_dir, job) = job();
     for number in 0..100 {
         job.write("t", format!("{number}").as_bytes()).unwrap();
@@ -365,7 +365,7 @@ fn a_number_is_found_for_an_earlier_file_however_many_there_are() {
 
 #[cfg(unix)]
 #[test]
-fn a_folder_deleted_under_way_is_named() {
+fn folder_deleted_during_run_is_named() {
     let (_dir, mut job) = job();
     let log = job.create("log").unwrap();
     assert!(!is_unlinked(&log));
@@ -377,7 +377,7 @@ fn a_folder_deleted_under_way_is_named() {
 }
 
 #[test]
-fn what_is_read_outside_of_the_scripts_folder_is_noted_once() {
+fn file_read_outside_script_folder_is_noted_once() {
     let dir = tempfile::tempdir().unwrap();
     let here = dir.path().join("here");
     std::fs::create_dir(&here).unwrap();

@@ -323,7 +323,7 @@ mod tests {
     use super::dashes;
 
     #[test]
-    fn dashes_go_on_around_a_corner() {
+    fn dashes_continue_around_a_corner() {
         let path = [(0, 0), (10, 0), (10, 10)];
         assert_eq!(
             dashes(&path, [4.0, 4.0]),

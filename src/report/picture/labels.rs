@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn names_at_one_place_stand_beside_each_other_and_those_without_room_are_counted() {
+    fn labels_at_one_point_are_offset_and_hidden_ones_counted() {
         let sheet = Sheet::new([0, 0, 300, 200], (8, 16));
         let (placed, left_out) = sheet.place((0..200).map(|n| label(&format!("N{n}"), (150, 100))).collect());
         assert!(placed.len() > 12 && placed.len() + left_out == 200, "{}", placed.len());
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_stands_off_the_ink() {
+    fn label_keeps_clear_of_lines() {
         let mut sheet = Sheet::new([0, 0, 300, 200], (8, 16));
         assert_eq!(sheet.place(vec![label("NAME", (150, 100))]).0[0].at[0], 158);
         // a stroke to the right of the place sends it elsewhere
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_in_a_terminal_stands_on_whole_characters() {
+    fn terminal_label_is_aligned_to_whole_characters() {
         let sheet = Sheet::new([0, 0, 80, 80], (2, 4));
         for (placed, at) in [(41, 43), (17, 3)].map(|at| (sheet.place(vec![label("AB", at)]).0, at)) {
             assert!(placed[0].at[0] % 2 == 0 && placed[0].at[1] % 4 == 0, "{at:?} {placed:?}");

@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn each_view_puts_a_place_where_a_hand_would() {
+    fn each_view_projects_points_to_expected_positions() {
         let at = [3.0, 4.0, 5.0];
         near(View::plan().project(at), [3.0, 4.0]);
         // from -Y X runs to the right, from +Y to the left; from +X (astern) Y runs to the right, from -X to the left
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn in_the_isometric_view_a_cube_has_equal_edges_a_third_of_a_turn_apart() {
+    fn isometric_view_shows_cube_edges_equal_and_120_degrees_apart() {
         let view = View::isometric(-0.5 * FRAC_PI_2, 1.0);
         let edges: Vec<[f64; 2]> = view.axes().into_iter().map(|(_, at)| at).collect();
         assert_eq!(edges.len(), 3);
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn titles_and_axes_say_from_where() {
+    fn titles_and_axes_name_view_direction() {
         assert_eq!(View::elevation(-FRAC_PI_2, 1.0).title(), "Elevation, seen from -Y");
         assert_eq!(View::elevation(30f64.to_radians(), 3.0).title(), "Elevation, seen from 30 deg, heights 3 times");
         assert_eq!(View::plan().axes_in_words(), "X right, Y up");
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_keeps_one_scale_and_holds_the_extent() {
+    fn frame_keeps_one_scale_and_contains_extent() {
         let extent = Extent::from_points([[0.0, 0.0], [100.0, 10.0]].into_iter()).unwrap();
         let frame = ViewFrame::fit(&extent, [10, 20, 240, 140], (20, 20));
         assert_eq!(frame.scale, 2.0);
@@ -282,14 +282,14 @@ mod tests {
     }
 
     #[test]
-    fn round_lengths() {
+    fn scale_bar_lengths_are_round() {
         for (most, round) in [(1.0, 1.0), (1.99, 1.0), (4.9, 2.0), (7.0, 5.0), (2300.0, 2000.0), (0.03, 0.02)] {
             assert!((round_length(most) - round).abs() < 1e-12 * round, "{most}");
         }
     }
 
     #[test]
-    fn the_hull_of_a_square_with_points_within_is_the_square() {
+    fn hull_of_square_with_points_within_is_square() {
         let points = vec![(0, 0), (2, 1), (4, 0), (4, 4), (0, 4), (2, 2), (2, 0), (4, 4)];
         assert_eq!(hull(points), [(0, 0), (4, 0), (4, 4), (0, 4)]);
         assert_eq!(hull(vec![(1, 1), (0, 0), (2, 2)]).len(), 2);

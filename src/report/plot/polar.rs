@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_are_counted_from_the_right_upward() {
+    fn polar_angles_are_counted_from_right_upward() {
         let chart = Chart::polar(&table(|a| 1.0 + a), UnitSystem::SI).unwrap();
         let quarter = std::f64::consts::FRAC_PI_2;
         let (x, y) = chart.series[0].points[6].unwrap();
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn every_surface_has_its_circles_names_of_directions_and_what_they_count_from() {
+    fn polar_plot_has_circles_direction_names_and_zero_direction() {
         let chart = Chart::polar(&table(|_| 3.0), UnitSystem::SI).unwrap();
         let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
         let told = "directions from +X (right) toward +Y (up); distance: Excursion (m)";
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_circle_is_drawn_round() {
+    fn polar_circle_is_round() {
         // the polyline of the curve: as wide as high
         let chart = Chart::polar(&table(|_| 3.0), UnitSystem::SI).unwrap();
         let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn a_negative_distance_and_a_column_of_no_angles_are_refused() {
+    fn negative_radius_and_non_angle_column_are_refused() {
         let negative = Chart::polar(&table(|_| -1.0), UnitSystem::SI);
         assert_eq!(negative, Err(PlotError::Negative("Excursion".into(), -1.0)));
         let mut lengths = table(|_| 1.0);

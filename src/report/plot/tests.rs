@@ -13,7 +13,7 @@ fn chart() -> Chart {
 }
 
 #[test]
-fn every_surface_shows_title_axes_and_units_and_is_the_same_twice() {
+fn every_surface_shows_title_axes_and_units_reproducibly() {
     let svg = String::from_utf8(chart().svg().unwrap()).unwrap();
     for text in ["Line A", "X (m)", "Force (N)", "<polyline"] {
         assert!(svg.contains(text), "{text} is missing from the SVG");
@@ -27,7 +27,7 @@ fn every_surface_shows_title_axes_and_units_and_is_the_same_twice() {
 }
 
 #[test]
-fn nothing_finite_is_an_error_and_one_point_is_not() {
+fn no_finite_points_is_error_and_one_point_is_not() {
     let series = |points| Chart { series: vec![PlotSeries { points, ..PlotSeries::default() }], ..Chart::default() };
     assert_eq!(series(vec![None]).svg(), Err(PlotError::Empty));
     assert_eq!(series(vec![Some((f64::NAN, 1.0)), Some((0.0, f64::INFINITY))]).png(), Err(PlotError::Empty));
@@ -36,7 +36,7 @@ fn nothing_finite_is_an_error_and_one_point_is_not() {
 }
 
 #[test]
-fn a_missing_point_breaks_the_line_and_many_points_have_no_marks() {
+fn missing_point_breaks_curve_and_many_points_have_no_markers() {
     let count = |chart: &Chart, what: &str| {
         let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
         svg.matches(what).count()
@@ -52,7 +52,7 @@ fn a_missing_point_breaks_the_line_and_many_points_have_no_marks() {
 }
 
 #[test]
-fn a_column_of_single_points_is_marks_that_no_line_hides_and_no_line_joins() {
+fn isolated_points_are_markers_without_connecting_lines() {
     let line =
         PlotSeries { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect(), right: false };
     let at = |rows: &[usize]| {
@@ -92,7 +92,7 @@ fn a_column_of_single_points_is_marks_that_no_line_hides_and_no_line_joins() {
 }
 
 #[test]
-fn a_second_unit_has_an_axis_on_the_right_and_the_legend_tells_the_lines() {
+fn second_unit_has_right_axis_and_legend_names_axes() {
     let t = Table::new("t")
         .with_rows(&[(1.0, 2.0, 3.0), (2.0, 3.0, 2.0)])
         .column("", "X", Dim::Length, Digits::Usual, |row| row.0)
@@ -114,7 +114,7 @@ fn a_second_unit_has_an_axis_on_the_right_and_the_legend_tells_the_lines() {
 }
 
 #[test]
-fn a_third_unit_and_an_axis_of_two_are_refused_and_curves_of_one_unit_may_be_parted() {
+fn third_unit_is_refused_and_one_unit_may_use_both_axes() {
     let dims = [("X", Dim::Length), ("F", Dim::Force), ("G", Dim::Force), ("L", Dim::Length), ("T", Dim::Time)];
     let column =
         |(n, (name, dim)): (usize, (&str, Dim))| Column::new("", name, dim, Digits::Usual, [n as f64, (n * n) as f64]);
@@ -130,7 +130,7 @@ fn a_third_unit_and_an_axis_of_two_are_refused_and_curves_of_one_unit_may_be_par
 }
 
 #[test]
-fn a_curve_on_the_right_fills_the_picture_as_one_on_the_left_does() {
+fn curve_on_right_axis_fills_plot_like_one_on_left() {
     // both rise over their whole axis: drawn by axes of their own they are one line
     let rise = |size: f64, right: bool| PlotSeries {
         name: String::new(),
@@ -151,7 +151,7 @@ fn a_curve_on_the_right_fills_the_picture_as_one_on_the_left_does() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
     #[test]
-    fn any_points_are_drawn_or_refused(
+    fn any_points_are_plotted_or_refused(
         points in prop::collection::vec(prop::option::of((any::<f64>(), any::<f64>())), 0..6),
         columns in 0usize..250,
         lines in 0usize..60,

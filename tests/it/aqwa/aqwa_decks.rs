@@ -65,7 +65,7 @@ fn bits(run: &Tethered) -> Vec<u64> {
 }
 
 #[test]
-fn the_installed_deck_comes_to_the_printed_places_and_goes_slack_when_printed() {
+fn installed_deck_reaches_printed_positions_and_slack_times() {
     let (session, _) = run("mint.dat", &file("mint.dat"));
     let run = tethered(&session);
     let structure = run.structure.as_ref().unwrap();
@@ -93,7 +93,7 @@ fn the_installed_deck_comes_to_the_printed_places_and_goes_slack_when_printed() 
 }
 
 #[test]
-fn the_towed_deck_with_the_printed_phases_comes_to_the_printed_places() {
+fn towed_deck_with_printed_phases_reaches_printed_positions() {
     let (session, _) = run("he01_phases.dat", &file("he01_phases.dat"));
     let run = tethered(&session);
     let printed = listing("towed");
@@ -110,7 +110,7 @@ fn the_towed_deck_with_the_printed_phases_comes_to_the_printed_places() {
 }
 
 #[test]
-fn a_deck_and_the_script_of_its_case_have_the_same_numbers_bit_for_bit() {
+fn deck_and_script_of_a_case_match_bit_for_bit() {
     for (deck, script) in [("mint.dat", "installed_tether.cif"), ("he01_phases.dat", "towed_tether.cif")] {
         let made = records(&file(deck)).unwrap().script().text;
         let (of_deck, _) = run("deck.cif", &silent(&made));
@@ -136,7 +136,7 @@ fn with_run_of(script: &str, other: &str) -> String {
 }
 
 #[test]
-fn a_deck_leaves_its_records_as_a_script_that_runs_alike() {
+fn deck_leaves_records_of_an_equivalent_script() {
     let short = file("mint.dat").replace("16TIME       101", "16TIME        11");
     let (of_deck, kept) = run("mint.dat", &short);
     let kept = kept.unwrap();
@@ -147,7 +147,7 @@ fn a_deck_leaves_its_records_as_a_script_that_runs_alike() {
 }
 
 #[test]
-fn inmodel_reads_the_model_of_a_deck_and_leaves_the_units_and_the_job() {
+fn inmodel_reads_model_of_deck_and_keeps_units_and_job() {
     let (mut session, _, folder) = common::session();
     std::fs::write(folder.path().join("tlp.dat"), file("mint.dat")).unwrap();
     session.open("test.cif", "&DIMEN -DIMEN FEET KIPS\nINMODEL -AQWA tlp.dat\n&STATUS TETHERS T3\n");
@@ -166,7 +166,7 @@ fn inmodel_reads_the_model_of_a_deck_and_leaves_the_units_and_the_job() {
 }
 
 #[test]
-fn a_deck_with_an_error_runs_nothing() {
+fn deck_with_error_runs_nothing() {
     for (from, to, said) in [
         (" END14TETH    1 1040    0 9040", " END14TETH    1 1040    0 9999", "9999"),
         (" END15VEL1               0.000", " END15VEL1               1.000", "at rest"),
@@ -192,7 +192,7 @@ fn lines(records: &Records) -> String {
 }
 
 #[test]
-fn the_records_have_the_digits_of_the_cards() {
+fn records_have_the_digits_of_the_cards() {
     let model = lines(&records(&file("mint.dat")).unwrap());
     for line in [
         "&DEFAULT -WATER 1025 -GRAVITY 9.81",
@@ -216,7 +216,7 @@ fn the_records_have_the_digits_of_the_cards() {
 }
 
 #[test]
-fn a_constraint_holds_the_node_between_the_elements_its_card_stands_between() {
+fn constraint_holds_node_between_neighbouring_elements_of_its_card() {
     let between = edited(
         "    14TELM  103  102  101  101\n",
         "    14TELM  103  102  101  101\n    14TLAV                         0.250\n",
@@ -229,7 +229,7 @@ fn a_constraint_holds_the_node_between_the_elements_its_card_stands_between() {
 }
 
 #[test]
-fn a_current_profile_that_turns_becomes_its_parts_along_x_and_y() {
+fn turning_current_profile_splits_into_x_and_y_parts() {
     let text = edited(
         "    11    NONE",
         "    11    ENVR\n    11CPRF    -345.0       0.5      90.0\n END11CPRF       0.0       1.5       0.0",
@@ -263,7 +263,7 @@ fn spectra_become_seas_or_curves() {
 }
 
 #[test]
-fn lines_become_classes_of_the_same_stiffness() {
+fn lines_become_classes_of_same_stiffness() {
     let cards = "    14LINE    1 1010    0 9010     100.0     250.0\n\
                  \x20   14COMP   15   40         1\n    14ECAT                         0.170    0.0217  700000.0               600.0\n\
                  \x20   14NLIN    1 1020    0 9020\n    14TSLK                         0.001\n";
@@ -282,7 +282,7 @@ fn lines_become_classes_of_the_same_stiffness() {
 }
 
 #[test]
-fn what_has_no_place_in_the_model_is_refused_with_its_card_and_what_to_use() {
+fn unsupported_deck_data_is_refused_with_card_and_alternative() {
     let refused = |from: &str, to: &str, said: &str| {
         let list = records(&edited(from, to)).unwrap_err();
         let found = list.iter().find(|d| d.message.contains(said));
@@ -299,7 +299,7 @@ fn what_has_no_place_in_the_model_is_refused_with_its_card_and_what_to_use() {
 }
 
 #[test]
-fn a_check_of_the_data_runs_nothing_and_says_so() {
+fn data_check_runs_nothing_and_reports_it() {
     let made = records(&edited("OPTIONS END", "OPTIONS DATA END")).unwrap();
     assert!(!made.job.iter().any(|line| line.starts_with("TDOM")), "{:?}", made.job);
     assert!(
@@ -308,7 +308,7 @@ fn a_check_of_the_data_runs_nothing_and_says_so() {
 }
 
 #[test]
-fn phases_are_as_many_as_the_components() {
+fn number_of_phases_must_match_components() {
     let sea = "&DIMEN -DIMEN METERS K-NTS\n&ENV -SEA ISSC 180 4 8 -COMPONENTS 3";
     let (mut session, screen, _folder) = common::session();
     session.open("test", format!("{sea} -PHASES 0 90 180\n&STATUS SEA_SPECTRUM\n"));
@@ -377,7 +377,7 @@ fn near(got: f64, want: f64) {
 }
 
 #[test]
-fn a_line_of_a_deck_lies_on_the_bottom_at_its_anchor() {
+fn deck_line_is_on_seabed_at_its_anchor() {
     // Elastic catenary with a part on the bottom without friction: x = L - V/w + H/w asinh(V/H) + H L/EA,
     // z = (sqrt(H2 + V2) - H)/w + V2/(2 w EA), w = (150 - 1025 0.018) 9.81 N/m, solved by scipy.optimize.fsolve.
     // The same in 150 m: the bottom of a line is at its anchor.
@@ -396,7 +396,7 @@ fn a_line_of_a_deck_lies_on_the_bottom_at_its_anchor() {
 }
 
 #[test]
-fn lines_of_one_composite_to_anchors_of_two_depths_lie_each_on_its_own() {
+fn composite_lines_to_anchors_at_two_depths_each_reach_own_seabed() {
     // the second line as the first one, 85 m high and along Y
     let cards = format!(
         "    14COMP                   1\n{SECTION}    14NLIN    1    2    0   12\n END14NLIN    1    2    0   13\n"
@@ -410,7 +410,7 @@ fn lines_of_one_composite_to_anchors_of_two_depths_lie_each_on_its_own() {
 }
 
 #[test]
-fn joints_of_a_composite_weigh_their_mass_less_the_water_they_displace() {
+fn composite_joints_weigh_mass_less_displaced_water() {
     // two sections of elastic catenary, the lower one partly on the bottom; the vertical force falls by (m - m_displaced) g at the
     // joint between them; solved by scipy.optimize.fsolve
     for (joint, horizontal, vertical) in [
@@ -437,7 +437,7 @@ fn said(text: &str) -> Vec<Diagnostic> {
 }
 
 #[test]
-fn the_table_of_a_composite_and_an_anchor_off_the_sea_bed_are_said() {
+fn composite_table_and_anchor_off_seabed_are_reported() {
     let cards = |comp: &str| format!("    14COMP{comp}\n{SECTION} END14NLIN    1    2    0   12\n");
     let plain = "                   1";
     let told = |depth: f64, comp: &str| {
@@ -456,7 +456,7 @@ fn the_table_of_a_composite_and_an_anchor_off_the_sea_bed_are_said() {
 }
 
 #[test]
-fn a_structure_without_loads_of_the_waves_is_not_run_in_waves() {
+fn structure_without_wave_loads_is_not_run_in_waves() {
     let cards = format!("    14COMP                   1\n{SECTION} END14NLIN    1    2    0   12\n");
     let spectrum = "    13    SPEC\n END13PSMZ                 0.2       2.0       6.0       9.0\n";
     let regular = "    13    WAVE\n    13WAMP                 3.0\n END13PERD                10.0\n";
@@ -477,7 +477,7 @@ fn a_structure_without_loads_of_the_waves_is_not_run_in_waves() {
 }
 
 #[test]
-fn a_stop_at_the_anchor_keeps_a_tether_of_a_deck_from_hanging_free() {
+fn anchor_stop_keeps_deck_tether_from_hanging_free() {
     let low = "    14TLOW                         100.0\n";
     let with = |card: &str| file("mint.dat").replace(low, card).replace("16TIME       101", "16TIME        33");
     for card in ["    14TLOW                           0.0\n", "    14TLOW\n"] {
@@ -496,7 +496,7 @@ fn a_stop_at_the_anchor_keeps_a_tether_of_a_deck_from_hanging_free() {
 }
 
 #[test]
-fn amplitude_period_and_direction_of_a_regular_wave_come_from_their_own_cards() {
+fn regular_wave_amplitude_period_and_direction_have_own_cards() {
     let text = file("mint.dat")
         .replace("13WAMP               15.00", "13WAMP               12.00")
         .replace("13PERD               15.00", "13PERD               16.50")
@@ -507,7 +507,7 @@ fn amplitude_period_and_direction_of_a_regular_wave_come_from_their_own_cards() 
 }
 
 #[test]
-fn tslk_prints_the_tethers_from_slack_on_for_its_time() {
+fn tslk_prints_tethers_from_slack_for_its_duration() {
     // the listing has TSLK 0.001 and prints all four tethers at 6.5 s, when the first two go slack, and no more of them up to the
     // impact at 7.5 s; with 0.6 s each step of 0.25 s up to 7.1 s is printed (A.6)
     for (time, printed) in [("0.001", &["6.50"][..]), ("  0.6", &["6.50", "6.75", "7.00"])] {
@@ -545,7 +545,7 @@ fn error_of(text: &str) -> (Diagnostic, String) {
 }
 
 #[test]
-fn an_error_of_a_record_points_at_the_card_it_is_made_of() {
+fn record_error_points_at_its_source_card() {
     let start = "    15    STRT\n    15POS1             -46.000     0.000   -17.400     0.000     0.000       0.0\n \
                  END15VEL1               0.000     0.000     0.000     0.000     0.000       0.0";
     let cases = [

@@ -43,7 +43,7 @@ const LOST: [usize; 2] = [11, 12];
 const THREE_FIGURES: f64 = 0.005;
 
 #[test]
-fn effective_ranges_damage_and_lives_follow_from_the_printed_histogram() {
+fn effective_ranges_damage_and_lives_follow_from_printed_histogram() {
     let listing = listing();
     for end in 0..26 {
         let ranges = counts(&listing, end);
@@ -77,7 +77,7 @@ fn three_hour_peaks_follow_from_mean_significant_stress_and_cycles() {
 }
 
 #[test]
-fn peaks_an_hour_are_half_of_the_half_cycles_and_one() {
+fn hourly_peaks_are_half_of_half_cycles_plus_one() {
     let listing = listing();
     for end in (0..26).filter(|end| !LOST.contains(end)) {
         let peaks = (counts(&listing, end).total() / 2 + 1) as f64 * 3600.0 / RECORD;
@@ -86,7 +86,7 @@ fn peaks_an_hour_are_half_of_the_half_cycles_and_one() {
 }
 
 #[test]
-fn the_simulated_series_have_the_printed_lives_and_peaks() {
+fn simulated_series_match_printed_lives_and_peaks() {
     let listing = listing();
     let (mut session, screen, _folder) = common::session();
     session.open_job("he01_phases.dat", std::fs::read_to_string("scripts/he01_phases.dat").unwrap());

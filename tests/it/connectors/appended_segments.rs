@@ -44,7 +44,7 @@ fn class_of_10_000_records_is_built_once() {
 }
 
 #[test]
-fn records_appended_one_by_one_make_what_all_together_make() {
+fn records_appended_singly_match_records_together() {
     let mut segmented = 0;
     for kind in CLASSES.iter().filter(|kind| kind.segmented) {
         let records: Vec<&str> = kind.spec.example.lines().filter(|line| line.starts_with('~')).collect();
@@ -59,7 +59,7 @@ fn records_appended_one_by_one_make_what_all_together_make() {
 }
 
 #[test]
-fn record_that_is_refused_leaves_its_class_as_it_was() {
+fn refused_record_leaves_its_class_unchanged() {
     for (first, refused, message) in [
         ("~L B_CAT 100 -LEN 500 -DEP 200", "~L B_CAT 80 -LEN 600 -DEP 210", "-DEPANCHOR holds for the whole line"),
         (
@@ -93,7 +93,7 @@ fn record_that_is_refused_leaves_its_class_as_it_was() {
 }
 
 #[test]
-fn segment_of_a_class_that_a_copy_shares_is_not_in_the_copy() {
+fn segment_added_to_copied_class_is_not_in_the_copy() {
     let mut session = session("~L B_CAT 100 -LEN 500");
     let copy = session.job.model.clone();
     let before = format!("{:?}", copy.classes.values().next_back().unwrap());

@@ -45,7 +45,7 @@ fn close(got: f64, want: f64, within: f64) {
 const ELASTIC: &str = "-EMOD 76394.37268410977";
 
 #[test]
-fn line_on_bathymetry_lies_on_the_slope_along_its_azimuth() {
+fn line_on_bathymetry_follows_slope_along_its_azimuth() {
     for (degrees, horizontal, vertical) in [
         (0f64, 322139.172296, 445754.758471),
         (30.0, 239215.813830, 378117.063380),
@@ -61,7 +61,7 @@ fn line_on_bathymetry_lies_on_the_slope_along_its_azimuth() {
 }
 
 #[test]
-fn line_stiffness_across_a_slope_has_the_change_of_the_bottom() {
+fn line_stiffness_across_slope_includes_depth_change() {
     let (_, stiffness) = load(&moored(PLANE, [900.0, 0.0], ELASTIC));
     // d(H, V)/d(azimuth) over the distance, and H over the distance; forces proven to 1e-9 over 2e-4 rad
     for (row, want) in [(0, -168536.0208 / 900.0), (1, 322139.172296 / 900.0), (2, -130207.1862 / 900.0)] {
@@ -70,7 +70,7 @@ fn line_stiffness_across_a_slope_has_the_change_of_the_bottom() {
 }
 
 #[test]
-fn line_on_a_curved_bathymetry_lies_around_it() {
+fn line_on_curved_bathymetry_follows_its_curvature() {
     let made = moored(&dome(), [900.0, 0.0], "-EMOD 1E9");
     let (force, _) = load(&made);
     // chords of 6.25 m are up to 5e-5 / 4 * 6.25^2 = 0.49 mm below the dome, times the stiffness by depth
@@ -80,7 +80,7 @@ fn line_on_a_curved_bathymetry_lies_around_it() {
 }
 
 #[test]
-fn table_option_on_bathymetry_interpolates_along_the_azimuth() {
+fn table_option_on_bathymetry_interpolates_along_azimuth() {
     let place = [900.0 * 30f64.to_radians().cos(), 450.0];
     let (force, _) = load(&moored(PLANE, place, &format!("{ELASTIC} -TABLE")));
     // thirty rows: interpolation errs by a few per mille
@@ -88,7 +88,7 @@ fn table_option_on_bathymetry_interpolates_along_the_azimuth() {
 }
 
 #[test]
-fn line_with_own_slope_keeps_it_and_says_so() {
+fn line_with_own_slope_keeps_it_with_a_note() {
     let (mut session, _screen, _folder) = common::session();
     let records = format!(
         "&DIMEN -DIMEN METERS N\n{PLANE}MEDIT\n&DESCRIBE BODY A -IGNORE X Y Z RX RY RZ\n*F 900 0 -10\n\

@@ -80,7 +80,7 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
 }
 
 #[test]
-fn both_small_examples_of_moses_give_a_submerged_weight_of_ten() {
+fn both_small_examples_of_moses_give_submerged_weight_of_ten() {
     for options in ["-WTPLEN 10 -BUOYDIA 0", "-WTPLEN 15 -DISPLEN 5 -BUOYDIA 0"] {
         let (out, _) = run(&format!("MEDIT\n~L B_CAT 4 -LEN 100 {options}\nEND\n&STATUS CL_FLEX"));
         let row = out.lines().find(|l| l.trim_start().starts_with("1 ")).unwrap();
@@ -89,7 +89,7 @@ fn both_small_examples_of_moses_give_a_submerged_weight_of_ten() {
 }
 
 #[test]
-fn weight_stiffness_and_break_come_from_the_solid_area_and_the_defaults() {
+fn weight_stiffness_and_break_use_solid_area_and_defaults() {
     // 4 in: A = 12.566 in2; 490.06 lb/ft3 -> 0.04277 kips/ft in air; sea water 63.99 lb/ft3 -> 0.03718 in water;
     // E 29,000 ksi -> 364,425 kips; ultimate 60 ksi -> 753.98 kips [W-DEFAULTS]
     let (out, _) = run("MEDIT\n~L B_CAT 4 -LEN 100\nEND\n&STATUS CL_FLEX");
@@ -98,7 +98,7 @@ fn weight_stiffness_and_break_come_from_the_solid_area_and_the_defaults() {
 }
 
 #[test]
-fn a_sling_has_the_stiffness_ae_over_l_and_only_emodulus() {
+fn sling_has_stiffness_ae_over_l_and_takes_only_emodulus() {
     let (out, _) = run("MEDIT\n~S SLING 4 -LEN 120 -EMOD 12000\nEND\n&STATUS CL_FLEX");
     // 12,000 ksi x 12.566 in2 / 120 ft
     assert!(out.contains("Stiffness AE/L                   = 1256.6371 kips/ft"), "{out}");
@@ -107,7 +107,7 @@ fn a_sling_has_the_stiffness_ae_over_l_and_only_emodulus() {
 }
 
 #[test]
-fn lmu_is_symmetric_by_default_and_has_the_cone_tangent_of_moses() {
+fn lmu_is_symmetric_by_default_with_moses_cone_tangent() {
     let (out, _) = run("MEDIT\n~L LMU 60 24 48 X 1 1\nEND\n&STATUS CL_FLEX");
     // (48 - 24) / (2 60)
     assert!(out.contains("Cone Tangent T                   = 0.2000"));
@@ -117,7 +117,7 @@ fn lmu_is_symmetric_by_default_and_has_the_cone_tangent_of_moses() {
 }
 
 #[test]
-fn a_repeated_name_adds_a_segment_to_a_line_and_replaces_a_spring() {
+fn repeated_name_adds_line_segment_and_replaces_spring() {
     let (out, _) =
         run("MEDIT\n~L B_CAT 4 -LEN 100\n~L B_CAT 3 -LEN 50\n~S GSPR X 1 1\n~S GSPR Y 2 2\nEND\n&STATUS CL_FLEX");
     assert!(
@@ -127,7 +127,7 @@ fn a_repeated_name_adds_a_segment_to_a_line_and_replaces_a_spring() {
 }
 
 #[test]
-fn a_b_cat_goes_to_ground_only_and_slings_take_one_point() {
+fn b_cat_connects_to_ground_only_and_slings_take_one_point() {
     let model = "MEDIT\n&DESCRIBE BODY A\n*P 0 0 0\n&DESCRIBE BODY B\n*Q 9 0 0\n~L B_CAT 4 -LEN 100\n~H H_CAT 4 -LEN 10\n\
                  ~S SLING 4 -LEN 9\nCONNECTOR ONE ~L *P *Q\nCONNECTOR TWO ~H *P *Q\nCONNECTOR SL ~S *P *Q\nEND";
     let (_, mut messages) = run(model);
@@ -137,7 +137,7 @@ fn a_b_cat_goes_to_ground_only_and_slings_take_one_point() {
 }
 
 #[test]
-fn the_script_prints_the_independent_values_of_the_four_segment_line() {
+fn script_prints_independent_four_segment_line_values() {
     let script = std::fs::read_to_string("scripts/four_segment_line.cif").unwrap();
     let table = script.replace("REPORT\n", "VIEW X Force 'Ten Top' 'V. Pull' 'Crit. Seg'\n");
     let (out, messages) = run(&table);

@@ -81,7 +81,7 @@ fn printed(got: f64, want: f64) -> bool {
 }
 
 #[test]
-fn the_shape_of_a_stiff_line_is_the_closed_catenary() {
+fn stiff_line_shape_matches_closed_form_catenary() {
     // a strain of 6e-10 at most: 1e-8 leaves room for it
     let (force, a) = (300_000.0, 300.0);
     let done =
@@ -109,7 +109,7 @@ fn the_shape_of_a_stiff_line_is_the_closed_catenary() {
 }
 
 #[test]
-fn every_way_to_ask_for_a_configuration_gives_the_same_one() {
+fn every_configuration_request_gives_same_configuration() {
     let [x, ..] = closed(3e5, 200.0, 1010.0);
     let shape = |distance: f64, options: &str| {
         run(&stiff("EXACT", distance), |_| (), &format!("CONN_DESIGN\nGEOMETRY A {options}\nSTORE t\nEND\nEND"))
@@ -124,7 +124,7 @@ fn every_way_to_ask_for_a_configuration_gives_the_same_one() {
 }
 
 #[test]
-fn sensitivity_tables_follow_the_closed_catenary() {
+fn sensitivity_tables_match_closed_form_catenary() {
     let table = |options: &str| {
         run(&stiff("", 900.0), |_| (), &format!("CONN_DESIGN\nTABLE A -VARY {options}\nSTORE t\nEND\nEND"))
     };
@@ -172,7 +172,7 @@ impl Done {
 }
 
 #[test]
-fn a_value_without_a_configuration_has_an_empty_row_and_a_warning_that_names_it() {
+fn unsolved_configuration_has_empty_row_and_named_warning() {
     // hanging straight down the line bears 200 kN
     let last = "CONN_DESIGN\nTABLE A -VARY TENSION 3E5 100 2E6\nREPORT\nSTORE t\nEND\nEND";
     let done = run(&stiff("", 900.0), |_| (), last);
@@ -187,7 +187,7 @@ fn a_value_without_a_configuration_has_an_empty_row_and_a_warning_that_names_it(
 }
 
 #[test]
-fn connector_forces_are_those_of_the_shape_as_placed_and_point_to_the_anchor() {
+fn connector_forces_match_placed_shape_and_point_to_anchor() {
     let (records, x) = (stiff("EXACT", 0.0), closed(3e5, 200.0, 1010.0)[0]);
     let records = records.replace("-ANC 30 0", &format!("-ANC 30 {x}"));
     let done = run(&records, |_| (), "&STATUS F_CONNECTOR\nCONN_DESIGN\nGEOMETRY A\nREPORT X\nSTORE t\nEND\nEND");
@@ -204,7 +204,7 @@ fn connector_forces_are_those_of_the_shape_as_placed_and_point_to_the_anchor() {
 }
 
 #[test]
-fn connector_forces_of_a_table_are_near_the_exact_ones_and_said_to_come_from_it() {
+fn tabulated_connector_forces_are_near_exact_and_marked_tabulated() {
     let x = closed(3e5, 200.0, 1010.0)[0];
     let done = run(&stiff("-TABLE", x), |_| (), "&STATUS F_CONNECTOR");
     let row = done.row("A");
@@ -215,7 +215,7 @@ fn connector_forces_of_a_table_are_near_the_exact_ones_and_said_to_come_from_it(
 }
 
 #[test]
-fn a_connector_that_is_inactive_unsolved_or_no_line_stops_no_other() {
+fn inactive_unsolved_or_non_line_connector_stops_no_other() {
     let records = format!(
         "{}\nMEDIT\n&DESCRIBE BODY B\n*Q 0 0 0\n~G GSPR X 1 1\n~T SL_ELEM 100 -LEN 10 -EMOD 100\n\
          CONNECTOR OFF -ANC 0 900 ~L *P\nCONNECTOR LOST ~L *P\nCONNECTOR GS ~G *P *Q\nCONNECTOR TIE ~T *P *Q\nEND",
@@ -245,7 +245,7 @@ fn a_connector_that_is_inactive_unsolved_or_no_line_stops_no_other() {
 }
 
 #[test]
-fn a_spring_along_the_chord_has_its_ae_over_l_at_any_distance_that_is_varied() {
+fn spring_along_chord_keeps_ae_over_l_at_any_varied_distance() {
     let records = "MEDIT\n&DESCRIBE BODY A\n*P 0 0 3\n&DESCRIBE BODY B\n*Q 8 0 3\n~T SL_ELEM 100 -LEN 10 -EMOD 100\n\
                    CONNECTOR TIE ~T *P *Q\nEND";
     let done = run(records, |_| (), "CONN_DESIGN\nTABLE TIE -VARY DISTANCE 6 10 11\nSTORE t\nEND\nEND");
@@ -264,7 +264,7 @@ fn a_spring_along_the_chord_has_its_ae_over_l_at_any_distance_that_is_varied() {
 }
 
 #[test]
-fn exactly_the_classes_that_make_lines_say_so() {
+fn exactly_the_line_making_classes_are_marked_so() {
     for kind in CLASSES {
         let (mut session, _screen, _folder) = common::session();
         session.open("example", format!("&ENV -DEPTH 5000\n{}", kind.spec.example));

@@ -80,7 +80,7 @@ const LINES: &str = "MEDIT\n&DESCRIBE BODY TBRG\n*P 400 50 11\n*Q 0 -50 11\n\
 const NAMES: [&str; 9] = ["BOTTOM", "ROUGH", "SLOPED", "BUOYED", "SPRUNG", "HANG", "CHORD", "PULLS", "AQWA"];
 
 #[test]
-fn after_each_option_that_solves_the_line_left_bears_the_force_asked_for_in_every_class() {
+fn solving_option_gives_requested_force_in_every_line_class() {
     for option in ["-L_HORIZONTAL", "-L_TENSION", "-A_HORIZONTAL", "-A_TENSION"] {
         for name in NAMES {
             let left = clean(&format!("{LINES}&CONNECTOR {name} {option} 160\n"));
@@ -119,7 +119,7 @@ fn spare(force: f64) -> f64 {
 }
 
 #[test]
-fn the_anchor_lies_where_the_inelastic_catenary_has_it() {
+fn anchor_position_matches_inelastic_catenary() {
     for force in [10.0, 50.0, 150.0] {
         for (option, value) in [("-A_HORIZONTAL", force), ("-A_TENSION", force + W * H)] {
             let left = clean(&format!("{STIFF}&CONNECTOR A {option} {value}\n"));
@@ -129,7 +129,7 @@ fn the_anchor_lies_where_the_inelastic_catenary_has_it() {
 }
 
 #[test]
-fn the_first_segment_is_as_long_as_the_inelastic_catenary_has_it() {
+fn first_segment_length_matches_inelastic_catenary() {
     for force in [10.0, 50.0, 150.0] {
         for (option, value) in [("-L_HORIZONTAL", force), ("-L_TENSION", force + W * H)] {
             let left = clean(&format!("{STIFF}&CONNECTOR A {option} {value}\n"));
@@ -139,7 +139,7 @@ fn the_first_segment_is_as_long_as_the_inelastic_catenary_has_it() {
 }
 
 #[test]
-fn the_anchors_of_the_multi_point_sample_lie_where_the_elastic_catenary_has_them() {
+fn multi_point_sample_anchors_match_elastic_catenary() {
     let script = std::fs::read_to_string("scripts/mooring.cif").unwrap();
     let (head, _) = script.split_once("&STATUS G_CONNECTOR").unwrap();
     let left = clean(head);
@@ -161,7 +161,7 @@ fn the_anchors_of_the_multi_point_sample_lie_where_the_elastic_catenary_has_them
 }
 
 #[test]
-fn connectors_of_inmodel_are_said_to_be_made_at_its_end() {
+fn connectors_of_inmodel_are_reported_as_made_at_its_end() {
     let left =
         run("INMODEL\n*P 0 0 11\n~W B_CAT 4 -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3950 ~W *P\n&CONNECTOR A -ACTIVE\n");
     assert_eq!(left.messages, ["unknown connector A"]);
@@ -169,7 +169,7 @@ fn connectors_of_inmodel_are_said_to_be_made_at_its_end() {
 }
 
 #[test]
-fn a_slack_or_a_tight_spring_gets_the_length_of_hookes_law() {
+fn slack_or_taut_spring_gets_length_of_hookes_law() {
     // 4.19 in and 29,000 ksi over the chord of 900 ft beside and 511 ft above, first loose, then tight
     let (ea, chord) = (29000.0 * std::f64::consts::PI / 4.0 * 4.19 * 4.19, 900.0_f64.hypot(511.0));
     for length in [5000.0, 1000.0] {
@@ -185,7 +185,7 @@ fn a_slack_or_a_tight_spring_gets_the_length_of_hookes_law() {
 }
 
 #[test]
-fn a_hanging_line_gets_the_nearer_of_two_lengths_or_hears_the_least_tension() {
+fn hanging_line_gets_nearer_length_or_reports_least_tension() {
     // no bottom: between ends of one height a catenary of span S has T = w S / 2 cosh(a) / a, s = S sinh(a) / a with
     // a = w S / 2 H; the least T is at a tanh(a) = 1, a = 1.19967864, T = w S / 2 * 1.50887956
     let (w, span) = (0.05, 1000.0);
@@ -224,7 +224,7 @@ fn a_hanging_line_gets_the_nearer_of_two_lengths_or_hears_the_least_tension() {
 }
 
 #[test]
-fn lengths_are_given_or_added_and_told_with_what_they_were() {
+fn lengths_are_given_or_added_and_reported_with_old_values() {
     let left = clean(&format!("{LINES}&CONNECTOR BOTTOM -LENGTH 3990 -L_DELTA 5.5 ROUGH -L_DELTA -10\n"));
     close(left.connector("BOTTOM").first_length.unwrap(), 3995.5 * METRES_PER_FOOT, 1e-12);
     close(left.connector("ROUGH").first_length.unwrap(), 1490.0 * METRES_PER_FOOT, 1e-12);
@@ -237,14 +237,14 @@ fn lengths_are_given_or_added_and_told_with_what_they_were() {
 }
 
 #[test]
-fn what_is_told_and_read_is_in_the_users_units() {
+fn input_and_output_are_in_user_units() {
     let left = clean(&format!("{STIFF}&DIMEN -DIMEN METERS K-NTS\n&CONNECTOR A -L_HORIZONTAL 222.41108076\n"));
     let want = (3950.0 + spare(50.0)) * METRES_PER_FOOT;
     assert!(left.text.contains(&format!("first segment {want:.2} m (was 1219.20), horizontal force 222.41 kN")));
 }
 
 #[test]
-fn the_own_length_is_shown_by_status_by_the_string_function_and_by_the_table() {
+fn own_length_is_in_status_string_function_and_table() {
     let left = clean(&format!(
         "{STIFF}&CONNECTOR A -LENGTH 3987.25 -INACTIVE\n&STATUS G_CONNECTOR\n\
          &TYPE it is &CONNECTOR(LENGTH A) and &CONNECTOR(STATUS A)\nCONN_DESIGN\nTABLE A\nREPORT\nEND\nEND\n"
@@ -255,7 +255,7 @@ fn the_own_length_is_shown_by_status_by_the_string_function_and_by_the_table() {
 }
 
 #[test]
-fn an_option_acts_on_the_names_before_it_in_the_order_given_and_once_on_each() {
+fn option_acts_on_preceding_names_in_order_and_once_on_each() {
     let left = clean(&format!(
         "{LINES}&SELECT :TWO -SELECT CHORD PULLS\n\
          &CONNECTOR BO@ bottom -LENGTH 3990 -INACTIVE :TWO HANG -LENGTH 3995 @ -INACTIVE :TWO -ACTIVE\n"
@@ -270,7 +270,7 @@ fn an_option_acts_on_the_names_before_it_in_the_order_given_and_once_on_each() {
 }
 
 #[test]
-fn what_solves_passes_over_an_inactive_connector_and_says_so() {
+fn solving_option_skips_inactive_connector_with_a_note() {
     let left = clean(&format!("{LINES}&CONNECTOR HANG -INACTIVE BOTTOM HANG -A_TENSION 60 -L_HORIZONTAL 50\n"));
     let before = clean(LINES);
     assert_eq!(left.connector("HANG").anchor, before.connector("HANG").anchor);
@@ -280,7 +280,7 @@ fn what_solves_passes_over_an_inactive_connector_and_says_so() {
 }
 
 #[test]
-fn a_connector_that_cannot_be_solved_is_named_and_leaves_the_whole_record_without_effect() {
+fn unsolvable_connector_is_named_and_voids_the_whole_record() {
     let records = format!("{LINES}CONN_DESIGN\nEND\n");
     let left = run(&format!("{records}&CONNECTOR BOTTOM -A_TENSION 60 -INACTIVE ROUGH HANG -A_TENSION 1\n"));
     assert_eq!(left.messages.len(), 1);
@@ -290,7 +290,7 @@ fn a_connector_that_cannot_be_solved_is_named_and_leaves_the_whole_record_withou
 }
 
 #[test]
-fn an_anchor_given_by_x_y_z_has_its_own_depth_and_the_bottom_of_its_b_cat_goes_with_it() {
+fn anchor_given_by_x_y_z_has_own_depth_and_moves_b_cat_seabed() {
     let put = |z: f64| format!("{LINES}&CONNECTOR BOTTOM -ANCHOR 3400 1600 {z}\n");
     let left = run(&put(-450.0));
     assert_eq!(left.messages.len(), 1);
@@ -312,7 +312,7 @@ fn an_anchor_given_by_x_y_z_has_its_own_depth_and_the_bottom_of_its_b_cat_goes_w
 }
 
 #[test]
-fn an_anchor_moves_along_the_direction_it_has_when_its_body_has_moved() {
+fn anchor_moves_along_its_direction_after_body_has_moved() {
     let left = clean(&format!("{LINES}&INSTATE -MOVE TBRG 30 -40 0 0 0 20\n&CONNECTOR BOTTOM -A_HORIZONTAL 70\n"));
     let before = clean(&format!("{LINES}&INSTATE -MOVE TBRG 30 -40 0 0 0 20\n"));
     let (_, [ux, uy]) = before.model.placement(before.connector("BOTTOM")).span();
@@ -323,7 +323,7 @@ fn an_anchor_moves_along_the_direction_it_has_when_its_body_has_moved() {
 }
 
 #[test]
-fn an_anchor_under_its_fairlead_moves_in_the_direction_it_was_given() {
+fn anchor_below_its_fairlead_moves_in_given_direction() {
     let records = LINES.replace("-ANC 30 3950 ~BOTTOM", "-ANC 30 0 ~BOTTOM");
     let left = clean(&format!("{records}&CONNECTOR BOTTOM -A_HORIZONTAL 70\n"));
     let [x, y, _] = left.loads("BOTTOM").fairlead;
@@ -332,7 +332,7 @@ fn an_anchor_under_its_fairlead_moves_in_the_direction_it_was_given() {
 }
 
 #[test]
-fn a_table_that_misses_what_was_solved_for_is_said() {
+fn table_missing_solved_value_is_reported() {
     let records = STIFF.replace(" EXACT", " -TABLE").replace(" -EMOD 1E12", " -TAB_LIM 3000000");
     let left = run(&format!("{records}&CONNECTOR A -A_TENSION 1500\n"));
     assert!(left.text.contains("(from its table of thirty points)"), "{}", left.text);
@@ -344,7 +344,7 @@ fn a_table_that_misses_what_was_solved_for_is_said() {
 }
 
 #[test]
-fn the_help_explains_the_command_and_the_string_function_of_the_same_name() {
+fn help_explains_command_and_string_function_of_same_name() {
     let left = clean("&HELP &CONNECTOR\n");
     assert!(left.text.contains("-A_TENSION F") && left.text.contains("&CONNECTOR(ACTION NAME)"), "{}", left.text);
 }

@@ -52,7 +52,7 @@ fn cases() -> Vec<Case> {
         connector,
         defined: now,
         now: [now[0], now[1], now[2], 0.0, 0.0, 0.0],
-        // tests/it/connectors/laws.rs has the laws of energy of lines
+        // tests/it/connectors/line_laws.rs has the laws of energy of lines
         kind: Other,
         balanced: false,
         free: false,
@@ -312,7 +312,7 @@ fn left(element: &dyn Element, bench: &Bench) -> Vec<f64> {
 }
 
 #[test]
-fn every_class_that_has_an_element_is_under_the_laws() {
+fn every_class_with_an_element_is_tested() {
     for kind in CLASSES {
         let name = kind.spec.name;
         // the state of a ROD is where it is in space: below are its laws at rest, in crates/line-dynamics/src/tests those of its steps
@@ -345,7 +345,7 @@ fn every_class_that_has_an_element_is_under_the_laws() {
 }
 
 #[test]
-fn a_line_that_moves_by_itself_has_the_stiffness_of_its_differences_and_turns_with_its_ends() {
+fn dynamic_line_stiffness_matches_differences_and_rotates_with_ends() {
     let case = Case {
         class: "ROD",
         records: "~C ROD 200 20 -LEN 60 -REFINE 6 -CLAMP BOTH",
@@ -395,7 +395,7 @@ fn a_line_that_moves_by_itself_has_the_stiffness_of_its_differences_and_turns_wi
 }
 
 #[test]
-fn stiffness_and_damping_are_the_differences_of_the_wrench() {
+fn stiffness_and_damping_match_wrench_finite_differences() {
     each(|case, bench, element| {
         let surroundings = bench.surroundings();
         let committed = left(element, bench);
@@ -453,7 +453,7 @@ fn stiffness_and_damping_are_the_differences_of_the_wrench() {
 }
 
 #[test]
-fn a_turned_situation_has_turned_wrenches() {
+fn rotated_pose_has_rotated_wrenches() {
     each(|case, bench, element| {
         let surroundings = bench.surroundings();
         let committed = left(element, bench);
@@ -486,7 +486,7 @@ fn a_turned_situation_has_turned_wrenches() {
 }
 
 #[test]
-fn what_one_end_feels_the_other_feels_against_it() {
+fn end_wrenches_are_equal_and_opposite() {
     each(|case, bench, element| {
         if !case.balanced {
             return;
@@ -540,7 +540,7 @@ fn path(ends: [Pose; 2], t: f64, size: f64) -> [End; 2] {
 }
 
 #[test]
-fn what_has_an_energy_does_no_work_over_a_closed_path() {
+fn conservative_element_does_no_work_over_closed_path() {
     each(|case, bench, element| {
         if case.kind != Kind::Elastic {
             return;
@@ -562,7 +562,7 @@ fn what_has_an_energy_does_no_work_over_a_closed_path() {
 }
 
 #[test]
-fn dashpots_friction_and_viscous_springs_only_take_energy() {
+fn dashpots_friction_and_viscous_springs_only_dissipate() {
     each(|case, bench, element| {
         if case.kind == Kind::Other {
             return;
@@ -603,7 +603,7 @@ fn dashpots_friction_and_viscous_springs_only_take_energy() {
 }
 
 #[test]
-fn the_same_committed_state_gives_the_same_answer_again() {
+fn same_committed_state_gives_same_result() {
     each(|case, bench, element| {
         let surroundings = bench.surroundings();
         let committed = left(element, bench);

@@ -3,7 +3,7 @@
 use crate::common;
 
 #[test]
-fn connector_force_is_that_on_the_body_in_either_order_of_ends() {
+fn connector_force_acts_on_body_in_either_end_order() {
     // 8 m of EA 80 kN (E 10.19 N/mm2, a bar of 100 mm) stretched by 2 m pull the body at x = 0 toward the point at x = 10
     let records = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100 -TIME 1 0.5\nMEDIT\n*FIXED 10 0 0\n\
          &DESCRIBE BODY B -IGNORE X Y Z RX RY RZ\n*CG 0 0 0\n#WEIGHT *CG 1000 5 5 5\n*P 0 0 0\n~S SL_ELEM 100 TENSION -LEN 8 -EMOD 10.185916357881302\n\
@@ -26,7 +26,7 @@ fn connector_force_is_that_on_the_body_in_either_order_of_ends() {
 }
 
 #[test]
-fn line_tension_is_that_on_the_body_in_either_order_of_ends() {
+fn line_tension_acts_on_body_in_either_end_order() {
     // an inextensible catenary of 60 m and 1 kN/m from (0, 0) up to (40, 30): sqrt(L2 - v2) = 2 a sinh(h/2a) by scipy
     let records = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n*FIXED 0 0 0\n\
          &DESCRIBE BODY B -IGNORE X Y Z RX RY RZ\n*P 40 0 30\n~H H_CAT 100 EXACT -LEN 60 -WTPL 1 -EMOD 1E9\n\

@@ -66,7 +66,7 @@ fn weight(l: f64, lengths: [f64; 4]) -> f64 {
 }
 
 #[test]
-fn four_equal_slings_bear_a_quarter_each_stretched_by_it() {
+fn four_equal_slings_carry_quarter_load_each_with_its_stretch() {
     let l: f64 = 20.02;
     let model = settled(&records(weight(l, [20.0; 4]), [20.0; 4], "-INITIAL"));
     let w = weight(l, [20.0; 4]);
@@ -84,7 +84,7 @@ fn four_equal_slings_bear_a_quarter_each_stretched_by_it() {
 }
 
 #[test]
-fn a_longer_diagonal_is_slack_and_the_other_bears_all() {
+fn longer_diagonal_is_slack_and_other_carries_all() {
     let lengths = [20.0, 20.2, 20.0, 20.2];
     let l: f64 = 20.03;
     let model = settled(&records(weight(l, lengths), lengths, "-INITIAL"));
@@ -97,7 +97,7 @@ fn a_longer_diagonal_is_slack_and_the_other_bears_all() {
 }
 
 #[test]
-fn unlike_diagonals_share_the_weight_by_their_stretch() {
+fn unequal_diagonals_share_weight_by_their_stretch() {
     // all four are l long: 20 is stretched by 0.03, 20.01 by 0.02
     let lengths = [20.0, 20.01, 20.0, 20.01];
     let l: f64 = 20.03;
@@ -108,7 +108,7 @@ fn unlike_diagonals_share_the_weight_by_their_stretch() {
 }
 
 #[test]
-fn one_longer_sling_shifts_load_to_the_other_diagonal() {
+fn longer_sling_shifts_load_to_other_diagonal() {
     // the slings' own state of stress is (1, -1, 1, -1): to first order T1 + T3 - T2 - T4 = EA d / L, and the vertical forces give
     // the sum. What is left is of second order: the tilt, some d / 10, turns so much of the weight
     let (d, l) = (0.004, 20.02);
@@ -123,7 +123,7 @@ fn one_longer_sling_shifts_load_to_the_other_diagonal() {
 }
 
 #[test]
-fn initial_puts_the_hook_below_the_boom_and_keeps_the_attitude() {
+fn initial_places_hook_below_boom_and_keeps_attitude() {
     let (session, _) = run(&records(1e6, [20.0; 4], "-INITIAL"));
     let model = &session.job.model;
     let want = [3.0, 5.0, 50.0 - 300.0_f64.sqrt() - 1.0, 0.0, 0.0, 0.0];
@@ -136,7 +136,7 @@ fn initial_puts_the_hook_below_the_boom_and_keeps_the_attitude() {
 }
 
 #[test]
-fn vertical_turns_the_body_to_hang_with_its_centre_below_the_hook() {
+fn vertical_rotates_body_to_hang_with_centre_below_hook() {
     // slings to a hook over (2, 0): 18 above the nodes, the centre 3 below them
     let far = |x: f64, y: f64| ((x - 2.0).powi(2) + y * y + 324.0_f64).sqrt();
     let lengths = [far(8.0, 6.0), far(-8.0, 6.0), far(-8.0, -6.0), far(8.0, -6.0)];
@@ -157,7 +157,7 @@ fn vertical_turns_the_body_to_hang_with_its_centre_below_the_hook() {
 }
 
 #[test]
-fn a_later_set_takes_the_sag_out_of_its_lines() {
+fn later_set_removes_sag_from_its_lines() {
     let second = "MEDIT\nCONNECTOR FALL2 ~FALL *BOOM2\n&DESCRIBE BODY DECK\n*T1 4 0 1\n*T2 -4 0 1\n~T1 SLING 50 -LEN 30\n\
                   CONNECTOR A ~T1 *T1\nCONNECTOR B ~T1 *T2\nASSEMBLY T-H_DEFINITION SECOND FALL2 A B -INITIAL\nEND";
     let (session, text) = run(&format!("{}\n{second}", records(1e6, [20.0; 4], "-INITIAL")));
@@ -173,7 +173,7 @@ fn a_later_set_takes_the_sag_out_of_its_lines() {
 }
 
 #[test]
-fn orient_gives_the_body_the_system_of_its_nodes_and_moves_nothing() {
+fn orient_aligns_body_system_with_its_nodes_without_moving_it() {
     let start = "MEDIT\n*BOOM 0 0 60\n~FALL SLING 200 -LEN 10\nCONNECTOR FALL ~FALL *BOOM\n&DESCRIBE BODY DECK\n*CG 1 2 3\n#WEIGHT *CG 1E5 1 1 1\n\
                  *S1 8 6 1\n*S2 -8 6 1\n*S3 -8 -6 1\n*S4 8 -6 1\n~L SLING 100 -LEN 20\nCONNECTOR L1 ~L *S1\nCONNECTOR L2 ~L *S2\n\
                  CONNECTOR L3 ~L *S3\nCONNECTOR L4 ~L *S4\nEND\n&INSTATE -LOCATE DECK 5 6 7 10 20 30\n";
@@ -195,7 +195,7 @@ fn orient_gives_the_body_the_system_of_its_nodes_and_moves_nothing() {
 }
 
 #[test]
-fn deactivated_sets_leave_their_hooks_where_they_are() {
+fn deactivated_sets_leave_their_hooks_in_place() {
     let second = "MEDIT\nCONNECTOR FALL2 ~FALL *BOOM3\n&DESCRIBE BODY DECK\nCONNECTOR M1 ~L1 *S1\nCONNECTOR M2 ~L1 *S2\n\
                   CONNECTOR M3 ~L1 *S3\nCONNECTOR M4 ~L1 *S4\nASSEMBLY T-H_DEF NEW FALL2 M1 M2 M3 M4 -INITIAL -DEACTIVATE\nEND";
     let (session, _) = run(&format!("{}\n{second}", records(1e6, [20.0; 4], "-INITIAL")));
@@ -209,7 +209,7 @@ fn deactivated_sets_leave_their_hooks_where_they_are() {
 }
 
 #[test]
-fn an_assembly_is_renamed_and_taken_apart_whole() {
+fn assembly_is_renamed_and_dismantled_whole() {
     let edit = "MEDIT\nRENAME HOOK BLOCK\nRENAME L1 NORTH\nEND\n&STATUS ASSEMBLIES BLOCK\n&STATUS G_CONN NORTH";
     let (session, text) = run(&format!("{}\n{edit}", records(1e6, [20.0; 4], "")));
     let model = &session.job.model;

@@ -53,7 +53,7 @@ fn emodulus(ea: f64) -> f64 {
 }
 
 #[test]
-fn exact_b_cats_have_the_forces_of_the_validation_data() {
+fn exact_b_cats_match_validation_forces() {
     let mut met = 0;
     for [x, z, l, ea, w, friction, suspended, fh, fv, ah, av] in data().into_iter().step_by(7) {
         if suspended == 1.0 || w < 0.0 || z == 0.0 {
@@ -80,7 +80,7 @@ fn exact_b_cats_have_the_forces_of_the_validation_data() {
 }
 
 #[test]
-fn exact_h_cats_have_the_forces_of_the_validation_data_with_their_weight_in_air() {
+fn exact_h_cats_match_validation_forces_with_weight_in_air() {
     let mut met = 0;
     for [x, z, l, ea, w, _, suspended, fh, fv, ah, av] in data() {
         if suspended == 0.0 || w < 0.0 {
@@ -99,7 +99,7 @@ fn exact_h_cats_have_the_forces_of_the_validation_data_with_their_weight_in_air(
 }
 
 #[test]
-fn the_stiffness_is_the_difference_of_the_force_for_every_line_class() {
+fn stiffness_matches_force_finite_difference_in_every_line_class() {
     let chain = "~L B_CAT 100 EXACT -LEN 700 -BUOY 0 -WTPL 900 -EMOD 50000 -DEP 200 -FRICTION 0.4 -SEND 4E5\n\
                  ~L B_CAT 80 -LEN 400 -BUOY 0 -WTPL 300 -EMOD 50000 -CLUMP 3E4\n~L B_CAT 100 -LEN 300 -BUOY 0 -WTPL 900 -EMOD 50000";
     let cases = [
@@ -130,7 +130,7 @@ fn the_stiffness_is_the_difference_of_the_force_for_every_line_class() {
 }
 
 #[test]
-fn weight_in_water_is_made_of_every_option_that_makes_it() {
+fn weight_in_water_includes_every_contributing_option() {
     // a slack line hangs straight down: the fairlead carries what hangs over the depth
     let area = std::f64::consts::FRAC_PI_4 * 0.01;
     let water = 1025.0 * 9.80665 * area;
@@ -152,7 +152,7 @@ fn weight_in_water_is_made_of_every_option_that_makes_it() {
 }
 
 #[test]
-fn breaks_come_from_the_tension_given_the_ultimate_stress_or_the_yield_stress() {
+fn break_comes_from_given_tension_ultimate_stress_or_yield_stress() {
     let area = std::f64::consts::FRAC_PI_4 * 100.0 * 100.0;
     let base = "~L SL_ELEM 100 -LEN 100 -EMOD 200000";
     let end = place([0.0; 3], [100.1, 0.0, 0.0], false);
@@ -170,7 +170,7 @@ fn breaks_come_from_the_tension_given_the_ultimate_stress_or_the_yield_stress() 
 }
 
 #[test]
-fn an_sl_elem_pulls_and_pushes_along_the_chord_unless_it_is_told_to_pull_only() {
+fn sl_elem_acts_both_ways_along_chord_unless_tension_only() {
     let area = std::f64::consts::FRAC_PI_4 * 0.01;
     for (flag, length) in [("", 40.0), ("", 60.0), ("TENSION", 40.0), ("TENSION", 60.0)] {
         let records = format!("~L SL_ELEM 100 {flag} -LEN {length} -EMOD 200000");
@@ -194,7 +194,7 @@ fn an_sl_elem_pulls_and_pushes_along_the_chord_unless_it_is_told_to_pull_only() 
 }
 
 #[test]
-fn springs_of_send_and_x_py_are_in_series_with_the_line() {
+fn springs_of_send_and_x_py_are_in_series_with_line() {
     let area = std::f64::consts::FRAC_PI_4 * 0.01;
     let k = 2e11 * area / 50.0;
     let end = place([0.0; 3], [52.0, 0.0, 0.0], false);
@@ -213,7 +213,7 @@ fn springs_of_send_and_x_py_are_in_series_with_the_line() {
 }
 
 #[test]
-fn a_weightless_h_cat_is_an_sl_elem_that_only_pulls() {
+fn weightless_h_cat_is_tension_only_sl_elem() {
     for x in [30.0, 49.0, 51.0, 52.0] {
         let end = place([0.0; 3], [x, 5.0, -3.0], false);
         let (a, b) = (loads("~L H_CAT 100 -LEN 50", end.clone()), loads("~L SL_ELEM 100 TENSION -LEN 50", end.clone()));
@@ -228,7 +228,7 @@ fn at(x: f64) -> Placement {
 }
 
 #[test]
-fn a_table_has_the_forces_of_its_thirty_rows_and_is_monotone_between_them() {
+fn table_matches_its_thirty_rows_and_is_monotone_between() {
     let rows = with(TABLED, at(1300.0), |l| l.tabulate("A").unwrap().0);
     assert_eq!(rows.rows(), 30);
     let number = |row: usize, column: usize| rows.row(row)[column].number().unwrap();
@@ -258,7 +258,7 @@ fn a_table_has_the_forces_of_its_thirty_rows_and_is_monotone_between_them() {
 }
 
 #[test]
-fn beyond_the_table_the_force_goes_on_straight_and_that_is_said() {
+fn force_beyond_table_is_extrapolated_linearly_with_a_note() {
     let rows = with(TABLED, at(1300.0), |l| l.tabulate("A").unwrap().0);
     let last = |column: usize| rows.row(29)[column].number().unwrap();
     let got = loads(TABLED, at(last(0) + 2.0));
@@ -267,7 +267,7 @@ fn beyond_the_table_the_force_goes_on_straight_and_that_is_said() {
 }
 
 #[test]
-fn nearer_than_its_first_row_a_tabled_line_is_solved_exactly() {
+fn tabled_line_nearer_than_first_row_is_solved_exactly() {
     let exact = TABLED.replace(" -TABLE", "");
     for x in [0.0, 50.0, 900.0] {
         let (got, want) = (loads(TABLED, at(x)), loads(&exact, at(x)));
@@ -278,7 +278,7 @@ fn nearer_than_its_first_row_a_tabled_line_is_solved_exactly() {
 }
 
 #[test]
-fn tab_lim_is_the_largest_horizontal_force_of_the_table() {
+fn tab_lim_is_largest_horizontal_force_of_table() {
     let limited = with(&format!("{TABLED} -TAB_LIM 1E6"), at(1300.0), |l| l.tabulate("A").unwrap().0);
     near(limited.row(29)[1].number().unwrap(), 1e6, 1e-12);
     let free = with(TABLED, at(1300.0), |l| l.tabulate("A").unwrap().0);
@@ -290,7 +290,7 @@ fn tab_lim_is_the_largest_horizontal_force_of_the_table() {
 }
 
 #[test]
-fn friction_takes_its_share_of_the_anchor_pull_only() {
+fn friction_reduces_anchor_pull_only() {
     let exact = TABLED.replace(" -TABLE", "");
     let smooth = loads(&exact, at(1440.0));
     let rough = loads(&format!("{exact} -FRICTION 0.2"), at(1440.0));
@@ -300,7 +300,7 @@ fn friction_takes_its_share_of_the_anchor_pull_only() {
 }
 
 #[test]
-fn a_positive_slope_is_deeper_at_the_anchor_than_under_the_vessel() {
+fn positive_slope_is_deeper_at_anchor_than_below_vessel() {
     let exact = TABLED.replace(" -TABLE", "");
     for (slope, rises) in [(0.05, true), (-0.05, false)] {
         let shape =
@@ -313,7 +313,7 @@ fn a_positive_slope_is_deeper_at_the_anchor_than_under_the_vessel() {
 }
 
 #[test]
-fn clumps_and_spring_buoys_act_at_the_end_of_their_segment_and_the_tide_moves_the_buoy() {
+fn clumps_and_spring_buoys_act_at_segment_end_and_follow_tide() {
     let line = |clump: &str| {
         format!(
             "~L B_CAT 100 EXACT -LEN 400 -BUOY 0 -WTPL 300 -EMOD 50000 -DEP 300 {clump}\n\
@@ -338,7 +338,7 @@ fn clumps_and_spring_buoys_act_at_the_end_of_their_segment_and_the_tide_moves_th
 }
 
 #[test]
-fn the_first_length_that_gives_a_force_gives_it() {
+fn first_length_giving_a_force_gives_it() {
     let exact = TABLED.replace(" -TABLE", "");
     for condition in [Condition::Horizontal(4e5), Condition::Tension(9e5)] {
         let length = with(&exact, at(1400.0), |l| l.first_length(condition).unwrap().length);
@@ -357,7 +357,7 @@ fn the_first_length_that_gives_a_force_gives_it() {
 }
 
 #[test]
-fn an_aqwa_section_has_the_weight_of_its_mass_less_the_water_of_its_area() {
+fn aqwa_section_weight_is_mass_less_displaced_water() {
     for (area, w) in [(0.0, 170.0 * 9.80665), (0.02, (170.0 - 1025.0 * 0.02) * 9.80665)] {
         let records = format!("~L CATENARY 170 {area} -LEN 500 -EA 1E14 -DEP 300");
         let got = loads(&records, place([0.0; 3], [10.0, 0.0, -300.0], true));
@@ -366,7 +366,7 @@ fn an_aqwa_section_has_the_weight_of_its_mass_less_the_water_of_its_area() {
 }
 
 #[test]
-fn an_aqwa_section_stretches_by_its_defaults_its_polynomial_and_not_beyond_its_largest_tension() {
+fn aqwa_section_stretch_follows_polynomial_up_to_largest_tension() {
     let one = |options: &str, strain: f64| {
         // as heavy as the water it displaces: straight
         let records = format!("~L CATENARY 170 {:e} -LEN 100 {options}", 170.0 / 1025.0);
@@ -390,7 +390,7 @@ fn an_aqwa_section_stretches_by_its_defaults_its_polynomial_and_not_beyond_its_l
 }
 
 #[test]
-fn aqwa_buoys_and_clumps_have_their_masses_and_do_not_know_the_surface() {
+fn aqwa_buoys_and_clumps_have_mass_and_ignore_surface() {
     let line =
         |joint: &str| format!("~L CATENARY 100 -LEN 200 -EA 1E9 -DEP 300 {joint}\n~L CATENARY 100 -LEN 400 -EA 1E9");
     let notes = |joint: &str| with(&line(joint), place([0.0; 3], [420.0, 0.0, -300.0], true), |l| l.loads().unwrap());
@@ -407,7 +407,7 @@ fn aqwa_buoys_and_clumps_have_their_masses_and_do_not_know_the_surface() {
 }
 
 #[test]
-fn a_line_that_sees_neither_bottom_nor_surface_says_when_it_crosses_them() {
+fn line_ignoring_seabed_and_surface_reports_crossing_them() {
     let got = loads("~L H_CAT 100 EXACT -LEN 4000 -WTPL 500", place([0.0, 0.0, 10.0], [100.0, 0.0, 5.0], false));
     for text in ["below the sea bottom", "above the water surface"] {
         assert!(got.notes.iter().any(|n| n.without_values().contains(text)), "{:?}", got.notes);
@@ -415,7 +415,7 @@ fn a_line_that_sees_neither_bottom_nor_surface_says_when_it_crosses_them() {
 }
 
 #[test]
-fn a_viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
+fn viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
     let curves = "END\n&DATA CONVOLUTION TIME CREEP 0 4E6 10 2E6 1000 1E6\n&DATA CONVOLUTION FREQ SLOW 0.01 5E5 1 2E6\nMEDIT\n\
                   &DESCRIBE BODY B\n*A 0 0 0\n*B 0 0 0\n";
     let area = std::f64::consts::FRAC_PI_4 * 0.01;
@@ -438,7 +438,7 @@ fn a_viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
 }
 
 #[test]
-fn the_table_of_an_aqwa_line_ends_where_its_tension_is_the_largest_expected() {
+fn aqwa_line_table_ends_at_largest_expected_tension() {
     for options in ["", "-EA 7E8 -TMAX 5E6", "-EA 7E8 -TMAX 5E6 -K 1E9 1E10"] {
         let records = format!("~L CATENARY 170 0.02 -LEN 900 -DEP 150 {options}");
         let rows = with(&records, place([0.0; 3], [850.0, 0.0, -150.0], true), |l| l.tabulate("A").unwrap().0);

@@ -26,7 +26,7 @@ fn segment(before: &str, record: &str) -> (Vec<String>, Vec<String>) {
 const R4_84: [&str; 6] = ["84.0", "100.00", "1.3770", "1.1965", "6.0258E+05", "7207.51"];
 
 #[test]
-fn a_type_sets_diameter_weight_buoyancy_stiffness_and_break_of_every_line_class_that_takes_it() {
+fn type_sets_section_properties_of_every_line_class_that_takes_it() {
     for class in ["B_CAT", "B_CAT EXACT", "H_CAT EXACT", "H_CAT", "SL_ELEM", "SL_ELEM TENSION"] {
         let (row, messages) = segment("", &format!("~C {class} -TYPE CHAIN_R4 84 -LEN 100"));
         assert_eq!(row, R4_84, "{class}");
@@ -37,7 +37,7 @@ fn a_type_sets_diameter_weight_buoyancy_stiffness_and_break_of_every_line_class_
 }
 
 #[test]
-fn the_diameter_of_a_type_is_in_inches_with_feet_and_the_name_may_be_short() {
+fn type_diameter_is_in_inches_with_feet_and_name_may_be_short() {
     let (row, messages) =
         segment("&DIMEN -SAVE -DIMEN FEET KIPS", "~C B_CAT -TYPE chain_r4 84/25.4 -LEN 100/0.3048\n&DIMEN -REM");
     assert_eq!((row, messages), (R4_84.map(String::from).to_vec(), vec![]));
@@ -47,14 +47,14 @@ fn the_diameter_of_a_type_is_in_inches_with_feet_and_the_name_may_be_short() {
 }
 
 #[test]
-fn the_submerged_weight_of_a_type_follows_the_water() {
+fn submerged_weight_of_type_uses_water_density() {
     // fresh water: (140.414 - 1000 x 0.0179553) x 9.80665
     let (row, _) = segment("&DEFAULT -WATER 1000", "~C B_CAT -TYPE CHAIN_R4 84 -LEN 100");
     assert_eq!(row[3], "1.2009");
 }
 
 #[test]
-fn an_option_beside_a_type_overrides_what_the_type_gives_and_only_that_and_a_remark_says_so() {
+fn option_beside_type_overrides_that_value_alone_with_a_remark() {
     // pi/4 84**2 mm2 = 5541.77 mm2; displaced 0.180480 kN/m in sea water
     for (option, column, value, said) in [
         ("-WTPLEN 2", 2, "2.0000", "-WTPLEN (weight) overrides"),
@@ -77,7 +77,7 @@ fn an_option_beside_a_type_overrides_what_the_type_gives_and_only_that_and_a_rem
 }
 
 #[test]
-fn a_diameter_given_beside_a_type_is_the_one_listed() {
+fn diameter_given_beside_type_is_listed() {
     let (row, messages) = segment("", "~C B_CAT 90 -TYPE CHAIN_R4 84 -LEN 100");
     assert_eq!(row[0], "90.0");
     assert_eq!(row[1..], R4_84[1..]);
@@ -85,7 +85,7 @@ fn a_diameter_given_beside_a_type_is_the_one_listed() {
 }
 
 #[test]
-fn the_hydrodynamic_diameters_of_a_type_are_listed_and_can_be_given() {
+fn hydrodynamic_diameters_of_type_are_listed_and_can_be_given() {
     let line = |record: &str| {
         let (out, _) = run(&format!("&DIMEN -DIMEN METERS K-NTS\nMEDIT\n{record}\nEND\n&STATUS CL_FLEX"));
         let row = out.lines().find(|l| l.contains(" CHAIN_R4 ") && !l.contains("record")).unwrap().to_string();
@@ -97,7 +97,7 @@ fn the_hydrodynamic_diameters_of_a_type_are_listed_and_can_be_given() {
 }
 
 #[test]
-fn each_segment_has_its_own_type_and_the_line_is_tabulated() {
+fn each_segment_keeps_its_own_type_and_line_is_tabulated() {
     let (out, messages) = run("&DIMEN -DIMEN METERS K-NTS\n&DEFAULT -DEPTH 300\nMEDIT\n&DESCRIBE BODY B\n*P 0 0 0\n\
          ~L B_CAT -TYPE CHAIN_R4 84 -LEN 100\n~L B_CAT -TYPE WIRE_SPIRAL 90 -LEN 500\n~L B_CAT -TYPE CHAIN_R4 84 -LEN 800\n\
          CONNECTOR A ~L *P\nEND\nCONN_DESIGN\nTABLE A\nVIEW Force 'Ten Top' -RECORD 30 30\nEND\nEND");
@@ -107,7 +107,7 @@ fn each_segment_has_its_own_type_and_the_line_is_tabulated() {
 }
 
 #[test]
-fn a_diameter_outside_the_range_is_warned_of_and_a_wrong_name_is_told_the_nearest() {
+fn out_of_range_diameter_warns_and_unknown_type_suggests_nearest() {
     let (row, messages) = segment("", "~C B_CAT -TYPE POLYESTER 200 -LEN 100");
     assert_eq!(row[5], "6818.64");
     assert_eq!(messages, ["200 mm is outside of 8 to 96 mm, which the formulas of POLYESTER are held for"]);
@@ -117,7 +117,7 @@ fn a_diameter_outside_the_range_is_warned_of_and_a_wrong_name_is_told_the_neares
 }
 
 #[test]
-fn status_gives_the_values_at_a_diameter_in_the_units_of_the_session() {
+fn status_lists_values_at_diameter_in_session_units() {
     let (out, _) = run("&DIMEN -DIMEN METERS K-NTS\n&STATUS LINE_TYPES 84");
     let row = |out: &str| -> Vec<String> {
         let line = out.lines().find(|l| l.trim_start().starts_with("CHAIN_R4 ")).unwrap();

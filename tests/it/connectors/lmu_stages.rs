@@ -29,7 +29,7 @@ fn force(model: &Model, body: &str, connector: &str) -> [f64; 3] {
 }
 
 #[test]
-fn every_stage_is_that_of_an_independent_solution() {
+fn every_lmu_stage_matches_independent_solution() {
     let mut reader = csv::Reader::from_path("tests/data/lmu_stages.csv").unwrap();
     let mut rows = 0;
     for row in reader.records() {
@@ -62,7 +62,7 @@ fn every_stage_is_that_of_an_independent_solution() {
 }
 
 #[test]
-fn a_landed_topside_stands_on_its_legs_as_a_rigid_plate_on_four_springs() {
+fn landed_topside_matches_rigid_plate_on_four_springs() {
     let model = stage("43.2");
     // the tips are at (+-10, +-6); W = 8000 kN at (0.5, -0.25, 5) m; the tuggers pull with T each at z = 8 toward +y, and up with their
     // slope (8 - 6.46) / 50: both by hand from their stretch, 1256.637 kN / 49 m times 50.024 - 49 m
@@ -90,7 +90,7 @@ fn a_landed_topside_stands_on_its_legs_as_a_rigid_plate_on_four_springs() {
 }
 
 #[test]
-fn a_stabbed_pin_is_pushed_by_the_formulas_of_the_cone() {
+fn stabbed_pin_force_matches_cone_formulas() {
     let model = stage("41.7");
     let system = System::new(&model, &[]).unwrap();
     let pose = system.state(&model).poses[system.nodes.iter().position(|n| n.name == "DECK").unwrap()];
@@ -113,7 +113,7 @@ fn a_stabbed_pin_is_pushed_by_the_formulas_of_the_cone() {
 }
 
 #[test]
-fn a_pin_on_the_axis_and_on_the_ground_of_its_cone_is_held_sideways() {
+fn pin_on_axis_and_cone_floor_is_held_laterally() {
     // landed, D_v > LEN: the formulas leave no room, d = D_h, so that K_h is the stiffness of a leg in both directions: 4 K_h of four
     let records = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*C1 10 6 0\n*C2 -10 6 0\n*C3 -10 -6 0\n*C4 10 -6 0\n&DESCRIBE BODY DECK\n\
                    *P1 10 6 0\n*P2 -10 6 0\n*P3 -10 -6 0\n*P4 10 -6 0\n*CG 0 0 0\n#WEIGHT *CG 8000 6 8 9\n\

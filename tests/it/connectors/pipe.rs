@@ -42,7 +42,7 @@ fn answer(model: &Model, element: &dyn Element, ends: &[End]) -> ElementResponse
 }
 
 #[test]
-fn the_pipe_rolls_over_its_rollers_and_the_bottom_lacks_its_weight_by_the_height() {
+fn pipe_on_rollers_rolls_and_seabed_lacks_weight_by_its_height() {
     let (w, tension) = (300.0_f64, 4e5);
     let model = stinger(tension);
     let (element, ends) = pipe(&model);
@@ -78,7 +78,7 @@ fn the_pipe_rolls_over_its_rollers_and_the_bottom_lacks_its_weight_by_the_height
 }
 
 #[test]
-fn its_stiffness_is_the_difference_of_the_forces_on_all_rollers() {
+fn pipe_stiffness_matches_roller_force_finite_differences() {
     let model = stinger(5e5);
     let (element, ends) = pipe(&model);
     let out = answer(&model, element.as_ref(), &ends);
@@ -104,7 +104,7 @@ fn its_stiffness_is_the_difference_of_the_forces_on_all_rollers() {
 }
 
 #[test]
-fn a_davit_hangs_toward_the_pipe_that_pulls_it() {
+fn davit_points_toward_its_loading_pipe() {
     let model = model(
         "&ENV -DEPTH 50\nMEDIT\n*D1 40 0 12\n*D2 20 0 20\n*D3 0 0 24\n~DAV DAVIT 60 -LEN 10\n~PIPE ROD 323.9 15.9 -LEN 12\nCONNECTOR D1 ~DAV *D1\n\
          CONNECTOR D2 ~DAV *D2\nCONNECTOR D3 ~DAV *D3\nPIPE ~PIPE D1 D2 D3 -PIPE_TENSION 1E5\nEND",
@@ -125,7 +125,7 @@ fn a_davit_hangs_toward_the_pipe_that_pulls_it() {
 }
 
 #[test]
-fn rollers_that_are_turned_carry_a_pipe_across_their_body() {
+fn rotated_rollers_carry_pipe_across_their_body() {
     let laid = |heading: f64, turned: &str| {
         let at = [(35.65, 1.70), (26.82, 3.58), (17.97, 4.92), (9.0, 5.73), (0.0, 6.0)];
         let (sin, cos) = heading.to_radians().sin_cos();

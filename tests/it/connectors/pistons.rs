@@ -95,7 +95,7 @@ const MINMAX: &str = "-PISTON MINMAX 3000 1000 0.5 0.25 8000 2000";
 const MAX: &str = "-PISTON MAX 3000 1000 0.5 0.25 8000";
 
 #[test]
-fn pulled_slowly_the_tension_rises_to_tmax_and_stays_while_the_piston_lengthens() {
+fn slow_pull_raises_tension_to_tmax_while_piston_extends() {
     let mut rig = Rig::spring(MAX);
     // 0.4 m/s in steps of 0.1 s: 400 N a step; TMAX after 20 steps, then the piston goes 0.04 m a step
     for i in 1..=60 {
@@ -107,7 +107,7 @@ fn pulled_slowly_the_tension_rises_to_tmax_and_stays_while_the_piston_lengthens(
 }
 
 #[test]
-fn pulled_faster_than_it_lengthens_the_tension_departs_by_the_difference_of_the_speeds() {
+fn pull_faster_than_piston_exceeds_tmax_by_speed_difference() {
     let mut rig = Rig::spring(MAX);
     // 0.8 m/s: TMAX after 1 s; then 0.3 m/s are left to the spring, 300 N a step, until the piston, 2 m further and 4 s later, stops
     for i in 1..=70 {
@@ -124,7 +124,7 @@ fn pulled_faster_than_it_lengthens_the_tension_departs_by_the_difference_of_the_
 }
 
 #[test]
-fn a_piston_of_max_goes_back_to_its_nominal_position_and_never_above_tmax() {
+fn max_piston_returns_to_nominal_and_never_exceeds_tmax() {
     let mut rig = Rig::spring(MAX);
     rig.state[0] = 2.0;
     // let go at once: 0.25 m/s back, 4 s to LD, and no shorter
@@ -139,7 +139,7 @@ fn a_piston_of_max_goes_back_to_its_nominal_position_and_never_above_tmax() {
 }
 
 #[test]
-fn a_piston_of_minmax_holds_both_tensions_and_stays_between_them() {
+fn minmax_piston_keeps_tension_between_both_limits() {
     let mut rig = Rig::spring(MINMAX);
     // 5000 N, then relaxed at 0.2 m/s: TMIN after 1.5 s, held from there by shortening to 0 another 5 s later; then slack
     near(rig.step(0.5, 0.1), 5000.0);
@@ -159,7 +159,7 @@ fn a_piston_of_minmax_holds_both_tensions_and_stays_between_them() {
 }
 
 #[test]
-fn relaxed_faster_than_it_shortens_the_tension_falls_below_tmin_and_comes_back_to_it() {
+fn release_faster_than_piston_drops_below_tmin_and_recovers() {
     let mut rig = Rig::spring(MINMAX);
     // held at 0.1 m, 1000 N: 0.025 m a step, 250 N, up to 2000 N
     for i in 1..=6 {
@@ -168,7 +168,7 @@ fn relaxed_faster_than_it_shortens_the_tension_falls_below_tmin_and_comes_back_t
 }
 
 #[test]
-fn a_monotone_pull_gives_a_monotone_tension_whatever_the_step() {
+fn monotone_pull_gives_monotone_tension_at_any_step() {
     for dt in [0.001, 0.013, 0.1, 1.0] {
         let mut rig = Rig::spring(MINMAX);
         let (mut before, mut place) = (0.0, 1.0);
@@ -186,7 +186,7 @@ fn a_monotone_pull_gives_a_monotone_tension_whatever_the_step() {
 }
 
 #[test]
-fn at_rest_the_piston_slides_to_hold_a_limit_or_to_its_stop() {
+fn static_piston_slides_to_hold_limit_or_to_its_stop() {
     let rig = Rig::spring(MINMAX);
     for (moved, tension, position) in [
         (0.5, 5000.0, 1.0),
@@ -216,7 +216,7 @@ fn at_rest_the_piston_slides_to_hold_a_limit_or_to_its_stop() {
 }
 
 #[test]
-fn a_held_tension_leaves_only_the_stiffness_of_its_direction() {
+fn held_tension_leaves_only_geometric_stiffness() {
     let rig = Rig::spring(MINMAX);
     for dt in [None, Some(5.0)] {
         let (out, _) = rig.at(1.3, 0.0, dt);
@@ -229,7 +229,7 @@ fn a_held_tension_leaves_only_the_stiffness_of_its_direction() {
 }
 
 #[test]
-fn a_spring_that_pushes_is_held_too() {
+fn piston_limits_pushing_spring_too() {
     let rig = Rig::new(
         "SL_ELEM 100 -LEN 100 -EMOD 400/3.14159265358979323846 -PISTON MINMAX 3000 1000 0.5 0.25 8000 0",
         "~C *A *B",
@@ -241,7 +241,7 @@ fn a_spring_that_pushes_is_held_too() {
 }
 
 #[test]
-fn asking_does_not_move_the_piston() {
+fn evaluation_does_not_move_the_piston() {
     let mut rig = Rig::spring(MAX);
     rig.step(1.0, 10.0);
     let before = rig.state.clone();
@@ -254,7 +254,7 @@ fn asking_does_not_move_the_piston() {
 }
 
 #[test]
-fn a_line_to_ground_is_held_at_tmax_by_so_much_way_along_its_tension() {
+fn line_to_ground_is_held_at_tmax_by_travel_along_tension() {
     for flag in ["EXACT", "-TABLE"] {
         let class = |piston: &str| format!("B_CAT 100 {flag} -LEN 1100 -BUOY 0 -WTPL 900 -DEP 200 {piston}");
         let free = Rig::new(&class(""), "-ANCHOR 0 1080 ~C *A", [0.0; 3]);
@@ -275,7 +275,7 @@ fn a_line_to_ground_is_held_at_tmax_by_so_much_way_along_its_tension() {
 }
 
 #[test]
-fn a_dashpot_adds_the_power_of_the_rate_of_the_chord_up_to_its_largest_force_while_there_is_tension() {
+fn dashpot_adds_limited_power_law_force_under_tension_only() {
     let rig = Rig::spring("-X_DAMPING 3000 2 4000");
     for (moved, speed, want) in [
         (0.5, 0.0, 5000.0),
@@ -298,7 +298,7 @@ fn a_dashpot_adds_the_power_of_the_rate_of_the_chord_up_to_its_largest_force_whi
 }
 
 #[test]
-fn a_viscoelastic_spring_in_series_relaxes_by_the_exponential_of_both() {
+fn series_viscoelastic_spring_relaxes_by_combined_exponential() {
     // K(t) = 2E4 + 3E4 exp(-t/tau) in series with k = 1E4; the fit of two points is exact, and tells tau
     let mut rig = Rig::spring("-CONVOLUTION SOFT");
     let curve = rig.session.job.model.curves.values().next().unwrap();
@@ -327,7 +327,7 @@ fn a_viscoelastic_spring_in_series_relaxes_by_the_exponential_of_both() {
 }
 
 #[test]
-fn a_catenary_with_a_viscoelastic_spring_is_the_line_with_an_end_spring_of_its_last_stiffness_at_rest() {
+fn static_viscoelastic_catenary_has_end_spring_of_long_term_stiffness() {
     let class = |more: &str| format!("H_CAT 100 EXACT -LEN 320 -WTPL 700 {more}");
     let at = |more: &str| Rig::new(&class(more), "~C *A *B", [250.0, 180.0, -40.0]).at(0.0, 0.0, None).0;
     let (soft, plain) = (at("-CONVOLUTION SOFT"), at("-SEND 2E4"));
@@ -341,7 +341,7 @@ fn a_catenary_with_a_viscoelastic_spring_is_the_line_with_an_end_spring_of_its_l
 }
 
 #[test]
-fn pistons_that_contradict_themselves_are_refused() {
+fn contradictory_pistons_are_refused() {
     for (bad, says) in [
         ("-PISTON MINMAX 3000 1000 0.5 0.25 2000 8000", "TMIN"),
         ("-PISTON MAX 1000 3000 0.5 0.25 8000", "LD"),

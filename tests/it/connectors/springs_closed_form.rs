@@ -93,7 +93,7 @@ fn near(got: &[f64], want: &[f64]) {
 }
 
 #[test]
-fn a_gspr_pulls_with_its_spring_values_along_the_axes_of_the_first_body() {
+fn gspr_force_uses_spring_values_along_first_body_axes() {
     let joint = Joint::between("~C GSPR X 1000 Y 200 Z 300");
     // moment about the first point: d x F = (0.1, 0.2, -0.3) x (100, 40, -90)
     near(&joint.pull([0.1, 0.2, -0.3]), &[100.0, 40.0, -90.0, -6.0, -21.0, -16.0]);
@@ -114,14 +114,14 @@ fn a_gspr_pulls_with_its_spring_values_along_the_axes_of_the_first_body() {
 }
 
 #[test]
-fn the_element_axes_are_global_where_the_first_node_is_on_ground() {
+fn element_axes_are_global_with_first_node_on_ground() {
     let joint = Joint::new("~C GSPR X 1000", "~C *GROUND *B");
     let (got, _) = joint.at([0.0; 6], [0.1, 0.2, 0.0, 0.4, 0.5, 0.6], [0.0; 3], None);
     near(&got.wrench[0].as_slice()[..3], &[100.0, 0.0, 0.0]);
 }
 
 #[test]
-fn a_single_node_is_held_to_where_it_was_when_the_connector_was_defined() {
+fn single_node_is_held_at_its_position_at_definition() {
     let (mut session, _, _folder) = common::session();
     let records = "&DIMEN -DIMEN METERS N\nMEDIT\n&DESCRIBE BODY ONE\n*A 1 0 0\n~C GSPR X 1000 Y 1000\nEND\n\
                    &INSTATE -LOCATE ONE 10 20 0 0 0 90\nMEDIT\nCONNECTOR IT ~C *A\nEND\n&INSTATE -MOVE ONE 0.5 0 0";
@@ -149,7 +149,7 @@ fn a_single_node_is_held_to_where_it_was_when_the_connector_was_defined() {
 }
 
 #[test]
-fn a_rotation_spring_turns_the_bodies_back_by_the_turn_since_the_definition() {
+fn rotation_spring_restores_rotation_since_definition() {
     let joint = Joint::between("~C GSPR RX 100 RY 100 RZ 100");
     // an isotropic rotation spring: a moment along the rotation vector; here 0.3 rad about Y
     let (got, _) = joint.at([0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.3, 0.0], [0.0; 3], None);
@@ -171,7 +171,7 @@ fn a_rotation_spring_turns_the_bodies_back_by_the_turn_since_the_definition() {
 }
 
 #[test]
-fn no_degree_of_freedom_has_load_on_the_wrong_side_of_the_sense() {
+fn no_degree_of_freedom_is_loaded_against_its_sense() {
     let tension = Joint::between("~C GSPR TENSION X 1000 Y 200 RZ 50");
     near(&tension.pull([-0.1, 0.3, 0.0]), &[0.0; 6]);
     near(&tension.pull([0.1, 0.3, 0.0])[..2], &[100.0, 60.0]);
@@ -184,13 +184,13 @@ fn no_degree_of_freedom_has_load_on_the_wrong_side_of_the_sense() {
 }
 
 #[test]
-fn len_moves_the_beginning_of_the_spring_along_element_x() {
+fn len_offsets_spring_start_along_element_x() {
     let joint = Joint::between("~C GSPR X 1000 Y 200 -LEN 2");
     near(&joint.pull([2.1, 0.3, 0.0]), &[100.0, 60.0, 0.0, 0.0, 0.0, 2.1 * 60.0 - 0.3 * 100.0]);
 }
 
 #[test]
-fn a_symmetric_spring_has_z_as_y_and_its_curve_acts_on_the_resultant() {
+fn symmetric_spring_has_z_as_y_and_curve_on_resultant() {
     let joint = Joint::between("~C GSPR X 1000 Y 200 RY 70 -SYMMETRIC");
     near(&joint.pull([0.0, 0.3, 0.4])[..3], &[0.0, 60.0, 80.0]);
     let (got, _) = joint.at([0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.0, 0.2], [0.0; 3], None);
@@ -203,7 +203,7 @@ fn a_symmetric_spring_has_z_as_y_and_its_curve_acts_on_the_resultant() {
 }
 
 #[test]
-fn p_y_curves_are_in_series_with_the_basic_stiffness_in_x_y_and_z() {
+fn p_y_curves_are_in_series_with_basic_stiffness_in_x_y_and_z() {
     // 1000 N/m and a curve through (100, 0.3), (300, 0.5): at 200 N the two deflect 0.2 + 0.4 m, and 500 N/m lie beyond 0.8 m
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
         let joint = Joint::between(&format!("~C GSPR X 1000 Y 1000 Z 1000 -{name}_PY 100 0.3 300 0.5"));
@@ -218,7 +218,7 @@ fn p_y_curves_are_in_series_with_the_basic_stiffness_in_x_y_and_z() {
 }
 
 #[test]
-fn a_dashpot_has_the_power_of_the_velocity_up_to_its_largest_force_while_the_spring_acts() {
+fn dashpot_has_limited_power_law_force_while_spring_acts() {
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
         let joint = Joint::between(&format!("~C GSPR X 1000 Y 1000 Z 1000 -{name}_DAMPING 5 2 40"));
         for (v, f) in [(2.0, 20.0), (-2.0, -20.0), (4.0, 40.0)] {
@@ -238,7 +238,7 @@ fn a_dashpot_has_the_power_of_the_velocity_up_to_its_largest_force_while_the_spr
 }
 
 #[test]
-fn friction_limits_the_resultant_of_the_lateral_springs() {
+fn friction_limits_resultant_of_lateral_springs() {
     let joint = Joint::between("~C GSPR X 1000 Y 200 Z 200 -FRICTION 0.3");
     // Fx 100: at most 30; (60, 80) is cut to (18, 24), (12, 16) is not
     near(&joint.pull([0.1, 0.3, 0.4])[..3], &[100.0, 18.0, 24.0]);
@@ -247,7 +247,7 @@ fn friction_limits_the_resultant_of_the_lateral_springs() {
 }
 
 #[test]
-fn friction_without_lateral_springs_acts_against_the_relative_velocity() {
+fn friction_without_lateral_springs_acts_against_relative_velocity() {
     let joint = Joint::between("~C GSPR COMPRESSION X 1000 -FRICTION 0.3");
     // the second end slides with (0, 3, 4) m/s over the first and drags it along with 0.3 x 100 N; v0 = 0.01 m/s takes 2E-6 of it
     let got = joint.passing([-0.1, 0.0, 0.0], [0.0, 3.0, 4.0]);
@@ -260,7 +260,7 @@ const VISCOUS: &str =
     "&DATA CONVOLUTION TIME SOFT 0 5000 2 3819.5920 4 3103.6383 8 2406.0059 12 2149.3612 20 2020.2138 60 2000 -NDOF 1";
 
 #[test]
-fn a_viscoelastic_spring_is_in_series_with_its_own_stiffness_by_time() {
+fn viscoelastic_spring_is_in_series_with_own_stiffness_in_time() {
     // K(t) = 2000 + 3000 exp(-t/4) in series with 1000 N/m, a deflection of 0.6 m held: at once 1000 x 5000 / 6000, at last
     // 1000 x 2000 / 3000 of it; between, 1000 (u - w) = Kinf w + branch with the time constant 4 x 6000 / 3000 = 8 s
     let mut joint = Joint::between(&format!("{VISCOUS}\n~C GSPR X 1000 -CONVOLUTION X SOFT"));
@@ -285,7 +285,7 @@ fn a_viscoelastic_spring_is_in_series_with_its_own_stiffness_by_time() {
 }
 
 #[test]
-fn a_curve_in_feet_is_a_moment_per_radian_in_feet_where_it_acts_in_a_rotation() {
+fn rotational_curve_in_feet_is_moment_per_radian() {
     let (mut session, _, _folder) = common::session();
     let records = "&DATA CONVOLUTION TIME SOFT 0 5 10 2\nMEDIT\n&DESCRIBE BODY ONE\n*A 0 0 0\n~C GSPR RX 2 -CONVOLUTION RX SOFT\n\
                    CONNECTOR IT ~C *A\nEND";
@@ -314,7 +314,7 @@ fn a_curve_in_feet_is_a_moment_per_radian_in_feet_where_it_acts_in_a_rotation() 
 }
 
 #[test]
-fn the_report_has_deflections_forces_and_the_largest_share_of_an_allowable() {
+fn report_has_deflections_forces_and_largest_utilisation() {
     let joint = Joint::between("~C FOUNDATION COMPRESSION X 1000 500 Y 200 50 Z 300 -IG_STIFF");
     let told = joint.summary([0.0; 6], [-0.1, 0.3, 0.2, 0.0, 0.0, 0.0]);
     assert_eq!(told.tension, Some(-100.0));
@@ -337,7 +337,7 @@ fn pin(x: f64, down: f64) -> [f64; 3] {
 }
 
 #[test]
-fn a_pin_above_the_cone_has_no_force_and_a_centred_one_none_before_it_lands() {
+fn pin_above_cone_and_centred_unlanded_pin_have_no_force() {
     near(&pin(0.5, -0.01), &[0.0; 3]);
     near(&pin(0.0, 0.0), &[0.0; 3]);
     near(&pin(0.0, 0.999), &[0.0; 3]);
@@ -345,7 +345,7 @@ fn a_pin_above_the_cone_has_no_force_and_a_centred_one_none_before_it_lands() {
 }
 
 #[test]
-fn a_pin_at_the_side_of_the_cone_is_pushed_to_the_axis_and_up() {
+fn pin_at_side_of_cone_is_pushed_to_axis_and_up() {
     // D_v 0.4: room 0.2 x 0.6 = 0.12, d = 0.18 - 0.12 = 0.06, c = 0.012
     near(&pin(0.18, 0.4), &[-180.0, 0.0, 60.0]);
     near(&pin(-0.18, 0.4), &[180.0, 0.0, 60.0]);
@@ -357,13 +357,13 @@ fn a_pin_at_the_side_of_the_cone_is_pushed_to_the_axis_and_up() {
 }
 
 #[test]
-fn a_landed_pin_is_pushed_up_by_the_bottom_and_by_the_side() {
+fn landed_pin_is_pushed_up_by_bottom_and_by_side() {
     // D_v 1.1, D_h 0.05: d = 0.05, c = 0.1 + 0.01
     near(&pin(0.05, 1.1), &[-150.0, 0.0, 550.0]);
 }
 
 #[test]
-fn the_cone_turns_with_its_body_and_with_euler() {
+fn cone_rotates_with_its_body_and_with_euler() {
     // body TWO lies on its side: its z axis along global x (a pitch of 90 degrees); the pin comes from +x
     let joint = Joint::between(LMU);
     let lying = [0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2, 0.0];
@@ -375,7 +375,7 @@ fn the_cone_turns_with_its_body_and_with_euler() {
 }
 
 #[test]
-fn a_pin_that_enters_beside_the_mouth_is_warned_of() {
+fn pin_entering_beside_cone_mouth_is_warned() {
     let joint = Joint::between(LMU);
     assert!(
         joint.summary([0.3, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 6]).notes[0]
@@ -386,7 +386,7 @@ fn a_pin_that_enters_beside_the_mouth_is_warned_of() {
 }
 
 #[test]
-fn slings_and_davits_pull_with_ae_over_l_and_never_push() {
+fn slings_and_davits_have_ae_over_l_in_tension_only() {
     // 50 mm: A = 1.9634954E-3 m2; E 2E5 MPa: AE/L = 3.9269908E8 / 5; the ends 5.1 m apart along (0.6, 0, -0.8)
     for kind in ["SLING", "DAVIT"] {
         let joint = Joint::new(&format!("~C {kind} 50 -LEN 5 -EMOD 2E5"), "~C *A");
@@ -398,7 +398,7 @@ fn slings_and_davits_pull_with_ae_over_l_and_never_push() {
 }
 
 #[test]
-fn a_roller_pushes_beyond_its_gaps_and_lets_the_pipe_free_within() {
+fn roller_pushes_beyond_its_gaps_and_frees_pipe_within() {
     let joint = Joint::new("~C ROLLER Y 1000 Z 2000 -Y_ROLLER 20 30 -Z_ROLLER 0 10000", "~C *A");
     near(&joint.pull([0.0, 0.03, 5.0])[..3], &[0.0; 3]);
     // on the node: pressed down by the pipe 0.1 m below it; beside: 0.05 beyond +30 mm, 0.05 beyond -20 mm
@@ -410,7 +410,7 @@ fn a_roller_pushes_beyond_its_gaps_and_lets_the_pipe_free_within() {
 }
 
 #[test]
-fn a_roller_without_gaps_holds_the_pipe_sideways_and_from_below_with_its_curves_in_series() {
+fn roller_without_gaps_holds_pipe_by_curves_in_series() {
     let joint = Joint::new("~C ROLLER X 1", "~C *A");
     near(&joint.pull([0.0, 1e-3, 0.1])[..3], &[0.0, 1e6, 0.0]);
     near(&joint.pull([0.0, 0.0, -1e-3])[..3], &[0.0, 0.0, -1e6]);
@@ -422,7 +422,7 @@ fn a_roller_without_gaps_holds_the_pipe_sideways_and_from_below_with_its_curves_
 }
 
 #[test]
-fn restraints_have_no_force_as_they_were_defined_and_hold_rigidly_from_there() {
+fn restraints_have_no_force_at_definition_and_are_rigid_from_there() {
     let records = |class: &str| format!("*AWAY 3 4 5\n{class}");
     let fix = Joint::new(&records("~C FIX X Z RY"), "~C *A *AWAY");
     near(&fix.pull([3.0, 4.0, 5.0]), &[0.0; 6]);
@@ -437,7 +437,7 @@ fn restraints_have_no_force_as_they_were_defined_and_hold_rigidly_from_there() {
 }
 
 #[test]
-fn a_gap_pushes_sticks_slides_and_lets_go() {
+fn gap_pushes_sticks_slides_and_releases() {
     let mut gap = Joint::between("~C GAP 0.3");
     near(&gap.pull([1e-3, 0.2, 0.0]), &[0.0; 6]);
     // pressed by 1E6 N: sticks up to 3E5 N, 0.3 um; then slides, and the force stays
@@ -453,7 +453,7 @@ fn a_gap_pushes_sticks_slides_and_lets_go() {
 }
 
 #[test]
-fn a_tug_pulls_with_its_force_toward_its_direction() {
+fn tug_force_is_toward_its_direction() {
     let joint = Joint::new("~C TUG_BOAT 500", "-TUG 60 100 ~C *A");
     let (out, _) = joint.at([1.0, 2.0, 3.0, 0.1, 0.2, 0.3], [0.0; 6], [0.0; 3], None);
     near(out.wrench[0].as_slice(), &[250.0, 500.0 * 0.75_f64.sqrt(), 0.0, 0.0, 0.0, 0.0]);
@@ -464,7 +464,7 @@ fn a_tug_pulls_with_its_force_toward_its_direction() {
 const BUCKLING: &str = "~C FENDER 1.5 2E5 0.3 1.5E5 0.5 3E5 0.8 -RATED 0.6 -NORMAL 0 1 0";
 
 #[test]
-fn a_fender_pushes_by_its_curve_along_its_normal_and_never_pulls() {
+fn fender_pushes_by_curve_along_normal_and_never_pulls() {
     let joint = Joint::between(BUCKLING);
     // the face at y: deflection 1.5 - y, at 1.3 on the first piece, at 1.1 on the falling one, at 0.6 beyond the last point
     for (y, push) in [(1.6, 0.0), (1.5, 0.0), (1.3, 2e5 * 0.2 / 0.3), (1.1, 1.75e5), (1.0, 1.5e5), (0.6, 3.5e5)] {
@@ -483,7 +483,7 @@ fn a_fender_pushes_by_its_curve_along_its_normal_and_never_pulls() {
 }
 
 #[test]
-fn a_fender_tells_its_deflection_and_energy_and_warns_beyond_the_rated_one() {
+fn fender_reports_deflection_and_energy_and_warns_beyond_rating() {
     let joint = Joint::between(BUCKLING);
     let told = joint.summary([0.0; 6], [0.0, 0.85, 0.0, 0.0, 0.0, 0.0]);
     let state = told.fender.unwrap();
@@ -503,7 +503,7 @@ fn a_fender_tells_its_deflection_and_energy_and_warns_beyond_the_rated_one() {
 }
 
 #[test]
-fn a_fender_with_a_dashpot_pushes_more_going_in_and_never_pulls_coming_out() {
+fn fender_with_dashpot_pushes_more_going_in_and_never_pulls() {
     let joint = Joint::between("~C FENDER 1.5 2E5 0.4 -FRICTION 0.25 -X_DAMPING 1E5 1");
     // 0.2 m: 100 kN; 0.5 m/s: 50 kN
     near(&joint.passing([1.3, 0.0, 0.0], [-0.5, 0.0, 0.0]), &[-1.5e5, 0.0, 0.0]);

@@ -22,7 +22,7 @@ fn after(script: &str, errors: i64) -> Arc<dyn Ambient> {
 }
 
 #[test]
-fn what_a_pipe_holds_reaches_lines_in_si() {
+fn pipe_contents_reach_lines_in_si() {
     let hot = "T_PRESSURE HOT 180 2.2 -LAID 60 -SPGRAVITY 0.8 -AT 50";
     let found = after(&format!("MEDIT\n{hot}\nEND\n&ENV -T_PRESSURE HOT"), 0).contents().unwrap();
     // 120 F, 2.2 ksi of 6.894757 MPa (NIST SP 811), 50 ft
@@ -36,7 +36,7 @@ fn what_a_pipe_holds_reaches_lines_in_si() {
 }
 
 #[test]
-fn a_bottom_of_records_reaches_lines_and_one_with_a_refused_row_does_not() {
+fn recorded_seabed_reaches_lines_and_one_with_refused_row_does_not() {
     let records =
         "&DIMEN -DIMEN METERS K-NTS\n&BATHYMETRY B -DEPTHS\nX 0 100\nY 0 30 40\nY 50 32 42\nEND\n&ENV -DEPTH 35 ";
     let (z, [by_x, by_y]) = after(&format!("{records}-BATHYMETRY B"), 0).bottom(50.0, 25.0).unwrap();
@@ -49,7 +49,7 @@ fn a_bottom_of_records_reaches_lines_and_one_with_a_refused_row_does_not() {
 }
 
 #[test]
-fn spectrum_tables_print_the_density_at_their_frequency() {
+fn spectrum_tables_print_density_at_their_frequencies() {
     let (mut session, screen, _folder) = common::session();
     let records = "&DIMEN -DIMEN METERS K-NTS\n&ENV -SEA JONSWAP 180 6 10 1 -S_PERIOD 8 9.6 14 -WIND 40 180 -W_SPECTRUM API -W_PERIOD 20 100 300\n\
                    &STATUS SEA_SPECTRUM\n&STATUS WIND_SPECTRUM\n";

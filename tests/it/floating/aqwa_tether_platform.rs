@@ -28,7 +28,7 @@ fn platform() -> Model {
 }
 
 #[test]
-fn platform_at_rest_has_buoyancy_less_weight_in_its_tethers() {
+fn platform_at_rest_has_buoyancy_less_weight_in_tethers() {
     let mut model = platform();
     let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
     let [x, y, z, ..] = model.bodies.get("TLP").unwrap().place.values();
@@ -48,7 +48,7 @@ fn platform_at_rest_has_buoyancy_less_weight_in_its_tethers() {
 }
 
 #[test]
-fn its_stiffness_is_that_of_hydrostatics_and_four_stretched_strings() {
+fn platform_stiffness_matches_hydrostatics_and_four_strings() {
     let mut model = platform();
     let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
     let (gamma, arm, half) = (1025.0 * G, 63.6, 40.0);
@@ -81,7 +81,7 @@ fn its_stiffness_is_that_of_hydrostatics_and_four_stretched_strings() {
 }
 
 #[test]
-fn its_periods_are_those_of_a_string_a_spring_and_a_coupled_pair() {
+fn platform_periods_match_string_spring_and_coupled_pair() {
     let mut model = platform();
     let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
     let k = |r: usize, c: usize| found.state.stiffness[(r, c)];
@@ -101,7 +101,7 @@ fn its_periods_are_those_of_a_string_a_spring_and_a_coupled_pair() {
 }
 
 #[test]
-fn an_offset_sets_it_down_on_the_circle_of_its_tethers() {
+fn platform_offset_sets_down_on_tether_circle() {
     let mut model = platform();
     model.bodies.get_mut("TLP").unwrap().place = Place::new([-46.0, 0.0, -21.4, 0.0, 0.0, 0.0]);
     let (x, pitch) = (0, 4);

@@ -39,7 +39,7 @@ fn state(model: &Model) -> Hydrostatics {
 }
 
 #[test]
-fn the_barge_has_the_hydrostatics_of_its_box() {
+fn barge_hydrostatics_match_box_formulas() {
     let (length, beam, draft, kg) = (400.0, 100.0, 9.0, 12.0);
     let found = state(&model(BARGE).0);
     let volume = length * beam * draft;
@@ -57,7 +57,7 @@ fn the_barge_has_the_hydrostatics_of_its_box() {
 }
 
 #[test]
-fn panels_boxes_sections_and_meshes_of_one_form_have_one_buoyancy() {
+fn panels_boxes_sections_and_meshes_of_one_form_have_equal_buoyancy() {
     let body = "&DESCRIBE BODY B\n&INSTATE -LOCATE B 0 0 -9 3 2 30\n";
     let want = state(&model(&format!("{body}&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nEND\n")).0);
     let corners =
@@ -98,7 +98,7 @@ fn panels_boxes_sections_and_meshes_of_one_form_have_one_buoyancy() {
 }
 
 #[test]
-fn a_part_that_is_moved_takes_its_pieces_and_weights_along() {
+fn moved_part_takes_its_pieces_and_weights_along() {
     let records = "MEDIT\n&DESCRIBE BODY B\n&DESCRIBE PART P -MOVE 100 0 5 0 0 90\n*W 10 0 1\n#WEIGHT *W 50 1 2 2\nEND\n&SURFACE\n\
                    BLOCK H 0 0 -10 20 10 0\nEND\n&INSTATE -LOCATE B 0 0 0\n";
     let (model, _) = model(records);
@@ -117,7 +117,7 @@ fn a_part_that_is_moved_takes_its_pieces_and_weights_along() {
 }
 
 #[test]
-fn total_adds_the_one_weight_that_is_missing() {
+fn total_adds_the_missing_weight() {
     let (model, _) = model(
         "MEDIT\n&DESCRIBE BODY B\n*A 100 0 10\n*C 0 20 0\n#WEIGHT *A 300 5 6 7\n#WEIGHT *C 200\nEND\n&WEIGHT -TOTAL B 1000 50 2 8 30 60 70\n",
     );
@@ -145,7 +145,7 @@ fn margins_compound_and_keep_centre_and_radii() {
 }
 
 #[test]
-fn weight_and_buoyancy_of_a_body_have_the_tangent_that_differences_show() {
+fn body_weight_and_buoyancy_tangent_matches_finite_differences() {
     let (model, _) = model(&format!("{BARGE}&INSTATE -LOCATE TBRG 30 -20 -9 4 1 25\n"));
     let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
     assert_eq!(floating.loads.iter().map(|l| l.category()).collect::<Vec<_>>(), [Category::Weight, Category::Buoyancy]);
@@ -166,13 +166,13 @@ fn weight_and_buoyancy_of_a_body_have_the_tangent_that_differences_show() {
 }
 
 #[test]
-fn the_tide_lifts_the_surface() {
+fn tide_raises_water_surface_for_buoyancy() {
     let (low, high) = (state(&model(BARGE).0), state(&model(&format!("&DEFAULT -DEPTH 500\n{BARGE}&ENV -TIDE 2\n")).0));
     near((high.volume - low.volume) / METRES_PER_FOOT.powi(3), 400.0 * 100.0 * 2.0, 1e-12);
 }
 
 #[test]
-fn a_linear_stiffness_is_the_buoyancy_of_an_aqwa_deck() {
+fn linear_stiffness_matches_aqwa_deck_buoyancy() {
     // K33 = 70 kips/ft, 2 ft deeper than at rest: B + 140; rolled by 0.01 rad: moment -12 kips-ft about the centre of gravity
     let (model, _) = model(
         "MEDIT\n&DESCRIBE BODY T\n*CG 30 0 0.5\n#WEIGHT *CG 650\n#HYDROSTATIC *CG 70 1200 60000 -BUOYANCY 650 -ZCGE -0.5\nEND\n\
@@ -190,13 +190,13 @@ fn a_linear_stiffness_is_the_buoyancy_of_an_aqwa_deck() {
 }
 
 #[test]
-fn a_hull_and_a_linear_stiffness_contradict_each_other() {
+fn hull_with_linear_stiffness_is_refused() {
     let (model, _) = model(&format!("{BARGE}MEDIT\n#HYDROSTATIC *CG 70 1200 60000 -BUOYANCY 650 -ZCGE 3\nEND\n"));
     assert!(Floating::at_rest(&model, &model.bodies[0]).unwrap_err().to_string().contains("count twice"));
 }
 
 #[test]
-fn an_open_piece_is_warned_of_and_gives_no_buoyancy() {
+fn open_piece_is_warned_and_has_no_buoyancy() {
     let (model, said) = model(
         "MEDIT\n&DESCRIBE BODY B\n&DESCRIBE PIECE LID\nPANEL 0 0 0  1 0 0  0 1 0\n&DESCRIBE PIECE NONE -PERM 0\nEND\n",
     );
@@ -206,7 +206,7 @@ fn an_open_piece_is_warned_of_and_gives_no_buoyancy() {
 }
 
 #[test]
-fn overlapping_pieces_are_found_with_their_place_and_an_interior_within_its_exterior_is_none() {
+fn overlapping_pieces_are_located_and_nested_interior_is_allowed() {
     let two = |p: &str| {
         let records =
             format!("&DESCRIBE BODY B\n&SURFACE\nBLOCK A 0 0 0 10 10 10\nBLOCK B 5 5 5 8 8 8 -PERM {p}\nEND\n");
@@ -217,7 +217,7 @@ fn overlapping_pieces_are_found_with_their_place_and_an_interior_within_its_exte
 }
 
 #[test]
-fn conditions_of_several_bodies_keep_their_place_and_heading() {
+fn conditions_of_several_bodies_keep_position_and_heading() {
     let (model, _) = model(
         "&DESCRIBE BODY A\n&DESCRIBE BODY B\n&INSTATE -LOCATE A 1 2 3 4 5 6 -LOCATE B 7 8 9 10 11 12\n\
          &INSTATE -CONDITION A 9 1 2 -CONDITION 5\n",
@@ -233,7 +233,7 @@ fn conditions_of_several_bodies_keep_their_place_and_heading() {
 }
 
 #[test]
-fn roll_lifts_starboard_and_trim_sinks_the_stern() {
+fn positive_roll_lifts_starboard_and_trim_sinks_stern() {
     let (model, _) =
         model("MEDIT\n&DESCRIBE BODY A\n*STARBOARD 0 10 0\n*STERN 10 0 0\nEND\n&INSTATE -CONDITION 0 5 0\n");
     assert!(model.global(&model.points["*STARBOARD"])[2] > 0.0);
@@ -243,7 +243,7 @@ fn roll_lifts_starboard_and_trim_sinks_the_stern() {
 }
 
 #[test]
-fn a_move_and_its_opposite_restore_the_configuration() {
+fn move_and_its_inverse_restore_configuration() {
     let records = "&DESCRIBE BODY A\n&INSTATE -LOCATE A 1 2 3 40 50 60\n&INSTATE -MOVE A 1 2 4 8 16 32\n&INSTATE -MOVE A -1 -2 -4 -8 -16 -32\n";
     let place = model(records).0.bodies["A"].place;
     let want = [
@@ -260,7 +260,7 @@ fn a_move_and_its_opposite_restore_the_configuration() {
 }
 
 #[test]
-fn the_righting_arm_of_a_box_is_that_of_a_wall_sided_ship() {
+fn box_righting_arm_matches_wall_sided_formula() {
     // while neither bilge nor deck edge crosses the surface (tan roll < 9 / 50): GZ = sin roll (GM + BM tan^2 roll / 2), with the draft
     // that carries the weight; trim stays zero, and the heading does not matter
     let (model, _) = model(BARGE);
@@ -278,7 +278,7 @@ fn the_righting_arm_of_a_box_is_that_of_a_wall_sided_ship() {
 }
 
 #[test]
-fn a_body_that_cannot_float_has_no_righting_arm() {
+fn body_that_cannot_float_gets_no_righting_arm() {
     let (model, _) =
         model("MEDIT\n&DESCRIBE BODY B\n*P 5 5 5\n#WEIGHT *P 5000\nEND\n&SURFACE\nBLOCK H 0 0 0 10 10 10\nEND\n");
     let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
@@ -286,7 +286,7 @@ fn a_body_that_cannot_float_has_no_righting_arm() {
 }
 
 #[test]
-fn the_report_of_hydrostatics_has_the_users_units() {
+fn hydrostatics_report_is_in_user_units() {
     let (mut session, screen, _folder) = session();
     session.open(
         "records",

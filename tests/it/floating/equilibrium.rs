@@ -33,7 +33,7 @@ fn z_of(model: &Model, body: &str) -> [f64; 6] {
 }
 
 #[test]
-fn a_weight_on_a_spring_hangs_below_it_stretched_by_its_weight() {
+fn weight_on_spring_hangs_at_its_static_stretch() {
     let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
     let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
     let ea = 29000.0 * 6894757.293168361 * std::f64::consts::FRAC_PI_4 * 0.05 * 0.05;
@@ -46,7 +46,7 @@ fn a_weight_on_a_spring_hangs_below_it_stretched_by_its_weight() {
 }
 
 #[test]
-fn its_periods_are_those_of_a_spring_and_of_a_double_pendulum() {
+fn periods_match_spring_and_double_pendulum() {
     let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
     let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
     let list = modes(&found.system, &found.state).unwrap();
@@ -66,7 +66,7 @@ fn its_periods_are_those_of_a_spring_and_of_a_double_pendulum() {
 }
 
 #[test]
-fn damaged_stiffness_has_no_modes_and_names_its_place() {
+fn corrupt_stiffness_has_no_modes_and_names_its_entry() {
     let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
     let mut found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
     for value in [f64::NAN, f64::INFINITY] {
@@ -88,7 +88,7 @@ fn damaged_stiffness_has_no_modes_and_names_its_place() {
 }
 
 #[test]
-fn top_heavy_body_is_called_unstable_where_that_shows() {
+fn top_heavy_body_is_reported_unstable() {
     // on a pin a height h below its centre: the eigenvalue is -g h/(k2 + h2), of h = 1.5E-7 m -5.9E-8 rad2/s2, more than an hour to grow by e
     for (height, warned) in [(1.5e-7, false), (0.05, true)] {
         let records = format!(
@@ -115,7 +115,7 @@ fn interrupted_equilibrium_ends_with_its_error() {
 }
 
 #[test]
-fn the_stiffness_of_the_system_is_the_difference_of_its_forces() {
+fn system_stiffness_matches_force_finite_difference() {
     let records = "&ENV -DEPTH 200\nMEDIT\n&DESCRIBE BODY A\n*A1 10 5 -2\n*A2 -10 4 3\n&DESCRIBE BODY B\n*B1 0 -6 1\n*B2 3 3 3\n\
                    ~C B_CAT 100 EXACT -LEN 300 -BUOY 0 -WTPL 900 -CLUMP 2E4\n~C B_CAT 80 -LEN 200 -BUOY 0 -WTPL 500\n\
                    ~S B_CAT 100 EXACT -LEN 400 -BUOY 0 -WTPL 900\n\
@@ -150,7 +150,7 @@ fn the_stiffness_of_the_system_is_the_difference_of_its_forces() {
 }
 
 #[test]
-fn a_weight_that_nothing_holds_is_refused_with_its_name_and_direction() {
+fn unrestrained_weight_is_refused_with_name_and_direction() {
     let records = "MEDIT\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\nEND";
     let mut model = model(records, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
     let SolveError { who, error } = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap_err();
@@ -159,7 +159,7 @@ fn a_weight_that_nothing_holds_is_refused_with_its_name_and_direction() {
 }
 
 #[test]
-fn the_stiffness_of_a_body_whose_junctions_follow_is_the_difference_of_its_forces_when_they_have_followed() {
+fn stiffness_with_following_junctions_matches_finite_difference() {
     let records = std::fs::read_to_string("scripts/bridles.cif").unwrap();
     let records: String = records.lines().take_while(|l| !l.starts_with("&STATUS")).map(|l| format!("{l}\n")).collect();
     let mut model = model(&records, &[]);
@@ -206,7 +206,7 @@ fn lifts(records: &str) -> Vec<(String, f64)> {
 }
 
 #[test]
-fn four_pads_share_a_weight_by_its_distance_from_each_and_a_tie_of_ig_stiff_is_left_out_of_the_stiffness() {
+fn four_pads_share_weight_by_distance_and_ig_stiff_tie_is_left_out() {
     let records = std::fs::read_to_string("scripts/foundation.cif").unwrap();
     let list = lifts(&records);
     // W/4 (1 + x X/25 + y Y/25) with the weight at x, y; the deck turns by some thousandths, with its weight 2 m above

@@ -70,7 +70,7 @@ fn closed_form(e: f64) -> f64 {
 }
 
 #[test]
-fn four_taut_springs_restore_as_their_closed_form_and_break_where_the_windward_one_does() {
+fn four_taut_springs_match_closed_form_and_break_at_windward() {
     let made = model(&springs(4));
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
@@ -100,7 +100,7 @@ const PAIR: &str = "MEDIT\n&DESCRIBE BODY SHIP\n*O 0 0 0\n\
                     CONNECTOR A -ANC 0 830 ~C *O\nCONNECTOR B -ANC 180 830 ~C *O\nEND";
 
 #[test]
-fn a_pair_of_chains_restores_with_the_difference_of_its_lines() {
+fn pair_of_chains_restores_with_difference_of_its_lines() {
     let made = model(PAIR);
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
@@ -123,7 +123,7 @@ fn a_pair_of_chains_restores_with_the_difference_of_its_lines() {
 }
 
 #[test]
-fn directions_that_the_mooring_repeats_have_the_same_excursion_and_force() {
+fn repeated_directions_have_equal_excursion_and_force() {
     let records = format!("{}\nCONN_DESIGN\nMOVE SHIP -ANGLES 0 360 15 -AT 0.1", springs(4));
     let made = table(&records);
     let column = |name: &str| made.get(name).unwrap().numbers();
@@ -141,7 +141,7 @@ fn directions_that_the_mooring_repeats_have_the_same_excursion_and_force() {
 }
 
 #[test]
-fn a_removed_line_is_as_if_it_were_not_there_and_the_intact_mooring_stands_beside_it() {
+fn removed_line_has_no_effect_and_intact_mooring_is_listed_beside() {
     let whole = springs(4);
     let made = table(&format!("{whole}\nCONN_DESIGN\nMOVE SHIP 45 -REMOVE L1 -ROWS 9"));
     let without = whole.replace("CONNECTOR L1 ~T *O *G1\n", "");
@@ -159,7 +159,7 @@ fn a_removed_line_is_as_if_it_were_not_there_and_the_intact_mooring_stands_besid
 }
 
 #[test]
-fn held_it_stays_on_its_line_and_free_it_turns_aside_until_nothing_pushes_it_across() {
+fn held_excursion_stays_on_its_line_and_free_one_yields_sideways() {
     // the weight hangs between three springs of unlike angles: moved along 20 degrees it is pushed aside, up and around
     let records = "MEDIT\n*G0 100 0 60\n*G1 -60 80 60\n*G2 -50 -90 60\n&DESCRIBE BODY SHIP\n*P 2 0 1\n*Q -1 1 1\n*R -1 -1 1\n\
                    ~T SL_ELEM 50 TENSION -LEN 116 -B_TENSION 1E9\nCONNECTOR L0 ~T *P *G0\nCONNECTOR L1 ~T *Q *G1\n\
@@ -218,7 +218,7 @@ fn watched(made: &Model, force: f64, free: bool, count: usize) -> Vec<WatchedBod
 }
 
 #[test]
-fn the_watch_circle_of_a_symmetric_mooring_repeats_and_of_many_lines_is_a_circle() {
+fn watch_circle_repeats_with_symmetry_and_is_round_for_many_lines() {
     // with n lines the stiffness of a small excursion e varies over the direction with (e/100)^(n-2): 32 lines, nothing
     let made = model(&springs(32));
     let list = watched(&made, 3e5, false, 24);
@@ -242,7 +242,7 @@ fn the_watch_circle_of_a_symmetric_mooring_repeats_and_of_many_lines_is_a_circle
 }
 
 #[test]
-fn a_watch_circle_with_a_line_removed_has_the_intact_one_beside_it() {
+fn watch_circle_with_removed_line_is_listed_beside_intact_one() {
     let records = springs(4);
     let both = table(&format!("{records}\nCONN_DESIGN\nWATCH SHIP 2E5 -ANGLES 0 330 30 -REMOVE L0"));
     let intact = table(&format!("{records}\nCONN_DESIGN\nWATCH SHIP 2E5 -ANGLES 0 330 30"));
@@ -254,7 +254,7 @@ fn a_watch_circle_with_a_line_removed_has_the_intact_one_beside_it() {
 }
 
 #[test]
-fn a_mooring_that_cannot_break_asks_for_a_distance_and_a_body_without_one_is_told() {
+fn unbreakable_mooring_requires_distance_and_unmoored_body_is_named() {
     let records = springs(4).replace(&format!(" -B_TENSION {BREAK}"), " -B_TENSION 1E15");
     let made = model(&records);
     let system = System::new(&made, &[]).unwrap();
@@ -271,7 +271,7 @@ fn a_mooring_that_cannot_break_asks_for_a_distance_and_a_body_without_one_is_tol
 }
 
 #[test]
-fn forces_alone_are_those_of_the_evaluation_with_its_stiffness() {
+fn forces_alone_match_evaluation_with_stiffness() {
     let made = model(PAIR);
     let system = System::new(&made, &[]).unwrap();
     let mut state = system.state(&made);
@@ -290,7 +290,7 @@ fn forces_alone_are_those_of_the_evaluation_with_its_stiffness() {
 }
 
 #[test]
-fn a_body_whose_freedoms_are_all_left_out_is_moved_free_as_it_is_held() {
+fn free_excursion_without_freedoms_equals_held_one() {
     let records = springs(4).replace("\nEND", "\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\nEND");
     let made = model(&records);
     let system = System::new(&made, &[]).unwrap();
@@ -303,7 +303,7 @@ fn a_body_whose_freedoms_are_all_left_out_is_moved_free_as_it_is_held() {
 }
 
 #[test]
-fn a_body_on_eight_chains_is_held_with_the_forces_moorpy_gives() {
+fn body_on_eight_chains_matches_moorpy_forces() {
     // MoorPy 1.3.0 [MOORPY-1] over the mooring of benches/offsets.rs (benches/moorpy.py); at rest it leaves 0.94 N and 0.31 N m
     let section = FRAC_PI_4 * 0.18 * 0.18;
     let (modulus, weight) = (8.54e8 / section / 1e6, (199.0 - 1025.0 * section) * 9.80665);
@@ -349,7 +349,7 @@ fn a_body_on_eight_chains_is_held_with_the_forces_moorpy_gives() {
 }
 
 #[test]
-fn a_free_watch_circle_of_a_hung_weight_is_that_of_a_pendulum() {
+fn free_watch_circle_of_hanging_weight_matches_pendulum() {
     // hook 2 m above the weight and the force: both lie on the line through the spring
     let records = "MEDIT\n*A 0 0 0\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\n~TIE SL_ELEM 50 TENSION -LEN 10\n\
                    CONNECTOR T ~TIE *HOOK *A\nEND\n&INSTATE -LOCATE LOAD 0 0 -12";

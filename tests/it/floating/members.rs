@@ -70,7 +70,7 @@ fn place(values: [f64; 6]) -> Pose {
 }
 
 #[test]
-fn the_inertia_force_on_a_pile_is_its_closed_form_when_the_surface_passes_the_mean_level() {
+fn pile_inertia_force_matches_closed_form_at_mean_level_crossing() {
     let (d, diameter, a) = (50.0, 6.0, 4.0);
     for (depth, w) in [(Some(d), 0.35), (Some(d), 0.9), (None, 1.6)] {
         let k = wave_number(w, depth, G).unwrap();
@@ -103,7 +103,7 @@ fn the_inertia_force_on_a_pile_is_its_closed_form_when_the_surface_passes_the_me
 }
 
 #[test]
-fn the_drag_on_a_pile_under_the_crest_is_its_closed_form_up_to_the_surface() {
+fn pile_drag_under_crest_matches_closed_form_up_to_surface() {
     let (d, w) = (50.0, 0.6);
     let k: f64 = wave_number(w, Some(d), G).unwrap();
     let model = body("TUBE PILE *A *B 1500 -CD 0.7 -CA 0", "");
@@ -125,7 +125,7 @@ fn the_drag_on_a_pile_under_the_crest_is_its_closed_form_up_to_the_surface() {
 }
 
 #[test]
-fn a_spar_is_lifted_by_the_pressure_on_its_foot_alone() {
+fn spar_is_lifted_by_pressure_on_its_bottom_alone() {
     let (draft, diameter) = (50.0, 20.0);
     let area = PI * diameter * diameter / 4.0;
     for (depth, w, a) in [(None, 0.5, 8.0), (Some(80.0), 0.4, 3.0), (None, 1.0, 0.1)] {
@@ -156,7 +156,7 @@ fn a_spar_is_lifted_by_the_pressure_on_its_foot_alone() {
 }
 
 #[test]
-fn in_a_level_that_rises_everywhere_the_buoyancy_is_that_of_the_tube_in_the_new_level() {
+fn buoyancy_in_rising_level_matches_tube_in_new_level() {
     // a wave a thousand times round the earth: no slope, no acceleration, pressure rho g zeta at every depth
     let component = Component { frequency: 1e-6, number: 1e-10, amplitude: 1.7, toward: [1.0, 0.0], phase: 0.0 };
     let sea = Arc::new(Sea::airy(vec![component], water(None), 0.0, Stretching::Linear));
@@ -183,7 +183,7 @@ fn in_a_level_that_rises_everywhere_the_buoyancy_is_that_of_the_tube_in_the_new_
 }
 
 #[test]
-fn without_waves_and_motion_members_add_nothing() {
+fn members_without_waves_and_motion_add_nothing() {
     let model = body("TUBE T *E *F 7000\nTUBE U *C *D 3000", "");
     for sea in [None, Some(wave(0.0, 0.5, 0.0, None, Stretching::Wheeler))] {
         assert_eq!(force(members(&model, sea.as_ref()).as_ref(), 3.0), Six::zeros());
@@ -193,7 +193,7 @@ fn without_waves_and_motion_members_add_nothing() {
 const CURRENT: &str = "&DATA CURVES C_PROFILE P 0 2.5 8 1.7 40 0.3\n&ENV -CURRENT P 110 -DEPTH 90 -TIDE 1";
 
 #[test]
-fn a_steady_current_does_under_way_what_it_does_in_statics() {
+fn steady_current_in_time_domain_matches_statics() {
     let pieces = "TUBE T *E *F 7000 -CD 0.9 -CDA 0.03\nTUBE U *C *D 3000\nTUBE V *A *G 2000";
     let model = body(pieces, CURRENT);
     let at_rest = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
@@ -209,7 +209,7 @@ fn a_steady_current_does_under_way_what_it_does_in_statics() {
 }
 
 #[test]
-fn the_drag_of_a_uniform_current_on_a_pile_is_half_rho_cd_d_l_v_squared() {
+fn pile_drag_in_uniform_current_matches_closed_form() {
     let model = body("TUBE PILE *A *B 2000 -CD 0.65", "&ENV -CURRENT 1.5 180");
     let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let load = floating.loads.iter().find(|l| l.category() == Category::ViscousDrag).unwrap();
@@ -226,7 +226,7 @@ fn the_drag_of_a_uniform_current_on_a_pile_is_half_rho_cd_d_l_v_squared() {
 }
 
 #[test]
-fn the_tangent_of_the_drag_in_statics_is_that_of_differences() {
+fn static_drag_tangent_matches_finite_differences() {
     let model = body("TUBE T *E *F 7000 -CD 0.9 -CDA 0.03\nTUBE U *C *D 3000", CURRENT);
     let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let load = floating.loads.iter().find(|l| l.category() == Category::ViscousDrag).unwrap();
@@ -244,7 +244,7 @@ fn the_tangent_of_the_drag_in_statics_is_that_of_differences() {
 }
 
 #[test]
-fn the_damping_is_that_of_differences_and_drag_never_drives() {
+fn damping_matches_finite_differences_and_drag_only_dissipates() {
     let model = body("TUBE T *E *F 7000 -CD 0.9 -CDA 0.03\nTUBE U *C *D 3000\nTUBE V *A *G 2000", "");
     let load = members(&model, None);
     for pose in [place([0.0; 6]), place([3.0, 2.0, -1.0, 14.0, -7.0, 30.0])] {
@@ -271,7 +271,7 @@ fn the_damping_is_that_of_differences_and_drag_never_drives() {
 }
 
 #[test]
-fn a_body_that_moves_feels_what_a_current_against_it_does() {
+fn moving_body_drag_matches_opposite_current() {
     let model = body("TUBE T *E *F 7000 -CD 0.9 -CDA 0.03\nTUBE U *C *D 3000", "");
     let flow = body("TUBE T *E *F 7000 -CD 0.9 -CDA 0.03\nTUBE U *C *D 3000", "&ENV -CURRENT 1.25 0");
     let towed = at(members(&model, None).as_ref(), 0.0, &Pose::default(), &Six::new(1.25, 0.0, 0.0, 0.0, 0.0, 0.0));
@@ -280,7 +280,7 @@ fn a_body_that_moves_feels_what_a_current_against_it_does() {
 }
 
 #[test]
-fn a_pontoon_under_water_feels_cm_times_its_mass_of_water() {
+fn submerged_pontoon_force_is_cm_times_displaced_mass() {
     // level, across the wave, 20 m under: every section is in the same water
     let (d, w, a) = (20.0, 0.7, 2.0);
     let model = body("TUBE P *C *D 3000 -CD 0 -CA 1.1", "");
@@ -299,7 +299,7 @@ fn a_pontoon_under_water_feels_cm_times_its_mass_of_water() {
 }
 
 #[test]
-fn along_the_wave_the_ends_of_a_pontoon_bear_the_difference_of_pressure() {
+fn pontoon_ends_along_wave_carry_pressure_difference() {
     let (d, w, a) = (20.0, 0.7, 2.0);
     let model = body("TUBE P *C *D 3000 -CD 0 -CA 0", "");
     let k = w * w / G;
@@ -310,7 +310,7 @@ fn along_the_wave_the_ends_of_a_pontoon_bear_the_difference_of_pressure() {
 }
 
 #[test]
-fn the_added_mass_of_a_spar_is_its_closed_form() {
+fn spar_added_mass_matches_closed_form() {
     let model = body("TUBE S *A *B 20000 -CA 0.9 -CAA 0.64", "");
     let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let line = RHO * PI * 100.0 * 0.9;
@@ -325,7 +325,7 @@ fn the_added_mass_of_a_spar_is_its_closed_form() {
 }
 
 #[test]
-fn an_end_that_joins_another_piece_has_no_added_mass_of_its_own() {
+fn end_joined_to_another_piece_has_no_added_mass() {
     // a pontoon of 3 m under water: half spheres of its diameter over its ends, along its axis
     let along = |caa: &str| {
         let model = body(&format!("TUBE P *C *D 3000 -CA 0 {caa}"), "");
@@ -341,7 +341,7 @@ fn an_end_that_joins_another_piece_has_no_added_mass_of_its_own() {
 }
 
 #[test]
-fn what_the_surface_changes_of_the_added_mass_is_inertia_of_the_step() {
+fn added_mass_change_with_surface_is_in_step_inertia() {
     let model = body("TUBE S *A *B 20000 -CD 0 -CA 0.9", "");
     let load = members(&model, None);
     let (start, deeper) = (Pose::default(), place([0.0, 0.0, -5.0, 0.0, 0.0, 0.0]));
@@ -359,7 +359,7 @@ fn what_the_surface_changes_of_the_added_mass_is_inertia_of_the_step() {
 }
 
 #[test]
-fn what_a_database_holds_keeps_its_drag_alone() {
+fn piece_covered_by_database_keeps_drag_alone() {
     let model = body("TUBE S *A *B 20000 -DIFTYPE 3DDIF", "");
     let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     assert_eq!(floating.added_mass, Matrix6::zeros());
@@ -371,7 +371,7 @@ fn what_a_database_holds_keeps_its_drag_alone() {
 }
 
 #[test]
-fn drag_under_way_is_told_in_its_own_category() {
+fn drag_in_time_domain_has_its_own_category() {
     let model = body("TUBE T *A *B 2000", "&ENV -CURRENT 1 180");
     let load = members(&model, Some(&wave(2.0, 0.8, 0.0, None, Stretching::Wheeler)));
     let mut state = vec![0.0; load.states()];
@@ -387,7 +387,7 @@ fn drag_under_way_is_told_in_its_own_category() {
 }
 
 #[test]
-fn a_hull_without_waves_is_told() {
+fn hull_without_wave_loads_is_reported() {
     let model = body(
         "TUBE T *A *B 2000\nBLOCK H 0 0 0 1 1 1\nBLOCK F 2 0 0 3 1 1 -DIFTYPE FK\nBLOCK D 4 0 0 5 1 1 -DIFTYPE 3DDIF",
         "",
@@ -404,7 +404,7 @@ fn on_a_box(sea: &Arc<Sea>, time: f64, pose: &Pose) -> Six {
 }
 
 #[test]
-fn a_box_is_pressed_by_waves_as_its_closed_form_says() {
+fn box_wave_pressure_force_matches_closed_form() {
     // over the bottom: rho g a e^-kT B int cos(kx - wt) dx; on the ends: rho g a B (1 - e^-kT)/k times the difference of cosines
     let (w, a, long, wide, deep) = (0.7, 0.01, 60.0, 20.0, 8.0);
     let k = w * w / G;
@@ -423,7 +423,7 @@ fn a_box_is_pressed_by_waves_as_its_closed_form_says() {
 }
 
 #[test]
-fn waves_as_long_as_the_sea_lift_a_box_as_a_tide_does() {
+fn very_long_waves_lift_box_like_a_tide() {
     let component = Component { frequency: 1e-6, number: 1e-10, amplitude: 1.7, toward: [1.0, 0.0], phase: 0.0 };
     let sea = Arc::new(Sea::airy(vec![component], water(None), 0.0, Stretching::Linear));
     let hull = windlass_hydro::hull::Surface::block([-30.0, -10.0, -8.0], [30.0, 10.0, 6.0]);

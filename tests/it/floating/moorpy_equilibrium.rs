@@ -45,7 +45,7 @@ fn model(clump: f64) -> Model {
 }
 
 #[test]
-fn a_free_body_on_eight_chains_comes_to_rest_where_moorpy_has_it() {
+fn free_body_on_eight_chains_matches_moorpy_equilibrium() {
     let mut reader = csv::Reader::from_path("tests/data/moorpy_equilibrium.csv").unwrap();
     let mut rows = 0;
     for row in reader.records() {

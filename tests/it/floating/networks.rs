@@ -295,7 +295,7 @@ impl Network {
 }
 
 #[test]
-fn unconnected_junctions_come_to_rest_though_one_is_slow() {
+fn unconnected_junctions_settle_with_one_slow_junction() {
     let records = "&DIMEN -DIMEN METERS N\n&ENV -DEPTH 329\nMEDIT\nJUNCTION J2 -387 171 -109 -WEIGHT 10000 -DISPLACEMENT 1.66E5\n\
                    JUNCTION J1 208 235 -79.8\n~C1 B_CAT 120 EXACT -LEN 1240 -BUOY 0 -WTPL 743 -EMOD 80000\n\
                    CONNECTOR L1 -ANC 0 1 ~C1 *J1\nEND\n&CONNECTOR L1 -ANCHOR 978 1100 -329\n";
@@ -320,7 +320,7 @@ fn unconnected_junctions_come_to_rest_though_one_is_slow() {
 const SHARE_OF_RADIUS: f64 = 0.29866674520142716;
 
 #[test]
-fn random_networks_rest_where_catenaries_in_closed_form_balance() {
+fn random_networks_match_closed_form_catenary_balance() {
     let (mut refused, mut stable) = (Vec::new(), 0);
     let mut worst = (0.0, String::new());
     for number in 0..NETWORKS {

@@ -53,7 +53,7 @@ fn near(got: f64, want: f64, tolerance: f64) {
 }
 
 #[test]
-fn wind_on_the_freeboard_is_half_rho_area_speed_squared_at_its_centre() {
+fn wind_on_freeboard_matches_closed_form_at_its_centre() {
     let even = "-W_PROFILE POWER 0";
     // ahead: 11 x 100 ft2, 9 + 5.5 ft above the keel
     let ahead = sum(&body(HULL, &format!("&ENV -WIND 60 180 {even}")), Category::Wind, &place(AFLOAT));
@@ -72,7 +72,7 @@ fn wind_on_the_freeboard_is_half_rho_area_speed_squared_at_its_centre() {
 }
 
 #[test]
-fn wind_of_a_profile_is_integrated_over_the_freeboard() {
+fn wind_profile_is_integrated_over_freeboard() {
     // z^(2/7) from 1 m to h = 3.3528 m, and that of 1 m below it
     let (h, ten): (f64, f64) = (11.0 * METRES_PER_FOOT, 10f64.powf(-2.0 / 7.0));
     let factor = ten * (1.0 + 7.0 / 9.0 * (h.powf(9.0 / 7.0) - 1.0));
@@ -82,7 +82,7 @@ fn wind_of_a_profile_is_integrated_over_the_freeboard() {
 }
 
 #[test]
-fn every_profile_is_integrated_as_by_fine_slices() {
+fn every_wind_profile_matches_integration_by_fine_slices() {
     for profile in ["POWER", "LOG", "ISO", "ABS", "DNV", "API -W_DESIGN API 15", "NPD -W_DESIGN NPD 60"] {
         let model = body("BLOCK TOWER 0 0 0 30 30 300", &format!("&ENV -WIND 60 180 -W_PROFILE {profile}"));
         let (steady, high) = (Steady::new(&model).unwrap(), 300.0 * METRES_PER_FOOT);
@@ -95,7 +95,7 @@ fn every_profile_is_integrated_as_by_fine_slices() {
 }
 
 #[test]
-fn current_acts_on_the_draft_and_is_integrated_over_it() {
+fn current_is_integrated_over_the_draft() {
     let current = |v: f64| 0.5 * 1025.0 * v * v;
     let even = body(HULL, "&ENV -CURRENT 2 90");
     let got = sum(&even, Category::ViscousDrag, &place(AFLOAT));
@@ -113,14 +113,14 @@ fn current_acts_on_the_draft_and_is_integrated_over_it() {
 }
 
 #[test]
-fn the_tide_lifts_the_waterline() {
+fn tide_raises_the_waterline() {
     let model = body(HULL, "&ENV -WIND 60 180 -W_PROFILE POWER 0 -CURRENT 2 180 -DEPTH 600 -TIDE 5");
     near(sum(&model, Category::Wind, &place(AFLOAT))[0], WIND * 600.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-12);
     near(sum(&model, Category::ViscousDrag, &place(AFLOAT))[0], 512.5 * 4.0 * 1400.0 * METRES_PER_FOOT.powi(4), 1e-12);
 }
 
 #[test]
-fn a_capsized_dry_or_sunken_box_has_the_areas_of_its_pose() {
+fn capsized_dry_or_sunken_box_has_projected_areas_of_its_pose() {
     let model = body(HULL, "&ENV -WIND 60 180 -W_PROFILE POWER 0 -CURRENT 2 180");
     let [air, water] =
         [WIND * 100.0 * METRES_PER_FOOT * METRES_PER_FOOT, 0.5 * 1025.0 * 4.0 * 100.0 * METRES_PER_FOOT.powi(4)];
@@ -137,7 +137,7 @@ fn a_capsized_dry_or_sunken_box_has_the_areas_of_its_pose() {
 }
 
 #[test]
-fn a_dry_box_that_is_pitched_shows_its_bottom_too() {
+fn pitched_dry_box_exposes_its_bottom_too() {
     let model = body(HULL, "&ENV -WIND 60 180 -W_PROFILE POWER 0");
     let got = sum(&model, Category::Wind, &place([0.0, 0.0, 200.0, 0.0, 10.0, 0.0]));
     // along x: A_x cos^2 + A_z sin^2 with 2,000 and 40,000 ft2; up: (A_z - A_x) sin cos
@@ -147,7 +147,7 @@ fn a_dry_box_that_is_pitched_shows_its_bottom_too() {
 }
 
 #[test]
-fn afloat_on_an_even_keel_the_vertical_area_is_that_of_the_deck() {
+fn vertical_area_on_even_keel_matches_deck() {
     // the lift by a pitch is q (A_z - A_x), of wind with the freeboard and of current with the draft
     let model = body(HULL, "&ENV -WIND 60 180 -W_PROFILE POWER 0 -CURRENT 2 180");
     let found = floating(&model);
@@ -160,7 +160,7 @@ fn afloat_on_an_even_keel_the_vertical_area_is_that_of_the_deck() {
 }
 
 #[test]
-fn a_tube_shows_its_diameter_to_every_side() {
+fn tube_projects_its_diameter_to_every_side() {
     let spar = "TUBE SPAR *A *B 480 -PERM 1";
     for from in [0.0, 17.0, 90.0, 203.0] {
         // 40 ft x 60 ft and 40 ft x 300 ft; a prism of 64 sides is 0.04 % narrower at most, 0.08 % wider
@@ -175,7 +175,7 @@ fn a_tube_shows_its_diameter_to_every_side() {
 }
 
 #[test]
-fn the_prism_of_a_tube_is_a_closed_surface_of_its_perimeter() {
+fn tube_prism_is_closed_surface_of_its_perimeter() {
     let tube = TubeHull { ends: [Vector3::new(1.0, 2.0, 3.0), Vector3::new(4.0, -2.0, 3.0)], diameter: 2.0 };
     let prism = tube.prism(64).unwrap();
     assert!(prism.faults().is_empty());
@@ -183,7 +183,7 @@ fn the_prism_of_a_tube_is_a_closed_surface_of_its_perimeter() {
 }
 
 #[test]
-fn coefficients_go_along_the_axes_of_the_part() {
+fn coefficients_act_along_part_axes() {
     let records = "&DESCRIBE PART HOUSE -MOVE 0 0 0 0 0 90\nBLOCK H 0 0 0 10 20 30 -CS_WIND 0 1.5 0";
     let (mut session, _screen, _folder) = common::session();
     let text = records.replace("BLOCK", "&SURFACE\nBLOCK");
@@ -199,7 +199,7 @@ fn coefficients_go_along_the_axes_of_the_part() {
 }
 
 #[test]
-fn what_displaces_nothing_takes_wind_only_when_told() {
+fn piece_without_displacement_takes_wind_only_on_request() {
     let env = "&ENV -WIND 60 180 -W_PROFILE POWER 0 -CURRENT 2 180";
     let forces = |records: &str| {
         let model = body(records, env);
@@ -214,7 +214,7 @@ fn what_displaces_nothing_takes_wind_only_when_told() {
 }
 
 #[test]
-fn multipliers_act_on_pieces() {
+fn multipliers_scale_piece_loads() {
     let env = "&ENV -WIND 60 180 -W_PROFILE POWER 0\n&APPLY -PERCENT -FORCE WIND 50";
     near(
         sum(&body(HULL, env), Category::Wind, &place(AFLOAT))[0],
@@ -224,7 +224,7 @@ fn multipliers_act_on_pieces() {
 }
 
 #[test]
-fn an_open_piece_has_no_wind_but_an_error() {
+fn open_piece_has_error_instead_of_wind() {
     let records = "BLOCK SAIL -PERM 0 -CS_WIND 1 1 1\nPANEL 0 0 0 0 9 0 0 9 9 0 0 9\nEND_BLOCK";
     let model = body(records, "&ENV -WIND 60 180");
     let error = Floating::at_rest(&model, &model.bodies["B"]).unwrap_err();
@@ -232,7 +232,7 @@ fn an_open_piece_has_no_wind_but_an_error() {
 }
 
 #[test]
-fn the_quick_check_finds_leaks_and_the_whole_one_cuts() {
+fn quick_check_finds_leaks_and_full_check_finds_intersections() {
     let mut two = Surface::block([0.0; 3], [1.0; 3]);
     let other = Surface::block([0.5; 3], [1.5; 3]);
     let first = two.vertices.len() as u32;
@@ -245,7 +245,7 @@ fn the_quick_check_finds_leaks_and_the_whole_one_cuts() {
 }
 
 #[test]
-fn the_tangent_is_that_of_differences_in_any_pose() {
+fn piece_load_tangent_matches_finite_differences_in_any_pose() {
     let curves = "&DATA CURVES C_PROFILE P 0 2.5 8 1.7 40 0.3\n&DATA CURVES C_PROFILE Q 0 0.4 100 0.2\n";
     for pieces in [
         "BLOCK HULL 0 -50 0 400 50 20 -CS_WIND 1 1.2 0.7 -CS_CURRENT 0.5 1.3 0.9",

@@ -79,7 +79,7 @@ fn wind(model: &Model) -> (Vector3<f64>, Vector3<f64>) {
 }
 
 #[test]
-fn in_calm_the_fenders_push_as_much_as_the_hawsers_pull_across() {
+fn fender_forces_balance_hawser_forces_in_calm() {
     let (model, screen) = after(1);
     let hand = by_hand(&model);
     let sum = |names: &dyn Fn(&str) -> bool| hand.iter().filter(|(n, ..)| names(n)).map(|(_, f, _)| f.y).sum::<f64>();
@@ -96,7 +96,7 @@ fn in_calm_the_fenders_push_as_much_as_the_hawsers_pull_across() {
 }
 
 #[test]
-fn in_wind_the_printed_forces_balance_it_and_so_do_their_moments() {
+fn printed_forces_and_moments_balance_wind() {
     for equilibria in [2, 3] {
         let (model, screen) = after(equilibria);
         let hand = by_hand(&model);

@@ -49,7 +49,7 @@ fn wind_at(environment: &str, height: f64) -> f64 {
 }
 
 #[test]
-fn wind_of_sixty_knots_on_a_known_area_is_half_rho_area_speed_squared() {
+fn wind_of_sixty_knots_on_area_matches_closed_form() {
     let model = body("*P 0 0 10\n#AREA *P 100 400", "&ENV -WIND 60 180");
     let got = sum(&model, Category::Wind, &Pose::default());
     // 60 kn = 30.8667 m/s; 1/2 x 1.226 x 100 x 952.751 = 58403.6 N toward +x, 10 m up
@@ -59,7 +59,7 @@ fn wind_of_sixty_knots_on_a_known_area_is_half_rho_area_speed_squared() {
 }
 
 #[test]
-fn wind_comes_from_its_direction_and_turns_with_the_body() {
+fn wind_acts_from_its_direction_and_rotates_with_body() {
     // from 90: it blows toward -y; on a body yawed by 90 degrees that is from ahead, on the area along x
     let model = body("*P 0 0 10\n#AREA *P 100 400", "&ENV -WIND 60 90");
     let got = sum(&model, Category::Wind, &place([0.0, 0.0, 0.0, 0.0, 0.0, 90.0]));
@@ -68,7 +68,7 @@ fn wind_comes_from_its_direction_and_turns_with_the_body() {
 }
 
 #[test]
-fn oblique_wind_acts_on_each_area_with_its_component_and_the_whole_speed() {
+fn oblique_wind_uses_area_components_and_full_speed() {
     let model = body("*P 0 0 10\n#AREA *P 100 400", "&ENV -WIND 60 150");
     let got = sum(&model, Category::Wind, &Pose::default());
     near(got[0], 58_403.6 * 30f64.to_radians().cos(), 1e-6);
@@ -76,7 +76,7 @@ fn oblique_wind_acts_on_each_area_with_its_component_and_the_whole_speed() {
 }
 
 #[test]
-fn published_wind_profiles_have_their_values() {
+fn published_wind_profiles_match_values() {
     // power law, 1/7: (50/10)^(1/7) = 1.2584989; [API-RP-2A], 20th edition: 5^0.125 = 1.2228445
     near(wind_at("&ENV -WIND 60 0", 50.0), 60.0 * KNOT * 1.258_498_95, 1e-8);
     near(wind_at("&ENV -WIND 60 0 -W_PROFILE API", 50.0), 60.0 * KNOT * 1.222_844_55, 1e-8);
@@ -91,7 +91,7 @@ fn published_wind_profiles_have_their_values() {
 }
 
 #[test]
-fn charnocks_roughness_fulfils_its_equation() {
+fn charnock_roughness_satisfies_its_equation() {
     let model = model("&ENV -WIND 60 0 -W_PROFILE LOG");
     let WindProfile::Logarithmic(z0) = WindField::from_environment(&model.environment).unwrap().unwrap().profile else {
         panic!()
@@ -103,7 +103,7 @@ fn charnocks_roughness_fulfils_its_equation() {
 }
 
 #[test]
-fn design_winds_are_converted_by_the_gust_factor_of_their_code() {
+fn design_winds_are_converted_by_gust_factor_of_their_code() {
     // ISO, 3 s at 10 m: Iu = 0.06 (1 + 0.043 x 30.866667) = 0.1396360; 1 + 0.41 Iu ln 1200 = 1.4059123
     near(wind_at("&ENV -WIND 60 0 -W_DESIGN ISO 3", 10.0), 60.0 * KNOT * 1.405_912_3, 1e-7);
     // API 20th, 3 s at 20 m: 1 + 3 x 0.15 = 1.45 on the hourly profile 2^0.125
@@ -119,7 +119,7 @@ fn design_winds_are_converted_by_the_gust_factor_of_their_code() {
 }
 
 #[test]
-fn tide_lifts_the_heights_of_wind_and_the_depths_of_current() {
+fn tide_raises_wind_heights_and_current_depths() {
     let curve = "&DATA CURVES C_PROFILE C 0 2 10 1 30 0.5\n";
     let at = |env: &str, medium, z| {
         Steady::new(&model(&format!("{curve}&ENV -WIND 60 180 -CURRENT C 180 -DEPTH 100 {env}")))
@@ -148,7 +148,7 @@ fn currents_of_several_curves_add_up_as_vectors() {
 }
 
 #[test]
-fn a_plate_is_pushed_along_its_normal_on_the_centre_of_its_area() {
+fn plate_force_acts_along_normal_at_area_centre() {
     // a trapezium in the plane x = 2: z from 4 to 10, widths 6 and 12: area 54, centre 4 + 6/3 (6 + 24)/18 = 7.333333
     let corners = "*A 2 -3 4\n*B 2 3 4\n*C 2 6 10\n*D 2 -6 10\n#PLATE *A *B *C *D -CD 1.2";
     let model = body(corners, "&ENV -WIND 40 150 -W_PROFILE POWER 0");
@@ -163,7 +163,7 @@ fn a_plate_is_pushed_along_its_normal_on_the_centre_of_its_area() {
 }
 
 #[test]
-fn current_acts_below_the_water_and_wind_above() {
+fn current_acts_below_water_and_wind_above() {
     let deep = body("*P 0 0 -5\n#AREA *P 10", "&ENV -WIND 60 180 -CURRENT 2 180");
     assert_eq!(sum(&deep, Category::Wind, &Pose::default())[0], 0.0);
     // 1/2 x 1025 x 10 x 4
@@ -177,7 +177,7 @@ fn current_acts_below_the_water_and_wind_above() {
 }
 
 #[test]
-fn a_table_is_read_at_the_relative_heading() {
+fn load_table_is_read_at_relative_heading() {
     let table = "*P 50 0 -3\n#TABLE *P 0 -90 0 0 0 0 0 90 0 -900 0 0 0 70 180 80 0 0 0 0 0 -SYMM";
     let model = body(table, "&ENV -CURRENT 2 180");
     let ahead = sum(&model, Category::ViscousDrag, &Pose::default());
@@ -195,7 +195,7 @@ fn a_table_is_read_at_the_relative_heading() {
 }
 
 #[test]
-fn a_turned_part_carries_its_table_and_areas_with_it() {
+fn rotated_part_carries_its_table_and_areas() {
     let records = "&DESCRIBE PART TURRET -MOVE 10 0 0 0 0 90\n*P 0 0 -3\n\
                    #TABLE *P 0 -90 0 0 0 0 0 90 0 -900 0 0 0 0 180 80 0 0 0 0 0 -SYMM\n*Q 0 0 20\n#AREA *Q 100 400";
     let model = body(records, "&ENV -CURRENT 2 180 -WIND 60 180 -W_PROFILE POWER 0");
@@ -205,7 +205,7 @@ fn a_turned_part_carries_its_table_and_areas_with_it() {
 }
 
 #[test]
-fn linear_drag_takes_the_current_at_its_point() {
+fn linear_drag_uses_current_at_its_point() {
     let model = body("*P 0 0 -10\n#DRAG *P 1000 4000 0 0 0 1E6", "&ENV -CURRENT 2 120");
     let got = sum(&model, Category::ViscousDrag, &Pose::default());
     // toward (0.5, -0.866) x 2
@@ -220,7 +220,7 @@ fn linear_drag_takes_the_current_at_its_point() {
 }
 
 #[test]
-fn added_mass_is_a_weight_and_moves_to_the_origin() {
+fn added_mass_from_weight_transforms_to_the_origin() {
     let model = body("*P 0 3 0\n#AMASS *P 9806.65 0 19613.3 9806.65", "");
     let added = Floating::at_rest(&model, &model.bodies["B"]).unwrap().added_mass;
     near(added[(0, 0)], 1000.0, 1e-12);
@@ -235,13 +235,13 @@ const DRIFT: &str = "*P 0 0 0\n#DRIFT *P 0 5 -50 0 0 0 0 0 10 -20 0 0 0 0 0 20 -
                      #DRIFT *P 180 5 50 0 0 0 0 0 10 20 0 0 0 0 0 20 1 0 0 0 0 0";
 
 #[test]
-fn drift_of_a_regular_wave_is_the_coefficient_times_the_amplitude_squared() {
+fn regular_wave_drift_is_coefficient_times_amplitude_squared() {
     let model = body(DRIFT, "&ENV -SEA REGULAR 180 3 10");
     near(sum(&model, Category::WaveDrift, &Pose::default())[0], 20.0 * 1.5 * 1.5, 1e-12);
 }
 
 #[test]
-fn drift_of_a_narrow_sea_is_that_of_waves_with_its_energy() {
+fn narrow_sea_drift_matches_waves_of_its_energy() {
     // m0 = Hs^2/16 at one frequency: 2 m0 D = Hs^2/8 D, an amplitude of Hs / (2 sqrt 2)
     let curve = "&DATA CURVES F_SPECTRUM N 0.9999 0 1.0 7 1.0001 0\n";
     let model = body(DRIFT, &format!("{curve}&ENV -SEA N 180 4 10"));
@@ -249,7 +249,7 @@ fn drift_of_a_narrow_sea_is_that_of_waves_with_its_energy() {
 }
 
 #[test]
-fn drift_of_issc_is_its_integral() {
+fn issc_drift_matches_its_integral() {
     // D = k w between the periods: 2 k m1, with m1 = m0 2 pi / T1 and T1 the mean period given; here k = 10 from 0.1 to 10
     // rad/s, where all energy lies but for some 2e-4 beyond, which a constant D cuts
     let tau = std::f64::consts::TAU;
@@ -260,13 +260,13 @@ fn drift_of_issc_is_its_integral() {
 }
 
 #[test]
-fn two_seas_add_their_drift() {
+fn drift_of_two_seas_adds_up() {
     let model = body(DRIFT, "&ENV -SEA REGULAR 180 3 10 -A_SEA REGULAR 0 2 10");
     near(sum(&model, Category::WaveDrift, &Pose::default())[0], 20.0 * (1.5 * 1.5 - 1.0), 1e-12);
 }
 
 #[test]
-fn a_sea_without_a_formula_is_refused_only_where_waves_push() {
+fn sea_without_formula_is_refused_only_for_wave_drift() {
     let env = "&ENV -SEA 2JONSWAP 180 3 10 -WIND 60 180";
     let model = body(DRIFT, env);
     assert!(Floating::at_rest(&model, &model.bodies["B"]).is_err());
@@ -282,7 +282,7 @@ fn multipliers_of_category_and_part_compound() {
 }
 
 #[test]
-fn every_tangent_is_that_of_differences_in_any_pose() {
+fn every_load_tangent_matches_finite_differences_in_any_pose() {
     let records = "*A 20 3 -4\n*B 21 8 9\n*C 25 -6 12\n*D 30 1 4\n\
         #AREA *A 30 70 20\n#AREA *B 30 70 20\n#PLATE *B *C *D -CD 1.3\n#PLATE *B *C *D -FLUID WATER\n\
         #TABLE *A 0 -90 0 3 10 20 0 50 -40 -300 2 7 30 80 90 5 -900 0 0 0 70 180 80 0 9 -50 20 0 250 8 450 7 -6 5 400\n\
@@ -321,7 +321,7 @@ fn every_tangent_is_that_of_differences_in_any_pose() {
 }
 
 #[test]
-fn areas_of_a_piece_take_wind_and_current_at_their_points() {
+fn piece_areas_take_wind_and_current_at_their_points() {
     let steady = std::sync::Arc::new(Steady::new(&model("&ENV -WIND 60 180 -CURRENT 2 180")).unwrap());
     let wind = AreaLoad::wind(steady.clone(), [100.0, 0.0, 0.0], Vector3::new(0.0, 0.0, 10.0));
     near(wind.load(&Pose::default()).unwrap().wrench[0], 58_403.6, 1e-6);

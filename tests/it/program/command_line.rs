@@ -15,7 +15,7 @@ fn run(arguments: &[&str]) -> (Option<i32>, String, String) {
 }
 
 #[test]
-fn blocks_go_on_from_one_record_of_the_command_line_to_the_next() {
+fn blocks_continue_across_command_line_records() {
     let block = ["-c", "&IF 1 .EQ. 2 &THEN", "-c", "&TYPE runs", "-c", "&ELSE", "-c", "&TYPE other", "-c", "&ENDIF"];
     assert_eq!(run(&block), (Some(0), "other\n".into(), String::new()));
     let loops = ["-c", "&LOOP I 1 2", "-c", "&TYPE \\", "-c", "trip %I", "-c", "&ENDLOOP"];
@@ -23,7 +23,7 @@ fn blocks_go_on_from_one_record_of_the_command_line_to_the_next() {
 }
 
 #[test]
-fn a_message_names_the_number_of_the_wrong_record() {
+fn message_names_number_of_wrong_record() {
     let (code, out, err) = run(&["-c", "&TYPE one", "-c", "NONSENSE", "-c", "&TYPE three"]);
     assert_eq!((code, out.as_str()), (Some(1), "one\nthree\n"));
     assert!(err.contains("-c:2:1"), "{err}");
@@ -32,7 +32,7 @@ fn a_message_names_the_number_of_the_wrong_record() {
 }
 
 #[test]
-fn records_write_their_log_where_out_says_and_else_none() {
+fn command_line_records_log_only_where_out_names_a_folder() {
     let folder = tempfile::tempdir().unwrap();
     run_in(folder.path(), &["-c", "&TYPE hi"]);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -42,7 +42,7 @@ fn records_write_their_log_where_out_says_and_else_none() {
 }
 
 #[test]
-fn a_second_record_without_its_c_is_told_to_have_one() {
+fn second_record_without_c_is_refused_with_a_hint() {
     for arguments in [&["-c", "&TYPE a", "&TYPE b"][..], &["-c", "&TYPE a", "&TYPE b", "&TYPE c"]] {
         let (code, out, err) = run(arguments);
         assert_eq!((code, out.as_str()), (Some(2), ""));
@@ -54,14 +54,14 @@ fn a_second_record_without_its_c_is_told_to_have_one() {
 }
 
 #[test]
-fn a_missing_script_is_named_as_it_was_typed() {
+fn missing_script_is_named_as_typed() {
     let (code, _, err) = run(&["nofile.cif"]);
     assert_eq!((code, err.as_str()), (Some(2), "windlass: there is no file nofile.cif\n"));
     assert!(run(&["nofile"]).2.contains("there is no file nofile, nor nofile.cif"));
 }
 
 #[test]
-fn a_macro_named_as_an_abbreviation_is_called_and_one_named_as_a_command_is_refused() {
+fn macro_may_have_abbreviation_name_but_no_command_name() {
     let called = ["-c", "&MACRO &TYP A", "-c", "&TYPE mine %A", "-c", "&ENDMACRO", "-c", "&TYP 1", "-c", "&TYPE own"];
     assert_eq!(run(&called), (Some(0), "mine 1\nown\n".into(), String::new()));
     let (code, out, err) = run(&["-c", "&MACRO &TYPE A", "-c", "&TYPE mine", "-c", "&ENDMACRO", "-c", "&TYPE own"]);
@@ -70,7 +70,7 @@ fn a_macro_named_as_an_abbreviation_is_called_and_one_named_as_a_command_is_refu
 }
 
 #[test]
-fn a_comma_with_blanks_around_it_is_one_separator_and_two_leave_a_datum_empty() {
+fn comma_with_blanks_is_one_separator_and_two_leave_empty_field() {
     let point =
         |record: &str| run(&["-c", "MEDIT", "-c", record, "-c", "&TYPE at &POINT(COORDINATES *D)", "-c", "END"]).1;
     assert_eq!(point("*D , 1"), "at 1 0 0\n");
@@ -78,14 +78,14 @@ fn a_comma_with_blanks_around_it_is_one_separator_and_two_leave_a_datum_empty() 
 }
 
 #[test]
-fn a_part_turned_by_a_quarter_has_exact_coordinates() {
+fn part_rotated_by_quarter_turn_has_exact_coordinates() {
     let records = "MEDIT\n&DESCRIBE BODY B\n&DESCRIBE PART P -MOVE 0 0 0 0 0 90\n*C 10 0 0\n\
                    &TYPE at &POINT(COORDINATES *C -GLOBAL)\nEND";
     assert_eq!(run(&["-c", records]).1, "at 0 10 0\n");
 }
 
 #[test]
-fn a_plot_that_goes_to_no_terminal_is_ninety_columns_wide() {
+fn plot_without_terminal_is_ninety_columns_wide() {
     let plot = ["-c", "&DATA CURVES C_PROFILE CUR 0 1 100 2", "-c", "&STATUS CURVES -PLOT"];
     let widest = |text: &str| {
         let plotted = text.lines().filter(|l| l.contains(|c| ('\u{2800}'..='\u{28ff}').contains(&c)));
@@ -127,7 +127,7 @@ fn line_far_too_short_for_its_ends_exits_with_3() {
 }
 
 #[test]
-fn tension_beyond_a_given_break_exits_with_3() {
+fn tension_beyond_given_break_exits_with_3() {
     for asked in ["&EQUI", "&STATUS F_CONNECTOR", "TDOM"] {
         let (code, _, err) = moored(&chain(400), asked);
         assert_eq!(code, Some(3), "{asked}: {err}");
@@ -137,7 +137,7 @@ fn tension_beyond_a_given_break_exits_with_3() {
 }
 
 #[test]
-fn given_break_behind_a_more_loaded_bare_segment_exits_with_3() {
+fn given_break_behind_more_loaded_bare_segment_exits_with_3() {
     // the bare wire of 5 mm is the critical segment, and the chain behind it was given a break that both exceed
     let bare = "5 EXACT -LEN 100 -BUOY 0 -WTPL 0.001 -EMOD 200000\n~C B_CAT";
     let (code, _, err) = moored(&format!("{bare} 100 EXACT -EMOD 50000 -B_TENSION 10"), "&STATUS F_CONNECTOR");
@@ -146,20 +146,20 @@ fn given_break_behind_a_more_loaded_bare_segment_exits_with_3() {
 }
 
 #[test]
-fn action_that_never_happened_excuses_no_line() {
+fn action_that_never_fired_excuses_no_line_break() {
     let action = "&ACTION B1 -TENSION A 1E6 -RELEASE A B\nTDOM";
     assert_eq!(moored(&chain(400), action).0, Some(3));
 }
 
 #[test]
-fn tension_beyond_a_break_is_told_beside_a_wrong_record() {
+fn tension_beyond_break_is_reported_beside_a_wrong_record() {
     let (code, _, err) = moored(&chain(400), "&EQUI\n&BOGUS");
     assert_eq!(code, Some(1), "{err}");
     assert!(err.contains("warning: the tension of A is 1."), "{err}");
 }
 
 #[test]
-fn answers_into_a_file_are_refused_before_the_job_runs() {
+fn output_folder_that_is_a_file_is_refused_before_job_runs() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("job.cif"), "&TYPE ran\n").unwrap();
     let (code, out, err) = run_in(folder.path(), &["--out", "job.cif", "job.cif"]);
@@ -168,7 +168,7 @@ fn answers_into_a_file_are_refused_before_the_job_runs() {
 }
 
 #[test]
-fn break_of_a_bare_diameter_never_exits_with_3() {
+fn break_of_diameter_only_segment_never_exits_with_3() {
     // steel over 20 mm bears some 150 kN
     let (code, out, err) = moored("20 EXACT", "&EQUI\n&STATUS F_CONNECTOR");
     assert!(err.contains("beyond its breaking tension"), "{out}{err}");
@@ -176,7 +176,7 @@ fn break_of_a_bare_diameter_never_exits_with_3() {
 }
 
 #[test]
-fn sweeps_beyond_a_break_exit_with_0() {
+fn sweeps_beyond_break_exit_with_0() {
     for asked in [
         "CONN_DESIGN\nTABLE A\nEND\nEND",
         "CONN_DESIGN\nMOVE RIG 0 -DISTANCE 40\nEND\nEND",
@@ -188,7 +188,7 @@ fn sweeps_beyond_a_break_exit_with_0() {
 }
 
 #[test]
-fn lines_that_an_action_releases_do_not_exit_with_3() {
+fn lines_released_by_action_do_not_exit_with_3() {
     let release = |lines: &str| moored(&chain(400), &format!("&ACTION B1 -TENSION A 400 -RELEASE {lines}\nTDOM"));
     let (code, _, err) = release("A");
     assert_eq!(code, Some(3), "{err}");
@@ -196,14 +196,14 @@ fn lines_that_an_action_releases_do_not_exit_with_3() {
 }
 
 #[test]
-fn missing_result_exits_with_1_and_says_so() {
+fn missing_result_exits_with_1_and_a_message() {
     let (code, out, err) = moored(&chain(4000), "&ENV -DEPTH 5\n&STATUS F_CONNECTOR");
     assert_eq!(code, Some(1), "{out}{err}");
     assert!(err.contains("windlass: exit code 1: a result that was asked for does not exist"), "{err}");
 }
 
 #[test]
-fn reserved_words_are_commands_and_a_root_so_named_needs_its_ending() {
+fn reserved_words_are_commands_and_such_a_root_needs_extension() {
     let folder = tempfile::tempdir().unwrap();
     for word in ["check", "study", "verify", "open", "report", "fmt", "lsp", "manual"] {
         let (code, out, err) = run_in(folder.path(), &[word, "cases.csv", "--jobs", "3"]);
@@ -240,7 +240,7 @@ fn reserved_words_are_commands_and_a_root_so_named_needs_its_ending() {
 }
 
 #[test]
-fn help_lists_the_exit_codes() {
+fn help_lists_exit_codes() {
     let (code, out, _) = run(&["--help"]);
     assert_eq!(code, Some(0));
     for line in

@@ -14,7 +14,7 @@ const CART: &str = "MEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*
                     ~S GSPR BOTH X 40000 1E9 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART 0.5 0 0\n";
 
 #[test]
-fn a_run_onto_a_full_disk_says_so_and_keeps_its_rows() {
+fn run_on_full_disk_reports_it_and_keeps_its_rows() {
     // every write to this file fails with \"no space left on device\"
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let mut run = Run::new(&runs::model(CART), runs::settings(100.0, 0.1), vec![]).unwrap();
@@ -42,7 +42,7 @@ fn unlimited(folder: &Path, script: &str) {
 }
 
 #[test]
-fn with_room_again_a_run_goes_on_to_the_file_of_one_that_always_had_it() {
+fn run_continued_after_full_disk_matches_uninterrupted_file() {
     let records = format!("&DIMEN -DIMEN METERS N\n{CART}&ENV -TIME 2000 0.1\n");
     let (short, whole) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     unlimited(whole.path(), &format!("{records}TDOM -STORE 50\n"));
@@ -59,7 +59,7 @@ fn with_room_again_a_run_goes_on_to_the_file_of_one_that_always_had_it() {
 }
 
 #[test]
-fn a_table_that_finds_no_room_is_named_and_leaves_no_piece_of_a_file() {
+fn table_without_disk_space_is_named_and_leaves_no_partial_file() {
     let folder = tempfile::tempdir().unwrap();
     let rows = (0..9000).map(|n| format!("{n},{}\n", f64::from(n).sqrt())).collect::<String>();
     fs::write(folder.path().join("in.csv"), format!("A,B\n{rows}")).unwrap();

@@ -119,7 +119,7 @@ impl Terminal {
 }
 
 #[test]
-fn completion_hints_a_wrong_record_and_ctrl_c() {
+fn completion_hints_wrong_record_and_ctrl_c() {
     let home = tempfile::tempdir().unwrap();
     let mut t = Terminal::start(home.path(), &[]);
     t.ready("MAIN> ");
@@ -175,7 +175,7 @@ fn completion_hints_a_wrong_record_and_ctrl_c() {
 }
 
 #[test]
-fn history_lasts_from_one_session_to_the_next() {
+fn history_persists_between_sessions() {
     let home = tempfile::tempdir().unwrap();
     let mut t = Terminal::start(home.path(), &[]);
     t.ready("MAIN> ");
@@ -192,7 +192,7 @@ fn history_lasts_from_one_session_to_the_next() {
 }
 
 #[test]
-fn a_resize_leaves_the_editor_working() {
+fn resize_leaves_editor_working() {
     let home = tempfile::tempdir().unwrap();
     let mut t = Terminal::start(home.path(), &[]);
     t.ready("MAIN> ");
@@ -207,7 +207,7 @@ fn a_resize_leaves_the_editor_working() {
 }
 
 #[test]
-fn ctrl_c_stops_an_endless_loop_and_returns_to_the_prompt() {
+fn ctrl_c_stops_endless_loop_and_returns_to_prompt() {
     let home = tempfile::tempdir().unwrap();
     let script = "&DEVICE -RECORDS 1000000000000\n&TYPE begun\n&LOOP\n&SET A = 1\n&ENDLOOP\n";
     std::fs::write(home.path().join("job.cif"), script).unwrap();
@@ -234,7 +234,7 @@ fn script_stopped_by_ctrl_c_exits_with_130() {
 }
 
 #[test]
-fn a_root_runs_its_script_and_goes_on_at_the_terminal() {
+fn root_runs_its_script_and_continues_at_terminal() {
     let home = tempfile::tempdir().unwrap();
     std::fs::write(home.path().join("barge.cif"), "&TYPE from the script\nMEDIT\n").unwrap();
     let mut t = Terminal::start(home.path(), &["barge"]);
@@ -244,7 +244,7 @@ fn a_root_runs_its_script_and_goes_on_at_the_terminal() {
 }
 
 #[test]
-fn no_colour_where_the_output_is_no_terminal() {
+fn output_without_terminal_has_no_colour() {
     let run = std::process::Command::new(env!("CARGO_BIN_EXE_windlass")).args(["-c", "NONSENSE"]).output().unwrap();
     assert!(!run.stderr.contains(&0x1b), "{}", String::from_utf8_lossy(&run.stderr));
 }
@@ -275,7 +275,7 @@ fn records_typed_ahead_all_run_in_order() {
 }
 
 #[test]
-fn completion_offers_words_of_every_sort_and_no_lone_dash() {
+fn completion_offers_every_kind_of_word_and_no_lone_dash() {
     let home = tempfile::tempdir().unwrap();
     let mut t = Terminal::start(home.path(), &[]);
     t.ready("MAIN> ");
@@ -310,7 +310,7 @@ fn completion_offers_words_of_every_sort_and_no_lone_dash() {
 }
 
 #[test]
-fn ctrl_c_leaves_the_line_without_its_hint() {
+fn ctrl_c_leaves_line_without_its_hint() {
     let home = tempfile::tempdir().unwrap();
     let mut t = Terminal::start(home.path(), &[]);
     t.ready("MAIN> ");
@@ -329,7 +329,7 @@ fn ctrl_c_leaves_the_line_without_its_hint() {
 }
 
 #[test]
-fn ctrl_d_says_which_block_was_not_closed() {
+fn ctrl_d_names_the_unclosed_block() {
     let home = tempfile::tempdir().unwrap();
     for (record, prompt, said) in [
         ("&LOOP I 1 2", "loop ... ", "this &LOOP is not closed"),
@@ -347,7 +347,7 @@ fn ctrl_d_says_which_block_was_not_closed() {
 }
 
 #[test]
-fn a_plot_is_as_wide_as_the_terminal_unless_its_size_is_set() {
+fn plot_has_terminal_width_unless_its_size_is_set() {
     let home = tempfile::tempdir().unwrap();
     let mut t = Terminal::start(home.path(), &[]);
     t.ready("MAIN> ");
@@ -375,7 +375,7 @@ fn a_plot_is_as_wide_as_the_terminal_unless_its_size_is_set() {
 }
 
 #[test]
-fn a_comment_line_inside_a_continued_record_waits_for_the_rest() {
+fn comment_line_inside_continued_record_waits_for_next_line() {
     let home = tempfile::tempdir().unwrap();
     let mut t = Terminal::start(home.path(), &[]);
     t.ready("MAIN> ");
@@ -386,7 +386,7 @@ fn a_comment_line_inside_a_continued_record_waits_for_the_rest() {
 }
 
 #[test]
-fn run_of_very_many_steps_is_announced_and_interrupted_without_promising_a_file() {
+fn very_long_run_is_announced_and_interrupt_promises_no_file() {
     let home = tempfile::tempdir().unwrap();
     let records = "&DIMEN -DIMEN METERS N\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n\
          #WEIGHT *C 9806.65 1 1 1\n~S GSPR BOTH X 4000 1E9 -LEN 0\nCONNECTOR S ~S *C *G\nEND\n&ENV -TIME 1E9 0.001\nTDOM -STATISTICS\n";
@@ -400,7 +400,7 @@ fn run_of_very_many_steps_is_announced_and_interrupted_without_promising_a_file(
 }
 
 #[test]
-fn a_typed_record_may_create_a_file_elsewhere_after_one_question() {
+fn typed_record_may_create_outside_file_after_one_question() {
     let home = tempfile::tempdir().unwrap();
     let file = |name: &str| home.path().join(name);
     std::fs::write(file("mine"), "mine").unwrap();
@@ -430,7 +430,7 @@ fn a_typed_record_may_create_a_file_elsewhere_after_one_question() {
 }
 
 #[test]
-fn a_long_line_is_printed_in_proportion_to_its_length() {
+fn long_line_printing_time_is_proportional_to_its_length() {
     let home = tempfile::tempdir().unwrap();
     let mut t = Terminal::start(home.path(), &[]);
     t.ready("MAIN> ");

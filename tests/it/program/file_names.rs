@@ -53,7 +53,7 @@ impl Run {
 }
 
 #[test]
-fn relative_names_with_and_without_folders_are_inside_the_jobs_folder() {
+fn relative_names_with_and_without_folders_are_inside_jobs_folder() {
     let script = format!(
         "&FILE MKDIR a/b\n&FILE OPEN T a/b/n.txt\n&FILE WRITE T one\n&FILE CLOSE T\n&FILE CP a/b/n.txt a/c.txt\n\
          &FILE MV a/c.txt d.txt\n&FILE CP d.txt e.txt\n&FILE RM e.txt\n{TABLE}STORE s X Force\nSTORE a/s X Force\n\
@@ -75,7 +75,7 @@ fn relative_names_with_and_without_folders_are_inside_the_jobs_folder() {
 }
 
 #[test]
-fn a_dot_or_two_in_front_and_absolute_names_mean_what_the_shell_means() {
+fn dotted_and_absolute_names_are_shell_paths() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir_all(folder.path().join("here/sub")).unwrap();
     let absolute = folder.path().join("absolute.txt");
@@ -95,7 +95,7 @@ fn a_dot_or_two_in_front_and_absolute_names_mean_what_the_shell_means() {
 }
 
 #[test]
-fn outside_the_jobs_folder_nothing_is_overwritten_and_writing_asks_for_allow_files() {
+fn outside_file_is_never_overwritten_and_needs_allow_files() {
     let script = format!(
         "{TABLE}STORE ./job.cif X Force\n{TABLE_END}&FILE RM ./job.cif\n&FILE CP ./job.cif ./copy\n\
          &FILE MV ./job.cif moved\n&FILE MKDIR ../new\n"
@@ -118,7 +118,7 @@ fn outside_the_jobs_folder_nothing_is_overwritten_and_writing_asks_for_allow_fil
 }
 
 #[test]
-fn a_relative_name_that_climbs_out_is_refused_by_every_command_even_with_allow_files() {
+fn climbing_relative_name_is_refused_even_with_allow_files() {
     let script = format!(
         "&DEVICE -LIMERROR 99\n&FILE MKDIR a\n&FILE OPEN T a/../../x\n&FILE MKDIR a/../../x\n&FILE RM a/../../job.cif\n\
          &FILE MV a/../../job.cif x\n&FILE CP a a/../../x\n&FILE OPEN T a/..\n&FILE ANS_DIRECTORY a/../../x\n\
@@ -135,7 +135,7 @@ fn a_relative_name_that_climbs_out_is_refused_by_every_command_even_with_allow_f
 }
 
 #[test]
-fn open_fails_at_open_where_the_file_could_not_be_written() {
+fn unwritable_file_fails_at_open() {
     let refused = |name: &str, why: &str| {
         let script = format!("&FILE MKDIR sub\n&FILE OPEN T {name}\n&FILE WRITE T lost\n");
         let run = Run::of(&script, &["--allow-files"]);
@@ -157,7 +157,7 @@ fn open_fails_at_open_where_the_file_could_not_be_written() {
 }
 
 #[test]
-fn a_file_never_closed_is_written_whole_and_named_however_the_job_ends() {
+fn file_never_closed_is_written_whole_and_named_at_any_end() {
     let body = "&FILE OPEN NOTE n.txt\n&FILE OPEN OUT ./o.txt\n&FILE WRITE NOTE one\n&FILE WRITE OUT two\n&FILE WRITE NOTE three\n";
     for (end, arguments, code) in [
         ("", &[][..], 0),
@@ -179,7 +179,7 @@ fn a_file_never_closed_is_written_whole_and_named_however_the_job_ends() {
 }
 
 #[test]
-fn a_type_opened_again_first_writes_what_it_had_and_one_file_has_one_type() {
+fn reopened_type_writes_pending_output_and_file_has_one_type() {
     let run = Run::of(
         "&FILE OPEN T a.txt\n&FILE WRITE T first\n&FILE OPEN T a.txt\n&FILE WRITE T second\n&FILE OPEN U a.txt\n\
          &FILE CLOSE T\n",
@@ -192,21 +192,21 @@ fn a_type_opened_again_first_writes_what_it_had_and_one_file_has_one_type() {
 }
 
 #[test]
-fn a_file_that_could_not_be_written_at_the_end_is_an_error() {
+fn file_that_cannot_be_written_at_end_is_error() {
     let run = Run::of("&FILE OPEN T a.txt\n&FILE WRITE T x\n&FILE MKDIR a.txt\n", &[]);
     assert_eq!(run.code, Some(1));
     assert!(run.err.contains("a.txt: is a directory") && run.err.contains("job.cif:1:14"), "{}", run.err);
 }
 
 #[test]
-fn the_help_of_file_states_the_rule_of_names() {
+fn help_of_file_states_the_name_rule() {
     let run = Run::of("&HELP &FILE\n", &[]);
     let text = run.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("a relative name, with folders or without, is inside the job's own folder"), "{text}");
 }
 
 #[test]
-fn the_log_of_the_running_job_and_open_files_are_neither_removed_nor_moved() {
+fn running_log_and_open_files_are_neither_removed_nor_moved() {
     let script = format!(
         "&DEVICE -LIMERROR 99\n&FILE OPEN T a.txt\n&FILE CLOSE T\n&FILE OPEN T a.txt\n&FILE CP LOG00001.TXT copy\n\
          &FILE USE U copy\n&FILE RM LOG00001.TXT\n&FILE MV LOG00001.TXT b.txt\n&FILE RM ./job.ans/../job.ans/LOG00001.TXT\n\
@@ -224,7 +224,7 @@ fn the_log_of_the_running_job_and_open_files_are_neither_removed_nor_moved() {
 }
 
 #[test]
-fn a_script_reads_back_what_it_wrote_by_the_same_name() {
+fn script_reads_back_its_own_file_by_same_name() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir_all(folder.path().join("here")).unwrap();
     fs::write(folder.path().join("here/n.txt"), "beside the script\n").unwrap();
@@ -243,7 +243,7 @@ fn a_script_reads_back_what_it_wrote_by_the_same_name() {
 
 #[cfg(unix)]
 #[test]
-fn open_plot_and_store_make_nothing_through_a_link_out_of_the_jobs_folder() {
+fn open_plot_and_store_write_nothing_through_link_out_of_folder() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir_all(folder.path().join("here/job.ans")).unwrap();
     fs::create_dir(folder.path().join("out")).unwrap();
@@ -255,7 +255,7 @@ fn open_plot_and_store_make_nothing_through_a_link_out_of_the_jobs_folder() {
 }
 
 #[test]
-fn a_copy_or_move_that_is_refused_points_at_the_name_it_is_about() {
+fn refused_copy_or_move_points_at_offending_name() {
     let script = "&FILE OPEN T h.txt\n&FILE CLOSE T\n&FILE CP h.txt ./new.txt\n&FILE MV h.txt ./new.txt\n&FILE CP h.txt h.txt\n\
                   &FILE CP none new.txt\n&FILE MV ./job.cif new.txt\n&FILE CP h.txt none/x\n";
     let run = Run::of(script, &[]);
@@ -273,7 +273,7 @@ fn fed(here: &std::path::Path, arguments: &[&str], input: &str) -> Output {
 }
 
 #[test]
-fn no_record_that_is_not_typed_makes_a_file_outside_of_the_jobs_folder() {
+fn untyped_record_makes_no_file_outside_job_folder() {
     let folder = tempfile::tempdir().unwrap();
     let (home, here) = (folder.path().join("home"), folder.path().join("home/here"));
     fs::create_dir_all(&here).unwrap();
@@ -325,7 +325,7 @@ fn no_record_that_is_not_typed_makes_a_file_outside_of_the_jobs_folder() {
 
 #[cfg(unix)]
 #[test]
-fn an_answers_folder_that_is_a_link_is_refused_and_one_named_by_out_is_taken() {
+fn linked_answers_folder_is_refused_unless_named_by_out() {
     let folder = tempfile::tempdir().unwrap();
     let (here, victim) = (folder.path().join("here"), folder.path().join("victim"));
     fs::create_dir(&here).unwrap();
@@ -349,7 +349,7 @@ fn an_answers_folder_that_is_a_link_is_refused_and_one_named_by_out_is_taken() {
 }
 
 #[test]
-fn what_is_read_outside_of_the_scripts_folder_stands_in_the_log() {
+fn file_read_outside_script_folder_is_in_log() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("here")).unwrap();
     for (name, text) in [("out.cif", "&TYPE from outside\n"), ("out.txt", "x\n"), ("here/in.txt", "y\n")] {
@@ -370,7 +370,7 @@ fn what_is_read_outside_of_the_scripts_folder_stands_in_the_log() {
 
 #[cfg(unix)]
 #[test]
-fn what_is_no_regular_file_is_refused_at_once_wherever_a_file_is_read() {
+fn special_file_is_refused_without_blocking_wherever_read() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path().join("here");
     fs::create_dir(&here).unwrap();
@@ -394,7 +394,7 @@ fn what_is_no_regular_file_is_refused_at_once_wherever_a_file_is_read() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn output_that_cannot_be_written_ends_with_1_and_the_reason_and_a_closed_pipe_is_quiet() {
+fn failed_output_exits_with_1_and_reason_and_closed_pipe_is_quiet() {
     let folder = tempfile::tempdir().unwrap();
     let program = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_windlass"));
@@ -421,7 +421,7 @@ fn output_that_cannot_be_written_ends_with_1_and_the_reason_and_a_closed_pipe_is
 
 #[cfg(unix)]
 #[test]
-fn an_answers_folder_deleted_under_way_is_an_error_with_its_name() {
+fn answers_folder_deleted_during_run_is_error_with_its_name() {
     use std::io::{BufRead, Write};
     let folder = tempfile::tempdir().unwrap();
     let mut child = Command::new(env!("CARGO_BIN_EXE_windlass"))
@@ -445,7 +445,7 @@ fn an_answers_folder_deleted_under_way_is_an_error_with_its_name() {
 }
 
 #[test]
-fn what_a_terminal_would_act_on_is_spelled_wherever_text_of_the_user_is_printed() {
+fn terminal_control_characters_are_escaped_wherever_printed() {
     // OSC 52 (the clipboard), clear screen, C1, a right-to-left override; a script of MS-DOS shows none of its line ends
     let bad = "\u{1b}]52;c;AA\u{7}\u{1b}[2J\u{9b}31m\u{202e}";
     let script = format!(

@@ -58,7 +58,7 @@ fn shorts(value: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn a_page_holds_every_instant_and_the_bodies_and_lines_where_the_run_had_them() {
+fn film_page_holds_every_instant_with_bodies_and_lines_in_place() {
     let (session, _folder, job) = run(&format!("{MOORED}&ANIMATE run"));
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let data = data(&fs::read_to_string(job.join("run.html")).unwrap());
@@ -103,7 +103,7 @@ fn a_page_holds_every_instant_and_the_bodies_and_lines_where_the_run_had_them() 
 }
 
 #[test]
-fn a_page_fetches_nothing_and_is_well_formed_whatever_its_title() {
+fn film_page_fetches_nothing_and_is_well_formed_with_any_title() {
     let (session, _folder, job) =
         run(&format!("{MOORED}&ANIMATE run -HEADING '</script><b>& <!-- \\ {{{{ 7 }}}}' -EVENTS 0 6 2"));
     assert_eq!(session.errors, 0, "{:?}", session.reports);
@@ -134,7 +134,7 @@ fn a_page_fetches_nothing_and_is_well_formed_whatever_its_title() {
 }
 
 #[test]
-fn a_film_beyond_its_bounds_is_thinned_evenly_and_says_so() {
+fn film_beyond_limits_is_thinned_evenly_with_a_note() {
     let (mut session, ..) = run(MOORED);
     let run = session.job.run.as_mut().unwrap();
     let width = run.history.layout.width;
@@ -156,7 +156,7 @@ fn a_film_beyond_its_bounds_is_thinned_evenly_and_says_so() {
 }
 
 #[test]
-fn a_series_has_a_file_an_instant_with_lines_bodies_and_tensions_and_lists_them_with_their_times() {
+fn film_series_has_a_file_per_instant_and_lists_their_times() {
     let (session, _folder, job) = run(&format!("{MOORED}&ANIMATE run.vtk -EVENTS 0 6 1.5 -POINTS 9"));
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let list: Value = serde_json::from_str(&fs::read_to_string(job.join("run.vtk.series")).unwrap()).unwrap();
@@ -183,7 +183,7 @@ fn a_series_has_a_file_an_instant_with_lines_bodies_and_tensions_and_lists_them_
 }
 
 #[test]
-fn what_cannot_be_shown_is_refused_and_leaves_no_file() {
+fn invalid_film_is_refused_and_leaves_no_file() {
     for (records, want) in [
         ("&ANIMATE a.html", "there is no run yet"),
         (&format!("{MOORED}&ANIMATE a.avi"), "ends in .html or .vtk"),
@@ -204,7 +204,7 @@ const RODS: &str = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100 -TIME 6 0.2 -SEA
     CONNECTOR A -ANC 0 370 ~ROD *A\nCONNECTOR B -ANC 180 370 ~ROD *B\nEND\n&ACTION GONE -AT 2 -RELEASE B\n";
 
 #[test]
-fn a_film_shows_rods_where_their_nodes_were_and_a_line_that_was_let_go_falls() {
+fn film_shows_dynamic_line_nodes_and_released_line_falls() {
     let (session, ..) = run(&format!("{RODS}TDOM\n"));
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let run = session.job.run.as_ref().unwrap();
@@ -233,7 +233,7 @@ fn a_film_shows_rods_where_their_nodes_were_and_a_line_that_was_let_go_falls() {
 }
 
 #[test]
-fn a_film_of_a_rod_whose_nodes_were_not_kept_says_so() {
+fn film_of_line_without_stored_nodes_reports_it() {
     let (session, ..) = run(&format!("{RODS}TDOM -ALONG 0\n"));
     let run = session.job.run.as_ref().unwrap();
     let take = Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };

@@ -47,7 +47,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn all_2000_lines_with_exact_answers_come_out_of_the_program_within_1e_8_of_the_fairlead_tension() {
+fn all_2000_lines_match_exact_answers_to_1e_8_through_program() {
     let folder = tempfile::tempdir().unwrap();
     fs::copy("tests/data/catenary_2000.csv", folder.path().join("in.csv")).unwrap();
     assert_eq!(run(folder.path(), "LINES in.csv out"), Vec::<String>::new());
@@ -75,7 +75,7 @@ fn all_2000_lines_with_exact_answers_come_out_of_the_program_within_1e_8_of_the_
 }
 
 #[test]
-fn columns_go_through_as_they_are_in_their_order_and_numbers_read_back_to_the_last_bit() {
+fn columns_keep_order_and_numbers_read_back_bit_for_bit() {
     let text = "\u{feff}note, EA_N ,id,length_m,z_m,x_m,w_N_per_m,Error,error_in\r\n\
                 \"a \"\"b\"\", c\", 6.5E6 ,  q ,914.10,155,850,1.96e2,kept,\r\n";
     let (messages, made) = solve(text);
@@ -97,7 +97,7 @@ fn columns_go_through_as_they_are_in_their_order_and_numbers_read_back_to_the_la
 }
 
 #[test]
-fn a_file_that_was_made_can_be_solved_again_and_no_two_columns_are_alike() {
+fn lines_output_can_be_solved_again_with_unique_columns() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("in.csv"), format!("{HEAD}\n{GOOD}\n")).unwrap();
     let again = "LINES in.csv one\nLINES job.ans/one.csv two\nLINES job.ans/two.csv three";
@@ -112,7 +112,7 @@ fn a_file_that_was_made_can_be_solved_again_and_no_two_columns_are_alike() {
 }
 
 #[test]
-fn the_units_of_the_job_change_nothing() {
+fn job_units_do_not_change_results() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("in.csv"), format!("{HEAD}\n{GOOD}\n")).unwrap();
     run(folder.path(), "LINES in.csv feet\n&DIMEN -DIMEN METERS M-TONS\nLINES in.csv metres");
@@ -121,7 +121,7 @@ fn the_units_of_the_job_change_nothing() {
 }
 
 #[test]
-fn bad_rows_are_warned_of_by_their_line_ten_at_most_and_stop_no_other_row() {
+fn bad_rows_are_warned_by_line_number_ten_at_most() {
     let bad = "b,850,155,-1,6.5E6,196\n".repeat(4) + "\n\"b\nb\",850,x,914,6.5E6,196\n" + &"c,1\n".repeat(8);
     let (messages, made) = solve(format!("{HEAD}\n{bad}{GOOD}\n"));
     assert_eq!(messages.len(), 11, "{messages:?}");
@@ -138,7 +138,7 @@ fn bad_rows_are_warned_of_by_their_line_ten_at_most_and_stop_no_other_row() {
 }
 
 #[test]
-fn a_refused_row_is_a_warning_and_a_file_without_any_good_row_is_still_made() {
+fn refused_row_is_warning_and_file_is_written_without_good_rows() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("in.csv"), format!("{HEAD}\nb,1,1,1,x,1\n")).unwrap();
     let mut session = session(folder.path());
@@ -152,7 +152,7 @@ fn a_refused_row_is_a_warning_and_a_file_without_any_good_row_is_still_made() {
 }
 
 #[test]
-fn a_file_that_cannot_be_used_is_one_error_that_says_why_and_makes_no_file() {
+fn unusable_file_is_one_error_with_reason_and_writes_nothing() {
     for (text, want) in [
         (String::new(), "in.csv cannot be used: it is empty"),
         (format!("{HEAD}\r\n\r\n"), "it is empty"),
@@ -170,7 +170,7 @@ fn a_file_that_cannot_be_used_is_one_error_that_says_why_and_makes_no_file() {
 }
 
 #[test]
-fn bytes_that_are_no_text_go_through_in_a_column_that_is_not_read() {
+fn bytes_that_are_not_text_pass_through_in_unread_column() {
     let folder = tempfile::tempdir().unwrap();
     let text = [HEAD.as_bytes(), b",caf\xe9\n", GOOD.as_bytes(), b",\xff\0\xe9\n"].concat();
     fs::write(folder.path().join("in.csv"), text).unwrap();
@@ -180,7 +180,7 @@ fn bytes_that_are_no_text_go_through_in_a_column_that_is_not_read() {
 }
 
 #[test]
-fn the_file_is_looked_for_as_other_files_and_written_by_the_one_rule_of_names() {
+fn lines_file_is_found_and_written_by_the_usual_name_rules() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).display().to_string();
     fs::write(at("in.csv"), format!("{HEAD}\n{GOOD}\n")).unwrap();
@@ -205,7 +205,7 @@ fn the_file_is_looked_for_as_other_files_and_written_by_the_one_rule_of_names() 
 }
 
 #[test]
-fn a_file_may_be_replaced_by_its_own_answer_in_the_jobs_folder_and_is_kept() {
+fn file_may_be_replaced_by_its_own_answer_and_is_kept() {
     let folder = tempfile::tempdir().unwrap();
     let text = format!("{HEAD}\n{}", format!("{GOOD}\n").repeat(5000));
     fs::create_dir(folder.path().join("job.ans")).unwrap();
@@ -216,7 +216,7 @@ fn a_file_may_be_replaced_by_its_own_answer_in_the_jobs_folder_and_is_kept() {
 }
 
 #[test]
-fn ctrl_c_stops_it_without_leaving_a_part_of_the_file_and_ends_the_run() {
+fn ctrl_c_stops_lines_without_partial_file_and_ends_run() {
     let folder = tempfile::tempdir().unwrap();
     // many seconds of work, if nothing stopped it
     fs::write(folder.path().join("in.csv"), format!("{HEAD}\n{}", format!("{GOOD}\n").repeat(4_000_000))).unwrap();
@@ -248,7 +248,7 @@ fn ctrl_c_stops_it_without_leaving_a_part_of_the_file_and_ends_the_run() {
 }
 
 #[test]
-fn the_help_of_lines_names_every_column_it_reads_and_writes() {
+fn help_of_lines_names_every_input_and_output_column() {
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), "&HELP LINES");
     let log = fs::read_to_string(folder.path().join("job.ans/LOG00001.TXT")).unwrap();

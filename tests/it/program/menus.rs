@@ -42,7 +42,7 @@ fn one_error(run: &Run, message: &str) {
 }
 
 #[test]
-fn a_refused_table_gives_one_error_and_the_next_table_is_made() {
+fn refused_table_gives_one_error_and_next_table_is_written() {
     let script =
         "CONN_DESIGN\nTABLE NOPE\nREPORT\nVLIST\nSTORE x\nEND_DISPOSE\nTABLE A\nVIEW X -RECORD 1 1\nEND\nEND\n";
     let run = run(&format!("{MODEL}{script}"));
@@ -51,7 +51,7 @@ fn a_refused_table_gives_one_error_and_the_next_table_is_made() {
 }
 
 #[test]
-fn every_opener_that_is_refused_waits_for_its_own_end() {
+fn every_refused_opener_waits_for_its_own_end() {
     for (script, message) in [
         ("CONN_DESIGN -FAST\nTABLE A\nREPORT\nCULL X 0 1\nVIEW\nEND\nEND_DISPOSE\nEND_CONN_DESIGN\n", "-FAST"),
         ("MEDIT now\n*Q 1 2 x\n~V WRONG 1\nCONNECTOR B ~V *Q\nEND_MEDIT\n", "takes no further value"),
@@ -68,7 +68,7 @@ fn every_opener_that_is_refused_waits_for_its_own_end() {
 }
 
 #[test]
-fn internal_commands_and_macros_act_while_plain_commands_are_passed_over() {
+fn internal_commands_and_macros_run_while_plain_ones_are_skipped() {
     let script = "&MACRO SHOW WHAT\nVIEW %WHAT\n&TYPE shown %WHAT\nCULL X %NONE 1\nEND\n&ENDMACRO\nCONN_DESIGN\nTABLE NOPE\n\
                   &LOOP I 1 2\nVIEW %I\n&TYPE trip %I\n&ENDLOOP\n&IF .TRUE. &THEN\nSHOW me\n&ENDIF\n&SET A = 7\n\
                   &REPORT\nTYPE line of a report\nEND\nVIEW %NONE\nPLOT &NUMBER(REAL 1/0)\nEND\nEND\n&TYPE A is %A\n";
@@ -80,7 +80,7 @@ fn internal_commands_and_macros_act_while_plain_commands_are_passed_over() {
 }
 
 #[test]
-fn a_wrong_internal_command_is_still_an_error_and_a_wrong_end_too() {
+fn wrong_internal_command_and_wrong_end_are_still_errors() {
     let script = "CONN_DESIGN\nTABLE NOPE\n&TYPO\nVEIW\nEND_REPORT\nEND\nEND\n";
     let run = run(&format!("{MODEL}{script}"));
     assert_eq!(run.messages.len(), 3, "{:?}", run.messages);
@@ -89,7 +89,7 @@ fn a_wrong_internal_command_is_still_an_error_and_a_wrong_end_too() {
 }
 
 #[test]
-fn the_end_of_the_file_and_finish_end_the_run_as_in_any_menu() {
+fn end_of_file_and_finish_end_run_inside_skipped_menu() {
     let open = run(&format!("{MODEL}CONN_DESIGN\nTABLE NOPE\nREPORT\n"));
     assert_eq!((open.end, open.session.errors), (SessionEnd::Done, 1));
     assert_eq!(open.messages[1..], ["the input ends inside menu DISPOSITION, which END_DISPOSE leaves"]);
@@ -98,7 +98,7 @@ fn the_end_of_the_file_and_finish_end_the_run_as_in_any_menu() {
 }
 
 #[test]
-fn a_run_that_stops_at_the_error_does_not_say_what_it_passes_over() {
+fn run_that_stops_at_error_does_not_list_skipped_records() {
     for prepare in [|s: &mut Session| s.job.settings.batch = true, |s: &mut Session| s.job.settings.error_limit = 1] {
         let run = run_with("CONN_DESIGN -FAST\nTABLE A\nEND\nEND\n", prepare);
         assert_eq!((run.end, run.session.errors), (SessionEnd::Finished, 1));
@@ -107,14 +107,14 @@ fn a_run_that_stops_at_the_error_does_not_say_what_it_passes_over() {
 }
 
 #[test]
-fn a_model_file_that_is_not_there_takes_no_records_from_the_script() {
+fn missing_model_file_takes_no_records_from_script() {
     let run = run("&DEVICE -AUXIN nowhere.dat\nINMODEL\nMEDIT\n*P 0 0 0\nEND\n&TYPE &NAMES(POINTS)\n");
     assert!(run.messages.len() == 1 && run.messages[0].contains("does not exist"), "{:?}", run.messages);
     assert!(run.text.contains("*P"), "{}", run.text);
 }
 
 #[test]
-fn at_the_prompt_a_refused_opener_opens_nothing() {
+fn refused_opener_at_prompt_opens_nothing() {
     let run = run_with(&format!("{MODEL}CONN_DESIGN\nTABLE NOPE\nREPORT\nEND\n"), |s| s.interactive = true);
     assert_eq!(run.messages.len(), 2, "{:?}", run.messages);
     assert!(run.messages[1].contains("unknown command `REPORT`"));
@@ -122,7 +122,7 @@ fn at_the_prompt_a_refused_opener_opens_nothing() {
 }
 
 #[test]
-fn the_terminal_after_a_script_passes_over_nothing() {
+fn terminal_after_script_skips_nothing() {
     let mut run = run(&format!("{MODEL}CONN_DESIGN\nTABLE NOPE\nREPORT\n"));
     run.session.take_terminal();
     assert_eq!(run.session.job.menu().name(), "CONN_DESIGN");
@@ -141,7 +141,7 @@ fn without_places(run: &Run) -> (Vec<String>, Vec<String>) {
 }
 
 #[test]
-fn the_menu_of_curves_makes_the_curves_that_one_record_each_makes_in_any_units() {
+fn curve_menu_gives_curves_of_single_records_in_any_units() {
     let kinds =
         "C_PROFILE P_SPECTRUM F_SPECTRUM M_GROWTH W_HISTORY LT_MULTIPLIER CT_LENGTH EFFICIENCY CS_VELOCITY AM_PRESSURE";
     for units in ["", "&DIMEN -DIMEN METERS M-TONS\n"] {
@@ -159,7 +159,7 @@ fn the_menu_of_curves_makes_the_curves_that_one_record_each_makes_in_any_units()
 }
 
 #[test]
-fn the_menu_of_selectors_makes_the_selectors_that_one_record_each_makes() {
+fn selector_menu_gives_selectors_of_single_records() {
     let menu = run("&SELECT\n:B -EXCEPT X -SELECT Y Z\n:A -SEL *M@ :B -EXC *MD\nEND_&SELECT\n");
     let single = run("&SELECT :B -EXCEPT X -SELECT Y Z\n&SELECT :A -SEL *M@ :B -EXC *MD\n");
     assert_eq!((menu.session.errors, menu.session.job.menus.len()), (0, 1), "{:?}", menu.messages);
@@ -168,7 +168,7 @@ fn the_menu_of_selectors_makes_the_selectors_that_one_record_each_makes() {
 }
 
 #[test]
-fn offsets_and_angles_of_a_connector_are_read_back_and_said_only_where_given() {
+fn connector_offsets_and_angles_are_listed_only_where_given() {
     let model = "MEDIT\n*P 0 0 0\n*Q 9 0 0\n~G GSPR X 100 5\nCONNECTOR A ~G *P *Q\n";
     let none = run(&format!("{model}END\n&STATUS G_CONNECTOR\n"));
     assert!(!none.text.contains("-GO1") && !none.text.contains("-EULER"), "{}", none.text);
@@ -180,7 +180,7 @@ fn offsets_and_angles_of_a_connector_are_read_back_and_said_only_where_given() {
 }
 
 #[test]
-fn inside_cull_every_output_is_the_one_before_it_with_fewer_rows() {
+fn inside_cull_every_output_has_previous_output_rows_only() {
     let out = "REPORT X Force\nVIEW X Force\nVLIST\nSTATISTIC X Force\nSET_VARIABLE F Force\n&TYPE forces %F\n";
     let scaled = format!("{MODEL}CONN_DESIGN\nTABLE A\nC_SCALE 2 Force\nC_SHIFT -100 X\n");
     let all = run(&format!("{scaled}CULL Force -9 -1\n&TYPE /cut/\n{out}END\n&TYPE /cut/\n{out}END\nEND\n"));

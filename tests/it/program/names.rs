@@ -16,7 +16,7 @@ fn run(script: &str) -> (String, Vec<String>) {
 }
 
 #[test]
-fn the_environment_that_is_named_is_told_of_and_an_unknown_one_draws_the_nearest_names() {
+fn named_environment_is_reported_and_unknown_one_suggests_nearest() {
     let both = "&ENV STORM -DEPTH 111\n&ENV SWELL -DEPTH 222\n";
     let (storm, said) = run(&format!("{both}&STATUS ENV STORM\n"));
     assert!(storm.contains("S T O R M") && storm.contains("111") && !storm.contains("222"), "{storm}");
@@ -34,7 +34,7 @@ const MODEL: &str =
     "&DESCRIBE BODY B2\nMEDIT\n*PX 0 0 0\n*OTHER 1 0 0\n~L B_CAT 4 -LEN 900 -DEP 100\nCONNECTOR A ~L *PX\n";
 
 #[test]
-fn selectors_follow_what_is_renamed() {
+fn selectors_follow_renamed_parts() {
     let (text, said) = run(&format!(
         "{MODEL}&SELECT :W -SEL *PX\n&SELECT :NOT -SEL *@ -EXCEPT *px\n&SELECT :A -SEL A\nRENAME *PX *PY\nRENAME A K\n\
          &TYPE <&NAMES(POINTS :W)> <&NAMES(POINTS :NOT)> <&NAMES(CONNECTORS :A)>\n"
@@ -43,7 +43,7 @@ fn selectors_follow_what_is_renamed() {
 }
 
 #[test]
-fn connectors_that_wait_for_the_end_of_inmodel_follow_what_is_renamed() {
+fn connectors_pending_in_inmodel_follow_renamed_parts() {
     let (text, said) =
         run("INMODEL\nCONNECTOR A ~W *P\n*P 0 0 0\n~W B_CAT 4 -LEN 900\nRENAME *P *Q\nRENAME ~W ~V\nEND\n\
          &TYPE <&CONNECTOR(CLASS A)> <&CONNECTOR(POINTS A)>\n");
@@ -51,7 +51,7 @@ fn connectors_that_wait_for_the_end_of_inmodel_follow_what_is_renamed() {
 }
 
 #[test]
-fn a_refused_deletion_says_nothing_is_deleted_and_a_body_is_told_once() {
+fn refused_deletion_reports_nothing_deleted_and_names_body_once() {
     let (text, said) = run(&format!("{MODEL}DELETE A NOPE\nEND\n&TYPE <&NAMES(CONNECTORS)>\n"));
     assert_eq!((said.len(), text.contains("<A>")), (1, true), "{said:?}");
     assert!(said[0].starts_with("nothing is called NOPE"), "{said:?}");
@@ -61,7 +61,7 @@ fn a_refused_deletion_says_nothing_is_deleted_and_a_body_is_told_once() {
 }
 
 #[test]
-fn everything_is_deleted_at_once_whatever_uses_what() {
+fn deleting_everything_succeeds_whatever_the_references() {
     let (text, said) = run(&format!(
         "{MODEL}&DATA CURVES C_PROFILE CUR 0 1 9 1\n&ENV E -CURRENT CUR 0\n&ENV\n&SELECT :U -SEL X\n&SELECT :T -SEL :U\n\
          DELETE @\n&TYPE <&NAMES(BODIES)&NAMES(CLASSES)&NAMES(CURVES)&NAMES(SELECTORS)&NAMES(ENVIRONMENTS)>\n"
@@ -70,7 +70,7 @@ fn everything_is_deleted_at_once_whatever_uses_what() {
 }
 
 #[test]
-fn help_states_the_rule_of_names() {
+fn help_states_the_name_rule() {
     let (text, _) = run("&HELP\n");
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(

@@ -99,7 +99,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn the_interpreter_answers_any_text(text in words()) {
+    fn interpreter_answers_any_text_without_panic(text in words()) {
         let folder = tempfile::tempdir().unwrap();
         let job = JobFolder::new(folder.path().join("job"), None, false);
         let mut output = Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false);

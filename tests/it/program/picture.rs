@@ -25,7 +25,7 @@ fn scene(model: &Model) -> (Scene, usize) {
 }
 
 #[test]
-fn a_drawn_line_passes_from_its_fairlead_through_its_touchdown_to_its_anchor_and_lies_in_one_plane() {
+fn line_picture_runs_from_fairlead_over_touchdown_to_anchor_in_plane() {
     let (model, reports, ..) = run(MOORING);
     assert!(reports.is_empty(), "{reports:?}");
     let (scene, unshaped) = scene(&model);
@@ -45,7 +45,7 @@ fn a_drawn_line_passes_from_its_fairlead_through_its_touchdown_to_its_anchor_and
 }
 
 #[test]
-fn points_drawn_between_the_rows_of_a_shape_lie_on_the_line() {
+fn points_between_shape_rows_are_on_the_line() {
     // beside the seabed the hanging part is a catenary: z - z0 = a (cosh((x - x0) / a) - 1) with a = H / w but for its
     // elastic stretch, which a stiff line has little of. A cubic over the arc h between two rows is off by h^4 / 384 of
     // the fourth derivative of z = sqrt(a^2 + s^2) by the arc s, at most 3 / a^3
@@ -69,7 +69,7 @@ fn points_drawn_between_the_rows_of_a_shape_lie_on_the_line() {
 }
 
 #[test]
-fn a_line_without_a_solution_is_dashed_and_named() {
+fn unsolved_line_is_dashed_and_named() {
     let (model, reports, screen, _) =
         run(&MOORING.replace("END\n", "~T B_CAT 100 EXACT -LEN 700 -DEP 1 -BUOY 0 -WTPL 0.5\n*LOW 50 0 -3\nCONNECTOR C -ANC 90 600 ~T *LOW\nEND\n&PICTURE PLAN\n"));
     let (scene, unshaped) = scene(&model);
@@ -80,7 +80,7 @@ fn a_line_without_a_solution_is_dashed_and_named() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_said() {
+fn unsupported_picture_is_reported() {
     for (record, message) in [
         ("&PICTURE PLAN NOBODY", "nothing among what can be drawn is called NOBODY"),
         ("&PICTURE ASKEW", "nothing among what can be drawn is called ASKEW"),
@@ -101,7 +101,7 @@ fn what_cannot_be_drawn_is_said() {
 }
 
 #[test]
-fn files_are_the_same_twice_and_hold_names_and_a_round_scale() {
+fn picture_files_are_reproducible_with_names_and_round_scale() {
     let drawn = || {
         let (_, reports, _, folder) = run(&format!("{MOORING}&PICTURE -HARD\n&PICTURE ISO -FORMAT PNG\n"));
         assert!(reports.is_empty(), "{reports:?}");
@@ -120,7 +120,7 @@ fn files_are_the_same_twice_and_hold_names_and_a_round_scale() {
 }
 
 #[test]
-fn a_line_that_moves_by_itself_is_drawn_by_its_nodes_at_rest() {
+fn dynamic_line_picture_has_its_static_nodes() {
     let rod = MOORING
         .replace("B_CAT 100 EXACT", "ROD 100 50 -EI 0 -REFINE 140")
         .replace("-WTPL 0.5", "-WTPL 0.5 -SEABED 1E4");

@@ -123,7 +123,7 @@ fn left(model: &Model, actions: Vec<Action>, body: usize) -> ([f64; 2], Vec<&'st
 }
 
 #[test]
-fn tube_across_a_current_has_its_drag_and_a_total_of_zero() {
+fn tube_across_current_has_drag_category_and_zero_total() {
     // 1/2 1025 kg/m3 Cd 1, D 1 m, 10 m, (1 m/s)^2 = 5.125 kN; held by nothing it goes with the water
     let model = model(
         "&DEFAULT -WATER 1025\n&ENV -CURRENT 1 180 -DEPTH 100 -TIME 1 0.1\nMEDIT\n&DESCRIBE BODY B -IGNORE Z RX RY RZ\n*A 0 -5 -20\n*E 0 5 -20\n\
@@ -140,7 +140,7 @@ fn tube_across_a_current_has_its_drag_and_a_total_of_zero() {
 }
 
 #[test]
-fn categories_of_all_loads_add_up_to_inertia_in_a_run() {
+fn all_load_categories_add_up_to_inertia_in_run() {
     let made = model(&format!("{LOADS}END\n&ENV STORM"));
     for body in 0..3 {
         let (shares, groups) = left(&made, vec![], body);
@@ -152,7 +152,7 @@ fn categories_of_all_loads_add_up_to_inertia_in_a_run() {
 }
 
 #[test]
-fn categories_that_an_action_brings_have_a_place_from_the_start() {
+fn categories_of_an_action_have_columns_from_the_start() {
     let made = model(&format!("{LOADS}END\n&ENV CALM"));
     let storm = Action { name: "S".into(), when: Trigger::At(1.0), what: ActionKind::Environment("STORM".into()) };
     let (shares, groups) = left(&made, vec![storm], 0);
@@ -161,7 +161,7 @@ fn categories_that_an_action_brings_have_a_place_from_the_start() {
 }
 
 #[test]
-fn categories_of_every_class_add_up_in_a_run_and_at_rest() {
+fn categories_of_every_class_add_up_in_run_and_statics() {
     assert!(CLASSES.iter().all(|c| CONNECTORS.iter().any(|(name, _)| c.spec.name == *name)), "a class has no case");
     for (class, records) in CONNECTORS {
         let made = model(&format!("{LOADS}{records}\nEND\n&ENV STORM"));

@@ -87,7 +87,7 @@ fn oscillator(force: Complex<f64>, stiffness: f64, damping: f64, w: f64) -> Comp
 }
 
 #[test]
-fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
+fn oscillator_amplitude_and_phase_match_closed_form() {
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", "");
     attach(&mut model, DriftMethod::None);
     let linear = LinearSystem::new(&model).unwrap();
@@ -108,7 +108,7 @@ fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
 }
 
 #[test]
-fn natural_periods_and_damping_ratios_are_those_of_oscillators() {
+fn natural_periods_and_damping_ratios_match_oscillators() {
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", "");
     attach(&mut model, DriftMethod::None);
     let modes = natural(&LinearSystem::new(&model).unwrap()).unwrap();
@@ -121,7 +121,7 @@ fn natural_periods_and_damping_ratios_are_those_of_oscillators() {
 }
 
 #[test]
-fn a_motion_without_damping_at_its_natural_period_is_refused() {
+fn motion_without_damping_at_its_natural_period_is_refused() {
     let mut model = model("", "");
     attach(&mut model, DriftMethod::None);
     let attached = model.bodies.get_mut("BUOY").unwrap().database.as_mut().unwrap();
@@ -134,7 +134,7 @@ fn a_motion_without_damping_at_its_natural_period_is_refused() {
 }
 
 #[test]
-fn statistics_are_those_of_rayleigh() {
+fn response_statistics_match_rayleigh() {
     // sigma 2, Tz 10 s: in 10800 s 1080 maxima, the most probable largest 2 sqrt(2 ln 1080) = 7.47514
     let made = ResponseStatistics::from_moments(1.0, [4.0, 0.0], 4.0 * (TAU / 10.0).powi(2));
     assert!((made.period.unwrap() - 10.0).abs() < 1e-12 && made.significant() == 4.0);
@@ -155,7 +155,7 @@ fn seen(model: &Model, asked: &ResponseOptions) -> (LinearSystem, windlass_solve
 }
 
 #[test]
-fn a_body_that_rides_on_the_waves_has_the_height_and_period_of_the_sea() {
+fn body_following_waves_has_sea_height_and_period() {
     // stiffness of 1e15 N/m in place of inertia and 1e15 N/m of wave force: motion is elevation
     let mut model =
         model("~S GSPR BOTH Z 1E12 1000 -LEN 0\nCONNECTOR STIFF ~S *C *G\n", "&ENV -SEA ISSC 30 4 10 -SP_TYPE PEAK");
@@ -175,7 +175,7 @@ fn a_body_that_rides_on_the_waves_has_the_height_and_period_of_the_sea() {
 }
 
 #[test]
-fn a_spread_sea_moves_a_body_by_the_mean_square_over_its_directions() {
+fn spread_sea_response_is_mean_square_over_directions() {
     // surge by the cosine of the heading: the mean of cos^2 over cos^2 spreading about the axis is 3/4
     let of = |spread: &str| {
         let mut model = model("", &format!("&ENV -SEA JONSWAP 180 2 9 3.3 {spread}"));
@@ -199,7 +199,7 @@ fn a_spread_sea_moves_a_body_by_the_mean_square_over_its_directions() {
 }
 
 #[test]
-fn slow_drift_of_a_rectangular_spectrum_is_that_of_pinkster_by_hand() {
+fn slow_drift_of_rectangular_spectrum_matches_pinkster() {
     let (low, high) = (0.6, 0.9);
     let curve = format!("&DATA CURVES\nF_SPECTRUM BOX {low} 1 {high} 1\nEND\n");
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", &format!("{curve}&ENV -SEA BOX 180 4 {}", TAU / low));
@@ -225,7 +225,7 @@ fn slow_drift_of_a_rectangular_spectrum_is_that_of_pinkster_by_hand() {
 }
 
 #[test]
-fn a_quadratic_dashpot_is_linearised_as_borgman_has_it() {
+fn quadratic_dashpot_linearisation_matches_borgman() {
     // 400 kN (s/m)2 in heave: the damping in the sea is c sqrt(8/pi) of the deviation of the velocity that it leads to
     let dashpot = "~D GSPR BOTH Z 1E-6 1000 -LEN 0 -Z_DAMPING 400 2\nCONNECTOR D ~D *C *G\n";
     let mut model = model(dashpot, "&ENV -SEA ISSC 180 4 9");
@@ -277,7 +277,7 @@ const HULME: [(f64, f64, f64); 6] = [
 ];
 
 #[test]
-fn heave_of_the_hemisphere_is_that_of_its_formula_and_of_hulme() {
+fn hemisphere_heave_matches_formula_and_hulme() {
     let session = hemisphere("-IGNORE X Y RX RY RZ", "", "");
     let model = &session.job.model;
     let linear = LinearSystem::new(model).unwrap();
@@ -319,7 +319,7 @@ fn harmonic(times: &[f64], values: &[f64], w: f64) -> (f64, f64) {
 }
 
 #[test]
-fn a_moored_hemisphere_in_small_waves_moves_in_time_as_in_the_frequency_domain() {
+fn moored_hemisphere_in_small_waves_matches_frequency_domain() {
     let mut lines = String::from("#DAMP *CG 300 300 0 0 0 0\n~CHAIN B_CAT 100 EXACT -LEN 400 -DEPANCHOR 100\n");
     for (n, (x, y)) in [(9, 0), (0, 9), (-9, 0), (0, -9)].into_iter().enumerate() {
         lines.push_str(&format!("*F{n} {x} {y} -2\nCONNECTOR L{n} -ANC {} 370 ~CHAIN *F{n}\n", 90 * n));
@@ -357,7 +357,7 @@ fn a_moored_hemisphere_in_small_waves_moves_in_time_as_in_the_frequency_domain()
 }
 
 #[test]
-fn lines_that_move_by_themselves_are_said_to_follow_without_dynamics() {
+fn dynamic_lines_are_reported_as_quasi_static_in_frequency_domain() {
     let rod = "~R ROD 60 30 -LEN 90 -REFINE 8 -EI 0 -DEPANCHOR 60\nCONNECTOR ROD -ANC 0 60 ~R *C\n";
     for (more, told) in [(rod, true), ("", false)] {
         let mut model = model(more, "");

@@ -47,7 +47,7 @@ fn damping(made: &Run, periods: [usize; 2], steps: f64) -> f64 {
 }
 
 #[test]
-fn line_mode_is_damped_as_the_scheme_of_the_run_damps() {
+fn line_mode_damping_matches_run_scheme() {
     // numpy's eigenvalues of the amplification matrix of the form of [CHUNG-HULBERT-1993 eq. 5 to 8]:
     // M a[n+1-am] + K d[n+1-af] = 0 with Newmark's d and v; damping is -ln|z| / |ln z|
     for (method, steps, closed) in [
@@ -66,13 +66,13 @@ fn line_mode_is_damped_as_the_scheme_of_the_run_damps() {
 }
 
 #[test]
-fn line_of_the_trapezoidal_rule_keeps_its_energy() {
+fn line_with_trapezoidal_rule_conserves_energy() {
     let made = swung(Method::Implicit(TimeScheme::generalised_alpha(1.0)), 10.0, 30.0);
     assert!(damping(&made, [4, 24], 10.0).abs() < 1e-6);
 }
 
 #[test]
-fn table_of_a_corrector_run_names_the_scheme_of_its_lines() {
+fn corrector_run_table_names_scheme_of_its_lines() {
     let made = swung(Method::Corrector, 40.0, 1.0);
     let said = format!("{:?}", run_table(&made));
     assert!(said.contains("dynamic lines by generalised-alpha, spectral radius 0.200"), "{said}");

@@ -19,7 +19,7 @@ fn printed(load: &str, records: &str) -> (String, i64) {
 }
 
 #[test]
-fn modes_and_runs_of_a_hull_without_added_mass_are_refused() {
+fn modes_and_runs_of_hull_without_added_mass_are_refused() {
     for records in ["&STATUS MODES", "TDOM", "FREQ_RESPONSE\nRAO -PERIOD 9\nEND"] {
         let (text, errors) = printed("", records);
         assert!(errors > 0 && text.contains("no added mass of BOX"), "{records}: {text}");
@@ -32,7 +32,7 @@ fn modes_and_runs_of_a_hull_without_added_mass_are_refused() {
 }
 
 #[test]
-fn accepted_missing_added_mass_is_said_in_every_report() {
+fn accepted_missing_added_mass_is_noted_in_every_report() {
     for records in ["&STATUS MODES", "TDOM", "&EQUI"] {
         let (text, errors) = printed("", &format!("&PARAMETER -ACCEPT_MISSING YES\n{records}"));
         assert!(errors == 0 && text.contains("without added mass and radiation"), "{records}: {text}");
@@ -43,7 +43,7 @@ fn accepted_missing_added_mass_is_said_in_every_report() {
 }
 
 #[test]
-fn heave_of_a_box_with_added_mass_has_its_closed_period() {
+fn box_heave_with_added_mass_matches_closed_form_period() {
     // 2 pi sqrt((W + A)/(g C)), C = rho g 20 m 20 m: W = 20103.6, A = 20000 kN: 6.336 s; by dry mass 4.486 s
     let stiffness = 1.025 * 9.80665 * 400.0;
     let period = |weight: f64| std::f64::consts::TAU * (weight / 9.80665 / stiffness).sqrt();

@@ -52,7 +52,7 @@ fn turned(angle: f64, v: Vector3<f64>) -> Vector3<f64> {
 }
 
 #[test]
-fn a_point_of_a_turning_body_goes_round_a_circle() {
+fn point_of_rotating_body_moves_on_a_circle() {
     // the angle is the integral of a constant: rounding of 200 steps is left
     let (dt, tolerance) = (0.1, 1e-10);
     let made = run(&model(TOP), (20.0, dt), &[(0, Six::new(0.0, 0.0, 0.0, 0.0, 0.0, SPIN))], vec![]);
@@ -85,7 +85,7 @@ fn a_point_of_a_turning_body_goes_round_a_circle() {
 }
 
 #[test]
-fn points_of_interest_move_with_their_body_under_the_wave_of_the_run() {
+fn points_of_interest_move_with_body_in_wave_of_run() {
     let mut made = run(&model(TOP), (4.0, 0.1), &[(0, Six::new(0.0, 0.0, 0.0, 0.0, 0.0, SPIN))], vec![]);
     let wave = Component { frequency: 0.6, number: 0.04, amplitude: 1.5, toward: [0.6, 0.8], phase: 0.3 };
     let water = Water { depth: Some(50.0), level: 0.25, gravity: 9.80665, density: 1025.0 };
@@ -156,7 +156,7 @@ fn ends(model: &Model, line: &str, point: &str) -> (Vector3<f64>, Vector3<f64>) 
 }
 
 #[test]
-fn the_forces_of_a_line_are_those_of_its_catenary_at_every_event() {
+fn line_forces_match_catenary_at_every_event() {
     let model = moored("");
     // A is paid out from 10 s on
     let winch =
@@ -196,7 +196,7 @@ fn the_forces_of_a_line_are_those_of_its_catenary_at_every_event() {
 }
 
 #[test]
-fn the_total_force_of_connectors_is_the_sum_of_their_forces_and_moments() {
+fn total_connector_force_is_sum_of_forces_and_moments() {
     let model = moored("");
     let made = run(&model, (10.0, 0.5), &[], vec![]);
     let events = results::events(&made.history, None).unwrap();
@@ -221,7 +221,7 @@ fn the_total_force_of_connectors_is_the_sum_of_their_forces_and_moments() {
 }
 
 #[test]
-fn the_forces_of_all_categories_with_inertia_are_in_balance_at_every_event() {
+fn all_categories_with_inertia_balance_at_every_event() {
     let model = moored("#DAMP *C 2E5 3E5 0 0 0 5E8\n");
     let made = run(&model, (20.0, 0.25), &[(0, Six::new(0.5, 0.0, 0.0, 0.0, 0.0, 0.05))], vec![]);
     let events = results::events(&made.history, None).unwrap();
@@ -241,7 +241,7 @@ fn the_forces_of_all_categories_with_inertia_are_in_balance_at_every_event() {
 }
 
 #[test]
-fn a_line_that_is_let_go_has_no_numbers_from_then_on() {
+fn released_line_has_no_values_after_release() {
     let gone = Action { name: "R".into(), when: Trigger::At(5.0), what: ActionKind::Release(vec!["D".into()]) };
     let made = run(&moored(""), (10.0, 0.5), &[], vec![gone]);
     let window = EventWindow { begin: 4.0, end: Some(6.0), increment: Some(0.25) };
@@ -258,7 +258,7 @@ fn a_line_that_is_let_go_has_no_numbers_from_then_on() {
 }
 
 #[test]
-fn what_lies_between_two_stored_instants_is_on_the_line_between_them() {
+fn values_between_stored_instants_are_interpolated_linearly() {
     let made = run(&moored(""), (4.0, 0.5), &[], vec![]);
     let all = results::magnitudes(&made, &[0], Magnitude::default(), &results::events(&made.history, None).unwrap());
     let stored = column(&all.unwrap(), "Force Magnitude", "A");
@@ -271,7 +271,7 @@ fn what_lies_between_two_stored_instants_is_on_the_line_between_them() {
 }
 
 #[test]
-fn segments_are_damaged_by_the_tension_at_their_upper_ends_and_a_scatter_adds_up_by_days() {
+fn segment_damage_uses_upper_end_tension_and_scatter_adds_by_days() {
     let records = "~T B_CAT 100 EXACT -LEN 150 -BUOY 0 -WTPL 1000 -EMOD 1E11 -B_TEN 2E6 -C_SN CHAIN\n\
                    ~T B_CAT 100 EXACT -LEN 860 -DEP 200 -BUOY 0 -WTPL 1000 -EMOD 1E11 -B_TEN 1E6\nCONNECTOR T -ANC 60 925 ~T *B\n";
     let made = run(&moored(records), (60.0, 0.5), &[], vec![]);

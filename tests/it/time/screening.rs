@@ -36,7 +36,7 @@ fn replays(run: &Run) -> Vec<Replay> {
 }
 
 #[test]
-fn replayed_chain_pulls_as_hard_as_the_chain_of_moordyn() {
+fn replayed_chain_tension_matches_moordyn_chain() {
     // the polynomials between stored instants follow the motion
     let (text, said, run) = ran(script("200 0.25 100", "", "TDOM"));
     let [made] = &replays(&run)[..] else { panic!("one line") };
@@ -55,14 +55,14 @@ fn replayed_chain_pulls_as_hard_as_the_chain_of_moordyn() {
 }
 
 #[test]
-fn tabulated_line_is_replayed_as_the_exact_one() {
+fn tabulated_line_replay_matches_exact_line() {
     let (.., run) = ran(script("200 0.25 100", "-TABLE", "TDOM -SCREEN NO"));
     let [made] = &replays(&run)[..] else { panic!("one line") };
     assert!((1e-3 * made.dynamic.0 / moordyn_most() - 1.0).abs() < 2e-3, "{made:?}");
 }
 
 #[test]
-fn screening_that_is_left_out_is_said_with_its_reason() {
+fn skipped_screening_is_reported_with_reason() {
     for (tdom, class, reason) in [
         ("TDOM -SCREEN NO", "", "not replayed as dynamic lines: -SCREEN NO"),
         ("TDOM -STATISTICS", "", "not replayed as dynamic lines: -STATISTICS keeps no motion of their ends"),
@@ -84,7 +84,7 @@ fn screening_that_is_left_out_is_said_with_its_reason() {
 }
 
 #[test]
-fn line_between_bodies_is_replayed_with_the_motion_of_both() {
+fn line_between_bodies_is_replayed_with_both_motions() {
     // a mirror image: the other end moves the other way, and is reported of
     let hung = |[moved, still]: [&str; 2], by: f64| {
         let (.., run) = ran(format!(
@@ -104,7 +104,7 @@ fn line_between_bodies_is_replayed_with_the_motion_of_both() {
 }
 
 #[test]
-fn replay_that_is_interrupted_is_named_and_fails_nothing() {
+fn interrupted_replay_is_named_and_fails_nothing_else() {
     let (.., run) = ran(script("60 0.2 20", "", "TDOM -SCREEN NO"));
     let made = screen(&run, &|| false);
     assert!(made.replays.is_empty() && made.left[0].1.to_string().contains("interrupted"), "{made:?}");

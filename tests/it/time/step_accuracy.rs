@@ -41,7 +41,7 @@ fn seen(history: &History) -> (f64, f64) {
 }
 
 #[test]
-fn error_of_a_period_of_the_trapezoidal_rule_is_that_of_its_closed_form() {
+fn trapezoidal_period_error_matches_closed_form() {
     // tan(W h/2) = w h/2 [HUGHES-1987 9.1]
     for steps in [8.0, 12.0, 40.0] {
         let made = oscillated(trapezoidal(), steps, 60.0);
@@ -58,7 +58,7 @@ fn error_of_a_period_of_the_trapezoidal_rule_is_that_of_its_closed_form() {
 }
 
 #[test]
-fn error_and_damping_of_generalised_alpha_are_those_of_the_oscillation_itself() {
+fn generalised_alpha_error_and_damping_match_the_oscillation() {
     // beside it what numpy finds as eigenvalues of the matrix of the scheme's form of [CHUNG-HULBERT-1993]
     for (rho, steps, period, damping) in
         [(0.2, 10.0, 0.080910, 0.022552), (0.2, 20.0, 0.023147, 0.003954), (0.5, 12.0, 0.032954, 0.002313)]
@@ -75,7 +75,7 @@ fn error_and_damping_of_generalised_alpha_are_those_of_the_oscillation_itself() 
 }
 
 #[test]
-fn error_of_a_step_is_the_first_term_of_its_closed_form() {
+fn step_error_matches_first_term_of_closed_form() {
     // the trapezoidal rule misses x by h^3 w^3 A/12 in a step, and the next term is (w h)^2 of that
     let (steps, w, amplitude) = (40.0, 2.0f64, 0.5);
     let made = oscillated(trapezoidal(), steps, 10.0);
@@ -85,7 +85,7 @@ fn error_of_a_step_is_the_first_term_of_its_closed_form() {
 }
 
 #[test]
-fn step_too_long_for_its_motion_is_warned_of_and_a_fair_one_is_not() {
+fn step_too_long_for_motion_is_warned_and_adequate_step_is_not() {
     assert_eq!(warning_of_accuracy(&oscillated(Method::default(), 20.0, 10.0)), None);
     let said = warning_of_accuracy(&oscillated(Method::default(), 5.0, 20.0)).unwrap();
     assert!(said.contains("the motion of CART in X") && said.contains("its period of 3.1"), "{said}");
@@ -105,7 +105,7 @@ fn floating_box(step: f64) -> Run {
 }
 
 #[test]
-fn floating_box_with_a_step_beyond_its_heave_period_is_warned_of_by_name() {
+fn floating_box_with_step_beyond_heave_period_is_named_in_warning() {
     let made = floating_box(5.0);
     let said = warnings_of_step(&made);
     assert!(said.iter().any(|s| s.contains("too long for the waves")), "{said:?}");
@@ -117,7 +117,7 @@ fn floating_box_with_a_step_beyond_its_heave_period_is_warned_of_by_name() {
 }
 
 #[test]
-fn natural_periods_at_the_start_are_those_of_springs_and_masses() {
+fn natural_periods_at_start_match_springs_and_masses() {
     // 2 rad/s
     let made = oscillated(Method::default(), 20.0, 1.0);
     let [only] = made.resolution.natural.as_slice() else { panic!("{:?}", made.resolution) };
@@ -125,7 +125,7 @@ fn natural_periods_at_the_start_are_those_of_springs_and_masses() {
 }
 
 #[test]
-fn run_of_very_many_steps_is_announced() {
+fn very_long_run_is_announced() {
     // 1e12 steps of 1e-5 s: 1e7 s, or 2778 h
     let long = RunSettings { keep: false, ..settings(1e9, 1e-3) };
     let said = warnings_of_step(&Run::new(&mass_on_a_spring(), long, vec![]).unwrap());

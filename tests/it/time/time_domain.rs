@@ -24,7 +24,7 @@ fn mass_on_a_spring(more: &str, start: f64) -> Model {
 }
 
 #[test]
-fn energy_of_a_linear_spring_drifts_less_than_1e_9_over_a_thousand_periods_of_20_steps() {
+fn linear_spring_energy_drifts_below_1e_9_over_1000_periods() {
     let model = mass_on_a_spring("", 0.5);
     let period = TAU / 2.0;
     let made = run(&model, RunSettings { method: trapezoidal(), ..settings(1000.0 * period, period / 20.0) }, vec![]);
@@ -39,7 +39,7 @@ fn energy_of_a_linear_spring_drifts_less_than_1e_9_over_a_thousand_periods_of_20
 }
 
 #[test]
-fn the_trapezoidal_rule_oscillates_with_its_own_known_period() {
+fn trapezoidal_rule_oscillates_with_its_closed_form_period() {
     // tan(W h/2) = w h/2 [HUGHES-1987 9.1]: x = cos(W t) at the steps
     let model = mass_on_a_spring("", 0.5);
     let h: f64 = 0.1;
@@ -51,7 +51,7 @@ fn the_trapezoidal_rule_oscillates_with_its_own_known_period() {
 }
 
 #[test]
-fn halving_the_step_quarters_the_error_of_every_scheme() {
+fn halving_step_quarters_error_of_every_scheme() {
     let model = mass_on_a_spring("", 0.5);
     for method in
         [Method::default(), trapezoidal(), Method::Implicit(TimeScheme::generalised_alpha(0.5)), Method::Corrector]
@@ -69,7 +69,7 @@ fn halving_the_step_quarters_the_error_of_every_scheme() {
 }
 
 #[test]
-fn linear_damping_has_its_logarithmic_decrement_and_damped_period() {
+fn linear_damping_matches_logarithmic_decrement_and_damped_period() {
     // 5 % of critical: c = 2 * 0.05 * sqrt(k m)
     let (ratio, w) = (0.05f64, 2.0);
     let model = mass_on_a_spring(&format!("#DAMP *C {} 0 0 0 0 0\n", 2.0 * ratio * 2000.0), 0.5);
@@ -83,7 +83,7 @@ fn linear_damping_has_its_logarithmic_decrement_and_damped_period() {
 }
 
 #[test]
-fn a_free_top_keeps_energy_and_angular_momentum_to_the_order_of_the_step() {
+fn free_top_conserves_energy_and_angular_momentum_to_step_order() {
     // unlike moments of inertia, turning about none of its axes; Euler's equations leave both constant
     let weight = 1000.0 * 9.80665;
     let model = model(&format!(
@@ -109,7 +109,7 @@ fn a_free_top_keeps_energy_and_angular_momentum_to_the_order_of_the_step() {
 }
 
 #[test]
-fn coulomb_friction_takes_the_same_from_every_swing_and_stops_the_cart() {
+fn coulomb_friction_reduces_every_swing_equally_and_stops_cart() {
     // 1000 kg on the ground, friction 0.05, on 4000 N/m: each half swing is 2 mu m g / k shorter than the one before; it stops
     // where the spring no longer overcomes the friction
     let weight = 1000.0 * 9.80665;
@@ -136,7 +136,7 @@ fn coulomb_friction_takes_the_same_from_every_swing_and_stops_the_cart() {
 }
 
 #[test]
-fn a_pendulum_swings_with_the_period_of_its_large_angle() {
+fn pendulum_period_matches_large_angle_closed_form() {
     // 1000 kg on a pin 10 m below it, let go at 60 degrees: T = 4 K(sin 30) sqrt(L/g) = 1.0731820 * 2 pi sqrt(L/g)
     // (Abramowitz and Stegun 17.3.1: K at modulus 0.5 is 1.6857503548)
     let weight = 1000.0 * 9.80665;
@@ -163,7 +163,7 @@ fn a_pendulum_swings_with_the_period_of_its_large_angle() {
 }
 
 #[test]
-fn a_berthing_fender_takes_the_energy_of_the_ship_and_friction_its_impulse() {
+fn berthing_fender_absorbs_ship_energy_and_friction_its_impulse() {
     // 1000 t at 0.15 m/s: 11.25 kNm, the area under 360 kN/m up to 0.25 m, after pi / 2 / sqrt(360 / 1000) = 2.618 s. It slides along at
     // 1 m/s: friction 0.2 takes 0.2 x 2 x 0.15 m/s while the push turns the ship back, whatever its curve. Steps of 0.01 s: 1e-5 of each
     let ship = model(

@@ -31,7 +31,7 @@ fn rows(session: &Session) -> Vec<u64> {
 }
 
 #[test]
-fn a_run_cut_off_anywhere_goes_on_from_its_file_with_the_digits_of_an_unbroken_one() {
+fn run_cut_off_anywhere_restarts_with_digits_of_uninterrupted_run() {
     let time = "-TIME 150 0.1";
     let action = "&ACTION GONE -AT 62.35 -RELEASE L0\n&ACTION PAY -AT 20 -WINCH L2 0.1 405\n";
     let records = format!("{}{action}", moored("EXACT", time));
@@ -54,7 +54,7 @@ fn a_run_cut_off_anywhere_goes_on_from_its_file_with_the_digits_of_an_unbroken_o
 }
 
 #[test]
-fn a_run_goes_on_beyond_its_end_as_if_it_had_been_longer_from_the_start() {
+fn run_extended_beyond_its_end_matches_longer_run() {
     let (mut whole, _, _folder) = common::session();
     run(&mut whole, &format!("{}TDOM", moored("EXACT", "-TIME 120 0.1")));
     let (mut parts, _, _other) = common::session();
@@ -64,7 +64,7 @@ fn a_run_goes_on_beyond_its_end_as_if_it_had_been_longer_from_the_start() {
 }
 
 #[test]
-fn a_run_of_another_model_is_refused_and_left_as_it_is() {
+fn run_of_another_model_is_refused_and_left_unchanged() {
     let (mut session, _, folder) = common::session();
     run(&mut session, &format!("{}TDOM", moored("EXACT", "-TIME 20 0.1")));
     let log = folder.path().join("job.ans").join("TDOM.run");
@@ -80,7 +80,7 @@ fn a_run_of_another_model_is_refused_and_left_as_it_is() {
 }
 
 #[test]
-fn files_that_are_no_runs_are_refused_and_never_panic() {
+fn invalid_run_files_are_refused_without_panic() {
     let (mut session, _, folder) = common::session();
     run(&mut session, &moored("EXACT", "-TIME 20 0.1"));
     let job = folder.path().join("job.ans");
@@ -122,7 +122,7 @@ fn balance(session: &Session) -> (f64, f64) {
 }
 
 #[test]
-fn surge_on_catenaries_keeps_its_energy_within_a_thousandth_over_a_hundred_periods() {
+fn surge_on_catenaries_keeps_energy_to_1e_3_over_100_periods() {
     // no damping, trapezoidal rule: what the lines do in work is there in motion
     let records = moored("EXACT", "-TIME 4000 0.5")
         .replace("#DAMP *CG 100 100 0 0 0 5000\n", "")
@@ -134,7 +134,7 @@ fn surge_on_catenaries_keeps_its_energy_within_a_thousandth_over_a_hundred_perio
 }
 
 #[test]
-fn a_line_that_breaks_at_its_tension_sets_the_body_free_with_what_it_had() {
+fn line_breaking_at_its_tension_releases_body_with_its_momentum() {
     let records = "&DIMEN -DIMEN METERS N\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 9806.65 1 1 1\n\
                    ~S GSPR BOTH X 4000 1E9 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART 0 0 0\n&ENV -TIME 4 0.001\n";
     let (mut session, _, _folder) = common::session();
@@ -168,7 +168,7 @@ fn snap(step: f64) -> f64 {
 }
 
 #[test]
-fn the_snap_of_a_slack_hawser_converges_with_the_step() {
+fn slack_hawser_snap_converges_with_step() {
     let forces = [0.4, 0.2, 0.1, 0.05, 0.025].map(snap);
     // taut at 20 m with the speed of the spring's swing of 24 m about 5 m; then spring and hawser together
     let (k, m, pull) = (100e6 * std::f64::consts::FRAC_PI_4 * 0.01 / 20.0, 1e6, 1e4);
@@ -180,7 +180,7 @@ fn the_snap_of_a_slack_hawser_converges_with_the_step() {
 }
 
 #[test]
-fn a_condition_is_met_within_a_64th_of_a_step_and_ends_the_run_there() {
+fn event_is_located_within_64th_of_a_step_and_ends_run() {
     // x = -0.5 cos(2 t) rises through 0.25 m at t = 1.0472 s
     let records = "&DIMEN -DIMEN METERS N\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 9806.65 1 1 1\n\
                    ~S GSPR BOTH X 4000 1E9 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART -0.5 0 0\n&ENV -TIME 4 0.1\n";
@@ -197,7 +197,7 @@ fn a_condition_is_met_within_a_64th_of_a_step_and_ends_the_run_there() {
 }
 
 #[test]
-fn a_winch_keeps_its_rate_where_steps_are_cut() {
+fn winch_keeps_its_rate_in_bisected_steps() {
     let (mut session, _, _folder) = common::session();
     let records = moored("EXACT", "-TIME 10 0.5");
     run(
@@ -215,7 +215,7 @@ fn a_winch_keeps_its_rate_where_steps_are_cut() {
 }
 
 #[test]
-fn a_winch_pays_out_at_its_rate_and_stops_at_its_length() {
+fn winch_pays_out_at_its_rate_and_stops_at_its_length() {
     let (mut session, _, _folder) = common::session();
     run(&mut session, &format!("{}&ACTION PAY -AT 5 -WINCH L2 0.5 410\nTDOM", moored("EXACT", "-TIME 60 0.1")));
     let history = &session.job.run.as_ref().unwrap().history;
@@ -227,7 +227,7 @@ fn a_winch_pays_out_at_its_rate_and_stops_at_its_length() {
 }
 
 #[test]
-fn the_same_sea_writes_the_same_file_alone_and_beside_another_run_in_a_second_thread() {
+fn same_sea_gives_same_file_alone_and_beside_a_parallel_run() {
     let tanker = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/tanker/tanker");
     let records = moored("", "-SEA JONSWAP 180 4 9 -RAMP 10 -TIME 60 0.1");
     let records = format!("{}TDOM", records.replace("#DAMP", &format!("DATABASE SHIP -WAMIT {tanker}\n#DAMP")));

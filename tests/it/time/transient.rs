@@ -26,7 +26,7 @@ fn numbers(text: &str, title: &str, name: &str) -> Vec<f64> {
 const WHOLE: f64 = 2.119_203;
 
 #[test]
-fn statistics_of_a_run_and_of_its_results_leave_out_the_same_transient() {
+fn result_and_run_statistics_skip_the_same_transient() {
     let text = shown(
         "PRCPOST\nTRAJECTORY B\nSTATISTIC Time X\nSTATISTIC Time X -RECORD 1 701\nEND\nTRAJECTORY B -EVENTS 0 70\nSTATISTIC Time X\nEND\nEND\n",
     );
@@ -43,7 +43,7 @@ fn statistics_of_a_run_and_of_its_results_leave_out_the_same_transient() {
 }
 
 #[test]
-fn extremes_and_shares_of_a_result_leave_out_its_transient() {
+fn result_extremes_and_shares_skip_the_transient() {
     let text = shown(
         "PRCPOST\nTRAJECTORY B\nEXTREMES Time X\nREPORT\nEND\nEXCEEDANCE Time X -LEVELS 5\nREPORT\nEND\nHISTOGRAM Time X -BINS 2\nREPORT\nEND\nEND\nEND\n",
     );

@@ -34,7 +34,7 @@ fn mean(table: &Table, group: &str, name: &str) -> f64 {
 }
 
 #[test]
-fn mean_pressure_on_a_flared_hull_is_that_of_its_waterline() {
+fn mean_pressure_on_flared_hull_matches_waterline_drift() {
     // the pressure on a length of flare is int rho g (zeta - z) dz tan(b) over the mean level, upward, and what a trough takes away of
     // rho g (zeta exp(kz) - z): zeta^2/2, and k zeta^3/2 in troughs, so that the mean is rho g (a^2/4 - k a^3/(3 pi)) times the flare around the
     // waterline: two sides of 40 m, 1 m in 2 m: 374.0 kN. The waterline is closed: none along the waves
@@ -58,7 +58,7 @@ fn mean_pressure_on_a_flared_hull_is_that_of_its_waterline() {
 }
 
 #[test]
-fn mean_wave_force_on_a_member_is_apart_from_its_waves_and_its_drag() {
+fn member_mean_wave_force_excludes_waves_and_drag() {
     let model = held("END\n&SURFACE\nTUBE T *T1 *T2 2000 -CD 1");
     let mut made = Run::new(&model, settings(210.0, 0.1), vec![]).unwrap();
     made.run(&mut Quiet).unwrap();

@@ -210,7 +210,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_word_of_a_record_has_the_card_it_comes_from() {
+    fn each_record_word_keeps_its_source_card() {
         let at = |byte: usize| Span::new(Default::default(), byte, byte + 1);
         let mut out = Script::new(Scale::from_units(&Units { length: 1.0, mass: 1.0, name: "" }), "deck 0, JOB", at(0));
         out.card("deck 14, TETH", at(1));
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_reads_back_as_it_is() {
+    fn written_number_reads_back_equal() {
         for value in [0.0, -0.0, 27.787, 1e15, 1.3367e24, -1e-10, 0.1 + 0.2, 2.15e11, 329.73543, 1e-4] {
             assert_eq!(windlass_language::number::evaluate(&number(value)), Ok(value + 0.0), "{value}");
         }
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn reckoned_numbers_have_the_digits_of_the_cards() {
+    fn computed_numbers_have_the_digits_of_the_cards() {
         assert_eq!(difference(7.503 + 27.787 * 9.0, 7.503 + 27.787 * 8.0), 27.787);
         assert_eq!((difference(28.5, 63.6), difference(0.1 + 0.2, 0.3)), (-35.1, 0.0));
         let scale = Scale::from_units(&Units { length: 1.0, mass: 1000.0, name: "" });

@@ -93,7 +93,7 @@ fn compare_echo(name: &str, listing: &str, slips: &[(&str, &str)]) {
 }
 
 #[test]
-fn both_examples_are_read_with_nothing_said_but_the_default_springs() {
+fn both_examples_are_read_with_default_spring_note_alone() {
     assert_eq!(reading(&script("he01.dat")).messages, []);
     assert_eq!(reading(&script("he01_phases.dat")).messages, []);
     let installed = reading(&script("mint.dat"));
@@ -115,18 +115,18 @@ fn both_examples_are_read_with_nothing_said_but_the_default_springs() {
 }
 
 #[test]
-fn the_card_echo_of_the_towed_example_is_that_of_its_listing() {
+fn card_echo_of_towed_example_matches_listing() {
     // 05DEPTH in the first echo is a slip for 05DPTH, as the deck and the other echo have it
     compare_echo("he01.dat", "he01_echo.txt", &[("05DEPTH", "05DPTH")]);
 }
 
 #[test]
-fn the_card_echo_of_the_installed_example_is_that_of_its_listing() {
+fn card_echo_of_installed_example_matches_listing() {
     compare_echo("mint.dat", "mint_echo.txt", &[]);
 }
 
 #[test]
-fn nodes_are_generated_as_the_listings_have_them() {
+fn generated_nodes_match_listings() {
     let towed = deck(&script("he01.dat"));
     let x = [
         0.0, 1.053, 7.503, 35.290, 63.077, 90.864, 118.651, 146.438, 174.225, 202.012, 229.799, 257.586, 262.636,
@@ -153,7 +153,7 @@ fn nodes_are_generated_as_the_listings_have_them() {
 }
 
 #[test]
-fn elements_are_those_of_the_listing() {
+fn elements_match_listing() {
     let installed = deck(&script("mint.dat"));
     let mut rows = csv::Reader::from_path("../../tests/data/aqwa_tether_decks/mint_elements.csv").unwrap();
     let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
@@ -169,7 +169,7 @@ fn elements_are_those_of_the_listing() {
 }
 
 #[test]
-fn mass_and_inertia_are_those_of_the_listings() {
+fn mass_and_inertia_match_listings() {
     let installed = deck(&script("mint.dat"));
     let found = installed.mass_properties(&installed.structures[0]);
     let by_kind: Vec<_> = found.kinds.iter().map(|kind| (kind.shape.keyword(), kind.count)).collect();
@@ -193,7 +193,7 @@ fn mass_and_inertia_are_those_of_the_listings() {
 }
 
 #[test]
-fn a_tube_has_the_inertia_of_a_hollow_cylinder() {
+fn tube_inertia_matches_hollow_cylinder() {
     // one TUBE of density 2, D = 2, wall 0.5, 6 long along X: m = 2 pi/4 (4 - 1) 6 = 9 pi; I = m (D2 + d2)/8 along,
     // m (D2 + d2)/16 + m L2/12 across
     let text = edited(&script("mint.dat"), "(1) (999) (1) (1)", "(1) (999) (3) (1)");
@@ -224,7 +224,7 @@ fn a_tube_has_the_inertia_of_a_hollow_cylinder() {
 }
 
 #[test]
-fn the_towed_example_is_what_chapter_8_says() {
+fn towed_example_matches_chapter_8() {
     let deck = deck(&script("he01.dat"));
     assert_eq!((deck.job.run.as_str(), deck.job.program, deck.job.analysis.as_str()), ("HE01", Program::Drift, "WFRQ"));
     assert_eq!((deck.job.title.as_str(), deck.job.stages), ("Tether tow", (1, 5)));
@@ -265,7 +265,7 @@ fn the_towed_example_is_what_chapter_8_says() {
 }
 
 #[test]
-fn the_installed_example_is_what_chapter_8_says() {
+fn installed_example_matches_chapter_8() {
     let deck = deck(&script("mint.dat"));
     assert_eq!((deck.job.program, deck.job.analysis.as_str()), (Program::Naut, ""));
     let WaveDeck::Regular(wave) = deck.waves else { panic!() };
@@ -292,7 +292,7 @@ fn the_installed_example_is_what_chapter_8_says() {
 }
 
 #[test]
-fn attachments_lengths_and_spans_at_the_start_are_those_of_the_listings() {
+fn attachments_lengths_and_spans_at_start_match_listings() {
     let near = |got: Option<[f64; 3]>, want: [f64; 3]| got.unwrap().iter().zip(want).all(|(a, b)| (a - b).abs() < 1e-9);
     let installed = deck(&script("mint.dat"));
     let platform = &installed.structures[0];
@@ -323,7 +323,7 @@ fn attachments_lengths_and_spans_at_the_start_are_those_of_the_listings() {
 }
 
 #[test]
-fn the_identifier_of_a_card_is_the_users_own() {
+fn card_identifier_is_kept_as_user_wrote_it() {
     let own: String = script("mint.dat")
         .lines()
         .map(|line| match (line.get(..4), line.get(6..)) {
@@ -338,7 +338,7 @@ fn the_identifier_of_a_card_is_the_users_own() {
 }
 
 #[test]
-fn tables_have_the_columns_of_the_listing() {
+fn table_columns_match_listing() {
     let deck = deck(&script("mint.dat"));
     let tables = deck.data_tables();
     let titles: Vec<&str> = tables.iter().map(|table| table.title.as_str()).collect();
@@ -359,7 +359,7 @@ fn tables_have_the_columns_of_the_listing() {
 }
 
 #[test]
-fn every_card_of_appendix_a_has_its_fields() {
+fn appendix_a_card_fields_are_all_read() {
     let deck = deck(&moor(&[
         "    14TSLK                          12.5",
         "    14TEIG    7",
@@ -404,7 +404,7 @@ fn every_card_of_appendix_a_has_its_fields() {
 }
 
 #[test]
-fn a_tether_without_cards_has_the_defaults_of_appendix_a() {
+fn tether_without_cards_gets_appendix_a_defaults() {
     let elements = "    14TELM  104  103  101  101\n    14TELM  103  102  101  101\n    14TELM  102  101  101  101";
     let reading = reading(&moor(&[elements, "    14TFAT", " END14TETH    1 1010    0 9010"]));
     assert!(!reading.failed);
@@ -422,7 +422,7 @@ fn a_tether_without_cards_has_the_defaults_of_appendix_a() {
 }
 
 #[test]
-fn cards_not_yet_available_are_answered_so() {
+fn unsupported_cards_are_reported_as_unsupported() {
     let tether =
         ["    14TELM  104  103  101  101", "    14TSTE", "    14TTIM", "    14TRAO", " END14TETH    1 1010    0 9010"];
     let reading = reading(&moor(&tether));
@@ -435,7 +435,7 @@ fn cards_not_yet_available_are_answered_so() {
 }
 
 #[test]
-fn every_card_of_appendix_b_has_its_field() {
+fn appendix_b_card_fields_are_all_read() {
     let deck = deck(&with(
         "    18    PROP",
         "    19    NONE",
@@ -492,7 +492,7 @@ fn mooring_lines_of_other_decks_are_read() {
 }
 
 #[test]
-fn spectra_have_their_settings_and_units_of_frequency() {
+fn spectra_are_read_with_settings_and_frequency_unit() {
     let spec = |cards: &[&str]| match deck(
         &with("    13    WAVE", "    14    MOOR", cards).replace("13    WAVE", "13    SPEC"),
     )
@@ -600,14 +600,14 @@ fn cards_apart_by_blanks_or_tabs_are_refused_at_their_columns() {
 }
 
 #[test]
-fn a_card_whose_last_field_passes_column_80_is_refused() {
+fn card_with_last_field_past_column_80_is_refused() {
     let row = "9.2809E12       0.0 7.1578E12";
     let text = edited(&script("he01.dat"), row, "9.2809E12       0.0   7.1578E12");
     assert_eq!(refused(&text).0.message, "deck 4 GEOM, PMAS: what stands in column 80 goes on past it");
 }
 
 #[test]
-fn lines_may_end_as_on_any_machine_with_comments_blank_lines_and_small_letters() {
+fn decks_accept_any_line_ending_comments_blanks_and_lower_case() {
     let fixed = script("mint.dat");
     let plain = deck(&fixed).echo();
     let dressed =
@@ -626,7 +626,7 @@ fn lines_may_end_as_on_any_machine_with_comments_blank_lines_and_small_letters()
 }
 
 #[test]
-fn decks_may_stop_at_18_and_restart_stages_leave_decks_out() {
+fn decks_may_stop_at_18_and_restart_stages_omit_decks() {
     let fixed = script("mint.dat");
     let short = &fixed[..fixed.find("    19    NONE").unwrap()];
     assert_eq!(deck(short).mooring.tethers.len(), 4);
@@ -644,7 +644,7 @@ fn decks_may_stop_at_18_and_restart_stages_leave_decks_out() {
 }
 
 #[test]
-fn the_towed_example_becomes_one_for_naut_as_8_1_22_says() {
+fn towed_example_becomes_naut_deck_as_8_1_22_states() {
     let text = script("he01.dat").replace("JOB HE01  DRIF  WFRQ", "JOB HE01  NAUT");
     let (start, end) = (text.find("    13    SPEC").unwrap(), text.find("    14    MOOR").unwrap());
     for (cards, still) in [
@@ -663,7 +663,7 @@ fn the_towed_example_becomes_one_for_naut_as_8_1_22_says() {
 }
 
 #[test]
-fn a_data_run_only_checks() {
+fn data_run_checks_without_running() {
     assert!(deck(&script("mint.dat")).job.runs());
     let checked = deck(&script("mint.dat").replace("OPTIONS END", "OPTIONS DATA\nOPTIONS END"));
     assert!(!checked.job.runs());
@@ -671,7 +671,7 @@ fn a_data_run_only_checks() {
 }
 
 #[test]
-fn what_is_printed_of_tethers_is_said_where_it_is_not_what_was_asked() {
+fn unsupported_tether_output_request_is_reported() {
     let said = |from: &str, to: &str| {
         let reading = reading(&edited(&script("mint.dat"), from, to));
         assert!(!reading.failed);
@@ -687,7 +687,7 @@ fn what_is_printed_of_tethers_is_said_where_it_is_not_what_was_asked() {
 }
 
 #[test]
-fn a_file_that_is_no_deck_is_refused_within_bounds() {
+fn file_that_is_not_a_deck_is_refused_within_limits() {
     let long = edited(&script("mint.dat"), "    14TSLK", &format!("    14{}\n    14TSLK", "(1)".repeat(1000)));
     assert_eq!(refused(&long).0.message, "a line of 3006 characters is no card");
     let many = format!("JOB MINT  NAUT\nOPTIONS END\n    01    COOR\n{}", "x\n".repeat(300_000));
@@ -710,7 +710,7 @@ fn refused(text: &str) -> (Diagnostic, usize, usize) {
 }
 
 #[test]
-fn an_error_names_the_deck_the_card_its_columns_and_what_belongs_there() {
+fn deck_error_names_deck_card_columns_and_expected_value() {
     let text = edited(&script("mint.dat"), "    14TEIG   16", "    14TEIG  1x6");
     let (error, line, column) = refused(&text);
     assert_eq!(error.message, "deck 14 MOOR, TEIG, columns 11-15: `1x6` is not a whole number");
@@ -791,7 +791,7 @@ fn bad_cards_are_refused_at_their_place() {
 }
 
 #[test]
-fn decks_that_do_not_stand_alone_are_refused() {
+fn incomplete_decks_are_refused() {
     let teth = " END14TETH    1 1010    0 9010";
     let cases: &[(&[&str], &str)] = &[
         (&[teth], "there is no tether to copy"),
@@ -837,7 +837,7 @@ fn decks_that_do_not_stand_alone_are_refused() {
 }
 
 #[test]
-fn a_towed_tether_is_held_to_what_chapter_8_demands() {
+fn towed_tether_must_satisfy_chapter_8() {
     let said = |from: &str, to: &str| {
         let reading = reading(&edited(&script("he01.dat"), from, to));
         reading.messages.iter().map(|m| format!("{:?}: {}", m.severity, m.message)).collect::<Vec<_>>().join("\n")
@@ -879,7 +879,7 @@ fn a_towed_tether_is_held_to_what_chapter_8_demands() {
 }
 
 #[test]
-fn a_number_across_two_fields_is_refused() {
+fn number_across_two_fields_is_refused() {
     let card = "    01  19                41.0      40.0     0.000";
     let of = |fields: &str| edited(&script("mint.dat"), card, &format!("    01  19          {fields}"));
     for (fields, said) in [
@@ -900,7 +900,7 @@ fn a_number_across_two_fields_is_refused() {
 }
 
 #[test]
-fn units_are_told_by_gravity_and_density() {
+fn units_are_recognised_from_gravity_and_density() {
     let units = |gravity: &str, density: &str| {
         let text = edited(&script("mint.dat"), "ACCG     9.810", &format!("ACCG{gravity:>10}"));
         deck(&edited(&text, "DENS     1.025", &format!("DENS{density:>10}"))).units()
@@ -916,7 +916,7 @@ fn units_are_told_by_gravity_and_density() {
 }
 
 #[test]
-fn generation_without_end_is_refused_with_its_reason() {
+fn endless_generation_is_refused_with_reason() {
     for (text, part) in [
         (
             edited(&script("mint.dat"), "    01  19                41.0", "    01  1999999    1      41.0"),
@@ -1027,7 +1027,7 @@ fn lines() -> impl Strategy<Value = String> {
 
 proptest! {
     #[test]
-    fn no_text_makes_the_reader_panic(list in prop::collection::vec(lines(), 0..60)) {
+    fn arbitrary_text_does_not_panic_deck_reader(list in prop::collection::vec(lines(), 0..60)) {
         let reading = reading(&list.join("\n"));
         let _ = reading.deck.echo();
         reading.deck.data_tables();
@@ -1036,7 +1036,7 @@ proptest! {
     }
 
     #[test]
-    fn no_bytes_make_the_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
+    fn arbitrary_bytes_do_not_panic_deck_reader(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
         let (reading, sources) = reading_of(bytes);
         for message in &reading.messages {
             prop_assert!(!render(message, &sources, false).is_empty());
@@ -1044,7 +1044,7 @@ proptest! {
     }
 
     #[test]
-    fn an_example_with_a_piece_overwritten_is_read_or_refused(
+    fn overwritten_example_is_read_or_refused(
         name in prop::sample::select(vec!["he01.dat", "mint.dat"]),
         at in 0usize..9000,
         piece in prop::sample::select(vec!["\n", " ", "END", "9", "-", "1E99", "NONE", "TETH", "(", "\u{e9}", "\0", "99999999"]),

@@ -106,17 +106,17 @@ fn move_fields(name: &str) {
 }
 
 #[test]
-fn no_field_moved_by_up_to_five_columns_changes_a_towed_deck() {
+fn towed_deck_field_shifted_up_to_five_columns_never_changes_deck() {
     move_fields("he01_phases.dat");
 }
 
 #[test]
-fn no_field_moved_by_up_to_five_columns_changes_an_installed_deck() {
+fn installed_deck_field_shifted_up_to_five_columns_never_changes_deck() {
     move_fields("mint.dat");
 }
 
 #[test]
-fn no_card_given_twice_changes_a_deck_in_silence() {
+fn duplicate_card_never_changes_deck_silently() {
     let mut changed = Vec::new();
     for name in ["he01_phases.dat", "mint.dat"] {
         let text = deck(name);
@@ -140,7 +140,7 @@ fn messages(text: &str) -> Vec<Diagnostic> {
 }
 
 #[test]
-fn a_card_given_twice_is_refused_with_both_places() {
+fn card_given_twice_is_refused_with_both_places() {
     let cases = [
         ("mint.dat", "    05DPTH    345.00", "    05DPTH    300.00", "deck 5 GLOB, DPTH: this card is given twice"),
         ("mint.dat", "    05DENS     1.025", "    05DENS     1.030", "deck 5 GLOB, DENS: this card is given twice"),
@@ -254,7 +254,7 @@ fn a_card_given_twice_is_refused_with_both_places() {
 }
 
 #[test]
-fn settings_of_a_spectrum_may_be_given_again_for_the_next_one_alone() {
+fn spectrum_settings_may_repeat_for_next_spectrum_only() {
     let twice = |cards: &str| deck("he01.dat").replace(" END13JONS ", &format!("{cards}\n END13JONS "));
     let jons = "    13JONS               0.370       2.5    5.2273   0.01146    0.6411";
     let again = messages(&twice(&format!("{jons}\n    13SPDN                90.0\n    13NSPL        40")));

@@ -35,7 +35,7 @@ fn cases() -> Vec<Case> {
 }
 
 #[test]
-fn all_lines_agree_to_1e_8_of_the_fairlead_tension() {
+fn all_lines_agree_to_1e_8_of_fairlead_tension() {
     let cases = cases();
     assert_eq!(cases.len(), 2000);
     let (mut worst, mut wrong, mut steps) = (0.0_f64, Vec::new(), 0);
@@ -62,7 +62,7 @@ fn all_lines_agree_to_1e_8_of_the_fairlead_tension() {
 }
 
 #[test]
-fn the_stiffness_is_the_difference_of_the_force() {
+fn stiffness_matches_finite_difference_of_force() {
     for c in cases().iter().filter(|c| c.x > 0.0 && c.z != 0.0) {
         let at = |x: f64, z: f64| c.segment.solve_end_forces(x, z, c.bottom).unwrap();
         let middle = at(c.x, c.z);
@@ -86,7 +86,7 @@ fn the_stiffness_is_the_difference_of_the_force() {
 }
 
 #[test]
-fn a_suspended_line_reversed_or_mirrored_has_the_same_forces() {
+fn suspended_line_reversed_or_mirrored_keeps_its_forces() {
     for c in cases().iter().filter(|c| c.regime == "suspended" && c.bottom.is_none()) {
         let there = c.segment.solve_end_forces(c.x, c.z, None).unwrap();
         let back = c.segment.solve_end_forces(c.x, -c.z, None).unwrap();
@@ -99,7 +99,7 @@ fn a_suspended_line_reversed_or_mirrored_has_the_same_forces() {
 }
 
 #[test]
-fn hostile_numbers_are_errors_and_never_nan() {
+fn extreme_numbers_are_errors_and_never_nan() {
     let values = [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e-300, 1e-9, 1.0, 1e9, 1e300];
     for length in values {
         for weight in values {
@@ -117,7 +117,7 @@ fn hostile_numbers_are_errors_and_never_nan() {
 }
 
 #[test]
-fn weightless_line_is_a_spring_that_only_pulls() {
+fn weightless_line_is_tension_only_spring() {
     let spring = Segment { length: 100.0, weight: 0.0, ea: 1e6 };
     let got = spring.solve_end_forces(60.6, 80.8, None).unwrap();
     assert!((got.fairlead[0] - 6e3).abs() < 1e-6 && (got.fairlead[1] - 8e3).abs() < 1e-6, "{got:?}");
@@ -131,7 +131,7 @@ fn weightless_line_is_a_spring_that_only_pulls() {
 }
 
 #[test]
-fn a_vertical_line_is_the_limit_of_a_nearly_vertical_one() {
+fn vertical_line_is_limit_of_nearly_vertical_line() {
     for (weight, z) in [(800.0, 120.0), (800.0, 101.0), (800.0, 30.0), (800.0, -45.0), (-300.0, 130.0), (0.0, 130.0)] {
         let segment = Segment { length: 100.0, weight, ea: 1e6 };
         let (at, near) =
@@ -154,7 +154,7 @@ fn apart(a: &EndForces, b: &EndForces) -> f64 {
 }
 
 #[test]
-fn a_followed_line_is_the_cold_one_all_along_its_path() {
+fn warm_started_line_matches_cold_start_along_its_path() {
     let (mut worst, mut warm) = (0.0_f64, 0);
     for c in cases() {
         let mut last = c.segment.solve_end_forces(c.x, c.z, c.bottom).unwrap();
@@ -178,7 +178,7 @@ fn a_followed_line_is_the_cold_one_all_along_its_path() {
 }
 
 #[test]
-fn whatever_a_line_is_followed_from_it_comes_out_the_same() {
+fn warm_start_from_any_line_gives_same_result() {
     let cases = cases();
     let answers: Vec<_> = cases.iter().map(|c| c.segment.solve_end_forces(c.x, c.z, c.bottom).unwrap()).collect();
     for (n, (c, answer)) in cases.iter().zip(&answers).enumerate() {

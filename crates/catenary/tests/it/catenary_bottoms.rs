@@ -12,7 +12,7 @@ fn flat(depth: f64, friction: f64) -> Option<SeabedModel> {
 }
 
 #[test]
-fn moorings_over_slopes_agree_with_the_closed_forms() {
+fn moorings_over_slopes_match_closed_form() {
     // tests/data/static_slopes.py: 60 moorings of eight lines, slopes within 0.06
     let mut reader = csv::Reader::from_path("../../tests/data/static_slopes.csv").unwrap();
     let mut regimes = std::collections::BTreeMap::new();
@@ -48,7 +48,7 @@ fn moorings_over_slopes_agree_with_the_closed_forms() {
 }
 
 #[test]
-fn friction_acts_between_touchdowns_that_a_light_segment_lifts() {
+fn friction_acts_between_touchdowns_around_lifted_segment() {
     // an equilibrium found by shooting over the touchdowns, closed to 1e-9: H 274,521 N, T 786,929 N, 840 m on the bottom and
     // touchdown 5 m before the anchor
     let area = 0.25 * std::f64::consts::PI * 0.1 * 0.1;
@@ -64,7 +64,7 @@ fn friction_acts_between_touchdowns_that_a_light_segment_lifts() {
 }
 
 #[test]
-fn the_bottom_is_seen_below_a_spring_buoy_farther_down() {
+fn seabed_is_detected_below_distant_spring_buoy() {
     // scipy: 229.681 m hang, the buoy lifts V = 2500 N on either side of it, the rest lies with H; T + EA, H and V as in [IRVINE-1981]
     let ea = 2e11 * 0.25 * std::f64::consts::PI * 0.084 * 0.084;
     let part = Segment { length: 300.0, weight: 1200.0, ea };
@@ -78,7 +78,7 @@ fn the_bottom_is_seen_below_a_spring_buoy_farther_down() {
 }
 
 #[test]
-fn a_first_segment_above_a_spring_buoy_hangs_below_the_bottom() {
+fn first_segment_above_spring_buoy_may_hang_below_seabed() {
     // scipy: a symmetric catenary between the surface and the buoy there, the second segment down to where it touches down
     let ea = 2e11 * 0.25 * std::f64::consts::PI * 0.084 * 0.084;
     let part = |length| Segment { length, weight: 1200.0, ea };
@@ -103,7 +103,7 @@ fn cut(parts: usize, varied: bool, friction: f64) -> Line {
 }
 
 #[test]
-fn a_line_cut_in_a_thousand_parts_has_the_same_digits() {
+fn line_cut_in_1000_parts_matches_uncut_line() {
     for friction in [0.0, 0.5] {
         let whole = cut(1, false, friction).at_distance(480.0, 0.0).unwrap();
         let mut work = Vec::new();
@@ -121,7 +121,7 @@ fn a_line_cut_in_a_thousand_parts_has_the_same_digits() {
 }
 
 #[test]
-fn a_thousand_unlike_parts_carry_their_weights() {
+fn thousand_different_parts_carry_their_weights() {
     for (parts, friction) in [(40, 0.0), (1000, 0.0), (1000, 0.3)] {
         let line = cut(parts, true, friction);
         let state = line.at_distance(480.0, 0.0).unwrap();
@@ -135,7 +135,7 @@ fn a_thousand_unlike_parts_carry_their_weights() {
 }
 
 #[test]
-fn lines_over_ridges_and_hollows_agree_with_contacts_closed_by_hand() {
+fn lines_over_ridges_and_hollows_match_hand_solved_contacts() {
     // tests/data/static_profiles.py: 1200 N/m, EA 6e8 N; H, V, pull on the anchor, length on the bottom
     type Case<'a> = (f64, &'a [(f64, f64)], [f64; 2], [f64; 5]);
     const VALLEY: &[(f64, f64)] = &[(0.0, -200.0), (400.0, -220.0), (1000.0, -190.0)];
@@ -184,7 +184,7 @@ fn lines_over_ridges_and_hollows_agree_with_contacts_closed_by_hand() {
 }
 
 #[test]
-fn spare_length_heaps_in_a_hollow_without_friction() {
+fn excess_length_heaps_in_hollow_without_friction() {
     // it comes down 1 in 10 to the hollow with T = 0 there, and hangs on the anchor by w times the height
     let places = [(0.0, -200.0), (400.0, -220.0), (1000.0, -160.0)];
     let segment = Segment { length: 1100.0, weight: 1200.0, ea: 1e15 };
@@ -202,7 +202,7 @@ fn spare_length_heaps_in_a_hollow_without_friction() {
 }
 
 #[test]
-fn slack_line_with_buoy_on_a_slope_stands_above_its_heap() {
+fn slack_line_with_buoy_on_slope_rises_above_its_heap() {
     // 1000 N/m, EA 6e8 N, 30 kN of lift, fairlead 400 m from the anchor at z = -10, slope of 1 in 10. By scipy from [IRVINE-1981],
     // contacts closed by hand: the loop under the buoy stands upright on a heap (first and third line), and in the second line
     // the touchdowns at both sides of the buoy are roots of the way to the anchor
@@ -233,7 +233,7 @@ fn slack_line_with_buoy_on_a_slope_stands_above_its_heap() {
 }
 
 #[test]
-fn line_between_two_folds_of_friction_is_solved() {
+fn line_between_two_friction_regions_is_solved() {
     // a light segment rises to an anchor above the bottom: the later it leaves the bottom the less tension friction has left it, and
     // the higher it rises. scipy (fsolve from 1008 starts, one root), from [IRVINE-1981]: both contacts and the anchor closed to 1e-10
     let part = |length, weight, ea| Segment { length, weight, ea };
@@ -250,7 +250,7 @@ fn line_between_two_folds_of_friction_is_solved() {
 }
 
 #[test]
-fn distance_of_a_force_is_found_on_a_slope_of_two_weights() {
+fn distance_for_a_force_is_found_on_slope_with_two_weights() {
     // heavy chain, then a light rope of which 286 m carry tension; no friction. scipy (brentq, one root in the length that hangs)
     let parts = vec![
         Segment { length: 323.0, weight: 2772.0, ea: 1.376e9 },
@@ -265,7 +265,7 @@ fn distance_of_a_force_is_found_on_a_slope_of_two_weights() {
 }
 
 #[test]
-fn pendant_longer_than_the_depth_at_the_anchor_holds_over_deeper_water() {
+fn pendant_longer_than_depth_at_anchor_holds_over_deeper_water() {
     // 120 m of pendant, 100 m of water at the anchor and 200 m from 100 m beyond it on: two catenaries of 500 and 300 N/m meet at
     // a joint 120 m below the surface, all hanging free. scipy: the buoy's lift closes V, H closes the distance
     let places = [(0.0, -100.0), (100.0, -200.0), (1000.0, -200.0)];
@@ -280,7 +280,7 @@ fn pendant_longer_than_the_depth_at_the_anchor_holds_over_deeper_water() {
 }
 
 #[test]
-fn clump_at_the_edge_of_a_heap_is_held_by_what_the_length_asks_for() {
+fn clump_at_edge_of_heap_is_supported_by_the_length_condition() {
     // slope of 1 in 10 without friction, down to the fairlead: the second segment reaches from the anchor to the clump straight
     // below the fairlead with less than w sin of the clump: (T0 + w sin L / 2) L / EA is what it has to stretch
     let (second, ea) = (400.3, 6e6);
@@ -301,7 +301,7 @@ fn clump_at_the_edge_of_a_heap_is_held_by_what_the_length_asks_for() {
 }
 
 #[test]
-fn a_shape_has_one_point_at_the_touchdown_where_friction_takes_the_tension() {
+fn shape_has_one_touchdown_point_where_friction_ends_tension() {
     let segment = Segment { length: 600.0, weight: 1200.0, ea: 6e8 };
     let line = Line::new(vec![segment], vec![], -100.0, 0.0).unwrap().with_seabed(flat(100.0, 0.8)).unwrap();
     let state = line.at_distance(540.0, 0.0).unwrap();
@@ -311,7 +311,7 @@ fn a_shape_has_one_point_at_the_touchdown_where_friction_takes_the_tension() {
 }
 
 #[test]
-fn lifted_joint_above_the_surface_is_named_by_both_solvers() {
+fn lifted_joint_above_surface_is_named_by_both_solvers() {
     // 20 m of water; the first segment comes down, lies, and rises to a joint lifted by 50 kN; the second is whole, or in forty parts
     let part = |length| Segment { length, weight: 500.0, ea: 6e8 };
     let line = |parts: usize| {

@@ -31,7 +31,7 @@ fn close(got: f64, want: f64, within: f64, what: &str) {
 }
 
 #[test]
-fn the_buoy_of_the_printed_example_is_always_sunk_and_the_rows_agree() {
+fn buoy_of_printed_example_stays_submerged_and_rows_match() {
     let (rows, breaks) = example(100.0, 0.0);
     assert_eq!(rows.len(), DEFAULT_ROWS);
     close(breaks[0] / NEWTONS_PER_KIP, 1008.0, 0.05, "break of the wire");
@@ -59,7 +59,7 @@ fn the_buoy_of_the_printed_example_is_always_sunk_and_the_rows_agree() {
 }
 
 #[test]
-fn a_larger_buoy_on_a_pendant_is_held_and_then_sinks() {
+fn larger_buoy_on_pendant_is_restrained_and_then_sinks() {
     let (rows, _) = example(200.0, 50.0);
     for (n, row) in rows.iter().enumerate() {
         let want = if n <= 9 { Buoy::Held } else { Buoy::Sunk };
@@ -74,7 +74,7 @@ fn a_larger_buoy_on_a_pendant_is_held_and_then_sinks() {
 }
 
 #[test]
-fn segment_stiffness_is_that_of_the_solid_area() {
+fn segment_stiffness_matches_solid_area() {
     let line = line(100.0, 0.0);
     let ea: Vec<f64> = line.segments().iter().map(|s| s.ea / NEWTONS_PER_KIP).collect();
     close(ea[0], 48_720.0, 1.0, "AE of the wire");
@@ -82,7 +82,7 @@ fn segment_stiffness_is_that_of_the_solid_area() {
 }
 
 #[test]
-fn the_stiffness_column_is_the_difference_of_the_distance() {
+fn stiffness_column_matches_finite_difference_of_distance() {
     let (rows, _) = example(200.0, 50.0);
     let line = line(200.0, 50.0);
     for n in [3, 9, 12, 20, 29] {

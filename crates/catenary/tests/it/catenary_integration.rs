@@ -43,7 +43,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn the_slope_is_the_difference_of_the_distance(line in line(), h in 2.0..6.5_f64, draft in 0.0..30.0_f64) {
+    fn slope_matches_finite_difference_of_distance(line in line(), h in 2.0..6.5_f64, draft in 0.0..30.0_f64) {
         let h = 10f64.powf(h);
         let at = |h: f64| line.at_horizontal_force(h, -draft);
         let (Ok(middle), Ok(plus), Ok(minus)) = (at(h), at(h * 1.00001), at(h * 0.99999)) else { return Ok(()) };
@@ -56,7 +56,7 @@ proptest! {
     }
 
     #[test]
-    fn the_line_hangs_between_the_fairlead_and_the_anchor_and_its_forces_balance(
+    fn line_hangs_between_fairlead_and_anchor_and_its_forces_balance(
         parts in prop::collection::vec((segment(), 0.0..5e5_f64), 1..6), depth in 50.0..2500.0_f64, h in 2.0..6.5_f64,
     ) {
         let h = 10f64.powf(h);
@@ -69,7 +69,7 @@ proptest! {
     }
 
     #[test]
-    fn a_line_cut_in_pieces_is_the_same_line(s in segment(), cuts in prop::collection::vec(0.1..1.0_f64, 1..5),
+    fn line_cut_in_pieces_matches_whole_line(s in segment(), cuts in prop::collection::vec(0.1..1.0_f64, 1..5),
                                              depth in 50.0..2500.0_f64, h in 2.0..6.5_f64) {
         let h = 10f64.powf(h);
         let total: f64 = cuts.iter().sum();
@@ -83,7 +83,7 @@ proptest! {
     }
 
     #[test]
-    fn both_directions_agree(s in segment(), depth in 50.0..2500.0_f64, h in 2.0..6.5_f64) {
+    fn solutions_from_both_directions_agree(s in segment(), depth in 50.0..2500.0_f64, h in 2.0..6.5_f64) {
         let h = 10f64.powf(h);
         let line = Line::new(vec![s], vec![], -depth, 0.0).unwrap();
         let state = line.at_horizontal_force(h, 0.0).unwrap();
@@ -107,7 +107,7 @@ proptest! {
     }
 
     #[test]
-    fn a_stiff_line_is_the_inextensible_catenary(length in 50.0..2000.0_f64, w in 10.0..5000.0_f64,
+    fn stiff_line_matches_inextensible_catenary(length in 50.0..2000.0_f64, w in 10.0..5000.0_f64,
                                                  x in 0.05..0.95_f64, z in -0.9..0.9_f64) {
         // (H/w) sinh(w x/2H) = sqrt(L2 - z2)/2 (closed inextensible form)
         let (x, z) = (x * length, z * length);
@@ -176,7 +176,7 @@ fn contradiction(line: &Line, joints: &[Joint], depth: f64, h: f64, state: &Line
 
 /// Random lines with buoys and clumps: every one has a configuration, or an error that says why.
 #[test]
-fn lines_with_buoys_are_solved_or_refused_for_a_reason() {
+fn lines_with_buoys_are_solved_or_refused_with_reason() {
     use proptest::strategy::ValueTree;
     use proptest::test_runner::TestRunner;
     use windlass_catenary::LineError;
@@ -211,7 +211,7 @@ fn lines_with_buoys_are_solved_or_refused_for_a_reason() {
 }
 
 #[test]
-fn a_force_is_found_again_from_the_distance_it_gives() {
+fn force_is_recovered_from_its_distance() {
     use proptest::strategy::ValueTree;
     use proptest::test_runner::TestRunner;
     let mut runner = TestRunner::deterministic();
@@ -235,7 +235,7 @@ fn a_force_is_found_again_from_the_distance_it_gives() {
 }
 
 #[test]
-fn hostile_lines_are_errors_and_never_nan() {
+fn extreme_lines_are_errors_and_never_nan() {
     let values = [1e-300, 1e-9, 1.0, 1e9, 1e300];
     for length in values {
         for weight in [-1e300, -1.0, 0.0, 1e-300, 1.0, 1e300] {

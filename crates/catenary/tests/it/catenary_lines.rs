@@ -63,12 +63,12 @@ fn check(pieces: usize) {
 }
 
 #[test]
-fn all_2000_lines_as_whole_lines_agree_to_1e_8_of_the_fairlead_tension() {
+fn all_2000_whole_lines_agree_to_1e_8_of_fairlead_tension() {
     check(1);
 }
 
 #[test]
-fn all_2000_lines_cut_in_three_agree_to_1e_8_of_the_fairlead_tension() {
+fn all_2000_lines_cut_in_three_agree_to_1e_8_of_fairlead_tension() {
     check(3);
 }
 
@@ -270,7 +270,7 @@ fn random_lines(count: usize, slopes: f64, frictions: f64, lifts: bool, refused:
 }
 
 #[test]
-fn random_lines_with_clumps_on_a_flat_smooth_bottom_are_in_equilibrium() {
+fn random_lines_with_clumps_on_flat_seabed_are_in_equilibrium() {
     random_lines(1000, 0.0, 0.0, false, 0);
 }
 
@@ -285,27 +285,27 @@ fn random_lines_with_friction_are_in_equilibrium() {
 }
 
 #[test]
-fn random_lines_on_a_smooth_slope_are_in_equilibrium() {
+fn random_lines_on_smooth_slope_are_in_equilibrium() {
     random_lines(1000, 0.15, 0.0, false, 0);
 }
 
 #[test]
-fn random_lines_with_friction_and_buoys_are_in_equilibrium_or_refused() {
+fn random_lines_with_friction_and_buoys_balance_or_are_refused() {
     random_lines(1000, 0.0, 1.0, true, 0);
 }
 
 #[test]
-fn random_lines_on_a_rough_slope_with_clumps_are_in_equilibrium() {
+fn random_lines_on_rough_slope_with_clumps_are_in_equilibrium() {
     random_lines(1000, 0.15, 1.0, false, 0);
 }
 
 #[test]
-fn random_lines_on_a_rough_slope_with_buoys_are_in_equilibrium_or_refused() {
+fn random_buoyed_lines_on_rough_slope_balance_or_are_refused() {
     random_lines(1000, 0.15, 1.0, true, 0);
 }
 
 #[test]
-fn slack_on_a_smooth_slope_hangs_on_the_anchor_or_slides_to_it() {
+fn slack_line_on_smooth_slope_hangs_on_anchor_or_slides_to_it() {
     let heavy = Segment { length: 600.0, weight: 1000.0, ea: 1e15 };
     let on = |slope: f64, friction: f64| Some(SeabedModel { elevation: -100.0, slope, friction });
     let line = |slope, friction| {
@@ -350,7 +350,7 @@ fn slack_on_a_smooth_slope_hangs_on_the_anchor_or_slides_to_it() {
 }
 
 #[test]
-fn numbers_whose_squares_have_no_room_are_refused_and_never_answered_wrongly() {
+fn numbers_with_overflowing_squares_are_refused() {
     for (length, x, z, weight, ea) in
         [(1e10, 1e10, 1e10, 1e300, 1e300), (1e300, 1e300, 1e300, 1.0, 1e9), (1.0, 1e200, 1.0, 1.0, 1.0)]
     {
@@ -360,7 +360,7 @@ fn numbers_whose_squares_have_no_room_are_refused_and_never_answered_wrongly() {
 }
 
 #[test]
-fn a_slack_line_whose_fairlead_lies_on_the_bottom_pulls_with_nothing() {
+fn slack_line_with_fairlead_on_seabed_has_no_force() {
     let heavy = Segment { length: 100.0, weight: 1000.0, ea: 1e9 };
     let light = Segment { length: 50.0, weight: -100.0, ea: 1e9 };
     let line = Line::new(vec![heavy, light, heavy], vec![Joint::Free; 2], -100.0, 0.0).unwrap();

@@ -11,7 +11,7 @@ fn line(segments: &[(f64, f64, f64)], joints: &[Joint], depth: f64) -> Line {
 }
 
 #[test]
-fn a_nearly_rigid_grounded_line_is_the_closed_inelastic_catenary() {
+fn nearly_rigid_grounded_line_matches_inelastic_catenary() {
     // [IRVINE-1981 1.2]: s = sqrt(d (d + 2 H/w)), x = H/w acosh(1 + w d/H) + L - s, T = H + w d
     for (h, w, d, l) in [(5e5, 1500.0, 200.0, 1200.0), (3e4, 900.0, 80.0, 700.0), (2e6, 2000.0, 500.0, 3000.0)] {
         let state = line(&[(l, w, 1e18)], &[], d).at_horizontal_force(h, 0.0).unwrap();
@@ -24,7 +24,7 @@ fn a_nearly_rigid_grounded_line_is_the_closed_inelastic_catenary() {
 }
 
 #[test]
-fn a_clump_on_the_bottom_is_carried_by_it() {
+fn clump_on_seabed_is_carried_by_seabed() {
     let clump = line(&[(300.0, 1000.0, 5e8), (500.0, 1000.0, 5e8)], &[Joint::Weight(4e5)], 200.0);
     // lying: no vertical force at the joint; lifting: part of the clump; lifted: all of it
     let lying = clump.at_horizontal_force(1e4, 0.0).unwrap();
@@ -39,7 +39,7 @@ fn a_clump_on_the_bottom_is_carried_by_it() {
 }
 
 #[test]
-fn what_is_no_line_or_no_force_is_refused() {
+fn invalid_line_or_force_is_refused() {
     let good = Segment { length: 100.0, weight: 10.0, ea: 1e6 };
     for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
         assert!(Line::new(vec![Segment { length: bad, ..good }], vec![], -50.0, 0.0).is_err());
@@ -58,7 +58,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_segment_cut_in_pieces_is_the_same_line(
+    fn segment_cut_in_pieces_matches_whole_segment(
         h in 3.0f64..7.0, w in 1.0f64..4.0, depth in 20.0f64..2000.0, over in 1.01f64..6.0, cut in 0.05f64..0.95, ea in 6.0f64..10.0,
     ) {
         let (h, w, ea, length) = (10f64.powf(h), 10f64.powf(w), 10f64.powf(ea), depth * over);
@@ -71,7 +71,7 @@ proptest! {
     }
 
     #[test]
-    fn the_line_carries_its_own_weight_and_stiffness_is_the_difference_of_the_distance(
+    fn line_carries_its_weight_and_stiffness_matches_finite_difference(
         h in 3.0f64..6.5, w1 in 1.0f64..4.0, w2 in 1.0f64..4.0, depth in 20.0f64..2000.0, over in 1.02f64..4.0, clump in 0.0f64..1e5,
         ea in 7.0f64..10.0,
     ) {
@@ -94,7 +94,7 @@ proptest! {
     }
 
     #[test]
-    fn lengths_and_forces_scale(h in 3.0f64..6.0, depth in 50.0f64..1000.0, over in 1.02f64..4.0, scale in 0.1f64..10.0) {
+    fn line_forces_scale_with_length(h in 3.0f64..6.0, depth in 50.0f64..1000.0, over in 1.02f64..4.0, scale in 0.1f64..10.0) {
         let h = 10f64.powf(h);
         let one = line(&[(depth * over, 500.0, 1e9)], &[], depth).at_horizontal_force(h, 0.0).unwrap();
         // lengths by s, weight per length kept: forces by s

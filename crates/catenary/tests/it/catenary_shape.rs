@@ -12,7 +12,7 @@ fn mixed(slope: f64, friction: f64) -> Line {
 }
 
 #[test]
-fn the_shape_runs_from_the_fairlead_to_the_anchor_along_the_tension() {
+fn shape_runs_from_fairlead_to_anchor_along_tension() {
     for (slope, friction, x) in [(0.0, 0.0, 1900.0), (0.0, 0.6, 1950.0), (0.05, 0.0, 2020.0), (-0.05, 0.4, 1960.0)] {
         let line = mixed(slope, friction);
         let state = line.at_distance(x, -10.0).unwrap();
@@ -44,7 +44,7 @@ fn the_shape_runs_from_the_fairlead_to_the_anchor_along_the_tension() {
 }
 
 #[test]
-fn a_point_of_the_line_is_that_of_its_shape() {
+fn point_of_line_is_on_its_shape() {
     let line = mixed(0.0, 0.3);
     let state = line.at_distance(1900.0, 0.0).unwrap();
     for want in line.shape(&state, 7) {
@@ -56,7 +56,7 @@ fn a_point_of_the_line_is_that_of_its_shape() {
 }
 
 #[test]
-fn springs_in_series_add_their_stretch_along_the_line() {
+fn springs_in_series_add_their_stretch_along_line() {
     // weightless and straight: T = (chord - L)/(L/EA + 1/k1 + y(T)/T)
     let line =
         Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -400.0, 0.0).unwrap().with_seabed(None).unwrap();
@@ -71,7 +71,7 @@ fn springs_in_series_add_their_stretch_along_the_line() {
 }
 
 #[test]
-fn a_spring_at_the_fairlead_makes_a_heavy_line_softer_by_its_own_flexibility() {
+fn spring_at_fairlead_softens_heavy_line_by_its_flexibility() {
     let line = Line::new(vec![CHAIN], vec![], -250.0, 0.0).unwrap();
     let line_below = line.clone();
     let sprung = line.with_springs([Some(StretchLaw::Linear(4e5)), None]).unwrap();
@@ -88,7 +88,7 @@ fn a_spring_at_the_fairlead_makes_a_heavy_line_softer_by_its_own_flexibility() {
 }
 
 #[test]
-fn a_polynomial_stiffness_is_met_on_a_straight_line() {
+fn polynomial_stiffness_holds_on_straight_line() {
     // T = (EA + k1 e + k2 e2 + k3 e3) e, secant reading
     let line =
         Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -300.0, 0.0).unwrap().with_seabed(None).unwrap();
@@ -110,7 +110,7 @@ fn a_polynomial_stiffness_is_met_on_a_straight_line() {
 }
 
 #[test]
-fn a_polynomial_without_coefficients_is_the_linear_law() {
+fn polynomial_without_coefficients_gives_linear_law() {
     let line = Line::new(vec![CHAIN, ROPE], vec![Joint::Free], -250.0, 0.0).unwrap();
     let law = |ea: f64| Some(StretchLaw::Polynomial { ea, k: [0.0; 3], most: 0.1 });
     let other = line.clone().with_laws(vec![law(6e8), law(8e7)]).unwrap();
@@ -121,7 +121,7 @@ fn a_polynomial_without_coefficients_is_the_linear_law() {
 }
 
 #[test]
-fn a_line_yields_at_its_largest_tension() {
+fn line_yields_at_its_largest_tension() {
     let line =
         Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -300.0, 0.0).unwrap().with_seabed(None).unwrap();
     let line = line.with_laws(vec![Some(StretchLaw::Capped { ea: 8e7, most: 1e6 })]).unwrap();
@@ -130,7 +130,7 @@ fn a_line_yields_at_its_largest_tension() {
 }
 
 #[test]
-fn the_line_with_a_given_tension_has_it_and_less_than_its_weight_is_refused() {
+fn line_solved_for_tension_has_it_and_too_low_tension_is_refused() {
     for (slope, friction) in [(0.0, 0.0), (0.0, 0.5), (0.03, 0.2)] {
         let line = mixed(slope, friction);
         let state = line.at_tension(9e5, 0.0).unwrap();
@@ -143,7 +143,7 @@ fn the_line_with_a_given_tension_has_it_and_less_than_its_weight_is_refused() {
 }
 
 #[test]
-fn a_pendant_longer_than_the_depth_and_a_law_that_falls_are_refused() {
+fn pendant_longer_than_depth_and_falling_law_are_refused() {
     let buoy = Joint::SpringBuoy { capacity: 1e5, depth: 300.0 };
     let line = Line::new(vec![CHAIN, CHAIN], vec![buoy], -250.0, 0.0).unwrap();
     let error = line.at_distance(900.0, 0.0).unwrap_err();
@@ -158,7 +158,7 @@ fn a_pendant_longer_than_the_depth_and_a_law_that_falls_are_refused() {
 }
 
 #[test]
-fn both_stiffnesses_are_the_differences_of_the_forces_at_their_ends() {
+fn both_stiffnesses_match_end_force_finite_differences() {
     let hung = Line::new(vec![CHAIN, ROPE], vec![Joint::Weight(2e4)], -150.0, 0.0).unwrap().with_seabed(None).unwrap();
     let lines = [
         (mixed(0.0, 0.0), 1950.0),
@@ -192,7 +192,7 @@ fn both_stiffnesses_are_the_differences_of_the_forces_at_their_ends() {
 }
 
 #[test]
-fn a_followed_line_has_the_forces_of_one_begun_anew() {
+fn warm_started_line_matches_forces_of_cold_start() {
     for line in [mixed(0.0, 0.0), mixed(0.0, 0.4), mixed(0.04, 0.2)] {
         let mut last = line.at_distance(1900.0, -10.0).unwrap();
         for step in 0..300 {

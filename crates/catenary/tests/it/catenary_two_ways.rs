@@ -21,7 +21,7 @@ impl Dice {
 }
 
 #[test]
-fn two_engines_agree_on_random_lines_of_every_kind() {
+fn two_solvers_agree_on_random_lines_of_every_kind() {
     let mut dice = Dice(12345);
     let (mut worst, mut wrong) = (0.0_f64, Vec::new());
     for number in 0..20_000 {

@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn growth_sits_on_the_outside_of_a_line_whatever_it_displaces() {
+    fn growth_is_on_outside_of_line_at_any_displacement() {
         let bare = RodSegment { displaced: 0.0, ..RodSegment::line(10.0, 1, 100.0, 1e6, 0.3) };
         let strength = Strength { breaking: 1.0, is_given: true };
         let grown = LinePart { segment: bare.clone(), strength, joint: None }.grown(Some(&Foul), -10.0);

@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_sinks_into_the_bottom_by_a_share_of_its_diameter() {
+    fn line_penetrates_seabed_by_share_of_diameter() {
         let around =
             Surroundings { water_density: 1000.0, air_density: 1.2, gravity: 10.0, depth: Some(50.0), tide: 0.0 };
         let segment = |mass: f64| RodSegment { displaced: 0.01, ..RodSegment::line(10.0, 1, mass, 1e6, 0.1) };

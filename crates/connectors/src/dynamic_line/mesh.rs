@@ -273,7 +273,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_weight_meets_the_surface_over_the_height_of_a_sphere_with_its_drag_or_its_added_mass() {
+    fn clump_enters_surface_over_sphere_height_with_drag_or_added_mass() {
         let joint = JointMass { mass: 5000.0, ..JointMass::default() };
         // a sphere of 2 m: volume 4/3 pi, drag area pi/2 at 0.5, added mass of half of what it displaces
         let volume = 4.0 / 3.0 * PI;
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_that_no_smaller_step_gets_round_says_so() {
+    fn error_that_smaller_steps_cannot_avoid_is_reported_as_such() {
         let rod = || "R".to_string();
         let step = RodError::Step { rod: rod(), time: 1.0, step: 0.1, element: 1, why: String::new() };
         let large = RodError::TooLarge { rod: rod(), elements: 1, megabytes: 1.0, most: 1 };

@@ -87,7 +87,7 @@ mod tests {
     use windlass_line_dynamics::{LineEnvironment, RodEnd, RodSegment, UniformFluid};
 
     #[test]
-    fn a_solver_lasts_while_a_winch_changes_lengths_alone() {
+    fn solver_is_reused_while_winch_changes_lengths_only() {
         let rod = Rod::new("R", vec![RodSegment::line(10.0, 5, 10.0, 1e6, 0.1)], vec![]).unwrap();
         let ground = SeabedLaw::elastic(0.0);
         let base = Base {

@@ -49,7 +49,7 @@ fn flow(around: &Arc<dyn Ambient>, time: f64, place: [f64; 3]) -> Flow {
 }
 
 #[test]
-fn a_regular_wave_is_that_of_the_closed_form_on_the_tide() {
+fn regular_wave_matches_closed_form_with_tide() {
     let env = Environment { sea: sea("REGULAR", 4.0, 10.0), tide: Some(1.5), ..Environment::default() };
     let (around, _) = of(&model(env));
     let (w, a) = (TAU / 10.0, 2.0);
@@ -71,7 +71,7 @@ fn a_regular_wave_is_that_of_the_closed_form_on_the_tide() {
 }
 
 #[test]
-fn below_the_surface_it_is_the_sea_and_above_it_the_water_at_the_surface() {
+fn kinematics_are_sea_below_surface_and_surface_values_above() {
     let kinds = [Stretching::Linear, Stretching::Wheeler, Stretching::Delta, Stretching::Exponential];
     for (stretching, spectrum, depth) in kinds
         .iter()
@@ -119,7 +119,7 @@ fn below_the_surface_it_is_the_sea_and_above_it_the_water_at_the_surface() {
 }
 
 #[test]
-fn pressure_is_that_of_the_wave_at_depth_and_nothing_at_the_surface() {
+fn pressure_matches_wave_at_depth_and_is_zero_at_surface() {
     for stretching in [Stretching::Linear, Stretching::Wheeler, Stretching::Delta, Stretching::Exponential] {
         let env = Environment {
             sea: sea("REGULAR", 10.0, 8.0),
@@ -152,7 +152,7 @@ fn pressure_is_that_of_the_wave_at_depth_and_nothing_at_the_surface() {
 }
 
 #[test]
-fn current_has_its_profile_its_history_and_no_waves_in_the_mean() {
+fn current_has_profile_history_and_no_waves_in_mean() {
     let env = Environment {
         current: Some(Current::Profiles(vec![("CUR".into(), PI), ("SIDE".into(), -PI / 2.0)])),
         current_history: named("TURN", None),
@@ -184,7 +184,7 @@ fn current_has_its_profile_its_history_and_no_waves_in_the_mean() {
 }
 
 #[test]
-fn wind_has_its_profile_and_its_history() {
+fn wind_has_profile_and_history() {
     let env = Environment {
         wind: Some(Wind { speed: 0.0, direction: PI / 2.0 }),
         wind_history: named("BLOW", None),
@@ -215,7 +215,7 @@ fn wind_has_its_profile_and_its_history() {
 }
 
 #[test]
-fn growth_is_half_of_what_it_adds_to_a_diameter() {
+fn growth_is_half_of_diameter_increase() {
     let mut model = model(Environment { growth: named("GROW", None), ..Environment::default() });
     curve(&mut model, "GROW", CurveKind::MarineGrowth, &[(-40.0, 0.1), (0.0, 0.2)]);
     let (around, _) = of(&model);
@@ -229,7 +229,7 @@ fn growth_is_half_of_what_it_adds_to_a_diameter() {
 }
 
 #[test]
-fn the_bottom_is_flat_or_that_of_a_grid_and_the_current_goes_on_below_a_flat_one() {
+fn seabed_is_flat_or_gridded_and_current_continues_below_flat_one() {
     let env = Environment {
         depth: Some(50.0),
         current: Some(Current::Uniform { velocity: 1.0, direction: PI }),
@@ -256,7 +256,7 @@ fn the_bottom_is_flat_or_that_of_a_grid_and_the_current_goes_on_below_a_flat_one
 }
 
 #[test]
-fn contents_are_those_of_the_set_that_the_environment_names() {
+fn contents_match_set_named_by_environment() {
     let mut model = model(Environment { filling: named("HOT", None), ..Environment::default() });
     assert!(ambient(&model, None).unwrap_err().to_string().contains("no set of T_PRESSURE data HOT"));
     let contents = Contents { warmer: 60.0, pressure: 1.5e7, at: 12.0, density: 800.0 };
@@ -267,7 +267,7 @@ fn contents_are_those_of_the_set_that_the_environment_names() {
 }
 
 #[test]
-fn many_places_at_once_are_each_as_if_alone() {
+fn many_points_match_single_point_evaluation() {
     let env = Environment {
         sea: sea("ISSC", 6.0, 10.0),
         components: Some(Components {

@@ -392,7 +392,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn force_of_radiation_changes_with_velocity_by_its_difference() {
+    fn radiation_force_velocity_derivative_matches_finite_difference() {
         let kernel = |time: f64| {
             let pair = |i: usize, j: usize| if i == j { 3.0 } else { 0.2 * (i as f64 - 2.0 * j as f64) };
             Matrix6::from_fn(pair) / (1.0 + 2.0 * time)

@@ -342,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn memory_of_a_sine_is_that_of_the_integral() {
+    fn memory_of_sine_matches_its_integral() {
         // int_0^t exp(-s) sin(t - s) ds = (sin t - cos t + exp(-t)) / 2; straight velocities err by h^2/12 of it: 6e-4 for h = 0.1
         let exact = -0.5 * (8.0f64.sin() - 8.0f64.cos() + (-8.0f64).exp());
         let at = |h: f64| run(&exponential(h), &vec![h; (8.0 / h).round() as usize], f64::sin);
@@ -352,7 +352,7 @@ mod tests {
     }
 
     #[test]
-    fn memory_of_a_straight_velocity_is_exact_at_any_step() {
+    fn memory_of_linear_velocity_is_exact_at_any_step() {
         // int_0^t exp(-s) 2 (t - s) ds = 2 (t - 1 + exp(-t))
         let exact = |t: f64| -2.0 * (t - 1.0 + (-t).exp());
         let uneven: Vec<f64> = [0.03, 0.07, 0.11, 0.04, 0.15].into_iter().cycle().take(100).collect();
@@ -367,7 +367,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_that_are_not_those_of_the_grid_give_the_same_memory() {
+    fn steps_off_the_grid_give_same_memory() {
         let exact = -0.5 * (8.0f64.sin() - 8.0f64.cos() + (-8.0f64).exp());
         let memory = exponential(0.05);
         let uneven: Vec<f64> = [0.03, 0.07, 0.11, 0.04, 0.15].into_iter().cycle().take(100).collect();
@@ -380,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_in_eight_lanes_are_plain_sums() {
+    fn eight_lane_sums_match_plain_sums() {
         let list = |n: usize, rate: f64| (0..n).map(|i| (rate * i as f64).sin()).collect::<Vec<f64>>();
         for (count, values) in [(0, 9), (1, 9), (8, 8), (9, 8), (17, 17), (100, 103), (103, 100)] {
             let (weights, values) = (list(count, 0.7), list(values, 0.3));

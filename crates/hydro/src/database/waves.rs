@@ -233,7 +233,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sine_and_cosine_are_those_of_the_library() {
+    fn sine_and_cosine_match_library() {
         for n in -200_000..200_000 {
             let angle = 0.7317 * f64::from(n);
             let (sine, cosine) = sine_and_cosine(angle);
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_over_the_waves_are_those_of_each_by_itself() {
+    fn batched_wave_sums_match_single_sums() {
         let mut group = WaveGroup::default();
         for n in 0..203 {
             let n = f64::from(n);

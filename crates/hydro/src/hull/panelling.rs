@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn panels_cover_the_surface_and_are_short() {
+    fn panels_cover_surface_and_are_small() {
         let block = Surface::block([-45.0, 22.5, -21.0], [45.0, 37.5, -12.0]);
         // a wedge: its sides are rectangles, its ends triangles
         let wedge = Surface {
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn panels_of_a_mirrored_surface_are_the_mirrored_panels() {
+    fn panels_of_mirrored_surface_are_mirrored() {
         let block = Surface::block([-30.0, -10.0, -8.0], [30.0, 10.0, 6.0]);
         for longest in [2.7, 11.0] {
             let made = Panelling::new(&block, longest, 1_000_000);

@@ -279,7 +279,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn segment_distance_is_that_of_the_nearest_points() {
+    fn segment_distance_matches_nearest_points() {
         // crossing above each other; skew, nearest at an end; parallel side by side, and behind each other; a point
         let at = |p: [[f64; 3]; 2]| p.map(Vector3::from);
         for (p, q, want) in [

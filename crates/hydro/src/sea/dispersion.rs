@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_wave_number_satisfies_the_dispersion_in_every_depth() {
+    fn wave_number_satisfies_dispersion_at_every_depth() {
         for exponent in -8..=8 {
             for w in [0.01, 0.2, 0.6411, 1.0, 3.0, 20.0] {
                 let depth = 10f64.powf(f64::from(exponent) * 0.75);
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn waves_in_shallow_water_go_with_the_root_of_depth_and_in_deep_water_with_their_length() {
+    fn wave_speed_has_shallow_and_deep_water_limits() {
         // k d -> 0: w = k sqrt(g d) (1 - (k d)^2 / 6); k d -> inf: w^2 = g k
         let k = wave_number(1e-4, Some(10.0), 9.81).unwrap();
         let kd = 10.0 * k;
@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frequency_without_a_wave_is_an_error() {
+    fn frequency_without_wave_is_error() {
         for (w, d) in [(0.0, None), (-1.0, None), (f64::NAN, None), (1.0, Some(0.0)), (1e-300, Some(1e-300))] {
             assert!(wave_number(w, d, 9.81).is_err(), "{w} {d:?}");
         }

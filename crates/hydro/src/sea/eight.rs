@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn they_are_those_of_the_standard_library() {
+    fn batched_functions_match_standard_library() {
         for i in -200_000..200_000i32 {
             let at = f64::from(i) * 0.7 + f64::from(i % 97) * 1e-3;
             let (sin, cos) = sin_cos(&[at; 8]);

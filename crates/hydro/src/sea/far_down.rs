@@ -255,7 +255,7 @@ mod tests {
     use std::f64::consts::PI;
 
     #[test]
-    fn sines_and_powers_far_down_are_those_of_the_standard_library() {
+    fn deep_sines_and_powers_match_standard_library() {
         for i in -1_000..=1_000 {
             let r = f64::from(i) * 5e-4;
             let (sin, cos) = (PI * r).sin_cos();

@@ -568,7 +568,7 @@ mod tests {
     }
 
     #[test]
-    fn grid_heads_are_the_sum_of_the_waves() {
+    fn grid_pressure_heads_equal_sum_of_waves() {
         for depth in [None, Some(40.0)] {
             let sea = sea(depth);
             let deviation = (0.5 * sea.components.iter().map(|c| c.amplitude.powi(2)).sum::<f64>()).sqrt();
@@ -602,7 +602,7 @@ mod tests {
     }
 
     #[test]
-    fn grid_is_refused_where_the_direct_sum_is_cheaper() {
+    fn grid_is_refused_where_direct_sum_is_faster() {
         assert!(PressureGrid::new(&sea(None), [100.0, 30.0], 10).is_none());
         let mut spread = sea(None);
         for (n, c) in spread.components.iter_mut().enumerate() {

@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn coefficients_are_those_of_fentons_table() {
+    fn stokes_coefficients_match_fenton_table() {
         // [FENTON-1985 table 2]: k d = 0.753982 (as quoted in the tests of AMR-Wind)
         let kd = 0.753_982f64;
         let c = Coefficients::new(Some(kd));
@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn the_height_is_exact_and_the_water_keeps_its_mean_level() {
+    fn stokes_height_is_exact_and_mean_level_is_kept() {
         for order in 1..=5 {
             for depth in [None, Some(20.0)] {
                 let wave = wave(order, 0.15, depth);
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_at_the_surface_fall_with_the_power_of_the_steepness_above_the_order() {
+    fn surface_errors_fall_with_steepness_above_the_order() {
         for depth in [None, Some(60.0), Some(20.0)] {
             for order in 1..=5u8 {
                 let (steep, mild) = (residuals(&wave(order, 0.04, depth)), residuals(&wave(order, 0.02, depth)));
@@ -340,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn a_deep_steep_wave_has_the_speed_and_crest_of_the_exact_one() {
+    fn steep_deep_water_wave_matches_exact_speed_and_crest() {
         // c^2 k/g = 1 + e^2 + e^4/2 + .. with e = k H/2 [FENTON-1985; STOKES-1847], k eta at the crest e + e^2/2 + ..
         let wave = wave(5, 0.25, None);
         let e = 0.5 * wave.number * wave.height;
@@ -354,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn acceleration_is_the_rate_of_velocity_and_pressure_that_of_eulers_equation() {
+    fn velocity_derivative_matches_acceleration_and_euler_pressure() {
         for depth in [None, Some(20.0)] {
             let wave = wave(5, 0.15, depth);
             let (at, time, h) = (Vector3::new(7.0, 3.0, -2.0), 4.0, 1e-4);
@@ -377,7 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wave_too_steep_or_too_long_is_refused() {
+    fn wave_too_steep_or_too_long_is_refused() {
         let of = |height, period: f64, depth| {
             Stokes::new(5, (height, std::f64::consts::TAU / period), ([1.0, 0.0], 0.0), water(depth))
         };

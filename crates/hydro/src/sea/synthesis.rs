@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn all_components_meet_at_the_time_of_reinforcement() {
+    fn all_components_are_in_phase_at_reinforcement_time() {
         let mut model = model("JONSWAP");
         model.environment.phasing = Some(Phasing::Reinforced(500.0));
         let sea = made(&model);
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_usual_sea_is_the_same_in_every_run_and_has_no_absurd_crest() {
+    fn default_sea_is_reproducible_with_realistic_crest() {
         let model = model("ISSC");
         let (sea, again) = (made(&model), made(&model));
         assert_eq!((sea.components.len(), sea.seed), (USUAL_NUMBER, Some(1)));
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sea_travels_away_from_where_it_comes_from() {
+    fn waves_propagate_away_from_their_source_direction() {
         let sea = made(&model("REGULAR"));
         let [wave] = sea.components[..] else { panic!("one wave") };
         assert_eq!(wave.amplitude, 2.0);
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn an_added_sea_adds_its_energy_and_phases_of_its_own() {
+    fn added_sea_adds_energy_with_independent_phases() {
         let mut model = model("ISSC");
         model.environment.added_sea = model.environment.sea.clone();
         let sea = made(&model);
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wave_grown_by_the_ramp_is_the_wave_times_its_factor() {
+    fn ramped_wave_equals_wave_times_its_factor() {
         let mut model = model("STOKES");
         model.environment.ramp = Some(40.0);
         let sea = made(&model);

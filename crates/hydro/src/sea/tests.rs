@@ -31,7 +31,7 @@ fn crossing(depth: Option<f64>, stretching: Stretching) -> Sea {
 }
 
 #[test]
-fn quantiles_and_centroids_of_issc_are_those_of_its_closed_form() {
+fn quantiles_and_centroids_of_issc_match_closed_form() {
     // energy below x = w/wp is exp(-1.25 x^-4): the quantile of a share q is (-0.8 ln q)^(-1/4)
     let (spectrum, peak) = (issc(), TAU / 10.0);
     for q in [1e-6, 0.01, 0.3, 0.5, 0.9, 0.999, 1.0 - 1e-9f64] {
@@ -47,7 +47,7 @@ fn quantiles_and_centroids_of_issc_are_those_of_its_closed_form() {
 }
 
 #[test]
-fn a_sea_of_equal_energies_has_its_significant_height() {
+fn equal_energy_sea_has_its_significant_wave_height() {
     for division in [Division::EqualEnergy, Division::EqualFrequency] {
         for number in [1, 7, 200, 1000] {
             let made = bands(&issc(), number, division, false).unwrap();
@@ -65,7 +65,7 @@ fn a_sea_of_equal_energies_has_its_significant_height() {
 }
 
 #[test]
-fn bands_about_periods_keep_the_energy_and_have_these_periods() {
+fn bands_around_periods_keep_energy_and_those_periods() {
     let made = bands_about(&issc(), &[12.0, 6.0, 8.0, 10.0]).unwrap();
     assert!((made.iter().map(|b| b.energy).sum::<f64>() - 1.0).abs() < 1e-12);
     let periods: Vec<f64> = made.iter().map(|b| TAU / b.frequency).collect();
@@ -75,7 +75,7 @@ fn bands_about_periods_keep_the_energy_and_have_these_periods() {
 }
 
 #[test]
-fn ochi_and_hubble_is_that_of_wafo() {
+fn ochi_and_hubble_matches_wafo() {
     // pywafo, wafo/spectrum/models.py, OchiHubble(par=2), Hm0 = 7 m: printed S(1), S(2), S(3)
     let fall = |a: f64, b: f64| a * (-b * 7.0f64).exp();
     let parts = [[0.84 * 7.0, fall(0.41, 0.016), 2.55], [0.54 * 7.0, fall(0.88, 0.026), fall(1.82, 0.089)]];
@@ -90,7 +90,7 @@ fn ochi_and_hubble_is_that_of_wafo() {
 }
 
 #[test]
-fn torsethaugen_keeps_its_height_and_has_its_peaks_where_the_model_puts_them() {
+fn torsethaugen_keeps_height_and_peak_periods_of_its_model() {
     for (height, period) in [(3.0, 7.0), (3.0, 9.0), (8.0, 14.0), (2.0, 18.0), (12.0, 15.5)] {
         let humps = torsethaugen(height, period).unwrap();
         let spectrum = Spectrum::of_humps(humps.clone(), None);
@@ -106,7 +106,7 @@ fn torsethaugen_keeps_its_height_and_has_its_peaks_where_the_model_puts_them() {
 }
 
 #[test]
-fn the_peakedness_without_one_given_is_that_of_dnv() {
+fn default_peakedness_matches_dnv() {
     let gamma = |period| usual_gamma(4.0, period, PeriodType::Peak);
     assert_eq!((gamma(7.0), gamma(7.2), gamma(10.0), gamma(12.0)), (5.0, 5.0, 1.0, 1.0));
     assert!((gamma(8.6) - (5.75f64 - 1.15 * 4.3).exp()).abs() < 1e-12);
@@ -117,7 +117,7 @@ fn the_peakedness_without_one_given_is_that_of_dnv() {
 }
 
 #[test]
-fn spreading_has_the_cumulative_function_of_cosine_squared() {
+fn spreading_matches_cumulative_cosine_squared() {
     // exponent 2: the integral of cos^2 from -pi/2 to t is 1/2 + (t + sin t cos t)/pi
     for angle in [-1.5, -0.7, 0.0, 0.2, 1.1] {
         let exact = 0.5 + (angle + f64::sin(angle) * f64::cos(angle)) / PI;
@@ -133,7 +133,7 @@ fn spreading_has_the_cumulative_function_of_cosine_squared() {
 }
 
 #[test]
-fn phases_of_a_seed_are_always_the_same() {
+fn phases_of_a_seed_are_reproducible() {
     let frequencies = || [0.5, 0.6, 0.7].into_iter();
     let of = |seed, train| phases::phases(Phasing::Seeded(seed), train, frequencies());
     assert_eq!(of(1, 0), of(1, 0));
@@ -145,7 +145,7 @@ fn phases_of_a_seed_are_always_the_same() {
 }
 
 #[test]
-fn acceleration_is_the_rate_of_velocity_and_continuity_holds() {
+fn velocity_derivative_matches_acceleration_and_continuity_holds() {
     for depth in [None, Some(8.0), Some(200.0)] {
         for stretching in [Stretching::Linear, Stretching::Exponential] {
             let sea = crossing(depth, stretching);
@@ -169,7 +169,7 @@ fn acceleration_is_the_rate_of_velocity_and_continuity_holds() {
 }
 
 #[test]
-fn pressure_and_acceleration_satisfy_the_linear_equation_of_motion() {
+fn pressure_and_acceleration_satisfy_linear_equation_of_motion() {
     // rho du/dt = -grad p, away from the ramp
     for depth in [None, Some(8.0), Some(200.0)] {
         let sea = crossing(depth, Stretching::Linear);
@@ -185,7 +185,7 @@ fn pressure_and_acceleration_satisfy_the_linear_equation_of_motion() {
 }
 
 #[test]
-fn the_bottom_is_not_crossed_and_the_surface_moves_with_the_water() {
+fn bottom_is_impermeable_and_surface_moves_with_water() {
     let sea = crossing(Some(20.0), Stretching::Linear);
     assert!(sea.kinematics(Vector3::new(4.0, 2.0, 1.5 - 20.0), 50.0).velocity.z.abs() < 1e-15);
     // linear: at the mean level d(zeta)/dt = w
@@ -196,7 +196,7 @@ fn the_bottom_is_not_crossed_and_the_surface_moves_with_the_water() {
 }
 
 #[test]
-fn kinematics_of_lines_far_down_keep_their_bounds_by_each_wave() {
+fn deep_line_kinematics_keep_their_error_bounds() {
     // Hs 5 m and Tp 11 s in 300 m, written out: a w cosh(k(z+d))/sinh(kd) cos q and its like
     let depth = 300.0;
     for spread in [0.0, 0.4] {
@@ -251,7 +251,7 @@ fn kinematics_of_lines_far_down_keep_their_bounds_by_each_wave() {
 }
 
 #[test]
-fn nothing_overflows_in_any_depth() {
+fn kinematics_do_not_overflow_at_any_depth() {
     for depth in [Some(1e-3), Some(0.1), Some(1e3), Some(1e5), None] {
         let sea = Sea::airy(
             vec![component(0.05, 1e-4, [1.0, 0.0], 0.0, depth), component(6.0, 1e-4, [1.0, 0.0], 0.0, depth)],
@@ -268,7 +268,7 @@ fn nothing_overflows_in_any_depth() {
 }
 
 #[test]
-fn each_stretching_is_its_own_at_the_crest() {
+fn stretching_methods_differ_at_crest() {
     let depth = Some(50.0);
     let (w, a) = (0.6, 3.0);
     let wave = component(w, a, [1.0, 0.0], 0.0, depth);
@@ -294,7 +294,7 @@ fn each_stretching_is_its_own_at_the_crest() {
 }
 
 #[test]
-fn the_ramp_begins_and_ends_smoothly() {
+fn ramp_begins_and_ends_smoothly() {
     let sea = crossing(None, Stretching::Linear);
     assert_eq!((sea.factor(-1.0), sea.factor(0.0), sea.factor(30.0)), (0.0, 0.0, 1.0));
     assert!((sea.factor(15.0) - 0.5).abs() < 1e-15);

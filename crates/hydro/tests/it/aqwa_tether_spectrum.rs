@@ -25,7 +25,7 @@ fn printed() -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn the_significant_height_is_the_printed_one_over_all_and_within_the_limits() {
+fn significant_height_matches_listing_over_all_and_within_limits() {
     let height = |limits| 4.0 * Spectrum::of_humps(vec![hump()], limits).moment(0).sqrt();
     // printed to three decimals; alpha has four digits, so its half unit is 2.2e-4 of the energy, 1.1e-4 of the height
     assert!((height(None) - 6.302).abs() < 1e-3, "{}", height(None));
@@ -33,7 +33,7 @@ fn the_significant_height_is_the_printed_one_over_all_and_within_the_limits() {
 }
 
 #[test]
-fn fifty_lines_of_equal_energy_have_the_printed_frequencies_and_ordinates() {
+fn fifty_equal_energy_components_match_listing() {
     let spectrum = Spectrum::of_humps(vec![hump()], Some(LIMITS));
     let bands = bands(&spectrum, 50, Division::EqualEnergy, true).unwrap();
     let lines = printed();

@@ -68,7 +68,7 @@ const SURGE: [(f64, f64); 8] = [
 ];
 
 #[test]
-fn heave_of_the_hemisphere_is_that_of_hulme() {
+fn heave_of_hemisphere_matches_hulme() {
     let data = hemisphere();
     let mass = displaced(&data);
     for (ka, added, damping) in HEAVE {
@@ -90,7 +90,7 @@ fn heave_of_the_hemisphere_is_that_of_hulme() {
 }
 
 #[test]
-fn damping_is_what_the_waves_that_excite_carry_away() {
+fn damping_matches_energy_of_radiated_waves() {
     // Haskind's relation in deep water: B_ii = k w / (4 pi rho g2) int |X_i|2 db over all headings (Newman, Marine Hydrodynamics,
     // section 6.18, with the group velocity g/2w); the sum over eight headings is exact for |X|2 of up to cos 2b
     let data = hemisphere();
@@ -109,7 +109,7 @@ fn damping_is_what_the_waves_that_excite_carry_away() {
 }
 
 #[test]
-fn long_waves_lift_the_sphere_as_its_waterplane() {
+fn long_waves_lift_sphere_by_its_waterplane() {
     // w to 0: heave force rho g pi R2 a in phase with the crest; surge force in quadrature, (1 + A11/m) m g k a ahead of it
     let data = hemisphere();
     let w = data.frequencies[0];
@@ -124,7 +124,7 @@ fn long_waves_lift_the_sphere_as_its_waterplane() {
 }
 
 #[test]
-fn the_kernel_gives_back_damping_and_added_mass() {
+fn retardation_function_gives_back_damping_and_added_mass() {
     let data = hemisphere();
     let radiation = Radiation::new(&data).unwrap().unwrap();
     let (dt, memory) = (0.02, 200.0);
@@ -156,7 +156,7 @@ fn the_kernel_gives_back_damping_and_added_mass() {
 }
 
 #[test]
-fn heave_in_time_is_heave_by_frequency() {
+fn time_domain_heave_matches_frequency_domain() {
     // Cummins' equation by the trapezoidal rule against z = X / (C - w2 (M + A) - i w B), in a wave of 1 m, 0.05 s a step
     let data = hemisphere();
     let radiation = Radiation::new(&data).unwrap().unwrap();
@@ -224,7 +224,7 @@ fn crossing() -> Vec<Component> {
 }
 
 #[test]
-fn a_sphere_is_pushed_the_same_whatever_its_yaw() {
+fn sphere_excitation_is_independent_of_yaw() {
     let data = hemisphere();
     let sea = sea(crossing());
     let excitation = Excitation::new(&data, &sea).unwrap();
@@ -252,7 +252,7 @@ fn a_sphere_is_pushed_the_same_whatever_its_yaw() {
 }
 
 #[test]
-fn a_point_elsewhere_makes_the_same_force_and_its_moment() {
+fn force_at_another_point_is_same_with_its_moment() {
     let data = hemisphere();
     let shifted = Database { reference: Vector3::new(5.0, -3.0, 2.0), ..data.clone() };
     let (w, heading) = (0.9, 0.6f64);
@@ -287,7 +287,7 @@ fn drift() -> DriftTable {
 }
 
 #[test]
-fn newmans_product_is_the_double_sum() {
+fn newman_product_matches_double_sum() {
     let table = drift();
     let sea = sea(crossing());
     let slow = SlowDrift::newman(&table, Vector3::zeros(), &sea).unwrap();
@@ -308,7 +308,7 @@ fn newmans_product_is_the_double_sum() {
 }
 
 #[test]
-fn a_qtf_of_mean_drifts_is_newmans_and_any_is_the_double_sum() {
+fn newman_qtf_matches_mean_drifts_and_full_qtf_double_sum() {
     let table = drift();
     let one = |n: usize| wave(0.4 + 0.013 * n as f64, 0.3, 0.3, 2.7 * n as f64);
     let sea = sea((0..70).map(one).collect());
@@ -346,7 +346,7 @@ fn sea_of_two() -> Arc<Sea> {
 }
 
 #[test]
-fn the_mean_of_slow_drift_is_that_at_rest() {
+fn mean_slow_drift_matches_mean_at_rest() {
     let table = drift();
     let sea = sea_of_two();
     let slow = SlowDrift::newman(&table, Vector3::zeros(), &sea).unwrap();
@@ -361,14 +361,14 @@ fn the_mean_of_slow_drift_is_that_at_rest() {
 }
 
 #[test]
-fn the_kernel_of_a_symmetric_body_has_few_pairs() {
+fn retardation_of_symmetric_body_has_few_pairs() {
     let radiation = Radiation::new(&hemisphere()).unwrap().unwrap();
     let pairs = RetardationMemory::new(&|t| radiation.faded_at(t, 60.0), (radiation.finest(), 60.0), 0.1).pairs();
     assert!(pairs < 30, "{pairs}");
 }
 
 #[test]
-fn slow_and_wave_motions_are_damped_as_the_source_says_at_any_step() {
+fn slow_and_wave_motion_damping_matches_source_at_any_step() {
     // the work of the memory over whole periods of a sine of velocity, over that of B(w): 81 s, and 8 s. Steps beyond a twentieth of the shortest
     // period of the source (0.087 s) once gave the slow one 1.5e-3 of critical
     let data = hemisphere();

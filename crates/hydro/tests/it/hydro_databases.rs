@@ -68,7 +68,7 @@ fn agrees(part: &Database, all: &Database, share: f64) {
 }
 
 #[test]
-fn every_format_gives_the_same_hemisphere() {
+fn every_database_format_gives_same_hemisphere() {
     let all = whole();
     assert_eq!((all.frequencies.len(), all.headings.len(), all.remarks.len()), (97, 8, 0));
     let classic = capytaine::read("classic.nc", &bytes("classic.nc"), None).unwrap();
@@ -88,7 +88,7 @@ fn every_format_gives_the_same_hemisphere() {
 }
 
 #[test]
-fn limits_that_a_writer_exchanged_are_put_right() {
+fn swapped_frequency_limits_are_corrected() {
     // a version of Capytaine marked infinite frequency by -1 and zero frequency by 0; the manual of WAMIT has it the other way round
     let all = whole();
     let straight = of_wamit();
@@ -109,7 +109,7 @@ fn limits_that_a_writer_exchanged_are_put_right() {
 }
 
 #[test]
-fn values_of_wamit_are_made_dimensional_as_its_manual_says() {
+fn wamit_values_are_dimensional_as_in_its_manual() {
     let one = "WAMIT Numeric Output\n 0.62831853E+01 1 1 2.0 3.0\n6.2831853 1 5 2.0 3.0\n6.2831853 5 1 2.0 3.0\n6.2831853 5 5 2.0 3.0\n";
     let three = "6.2831853 180 1 5 0 3.0 4.0\n6.2831853 180 5 5 0 3.0 4.0\n";
     let four = "6.2831853 180 1 1 0 0.6 0.8\n6.2831853 180 4 1 0 0.6 0.8\n";
@@ -136,7 +136,7 @@ fn values_of_wamit_are_made_dimensional_as_its_manual_says() {
 }
 
 #[test]
-fn a_qtf_of_wamit_is_hermitian_whichever_half_is_given() {
+fn wamit_qtf_is_hermitian_from_either_half() {
     let rows =
         "6 6 0 0 1 1 0 1.0 0\n6 8 0 0 1 1 0 0.5 0.25\n8 8 0 0 1 1 0 2.0 0\n10 10 0 0 1 1 0 3.0 0\n6 8 0 45 1 1 0 9 9\n";
     let mut remarks = Vec::new();
@@ -155,7 +155,7 @@ fn a_qtf_of_wamit_is_hermitian_whichever_half_is_given() {
 }
 
 #[test]
-fn the_other_side_of_a_symmetric_body_is_its_mirror() {
+fn other_side_of_symmetric_body_is_mirrored() {
     let all = whole();
     let half = Database {
         headings: all.headings[..5].to_vec(),
@@ -179,7 +179,7 @@ fn convention(lag: bool, degrees: bool) -> RaoConvention {
 }
 
 #[test]
-fn motions_are_read_with_their_conventions() {
+fn rao_motions_are_read_with_their_conventions() {
     let named = "Displacement RAOs of a ship\nWP, WD, ZA, ZP, RYA, RYP\n10, 0, 0.5, 30, 2, -90\n8, 0, 0.4, 40, 1, -80\n10, 90, 0.6, 0, 0, 0\n8, 90, 0.7, 0, 0, 0\n";
     let data = rao::read("r", &text("r.csv", named), &convention(true, true)).unwrap();
     let heave = data.motion_at(0.0, TAU / 10.0).unwrap()[2];
@@ -194,7 +194,7 @@ fn motions_are_read_with_their_conventions() {
 }
 
 #[test]
-fn a_file_that_is_not_whole_says_what_it_lacks() {
+fn incomplete_file_reports_missing_part() {
     let refused = |files: &[SourceFile], wanted: &str| {
         let error = wamit::read("w", files, &scale(1.0)).unwrap_err().to_string();
         assert!(error.contains(wanted), "{error}");
@@ -226,7 +226,7 @@ fn a_file_that_is_not_whole_says_what_it_lacks() {
 }
 
 #[test]
-fn damaged_number_of_each_format_is_refused_with_its_place() {
+fn corrupt_number_of_each_format_is_refused_with_its_place() {
     // NetCDF 3 holds its doubles as they are, the largest byte first
     let sound = bytes("classic.nc");
     let data = capytaine::read("classic.nc", &sound, None).unwrap();
@@ -268,7 +268,7 @@ fn damaged_number_of_each_format_is_refused_with_its_place() {
 }
 
 #[test]
-fn what_looks_wrong_is_said() {
+fn implausible_database_is_reported() {
     let rows = "8 1 1 1 1\n8 5 5 1 1\n8 1 5 1 0\n8 5 1 0.5 0\n6 1 1 1 -0.5\n6 5 5 1 1\n6 1 5 1 0\n6 5 1 1 0\n";
     let three = "8 0 1 1 0 1 0\n6 0 1 1 0 1 0\n8 120 1 1 0 1 0\n6 120 1 1 0 1 0\n";
     let data = wamit::read("w", &[text("w.1", rows), text("w.3", three)], &scale(1.0)).unwrap();
@@ -281,7 +281,7 @@ fn what_looks_wrong_is_said() {
 }
 
 #[test]
-fn hdf5_and_classic_files_that_are_cut_are_refused() {
+fn truncated_hdf5_and_classic_files_are_refused() {
     for name in ["hemisphere.nc", "classic.nc"] {
         let whole = bytes(name);
         for part in [0, 3, 100, 1000, whole.len() / 2] {
@@ -295,7 +295,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn no_text_makes_a_reader_panic(body in "([0-9.eED+\\- ]{0,12}[ \\n,\"=A-Za-z]{0,4}){0,60}", cut in 0usize..4000, junk in "\\PC{0,20}") {
+    fn arbitrary_text_does_not_panic_database_reader(body in "([0-9.eED+\\- ]{0,12}[ \\n,\"=A-Za-z]{0,4}){0,60}", cut in 0usize..4000, junk in "\\PC{0,20}") {
         for ending in ["1", "3", "9", "12d", "hst"] {
             let _ = wamit::read("w", &[text(&format!("w.{ending}"), &body)], &scale(1.0));
         }
@@ -312,7 +312,7 @@ proptest! {
     }
 
     #[test]
-    fn no_change_of_bytes_makes_the_reader_of_netcdf_panic(
+    fn corrupt_netcdf_bytes_do_not_panic_reader(
         changes in proptest::collection::vec((0.0f64..1.0, any::<u8>()), 1..6), head in any::<bool>(), classic in any::<bool>(),
     ) {
         let mut bytes = bytes(if classic { "classic.nc" } else { "hemisphere.nc" });

@@ -91,7 +91,7 @@ fn prism(tube: &TubeHull, sides: usize) -> Surface {
 // closed forms of a box
 
 #[test]
-fn an_upright_box_has_the_volume_centres_and_metacentres_of_the_hand_formulas() {
+fn upright_box_volume_centres_and_metacentres_match_hand_formulas() {
     let (l, b, draft, kg) = (20.0, 8.0, 2.5, 3.0);
     for yaw in [0.0, 37.0] {
         let pose = pose([100.0, -40.0, -draft], [0.0, 0.0, yaw]);
@@ -111,7 +111,7 @@ fn an_upright_box_has_the_volume_centres_and_metacentres_of_the_hand_formulas() 
 }
 
 #[test]
-fn a_heeled_box_follows_the_wall_sided_formula_until_the_deck_enters() {
+fn heeled_box_follows_wall_sided_formula_until_deck_enters() {
     // Scribanti: GZ = sin(a) (GM + BM tan^2(a) / 2), exact for vertical sides; here G is the middle of the waterplane upright
     let (draft, b) = (3.0, 8.0);
     for degrees in [5.0, 20.0, 36.0f64] {
@@ -133,7 +133,7 @@ fn a_heeled_box_follows_the_wall_sided_formula_until_the_deck_enters() {
 }
 
 #[test]
-fn a_box_on_its_side_and_upside_down_has_the_box_formulas_of_that_attitude() {
+fn box_on_side_and_upside_down_matches_box_formulas() {
     // on its side: beam 6, depth 8; past the deck edge at 45 degrees the section is a triangle or a pentagon
     let side = pose([0.0, 0.0, 0.0], [90.0, 0.0, 0.0]);
     // the body's y is upward: it spans -4 to 4
@@ -157,7 +157,7 @@ fn a_box_on_its_side_and_upside_down_has_the_box_formulas_of_that_attitude() {
 }
 
 #[test]
-fn a_cube_corner_down_displaces_the_pyramid_and_half_the_cube_at_its_hexagon() {
+fn cube_corner_down_displaces_pyramid_and_half_cube_at_its_hexagon() {
     let cube = Surface::block([-0.5; 3], [0.5; 3]);
     let down = Vector3::new(-1.0, -1.0, -1.0).normalize();
     let z = -down;
@@ -199,7 +199,7 @@ fn a_cube_corner_down_displaces_the_pyramid_and_half_the_cube_at_its_hexagon() {
 }
 
 #[test]
-fn faces_in_the_surface_are_dry_and_volumes_go_over_smoothly() {
+fn faces_in_surface_are_dry_and_volumes_are_continuous() {
     let block = Surface::block([0.0; 3], [2.0, 3.0, 4.0]);
     let level = |z: f64| block.wet(&Pose::default(), z);
     assert_eq!(level(0.0), Wet::default());
@@ -216,7 +216,7 @@ fn faces_in_the_surface_are_dry_and_volumes_go_over_smoothly() {
 }
 
 #[test]
-fn a_mesh_open_above_the_water_counts_as_the_closed_one() {
+fn mesh_open_above_water_matches_closed_mesh() {
     let closed = barge();
     let mut open = closed.clone();
     open.faces.retain(|f| f.iter().any(|&n| closed.vertices[n as usize].z < 3.0));
@@ -226,7 +226,7 @@ fn a_mesh_open_above_the_water_counts_as_the_closed_one() {
 }
 
 #[test]
-fn a_submerged_body_is_lifted_the_same_in_any_attitude() {
+fn submerged_body_has_same_buoyancy_in_any_attitude() {
     let ball = sphere(3.0, 6);
     let own = ball.volume();
     let tube = TubeHull { ends: [Vector3::new(-4.0, 1.0, 0.5), Vector3::new(3.0, -2.0, 1.0)], diameter: 1.7 };
@@ -250,7 +250,7 @@ fn a_submerged_body_is_lifted_the_same_in_any_attitude() {
 // closed forms of a tube
 
 #[test]
-fn an_upright_tube_is_its_section_times_its_draft() {
+fn upright_tube_volume_is_section_times_draft() {
     let tube = TubeHull { ends: [Vector3::new(5.0, 0.0, 10.0), Vector3::new(5.0, 0.0, -20.0)], diameter: 6.0 };
     let wet = tube.wet(&pose([0.0, 0.0, 3.0], [0.0; 3]), 0.0);
     let area = 9.0 * PI;
@@ -268,7 +268,7 @@ fn an_upright_tube_is_its_section_times_its_draft() {
 }
 
 #[test]
-fn a_level_tube_is_its_segment_times_its_length() {
+fn level_tube_volume_is_segment_times_length() {
     let (r, l) = (1.5, 12.0);
     let tube = TubeHull { ends: [Vector3::new(-6.0, 0.0, 0.0), Vector3::new(6.0, 0.0, 0.0)], diameter: 2.0 * r };
     for half in [1e-5, 1e-3, 0.2, 1.0, FRAC_PI_2, 2.5, PI - 1e-5] {
@@ -293,7 +293,7 @@ fn a_level_tube_is_its_segment_times_its_length() {
 }
 
 #[test]
-fn the_hoof_of_a_cylinder_has_the_volume_of_archimedes() {
+fn cylinder_hoof_volume_matches_archimedes() {
     // a plane through a diameter of the end and rising to height h: V = 2/3 r^2 h, side area 2 r h
     for (r, h) in [(1.0f64, 1.0f64), (2.0, 0.01), (0.3, 5.0)] {
         let slope = (h / r).atan();
@@ -312,7 +312,7 @@ fn the_hoof_of_a_cylinder_has_the_volume_of_archimedes() {
 }
 
 #[test]
-fn an_oblique_tube_cut_between_its_ends_is_its_axis_and_an_ellipse() {
+fn oblique_tube_cut_matches_axis_and_ellipse() {
     let (r, l) = (0.7, 40.0);
     for degrees in [2.5, 10.0, 45.0, 80.0, 89.9, 89.999_999, 90.0f64] {
         let slope = degrees.to_radians();
@@ -373,7 +373,7 @@ fn by_slices(r: f64, l: f64, slope: f64, height: f64) -> [f64; 3] {
 }
 
 #[test]
-fn a_tube_cut_across_an_end_agrees_with_slices_by_another_rule() {
+fn tube_cut_across_end_agrees_with_slices_by_another_rule() {
     let (r, l) = (1.3, 7.0);
     for slope in [0.02, 0.2, 0.6, 1.1, 1.5f64] {
         for height in [-8.0, -3.0, -1.0, -0.4, 0.0, 0.3, 0.9] {
@@ -391,7 +391,7 @@ fn a_tube_cut_across_an_end_agrees_with_slices_by_another_rule() {
 }
 
 #[test]
-fn a_tube_agrees_with_a_prism_of_many_sides_in_all_integrals() {
+fn tube_agrees_with_prism_of_many_sides_in_all_integrals() {
     // a prism of n sides of the same area differs by (pi / n)^2 of the radius: 1.2e-6 with 2000
     let tube = TubeHull { ends: [Vector3::new(-3.0, 1.0, -0.5), Vector3::new(4.0, -2.0, 1.0)], diameter: 2.4 };
     let prism = prism(&tube, 2000);
@@ -404,7 +404,7 @@ fn a_tube_agrees_with_a_prism_of_many_sides_in_all_integrals() {
 }
 
 #[test]
-fn a_nearly_level_and_a_nearly_upright_tube_go_smoothly_to_the_limit() {
+fn near_level_and_near_upright_tubes_approach_the_limit() {
     // about the middle of a level tube the first change of the volume cancels; what is left is of second order of the slope
     let (r, l) = (1.0, 10.0);
     for depth in [0.3, 0.999, 1.0, 1.7] {
@@ -462,7 +462,7 @@ fn floating(pose: &Pose) -> Wet {
 }
 
 #[test]
-fn the_platform_of_aqwa_tether_has_its_buoyancy_in_closed_form_and_as_tubes() {
+fn aqwa_tether_platform_buoyancy_matches_closed_form_and_tubes() {
     let gamma = 1.025 * 9.81;
     // the centre of gravity, 63.6 m above the keel, stands at -17.4 m (POS1): the keel at -81 m
     let pose = pose([-46.0, 0.0, -17.4 - 63.6], [0.0; 3]);
@@ -486,7 +486,7 @@ fn the_platform_of_aqwa_tether_has_its_buoyancy_in_closed_form_and_as_tubes() {
 }
 
 #[test]
-fn the_printed_hydrostatic_force_in_the_wave_is_the_still_buoyancy_and_the_columns_crests() {
+fn listing_wave_force_is_still_water_buoyancy_and_column_crests() {
     // 8.2 prints 3.0121E6 kN at t = 0 in a wave of 15 m and 15 s, crest at x = 0 (POS1: columns at x = -6 and -86, depth 345: k
     // of deep water to 1e-5). With the elevation at the axes: 3.0127E6; averaged over the sections of the columns (2 J1(ka) / ka
     // = 0.9904): 3.0105E6. The listing lies between, 0.05 % from either: how AQWA cuts a tube under a wave is not reported.
@@ -523,7 +523,7 @@ fn stiffness_agrees(solid: &dyn Solid, pose: &Pose, size: f64, part: f64, what: 
 }
 
 #[test]
-fn stiffness_is_the_difference_of_the_buoyancy_at_oblique_poses() {
+fn oblique_pose_stiffness_matches_buoyancy_finite_differences() {
     let tube = TubeHull { ends: [Vector3::new(-3.0, 1.0, -0.5), Vector3::new(4.0, -2.0, 1.0)], diameter: 2.4 };
     let ball = sphere(3.0, 5);
     let barge = barge();
@@ -537,7 +537,7 @@ fn stiffness_is_the_difference_of_the_buoyancy_at_oblique_poses() {
 }
 
 #[test]
-fn permeability_and_an_interior_are_counted_by_their_factor() {
+fn permeability_and_interior_scale_by_their_factor() {
     let outer = Surface::block([-2.0, -2.0, 0.0], [2.0, 2.0, 4.0]);
     let inner = Surface::block([-1.0, -1.0, 0.0], [1.0, 1.0, 4.0]);
     let at = pose([7.0, 8.0, -1.5], [0.0; 3]);
@@ -559,7 +559,7 @@ fn cube_panels() -> Vec<Vec<[f64; 3]>> {
 }
 
 #[test]
-fn good_meshes_have_no_faults() {
+fn valid_meshes_have_no_faults() {
     let tube = TubeHull { ends: [Vector3::zeros(), Vector3::new(5.0, 1.0, 2.0)], diameter: 2.0 };
     for good in [barge(), sphere(2.0, 8), prism(&tube, 40)] {
         assert_eq!(good.faults(), vec![]);
@@ -575,7 +575,7 @@ fn good_meshes_have_no_faults() {
 }
 
 #[test]
-fn each_kind_of_fault_is_found_with_its_place() {
+fn each_kind_of_mesh_fault_is_located() {
     let mut open = Surface::block([0.0; 3], [1.0; 3]);
     let lost = open.faces.pop().unwrap();
     let faults = open.faults();
@@ -604,7 +604,7 @@ fn each_kind_of_fault_is_found_with_its_place() {
 }
 
 #[test]
-fn hull_pieces_that_share_room_are_told_from_those_that_touch() {
+fn overlapping_hull_pieces_are_distinguished_from_touching_ones() {
     let unit = |low: [f64; 3]| Surface::block(low, low.map(|x| x + 1.0));
     let base = unit([0.0; 3]);
     // beside each other, over part of a face, at an edge, at a corner, apart
@@ -623,7 +623,7 @@ fn hull_pieces_that_share_room_are_told_from_those_that_touch() {
 }
 
 #[test]
-fn panels_are_welded_and_cut_into_triangles_that_keep_the_area() {
+fn panels_are_welded_and_triangulated_with_equal_area() {
     let cube = Surface::from_panels(&cube_panels(), 1e-6).unwrap();
     assert_eq!((cube.vertices.len(), cube.faces.len()), (8, 12));
     let shifted: Vec<Vec<[f64; 3]>> = cube_panels()
@@ -650,7 +650,7 @@ fn panels_are_welded_and_cut_into_triangles_that_keep_the_area() {
 }
 
 #[test]
-fn panels_that_bound_nothing_are_refused_with_their_number() {
+fn degenerate_panels_are_refused_with_their_number() {
     let good = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let bad = |panel: Vec<[f64; 3]>| Surface::from_panels(&[good.clone(), panel], 1e-3).unwrap_err();
     for panel in [vec![], vec![[0.0; 3]; 4], vec![[0.0; 3], [1e-4, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 1e-4]]] {
@@ -671,7 +671,7 @@ fn volume_of(kind: MeshKind, bytes: &[u8]) -> f64 {
 }
 
 #[test]
-fn text_and_binary_stl_give_the_same_cube() {
+fn text_and_binary_stl_give_same_cube() {
     let mut text = String::from("solid a cube\n");
     let mut binary = b"solid that is binary all the same".to_vec();
     binary.resize(80, 0);
@@ -703,7 +703,7 @@ fn text_and_binary_stl_give_the_same_cube() {
 }
 
 #[test]
-fn a_gdf_quarter_is_mirrored_to_the_whole() {
+fn gdf_quarter_is_mirrored_to_whole_body() {
     // a quarter of a box 4 x 2 x 1: bottom, side, end; and the top, that the mesh be closed; one triangle pair by a repeated vertex
     let text = "quarter of a box\n 1.0 9.80665 ULEN GRAV\n 1 1 ISX ISY\n 5 NPAN\n\
         0 0 -1  0 1 -1  2 1 -1  2 0 -1\n\
@@ -727,7 +727,7 @@ fn a_gdf_quarter_is_mirrored_to_the_whole() {
 }
 
 #[test]
-fn an_obj_with_polygons_slashes_and_negative_indices_is_read() {
+fn obj_with_polygons_slashes_and_negative_indices_is_read() {
     let text = "# a cube\no cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nvn 0 0 1\n\
         f 4 3 2 1\nf 5//1 6//1 7//1 8//1\nf 1/1/1 2/1/1 6/1/1 5/1/1\nf -6 -5 -1 -2\nf 3 4 8 7\nf 1 5 \\\n 8 4\n";
     assert!(read_mesh(MeshKind::Obj, text.as_bytes()).is_ok());
@@ -796,14 +796,14 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn the_wet_and_the_dry_part_of_a_convex_body_make_the_whole(points in some_points(), pose in some_pose()) {
+    fn convex_body_wet_and_dry_parts_add_up(points in some_points(), pose in some_pose()) {
         let body = convex(&points);
         prop_assert!(body.faults().is_empty(), "{:?}", body.faults());
         parts_make_the_whole(&body, &pose, body.volume())?;
     }
 
     #[test]
-    fn the_wet_and_the_dry_part_of_a_tube_make_the_whole(
+    fn tube_wet_and_dry_parts_add_up(
         ends in prop::array::uniform2(prop::array::uniform3(-2.0..2.0f64)), diameter in 0.01..3.0f64, pose in some_pose()
     ) {
         let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
@@ -812,7 +812,7 @@ proptest! {
     }
 
     #[test]
-    fn stiffness_of_tubes_is_the_difference_wherever_they_are_cut(
+    fn tube_stiffness_matches_finite_differences_at_any_cut(
         ends in prop::array::uniform2(prop::array::uniform3(-2.0..2.0f64)), diameter in 0.5..3.0f64, pose in some_pose()
     ) {
         let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
@@ -824,12 +824,12 @@ proptest! {
     }
 
     #[test]
-    fn stiffness_of_convex_bodies_is_the_difference(points in some_points(), pose in some_pose()) {
+    fn convex_body_stiffness_matches_finite_difference(points in some_points(), pose in some_pose()) {
         stiffness_agrees(&convex(&points), &pose, 3.0, 3e-5, "convex");
     }
 
     #[test]
-    fn no_bytes_make_a_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+    fn arbitrary_bytes_do_not_panic_mesh_reader(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         for kind in [MeshKind::Stl, MeshKind::Gdf, MeshKind::Obj] {
             if let Ok(file) = read_mesh(kind, &bytes) {
                 let _ = Surface::from_panels(&file.panels, 1e-3).map(|s| s.faults().len());
@@ -838,7 +838,7 @@ proptest! {
     }
 
     #[test]
-    fn no_words_make_a_reader_panic(words in prop::collection::vec(prop::sample::select(vec![
+    fn arbitrary_words_do_not_panic_mesh_reader(words in prop::collection::vec(prop::sample::select(vec![
         "solid", "facet", "outer", "vertex", "endloop", "endfacet", "v", "f", "\n", "\n", " 1", " 0", " -1", " 2", " 3/1", " 1e308",
         " nan", " -3", " 4294967295", " 99999999999999999999", " 0.5", " \\", " #", ",", "\0", " 1d2", "é",
     ]), 0..200)) {

@@ -32,14 +32,14 @@ fn run_with(text: &str, budget: u64) -> Vec<String> {
 }
 
 #[test]
-fn branches_nest_and_pass_over_what_is_not_taken() {
+fn branches_nest_and_skip_untaken_blocks() {
     let script = "&SET A = 3\n&IF %A .EQ. 1 &THEN\nX\n&IF %UNDEFINED &THEN\n&ENDIF\n&ELSEIF %A .EQ. 3 &THEN\nY\n&ELSE\nZ\n&ENDIF\nW";
     assert_eq!(run(script), ["Y", "W"]);
     assert_eq!(run("&IF .FALSE. &THEN\nX\n&ELSE .FALSE. &THEN\nY\n&ELSE\nZ\n&ENDIF"), ["Z"]);
 }
 
 #[test]
-fn loops_count_go_over_lists_and_end_by_exit() {
+fn loops_count_iterate_over_lists_and_end_by_exit() {
     assert_eq!(run("&LOOP I 1 7 3\nX %I\n&ENDLOOP"), ["X 1", "X 4", "X 7"]);
     assert_eq!(run("&LOOP I 2 1 -1\nX %I\n&ENDLOOP"), ["X 2", "X 1"]);
     assert_eq!(run("&LOOP I 2 1\nX %I\n&ENDLOOP"), Vec::<String>::new());
@@ -61,7 +61,7 @@ fn macros_take_arguments_options_and_defaults() {
 }
 
 #[test]
-fn an_argument_left_out_between_commas_takes_its_default() {
+fn omitted_argument_between_commas_gets_its_default() {
     let script = "&MACRO P A B = 5 -OPT FLAG V = 7 W = 8\n%A|%B|%V|%W\n&ENDMACRO\n";
     for (call, got) in [
         ("P 1,,", "1|5|7|8"),
@@ -75,7 +75,7 @@ fn an_argument_left_out_between_commas_takes_its_default() {
 }
 
 #[test]
-fn a_macro_named_as_a_control_record_or_an_abbreviation_of_one_is_an_error() {
+fn macro_named_as_control_record_or_its_abbreviation_is_error() {
     for name in ["&LOOP", "&loo", "&SE"] {
         let script = format!("&MACRO {name} A\nX\n&ENDMACRO\nY");
         assert_eq!(run(&script), [format!("! macro {name} cannot be called"), "Y".into()]);
@@ -84,7 +84,7 @@ fn a_macro_named_as_a_control_record_or_an_abbreviation_of_one_is_an_error() {
 }
 
 #[test]
-fn a_wrong_bound_of_a_loop_is_the_place_of_the_error() {
+fn wrong_loop_bound_is_the_error_position() {
     for (header, message, column) in [
         ("&LOOP I 1 5 0", "the increment of &LOOP may not be zero", 13),
         ("&LOOP I 1 2 0.5", "the increment of &LOOP must be a whole number", 13),
@@ -99,7 +99,7 @@ fn a_wrong_bound_of_a_loop_is_the_place_of_the_error() {
 }
 
 #[test]
-fn a_local_ends_with_its_macro_and_hides_the_global() {
+fn local_variable_ends_with_its_macro_and_hides_global() {
     let script = "&SET A = outer\n&MACRO M\n&LOCAL A = inner\nX %A\n&ENDMACRO\nM\nX %A";
     assert_eq!(run(script), ["X inner", "X outer"]);
 }
@@ -113,13 +113,13 @@ fn unclosed_blocks_are_errors_at_their_beginning() {
 }
 
 #[test]
-fn an_error_in_a_header_keeps_the_block_whole() {
+fn error_in_header_keeps_block_whole() {
     assert_eq!(run("&IF 1 .LT. A &THEN\nX\n&ELSE\nY\n&ENDIF\nZ"), ["! the logical phrase cannot be evaluated", "Z"]);
     assert_eq!(run("&LOOP I 1 A\nX\n&ENDLOOP\nZ"), ["! a bound of &LOOP must be a number", "Z"]);
 }
 
 #[test]
-fn endless_things_end_in_an_error() {
+fn endless_loops_and_macros_end_in_error() {
     assert_eq!(run("&LOOP\n&ENDLOOP\nX").last().unwrap(), "! the run has executed its 100000 records");
     assert_eq!(run("&LOOP\n&SET A = 1\n&ENDLOOP").len(), 1);
     let recursive = run("&MACRO M\nM\n&ENDMACRO\nM\nX");
@@ -131,6 +131,6 @@ fn endless_things_end_in_an_error() {
 }
 
 #[test]
-fn the_rest_of_a_file_is_left_by_eofile() {
+fn eofile_skips_rest_of_file() {
     assert_eq!(run("X\n&IF .TRUE. &THEN\n&LOOP I 1 3\n&EOFILE\n&ENDLOOP\n&ENDIF\nY"), ["X"]);
 }

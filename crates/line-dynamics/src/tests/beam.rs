@@ -10,7 +10,7 @@ fn beam(length: f64, elements: usize, bending: f64, ea: f64) -> Rod {
 }
 
 #[test]
-fn a_moment_of_two_pi_ei_over_l_bends_a_beam_into_a_circle() {
+fn end_moment_of_two_pi_ei_over_l_bends_beam_into_circle() {
     let (length, bending) = (10.0, 1000.0);
     let rod = beam(length, 20, bending, 1e7);
     let fluid = UniformFluid::vacuum();
@@ -35,7 +35,7 @@ fn a_moment_of_two_pi_ei_over_l_bends_a_beam_into_a_circle() {
 }
 
 #[test]
-fn a_cantilever_with_a_tip_load_takes_the_shape_of_the_elastica() {
+fn cantilever_with_tip_load_matches_elastica() {
     // [MATTIASSON-1981 table]: P L^2 / EI, deflection w / L, shortening u / L
     for (load, w, u) in [(1.0, 0.30172, 0.05643), (5.0, 0.71379, 0.38763), (10.0, 0.81061, 0.55500)] {
         let error = |elements: usize| {
@@ -60,7 +60,7 @@ fn a_cantilever_with_a_tip_load_takes_the_shape_of_the_elastica() {
 }
 
 #[test]
-fn short_stiff_cantilever_far_from_the_origin_bends_as_near_it() {
+fn short_stiff_cantilever_far_from_origin_bends_as_at_origin() {
     // P L^3 / (3 EI) + w L^4 / (8 EI) with EI = 2.16e8 N m2, P = 500 kN, w = 2.332 kN/m, L = 1 m; the slope of 1.2e-3 changes the sixth figure
     let (length, elements, bending) = (1.0, 100, 2.16e8);
     let exact = 5e5 / (3.0 * bending) + 2332.0 / (8.0 * bending);
@@ -85,7 +85,7 @@ fn short_stiff_cantilever_far_from_the_origin_bends_as_near_it() {
 }
 
 #[test]
-fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
+fn clamped_and_tensioned_riser_bends_as_beam_with_tension() {
     // a light beam under tension T between clamps at x = 0 and L with a side load q: closed form of EI y'''' - T y'' = q
     let (length, bending, tension, q) = (100.0, 1e7, 2e5, 20.0);
     let elements = 200;
@@ -158,7 +158,7 @@ fn forty_five_degrees(elements: usize, load: f64) -> Vector3<f64> {
 }
 
 #[test]
-fn the_forty_five_degree_bend_comes_to_the_published_places() {
+fn forty_five_degree_bend_matches_published_positions() {
     // unloaded it keeps its shape
     let still = forty_five_degrees(16, 0.0);
     assert!((still - Vector3::new(29.289_321_9, 70.710_678_1, 0.0)).norm() < 0.1, "{still}");
@@ -197,7 +197,7 @@ fn swung(times: &[f64], rate: f64, settings: RodSettings) -> (RodState, usize) {
 }
 
 #[test]
-fn a_step_that_is_cut_turns_its_clamp_as_the_steps_it_is_cut_in() {
+fn subdivided_step_rotates_clamp_by_the_same_total() {
     // so few iterations that a step of 0.8 s fails and its halves do not
     let rate = 1.0;
     let cut = (3..20).rev().find_map(|iterations| {
@@ -211,7 +211,7 @@ fn a_step_that_is_cut_turns_its_clamp_as_the_steps_it_is_cut_in() {
 }
 
 #[test]
-fn the_books_of_a_beam_know_the_work_of_a_clamp_that_turns() {
+fn beam_energy_balance_includes_work_of_rotating_clamp() {
     let run = |h: f64| {
         let segment = RodSegment { compression: true, bending: 2e5, ..RodSegment::line(10.0, 10, 20.0, 1e8, 0.1) };
         let rod = Rod::new("beam", vec![segment], vec![]).unwrap();

@@ -30,7 +30,7 @@ fn elastica() -> impl Iterator<Item = (f64, f64, Vector3<f64>, f64)> {
 }
 
 #[test]
-fn cantilever_under_a_dead_tip_load_is_the_elastica_at_any_mesh() {
+fn cantilever_under_dead_tip_load_matches_elastica_at_any_mesh() {
     let fluid = UniformFluid::vacuum();
     for (load, weight, tip, moment) in elastica() {
         let rest = |elements: usize| {
@@ -60,7 +60,7 @@ fn cantilever_under_a_dead_tip_load_is_the_elastica_at_any_mesh() {
 }
 
 #[test]
-fn cantilever_with_its_tip_held_far_from_where_it_began_pulls_with_the_load() {
+fn cantilever_with_displaced_tip_reacts_against_load() {
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, GRAVITY);
     for (load, weight, tip, _) in elastica() {
@@ -78,7 +78,7 @@ fn cantilever_with_its_tip_held_far_from_where_it_began_pulls_with_the_load() {
 }
 
 #[test]
-fn weightless_rope_with_a_clump_hangs_as_two_straight_halves() {
+fn weightless_rope_with_clump_has_two_straight_halves() {
     // T sin(a) = W / 2 with the halves of 10 (1 + T / EA) over 9.5 m each, by bisection of the sag
     let (load, ea, half) = (1.25e8, 7.2e8, 9.5f64);
     let pull = |sag: f64| ea * (half.hypot(sag) / 10.0 - 1.0);

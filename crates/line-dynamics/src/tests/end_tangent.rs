@@ -140,7 +140,7 @@ fn wrong(
 }
 
 #[test]
-fn end_tangent_is_the_difference_of_end_forces_and_moments() {
+fn end_tangent_matches_end_force_finite_differences() {
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.5, 0.3, 0.0));
     let world = LineEnvironment::new(&fluid, 9.81);
     for case in cases() {
@@ -167,7 +167,7 @@ fn end_tangent_is_the_difference_of_end_forces_and_moments() {
 }
 
 #[test]
-fn static_end_stiffness_is_the_difference_of_forces_and_moments_at_rest() {
+fn static_end_stiffness_matches_finite_difference_at_rest() {
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.5, 0.3, 0.0));
     let world = LineEnvironment::new(&fluid, 9.81);
     for case in cases() {

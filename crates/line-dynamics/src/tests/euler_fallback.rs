@@ -38,7 +38,7 @@ fn rebound([elements, ea]: [f64; 2], [height, aside]: [f64; 2], rho_inf: f64, h:
 }
 
 #[test]
-fn a_mass_that_falls_into_a_stiff_rope_comes_no_higher_than_it_was() {
+fn mass_falling_into_stiff_rope_rebounds_no_higher() {
     let ropes = [
         ([1.0, 1e4], 0.0),
         ([1.0, 1e7], 0.0),
@@ -63,7 +63,7 @@ fn a_mass_that_falls_into_a_stiff_rope_comes_no_higher_than_it_was() {
 }
 
 #[test]
-fn a_bounce_that_the_steps_follow_keeps_its_height_and_its_period_to_the_second_order() {
+fn resolved_bounce_keeps_height_and_second_order_period() {
     // free flight, and half a swing about the static stretch: exact in closed form
     let (length, ea, height): (f64, f64, f64) = (2.0, 1e4, 1.0);
     let k = ea / length;

@@ -17,7 +17,7 @@ fn rough(friction: f64) -> SeabedLaw {
 }
 
 #[test]
-fn a_line_at_rest_by_friction_stays_as_it_is_and_its_anchor_feels_nothing() {
+fn line_in_friction_equilibrium_stays_and_anchor_is_unloaded() {
     let rod = chain(400.0, 80);
     let fluid = UniformFluid::vacuum();
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
@@ -55,7 +55,7 @@ fn a_line_at_rest_by_friction_stays_as_it_is_and_its_anchor_feels_nothing() {
 }
 
 #[test]
-fn a_line_that_is_dragged_is_pulled_by_its_friction_and_stays_where_it_is_left() {
+fn dragged_line_has_friction_tension_and_stays_where_left() {
     let (length, friction) = (100.0, 0.6);
     let rod = chain(length, 20);
     let fluid = UniformFluid::vacuum();
@@ -109,7 +109,7 @@ fn a_line_that_is_dragged_is_pulled_by_its_friction_and_stays_where_it_is_left()
 }
 
 #[test]
-fn stiffness_at_rest_by_friction_is_the_difference_of_the_force() {
+fn friction_equilibrium_stiffness_matches_force_finite_difference() {
     let rod = chain(400.0, 80);
     let fluid = UniformFluid::vacuum();
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };

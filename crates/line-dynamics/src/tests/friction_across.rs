@@ -49,7 +49,7 @@ fn rest(bottom: &PlaneBottom, length: f64, current: Vector3<f64>) -> Rested {
 }
 
 #[test]
-fn a_current_across_pulls_at_what_hangs_and_moves_nothing_that_lies() {
+fn cross_current_loads_suspended_part_and_moves_no_grounded_part() {
     for (slope, length) in [(0.0, 440.0), (0.1, 440.0), (0.1, 420.0), (0.02, 430.0)] {
         let bottom = PlaneBottom { height: -100.0, slope: [slope, 0.0] };
         let still = rest(&bottom, length, Vector3::zeros());
@@ -91,7 +91,7 @@ fn a_current_across_pulls_at_what_hangs_and_moves_nothing_that_lies() {
 }
 
 #[test]
-fn a_current_along_what_lies_does_not_push_it() {
+fn current_along_grounded_line_does_not_push_it() {
     for (slope, length) in [(0.0, 440.0), (0.1, 440.0), (0.1, 420.0)] {
         let bottom = PlaneBottom { height: -100.0, slope: [slope, 0.0] };
         for (speed, angle) in [(0.5, 0.0f64), (0.5, 180.0), (1.0, 180.0), (0.5, 150.0), (0.05, 30.0)] {
@@ -105,7 +105,7 @@ fn a_current_along_what_lies_does_not_push_it() {
 }
 
 #[test]
-fn derivatives_of_friction_at_rest_are_its_differences() {
+fn static_friction_derivatives_match_finite_differences() {
     for (slope, along, across) in [
         ([0.0, 0.0], 0.6, 0.6),
         ([0.1, 0.2], 0.6, 0.6),
@@ -153,7 +153,7 @@ fn derivatives_of_friction_at_rest_are_its_differences() {
 }
 
 #[test]
-fn a_current_across_a_line_that_lies_from_end_to_end_does_not_move_it() {
+fn cross_current_does_not_move_fully_grounded_line() {
     let bottom = PlaneBottom { height: -100.0, slope: [0.0, 0.0] };
     let segment = RodSegment { drag_normal: 1.2, ..RodSegment::line(200.0, 100, MASS, 1e9, DIAMETER) };
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();

@@ -4,7 +4,7 @@ use super::super::*;
 use nalgebra::Vector3;
 
 #[test]
-fn a_load_lowered_by_a_winch_hangs_by_its_weight_and_goes_down_at_the_rate() {
+fn load_lowered_by_winch_keeps_weight_and_moves_at_payout_rate() {
     let (mass, rate): (f64, f64) = (5000.0, 0.5);
     let load = Attachment::mass(10, mass);
     let segment = RodSegment { axial_damping: 1e6, ..RodSegment::line(50.0, 10, 5.0, 1e8, 0.05) };
@@ -34,7 +34,7 @@ fn a_load_lowered_by_a_winch_hangs_by_its_weight_and_goes_down_at_the_rate() {
 }
 
 #[test]
-fn elements_that_appear_at_a_winch_leave_the_load_where_it_was() {
+fn elements_added_at_winch_leave_load_position() {
     let (mass, rate): (f64, f64) = (5000.0, 0.5);
     let load = Attachment::mass(5, mass);
     let segment = RodSegment { axial_damping: 1e6, ..RodSegment::line(25.0, 5, 5.0, 1e8, 0.05) };
@@ -78,7 +78,7 @@ fn elements_that_appear_at_a_winch_leave_the_load_where_it_was() {
 }
 
 #[test]
-fn a_heave_of_the_top_swings_a_load_by_its_own_spring_at_any_mass() {
+fn heave_of_top_excites_load_spring_resonance_at_any_mass() {
     // a light wire with a load of any mass below an end that heaves: amplitude over heave 1 / (1 - (w / wn)^2)
     for mass in [10.0, 1e4, 1e6] {
         let load = Attachment::mass(6, mass);

@@ -10,7 +10,7 @@ fn vacuum(fluid: &UniformFluid, gravity: f64) -> LineEnvironment<'_> {
 }
 
 #[test]
-fn a_pendulum_let_go_level_takes_the_period_of_the_elliptic_integral() {
+fn pendulum_released_level_matches_elliptic_integral_period() {
     let rod = Rod::new("pendulum", vec![RodSegment::line(2.0, 1, 0.01, 1e8, 0.01)], vec![Attachment::mass(1, 100.0)])
         .unwrap();
     let fluid = UniformFluid::vacuum();
@@ -39,7 +39,7 @@ fn a_pendulum_let_go_level_takes_the_period_of_the_elliptic_integral() {
 }
 
 #[test]
-fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
+fn axial_pull_travels_along_bar_at_speed_of_sound() {
     let (length, mass, ea, speed) = (1000.0, 100.0, 4e8, 1.0);
     let rod =
         Rod::new("bar", vec![RodSegment { compression: true, ..RodSegment::line(length, 400, mass, ea, 0.1) }], vec![])
@@ -87,7 +87,7 @@ fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
 }
 
 #[test]
-fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
+fn folded_chain_tip_falls_faster_than_free_fall() {
     // [CALKIN-MARCH-1989; TOMASZEWSKI-2006]:
     // the chain folded tightly, one end let go, its tip has fallen the whole length after 0.8472 of the time of free
     // fall
@@ -142,7 +142,7 @@ fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
 }
 
 #[test]
-fn a_free_cylinder_drifts_up_to_the_current_as_the_closed_form() {
+fn free_cylinder_drift_in_current_matches_closed_form() {
     let (length, diameter, mass, current) = (20.0, 0.5, 300.0, 1.5);
     let segment =
         RodSegment { drag_normal: 1.2, added_normal: 1.0, ..RodSegment::line(length, 10, mass, 1e7, diameter) };
@@ -169,7 +169,7 @@ fn a_free_cylinder_drifts_up_to_the_current_as_the_closed_form() {
 }
 
 #[test]
-fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
+fn swinging_moored_rope_conserves_energy_and_momentum() {
     let segment = RodSegment {
         axial_damping: 1e3,
         drag_normal: 1.2,
@@ -223,7 +223,7 @@ fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
 }
 
 #[test]
-fn energy_of_a_swinging_twisted_beam_adds_up() {
+fn swinging_twisted_beam_conserves_energy() {
     // a curved cantilever with torsion let go under its own weight: no damping, no outer work but that of its clamp,
     // which stands
     let (elements, quarter) = (24, std::f64::consts::FRAC_PI_4);
@@ -270,7 +270,7 @@ fn energy_of_a_swinging_twisted_beam_adds_up() {
 }
 
 #[test]
-fn a_step_that_cannot_be_made_is_cut_and_then_named() {
+fn failing_step_is_subdivided_and_then_reported() {
     let rod = Rod::new("LINE7", vec![RodSegment::line(100.0, 20, 50.0, 1e8, 0.1)], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = vacuum(&fluid, 9.81);
@@ -308,7 +308,7 @@ impl FluidField for Swell {
 }
 
 #[test]
-fn a_rod_as_light_as_its_water_goes_with_it() {
+fn neutrally_buoyant_rod_moves_with_its_water() {
     // m = rho A: (m + rho A Ca) a = rho A (1 + Ca) a_f whatever Ca, so that it moves as the water does and drag has
     // nothing to do
     let (diameter, frequency, speed): (f64, f64, f64) = (0.5, 0.8, 1.2);
@@ -342,7 +342,7 @@ impl FluidField for Shear {
 }
 
 #[test]
-fn the_water_of_a_step_is_that_where_its_nodes_come_to_be() {
+fn step_evaluates_water_at_new_node_positions() {
     // a slack rope thrown down through a sheared current in long steps, which take many iterations
     let segment = RodSegment { drag_normal: 1.2, added_normal: 1.0, ..RodSegment::line(60.0, 12, 60.0, 1e8, 0.2) };
     let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
@@ -366,7 +366,7 @@ fn the_water_of_a_step_is_that_where_its_nodes_come_to_be() {
 }
 
 #[test]
-fn a_chain_on_a_slope_slides_when_friction_is_less_than_the_slope() {
+fn chain_on_slope_slides_when_friction_is_less_than_slope() {
     // a straight chain along the fall line: a = g (sin - mu cos) once it slides faster than the regularising speed
     let slope: f64 = 0.5;
     let angle = slope.atan();

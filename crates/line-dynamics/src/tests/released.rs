@@ -31,7 +31,7 @@ fn let_go(h: f64) -> Vector3<f64> {
 }
 
 #[test]
-fn a_stiff_line_that_is_let_go_falls_alike_by_any_step() {
+fn released_stiff_line_falls_alike_at_any_step() {
     let fine = let_go(0.0005);
     for h in [0.001, 0.002, 0.005, 0.01, 0.02] {
         let found = let_go(h);

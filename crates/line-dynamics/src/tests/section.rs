@@ -17,7 +17,7 @@ fn pipe(tube: TubeSection) -> Rod {
 }
 
 #[test]
-fn a_heated_pipe_under_pressure_between_fixed_ends_is_pressed_as_the_closed_form() {
+fn heated_pressurised_pipe_between_fixed_ends_matches_closed_form() {
     let tube = TubeSection { expansion: 1.17e-5, warmer: 50.0, pressure: 1e7, ..TubeSection::empty(0.3239, 0.2985) };
     let rod = pipe(tube);
     let fluid = UniformFluid::still(1025.0);
@@ -77,7 +77,7 @@ impl FluidField for Waves {
 }
 
 #[test]
-fn outer_pressure_of_a_deep_pipe_is_that_of_the_wave_at_its_depth() {
+fn external_pressure_on_deep_pipe_matches_wave_at_its_depth() {
     // a wave of 10 m and 8 s over a pipe between fixed ends
     let number = (std::f64::consts::TAU / 8.0).powi(2) / G;
     let waves = Waves { amplitude: 5.0, number };
@@ -120,7 +120,7 @@ fn outer_pressure_of_a_deep_pipe_is_that_of_the_wave_at_its_depth() {
 }
 
 #[test]
-fn a_pipe_that_cools_between_fixed_ends_meets_the_bottom_as_softly_as_its_tension_says() {
+fn cooling_pipe_seabed_contact_stiffness_follows_its_tension() {
     // sag w l^2 / (8 T) of an element, T by Poisson's ratio and what cooling by 50 K pulls: EA alpha dT, 1.5 MN
     let tube = TubeSection { expansion: 1.17e-5, warmer: -50.0, ..TubeSection::empty(0.3239, 0.2985) };
     let rod = pipe(tube);
@@ -141,7 +141,7 @@ fn a_pipe_that_cools_between_fixed_ends_meets_the_bottom_as_softly_as_its_tensio
 }
 
 #[test]
-fn a_tube_that_does_not_resist_shortening_is_held_taut_by_pressure_and_never_pushes() {
+fn tube_without_compression_is_held_taut_by_pressure() {
     let fluid = UniformFluid::still(1025.0);
     let world = LineEnvironment::new(&fluid, G);
     let depth = 1000.0;
@@ -165,7 +165,7 @@ fn a_tube_that_does_not_resist_shortening_is_held_taut_by_pressure_and_never_pus
 }
 
 #[test]
-fn pressure_goes_to_nothing_at_the_surface_without_a_jump_and_has_its_slope() {
+fn pressure_is_continuous_to_zero_at_surface_with_its_slope() {
     let waves = Waves { amplitude: 5.0, number: 0.063 };
     for time in [0.0, 1.1, 4.0] {
         let surface = waves.elevation(0.0, time);
@@ -189,7 +189,7 @@ fn pressure_goes_to_nothing_at_the_surface_without_a_jump_and_has_its_slope() {
 }
 
 #[test]
-fn what_makes_no_rod_is_refused_with_its_reason() {
+fn invalid_rod_is_refused_with_its_reason() {
     let good = RodSegment::line(10.0, 5, 10.0, 1e6, 0.1);
     let told = |segment: RodSegment| Rod::new("R", vec![segment], vec![]).unwrap_err().to_string();
     assert!(told(RodSegment { elements: 0, ..good.clone() }).contains("number of elements"));
@@ -223,7 +223,7 @@ fn what_makes_no_rod_is_refused_with_its_reason() {
 }
 
 #[test]
-fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
+fn polynomial_and_tension_table_hang_as_the_law_they_describe() {
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.81);
     let stretch = |axial: TensionLaw| {
@@ -251,7 +251,7 @@ fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
 }
 
 #[test]
-fn moments_along_a_helix_turn_against_the_untwisted_frame_by_its_torsion() {
+fn helix_moments_rotate_against_untwisted_frame_by_torsion() {
     // a helix of radius r and rise c per radian: curvature r / (r^2 + c^2), torsion c / (r^2 + c^2); against a frame
     // carried without twist the binormal turns by the torsion along the arc [BISHOP-1975]
     let (r, c, turns, elements, bending): (f64, f64, f64, usize, f64) = (3.0, 4.0, 1.5, 600, 2e5);
@@ -280,7 +280,7 @@ fn moments_along_a_helix_turn_against_the_untwisted_frame_by_its_torsion() {
 }
 
 #[test]
-fn a_bend_is_told_about_the_side_of_the_holder() {
+fn bend_is_reported_on_the_side_of_its_holder() {
     // a cantilever along y under a load along -z: its moment is about x alone, load times the arm
     let segment = RodSegment { bending: 1e9, compression: true, ..RodSegment::line(10.0, 20, 1.0, 1e12, 0.1) };
     let rod = Rod::new("arm", vec![segment], vec![]).unwrap();

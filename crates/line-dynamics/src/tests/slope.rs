@@ -78,7 +78,7 @@ fn sloping(slope: f64) -> PlaneBottom {
 }
 
 #[test]
-fn a_chain_that_lies_slack_on_a_slope_pulls_as_its_closed_form_as_the_mesh_refines() {
+fn slack_chain_on_slope_converges_to_closed_form_with_mesh() {
     for (slope, length) in [(0.1, 440.0), (0.1, 420.0), (0.05, 440.0), (0.02, 430.0)] {
         // 5 m elements at a touchdown whose radius is 8 m; then 9 N, what a chain pulls more that sinks into the bottom by 1 cm
         for (elements, most) in [(44, 7e-2), (88, 1e-2), (176, 1e-2), (352, 1.5e-3)] {
@@ -94,7 +94,7 @@ fn a_chain_that_lies_slack_on_a_slope_pulls_as_its_closed_form_as_the_mesh_refin
 }
 
 #[test]
-fn slack_on_a_slope_stays_where_it_is() {
+fn slack_chain_on_slope_stays_in_place() {
     for (slope, length) in [(0.1, 440.0), (0.1, 420.0), (0.02, 430.0)] {
         let bottom = sloping(slope);
         let Rested { rod, mut state, mut solver, made, ends, .. } = rest(&bottom, length, 88, FAIRLEAD);
@@ -112,7 +112,7 @@ fn slack_on_a_slope_stays_where_it_is() {
 }
 
 #[test]
-fn a_fairlead_that_moves_takes_the_chain_on_the_slope_along_as_one_laid_there_anew() {
+fn chain_moved_on_slope_matches_one_built_at_new_fairlead() {
     let bottom = sloping(0.1);
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment { bottom: Some((&bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
@@ -137,7 +137,7 @@ fn a_fairlead_that_moves_takes_the_chain_on_the_slope_along_as_one_laid_there_an
 }
 
 #[test]
-fn stiffness_on_a_slope_is_the_difference_of_the_force() {
+fn stiffness_on_slope_matches_finite_difference_of_force() {
     let fluid = UniformFluid::vacuum();
     for (slope, length) in [(0.1, 440.0), (0.1, 420.0), (-0.1, 440.0)] {
         let bottom = sloping(slope);
@@ -162,7 +162,7 @@ fn stiffness_on_a_slope_is_the_difference_of_the_force() {
 }
 
 #[test]
-fn a_chain_longer_than_from_its_anchor_to_straight_under_its_fairlead_hangs_straight_down_over_a_heap() {
+fn overlong_chain_on_slope_hangs_vertically_over_a_heap() {
     let fluid = UniformFluid::vacuum();
     for (slope, length) in [(0.1, 520.0), (0.1, 480.0), (0.2, 440.0), (0.05, 500.0)] {
         let bottom = sloping(slope);

@@ -62,7 +62,7 @@ fn run(line: &Line) -> (f64, f64, f64) {
 }
 
 #[test]
-fn lines_that_snap_part_and_fall_neither_stop_nor_gain_energy() {
+fn lines_that_snap_break_and_fall_gain_no_energy() {
     let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
     let laid = vec![a, Vector3::new(-350.0, 0.0, -300.0), b];
     let line = |segment, amplitude, period, friction| Line {

@@ -4,7 +4,7 @@ use super::super::*;
 use nalgebra::Vector3;
 
 #[test]
-fn a_rod_whose_winch_has_changed_it_goes_on_from_a_snapshot_to_the_last_bit() {
+fn rod_changed_by_winch_restores_from_snapshot_bit_for_bit() {
     let segment = |elements| RodSegment {
         axial_damping: 1e4,
         drag_normal: 1.2,
@@ -56,7 +56,7 @@ fn a_rod_whose_winch_has_changed_it_goes_on_from_a_snapshot_to_the_last_bit() {
 }
 
 #[test]
-fn a_twisted_state_comes_back_and_a_wrong_one_is_refused() {
+fn twisted_state_is_restored_and_wrong_one_refused() {
     let segment =
         RodSegment { compression: true, bending: 400.0, torsion: 300.0, ..RodSegment::line(10.0, 8, 2.0, 1e6, 0.1) };
     let rod = Rod::new("pipe", vec![segment.clone()], vec![]).unwrap();

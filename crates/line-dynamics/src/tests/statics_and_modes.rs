@@ -25,7 +25,7 @@ fn catenary(h: f64, v: f64, length: f64, w: f64, ea: f64) -> [f64; 2] {
 }
 
 #[test]
-fn a_hung_rope_tends_to_the_elastic_catenary_with_the_square_of_the_element() {
+fn hanging_rope_converges_to_elastic_catenary_with_second_order() {
     for b in [Vector3::new(60.0, 0.0, 40.0), Vector3::new(95.0, 0.0, 10.0), Vector3::new(40.0, 0.0, -50.0)] {
         let error = |elements| {
             let force = hung(elements, b).0.force[1];
@@ -45,7 +45,7 @@ fn a_hung_rope_tends_to_the_elastic_catenary_with_the_square_of_the_element() {
 }
 
 #[test]
-fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
+fn slack_vertical_grounded_and_buoyant_ropes_find_equilibrium() {
     let fluid = UniformFluid::still(1025.0);
     let bottom = PlaneBottom { height: -50.0, slope: [0.02, 0.01] };
     let ground = SeabedLaw { damping: 1e4, penetration_scale: 0.01, ..SeabedLaw::elastic(1e6) };
@@ -89,7 +89,7 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
 }
 
 #[test]
-fn a_hanging_chain_swings_at_the_zeros_of_j0() {
+fn hanging_chain_modes_match_zeros_of_j0() {
     let rod = Rod::new("chain", vec![RodSegment::line(10.0, 200, 5.0, 1e8, 0.1)], vec![]).unwrap();
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.81);
@@ -109,7 +109,7 @@ fn a_hanging_chain_swings_at_the_zeros_of_j0() {
 }
 
 #[test]
-fn a_taut_string_and_a_bar_sound_at_their_closed_forms() {
+fn taut_string_and_bar_frequencies_match_closed_form() {
     let (length, mass, ea, stretch) = (50.0, 2.0, 1e7, 0.001);
     let segment = RodSegment { compression: true, ..RodSegment::line(length, 80, mass, ea, 0.1) };
     let rod = Rod::new("string", vec![segment], vec![]).unwrap();
@@ -131,7 +131,7 @@ fn a_taut_string_and_a_bar_sound_at_their_closed_forms() {
 }
 
 #[test]
-fn rest_beside_a_position_of_rest_takes_a_few_iterations() {
+fn equilibrium_near_a_known_one_takes_few_iterations() {
     let segment = RodSegment { drag_normal: 1.2, ..RodSegment::line(900.0, 50, 199.0, 8.54e8, 0.18) };
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
@@ -167,7 +167,7 @@ fn rest_beside_a_position_of_rest_takes_a_few_iterations() {
 }
 
 #[test]
-fn tension_at_the_ends_of_a_hanging_rope_is_its_weight_and_nothing() {
+fn hanging_rope_end_tensions_are_its_weight_and_zero() {
     let fluid = UniformFluid::still(1025.0);
     let world = LineEnvironment::new(&fluid, 9.81);
     let (diameter, mass): (f64, f64) = (0.1, 40.0);
@@ -187,7 +187,7 @@ fn tension_at_the_ends_of_a_hanging_rope_is_its_weight_and_nothing() {
 }
 
 #[test]
-fn tension_at_the_end_of_a_rope_is_never_below_nothing_and_that_of_its_holder_while_it_moves() {
+fn rope_end_tension_is_nonnegative_and_matches_holder_in_motion() {
     // a rope of few elements that is shaken at its top while its foot lies on the bottom: carried on from the middles of
     // its elements the tension of the foot would be less than nothing
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.5, 0.2, 0.1));
@@ -228,7 +228,7 @@ fn tension_at_the_end_of_a_rope_is_never_below_nothing_and_that_of_its_holder_wh
 }
 
 #[test]
-fn a_rope_that_floats_up_comes_to_rest_as_its_mirror_image_that_sinks_and_as_soon() {
+fn buoyant_rope_mirrors_sinking_rope_in_as_many_iterations() {
     let fluid = UniformFluid::still(1025.0);
     let world = LineEnvironment::new(&fluid, 9.81);
     let water = 1025.0 * std::f64::consts::FRAC_PI_4 * 0.09;

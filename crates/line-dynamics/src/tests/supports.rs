@@ -92,7 +92,7 @@ fn pipe(length: f64, elements: usize, weight: f64, bending: f64) -> Rod {
 }
 
 #[test]
-fn a_beam_over_three_rollers_has_the_reactions_of_the_continuous_beam() {
+fn beam_on_three_rollers_matches_continuous_beam_reactions() {
     // four supports, three equal spans, an overhang of a: Clapeyron's equations of three moments
     let (span, overhang, w, ei) = (20.0, 2.0, 100.0, 1e7);
     let m3 = -0.5 * w * overhang * overhang;
@@ -158,7 +158,7 @@ fn slid(elements: usize) -> (Vec<f64>, f64) {
 }
 
 #[test]
-fn a_pipe_that_slides_over_rollers_presses_evenly_as_nodes_go_by() {
+fn pipe_sliding_over_rollers_presses_evenly_across_nodes() {
     let meshes = [70, 140, 280].map(slid);
     for (reactions, pull) in &meshes {
         let jump = reactions.windows(2).map(|r| (r[1] - r[0]).abs()).fold(0.0, f64::max);
@@ -190,7 +190,7 @@ fn lying(cradle: Cradle, load: Vector3<f64>) -> (Vector3<f64>, SupportForce) {
 }
 
 #[test]
-fn a_cradle_holds_a_pipe_by_the_balance_of_its_faces() {
+fn cradle_holds_pipe_by_force_balance_of_faces() {
     let load = Vector3::new(0.0, 300.0, -1000.0);
     // a V of 90 degrees: N1 + N2 = W / sin 45, N1 - N2 = H / cos 45
     let vee = Cradle { half_width: 0.0, opening: std::f64::consts::FRAC_PI_2, ..plain(0.0, 1e5) };
@@ -258,7 +258,7 @@ fn dropped(h: f64) -> Balance {
 }
 
 #[test]
-fn a_pipe_dropped_on_moving_rollers_keeps_its_books() {
+fn pipe_dropped_on_moving_rollers_keeps_energy_balance() {
     let (coarse, fine) = (dropped(0.002), dropped(0.0005));
     assert!(fine.work.supports.abs() > 0.01 * fine.turnover, "{fine:?}");
     // what the scheme damps of the pipe's ringing as it lands, and the trapezoidal rule leaves, falls with the step
@@ -268,7 +268,7 @@ fn a_pipe_dropped_on_moving_rollers_keeps_its_books() {
 }
 
 #[test]
-fn tangent_of_a_rod_on_rollers_is_the_difference_of_its_residual() {
+fn rod_on_rollers_tangent_matches_finite_difference() {
     // soft along, so that rounding of its tension does not hide the rollers
     let segment = RodSegment { bending: 1e4, compression: true, ..RodSegment::line(20.0, 5, 30.0, 1e5, 0.3) };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
@@ -346,7 +346,7 @@ fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) 
 }
 
 #[test]
-fn what_supports_feel_follows_their_motion_as_its_differences() {
+fn support_force_derivatives_match_motion_finite_differences() {
     let (told, tangent) = on_three(&[[0.0; 6]; 3]);
     assert!(told.iter().all(|t| t[0].norm() > 100.0), "{told:?}");
     assert!(tangent.velocity.is_empty());

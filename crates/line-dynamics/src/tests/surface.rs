@@ -12,7 +12,7 @@ fn windy(wind: Vector3<f64>) -> UniformFluid {
 }
 
 #[test]
-fn a_rope_that_hangs_in_wind_takes_the_critical_angle() {
+fn rope_hanging_in_wind_has_critical_angle() {
     // a straight line of weight w with normal drag alone: 1/2 rho Cd D V^2 cos^2(a) = w sin(a), a from the vertical
     let (diameter, speed, mass, cd): (f64, f64, f64, f64) = (0.1, 30.0, 4.0, 1.2);
     let segment = RodSegment { wind_drag: cd, ..RodSegment::line(20.0, 10, mass, 1e8, diameter) };
@@ -36,7 +36,7 @@ fn a_rope_that_hangs_in_wind_takes_the_critical_angle() {
 }
 
 #[test]
-fn wind_takes_hold_of_the_dry_part_alone() {
+fn wind_acts_on_dry_part_alone() {
     let fluid = windy(Vector3::y() * 25.0);
     let world = LineEnvironment::new(&fluid, 0.0);
     for low in [-14.0, -10.0, -7.3] {
@@ -60,7 +60,7 @@ fn lumped(node: usize, elements: usize, mass: f64) -> f64 {
 }
 
 #[test]
-fn a_cylinder_pressed_through_the_surface_takes_up_the_momentum_of_its_added_mass() {
+fn cylinder_entering_surface_takes_momentum_of_added_mass() {
     let (length, diameter, speed) = (12.0f64, 0.8, 3.0);
     let added = 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter * length;
     for (tilt, slam) in [(0.0f64, true), (0.3, true), (0.3, false)] {
@@ -103,7 +103,7 @@ fn a_cylinder_pressed_through_the_surface_takes_up_the_momentum_of_its_added_mas
 }
 
 #[test]
-fn a_cylinder_thrown_at_the_surface_shares_its_momentum_with_the_water() {
+fn cylinder_impacting_surface_shares_momentum_with_water() {
     // [VON-KARMAN-1929]: m v0 = (m + m_a) v
     let (length, diameter, mass, speed) = (10.0, 0.5, 150.0, 4.0);
     let segment = RodSegment { added_normal: 1.0, ..RodSegment::line(length, 4, mass, 1e8, diameter) };
@@ -132,7 +132,7 @@ fn a_cylinder_thrown_at_the_surface_shares_its_momentum_with_the_water() {
 }
 
 #[test]
-fn a_pipe_that_drops_level_on_the_sea_slams_and_floats() {
+fn pipe_dropped_level_on_sea_slams_and_floats() {
     // the worst for an iteration: every element meets the water at once, in long steps
     let (length, diameter): (f64, f64) = (60.0, 0.6);
     let mass = 0.4 * 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter;
@@ -163,7 +163,7 @@ fn a_pipe_that_drops_level_on_the_sea_slams_and_floats() {
 }
 
 #[test]
-fn tangent_of_rods_in_the_surface_is_the_difference_of_their_residual() {
+fn surface_piercing_rod_tangent_matches_finite_difference() {
     let fluid = UniformFluid(FluidState {
         velocity: Vector3::new(0.7, -0.2, 0.1),
         surface: 0.1,

@@ -38,7 +38,7 @@ fn everything(bending: f64) -> (Rod, RodState) {
 }
 
 #[test]
-fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
+fn whole_rod_tangent_matches_residual_finite_difference() {
     let fluid = UniformFluid(FluidState {
         velocity: Vector3::new(0.7, -0.2, 0.1),
         acceleration: Vector3::new(0.1, 0.3, -0.2),
@@ -113,7 +113,7 @@ pub(super) fn compare(rod: &Rod, state: &RodState, world: &LineEnvironment, solv
 }
 
 #[test]
-fn elements_taken_at_once_are_what_each_is_alone() {
+fn batched_elements_match_single_elements() {
     let fluid = UniformFluid(FluidState {
         velocity: Vector3::new(0.7, -0.2, 0.1),
         acceleration: Vector3::new(0.1, 0.3, -0.2),

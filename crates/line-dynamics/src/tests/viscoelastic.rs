@@ -67,7 +67,7 @@ fn cycle(rope: ViscoelasticRope, mean: f64, frequency: f64, steps: usize) -> Cyc
 }
 
 #[test]
-fn a_cycled_rope_has_the_modulus_and_the_loss_of_the_standard_linear_solid() {
+fn cycled_rope_matches_standard_linear_solid_modulus_and_loss() {
     let (slow, fast, tau) = (1e7, 2.5e7, 20.0);
     for frequency in [1e-3, 0.02, 0.05, 0.3, 6.0] {
         let rope = ViscoelasticRope { slow: TensionLaw::Linear(slow), fast: [fast, 0.0], relaxation: tau };
@@ -87,7 +87,7 @@ fn a_cycled_rope_has_the_modulus_and_the_loss_of_the_standard_linear_solid() {
 }
 
 #[test]
-fn a_slow_cycle_has_the_static_stiffness_and_a_fast_one_the_dynamic_of_its_mean_tension() {
+fn slow_cycle_has_static_and_fast_cycle_dynamic_stiffness() {
     for (mean, tension) in [(0.01, 1.1e5), (0.03, 3.9e5)] {
         // T = 1e7 e + 1e8 e^2; dynamic 1.8e7 + 12 T
         let (a, b) = (1.8e7, 12.0);
@@ -106,7 +106,7 @@ fn a_slow_cycle_has_the_static_stiffness_and_a_fast_one_the_dynamic_of_its_mean_
 }
 
 #[test]
-fn a_hanging_load_creeps_to_the_static_length_and_its_books_add_up() {
+fn hanging_load_creeps_to_static_length_with_closed_energy_balance() {
     // pulled by a weight at once the rope stretches by W / E_d, then creeps with tau E_d / E_s to W / E_s
     let (slow, fast, tau, load) = (1e7, 2.5e7, 20.0, 1e5);
     let axial = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope {
@@ -150,7 +150,7 @@ fn a_hanging_load_creeps_to_the_static_length_and_its_books_add_up() {
 }
 
 #[test]
-fn a_rope_that_is_let_go_slack_never_pushes() {
+fn rope_released_slack_carries_no_compression() {
     let slow = TensionLaw::Linear(1e7);
     let axial = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope { slow, fast: [3e7, 5.0], relaxation: 50.0 }));
     let segment = RodSegment { axial, ..RodSegment::line(LENGTH, 1, 10.0, 1.0, 0.1) };
@@ -181,7 +181,7 @@ fn a_rope_that_is_let_go_slack_never_pushes() {
 }
 
 #[test]
-fn a_viscoelastic_law_that_makes_no_rope_is_refused() {
+fn invalid_viscoelastic_law_is_refused() {
     let told = |slow: TensionLaw, fast, relaxation| {
         let axial = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope { slow, fast, relaxation }));
         let segment = RodSegment { axial, ..RodSegment::line(10.0, 1, 1.0, 1.0, 0.1) };
@@ -201,7 +201,7 @@ fn a_viscoelastic_law_that_makes_no_rope_is_refused() {
 }
 
 #[test]
-fn tangent_of_a_viscoelastic_rod_is_the_difference_of_its_residual() {
+fn viscoelastic_rod_tangent_matches_finite_difference() {
     let slow = TensionLaw::Polynomial(vec![1e6, 4e6]);
     let axial = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope { slow, fast: [2e6, 9.0], relaxation: 5.0 }));
     let segment = RodSegment { axial, axial_damping: 1e4, ..RodSegment::line(20.0, 4, 30.0, 1.0, 0.1) };
@@ -219,7 +219,7 @@ fn tangent_of_a_viscoelastic_rod_is_the_difference_of_its_residual() {
 }
 
 #[test]
-fn a_rope_that_is_let_in_fast_does_not_push_through_its_damper() {
+fn fast_slackening_rope_carries_no_compression_through_damper() {
     // one massless element let in at a steady speed: T = EA e - c v / L, but never less than nothing; its books add up
     let (ea, damping, speed, strain) = (1e7, 2e6, 0.05, 0.01);
     for rope in [None, Some(ViscoelasticRope { slow: TensionLaw::Linear(ea), fast: [ea, 0.0], relaxation: 5.0 })] {

@@ -39,7 +39,7 @@ fn surge(t: f64) -> RodEndMotion {
 }
 
 #[test]
-fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() {
+fn repeated_step_trial_takes_one_iteration_to_same_result() {
     let (fluid, bottom, ground) = sea();
     let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.80665) };
     for bending in [0.0, 1e5] {
@@ -87,7 +87,7 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
 }
 
 #[test]
-fn forces_at_a_start_are_what_momentum_wants() {
+fn initial_forces_satisfy_momentum_balance() {
     let (rod, mut state) = chain(0.0);
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment::new(&fluid, 9.80665);
@@ -111,7 +111,7 @@ fn forces_at_a_start_are_what_momentum_wants() {
 }
 
 #[test]
-fn a_trial_moved_slightly_needs_no_iteration_and_has_the_forces_of_one_made_anew() {
+fn slightly_moved_trial_needs_no_iteration_and_matches_new_one() {
     let (fluid, bottom, ground) = sea();
     let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.80665) };
     for bending in [0.0, 1e5] {
@@ -151,7 +151,7 @@ fn a_trial_moved_slightly_needs_no_iteration_and_has_the_forces_of_one_made_anew
 }
 
 #[test]
-fn an_end_that_goes_on_with_another_velocity_alone_is_not_moved_slightly() {
+fn end_with_another_velocity_is_not_a_slightly_moved_trial() {
     let (rod, mut state) = chain(0.0);
     let fluid = UniformFluid::still(1025.0);
     let world = LineEnvironment::new(&fluid, 9.80665);

@@ -23,7 +23,7 @@ fn at(history: &[f64], step: f64, t: f64) -> f64 {
 }
 
 #[test]
-fn the_fairlead_force_of_a_driven_chain_is_that_of_moordyn() {
+fn driven_chain_fairlead_force_matches_moordyn() {
     let (reference, range) = reference();
     let (rest, fine) = run(400, 0.0125);
     // the exact catenary; 400 elements and 3 mm of sinking in

@@ -53,7 +53,7 @@ fn away(found: [f64; 2], wanted: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn a_rod_at_rest_tends_to_the_catenary_with_the_square_of_its_elements() {
+fn rod_at_rest_converges_to_catenary_with_second_order() {
     let line = |x, z, grounded| Case { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded, friction: 0.0 };
     // suspended, taut; with a touchdown; the same slack
     for case in [line(700.0, 500.0, false), line(800.0, 290.0, true), line(700.0, 290.0, true)] {
@@ -69,7 +69,7 @@ fn a_rod_at_rest_tends_to_the_catenary_with_the_square_of_its_elements() {
 }
 
 #[test]
-fn a_rod_that_is_drawn_over_a_rough_bottom_tends_to_the_catenary_with_friction() {
+fn rod_dragged_over_rough_bottom_converges_to_friction_catenary() {
     // the anchor holds some; friction takes all of it; nearly slack; taut
     for (x, z, friction) in
         [(800.0, 290.0, 0.3), (800.0, 290.0, 0.9), (850.0, 200.0, 0.5), (750.0, 290.0, 1.0), (879.0, 100.0, 0.8)]
@@ -85,7 +85,7 @@ fn a_rod_that_is_drawn_over_a_rough_bottom_tends_to_the_catenary_with_friction()
 }
 
 #[test]
-fn random_lines_come_to_rest_at_their_catenaries() {
+fn random_lines_settle_at_their_catenaries() {
     let text = std::fs::read_to_string("../../tests/data/catenary_2000.csv").unwrap();
     let mut solved = 0;
     let mut most = 0;

@@ -9,7 +9,7 @@ const X: [f64; 5] = [-300.0, -120.0, 10.0, 55.0, 400.0];
 const Y: [f64; 4] = [-200.0, -90.0, 30.0, 260.0];
 
 #[test]
-fn a_surface_quadratic_in_x_and_in_y_is_met_exactly_with_its_slopes() {
+fn quadratic_surface_is_interpolated_exactly_with_slopes() {
     let height = |x: f64, y: f64| {
         -500.0 + 0.1 * x - 0.05 * y + 2e-4 * x * x - 3e-4 * y * y + 1e-4 * x * y + 2e-9 * x * x * y * y
     };
@@ -27,7 +27,7 @@ fn a_surface_quadratic_in_x_and_in_y_is_met_exactly_with_its_slopes() {
 }
 
 #[test]
-fn its_slopes_are_the_differences_of_its_height_and_do_not_jump() {
+fn slopes_match_finite_differences_of_depth_and_are_continuous() {
     let bottom = made(&X, &Y, |x, y| -100.0 + 20.0 * (x / 90.0).sin() * (y / 70.0).cos());
     let step = 1e-4;
     for i in 0..50 {
@@ -52,7 +52,7 @@ fn its_slopes_are_the_differences_of_its_height_and_do_not_jump() {
 }
 
 #[test]
-fn four_corners_make_a_plane_that_is_constant_beyond_its_edges() {
+fn four_corners_give_a_plane_constant_beyond_its_edges() {
     let bottom = made(&[0.0, 100.0], &[0.0, 50.0], |x, y| -20.0 - 0.1 * x + 0.2 * y);
     let near = |found: (f64, [f64; 2]), z: f64, slopes: [f64; 2]| {
         assert!((found.0 - z).abs() < 1e-12, "{found:?}");
@@ -67,7 +67,7 @@ fn four_corners_make_a_plane_that_is_constant_beyond_its_edges() {
 }
 
 #[test]
-fn a_smooth_bottom_is_met_with_the_third_power_of_the_spacing() {
+fn smooth_bathymetry_converges_with_third_order() {
     // Bessel's slopes are off by h^2 z'''/6 at most, and so the surface by h^3 between the points [DEBOOR-1978 IV]
     let height = |x: f64, y: f64| (x / 50.0).sin() + (y / 40.0).cos() * (x / 80.0).cos();
     let error = |count: u32| {
@@ -84,7 +84,7 @@ fn a_smooth_bottom_is_met_with_the_third_power_of_the_spacing() {
 }
 
 #[test]
-fn points_of_a_file_make_the_same_bottom_in_any_order() {
+fn point_file_gives_same_bathymetry_in_any_order() {
     let height = |x: f64, y: f64| -80.0 + 0.02 * x + (y / 60.0).sin();
     let mut points: Vec<[f64; 3]> = X.iter().flat_map(|x| Y.iter().map(|y| [*x, *y, height(*x, *y)])).collect();
     points.reverse();
@@ -93,7 +93,7 @@ fn points_of_a_file_make_the_same_bottom_in_any_order() {
 }
 
 #[test]
-fn what_makes_no_bottom_is_refused_with_the_reason() {
+fn invalid_bathymetry_is_refused_with_reason() {
     let new = |x: &[f64], y: &[f64], z: &[f64]| {
         Bathymetry::new("B", x.to_vec(), y.to_vec(), z, Span::default()).unwrap_err().to_string()
     };
@@ -118,7 +118,7 @@ fn what_makes_no_bottom_is_refused_with_the_reason() {
 }
 
 #[test]
-fn it_tells_its_extent_size_and_heights() {
+fn bathymetry_reports_extent_size_and_depths() {
     let bottom = made(&X, &Y, |x, _| -100.0 + 0.1 * x);
     assert_eq!(bottom.extent(), [[-300.0, 400.0], [-200.0, 260.0]]);
     assert_eq!((bottom.size(), bottom.heights()), ([5, 4], [-130.0, -60.0]));

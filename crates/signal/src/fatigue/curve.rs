@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_through_points_meets_them_and_is_straight_between_and_beyond() {
+    fn point_curve_passes_its_points_and_is_linear_between_and_beyond() {
         let curve = SnCurve::from_points(&user(&[(0.8, 1e3), (0.2, 1e5), (0.1, 1e7)])).unwrap();
         for (s, n) in [(0.8, 1e3), (0.2, 1e5), (0.1, 1e7)] {
             assert!((curve.cycles(s, 0.0).unwrap() / n - 1.0).abs() < 1e-12, "{s}");
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn points_in_a_wrong_order_make_no_curve() {
+    fn points_in_wrong_order_are_refused() {
         assert!(SnCurve::from_points(&user(&[(0.5, 1e3)])).is_err());
         assert!(SnCurve::from_points(&user(&[(0.5, 1e3), (0.6, 1e4)])).is_err());
         assert!(SnCurve::from_points(&user(&[(0.5, 1e3), (0.4, 1e2)])).is_err());

@@ -79,7 +79,7 @@ mod tests {
     use windlass_model::FatigueSelection;
 
     #[test]
-    fn damage_is_cycles_over_cycles_to_failure() {
+    fn damage_equals_cycles_over_cycles_to_failure() {
         let chain = find("CHAIN", &FatigueSelection::default()).unwrap();
         let cycles = [(0.1, 1.0), (0.2, 0.5)].map(|(range, count)| RainflowCycle { range, mean: 0.3, count });
         let d = of_cycles(&cycles, &chain, 0.3).unwrap();
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scatter_adds_up_by_days_and_life_is_its_inverse() {
+    fn scatter_damage_adds_by_days_and_life_is_its_inverse() {
         let hour = 3600.0;
         let states = [(1e-6, 300.0), (1e-5, 65.25)].map(|(damage, days)| ScatterState {
             damage,

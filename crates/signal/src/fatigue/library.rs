@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn the_shipped_text_is_read_and_its_curves_are_sound() {
+    fn shipped_curve_library_is_read_and_valid() {
         let read: FatigueLibrary = toml::from_str(TEXT).unwrap();
         assert!(read.curves.len() > 50);
         for shipped in &read.curves {
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn dnv_curves_give_the_cycles_of_another_program() {
+    fn dnv_curves_match_cycles_of_another_program() {
         // benchmark-sncurve-2014.06.csv of iamlikeme/sncurves , some of its points (thickness against 25 mm): numbers
         // of the standard's rules printed to a tenth of a cycle
         let table = include_str!("../../tests/data/sncurves.csv");
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn tension_curves_are_those_of_the_reference() {
+    fn tension_curves_match_reference() {
         // [API-RP-2SK]: N R^M = K
         assert!((named("CHAIN").cycles(0.1, 0.3).unwrap() - 1e6).abs() < 1e-3);
         assert_eq!(named("API_CHAIN"), named("chain"));
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_has_no_damage_below_it() {
+    fn endurance_limit_gives_no_damage_below() {
         let x = named("API_X");
         assert!(x.damage(34.0, 0.0) == 0.0 && x.damage(36.0, 0.0) > 0.0 && x.unconfirmed);
     }

@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_cycles_are_their_number_over_the_life_of_one() {
+    fn equal_cycles_give_number_over_life() {
         let (chain, wire, tension) = (named("CHAIN"), named("WIRE"), record());
         let (a, b) = (segment(5e6, 0.1), segment(4e6, 0.08));
         let made = line_damage(
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn stress_goes_by_both_legs_of_a_chain_and_by_the_thickness() {
+    fn stress_uses_both_chain_legs_and_thickness_factor() {
         let (chain, plain, tension) = (named("DNV_STUDLESS"), named("DNV_D_FREE"), record());
         let a = segment(5e6, 0.1);
         let of = |curve: &SnCurve, t: Option<&ThicknessCorrection>| {
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn the_segment_of_largest_stress_governs_where_the_critical_one_has_a_stress_curve() {
+    fn largest_stress_segment_governs_where_a_stress_curve_exists() {
         let (stress, tension) = (named("DNV_D_FREE"), record());
         // the first is nearer its break, the second has the higher stress
         let (a, b) = (segment(2e6, 0.2), segment(9e6, 0.05));
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn a_segment_without_strength_is_refused() {
+    fn segment_without_strength_is_refused() {
         let (chain, tension) = (named("CHAIN"), record());
         let a = segment(0.0, 0.1);
         assert!(line_damage(&[Loaded { segment: &a, curve: &chain, tension: &tension }], None).is_err());
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn the_life_of_a_segment_is_that_of_its_environments_by_their_duration() {
+    fn segment_life_weights_environments_by_duration() {
         let (chain, tension) = (named("CHAIN"), record());
         let a = segment(5e6, 0.1);
         let storm = line_damage(&[Loaded { segment: &a, curve: &chain, tension: &tension }], None).unwrap();

@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn one_branch_is_the_closed_form_of_a_narrow_band() {
+    fn single_slope_damage_matches_narrow_band_closed_form() {
         let curve = named("DNV_D_FREE");
         let m = flat(400.0, 0.6, 0.7);
         let rate = (m[2] / m[0]).sqrt() / TAU;
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn two_branches_are_the_integral_of_the_density() {
+    fn two_slope_damage_matches_integral_of_density() {
         let curve = named("DNV_D_AIR");
         let m = flat(225.0, 0.3, 1.5);
         let (steps, top) = (200_000, 15.0 * 15.0);
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn dirlik_of_moments_that_no_process_has_is_refused() {
+    fn dirlik_of_impossible_moments_is_refused() {
         let curve = named("DNV_D_FREE");
         // of a process m1^2 <= m0 m2: 0.9025 is more than 0.81
         assert!(dirlik(&[1.0, 0.95, 0.81, 1.0], &curve, 0.0).is_err());
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn dirlik_tends_to_the_narrow_band_and_is_below_it() {
+    fn dirlik_approaches_narrow_band_from_below() {
         let curve = named("DNV_D_FREE");
         let narrow = flat(400.0, 0.99, 1.01);
         let ratio = dirlik(&narrow, &curve, 0.0).unwrap() / narrow_band(&narrow, &curve, 0.0).unwrap();
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_of_no_process_are_refused() {
+    fn impossible_spectral_moments_are_refused() {
         let curve = named("CHAIN");
         assert!(dirlik(&[1.0, 1.0, 2.0, 1.0], &curve, 0.0).is_err());
         assert!(narrow_band(&[0.0, 1.0, 1.0, 1.0], &curve, 0.0).is_err());

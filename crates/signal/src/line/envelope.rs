@@ -84,7 +84,7 @@ mod tests {
     use crate::statistics;
 
     #[test]
-    fn an_envelope_is_what_statistics_of_each_series_are() {
+    fn envelope_matches_statistics_of_each_series() {
         let wave = |i: i32, k: f64| 1e6 + (f64::from(i) * k).sin();
         let mut envelope = Envelope::default();
         for i in 0..200 {
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_does_not_count_and_what_is_infinite_is_an_error() {
+    fn missing_value_is_skipped_and_infinite_value_is_error() {
         let mut envelope = Envelope::default();
         envelope.take(0.0, [f64::NAN, 2.0, f64::NAN]).unwrap();
         envelope.take(1.0, [5.0, 4.0, f64::NAN]).unwrap();

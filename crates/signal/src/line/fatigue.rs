@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn bending_in_a_plane_damages_where_the_plane_meets_the_surface() {
+    fn in_plane_bending_damages_fibres_in_that_plane() {
         let (segment, curve) = (segment(), curve());
         let (sine, cosine) = 60f64.to_radians().sin_cos();
         // a moment about the direction at 60 degrees pulls at 150 and 330
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bend_that_turns_round_damages_all_points_alike() {
+    fn rotating_bend_damages_all_points_equally() {
         let (segment, curve) = (segment(), curve());
         let turn = |i: usize| std::f64::consts::TAU * i as f64 / 8.0;
         let one: Vec<f64> = (0..161).map(|i| 1e5 * turn(i).cos()).collect();
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tube_that_is_only_pulled_is_damaged_as_a_line_of_its_area() {
+    fn tube_in_tension_only_is_damaged_like_line_of_its_area() {
         let (segment, curve) = (segment(), curve());
         let (tension, still) = (record(2e5, 1e6), vec![0.0; 101]);
         let bends: Option<[&[f64]; 2]> = Some([&still, &still]);
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_goes_by_its_ranges_of_tension() {
+    fn chain_damage_uses_tension_ranges() {
         let segment = FatigueSegment { thickness: None, ..segment() };
         let curve = find("CHAIN", &FatigueSelection::default()).unwrap();
         let tension = record(1e5, 1e6);
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_reckoned_with_is_refused() {
+    fn invalid_fatigue_input_is_refused() {
         let (segment, curve) = (segment(), curve());
         let (tension, short) = (record(2e5, 1e6), vec![0.0; 100]);
         let bends: Option<[&[f64]; 2]> = Some([&short, &short]);

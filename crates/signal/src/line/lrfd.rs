@@ -189,7 +189,7 @@ mod tests {
         CheckedTube { diameter: 0.66, wall: 0.0197, yield_stress: 444e6, tensile: 535e6, modulus: 207e9, poisson: 0.3 };
 
     #[test]
-    fn a_pipe_collapses_as_another_program_has_it() {
+    fn pipe_collapse_pressure_matches_another_program() {
         // [PDOVER2T-PY], examples/DNVGL-ST-F101_pipe_collapse_external_pressure.ipynb: UOE pipe, printed to 0.1 Pa
         let factors = LrfdFactors { fabrication: 0.85, ..LrfdFactors::default() };
         let found = TubeResistance::new(X65, factors).unwrap();
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn a_round_pipe_collapses_at_the_lower_of_its_two_pressures() {
+    fn round_pipe_collapses_at_lower_of_two_pressures() {
         // the cubic then has the roots p_el and p_p; a double root is found to half of the digits
         assert!((collapse(2e7, 5e6, 0.0, 30.0) / 5e6 - 1.0).abs() < 1e-7);
         assert!((collapse(2e6, 5e6, 0.0, 30.0) / 2e6 - 1.0).abs() < 1e-7);
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn each_load_alone_uses_all_at_its_own_resistance() {
+    fn each_single_load_gives_unit_utilisation_at_its_resistance() {
         let found = TubeResistance::new(X65, LrfdFactors::default()).unwrap();
         let g = 1.14 * 1.15;
         let [moment, tension] = found.plastic(0.0);
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn the_two_forms_meet_at_equal_pressures() {
+    fn two_interaction_forms_agree_at_equal_pressures() {
         let found = TubeResistance::new(X65, LrfdFactors::default()).unwrap();
         let [inside, outside] = [[1.0, 0.0], [0.0, 1.0]].map(|p| found.utilisation(1e6, 2e6, p));
         assert!((inside - outside).abs() < 1e-6, "{inside} {outside}");
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn what_relieves_takes_the_inverse_factor() {
+    fn relieving_load_gets_inverse_factor() {
         let found = TubeResistance::new(X65, LrfdFactors::default()).unwrap();
         let at = [0.0; 2];
         let worse = found.used_now([1e6, 0.0, 0.0], [1.5e6, 0.0, 0.0], at);

@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_section_of_a_tube_is_that_of_two_circles() {
+    fn section_of_tube_matches_two_circles() {
         let tube =
             CheckedTube { diameter: 0.3, wall: 0.02, yield_stress: 4e8, tensile: 5e8, modulus: 2e11, poisson: 0.3 };
         // pi / 4 0.3^2, pi / 4 0.26^2
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_tube_is_refused() {
+    fn invalid_tube_is_refused() {
         let tube =
             CheckedTube { diameter: 0.3, wall: 0.02, yield_stress: 4e8, tensile: 5e8, modulus: 2e11, poisson: 0.3 };
         assert!(tube.check().is_ok());

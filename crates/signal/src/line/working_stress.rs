@@ -64,7 +64,7 @@ mod tests {
         CheckedTube { diameter: 0.3, wall: 0.02, yield_stress: 4e8, tensile: 5e8, modulus: 2e11, poisson: 0.3 };
 
     #[test]
-    fn tension_alone_is_its_own_von_mises_stress() {
+    fn tension_alone_equals_von_mises_stress() {
         let area = std::f64::consts::PI * 0.28 * 0.02;
         let acting = Acting { wall: area * 2e8, ..Acting::default() };
         assert!((membrane(&TUBE, &acting) / 2e8 - 1.0).abs() < 1e-12);
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_tube_in_the_sea_has_no_stress_but_its_pressure_s() {
+    fn closed_tube_in_sea_has_pressure_stress_only() {
         // a solid state of equal pressure on all sides has no von Mises stress: wall tension is that of capped ends
         let [whole, hole] = TUBE.areas();
         let p = 3e7;
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn bending_is_taken_at_the_middle_of_the_wall_on_its_worse_side() {
+    fn bending_stress_is_at_mid_wall_on_its_worse_side() {
         let acting = Acting { moment: 1e5, ..Acting::default() };
         let want = 1e5 * 0.14 / TUBE.second_moment();
         assert!((membrane(&TUBE, &acting) / want - 1.0).abs() < 1e-12);

@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn the_example_of_the_standard_as_cycles_and_as_bins() {
+    fn rainflow_table_matches_standard_example_as_cycles_and_bins() {
         let all = rainflow(&record(), 0, 1).unwrap();
         assert_eq!(all.get("Cycles").unwrap().numbers().iter().sum::<f64>(), 4.0);
         // ranges 3 4 6 8 9 in bins of 1 from 0 to 9: those of 8 and 9 share the last
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_of_values_and_of_maxima_fall_with_the_level() {
+    fn exceedance_shares_fall_with_level() {
         let t = exceedance(&record(), 5).unwrap();
         assert_eq!(t.columns[0].numbers(), [-4.0, -1.75, 0.5, 2.75, 5.0]);
         // maxima between crossings of the mean 1/9: 1, 5, 3 and 4

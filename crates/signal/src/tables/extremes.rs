@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn lows_are_the_highs_of_the_series_turned_over() {
+    fn minima_are_maxima_of_negated_series() {
         let r = record(3600.0);
         let asked = Extremes { duration: 10800.0, blocks: None, lows: false };
         let high = extremes(&r, asked).unwrap();
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn a_short_record_tells_what_it_is_too_short_for() {
+    fn short_record_states_its_minimum_length() {
         let t = extremes(&record(200.0), Extremes { duration: 10800.0, blocks: None, lows: false }).unwrap();
         assert_eq!(t.columns[1].numbers().len(), 1);
         assert!(t.notes.iter().any(|n| n.starts_with("Weibull of S") && n.contains("at least 30")), "{:?}", t.notes);

@@ -68,7 +68,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     #[test]
-    fn the_period_of_the_first_series_serves_for_all() {
+    fn period_of_first_series_applies_to_all() {
         let times: Vec<f64> = (0..400).map(|i| 0.25 * f64::from(i)).collect();
         let of = |a: f64, p: f64| times.iter().map(|t| 5.0 + a * (TAU * t / 10.0 + p).cos()).collect();
         let series = |name: &str, values| TableSeries { name: name.into(), dim: Dim::Force, values };

@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_record_is_a_time_and_series_without_gaps() {
+    fn record_has_time_and_series_without_gaps() {
         let mut t = Table::new("t")
             .with_rows(&[0.0, 1.0, 2.0])
             .column("", "Time", Dim::Time, Digits::Usual, |time| *time)

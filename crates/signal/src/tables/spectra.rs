@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_of_densities_sums_to_the_variance_in_its_own_unit() {
+    fn density_table_sums_to_variance_in_its_unit() {
         let r = record(0.5, Dim::Force);
         let t = density(&r, None).unwrap();
         let w = t.columns[0].numbers();
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn unlike_times_are_interpolated_and_it_is_said() {
+    fn nonuniform_times_are_interpolated_with_a_note() {
         let mut r = record(0.5, Dim::Stress);
         r.times[7] += 0.2;
         let t = density(&r, Some(1024)).unwrap();

@@ -52,20 +52,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_turning_point_but_the_last_begins_one_half_cycle() {
+    fn every_turning_point_except_last_starts_one_half_cycle() {
         let values: Vec<f64> =
             (0..500).map(|i| (f64::from(i) * 0.7).sin() + 0.4 * (f64::from(i) * 1.9).cos()).collect();
         assert_eq!(half_cycles(&values).len(), reversals(&values).len() - 1);
     }
 
     #[test]
-    fn a_small_wave_on_the_flank_of_a_large_one_leaves_the_large_range_whole() {
+    fn small_wave_on_flank_leaves_large_range_whole() {
         // 0 up to 5, back to 4, up to 10, down to 0: the flow from 0 drips at 5 and reaches 10; that from 4 ends at 5's level
         assert_eq!(half_cycles(&[0.0, 5.0, 4.0, 10.0, 0.0]), [10.0, 1.0, 1.0, 10.0]);
     }
 
     #[test]
-    fn a_constant_series_has_no_half_cycles() {
+    fn constant_series_gives_zero_half_cycles() {
         assert!(half_cycles(&[3.0, 3.0, 3.0]).is_empty());
         assert!(half_cycles(&[]).is_empty());
     }

@@ -249,7 +249,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_bending_plane_between_the_axes_is_found_round_the_circumference() {
+    fn bending_plane_is_found_around_the_circumference() {
         let wave = |i: i32| (f64::from(i) * 0.31).sin();
         let (sine, cosine) = 40.0_f64.to_radians().sin_cos();
         let about_y: Vec<f64> = (0..400).map(|i| wave(i) * cosine).collect();
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tether_at_rest_lives_longest_and_expects_no_stress() {
+    fn unloaded_tether_has_longest_life_and_zero_expected_stress() {
         let still = [0.0; 10];
         let end = EndRecord { about_y: &still, about_z: &still, stress_of_moment: 1.0 };
         let asked = FatigueSettings { duration: 5.0, curve: Endurance::KILONEWTONS, peak_time: 10_800.0 };
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn the_curve_keeps_its_lives_in_another_unit_of_stress() {
+    fn curve_gives_same_lives_in_another_stress_unit() {
         let (one, other) = (Endurance::KILONEWTONS, Endurance::KILONEWTONS.in_unit(1000.0));
         let (a, b) = (damage_rate(1.5e5, 0.2, one), damage_rate(1.5e8, 0.2, other));
         assert!((a / b - 1.0).abs() < 1e-12);

@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sine_has_root_two_amplitudes_as_significant_and_its_amplitude_as_highest_third() {
+    fn sine_significant_amplitude_is_root_two_and_third_is_amplitude() {
         let values: Vec<f64> =
             (0..4000).map(|i| 3.0 + 2.0 * (f64::from(i) * std::f64::consts::TAU / 40.0).sin()).collect();
         let found = global(&values).unwrap_or_default();
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_at_rest_has_no_peaks() {
+    fn constant_record_has_no_peaks() {
         assert_eq!(
             global(&[1.0; 5]).unwrap_or_default(),
             GlobalStatistics { mean: 1.0, ..GlobalStatistics::default() }

@@ -29,7 +29,7 @@ fn same(name: &str, found: f64, tolerance: f64) {
 }
 
 #[test]
-fn moments_are_those_of_scipy_in_two_passes_and_in_one() {
+fn moments_match_scipy_in_one_and_two_passes() {
     let x = signal();
     let m = moments(&x).unwrap();
     let mut running = Running::with_level(m.mean);
@@ -51,7 +51,7 @@ fn moments_are_those_of_scipy_in_two_passes_and_in_one() {
 }
 
 #[test]
-fn densities_are_those_of_scipy_welch() {
+fn densities_match_scipy_welch() {
     let d = welch(&signal(), STEP, 512, Window::Hann).unwrap();
     // ten digits of ordinates; those near the highest frequency are 1e-15 of the peak and all rounding
     for i in [1, 10, 25, 40, 60, 100] {
@@ -62,7 +62,7 @@ fn densities_are_those_of_scipy_welch() {
 }
 
 #[test]
-fn amplitudes_are_those_of_numpy_fft() {
+fn amplitudes_match_numpy_fft() {
     let a = amplitudes(&signal(), STEP).unwrap();
     for i in [0, 200, 205, 210] {
         same(&format!("fft_{i}"), a.amplitudes[i], 1e-11);
@@ -70,7 +70,7 @@ fn amplitudes_are_those_of_numpy_fft() {
 }
 
 #[test]
-fn cycles_are_those_of_the_rainflow_package() {
+fn cycles_match_rainflow_package() {
     let found = cycles(&signal()).unwrap();
     let sum = |of: &dyn Fn(f64, f64, f64) -> f64| found.iter().map(|c| of(c.range, c.mean, c.count)).sum::<f64>();
     same("rainflow_cycles", sum(&|_, _, n| n), 0.0);
@@ -81,7 +81,7 @@ fn cycles_are_those_of_the_rainflow_package() {
 }
 
 #[test]
-fn maxima_and_the_distributions_fitted_to_them_are_those_of_scipy() {
+fn maxima_and_fitted_distributions_match_scipy() {
     let x = signal();
     let t: Vec<f64> = (0..x.len()).map(|i| STEP * i as f64).collect();
     let mean = moments(&x).unwrap().mean;
@@ -101,7 +101,7 @@ fn maxima_and_the_distributions_fitted_to_them_are_those_of_scipy() {
 }
 
 #[test]
-fn damage_of_a_spectrum_is_that_of_flife() {
+fn damage_of_spectrum_matches_flife() {
     let m = [0, 1, 2, 4].map(|i| expected(&format!("fatigue_m{i}")));
     for (slope, log_a) in [(3.0, 11.687), (5.0, 15.606)] {
         let curve = SnCurve {

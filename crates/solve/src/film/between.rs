@@ -28,7 +28,7 @@ mod tests {
     }
 
     #[test]
-    fn between_stored_instants_rows_are_straight_and_at_them_exact() {
+    fn rows_are_linear_between_stored_instants_and_exact_at_them() {
         let found = rows(&history(), &[0.0, 0.75, 1.0, 5.0]);
         assert_eq!(found, [[0.0, 0.0], [0.75, 2.5], [1.0, 4.0], [5.0, 100.0]].map(Vec::from));
     }

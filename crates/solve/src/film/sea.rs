@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn the_surface_of_a_film_is_that_of_the_sea() {
+    fn film_surface_matches_sea() {
         let water = Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
         for components in [vec![component(0.6, 1.5, 0.4)], vec![component(0.5, 1.0, 0.1), component(0.9, 0.4, -2.0)]] {
             let sea = Sea::airy(components, water, 20.0, Stretching::Linear);

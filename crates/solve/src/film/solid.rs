@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_and_a_tube_are_closed_and_have_their_volume() {
+    fn box_and_tube_solids_are_closed_with_their_volume() {
         let mut block = FilmSolid::default();
         block.add(&Shape::Block { low: [-1.0, 0.0, 2.0], high: [3.0, 2.0, 3.0] }, &|at| at);
         assert!((volume(&block) - 8.0).abs() < 1e-12);

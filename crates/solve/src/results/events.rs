@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn events_are_times_and_an_end_beyond_the_data_is_clipped() {
+    fn events_are_times_and_end_beyond_data_is_clipped() {
         assert_eq!(asked(9.0, Some(9000.0), None).unwrap(), [(18, 0.0), (19, 0.0), (20, 0.0)]);
         assert_eq!(asked(8.0, Some(9000.0), Some(1.0)).unwrap(), [(16, 0.0), (18, 0.0), (20, 0.0)]);
         assert_eq!(
@@ -123,12 +123,12 @@ mod tests {
     }
 
     #[test]
-    fn an_instant_between_two_stored_ones_is_a_share_of_the_way() {
+    fn instant_between_stored_ones_has_its_fraction() {
         assert_eq!(asked(1.0, Some(1.5), Some(0.125)).unwrap(), [(2, 0.0), (2, 0.25), (2, 0.5), (2, 0.75), (3, 0.0)]);
     }
 
     #[test]
-    fn windows_that_choose_nothing_or_too_much_are_refused() {
+    fn empty_or_too_large_time_windows_are_refused() {
         assert!(asked(11.0, None, None).is_err());
         assert!(asked(0.6, Some(0.7), None).is_err());
         assert!(asked(5.0, Some(4.0), None).unwrap_err().to_string().contains("before it begins"));

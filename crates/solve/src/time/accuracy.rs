@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_scheme_has_the_period_and_damping_of_its_amplification_matrix() {
+    fn scheme_period_and_damping_match_amplification_matrix() {
         // eigenvalues by numpy of the matrix of the form of [CHUNG-HULBERT-1993], M a(n+1-am) + K d(n+1-af) = 0 with Newmark's d and v
         for (rho, steps, period, damping) in [
             (0.9, 20.0, 0.008273, 0.000002),
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn an_accuracy_comes_back_from_its_numbers() {
+    fn accuracy_table_reads_back_from_its_numbers() {
         let made = Accuracy { largest: (0.1, 2.0, 1), time: 3.0, sums: vec![[1.0, 2.0, 3.0, 4.0]; 6] };
         assert_eq!(Accuracy::from_numbers(&made.numbers()), Some(made.clone()));
         assert_eq!(Accuracy::from_numbers(&made.numbers()[..5]), None);

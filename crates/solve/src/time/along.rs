@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn nodes_keep_their_numbers_from_the_second_end() {
+    fn nodes_keep_their_numbers_from_second_end() {
         let columns = AlongColumns::new(2, (5, false), 1).unwrap();
         assert_eq!(columns.numbers, [1, 2, 3, 4, 5]);
         let mut row = vec![0.0; 2 + columns.width()];
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn every_second_node_is_counted_from_the_second_end_with_both_ends() {
+    fn every_second_node_is_counted_from_second_end_with_both_ends() {
         let columns = AlongColumns::new(0, (6, true), 2).unwrap();
         assert_eq!(columns.numbers, [1, 2, 4, 6]);
         let mut row = vec![0.0; columns.width()];
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn an_envelope_knows_each_node_by_its_place() {
+    fn envelope_refers_to_nodes_by_position() {
         let columns = AlongColumns::new(1, (3, true), 1).unwrap();
         let mut envelope = AlongEnvelope::default();
         for time in [1.0, 2.0] {
@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn a_node_that_is_no_number_is_an_error() {
+    fn node_value_not_a_number_is_error() {
         let columns = AlongColumns::new(0, (3, true), 1).unwrap();
         let mut row = vec![0.0; columns.width()];
         let mut nodes = line(3);

@@ -155,7 +155,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn forces_whose_stiffness_is_a_parabola_in_time_are_foretold_exactly() {
+    fn forces_with_parabolic_stiffness_in_time_are_predicted_exactly() {
         let (stiffness, damping) = (|t: f64| 3.0 + 2.0 * t + 5.0 * t * t, |t: f64| 1.0 - t + 0.5 * t * t);
         let mut made = ForcePredictor::default();
         let whole = |value: f64| DMatrix::from_diagonal_element(6, 6, value);
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_line_does_by_itself_is_foretold_by_how_it_went_in_the_last_steps() {
+    fn line_force_is_predicted_from_its_last_steps() {
         // stiffness 3, damping 2, inertia 5, and a pull that is a cubic of time: its changes over the steps are a parabola
         let whole = |value: f64| DMatrix::from_diagonal_element(6, 6, value);
         let own = |t: f64| 7.0 * t * t * t - 4.0 * t * t + t;

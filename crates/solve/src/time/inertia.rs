@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_turning_changes_in_inertia_is_its_difference() {
+    fn inertia_rotation_derivative_matches_finite_difference() {
         let inertia = Matrix3::new(9e3, 200.0, -300.0, 200.0, 1.4e4, 500.0, -300.0, 500.0, 1.1e4);
         let mass = Mass { mass: 100.0, centre: Vector3::new(3.0, -2.0, 5.0), inertia };
         let pose = Pose::default().after_motion(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn what_turning_changes_in_added_inertia_is_its_difference() {
+    fn added_inertia_rotation_derivative_matches_finite_difference() {
         let own = Matrix6::from_fn(|i, j| 100.0 * ((i * 5 + j * 3) as f64).sin());
         let pose = Pose::default().after_motion(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
         let a = Six::new(0.7, -1.1, 0.4, 0.2, 0.6, -0.9);

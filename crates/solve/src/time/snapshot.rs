@@ -199,7 +199,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_snapshot_comes_back_from_its_bytes_and_from_no_part_of_them() {
+    fn snapshot_reads_back_from_its_bytes_and_not_from_a_part() {
         let motion = BodyMotion { velocity: Six::repeat(0.25), ..BodyMotion::default() };
         let snapshot = Snapshot {
             time: 12.5,

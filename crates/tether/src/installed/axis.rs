@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_cross_directions_are_those_of_a_turn() {
+    fn transverse_directions_match_rotation() {
         for end in [Vector3::new(3.0, -4.0, 12.0), Vector3::new(0.0, 0.0, 2.0), Vector3::new(-5.0, 0.1, 0.3)] {
             let axis = TetherAxis::new(Vector3::zeros(), end).unwrap();
             let [x, y] = axis.across;

@@ -92,7 +92,7 @@ mod tests {
     const TUBE: TetherTube = TetherTube { outer_diameter: 1.1176, wall_thickness: 0.038 };
 
     #[test]
-    fn a_row_of_the_listing_gives_its_own_stresses() {
+    fn stresses_match_listing_row() {
         // [AQWA-TETHER 8.2], tether 1 at 6.5 s, its top: kN and m; the depth of the top is (4.976 + 697.8)/(rho g A)
         let wall = -697.8e3;
         let pressure = (4.976e3 - wall) / TUBE.external_area();
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn pressure_alone_on_a_capped_tube_gives_the_stress_of_lame() {
+    fn pressure_on_capped_tube_matches_lame_stress() {
         // all around, ends too: a bar feels no von Mises stress; a tube at its inner side sqrt(3) p R^2/(R^2 - r^2)
         let bar = TetherTube { outer_diameter: 1.0, wall_thickness: 0.5 };
         let of = |tube: &TetherTube| EndLoads {

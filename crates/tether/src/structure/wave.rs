@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_is_the_second_order_of_fenton_but_for_the_third() {
+    fn wave_matches_fenton_second_order_except_third_term() {
         // [FENTON-1985] as hydro::sea::stokes has it, at order 2 in deep water; its wave number is that of order 2 or 3, so it is taken
         let water = windlass_hydro::sea::Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
         let mut own = DeepWave::new(1.0, 15.0, 0.0, 9.81).unwrap();
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn its_acceleration_is_that_of_the_particle() {
+    fn wave_acceleration_matches_particle_acceleration() {
         let wave = DeepWave::new(10.0, 12.0, 0.3, 9.81).unwrap();
         let at = Vector3::new(3.0, -4.0, -7.0);
         let v = |at: Vector3<f64>, t: f64| wave.kinematics(at, at.z, t, [1025.0, 9.81]).velocity;
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wave_that_breaks_or_has_no_period_is_refused() {
+    fn breaking_wave_or_wave_without_period_is_refused() {
         assert!(DeepWave::new(15.0, 5.0, 0.0, 9.81).is_err() && DeepWave::new(1.0, 0.0, 0.0, 9.81).is_err());
     }
 }

@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_crossing_is_found_to_rounding() {
+    fn surface_crossing_is_found_to_rounding() {
         let f = |x: f64| x.powi(5) - 0.3;
         assert!((crossing([-0.3, 0.7], f) - 0.3f64.powf(0.2)).abs() < 1e-13);
         assert_eq!(crossing([-1.0, 0.0], |x| x - 1.0), 1.0);

@@ -135,7 +135,7 @@ mod tests {
     use std::f64::consts::PI;
 
     #[test]
-    fn half_a_tube_under_water_has_half_the_area_and_half_of_the_added_mass_along_z() {
+    fn half_submerged_tube_has_half_area_and_half_added_mass_along_z() {
         let (half, whole) = (Wetted::new(0.0, 2.0), Wetted::new(1.0, 2.0));
         assert!((half.area - PI / 2.0).abs() < 1e-15 && (whole.area - PI).abs() < 1e-15);
         // a plate of the diameter has the added mass of the circle, half of it wet: [NEWMAN-1977 4.15]
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn growth_is_the_derivative_of_the_added_mass_and_the_chord_that_of_the_area() {
+    fn wetted_section_derivatives_match_added_mass_and_area() {
         let h = 1e-6;
         for s in [-0.9, -0.4, 0.3, 0.8] {
             let (before, at, after) = (Wetted::new(s - h, 2.0), Wetted::new(s, 2.0), Wetted::new(s + h, 2.0));
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sloping_surface_cuts_a_length_where_it_passes_bottom_and_top() {
+    fn inclined_surface_cuts_length_at_bottom_and_top_crossings() {
         let scan = Scan::default();
         // s = 4 a - 2 on a tube of radius 1: bottom at a quarter, top at three quarters
         let heights = GAUSS.map(|(a, _)| 4.0 * a - 2.0);

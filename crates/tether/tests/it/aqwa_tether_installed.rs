@@ -57,7 +57,7 @@ static RUN: LazyLock<InstalledHistory> = LazyLock::new(|| {
 const SLACK: usize = 26;
 
 #[test]
-fn the_description_is_that_of_the_listing_to_its_digits() {
+fn description_matches_listing_to_its_digits() {
     for (index, key) in [(0, "1"), (2, "3")] {
         let want = &LISTING["tether_description"][key];
         let tether = &example::tethers()[index];
@@ -96,7 +96,7 @@ fn the_description_is_that_of_the_listing_to_its_digits() {
 }
 
 #[test]
-fn the_twelve_periods_are_those_of_the_listing_and_the_shapes_with_them() {
+fn twelve_periods_and_mode_shapes_match_listing() {
     let tether = &example::tethers()[0];
     let attachment = example::course().pose.point(tether.attachment);
     // sixteen are asked for; four are the held ends, which are no modes here
@@ -131,7 +131,7 @@ fn the_twelve_periods_are_those_of_the_listing_and_the_shapes_with_them() {
 }
 
 #[test]
-fn the_forces_on_the_structure_are_those_of_the_listing_at_all_printed_times() {
+fn structure_forces_match_listing_at_all_printed_times() {
     let (flow, mut platform) = (example::water(), example::platform(Compatibility::aqwa_5_4()));
     for state in LISTING["structure_history"].as_array().unwrap() {
         let time = number(&state["time"]);
@@ -161,7 +161,7 @@ fn the_forces_on_the_structure_are_those_of_the_listing_at_all_printed_times() {
 }
 
 #[test]
-fn the_structure_goes_as_in_the_listing() {
+fn structure_motion_matches_listing() {
     let run = &*RUN;
     for (index, state) in LISTING["structure_history"].as_array().unwrap().iter().enumerate() {
         let time = number(&state["time"]);
@@ -204,7 +204,7 @@ fn the_structure_goes_as_in_the_listing() {
 }
 
 #[test]
-fn tethers_one_and_two_go_slack_and_strike_when_the_listing_says() {
+fn tethers_1_and_2_go_slack_and_impact_at_listing_times() {
     let events = RUN.events();
     let of = |slack: bool| -> Vec<(usize, f64)> {
         let kind = |change: &RigChange| matches!(change, RigChange::Slack) == slack;
@@ -224,7 +224,7 @@ fn tethers_one_and_two_go_slack_and_strike_when_the_listing_says() {
 }
 
 #[test]
-fn the_tethers_are_where_the_listing_has_them_when_they_go_slack() {
+fn slack_tether_positions_match_listing() {
     for (tether, key) in [(0, "1"), (1, "2"), (2, "3"), (3, "4")] {
         for row in LISTING["tether_positions_6.5"][key].as_array().unwrap() {
             let node = row["node"].as_u64().unwrap() as usize - 1;
@@ -244,7 +244,7 @@ fn the_tethers_are_where_the_listing_has_them_when_they_go_slack() {
 }
 
 #[test]
-fn tensions_moments_and_stresses_are_those_of_the_listing_when_tethers_go_slack() {
+fn slack_tether_tensions_moments_and_stresses_match_listing() {
     for (tether, key) in [(0, "1"), (1, "2"), (2, "3"), (3, "4")] {
         let want = &LISTING["tether_forces_6.5"][key];
         let rows = want["rows"].as_array().unwrap();
@@ -288,7 +288,7 @@ fn tensions_moments_and_stresses_are_those_of_the_listing_when_tethers_go_slack(
 }
 
 #[test]
-fn the_harmonics_of_the_structure_are_those_of_the_listing() {
+fn harmonics_of_structure_match_listing() {
     let times = RUN.times();
     for (order, name) in ["POSITION", "VELOCITY", "ACCELERATION"].into_iter().enumerate() {
         for (direction, axis) in [(0, "X"), (2, "Z"), (4, "RY")] {
@@ -315,7 +315,7 @@ fn the_harmonics_of_the_structure_are_those_of_the_listing() {
 }
 
 #[test]
-fn each_peculiarity_makes_the_difference_that_its_doc_tells() {
+fn each_documented_deviation_has_its_stated_effect() {
     use windlass_tether::compatibility::{SpringReference, VesselScheme};
     let all = Compatibility::aqwa_5_4();
     let run = |compatibility: Compatibility| {

@@ -102,7 +102,7 @@ fn misfit(found: impl Fn(usize) -> f64, listed: impl Fn(usize) -> f64) -> (f64, 
 }
 
 #[test]
-fn sections_and_description_have_the_printed_digits() {
+fn sections_and_description_match_listing() {
     let p = printed();
     let case = case();
     let description = case.description(1, ["100", "999"]);
@@ -136,7 +136,7 @@ fn sections_and_description_have_the_printed_digits() {
 }
 
 #[test]
-fn the_bending_modes_are_the_printed_ones() {
+fn bending_modes_match_listing() {
     let p = printed();
     let case = case();
     let modes = case.modes(56).unwrap();
@@ -165,7 +165,7 @@ fn the_bending_modes_are_the_printed_ones() {
 /// from any exact solution by what single precision leaves (towed-tether.md, section 2). They are not met, and the springs
 /// are not tuned to meet them; what is pinned here is how far off the listing is.
 #[test]
-fn the_listing_has_the_modes_on_the_springs_some_three_in_a_hundred_too_slow() {
+fn listing_spring_modes_are_three_percent_too_slow() {
     let modes = case().modes(4).unwrap();
     let eigen = printed()["eigen"].as_array().unwrap().clone();
     let expected = [151.00, 150.29, 91.87, 90.99];
@@ -185,7 +185,7 @@ fn the_listing_has_the_modes_on_the_springs_some_three_in_a_hundred_too_slow() {
 }
 
 #[test]
-fn accelerations_and_moments_at_the_start_are_the_printed_ones() {
+fn accelerations_and_moments_at_start_match_listing() {
     let p = printed();
     let motion = &p["history"]["0"]["motion"];
     let listed = |column: usize| move |i: usize| number(&motion[13 - i][column]);
@@ -212,7 +212,7 @@ fn accelerations_and_moments_at_the_start_are_the_printed_ones() {
 }
 
 #[test]
-fn the_run_passes_through_the_printed_states() {
+fn run_matches_printed_states() {
     let p = printed();
     let mut seen = 0;
     case()
@@ -244,7 +244,7 @@ fn the_run_passes_through_the_printed_states() {
 }
 
 #[test]
-fn the_statistics_are_the_printed_ones() {
+fn statistics_match_listing() {
     let p = printed();
     // the listing takes every second step: records 50 to 751
     let mut history = TowedHistory { every: 2, ..TowedHistory::default() };
@@ -275,7 +275,7 @@ fn the_statistics_are_the_printed_ones() {
 }
 
 #[test]
-fn each_peculiarity_of_the_program_makes_the_difference_its_documents_say() {
+fn each_documented_deviation_of_aqwa_has_its_stated_effect() {
     let p = printed();
     let motion = &p["history"]["0"]["motion"];
     let start = |compatibility: TowedCompatibility| {

@@ -78,7 +78,7 @@ fn model(pull: f64, height: f64) -> Model {
 }
 
 #[test]
-fn a_moored_body_of_a_database_heaves_as_an_oscillator() {
+fn moored_database_body_heaves_as_oscillator() {
     let mut element = example::tethers()[0].line.elements()[0];
     element.length = 50.0;
     let line = TetherLine::with_numbered_nodes(vec![element; 4]).unwrap();

@@ -46,7 +46,7 @@ impl InstalledObserver for Counts {
 }
 
 #[test]
-fn a_step_takes_no_memory() {
+fn tether_step_allocates_no_memory() {
     let (flow, mut platform) = (example::water(), example::platform(Compatibility::aqwa_5_4()));
     let mut counts = Counts::default();
     let mut installation =

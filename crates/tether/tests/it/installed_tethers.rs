@@ -76,7 +76,7 @@ fn last(series: &[f64]) -> f64 {
 }
 
 #[test]
-fn tension_is_that_of_stretch_pressure_weight_contents_and_caps() {
+fn tension_includes_stretch_pressure_weight_contents_and_caps() {
     let (mut tether, at) = upright(4, 0.05);
     tether.fluid = InternalFluid { pressure: 2e6, density: 850.0 };
     tether.caps = [0.3, 0.4];
@@ -102,7 +102,7 @@ fn tension_is_that_of_stretch_pressure_weight_contents_and_caps() {
 }
 
 #[test]
-fn a_current_bows_it_as_a_stretched_string() {
+fn tether_in_current_bows_like_a_stretched_string() {
     let (tether, at) = upright(10, 0.2);
     let flow = WaterFlow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still() };
     let history = hold(tether, at, &flow, [0.25, 200.0], Vector3::zeros());
@@ -122,7 +122,7 @@ fn a_current_bows_it_as_a_stretched_string() {
 }
 
 #[test]
-fn a_constraint_of_the_structure_takes_its_share_and_a_gap_gives_room() {
+fn structure_constraint_reacts_and_gap_allows_motion() {
     let (mut tether, at) = upright(10, 0.2);
     let flow = WaterFlow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still() };
     let load = 0.5 * 1025.0 * 0.75 * 1.1176 * 200.2;
@@ -157,7 +157,7 @@ fn a_constraint_of_the_structure_takes_its_share_and_a_gap_gives_room() {
 }
 
 #[test]
-fn a_group_pulls_by_its_factor() {
+fn tether_group_force_is_scaled_by_its_factor() {
     let (tether, at) = upright(3, 0.1);
     let one = hold(tether.clone(), at, &still(), [0.1, 0.1], Vector3::zeros());
     let four = hold(InstalledTether { group: 4.0, ..tether }, at, &still(), [0.1, 0.1], Vector3::zeros());
@@ -165,7 +165,7 @@ fn a_group_pulls_by_its_factor() {
 }
 
 #[test]
-fn a_tether_that_is_lowered_hangs_free_strikes_its_stop_and_never_hangs_with_the_stop_at_the_anchor() {
+fn lowered_tether_impacts_its_stop_and_never_hangs_at_anchor() {
     let (tether, at) = upright(3, 0.0);
     // down at 0.1 m/s; in the middle under water it shortens by p A L/EA = 0.0106 m before it is slack
     let down = |stop: Option<f64>| {
@@ -196,7 +196,7 @@ fn a_tether_that_is_lowered_hangs_free_strikes_its_stop_and_never_hangs_with_the
 }
 
 #[test]
-fn only_what_is_slack_is_kept_when_asked() {
+fn slack_only_output_keeps_slack_instants() {
     let (flow, mut platform) = (example::water(), example::platform(Compatibility::aqwa_5_4()));
     let mut history = InstalledHistory::new(10, Keep::WhenSlack(0.001));
     let mut all = Installation::new(&mut platform, example::tethers(), &flow, Compatibility::aqwa_5_4()).unwrap();
@@ -226,7 +226,7 @@ fn example_by(flow: &WaterFlow, step: f64, states: usize) -> InstalledHistory {
 }
 
 #[test]
-fn a_sea_of_one_component_is_the_regular_wave_of_airy() {
+fn sea_of_one_component_matches_airy_regular_wave() {
     let mut wave = DeepWave::new(2.0, 12.0, 0.7, 9.81).unwrap();
     wave.second = false;
     let component =
@@ -245,7 +245,7 @@ fn a_sea_of_one_component_is_the_regular_wave_of_airy() {
 }
 
 #[test]
-fn an_irregular_sea_gives_the_same_series_again_and_tensions_about_the_pretension() {
+fn irregular_sea_is_reproducible_with_tensions_about_pretension() {
     let component = |i: u32| {
         let frequency = 0.3 + 0.02 * f64::from(i);
         Component {
@@ -269,7 +269,7 @@ fn an_irregular_sea_gives_the_same_series_again_and_tensions_about_the_pretensio
 }
 
 #[test]
-fn halving_the_step_changes_little_and_the_order_is_two() {
+fn halving_step_shows_second_order() {
     let wave = DeepWave::new(1.0, 12.0, 0.0, 9.81).unwrap();
     let flow = still().with_waves(FlowWaves::Deep(wave));
     let surge = |step: f64| last(&example_by(&flow, step, (20.0 / step).round() as usize + 1).motion(0, 0));
@@ -279,7 +279,7 @@ fn halving_the_step_changes_little_and_the_order_is_two() {
 }
 
 #[test]
-fn the_defaults_of_missing_springs_are_taken_and_said() {
+fn missing_springs_get_defaults_and_a_note() {
     use DefaultTaken::{Inline, Missing, Rotation};
     let rigid = 1e15;
     assert_eq!(EndSprings::of_card(None), (EndSprings::default(), vec![Missing]));
@@ -291,7 +291,7 @@ fn the_defaults_of_missing_springs_are_taken_and_said() {
 }
 
 #[test]
-fn rigid_coils_hold_the_ends_and_soft_inline_springs_are_in_series() {
+fn rigid_coils_hold_ends_and_soft_inline_springs_are_in_series() {
     let (mut tether, at) = upright(6, 0.1);
     let stiffness = InstalledDescription::new(&tether, at, &still()).unwrap().stiffness;
     tether.anchor_springs = EndSprings { inline: stiffness, ..EndSprings::default() };
@@ -308,7 +308,7 @@ fn rigid_coils_hold_the_ends_and_soft_inline_springs_are_in_series() {
 }
 
 #[test]
-fn what_cannot_be_run_is_refused_and_says_why() {
+fn invalid_installed_tether_is_refused_with_reason() {
     let (tether, at) = upright(3, 0.1);
     let run = |tether: InstalledTether, course: InstalledRunSettings| {
         let (flow, mut structure) = (still(), example::platform(NATIVE));

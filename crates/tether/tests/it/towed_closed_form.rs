@@ -64,14 +64,14 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 #[test]
-fn a_tube_of_half_the_density_of_water_rests_half_under() {
+fn tube_of_half_water_density_floats_half_submerged() {
     let found = positions(&case(0.5, 0.0), &steps(50));
     // areas of halves cancel to some roundings of the weight, 4 kN/m, on 800 kg/m
     assert!(largest(found.into_iter().flatten()) < 1e-12);
 }
 
 #[test]
-fn a_light_tube_let_go_under_water_comes_to_rest_where_its_weight_says() {
+fn light_tube_released_under_water_settles_at_its_draft() {
     // a quarter of the area under water: the wet segment spans the angle a with a - sin a = pi/2, a = 2.309881460
     let bare = Towed {
         multipliers: WaterForceMultipliers { slam: 0.0, ..WaterForceMultipliers::default() },
@@ -91,7 +91,7 @@ fn a_light_tube_let_go_under_water_comes_to_rest_where_its_weight_says() {
 }
 
 #[test]
-fn a_tube_as_heavy_as_water_goes_with_a_small_wave_from_abeam_as_the_water_does() {
+fn neutrally_buoyant_tube_follows_small_beam_wave() {
     // mass + added mass times its acceleration is (1 + Ca) rho A times that of the water: without drag it keeps to the water
     let (amplitude, frequency, depth) = (1e-3, 0.8, 5.0);
     let free = EndSpring::default();
@@ -119,7 +119,7 @@ fn a_tube_as_heavy_as_water_goes_with_a_small_wave_from_abeam_as_the_water_does(
 }
 
 #[test]
-fn waves_from_the_other_side_mirror_the_motion() {
+fn mirrored_waves_give_mirrored_motion() {
     let of = |sign: f64| {
         let waves = vec![wave(1.5, 0.7, sign * 2.5, 0.4), wave(0.8, 1.1, sign * 2.0, 1.9)];
         let current = vec![(0.0, [-0.4, 0.2 * sign]), (-20.0, [0.0, 0.1 * sign])];
@@ -136,7 +136,7 @@ fn waves_from_the_other_side_mirror_the_motion() {
 }
 
 #[test]
-fn turning_the_whole_sea_and_the_tether_changes_nothing() {
+fn rotating_sea_and_tether_together_changes_nothing() {
     let of = |turn: f64| {
         let (sin, cos) = turn.sin_cos();
         let turned = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
@@ -159,7 +159,7 @@ fn turning_the_whole_sea_and_the_tether_changes_nothing() {
 }
 
 #[test]
-fn a_tow_is_a_current_the_other_way() {
+fn tow_matches_opposite_current() {
     let waves = vec![wave(1.0, 0.8, PI, 0.4)];
     let towed = Towed { waves: waves.clone(), tow: [1.5, 0.0], ..case(0.95, 0.3) };
     let held = Towed { waves, current: vec![(0.0, [-1.5, 0.0])], ..case(0.95, 0.3) };
@@ -167,7 +167,7 @@ fn a_tow_is_a_current_the_other_way() {
 }
 
 #[test]
-fn a_tether_under_way_meets_the_waves_at_their_frequency_of_encounter() {
+fn towed_tether_responds_at_encounter_frequency() {
     // deep enough to be linear, without drag: a stiff tube swings as the waves come
     let (frequency, speed) = (0.8f64, 2.0);
     let number = frequency * frequency / GRAVITY;
@@ -195,7 +195,7 @@ fn a_tether_under_way_meets_the_waves_at_their_frequency_of_encounter() {
 }
 
 #[test]
-fn a_step_too_large_for_the_springs_is_refused_and_the_one_told_would_do() {
+fn step_too_large_for_springs_is_refused_and_proposed_step_runs() {
     let stiff = EndSpring { along: 0.0, y: 1e6, z: 1e6 };
     let run = Towed { springs: [stiff; 2], ..case(0.95, 0.3) };
     let told =
@@ -209,7 +209,7 @@ fn a_step_too_large_for_the_springs_is_refused_and_the_one_told_would_do() {
 }
 
 #[test]
-fn what_cannot_be_is_an_error() {
+fn invalid_towed_tether_is_error() {
     let go = |case: Towed, steps: TowedSteps| case.run(&steps, &mut |_: &TowedRecord| {}).unwrap_err().to_string();
     let usual = || case(0.95, 0.3);
     assert!(go(Towed { density: 0.0, ..usual() }, steps(2)).contains("density of the water"));

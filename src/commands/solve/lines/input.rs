@@ -308,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn a_row_has_the_number_of_the_line_it_begins_at_whatever_ends_the_lines() {
+    fn row_has_its_first_line_number_with_any_line_ending() {
         let text = format!("{HEAD}\na,1\n\n\"b\nb\",2\n\nc\nd,\"x\n\n\"\ne");
         let want: Vec<(u64, String)> =
             [(2, "a"), (4, "b b"), (7, "c"), (8, "d"), (11, "e")].map(|(l, t)| (l, t.to_string())).to_vec();
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_found_in_any_order_and_case_with_blanks_quotes_and_a_byte_order_mark() {
+    fn headers_match_in_any_order_case_quotes_and_with_bom() {
         let text = "\u{feff} w_n_per_m ,\"length_m\",ID, Z_M,x_m ,ea_n\r\n 5 ,\" 7\",q,3,4,1e6\r\n";
         let want = LineCase {
             segment: Segment { length: 7.0, weight: 5.0, ea: 1e6 },
@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn friction_and_suspended_are_zero_where_absent_or_blank() {
+    fn absent_or_blank_friction_and_suspended_are_zero() {
         let with = |friction: &str, suspended: &str| {
             case(&format!("{HEAD},friction,suspended\n1,4,3,7,1e6,5,{friction},{suspended}\n")).map(|c| c.bottom)
         };
@@ -348,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn each_kind_of_bad_cell_is_told_by_its_column() {
+    fn each_kind_of_bad_cell_is_reported_by_its_column() {
         for (row, want) in [
             ("1,4,3,7,1e6", "it has 5 cells under 6 headers"),
             ("1,4,3,7,1e6,5,6", "it has 7 cells under 6 headers"),
@@ -367,7 +367,7 @@ mod tests {
     }
 
     #[test]
-    fn a_header_that_lacks_a_column_names_it_and_what_is_nearest() {
+    fn missing_header_is_named_with_nearest_match() {
         let of = |head: &str| match open(head.as_bytes()) {
             Err(InputError::NoColumn { name, help }) => format!("{name}: {help}"),
             other => format!("{other:?}"),
@@ -382,7 +382,7 @@ mod tests {
     }
 
     #[test]
-    fn a_quote_that_is_never_closed_ends_at_the_longest_row() {
+    fn unclosed_quote_ends_at_row_length_limit() {
         let mut input = open(format!("{HEAD}\n\"{}", "a,b\n".repeat(1 << 20)).as_bytes()).unwrap();
         let error = input.next_row().map(|_| ()).unwrap_err().to_string();
         assert!(error.contains("more than 1048576 bytes; is a quote not closed?"), "{error}");

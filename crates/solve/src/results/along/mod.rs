@@ -216,7 +216,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_is_in_the_segment_that_its_distance_from_the_second_end_says() {
+    fn point_is_in_segment_at_its_distance_from_second_end() {
         let segment = |length: f64| ResultSection {
             segment: FatigueSegment {
                 curve: None,

@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_touches_down_where_its_parabola_does() {
+    fn line_touches_down_at_root_of_its_parabola() {
         // heights 0.02 (s - 7.3)^2 on the way down
         let height = |s: f64| 0.02 * (s - 7.3f64).powi(2);
         let [far, last, first] = [node(5.0, height(5.0)), node(6.0, height(6.0)), node(8.0, -0.001)];

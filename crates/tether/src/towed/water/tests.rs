@@ -50,7 +50,7 @@ fn at(waters: &Waters, time: f64, x: f64, y: f64, height: f64) -> (f64, TowedFlo
 }
 
 #[test]
-fn the_exponential_is_that_of_the_standard_library() {
+fn exponential_matches_standard_library() {
     for i in -200_000..200_000i32 {
         let power = f64::from(i) * 3.4e-3;
         let value = exp([power; 4])[2];
@@ -61,7 +61,7 @@ fn the_exponential_is_that_of_the_standard_library() {
 }
 
 #[test]
-fn the_water_is_that_of_the_sea_in_the_axes_of_the_tether() {
+fn towed_water_matches_sea_in_tether_axes() {
     for (depth, exponential) in [(None, true), (Some(30.0), true), (None, false), (Some(30.0), false)] {
         let compatibility = TowedCompatibility { unstretched_crests: exponential, ..TowedCompatibility::native() };
         let case = case(compatibility, depth);
@@ -87,7 +87,7 @@ fn the_water_is_that_of_the_sea_in_the_axes_of_the_tether() {
 }
 
 #[test]
-fn under_way_the_surface_is_that_of_the_place_passed() {
+fn towed_surface_matches_surface_at_current_position() {
     let still = case(TowedCompatibility::native(), None);
     let (vx, vy) = (1.7, -0.6);
     let under_way = Towed { tow: [vx, vy], ..still.clone() };
@@ -105,7 +105,7 @@ fn under_way_the_surface_is_that_of_the_place_passed() {
 }
 
 #[test]
-fn the_current_is_straight_between_its_heights() {
+fn current_is_linear_between_its_heights() {
     let current = vec![(0.0, [1.0, 0.0]), (-10.0, [0.5, 0.0]), (-20.0, [0.0, 0.0])];
     let waters = Waters::new(&Towed { heading: 0.0, current, ..case(TowedCompatibility::native(), None) });
     let found: Vec<f64> = [3.0, 0.0, -4.0, -10.0, -15.0, -30.0].iter().map(|z| waters.current_at(*z)[0]).collect();

@@ -63,7 +63,7 @@ fn between(class: &str, from: [f64; 3], to: [f64; 3]) -> String {
 }
 
 #[test]
-fn the_force_of_a_grounded_rod_goes_to_that_of_the_exact_catenary() {
+fn grounded_dynamic_line_force_converges_to_exact_catenary() {
     for (length, reach) in [(800.0, 785.0), (600.0, 560.0), (200.0, 170.0)] {
         let exact = pull(&model(&moored(&format!("B_CAT 120 EXACT -LEN {length}"), reach)), "L");
         let errors =
@@ -78,7 +78,7 @@ fn the_force_of_a_grounded_rod_goes_to_that_of_the_exact_catenary() {
 }
 
 #[test]
-fn anchor_of_a_grounded_dynamic_line_bears_the_pull_along_the_bottom_alone() {
+fn grounded_dynamic_line_anchor_carries_pull_along_seabed_alone() {
     // a line that does not stretch, a = H/w, 95 m below its fairlead: x = L - s + a acosh(1 + h/a), s = sqrt(h^2 + 2 h a)
     let (length, reach, height) = (800.0, 785.0, 95.0f64);
     let net = (7850.0 - 1025.0) * FRAC_PI_4 * 0.12 * 0.12 * 9.80665;
@@ -107,7 +107,7 @@ fn anchor_of_a_grounded_dynamic_line_bears_the_pull_along_the_bottom_alone() {
 }
 
 #[test]
-fn the_force_of_a_hanging_rod_goes_to_that_of_the_exact_catenary_with_the_second_order() {
+fn hanging_dynamic_line_converges_to_catenary_with_second_order() {
     // weight, less what water of 1025 kg/m3 carries
     let area = FRAC_PI_4 * 0.12 * 0.12;
     let heavy = |water: f64| (7850.0 - water) * area * 9.80665;
@@ -152,7 +152,7 @@ fn chain(elements: usize, step: f64) -> Vec<f64> {
 }
 
 #[test]
-fn the_fairlead_force_of_a_driven_chain_is_that_of_moordyn() {
+fn driven_chain_fairlead_force_matches_moordyn() {
     let (rows, range) = moordyn::reference();
     let made = [(200, 0.05), (400, 0.025), (400, 0.0125)].map(|(n, step)| (step, chain(n, step)));
     let at = |(step, force): &(f64, Vec<f64>), t: f64| force[(t / step).round() as usize] / range;
@@ -181,7 +181,7 @@ fn period(run: &Run, dof: usize, level: f64) -> f64 {
 }
 
 #[test]
-fn a_heavy_body_on_a_light_bar_swings_with_the_period_of_a_pendulum() {
+fn heavy_body_on_light_bar_oscillates_with_pendulum_period() {
     // 10 t on 20 m of 20 kg/m that does not bend: inertia of the bar about its end is a third, its weight acts halfway
     let (body, bar, length) = (1e4, 400.0, 20.0);
     let exact = TAU * ((body + bar / 3.0) / (body + bar / 2.0) * length / 9.80665f64).sqrt();
@@ -194,7 +194,7 @@ fn a_heavy_body_on_a_light_bar_swings_with_the_period_of_a_pendulum() {
 }
 
 #[test]
-fn a_body_on_a_bar_as_heavy_as_itself_swings_up_and_down_with_the_exact_frequency() {
+fn body_on_equally_heavy_bar_has_exact_axial_frequency() {
     // b tan b = m/M = 1: b = 0.860333589; w = b c/L with c = sqrt(EA/m')
     let exact = TAU / (0.860_333_589 * (1e7f64 / 100.0).sqrt() / 100.0);
     let records = "MEDIT\n*G 0 0 150\n&DESCRIBE BODY BOB -IGNORE X Y RX RY RZ\n*C 0 0 0\n#WEIGHT *C 98066.5 1 1 1\n\
@@ -207,7 +207,7 @@ fn a_body_on_a_bar_as_heavy_as_itself_swings_up_and_down_with_the_exact_frequenc
 }
 
 #[test]
-fn a_driven_bar_carries_the_axial_wave_to_its_fixed_end() {
+fn driven_bar_carries_axial_wave_to_its_fixed_end() {
     // u = a sin kx / sin kL: the forces are EA a k / sin kL at the fixed end, times cos kL at the driven end
     let (ea, mass, length, amplitude): (f64, f64, f64, f64) = (1e7, 100.0, 100.0, 0.01);
     let k = 1.0 / length;
@@ -230,7 +230,7 @@ fn a_driven_bar_carries_the_axial_wave_to_its_fixed_end() {
 }
 
 #[test]
-fn a_line_that_hangs_in_a_current_leans_by_its_drag_against_its_weight() {
+fn line_in_current_leans_by_drag_over_weight() {
     // w sin a = drag cos2 a all along, by which the line is straight: cos2 = 1 - sin2
     let (weight, drag): (f64, f64) = (150.0, 0.5 * 1025.0 * 1.2 * 0.1);
     let share = weight / drag;
@@ -264,7 +264,7 @@ fn riser(options: &str) -> Table {
 }
 
 #[test]
-fn a_tensioned_riser_bends_in_a_current_as_the_tensioned_beam() {
+fn tensioned_riser_in_current_matches_tensioned_beam() {
     // the beam under load q and tension T, pinned and clamped; u = L/2 sqrt(T/EI)
     let (q, ei, l): (f64, f64, f64) = (0.5 * 1025.0 * 1.2 * 0.3 * 0.25, 4e7, 100.0);
     for (options, clamped) in [("", false), ("-CLAMP BOTH", true)] {
@@ -285,7 +285,7 @@ fn a_tensioned_riser_bends_in_a_current_as_the_tensioned_beam() {
 }
 
 #[test]
-fn a_pipe_held_at_both_ends_has_the_wall_force_of_its_heat_and_pressures() {
+fn pipe_fixed_at_both_ends_has_thermal_and_pressure_wall_force() {
     // steel, 400 mm by 20 mm, upright: Tw = 2 nu (pi Ai - pe Ae) - E A alpha dT where it cannot get longer; Te = Tw - pi Ai + pe Ae
     let (b, a): (f64, f64) = (0.2, 0.18);
     let (outside, inside) = (PI * b * b, PI * a * a);

@@ -58,7 +58,7 @@ fn told(run: &Run) -> Vec<(f64, f64, Vec<[f64; 6]>)> {
 }
 
 #[test]
-fn a_pipe_at_rest_on_a_barge_that_stands_stays_where_it_is() {
+fn pipe_at_rest_on_fixed_barge_stays_in_place() {
     let session = laid([4e5, 5e5], "-SINUSOID X 0 10", "");
     let rows = told(session.job.run.as_ref().unwrap());
     let ((_, first, begun), (_, last, ended)) = (rows.first().unwrap(), rows.last().unwrap());
@@ -71,7 +71,7 @@ fn a_pipe_at_rest_on_a_barge_that_stands_stays_where_it_is() {
 }
 
 #[test]
-fn the_tensioner_keeps_its_limits_and_no_roller_pulls_the_pipe_down() {
+fn tensioner_keeps_its_limits_and_rollers_never_pull_down() {
     let limits = [4.3e5, 4.7e5];
     let session = laid(limits, "-SINUSOID X 1.0 20 -SINUSOID RY 1.0 9 -RAMP 10", "-BALANCE");
     let run = session.job.run.as_ref().unwrap();
@@ -94,7 +94,7 @@ fn the_tensioner_keeps_its_limits_and_no_roller_pulls_the_pipe_down() {
 }
 
 #[test]
-fn a_riser_on_one_roller_bears_its_weight_below_the_pull_of_its_tensioner() {
+fn riser_on_one_roller_carries_weight_below_tensioner_pull() {
     let records = "&DIMEN -DIMEN METERS N\n&ENV -DEPTH 100 -TIME 20 0.1\nMEDIT\n&DESCRIBE BODY RIG\n*T 0 0 20\n\
          ~ROLL ROLLER COMPRESSION Y 1E6 Z 1E6 -Y_ROLLER 0 0 -Z_ROLLER 0 0\n~PIPE ROD 323.9 15.9 -LEN 12 -WTPLEN 1200 -BUOY 0\nCONNECTOR T ~ROLL *T\n\
          PIPE ~PIPE T -PIPE_TENSION 2E5 3E5\nPRESCRIBE RIG -SINUSOID Z 0.5 10 -RAMP 10\nEND\nTDOM -ALONG 1\n";
@@ -121,7 +121,7 @@ fn a_riser_on_one_roller_bears_its_weight_below_the_pull_of_its_tensioner() {
 const MOVES: &str = "-SINUSOID X 0.3 9 -SINUSOID Y 0.3 11 -SINUSOID RY 1.0 9 -RAMP 5";
 
 #[test]
-fn a_run_with_a_pipe_goes_on_from_its_file_with_the_digits_of_an_unbroken_one() {
+fn pipe_run_restarts_with_digits_of_uninterrupted_run() {
     let bits =
         |s: &Session| -> Vec<u64> { s.job.run.as_ref().unwrap().history.values.iter().map(|v| v.to_bits()).collect() };
     let records = records([4.3e5, 4.7e5], MOVES);
@@ -136,7 +136,7 @@ fn a_run_with_a_pipe_goes_on_from_its_file_with_the_digits_of_an_unbroken_one() 
 }
 
 #[test]
-fn a_sea_that_comes_during_a_run_finds_the_pipe_on_its_supports() {
+fn sea_starting_during_run_finds_pipe_on_its_supports() {
     let limits = [4.3e5, 4.7e5];
     let sea = "&ENV SEA -DEPTH 50 -SEA REGULAR 180 3 8 -TIME 40 0.1\n&ENV CALM -DEPTH 50 -TIME 40 0.1\n";
     let run = |action: &str| {
@@ -161,7 +161,7 @@ fn a_sea_that_comes_during_a_run_finds_the_pipe_on_its_supports() {
 }
 
 #[test]
-fn the_forces_on_supports_add_up_to_what_the_barge_feels() {
+fn support_forces_add_up_to_load_on_barge() {
     let session = laid([4.3e5, 4.7e5], MOVES, "");
     let run = session.job.run.as_ref().unwrap();
     let line = LineResults::find(run, PIPE).unwrap();
@@ -181,7 +181,7 @@ fn the_forces_on_supports_add_up_to_what_the_barge_feels() {
 }
 
 #[test]
-fn an_action_on_a_support_of_a_pipe_is_refused() {
+fn action_on_pipe_support_is_refused() {
     for action in ["-AT 5 -RELEASE R2", "-TENSION R2 1E5 -STOP"] {
         let (mut session, _, _folder) = common::session();
         session.open("records", format!("{}&ACTION OFF {action}\nTDOM\n", records([4e5, 5e5], "-SINUSOID X 0 10")));
@@ -192,7 +192,7 @@ fn an_action_on_a_support_of_a_pipe_is_refused() {
 }
 
 #[test]
-fn a_run_ends_when_the_pull_on_a_pipe_is_above_a_limit() {
+fn run_ends_when_pipe_pull_exceeds_limit() {
     let records = records([4.3e5, 4.7e5], MOVES);
     let (session, _folder) = after(format!("{records}&ACTION OFF -TENSION &PIPE 4.6E5 -STOP\nTDOM\n"), None);
     let run = session.job.run.as_ref().unwrap();
@@ -204,7 +204,7 @@ fn a_run_ends_when_the_pull_on_a_pipe_is_above_a_limit() {
 }
 
 #[test]
-fn a_tensioner_takes_hold_where_it_has_come_to() {
+fn tensioner_holds_at_its_current_position() {
     // surge of half a metre turns at 10 s and 30 s; from then on it is held until the pipe itself pulls by the other limit
     let session = laid([5.8e5, 6.2e5], "-SINUSOID X 0.5 40", "");
     let run = session.job.run.as_ref().unwrap();
@@ -222,7 +222,7 @@ fn a_tensioner_takes_hold_where_it_has_come_to() {
 }
 
 #[test]
-fn a_current_that_comes_during_a_run_leaves_a_pipe_as_long_as_it_was_laid() {
+fn current_starting_during_run_keeps_pipe_length() {
     let still = records([4e5, 8e5], "-SINUSOID X 0 10");
     let streams = "&ENV STREAM -DEPTH 50 -CURRENT 1.0 90 -TIME 40 0.1\n&ENV CALM -DEPTH 50 -TIME 40 0.1\n";
     let (session, _folder) =

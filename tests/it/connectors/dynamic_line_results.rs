@@ -24,7 +24,7 @@ fn last(table: &Table, column: &str) -> f64 {
 }
 
 #[test]
-fn a_chain_at_rest_comes_down_where_the_catenary_does() {
+fn static_chain_touches_down_where_catenary_does() {
     let mut off = Vec::new();
     for elements in [40, 80] {
         let model = model(&chain(elements, ""));
@@ -46,7 +46,7 @@ fn a_chain_at_rest_comes_down_where_the_catenary_does() {
 }
 
 #[test]
-fn the_line_at_rest_and_the_first_row_of_a_run_in_still_water_are_one() {
+fn static_line_matches_first_row_of_run_in_still_water() {
     let model = model(&chain(20, ""));
     let rest = &lines_at_rest(&model, &|_| true).unwrap()[0];
     let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
@@ -63,7 +63,7 @@ fn the_line_at_rest_and_the_first_row_of_a_run_in_still_water_are_one() {
 }
 
 #[test]
-fn fewer_nodes_kept_and_none_kept_tell_what_all_tell() {
+fn thinned_node_output_matches_full_output() {
     let model = model(&chain(12, "-SEA REGULAR 180 4 9"));
     let ran = |change: fn(RunSettings) -> RunSettings| {
         let mut run = Run::new(&model, change(settings(10.0, 0.25)), Vec::new()).unwrap();
@@ -126,7 +126,7 @@ impl Watcher for Keeper {
 }
 
 #[test]
-fn a_run_that_goes_on_has_the_nodes_of_an_unbroken_one() {
+fn continued_run_has_nodes_of_uninterrupted_run() {
     let model = model(&chain(8, "-SEA REGULAR 180 4 9"));
     let wanted = settings(60.0, 0.1);
     let mut whole = Run::new(&model, wanted.clone(), Vec::new()).unwrap();
@@ -146,7 +146,7 @@ fn a_run_that_goes_on_has_the_nodes_of_an_unbroken_one() {
 }
 
 #[test]
-fn rows_that_would_not_fit_in_memory_are_refused_before_the_run() {
+fn rows_exceeding_memory_are_refused_before_run() {
     let model = model(&chain(100, ""));
     let refused = Run::new(&model, settings(1e6, 0.01), Vec::new()).unwrap_err().error;
     assert!(refused.to_string().contains("GB of memory") && refused.help[0].contains("-STORE"), "{refused:?}");

@@ -84,7 +84,7 @@ fn tethers(elements: usize) -> String {
 }
 
 #[test]
-fn an_installed_rod_at_rest_has_the_tension_of_the_listing_and_that_of_its_bent_ends() {
+fn installed_dynamic_tether_at_rest_matches_listing_tension() {
     let column = |elements: usize, poisson: f64, name: &str| {
         let (session, _) = done(&(platform("1 0.1") + &rods(elements, poisson)));
         let tables = lines_at_rest(&session.job.model, &|name| name == "R1A").unwrap();
@@ -131,7 +131,7 @@ fn tether_frequencies(elements: usize, count: usize) -> Vec<f64> {
 }
 
 #[test]
-fn an_installed_rod_swings_as_the_tether_of_the_listing_does() {
+fn installed_dynamic_tether_oscillates_like_listing_tether() {
     let frequencies = |elements: usize| {
         let (session, _) = done(&(platform("1 0.1") + &rods(elements, 0.0)));
         let tables = natural_modes(&session.job.model, &|name| name == "R1A", 12, false).unwrap();
@@ -164,7 +164,7 @@ fn period(text: &str, dof: &str) -> f64 {
 }
 
 #[test]
-fn a_platform_on_rods_has_the_periods_of_one_on_bars_but_for_the_bending_of_its_tethers() {
+fn platform_periods_on_dynamic_lines_differ_by_tether_bending_only() {
     let (session, text) = done(&(platform("1 0.1") + &rods(60, 0.0) + "&EQUI\n&STATUS MODES\n"));
     let (_, bars) = done(&(platform("1 0.1") + &tethers(3) + "&EQUI\n&STATUS MODES\n"));
     // heave, roll and pitch are on EA alone
@@ -211,7 +211,7 @@ fn apart(a: &Motion, b: &Motion, dof: usize, [from, to]: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn rods_move_the_platform_as_tethers_do_until_a_tether_goes_slack() {
+fn dynamic_lines_move_platform_like_tethers_until_one_is_slack() {
     // before the first slack of any length, at 6.25 s, the platform has gone 13 m and swung twice on its tethers: surge, heave and pitch.
     // What is left: the shear and the inertia of the tethers, which the tether engine keeps from the platform, 0.5 % of its mass; and 2.5 mm
     // of heave, of 3.9 m, that the damping of runs with dynamic lines takes (-RHO 0.2 for 0.9)
@@ -229,7 +229,7 @@ fn rods_move_the_platform_as_tethers_do_until_a_tether_goes_slack() {
 }
 
 #[test]
-fn the_platform_converges_in_time_with_the_second_order_on_tethers_as_on_rods() {
+fn platform_on_tethers_and_lines_converges_with_second_order() {
     // of 17.6 m of surge a step of 0.05 s leaves less than a millimetre. Were the added mass that waves give and take late by half a step it
     // would be 47 mm on tethers and 32 mm on rods
     let surge = |motion: &Motion| motion.1[0].last().copied().unwrap();
@@ -241,7 +241,7 @@ fn the_platform_converges_in_time_with_the_second_order_on_tethers_as_on_rods() 
 }
 
 #[test]
-fn a_rod_pushes_where_a_tether_of_the_listing_is_slack() {
+fn dynamic_line_is_compressed_where_listing_tether_is_slack() {
     let (_, session) = of_rods(0.05);
     let history = &session.job.run.as_ref().unwrap().history;
     let (link, columns) = history.layout.links.iter().enumerate().find(|(_, l)| l.name == "R1A").unwrap();
@@ -271,7 +271,7 @@ fn a_rod_pushes_where_a_tether_of_the_listing_is_slack() {
 }
 
 #[test]
-fn the_platform_on_rods_has_the_harmonics_of_the_listing_but_for_its_half_wet_tubes() {
+fn platform_harmonics_on_lines_match_listing_except_half_wet_tubes() {
     let harmonics = |m: &Motion, f: usize| HarmonicCycle::new(&m.0, &m.1[f], (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
     let aqwa = of_tethers(0.25, 3, "AQWA").0;
     // means, drifts and first amplitudes of surge and heave, as printed
@@ -366,7 +366,7 @@ fn towed_periods(cut: usize, plane: Option<bool>) -> Vec<(f64, [f64; 3])> {
 }
 
 #[test]
-fn a_towed_rod_on_springs_has_the_bending_modes_of_the_listing() {
+fn towed_dynamic_line_on_springs_matches_listing_bending_modes() {
     // two rigid modes on the springs, and bending. The rod with the listing's added mass has the periods of the consistent beam of
     // towed-tether.md, 2; so has the tether engine. The listing's own rigid modes are slower by 3 %, which the rod bears out: they are
     // not those of its springs, 0.5 kN/m beside stiffnesses of 1.6E6 in single precision
@@ -396,7 +396,7 @@ fn a_towed_rod_on_springs_has_the_bending_modes_of_the_listing() {
 }
 
 #[test]
-fn a_rod_afloat_is_held_by_its_water_line_which_the_listing_leaves_out() {
+fn floating_dynamic_line_has_waterline_stiffness_listing_omits() {
     let all = towed_periods(4, None);
     let slowest = |axis: usize| all.iter().filter(|(_, s)| s[axis] > 0.5).map(|(t, _)| *t).collect::<Vec<f64>>();
     // upward the listing has two rigid modes of 151 and 92 s and bending of 15.3 s: its stiffness has no water line. That of the rod holds it

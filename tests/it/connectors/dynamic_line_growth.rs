@@ -54,7 +54,7 @@ fn near(got: f64, want: f64, share: f64) {
 }
 
 #[test]
-fn growth_weighs_less_the_water_it_displaces_and_widens_what_a_current_drags() {
+fn growth_adds_submerged_weight_and_drag_diameter() {
     let stream = "-CURRENT 1 -90";
     let [bare, foul] = [stream.to_string(), format!("{FOUL} {stream}")].map(|e| load(&e));
     // statics leaves less than 1e-9 of a pull of 1e7 N at each of 20 nodes; the density of -M_GROWTH is that in air
@@ -64,7 +64,7 @@ fn growth_weighs_less_the_water_it_displaces_and_widens_what_a_current_drags() {
 }
 
 #[test]
-fn growth_between_two_depths_weighs_on_the_line_between_them() {
+fn growth_between_two_depths_adds_weight_between_them() {
     // 20 of 100 elements of a plumb line, whose ends are bare: 1 % of its length is stretch
     let class = "~L ROD 200 100 -EI 0 -EA 1E9 -LEN 99 -REFINE 100 -WTPLEN 315.792";
     let band = "-60 0 -59.999999 100 -40.000001 100 -40 0";
@@ -92,7 +92,7 @@ fn moved(environment: &str) -> (f64, f64) {
 }
 
 #[test]
-fn a_line_swings_with_the_mass_and_the_added_mass_of_what_grows_on_it() {
+fn line_oscillates_with_mass_and_added_mass_of_its_growth() {
     // as dense as water, so that it hangs straight: a string of 100 m that is moved at both ends pulls by 2 T k tan(k L/2)
     for (environment, diameter) in [("", 0.2f64), ("-M_GROWTH G 1025", 0.3)] {
         let (found, tension) = moved(environment);
@@ -138,7 +138,7 @@ fn pull_at(session: &Session, time: f64) -> Vector3<f64> {
 }
 
 #[test]
-fn growth_that_comes_or_goes_with_an_environment_leaves_the_line_as_one_that_always_had_it_so() {
+fn growth_changed_by_environment_matches_line_built_with_it() {
     let [clean, foul] = ["CLEAN", "FOUL"].map(|name| pull_at(&done(&(changing(name, name) + "TDOM\n")), 0.0));
     assert!((foul - clean).norm() > 0.2 * clean.norm());
     for (first, then, [before, end]) in [("CLEAN", "FOUL", [clean, foul]), ("FOUL", "CLEAN", [foul, clean])] {
@@ -155,7 +155,7 @@ fn growth_that_comes_or_goes_with_an_environment_leaves_the_line_as_one_that_alw
 }
 
 #[test]
-fn a_run_whose_growth_has_changed_goes_on_from_its_file_with_the_digits_of_an_unbroken_one() {
+fn run_with_changed_growth_restarts_with_uninterrupted_digits() {
     let records = changing("CLEAN", "FOUL").replace("-TIME 200 0.2", "-TIME 120 0.2");
     let wound = format!("{records}&ACTION OUT -AT 20 -WINCH L 0.4 120\n&ACTION IN -AT 80 -WINCH L -0.6 99\n");
     let values =
@@ -174,7 +174,7 @@ fn a_run_whose_growth_has_changed_goes_on_from_its_file_with_the_digits_of_an_un
 }
 
 #[test]
-fn a_grown_line_is_hauled_in_and_paid_out_over_its_elements() {
+fn line_with_growth_is_hauled_and_paid_out_over_its_elements() {
     // plumb, 60 m of it: a load on it, and growth between 40 and 60 m deep that stays on what hangs there
     let records = "&DIMEN -DIMEN METERS N\n&DATA CURVES M_GROWTH G -900 100 900 100\n&ENV -DEPTH 500 -TIME 160 0.1 -M_GROWTH G 1400\nMEDIT\n\
          &DESCRIBE BODY CRANE -IGNORE X Y Z RX RY RZ\n*H 0 0 -20\n&DESCRIBE BODY LOAD -IGNORE X Y RX RY RZ\n*P 0 0 0\n#WEIGHT *P 49033.25 1 1 1\n\

@@ -35,7 +35,7 @@ fn tensions(text: &str) -> [f64; 2] {
 }
 
 #[test]
-fn heave_of_a_fairlead_in_tdom_changes_the_tension() {
+fn heave_of_fairlead_in_tdom_changes_tension() {
     for flag in ["", "EXACT"] {
         let (_, text) = run(&format!("{}\nTDOM", heaved(flag, 690.0, "PRESCRIBE B -SINUSOID Z 5 12")));
         // printed with six figures; the instants of the extremes are stored
@@ -46,7 +46,7 @@ fn heave_of_a_fairlead_in_tdom_changes_the_tension() {
 }
 
 #[test]
-fn a_table_follows_the_elevation_of_its_fairlead() {
+fn table_follows_elevation_of_fairlead() {
     // at the lowest place the distance is that of row 13, 4000 kN (12/29)^2: there nothing is interpolated
     let records = heaved("-TABLE -TAB_LIM 4000", 684.432_504_020_235_5, "PRESCRIBE B -SINUSOID Z 5 12");
     let (_, text) = run(&format!("{records}\nTDOM"));
@@ -57,7 +57,7 @@ fn a_table_follows_the_elevation_of_its_fairlead() {
 }
 
 #[test]
-fn stiffness_of_a_moored_body_has_the_vertical_part_of_its_lines() {
+fn moored_body_stiffness_includes_vertical_line_stiffness() {
     let at_rest = |option: &str| {
         let (session, _) = run(&heaved(option, 690.0, ""));
         let model: &Model = &session.job.model;
@@ -105,7 +105,7 @@ fn pull(text: &str) -> [f64; 3] {
 }
 
 #[test]
-fn devices_in_series_stretch_along_the_tension() {
+fn devices_in_series_stretch_along_tension() {
     let near = |option: &str, want: [f64; 3], share: f64| {
         let text = device(option);
         for (got, want) in pull(&text).iter().zip(want) {
@@ -129,7 +129,7 @@ fn devices_in_series_stretch_along_the_tension() {
 }
 
 #[test]
-fn anchor_on_a_slope_is_pulled_down_by_a_table_too() {
+fn table_pulls_anchor_on_slope_downward_too() {
     // the bottom rises toward the anchor: what lies there pulls along it, downward, with the slope times the horizontal pull
     let both = ["", "-TABLE"].map(|option| {
         let (_, text) = run(&format!(
@@ -149,7 +149,7 @@ fn anchor_on_a_slope_is_pulled_down_by_a_table_too() {
 }
 
 #[test]
-fn every_report_that_uses_a_table_names_its_lines() {
+fn every_report_using_a_table_names_its_lines() {
     let records = heaved(
         "-TABLE",
         690.0,
@@ -188,7 +188,7 @@ fn heavy(reach: f64, length: f64, option: &str) -> String {
 }
 
 #[test]
-fn length_for_a_tension_is_the_nearest_of_all_that_give_it() {
+fn length_for_tension_is_nearest_solution() {
     // scipy, as above for three segments: the tension falls from 1133 kN at 100 m to 331 at 210 m, and rises with the weight to 512 at
     // 400 m; brentq on the length to 1e-10 m
     let (tight, hung) = (149.645_705_441, 389.519_010_704);
@@ -208,7 +208,7 @@ fn length_for_a_tension_is_the_nearest_of_all_that_give_it() {
 }
 
 #[test]
-fn hanging_line_says_where_and_how_far_it_passes_bottom_and_surface() {
+fn hanging_line_reports_crossing_of_seabed_and_surface() {
     // inextensible, 1000 m between ends of one height: s = S sinh(a)/a, sag S (cosh(a) - 1)/(2 a); with a = 1 1175.201 m and 271.540 m,
     // so that its lowest point, halfway, is 71.54 m below the bottom at 190 m
     let hang = |z: f64, options: &str| {
@@ -229,7 +229,7 @@ fn hanging_line_says_where_and_how_far_it_passes_bottom_and_surface() {
 }
 
 #[test]
-fn hanging_line_to_an_anchor_goes_to_the_depth_of_its_class() {
+fn hanging_line_to_anchor_reaches_depth_of_its_class() {
     // weightless and straight: 300 m beside and 400 m below, EA 0.7854E6 kN, 1 m longer than its 499 m
     let (_, text) = run(
         "&ENV -DEPTH 900\nMEDIT\n&DESCRIBE BODY A\n*P 0 0 0\n~H H_CAT 100 -LEN 499 -EMOD 1E5 -DEPANCHOR 400\nCONNECTOR L ~H *P -ANC 0 300\n\

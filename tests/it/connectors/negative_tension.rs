@@ -45,7 +45,7 @@ fn tensions(run: &Run) -> [f64; 2] {
 }
 
 #[test]
-fn a_tendon_and_a_spring_that_are_pushed_together_are_in_negative_tension() {
+fn compressed_tendon_and_spring_have_negative_tension() {
     for class in [ROD, SPRING] {
         let session = after(&tendon(class, BELOW, "TDOM"));
         let run = session.job.run.as_ref().unwrap();
@@ -63,7 +63,7 @@ fn a_tendon_and_a_spring_that_are_pushed_together_are_in_negative_tension() {
 }
 
 #[test]
-fn lines_that_hang_or_pull_alone_are_never_in_negative_tension() {
+fn hanging_and_tension_only_lines_never_have_negative_tension() {
     // 100 m between ends 60 m apart, which sags; a spring of the same without compression
     for (class, far) in [
         ("ROD 300 10 -LEN 100 -REF 10", "60 0 -20"),
@@ -77,7 +77,7 @@ fn lines_that_hang_or_pull_alone_are_never_in_negative_tension() {
 }
 
 #[test]
-fn an_action_sees_a_line_that_pushes_as_slack() {
+fn action_treats_compressed_line_as_slack() {
     for class in [ROD, SPRING] {
         let met = |force: &str| {
             let session = after(&tendon(class, BELOW, &format!("&ACTION SL -SLACK T1 {force} -STOP\nTDOM")));
@@ -92,7 +92,7 @@ fn an_action_sees_a_line_that_pushes_as_slack() {
 }
 
 #[test]
-fn damage_counts_the_whole_range_of_a_tension_that_changes_sign() {
+fn damage_counts_full_range_of_sign_changing_tension() {
     let session = after(&tendon(ROD, BELOW, "&ENV -TIME 55 0.05\nTDOM"));
     let run = session.job.run.as_ref().unwrap();
     let all = events(&run.history, None).unwrap();
@@ -113,7 +113,7 @@ fn damage_counts_the_whole_range_of_a_tension_that_changes_sign() {
 }
 
 #[test]
-fn elements_that_are_pushed_beyond_their_own_euler_load_are_told_of() {
+fn elements_beyond_their_euler_load_are_reported() {
     // 12 MN by EA/L times 0.05 m; an element of 80 m bears 3.4 MN, one of 10 m 220 MN
     for (elements, told) in [(1, true), (8, false)] {
         let class = format!("ROD 1000 30 -LEN 80.05 -REF {elements}");

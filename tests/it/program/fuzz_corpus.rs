@@ -125,7 +125,7 @@ fn scripts_of_any_bytes_are_run_or_refused() {
 }
 
 #[test]
-fn a_run_file_that_is_whole_is_not_changed_by_mending_it() {
+fn complete_run_file_is_unchanged_by_repair() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("TDOM.run");
     let file = fs::File::options().read(true).write(true).create_new(true).open(&path).unwrap();

@@ -102,11 +102,11 @@ fn pinned(list: &[Result<usize, String>], bound: usize) {
 }
 
 #[test]
-fn a_barge_on_eight_chains_comes_home_from_200_metres_30_degrees_of_heel_and_90_of_yaw() {
+fn barge_on_eight_chains_converges_from_200_m_and_large_angles() {
     pinned(&steps(&barge(), [140.0, 140.0, 10.0]), 20);
 }
 
 #[test]
-fn a_load_in_four_slings_comes_home_from_far_off() {
+fn load_in_four_slings_converges_from_distant_start() {
     pinned(&steps(&hung(), [15.0, 15.0, 10.0]), 36);
 }

@@ -72,7 +72,7 @@ fn added(model: &Model) -> Matrix6<f64> {
 const PILE: &str = "-CD 0.8 -CDA 0.03 -CA 0.9 -CAA 0.6";
 
 #[test]
-fn a_grown_pile_has_the_drag_and_inertia_of_a_pile_of_the_larger_diameter() {
+fn pile_with_growth_has_drag_and_inertia_of_larger_pile() {
     let growth = "&DATA CURVES M_GROWTH G -90 300 90 300\n&ENV -CURRENT 1.2 90 -M_GROWTH G";
     let thin = body("", &format!("TUBE PILE *A *B 1500 {PILE}"), growth);
     let thick = body("", &format!("TUBE PILE *A *B 1800 {PILE}"), "&ENV -CURRENT 1.2 90");
@@ -91,7 +91,7 @@ fn a_grown_pile_has_the_drag_and_inertia_of_a_pile_of_the_larger_diameter() {
 }
 
 #[test]
-fn growth_on_a_length_of_a_pile_widens_that_length() {
+fn growth_on_part_of_pile_increases_diameter_there() {
     // 0.3 m more between 30 m and 10 m deep, and 0.6 m from there to the surface; ends are free at the foot alone
     let growth = "&DATA CURVES M_GROWTH G -30 300 -10 300 -9.9999999 600 20 600\n&ENV -CURRENT 1.5 180 -M_GROWTH G";
     let model = body("", &format!("TUBE PILE *A *B 1500 {PILE}"), growth);
@@ -102,7 +102,7 @@ fn growth_on_a_length_of_a_pile_widens_that_length() {
 }
 
 #[test]
-fn growth_that_tapers_is_integrated_over_the_pile() {
+fn tapering_growth_is_integrated_over_pile() {
     let growth = "&DATA CURVES M_GROWTH G -50 0 0 500 20 700\n&ENV -CURRENT 1.5 180 -M_GROWTH G";
     let model = body("", &format!("TUBE PILE *A *B 1000 {PILE}"), growth);
     // D = 1.5 + 0.01 z: of D the lengths have the exact mean, but that what cuts the surface goes on above it (0.01 m of 50);
@@ -112,7 +112,7 @@ fn growth_that_tapers_is_integrated_over_the_pile() {
 }
 
 #[test]
-fn in_a_level_that_rises_everywhere_growth_floats_as_a_larger_tube_does() {
+fn growth_in_rising_level_floats_like_larger_tube() {
     // a wave a thousand times round the earth: what members add to the buoyancy of tube and growth under the mean level
     let long = sea(1e-6, 1e-10, 1.7);
     let growth = "&DATA CURVES M_GROWTH G -90 600 90 600\n&ENV -M_GROWTH G";
@@ -125,7 +125,7 @@ fn in_a_level_that_rises_everywhere_growth_floats_as_a_larger_tube_does() {
 }
 
 #[test]
-fn a_member_meets_the_current_of_the_time() {
+fn member_uses_current_of_present_time() {
     let model = body(
         "",
         "TUBE PILE *A *B 2000 -CD 0.65",
@@ -156,7 +156,7 @@ fn run(model: &Model, (observed, dt): (f64, f64), dof: usize) -> Vec<[f64; 3]> {
 }
 
 #[test]
-fn a_plate_that_a_current_takes_along_tends_to_its_speed() {
+fn plate_carried_by_current_approaches_its_speed() {
     // m dv/dt = k (U - v)^2 from rest: v = U - U / (1 + U k t / m)
     let records = "*E 0 -3 -9\n*F 0 3 -9\n*G 0 3 -11\n*H 0 -3 -11\n#PLATE *E *F *G *H -CD 1.2 -FLUID WATER\n\
                    *W 0 0 -10\n#WEIGHT *W 980.665 1 1 1\n&DESCRIBE BODY B -IGNORE Y Z RX RY RZ";
@@ -173,7 +173,7 @@ fn a_plate_that_a_current_takes_along_tends_to_its_speed() {
 }
 
 #[test]
-fn a_level_tube_sinks_to_its_terminal_velocity() {
+fn level_tube_sinks_to_its_terminal_velocity() {
     // (m + a) dv/dt = F - c v^2: v = sqrt(F/c) tanh(t sqrt(F c) / (m + a)), F being the weight in water
     let (long, diameter, ca) = (60.0, 1.0f64, 0.7);
     let displaced = RHO * FRAC_PI_4 * diameter * diameter * long;
@@ -194,7 +194,7 @@ fn a_level_tube_sinks_to_its_terminal_velocity() {
 }
 
 #[test]
-fn the_heave_of_a_spar_in_still_water_has_its_period_and_never_gains_energy() {
+fn spar_heave_in_still_water_has_its_period_and_gains_no_energy() {
     let (draft, diameter, friction, start) = (50.0, 10.0f64, 0.5, 0.5);
     let stiffness = RHO * G * FRAC_PI_4 * diameter * diameter;
     let mass = stiffness * draft / G;
@@ -233,7 +233,7 @@ fn the_heave_of_a_spar_in_still_water_has_its_period_and_never_gains_energy() {
 }
 
 #[test]
-fn a_member_that_waves_wet_and_bare_converges_in_time_with_the_second_order() {
+fn member_wetted_by_waves_converges_with_second_order() {
     // a column through the surface in waves of 6 m: its wet added mass changes by a tenth, against waves that go on
     let records = "*W 0 0 -30\n#WEIGHT *W 25263 10 10 10\n&DESCRIBE BODY B -IGNORE Y RX RY RZ";
     let sea = "&ENV -DEPTH 345 -SEA STOKES 180 6 10 -STRETCHING EXPONENTIAL -RAMP 0";

@@ -46,7 +46,7 @@ fn rod_and_catenary(length: f64, slope: f64) -> (usize, Vec<[f64; 2]>) {
 }
 
 #[test]
-fn slack_on_a_slope_lies_as_the_catenary_has_it() {
+fn slack_line_on_slope_matches_catenary() {
     for (length, slope) in [(440.0, 0.1), (420.0, 0.1), (430.0, 0.02), (430.0, 0.0), (440.0, -0.1)] {
         let (warned, pulls) = rod_and_catenary(length, slope);
         println!("{length} {slope}: {pulls:?}");
@@ -59,7 +59,7 @@ fn slack_on_a_slope_lies_as_the_catenary_has_it() {
 }
 
 #[test]
-fn a_chain_that_piles_up_on_a_slope_hangs_straight_down_as_the_catenary_has_it() {
+fn heaped_chain_on_slope_hangs_vertically_like_catenary() {
     for (length, slope) in [(520.0, 0.1), (470.0, 0.1), (500.0, 0.0)] {
         let (warned, pulls) = rod_and_catenary(length, slope);
         println!("{length} {slope}: {pulls:?}");
@@ -72,7 +72,7 @@ fn a_chain_that_piles_up_on_a_slope_hangs_straight_down_as_the_catenary_has_it()
 }
 
 #[test]
-fn friction_holds_what_lies_in_a_current_from_any_side() {
+fn friction_holds_grounded_line_in_current_from_any_side() {
     let chain = "ROD 100 50 -LEN 700 -REFINE 140 -EI 0 -EA 5E8 -WTPLEN 1000 -FRICTION 0.8 -CD 1.2";
     let pull = |current: &str| {
         let (warned, pulls) = held_at(&format!("&ENV -DEPTH 100 -TIME 0.2 0.1 {current}"), &[chain.to_string()], 660.0);
@@ -103,7 +103,7 @@ fn rod(length: f64, elements: usize) -> String {
 }
 
 #[test]
-fn a_grid_that_slopes_as_a_plane_is_lain_on_as_the_plane() {
+fn planar_grid_slope_supports_line_like_plane() {
     let plane = held(FLAT, &[format!("{} -SLOPE 0.1", rod(440.0, 88))]);
     let charted = held(&grid(|x| 60.0 + 0.1 * x), &[rod(440.0, 88)]);
     println!("{plane:?} {charted:?}");
@@ -114,7 +114,7 @@ fn a_grid_that_slopes_as_a_plane_is_lain_on_as_the_plane() {
 }
 
 #[test]
-fn slack_lies_by_its_friction_over_hills_and_valleys_of_a_grid() {
+fn friction_holds_slack_line_over_hills_and_valleys_of_grid() {
     for (amplitude, wave, slope, length) in
         [(5.0, 600.0, 0.1, 430.0), (-2.0, 300.0, 0.1, 440.0), (2.0, 150.0, 0.03, 450.0), (-5.0, 300.0, 0.1, 440.0)]
     {

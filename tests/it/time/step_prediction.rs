@@ -61,7 +61,7 @@ fn run(model: &Model, observed: f64, tolerance: f64) -> Run {
 }
 
 #[test]
-fn a_moored_body_in_waves_goes_where_it_goes_with_every_step_solved_to_the_last_digit() {
+fn predicted_steps_follow_fully_solved_steps_for_moored_body() {
     let model = moored(true);
     let (usual, tight) = (run(&model, 200.0, 1e-7), run(&model, 200.0, 1e-12));
     let at = usual.history.layout.body(0);
@@ -81,7 +81,7 @@ fn a_moored_body_in_waves_goes_where_it_goes_with_every_step_solved_to_the_last_
 }
 
 #[test]
-fn what_is_told_of_a_foretold_step_is_in_balance_to_the_tolerance() {
+fn reported_predicted_step_balances_within_tolerance() {
     let tolerance = 1e-7;
     let made = run(&moored(true), 100.0, tolerance);
     let layout = &made.history.layout;
@@ -97,7 +97,7 @@ fn what_is_told_of_a_foretold_step_is_in_balance_to_the_tolerance() {
 }
 
 #[test]
-fn in_still_water_no_more_is_evaluated_than_without_foretelling() {
+fn prediction_in_still_water_adds_no_evaluations() {
     let counts = run(&moored(false), 200.0, 1e-7).counts;
     // the trial goes on as the acceleration changed last; most of these are near enough
     assert!(counts.evaluations as f64 <= 1.13 * counts.steps as f64, "{counts:?}");
@@ -105,7 +105,7 @@ fn in_still_water_no_more_is_evaluated_than_without_foretelling() {
 }
 
 #[test]
-fn damping_that_turns_with_its_body_has_that_in_its_stiffness() {
+fn damping_rotating_with_body_is_in_its_stiffness() {
     let weight = 1e5 * GRAVITY;
     let line = |rest: &str| format!("~CHAIN B_CAT 180 -LEN 900 -DEP 300 {rest}\n");
     let hull = format!("*CG 3 -2 5\n#WEIGHT *CG {weight} 4 5 6\n#DAMP *CG 1E4 3E4 2E4 3E6 1E6 5E6\n");

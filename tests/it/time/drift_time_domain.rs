@@ -67,7 +67,7 @@ fn table(point: &str) -> String {
 }
 
 #[test]
-fn in_a_regular_wave_drift_is_the_mean_at_rest_at_all_times() {
+fn regular_wave_drift_equals_static_mean_at_all_times() {
     for part in ["", "&DESCRIBE PART P -MOVE 3 1 2 0 0 30\n"] {
         for from in [180, 135, 20] {
             let model =
@@ -88,7 +88,7 @@ fn in_a_regular_wave_drift_is_the_mean_at_rest_at_all_times() {
 }
 
 #[test]
-fn slow_drift_in_a_sea_has_the_mean_of_statics() {
+fn slow_drift_in_sea_has_static_mean() {
     // D = 10 w from 0.1 to 10 rad/s: the mean 2 k m1 = k Hs^2/8 2 pi/T1 needs no more of the components than their centroids
     let rows = format!("{} 100 0 0 0 0 0 {} 1 0 0 0 0 0", TAU / 10.0, TAU / 0.1);
     let records = format!("*P 0 0 0\n#DRIFT *P 180 {rows}\n#DRIFT *P 0 {}", rows.replace(" 100", " -100"));
@@ -118,7 +118,7 @@ fn slow_drift_in_a_sea_has_the_mean_of_statics() {
 }
 
 #[test]
-fn drift_of_records_and_of_a_database_on_one_body_is_refused() {
+fn drift_from_both_records_and_database_is_refused() {
     let mut model = body(&format!("*P 0 0 0\n{}", table("*P")), "&ENV -SEA REGULAR 180 3 9");
     let drift = windlass_model::DriftTable {
         frequencies: vec![0.5],
@@ -164,7 +164,7 @@ fn drift_spectrum(mu: f64, slope: f64, height: f64, mean_period: f64) -> f64 {
 }
 
 #[test]
-fn slow_surge_on_a_spring_is_that_of_a_narrow_response_to_white_noise() {
+fn slow_surge_on_spring_matches_narrow_response_to_white_noise() {
     // 10 t on 25 N/m: w0 = 0.05 rad/s, 5 % of critical damping
     let (mass, w0, ratio) = (1e4, 0.05, 0.05);
     let (stiffness, damping) = (mass * w0 * w0, 2.0 * ratio * mass * w0);

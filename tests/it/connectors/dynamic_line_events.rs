@@ -59,7 +59,7 @@ fn between(environment: &str, class: &str, from: &str, to: &str) -> String {
 }
 
 #[test]
-fn a_winch_lowers_and_hauls_a_load_to_the_length_it_is_told_and_holds_its_weight_there() {
+fn winch_lowers_and_hauls_load_to_target_length_and_holds_it() {
     // 5 t on 30 m of 10 kg/m in elements of 5 m, at rest at first
     let crane = "&ENV -DEPTH 500 -TIME 160 0.1\nMEDIT\n&DESCRIBE BODY CRANE -IGNORE X Y Z RX RY RZ\n*H 0 0 120\n\
          &DESCRIBE BODY LOAD -IGNORE X Y RX RY RZ\n*P 0 0 0\n#WEIGHT *P 49033.25 1 1 1\n\
@@ -93,7 +93,7 @@ fn a_winch_lowers_and_hauls_a_load_to_the_length_it_is_told_and_holds_its_weight
 }
 
 #[test]
-fn a_load_that_falls_into_a_stiff_line_never_comes_higher_than_it_was() {
+fn load_falling_into_stiff_line_never_rebounds_higher() {
     // 10 t let go where its line is slack: bounces of a tenth of a second and less, in steps that do not follow them
     for (step, start) in
         [(0.05, "0 0 110.2"), (0.1, "0 0 110.2"), (0.25, "0 0 110.2"), (0.5, "0 0 112"), (0.25, "60 0 150")]
@@ -122,7 +122,7 @@ fn let_go(time: f64, step: f64, options: &str) -> Vec<(f64, Vec<NodeRow>)> {
 }
 
 #[test]
-fn the_end_of_a_line_that_is_let_go_falls_with_a_step_of_a_tenth_as_with_one_of_a_hundredth() {
+fn released_line_end_falls_alike_with_coarse_and_fine_step() {
     let [coarse, fine] = [0.1, 0.01].map(|step| let_go(13.0, step, ""));
     for (time, share) in [(11.0, 0.15), (12.0, 0.09), (13.0, 0.06)] {
         let fallen = [&coarse, &fine].map(|rows| -5.0 - tip(rows, time)[2]);
@@ -132,7 +132,7 @@ fn the_end_of_a_line_that_is_let_go_falls_with_a_step_of_a_tenth_as_with_one_of_
 }
 
 #[test]
-fn a_line_that_is_let_go_comes_to_rest_on_the_bottom() {
+fn released_line_settles_on_seabed() {
     let rows = let_go(120.0, 0.1, "-FRICTION 0.8");
     let (last, before) = (&rows[rows.len() - 1].1, &rows[rows.len() - 101].1);
     for (node, earlier) in last.iter().zip(before) {
@@ -146,7 +146,7 @@ fn a_line_that_is_let_go_comes_to_rest_on_the_bottom() {
 }
 
 #[test]
-fn the_end_of_a_folded_chain_falls_with_gravity_and_then_faster() {
+fn folded_chain_end_falls_with_gravity_and_then_faster() {
     // [TOMASZEWSKI-2006]: a chain folded tightly that keeps its energy is down in 0.847213 of
     // the time of free fall
     let length = 20.0;
@@ -176,7 +176,7 @@ fn the_end_of_a_folded_chain_falls_with_gravity_and_then_faster() {
 }
 
 #[test]
-fn one_line_between_two_bodies_holds_them_at_the_span_of_its_catenary() {
+fn line_between_two_bodies_holds_them_at_catenary_span() {
     // each body on a spring to the ground: H by the springs, and the span is 2 H/w asinh(w L/2H) + H L/EA
     let (w, l, ea): (f64, f64, f64) = (1000.0, 400.0, 5e8);
     let records = format!(
@@ -225,7 +225,7 @@ fn string(mass: f64, middle: f64, tension: f64) -> f64 {
 }
 
 #[test]
-fn a_line_of_aqwa_sections_swings_with_the_added_mass_of_its_sections_and_joints() {
+fn aqwa_line_oscillates_with_added_mass_of_sections_and_joints() {
     let area = 0.02;
     // as heavy as water, so that it hangs straight; its mass is spread over 100 m, by 0.5 % longer than unstretched
     let own = WATER * area * 0.995;
@@ -244,7 +244,7 @@ fn a_line_of_aqwa_sections_swings_with_the_added_mass_of_its_sections_and_joints
 }
 
 #[test]
-fn a_catenary_with_dynamics_knows_no_highest_tension() {
+fn dynamic_catenary_has_no_maximum_tension() {
     let made = |most: &str| {
         model(&moored("&ENV -DEPTH 100", &format!("CATENARY 170 0.0217 -LEN 300 -EA 8.5E8 -TMAX {most}"), 283.5))
     };
@@ -258,7 +258,7 @@ fn a_catenary_with_dynamics_knows_no_highest_tension() {
 }
 
 #[test]
-fn bending_stiffness_of_an_aqwa_section_holds_it_up_as_a_tensioned_beam() {
+fn aqwa_section_bending_stiffness_matches_tensioned_beam() {
     // pinned under its weight: w L2/8T - w EI/T2 (1 - sech u), u = L/2 sqrt(T/EI); T is the pull across at an end
     let (mass, ei, l): (f64, f64, f64) = (100.0, 2e6, 30.0);
     let class = format!("~L CATENARY {mass} 0.001 -LEN 29.99 -EA 1E8 -EI {ei}");
@@ -274,7 +274,7 @@ fn bending_stiffness_of_an_aqwa_section_holds_it_up_as_a_tensioned_beam() {
 }
 
 #[test]
-fn a_line_on_a_bathymetry_that_slopes_is_that_of_the_exact_catenary_on_a_slope() {
+fn line_on_sloping_bathymetry_matches_exact_catenary_on_slope() {
     let grid = "&BATHYMETRY SLOPE -DEPTHS\nX -1000 1000\nY -1000 50 150\nY 1000 50 150\nEND\n&ENV -DEPTH 100 -BATHYMETRY SLOPE";
     let exact = pull(&model(&moored(grid, "B_CAT 120 EXACT -LEN 300 -SLOPE 0.05 -DEPANCHOR 113", 260.0)));
     let rod = "ROD 120 60 -LEN 300 -REFINE 200 -EI 0 -SEABED 1E7";
@@ -286,7 +286,7 @@ fn a_line_on_a_bathymetry_that_slopes_is_that_of_the_exact_catenary_on_a_slope()
 }
 
 #[test]
-fn a_line_lies_at_the_depth_its_class_says_and_in_the_current_also_where_connector_forces_are_told() {
+fn line_uses_class_depth_and_current_in_connector_forces_too() {
     let class = "ROD 120 60 -LEN 300 -REFINE 100 -EI 0 -DEPANCHOR 80";
     let table = lines_at_rest(&model(&moored("&ENV -DEPTH 100", class, 260.0)), &|_| true).unwrap().remove(0);
     let lowest = table.get("Z").unwrap().numbers().iter().fold(0.0, |m: f64, z| m.min(*z));
@@ -295,7 +295,7 @@ fn a_line_lies_at_the_depth_its_class_says_and_in_the_current_also_where_connect
 }
 
 #[test]
-fn forces_of_connectors_are_told_in_the_current_in_which_a_line_is_held() {
+fn connector_forces_include_current_on_the_line() {
     let class = "ROD 120 60 -LEN 300 -REFINE 100 -EI 0";
     let (mut session, screen, _folder) = common::session();
     let records = moored("&ENV -DEPTH 100 -CURRENT 2 270", class, 260.0);
@@ -322,7 +322,7 @@ const SPREAD: &str = "&DEVICE -SET_DATE 2026-11-21\n&DIMEN -DIMEN METERS K-NTS\n
      &INSTATE -LOCATE SHIP 3 2 0 0 0 1\n&ACTION PAY -AT 5 -WINCH R2 0.5 403\n&ACTION GONE -AT 20.1 -RELEASE R1\n";
 
 #[test]
-fn the_program_prints_and_writes_the_same_with_one_thread_and_with_two() {
+fn output_is_identical_with_one_and_two_threads() {
     let made = |threads: &str| {
         let folder = tempfile::tempdir().unwrap();
         let posts = "TDOM\nPRCPOST\nCONFORCE R@\nSTATISTIC 1 Mag@\nVIEW\nEND\nROD R1\nROD R2\nEND\n";
@@ -341,7 +341,7 @@ fn values(session: &Session) -> Vec<u64> {
 }
 
 #[test]
-fn a_run_with_rods_goes_on_from_its_file_with_the_digits_of_an_unbroken_one() {
+fn dynamic_line_run_restarts_with_digits_of_uninterrupted_run() {
     let (mut whole, _, folder) = common::session();
     whole.open("test", format!("{SPREAD}TDOM"));
     whole.run();
@@ -370,7 +370,7 @@ fn fine_winch(action: &str) -> String {
 }
 
 #[test]
-fn a_winch_lets_out_and_takes_in_as_many_elements_in_a_step_as_its_rate_asks_for() {
+fn winch_adds_and_removes_as_many_elements_as_its_rate_needs() {
     // 2 m/s: two elements of half a metre in every step
     for (action, length) in [("2 80", 80.0), ("-2 6", 6.0)] {
         let session = after(&fine_winch(action));
@@ -398,7 +398,7 @@ fn a_winch_lets_out_and_takes_in_as_many_elements_in_a_step_as_its_rate_asks_for
 }
 
 #[test]
-fn a_winch_so_fast_that_a_step_would_need_thousands_of_elements_is_told_before_the_run() {
+fn winch_needing_thousands_of_elements_a_step_is_reported_early() {
     let (mut session, _, _folder) = common::session();
     session.open("test", format!("&DIMEN -DIMEN METERS N\n{}", fine_winch("2000 70")));
     session.run();
@@ -409,7 +409,7 @@ fn a_winch_so_fast_that_a_step_would_need_thousands_of_elements_is_told_before_t
 }
 
 #[test]
-fn a_winch_that_never_comes_to_its_length_ends_the_run_where_it_begins() {
+fn winch_that_cannot_reach_its_length_ends_run_at_start() {
     for (action, told) in [("0.5 20", "30 m"), ("-0.5 40", "30 m")] {
         let (mut session, _, _folder) = common::session();
         session.open("test", format!("&DIMEN -DIMEN METERS N\n{}", fine_winch(action)));
@@ -420,7 +420,7 @@ fn a_winch_that_never_comes_to_its_length_ends_the_run_where_it_begins() {
 }
 
 #[test]
-fn a_line_that_is_let_go_is_wound_no_more() {
+fn released_line_is_wound_no_further() {
     // until the load falls freely, before the rope whips
     let records =
         fine_winch("0.5 60").replace("-TIME 60", "-TIME 18").replace("TDOM", "&ACTION OFF -AT 15 -RELEASE ROPE\nTDOM");

@@ -20,7 +20,7 @@ fn tip(elements: usize, load: f64, weight: f64) -> [f64; 2] {
 }
 
 #[test]
-fn cantilever_under_a_dead_load_finds_the_elastica_at_any_mesh() {
+fn cantilever_under_dead_load_matches_elastica_at_any_mesh() {
     for line in include_str!("../../../crates/line-dynamics/tests/data/cantilever_elastica.csv").lines().skip(1) {
         let row: Vec<f64> = line.split(',').map(|v| v.parse().unwrap()).collect();
         let (load, weight, exact) = (row[0], row[1].max(1e-6), [row[2], 50.0 + row[3]]);

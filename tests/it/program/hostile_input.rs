@@ -36,20 +36,20 @@ fn refused(script: &str, message: &str) {
 }
 
 #[test]
-fn a_line_of_ten_megabytes() {
+fn line_of_ten_megabytes_is_error() {
     refused(&"A".repeat(10 << 20), "characters; at most");
     refused(&format!("&TYPE {}", "word ".repeat(2 << 20)), "characters; at most");
 }
 
 #[test]
-fn a_record_continued_without_end() {
+fn endlessly_continued_record_is_error() {
     refused(&"&TYPE x \\\n".repeat(1 << 20), "characters; at most");
     let (_, _, err) = run(b"&TYPE x \\");
     assert!(err.contains("ends inside a record that is continued"), "{err}");
 }
 
 #[test]
-fn binary_input() {
+fn binary_input_is_error() {
     let (output, _, err) = run(&[0x7f, b'E', b'L', b'F', 0, 1, 2, 255]);
     assert_eq!(output.status.code(), Some(1));
     assert!(err.contains("the byte 0x00 is not text") && err.contains("standard input:1:5"), "{err}");
@@ -67,14 +67,14 @@ fn binary_input() {
 }
 
 #[test]
-fn a_record_continued_over_a_bad_line_is_one_error_and_does_not_run_in_part() {
+fn record_continued_over_bad_line_is_one_error_and_is_not_run() {
     let (output, out, err) = run(b"&TYPE one \\\n\xff two \\\n&TYPE three\n&TYPE four\n");
     assert_eq!((output.status.code(), out.as_str()), (Some(1), "four\n"), "{err}");
     assert!(err.contains("standard input:2:1") && err.matches("error:").count() == 1, "{err}");
 }
 
 #[test]
-fn binary_lines_of_a_script_an_inserted_file_and_the_auxiliary_file_are_errors_there_and_the_others_run() {
+fn binary_lines_of_any_file_are_errors_there_and_others_run() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
     write(
@@ -99,7 +99,7 @@ fn binary_lines_of_a_script_an_inserted_file_and_the_auxiliary_file_are_errors_t
 }
 
 #[test]
-fn binary_lines_of_a_pipe_read_as_a_terminal_are_errors_and_the_others_run() {
+fn binary_lines_of_pipe_are_errors_and_others_run() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("bad.cif"), b"\xff\n".repeat(1000)).unwrap();
     let input = folder.path().join("input");
@@ -121,7 +121,7 @@ fn binary_lines_of_a_pipe_read_as_a_terminal_are_errors_and_the_others_run() {
 }
 
 #[test]
-fn a_huge_binary_file_ends_at_the_limit_of_errors_in_seconds() {
+fn huge_binary_file_stops_at_error_limit_in_seconds() {
     // a generator of no statistical merit: bytes of every value, 64 MB
     let mut state = 1u32;
     let noise: Vec<u8> = std::iter::repeat_with(|| {
@@ -140,7 +140,7 @@ fn a_huge_binary_file_ends_at_the_limit_of_errors_in_seconds() {
 }
 
 #[test]
-fn nesting_without_end() {
+fn endless_nesting_is_error() {
     let deep = |n: usize| format!("{}1{}", "(".repeat(n), ")".repeat(n));
     refused(&format!("&ENV -DEPTH {}", deep(10_000)), "too deeply nested");
     refused(&format!("&TYPE x {}1{}", "&NUMBER(REAL ".repeat(10_000), ")".repeat(10_000)), "nested deeper");
@@ -149,7 +149,7 @@ fn nesting_without_end() {
 }
 
 #[test]
-fn a_file_that_inserts_itself() {
+fn self_inserting_file_ends_in_error() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("me.cif"), "&INSERT me.cif\n").unwrap();
     let run = Command::new(env!("CARGO_BIN_EXE_windlass")).arg("me.cif").current_dir(folder.path()).output().unwrap();
@@ -159,7 +159,7 @@ fn a_file_that_inserts_itself() {
 }
 
 #[test]
-fn endless_macros_and_loops() {
+fn endless_macros_and_loops_end_in_error() {
     refused("&MACRO M\nM\n&ENDMACRO\nM", "macros call each other deeper than");
     let (output, out, err) = run(b"&DEVICE -RECORDS 5000\n&LOOP\n&SET A = 1\n&ENDLOOP\n&TYPE after\n");
     assert_eq!(output.status.code(), Some(1));
@@ -170,12 +170,12 @@ fn endless_macros_and_loops() {
 }
 
 #[test]
-fn a_variable_doubled_again_and_again() {
+fn variable_doubled_repeatedly_is_error() {
     refused("&SET A = xxxxxxxx\n&LOOP I 1 9\n&SET A = %A%%A%%A%%A%%A%%A%%A%%A%\n&ENDLOOP", "longer than");
 }
 
 #[test]
-fn numbers_beyond_all_bounds() {
+fn numbers_out_of_all_bounds_are_errors() {
     for word in ["1E400", "9**9**9**9", "1/0", "0**(-1)", "(-1)**0.5", "LN(0)", "1E308*1E308", "--", "((", "1..2", "é"]
     {
         refused(&format!("&ENV -DEPTH {word}"), "must be");
@@ -183,7 +183,7 @@ fn numbers_beyond_all_bounds() {
 }
 
 #[test]
-fn odd_characters_anywhere() {
+fn odd_characters_are_handled_anywhere() {
     for script in
         ["&TYPE %(", "&TYPE %()", "&TYPE &POINT(", "~", "*", ":", "#", "&", "-", "%", ",,,,", "'", "\"", "\\ x"]
     {
@@ -194,7 +194,7 @@ fn odd_characters_anywhere() {
 }
 
 #[test]
-fn after_ten_errors_a_script_ends_and_batch_ends_at_the_first() {
+fn after_ten_errors_script_ends_and_batch_ends_at_first() {
     let (_, _, err) = run("NONSENSE\n".repeat(50).as_bytes());
     assert_eq!(err.matches("unknown command").count(), 10, "{err}");
     let run = Command::new(env!("CARGO_BIN_EXE_windlass"))
@@ -206,7 +206,7 @@ fn after_ten_errors_a_script_ends_and_batch_ends_at_the_first() {
 }
 
 #[test]
-fn exit_codes_of_right_wrong_and_misused_runs() {
+fn exit_codes_distinguish_correct_wrong_and_misused_runs() {
     let code = |args: &[&str]| Command::new(env!("CARGO_BIN_EXE_windlass")).args(args).output().unwrap().status.code();
     assert_eq!(code(&["-c", "&TYPE x"]), Some(0));
     assert_eq!(code(&["-c", "NONSENSE"]), Some(1));

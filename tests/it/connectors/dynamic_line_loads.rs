@@ -75,7 +75,7 @@ fn near(got: f64, want: f64, share: f64) {
 }
 
 #[test]
-fn drag_of_a_current_is_that_of_the_drag_diameter_and_coefficient() {
+fn current_drag_uses_drag_diameter_and_coefficient() {
     // across: the line bows by a thousandth, which changes the normal velocity by a millionth
     let across = |class: &str| held(class, "-CURRENT 1 -90", (-50.0, false)).load().y;
     let want = |cd: f64, d: f64| 0.5 * RHO * cd * d * LENGTH * 1.01;
@@ -92,7 +92,7 @@ fn drag_of_a_current_is_that_of_the_drag_diameter_and_coefficient() {
 }
 
 #[test]
-fn wind_on_a_dry_line_is_that_of_the_wind_diameter() {
+fn wind_on_dry_line_uses_wind_diameter() {
     let load = |class: &str| held(class, "-WIND 20 -90", (10.0, false)).load().y;
     let default = load(TAUT);
     // the speed of -WIND is that at 10 m; the line hangs through by centimetres
@@ -102,7 +102,7 @@ fn wind_on_a_dry_line_is_that_of_the_wind_diameter() {
 }
 
 #[test]
-fn inertia_is_that_of_the_mass_and_of_the_added_mass_diameter() {
+fn inertia_uses_mass_and_added_mass_diameter() {
     let half = LENGTH / 20.0 / 2.0;
     let (mass, water) = (1000.0 / 9.806_65, RHO * std::f64::consts::FRAC_PI_4);
     let inertia = |class: &str| held(class, "", (-50.0, false)).inertia();
@@ -118,7 +118,7 @@ fn inertia_is_that_of_the_mass_and_of_the_added_mass_diameter() {
 }
 
 #[test]
-fn a_catenary_of_aqwa_has_its_added_mass_and_drag_with_cable_dynamics() {
+fn aqwa_catenary_has_added_mass_and_drag_with_cable_dynamics() {
     let half = LENGTH / 20.0 / 2.0;
     let line = |more: &str, environment: &str| held(&format!("{CATENARY}{more}"), environment, (-50.0, true));
     // rho Ca A, default 1.0
@@ -137,7 +137,7 @@ fn a_catenary_of_aqwa_has_its_added_mass_and_drag_with_cable_dynamics() {
 }
 
 #[test]
-fn a_joint_of_aqwa_drags_by_half_the_density_times_its_drag_area() {
+fn aqwa_joint_drag_is_half_density_times_drag_area() {
     let class = |joint: &str| {
         format!("~LINE CATENARY 100 0.04 -EA 1E9 -LEN 49.5 {joint}\n~LINE CATENARY 100 0.04 -EA 1E9 -LEN 49.5")
     };
@@ -147,7 +147,7 @@ fn a_joint_of_aqwa_drags_by_half_the_density_times_its_drag_area() {
 }
 
 #[test]
-fn what_is_attached_to_a_rod_drags_by_its_drag_area() {
+fn attachment_drag_uses_its_drag_area() {
     let class = |clump: &str| {
         format!(
             "~LINE ROD 200 100 -EI 0 -EA 1E9 -LEN 49.5 -REFINE 10 -WTPLEN 1000 {clump}\n~LINE ROD 200 100 -EI 0 -EA 1E9 -LEN 49.5 -REFINE 10 -WTPLEN 1000"
@@ -161,7 +161,7 @@ fn what_is_attached_to_a_rod_drags_by_its_drag_area() {
 }
 
 #[test]
-fn a_joint_of_aqwa_swings_with_its_added_mass() {
+fn aqwa_joint_oscillates_with_its_added_mass() {
     // a light taut string with a mass in its middle: w2 = 4 T / (l M), and a third of the string goes with the mass
     let frequency = |joint: &str| {
         let class = format!("~LINE CATENARY 1 1E-4 -EA 1E9 -LEN 49.5 {joint}\n~LINE CATENARY 1 1E-4 -EA 1E9 -LEN 49.5");
@@ -178,7 +178,7 @@ fn a_joint_of_aqwa_swings_with_its_added_mass() {
 }
 
 #[test]
-fn cable_dynamics_bends_with_ei_and_knows_no_maximum_tension() {
+fn cable_dynamics_bends_with_ei_and_ignores_maximum_tension() {
     let plain = held(&format!("{CATENARY}-TMAX 1E6"), "", (-50.0, true));
     // 1 % of strain of 1E9 N: ten times the maximum that ends the database
     let tension = plain.nodes()[10].effective;
@@ -190,7 +190,7 @@ fn cable_dynamics_bends_with_ei_and_knows_no_maximum_tension() {
 }
 
 #[test]
-fn cable_dynamics_asks_for_an_area() {
+fn cable_dynamics_requires_an_area() {
     let (mut session, _, _folder) = common::session();
     session.open(
         "test",
@@ -202,7 +202,7 @@ fn cable_dynamics_asks_for_an_area() {
 }
 
 #[test]
-fn the_length_that_is_solved_for_a_rod_is_that_of_the_exact_catenary() {
+fn solved_dynamic_line_length_matches_exact_catenary() {
     let length = |class: &str, option: &str| {
         let (mut session, _, _folder) = common::session();
         session.open(
@@ -225,7 +225,7 @@ fn the_length_that_is_solved_for_a_rod_is_that_of_the_exact_catenary() {
 }
 
 #[test]
-fn a_rod_takes_three_hundred_elements_and_many_more() {
+fn dynamic_line_takes_300_and_many_more_elements() {
     for count in [300, 2000] {
         let class = format!("~LINE ROD 200 100 -EI 0 -EA 1E9 -LEN 99 -REFINE {count} -WTPLEN 1000");
         let line = held(&class, "", (-50.0, false));
@@ -239,7 +239,7 @@ fn a_rod_takes_three_hundred_elements_and_many_more() {
 }
 
 #[test]
-fn a_fibre_rope_hangs_by_its_static_stiffness() {
+fn fibre_rope_hangs_by_its_static_stiffness() {
     let slow =
         held("~LINE ROD 200 100 -EI 0 -EA 1E8 -LEN 99 -REFINE 20 -WTPLEN 317 -ROPE 3E8 20 100", "", (-50.0, false));
     near(slow.nodes()[10].effective, 1e8 / 99.0, 1e-3);

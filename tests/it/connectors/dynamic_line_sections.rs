@@ -59,7 +59,7 @@ fn junction(turned: bool) -> Model {
 }
 
 #[test]
-fn at_a_junction_the_side_that_uses_more_is_told_whichever_way_the_line_is_laid() {
+fn junction_reports_side_of_higher_utilisation_in_either_direction() {
     let used = |table: &Table, turned: bool| {
         let mut all = column(table, "Used");
         if turned {
@@ -109,7 +109,7 @@ fn at_a_junction_the_side_that_uses_more_is_told_whichever_way_the_line_is_laid(
 }
 
 #[test]
-fn the_tension_at_an_end_is_the_pull_of_the_line_there() {
+fn end_tension_is_line_pull_there() {
     // a rope that bows under its weight, in few elements
     let model = model(&between("&ENV -DEPTH 1000", &["ROD 120 60 -EI 0 -LEN 200 -REFINE 8"], ["0 0 -5", "150 0 -60"]));
     let tension = column(&at_rest(&model), "Tension");
@@ -123,7 +123,7 @@ fn the_tension_at_an_end_is_the_pull_of_the_line_there() {
 }
 
 #[test]
-fn a_slack_rope_never_pushes_at_its_ends() {
+fn slack_rope_carries_no_compression_at_its_ends() {
     for length in [210.0, 260.0, 320.0] {
         let class = format!("ROD 300 20 -EI 0 -LEN {length} -REFINE 12");
         let model = model(&between("&ENV -DEPTH 60", &[&class], ["0 0 -5", "150 0 -60"]));
@@ -133,7 +133,7 @@ fn a_slack_rope_never_pushes_at_its_ends() {
 }
 
 #[test]
-fn a_pipe_that_does_not_bend_keeps_its_contents_its_pressure_and_its_heat() {
+fn pipe_without_bending_keeps_contents_pressure_and_heat() {
     // 400 mm by 20 mm, upright, a thousandth longer than free between its ends: Te = E A (e - alpha dT) + (1 - 2 nu)(pe Ae - pi Ai)
     let (b, a): (f64, f64) = (0.2, 0.18);
     let (outside, inside) = (PI * b * b, PI * a * a);
@@ -169,7 +169,7 @@ fn a_pipe_that_does_not_bend_keeps_its_contents_its_pressure_and_its_heat() {
 }
 
 #[test]
-fn a_bottom_over_a_grid_alone_carries_a_line_as_a_flat_one_does() {
+fn grid_seabed_supports_line_like_flat_seabed() {
     let grid = "&BATHYMETRY GRID -DEPTHS\nX -1000 1000\nY -1000 60 60\nY 1000 60 60\nEND\n";
     let rod = |environment: &str| {
         let class = "ROD 120 60 -EI 0 -LEN 185 -REFINE 20";
@@ -186,7 +186,7 @@ fn a_bottom_over_a_grid_alone_carries_a_line_as_a_flat_one_does() {
 }
 
 #[test]
-fn a_search_for_a_position_of_rest_may_be_interrupted() {
+fn equilibrium_search_may_be_interrupted() {
     let model = model(&between("&ENV -DEPTH 1000", &["ROD 120 60 -EI 0 -LEN 400 -REFINE 50"], ["0 0 -5", "150 0 -60"]));
     model.interrupt.store(true, Ordering::Relaxed);
     let told = lines_at_rest(&model, &|_| true).unwrap_err();
@@ -195,7 +195,7 @@ fn a_search_for_a_position_of_rest_may_be_interrupted() {
 }
 
 #[test]
-fn what_lies_on_the_bottom_feels_the_current_as_it_does_over_a_chart_of_it() {
+fn grounded_line_in_current_matches_line_on_bathymetry() {
     let bow = |chart: &str| {
         let environment = format!(
             "&BATHYMETRY FLAT\nX -1000 0 1000\nY -1000 -50 -50 -50\nY 0 -50 -50 -50\nY 1000 -50 -50 -50\nEND\n\
@@ -214,7 +214,7 @@ fn what_lies_on_the_bottom_feels_the_current_as_it_does_over_a_chart_of_it() {
 }
 
 #[test]
-fn the_bottom_goes_with_the_anchor_of_a_line_that_moves_by_itself_as_with_that_of_one_that_does_not() {
+fn seabed_follows_anchor_for_dynamic_and_quasi_static_lines() {
     for depth in [80.0, 120.0] {
         let at = |dynamics: &str| {
             let records = format!(
@@ -231,7 +231,7 @@ fn the_bottom_goes_with_the_anchor_of_a_line_that_moves_by_itself_as_with_that_o
 }
 
 #[test]
-fn what_holds_nothing_is_refused() {
+fn unrestrained_line_is_refused() {
     for (class, told) in [
         ("ROD 100 10 -LEN 100 -REFINE 20 -EI 0 -CLAMP FIRST 90", "its segment does not bend"),
         ("ROD 100 10 -LEN 100 -REFINE 20 -CLUMP_DRAG 5 10", "no clump or buoy"),
@@ -247,7 +247,7 @@ fn what_holds_nothing_is_refused() {
 }
 
 #[test]
-fn a_node_with_a_clump_has_the_larger_of_the_tensions_beside_it() {
+fn node_with_clump_has_larger_adjacent_tension() {
     // 50 m of 200 N/m in water, 30 kN, and 50 m more, upright and taut
     let weight = 200.0 + RHO * G * FRAC_PI_4 * 0.05 * 0.05;
     let class = |end: &str| format!("ROD 50 25 -LEN 50 -REFINE 10 -EI 0 -WTPLEN {weight} {end}");
@@ -260,7 +260,7 @@ fn a_node_with_a_clump_has_the_larger_of_the_tensions_beside_it() {
 }
 
 #[test]
-fn a_line_without_a_place_for_its_other_end_is_refused() {
+fn line_without_second_end_position_is_refused() {
     let (mut session, _, _folder) = common::session();
     let records = "&DIMEN -DIMEN METERS N\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY S -IGNORE X Y Z RX RY RZ\n*F 0 0 0\n#WEIGHT *F 1E7 5 5 5\n\
                    ~C ROD 100 10 -LEN 150 -REFINE 20\nCONNECTOR A ~C *F\nEND\n&STATUS ROD\n";
@@ -271,7 +271,7 @@ fn a_line_without_a_place_for_its_other_end_is_refused() {
 }
 
 #[test]
-fn a_class_shows_the_stiffness_that_its_lines_have() {
+fn class_listing_has_stiffness_of_its_lines() {
     for (law, ea) in [("-EA 3E6", 3e6), ("-STRETCH 0 0 2E4 0.01 6E4 0.02", 2e6)] {
         let (mut session, screen, _folder) = common::session();
         session.open(
@@ -285,7 +285,7 @@ fn a_class_shows_the_stiffness_that_its_lines_have() {
 }
 
 #[test]
-fn slack_pipe_lies_down_sideways_where_it_would_fold_between_its_ends() {
+fn slack_pipe_lays_sideways_instead_of_folding() {
     for (bending, elements, length) in [(1e4, 50, 207.0), (1e5, 100, 248.0), (3.57e7, 40, 400.0)] {
         let class = format!("ROD 300 20 -LEN {length} -REFINE {elements} -EI {bending} -EA 3E8 -WTPLEN 1200");
         let table = at_rest(&model(&between("&ENV -DEPTH 100", &[&class], ["0 0 -5", "100 0 -100"])));
@@ -302,7 +302,7 @@ fn slack_pipe_lies_down_sideways_where_it_would_fold_between_its_ends() {
 }
 
 #[test]
-fn a_clump_on_the_bottom_sinks_no_deeper_as_the_mesh_refines() {
+fn clump_on_seabed_sinks_no_deeper_with_finer_mesh() {
     let line = |kind: &str, refine: [usize; 2]| {
         let [first, second] = refine.map(|n| if n > 0 { format!(" -REFINE {n} -EI 0") } else { String::new() });
         format!(

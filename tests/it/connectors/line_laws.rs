@@ -75,7 +75,7 @@ fn near(got: [f64; 3], want: [f64; 3], share: f64, what: &str) {
 }
 
 #[test]
-fn every_line_class_is_under_the_laws() {
+fn every_line_class_is_tested() {
     for kind in CLASSES {
         let name = kind.spec.name;
         let bench = Bench::new(kind.spec.example.trim_start_matches("MEDIT\n").split("\nEND").next().unwrap());
@@ -85,7 +85,7 @@ fn every_line_class_is_under_the_laws() {
 }
 
 #[test]
-fn a_turned_or_mirrored_line_has_turned_or_mirrored_forces() {
+fn rotated_or_mirrored_line_has_rotated_or_mirrored_forces() {
     for (name, records, from, to, ground, _) in EXAMPLES {
         let bench = Bench::new(records);
         let straight = bench.loads(*from, *to, *ground);
@@ -102,7 +102,7 @@ fn a_turned_or_mirrored_line_has_turned_or_mirrored_forces() {
 }
 
 #[test]
-fn the_stiffness_is_symmetric_and_the_difference_of_the_force() {
+fn stiffness_is_symmetric_and_matches_force_finite_difference() {
     for (name, records, from, to, ground, conservative) in EXAMPLES {
         let bench = Bench::new(records);
         let middle = bench.loads(*from, *to, *ground);
@@ -129,7 +129,7 @@ fn the_stiffness_is_symmetric_and_the_difference_of_the_force() {
 }
 
 #[test]
-fn a_line_does_no_work_over_a_closed_path() {
+fn line_force_does_no_work_over_closed_path() {
     for (name, records, from, to, ground, _) in EXAMPLES.iter().filter(|e| e.5) {
         let bench = Bench::new(records);
         let at = |t: f64| {
@@ -153,7 +153,7 @@ fn a_line_does_no_work_over_a_closed_path() {
 }
 
 #[test]
-fn what_pulls_at_one_end_pulls_at_the_other_and_the_weight_hangs_between() {
+fn end_forces_balance_and_weight_hangs_between() {
     for (name, records, from, to, ground, conservative) in EXAMPLES {
         let bench = Bench::new(records);
         let got = bench.loads(*from, *to, *ground);

@@ -39,7 +39,7 @@ fn column(table: &Table, name: &str) -> Vec<f64> {
 }
 
 #[test]
-fn a_hanging_chain_has_the_zeros_of_bessel_functions() {
+fn hanging_chain_modes_match_bessel_zeros() {
     // 100 N/m over 100 m with a third of its weight left at its lower end: T grows fourfold, and w = a/2 sqrt(3 g / L) with the roots
     // a of J0(a) Y0(2a) = Y0(a) J0(2a): 3.12303, 6.27344, 9.41821 (Abramowitz and Stegun, table 9.7, 1/lambda = 0.5). It is longer by
     // 8333 N of mean tension over EA / L = 1E7 N/m
@@ -69,7 +69,7 @@ fn a_hanging_chain_has_the_zeros_of_bessel_functions() {
 }
 
 #[test]
-fn a_taut_string_in_water_swings_with_its_added_mass() {
+fn taut_string_in_water_oscillates_with_added_mass() {
     // 1 MN by 0.001 of strain; across, n half waves of N lumped elements swing with w = 2 N sqrt(T/(M L)) sin(n pi/2N), M the mass of all
     let class = "~S ROD 50 25 -LEN 100 -REFINE 60 -EI 0 -EA 1E9 -WTPLEN 30 -CA 1";
     let tables = modes(class, [[0.0, 0.0, -50.0], [100.1, 0.0, -50.0]], 6, true);
@@ -86,7 +86,7 @@ fn a_taut_string_in_water_swings_with_its_added_mass() {
 }
 
 #[test]
-fn a_pinned_beam_under_tension_has_the_frequencies_of_its_closed_form() {
+fn pinned_tensioned_beam_frequencies_match_closed_form() {
     // w2 = k2 (T + EI k2) / m, k = n pi/L, in air; light, so that it does not sag
     let class = "~S ROD 500 20 -LEN 100 -REFINE 100 -EI 2E8 -EA 6E9 -WTPLEN 1";
     let length = 100.0 + 5e5 / 6e9 * 100.0;
@@ -102,7 +102,7 @@ fn a_pinned_beam_under_tension_has_the_frequencies_of_its_closed_form() {
 }
 
 #[test]
-fn more_modes_than_are_found_and_lines_that_are_none_are_refused() {
+fn too_many_modes_and_non_dynamic_lines_are_refused() {
     let records =
         "~S ROD 50 25 -LEN 100 -REFINE 10 -EI 0 -EA 1E9 -WTPLEN 100\n*A 0 0 200\n*B 0 0 101\nCONNECTOR S ~S *A *B\n";
     for (asked, says) in [("S -NUMBER 300", "at most 200"), ("S -NUMBER 60", "unknowns cannot be found"), ("X", "no")] {

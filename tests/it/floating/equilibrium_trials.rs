@@ -67,7 +67,7 @@ impl ConnectorClass for Rope {
 }
 
 #[test]
-fn place_without_an_answer_shortens_the_step_to_its_rest() {
+fn trial_without_solution_shortens_step_to_its_fraction() {
     let (mut session, _screen, _folder) = common::session();
     let records = format!(
         "&DIMEN -DIMEN METERS N\nMEDIT\n&DESCRIBE BODY B -IGNORE X Y RX RY RZ\n*G 0 0 0\n#WEIGHT *G {WEIGHT} 1 1 1\n\

@@ -43,7 +43,7 @@ fn link(made: &Run, name: &str) -> usize {
 }
 
 #[test]
-fn bodies_joined_by_fix_heave_as_one_and_share_their_weight() {
+fn bodies_joined_by_fix_heave_together_and_share_weight() {
     let (natural, h) = (2.0, 0.05);
     for (weight, far, off) in CASES {
         let model = pair(weight, far, off, natural);
@@ -118,7 +118,7 @@ fn swung(start: f64, square: f64, until: f64) -> [f64; 2] {
 }
 
 #[test]
-fn bodies_joined_by_fix_swing_as_one_compound_pendulum() {
+fn bodies_joined_by_fix_oscillate_as_one_compound_pendulum() {
     let degrees: f64 = 10.0;
     // I = m (2 k2 + 4^2 + 12^2) about the pin, M g d = m g (4 + 12)
     let square = 16.0 * G / (2.0 * RADIUS * RADIUS + 160.0);

@@ -44,7 +44,7 @@ fn mean_and_amplitude(history: &History, at: usize, count: usize) -> (f64, f64) 
 }
 
 #[test]
-fn free_body_in_a_regular_wave_does_not_drift() {
+fn free_body_in_regular_wave_does_not_drift() {
     // linear radiation has mean 0, and a body without drift coefficients none: 20 whole periods of 7 s behind ramp and transient
     let (dt, periods) = (0.1, 20);
     for heading in [180.0, 135.0, 0.0] {
@@ -137,7 +137,7 @@ fn slow_yaw_in_calm_water_is_damped_as_given() {
 }
 
 #[test]
-fn surge_of_a_moored_ball_in_a_sea_is_that_by_frequency() {
+fn moored_ball_surge_in_sea_matches_frequency_domain() {
     let model = ball("-SEA JONSWAP 180 0.2 9 -TIME 3600 0.2 -RAMP 100", "#DAMP *CG 0 0 0 30000 30000 0");
     let made = run(&model, (3600.0, 0.2));
     // at the springs, by their pull of 22 kN/m

@@ -62,7 +62,7 @@ fn steps(from: f64, to: f64) -> impl Iterator<Item = f64> {
 }
 
 #[test]
-fn sinusoids_have_their_own_derivatives_with_all_three_angles() {
+fn sinusoids_match_their_derivatives_with_all_three_angles() {
     let records = "&INSTATE -LOCATE B 5 6 7 10 -20 70\nMEDIT\nPRESCRIBE B -SINUSOID X 2 9 -SINUSOID Z 1 7 30 -SINUSOID RX 20 8 \
                    -SINUSOID RY 35 11 60 -SINUSOID RZ 50 13 -SINUSOID RZ 10 5 -RAMP 20\nEND";
     let made = motion("", records, None);
@@ -104,7 +104,7 @@ fn table(headings: &[f64], row: impl Fn(f64, f64) -> [(f64, f64); 6]) -> String 
 }
 
 #[test]
-fn a_body_that_heaves_with_the_wave_is_at_its_surface() {
+fn body_heaving_with_wave_is_at_its_surface() {
     let file = table(&[0.0, 90.0, 180.0, 270.0], |_, _| {
         [(0.0, 0.0), (0.0, 0.0), (1.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)]
     });
@@ -118,7 +118,7 @@ fn a_body_that_heaves_with_the_wave_is_at_its_surface() {
 }
 
 #[test]
-fn responses_lag_turn_with_the_body_and_are_mirrored() {
+fn raos_are_lagged_rotated_with_body_and_mirrored() {
     // surge follows a quarter of a period behind the crest; sway and roll answer beam seas only; of one side
     let row = |heading: f64, _: f64| {
         let beam = if heading == 90.0 { 1.0 } else { 0.0 };
@@ -146,7 +146,7 @@ fn responses_lag_turn_with_the_body_and_are_mirrored() {
 }
 
 #[test]
-fn responses_between_rows_are_straight_in_their_parts() {
+fn raos_between_rows_are_linear_in_real_and_imaginary_parts() {
     // heave 1 at 8 s and i at 12 s, over frequency; the same at all headings
     let row = |_: f64, period: f64| {
         let lag = if period < 10.0 { 0.0 } else { 90.0 };
@@ -167,7 +167,7 @@ fn responses_between_rows_are_straight_in_their_parts() {
 }
 
 #[test]
-fn a_table_without_the_headings_of_the_sea_is_refused() {
+fn rao_table_without_sea_headings_is_refused() {
     let file = table(&[0.0, 45.0, 90.0], |_, _| [(1.0, 0.0); 6]);
     let (model, errors, text) = session(&file, "MEDIT\nPRESCRIBE B -RAO FILE.CSV\nEND");
     assert_eq!(errors, 0, "{text}");
@@ -177,7 +177,7 @@ fn a_table_without_the_headings_of_the_sea_is_refused() {
 }
 
 #[test]
-fn a_spline_goes_through_its_rows_and_bends_without_a_jump() {
+fn spline_passes_its_rows_with_continuous_curvature() {
     let mut file = String::from("time,x,y,z,roll,pitch,yaw\n# rows of unlike steps\n");
     let times = [0.0, 1.0, 1.7, 3.0, 4.5, 5.0, 7.0, 8.0, 10.0];
     for t in times {
@@ -204,7 +204,7 @@ fn a_spline_goes_through_its_rows_and_bends_without_a_jump() {
 }
 
 #[test]
-fn the_spline_of_a_sine_errs_by_the_fourth_power_of_its_step() {
+fn spline_of_sine_converges_with_fourth_order() {
     // natural cubic spline through a sine that bends nowhere at its ends: error (5/384) h^4 [HALL-1968]
     let worst = |count: u32| {
         let h = TAU / f64::from(count);
@@ -224,7 +224,7 @@ fn the_spline_of_a_sine_errs_by_the_fourth_power_of_its_step() {
 }
 
 #[test]
-fn the_body_is_put_where_its_file_begins() {
+fn body_starts_where_its_motion_file_begins() {
     let (model, errors, _) =
         session("-1,0,0,0,0,0,0\n0,3,4,-5,1,2,33\n5,0,0,0,0,0,0\n", "MEDIT\nPRESCRIBE B -FILE FILE.CSV\nEND");
     assert_eq!(errors, 0);
@@ -234,7 +234,7 @@ fn the_body_is_put_where_its_file_begins() {
 }
 
 #[test]
-fn a_time_outside_of_the_file_is_an_error_that_names_its_span() {
+fn time_outside_motion_file_is_error_with_its_span() {
     let made = motion("0,0,0,0,0,0,0\n20,1,0,0,0,0,0\n", "MEDIT\nPRESCRIBE B -FILE FILE.CSV\nEND", None);
     let error = made.motion_at(25.0).unwrap_err();
     assert_eq!(error.to_string(), "the motion of the body is given from 0 s to 20 s, and asked for at 25 s");
@@ -242,7 +242,7 @@ fn a_time_outside_of_the_file_is_an_error_that_names_its_span() {
 }
 
 #[test]
-fn files_that_are_no_motion_are_refused_with_their_line() {
+fn invalid_motion_files_are_refused_with_line_number() {
     for (file, option, told) in [
         ("0,0,0,0,0,0,0\n2,0,0,0,0,0,0\n2,0,0,0,0,0,0\n", "-FILE", "the time 2 of line 3 is not after 2"),
         ("0,0,0,0,0,0,0\n2,0,0,NaN,0,0,0\n", "-FILE", "line 2: value 4 is `NaN`, which is no number"),
@@ -267,7 +267,7 @@ fn files_that_are_no_motion_are_refused_with_their_line() {
 }
 
 #[test]
-fn a_body_with_a_motion_stands_still_in_equilibria_until_it_is_free() {
+fn body_with_prescribed_motion_is_fixed_in_equilibrium_until_freed() {
     let rig = "MEDIT\n&DESCRIBE BODY B\n#WEIGHT *P 10 1 1 1\n~S GSPR BOTH X 40 1000 Y 40 1000 Z 40 1000 -LEN 0\nCONNECTOR K ~S *P *G\n";
     let still = format!("{rig}PRESCRIBE B -SINUSOID X 1 10\nEND\n&INSTATE -LOCATE B 0.5 0 0\n&EQUI");
     let (model, errors, text) = session("", &still);
@@ -282,7 +282,7 @@ fn a_body_with_a_motion_stands_still_in_equilibria_until_it_is_free() {
 }
 
 #[test]
-fn a_mass_on_a_spring_whose_other_end_swings_follows_its_closed_form() {
+fn mass_on_spring_with_moving_end_matches_closed_form() {
     // 10 t on 40 kN/m: w0 = 2 rad/s; the other end moves with A sin(w t) from rest
     let (a, period) = (0.3, 5.0);
     let records = format!(
@@ -305,7 +305,7 @@ fn a_mass_on_a_spring_whose_other_end_swings_follows_its_closed_form() {
 }
 
 #[test]
-fn a_body_that_rides_on_the_waves_rides_on_those_of_the_sea_it_comes_into() {
+fn body_following_waves_follows_those_of_its_new_sea() {
     let file = table(&[0.0, 90.0, 180.0, 270.0], |_, _| {
         [(0.0, 0.0), (0.0, 0.0), (1.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)]
     });

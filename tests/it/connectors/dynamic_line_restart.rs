@@ -50,7 +50,7 @@ fn last(session: &Session) -> (f64, f64) {
 }
 
 #[test]
-fn a_run_whose_given_motion_ends_early_goes_on_with_a_longer_file_as_one_that_never_stopped() {
+fn run_with_short_motion_file_restarts_with_longer_one() {
     let folder = tempfile::tempdir().unwrap();
     let even = |end: u32| (0..=end).map(|n| (10.0 * f64::from(n), f64::from(n)));
     let file = path(&folder, even(2));
@@ -73,7 +73,7 @@ fn a_run_whose_given_motion_ends_early_goes_on_with_a_longer_file_as_one_that_ne
 }
 
 #[test]
-fn a_pull_that_a_line_cannot_bear_names_time_line_and_element_and_is_met_again_by_a_run_that_goes_on() {
+fn overload_error_reports_time_and_element_and_survives_restart() {
     // tension over strain has a most of 2.5 MN at 5 %, beyond which nothing holds the line
     let folder = tempfile::tempdir().unwrap();
     let rows = (0..=160).map(|n| 0.25 * f64::from(n)).map(|t| (t, -6.0 * (t - 5.0f64).max(0.0)));
@@ -108,7 +108,7 @@ fn a_pull_that_a_line_cannot_bear_names_time_line_and_element_and_is_met_again_b
 }
 
 #[test]
-fn a_run_with_books_does_not_go_on_without_them_and_says_so() {
+fn run_with_energy_balance_refuses_restart_without_it() {
     let folder = tempfile::tempdir().unwrap();
     let file = path(&folder, (0..=6).map(|n| (5.0 * f64::from(n), 0.1 * f64::from(n))));
     for (begun, goes_on, text) in
@@ -122,7 +122,7 @@ fn a_run_with_books_does_not_go_on_without_them_and_says_so() {
 }
 
 #[test]
-fn a_winch_that_hauls_in_to_the_end_stops_the_run_with_its_action_the_line_and_the_time() {
+fn winch_hauling_to_its_end_stops_run_with_action_line_and_time() {
     // 80 m at 2 m/s from 10 s on, and at a rate whose last step ends with a little left
     for (step, rate, time) in [(0.05, "2", "50"), (0.05, "1.999", "50.02001"), (0.08, "3", "36.666")] {
         let records = format!(

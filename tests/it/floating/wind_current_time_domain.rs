@@ -73,7 +73,7 @@ fn all(environment: &str) -> Vec<Box<dyn BodyLoad>> {
 const VARYING: &str = "&ENV -WIND 50 130 -CURRENT P 110 Q 250 -DEPTH 90 -TIDE 1 -W_HISTORY H -C_HISTORY F";
 
 #[test]
-fn damping_and_stiffness_under_way_are_those_of_differences() {
+fn time_domain_damping_and_stiffness_match_finite_differences() {
     for environment in [VARYING, "&ENV -DEPTH 90"] {
         let loads = all(environment);
         assert!(loads.len() >= 9, "{}", loads.len());
@@ -115,7 +115,7 @@ fn damping_and_stiffness_under_way_are_those_of_differences() {
 }
 
 #[test]
-fn at_rest_in_the_mean_stream_a_load_under_way_is_that_of_statics() {
+fn load_at_rest_in_mean_stream_matches_statics() {
     for load in all("&ENV -WIND 50 130 -CURRENT P 110 Q 250 -DEPTH 90 -TIDE 1") {
         let pose = place([10.0, -20.0, 0.3, 12.0, -17.0, 63.0]);
         let (rest, under_way) = (load.load(&pose).unwrap(), moving(load.as_ref(), 3.0, &pose, &Six::zeros()).load);
@@ -125,7 +125,7 @@ fn at_rest_in_the_mean_stream_a_load_under_way_is_that_of_statics() {
 }
 
 #[test]
-fn a_body_that_goes_with_the_stream_feels_none() {
+fn body_moving_with_stream_has_no_drag() {
     let model = body("*P 0 0 10\n#AREA *P 100 400\n*Q 0 0 -10\n#AREA *Q 100 400", "&ENV -WIND 40 180 -CURRENT 2 180");
     let wind = wind_at_ten();
     near(sum(&model, Category::Wind, 0.0, &Pose::default(), &Six::new(wind, 0.0, 0.0, 0.0, 0.0, 0.0)).amax(), 0.0, 0.0);
@@ -138,7 +138,7 @@ fn wind_at_ten() -> f64 {
 }
 
 #[test]
-fn in_still_water_motion_meets_drag() {
+fn motion_in_still_water_has_drag() {
     // an area of 10 m2 through water of 1025 kg/m3 at 3 m/s: 1/2 x 1025 x 10 x 9 against it; on a hull the same
     let velocity = Six::new(3.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     let area = body("*P 0 0 -5\n#AREA *P 10", "");
@@ -157,7 +157,7 @@ fn in_still_water_motion_meets_drag() {
 }
 
 #[test]
-fn linear_drag_leaves_the_body_to_the_damping_of_the_body() {
+fn linear_drag_uses_current_speed_and_body_damping() {
     let model = body("*P 0 0 -10\n#DRAG *P 1000 4000", "&ENV -CURRENT 2 180");
     let velocity = Six::new(5.0, 1.0, 0.0, 0.0, 0.0, 0.1);
     near(sum(&model, Category::ViscousDrag, 0.0, &Pose::default(), &velocity)[0], 2000.0, 1e-12);
@@ -165,7 +165,7 @@ fn linear_drag_leaves_the_body_to_the_damping_of_the_body() {
 }
 
 #[test]
-fn a_plate_in_wind_drifts_toward_the_speed_of_the_wind() {
+fn plate_in_wind_approaches_wind_speed() {
     // m dv/dt = k (U - v)^2 from rest: v = U - U / (1 + k U t / m)
     let model = body(
         "*A 0 -3 9\n*B 0 3 9\n*C 0 3 11\n*D 0 -3 11\n#PLATE *A *B *C *D -CD 1",
@@ -195,7 +195,7 @@ fn a_plate_in_wind_drifts_toward_the_speed_of_the_wind() {
 }
 
 #[test]
-fn a_plate_that_falls_in_still_air_reaches_its_terminal_velocity() {
+fn plate_falling_in_still_air_reaches_terminal_velocity() {
     // W = 1/2 rho A v^2 with A 12 m2 level: v = sqrt(2 W / (rho A))
     let model = body("*A 0 -3 90\n*B 2 -3 90\n*C 2 3 90\n*D 0 3 90\n#PLATE *A *B *C *D -CD 1", "");
     let (weight, rho) = (1000.0, 1.226);
@@ -205,7 +205,7 @@ fn a_plate_that_falls_in_still_air_reaches_its_terminal_velocity() {
 }
 
 #[test]
-fn a_wind_history_takes_the_place_of_the_mean_after_the_ramp() {
+fn wind_history_replaces_mean_after_ramp() {
     let records = "*P 0 0 10\n#AREA *P 100\n&DATA CURVES W_HISTORY H 0 30 100 50";
     let at = |environment: &str, time| {
         let model = body(records, &format!("&ENV -WIND 30 180 -W_HISTORY H {environment}"));
@@ -219,7 +219,7 @@ fn a_wind_history_takes_the_place_of_the_mean_after_the_ramp() {
 }
 
 #[test]
-fn a_current_history_multiplies_the_current() {
+fn current_history_multiplies_current() {
     let model = body("*Q 0 0 -5\n#AREA *Q 10\n&DATA CURVES C_HISTORY F 0 1 100 -1", "&ENV -CURRENT 2 180 -C_HISTORY F");
     for (time, speed) in [(0.0, 2.0f64), (25.0, 1.0), (50.0, 0.0), (100.0, -2.0)] {
         let want = 0.5 * 1025.0 * 10.0 * speed * speed.abs();
@@ -230,7 +230,7 @@ fn a_current_history_multiplies_the_current() {
 }
 
 #[test]
-fn what_has_no_meaning_in_time_is_refused() {
+fn invalid_stream_in_time_domain_is_refused() {
     let records = "*P 0 0 10\n#AREA *P 100\n&DATA CURVES W_HISTORY H 0 30 100 50";
     for environment in ["&ENV -WIND 30 0 -W_MD_CORRELATION 0.5", "&ENV -W_HISTORY H"] {
         let model = body(records, environment);
@@ -255,7 +255,7 @@ fn statistics(gusts: &Gusts, time: f64) -> (f64, f64) {
 }
 
 #[test]
-fn the_variance_of_a_series_of_gusts_is_the_integral_of_its_spectrum() {
+fn gust_series_variance_matches_spectrum_integral() {
     for (name, shape) in [
         ("API", GustFormula::Api),
         ("NPD", GustFormula::Froya),
@@ -287,7 +287,7 @@ fn the_variance_of_a_series_of_gusts_is_the_integral_of_its_spectrum() {
 }
 
 #[test]
-fn a_turbulence_intensity_scales_any_spectrum_and_a_curve_is_taken_as_it_is() {
+fn turbulence_intensity_scales_spectrum_and_curve_is_unscaled() {
     near(gusts("&ENV -WIND 50 180 -W_SPECTRUM HARRIS -W_COMPONENTS 20 0.12").deviation(), 0.12 * 50.0 * KNOT, 1e-12);
     // a triangle of 4 m2/s over 0.2 rad/s: 0.4 m2/s2
     let curve = "&DATA CURVES F_SPECTRUM G 0.1 0 0.2 4 0.3 0\n&ENV -WIND 50 180 -W_SPECTRUM G";
@@ -296,7 +296,7 @@ fn a_turbulence_intensity_scales_any_spectrum_and_a_curve_is_taken_as_it_is() {
 }
 
 #[test]
-fn periods_given_are_those_of_the_components() {
+fn given_periods_are_those_of_the_components() {
     let gusts = gusts("&ENV -WIND 50 180 -W_SPECTRUM NPD -W_PERIOD 600 60 6");
     let periods: Vec<f64> = gusts.bands.iter().map(|b| std::f64::consts::TAU / b.frequency).collect();
     assert_eq!(periods.len(), 3);
@@ -308,7 +308,7 @@ fn periods_given_are_those_of_the_components() {
 }
 
 #[test]
-fn the_same_seed_makes_the_same_gusts_and_another_one_others() {
+fn same_seed_gives_same_gusts_and_another_seed_others() {
     let at = |seed: &str| gusts(&format!("&ENV -WIND 50 180 -W_SPECTRUM API {seed}")).speed_at_time(123.4);
     assert_eq!(at(""), at("-SEED 1"));
     // reinforced waves leave the gusts as they are
@@ -317,7 +317,7 @@ fn the_same_seed_makes_the_same_gusts_and_another_one_others() {
 }
 
 #[test]
-fn a_gust_adds_to_the_wind_of_a_load_after_the_ramp() {
+fn gust_adds_to_wind_load_after_ramp() {
     let environment = "&ENV -WIND 30 180 -W_PROFILE POWER 0 -W_SPECTRUM API -RAMP 60";
     let model = body("*P 0 0 40\n#AREA *P 100", environment);
     let gusts = gusts(environment);
@@ -328,7 +328,7 @@ fn a_gust_adds_to_the_wind_of_a_load_after_the_ramp() {
 }
 
 #[test]
-fn gusts_without_a_wind_are_refused() {
+fn gusts_without_wind_are_refused() {
     let model = body("*P 0 0 10\n#AREA *P 100", "&ENV -W_SPECTRUM API");
     assert!(Floating::under_way(&model, &model.bodies["B"], None).is_err());
 }
@@ -338,7 +338,7 @@ const GROWN: &str = "MEDIT\n&DESCRIBE BODY B\n*A 0 0 -40\n*B 0 0 10\nEND\n\
     &SURFACE\nTUBE LEG *A *B 1000 -CS_CURRENT 1 1 0 -CA 0\nEND\n&DATA CURVES M_GROWTH G -30 500 0 500";
 
 #[test]
-fn growth_widens_what_current_meets() {
+fn growth_increases_current_area() {
     let drag = |environment: &str| {
         let model = model(&format!("{GROWN}\n&ENV -CURRENT 2 180 -DEPTH 60 {environment}"));
         let loads = Floating::at_rest(&model, &model.bodies["B"]).unwrap().loads;
@@ -353,7 +353,7 @@ fn growth_widens_what_current_meets() {
 }
 
 #[test]
-fn growth_weighs_floats_and_is_slow_to_move() {
+fn growth_adds_weight_buoyancy_and_inertia() {
     let model = model(&format!("{GROWN}\n&ENV -DEPTH 60 -M_GROWTH G 1400"));
     let floating = floating(&model);
     // a ring of 1.25 pi/4 m2 over 30 m

@@ -34,7 +34,7 @@ fn there(run: &Run) -> Vec<usize> {
 }
 
 #[test]
-fn a_wave_is_not_felt_by_a_riser_far_below_it() {
+fn wave_does_not_load_riser_far_below() {
     let made = deep(-500.0);
     let line = LineResults::find(&made, "A").unwrap();
     let all = events(&made.history, None).unwrap();
@@ -60,7 +60,7 @@ fn a_wave_is_not_felt_by_a_riser_far_below_it() {
 }
 
 #[test]
-fn pressure_on_a_riser_below_a_wave_is_that_of_the_wave_at_its_depth() {
+fn riser_pressure_below_wave_matches_wave_at_its_depth() {
     let made = deep(-20.0);
     let columns = made.history.layout.links[0].along.as_ref().unwrap();
     let number = (std::f64::consts::TAU / 8.0).powi(2) / 9.80665;
@@ -79,7 +79,7 @@ fn pressure_on_a_riser_below_a_wave_is_that_of_the_wave_at_its_depth() {
 }
 
 #[test]
-fn where_a_thin_pipe_meets_a_thick_one_the_thin_one_is_judged_from_whichever_end_it_is_laid() {
+fn thin_pipe_governs_at_thick_junction_from_either_end() {
     let thin = "~R ROD 300 10 -LEN 92.5 -REFINE 6 -FYIELD 450\n";
     let thick = "~R ROD 300 40 -LEN 92.5 -REFINE 6 -FYIELD 450\n";
     let told = |class: String, ends: &str| {
@@ -109,7 +109,7 @@ fn where_a_thin_pipe_meets_a_thick_one_the_thin_one_is_judged_from_whichever_end
 }
 
 #[test]
-fn an_end_of_a_rope_never_pushes() {
+fn rope_end_carries_no_compression() {
     let records = "&ENV -DEPTH 60\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*T 0 0 -5\n#WEIGHT *T 1000 5 5 5\n*E 150 0 -60\n\
                    ~R ROD 300 20 -EI 0 -LEN 185 -REFINE 12\nCONNECTOR A ~R *T *E\nEND\n";
     let table = lines_at_rest(&model(records), &|_| true).unwrap().remove(0);
@@ -118,7 +118,7 @@ fn an_end_of_a_rope_never_pushes() {
 }
 
 #[test]
-fn a_pipe_that_a_winch_pays_out_is_checked_by_what_was_at_rest_where_it_hangs() {
+fn paid_out_pipe_is_checked_against_static_state_of_its_position() {
     // a pipe that hangs from a crane in still air: 50 m at first, 100 m in the end, without a load
     let records = "&ENV -DEPTH 500 -TIME 130 0.25\nMEDIT\n&DESCRIBE BODY CRANE -IGNORE X Y Z RX RY RZ\n*H 0 0 150\n\
          &DESCRIBE BODY LOAD -IGNORE X Y RX RY RZ\n*P 0 0 0\n#WEIGHT *P 1000 1 1 1\n\
@@ -152,7 +152,7 @@ fn a_pipe_that_a_winch_pays_out_is_checked_by_what_was_at_rest_where_it_hangs() 
 }
 
 #[test]
-fn corrosion_thins_the_wall_that_bears_the_tension_and_the_pressure_inside() {
+fn corrosion_thins_wall_for_tension_and_internal_pressure() {
     // sea water inside and outside: the stress is that of effective tension in what is left of the wall, less the pressure
     let records = "INMODEL\nT_PRESSURE SEA 0 0 -DENSITY 1025\nEND\n&ENV -DEPTH 3000 -T_PRESSURE SEA\nMEDIT\n&DESCRIBE BODY S -IGNORE X Y Z RX RY RZ\n\
                    *F 0 0 -2990\n*E 0 0 -3000\n#WEIGHT *F 1E6 5 5 5\n\
