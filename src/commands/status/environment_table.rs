@@ -90,7 +90,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
                 );
             }
             Ok(None) => {}
-            Err(error) => table.warn(format!("{}", error.text(job.units))),
+            Err(error) => table.warn(error.text(job.units).to_string()),
         }
     }
     let steady = Steady::streams(model, env);
@@ -113,7 +113,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
     match Gusts::new(model, env) {
         Ok(Some(gusts)) => table = wind_table::facts(table, &gusts),
         Ok(None) => {}
-        Err(error) => table.warn(format!("{}", error.text(job.units))),
+        Err(error) => table.warn(error.text(job.units).to_string()),
     }
     table = match &env.current {
         None => table,
@@ -129,7 +129,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
         }
     };
     if let Err(error) = &steady {
-        table.warn(format!("{}", error.text(job.units)));
+        table.warn(error.text(job.units).to_string());
     }
     if let Some(time) = env.time {
         table = table
