@@ -64,7 +64,7 @@ fn pass_of(observed: f64, name: &str, model: &Model, keep: bool) {
         adaptive: None,
         keep,
         along: 1,
-        books: false,
+        balance: false,
         transient: 0.0,
     };
     let mut least = f64::INFINITY;

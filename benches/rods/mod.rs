@@ -75,7 +75,7 @@ pub fn run(model: &Model, (span, dt): (f64, f64), along: usize, passes: usize) -
         adaptive: None,
         keep: true,
         along,
-        books: false,
+        balance: false,
         transient: 0.0,
     };
     let once = || {

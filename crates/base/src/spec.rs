@@ -1,5 +1,5 @@
 //! Declarations of options and values. A record's spec is made of these, a parser reads by them, and a handler looks
-//! what was given up by them: an option is one constant that the spec lists and the lookup takes.
+//! up by them what records gave: an option is one constant that the spec lists and the lookup takes.
 
 use crate::units::Dim;
 use crate::values::Noun;

@@ -15,7 +15,7 @@ pub struct LineStress {
     pub von_mises: f64,
 }
 
-/// The books of energy and momentum of a dynamic line, since its run began.
+/// The energy and momentum balance of a dynamic line, since its run began.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyBalance {
     /// Energy now: of motion, of stretch and bending, of height in air, in what it lies on (J).
@@ -24,7 +24,7 @@ pub struct EnergyBalance {
     pub work: [f64; 5],
     /// Energy gained beyond the work done (J); negative is what the scheme has damped.
     pub energy_error: f64,
-    /// The most energy or work that met in the books (J): what the error is to be seen against.
+    /// The most energy or work in the balance (J): what the error is to be seen against.
     pub turnover: f64,
     /// Momentum gained beyond the impulse of all outer forces (N s, global).
     pub momentum_error: Vector3<f64>,

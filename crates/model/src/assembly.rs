@@ -51,8 +51,8 @@ pub struct PipeLayout<'a> {
     pub surroundings: &'a Surroundings,
     /// Water, air and bottom along it.
     pub ambient: Option<&'a Arc<dyn Ambient>>,
-    /// Whether a run keeps its books of energy and momentum.
-    pub books: bool,
+    /// Whether a run keeps the balance of its energy and momentum.
+    pub balance: bool,
     /// The scheme that steps it; that of its engine where none.
     pub scheme: Option<SchemeWeights>,
 }
@@ -119,7 +119,7 @@ impl Model {
     }
 
     /// The supports of a pipe assembly that act, and the pipe on them; `None` of another assembly, or where none acts. `ambient`
-    /// surrounds it, and a run may ask for its books.
+    /// surrounds it, and a run may ask for its energy balance.
     ///
     /// # Errors
     /// A class or support that makes none here.
@@ -167,7 +167,7 @@ impl Model {
             upper,
             surroundings: &surroundings,
             ambient,
-            books: duty.books,
+            balance: duty.balance,
             scheme: duty.scheme,
         };
         Ok(Some(LaidPipe { element: found.pipe(layout)?, supports: held }))

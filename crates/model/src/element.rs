@@ -249,8 +249,8 @@ pub trait Element: Debug + Send + Sync {
         false
     }
 
-    /// The books of energy and momentum in a state, where a run keeps them.
-    fn books(&self, _state: &[f64]) -> Option<EnergyBalance> {
+    /// The energy and momentum balance in a state, where a run keeps them.
+    fn balance(&self, _state: &[f64]) -> Option<EnergyBalance> {
         None
     }
 
@@ -313,8 +313,8 @@ pub trait Element: Debug + Send + Sync {
 pub struct RunRequirement {
     /// The longest its first segment becomes (m), where a winch pays it out.
     pub longest: Option<f64>,
-    /// Whether the books of its energy and momentum are kept.
-    pub books: bool,
+    /// Whether its energy and momentum balance is kept.
+    pub balance: bool,
     /// Whether its first end is let go: it falls, held at its second end.
     pub freed: bool,
     /// The scheme that steps it; that of its engine where none.

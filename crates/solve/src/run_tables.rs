@@ -307,15 +307,15 @@ struct Difference<'r> {
     moments: [ComparedMoments; 2],
 }
 
-/// The books of energy and momentum of dynamic lines, where the run kept them.
-pub fn books(run: &Run) -> Option<Table> {
-    let kept = run.books();
+/// The energy and momentum balance of dynamic lines, where the run kept them.
+pub fn balance(run: &Run) -> Option<Table> {
+    let kept = run.balance();
     if kept.is_empty() {
         return None;
     }
     let energy = Dim::Derived { force: 1, length: 1, seconds: 0 };
     let impulse = Dim::Derived { force: 1, length: 0, seconds: 1 };
-    let mut table = Table::new("Books of Lines")
+    let mut table = Table::new("Energy and Momentum Balance of Lines")
         .with_rows(&kept)
         .text("Line", |(name, _)| name)
         .columns("Energy Now", ["Motion", "Stretch", "Height", "Bottom"], energy, Digits::Scientific(3), |(_, b)| {
@@ -328,12 +328,12 @@ pub fn books(run: &Run) -> Option<Table> {
             Digits::Scientific(3),
             |(_, b)| b.work,
         )
-        .column("Not in the Books", "Energy", energy, Digits::Scientific(2), |(_, b)| b.energy_error)
-        .column("Not in the Books", "of Most", Dim::None, Digits::Scientific(2), |(_, b)| {
+        .column("Imbalance", "Energy", energy, Digits::Scientific(2), |(_, b)| b.energy_error)
+        .column("Imbalance", "of Most", Dim::None, Digits::Scientific(2), |(_, b)| {
             if b.turnover > 0.0 { b.energy_error / b.turnover } else { 0.0 }
         })
-        .column("Not in the Books", "Momentum", impulse, Digits::Scientific(2), |(_, b)| b.momentum_error.norm())
+        .column("Imbalance", "Momentum", impulse, Digits::Scientific(2), |(_, b)| b.momentum_error.norm())
         .build();
-    table.note("energy that is in no book was damped by the scheme (negative) or is the error of its steps; a winch adds mass that the books do not follow");
+    table.note("the imbalance is energy that the scheme damps (negative) or the error of its steps; the mass that a winch adds is not in the balance");
     Some(table)
 }

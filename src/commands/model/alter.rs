@@ -102,7 +102,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let units = job.units;
         for key in keys {
             if job.is_interrupted() {
-                return Err(Diagnostic::error("&CONNECTOR is given up: nothing is changed", args.span));
+                return Err(Diagnostic::error("&CONNECTOR: nothing is changed", args.span));
             }
             let Some(mut made) = job.model.connectors.get(&key).cloned() else { continue };
             let text = change(&job.model, &mut made, given, &mut said).map_err(|error| {

@@ -40,9 +40,9 @@ const AT: OptionSpec =
 const TENSION: OptionSpec = OptionSpec::new("-TENSION", &[LINE, FORCE], "when the tension of a line is first above F");
 const SLACK: OptionSpec = OptionSpec::new("-SLACK", &[LINE, FORCE], "when the tension of a line is first below F");
 const ABOVE: OptionSpec =
-    OptionSpec::new("-ABOVE", &[BODY, DOF, LIMIT], "when a degree of freedom of a body is first above V");
+    OptionSpec::new("-ABOVE", &[BODY, DOF, LIMIT], "when a body degree of freedom first exceeds V");
 const BELOW: OptionSpec =
-    OptionSpec::new("-BELOW", &[BODY, DOF, LIMIT], "when a degree of freedom of a body is first below V");
+    OptionSpec::new("-BELOW", &[BODY, DOF, LIMIT], "when a body degree of freedom first falls below V");
 const HIGH: OptionSpec = OptionSpec::new("-HIGH", &[POINT, HEIGHT], "when a point is first higher than Z");
 const LOW: OptionSpec = OptionSpec::new("-LOW", &[POINT, HEIGHT], "when a point is first lower than Z");
 const RELEASE: OptionSpec =

@@ -22,7 +22,7 @@ use windlass_solve::{DOFS, Options, SolveError, find_equilibrium_with_rebuilds, 
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
 
 const TOLERANCE: ValueSpec =
-    ValueSpec::new("T", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity")
+    ValueSpec::new("T", Kind::Number(Dim::None), "residual acceleration tolerance (fraction of g)")
         .in_range(1e-12, 1.0);
 
 const DEFAULTS: OptionSpec = OptionSpec::new("-DEFAULTS", &[], "forgets what was given before");

@@ -52,7 +52,7 @@ static SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body")],
     options: &[SINUSOID, RAMP, RAO, SYMMETRIC, FILE_OPTION, FREE],
-    detail: "The body moves in TDOM as it is told, whatever pulls at it; its connectors and everything on them feel that. In equilibria it \
+    detail: "The body follows the prescribed motion in TDOM whatever forces act on it; its connectors follow it. In equilibria it \
              stands where it is. -SINUSOID and -RAO move it about the place where it stands when the run begins, in global axes; angles add to \
              roll, pitch and yaw. A row of the -RAO file is a heading from which waves come (degrees, from the body's x axis toward \
              its y axis; 0 comes from ahead of x), a period (s), and for surge, sway, heave, roll, pitch, yaw each an amplitude (length a length, or \

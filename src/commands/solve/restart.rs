@@ -17,14 +17,14 @@ pub(crate) fn go_on(job: &mut Job, made: &mut Run, again: &Given, span: Span) ->
     let mut file = folder.reopen(FILE).map_err(|e| refused(e.to_string()))?;
     let kept = run_log::read(&mut file, again.first_number().unwrap_or(f64::INFINITY));
     let kept = kept.map_err(|e| refused(format!("{}: {e}", path.display())))?;
-    let books = made.settings.books;
-    if kept.fingerprint != made.fingerprint() && kept.fingerprint == made.fingerprint_with(!books) {
-        let [before, now] = if books { ["without", "with"] } else { ["with", "without"] };
+    let balance = made.settings.balance;
+    if kept.fingerprint != made.fingerprint() && kept.fingerprint == made.fingerprint_with(!balance) {
+        let [before, now] = if balance { ["without", "with"] } else { ["with", "without"] };
         return Err(refused(format!(
             "the run kept in {} was begun {before} -BALANCE, and goes on {now}",
             path.display()
         ))
-        .help("-BALANCE must be as it was: the books are kept with the lines"));
+        .help("-BALANCE must be as it was: the balance is kept with the lines"));
     }
     if kept.fingerprint != made.fingerprint() || kept.width != made.history.layout.width {
         let text = format!("the run kept in {} is of another model, environment, step or scheme", path.display());

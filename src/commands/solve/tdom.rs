@@ -54,7 +54,7 @@ pub(crate) const NEWMARK: OptionSpec = OptionSpec::new(
     &[
         yes_no("NO is the predictor and corrector"),
         ValueSpec::new("BETA", Kind::Number(Dim::None), "beta").or("that of generalised-alpha").in_range(1e-3, 1.0),
-        ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma of the books").or("0.5").in_range(0.0, 2.0),
+        ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma in the usual notation").or("0.5").in_range(0.0, 2.0),
     ],
     "the scheme of bodies and dynamic lines; with NO dynamic lines keep generalised-alpha with spectral radius 0.2",
 )
@@ -64,7 +64,7 @@ pub(crate) const CONVERGE: OptionSpec = OptionSpec::new(
     "-CONVERGE",
     &[
         ValueSpec::new("NUMB", Kind::Integer, "most iterations of a step").in_range(1.0, 1000.0),
-        ValueSpec::new("TOL", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity")
+        ValueSpec::new("TOL", Kind::Number(Dim::None), "residual acceleration tolerance (fraction of g)")
             .or("1E-7")
             .in_range(1e-14, 0.1),
     ],
@@ -122,7 +122,7 @@ pub(crate) const STATISTICS: OptionSpec =
     OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
         .owner(Owner::Ours);
 const BALANCE: OptionSpec =
-    OptionSpec::new("-BALANCE", &[], "prints the books of energy and momentum of dynamic lines").owner(Owner::Ours);
+    OptionSpec::new("-BALANCE", &[], "prints the energy and momentum balance of dynamic lines").owner(Owner::Ours);
 /// `-ALONG`.
 pub(crate) const ALONG: OptionSpec = OptionSpec::new(
     "-ALONG",
@@ -248,7 +248,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
         adaptive: args.option_number(&ADAPTIVE),
         keep: !args.has(&STATISTICS),
         along: whole(&ALONG),
-        books: args.has(&BALANCE),
+        balance: args.has(&BALANCE),
         transient: window.transient.unwrap_or(0.0),
     })
 }
@@ -396,7 +396,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     first.notes.extend(screening::remarks(&screening, job.units));
     let mut tables = vec![first];
     tables.extend(run_tables::extremes(&made));
-    tables.extend(run_tables::books(&made));
+    tables.extend(run_tables::balance(&made));
     // what is not found of them costs no run
     let peaks = fender_peaks(&made);
     let fenders = peaks.as_deref().unwrap_or_default();

@@ -34,7 +34,7 @@ pub fn settings(observed: f64, dt: f64) -> RunSettings {
         adaptive: None,
         keep: true,
         along: 1,
-        books: false,
+        balance: false,
         transient: 0.0,
     }
 }

@@ -88,7 +88,8 @@ fn thin_pipe_governs_at_thick_junction_from_either_end() {
              {class}CONNECTOR A ~R {ends}\nEND\n"
         );
         let table = lines_at_rest(&model(&records), &|_| true).unwrap().remove(0);
-        ["Z", "Tension", "Moment", "Wall", "Axial", "Bending", "Von Mises", "Used"].map(|name| column(&table, name)[6])
+        ["Z", "Tension", "Moment", "Wall", "Axial", "Bending", "Von Mises", "Utilisation"]
+            .map(|name| column(&table, name)[6])
     };
     let one = told(format!("{thin}{thick}"), "*T *E");
     let other = told(format!("{thick}{thin}"), "*E *T");
@@ -135,7 +136,7 @@ fn paid_out_pipe_is_checked_against_static_state_of_its_position() {
     let table = check(&line, &Code::Lrfd(factors, 0.0), &all[all.len() - 1..]).unwrap();
     assert!(table.notes.iter().any(|n| n.contains("winch")), "{:?}", table.notes);
     // design tension gamma_F T0 + gamma_E (T - T0), T0 that of 50 m from the place to the load and 1000 N
-    let (used, arcs, tension) = (column(&table, "Used"), column(&table, "Arc"), column(&table, "Tension"));
+    let (used, arcs, tension) = (column(&table, "Utilisation"), column(&table, "Arc"), column(&table, "Tension"));
     let design = |arc: f64, tension: f64| {
         let rest = 1000.0 + 20_000.0 * (50.0 - arc).max(0.0);
         factors.functional * rest + factors.environmental * (tension - rest)
@@ -169,9 +170,9 @@ fn corrosion_thins_wall_for_tension_and_internal_pressure() {
         // two thirds of yield stress
         let wanted = node.effective / area / 3e8;
         assert!(
-            (column(&table, "Used")[0] / wanted - 1.0).abs() < 5e-3,
+            (column(&table, "Utilisation")[0] / wanted - 1.0).abs() < 5e-3,
             "{corroded}: {} {wanted}",
-            column(&table, "Used")[0]
+            column(&table, "Utilisation")[0]
         );
     }
 }

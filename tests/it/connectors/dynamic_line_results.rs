@@ -78,7 +78,7 @@ fn thinned_node_output_matches_full_output() {
         envelope(&line, &kept).unwrap()
     };
     let (whole, some, flat) = (told(&all), told(&fourth), told(&bare));
-    for column in ["Arc", "T Min", "T Mean", "T Max", "C Min", "Used"] {
+    for column in ["Arc", "T Min", "T Mean", "T Max", "C Min", "Utilisation"] {
         let (a, b, c) = (&whole.get(column).unwrap().cells, &some.get(column).unwrap().cells, flat.get(column));
         // from the second end: 13, 9, 5 and 1 of thirteen
         assert_eq!(b.len(), 4);

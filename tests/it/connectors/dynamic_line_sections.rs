@@ -61,7 +61,7 @@ fn junction(turned: bool) -> Model {
 #[test]
 fn junction_reports_side_of_higher_utilisation_in_either_direction() {
     let used = |table: &Table, turned: bool| {
-        let mut all = column(table, "Used");
+        let mut all = column(table, "Utilisation");
         if turned {
             all.reverse();
         }
@@ -97,7 +97,7 @@ fn junction_reports_side_of_higher_utilisation_in_either_direction() {
         ]
     });
     let [ahead, back] = &tables;
-    for ((a, b), name) in ahead.iter().zip(back).zip(["Used", "Used", "Used", "Damage"]) {
+    for ((a, b), name) in ahead.iter().zip(back).zip(["Utilisation", "Utilisation", "Utilisation", "Damage"]) {
         let (a, mut b) = (column(a, name), column(b, name));
         b.reverse();
         // runs of the same line, each solved to 1e-6 of an element; of damage the points round the tube begin elsewhere

@@ -1,4 +1,4 @@
-//! A pipe on its supports under way: it stays where it rests, its tensioner keeps its limits, rollers do not pull, books add up.
+//! A pipe on its supports under way: it stays where it rests, its tensioner keeps its limits, rollers do not pull, the energy balance closes.
 
 use crate::common;
 
@@ -87,10 +87,10 @@ fn tensioner_keeps_its_limits_and_rollers_never_pull_down() {
     }
     // a metre of surge is far more than the pipe gives: it is paid out and hauled in
     assert!(low < 1.01 * limits[0] && high > 0.99 * limits[1], "{low} {high}");
-    let all = run.books();
-    let (_, books) = all.iter().find(|(name, _)| name == PIPE).unwrap();
+    let all = run.balance();
+    let (_, balance) = all.iter().find(|(name, _)| name == PIPE).unwrap();
     // 1.5 % with these steps, and 0.3 % with a fifth of them
-    assert!(books.energy_error.abs() < 0.02 * books.turnover, "{books:?}");
+    assert!(balance.energy_error.abs() < 0.02 * balance.turnover, "{balance:?}");
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn run(model: &Model, observed: f64, tolerance: f64) -> Run {
         adaptive: None,
         keep: true,
         along: 1,
-        books: false,
+        balance: false,
         transient: 0.0,
     };
     let mut run = Run::new(model, settings, Vec::new()).unwrap();

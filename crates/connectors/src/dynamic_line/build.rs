@@ -75,7 +75,7 @@ impl DynamicLine {
         }
         let holds = holds(&description, connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
-        let layout = StateLayout::new(capacity, RodState::packed_len_with(&rod, capacity), connection.duty.books);
+        let layout = StateLayout::new(capacity, RodState::packed_len_with(&rod, capacity), connection.duty.balance);
         let base = Base {
             description,
             rod,

@@ -257,7 +257,7 @@ impl DynamicLine {
                 Ok(forces)
             }
         })?;
-        let books = self.layout.has_books().then(|| {
+        let balance = self.layout.has_balance().then(|| {
             self.with_environment((at, false, kept.paid), flows, |world| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
                     solver.set_accelerations(state);
@@ -274,7 +274,7 @@ impl DynamicLine {
             _ => kept.paid,
         };
         self.layout.write((rod, &self.base.bands), (end, paid), trial)?;
-        if let Some(balance) = books {
+        if let Some(balance) = balance {
             self.layout.keep_books(&balance, trial);
         }
         Ok(())
@@ -361,7 +361,7 @@ impl Element for DynamicLine {
             // a run begins here
             let begun = trial.to_vec();
             if let Some(kept) = self.layout.read(&begun)? {
-                // its books are not open yet
+                // its balance is not begun yet
                 let kept = kept.without_books();
                 return self.step(at, (step.time, 0.0), &kept, trial, warm, out);
             }
@@ -369,7 +369,7 @@ impl Element for DynamicLine {
         Ok(())
     }
 
-    fn books(&self, state: &[f64]) -> Option<EnergyBalance> {
+    fn balance(&self, state: &[f64]) -> Option<EnergyBalance> {
         self.tell_books(state)
     }
 

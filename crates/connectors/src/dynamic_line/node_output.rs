@@ -1,4 +1,4 @@
-//! What a dynamic line reports of itself: its nodes, modes and books.
+//! What a dynamic line reports of itself: its nodes, modes and energy balance.
 
 use super::describe::LinePart;
 use super::element::DynamicLine;

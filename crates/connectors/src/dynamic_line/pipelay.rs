@@ -233,7 +233,7 @@ fn along_course(
     cut.bands.lay(&mut mesh);
     let rod = Rod::with_mesh(layout.name, cut.segments, Vec::new(), &mesh).map_err(to_class_error)?;
     Ok(DynamicLine {
-        layout: StateLayout::new(rod.nodes() - 1, RodState::packed_len(&rod) + 2, layout.books),
+        layout: StateLayout::new(rod.nodes() - 1, RodState::packed_len(&rod) + 2, layout.balance),
         first,
         nominal: first / elements as f64,
         base: Arc::new(Base {

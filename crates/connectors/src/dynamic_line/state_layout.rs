@@ -12,8 +12,8 @@ pub(super) struct StateLayout {
     pub elements: usize,
     /// Values of the motion of a mesh of so many.
     motion: usize,
-    /// Values of the books behind them.
-    books: usize,
+    /// Values of the energy balance behind them.
+    balance: usize,
 }
 
 /// A state as it stands in the engine's vector.
@@ -25,12 +25,12 @@ pub(super) struct StateView<'a> {
     pub motion: &'a [f64],
     /// How much pipe the tensioner has paid out since the pipe was laid (m).
     pub paid: f64,
-    /// Its books, where they are kept and open.
+    /// Its energy balance, where it is kept and begun.
     pub balance: Option<Balance>,
 }
 
 impl StateView<'_> {
-    /// The same before its books are open.
+    /// The same before its balance is begun.
     pub fn without_books(self) -> Self {
         StateView { balance: None, ..self }
     }
@@ -50,29 +50,29 @@ const VALUES_PER_ELEMENT: usize = 3;
 
 impl StateLayout {
     /// That of a line of so many elements at most; `motion` values are those of a mesh of so many.
-    pub fn new(elements: usize, motion: usize, books: bool) -> Self {
-        StateLayout { elements, motion, books: if books { Balance::PACKED_LEN } else { 0 } }
+    pub fn new(elements: usize, motion: usize, balance: bool) -> Self {
+        StateLayout { elements, motion, balance: if balance { Balance::PACKED_LEN } else { 0 } }
     }
 
     /// Values of a state.
     pub fn size(&self) -> usize {
-        HEADER_VALUES + VALUES_PER_ELEMENT * self.elements + self.motion + self.books
+        HEADER_VALUES + VALUES_PER_ELEMENT * self.elements + self.motion + self.balance
     }
 
-    /// Whether books are kept.
-    pub fn has_books(&self) -> bool {
-        self.books > 0
+    /// Whether the energy balance is kept.
+    pub fn has_balance(&self) -> bool {
+        self.balance > 0
     }
 
-    /// The books of a state that has them and has begun.
+    /// The energy balance of a state that has one and has begun.
     pub fn balance(&self, state: &[f64]) -> Option<Balance> {
-        let begun = state.first().is_some_and(|f| *f != 0.0) && self.books > 0;
+        let begun = state.first().is_some_and(|f| *f != 0.0) && self.balance > 0;
         begun.then(|| state.last_chunk().map(Balance::unpack)).flatten()
     }
 
-    /// Writes the books behind a state.
+    /// Writes the energy balance behind a state.
     pub fn keep_books(&self, balance: &Balance, out: &mut [f64]) {
-        if self.books > 0
+        if self.balance > 0
             && let Some(place) = out.last_chunk_mut()
         {
             *place = balance.pack();

@@ -228,13 +228,13 @@ fn beam_energy_balance_includes_work_of_rotating_clamp() {
             *v = (Vector3::y() * rate).cross(x);
         }
         let made = solver.start(&rod, &mut state, &world, turned(rate, 0.0)).unwrap();
-        let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+        let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
         for i in 1..=(2.0 / h) as usize {
             let time = i as f64 * h;
             let made = solver.step(&rod, &mut state, &world, time, turned(rate, time)).unwrap();
-            books.enter(&rod, &state, &world, &solver, &made);
+            balance.enter(&rod, &state, &world, &solver, &made);
         }
-        (books.energy_error().abs(), books.work.ends[0].abs())
+        (balance.energy_error().abs(), balance.work.ends[0].abs())
     };
     let (coarse, fine) = (run(4e-3), run(2e-3));
     // 8 kJ hold the beam back as it turns down; second order in the step until the tolerance of a step is left

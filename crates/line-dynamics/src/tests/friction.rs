@@ -41,14 +41,14 @@ fn line_in_friction_equilibrium_stays_and_anchor_is_unloaded() {
         assert!(held < 0.012 * 0.8 * MASS * GRAVITY * 5.0, "{held}");
         let pull = rested.force[side].norm();
         let before = state.clone();
-        let mut books = Balance::open(&rod, &state, &world, &solver, &rested);
+        let mut balance = Balance::open(&rod, &state, &world, &solver, &rested);
         for i in 1..=600 {
             let made = solver.step(&rod, &mut state, &world, i as f64 * 0.1, ends).unwrap();
-            books.enter(&rod, &state, &world, &solver, &made);
+            balance.enter(&rod, &state, &world, &solver, &made);
             assert!((made.force[side].norm() / pull - 1.0).abs() < 1e-4, "{i}: {} {pull}", made.force[side].norm());
         }
         let moved = state.position.iter().zip(&before.position).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-        println!("{side}: {pull} {held} {moved:e} {:?}", books.energy_error());
+        println!("{side}: {pull} {held} {moved:e} {:?}", balance.energy_error());
         // what the touchdown settles by where statics soften the bottom
         assert!(moved < 1e-3, "{moved}");
     }
@@ -71,7 +71,7 @@ fn dragged_line_has_friction_tension_and_stays_where_left() {
         [RodEnd::FREE, RodEnd::from_motion(motion)]
     };
     let made = solver.start(&rod, &mut state, &world, at(0.0, 0.0, 0.0)).unwrap();
-    let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
     let (h, mut pull) = (0.02, 0.0);
     let whole = friction * MASS * GRAVITY * length;
     for i in 1..=3000 {
@@ -84,15 +84,15 @@ fn dragged_line_has_friction_tension_and_stays_where_left() {
             _ => (4.0, 0.0, 0.0),
         };
         let made = solver.step(&rod, &mut state, &world, t, at(x, v, a)).unwrap();
-        books.enter(&rod, &state, &world, &solver, &made);
+        balance.enter(&rod, &state, &world, &solver, &made);
         // the mean of waves along it that only its own damping ends while all of it slides
         if (800..1000).contains(&i) {
             pull -= made.force[1].x / 200.0;
         }
     }
-    println!("{pull} {whole} {:?}", books);
+    println!("{pull} {whole} {:?}", balance);
     assert!((pull / whole - 1.0).abs() < 1e-3, "{pull} {whole}");
-    assert!(books.energy_error().abs() < 2e-3 * books.turnover, "{books:?}");
+    assert!(balance.energy_error().abs() < 2e-3 * balance.turnover, "{balance:?}");
     let left = state.position[0].x;
     assert!(state.velocity.iter().all(|v| v.norm() < 1e-6));
     // pulled by less than all of its friction at the other end it stays

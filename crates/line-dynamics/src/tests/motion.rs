@@ -1,4 +1,4 @@
-//! Motion against closed forms, and the books of energy and momentum.
+//! Motion against closed forms, and the energy and momentum balance.
 
 use super::super::*;
 use nalgebra::Vector3;
@@ -196,7 +196,7 @@ fn swinging_moored_rope_conserves_energy_and_momentum() {
             RodSettings { scheme: SchemeWeights::generalised_alpha(0.9), ..RodSettings::default() },
         );
         let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
-        let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+        let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
         let mut worst = (0.0f64, 0.0f64);
         for i in 1..=(20.0 / h) as usize {
             let t = i as f64 * h;
@@ -207,16 +207,16 @@ fn swinging_moored_rope_conserves_energy_and_momentum() {
                 acceleration: Vector3::new(0.0, 0.0, r * w * w * (w * t).cos()) * 0.5,
             };
             let made = solver.step(&rod, &mut state, &world, t, [RodEnd::pin(a), RodEnd::from_motion(motion)]).unwrap();
-            books.enter(&rod, &state, &world, &solver, &made);
-            worst.0 = worst.0.max(books.energy_error().abs() / books.turnover);
-            worst.1 = worst.1.max(books.momentum_error().norm() / (30.0 * 100.0));
+            balance.enter(&rod, &state, &world, &solver, &made);
+            worst.0 = worst.0.max(balance.energy_error().abs() / balance.turnover);
+            worst.1 = worst.1.max(balance.momentum_error().norm() / (30.0 * 100.0));
         }
-        println!("{books:?}");
+        println!("{balance:?}");
         worst
     };
     let (coarse, fine) = (run(0.02), run(0.005));
     println!("{coarse:?} {fine:?}");
-    // shares of the largest entry of the books, and mean velocities (m/s): second order in the step, but for where in a
+    // shares of the largest entry of the balance, and mean velocities (m/s): second order in the step, but for where in a
     // step friction comes to be whole
     assert!(coarse.0 < 0.02 && fine.0 < 0.005, "{coarse:?} {fine:?}");
     assert!(coarse.1 < 1e-2 && fine.1 < 3e-3, "{coarse:?} {fine:?}");
@@ -249,15 +249,15 @@ fn swinging_twisted_beam_conserves_energy() {
             &rod,
             RodSettings { scheme: SchemeWeights::generalised_alpha(1.0), ..RodSettings::default() },
         );
-        let mut books: Option<Balance> = None;
+        let mut balance: Option<Balance> = None;
         let mut worst: f64 = 0.0;
         for i in 1..=(3.0 / h) as usize {
             let made = solver.step(&rod, &mut state, &world, i as f64 * h, [clamp, RodEnd::FREE]).unwrap();
-            match &mut books {
-                None => books = Some(Balance::open(&rod, &state, &world, &solver, &made)),
-                Some(books) => {
-                    books.enter(&rod, &state, &world, &solver, &made);
-                    worst = worst.max(books.energy_error().abs() / books.turnover);
+            match &mut balance {
+                None => balance = Some(Balance::open(&rod, &state, &world, &solver, &made)),
+                Some(balance) => {
+                    balance.enter(&rod, &state, &world, &solver, &made);
+                    worst = worst.max(balance.energy_error().abs() / balance.turnover);
                 }
             }
         }

@@ -28,7 +28,7 @@ fn chain(elements: usize) -> RodSegment {
 }
 
 /// Runs a line for a minute in steps of a tenth of a second: the energy that came from nowhere at worst and that the
-/// scheme has damped in all, as shares of the books, and the largest speed at the end.
+/// scheme has damped in all, as shares of the turnover, and the largest speed at the end.
 fn run(line: &Line) -> (f64, f64, f64) {
     let rod = Rod::new("line", vec![line.segment.clone()], vec![]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.3, 0.5, 0.0));
@@ -40,7 +40,7 @@ fn run(line: &Line) -> (f64, f64, f64) {
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     let (a, b) = (line.start[0], line.start[line.start.len() - 1]);
     let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
-    let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
     let w = 2.0 * std::f64::consts::PI / line.period;
     let (mut gained, mut lost): (f64, f64) = (0.0, 0.0);
     for i in 1..=600 {
@@ -54,9 +54,9 @@ fn run(line: &Line) -> (f64, f64, f64) {
         };
         let end = if t > line.parts { RodEnd::FREE } else { RodEnd::from_motion(motion) };
         let made = solver.step(&rod, &mut state, &world, t, [RodEnd::pin(a), end]).unwrap();
-        books.enter(&rod, &state, &world, &solver, &made);
-        gained = gained.max(books.energy_error() / books.turnover);
-        lost = -books.energy_error() / books.turnover;
+        balance.enter(&rod, &state, &world, &solver, &made);
+        gained = gained.max(balance.energy_error() / balance.turnover);
+        lost = -balance.energy_error() / balance.turnover;
     }
     (gained, lost, state.velocity.iter().map(|v| v.norm()).fold(0.0, f64::max))
 }
@@ -100,7 +100,7 @@ fn lines_that_snap_break_and_fall_gain_no_energy() {
     for (i, case) in cases.iter().enumerate() {
         let (gained, lost, speed) = run(case);
         println!("{i}: gained {gained:.2e} lost {lost:.2e} speed {speed:.2}");
-        // by the trapezoidal rule of the books at a tenth of a second, through snaps that last less; a blow-up gains
+        // by the trapezoidal rule of the balance at a tenth of a second, through snaps that last less; a blow-up gains
         // without bound
         assert!(gained < 0.02, "case {i}: {gained}");
         // and damps what a line that snaps or parts had stored, which rings faster than the step follows

@@ -211,7 +211,7 @@ fn cradle_holds_pipe_by_force_balance_of_faces() {
     assert_eq!((told.force, told.arc), (Vector3::zeros(), None));
 }
 
-/// The books of a pipe dropped on two rollers that heave, by steps of `h` seconds.
+/// The energy balance of a pipe dropped on two rollers that heave, by steps of `h` seconds.
 fn dropped(h: f64) -> Balance {
     // soft along, so that its steps follow the waves of its landing
     let segment = RodSegment { bending: 1e6, compression: true, ..RodSegment::line(40.0, 40, 30.0, 1e6, 0.3) };
@@ -243,18 +243,18 @@ fn dropped(h: f64) -> Balance {
             ends,
         )
         .unwrap();
-    let mut books = None;
+    let mut balance = None;
     for i in 1..=(6.0 / h).round() as usize {
         let t = i as f64 * h;
         let at = rollers(t);
         let world = LineEnvironment { supports: &supports(&at), ..LineEnvironment::new(&fluid, 9.81) };
         let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
-        match &mut books {
-            None => books = Some(Balance::open(&rod, &state, &world, &solver, &made)),
-            Some(books) => books.enter(&rod, &state, &world, &solver, &made),
+        match &mut balance {
+            None => balance = Some(Balance::open(&rod, &state, &world, &solver, &made)),
+            Some(balance) => balance.enter(&rod, &state, &world, &solver, &made),
         }
     }
-    books.unwrap()
+    balance.unwrap()
 }
 
 #[test]

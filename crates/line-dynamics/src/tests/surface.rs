@@ -117,18 +117,22 @@ fn cylinder_impacting_surface_shares_momentum_with_water() {
         RodSolver::new(&rod, RodSettings { scheme: SchemeWeights::generalised_alpha(1.0), ..RodSettings::default() });
     solver.start(&rod, &mut state, &world, [RodEnd::FREE; 2]).unwrap();
     let made = RodEndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
-    let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
     for i in 1..=1000 {
         let made = solver.step(&rod, &mut state, &world, i as f64 * 5e-4, [RodEnd::FREE; 2]).unwrap();
-        books.enter(&rod, &state, &world, &solver, &made);
+        balance.enter(&rod, &state, &world, &solver, &made);
     }
     let added = 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter;
     let wanted = -mass * speed / (mass + added);
     // second order in the step
     assert!((state.velocity[2].z / wanted - 1.0).abs() < 1e-4, "{} {wanted}", state.velocity[2].z);
-    // the trapezoidal rule of the books over the entry
-    assert!(books.momentum_error().norm() < 1e-3 * mass * speed * length, "{}", books.momentum_error());
-    assert!(books.energy_error().abs() < 1e-3 * books.energy.total().max(books.turnover), "{}", books.energy_error());
+    // the trapezoidal rule of the balance over the entry
+    assert!(balance.momentum_error().norm() < 1e-3 * mass * speed * length, "{}", balance.momentum_error());
+    assert!(
+        balance.energy_error().abs() < 1e-3 * balance.energy.total().max(balance.turnover),
+        "{}",
+        balance.energy_error()
+    );
 }
 
 #[test]

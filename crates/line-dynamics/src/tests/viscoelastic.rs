@@ -19,7 +19,7 @@ struct Cycle {
     lost: f64,
     /// Mean tension (N).
     mean: f64,
-    /// What the books say was lost (J), and what they cannot say (J).
+    /// What the balance say was lost (J), and what they cannot say (J).
     booked: [f64; 2],
 }
 
@@ -36,7 +36,7 @@ fn cycle(rope: ViscoelasticRope, mean: f64, frequency: f64, steps: usize) -> Cyc
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     let held = RodEnd::pin(a);
     let made = solver.statics(&rod, &mut state, &world, [held, RodEnd::pin(b + swing)]).unwrap();
-    let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
     let mut found = Cycle { storage: 0.0, lost: 0.0, mean: 0.0, booked: [0.0; 2] };
     let (mut before, mut damped) = ((-made.force[1].x, b.x + swing.x), 0.0);
     // the start dies out with the relaxation time: eight of them, and whole cycles
@@ -50,10 +50,10 @@ fn cycle(rope: ViscoelasticRope, mean: f64, frequency: f64, steps: usize) -> Cyc
             acceleration: swing * (-frequency * frequency * c),
         };
         let made = solver.step(&rod, &mut state, &world, t, [held, RodEnd::from_motion(motion)]).unwrap();
-        books.enter(&rod, &state, &world, &solver, &made);
+        balance.enter(&rod, &state, &world, &solver, &made);
         let now = (-made.force[1].x, motion.position.x);
         if i == settling * steps {
-            damped = books.work.damping;
+            damped = balance.work.damping;
         }
         if i > settling * steps {
             found.storage += now.0 * c * 2.0 / (steps as f64 * SWING);
@@ -62,7 +62,7 @@ fn cycle(rope: ViscoelasticRope, mean: f64, frequency: f64, steps: usize) -> Cyc
         }
         before = now;
     }
-    found.booked = [damped - books.work.damping, books.energy_error()];
+    found.booked = [damped - balance.work.damping, balance.energy_error()];
     found
 }
 
@@ -81,7 +81,7 @@ fn cycled_rope_matches_standard_linear_solid_modulus_and_loss() {
         assert!((found.storage / storage - 1.0).abs() < 1e-4, "{frequency}: {} {storage}", found.storage);
         assert!((found.lost / lost - 1.0).abs() < 2e-3, "{frequency}: {} {lost}", found.lost);
         assert!((found.booked[0] / lost - 1.0).abs() < 2e-3, "{frequency}: {:?} {lost}", found.booked);
-        // the books sum power by the trapezoidal rule
+        // the balance sum power by the trapezoidal rule
         assert!(found.booked[1].abs() < 1e-4 * slow * 0.02 * 0.02 * LENGTH, "{frequency}: {:?}", found.booked);
     }
 }
@@ -124,16 +124,16 @@ fn hanging_load_creeps_to_static_length_with_closed_energy_balance() {
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     let ends = [RodEnd::pin(a), RodEnd::FREE];
     let made = RodEndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
-    let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
     let h = 0.01;
     for i in 1..=10_000 {
         let t = i as f64 * h;
         let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
-        // the load that comes at once is an impact, of which the books know as little as the step
+        // the load that comes at once is an impact, of which the balance know as little as the step
         if i == 10 {
-            books = Balance::open(&rod, &state, &world, &solver, &made);
+            balance = Balance::open(&rod, &state, &world, &solver, &made);
         }
-        books.enter(&rod, &state, &world, &solver, &made);
+        balance.enter(&rod, &state, &world, &solver, &made);
         let stretch = state.position[4].x / LENGTH - 1.0;
         let wanted = load / slow - (load / slow - load / fast) * (-t * slow / (tau * fast)).exp();
         if t > 2.0 {
@@ -143,7 +143,7 @@ fn hanging_load_creeps_to_static_length_with_closed_energy_balance() {
     }
     let told = rod.results(&state, &world, &ends);
     assert!((told[2].effective / load - 1.0).abs() < 1e-4, "{}", told[2].effective);
-    assert!(books.energy_error().abs() < 0.01 * books.turnover, "{} {}", books.energy_error(), books.turnover);
+    assert!(balance.energy_error().abs() < 0.01 * balance.turnover, "{} {}", balance.energy_error(), balance.turnover);
     // and statics go to the static law at once
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     assert!((state.position[4].x / (LENGTH * (1.0 + load / slow)) - 1.0).abs() < 1e-9);
@@ -161,7 +161,7 @@ fn rope_released_slack_carries_no_compression() {
     let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
-    let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
     for i in 1..=400 {
         let t = i as f64 * 0.05;
         let (s, c) = (0.5 * t).sin_cos();
@@ -174,10 +174,10 @@ fn rope_released_slack_carries_no_compression() {
         let made = solver.step(&rod, &mut state, &world, t, [RodEnd::pin(a), RodEnd::from_motion(motion)]).unwrap();
         // one massless element but for 50 kg at an acceleration of 0.075 m/s2
         assert!(made.force[1].x < 4.0, "{t}: {}", made.force[1].x);
-        books.enter(&rod, &state, &world, &solver, &made);
+        balance.enter(&rod, &state, &world, &solver, &made);
     }
-    assert!(books.work.damping < 0.0, "{books:?}");
-    assert!(books.energy_error().abs() < 0.01 * books.turnover, "{} {}", books.energy_error(), books.turnover);
+    assert!(balance.work.damping < 0.0, "{balance:?}");
+    assert!(balance.energy_error().abs() < 0.01 * balance.turnover, "{} {}", balance.energy_error(), balance.turnover);
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn viscoelastic_rod_tangent_matches_finite_difference() {
 
 #[test]
 fn fast_slackening_rope_carries_no_compression_through_damper() {
-    // one massless element let in at a steady speed: T = EA e - c v / L, but never less than nothing; its books add up
+    // one massless element let in at a steady speed: T = EA e - c v / L, but never less than nothing; its balance add up
     let (ea, damping, speed, strain) = (1e7, 2e6, 0.05, 0.01);
     for rope in [None, Some(ViscoelasticRope { slow: TensionLaw::Linear(ea), fast: [ea, 0.0], relaxation: 5.0 })] {
         let axial = rope.map_or(TensionLaw::Linear(ea), |rope| TensionLaw::Viscoelastic(Box::new(rope)));
@@ -238,13 +238,13 @@ fn fast_slackening_rope_carries_no_compression_through_damper() {
         state.velocity[1] = at(0.0).velocity;
         let mut solver = RodSolver::new(&rod, RodSettings::default());
         let made = solver.start(&rod, &mut state, &world, [held, RodEnd::from_motion(at(0.0))]).unwrap();
-        let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+        let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
         let mut slack = 0;
         for i in 1..=250 {
             let t = i as f64 * 0.01;
             let ends = [held, RodEnd::from_motion(at(t))];
             let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
-            books.enter(&rod, &state, &world, &solver, &made);
+            balance.enter(&rod, &state, &world, &solver, &made);
             let exact = (ea * (strain - speed * t / LENGTH) - damping * speed / LENGTH).max(0.0);
             slack += usize::from(exact == 0.0);
             // a mass of a hundred-thousandth of a kilogram; rounding of 1e5 N
@@ -255,7 +255,7 @@ fn fast_slackening_rope_carries_no_compression_through_damper() {
         assert!((69..72).contains(&slack), "{slack}");
         // what its stretch held went into the damper and the holder; the trapezoidal rule is out at the kink by one step's
         // power, 1e4 N * 0.05 m/s * 0.01 s
-        assert!(books.energy_error().abs() < 5.0, "{} {:?}", books.energy_error(), books.work);
-        assert!(books.work.damping < -1.0);
+        assert!(balance.energy_error().abs() < 5.0, "{} {:?}", balance.energy_error(), balance.work);
+        assert!(balance.work.damping < -1.0);
     }
 }

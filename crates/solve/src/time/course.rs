@@ -29,8 +29,8 @@ pub struct RunSettings {
     pub keep: bool,
     /// Of the nodes of dynamic lines every so manieth is kept; 0: none.
     pub along: usize,
-    /// Keeps the books of energy and momentum of dynamic lines.
-    pub books: bool,
+    /// Keeps the energy and momentum balance of dynamic lines.
+    pub balance: bool,
     /// Time that statistics leave out at the beginning (s).
     pub transient: f64,
 }

@@ -9,8 +9,8 @@ use windlass_model::{Model, RunRequirement, SchemeWeights};
 /// What a run asks, by the keys of connectors; nothing where there is no run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunRequirements {
-    /// Whether books of energy and momentum are kept.
-    books: bool,
+    /// Whether the energy and momentum balance is kept.
+    balance: bool,
     /// The longest that winches make first segments (m).
     longest: BTreeMap<String, f64>,
     /// Those whose first end is let go.
@@ -22,7 +22,7 @@ pub struct RunRequirements {
 impl RunRequirements {
     /// Those of a run at its start.
     pub fn foreseen(model: &Model, actions: &[Action], settings: &RunSettings) -> Self {
-        let RunSettings { observed, books, .. } = *settings;
+        let RunSettings { observed, balance, .. } = *settings;
         let scheme = match &settings.method {
             Method::Implicit(scheme) => Some(scheme.weights()),
             Method::Corrector => None,
@@ -39,7 +39,7 @@ impl RunRequirements {
                 *most = if to.is_some() { most.max(paid) } else { *most + (paid - now).max(0.0) };
             }
         }
-        RunRequirements { books, longest, freed: BTreeSet::new(), scheme }
+        RunRequirements { balance, longest, freed: BTreeSet::new(), scheme }
     }
 
     /// Lets the first end of a line go, or holds it again; whether that is other than it was.
@@ -53,7 +53,7 @@ impl RunRequirements {
         let key = Model::key(name);
         RunRequirement {
             longest: self.longest.get(&key).copied(),
-            books: self.books,
+            balance: self.balance,
             freed: self.freed.contains(&key),
             scheme: self.scheme,
         }

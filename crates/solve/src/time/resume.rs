@@ -28,11 +28,11 @@ impl Run {
     /// A number that another model, environment, step or scheme does not have: of names, of the forces and their changes at the
     /// start, of the waves, of what happens. Names and comments of the input do not count.
     pub fn fingerprint(&self) -> u64 {
-        self.fingerprint_with(self.settings.books)
+        self.fingerprint_with(self.settings.balance)
     }
 
-    /// The same as it is with or without books of its lines.
-    pub fn fingerprint_with(&self, books: bool) -> u64 {
+    /// The same with or without the energy balance of its lines.
+    pub fn fingerprint_with(&self, balance: bool) -> u64 {
         let mut made = Fingerprint(0xcbf2_9ce4_8422_2325);
         for (name, _) in &self.history.layout.bodies {
             made.bytes(name.to_ascii_uppercase().as_bytes());
@@ -56,8 +56,8 @@ impl Run {
         made.bytes(format!("{method:?} {:?}", self.actions).as_bytes());
         made.numbers(self.model.parameters.dividing.as_slice());
         // they stand in what lines remember
-        if books && self.system.links.iter().any(|l| l.element.moves()) {
-            made.bytes(b"books");
+        if balance && self.system.links.iter().any(|l| l.element.moves()) {
+            made.bytes(b"balance");
         }
         made.0
     }

@@ -24,11 +24,11 @@ impl Run {
         self.system.links.iter().any(|l| l.element.moves())
     }
 
-    /// The books of the dynamic lines, by name, where they are kept.
-    pub fn books(&self) -> Vec<(String, EnergyBalance)> {
+    /// The energy balance of the dynamic lines, by name, where it is kept.
+    pub fn balance(&self) -> Vec<(String, EnergyBalance)> {
         let of = |link: &Link| {
             let state = &self.system.states[link.states.clone()];
-            link.element.books(state).map(|books| (link.name.clone(), books))
+            link.element.balance(state).map(|balance| (link.name.clone(), balance))
         };
         self.system.links.iter().filter_map(of).collect()
     }

@@ -107,7 +107,7 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
             );
         }
         let mut table = table
-            .column("", "Used", Dim::None, Digits::Decimals(3), |(_, node)| {
+            .column("", "Utilisation", Dim::None, Digits::Decimals(3), |(_, node)| {
                 let used = node.sides().filter_map(|side| {
                     let stress = side.stress.map(|s| s.von_mises);
                     Some(sections.get(side.segment)?.utilisation(node.effective, stress))
@@ -117,9 +117,9 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
             .build();
         table.note("between its ends where they stand, in the mean current, without waves");
         table.note(if tube {
-            "Used is von Mises stress over yield stress of a tube, tension over breaking tension of other sections"
+            "Utilisation is von Mises stress over yield stress of a tube, tension over breaking tension of other sections"
         } else {
-            "Used is tension over breaking tension"
+            "Utilisation is tension over breaking tension"
         });
         tables.push(table);
         Ok(())

@@ -174,7 +174,7 @@ fn check_table(line: &LineResults, code: &Code, checked: &[Checked], worst: &[Op
         .column("", "Node", Dim::None, Digits::Usual, |(number, _)| *number)
         .column("", "Arc", Dim::Length, Digits::Usual, |(_, found)| found.arc)
         .text("Check", |(_, found)| checked.get(found.segment).map(Checked::name))
-        .column("Largest", "Used", Dim::None, Digits::Decimals(3), |(_, found)| found.used)
+        .column("Largest", "Utilisation", Dim::None, Digits::Decimals(3), |(_, found)| found.used)
         .column("Largest", "At", Dim::Time, Digits::Usual, |(_, found)| found.time)
         .column("Then", "Tension", Dim::Force, Digits::Usual, |(_, found)| found.acting.effective);
     if bends {

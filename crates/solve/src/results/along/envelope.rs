@@ -80,14 +80,14 @@ pub fn envelope(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveE
             found.map_or([None; 3], |s| [s.least.value, s.mean, s.most.value].map(Some))
         });
     }
-    let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3), |(.., used)| *used).build();
+    let mut table = table.column("", "Utilisation", Dim::None, Digits::Decimals(3), |(.., used)| *used).build();
     if let Some((used, node)) = worst {
         table.note(format!("most is used at node {node}: {used:.3}"));
     }
     table.note(if wall {
-        "Used is von Mises stress over yield stress of a tube, tension over breaking tension of other sections"
+        "Utilisation is von Mises stress over yield stress of a tube, tension over breaking tension of other sections"
     } else {
-        "Used is tension over breaking tension"
+        "Utilisation is tension over breaking tension"
     });
     if wound {
         table.note("a winch changed the length: Arc is the mean of each node while it was there");

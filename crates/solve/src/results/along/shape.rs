@@ -68,8 +68,9 @@ pub fn shape(line: &LineResults, event: &RunEvent) -> Result<Table, SolveError> 
         table =
             table.column("", name, *dim, *digits, |(_, node)| value(node).filter(|v| v.is_finite()).map(|v| v + 0.0));
     }
-    let mut table =
-        table.column("", "Used", Dim::None, Digits::Decimals(3), |(_, node)| line.node_utilisation(node, &row)).build();
+    let mut table = table
+        .column("", "Utilisation", Dim::None, Digits::Decimals(3), |(_, node)| line.node_utilisation(node, &row))
+        .build();
     if table.rows() == 0 {
         table.note("the line does not act then");
     }
