@@ -76,7 +76,7 @@ impl<'a> NameFilter<'a> {
 
 /// The remarks of several things, each text once, with the names of all it holds for; `warning: ` stays in front.
 pub fn merge_remarks(list: &[(String, Vec<String>)]) -> Vec<String> {
-    /// Names written out; of more the number is told.
+    /// Names written out; of more the number is given.
     const MAX_NAMES: usize = 8;
     let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
     for (name, notes) in list {

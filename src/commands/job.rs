@@ -248,7 +248,7 @@ pub struct Job {
     pub output: Output,
     /// Warnings and notes a handler raised; the session prints them.
     pub notices: Vec<Diagnostic>,
-    /// Options that do nothing in their class type, of which the user has been told: type and option.
+    /// Options that do nothing in their class type, which the user has been warned of: type and option.
     pub idle_said: Vec<(&'static str, &'static str)>,
     /// Severity of the last record, for `&INFO(SEVERITY ..)`.
     pub last_severity: Option<Severity>,

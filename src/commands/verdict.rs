@@ -50,7 +50,7 @@ pub fn over_break(connector: &str, largest: Option<(f64, usize)>, command: &'sta
     Some(OverBreak { connector: connector.to_string(), ratio, segment, too_short: None, command, time: None })
 }
 
-/// The same of what a report tells of it; one that is far too short for its ends is over its break whoever gives that.
+/// The same from its summary; one that is far too short for its ends is over its break whoever gives that.
 pub fn check_over_break(connector: &str, told: &ElementSummary, command: &'static str) -> Option<OverBreak> {
     let over = over_break(connector, told.over_given_break, command);
     over.or_else(|| {

@@ -608,7 +608,7 @@ pub fn is_unlinked(file: &File) -> bool {
     file.metadata().is_ok_and(|m| m.nlink() == 0)
 }
 
-/// Whether a file that is open has been deleted: nothing tells.
+/// Whether a file that is open has been deleted: unknown on this system.
 #[cfg(not(unix))]
 pub fn is_unlinked(_: &File) -> bool {
     false

@@ -1,4 +1,4 @@
-//! Sentences with values: they are put together in SI and told in the user's units.
+//! Messages with values: built in SI, printed in the user's units.
 
 use crate::units::{Dim, UnitSystem};
 use std::fmt::Display;

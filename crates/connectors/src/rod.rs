@@ -83,7 +83,7 @@ const REFINE: OptionSpec =
     OptionSpec { values: &[ValueSpec::new("N", Kind::Integer, "number of elements").positive()], ..o::REFINE };
 /// Options of the whole line.
 const PER_LINE: [OptionSpec; 4] = [m::SEABED, o::FRICTION, o::SLOPE, o::DEPANCHOR];
-/// Most elements of a line with its memory told: what the engine holds.
+/// Most elements of a line: the limit of the engine.
 const MAX_ELEMENTS: i64 = windlass_line_dynamics::MAX_ELEMENTS as i64;
 
 #[derive(Debug, Default)]

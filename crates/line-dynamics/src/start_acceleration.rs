@@ -42,7 +42,7 @@ impl RodSolver {
     }
 
     /// Gives a state the accelerations that its forces make, as at the start of a run that is not at rest, or after a
-    /// line has parted, and tells the forces at that instant on holders with the given accelerations. A state from
+    /// line has parted, and returns the forces at that instant on holders with the given accelerations. A state from
     /// [`RodSolver::statics`] has its accelerations.
     ///
     /// # Errors

@@ -183,7 +183,7 @@ pub fn periods(system: &System, state: &SystemState) -> Result<Table, SolveError
 
 /// Connectors of a stiffness report.
 pub struct ReportedConnectors<'a> {
-    /// Those told one by one.
+    /// Those reported one by one.
     pub told: &'a [&'a str],
     /// Whether the stiffness of one of this name is left out of that of a body.
     pub left_out: &'a dyn Fn(&str) -> bool,

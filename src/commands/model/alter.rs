@@ -176,7 +176,7 @@ pub(crate) fn select_connectors(model: &Model, names: &[Value]) -> Outcome<Vec<S
     Ok(keys)
 }
 
-/// What is told when the whole record has gone well.
+/// What is reported when the whole record has succeeded.
 struct Said {
     units: UnitSystem,
     lines: Vec<String>,

@@ -198,7 +198,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
-/// What tells that a database is of a body of another size, where its source does not say the mass it was computed for: added
+/// The sign that a database belongs to a body of another size, where its source does not say the mass it was computed for: added
 /// mass in no proportion to the mass (kg) of the body, or a stiffness by which it would heave like nothing that floats.
 fn unlike(data: &Database, mass: f64) -> Option<String> {
     if data.mass.is_some() || mass <= 0.0 {

@@ -53,7 +53,7 @@ const fn derived_dimension(force: i8, length: i8, seconds: i8) -> Dim {
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
-/// Force and moment over something that a force and a moment are told in.
+/// Force and moment per unit of the given dimensions.
 const fn six(force: Dim, moment: Dim) -> [ValueSpec; 6] {
     [
         number("FX", force, "surge"),

@@ -21,7 +21,7 @@ pub struct Rigging<'a> {
     pub slings: &'a [String],
     /// Its record.
     pub span: Span,
-    /// The units it is told in.
+    /// The units it is reported in.
     pub units: UnitSystem,
 }
 
@@ -89,7 +89,7 @@ impl Rigging<'_> {
         Ok(to)
     }
 
-    /// Gives the lines lengths without sag with the body where it is. The place of the hook (m), and what is told.
+    /// Gives the lines lengths without sag with the body where it is. Returns the place of the hook (m) and the report.
     ///
     /// # Errors
     /// Slings that do not meet, or that reach beyond the boom.

@@ -208,7 +208,7 @@ fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
     let mut list = places(&chosen, names.clone().map(|(name, _)| name.as_str()));
     chosen.check_used("the bodies of the run", &[EntityKind::Body])?;
     if chosen.chooses_all() {
-        // junctions are told by name: they are many
+        // junctions are reported only by name: they are many
         let junction = |body: &usize| {
             let key = run.history.layout.bodies.get(*body).map(|(_, key)| key);
             key.and_then(|key| run.model.bodies.get(key)).is_some_and(|b| b.junction.is_some())

@@ -29,7 +29,7 @@ const WHAT: &[&str] = &["ENVELOPE", "AT", "NODE", "TOUCHDOWN", "SUPPORTS", "FATI
 const CODES: &[&str] = &["F201", "2RD", "BREAK"];
 const SAFETY: &[&str] = &["LOW", "NORMAL", "HIGH"];
 const CASES: &[&str] = &["OPERATING", "EXTREME", "SURVIVAL"];
-/// Most places told side by side.
+/// Most places reported side by side.
 const MAX_PLACES: usize = 100;
 
 const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
@@ -171,7 +171,7 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
     if what == "AT" {
         return tables_at_instants(job, args, &line);
     }
-    // of a run without rows its own envelope is told
+    // of a run without rows its own envelope is reported
     let bare = what == "ENVELOPE" && run.history.is_empty() && !args.has(&EVENTS);
     let sums_up = ["ENVELOPE", "FATIGUE", "CHECK"].contains(&what);
     let events = match sums_up {

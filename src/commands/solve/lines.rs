@@ -48,7 +48,7 @@ static LINES_SPEC: CommandSpec = CommandSpec {
 const ADDED: [&str; 8] =
     ["fairlead_H_N", "fairlead_V_N", "anchor_H_N", "anchor_V_N", "grounded_length_m", "regime", "residual", "error"];
 
-/// Refused rows that are told one by one.
+/// Refused rows that are reported one by one.
 const MAX_REPORTED_ROWS: u64 = 10;
 
 fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {

@@ -481,7 +481,7 @@ fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
     Ok(run_tables::comparison_tables(first, &again.history))
 }
 
-/// Who is told how a run goes: its file, the terminal, Ctrl-C.
+/// Where the progress of a run goes: its file, the terminal; and Ctrl-C.
 struct RunProgress {
     log: Option<RunLog>,
     interrupt: Arc<AtomicBool>,

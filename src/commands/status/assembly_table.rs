@@ -110,7 +110,7 @@ fn pipe(model: &Model, assembly: &Assembly, units: UnitSystem) -> Table {
 /// Forces on nodes (N), and a summary.
 type OnSupports = (Vec<[f64; 3]>, ElementSummary);
 
-/// The forces of a pipe on the nodes of its active supports (N), and what it tells of itself.
+/// The forces of a pipe on the nodes of its active supports (N), and its summary.
 fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>, ClassError> {
     let around = ambient(model, None)?;
     let Some(LaidPipe { supports, element }) = model.pipe(assembly, Some(&around), RunRequirement::default())? else {

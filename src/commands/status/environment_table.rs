@@ -1,4 +1,4 @@
-//! The part of `&STATUS` that tells of environments.
+//! `&STATUS ENVIRONMENT`: the tables.
 
 use crate::commands::Job;
 use crate::commands::environment::env;

@@ -52,7 +52,7 @@ pub(crate) fn densities(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Sp
     Ok(tables)
 }
 
-/// What `&STATUS ENVIRONMENT` tells of gusts.
+/// Gusts in `&STATUS ENVIRONMENT`.
 pub(crate) fn facts(table: Table, gusts: &Gusts) -> Table {
     let deviation = gusts.deviation();
     table

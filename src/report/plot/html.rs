@@ -1,4 +1,4 @@
-//! A chart as one page of HTML with nothing to be fetched from elsewhere (share/plot): it tells values, zooms, hides curves.
+//! A chart as one page of HTML with nothing to be fetched from elsewhere (share/plot): it shows values, zooms, hides curves.
 
 use super::draw::COLOURS;
 use super::{Chart, PlotError, PlotSeries};

@@ -25,7 +25,7 @@ pub fn mark(index: usize) -> char {
     MARKS.get(index % MARKS.len()).copied().unwrap_or('*')
 }
 
-/// The colour that stands for a line on this surface; it tells [`Canvas`] which mark to use, and with `alone` to use one
+/// The colour that stands for a line on this surface; [`Canvas`] takes its mark from it, and with `alone` to use one
 /// for the first line too.
 pub fn colour(index: usize, alone: bool) -> RGBColor {
     RGBColor(1, if alone { 2 } else { 1 }, u8::try_from(index % MARKS.len()).unwrap_or(0))

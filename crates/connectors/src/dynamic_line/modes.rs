@@ -37,8 +37,8 @@ pub(super) fn few(nodes: usize, number: usize) -> Result<(), ClassError> {
 
 /// The slowest modes about a state of rest, with added mass and the bottom's stiffness, slowest first.
 ///
-/// A round line that hangs straight down swings alike in all directions, and any mix of two such modes is a mode: one is
-/// told in the vertical plane of its ends and one across it, in that order.
+/// A round line that hangs straight down swings alike in all directions, and any mix of two such modes is a mode: the
+/// one in the vertical plane of its ends is reported first, then the one across it.
 pub(super) fn find_line_modes(
     rod: &Rod,
     solver: &mut RodSolver,
@@ -97,7 +97,7 @@ fn set_apart(a: &mut RodMode, b: &mut RodMode, across: &Vector3<f64>) {
     let within = least(&|p, q| p.dot(across) * q.dot(across));
     let beside = least(&|p, q| p.dot(q) - p.dot(across) * q.dot(across));
     let (Ok(within), Ok(beside)) = (within, beside) else { return };
-    // the same twice: neither direction tells them apart, as of two along the line
+    // neither direction distinguishes the two modes, as of two along the line
     if (within[0] * beside[1] - within[1] * beside[0]).abs() < 1e-3 {
         return;
     }

@@ -217,7 +217,7 @@ impl<'a> SeaAt<'a> {
         self.inside(at, height.min(elevation), elevation)
     }
 
-    /// The same at many places, told one by one by their indices, for lines, of which most lies far down. Where no wave comes down to a
+    /// The same at many places, given by their indices, for lines, of which most lies far down. Where no wave comes down to a
     /// place the surface above it is taken at the mean level, the head of the pressure over it; waves that are less than a millionth of
     /// what they are at the mean level are left out, and the mirror term of finite depth where it is less than a thousand-millionth.
     /// Velocity, acceleration and pressure err by no more than twice these shares of the sums of those that the left out waves have there,

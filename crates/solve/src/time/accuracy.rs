@@ -135,7 +135,7 @@ pub struct Followed {
 /// What a run has seen of its own steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Accuracy {
-    /// Largest error of place of a step (m), as far as the change of the acceleration tells; when (s) and the number of the body.
+    /// Largest error of place of a step (m), estimated from the change of the acceleration; when (s) and the number of the body.
     pub largest: (f64, f64, usize),
     time: f64,
     /// Of each degree of freedom: the integrals of v, v^2, a^2 and (h a)^2.

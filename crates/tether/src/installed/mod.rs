@@ -2,8 +2,8 @@
 //!
 //! The axis of a tether (TLA) runs straight from the anchor to the attachment and moves with it; X and Y across it are the global ones
 //! turned with the axis from the vertical. In each plane a chain of beams moves across the axis ([`bending`]); tension is static along it
-//! ([`tension`]). [`run`] moves structure and tethers together and shows every state to an observer, of which [`history`] keeps what is to be
-//! told. Rotations are `RX = -dY/dz`, `RY = dX/dz`.
+//! ([`tension`]). [`run`] moves structure and tethers together and shows every state to an observer, of which [`history`] keeps what is
+//! reported. Rotations are `RX = -dY/dz`, `RY = dX/dz`.
 
 pub mod axis;
 pub mod bending;

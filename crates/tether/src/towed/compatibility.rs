@@ -1,6 +1,6 @@
 //! Peculiarities of the program behind the listing of [AQWA-TETHER 8.1], each of which can be switched.
 //!
-//! What each makes in the towed example [AQWA-TETHER 8.1] (significant height 6.3 m, 375 s), told as what changes when it is
+//! What each makes in the towed example [AQWA-TETHER 8.1] (significant height 6.3 m, 375 s), as the change when it is
 //! switched off (`crates/tether/tests/it/aqwa_tether_towed.rs` pins the first column):
 //!
 //! | switched off | error of the accelerations at the start (m/s2 of 2.86) | 2 x RMS of position | mean position | 2 x RMS of acceleration | 2 x RMS of moment |

@@ -38,7 +38,7 @@ pub fn natural_modes(
 
 /// Periods, where each mode moves most, and which way.
 fn periods(name: &str, nodes: &[LineNode], modes: &[LineMode]) -> Table {
-    // the node that moves most; of equals the first: which of two like bows is larger by a thousandth tells nothing
+    // the node that moves most; of equals the first: which of two equal antinodes is larger by a thousandth is rounding
     let most = |mode: &LineMode| {
         let size = |i: usize| mode.shape.get(i).map_or(0.0, Vector3::norm);
         (0..nodes.len()).fold(0, |most, i| if size(i) > size(most) * 1.001 { i } else { most })
