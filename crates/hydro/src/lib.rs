@@ -84,12 +84,12 @@ pub enum Category {
     WaveMean,
     /// What the sea bottom carries (ours).
     Bottom,
+    /// Forces given by the user.
+    Applied,
     /// Flexible connectors.
     FlexConnectors,
     /// Restraints.
     RigidConnectors,
-    /// Forces given by the user.
-    Applied,
     /// Inertia of the body's own mass, as a force.
     Inertia,
     /// Inertia of the added mass, as a force.
@@ -118,6 +118,11 @@ impl Category {
         Category::Coriolis,
     ];
 
+    /// Its index in [`Category::ALL`] and in lists by category.
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
     /// Its name in reports (MOSES).
     pub const fn name(self) -> &'static str {
         match self {
@@ -139,6 +144,14 @@ impl Category {
         }
     }
 }
+
+const _: () = {
+    let mut i = 0;
+    while i < Category::ALL.len() {
+        assert!(Category::ALL[i].index() == i, "categories are declared in the order of reports");
+        i += 1;
+    }
+};
 
 /// A force on a body at rest, and how it changes with the body's place.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -157,11 +157,6 @@ pub struct BodyForces {
     arms: Vec<Vector3<f64>>,
 }
 
-/// The index of a category in [`Forces::categories`].
-pub fn place_of(category: Category) -> usize {
-    Category::ALL.iter().position(|c| *c == category).unwrap_or(0)
-}
-
 impl BodyForces {
     fn clear(&mut self, system: &System) {
         let size = 6 * system.nodes.len();
@@ -251,16 +246,16 @@ impl BodyForces {
                 self.made.load.wrench.fill(0.0);
                 load.add(&at, state, &mut self.made).map_err(SolveError::error_about(&node.name))?;
                 let wrench = self.made.load.wrench;
-                self.add(body, place_of(load.category()), &wrench);
+                self.add(body, load.category().index(), &wrench);
                 if let Some(inertia) = load.inertia(state) {
-                    self.add(body, place_of(load.category()), &-(inertia * motion.acceleration));
+                    self.add(body, load.category().index(), &-(inertia * motion.acceleration));
                     let mut block = self.inertia.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                     block += inertia;
                     self.carried = true;
                 }
                 for other in load.other_categories() {
                     let part = load.part(*other, &at, state);
-                    self.count_as(body, (place_of(load.category()), place_of(*other)), &part);
+                    self.count_as(body, (load.category().index(), other.index()), &part);
                 }
             }
             let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
@@ -269,7 +264,7 @@ impl BodyForces {
             block += self.made.damping;
             if node.damped {
                 let linear = node.floating.linear_damping(&motion.pose);
-                self.add(body, place_of(Category::RadiationDrag), &(-(linear * motion.velocity)));
+                self.add(body, Category::RadiationDrag.index(), &(-(linear * motion.velocity)));
                 let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                 block += linear;
                 // it turns with its body
@@ -278,7 +273,7 @@ impl BodyForces {
             }
         }
         for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {
-            self.add(*body, place_of(Category::Applied), wrench);
+            self.add(*body, Category::Applied.index(), wrench);
         }
         self.connect(system, motions, (time, dt))
     }
@@ -305,7 +300,7 @@ impl BodyForces {
     fn connect(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
         self.connect_moving(system, motions, (time, dt));
         let mut alone = 0..;
-        let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
+        let (flexible, rigid) = (Category::FlexConnectors.index(), Category::RigidConnectors.index());
         for (index, link) in system.links.iter().enumerate() {
             self.place_ends(link, motions);
             let committed = &system.states[link.states.clone()];

@@ -6,7 +6,7 @@
 use super::along::AlongColumns;
 use super::compression::Pushing;
 use super::ends::end_of;
-use super::forces::{BodyForces, BodyMotion, CATEGORY_COUNT, place_of};
+use super::forces::{BodyForces, BodyMotion, CATEGORY_COUNT};
 use crate::link::{EndAttachment, Link};
 use crate::system::{SolveError, System, SystemBody};
 use nalgebra::Vector3;
@@ -247,7 +247,7 @@ impl RowLayout {
             for category in &self.categories {
                 let of_inertia = |i: usize| told.inertia.get(body).and_then(|t| t.get(i)).copied();
                 let sums = forces.categories.get(body);
-                let of_loads = sums.and_then(|c: &[Six; CATEGORY_COUNT]| c.get(place_of(*category))).copied();
+                let of_loads = sums.and_then(|c: &[Six; CATEGORY_COUNT]| c.get(category.index())).copied();
                 let force = match category {
                     Category::Inertia => of_inertia(0),
                     Category::AddedInertia => of_inertia(1).zip(of_loads).map(|(own, more)| own + more),

@@ -103,6 +103,8 @@ impl Run {
             && self.now.memory.loads.len() == snapshot.loads.len()
             && self.system.states.len() == snapshot.states.len()
             && self.near.len() == snapshot.near.len()
+            && self.winches.len() == snapshot.winches.len()
+            && links.len() == snapshot.lengths.len()
             && self.fired.len() == snapshot.fired.len();
         if !fits {
             return Err(other());
