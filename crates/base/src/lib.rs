@@ -1,4 +1,5 @@
-//! What every crate of windlass speaks: units, tables, places and poses, the values of records, diagnostics, dense factorisations.
+//! What every crate of windlass speaks: units, tables, places and poses, the values of records, diagnostics, band and dense
+//! factorisations.
 //!
 //! Values are SI (m, kg, s, N, rad, K). A number meets the user's units twice: where a record is read and where a report is
 //! written; both go through [`units::Dim`].
@@ -18,6 +19,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod band;
 pub mod dense;
 pub mod diagnostic;
 pub mod geometry;

@@ -31,7 +31,6 @@
 
 mod assemble;
 mod balance_snapshot;
-mod band;
 mod bend;
 mod condense;
 mod contact;

@@ -1,9 +1,9 @@
 //! The residual of a rod and its tangent, with what adds to them by nodes.
 
-use super::band::BandMatrix;
 use super::element_batch::{BATCH_SIZE, BatchTangent, ElementBatch};
 use super::spatial::Vector8;
 use nalgebra::{Matrix3, SMatrix, Vector3};
+use windlass_base::band::BandMatrix;
 
 /// How velocity and acceleration follow the unknown positions: the tangent is k K + c C + m M.
 #[derive(Clone, Copy, Debug)]
@@ -178,8 +178,8 @@ fn add_share<const TANGENT: bool, const W: usize, const H: usize, const S: usize
         }
         if TANGENT {
             for i in 0..3 {
-                band.add_three(W * node + i, W * node, three(&shares.itself[second][i]));
-                band.add_three(W * node + i, W * other, three(&shares.other[second][i]));
+                band.add_to_row(W * node + i, W * node, three(&shares.itself[second][i]));
+                band.add_to_row(W * node + i, W * other, three(&shares.other[second][i]));
             }
         }
     }

@@ -205,7 +205,7 @@ impl Workspace {
 
     /// Factors: the number of negative pivots; the node whose pivot vanished otherwise.
     pub fn factor(&mut self) -> Result<usize, usize> {
-        each!(self, system => system.band.factor().map_err(|row| row / system.stride()))
+        each!(self, system => system.band.factor().map_err(|pivot| pivot.row / system.stride()))
     }
 
     /// The change that takes the residual away, by the factors.
@@ -223,7 +223,7 @@ impl Workspace {
         each!(self, system => system.band.solve(right));
     }
 
-    /// Solves with the transpose by the factors: see [`Band::solve_transposed`](super::band::Band::solve_transposed).
+    /// Solves with the transpose by the factors: see [`windlass_base::band::BandMatrix::solve_transposed`].
     pub fn solve_transposed<const N: usize>(&self, right: &mut [[f64; N]], reach: (usize, usize)) {
         each!(self, system => system.band.solve_transposed(right, reach));
     }

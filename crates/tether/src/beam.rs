@@ -6,7 +6,8 @@
 //! geometric stiffness, which the listing has and the manual does not mention, is that of
 //! [PRZEMIENIECKI-1968 eq. 15.25].
 
-use super::banded::Banded;
+use windlass_base::band::{BandMatrix, UnusablePivot};
+use windlass_model::ClassError;
 
 /// A matrix of one element in one plane.
 pub type Matrix4 = [[f64; 4]; 4];
@@ -135,14 +136,30 @@ pub fn gather(all: &mut [f64], index: usize, loads: &Vector4) {
     }
 }
 
-/// Adds a multiple of the matrix of element `index` to that of the whole plane.
+/// A symmetric matrix of one plane of a tether: a node is coupled to the next alone, so three entries on either side of the
+/// diagonal are filled.
+pub type PlaneMatrix = BandMatrix<3, 7>;
+
+/// Adds the matrix of element `index` to that of the whole plane.
 #[inline]
-pub fn assemble(all: &mut Banded, index: usize, factor: f64, matrix: &Matrix4) {
+pub fn assemble(all: &mut PlaneMatrix, index: usize, matrix: &Matrix4) {
     for (i, row) in matrix.iter().enumerate() {
-        for (j, value) in row.iter().enumerate().take(i + 1) {
-            all.add(2 * index + i, 2 * index + j, factor * value);
-        }
+        all.add_to_row(2 * index + i, 2 * index, *row);
     }
+}
+
+/// Factors the matrix of a plane, of inertia and stiffness together, into `factors`.
+///
+/// # Errors
+/// A pivot that is not above zero: a mass is missing, or a motion has neither stiffness nor mass.
+pub fn factor(matrix: &PlaneMatrix, factors: &mut PlaneMatrix) -> Result<(), ClassError> {
+    factors.clone_from(matrix);
+    factors.factor_positive().map_err(|UnusablePivot { row }| {
+        ClassError::new(format!(
+            "the matrix of the tether is singular at node {}: neither mass nor stiffness holds it",
+            row / 2 + 1
+        ))
+    })
 }
 
 /// Twice the energy of an element: bending plus tension. Bending is reckoned of the slopes against the chord, so that a rigid

@@ -13,7 +13,6 @@
 //! | [`section`] | the tube's cross section |
 //! | [`mod@line`] | elements one after the other, checked |
 //! | [`beam`] | matrices and loads of one element in one plane |
-//! | [`banded`] | symmetric band and its factors |
 //! | [`modes`] | natural modes of a plane |
 //! | [`description`] | what is reported of a tether before a run |
 //! | [`towed`] | the towed tether in waves |
@@ -45,7 +44,6 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod banded;
 pub mod beam;
 pub mod compatibility;
 pub mod description;

@@ -5,7 +5,7 @@
 //! the shape. The error of the last is the square of that of the shape, and the energy of bending leaves out rigid motion to
 //! the last digit, so that modes held by soft springs alone keep all their digits beside a stiffness a million times theirs.
 
-use super::banded::{Banded, BandedFactors};
+use super::beam::PlaneMatrix;
 use std::f64::consts::{PI, TAU};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
@@ -20,10 +20,10 @@ const TEN_DEGREES: f64 = PI / 18.0;
 
 /// The problem of one plane.
 pub struct Pencil<'a> {
-    /// Stiffness. An unknown that is held has a positive diagonal alone ([`Banded::hold`]).
-    pub stiffness: &'a Banded,
+    /// Stiffness. An unknown that is held has a positive diagonal alone ([`PlaneMatrix::hold`]).
+    pub stiffness: &'a PlaneMatrix,
     /// Mass. An unknown that is held has none.
-    pub mass: &'a Banded,
+    pub mass: &'a PlaneMatrix,
     /// Twice the energy of a deflected plane, springs included: [`super::beam::twice_energy`] of each element.
     pub twice_energy: &'a dyn Fn(&[f64]) -> f64,
 }
@@ -93,9 +93,7 @@ pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<PlaneMode>, ClassErro
     for i in 0..order {
         let (k, m) = (pencil.stiffness.get(i, i), pencil.mass.get(i, i));
         if !(k.is_finite() && m.is_finite()) {
-            return Err(ClassError::new(
-                "the natural modes of the tether cannot be found: a stiffness or mass is not finite",
-            ));
+            return Err(not_finite());
         }
         if m > 0.0 {
             ratio = ratio.max((k / m).abs());
@@ -103,23 +101,28 @@ pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<PlaneMode>, ClassErro
     }
     let massive = (0..order).filter(|i| pencil.mass.get(*i, *i) > 0.0).count();
     let number = number.min(massive);
-    let mut search = ModeSearch { pencil, factors: BandedFactors::with_room(order), shifted: Banded::zeros(order) };
+    let mut search = ModeSearch { pencil, factors: PlaneMatrix::new(order), shifted: PlaneMatrix::new(order) };
     let ratio = ratio.max(f64::MIN_POSITIVE);
     let mut high = ratio;
-    while search.count_eigenvalues_below(high) < number && high < ratio * 1e12 {
+    while search.count_eigenvalues_below(high)? < number && high < ratio * 1e12 {
         high *= 2.0;
     }
     let mut low = -ratio * 1e-9;
-    while search.count_eigenvalues_below(low) > 0 && low > -ratio * 1e12 {
+    while search.count_eigenvalues_below(low)? > 0 && low > -ratio * 1e12 {
         low *= 4.0;
     }
     let mut found: Vec<PlaneMode> = Vec::with_capacity(number);
     for index in 0..number {
-        let shift = search.enclose(index, low, high, ratio * f64::EPSILON);
+        let shift = search.enclose(index, low, high, ratio * f64::EPSILON)?;
         found.push(search.shape(shift, &found)?);
     }
     found.sort_by(|a, b| a.eigenvalue.total_cmp(&b.eigenvalue));
     Ok(found)
+}
+
+/// The error of a matrix with an entry that is not finite.
+fn not_finite() -> ClassError {
+    ClassError::new("the natural modes of the tether cannot be found: a stiffness or mass is not finite")
 }
 
 /// The modes of both planes together, lowest eigenvalue first and those in z before their like in y, scaled for the listing.
@@ -146,38 +149,38 @@ fn scale_mode(plane: ModePlane, mode: &PlaneMode) -> NaturalMode {
 /// A search with its work space.
 struct ModeSearch<'a> {
     pencil: &'a Pencil<'a>,
-    factors: BandedFactors,
-    shifted: Banded,
+    factors: PlaneMatrix,
+    shifted: PlaneMatrix,
 }
 
 impl ModeSearch<'_> {
     /// How many eigenvalues are below a value; leaves the factors of `K - s M`.
-    fn count_eigenvalues_below(&mut self, value: f64) -> usize {
+    fn count_eigenvalues_below(&mut self, value: f64) -> Result<usize, ClassError> {
         self.shifted.clone_from(self.pencil.stiffness);
         self.shifted.add_scaled(-value, self.pencil.mass);
-        self.shifted.factor_indefinite(&mut self.factors)
+        self.factors.factor_shifted(&self.shifted).map_err(|_| not_finite())
     }
 
     /// A value close to eigenvalue `index` (from 0), between two that enclose it.
-    fn enclose(&mut self, index: usize, mut low: f64, mut high: f64, rounding: f64) -> f64 {
+    fn enclose(&mut self, index: usize, mut low: f64, mut high: f64, rounding: f64) -> Result<f64, ClassError> {
         for _ in 0..MAX_BISECTIONS {
             if high - low <= 1e-9 * low.abs().max(high.abs()) || high - low <= rounding {
                 break;
             }
             let middle = 0.5 * (low + high);
-            if self.count_eigenvalues_below(middle) > index {
+            if self.count_eigenvalues_below(middle)? > index {
                 high = middle;
             } else {
                 low = middle;
             }
         }
-        0.5 * (low + high)
+        Ok(0.5 * (low + high))
     }
 
     /// The mode next to a value, across all that are found.
     fn shape(&mut self, shift: f64, found: &[PlaneMode]) -> Result<PlaneMode, ClassError> {
         let order = self.pencil.mass.order();
-        self.count_eigenvalues_below(shift);
+        self.count_eigenvalues_below(shift)?;
         // no symmetry that a mode could lack, and the same every time
         let mut shape: Vec<f64> = (0..order).map(|i| 1.0 + 0.37 * (1.7 * i as f64 + 0.4).sin()).collect();
         let mut momentum = vec![0.0; order];
@@ -234,11 +237,11 @@ mod tests {
     fn uniform(elements: usize, tension: f64, springs: f64, held: &[usize], number: usize) -> Vec<PlaneMode> {
         let length = 1.0 / elements as f64;
         let order = 2 * (elements + 1);
-        let (mut k, mut m) = (Banded::zeros(order), Banded::zeros(order));
+        let (mut k, mut m) = (PlaneMatrix::new(order), PlaneMatrix::new(order));
         for i in 0..elements {
-            beam::assemble(&mut k, i, 1.0, &beam::stiffness(1.0, length));
-            beam::assemble(&mut k, i, 1.0, &beam::geometric(tension, length));
-            beam::assemble(&mut m, i, 1.0, &beam::mass(1.0, length));
+            beam::assemble(&mut k, i, &beam::stiffness(1.0, length));
+            beam::assemble(&mut k, i, &beam::geometric(tension, length));
+            beam::assemble(&mut m, i, &beam::mass(1.0, length));
         }
         k.add(0, 0, springs);
         k.add(order - 2, order - 2, springs);
@@ -293,8 +296,8 @@ mod tests {
         for (i, one) in found.iter().enumerate() {
             for other in &found[..i] {
                 let mut product = vec![0.0; 14];
-                let mut m = Banded::zeros(14);
-                (0..6).for_each(|e| beam::assemble(&mut m, e, 1.0, &beam::mass(1.0, 1.0 / 6.0)));
+                let mut m = PlaneMatrix::new(14);
+                (0..6).for_each(|e| beam::assemble(&mut m, e, &beam::mass(1.0, 1.0 / 6.0)));
                 m.times(&one.shape, &mut product);
                 let cross: f64 = other.shape.iter().zip(&product).map(|(a, b)| a * b).sum();
                 assert!(cross.abs() < 1e-12, "{cross}");

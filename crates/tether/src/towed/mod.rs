@@ -19,8 +19,7 @@ pub mod scheme;
 pub mod water;
 pub mod wet_section;
 
-use super::banded::Banded;
-use super::beam::{self, Matrix4};
+use super::beam::{self, Matrix4, PlaneMatrix};
 use super::line::TetherLine;
 use super::modes::{self, NaturalMode, Pencil};
 use windlass_base::units::Dim;
@@ -206,11 +205,11 @@ impl Towed {
     }
 
     /// Stiffness of a plane, springs included.
-    fn stiffness(&self, plane: usize) -> Banded {
+    fn stiffness(&self, plane: usize) -> PlaneMatrix {
         let order = 2 * self.line.nodes();
-        let mut k = Banded::zeros(order);
+        let mut k = PlaneMatrix::new(order);
         for (i, e) in self.line.elements().iter().enumerate() {
-            beam::assemble(&mut k, i, 1.0, &beam::stiffness(e.bending_stiffness(), e.length));
+            beam::assemble(&mut k, i, &beam::stiffness(e.bending_stiffness(), e.length));
         }
         k.add(0, 0, self.spring(0, plane));
         k.add(order - 2, order - 2, self.spring(1, plane));
@@ -229,13 +228,13 @@ impl Towed {
     }
 
     /// Mass of a plane on the straight axis in still water.
-    fn mass_at_rest(&self, plane: usize) -> Banded {
-        let mut m = Banded::zeros(2 * self.line.nodes());
+    fn mass_at_rest(&self, plane: usize) -> PlaneMatrix {
+        let mut m = PlaneMatrix::new(2 * self.line.nodes());
         for (i, e) in self.line.elements().iter().enumerate() {
             let wet = Wetted::new(-self.origin[2], e.outer_diameter);
             let added = self.density * e.added_mass * self.multipliers.added_mass * wet.added[plane];
             let all: Matrix4 = beam::mass(e.mass_per_length() + added, e.length);
-            beam::assemble(&mut m, i, 1.0, &all);
+            beam::assemble(&mut m, i, &all);
         }
         m
     }

@@ -6,8 +6,7 @@
 //! The term of `a1` in the second is not in the manual, but in its numbers; it is what the first says with v* in the part
 //! that is ahead of the middle of the step. Without it the highest modes would swing on undamped. End springs are in F.
 
-use super::super::banded::{Banded, BandedFactors};
-use super::super::beam::{self, Matrix4, Vector4, of_element, times};
+use super::super::beam::{self, Matrix4, PlaneMatrix, Vector4, of_element, times};
 use super::loads::Loading;
 use super::{Towed, run::ElementEnd};
 use windlass_base::units::Dim;
@@ -32,12 +31,12 @@ pub struct TowedScheme<'a> {
     loading: Loading<'a>,
     step: f64,
     b: f64,
-    stiffness: Banded,
+    stiffness: PlaneMatrix,
     elements: Vec<(Matrix4, Matrix4)>,
-    dry: Banded,
-    matrix: [Banded; 2],
-    factored: [Banded; 2],
-    factors: [BandedFactors; 2],
+    dry: PlaneMatrix,
+    matrix: [PlaneMatrix; 2],
+    factored: [PlaneMatrix; 2],
+    factors: [PlaneMatrix; 2],
     ahead: TowedState,
     taken: Vec<f64>,
     pull: Vec<f64>,
@@ -59,10 +58,10 @@ impl<'a> TowedScheme<'a> {
             (beam::stiffness(e.bending_stiffness(), e.length), beam::mass(e.mass_per_length(), e.length))
         };
         let elements: Vec<_> = elements.map(matrices).collect();
-        let (mut stiffness, mut dry) = (Banded::zeros(order), Banded::zeros(order));
+        let (mut stiffness, mut dry) = (PlaneMatrix::new(order), PlaneMatrix::new(order));
         for (i, (k, m)) in elements.iter().enumerate() {
-            beam::assemble(&mut stiffness, i, 1.0, k);
-            beam::assemble(&mut dry, i, 1.0, m);
+            beam::assemble(&mut stiffness, i, k);
+            beam::assemble(&mut dry, i, m);
         }
         let zeros = || [vec![0.0; order], vec![0.0; order]];
         Ok(TowedScheme {
@@ -72,9 +71,9 @@ impl<'a> TowedScheme<'a> {
             b,
             stiffness,
             dry,
-            matrix: [Banded::zeros(order), Banded::zeros(order)],
-            factored: [Banded::zeros(order), Banded::zeros(order)],
-            factors: [BandedFactors::with_room(order), BandedFactors::with_room(order)],
+            matrix: [PlaneMatrix::new(order), PlaneMatrix::new(order)],
+            factored: [PlaneMatrix::new(order), PlaneMatrix::new(order)],
+            factors: [PlaneMatrix::new(order), PlaneMatrix::new(order)],
             ahead: TowedState { at: zeros(), velocity: zeros() },
             taken: vec![0.0; order],
             pull: vec![0.0; order],
@@ -139,10 +138,10 @@ impl<'a> TowedScheme<'a> {
             self.matrix[p].clone_from(&self.dry);
             self.matrix[p].add_scaled(implicit, &self.stiffness);
             for (i, added) in self.loading.added.iter().enumerate() {
-                beam::assemble(&mut self.matrix[p], i, 1.0, &added[p]);
+                beam::assemble(&mut self.matrix[p], i, &added[p]);
             }
             if self.matrix[p] != self.factored[p] {
-                self.matrix[p].factor_into(&mut self.factors[p])?;
+                beam::factor(&self.matrix[p], &mut self.factors[p])?;
                 self.factored[p].clone_from(&self.matrix[p]);
             }
             // the place without the acceleration that is sought
@@ -219,8 +218,9 @@ impl<'a> TowedScheme<'a> {
         let stable = |dt: f64| -> Result<bool, ClassError> {
             let mut matrix = self.dry.clone();
             matrix.add_scaled(0.5 * self.b * dt * dt, &self.stiffness);
-            let factors = matrix.factor()?;
             let order = matrix.order();
+            let mut factors = PlaneMatrix::new(order);
+            beam::factor(&matrix, &mut factors)?;
             let column = |end: usize| {
                 let mut right = vec![0.0; order];
                 right[if end == 0 { 0 } else { order - 2 }] = 1.0;

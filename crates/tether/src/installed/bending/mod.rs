@@ -16,8 +16,7 @@ mod ends;
 use super::axis::{AxisAttachment, TetherAxis, tilt};
 use super::tension::{TensionModel, TetherTension};
 use super::tether::{InstalledTether, NodeConstraint, RIGID_STIFFNESS};
-use crate::banded::{Banded, BandedFactors};
-use crate::beam::{self, Vector4};
+use crate::beam::{self, PlaneMatrix, Vector4};
 use crate::structure::flow::FlowAt;
 use constraints::DofConstraint;
 use nalgebra::Vector3;
@@ -59,9 +58,9 @@ pub struct PlaneMotion {
 #[derive(Debug)]
 pub struct Matrices {
     /// Bending, tension and springs; what is held has its diagonal alone.
-    pub stiffness: Banded,
+    pub stiffness: PlaneMatrix,
     /// Mass; what is held has none.
-    pub mass: Banded,
+    pub mass: PlaneMatrix,
     /// Of each element bending stiffness (N m2), tension (N) and length (m).
     pub beams: Vec<[f64; 3]>,
     /// Rotational springs of the ends (N m/rad).
@@ -97,10 +96,10 @@ pub struct Bending {
     /// Unknowns that do not go by their forces, by plane.
     held: [Vec<(usize, DofConstraint)>; 2],
     openings: Vec<(usize, f64)>,
-    stiffness: [Banded; 2],
-    mass: Banded,
-    system: Banded,
-    factors: BandedFactors,
+    stiffness: [PlaneMatrix; 2],
+    mass: PlaneMatrix,
+    system: PlaneMatrix,
+    factors: PlaneMatrix,
     loads: [Vec<Vector4>; 2],
     right: Vec<f64>,
     ahead: Vec<f64>,
@@ -179,10 +178,10 @@ impl Bending {
             held,
             pushes: Vec::with_capacity(2 * tether.constraints.len()),
             openings,
-            stiffness: [Banded::zeros(order), Banded::zeros(order)],
-            mass: Banded::zeros(order),
-            system: Banded::zeros(order),
-            factors: BandedFactors::with_room(order),
+            stiffness: [PlaneMatrix::new(order), PlaneMatrix::new(order)],
+            mass: PlaneMatrix::new(order),
+            system: PlaneMatrix::new(order),
+            factors: PlaneMatrix::new(order),
             loads: [vec![[0.0; 4]; cells.len()], vec![[0.0; 4]; cells.len()]],
             right: zeros(),
             ahead: zeros(),
@@ -197,13 +196,13 @@ impl Bending {
     /// The matrices of a plane in a tension.
     pub fn matrices(&self, plane: usize, tension: &TetherTension, axial: &TensionModel) -> Matrices {
         let (order, stretch) = (self.mass.order(), tension.length / self.length);
-        let (mut stiffness, mut mass) = (Banded::zeros(order), Banded::zeros(order));
+        let (mut stiffness, mut mass) = (PlaneMatrix::new(order), PlaneMatrix::new(order));
         let mut beams = Vec::with_capacity(self.cells.len());
         for (index, cell) in self.cells.iter().enumerate() {
             let (length, pull) = (cell.length * stretch, axial.middle(index, tension));
-            beam::assemble(&mut stiffness, index, 1.0, &beam::stiffness(cell.bending, length));
-            beam::assemble(&mut stiffness, index, 1.0, &beam::geometric(pull, length));
-            beam::assemble(&mut mass, index, 1.0, &beam::mass(cell.mass[0] / stretch + cell.mass[1], length));
+            beam::assemble(&mut stiffness, index, &beam::stiffness(cell.bending, length));
+            beam::assemble(&mut stiffness, index, &beam::geometric(pull, length));
+            beam::assemble(&mut mass, index, &beam::mass(cell.mass[0] / stretch + cell.mass[1], length));
             beams.push([cell.bending, pull, length]);
         }
         let springs = [0, 1].map(|end| self.springs[end][plane]);
@@ -219,17 +218,17 @@ impl Bending {
     /// Finds matrices and loads of a stage, with the place and velocity at that stage. The acceleration of the attachment need not be known.
     pub fn gather(&mut self, second: bool, stage: &Stage, axial: &TensionModel) {
         let stretch = stage.tension.length / self.length;
-        self.stiffness.iter_mut().for_each(Banded::clear);
+        self.stiffness.iter_mut().for_each(PlaneMatrix::clear);
         self.mass.clear();
         let motion = if second { &self.trial } else { &self.now };
         for (index, cell) in self.cells.iter().enumerate() {
             let length = cell.length * stretch;
             let pull = axial.middle(index, stage.tension);
             for matrix in &mut self.stiffness {
-                beam::assemble(matrix, index, 1.0, &beam::stiffness(cell.bending, length));
-                beam::assemble(matrix, index, 1.0, &beam::geometric(pull, length));
+                beam::assemble(matrix, index, &beam::stiffness(cell.bending, length));
+                beam::assemble(matrix, index, &beam::geometric(pull, length));
             }
-            beam::assemble(&mut self.mass, index, 1.0, &beam::mass(cell.mass[0] / stretch + cell.mass[1], length));
+            beam::assemble(&mut self.mass, index, &beam::mass(cell.mass[0] / stretch + cell.mass[1], length));
             let start = self.shares[index];
             let [x, y] = &mut self.loads;
             let (Some(x), Some(y)) = (x.get_mut(index), y.get_mut(index)) else { continue };
@@ -281,7 +280,7 @@ impl Bending {
             self.system.add_scaled(1.0, &self.mass);
             self.system.add_scaled(implicit, &self.stiffness[plane]);
             self.hold(plane, stage);
-            self.system.factor_into(&mut self.factors)?;
+            beam::factor(&self.system, &mut self.factors)?;
             self.factors.solve(&mut self.right);
             if !self.right.iter().all(|a| a.is_finite()) {
                 return Err(ClassError::new("its acceleration has no value"));
