@@ -6,3 +6,4 @@ mod coverage;
 mod crates;
 mod sources;
 mod specs;
+mod value_keys;
