@@ -20,6 +20,7 @@
 #![deny(missing_docs)]
 
 pub mod band;
+pub mod choice;
 pub mod dense;
 pub mod diagnostic;
 pub mod geometry;

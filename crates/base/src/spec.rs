@@ -1,6 +1,7 @@
 //! Declarations of options and values. A record's spec is made of these, a parser reads by them, and a handler looks
 //! up by them what records gave: an option is one constant that the spec lists and the lookup takes.
 
+use crate::choice::Choice;
 use crate::units::Dim;
 use crate::values::Noun;
 use std::marker::PhantomData;
@@ -85,6 +86,11 @@ impl ValueSpec {
         ValueSpec { name, kind, need: Need::Required, range: Range::Any, help }
     }
 
+    /// A word of an enum that must be there.
+    pub const fn choice<T: Choice>(name: &'static str, help: &'static str) -> Self {
+        ValueSpec::new(name, Kind::Choice(T::WORDS), help)
+    }
+
     /// The same, but it may be left out; `default` says what holds then.
     pub const fn or(self, default: &'static str) -> Self {
         ValueSpec { need: Need::Optional(default), ..self }
@@ -132,8 +138,9 @@ pub struct OptionSpec {
     pub default: &'static str,
 }
 
-/// A value of an option, by the name its declaration gives it, and the type it is read as: `f64`, `i64` or `str`. It is
-/// found while compiling, in a `const`: a name that the option does not have, or a value of another kind, does not compile.
+/// A value of an option, by the name its declaration gives it, and the type it is read as: `f64`, `i64`, `str` or an enum
+/// of its words. It is found while compiling, in a `const`: a name that the option does not have, or a value of another
+/// kind, does not compile.
 pub struct ValueKey<T: ?Sized> {
     pub(crate) name: &'static str,
     pub(crate) index: usize,
@@ -171,6 +178,15 @@ const fn same(one: &str, other: &str) -> bool {
     i == one.len() && i == other.len()
 }
 
+/// Whether two lists have the same words in the same order.
+const fn same_words(one: &[&str], other: &[&str]) -> bool {
+    let mut i = 0;
+    while i < one.len() && i < other.len() && same(one[i], other[i]) {
+        i += 1;
+    }
+    i == one.len() && i == other.len()
+}
+
 /// The place of a value among others, and what it is.
 const fn find(values: &[ValueSpec], name: &str) -> (usize, Kind) {
     let mut i = 0;
@@ -180,22 +196,57 @@ const fn find(values: &[ValueSpec], name: &str) -> (usize, Kind) {
         }
         i += 1;
     }
-    panic!("the option has no value of this name")
+    panic!("no value has this name")
+}
+
+impl<T: ?Sized> ValueKey<T> {
+    const fn new(values: &[ValueSpec], index: usize) -> Self {
+        ValueKey { name: values[index].name, index, read_as: PhantomData }
+    }
+}
+
+impl ValueKey<f64> {
+    const fn number(values: &[ValueSpec], name: &str) -> Self {
+        let (index, kind) = find(values, name);
+        assert!(kind.is_number(), "the value is no number");
+        ValueKey::new(values, index)
+    }
+}
+
+impl ValueKey<i64> {
+    const fn integer(values: &[ValueSpec], name: &str) -> Self {
+        let (index, kind) = find(values, name);
+        assert!(matches!(kind, Kind::Integer), "the value is no whole number");
+        ValueKey::new(values, index)
+    }
+}
+
+impl ValueKey<str> {
+    const fn word(values: &[ValueSpec], name: &str) -> Self {
+        let (index, kind) = find(values, name);
+        assert!(kind.is_word(), "the value is no word");
+        ValueKey::new(values, index)
+    }
+}
+
+impl<T: Choice> ValueKey<T> {
+    const fn choice(values: &[ValueSpec], name: &str) -> Self {
+        let (index, kind) = find(values, name);
+        match kind {
+            Kind::Choice(words) => assert!(same_words(words, T::WORDS), "the value has other words"),
+            _ => panic!("the value is no choice"),
+        }
+        ValueKey::new(values, index)
+    }
 }
 
 impl OptionSpec {
-    const fn key<T: ?Sized>(&self, index: usize) -> ValueKey<T> {
-        ValueKey { name: self.values[index].name, index, read_as: PhantomData }
-    }
-
     /// The number of this name.
     ///
     /// # Panics
     /// While compiling, in a `const`: no value has this name, or it is no number.
     pub const fn number(&self, name: &str) -> ValueKey<f64> {
-        let (index, kind) = find(self.values, name);
-        assert!(kind.is_number(), "the value is no number");
-        self.key(index)
+        ValueKey::number(self.values, name)
     }
 
     /// The numbers of these names.
@@ -217,19 +268,23 @@ impl OptionSpec {
     /// # Panics
     /// While compiling, in a `const`: no value has this name, or it is no whole number.
     pub const fn integer(&self, name: &str) -> ValueKey<i64> {
-        let (index, kind) = find(self.values, name);
-        assert!(matches!(kind, Kind::Integer), "the value is no whole number");
-        self.key(index)
+        ValueKey::integer(self.values, name)
     }
 
-    /// The word of this name: a choice, a name, a text or a file.
+    /// The word of this name: a name, a text or a file, or a choice that is passed on as written.
     ///
     /// # Panics
     /// While compiling, in a `const`: no value has this name, or it is no word.
     pub const fn word(&self, name: &str) -> ValueKey<str> {
-        let (index, kind) = find(self.values, name);
-        assert!(kind.is_word(), "the value is no word");
-        self.key(index)
+        ValueKey::word(self.values, name)
+    }
+
+    /// The word of this name, one of an enum's.
+    ///
+    /// # Panics
+    /// While compiling, in a `const`: no value has this name, or its words are not those of the enum.
+    pub const fn choice<T: Choice>(&self, name: &str) -> ValueKey<T> {
+        ValueKey::choice(self.values, name)
     }
 
     /// A MOSES option.

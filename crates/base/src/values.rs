@@ -1,7 +1,8 @@
 //! The values of a record, whatever their form was: SI numbers, words and names, each with its place.
 
+use crate::choice::{Choice, YesNo};
 use crate::span::Span;
-use crate::spec::{OptionSpec, ValueKey};
+use crate::spec::{Kind, OptionSpec, ValueKey};
 use crate::units::Dim;
 use std::sync::Arc;
 
@@ -113,6 +114,11 @@ impl Value {
         }
     }
 
+    /// The word as one of an enum's, if it is one.
+    pub fn choice<T: Choice>(&self) -> Option<T> {
+        self.word().and_then(T::from_word)
+    }
+
     /// The whole number, if it is one.
     pub fn integer(&self) -> Option<i64> {
         match self.content {
@@ -182,6 +188,27 @@ impl Given {
     /// A word; `None` when it is left out.
     pub fn word(&self, key: ValueKey<str>) -> Option<&str> {
         self.value(key).and_then(Value::word)
+    }
+
+    /// The choice made; `None` when it is left out.
+    pub fn choice<T: Choice>(&self, key: ValueKey<T>) -> Option<T> {
+        self.value(key).and_then(Value::choice)
+    }
+
+    /// The choices made from this value on, of those that repeat.
+    pub fn choices<T: Choice>(&self, key: ValueKey<T>) -> impl Iterator<Item = T> {
+        debug_assert!(self.has_value(key), "{} is looked up in {}", key.name, self.option.name);
+        self.values.iter().skip(key.index).filter_map(Value::choice)
+    }
+
+    /// Whether a switch is on: `-NAME` and `-NAME YES` are, `-NAME NO` is not.
+    pub fn is_on(&self) -> bool {
+        debug_assert!(
+            self.option.values.first().is_none_or(|value| value.kind == Kind::Choice(YesNo::WORDS)),
+            "{} is read as a switch",
+            self.option.name
+        );
+        self.values.first().and_then(Value::choice).is_none_or(YesNo::is_yes)
     }
 
     /// Where a value stands, or the option when it is left out.
@@ -299,12 +326,14 @@ impl Args {
         self.option(option).and_then(Given::first_word)
     }
 
+    /// The choice an option makes.
+    pub fn option_choice<T: Choice>(&self, option: &OptionSpec, key: ValueKey<T>) -> Option<T> {
+        self.option(option).and_then(|given| given.choice(key))
+    }
+
     /// A switch: `-NAME` or `-NAME YES` is true, `-NAME NO` false, absent the default.
     pub fn switch(&self, option: &OptionSpec, default: bool) -> bool {
-        match self.option(option) {
-            None => default,
-            Some(given) => given.first_word().is_none_or(|w| !w.eq_ignore_ascii_case("NO")),
-        }
+        self.option(option).map_or(default, Given::is_on)
     }
 }
 

@@ -74,8 +74,8 @@ pub fn piston(args: &Args) -> Outcome<()> {
             given.place(NOMINAL),
         ));
     }
-    match (given.word(const { o::PISTON.word("TYPE") }), given.number(MOST), given.number(LEAST)) {
-        (Some("MINMAX"), _, None) => Err(Diagnostic::error("-PISTON MINMAX needs TMIN", given.span)),
+    match (given.choice(const { o::PISTON.choice("TYPE") }), given.number(MOST), given.number(LEAST)) {
+        (Some(o::PistonKind::MinMax), _, None) => Err(Diagnostic::error("-PISTON MINMAX needs TMIN", given.span)),
         (_, Some(most), Some(least)) if least >= most => {
             Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", given.place(LEAST)))
         }

@@ -6,6 +6,7 @@ use super::restraint::Restraining;
 use super::spring::Restraint;
 use super::{ClassKind, options as o};
 use std::sync::Arc;
+use windlass_base::choice::{Choice, Dof};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_language::spec::CommandSpec;
 use windlass_model::{ClassRecord, ConnectorClass};
@@ -33,18 +34,18 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let given = records.last().map(|r| r.args.data.as_slice()).unwrap_or_default();
     let mut list: Vec<Restraint> = Vec::new();
     for value in given {
-        let Some(dof) = value.word() else { continue };
+        let Some(dof) = value.choice::<Dof>() else { continue };
         if list.iter().any(|r| r.dof == dof) {
-            return Err(Diagnostic::error(format!("degree of freedom {dof} is given twice"), value.span));
+            return Err(Diagnostic::error(format!("degree of freedom {} is given twice", dof.word()), value.span));
         }
         list.push(held_dof(dof));
     }
     if list.is_empty() {
-        list = o::DOFS.iter().map(|dof| held_dof(dof)).collect();
+        list = Dof::SIX.map(held_dof).into();
     }
     Ok(Arc::new(Restraining::new("FIX", list)))
 }
 
-fn held_dof(dof: &str) -> Restraint {
-    Restraint { dof: dof.to_string(), stiffness: RIGID_STIFFNESS, allowable: None }
+fn held_dof(dof: Dof) -> Restraint {
+    Restraint { dof, stiffness: RIGID_STIFFNESS, allowable: None }
 }

@@ -8,6 +8,7 @@ use super::spring::Restraint;
 use super::zero_law::Friction;
 use super::{ClassKind, options as o};
 use std::sync::Arc;
+use windlass_base::choice::Dof;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
@@ -30,7 +31,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let mu = records.last().and_then(|r| r.args.number(0)).unwrap_or(0.0);
-    let push = Restraint { dof: "X".into(), stiffness: RIGID_STIFFNESS, allowable: None };
+    let push = Restraint { dof: Dof::X, stiffness: RIGID_STIFFNESS, allowable: None };
     let friction = if mu > 0.0 { Friction::Stick { mu, stiffness: RIGID_STIFFNESS } } else { Friction::None };
     Ok(Arc::new(Restraining::new("GAP", vec![push]).pushing(friction)))
 }

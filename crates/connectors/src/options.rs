@@ -2,6 +2,9 @@
 //!
 //! Source: [MOSES-FLEX]; sizes in inches or mm, lengths in feet or metres, `bforce` the user's force.
 
+use super::zero_law::Sense;
+use windlass_base::choice::{Dof, YesNo};
+use windlass_base::choices;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
@@ -12,16 +15,20 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
 
-/// Degrees of freedom of an element.
-pub const DOFS: &[&str] = &["X", "Y", "Z", "RX", "RY", "RZ"];
+choices! {
+    /// How a piston acts.
+    pub enum PistonKind {
+        /// It holds the tension below a limit.
+        Max = "MAX",
+        /// It holds the tension between two limits.
+        MinMax = "MINMAX",
+    }
+}
 
 /// `SENSE`: the direction in which an element acts.
-pub const SENSE: ValueSpec =
-    ValueSpec::new("SENSE", Kind::Choice(&["TENSION", "COMPRESSION", "BOTH"]), "direction in which the element acts")
-        .or("BOTH");
+pub const SENSE: ValueSpec = ValueSpec::choice::<Sense>("SENSE", "direction in which the element acts").or("BOTH");
 /// `DF`.
-pub const DF: ValueSpec =
-    ValueSpec::new("DF", Kind::Choice(DOFS), "degree of freedom restrained, in the element system");
+pub const DF: ValueSpec = ValueSpec::choice::<Dof>("DF", "degree of freedom restrained, in the element system");
 /// `SPV`.
 pub const SPV: ValueSpec = ValueSpec::new("SPV", Kind::StiffnessOfDof, "spring value").positive();
 /// `AF`.
@@ -64,7 +71,7 @@ pub const REFINE: OptionSpec = OptionSpec::new(
 /// `-SYMMETRIC YES/NO`.
 pub const SYMMETRIC: OptionSpec = OptionSpec::new(
     "-SYMMETRIC",
-    &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "symmetric about the element X axis").or("YES")],
+    &[ValueSpec::choice::<YesNo>("YES/NO", "symmetric about the element X axis").or("YES")],
     "the Z properties are those given for Y",
 );
 
@@ -158,7 +165,7 @@ pub const DISPLEN: OptionSpec = OptionSpec::new(
 pub const PISTON: OptionSpec = OptionSpec::new(
     "-PISTON",
     &[
-        ValueSpec::new("TYPE", Kind::Choice(&["MAX", "MINMAX"]), "how the piston acts"),
+        ValueSpec::choice::<PistonKind>("TYPE", "how the piston acts"),
         number("LT", Dim::Section, "total stroke").positive(),
         number("LD", Dim::Section, "nominal position").not_negative(),
         number("VLONG", Dim::Velocity, "lengthening velocity").positive(),

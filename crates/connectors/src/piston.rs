@@ -5,7 +5,7 @@
 //! while it can follow and the tension departs from it while it cannot; of MAX the way back to LD is as fast as VSHORT allows without
 //! passing TMAX; in statics it has all the time it needs, and starts at LD.
 
-use super::options::PISTON;
+use super::options::{PISTON, PistonKind};
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_model::ClassError;
@@ -94,7 +94,7 @@ impl Piston {
     /// From the values of its option, which [`super::checks::piston`] has checked.
     pub fn read(given: &Given) -> Option<Piston> {
         Some(Piston {
-            both: given.word(const { PISTON.word("TYPE") }) == Some("MINMAX"),
+            both: given.choice(const { PISTON.choice("TYPE") }) == Some(PistonKind::MinMax),
             stroke: given.number(const { PISTON.number("LT") })?,
             nominal: given.number(const { PISTON.number("LD") })?,
             lengthening: given.number(const { PISTON.number("VLONG") })?,

@@ -55,10 +55,7 @@ impl ConnectorClass for Restraining {
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
-        let list = || {
-            let dof = |r: &Restraint| super::options::DOFS.iter().position(|d| *d == r.dof);
-            self.restraints.iter().filter_map(move |r| dof(r).map(|d| (d, r.stiffness)))
-        };
+        let list = || self.restraints.iter().map(|r| (r.dof.index(), r.stiffness));
         let group =
             |(dof, stiffness)| SpringGroup { dofs: vec![dof], elastic: Elastic::new(stiffness, None), viscous: None };
         let law = ZeroLaw {

@@ -7,6 +7,7 @@ use super::zero_law::{ContactGeometry, Sense};
 use super::{ClassKind, checks, options as o};
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_base::choice::Dof;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::spec::ValueKey;
@@ -67,22 +68,22 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         args.option(option).and_then(|g| Some([g.number(below)?, g.number(above)?]))
     };
     let given = restraints(args, 1, 3)?;
-    match args.word(0) {
-        Some("TENSION") => {
+    match args.data.first().and_then(|v| v.choice()).unwrap_or(Sense::Both) {
+        Sense::Tension => {
             return Err(Diagnostic::error("a ROLLER only pushes: SENSE TENSION has no meaning", args.place(0))
                 .help("leave SENSE out, or COMPRESSION"));
         }
-        Some("COMPRESSION") if given.iter().any(|r| r.dof == "X") => {
+        Sense::Compression if given.iter().any(|r| r.dof == Dof::X) => {
             return Err(Diagnostic::error("the X spring of a ROLLER, along the pipe, acts both ways", args.place(0))
                 .label("SENSE COMPRESSION cannot hold for it")
                 .help("leave SENSE out: the rollers push all the same"));
         }
-        _ => {}
+        Sense::Compression | Sense::Both => {}
     }
     let mut all = given.clone();
-    for dof in ["Y", "Z"] {
+    for dof in [Dof::Y, Dof::Z] {
         if !all.iter().any(|r| r.dof == dof) {
-            all.push(Restraint { dof: dof.into(), stiffness: DEFAULT_ROLLER_STIFFNESS, allowable: None });
+            all.push(Restraint { dof, stiffness: DEFAULT_ROLLER_STIFFNESS, allowable: None });
         }
     }
     let springs = Springs::from_options(args, all, false, Vec::new())?;

@@ -9,8 +9,10 @@ use super::zero_law::{ContactGeometry, Friction, Sense, ZeroLaw};
 use super::zero_length::{ZeroLength, element_turns};
 use super::{checks, options as o};
 use nalgebra::{Matrix3, Vector3};
+use windlass_base::choice::{Choice, Dof};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_base::spec::ValueKey;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
@@ -19,8 +21,8 @@ use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorCl
 /// One restrained degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Restraint {
-    /// X Y Z RX RY RZ.
-    pub dof: String,
+    /// Which.
+    pub dof: Dof,
     /// Spring value (N/m or N m/rad).
     pub stiffness: f64,
     /// Allowable force or moment (N or N m), where checked.
@@ -47,23 +49,16 @@ pub struct Springs {
 pub fn restraints(args: &Args, from: usize, values: usize) -> Outcome<Vec<Restraint>> {
     let mut list: Vec<(Restraint, Span)> = Vec::new();
     for group in args.data.get(from..).unwrap_or_default().chunks(values) {
-        let (Some(dof), Some(span)) = (group.first().and_then(|v| v.word()), group.first().map(|v| v.span)) else {
-            continue;
-        };
+        let Some((dof, span)) = group.first().and_then(|v| Some((v.choice::<Dof>()?, v.span))) else { continue };
         if let Some((_, first)) = list.iter().find(|(r, _)| r.dof == dof) {
-            return Err(Diagnostic::error(format!("degree of freedom {dof} is given twice"), span)
+            return Err(Diagnostic::error(format!("degree of freedom {} is given twice", dof.word()), span)
                 .other(*first, "first given here"));
         }
         let number = |index: usize| group.get(index).and_then(|v| v.number());
-        let made = Restraint { dof: dof.to_string(), stiffness: number(1).unwrap_or(0.0), allowable: number(2) };
+        let made = Restraint { dof, stiffness: number(1).unwrap_or(0.0), allowable: number(2) };
         list.push((made, span));
     }
     Ok(list.into_iter().map(|(r, _)| r).collect())
-}
-
-/// The number of a degree of freedom, 0 to 5.
-fn index(dof: &str) -> Option<usize> {
-    o::DOFS.iter().position(|d| *d == dof)
 }
 
 /// Checks `-SYMMETRIC`: only Y properties are given then. Where it is the default, Z properties do away with it.
@@ -72,7 +67,7 @@ fn index(dof: &str) -> Option<usize> {
 /// A Z property beside -SYMMETRIC.
 fn symmetric(args: &Args, list: &[Restraint], default: bool) -> Outcome<bool> {
     let on = args.switch(&o::SYMMETRIC, default);
-    let has_z = list.iter().any(|r| r.dof.ends_with('Z'))
+    let has_z = list.iter().any(|r| matches!(r.dof, Dof::Z | Dof::Rz))
         || [o::Z_PY, o::Z_DAMPING].iter().any(|option| args.option_if_declared(option).is_some());
     if let Some(given) = args.option(&o::SYMMETRIC).filter(|_| on)
         && has_z
@@ -83,13 +78,17 @@ fn symmetric(args: &Args, list: &[Restraint], default: bool) -> Outcome<bool> {
 }
 
 /// A degree of freedom on which an option acts must be restrained.
-fn check_restrained(list: &[Restraint], dof: &str, symmetric: bool, at: Span) -> Outcome<()> {
-    let like_y = dof.replace('Z', "Y");
+fn check_restrained(list: &[Restraint], dof: Dof, symmetric: bool, at: Span) -> Outcome<()> {
+    let like_y = match dof {
+        Dof::Z => Dof::Y,
+        Dof::Rz => Dof::Ry,
+        Dof::X | Dof::Y | Dof::Rx | Dof::Ry => dof,
+    };
     if list.iter().any(|r| r.dof == dof || (symmetric && r.dof == like_y)) {
         return Ok(());
     }
-    let known: Vec<&str> = list.iter().map(|r| r.dof.as_str()).collect();
-    Err(Diagnostic::error(format!("degree of freedom {dof} is not restrained"), at)
+    let known: Vec<&str> = list.iter().map(|r| r.dof.word()).collect();
+    Err(Diagnostic::error(format!("degree of freedom {} is not restrained", dof.word()), at)
         .label(format!("expected {}", known.join(" or "))))
 }
 
@@ -100,22 +99,19 @@ fn check_restrained(list: &[Restraint], dof: &str, symmetric: bool, at: Span) ->
 fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec<(usize, String, Span)>> {
     let mut seen: Vec<(usize, String, Span)> = Vec::new();
     for given in args.occurrences(&o::CONVOLUTION_DF) {
-        let (Some(value), Some(name)) = (
-            given.value(const { o::CONVOLUTION_DF.word("DF") }),
-            given.value(const { o::CONVOLUTION_DF.word("CVL_NAME") }),
-        ) else {
-            continue;
-        };
-        let (Some(dof), Some(name_word)) = (value.word(), name.word()) else { continue };
-        check_restrained(list, dof, symmetric, value.span)?;
-        let Some(number) = index(dof) else { continue };
+        const DF: ValueKey<Dof> = o::CONVOLUTION_DF.choice("DF");
+        const NAME: ValueKey<str> = o::CONVOLUTION_DF.word("CVL_NAME");
+        let (Some(dof), Some(name)) = (given.choice(DF), given.word(NAME)) else { continue };
+        let span = given.place(DF);
+        check_restrained(list, dof, symmetric, span)?;
+        let number = dof.index();
         // of a symmetric element Y and Z are the same
         let like = |d: usize| if symmetric && d % 3 == 2 { d - 1 } else { d };
         if let Some((.., first)) = seen.iter().find(|(other, ..)| like(*other) == like(number)) {
-            return Err(Diagnostic::error(format!("-CONVOLUTION is given twice for {dof}"), value.span)
+            return Err(Diagnostic::error(format!("-CONVOLUTION is given twice for {}", dof.word()), span)
                 .other(*first, "first given here"));
         }
-        seen.push((number, name_word.to_string(), name.span));
+        seen.push((number, name.to_string(), given.place(NAME)));
     }
     Ok(seen)
 }
@@ -143,7 +139,9 @@ impl Springs {
         convolutions: Vec<(usize, String, Span)>,
     ) -> Outcome<Self> {
         let mut curves = [None, None, None];
-        for ((option, dof), slot) in [(o::X_PY, "X"), (o::Y_PY, "Y"), (o::Z_PY, "Z")].into_iter().zip(&mut curves) {
+        for ((option, dof), slot) in
+            [(o::X_PY, Dof::X), (o::Y_PY, Dof::Y), (o::Z_PY, Dof::Z)].into_iter().zip(&mut curves)
+        {
             let Some(given) = args.option_if_declared(&option) else { continue };
             let points = checks::py_curve(given)?;
             check_restrained(&list, dof, symmetric, given.span)?;
@@ -156,8 +154,8 @@ impl Springs {
 
     /// Every degree of freedom that has a spring, Z ones of a symmetric element among them.
     fn dof_stiffnesses(&self) -> Vec<(usize, f64, Option<f64>)> {
-        let own = |r: &Restraint| index(&r.dof).map(|dof| (dof, r.stiffness, r.allowable));
-        let mut list: Vec<_> = self.restraints.iter().filter_map(own).collect();
+        let own = |r: &Restraint| (r.dof.index(), r.stiffness, r.allowable);
+        let mut list: Vec<_> = self.restraints.iter().map(own).collect();
         if self.symmetric {
             let like: Vec<_> = list.iter().filter(|r| r.0 % 3 == 1).map(|r| (r.0 + 1, r.1, r.2)).collect();
             list.extend(like);
@@ -255,7 +253,7 @@ impl Generalized {
         looks_along_x(args, kind)?;
         Ok(Generalized {
             kind,
-            sense: Sense::from_word(args.word(0)),
+            sense: args.data.first().and_then(|v| v.choice()).unwrap_or(Sense::Both),
             springs: Springs::read(args, 1, false)?,
             offset: args.number_if_declared(&o::LEN_OFFSET).unwrap_or(0.0),
             foundation: false,
@@ -288,7 +286,7 @@ impl ConnectorClass for Generalized {
 
     fn notices(&self, args: &Args, _: UnitSystem, _: &Surroundings) -> Vec<Diagnostic> {
         let mut made = Vec::new();
-        let has_x = self.springs.restraints.iter().any(|r| r.dof == "X");
+        let has_x = self.springs.restraints.iter().any(|r| r.dof == Dof::X);
         if let Some(given) = args.option_if_declared(&o::LEN_OFFSET).filter(|_| !has_x && self.offset > 0.0) {
             let text = format!("-LEN of {} offsets element X, which has no spring: it does nothing", self.kind);
             made.push(*Diagnostic::warning(text, given.span));
@@ -338,12 +336,11 @@ pub fn no_anchor(kind: &str, connector: &Connector) -> Outcome<()> {
 
 /// The `&STATUS CLASS` table of restraints.
 pub fn restraint_table(name: &str, kind: &str, restraints: &[Restraint]) -> Table {
-    let turns = |r: &Restraint| r.dof.len() != 1;
-    let value = |r: &Restraint, turned: bool, value: Option<f64>| value.filter(|_| turns(r) == turned);
+    let value = |r: &Restraint, turned: bool, value: Option<f64>| value.filter(|_| r.dof.is_rotation() == turned);
     Table::new(format!("Class {name}"))
         .fact("Type", kind, Dim::None)
         .with_rows(restraints)
-        .text("DF", |r| &r.dof)
+        .text("DF", |r| r.dof.word())
         .column("Translation", "Stiffness", Dim::ForcePerLength, Digits::Usual, |r| value(r, false, Some(r.stiffness)))
         .column("Translation", "Allowable", Dim::Force, Digits::Usual, |r| value(r, false, r.allowable))
         .column("Rotation", "Rot. Stiffness", Dim::MomentPerRadian, Digits::Usual, |r| {

@@ -4,38 +4,22 @@
 
 use super::spring_law::{Dashpot, SpringGroup, rubbing};
 use nalgebra::{Matrix3, Matrix6, Vector2, Vector3, Vector6};
+use windlass_base::choices;
 use windlass_model::Note;
 
-/// The direction in which an element acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sense {
-    /// None while the X displacement is negative.
-    Tension,
-    /// None while the X displacement is positive.
-    Compression,
-    /// Always.
-    Both,
+choices! {
+    /// The direction in which an element acts.
+    pub enum Sense {
+        /// None while the X displacement is negative.
+        Tension = "TENSION",
+        /// None while the X displacement is positive.
+        Compression = "COMPRESSION",
+        /// Always.
+        Both = "BOTH",
+    }
 }
 
 impl Sense {
-    /// Of its word; both without one.
-    pub fn from_word(word: Option<&str>) -> Self {
-        match word {
-            Some("TENSION") => Sense::Tension,
-            Some("COMPRESSION") => Sense::Compression,
-            _ => Sense::Both,
-        }
-    }
-
-    /// Its word.
-    pub fn word(self) -> &'static str {
-        match self {
-            Sense::Tension => "TENSION",
-            Sense::Compression => "COMPRESSION",
-            Sense::Both => "BOTH",
-        }
-    }
-
     /// Whether a value along X, a displacement or a force, is of the sign in which it acts; zero is.
     fn takes(self, x: f64) -> bool {
         match self {

@@ -8,6 +8,7 @@
 
 use super::zero_law::{Answer, ZeroLaw};
 use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, UnitQuaternion, Vector3, Vector6};
+use windlass_base::choice::{Choice, Dof};
 use windlass_base::geometry::Place;
 use windlass_model::{
     ClassError, Connection, Element, ElementResponse, ElementSummary, Guess, Note, Situation, SpringState, TieResponse,
@@ -296,7 +297,7 @@ impl Element for ZeroLength {
             .listed
             .iter()
             .map(|(dof, allowable)| SpringState {
-                dof: super::options::DOFS.get(*dof).copied().unwrap_or_default().to_string(),
+                dof: Dof::SIX.get(*dof).map_or("", |dof| dof.word()).to_string(),
                 deflection: answer.deflection[*dof],
                 force: sign * answer.force[*dof],
                 allowable: *allowable,

@@ -29,7 +29,7 @@ pub fn is_regular(sea: &SeaDefinition) -> bool {
 
 /// The peakedness of a sea: given, or the usual one of JONSWAP; `None` for spectra without one.
 pub fn gamma_of(env: &Environment, sea: &SeaDefinition) -> Option<f64> {
-    let kind = env.sea_period.as_ref().map_or(PeriodType::Peak, |g| PeriodType::from_word(&g.kind));
+    let kind = env.sea_period.as_ref().map_or(PeriodType::Peak, |g| g.kind);
     let usual = || usual_gamma(sea.height, sea.period, kind);
     sea.spectrum.eq_ignore_ascii_case("JONSWAP").then(|| sea.gamma.unwrap_or_else(usual))
 }
@@ -70,9 +70,9 @@ fn whole(model: &Model, env: &Environment, sea: &SeaDefinition) -> Result<Spectr
     let (height, period) = (sea.height, sea.period);
     let m0 = height * height / 16.0;
     let given = env.sea_period.as_ref();
-    let kind = |usual| given.map_or(usual, |g| PeriodType::from_word(&g.kind));
+    let kind = |usual| given.map_or(usual, |g| g.kind);
     let of_peak = |what: &str| match given {
-        Some(g) if g.kind != "PEAK" => {
+        Some(g) if g.kind != PeriodType::Peak => {
             Err(ClassError::new(format!("the period of {what} is that of its peak")).with_span(g.span))
         }
         _ => Ok(()),

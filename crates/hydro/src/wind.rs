@@ -6,8 +6,9 @@
 //! program (ckunte.net/2016/wind).
 
 use nalgebra::Vector3;
+use windlass_base::choice::Choice;
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, Environment};
+use windlass_model::{ClassError, Environment, WindCode, WindLaw};
 
 /// Height at which the wind of `&ENV` blows (m).
 pub const REFERENCE_HEIGHT_M: f64 = 10.0;
@@ -86,12 +87,12 @@ impl WindField {
     pub fn from_environment(env: &Environment) -> Result<Option<Self>, ClassError> {
         let Some(wind) = env.wind else { return Ok(None) };
         let (profile, design) = (env.wind_profile.as_ref(), env.design_wind.as_ref());
-        let kind = profile.or(design).map_or("POWER", |g| g.kind.as_str());
+        let kind = profile.map(|g| g.kind).or(design.map(|g| g.kind.law())).unwrap_or(WindLaw::Power);
         let exponent = profile.and_then(|g| g.value);
         let law = law(kind, exponent, wind.speed).map_err(|e| profile.map_or(e.clone(), |g| e.with_span(g.span)))?;
         let gust = match design {
             None => Gust::None,
-            Some(g) => gust(&g.kind, g.value, wind.speed).map_err(|e| e.with_span(g.span))?,
+            Some(g) => gust(g.kind, g.value, wind.speed).map_err(|e| e.with_span(g.span))?,
         };
         Ok(Some(WindField::new(wind.speed, wind.direction, law, gust)))
     }
@@ -163,7 +164,7 @@ impl Gust {
     }
 }
 
-/// The profile of a name.
+/// The profile of a law.
 ///
 /// - POWER: exponent 1/7 unless given ([DNV-RP-C205 2.3.2.9] has 0.12 to 0.14 for open sea).
 /// - LOGARITHMIC: [DNV-RP-C205 2.3.2.5] with the roughness of Charnock, `z0 = Ac/g (0.4 U10 / ln(10/z0))^2`, Ac 0.014.
@@ -172,19 +173,28 @@ impl Gust {
 /// - ISO: [ISO-19901-1 A.7.3]: C = 0.0573 sqrt(1 + 0.15 U), hourly mean.
 /// - DNV: [DNV-RP-C205 2.3.2.11]: C = 0.137, mean over 10 minutes.
 /// - ABS: MODU Rules, mean over one minute; its steps are joined by straight lines between the middles of the bands.
-fn law(kind: &str, exponent: Option<f64>, speed: f64) -> Result<WindProfile, ClassError> {
-    match (kind, exponent) {
-        ("POWER", a) => Ok(WindProfile::Power(a.unwrap_or(1.0 / 7.0))),
-        ("API", a) => Ok(WindProfile::Power(a.unwrap_or(0.125))),
-        (_, Some(_)) => Err(ClassError::new(format!("the {kind} wind profile has no exponent"))
-            .help("-W_PROFILE POWER and API take one")),
-        ("LOGARITHMIC", _) => Ok(WindProfile::Logarithmic(roughness(speed))),
-        ("NPD", _) => Ok(WindProfile::Logarithm(0.0573 * (1.0 + 0.148 * speed).sqrt())),
-        ("ISO", _) => Ok(WindProfile::Logarithm(0.0573 * (1.0 + 0.15 * speed).sqrt())),
-        ("DNV", _) => Ok(WindProfile::Logarithm(0.137)),
-        ("ABS", _) => Ok(WindProfile::Abs),
-        _ => Err(ClassError::new(format!("there is no wind profile {kind}"))),
+fn law(kind: WindLaw, exponent: Option<f64>, speed: f64) -> Result<WindProfile, ClassError> {
+    let logarithm = |c: f64| {
+        if exponent.is_none() {
+            return Ok(WindProfile::Logarithm(c));
+        }
+        Err(no_exponent(kind))
+    };
+    match kind {
+        WindLaw::Power => Ok(WindProfile::Power(exponent.unwrap_or(1.0 / 7.0))),
+        WindLaw::Api => Ok(WindProfile::Power(exponent.unwrap_or(0.125))),
+        WindLaw::Logarithmic | WindLaw::Abs if exponent.is_some() => Err(no_exponent(kind)),
+        WindLaw::Logarithmic => Ok(WindProfile::Logarithmic(roughness(speed))),
+        WindLaw::Abs => Ok(WindProfile::Abs),
+        WindLaw::Npd => logarithm(0.0573 * (1.0 + 0.148 * speed).sqrt()),
+        WindLaw::Iso => logarithm(0.0573 * (1.0 + 0.15 * speed).sqrt()),
+        WindLaw::Dnv => logarithm(0.137),
     }
+}
+
+fn no_exponent(kind: WindLaw) -> ClassError {
+    ClassError::new(format!("the {} wind profile has no exponent", kind.word()))
+        .help("-W_PROFILE POWER and API take one")
 }
 
 /// Charnock's roughness of the sea under a wind of this speed at 10 m (m).
@@ -206,21 +216,22 @@ fn roughness(speed: f64) -> f64 {
 /// - NPD, ISO: `1 - 0.41 Iu(z) ln(t/3600)`, `Iu = 0.06 (1 + 0.043 U) (z/10)^-0.22`, for t up to an hour.
 /// - DNV: `U(T, z) = U10 (1 + 0.137 ln(z/10) - 0.047 ln(T/600))`.
 /// - ABS: none.
-fn gust(kind: &str, duration: Option<f64>, speed: f64) -> Result<Gust, ClassError> {
+fn gust(code: WindCode, duration: Option<f64>, speed: f64) -> Result<Gust, ClassError> {
     let refuse = |text: &str, limit: f64| Err(ClassError::with_values(text, &[(limit, Dim::Time)]));
-    match (kind, duration) {
-        (_, None) => Ok(Gust::None),
-        ("API", Some(3600.0)) => Ok(Gust::None),
-        ("API", Some(t)) if t <= 60.0 => Ok(Gust::Api(3.0 + 0.6 * (3.0 / t).ln())),
-        ("API", _) => {
+    let Some(t) = duration else { return Ok(Gust::None) };
+    match code {
+        WindCode::Api if t == 3600.0 => Ok(Gust::None),
+        WindCode::Api if t <= 60.0 => Ok(Gust::Api(3.0 + 0.6 * (3.0 / t).ln())),
+        WindCode::Api => {
             refuse("the gust factor of API reaches an averaging time of {}, and has the mean over 3600 s", 60.0)
         }
-        ("NPD" | "ISO", Some(t)) if t <= 3600.0 => Ok(Gust::Froya(0.06 * (1.0 + 0.043 * speed), (t / 3600.0).ln())),
-        ("NPD" | "ISO", _) => refuse("the formula of the design wind reaches an averaging time of {}", 3600.0),
-        ("DNV", Some(t)) if t <= 3600.0 => Ok(Gust::Dnv((t / 600.0).ln())),
-        ("DNV", _) => refuse("the formula of the design wind reaches an averaging time of {}", 3600.0),
-        ("ABS", Some(60.0)) => Ok(Gust::None),
-        _ => refuse("the rules of ABS have no other averaging time than {}", 60.0),
+        WindCode::Npd | WindCode::Iso | WindCode::Dnv if t > 3600.0 => {
+            refuse("the formula of the design wind reaches an averaging time of {}", 3600.0)
+        }
+        WindCode::Npd | WindCode::Iso => Ok(Gust::Froya(0.06 * (1.0 + 0.043 * speed), (t / 3600.0).ln())),
+        WindCode::Dnv => Ok(Gust::Dnv((t / 600.0).ln())),
+        WindCode::Abs if t == 60.0 => Ok(Gust::None),
+        WindCode::Abs => refuse("the rules of ABS have no other averaging time than {}", 60.0),
     }
 }
 

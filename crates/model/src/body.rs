@@ -4,6 +4,7 @@ use super::database::AttachedDatabase;
 use super::hull::{LinearHydrostatics, Piece};
 use super::prescribed::Prescription;
 use nalgebra::{Matrix3, Vector3};
+use windlass_base::choice::Dof;
 use windlass_base::geometry::{Place, Position};
 use windlass_base::span::Span;
 
@@ -20,7 +21,7 @@ pub struct Body {
     /// Where it stood before the last `&INSTATE` or equilibrium.
     pub previous: Place,
     /// Degrees of freedom left out (X Y Z RX RY RZ).
-    pub ignored: Vec<String>,
+    pub ignored: Vec<Dof>,
     /// What it is when it is no rigid body but a point where connectors meet.
     pub junction: Option<Junction>,
     /// Buoyancy by a constant stiffness, instead of that of a hull.

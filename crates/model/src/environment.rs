@@ -3,6 +3,7 @@
 //! Source: [MOSES-REF env]. Directions are where wind, sea and current come from, from +X toward +Y.
 
 use crate::options::W_SPECTRUM;
+use windlass_base::choices;
 use windlass_base::span::Span;
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
@@ -31,14 +32,16 @@ impl SeaDefinition {
     }
 }
 
-/// How the components of a sea are cut from its spectrum.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Division {
-    /// All with the same energy.
-    #[default]
-    EqualEnergy,
-    /// Bands of the same width.
-    EqualFrequency,
+choices! {
+    /// How the components of a sea are cut from its spectrum.
+    #[derive(Default)]
+    pub enum Division {
+        /// All with the same energy.
+        #[default]
+        EqualEnergy = "EQUAL_ENERGY",
+        /// Bands of the same width.
+        EqualFrequency = "EQUAL_FREQUENCY",
+    }
 }
 
 /// `-COMPONENTS N TYPE LOW HIGH`.
@@ -63,18 +66,81 @@ pub enum Phasing {
     Seeded(u64),
 }
 
-/// What holds between the mean level and the surface, where linear waves say nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Stretching {
-    /// Straight on from the mean level.
-    #[default]
-    Linear,
-    /// The profile of the mean level, moved to the surface [WHEELER-1970].
-    Wheeler,
-    /// Between the two [RODENBUSCH-FORRISTALL-1986].
-    Delta,
-    /// The profile itself, also above the surface.
-    Exponential,
+choices! {
+    /// What holds between the mean level and the surface, where linear waves say nothing.
+    #[derive(Default)]
+    pub enum Stretching {
+        /// Straight on from the mean level.
+        #[default]
+        Linear = "LINEAR",
+        /// The profile of the mean level, moved to the surface [WHEELER-1970].
+        Wheeler = "WHEELER",
+        /// Between the two [RODENBUSCH-FORRISTALL-1986].
+        Delta = "DELTA",
+        /// The profile itself, also above the surface.
+        Exponential = "EXPONENTIAL",
+    }
+}
+
+choices! {
+    /// What the period of a sea is.
+    pub enum PeriodType {
+        /// That of the highest density.
+        Peak = "PEAK",
+        /// 2 pi m0/m1.
+        Mean = "MEAN",
+        /// 2 pi sqrt(m0/m2).
+        ZeroCrossing = "ZERO_CROSSING",
+    }
+}
+
+choices! {
+    /// Codes and laws of the mean wind; [MOSES-REF env] names no types, so these are the field's usual ones.
+    pub enum WindLaw {
+        /// A power of the height.
+        Power = "POWER",
+        /// The logarithm of the height over a roughness.
+        Logarithmic = "LOGARITHMIC",
+        /// [API-RP-2A].
+        Api = "API",
+        /// The Norwegian Petroleum Directorate.
+        Npd = "NPD",
+        /// [ISO-19901-1].
+        Iso = "ISO",
+        /// The rules of ABS.
+        Abs = "ABS",
+        /// [DNV-RP-C205].
+        Dnv = "DNV",
+    }
+}
+
+choices! {
+    /// Codes of a design wind.
+    pub enum WindCode {
+        /// [API-RP-2A].
+        Api = "API",
+        /// The Norwegian Petroleum Directorate.
+        Npd = "NPD",
+        /// [ISO-19901-1].
+        Iso = "ISO",
+        /// The rules of ABS.
+        Abs = "ABS",
+        /// [DNV-RP-C205].
+        Dnv = "DNV",
+    }
+}
+
+impl WindCode {
+    /// The law of the mean wind that the code has.
+    pub fn law(self) -> WindLaw {
+        match self {
+            WindCode::Api => WindLaw::Api,
+            WindCode::Npd => WindLaw::Npd,
+            WindCode::Iso => WindLaw::Iso,
+            WindCode::Abs => WindLaw::Abs,
+            WindCode::Dnv => WindLaw::Dnv,
+        }
+    }
 }
 
 /// Steady wind.
@@ -86,12 +152,23 @@ pub struct Wind {
     pub direction: f64,
 }
 
+/// A formula that an option of the environment chooses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FormulaChoice<T> {
+    /// Which one.
+    pub kind: T,
+    /// Its number: an exponent, an averaging time (s).
+    pub value: Option<f64>,
+    /// Where it was given.
+    pub span: Span,
+}
+
 /// A formula or a curve that an option of the environment names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveReference {
     /// Its name; that of a formula in upper case.
     pub kind: String,
-    /// Its number: an exponent, an averaging time (s), a density (kg/m3), a factor.
+    /// Its number: a density (kg/m3), a factor.
     pub value: Option<f64>,
     /// Where it was given.
     pub span: Span,
@@ -147,9 +224,9 @@ pub struct Environment {
     /// Wind.
     pub wind: Option<Wind>,
     /// Profile of the mean wind, with its exponent (`-W_PROFILE`).
-    pub wind_profile: Option<CurveReference>,
+    pub wind_profile: Option<FormulaChoice<WindLaw>>,
     /// Design wind, with its averaging time (s) (`-W_DESIGN`).
-    pub design_wind: Option<CurveReference>,
+    pub design_wind: Option<FormulaChoice<WindCode>>,
     /// Gust spectrum (`-W_SPECTRUM`): a code, or a curve.
     pub gusts: Option<CurveReference>,
     /// Periods of the gusts (s) (`-W_PERIOD`); none: as `gust_parts` says.
@@ -161,7 +238,7 @@ pub struct Environment {
     /// Correlation of gusts and mean drift (`-W_MD_CORRELATION`).
     pub drift_correlation: Option<CurveReference>,
     /// What the period of a sea is (`-SP_TYPE`).
-    pub sea_period: Option<CurveReference>,
+    pub sea_period: Option<FormulaChoice<PeriodType>>,
     /// Current.
     pub current: Option<Current>,
     /// Curve of the factor of the current over time (`-C_HISTORY`).

@@ -4,24 +4,16 @@
 use super::Model;
 use indexmap::IndexMap;
 use std::f64::consts::FRAC_PI_4;
+use windlass_base::choices;
 use windlass_base::span::Span;
 
-/// What the ranges of a fatigue curve are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FatigueKind {
-    /// Stress.
-    Stress,
-    /// Tension over breaking tension.
-    Tension,
-}
-
-impl FatigueKind {
-    /// Its name in records.
-    pub fn name(self) -> &'static str {
-        match self {
-            FatigueKind::Stress => "STRESS",
-            FatigueKind::Tension => "TENSION",
-        }
+choices! {
+    /// What the ranges of a fatigue curve are.
+    pub enum FatigueKind {
+        /// Stress.
+        Stress = "STRESS",
+        /// Tension over breaking tension.
+        Tension = "TENSION",
     }
 }
 

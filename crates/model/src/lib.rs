@@ -57,8 +57,8 @@ pub use element::{
     SpringState, TimeStep,
 };
 pub use environment::{
-    Components, Current, CurveReference, Division, Environment, GustParts, Phasing, SeaDefinition, Stretching,
-    Surroundings, TimeWindow, Wind,
+    Components, Current, CurveReference, Division, Environment, FormulaChoice, GustParts, PeriodType, Phasing,
+    SeaDefinition, Stretching, Surroundings, TimeWindow, Wind, WindCode, WindLaw,
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};

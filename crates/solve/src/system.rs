@@ -7,6 +7,7 @@ use super::ties::Ties;
 use super::time::{Prescribed, RunRequirements, build_prescribed};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
+use windlass_base::choice::Dof;
 use windlass_base::dense::DenseError;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
@@ -62,7 +63,7 @@ impl SystemBody {
     fn new(model: &Model, key: &str, body: &Body, floating: Floating) -> Self {
         // what moves as it is given stands still for forces
         let idle = model.idle_hook(body) || body.prescribed.is_some();
-        let free = DOFS.map(|f| !idle && !body.ignored.iter().any(|i| i == f));
+        let free = Dof::SIX.map(|dof| !idle && !body.ignored.contains(&dof));
         let (damped, added) = (floating.damping != Matrix6::zeros(), floating.added_mass != Matrix6::zeros());
         let (name, key, junction) = (body.name.clone(), key.to_string(), body.junction.is_some());
         SystemBody { name, key, floating, junction, free, damped, added, prescribed: None }

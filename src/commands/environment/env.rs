@@ -6,6 +6,7 @@ use crate::commands::environment::plausible::format_value;
 use crate::commands::environment::{ambient_options, plausible, probability, sea_options, wind_options};
 use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job};
+use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
@@ -15,7 +16,8 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::options::{PHASES, W_SPECTRUM};
 use windlass_model::{
-    Current, Curve, CurveKind, CurveReference, EntityKind, Environment, Model, SeaDefinition, TimeWindow, find,
+    Current, Curve, CurveKind, CurveReference, EntityKind, Environment, FormulaChoice, Model, PeriodType,
+    SeaDefinition, TimeWindow, find,
 };
 
 /// &ENV.
@@ -37,9 +39,6 @@ const SEA: &[ValueSpec] = &[
     number("PERIOD", Dim::Time, "period").positive(),
     number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").in_range(1.0, 20.0),
 ];
-const fn choice(name: &'static str, words: &'static [&'static str], help: &'static str) -> ValueSpec {
-    ValueSpec::new(name, Kind::Choice(words), help)
-}
 pub(crate) const PERIODS: &[ValueSpec] = &[number("T", Dim::Time, "period").positive()];
 
 /// -SEA.
@@ -49,7 +48,7 @@ pub(crate) const A_SEA_OPTION: OptionSpec = OptionSpec::new("-A_SEA", SEA, "sea 
 /// -SP_TYPE.
 pub(crate) const SP_TYPE_OPTION: OptionSpec = OptionSpec::new(
     "-SP_TYPE",
-    &[choice("TYPE", &["PEAK", "MEAN", "ZERO_CROSSING"], "peak, mean or zero-crossing period")],
+    &[ValueSpec::choice::<PeriodType>("TYPE", "peak, mean or zero-crossing period")],
     "type of the spectrum's period",
 );
 /// -SPREAD.
@@ -123,7 +122,7 @@ const M_GROWTH: OptionSpec = OptionSpec::new(
 );
 const USE_MEAN: OptionSpec = OptionSpec::new(
     "-USE_MEAN",
-    &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "on or off").or("YES")],
+    &[ValueSpec::choice::<YesNo>("YES/NO", "on or off").or("YES")],
     "uses mean values: kept and shown, without effect",
 );
 /// `-E_PERIOD`.
@@ -306,7 +305,10 @@ pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
         _ if given.is(&TIDE) => env.tide = value,
         _ if given.is(&RAMP) => env.ramp = value,
         _ if given.is(&SPREAD_OPTION) => env.spreading = value,
-        _ if given.is(&SP_TYPE_OPTION) => env.sea_period = Some(formula(given, None)),
+        _ if given.is(&SP_TYPE_OPTION) => {
+            let kind = given.choice(const { SP_TYPE_OPTION.choice("TYPE") });
+            env.sea_period = kind.map(|kind| FormulaChoice { kind, value: None, span: given.span });
+        }
         _ if given.is(&SEA_OPTION) => env.sea = Some(sea(job, given)?),
         _ if given.is(&A_SEA_OPTION) => env.added_sea = Some(sea(job, given)?),
         _ if given.is(&TIME) => {
@@ -353,7 +355,7 @@ pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
     sea_options::apply(env, given)
 }
 
-/// A name, with its number where the option has one.
+/// The curve that the first value names, with its number where the option has one.
 pub(crate) fn formula(given: &Given, value: Option<ValueKey<f64>>) -> CurveReference {
     let value = value.and_then(|key| given.number(key));
     CurveReference { kind: given.first_word().unwrap_or_default().to_string(), value, span: given.span }

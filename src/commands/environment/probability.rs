@@ -1,5 +1,6 @@
 //! `-PROBABILITY` of `&ENV`: which extreme the statistics of FREQ_RESPONSE tell. What each word does is our reading.
 
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
@@ -8,13 +9,27 @@ use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::Environment;
 use windlass_solve::frequency::ExtremeKind;
 
-const STATISTICS: &[&str] = &["RMS", "SIGNIFICANT", "MAXIMUM", "TIME", "PROBABILITY"];
+choices! {
+    /// What DATA is.
+    enum Statistic {
+        /// A multiple of the rms.
+        Rms = "RMS",
+        /// A multiple of the significant amplitude.
+        Significant = "SIGNIFICANT",
+        /// Hours.
+        Maximum = "MAXIMUM",
+        /// Seconds.
+        Time = "TIME",
+        /// A share of the peaks.
+        Probability = "PROBABILITY",
+    }
+}
 
 /// The option.
 pub(crate) const PROBABILITY: OptionSpec = OptionSpec::new(
     "-PROBABILITY",
     &[
-        ValueSpec::new("STAT", Kind::Choice(STATISTICS), "statistic"),
+        ValueSpec::choice::<Statistic>("STAT", "statistic"),
         ValueSpec::new("DATA", Kind::Number(Dim::None), "its value").or("1; 3 h of MAXIMUM; 10800 s of TIME; 0.001"),
     ],
     "the maximum that STATISTICS of FREQ_RESPONSE tells: DATA times the rms or the significant amplitude, the most probable one of DATA \
@@ -27,12 +42,13 @@ const DATA: ValueKey<f64> = PROBABILITY.number("DATA");
 fn read(given: &Given) -> Result<ExtremeKind, &'static str> {
     let data = given.number(DATA);
     let or = |usual: f64| data.unwrap_or(usual);
-    let made = match given.word(const { PROBABILITY.word("STAT") }) {
-        Some("RMS") => ExtremeKind::Times(or(1.0)),
-        Some("SIGNIFICANT") => ExtremeKind::Times(2.0 * or(1.0)),
-        Some("MAXIMUM") => ExtremeKind::MostProbable(3600.0 * or(3.0)),
-        Some("TIME") => ExtremeKind::MostProbable(or(10_800.0)),
-        _ => ExtremeKind::Exceeded(or(1e-3)),
+    let statistic = given.choice(const { PROBABILITY.choice("STAT") }).ok_or("STAT is not given")?;
+    let made = match statistic {
+        Statistic::Rms => ExtremeKind::Times(or(1.0)),
+        Statistic::Significant => ExtremeKind::Times(2.0 * or(1.0)),
+        Statistic::Maximum => ExtremeKind::MostProbable(3600.0 * or(3.0)),
+        Statistic::Time => ExtremeKind::MostProbable(or(10_800.0)),
+        Statistic::Probability => ExtremeKind::Exceeded(or(1e-3)),
     };
     match made {
         ExtremeKind::Exceeded(share) if !(share > 0.0 && share < 1.0) => Err("a share of the peaks is between 0 and 1"),

@@ -10,9 +10,6 @@ use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::options::PHASES;
 use windlass_model::{Components, Division, Environment, Phasing, Stretching};
 
-const BY_WIDTH: &str = "EQUAL_FREQUENCY";
-const DIVISIONS: &[&str] = &["EQUAL_ENERGY", BY_WIDTH];
-const STRETCHINGS: &[&str] = &["LINEAR", "WHEELER", "DELTA", "EXPONENTIAL"];
 /// The options of which the last one holds.
 const PHASINGS: [OptionSpec; 3] = [env::T_REINFORCE, SEED, PHASES];
 
@@ -21,7 +18,7 @@ pub(crate) const COMPONENTS: OptionSpec = OptionSpec::new(
     "-COMPONENTS",
     &[
         ValueSpec::new("N", Kind::Integer, "how many for each sea").in_range(1.0, 5000.0),
-        ValueSpec::new("TYPE", Kind::Choice(DIVISIONS), "how the spectrum is cut").or("EQUAL_ENERGY"),
+        ValueSpec::choice::<Division>("TYPE", "how the spectrum is cut").or("EQUAL_ENERGY"),
         ValueSpec::new("LOW", Kind::Number(Dim::Frequency), "lowest frequency").or("none").positive(),
         ValueSpec::new("HIGH", Kind::Number(Dim::Frequency), "highest frequency, given with LOW").or("none").positive(),
     ],
@@ -42,7 +39,7 @@ pub(crate) const SEED: OptionSpec = OptionSpec::new(
 /// -STRETCHING.
 pub(crate) const STRETCHING: OptionSpec = OptionSpec::new(
     "-STRETCHING",
-    &[ValueSpec::new("TYPE", Kind::Choice(STRETCHINGS), "method")],
+    &[ValueSpec::choice::<Stretching>("TYPE", "method")],
     "kinematics of waves above the mean level",
 )
 .default("LINEAR")
@@ -68,12 +65,7 @@ pub(crate) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
         _ if given.is(&env::T_REINFORCE) => env.phasing = given.first_number().map(Phasing::Reinforced),
         _ if given.is(&STOKES) => env.stokes = whole().and_then(|n| u8::try_from(n).ok()),
         _ if given.is(&STRETCHING) => {
-            env.stretching = Some(match given.first_word() {
-                Some("WHEELER") => Stretching::Wheeler,
-                Some("DELTA") => Stretching::Delta,
-                Some("EXPONENTIAL") => Stretching::Exponential,
-                _ => Stretching::Linear,
-            });
+            env.stretching = given.choice(const { STRETCHING.choice("TYPE") });
         }
         _ => return Ok(()),
     }
@@ -102,7 +94,7 @@ pub(crate) fn one_phasing(args: &Args) -> Outcome<()> {
 
 fn components(given: &Given) -> Outcome<Components> {
     let number = given.integer(const { COMPONENTS.integer("N") }).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
-    let by_width = given.word(const { COMPONENTS.word("TYPE") }).is_some_and(|w| w == BY_WIDTH);
+    let division: Option<Division> = given.choice(const { COMPONENTS.choice("TYPE") });
     const LOW: ValueKey<f64> = COMPONENTS.number("LOW");
     const HIGH: ValueKey<f64> = COMPONENTS.number("HIGH");
     let limits = match (given.number(LOW), given.number(HIGH)) {
@@ -117,6 +109,5 @@ fn components(given: &Given) -> Outcome<Components> {
                 .help("form: -COMPONENTS N TYPE LOW HIGH"));
         }
     };
-    let division = if by_width { Division::EqualFrequency } else { Division::EqualEnergy };
-    Ok(Components { number, division, limits, span: given.span })
+    Ok(Components { number, division: division.unwrap_or_default(), limits, span: given.span })
 }

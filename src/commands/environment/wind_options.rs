@@ -8,18 +8,10 @@ use windlass_base::values::Given;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::options::W_SPECTRUM;
-use windlass_model::{CurveKind, CurveReference, Environment, GustParts, Wind};
+use windlass_model::{CurveKind, CurveReference, Environment, FormulaChoice, GustParts, Wind, WindCode, WindLaw};
 
-/// Codes and laws of the mean wind; [MOSES-REF env] names no types, so these are the field's usual ones.
-const PROFILES: &[&str] = &["POWER", "LOGARITHMIC", "API", "NPD", "ISO", "ABS", "DNV"];
-/// Codes of a design wind.
-const DESIGN_WINDS: &[&str] = &["API", "NPD", "ISO", "ABS", "DNV"];
 /// Gust spectra known without a curve.
 const GUSTS: [&str; 7] = ["API", "NPD", "ISO", "OCHI", "HARRIS", "DAVENPORT", "KAIMAL"];
-
-const fn choice(name: &'static str, words: &'static [&'static str], help: &'static str) -> ValueSpec {
-    ValueSpec::new(name, Kind::Choice(words), help)
-}
 
 /// -WIND.
 pub(crate) const WIND: OptionSpec = OptionSpec::new(
@@ -32,7 +24,10 @@ pub(crate) const WIND: OptionSpec = OptionSpec::new(
 /// -W_PROFILE.
 pub(crate) const PROFILE: OptionSpec = OptionSpec::new(
     "-W_PROFILE",
-    &[choice("TYPE", PROFILES, "type"), number("EXP", Dim::None, "exponent").or("that of the type").not_negative()],
+    &[
+        ValueSpec::choice::<WindLaw>("TYPE", "type"),
+        number("EXP", Dim::None, "exponent").or("that of the type").not_negative(),
+    ],
     "wind profile",
 );
 
@@ -40,7 +35,7 @@ pub(crate) const PROFILE: OptionSpec = OptionSpec::new(
 pub(crate) const DESIGN: OptionSpec = OptionSpec::new(
     "-W_DESIGN",
     &[
-        choice("TYPE", DESIGN_WINDS, "type"),
+        ValueSpec::choice::<WindCode>("TYPE", "type"),
         number("DURATION", Dim::Time, "averaging time").or("that of the type").positive(),
     ],
     "design wind",
@@ -80,8 +75,16 @@ pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
             let [speed, direction] = const { WIND.numbers(["SPEED", "DIR"]) }.map(|key| given.number(key));
             env.wind = speed.zip(direction).map(|(speed, direction)| Wind { speed, direction });
         }
-        _ if given.is(&PROFILE) => env.wind_profile = Some(formula(given, Some(const { PROFILE.number("EXP") }))),
-        _ if given.is(&DESIGN) => env.design_wind = Some(formula(given, Some(const { DESIGN.number("DURATION") }))),
+        _ if given.is(&PROFILE) => {
+            let kind = given.choice(const { PROFILE.choice("TYPE") });
+            let value = given.number(const { PROFILE.number("EXP") });
+            env.wind_profile = kind.map(|kind| FormulaChoice { kind, value, span: given.span });
+        }
+        _ if given.is(&DESIGN) => {
+            let kind = given.choice(const { DESIGN.choice("TYPE") });
+            let value = given.number(const { DESIGN.number("DURATION") });
+            env.design_wind = kind.map(|kind| FormulaChoice { kind, value, span: given.span });
+        }
         _ if given.is(&W_SPECTRUM) => {
             spectrum(job, given, &GUSTS)?;
             let named = formula(given, None);

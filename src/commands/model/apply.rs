@@ -3,9 +3,11 @@
 //! Source: [MOSES-HELP general, modeling]: multipliers compound.
 
 use crate::commands::{Call, Command, Effect};
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
+use windlass_hydro::Category;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, find};
 
@@ -13,8 +15,27 @@ use windlass_model::{Model, find};
 pub static APPLY: Command = Command { spec: &SPEC, edits: false, run };
 
 const VALUE: ValueSpec = ValueSpec::new("VALUE", Kind::Number(Dim::None), "multiplier").in_range(-1e6, 1e6);
-const CATEGORY: &[ValueSpec] =
-    &[ValueSpec::new("CATEGORY", Kind::Choice(&["WIND", "V_DRAG", "W_DRIFT"]), "category of force"), VALUE];
+
+choices! {
+    /// Categories of force that have a multiplier.
+    enum LoadCategory {
+        Wind = "WIND",
+        ViscousDrag = "V_DRAG",
+        WaveDrift = "W_DRIFT",
+    }
+}
+
+impl LoadCategory {
+    fn category(self) -> Category {
+        match self {
+            LoadCategory::Wind => Category::Wind,
+            LoadCategory::ViscousDrag => Category::ViscousDrag,
+            LoadCategory::WaveDrift => Category::WaveDrift,
+        }
+    }
+}
+
+const CATEGORY: &[ValueSpec] = &[ValueSpec::choice::<LoadCategory>("CATEGORY", "category of force"), VALUE];
 
 const FRACTION: OptionSpec = OptionSpec::new("-FRACTION", &[], "values are fractions").default("as with -FRACTION");
 const PERCENT: OptionSpec = OptionSpec::new("-PERCENT", &[], "values are percent");
@@ -50,15 +71,13 @@ fn run(job: &mut crate::commands::Job, call: &Call) -> Outcome<Effect> {
         if given.is_any(&[FRACTION, PERCENT]) {
             continue;
         }
-        let (Some(name), Some(value)) = (given.first_word(), given.number(const { FORCE.number("VALUE") })) else {
-            continue;
-        };
+        let Some(value) = given.number(const { FORCE.number("VALUE") }) else { continue };
         if given.is(&LOAD_GROUP) {
-            let span = given.first_place();
-            find(&job.model.parts, name, "part", span)?;
+            let name = given.word(const { LOAD_GROUP.word("PART") }).unwrap_or_default();
+            find(&job.model.parts, name, "part", given.first_place())?;
             made.parts.insert(Model::key(name), value * unit);
-        } else {
-            made.categories.insert(name.to_string(), value * unit);
+        } else if let Some(chosen) = given.choice::<LoadCategory>(const { FORCE.choice("CATEGORY") }) {
+            made.categories.insert(chosen.category().name().to_string(), value * unit);
         }
     }
     job.model.multipliers = made;

@@ -8,6 +8,8 @@ use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
+use windlass_base::choice::YesNo;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
@@ -43,7 +45,35 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
 const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
     OptionSpec::new(name, values, help).owner(Owner::Ours)
 }
-const YES_NO: &[ValueSpec] = &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "yes or no").or("YES")];
+const YES_NO: &[ValueSpec] = &[ValueSpec::choice::<YesNo>("YES/NO", "yes or no").or("YES")];
+
+choices! {
+    /// What phases of motions are.
+    enum PhaseSense {
+        /// Behind the crest.
+        Lag = "LAG",
+        /// Before it.
+        Lead = "LEAD",
+    }
+}
+
+choices! {
+    /// Units of angles.
+    enum AngleUnit {
+        Degrees = "DEG",
+        Radians = "RAD",
+    }
+}
+
+choices! {
+    /// Slow drift as a record asks for it.
+    enum DriftChoice {
+        Newman = "NEWMAN",
+        Mean = "MEAN",
+        Qtf = "QTF",
+        None = "NONE",
+    }
+}
 
 const WAMIT: OptionSpec = ours(
     "-WAMIT",
@@ -70,13 +100,13 @@ const RAO: OptionSpec = ours(
 );
 const PHASE: OptionSpec = ours(
     "-PHASE",
-    &[ValueSpec::new("LAG/LEAD", Kind::Choice(&["LAG", "LEAD"]), "sense")],
+    &[ValueSpec::choice::<PhaseSense>("LAG/LEAD", "sense")],
     "whether phases of -RAO lag behind the crest or lead it",
 )
 .default("LAG");
 const ROTATION: OptionSpec = ours(
     "-ROTATION",
-    &[ValueSpec::new("DEG/RAD", Kind::Choice(&["DEG", "RAD"]), "unit")],
+    &[ValueSpec::choice::<AngleUnit>("DEG/RAD", "unit")],
     "unit of rotations of -RAO a metre of wave amplitude",
 )
 .default("DEG");
@@ -107,7 +137,7 @@ const MEMORY: OptionSpec = ours("-MEMORY", &[number("T", Dim::Time, "length").po
     .default("60 s, or up to 300 s until the kernel has died away");
 const DRIFT: OptionSpec = ours(
     "-DRIFT",
-    &[ValueSpec::new("METHOD", Kind::Choice(&["NEWMAN", "MEAN", "QTF", "NONE"]), "method")],
+    &[ValueSpec::choice::<DriftChoice>("METHOD", "method")],
     "slow drift in time: by Newman's approximation, the mean only, by the QTF of the source, or none",
 )
 .default("QTF where the source has one, else NEWMAN");
@@ -157,14 +187,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (source, mut data) = read(job, args)?;
     let at = args.option(&AT).map_or([0.0; 3], |given| given.numbers_or_zero(const { AT.numbers(["X", "Y", "Z"]) }));
     data.reference += Vector3::from(at);
-    if yes(args, &SYMMETRIC, false) {
+    if args.switch(&SYMMETRIC, false) {
         data = mirror_headings(data);
     }
-    if !yes(args, &INFINITE, true) {
+    if !args.switch(&INFINITE, true) {
         data.infinite = None;
     }
     let drift = method(args, &data)?;
-    let hydrostatics = yes(args, &HYDROSTATICS, false);
+    let hydrostatics = args.switch(&HYDROSTATICS, false);
     if hydrostatics && data.hydrostatics.is_none() {
         return Err(Diagnostic::error(format!("{} has no hydrostatics", data.source), source)
             .help("leave out -HYDROSTATICS YES, and give the body a hull or #HYDROSTATIC"));
@@ -224,24 +254,22 @@ fn unlike(data: &Database, mass: f64) -> Option<String> {
     })
 }
 
-/// Whether an option says yes.
-fn yes(args: &Args, option: &OptionSpec, usual: bool) -> bool {
-    args.option(option).map_or(usual, |g| g.first_word() != Some("NO"))
-}
-
 /// How slow drift is found.
 fn method(args: &Args, data: &Database) -> Outcome<DriftMethod> {
-    let Some(given) = args.option(&DRIFT) else {
+    let given = args.option(&DRIFT).and_then(|given| Some((given, given.choice(const { DRIFT.choice("METHOD") })?)));
+    let Some((given, method)) = given else {
         return Ok(if data.qtf.is_some() { DriftMethod::Full } else { DriftMethod::Newman });
     };
     let lacks = |what: &str| Diagnostic::error(format!("{} has no {what}", data.source), given.span);
-    match given.first_word() {
-        Some("NONE") => Ok(DriftMethod::None),
-        Some("QTF") if data.qtf.is_none() => Err(lacks("QTF")),
-        Some("QTF") => Ok(DriftMethod::Full),
-        _ if data.drift.is_none() && data.qtf.is_none() => Err(lacks("mean drift")),
-        Some("MEAN") => Ok(DriftMethod::Mean),
-        _ => Ok(DriftMethod::Newman),
+    match method {
+        DriftChoice::None => Ok(DriftMethod::None),
+        DriftChoice::Qtf if data.qtf.is_none() => Err(lacks("QTF")),
+        DriftChoice::Qtf => Ok(DriftMethod::Full),
+        DriftChoice::Mean | DriftChoice::Newman if data.drift.is_none() && data.qtf.is_none() => {
+            Err(lacks("mean drift"))
+        }
+        DriftChoice::Mean => Ok(DriftMethod::Mean),
+        DriftChoice::Newman => Ok(DriftMethod::Newman),
     }
 }
 
@@ -296,8 +324,10 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
         ),
         _ => {
             let file = text(job, &crate::commands::settings::device::readable(job, name, span)?, name, span)?;
-            let lag = args.option_word(&PHASE) != Some("LEAD");
-            let degrees = args.option_word(&ROTATION) != Some("RAD");
+            let phase = args.option_choice(&PHASE, const { PHASE.choice("LAG/LEAD") });
+            let rotation = args.option_choice(&ROTATION, const { ROTATION.choice("DEG/RAD") });
+            let lag = phase.unwrap_or(PhaseSense::Lag) == PhaseSense::Lag;
+            let degrees = rotation.unwrap_or(AngleUnit::Degrees) == AngleUnit::Degrees;
             rao::read(name, &file, &RaoConvention { lag, degrees, density, gravity, depth })
         }
     };

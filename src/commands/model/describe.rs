@@ -4,6 +4,7 @@ use crate::commands::chosen::NameFilter;
 use crate::commands::menu;
 use crate::commands::model::piece::{self, OPTIONS};
 use crate::commands::{Call, Command, Effect, Job};
+use windlass_base::choice::Dof;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position, unit_vector};
 use windlass_base::units::Dim;
@@ -40,7 +41,7 @@ const LOCATION: &[ValueSpec] = &[BODY, PLACE[0], PLACE[1], PLACE[2], PLACE[3], P
 const MOVE: OptionSpec = OptionSpec::new("-MOVE", &PLACE, "places a part in its body");
 const IGNORE: OptionSpec = OptionSpec::new(
     "-IGNORE",
-    &[ValueSpec::new("DOF", Kind::Choice(&["X", "Y", "Z", "RX", "RY", "RZ"]), "degree of freedom")],
+    &[ValueSpec::choice::<Dof>("DOF", "degree of freedom")],
     "degrees of freedom of a body left out",
 )
 .repeating(1);
@@ -169,7 +170,7 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
             model.parts.insert(key.clone(), Part::new(&name, &name, place, span));
         }
         if let (Some(given), Some(body)) = (args.option(&IGNORE), model.bodies.get_mut(&key)) {
-            body.ignored = given.values.iter().filter_map(|v| v.word()).map(str::to_string).collect();
+            body.ignored = given.choices(const { IGNORE.choice("DOF") }).collect();
         }
     } else {
         let place = args.option(&MOVE).map(|g| place_of(&g.values));

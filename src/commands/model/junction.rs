@@ -2,6 +2,7 @@
 
 use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job};
+use windlass_base::choice::Dof;
 use windlass_base::diagnostic::with_article;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position};
@@ -96,7 +97,7 @@ pub(crate) fn insert(model: &mut Model, name: &str, at: Position, [weight, displ
         name: name.to_string(),
         place,
         previous: place,
-        ignored: ["RX", "RY", "RZ"].map(str::to_string).into(),
+        ignored: vec![Dof::Rx, Dof::Ry, Dof::Rz],
         junction: Some(Junction { displacement, volume }),
         linear: None,
         database: None,

@@ -6,6 +6,7 @@
 use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job};
 use nalgebra::{Matrix6, Vector3};
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Position, unit_vector};
 use windlass_base::span::Span;
@@ -37,9 +38,17 @@ pub static AMASS: Command = Command { spec: &AMASS_SPEC, edits: false, run: adde
 
 const MENUS: &[&MenuSpec] = &[&menu::INMODEL, &menu::MEDIT];
 const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "a point of the part");
+choices! {
+    /// What moves past a point.
+    enum FluidChoice {
+        Air = "AIR",
+        Water = "WATER",
+    }
+}
+
 const FLUID: OptionSpec = OptionSpec::new(
     "-FLUID",
-    &[ValueSpec::new("FLUID", Kind::Choice(&["AIR", "WATER"]), "AIR or WATER")],
+    &[ValueSpec::choice::<FluidChoice>("FLUID", "AIR or WATER")],
     "wind or current, whatever the height of the point",
 )
 .default("the global height of the point decides")
@@ -238,9 +247,10 @@ fn place(job: &Job, args: &Args, index: usize) -> Outcome<(String, Position)> {
 }
 
 fn keep(job: &mut Job, args: &Args, (part, at): (String, Position), kind: LoadKind) -> Outcome<Effect> {
-    let fluid = match args.option_if_declared(&FLUID).and_then(|given| given.first_word()) {
-        Some("AIR") => Fluid::Air,
-        Some(_) => Fluid::Water,
+    let given = args.option_if_declared(&FLUID);
+    let fluid = match given.and_then(|given| given.choice(const { FLUID.choice("FLUID") })) {
+        Some(FluidChoice::Air) => Fluid::Air,
+        Some(FluidChoice::Water) => Fluid::Water,
         None => Fluid::ByHeight,
     };
     job.model.loads.push(PartLoad { part, at, fluid, kind, span: args.span });

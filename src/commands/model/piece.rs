@@ -7,6 +7,7 @@ use crate::commands::model::member;
 use crate::commands::written::option_as_written;
 use crate::commands::{Call, Command, Effect, Job};
 use nalgebra::Vector3;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Position;
 use windlass_base::span::Span;
@@ -48,11 +49,22 @@ pub(crate) const CS_CURRENT: OptionSpec =
     OptionSpec::new("-CS_CURRENT", FACTORS, "shape coefficients of the current force along the part's x y z")
         .default(CS);
 const OBSTACLE: OptionSpec = OptionSpec::new("-OBSTACLE", &[], "stops what moves against it; kept");
+choices! {
+    /// What waves do to a piece.
+    enum DiffractionType {
+        /// It is in the hull of a hydrodynamic database.
+        Database = "3DDIF",
+        /// What its form says.
+        None = "NONE",
+        /// Pressure of the waves as they are without it.
+        FroudeKrylov = "FK",
+    }
+}
+
 const DIFTYPE: OptionSpec = OptionSpec::new(
         "-DIFTYPE",
-        &[ValueSpec::new(
+        &[ValueSpec::choice::<DiffractionType>(
             "TYPE",
-            Kind::Choice(&["3DDIF", "NONE", "FK"]),
             "3DDIF: in the hull of a hydrodynamic database; NONE: as its form says; FK (ours): the pressure of waves it does not change",
         )],
         "what waves do to it",
@@ -239,10 +251,11 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
     }
     let permeability = args.option_number(&PERMEABILITY).unwrap_or(1.0);
     let member = matches!(shape, Shape::Tube { .. }).then(|| member::coefficients(args, permeability)).transpose()?;
-    let waves = match args.option_word(&DIFTYPE) {
-        Some("3DDIF") => WaveAction::Database,
-        Some("FK") if member.is_none() => WaveAction::Pressure,
-        _ => WaveAction::ByForm,
+    let chosen = args.option_choice(&DIFTYPE, const { DIFTYPE.choice("TYPE") });
+    let waves = match chosen.unwrap_or(DiffractionType::None) {
+        DiffractionType::Database => WaveAction::Database,
+        DiffractionType::FroudeKrylov if member.is_none() => WaveAction::Pressure,
+        DiffractionType::FroudeKrylov | DiffractionType::None => WaveAction::ByForm,
     };
     let usual = if permeability > 0.0 { [1.0; 3] } else { [0.0; 3] };
     // a member's drag is its own, unless -CS_CURRENT says other

@@ -10,6 +10,7 @@ use crate::commands::settings::device::existing;
 use crate::commands::status::body_tables::pieces;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::page;
+use windlass_base::choice::Choice;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position};
 use windlass_base::span::Span;
@@ -68,13 +69,10 @@ static BLOCK_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("BLOCK", "a box, or a surface of panels")
 };
 
-const FORMAT: OptionSpec = OptionSpec::new(
-    "-FORMAT",
-    &[ValueSpec::new("FORMAT", Kind::Choice(&["STL", "GDF", "OBJ"]), "format of the file")],
-    "format of the file",
-)
-.owner(Owner::Ours)
-.default("as the ending of its name says");
+const FORMAT: OptionSpec =
+    OptionSpec::new("-FORMAT", &[ValueSpec::choice::<MeshKind>("FORMAT", "format of the file")], "format of the file")
+        .owner(Owner::Ours)
+        .default("as the ending of its name says");
 const SCALE: OptionSpec = OptionSpec::new(
     "-SCALE",
     &[number("S", Dim::None, "long length units of &DIMEN in a unit of the file").positive()],
@@ -213,15 +211,11 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Position>>> {
     let path = existing(job, name, span)?;
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_uppercase()).unwrap_or_default();
-    let kind = match args.option_word(&FORMAT).unwrap_or(&ending) {
-        "STL" => MeshKind::Stl,
-        "GDF" => MeshKind::Gdf,
-        "OBJ" => MeshKind::Obj,
-        _ => {
-            return Err(Diagnostic::error(format!("the format of {name} does not follow from its name"), span)
-                .help("give -FORMAT STL, GDF or OBJ"));
-        }
-    };
+    let given = args.option_choice(&FORMAT, const { FORMAT.choice("FORMAT") });
+    let kind = given.or_else(|| MeshKind::from_word(&ending)).ok_or_else(|| {
+        Diagnostic::error(format!("the format of {name} does not follow from its name"), span)
+            .help("give -FORMAT STL, GDF or OBJ")
+    })?;
     let unusable = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
     let bytes =
         crate::commands::settings::device::read_input(job, &path, LARGEST_FILE).map_err(|e| unusable(e.to_string()))?;

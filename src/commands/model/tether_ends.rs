@@ -2,6 +2,7 @@
 //!
 //! Source: [AQWA-TETHER Appendix A] (cards TSPA, TSPV, TCAP, TIFL, TIMP, TLOW, TEGR, TLAC, TROC, TLAV, TROV).
 
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
@@ -30,7 +31,16 @@ const MOORING: &[ValueSpec] = &[
 ];
 const STRESS_OF_SPEED: Dim = Dim::Derived { force: 1, length: -3, seconds: 1 };
 const PRESSURE: Dim = Dim::Derived { force: 1, length: -2, seconds: 0 };
-const KINDS: &[&str] = &["LATERAL_FIXED", "ROTATIONAL_FIXED", "LATERAL_VESSEL", "ROTATIONAL_VESSEL"];
+
+choices! {
+    /// What a constraint holds, and by what.
+    enum ConstraintKind {
+        LateralFixed = "LATERAL_FIXED",
+        RotationalFixed = "ROTATIONAL_FIXED",
+        LateralVessel = "LATERAL_VESSEL",
+        RotationalVessel = "ROTATIONAL_VESSEL",
+    }
+}
 
 /// A tether between a structure and its anchor (the default of class TETHER).
 pub const INSTALLED: OptionSpec = option("-INSTALLED", &[], "a tether from a structure to its anchor");
@@ -87,7 +97,7 @@ pub const CONSTRAINT: OptionSpec = OptionSpec {
     ..option(
         "-CONSTRAINT",
         &[
-            ValueSpec::new("KIND", Kind::Choice(KINDS), "what is held, and by what"),
+            ValueSpec::choice::<ConstraintKind>("KIND", "what is held, and by what"),
             ValueSpec::new("NODE", Kind::Integer, "the node, 1 at the anchor").in_range(1.0, 1e5),
             number("GAP", Dim::Length, "free radius of LATERAL_VESSEL").or("0").not_negative(),
         ],
@@ -158,17 +168,17 @@ fn constraints(args: &Args) -> Outcome<Vec<TetherConstraint>> {
     let mut found = Vec::new();
     for given in args.occurrences(&CONSTRAINT) {
         let gap = given.number(const { CONSTRAINT.number("GAP") });
-        let kind = given.word(const { CONSTRAINT.word("KIND") });
-        if gap.is_some_and(|g| g > 0.0) && kind != Some("LATERAL_VESSEL") {
+        let Some(kind) = given.choice(const { CONSTRAINT.choice("KIND") }) else { continue };
+        if gap.is_some_and(|g| g > 0.0) && kind != ConstraintKind::LateralVessel {
             return Err(Diagnostic::error("only LATERAL_VESSEL has a gap", given.span));
         }
         let node =
             given.integer(const { CONSTRAINT.integer("NODE") }).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
         let hold = match kind {
-            Some("LATERAL_FIXED") => TetherHold::LateralFixed,
-            Some("ROTATIONAL_FIXED") => TetherHold::RotationalFixed,
-            Some("LATERAL_VESSEL") => TetherHold::LateralVessel { gap: gap.unwrap_or(0.0) },
-            _ => TetherHold::RotationalVessel,
+            ConstraintKind::LateralFixed => TetherHold::LateralFixed,
+            ConstraintKind::RotationalFixed => TetherHold::RotationalFixed,
+            ConstraintKind::LateralVessel => TetherHold::LateralVessel { gap: gap.unwrap_or(0.0) },
+            ConstraintKind::RotationalVessel => TetherHold::RotationalVessel,
         };
         found.push(TetherConstraint { node, hold });
         if found.len() > MAX_CONSTRAINTS {

@@ -4,6 +4,8 @@ use crate::commands::chosen::{NameFilter, WARNING, merge_remarks};
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
+use windlass_base::choice::YesNo;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
@@ -16,7 +18,7 @@ use windlass_solve::scene::{Scene, SceneOptions};
 /// &PICTURE.
 pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };
 
-const YES_NO: ValueSpec = ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "shown or not").or("YES");
+const YES_NO: ValueSpec = ValueSpec::choice::<YesNo>("YES/NO", "shown or not").or("YES");
 
 const NO: OptionSpec = OptionSpec::new("-NO", &[], "accepted: nothing is asked before drawing").owner(Owner::Ours);
 const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the next figure file, FIGUREn.svg").owner(Owner::Ours);
@@ -26,9 +28,19 @@ const FILE: OptionSpec = OptionSpec::new(
     "to a file ending in .svg or .png",
 )
 .owner(Owner::Ours);
+
+choices! {
+    /// Forms of a picture.
+    enum PictureForm {
+        Svg = "SVG",
+        Png = "PNG",
+        Terminal = "TERMINAL",
+    }
+}
+
 const FORMAT: OptionSpec = OptionSpec::new(
     "-FORMAT",
-    &[ValueSpec::new("FORMAT", Kind::Choice(&["SVG", "PNG", "TERMINAL"]), "form of the picture")],
+    &[ValueSpec::choice::<PictureForm>("FORMAT", "form of the picture")],
     "SVG or PNG: to the next figure file, or the file of -FILE",
 )
 .default("TERMINAL")
@@ -127,10 +139,10 @@ fn views(args: &Args) -> Outcome<Vec<View>> {
 /// The file a record asks for, and whether its name takes the number of a figure; `None` for the terminal.
 fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
     let format = args.option(&FORMAT);
-    let ending = match format.and_then(|g| g.first_word()) {
-        Some("PNG") => Some("png"),
-        Some("SVG") => Some("svg"),
-        Some(_) => None,
+    let ending = match format.and_then(|g| g.choice(const { FORMAT.choice("FORMAT") })) {
+        Some(PictureForm::Png) => Some("png"),
+        Some(PictureForm::Svg) => Some("svg"),
+        Some(PictureForm::Terminal) => None,
         None if args.has(&HARD) || args.has(&FILE) => Some("svg"),
         None => return Ok(None),
     };
@@ -162,8 +174,7 @@ fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (views, file) = (views(args)?, file(job, args)?);
-    let yes = |option: &OptionSpec| args.option_word(option).is_none_or(|w| w != "NO");
-    let (chosen, light) = (NameFilter::new(call, 1, &job.model), yes(&INACTIVE));
+    let (chosen, light) = (NameFilter::new(call, 1, &job.model), args.switch(&INACTIVE, true));
     let choice = SceneOptions {
         connector: &|c| (chosen.takes(&c.name)) && (c.active || light),
         body: &|b| chosen.takes(&b.name),
@@ -182,7 +193,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         })
         .collect();
     let title = args.option_word(&HEADING).unwrap_or(&job.titles[0]).to_string();
-    let picture = Picture { title, scene, views, names: yes(&NAMES), units: job.units };
+    let picture = Picture { title, scene, views, names: args.switch(&NAMES, true), units: job.units };
     let wrong = |error: PlotError| match error {
         PlotError::Empty => Diagnostic::error("there is nothing to draw: no body and no connector", args.span)
             .help("-INACTIVE NO leaves out what does not act; &STATUS counts what the model holds"),

@@ -8,6 +8,8 @@ use crate::commands::menu;
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
+use windlass_base::choice::YesNo;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -48,10 +50,17 @@ const EVENTS: OptionSpec = OptionSpec::new(
     "the events that are reported",
 )
 .default("all stored instants; STATISTIC, SPECTRUM, EXTREMES and their like leave out those before TTRA_SET");
-const AXES: &[&str] = &["X", "Y", "Z"];
+choices! {
+    /// An axis.
+    enum Axis {
+        X = "X",
+        Y = "Y",
+        Z = "Z",
+    }
+}
 const MAG_DEFINE: OptionSpec = OptionSpec::new(
     "-MAG_DEFINE",
-    &[ValueSpec::new("AXIS", Kind::Choice(AXES), "X, Y or Z")],
+    &[ValueSpec::choice::<Axis>("AXIS", "X, Y or Z")],
     "magnitudes are those of the projection on these axes: one is a line, two a plane",
 )
 .repeating(1)
@@ -63,7 +72,7 @@ pub(crate) const CONNECTORS: &[ValueSpec] =
     &[ValueSpec::new(":C", Kind::Name(Noun::Selector), "connector, pattern or selector").or("all connectors")];
 const LOCAL: OptionSpec = OptionSpec::new(
     "-LOCAL",
-    &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "NO is as without the option").or("YES")],
+    &[ValueSpec::choice::<YesNo>("YES/NO", "NO is as without the option").or("YES")],
     "velocities, accelerations and displacements along the axes of the body",
 )
 .default("along the global axes");
@@ -186,12 +195,12 @@ pub(crate) fn transient_of(job: &Job, args: &Args) -> f64 {
 /// What magnitudes are of.
 fn magnitude(args: &Args) -> Magnitude {
     let Some(given) = args.option(&MAG_DEFINE) else { return Magnitude::default() };
-    let named = |axis: &str| given.values.iter().any(|v| v.word() == Some(axis));
-    Magnitude(["X", "Y", "Z"].map(named))
+    let named = |axis: Axis| given.choices::<Axis>(const { MAG_DEFINE.choice("AXIS") }).any(|chosen| chosen == axis);
+    Magnitude([Axis::X, Axis::Y, Axis::Z].map(named))
 }
 
 fn local(args: &Args) -> bool {
-    args.option(&LOCAL).is_some_and(|g| g.first_word() != Some("NO"))
+    args.switch(&LOCAL, false)
 }
 
 /// The places among some names of those that a record chooses.

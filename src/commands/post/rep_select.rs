@@ -19,7 +19,7 @@ const SN: OptionSpec = OptionSpec::new(
     "-SN",
     &[
         ValueSpec::new("CURVE", Kind::Name(Noun::New), "name of a curve"),
-        ValueSpec::new("TYPE", Kind::Choice(&["STRESS", "TENSION"]), "what S is").or("a curve that is known"),
+        ValueSpec::choice::<FatigueKind>("TYPE", "what S is").or("a curve that is known"),
         ValueSpec::new("S", Kind::Number(Dim::None), "range: stress (ksi or MPa), or tension / break")
             .or("none")
             .positive(),
@@ -95,11 +95,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn define_curve(job: &Job, given: &Given, name: &str) -> Outcome<FatigueCurve> {
     let span = given.first_place();
     rule::check(name, None, "fatigue curve", span)?;
-    let kind = if given.word(const { SN.word("TYPE") }) == Some("STRESS") {
-        FatigueKind::Stress
-    } else {
-        FatigueKind::Tension
-    };
+    let kind = given.choice(const { SN.choice("TYPE") }).unwrap_or(FatigueKind::Tension);
     let dim = if kind == FatigueKind::Stress { Dim::Stress } else { Dim::None };
     let mut points = Vec::new();
     for pair in given.groups() {

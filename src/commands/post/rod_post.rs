@@ -8,6 +8,8 @@ use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::page;
+use windlass_base::choice::Choice;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -26,9 +28,20 @@ use windlass_solve::results::{self, EventWindow, Magnitude, RunEvent};
 pub static ROD: Command = Command { spec: &SPEC, edits: false, run };
 
 const WHAT: &[&str] = &["ENVELOPE", "AT", "NODE", "TOUCHDOWN", "SUPPORTS", "FATIGUE", "CHECK"];
-const CODES: &[&str] = &["F201", "2RD", "BREAK"];
-const SAFETY: &[&str] = &["LOW", "NORMAL", "HIGH"];
-const CASES: &[&str] = &["OPERATING", "EXTREME", "SURVIVAL"];
+choices! {
+    /// What CHECK checks tubes by.
+    #[derive(Default)]
+    enum CheckCode {
+        /// DNV-ST-F201.
+        #[default]
+        F201 = "F201",
+        /// API RP 2RD.
+        Api2rd = "2RD",
+        /// Tension over breaking tension.
+        Break = "BREAK",
+    }
+}
+
 /// Most places reported side by side.
 const MAX_PLACES: usize = 100;
 
@@ -59,13 +72,12 @@ const ARC: OptionSpec = ours(
 .repeating(1);
 const CODE: OptionSpec = ours(
     "-CODE",
-    &[ValueSpec::new("C", Kind::Choice(CODES), "F201: DNV-ST-F201, 2RD: API RP 2RD, BREAK: tension over break")],
+    &[ValueSpec::choice::<CheckCode>("C", "F201: DNV-ST-F201, 2RD: API RP 2RD, BREAK: tension over break")],
     "what CHECK checks tubes by; other sections go by tension over break",
 )
 .default("F201");
 const SAFETY_OPTION: OptionSpec =
-    ours("-SAFETY", &[ValueSpec::new("C", Kind::Choice(SAFETY), "safety class")], "safety class of F201")
-        .default("NORMAL");
+    ours("-SAFETY", &[ValueSpec::choice::<SafetyClass>("C", "safety class")], "safety class of F201").default("NORMAL");
 const FACTORS: OptionSpec = ours(
     "-FACTORS",
     &[
@@ -86,7 +98,7 @@ const PIPE: OptionSpec = ours(
 )
 .default("0.005 1");
 const CASE: OptionSpec =
-    ours("-CASE", &[ValueSpec::new("C", Kind::Choice(CASES), "design case")], "design case of 2RD: 1, 1.2 or 1.5")
+    ours("-CASE", &[ValueSpec::choice::<DesignCase>("C", "design case")], "design case of 2RD: 1, 1.2 or 1.5")
         .default("OPERATING");
 const CORROSION: OptionSpec = ours(
     "-CORROSION",
@@ -218,17 +230,18 @@ fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
             return Err(Diagnostic::error(format!("{} goes with {of}, not with {what}", option.name), given.span));
         }
     }
-    let code = args.option_word(&CODE).unwrap_or("F201");
-    const BY: [(OptionSpec, &[&str]); 5] = [
-        (SAFETY_OPTION, &["F201"]),
-        (FACTORS, &["F201"]),
-        (PIPE, &["F201"]),
-        (CASE, &["2RD"]),
-        (CORROSION, &["F201", "2RD"]),
+    let code = chosen_code(args);
+    const BY: [(OptionSpec, &[CheckCode]); 5] = [
+        (SAFETY_OPTION, &[CheckCode::F201]),
+        (FACTORS, &[CheckCode::F201]),
+        (PIPE, &[CheckCode::F201]),
+        (CASE, &[CheckCode::Api2rd]),
+        (CORROSION, &[CheckCode::F201, CheckCode::Api2rd]),
     ];
     for (option, codes) in BY {
         if let Some(given) = args.option(&option).filter(|_| !codes.contains(&code)) {
-            let text = format!("{} goes with -CODE {}, not with {code}", option.name, codes.join(" and "));
+            let codes: Vec<&str> = codes.iter().map(|code| code.word()).collect();
+            let text = format!("{} goes with -CODE {}, not with {}", option.name, codes.join(" and "), code.word());
             return Err(Diagnostic::error(text, given.span));
         }
     }
@@ -294,28 +307,25 @@ fn places(args: &Args, line: &LineResults) -> Outcome<Vec<Where>> {
     Ok(list)
 }
 
+/// The code that CHECK goes by.
+fn chosen_code(args: &Args) -> CheckCode {
+    args.option_choice(&CODE, const { CODE.choice("C") }).unwrap_or_default()
+}
+
 /// What CHECK checks by.
 fn code(args: &Args) -> Code {
-    let word = |option: &OptionSpec| args.option_word(option);
     let corroded = args.option_number(&CORROSION).unwrap_or(0.0);
     let number = |option: &OptionSpec, key| args.option(option).and_then(|given| given.number(key));
-    match word(&CODE) {
-        Some("2RD") => {
-            let case = match word(&CASE) {
-                Some("EXTREME") => DesignCase::Extreme,
-                Some("SURVIVAL") => DesignCase::Survival,
-                _ => DesignCase::Operating,
-            };
-            Code::WorkingStress(case, corroded)
+    match chosen_code(args) {
+        CheckCode::Api2rd => {
+            let case = args.option_choice(&CASE, const { CASE.choice("C") });
+            Code::WorkingStress(case.unwrap_or(DesignCase::Operating), corroded)
         }
-        Some("BREAK") => Code::Break,
-        _ => {
+        CheckCode::Break => Code::Break,
+        CheckCode::F201 => {
             let usual = LrfdFactors::default();
-            let class = match word(&SAFETY_OPTION) {
-                Some("LOW") => SafetyClass::Low,
-                Some("HIGH") => SafetyClass::High,
-                _ => SafetyClass::Normal,
-            };
+            let class = args.option_choice(&SAFETY_OPTION, const { SAFETY_OPTION.choice("C") });
+            let class = class.unwrap_or(SafetyClass::Normal);
             let factors = LrfdFactors {
                 class,
                 functional: number(&FACTORS, const { FACTORS.number("GF") }).unwrap_or(usual.functional),

@@ -3,6 +3,7 @@
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::files::{open_regular, read_regular};
 use std::path::{Path, PathBuf};
+use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_language::select::Owner;
@@ -11,7 +12,7 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 /// &DEVICE.
 pub static DEVICE: Command = Command { spec: &SPEC, edits: false, run };
 
-const YES_NO: ValueSpec = ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "on or off").or("YES");
+const YES_NO: ValueSpec = ValueSpec::choice::<YesNo>("YES/NO", "on or off").or("YES");
 const FILE: ValueSpec = ValueSpec::new("FILE", Kind::File, "file name");
 const ANY: ValueSpec = ValueSpec::new("VALUE", Kind::Text, "as MOSES takes it").or("none");
 
@@ -111,15 +112,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut effect = Effect::Done;
     let mut remarks = Vec::new();
     for given in &call.args.options {
-        let on = given.first_word().is_none_or(|w| w != "NO");
         let whole = given.first_integer().unwrap_or(0);
         let word = given.first_word().unwrap_or_default();
         match given {
-            _ if given.is(&BATCH) => settings.batch = on,
+            _ if given.is(&BATCH) => settings.batch = given.is_on(),
             _ if given.is(&LIMERROR) => settings.error_limit = whole,
             _ if given.is(&SET_DATE) => settings.date = Some(word.to_string()),
-            _ if given.is(&OECHO) || given.is(&MECHO) => settings.echo = on,
-            _ if given.is(&SILENT) => settings.silent = on,
+            _ if given.is(&OECHO) || given.is(&MECHO) => settings.echo = given.is_on(),
+            _ if given.is(&SILENT) => settings.silent = given.is_on(),
             _ if given.is(&NAME_FIGURE) => settings.figure_name = word.to_string(),
             _ if given.is(&FIG_NUM) => settings.figure_number = whole,
             _ if given.is(&AUXIN) || given.is(&IAUXIN) => settings.auxiliary = Some(beside_root(job, word)),

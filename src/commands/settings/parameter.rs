@@ -1,16 +1,17 @@
 //! `&PARAMETER`: what holds for all computations.
 
 use crate::commands::{Call, Command, Effect, Job};
+use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::Outcome;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, OptionSpec, ValueSpec};
 
 /// &PARAMETER.
 pub static PARAMETER: Command = Command { spec: &SPEC, edits: false, run };
 
 const ACCEPT_MISSING: OptionSpec = OptionSpec::new(
     "-ACCEPT_MISSING",
-    &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "YES goes on")],
+    &[ValueSpec::choice::<YesNo>("YES/NO", "YES goes on")],
     "whether modes and runs go on where a body lacks added mass; reports then say so",
 )
 .owner(Owner::Ours)
@@ -26,7 +27,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(given) = call.args.option(&ACCEPT_MISSING) {
-        job.model.parameters.accept_missing = given.first_word() == Some("YES");
+        job.model.parameters.accept_missing = given.is_on();
     }
     Ok(Effect::Done)
 }

@@ -1,7 +1,9 @@
 //! `&DIMEN` and `&DEFAULT`.
 
 use crate::commands::{Call, Command, Effect, Job};
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
@@ -16,8 +18,8 @@ const SAVE: OptionSpec = OptionSpec::new("-SAVE", &[], "keeps the present units 
 const DIMEN_OPTION: OptionSpec = OptionSpec::new(
     "-DIMEN",
     &[
-        ValueSpec::new("LENGTH", Kind::Choice(&["FEET", "METERS"]), "length unit"),
-        ValueSpec::new("FORCE", Kind::Choice(FORCES), "force unit"),
+        ValueSpec::choice::<LengthChoice>("LENGTH", "length unit"),
+        ValueSpec::choice::<ForceChoice>("FORCE", "force unit"),
     ],
     "sets the units of all that follows",
 );
@@ -31,7 +33,27 @@ static DIMEN_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("&DIMEN", "sets the units")
 };
 
-const FORCES: &[&str] = &["KIPS", "L-TONS", "S-TONS", "K-NTS", "M-TONS", "KN", "N", "NEWTONS"];
+choices! {
+    /// Units of length.
+    enum LengthChoice {
+        Feet = "FEET",
+        Meters = "METERS",
+    }
+}
+
+choices! {
+    /// Units of force, with the names of ours.
+    enum ForceChoice {
+        Kips = "KIPS",
+        LongTons = "L-TONS",
+        ShortTons = "S-TONS",
+        KNts = "K-NTS",
+        MetricTons = "M-TONS",
+        Kilonewtons = "KN",
+        N = "N",
+        Newtons = "NEWTONS",
+    }
+}
 
 fn dimen(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut units = job.units;
@@ -45,22 +67,27 @@ fn dimen(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 })?;
             }
             _ => {
-                let length = if given.word(const { DIMEN_OPTION.word("LENGTH") }) == Some("FEET") {
-                    LengthUnit::Feet
-                } else {
-                    LengthUnit::Meters
+                const FORCE: ValueKey<ForceChoice> = DIMEN_OPTION.choice("FORCE");
+                let (Some(length), Some(force)) =
+                    (given.choice(const { DIMEN_OPTION.choice("LENGTH") }), given.choice(FORCE))
+                else {
+                    continue;
                 };
-                let force = match given.word(const { DIMEN_OPTION.word("FORCE") }) {
-                    Some("KIPS") => ForceUnit::Kips,
-                    Some("L-TONS") => ForceUnit::LongTons,
-                    Some("S-TONS") => ForceUnit::ShortTons,
-                    Some("M-TONS") => ForceUnit::MetricTons,
-                    Some("K-NTS" | "KN") => ForceUnit::Kilonewtons,
-                    _ => ForceUnit::Newtons,
+                let length = match length {
+                    LengthChoice::Feet => LengthUnit::Feet,
+                    LengthChoice::Meters => LengthUnit::Meters,
+                };
+                let force = match force {
+                    ForceChoice::Kips => ForceUnit::Kips,
+                    ForceChoice::LongTons => ForceUnit::LongTons,
+                    ForceChoice::ShortTons => ForceUnit::ShortTons,
+                    ForceChoice::MetricTons => ForceUnit::MetricTons,
+                    ForceChoice::KNts | ForceChoice::Kilonewtons => ForceUnit::Kilonewtons,
+                    ForceChoice::N | ForceChoice::Newtons => ForceUnit::Newtons,
                 };
                 let feet = matches!(force, ForceUnit::Kips | ForceUnit::LongTons | ForceUnit::ShortTons);
                 if feet != (length == LengthUnit::Feet) {
-                    let span = given.place(const { DIMEN_OPTION.word("FORCE") });
+                    let span = given.place(FORCE);
                     let fitting =
                         if length == LengthUnit::Feet { "KIPS, L-TONS or S-TONS" } else { "K-NTS, M-TONS or N" };
                     return Err(Diagnostic::error("this force unit does not go with this length unit", span)

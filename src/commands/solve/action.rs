@@ -2,6 +2,7 @@
 
 use crate::commands::model::alter::select_connectors;
 use crate::commands::{Call, Command, Effect, Job};
+use windlass_base::choice::Dof;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Noun;
@@ -10,7 +11,6 @@ use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, PIPE, find, line_name};
-use windlass_solve::DOFS;
 use windlass_solve::time::{Action, ActionKind, Observable, Trigger};
 
 /// &ACTION.
@@ -24,7 +24,7 @@ const FORCE: ValueSpec = ValueSpec::new(
 );
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
 const DOF: ValueSpec =
-    ValueSpec::new("DOF", Kind::Choice(&DOFS), "degree of freedom of its origin, roll, pitch and yaw as RX RY RZ");
+    ValueSpec::choice::<Dof>("DOF", "degree of freedom of its origin, roll, pitch and yaw as RX RY RZ");
 const LIMIT: ValueSpec = ValueSpec::new("V", Kind::Number(Dim::None), "a length, or an angle in degrees");
 const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "point of a body");
 const HEIGHT: ValueSpec = ValueSpec::new("Z", Kind::Number(Dim::Length), "height above the mean water level");
@@ -135,9 +135,9 @@ fn parse_trigger(model: &Model, given: &Given, units: UnitSystem) -> Outcome<Tri
     };
     let dof = || -> Outcome<(Observable, f64)> {
         let body = find(&model.bodies, name, "body", place)?;
-        let dof = DOFS.iter().position(|f| Some(*f) == given.word(const { ABOVE.word("DOF") })).unwrap_or(0);
-        let dim = if dof < 3 { Dim::Length } else { Dim::Angle };
-        Ok((Observable::Dof(body.name.clone(), dof), dim.to_si(number(const { ABOVE.number("V") }), units)))
+        let dof: Dof = given.choice(const { ABOVE.choice("DOF") }).unwrap_or(Dof::X);
+        let dim = if dof.is_rotation() { Dim::Angle } else { Dim::Length };
+        Ok((Observable::Dof(body.name.clone(), dof.index()), dim.to_si(number(const { ABOVE.number("V") }), units)))
     };
     let point = || {
         let found = find(&model.points, name, "point", place)?;

@@ -8,6 +8,7 @@ use crate::commands::verdict::{OverBreak, check_over_break};
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::page;
 use indexmap::IndexMap;
+use windlass_base::choice::Dof;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::units::{Dim, UnitSystem};
@@ -16,7 +17,7 @@ use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, find};
 use windlass_solve::results::along::cautions;
-use windlass_solve::{DOFS, Options, SolveError, find_equilibrium_with_rebuilds, tables};
+use windlass_solve::{Options, SolveError, find_equilibrium_with_rebuilds, tables};
 
 /// &EQUI.
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
@@ -42,7 +43,7 @@ const IGNORE: OptionSpec = OptionSpec::new(
     "-IGNORE",
     &[
         ValueSpec::new("BODY", Kind::Name(Noun::Body), "body"),
-        ValueSpec::new("DOF", Kind::Choice(&DOFS), "a degree of freedom that does not move in this solution"),
+        ValueSpec::choice::<Dof>("DOF", "a degree of freedom that does not move in this solution"),
         MORE,
         MORE,
         MORE,
@@ -68,15 +69,15 @@ static SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("&EQUI", "finds the equilibrium of bodies and connectors")
 };
 
-const MORE: ValueSpec = ValueSpec::new("DOF", Kind::Choice(&DOFS), "a further one").or("no more");
+const MORE: ValueSpec = ValueSpec::choice::<Dof>("DOF", "a further one").or("no more");
 
 /// The degrees of freedom one -IGNORE holds, each with the number of its body.
 fn ignored_dofs(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
     let place = given.first_place();
     let body = find(&model.bodies, given.first_word().unwrap_or_default(), "body", place)?;
     let index = model.bodies.get_index_of(&Model::key(&body.name)).unwrap_or(0);
-    let words = given.values.iter().skip(1).filter_map(|v| v.word());
-    Ok(words.filter_map(|w| DOFS.iter().position(|f| *f == w)).map(|f| (index, f)).collect())
+    let dofs = given.choices::<Dof>(const { IGNORE.choice("DOF") });
+    Ok(dofs.map(|dof| (index, dof.index())).collect())
 }
 
 /// What a record asks for, beside what was asked for before.

@@ -6,6 +6,7 @@ use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job};
 use std::f64::consts::TAU;
 use std::sync::Arc;
+use windlass_base::choice::Dof;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
 use windlass_base::table::{Digits, Table};
@@ -27,7 +28,7 @@ const FILE: [ValueSpec; 1] =
 const SINUSOID: OptionSpec = OptionSpec::new(
     "-SINUSOID",
     &[
-        ValueSpec::new("DOF", Kind::Choice(&DOFS), "degree of freedom of its origin, roll, pitch and yaw as RX RY RZ"),
+        ValueSpec::choice::<Dof>("DOF", "degree of freedom of its origin, roll, pitch and yaw as RX RY RZ"),
         ValueSpec::new("AMP", Kind::Number(Dim::None), "amplitude: a length, or an angle in degrees"),
         ValueSpec::new("PERIOD", Kind::Number(Dim::Time), "period").positive(),
         ValueSpec::new("PHASE", Kind::Number(Dim::Angle), "phase at the time zero").or("0"),
@@ -125,10 +126,10 @@ fn kind(args: &Args) -> Outcome<&Given> {
 
 fn sinusoids(job: &Job, args: &Args) -> GivenMotion {
     let one = |given: &Given| {
-        let dof = DOFS.iter().position(|f| Some(*f) == given.word(const { SINUSOID.word("DOF") })).unwrap_or(0);
-        let dim = if dof < 3 { Dim::Length } else { Dim::Angle };
+        let dof: Dof = given.choice(const { SINUSOID.choice("DOF") }).unwrap_or(Dof::X);
+        let dim = if dof.is_rotation() { Dim::Angle } else { Dim::Length };
         let [amplitude, period, phase] = given.numbers_or_zero(const { SINUSOID.numbers(["AMP", "PERIOD", "PHASE"]) });
-        Sinusoid { dof, amplitude: dim.to_si(amplitude, job.units), period, phase }
+        Sinusoid { dof: dof.index(), amplitude: dim.to_si(amplitude, job.units), period, phase }
     };
     let list = args.options.iter().filter(|g| g.is(&SINUSOID)).map(one).collect();
     GivenMotion::Sinusoids { list, ramp: args.option_number(&RAMP).unwrap_or(0.0) }

@@ -13,6 +13,7 @@ use crate::report::run_log::RunLog;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
@@ -35,10 +36,8 @@ pub static TDOM: Command = Command { spec: &SPEC, edits: true, run };
 /// The file of a run, in the job's folder.
 pub(crate) const FILE: &str = "TDOM.run";
 
-const YES_NO: &[&str] = &["YES", "NO"];
-
 const fn yes_no(help: &'static str) -> ValueSpec {
-    ValueSpec::new("YES/NO", Kind::Choice(YES_NO), help)
+    ValueSpec::choice::<YesNo>("YES/NO", help)
 }
 
 /// `-NO_CAPSIZE`.
@@ -211,9 +210,8 @@ fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
         return Err(Diagnostic::error(text, args.span)
             .help("the loads would come at once: a longer -RAMP, a shorter step, or -RAMP 0 to have them at once"));
     }
-    let said = |option: &OptionSpec| args.option_word(option).is_some_and(|w| w == "YES");
     let method = match args.option(&NEWMARK) {
-        Some(given) if given.first_word() == Some("NO") => Method::Corrector,
+        Some(given) if !given.is_on() => Method::Corrector,
         Some(given) => match given.number(const { NEWMARK.number("BETA") }) {
             Some(beta) => {
                 let scheme = TimeScheme::newmark(beta, given.number(const { NEWMARK.number("ALPHA") }).unwrap_or(0.5));
@@ -244,7 +242,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
         method,
         convergence,
         store: whole(&STORE),
-        capsize: said(&NO_CAPSIZE),
+        capsize: args.switch(&NO_CAPSIZE, false),
         adaptive: args.option_number(&ADAPTIVE),
         keep: !args.has(&STATISTICS),
         along: whole(&ALONG),
@@ -461,7 +459,7 @@ fn screen_lines(
     made: &Run,
     ending: Option<&Ending>,
 ) -> Result<Screening, Option<&'static str>> {
-    let off = args.option_word(&SCREEN) == Some("NO");
+    let off = !args.switch(&SCREEN, true);
     let reason = match ending {
         _ if screening::quasi_static_lines(made).is_empty() => return Err(None),
         _ if off => "-SCREEN NO",

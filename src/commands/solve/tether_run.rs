@@ -9,6 +9,7 @@ use crate::commands::{Effect, Job};
 use crate::report::page;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
 use windlass_base::units::Dim;
@@ -17,11 +18,22 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_solve::tethered::{self, TetherRunSettings};
 
+choices! {
+    /// Whose peculiarities a run of tethers has.
+    #[derive(Default)]
+    pub enum Peculiarities {
+        /// None.
+        #[default]
+        Native = "NATIVE",
+        /// Those of AQWA-TETHER.
+        Aqwa = "AQWA",
+    }
+}
+
 /// -TETHERS.
 pub const TETHERS: OptionSpec = OptionSpec::new(
     "-TETHERS",
-    &[ValueSpec::new("AS", Kind::Choice(&["NATIVE", "AQWA"]), "AQWA keeps the peculiarities of that program")
-        .or("NATIVE")],
+    &[ValueSpec::choice::<Peculiarities>("AS", "AQWA keeps the peculiarities of that program").or("NATIVE")],
     "runs tethers with bending and dynamics of their own, and the body that installed ones hold",
 )
 .owner(Owner::Ours)
@@ -76,7 +88,11 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", span)
             .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
     };
-    let compatible = args.option_word(&TETHERS) == Some("AQWA");
+    let peculiarities = args.option_choice(&TETHERS, const { TETHERS.choice("AS") });
+    let compatible = match peculiarities.unwrap_or_default() {
+        Peculiarities::Native => false,
+        Peculiarities::Aqwa => true,
+    };
     let store = args.option_integer(&tdom::STORE);
     let tow = args.option(&TOW).map(|given| {
         let [speed, direction] = given.numbers_or_zero(const { TOW.numbers(["V", "TO"]) });

@@ -3,6 +3,7 @@
 use crate::commands::Job;
 use crate::commands::chosen::merge_remarks;
 use crate::report::format::number_in_full;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
@@ -16,22 +17,7 @@ use windlass_model::{Class, ClassError, Condition, Connector, LineChange, LineCo
 pub const VARY: OptionSpec = OptionSpec::new(
     "-VARY",
     &[
-        ValueSpec::new(
-            "NAME",
-            Kind::Choice(&[
-                "LENGTH",
-                "FAIRLEAD",
-                "DEPTH",
-                "FRICTION",
-                "SLOPE",
-                "WEIGHT",
-                "STIFFNESS",
-                "DISTANCE",
-                "HORIZONTAL",
-                "TENSION",
-            ]),
-            "what is varied",
-        ),
+        ValueSpec::choice::<Parameter>("NAME", "what is varied"),
         ValueSpec::new("V", Kind::Number(Dim::None), "value (user units); of WEIGHT and STIFFNESS a factor"),
     ],
     "one row a value of this parameter",
@@ -39,37 +25,23 @@ pub const VARY: OptionSpec = OptionSpec::new(
 .repeating(1)
 .owner(Owner::Ours);
 
-/// What can be varied.
-#[derive(Clone, Copy, PartialEq)]
-enum Parameter {
-    Length,
-    Fairlead,
-    Depth,
-    Friction,
-    Slope,
-    Weight,
-    Stiffness,
-    Distance,
-    Horizontal,
-    Tension,
+choices! {
+    /// What can be varied.
+    enum Parameter {
+        Length = "LENGTH",
+        Fairlead = "FAIRLEAD",
+        Depth = "DEPTH",
+        Friction = "FRICTION",
+        Slope = "SLOPE",
+        Weight = "WEIGHT",
+        Stiffness = "STIFFNESS",
+        Distance = "DISTANCE",
+        Horizontal = "HORIZONTAL",
+        Tension = "TENSION",
+    }
 }
 
 impl Parameter {
-    fn from_word(word: &str) -> Parameter {
-        match word {
-            "LENGTH" => Parameter::Length,
-            "FAIRLEAD" => Parameter::Fairlead,
-            "DEPTH" => Parameter::Depth,
-            "FRICTION" => Parameter::Friction,
-            "SLOPE" => Parameter::Slope,
-            "WEIGHT" => Parameter::Weight,
-            "STIFFNESS" => Parameter::Stiffness,
-            "DISTANCE" => Parameter::Distance,
-            "HORIZONTAL" => Parameter::Horizontal,
-            _ => Parameter::Tension,
-        }
-    }
-
     /// Name in heads.
     fn name(self) -> &'static str {
         match self {
@@ -134,7 +106,8 @@ pub fn tabulate(
     held: Condition,
     args: &Args,
 ) -> Outcome<(Table, Missing)> {
-    let parameter = Parameter::from_word(vary.first_word().unwrap_or_default());
+    let parameter = vary.choice(const { VARY.choice("NAME") });
+    let parameter: Parameter = parameter.ok_or_else(|| Diagnostic::error("-VARY lacks its NAME", vary.span))?;
     let (unit, around) = (parameter.dim().label(job.units), job.model.surroundings());
     let place = job.model.placement(connector);
     if parameter.is_condition()

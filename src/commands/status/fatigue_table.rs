@@ -3,6 +3,7 @@
 use crate::commands::Job;
 use crate::commands::help::wrap;
 use crate::commands::status::kind::StatusKind;
+use windlass_base::choice::Choice;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::EntityKind;
@@ -51,7 +52,7 @@ fn points(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
     Table::new("Fatigue Curves Defined")
         .with_rows(&rows)
         .text("Name", |(first, ..)| first.map(|c| c.name.as_str()))
-        .text("Type", |(first, ..)| first.map(|c| c.kind.name()))
+        .text("Type", |(first, ..)| first.map(|c| c.kind.word()))
         .column("Range", "Stress", Dim::Stress, Digits::Usual, |(_, kind, range, _)| {
             (*kind == FatigueKind::Stress).then_some(*range)
         })
@@ -99,7 +100,7 @@ fn segments(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
         .column("", "OD", Dim::Section, Digits::Usual, |row| row.segment.od)
         .column("", "Break", Dim::Force, Digits::Usual, |row| row.segment.breaking)
         .text("Curve", |row| row.name.as_deref())
-        .text("Type", |row| row.curve.as_ref().map(|c| c.kind.name()))
+        .text("Type", |row| row.curve.as_ref().map(|c| c.kind.word()))
         .text("From", |row| match (&row.segment.curve, &row.name) {
             (Some(_), _) => C_SN.name,
             (None, Some(_)) => "&REP_SELECT",
@@ -134,7 +135,7 @@ fn library_table(fits: &dyn Fn(&str) -> bool) -> Table {
     let mut table = Table::new("Fatigue Curves of the Library")
         .with_rows(&rows)
         .text("Name", |(shipped, _)| &shipped.name)
-        .text("Type", |(_, curve)| curve.kind.name())
+        .text("Type", |(_, curve)| curve.kind.word())
         .column("First Branch", "m", Dim::None, Digits::Decimals(2), |(_, c)| c.branches.first().map(|b| b.slope))
         .column("First Branch", "log a", Dim::None, Digits::Decimals(4), |(_, c)| c.branches.first().map(|b| b.log_a))
         .column("First Branch", "Down To", Dim::None, Digits::Decimals(3), |(_, c)| {

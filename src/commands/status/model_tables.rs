@@ -6,6 +6,7 @@ use crate::commands::solve::prescribe::motions;
 use crate::commands::status::kind::StatusKind;
 use crate::commands::status::kinds_told;
 use crate::commands::status::offsets::offsets;
+use windlass_base::choice::Choice;
 use windlass_base::geometry::Place;
 use windlass_base::table::{Digits, Table, TableBuilder};
 use windlass_base::units::Dim;
@@ -93,7 +94,10 @@ pub fn bodies(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
             model.points.values().filter(|p| Model::key(&p.part) == Model::key(&part.name)).count()
         })
         .text("Ignored", |part| {
-            model.bodies.get(&Model::key(&part.body)).map_or(String::new(), |b| b.ignored.join(" "))
+            model
+                .bodies
+                .get(&Model::key(&part.body))
+                .map_or(String::new(), |b| b.ignored.iter().map(|dof| dof.word()).collect::<Vec<_>>().join(" "))
         })
         .build()
 }

@@ -5,6 +5,7 @@ use crate::options as o;
 use crate::per_line::PerLineOptions;
 use crate::section::LineSection;
 use std::f64::consts::{FRAC_PI_4, PI};
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
@@ -112,11 +113,23 @@ pub const AX_DAMPING: OptionSpec = ours(
     "axial internal damping",
 )
 .default("0");
+choices! {
+    /// Which ends of a line are held in their direction.
+    pub enum ClampedEnd {
+        /// The first.
+        First = "FIRST",
+        /// The second.
+        Second = "SECOND",
+        /// Both.
+        Both = "BOTH",
+    }
+}
+
 /// `-CLAMP`.
 pub const CLAMP: OptionSpec = ours(
     "-CLAMP",
     &[
-        ValueSpec::new("WHICH", Kind::Choice(&["FIRST", "SECOND", "BOTH"]), "which end is held in its direction"),
+        ValueSpec::choice::<ClampedEnd>("WHICH", "which end is held in its direction"),
         number("DEC", Dim::Angle, "declination from straight down at the first end, in the plane of the ends")
             .or("along the chord of the ends as defined"),
         number("K", Dim::MomentPerRadian, "rotational stiffness").or("rigid").positive(),
@@ -328,7 +341,12 @@ pub fn holds(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<EndFixity
     let mut made = [None, None];
     let bends = ends.map(|f| f.bending > 0.0);
     for given in clamps {
-        let word = given.word(const { CLAMP.word("WHICH") }).unwrap_or_default();
+        let held = match given.choice(const { CLAMP.choice("WHICH") }) {
+            Some(ClampedEnd::First) => [true, false],
+            Some(ClampedEnd::Second) => [false, true],
+            Some(ClampedEnd::Both) => [true, true],
+            None => [false, false],
+        };
         const DECLINATION: ValueKey<f64> = CLAMP.number("DEC");
         const STIFFNESS: ValueKey<f64> = CLAMP.number("K");
         let hold = EndFixity { declination: given.number(DECLINATION), stiffness: given.number(STIFFNESS) };
@@ -340,17 +358,14 @@ pub fn holds(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<EndFixity
                 value.span,
             ));
         }
-        for ((place, name), bends) in made.iter_mut().zip(["FIRST", "SECOND"]).zip(bends) {
-            if word == name || word == "BOTH" {
+        for (((place, name), bends), held) in made.iter_mut().zip(["first", "second"]).zip(bends).zip(held) {
+            if held {
                 if !bends {
-                    let text = format!(
-                        "nothing holds the {} end in its direction: its segment does not bend",
-                        name.to_lowercase()
-                    );
+                    let text = format!("nothing holds the {name} end in its direction: its segment does not bend");
                     return Err(Diagnostic::error(text, given.span).help("-EI above zero, or no -CLAMP"));
                 }
                 if place.is_some() {
-                    let text = format!("the {} end is held twice", name.to_lowercase());
+                    let text = format!("the {name} end is held twice");
                     return Err(Diagnostic::error(text, given.span));
                 }
                 *place = Some(hold);

@@ -4,31 +4,10 @@ use super::density::{SpectralPeak, Spectrum};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
+pub use windlass_model::PeriodType;
 
 /// Gravity in the formulas that were fitted with it (m/s2).
 const FITTED_GRAVITY: f64 = 9.81;
-
-/// What the period of a sea is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PeriodType {
-    /// That of the highest density.
-    Peak,
-    /// 2 pi m0/m1.
-    Mean,
-    /// 2 pi sqrt(m0/m2).
-    ZeroCrossing,
-}
-
-impl PeriodType {
-    /// That of a word of `-SP_TYPE`.
-    pub fn from_word(word: &str) -> Self {
-        match word {
-            "MEAN" => PeriodType::Mean,
-            "ZERO_CROSSING" => PeriodType::ZeroCrossing,
-            _ => PeriodType::Peak,
-        }
-    }
-}
 
 /// ISSC (gamma 1) or JONSWAP.
 pub fn jonswap(height: f64, period: f64, kind: PeriodType, gamma: f64) -> Vec<SpectralPeak> {

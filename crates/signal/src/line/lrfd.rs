@@ -11,17 +11,20 @@
 use super::CheckedTube;
 use crate::SeriesError;
 use std::f64::consts::{FRAC_PI_3, PI};
+use windlass_base::choices;
 
-/// Safety class.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SafetyClass {
-    /// Low.
-    Low,
-    /// Normal.
-    #[default]
-    Normal,
-    /// High.
-    High,
+choices! {
+    /// Safety class.
+    #[derive(Default)]
+    pub enum SafetyClass {
+        /// Low.
+        Low = "LOW",
+        /// Normal.
+        #[default]
+        Normal = "NORMAL",
+        /// High.
+        High = "HIGH",
+    }
 }
 
 impl SafetyClass {

@@ -7,17 +7,20 @@
 
 use super::{Acting, CheckedTube};
 use crate::SeriesError;
+use windlass_base::choices;
 
-/// Design case, by its factor C_f on the basic allowable stress.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DesignCase {
-    /// Normal operation.
-    #[default]
-    Operating,
-    /// Extreme: the storm of a hundred years.
-    Extreme,
-    /// Survival.
-    Survival,
+choices! {
+    /// Design case, by its factor C_f on the basic allowable stress.
+    #[derive(Default)]
+    pub enum DesignCase {
+        /// Normal operation.
+        #[default]
+        Operating = "OPERATING",
+        /// Extreme: the storm of a hundred years.
+        Extreme = "EXTREME",
+        /// Survival.
+        Survival = "SURVIVAL",
+    }
 }
 
 impl DesignCase {

@@ -5,16 +5,18 @@ mod obj;
 mod stl;
 
 use super::HullError;
+use windlass_base::choices;
 
-/// The kinds of mesh files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MeshKind {
-    /// Stereolithography, in text or binary.
-    Stl,
-    /// Geometric data file of WAMIT: flat quadrilaterals with planes of symmetry.
-    Gdf,
-    /// Wavefront OBJ: `v` and `f` records.
-    Obj,
+choices! {
+    /// The kinds of mesh files.
+    pub enum MeshKind {
+        /// Stereolithography, in text or binary.
+        Stl = "STL",
+        /// Geometric data file of WAMIT: flat quadrilaterals with planes of symmetry.
+        Gdf = "GDF",
+        /// Wavefront OBJ: `v` and `f` records.
+        Obj = "OBJ",
+    }
 }
 
 /// What a mesh file holds. Coordinates are as in the file, in its own unit of length.
