@@ -6,8 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 use windlass_base::table::Table;
 use windlass_catenary::{FunctionPoint, StretchLaw, rising_root};
 use windlass_model::{
-    AbsentRow, ClassError, Condition, Element, ElementResponse, ElementSummary, End, FoundLength, Guess, LineChange,
-    LineConfiguration, LineLoads, LineModel, Note, Situation,
+    AbsentRow, ClassError, Condition, Element, ElementResponse, ElementSummary, End, FoundLength, LineChange,
+    LineConfiguration, LineLoads, LineModel, Note, Situation, SolverCache,
 };
 
 /// A weightless line between two places.
@@ -146,7 +146,7 @@ impl Extended for ChordElement {
         &self,
         ends: &[End],
         by: Extension,
-        _: &mut Guess,
+        _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<EndPull, ClassError> {
         out.clear(2);
@@ -186,7 +186,7 @@ impl Extended for ChordElement {
         })
     }
 
-    fn pushes(&self) -> Option<f64> {
+    fn compression_onset(&self) -> Option<f64> {
         self.chord.pushes.then_some(0.0)
     }
 }
@@ -197,18 +197,18 @@ impl Element for ChordElement {
         at: &Situation,
         _committed: &[f64],
         _trial: &mut [f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
-        self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
+        self.pull(at.ends, Extension::NONE, cache, out).map(|_| ())
     }
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<ElementSummary, ClassError> {
         self.summary_with_link(at.ends, Extension::NONE)
     }
 
-    fn pushes(&self) -> Option<f64> {
-        Extended::pushes(self)
+    fn compression_onset(&self) -> Option<f64> {
+        Extended::compression_onset(self)
     }
 }
 

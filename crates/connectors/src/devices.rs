@@ -15,7 +15,7 @@ use super::viscous::{Affine, ViscoelasticLaw};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::span::Span;
 use windlass_model::{
-    ClassError, Connection, Element, ElementResponse, ElementSummary, End, Guess, Note, Situation, SpringState,
+    ClassError, Connection, Element, ElementResponse, ElementSummary, End, Note, Situation, SolverCache, SpringState,
 };
 
 /// The devices of a class.
@@ -104,7 +104,7 @@ impl DeviceElement {
         &self,
         at: &Situation,
         committed: &[f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<DeviceState, ClassError> {
         let dt = at.step.map(|s| s.dt);
@@ -114,7 +114,7 @@ impl DeviceElement {
             affine.map_or(Extension::NONE, |a| Extension { length: -a.rest / a.slope, compliance: 1.0 / a.slope });
         let mut pull_at = |by: f64| {
             let extension = Extension { length: spring.length + by, ..spring };
-            self.line.pull(at.ends, extension, guess, out).map(|pull| (extension, pull, -axial(out, &pull.along)))
+            self.line.pull(at.ends, extension, cache, out).map(|pull| (extension, pull, -axial(out, &pull.along)))
         };
         let Some(piston) = self.piston else {
             let (extension, pull, _) = pull_at(0.0)?;
@@ -219,10 +219,10 @@ impl Element for DeviceElement {
         at: &Situation,
         committed: &[f64],
         trial: &mut [f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
-        let found = self.find_forces(at, committed, guess, out)?;
+        let found = self.find_forces(at, committed, cache, out)?;
         if found.piston.is_some_and(|(_, does)| does.holds()) {
             hold(&found.pull.along, out);
         }
@@ -234,7 +234,7 @@ impl Element for DeviceElement {
     }
 
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
-        let found = self.find_forces(at, committed, &mut None, &mut ElementResponse::default())?;
+        let found = self.find_forces(at, committed, &mut SolverCache::new(), &mut ElementResponse::default())?;
         let mut summary = self.line.summary_with_link(at.ends, found.extension)?;
         if let Some((position, does)) = found.piston {
             summary.notes.push(does.note());
@@ -244,7 +244,7 @@ impl Element for DeviceElement {
         Ok(summary)
     }
 
-    fn pushes(&self) -> Option<f64> {
-        self.line.pushes()
+    fn compression_onset(&self) -> Option<f64> {
+        self.line.compression_onset()
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use std::fmt::Debug;
-use windlass_model::{ClassError, ElementResponse, ElementSummary, End, Guess};
+use windlass_model::{ClassError, ElementResponse, ElementSummary, End, SolverCache};
 
 /// A link of `length + compliance T` between the first end and the line, in the direction of the tension T. A negative length takes
 /// as much off the way between the ends.
@@ -43,7 +43,7 @@ pub trait Extended: Debug + Send + Sync {
         &self,
         ends: &[End],
         by: Extension,
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<EndPull, ClassError>;
 
@@ -53,8 +53,8 @@ pub trait Extended: Debug + Send + Sync {
     /// As [`Extended::pull`].
     fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ElementSummary, ClassError>;
 
-    /// See [`windlass_model::Element::pushes`].
-    fn pushes(&self) -> Option<f64> {
+    /// See [`windlass_model::Element::compression_onset`].
+    fn compression_onset(&self) -> Option<f64> {
         None
     }
 }

@@ -21,8 +21,8 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Note;
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
-    FenderState, Guess, Situation, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, ElementResponse,
+    ElementSummary, FenderState, Situation, SolverCache, Surroundings,
 };
 
 /// The class type.
@@ -250,7 +250,15 @@ impl ConnectorClass for Fender {
             pushes_only: true,
         };
         let rest = Vector3::x() * self.height;
-        let spring = ZeroLength { holder: 1, turn, other_turn, rest, law, listed: vec![(0, None)], rigid: false };
+        let spring = ZeroLength {
+            holder: 1,
+            turn,
+            other_turn,
+            rest,
+            law,
+            listed: vec![(0, None)],
+            category: ConnectorCategory::Flexible,
+        };
         Ok(Box::new(FenderGeometry { spring, curve: Arc::clone(&self.curve), height: self.height, rated: self.rated }))
     }
 }
@@ -274,10 +282,10 @@ impl Element for FenderGeometry {
         at: &Situation,
         committed: &[f64],
         trial: &mut [f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
-        self.spring.evaluate(at, committed, trial, guess, out)
+        self.spring.evaluate(at, committed, trial, cache, out)
     }
 
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {

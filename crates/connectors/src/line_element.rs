@@ -9,7 +9,8 @@ use std::borrow::Cow;
 use windlass_base::pose::Six;
 use windlass_catenary::{EndForces, FlatBottom, Interpolated, Line, LineError, LineState, Pulled, Regime, Segment};
 use windlass_model::{
-    Anchored, ClassError, Element, ElementResponse, ElementSummary, End, Guess, Placement, Situation,
+    AnchoredElement, AnchoredResponse, ClassError, Element, ElementResponse, ElementSummary, End, Placement, Situation,
+    SolverCache,
 };
 
 /// Angle (rad) over which forces of a line on a bathymetry are compared: a hundredth of the distance between faces of a long line's
@@ -34,8 +35,8 @@ pub struct LineElement {
     solver: ForceMethod,
 }
 
-/// What the solver of a line remembers.
-enum Last {
+/// What the solver of a line keeps of its last answer.
+enum LineCache {
     Segment(EndForces),
     Whole(Box<LineState>),
     Table(Box<TableAt>),
@@ -88,20 +89,19 @@ impl LineElement {
         (x, along, z)
     }
 
-    fn plane(&self, x: f64, z: f64, guess: &mut Guess) -> Result<PlaneForces, LineError> {
+    fn plane(&self, x: f64, z: f64, cache: &mut SolverCache) -> Result<PlaneForces, LineError> {
         match &self.solver {
             ForceMethod::Segment { segment, bottom } => {
                 let rise = z - self.mooring.line.anchor();
-                let last = guess.as_mut().and_then(|g| g.downcast_mut::<Last>());
-                let found = match last {
-                    Some(Last::Segment(last)) => {
+                let found = match cache.get_mut() {
+                    Some(LineCache::Segment(last)) => {
                         let found = segment.solve_warm_start(x, rise, *bottom, last)?;
                         *last = found;
                         found
                     }
                     _ => {
                         let found = segment.solve_end_forces(x, rise, *bottom)?;
-                        *guess = Some(Box::new(Last::Segment(found)));
+                        cache.set(LineCache::Segment(found));
                         found
                     }
                 };
@@ -112,34 +112,26 @@ impl LineElement {
                     coupling: at_anchor(&found, bottom.map_or(0.0, |b| b.friction)),
                 })
             }
-            ForceMethod::Whole => whole(&self.mooring.line, x, z, guess),
-            ForceMethod::Table => self.interpolate_forces(x, z, guess),
+            ForceMethod::Whole => whole(&self.mooring.line, x, z, cache),
+            ForceMethod::Table => self.interpolate_forces(x, z, cache),
         }
     }
 
     /// The forces from the table at the elevation `z` of the fairlead; exact ones nearer than its first row.
-    fn interpolate_forces(&self, x: f64, z: f64, guess: &mut Guess) -> Result<PlaneForces, LineError> {
+    fn interpolate_forces(&self, x: f64, z: f64, cache: &mut SolverCache) -> Result<PlaneForces, LineError> {
         let azimuth = self.mooring.profile.as_ref().map(LineProfile::azimuth);
-        let kept = match guess.take().map(|g| g.downcast::<Last>()) {
-            Some(Ok(last)) => {
-                Some(last).filter(|l| matches!(&**l, Last::Table(at) if at.elevation == z && at.azimuth == azimuth))
-            }
+        let is_here =
+            |kept: &LineCache| matches!(kept, LineCache::Table(at) if at.elevation == z && at.azimuth == azimuth);
+        if !cache.get().is_some_and(is_here) {
+            let (rows, _) = self.mooring.table(z)?;
+            let nearest = rows.first().map_or(0.0, |row| row.state.x);
+            let forces = Interpolated::new(&rows)?;
+            cache.set(LineCache::Table(Box::new(TableAt { elevation: z, azimuth, nearest, forces })));
+        }
+        let found = match cache.get() {
+            Some(LineCache::Table(at)) if x >= at.nearest => Some(at.forces.pull(x)),
             _ => None,
         };
-        let last = match kept {
-            Some(last) => last,
-            None => {
-                let (rows, _) = self.mooring.table(z)?;
-                let nearest = rows.first().map_or(0.0, |row| row.state.x);
-                let forces = Interpolated::new(&rows)?;
-                Box::new(Last::Table(Box::new(TableAt { elevation: z, azimuth, nearest, forces })))
-            }
-        };
-        let found = match &*last {
-            Last::Table(at) if x >= at.nearest => Some(at.forces.pull(x)),
-            _ => None,
-        };
-        *guess = Some(last);
         match found {
             Some(Pulled { fairlead, anchor, stiffness, coupling }) => {
                 Ok(PlaneForces { fairlead, anchor, stiffness, coupling })
@@ -154,20 +146,20 @@ impl LineElement {
         x: f64,
         z: f64,
         by: Extension,
-        guess: &mut Guess,
+        cache: &mut SolverCache,
     ) -> Result<(PlaneForces, [f64; 2]), LineError> {
         if by == Extension::NONE {
-            return self.plane(x, z, guess).map(|plane| (plane, [x, z]));
+            return self.plane(x, z, cache).map(|plane| (plane, [x, z]));
         }
-        let start = match guess.as_ref().and_then(|g| g.downcast_ref::<Last>()) {
-            Some(Last::Segment(last)) => Some(last.fairlead),
-            Some(Last::Whole(last)) => Some([last.force, last.top_vertical]),
-            Some(Last::Table(_)) | None => None,
+        let start = match cache.get() {
+            Some(LineCache::Segment(last)) => Some(last.fairlead),
+            Some(LineCache::Whole(last)) => Some([last.force, last.top_vertical]),
+            Some(LineCache::Table(_)) | None => None,
         };
         let rise = z - self.mooring.line.anchor();
         let apart = x.hypot(rise);
         let straight = if apart > 0.0 { [x / apart, rise / apart] } else { [0.0, 1.0] };
-        solve_with_link(by, [x, z], straight, start, self.mooring.line.length(), |x, z| self.plane(x, z, guess))
+        solve_with_link(by, [x, z], straight, start, self.mooring.line.length(), |x, z| self.plane(x, z, cache))
     }
 
     /// The same; none of a weightless line that is not tight.
@@ -176,9 +168,9 @@ impl LineElement {
         x: f64,
         z: f64,
         by: Extension,
-        guess: &mut Guess,
+        cache: &mut SolverCache,
     ) -> Result<Option<(PlaneForces, [f64; 2])>, ClassError> {
-        match self.forces_with_link(x, z, by, guess) {
+        match self.forces_with_link(x, z, by, cache) {
             Ok(found) => Ok(Some(found)),
             Err(LineError::Undetermined) if self.mooring.weightless() => Ok(None),
             Err(error) => Err(self.mooring.error(&error)),
@@ -208,7 +200,8 @@ impl LineElement {
         let turned = |angle: f64| -> Result<PlaneForces, ClassError> {
             let (sin, cos) = angle.sin_cos();
             let there = self.facing([ux * cos - uy * sin, uy * cos + ux * sin])?;
-            let found = there.forces_with_link(x, z, by, &mut None).map_err(|e| self.mooring.error(&e))?;
+            let found =
+                there.forces_with_link(x, z, by, &mut SolverCache::new()).map_err(|e| self.mooring.error(&e))?;
             Ok(found.0)
         };
         let (before, after) = (turned(-AZIMUTH_DIFFERENCE_RAD)?, turned(AZIMUTH_DIFFERENCE_RAD)?);
@@ -263,16 +256,15 @@ fn plane_of(state: &LineState) -> PlaneForces {
     }
 }
 
-fn whole(line: &Line, x: f64, z: f64, guess: &mut Guess) -> Result<PlaneForces, LineError> {
-    let last = guess.as_ref().and_then(|g| g.downcast_ref::<Last>());
-    let state = match last {
-        Some(Last::Whole(last)) => line.solve_warm_start(x, z, last)?,
+fn whole(line: &Line, x: f64, z: f64, cache: &mut SolverCache) -> Result<PlaneForces, LineError> {
+    let state = match cache.get() {
+        Some(LineCache::Whole(last)) => line.solve_warm_start(x, z, last)?,
         _ => line.at_distance(x, z)?,
     };
     let plane = plane_of(&state);
-    match guess.as_mut().and_then(|g| g.downcast_mut::<Last>()) {
-        Some(Last::Whole(last)) => **last = state,
-        _ => *guess = Some(Box::new(Last::Whole(Box::new(state)))),
+    match cache.get_mut() {
+        Some(LineCache::Whole(last)) => **last = state,
+        _ => cache.set(LineCache::Whole(Box::new(state))),
     }
     Ok(plane)
 }
@@ -317,13 +309,13 @@ impl Extended for LineElement {
         &self,
         ends: &[End],
         by: Extension,
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<EndPull, ClassError> {
         out.clear(2);
         let (x, along, z) = self.horizontal_distance(ends);
         let here = self.facing(along)?;
-        let Some((plane, _)) = here.tight(x, z, by, guess)? else {
+        let Some((plane, _)) = here.tight(x, z, by, cache)? else {
             return Ok(EndPull { tension: 0.0, along: Vector3::zeros() });
         };
         let ([h, _], [far_h, _]) = (plane.fairlead, plane.anchor);
@@ -349,7 +341,7 @@ impl Extended for LineElement {
         if by != Extension::NONE {
             let (x, [ux, uy], z) = self.horizontal_distance(&ends);
             let here = self.facing([ux, uy])?;
-            let [line_x, line_z] = here.tight(x, z, by, &mut None)?.map_or([x, z], |(_, at)| at);
+            let [line_x, line_z] = here.tight(x, z, by, &mut SolverCache::new())?.map_or([x, z], |(_, at)| at);
             if let Some(first) = ends.first_mut() {
                 first.pose.origin += Vector3::new((x - line_x) * ux, (x - line_x) * uy, line_z - z);
             }
@@ -389,36 +381,25 @@ impl Element for LineElement {
         at: &Situation,
         _committed: &[f64],
         _trial: &mut [f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
-        self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
+        self.pull(at.ends, Extension::NONE, cache, out).map(|_| ())
     }
 
-    fn find_anchored(&self, at: &Situation, guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
-        self.mooring.place.to_ground.then(|| {
-            let (x, along, z) = self.horizontal_distance(at.ends);
-            let here = self.facing(along)?;
-            let Some((plane, _)) = here.tight(x, z, Extension::NONE, guess)? else {
-                return Ok(Anchored { wrenches: [Six::zeros(); 2], stiffness: Matrix3::zeros() });
-            };
-            let [force, _] = plane.fairlead;
-            let across = if x > 0.0 { force / x } else { xx_of(plane.stiffness) };
-            let [rate, _] = here.by_azimuth(x, along, z, Extension::NONE)?;
-            let stiffness = by_place(along, plane.stiffness, across, 1.0) + by_turn(along, rate, x);
-            Ok(Anchored { wrenches: plane.wrenches(along), stiffness })
-        })
+    fn as_anchored(&self) -> Option<&dyn AnchoredElement> {
+        self.mooring.place.to_ground.then_some(self)
     }
 
-    fn wrenches(
+    fn evaluate_wrenches(
         &self,
         at: &Situation,
         _committed: &[f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut Vec<Six>,
     ) -> Result<(), ClassError> {
         let (x, along, z) = self.horizontal_distance(at.ends);
-        let found = self.facing(along)?.tight(x, z, Extension::NONE, guess)?;
+        let found = self.facing(along)?.tight(x, z, Extension::NONE, cache)?;
         out.clear();
         out.extend(found.map_or([Six::zeros(); 2], |(plane, _)| plane.wrenches(along)));
         Ok(())
@@ -426,6 +407,21 @@ impl Element for LineElement {
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<ElementSummary, ClassError> {
         self.summary_with_link(at.ends, Extension::NONE)
+    }
+}
+
+impl AnchoredElement for LineElement {
+    fn evaluate_anchored(&self, at: &Situation, cache: &mut SolverCache) -> Result<AnchoredResponse, ClassError> {
+        let (x, along, z) = self.horizontal_distance(at.ends);
+        let here = self.facing(along)?;
+        let Some((plane, _)) = here.tight(x, z, Extension::NONE, cache)? else {
+            return Ok(AnchoredResponse { wrenches: [Six::zeros(); 2], stiffness: Matrix3::zeros() });
+        };
+        let [force, _] = plane.fairlead;
+        let across = if x > 0.0 { force / x } else { xx_of(plane.stiffness) };
+        let [rate, _] = here.by_azimuth(x, along, z, Extension::NONE)?;
+        let stiffness = by_place(along, plane.stiffness, across, 1.0) + by_turn(along, rate, x);
+        Ok(AnchoredResponse { wrenches: plane.wrenches(along), stiffness })
     }
 }
 

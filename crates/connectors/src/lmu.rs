@@ -14,7 +14,9 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
-use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings,
+};
 
 /// The class type.
 pub static LMU: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
@@ -102,6 +104,14 @@ impl ConnectorClass for PinInCone {
         let contact = ContactGeometry::Cone { length: self.length, tangent: self.tangent() };
         let law = self.springs.law(connection, Sense::Compression, contact)?;
         let listed = self.springs.reported_stiffnesses();
-        Ok(Box::new(ZeroLength { holder, turn, other_turn, rest: Vector3::zeros(), law, listed, rigid: false }))
+        Ok(Box::new(ZeroLength {
+            holder,
+            turn,
+            other_turn,
+            rest: Vector3::zeros(),
+            law,
+            listed,
+            category: ConnectorCategory::Flexible,
+        }))
     }
 }

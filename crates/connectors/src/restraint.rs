@@ -11,7 +11,7 @@ use nalgebra::Matrix3;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, Connection, Connector, ConnectorClass, Element, Surroundings};
+use windlass_model::{ClassError, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings};
 
 /// A class of restraints.
 #[derive(Debug)]
@@ -73,7 +73,7 @@ impl ConnectorClass for Restraining {
             rest: defined_displacement(connection, &turn),
             law,
             listed: list().map(|(dof, _)| (dof, None)).collect(),
-            rigid: true,
+            category: ConnectorCategory::Rigid,
         }))
     }
 }

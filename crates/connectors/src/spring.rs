@@ -16,7 +16,9 @@ use windlass_base::spec::ValueKey;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
-use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings,
+};
 
 /// One restrained degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
@@ -223,7 +225,15 @@ impl Springs {
         let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
         let law = self.law(connection, sense, contact)?;
         let listed = self.reported_stiffnesses();
-        Ok(Box::new(ZeroLength { holder: 0, turn, other_turn, rest, law, listed, rigid: false }))
+        Ok(Box::new(ZeroLength {
+            holder: 0,
+            turn,
+            other_turn,
+            rest,
+            law,
+            listed,
+            category: ConnectorCategory::Flexible,
+        }))
     }
 
     /// What reports list.

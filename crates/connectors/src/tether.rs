@@ -15,8 +15,8 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Note;
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess,
-    Situation, Surroundings, TetherSection, TetherUse,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
+    Situation, SolverCache, Surroundings, TetherSection, TetherUse,
 };
 
 /// The class type TETHER: an AQWA tether/riser section.
@@ -248,7 +248,7 @@ impl Element for Bar {
         at: &Situation,
         _: &[f64],
         _: &mut [f64],
-        _: &mut Guess,
+        _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         out.clear(2);

@@ -10,8 +10,8 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess,
-    Note, Situation, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Note,
+    Situation, SolverCache, Surroundings,
 };
 
 /// The force of a tie on its first end, toward the second.
@@ -48,7 +48,7 @@ impl Element for TieForce {
         at: &Situation,
         _: &[f64],
         _: &mut [f64],
-        _: &mut Guess,
+        _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let (apart, distance) = TieForce::chord(at)?;

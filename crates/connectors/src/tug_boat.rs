@@ -11,8 +11,8 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess,
-    Situation, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
+    Situation, SolverCache, Surroundings,
 };
 
 /// The class type.
@@ -75,7 +75,7 @@ impl Element for TugForce {
         _: &Situation,
         _: &[f64],
         _: &mut [f64],
-        _: &mut Guess,
+        _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         out.clear(2);

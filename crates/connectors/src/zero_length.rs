@@ -11,7 +11,8 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, UnitQuaternion, Vector3, Ve
 use windlass_base::choice::{Choice, Dof};
 use windlass_base::geometry::Place;
 use windlass_model::{
-    ClassError, Connection, Element, ElementResponse, ElementSummary, Guess, Note, Situation, SpringState, TieResponse,
+    ClassError, Connection, ConnectorCategory, Element, ElementResponse, ElementSummary, Note, Situation, SolverCache,
+    SpringState, StiffTie, TieResponse,
 };
 
 type Wide = SMatrix<f64, 3, 12>;
@@ -38,7 +39,7 @@ pub struct ZeroLength {
     /// Degrees of freedom that reports list, with their allowable forces (N or N m).
     pub listed: Vec<(usize, Option<f64>)>,
     /// Whether it is a restraint.
-    pub rigid: bool,
+    pub category: ConnectorCategory,
 }
 
 /// Element axes of a connector in the body of its holder, and at definition in that of the other end. `own` are the axes of the class
@@ -168,30 +169,6 @@ impl ZeroLength {
         if self.holder == 0 { [held, other] } else { [other, held] }
     }
 
-    fn held_tie(
-        &self,
-        at: &Situation,
-        held: Option<&Vector6<f64>>,
-        out: &mut ElementResponse,
-    ) -> Result<TieResponse, ClassError> {
-        let motion = self.motion(at)?;
-        let mut answer = self.law.answer(&motion.q, &Vector3::zeros(), None, &[], &mut []);
-        let force = answer.force;
-        let held = held.copied().unwrap_or(force);
-        let more = force - held;
-        answer.force = held;
-        self.respond(&motion, &answer, out);
-        let slopes = self.deflected_by(&motion).map(|by| answer.slopes * by);
-        let far = at.ends.iter().map(|end| end.pose.origin.norm()).fold(0.0, f64::max);
-        let rounding = DEFLECTION_ROUNDING + 8.0 * f64::EPSILON * far;
-        let lack = |i: usize| {
-            let k = answer.slopes[(i, i)];
-            if k > 0.0 { (more[i].abs() / k - rounding).max(0.0) } else { 0.0 }
-        };
-        let gap = (0..6).map(lack).fold(0.0, f64::max);
-        Ok(TieResponse { force, slopes, excess: self.wrenches_of(&motion, &more), gap })
-    }
-
     /// Writes forces and moments on both ends and their derivatives.
     fn respond(&self, motion: &RelativeMotion, answer: &Answer, out: &mut ElementResponse) {
         let RelativeMotion { axes: r, apart, q, spin: [moving, turning], .. } = motion;
@@ -276,7 +253,7 @@ impl Element for ZeroLength {
         at: &Situation,
         committed: &[f64],
         trial: &mut [f64],
-        _: &mut Guess,
+        _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let (motion, answer) = self.answer(at, committed, trial)?;
@@ -316,19 +293,40 @@ impl Element for ZeroLength {
         Ok(ElementSummary { tension, ratio, solution: "exact", springs, notes, ..ElementSummary::default() })
     }
 
-    fn tie(
-        &self,
-        at: &Situation,
-        held: Option<&Vector6<f64>>,
-        out: &mut ElementResponse,
-    ) -> Option<Result<TieResponse, ClassError>> {
-        self.law.linear_stiffness().filter(|k| *k >= MIN_HELD_STIFFNESS).map(|_| self.held_tie(at, held, out))
+    fn category(&self) -> ConnectorCategory {
+        self.category
     }
 
-    fn rigid(&self) -> bool {
-        self.rigid
+    fn as_stiff_tie(&self) -> Option<&dyn StiffTie> {
+        self.law.linear_stiffness().filter(|k| *k >= MIN_HELD_STIFFNESS).map(|_| self as _)
     }
 }
 
 /// Relative rotation above which a user is warned: 170 degrees.
 const HALF_TURN: f64 = 170.0 * std::f64::consts::PI / 180.0;
+
+impl StiffTie for ZeroLength {
+    fn evaluate_tie(
+        &self,
+        at: &Situation,
+        held: Option<&Vector6<f64>>,
+        out: &mut ElementResponse,
+    ) -> Result<TieResponse, ClassError> {
+        let motion = self.motion(at)?;
+        let mut answer = self.law.answer(&motion.q, &Vector3::zeros(), None, &[], &mut []);
+        let force = answer.force;
+        let held = held.copied().unwrap_or(force);
+        let more = force - held;
+        answer.force = held;
+        self.respond(&motion, &answer, out);
+        let slopes = self.deflected_by(&motion).map(|by| answer.slopes * by);
+        let far = at.ends.iter().map(|end| end.pose.origin.norm()).fold(0.0, f64::max);
+        let rounding = DEFLECTION_ROUNDING + 8.0 * f64::EPSILON * far;
+        let lack = |i: usize| {
+            let k = answer.slopes[(i, i)];
+            if k > 0.0 { (more[i].abs() / k - rounding).max(0.0) } else { 0.0 }
+        };
+        let gap = (0..6).map(lack).fold(0.0, f64::max);
+        Ok(TieResponse { force, slopes, excess: self.wrenches_of(&motion, &more), gap })
+    }
+}

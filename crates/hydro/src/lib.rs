@@ -58,7 +58,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use sea::Sea;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Body, ClassError, Mass, Model};
+use windlass_model::{Body, ClassError, ConnectorCategory, Mass, Model};
 
 /// Categories of force that reports tell apart.
 ///
@@ -96,6 +96,15 @@ pub enum Category {
     AddedInertia,
     /// What turning axes add to inertia, as a force.
     Coriolis,
+}
+
+impl From<ConnectorCategory> for Category {
+    fn from(category: ConnectorCategory) -> Self {
+        match category {
+            ConnectorCategory::Flexible => Category::FlexConnectors,
+            ConnectorCategory::Rigid => Category::RigidConnectors,
+        }
+    }
 }
 
 impl Category {

@@ -284,7 +284,7 @@ pub trait ConnectorClass: Debug + Send + Sync {
         Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
     }
 
-    /// Whether its connectors are dynamic lines, as [`Element::moves`] says of what they make.
+    /// Whether its connectors are dynamic lines, as [`Element::as_dynamic`] says of what they make.
     fn moves(&self) -> bool {
         false
     }

@@ -52,16 +52,62 @@ pub struct TimeStep {
 pub struct Situation<'a> {
     /// The ends, in the order of the connector's points; a second end in the ground stands behind a single point.
     pub ends: &'a [End],
-    /// The step; `None` in statics. To an element with inertia of its own ([`Element::moves`]) also one without length: what
+    /// The step; `None` in statics. To an element with inertia of its own ([`Element::as_dynamic`]) also one without length: what
     /// it exerts at once, as it moves.
     pub step: Option<TimeStep>,
     /// Water, depth, gravity.
     pub surroundings: &'a Surroundings,
 }
 
-/// What a solver of an element remembers from its last answer to be quicker with the next. The answer does not depend on
-/// it but for rounding.
-pub type Guess = Option<Box<dyn Any + Send>>;
+/// What the solver of an element keeps of its last answer, to start the next one near it (warm start). Answers do not depend on it
+/// but for rounding, so that it can be cleared at any time.
+#[derive(Default)]
+pub struct SolverCache(Option<Box<dyn Any + Send>>);
+
+impl SolverCache {
+    /// A cache with nothing in it.
+    pub const fn new() -> Self {
+        SolverCache(None)
+    }
+
+    /// What it keeps, if that is of this type.
+    pub fn get<T: Any>(&self) -> Option<&T> {
+        self.0.as_ref()?.downcast_ref()
+    }
+
+    /// The same to be changed.
+    pub fn get_mut<T: Any>(&mut self) -> Option<&mut T> {
+        self.0.as_mut()?.downcast_mut()
+    }
+
+    /// Keeps a value in place of what it kept.
+    pub fn set<T: Any + Send>(&mut self, value: T) {
+        self.0 = Some(Box::new(value));
+    }
+
+    /// What it keeps, where that is of this type and usable; else a new value, which it keeps from now on.
+    pub fn get_or_insert<T: Any + Send>(
+        &mut self,
+        is_usable: impl FnOnce(&T) -> bool,
+        make: impl FnOnce() -> T,
+    ) -> Option<&mut T> {
+        if !self.get().is_some_and(is_usable) {
+            self.set(make());
+        }
+        self.get_mut()
+    }
+
+    /// Takes its content out.
+    pub fn take(&mut self) -> Self {
+        SolverCache(self.0.take())
+    }
+}
+
+impl Debug for SolverCache {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(if self.0.is_some() { "SolverCache(..)" } else { "SolverCache" })
+    }
+}
 
 /// What an element answers. Blocks are in the order of ends, row by row: block `i * ends + j` is that of the wrench on end `i` and
 /// the motion of end `j`.
@@ -144,16 +190,18 @@ pub struct ElementSummary {
     pub notes: Vec<Note>,
 }
 
-/// What an element between a body and the ground exerts, where the place of its first end alone matters.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Anchored {
-    /// Wrench on each end, forces alone (N), global axes.
-    pub wrenches: [Six; 2],
-    /// -d(force on the first end)/d(place of the first end), global axes (N/m).
-    pub stiffness: Matrix3<f64>,
+/// To which force category of reports the force of an element belongs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ConnectorCategory {
+    /// FLEX_CONNECTORS.
+    #[default]
+    Flexible,
+    /// RIGID_CONNECTORS: restraints.
+    Rigid,
 }
 
-/// A connector as an engine sees it. Its parameters do not change.
+/// A connector as an engine sees it: its force law. Its parameters do not change. What only some elements can do are traits of their
+/// own, which the accessors `as_..` give; an element that wraps another passes the accessor on.
 pub trait Element: Debug + Send + Sync {
     /// Number of values of its state.
     fn states(&self) -> usize {
@@ -172,40 +220,23 @@ pub trait Element: Debug + Send + Sync {
         at: &Situation,
         committed: &[f64],
         trial: &mut [f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError>;
-
-    /// Of an element from a body to the ground that remembers nothing and pulls with a force that the place of its first end alone
-    /// changes: what [`Element::evaluate`] gives, with less work. `None` of all others.
-    fn find_anchored(&self, _at: &Situation, _guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
-        None
-    }
-
-    /// Of a linear tie so stiff that rounding of places makes forces: its answer in `out` with a force that an engine holds in place of that of
-    /// its law, `None` for that of its law. `None` of all others.
-    fn tie(
-        &self,
-        _at: &Situation,
-        _held: Option<&Six>,
-        _out: &mut ElementResponse,
-    ) -> Option<Result<TieResponse, ClassError>> {
-        None
-    }
 
     /// The wrenches on its ends at rest, as of [`Element::evaluate`], without how they change; `out` is overwritten.
     ///
     /// # Errors
     /// As [`Element::evaluate`].
-    fn wrenches(
+    fn evaluate_wrenches(
         &self,
         at: &Situation,
         committed: &[f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut Vec<Six>,
     ) -> Result<(), ClassError> {
         let (mut all, mut trial) = (ElementResponse::default(), committed.to_vec());
-        self.evaluate(at, committed, &mut trial, guess, &mut all)?;
+        self.evaluate(at, committed, &mut trial, cache, &mut all)?;
         *out = all.wrench;
         Ok(())
     }
@@ -216,96 +247,131 @@ pub trait Element: Debug + Send + Sync {
     /// As [`Element::evaluate`].
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError>;
 
-    /// The same in other surroundings along it, made no otherwise for them; none of what is to be made anew for them.
-    fn with_ambient(&self, _ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
-        None
+    /// Where its force is counted.
+    fn category(&self) -> ConnectorCategory {
+        ConnectorCategory::Flexible
     }
 
-    /// The end by whose force its pull is reported.
+    /// The end by whose force its tension is reported.
     fn pulling_end(&self) -> usize {
         0
     }
 
-    /// Of an element that also pushes, the least distance of its ends (m) from which on a force on the one away from the other is a
-    /// push; none of one that only pulls.
-    fn pushes(&self) -> Option<f64> {
+    /// Of an element that also takes compression, the least distance of its ends (m) from which on a force on the one away from the
+    /// other is compression; none of one that only pulls.
+    fn compression_onset(&self) -> Option<f64> {
         None
     }
 
-    /// What is to be known of it at rest before anything goes by it; nothing where there is nothing to say.
-    fn caution(&self, _at: &Situation) -> Option<&'static str> {
+    /// The element as one whose force follows from the place of its first end alone.
+    fn as_anchored(&self) -> Option<&dyn AnchoredElement> {
         None
     }
 
-    /// Whether its parameters depend on where its ends were when it was made, so that a solver makes it anew where they
-    /// come to rest.
-    fn made_for_place(&self) -> bool {
-        false
-    }
-
-    /// Whether it is a dynamic line: it has inertia between its ends, its wrench depends on their accelerations, and its state in
-    /// a run begins where it hangs at rest.
-    fn moves(&self) -> bool {
-        false
-    }
-
-    /// The energy and momentum balance in a state, where a run keeps them.
-    fn balance(&self, _state: &[f64]) -> Option<EnergyBalance> {
+    /// The element as a stiff tie, whose force an engine may hold.
+    fn as_stiff_tie(&self) -> Option<&dyn StiffTie> {
         None
     }
 
-    /// How many nodes it reports along itself at most: none of an element that is nothing between its ends.
-    fn nodes(&self) -> usize {
-        0
-    }
-
-    /// The most by which a winch may change its length within one step (m), of one that is cut into elements.
-    fn most_wound(&self) -> Option<f64> {
+    /// The element as one made for the place of its ends.
+    fn as_placed(&self) -> Option<&dyn PlacedElement> {
         None
     }
+
+    /// The element as one that is cut into nodes.
+    fn as_nodal(&self) -> Option<&dyn NodalElement> {
+        None
+    }
+
+    /// The element as a dynamic line: it has inertia between its ends, its wrench depends on their accelerations, and its state in a
+    /// run begins where it hangs at rest.
+    fn as_dynamic(&self) -> Option<&dyn DynamicElement> {
+        None
+    }
+}
+
+/// What an [`AnchoredElement`] exerts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnchoredResponse {
+    /// Wrench on each end, forces alone (N), global axes.
+    pub wrenches: [Six; 2],
+    /// -d(force on the first end)/d(place of the first end), global axes (N/m).
+    pub stiffness: Matrix3<f64>,
+}
+
+/// An element from a body to the ground without state, which pulls with a force that the place of its first end alone changes.
+pub trait AnchoredElement {
+    /// What [`Element::evaluate`] gives, with less work.
+    ///
+    /// # Errors
+    /// As [`Element::evaluate`].
+    fn evaluate_anchored(&self, at: &Situation, cache: &mut SolverCache) -> Result<AnchoredResponse, ClassError>;
+}
+
+/// A linear tie so stiff that rounding of places makes forces.
+pub trait StiffTie {
+    /// What it exerts, in `out`, with a force that an engine holds in place of that of its law; `None` for that of its law.
+    ///
+    /// # Errors
+    /// As [`Element::evaluate`].
+    fn evaluate_tie(
+        &self,
+        at: &Situation,
+        held: Option<&Six>,
+        out: &mut ElementResponse,
+    ) -> Result<TieResponse, ClassError>;
+}
+
+/// An element whose parameters depend on where its ends were when it was made, so that a solver makes it anew where they come to rest.
+pub trait PlacedElement {
+    /// The same in other surroundings, without being made anew for them.
+    fn with_ambient(&self, ambient: &Arc<dyn Ambient>) -> Box<dyn Element>;
+}
+
+/// An element that is cut into nodes and has results along itself.
+pub trait NodalElement {
+    /// How many nodes it reports at most: elements may appear at a winch.
+    fn max_nodes(&self) -> usize;
 
     /// Whether its nodes have a wall, shear and moments to report.
-    fn bends(&self) -> bool {
-        false
-    }
+    fn has_bending(&self) -> bool;
 
-    /// Its nodes in a state; `out` is overwritten. Elements that appear at a winch make them more.
+    /// Its nodes in a state; `out` is overwritten.
     ///
     /// # Errors
     /// A state that is not one of its own.
-    fn line_nodes(&self, _at: &Situation, _state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
-        out.clear();
-        Ok(())
-    }
+    fn find_nodes(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError>;
 
-    /// The same with what a row of a run keeps of them, as quickly as may be: velocities and curvatures may be left out, of one that
-    /// does not bend all beside effective tension and clearance. What the solver remembers is a place to work in.
+    /// The same with what a row of a run keeps of them, as quickly as may be: velocities and curvatures may be left out, of one without
+    /// bending all beside effective tension and clearance. What the solver keeps is room to work in.
     ///
     /// # Errors
-    /// As [`Element::line_nodes`].
-    fn row(
+    /// As [`NodalElement::find_nodes`].
+    fn find_row_nodes(
         &self,
         at: &Situation,
         state: &[f64],
-        _guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut Vec<LineNode>,
-    ) -> Result<(), ClassError> {
-        self.line_nodes(at, state, out)
-    }
+    ) -> Result<(), ClassError>;
+}
 
-    /// Its slowest natural modes in a state, slowest first, with its ends held where they are; none of an element that is
-    /// nothing between its ends.
+/// A dynamic line.
+pub trait DynamicElement: NodalElement {
+    /// The energy and momentum balance in a state, where a run keeps them.
+    fn energy_balance(&self, state: &[f64]) -> Option<EnergyBalance>;
+
+    /// Its slowest natural modes in a state, slowest first, with its ends held where they are.
     ///
     /// # Errors
     /// A state that is not one of its own, one that is not stable, or more modes than it has.
-    fn swings(&self, _at: &Situation, _state: &[f64], _number: usize) -> Result<Vec<LineMode>, ClassError> {
-        Ok(Vec::new())
-    }
+    fn natural_modes(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError>;
 
-    /// Whether its force belongs to RIGID_CONNECTORS (restraints) rather than to FLEX_CONNECTORS.
-    fn rigid(&self) -> bool {
-        false
-    }
+    /// The most by which a winch may change its length within one step (m).
+    fn max_payout_step(&self) -> f64;
+
+    /// What the user should know of it at rest; nothing where there is nothing to say.
+    fn static_caution(&self, at: &Situation) -> Option<&'static str>;
 }
 
 /// What a run asks of a dynamic line; nothing of the kind where there is no run.

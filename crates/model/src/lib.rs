@@ -53,8 +53,9 @@ pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
 pub use defaults::{Coordinates, DefaultMaterial, Defaults};
 pub use element::{
-    Anchored, Connection, Element, ElementResponse, ElementSummary, End, FenderState, Guess, RunRequirement, Situation,
-    SpringState, TimeStep,
+    AnchoredElement, AnchoredResponse, Connection, ConnectorCategory, DynamicElement, Element, ElementResponse,
+    ElementSummary, End, FenderState, NodalElement, PlacedElement, RunRequirement, Situation, SolverCache, SpringState,
+    StiffTie, TimeStep,
 };
 pub use environment::{
     Components, Current, CurveReference, Division, Environment, FormulaChoice, GustParts, PeriodType, Phasing,

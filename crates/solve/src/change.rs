@@ -24,14 +24,14 @@ fn bodies(ends: &[EndAttachment]) -> Vec<Option<usize>> {
     ends.iter().map(|e| if let EndAttachment::Body(body, _) = e { Some(*body) } else { None }).collect()
 }
 
-/// How many nodes an element reports at most, and whether they bend.
+/// How many nodes an element reports at most, and whether they have bending.
 fn nodes(element: &dyn Element) -> (usize, bool) {
-    (element.nodes(), element.bends())
+    element.as_nodal().map_or((0, false), |nodal| (nodal.max_nodes(), nodal.has_bending()))
 }
 
-/// How rows tell that it pushes, of an element that may.
+/// How rows report compression, of an element that takes it.
 fn pushing(element: &dyn Element, ends: &[EndAttachment]) -> Option<Pushing> {
-    Pushing::new(element.pushes()?, ends, element.pulling_end())
+    Pushing::new(element.compression_onset()?, ends, element.pulling_end())
 }
 
 impl System {
@@ -69,8 +69,8 @@ impl System {
     }
 
     /// Whether a connector of this name is a dynamic line.
-    pub(super) fn moves(&self, name: &str) -> bool {
-        self.links.iter().any(|l| l.element.moves() && l.name.eq_ignore_ascii_case(name))
+    pub(super) fn is_dynamic_line(&self, name: &str) -> bool {
+        self.links.iter().any(|l| l.is_dynamic() && l.name.eq_ignore_ascii_case(name))
     }
 
     /// A connector acts no more.
@@ -134,11 +134,12 @@ impl System {
         self.ambient = ambient(model, sea).map_err(SolveError::new)?;
         // a pipe stays as it was laid, with what grows on it and is in it
         for link in &mut self.links {
-            if let Some(element) = link.element.with_ambient(&self.ambient) {
+            let made = link.element.as_placed().map(|placed| placed.with_ambient(&self.ambient));
+            if let Some(element) = made {
                 link.element = element;
             }
         }
-        let again = |l: &&Link| l.element.moves() && !l.element.made_for_place();
+        let again = |l: &&Link| l.is_dynamic() && l.element.as_placed().is_none();
         let moving: Vec<String> = self.links.iter().filter(again).map(|l| l.name.clone()).collect();
         for name in &moving {
             self.make_anew(model, name)?;

@@ -61,6 +61,11 @@ impl Link {
         }
         Link { name: name.to_string(), element, ends, states: from..states.len() }
     }
+
+    /// Whether it is a dynamic line.
+    pub(super) fn is_dynamic(&self) -> bool {
+        self.element.as_dynamic().is_some()
+    }
 }
 
 /// What the ends of a connector are fixed to.

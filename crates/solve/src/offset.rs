@@ -5,7 +5,7 @@ use super::link::{EndAttachment, Link, arm, pose_of};
 use super::system::{SolveError, System, SystemState};
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::move_wrench;
-use windlass_model::{ClassError, ElementSummary, End, Guess, Situation};
+use windlass_model::{ClassError, ElementSummary, End, Situation, SolverCache};
 
 /// The connectors on one body, followed from place to place.
 #[derive(Debug)]
@@ -13,7 +13,7 @@ pub struct BodyConnectors {
     body: usize,
     /// Their numbers in the system.
     links: Vec<usize>,
-    guesses: Vec<Guess>,
+    caches: Vec<SolverCache>,
 }
 
 /// What the connectors of a body do to it.
@@ -39,8 +39,8 @@ impl BodyConnectors {
                 ClassError::new("no connector acts on it").help("CONNECTOR makes one; &STATUS G_CONNECTOR lists them");
             return Err(SolveError { who, error });
         }
-        let guesses = links.iter().map(|_| None).collect();
-        Ok(BodyConnectors { body, links, guesses })
+        let caches = links.iter().map(|_| SolverCache::new()).collect();
+        Ok(BodyConnectors { body, links, caches })
     }
 
     fn links<'a>(&'a self, system: &'a System) -> impl Iterator<Item = &'a Link> {
@@ -69,13 +69,15 @@ impl BodyConnectors {
         out.wrench = Six::zeros();
         out.tensions.clear();
         let (mut ends, mut wrenches) = (Vec::new(), Vec::new());
-        for (index, guess) in self.links.iter().zip(&mut self.guesses) {
+        for (index, cache) in self.links.iter().zip(&mut self.caches) {
             let Some(link) = system.links.get(*index) else { continue };
             ends.clear();
             ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, poses))));
             let committed = &system.states[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
-            link.element.wrenches(&at, committed, guess, &mut wrenches).map_err(SolveError::error_about(&link.name))?;
+            link.element
+                .evaluate_wrenches(&at, committed, cache, &mut wrenches)
+                .map_err(SolveError::error_about(&link.name))?;
             let mut tension = 0.0;
             for (end, wrench) in link.ends.iter().zip(&wrenches) {
                 if matches!(end, EndAttachment::Body(body, _) if *body == self.body) {

@@ -3,7 +3,7 @@
 use super::system::SolveError;
 use windlass_base::units::Dim;
 use windlass_hydro::ambient;
-use windlass_model::{ClassError, Condition, Connector, End, Model, Situation};
+use windlass_model::{ClassError, Condition, Connector, End, Model, Situation, SolverCache};
 
 /// Steps from the present length to one beyond the force, each half as long again as the one before.
 const MAX_BRACKETING_STEPS: usize = 60;
@@ -39,7 +39,7 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         let element = model.element_in(&wound, Some(&ambient))?;
         let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
         let mut wrenches = Vec::new();
-        element.wrenches(&at, &vec![0.0; element.states()], &mut None, &mut wrenches)?;
+        element.evaluate_wrenches(&at, &vec![0.0; element.states()], &mut SolverCache::new(), &mut wrenches)?;
         let pull = wrenches.first().map_or(0.0, |w| if level { w[0].hypot(w[1]) } else { w.fixed_rows::<3>(0).norm() });
         Ok::<f64, ClassError>(pull)
     };

@@ -40,9 +40,9 @@ pub fn find_equilibrium_with_rebuilds(model: &mut Model, options: &Options) -> R
     let mut state = system.state(model);
     let mut found = equilibrium(&system, &mut state, options)?;
     system.place(&state, model);
-    let mut settled = !system.made_for_place();
+    let mut settled = !system.has_placed_elements();
     for _ in 0..MAX_REBUILDS {
-        if !system.made_for_place() {
+        if !system.has_placed_elements() {
             break;
         }
         system = made(model)?;

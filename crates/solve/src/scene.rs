@@ -209,8 +209,8 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
 /// The nodes of a dynamic line, at rest in the mean current.
 fn at_rest(model: &Model, connector: &Connector) -> Result<Vec<Position>, SolveError> {
     let mut nodes = Vec::new();
-    standing(model, &|name| name == connector.name, |_, element, at, state| {
-        element.line_nodes(at, state, &mut nodes).map_err(SolveError::error_about(&connector.name))
+    standing(model, &|name| name == connector.name, |_, line, at, state| {
+        line.find_nodes(at, state, &mut nodes).map_err(SolveError::error_about(&connector.name))
     })?;
     Ok(nodes.iter().map(|node| node.position.into()).collect())
 }

@@ -24,7 +24,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
-    ClassError, Connector, Element, ElementResponse, End, Guess, Model, RunRequirement, Situation, Surroundings,
+    ClassError, Connector, Element, ElementResponse, End, Model, RunRequirement, Situation, SolverCache, Surroundings,
     TimeStep, list_names,
 };
 use windlass_signal::statistics::crossings;
@@ -376,7 +376,7 @@ struct Twin {
     time: f64,
     committed: Vec<f64>,
     trial: Vec<f64>,
-    guess: Guess,
+    cache: SolverCache,
     response: ElementResponse,
 }
 
@@ -404,21 +404,24 @@ impl Twin {
         let mut nodes = Vec::new();
         let mut start = vec![0.0; element.states()];
         element.start(&mut start);
-        element.line_nodes(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &start, &mut nodes)?;
+        let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
+        if let Some(nodal) = element.as_nodal() {
+            nodal.find_nodes(&at, &start, &mut nodes)?;
+        }
         let length = nodes.last().map_or(0.0, |n| n.arc);
         let wanted = ((length / MAX_ELEMENT_LENGTH_M).ceil() as usize).clamp(fewest, most);
         let element = if wanted == fewest { element } else { of(wanted)? };
         let mut committed = vec![0.0; element.states()];
         element.start(&mut committed);
         let mut made = Twin {
-            elements: element.nodes().saturating_sub(1),
+            elements: element.as_nodal().map_or(0, |nodal| nodal.max_nodes().saturating_sub(1)),
             element,
             surroundings,
             pulled_end: motion.pulled_end,
             time: motion.begin,
             trial: committed.clone(),
             committed,
-            guess: None,
+            cache: SolverCache::new(),
             response: ElementResponse::default(),
         };
         made.evaluate(&ends, motion.begin, 0.0)?;
@@ -428,7 +431,7 @@ impl Twin {
     /// Takes it on to a time at which its ends are so.
     fn evaluate(&mut self, ends: &[End; 2], time: f64, dt: f64) -> Result<(), ClassError> {
         let at = Situation { ends, step: Some(TimeStep { time, dt }), surroundings: &self.surroundings };
-        self.element.evaluate(&at, &self.committed, &mut self.trial, &mut self.guess, &mut self.response)?;
+        self.element.evaluate(&at, &self.committed, &mut self.trial, &mut self.cache, &mut self.response)?;
         std::mem::swap(&mut self.committed, &mut self.trial);
         self.time = time;
         Ok(())

@@ -13,7 +13,9 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::Sea;
 use windlass_hydro::{Category, Floating, Load, ambient, move_stiffness, move_wrench, turning};
-use windlass_model::{Ambient, Body, ClassError, ElementResponse, End, Guess, Mass, Model, Situation, Surroundings};
+use windlass_model::{
+    Ambient, Body, ClassError, ElementResponse, End, Mass, Model, Situation, SolverCache, Surroundings,
+};
 
 /// Degrees of freedom of a body, in order.
 pub const DOFS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
@@ -101,7 +103,7 @@ pub struct SystemState {
     pub pull: Vec<f64>,
     /// Stiff ties, whose forces a search holds.
     pub(super) ties: Ties,
-    guesses: Vec<Guess>,
+    caches: Vec<SolverCache>,
     response: ElementResponse,
     trial: Vec<f64>,
 }
@@ -186,7 +188,7 @@ impl System {
 
     /// Dynamic lines begin a run in these states, given for all connectors.
     pub(super) fn begin_moving(&mut self, states: &[f64]) {
-        for link in self.links.iter().filter(|l| l.element.moves()) {
+        for link in self.links.iter().filter(|l| l.is_dynamic()) {
             self.states[link.states.clone()].copy_from_slice(&states[link.states.clone()]);
         }
     }
@@ -217,7 +219,7 @@ impl System {
         }
         state.pull.resize(self.nodes.len(), 0.0);
         state.ties.begin(self.links.len(), self.nodes.len());
-        state.guesses.resize_with(self.links.len(), || None);
+        state.caches.resize_with(self.links.len(), SolverCache::new);
         state.trial.resize(self.states.len(), 0.0);
         let belongs = |body: usize| part.is_none_or(|p| p[body]);
         let bodies: Vec<usize> = (0..self.nodes.len()).filter(|body| belongs(*body)).collect();
@@ -242,7 +244,7 @@ impl System {
             at += wrench;
         }
         let (mut ends, mut arms) = (Vec::new(), Vec::new());
-        for (index, (link, guess)) in self.links.iter().zip(&mut state.guesses).enumerate() {
+        for (index, (link, cache)) in self.links.iter().zip(&mut state.caches).enumerate() {
             let joined = |end: &EndAttachment| matches!(end, EndAttachment::Body(body, _) if belongs(*body));
             if part.is_some() && !link.ends.iter().any(joined) {
                 continue;
@@ -255,15 +257,15 @@ impl System {
             arms.clear();
             arms.extend(link.ends.iter().map(|end| arm(end, &state.poses)));
             let held = state.ties.forces.get(index).and_then(Option::as_ref);
-            let tie = if state.ties.holds { link.element.tie(&at, held, &mut state.response) } else { None };
-            match tie {
+            match link.element.as_stiff_tie().filter(|_| state.ties.holds) {
                 Some(tie) => {
+                    let tie = tie.evaluate_tie(&at, held, &mut state.response);
                     let tie = tie.map_err(SolveError::error_about(&link.name))?;
                     state.ties.take(index, tie, &state.response.stiffness, (&link.ends, &arms));
                 }
                 None => link
                     .element
-                    .evaluate(&at, committed, trial, guess, &mut state.response)
+                    .evaluate(&at, committed, trial, cache, &mut state.response)
                     .map_err(SolveError::error_about(&link.name))?,
             }
             let count = link.ends.len();
@@ -306,9 +308,9 @@ impl System {
             let committed = &self.states[link.states.clone()];
             let own = &mut trial[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
-            let evaluated = link.element.evaluate(&at, committed, own, &mut None, &mut response);
+            let evaluated = link.element.evaluate(&at, committed, own, &mut SolverCache::new(), &mut response);
             evaluated.map_err(SolveError::error_about(&link.name))?;
-            let category = if link.element.rigid() { Category::RigidConnectors } else { Category::FlexConnectors };
+            let category = Category::from(link.element.category());
             for (i, end) in link.ends.iter().enumerate() {
                 let EndAttachment::Body(body, _) = end else { continue };
                 let (own, count) = (arm(end, poses), link.ends.len());
@@ -367,8 +369,8 @@ impl System {
     }
 
     /// Whether a connector was made for the place of its ends, so that the system is to be made anew where it comes to rest.
-    pub fn made_for_place(&self) -> bool {
-        self.links.iter().any(|l| l.element.made_for_place())
+    pub fn has_placed_elements(&self) -> bool {
+        self.links.iter().any(|l| l.element.as_placed().is_some())
     }
 
     /// The mass matrix of all bodies about their origins in these poses, global axes, six a body (kg, kg m, kg m2), with

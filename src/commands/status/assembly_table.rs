@@ -5,11 +5,11 @@ use nalgebra::Vector3;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
-use windlass_model::EntityKind;
 use windlass_model::{
     Assembly, AssemblyKind, ClassError, Connector, ElementResponse, ElementSummary, End, LaidPipe, Model,
     RunRequirement, Situation,
 };
+use windlass_model::{EntityKind, SolverCache};
 
 /// `&STATUS ASSEMBLIES`.
 pub static ASSEMBLIES: StatusKind =
@@ -121,7 +121,7 @@ fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>,
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
     let mut out = ElementResponse::default();
     let mut state = vec![0.0; element.states()];
-    element.evaluate(&at, &state.clone(), &mut state, &mut None, &mut out)?;
+    element.evaluate(&at, &state.clone(), &mut state, &mut SolverCache::new(), &mut out)?;
     let forces = out.wrench.iter().map(|w| [w[0], w[1], w[2]]).collect();
     Ok(Some((forces, element.summary(&at, &state)?)))
 }
@@ -168,6 +168,6 @@ fn line_summary(model: &Model, connector: &Connector) -> Result<ElementSummary, 
     element.start(&mut state);
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-    element.evaluate(&at, &state.clone(), &mut state, &mut None, &mut ElementResponse::default())?;
+    element.evaluate(&at, &state.clone(), &mut state, &mut SolverCache::new(), &mut ElementResponse::default())?;
     element.summary(&at, &state)
 }

@@ -7,10 +7,10 @@ use windlass_base::pose::Six;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
-use windlass_model::EntityKind;
 use windlass_model::{
     ClassError, Connector, ElementResponse, ElementSummary, End, Model, Situation, SpringState, add_model_column,
 };
+use windlass_model::{EntityKind, SolverCache};
 use windlass_solve::results::fender_table;
 
 /// `&STATUS F_CONNECTOR`.
@@ -141,7 +141,7 @@ fn take_remarks(summary: &mut ElementSummary, units: UnitSystem) -> Vec<String> 
 
 fn find_forces(model: &Model, connector: &Connector) -> Result<ConnectorForces, ClassError> {
     let mut element = model.element(connector)?;
-    if element.moves() {
+    if element.as_dynamic().is_some() {
         // it feels current, bottom and contents all along itself
         element = model.element_in(connector, Some(&ambient(model, None)?))?;
     }
@@ -151,7 +151,7 @@ fn find_forces(model: &Model, connector: &Connector) -> Result<ConnectorForces, 
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
     let (mut out, mut trial) = (ElementResponse::default(), committed.clone());
-    element.evaluate(&at, &committed, &mut trial, &mut None, &mut out)?;
+    element.evaluate(&at, &committed, &mut trial, &mut SolverCache::new(), &mut out)?;
     // less than what a solution is exact to is no force
     let shown = |w: &Six| {
         let size = 1e-12 * w.fixed_rows::<3>(0).norm();

@@ -6,7 +6,7 @@ use crate::common::run as runs;
 use runs::{model, run, settings, trapezoidal};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use windlass_base::table::Table;
-use windlass_model::{ElementResponse, End, Model, Situation};
+use windlass_model::{ElementResponse, End, Model, Situation, SolverCache};
 use windlass_solve::System;
 use windlass_solve::results::along::lines_at_rest;
 use windlass_solve::time::{Run, RunSettings};
@@ -97,7 +97,7 @@ fn grounded_dynamic_line_anchor_carries_pull_along_seabed_alone() {
         let (mut state, mut out) = (vec![0.0; element.states()], ElementResponse::default());
         element.start(&mut state);
         let committed = state.clone();
-        element.evaluate(&at, &committed, &mut state, &mut None, &mut out).unwrap();
+        element.evaluate(&at, &committed, &mut state, &mut SolverCache::new(), &mut out).unwrap();
         let [x, y, z] = [0, 1, 2].map(|i| out.wrench[1][i]);
         // half an element of 40 weighs 7.6 kN
         assert!(z == 0.0 && y.abs() < 1e-6 * horizontal, "{z}");

@@ -6,7 +6,7 @@ use crate::common;
 use nalgebra::Vector3;
 use windlass_base::pose::Six;
 use windlass_hydro::ambient;
-use windlass_model::{Element, ElementResponse, End, LineNode, Situation, TimeStep};
+use windlass_model::{Element, ElementResponse, End, LineNode, Situation, SolverCache, TimeStep};
 
 /// A line of a class between two points in the ground 100 m apart, 50 m below the surface along X or, `dry`, 10 m above it.
 struct Held {
@@ -38,7 +38,7 @@ impl Held {
         let mut out = ElementResponse::default();
         let at = Situation { ends: &self.ends, step, surroundings: &self.around };
         let committed = state.clone();
-        self.element.evaluate(&at, &committed, &mut state, &mut None, &mut out).unwrap();
+        self.element.evaluate(&at, &committed, &mut state, &mut SolverCache::new(), &mut out).unwrap();
         out
     }
 
@@ -53,7 +53,7 @@ impl Held {
         let mut out = Vec::new();
         let at = Situation { ends: &self.ends, step: None, surroundings: &self.around };
         let state = vec![0.0; self.element.states()];
-        self.element.line_nodes(&at, &state, &mut out).unwrap();
+        self.element.as_nodal().unwrap().find_nodes(&at, &state, &mut out).unwrap();
         out
     }
 
@@ -168,7 +168,7 @@ fn aqwa_joint_oscillates_with_its_added_mass() {
         let line = held(&class, "", (-50.0, true));
         let at = Situation { ends: &line.ends, step: None, surroundings: &line.around };
         let state = vec![0.0; line.element.states()];
-        line.element.swings(&at, &state, 1).unwrap()[0].frequency
+        line.element.as_dynamic().unwrap().natural_modes(&at, &state, 1).unwrap()[0].frequency
     };
     let tension = 1e9 / 99.0;
     for (joint, mass) in [("-CLUMP 2000 1000", 2000.0), ("-CLUMP 2000 1000 3000", 5000.0)] {

@@ -9,7 +9,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_connectors::CLASSES;
 use windlass_model::{
     ClassError, Connection, Connector, Element, ElementResponse, End, Model, Placement, RunRequirement, Situation,
-    Surroundings, TimeStep,
+    SolverCache, Surroundings, TimeStep,
 };
 
 /// What a force obeys beside being the same for the same.
@@ -290,7 +290,7 @@ fn ask(
     let mut trial = vec![f64::NAN; committed.len()];
     let step = dt.map(|dt| TimeStep { time: 10.0, dt });
     let at = Situation { ends, step, surroundings };
-    element.evaluate(&at, committed, &mut trial, &mut None, &mut out).unwrap();
+    element.evaluate(&at, committed, &mut trial, &mut SolverCache::new(), &mut out).unwrap();
     (out, trial)
 }
 

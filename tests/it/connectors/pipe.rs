@@ -5,7 +5,7 @@ use crate::common;
 use windlass::session::Session;
 use windlass_base::diagnostic::Severity;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Element, ElementResponse, End, Model, PIPE, RunRequirement, Situation};
+use windlass_model::{Element, ElementResponse, End, Model, PIPE, RunRequirement, Situation, SolverCache};
 
 fn model(records: &str) -> Model {
     let (mut session, _screen, _folder): (Session, _, _) = common::session();
@@ -37,7 +37,7 @@ fn answer(model: &Model, element: &dyn Element, ends: &[End]) -> ElementResponse
     let at = Situation { ends, step: None, surroundings: &surroundings };
     let mut out = ElementResponse::default();
     let mut state = vec![0.0; element.states()];
-    element.evaluate(&at, &state.clone(), &mut state, &mut None, &mut out).unwrap();
+    element.evaluate(&at, &state.clone(), &mut state, &mut SolverCache::new(), &mut out).unwrap();
     out
 }
 
@@ -59,7 +59,7 @@ fn pipe_on_rollers_rolls_and_seabed_lacks_weight_by_its_height() {
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
     let state = vec![0.0; element.states()];
     let mut nodes = Vec::new();
-    element.line_nodes(&at, &state, &mut nodes).unwrap();
+    element.as_nodal().unwrap().find_nodes(&at, &state, &mut nodes).unwrap();
     let leaves = (nodes[1].position - nodes[0].position).normalize();
     let bottom = tension * leaves.x - w * (nodes[0].position.z + 50.0);
     assert!((sum[0] / bottom - 1.0).abs() < 2e-4, "{} {bottom} {leaves}", sum[0]);
@@ -118,7 +118,7 @@ fn davit_points_toward_its_loading_pipe() {
     let surroundings = model.surroundings();
     let (state, mut nodes) = (vec![0.0; element.states()], Vec::new());
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-    element.line_nodes(&at, &state, &mut nodes).unwrap();
+    element.as_nodal().unwrap().find_nodes(&at, &state, &mut nodes).unwrap();
     let lies = nodes.last().unwrap().effective;
     assert!((sum[0] / lies - 1.0).abs() < 1e-3, "{sum} {lies}");
     assert!(sum[0] < 1e5 && nodes[0].effective.abs() < 1.0, "{sum} {}", nodes[0].effective);

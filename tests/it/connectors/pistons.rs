@@ -5,7 +5,7 @@ use crate::common;
 use nalgebra::Vector3;
 use windlass::session::Session;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Element, ElementResponse, ElementSummary, End, Situation, TimeStep};
+use windlass_model::{Element, ElementResponse, ElementSummary, End, Situation, SolverCache, TimeStep};
 
 /// A line between *A of body ONE at the origin and another end.
 struct Rig {
@@ -61,7 +61,7 @@ impl Rig {
         let step = dt.map(|dt| TimeStep { time: dt, dt });
         let (mut out, mut trial) = (ElementResponse::default(), vec![f64::NAN; self.state.len()]);
         let at = Situation { ends: &ends, step, surroundings: &surroundings };
-        self.element.evaluate(&at, &self.state, &mut trial, &mut None, &mut out).unwrap();
+        self.element.evaluate(&at, &self.state, &mut trial, &mut SolverCache::new(), &mut out).unwrap();
         (out, trial)
     }
 

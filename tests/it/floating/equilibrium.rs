@@ -4,7 +4,7 @@ use crate::common;
 
 use windlass::session::Session;
 use windlass_base::span::Span;
-use windlass_model::{Model, Weight};
+use windlass_model::{Model, SolverCache, Weight};
 use windlass_solve::{Options, SolveError, System, find_equilibrium_with_rebuilds, modes};
 
 /// The model that records make, in metres and newtons; each `weights` is one of the body's own part.
@@ -199,7 +199,7 @@ fn lifts(records: &str) -> Vec<(String, f64)> {
         let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
         let mut out = windlass_model::ElementResponse::default();
         let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
-        element.evaluate(&at, &committed, &mut trial, &mut None, &mut out).unwrap();
+        element.evaluate(&at, &committed, &mut trial, &mut SolverCache::new(), &mut out).unwrap();
         list.push((connector.name.clone(), out.wrench[0][2]));
     }
     list

@@ -8,8 +8,8 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::pose::Six;
 use windlass_base::table::Table;
 use windlass_model::{
-    ClassError, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Guess, Situation,
-    Surroundings,
+    ClassError, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Situation,
+    SolverCache, Surroundings,
 };
 use windlass_solve::{Options, find_equilibrium_with_rebuilds};
 
@@ -27,7 +27,7 @@ impl Element for Rope {
         at: &Situation,
         _: &[f64],
         _: &mut [f64],
-        _: &mut Guess,
+        _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let d = -at.ends[0].pose.origin.z;

@@ -4,7 +4,7 @@ use super::describe::{LineDescription, LinePart};
 use super::element::DynamicLine;
 use super::environment::ground;
 use super::mesh::{Cut, JOIN_BELOW_SHARE, attachments, few, mesh, to_class_error};
-use super::solver_cache::{Base, EndDirection};
+use super::rod_cache::{Base, EndDirection};
 use super::start;
 use super::state_layout::StateLayout;
 use crate::mooring::no_other_end;

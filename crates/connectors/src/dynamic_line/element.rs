@@ -2,9 +2,9 @@
 
 use super::answer::{on_ends, on_supports};
 use super::environment::{LineSeabed, LineWater};
-use super::mesh::{most_wound, to_class_error, wind};
+use super::mesh::{to_class_error, wind};
 use super::pipelay_supports::{PipeLay, SupportContact};
-use super::solver_cache::{Base, EndDirection, SolverCache};
+use super::rod_cache::{Base, EndDirection, RodCache};
 use super::state_layout::{StateLayout, StateView};
 use nalgebra::Vector3;
 use std::cell::RefCell;
@@ -15,8 +15,8 @@ use windlass_line_dynamics::{
     self as rod, Balance, EndTangent, LineEnvironment, Rod, RodEndForces, RodEndMotion, RodState, SeabedLaw,
 };
 use windlass_model::{
-    Ambient, ClassError, Element, ElementResponse, ElementSummary, End, EnergyBalance, Flow, Guess, LineMode, LineNode,
-    Situation,
+    Ambient, ClassError, DynamicElement, Element, ElementResponse, ElementSummary, End, Flow, NodalElement,
+    PlacedElement, Situation, SolverCache,
 };
 
 /// An end may lie this much below the bottom (m).
@@ -51,14 +51,9 @@ pub(super) struct LineAtRest {
 }
 
 impl DynamicLine {
-    pub(super) fn warm<'a>(&self, guess: &'a mut Guess) -> Option<&'a mut SolverCache> {
-        let fits = |g: &Box<dyn std::any::Any + Send>| {
-            g.downcast_ref::<SolverCache>().is_some_and(|w| Arc::ptr_eq(&w.base, &self.base))
-        };
-        if !guess.as_ref().is_some_and(fits) {
-            *guess = Some(Box::new(SolverCache::new(&self.base)));
-        }
-        guess.as_mut()?.downcast_mut::<SolverCache>()
+    /// What its solver keeps in a cache; a new one in place of that of another line.
+    pub(super) fn rod_cache<'a>(&self, cache: &'a mut SolverCache) -> Option<&'a mut RodCache> {
+        cache.get_or_insert(|kept: &RodCache| Arc::ptr_eq(&kept.base, &self.base), || RodCache::new(&self.base))
     }
 
     /// The line's surroundings, at rest or under way, for what needs them, its tensioner having paid out so much (m); `flows` is room
@@ -128,14 +123,14 @@ impl DynamicLine {
     }
 
     /// Where it hangs at rest between ends.
-    pub(super) fn rest(&self, at: &Situation, warm: &mut SolverCache) -> Result<LineAtRest, ClassError> {
+    pub(super) fn rest(&self, at: &Situation, cache: &mut RodCache) -> Result<LineAtRest, ClassError> {
         let ends = self.end_conditions(at.ends, true)?;
-        if warm.rod != self.base.rod {
-            warm.rod = self.base.rod.clone();
+        if cache.rod != self.base.rod {
+            cache.rod = self.base.rod.clone();
         }
-        warm.fit();
+        cache.fit();
         let places = places(at.ends);
-        let SolverCache { rod, solver, rest, flows, .. } = warm;
+        let RodCache { rod, solver, rest, flows, .. } = cache;
         self.with_environment((at, true, 0.0), flows, |world| {
             if let Some((bottom, _)) = &world.bottom.filter(|_| self.base.laid.is_none()) {
                 for (place, name) in places.iter().zip(["first", "second"]) {
@@ -200,7 +195,7 @@ impl DynamicLine {
                 let state = RodState::unpack(other.as_ref().unwrap_or(base), kept.motion).map_err(to_class_error)?;
                 Ok((other, state, at.step.is_none()))
             }
-            None => Ok((None, self.rest(at, &mut SolverCache::new(&self.base))?.state, true)),
+            None => Ok((None, self.rest(at, &mut RodCache::new(&self.base))?.state, true)),
         }
     }
 
@@ -211,21 +206,21 @@ impl DynamicLine {
         (time, dt): (f64, f64),
         kept: &StateView,
         trial: &mut [f64],
-        warm: &mut SolverCache,
+        cache: &mut RodCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let (ends, places) = (self.end_conditions(at.ends, false)?, places(at.ends));
-        if let Some(rod) = self.rod_with_mesh(kept, &warm.rod)? {
-            warm.rod = rod;
+        if let Some(rod) = self.rod_with_mesh(kept, &cache.rod)? {
+            cache.rod = rod;
         }
-        let SolverCache { rod, state, .. } = &mut *warm;
+        let RodCache { rod, state, .. } = &mut *cache;
         state.unpack_into(rod, kept.motion).map_err(to_class_error)?;
         state.time = time - dt;
         if dt > 0.0 {
             wind(rod, state, (self.first, self.nominal, dt), &self.base.bands)?;
         }
-        warm.fit();
-        let SolverCache { rod, solver, state, flows, .. } = warm;
+        cache.fit();
+        let RodCache { rod, solver, state, flows, .. } = cache;
         let forces = self.with_environment((at, false, kept.paid), flows, |world| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(to_class_error)?;
@@ -286,29 +281,11 @@ impl Element for DynamicLine {
         self.layout.size()
     }
 
-    fn moves(&self) -> bool {
-        true
-    }
-
-    fn made_for_place(&self) -> bool {
-        self.base.laid.is_some()
-    }
-
-    fn with_ambient(&self, ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
-        self.base.laid.as_ref()?;
-        let base = Arc::new(Base { ambient: Some(ambient.clone()), ..Base::clone(&self.base) });
-        Some(Box::new(DynamicLine { base, ..*self }))
-    }
-
-    fn caution(&self, at: &Situation) -> Option<&'static str> {
-        self.told_of_friction(at)
-    }
-
     fn pulling_end(&self) -> usize {
         self.base.laid.as_ref().and_then(PipeLay::tensioner).unwrap_or(0)
     }
 
-    fn pushes(&self) -> Option<f64> {
+    fn compression_onset(&self) -> Option<f64> {
         let rod = &self.base.rod;
         // room for elements that it does not have is that of a winch, which changes its length
         let wound = self.layout.elements + 1 > rod.nodes();
@@ -317,16 +294,16 @@ impl Element for DynamicLine {
         (stiff && !wound && self.base.laid.is_none()).then(|| MIN_COMPRESSED_LENGTH_SHARE * length())
     }
 
-    fn nodes(&self) -> usize {
-        self.layout.elements + 1
+    fn as_placed(&self) -> Option<&dyn PlacedElement> {
+        self.base.laid.is_some().then_some(self)
     }
 
-    fn most_wound(&self) -> Option<f64> {
-        Some(most_wound(self.nominal))
+    fn as_nodal(&self) -> Option<&dyn NodalElement> {
+        Some(self)
     }
 
-    fn bends(&self) -> bool {
-        self.base.rod.segments().iter().any(|s| s.bending > 0.0 || s.tube.is_some())
+    fn as_dynamic(&self) -> Option<&dyn DynamicElement> {
+        Some(self)
     }
 
     fn evaluate(
@@ -334,16 +311,16 @@ impl Element for DynamicLine {
         at: &Situation,
         committed: &[f64],
         trial: &mut [f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let kept = self.layout.read(committed)?;
-        let Some(warm) = self.warm(guess) else { return Err(ClassError::new(NO_MEMORY).lasting()) };
+        let Some(cache) = self.rod_cache(cache) else { return Err(ClassError::new(NO_MEMORY).lasting()) };
         if let (Some(step), Some(kept)) = (at.step, &kept) {
-            return self.step(at, (step.time, step.dt), kept, trial, warm, out);
+            return self.step(at, (step.time, step.dt), kept, trial, cache, out);
         }
-        let (found, places) = (self.rest(at, warm)?, places(at.ends));
-        let SolverCache { rod, solver, flows, .. } = &mut *warm;
+        let (found, places) = (self.rest(at, cache)?, places(at.ends));
+        let RodCache { rod, solver, flows, .. } = &mut *cache;
         self.with_environment((at, true, 0.0), flows, |world| match self.base.laid {
             Some(_) => {
                 let loads = rod.support_forces(&found.state, world);
@@ -363,29 +340,20 @@ impl Element for DynamicLine {
             if let Some(kept) = self.layout.read(&begun)? {
                 // its balance is not begun yet
                 let kept = kept.without_books();
-                return self.step(at, (step.time, 0.0), &kept, trial, warm, out);
+                return self.step(at, (step.time, 0.0), &kept, trial, cache, out);
             }
         }
         Ok(())
     }
 
-    fn balance(&self, state: &[f64]) -> Option<EnergyBalance> {
-        self.tell_books(state)
-    }
-
-    fn line_nodes(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
-        self.tell_along(at, state, out)
-    }
-
-    fn row(&self, at: &Situation, state: &[f64], guess: &mut Guess, out: &mut Vec<LineNode>) -> Result<(), ClassError> {
-        self.tell_row(at, state, guess, out)
-    }
-
-    fn swings(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
-        self.tell_modes(at, state, number)
-    }
-
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
-        self.tell_summary(at, committed)
+        self.summarize(at, committed)
+    }
+}
+
+impl PlacedElement for DynamicLine {
+    fn with_ambient(&self, ambient: &Arc<dyn Ambient>) -> Box<dyn Element> {
+        let base = Arc::new(Base { ambient: Some(ambient.clone()), ..Base::clone(&self.base) });
+        Box::new(DynamicLine { base, ..*self })
     }
 }

@@ -223,7 +223,7 @@ pub(super) fn attachments(parts: &[LinePart], counts: &[usize], density: f64) ->
 }
 
 /// Takes the first part of a line to another length (m) over a step (s): elements appear at its first end or go. Of a change by more than
-/// [`most_wound`] the element there stays longer than it should.
+/// [`max_payout_step`] the element there stays longer than it should.
 pub(super) fn wind(
     rod: &mut Rod,
     state: &mut RodState,
@@ -264,7 +264,7 @@ pub(super) fn wind(
 
 /// The most by which a winch may change a line in one step (m): an element at the winch is divided or taken in once, and is then as long as
 /// [`DIVIDE_ABOVE_SHARE`] and [`JOIN_BELOW_SHARE`] say.
-pub(super) fn most_wound(nominal: f64) -> f64 {
+pub(super) fn max_payout_step(nominal: f64) -> f64 {
     JOIN_BELOW_SHARE * nominal
 }
 

@@ -2,30 +2,29 @@
 
 use super::describe::LinePart;
 use super::element::DynamicLine;
-use super::mesh::to_class_error;
+use super::mesh::{max_payout_step, to_class_error};
 use super::modes;
-use super::solver_cache::SolverCache;
+use super::rod_cache::RodCache;
 use std::f64::consts::PI;
 use windlass_line_dynamics::{RodSettings, RodSolver};
-use windlass_model::{ClassError, ElementSummary, EnergyBalance, Guess, LineMode, LineNode, LineSide, Note, Situation};
+use windlass_model::{
+    ClassError, DynamicElement, ElementSummary, EnergyBalance, LineMode, LineNode, LineSide, NodalElement, Note,
+    Situation, SolverCache,
+};
 
 /// Longest elements at an end that is held, by sqrt(EI/T), of which nothing is said: moment there is then 3 % low.
 const COARSE_MESH_RATIO: f64 = 0.5;
 
-impl DynamicLine {
-    pub(super) fn tell_books(&self, state: &[f64]) -> Option<EnergyBalance> {
-        let found = self.layout.balance(state)?;
-        let (e, w) = (&found.energy, &found.work);
-        Some(EnergyBalance {
-            energy: [e.kinetic, e.elastic, e.gravity, e.bottom + e.supports],
-            work: [w.ends[0], w.ends[1], w.fluid + w.given, w.damping, w.bottom + w.supports],
-            energy_error: found.energy_error(),
-            turnover: found.turnover,
-            momentum_error: found.momentum_error(),
-        })
+impl NodalElement for DynamicLine {
+    fn max_nodes(&self) -> usize {
+        self.layout.elements + 1
     }
 
-    pub(super) fn tell_along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
+    fn has_bending(&self) -> bool {
+        self.base.rod.segments().iter().any(|s| s.bending > 0.0 || s.tube.is_some())
+    }
+
+    fn find_nodes(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
         let paid = self.layout.paid(state);
         let (other, state, still) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
@@ -41,28 +40,41 @@ impl DynamicLine {
         Ok(())
     }
 
-    /// What a row of a run keeps of its nodes, in the room of its memory; segments are not reported.
-    pub(super) fn tell_row(
+    fn find_row_nodes(
         &self,
         at: &Situation,
         state: &[f64],
-        guess: &mut Guess,
+        cache: &mut SolverCache,
         out: &mut Vec<LineNode>,
     ) -> Result<(), ClassError> {
-        let (Some(kept), Some(warm)) = (self.layout.read(state)?, self.warm(guess)) else {
-            return self.tell_along(at, state, out);
+        let (Some(kept), Some(cache)) = (self.layout.read(state)?, self.rod_cache(cache)) else {
+            return self.find_nodes(at, state, out);
         };
-        if self.rod_with_mesh(&kept, &warm.rod)?.is_some() {
-            return self.tell_along(at, state, out);
+        if self.rod_with_mesh(&kept, &cache.rod)?.is_some() {
+            return self.find_nodes(at, state, out);
         }
         let ends = self.end_conditions(at.ends, at.step.is_none())?;
-        let SolverCache { rod, state, flows, .. } = warm;
+        let RodCache { rod, state, flows, .. } = cache;
         state.unpack_into(rod, kept.motion).map_err(to_class_error)?;
         self.with_environment((at, at.step.is_none(), kept.paid), flows, |world| rod.row(state, world, &ends, out));
         Ok(())
     }
+}
 
-    pub(super) fn tell_modes(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
+impl DynamicElement for DynamicLine {
+    fn energy_balance(&self, state: &[f64]) -> Option<EnergyBalance> {
+        let found = self.layout.balance(state)?;
+        let (e, w) = (&found.energy, &found.work);
+        Some(EnergyBalance {
+            energy: [e.kinetic, e.elastic, e.gravity, e.bottom + e.supports],
+            work: [w.ends[0], w.ends[1], w.fluid + w.given, w.damping, w.bottom + w.supports],
+            energy_error: found.energy_error(),
+            turnover: found.turnover,
+            momentum_error: found.momentum_error(),
+        })
+    }
+
+    fn natural_modes(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
         modes::few(self.base.rod.nodes(), number)?;
         let paid = self.layout.paid(state);
         let (other, state, _) = self.where_it_is(at, state)?;
@@ -74,18 +86,24 @@ impl DynamicLine {
         })
     }
 
-    /// What is said where it rests without the friction that the bottom has.
-    pub(super) fn told_of_friction(&self, at: &Situation) -> Option<&'static str> {
+    fn max_payout_step(&self) -> f64 {
+        max_payout_step(self.nominal)
+    }
+
+    /// That it rests without the friction that the bottom has.
+    fn static_caution(&self, at: &Situation) -> Option<&'static str> {
         if !self.base.ground.rough() {
             return None;
         }
-        let mut warm = SolverCache::new(&self.base);
-        let slid = self.rest(at, &mut warm).is_ok() && warm.solver.has_slid_without_friction();
+        let mut cache = RodCache::new(&self.base);
+        let slid = self.rest(at, &mut cache).is_ok() && cache.solver.has_slid_without_friction();
         slid.then_some(
             "friction of the bottom at rest is left out, but against sliding down a slope: no rest was found with it",
         )
     }
+}
 
+impl DynamicLine {
     /// What is said of ends that are held where elements are too long for the bending there, which fades over sqrt(EI/T).
     fn coarse(&self, nodes: &[LineNode]) -> Vec<Note> {
         let parts = &self.base.description.parts;
@@ -125,9 +143,9 @@ impl DynamicLine {
         told.collect()
     }
 
-    pub(super) fn tell_summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
+    pub(super) fn summarize(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
         let mut nodes = Vec::new();
-        self.tell_along(at, committed, &mut nodes)?;
+        self.find_nodes(at, committed, &mut nodes)?;
         let notes = self.base.description.notes.iter().map(|n| n.as_str().into()).collect();
         let mut told = ElementSummary { solution: "rod", notes, ..ElementSummary::default() };
         told.tension = nodes.first().map(|n| n.effective);
@@ -151,7 +169,7 @@ impl DynamicLine {
         told.notes.extend(self.coarse(&nodes));
         told.notes.extend(self.stocky(&nodes));
         if at.step.is_none() {
-            told.notes.extend(self.told_of_friction(at).map(Note::warning));
+            told.notes.extend(self.static_caution(at).map(Note::warning));
         }
         let lies = |pair: &[LineNode]| pair.iter().all(|n| n.clearance <= 0.0);
         told.grounded = Some(nodes.windows(2).filter(|p| lies(p)).map(|p| p[1].arc - p[0].arc).sum());

@@ -5,7 +5,7 @@ use super::element::DynamicLine;
 use super::environment::ground;
 use super::mesh::{Cut, few, mesh, to_class_error};
 use super::pipelay_supports::{PipeLay, SupportedPart, Tensioner};
-use super::solver_cache::{Base, SolverCache};
+use super::rod_cache::{Base, RodCache};
 use super::state_layout::StateLayout;
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -163,7 +163,7 @@ impl DynamicLine {
             let line = along_course(&description, part, &layout, (&course, laid))?;
             let Some(tensioner) = tensioner.as_mut().filter(|t| t.stiffness == 0.0) else { return Ok(line) };
             // it is cut where the tensioner holds it as laid
-            let rest = line.rest(&at, &mut SolverCache::new(&line.base))?.state;
+            let rest = line.rest(&at, &mut RodCache::new(&line.base))?.state;
             let end = ends.last().zip(rest.place(0));
             let short =
                 end.map_or(0.0, |(end, x)| (end.pose.axes * turn * tensioner.along).dot(&(x - end.pose.origin)));

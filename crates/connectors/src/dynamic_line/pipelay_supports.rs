@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Pose;
 use windlass_line_dynamics::{Support, SupportLaw, SupportReaction, SupportTarget};
-use windlass_model::{Element, ElementResponse, End, Situation, Surroundings};
+use windlass_model::{Element, ElementResponse, End, Situation, SolverCache, Surroundings};
 
 /// What a pipe lies on.
 #[derive(Clone, Debug)]
@@ -87,7 +87,7 @@ impl SupportLaw for SupportContact<'_> {
         let ends = [End::still(self.pose), End::still(Pose { origin: origin + at, axes })];
         let situation = Situation { ends: &ends, step: None, surroundings: self.around };
         let mut out = self.room.borrow_mut();
-        let found = self.law.evaluate(&situation, &[], &mut [], &mut None, &mut out);
+        let found = self.law.evaluate(&situation, &[], &mut [], &mut SolverCache::new(), &mut out);
         let mut made = SupportReaction::default();
         match (found, out.wrench.get(1), out.stiffness.get(3)) {
             (Ok(()), Some(wrench), Some(block)) => {

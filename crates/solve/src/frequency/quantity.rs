@@ -5,7 +5,7 @@ use crate::link::{EndAttachment, arm, pose_of};
 use crate::system::SolveError;
 use nalgebra::{Complex, DVector, Vector3};
 use windlass_hydro::move_stiffness;
-use windlass_model::{ElementResponse, End, Situation, TimeStep};
+use windlass_model::{ElementResponse, End, Situation, SolverCache, TimeStep};
 
 /// Which derivative with time is meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -88,7 +88,7 @@ impl LinearQuantity {
         for (step, out) in [(None, &mut rest), (step, &mut under_way)] {
             let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
             link.element
-                .evaluate(&at, committed, &mut trial, &mut None, out)
+                .evaluate(&at, committed, &mut trial, &mut SolverCache::new(), out)
                 .map_err(SolveError::error_about(&link.name))?;
         }
         let size = 6 * system.nodes.len();

@@ -3,7 +3,7 @@
 use super::super::link::{EndAttachment, end_attachments, pose_of};
 use super::super::system::SolveError;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Connector, Element, End, Guess, Model, Situation, Surroundings};
+use windlass_model::{Connector, Element, End, Model, Situation, SolverCache, Surroundings};
 
 /// What a row does not keep of a connector.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub(super) struct Settling<'a> {
     surroundings: Surroundings,
     /// Length of its first segment now (m).
     length: Option<f64>,
-    guess: Guess,
+    cache: SolverCache,
     wrenches: Vec<Six>,
     between: Vec<End>,
 }
@@ -57,7 +57,7 @@ impl<'a> Settling<'a> {
             surroundings: model.surroundings(),
             length: model.first_length(connector),
             connector: connector.clone(),
-            guess: None,
+            cache: SolverCache::new(),
             wrenches: Vec::new(),
             between: Vec::new(),
         }))
@@ -83,7 +83,7 @@ impl<'a> Settling<'a> {
         let (mut vertical, mut horizontal) = (f64::NAN, f64::NAN);
         if told.tension.is_some() && matches!(far, EndAttachment::Ground(_)) {
             self.element
-                .wrenches(&at, &[], &mut self.guess, &mut self.wrenches)
+                .evaluate_wrenches(&at, &[], &mut self.cache, &mut self.wrenches)
                 .map_err(SolveError::error_about(name))?;
             if let Some(pull) = self.wrenches.get(1) {
                 (vertical, horizontal) = (pull[2], pull[0].hypot(pull[1]));

@@ -6,7 +6,7 @@ use crate::time::RunRequirements;
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{Underway, ambient, move_wrench};
-use windlass_model::{Body, ClassError, Model};
+use windlass_model::{Body, ClassError, Model, SolverCache};
 use windlass_model::{ElementResponse, End, Situation, Surroundings, TimeStep};
 use windlass_tether::structure::flow::FlowAt;
 use windlass_tether::structure::{Structure, StructureForces};
@@ -45,7 +45,7 @@ impl Moored {
                 continue;
             }
             let made = link((model, &ambient, &RunRequirements::default()), connector, &mut states)?;
-            if made.element.moves() {
+            if made.is_dynamic() {
                 let error = ClassError::new("a dynamic line cannot run beside tethers").with_span(connector.span);
                 let error = error.help("release it, or give a class without dynamics of its own");
                 return Err(SolveError { who: Some(connector.name.clone()), error });
@@ -123,7 +123,9 @@ impl Structure for Moored {
                 error.message = error.message.about(format!("connector {}", link.name));
                 error
             };
-            link.element.evaluate(&situation, before, after, &mut None, &mut self.response).map_err(named)?;
+            link.element
+                .evaluate(&situation, before, after, &mut SolverCache::new(), &mut self.response)
+                .map_err(named)?;
             for ((end, kind), wrench) in ends.iter().zip(&link.ends).zip(&self.response.wrench) {
                 if matches!(kind, EndAttachment::Body(..)) {
                     out.floating += move_wrench(wrench, end.pose.origin - at.pose.origin);

@@ -37,7 +37,8 @@ impl Run {
     /// In how many parts a step of the run is taken while a line is wound at a rate (m/s): its elements appear and go one by one.
     fn parts_to_wind(&self, name: &str, rate: f64) -> Result<f64, SolveError> {
         let Some(link) = self.system.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(1.0) };
-        let Some(most) = link.element.most_wound() else { return Ok(1.0) };
+        let Some(line) = link.element.as_dynamic() else { return Ok(1.0) };
+        let most = line.max_payout_step();
         let parts = (rate.abs() * self.settings.dt / most).ceil().max(1.0);
         if parts <= MAX_STEP_PARTS {
             return Ok(parts);
@@ -195,7 +196,7 @@ impl Run {
                                 from,
                             ))
                         };
-                        return link.element.pushes().map_or_else(|| Some(force.norm()), away);
+                        return link.element.compression_onset().map_or_else(|| Some(force.norm()), away);
                     }
                     first += link.ends.len();
                 }
@@ -280,7 +281,7 @@ impl Run {
                 for name in names {
                     self.winches.retain(|(n, ..)| !n.eq_ignore_ascii_case(name));
                     // a dynamic line is let go at its first end, and falls
-                    let falls = self.system.moves(name);
+                    let falls = self.system.is_dynamic_line(name);
                     if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
                         connector.active = falls;
                     }

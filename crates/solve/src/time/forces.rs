@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{BodyLoad, Category, MovingLoad, Underway, move_stiffness, move_wrench, turning};
-use windlass_model::{Anchored, ElementResponse, End, Guess, Situation, TimeStep};
+use windlass_model::{AnchoredResponse, ElementResponse, End, Situation, SolverCache, TimeStep};
 
 /// Number of categories.
 pub const CATEGORY_COUNT: usize = Category::ALL.len();
@@ -142,8 +142,8 @@ pub struct BodyForces {
     pub(super) ties: Ties,
     /// States of the connectors at the end of the step.
     pub trial: Vec<f64>,
-    /// What solvers of the connectors remember.
-    pub(super) guesses: Vec<Guess>,
+    /// What the solvers of the connectors keep.
+    pub(super) caches: Vec<SolverCache>,
     foretelling: ForcePredictor,
     /// Whether a connector has inertia of its own.
     pub(super) moving: bool,
@@ -177,8 +177,8 @@ impl BodyForces {
         self.wrenches.clear();
         self.carried = false;
         self.ties.begin(system.links.len(), system.nodes.len());
-        self.moving = system.links.iter().any(|l| l.element.moves());
-        self.guesses.resize_with(system.links.len(), || None);
+        self.moving = system.links.iter().any(|l| l.is_dynamic());
+        self.caches.resize_with(system.links.len(), SolverCache::new);
         self.trial.clear();
         self.trial.extend_from_slice(&system.states);
     }
@@ -300,22 +300,23 @@ impl BodyForces {
     fn connect(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
         self.connect_moving(system, motions, (time, dt));
         let mut alone = 0..;
-        let (flexible, rigid) = (Category::FlexConnectors.index(), Category::RigidConnectors.index());
+        let flexible = Category::FlexConnectors.index();
         for (index, link) in system.links.iter().enumerate() {
             self.place_ends(link, motions);
             let committed = &system.states[link.states.clone()];
             let trial = &mut self.trial[link.states.clone()];
-            let Some(guess) = self.guesses.get_mut(index) else { continue };
+            let Some(cache) = self.caches.get_mut(index) else { continue };
             let step = (dt > 0.0).then_some(TimeStep { time, dt });
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
             let anchored = matches!(link.ends.as_slice(), [EndAttachment::Body(..), EndAttachment::Ground(_)]);
-            if let (true, Some(found)) = (anchored, link.element.find_anchored(&at, guess)) {
-                let Anchored { wrenches, stiffness } = found.map_err(SolveError::error_about(&link.name))?;
+            if let Some(element) = link.element.as_anchored().filter(|_| anchored) {
+                let found = element.evaluate_anchored(&at, cache).map_err(SolveError::error_about(&link.name))?;
+                let AnchoredResponse { wrenches, stiffness } = found;
                 self.wrenches.extend_from_slice(&wrenches);
                 self.hold(link, &wrenches, &stiffness, flexible);
                 continue;
             }
-            if link.element.moves() {
+            if link.is_dynamic() {
                 let Some(found) = alone.next().and_then(|at| self.alone.get_mut(at)) else { continue };
                 if let Some(error) = found.failed.take() {
                     return Err(SolveError::error_about(&link.name)(error));
@@ -324,20 +325,20 @@ impl BodyForces {
                 std::mem::swap(&mut self.response, &mut found.response);
             } else {
                 let held = self.ties.forces.get(index).and_then(Option::as_ref);
-                let tie = if self.ties.holds { link.element.tie(&at, held, &mut self.response) } else { None };
-                match tie {
+                match link.element.as_stiff_tie().filter(|_| self.ties.holds) {
                     Some(tie) => {
+                        let tie = tie.evaluate_tie(&at, held, &mut self.response);
                         let tie = tie.map_err(SolveError::error_about(&link.name))?;
                         self.ties.take(index, tie, &self.response.stiffness, (&link.ends, &self.arms));
                     }
                     None => link
                         .element
-                        .evaluate(&at, committed, trial, guess, &mut self.response)
+                        .evaluate(&at, committed, trial, cache, &mut self.response)
                         .map_err(SolveError::error_about(&link.name))?,
                 }
             }
             self.wrenches.extend_from_slice(&self.response.wrench);
-            let category = if link.element.rigid() { rigid } else { flexible };
+            let category = Category::from(link.element.category()).index();
             let count = link.ends.len();
             for (i, (end, own)) in link.ends.iter().zip(&self.arms).enumerate() {
                 let EndAttachment::Body(body, _) = end else { continue };
@@ -378,7 +379,7 @@ impl BodyForces {
         self.ends.clear();
         self.arms.clear();
         for end in &link.ends {
-            let (end, arm) = end_of(end, motions, link.element.moves());
+            let (end, arm) = end_of(end, motions, link.is_dynamic());
             self.ends.push(end);
             self.arms.push(arm);
         }

@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
 use windlass_hydro::Category;
-use windlass_model::{ClassError, Guess, LineNode, Situation, TimeStep};
+use windlass_model::{ClassError, LineNode, Situation, SolverCache, TimeStep};
 
 /// Values of a body in a row: place (m), roll, pitch, yaw (rad), velocity (m/s, rad/s), acceleration (m/s2, rad/s2), global.
 pub const OF_BODY: usize = 18;
@@ -234,9 +234,9 @@ impl RowLayout {
                     }
                 }
                 if let Some(along) = &columns.along {
-                    let mut none = None;
-                    let guess = forces.guesses.get_mut(index).unwrap_or(&mut none);
-                    nodes_of((system, link, guess), (time, motions), &mut told.nodes)
+                    let mut none = SolverCache::new();
+                    let cache = forces.caches.get_mut(index).unwrap_or(&mut none);
+                    nodes_of((system, link, cache), (time, motions), &mut told.nodes)
                         .and_then(|()| along.write(&told.nodes, row))
                         .map_err(|e| SolveError::error_about(&link.name)(at_time(e, time)))?;
                 }
@@ -265,14 +265,20 @@ impl RowLayout {
 
 /// The nodes of a line at an instant.
 fn nodes_of(
-    (system, link, guess): (&System, &Link, &mut Guess),
+    (system, link, cache): (&System, &Link, &mut SolverCache),
     (time, motions): (f64, &[BodyMotion]),
     nodes: &mut Vec<LineNode>,
 ) -> Result<(), ClassError> {
     let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions, true).0).collect();
     let step = Some(TimeStep { time, dt: 0.0 });
     let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
-    link.element.row(&at, &system.states[link.states.clone()], guess, nodes)
+    match link.element.as_nodal() {
+        Some(nodal) => nodal.find_row_nodes(&at, &system.states[link.states.clone()], cache, nodes),
+        None => {
+            nodes.clear();
+            Ok(())
+        }
+    }
 }
 
 fn at_time(error: ClassError, time: f64) -> ClassError {

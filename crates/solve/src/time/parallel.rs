@@ -3,7 +3,7 @@
 use super::forces::{BodyForces, BodyMotion};
 use crate::system::System;
 use std::sync::{Mutex, PoisonError};
-use windlass_model::{ClassError, ElementResponse, End, Guess, Situation, TimeStep};
+use windlass_model::{ClassError, ElementResponse, End, Situation, SolverCache, TimeStep};
 
 /// One of them, with what its evaluation needs and finds.
 #[derive(Default)]
@@ -12,7 +12,7 @@ pub(super) struct LineTask {
     pub link: usize,
     pub ends: Vec<End>,
     pub trial: Vec<f64>,
-    pub guess: Guess,
+    pub cache: SolverCache,
     pub response: ElementResponse,
     pub failed: Option<ClassError>,
 }
@@ -30,7 +30,7 @@ impl BodyForces {
             self.alone.clear();
             return;
         }
-        let moving = || system.links.iter().enumerate().filter(|(_, l)| l.element.moves());
+        let moving = || system.links.iter().enumerate().filter(|(_, l)| l.is_dynamic());
         self.alone.resize_with(moving().count(), LineTask::default);
         let mut alone = std::mem::take(&mut self.alone);
         for (one, (index, link)) in alone.iter_mut().zip(moving()) {
@@ -39,12 +39,12 @@ impl BodyForces {
             one.ends.clone_from(&self.ends);
             // all of it is written
             one.trial.resize(link.states.len(), 0.0);
-            one.guess = self.guesses.get_mut(index).and_then(Option::take);
+            one.cache = self.caches.get_mut(index).map(SolverCache::take).unwrap_or_default();
         }
         evaluate(system, &mut alone, Some(TimeStep { time, dt }));
         for one in &mut alone {
-            if let Some(guess) = self.guesses.get_mut(one.link) {
-                *guess = one.guess.take();
+            if let Some(cache) = self.caches.get_mut(one.link) {
+                *cache = one.cache.take();
             }
         }
         self.alone = alone;
@@ -57,7 +57,7 @@ fn evaluate(system: &System, lines: &mut [LineTask], step: Option<TimeStep>) {
         let Some(link) = system.links.get(line.link) else { return };
         let at = Situation { ends: &line.ends, step, surroundings: &system.surroundings };
         let committed = &system.states[link.states.clone()];
-        let made = link.element.evaluate(&at, committed, &mut line.trial, &mut line.guess, &mut line.response);
+        let made = link.element.evaluate(&at, committed, &mut line.trial, &mut line.cache, &mut line.response);
         line.failed = made.err();
     };
     let helpers = rayon::current_num_threads().min(lines.len()).saturating_sub(1);

@@ -56,7 +56,7 @@ impl Run {
         made.bytes(format!("{method:?} {:?}", self.actions).as_bytes());
         made.numbers(self.model.parameters.dividing.as_slice());
         // they stand in what lines remember
-        if balance && self.system.links.iter().any(|l| l.element.moves()) {
+        if balance && self.system.links.iter().any(|l| l.is_dynamic()) {
             made.bytes(b"balance");
         }
         made.0

@@ -360,7 +360,7 @@ impl Run {
 
     /// Forgets what solvers remember, so that a run that goes on from a snapshot finds the same digits.
     pub(super) fn clear_caches(&mut self) {
-        self.now.forces.guesses.clear();
+        self.now.forces.caches.clear();
         self.now.forces.ties.forces.clear();
         self.now.forces.unsettle();
     }

@@ -21,14 +21,14 @@ impl Run {
 
     /// Whether a dynamic line acts now.
     pub fn has_dynamic_lines(&self) -> bool {
-        self.system.links.iter().any(|l| l.element.moves())
+        self.system.links.iter().any(|l| l.is_dynamic())
     }
 
     /// The energy balance of the dynamic lines, by name, where it is kept.
     pub fn balance(&self) -> Vec<(String, EnergyBalance)> {
         let of = |link: &Link| {
             let state = &self.system.states[link.states.clone()];
-            link.element.balance(state).map(|balance| (link.name.clone(), balance))
+            link.element.as_dynamic()?.energy_balance(state).map(|balance| (link.name.clone(), balance))
         };
         self.system.links.iter().filter_map(of).collect()
     }

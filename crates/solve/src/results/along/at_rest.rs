@@ -7,7 +7,7 @@ use crate::time::RunRequirements;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::ambient;
-use windlass_model::{DYNAMIC, Element, End, LineNode, Model, Situation};
+use windlass_model::{DYNAMIC, DynamicElement, Element, End, LineNode, Model, Situation};
 
 /// Tells of each dynamic line and whose name fits, between its ends where they stand: its name, its element, how its ends
 /// stand, and its state before anything has happened.
@@ -17,20 +17,18 @@ use windlass_model::{DYNAMIC, Element, End, LineNode, Model, Situation};
 pub(crate) fn standing(
     model: &Model,
     fits: &dyn Fn(&str) -> bool,
-    mut tell: impl FnMut(&str, &dyn Element, &Situation, &[f64]) -> Result<(), SolveError>,
+    mut tell: impl FnMut(&str, &dyn DynamicElement, &Situation, &[f64]) -> Result<(), SolveError>,
 ) -> Result<(), SolveError> {
     let around = ambient(model, None).map_err(SolveError::new)?;
     let poses: Vec<_> = model.bodies.values().map(|b| windlass_base::pose::Pose::of(&b.place)).collect();
     let surroundings = model.surroundings();
     let mut told = |name: &str, element: &dyn Element, ends: &[EndAttachment]| {
-        if element.nodes() == 0 {
-            return Ok(());
-        }
+        let Some(line) = element.as_dynamic() else { return Ok(()) };
         let ends: Vec<End> = ends.iter().map(|end| End::still(pose_of(end, &poses))).collect();
         let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
         let mut state = vec![0.0; element.states()];
         element.start(&mut state);
-        tell(name, element, &at, &state)
+        tell(name, line, &at, &state)
     };
     for connector in model.connectors.values().filter(|c| c.active && fits(&c.name) && !model.holds_pipe(&c.name)) {
         let element = match model.element_in(connector, Some(&around)) {
@@ -54,8 +52,8 @@ pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
     let mut made = Vec::new();
     // of others nothing is to be said
     let moves = |name: &str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.moves(c));
-    let told = standing(model, &moves, |name, element, at, _| {
-        made.extend(element.caution(at).map(|text| (name.to_string(), text)));
+    let told = standing(model, &moves, |name, line, at, _| {
+        made.extend(line.static_caution(at).map(|text| (name.to_string(), text)));
         Ok(())
     });
     // who solves says why a line cannot be made
@@ -68,9 +66,9 @@ pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
 /// A line that has no answer there.
 pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Table>, SolveError> {
     let mut tables = Vec::new();
-    standing(model, fits, |name, element, at, state| {
+    standing(model, fits, |name, line, at, state| {
         let mut nodes = Vec::new();
-        element.line_nodes(at, state, &mut nodes).map_err(SolveError::error_about(name))?;
+        line.find_nodes(at, state, &mut nodes).map_err(SolveError::error_about(name))?;
         let sections = sections(model, name);
         let tube = sections.iter().any(|s| s.tube.is_some());
         let rows: Vec<(usize, &LineNode)> = nodes.iter().enumerate().collect();
@@ -86,7 +84,7 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
             })
             .column("", "Clearance", Dim::Length, CLEARANCE, |(_, node)| finite(node.clearance))
             .column("", "Tension", Dim::Force, Digits::Usual, |(_, node)| finite(node.effective));
-        if element.bends() {
+        if line.has_bending() {
             let per_length = Dim::Derived { force: 0, length: -1, seconds: 0 };
             table = table
                 .column("", "Shear", Dim::Force, Digits::Usual, |(_, node)| node.shear)

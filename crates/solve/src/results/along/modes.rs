@@ -19,12 +19,12 @@ pub fn natural_modes(
     shapes: bool,
 ) -> Result<Vec<Table>, SolveError> {
     let mut tables = Vec::new();
-    standing(model, fits, |name, element, at, state| {
+    standing(model, fits, |name, line, at, state| {
         let wrong = SolveError::error_about(name);
         // what is too much is refused before anything is solved
-        let modes = element.swings(at, state, number).map_err(&wrong)?;
+        let modes = line.natural_modes(at, state, number).map_err(&wrong)?;
         let mut nodes = Vec::new();
-        element.line_nodes(at, state, &mut nodes).map_err(&wrong)?;
+        line.find_nodes(at, state, &mut nodes).map_err(&wrong)?;
         tables.push(periods(name, &nodes, &modes));
         if shapes {
             for (index, mode) in modes.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a dynamic line is made of, and what its solver remembers.
+//! What a dynamic line is made of, and what its solver keeps for a warm start.
 
 use super::describe::LineDescription;
 use super::mesh::Bands;
@@ -39,11 +39,11 @@ pub(super) struct Base {
     pub laid: Option<PipeLay>,
 }
 
-/// What a solver of a line remembers.
-pub(super) struct SolverCache {
+/// What the solver of a dynamic line keeps from one answer to the next.
+pub(super) struct RodCache {
     pub base: Arc<Base>,
     pub rod: Rod,
-    /// What solves it, as long as [`SolverCache::fit`] is asked when the rod has become another.
+    /// What solves it, as long as [`RodCache::fit`] is asked when the rod has become another.
     pub solver: RodSolver,
     /// Nodes that the solver has memory for.
     nodes: usize,
@@ -54,12 +54,12 @@ pub(super) struct SolverCache {
     pub flows: Vec<Flow>,
 }
 
-impl SolverCache {
+impl RodCache {
     pub fn new(base: &Arc<Base>) -> Self {
         let rod = base.rod.clone();
         let (state, flows) = (RodState::default(), Vec::new());
         let nodes = rod.nodes();
-        SolverCache { base: base.clone(), solver: solver_of(base, &rod), nodes, rod, rest: None, state, flows }
+        RodCache { base: base.clone(), solver: solver_of(base, &rod), nodes, rod, rest: None, state, flows }
     }
 
     /// Gives the rod another solver, if a winch has given it more nodes or fewer: of other lengths alone the solver remembers where it was.
@@ -105,17 +105,17 @@ mod tests {
             felt: [true; 2],
             laid: None,
         };
-        let mut warm = SolverCache::new(&Arc::new(base));
+        let mut cache = RodCache::new(&Arc::new(base));
         let fluid = UniformFluid::vacuum();
         let world = LineEnvironment::new(&fluid, 9.81);
         let ends = [Vector3::zeros(), Vector3::new(8.0, 0.0, 0.0)];
         let mut state = RodState::along_points(&rod, &ends).unwrap();
-        warm.solver.statics(&rod, &mut state, &world, ends.map(RodEnd::pin)).unwrap();
-        warm.rod.set_length(0, 2.5, 0.5).unwrap();
-        warm.fit();
-        assert!(warm.solver.end_tangent(&rod, &world).is_some());
-        warm.rod.divide(0, &mut state).unwrap();
-        warm.fit();
-        assert!(warm.solver.end_tangent(&warm.rod, &world).is_none());
+        cache.solver.statics(&rod, &mut state, &world, ends.map(RodEnd::pin)).unwrap();
+        cache.rod.set_length(0, 2.5, 0.5).unwrap();
+        cache.fit();
+        assert!(cache.solver.end_tangent(&rod, &world).is_some());
+        cache.rod.divide(0, &mut state).unwrap();
+        cache.fit();
+        assert!(cache.solver.end_tangent(&cache.rod, &world).is_none());
     }
 }
