@@ -1,8 +1,10 @@
 //! What an engine asks of a load on a body: its mean on the body at rest, and its value on the body under way.
 //!
-//! In a step of time an engine calls [`BodyLoad::begin`] once, with where it expects the body at the end of the step, then
-//! [`BodyLoad::moving`] for every trial of that end, and [`BodyLoad::commit`] once the step is accepted. A step that is given up
-//! is followed by another `begin` from the same state, so that `begin` may keep what it finds but nothing that has happened.
+//! In a step of time an engine calls [`StatefulLoad::begin`] once, with where it expects the body at the end of the step, then
+//! [`BodyLoad::dynamic_load`] for every trial of that end, and [`StatefulLoad::commit`] once the step is accepted. A step that is
+//! given up is followed by another `begin` from the same state, so that `begin` may keep what it finds but nothing that has happened.
+//!
+//! What only some loads can do are traits of their own, which the accessors `as_..` of [`BodyLoad`] give.
 
 use super::{Category, Load};
 use nalgebra::Matrix6;
@@ -25,23 +27,23 @@ pub struct Underway<'a> {
 
 /// A force on a body under way, and how it changes with its place and velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MovingLoad {
+pub struct DynamicLoad {
     /// The force, and its change with the place.
     pub load: Load,
     /// -d(wrench)/d(velocity of the origin, rotation), global axes (N s/m, N s, N m s).
     pub damping: Matrix6<f64>,
 }
 
-impl Default for MovingLoad {
+impl Default for DynamicLoad {
     fn default() -> Self {
-        MovingLoad::of(Load::none())
+        Load::none().into()
     }
 }
 
-impl MovingLoad {
+impl From<Load> for DynamicLoad {
     /// A load that no velocity changes.
-    pub fn of(load: Load) -> Self {
-        MovingLoad { load, damping: Matrix6::zeros() }
+    fn from(load: Load) -> Self {
+        DynamicLoad { load, damping: Matrix6::zeros() }
     }
 }
 
@@ -54,68 +56,85 @@ pub trait BodyLoad: Debug + Send + Sync {
     ///
     /// # Errors
     /// A pose for which it has no value.
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError>;
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError>;
 
-    /// Number of values it remembers from step to step, with room for what [`BodyLoad::begin`] finds.
-    fn states(&self) -> usize {
-        0
-    }
-
-    /// What it remembers before anything has happened; the engine gives zeros.
-    fn start(&self, _state: &mut [f64]) {}
-
-    /// Prepares the step that ends `ahead`: what does not depend on the trial is found here once. The place and velocity are
-    /// those expected, exact to the second order of the step; a load that varies little with them may take them for the step.
+    /// The load at a trial of the end of the step that was begun; of a load without state the state is empty.
     ///
     /// # Errors
     /// A place for which it has no value.
-    fn begin(&self, _ahead: &Underway, _state: &mut [f64]) -> Result<(), ClassError> {
-        Ok(())
+    fn dynamic_load(&self, at: &Underway, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        self.mean_load(at.pose).map(DynamicLoad::from)
     }
 
-    /// The wrench as the state has it, of a load whose [`BodyLoad::begin`] decides what time changes in it: an engine foretells with
-    /// it how the load goes on from the step before. It is linear in the axes, which may be the mean of two poses. None of others.
-    fn held(&self, _at: &Underway, _state: &[f64]) -> Option<Six> {
-        None
-    }
-
-    /// The load at a trial of the end of the step that was begun.
+    /// Adds what [`BodyLoad::dynamic_load`] gives; a load of which little is other than zero does it with less work.
     ///
     /// # Errors
-    /// A place for which it has no value.
-    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
-        self.load(at.pose).map(MovingLoad::of)
-    }
-
-    /// What the load adds to the inertia of the body over the step that was begun: -d(wrench)/d(acceleration of the origin, of the
-    /// rotation), global axes (kg, kg m, kg m2). The wrench of [`BodyLoad::moving`] is without it: the engine has the acceleration at
-    /// the end of the step, where that of the velocities of both ends would be late by half a step. None of most loads.
-    fn inertia(&self, _state: &[f64]) -> Option<Matrix6<f64>> {
-        None
-    }
-
-    /// The categories besides its own in which parts of the load are counted. Reports have a place for each of them.
-    fn other_categories(&self) -> &'static [Category] {
-        &[]
-    }
-
-    /// The part of the load that is counted in one of [`BodyLoad::other_categories`] instead of its own (N, N m; as the load itself).
-    fn part(&self, _category: Category, _at: &Underway, _state: &[f64]) -> Six {
-        Six::zeros()
-    }
-
-    /// Adds what [`BodyLoad::moving`] gives; a load of which little is other than zero does it with less work.
-    ///
-    /// # Errors
-    /// As [`BodyLoad::moving`].
-    fn add(&self, at: &Underway, state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
-        let made = self.moving(at, state)?;
+    /// As [`BodyLoad::dynamic_load`].
+    fn add_dynamic_load(&self, at: &Underway, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
+        let made = self.dynamic_load(at, state)?;
         out.load.wrench += made.load.wrench;
         out.load.stiffness += made.load.stiffness;
         out.damping += made.damping;
         Ok(())
     }
 
+    /// The load as one with a state.
+    fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
+        None
+    }
+
+    /// The load as one whose beginning of a step decides what time changes in it.
+    fn as_prepared(&self) -> Option<&dyn PreparedLoad> {
+        None
+    }
+
+    /// The load as one that adds to the inertia of the body.
+    fn as_inertial(&self) -> Option<&dyn InertialLoad> {
+        None
+    }
+
+    /// The load as one of which parts are counted in other categories.
+    fn as_divided(&self) -> Option<&dyn DividedLoad> {
+        None
+    }
+}
+
+/// A load that keeps values from step to step.
+pub trait StatefulLoad {
+    /// Number of values, with room for what [`StatefulLoad::begin`] finds. All are zero before anything has happened.
+    fn states(&self) -> usize;
+
+    /// Prepares the step that ends `ahead`: what does not depend on the trial is found here once. The place and velocity are
+    /// those expected, exact to the second order of the step; a load that varies little with them may take them for the step.
+    ///
+    /// # Errors
+    /// A place for which it has no value.
+    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError>;
+
     /// The step is accepted with its end there.
     fn commit(&self, _at: &Underway, _state: &mut [f64]) {}
+}
+
+/// A load whose [`StatefulLoad::begin`] decides what time changes in it: an engine predicts from it how the load goes on from the step
+/// before.
+pub trait PreparedLoad {
+    /// The wrench as the state has it. It is linear in the axes, which may be the mean of two poses.
+    fn prepared_wrench(&self, at: &Underway, state: &[f64]) -> Six;
+}
+
+/// A load that adds to the inertia of the body.
+pub trait InertialLoad {
+    /// What it adds over the step that was begun: -d(wrench)/d(acceleration of the origin, of the rotation), global axes (kg, kg m,
+    /// kg m2). The wrench of [`BodyLoad::dynamic_load`] is without it: the engine has the acceleration at the end of the step, where
+    /// that of the velocities of both ends would be late by half a step.
+    fn inertia(&self, state: &[f64]) -> Matrix6<f64>;
+}
+
+/// A load of which parts are counted in other categories than its own.
+pub trait DividedLoad {
+    /// The categories besides its own. Reports have a place for each of them.
+    fn other_categories(&self) -> &'static [Category];
+
+    /// The part of the load that is counted in one of them instead of its own (N, N m; as the load itself).
+    fn part(&self, category: Category, at: &Underway, state: &[f64]) -> Six;
 }

@@ -11,7 +11,9 @@ use super::plate::PlateLoad;
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
 use super::stream::LoadPlace;
-use super::{BodyLoad, Category, Load, MovingLoad, Underway, pieces};
+use super::{
+    BodyLoad, Category, DividedLoad, DynamicLoad, InertialLoad, Load, PreparedLoad, StatefulLoad, Underway, pieces,
+};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
@@ -40,47 +42,54 @@ impl BodyLoad for ScaledLoad {
         self.load.category()
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        let load = self.load.load(pose)?;
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let load = self.load.mean_load(pose)?;
         Ok(Load { wrench: load.wrench * self.factor, stiffness: load.stiffness * self.factor })
     }
 
-    fn states(&self) -> usize {
-        self.load.states()
-    }
-
-    fn start(&self, state: &mut [f64]) {
-        self.load.start(state);
-    }
-
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
-        self.load.begin(ahead, state)
-    }
-
-    fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
-        self.load.held(at, state).map(|wrench| wrench * self.factor)
-    }
-
-    fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        let MovingLoad { load, damping } = self.load.moving(at, state)?;
+    fn dynamic_load(&self, at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        let DynamicLoad { load, damping } = self.load.dynamic_load(at, state)?;
         let load = Load { wrench: load.wrench * self.factor, stiffness: load.stiffness * self.factor };
-        Ok(MovingLoad { load, damping: damping * self.factor })
+        Ok(DynamicLoad { load, damping: damping * self.factor })
     }
 
-    fn inertia(&self, state: &[f64]) -> Option<Matrix6<f64>> {
-        self.load.inertia(state).map(|inertia| inertia * self.factor)
+    /// Its state is that of the load itself.
+    fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
+        self.load.as_stateful()
     }
 
+    fn as_prepared(&self) -> Option<&dyn PreparedLoad> {
+        self.load.as_prepared().map(|_| self as _)
+    }
+
+    fn as_inertial(&self) -> Option<&dyn InertialLoad> {
+        self.load.as_inertial().map(|_| self as _)
+    }
+
+    fn as_divided(&self) -> Option<&dyn DividedLoad> {
+        self.load.as_divided().map(|_| self as _)
+    }
+}
+
+impl PreparedLoad for ScaledLoad {
+    fn prepared_wrench(&self, at: &Underway, state: &[f64]) -> Six {
+        self.load.as_prepared().map_or_else(Six::zeros, |load| load.prepared_wrench(at, state) * self.factor)
+    }
+}
+
+impl InertialLoad for ScaledLoad {
+    fn inertia(&self, state: &[f64]) -> Matrix6<f64> {
+        self.load.as_inertial().map_or_else(Matrix6::zeros, |load| load.inertia(state) * self.factor)
+    }
+}
+
+impl DividedLoad for ScaledLoad {
     fn other_categories(&self) -> &'static [Category] {
-        self.load.other_categories()
+        self.load.as_divided().map_or(&[], |load| load.other_categories())
     }
 
     fn part(&self, category: Category, at: &Underway, state: &[f64]) -> Six {
-        self.load.part(category, at, state) * self.factor
-    }
-
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
-        self.load.commit(at, state);
+        self.load.as_divided().map_or_else(Six::zeros, |load| load.part(category, at, state) * self.factor)
     }
 }
 

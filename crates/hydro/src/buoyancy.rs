@@ -86,7 +86,7 @@ impl BodyLoad for Hull {
         Category::Buoyancy
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let load = self.wet(pose).load(self.water_weight);
         if load.wrench.iter().chain(load.stiffness.iter()).all(|x| x.is_finite()) {
             Ok(load)

@@ -3,7 +3,7 @@
 use super::steady::{Medium, Steady};
 use super::stream::category;
 use super::stream::{LoadPlace, Push};
-use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
+use super::{BodyLoad, Category, DynamicLoad, Load, Underway, cross};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
@@ -35,15 +35,15 @@ impl BodyLoad for LinearDrag {
         category(Medium::Water)
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         Ok(self.place.load(&self.steady, pose, |stream| self.push(stream)))
     }
 
     /// In the current of the time; the body's own motion is in the damping of the body.
-    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
+    fn dynamic_load(&self, at: &Underway, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
         let stream = self.steady.streams_at_time(at.time).velocity(Medium::Water, at.pose.point(self.place.at).z);
         let load = self.place.load_in(&self.steady, at.pose, stream, |stream| self.push(stream));
-        Ok(MovingLoad::of(load))
+        Ok(DynamicLoad::from(load))
     }
 }
 

@@ -125,7 +125,7 @@ impl BodyLoad for DriftLoad {
         Category::WaveDrift
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let travel = pose.axes.transpose() * self.toward;
         let square = travel.x * travel.x + travel.y * travel.y;
         if square < 1e-12 {

@@ -128,7 +128,7 @@ impl BodyLoad for GrowthWeight {
         Category::Weight
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         Ok(Load::constant(Vector3::new(0.0, 0.0, -self.weight), pose.axes * self.centre))
     }
 }
@@ -138,7 +138,7 @@ impl BodyLoad for GrowthBuoyancy {
         Category::Buoyancy
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let mut sum = Load::none();
         for ring in &self.rings {
             let arm = pose.axes * ring.at;

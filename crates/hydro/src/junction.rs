@@ -61,7 +61,7 @@ impl BodyLoad for Sphere {
         Category::Buoyancy
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let r = self.radius;
         let h = (self.level - pose.origin.z + r).clamp(0.0, 2.0 * r);
         let (volume, plane) = (PI * h * h * (3.0 * r - h) / 3.0, PI * h * (2.0 * r - h));
@@ -74,7 +74,7 @@ impl BodyLoad for JunctionBottom {
         Category::Bottom
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let missing = (1.0 - (pose.origin.z - self.elevation) / self.reach).max(0.0);
         // s2 / (1 - s), straight from near its end on: a search may begin below
         let s = missing.min(LINEAR_REACH_SHARE);

@@ -50,7 +50,7 @@ mod weight;
 pub mod wind;
 
 pub use ambient::ambient;
-pub use body_load::{BodyLoad, MovingLoad, Underway};
+pub use body_load::{BodyLoad, DividedLoad, DynamicLoad, InertialLoad, PreparedLoad, StatefulLoad, Underway};
 pub use buoyancy::{Hull, PieceFault, piece_faults};
 pub use righting::{Balanced, balance_heave_and_trim};
 

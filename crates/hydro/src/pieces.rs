@@ -22,7 +22,7 @@ use super::steady::{Medium, Steady};
 use super::stream::category;
 use super::strips::Strips;
 use super::surface_integrals::{Skin, SurfaceIntegrals};
-use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
+use super::{BodyLoad, Category, DynamicLoad, Load, Underway, cross};
 use nalgebra::{Matrix3, Matrix6, RowVector6, SVector, Vector3, Vector6};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
@@ -59,10 +59,10 @@ impl PieceLoad {
     }
 
     /// What the motion of the body and what varies in time add to the load in the mean stream.
-    fn dynamic_part(&self, at: &Underway) -> MovingLoad {
+    fn dynamic_part(&self, at: &Underway) -> DynamicLoad {
         let found = self.skin.surface_integrals(at.pose, &self.even);
         let height = at.pose.origin.z - self.even.level;
-        let mut sum = MovingLoad::of(Load::none());
+        let mut sum = DynamicLoad::from(Load::none());
         let (own, spin) = (at.velocity.fixed_rows::<3>(0).into_owned(), at.velocity.fixed_rows::<3>(3).into_owned());
         let (now, mean) = (self.steady.streams_at_time(at.time), self.steady.mean());
         for (n, e, half) in self.axes(at.pose) {
@@ -228,7 +228,7 @@ impl BodyLoad for PieceLoad {
         category(self.medium)
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let mut sum = Load::none();
         if self.steady.still(self.medium) {
             return Ok(sum);
@@ -253,11 +253,11 @@ impl BodyLoad for PieceLoad {
         finite(sum)
     }
 
-    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
-        let mean = self.load(at.pose)?;
-        let MovingLoad { load, damping } = self.dynamic_part(at);
+    fn dynamic_load(&self, at: &Underway, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        let mean = self.mean_load(at.pose)?;
+        let DynamicLoad { load, damping } = self.dynamic_part(at);
         let load = Load { wrench: mean.wrench + load.wrench, stiffness: mean.stiffness + load.stiffness };
-        Ok(MovingLoad { load: finite(load)?, damping })
+        Ok(DynamicLoad { load: finite(load)?, damping })
     }
 }
 

@@ -20,7 +20,7 @@ use super::hull::{Panel, Panelling, Surface};
 use super::low_frequency::{SlowWrench, dividing_period, dividing_period_of};
 use super::parts::map_parts;
 use super::sea::{FilledGrid, PressureGrid, Sea, SeaAt};
-use super::{BodyLoad, Category, Load, MovingLoad, Underway};
+use super::{BodyLoad, Category, DividedLoad, DynamicLoad, Load, PreparedLoad, StatefulLoad, Underway};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
@@ -534,10 +534,28 @@ impl BodyLoad for WavePressure {
     }
 
     /// Its mean: that of the waves of first order, nothing.
-    fn load(&self, _pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, _pose: &Pose) -> Result<Load, ClassError> {
         Ok(Load::none())
     }
 
+    fn dynamic_load(&self, _at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        Ok(DynamicLoad::from(Load { wrench: kept(state), ..Load::none() }))
+    }
+
+    fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
+        Some(self)
+    }
+
+    fn as_prepared(&self) -> Option<&dyn PreparedLoad> {
+        Some(self)
+    }
+
+    fn as_divided(&self) -> Option<&dyn DividedLoad> {
+        Some(self)
+    }
+}
+
+impl StatefulLoad for WavePressure {
     fn states(&self) -> usize {
         KEPT + SlowWrench::STATES
     }
@@ -553,25 +571,25 @@ impl BodyLoad for WavePressure {
         Ok(())
     }
 
-    fn moving(&self, _at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(MovingLoad::of(Load { wrench: kept(state), ..Load::none() }))
+    fn commit(&self, at: &Underway, state: &mut [f64]) {
+        let wrench = kept(state);
+        self.slow.commit(&wrench, at.dt, state.get_mut(KEPT..).unwrap_or_default());
     }
+}
 
-    fn held(&self, _at: &Underway, state: &[f64]) -> Option<Six> {
-        Some(kept(state))
+impl PreparedLoad for WavePressure {
+    fn prepared_wrench(&self, _at: &Underway, state: &[f64]) -> Six {
+        kept(state)
     }
+}
 
+impl DividedLoad for WavePressure {
     fn other_categories(&self) -> &'static [Category] {
         &[Category::WaveMean]
     }
 
     fn part(&self, _: Category, _: &Underway, state: &[f64]) -> Six {
         SlowWrench::slow(state.get(KEPT..).unwrap_or_default())
-    }
-
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
-        let wrench = kept(state);
-        self.slow.commit(&wrench, at.dt, state.get_mut(KEPT..).unwrap_or_default());
     }
 }
 

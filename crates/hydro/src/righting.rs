@@ -37,14 +37,14 @@ pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balan
     let sum = |pose: &Pose| {
         let mut total = super::Load::none();
         for load in &loads {
-            let load = load.load(pose)?;
+            let load = load.mean_load(pose)?;
             total.wrench += load.wrench;
             total.stiffness += load.stiffness;
         }
         Ok::<_, ClassError>(total)
     };
     let weight = loads.iter().find(|load| load.category() == Category::Weight);
-    let weight = -weight.map_or(Ok(0.0), |load| load.load(&Pose::of(from)).map(|l| l.wrench[2]))?;
+    let weight = -weight.map_or(Ok(0.0), |load| load.mean_load(&Pose::of(from)).map(|l| l.wrench[2]))?;
     if weight <= 0.0 {
         return Err(ClassError::new("it has no weight"));
     }

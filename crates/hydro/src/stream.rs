@@ -1,7 +1,7 @@
 //! A load that a stream of air or water exerts on a point of a body, and its exact tangent.
 
 use super::steady::{Medium, Steady};
-use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
+use super::{BodyLoad, Category, DynamicLoad, Load, Underway, cross};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_model::ClassError;
@@ -36,14 +36,14 @@ impl<T: InStream> BodyLoad for T {
         category(self.stands().0.medium)
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let (place, steady) = self.stands();
         Ok(place.load(steady, pose, |stream| self.push(stream)))
     }
 
-    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
+    fn dynamic_load(&self, at: &Underway, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
         let (place, steady) = self.stands();
-        Ok(place.moving(steady, at, |stream| self.push(stream)))
+        Ok(place.dynamic_load(steady, at, |stream| self.push(stream)))
     }
 }
 
@@ -85,7 +85,7 @@ impl LoadPlace {
     }
 
     /// The load on a body under way: `push` in the stream of the time as seen from the point, which moves with the body.
-    pub fn moving(&self, steady: &Steady, at: &Underway, push: impl Fn(Vector3<f64>) -> Push) -> MovingLoad {
+    pub fn dynamic_load(&self, steady: &Steady, at: &Underway, push: impl Fn(Vector3<f64>) -> Push) -> DynamicLoad {
         let arm = at.pose.axes * self.at;
         let (own, spin) = (at.velocity.fixed_rows::<3>(0), at.velocity.fixed_rows::<3>(3).into_owned());
         let (stream, slope) = steady.streams_at_time(at.time).velocity(self.medium, at.pose.origin.z + arm.z);
@@ -99,7 +99,7 @@ impl LoadPlace {
             damping.fixed_view_mut::<3, 3>(rows, 0).copy_from(&change);
             damping.fixed_view_mut::<3, 3>(rows, 3).copy_from(&(-change * cross(arm)));
         }
-        MovingLoad { load, damping }
+        DynamicLoad { load, damping }
     }
 
     /// The load in a stream, and d(force), d(moment about the point) over d(velocity of the stream), global axes.

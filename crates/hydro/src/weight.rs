@@ -1,6 +1,6 @@
 //! The weight of a body.
 
-use super::{BodyLoad, Category, Load, MovingLoad, Underway};
+use super::{BodyLoad, Category, DynamicLoad, Load, Underway};
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{ClassError, Mass};
@@ -24,11 +24,11 @@ impl BodyLoad for WeightLoad {
         Category::Weight
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         Ok(Load::constant(Vector3::new(0.0, 0.0, -self.weight), pose.axes * self.centre))
     }
 
-    fn add(&self, at: &Underway, _state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
+    fn add_dynamic_load(&self, at: &Underway, _state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
         let (force, arm) = (Vector3::new(0.0, 0.0, -self.weight), at.pose.axes * self.centre);
         let moment = arm.cross(&force);
         out.load.wrench += Six::new(0.0, 0.0, force.z, moment.x, moment.y, moment.z);

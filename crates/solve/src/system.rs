@@ -232,7 +232,7 @@ impl System {
         }
         for (index, (node, pose)) in self.nodes.iter().zip(&state.poses).enumerate().filter(|(i, _)| belongs(*i)) {
             for load in &node.floating.loads {
-                let load = load.load(pose).map_err(SolveError::error_about(&node.name))?;
+                let load = load.mean_load(pose).map_err(SolveError::error_about(&node.name))?;
                 let mut at = state.residual.fixed_rows_mut::<6>(6 * index);
                 at += load.wrench;
                 let mut block = state.stiffness.fixed_view_mut::<6, 6>(6 * index, 6 * index);
@@ -298,7 +298,8 @@ impl System {
         let mut list = Vec::new();
         for (body, (node, pose)) in self.nodes.iter().zip(poses).enumerate() {
             for load in &node.floating.loads {
-                let (category, load) = (load.category(), load.load(pose).map_err(SolveError::error_about(&node.name))?);
+                let (category, load) =
+                    (load.category(), load.mean_load(pose).map_err(SolveError::error_about(&node.name))?);
                 list.push(Contribution { body, connector: None, category, load });
             }
         }

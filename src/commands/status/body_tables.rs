@@ -144,7 +144,7 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
     let weight = mass.mass * model.defaults.gravity;
     let (mut stiffness, mut wrench) = (Matrix6::zeros(), Six::zeros());
     for load in floating.loads.iter().filter(|l| matches!(l.category(), Category::Weight | Category::Buoyancy)) {
-        let load = load.load(&pose)?;
+        let load = load.mean_load(&pose)?;
         wrench += load.wrench;
         stiffness += load.stiffness;
     }

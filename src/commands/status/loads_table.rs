@@ -89,7 +89,7 @@ fn sums(model: &Model, body: &Body) -> Result<Vec<(Category, Six)>, ClassError> 
     for category in [Category::Wind, Category::ViscousDrag, Category::WaveDrift] {
         let mut mine = floating.loads.iter().filter(|l| l.category() == category).peekable();
         if mine.peek().is_some() {
-            let sum = mine.try_fold(Six::zeros(), |sum, load| load.load(&pose).map(|l| sum + l.wrench))?;
+            let sum = mine.try_fold(Six::zeros(), |sum, load| load.mean_load(&pose).map(|l| sum + l.wrench))?;
             list.push((category, sum));
         }
     }

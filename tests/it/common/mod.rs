@@ -1,5 +1,6 @@
 //! A session for tests: its job in a folder of its own, what it prints kept.
 
+pub mod body_load;
 #[path = "../../../crates/tether/tests/it/installed_example.rs"]
 pub mod installed_example;
 // here the numbers of MoorDyn alone are needed

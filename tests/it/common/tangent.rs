@@ -13,7 +13,7 @@ pub fn differences(load: &dyn BodyLoad, pose: &Pose) -> Matrix6<f64> {
         let moved = |sign: f64| {
             let mut motion = Six::zeros();
             motion[column] = sign * step;
-            load.load(&pose.after_motion(&motion)).unwrap().wrench
+            load.mean_load(&pose.after_motion(&motion)).unwrap().wrench
         };
         made.set_column(column, &((moved(-1.0) - moved(1.0)) / (2.0 * step)));
     }

@@ -151,12 +151,12 @@ fn body_weight_and_buoyancy_tangent_matches_finite_differences() {
     assert_eq!(floating.loads.iter().map(|l| l.category()).collect::<Vec<_>>(), [Category::Weight, Category::Buoyancy]);
     let pose = Pose::of(&model.bodies[0].place);
     for load in &floating.loads {
-        let at = load.load(&pose).unwrap();
+        let at = load.mean_load(&pose).unwrap();
         for n in 0..6 {
             let step = if n < 3 { 1e-3 } else { 1e-5 };
             let mut motion = Vector6::zeros();
             motion[n] = step;
-            let [up, down] = [motion, -motion].map(|m| load.load(&pose.after_motion(&m)).unwrap().wrench);
+            let [up, down] = [motion, -motion].map(|m| load.mean_load(&pose.after_motion(&m)).unwrap().wrench);
             let difference = (down - up) / (2.0 * step);
             // wrenches of 1e10 N m leave 1e-16 * 1e10 / 1e-5 = 0.1 of rounding, beside entries of 1e8 and more
             let size = at.stiffness.amax();
@@ -181,7 +181,7 @@ fn linear_stiffness_matches_aqwa_deck_buoyancy() {
     let body = &model.bodies[0];
     let floating = Floating::at_rest(&model, body).unwrap();
     let pose = Pose::of(&body.place);
-    let total: Vector6<f64> = floating.loads.iter().map(|l| l.load(&pose).unwrap().wrench).sum();
+    let total: Vector6<f64> = floating.loads.iter().map(|l| l.mean_load(&pose).unwrap().wrench).sum();
     let depth = 2.0 + 0.5 * (1.0 - 0.01f64.cos());
     near(total[2] / NEWTONS_PER_KIP, 70.0 * depth, 1e-9);
     let arm = pose.axes * floating.mass.centre;

@@ -2,6 +2,7 @@
 //! [DNV-RP-C205 6.5; SARPKAYA-ISAACSON-1981 4.2], and against statics.
 
 use crate::common;
+use crate::common::body_load::begin_step;
 use crate::common::tangent;
 
 use nalgebra::{Matrix6, Vector3};
@@ -12,7 +13,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::hull::{Solid, TubeHull};
 use windlass_hydro::sea::{Component, Sea, Water, dispersion::wave_number};
-use windlass_hydro::{BodyLoad, Category, Floating, MovingLoad, Underway, morison};
+use windlass_hydro::{BodyLoad, Category, DynamicLoad, Floating, Underway, morison};
 use windlass_model::{Model, Stretching};
 
 const RHO: f64 = 1025.0;
@@ -48,12 +49,10 @@ fn members(model: &Model, sea: Option<&Arc<Sea>>) -> Box<dyn BodyLoad> {
 }
 
 /// The load at a time, in a pose and with a velocity that are those expected.
-fn at(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> MovingLoad {
-    let mut state = vec![0.0; load.states()];
-    load.start(&mut state);
+fn at(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> DynamicLoad {
     let ahead = Underway { time, dt: 0.0, pose, velocity };
-    load.begin(&ahead, &mut state).unwrap();
-    load.moving(&ahead, &state).unwrap()
+    let state = begin_step(load, &ahead);
+    load.dynamic_load(&ahead, &state).unwrap()
 }
 
 fn force(load: &dyn BodyLoad, time: f64) -> Six {
@@ -170,7 +169,7 @@ fn buoyancy_in_rising_level_matches_tube_in_new_level() {
         let floating = Floating::under_way(&model, &model.bodies["B"], Some(&sea)).unwrap();
         for pose in [place([0.0; 6]), place([3.0, 2.0, -1.0, 4.0, -7.0, 30.0]), place([0.0, 0.0, 1.5, 80.0, 0.0, 10.0])]
         {
-            let sum: Vec<MovingLoad> =
+            let sum: Vec<DynamicLoad> =
                 floating.loads.iter().map(|load| at(load.as_ref(), 0.0, &pose, &Six::zeros())).collect();
             let got: Six = sum.iter().map(|m| m.load.wrench).sum();
             let stiffness: Matrix6<f64> = sum.iter().map(|m| m.load.stiffness).sum();
@@ -201,10 +200,10 @@ fn steady_current_in_time_domain_matches_statics() {
     let moving = members(&model, None);
     for pose in [place([0.0; 6]), place([3.0, 2.0, -1.0, 14.0, -7.0, 30.0]), place([0.0, 0.0, 1.5, 80.0, 0.0, 10.0])] {
         let (got, want) =
-            (at(moving.as_ref(), 5.0, &pose, &Six::zeros()).load.wrench, statics.load(&pose).unwrap().wrench);
+            (at(moving.as_ref(), 5.0, &pose, &Six::zeros()).load.wrench, statics.mean_load(&pose).unwrap().wrench);
         assert!((got - want).norm() <= 1e-12 * want.norm(), "{got} {want}");
         // and an engine's mean of it is the same
-        assert_eq!(moving.load(&pose).unwrap().wrench, want);
+        assert_eq!(moving.mean_load(&pose).unwrap().wrench, want);
     }
 }
 
@@ -213,7 +212,7 @@ fn pile_drag_in_uniform_current_matches_closed_form() {
     let model = body("TUBE PILE *A *B 2000 -CD 0.65", "&ENV -CURRENT 1.5 180");
     let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let load = floating.loads.iter().find(|l| l.category() == Category::ViscousDrag).unwrap();
-    let got = load.load(&Pose::default()).unwrap().wrench;
+    let got = load.mean_load(&Pose::default()).unwrap().wrench;
     let want = 0.5 * RHO * 0.65 * 2.0 * 50.0 * 1.5 * 1.5;
     near(got[0], want, 1e-12);
     // the passage of a thousandth of the radius at the surface: 1e-6 m2 in 1250 m2
@@ -222,7 +221,7 @@ fn pile_drag_in_uniform_current_matches_closed_form() {
     let model = body("TUBE PILE *C *D 2000 -CD 0.65", "&ENV -CURRENT 1.5 90");
     let floating = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let load = floating.loads.iter().find(|l| l.category() == Category::ViscousDrag).unwrap();
-    near(load.load(&Pose::default()).unwrap().wrench[1], -0.5 * RHO * 0.65 * 1.0 * 60.0 * 1.5 * 1.5, 1e-12);
+    near(load.mean_load(&Pose::default()).unwrap().wrench[1], -0.5 * RHO * 0.65 * 1.0 * 60.0 * 1.5 * 1.5, 1e-12);
 }
 
 #[test]
@@ -237,7 +236,7 @@ fn static_drag_tangent_matches_finite_differences() {
         [5.0, 3.0, 0.2, 1.5, -0.7, 30.0],
     ] {
         let pose = place(pose);
-        let (got, want) = (load.load(&pose).unwrap().stiffness, differences(load.as_ref(), &pose));
+        let (got, want) = (load.mean_load(&pose).unwrap().stiffness, differences(load.as_ref(), &pose));
         // rounding of the differences over steps of 1e-5 m and 1e-6 rad
         assert!((got - want).norm() <= 1e-6 * want.norm(), "{got} {want}");
     }
@@ -345,16 +344,16 @@ fn added_mass_change_with_surface_is_in_step_inertia() {
     let model = body("TUBE S *A *B 20000 -CD 0 -CA 0.9", "");
     let load = members(&model, None);
     let (start, deeper) = (Pose::default(), place([0.0, 0.0, -5.0, 0.0, 0.0, 0.0]));
-    let mut state = vec![0.0; load.states()];
     let before = Six::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    load.begin(&Underway { time: 0.0, dt: 0.0, pose: &start, velocity: &before }, &mut state).unwrap();
+    let now = Underway { time: 0.0, dt: 0.0, pose: &start, velocity: &before };
+    let mut state = begin_step(load.as_ref(), &now);
     let after = Six::new(1.3, 0.0, 0.0, 0.0, 0.0, 0.0);
     let end = Underway { time: 0.5, dt: 0.5, pose: &deeper, velocity: &after };
-    load.begin(&end, &mut state).unwrap();
+    load.as_stateful().unwrap().begin(&end, &mut state).unwrap();
     let more = RHO * PI * 100.0 * 0.9 * 5.0;
-    near(load.inertia(&state).unwrap()[(0, 0)], more, 1e-9);
+    near(load.as_inertial().unwrap().inertia(&state)[(0, 0)], more, 1e-9);
     // and no force of velocities
-    let found = load.moving(&end, &state).unwrap();
+    let found = load.dynamic_load(&end, &state).unwrap();
     assert!(found.load.wrench[0].abs() < 1e-9 * more && found.damping[(0, 0)] == 0.0);
 }
 
@@ -374,13 +373,13 @@ fn piece_covered_by_database_keeps_drag_alone() {
 fn drag_in_time_domain_has_its_own_category() {
     let model = body("TUBE T *A *B 2000", "&ENV -CURRENT 1 180");
     let load = members(&model, Some(&wave(2.0, 0.8, 0.0, None, Stretching::Wheeler)));
-    let mut state = vec![0.0; load.states()];
     let (pose, velocity) = (Pose::default(), Six::zeros());
     let now = Underway { time: 0.0, dt: 0.0, pose: &pose, velocity: &velocity };
-    load.begin(&now, &mut state).unwrap();
-    assert_eq!(load.other_categories(), [Category::ViscousDrag, Category::WaveMean]);
-    let drag = load.part(Category::ViscousDrag, &now, &state);
-    let whole = load.moving(&now, &state).unwrap().load.wrench;
+    let state = begin_step(load.as_ref(), &now);
+    let divided = load.as_divided().unwrap();
+    assert_eq!(divided.other_categories(), [Category::ViscousDrag, Category::WaveMean]);
+    let drag = divided.part(Category::ViscousDrag, &now, &state);
+    let whole = load.dynamic_load(&now, &state).unwrap().load.wrench;
     // under the crest there is no acceleration along the wave: all of it is drag
     near(whole[0], drag[0], 1e-12);
     assert!(drag[0] > 0.0);

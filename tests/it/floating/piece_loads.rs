@@ -36,7 +36,7 @@ fn floating(model: &Model) -> Floating {
 }
 
 fn sum(model: &Model, category: Category, pose: &Pose) -> Six {
-    floating(model).loads.iter().filter(|l| l.category() == category).map(|l| l.load(pose).unwrap().wrench).sum()
+    floating(model).loads.iter().filter(|l| l.category() == category).map(|l| l.mean_load(pose).unwrap().wrench).sum()
 }
 
 /// A pose of the origin in feet and turns in degrees.
@@ -153,7 +153,7 @@ fn vertical_area_on_even_keel_matches_deck() {
     let found = floating(&model);
     let lift = |category| {
         let mine = found.loads.iter().find(|l| l.category() == category).unwrap();
-        mine.load(&place(AFLOAT)).unwrap().stiffness[(2, 4)]
+        mine.mean_load(&place(AFLOAT)).unwrap().stiffness[(2, 4)]
     };
     near(lift(Category::Wind), -WIND * METRES_PER_FOOT * METRES_PER_FOOT * (40_000.0 - 1100.0), 1e-12);
     near(lift(Category::ViscousDrag), -0.5 * 1025.0 * 4.0 * METRES_PER_FOOT.powi(4) * (40_000.0 - 900.0), 1e-12);
@@ -265,7 +265,7 @@ fn piece_load_tangent_matches_finite_differences_in_any_pose() {
             ] {
                 let pose = place(pose);
                 for load in loads.clone() {
-                    let (found, want) = (load.load(&pose).unwrap(), differences(load.as_ref(), &pose));
+                    let (found, want) = (load.mean_load(&pose).unwrap(), differences(load.as_ref(), &pose));
                     let scale = want.amax().max(found.wrench.amax());
                     let off = (found.stiffness - want).amax();
                     assert!(

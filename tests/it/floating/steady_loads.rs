@@ -31,7 +31,7 @@ fn body(records: &str, environment: &str) -> Model {
 
 fn sum(model: &Model, category: Category, pose: &Pose) -> Six {
     let floating = Floating::at_rest(model, &model.bodies["B"]).unwrap();
-    floating.loads.iter().filter(|l| l.category() == category).map(|l| l.load(pose).unwrap().wrench).sum()
+    floating.loads.iter().filter(|l| l.category() == category).map(|l| l.mean_load(pose).unwrap().wrench).sum()
 }
 
 fn place(values: [f64; 6]) -> Pose {
@@ -306,7 +306,7 @@ fn every_load_tangent_matches_finite_differences_in_any_pose() {
         ] {
             let pose = place(pose);
             for load in &floating.loads {
-                let found = load.load(&pose).unwrap();
+                let found = load.mean_load(&pose).unwrap();
                 let want = differences(load.as_ref(), &pose);
                 let scale = want.amax().max(found.wrench.amax());
                 assert!(
@@ -324,10 +324,10 @@ fn every_load_tangent_matches_finite_differences_in_any_pose() {
 fn piece_areas_take_wind_and_current_at_their_points() {
     let steady = std::sync::Arc::new(Steady::new(&model("&ENV -WIND 60 180 -CURRENT 2 180")).unwrap());
     let wind = AreaLoad::wind(steady.clone(), [100.0, 0.0, 0.0], Vector3::new(0.0, 0.0, 10.0));
-    near(wind.load(&Pose::default()).unwrap().wrench[0], 58_403.6, 1e-6);
+    near(wind.mean_load(&Pose::default()).unwrap().wrench[0], 58_403.6, 1e-6);
     let current = AreaLoad::current(steady, [10.0, 0.0, 0.0], Vector3::new(0.0, 0.0, -5.0));
     assert_eq!(current.category(), Category::ViscousDrag);
-    near(current.load(&Pose::default()).unwrap().wrench[0], 20_500.0, 1e-12);
+    near(current.mean_load(&Pose::default()).unwrap().wrench[0], 20_500.0, 1e-12);
 }
 
 #[test]

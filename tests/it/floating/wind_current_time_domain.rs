@@ -1,12 +1,13 @@
 //! Wind and current on bodies that move, and that vary in time: against closed forms beside them, and tangents by differences.
 
 use crate::common;
+use crate::common::body_load::begin_step;
 
 use nalgebra::Matrix6;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::gusts::{FREQUENCY_RANGE_HZ, GustFormula, Gusts};
-use windlass_hydro::{BodyLoad, Category, Floating, MovingLoad, Underway};
+use windlass_hydro::{BodyLoad, Category, DynamicLoad, Floating, Underway};
 use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;
@@ -34,12 +35,10 @@ fn place(values: [f64; 6]) -> Pose {
     Pose::of(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
 }
 
-fn moving(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> MovingLoad {
-    let mut state = vec![0.0; load.states()];
+fn moving(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> DynamicLoad {
     let at = Underway { time, dt: 0.1, pose, velocity };
-    load.start(&mut state);
-    load.begin(&at, &mut state).unwrap();
-    load.moving(&at, &state).unwrap()
+    let state = begin_step(load, &at);
+    load.dynamic_load(&at, &state).unwrap()
 }
 
 fn sum(model: &Model, category: Category, time: f64, pose: &Pose, velocity: &Six) -> Six {
@@ -118,7 +117,7 @@ fn time_domain_damping_and_stiffness_match_finite_differences() {
 fn load_at_rest_in_mean_stream_matches_statics() {
     for load in all("&ENV -WIND 50 130 -CURRENT P 110 Q 250 -DEPTH 90 -TIDE 1") {
         let pose = place([10.0, -20.0, 0.3, 12.0, -17.0, 63.0]);
-        let (rest, under_way) = (load.load(&pose).unwrap(), moving(load.as_ref(), 3.0, &pose, &Six::zeros()).load);
+        let (rest, under_way) = (load.mean_load(&pose).unwrap(), moving(load.as_ref(), 3.0, &pose, &Six::zeros()).load);
         assert!((rest.wrench - under_way.wrench).amax() <= 1e-14 * rest.wrench.amax());
         assert!((rest.stiffness - under_way.stiffness).amax() <= 1e-13 * rest.stiffness.amax());
     }
@@ -226,7 +225,7 @@ fn current_history_multiplies_current() {
         near(sum(&model, Category::ViscousDrag, time, &Pose::default(), &Six::zeros())[0], want, 1e-9);
     }
     let rest = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
-    near(rest.loads[0].load(&Pose::default()).unwrap().wrench[0], 20_500.0, 1e-12);
+    near(rest.loads[0].mean_load(&Pose::default()).unwrap().wrench[0], 20_500.0, 1e-12);
 }
 
 #[test]
@@ -343,7 +342,7 @@ fn growth_increases_current_area() {
         let model = model(&format!("{GROWN}\n&ENV -CURRENT 2 180 -DEPTH 60 {environment}"));
         let loads = Floating::at_rest(&model, &model.bodies["B"]).unwrap().loads;
         let mine = loads.iter().filter(|l| l.category() == Category::ViscousDrag);
-        mine.map(|l| l.load(&Pose::default()).unwrap().wrench).sum::<Six>()
+        mine.map(|l| l.mean_load(&Pose::default()).unwrap().wrench).sum::<Six>()
     };
     // 1/2 rho U^2 over 40 m of 1 m, and over 10 of 1 m and 30 of 1.5 m; a prism of 64 sides is within 0.1 % of the width of a tube
     near(drag("")[0], 0.5 * 1025.0 * 4.0 * 40.0, 1e-3);
@@ -361,7 +360,7 @@ fn growth_adds_weight_buoyancy_and_inertia() {
     let of = |category, pose: &Pose| {
         let bare = Floating::at_rest(&self::model(&format!("{GROWN}\n&ENV -DEPTH 60")), &model.bodies["B"]).unwrap();
         let sum = |loads: &[Box<dyn BodyLoad>]| -> f64 {
-            loads.iter().filter(|l| l.category() == category).map(|l| l.load(pose).unwrap().wrench[2]).sum()
+            loads.iter().filter(|l| l.category() == category).map(|l| l.mean_load(pose).unwrap().wrench[2]).sum()
         };
         sum(&floating.loads) - sum(&bare.loads)
     };
@@ -376,14 +375,14 @@ fn growth_adds_weight_buoyancy_and_inertia() {
     near(floating.added_mass[(4, 4)], 1400.0 * volume * (225.0 + (900.0 - 1.0) / 12.0), 1e-9);
     for pose in [risen, place([3.0, 1.0, 7.3, 8.0, -5.0, 20.0])] {
         for load in floating.loads.iter().filter(|l| l.category() == Category::Buoyancy) {
-            let found = load.load(&pose).unwrap();
+            let found = load.mean_load(&pose).unwrap();
             let mut want = Matrix6::zeros();
             for column in 0..6 {
                 let step = 1e-6;
                 let wrench = |sign: f64| {
                     let mut by = Six::zeros();
                     by[column] = sign * step;
-                    load.load(&pose.after_motion(&by)).unwrap().wrench
+                    load.mean_load(&pose.after_motion(&by)).unwrap().wrench
                 };
                 want.set_column(column, &((wrench(-1.0) - wrench(1.0)) / (2.0 * step)));
             }

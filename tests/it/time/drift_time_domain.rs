@@ -2,6 +2,7 @@
 //! of a moored body against the closed form of a narrow response to white noise.
 
 use crate::common;
+use crate::common::body_load::begin_step;
 use crate::common::run as runs;
 
 use std::f64::consts::{PI, TAU};
@@ -39,17 +40,15 @@ fn at(loads: &[Box<dyn BodyLoad>], time: f64, pose: &Pose) -> Six {
     let velocity = Six::zeros();
     let now = Underway { time, dt: 0.1, pose, velocity: &velocity };
     let one = |load: &dyn BodyLoad| {
-        let mut state = vec![0.0; load.states()];
-        load.start(&mut state);
-        load.begin(&now, &mut state).unwrap();
-        load.moving(&now, &state).unwrap().load.wrench
+        let state = begin_step(load, &now);
+        load.dynamic_load(&now, &state).unwrap().load.wrench
     };
     loads.iter().map(|load| one(load.as_ref())).sum()
 }
 
 fn at_rest(model: &Model, pose: &Pose) -> Six {
     let loads = drifts(Floating::at_rest(model, &model.bodies["B"]).unwrap());
-    loads.iter().map(|load| load.load(pose).unwrap().wrench).sum()
+    loads.iter().map(|load| load.mean_load(pose).unwrap().wrench).sum()
 }
 
 fn turned(x: f64, y: f64, yaw: f64) -> Pose {

@@ -1,6 +1,7 @@
 //! Members with marine growth, in a current that varies, and in runs: against larger tubes and closed forms.
 
 use crate::common;
+use crate::common::body_load::begin_step;
 use crate::common::run as runs;
 
 use nalgebra::{Matrix6, Vector3};
@@ -40,11 +41,9 @@ fn sea(frequency: f64, number: f64, amplitude: f64) -> Arc<Sea> {
 }
 
 fn at(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> Six {
-    let mut state = vec![0.0; load.states()];
-    load.start(&mut state);
     let ahead = Underway { time, dt: 0.0, pose, velocity };
-    load.begin(&ahead, &mut state).unwrap();
-    load.moving(&ahead, &state).unwrap().load.wrench
+    let state = begin_step(load, &ahead);
+    load.dynamic_load(&ahead, &state).unwrap().load.wrench
 }
 
 fn near(got: f64, want: f64, tolerance: f64) {
@@ -60,7 +59,7 @@ fn members(model: &Model, sea: Option<&Arc<Sea>>) -> Box<dyn BodyLoad> {
 fn drag(model: &Model) -> Six {
     let loads = Floating::at_rest(model, &model.bodies["B"]).unwrap().loads;
     let mine = loads.iter().filter(|l| l.category() == Category::ViscousDrag);
-    mine.map(|l| l.load(&Pose::default()).unwrap().wrench).sum()
+    mine.map(|l| l.mean_load(&Pose::default()).unwrap().wrench).sum()
 }
 
 /// Added mass without the growth's own.

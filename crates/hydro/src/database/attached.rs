@@ -4,7 +4,7 @@ use super::excitation::Excitation;
 use super::memory::{MAX_LAGS, RetardationMemory};
 use super::radiation::Radiation;
 use super::slow_drift::SlowDrift;
-use crate::body_load::{BodyLoad, MovingLoad, Underway};
+use crate::body_load::{BodyLoad, DynamicLoad, InertialLoad, PreparedLoad, StatefulLoad, Underway};
 use crate::low_frequency::{LowFrequency, Slow, dividing_period};
 use crate::sea::Sea;
 use crate::steady::Steady;
@@ -103,7 +103,7 @@ impl LinearMotion {
     }
 
     /// A force, and its change with [`Linear::velocity`], -dF/dv, in global axes.
-    fn load(force: &Six, damping: &Matrix6<f64>, state: &[f64]) -> MovingLoad {
+    fn load(force: &Six, damping: &Matrix6<f64>, state: &[f64]) -> DynamicLoad {
         let (axes, rates) = (LinearMotion::axes(state), LinearMotion::rates(state));
         let mut global = Matrix6::zeros();
         for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
@@ -112,7 +112,7 @@ impl LinearMotion {
             global.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
         }
         let wrench = LinearMotion::global(force, state);
-        MovingLoad { load: Load { wrench, ..Load::none() }, damping: global }
+        DynamicLoad { load: Load { wrench, ..Load::none() }, damping: global }
     }
 }
 
@@ -147,10 +147,26 @@ impl BodyLoad for RadiationLoad {
     }
 
     /// A body at rest radiates nothing.
-    fn load(&self, _: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, _: &Pose) -> Result<Load, ClassError> {
         Ok(Load::none())
     }
 
+    fn dynamic_load(&self, at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        let (own, memory) = state.split_at(LinearMotion::STATES);
+        let (force, damping) = self.memory.force(&LinearMotion::velocity(at, own), memory);
+        Ok(LinearMotion::load(&force, &damping, own))
+    }
+
+    fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
+        Some(self)
+    }
+
+    fn as_prepared(&self) -> Option<&dyn PreparedLoad> {
+        Some(self)
+    }
+}
+
+impl StatefulLoad for RadiationLoad {
     fn states(&self) -> usize {
         LinearMotion::STATES + self.memory.states()
     }
@@ -162,21 +178,17 @@ impl BodyLoad for RadiationLoad {
         Ok(())
     }
 
-    fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
-        let (own, memory) = state.split_at(LinearMotion::STATES);
-        Some(LinearMotion::global(&self.memory.force(&LinearMotion::velocity(at, own), memory).0, own))
-    }
-
-    fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        let (own, memory) = state.split_at(LinearMotion::STATES);
-        let (force, damping) = self.memory.force(&LinearMotion::velocity(at, own), memory);
-        Ok(LinearMotion::load(&force, &damping, own))
-    }
-
     fn commit(&self, at: &Underway, state: &mut [f64]) {
         let (own, memory) = state.split_at_mut(LinearMotion::STATES);
         self.memory.commit(at.time, at.dt, &LinearMotion::velocity(at, own), memory);
         self.linear.commit(at, own);
+    }
+}
+
+impl PreparedLoad for RadiationLoad {
+    fn prepared_wrench(&self, at: &Underway, state: &[f64]) -> Six {
+        let (own, memory) = state.split_at(LinearMotion::STATES);
+        LinearMotion::global(&self.memory.force(&LinearMotion::velocity(at, own), memory).0, own)
     }
 }
 
@@ -193,10 +205,24 @@ impl BodyLoad for DampingLoad {
         Category::RadiationDrag
     }
 
-    fn load(&self, _: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, _: &Pose) -> Result<Load, ClassError> {
         Ok(Load::none())
     }
 
+    fn dynamic_load(&self, at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        Ok(LinearMotion::load(&-(self.damping * LinearMotion::velocity(at, state)), &self.damping, state))
+    }
+
+    fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
+        Some(self)
+    }
+
+    fn as_prepared(&self) -> Option<&dyn PreparedLoad> {
+        Some(self)
+    }
+}
+
+impl StatefulLoad for DampingLoad {
     fn states(&self) -> usize {
         LinearMotion::STATES
     }
@@ -206,16 +232,14 @@ impl BodyLoad for DampingLoad {
         Ok(())
     }
 
-    fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
-        Some(LinearMotion::global(&-(self.damping * LinearMotion::velocity(at, state)), state))
-    }
-
-    fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(LinearMotion::load(&-(self.damping * LinearMotion::velocity(at, state)), &self.damping, state))
-    }
-
     fn commit(&self, at: &Underway, state: &mut [f64]) {
         self.linear.commit(at, state);
+    }
+}
+
+impl PreparedLoad for DampingLoad {
+    fn prepared_wrench(&self, at: &Underway, state: &[f64]) -> Six {
+        LinearMotion::global(&-(self.damping * LinearMotion::velocity(at, state)), state)
     }
 }
 
@@ -232,10 +256,20 @@ impl BodyLoad for AddedMassLoad {
         Category::AddedInertia
     }
 
-    fn load(&self, _: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, _: &Pose) -> Result<Load, ClassError> {
         Ok(Load::none())
     }
 
+    fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
+        Some(self)
+    }
+
+    fn as_inertial(&self) -> Option<&dyn InertialLoad> {
+        Some(self)
+    }
+}
+
+impl StatefulLoad for AddedMassLoad {
     fn states(&self) -> usize {
         LinearMotion::STATES
     }
@@ -245,12 +279,14 @@ impl BodyLoad for AddedMassLoad {
         Ok(())
     }
 
-    fn inertia(&self, state: &[f64]) -> Option<Matrix6<f64>> {
-        Some(in_pose(&self.infinite, &Pose { axes: LinearMotion::axes(state), ..Pose::default() }))
-    }
-
     fn commit(&self, at: &Underway, state: &mut [f64]) {
         self.linear.commit(at, state);
+    }
+}
+
+impl InertialLoad for AddedMassLoad {
+    fn inertia(&self, state: &[f64]) -> Matrix6<f64> {
+        in_pose(&self.infinite, &Pose { axes: LinearMotion::axes(state), ..Pose::default() })
     }
 }
 
@@ -411,7 +447,8 @@ mod tests {
             load.commit(&at, &mut state);
         }
         load.begin(&Underway { time: 2.1, dt: 0.1, pose: &pose, velocity: &velocity }, &mut state).unwrap();
-        let at = |pose: &Pose, velocity: &Six| load.moving(&Underway { time: 2.1, dt: 0.1, pose, velocity }, &state);
+        let at =
+            |pose: &Pose, velocity: &Six| load.dynamic_load(&Underway { time: 2.1, dt: 0.1, pose, velocity }, &state);
         let whole = at(&pose, &velocity).unwrap();
         for n in 0..6 {
             let mut by = Six::zeros();

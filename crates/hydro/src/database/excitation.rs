@@ -8,7 +8,7 @@
 
 use super::interpolation::DatabaseLookup;
 use super::waves::{WaveGroup, WaveTable, groups};
-use crate::body_load::{BodyLoad, MovingLoad, Underway};
+use crate::body_load::{BodyLoad, DynamicLoad, PreparedLoad, StatefulLoad, Underway};
 use crate::low_frequency::{LowFrequency, Slow, dividing_period_of};
 use crate::sea::Sea;
 use crate::{Category, Load, move_wrench};
@@ -107,10 +107,29 @@ impl BodyLoad for Excitation {
     }
 
     /// The mean of first-order forces is nothing.
-    fn load(&self, _: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, _: &Pose) -> Result<Load, ClassError> {
         Ok(Load::none())
     }
 
+    fn dynamic_load(&self, _: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        Ok(DynamicLoad::from(own(state)))
+    }
+
+    fn add_dynamic_load(&self, _: &Underway, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
+        out.load.wrench += own(state).wrench;
+        Ok(())
+    }
+
+    fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
+        Some(self)
+    }
+
+    fn as_prepared(&self) -> Option<&dyn PreparedLoad> {
+        Some(self)
+    }
+}
+
+impl StatefulLoad for Excitation {
     fn states(&self) -> usize {
         LowFrequency::STATES + 6
     }
@@ -123,21 +142,14 @@ impl BodyLoad for Excitation {
         Ok(())
     }
 
-    fn held(&self, _: &Underway, state: &[f64]) -> Option<Six> {
-        Some(own(state).wrench)
-    }
-
-    fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(MovingLoad::of(own(state)))
-    }
-
-    fn add(&self, _: &Underway, state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
-        out.load.wrench += own(state).wrench;
-        Ok(())
-    }
-
     fn commit(&self, at: &Underway, state: &mut [f64]) {
         self.slow.commit(at, &mut state[..LowFrequency::STATES]);
+    }
+}
+
+impl PreparedLoad for Excitation {
+    fn prepared_wrench(&self, _: &Underway, state: &[f64]) -> Six {
+        own(state).wrench
     }
 }
 

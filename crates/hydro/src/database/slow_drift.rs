@@ -15,7 +15,7 @@ use super::excitation::{load_from_state, rotate_about_z, yaw};
 use super::interpolation::drift_at;
 use super::interpolation::{bracket_frequency, bracket_heading};
 use super::waves::{LANES, WaveGroup, WaveTable, groups};
-use crate::body_load::{BodyLoad, MovingLoad, Underway};
+use crate::body_load::{BodyLoad, DynamicLoad, PreparedLoad, StatefulLoad, Underway};
 use crate::sea::Sea;
 use crate::{Category, Load, move_wrench, turning};
 use nalgebra::{Complex, Vector3};
@@ -228,7 +228,7 @@ impl BodyLoad for SlowDrift {
         Category::WaveDrift
     }
 
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let (arm, yaw) = (pose.axes * self.reference, yaw(pose));
         let (mean, change) = self.mean_at(yaw)?;
         let force = rotate_about_z(&mean, yaw);
@@ -240,6 +240,25 @@ impl BodyLoad for SlowDrift {
         Ok(Load { wrench: move_wrench(&force, arm), stiffness })
     }
 
+    fn dynamic_load(&self, _: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        Ok(DynamicLoad::from(load_from_state(state)))
+    }
+
+    fn add_dynamic_load(&self, _: &Underway, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
+        out.load.wrench += load_from_state(state).wrench;
+        Ok(())
+    }
+
+    fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
+        Some(self)
+    }
+
+    fn as_prepared(&self) -> Option<&dyn PreparedLoad> {
+        Some(self)
+    }
+}
+
+impl StatefulLoad for SlowDrift {
     fn states(&self) -> usize {
         6
     }
@@ -250,17 +269,10 @@ impl BodyLoad for SlowDrift {
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
     }
+}
 
-    fn held(&self, _: &Underway, state: &[f64]) -> Option<Six> {
-        Some(load_from_state(state).wrench)
-    }
-
-    fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(MovingLoad::of(load_from_state(state)))
-    }
-
-    fn add(&self, _: &Underway, state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
-        out.load.wrench += load_from_state(state).wrench;
-        Ok(())
+impl PreparedLoad for SlowDrift {
+    fn prepared_wrench(&self, _: &Underway, state: &[f64]) -> Six {
+        load_from_state(state).wrench
     }
 }

@@ -37,7 +37,7 @@ use super::hull::TubeHull;
 use super::low_frequency::{SlowWrench, dividing_period};
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
-use super::{BodyLoad, Category, Load, MovingLoad, Underway};
+use super::{BodyLoad, Category, DividedLoad, DynamicLoad, InertialLoad, Load, StatefulLoad, Underway};
 use member::MemberLength;
 use nalgebra::{Matrix6, Vector3};
 use std::f64::consts::PI;
@@ -210,8 +210,8 @@ fn lengths(stations: &[(f64, f64)], bare: f64) -> Vec<Length> {
 }
 
 impl Members {
-    fn check_load(load: MovingLoad) -> Result<MovingLoad, ClassError> {
-        let MovingLoad { load: Load { wrench, stiffness }, damping } = &load;
+    fn check_load(load: DynamicLoad) -> Result<DynamicLoad, ClassError> {
+        let DynamicLoad { load: Load { wrench, stiffness }, damping } = &load;
         if wrench.iter().chain(stiffness.iter()).chain(damping.iter()).all(|x| x.is_finite()) {
             Ok(load)
         } else {
@@ -226,7 +226,7 @@ impl BodyLoad for Members {
     }
 
     /// Drag of the current. The mean of the waves' drag, which stays where they go with or against a current, is not in it.
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let mut sum = Load::none();
         if !self.steady.still(Medium::Water) {
             for load in self.rods.iter().map(|rod| rod.steady(&self.steady, &self.kinks, pose)) {
@@ -234,9 +234,30 @@ impl BodyLoad for Members {
                 sum.stiffness += load.stiffness;
             }
         }
-        Members::check_load(MovingLoad::of(sum)).map(|made| made.load)
+        Members::check_load(DynamicLoad::from(sum)).map(|made| made.load)
     }
 
+    fn dynamic_load(&self, at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        match &self.under_way {
+            Some(way) => Members::check_load(way.dynamic_load(&self.rods, at, own(state))),
+            None => self.mean_load(at.pose).map(DynamicLoad::from),
+        }
+    }
+
+    fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
+        self.under_way.as_ref().map(|_| self as _)
+    }
+
+    fn as_inertial(&self) -> Option<&dyn InertialLoad> {
+        self.under_way.as_ref().map(|_| self as _)
+    }
+
+    fn as_divided(&self) -> Option<&dyn DividedLoad> {
+        self.under_way.as_ref().map(|_| self as _)
+    }
+}
+
+impl StatefulLoad for Members {
     fn states(&self) -> usize {
         self.under_way.as_ref().map_or(0, |way| SlowWrench::STATES + way.states())
     }
@@ -248,17 +269,21 @@ impl BodyLoad for Members {
         Ok(())
     }
 
-    fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        match &self.under_way {
-            Some(way) => Members::check_load(way.moving(&self.rods, at, own(state))),
-            None => self.load(at.pose).map(MovingLoad::of),
-        }
+    fn commit(&self, at: &Underway, state: &mut [f64]) {
+        let Some(way) = self.under_way.as_ref().filter(|way| way.has_waves()) else { return };
+        let waves = way.dynamic_load(&self.rods, at, own(state)).load.wrench - way.drag(at, own(state)).0;
+        let slow = &mut state[..SlowWrench::STATES];
+        self.slow.commit(&waves, at.dt, slow);
     }
+}
 
-    fn inertia(&self, state: &[f64]) -> Option<Matrix6<f64>> {
-        self.under_way.as_ref().map(|_| UnderWay::inertia(own(state)))
+impl InertialLoad for Members {
+    fn inertia(&self, state: &[f64]) -> Matrix6<f64> {
+        UnderWay::inertia(own(state))
     }
+}
 
+impl DividedLoad for Members {
     fn other_categories(&self) -> &'static [Category] {
         match &self.under_way {
             Some(way) if way.has_waves() => &[Category::ViscousDrag, Category::WaveMean],
@@ -273,13 +298,6 @@ impl BodyLoad for Members {
             (Some(_), Category::WaveMean) => SlowWrench::slow(state),
             _ => Six::zeros(),
         }
-    }
-
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
-        let Some(way) = self.under_way.as_ref().filter(|way| way.has_waves()) else { return };
-        let waves = way.moving(&self.rods, at, own(state)).load.wrench - way.drag(at, own(state)).0;
-        let slow = &mut state[..SlowWrench::STATES];
-        self.slow.commit(&waves, at.dt, slow);
     }
 }
 

@@ -5,7 +5,7 @@ use super::member::{MemberInPose, MemberLength, Station, drag};
 use crate::hull::{Solid, Wet};
 use crate::sea::{Kinematics, Sea, SeaAt};
 use crate::steady::{Medium, Steady, Streams};
-use crate::{Load, MovingLoad, Underway, in_pose};
+use crate::{DynamicLoad, Load, Underway, in_pose};
 use nalgebra::{Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Six;
@@ -242,7 +242,7 @@ impl UnderWay {
         sum
     }
 
-    pub(super) fn moving(&self, rods: &[MemberLength], at: &Underway, state: &[f64]) -> MovingLoad {
+    pub(super) fn dynamic_load(&self, rods: &[MemberLength], at: &Underway, state: &[f64]) -> DynamicLoad {
         let (drag, damping) = self.drag(at, state);
         let mut load = Load { wrench: drag + six(state, WAVE_STATE), stiffness: Matrix6::zeros() };
         let segments = rods.iter().flat_map(|rod| rod.segments.iter().map(move |tube| (rod, tube)));
@@ -258,7 +258,7 @@ impl UnderWay {
             load.wrench += more.wrench;
             load.stiffness += more.stiffness;
         }
-        MovingLoad { load, damping }
+        DynamicLoad { load, damping }
     }
 
     /// Added mass of what is wet beyond what the body's inertia holds, global axes.

@@ -10,7 +10,7 @@ use crate::ties::Ties;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{BodyLoad, Category, MovingLoad, Underway, move_stiffness, move_wrench, turning};
+use windlass_hydro::{BodyLoad, Category, DynamicLoad, Underway, move_stiffness, move_wrench, turning};
 use windlass_model::{AnchoredResponse, ElementResponse, End, Situation, SolverCache, TimeStep};
 
 /// Number of categories.
@@ -50,8 +50,7 @@ impl LoadMemory {
             let mut ranges = Vec::new();
             for load in &node.floating.loads {
                 let from = memory.loads.len();
-                memory.loads.resize(from + load.states(), 0.0);
-                load.start(&mut memory.loads[from..]);
+                memory.loads.resize(from + load.as_stateful().map_or(0, |stateful| stateful.states()), 0.0);
                 ranges.push(from..memory.loads.len());
             }
             memory.ranges.push(ranges);
@@ -99,10 +98,13 @@ impl LoadMemory {
             let mut more = Six::zeros();
             for (load, range) in node.floating.loads.iter().zip(ranges) {
                 let state = &mut self.loads[range.clone()];
-                let before = load.held(&on_the_way, state);
-                load.begin(&at, state).map_err(SolveError::error_about(&node.name))?;
-                if let (Some(before), Some(now)) = (before, load.held(&on_the_way, state)) {
-                    more += now - before;
+                let prepared = load.as_prepared();
+                let before = prepared.map(|prepared| prepared.prepared_wrench(&on_the_way, state));
+                if let Some(stateful) = load.as_stateful() {
+                    stateful.begin(&at, state).map_err(SolveError::error_about(&node.name))?;
+                }
+                if let (Some(prepared), Some(before)) = (prepared, before) {
+                    more += prepared.prepared_wrench(&on_the_way, state) - before;
                 }
             }
             self.ahead.push(more);
@@ -115,7 +117,9 @@ impl LoadMemory {
         for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(motions) {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
             for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
-                load.commit(&at, &mut self.loads[range.clone()]);
+                if let Some(stateful) = load.as_stateful() {
+                    stateful.commit(&at, &mut self.loads[range.clone()]);
+                }
             }
         }
     }
@@ -151,7 +155,7 @@ pub struct BodyForces {
     carried: bool,
     /// Those of them, evaluated side by side.
     pub(super) alone: Vec<LineTask>,
-    made: MovingLoad,
+    made: DynamicLoad,
     response: ElementResponse,
     pub(super) ends: Vec<End>,
     arms: Vec<Vector3<f64>>,
@@ -244,17 +248,18 @@ impl BodyForces {
             for (load, range) in memory.body_loads(system, body) {
                 let state = &memory.loads[range];
                 self.made.load.wrench.fill(0.0);
-                load.add(&at, state, &mut self.made).map_err(SolveError::error_about(&node.name))?;
+                load.add_dynamic_load(&at, state, &mut self.made).map_err(SolveError::error_about(&node.name))?;
                 let wrench = self.made.load.wrench;
                 self.add(body, load.category().index(), &wrench);
-                if let Some(inertia) = load.inertia(state) {
+                if let Some(inertia) = load.as_inertial().map(|inertial| inertial.inertia(state)) {
                     self.add(body, load.category().index(), &-(inertia * motion.acceleration));
                     let mut block = self.inertia.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                     block += inertia;
                     self.carried = true;
                 }
-                for other in load.other_categories() {
-                    let part = load.part(*other, &at, state);
+                let Some(divided) = load.as_divided() else { continue };
+                for other in divided.other_categories() {
+                    let part = divided.part(*other, &at, state);
                     self.count_as(body, (load.category().index(), other.index()), &part);
                 }
             }

@@ -85,7 +85,10 @@ impl RowLayout {
         }
         let mut categories = vec![Category::Inertia, Category::Coriolis];
         let loads = system.nodes.iter().chain(later).flat_map(|n| &n.floating.loads);
-        let loads = loads.flat_map(|l| std::iter::once(l.category()).chain(l.other_categories().iter().copied()));
+        let loads = loads.flat_map(|l| {
+            let others = l.as_divided().map_or(&[][..], |divided| divided.other_categories());
+            std::iter::once(l.category()).chain(others.iter().copied())
+        });
         let connectors = [Category::FlexConnectors, Category::RigidConnectors].into_iter();
         let damped = system.nodes.iter().chain(later).filter(|n| n.damped).map(|_| Category::RadiationDrag);
         let added = system.nodes.iter().chain(later).filter(|n| n.added).map(|_| Category::AddedInertia);

@@ -39,11 +39,7 @@ impl Afloat {
         let turning = mass.inertia - (Matrix3::identity() * centre.norm_squared() - outer) * mass.mass;
         let mut own = Matrix6::identity() * mass.mass;
         own.fixed_view_mut::<3, 3>(3, 3).copy_from(&turning);
-        let states = loads.iter().map(|load| {
-            let mut state = vec![0.0; load.states()];
-            load.start(&mut state);
-            state
-        });
+        let states = loads.iter().map(|load| vec![0.0; load.as_stateful().map_or(0, |stateful| stateful.states())]);
         Ok(Afloat {
             states: states.collect(),
             loads,
@@ -81,9 +77,12 @@ impl Structure for Afloat {
         let own = Underway { pose: &origin, velocity: &moves, ..*at };
         out.inertia = in_pose(&self.inertia, at.pose);
         for (load, state) in self.loads.iter().zip(&mut self.states) {
-            load.begin(&own, state)?;
-            let wrench = move_wrench(&load.moving(&own, state)?.load.wrench, -arm);
-            if let Some(more) = load.inertia(state) {
+            let stateful = load.as_stateful();
+            if let Some(stateful) = stateful {
+                stateful.begin(&own, state)?;
+            }
+            let wrench = move_wrench(&load.dynamic_load(&own, state)?.load.wrench, -arm);
+            if let Some(more) = load.as_inertial().map(|inertial| inertial.inertia(state)) {
                 out.inertia += move_stiffness(&more, -arm, -arm);
             }
             match load.category() {
@@ -91,8 +90,8 @@ impl Structure for Afloat {
                 Category::Buoyancy => out.hydrostatic += wrench,
                 _ => out.floating += wrench,
             }
-            if accepted {
-                load.commit(&own, state);
+            if let Some(stateful) = stateful.filter(|_| accepted) {
+                stateful.commit(&own, state);
             }
         }
         out.floating -= in_pose(&self.damping, at.pose) * at.velocity;
