@@ -1,10 +1,12 @@
 //! `&HELP`: everything a spec says, in words.
 
+use crate::commands::environment::env;
 use crate::commands::menu::join_names;
 use crate::commands::{COMMANDS, Call, Command, Effect, Job, commands_of_menu, status};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
 use windlass_connectors::CLASSES;
+use windlass_hydro::sea::spectra::SPECTRA;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::functions;
 use windlass_language::name;
@@ -23,6 +25,36 @@ static SPEC: CommandSpec = CommandSpec {
     example: "&HELP\n&HELP &DIMEN\n&HELP ~CLASS B_CAT",
     ..CommandSpec::new("&HELP", "explains a command, a function or a class type")
 };
+
+/// A registry that the help of a command lists behind its spec.
+struct HelpList {
+    command: &'static Command,
+    head: &'static str,
+    /// Names, with one line of help each.
+    rows: fn(UnitSystem) -> Vec<(&'static str, String)>,
+}
+
+static LISTS: &[HelpList] = &[
+    HelpList {
+        command: &status::STATUS,
+        head: "It reports:",
+        rows: |_| status::kinds_told().map(|(name, help)| (name, help.to_string())).collect(),
+    },
+    HelpList { command: &env::ENV, head: "Spectra of -SEA and -A_SEA:", rows: spectra_help },
+];
+
+/// Wave spectra, each with its parameters.
+fn spectra_help(units: UnitSystem) -> Vec<(&'static str, String)> {
+    let mut rows = Vec::new();
+    for spectrum in SPECTRA {
+        rows.push((spectrum.name, spectrum.help.to_string()));
+        for parameter in spectrum.parameters {
+            let unit = describe_expected(Kind::Number(parameter.dim), units);
+            rows.push(("", format!("{}: {}: {unit}", parameter.name, parameter.help)));
+        }
+    }
+    rows
+}
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let units = job.units;
@@ -63,9 +95,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 };
                 let lead = if CLASSES.iter().any(|k| std::ptr::eq(k.spec, spec)) { "~NAME " } else { "" };
                 let mut text = describe(spec, lead, units);
-                if std::ptr::eq(spec, status::STATUS.spec) {
-                    text.push_str("\n\n   It reports:");
-                    status::kinds_told().for_each(|(name, help)| text.push_str(&format!("\n      {name:<14} {help}")));
+                for list in LISTS.iter().filter(|list| std::ptr::eq(spec, list.command.spec)) {
+                    text.push_str(&format!("\n\n   {}", list.head));
+                    for (name, help) in (list.rows)(units) {
+                        text.push_str(&format!("\n      {name:<14} {help}"));
+                    }
                 }
                 text
             }

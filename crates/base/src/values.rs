@@ -216,6 +216,11 @@ impl Given {
         self.value(key).map_or(self.span, |value| value.span)
     }
 
+    /// The values from one on: it and what stands behind it.
+    pub fn values_from<T: ?Sized>(&self, key: ValueKey<T>) -> &[Value] {
+        self.values.get(key.index..).unwrap_or_default()
+    }
+
     /// The first value as a number: that of an option with one value, whichever it is.
     pub fn first_number(&self) -> Option<f64> {
         self.values.first().and_then(Value::number)

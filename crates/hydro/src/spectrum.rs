@@ -1,7 +1,7 @@
 //! Waves as their energy over frequency, and the spectrum of a sea of an environment.
 //!
 //! A sea is kept as many small energies `S dw` at their frequencies (half the square of an amplitude), which add up to
-//! `m0 = Hs^2/16`; a regular wave is one energy `a^2/2`. Means over the sea are then plain sums. The formulas stand in
+//! `m0 = Hs^2/16`; a regular wave is one energy `a^2/2`. Means over the sea are then plain sums. The spectra stand in
 //! [`super::sea::spectra`].
 //!
 //! [MOSES-REF env, curv]: the PERIOD of ISSC is the mean period 2 pi m0/m1, and the curve of a user is rescaled to m0 with its
@@ -10,7 +10,7 @@
 //! factor on all its frequencies; density of a P_SPECTRUM is over frequency too.
 
 use super::sea::density::Spectrum;
-use super::sea::spectra::{PeriodType, jonswap, most_probable, ochi_hubble, torsethaugen, usual_gamma};
+use super::sea::spectra::{self, PeriodInput, PeriodType, SeaState, ShapeParameter, WaveForm, jonswap};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, Curve, CurveKind, Environment, Model, SeaDefinition};
@@ -22,16 +22,26 @@ pub struct WaveEnergies {
     pub energies: Vec<(f64, f64)>,
 }
 
-/// Whether a name of a sea is that of a regular wave.
+/// Whether a sea is a regular wave.
 pub fn is_regular(sea: &SeaDefinition) -> bool {
-    ["REGULAR", "STOKES"].iter().any(|name| sea.spectrum.eq_ignore_ascii_case(name))
+    spectra::find(&sea.spectrum).is_some_and(|spectrum| spectrum.is_regular())
 }
 
-/// The peakedness of a sea: given, or the usual one of JONSWAP; `None` for spectra without one.
-pub fn gamma_of(env: &Environment, sea: &SeaDefinition) -> Option<f64> {
-    let kind = env.sea_period.as_ref().map_or(PeriodType::Peak, |g| g.kind);
-    let usual = || usual_gamma(sea.height, sea.period, kind);
-    sea.spectrum.eq_ignore_ascii_case("JONSWAP").then(|| sea.gamma.unwrap_or_else(usual))
+/// Whether a sea is a Stokes wave.
+pub fn is_stokes(sea: &SeaDefinition) -> bool {
+    spectra::find(&sea.spectrum).is_some_and(|spectrum| spectrum.is_stokes())
+}
+
+/// What `-SP_TYPE` says the period of the seas is.
+fn asked_period(env: &Environment) -> Option<PeriodType> {
+    env.sea_period.as_ref().map(|given| given.kind)
+}
+
+/// The parameters of the spectrum of a sea with their values (SI), given or the usual ones; none for spectra without parameters.
+pub fn shape_of(env: &Environment, sea: &SeaDefinition) -> Vec<(&'static ShapeParameter, f64)> {
+    let Some(spectrum) = spectra::find(&sea.spectrum) else { return Vec::new() };
+    let values = spectrum.shape(sea, spectrum.period_type(asked_period(env)));
+    spectrum.parameters.iter().zip(values).collect()
 }
 
 /// The spectrum of a sea of an environment, between two frequencies (rad/s) or over all; `None` for a regular wave.
@@ -67,42 +77,29 @@ pub fn build_spectrum(
 }
 
 fn whole(model: &Model, env: &Environment, sea: &SeaDefinition) -> Result<Spectrum, ClassError> {
-    let (height, period) = (sea.height, sea.period);
-    let m0 = height * height / 16.0;
-    let given = env.sea_period.as_ref();
-    let kind = |usual| given.map_or(usual, |g| g.kind);
-    let of_peak = |what: &str| match given {
-        Some(g) if g.kind != PeriodType::Peak => {
-            Err(ClassError::new(format!("the period of {what} is that of its peak")).with_span(g.span))
+    let asked = env.sea_period.as_ref();
+    let of_peak = |what: &str| match asked {
+        Some(given) if given.kind != PeriodType::Peak => {
+            Err(ClassError::new(format!("the period of {what} is that of its peak")).with_span(given.span))
         }
         _ => Ok(()),
     };
-    let humps = |humps| Spectrum::of_humps(humps, None).with_energy();
-    match sea.spectrum.to_ascii_uppercase().as_str() {
-        "ISSC" => humps(jonswap(height, period, kind(PeriodType::Mean), 1.0)),
-        "JONSWAP" => {
-            let gamma = gamma_of(env, sea).unwrap_or(1.0);
-            humps(jonswap(height, period, kind(PeriodType::Peak), gamma))
-        }
-        "TORSETHAUGEN" => {
-            of_peak("the spectrum of Torsethaugen")?;
-            humps(torsethaugen(height, period)?)
-        }
-        "OCHI" | "OCHI_HUBBLE" => {
-            of_peak("the spectrum of Ochi and Hubble")?;
-            let found = humps(ochi_hubble(most_probable(height))?)?;
-            found.with_scaled_frequencies(TAU / period / found.peak(), m0, None)
-        }
-        "2JONSWAP" => Err(ClassError::new("the sources give no formula of the 2JONSWAP spectrum")
-            .help("give two seas, -SEA JONSWAP .. and -A_SEA JONSWAP .., or a F_SPECTRUM curve")),
-        name => match model.curves.get(&Model::key(name)) {
-            Some(curve) => {
-                of_peak("a spectrum curve")?;
-                of_curve(curve, height, period)
-            }
-            None => Err(ClassError::new(format!("there is no spectrum {}", sea.spectrum))),
-        },
+    let Some(spectrum) = spectra::find(&sea.spectrum) else {
+        let Some(curve) = model.curves.get(&Model::key(&sea.spectrum)) else {
+            return Err(ClassError::new(format!("there is no spectrum {}", sea.spectrum)));
+        };
+        of_peak("a spectrum curve")?;
+        return of_curve(curve, sea.height, sea.period);
+    };
+    let WaveForm::Irregular { period, build } = spectrum.form else {
+        return Err(ClassError::new(format!("{} is a regular wave, not a spectrum", sea.spectrum)));
+    };
+    if let PeriodInput::PeakOnly(what) = period {
+        of_peak(what)?;
     }
+    let period_type = spectrum.period_type(asked_period(env));
+    let shape = spectrum.shape(sea, period_type);
+    build(&SeaState { height: sea.height, period: sea.period, period_type, shape })
 }
 
 /// A curve of a spectrum, scaled to a significant height (m) and its peak moved to a period (s).

@@ -19,10 +19,10 @@ pub struct SeaDefinition {
     pub height: f64,
     /// Period (s).
     pub period: f64,
-    /// Peakedness, where given.
-    pub gamma: Option<f64>,
-    /// Where its name, direction, height, period and peakedness were written.
-    pub places: [Span; 5],
+    /// The parameters of the spectrum behind the period, where given (SI).
+    pub shape: Vec<Option<f64>>,
+    /// Where its name, direction, height and period were written.
+    pub places: [Span; 4],
 }
 
 impl SeaDefinition {

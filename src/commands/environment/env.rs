@@ -9,8 +9,9 @@ use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::spec::ValueKey;
-use windlass_base::units::Dim;
+use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given, Noun, Value};
+use windlass_hydro::sea::spectra::{self, ShapeParameter};
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
@@ -33,18 +34,19 @@ pub(crate) const fn curve(help: &'static str) -> ValueSpec {
 }
 
 const SEA: &[ValueSpec] = &[
-    ValueSpec::new("NAME", Kind::ChoiceOrName(&SPECTRA, Noun::Curve), "a spectrum, or a curve of one"),
+    ValueSpec::new("NAME", Kind::ChoiceOrName(&spectra::NAMES, Noun::Curve), "a spectrum, or a curve of one"),
     number("DIR", Dim::Angle, "direction it comes from"),
     number("HS", Dim::Length, "significant height, or height of a regular wave").not_negative(),
     number("PERIOD", Dim::Time, "period").positive(),
-    number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").in_range(1.0, 20.0),
+    number("PARAM", Dim::None, "parameters of the spectrum, as GAMMA of JONSWAP").or("those of the spectrum"),
 ];
 pub(crate) const PERIODS: &[ValueSpec] = &[number("T", Dim::Time, "period").positive()];
 
 /// -SEA.
-pub(crate) const SEA_OPTION: OptionSpec = OptionSpec::new("-SEA", SEA, "sea").default("none");
+pub(crate) const SEA_OPTION: OptionSpec = OptionSpec::new("-SEA", SEA, "sea").repeating(1).default("none");
 /// -A_SEA.
-pub(crate) const A_SEA_OPTION: OptionSpec = OptionSpec::new("-A_SEA", SEA, "sea added to -SEA").default("none");
+pub(crate) const A_SEA_OPTION: OptionSpec =
+    OptionSpec::new("-A_SEA", SEA, "sea added to -SEA").repeating(1).default("none");
 /// -SP_TYPE.
 pub(crate) const SP_TYPE_OPTION: OptionSpec = OptionSpec::new(
     "-SP_TYPE",
@@ -191,11 +193,7 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              ABS MODU rules, joined between the middles of their bands. -W_DESIGN turns the mean into that of DURATION by the gust \
              factor of its code, and gives the profile where -W_PROFILE does not. Currents of several curves add up as vectors; a curve \
              counts depth from the actual surface, tide included, is straight between its points and constant beyond them; below \
-             the bottom there is none. PERIOD is the mean period of ISSC, the peak period of JONSWAP and TORSETHAUGEN (simplified, 2004), \
-             that of REGULAR and STOKES, and that to which the highest peak of a curve or of OCHI (Ochi and Hubble's most probable \
-             spectrum of HS) is moved; -SP_TYPE says otherwise for ISSC and JONSWAP. GAMMA of JONSWAP unless given is that of \
-             DNV-RP-C205 3.5.5.5: 5 up to Tp/sqrt(HS) = 3.6 (s, m), exp(5.75 - 1.15 Tp/sqrt(HS)) up to 5, 1 beyond. No source \
-             gives a formula of 2JONSWAP: what needs it says so. A spectrum becomes wave components: bands of equal energy, the \
+             the bottom there is none. What PERIOD is stands with each spectrum below; the highest peak of a curve is moved to it. A spectrum becomes wave components: bands of equal energy, the \
              frequency of each at the centroid of its energy, or of equal width (EQUAL_FREQUENCY, also at the centroid, so that the \
              sea does not repeat itself), or about the periods of -S_PERIOD; energy outside LOW to HIGH is left out. With -SPREAD \
              below 200 each component has one direction, from the cumulative spreading function at points of low discrepancy. \
@@ -361,27 +359,47 @@ pub(crate) fn formula(given: &Given, value: Option<ValueKey<f64>>) -> CurveRefer
     CurveReference { kind: given.first_word().unwrap_or_default().to_string(), value, span: given.span }
 }
 
-/// The spectra known without a curve.
-const SPECTRA: [&str; 8] = ["ISSC", "JONSWAP", "2JONSWAP", "OCHI", "OCHI_HUBBLE", "TORSETHAUGEN", "REGULAR", "STOKES"];
-
 fn sea(job: &Job, given: &Given) -> Outcome<SeaDefinition> {
     const NAME: ValueKey<str> = SEA_OPTION.word("NAME");
     const DIRECTION: ValueKey<f64> = SEA_OPTION.number("DIR");
     const HEIGHT: ValueKey<f64> = SEA_OPTION.number("HS");
     const PERIOD: ValueKey<f64> = SEA_OPTION.number("PERIOD");
-    const GAMMA: ValueKey<f64> = SEA_OPTION.number("GAMMA");
+    const PARAMETERS: ValueKey<f64> = SEA_OPTION.number("PARAM");
     let name = given.word(NAME).unwrap_or_default();
-    spectrum(job, given, &SPECTRA)?;
+    spectrum(job, given, &spectra::NAMES)?;
     let [direction, height, period] = given.numbers_or_zero([DIRECTION, HEIGHT, PERIOD]);
-    let [at_direction, at_height, at_period, at_gamma] = [DIRECTION, HEIGHT, PERIOD, GAMMA].map(|key| given.place(key));
+    let [at_direction, at_height, at_period] = [DIRECTION, HEIGHT, PERIOD].map(|key| given.place(key));
     Ok(SeaDefinition {
         spectrum: name.to_string(),
         direction,
         height,
         period,
-        gamma: given.number(GAMMA),
-        places: [given.place(NAME), at_direction, at_height, at_period, at_gamma],
+        shape: shape(name, given.values_from(PARAMETERS), job.units)?,
+        places: [given.place(NAME), at_direction, at_height, at_period],
     })
+}
+
+/// The parameters that a record gives a spectrum, SI.
+fn shape(name: &str, given: &[Value], units: UnitSystem) -> Outcome<Vec<Option<f64>>> {
+    let declared = spectra::find(name).map(|spectrum| spectrum.parameters).filter(|declared| !declared.is_empty());
+    let declared = declared.unwrap_or(std::slice::from_ref(&spectra::GAMMA));
+    if let Some(value) = given.get(declared.len()) {
+        let names: Vec<&str> = declared.iter().map(|parameter| parameter.name).collect();
+        let text = format!("{name} takes no further value behind {}", names.join(" "));
+        return Err(Diagnostic::error(text, value.span));
+    }
+    let read = |(parameter, value): (&ShapeParameter, &Value)| {
+        let Some(number) = value.number() else { return Ok(None) };
+        let si = parameter.dim.to_si(number, units);
+        let [low, high] = parameter.range;
+        if !(low..=high).contains(&si) {
+            let bound = |bound: f64| format_value(bound, parameter.dim, units);
+            let text = format!("{} of {name} must be between {} and {}", parameter.name, bound(low), bound(high));
+            return Err(Diagnostic::error(text, value.span).label(format!("this is {number}")));
+        }
+        Ok(Some(si))
+    };
+    declared.iter().zip(given).map(read).collect()
 }
 
 /// Sees that the first word names a known spectrum or a curve that is one.

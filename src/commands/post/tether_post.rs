@@ -13,6 +13,7 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
+use windlass_hydro::spectrum::is_regular;
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::SeriesError;
@@ -310,8 +311,7 @@ fn structure_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
 /// The period of the regular wave in force.
 fn period(job: &Job) -> Option<f64> {
     let sea = job.model.environment.sea.as_ref()?;
-    let regular = ["REGULAR", "STOKES"].iter().any(|name| sea.spectrum.eq_ignore_ascii_case(name));
-    regular.then_some(sea.period)
+    is_regular(sea).then_some(sea.period)
 }
 
 /// Prints tables, or opens the disposition menu over one.

@@ -10,7 +10,8 @@ use crate::commands::written::option_as_written;
 use windlass_base::table::{Cell, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::gusts::Gusts;
-use windlass_hydro::spectrum::gamma_of;
+use windlass_hydro::sea::spectra::GAMMA;
+use windlass_hydro::spectrum::shape_of;
 use windlass_hydro::steady::Steady;
 use windlass_language::spec::OptionSpec;
 use windlass_model::EntityKind;
@@ -56,13 +57,20 @@ fn depths(mut table: Table, steady: &Steady) -> Table {
 }
 
 fn facts_of_sea(table: Table, name: &str, env: &Environment, sea: &SeaDefinition) -> Table {
-    table
+    let table = table
         .fact(name, sea.spectrum.as_str(), Dim::None)
         .fact("   comes from", sea.direction, Dim::Angle)
         .fact("   travels toward", opposite(sea.direction), Dim::Angle)
         .fact("   height", sea.height, Dim::Length)
-        .fact("   period", sea.period, Dim::Time)
-        .fact("   gamma", gamma_of(env, sea).or(sea.gamma), Dim::None)
+        .fact("   period", sea.period, Dim::Time);
+    let shape = shape_of(env, sea);
+    if shape.is_empty() {
+        let kept = sea.shape.first().copied().flatten();
+        return table.fact(&format!("   {}", GAMMA.name.to_lowercase()), kept, GAMMA.dim);
+    }
+    shape.iter().fold(table, |table, (parameter, value)| {
+        table.fact(&format!("   {}", parameter.name.to_lowercase()), *value, parameter.dim)
+    })
 }
 
 fn environment(job: &Job, env: &Environment) -> Table {

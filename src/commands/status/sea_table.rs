@@ -77,8 +77,8 @@ fn components(env: &Environment, sea: &Sea, train: &EnvironmentSea) -> Table {
     let mut table = Table::new(title("Sea Spectrum", env, Some(train)))
         .fact("Spectrum", train.name.as_str(), Dim::None)
         .fact("Comes From", train.direction, Dim::Angle);
-    if train.gamma.is_some() {
-        table = table.fact("Gamma", train.gamma, Dim::None);
+    for (parameter, value) in &train.shape {
+        table = table.fact(parameter.label, *value, parameter.dim);
     }
     if let Some(spectrum) = &train.spectrum {
         let [m0, m1, m2] = [0, 1, 2].map(|n| spectrum.moment(n));

@@ -12,13 +12,13 @@ fn named(kind: &str, value: Option<f64>) -> Option<CurveReference> {
 }
 
 fn sea(spectrum: &str, height: f64, period: f64) -> Option<windlass_model::SeaDefinition> {
-    let places = [Span::default(); 5];
+    let places = [Span::default(); 4];
     Some(windlass_model::SeaDefinition {
         spectrum: spectrum.into(),
         direction: PI,
         height,
         period,
-        gamma: None,
+        shape: Vec::new(),
         places,
     })
 }

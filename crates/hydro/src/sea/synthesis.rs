@@ -2,6 +2,7 @@
 
 use super::components::{SpectrumBand, bands, bands_about};
 use super::density::Spectrum;
+use super::spectra::ShapeParameter;
 use super::stokes::{Stokes, breaks};
 use super::{Component, Sea, Water, dispersion, phases, spreading};
 use crate::spectrum;
@@ -18,14 +19,14 @@ pub const USUAL_PHASING: Phasing = Phasing::Seeded(1);
 pub const USUAL_ORDER: u8 = 5;
 
 /// One sea of an environment, the first or the added one, with what its components came from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct EnvironmentSea {
     /// Name of its spectrum, as written.
     pub name: String,
     /// Direction it comes from (rad).
     pub direction: f64,
-    /// Peakedness, of spectra that have one.
-    pub gamma: Option<f64>,
+    /// The parameters of its spectrum with their values (SI).
+    pub shape: Vec<(&'static ShapeParameter, f64)>,
     /// Its spectrum; `None` for a regular wave.
     pub spectrum: Option<Spectrum>,
     /// The bands its components stand for; none for a regular wave.
@@ -82,12 +83,12 @@ impl Sea {
                 let amplitude = (2.0 * band.energy).sqrt();
                 components.push(Component { frequency: band.frequency, number, amplitude, toward, phase });
             }
-            let gamma = spectrum::gamma_of(env, sea);
+            let shape = spectrum::shape_of(env, sea);
             let components = first..components.len();
             trains.push(EnvironmentSea {
                 name: sea.spectrum.clone(),
                 direction: sea.direction,
-                gamma,
+                shape,
                 spectrum,
                 bands,
                 components,
@@ -146,7 +147,7 @@ fn regular(
     let mut number =
         dispersion::wave_number(frequency, water.depth, water.gravity).map_err(|e| e.with_span(sea.place(3)))?;
     let mut stokes = None;
-    if sea.spectrum.eq_ignore_ascii_case("STOKES") {
+    if spectrum::is_stokes(sea) {
         let order = env.stokes.unwrap_or(USUAL_ORDER);
         let wave = Stokes::new(order, (sea.height, frequency), (toward, phase), water).map_err(at)?;
         number = wave.number;
@@ -169,7 +170,7 @@ mod tests {
             direction,
             height: 4.0,
             period: 10.0,
-            gamma: None,
+            shape: Vec::new(),
             places: Default::default(),
         };
         model.environment = Environment { sea: Some(sea(std::f64::consts::FRAC_PI_6)), ..Environment::default() };

@@ -4,7 +4,7 @@
 
 use super::components::{bands, bands_about};
 use super::density::Spectrum;
-use super::spectra::{PeriodType, jonswap, most_probable, ochi_hubble, torsethaugen, usual_gamma};
+use super::spectra::{PeriodType, default_gamma, jonswap, most_probable, ochi_hubble, torsethaugen};
 use super::*;
 use std::f64::consts::{PI, TAU};
 use windlass_model::{Division, Phasing};
@@ -107,11 +107,11 @@ fn torsethaugen_keeps_height_and_peak_periods_of_its_model() {
 
 #[test]
 fn default_peakedness_matches_dnv() {
-    let gamma = |period| usual_gamma(4.0, period, PeriodType::Peak);
+    let gamma = |period| default_gamma(4.0, period, PeriodType::Peak);
     assert_eq!((gamma(7.0), gamma(7.2), gamma(10.0), gamma(12.0)), (5.0, 5.0, 1.0, 1.0));
     assert!((gamma(8.6) - (5.75f64 - 1.15 * 4.3).exp()).abs() < 1e-12);
     // of a mean period: the peak period that comes of it gives the same peakedness back
-    let found = usual_gamma(4.0, 7.2, PeriodType::Mean);
+    let found = default_gamma(4.0, 7.2, PeriodType::Mean);
     let peak = TAU / jonswap(4.0, 7.2, PeriodType::Mean, found)[0].peak;
     assert!((gamma(peak) / found - 1.0).abs() < 1e-9, "{found}");
 }

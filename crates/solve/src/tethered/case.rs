@@ -10,6 +10,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_hydro::Floating;
 use windlass_hydro::current::CurrentField;
 use windlass_hydro::sea::Sea;
+use windlass_hydro::spectrum::{is_regular, is_stokes};
 use windlass_model::{
     Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse,
 };
@@ -322,12 +323,11 @@ fn tubes_alone(model: &Model, body: &Body, centre: Vector3<f64>) -> Option<Vec<T
 /// The waves as AQWA has them: a regular one in deep water, of the second order if it is a STOKES wave.
 fn deep_wave(model: &Model) -> Option<Result<DeepWave, ClassError>> {
     let sea = model.environment.sea.as_ref()?;
-    let second = sea.spectrum.eq_ignore_ascii_case("STOKES");
-    if !second && !sea.spectrum.eq_ignore_ascii_case("REGULAR") {
+    if !is_regular(sea) {
         return None;
     }
     let wave = DeepWave::new(0.5 * sea.height, sea.period, sea.direction + PI, model.defaults.gravity);
-    Some(wave.map(|wave| DeepWave { second, ..wave }))
+    Some(wave.map(|wave| DeepWave { second: is_stokes(sea), ..wave }))
 }
 
 fn installed_case(
