@@ -6,6 +6,7 @@ use crate::commands::{COMMANDS, Call, Command, Effect, Job, commands_of_menu, st
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
 use windlass_connectors::CLASSES;
+use windlass_hydro::gusts::GUST_SPECTRA;
 use windlass_hydro::sea::spectra::SPECTRA;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::functions;
@@ -41,6 +42,11 @@ static LISTS: &[HelpList] = &[
         rows: |_| status::kinds_told().map(|(name, help)| (name, help.to_string())).collect(),
     },
     HelpList { command: &env::ENV, head: "Spectra of -SEA and -A_SEA:", rows: spectra_help },
+    HelpList {
+        command: &env::ENV,
+        head: "Gust spectra of -W_SPECTRUM:",
+        rows: |_| GUST_SPECTRA.iter().map(|spectrum| (spectrum.name, spectrum.help.to_string())).collect(),
+    },
 ];
 
 /// Wave spectra, each with its parameters.

@@ -4,6 +4,7 @@
 
 mod coverage;
 mod crates;
+mod registries;
 mod sources;
 mod specs;
 mod value_keys;

@@ -2,7 +2,6 @@
 //!
 //! Source: [MOSES-REF env]. Directions are where wind, sea and current come from, from +X toward +Y.
 
-use crate::options::W_SPECTRUM;
 use windlass_base::choices;
 use windlass_base::span::Span;
 use windlass_base::values::Given;
@@ -287,7 +286,7 @@ impl Environment {
             _ => &[],
         };
         let seas = [&self.sea, &self.added_sea].into_iter().flatten().map(|s| s.spectrum.as_str());
-        let gusts = self.options.iter().filter(|given| given.is(&W_SPECTRUM)).filter_map(|g| g.first_word());
+        let gusts = self.gusts.iter().map(|gusts| gusts.kind.as_str());
         let named = self.options.iter().flat_map(|g| g.names(Noun::Curve)).filter_map(|v| v.word()).chain(gusts);
         Box::new(profiles.iter().map(|(name, _)| name.as_str()).chain(seas).chain(named))
     }

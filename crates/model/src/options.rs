@@ -61,9 +61,3 @@ pub const PHASES: OptionSpec = OptionSpec::new(
 .repeating(1)
 .default("random, of -SEED")
 .owner(Owner::Ours);
-/// -W_SPECTRUM.
-pub const W_SPECTRUM: OptionSpec = OptionSpec::new(
-    "-W_SPECTRUM",
-    &[ValueSpec::new("TYPE", Kind::Text, "API, NPD, ISO, OCHI, HARRIS, DAVENPORT, KAIMAL, or a spectrum curve")],
-    "gust spectrum",
-);

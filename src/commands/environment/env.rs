@@ -15,7 +15,7 @@ use windlass_hydro::sea::spectra::{self, ShapeParameter};
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::options::{PHASES, W_SPECTRUM};
+use windlass_model::options::PHASES;
 use windlass_model::{
     Current, Curve, CurveKind, CurveReference, EntityKind, Environment, FormulaChoice, Model, PeriodType,
     SeaDefinition, TimeWindow, find,
@@ -34,7 +34,7 @@ pub(crate) const fn curve(help: &'static str) -> ValueSpec {
 }
 
 const SEA: &[ValueSpec] = &[
-    ValueSpec::new("NAME", Kind::ChoiceOrName(&spectra::NAMES, Noun::Curve), "a spectrum, or a curve of one"),
+    ValueSpec::new("NAME", Kind::ChoiceOrName(spectra::NAMES, Noun::Curve), "a spectrum, or a curve of one"),
     number("DIR", Dim::Angle, "direction it comes from"),
     number("HS", Dim::Length, "significant height, or height of a regular wave").not_negative(),
     number("PERIOD", Dim::Time, "period").positive(),
@@ -153,7 +153,7 @@ const OPTIONS: &[OptionSpec] = &[
     wind_options::WIND,
     wind_options::PROFILE,
     wind_options::DESIGN,
-    W_SPECTRUM,
+    wind_options::SPECTRUM,
     wind_options::HISTORY,
     wind_options::PERIOD,
     wind_options::COMPONENTS,
@@ -180,8 +180,7 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              &BATHYMETRY: dynamic lines lie on it, anchors of connectors defined by -ANCHOR stand on it, and a quasi-static B_CAT lies on its profile along \
              the azimuth of the line. Lines of AQWA, and a B_CAT with -SLOPE or -DEPANCHOR or whose anchor was given an elevation, lie on a plane \
              through their anchor. Waves have the depth of -DEPTH everywhere. \
-             -W_SPECTRUM adds gusts in the time domain, the same at all places and heights, on the speed 10 m up: API RP 2A 20th edition; NPD \
-             and ISO (Froya); Ochi and Shin; Harris; Davenport; Kaimal; the drag coefficient of the last four is Wu's, 0.0008 + 0.000065 U. \
+             -W_SPECTRUM adds gusts in the time domain, the same at all places and heights, on the speed 10 m up. \
              The speed of -WIND is then an hourly mean: periods from an hour to a second are taken, in -W_COMPONENTS of equal energy or about \
              those of -W_PERIOD, with phases of -SEED. A curve is a density over rad/s in ft2/s or m2/s, as it is; INTENSITY scales any \
              spectrum. -W_HISTORY takes the place of the speed of -WIND in the time domain, with its direction and profile; -C_HISTORY \
@@ -366,7 +365,7 @@ fn sea(job: &Job, given: &Given) -> Outcome<SeaDefinition> {
     const PERIOD: ValueKey<f64> = SEA_OPTION.number("PERIOD");
     const PARAMETERS: ValueKey<f64> = SEA_OPTION.number("PARAM");
     let name = given.word(NAME).unwrap_or_default();
-    spectrum(job, given, &spectra::NAMES)?;
+    spectrum(job, given, spectra::NAMES)?;
     let [direction, height, period] = given.numbers_or_zero([DIRECTION, HEIGHT, PERIOD]);
     let [at_direction, at_height, at_period] = [DIRECTION, HEIGHT, PERIOD].map(|key| given.place(key));
     Ok(SeaDefinition {

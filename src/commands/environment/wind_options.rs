@@ -4,14 +4,11 @@ use crate::commands::Job;
 use crate::commands::environment::env::{PERIODS, curve, formula, known_curve, number, periods, spectrum};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::Dim;
-use windlass_base::values::Given;
+use windlass_base::values::{Given, Noun};
+use windlass_hydro::gusts;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::options::W_SPECTRUM;
 use windlass_model::{CurveKind, CurveReference, Environment, FormulaChoice, GustParts, Wind, WindCode, WindLaw};
-
-/// Gust spectra known without a curve.
-const GUSTS: [&str; 7] = ["API", "NPD", "ISO", "OCHI", "HARRIS", "DAVENPORT", "KAIMAL"];
 
 /// -WIND.
 pub(crate) const WIND: OptionSpec = OptionSpec::new(
@@ -39,6 +36,13 @@ pub(crate) const DESIGN: OptionSpec = OptionSpec::new(
         number("DURATION", Dim::Time, "averaging time").or("that of the type").positive(),
     ],
     "design wind",
+);
+
+/// -W_SPECTRUM.
+pub(crate) const SPECTRUM: OptionSpec = OptionSpec::new(
+    "-W_SPECTRUM",
+    &[ValueSpec::new("TYPE", Kind::ChoiceOrName(gusts::NAMES, Noun::Curve), "a gust spectrum, or a curve of one")],
+    "gust spectrum",
 );
 
 /// -W_HISTORY.
@@ -85,8 +89,8 @@ pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
             let value = given.number(const { DESIGN.number("DURATION") });
             env.design_wind = kind.map(|kind| FormulaChoice { kind, value, span: given.span });
         }
-        _ if given.is(&W_SPECTRUM) => {
-            spectrum(job, given, &GUSTS)?;
+        _ if given.is(&SPECTRUM) => {
+            spectrum(job, given, gusts::NAMES)?;
             let named = formula(given, None);
             env.gusts = Some(CurveReference { kind: named.kind.to_ascii_uppercase(), ..named });
         }

@@ -6,7 +6,7 @@ use crate::common::body_load::begin_step;
 use nalgebra::Matrix6;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::gusts::{FREQUENCY_RANGE_HZ, GustFormula, Gusts};
+use windlass_hydro::gusts::{FREQUENCY_RANGE_HZ, GUST_SPECTRA, Gusts};
 use windlass_hydro::{BodyLoad, Category, DynamicLoad, Floating, Underway};
 use windlass_model::Model;
 
@@ -255,14 +255,8 @@ fn statistics(gusts: &Gusts, time: f64) -> (f64, f64) {
 
 #[test]
 fn gust_series_variance_matches_spectrum_integral() {
-    for (name, shape) in [
-        ("API", GustFormula::Api),
-        ("NPD", GustFormula::Froya),
-        ("OCHI", GustFormula::Ochi),
-        ("HARRIS", GustFormula::Harris),
-        ("DAVENPORT", GustFormula::Davenport),
-        ("KAIMAL", GustFormula::Kaimal),
-    ] {
+    for shape in GUST_SPECTRA {
+        let name = shape.name;
         let gusts = gusts(&format!("&ENV -WIND 50 180 -W_SPECTRUM {name}"));
         // the integral of the formula by Simpson's rule over the logarithm of the frequency
         let (parts, speed) = (4000, 50.0 * KNOT);
@@ -270,7 +264,7 @@ fn gust_series_variance_matches_spectrum_integral() {
         let part = |i: i32| {
             let f = FREQUENCY_RANGE_HZ[0] * (step * f64::from(i)).exp();
             let weight = if i == 0 || i == parts { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
-            weight * f * shape.density(f, speed) * step / 3.0
+            weight * f * (shape.density)(f, speed) * step / 3.0
         };
         let want: f64 = (0..=parts).map(part).sum();
         // straight lines between the points of the table are off by 2e-5

@@ -12,11 +12,11 @@ use windlass_base::units::Dim;
 use windlass_model::{ClassError, SeaDefinition};
 
 pub use jonswap::{GAMMA, default_gamma, jonswap};
-pub use windlass_model::PeriodType;
 #[cfg(test)]
 pub(super) use ochi_hubble::{most_probable, ochi_hubble};
 #[cfg(test)]
 pub(super) use torsethaugen::torsethaugen;
+pub use windlass_model::PeriodType;
 
 /// Every spectrum, in the order of help and messages.
 pub static SPECTRA: &[&WaveSpectrum] = &[
@@ -31,7 +31,7 @@ pub static SPECTRA: &[&WaveSpectrum] = &[
 ];
 
 /// The names of all, for specs.
-pub static NAMES: [&str; SPECTRA.len()] = names();
+pub const NAMES: &[&str] = &names();
 
 const fn names() -> [&'static str; SPECTRA.len()] {
     let mut names = [""; SPECTRA.len()];

@@ -3,7 +3,15 @@
 //! The spectra are those at 10 m, the height of the wind of `&ENV`; a gust is the same at all heights and places at one time: no
 //! coherence in space is regarded, which is safe for large bodies. (The standard deviation of a boundary layer hardly changes with
 //! height: that of API not at all up to 20 m.) The mean is over an hour, so that slower components belong to it: those taken
-//! reach from a period of an hour to one of a second. All formulas are from memory of the sources named, one-sided, f in Hz.
+//! reach from a period of an hour to one of a second. All formulas are from memory of the sources named, one-sided, f in Hz; each
+//! has its file.
+
+mod api;
+mod davenport;
+mod froya;
+mod harris;
+mod kaimal;
+mod ochi_shin;
 
 use super::sea::components::{SpectrumBand, bands, bands_about};
 use super::sea::density::Spectrum;
@@ -26,92 +34,40 @@ const SPECTRUM_POINTS: usize = 800;
 /// Height of the formulas (m).
 const FORMULA_HEIGHT_M: f64 = super::wind::REFERENCE_HEIGHT_M;
 
-/// A formula of gusts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GustFormula {
-    /// [API-RP-2A 2.3.2], 20th edition: `s^2/fp (1 + 1.5 f/fp)^(-5/3)`, s = 0.15 (z/20)^-0.125 U, fp = 0.025 U/z. (The 21st
-    /// edition has that of NPD.)
-    Api,
-    /// NPD (Froya) [ANDERSEN-1992; ISO-19901-1 A.7.4]: `320 (U/10)^2 (z/10)^0.45 (1 + x^n)^(-5/(3n))`, n = 0.468,
-    /// x = 172 f (z/10)^(2/3) (U/10)^-0.75.
-    Froya,
-    /// [OCHI-SHIN-1988]: `f S/u*^2` is 583 x up to x = f z/U = 0.003, `420 x^0.7 (1 + x^0.35)^-11.5` up to 0.1, then
-    /// `838 x (1 + x^0.35)^-11.5`.
-    Ochi,
-    /// [HARRIS-1971]: `f S/(k U^2) = 4 x (2 + x^2)^(-5/6)`, x = 1800 f/U.
-    Harris,
-    /// [DAVENPORT-1961]: `f S/(k U^2) = 4 x^2 (1 + x^2)^(-4/3)`, x = 1200 f/U.
-    Davenport,
-    /// [KAIMAL-1972]: `f S/u*^2 = 105 x (1 + 33 x)^(-5/3)`, x = f z/U.
-    Kaimal,
+/// A gust spectrum as `-W_SPECTRUM` of `&ENV` takes it. One is declared in the file that has its formula, and listed in
+/// [`GUST_SPECTRA`].
+#[derive(Clone, Copy, Debug)]
+pub struct GustSpectrum {
+    /// The word that asks for it.
+    pub name: &'static str,
+    /// One line of help: whose it is.
+    pub help: &'static str,
+    /// Density (m2/s2 per Hz) at a frequency (Hz) about a mean speed at 10 m (m/s).
+    pub density: fn(f: f64, speed: f64) -> f64,
+    /// Standard deviation (m/s) of all frequencies about a mean speed at 10 m (m/s): the root of the integral of the density.
+    pub deviation: fn(speed: f64) -> f64,
 }
 
-impl GustFormula {
-    /// That of a name of `-W_SPECTRUM`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Some(match name {
-            "API" => GustFormula::Api,
-            "NPD" | "ISO" => GustFormula::Froya,
-            "OCHI" => GustFormula::Ochi,
-            "HARRIS" => GustFormula::Harris,
-            "DAVENPORT" => GustFormula::Davenport,
-            "KAIMAL" => GustFormula::Kaimal,
-            _ => return None,
-        })
-    }
+/// Every gust spectrum, in the order of help and messages.
+pub static GUST_SPECTRA: &[&GustSpectrum] =
+    &[&api::API, &froya::NPD, &froya::ISO, &ochi_shin::OCHI, &harris::HARRIS, &davenport::DAVENPORT, &kaimal::KAIMAL];
 
-    /// Density (m2/s2 per Hz) at a frequency (Hz) about a mean speed at 10 m (m/s).
-    pub fn density(self, f: f64, speed: f64) -> f64 {
-        let (friction, reduced) = (drag_coefficient(speed) * speed * speed, f * FORMULA_HEIGHT_M / speed);
-        match self {
-            GustFormula::Api => {
-                let (s, peak) = (api_deviation(speed), 0.025 * speed / FORMULA_HEIGHT_M);
-                s * s / peak * (1.0 + 1.5 * f / peak).powf(-5.0 / 3.0)
-            }
-            GustFormula::Froya => {
-                const N: f64 = 0.468;
-                let x = 172.0 * f * (speed / 10.0).powf(-0.75);
-                3.2 * speed * speed * (1.0 + x.powf(N)).powf(-5.0 / (3.0 * N))
-            }
-            GustFormula::Ochi => {
-                let fall = (1.0 + reduced.powf(0.35)).powf(-11.5);
-                let per = friction * FORMULA_HEIGHT_M / speed;
-                match reduced {
-                    x if x <= 0.003 => 583.0 * per,
-                    x if x <= 0.1 => 420.0 * x.powf(-0.3) * fall * per,
-                    _ => 838.0 * fall * per,
-                }
-            }
-            GustFormula::Harris => {
-                let length = 1800.0 / speed;
-                4.0 * friction * length * (2.0 + (f * length).powi(2)).powf(-5.0 / 6.0)
-            }
-            GustFormula::Davenport => {
-                let length = 1200.0 / speed;
-                4.0 * friction * length * length * f * (1.0 + (f * length).powi(2)).powf(-4.0 / 3.0)
-            }
-            GustFormula::Kaimal => {
-                105.0 * friction * FORMULA_HEIGHT_M / speed * (1.0 + 33.0 * reduced).powf(-5.0 / 3.0)
-            }
-        }
-    }
+/// The names of all, for specs.
+pub const NAMES: &[&str] = &names();
 
-    /// Standard deviation (m/s) of all frequencies: the root of the integral of the density.
-    pub fn deviation(self, speed: f64) -> f64 {
-        let friction = drag_coefficient(speed) * speed * speed;
-        let variance = match self {
-            GustFormula::Api => return api_deviation(speed),
-            // B(1/n, 2/(3n))/n, with B Euler's beta function, is 0.567222
-            GustFormula::Froya => 3.2 * speed * speed * (speed / 10.0).powf(0.75) / 172.0 * 0.567_222_117_5,
-            // by Simpson's rule
-            GustFormula::Ochi => 10.116_441 * friction,
-            // 4 2^(-1/3) sqrt(pi)/2 Gamma(1/3)/Gamma(5/6)
-            GustFormula::Harris => 6.677_476_047 * friction,
-            GustFormula::Davenport => 6.0 * friction,
-            GustFormula::Kaimal => 105.0 / 22.0 * friction,
-        };
-        variance.sqrt()
+const fn names() -> [&'static str; GUST_SPECTRA.len()] {
+    let mut names = [""; GUST_SPECTRA.len()];
+    let mut i = 0;
+    while i < names.len() {
+        names[i] = GUST_SPECTRA[i].name;
+        i += 1;
     }
+    names
+}
+
+/// The gust spectrum of a name, in capitals or not.
+pub fn find(name: &str) -> Option<&'static GustSpectrum> {
+    GUST_SPECTRA.iter().find(|spectrum| spectrum.name.eq_ignore_ascii_case(name)).copied()
 }
 
 /// Drag coefficient of the sea's surface at 10 m under a mean speed (m/s), `(u*/U)^2` [WU-1982], the k of Harris and Davenport.
@@ -119,8 +75,14 @@ pub fn drag_coefficient(speed: f64) -> f64 {
     1e-3 * (0.8 + 0.065 * speed)
 }
 
-fn api_deviation(speed: f64) -> f64 {
-    0.15 * (FORMULA_HEIGHT_M / 20.0).powf(-0.125) * speed
+/// The square of the friction velocity (m2/s2) under a mean speed (m/s).
+fn friction(speed: f64) -> f64 {
+    drag_coefficient(speed) * speed * speed
+}
+
+/// `f z/U` of a frequency (Hz) at a mean speed (m/s).
+fn reduced(f: f64, speed: f64) -> f64 {
+    f * FORMULA_HEIGHT_M / speed
 }
 
 /// The gusts of an environment.
@@ -158,7 +120,7 @@ impl Gusts {
         if wind.speed == 0.0 {
             return Ok(None);
         }
-        let shape = GustFormula::from_name(&named.kind);
+        let shape = find(&named.kind);
         let points = match shape {
             Some(shape) => table(shape, wind.speed),
             None => of_curve(model, named)?,
@@ -185,7 +147,7 @@ impl Gusts {
             _ => DEFAULT_SEED,
         };
         let phases = phases(Phasing::Seeded(seed), SEED_STREAM, bands.iter().map(|b| b.frequency));
-        let whole = shape.filter(|_| intensity.is_none()).map(|s| s.deviation(wind.speed));
+        let whole = shape.filter(|_| intensity.is_none()).map(|s| (s.deviation)(wind.speed));
         let name = named.kind.clone();
         Ok(Some(Gusts { name, mean: wind.speed, spectrum, bands, phases, seed, whole, last: Mutex::new(None) }))
     }
@@ -211,11 +173,11 @@ impl Gusts {
 }
 
 /// A formula as frequency (rad/s) and density (m2/s).
-fn table(shape: GustFormula, speed: f64) -> Vec<(f64, f64)> {
+fn table(shape: &GustSpectrum, speed: f64) -> Vec<(f64, f64)> {
     let [low, high] = FREQUENCY_RANGE_HZ;
     let point = |i: usize| {
         let f = low * (high / low).powf(i as f64 / (SPECTRUM_POINTS - 1) as f64);
-        (TAU * f, shape.density(f, speed) / TAU)
+        (TAU * f, (shape.density)(f, speed) / TAU)
     };
     (0..SPECTRUM_POINTS).map(point).collect()
 }
@@ -240,24 +202,15 @@ pub const DENSITY: Dim = Dim::Derived { force: 0, length: 2, seconds: -1 };
 mod tests {
     use super::*;
 
-    const ALL: [GustFormula; 6] = [
-        GustFormula::Api,
-        GustFormula::Froya,
-        GustFormula::Ochi,
-        GustFormula::Harris,
-        GustFormula::Davenport,
-        GustFormula::Kaimal,
-    ];
-
     /// The integral over frequencies from low to high (Hz), by Simpson's rule over the logarithm.
-    fn integral(shape: GustFormula, speed: f64, low: f64, high: f64) -> f64 {
+    fn integral(shape: &GustSpectrum, speed: f64, low: f64, high: f64) -> f64 {
         let parts = 40_000;
         let step = (high / low).ln() / f64::from(parts);
         let sum: f64 = (0..=parts)
             .map(|i| {
                 let f = low * (step * f64::from(i)).exp();
                 let weight = if i == 0 || i == parts { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
-                weight * f * shape.density(f, speed)
+                weight * f * (shape.density)(f, speed)
             })
             .sum();
         sum * step / 3.0
@@ -265,12 +218,12 @@ mod tests {
 
     #[test]
     fn wind_spectrum_integrates_to_its_variance() {
-        for shape in ALL {
+        for shape in GUST_SPECTRA {
             for speed in [8.0, 25.0, 45.0] {
                 // what is left out: below 1e-9 Hz nothing, above 1e9 Hz a share of 1e-6, as all fall with the power -5/3
                 let whole = integral(shape, speed, 1e-9, 1e9);
-                let want = shape.deviation(speed).powi(2);
-                assert!((whole / want - 1.0).abs() < 2e-5, "{shape:?} {speed} {whole} {want}");
+                let want = (shape.deviation)(speed).powi(2);
+                assert!((whole / want - 1.0).abs() < 2e-5, "{} {speed} {whole} {want}", shape.name);
             }
         }
     }
@@ -279,18 +232,18 @@ mod tests {
     fn wind_spectra_match_published_values() {
         let near = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-6, "{got} {want}");
         // Froya at f = 0 and U = 20 m/s: 320 x 4
-        near(GustFormula::Froya.density(1e-30, 20.0), 1280.0);
+        near((froya::NPD.density)(1e-30, 20.0), 1280.0);
         // at x = 1 it is 2^(-5/1.404) of that
-        near(GustFormula::Froya.density(2f64.powf(0.75) / 172.0, 20.0), 1280.0 * 2f64.powf(-5.0 / 1.404));
+        near((froya::NPD.density)(2f64.powf(0.75) / 172.0, 20.0), 1280.0 * 2f64.powf(-5.0 / 1.404));
         // the branches of Ochi and Shin meet at x = 0.003 and x = 0.1 to the figures published: 420 x 0.1^-0.3 = 838.0
         for x in [0.003, 0.1] {
-            let [a, b] = [x * 0.999_999, x * 1.000_001].map(|x| GustFormula::Ochi.density(x * 2.0, 20.0));
+            let [a, b] = [x * 0.999_999, x * 1.000_001].map(|x| (ochi_shin::OCHI.density)(x * 2.0, 20.0));
             assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
         }
         // Davenport's reduced spectrum f S has its peak at x = sqrt(3), at 12 / 4^(4/3) = 1.8899 k U^2
         let f = 3f64.sqrt() * 20.0 / 1200.0;
         near(
-            f * GustFormula::Davenport.density(f, 20.0),
+            f * (davenport::DAVENPORT.density)(f, 20.0),
             12.0 * 4f64.powf(-4.0 / 3.0) * drag_coefficient(20.0) * 400.0,
         );
         // [WU-1982] at 20 m/s: 2.1e-3
