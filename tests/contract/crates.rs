@@ -21,7 +21,7 @@ fn dependencies(manifest: &toml::Table) -> Vec<&str> {
 #[test]
 fn engines_do_not_depend_on_language() {
     let crates = crates();
-    for name in ["base", "catenary", "line-dynamics", "tether", "hydro", "signal", "solve", "model"] {
+    for name in ["base", "catenary", "line-dynamics", "tether", "hydro", "signal", "solve", "model", "nonlinear"] {
         let (_, manifest) = &crates[&format!("windlass-{name}")];
         assert!(!dependencies(manifest).contains(&"windlass-language"), "windlass-{name} depends on the language");
     }

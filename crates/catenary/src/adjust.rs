@@ -7,6 +7,7 @@
 
 use super::error::LineError;
 use super::line::Line;
+use windlass_nonlinear::{BracketedRoot, Halvings};
 
 /// The force that is wanted at the fairlead.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,35 +167,16 @@ impl Line {
 }
 
 /// The length between two at which the force changes over its wanted value, and what is left there.
-fn crossing(
-    [mut a, mut b]: [f64; 2],
-    [mut at_a, mut at_b]: [f64; 2],
-    off: &mut impl FnMut(f64) -> Option<f64>,
-) -> Sample {
-    // the secant with halved weights of the end that stays [DOWELL-JARRATT-1971], and a halving now and then
-    let mut best = if at_a.abs() < at_b.abs() { (a, at_a) } else { (b, at_b) };
-    let mut stayed = 0;
-    for turn in 0..MAX_STEPS {
-        let share = if turn % 3 == 2 { 0.5 } else { (at_a / (at_a - at_b)).clamp(1e-3, 1.0 - 1e-3) };
-        let middle = a + share * (b - a);
-        if middle <= a || middle >= b || best.1 == 0.0 {
-            break;
-        }
-        let Some(value) = off(middle) else { break };
-        if value.abs() < best.1.abs() {
-            best = (middle, value);
-        }
-        if value * at_a > 0.0 {
-            (a, at_a) = (middle, value);
-            at_b *= if stayed > 0 { 0.5 } else { 1.0 };
-            stayed = 1;
-        } else {
-            (b, at_b) = (middle, value);
-            at_a *= if stayed < 0 { 0.5 } else { 1.0 };
-            stayed = -1;
-        }
+fn crossing(ends: [f64; 2], values: [f64; 2], off: &mut impl FnMut(f64) -> Option<f64>) -> Sample {
+    // where another part of the line comes to lie on the bottom the force may jump
+    let mut search = BracketedRoot::new(ends, values, Halvings::EveryThird);
+    for _ in 0..MAX_STEPS {
+        let Some(length) = search.propose() else { break };
+        let Some(value) = off(length) else { break };
+        search.record(length, value);
     }
-    (best.0, Some(best.1))
+    let (length, value) = search.best();
+    (length, Some(value))
 }
 
 /// The length between two at which a force that is too large (`sign` 1) is least, or one too small (-1) largest, by golden sections;

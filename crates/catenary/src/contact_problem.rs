@@ -10,6 +10,7 @@ use super::element::LinePiece;
 use super::error::LineError;
 use super::multi_segment::{JointStatus, LineSolution, MultiSegmentLine, SegmentSolution};
 use super::segment::SpanReach;
+use windlass_nonlinear::{Convergence, NewtonBracket, NewtonSearch};
 
 /// A chain to be rested at a given horizontal force.
 pub struct ContactProblem<'a> {
@@ -192,8 +193,8 @@ impl<'a> ContactProblem<'a> {
             v = drop.signum() * (h + weight.abs()) * 1e-3;
         }
         let fine = 2.0 * f64::EPSILON * (length + drop.abs());
-        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        let mut grow = weight.abs() + pulled + h;
+        let mut search = NewtonSearch::new(NewtonBracket::OPEN, weight.abs() + pulled + h);
+        let mut convergence = Convergence::new(fine);
         let mut best = (f64::INFINITY, v, f64::INFINITY);
         let mut steps = 0;
         while steps < MAX_NEWTON_ITERATIONS {
@@ -203,30 +204,15 @@ impl<'a> ContactProblem<'a> {
             if !off.is_finite() {
                 break;
             }
-            let better = off.abs() < best.0;
-            if better {
+            let status = convergence.record(off.abs());
+            if status.is_improved() {
                 best = (off.abs(), v, z_v);
             }
-            if best.0 <= fine || (!better && best.0 <= 64.0 * fine) {
+            if status.is_final() {
                 break;
             }
-            if off > 0.0 {
-                high = high.min(v);
-            } else {
-                low = low.max(v);
-            }
-            let newton = v - off / z_v;
-            let bracketed = low.is_finite() && high.is_finite();
-            let inside = newton.is_finite() && newton > low && newton < high;
-            let next = if inside && (bracketed || (newton - v).abs() < grow) {
-                newton
-            } else if bracketed {
-                0.5 * (low + high)
-            } else {
-                grow *= 2.0;
-                if off > 0.0 { v - grow } else { v + grow }
-            };
-            if next == v || (bracketed && high - low <= 4.0 * f64::EPSILON * (low.abs() + high.abs())) {
+            let next = search.advance(v, off, v - off / z_v);
+            if next == v || search.bracket.is_narrower_than(4.0) {
                 break;
             }
             v = next;

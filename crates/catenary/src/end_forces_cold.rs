@@ -8,14 +8,15 @@
 
 use super::element::{LinePiece, vertical_of_contact};
 use super::end_forces::{EndForces, FlatBottom, Regime};
+use super::end_forces_newton::{NewtonOptions, newton, tangent_stiffness};
 use super::error::LineError;
 use super::line::{MAX_MAGNITUDE, Segment};
 use super::multi_segment::MultiSegmentLine;
 use super::search::{FunctionPoint, rising_root};
 use super::segment::{SpanReach, hanging, lifted_reach};
 
-/// Newton steps after which the nested search takes over.
-const MAX_NEWTON_ITERATIONS: usize = 40;
+/// Newton's iteration of the cold start; after it the nested search takes over.
+const COLD_START: NewtonOptions = NewtonOptions { evaluations: 40, tolerance: 0.0, line_search: true };
 /// Largest accepted residual as a share of the tension at the fairlead.
 pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-9;
 
@@ -200,7 +201,8 @@ fn solve_suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineE
         return prove(segment, Regime::Suspended, [x, z], [h, v], [h, v], &reach, 0.0, 0);
     }
     let (h, v) = guess(segment, x, z);
-    if let Some((h, v, reach, steps)) = newton(segment, [x, z], [h, v])
+    if let Some(([h, v], reach, steps)) =
+        newton(segment, [x, z], [h, v], COLD_START, |[h, v]| ([h, v], hanging(segment, h, v - all)))
         && let Ok(answer) = prove(segment, Regime::Suspended, [x, z], [h, v], [h, v - all], &reach, 0.0, steps)
     {
         return Ok(answer);
@@ -214,37 +216,6 @@ fn solve_suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineE
     let v = chain.rest(h, z, 0.0, None)?.held.first().map_or(f64::NAN, |held| held.v_hi);
     let reach = hanging(segment, h, v - all);
     prove(segment, Regime::Suspended, [x, z], [h, v], [h, v - all], &reach, 0.0, steps)
-}
-
-/// Newton on both forces, each step shortened while it runs past the minimum along its own direction.
-fn newton(segment: &Segment, [x, z]: [f64; 2], start: [f64; 2]) -> Option<(f64, f64, SpanReach, usize)> {
-    let all = segment.weight * segment.length;
-    let [mut h, mut v] = start;
-    let mut reach = hanging(segment, h, v - all);
-    let fine = 2.0 * f64::EPSILON * (segment.length + x + z.abs());
-    let mut last = f64::INFINITY;
-    for step in 1..=MAX_NEWTON_ITERATIONS {
-        let (rx, rz) = (reach.x - x, reach.z - z);
-        let off = rx.abs().max(rz.abs());
-        if off <= fine || (off <= 64.0 * fine && off >= last) {
-            return Some((h, v, reach, step));
-        }
-        last = off;
-        let [dh, dv] = newton_change(&reach, -rx, -rz)?;
-        let slope = rx * dh + rz * dv;
-        let mut part = if h + dh < 0.1 * h { -0.9 * h / dh } else { 1.0 };
-        for _ in 0..30 {
-            let (a, b) = (h + part * dh, v + part * dv);
-            let next = hanging(segment, a, b - all);
-            let ahead = (next.x - x) * dh + (next.z - z) * dv;
-            if ahead <= -0.9 * slope || off <= 64.0 * fine {
-                (h, v, reach) = (a, b, next);
-                break;
-            }
-            part *= 0.5;
-        }
-    }
-    None
 }
 
 /// The line straight down and, without a bottom, back up.
@@ -311,24 +282,6 @@ fn guess(segment: &Segment, x: f64, z: f64) -> (f64, f64) {
     (t * x / chord, t * z / chord + 0.5 * all)
 }
 
-/// The change of (H, V) that makes the change (x, z).
-pub(super) fn newton_change(reach: &SpanReach, x: f64, z: f64) -> Option<[f64; 2]> {
-    let [[a, b], [c, d]] = inverse(reach)?;
-    Some([a * x + b * z, c * x + d * z])
-}
-
-/// The tangent stiffness of a reach.
-fn inverse(r: &SpanReach) -> Option<[[f64; 2]; 2]> {
-    // eliminate V first: z_v is the sturdier pivot of a slack line, x_h that of a flat one
-    let soft = 1.0 / r.z_v;
-    let det = r.x_h - r.x_v * (r.z_h * soft);
-    let k = 1.0 / det;
-    let kzx = -k * (r.z_h * soft);
-    let kxz = -k * (r.x_v * soft);
-    let kzz = (1.0 - r.z_h * kxz) * soft;
-    (det > 0.0 && [k, kzx, kxz, kzz].iter().all(|v| v.is_finite())).then_some([[k, kxz], [kzx, kzz]])
-}
-
 /// Makes the answer, if what is left of the distances is small enough: as a force, or below the rounding of the
 /// distances themselves.
 #[allow(clippy::too_many_arguments)]
@@ -344,7 +297,7 @@ pub(super) fn prove(
 ) -> Result<EndForces, LineError> {
     let (rx, rz) = (reach.x - x, reach.z - z);
     let tension = fairlead[0].hypot(fairlead[1]);
-    let stiffness = inverse(reach);
+    let stiffness = tangent_stiffness(reach);
     let residual = stiffness.map_or(f64::NAN, |[[a, b], [c, d]]| (a * rx + b * rz).hypot(c * rx + d * rz));
     let rounding = 4.0 * f64::EPSILON * (segment.length + x + z.abs());
     let proven = residual <= RESIDUAL_TOLERANCE * tension || rx.abs().max(rz.abs()) <= rounding;

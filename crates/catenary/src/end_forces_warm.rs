@@ -5,18 +5,16 @@
 //! regime that rounding decides, the search of [`Segment::solve_end_forces`] answers as if nothing were known.
 
 use super::end_forces::{EndForces, FlatBottom, Regime};
-use super::end_forces_cold::{
-    RESIDUAL_TOLERANCE, check, in_contact, newton_change, prove, prove_contact, solve_cold_start,
-};
+use super::end_forces_cold::{RESIDUAL_TOLERANCE, check, in_contact, prove, prove_contact, solve_cold_start};
+use super::end_forces_newton::{NewtonOptions, moved, newton, square, step_share};
 use super::error::LineError;
 use super::line::Segment;
-use super::segment::{SpanReach, hanging};
+use super::segment::hanging;
 
-/// Evaluations of the line after which the cold search takes over.
-const MAX_EVALUATIONS: usize = 8;
-/// Residual as a share of the tension at which a warm search ends: well inside the proof, so that the start does not
-/// show.
-const WARM_START_TOLERANCE: f64 = 1e-2 * RESIDUAL_TOLERANCE;
+/// Newton's iteration of the warm start; after it the cold search takes over. The change at which it ends is well inside the proof, so that the
+/// start does not show.
+const WARM_START: NewtonOptions =
+    NewtonOptions { evaluations: 8, tolerance: 1e-2 * RESIDUAL_TOLERANCE, line_search: false };
 
 /// See [`Segment::solve_warm_start`].
 pub fn solve_warm_start(
@@ -56,14 +54,15 @@ fn warm(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>, last: &En
 /// A line free from end to end.
 fn warm_start_suspended(segment: &Segment, at: [f64; 2], last: &EndForces) -> Option<EndForces> {
     let all = segment.weight * segment.length;
-    let (fairlead, reach, steps) = newton(segment, at, last, |[h, v]| ([h, v], hanging(segment, h, v - all)))?;
+    let (fairlead, reach, steps) =
+        newton(segment, at, predicted(at, last), WARM_START, |[h, v]| ([h, v], hanging(segment, h, v - all)))?;
     let [h, v] = fairlead;
     prove(segment, Regime::Suspended, at, fairlead, [h, v - all], &reach, 0.0, steps).ok()
 }
 
 /// A line that lies on the bottom in part: V follows from H.
 fn contact(segment: &Segment, at: [f64; 2], friction: f64, last: &EndForces) -> Option<EndForces> {
-    let (fairlead, reach, steps) = newton(segment, at, last, |[h, _]| {
+    let (fairlead, reach, steps) = newton(segment, at, predicted(at, last), WARM_START, |[h, _]| {
         let (high, reach) = in_contact(segment, h, at[1], friction);
         ([h, high], reach)
     })?;
@@ -80,42 +79,10 @@ fn regime_margin(fairlead: [f64; 2]) -> f64 {
     10.0 * RESIDUAL_TOLERANCE * square(fairlead).sqrt()
 }
 
-fn square([h, v]: [f64; 2]) -> f64 {
-    h * h + v * v
-}
-
-/// Newton on both forces from where the last stiffness puts them. `evaluate` takes forces and returns those it stands
-/// for with the reach.
-fn newton(
-    segment: &Segment,
-    [x, z]: [f64; 2],
-    last: &EndForces,
-    evaluate: impl Fn([f64; 2]) -> ([f64; 2], SpanReach),
-) -> Option<([f64; 2], SpanReach, usize)> {
+/// The forces to which the last stiffness takes the last ones.
+fn predicted([x, z]: [f64; 2], last: &EndForces) -> [f64; 2] {
     let [[a, b], [c, d]] = last.stiffness;
     let (dx, dz) = (x - last.at[0], z - last.at[1]);
-    let mut forces = damped_step(last.fairlead, [a * dx + b * dz, c * dx + d * dz]);
-    let fine = 2.0 * f64::EPSILON * (segment.length + x + z.abs());
-    let mut before = f64::INFINITY;
-    for step in 1..=MAX_EVALUATIONS {
-        let (at, reach) = evaluate(forces);
-        let (rx, rz) = (x - reach.x, z - reach.z);
-        let change = newton_change(&reach, rx, rz)?;
-        let off = rx.abs().max(rz.abs());
-        if off <= fine
-            || (off <= 64.0 * fine && off >= before)
-            || square(change) <= WARM_START_TOLERANCE * WARM_START_TOLERANCE * square(at)
-        {
-            return (at[0] > 0.0).then_some((at, reach, step));
-        }
-        before = off;
-        forces = damped_step(at, change);
-    }
-    None
-}
-
-/// The forces after a change, which is shortened where it would turn H around.
-fn damped_step([h, v]: [f64; 2], [dh, dv]: [f64; 2]) -> [f64; 2] {
-    let part = if h + dh < 0.1 * h { -0.9 * h / dh } else { 1.0 };
-    [h + part * dh, v + part * dv]
+    let change = [a * dx + b * dz, c * dx + d * dz];
+    moved(last.fairlead, change, step_share(last.fairlead, change))
 }

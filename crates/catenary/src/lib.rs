@@ -31,6 +31,7 @@ mod dual;
 mod element;
 mod end_forces;
 mod end_forces_cold;
+mod end_forces_newton;
 mod end_forces_warm;
 mod error;
 mod interpolate;

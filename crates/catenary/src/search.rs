@@ -1,5 +1,7 @@
 //! A safeguarded search for a positive root.
 
+use windlass_nonlinear::NewtonBracket;
+
 /// A function's value and slope.
 #[derive(Clone, Copy, Debug)]
 pub struct FunctionPoint {
@@ -16,7 +18,7 @@ const MAX_SEARCH_STEPS: usize = 200;
 /// factors until it holds the root, and halved in the logarithm where Newton leaves it. Returns the best argument met
 /// and the steps; the caller proves it.
 pub fn rising_root(start: f64, target: f64, mut f: impl FnMut(f64) -> FunctionPoint) -> (f64, usize) {
-    let (mut low, mut high) = (0.0_f64, f64::INFINITY);
+    let mut bracket = NewtonBracket::new(0.0, f64::INFINITY);
     let mut at = start;
     let mut best = (f64::INFINITY, start);
     for step in 1..=MAX_SEARCH_STEPS {
@@ -31,14 +33,10 @@ pub fn rising_root(start: f64, target: f64, mut f: impl FnMut(f64) -> FunctionPo
         if off == 0.0 {
             return (at, step);
         }
-        if off > 0.0 {
-            high = at;
-        } else {
-            low = at;
-        }
+        bracket.record(at, off);
         let newton = at - off / slope;
-        let inside = newton.is_finite() && newton > low && newton < high;
-        let next = if inside && newton < 16.0 * at && newton > at / 64.0 {
+        let NewtonBracket { low, high } = bracket;
+        let next = if bracket.contains(newton) && newton < 16.0 * at && newton > at / 64.0 {
             newton
         } else if high.is_infinite() {
             16.0 * at

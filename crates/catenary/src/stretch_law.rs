@@ -2,6 +2,7 @@
 
 use super::line::Segment;
 use super::segment::SpanReach;
+use windlass_nonlinear::NewtonBracket;
 
 /// Elongation against tension: strain for a length of line, metres for a spring. It grows with the tension and is odd.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,24 +65,16 @@ impl StretchLaw {
             }
             StretchLaw::Polynomial { ea, .. } => {
                 // T(e) grows: Newton within a bracket
-                let (mut low, mut high) = (0.0, f64::INFINITY);
+                let mut bracket = NewtonBracket::new(0.0, f64::INFINITY);
                 let mut e = tension / ea;
                 for _ in 0..MAX_NEWTON_ITERATIONS {
                     let (t, slope) = self.tension(e);
                     let off = t - tension;
-                    if off > 0.0 {
-                        high = e;
-                    } else {
-                        low = e;
+                    if off == 0.0 {
+                        break;
                     }
-                    let newton = e - off / slope;
-                    let next = if newton >= low && newton <= high {
-                        newton
-                    } else if high.is_finite() {
-                        0.5 * (low + high)
-                    } else {
-                        2.0 * e
-                    };
+                    bracket.record(e, off);
+                    let next = bracket.step(e - off / slope, || 2.0 * e);
                     if (next - e).abs() <= 2.0 * f64::EPSILON * next.abs() {
                         e = next;
                         break;

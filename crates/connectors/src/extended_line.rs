@@ -8,6 +8,7 @@ use nalgebra::{Matrix2, Vector2};
 use windlass_base::dense::inverse;
 use windlass_base::pose::Six;
 use windlass_catenary::LineError;
+use windlass_nonlinear::backtrack;
 
 /// Newton steps.
 const MAX_NEWTON_ITERATIONS: usize = 60;
@@ -114,11 +115,11 @@ pub fn solve_with_link(
         }
         let whole = Matrix2::identity() + now.give * matrix(now.plane.stiffness);
         let step = inverse(whole).map_or(now.rest, |inverse| inverse * now.rest);
-        let nearer = (0..MAX_STEP_HALVINGS).find_map(|halvings| {
-            let tried = at(now.at + step * 0.5_f64.powi(halvings as i32)).ok()?;
+        let nearer = backtrack(1.0, MAX_STEP_HALVINGS, |share| {
+            let tried = at(now.at + step * share).ok()?;
             (tried.rest.norm() < now.rest.norm()).then_some(tried)
         });
-        let Some(next) = nearer else { break };
+        let Some((_, next)) = nearer else { break };
         now = next;
     }
     let (tension, unbalance) = (now.tension(), now.unbalance());

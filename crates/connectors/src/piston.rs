@@ -10,6 +10,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_model::ClassError;
 use windlass_model::Note;
+use windlass_nonlinear::NewtonBracket;
 
 /// Most evaluations of a search.
 const MAX_EVALUATIONS: usize = 200;
@@ -147,30 +148,23 @@ fn seek(
 ) -> Result<(f64, bool), ClassError> {
     let side = (start.tension - wanted).signum();
     let close = TENSION_TOLERANCE * (wanted + start.tension.abs());
-    // the wanted place lies between `near` and `far`, which is proven to be beyond it once it was met
-    let (mut near, mut far, mut proven) = (start.position, end, false);
+    let toward = (end - start.position).signum();
+    // open toward the end, where nothing has been met yet
+    let mut bracket = NewtonBracket::OPEN;
     let mut at = start;
     for _ in 0..MAX_EVALUATIONS {
         let off = at.tension - wanted;
         if off.abs() <= close {
             return Ok((at.position, true));
         }
-        if off * side > 0.0 {
-            if at.position == end {
-                return Ok((end, false));
-            }
-            near = at.position;
-        } else {
-            (far, proven) = (at.position, true);
+        if off * side > 0.0 && at.position == end {
+            return Ok((end, false));
         }
+        bracket.record(at.position, -off * side * toward);
         let newton = at.position - off / at.slope;
-        let inside = newton.is_finite() && (newton - near) * (far - newton) > 0.0;
-        let next = match (inside, proven) {
-            (true, _) => newton,
-            (false, false) => end,
-            (false, true) => 0.5 * (near + far),
-        };
-        if proven && (next == near || next == far) {
+        let before_end = (end - newton) * toward > 0.0;
+        let next = bracket.step(if before_end { newton } else { f64::NAN }, || end);
+        if bracket.is_closed() && (next == bracket.low || next == bracket.high) {
             break;
         }
         at = met(next)?;

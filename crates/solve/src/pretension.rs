@@ -4,6 +4,7 @@ use super::system::SolveError;
 use windlass_base::units::Dim;
 use windlass_hydro::ambient;
 use windlass_model::{ClassError, Condition, Connector, End, Model, Situation, SolverCache};
+use windlass_nonlinear::{BracketedRoot, Halvings};
 
 /// Steps from the present length to one beyond the force, each half as long again as the one before.
 const MAX_BRACKETING_STEPS: usize = 60;
@@ -83,29 +84,20 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };
         return if (found - target).abs() <= FORCE_TOLERANCE * target { Ok(length) } else { nothing(found) };
     }
-    // the secant with halved weights of the end that stays [DOWELL-JARRATT-1971], and a halving now and then:
     // where the mesh changes the force jumps
-    let (mut weights, mut stayed) = ([near.1 - target, far.1 - target], [false; 2]);
-    for turn in 0..MAX_SEARCH_STEPS {
-        let [a, b] = weights;
-        let share = if turn % 3 == 2 || a == b { 0.5 } else { (a / (a - b)).clamp(1e-3, 1.0 - 1e-3) };
-        let length = near.0 + share * (far.0 - near.0);
-        let found = (length, ask(length)?);
-        if (found.1 - target).abs() <= 1e-9 * target || (near.0 - far.0).abs() <= 1e-12 * start {
-            near = found;
+    let mut search = BracketedRoot::new([near.0, far.0], [near.1 - target, far.1 - target], Halvings::EveryThird);
+    for _ in 0..MAX_SEARCH_STEPS {
+        let Some(length) = search.propose() else { break };
+        let off = ask(length)? - target;
+        let closed = search.width() <= 1e-12 * start;
+        search.record(length, off);
+        if off.abs() <= 1e-9 * target || closed {
             break;
         }
-        if (found.1 - target) * side > 0.0 {
-            (near, weights) = (found, [found.1 - target, if stayed[1] { 0.5 * b } else { b }]);
-            stayed = [false, true];
-        } else {
-            (far, weights) = (found, [if stayed[0] { 0.5 * a } else { a }, found.1 - target]);
-            stayed = [true, false];
-        }
     }
-    let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };
-    if (found - target).abs() > FORCE_TOLERANCE * target {
-        return nothing(found);
+    let (length, off) = search.best();
+    if off.abs() > FORCE_TOLERANCE * target {
+        return nothing(target + off);
     }
     Ok(length)
 }

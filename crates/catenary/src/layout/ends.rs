@@ -7,6 +7,7 @@ use crate::error::LineError;
 use crate::line::Line;
 use crate::search::{FunctionPoint, rising_root};
 use crate::state::{Heap, LineState};
+use windlass_nonlinear::{Convergence, NewtonBracket};
 
 /// Parameters of a layout: the horizontal force (or the length of a heap), and the place of the fairlead.
 const FORCE_PARAMETER: usize = 0;
@@ -218,6 +219,7 @@ pub fn at_force(line: &Line, force: f64, z: f64) -> Result<LineState, LineError>
     let mut near = None;
     let mut sides: [Option<f64>; 2] = [None, None];
     let mut best: Option<(f64, LaidLine)> = None;
+    let mut convergence = Convergence::new(layout.fine);
     let mut buried = f64::INFINITY;
     for _ in 0..MAX_SEARCH_STEPS {
         let low = sides[1].unwrap_or(f64::NEG_INFINITY);
@@ -229,27 +231,20 @@ pub fn at_force(line: &Line, force: f64, z: f64) -> Result<LineState, LineError>
         let laid = layout.lay(&Top { near, ..top(at) })?;
         near = Some(laid.top.value);
         let (short, slope) = (laid.short.value, laid.short.by[DISTANCE_PARAMETER]);
-        let better = best.as_ref().is_none_or(|(_, b)| short.abs() < b.short.value.abs());
-        if better {
+        let status = convergence.record(short.abs());
+        if status.is_improved() || best.is_none() {
             best = Some((at, laid));
         }
         sides[usize::from(short <= 0.0)] = Some(at);
         let [above, below] = sides;
-        let (low, high) = (below.unwrap_or(f64::NEG_INFINITY), above.unwrap_or(f64::INFINITY).min(buried));
-        let left = best.as_ref().map_or(f64::INFINITY, |(_, b)| b.short.value.abs());
-        if left <= layout.fine || (!better && left <= 64.0 * layout.fine) {
+        let bracket =
+            NewtonBracket::new(below.unwrap_or(f64::NEG_INFINITY), above.unwrap_or(f64::INFINITY).min(buried));
+        if status.is_final() {
             break;
         }
-        let newton = at - short / slope;
-        let bracketed = low.is_finite() && high.is_finite();
-        let next = if newton > low && newton < high && (better || !bracketed) {
-            newton
-        } else if bracketed {
-            0.5 * (low + high)
-        } else {
-            at - short
-        };
-        if next == at || next.is_nan() || high - low <= layout.fine {
+        let newton = if status.is_improved() || !bracket.is_closed() { at - short / slope } else { f64::NAN };
+        let next = bracket.step(newton, || at - short);
+        if next == at || next.is_nan() || bracket.high - bracket.low <= layout.fine {
             break;
         }
         at = next;

@@ -7,6 +7,7 @@
 //! the place is given, and the force (or the place of the fairlead) sought with which the span lands.
 
 use super::{FixedDeparture, LaidLine, LineLayout, Top};
+use windlass_nonlinear::{BracketedRoot, Halvings};
 
 /// Difference of what lies before a span (share of all weights) that is a jump.
 const JUMP_SHARE: f64 = 1e-9;
@@ -145,31 +146,13 @@ impl LineLayout<'_> {
     }
 }
 
-/// A root between two arguments with values of unlike signs: false position that halves the value of an end that stays
-/// (Illinois), and halving where that is slow.
+/// A root between two arguments with values of unlike signs; a value of none ends the search.
 fn bracketed_root(a: (f64, f64), b: (f64, f64), mut f: impl FnMut(f64) -> Option<f64>) -> f64 {
-    let ((mut a, mut at_a), (mut b, mut at_b)) = (a, b);
-    let mut best = if at_a.abs() < at_b.abs() { (a, at_a.abs()) } else { (b, at_b.abs()) };
-    for step in 0..MAX_SEARCH_STEPS {
-        let secant = b - at_b * (b - a) / (at_b - at_a);
-        let inside = secant > a.min(b) && secant < a.max(b);
-        let next = if inside && step % 3 != 2 { secant } else { 0.5 * (a + b) };
-        if next == a || next == b {
-            break;
-        }
-        let Some(value) = f(next) else { break };
-        if value.abs() < best.1 {
-            best = (next, value.abs());
-        }
-        if value == 0.0 {
-            break;
-        }
-        if (value > 0.0) == (at_b > 0.0) {
-            at_a *= 0.5;
-        } else {
-            (a, at_a) = (b, at_b);
-        }
-        (b, at_b) = (next, value);
+    let mut search = BracketedRoot::new([a.0, b.0], [a.1, b.1], Halvings::EveryThird);
+    for _ in 0..MAX_SEARCH_STEPS {
+        let Some(at) = search.propose() else { break };
+        let Some(value) = f(at) else { break };
+        search.record(at, value);
     }
-    best.0
+    search.best().0
 }

@@ -7,6 +7,7 @@ use crate::element::{LinePiece, strain, stretch};
 use crate::error::LineError;
 use crate::line::Segment;
 use crate::stretch_law::StretchLaw;
+use windlass_nonlinear::{Convergence, NewtonBracket, NewtonSearch};
 
 /// What a curve may touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,15 +98,16 @@ impl LineLayout<'_> {
             laid.gap = Some(landing.gap);
             return Ok(self.land_span(origin, hold.weight, departure, landing, laid));
         }
-        let (mut low, mut high, mut at) = match origin {
+        let (bracket, mut at) = match origin {
             SpanStart::Fairlead => {
                 let guess = 0.5 * self.weight + top.h.value * 0.1;
-                (f64::NEG_INFINITY, f64::INFINITY, top.near.unwrap_or(guess))
+                (NewtonBracket::OPEN, top.near.unwrap_or(guess))
             }
-            SpanStart::Held { low, high, .. } => (*low, *high, 0.5 * (low + high)),
-            SpanStart::Ground(path) => (0.0, path.weight, path.weight),
+            SpanStart::Held { low, high, .. } => (NewtonBracket::new(*low, *high), 0.5 * (low + high)),
+            SpanStart::Ground(path) => (NewtonBracket::new(0.0, path.weight), path.weight),
         };
-        let mut grow = self.weight + top.h.value;
+        let mut search = NewtonSearch::new(bracket, self.weight + top.h.value);
+        let mut convergence = Convergence::new(self.fine);
         let lands_in = top.hold.filter(|h| h.span == span + 1).and_then(|h| h.lands_in);
         let mut best: Option<(f64, Departure, Candidate)> = None;
         let mut steps = 0;
@@ -117,32 +119,18 @@ impl LineLayout<'_> {
             if gap.is_nan() {
                 break;
             }
-            let better = best.as_ref().is_none_or(|(_, _, b)| gap.abs() < b.gap.value.abs());
-            if better {
+            let status = convergence.record(gap.abs());
+            let newton = at + found.room();
+            if status.is_improved() || best.is_none() {
                 best = Some((at, departure, found));
             }
-            let left = best.as_ref().map_or(f64::INFINITY, |(_, _, b)| b.gap.value.abs());
-            if left <= self.fine || (!better && left <= 64.0 * self.fine) {
+            if status.is_final() {
                 break;
             }
-            if gap > 0.0 {
-                low = at;
-            } else {
-                high = at;
-            }
-            let bracketed = low.is_finite() && high.is_finite();
-            let newton = at + found.room();
-            let inside = newton.is_finite() && newton > low && newton < high;
-            let next =
-                if inside && (bracketed || (newton - at).abs() < grow) && (steps < NEWTON_STEPS || steps % 2 == 0) {
-                    newton
-                } else if bracketed {
-                    0.5 * (low + high)
-                } else {
-                    grow *= 2.0;
-                    if gap > 0.0 { at + grow } else { at - grow }
-                };
-            if next == at || (bracketed && high - low <= 2.0 * f64::EPSILON * (low.abs() + high.abs())) {
+            // the gap falls with the unknown
+            let wanted = steps < NEWTON_STEPS || steps % 2 == 0;
+            let next = search.advance(at, -gap, if wanted { newton } else { f64::NAN });
+            if next == at || search.bracket.is_narrower_than(2.0) {
                 break;
             }
             at = next;
@@ -361,19 +349,15 @@ fn rate(segment: &Segment, law: Option<&StretchLaw>, at: &LinePoint) -> f64 {
 /// The unstretched length below a point after which the line is `aside` nearer to the anchor.
 fn reach(segment: &Segment, law: Option<&StretchLaw>, from: &LinePoint, length: f64, aside: f64) -> f64 {
     let (h, v) = (from.h.value, from.v.value);
-    let (mut low, mut high) = (0.0, length);
+    let mut bracket = NewtonBracket::new(0.0, length);
     let mut s = 0.5 * length;
     for _ in 0..MAX_SEARCH_STEPS {
         let end = v - segment.weight * s;
         let off = stretch(segment, law, s, h, end).x - aside;
-        if off > 0.0 {
-            high = s;
-        } else {
-            low = s;
-        }
+        bracket.record(s, off);
         let tension = h.hypot(end);
         let newton = s - off * tension / (h * (1.0 + strain(segment, law, tension).0));
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let next = bracket.step(newton, || length);
         if (next - s).abs() <= 2.0 * f64::EPSILON * length {
             return next;
         }

@@ -6,6 +6,7 @@
 
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
+use windlass_nonlinear::NewtonBracket;
 
 /// Nodes and weights of Gauss and Legendre on -1 to 1, of the half above zero (Abramowitz and Stegun 25.4.30, n = 8).
 const GAUSS: [(f64, f64); 4] = [
@@ -243,7 +244,7 @@ impl Spectrum {
         let wanted = share * self.moment(0);
         let index = self.panels.partition_point(|p| p.before[0] + p.within[0] < wanted);
         let Some(panel) = self.panels.get(index) else { return self.range()[1] };
-        let (mut low, mut high) = (panel.low, panel.high);
+        let (low, mut high) = (panel.low, panel.high);
         if high.is_infinite() {
             if share >= 1.0 {
                 return high;
@@ -253,17 +254,12 @@ impl Spectrum {
                 high *= 2.0;
             }
         }
-        let mut at = 0.5 * (low + high);
-        // Newton's method, kept between its bounds
+        let mut bracket = NewtonBracket::new(low, high);
+        let mut at = bracket.middle();
         for _ in 0..200 {
             let over = self.moments_below(at)[0] - wanted;
-            if over > 0.0 {
-                high = at
-            } else {
-                low = at
-            }
-            let step = at - over / self.density(at);
-            let next = if step > low && step < high { step } else { 0.5 * (low + high) };
+            bracket.record(at, over);
+            let next = bracket.step(at - over / self.density(at), || high);
             let moved = (next - at).abs();
             at = next;
             if moved <= 1e-15 * at {

@@ -2,9 +2,12 @@
 
 use super::flow::FlowAt;
 use nalgebra::Vector3;
+use windlass_nonlinear::{BracketedRoot, Halvings};
 
-/// Halvings and secants to find the crossing: the surface is smooth along a member, some five serve.
+/// Evaluations of the surface to find the crossing: it is smooth along a member, some five serve.
 const MAX_CROSSING_ITERATIONS: usize = 60;
+/// Share of a member within which the crossing is found.
+const CROSSING_TOLERANCE: f64 = 1e-13;
 
 /// The wet part of a member.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,35 +51,18 @@ impl WetPart {
     }
 }
 
-/// Where a function passes through zero between 0 and 1, of which `ends` are its values: below zero at 0 and not below at 1. Regula falsi in
-/// the form of Illinois [DOWELL-JARRATT-1971].
-fn crossing([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
-    let (mut a, mut b) = (0.0, 1.0);
-    let mut last = 0;
+/// Where a function passes through zero between 0 and 1, of which `ends` are its values: below zero at 0 and not below at 1.
+fn crossing(ends: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
+    let mut search = BracketedRoot::new([0.0, 1.0], ends, Halvings::Never);
     for _ in 0..MAX_CROSSING_ITERATIONS {
-        if high <= 0.0 {
-            return b;
-        }
-        let x = a - low * (b - a) / (high - low);
-        let found = value(x);
-        if (b - a).abs() < 1e-13 || found == 0.0 {
-            return x;
-        }
-        if found < 0.0 {
-            (a, low) = (x, found);
-            if last == -1 {
-                high *= 0.5;
-            }
-            last = -1;
-        } else {
-            (b, high) = (x, found);
-            if last == 1 {
-                low *= 0.5;
-            }
-            last = 1;
+        let Some(share) = search.propose() else { break };
+        let closed = search.width() < CROSSING_TOLERANCE;
+        search.record(share, value(share));
+        if closed {
+            break;
         }
     }
-    0.5 * (a + b)
+    search.best().0
 }
 
 #[cfg(test)]
