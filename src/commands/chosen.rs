@@ -1,6 +1,6 @@
 //! The names a record gives to choose among what the model holds.
 
-use crate::commands::{Call, Job};
+use crate::commands::Job;
 use std::cell::Cell;
 use windlass_base::diagnostic::Severity;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -18,14 +18,9 @@ pub struct NameFilter<'a> {
 }
 
 impl<'a> NameFilter<'a> {
-    /// The words of a record from a position on.
-    pub fn new(call: &'a Call, from: usize, model: &'a Model) -> Self {
-        NameFilter::among(call.args.data.get(from..).unwrap_or_default().iter(), model)
-    }
-
     /// The words among some values.
-    pub fn among(values: impl Iterator<Item = &'a Value>, model: &'a Model) -> Self {
-        let given = values.filter_map(|v| Some((v.word()?, v.span, Cell::new(false)))).collect();
+    pub fn new(values: impl IntoIterator<Item = &'a Value>, model: &'a Model) -> Self {
+        let given = values.into_iter().filter_map(|v| Some((v.word()?, v.span, Cell::new(false)))).collect();
         NameFilter { model, given, asked: Cell::new(false) }
     }
 

@@ -155,6 +155,17 @@ impl<T: ?Sized> Clone for ValueKey<T> {
 
 impl<T: ?Sized> Copy for ValueKey<T> {}
 
+/// A positional datum of a record, by the name its declaration gives it; as [`ValueKey`] of an option.
+pub struct DatumKey<T: ?Sized>(pub(crate) ValueKey<T>);
+
+impl<T: ?Sized> Clone for DatumKey<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: ?Sized> Copy for DatumKey<T> {}
+
 impl Kind {
     const fn is_number(self) -> bool {
         matches!(
@@ -163,8 +174,9 @@ impl Kind {
         )
     }
 
-    const fn is_word(self) -> bool {
-        matches!(self, Kind::Choice(_) | Kind::Name(_) | Kind::ChoiceOrName(..) | Kind::Text | Kind::File)
+    /// Whether it is read as text; a choice is read as the enum of its words.
+    const fn is_text(self) -> bool {
+        matches!(self, Kind::Name(_) | Kind::ChoiceOrName(..) | Kind::Text | Kind::File)
     }
 }
 
@@ -224,7 +236,7 @@ impl ValueKey<i64> {
 impl ValueKey<str> {
     const fn word(values: &[ValueSpec], name: &str) -> Self {
         let (index, kind) = find(values, name);
-        assert!(kind.is_word(), "the value is no word");
+        assert!(kind.is_text(), "the value is no text");
         ValueKey::new(values, index)
     }
 }
@@ -237,6 +249,46 @@ impl<T: Choice> ValueKey<T> {
             _ => panic!("the value is no choice"),
         }
         ValueKey::new(values, index)
+    }
+}
+
+impl DatumKey<f64> {
+    /// The number of this name among declarations of data.
+    ///
+    /// # Panics
+    /// While compiling, in a `const`: no datum has this name, or it is no number.
+    pub const fn number(data: &[ValueSpec], name: &str) -> Self {
+        DatumKey(ValueKey::number(data, name))
+    }
+}
+
+impl DatumKey<i64> {
+    /// The whole number of this name.
+    ///
+    /// # Panics
+    /// While compiling, in a `const`: no datum has this name, or it is no whole number.
+    pub const fn integer(data: &[ValueSpec], name: &str) -> Self {
+        DatumKey(ValueKey::integer(data, name))
+    }
+}
+
+impl DatumKey<str> {
+    /// The word of this name: a name, a text or a file.
+    ///
+    /// # Panics
+    /// While compiling, in a `const`: no datum has this name, or it is no text.
+    pub const fn word(data: &[ValueSpec], name: &str) -> Self {
+        DatumKey(ValueKey::word(data, name))
+    }
+}
+
+impl<T: Choice> DatumKey<T> {
+    /// The word of this name, one of an enum's.
+    ///
+    /// # Panics
+    /// While compiling, in a `const`: no datum has this name, or its words are not those of the enum.
+    pub const fn choice(data: &[ValueSpec], name: &str) -> Self {
+        DatumKey(ValueKey::choice(data, name))
     }
 }
 
@@ -271,10 +323,10 @@ impl OptionSpec {
         ValueKey::integer(self.values, name)
     }
 
-    /// The word of this name: a name, a text or a file, or a choice that is passed on as written.
+    /// The word of this name: a name, a text or a file.
     ///
     /// # Panics
-    /// While compiling, in a `const`: no value has this name, or it is no word.
+    /// While compiling, in a `const`: no value has this name, or it is no text.
     pub const fn word(&self, name: &str) -> ValueKey<str> {
         ValueKey::word(self.values, name)
     }

@@ -2,7 +2,7 @@
 
 use crate::choice::{Choice, YesNo};
 use crate::span::Span;
-use crate::spec::{Kind, OptionSpec, ValueKey};
+use crate::spec::{DatumKey, Kind, OptionSpec, ValueKey, ValueSpec};
 use crate::units::Dim;
 use std::sync::Arc;
 
@@ -85,6 +85,8 @@ pub struct Args {
     pub span: Span,
     /// The options its command takes.
     pub declared: &'static [OptionSpec],
+    /// The positional data its command takes; the last may repeat.
+    pub declared_data: &'static [ValueSpec],
     /// Positional data.
     pub data: Vec<Value>,
     /// Options in the order given.
@@ -231,8 +233,13 @@ impl Given {
         self.values.first().and_then(Value::integer)
     }
 
-    /// The first value as a word.
+    /// The first value as a word: a name, a text or a file, no choice.
     pub fn first_word(&self) -> Option<&str> {
+        debug_assert!(
+            !matches!(self.option.values.first(), Some(ValueSpec { kind: Kind::Choice(_), .. })),
+            "{} is a choice, and read as text",
+            self.option.name
+        );
         self.values.first().and_then(Value::word)
     }
 
@@ -259,29 +266,56 @@ impl Given {
 }
 
 impl Args {
-    /// A positional number by position; `None` when left out.
-    pub fn number(&self, index: usize) -> Option<f64> {
-        self.data.get(index).and_then(Value::number)
+    /// A positional datum; `None` when it is left out. The command must declare it.
+    pub fn datum<T: ?Sized>(&self, key: DatumKey<T>) -> Option<&Value> {
+        let DatumKey(key) = key;
+        debug_assert!(
+            self.declared_data.get(key.index).is_some_and(|declared| declared.name == key.name),
+            "{} is looked up in a record that has no such datum",
+            key.name
+        );
+        self.data.get(key.index)
     }
 
-    /// A positional word by position.
-    pub fn word(&self, index: usize) -> Option<&str> {
-        self.data.get(index).and_then(Value::word)
+    /// A positional number; `None` when it is left out.
+    pub fn number(&self, key: DatumKey<f64>) -> Option<f64> {
+        self.datum(key).and_then(Value::number)
     }
 
-    /// A positional whole number by position.
-    pub fn integer(&self, index: usize) -> Option<i64> {
-        self.data.get(index).and_then(Value::integer)
+    /// Positional numbers; zeros for those that are left out.
+    pub fn numbers_or_zero<const N: usize>(&self, keys: [DatumKey<f64>; N]) -> [f64; N] {
+        keys.map(|key| self.number(key).unwrap_or(0.0))
+    }
+
+    /// A positional whole number; `None` when it is left out.
+    pub fn integer(&self, key: DatumKey<i64>) -> Option<i64> {
+        self.datum(key).and_then(Value::integer)
+    }
+
+    /// A positional word; `None` when it is left out.
+    pub fn word(&self, key: DatumKey<str>) -> Option<&str> {
+        self.datum(key).and_then(Value::word)
+    }
+
+    /// The choice that a positional word makes; `None` when it is left out.
+    pub fn choice<T: Choice>(&self, key: DatumKey<T>) -> Option<T> {
+        self.datum(key).and_then(Value::choice)
     }
 
     /// The place of a positional datum, or of the command when it is not there.
-    pub fn place(&self, index: usize) -> Span {
-        self.data.get(index).map_or(self.span, |v| v.span)
+    pub fn place<T: ?Sized>(&self, key: DatumKey<T>) -> Span {
+        self.datum(key).map_or(self.span, |value| value.span)
+    }
+
+    /// The positional data behind one: those that repeat.
+    pub fn data_after<T: ?Sized>(&self, key: DatumKey<T>) -> &[Value] {
+        let DatumKey(ValueKey { index, .. }) = key;
+        self.data.get(index + 1..).unwrap_or_default()
     }
 
     /// A record without words to read.
     pub fn empty(span: Span) -> Self {
-        Args { span, declared: &[], data: Vec::new(), options: Vec::new() }
+        Args { span, declared: &[], declared_data: &[], data: Vec::new(), options: Vec::new() }
     }
 
     /// An option, if given (the last, when given more than once). The command must declare it.
@@ -345,6 +379,7 @@ impl Args {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::choices;
 
     const TAKEN: OptionSpec = OptionSpec::new("-TAKEN", &[], "an option");
     const OTHER: OptionSpec = OptionSpec::new("-OTHER", &[], "an option of another command");
@@ -353,9 +388,55 @@ mod tests {
     fn command_option_is_found_where_given() {
         let (span, declared) = (Span::default(), &[TAKEN]);
         let given = Given { option: &TAKEN, span, values: Vec::new(), after: 0 };
-        let args = Args { span, declared, data: Vec::new(), options: vec![given] };
+        let args = Args { declared, options: vec![given], ..Args::empty(span) };
         assert!(args.has(&TAKEN) && !Args { options: Vec::new(), ..args.clone() }.has(&TAKEN));
         assert!(args.option_if_declared(&OTHER).is_none());
+    }
+
+    choices! {
+        enum Side {
+            Port = "PORT",
+            Starboard = "STARBOARD",
+        }
+    }
+
+    const DATA: &[ValueSpec] = &[
+        ValueSpec::choice::<Side>("SIDE", "a side"),
+        ValueSpec::new("X", Kind::Number(Dim::Length), "a place"),
+        ValueSpec::new("Y", Kind::Number(Dim::Length), "further places"),
+    ];
+
+    fn record(words: &[Content]) -> Args {
+        let value = |content: &Content| Value { content: content.clone(), ..Value::empty(Span::default()) };
+        let data = words.iter().map(value).collect();
+        Args { declared_data: DATA, data, ..Args::empty(Span::default()) }
+    }
+
+    #[test]
+    fn positional_data_are_read_by_name() {
+        let args = record(&[Content::Word("STARBOARD".into()), Content::Number(2.0), Content::Empty]);
+        let [x, y] = const { [DatumKey::number(DATA, "X"), DatumKey::number(DATA, "Y")] };
+        assert_eq!(args.choice(const { DatumKey::choice(DATA, "SIDE") }), Some(Side::Starboard));
+        assert_eq!((args.number(x), args.number(y)), (Some(2.0), None));
+        assert_eq!((args.numbers_or_zero([x, y]), args.data_after(x).len()), ([2.0, 0.0], 1));
+        assert_eq!(record(&[]).choice(const { DatumKey::<Side>::choice(DATA, "SIDE") }), None);
+    }
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic(expected = "X is looked up in a record that has no such datum")]
+    fn datum_of_another_command_cannot_be_looked_up() {
+        Args::empty(Span::default()).number(const { DatumKey::number(DATA, "X") });
+    }
+
+    #[test]
+    fn switch_is_on_unless_it_says_no() {
+        const SWITCH: OptionSpec =
+            OptionSpec::new("-SWITCH", &[ValueSpec::choice::<YesNo>("YES/NO", "on or off").or("YES")], "a switch");
+        let given =
+            |words: &[Content]| Given { option: &SWITCH, span: Span::default(), values: record(words).data, after: 0 };
+        assert!(given(&[]).is_on() && given(&[Content::Word("YES".into())]).is_on());
+        assert!(!given(&[Content::Word("NO".into())]).is_on());
     }
 
     #[test]

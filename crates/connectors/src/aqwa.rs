@@ -180,8 +180,7 @@ impl ConnectorClass for CatenaryClass {
     fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
         let args = &record.args;
         let (joint, joint_span) = joint(args)?;
-        let mass = args.number(0).unwrap_or(0.0);
-        let area = args.number(1).unwrap_or(0.0);
+        let [mass, area] = args.numbers_or_zero(const { CATENARY_SPEC.numbers(["MASS", "AREA"]) });
         let option = |option: &OptionSpec, default: f64| args.option_number(option).unwrap_or(default);
         let section = CatenarySection {
             mass,

@@ -17,7 +17,7 @@ use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
 use windlass_catenary::{Line, LineError, SeabedModel, StretchLaw};
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, OptionSpec, ValueSpec};
 use windlass_model::Note;
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
@@ -31,8 +31,7 @@ pub static B_CAT: ClassKind =
 static SPEC: CommandSpec = CommandSpec {
     data: &[
         o::LINE_OD,
-        ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "without effect: the line is always solved exactly")
-            .or("exact"),
+        ValueSpec::choice::<o::CatenaryFlag>("FLAG", "without effect: the line is always solved exactly").or("exact"),
     ],
     options: &[
         o::LEN,
@@ -193,8 +192,9 @@ impl ConnectorClass for Catenary {
         let section = LineSection::read(record, "B_CAT", false)?;
         self.per_line.check(args, &PER_LINE)?;
         let tabulated = self.tabulated.or(args.option(&o::TABLE).map(|given| given.span));
-        let flag = args.data.get(1).filter(|value| value.word() == Some("EXACT"));
-        let exact = self.exact.or(flag.map(|value| value.span));
+        const FLAG: DatumKey<o::CatenaryFlag> = SPEC.choice("FLAG");
+        let flag = args.choice(FLAG).map(|o::CatenaryFlag::Exact| args.place(FLAG));
+        let exact = self.exact.or(flag);
         if let (Some(table), Some(flag)) = (tabulated, exact) {
             return Err(Diagnostic::error("EXACT and -TABLE contradict each other", table)
                 .other(flag, "solved exactly")

@@ -18,7 +18,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::Note;
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, ElementResponse,
@@ -78,6 +78,9 @@ static SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("FENDER", "fender by points of its maker's curve")
 };
 
+/// The datum before the points of the curve.
+const HEIGHT: DatumKey<f64> = SPEC.number("H");
+
 /// Points of a curve, (reaction N, deflection m), the origin among them.
 type Points = Vec<(f64, f64)>;
 
@@ -94,7 +97,7 @@ struct Fender {
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let Some(record) = records.last() else { return Err(Diagnostic::error("a class needs a record", Span::default())) };
     let args = &record.args;
-    let height = args.number(0).unwrap_or(0.0);
+    let height = args.number(HEIGHT).unwrap_or(0.0);
     let curve = points(args, height)?;
     let last = curve.last().map_or(0.0, |(_, y)| *y);
     let rated = args.option_number(&RATED).unwrap_or(last);
@@ -127,12 +130,13 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
 /// The points of a record, checked.
 fn points(args: &Args, height: f64) -> Outcome<Points> {
     let mut made: Points = vec![(0.0, 0.0)];
-    for index in (1..args.data.len()).step_by(2) {
-        let (Some(force), Some(deflection)) = (args.number(index), args.number(index + 1)) else { continue };
-        let place = args.place(index + 1);
+    for pair in args.data_after(HEIGHT).chunks_exact(2) {
+        let [reaction, at] = pair else { continue };
+        let (Some(force), Some(deflection)) = (reaction.number(), at.number()) else { continue };
+        let place = at.span;
         if deflection == 0.0 && made.len() == 1 {
             if force > 0.0 {
-                return Err(Diagnostic::error("the curve of a FENDER begins at zero", args.place(index))
+                return Err(Diagnostic::error("the curve of a FENDER begins at zero", reaction.span)
                     .label("a reaction without deflection"));
             }
             continue;
@@ -149,7 +153,7 @@ fn points(args: &Args, height: f64) -> Outcome<Points> {
     }
     match made.as_slice() {
         [.., before, last] if last.0 <= before.0 => {
-            let place = args.data.len().checked_sub(2).map_or(args.span, |index| args.place(index));
+            let place = args.data.iter().rev().nth(1).map_or(args.span, |reaction| reaction.span);
             Err(Diagnostic::error(
                 "the curve of a FENDER must rise to its last point, beyond which its slope goes on",
                 place,

@@ -27,7 +27,7 @@ pub const OPTIONS: &[OptionSpec] = &[
 ];
 
 static SPEC: CommandSpec = CommandSpec {
-    data: &[o::SENSE, o::DF, o::SPV, o::AF],
+    data: &o::GENERALIZED,
     repeat: 3,
     options: OPTIONS,
     detail: "A GSPR of zero length that is checked in a FOUNDATION check: the largest of its forces over their AF. Its options are \

@@ -30,7 +30,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    let mu = records.last().and_then(|r| r.args.number(0)).unwrap_or(0.0);
+    let mu = records.last().and_then(|r| r.args.number(const { SPEC.number("COEF") })).unwrap_or(0.0);
     let push = Restraint { dof: Dof::X, stiffness: RIGID_STIFFNESS, allowable: None };
     let friction = if mu > 0.0 { Friction::Stick { mu, stiffness: RIGID_STIFFNESS } } else { Friction::None };
     Ok(Arc::new(Restraining::new("GAP", vec![push]).pushing(friction)))

@@ -16,7 +16,7 @@ pub static GSPR: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, i
 static OPTIONS: [OptionSpec; 1 + foundation::OPTIONS.len()] = join_options(&[o::LEN_OFFSET], foundation::OPTIONS);
 
 static SPEC: CommandSpec = CommandSpec {
-    data: &[o::SENSE, o::DF, o::SPV, o::AF],
+    data: &o::GENERALIZED,
     repeat: 3,
     options: &OPTIONS,
     detail: "SENSE TENSION: no load in any degree of freedom while the element X displacement is negative; COMPRESSION: none while \

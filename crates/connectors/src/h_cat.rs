@@ -17,7 +17,7 @@ use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given};
 use windlass_catenary::{Line, StretchLaw};
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
     Surroundings,
@@ -82,7 +82,7 @@ const H_CAT_OPTIONS: [OptionSpec; LINE_OPTIONS.len() + BOTTOM_OPTIONS.len()] = {
 const NO_BOTTOM: &str = "it has no bottom: -FRICTION and -SLOPE do nothing, and -DEPANCHOR is the depth of its anchor alone; a B_CAT lies on the bottom";
 
 static H_CAT_SPEC: CommandSpec = CommandSpec {
-    data: &[o::LINE_OD, ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "with its weight").or("weightless")],
+    data: &[o::LINE_OD, ValueSpec::choice::<o::CatenaryFlag>("FLAG", "with its weight").or("weightless")],
     options: &H_CAT_OPTIONS,
     detail: "-CD, -CA, -AX_DAMPING and -SEABED act with the line's own dynamics alone: &CONNECTOR -DYNAMICS. A hanging catenary: it knows neither bottom nor surface (reports say where it passes them), and takes no buoys. -DEPANCHOR is the depth of its anchor; -FRICTION and -SLOPE do nothing. Without EXACT it is weightless: \
              a spring along the chord that only pulls. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
@@ -143,7 +143,10 @@ impl ConnectorClass for Hanging {
         self.sections.push(section);
         self.flexures.push(flexure);
         self.places.push(args.span);
-        self.exact |= args.word(1) == Some("EXACT");
+        self.exact |= match args.choice(const { H_CAT_SPEC.choice("FLAG") }) {
+            Some(o::CatenaryFlag::Exact) => true,
+            None => false,
+        };
         self.bottom |= BOTTOM_OPTIONS.iter().any(|option| args.has(option));
         if self.per_line.take(args, &PER_LINE)
             | self.per_line.take(args, &BOTTOM_OPTIONS)

@@ -13,7 +13,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings,
 };
@@ -59,12 +59,12 @@ const UPRIGHT: Matrix3<f64> = Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let Some(record) = records.last() else { return Err(Diagnostic::error("a class needs a record", Span::default())) };
     let args = &record.args;
-    let at = |index: usize| args.number(index).unwrap_or(0.0);
-    let (length, pin, mouth) = (at(0), at(1), at(2));
+    const MOUTH: DatumKey<f64> = SPEC.number("OD(2)");
+    let [length, pin, mouth] = args.numbers_or_zero(const { SPEC.numbers(["LEN", "OD(1)", "OD(2)"]) });
     if mouth < pin {
-        return Err(Diagnostic::error("the cone's mouth OD(2) is smaller than the pin OD(1)", args.place(2)));
+        return Err(Diagnostic::error("the cone's mouth OD(2) is smaller than the pin OD(1)", args.place(MOUTH)));
     }
-    Ok(Arc::new(PinInCone { length, pin, mouth, springs: Springs::read(args, 3, true)? }))
+    Ok(Arc::new(PinInCone { length, pin, mouth, springs: Springs::read(args, args.data_after(MOUTH), true)? }))
 }
 
 impl PinInCone {

@@ -36,6 +36,21 @@ pub const AF: ValueSpec = ValueSpec::new("AF", Kind::ForceOfDof, "allowable forc
 /// `OD`.
 pub const OD: ValueSpec = number("OD", Dim::Section, "outside diameter").positive();
 
+/// `T` of a tube.
+pub const WALL: ValueSpec = number("T", Dim::Section, "wall thickness").positive();
+/// Data of a tube.
+pub const TUBE: [ValueSpec; 2] = [OD, WALL];
+/// Data of a generalized spring: the last three repeat.
+pub const GENERALIZED: [ValueSpec; 4] = [SENSE, DF, SPV, AF];
+
+choices! {
+    /// The flag of a catenary.
+    pub enum CatenaryFlag {
+        /// With its weight, solved exactly.
+        Exact = "EXACT",
+    }
+}
+
 /// `OD` of a line, which `-TYPE` may stand for.
 pub const LINE_OD: ValueSpec = OD.or("diameter of -TYPE");
 /// `-TYPE NAME D`.

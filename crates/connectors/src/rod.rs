@@ -8,7 +8,6 @@ use super::section::{LineSection, properties};
 use super::{ClassKind, append_all, checks, options as o};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
-use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
@@ -23,7 +22,7 @@ const NO_SHEAR: &str = "a rod does not deform in shear (Euler and Bernoulli)";
 const ONE_BENDING: &str = "a rod has one bending stiffness in all directions, -EI";
 
 static ROD_SPEC: CommandSpec = CommandSpec {
-    data: &[o::OD, ValueSpec::new("T", Kind::Number(Dim::Section), "wall thickness").positive()],
+    data: &o::TUBE,
     options: &[
         o::LEN,
         REFINE,

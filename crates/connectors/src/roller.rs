@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-FLEX ROLLER]. Gaps are in inches or mm; the second end is taken care of by the assembly.
 
-use super::spring::{Restraint, Springs, no_anchor, restraint_table, restraints};
+use super::spring::{Restraint, SENSE, Springs, no_anchor, restraint_table, restraints};
 use super::zero_law::{ContactGeometry, Sense};
 use super::{ClassKind, checks, options as o};
 use nalgebra::Vector3;
@@ -35,7 +35,7 @@ const Z_ROLLER: OptionSpec = OptionSpec::new(
 );
 
 static SPEC: CommandSpec = CommandSpec {
-    data: &[o::SENSE, o::DF, o::SPV, o::AF],
+    data: &o::GENERALIZED,
     repeat: 3,
     options: &[o::Y_PY, o::Z_PY, Y_ROLLER, Z_ROLLER],
     detail: "Pipe Y is lateral and Z upward: the axes of the node's body, turned by -EULER of the connector. -Y_ROLLER Y- Y+ and -Z_ROLLER \
@@ -67,16 +67,19 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let gaps = |option: &OptionSpec, [below, above]: [ValueKey<f64>; 2]| {
         args.option(option).and_then(|g| Some([g.number(below)?, g.number(above)?]))
     };
-    let given = restraints(args, 1, 3)?;
-    match args.data.first().and_then(|v| v.choice()).unwrap_or(Sense::Both) {
+    let given = restraints(args.data_after(SENSE), 3)?;
+    match args.choice(SENSE).unwrap_or(Sense::Both) {
         Sense::Tension => {
-            return Err(Diagnostic::error("a ROLLER only pushes: SENSE TENSION has no meaning", args.place(0))
+            return Err(Diagnostic::error("a ROLLER only pushes: SENSE TENSION has no meaning", args.place(SENSE))
                 .help("leave SENSE out, or COMPRESSION"));
         }
         Sense::Compression if given.iter().any(|r| r.dof == Dof::X) => {
-            return Err(Diagnostic::error("the X spring of a ROLLER, along the pipe, acts both ways", args.place(0))
-                .label("SENSE COMPRESSION cannot hold for it")
-                .help("leave SENSE out: the rollers push all the same"));
+            return Err(Diagnostic::error(
+                "the X spring of a ROLLER, along the pipe, acts both ways",
+                args.place(SENSE),
+            )
+            .label("SENSE COMPRESSION cannot hold for it")
+            .help("leave SENSE out: the rollers push all the same"));
         }
         Sense::Compression | Sense::Both => {}
     }

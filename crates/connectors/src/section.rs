@@ -10,7 +10,7 @@ use super::{checks, options as o};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
-use windlass_base::spec::ValueKey;
+use windlass_base::spec::{DatumKey, ValueKey};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem, eight_figures};
 use windlass_base::values::{Args, Given};
@@ -118,6 +118,9 @@ impl OfType {
 
 /// The nominal diameter of `-TYPE`.
 const DIAMETER: ValueKey<f64> = o::TYPE.number("D");
+/// The first datum of every line.
+const OD: DatumKey<f64> = DatumKey::number(&o::TUBE, "OD");
+const WALL: DatumKey<f64> = DatumKey::number(&o::TUBE, "T");
 
 /// The type a record names, and its nominal diameter (m).
 fn line_type_and_diameter(args: &Args) -> Outcome<Option<(&'static LineType, f64)>> {
@@ -169,10 +172,10 @@ pub fn type_notices(args: &Args, units: UnitSystem) -> Vec<Diagnostic> {
         let verb = if given.len() == 1 { "overrides" } else { "override" };
         notices.push(*Diagnostic::remark(format!("{} {verb} what {} gives", listed.join(", "), line_type.name), first));
     }
-    if args.number(0).is_some() {
+    if args.number(OD).is_some() {
         let text =
             format!("OD is the diameter listed, and of the solid area; {} itself has D of -TYPE", line_type.name);
-        notices.push(*Diagnostic::remark(text, args.place(0)));
+        notices.push(*Diagnostic::remark(text, args.place(OD)));
     }
     notices
 }
@@ -187,16 +190,16 @@ impl LineSection {
         let args = &record.args;
         let material = &record.defaults.material;
         let of_type = OfType::read(args)?;
-        let od = args.number(0).or(of_type.map(|t| t.diameter)).ok_or_else(|| {
+        let od = args.number(OD).or(of_type.map(|t| t.diameter)).ok_or_else(|| {
             Diagnostic::error(format!("{kind} lacks its value OD"), args.span)
                 .label("expected a diameter after this, or -TYPE NAME D")
                 .help("&STATUS LINE_TYPES lists the types")
         })?;
-        let thickness = if tube { args.number(1) } else { None };
+        let thickness = if tube { args.number(WALL) } else { None };
         if let Some(t) = thickness
             && 2.0 * t > od
         {
-            return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(1)));
+            return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(WALL)));
         }
         let length = checks::length(args, kind)?;
         checks::py_curves(args)?;
@@ -292,7 +295,7 @@ pub fn bar_notice(
     }
     let advice =
         "-TYPE CHAIN_R4 D makes it a chain (&STATUS LINE_TYPES lists chain, wire and rope); -WTPLEN gives a weight";
-    Some(*Diagnostic::remark(text, last.place(0)).help(advice))
+    Some(*Diagnostic::remark(text, last.place(OD)).help(advice))
 }
 
 /// The `&STATUS CLASS` table of a line: one row a segment.

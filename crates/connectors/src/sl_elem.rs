@@ -10,13 +10,14 @@ use super::mooring::{end_springs, with_series};
 use super::per_line::PerLineOptions;
 use super::section::{LineSection, properties, short};
 use super::{ClassKind, append_all, checks, options as o};
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
 use windlass_catenary::StretchLaw;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Note,
     Placement, Surroundings,
@@ -46,11 +47,16 @@ const IDLE: &[(OptionSpec, &str)] = &[
     (m::SEABED, ""),
 ];
 
+choices! {
+    /// The flag of a straight line.
+    enum BarFlag {
+        /// It only pulls.
+        Tension = "TENSION",
+    }
+}
+
 static SL_ELEM_SPEC: CommandSpec = CommandSpec {
-    data: &[
-        o::LINE_OD,
-        ValueSpec::new("FLAG", Kind::Choice(&["TENSION"]), "tension only").or("tension and compression"),
-    ],
+    data: &[o::LINE_OD, ValueSpec::choice::<BarFlag>("FLAG", "tension only").or("tension and compression")],
     detail: "Its force depends only on the distance between the ends and acts along the line between them: it has no weight. H_CAT EXACT has. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
              MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
              stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
@@ -88,7 +94,10 @@ impl ConnectorClass for Spring {
         }
         self.sections.push(section);
         self.places.push(args.span);
-        self.tension |= args.word(1) == Some("TENSION");
+        self.tension |= match args.choice(const { SL_ELEM_SPEC.choice("FLAG") }) {
+            Some(BarFlag::Tension) => true,
+            None => false,
+        };
         if self.per_line.take(args, &PER_LINE) {
             self.springs = end_springs(&self.per_line);
             self.devices = Devices::read(&self.per_line);

@@ -27,6 +27,6 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let record = records.last().ok_or_else(|| Diagnostic::error("a class needs a record", Span::default()))?;
-    let list = restraints(&record.args, 0, 2)?;
+    let list = restraints(&record.args.data, 2)?;
     Ok(Arc::new(Restraining::new("SPR", list)))
 }

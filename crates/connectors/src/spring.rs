@@ -12,10 +12,10 @@ use nalgebra::{Matrix3, Vector3};
 use windlass_base::choice::{Choice, Dof};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
-use windlass_base::spec::ValueKey;
+use windlass_base::spec::{DatumKey, ValueKey};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
-use windlass_base::values::Args;
+use windlass_base::values::{Args, Value};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings,
 };
@@ -44,13 +44,16 @@ pub struct Springs {
     friction: Option<f64>,
 }
 
-/// Restraints in data from position `from`, so many values each.
+/// The datum of a generalized spring before its restraints.
+pub const SENSE: DatumKey<Sense> = DatumKey::choice(&o::GENERALIZED, "SENSE");
+
+/// Restraints among data, so many values each.
 ///
 /// # Errors
 /// The same degree of freedom twice.
-pub fn restraints(args: &Args, from: usize, values: usize) -> Outcome<Vec<Restraint>> {
+pub fn restraints(data: &[Value], values: usize) -> Outcome<Vec<Restraint>> {
     let mut list: Vec<(Restraint, Span)> = Vec::new();
-    for group in args.data.get(from..).unwrap_or_default().chunks(values) {
+    for group in data.chunks(values) {
         let Some((dof, span)) = group.first().and_then(|v| Some((v.choice::<Dof>()?, v.span))) else { continue };
         if let Some((_, first)) = list.iter().find(|(r, _)| r.dof == dof) {
             return Err(Diagnostic::error(format!("degree of freedom {} is given twice", dof.word()), span)
@@ -119,12 +122,12 @@ fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec
 }
 
 impl Springs {
-    /// Reads a record whose restraints begin at a datum.
+    /// Reads a record with its restraints, three values each.
     ///
     /// # Errors
     /// What contradicts itself, at its place.
-    pub fn read(args: &Args, from: usize, symmetric_default: bool) -> Outcome<Self> {
-        let list = restraints(args, from, 3)?;
+    pub fn read(args: &Args, data: &[Value], symmetric_default: bool) -> Outcome<Self> {
+        let list = restraints(data, 3)?;
         let symmetric = symmetric(args, &list, symmetric_default)?;
         let convolutions = convolutions(args, &list, symmetric)?;
         Springs::from_options(args, list, symmetric, convolutions)
@@ -263,8 +266,8 @@ impl Generalized {
         looks_along_x(args, kind)?;
         Ok(Generalized {
             kind,
-            sense: args.data.first().and_then(|v| v.choice()).unwrap_or(Sense::Both),
-            springs: Springs::read(args, 1, false)?,
+            sense: args.choice(SENSE).unwrap_or(Sense::Both),
+            springs: Springs::read(args, args.data_after(SENSE), false)?,
             offset: args.number_if_declared(&o::LEN_OFFSET).unwrap_or(0.0),
             foundation: false,
         })
@@ -282,9 +285,10 @@ impl Generalized {
 /// # Errors
 /// TENSION or COMPRESSION without an X spring, at the word.
 fn looks_along_x(args: &Args, kind: &str) -> Outcome<()> {
-    let has_x = args.data.iter().skip(1).any(|v| v.word() == Some("X"));
-    let Some(sense) = args.word(0).filter(|sense| *sense != "BOTH" && !has_x) else { return Ok(()) };
-    Err(Diagnostic::error(format!("SENSE {sense} of {kind} goes by element X, which has no spring"), args.place(0))
+    let has_x = args.data_after(SENSE).iter().any(|v| v.choice() == Some(Dof::X));
+    let Some(sense) = args.choice(SENSE).filter(|sense| *sense != Sense::Both && !has_x) else { return Ok(()) };
+    let text = format!("SENSE {} of {kind} goes by element X, which has no spring", sense.word());
+    Err(Diagnostic::error(text, args.place(SENSE))
         .label("the springs given would push and pull alike")
         .help("turn element X to their direction with -EULER of CONNECTOR and give X; BOTH for springs that act always; FENDER for a fender"))
 }

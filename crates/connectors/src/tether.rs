@@ -80,9 +80,12 @@ impl ConnectorClass for TetherClass {
 
     fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
         let args = &record.args;
-        let (od, thickness) = (args.number(0).unwrap_or(0.0), args.number(1).unwrap_or(0.0));
+        let [od, thickness] = args.numbers_or_zero(const { TETHER_SPEC.numbers(["OD", "T"]) });
         if 2.0 * thickness > od {
-            return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(1)));
+            return Err(Diagnostic::error(
+                "the wall thickness T is larger than half of OD",
+                args.place(const { TETHER_SPEC.number("T") }),
+            ));
         }
         let material = &record.defaults.material;
         let elements = args.option_integer(&REFINE);

@@ -39,7 +39,8 @@ struct TugForce {
 }
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    Ok(Arc::new(Tugs { force: records.last().and_then(|r| r.args.number(0)).unwrap_or(0.0) }))
+    let force = records.last().and_then(|r| r.args.number(const { SPEC.number("FORCE") }));
+    Ok(Arc::new(Tugs { force: force.unwrap_or(0.0) }))
 }
 
 impl ConnectorClass for Tugs {

@@ -23,7 +23,7 @@ use windlass_base::values::{Args, Given, Value};
 /// An unknown or ambiguous option, an option given twice, a missing or surplus value, text for a number, a number out
 /// of range: each at its word, with what was expected.
 pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: UnitSystem) -> Outcome<Args> {
-    let mut args = Args { span: command, declared: spec.options, data: Vec::new(), options: Vec::new() };
+    let mut args = Args { declared: spec.options, declared_data: spec.data, ..Args::empty(command) };
     let mut data: Vec<&Word> = Vec::new();
     // words behind an option that could have been its choice and are none of it
     let mut declined: Vec<(&Word, &'static OptionSpec, &'static ValueSpec)> = Vec::new();

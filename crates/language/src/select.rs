@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-REF men_select].
 
+use windlass_base::choice::Choice;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
 pub use windlass_base::spec::Owner;
@@ -42,6 +43,14 @@ pub fn keyword<T: Copy + PartialEq>(
         }
     }
     SearchResult::None
+}
+
+/// As [`choose`], among the words of an enum.
+///
+/// # Errors
+/// As [`choose`].
+pub fn choose_word<T: Choice>(word: &str, span: Span, what: &str) -> Outcome<T> {
+    choose(word, span, what, T::ALL.iter().map(|choice| (choice.word(), Owner::Moses, *choice)))
 }
 
 /// As [`keyword`], with the error a user sees: `what` says what is being chosen, e.g. `option of B_CAT`.

@@ -2,8 +2,9 @@
 //! and the printed manual all read these; nothing about a record's form is written twice.
 
 use super::select::Owner;
+use windlass_base::choice::Choice;
 use windlass_base::spec::values_syntax;
-pub use windlass_base::spec::{Kind, Need, OptionSpec, Range, ValueSpec};
+pub use windlass_base::spec::{DatumKey, Kind, Need, OptionSpec, Range, ValueSpec};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Noun;
 
@@ -111,6 +112,52 @@ impl CommandSpec {
             detail: "",
             example: "",
         }
+    }
+
+    /// The positional number of this name.
+    ///
+    /// # Panics
+    /// While compiling, in a `const`: no datum has this name, or it is no number.
+    pub const fn number(&self, name: &str) -> DatumKey<f64> {
+        DatumKey::number(self.data, name)
+    }
+
+    /// The positional numbers of these names.
+    ///
+    /// # Panics
+    /// As [`Self::number`].
+    pub const fn numbers<const N: usize>(&self, names: [&str; N]) -> [DatumKey<f64>; N] {
+        let mut keys = [self.number(names[0]); N];
+        let mut i = 0;
+        while i < N {
+            keys[i] = self.number(names[i]);
+            i += 1;
+        }
+        keys
+    }
+
+    /// The positional whole number of this name.
+    ///
+    /// # Panics
+    /// While compiling, in a `const`: no datum has this name, or it is no whole number.
+    pub const fn integer(&self, name: &str) -> DatumKey<i64> {
+        DatumKey::integer(self.data, name)
+    }
+
+    /// The positional word of this name: a name, a text or a file.
+    ///
+    /// # Panics
+    /// While compiling, in a `const`: no datum has this name, or it is no text.
+    pub const fn word(&self, name: &str) -> DatumKey<str> {
+        DatumKey::word(self.data, name)
+    }
+
+    /// The positional word of this name, one of an enum's.
+    ///
+    /// # Panics
+    /// While compiling, in a `const`: no datum has this name, or its words are not those of the enum.
+    pub const fn choice<T: Choice>(&self, name: &str) -> DatumKey<T> {
+        DatumKey::choice(self.data, name)
     }
 
     /// The names its options answer to, aliases included.

@@ -34,15 +34,15 @@ pub(crate) const T_PRESSURE: OptionSpec = OptionSpec::new(
 /// # Errors
 /// A name that is not there.
 pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
-    let name = given.first_word().unwrap_or_default();
+    let name = || given.first_word().unwrap_or_default();
     let span = given.first_place();
     match given {
         _ if given.is(&BATHYMETRY) => {
-            find(&job.model.bathymetries, name, "bathymetry", span)?;
+            find(&job.model.bathymetries, name(), "bathymetry", span)?;
             env.bathymetry = Some(formula(given, None));
         }
         _ if given.is(&T_PRESSURE) => {
-            find(&job.model.fillings, name, "set of T_PRESSURE data", span)?;
+            find(&job.model.fillings, name(), "set of T_PRESSURE data", span)?;
             env.filling = Some(formula(given, None));
         }
         _ => {}

@@ -13,7 +13,7 @@ use windlass_base::values::Value;
 use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, TextForm, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, TextForm, ValueSpec};
 use windlass_model::bathymetry::{Bathymetry, MAX_GRID_POINTS, fits};
 use windlass_model::{EntityKind, Model};
 
@@ -96,7 +96,8 @@ pub struct Soundings {
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
+    const NAME: DatumKey<str> = SPEC.word("NAME");
+    let (name, span) = (args.word(NAME).unwrap_or_default(), args.place(NAME));
     rule::check(name, None, "bathymetry", span)?;
     job.model.free_name(name, &[EntityKind::Bathymetry], span)?;
     let sign = if args.has(&DEPTHS) { -1.0 } else { 1.0 };

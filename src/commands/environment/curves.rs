@@ -4,6 +4,7 @@
 
 use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job, Menu};
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Noun;
@@ -11,17 +12,26 @@ use windlass_connectors::viscous::ViscoelasticLaw;
 use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::record::Word;
-use windlass_language::select::{Owner, choose};
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, TextForm, ValueSpec};
+use windlass_language::select::{Owner, choose, choose_word};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, TextForm, ValueSpec};
 use windlass_model::{Curve, CurveKind, EntityKind, Model};
 
 /// &DATA.
 pub static DATA: Command = Command { spec: &SPEC, edits: false, run };
 
+choices! {
+    /// What `&DATA` defines.
+    enum DataKind {
+        Curves = "CURVES",
+        Convolution = "CONVOLUTION",
+        Environment = "ENVIRONMENT",
+    }
+}
+
 static SPEC: CommandSpec = CommandSpec {
     form: TextForm::Text,
     opens: Opens::AtMost(&menu::CURVES, 1),
-    data: &[ValueSpec::new("KIND", Kind::Choice(&["CURVES", "CONVOLUTION", "ENVIRONMENT"]), "what is defined")],
+    data: &[ValueSpec::choice::<DataKind>("KIND", "what is defined")],
     detail: "&DATA CURVES TYPE NAME a1 b1 a2 b2 .. with TYPE C_PROFILE (depth, velocity), P_SPECTRUM (period, density), \
              F_SPECTRUM (frequency, density), M_GROWTH (elevation, added OD), W_HISTORY (time, knots), C_HISTORY (ours: time, factor of the current), LT_MULTIPLIER, \
              CT_LENGTH, EFFICIENCY, CS_VELOCITY or AM_PRESSURE; the first value grows. &DATA CURVES alone opens a menu of \
@@ -196,15 +206,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let Some(kind) = call.words.get(1) else {
         return Err(Diagnostic::error("&DATA lacks what it defines", call.record.whole()).help(form));
     };
-    let names = ["CURVES", "CONVOLUTION", "ENVIRONMENT"].map(|name| (name, Owner::Moses, name));
     let words = call.words.get(2..).unwrap_or_default();
-    match choose(&kind.text, kind.span, "kind of &DATA", names.into_iter())? {
-        "ENVIRONMENT" => {
+    match choose_word(&kind.text, kind.span, "kind of &DATA")? {
+        DataKind::Environment => {
             job.menus.push(Menu::Environments);
             return Ok(Effect::Done);
         }
-        "CONVOLUTION" => return convolution(job, call, kind.span, words),
-        _ => {}
+        DataKind::Convolution => return convolution(job, call, kind.span, words),
+        DataKind::Curves => {}
     }
     let Some((kind, values)) = words.split_first() else {
         job.menus.push(Menu::Curves);
@@ -263,12 +272,14 @@ const POOR_FIT_SHARE: f64 = 0.05;
 
 fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
     let args = &call.args;
-    let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
+    // the data of every curve begin so
+    const NAME: DatumKey<str> = BY_TIME.word("NAME");
+    let (name, span) = (args.word(NAME).unwrap_or_default(), args.place(NAME));
     rule::check(name, None, "curve", span)?;
     job.model.free_name(name, &[EntityKind::Curve], span)?;
     let [(first, _), _] = kind.axes();
     let mut points: Vec<(f64, f64)> = Vec::new();
-    for pair in args.data.get(1..).unwrap_or_default().chunks_exact(2) {
+    for pair in args.data_after(NAME).chunks_exact(2) {
         let [a, b] = pair else { continue };
         let point = (a.number().unwrap_or_default(), b.number().unwrap_or_default());
         if points.last().is_some_and(|last| point.0 <= last.0) {

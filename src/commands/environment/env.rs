@@ -14,7 +14,7 @@ use windlass_base::values::{Args, Given, Noun, Value};
 use windlass_hydro::sea::spectra::{self, ShapeParameter};
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::options::PHASES;
 use windlass_model::{
     Current, Curve, CurveKind, CurveReference, EntityKind, Environment, FormulaChoice, Model, PeriodType,
@@ -243,10 +243,11 @@ fn doubt(job: &mut Job, made: &Environment, args: &Args) {
 }
 
 fn build(job: &Job, args: &Args) -> Outcome<Environment> {
-    let name = args.word(0).unwrap_or_default();
+    const NAME: DatumKey<str> = ENV_SPEC.word("NAME");
+    let name = args.word(NAME).unwrap_or_default();
     if !name.is_empty() {
-        rule::check(name, None, "environment", args.place(0))?;
-        job.model.free_name(name, &[EntityKind::Environment], args.place(0))?;
+        rule::check(name, None, "environment", args.place(NAME))?;
+        job.model.free_name(name, &[EntityKind::Environment], args.place(NAME))?;
     }
     let kept = job.model.environments.get(&Model::key(name)).filter(|_| !name.is_empty());
     let mut env = kept.cloned().unwrap_or_else(|| Environment {

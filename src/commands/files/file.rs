@@ -4,11 +4,13 @@ use crate::commands::job::UserFile;
 use crate::commands::settings::device::{existing, read_input, readable};
 use crate::commands::{Call, Command, Effect, Job, PLAIN};
 use crate::report::files::{FileError, FilePlace, Side, lies_in};
+use windlass_base::choice::Choice;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_language::record::Word;
-use windlass_language::select::{Owner, choose};
-use windlass_language::spec::{CommandSpec, Kind, TextForm, ValueSpec};
+use windlass_language::select::choose_word;
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, TextForm, ValueSpec};
 
 /// &INSERT.
 pub static INSERT: Command = Command { spec: &INSERT_SPEC, edits: false, run: insert };
@@ -31,7 +33,7 @@ static USE_MAC_SPEC: CommandSpec = CommandSpec {
 };
 static FILE_SPEC: CommandSpec = CommandSpec {
     form: TextForm::Text,
-    data: &[ValueSpec::new("ACTION", Kind::Choice(ACTIONS), "what to do")],
+    data: &[ValueSpec::choice::<FileAction>("ACTION", "what to do")],
     detail: "MKDIR A; RM A; MV A B; CP A B; ANS_DIRECTORY A (a folder where answers go from now on, made if it is not there); OPEN TYPE FILE, WRITE TYPE text, \
              CLOSE TYPE (writes the file, whole; a file still open when the job ends is written then); USE TYPE FILE (for \
              &F_READ). Names that are written to, here and in STORE, PLOT and LINES: a relative name, with folders or without, is \
@@ -46,16 +48,31 @@ static FILE_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("&FILE", "works on files")
 };
 
-const ACTIONS: &[&str] = &["MKDIR", "RM", "MV", "CP", "USE", "ANS_DIRECTORY", "OPEN", "WRITE", "CLOSE"];
+choices! {
+    /// What `&FILE` does.
+    enum FileAction {
+        MakeFolder = "MKDIR",
+        Remove = "RM",
+        Move = "MV",
+        Copy = "CP",
+        Use = "USE",
+        AnswerFolder = "ANS_DIRECTORY",
+        Open = "OPEN",
+        Write = "WRITE",
+        Close = "CLOSE",
+    }
+}
 
 fn insert(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let name = call.args.word(0).unwrap_or_default();
-    let path = existing(job, name, call.args.place(0))?;
+    const FILE: DatumKey<str> = INSERT_SPEC.word("FILE");
+    let name = call.args.word(FILE).unwrap_or_default();
+    let path = existing(job, name, call.args.place(FILE))?;
     Ok(Effect::Insert { name: name.to_string(), path, tag: PLAIN })
 }
 
 fn use_mac(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let name = call.args.word(0).unwrap_or_default();
+    const NAME: DatumKey<str> = USE_MAC_SPEC.word("NAME");
+    let name = call.args.word(NAME).unwrap_or_default();
     let lower = name.to_ascii_lowercase();
     let candidates = [
         name.to_string(),
@@ -65,11 +82,11 @@ fn use_mac(job: &mut Job, call: &Call) -> Outcome<Effect> {
         format!("{lower}.cif"),
     ];
     for candidate in candidates {
-        if let Ok(path) = existing(job, &candidate, call.args.place(0)) {
+        if let Ok(path) = existing(job, &candidate, call.args.place(NAME)) {
             return Ok(Effect::Insert { name: candidate, path, tag: PLAIN });
         }
     }
-    Err(Diagnostic::error(format!("there is no macro library {name}"), call.args.place(0))
+    Err(Diagnostic::error(format!("there is no macro library {name}"), call.args.place(NAME))
         .label("looked for NAME, NAME.mac and NAME.cif beside the script"))
 }
 
@@ -79,27 +96,26 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("form: &FILE MKDIR A | RM A | MV A B | CP A B | ANS_DIRECTORY A | OPEN TYPE FILE | WRITE TYPE text | CLOSE TYPE | USE TYPE FILE")
     };
     let action = call.words.get(1).ok_or_else(usage)?;
-    let names = ACTIONS.iter().map(|a| (*a, Owner::Moses, *a));
-    let action = choose(&action.text, action.span, "action of &FILE", names)?;
+    let action = choose_word(&action.text, action.span, "action of &FILE")?;
     let first = call.words.get(2).ok_or_else(usage)?;
     let second = || call.words.get(3).ok_or_else(usage);
     let most = match action {
-        "MV" | "CP" | "OPEN" | "USE" => 4,
-        "WRITE" => usize::MAX,
-        _ => 3,
+        FileAction::Move | FileAction::Copy | FileAction::Open | FileAction::Use => 4,
+        FileAction::Write => usize::MAX,
+        FileAction::MakeFolder | FileAction::Remove | FileAction::AnswerFolder | FileAction::Close => 3,
     };
     if let Some(word) = call.words.get(most) {
-        return Err(Diagnostic::error(format!("&FILE {action} takes no further word"), word.span));
+        return Err(Diagnostic::error(format!("&FILE {} takes no further word", action.word()), word.span));
     }
     let at = |error| to_diagnostic(&error, first.span);
     match action {
-        "MKDIR" => job.output.folder.make_folder(&first.text).map_err(at).map(|_| ())?,
-        "RM" => {
+        FileAction::MakeFolder => job.output.folder.make_folder(&first.text).map_err(at).map(|_| ())?,
+        FileAction::Remove => {
             not_open(job, first)?;
             job.output.folder.remove(&first.text).map_err(at).map(|_| ())?;
         }
-        "MV" | "CP" => {
-            let (to, keep) = (second()?, action == "CP");
+        FileAction::Move | FileAction::Copy => {
+            let (to, keep) = (second()?, action == FileAction::Copy);
             if !keep {
                 not_open(job, first)?;
             }
@@ -108,16 +124,16 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 Side::To => to_diagnostic(&error, to.span),
             })?;
         }
-        "ANS_DIRECTORY" => {
+        FileAction::AnswerFolder => {
             job.output.folder.move_to(&first.text).map_err(at)?;
         }
-        "OPEN" => {
+        FileAction::Open => {
             let name = second()?;
             open(job, first, name)?;
         }
-        "WRITE" => write(job, call, first)?,
-        "CLOSE" => close(job, first)?,
-        _ => {
+        FileAction::Write => write(job, call, first)?,
+        FileAction::Close => close(job, first)?,
+        FileAction::Use => {
             let name = second()?;
             let path = readable(job, &name.text, name.span)?;
             let bytes = read_input(job, &path, MAX_FILE_BYTES as u64)

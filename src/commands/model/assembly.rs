@@ -6,11 +6,12 @@ use crate::commands::menu;
 use crate::commands::model::junction;
 use crate::commands::model::rigging::{self, Rigging};
 use crate::commands::{Call, Command, Effect, Job, Menu};
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Assembly, AssemblyKind, Body, Connector, Model, find};
 
 /// ASSEMBLY.
@@ -25,10 +26,20 @@ const ORIENT: OptionSpec = OptionSpec::new("-ORIENT", &[], "gives the body a sys
 const VERTICAL: OptionSpec = OptionSpec::new("-VERTICAL", &[], "with -INITIAL: turns the body so that it hangs");
 const DEACTIVATE: OptionSpec = OptionSpec::new("-DEACTIVATE", &[], "the sets defined before no longer act");
 
+choices! {
+    /// Types of assemblies.
+    enum AssemblyForm {
+        TipHook = "T-H_DEFINITION",
+    }
+}
+
+const NAME: DatumKey<str> = SPEC.word("NAME");
+const BOOM: DatumKey<str> = SPEC.word("BHE");
+
 static SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
-        ValueSpec::new("TYPE", Kind::Choice(&["T-H_DEFINITION"]), "a tip-hook set"),
+        ValueSpec::choice::<AssemblyForm>("TYPE", "a tip-hook set"),
         ValueSpec::new("NAME", Kind::Name(Noun::New), "its name, and that of the hook"),
         ValueSpec::new("BHE", Kind::Name(Noun::Connector), "SLING from the tip of the boom to the hook"),
         ValueSpec::new("EL", Kind::Name(Noun::Connector), "SLING from the hook to the body; up to four"),
@@ -71,16 +82,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// more than four slings; slings too short to meet; a name that is taken.
 pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
     let model = &job.model;
-    let name = args.word(1).unwrap_or_default().to_string();
-    junction::free(model, &name, "assembly", args.place(1))?;
-    if let Some(extra) = args.data.get(3 + MAX_SLINGS) {
+    let name = args.word(NAME).unwrap_or_default().to_string();
+    junction::free(model, &name, "assembly", args.place(NAME))?;
+    if let Some(extra) = args.data_after(BOOM).get(MAX_SLINGS) {
         return Err(Diagnostic::error(format!("a hook takes at most {MAX_SLINGS} slings"), extra.span));
     }
     let mut members: Vec<&Connector> = Vec::new();
-    for index in 2..args.data.len() {
-        let connector = member(model, args.word(index).unwrap_or_default(), args.place(index))?;
+    for value in args.data_after(NAME) {
+        let connector = member(model, value.word().unwrap_or_default(), value.span)?;
         if members.iter().any(|c| c.name == connector.name) {
-            return Err(Diagnostic::error(format!("{} is given twice", connector.name), args.place(index)));
+            return Err(Diagnostic::error(format!("{} is given twice", connector.name), value.span));
         }
         members.push(connector);
     }
@@ -119,7 +130,7 @@ pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
         }
     }
     let model = &mut job.model;
-    junction::insert(model, &name, hook.into(), [0.0; 2], args.place(1));
+    junction::insert(model, &name, hook.into(), [0.0; 2], args.place(NAME));
     for member in std::iter::once(&boom).chain(&slings) {
         if let Some(connector) = model.connectors.get_mut(&Model::key(member)) {
             connector.points.push(format!("*{name}"));
@@ -127,7 +138,7 @@ pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
     }
     let kind = AssemblyKind::TipHook { boom, slings };
     model.assemblies.insert(Model::key(&name), Assembly { name: name.clone(), kind, span: args.span });
-    job.note_name(&name, args.place(1));
+    job.note_name(&name, args.place(NAME));
     Ok(())
 }
 
@@ -156,8 +167,8 @@ fn body_of<'a>(model: &'a Model, connector: &Connector) -> Option<&'a Body> {
 /// The body all slings are on.
 fn one_body<'a>(model: &'a Model, boom: &Connector, slings: &[&Connector], args: &Args) -> Outcome<&'a Body> {
     let mut found: Option<&Body> = None;
-    for (index, sling) in slings.iter().enumerate() {
-        let span = args.place(3 + index);
+    for (sling, value) in slings.iter().zip(args.data_after(BOOM)) {
+        let span = value.span;
         let Some(body) = body_of(model, sling) else {
             let text = format!("{} is on no body, and a hook lifts one", sling.name);
             return Err(Diagnostic::error(text, span).other(sling.span, "defined here"));
@@ -171,7 +182,7 @@ fn one_body<'a>(model: &'a Model, boom: &Connector, slings: &[&Connector], args:
     let found = found.ok_or_else(|| Diagnostic::error("a hook needs a sling", args.span))?;
     if body_of(model, boom).is_some_and(|b| b.name == found.name) {
         let text = format!("{} is on {} as the slings are: a body cannot lift itself", boom.name, found.name);
-        return Err(Diagnostic::error(text, args.place(2)));
+        return Err(Diagnostic::error(text, args.place(BOOM)));
     }
     Ok(found)
 }

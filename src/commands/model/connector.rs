@@ -10,7 +10,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::name as rule;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Anchor, Connector, Model, Point, Tug, find};
 
 /// CONNECTOR.
@@ -82,8 +82,11 @@ static CONNECTOR_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("CONNECTOR", "connects a point to ground or two points")
 };
 
+const NAME: DatumKey<str> = CONNECTOR_SPEC.word("NAME");
+const CLASS: DatumKey<str> = CONNECTOR_SPEC.word("~CLASS");
+
 fn connector(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    rule::check(call.args.word(0).unwrap_or_default(), None, "connector", call.args.place(0))?;
+    rule::check(call.args.word(NAME).unwrap_or_default(), None, "connector", call.args.place(NAME))?;
     if matches!(job.menu(), Menu::Inmodel) {
         job.deferred.push(call.args.clone());
         return Ok(Effect::Done);
@@ -98,24 +101,21 @@ fn connector(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// Unknown names, a class that is not complete, ends that do not fit the class, a name that is taken.
 pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     let model = &job.model;
-    let name = args.word(0).unwrap_or_default();
+    let name = args.word(NAME).unwrap_or_default();
     if let Some(old) = model.connectors.get(&Model::key(name)) {
-        return Err(Diagnostic::error(format!("connector {name} exists already"), args.place(0))
+        return Err(Diagnostic::error(format!("connector {name} exists already"), args.place(NAME))
             .other(old.span, "defined here")
             .help(format!("DELETE {name} first, or use another name")));
     }
-    model.free_name(name, &[], args.place(0))?;
-    let class = find(&model.classes, args.word(1).unwrap_or_default(), "class", args.place(1))?;
+    model.free_name(name, &[], args.place(NAME))?;
+    let class = find(&model.classes, args.word(CLASS).unwrap_or_default(), "class", args.place(CLASS))?;
     let mut points = Vec::new();
     let mut on_bodies = 0;
-    for index in 2..args.data.len() {
-        let Some(word) = args.word(index) else { continue };
-        let point = find(&model.points, word, "point", args.place(index))?;
+    for value in args.data_after(CLASS) {
+        let Some(word) = value.word() else { continue };
+        let point = find(&model.points, word, "point", value.span)?;
         if points.iter().any(|p: &&Point| p.name == point.name) {
-            return Err(Diagnostic::error(
-                format!("{} cannot be both ends of a connector", point.name),
-                args.place(index),
-            ));
+            return Err(Diagnostic::error(format!("{} cannot be both ends of a connector", point.name), value.span));
         }
         on_bodies += usize::from(model.body_of(point).is_some());
         points.push(point);
@@ -155,9 +155,9 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     class.object.check_ends(&made, on_bodies)?;
     if made.tether.is_some() && class.object.tether_sections().is_empty() {
         let text = format!("{} is of class type {}, which is no tether", made.class, class.object.kind());
-        return Err(Diagnostic::error(text, args.place(1)).help("the options of tethers go with class type TETHER"));
+        return Err(Diagnostic::error(text, args.place(CLASS)).help("the options of tethers go with class type TETHER"));
     }
-    let span = args.place(0);
+    let span = args.place(NAME);
     let held = |point: &Point| model.body_of(point).map_or("ground", |b| b.name.as_str()).to_string();
     if let [first, second] = points.as_slice()
         && held(first) == held(second)

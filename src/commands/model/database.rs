@@ -21,7 +21,7 @@ use windlass_hydro::database::wamit::WamitScale;
 use windlass_hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{AttachedDatabase, DriftMethod, Mass, Model, find};
 
 /// DATABASE.
@@ -180,8 +180,9 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const BODY: DatumKey<str> = SPEC.word("BODY");
     let args = &call.args;
-    let body = find(&job.model.bodies, args.word(0).unwrap_or_default(), "body", args.place(0))?;
+    let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.place(BODY))?;
     let (key, name) = (Model::key(&body.name), body.name.clone());
     let mass = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity).mass;
     let (source, mut data) = read(job, args)?;

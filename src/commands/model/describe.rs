@@ -5,12 +5,13 @@ use crate::commands::menu;
 use crate::commands::model::piece::{self, OPTIONS};
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::Dof;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position, unit_vector};
 use windlass_base::units::Dim;
 use windlass_base::values::{Given, Noun, Value};
 use windlass_language::name as rule;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, TextForm, ValueSpec, join_options};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, TextForm, ValueSpec, join_options};
 use windlass_model::{Body, Coordinates, EntityKind, GROUND, Model, Part, Point, Shape, find};
 
 /// &DESCRIBE.
@@ -50,9 +51,22 @@ const IGNORE: OptionSpec = OptionSpec::new(
 const OWN: &[OptionSpec] = &[MOVE, IGNORE];
 static DESCRIBE_OPTIONS: [OptionSpec; OWN.len() + OPTIONS.len()] = join_options(OWN, &OPTIONS);
 
+choices! {
+    /// What `&DESCRIBE` describes.
+    enum Described {
+        Body = "BODY",
+        Part = "PART",
+        Piece = "PIECE",
+        Interest = "INTEREST",
+    }
+}
+
+const KIND: DatumKey<Described> = DESCRIBE_SPEC.choice("KIND");
+const NAME: DatumKey<str> = DESCRIBE_SPEC.word("NAME");
+
 static DESCRIBE_SPEC: CommandSpec = CommandSpec {
     data: &[
-        ValueSpec::new("KIND", Kind::Choice(&["BODY", "PART", "PIECE", "INTEREST"]), "what is described"),
+        ValueSpec::choice::<Described>("KIND", "what is described"),
         ValueSpec::new("NAME", Kind::Name(Noun::Selector), "its name; of INTEREST a point, a pattern or a selector"),
         ValueSpec::new("POINT", Kind::Name(Noun::Selector), "further points of INTEREST").or("none"),
     ],
@@ -108,32 +122,51 @@ static INSTATE_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("&INSTATE", "sets the initial configuration")
 };
 
+/// What a record goes on with.
+#[derive(Clone, Copy, PartialEq)]
+enum PartKind {
+    Body,
+    Part,
+    Piece,
+}
+
+impl PartKind {
+    fn name(self) -> &'static str {
+        match self {
+            PartKind::Body => "body",
+            PartKind::Part => "part",
+            PartKind::Piece => "piece",
+        }
+    }
+}
+
 fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let name = args.word(1).unwrap_or_default().to_string();
-    let (key, span) = (Model::key(&name), args.place(1));
-    let kind = args.word(0).unwrap_or_default();
-    if kind == "INTEREST" {
-        return interest(job, call);
-    }
-    if let Some(surplus) = args.data.get(2) {
+    let name = args.word(NAME).unwrap_or_default().to_string();
+    let (key, span) = (Model::key(&name), args.place(NAME));
+    let kind = match args.choice(KIND) {
+        Some(Described::Body) => PartKind::Body,
+        Some(Described::Part) => PartKind::Part,
+        Some(Described::Piece) => PartKind::Piece,
+        Some(Described::Interest) | None => return interest(job, call),
+    };
+    if let Some(surplus) = args.data_after(NAME).first() {
         return Err(Diagnostic::error("&DESCRIBE takes one name", surplus.span).help("only INTEREST takes several"));
     }
     let of = |given: &Given| match given {
-        _ if given.is(&MOVE) => "PART",
-        _ if given.is(&IGNORE) => "BODY",
-        _ => "PIECE",
+        _ if given.is(&MOVE) => PartKind::Part,
+        _ if given.is(&IGNORE) => PartKind::Body,
+        _ => PartKind::Piece,
     };
     if let Some(given) = args.options.iter().find(|given| of(given) != kind) {
-        let whose = of(given).to_ascii_lowercase();
-        let error = Diagnostic::error(format!("{} belongs to a {whose}", given.name()), given.span);
-        return Err(if whose == "part" && kind == "BODY" {
+        let error = Diagnostic::error(format!("{} belongs to a {}", given.name(), of(given).name()), given.span);
+        return Err(if of(given) == PartKind::Part && kind == PartKind::Body {
             error.help("&INSTATE -LOCATE places a body")
         } else {
             error
         });
     }
-    if kind == "PIECE" {
+    if kind == PartKind::Piece {
         let piece = piece::begin_piece(job, args, &name, span, Shape::Panels(Vec::new()))?;
         piece::add(job, piece, false);
         return Ok(Effect::Done);
@@ -146,9 +179,9 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
         );
     }
     let mine: &[EntityKind] =
-        if args.word(0) == Some("BODY") { &[EntityKind::Body] } else { &[EntityKind::Body, EntityKind::Part] };
+        if kind == PartKind::Body { &[EntityKind::Body] } else { &[EntityKind::Body, EntityKind::Part] };
     model.free_name(&name, mine, span)?;
-    if args.word(0) == Some("BODY") {
+    if kind == PartKind::Body {
         if !model.bodies.contains_key(&key) {
             if model.bodies.values().filter(|b| b.junction.is_none()).count() >= MAX_BODIES {
                 return Err(Diagnostic::error(format!("a model has at most {MAX_BODIES} bodies"), span));
@@ -200,7 +233,7 @@ fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error(format!("{} does not belong to INTEREST", given.name()), given.span));
     }
     let marked: Vec<(String, Position)> = {
-        let (model, chosen) = (&job.model, NameFilter::new(call, 1, &job.model));
+        let (model, chosen) = (&job.model, NameFilter::new(call.args.data_after(KIND), &job.model));
         let points = model.points.iter().filter(|(_, p)| chosen.takes(&p.name));
         let marked = points.map(|(key, point)| (key.clone(), model.global(point))).collect();
         chosen.check_used("the points", &[EntityKind::Point])?;
@@ -227,7 +260,7 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [name, rest @ ..] = call.words else { return Ok(Effect::Done) };
     rule::check(&name.text, Some('*'), "point", name.span)?;
     let args = windlass_language::args::read(&POINT_SPEC, name.span, rest, job.units)?;
-    let at = [0, 1, 2].map(|i| args.number(i).unwrap_or(0.0));
+    let at = args.numbers_or_zero(const { POINT_SPEC.numbers(["X", "Y", "Z"]) });
     // the angles of the other modes are degrees, not lengths
     let direction = |value: f64| unit_vector(Dim::Length.from_si(value, job.units).to_radians());
     let [a, b, c] = at;

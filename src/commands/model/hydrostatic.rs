@@ -9,7 +9,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{LinearHydrostatics, Model, find};
 
 /// #HYDROSTATIC.
@@ -77,12 +77,17 @@ static SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("#HYDROSTATIC", "buoyancy of a body by a linear stiffness")
 };
 
+const POINT: DatumKey<str> = SPEC.word("*PT");
+/// What of the diagonal stands among the data, by rows.
+const DIAGONAL: [Option<DatumKey<f64>>; 6] =
+    [None, None, Some(SPEC.number("K33")), Some(SPEC.number("K44")), Some(SPEC.number("K55")), None];
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let model = &job.model;
-    let point = find(&model.points, args.word(0).unwrap_or_default(), "point", args.place(0))?;
+    let point = find(&model.points, args.word(POINT).unwrap_or_default(), "point", args.place(POINT))?;
     let body = model.body_of(point).ok_or_else(|| {
-        Diagnostic::error(format!("{} is a point of the ground, which does not float", point.name), args.place(0))
+        Diagnostic::error(format!("{} is a point of the ground, which does not float", point.name), args.place(POINT))
             .other(point.span, "defined here")
     })?;
     let lacking = [BUOYANCY, ZCGE].into_iter().find(|option| !args.has(option));
@@ -91,12 +96,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("form: #HYDROSTATIC *PT K33 K44 K55 -BUOYANCY B -ZCGE Z"));
     }
     let mut stiffness = Matrix6::zeros();
-    for (n, row) in ROWS.into_iter().enumerate() {
-        let single = if (2..5).contains(&n) { args.number(n - 1) } else { None };
+    for (n, (row, key)) in ROWS.into_iter().zip(DIAGONAL).enumerate() {
+        let single = key.and_then(|key| args.number(key));
         match (args.option(&row), single) {
             (Some(given), Some(_)) => {
                 return Err(Diagnostic::error(format!("{} is given twice", row.name), given.span)
-                    .other(args.place(n - 1), "first given here"));
+                    .other(key.map_or(args.span, |key| args.place(key)), "first given here"));
             }
             (Some(given), None) => {
                 stiffness.set_row(n, &RowVector6::from_iterator(given.numbers().into_iter().chain([0.0; 6]).take(6)))

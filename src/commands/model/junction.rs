@@ -11,7 +11,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Body, Junction, Model, Part, Point, Weight};
 
 /// JUNCTION.
@@ -55,14 +55,15 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = SPEC.word("NAME");
     let args = &call.args;
-    let name = args.word(0).unwrap_or_default();
-    let at = [1, 2, 3].map(|i| args.number(i).unwrap_or(0.0));
+    let name = args.word(NAME).unwrap_or_default();
+    let at = args.numbers_or_zero(const { SPEC.numbers(["X", "Y", "Z"]) });
     let displacement = args.option_number(&DISPLACEMENT).unwrap_or(0.0);
     let weight = args.option_number(&WEIGHT).unwrap_or(0.0);
-    free(&job.model, name, "junction", args.place(0))?;
-    insert(&mut job.model, name, at, [weight, displacement], args.place(0));
-    job.note_name(name, args.place(0));
+    free(&job.model, name, "junction", args.place(NAME))?;
+    insert(&mut job.model, name, at, [weight, displacement], args.place(NAME));
+    job.note_name(name, args.place(NAME));
     Ok(Effect::Done)
 }
 

@@ -16,7 +16,7 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given, Value};
 use windlass_hydro::heading::ByHeading;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, MenuSpec, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, MenuSpec, OptionSpec, ValueSpec};
 use windlass_model::{Fluid, GROUND, LoadKind, Model, PartLoad, find};
 
 /// #AREA.
@@ -229,9 +229,17 @@ static AMASS_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("#AMASS", "added mass at a point")
 };
 
+/// The first datum of every load.
+const PLACE: DatumKey<str> = AREA_SPEC.word("*PT");
+
 /// Where a record's point stands in the part being described, and that part.
-fn place(job: &Job, args: &Args, index: usize) -> Outcome<(String, Position)> {
-    let (name, span) = (args.word(index).unwrap_or_default(), args.place(index));
+fn place(job: &Job, args: &Args) -> Outcome<(String, Position)> {
+    let (name, span) = (args.word(PLACE).unwrap_or_default(), args.place(PLACE));
+    place_of_point(job, args, name, span)
+}
+
+/// Where a point stands in the part being described, and that part.
+fn place_of_point(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<(String, Position)> {
     let point = find(&job.model.points, name, "point", span)?;
     let Some(part) = job.model.current_part.clone().filter(|p| Model::key(p) != GROUND) else {
         return Err(Diagnostic::error("a load belongs to a part, and none is described yet", args.span)
@@ -259,16 +267,16 @@ fn keep(job: &mut Job, args: &Args, (part, at): (String, Position), kind: LoadKi
 
 fn area(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let areas = [1, 2, 3].map(|i| args.number(i).unwrap_or(0.0));
-    keep(job, args, place(job, args, 0)?, LoadKind::Area(areas))
+    let areas = args.numbers_or_zero(const { AREA_SPEC.numbers(["AX", "AY", "AZ"]) });
+    keep(job, args, place(job, args)?, LoadKind::Area(areas))
 }
 
 fn plate(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let mut corners: Vec<Vector3<f64>> = Vec::new();
     let mut part = String::new();
-    for index in (0..args.data.len()).filter(|i| args.word(*i).is_some()) {
-        let (of, at) = place(job, args, index)?;
+    for (name, span) in args.data.iter().filter_map(|value| Some((value.word()?, value.span))) {
+        let (of, at) = place_of_point(job, args, name, span)?;
         part = of;
         corners.push(at.into());
     }
@@ -311,8 +319,8 @@ fn sevens(values: &[Value]) -> Outcome<Vec<(f64, [f64; 6])>> {
 
 fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let place = place(job, args, 0)?;
-    let rows = sevens(args.data.get(1..).unwrap_or_default())?;
+    let place = place(job, args)?;
+    let rows = sevens(args.data_after(PLACE))?;
     let symmetric = args.has(&SYMMETRIC);
     ByHeading::new(&rows, symmetric).map_err(|e| e.diagnostic(args.span, job.units))?;
     against(job, args, rows.iter().map(|(heading, six)| (*heading, six)));
@@ -320,16 +328,17 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 fn drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const HEADING: DatumKey<f64> = DRIFT_SPEC.number("HEADING");
     let args = &call.args;
-    let place = place(job, args, 0)?;
-    let rows = sevens(args.data.get(2..).unwrap_or_default())?;
-    let heading = args.number(1).unwrap_or(0.0);
+    let place = place(job, args)?;
+    let rows = sevens(args.data_after(HEADING))?;
+    let heading = args.number(HEADING).unwrap_or(0.0);
     let same = |l: &&PartLoad| {
         let again = matches!(&l.kind, LoadKind::Drift { heading: h, .. } if *h == heading);
         again && Model::key(&l.part) == Model::key(&place.0) && l.at == place.1
     };
     if let Some(old) = job.model.loads.iter().find(same) {
-        return Err(Diagnostic::error("this heading is given already at this point", args.place(1))
+        return Err(Diagnostic::error("this heading is given already at this point", args.place(HEADING))
             .other(old.span, "given here"));
     }
     against(job, args, rows.iter().map(|(_, six)| (heading, six)));
@@ -350,23 +359,27 @@ fn against<'a>(job: &mut Job, args: &Args, mut rows: impl Iterator<Item = (f64, 
 
 /// The matrix of a record: its diagonal, or whole.
 fn values(args: &Args) -> Outcome<Matrix6<f64>> {
-    let given = (1..args.data.len()).any(|i| args.number(i).is_some());
+    // DAMP and AMASS name their data alike
+    const DIAGONAL: [DatumKey<f64>; 6] = DRAG_SPEC.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]);
+    let given = DIAGONAL.iter().any(|key| args.number(*key).is_some());
     match args.option(&FULL_RATE).map(Given::numbers) {
-        Some(_) if given => Err(Diagnostic::error("-MATRIX and a diagonal contradict each other", args.place(1))),
+        Some(_) if given => {
+            Err(Diagnostic::error("-MATRIX and a diagonal contradict each other", args.place(DIAGONAL[0])))
+        }
         Some(all) => Ok(Matrix6::from_row_iterator(all.into_iter().chain(std::iter::repeat(0.0)).take(36))),
         None if !given => Err(Diagnostic::error("a matrix without values", args.span)
             .help("give its diagonal, or all of it with -MATRIX")),
-        None => Ok(Matrix6::from_diagonal(&[1, 2, 3, 4, 5, 6].map(|i| args.number(i).unwrap_or(0.0)).into())),
+        None => Ok(Matrix6::from_diagonal(&args.numbers_or_zero(DIAGONAL).into())),
     }
 }
 
 fn matrix(job: &mut Job, call: &Call, kind: fn(Matrix6<f64>) -> LoadKind) -> Outcome<Effect> {
-    let place = place(job, &call.args, 0)?;
+    let place = place(job, &call.args)?;
     keep(job, &call.args, place, kind(values(&call.args)?))
 }
 
 fn added_mass(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let place = place(job, &call.args, 0)?;
+    let place = place(job, &call.args)?;
     let (matrix, gravity) = (values(&call.args)?, job.model.defaults.gravity);
     keep(job, &call.args, place, LoadKind::AddedMass(matrix / gravity))
 }

@@ -10,7 +10,7 @@ use windlass_base::values::Noun;
 use windlass_base::wildcard::{is_wild, matches};
 use windlass_language::name;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, ValueSpec};
 use windlass_model::{AssemblyKind, EntityKind, Model, Piece};
 
 /// DELETE.
@@ -117,8 +117,10 @@ fn remove(model: &mut Model, thing: EntityKind, name: &str) {
 }
 
 fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (old, new) = (call.args.word(0).unwrap_or_default(), call.args.word(1).unwrap_or_default());
-    let (span, place) = (call.args.place(0), call.args.place(1));
+    const OLD: DatumKey<str> = RENAME_SPEC.word("OLD");
+    const NEW: DatumKey<str> = RENAME_SPEC.word("NEW");
+    let [(old, span), (new, place)] =
+        [OLD, NEW].map(|key| (call.args.word(key).unwrap_or_default(), call.args.place(key)));
     let model = &mut job.model;
     let known = model.things();
     let renamed = |t: &EntityKind| {

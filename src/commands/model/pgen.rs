@@ -11,7 +11,7 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::Value;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Piece, Shape};
 
 /// PGEN.
@@ -77,9 +77,10 @@ pub struct Planes {
 }
 
 fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = PGEN_SPEC.word("NAME");
     let args = &call.args;
-    let piece = match args.word(0) {
-        Some(name) => Ok(piece::begin_piece(job, args, name, args.place(0), Shape::Panels(Vec::new()))?),
+    let piece = match args.word(NAME) {
+        Some(name) => Ok(piece::begin_piece(job, args, name, args.place(NAME), Shape::Panels(Vec::new()))?),
         None => {
             let described = job.model.current_piece.as_ref().and_then(|name| job.model.piece(name));
             let empty = described.filter(|(_, p)| matches!(&p.shape, Shape::Panels(panels) if panels.is_empty()));
@@ -101,6 +102,7 @@ fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const X: DatumKey<f64> = PLANE_SPEC.number("X");
     let args = &call.args;
     let numbers: Vec<f64> = args.data.iter().filter_map(Value::number).collect();
     let pairs = |list: &[f64]| list.chunks_exact(2).map(|c| [c[0], c[1]]).collect::<Vec<_>>();
@@ -108,11 +110,11 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
         [] => {
             let [x, rest @ ..] = numbers.as_slice() else { return Ok(Effect::Done) };
             if rest.len() < 4 || rest.len() % 2 != 0 {
-                return Err(Diagnostic::error("a section has two or more points", args.place(0))
+                return Err(Diagnostic::error("a section has two or more points", args.place(X))
                     .label(format!("{} numbers follow this X", rest.len()))
                     .help("form: PLANE X Y1 Z1 Y2 Z2 .., or PLANE X1 X2 .. -CARTESIAN Y1 Z1 .."));
             }
-            (vec![(*x, args.place(0))], pairs(rest))
+            (vec![(*x, args.place(X))], pairs(rest))
         }
         [one] => {
             let at = args.data.iter().filter_map(|v| Some((v.number()?, v.span))).collect();
@@ -130,13 +132,8 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
             return Err(Diagnostic::error("a section is given by -RECTANGLE or by -CARTESIAN", second.span));
         }
     };
-    if let Some(value) = args
-        .data
-        .get(1..)
-        .unwrap_or_default()
-        .iter()
-        .step_by(2)
-        .find(|v| args.options.is_empty() && v.number().is_some_and(|y| y < 0.0))
+    if let Some(value) =
+        args.data_after(X).iter().step_by(2).find(|v| args.options.is_empty() && v.number().is_some_and(|y| y < 0.0))
     {
         return Err(Diagnostic::error("a half-breadth must be zero or more", value.span));
     }

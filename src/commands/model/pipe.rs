@@ -8,7 +8,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Assembly, AssemblyKind, Model, PIPE, find};
 
 /// PIPE.
@@ -70,24 +70,25 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 fn build(model: &mut Model, args: &Args) -> Outcome<()> {
+    const CLASS: DatumKey<str> = SPEC.word("~CLASS");
     if let Some(old) = model.assemblies.get(PIPE) {
         return Err(Diagnostic::error("there is a pipe already", args.span)
             .other(old.span, "defined here")
             .help(format!("DELETE {PIPE} takes it away")));
     }
-    let class = find(&model.classes, args.word(0).unwrap_or_default(), "class", args.place(0))?;
+    let class = find(&model.classes, args.word(CLASS).unwrap_or_default(), "class", args.place(CLASS))?;
     if class.object.kind() != "ROD" {
         let text = format!("{} is of class type {}, and a pipe is a ROD", class.name, class.object.kind());
-        return Err(Diagnostic::error(text, args.place(0)));
+        return Err(Diagnostic::error(text, args.place(CLASS)));
     }
-    if let Some(extra) = args.data.get(1 + MAX_SUPPORTS) {
+    if let Some(extra) = args.data_after(CLASS).get(MAX_SUPPORTS) {
         return Err(Diagnostic::error(format!("a pipe has at most {MAX_SUPPORTS} supports"), extra.span));
     }
     let (mut supports, mut places): (Vec<String>, Vec<f64>) = (Vec::new(), Vec::new());
     let mut first = "";
-    for index in 1..args.data.len() {
-        let span = args.place(index);
-        let connector = find(&model.connectors, args.word(index).unwrap_or_default(), "connector", span)?;
+    for value in args.data_after(CLASS) {
+        let span = value.span;
+        let connector = find(&model.connectors, value.word().unwrap_or_default(), "connector", span)?;
         let kind = model.classes.get(&Model::key(&connector.class)).map_or("", |c| c.object.kind());
         if !matches!(kind, "ROLLER" | "DAVIT") {
             let text =
@@ -119,7 +120,8 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
     }
     if supports.len() < 2 && first == "DAVIT" {
         let text = "a pipe hangs from two davits or more";
-        return Err(Diagnostic::error(text, args.place(1)).help("a single roller makes a vertical riser of it"));
+        return Err(Diagnostic::error(text, args.place(const { SPEC.word("EL") }))
+            .help("a single roller makes a vertical riser of it"));
     }
     let Some(given) = args.option(&PIPE_TENSION) else {
         return Err(Diagnostic::error("PIPE lacks -PIPE_TENSION", args.span).help("form: -PIPE_TENSION TLOWER TUPPER"));

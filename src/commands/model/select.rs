@@ -8,7 +8,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Noun;
 use windlass_language::name as rule;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Model, Selector, find};
 
 /// &SELECT.
@@ -42,8 +42,9 @@ static SELECTOR_SPEC: CommandSpec = CommandSpec {
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    match call.args.word(0) {
-        Some(name) => define(job, call, name, call.args.place(0)),
+    const NAME: DatumKey<str> = SPEC.word(":NAME");
+    match call.args.word(NAME) {
+        Some(name) => define(job, call, name, call.args.place(NAME)),
         None if call.args.options.is_empty() => {
             job.menus.push(Menu::Selectors);
             Ok(Effect::Done)

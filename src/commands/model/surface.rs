@@ -20,7 +20,7 @@ use windlass_base::values::Noun;
 use windlass_hydro::hull::{MeshKind, read_mesh};
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec, join_options};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec, join_options};
 use windlass_model::{Piece, Shape};
 
 /// &SURFACE.
@@ -153,10 +153,20 @@ fn surface(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
+/// The first datum of every record that makes a piece.
+const PIECE: DatumKey<str> = BLOCK_SPEC.word("NAME");
+/// Two opposite corners of a box.
+const CORNERS: [DatumKey<f64>; 6] = BLOCK_SPEC.numbers(["X1", "Y1", "Z1", "X2", "Y2", "Z2"]);
+
 /// A piece of a record without a surface: panels follow in a menu.
 fn panels_follow(job: &mut Job, args: &Args, menu: Menu) -> Outcome<Effect> {
-    let piece =
-        piece::begin_piece(job, args, args.word(0).unwrap_or_default(), args.place(0), Shape::Panels(Vec::new()))?;
+    let piece = piece::begin_piece(
+        job,
+        args,
+        args.word(PIECE).unwrap_or_default(),
+        args.place(PIECE),
+        Shape::Panels(Vec::new()),
+    )?;
     piece::add(job, piece, false);
     job.menus.push(menu);
     Ok(Effect::Done)
@@ -164,26 +174,25 @@ fn panels_follow(job: &mut Job, args: &Args, menu: Menu) -> Outcome<Effect> {
 
 /// A piece that its record gives whole.
 fn whole(job: &mut Job, args: &Args, shape: Shape) -> Outcome<Effect> {
-    let piece = piece::begin_piece(job, args, args.word(0).unwrap_or_default(), args.place(0), shape)?;
+    let piece = piece::begin_piece(job, args, args.word(PIECE).unwrap_or_default(), args.place(PIECE), shape)?;
     piece::add(job, piece, true);
     Ok(Effect::Done)
 }
 
 fn block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let corners: Vec<f64> = (1..7).filter_map(|i| args.number(i)).collect();
+    let corners: Vec<f64> = CORNERS.iter().filter_map(|key| args.number(*key)).collect();
     let [x1, y1, z1, x2, y2, z2] = corners.as_slice() else {
-        if args.data.len() < 2 {
-            return panels_follow(job, args, Menu::Block);
-        }
-        return Err(Diagnostic::error("a box has two opposite corners", args.place(args.data.len() - 1))
+        let Some(last) = args.data_after(PIECE).last() else { return panels_follow(job, args, Menu::Block) };
+        return Err(Diagnostic::error("a box has two opposite corners", last.span)
             .label(format!("{} of six coordinates are given", corners.len()))
             .help("form: BLOCK NAME X1 Y1 Z1 X2 Y2 Z2"));
     };
     let pairs = [(x1, x2), (y1, y2), (z1, z2)];
-    if let Some(flat) = pairs.iter().position(|(a, b)| a == b) {
-        let axis = ["X", "Y", "Z"].get(flat).copied().unwrap_or_default();
-        return Err(Diagnostic::error(format!("the box has no volume: {axis}1 is {axis}2"), args.place(4 + flat)));
+    let [.., x, y, z] = CORNERS;
+    let mut flat = pairs.iter().zip([("X", x), ("Y", y), ("Z", z)]).filter(|((a, b), _)| a == b);
+    if let Some((_, (axis, key))) = flat.next() {
+        return Err(Diagnostic::error(format!("the box has no volume: {axis}1 is {axis}2"), args.place(key)));
     }
     let shape = Shape::Block { low: pairs.map(|(a, b)| a.min(*b)), high: pairs.map(|(a, b)| a.max(*b)) };
     whole(job, args, shape)
@@ -191,8 +200,9 @@ fn block(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let Some(name) = args.word(1) else { return panels_follow(job, args, Menu::Mesh) };
-    let span = args.place(1);
+    const FILE: DatumKey<str> = MESH_SPEC.word("FILE");
+    let Some(name) = args.word(FILE) else { return panels_follow(job, args, Menu::Mesh) };
+    let span = args.place(FILE);
     let panels = mesh_of(job, args, name, span)?;
     let scale = Dim::Length.to_si(args.option_number(&SCALE).unwrap_or(1.0), job.units);
     let largest = panels.iter().flatten().flatten().fold(0.0_f64, |most, x| most.max((scale * x).abs()));
@@ -226,27 +236,34 @@ fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Po
 fn tube(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let part = piece::current_part(&job.model, args.span)?;
-    let end = |i: usize| piece::point_in_part(&job.model, args.word(i).unwrap_or_default(), part, args.place(i));
-    let ends = [end(1)?, end(2)?];
+    const SECOND: DatumKey<str> = TUBE_SPEC.word("*P2");
+    const DIAMETER: DatumKey<f64> = TUBE_SPEC.number("OD");
+    const OTHER_DIAMETER: DatumKey<f64> = TUBE_SPEC.number("OD2");
+    let end = |key: DatumKey<str>| {
+        piece::point_in_part(&job.model, args.word(key).unwrap_or_default(), part, args.place(key))
+    };
+    let ends = [end(const { TUBE_SPEC.word("*P1") })?, end(SECOND)?];
     if ends[0] == ends[1] {
-        return Err(Diagnostic::error("a tube needs two points at different places", args.place(2)));
+        return Err(Diagnostic::error("a tube needs two points at different places", args.place(SECOND)));
     }
-    if args.number(4).is_some_and(|other| Some(other) != args.number(3)) {
-        return Err(Diagnostic::error("a TUBE has one diameter: tapers are not supported", args.place(4)).help(
-            "divide it into TUBEs of steps in diameter; PGEN makes a cone that floats, without a member's forces",
-        ));
+    if args.number(OTHER_DIAMETER).is_some_and(|other| Some(other) != args.number(DIAMETER)) {
+        return Err(Diagnostic::error("a TUBE has one diameter: tapers are not supported", args.place(OTHER_DIAMETER))
+            .help(
+                "divide it into TUBEs of steps in diameter; PGEN makes a cone that floats, without a member's forces",
+            ));
     }
-    whole(job, args, Shape::Tube { ends, diameter: args.number(3).unwrap_or_default() })
+    whole(job, args, Shape::Tube { ends, diameter: args.number(DIAMETER).unwrap_or_default() })
 }
 
 fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let name = args.word(0).unwrap_or_default();
-    let by = Place::new([1, 2, 3, 4, 5, 6].map(|i| args.number(i).unwrap_or(0.0)));
+    const NAME: DatumKey<str> = MOVE_SPEC.word("NAME");
+    let name = args.word(NAME).unwrap_or_default();
+    let by = Place::new(args.numbers_or_zero(const { MOVE_SPEC.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }));
     let known = job.model.names(windlass_model::EntityKind::Piece);
     let help = windlass_base::diagnostic::did_you_mean(name, known);
     let Some(Piece { shape, name, .. }) = job.model.piece_mut(name) else {
-        let mut error = Diagnostic::error(format!("unknown piece {name}"), args.place(0));
+        let mut error = Diagnostic::error(format!("unknown piece {name}"), args.place(NAME));
         error.help.extend(help);
         return Err(error);
     };

@@ -10,7 +10,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Contents, EntityKind, Filling, Model};
 
 /// T_PRESSURE.
@@ -65,23 +65,25 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = SPEC.word("NAME");
+    const PRESSURE: DatumKey<f64> = SPEC.number("PRESSURE");
     let args = &call.args;
-    let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
+    let (name, span) = (args.word(NAME).unwrap_or_default(), args.place(NAME));
     rule::check(name, None, "set of T_PRESSURE data", span)?;
     job.model.free_name(name, &[EntityKind::Filling], span)?;
     if let (Some(first), Some(second)) = (args.option(&DENSITY), args.option(&SPGRAVITY)) {
         let text = "the contents have a -DENSITY or a -SPGRAVITY";
         return Err(Diagnostic::error(text, second.span).other(first.span, "given here already"));
     }
-    let pressure = args.number(2).unwrap_or(0.0);
+    let pressure = args.number(PRESSURE).unwrap_or(0.0);
     if pressure < -STANDARD_ATMOSPHERE_PA {
         let least = Dim::Stress.from_si(-STANDARD_ATMOSPHERE_PA, job.units);
         let text = format!("PRESSURE is over the atmosphere's, and {least:.4} is that of nothing");
-        return Err(Diagnostic::error(text, args.place(2)).label("less than none"));
+        return Err(Diagnostic::error(text, args.place(PRESSURE)).label("less than none"));
     }
     let weight = args.option_number(&SPGRAVITY).map(|s| 1000.0 * s);
     let contents = Contents {
-        warmer: args.number(1).unwrap_or(0.0) - args.option_number(&LAID).unwrap_or(0.0),
+        warmer: args.number(const { SPEC.number("TEMP") }).unwrap_or(0.0) - args.option_number(&LAID).unwrap_or(0.0),
         pressure,
         at: args.option_number(&AT).unwrap_or(0.0),
         density: args.option_number(&DENSITY).or(weight).unwrap_or(0.0),

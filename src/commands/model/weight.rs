@@ -11,7 +11,7 @@ use windlass_base::units::eight_figures;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Mass, Model, Weight, find};
 
 /// #WEIGHT.
@@ -82,29 +82,29 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn item(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const POINT: DatumKey<str> = ITEM_SPEC.word("*PT");
+    const WEIGHT: DatumKey<f64> = ITEM_SPEC.number("W");
+    const OWN_RADII: [DatumKey<f64>; 3] = ITEM_SPEC.numbers(["KX", "KY", "KZ"]);
     let args = &call.args;
     let model = &job.model;
-    let point = find(&model.points, args.word(0).unwrap_or_default(), "point", args.place(0))?;
+    let point = find(&model.points, args.word(POINT).unwrap_or_default(), "point", args.place(POINT))?;
     if model.body_of(point).is_none() {
         return Err(Diagnostic::error(
             format!("{} is a point of the ground and carries no weight", point.name),
-            args.place(0),
+            args.place(POINT),
         )
         .other(point.span, "defined here")
         .help("points behind &DESCRIBE BODY or PART belong to it"));
     }
-    let radii = [2, 3, 4].map(|i| args.number(i).unwrap_or(0.0));
-    let weight = args.number(1).unwrap_or_default();
+    let radii = args.numbers_or_zero(OWN_RADII);
+    let weight = args.number(WEIGHT).unwrap_or_default();
     if weight == 0.0 {
-        return Err(Diagnostic::error("a weight of zero weighs nothing", args.place(1)).label(if radii == [0.0; 3] {
-            ""
-        } else {
-            "radii of gyration need a weight"
-        }));
+        return Err(Diagnostic::error("a weight of zero weighs nothing", args.place(WEIGHT))
+            .label(if radii == [0.0; 3] { "" } else { "radii of gyration need a weight" }));
     }
-    let (at, key, span) = (point.at, Model::key(&point.part), args.place(1));
+    let (at, key, span) = (point.at, Model::key(&point.part), args.place(WEIGHT));
     if let Some(text) = no_body_has(radii, job.units) {
-        job.warn(text, args.place(2));
+        job.warn(text, args.place(OWN_RADII[0]));
     }
     if let Some(part) = job.model.parts.get_mut(&key) {
         part.weights.push(Weight { at, weight, radii, span });

@@ -11,7 +11,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::EntityKind;
 use windlass_solve::film::{Film, Take};
 use windlass_solve::results::EventWindow;
@@ -77,6 +77,8 @@ static SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("&ANIMATE", "shows the last run as a film")
 };
 
+const FILE: DatumKey<str> = SPEC.word("FILE");
+
 /// The form of a file, by the ending of its name.
 enum FileForm {
     Page,
@@ -85,13 +87,13 @@ enum FileForm {
 
 /// The name of the file with its ending, and its form.
 fn form(args: &Args) -> Outcome<(String, FileForm)> {
-    let name = args.word(0).unwrap_or_default();
+    let name = args.word(FILE).unwrap_or_default();
     let ending = std::path::Path::new(name).extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
         None => Ok((format!("{name}.html"), FileForm::Page)),
         Some("html" | "htm") => Ok((name.to_string(), FileForm::Page)),
         Some("vtk") => Ok((name.to_string(), FileForm::Series)),
-        Some(_) => Err(Diagnostic::error(format!("a film ends in .html or .vtk, not `{name}`"), args.place(0))),
+        Some(_) => Err(Diagnostic::error(format!("a film ends in .html or .vtk, not `{name}`"), args.place(FILE))),
     }
 }
 
@@ -104,7 +106,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [begin, end, increment] =
         const { EVENTS.numbers(["BEG", "END", "INC"]) }.map(|key| events.and_then(|given| given.number(key)));
     let points = args.option_integer(&POINTS_OPTION);
-    let chosen = NameFilter::new(call, 1, &job.model);
+    let chosen = NameFilter::new(args.data_after(FILE), &job.model);
     let take = Take {
         connector: &|c| chosen.takes(c),
         body: &|b| chosen.takes(b),
@@ -127,11 +129,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let page = film::page(&film, title, job.units);
             let page = page.map_err(|e| Diagnostic::error(format!("the page could not be made: {e:#}"), args.span))?;
             let path = job.output.folder.write(&name, page.as_bytes());
-            let path = path.map_err(|e| crate::commands::files::file::to_diagnostic(&e, args.place(0)))?;
+            let path = path.map_err(|e| crate::commands::files::file::to_diagnostic(&e, args.place(FILE)))?;
             format!("wrote {}: {frames} instants", path.display())
         }
         FileForm::Series => {
-            let path = series(&job.output.folder, &film, (title, &name), args.place(0))?;
+            let path = series(&job.output.folder, &film, (title, &name), args.place(FILE))?;
             format!("wrote {}, a series of {frames} files", path.display())
         }
     };

@@ -10,8 +10,8 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_base::values::{Args, Noun};
-use windlass_language::spec::{CommandSpec, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
+use windlass_base::values::{Args, Noun, Value};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
 
 /// Where these commands are offered.
 pub(crate) const MENU: &[&MenuSpec] = &[&menu::DISPOSITION];
@@ -150,15 +150,15 @@ pub(crate) fn to_diagnostic(args: &Args, error: &DispositionError) -> Box<Diagno
         }
         DispositionError::Rows { .. } => args.option_if_declared(&RECORD).map(|g| g.span),
         DispositionError::NoRow => args.option_if_declared(&VALUES).map(|g| g.span),
-        DispositionError::NotOne { .. } => Some(args.place(0)),
+        DispositionError::NotOne { .. } => args.data.first().map(|v| v.span),
         _ => None,
     };
     Diagnostic::error(error.to_string(), named.unwrap_or(args.span)).help("VLIST lists the columns")
 }
 
-/// The words of a record from a position on.
-pub(crate) fn selectors(args: &Args, from: usize) -> Vec<&str> {
-    args.data.get(from..).unwrap_or_default().iter().filter_map(|v| v.word()).collect()
+/// The words among some values.
+pub(crate) fn selectors(values: &[Value]) -> Vec<&str> {
+    values.iter().filter_map(|v| v.word()).collect()
 }
 
 fn rows(args: &Args) -> RowChoice {
@@ -176,24 +176,24 @@ fn rows(args: &Args) -> RowChoice {
     }
 }
 
-/// The columns a record chooses, as a table with scales, shifts and -MAG_USE applied.
-pub(crate) fn chosen(job: &Job, args: &Args, from: usize) -> Outcome<Table> {
-    chosen_rows(job, args, from, &rows(args))
+/// The columns that words of a record choose, as a table with scales, shifts and -MAG_USE applied.
+pub(crate) fn chosen(job: &Job, args: &Args, columns: &[Value]) -> Outcome<Table> {
+    chosen_rows(job, args, columns, &rows(args))
 }
 
 /// The same for statistics, which leave the transient of a run out unless -RECORD or -VALUES choose rows; with what is to be said of that.
 pub(crate) fn chosen_for_statistics(job: &Job, args: &Args) -> Outcome<(Table, Option<String>)> {
     let chosen = args.has(&RECORD) || args.has(&VALUES);
     let from = open_disposition(job, args.span)?.transient().filter(|_| !chosen);
-    let table = chosen_rows(job, args, 0, &RowChoice { from, ..rows(args) })?;
+    let table = chosen_rows(job, args, &args.data, &RowChoice { from, ..rows(args) })?;
     let said =
         from.map(|t| format!("without the transient: rows from TTRA_SET, {t} s, on; -RECORD or -VALUES take others"));
     Ok((table, said))
 }
 
-fn chosen_rows(job: &Job, args: &Args, from: usize, rows: &RowChoice) -> Outcome<Table> {
+fn chosen_rows(job: &Job, args: &Args, columns: &[Value], rows: &RowChoice) -> Outcome<Table> {
     let d = open_disposition(job, args.span)?;
-    let result = d.columns(&selectors(args, from)).and_then(|c| d.extract(&c, rows, true, job.units));
+    let result = d.columns(&selectors(columns)).and_then(|c| d.extract(&c, rows, true, job.units));
     let mut table = result.map_err(|e| to_diagnostic(args, &e))?;
     if args.option_if_declared(&MAG_USE).is_some() {
         for cell in table.columns.iter_mut().flat_map(|c| c.cells.iter_mut()) {
@@ -227,7 +227,7 @@ fn report(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let d = open_disposition(job, args.span)?;
     let table = d
-        .report_columns(&selectors(args, 0))
+        .report_columns(&selectors(&args.data))
         .and_then(|c| d.extract(&c, &rows(args), false, job.units))
         .map_err(|e| to_diagnostic(args, &e))?;
     let text = page::render(&table, job.units, &job.page_head());
@@ -247,7 +247,7 @@ fn view(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let d = open_disposition(job, args.span)?;
         d.rows(&rows(args), job.units).map_err(|e| to_diagnostic(args, &e))?
     };
-    let table = chosen(job, args, 0)?;
+    let table = chosen(job, args, &args.data)?;
     let text = page::view(&table, &numbers, job.units).join("\n");
     send(job, args, &text)?;
     Ok(Effect::Done)
@@ -264,14 +264,15 @@ pub(crate) fn write_file(job: &mut Job, name: &str, bytes: &[u8], span: Span) ->
 
 fn set_variable(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let name = args.word(0).unwrap_or_default();
+    const VARIABLE: DatumKey<str> = SET_VARIABLE_SPEC.word("VAR");
+    let name = args.word(VARIABLE).unwrap_or_default();
     let good = name.len() <= 64 && !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
     if !good {
-        return Err(Diagnostic::error(format!("`{name}` cannot name a variable"), args.place(0)));
+        return Err(Diagnostic::error(format!("`{name}` cannot name a variable"), args.place(VARIABLE)));
     }
     let d = open_disposition(job, args.span)?;
-    let text =
-        d.values(args.word(1).unwrap_or_default(), &rows(args), job.units).map_err(|e| to_diagnostic(args, &e))?;
+    let column = args.word(const { SET_VARIABLE_SPEC.word("COLUMN") }).unwrap_or_default();
+    let text = d.values(column, &rows(args), job.units).map_err(|e| to_diagnostic(args, &e))?;
     Ok(Effect::Set(name.to_string(), text))
 }
 
@@ -280,9 +281,11 @@ fn adjust(
     args: &Args,
     change: impl Fn(&mut Disposition, f64, &[&str]) -> Result<Vec<usize>, DispositionError>,
 ) -> Outcome<Effect> {
-    let value = args.number(0).unwrap_or(0.0);
+    // C_SHIFT names its data alike
+    const FACTOR: DatumKey<f64> = C_SCALE_SPEC.number("F");
+    let value = args.number(FACTOR).unwrap_or(0.0);
     if let Some(Menu::Disposition(d)) = job.menus.last_mut() {
-        change(d, value, &selectors(args, 1)).map_err(|e| to_diagnostic(args, &e))?;
+        change(d, value, &selectors(args.data_after(FACTOR))).map_err(|e| to_diagnostic(args, &e))?;
     }
     Ok(Effect::Done)
 }
@@ -298,7 +301,8 @@ fn shift(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let mut excluded = Vec::new();
-    for pair in args.data.get(1..).unwrap_or_default().chunks_exact(2) {
+    const COLUMN: DatumKey<str> = CULL_SPEC.word("COLUMN");
+    for pair in args.data_after(COLUMN).chunks_exact(2) {
         if let [lower, upper] = pair
             && let (Some(low), Some(high)) = (lower.number(), upper.number())
         {
@@ -309,7 +313,7 @@ fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
             excluded.push((low, high));
         }
     }
-    let column = args.word(0).unwrap_or_default();
+    let column = args.word(COLUMN).unwrap_or_default();
     let culled =
         open_disposition(job, args.span)?.cull(column, &excluded, job.units).map_err(|e| to_diagnostic(args, &e))?;
     let (rows, columns) = (culled.table.rows(), culled.table.columns.len());

@@ -2,8 +2,10 @@
 
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::page::centre;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
-use windlass_language::spec::{CommandSpec, Kind, TextForm, ValueSpec};
+use windlass_language::select::choose_word;
+use windlass_language::spec::{CommandSpec, TextForm, ValueSpec};
 
 /// Width in which `&CTYPE` centres.
 const CENTRING_WIDTH: usize = 80;
@@ -36,7 +38,7 @@ static CTYPE_SPEC: CommandSpec = text("&CTYPE", "prints text, centred", "&CTYPE 
 static CUTYPE_SPEC: CommandSpec = text("&CUTYPE", "prints text, centred and underlined", "&CUTYPE Hello");
 static ERROR_SPEC: CommandSpec = CommandSpec {
     form: TextForm::Text,
-    data: &[ValueSpec::new("CLASS", Kind::Choice(CLASSES), "how serious")],
+    data: &[ValueSpec::choice::<MessageClass>("CLASS", "how serious")],
     detail: "FATAL ends the job.",
     example: "&ERROR WARNING the depth is a guess",
     ..CommandSpec::new("&ERROR", "raises a message")
@@ -44,7 +46,14 @@ static ERROR_SPEC: CommandSpec = CommandSpec {
 static DCPTIME_SPEC: CommandSpec = text("&DCPTIME", "prints the time since the last call", "&DCPTIME after the table");
 static FINISH_SPEC: CommandSpec = CommandSpec { example: "&FINISH", ..CommandSpec::new("&FINISH", "ends the job") };
 
-const CLASSES: &[&str] = &["WARNING", "ERROR", "FATAL"];
+choices! {
+    /// How serious a message of a script is.
+    enum MessageClass {
+        Warning = "WARNING",
+        Error = "ERROR",
+        Fatal = "FATAL",
+    }
+}
 
 fn title(job: &mut Job, call: &Call) -> Outcome<Effect> {
     job.titles[0] = call.record.rest().0.to_string();
@@ -82,11 +91,10 @@ fn error(_: &mut Job, call: &Call) -> Outcome<Effect> {
         Diagnostic::error("&ERROR lacks its class", call.record.whole())
             .help("form: &ERROR WARNING|ERROR|FATAL message")
     })?;
-    let names = CLASSES.iter().map(|c| (*c, windlass_language::select::Owner::Moses, *c));
-    let severity = match windlass_language::select::choose(&class.text, class.span, "class of message", names)? {
-        "WARNING" => Severity::Warning,
-        "ERROR" => Severity::Error,
-        _ => Severity::Fatal,
+    let severity = match choose_word(&class.text, class.span, "class of message")? {
+        MessageClass::Warning => Severity::Warning,
+        MessageClass::Error => Severity::Error,
+        MessageClass::Fatal => Severity::Fatal,
     };
     let (rest, _) = call.record.rest();
     let message = rest.split_once([' ', ',']).map_or("", |(_, m)| m).trim();

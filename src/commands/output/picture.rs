@@ -4,14 +4,14 @@ use crate::commands::chosen::{NameFilter, WARNING, merge_remarks};
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
-use windlass_base::choice::YesNo;
+use windlass_base::choice::{Choice, YesNo};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::EntityKind;
 use windlass_solve::scene::{Scene, SceneOptions};
 
@@ -72,11 +72,30 @@ const HEADING: OptionSpec = OptionSpec::new(
 .default("that of &TITLE")
 .owner(Owner::Ours);
 
+choices! {
+    /// Views of a picture.
+    #[derive(Default)]
+    enum ViewChoice {
+        #[default]
+        Both = "BOTH",
+        Plan = "PLAN",
+        Top = "TOP",
+        Elevation = "ELEVATION",
+        Side = "SIDE",
+        Port = "PORT",
+        Starboard = "STARBOARD",
+        Bow = "BOW",
+        Stern = "STERN",
+        Isometric = "ISO",
+    }
+}
+
+const VIEW: DatumKey<ViewChoice> = SPEC.choice("VIEW");
+
 static SPEC: CommandSpec = CommandSpec {
     data: &[
-        ValueSpec::new(
+        ValueSpec::choice::<ViewChoice>(
             "VIEW",
-            Kind::Choice(&["BOTH", "PLAN", "TOP", "ELEVATION", "SIDE", "PORT", "STARBOARD", "BOW", "STERN", "ISO"]),
             "PLAN (or TOP), ELEVATION (or SIDE, PORT), STARBOARD, BOW, STERN, ISO, or BOTH plan and elevation",
         )
         .or("BOTH"),
@@ -104,35 +123,33 @@ static SPEC: CommandSpec = CommandSpec {
 
 /// The views a record asks for.
 fn views(args: &Args) -> Outcome<Vec<View>> {
-    let word = args.word(0).unwrap_or("BOTH");
+    let view = args.choice(VIEW).unwrap_or_default();
     let degrees = |given: f64| given.to_radians();
-    let fixed = match word {
-        "PLAN" | "TOP" => Some(None),
-        "SIDE" | "PORT" => Some(Some(-90.0)),
-        "STARBOARD" => Some(Some(90.0)),
-        "BOW" => Some(Some(180.0)),
-        "STERN" => Some(Some(0.0)),
-        _ => None,
-    };
     let from = args.option(&FROM);
-    if let (Some(given), Some(_)) = (from, fixed) {
+    let fixed = !matches!(view, ViewChoice::Both | ViewChoice::Elevation | ViewChoice::Isometric);
+    if let (Some(given), true) = (from, fixed) {
         return Err(Diagnostic::error(
-            format!("{word} is seen from where it says: -FROM goes with ELEVATION, ISO or BOTH"),
+            format!("{} is seen from where it says: -FROM goes with ELEVATION, ISO or BOTH", view.word()),
             given.span,
         ));
     }
     let exaggerate = args.option(&EXAGGERATE);
-    if let (Some(given), Some(None)) = (exaggerate, fixed) {
+    if let (Some(given), ViewChoice::Plan | ViewChoice::Top) = (exaggerate, view) {
         return Err(Diagnostic::error("a plan shows no heights to exaggerate", given.span));
     }
     let stretch = exaggerate.and_then(|g| g.first_number()).unwrap_or(1.0);
     let asked = from.and_then(|g| g.first_number());
-    Ok(match (word, fixed) {
-        (_, Some(None)) => vec![View::plan()],
-        (_, Some(Some(angle))) => vec![View::elevation(degrees(angle), stretch)],
-        ("ISO", _) => vec![View::isometric(asked.unwrap_or(degrees(-60.0)), stretch)],
-        ("ELEVATION", _) => vec![View::elevation(asked.unwrap_or(degrees(-90.0)), stretch)],
-        _ => vec![View::plan(), View::elevation(asked.unwrap_or(degrees(-90.0)), stretch)],
+    let from_degrees = |angle: f64| View::elevation(degrees(angle), stretch);
+    let elevation = || View::elevation(asked.unwrap_or(degrees(-90.0)), stretch);
+    Ok(match view {
+        ViewChoice::Plan | ViewChoice::Top => vec![View::plan()],
+        ViewChoice::Side | ViewChoice::Port => vec![from_degrees(-90.0)],
+        ViewChoice::Starboard => vec![from_degrees(90.0)],
+        ViewChoice::Bow => vec![from_degrees(180.0)],
+        ViewChoice::Stern => vec![from_degrees(0.0)],
+        ViewChoice::Isometric => vec![View::isometric(asked.unwrap_or(degrees(-60.0)), stretch)],
+        ViewChoice::Elevation => vec![elevation()],
+        ViewChoice::Both => vec![View::plan(), elevation()],
     })
 }
 
@@ -174,7 +191,7 @@ fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (views, file) = (views(args)?, file(job, args)?);
-    let (chosen, light) = (NameFilter::new(call, 1, &job.model), args.switch(&INACTIVE, true));
+    let (chosen, light) = (NameFilter::new(args.data_after(VIEW), &job.model), args.switch(&INACTIVE, true));
     let choice = SceneOptions {
         connector: &|c| (chosen.takes(&c.name)) && (c.active || light),
         body: &|b| chosen.takes(&b.name),

@@ -68,21 +68,20 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let numbered = name.is_some() && args.option(&FILE).is_none() && args.data.len() == call.args.data.len();
     // the columns of -RAX are columns as the others are, behind them
     let on_right = args.option(&RAX).cloned();
-    let first = args.data.len();
     args.data.extend(on_right.iter().flat_map(|g| g.values.iter().cloned()));
     let menu = open_disposition(job, args.span)?;
-    let numbers = menu.numeric(&selectors(&args, 0)).map_err(|e| to_diagnostic(&args, &e))?;
+    let numbers = menu.numeric(&selectors(&args.data)).map_err(|e| to_diagnostic(&args, &e))?;
     if numbers.len() < 2 {
         return Err(Diagnostic::error("a plot needs the independent column and at least one more", args.span)
             .help("VLIST lists the columns"));
     }
     let right = match &on_right {
-        Some(_) => menu.numeric(&selectors(&args, first)).map_err(|e| to_diagnostic(&args, &e))?,
+        Some(given) => menu.numeric(&selectors(&given.values)).map_err(|e| to_diagnostic(&args, &e))?,
         None => Vec::new(),
     };
     // places in the table of the chosen columns
     let right: Vec<usize> = numbers.iter().enumerate().filter(|(_, n)| right.contains(n)).map(|(at, _)| at).collect();
-    let table = chosen(job, &args, 0)?;
+    let table = chosen(job, &args, &args.data)?;
     let wrong = |e: PlotError| Diagnostic::error(e.to_string(), on_right.as_ref().map_or(args.span, |g| g.span));
     let made =
         if args.has(&POLAR) { Chart::polar(&table, job.units) } else { Chart::with_right(&table, &right, job.units) };

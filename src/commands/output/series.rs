@@ -208,7 +208,7 @@ fn whole(args: &Args, option: &OptionSpec) -> Option<usize> {
 
 /// The record of the columns chosen, and what is to be said of the rows left out.
 fn record(job: &Job, args: &Args) -> Outcome<(SeriesRecord, Option<String>)> {
-    open_disposition(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| to_diagnostic(args, &e))?;
+    open_disposition(job, args.span)?.numeric(&selectors(&args.data)).map_err(|e| to_diagnostic(args, &e))?;
     let (table, without) = chosen_for_statistics(job, args)?;
     Ok((SeriesRecord::from_table(&table).map_err(|e| wrong(args, &e))?, without))
 }

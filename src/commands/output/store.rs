@@ -4,7 +4,7 @@ use crate::commands::output::disposition::{MAG_USE, RECORD, VALUES, chosen, writ
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::{csv, netcdf, parquet};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_language::spec::CommandSpec;
+use windlass_language::spec::{CommandSpec, DatumKey};
 
 /// STORE.
 pub static STORE: Command = Command { spec: &SPEC, edits: false, run };
@@ -22,16 +22,17 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const FILE: DatumKey<str> = SPEC.word("FILE");
     let args = &call.args;
-    let table = chosen(job, args, 1)?;
-    let name = crate::commands::files::file::with_csv_ending(args.word(0).unwrap_or_default());
+    let table = chosen(job, args, args.data_after(FILE))?;
+    let name = crate::commands::files::file::with_csv_ending(args.word(FILE).unwrap_or_default());
     let ending = std::path::Path::new(&name).extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let bytes = match ending.as_deref() {
         Some("parquet") => parquet::bytes(&table, job.units).map_err(|e| e.to_string()),
         Some("nc") => netcdf::bytes(&table, job.units).map_err(|e| e.to_string()),
         _ => csv::bytes(&table, job.units).map_err(|e| e.to_string()),
     };
-    let bytes = bytes.map_err(|text| Diagnostic::error(text, args.place(0)))?;
-    write_file(job, &name, &bytes, args.place(0))?;
+    let bytes = bytes.map_err(|text| Diagnostic::error(text, args.place(FILE)))?;
+    write_file(job, &name, &bytes, args.place(FILE))?;
     Ok(Effect::Done)
 }

@@ -12,14 +12,14 @@ use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_base::values::Args;
-use windlass_base::values::Noun;
+use windlass_base::values::{Args, Noun, Value};
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{DYNAMIC, EntityKind, Environment, Model, QUASI_STATIC, add_model_column, find};
 use windlass_solve::frequency::tables::{NamedQuantity, body_statistics, operators, spectra, statistics};
 use windlass_solve::frequency::{
@@ -37,7 +37,14 @@ pub static STATISTICS: Command = Command { spec: &STATISTICS_SPEC, edits: false,
 
 /// The duration of the most probable maximum (s): three hours.
 const MPM_DURATION_S: f64 = 10_800.0;
-const KINDS: &[&str] = &["MOTION", "POINT", "TENSION"];
+choices! {
+    /// What STATISTICS is of.
+    enum StatisticsOf {
+        Motion = "MOTION",
+        Point = "POINT",
+        Tension = "TENSION",
+    }
+}
 
 const VELOCITY: OptionSpec = OptionSpec::new("-VELOCITY", &[], "velocities instead of motions");
 const ACCELERATION: OptionSpec = OptionSpec::new("-ACCELERATION", &[], "accelerations instead of motions");
@@ -86,7 +93,7 @@ static STATISTICS_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::FREQ_RESPONSE],
     opens: Opens::Menu(&menu::DISPOSITION),
     data: &[
-        ValueSpec::new("WHAT", Kind::Choice(KINDS), "of what"),
+        ValueSpec::choice::<StatisticsOf>("WHAT", "of what"),
         ValueSpec::new("NAME", Kind::Name(Noun::Selector), "a body; one or two points; connectors")
             .or("the first body; all connectors"),
     ],
@@ -178,31 +185,33 @@ fn coordinates(job: &Job, linear: &LinearSystem, name: &str, span: Span) -> Outc
 }
 
 /// A point, or one less another, with a name for both.
-fn points(job: &Job, linear: &LinearSystem, args: &Args, from: usize) -> Outcome<(String, Vec<NamedQuantity>)> {
-    let Some(first) = args.word(from) else {
-        return Err(Diagnostic::error("a point is missing", args.span).help("form: STATISTICS POINT *PT [*PT]"));
+fn points(job: &Job, linear: &LinearSystem, named: &[Value], span: Span) -> Outcome<(String, Vec<NamedQuantity>)> {
+    let mut named = named.iter().filter_map(|value| Some((value.word()?, value.span)));
+    let Some((first, place)) = named.next() else {
+        return Err(Diagnostic::error("a point is missing", span).help("form: STATISTICS POINT *PT [*PT]"));
     };
-    let mut axes = coordinates(job, linear, first, args.place(from))?;
+    let mut axes = coordinates(job, linear, first, place)?;
     let mut title = first.to_string();
-    if let Some(second) = args.word(from + 1) {
-        let other = coordinates(job, linear, second, args.place(from + 1))?;
+    if let Some((second, place)) = named.next() {
+        let other = coordinates(job, linear, second, place)?;
         let [x, y, z] = axes;
         let [a, b, c] = &other;
         axes = [x.minus(a), y.minus(b), z.minus(c)];
         title = format!("{first} less {second}");
     }
-    if args.word(from + 2).is_some() {
-        return Err(Diagnostic::error("there are more than two points", args.place(from + 2)));
+    if let Some((_, place)) = named.next() {
+        return Err(Diagnostic::error("there are more than two points", place));
     }
     let list = ["X", "Y", "Z"].into_iter().zip(axes).map(|(name, q)| NamedQuantity::new(name, Dim::Length, q));
     Ok((title, list.collect()))
 }
 
 fn motion(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const BODY: DatumKey<str> = MOTION_SPEC.word("BODY");
     let args = &call.args;
     let linear = open_results(job, args.span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
-    let (index, name) = body(job, &linear, args.word(0), args.place(0))?;
+    let (index, name) = body(job, &linear, args.word(BODY), args.place(BODY))?;
     let list = NamedQuantity::dofs(&linear, index);
     let made = results_table(job, format!("Motion of {name}"), &list, Derivative::Place, args.span)?;
     Ok(dispose(job, made, args.span))
@@ -213,23 +222,22 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let linear = open_results(job, args.span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
     let derivative = derivative(args)?;
-    let (name, list) = points(job, &linear, args, 0)?;
+    let (name, list) = points(job, &linear, &args.data, args.span)?;
     let made = results_table(job, format!("{} of {name}", derivative_name(derivative)), &list, derivative, args.span)?;
     Ok(dispose(job, made, args.span))
 }
 
-/// Tensions of the connectors that a record's words from a position on choose; with `components` those of a single one.
+/// Tensions of the connectors that words of a record choose; with `components` those of a single one.
 fn tensions(
     job: &Job,
     linear: &LinearSystem,
-    call: &Call,
-    from: usize,
+    named: &[Value],
+    span: Span,
     components: bool,
 ) -> Outcome<Vec<NamedQuantity>> {
-    let chosen = NameFilter::new(call, from, &job.model);
+    let chosen = NameFilter::new(named, &job.model);
     let names: Vec<String> = linear.connectors().filter(|name| chosen.takes(name)).map(str::to_string).collect();
     chosen.check_used("the connectors that act", &[EntityKind::Connector])?;
-    let span = call.args.span;
     let mut list = Vec::new();
     for name in &names {
         let made = LinearQuantity::tension(linear, name).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
@@ -250,7 +258,7 @@ fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let span = call.args.span;
     let linear = open_results(job, span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
-    let list = tensions(job, &linear, call, 0, true)?;
+    let list = tensions(job, &linear, &call.args.data, span, true)?;
     let made = results_table(job, "Forces of Connectors".into(), &list, Derivative::Place, span)?;
     Ok(dispose(job, made, span))
 }
@@ -299,25 +307,28 @@ fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (linear, made) = response(job, args)?;
     let (both, how) = ((linear.as_ref(), &made), (derivative, extreme));
     let of = derivative_name(derivative);
-    let table = match args.word(0) {
-        Some("POINT") => {
-            let (name, list) = points(job, &linear, args, 1)?;
+    const WHAT: DatumKey<StatisticsOf> = STATISTICS_SPEC.choice("WHAT");
+    let named = args.data_after(WHAT);
+    let table = match args.choice(WHAT).unwrap_or(StatisticsOf::Motion) {
+        StatisticsOf::Point => {
+            let (name, list) = points(job, &linear, named, args.span)?;
             statistics(format!("Statistics: {of} of {name}"), both, &list, how)
         }
-        Some("TENSION") => {
+        StatisticsOf::Tension => {
             if let Some(given) = args.option(&VELOCITY).or(args.option(&ACCELERATION)) {
                 return Err(Diagnostic::error(format!("a tension has no {}", given.name()), given.span));
             }
-            let list = tensions(job, &linear, call, 1, false)?;
+            let list = tensions(job, &linear, named, args.span, false)?;
             let mut table = statistics("Statistics: Forces of Connectors".into(), both, &list, how);
             add_model_column(&mut table, |name| idealisation(&job.model, name));
             table
         }
-        _ => {
-            if args.word(2).is_some() {
-                return Err(Diagnostic::error("MOTION takes one body", args.place(2)));
+        StatisticsOf::Motion => {
+            if let Some(surplus) = named.get(1).filter(|value| value.is_given()) {
+                return Err(Diagnostic::error("MOTION takes one body", surplus.span));
             }
-            let (index, name) = body(job, &linear, args.word(1), args.place(1))?;
+            const NAME: DatumKey<str> = STATISTICS_SPEC.word("NAME");
+            let (index, name) = body(job, &linear, args.word(NAME), args.place(NAME))?;
             body_statistics(format!("Statistics: {of} of {name}"), both, index, how)
         }
     };

@@ -212,7 +212,7 @@ fn places<'n>(chosen: &NameFilter, names: impl Iterator<Item = &'n str>) -> Vec<
 fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
     let given: Vec<&Value> =
         args.data.iter().chain(args.option(&BODY).map_or(&[][..], |g| g.values.as_slice())).collect();
-    let chosen = NameFilter::among(given.into_iter(), &job.model);
+    let chosen = NameFilter::new(given, &job.model);
     let names = run.history.layout.bodies.iter();
     let mut list = places(&chosen, names.clone().map(|(name, _)| name.as_str()));
     chosen.check_used("the bodies of the run", &[EntityKind::Body])?;
@@ -232,7 +232,7 @@ fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
 
 /// The connectors of a run that a record chooses.
 pub(crate) fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize>> {
-    let chosen = NameFilter::new(call, 0, &job.model);
+    let chosen = NameFilter::new(&call.args.data, &job.model);
     let list = places(&chosen, run.history.layout.links.iter().map(|l| l.name.as_str()));
     chosen.check_used("the connectors of the run", &[EntityKind::Connector, EntityKind::Assembly])?;
     if list.is_empty() {
@@ -263,7 +263,7 @@ fn trajectory(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn points(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (run, events) = run_and_events(job, args)?;
-    let (model, chosen) = (&job.model, NameFilter::new(call, 0, &job.model));
+    let (model, chosen) = (&job.model, NameFilter::new(&call.args.data, &job.model));
     let mut list = Vec::new();
     for point in model.points.values().filter(|p| p.interest.is_some()) {
         if !chosen.takes(&point.name) {

@@ -17,7 +17,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::line::fatigue::{MAX_CIRCUMFERENCE_POINTS, Round};
 use windlass_signal::line::lrfd::{LrfdFactors, SafetyClass};
 use windlass_signal::line::working_stress::DesignCase;
@@ -27,7 +27,30 @@ use windlass_solve::results::{self, EventWindow, Magnitude, RunEvent};
 /// ROD.
 pub static ROD: Command = Command { spec: &SPEC, edits: false, run };
 
-const WHAT: &[&str] = &["ENVELOPE", "AT", "NODE", "TOUCHDOWN", "SUPPORTS", "FATIGUE", "CHECK"];
+choices! {
+    /// What ROD reports.
+    #[derive(Default)]
+    enum Report {
+        /// The least, mean and most of each node.
+        #[default]
+        Envelope = "ENVELOPE",
+        /// The line at instants.
+        At = "AT",
+        /// Nodes over time.
+        Node = "NODE",
+        /// Touchdown over time.
+        Touchdown = "TOUCHDOWN",
+        /// Forces of a pipe on its supports.
+        Supports = "SUPPORTS",
+        /// Fatigue along the line.
+        Fatigue = "FATIGUE",
+        /// Use along the line.
+        Check = "CHECK",
+    }
+}
+
+const NAME: DatumKey<str> = SPEC.word("NAME");
+const WHAT: DatumKey<Report> = SPEC.choice("WHAT");
 choices! {
     /// What CHECK checks tubes by.
     #[derive(Default)]
@@ -129,7 +152,7 @@ static SPEC: CommandSpec = CommandSpec {
     opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::Line), "a line of the run; &PIPE that of a pipe assembly"),
-        ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to report").or("ENVELOPE"),
+        ValueSpec::choice::<Report>("WHAT", "what to report").or("ENVELOPE"),
         plain("N", "times of AT (s), numbers of NODE").or("the last instant; node 1"),
     ],
     repeat: 1,
@@ -162,41 +185,39 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let text = format!("there is no table {wanted} here: there are {}", tables.len());
             return Err(Diagnostic::error(text, given.span));
         };
-        raise(job, &table, args.place(0));
+        raise(job, &table, args.place(NAME));
         job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).after_transient(transient_of(job, args)))));
         return Ok(Effect::Done);
     }
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     send(job, args, &text)?;
-    tables.iter().for_each(|t| raise(job, t, args.place(0)));
+    tables.iter().for_each(|t| raise(job, t, args.place(NAME)));
     Ok(Effect::Done)
 }
 
 fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
     let run = last_run(job, args.span)?;
-    let line =
-        LineResults::find(run, args.word(0).unwrap_or_default()).map_err(|e| e.diagnostic(args.place(0), job.units))?;
+    let line = LineResults::find(run, args.word(NAME).unwrap_or_default())
+        .map_err(|e| e.diagnostic(args.place(NAME), job.units))?;
     let wrong = |e| to_diagnostic(e, &job.model, args.span, job.units);
-    let what = args.word(1).unwrap_or("ENVELOPE");
+    let what = args.choice(WHAT).unwrap_or_default();
     refuse_what_does_not_go(args, what)?;
-    if what == "AT" {
-        return tables_at_instants(job, args, &line);
-    }
     // of a run without rows its own envelope is reported
-    let bare = what == "ENVELOPE" && run.history.is_empty() && !args.has(&EVENTS);
-    let sums_up = ["ENVELOPE", "FATIGUE", "CHECK"].contains(&what);
-    let events = match sums_up {
-        _ if bare => Vec::new(),
-        true => asked_behind_transient(job, args)?.1,
-        false => run_and_events(job, args)?.1,
-    };
+    let bare = what == Report::Envelope && run.history.is_empty() && !args.has(&EVENTS);
+    let whole = || if bare { Ok(Vec::new()) } else { asked_behind_transient(job, args).map(|(_, events)| events) };
+    let stored = || run_and_events(job, args).map(|(_, events)| events);
     let made = match what {
-        "ENVELOPE" => along::envelope(&line, &events),
-        "NODE" => along::histories(&line, &places(args, &line)?, &events),
-        "TOUCHDOWN" => along::touchdown(&line, &events),
-        "SUPPORTS" => along::supports(&line, Magnitude::default(), &events),
-        "FATIGUE" => {
+        Report::Envelope => along::envelope(&line, &whole()?),
+        Report::At => return tables_at_instants(job, args, &line),
+        Report::Node => {
+            let events = stored()?;
+            along::histories(&line, &places(args, &line)?, &events)
+        }
+        Report::Touchdown => along::touchdown(&line, &stored()?),
+        Report::Supports => along::supports(&line, Magnitude::default(), &stored()?),
+        Report::Fatigue => {
+            let events = whole()?;
             let points = args.option_integer(&POINTS);
             let usual = Round::default();
             let round = Round {
@@ -206,28 +227,31 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
             let factor = args.option_number(&DFF).unwrap_or(1.0);
             along::fatigue_along(&line, &job.model.fatigue, (&round, factor), &events)
         }
-        _ => along::check(&line, &code(args), &events),
+        Report::Check => along::check(&line, &code(args), &whole()?),
     };
     Ok(vec![made.map_err(wrong)?])
 }
 
 /// Options that belong to another of the tables.
-fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
-    const OF: [(OptionSpec, &str); 10] = [
-        (ARC, "NODE"),
-        (CODE, "CHECK"),
-        (SAFETY_OPTION, "CHECK"),
-        (FACTORS, "CHECK"),
-        (PIPE, "CHECK"),
-        (CASE, "CHECK"),
-        (CORROSION, "CHECK"),
-        (POINTS, "FATIGUE"),
-        (SCF, "FATIGUE"),
-        (DFF, "FATIGUE"),
+fn refuse_what_does_not_go(args: &Args, what: Report) -> Outcome<()> {
+    const OF: [(OptionSpec, Report); 10] = [
+        (ARC, Report::Node),
+        (CODE, Report::Check),
+        (SAFETY_OPTION, Report::Check),
+        (FACTORS, Report::Check),
+        (PIPE, Report::Check),
+        (CASE, Report::Check),
+        (CORROSION, Report::Check),
+        (POINTS, Report::Fatigue),
+        (SCF, Report::Fatigue),
+        (DFF, Report::Fatigue),
     ];
     for (option, of) in OF {
         if let Some(given) = args.option(&option).filter(|_| what != of) {
-            return Err(Diagnostic::error(format!("{} goes with {of}, not with {what}", option.name), given.span));
+            return Err(Diagnostic::error(
+                format!("{} goes with {}, not with {}", option.name, of.word(), what.word()),
+                given.span,
+            ));
         }
     }
     let code = chosen_code(args);
@@ -245,11 +269,11 @@ fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
             return Err(Diagnostic::error(text, given.span));
         }
     }
-    if args.data.len() > 2 && !["AT", "NODE"].contains(&what) {
-        return Err(Diagnostic::error(format!("{what} takes no numbers"), args.place(2)));
+    if let (Some(surplus), false) = (args.data_after(WHAT).first(), matches!(what, Report::At | Report::Node)) {
+        return Err(Diagnostic::error(format!("{} takes no numbers", what.word()), surplus.span));
     }
     match args.option(&EVENTS) {
-        Some(given) if what == "AT" => {
+        Some(given) if what == Report::At => {
             Err(Diagnostic::error("AT names its instants itself: -EVENTS does not go with it", given.span))
         }
         _ => Ok(()),
@@ -259,7 +283,7 @@ fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
 /// The line at instants.
 fn tables_at_instants(job: &Job, args: &Args, line: &LineResults) -> Outcome<Vec<Table>> {
     let history = &last_run(job, args.span)?.history;
-    let times: Vec<(f64, Span)> = (2..args.data.len()).filter_map(|i| Some((args.number(i)?, args.place(i)))).collect();
+    let times: Vec<(f64, Span)> = args.data_after(WHAT).iter().filter_map(|v| Some((v.number()?, v.span))).collect();
     let stored = history.times();
     let one = |begin: f64, span: Span| -> Outcome<RunEvent> {
         if let (Some(first), Some(last)) = (stored.first(), stored.last())
@@ -288,11 +312,11 @@ fn tables_at_instants(job: &Job, args: &Args, line: &LineResults) -> Outcome<Vec
 /// The places of NODE.
 fn places(args: &Args, line: &LineResults) -> Outcome<Vec<Where>> {
     let mut list = Vec::new();
-    for index in 2..args.data.len() {
-        let value = args.number(index).unwrap_or(f64::NAN);
+    for given in args.data_after(WHAT) {
+        let value = given.number().unwrap_or(f64::NAN);
         if !(value >= 1.0 && value <= line.nodes() as f64 && value.fract() == 0.0) {
             let text = format!("{value} is no node of {}: they are 1 to {}", line.name, line.nodes());
-            return Err(Diagnostic::error(text, args.place(index)));
+            return Err(Diagnostic::error(text, given.span));
         }
         list.push(Where::Node(value as usize));
     }

@@ -7,6 +7,7 @@ use crate::commands::output::disposition::{BOTH, HARD, send};
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::page;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -15,7 +16,7 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
 use windlass_hydro::spectrum::is_regular;
 use windlass_language::select::{Owner, choose};
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::SeriesError;
 use windlass_signal::tether::fatigue::{Endurance, FatigueSettings};
 use windlass_solve::tethered::{self, Of, TetherHistory, TetherStatistics, Tethered};
@@ -26,8 +27,36 @@ pub static TETHER: Command = Command { spec: &TETHER_SPEC, edits: false, run: te
 /// STRUCTURE.
 pub static STRUCTURE: Command = Command { spec: &STRUCTURE_SPEC, edits: false, run: structure };
 
-const WHAT: &[&str] = &["MOTIONS", "FORCES", "NODE", "END_OF", "ALONG", "STATISTICS", "RANGES", "FATIGUE", "EVENTS"];
-const OF_STRUCTURE: &[&str] = &["PAGES", "HISTORY", "HARMONICS"];
+choices! {
+    /// What TETHER reports.
+    enum TetherReport {
+        Motions = "MOTIONS",
+        Forces = "FORCES",
+        Node = "NODE",
+        EndOf = "END_OF",
+        Along = "ALONG",
+        Statistics = "STATISTICS",
+        Ranges = "RANGES",
+        Fatigue = "FATIGUE",
+        Events = "EVENTS",
+    }
+}
+
+choices! {
+    /// What STRUCTURE reports.
+    #[derive(Default)]
+    enum StructureReport {
+        #[default]
+        Pages = "PAGES",
+        History = "HISTORY",
+        Harmonics = "HARMONICS",
+    }
+}
+
+const NAME: DatumKey<str> = TETHER_SPEC.word("NAME");
+const WHAT: DatumKey<TetherReport> = TETHER_SPEC.choice("WHAT");
+const NUMBER: DatumKey<str> = TETHER_SPEC.word("N");
+const OF_STRUCTURE: DatumKey<StructureReport> = STRUCTURE_SPEC.choice("WHAT");
 /// Times on one graph [AQWA-TETHER 2.2].
 const MAX_CURVES: usize = 20;
 
@@ -82,7 +111,7 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
     opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::Connector), "a tether of the run"),
-        ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to report"),
+        ValueSpec::choice::<TetherReport>("WHAT", "what to report"),
         ValueSpec::new("N", Kind::Text, "number of the node or the element, or what ALONG is of")
             .or("1, and 2 of STATISTICS"),
     ],
@@ -109,7 +138,7 @@ static STRUCTURE_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::PRCPOST],
     opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     data: &[
-        ValueSpec::new("WHAT", Kind::Choice(OF_STRUCTURE), "what to report").or("PAGES"),
+        ValueSpec::choice::<StructureReport>("WHAT", "what to report").or("PAGES"),
         ValueSpec::new("*P", Kind::Name(Noun::Point), "points of the structure whose places are reported").or("none"),
     ],
     repeat: 1,
@@ -181,11 +210,11 @@ fn window(run: &Tethered, args: &Args) -> TetherStatistics {
     TetherStatistics::new(run, from, to)
 }
 
-/// A whole number of the data, within a range.
-fn whole(args: &Args, index: usize, most: usize, what: &str) -> Outcome<usize> {
-    let Some(word) = args.word(index) else { return Ok(1) };
+/// The number of a record, within a range.
+fn whole(args: &Args, most: usize, what: &str) -> Outcome<usize> {
+    let Some(word) = args.word(NUMBER) else { return Ok(1) };
     let found = word.parse::<usize>().ok().filter(|n| (1..=most).contains(n));
-    let wrong = || Diagnostic::error(format!("{word} is no {what}: they are 1 to {most}"), args.place(index));
+    let wrong = || Diagnostic::error(format!("{word} is no {what}: they are 1 to {most}"), args.place(NUMBER));
     found.ok_or_else(wrong)
 }
 
@@ -197,48 +226,49 @@ fn tether(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
     let run = last_run(job, args.span)?;
-    let name = args.word(0).unwrap_or_default();
+    let name = args.word(NAME).unwrap_or_default();
     let Some(tether) = run.tethers.iter().find(|t| t.name.eq_ignore_ascii_case(name)) else {
         let names: Vec<&str> = run.tethers.iter().map(|t| t.name.as_str()).collect();
         let text = format!("{name} is no tether of the run: it has {}", names.join(" "));
-        return Err(Diagnostic::error(text, args.place(0)));
+        return Err(Diagnostic::error(text, args.place(NAME)));
     };
     let wrong = |e: SeriesError| Diagnostic::error(e.to_string(), args.span);
     let towed_alone = || {
         let text = format!("tether {name} is installed: ranges and fatigue are of towed tethers [AQWA-TETHER 3.7]");
-        if tether.towed { Ok(()) } else { Err(Diagnostic::error(text, args.place(1))) }
+        if tether.towed { Ok(()) } else { Err(Diagnostic::error(text, args.place(WHAT))) }
     };
     let some = || {
         let list = slack_alone(run, args.option(&SLACK), instants(run, args)?);
         Ok::<_, Box<Diagnostic>>(list)
     };
-    Ok(match args.word(1).unwrap_or_default() {
-        "MOTIONS" => vec![tethered::motions(run, tether, &some()?)],
-        "FORCES" => vec![tethered::forces(run, tether, &some()?)],
-        "NODE" => {
-            let node = whole(args, 2, tether.line.nodes(), "node of the tether")?;
+    let Some(what) = args.choice(WHAT) else { return Ok(Vec::new()) };
+    Ok(match what {
+        TetherReport::Motions => vec![tethered::motions(run, tether, &some()?)],
+        TetherReport::Forces => vec![tethered::forces(run, tether, &some()?)],
+        TetherReport::Node => {
+            let node = whole(args, tether.line.nodes(), "node of the tether")?;
             vec![tethered::series(run, tether, Of::Node(node - 1))]
         }
-        "END_OF" => {
-            let end = whole(args, 2, 2 * tether.line.elements().len(), "end of an element of the tether")?;
+        TetherReport::EndOf => {
+            let end = whole(args, 2 * tether.line.elements().len(), "end of an element of the tether")?;
             vec![tethered::series(run, tether, Of::End(end - 1))]
         }
-        "ALONG" => vec![table_along(run, tether, args)?],
-        "STATISTICS" => {
+        TetherReport::Along => vec![table_along(run, tether, args)?],
+        TetherReport::Statistics => {
             let window = window(run, args);
-            let made = match args.word(2) {
+            let made = match args.word(NUMBER) {
                 Some("1") => window.type_one(run, tether),
                 None | Some("2") => window.type_two(run, tether),
-                Some(_) => return Err(Diagnostic::error("statistics are of type 1 or 2", args.place(2))),
+                Some(_) => return Err(Diagnostic::error("statistics are of type 1 or 2", args.place(NUMBER))),
             };
             made.map_err(wrong)?
         }
-        what @ ("RANGES" | "FATIGUE") => {
+        TetherReport::Ranges | TetherReport::Fatigue => {
             towed_alone()?;
             let [ranges, fatigue] = window(run, args).fatigue(run, tether, fatigue_settings(args)).map_err(wrong)?;
-            vec![if what == "RANGES" { ranges } else { fatigue }]
+            vec![if what == TetherReport::Ranges { ranges } else { fatigue }]
         }
-        _ => vec![tethered::events(run)],
+        TetherReport::Events => vec![tethered::events(run)],
     })
 }
 
@@ -257,8 +287,8 @@ fn fatigue_settings(args: &Args) -> FatigueSettings {
 fn table_along(run: &Tethered, tether: &TetherHistory, args: &Args) -> Outcome<Table> {
     let quantities = |at_nodes: bool| if at_nodes { tether.of_a_node() } else { tether.of_an_end() };
     let codes = || [true, false].into_iter().flat_map(|n| quantities(n).iter().map(|q| (q.code, Owner::Ours, q.code)));
-    let word = args.word(2).unwrap_or("Y");
-    let code = choose(word, args.place(2), "quantity of the tether", codes())?;
+    let word = args.word(NUMBER).unwrap_or("Y");
+    let code = choose(word, args.place(NUMBER), "quantity of the tether", codes())?;
     let found = [true, false].into_iter().find_map(|n| Some((n, quantities(n).iter().position(|q| q.code == code)?)));
     let times = args.option(&AT).map(Given::numbers).unwrap_or_default();
     if times.len() > MAX_CURVES {
@@ -272,7 +302,7 @@ fn table_along(run: &Tethered, tether: &TetherHistory, args: &Args) -> Outcome<T
         places.extend(run.times.len().checked_sub(1));
     }
     let made = found.and_then(|(at_nodes, index)| tethered::table_along_tether(run, tether, at_nodes, index, &places));
-    made.ok_or_else(|| Diagnostic::error(format!("{word} is no quantity of the tether"), args.place(2)))
+    made.ok_or_else(|| Diagnostic::error(format!("{word} is no quantity of the tether"), args.place(NUMBER)))
 }
 
 fn structure(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -287,21 +317,21 @@ fn structure_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         return Err(Diagnostic::error("the run is of a towed tether, which has no structure", args.span));
     };
     let mut points = Vec::new();
-    for index in 1..args.data.len() {
-        let word = args.word(index).unwrap_or_default();
+    for value in args.data_after(OF_STRUCTURE) {
+        let word = value.word().unwrap_or_default();
         let Some(place) = history.points.iter().position(|p| p.eq_ignore_ascii_case(word)) else {
             let text = format!("{word} is no point of {}", history.body);
-            return Err(Diagnostic::error(text, args.place(index)));
+            return Err(Diagnostic::error(text, value.span));
         };
         points.push(place);
     }
-    Ok(match args.word(0).unwrap_or("PAGES") {
-        "HISTORY" => vec![tethered::structure_series(run, history)],
-        "HARMONICS" => {
+    Ok(match args.choice(OF_STRUCTURE).unwrap_or_default() {
+        StructureReport::History => vec![tethered::structure_series(run, history)],
+        StructureReport::Harmonics => {
             let made = tethered::harmonics(run, history, period(job), &instants(run, args)?);
             vec![made.map_err(|e| Diagnostic::error(e.to_string(), args.span))?]
         }
-        _ => instants(run, args)?
+        StructureReport::Pages => instants(run, args)?
             .iter()
             .flat_map(|instant| tethered::structure(run, history, *instant, &points))
             .collect(),

@@ -113,19 +113,19 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut remarks = Vec::new();
     for given in &call.args.options {
         let whole = given.first_integer().unwrap_or(0);
-        let word = given.first_word().unwrap_or_default();
+        let word = || given.first_word().unwrap_or_default();
         match given {
             _ if given.is(&BATCH) => settings.batch = given.is_on(),
             _ if given.is(&LIMERROR) => settings.error_limit = whole,
-            _ if given.is(&SET_DATE) => settings.date = Some(word.to_string()),
+            _ if given.is(&SET_DATE) => settings.date = Some(word().to_string()),
             _ if given.is(&OECHO) || given.is(&MECHO) => settings.echo = given.is_on(),
             _ if given.is(&SILENT) => settings.silent = given.is_on(),
-            _ if given.is(&NAME_FIGURE) => settings.figure_name = word.to_string(),
+            _ if given.is(&NAME_FIGURE) => settings.figure_name = word().to_string(),
             _ if given.is(&FIG_NUM) => settings.figure_number = whole,
-            _ if given.is(&AUXIN) || given.is(&IAUXIN) => settings.auxiliary = Some(beside_root(job, word)),
+            _ if given.is(&AUXIN) || given.is(&IAUXIN) => settings.auxiliary = Some(beside_root(job, word())),
             _ if given.is(&COMIN) || given.is(&ICOMIN) => {
-                let path = existing(job, word, given.first_place())?;
-                effect = Effect::Insert { name: word.to_string(), path, tag: crate::commands::PLAIN };
+                let path = existing(job, word(), given.first_place())?;
+                effect = Effect::Insert { name: word().to_string(), path, tag: crate::commands::PLAIN };
             }
             _ if given.is(&RECORDS) => effect = Effect::Budget(u64::try_from(whole).unwrap_or(u64::MAX)),
             _ if given.is(&PLOT_SIZE) => {

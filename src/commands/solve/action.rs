@@ -9,7 +9,7 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, PIPE, find, line_name};
 use windlass_solve::time::{Action, ActionKind, Observable, Trigger};
 
@@ -82,12 +82,13 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = SPEC.word("NAME");
     let args = &call.args;
     if args.has(&CLEAR) {
         job.actions.clear();
         return Ok(Effect::Done);
     }
-    let name = args.word(0).unwrap_or_default();
+    let name = args.word(NAME).unwrap_or_default();
     if name.is_empty() {
         return Err(
             Diagnostic::error("an action needs a name", args.span).help("form: &ACTION NAME -AT 100 -RELEASE A")
@@ -97,13 +98,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let before = job.actions.len();
         job.actions.retain(|a| !a.name.eq_ignore_ascii_case(name));
         if job.actions.len() == before {
-            let mut error = Diagnostic::error(format!("there is no action {name}"), args.place(0));
+            let mut error = Diagnostic::error(format!("there is no action {name}"), args.place(NAME));
             error.help.extend(did_you_mean(name, job.actions.iter().map(|a| a.name.as_str())));
             return Err(error);
         }
         return Ok(Effect::Done);
     }
-    rule::check(name, None, "action", args.place(0))?;
+    rule::check(name, None, "action", args.place(NAME))?;
     let when = parse_trigger(&job.model, single_option(args, &WHEN, "when it happens")?, job.units)?;
     let what = parse_action(&job.model, single_option(args, &WHAT, "what happens")?)?;
     job.actions.retain(|a| !a.name.eq_ignore_ascii_case(name));

@@ -14,7 +14,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{AbsentRow, Class, Condition, Connector, EntityKind, find};
 
 /// TABLE.
@@ -99,10 +99,13 @@ static PROPERTIES_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("PROPERTIES", "the properties of classes")
 };
 
+/// The connector of TABLE, and of GEOMETRY, which names it alike.
+const NAMED: DatumKey<str> = TABLE_SPEC.word(LINE.name);
+
 /// The connector that a record's first datum names, and its class.
 fn find_connector<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Connector, &'a Class)> {
-    let connector = find(&job.model.connectors, args.word(0).unwrap_or_default(), "connector", args.place(0))?;
-    Ok((connector, find(&job.model.classes, &connector.class, "class", args.place(0))?))
+    let connector = find(&job.model.connectors, args.word(NAMED).unwrap_or_default(), "connector", args.place(NAMED))?;
+    Ok((connector, find(&job.model.classes, &connector.class, "class", args.place(NAMED))?))
 }
 
 /// The configuration a record asks for: the ends as they are, or that of one option.
@@ -137,7 +140,7 @@ fn dispose(job: &mut Job, class: &str, mut made: Table, span: Span) -> Effect {
 }
 
 fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (args, span) = (&call.args, call.args.place(0));
+    let (args, span) = (&call.args, call.args.place(NAMED));
     let (connector, class) = find_connector(job, args)?;
     let name = class.name.clone();
     let held = condition(args)?;
@@ -163,7 +166,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (args, span) = (&call.args, call.args.place(0));
+    let (args, span) = (&call.args, call.args.place(NAMED));
     let (connector, class) = find_connector(job, args)?;
     let (name, condition) = (class.name.clone(), condition(args)?);
     let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());
@@ -180,7 +183,7 @@ fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn properties(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let text = {
-        let chosen = NameFilter::new(call, 0, &job.model);
+        let chosen = NameFilter::new(&call.args.data, &job.model);
         let tables = status::class_tables::classes(job, &|class| {
             if chosen.chooses_all() { class.object.is_line() } else { chosen.takes(&class.name) }
         });

@@ -12,10 +12,9 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::pose::Pose;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_base::values::Args;
-use windlass_base::values::Noun;
+use windlass_base::values::{Args, Noun, Value};
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Body, Model, find};
 use windlass_solve::excursion::ExcursionPath;
 use windlass_solve::excursion_tables::{
@@ -123,9 +122,12 @@ static WATCH_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("WATCH", "watch circle: where a force from each direction takes a body")
 };
 
+/// The body of MOVE, and of WATCH, which names it alike.
+const NAMED: DatumKey<str> = MOVE_SPEC.word(BODY.name);
+
 /// The body a record names, and its number.
 fn body<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Body, usize)> {
-    let found = find(&job.model.bodies, args.word(0).unwrap_or_default(), "body", args.place(0))?;
+    let found = find(&job.model.bodies, args.word(NAMED).unwrap_or_default(), "body", args.place(NAMED))?;
     let index = job.model.bodies.get_index_of(&Model::key(&found.name)).unwrap_or(0);
     Ok((found, index))
 }
@@ -159,7 +161,7 @@ fn systems(job: &Job, args: &Args) -> Outcome<Systems> {
         }
         removed.push(connector.name.clone());
     }
-    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.place(0), job.units);
+    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.place(NAMED), job.units);
     let system = System::new(&job.model, &removed).map_err(wrong)?;
     let intact = (!removed.is_empty()).then(|| System::new(&job.model, &[])).transpose().map_err(wrong)?;
     Ok(Systems { system, intact, removed })
@@ -170,7 +172,7 @@ fn dispose(job: &mut Job, mut made: Table, args: &Args) -> Effect {
     let acting = job.model.connectors.values().filter(|c| c.active).map(|c| c.name.as_str());
     made.notes.extend(job.model.idealisations(acting));
     note_caveats(&job.model, std::slice::from_mut(&mut made));
-    raise(job, &made, args.place(0));
+    raise(job, &made, args.place(NAMED));
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
     Effect::Done
 }
@@ -182,12 +184,11 @@ fn poses(job: &Job) -> Vec<Pose> {
 fn run_excursion(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (body, index) = body(job, args)?;
-    let given: Vec<f64> = args.data.iter().skip(1).filter_map(|v| v.number()).collect();
+    let given: Vec<f64> = args.data_after(NAMED).iter().filter_map(Value::number).collect();
     let several = range(args)?;
     if let (Some(option), false) = (args.option(&ANGLES), given.is_empty()) {
-        return Err(
-            Diagnostic::error("directions are given twice", option.span).other(args.place(1), "first given here")
-        );
+        return Err(Diagnostic::error("directions are given twice", option.span)
+            .other(args.place(const { MOVE_SPEC.number(ANGLE.name) }), "first given here"));
     }
     let one = several.is_none() && given.len() < 2;
     let unused = if one { AT } else { ROWS };
@@ -214,19 +215,19 @@ fn run_excursion(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .collect();
         table_of_directions(&systems, &asked, &directions, &at)
     };
-    let made = made.map_err(|e| to_diagnostic(e, &job.model, args.place(0), job.units))?;
+    let made = made.map_err(|e| to_diagnostic(e, &job.model, args.place(NAMED), job.units))?;
     Ok(dispose(job, made, args))
 }
 
 fn run_watch_circle(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (body, index) = body(job, args)?;
-    let force = args.number(1).unwrap_or(0.0);
+    let force = args.number(const { WATCH_SPEC.number("FORCE") }).unwrap_or(0.0);
     let around = (0..=24).map(|n| (15.0 * f64::from(n)).to_radians());
     let directions = range(args)?.unwrap_or_else(|| around.collect());
     let mut systems = systems(job, args)?;
     let (free, start) = (args.has(&FREE), poses(job));
-    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.place(0), job.units);
+    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.place(NAMED), job.units);
     let asked_for = (index, force, free);
     let found = watch(&mut systems.system, &start, asked_for, &directions).map_err(wrong)?;
     let intact = match &mut systems.intact {

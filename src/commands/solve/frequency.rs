@@ -17,7 +17,7 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Environment, Model, find};
 use windlass_solve::frequency::{
     ExtremeKind, FrequencyResponse, LinearSystem, Operators, ResponseOptions, Trains, respond,
@@ -199,10 +199,11 @@ pub(crate) fn seas(job: &Job, env: &Environment, span: Span) -> Outcome<Trains> 
 }
 
 fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const ENV: DatumKey<str> = SRESPONSE_SPEC.word("ENV");
     let args = &call.args;
     let mut model = job.model.clone();
-    if let Some(name) = args.word(0) {
-        model.environment = find(&job.model.environments, name, "environment", args.place(0))?.clone();
+    if let Some(name) = args.word(ENV) {
+        model.environment = find(&job.model.environments, name, "environment", args.place(ENV))?.clone();
     }
     let trains = seas(job, &model.environment, args.span)?;
     let mut linear = linear(job, &model, args.span)?;

@@ -15,7 +15,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_hydro::hull::Hydrostatics;
 use windlass_hydro::{Floating, Hull, balance_heave_and_trim};
-use windlass_language::spec::{CommandSpec, Kind, Opens, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, ValueSpec};
 use windlass_model::{Body, Mass, find};
 
 /// HSTATICS.
@@ -67,9 +67,10 @@ static RARM_SPEC: CommandSpec = CommandSpec {
 };
 
 fn hstatics(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const BODY: DatumKey<str> = HSTATICS_SPEC.word("BODY");
     let args = &call.args;
-    let body = match args.word(0) {
-        Some(name) => find(&job.model.bodies, name, "body", args.place(0))?,
+    let body = match args.word(BODY) {
+        Some(name) => find(&job.model.bodies, name, "body", args.place(BODY))?,
         None => job.model.current_body().ok_or_else(|| {
             Diagnostic::error("no body is described yet", args.span).help("&DESCRIBE BODY describes one")
         })?,
@@ -104,14 +105,16 @@ fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("PGEN, &SURFACE and &DESCRIBE PIECE give one")
     })?;
     let mass = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity);
-    let (first, step) = (args.number(0).unwrap_or_default(), args.number(1).unwrap_or_default());
+    let [first, step] = args.numbers_or_zero(const { CFORM_SPEC.numbers(["DRAFT", "INC"]) });
     let at_draft = |draft: f64| {
         let mut place = Place { turn: [0.0, 0.0, body.place.turn[2]], ..body.place };
         place.shift[2] = -draft;
         let pose = Pose::of(&place);
         (draft, pose, Hydrostatics::new(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()))
     };
-    let rows: Vec<_> = (0..args.integer(2).unwrap_or(1)).map(|n| at_draft(first + step * n as f64)).collect();
+    let rows: Vec<_> = (0..args.integer(const { CFORM_SPEC.integer("NUM") }).unwrap_or(1))
+        .map(|n| at_draft(first + step * n as f64))
+        .collect();
     let high = |h: &Hydrostatics| if mass.mass > 0.0 { h.gm_l } else { h.bm_l };
     let table = Table::new(format!("Curves of Form of {}", body.name))
         .with_rows(&rows)
@@ -146,10 +149,10 @@ fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let floating = Floating::at_rest(&job.model, body).map_err(told)?;
     let weight = floating.mass.mass * job.model.defaults.gravity;
     let mut table = Table::new(format!("Righting Arms of {}", body.name)).fact("Weight", weight, Dim::Force);
-    let step = args.number(0).unwrap_or_default();
+    let step = args.number(const { RARM_SPEC.number("INC") }).unwrap_or_default();
     let mut place = Place { turn: [0.0, 0.0, body.place.turn[2]], ..body.place };
     let (mut area, mut before, mut rows) = (0.0, None, Vec::new());
-    for n in 0..=args.integer(1).unwrap_or(1) {
+    for n in 0..=args.integer(const { RARM_SPEC.integer("NUM") }).unwrap_or(1) {
         let roll = step * n as f64;
         place.turn[0] = roll;
         let found = match balance_heave_and_trim(&floating, &place) {

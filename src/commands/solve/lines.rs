@@ -16,7 +16,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_catenary::EndForces;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, ValueSpec};
 
 /// LINES.
 pub static LINES: Command = Command { spec: &LINES_SPEC, edits: false, run: lines };
@@ -52,8 +52,10 @@ const ADDED: [&str; 8] =
 const MAX_REPORTED_ROWS: u64 = 10;
 
 fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const IN: DatumKey<str> = LINES_SPEC.word("IN");
+    const OUT: DatumKey<str> = LINES_SPEC.word("OUT");
     let args = &call.args;
-    let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
+    let (name, span) = (args.word(IN).unwrap_or_default(), args.place(IN));
     let path = crate::commands::settings::device::existing(job, name, span)?;
     let unusable = |error: InputError| {
         let mut made = Diagnostic::error(format!("{name} cannot be used: {error}"), span);
@@ -65,10 +67,10 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let opened =
         crate::commands::settings::device::open_input(job, &path).map_err(|e| InputError::Unreadable(e.to_string()));
     let mut input = opened.and_then(Input::open).map_err(unusable)?;
-    let out = file::with_csv_ending(args.word(1).unwrap_or_default());
-    let refused = |error| file::to_diagnostic(&error, args.place(1));
+    let out = file::with_csv_ending(args.word(OUT).unwrap_or_default());
+    let refused = |error| file::to_diagnostic(&error, args.place(OUT));
     let place = job.output.folder.place(&out).map_err(refused)?;
-    let lost = |error: csv::Error| Diagnostic::error(format!("{}: {error}", place.path().display()), args.place(1));
+    let lost = |error: csv::Error| Diagnostic::error(format!("{}: {error}", place.path().display()), args.place(OUT));
     let mut writer = csv::Writer::from_writer(place.begin().map_err(refused)?);
     writer.write_record(heads(&input.heads).iter().map(|head| guard_formula(head).into_owned())).map_err(lost)?;
     let width = input.heads.len();

@@ -14,7 +14,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::{ClassError, GivenMotion, Model, Prescription, Sinusoid, find};
 use windlass_solve::DOFS;
 use windlass_solve::time::build_prescribed;
@@ -73,10 +73,11 @@ static SPEC: CommandSpec = CommandSpec {
 const KINDS: [OptionSpec; 4] = [SINUSOID, RAO, FILE_OPTION, FREE];
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const BODY: DatumKey<str> = SPEC.word("BODY");
     let args = &call.args;
-    let body = find(&job.model.bodies, args.word(0).unwrap_or_default(), "body", args.place(0))?;
+    let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.place(BODY))?;
     if body.junction.is_some() {
-        return Err(Diagnostic::error(format!("{} is a junction, not a body", body.name), args.place(0)));
+        return Err(Diagnostic::error(format!("{} is a junction, not a body", body.name), args.place(BODY)));
     }
     let key = Model::key(&body.name);
     let kind = kind(args)?;
@@ -85,13 +86,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             return Err(Diagnostic::error(format!("{} belongs to {}", option.name, of.name), given.span));
         }
     }
-    let file = (kind.first_word().unwrap_or_default(), kind.first_place());
+    let file = || (kind.first_word().unwrap_or_default(), kind.first_place());
     let motion = match kind {
         _ if kind.is(&FREE) => None,
         _ if kind.is(&RAO) => {
-            Some(GivenMotion::Responses(Arc::new(input::responses(job, file, args.has(&SYMMETRIC))?)))
+            Some(GivenMotion::Responses(Arc::new(input::responses(job, file(), args.has(&SYMMETRIC))?)))
         }
-        _ if kind.is(&FILE_OPTION) => Some(GivenMotion::Path(Arc::new(input::path(job, file)?))),
+        _ if kind.is(&FILE_OPTION) => Some(GivenMotion::Path(Arc::new(input::path(job, file())?))),
         _ => Some(sinusoids(job, args)),
     };
     let mut moved = body.clone();

@@ -54,7 +54,7 @@ pub const ABOUT: OptionSpec =
 /// # Errors
 /// A connector or body that cannot be evaluated.
 pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
-    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(0), job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(super::WHAT), job.units);
     let system = System::new(&job.model, &[]).map_err(wrong)?;
     let state = system.state(&job.model);
     Ok(vec![tables::by_category(&system, &state, fits).map_err(wrong)?])
@@ -65,7 +65,7 @@ pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Ve
 /// # Errors
 /// A connector or body that cannot be evaluated.
 pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
-    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(0), job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(super::WHAT), job.units);
     let linear = LinearSystem::new(&job.model).map_err(wrong)?;
     Ok(frequency::tables::modes(&linear).map_err(wrong)?.into())
 }
@@ -75,7 +75,7 @@ pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
 /// # Errors
 /// A connector or body that cannot be evaluated.
 pub fn stiffness(job: &Job, call: &Call, chosen: &NameFilter) -> Outcome<Vec<Table>> {
-    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(0), job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(super::WHAT), job.units);
     let about: Option<Position> =
         call.args.option(&ABOUT).map(|given| given.numbers_or_zero(const { ABOUT.numbers(["X", "Y", "Z"]) }));
     let system = System::new(&job.model, &[]).map_err(wrong)?;

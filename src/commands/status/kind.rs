@@ -83,6 +83,6 @@ impl<'a> Query<'a> {
 
     /// The place of the kind's word.
     pub fn place(&self) -> Span {
-        self.call.args.place(0)
+        self.call.args.place(super::WHAT)
     }
 }

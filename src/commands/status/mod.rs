@@ -32,7 +32,7 @@ use crate::report::plot::Chart;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::Noun;
 use windlass_language::select::{Owner, choose};
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 
 /// &STATUS.
 pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };
@@ -145,13 +145,16 @@ static SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("&STATUS", "reports what the model holds")
 };
 
+/// The kind of table.
+pub(super) const WHAT: DatumKey<str> = SPEC.word("WHAT");
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let kind = match args.word(0) {
-        Some(word) => find_kind(choose(word, args.place(0), "kind of &STATUS", kinds())?),
+    let kind = match args.word(WHAT) {
+        Some(word) => find_kind(choose(word, args.place(WHAT), "kind of &STATUS", kinds())?),
         None => &model_tables::SUMMARY,
     };
-    let names = NameFilter::new(call, 1, &job.model);
+    let names = NameFilter::new(args.data_after(WHAT), &job.model);
     let query = Query { job, call, names: &names };
     let mut verdict = Verdict::default();
     let mut tables = (kind.tables)(&query, &mut verdict)?;
@@ -168,7 +171,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let text = format!("{} makes no table {wanted} here: there are {}", kind.name, tables.len());
             return Err(Diagnostic::error(text, given.span));
         };
-        raise(job, &table, args.place(1));
+        raise(job, &table, args.place(const { SPEC.word("NAME") }));
         job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
         return Ok(Effect::Done);
     }
@@ -181,6 +184,6 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         text.push_str(&drawn.map_err(|e| Diagnostic::error(e.to_string(), args.span))?);
     }
     send(job, args, &text)?;
-    tables.iter().for_each(|t| raise(job, t, args.place(1)));
+    tables.iter().for_each(|t| raise(job, t, args.place(const { SPEC.word("NAME") })));
     Ok(Effect::Done)
 }
