@@ -1,8 +1,9 @@
 //! A spectrum as a density over frequency, with its integrals to working precision: moments, quantiles, bands.
 //!
-//! Every spectrum with a formula is a sum of humps `x^-N exp(-N/4 x^-4) gamma^exp(-(x-1)^2/(2 s^2))`, x = w/wp, s = 0.07 below
+//! Most spectra with a formula are sums of humps `x^-N exp(-N/4 x^-4) gamma^exp(-(x-1)^2/(2 s^2))`, x = w/wp, s = 0.07 below
 //! and 0.09 above the peak: N = 5 is ISSC (gamma 1) and JONSWAP [DNV-RP-C205 3.5.5], N = 4 L + 1 that of [OCHI-HUBBLE-1976],
-//! N = 4 that of [TORSETHAUGEN-HAVER-2004]. A curve of the user is straight between its points.
+//! N = 4 that of [TORSETHAUGEN-HAVER-2004]. Other forms are given as a function and where it is smooth. A curve of the user is
+//! straight between its points.
 
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
@@ -62,6 +63,23 @@ impl SpectralPeak {
     }
 }
 
+impl PartialEq for FreeForm {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::fn_addr_eq(self.form, other.form)
+            && (&self.parameters, &self.knots, self.scale) == (&other.parameters, &other.knots, other.scale)
+    }
+}
+
+impl FreeForm {
+    /// Density (m2 s) at a frequency (rad/s): none beyond the outer knots.
+    fn density(&self, frequency: f64) -> f64 {
+        let frequency = frequency / self.scale[0];
+        let inside = self.knots.first().is_some_and(|low| frequency >= *low)
+            && self.knots.last().is_some_and(|high| frequency <= *high);
+        if inside { self.scale[1] * (self.form)(frequency, &self.parameters) } else { 0.0 }
+    }
+}
+
 /// A part of the frequencies with its integrals, from the lowest frequency on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct FrequencyPanel {
@@ -73,10 +91,23 @@ struct FrequencyPanel {
     within: [f64; 2],
 }
 
+/// A density of a form of its own.
+#[derive(Clone, Debug)]
+struct FreeForm {
+    /// Density at a frequency (rad/s), before scaling, by its parameters.
+    form: fn(f64, &[f64]) -> f64,
+    parameters: Vec<f64>,
+    /// Frequencies (rad/s) between which the form is smooth.
+    knots: Vec<f64>,
+    /// What a frequency of the form becomes, and its density.
+    scale: [f64; 2],
+}
+
 /// A spectrum of waves over frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     humps: Vec<SpectralPeak>,
+    free: Option<FreeForm>,
     /// Frequency (rad/s), density (m2 s).
     curve: Vec<(f64, f64)>,
     panels: Vec<FrequencyPanel>,
@@ -93,7 +124,7 @@ impl Spectrum {
             knots.push(hump.peak);
         }
         let open = limits.is_none_or(|l| knots.iter().all(|k| l[1] > *k));
-        let mut made = Spectrum { humps, curve: Vec::new(), panels: Vec::new() };
+        let mut made = Spectrum { humps, free: None, curve: Vec::new(), panels: Vec::new() };
         made.divide(knots, limits);
         if open && let Some(last) = made.panels.last().copied() {
             let (low, high) = (last.high, limits.map_or(f64::INFINITY, |l| l[1]));
@@ -107,7 +138,20 @@ impl Spectrum {
     /// A curve straight between its points: frequency (rad/s, growing), density (m2 s).
     pub fn of_curve(points: Vec<(f64, f64)>, limits: Option<[f64; 2]>) -> Self {
         let knots = points.iter().map(|p| p.0).collect();
-        let mut made = Spectrum { humps: Vec::new(), curve: points, panels: Vec::new() };
+        let mut made = Spectrum { humps: Vec::new(), free: None, curve: points, panels: Vec::new() };
+        made.divide(knots, limits);
+        made
+    }
+
+    /// A density (m2 s) of any form of the frequency (rad/s) and parameters, between the first and the last of some frequencies and
+    /// smooth between neighbours of them: Gauss' quadrature of eight nodes holds there.
+    pub fn of_form(form: fn(f64, &[f64]) -> f64, parameters: Vec<f64>, knots: Vec<f64>) -> Self {
+        Spectrum::of_scaled_form(FreeForm { form, parameters, knots, scale: [1.0, 1.0] }, None)
+    }
+
+    fn of_scaled_form(free: FreeForm, limits: Option<[f64; 2]>) -> Self {
+        let knots: Vec<f64> = free.knots.iter().map(|k| k * free.scale[0]).collect();
+        let mut made = Spectrum { humps: Vec::new(), free: Some(free), curve: Vec::new(), panels: Vec::new() };
         made.divide(knots, limits);
         made
     }
@@ -138,7 +182,8 @@ impl Spectrum {
         let next = self.curve.partition_point(|p| p.0 < frequency);
         let ends = next.checked_sub(1).and_then(|i| self.curve.get(i)).zip(self.curve.get(next));
         let straight = ends.map_or(0.0, |(a, b)| a.1 + (b.1 - a.1) * (frequency - a.0) / (b.0 - a.0));
-        straight + self.humps.iter().map(|h| h.density(frequency)).sum::<f64>()
+        let free = self.free.as_ref().map_or(0.0, |free| free.density(frequency));
+        straight + free + self.humps.iter().map(|h| h.density(frequency)).sum::<f64>()
     }
 
     /// Energy and first moment of the tail of the humps beyond a frequency, where they are powers of it.
@@ -207,7 +252,7 @@ impl Spectrum {
         });
         let at = |i: usize| knots.get(i).copied();
         let Some(mut peak) = at(top.0) else { return 0.0 };
-        if self.humps.len() < 2 {
+        if self.humps.len() < 2 && self.free.is_none() {
             return peak;
         }
         let (mut low, mut high) = (at(top.0.saturating_sub(1)).unwrap_or(peak), at(top.0 + 1).unwrap_or(peak));
@@ -282,6 +327,10 @@ impl Spectrum {
         if !self.curve.is_empty() {
             let points = self.curve.iter().map(|(w, s)| (w * factor, s * density)).collect();
             return Spectrum::of_curve(points, limits).with_energy();
+        }
+        if let Some(free) = &self.free {
+            let scale = [free.scale[0] * factor, free.scale[1] * density];
+            return Spectrum::of_scaled_form(FreeForm { scale, ..free.clone() }, limits).with_energy();
         }
         let scale = |h: &SpectralPeak| SpectralPeak { peak: h.peak * factor, scale: h.scale * density, ..*h };
         Spectrum::of_humps(self.humps.iter().map(scale).collect(), limits).with_energy()
