@@ -1,5 +1,6 @@
 //! Wave spectra with a formula, and regular waves: one file each, listed in [`SPECTRA`]. Heights are in m and periods in s.
 
+mod gaussian;
 mod issc;
 mod jonswap;
 mod ochi_hubble;
@@ -26,6 +27,7 @@ pub static SPECTRA: &[&WaveSpectrum] = &[
     &ochi_hubble::OCHI,
     &ochi_hubble::OCHI_HUBBLE,
     &torsethaugen::TORSETHAUGEN,
+    &gaussian::GAUSSIAN,
     &regular::REGULAR,
     &regular::STOKES,
 ];
