@@ -2,7 +2,8 @@
 
 use crate::commands::environment::env;
 use crate::commands::menu::join_names;
-use crate::commands::{COMMANDS, Call, Command, Effect, Job, commands_of_menu, status};
+use crate::commands::post::TABLES;
+use crate::commands::{COMMANDS, Call, Command, Effect, Job, commands_of_menu, menus, status};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
 use windlass_connectors::CLASSES;
@@ -40,6 +41,11 @@ static LISTS: &[HelpList] = &[
         command: &status::STATUS,
         head: "It reports:",
         rows: |_| status::kinds_told().map(|(name, help)| (name, help.to_string())).collect(),
+    },
+    HelpList {
+        command: &menus::PRCPOST,
+        head: "Its tables:",
+        rows: |_| TABLES.iter().map(|table| (table.spec.name, table.spec.help.to_string())).collect(),
     },
     HelpList { command: &env::ENV, head: "Spectra of -SEA and -A_SEA:", rows: spectra_help },
     HelpList {

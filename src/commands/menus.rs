@@ -63,8 +63,7 @@ static CONN_DESIGN_SPEC: CommandSpec = CommandSpec {
 static PRCPOST_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu(&menu::PRCPOST),
     menus: &[&menu::MAIN],
-    detail: "Of the last run of TDOM: TRAJECTORY of bodies, POINTS of interest, CONFORCE, CF_MAGNITUDE, TOT_CFORCE and C_LENGTH of \
-             connectors, BODY_FORCE by category, FATIGUE of lines, TETHER and STRUCTURE of TDOM -TETHERS. Each opens the disposition menu. A run whose model has been changed since is told \
+    detail: "Tables of the last run of TDOM; each opens the disposition menu. A run whose model has been changed since is told \
              as it was; points are taken where they stand in their bodies now.",
     example: "PRCPOST\nEND",
     ..CommandSpec::new("PRCPOST", "post-processing of a run, up to END")

@@ -32,7 +32,7 @@ use model::{
 };
 pub use output::buildg::take as take_row;
 use output::{animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
-use post::{fatigue, frequency_posts, prcpost, rep_select, rod_post, tether_post};
+use post::{frequency_posts, rep_select};
 use settings::{device, parameter, units};
 use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};
 pub use status::kinds as status_kinds;
@@ -109,8 +109,21 @@ impl PartialEq for Command {
     }
 }
 
-/// Every command, in the order of the manual.
-pub static COMMANDS: &[&Command] = &[
+/// Every command: those listed here and the tables of PRCPOST.
+pub static COMMANDS: &[&Command] = &join_commands();
+
+const fn join_commands() -> [&'static Command; LISTED.len() + post::TABLES.len()] {
+    let mut all = [&help::HELP; LISTED.len() + post::TABLES.len()];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = if i < LISTED.len() { LISTED[i] } else { post::TABLES[i - LISTED.len()] };
+        i += 1;
+    }
+    all
+}
+
+/// The commands but the tables of PRCPOST, in the order of the manual.
+static LISTED: &[&Command] = &[
     &menus::INMODEL,
     &menus::MEDIT,
     &menus::CONN_DESIGN,
@@ -187,17 +200,6 @@ pub static COMMANDS: &[&Command] = &[
     &excursion::MOVE,
     &excursion::WATCH,
     &lines::LINES,
-    &prcpost::TRAJECTORY,
-    &prcpost::POINTS,
-    &prcpost::CONFORCE,
-    &prcpost::CF_MAGNITUDE,
-    &prcpost::TOT_CFORCE,
-    &prcpost::C_LENGTH,
-    &prcpost::BODY_FORCE,
-    &fatigue::FATIGUE,
-    &rod_post::ROD,
-    &tether_post::TETHER,
-    &tether_post::STRUCTURE,
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,

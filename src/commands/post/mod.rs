@@ -1,8 +1,32 @@
 //! What is taken from the results of a run: tables, fatigue, statistics.
 
+pub(crate) mod body_forces;
+pub(crate) mod connector_forces;
 pub(crate) mod fatigue;
+pub(crate) mod force_magnitudes;
 pub(crate) mod frequency_posts;
+pub(crate) mod lengths;
+pub(crate) mod motions;
+pub(crate) mod points;
 pub(crate) mod prcpost;
 pub(crate) mod rep_select;
 pub(crate) mod rod_post;
 pub(crate) mod tether_post;
+pub(crate) mod total_forces;
+
+use crate::commands::Command;
+
+/// The tables of PRCPOST, in the order of the help.
+pub static TABLES: &[&Command] = &[
+    &motions::TRAJECTORY,
+    &points::POINTS,
+    &connector_forces::CONFORCE,
+    &force_magnitudes::CF_MAGNITUDE,
+    &total_forces::TOT_CFORCE,
+    &lengths::C_LENGTH,
+    &body_forces::BODY_FORCE,
+    &fatigue::FATIGUE,
+    &rod_post::ROD,
+    &tether_post::TETHER,
+    &tether_post::STRUCTURE,
+];
