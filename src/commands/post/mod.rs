@@ -4,6 +4,7 @@ pub(crate) mod body_forces;
 pub(crate) mod connector_forces;
 pub(crate) mod fatigue;
 pub(crate) mod force_magnitudes;
+pub(crate) mod fractiles;
 pub(crate) mod frequency_posts;
 pub(crate) mod lengths;
 pub(crate) mod motions;
@@ -22,6 +23,7 @@ pub static TABLES: &[&Command] = &[
     &points::POINTS,
     &connector_forces::CONFORCE,
     &force_magnitudes::CF_MAGNITUDE,
+    &fractiles::CF_FRACTILES,
     &total_forces::TOT_CFORCE,
     &lengths::C_LENGTH,
     &body_forces::BODY_FORCE,
