@@ -31,14 +31,15 @@ pub static FOUNDATION: StatusKind =
     .named(&[EntityKind::Connector]);
 
 /// What one connector does between its ends.
-struct ConnectorForces {
+pub(crate) struct ConnectorForces {
     /// Force on the first end, and on the other (N, global).
     forces: [[f64; 3]; 2],
     /// The first of its ends that is on a body; the first where none is.
     on_body: usize,
     /// Horizontal distance between the ends (m).
     distance: f64,
-    summary: ElementSummary,
+    /// The rest of what it reports of itself.
+    pub(crate) summary: ElementSummary,
 }
 
 /// One row a connector, and a second table with the springs of those that have some. Those that are inactive or without a
@@ -139,7 +140,11 @@ fn take_remarks(summary: &mut ElementSummary, units: UnitSystem) -> Vec<String> 
     std::mem::take(&mut summary.notes).iter().map(|note| note.text(units)).collect()
 }
 
-fn find_forces(model: &Model, connector: &Connector) -> Result<ConnectorForces, ClassError> {
+/// What a connector does between its ends as they are.
+///
+/// # Errors
+/// It has no solution.
+pub(crate) fn find_forces(model: &Model, connector: &Connector) -> Result<ConnectorForces, ClassError> {
     let mut element = model.element(connector)?;
     if element.as_dynamic().is_some() {
         // it feels current, bottom and contents all along itself
@@ -173,14 +178,19 @@ fn find_forces(model: &Model, connector: &Connector) -> Result<ConnectorForces, 
 
 impl ConnectorForces {
     /// The force on the end that is on a body (N).
-    fn on_body(&self) -> [f64; 3] {
+    pub(crate) fn on_body(&self) -> [f64; 3] {
         self.forces.get(self.on_body).copied().unwrap_or_default()
+    }
+
+    /// The force on its far end: the anchor of a line (N).
+    pub(crate) fn on_far_end(&self) -> [f64; 3] {
+        self.forces.get(1 - self.on_body).copied().unwrap_or_default()
     }
 
     /// Vertical and horizontal pull of a line at its far end (N).
     fn anchor_pull(&self) -> Option<[f64; 2]> {
         self.summary.tension?;
-        let [x, y, z] = self.forces.get(1 - self.on_body).copied().unwrap_or_default();
+        let [x, y, z] = self.on_far_end();
         // no pull is zero without a sign
         Some([z + 0.0, x.hypot(y)])
     }
