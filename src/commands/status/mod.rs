@@ -10,6 +10,7 @@ pub(crate) mod environment_table;
 pub(crate) mod fatigue_table;
 pub(crate) mod forces;
 pub(crate) mod kind;
+pub(crate) mod line_angles;
 pub(crate) mod line_types;
 pub(crate) mod loads_table;
 pub(crate) mod model_tables;
@@ -44,6 +45,7 @@ static KINDS: &[&StatusKind] = &[
     &model_tables::G_CONNECTOR,
     &forces::F_CONNECTOR,
     &forces::FOUNDATION,
+    &line_angles::LINE_ANGLES,
     &body_status::FORCE,
     &assembly_table::ASSEMBLIES,
     &body_status::STIFFNESS,

@@ -204,6 +204,35 @@ fn connector_forces_match_placed_shape_and_point_to_anchor() {
 }
 
 #[test]
+fn line_angles_match_catenary_with_and_without_uplift() {
+    let table = |x: f64| {
+        let records = stiff("EXACT", 0.0).replace("-ANC 30 0", &format!("-ANC 30 {x}"));
+        run(&records, |_| (), "&STATUS LINE_ANGLES -DISPOSE\nSTORE t\nREPORT\nEND")
+    };
+    // on the bottom the slope at the fairlead is V/H, and the height is s tan(b/2) of a suspended length s
+    let slack = table(closed(3e5, 200.0, 1010.0)[0]);
+    near(slack.column("Azimuth")[0], 30.0, 1e-6);
+    near(slack.column("Declination")[0], 90.0 - (4f64 / 3.0).atan().to_degrees(), 1e-6);
+    near(slack.column("Uplift")[0], 0.0, 1e-6);
+    let below = (90.0 - slack.column("Declination")[0]).to_radians();
+    near((1010.0 - slack.column("Unstretched")[0]) * (0.5 * below).tan(), 200.0, 1e-5);
+    // lifted off the bottom by a slope u at the anchor: h = H/w (sqrt(1 + t^2) - sqrt(1 + u^2)), t = u + w L/H, grows as H falls
+    let u = 5f64.to_radians().tan();
+    let height = |a: f64| a * ((1.0 + (u + 1010.0 / a).powi(2)).sqrt() - (1.0 + u * u).sqrt());
+    let (mut low, mut high) = (1e2, 1e5);
+    for _ in 0..200 {
+        let a: f64 = 0.5 * (low + high);
+        if height(a) > 200.0 { low = a } else { high = a }
+    }
+    let t = u + 1010.0 / low;
+    let taut = table(low * (t.asinh() - u.asinh()));
+    // the strain, 3e-8 here, changes the slopes of a line this taut by some thousand times as much
+    near(taut.column("Uplift")[0], 5.0, 1e-4);
+    near(taut.column("Declination")[0], 90.0 - t.atan().to_degrees(), 1e-4);
+    assert!(taut.text.contains("uplift at the anchor: A; a drag anchor is rated without"), "{}", taut.text);
+}
+
+#[test]
 fn tabulated_connector_forces_are_near_exact_and_marked_tabulated() {
     let x = closed(3e5, 200.0, 1010.0)[0];
     let done = run(&stiff("-TABLE", x), |_| (), "&STATUS F_CONNECTOR");
