@@ -19,7 +19,8 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{self as rod, TensionLaw};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element, LineModel, Placement,
+    StaticLineClass, StaticSeabed, Surroundings,
 };
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
@@ -254,14 +255,24 @@ impl ConnectorClass for CatenaryClass {
         self.depth.or(surroundings.depth)
     }
 
-    fn lies_on_plane(&self) -> bool {
-        true
+    fn first_length(&self) -> Option<f64> {
+        self.sections.first().map(|s| s.length)
     }
 
-    fn is_line(&self) -> bool {
-        true
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        self.line(&connection.placement, connection.surroundings)?.element()
     }
 
+    fn as_line(&self) -> Option<&dyn StaticLineClass> {
+        Some(self)
+    }
+
+    fn as_dynamic_line(&self) -> Option<&dyn DynamicLineClass> {
+        Some(self)
+    }
+}
+
+impl StaticLineClass for CatenaryClass {
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         let [_, _, far] = place.other.ok_or_else(no_other_end)?;
         let count = self.sections.len();
@@ -305,9 +316,15 @@ impl ConnectorClass for CatenaryClass {
         }))
     }
 
+    fn seabed(&self) -> StaticSeabed {
+        StaticSeabed::Plane
+    }
+}
+
+impl DynamicLineClass for CatenaryClass {
     /// Cable dynamics: `rho Ca A` of added mass, `0.5 rho Cd V2 De` across and `0.5 rho Cx V2 De` along, EI, and no maximum tension
     /// [AQWA-CONN 5.8.3.1].
-    fn moving(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
+    fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
         let density = connection.surroundings.water_density;
         if let Some(dry) = self.sections.iter().find(|s| s.area == 0.0) {
             return Err(ClassError::new("cable dynamics needs a section with an area")
@@ -359,9 +376,5 @@ impl ConnectorClass for CatenaryClass {
         let parts = self.sections.iter().map(part).collect();
         let made = description("CATENARY", parts, seabed, [None, None]);
         Ok(Box::new(DynamicLine::build(made, connection)?))
-    }
-
-    fn first_length(&self) -> Option<f64> {
-        self.sections.first().map(|s| s.length)
     }
 }

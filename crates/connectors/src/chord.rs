@@ -1,4 +1,4 @@
-//! A spring along the chord between two ends: a weightless line, or one that also pushes.
+//! A spring along the chord between two ends: a weightless line, or one that also takes compression.
 
 use super::extension::{EndPull, Extended, Extension};
 use super::mooring::{Mooring, no_other_end, too_short, too_short_note};
@@ -17,8 +17,8 @@ pub struct Chord {
     pub line: Mooring,
     /// Springs in series with its segments.
     pub springs: [Option<StretchLaw>; 2],
-    /// Whether it also pushes.
-    pub pushes: bool,
+    /// Whether it also takes compression.
+    pub takes_compression: bool,
     /// Weight in water that it leaves out (N).
     pub left_out: f64,
 }
@@ -54,11 +54,11 @@ impl Chord {
     }
 
     fn force_of(&self, law: &StretchLaw, elongation: f64) -> (f64, f64) {
-        if elongation < 0.0 && !self.pushes {
+        if elongation < 0.0 && !self.takes_compression {
             return (0.0, 0.0);
         }
         if elongation == 0.0 {
-            return (0.0, if self.pushes { 1.0 / law.stretch(0.0).1 } else { 0.0 });
+            return (0.0, if self.takes_compression { 1.0 / law.stretch(0.0).1 } else { 0.0 });
         }
         let start = elongation.abs() / law.stretch(0.0).1;
         let at = |t: f64| {
@@ -187,7 +187,7 @@ impl Extended for ChordElement {
     }
 
     fn compression_onset(&self) -> Option<f64> {
-        self.chord.pushes.then_some(0.0)
+        self.chord.takes_compression.then_some(0.0)
     }
 }
 
@@ -291,7 +291,12 @@ impl LineModel for Chord {
             return Err(ClassError::new("the line has no weight"));
         }
         let line = self.line.with_change(change)?;
-        Ok(Box::new(Chord { line, springs: self.springs.clone(), pushes: self.pushes, left_out: self.left_out }))
+        Ok(Box::new(Chord {
+            line,
+            springs: self.springs.clone(),
+            takes_compression: self.takes_compression,
+            left_out: self.left_out,
+        }))
     }
 
     fn distance(&self, condition: Condition) -> Result<f64, ClassError> {

@@ -8,7 +8,7 @@ use super::tie::TieClass;
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_language::spec::CommandSpec;
-use windlass_model::{ClassRecord, ConnectorClass};
+use windlass_model::{ClassRecord, ClassRole, ConnectorClass};
 
 /// The class type.
 pub static DAVIT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
@@ -22,5 +22,5 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    Ok(Arc::new(TieClass::read(records, "DAVIT")?))
+    Ok(Arc::new(TieClass::read(records, "DAVIT", ClassRole::PipeDavit)?))
 }

@@ -21,8 +21,8 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::Note;
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, ElementResponse,
-    ElementSummary, FenderState, Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, Element,
+    ElementResponse, ElementSummary, FenderState, Situation, SolverCache, Surroundings,
 };
 
 /// The class type.
@@ -231,8 +231,8 @@ impl ConnectorClass for Fender {
         Some(self.height)
     }
 
-    fn is_fender(&self) -> bool {
-        true
+    fn role(&self) -> ClassRole {
+        ClassRole::Fender
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {

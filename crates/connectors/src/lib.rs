@@ -30,6 +30,7 @@ mod gap;
 mod gspr;
 mod h_cat;
 pub mod hook;
+mod line_class;
 mod line_element;
 mod line_profile;
 pub mod line_types;

@@ -15,8 +15,8 @@ use windlass_catenary::{
     table,
 };
 use windlass_model::{
-    AbsentRow, ClassError, Condition, Element, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, Note,
-    Placement, QUASI_STATIC,
+    AbsentRow, ClassError, Condition, Element, FoundLength, Idealisation, LineChange, LineConfiguration, LineLoads,
+    LineModel, Note, Placement,
 };
 
 /// Points inside each segment in a shape table.
@@ -304,7 +304,7 @@ impl LineModel for Mooring {
     fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError> {
         let state = self.state(condition)?;
         let mut out = Table::new(format!("Geometry of Line {connector}"))
-            .fact("Model", QUASI_STATIC, Dim::None)
+            .fact("Model", Idealisation::QuasiStatic, Dim::None)
             .fact("Horizontal Distance", state.x, Dim::Length)
             .fact("Horizontal Force", state.force, Dim::Force)
             .fact("Vertical Force", state.top_vertical, Dim::Force)

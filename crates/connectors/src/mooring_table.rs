@@ -4,7 +4,7 @@ use super::mooring::Mooring;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_catenary::{Buoy, JointState, MissingRow, TableRow};
-use windlass_model::{Note, QUASI_STATIC};
+use windlass_model::{Idealisation, Note};
 
 /// The twelve columns of TABLE [MOSES-RUNS con_d]; a row without a configuration has its force alone.
 pub fn report(mooring: &Mooring, connector: &str, found: &[TableRow], missing: &[MissingRow]) -> Table {
@@ -14,7 +14,7 @@ pub fn report(mooring: &Mooring, connector: &str, found: &[TableRow], missing: &
     let outcomes: Vec<Result<&TableRow, Option<f64>>> =
         rows.iter().enumerate().map(|(index, row)| row.ok_or_else(|| force_of(index + 1))).collect();
     let mut out = Table::new(format!("Properties of Line {connector}"))
-        .fact("Model", QUASI_STATIC, Dim::None)
+        .fact("Model", Idealisation::QuasiStatic, Dim::None)
         .fact("Water Depth", bottom.map(|b| -b), Dim::Length)
         .fact("Fairlead Above Mean Water", mooring.fairlead(), Dim::Length)
         .fact("Length of First Segment", mooring.line.segments().first().map(|s| s.length), Dim::Length)

@@ -11,7 +11,8 @@ use windlass_base::table::Table;
 use windlass_base::values::Given;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, PipeLayout, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element, FatigueSegment,
+    Idealisation, PipeClass, PipeLayout, Surroundings,
 };
 
 /// The class type.
@@ -164,31 +165,43 @@ impl ConnectorClass for RodClass {
         self.sections.first().map(|s| s.length)
     }
 
-    fn adjustable(&self) -> bool {
+    fn has_adjustable_length(&self) -> bool {
         true
     }
 
-    fn moves(&self) -> bool {
-        true
+    fn idealisation(&self) -> Idealisation {
+        Idealisation::Dynamic
     }
 
     fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
         self.seabed.depth.or(surroundings.depth)
     }
 
-    fn slopes(&self) -> bool {
-        self.seabed.slopes()
-    }
-
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         Ok(Box::new(DynamicLine::build(self.description(connection.surroundings), connection)?))
     }
 
-    fn moving(&self, _: &Connection, _: usize) -> Result<Box<dyn Element>, ClassError> {
+    fn as_dynamic_line(&self) -> Option<&dyn DynamicLineClass> {
+        Some(self)
+    }
+
+    fn as_pipe(&self) -> Option<&dyn PipeClass> {
+        Some(self)
+    }
+}
+
+impl DynamicLineClass for RodClass {
+    fn has_sloped_seabed(&self) -> bool {
+        self.seabed.slopes()
+    }
+
+    fn dynamic_line(&self, _: &Connection, _: usize) -> Result<Box<dyn Element>, ClassError> {
         Err(ClassError::new("a ROD is a dynamic line already")
             .help("-REFINE of its class says into how many elements it is cut"))
     }
+}
 
+impl PipeClass for RodClass {
     /// A pipe of the first segment's section, as long as it needs to be.
     fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
         Ok(Box::new(DynamicLine::build_pipe(self.description(layout.surroundings), layout)?))

@@ -14,7 +14,9 @@ use windlass_base::spec::ValueKey;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
+use windlass_model::{
+    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorClass, Element, Surroundings,
+};
 
 /// The class type.
 pub static ROLLER: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
@@ -133,6 +135,10 @@ impl ConnectorClass for Roller {
             table.note("no gaps: no lateral motion, and the pipe cannot go below the roller");
         }
         table
+    }
+
+    fn role(&self) -> ClassRole {
+        ClassRole::PipeRoller
     }
 
     /// Between the node and the point of the pipe that an assembly gives: it asks with `to_ground` false.

@@ -7,7 +7,7 @@ use super::{ClassKind, options as o};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_language::spec::{CommandSpec, OptionSpec, ValueSpec};
-use windlass_model::{ClassRecord, ConnectorClass};
+use windlass_model::{ClassRecord, ClassRole, ConnectorClass};
 
 /// The class type.
 pub static SLING: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
@@ -29,5 +29,5 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    Ok(Arc::new(TieClass::read(records, "SLING")?))
+    Ok(Arc::new(TieClass::read(records, "SLING", ClassRole::Sling)?))
 }

@@ -17,7 +17,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Value};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings,
+    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings,
 };
 
 /// One restrained degree of freedom.
@@ -252,7 +252,7 @@ pub struct Generalized {
     sense: Sense,
     springs: Springs,
     offset: f64,
-    foundation: bool,
+    role: ClassRole,
 }
 
 impl Generalized {
@@ -269,14 +269,14 @@ impl Generalized {
             sense: args.choice(SENSE).unwrap_or(Sense::Both),
             springs: Springs::read(args, args.data_after(SENSE), false)?,
             offset: args.number_if_declared(&o::LEN_OFFSET).unwrap_or(0.0),
-            foundation: false,
+            role: ClassRole::Connector,
         })
     }
 
     /// The same, reported in a FOUNDATION check.
     #[must_use]
     pub fn with_foundation_check(self) -> Self {
-        Generalized { foundation: true, ..self }
+        Generalized { role: ClassRole::Foundation, ..self }
     }
 }
 
@@ -328,8 +328,8 @@ impl ConnectorClass for Generalized {
         Some(self.offset)
     }
 
-    fn foundation(&self) -> bool {
-        self.foundation
+    fn role(&self) -> ClassRole {
+        self.role
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {

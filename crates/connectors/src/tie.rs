@@ -10,8 +10,8 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Note,
-    Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorClass, Element, ElementResponse,
+    ElementSummary, Note, Situation, SolverCache, Surroundings,
 };
 
 /// The force of a tie on its first end, toward the second.
@@ -97,6 +97,7 @@ impl Element for TieForce {
 #[derive(Debug)]
 pub struct TieClass {
     kind: &'static str,
+    role: ClassRole,
     section: Option<LineSection>,
 }
 
@@ -105,9 +106,9 @@ impl TieClass {
     ///
     /// # Errors
     /// No length.
-    pub fn read(records: &[ClassRecord], kind: &'static str) -> Outcome<Self> {
+    pub fn read(records: &[ClassRecord], kind: &'static str, role: ClassRole) -> Outcome<Self> {
         let section = records.last().map(|r| LineSection::read(r, kind, false)).transpose()?;
-        Ok(TieClass { kind, section })
+        Ok(TieClass { kind, role, section })
     }
 }
 
@@ -131,8 +132,12 @@ impl ConnectorClass for TieClass {
         self.section.map(|s| s.length)
     }
 
-    fn adjustable(&self) -> bool {
+    fn has_adjustable_length(&self) -> bool {
         true
+    }
+
+    fn role(&self) -> ClassRole {
+        self.role
     }
 
     /// Between the node and the end that an assembly gives: it asks with `to_ground` false.

@@ -170,7 +170,9 @@ impl Model {
             balance: duty.balance,
             scheme: duty.scheme,
         };
-        Ok(Some(LaidPipe { element: found.pipe(layout)?, supports: held }))
+        let kind = found.kind();
+        let class = found.as_pipe().ok_or_else(|| ClassError::new(format!("a class of type {kind} makes no pipe")))?;
+        Ok(Some(LaidPipe { element: class.pipe(layout)?, supports: held }))
     }
 
     /// Whether a body is the hook of an assembly whose connectors are all inactive: nothing moves it then.

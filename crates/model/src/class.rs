@@ -6,6 +6,7 @@ use super::defaults::Defaults;
 use super::element::{Connection, Element};
 use super::environment::Surroundings;
 use super::fatigue::FatigueSegment;
+use super::idealisation::Idealisation;
 use super::line::{LineModel, Placement};
 use super::tether::TetherSection;
 use crate::options::{C_SN, EI, EMODULUS, FYIELD, IG_STIFF, POI_RAT, TENSTR};
@@ -183,7 +184,25 @@ impl ClassError {
     }
 }
 
-/// What every connector class answers. The forces of a class join this trait with the engine that needs them.
+/// What a class is for beside a force between two points: which tables, checks and assemblies take its connectors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ClassRole {
+    /// Nothing else.
+    #[default]
+    Connector,
+    /// A FOUNDATION check reports it: the ratio and the springs of its summaries [MOSES-FLEX FOUNDATION].
+    Foundation,
+    /// A fender: its summaries have a [`super::FenderState`].
+    Fender,
+    /// A pipe lies on it.
+    PipeRoller,
+    /// A pipe hangs from it.
+    PipeDavit,
+    /// It is a line of a tip-hook set.
+    Sling,
+}
+
+/// What every connector class answers. What only some classes can make are traits of their own, which the accessors `as_..` give.
 pub trait ConnectorClass: Debug + Send + Sync {
     /// The class type, e.g. `B_CAT`.
     fn kind(&self) -> &'static str;
@@ -218,6 +237,22 @@ pub trait ConnectorClass: Debug + Send + Sync {
     /// The properties of the class as `&STATUS CLASS` prints them; one row a segment or degree of freedom.
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table;
 
+    /// What a connector of this class is to an engine.
+    ///
+    /// # Errors
+    /// A class whose connectors an assembly takes care of, or values that make none here.
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError>;
+
+    /// What the class is for beside.
+    fn role(&self) -> ClassRole {
+        ClassRole::Connector
+    }
+
+    /// How its connectors are idealised where `&CONNECTOR -DYNAMICS` says nothing else.
+    fn idealisation(&self) -> Idealisation {
+        if self.as_line().is_some() { Idealisation::QuasiStatic } else { Idealisation::Massless }
+    }
+
     /// What fatigue goes by in each segment, from the fairlead, without curves; none of a class without sections.
     fn fatigue_segments(&self) -> Vec<FatigueSegment> {
         Vec::new()
@@ -233,8 +268,8 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
-    /// Whether `&CONNECTOR` may give its connectors another length though it is no mooring line.
-    fn adjustable(&self) -> bool {
+    /// Whether `&CONNECTOR` may give its connectors another length though it makes no quasi-static line.
+    fn has_adjustable_length(&self) -> bool {
         false
     }
 
@@ -243,18 +278,46 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
-    /// Whether its lines lie on the bathymetry of the environment when they are solved statically.
-    fn follows_bathymetry(&self) -> bool {
-        false
+    /// The class as one of quasi-static lines.
+    fn as_line(&self) -> Option<&dyn StaticLineClass> {
+        None
     }
 
-    /// Whether its lines lie on a plane bottom through their own anchor, where no bathymetry is below them.
-    fn lies_on_plane(&self) -> bool {
-        false
+    /// The class as one of dynamic lines.
+    fn as_dynamic_line(&self) -> Option<&dyn DynamicLineClass> {
+        None
     }
 
-    /// Whether its dynamic lines lie on a plane bottom that the class slopes.
-    fn slopes(&self) -> bool {
+    /// The class as one of pipes.
+    fn as_pipe(&self) -> Option<&dyn PipeClass> {
+        None
+    }
+}
+
+/// The bottom that a quasi-static line lies on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StaticSeabed {
+    /// It sees none.
+    None,
+    /// A plane through its own anchor.
+    Plane,
+    /// The bathymetry of the environment; a plane through its own anchor where there is none below it.
+    Bathymetry,
+}
+
+/// A class of mooring lines that have the shape of rest between their ends.
+pub trait StaticLineClass {
+    /// The line a connector of this class makes between two places.
+    ///
+    /// # Errors
+    /// Values that make none here.
+    fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError>;
+
+    /// The bottom that its lines lie on.
+    fn seabed(&self) -> StaticSeabed;
+
+    /// Whether the forces of its lines are interpolated in a table, not solved: reports name them.
+    fn is_tabulated(&self) -> bool {
         false
     }
 
@@ -262,69 +325,56 @@ pub trait ConnectorClass: Debug + Send + Sync {
     fn series_curve(&self) -> Option<(&str, Span)> {
         None
     }
+}
 
-    /// Whether a FOUNDATION check reports its connectors: the ratio and the springs of their summaries [MOSES-FLEX FOUNDATION].
-    fn foundation(&self) -> bool {
-        false
-    }
-
-    /// Whether the summaries of its connectors have a fender.
-    fn is_fender(&self) -> bool {
-        false
-    }
-
-    /// What a connector of this class is to an engine.
+/// A class of which connectors can be dynamic lines.
+pub trait DynamicLineClass {
+    /// A connector of this class as a dynamic line, cut into about so many elements.
     ///
     /// # Errors
-    /// A class whose connectors an assembly takes care of, or values that make none here.
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
-        if self.is_line() {
-            return self.line(&connection.placement, connection.surroundings)?.element();
-        }
-        Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
-    }
+    /// Values that make no such line.
+    fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError>;
 
-    /// Whether its connectors are dynamic lines, as [`Element::as_dynamic`] says of what they make.
-    fn moves(&self) -> bool {
+    /// Whether its dynamic lines lie on a plane bottom that the class slopes.
+    fn has_sloped_seabed(&self) -> bool {
         false
+    }
+}
+
+/// A class of which an assembly makes a pipe.
+pub trait PipeClass {
+    /// The pipe.
+    ///
+    /// # Errors
+    /// A layout that makes no pipe.
+    fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError>;
+}
+
+impl Class {
+    /// The quasi-static line that a connector of this class makes between two places.
+    ///
+    /// # Errors
+    /// A class that makes none, or values that make none here.
+    pub fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+        if let Some(class) = self.object.as_line() {
+            return class.line(place, surroundings);
+        }
+        let kind = self.object.kind();
+        if self.object.idealisation() == Idealisation::Dynamic {
+            let error = ClassError::new(format!("a line of class type {kind} is a dynamic line: it has no table"));
+            return Err(error.help("MOVE and &CONNECTOR -L_HORIZONTAL and -L_TENSION take it as it is"));
+        }
+        Err(ClassError::new(format!("a connector of class type {kind} is no mooring line")))
     }
 
     /// A connector of this class as a dynamic line, cut into about so many elements.
     ///
     /// # Errors
     /// A class without dynamics of its own, or values that make no such line.
-    fn moving(&self, _: &Connection, _elements: usize) -> Result<Box<dyn Element>, ClassError> {
-        Err(ClassError::new(format!("a connector of class type {} has no dynamics of its own", self.kind())))
-    }
-
-    /// The pipe that a pipe assembly makes of this class.
-    ///
-    /// # Errors
-    /// A class that is no ROD, or a layout that makes no pipe.
-    fn pipe(&self, _: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
-        Err(ClassError::new(format!("a class of type {} makes no pipe: it asks for a ROD", self.kind())))
-    }
-
-    /// Whether [`ConnectorClass::line`] makes lines.
-    fn is_line(&self) -> bool {
-        false
-    }
-
-    /// Whether the forces of its lines are interpolated in a table, not solved: reports name them.
-    fn is_tabulated(&self) -> bool {
-        false
-    }
-
-    /// The line a connector of this class makes between two places.
-    ///
-    /// # Errors
-    /// A class that is no mooring line, or values that make none here.
-    fn line(&self, _: &Placement, _: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        let kind = self.kind();
-        if self.moves() {
-            let error = ClassError::new(format!("a line of class type {kind} is a dynamic line: it has no table"));
-            return Err(error.help("MOVE and &CONNECTOR -L_HORIZONTAL and -L_TENSION take it as it is"));
-        }
-        Err(ClassError::new(format!("a connector of class type {kind} is no mooring line")))
+    pub fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
+        let class = self.object.as_dynamic_line().ok_or_else(|| {
+            ClassError::new(format!("a connector of class type {} has no dynamics of its own", self.object.kind()))
+        })?;
+        class.dynamic_line(connection, elements)
     }
 }

@@ -47,7 +47,10 @@ pub use ambient::{Ambient, Contents, Filling, Flow};
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout, line_name};
 pub use bathymetry::Bathymetry;
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
-pub use class::{Class, ClassError, ClassRecord, ConnectorClass, WallMaterial};
+pub use class::{
+    Class, ClassError, ClassRecord, ClassRole, ConnectorClass, DynamicLineClass, PipeClass, StaticLineClass,
+    StaticSeabed, WallMaterial,
+};
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
@@ -63,7 +66,7 @@ pub use environment::{
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
-pub use idealisation::{DYNAMIC, MASSLESS, QUASI_STATIC, add_model_column};
+pub use idealisation::{Idealisation, add_model_column};
 pub use line::{AbsentRow, Condition, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::EntityKind;
@@ -166,7 +169,8 @@ impl Model {
     /// another depth or a slope.
     pub fn bathymetry_under(&self, connector: &Connector) -> Option<&Arc<Bathymetry>> {
         let class = self.classes.get(&Model::key(&connector.class))?;
-        let on_grid = connector.points.len() < 2 && class.object.follows_bathymetry();
+        let follows = class.object.as_line().is_some_and(|line| line.seabed() == StaticSeabed::Bathymetry);
+        let on_grid = connector.points.len() < 2 && follows;
         let stands_on_it = connector.anchor.is_some_and(|anchor| anchor.elevation.is_none());
         self.bathymetry_in(&self.environment).filter(|_| on_grid && stands_on_it)
     }
@@ -222,8 +226,12 @@ impl Model {
     pub fn interpolated_lines(&self) -> Option<String> {
         let tabulated = |c: &&Connector| {
             c.active
-                && !self.moves(c)
-                && self.classes.get(&Model::key(&c.class)).is_some_and(|k| k.object.is_tabulated())
+                && !self.is_dynamic_line(c)
+                && self
+                    .classes
+                    .get(&Model::key(&c.class))
+                    .and_then(|k| k.object.as_line())
+                    .is_some_and(|k| k.is_tabulated())
         };
         let names: Vec<&str> = self.connectors.values().filter(tabulated).map(|c| c.name.as_str()).collect();
         let shown = list_names(&names);
@@ -232,9 +240,9 @@ impl Model {
     }
 
     /// Whether a connector is a dynamic line: its class does, or `&CONNECTOR -DYNAMICS` says so.
-    pub fn moves(&self, connector: &Connector) -> bool {
+    pub fn is_dynamic_line(&self, connector: &Connector) -> bool {
         let class = self.classes.get(&Model::key(&connector.class));
-        connector.dynamics.is_some() || class.is_some_and(|c| c.object.moves())
+        connector.dynamics.is_some() || class.is_some_and(|c| c.object.idealisation() == Idealisation::Dynamic)
     }
 
     /// The element a connector is to an engine, between its ends as they are, in water and air at rest.
@@ -282,7 +290,7 @@ impl Model {
             duty,
         };
         match connector.dynamics {
-            Some(elements) => class.object.moving(&connection, elements),
+            Some(elements) => class.dynamic_line(&connection, elements),
             None => class.object.element(&connection),
         }
     }
@@ -291,8 +299,9 @@ impl Model {
     pub fn placement(&self, connector: &Connector) -> Placement {
         let class = self.classes.get(&Model::key(&connector.class));
         let depth = self.anchor_depth(connector);
-        let series =
-            class.and_then(|c| c.object.series_curve()).and_then(|(name, _)| self.curves.get(&Model::key(name)));
+        let series = class
+            .and_then(|c| c.object.as_line()?.series_curve())
+            .and_then(|(name, _)| self.curves.get(&Model::key(name)));
         let on_body = |name: &String| self.points.get(&Model::key(name)).is_some_and(|p| self.body_of(p).is_some());
         let far = connector.anchor.and_then(|a| {
             let [x, y] = a.at;

@@ -6,7 +6,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
 use windlass_hydro::low_frequency::dividing_period;
-use windlass_model::{Body, LoadKind, Model, PartLoad, WaveAction, add_model_column, list_names};
+use windlass_model::{Body, Idealisation, LoadKind, Model, PartLoad, WaveAction, add_model_column, list_names};
 
 /// How a run stepped.
 fn scheme(run: &Run) -> String {
@@ -227,7 +227,7 @@ pub fn extremes(run: &Run) -> Vec<Table> {
 }
 
 /// How the connector of a series of tension is idealised.
-fn model_of_series(model: &Model, series: &str) -> Option<&'static str> {
+fn model_of_series(model: &Model, series: &str) -> Option<Idealisation> {
     series.strip_suffix(" Tension").and_then(|name| model.idealisation(name))
 }
 

@@ -174,7 +174,7 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
     let stroke = |active: Stroke| if connector.active { active } else { Stroke::Inactive };
     let grounded = !connector.points.get(1).is_some_and(|p| on_body(model, p));
     let path = |stroke, points| Some(Polyline { stroke, name: connector.name.clone(), points, grounded });
-    if connector.active && model.moves(connector) {
+    if connector.active && model.is_dynamic_line(connector) {
         let [from, to] = model.end_poses(connector).map(|p| Position::from(p.origin));
         return match at_rest(model, connector) {
             Ok(points) => Drawn { path: path(Stroke::Line, points), ..Drawn::default() },
@@ -217,9 +217,9 @@ fn at_rest(model: &Model, connector: &Connector) -> Result<Vec<Position>, SolveE
 
 /// The shape of a mooring line; `None` of a connector that is straight.
 fn solve(model: &Model, connector: &Connector, placement: &Placement) -> Result<Option<Table>, ClassError> {
-    let class = model.classes.get(&Model::key(&connector.class)).filter(|c| c.object.is_line());
+    let class = model.classes.get(&Model::key(&connector.class)).filter(|c| c.object.as_line().is_some());
     let Some(class) = class else { return Ok(None) };
-    let line = class.object.line(placement, &model.surroundings())?;
+    let line = class.line(placement, &model.surroundings())?;
     match line.geometry(&connector.name, Condition::Placed) {
         Ok(table) => Ok(Some(table)),
         // a spring that is pushed together is straight

@@ -10,7 +10,7 @@ use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::{Connector, Environment, Model, find};
+use windlass_model::{Connector, Environment, Model, StaticSeabed, find};
 
 /// -BATHYMETRY.
 pub(crate) const BATHYMETRY: OptionSpec = OptionSpec::new(
@@ -62,10 +62,11 @@ enum PlaneBottomOption {
 /// The plane of its own that a line lies on, if any.
 fn plane_of(model: &Model, connector: &Connector) -> Option<PlaneBottomOption> {
     let class = &model.classes.get(&Model::key(&connector.class))?.object;
-    if model.moves(connector) {
-        return class.slopes().then_some(PlaneBottomOption::Slope);
+    if model.is_dynamic_line(connector) {
+        return class.as_dynamic_line().filter(|c| c.has_sloped_seabed()).map(|_| PlaneBottomOption::Slope);
     }
-    let on_plane = connector.points.len() < 2 && class.lies_on_plane() && model.bathymetry_under(connector).is_none();
+    let has_bottom = class.as_line().is_some_and(|line| line.seabed() != StaticSeabed::None);
+    let on_plane = connector.points.len() < 2 && has_bottom && model.bathymetry_under(connector).is_none();
     on_plane.then_some(PlaneBottomOption::Anchor)
 }
 

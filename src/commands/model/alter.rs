@@ -248,7 +248,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             }
             made.first_length = Some(length);
         }
-        Some(aim) if pulled && model.moves(made) => {
+        Some(aim) if pulled && model.is_dynamic_line(made) => {
             made.first_length = Some(pretension::first_length(model, made, aim).map_err(|e| e.error)?);
         }
         Some(aim) if pulled => {
@@ -284,12 +284,12 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         }
         None => {}
     }
-    if model.moves(made) && lengthened {
+    if model.is_dynamic_line(made) && lengthened {
         // what makes no such line is refused here, not in a run
         model.element(made)?;
     }
     let placed_anew = given.is(&ANCHOR) && old.1.is_some();
-    if model.moves(made) && pulled {
+    if model.is_dynamic_line(made) && pulled {
         // found and proven by the dynamic line itself
         return Ok(describe_change(made, given, old, said));
     }
@@ -318,14 +318,14 @@ fn others(found: &FoundLength, said: &Said) -> String {
 
 /// Whether it has a length though it is no mooring line.
 fn adjustable(model: &Model, connector: &Connector) -> bool {
-    model.classes.get(&Model::key(&connector.class)).is_some_and(|c| c.object.adjustable())
+    model.classes.get(&Model::key(&connector.class)).is_some_and(|c| c.object.has_adjustable_length())
 }
 
 /// The line a connector makes.
 fn line(model: &Model, connector: &Connector) -> Result<Box<dyn LineModel>, ClassError> {
     let class = model.classes.get(&Model::key(&connector.class));
     let class = class.ok_or_else(|| ClassError::new(format!("its class {} is not defined", connector.class)))?;
-    class.object.line(&model.placement(connector), &model.surroundings())
+    class.line(&model.placement(connector), &model.surroundings())
 }
 
 /// Whether a connector goes from the ground to a body.

@@ -12,7 +12,7 @@ use windlass_base::span::Span;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Assembly, AssemblyKind, Body, Connector, Model, find};
+use windlass_model::{Assembly, AssemblyKind, Body, ClassRole, Connector, Model, find};
 
 /// ASSEMBLY.
 pub static ASSEMBLY: Command = Command { spec: &SPEC, edits: true, run };
@@ -145,8 +145,9 @@ pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
 /// A connector that may be of a tip-hook set.
 fn member<'a>(model: &'a Model, name: &str, span: Span) -> Outcome<&'a Connector> {
     let connector = find(&model.connectors, name, "connector", span)?;
-    let kind = model.classes.get(&Model::key(&connector.class)).map_or("", |c| c.object.kind());
-    if kind != "SLING" {
+    let class = model.classes.get(&Model::key(&connector.class)).map(|c| &c.object);
+    if class.is_none_or(|c| c.role() != ClassRole::Sling) {
+        let kind = class.map_or("", |c| c.kind());
         let text = format!("{} is of class type {kind}, and a tip-hook set is of SLINGs", connector.name);
         return Err(Diagnostic::error(text, span).other(connector.span, "defined here"));
     }

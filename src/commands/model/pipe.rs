@@ -9,7 +9,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Assembly, AssemblyKind, Model, PIPE, find};
+use windlass_model::{Assembly, AssemblyKind, ClassRole, Model, PIPE, find};
 
 /// PIPE.
 pub static PIPE_COMMAND: Command = Command { spec: &SPEC, edits: true, run };
@@ -77,7 +77,7 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
             .help(format!("DELETE {PIPE} takes it away")));
     }
     let class = find(&model.classes, args.word(CLASS).unwrap_or_default(), "class", args.place(CLASS))?;
-    if class.object.kind() != "ROD" {
+    if class.object.as_pipe().is_none() {
         let text = format!("{} is of class type {}, and a pipe is a ROD", class.name, class.object.kind());
         return Err(Diagnostic::error(text, args.place(CLASS)));
     }
@@ -85,21 +85,22 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
         return Err(Diagnostic::error(format!("a pipe has at most {MAX_SUPPORTS} supports"), extra.span));
     }
     let (mut supports, mut places): (Vec<String>, Vec<f64>) = (Vec::new(), Vec::new());
-    let mut first = "";
+    let mut first: Option<(&str, ClassRole)> = None;
     for value in args.data_after(CLASS) {
         let span = value.span;
         let connector = find(&model.connectors, value.word().unwrap_or_default(), "connector", span)?;
-        let kind = model.classes.get(&Model::key(&connector.class)).map_or("", |c| c.object.kind());
-        if !matches!(kind, "ROLLER" | "DAVIT") {
+        let class = model.classes.get(&Model::key(&connector.class)).map(|c| &c.object);
+        let (kind, role) = class.map_or(("", ClassRole::Connector), |c| (c.kind(), c.role()));
+        if !matches!(role, ClassRole::PipeRoller | ClassRole::PipeDavit) {
             let text =
                 format!("{} is of class type {kind}, and a pipe lies on ROLLERs or hangs from DAVITs", connector.name);
             return Err(Diagnostic::error(text, span));
         }
-        if !first.is_empty() && kind != first {
+        if let Some((first, _)) = first.filter(|(_, before)| *before != role) {
             let text = format!("{} is a {kind} and those before it are {first}s: they are not mixed", connector.name);
             return Err(Diagnostic::error(text, span));
         }
-        first = kind;
+        first = Some((kind, role));
         if supports.contains(&connector.name) {
             return Err(Diagnostic::error(format!("{} is given twice", connector.name), span));
         }
@@ -118,7 +119,8 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
         supports.push(connector.name.clone());
         places.push(x);
     }
-    if supports.len() < 2 && first == "DAVIT" {
+    let role = first.map_or(ClassRole::Connector, |(_, role)| role);
+    if supports.len() < 2 && role == ClassRole::PipeDavit {
         let text = "a pipe hangs from two davits or more";
         return Err(Diagnostic::error(text, args.place(const { SPEC.word("EL") }))
             .help("a single roller makes a vertical riser of it"));
@@ -128,14 +130,14 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
     };
     let [lower, upper] = const { PIPE_TENSION.numbers(["TLOWER", "TUPPER"]) }.map(|key| given.number(key));
     let lower = lower.unwrap_or(0.0);
-    let upper = match (first, upper) {
-        ("ROLLER", None) => {
+    let upper = match (role, upper) {
+        (ClassRole::PipeRoller, None) => {
             return Err(Diagnostic::error("the tensioner of rollers needs TUPPER of -PIPE_TENSION", given.span));
         }
-        ("ROLLER", Some(upper)) if upper < lower => {
+        (ClassRole::PipeRoller, Some(upper)) if upper < lower => {
             return Err(Diagnostic::error("TUPPER of -PIPE_TENSION is less than TLOWER", given.span));
         }
-        ("ROLLER", upper) => upper,
+        (ClassRole::PipeRoller, upper) => upper,
         _ => None,
     };
     let kind = AssemblyKind::Pipe { class: class.name.clone(), supports, tension: (lower, upper) };

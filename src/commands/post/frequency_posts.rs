@@ -20,7 +20,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun, Value};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{DYNAMIC, EntityKind, Environment, Model, QUASI_STATIC, add_model_column, find};
+use windlass_model::{EntityKind, Environment, Idealisation, Model, add_model_column, find};
 use windlass_solve::frequency::tables::{NamedQuantity, body_statistics, operators, spectra, statistics};
 use windlass_solve::frequency::{
     Derivative, ExtremeKind, FrequencyResponse, LinearQuantity, LinearSystem, ResponseOptions, in_sea,
@@ -131,8 +131,8 @@ fn derivative_name(derivative: Derivative) -> &'static str {
 }
 
 /// How a connector is idealised here: a dynamic line follows the bodies as at rest.
-fn idealisation(model: &Model, name: &str) -> Option<&'static str> {
-    model.idealisation(name).map(|kind| if kind == DYNAMIC { QUASI_STATIC } else { kind })
+fn idealisation(model: &Model, name: &str) -> Option<Idealisation> {
+    model.idealisation(name).map(|kind| if kind == Idealisation::Dynamic { Idealisation::QuasiStatic } else { kind })
 }
 
 /// Opens the disposition menu over a table.

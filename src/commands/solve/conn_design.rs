@@ -154,7 +154,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error(format!("{} of TABLE goes with -VARY", option.name()), option.span)
             .help("GEOMETRY shows a line in one configuration"));
     }
-    let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());
+    let line = class.line(&job.model.placement(connector), &job.model.surroundings());
     let (mut made, absent) = line
         .and_then(|l| l.tabulate(&connector.name))
         .map_err(|e| e.diagnostic(span, job.units).help(format!("while tabulating connector {}", connector.name)))?;
@@ -169,7 +169,7 @@ fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.place(NAMED));
     let (connector, class) = find_connector(job, args)?;
     let (name, condition) = (class.name.clone(), condition(args)?);
-    let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());
+    let line = class.line(&job.model.placement(connector), &job.model.surroundings());
     let made = line
         .and_then(|l| {
             let mut made = l.geometry(&connector.name, condition)?;
@@ -185,7 +185,7 @@ fn properties(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let text = {
         let chosen = NameFilter::new(&call.args.data, &job.model);
         let tables = status::class_tables::classes(job, &|class| {
-            if chosen.chooses_all() { class.object.is_line() } else { chosen.takes(&class.name) }
+            if chosen.chooses_all() { class.object.as_line().is_some() } else { chosen.takes(&class.name) }
         });
         chosen.check("the classes", &tables, &[EntityKind::Class])?;
         if tables.is_empty() {

@@ -181,7 +181,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 /// The scheme where a record says none.
 fn usual(model: &Model) -> Method {
-    if model.connectors.values().any(|c| c.active && (model.moves(c) || model.holds_pipe(&c.name))) {
+    if model.connectors.values().any(|c| c.active && (model.is_dynamic_line(c) || model.holds_pipe(&c.name))) {
         Method::with_moving_lines()
     } else {
         Method::default()

@@ -11,7 +11,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::{Class, ClassError, Condition, Connector, LineChange, LineConfiguration, Placement, QUASI_STATIC};
+use windlass_model::{Class, ClassError, Condition, Connector, Idealisation, LineChange, LineConfiguration, Placement};
 
 /// -VARY.
 pub const VARY: OptionSpec = OptionSpec::new(
@@ -122,7 +122,7 @@ pub fn tabulate(
         let value = value(parameter, given, span, job)?;
         let named = format!("{} {} {unit}", parameter.name(), number_in_full(given));
         let (place, condition) = apply(parameter, value, &place, held);
-        let line = class.object.line(&place, &around);
+        let line = class.line(&place, &around);
         let line = match parameter.change(value) {
             Some(change) => line.and_then(|l| l.with_change(change)),
             None => line,
@@ -196,7 +196,7 @@ fn apply(parameter: Parameter, value: f64, place: &Placement, held: Condition) -
 fn facts(parameter: Parameter, class: &Class, connector: &Connector, place: &Placement, held: Condition) -> Table {
     let [_, _, fairlead] = place.fairlead;
     let title = format!("Line {} with Varied {}", connector.name, parameter.name());
-    let mut table = Table::new(title).fact("Model", QUASI_STATIC, Dim::None);
+    let mut table = Table::new(title).fact("Model", Idealisation::QuasiStatic, Dim::None);
     if parameter != Parameter::Fairlead {
         table = table.fact("Fairlead Above Mean Water", fairlead, Dim::Length);
     }

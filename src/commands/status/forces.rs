@@ -8,7 +8,8 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
-    ClassError, Connector, ElementResponse, ElementSummary, End, Model, Situation, SpringState, add_model_column,
+    ClassError, ClassRole, Connector, ElementResponse, ElementSummary, End, Model, Situation, SpringState,
+    add_model_column,
 };
 use windlass_model::{EntityKind, SolverCache};
 use windlass_solve::results::fender_table;
@@ -110,7 +111,8 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
     let mut notes: Vec<(String, Vec<String>)> = Vec::new();
     let mut largest: Option<(f64, &str)> = None;
     let foundation = |c: &&Connector| {
-        model.classes.get(&Model::key(&c.class)).is_some_and(|class| class.object.foundation()) && fits(&c.name)
+        model.classes.get(&Model::key(&c.class)).is_some_and(|class| class.object.role() == ClassRole::Foundation)
+            && fits(&c.name)
     };
     for connector in model.connectors.values().filter(foundation).filter(|c| c.active) {
         match find_forces(model, connector) {
@@ -168,7 +170,8 @@ pub(crate) fn find_forces(model: &Model, connector: &Connector) -> Result<Connec
     let is_on_body = |name: &String| model.points.get(&Model::key(name)).is_some_and(|p| model.body_of(p).is_some());
     let on_body = connector.points.iter().take(2).position(is_on_body).unwrap_or(0);
     let mut summary = element.summary(&at, &committed)?;
-    let is_line = model.classes.get(&Model::key(&connector.class)).is_some_and(|class| class.object.is_line());
+    let is_line =
+        model.classes.get(&Model::key(&connector.class)).is_some_and(|class| class.object.as_line().is_some());
     if let (1, true, Some(tension)) = (on_body, is_line, &mut summary.tension) {
         // that at the end on the body, as the force; a push is negative
         *tension = force(1).iter().fold(0.0, |size: f64, f| size.hypot(*f)).copysign(*tension);

@@ -36,8 +36,7 @@ fn class_of_10_000_records_is_built_once() {
     assert_eq!(Arc::as_ptr(&class.object).cast::<u8>(), object, "built anew");
     assert_eq!(class.records.len(), 10_000);
     let place = Placement { other: Some([1000.0, 0.0, 0.0]), ..Placement::default() };
-    let LineLoads { fairlead, .. } =
-        class.object.line(&place, &session.job.model.surroundings()).unwrap().loads().unwrap();
+    let LineLoads { fairlead, .. } = class.line(&place, &session.job.model.surroundings()).unwrap().loads().unwrap();
     for (got, want) in fairlead.into_iter().zip([250e3, 0.0, -250e3 * 1f64.sinh()]) {
         assert!((got - want).abs() <= 0.01, "{fairlead:?}");
     }
@@ -71,7 +70,7 @@ fn refused_record_leaves_its_class_unchanged() {
         ("~L B_CAT 100 -LEN 500", "~L B_CAT 80 -FRICTION .5", "B_CAT lacks -LEN"),
         ("~L B_CAT 100 -LEN 500", "~L B_CAT 80 -LEN 9 -PISTON MAX 9 10 20 1 500", "lies beyond its stroke"),
         ("~L H_CAT 100 -LEN 500 -TAB 1E6", "~L H_CAT 80 EXACT -LEN 600 -TAB 2E6", "-TAB_LIM holds for the whole line"),
-        ("~L H_CAT 100 -LEN 500", "~L H_CAT 80 EXACT -LEN 600 -CLUMP -5", "an H_CAT takes no spring buoy"),
+        ("~L H_CAT 100 -LEN 500", "~L H_CAT 80 EXACT -LEN 600 -CLUMP -5", "class type H_CAT takes no spring buoy"),
         ("~L SL_ELEM 100 -LEN 500 -SEND 1E6", "~L SL_ELEM 80 TENSION -LEN 600 -SEND 2E6", "-SEND holds for the whole"),
         ("~L ROD 300 20 -LEN 500 -CLAMP SECOND", "~L ROD 300 20 -LEN 50 -SLAM -EI 0", "its segment does not bend"),
         ("~L ROD 300 20 -LEN 500 -CLAMP FIRST", "~L ROD 300 20 -LEN 50 -CLAMP BOTH", "the first end is held twice"),

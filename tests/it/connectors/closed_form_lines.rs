@@ -300,9 +300,9 @@ fn exactly_the_line_making_classes_are_marked_so() {
         session.run();
         let class = session.job.model.classes.values().next().unwrap();
         let place = Placement { other: Some([9.0, 0.0, -9.0]), ..Placement::default() };
-        let line = class.object.line(&place, &session.job.model.surroundings());
+        let line = class.line(&place, &session.job.model.surroundings());
         let none = line
             .is_err_and(|e| ["is no mooring line", "is a dynamic line"].iter().any(|why| e.to_string().contains(why)));
-        assert_eq!(class.object.is_line(), !none, "{}", kind.spec.name);
+        assert_eq!(class.object.as_line().is_some(), !none, "{}", kind.spec.name);
     }
 }

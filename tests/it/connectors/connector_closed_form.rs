@@ -45,7 +45,7 @@ impl Left {
     fn loads(&self, name: &str) -> LineLoads {
         let connector = self.connector(name);
         let class = &self.model.classes[&connector.class.to_ascii_uppercase()];
-        class.object.line(&self.model.placement(connector), &self.model.surroundings()).unwrap().loads().unwrap()
+        class.line(&self.model.placement(connector), &self.model.surroundings()).unwrap().loads().unwrap()
     }
 
     /// Lines printed about connectors.

@@ -244,7 +244,7 @@ impl Bench {
         let class = model.classes.values().next().unwrap();
         let curve = |name: &str| model.curves.get(&Model::key(name));
         let surroundings = model.surroundings();
-        let to_ground = self.connector.points.len() < 2 && class.object.is_line();
+        let to_ground = self.connector.points.len() < 2 && class.object.as_line().is_some();
         let [fairlead, other] = self.ends.map(|e| e.origin.into());
         let placement =
             Placement { fairlead, other: Some(other), to_ground, anchored: to_ground, ..Placement::default() };
@@ -272,7 +272,7 @@ fn each(mut check: impl FnMut(&Case, &Bench, &dyn Element)) {
         match bench.element() {
             Ok(element) => check(&case, &bench, element.as_ref()),
             Err(error) => {
-                let line = bench.session.job.model.classes.values().next().unwrap().object.is_line();
+                let line = bench.session.job.model.classes.values().next().unwrap().object.as_line().is_some();
                 assert!(line, "{}: {error}", case.records);
             }
         }
@@ -404,7 +404,7 @@ fn stiffness_and_damping_match_wrench_finite_differences() {
             let (middle, _) = ask(element, &surroundings, &ends, dt, &committed);
             let scale = middle.stiffness.iter().fold(0.0, |m: f64, k| m.max(k.amax()));
             // metres or radians: small beside what bends the law, large beside rounding
-            let line = bench.session.job.model.classes.values().all(|c| c.object.is_line());
+            let line = bench.session.job.model.classes.values().all(|c| c.object.as_line().is_some());
             let (h, share) = if line { (1e-4, 1e-5) } else { (1e-6, 2e-6) };
             // an anchor does not move
             let ends_that_move = if line && bench.connector.points.len() < 2 { 0..1 } else { 0..2 };

@@ -23,7 +23,7 @@ fn with<T>(records: &str, place: Placement, ask: impl Fn(&dyn LineModel) -> T) -
     let session = session(records);
     let model = &session.job.model;
     let class = model.classes.values().next_back().unwrap_or_else(|| panic!("{records}: {:?}", session.reports));
-    let line = class.object.line(&place, &model.surroundings()).unwrap_or_else(|e| panic!("{records}: {e}"));
+    let line = class.line(&place, &model.surroundings()).unwrap_or_else(|e| panic!("{records}: {e}"));
     ask(line.as_ref())
 }
 
@@ -427,13 +427,12 @@ fn viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
         let model = &session.job.model;
         let connector = model.connectors.get("S").unwrap_or_else(|| panic!("{:?}", session.reports));
         let class = &model.classes[&connector.class];
-        let line = class.object.line(&model.placement(connector), &model.surroundings()).unwrap();
+        let line = class.line(&model.placement(connector), &model.surroundings()).unwrap();
         near(line.loads().unwrap().tension, 2.0 / (1.0 / k + 1.0 / spring), 1e-10);
     }
     let missing = session("END\nINMODEL\n~L SL_ELEM 100 -LEN 50 -CONVOLUTION NONE");
     let class = &missing.job.model.classes["~L"];
-    let error =
-        class.object.line(&place([0.0; 3], [52.0, 0.0, 0.0], false), &missing.job.model.surroundings()).err().unwrap();
+    let error = class.line(&place([0.0; 3], [52.0, 0.0, 0.0], false), &missing.job.model.surroundings()).err().unwrap();
     assert!(error.to_string().contains("no convolution curve is called NONE"), "{error}");
 }
 

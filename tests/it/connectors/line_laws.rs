@@ -58,7 +58,7 @@ impl Bench {
         let anchored = to_ground;
         let place = Placement { fairlead, other: Some(other), to_ground, anchored, ..Placement::default() };
         let class = model.classes.values().next_back().unwrap();
-        class.object.line(&place, &model.surroundings()).unwrap().loads().unwrap()
+        class.line(&place, &model.surroundings()).unwrap().loads().unwrap()
     }
 }
 
@@ -79,7 +79,7 @@ fn every_line_class_is_tested() {
     for kind in CLASSES {
         let name = kind.spec.name;
         let bench = Bench::new(kind.spec.example.trim_start_matches("MEDIT\n").split("\nEND").next().unwrap());
-        let line = bench.0.job.model.classes.values().next_back().is_some_and(|c| c.object.is_line());
+        let line = bench.0.job.model.classes.values().next_back().is_some_and(|c| c.object.as_line().is_some());
         assert_eq!(line, EXAMPLES.iter().any(|e| e.0 == name), "{name}");
     }
 }

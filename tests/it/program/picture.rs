@@ -53,7 +53,7 @@ fn points_between_shape_rows_are_on_the_line() {
     let (scene, _) = scene(&model);
     let path = scene.paths.iter().find(|p| p.name == "B").unwrap();
     let connector = &model.connectors["B"];
-    let line = model.classes["~W"].object.line(&model.placement(connector), &model.surroundings()).unwrap();
+    let line = model.classes["~W"].line(&model.placement(connector), &model.surroundings()).unwrap();
     let table = line.geometry("B", Condition::Placed).unwrap();
     let force = line.configuration(Condition::Placed).unwrap().horizontal;
     let a = force / 500.0;

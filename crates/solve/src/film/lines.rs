@@ -62,8 +62,8 @@ impl Strand {
         let kept = columns.along.is_some();
         Some(Strand {
             name: connector.name.clone(),
-            line: kept || class.object.is_line(),
-            nodeless: !kept && model.moves(connector),
+            line: kept || class.object.as_line().is_some(),
+            nodeless: !kept && model.is_dynamic_line(connector),
             sections: if kept { sections(model, &connector.name) } else { Vec::new() },
             count: 0,
             points: Vec::new(),
@@ -180,7 +180,7 @@ fn hanging(model: &Model, connector: &Connector, count: usize) -> Result<Option<
     let placement = model.placement(connector);
     let class = model.classes.get(&Model::key(&connector.class));
     let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
-    let line = class.object.line(&placement, &model.surroundings())?;
+    let line = class.line(&placement, &model.surroundings())?;
     match line.geometry(&connector.name, Condition::Placed) {
         Ok(table) => Ok(resample_shape(&table, &placement, count)),
         // a spring that is pushed together is straight

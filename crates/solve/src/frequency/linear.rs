@@ -173,7 +173,7 @@ impl LinearSystem {
 
     /// A remark on the lines whose dynamics are left out.
     fn look_at_lines(&mut self, model: &Model) {
-        let moves = |name: &&str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.moves(c));
+        let moves = |name: &&str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.is_dynamic_line(c));
         let moving: Vec<_> = self.connectors().filter(moves).collect();
         if !moving.is_empty() {
             let text = format!(

@@ -103,7 +103,7 @@ fn tensions(
             let other = placement.other.filter(|_| placement.anchored).or(Some(other));
             let first_length = row.get(active + 1).copied().filter(|l| l.is_finite()).or(placement.first_length);
             let here = Placement { fairlead, other, first_length, ..placement.clone() };
-            let shape = class.object.line(&here, &surroundings)?.geometry(name, Condition::Placed)?;
+            let shape = class.line(&here, &surroundings)?.geometry(name, Condition::Placed)?;
             let numbers = |column: &str| shape.get(column).map(|c| c.cells.as_slice()).unwrap_or_default();
             let mut told = 0;
             for (segment, tension) in numbers("Segment").iter().zip(numbers("Tension")) {

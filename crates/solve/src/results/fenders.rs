@@ -6,7 +6,7 @@ use crate::system::SolveError;
 use crate::time::Run;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::{End, FenderState, Model, Situation};
+use windlass_model::{ClassRole, End, FenderState, Model, Situation};
 
 /// A fender at the stored instant at which it was deflected most.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub fn fender_peaks(run: &Run) -> Result<Vec<FenderPeak>, SolveError> {
     let mut found = Vec::new();
     for connector in model.connectors.values() {
         let class = model.classes.get(&Model::key(&connector.class));
-        if !class.is_some_and(|c| c.object.is_fender()) {
+        if !class.is_some_and(|c| c.object.role() == ClassRole::Fender) {
             continue;
         }
         let element = model.element(connector).map_err(SolveError::error_about(&connector.name))?;

@@ -7,7 +7,7 @@ use crate::time::RunRequirements;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::ambient;
-use windlass_model::{DYNAMIC, DynamicElement, Element, End, LineNode, Model, Situation};
+use windlass_model::{DynamicElement, Element, End, Idealisation, LineNode, Model, Situation};
 
 /// Tells of each dynamic line and whose name fits, between its ends where they stand: its name, its element, how its ends
 /// stand, and its state before anything has happened.
@@ -33,7 +33,9 @@ pub(crate) fn standing(
     for connector in model.connectors.values().filter(|c| c.active && fits(&c.name) && !model.holds_pipe(&c.name)) {
         let element = match model.element_in(connector, Some(&around)) {
             Ok(element) => element,
-            Err(error) if model.moves(connector) => return Err(SolveError::error_about(&connector.name)(error)),
+            Err(error) if model.is_dynamic_line(connector) => {
+                return Err(SolveError::error_about(&connector.name)(error));
+            }
             // what makes no element here reports no nodes; who needs its force says why
             Err(_) => continue,
         };
@@ -51,7 +53,7 @@ pub(crate) fn standing(
 pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
     let mut made = Vec::new();
     // of others nothing is to be said
-    let moves = |name: &str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.moves(c));
+    let moves = |name: &str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.is_dynamic_line(c));
     let told = standing(model, &moves, |name, line, at, _| {
         made.extend(line.static_caution(at).map(|text| (name.to_string(), text)));
         Ok(())
@@ -75,7 +77,7 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
         let finite = |v: f64| v.is_finite().then_some(v + 0.0);
         let mut table = Table::new("Line at Rest")
             .fact("Line", name, Dim::None)
-            .fact("Model", DYNAMIC, Dim::None)
+            .fact("Model", Idealisation::Dynamic, Dim::None)
             .with_rows(&rows)
             .column("", "Node", Dim::None, Digits::Usual, |(index, _)| index + 1)
             .column("", "Arc", Dim::Length, Digits::Usual, |(_, node)| finite(node.arc))

@@ -6,7 +6,7 @@ use crate::system::SolveError;
 use crate::time::NodeRow;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, DYNAMIC};
+use windlass_model::{ClassError, Idealisation};
 use windlass_signal::SeriesError;
 use windlass_signal::line::lrfd::{LrfdFactors, TubeResistance};
 use windlass_signal::line::working_stress::{self, DesignCase};
@@ -165,7 +165,7 @@ fn check_table(line: &LineResults, code: &Code, checked: &[Checked], worst: &[Op
     let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
     let table = Table::new("Unity Checks Along a Line")
         .fact("Line", line.name, Dim::None)
-        .fact("Model", DYNAMIC, Dim::None)
+        .fact("Model", Idealisation::Dynamic, Dim::None)
         .fact("Code", if by_code { code.name() } else { Code::Break.name() }, Dim::None);
     let rows: Vec<(usize, &Worst)> =
         worst.iter().enumerate().filter_map(|(index, found)| Some((index + 1, found.as_ref()?))).collect();

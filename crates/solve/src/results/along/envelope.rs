@@ -6,7 +6,7 @@ use crate::system::SolveError;
 use crate::time::{AlongEnvelope, NodeQuantity};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::DYNAMIC;
+use windlass_model::Idealisation;
 
 /// Quantities reported, with the head of their columns and the sign they have there.
 const ENVELOPE_QUANTITIES: [(&str, &str, NodeQuantity, Dim); 6] = [
@@ -68,7 +68,7 @@ pub fn envelope(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveE
     }
     let mut table = Table::new("Envelope Along a Line")
         .fact("Line", line.name, Dim::None)
-        .fact("Model", DYNAMIC, Dim::None)
+        .fact("Model", Idealisation::Dynamic, Dim::None)
         .with_rows(&rows)
         .column("", "Node", Dim::None, Digits::Usual, |(number, ..)| *number)
         .column("", "Arc", Dim::Length, Digits::Usual, |(_, _, arc, _)| *arc);

@@ -5,7 +5,7 @@ use crate::results::RunEvent;
 use crate::system::SolveError;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, DYNAMIC, FatigueKind, FatigueSelection};
+use windlass_model::{ClassError, FatigueKind, FatigueSelection, Idealisation};
 use windlass_signal::SeriesError;
 use windlass_signal::fatigue::{SnCurve, find, life};
 use windlass_signal::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage};
@@ -53,7 +53,7 @@ pub fn fatigue_table(
     }
     let mut table = Table::new("Fatigue Along a Line")
         .fact("Line", line.name, Dim::None)
-        .fact("Model", DYNAMIC, Dim::None)
+        .fact("Model", Idealisation::Dynamic, Dim::None)
         .fact("Record", records.iter().flatten().map(NodeHistory::length).fold(0.0, f64::max), Dim::Time)
         .fact("Design Fatigue Factor", factor, Dim::None);
     let by = |kind: FatigueKind| curves.iter().any(|c| c.kind == kind);

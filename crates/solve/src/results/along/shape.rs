@@ -6,7 +6,7 @@ use crate::system::SolveError;
 use crate::time::{BentRow, NodeRow};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, DYNAMIC};
+use windlass_model::{ClassError, Idealisation};
 
 /// A place along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,7 @@ pub fn shape(line: &LineResults, event: &RunEvent) -> Result<Table, SolveError> 
         numbered.filter_map(|(number, place)| Some((number, line.columns.node(place, &row)?))).collect();
     let mut table = Table::new("Along a Line at an Instant")
         .fact("Line", line.name, Dim::None)
-        .fact("Model", DYNAMIC, Dim::None)
+        .fact("Model", Idealisation::Dynamic, Dim::None)
         .fact("Time", time, Dim::Time)
         .with_rows(&nodes)
         .column("", "Node", Dim::None, Digits::Usual, |(number, _)| *number)
@@ -111,7 +111,7 @@ pub fn histories(line: &LineResults, wanted: &[Where], events: &[RunEvent]) -> R
         Ok(places.iter().map(node).collect::<Vec<Option<NodeRow>>>())
     })?
     .fact("Line", line.name, Dim::None)
-    .fact("Model", DYNAMIC, Dim::None);
+    .fact("Model", Idealisation::Dynamic, Dim::None);
     for (name, arc) in &arcs {
         table = table.fact(name, *arc, Dim::Length);
     }

@@ -6,7 +6,7 @@ use crate::system::SolveError;
 use crate::time::NodeRow;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::DYNAMIC;
+use windlass_model::Idealisation;
 
 /// The touchdown point over some events, from the first end: the first node on the bottom with its distance and tension, the point
 /// between it and the one before at which the line would begin to lie, and the unstretched length on the bottom.
@@ -31,7 +31,7 @@ pub fn touchdown(line: &LineResults, events: &[RunEvent]) -> Result<Table, Solve
         Ok(Touchdown { node: *number as f64, node_arc, tension, arc, place, grounded: pairs.sum() })
     })?
     .fact("Line", line.name, Dim::None)
-    .fact("Model", DYNAMIC, Dim::None)
+    .fact("Model", Idealisation::Dynamic, Dim::None)
     .column("First Node on Bottom", "Node", Dim::None, Digits::Decimals(0), |t| t.node)
     .columns("First Node on Bottom", ["Node Arc"], Dim::Length, |t| [t.node_arc])
     .columns("First Node on Bottom", ["Tension"], Dim::Force, |t| [t.tension])

@@ -1,0 +1,451 @@
+//! The class of the mooring lines B_CAT, H_CAT and SL_ELEM: segments in series with springs and devices at the ends. What differs
+//! between the three is data of a [`LineClassKind`].
+//!
+//! Which options hold per segment and which per line: [W-PER-LINE].
+
+use super::chord::Chord;
+use super::chord::ChordElement;
+use super::devices::Devices;
+use super::dynamic_line::{self as m, DynamicLine, Flexure, Seabed};
+use super::extension::Extended;
+use super::line_element::LineElement;
+use super::line_profile::LineProfile;
+use super::mooring::{Mooring, end_springs, line_error, no_other_end, parts, with_series};
+use super::per_line::PerLineOptions;
+use super::section::{LineSection, properties};
+use super::{checks, options as o};
+use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::UnitSystem;
+use windlass_base::values::Args;
+use windlass_catenary::{Line, LineError, SeabedModel, StretchLaw};
+use windlass_language::spec::{CommandSpec, OptionSpec};
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element, FatigueSegment,
+    LineModel, Note, Placement, StaticLineClass, StaticSeabed, Surroundings,
+};
+
+/// What -PISTON and -X_DAMPING do, of the help of every class of lines.
+macro_rules! devices_help {
+    () => {
+        "-PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
+         MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
+         stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
+         has slid from LD as far as it must. A table or a shape of the line is at LD. The piston does not feel the dashpot of \
+         -X_DAMPING, which also pushes while the ends come nearer."
+    };
+}
+pub(crate) use devices_help;
+
+/// What is said of the options of dynamic lines, of the help of classes that can be dynamic.
+macro_rules! dynamics_help {
+    () => {
+        "-CD, -CA, -AX_DAMPING and -SEABED act with the line's own dynamics alone: &CONNECTOR -DYNAMICS. "
+    };
+}
+pub(crate) use dynamics_help;
+
+/// The shape of a line at rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineForm {
+    /// A catenary with its weight in water that lies on the bottom.
+    OnBottom,
+    /// A catenary that sees neither bottom nor surface: with its weight in air, or with that of its clumps alone.
+    Hanging {
+        /// Whether its segments have their weight in air.
+        has_weight: bool,
+    },
+    /// A weightless spring along the chord.
+    Chord {
+        /// Whether it also takes compression.
+        takes_compression: bool,
+    },
+}
+
+/// A class type of lines: what distinguishes it from the others.
+pub struct LineClassKind {
+    /// Its record; the name of the record is the type.
+    pub spec: &'static CommandSpec,
+    /// The place of its flag in a record, where given.
+    pub flag: fn(&Args) -> Option<Span>,
+    /// Options that hold for the whole line.
+    pub per_line: &'static [OptionSpec],
+    /// Most points of its connectors that are on bodies.
+    pub max_bodies: usize,
+    /// Whether a negative -CLUMP is a spring buoy; where not it is refused.
+    pub takes_spring_buoys: bool,
+    /// Whether its connectors can be dynamic lines.
+    pub has_dynamics: bool,
+    /// The shape of its lines, by its records so far.
+    pub form: fn(&LineClass) -> LineForm,
+    /// What is always reported of its lines.
+    pub notes: fn(&LineClass) -> Vec<Note>,
+    /// What the writer of the last record should know.
+    pub notices: fn(&LineClass, &Args, UnitSystem, &Surroundings) -> Vec<Diagnostic>,
+    /// Adds its facts to the table of `&STATUS CLASS`.
+    pub add_facts: fn(&LineClass, Table, &Surroundings) -> Table,
+}
+
+impl std::fmt::Debug for LineClassKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.spec.name)
+    }
+}
+
+/// A class of lines.
+#[derive(Debug)]
+pub struct LineClass {
+    kind: &'static LineClassKind,
+    /// Options of the whole line, as its records gave them.
+    pub per_line: PerLineOptions,
+    /// Its segments from the fairlead.
+    pub sections: Vec<LineSection>,
+    /// What a dynamic line needs of them beside, of a kind that has dynamics.
+    flexures: Vec<Flexure>,
+    /// The record of each segment, or its -CLUMP.
+    places: Vec<Span>,
+    /// The first flag.
+    pub flag: Option<Span>,
+    /// The first -TABLE: forces are interpolated.
+    tabulated: Option<Span>,
+    seabed: Seabed,
+    springs: [Option<StretchLaw>; 2],
+    devices: Devices,
+}
+
+impl LineClass {
+    /// A class of its records.
+    ///
+    /// # Errors
+    /// As [`ConnectorClass::append`].
+    pub fn build(kind: &'static LineClassKind, records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+        let mut class = LineClass {
+            kind,
+            per_line: PerLineOptions::default(),
+            sections: Vec::new(),
+            flexures: Vec::new(),
+            places: Vec::new(),
+            flag: None,
+            tabulated: None,
+            seabed: Seabed::default(),
+            springs: [None, None],
+            devices: Devices::default(),
+        };
+        for record in records {
+            class.append(record)?;
+        }
+        Ok(Arc::new(class))
+    }
+
+    fn name(&self) -> &'static str {
+        self.kind.spec.name
+    }
+
+    fn form(&self) -> LineForm {
+        (self.kind.form)(self)
+    }
+
+    /// Whether its lines lie on the bottom.
+    fn is_on_bottom(&self) -> bool {
+        self.form() == LineForm::OnBottom
+    }
+
+    /// -DEPANCHOR (m).
+    pub fn depth(&self) -> Option<f64> {
+        self.per_line.number(&o::DEPANCHOR)
+    }
+
+    /// -SLOPE.
+    pub fn slope(&self) -> Option<f64> {
+        self.per_line.number(&o::SLOPE)
+    }
+
+    /// -FRICTION.
+    pub fn friction(&self) -> f64 {
+        self.per_line.number(&o::FRICTION).unwrap_or(0.0)
+    }
+
+    /// Largest horizontal force of its table (N): -TAB_LIM, else the largest break.
+    pub fn table_limit(&self) -> Option<f64> {
+        let largest = || self.sections.iter().map(|s| s.breaking).reduce(f64::max);
+        self.per_line.number(&o::TAB_LIM).or_else(largest)
+    }
+
+    /// The line with these springs at its ends.
+    fn mooring(
+        &self,
+        place: &Placement,
+        surroundings: &Surroundings,
+        springs: &[Option<StretchLaw>; 2],
+    ) -> Result<Mooring, ClassError> {
+        let mut made = match self.form() {
+            LineForm::OnBottom => self.on_bottom(place, surroundings, springs)?,
+            LineForm::Hanging { has_weight } => {
+                let weight = |s: &LineSection| if has_weight { s.in_air() } else { 0.0 };
+                self.hanging(&self.sections, weight, place, surroundings, springs)?
+            }
+            LineForm::Chord { .. } => {
+                let straight: Vec<LineSection> =
+                    self.sections.iter().map(|s| LineSection { clump: 0.0, ..*s }).collect();
+                self.hanging(&straight, |_| 0.0, place, surroundings, springs)?
+            }
+        };
+        made.notes.splice(0..0, (self.kind.notes)(self));
+        Ok(made)
+    }
+
+    /// What a line is reported by, whatever its shape.
+    fn moored(&self, line: Line, place: &Placement, surroundings: &Surroundings) -> Mooring {
+        Mooring {
+            line,
+            breaks: self.sections.iter().map(|s| s.breaking).collect(),
+            breaks_given: self.sections.iter().map(|s| s.break_is_given).collect(),
+            largest: self.table_limit().unwrap_or(0.0),
+            tabulated: self.is_tabulated(),
+            profile: None,
+            place: place.clone(),
+            surface: surroundings.tide,
+            bottom: surroundings.depth.map(|d| -d),
+            places: self.places.clone(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// A line that sees neither bottom nor surface.
+    fn hanging(
+        &self,
+        sections: &[LineSection],
+        weight: impl Fn(&LineSection) -> f64,
+        place: &Placement,
+        surroundings: &Surroundings,
+        springs: &[Option<StretchLaw>; 2],
+    ) -> Result<Mooring, ClassError> {
+        let [_, _, far] = place.other.ok_or_else(no_other_end)?;
+        let (segments, joints) = parts(sections, place, weight);
+        let line = Line::new(segments, joints, far, surroundings.tide)
+            .and_then(|l| l.with_seabed(None))
+            .and_then(|l| l.with_springs(springs.clone()))
+            .map_err(|e| line_error(&e, &self.places))?;
+        Ok(self.moored(line, place, surroundings))
+    }
+
+    /// A line on the bottom, which is a plane through its anchor or the profile of the bathymetry along its azimuth.
+    fn on_bottom(
+        &self,
+        place: &Placement,
+        surroundings: &Surroundings,
+        springs: &[Option<StretchLaw>; 2],
+    ) -> Result<Mooring, ClassError> {
+        let unknown = || {
+            ClassError::new("the depth at the anchor is not known")
+                .help("give -DEPANCHOR on the class, or -DEPTH on &ENV")
+        };
+        let depth = match place.other {
+            Some([_, _, anchor]) if place.to_ground => -anchor,
+            _ => self.anchor_depth(surroundings).ok_or_else(unknown)?,
+        };
+        let error = |e: LineError| line_error(&e, &self.places);
+        let (segments, joints) = parts(&self.sections, place, |s| s.submerged_weight(surroundings));
+        let slope = self.slope().unwrap_or(0.0);
+        let floor = SeabedModel { elevation: -depth, slope, friction: self.friction() };
+        let (distance, azimuth) = place.span();
+        let length = segments.iter().map(|s| s.length).sum::<f64>().max(distance);
+        let profile = place
+            .bathymetry
+            .as_ref()
+            .zip(place.other)
+            .map(|(grid, [x, y, _])| LineProfile::new(grid, [x, y], azimuth, length, self.friction()));
+        let line = Line::new(segments, joints, -depth, surroundings.tide)
+            .and_then(|l| match &profile {
+                Some(profile) => profile.lay(l),
+                None => l.with_seabed(Some(floor)),
+            })
+            .and_then(|l| l.with_springs(springs.clone()))
+            .map_err(error)?;
+        if depth <= -surroundings.tide {
+            return Err(ClassError::new("the anchor lies above the water surface").help("check -DEPANCHOR and -ANCHOR"));
+        }
+        let [_, _, fairlead] = place.fairlead;
+        let flat = slope == 0.0 && profile.is_none();
+        if flat && fairlead < -depth {
+            return Err(
+                ClassError::new("the fairlead lies below the anchor's depth").help("check &INSTATE and -DEPANCHOR")
+            );
+        }
+        let mut made = Mooring { bottom: Some(-depth), ..self.moored(line, place, surroundings) };
+        if let Some(known) = surroundings.depth.filter(|d| (d - depth).abs() > 0.2 * d.max(depth) && flat) {
+            let share = depth / known;
+            made.notes.push(Note::warning(format!("the depth of the anchor is {share:.2} of the depth of &ENV")));
+        }
+        if let Some(coarse) = profile.as_ref().map(LineProfile::coarseness).filter(|c| *c > 1.0) {
+            made.notes.push(Note::warning(format!(
+                "the profile under the line has {coarse:.1} times the spacing of the bathymetry"
+            )));
+        }
+        made.profile = profile;
+        Ok(made)
+    }
+
+    /// The line as a spring along its chord.
+    fn chord(
+        &self,
+        (line, springs): (Mooring, [Option<StretchLaw>; 2]),
+        takes_compression: bool,
+        surroundings: &Surroundings,
+    ) -> Chord {
+        let left_out = self.sections.iter().map(|s| s.submerged_weight(surroundings) * s.length).sum();
+        Chord { line, springs, takes_compression, left_out }
+    }
+}
+
+impl ConnectorClass for LineClass {
+    fn kind(&self) -> &'static str {
+        self.name()
+    }
+
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        let (args, kind) = (&record.args, self.kind);
+        if !kind.takes_spring_buoys {
+            refuse_spring_buoy(args, kind.spec.name)?;
+        }
+        let section = LineSection::read(record, kind.spec.name, false)?;
+        self.per_line.check(args, kind.per_line)?;
+        let tabulated = self.tabulated.or(args.option_if_declared(&o::TABLE).map(|given| given.span));
+        let flag = self.flag.or((kind.flag)(args));
+        if let (Some(table), Some(flag)) = (tabulated, flag) {
+            return Err(Diagnostic::error("EXACT and -TABLE contradict each other", table)
+                .other(flag, "solved exactly")
+                .help("leave one of them out; without both the line is solved exactly"));
+        }
+        if kind.has_dynamics {
+            // nothing is refused behind this
+            self.flexures.push(Flexure::read(record, &section)?);
+        }
+        self.sections.push(section);
+        self.places.push(args.option(&o::CLUMP).map_or(args.span, |clump| clump.span));
+        (self.tabulated, self.flag) = (tabulated, flag);
+        if self.per_line.take(args, kind.per_line) {
+            self.seabed = m::parse_seabed(&self.per_line);
+            self.springs = end_springs(&self.per_line);
+            self.devices = Devices::read(&self.per_line);
+        }
+        Ok(())
+    }
+
+    fn check(&self) -> Outcome<()> {
+        if let (Some(last), Some(place)) = (self.sections.last(), self.places.last())
+            && last.clump < 0.0
+        {
+            return Err(Diagnostic::error("a spring buoy cannot be part of the last segment", *place)
+                .label("this segment is attached to ground")
+                .help("add the next segment with the same class name, or make CW positive"));
+        }
+        Ok(())
+    }
+
+    fn notices(&self, last: &Args, units: UnitSystem, around: &Surroundings) -> Vec<Diagnostic> {
+        (self.kind.notices)(self, last, units, around)
+    }
+
+    fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
+        checks::ends(self.name(), connector, bodies, 2, self.kind.max_bodies)
+    }
+
+    fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
+        let table = properties(name, self.name(), &self.sections, surroundings);
+        (self.kind.add_facts)(self, table, surroundings)
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        if self.devices.is_none() {
+            return self.line(&connection.placement, connection.surroundings)?.element();
+        }
+        let around = connection.surroundings;
+        let line = self.mooring(&connection.placement, around, &self.springs)?;
+        let line: Box<dyn Extended> = match self.form() {
+            LineForm::Chord { takes_compression } => {
+                let made = (line, self.springs.clone());
+                Box::new(ChordElement::new(self.chord(made, takes_compression, around))?)
+            }
+            LineForm::OnBottom | LineForm::Hanging { .. } => Box::new(LineElement::new(line)?),
+        };
+        self.devices.element(connection, line)
+    }
+
+    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        self.sections.iter().map(LineSection::fatigue).collect()
+    }
+
+    fn first_length(&self) -> Option<f64> {
+        self.sections.first().map(|s| s.length)
+    }
+
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
+        self.depth().or(surroundings.depth)
+    }
+
+    fn as_line(&self) -> Option<&dyn StaticLineClass> {
+        Some(self)
+    }
+
+    fn as_dynamic_line(&self) -> Option<&dyn DynamicLineClass> {
+        self.kind.has_dynamics.then_some(self)
+    }
+}
+
+impl StaticLineClass for LineClass {
+    fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+        let springs = with_series(&self.springs, self.devices.convolution.as_ref(), place)?;
+        let mut line = self.mooring(place, surroundings, &springs)?;
+        line.notes.extend(self.devices.notes());
+        Ok(match self.form() {
+            LineForm::Chord { takes_compression } => {
+                Box::new(self.chord((line, springs), takes_compression, surroundings))
+            }
+            LineForm::OnBottom | LineForm::Hanging { .. } => Box::new(line),
+        })
+    }
+
+    fn seabed(&self) -> StaticSeabed {
+        match (self.depth(), self.slope()) {
+            _ if !self.is_on_bottom() => StaticSeabed::None,
+            (None, None) => StaticSeabed::Bathymetry,
+            _ => StaticSeabed::Plane,
+        }
+    }
+
+    fn is_tabulated(&self) -> bool {
+        self.tabulated.is_some()
+    }
+
+    fn series_curve(&self) -> Option<(&str, Span)> {
+        self.devices.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
+    }
+}
+
+impl DynamicLineClass for LineClass {
+    fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
+        let plain = self.devices.is_none() && self.springs.iter().all(Option::is_none);
+        let made = (self.sections.as_slice(), self.flexures.as_slice());
+        let seabed = Seabed { with_anchor: self.is_on_bottom(), ..self.seabed };
+        let made = m::chain((self.name(), plain), made, seabed, elements, connection.surroundings)?;
+        Ok(Box::new(DynamicLine::build(made, connection)?))
+    }
+
+    fn has_sloped_seabed(&self) -> bool {
+        self.seabed.slopes()
+    }
+}
+
+/// Refuses a negative -CLUMP.
+fn refuse_spring_buoy(args: &Args, kind: &str) -> Outcome<()> {
+    let weight = |clump: &windlass_base::values::Given| clump.number(const { o::CLUMP.number("CW") });
+    match args.option(&o::CLUMP).filter(|clump| weight(clump).is_some_and(|w| w < 0.0)) {
+        Some(clump) => {
+            Err(Diagnostic::error(format!("class type {kind} takes no spring buoy"), clump.span).help("use B_CAT"))
+        }
+        None => Ok(()),
+    }
+}
