@@ -244,7 +244,7 @@ impl ConnectorClass for Fender {
         let other_turn = euler * axes_along(&-self.normal);
         let [first, second] = connection.connector.defined;
         let turn = second.axes.transpose() * first.axes * other_turn;
-        let spring = SpringGroup { dofs: vec![0], elastic: Elastic::of_curve(&self.curve), viscous: None };
+        let spring = SpringGroup { dofs: vec![0], elastic: Elastic::from_curve(&self.curve), viscous: None };
         let law = ZeroLaw {
             sense: Sense::Compression,
             contact: ContactGeometry::Whole,
@@ -293,22 +293,23 @@ impl Element for FenderGeometry {
     }
 
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
-        let mut told = self.spring.summary(at, committed)?;
-        let deflection = told.springs.first().map_or(0.0, |s| (-s.deflection).max(0.0));
-        told.springs.clear();
+        let mut summary = self.spring.summary(at, committed)?;
+        let deflection = summary.springs.first().map_or(0.0, |s| (-s.deflection).max(0.0));
+        summary.springs.clear();
         let (reaction, energy) = reaction_and_energy(&self.curve, deflection);
         let rated_energy = reaction_and_energy(&self.curve, self.rated).1;
         if deflection > self.height {
-            told.notes.push(Note::warning(
+            summary.notes.push(Note::warning(
                 "the face stands behind the base of the fender: it is crushed, or its normal points away from the face",
             ));
         } else if deflection > self.rated {
             let share = 100.0 * deflection / self.rated;
-            told.notes
+            summary
+                .notes
                 .push(Note::warning(format!("deflected to {share:.0} per cent of the rated deflection of the fender")));
         }
-        told.fender = Some(FenderState { deflection, rated: self.rated, reaction, energy, rated_energy });
-        Ok(told)
+        summary.fender = Some(FenderState { deflection, rated: self.rated, reaction, energy, rated_energy });
+        Ok(summary)
     }
 }
 

@@ -146,14 +146,14 @@ impl Mooring {
             (high.x, high.z)
         };
         let ((low_x, low), (high_x, high)) = (extreme(-1.0), extreme(1.0));
-        let told = |by: f64, what: &str, x: f64| {
+        let note = |by: f64, what: &str, x: f64| {
             let text = format!("the line passes up to {{}} {what}, {{}} beside its first end, which it does not see");
             Note::warning(Message::with_values(text, &[(by, Dim::Length), (x, Dim::Length)]))
         };
         let below = self.bottom.map(|bottom| bottom - low).filter(|by| *by > rounding);
         let above = Some(high - self.surface).filter(|by| *by > rounding && low < self.surface - rounding);
-        let below = below.map(|by| told(by, "below the sea bottom", low_x));
-        below.into_iter().chain(above.map(|by| told(by, "above the water surface", high_x))).collect()
+        let below = below.map(|by| note(by, "below the sea bottom", low_x));
+        below.into_iter().chain(above.map(|by| note(by, "above the water surface", high_x))).collect()
     }
 
     /// The rows of its table, and those without a configuration.

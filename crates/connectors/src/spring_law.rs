@@ -47,7 +47,7 @@ impl Elastic {
     }
 
     /// A force by its own points (force, deflection): deflections grow, forces may fall; the origin is passed over.
-    pub fn of_curve(curve: &[(f64, f64)]) -> Self {
+    pub fn from_curve(curve: &[(f64, f64)]) -> Self {
         Elastic { points: curve.iter().copied().filter(|(_, y)| *y > 0.0).collect() }
     }
 

@@ -171,7 +171,7 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
         }
         let rest = sum.loads.split_off(first);
         sum.loads.extend(rest.into_iter().map(|load| {
-            let factor = model.multipliers.of(load.category().name(), &part.name);
+            let factor = model.multipliers.factor(load.category().name(), &part.name);
             if factor == 1.0 { load } else { Box::new(ScaledLoad { load, factor }) }
         }));
     }

@@ -95,7 +95,7 @@ pub fn of(model: &Model, body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<W
     for part in model.parts_of(body) {
         for piece in part.pieces.iter().filter(|p| p.waves == WaveAction::Pressure && p.permeability != 0.0) {
             let Some(surface) = skin(part, piece)? else { continue };
-            let factor = piece.permeability * model.multipliers.of(Category::Wave.name(), &part.name);
+            let factor = piece.permeability * model.multipliers.factor(Category::Wave.name(), &part.name);
             surfaces.push((factor, surface));
         }
     }

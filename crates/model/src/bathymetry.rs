@@ -68,7 +68,7 @@ impl Bathymetry {
     ///
     /// # Errors
     /// Points that make no grid: a place without a height or with two, and as [`Bathymetry::new`].
-    pub fn of_points(name: &str, mut given: Vec<[f64; 3]>, span: Span) -> Result<Self, ClassError> {
+    pub fn from_points(name: &str, mut given: Vec<[f64; 3]>, span: Span) -> Result<Self, ClassError> {
         if given.iter().flatten().any(|v| !v.is_finite()) {
             return Err(ClassError::new("a place of the bottom is no number").with_span(span));
         }
@@ -87,8 +87,8 @@ impl Bathymetry {
             [a, b] if a[0] == b[0] && a[1] == b[1] => Some([a, b]),
             _ => None,
         }) {
-            let told = [length(a[0]), length(a[1]), length(a[2]), length(b[2])];
-            return Err(ClassError::with_values("the bottom at x = {}, y = {} is given twice: {} and {}", &told)
+            let values = [length(a[0]), length(a[1]), length(a[2]), length(b[2])];
+            return Err(ClassError::with_values("the bottom at x = {}, y = {} is given twice: {} and {}", &values)
                 .with_span(span));
         }
         let wanted = x.len().saturating_mul(y.len());
@@ -102,11 +102,11 @@ impl Bathymetry {
             let there = given.iter().map(Some).chain(std::iter::repeat(None));
             let missing = |((x, y), p): &((f64, f64), Option<&[f64; 3]>)| p.is_none_or(|p| p[0] != *x || p[1] != *y);
             if let Some(((x, y), _)) = places.zip(there).find(missing) {
-                let told = ClassError::with_values(
+                let further = ClassError::with_values(
                     "the first place without a height is x = {}, y = {}",
                     &[length(x), length(y)],
                 );
-                error.message = error.message.then("; ").then(told.message);
+                error.message = error.message.then("; ").then(further.message);
             }
             return Err(error.with_span(span).help("every x has a point at every y"));
         }
@@ -199,7 +199,9 @@ fn grows(places: &[f64], what: &str) -> Result<(), ClassError> {
         _ => None,
     });
     match wrong {
-        Some(told) => Err(ClassError::with_values(format!("{what} of the bottom must grow: {{}} follows {{}}"), &told)),
+        Some(values) => {
+            Err(ClassError::with_values(format!("{what} of the bottom must grow: {{}} follows {{}}"), &values))
+        }
         None => Ok(()),
     }
 }

@@ -96,7 +96,7 @@ pub struct Multipliers {
 
 impl Multipliers {
     /// The multiplier of a category of loads on a part; one where none was given.
-    pub fn of(&self, category: &str, part: &str) -> f64 {
+    pub fn factor(&self, category: &str, part: &str) -> f64 {
         let one = |table: &IndexMap<String, f64>, name: &str| table.get(name).copied().unwrap_or(1.0);
         one(&self.categories, category) * one(&self.parts, &part.to_ascii_uppercase())
     }

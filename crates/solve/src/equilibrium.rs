@@ -212,9 +212,9 @@ fn failure(system: &System, state: &SystemState, unknowns: &Unknowns, at: usize,
         }
     }
     acting.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
-    let told: Vec<String> = acting.iter().take(3).map(|(_, who)| format!("{who} {{}}")).collect();
+    let largest: Vec<String> = acting.iter().take(3).map(|(_, who)| format!("{who} {{}}")).collect();
     values.extend(acting.iter().take(3).map(|(value, _)| (*value, dim)));
-    let told = if told.is_empty() { "nothing acts on it".to_string() } else { told.join(", ") };
+    let largest = if largest.is_empty() { "nothing acts on it".to_string() } else { largest.join(", ") };
     let mut free = loose(system, unknowns, state).unwrap_or_default();
     // nor does what holds so little that the body would go a mile
     let held = unknowns.stiffness(state)[(at, at)];
@@ -223,11 +223,11 @@ fn failure(system: &System, state: &SystemState, unknowns: &Unknowns, at: usize,
     }
     let error = match free.iter().filter(|(who, _)| *who == name).map(|(_, f)| f.as_str()).collect::<Vec<_>>() {
         list if list.contains(&word) => {
-            ClassError::with_values(format!("nothing holds it in {word}, and {{}} is left there: {told}"), &values)
+            ClassError::with_values(format!("nothing holds it in {word}, and {{}} is left there: {largest}"), &values)
                 .help(format!("moor it, or leave the degree of freedom out: -IGNORE {name} {word}"))
         }
         _ => ClassError::with_values(
-            format!("no equilibrium in {} steps: {{}} is left in {word}: {told}", options.most),
+            format!("no equilibrium in {} steps: {{}} is left in {word}: {largest}", options.most),
             &values,
         )
         .help("-ITER_MAX allows more steps; &INSTATE begins nearer; nothing has been moved"),

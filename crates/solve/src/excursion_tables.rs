@@ -90,12 +90,12 @@ fn degrees(angle: f64) -> String {
 
 /// How a path ended, as a note.
 fn note(end: &ExcursionEnd, names: &[String], at: f64, units: UnitSystem) -> Option<String> {
-    let told = |dim: Dim, value: f64| format!("{:.2} {}", dim.from_si(value, units), dim.label(units));
+    let with_unit = |dim: Dim, value: f64| format!("{:.2} {}", dim.from_si(value, units), dim.label(units));
     match end {
         ExcursionEnd::Breaks(line) => {
             let name = names.get(*line).map_or("", String::as_str);
             Some(if at > 0.0 {
-                format!("line {name} breaks at an excursion of {}", told(Dim::Length, at))
+                format!("line {name} breaks at an excursion of {}", with_unit(Dim::Length, at))
             } else {
                 format!("warning: line {name} is beyond its breaking tension where the body is")
             })
@@ -103,7 +103,7 @@ fn note(end: &ExcursionEnd, names: &[String], at: f64, units: UnitSystem) -> Opt
         ExcursionEnd::Most => None,
         ExcursionEnd::Lost(SolveError { who, error }) => {
             let who = who.as_deref().map_or(String::new(), |w| format!("{w}: "));
-            let at = told(Dim::Length, at);
+            let at = with_unit(Dim::Length, at);
             Some(format!("warning: the table ends at an excursion of {at}: farther on {who}{}", error.text(units)))
         }
     }

@@ -16,9 +16,9 @@ use windlass_base::pose::{Pose, Six};
 
 /// Deflection (m, rad) that the force held in a tie may leave unexplained at rest.
 const TIE_TOLERANCE: f64 = 1e-6;
-/// Bold steps that may lead nowhere better.
+/// Non-monotone steps in a row without a better place.
 const MAX_NONMONOTONE_STEPS: usize = 5;
-/// Short steps in a row after which a search is bold, for the first time; twice as many each further time.
+/// Short steps in a row after which non-monotone steps are tried, for the first time; twice as many each further time.
 const SHORT_STEPS_BEFORE_NONMONOTONE: usize = 3;
 /// Share of a step that is short.
 const SHORT_STEP_SHARE: f64 = 0.2;
@@ -26,7 +26,8 @@ const SHORT_STEP_SHARE: f64 = 0.2;
 const MAX_LINE_SEARCH_TRIALS: usize = 14;
 /// Most times a trial place without an answer is brought nearer: by then the step is a trillionth of its length.
 const MAX_RETREATS: usize = 40;
-/// Steps in a row without a place that has an answer, each with ten times the help of the one before, after which there is none.
+/// Steps in a row without a place that has an answer, each with ten times the regularisation of the one before, after which the
+/// search fails.
 const MAX_BLOCKED_STEPS: usize = 6;
 
 /// Where bodies are, and the forces of stiff ties there.
@@ -48,6 +49,16 @@ impl Stand {
     }
 }
 
+/// Steps that may leave more than the one before.
+struct NonMonotoneSteps {
+    /// The place where they began, or the better one that they found.
+    best: Stand,
+    /// What is left there, over what is tolerated.
+    left: f64,
+    /// Steps since.
+    since: usize,
+}
+
 /// A search on its way.
 pub(super) struct EquilibriumSearch<'a> {
     pub system: &'a System,
@@ -55,12 +66,14 @@ pub(super) struct EquilibriumSearch<'a> {
     /// The bodies that it brings to rest; all where there is none.
     part: Option<&'a BodySubset>,
     pub evaluations: usize,
-    /// Share of the inertia added to the stiffness (1/s2).
-    help: f64,
-    /// Short steps in a row, and how many make the search bold.
-    slow: [usize; 2],
-    /// The place bold steps began at or the better one they found, what was left there, and the steps since.
-    bold: Option<(Stand, f64, usize)>,
+    /// Regularisation: share of the inertia added to the stiffness (1/s2).
+    regularisation: f64,
+    /// Short steps in a row.
+    short_steps: usize,
+    /// Short steps in a row after which non-monotone steps are tried.
+    max_short_steps: usize,
+    /// Non-monotone steps, where they are tried.
+    non_monotone: Option<NonMonotoneSteps>,
     /// Steps in a row without a place that has an answer.
     blocked: usize,
 }
@@ -72,9 +85,10 @@ impl<'a> EquilibriumSearch<'a> {
             options,
             part,
             evaluations: 0,
-            help: 0.0,
-            slow: [0, SHORT_STEPS_BEFORE_NONMONOTONE],
-            bold: None,
+            regularisation: 0.0,
+            short_steps: 0,
+            max_short_steps: SHORT_STEPS_BEFORE_NONMONOTONE,
+            non_monotone: None,
             blocked: 0,
         }
     }
@@ -94,22 +108,21 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// Goes on from a place where `worst` is left: a step, or back to a better place.
     pub fn advance(&mut self, unknowns: &Unknowns, state: &mut SystemState, worst: f64) -> Result<(), SolveError> {
-        if let Some((stand, least, since)) = &mut self.bold {
-            if worst < *least {
-                (*least, *since) = (worst, 0);
-                *stand = Stand::from_state(state);
+        if let Some(steps) = &mut self.non_monotone {
+            if worst < steps.left {
+                *steps = NonMonotoneSteps { best: Stand::from_state(state), left: worst, since: 0 };
             } else {
-                *since += 1;
+                steps.since += 1;
             }
-            if *since > MAX_NONMONOTONE_STEPS {
-                stand.clone().restore(state);
-                self.bold = None;
-                self.slow = [0, self.slow[1].saturating_mul(2)];
-                self.help = 0.0;
+            if steps.since > MAX_NONMONOTONE_STEPS {
+                steps.best.clone().restore(state);
+                self.non_monotone = None;
+                (self.short_steps, self.max_short_steps) = (0, self.max_short_steps.saturating_mul(2));
+                self.regularisation = 0.0;
                 return self.evaluate(state);
             }
-        } else if self.slow[0] >= self.slow[1] {
-            self.bold = Some((Stand::from_state(state), worst, 0));
+        } else if self.short_steps >= self.max_short_steps {
+            self.non_monotone = Some(NonMonotoneSteps { best: Stand::from_state(state), left: worst, since: 0 });
         }
         self.step(unknowns, state, worst)
     }
@@ -118,7 +131,7 @@ impl<'a> EquilibriumSearch<'a> {
         let residual = unknowns.residual(state);
         let asked = &residual + unknowns.project_forces(&state.ties.excess);
         let stop = || self.system.is_interrupted();
-        let made = direction(unknowns, &unknowns.stiffness(state), &asked, self.help, &stop);
+        let made = direction(unknowns, &unknowns.stiffness(state), &asked, self.regularisation, &stop);
         let (step, needed) = made.map_err(|e| unknowns.singular_stiffness_error(self.system, e))?;
         let work = residual.dot(&step).abs();
         let from = Stand::from_state(state);
@@ -131,7 +144,7 @@ impl<'a> EquilibriumSearch<'a> {
         let longest = unknowns.limit(&step);
         // nothing holds back along a step that had to be limited: it is no measure of how far it is
         let blind = needed > 0.0 && longest < 1.0;
-        let bold = self.bold.is_some() && !blind;
+        let takes_any = self.non_monotone.is_some() && !blind;
         // share and force along the step of the farthest place before the forces turn around, and of the nearest behind
         let (mut before, mut behind): ((f64, f64), Option<(f64, f64)>) = ((0.0, work), None);
         let mut share = longest;
@@ -144,7 +157,7 @@ impl<'a> EquilibriumSearch<'a> {
                     let new = unknowns.residual(state);
                     let (now, after) = (self.worst(unknowns, state).0, new.dot(&step));
                     let fell = after.abs() <= 0.9 * work;
-                    if bold || now < worst || (after >= -0.5 * work && (fell || behind.is_none())) {
+                    if takes_any || now < worst || (after >= -0.5 * work && (fell || behind.is_none())) {
                         self.record_step(share / longest, needed, now / worst, blind);
                         self.blocked = 0;
                         return Ok(());
@@ -186,16 +199,16 @@ impl<'a> EquilibriumSearch<'a> {
             return Err(error);
         }
         // no share of the step is good: a shorter step in pseudo-time
-        self.help = (10.0 * needed.max(self.help)).max(1e-3);
+        self.regularisation = (10.0 * needed.max(self.regularisation)).max(1e-3);
         self.evaluate(state)
     }
 
     /// Remembers how much of a step was taken, and what it left over what there was.
     fn record_step(&mut self, share: f64, needed: f64, left: f64, blind: bool) {
-        self.slow[0] = if share < SHORT_STEP_SHARE && !blind { self.slow[0] + 1 } else { 0 };
-        // a stiffness that needed help is helped less as the residual shrinks
+        self.short_steps = if share < SHORT_STEP_SHARE && !blind { self.short_steps + 1 } else { 0 };
+        // the regularisation shrinks with the residual
         let change = if left <= 1.0 { (0.5 * left).max(0.1) } else { left.min(4.0) };
-        self.help = Some(needed * change).filter(|h| *h >= UNRESTRAINED_EIGENVALUE).unwrap_or(0.0);
+        self.regularisation = Some(needed * change).filter(|h| *h >= UNRESTRAINED_EIGENVALUE).unwrap_or(0.0);
     }
 }
 
@@ -204,7 +217,7 @@ fn direction(
     unknowns: &Unknowns,
     stiffness: &DMatrix<f64>,
     residual: &DVector<f64>,
-    help: f64,
+    regularisation: f64,
     stop: Stop,
 ) -> Result<(DVector<f64>, f64), DenseError> {
     let root = unknowns.inertia.map(|d| 1.0 / d.sqrt());
@@ -213,7 +226,7 @@ fn direction(
     let size = symmetric.amax().max(1e-6);
     let right = residual.component_mul(&root);
     // forces without an energy: what their stiffness does is not given by its symmetric part
-    if help == 0.0 && (&scaled - scaled.transpose()).amax() > 1e-6 * size {
+    if regularisation == 0.0 && (&scaled - scaled.transpose()).amax() > 1e-6 * size {
         let solved = Lu::new(scaled.clone(), stop)?.solve(&right).ok();
         if let Some(step) = solved.filter(|s| s.dot(&right) > 0.0).map(|s| s.component_mul(&root))
             && unknowns.limit(&step) >= 1.0
@@ -221,7 +234,7 @@ fn direction(
             return Ok((step, 0.0));
         }
     }
-    let mut needed = help;
+    let mut needed = regularisation;
     let mut next = (1e-9 * size).max(10.0 * UNRESTRAINED_EIGENVALUE);
     loop {
         let mut held = symmetric.clone();

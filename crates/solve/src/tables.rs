@@ -184,7 +184,7 @@ pub fn periods(system: &System, state: &SystemState) -> Result<Table, SolveError
 /// Connectors of a stiffness report.
 pub struct ReportedConnectors<'a> {
     /// Those reported one by one.
-    pub told: &'a [&'a str],
+    pub reported: &'a [&'a str],
     /// Whether the stiffness of one of this name is left out of that of a body.
     pub left_out: &'a dyn Fn(&str) -> bool,
 }
@@ -233,7 +233,7 @@ pub fn stiffnesses(
             list.extend(made);
         }
         for c in own() {
-            let Some(name) = c.connector.as_deref().filter(|name| connectors.told.contains(name)) else { continue };
+            let Some(name) = c.connector.as_deref().filter(|name| connectors.reported.contains(name)) else { continue };
             let title = format!("Stiffness of {name} on {}", node.name);
             list.extend(stiffness(&title, &c.load.about_point(arm).stiffness).map(point));
         }

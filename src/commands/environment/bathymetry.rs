@@ -110,7 +110,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let read = rows::<3>(job, (file.word().unwrap_or_default(), file.span), "x, y, z", MAX_GRID_POINTS)?;
     let si = |v: f64| Dim::Length.to_si(v, job.units);
     let points = read.into_iter().map(|(_, [x, y, z])| [si(x), si(y), sign * si(z)]).collect();
-    let made = Bathymetry::of_points(name, points, span);
+    let made = Bathymetry::from_points(name, points, span);
     keep(job, made.map_err(|e| e.with_span(file.span).diagnostic(file.span, job.units))?);
     Ok(Effect::Done)
 }

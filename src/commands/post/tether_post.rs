@@ -285,7 +285,7 @@ fn fatigue_settings(args: &Args) -> FatigueSettings {
 }
 
 fn table_along(run: &Tethered, tether: &TetherHistory, args: &Args) -> Outcome<Table> {
-    let quantities = |at_nodes: bool| if at_nodes { tether.of_a_node() } else { tether.of_an_end() };
+    let quantities = |at_nodes: bool| if at_nodes { tether.node_quantities() } else { tether.end_quantities() };
     let codes = || [true, false].into_iter().flat_map(|n| quantities(n).iter().map(|q| (q.code, Owner::Ours, q.code)));
     let word = args.word(NUMBER).unwrap_or("Y");
     let code = choose(word, args.place(NUMBER), "quantity of the tether", codes())?;

@@ -93,6 +93,6 @@ pub fn stiffness(job: &Job, call: &Call, chosen: &NameFilter) -> Outcome<Vec<Tab
         let bodies = points.filter_map(|p| model.body_of(p)).filter(|b| b.junction.is_none()).count();
         bodies > 1 && model.classes.get(&Model::key(&connector.class)).is_some_and(|c| c.ignored_stiffness)
     };
-    let connectors = tables::ReportedConnectors { told: &connectors, left_out: &left_out };
+    let connectors = tables::ReportedConnectors { reported: &connectors, left_out: &left_out };
     tables::stiffnesses(&system, &state, about, &bodies, &connectors).map_err(wrong)
 }

@@ -88,7 +88,7 @@ impl DynamicLine {
             holds,
             freed: connection.duty.freed,
             scheme: connection.duty.scheme,
-            felt: [true, !connection.to_ground],
+            moving_ends: [true, !connection.to_ground],
             laid: None,
         };
         Ok(DynamicLine { base: Arc::new(base), layout, first, nominal })

@@ -71,8 +71,9 @@ impl DynamicLine {
         let floor = LineSeabed { plane: self.base.plane, charted, flat: self.base.flat.unwrap_or(f64::NEG_INFINITY) };
         let known = self.base.plane.is_some() || self.base.flat.is_some() || charted.is_some();
         let bottom: Option<(&dyn rod::SeabedShape, SeabedLaw)> = known.then_some((&floor, self.base.ground));
-        let felt = self.base.laid.as_ref().map(|laid| laid.find_contacts(at.ends, around, paid)).unwrap_or_default();
-        let supports: Vec<_> = felt.iter().map(SupportContact::support).collect();
+        let contacts =
+            self.base.laid.as_ref().map(|laid| laid.find_contacts(at.ends, around, paid)).unwrap_or_default();
+        let supports: Vec<_> = contacts.iter().map(SupportContact::support).collect();
         let slam = self.base.description.slam;
         let made =
             act(&LineEnvironment { bottom, slam, supports: &supports, ..LineEnvironment::new(&water, around.gravity) });
@@ -109,9 +110,16 @@ impl DynamicLine {
 
     /// What its holders bear. An anchor on the bottom does not bear what the end of the line presses on the bottom with: the half of its
     /// last element that has its weight at the anchor's node lies beside it.
-    fn on_holders(&self, forces: RodEndForces, places: &[Vector3<f64>; 2], world: &LineEnvironment) -> RodEndForces {
+    fn on_holders(
+        &self,
+        forces: RodEndForces,
+        places: &[Vector3<f64>; 2],
+        environment: &LineEnvironment,
+    ) -> RodEndForces {
         let mut made = forces;
-        let (Some((bottom, _)), false, [_, anchor]) = (&world.bottom, self.base.felt[1], places) else { return made };
+        let (Some((bottom, _)), false, [_, anchor]) = (&environment.bottom, self.base.moving_ends[1], places) else {
+            return made;
+        };
         let (height, [x, y]) = bottom.height(anchor.x, anchor.y);
         let outward = Vector3::new(-x, -y, 1.0).normalize();
         let [_, pull] = &mut made.force;
@@ -131,8 +139,8 @@ impl DynamicLine {
         cache.fit();
         let places = places(at.ends);
         let RodCache { rod, solver, rest, flows, .. } = cache;
-        self.with_environment((at, true, 0.0), flows, |world| {
-            if let Some((bottom, _)) = &world.bottom.filter(|_| self.base.laid.is_none()) {
+        self.with_environment((at, true, 0.0), flows, |environment| {
+            if let Some((bottom, _)) = &environment.bottom.filter(|_| self.base.laid.is_none()) {
                 for (place, name) in places.iter().zip(["first", "second"]) {
                     let below = bottom.height(place.x, place.y).0 - place.z;
                     if below > MAX_END_PENETRATION_M {
@@ -143,17 +151,17 @@ impl DynamicLine {
                 }
             }
             let beside = rest.take().and_then(|mut state| {
-                let forces = solver.statics(rod, &mut state, world, ends).ok()?;
+                let forces = solver.statics(rod, &mut state, environment, ends).ok()?;
                 Some((state, forces))
             });
             let (state, forces) = match beside {
                 Some(found) if !solver.has_slid_without_friction() => found,
                 beside => match (
-                    self.static_shape_from_catenary((rod, solver), places, world, (at.surroundings, ends)),
+                    self.static_shape_from_catenary((rod, solver), places, environment, (at.surroundings, ends)),
                     beside,
                 ) {
                     (Err(_), Some((mut state, _))) => {
-                        let forces = solver.statics(rod, &mut state, world, ends).map_err(to_class_error)?;
+                        let forces = solver.statics(rod, &mut state, environment, ends).map_err(to_class_error)?;
                         (state, forces)
                     }
                     (afar, _) => afar?,
@@ -221,46 +229,50 @@ impl DynamicLine {
         }
         cache.fit();
         let RodCache { rod, solver, state, flows, .. } = cache;
-        let forces = self.with_environment((at, false, kept.paid), flows, |world| {
+        let forces = self.with_environment((at, false, kept.paid), flows, |environment| {
             if dt > 0.0 {
-                let forces = solver.trial(rod, state, world, time, ends).map_err(to_class_error)?;
+                let forces = solver.trial(rod, state, environment, time, ends).map_err(to_class_error)?;
                 if self.base.laid.is_some() {
                     solver.set_accelerations(state);
-                    on_supports(out, &rod.support_forces(state, world), solver.support_tangent(rod, world).as_ref())?;
+                    on_supports(
+                        out,
+                        &rod.support_forces(state, environment),
+                        solver.support_tangent(rod, environment).as_ref(),
+                    )?;
                 } else {
-                    let felt = solver.end_tangent_of_sides(rod, world, self.base.felt);
-                    on_ends(out, &self.on_holders(forces, &places, world), felt, true)?;
+                    let tangent = solver.end_tangent_of_sides(rod, environment, self.base.moving_ends);
+                    on_ends(out, &self.on_holders(forces, &places, environment), tangent, true)?;
                 }
                 Ok::<_, ClassError>(forces)
             } else {
                 // what a broken line springs back with lasts for a wave along an element, not for a step: it goes on as it moved
                 let before = self.base.freed.then(|| state.clone());
-                let forces = solver.start(rod, state, world, ends).map_err(to_class_error)?;
+                let forces = solver.start(rod, state, environment, ends).map_err(to_class_error)?;
                 if let Some(before) = before {
                     state.clone_from(&before);
                 }
                 if self.base.laid.is_some() {
                     // what its supports feel does not follow their accelerations
-                    on_supports(out, &rod.support_forces(state, world), None)?;
+                    on_supports(out, &rod.support_forces(state, environment), None)?;
                     return Ok(forces);
                 }
                 let mut tangent = EndTangent::default();
                 for (side, mass) in solver.end_masses().iter().enumerate() {
                     tangent.acceleration.fixed_view_mut::<3, 3>(6 * side, 6 * side).copy_from(&-mass);
                 }
-                on_ends(out, &self.on_holders(forces, &places, world), Some(&tangent), true)?;
+                on_ends(out, &self.on_holders(forces, &places, environment), Some(&tangent), true)?;
                 Ok(forces)
             }
         })?;
         let balance = self.layout.has_balance().then(|| {
-            self.with_environment((at, false, kept.paid), flows, |world| match kept.balance {
+            self.with_environment((at, false, kept.paid), flows, |environment| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
                     solver.set_accelerations(state);
-                    balance.enter(rod, state, world, solver, &forces);
+                    balance.enter(rod, state, environment, solver, &forces);
                     balance
                 }
                 Some(balance) => balance,
-                None => Balance::open(rod, state, world, solver, &forces),
+                None => Balance::open(rod, state, environment, solver, &forces),
             })
         });
         let end = if dt > 0.0 { solver.end() } else { state };
@@ -321,14 +333,14 @@ impl Element for DynamicLine {
         }
         let (found, places) = (self.rest(at, cache)?, places(at.ends));
         let RodCache { rod, solver, flows, .. } = &mut *cache;
-        self.with_environment((at, true, 0.0), flows, |world| match self.base.laid {
+        self.with_environment((at, true, 0.0), flows, |environment| match self.base.laid {
             Some(_) => {
-                let loads = rod.support_forces(&found.state, world);
-                on_supports(out, &loads, solver.support_tangent(rod, world).as_ref())
+                let loads = rod.support_forces(&found.state, environment);
+                on_supports(out, &loads, solver.support_tangent(rod, environment).as_ref())
             }
             None => {
-                let forces = self.on_holders(found.forces, &places, world);
-                on_ends(out, &forces, solver.end_tangent(rod, world), false)
+                let forces = self.on_holders(found.forces, &places, environment);
+                on_ends(out, &forces, solver.end_tangent(rod, environment), false)
             }
         })?;
         let mut state = found.state;

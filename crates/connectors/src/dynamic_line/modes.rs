@@ -43,15 +43,15 @@ pub(super) fn find_line_modes(
     rod: &Rod,
     solver: &mut RodSolver,
     state: &RodState,
-    world: &LineEnvironment,
+    environment: &LineEnvironment,
     ends: [RodEnd; 2],
     number: usize,
 ) -> Result<Vec<LineMode>, ClassError> {
     // one more than asked, so that the last is distinguished from its like
-    let mut found = match solver.modes(rod, state, world, ends, number + 1) {
+    let mut found = match solver.modes(rod, state, environment, ends, number + 1) {
         Ok(found) => found,
         Err(stop @ RodError::Interrupted { .. }) => return Err(to_class_error(stop)),
-        Err(_) => solver.modes(rod, state, world, ends, number).map_err(to_class_error)?,
+        Err(_) => solver.modes(rod, state, environment, ends, number).map_err(to_class_error)?,
     };
     let (first, last) = (state.position.first(), state.position.last());
     let chord = first.zip(last).map_or_else(Vector3::x, |(a, b)| b - a);
@@ -68,7 +68,7 @@ pub(super) fn find_line_modes(
         index += if alike { 2 } else { 1 };
     }
     found.truncate(number);
-    let told = |mode: RodMode| {
+    let to_line_mode = |mode: RodMode| {
         // of two signs the one in which the largest component is positive
         let most = mode.shape.iter().map(|d| d.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
         let peak = mode
@@ -79,7 +79,7 @@ pub(super) fn find_line_modes(
         let scale = if peak < 0.0 { -most } else { most };
         LineMode { frequency: mode.frequency, shape: mode.shape.iter().map(|d| d / scale).collect() }
     };
-    Ok(found.into_iter().map(told).collect())
+    Ok(found.into_iter().map(to_line_mode).collect())
 }
 
 /// Makes of two modes of one frequency one with the least motion in a direction, and one with the least beside it.

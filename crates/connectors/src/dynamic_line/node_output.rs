@@ -29,7 +29,9 @@ impl NodalElement for DynamicLine {
         let (other, state, still) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.end_conditions(at.ends, still)?;
-        *out = self.with_environment((at, still, paid), &mut Vec::new(), |world| rod.results(&state, world, &ends));
+        *out = self.with_environment((at, still, paid), &mut Vec::new(), |environment| {
+            rod.results(&state, environment, &ends)
+        });
         // the class speaks of its records, of which a rod may have several segments, and a pipe all of the first
         let record = |segment| if self.base.laid.is_some() { 0 } else { self.base.bands.part_of(segment) };
         for node in out {
@@ -56,7 +58,9 @@ impl NodalElement for DynamicLine {
         let ends = self.end_conditions(at.ends, at.step.is_none())?;
         let RodCache { rod, state, flows, .. } = cache;
         state.unpack_into(rod, kept.motion).map_err(to_class_error)?;
-        self.with_environment((at, at.step.is_none(), kept.paid), flows, |world| rod.row(state, world, &ends, out));
+        self.with_environment((at, at.step.is_none(), kept.paid), flows, |environment| {
+            rod.row(state, environment, &ends, out)
+        });
         Ok(())
     }
 }
@@ -81,8 +85,8 @@ impl DynamicElement for DynamicLine {
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.end_conditions(at.ends, true)?;
         let mut solver = RodSolver::new(rod, RodSettings::default());
-        self.with_environment((at, true, paid), &mut Vec::new(), |world| {
-            modes::find_line_modes(rod, &mut solver, &state, world, ends, number)
+        self.with_environment((at, true, paid), &mut Vec::new(), |environment| {
+            modes::find_line_modes(rod, &mut solver, &state, environment, ends, number)
         })
     }
 
@@ -133,22 +137,22 @@ impl DynamicLine {
             part.segment.bending > 0.0 && own.any(|[a, b]| -0.5 * (a.effective + b.effective) > euler(b.arc - a.arc))
         };
         let parts = self.base.description.parts.iter().enumerate();
-        let told = parts.filter(|(number, part)| beyond(*number, part)).map(|(number, _)| {
+        let notes = parts.filter(|(number, part)| beyond(*number, part)).map(|(number, _)| {
             Note::warning(format!(
                 "elements of its segment {} are pushed beyond Euler's load of their length: they cannot bend between \
                  nodes; -REFINE makes them shorter",
                 number + 1
             ))
         });
-        told.collect()
+        notes.collect()
     }
 
     pub(super) fn summarize(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
         let mut nodes = Vec::new();
         self.find_nodes(at, committed, &mut nodes)?;
         let notes = self.base.description.notes.iter().map(|n| n.as_str().into()).collect();
-        let mut told = ElementSummary { solution: "rod", notes, ..ElementSummary::default() };
-        told.tension = nodes.first().map(|n| n.effective);
+        let mut summary = ElementSummary { solution: "rod", notes, ..ElementSummary::default() };
+        summary.tension = nodes.first().map(|n| n.effective);
         let sides = nodes.iter().flat_map(|n| n.sides().map(move |s| (n.effective, s.segment)));
         let parts = &self.base.description.parts;
         let ratio = |(pull, segment): (f64, usize)| {
@@ -159,20 +163,20 @@ impl DynamicLine {
         let largest = |list: &mut dyn Iterator<Item = &(f64, usize, bool)>| {
             list.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(ratio, segment, _)| (*ratio, *segment))
         };
-        told.over_given_break = largest(&mut ratios.iter().filter(|(.., given)| *given));
+        summary.over_given_break = largest(&mut ratios.iter().filter(|(.., given)| *given));
         if let Some((ratio, segment)) = largest(&mut ratios.iter()) {
-            (told.ratio, told.critical) = (Some(ratio), Some(segment));
+            (summary.ratio, summary.critical) = (Some(ratio), Some(segment));
             if ratio > 1.0 {
-                told.notes.push(Note::warning("the line is beyond its breaking tension"));
+                summary.notes.push(Note::warning("the line is beyond its breaking tension"));
             }
         }
-        told.notes.extend(self.coarse(&nodes));
-        told.notes.extend(self.stocky(&nodes));
+        summary.notes.extend(self.coarse(&nodes));
+        summary.notes.extend(self.stocky(&nodes));
         if at.step.is_none() {
-            told.notes.extend(self.static_caution(at).map(Note::warning));
+            summary.notes.extend(self.static_caution(at).map(Note::warning));
         }
         let lies = |pair: &[LineNode]| pair.iter().all(|n| n.clearance <= 0.0);
-        told.grounded = Some(nodes.windows(2).filter(|p| lies(p)).map(|p| p[1].arc - p[0].arc).sum());
-        Ok(told)
+        summary.grounded = Some(nodes.windows(2).filter(|p| lies(p)).map(|p| p[1].arc - p[0].arc).sum());
+        Ok(summary)
     }
 }

@@ -248,7 +248,7 @@ fn along_course(
             holds: [None, None],
             freed: false,
             scheme: layout.scheme,
-            felt: [false, false],
+            moving_ends: [false, false],
             laid: Some(laid),
         }),
     })

@@ -34,7 +34,7 @@ pub(super) struct Base {
     /// The scheme that steps it; that of the engine where none.
     pub scheme: Option<SchemeWeights>,
     /// Which ends can move.
-    pub felt: [bool; 2],
+    pub moving_ends: [bool; 2],
     /// What it lies on, of a pipe; its ends are then those of its supports.
     pub laid: Option<PipeLay>,
 }
@@ -102,20 +102,20 @@ mod tests {
             holds: [None, None],
             freed: false,
             scheme: None,
-            felt: [true; 2],
+            moving_ends: [true; 2],
             laid: None,
         };
         let mut cache = RodCache::new(&Arc::new(base));
         let fluid = UniformFluid::vacuum();
-        let world = LineEnvironment::new(&fluid, 9.81);
+        let environment = LineEnvironment::new(&fluid, 9.81);
         let ends = [Vector3::zeros(), Vector3::new(8.0, 0.0, 0.0)];
         let mut state = RodState::along_points(&rod, &ends).unwrap();
-        cache.solver.statics(&rod, &mut state, &world, ends.map(RodEnd::pin)).unwrap();
+        cache.solver.statics(&rod, &mut state, &environment, ends.map(RodEnd::pin)).unwrap();
         cache.rod.set_length(0, 2.5, 0.5).unwrap();
         cache.fit();
-        assert!(cache.solver.end_tangent(&rod, &world).is_some());
+        assert!(cache.solver.end_tangent(&rod, &environment).is_some());
         cache.rod.divide(0, &mut state).unwrap();
         cache.fit();
-        assert!(cache.solver.end_tangent(&cache.rod, &world).is_none());
+        assert!(cache.solver.end_tangent(&cache.rod, &environment).is_none());
     }
 }

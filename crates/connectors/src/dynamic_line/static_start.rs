@@ -34,21 +34,21 @@ impl DynamicLine {
         &self,
         (rod, solver): (&Rod, &mut RodSolver),
         places: [Vector3<f64>; 2],
-        world: &LineEnvironment,
+        environment: &LineEnvironment,
         (around, ends): (&Surroundings, [RodEnd; 2]),
     ) -> Result<(RodState, RodEndForces), ClassError> {
         let mut from = |aside: bool| {
-            let laid = if aside { None } else { self.laid_down((rod, solver), places, world, (around, ends)) };
+            let laid = if aside { None } else { self.laid_down((rod, solver), places, environment, (around, ends)) };
             let mut state = match laid {
                 Some(laid) => laid,
                 None => {
-                    let mut state = self.fallen(places, world, around, aside)?;
-                    solver.statics(rod, &mut state, world, ends).map_err(to_class_error)?;
+                    let mut state = self.fallen(places, environment, around, aside)?;
+                    solver.statics(rod, &mut state, environment, ends).map_err(to_class_error)?;
                     state
                 }
             };
             // how softly it meets the bottom is known where it rests first
-            let forces = solver.statics(rod, &mut state, world, ends).map_err(to_class_error)?;
+            let forces = solver.statics(rod, &mut state, environment, ends).map_err(to_class_error)?;
             Ok((state, forces))
         };
         // slack pipe would fold in the plane of its ends: it lies down sideways
@@ -63,7 +63,7 @@ impl DynamicLine {
     fn fallen(
         &self,
         places: [Vector3<f64>; 2],
-        world: &LineEnvironment,
+        environment: &LineEnvironment,
         around: &Surroundings,
         aside: bool,
     ) -> Result<RodState, ClassError> {
@@ -75,7 +75,7 @@ impl DynamicLine {
         if let Some(length) = lengths.first_mut() {
             *length = self.first;
         }
-        let floor = world.bottom.map(|(bottom, ground)| (bottom, ground.friction_along));
+        let floor = environment.bottom.map(|(bottom, ground)| (bottom, ground.friction_along));
         let mut points = start::points(parts, &lengths, places, floor, around);
         if aside {
             start::bow_aside(&mut points, places, lengths.iter().sum());
@@ -89,18 +89,19 @@ impl DynamicLine {
         &self,
         (rod, solver): (&Rod, &mut RodSolver),
         places: [Vector3<f64>; 2],
-        world: &LineEnvironment,
+        environment: &LineEnvironment,
         (around, ends): (&Surroundings, [RodEnd; 2]),
     ) -> Option<RodState> {
-        let (other, ground) = world.bottom.filter(|(_, ground)| ground.rough())?;
+        let (other, ground) = environment.bottom.filter(|(_, ground)| ground.rough())?;
         self.base
             .ambient
             .as_ref()
             .filter(|a| a.has_bottom_grid() && self.base.plane.is_none() && self.base.laid.is_none())?;
         let (plane, _) = start::plane(places, other)?;
         let last = rod.nodes() - 1;
-        let mut state =
-            self.fallen(places, &LineEnvironment { bottom: Some((&plane, ground)), ..*world }, around, false).ok()?;
+        let mut state = self
+            .fallen(places, &LineEnvironment { bottom: Some((&plane, ground)), ..*environment }, around, false)
+            .ok()?;
         let (mut share, mut step) = (0.0, FIRST_STEP_SHARE);
         let mut to = share;
         while share < 1.0 {
@@ -111,8 +112,8 @@ impl DynamicLine {
                 let place = *x + origin;
                 x.z += bottom.height(place.x, place.y).0 - before.height(place.x, place.y).0;
             }
-            let world = LineEnvironment { bottom: Some((&bottom, ground)), ..*world };
-            if solver.statics_with_friction(rod, &mut next, &world, ends).ok()?.is_some() {
+            let environment = LineEnvironment { bottom: Some((&bottom, ground)), ..*environment };
+            if solver.statics_with_friction(rod, &mut next, &environment, ends).ok()?.is_some() {
                 (state, share) = (next, to);
             } else if step < MIN_STEP_SHARE || to == 0.0 {
                 return None;

@@ -339,7 +339,7 @@ pub fn gather_database_loads(
         None => loads.extend(mean(model, attached)?.map(|l| Box::new(l) as Box<dyn BodyLoad>)),
     }
     let loads = loads.into_iter().map(|load| {
-        let factor = model.multipliers.of(load.category().name(), &body.name);
+        let factor = model.multipliers.factor(load.category().name(), &body.name);
         if factor == 1.0 { load } else { crate::body_loads::scale_load(load, factor) }
     });
     Ok(Some(DatabaseLoads { loads: loads.chain(carried).collect(), added_mass }))

@@ -139,7 +139,7 @@ fn rods(
     let [foot, head] = ends;
     let Some(axis) = (head - foot).try_normalize(0.0) else { return Vec::new() };
     let density = steady.around.water_density;
-    let of = |category: Category| model.multipliers.of(category.name(), &part.name);
+    let of = |category: Category| model.multipliers.factor(category.name(), &part.name);
     // what a database holds is not counted again
     let own_waves = if piece.waves == WaveAction::Database { 0.0 } else { 1.0 };
     let lengths = growth.map_or_else(

@@ -89,7 +89,7 @@ fn point_file_gives_same_bathymetry_in_any_order() {
     let mut points: Vec<[f64; 3]> = X.iter().flat_map(|x| Y.iter().map(|y| [*x, *y, height(*x, *y)])).collect();
     points.reverse();
     points.swap(3, 11);
-    assert_eq!(Bathymetry::of_points("B", points, Span::default()).unwrap(), made(&X, &Y, height));
+    assert_eq!(Bathymetry::from_points("B", points, Span::default()).unwrap(), made(&X, &Y, height));
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn invalid_bathymetry_is_refused_with_reason() {
     assert!(new(&many, &many, &[]).contains("3000 by 3000 points asks for 288 MB"));
     assert!(fits(usize::MAX, 3).is_err());
     let of =
-        |points: &[[f64; 3]]| Bathymetry::of_points("B", points.to_vec(), Span::default()).unwrap_err().to_string();
+        |points: &[[f64; 3]]| Bathymetry::from_points("B", points.to_vec(), Span::default()).unwrap_err().to_string();
     let hole = of(&[[0.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0]]);
     assert!(hole.contains("3 points with 2 different x and 2 different y make no grid"), "{hole}");
     let inner = of(&[[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0]]);

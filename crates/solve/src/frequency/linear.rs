@@ -72,7 +72,7 @@ impl Floats {
     fn new(model: &Model, name: &str, attached: &AttachedDatabase, pose: &Pose) -> Result<Self, ClassError> {
         let infinite = Radiation::new(&attached.data)?.map_or_else(Matrix6::zeros, |r| r.infinite);
         let factors = [Category::Wave, Category::RadiationDrag, Category::WaveDrift]
-            .map(|category| model.multipliers.of(category.name(), name));
+            .map(|category| model.multipliers.factor(category.name(), name));
         let slow = matches!(attached.drift, DriftMethod::Newman | DriftMethod::Full);
         let table = || attached.data.drift.clone().or_else(|| attached.data.qtf.as_ref().map(mean_drift));
         let yaw = pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]);

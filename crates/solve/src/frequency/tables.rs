@@ -168,7 +168,7 @@ fn statistics_table(title: String, extreme: ExtremeKind) -> Table {
 }
 
 /// What the maxima are, in a note.
-fn told_of(extreme: ExtremeKind) -> &'static str {
+fn describe_extreme(extreme: ExtremeKind) -> &'static str {
     match extreme {
         ExtremeKind::MostProbable(_) => "most probable maximum",
         ExtremeKind::Times(_) | ExtremeKind::Exceeded(_) => "maximum (by -PROBABILITY of the environment)",
@@ -185,12 +185,12 @@ pub fn statistics(
     let dim = list.first().map_or(Dim::None, |t| derivative_dimension(t.dim, derivative));
     let rows: Vec<(&str, ResponseStatistics)> = list
         .iter()
-        .map(|told| (told.name.as_str(), ResponseStatistics::new(response, &told.quantity, derivative)))
+        .map(|row| (row.name.as_str(), ResponseStatistics::new(response, &row.quantity, derivative)))
         .collect();
     let table = statistics_table(title, extreme).with_rows(&rows).text("Result", |(name, _)| *name);
     let mut table = statistic_columns(table, ("", ""), (dim, extreme), |(_, made)| made).build();
-    let told = told_of(extreme);
-    table.note(format!("significant and {told} are amplitudes about the mean; Tz is of both, waves and slow drift"));
+    let extreme = describe_extreme(extreme);
+    table.note(format!("significant and {extreme} are amplitudes about the mean; Tz is of both, waves and slow drift"));
     notes(&mut table, linear, response);
     table
 }
@@ -209,7 +209,7 @@ pub fn body_statistics(
     let table = statistics_table(title, extreme).with_rows(&rows).text("Axis", |(name, ..)| *name);
     let table = statistic_columns(table, ("Translation", ""), shift, |(_, made, _)| made);
     let mut table = statistic_columns(table, ("Rotation", "R "), turn, |(.., made)| made).build();
-    table.note(format!("significant and {} are amplitudes about the place at rest", told_of(extreme)));
+    table.note(format!("significant and {} are amplitudes about the place at rest", describe_extreme(extreme)));
     notes(&mut table, linear, response);
     table
 }
@@ -224,12 +224,12 @@ pub fn modes(linear: &LinearSystem) -> Result<[Table; 2], SolveError> {
     let largest = list.iter().map(|n| n.mode.eigenvalue.abs()).fold(0.0, f64::max);
     for (index, Natural { mode, settled, .. }) in list.iter().enumerate() {
         let (body, dof) = (mode.most.0.as_str(), mode.most.1);
-        let told = format!("mode {} of {body} in {dof}", index + 1);
+        let name = format!("mode {} of {body} in {dof}", index + 1);
         if is_unstable(mode.eigenvalue, largest) {
-            periods.warn(format!("not stable: {told}"));
+            periods.warn(format!("not stable: {name}"));
         }
         if !settled {
-            periods.warn(format!("{told} finds no period that agrees with its added mass"));
+            periods.warn(format!("{name} finds no period that agrees with its added mass"));
         }
     }
     periods.note("periods are undamped, with added mass at the period of each mode; the ratio is to critical damping");

@@ -105,15 +105,15 @@ fn tensions(
             let here = Placement { fairlead, other, first_length, ..placement.clone() };
             let shape = class.line(&here, &surroundings)?.geometry(name, Condition::Placed)?;
             let numbers = |column: &str| shape.get(column).map(|c| c.cells.as_slice()).unwrap_or_default();
-            let mut told = 0;
+            let mut seen = 0;
             for (segment, tension) in numbers("Segment").iter().zip(numbers("Tension")) {
                 let (Cell::Integer(segment), Some(tension)) = (segment, tension.number()) else { continue };
                 // the first point of a segment is its upper end
-                if usize::try_from(*segment).is_ok_and(|s| s == told + 1) {
-                    if let Some(series) = all.get_mut(told) {
+                if usize::try_from(*segment).is_ok_and(|s| s == seen + 1) {
+                    if let Some(series) = all.get_mut(seen) {
                         series.push(tension);
                     }
-                    told += 1;
+                    seen += 1;
                 }
             }
         }

@@ -41,8 +41,8 @@ pub fn fender_peaks(run: &Run) -> Result<Vec<FenderPeak>, SolveError> {
             poses(&run.history.layout, row, &mut bodies);
             let ends = attached.map(|end| End::still(pose_of(&end, &bodies)));
             let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-            let told = element.summary(&at, &start).map_err(SolveError::error_about(&connector.name))?;
-            let Some(state) = told.fender.filter(|s| s.deflection > 0.0) else { continue };
+            let summary = element.summary(&at, &start).map_err(SolveError::error_about(&connector.name))?;
+            let Some(state) = summary.fender.filter(|s| s.deflection > 0.0) else { continue };
             if peak.as_ref().is_none_or(|p| state.deflection > p.state.deflection) {
                 peak = Some(FenderPeak { name: connector.name.clone(), time, state });
             }

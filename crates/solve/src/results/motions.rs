@@ -64,7 +64,12 @@ pub(super) fn moving(row: &[f64], from: usize, own: Vector3<f64>) -> Moving {
 ///
 /// # Errors
 /// None of its own.
-pub fn trajectory(run: &Run, bodies: &[usize], told: &MotionOptions, events: &[RunEvent]) -> Result<Table, SolveError> {
+pub fn trajectory(
+    run: &Run,
+    bodies: &[usize],
+    options: &MotionOptions,
+    events: &[RunEvent],
+) -> Result<Table, SolveError> {
     let (layout, model) = (&run.history.layout, &run.model);
     let several = bodies.len() > 1;
     let depth = model.surroundings().depth.unwrap_or(f64::NAN);
@@ -73,14 +78,14 @@ pub fn trajectory(run: &Run, bodies: &[usize], told: &MotionOptions, events: &[R
     for body in bodies {
         let Some((name, key)) = layout.bodies.get(*body) else { continue };
         let mass = model.bodies.get(key).map(|b| Mass::from_parts(model.parts_of(b), model.defaults.gravity));
-        let own = mass.filter(|_| told.centre).map_or(Vector3::zeros(), |m| m.centre);
+        let own = mass.filter(|_| options.centre).map_or(Vector3::zeros(), |m| m.centre);
         let from = layout.body(*body);
         chosen.push((name, from, own, moving(first, from, own)));
     }
     let mut table = EventTable::new("Trajectory", (&run.history, events), |row| {
         Ok(chosen
             .iter()
-            .map(|(_, from, own, start)| Displaced::new(moving(row, *from, *own), start, told.local))
+            .map(|(_, from, own, start)| Displaced::new(moving(row, *from, *own), start, options.local))
             .collect())
     })?;
     let none = Displaced::default();
@@ -89,7 +94,7 @@ pub fn trajectory(run: &Run, bodies: &[usize], told: &MotionOptions, events: &[R
             table = table.fact("Body", name.as_str(), Dim::None);
         }
         let body = |all: &Vec<Displaced>| all.get(index).copied().unwrap_or(none);
-        let with = |vector: &Vector3<f64>| told.magnitude.components_and_magnitude(vector);
+        let with = |vector: &Vector3<f64>| options.magnitude.components_and_magnitude(vector);
         let head = |group: &str| group_head(several, name, group);
         table = table
             .columns(&head("Location"), ["X", "Y", "Z", "Mag."], Dim::Length, |all| with(&body(all).at))
@@ -106,8 +111,8 @@ pub fn trajectory(run: &Run, bodies: &[usize], told: &MotionOptions, events: &[R
             .columns(&head("Displacement"), ["DX", "DY", "DZ", "D Mag."], Dim::Length, |all| with(&body(all).moved))
             .columns(&head("Displacement"), ["DRoll", "DPitch", "DYaw"], Dim::Angle, |all| body(all).turned);
     }
-    let of = if told.centre { "the centre of gravity" } else { "the origin" };
-    let axes = if told.local { "of the body" } else { "global" };
+    let of = if options.centre { "the centre of gravity" } else { "the origin" };
+    let axes = if options.local { "of the body" } else { "global" };
     Ok(table.fact("Of", of, Dim::None).fact("Axes", axes, Dim::None).build())
 }
 

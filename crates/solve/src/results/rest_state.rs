@@ -78,10 +78,10 @@ impl<'a> Settling<'a> {
         self.between.clear();
         self.between.extend(self.ends.iter().map(|end| End::still(pose_of(end, poses))));
         let at = Situation { ends: &self.between, step: None, surroundings: &self.surroundings };
-        let told = self.element.summary(&at, &[]).map_err(SolveError::error_about(name))?;
+        let summary = self.element.summary(&at, &[]).map_err(SolveError::error_about(name))?;
         let [_, far] = self.ends;
         let (mut vertical, mut horizontal) = (f64::NAN, f64::NAN);
-        if told.tension.is_some() && matches!(far, EndAttachment::Ground(_)) {
+        if summary.tension.is_some() && matches!(far, EndAttachment::Ground(_)) {
             self.element
                 .evaluate_wrenches(&at, &[], &mut self.cache, &mut self.wrenches)
                 .map_err(SolveError::error_about(name))?;
@@ -90,6 +90,6 @@ impl<'a> Settling<'a> {
             }
         }
         let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        Ok(SettledConnector { ratio: known(told.ratio), grounded: known(told.grounded), vertical, horizontal })
+        Ok(SettledConnector { ratio: known(summary.ratio), grounded: known(summary.grounded), vertical, horizontal })
     }
 }

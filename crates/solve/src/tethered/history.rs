@@ -115,12 +115,12 @@ pub struct TetherHistory {
 
 impl TetherHistory {
     /// Quantities of its nodes.
-    pub fn of_a_node(&self) -> &'static [TetherQuantity] {
+    pub fn node_quantities(&self) -> &'static [TetherQuantity] {
         if self.towed { &TOWED_NODE } else { &INSTALLED_NODE }
     }
 
     /// Quantities of the ends of its elements.
-    pub fn of_an_end(&self) -> &'static [TetherQuantity] {
+    pub fn end_quantities(&self) -> &'static [TetherQuantity] {
         if self.towed { &TOWED_END } else { &INSTALLED_END }
     }
 
@@ -132,7 +132,7 @@ impl TetherHistory {
 
     /// The series of a quantity of an end: twice the element and the end, from 0.
     pub fn end(&self, end: usize, quantity: usize) -> Vec<f64> {
-        let each = self.of_an_end().len();
+        let each = self.end_quantities().len();
         let step = 2 * self.line.elements().len() * each;
         self.ends.iter().skip(end * each + quantity).step_by(step.max(1)).copied().collect()
     }
@@ -144,7 +144,7 @@ impl TetherHistory {
 
     /// A value of an end at an instant.
     pub fn end_at(&self, instant: usize, end: usize, quantity: usize) -> Option<f64> {
-        let each = self.of_an_end().len();
+        let each = self.end_quantities().len();
         self.ends.get((instant * 2 * self.line.elements().len() + end) * each + quantity).copied()
     }
 }

@@ -65,7 +65,7 @@ impl TetherStatistics {
     }
 
     fn nodes(self, tether: &TetherHistory) -> Vec<Owned> {
-        let of = tether.of_a_node();
+        let of = tether.node_quantities();
         let place = |(node, distance): (usize, &f64)| Owned {
             number: node + 1,
             distance: *distance,
@@ -86,15 +86,15 @@ impl TetherStatistics {
 
     /// The seven columns of figure 7.12.
     fn installed_end(self, tether: &TetherHistory, end: usize) -> Vec<(TetherQuantity, Vec<f64>)> {
-        let of = tether.of_an_end();
-        let told = [0, 1, 6, 7, 8, 9, 10];
-        told.iter().filter_map(|q| Some((*of.get(*q)?, self.pick(tether.end(end, *q))))).collect()
+        let of = tether.end_quantities();
+        let reported = [0, 1, 6, 7, 8, 9, 10];
+        reported.iter().filter_map(|q| Some((*of.get(*q)?, self.pick(tether.end(end, *q))))).collect()
     }
 
     /// The seven columns of figure 7.6: both moments, the moment where its deviation round the tube is largest, the largest stress, both
     /// stresses, the stress where its deviation is largest.
     fn towed_end(self, tether: &TetherHistory, end: usize) -> Vec<(TetherQuantity, Vec<f64>)> {
-        let of = tether.of_an_end();
+        let of = tether.end_quantities();
         let values = |q: usize| self.pick(tether.end(end, q));
         let (y, z) = (values(2), values(3));
         let turned = |angle: f64| -> Vec<f64> {

@@ -62,7 +62,7 @@ pub fn events(run: &Tethered) -> Table {
 
 /// Positions, velocities and accelerations of the nodes at some instants, from the vessel down (7.3).
 pub fn motions(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Table {
-    let quantities = tether.of_a_node();
+    let quantities = tether.node_quantities();
     let along = quantities.len() - 1;
     let nodes = || (0..tether.line.nodes()).rev();
     let rows: Vec<(usize, usize)> = instants.iter().flat_map(|i| nodes().map(move |node| (*i, node))).collect();
@@ -81,7 +81,7 @@ pub fn motions(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Ta
 pub fn forces(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Table {
     let ends = || (0..2 * tether.line.elements().len()).rev();
     let rows: Vec<(usize, usize)> = instants.iter().flat_map(|i| ends().map(move |end| (*i, end))).collect();
-    let along = tether.of_a_node().len() - 1;
+    let along = tether.node_quantities().len() - 1;
     let mut table = Table::new(format!("Forces and Stresses of Tether {}", tether.name))
         .with_rows(&rows)
         .column("", "Time", Dim::Time, SECONDS, |(instant, _)| run.times.get(*instant).copied())
@@ -90,7 +90,7 @@ pub fn forces(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Tab
         .column("", "Along", Dim::Length, Digits::Decimals(1), |(instant, end)| {
             tether.node_at(*instant, end.div_ceil(2), along)
         });
-    for (q, of) in tether.of_an_end().iter().enumerate() {
+    for (q, of) in tether.end_quantities().iter().enumerate() {
         table = table.column(of.group, of.name, of.dim, of.digits, |(instant, end)| tether.end_at(*instant, *end, q));
     }
     table.build()
@@ -108,8 +108,8 @@ pub enum Of {
 /// Everything of a node or of an end over time.
 pub fn series(run: &Tethered, tether: &TetherHistory, of: Of) -> Table {
     let (what, list) = match of {
-        Of::Node(node) => (format!("Node {}", node + 1), tether.of_a_node()),
-        Of::End(end) => (format!("Element {}, End {}", end / 2 + 1, end % 2 + 1), tether.of_an_end()),
+        Of::Node(node) => (format!("Node {}", node + 1), tether.node_quantities()),
+        Of::End(end) => (format!("Element {}, End {}", end / 2 + 1, end % 2 + 1), tether.end_quantities()),
     };
     let mut columns = vec![Column::new("", "Time", Dim::Time, SECONDS, run.times.iter().copied())];
     for (index, quantity) in list.iter().enumerate() {
@@ -131,7 +131,7 @@ pub fn table_along_tether(
     index: usize,
     instants: &[usize],
 ) -> Option<Table> {
-    let list = if at_nodes { tether.of_a_node() } else { tether.of_an_end() };
+    let list = if at_nodes { tether.node_quantities() } else { tether.end_quantities() };
     let quantity = list.get(index)?;
     let places: Vec<usize> =
         if at_nodes { (0..tether.line.nodes()).collect() } else { (0..2 * tether.line.elements().len()).collect() };

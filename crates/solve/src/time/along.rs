@@ -111,10 +111,10 @@ impl AlongColumns {
             let Some(node) = found else { continue };
             let LineNode { arc, position, effective, shear, moment, clearance, pressures, .. } = node;
             let clearance = if clearance.is_finite() { *clearance } else { f64::NAN };
-            let told = [*arc, position.x, position.y, position.z, clearance, *effective];
-            let mut whole = told.iter().enumerate().all(|(i, v)| i == 4 || v.is_finite());
+            let values = [*arc, position.x, position.y, position.z, clearance, *effective];
+            let mut whole = values.iter().enumerate().all(|(i, v)| i == 4 || v.is_finite());
             let (first, rest) = place.split_at_mut(OF_NODE);
-            first.copy_from_slice(&told);
+            first.copy_from_slice(&values);
             if self.bends {
                 // of a line that reports its moment alone, all of it is about one direction
                 let bends = if node.bends == [0.0; 2] { [*moment, 0.0] } else { node.bends };

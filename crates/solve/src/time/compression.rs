@@ -24,15 +24,15 @@ pub struct Pushing {
 
 impl Pushing {
     /// Of a connector between two ends, of which that of a number is reported, or else the first on a body.
-    pub(crate) fn new(from: f64, ends: &[EndAttachment], told: usize) -> Option<Self> {
+    pub(crate) fn new(from: f64, ends: &[EndAttachment], pulling_end: usize) -> Option<Self> {
         let place = |end: &EndAttachment| match end {
             EndAttachment::Ground(pose) => (None, pose.origin),
             EndAttachment::Body(body, at) => (Some(*body), *at),
         };
         let [first, second] = ends else { return None };
         let on_body = |end: &EndAttachment| matches!(end, EndAttachment::Body(..));
-        let second_told = if on_body(first) && on_body(second) { told == 1 } else { on_body(second) };
-        let (near, far) = if second_told { (second, first) } else { (first, second) };
+        let is_second_end = if on_body(first) && on_body(second) { pulling_end == 1 } else { on_body(second) };
+        let (near, far) = if is_second_end { (second, first) } else { (first, second) };
         Some(Pushing { from, ends: [place(near), place(far)] })
     }
 

@@ -186,13 +186,13 @@ impl Run {
                 let mut first = 0;
                 for link in &self.system.links {
                     if link.name.eq_ignore_ascii_case(name) {
-                        let told = link.element.pulling_end();
-                        let force = self.now.forces.wrenches.get(first + told)?.fixed_rows::<3>(0).into_owned();
+                        let pulling = link.element.pulling_end();
+                        let force = self.now.forces.wrenches.get(first + pulling)?.fixed_rows::<3>(0).into_owned();
                         let at = |end: &EndAttachment| end_of(end, &self.now.motions, false).0.pose.origin;
                         let away = |from| {
                             Some(pull(
                                 &force,
-                                &(at(link.ends.get(1usize.checked_sub(told)?)?) - at(link.ends.get(told)?)),
+                                &(at(link.ends.get(1usize.checked_sub(pulling)?)?) - at(link.ends.get(pulling)?)),
                                 from,
                             ))
                         };

@@ -116,18 +116,18 @@ impl ForcePredictor {
 
     /// Learns from the forces at the end of a step by how much they would have been off.
     pub(super) fn learn(&mut self, dt: f64, motions: (&[BodyMotion], &[BodyMotion], &[Six]), sum: &DVector<f64>) {
-        let mut told = std::mem::take(&mut self.start);
-        if told.len() == sum.len() && self.add(dt, motions, &mut told) {
-            self.add_inertia((motions.0, motions.1), &mut told);
+        let mut predicted = std::mem::take(&mut self.start);
+        if predicted.len() == sum.len() && self.add(dt, motions, &mut predicted) {
+            self.add_inertia((motions.0, motions.1), &mut predicted);
             self.off.rotate_right(1);
             let [latest, ..] = &mut self.off;
             latest.clone_from(sum);
-            *latest -= &told;
+            *latest -= &predicted;
             self.known = (self.known + 1).min(3);
         } else {
             self.known = 0;
         }
-        self.start = told;
+        self.start = predicted;
     }
 
     /// Adds to the forces of the start of a step what motion and change of velocity over it make of them. False without a step of
@@ -193,13 +193,13 @@ mod tests {
         for step in 0..5 {
             let t = f64::from(step) * dt;
             let (start, trial, over) = ([motion(t)], [motion(t + dt)], [Six::repeat(place(t + dt) - place(t))]);
-            let mut told = force(t);
-            made.begin(&told);
-            let ready =
-                made.add(dt, (&trial, &start, &over), &mut told) && made.add_moving((&trial, &start), &mut told);
+            let mut predicted = force(t);
+            made.begin(&predicted);
+            let ready = made.add(dt, (&trial, &start, &over), &mut predicted)
+                && made.add_moving((&trial, &start), &mut predicted);
             // three steps to learn from, behind one that gives the matrices
             assert_eq!(ready, step >= 2);
-            let off = (&told - force(t + dt)).amax();
+            let off = (&predicted - force(t + dt)).amax();
             // rounding of numbers about one, weighed by three
             assert!(step < 4 || off < 1e-13, "{off}");
             made.learn(dt, (&trial, &start, &over), &force(t + dt));

@@ -2,7 +2,7 @@
 
 use super::ends::end_of;
 use super::force_predictor::ForcePredictor;
-use super::inertia::of_added;
+use super::inertia::rotated_added_inertia;
 use super::parallel::LineTask;
 use crate::link::{EndAttachment, Link};
 use crate::system::{SolveError, System, SystemBody};
@@ -274,7 +274,7 @@ impl BodyForces {
                 block += linear;
                 // it turns with its body
                 let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
-                block += of_added(&linear, &motion.velocity);
+                block += rotated_added_inertia(&linear, &motion.velocity);
             }
         }
         for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {
@@ -286,16 +286,16 @@ impl BodyForces {
     fn add(&mut self, body: usize, category: usize, wrench: &Six) {
         let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
         at += wrench;
-        if let Some(told) = self.categories.get_mut(body).and_then(|c| c.get_mut(category)) {
-            *told += wrench;
+        if let Some(counted) = self.categories.get_mut(body).and_then(|c| c.get_mut(category)) {
+            *counted += wrench;
         }
     }
 
     /// Counts a part of what was added in one category in another.
     fn count_as(&mut self, body: usize, (from, to): (usize, usize), part: &Six) {
-        let Some(told) = self.categories.get_mut(body) else { return };
+        let Some(categories) = self.categories.get_mut(body) else { return };
         for (category, share) in [(from, -part), (to, *part)] {
-            if let Some(sum) = told.get_mut(category) {
+            if let Some(sum) = categories.get_mut(category) {
                 *sum += share;
             }
         }
@@ -351,8 +351,8 @@ impl BodyForces {
                 let about = move_wrench(wrench, *own);
                 let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
                 at += about;
-                if let Some(told) = self.categories.get_mut(*body).and_then(|c| c.get_mut(category)) {
-                    *told += about;
+                if let Some(counted) = self.categories.get_mut(*body).and_then(|c| c.get_mut(category)) {
+                    *counted += about;
                 }
                 self.pull[*body] = self.pull[*body].max(wrench.fixed_rows::<3>(0).norm());
                 for (j, (other, far)) in link.ends.iter().zip(&self.arms).enumerate() {

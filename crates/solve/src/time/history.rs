@@ -196,7 +196,7 @@ impl RowLayout {
     pub fn write(
         &self,
         (system, time): (&System, f64),
-        (motions, forces, told): (&[BodyMotion], &mut BodyForces, &mut RowSources),
+        (motions, forces, sources): (&[BodyMotion], &mut BodyForces, &mut RowSources),
         near: &mut [Place],
         row: &mut Vec<f64>,
     ) -> Result<(), SolveError> {
@@ -225,7 +225,7 @@ impl RowLayout {
                 _ => self.links.iter().position(same),
             };
             if let (Some(number), Some(columns)) = (found, found.and_then(|n| self.links.get(n))) {
-                let length = told.lengths.get(number).copied().flatten();
+                let length = sources.lengths.get(number).copied().flatten();
                 if let Some([active, long]) = row.get_mut(columns.active..columns.active + 2) {
                     (*active, *long) = (1.0, length.unwrap_or(f64::NAN));
                 }
@@ -239,8 +239,8 @@ impl RowLayout {
                 if let Some(along) = &columns.along {
                     let mut none = SolverCache::new();
                     let cache = forces.caches.get_mut(index).unwrap_or(&mut none);
-                    nodes_of((system, link, cache), (time, motions), &mut told.nodes)
-                        .and_then(|()| along.write(&told.nodes, row))
+                    nodes_of((system, link, cache), (time, motions), &mut sources.nodes)
+                        .and_then(|()| along.write(&sources.nodes, row))
                         .map_err(|e| SolveError::error_about(&link.name)(at_time(e, time)))?;
                 }
             }
@@ -248,7 +248,7 @@ impl RowLayout {
         }
         for body in 0..self.bodies.len() {
             for category in &self.categories {
-                let of_inertia = |i: usize| told.inertia.get(body).and_then(|t| t.get(i)).copied();
+                let of_inertia = |i: usize| sources.inertia.get(body).and_then(|t| t.get(i)).copied();
                 let sums = forces.categories.get(body);
                 let of_loads = sums.and_then(|c: &[Six; CATEGORY_COUNT]| c.get(category.index())).copied();
                 let force = match category {

@@ -27,13 +27,13 @@ pub fn gyroscopic(mass: &Mass, motion: &BodyMotion) -> Six {
 pub(super) fn turned_inertia(node: &SystemBody, motion: &BodyMotion) -> [Matrix6<f64>; 2] {
     let [mut place, velocity] = of_mass(&node.floating.mass, motion);
     if node.added {
-        place += of_added(&node.floating.added_mass(&motion.pose), &motion.acceleration);
+        place += rotated_added_inertia(&node.floating.added_mass(&motion.pose), &motion.acceleration);
     }
     [place, velocity]
 }
 
 /// `d(A a)/d(rotation)` of a matrix that turns with its body: each 3x3 block B of it changes B x by (B [x] - [B x]) times the rotation.
-pub(super) fn of_added(matrix: &Matrix6<f64>, a: &Six) -> Matrix6<f64> {
+pub(super) fn rotated_added_inertia(matrix: &Matrix6<f64>, a: &Six) -> Matrix6<f64> {
     let halves = [Vector3::new(a[0], a[1], a[2]), Vector3::new(a[3], a[4], a[5])];
     let mut made = Matrix6::zeros();
     for row in [0, 3] {
@@ -106,7 +106,7 @@ mod tests {
         let pose = Pose::default().after_motion(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
         let a = Six::new(0.7, -1.1, 0.4, 0.2, 0.6, -0.9);
         let whole = |pose: &Pose| windlass_hydro::in_pose(&own, pose) * a;
-        let made = of_added(&windlass_hydro::in_pose(&own, &pose), &a);
+        let made = rotated_added_inertia(&windlass_hydro::in_pose(&own, &pose), &a);
         for n in 3..6 {
             let mut by = Six::zeros();
             by[n] = 1e-6;

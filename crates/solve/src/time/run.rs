@@ -58,7 +58,7 @@ pub struct Run {
     stepper: Stepper,
     pub(super) near: Vec<Place>,
     row: Vec<f64>,
-    told: RowSources,
+    row_sources: RowSources,
     /// Whether a length has changed since the last row.
     pub(super) wound: bool,
     /// The seas of the run, each with the time since when it has been there (s).
@@ -140,7 +140,7 @@ impl Run {
             stepper: Stepper::default(),
             near,
             row: Vec::new(),
-            told: RowSources::default(),
+            row_sources: RowSources::default(),
             wound: true,
             began: "as the bodies stand, at rest".into(),
             origin,
@@ -371,26 +371,26 @@ impl Run {
     }
 
     fn record(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
-        let mut told = std::mem::take(&mut self.told);
-        told.inertia.clear();
+        let mut sources = std::mem::take(&mut self.row_sources);
+        sources.inertia.clear();
         for (node, motion) in self.system.nodes.iter().zip(&self.now.motions) {
             let a = &motion.acceleration;
             let own = -(mass_block(&node.floating.mass, &motion.pose) * a);
             let added = if node.added { -(node.floating.added_mass(&motion.pose) * a) } else { Six::zeros() };
-            told.inertia.push([own, added, -gyroscopic(&node.floating.mass, motion)]);
+            sources.inertia.push([own, added, -gyroscopic(&node.floating.mass, motion)]);
         }
         // lengths change by winches alone
-        if !self.winches.is_empty() || told.lengths.is_empty() || self.wound {
+        if !self.winches.is_empty() || sources.lengths.is_empty() || self.wound {
             let length =
                 |name: &String| self.model.connectors.get(&Model::key(name)).and_then(|c| self.model.first_length(c));
-            told.lengths.clear();
-            told.lengths.extend(self.history.layout.links.iter().map(|l| length(&l.name)));
+            sources.lengths.clear();
+            sources.lengths.extend(self.history.layout.links.iter().map(|l| length(&l.name)));
             self.wound = false;
         }
         let (layout, now) = (&self.history.layout, &mut self.now);
-        let parts = (now.motions.as_slice(), &mut now.forces, &mut told);
+        let parts = (now.motions.as_slice(), &mut now.forces, &mut sources);
         layout.write((&self.system, now.time), parts, &mut self.near, &mut self.row)?;
-        self.told = told;
+        self.row_sources = sources;
         let wrong = |e: SeriesError| SolveError::new(ClassError::new(e.to_string()));
         self.statistics.take(&self.row).map_err(wrong)?;
         if self.settings.keep {

@@ -22,7 +22,7 @@ pub(crate) fn standing(
     let around = ambient(model, None).map_err(SolveError::new)?;
     let poses: Vec<_> = model.bodies.values().map(|b| windlass_base::pose::Pose::of(&b.place)).collect();
     let surroundings = model.surroundings();
-    let mut told = |name: &str, element: &dyn Element, ends: &[EndAttachment]| {
+    let mut report = |name: &str, element: &dyn Element, ends: &[EndAttachment]| {
         let Some(line) = element.as_dynamic() else { return Ok(()) };
         let ends: Vec<End> = ends.iter().map(|end| End::still(pose_of(end, &poses))).collect();
         let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
@@ -39,11 +39,11 @@ pub(crate) fn standing(
             // what makes no element here reports no nodes; who needs its force says why
             Err(_) => continue,
         };
-        told(&connector.name, element.as_ref(), &end_attachments(model, connector))?;
+        report(&connector.name, element.as_ref(), &end_attachments(model, connector))?;
     }
     for assembly in model.assemblies.values().filter(|a| fits(&a.name)) {
         if let Some((element, ends)) = build_pipe_link((model, &around, &RunRequirements::default()), assembly)? {
-            told(&assembly.name, element.as_ref(), &ends)?;
+            report(&assembly.name, element.as_ref(), &ends)?;
         }
     }
     Ok(())
@@ -53,13 +53,13 @@ pub(crate) fn standing(
 pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
     let mut made = Vec::new();
     // of others nothing is to be said
-    let moves = |name: &str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.is_dynamic_line(c));
-    let told = standing(model, &moves, |name, line, at, _| {
+    let is_dynamic = |name: &str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.is_dynamic_line(c));
+    let reported = standing(model, &is_dynamic, |name, line, at, _| {
         made.extend(line.static_caution(at).map(|text| (name.to_string(), text)));
         Ok(())
     });
     // who solves says why a line cannot be made
-    told.map_or_else(|_| Vec::new(), |()| made)
+    reported.map_or_else(|_| Vec::new(), |()| made)
 }
 
 /// The dynamic lines and whose names fit, at rest between their ends as they stand: a table each, a row a node.

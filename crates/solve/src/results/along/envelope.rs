@@ -36,7 +36,7 @@ pub fn envelope(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveE
         _ => &made,
     };
     let wall = columns.bends && line.sections.iter().any(|s| s.tube.is_some());
-    let told: Vec<_> = ENVELOPE_QUANTITIES
+    let quantities: Vec<_> = ENVELOPE_QUANTITIES
         .iter()
         .filter(|(.., quantity, _)| match quantity {
             NodeQuantity::Clearance | NodeQuantity::Effective => true,
@@ -72,7 +72,7 @@ pub fn envelope(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveE
         .with_rows(&rows)
         .column("", "Node", Dim::None, Digits::Usual, |(number, ..)| *number)
         .column("", "Arc", Dim::Length, Digits::Usual, |(_, _, arc, _)| *arc);
-    for (group, sign, quantity, dim) in told {
+    for (group, sign, quantity, dim) in quantities {
         let digits = if *sign == "C" { CLEARANCE } else { Digits::Usual };
         let names = ["Min", "Mean", "Max"].map(|part| format!("{sign} {part}"));
         table = table.columns(group, names.each_ref().map(String::as_str), *dim, digits, |(_, place, ..)| {
