@@ -33,7 +33,7 @@ fn sphere(rows: usize) -> Surface {
 }
 
 fn benches(c: &mut Criterion) {
-    let pose = Pose::of(&Place::new([100.0, 50.0, -1.0, 0.2, -0.1, 0.7]));
+    let pose = Pose::from_place(&Place::new([100.0, 50.0, -1.0, 0.2, -0.1, 0.7]));
     let block = Surface::block([-10.0, -4.0, -3.0], [10.0, 4.0, 3.0]);
     let tube = TubeHull { ends: [Vector3::new(-10.0, 0.0, 0.0), Vector3::new(10.0, 0.0, 1.0)], diameter: 4.0 };
     let ball = sphere(23);

@@ -1,6 +1,6 @@
 //! Cards that are given twice: what would be in force cannot be determined, so that the second one is refused with both places.
 //!
-//! Each [`Layout`] says how often its card may come ([`Repeats`]); a card is allowed once unless its layout says otherwise.
+//! Each [`CardLayout`] says how often its card may come ([`Repeats`]); a card is allowed once unless its layout says otherwise.
 
 use super::layout::{CardLayout, CardRecord, Repeats};
 use super::reader::matches;

@@ -23,7 +23,7 @@ impl Default for Pose {
 
 impl Pose {
     /// The pose of a place.
-    pub fn of(place: &Place) -> Self {
+    pub fn from_place(place: &Place) -> Self {
         Pose { origin: place.shift.into(), axes: *place.rotation().matrix() }
     }
 
@@ -55,7 +55,7 @@ impl Pose {
     /// The place with these axes: roll, pitch, yaw with pitch in [-90, 90] degrees and the yaw and roll nearest to those
     /// of `near`; a pose that is that of `near` gives `near` itself.
     pub fn place(&self, near: &Place) -> Place {
-        if Pose::of(near) == *self {
+        if Pose::from_place(near) == *self {
             return *near;
         }
         let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(self.axes).euler_angles();
@@ -84,19 +84,19 @@ mod tests {
         for step in 0..100 {
             let [roll, pitch, yaw] = [0.37, 0.011, -1.13].map(|rate| rate * f64::from(step));
             let place = Place::new([1.0, 2.0, 3.0, roll, pitch, yaw]);
-            let turned = Pose::of(&place).after_motion(&Six::new(0.0, 0.0, 0.0, 1e-9, 0.0, 0.0));
+            let turned = Pose::from_place(&place).after_motion(&Six::new(0.0, 0.0, 0.0, 1e-9, 0.0, 0.0));
             let back = turned.place(&place);
             for (a, b) in back.turn.iter().zip(place.turn) {
                 assert!((a - b).abs() < 1e-7, "{back:?} {place:?}");
             }
-            assert_eq!(Pose::of(&place).place(&place), place);
+            assert_eq!(Pose::from_place(&place).place(&place), place);
         }
     }
 
     #[test]
     fn rotation_acts_about_global_axes() {
         let quarter = std::f64::consts::FRAC_PI_2;
-        let pose = Pose::of(&Place::new([0.0, 0.0, 0.0, 0.0, 0.0, quarter]));
+        let pose = Pose::from_place(&Place::new([0.0, 0.0, 0.0, 0.0, 0.0, quarter]));
         let turned = pose.after_motion(&Six::new(0.0, 0.0, 5.0, quarter, 0.0, 0.0));
         // body x points along global y; a quarter turn about global x takes it to global z
         assert!((turned.point(Vector3::x()) - Vector3::new(0.0, 0.0, 6.0)).norm() < 1e-15);

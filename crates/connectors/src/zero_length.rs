@@ -61,12 +61,12 @@ pub fn defined_displacement(connection: &Connection, turn: &Matrix3<f64>) -> Vec
     (first.axes * turn).transpose() * (second.origin - first.origin)
 }
 
-/// [v] with [v] w = v x w.
+/// `[v]` with `[v] w = v x w`.
 fn cross(v: &Vector3<f64>) -> Matrix3<f64> {
     v.cross_matrix()
 }
 
-/// c in J^-1 = 1 - [t]/2 + c [t]2, with c = (1 - (t/2) cot(t/2)) / t2, and its derivative by t2.
+/// c in `J^-1 = 1 - [t]/2 + c [t]2`, with c = (1 - (t/2) cot(t/2)) / t2, and its derivative by t2.
 fn coefficient(square: f64) -> (f64, f64) {
     // below this the closed form loses more digits than the series
     if square < 0.25 {

@@ -136,7 +136,7 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
     let under_way = sea.is_some();
     let mut sum = BodyLoads { loads: Vec::new(), added_mass: Matrix6::zeros(), damping: Matrix6::zeros() };
     let drifts = |l: &PartLoad| matches!(l.kind, LoadKind::Drift { .. });
-    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::of(&body.place));
+    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::from_place(&body.place));
     let mut around: Option<Arc<Steady>> = None;
     for part in model.parts_of(body) {
         let mine: Vec<&PartLoad> =

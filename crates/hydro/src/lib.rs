@@ -294,7 +294,7 @@ impl Floating {
         loads.extend(grown.loads);
         let (members, of_members) = morison::build_members(model, body, under_way)?;
         loads.extend(members.map(|load| Box::new(load) as Box<dyn BodyLoad>));
-        let pressed = pressure::of(model, body, under_way.flatten())?;
+        let pressed = pressure::build_wave_pressure(model, body, under_way.flatten())?;
         loads.extend(pressed.map(|load| Box::new(load) as Box<dyn BodyLoad>));
         let mut added_mass = gathered.added_mass + grown.mass + of_members;
         let mut damping = gathered.damping;

@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn linear_force_at_rest_is_buoyancy_at_its_point() {
-        let load = linear(1e6).mean_load(&Pose::of(&Place::new([-60.0, -1.0, -2.0, 0.0, 0.0, 0.0]))).unwrap();
+        let load = linear(1e6).mean_load(&Pose::from_place(&Place::new([-60.0, -1.0, -2.0, 0.0, 0.0, 0.0]))).unwrap();
         assert_eq!(load.wrench, Six::new(0.0, 0.0, 1e8, 1e8, -60.0 * 1e8, 0.0));
     }
 
@@ -97,7 +97,7 @@ mod tests {
                 at: [0.0; 3],
                 ..linear(0.0)
             };
-            let load = linear.mean_load(&Pose::of(&Place::new([7.0, 8.0, 3.5, 0.1, 0.0, yaw]))).unwrap();
+            let load = linear.mean_load(&Pose::from_place(&Place::new([7.0, 8.0, 3.5, 0.1, 0.0, yaw]))).unwrap();
             // half a metre above its place: 1e8 - 4e6 / 2; rolled by 0.1 rad about its own x axis
             assert!((load.wrench[2] - 9.8e7).abs() < 1e-4);
             let moment = Vector3::new(load.wrench[3], load.wrench[4], load.wrench[5]);
@@ -110,7 +110,7 @@ mod tests {
     fn stiffness_matches_finite_difference_of_force() {
         let linear = linear(2e5);
         for place in [[3.0, -2.0, -1.0, 0.2, -0.3, 1.1], [0.0, 0.0, 5.0, -0.8, 0.9, -2.0]] {
-            let pose = Pose::of(&Place::new(place));
+            let pose = Pose::from_place(&Place::new(place));
             let load = linear.mean_load(&pose).unwrap();
             for n in 0..6 {
                 let step = if n < 3 { 1e-4 } else { 1e-6 };

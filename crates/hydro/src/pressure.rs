@@ -85,11 +85,15 @@ struct Near {
     kink: f64,
 }
 
-/// That of a body under way; `None` without waves or without such pieces.
+/// The wave pressure on a body under way; `None` without waves or without such pieces.
 ///
 /// # Errors
 /// A piece that is not a closed surface.
-pub fn of(model: &Model, body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<WavePressure>, ClassError> {
+pub fn build_wave_pressure(
+    model: &Model,
+    body: &Body,
+    sea: Option<&Arc<Sea>>,
+) -> Result<Option<WavePressure>, ClassError> {
     let Some(sea) = sea else { return Ok(None) };
     let mut surfaces = Vec::new();
     for part in model.parts_of(body) {
@@ -99,7 +103,7 @@ pub fn of(model: &Model, body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<W
             surfaces.push((factor, surface));
         }
     }
-    let pose = Pose::of(&body.place);
+    let pose = Pose::from_place(&body.place);
     let slow = SlowWrench::new(dividing_period(model, Some(sea)));
     let made = |surfaces: Vec<_>| WavePressure { slow, ..from_surfaces(sea, surfaces.into_iter(), &pose, 1.0) };
     Ok((!surfaces.is_empty()).then(|| made(surfaces)))

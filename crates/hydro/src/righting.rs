@@ -44,7 +44,7 @@ pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balan
         Ok::<_, ClassError>(total)
     };
     let weight = loads.iter().find(|load| load.category() == Category::Weight);
-    let weight = -weight.map_or(Ok(0.0), |load| load.mean_load(&Pose::of(from)).map(|l| l.wrench[2]))?;
+    let weight = -weight.map_or(Ok(0.0), |load| load.mean_load(&Pose::from_place(from)).map(|l| l.wrench[2]))?;
     if weight <= 0.0 {
         return Err(ClassError::new("it has no weight"));
     }
@@ -53,7 +53,7 @@ pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balan
     // the axes of the heading: forward along x, and across, about which the body trims
     let (along, across) = (Vector3::new(yaw.cos(), yaw.sin(), 0.0), Vector3::new(-yaw.sin(), yaw.cos(), 0.0));
     for _ in 0..MAX_NEWTON_ITERATIONS {
-        let pose = Pose::of(&place);
+        let pose = Pose::from_place(&place);
         let total = sum(&pose)?;
         let arm = pose.axes * floating.mass.centre;
         let (force, turn) =

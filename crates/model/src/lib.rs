@@ -209,7 +209,7 @@ impl Model {
     /// its body; `None` when it has no such point.
     pub fn end_pose(&self, connector: &Connector, index: usize) -> Option<Pose> {
         let point = connector.points.get(index).and_then(|name| self.points.get(&Model::key(name)))?;
-        let body = self.body_of(point).map(|b| Pose::of(&b.place)).unwrap_or_default();
+        let body = self.body_of(point).map(|b| Pose::from_place(&b.place)).unwrap_or_default();
         self.end(connector, index).map(|at| Pose { origin: at.into(), ..body })
     }
 

@@ -318,7 +318,7 @@ fn stored_ends(layout: &RowLayout, number: usize, attached: &[EndAttachment; 2],
         let place = Place { shift: [place[0], place[1], place[2]], turn: [place[3], place[4], place[5]] };
         let (velocity, acceleration) = rest.split_at(6);
         BodyMotion {
-            pose: Pose::of(&place),
+            pose: Pose::from_place(&place),
             velocity: Six::from_column_slice(velocity),
             acceleration: Six::from_column_slice(acceleration),
             ..BodyMotion::default()

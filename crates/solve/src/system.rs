@@ -195,7 +195,8 @@ impl System {
 
     /// A state with the bodies where they stand in the model.
     pub fn state(&self, model: &Model) -> SystemState {
-        let poses = self.nodes.iter().map(|n| model.bodies.get(&n.key).map(|b| Pose::of(&b.place)).unwrap_or_default());
+        let poses =
+            self.nodes.iter().map(|n| model.bodies.get(&n.key).map(|b| Pose::from_place(&b.place)).unwrap_or_default());
         SystemState::from_poses(poses.collect())
     }
 

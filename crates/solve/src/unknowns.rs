@@ -188,5 +188,5 @@ fn turned_back(pose: Pose, turns: &Turns) -> Pose {
     for (turn, kept) in place.turn.iter_mut().zip(turns) {
         *turn = kept.unwrap_or(*turn);
     }
-    Pose { axes: Pose::of(&place).axes, ..pose }
+    Pose { axes: Pose::from_place(&place).axes, ..pose }
 }

@@ -61,7 +61,7 @@ impl Rigging<'_> {
         let slings = self.slings(model)?;
         let key = Model::key(self.body);
         let Some(body) = model.bodies.get(&key) else { return Err(self.too_short()) };
-        let pose = Pose::of(&body.place);
+        let pose = Pose::from_place(&body.place);
         let (at, turn) = if turned {
             let mass = Mass::from_parts(model.parts_of(body), model.defaults.gravity);
             if mass.mass <= 0.0 {
@@ -156,12 +156,12 @@ pub fn orient(model: &mut Model, body: &str, slings: &[String], span: Span) -> O
     let x = (front - back).try_normalize(1e-9).ok_or_else(flat)?;
     let y = (side - x * x.dot(&side)).try_normalize(1e-9).ok_or_else(flat)?;
     let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
-    let (from, to) = (Pose::of(&old.place), Pose { origin: (front + back) / 2.0, axes });
+    let (from, to) = (Pose::from_place(&old.place), Pose { origin: (front + back) / 2.0, axes });
     let place = to.place(&Place::default());
     // the new pose as its place gives it back
-    let to = Pose::of(&place);
+    let to = Pose::from_place(&place);
     for part in model.parts.values_mut().filter(|p| Model::key(&p.body) == key) {
-        let was = Pose::of(&part.place);
+        let was = Pose::from_place(&part.place);
         let axes = to.axes.transpose() * from.axes * was.axes;
         part.place = Pose { origin: to.local(from.point(was.origin)), axes }.place(&Place::default());
     }

@@ -178,7 +178,7 @@ fn dispose(job: &mut Job, mut made: Table, args: &Args) -> Effect {
 }
 
 fn poses(job: &Job) -> Vec<Pose> {
-    job.model.bodies.values().map(|b| Pose::of(&b.place)).collect()
+    job.model.bodies.values().map(|b| Pose::from_place(&b.place)).collect()
 }
 
 fn run_excursion(job: &mut Job, call: &Call) -> Outcome<Effect> {

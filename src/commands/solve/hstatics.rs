@@ -109,7 +109,7 @@ fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let at_draft = |draft: f64| {
         let mut place = Place { turn: [0.0, 0.0, body.place.turn[2]], ..body.place };
         place.shift[2] = -draft;
-        let pose = Pose::of(&place);
+        let pose = Pose::from_place(&place);
         (draft, pose, Hydrostatics::new(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()))
     };
     let rows: Vec<_> = (0..args.integer(const { CFORM_SPEC.integer("NUM") }).unwrap_or(1))

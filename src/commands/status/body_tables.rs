@@ -139,7 +139,8 @@ pub fn hydrostatics(model: &Model, fits: Fits, units: UnitSystem) -> Vec<Table> 
 }
 
 fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
-    let (floating, hull, pose) = (Floating::at_rest(model, body)?, Hull::new(model, body)?, Pose::of(&body.place));
+    let (floating, hull, pose) =
+        (Floating::at_rest(model, body)?, Hull::new(model, body)?, Pose::from_place(&body.place));
     let mass = floating.mass;
     let weight = mass.mass * model.defaults.gravity;
     let (mut stiffness, mut wrench) = (Matrix6::zeros(), Six::zeros());

@@ -57,8 +57,8 @@ impl Joint {
     fn at(&self, first: [f64; 6], second: [f64; 6], rate: [f64; 3], dt: Option<f64>) -> (ElementResponse, Vec<f64>) {
         let [x, y, z] = rate;
         let ends = [
-            End::still(Pose::of(&Place::new(first))),
-            End { velocity: Six::new(x, y, z, 0.0, 0.0, 0.0), ..End::still(Pose::of(&Place::new(second))) },
+            End::still(Pose::from_place(&Place::new(first))),
+            End { velocity: Six::new(x, y, z, 0.0, 0.0, 0.0), ..End::still(Pose::from_place(&Place::new(second))) },
         ];
         let surroundings = self.session.job.model.surroundings();
         let step = dt.map(|dt| TimeStep { time: dt, dt });
@@ -82,7 +82,7 @@ impl Joint {
     }
 
     fn summary(&self, first: [f64; 6], second: [f64; 6]) -> ElementSummary {
-        let ends = [first, second].map(|p| End::still(Pose::of(&Place::new(p))));
+        let ends = [first, second].map(|p| End::still(Pose::from_place(&Place::new(p))));
         let surroundings = self.session.job.model.surroundings();
         self.element.summary(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &self.state).unwrap()
     }
@@ -294,7 +294,7 @@ fn rotational_curve_in_feet_is_moment_per_radian() {
     session.run();
     let model = &session.job.model;
     let connector = model.connectors.values().next().unwrap();
-    let ends = [Pose::of(&Place::new([0.0, 0.0, 0.0, 0.1, 0.0, 0.0])), Pose::default()];
+    let ends = [Pose::from_place(&Place::new([0.0, 0.0, 0.0, 0.1, 0.0, 0.0])), Pose::default()];
     let surroundings = model.surroundings();
     let curve = |name: &str| model.curves.get(&Model::key(name));
     let made = Connection {

@@ -33,7 +33,7 @@ const BARGE: &str = "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 12\nPGEN HULL\nPLANE 
 /// Hydrostatics of the first body where it is.
 fn state(model: &Model) -> Hydrostatics {
     let body = &model.bodies[0];
-    let (hull, pose) = (Hull::new(model, body).unwrap().unwrap(), Pose::of(&body.place));
+    let (hull, pose) = (Hull::new(model, body).unwrap().unwrap(), Pose::from_place(&body.place));
     let mass = Mass::from_parts(model.parts_of(body), model.defaults.gravity);
     Hydrostatics::new(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()).unwrap()
 }
@@ -149,7 +149,7 @@ fn body_weight_and_buoyancy_tangent_matches_finite_differences() {
     let (model, _) = model(&format!("{BARGE}&INSTATE -LOCATE TBRG 30 -20 -9 4 1 25\n"));
     let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
     assert_eq!(floating.loads.iter().map(|l| l.category()).collect::<Vec<_>>(), [Category::Weight, Category::Buoyancy]);
-    let pose = Pose::of(&model.bodies[0].place);
+    let pose = Pose::from_place(&model.bodies[0].place);
     for load in &floating.loads {
         let at = load.mean_load(&pose).unwrap();
         for n in 0..6 {
@@ -180,7 +180,7 @@ fn linear_stiffness_matches_aqwa_deck_buoyancy() {
     );
     let body = &model.bodies[0];
     let floating = Floating::at_rest(&model, body).unwrap();
-    let pose = Pose::of(&body.place);
+    let pose = Pose::from_place(&body.place);
     let total: Vector6<f64> = floating.loads.iter().map(|l| l.mean_load(&pose).unwrap().wrench).sum();
     let depth = 2.0 + 0.5 * (1.0 - 0.01f64.cos());
     near(total[2] / NEWTONS_PER_KIP, 70.0 * depth, 1e-9);

@@ -73,7 +73,7 @@ fn steps(model: &Model, far: [f64; 3]) -> Vec<Result<usize, String>> {
         let [roll, pitch, yaw] = [30.0, 30.0, 90.0].map(|a: f64| (a * next()).to_radians());
         let place = [home.origin.x + x, home.origin.y + y, home.origin.z + z, roll, pitch, yaw];
         let mut state = system.state(model);
-        state.poses[0] = Pose::of(&Place::new(place));
+        state.poses[0] = Pose::from_place(&Place::new(place));
         list.push(match equilibrium(&system, &mut state, &Options::default()) {
             Ok(found) => {
                 let away = (state.poses[0].origin - home.origin).norm();

@@ -65,7 +65,7 @@ fn near(got: f64, want: f64, tolerance: f64) {
 
 fn place(values: [f64; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = values;
-    Pose::of(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
+    Pose::from_place(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
 }
 
 #[test]

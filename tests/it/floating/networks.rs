@@ -243,7 +243,7 @@ impl Network {
 
     /// The largest force that is left, over the largest at an end of a line there: in X, Y and Z of all, and the moment about Z of bodies.
     fn left(&self, model: &Model) -> (f64, String) {
-        let pose = |name: &str| Pose::of(&model.bodies[name].place);
+        let pose = |name: &str| Pose::from_place(&model.bodies[name].place);
         let water = model.surroundings().water_weight();
         let mut sums: std::collections::BTreeMap<&str, (Vector3<f64>, f64, f64)> = Default::default();
         for (name, weight) in &self.floating {

@@ -43,7 +43,7 @@ fn sum(model: &Model, category: Category, pose: &Pose) -> Six {
 fn place(values: [f64; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = values;
     let [x, y, z] = [x * METRES_PER_FOOT, y * METRES_PER_FOOT, z * METRES_PER_FOOT];
-    Pose::of(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
+    Pose::from_place(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
 }
 
 const AFLOAT: [f64; 6] = [0.0, 0.0, -9.0, 0.0, 0.0, 0.0];

@@ -32,7 +32,7 @@ fn floating(model: &Model) -> Floating {
 
 fn place(values: [f64; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = values;
-    Pose::of(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
+    Pose::from_place(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
 }
 
 fn moving(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> DynamicLoad {

@@ -52,7 +52,7 @@ fn at_rest(model: &Model, pose: &Pose) -> Six {
 }
 
 fn turned(x: f64, y: f64, yaw: f64) -> Pose {
-    Pose::of(&Place::new([x, y, 0.0, 0.0, 0.0, f64::to_radians(yaw)]))
+    Pose::from_place(&Place::new([x, y, 0.0, 0.0, 0.0, f64::to_radians(yaw)]))
 }
 
 /// Surge, sway and yaw by heading, cubic between headings of 45 degrees; of half a body.

@@ -79,7 +79,7 @@ fn pile_with_growth_has_drag_and_inertia_of_larger_pile() {
     assert!((drag(&thin) - drag(&thick)).amax() <= 1e-12 * drag(&thick).amax());
     let sea = sea(0.9, 0.81 / G, 3.0);
     let (first, second) = (members(&thin, Some(&sea)), members(&thick, Some(&sea)));
-    let leaning = Pose::of(&Place::new([1.0, 2.0, -1.0, 0.1, -0.2, 0.3]));
+    let leaning = Pose::from_place(&Place::new([1.0, 2.0, -1.0, 0.1, -0.2, 0.3]));
     let velocity = Six::new(0.5, -0.3, 0.2, 0.01, 0.02, 0.0);
     for pose in [Pose::default(), leaning] {
         for time in [0.0, 1.3, 4.0] {

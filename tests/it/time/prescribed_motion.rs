@@ -136,7 +136,8 @@ fn raos_are_lagged_rotated_with_body_and_mirrored() {
     let now = at(beam.as_ref(), 1.7);
     let swing = 1.5 * (w * 1.7).cos();
     assert!((now.pose.origin + Vector3::x() * swing).norm() < 1e-12, "{}", now.pose.origin);
-    let place = |roll: f64| Pose::of(&windlass_base::geometry::Place::new([0.0, 0.0, 0.0, roll, 0.0, PI / 2.0])).axes;
+    let place =
+        |roll: f64| Pose::from_place(&windlass_base::geometry::Place::new([0.0, 0.0, 0.0, roll, 0.0, PI / 2.0])).axes;
     assert!((now.pose.axes - place(-(3.0 * swing).to_radians())).norm() < 1e-12);
     // from the other side all of it is the other way
     let other = motion(&file, record, Some(&sea(&[(w, 1.5, PI, 0.0)], 0.0)));

@@ -21,7 +21,7 @@ pub(super) struct StateLayout {
 pub(super) struct StateView<'a> {
     /// Unstretched length (m), rate at which it grows (m/s) and part of each element.
     mesh: &'a [f64],
-    /// What [`State::pack`] made of the motion.
+    /// What [`RodState::pack`] made of the motion.
     pub motion: &'a [f64],
     /// How much pipe the tensioner has paid out since the pipe was laid (m).
     pub paid: f64,

@@ -28,7 +28,7 @@ pub struct DatabaseLoads {
     pub added_mass: Matrix6<f64>,
 }
 
-/// Linear motion about the low-frequency heading of a body, in a state of [`Linear::STATES`] values: the heading and the small rotations of the
+/// Linear motion about the low-frequency heading of a body, in a state of [`LinearMotion::STATES`] values: the heading and the small rotations of the
 /// place expected at the end of a step are those of the step.
 ///
 /// A step of time integrates the rate of rotation to the second order of its length, so that the mean of the rates of small rotations is off by as much
@@ -39,7 +39,7 @@ struct LinearMotion {
     slow: LowFrequency,
 }
 
-/// Where a state of [`Linear`] has the heading, what gives rates of small rotations of that of rotation, what is added to them in the step, and
+/// Where a state of [`LinearMotion`] has the heading, what gives rates of small rotations of that of rotation, what is added to them in the step, and
 /// in the next one; and of the end of the last step whether there was one, the heading, the small rotation, its rates without what was added.
 const HEADING_STATE: usize = LowFrequency::STATES;
 const RATES_STATE: usize = HEADING_STATE + 1;
@@ -102,7 +102,7 @@ impl LinearMotion {
         Six::new(a.x, a.y, a.z, b.x, b.y, b.z)
     }
 
-    /// A force, and its change with [`Linear::velocity`], -dF/dv, in global axes.
+    /// A force, and its change with [`LinearMotion::velocity`], -dF/dv, in global axes.
     fn load(force: &Six, damping: &Matrix6<f64>, state: &[f64]) -> DynamicLoad {
         let (axes, rates) = (LinearMotion::axes(state), LinearMotion::rates(state));
         let mut global = Matrix6::zeros();

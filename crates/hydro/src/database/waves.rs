@@ -147,7 +147,7 @@ impl WaveTable<12> {
 }
 
 impl WaveTable<7> {
-    /// `sum D exp(i q)` of the waves of the group, real and imaginary parts, as [`ByHeading::real`].
+    /// `sum D exp(i q)` of the waves of the group, real and imaginary parts, as [`WaveTable::real`].
     ///
     /// # Errors
     /// A heading in a gap of the table.

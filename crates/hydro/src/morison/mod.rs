@@ -84,7 +84,7 @@ pub fn build_members(
     let steady = Arc::new(if under_way.is_some() { mean.under_way(model, &model.environment)? } else { mean });
     let sea = under_way.flatten();
     let reach = MAX_SEGMENT_KL / sea.map_or(0.0, |sea| mean_number(sea));
-    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::of(&body.place));
+    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::from_place(&body.place));
     let mut made = Vec::new();
     for part in model.parts_of(body) {
         for piece in &part.pieces {

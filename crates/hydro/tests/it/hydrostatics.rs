@@ -15,7 +15,7 @@ const WATER: f64 = 1025.0 * 9.81;
 fn pose(shift: [f64; 3], degrees: [f64; 3]) -> Pose {
     let [x, y, z] = shift;
     let [a, b, c] = degrees.map(f64::to_radians);
-    Pose::of(&Place::new([x, y, z, a, b, c]))
+    Pose::from_place(&Place::new([x, y, z, a, b, c]))
 }
 
 fn close(a: f64, b: f64, tolerance: f64, what: &str) {

@@ -119,7 +119,7 @@ impl Film {
                     body.place = place;
                 }
                 if let Some(list) = poses.get_mut(body) {
-                    list.push(Pose::of(&place));
+                    list.push(Pose::from_place(&place));
                 }
             }
             for strand in &mut film.strands {

@@ -27,7 +27,7 @@ pub struct Natural {
 /// The modes of a system about its place, lowest eigenvalue first as found with added mass at infinite frequency.
 ///
 /// # Errors
-/// As [`crate::modes`].
+/// As [`crate::modes()`].
 pub fn natural(linear: &LinearSystem) -> Result<Vec<Natural>, SolveError> {
     let stiffness = &linear.stiffness;
     let start = modes_with(&linear.system, &linear.system.mass_matrix(&linear.poses), stiffness)?;

@@ -217,7 +217,7 @@ pub fn body_statistics(
 /// Natural periods with damping ratios, and the shapes of the modes.
 ///
 /// # Errors
-/// As [`crate::modes`].
+/// As [`crate::modes()`].
 pub fn modes(linear: &LinearSystem) -> Result<[Table; 2], SolveError> {
     let mut periods = Table::new("Natural Periods");
     let list = natural(linear)?;

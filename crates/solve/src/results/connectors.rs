@@ -12,7 +12,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
 
-/// The force of a connector by which its pull is reported ([`Layout::pull`]), global axes (N); none while the connector does not act.
+/// The force of a connector by which its pull is reported ([`RowLayout::pull`]), global axes (N); none while the connector does not act.
 pub(super) fn force(layout: &RowLayout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
     let columns = layout.links.get(link)?;
     let acts = row.get(columns.active).is_some_and(|a| *a > 0.0);
@@ -26,7 +26,9 @@ pub(super) fn poses(layout: &RowLayout, row: &[f64], list: &mut Vec<Pose>) {
     for body in 0..layout.bodies.len() {
         let at = layout.body(body);
         let pose = match row.get(at..at + 6) {
-            Some([x, y, z, roll, pitch, yaw]) => Pose::of(&Place { shift: [*x, *y, *z], turn: [*roll, *pitch, *yaw] }),
+            Some([x, y, z, roll, pitch, yaw]) => {
+                Pose::from_place(&Place { shift: [*x, *y, *z], turn: [*roll, *pitch, *yaw] })
+            }
             _ => Pose::default(),
         };
         list.push(pose);

@@ -45,7 +45,7 @@ pub(super) fn moving(row: &[f64], from: usize, own: Vector3<f64>) -> Moving {
     let [x, y, z, roll, pitch, yaw, rest @ ..] = values;
     let [vx, vy, vz, wx, wy, wz, ax, ay, az, bx, by, bz] = rest;
     let turn = [roll, pitch, yaw];
-    let pose = Pose::of(&Place { shift: [x, y, z], turn });
+    let pose = Pose::from_place(&Place { shift: [x, y, z], turn });
     let arm = pose.axes * own;
     let (spin, gain) = (Vector3::new(wx, wy, wz), Vector3::new(bx, by, bz));
     Moving {

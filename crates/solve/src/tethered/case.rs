@@ -260,7 +260,7 @@ pub(super) fn installed_tether(
 ) -> Result<InstalledTether, ClassError> {
     let ends: TetherEnds = connector.tether.clone().unwrap_or_default();
     let [fairlead, anchor] = model.end_poses(connector).map(|pose| pose.origin);
-    let attachment = Pose::of(&body.place).local(fairlead) - centre;
+    let attachment = Pose::from_place(&body.place).local(fairlead) - centre;
     let line = line(sections(model, connector))?;
     let mut springs = [EndSprings::default(); 2];
     for ((into, given), place) in springs.iter_mut().zip(ends.springs).zip(["vessel", "anchor"]) {
@@ -377,7 +377,7 @@ fn installed_case(
         }
     };
     let structure = Moored::build(structure, model, body, centre)?;
-    let pose = Pose::of(&body.place);
+    let pose = Pose::from_place(&body.place);
     let course = InstalledRunSettings {
         start: 0.0,
         step: settings.step,

@@ -7,7 +7,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 
 /// The pull of a connector by its force on an end (N), negative where that pushes the end away from the other one, which is `apart`
-/// from it (m); `from` is the least distance at which it may ([`windlass_model::Element::pushes`]).
+/// from it (m); `from` is the least distance at which it may ([`windlass_model::Element::compression_onset`]).
 pub(super) fn pull(force: &Vector3<f64>, apart: &Vector3<f64>, from: f64) -> f64 {
     let pushed = force.dot(apart) < 0.0 && apart.norm() >= from;
     if pushed { -force.norm() } else { force.norm() }
@@ -47,7 +47,9 @@ impl Pushing {
 fn pose(row: &[f64], body: usize) -> Pose {
     let at = 1 + OF_BODY * body;
     match row.get(at..at + 6) {
-        Some([x, y, z, roll, pitch, yaw]) => Pose::of(&Place { shift: [*x, *y, *z], turn: [*roll, *pitch, *yaw] }),
+        Some([x, y, z, roll, pitch, yaw]) => {
+            Pose::from_place(&Place { shift: [*x, *y, *z], turn: [*roll, *pitch, *yaw] })
+        }
         _ => Pose::default(),
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn turned_inertia(node: &SystemBody, motion: &BodyMotion) -> [Matrix6
     [place, velocity]
 }
 
-/// `d(A a)/d(rotation)` of a matrix that turns with its body: each 3x3 block B of it changes B x by (B [x] - [B x]) times the rotation.
+/// `d(A a)/d(rotation)` of a matrix that turns with its body: each 3x3 block B of it changes `B x` by `(B [x] - [B x])` times the rotation.
 pub(super) fn rotated_added_inertia(matrix: &Matrix6<f64>, a: &Six) -> Matrix6<f64> {
     let halves = [Vector3::new(a[0], a[1], a[2]), Vector3::new(a[3], a[4], a[5])];
     let mut made = Matrix6::zeros();
@@ -47,7 +47,7 @@ pub(super) fn rotated_added_inertia(matrix: &Matrix6<f64>, a: &Six) -> Matrix6<f
     made
 }
 
-/// The same of a mass. A lever turns by -[lever] times the rotation, a moment of inertia as its axes do.
+/// The same of a mass. A lever turns by `-[lever]` times the rotation, a moment of inertia as its axes do.
 fn of_mass(mass: &Mass, motion: &BodyMotion) -> [Matrix6<f64>; 2] {
     let (a, v, axes) = (&motion.acceleration, &motion.velocity, &motion.pose.axes);
     let [linear, alpha] = [Vector3::new(a[0], a[1], a[2]), Vector3::new(a[3], a[4], a[5])].map(|x| x.cross_matrix());

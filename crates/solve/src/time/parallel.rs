@@ -19,7 +19,7 @@ pub(super) struct LineTask {
 
 impl std::fmt::Debug for LineTask {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Alone").field("link", &self.link).field("ends", &self.ends).finish_non_exhaustive()
+        f.debug_struct("LineTask").field("link", &self.link).field("ends", &self.ends).finish_non_exhaustive()
     }
 }
 

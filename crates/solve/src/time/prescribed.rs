@@ -1,7 +1,7 @@
 //! Bodies whose motion is given: by sines, by their responses to the waves of the sea, or by a file of places.
 //!
 //! A motion is x, y, z and roll, pitch, yaw with their first and second derivatives in time, each exact; the rotation and its
-//! derivatives in global axes follow from those of the angles ([`moved`]).
+//! derivatives in global axes follow from those of the angles ([`motion_from_dofs`]).
 
 mod response;
 mod spline;
@@ -55,7 +55,7 @@ pub(super) type Freedoms = [[f64; 6]; 3];
 /// yaw and pitch, which gives its derivative.
 pub(super) fn motion_from_dofs([values, rates, seconds]: &Freedoms) -> BodyMotion {
     let place = Place::new(*values);
-    let pose = Pose::of(&place);
+    let pose = Pose::from_place(&place);
     let [_, _, yaw] = place.turn;
     let (e1, e3) = (pose.axes.column(0).into_owned(), Vector3::z());
     let e2 = Vector3::new(-yaw.sin(), yaw.cos(), 0.0);

@@ -36,7 +36,7 @@ fn six(value: &Value) -> Six {
 }
 
 fn pose(value: &Value) -> Pose {
-    Pose::of(&Place::new(six(value).into()))
+    Pose::from_place(&Place::new(six(value).into()))
 }
 
 /// Whether a value prints as another in a number of significant digits.

@@ -20,7 +20,7 @@ pub(crate) fn standing(
     mut tell: impl FnMut(&str, &dyn DynamicElement, &Situation, &[f64]) -> Result<(), SolveError>,
 ) -> Result<(), SolveError> {
     let around = ambient(model, None).map_err(SolveError::new)?;
-    let poses: Vec<_> = model.bodies.values().map(|b| windlass_base::pose::Pose::of(&b.place)).collect();
+    let poses: Vec<_> = model.bodies.values().map(|b| windlass_base::pose::Pose::from_place(&b.place)).collect();
     let surroundings = model.surroundings();
     let mut report = |name: &str, element: &dyn Element, ends: &[EndAttachment]| {
         let Some(line) = element.as_dynamic() else { return Ok(()) };
