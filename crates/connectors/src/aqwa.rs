@@ -20,12 +20,11 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{self as rod, TensionLaw};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element, LineModel, Placement,
-    StaticLineClass, StaticSeabed, Surroundings,
+    SegmentedClass, StaticLineClass, StaticSeabed, Surroundings,
 };
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
-pub static CATENARY: ClassKind =
-    ClassKind { spec: &CATENARY_SPEC, segmented: true, build: append_all::<CatenaryClass>, idle: &[] };
+pub static CATENARY: ClassKind = ClassKind { spec: &CATENARY_SPEC, build: append_all::<CatenaryClass>, idle: &[] };
 
 /// A number of an AQWA record.
 pub const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
@@ -178,40 +177,6 @@ impl ConnectorClass for CatenaryClass {
         "CATENARY"
     }
 
-    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
-        let args = &record.args;
-        let (joint, joint_span) = joint(args)?;
-        let [mass, area] = args.numbers_or_zero(const { CATENARY_SPEC.numbers(["MASS", "AREA"]) });
-        let option = |option: &OptionSpec, default: f64| args.option_number(option).unwrap_or(default);
-        let section = CatenarySection {
-            mass,
-            area,
-            length: checks::length(args, "CATENARY")?,
-            ea: option(&EA, 5.0e6 * mass),
-            largest: option(&TMAX, 5.0e4 * mass),
-            largest_is_given: args.has(&TMAX),
-            coefficients: args.option(&K).map(|given| given.numbers_or_zero(const { K.numbers(["k1", "k2", "k3"]) })),
-            span: args.span,
-            ca: option(&CA, 1.0),
-            cd: option(&CD, 1.0),
-            diameter: option(&DE, (area / FRAC_PI_4).sqrt()),
-            cx: option(&CX, 0.025),
-            ei: option(&EI, 0.0),
-            joint,
-            joint_mass: args
-                .option(&BUOY)
-                .or(args.option(&CLUMP))
-                .map(|given| given.numbers_or_zero(const { BUOY.numbers(["MASS", "DISPLACED", "ADDED", "CDA"]) })),
-            joint_span,
-        };
-        self.per_line.check(args, &PER_LINE)?;
-        self.sections.push(section);
-        if self.per_line.take(args, &PER_LINE) {
-            self.depth = self.per_line.number(&DEPANCHOR);
-        }
-        Ok(())
-    }
-
     fn check(&self) -> Outcome<()> {
         match self.sections.last().filter(|s| s.joint.is_some()) {
             Some(last) => {
@@ -269,6 +234,50 @@ impl ConnectorClass for CatenaryClass {
 
     fn as_dynamic_line(&self) -> Option<&dyn DynamicLineClass> {
         Some(self)
+    }
+
+    fn as_segmented(&self) -> Option<&dyn SegmentedClass> {
+        Some(self)
+    }
+
+    fn as_segmented_mut(&mut self) -> Option<&mut dyn SegmentedClass> {
+        Some(self)
+    }
+}
+
+impl SegmentedClass for CatenaryClass {
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        let args = &record.args;
+        let (joint, joint_span) = joint(args)?;
+        let [mass, area] = args.numbers_or_zero(const { CATENARY_SPEC.numbers(["MASS", "AREA"]) });
+        let option = |option: &OptionSpec, default: f64| args.option_number(option).unwrap_or(default);
+        let section = CatenarySection {
+            mass,
+            area,
+            length: checks::length(args, "CATENARY")?,
+            ea: option(&EA, 5.0e6 * mass),
+            largest: option(&TMAX, 5.0e4 * mass),
+            largest_is_given: args.has(&TMAX),
+            coefficients: args.option(&K).map(|given| given.numbers_or_zero(const { K.numbers(["k1", "k2", "k3"]) })),
+            span: args.span,
+            ca: option(&CA, 1.0),
+            cd: option(&CD, 1.0),
+            diameter: option(&DE, (area / FRAC_PI_4).sqrt()),
+            cx: option(&CX, 0.025),
+            ei: option(&EI, 0.0),
+            joint,
+            joint_mass: args
+                .option(&BUOY)
+                .or(args.option(&CLUMP))
+                .map(|given| given.numbers_or_zero(const { BUOY.numbers(["MASS", "DISPLACED", "ADDED", "CDA"]) })),
+            joint_span,
+        };
+        self.per_line.check(args, &PER_LINE)?;
+        self.sections.push(section);
+        if self.per_line.take(args, &PER_LINE) {
+            self.depth = self.per_line.number(&DEPANCHOR);
+        }
+        Ok(())
     }
 }
 

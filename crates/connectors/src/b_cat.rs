@@ -12,12 +12,8 @@ use windlass_language::spec::{CommandSpec, DatumKey, ValueSpec};
 use windlass_model::{ConnectorClass, StaticLineClass, Surroundings};
 
 /// The class type.
-pub static B_CAT: ClassKind = ClassKind {
-    spec: &SPEC,
-    segmented: true,
-    build: |records| LineClass::build(&KIND, records),
-    idle: section::CATENARY_IDLE,
-};
+pub static B_CAT: ClassKind =
+    ClassKind { spec: &SPEC, build: |records| LineClass::build(&KIND, records), idle: section::CATENARY_IDLE };
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[

@@ -11,7 +11,7 @@ use windlass_language::spec::CommandSpec;
 use windlass_model::{ClassRecord, ClassRole, ConnectorClass};
 
 /// The class type.
-pub static DAVIT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static DAVIT: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 static SPEC: CommandSpec = CommandSpec {
     data: DATA,

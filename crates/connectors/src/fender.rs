@@ -26,7 +26,7 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static FENDER: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static FENDER: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)

@@ -12,7 +12,7 @@ use windlass_language::spec::CommandSpec;
 use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
-pub static FIX: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static FIX: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 /// Stiffness of what is rigid (N/m, N m/rad). Engines hold the forces of so stiff a tie, so that rounding of positions makes none.
 pub const RIGID_STIFFNESS: f64 = 1e12;

@@ -10,7 +10,7 @@ use windlass_language::spec::{CommandSpec, OptionSpec};
 use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
-pub static FOUNDATION: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static FOUNDATION: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 /// The options of a spring of zero length.
 pub const OPTIONS: &[OptionSpec] = &[

@@ -15,7 +15,7 @@ use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
-pub static GAP: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static GAP: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new("COEF", Kind::Number(Dim::None), "coefficient of friction").or("0").not_negative()],

@@ -10,7 +10,7 @@ use windlass_language::spec::{CommandSpec, OptionSpec, join_options};
 use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
-pub static GSPR: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static GSPR: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 /// Those of the zero-length classes, and `-LEN`, which only this one has.
 static OPTIONS: [OptionSpec; 1 + foundation::OPTIONS.len()] = join_options(&[o::LEN_OFFSET], foundation::OPTIONS);

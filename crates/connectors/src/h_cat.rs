@@ -14,12 +14,8 @@ use windlass_language::spec::{CommandSpec, DatumKey, OptionSpec, ValueSpec, join
 use windlass_model::Surroundings;
 
 /// The class type.
-pub static H_CAT: ClassKind = ClassKind {
-    spec: &H_CAT_SPEC,
-    segmented: true,
-    build: |records| LineClass::build(&KIND, records),
-    idle: section::HANGING_IDLE,
-};
+pub static H_CAT: ClassKind =
+    ClassKind { spec: &H_CAT_SPEC, build: |records| LineClass::build(&KIND, records), idle: section::HANGING_IDLE };
 
 /// Options of lines between two places.
 pub const LINE_OPTIONS: &[OptionSpec] = &[

@@ -62,14 +62,12 @@ pub use section::type_notices;
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_language::spec::{CommandSpec, OptionSpec};
-use windlass_model::{ClassRecord, ConnectorClass};
+use windlass_model::{ClassRecord, ConnectorClass, SegmentedClass};
 
 /// A type of class a user can name in a `~NAME TYPE ...` record.
 pub struct ClassKind {
     /// The record's form behind the class name; its name is the type.
     pub spec: &'static CommandSpec,
-    /// True when a repeated class name adds a segment ([`ConnectorClass::append`]); else it replaces the class.
-    pub segmented: bool,
     /// Options that are read and kept and do nothing here, each with what they act with; empty where nothing is.
     pub idle: &'static [(OptionSpec, &'static str)],
     /// Builds the object from all records of the class so far, fairlead first.
@@ -77,7 +75,9 @@ pub struct ClassKind {
 }
 
 /// Builds a class of segments, record by record.
-fn append_all<C: ConnectorClass + Default + 'static>(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+fn append_all<C: ConnectorClass + SegmentedClass + Default + 'static>(
+    records: &[ClassRecord],
+) -> Outcome<Arc<dyn ConnectorClass>> {
     let mut class = C::default();
     for record in records {
         class.append(record)?;
@@ -89,6 +89,17 @@ impl PartialEq for ClassKind {
     /// A class type is its spec.
     fn eq(&self, other: &Self) -> bool {
         std::ptr::eq(self.spec, other.spec)
+    }
+}
+
+/// The class types that have an option, as a sentence lists them: `A, B and C`.
+pub fn list_kinds_with_option(option: &OptionSpec) -> String {
+    let has_option = |kind: &&&ClassKind| kind.spec.options.iter().any(|own| own.name == option.name);
+    let names: Vec<&str> = CLASSES.iter().filter(has_option).map(|kind| kind.spec.name).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [only] => (*only).to_string(),
+        [others @ .., last] => format!("{} and {last}", others.join(", ")),
     }
 }
 

@@ -24,7 +24,7 @@ use windlass_catenary::{Line, LineError, SeabedModel, StretchLaw};
 use windlass_language::spec::{CommandSpec, OptionSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element, FatigueSegment,
-    LineModel, Note, Placement, StaticLineClass, StaticSeabed, Surroundings,
+    LineModel, Note, Placement, SegmentedClass, StaticLineClass, StaticSeabed, Surroundings,
 };
 
 /// What -PISTON and -X_DAMPING do, of the help of every class of lines.
@@ -119,7 +119,7 @@ impl LineClass {
     /// A class of its records.
     ///
     /// # Errors
-    /// As [`ConnectorClass::append`].
+    /// As [`SegmentedClass::append`].
     pub fn build(kind: &'static LineClassKind, records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         let mut class = LineClass {
             kind,
@@ -305,35 +305,6 @@ impl ConnectorClass for LineClass {
         self.name()
     }
 
-    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
-        let (args, kind) = (&record.args, self.kind);
-        if !kind.takes_spring_buoys {
-            refuse_spring_buoy(args, kind.spec.name)?;
-        }
-        let section = LineSection::read(record, kind.spec.name, false)?;
-        self.per_line.check(args, kind.per_line)?;
-        let tabulated = self.tabulated.or(args.option_if_declared(&o::TABLE).map(|given| given.span));
-        let flag = self.flag.or((kind.flag)(args));
-        if let (Some(table), Some(flag)) = (tabulated, flag) {
-            return Err(Diagnostic::error("EXACT and -TABLE contradict each other", table)
-                .other(flag, "solved exactly")
-                .help("leave one of them out; without both the line is solved exactly"));
-        }
-        if kind.has_dynamics {
-            // nothing is refused behind this
-            self.flexures.push(Flexure::read(record, &section)?);
-        }
-        self.sections.push(section);
-        self.places.push(args.option(&o::CLUMP).map_or(args.span, |clump| clump.span));
-        (self.tabulated, self.flag) = (tabulated, flag);
-        if self.per_line.take(args, kind.per_line) {
-            self.seabed = m::parse_seabed(&self.per_line);
-            self.springs = end_springs(&self.per_line);
-            self.devices = Devices::read(&self.per_line);
-        }
-        Ok(())
-    }
-
     fn check(&self) -> Outcome<()> {
         if let (Some(last), Some(place)) = (self.sections.last(), self.places.last())
             && last.clump < 0.0
@@ -374,10 +345,6 @@ impl ConnectorClass for LineClass {
         self.devices.element(connection, line)
     }
 
-    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
-        self.sections.iter().map(LineSection::fatigue).collect()
-    }
-
     fn first_length(&self) -> Option<f64> {
         self.sections.first().map(|s| s.length)
     }
@@ -392,6 +359,49 @@ impl ConnectorClass for LineClass {
 
     fn as_dynamic_line(&self) -> Option<&dyn DynamicLineClass> {
         self.kind.has_dynamics.then_some(self)
+    }
+
+    fn as_segmented(&self) -> Option<&dyn SegmentedClass> {
+        Some(self)
+    }
+
+    fn as_segmented_mut(&mut self) -> Option<&mut dyn SegmentedClass> {
+        Some(self)
+    }
+}
+
+impl SegmentedClass for LineClass {
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        let (args, kind) = (&record.args, self.kind);
+        if !kind.takes_spring_buoys {
+            refuse_spring_buoy(args, kind.spec.name)?;
+        }
+        let section = LineSection::read(record, kind.spec.name, false)?;
+        self.per_line.check(args, kind.per_line)?;
+        let tabulated = self.tabulated.or(args.option_if_declared(&o::TABLE).map(|given| given.span));
+        let flag = self.flag.or((kind.flag)(args));
+        if let (Some(table), Some(flag)) = (tabulated, flag) {
+            return Err(Diagnostic::error("EXACT and -TABLE contradict each other", table)
+                .other(flag, "solved exactly")
+                .help("leave one of them out; without both the line is solved exactly"));
+        }
+        if kind.has_dynamics {
+            // nothing is refused behind this
+            self.flexures.push(Flexure::read(record, &section)?);
+        }
+        self.sections.push(section);
+        self.places.push(args.option(&o::CLUMP).map_or(args.span, |clump| clump.span));
+        (self.tabulated, self.flag) = (tabulated, flag);
+        if self.per_line.take(args, kind.per_line) {
+            self.seabed = m::parse_seabed(&self.per_line);
+            self.springs = end_springs(&self.per_line);
+            self.devices = Devices::read(&self.per_line);
+        }
+        Ok(())
+    }
+
+    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        self.sections.iter().map(LineSection::fatigue).collect()
     }
 }
 

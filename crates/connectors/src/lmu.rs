@@ -19,7 +19,7 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static LMU: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static LMU: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[

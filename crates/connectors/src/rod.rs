@@ -12,11 +12,11 @@ use windlass_base::values::Given;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element, FatigueSegment,
-    Idealisation, PipeClass, PipeLayout, Surroundings,
+    Idealisation, PipeClass, PipeLayout, SegmentedClass, Surroundings,
 };
 
 /// The class type.
-pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, segmented: true, build: append_all::<RodClass>, idle: &[] };
+pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, build: append_all::<RodClass>, idle: &[] };
 
 const NO_TORSION: &str = "a rod has no torsion";
 const NO_SHEAR: &str = "a rod does not deform in shear (Euler and Bernoulli)";
@@ -114,44 +114,8 @@ impl ConnectorClass for RodClass {
         "ROD"
     }
 
-    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
-        let args = &record.args;
-        let section = LineSection::read(record, "ROD", true)?;
-        if section.weight <= 0.0 {
-            let given = [o::WTPLEN, o::DENSITY, o::SPGRAVITY].iter().find_map(|option| args.option(option));
-            let span = given.map_or(args.span, |g| g.span);
-            return Err(Diagnostic::error("a ROD needs weight: its mass is what it moves by", span)
-                .label(format!("{} N/m", section.weight)));
-        }
-        let elements = self.elements.saturating_add(section.refine);
-        if elements > MAX_ELEMENTS {
-            let span = args.option(&o::REFINE).map_or(args.span, |g| g.span);
-            let megabytes = elements as f64 * windlass_line_dynamics::BYTES_PER_ELEMENT / 1e6;
-            return Err(Diagnostic::error(format!("a ROD has at most {MAX_ELEMENTS} elements"), span)
-                .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
-        }
-        let flexure = Flexure::read(record, &section)?;
-        let mut clamps = self.clamps.clone();
-        clamps.extend(args.occurrences(&m::CLAMP).cloned());
-        let holds = m::holds(&clamps, [self.flexures.first().unwrap_or(&flexure), &flexure])?;
-        self.per_line.check(args, &PER_LINE)?;
-        // nothing is refused from here on
-        self.sections.push(section);
-        self.flexures.push(flexure);
-        (self.clamps, self.holds, self.elements) = (clamps, holds, elements);
-        self.slam |= args.has(&m::SLAM);
-        if self.per_line.take(args, &PER_LINE) {
-            self.seabed = m::parse_seabed(&self.per_line);
-        }
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("ROD", connector, bodies, 2, 2)
-    }
-
-    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
-        self.sections.iter().map(LineSection::fatigue).collect()
     }
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
@@ -187,6 +151,52 @@ impl ConnectorClass for RodClass {
 
     fn as_pipe(&self) -> Option<&dyn PipeClass> {
         Some(self)
+    }
+
+    fn as_segmented(&self) -> Option<&dyn SegmentedClass> {
+        Some(self)
+    }
+
+    fn as_segmented_mut(&mut self) -> Option<&mut dyn SegmentedClass> {
+        Some(self)
+    }
+}
+
+impl SegmentedClass for RodClass {
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        let args = &record.args;
+        let section = LineSection::read(record, "ROD", true)?;
+        if section.weight <= 0.0 {
+            let given = [o::WTPLEN, o::DENSITY, o::SPGRAVITY].iter().find_map(|option| args.option(option));
+            let span = given.map_or(args.span, |g| g.span);
+            return Err(Diagnostic::error("a ROD needs weight: its mass is what it moves by", span)
+                .label(format!("{} N/m", section.weight)));
+        }
+        let elements = self.elements.saturating_add(section.refine);
+        if elements > MAX_ELEMENTS {
+            let span = args.option(&o::REFINE).map_or(args.span, |g| g.span);
+            let megabytes = elements as f64 * windlass_line_dynamics::BYTES_PER_ELEMENT / 1e6;
+            return Err(Diagnostic::error(format!("a ROD has at most {MAX_ELEMENTS} elements"), span)
+                .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
+        }
+        let flexure = Flexure::read(record, &section)?;
+        let mut clamps = self.clamps.clone();
+        clamps.extend(args.occurrences(&m::CLAMP).cloned());
+        let holds = m::holds(&clamps, [self.flexures.first().unwrap_or(&flexure), &flexure])?;
+        self.per_line.check(args, &PER_LINE)?;
+        // nothing is refused from here on
+        self.sections.push(section);
+        self.flexures.push(flexure);
+        (self.clamps, self.holds, self.elements) = (clamps, holds, elements);
+        self.slam |= args.has(&m::SLAM);
+        if self.per_line.take(args, &PER_LINE) {
+            self.seabed = m::parse_seabed(&self.per_line);
+        }
+        Ok(())
+    }
+
+    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        self.sections.iter().map(LineSection::fatigue).collect()
     }
 }
 

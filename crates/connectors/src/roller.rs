@@ -19,7 +19,7 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static ROLLER: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static ROLLER: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 const fn gap(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::Section), help).not_negative()

@@ -16,7 +16,7 @@ use windlass_model::{Note, Surroundings};
 
 /// The class type.
 pub static SL_ELEM: ClassKind =
-    ClassKind { spec: &SL_ELEM_SPEC, segmented: true, build: |records| LineClass::build(&KIND, records), idle: IDLE };
+    ClassKind { spec: &SL_ELEM_SPEC, build: |records| LineClass::build(&KIND, records), idle: IDLE };
 
 /// Options that do nothing in a spring along a chord.
 const IDLE: &[(OptionSpec, &str)] = &[

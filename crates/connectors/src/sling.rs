@@ -10,7 +10,7 @@ use windlass_language::spec::{CommandSpec, OptionSpec, ValueSpec};
 use windlass_model::{ClassRecord, ClassRole, ConnectorClass};
 
 /// The class type.
-pub static SLING: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static SLING: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 /// Data of a SLING and a DAVIT.
 pub const DATA: &[ValueSpec] = &[o::OD];

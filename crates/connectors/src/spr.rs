@@ -12,7 +12,7 @@ use windlass_language::spec::CommandSpec;
 use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
-pub static SPR: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static SPR: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[o::DF, o::SPV],

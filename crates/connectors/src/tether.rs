@@ -16,12 +16,11 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Note;
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
-    Situation, SolverCache, Surroundings, TetherSection, TetherUse,
+    SegmentedClass, Situation, SolverCache, Surroundings, TetherSection, TetherUse,
 };
 
 /// The class type TETHER: an AQWA tether/riser section.
-pub static TETHER: ClassKind =
-    ClassKind { spec: &TETHER_SPEC, segmented: true, build: append_all::<TetherClass>, idle: &[] };
+pub static TETHER: ClassKind = ClassKind { spec: &TETHER_SPEC, build: append_all::<TetherClass>, idle: &[] };
 
 const REFINE: OptionSpec = aqwa(
     "-REFINE",
@@ -78,31 +77,6 @@ impl ConnectorClass for TetherClass {
         "TETHER"
     }
 
-    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
-        let args = &record.args;
-        let [od, thickness] = args.numbers_or_zero(const { TETHER_SPEC.numbers(["OD", "T"]) });
-        if 2.0 * thickness > od {
-            return Err(Diagnostic::error(
-                "the wall thickness T is larger than half of OD",
-                args.place(const { TETHER_SPEC.number("T") }),
-            ));
-        }
-        let material = &record.defaults.material;
-        let elements = args.option_integer(&REFINE);
-        self.0.push(TetherSection {
-            outer_diameter: od,
-            wall_thickness: thickness,
-            length: checks::length(args, "TETHER")?,
-            elements: elements.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
-            density: args.option_number(&DENSITY).unwrap_or(material.density),
-            youngs_modulus: args.option_number(&EMODULUS).unwrap_or(material.emodulus),
-            added_mass: args.option_number(&CA).unwrap_or(1.0),
-            drag: args.option_number(&CD).unwrap_or(0.75),
-            label: args.option(&LABEL).map(|given| LABELS.map(|key| given.integer(key).unwrap_or(0))),
-        });
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("TETHER", connector, bodies, 2, 2)
     }
@@ -140,6 +114,41 @@ impl ConnectorClass for TetherClass {
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         Ok(Box::new(Bar::new(&self.0, connection)))
+    }
+
+    fn as_segmented(&self) -> Option<&dyn SegmentedClass> {
+        Some(self)
+    }
+
+    fn as_segmented_mut(&mut self) -> Option<&mut dyn SegmentedClass> {
+        Some(self)
+    }
+}
+
+impl SegmentedClass for TetherClass {
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        let args = &record.args;
+        let [od, thickness] = args.numbers_or_zero(const { TETHER_SPEC.numbers(["OD", "T"]) });
+        if 2.0 * thickness > od {
+            return Err(Diagnostic::error(
+                "the wall thickness T is larger than half of OD",
+                args.place(const { TETHER_SPEC.number("T") }),
+            ));
+        }
+        let material = &record.defaults.material;
+        let elements = args.option_integer(&REFINE);
+        self.0.push(TetherSection {
+            outer_diameter: od,
+            wall_thickness: thickness,
+            length: checks::length(args, "TETHER")?,
+            elements: elements.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
+            density: args.option_number(&DENSITY).unwrap_or(material.density),
+            youngs_modulus: args.option_number(&EMODULUS).unwrap_or(material.emodulus),
+            added_mass: args.option_number(&CA).unwrap_or(1.0),
+            drag: args.option_number(&CD).unwrap_or(0.75),
+            label: args.option(&LABEL).map(|given| LABELS.map(|key| given.integer(key).unwrap_or(0))),
+        });
+        Ok(())
     }
 }
 

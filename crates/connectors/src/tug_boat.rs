@@ -16,7 +16,7 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static TUG_BOAT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
+pub static TUG_BOAT: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new("FORCE", Kind::Number(Dim::Force), "bollard pull").not_negative()],

@@ -48,13 +48,13 @@ impl Class {
     /// Adds the segment of a further record. `build` makes the object anew where a copy of the model shares it.
     ///
     /// # Errors
-    /// As [`ConnectorClass::append`]; the class is then as it was.
+    /// As [`SegmentedClass::append`]; the class is then as it was.
     pub fn append(
         &mut self,
         record: ClassRecord,
         build: fn(&[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>>,
     ) -> Outcome<()> {
-        match Arc::get_mut(&mut self.object) {
+        match Arc::get_mut(&mut self.object).and_then(|object| object.as_segmented_mut()) {
             Some(object) => object.append(&record)?,
             None => {
                 let all: Vec<ClassRecord> = self.records.iter().chain([&record]).cloned().collect();
@@ -69,7 +69,7 @@ impl Class {
     /// What fatigue goes by in each segment, from the fairlead: one a record, with the curve of its `-C_SN`; none of a class
     /// without sections.
     pub fn fatigue_segments(&self) -> Vec<FatigueSegment> {
-        let mut segments = self.object.fatigue_segments();
+        let mut segments = self.object.as_segmented().map_or_else(Vec::new, |class| class.fatigue_segments());
         for (segment, record) in segments.iter_mut().zip(&self.records) {
             segment.curve = record.args.option_if_declared(&C_SN).and_then(|g| g.first_word()).map(str::to_string);
         }
@@ -215,14 +215,6 @@ pub trait ConnectorClass: Debug + Send + Sync {
         Ok(())
     }
 
-    /// Adds the segment of a further record; one that is refused changes nothing.
-    ///
-    /// # Errors
-    /// What the record lacks, or how it contradicts those before it; a class type without segments.
-    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
-        Err(Diagnostic::error(format!("a class of type {} has no segments", self.kind()), record.args.span))
-    }
-
     /// What the writer of the last record should know: notes and warnings at its words, values in these units.
     fn notices(&self, _last: &Args, _: UnitSystem, _: &Surroundings) -> Vec<Diagnostic> {
         Vec::new()
@@ -253,11 +245,6 @@ pub trait ConnectorClass: Debug + Send + Sync {
         if self.as_line().is_some() { Idealisation::QuasiStatic } else { Idealisation::Massless }
     }
 
-    /// What fatigue goes by in each segment, from the fairlead, without curves; none of a class without sections.
-    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
-        Vec::new()
-    }
-
     /// The sections of a tether from the fairlead; none of other classes.
     fn tether_sections(&self) -> &[TetherSection] {
         &[]
@@ -278,6 +265,16 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
+    /// The class as one of segments: a repeated class name adds one. A record of any other class replaces it.
+    fn as_segmented(&self) -> Option<&dyn SegmentedClass> {
+        None
+    }
+
+    /// The same, to be changed.
+    fn as_segmented_mut(&mut self) -> Option<&mut dyn SegmentedClass> {
+        None
+    }
+
     /// The class as one of quasi-static lines.
     fn as_line(&self) -> Option<&dyn StaticLineClass> {
         None
@@ -291,6 +288,20 @@ pub trait ConnectorClass: Debug + Send + Sync {
     /// The class as one of pipes.
     fn as_pipe(&self) -> Option<&dyn PipeClass> {
         None
+    }
+}
+
+/// A class of segments in series, one a record, fairlead first.
+pub trait SegmentedClass {
+    /// Adds the segment of a further record; one that is refused changes nothing.
+    ///
+    /// # Errors
+    /// What the record lacks, or how it contradicts those before it.
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()>;
+
+    /// What fatigue goes by in each segment, without curves; none of a class without sections.
+    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        Vec::new()
     }
 }
 

@@ -48,8 +48,8 @@ pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayou
 pub use bathymetry::Bathymetry;
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{
-    Class, ClassError, ClassRecord, ClassRole, ConnectorClass, DynamicLineClass, PipeClass, StaticLineClass,
-    StaticSeabed, WallMaterial,
+    Class, ClassError, ClassRecord, ClassRole, ConnectorClass, DynamicLineClass, PipeClass, SegmentedClass,
+    StaticLineClass, StaticSeabed, WallMaterial,
 };
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};

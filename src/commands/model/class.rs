@@ -55,7 +55,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 .help(format!("DELETE {} first, or use another name", class.name)));
         }
         let users = job.model.users_of_class(&name.text);
-        if kind.segmented {
+        if class.object.as_segmented().is_some() {
             if let Some(user) = users.first() {
                 return Err(Diagnostic::error(
                     format!("{} is used by connector {user}; a further segment would change it", class.name),
@@ -72,7 +72,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     }
     let last = record.args.clone();
-    let object = match job.model.classes.get_mut(&key).filter(|_| kind.segmented) {
+    let object = match job.model.classes.get_mut(&key).filter(|class| class.object.as_segmented().is_some()) {
         Some(class) => {
             class.append(record, kind.build)?;
             class.name = name.text.to_string();

@@ -10,6 +10,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Value;
 use windlass_base::wildcard::matches;
 use windlass_connectors::line_types::{DiameterFormula, LineType, library};
+use windlass_connectors::{list_kinds_with_option, options};
 use windlass_language::number;
 
 /// `&STATUS LINE_TYPES`.
@@ -63,9 +64,8 @@ fn list(types: &[LineType]) -> Table {
         .column("Nominal Diameter", "To", Dim::Section, Digits::Usual, |t| t.diameter.most)
         .text("What", |t| &t.what)
         .build();
-    table.note(
-        "-TYPE NAME D on B_CAT, H_CAT and SL_ELEM uses one; &STATUS LINE_TYPES D gives the values at a diameter,",
-    );
+    let kinds = list_kinds_with_option(&options::TYPE);
+    table.note(format!("-TYPE NAME D on {kinds} uses one; &STATUS LINE_TYPES D gives the values at a diameter,"));
     table.note("&STATUS LINE_TYPES NAME the formulas of a type and their sources");
     table
 }

@@ -45,10 +45,13 @@ fn class_of_10_000_records_is_built_once() {
 #[test]
 fn records_appended_singly_match_records_together() {
     let mut segmented = 0;
-    for kind in CLASSES.iter().filter(|kind| kind.segmented) {
+    for kind in CLASSES {
         let records: Vec<&str> = kind.spec.example.lines().filter(|line| line.starts_with('~')).collect();
         let session = session(&[records.as_slice(), records.as_slice()].concat().join("\n"));
         let class = class(&session);
+        if class.object.as_segmented().is_none() {
+            continue;
+        }
         assert_eq!(class.records.len(), 2 * records.len(), "{}: {:?}", kind.spec.name, session.reports);
         let together = (kind.build)(&class.records).unwrap();
         assert_eq!(format!("{:?}", class.object), format!("{together:?}"), "{}", kind.spec.name);
@@ -98,6 +101,6 @@ fn segment_added_to_copied_class_is_not_in_the_copy() {
     let before = format!("{:?}", copy.classes.values().next_back().unwrap());
     session.open("more", "~L B_CAT 80 -LEN 600\n");
     session.run();
-    assert_eq!(class(&session).object.fatigue_segments().len(), 2);
+    assert_eq!(class(&session).fatigue_segments().len(), 2);
     assert_eq!(format!("{:?}", copy.classes.values().next_back().unwrap()), before);
 }
