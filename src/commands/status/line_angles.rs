@@ -53,7 +53,8 @@ impl<'m> LineEnds<'m> {
 fn angles(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Table {
     let mut table = Table::new("Angles of Lines");
     let mut rows = Vec::new();
-    let is_line = |class: &str| model.classes.get(&Model::key(class)).is_some_and(|class| class.object.is_line());
+    let is_line =
+        |class: &str| model.classes.get(&Model::key(class)).is_some_and(|class| class.object.as_line().is_some());
     for connector in model.connectors.values().filter(|c| c.active && is_line(&c.class) && fits(&c.name)) {
         if model.holds_pipe(&connector.name) {
             continue;
