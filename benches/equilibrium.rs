@@ -29,15 +29,15 @@ fn main() {
         let system = System::new(&model, &[]).unwrap();
         let mut state = system.state(&model);
         let found = equilibrium(&system, &mut state, &options).unwrap();
-        println!("# {name}: {} steps, {} evaluations, {:.1e} g left", found.steps, found.evaluations, found.measure);
+        println!("# {name}: {} steps, {} evaluations, {:.1e} g left", found.search.iterations, found.search.evaluations, found.search.residual);
         report(&format!("{name}, solved"), 1, || {
             let mut state = system.state(&model);
-            equilibrium(&system, &mut state, &options).unwrap().measure
+            equilibrium(&system, &mut state, &options).unwrap().search.residual
         });
         report(&format!("{name}, made and solved"), 1, || {
             let system = System::new(&model, &[]).unwrap();
             let mut state = system.state(&model);
-            equilibrium(&system, &mut state, &options).unwrap().measure
+            equilibrium(&system, &mut state, &options).unwrap().search.residual
         });
         report(&format!("{name}, one evaluation"), 1, || {
             system.evaluate(&mut state).unwrap();

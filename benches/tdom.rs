@@ -14,7 +14,7 @@ mod measured;
 use std::sync::Arc;
 use std::time::Instant;
 use windlass_model::{Database, Model};
-use windlass_solve::time::{Convergence, Method, Run, RunSettings, Watcher};
+use windlass_solve::time::{StepTolerance, Method, Run, RunSettings, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;
@@ -58,7 +58,7 @@ fn pass_of(observed: f64, name: &str, model: &Model, keep: bool) {
         observed,
         dt: STEP,
         method: Method::default(),
-        convergence: Convergence::default(),
+        convergence: StepTolerance::default(),
         store: 1,
         capsize: true,
         adaptive: None,

@@ -7,7 +7,7 @@ use crate::{eight, measured};
 use std::sync::Arc;
 use std::time::Instant;
 use windlass_model::{Database, Model};
-use windlass_solve::time::{Convergence, Counts, Method, Run, RunSettings, Watcher};
+use windlass_solve::time::{StepTolerance, Counts, Method, Run, RunSettings, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;
@@ -69,7 +69,7 @@ pub fn run(model: &Model, (span, dt): (f64, f64), along: usize, passes: usize) -
         observed: span,
         dt,
         method: Method::default(),
-        convergence: Convergence::default(),
+        convergence: StepTolerance::default(),
         store: 1,
         capsize: true,
         adaptive: None,

@@ -1,4 +1,6 @@
 //! Predictor of a step, one Newton iteration of it, and its line search.
+//!
+//! The iteration is its own because factors serve several iterations and the end forces with them, and because nothing is allocated.
 
 use super::ends::RodEnd;
 use super::environment::LineEnvironment;

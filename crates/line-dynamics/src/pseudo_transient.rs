@@ -1,4 +1,6 @@
-//! Pseudo-transient statics: damped steps in pseudo-time from a trial to equilibrium. See [`Solver::statics`].
+//! Pseudo-transient statics: damped steps in pseudo-time from a trial to equilibrium. See [`RodSolver::statics`].
+//!
+//! The iteration is its own because the pivots of each factorisation decide whether the step is taken, and the rod is softened on the way.
 
 use super::environment::LineEnvironment;
 use super::error::RodError;

@@ -13,6 +13,7 @@ use nalgebra::DMatrix;
 use windlass_base::dense::SymmetricEigen;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
+use windlass_nonlinear::NewtonStatistics;
 
 /// What an equilibrium is asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,12 +38,8 @@ impl Default for Options {
 /// An equilibrium that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
-    /// Steps taken.
-    pub steps: usize,
-    /// Evaluations of the forces.
-    pub evaluations: usize,
-    /// Largest acceleration left, as a share of gravity.
-    pub measure: f64,
+    /// The search: its steps, and as residual the largest acceleration left, as a share of gravity.
+    pub search: NewtonStatistics,
     /// Degrees of freedom that nothing holds, with their bodies, as written.
     pub loose: Vec<(String, String)>,
 }
@@ -81,18 +78,16 @@ pub fn equilibrium(system: &System, state: &mut SystemState, options: &Options) 
     };
     let moves = |part: &BodySubset| part.iter().enumerate().any(|(body, own)| *own && (0..6).any(|f| free(body, f)));
     let parts: Vec<BodySubset> = parts(system).into_iter().filter(moves).collect();
-    let (mut steps, mut evaluations) = (0, 0);
+    let mut search = NewtonStatistics::default();
     if parts.len() > 1 {
         for part in &parts {
-            let found = find(system, state, options, (&turns, Some(part)))?;
-            steps += found.steps;
-            evaluations += found.evaluations;
+            search += find(system, state, options, (&turns, Some(part)))?;
         }
     }
-    let found = find(system, state, options, (&turns, None))?;
+    search += find(system, state, options, (&turns, None))?;
     let unknowns = Unknowns::new(system, state, options, (&turns, None));
     let loose = loose(system, &unknowns, state)?;
-    Ok(Equilibrium { steps: steps + found.steps, evaluations: evaluations + found.evaluations, loose, ..found })
+    Ok(Equilibrium { search, loose })
 }
 
 /// Brings a part to rest, `None` for everything together; what is loose in it is left open.
@@ -101,7 +96,7 @@ fn find(
     state: &mut SystemState,
     options: &Options,
     (turns, part): (&[Turns], Option<&BodySubset>),
-) -> Result<Equilibrium, SolveError> {
+) -> Result<NewtonStatistics, SolveError> {
     let mut search = EquilibriumSearch::new(system, options, part);
     search.evaluate(state)?;
     let start: Vec<f64> = state.poses.iter().map(|p| p.origin.z).collect();
@@ -131,8 +126,8 @@ fn find(
                 best.1.restore(state);
                 search.evaluate(state)?;
             }
-            let measure = unknowns.largest(&unknowns.residual(state));
-            return Ok(Equilibrium { steps, evaluations: search.evaluations, measure, loose: Vec::new() });
+            let residual = unknowns.largest(&unknowns.residual(state));
+            return Ok(NewtonStatistics { iterations: steps, residual, ..search.statistics });
         }
         if steps == options.most {
             return Err(failure(system, state, &unknowns, at, options));

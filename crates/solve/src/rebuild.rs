@@ -49,12 +49,9 @@ pub fn find_equilibrium_with_rebuilds(model: &mut Model, options: &Options) -> R
         state = system.state(model);
         let again = equilibrium(&system, &mut state, options)?;
         system.place(&state, model);
-        let moved = again.steps > 1;
-        found = Equilibrium {
-            steps: found.steps + again.steps,
-            evaluations: found.evaluations + again.evaluations,
-            ..again
-        };
+        let moved = again.search.iterations > 1;
+        found.search += again.search;
+        found.loose = again.loose;
         settled = !moved;
         if settled {
             break;

@@ -4,6 +4,8 @@
 //! added to it: a pseudo-transient step, whose share shrinks with the residual. The line search shortens a step until the work of the
 //! residual along it has not changed sign. Where something stiff turns, that makes steps very short; after several short steps, up to
 //! five non-monotone steps are tried, and the search returns to the best place when they do not reduce the residual.
+//! The line search is its own because a place on the way may have no answer, and because what a step needed of regularisation and length
+//! decides on the next.
 
 use super::equilibrium::{Options, UNRESTRAINED_EIGENVALUE};
 use super::parts::BodySubset;
@@ -13,6 +15,7 @@ use super::unknowns::Unknowns;
 use nalgebra::{DMatrix, DVector};
 use windlass_base::dense::{Cholesky, DenseError, Lu, Stop};
 use windlass_base::pose::{Pose, Six};
+use windlass_nonlinear::NewtonStatistics;
 
 /// Deflection (m, rad) that the force held in a tie may leave unexplained at rest.
 const TIE_TOLERANCE: f64 = 1e-6;
@@ -65,7 +68,8 @@ pub(super) struct EquilibriumSearch<'a> {
     pub options: &'a Options,
     /// The bodies that it brings to rest; all where there is none.
     part: Option<&'a BodySubset>,
-    pub evaluations: usize,
+    /// Evaluations and damped steps so far; who asks for steps counts them.
+    pub statistics: NewtonStatistics,
     /// Regularisation: share of the inertia added to the stiffness (1/s2).
     regularisation: f64,
     /// Short steps in a row.
@@ -84,7 +88,7 @@ impl<'a> EquilibriumSearch<'a> {
             system,
             options,
             part,
-            evaluations: 0,
+            statistics: NewtonStatistics::default(),
             regularisation: 0.0,
             short_steps: 0,
             max_short_steps: SHORT_STEPS_BEFORE_NONMONOTONE,
@@ -94,7 +98,7 @@ impl<'a> EquilibriumSearch<'a> {
     }
 
     pub fn evaluate(&mut self, state: &mut SystemState) -> Result<(), SolveError> {
-        self.evaluations += 1;
+        self.statistics.evaluations += 1;
         state.ties.holds = true;
         self.system.evaluate_part(state, self.part)
     }
@@ -205,6 +209,7 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// Remembers how much of a step was taken, and what it left over what there was.
     fn record_step(&mut self, share: f64, needed: f64, left: f64, blind: bool) {
+        self.statistics.damped_steps += usize::from(share < 1.0);
         self.short_steps = if share < SHORT_STEP_SHARE && !blind { self.short_steps + 1 } else { 0 };
         // the regularisation shrinks with the residual
         let change = if left <= 1.0 { (0.5 * left).max(0.1) } else { left.min(4.0) };

@@ -54,8 +54,8 @@ pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
         })
         .collect();
     let mut table = Table::new("Equilibrium")
-        .fact("Steps", settled.found.steps, Dim::None)
-        .fact("Evaluations", settled.found.evaluations, Dim::None)
+        .fact("Steps", settled.found.search.iterations, Dim::None)
+        .fact("Evaluations", settled.found.search.evaluations, Dim::None)
         .with_rows(&rows)
         .text("Body", |row| row.name)
         .columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| row.place.shift)
@@ -64,10 +64,10 @@ pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
         .column("Left", "Moment", Dim::Moment, Digits::Scientific(2), |row| row.moment)
         .column("Left", "Accel/g", Dim::None, Digits::Scientific(2), |row| row.share)
         .build();
-    if settled.found.measure > STALLED_ACCELERATION_SHARE {
+    if settled.found.search.residual > STALLED_ACCELERATION_SHARE {
         table.warn(format!(
             "the search came no nearer: {:.1e} of gravity is left, within the tolerance; -TOLERANCE asks for less",
-            settled.found.measure
+            settled.found.search.residual
         ));
     }
     for (body, dof) in &settled.found.loose {

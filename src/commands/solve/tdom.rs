@@ -27,7 +27,7 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
 use windlass_solve::results::{fender_peaks, fender_table};
 use windlass_solve::screening::{self, Screening};
-use windlass_solve::time::{Convergence, Ending, Method, Run, RunSettings, Snapshot, TimeScheme, Trigger, Watcher};
+use windlass_solve::time::{StepTolerance, Ending, Method, Run, RunSettings, Snapshot, TimeScheme, Trigger, Watcher};
 use windlass_solve::{SolveError, find_equilibrium_with_rebuilds, run_tables, tethered};
 
 /// TDOM.
@@ -226,7 +226,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
             .option_number(&RHO)
             .map_or_else(|| usual(&job.model), |r| Method::Implicit(TimeScheme::generalised_alpha(r))),
     };
-    let mut convergence = Convergence::default();
+    let mut convergence = StepTolerance::default();
     if let Some(given) = args.option(&CONVERGE) {
         let most = given.integer(const { CONVERGE.integer("NUMB") }).and_then(|n| usize::try_from(n).ok());
         convergence.most = most.unwrap_or(convergence.most);

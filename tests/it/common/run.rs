@@ -2,7 +2,7 @@
 
 use crate::common;
 use windlass_model::Model;
-use windlass_solve::time::{Action, Convergence, Ending, Method, Run, RunSettings, TimeScheme, Watcher};
+use windlass_solve::time::{Action, StepTolerance, Ending, Method, Run, RunSettings, TimeScheme, Watcher};
 
 /// Takes rows and says nothing.
 pub struct Quiet;
@@ -28,7 +28,7 @@ pub fn settings(observed: f64, dt: f64) -> RunSettings {
         observed,
         dt,
         method: Method::default(),
-        convergence: Convergence::default(),
+        convergence: StepTolerance::default(),
         store: 1,
         capsize: true,
         adaptive: None,

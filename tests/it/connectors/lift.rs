@@ -39,7 +39,7 @@ fn records(weight: f64, lengths: [f64; 4], options: &str) -> String {
 fn settled(records: &str) -> Model {
     let mut model = run(records).0.job.model.clone();
     let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
-    assert!(found.found.measure < 1e-9, "{:?}", found.found);
+    assert!(found.found.search.residual < 1e-9, "{:?}", found.found);
     model
 }
 

@@ -41,7 +41,7 @@ fn weight_on_spring_hangs_at_its_static_stretch() {
     for (got, want) in z_of(&model, "LOAD").iter().zip(want) {
         assert!((got - want).abs() < 1e-8, "{got} {want} {:?}", found.found);
     }
-    assert!(found.found.measure < 1e-10, "{:?}", found.found);
+    assert!(found.found.search.residual < 1e-10, "{:?}", found.found);
     assert_eq!(found.found.loose, [("LOAD".to_string(), "RZ".to_string())]);
 }
 

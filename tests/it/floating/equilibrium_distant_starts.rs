@@ -79,11 +79,11 @@ fn steps(model: &Model, far: [f64; 3]) -> Vec<Result<usize, String>> {
                 let away = (state.poses[0].origin - home.origin).norm();
                 let turned = (state.poses[0].axes - home.axes).norm();
                 if away < 1e-4 && turned < 1e-5 {
-                    Ok(found.steps)
+                    Ok(found.search.iterations)
                 } else {
                     Err(format!(
                         "{start} {place:?}: elsewhere, {away:.3e} m, {turned:.3e}, {:.1e} g left",
-                        found.measure
+                        found.search.residual
                     ))
                 }
             }

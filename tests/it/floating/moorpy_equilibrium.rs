@@ -56,8 +56,8 @@ fn free_body_on_eight_chains_matches_moorpy_equilibrium() {
         system.applied = vec![(0, Six::new(number(1), 0.0, 0.0, 0.0, 0.0, 0.0))];
         let mut state = system.state(&model);
         let found = equilibrium(&system, &mut state, &Options::default()).unwrap();
-        assert!(found.measure < 1e-9 && found.loose.is_empty(), "{found:?}");
-        assert!(found.steps <= 6, "{} steps", found.steps);
+        assert!(found.search.residual < 1e-9 && found.loose.is_empty(), "{found:?}");
+        assert!(found.search.iterations <= 6, "{} steps", found.search.iterations);
         let pose = state.poses[0];
         let pitch = -pose.axes[(2, 0)].asin();
         let away = |got: f64, want: f64| (got - want).abs();

@@ -6,7 +6,7 @@ use crate::common::run as runs;
 
 use runs::{model, run, settings, trapezoidal};
 use windlass_model::Model;
-use windlass_solve::time::{Convergence, Run, RunSettings};
+use windlass_solve::time::{StepTolerance, Run, RunSettings};
 use windlass_solve::{Options, find_equilibrium_with_rebuilds};
 
 const G: f64 = 9.80665;
@@ -55,7 +55,7 @@ fn bodies_joined_by_fix_heave_together_and_share_weight() {
         let late = 0.5 * softer * natural * 10.0 * G / (natural * natural);
         // a deflection that is rounding, as a step leaves it, rings on with 1e12 N/m under a rule that damps nothing
         let ring = 4.0 * 1e12 * (1e-13 + 8.0 * f64::EPSILON * far);
-        let convergence = Convergence { tolerance: 1e-9, ..Convergence::default() };
+        let convergence = StepTolerance { tolerance: 1e-9, ..StepTolerance::default() };
         let made = run(&model, RunSettings { method: trapezoidal(), convergence, ..settings(10.0, h) }, vec![]);
         assert_eq!(made.counts.cut, 0, "{weight} {far} {off}");
         // from rest on an unstretched spring: z = -g/w2 (1 - cos W t), with the trapezoidal rule's tan(W h/2) = w h/2
@@ -153,7 +153,7 @@ fn bodies_joined_by_fix_hang_plumb_below_their_pin() {
         for degrees in [30.0, 170.0] {
             let mut model = pendulum(weight, far, degrees);
             let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
-            assert!(found.found.measure < 1e-9, "{weight} {far} {:?}", found.found);
+            assert!(found.found.search.residual < 1e-9, "{weight} {far} {:?}", found.found);
             for body in model.bodies.values() {
                 let give = 1e-6 + 3.0 * weight / 1e12;
                 let off = [0, 1].map(|i| (body.place.shift[i] - far).abs()).into_iter().fold(0.0, f64::max);

@@ -12,7 +12,7 @@ use windlass_hydro::Category;
 use windlass_model::Model;
 use windlass_solve::System;
 use windlass_solve::time::{
-    BodyForces, BodyMotion, Convergence, Ending, LoadMemory, Method, Run, RunRequirements, RunSettings, Watcher,
+    BodyForces, BodyMotion, StepTolerance, Ending, LoadMemory, Method, Run, RunRequirements, RunSettings, Watcher,
 };
 
 /// Takes rows and says nothing.
@@ -46,7 +46,7 @@ fn run(model: &Model, observed: f64, tolerance: f64) -> Run {
         observed,
         dt: 0.1,
         method: Method::default(),
-        convergence: Convergence { tolerance, ..Convergence::default() },
+        convergence: StepTolerance { tolerance, ..StepTolerance::default() },
         store: 1,
         capsize: true,
         adaptive: None,

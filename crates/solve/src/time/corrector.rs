@@ -2,10 +2,11 @@
 
 use super::forces::BodyMotion;
 use super::scheme::TimeScheme;
-use super::step::{Convergence, Effort, Stepper, SystemInstant, not_finite, unsolved_error};
+use super::step::{StepTolerance, Stepper, SystemInstant, not_finite, unsolved_error};
 use crate::system::{SolveError, System};
 use windlass_base::pose::Six;
 use windlass_model::ClassError;
+use windlass_nonlinear::NewtonStatistics;
 
 impl Stepper {
     /// A step by predictor and corrector: the trapezoidal rule by repetition.
@@ -14,9 +15,9 @@ impl Stepper {
         system: &mut System,
         now: &mut SystemInstant,
         dt: f64,
-        wanted: &Convergence,
-    ) -> Result<Effort, SolveError> {
-        let (time, mut effort) = (now.time + dt, Effort::default());
+        wanted: &StepTolerance,
+    ) -> Result<NewtonStatistics, SolveError> {
+        let (time, mut effort) = (now.time + dt, NewtonStatistics::default());
         self.weigh(system, &now.motions);
         self.choose(system, &now.forces);
         if let Some(row) = self.rows.iter().find(|r| !r.heavy) {
@@ -51,7 +52,7 @@ impl Stepper {
         start: &[BodyMotion],
         ahead: &mut SystemInstant,
         dt: f64,
-        ([euler, trapezoid], wanted, effort): ([TimeScheme; 2], &Convergence, &mut Effort),
+        ([euler, trapezoid], wanted, effort): ([TimeScheme; 2], &StepTolerance, &mut NewtonStatistics),
     ) -> Result<(), SolveError> {
         let mut scheme = euler;
         loop {
@@ -71,6 +72,7 @@ impl Stepper {
             effort.evaluations += 1;
             let changes = ahead.motions.iter().zip(&before).map(|(m, b)| m.acceleration - b);
             let change = changes.clone().map(|c| c.amax()).fold(0.0, f64::max);
+            effort.residual = change / system.gravity;
             if !change.is_finite() {
                 return Err(not_finite(system, &ahead.forces.sum, ahead.time));
             }

@@ -4,7 +4,7 @@ use super::along::AlongColumns;
 use super::history::RowLayout;
 use super::scheme::Method;
 use super::snapshot::Snapshot;
-use super::step::Convergence;
+use super::step::StepTolerance;
 use crate::system::SolveError;
 use windlass_model::ClassError;
 
@@ -18,7 +18,7 @@ pub struct RunSettings {
     /// Scheme.
     pub method: Method,
     /// When a step is solved.
-    pub convergence: Convergence,
+    pub convergence: StepTolerance,
     /// Steps from one stored instant to the next.
     pub store: usize,
     /// Goes on when a body has rolled or pitched beyond 90 degrees.

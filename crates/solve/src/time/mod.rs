@@ -43,4 +43,4 @@ pub use run::{Run, STEPS_PER_SNAPSHOT};
 pub use scheme::{Method, TimeScheme};
 pub use snapshot::Snapshot;
 pub use statistics::{ResultSeries, RunStatistics, results};
-pub use step::Convergence;
+pub use step::StepTolerance;

@@ -10,7 +10,7 @@ use super::history::{History, RowLayout, RowSources};
 use super::inertia::gyroscopic;
 use super::resolution::Resolution;
 use super::statistics::RunStatistics;
-use super::step::{Effort, Stepper, SystemInstant};
+use super::step::{Stepper, SystemInstant};
 use crate::system::{SolveError, System, mass_block, moving_nodes};
 use std::sync::Arc;
 use windlass_base::geometry::Place;
@@ -279,9 +279,9 @@ impl Run {
                 part,
                 (&self.settings.method, &self.settings.convergence),
             ) {
-                Ok(Effort { iterations, evaluations }) => {
-                    self.counts.iterations += iterations;
-                    self.counts.evaluations += evaluations;
+                Ok(effort) => {
+                    self.counts.iterations += effort.iterations;
+                    self.counts.evaluations += effort.evaluations;
                     if let Some(before) = before {
                         let error = self.settings.method.error_of_step(self.now.motions.iter(), part);
                         let rough =

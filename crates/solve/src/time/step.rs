@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, U6};
 use windlass_base::dense::{DenseError, Lu};
 use windlass_base::pose::Six;
 use windlass_model::ClassError;
+use windlass_nonlinear::NewtonStatistics;
 
 /// Square of the time (s2) over which stiff ties hold their ends together where a run begins: times their stiffness it is large against the
 /// inertia of anything that floats.
@@ -19,7 +20,7 @@ const TIE_SETTLING_TIME_SQUARED: f64 = 1.0;
 
 /// When a step is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Convergence {
+pub struct StepTolerance {
     /// Most iterations before the step is cut.
     pub most: usize,
     /// Largest acceleration left, as a share of gravity (rotations times the radius of gyration); of a degree of freedom without inertia the
@@ -27,9 +28,9 @@ pub struct Convergence {
     pub tolerance: f64,
 }
 
-impl Default for Convergence {
+impl Default for StepTolerance {
     fn default() -> Self {
-        Convergence { most: 20, tolerance: 1e-7 }
+        StepTolerance { most: 20, tolerance: 1e-7 }
     }
 }
 
@@ -44,15 +45,6 @@ pub struct SystemInstant {
     pub memory: LoadMemory,
     /// Forces there.
     pub forces: BodyForces,
-}
-
-/// How a step went.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Effort {
-    /// Iterations.
-    pub iterations: usize,
-    /// Evaluations of all forces.
-    pub evaluations: usize,
 }
 
 /// A row of the unknowns.
@@ -184,7 +176,8 @@ impl Stepper {
         no_inertia(&name, dof)
     }
 
-    /// Takes a step of `dt` from `now` to its end. Nothing has changed when it fails.
+    /// Takes a step of `dt` from `now` to its end: what it took, with the residual acceleration as a share of gravity. Nothing has
+    /// changed when it fails.
     ///
     /// # Errors
     /// A body or connector without an answer; no balance within the most iterations.
@@ -193,8 +186,8 @@ impl Stepper {
         system: &mut System,
         now: &mut SystemInstant,
         dt: f64,
-        (method, wanted): (&Method, &Convergence),
-    ) -> Result<Effort, SolveError> {
+        (method, wanted): (&Method, &StepTolerance),
+    ) -> Result<NewtonStatistics, SolveError> {
         let made = match method {
             Method::Implicit(scheme) => self.implicit(system, now, dt, (scheme, wanted)),
             Method::Corrector => self.corrector(system, now, dt, wanted),
@@ -247,9 +240,9 @@ impl Stepper {
         system: &mut System,
         now: &mut SystemInstant,
         dt: f64,
-        (scheme, wanted): (&TimeScheme, &Convergence),
-    ) -> Result<Effort, SolveError> {
-        let (time, mut effort) = (now.time + dt, Effort::default());
+        (scheme, wanted): (&TimeScheme, &StepTolerance),
+    ) -> Result<NewtonStatistics, SolveError> {
+        let (time, mut effort) = (now.time + dt, NewtonStatistics::default());
         self.trial.clear();
         self.trial.extend_from_slice(&now.motions);
         self.over.clear();
@@ -302,6 +295,7 @@ impl Stepper {
             now.forces.evaluate(system, &now.memory, &self.trial, (time, dt))?;
             effort.evaluations += 1;
             let left = self.residual(system, &now.forces);
+            effort.residual = left / system.gravity;
             if !left.is_finite() {
                 return Err(not_finite(system, &now.forces.sum, time));
             }
