@@ -29,7 +29,10 @@ fn main() {
         let system = System::new(&model, &[]).unwrap();
         let mut state = system.state(&model);
         let found = equilibrium(&system, &mut state, &options).unwrap();
-        println!("# {name}: {} steps, {} evaluations, {:.1e} g left", found.search.iterations, found.search.evaluations, found.search.residual);
+        println!(
+            "# {name}: {} steps, {} evaluations, {:.1e} g left",
+            found.search.iterations, found.search.evaluations, found.search.residual
+        );
         report(&format!("{name}, solved"), 1, || {
             let mut state = system.state(&model);
             equilibrium(&system, &mut state, &options).unwrap().search.residual

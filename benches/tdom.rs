@@ -14,7 +14,7 @@ mod measured;
 use std::sync::Arc;
 use std::time::Instant;
 use windlass_model::{Database, Model};
-use windlass_solve::time::{StepTolerance, Method, Run, RunSettings, Watcher};
+use windlass_solve::time::{Method, Run, RunSettings, StepTolerance, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;

@@ -7,7 +7,7 @@ use crate::{eight, measured};
 use std::sync::Arc;
 use std::time::Instant;
 use windlass_model::{Database, Model};
-use windlass_solve::time::{StepTolerance, Counts, Method, Run, RunSettings, Watcher};
+use windlass_solve::time::{Counts, Method, Run, RunSettings, StepTolerance, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;

@@ -84,6 +84,26 @@ impl EndForces {
         }
     }
 
+    /// d(pull on the anchor)/d(place of the fairlead) (N/m), row by row, over a bottom with this friction.
+    pub(super) fn coupling(&self, friction: f64) -> [[f64; 2]; 2] {
+        let [horizontal, vertical] = self.stiffness;
+        let none = [0.0; 2];
+        match self.regime {
+            // what hangs free pulls at both ends with the difference of its weight, which does not change
+            Regime::Suspended | Regime::VerticalTaut => self.stiffness,
+            Regime::Contact | Regime::OnBottomTaut => [horizontal, none],
+            // what is lifted is no longer held by friction, and weighs on the fairlead
+            Regime::ContactFriction => {
+                let [[xx, xz], [zx, zz]] = [horizontal, vertical];
+                [[xx + friction * zx, xz + friction * zz], none]
+            }
+            Regime::ContactFrictionAnchorZero
+            | Regime::FullySlack
+            | Regime::OnBottomSlack
+            | Regime::WeightlessSlack => [none; 2],
+        }
+    }
+
     /// The same line upside down.
     pub(super) fn upside_down(self) -> Self {
         let EndForces { at: [x, z], fairlead, anchor, stiffness: [[a, b], [c, d]], .. } = self;

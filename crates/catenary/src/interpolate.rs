@@ -4,6 +4,7 @@
 //! that elevation is interpolated from the rows' own. Monotone cubic: [FRITSCH-CARLSON-1980].
 
 use super::error::LineError;
+use super::line_forces::LineForces;
 use super::table::TableRow;
 
 /// One quantity against the distance.
@@ -72,24 +73,11 @@ pub struct Interpolated {
     coupling: [InterpolatedQuantity; 4],
 }
 
-/// What the ends of the line are pulled with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pulled {
-    /// Horizontal and vertical force at the fairlead (N, toward the anchor and downward).
-    pub fairlead: [f64; 2],
-    /// Horizontal and vertical pull on the anchor (N, toward the fairlead and upward).
-    pub anchor: [f64; 2],
-    /// d(fairlead)/d(distance, elevation of the fairlead) (N/m).
-    pub stiffness: [[f64; 2]; 2],
-    /// d(anchor)/d(distance, elevation of the fairlead) (N/m).
-    pub coupling: [[f64; 2]; 2],
-}
-
 /// What the table gives at a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FromTable {
     /// Forces and their derivatives.
-    pub pulled: Pulled,
+    pub forces: LineForces,
     /// Unstretched length on the bottom (m).
     pub grounded: f64,
     /// Largest tension over own break.
@@ -151,7 +139,7 @@ impl Interpolated {
     }
 
     /// What the ends of the line are pulled with at a distance (m), as of [`Interpolated::evaluate`].
-    pub fn pull(&self, x: f64) -> Pulled {
+    pub fn forces(&self, x: f64) -> LineForces {
         let (i, h, t, beyond) = self.interval(x);
         let (mut force, slope) = self.force.evaluate(i, h, t);
         force += slope * beyond;
@@ -164,7 +152,7 @@ impl Interpolated {
         let (xz, zz) = (zx + inside(&self.unlike), inside(&self.heave));
         let [axx, axz, azx, azz] = self.coupling.each_ref().map(inside);
         let force = force.max(0.0);
-        Pulled {
+        LineForces {
             fairlead: [force, vertical + zx * beyond],
             anchor: [(force - straight(&self.taken)).max(0.0), straight(&self.anchor_vertical)],
             stiffness: [[if force > 0.0 { slope } else { 0.0 }, xz], [zx, zz]],
@@ -181,7 +169,7 @@ impl Interpolated {
         };
         let critical_row = if t < 0.5 { i } else { i + 1 };
         FromTable {
-            pulled: self.pull(x),
+            forces: self.forces(x),
             grounded: one(&self.grounded),
             ratio: one(&self.ratio),
             critical: rows.get(critical_row).map_or(1, |r| r.critical),

@@ -4,10 +4,11 @@
 //! the anchor. `H` is the horizontal component of the tension, the same all along a line without friction; `V` is the
 //! vertical component of the tension at a section, positive where the line rises toward the fairlead.
 //!
-//! Two directions: [`Line::at_horizontal_force`] and its inverse [`Line::at_distance`] for whole lines. On a flat bottom
-//! without friction all contacts of a line are found at once; on any other, and for very many segments, the line is laid
-//! down from the fairlead to the anchor. [`Segment::solve_end_forces`] for one segment in every regime, with or without a bottom, with friction, and [`Segment::solve_warm_start`] for the
-//! same at a fairlead that moves.
+//! [`Line::solve_forces`] gives the forces at both ends with their tangent, at one place of the fairlead after the other; one segment over a flat
+//! bottom is its fast path. [`Line::at_horizontal_force`] and its inverse [`Line::at_distance`] give the whole configuration. On a
+//! flat bottom without friction all contacts of a line are found at once; on any other, and for very many segments, the line is laid
+//! down from the fairlead to the anchor. [`Segment::solve_end_forces`] is the fast path by itself, for one segment in every regime, with or
+//! without a bottom, with friction.
 //!
 //! Source of the formulas: the elastic catenary [IRVINE-1981 1.4], written so that no
 //! difference of nearly equal numbers is formed; the spring buoy after [MOSES-FLEX -CLUMP].
@@ -37,6 +38,7 @@ mod error;
 mod interpolate;
 mod layout;
 mod line;
+mod line_forces;
 mod multi_segment;
 mod profile;
 mod read;
@@ -51,8 +53,9 @@ mod table;
 pub use adjust::{Aim, Lengths};
 pub use end_forces::{EndForces, FlatBottom, Regime};
 pub use error::LineError;
-pub use interpolate::{FromTable, Interpolated, Pulled};
+pub use interpolate::{FromTable, Interpolated};
 pub use line::{Joint, Line, SeabedModel, Segment};
+pub use line_forces::{LineForces, WarmStart};
 pub use search::{FunctionPoint, rising_root};
 pub use shape::ShapePoint;
 pub use state::{Buoy, Heap, JointState, LineState, SegmentState};

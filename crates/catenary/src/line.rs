@@ -65,6 +65,8 @@ pub struct Line {
     pub(super) floor: Option<SeabedModel>,
     pub(super) profile: SeabedProfile,
     pub(super) chain: MultiSegmentLine,
+    /// Its segment and bottom, when both are so plain that its forces need no more: see [`Line::solve_forces`].
+    pub(super) lone_segment: Option<(Segment, Option<FlatBottom>)>,
 }
 
 /// Lengths (m) and forces (N) from which on the squares that are formed of them have no room in a double.
@@ -162,7 +164,8 @@ impl Line {
         let chain = MultiSegmentLine { elements: Vec::new(), pulls: Vec::new(), least: 0.0 };
         let springs = [None, None];
         let profile = SeabedProfile::plane(anchor, 0.0);
-        Line { segments, laws, springs, joints, anchor, surface, floor: Some(floor), profile, chain }.assemble()
+        let floor = Some(floor);
+        Line { segments, laws, springs, joints, anchor, surface, floor, profile, chain, lone_segment: None }.assemble()
     }
 
     /// The line over another bottom, or over none.
@@ -282,12 +285,6 @@ impl Line {
         Some(self.assemble())
     }
 
-    /// Its segment, when it has one alone, that stretches by its stiffness and has no springs at its ends.
-    pub fn single(&self) -> Option<Segment> {
-        let plain = self.laws.iter().all(Option::is_none) && self.springs.iter().all(Option::is_none);
-        self.segments.first().copied().filter(|_| plain && self.segments.len() == 1)
-    }
-
     /// Elevation of the anchor (m).
     pub fn anchor(&self) -> f64 {
         self.anchor
@@ -366,7 +363,17 @@ impl Line {
         let stiffest = self.segments.iter().fold(f64::INFINITY, |m, s| s.ea.min(m));
         let least = if weight > 0.0 { 1e-11 * weight } else { 1e-11 * stiffest };
         self.chain = MultiSegmentLine { elements, pulls, least };
+        self.lone_segment = self.find_lone_segment();
         Ok(self)
+    }
+
+    /// Its segment and bottom, when it has one segment alone that stretches by its stiffness, no springs at its ends, and no bottom or a
+    /// flat one at the anchor.
+    fn find_lone_segment(&self) -> Option<(Segment, Option<FlatBottom>)> {
+        let [segment] = self.segments[..] else { return None };
+        let plain = self.laws.iter().chain(&self.springs).all(Option::is_none);
+        let flat = self.floor.is_none_or(|f| f.elevation == self.anchor && self.is_flat());
+        (plain && flat).then(|| (segment, self.floor.map(|f| FlatBottom { friction: f.friction })))
     }
 
     /// The segments, fairlead first.

@@ -7,7 +7,7 @@ use super::extension::Extension;
 use nalgebra::{Matrix2, Vector2};
 use windlass_base::dense::inverse;
 use windlass_base::pose::Six;
-use windlass_catenary::LineError;
+use windlass_catenary::{LineError, LineForces};
 use windlass_nonlinear::backtrack;
 
 /// Newton steps.
@@ -18,26 +18,11 @@ const MAX_STEP_HALVINGS: usize = 40;
 const CONVERGENCE_TOLERANCE: f64 = 1e-13;
 const ACCEPTED_RESIDUAL: f64 = 1e-9;
 
-/// Forces in the line's vertical plane.
-#[derive(Clone, Debug)]
-pub struct PlaneForces {
-    /// On the first end: toward the other, and downward (N).
-    pub fairlead: [f64; 2],
-    /// On the other end: toward the first, and upward (N).
-    pub anchor: [f64; 2],
-    /// d(fairlead)/d(distance, rise of the first end) (N/m).
-    pub stiffness: [[f64; 2]; 2],
-    /// d(anchor)/d(distance, rise of the first end) (N/m).
-    pub coupling: [[f64; 2]; 2],
-}
-
-impl PlaneForces {
-    /// The forces on both ends, with the direction from the first to the other.
-    pub fn wrenches(&self, [ux, uy]: [f64; 2]) -> [Six; 2] {
-        let ([h, v], [far_h, far_v]) = (self.fairlead, self.anchor);
-        let force = |x: f64, y: f64, z: f64| Six::new(x, y, z, 0.0, 0.0, 0.0);
-        [force(h * ux, h * uy, -v), force(-far_h * ux, -far_h * uy, far_v)]
-    }
+/// The forces of a line on its two ends, by the direction from the first to the other.
+pub fn end_wrenches(forces: &LineForces, [ux, uy]: [f64; 2]) -> [Six; 2] {
+    let ([h, v], [far_h, far_v]) = (forces.fairlead, forces.anchor);
+    let force = |x: f64, y: f64, z: f64| Six::new(x, y, z, 0.0, 0.0, 0.0);
+    [force(h * ux, h * uy, -v), force(-far_h * ux, -far_h * uy, far_v)]
 }
 
 fn matrix([[a, b], [c, d]]: [[f64; 2]; 2]) -> Matrix2<f64> {
@@ -53,7 +38,7 @@ fn rows(m: &Matrix2<f64>) -> [[f64; 2]; 2] {
 /// A place of the line's end with what is there.
 struct Tried {
     at: Vector2<f64>,
-    plane: PlaneForces,
+    plane: LineForces,
     /// C.
     give: Matrix2<f64>,
     /// p - y - a t.
@@ -83,8 +68,8 @@ pub fn solve_with_link(
     straight: [f64; 2],
     start: Option<[f64; 2]>,
     size: f64,
-    mut line: impl FnMut(f64, f64) -> Result<PlaneForces, LineError>,
-) -> Result<(PlaneForces, [f64; 2]), LineError> {
+    mut line: impl FnMut(f64, f64) -> Result<LineForces, LineError>,
+) -> Result<(LineForces, [f64; 2]), LineError> {
     let place = Vector2::from(from);
     let straight = Vector2::from(straight);
     let link = |pull: [f64; 2]| {
@@ -131,7 +116,7 @@ pub fn solve_with_link(
     let (k, give) = (matrix(now.plane.stiffness), now.give);
     let whole = Matrix2::identity() + give * k;
     let inverse = inverse(whole).map_err(|_| LineError::Unproven { residual: f64::NAN, tension })?;
-    let plane = PlaneForces {
+    let plane = LineForces {
         stiffness: rows(&(k * inverse)),
         coupling: rows(&(matrix(now.plane.coupling) * inverse)),
         ..now.plane

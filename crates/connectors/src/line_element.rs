@@ -1,13 +1,13 @@
 //! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
 
-use super::extended_line::{PlaneForces, solve_with_link};
+use super::extended_line::{end_wrenches, solve_with_link};
 use super::extension::{EndPull, Extended, Extension};
 use super::line_profile::LineProfile;
 use super::mooring::{Mooring, too_short, too_short_note};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::borrow::Cow;
 use windlass_base::pose::Six;
-use windlass_catenary::{EndForces, FlatBottom, Interpolated, Line, LineError, LineState, Pulled, Regime, Segment};
+use windlass_catenary::{Interpolated, LineError, LineForces, WarmStart};
 use windlass_model::{
     AnchoredElement, AnchoredResponse, ClassError, Element, ElementResponse, ElementSummary, End, Placement, Situation,
     SolverCache,
@@ -17,29 +17,10 @@ use windlass_model::{
 /// profile, and forces that are proven to 1e-9 leave 1e-5 of the tension over it.
 const AZIMUTH_DIFFERENCE_RAD: f64 = 1e-4;
 
-/// How the forces are found.
-#[derive(Clone, Debug)]
-enum ForceMethod {
-    /// One segment without springs: the quickest.
-    Segment { segment: Segment, bottom: Option<FlatBottom> },
-    /// The whole line.
-    Whole,
-    /// Interpolated in its table, which is made anew at every elevation of its fairlead.
-    Table,
-}
-
 /// A line between two ends.
 #[derive(Clone, Debug)]
 pub struct LineElement {
     mooring: Mooring,
-    solver: ForceMethod,
-}
-
-/// What the solver of a line keeps of its last answer.
-enum LineCache {
-    Segment(EndForces),
-    Whole(Box<LineState>),
-    Table(Box<TableAt>),
 }
 
 /// The table of a line at one elevation of its fairlead.
@@ -65,16 +46,7 @@ impl LineElement {
             return Err(ClassError::new("a line that lies on the bottom needs its other end in the ground")
                 .help("use H_CAT between two bodies"));
         }
-        let flat = line.floor().is_none_or(|f| f.slope == 0.0 && f.elevation == line.anchor());
-        let solver = match line.single() {
-            _ if mooring.tabulated => ForceMethod::Table,
-            Some(segment) if flat && mooring.profile.is_none() => {
-                let bottom = line.floor().map(|f| FlatBottom { friction: f.friction });
-                ForceMethod::Segment { segment, bottom }
-            }
-            _ => ForceMethod::Whole,
-        };
-        Ok(LineElement { mooring, solver })
+        Ok(LineElement { mooring })
     }
 
     /// Horizontal distance, its direction from the first end to the other, and the elevation of the first end in the line's
@@ -89,54 +61,29 @@ impl LineElement {
         (x, along, z)
     }
 
-    fn plane(&self, x: f64, z: f64, cache: &mut SolverCache) -> Result<PlaneForces, LineError> {
-        match &self.solver {
-            ForceMethod::Segment { segment, bottom } => {
-                let rise = z - self.mooring.line.anchor();
-                let found = match cache.get_mut() {
-                    Some(LineCache::Segment(last)) => {
-                        let found = segment.solve_warm_start(x, rise, *bottom, last)?;
-                        *last = found;
-                        found
-                    }
-                    _ => {
-                        let found = segment.solve_end_forces(x, rise, *bottom)?;
-                        cache.set(LineCache::Segment(found));
-                        found
-                    }
-                };
-                Ok(PlaneForces {
-                    fairlead: found.fairlead,
-                    anchor: found.anchor,
-                    stiffness: found.stiffness,
-                    coupling: at_anchor(&found, bottom.map_or(0.0, |b| b.friction)),
-                })
-            }
-            ForceMethod::Whole => whole(&self.mooring.line, x, z, cache),
-            ForceMethod::Table => self.interpolate_forces(x, z, cache),
+    fn forces(&self, x: f64, z: f64, cache: &mut SolverCache) -> Result<LineForces, LineError> {
+        if self.mooring.tabulated {
+            return self.interpolate_forces(x, z, cache);
+        }
+        match cache.get_or_insert::<Option<WarmStart>>(|_| true, || None) {
+            Some(warm) => self.mooring.line.solve_forces(x, z, warm),
+            None => self.mooring.line.solve_forces(x, z, &mut None),
         }
     }
 
     /// The forces from the table at the elevation `z` of the fairlead; exact ones nearer than its first row.
-    fn interpolate_forces(&self, x: f64, z: f64, cache: &mut SolverCache) -> Result<PlaneForces, LineError> {
+    fn interpolate_forces(&self, x: f64, z: f64, cache: &mut SolverCache) -> Result<LineForces, LineError> {
         let azimuth = self.mooring.profile.as_ref().map(LineProfile::azimuth);
-        let is_here =
-            |kept: &LineCache| matches!(kept, LineCache::Table(at) if at.elevation == z && at.azimuth == azimuth);
+        let is_here = |kept: &TableAt| kept.elevation == z && kept.azimuth == azimuth;
         if !cache.get().is_some_and(is_here) {
             let (rows, _) = self.mooring.table(z)?;
             let nearest = rows.first().map_or(0.0, |row| row.state.x);
             let forces = Interpolated::new(&rows)?;
-            cache.set(LineCache::Table(Box::new(TableAt { elevation: z, azimuth, nearest, forces })));
+            cache.set(TableAt { elevation: z, azimuth, nearest, forces });
         }
-        let found = match cache.get() {
-            Some(LineCache::Table(at)) if x >= at.nearest => Some(at.forces.pull(x)),
-            _ => None,
-        };
-        match found {
-            Some(Pulled { fairlead, anchor, stiffness, coupling }) => {
-                Ok(PlaneForces { fairlead, anchor, stiffness, coupling })
-            }
-            None => self.mooring.line.at_distance(x, z).map(|state| plane_of(&state)),
+        match cache.get::<TableAt>() {
+            Some(table) if x >= table.nearest => Ok(table.forces.forces(x)),
+            _ => self.mooring.line.at_distance(x, z).map(|state| LineForces::from(&state)),
         }
     }
 
@@ -147,19 +94,15 @@ impl LineElement {
         z: f64,
         by: Extension,
         cache: &mut SolverCache,
-    ) -> Result<(PlaneForces, [f64; 2]), LineError> {
+    ) -> Result<(LineForces, [f64; 2]), LineError> {
         if by == Extension::NONE {
-            return self.plane(x, z, cache).map(|plane| (plane, [x, z]));
+            return self.forces(x, z, cache).map(|forces| (forces, [x, z]));
         }
-        let start = match cache.get() {
-            Some(LineCache::Segment(last)) => Some(last.fairlead),
-            Some(LineCache::Whole(last)) => Some([last.force, last.top_vertical]),
-            Some(LineCache::Table(_)) | None => None,
-        };
+        let start = cache.get::<Option<WarmStart>>().and_then(Option::as_ref).map(WarmStart::fairlead);
         let rise = z - self.mooring.line.anchor();
         let apart = x.hypot(rise);
         let straight = if apart > 0.0 { [x / apart, rise / apart] } else { [0.0, 1.0] };
-        solve_with_link(by, [x, z], straight, start, self.mooring.line.length(), |x, z| self.plane(x, z, cache))
+        solve_with_link(by, [x, z], straight, start, self.mooring.line.length(), |x, z| self.forces(x, z, cache))
     }
 
     /// The same; none of a weightless line that is not tight.
@@ -169,7 +112,7 @@ impl LineElement {
         z: f64,
         by: Extension,
         cache: &mut SolverCache,
-    ) -> Result<Option<(PlaneForces, [f64; 2])>, ClassError> {
+    ) -> Result<Option<(LineForces, [f64; 2])>, ClassError> {
         match self.forces_with_link(x, z, by, cache) {
             Ok(found) => Ok(Some(found)),
             Err(LineError::Undetermined) if self.mooring.weightless() => Ok(None),
@@ -184,7 +127,7 @@ impl LineElement {
                 let profile = profile.facing(along);
                 let line = profile.lay(self.mooring.line.clone()).map_err(|e| self.mooring.error(&e))?;
                 let mooring = Mooring { line, profile: Some(profile), ..self.mooring.clone() };
-                Ok(Cow::Owned(LineElement { mooring, solver: self.solver.clone() }))
+                Ok(Cow::Owned(LineElement { mooring }))
             }
             _ => Ok(Cow::Borrowed(self)),
         }
@@ -197,7 +140,7 @@ impl LineElement {
             return Ok([[0.0; 2]; 2]);
         }
         let [ux, uy] = along;
-        let turned = |angle: f64| -> Result<PlaneForces, ClassError> {
+        let turned = |angle: f64| -> Result<LineForces, ClassError> {
             let (sin, cos) = angle.sin_cos();
             let there = self.facing([ux * cos - uy * sin, uy * cos + ux * sin])?;
             let found =
@@ -226,47 +169,6 @@ impl LineElement {
             ..self.mooring.clone()
         }
     }
-}
-
-/// d(pull on the anchor)/d(place of the fairlead) of one segment.
-fn at_anchor(found: &EndForces, friction: f64) -> [[f64; 2]; 2] {
-    let [horizontal, vertical] = found.stiffness;
-    let none = [0.0; 2];
-    match found.regime {
-        // what hangs free pulls at both ends with the difference of its weight, which does not change
-        Regime::Suspended | Regime::VerticalTaut => found.stiffness,
-        Regime::Contact | Regime::OnBottomTaut => [horizontal, none],
-        // what is lifted is no longer held by friction, and weighs on the fairlead
-        Regime::ContactFriction => {
-            let [[xx, xz], [zx, zz]] = [horizontal, vertical];
-            [[xx + friction * zx, xz + friction * zz], none]
-        }
-        Regime::ContactFrictionAnchorZero | Regime::FullySlack | Regime::OnBottomSlack | Regime::WeightlessSlack => {
-            [none; 2]
-        }
-    }
-}
-
-fn plane_of(state: &LineState) -> PlaneForces {
-    PlaneForces {
-        fairlead: [state.force, state.top_vertical],
-        anchor: [state.anchor_horizontal, state.anchor_vertical],
-        stiffness: state.stiffness,
-        coupling: state.coupling,
-    }
-}
-
-fn whole(line: &Line, x: f64, z: f64, cache: &mut SolverCache) -> Result<PlaneForces, LineError> {
-    let state = match cache.get() {
-        Some(LineCache::Whole(last)) => line.solve_warm_start(x, z, last)?,
-        _ => line.at_distance(x, z)?,
-    };
-    let plane = plane_of(&state);
-    match cache.get_mut() {
-        Some(LineCache::Whole(last)) => **last = state,
-        _ => cache.set(LineCache::Whole(Box::new(state))),
-    }
-    Ok(plane)
 }
 
 /// -d(force)/d(place of the first end) for a force `sign` (pull toward the other end, downward): `k` is d(pull)/d(x, z),
@@ -327,7 +229,7 @@ impl Extended for LineElement {
             let mut translations = block.fixed_view_mut::<3, 3>(0, 0);
             translations += by_turn(along, rate, x) * sign;
         }
-        let wrenches = plane.wrenches(along);
+        let wrenches = end_wrenches(&plane, along);
         let pull = wrenches[0].fixed_rows::<3>(0).into_owned();
         out.wrench.copy_from_slice(&wrenches);
         if let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() {
@@ -401,7 +303,7 @@ impl Element for LineElement {
         let (x, along, z) = self.horizontal_distance(at.ends);
         let found = self.facing(along)?.tight(x, z, Extension::NONE, cache)?;
         out.clear();
-        out.extend(found.map_or([Six::zeros(); 2], |(plane, _)| plane.wrenches(along)));
+        out.extend(found.map_or([Six::zeros(); 2], |(plane, _)| end_wrenches(&plane, along)));
         Ok(())
     }
 
@@ -421,7 +323,7 @@ impl AnchoredElement for LineElement {
         let across = if x > 0.0 { force / x } else { xx_of(plane.stiffness) };
         let [rate, _] = here.by_azimuth(x, along, z, Extension::NONE)?;
         let stiffness = by_place(along, plane.stiffness, across, 1.0) + by_turn(along, rate, x);
-        Ok(AnchoredResponse { wrenches: plane.wrenches(along), stiffness })
+        Ok(AnchoredResponse { wrenches: end_wrenches(&plane, along), stiffness })
     }
 }
 

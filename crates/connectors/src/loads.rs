@@ -47,9 +47,9 @@ impl Mooring {
             loads.notes.push("nearer than the first row of its table, and solved exactly there".into());
             return Ok(loads);
         }
-        let forces = Interpolated::new(&rows).map_err(|e| self.error(&e))?;
-        let FromTable { pulled, grounded, ratio, critical, beyond } = forces.evaluate(distance, &rows);
-        let ([force, vertical], [anchor_horizontal, anchor_vertical]) = (pulled.fairlead, pulled.anchor);
+        let table = Interpolated::new(&rows).map_err(|e| self.error(&e))?;
+        let FromTable { forces, grounded, ratio, critical, beyond } = table.evaluate(distance, &rows);
+        let ([force, vertical], [anchor_horizontal, anchor_vertical]) = (forces.fairlead, forces.anchor);
         let mut notes = self.notes.clone();
         if !missing.is_empty() {
             let numbers: Vec<String> = missing.iter().map(|row| row.number.to_string()).collect();
@@ -67,11 +67,11 @@ impl Mooring {
         if ratio > 1.0 {
             notes.push(Note::warning("the line is beyond its breaking tension"));
         }
-        let across = if distance > 0.0 { force / distance } else { pulled.stiffness[0][0] };
+        let across = if distance > 0.0 { force / distance } else { forces.stiffness[0][0] };
         Ok(LineLoads {
             fairlead: [force * along[0], force * along[1], -vertical],
             other: [-anchor_horizontal * along[0], -anchor_horizontal * along[1], anchor_vertical],
-            stiffness: stiffness(along, pulled.stiffness, across),
+            stiffness: stiffness(along, forces.stiffness, across),
             distance,
             tension: force.hypot(vertical),
             ratio,

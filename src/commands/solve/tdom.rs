@@ -27,7 +27,7 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
 use windlass_solve::results::{fender_peaks, fender_table};
 use windlass_solve::screening::{self, Screening};
-use windlass_solve::time::{StepTolerance, Ending, Method, Run, RunSettings, Snapshot, TimeScheme, Trigger, Watcher};
+use windlass_solve::time::{Ending, Method, Run, RunSettings, Snapshot, StepTolerance, TimeScheme, Trigger, Watcher};
 use windlass_solve::{SolveError, find_equilibrium_with_rebuilds, run_tables, tethered};
 
 /// TDOM.

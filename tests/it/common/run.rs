@@ -2,7 +2,7 @@
 
 use crate::common;
 use windlass_model::Model;
-use windlass_solve::time::{Action, StepTolerance, Ending, Method, Run, RunSettings, TimeScheme, Watcher};
+use windlass_solve::time::{Action, Ending, Method, Run, RunSettings, StepTolerance, TimeScheme, Watcher};
 
 /// Takes rows and says nothing.
 pub struct Quiet;

@@ -6,7 +6,7 @@ use crate::common::run as runs;
 
 use runs::{model, run, settings, trapezoidal};
 use windlass_model::Model;
-use windlass_solve::time::{StepTolerance, Run, RunSettings};
+use windlass_solve::time::{Run, RunSettings, StepTolerance};
 use windlass_solve::{Options, find_equilibrium_with_rebuilds};
 
 const G: f64 = 9.80665;

@@ -12,7 +12,7 @@ use windlass_hydro::Category;
 use windlass_model::Model;
 use windlass_solve::System;
 use windlass_solve::time::{
-    BodyForces, BodyMotion, StepTolerance, Ending, LoadMemory, Method, Run, RunRequirements, RunSettings, Watcher,
+    BodyForces, BodyMotion, Ending, LoadMemory, Method, Run, RunRequirements, RunSettings, StepTolerance, Watcher,
 };
 
 /// Takes rows and says nothing.

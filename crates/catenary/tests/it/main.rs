@@ -10,3 +10,4 @@ mod catenary_lines;
 mod catenary_properties;
 mod catenary_shape;
 mod catenary_two_ways;
+mod line_forces;
