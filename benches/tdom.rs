@@ -14,13 +14,13 @@ mod measured;
 use std::sync::Arc;
 use std::time::Instant;
 use windlass_model::{Database, Model};
-use windlass_solve::time::{Method, Run, RunSettings, StepTolerance, Watcher};
+use windlass_solve::time::{Method, Run, RunFileError, RunSettings, StepTolerance, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;
 
 impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
+    fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
         Ok(())
     }
 }

@@ -4,7 +4,7 @@ use crate::commands::verdict::{OverBreak, Verdict};
 use crate::repl;
 use crate::report::files::JobFolder;
 use crate::report::output::Output;
-use crate::session::{Session, SessionEnd, read_all};
+use crate::session::{ReadError, Session, SessionEnd, read_all};
 use clap::Parser;
 use std::io::{BufWriter, ErrorKind, IsTerminal, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -135,6 +135,31 @@ impl Subcommand {
     }
 }
 
+/// Why the command line starts no job.
+#[derive(Debug, thiserror::Error)]
+enum UsageError {
+    #[error("{0} is not in this version")]
+    OptionToCome(&'static str),
+    #[error("{name} is not in this version{}", namesake(name))]
+    CommandToCome { name: &'static str },
+    #[error("run needs a JOB: a script, a deck, or a ROOT{}", namesake("run"))]
+    NoJob,
+    #[error("a script and -c cannot be given together; if `{0}` is a record, it needs a -c of its own")]
+    ScriptAndRecords(String),
+    #[error("one script at a time: `{0}` is one too many")]
+    SecondScript(String),
+    #[error("there is no file {word}, nor {word}.cif; did you mean the command `{command}`?")]
+    MeantCommand { word: String, command: &'static str },
+    #[error("{0} is a folder")]
+    Folder(String),
+    #[error("there is no file {0}")]
+    NoScript(String),
+    #[error("there is no file {0}, nor {0}.cif")]
+    NoRoot(String),
+    #[error(transparent)]
+    Unreadable(#[from] ReadError),
+}
+
 /// Where records come from.
 enum RecordSource {
     /// All records of `-c`, one a line.
@@ -158,8 +183,8 @@ const INTERRUPTED: u8 = 130;
 pub fn run(cli: Cli) -> u8 {
     match job(cli) {
         Ok(job) => run_job(job),
-        Err(text) => {
-            complain(&text);
+        Err(error) => {
+            complain(&error.to_string());
             USAGE
         }
     }
@@ -182,12 +207,12 @@ fn complain(text: &str) {
 }
 
 /// The job to run, of what stands on the command line.
-fn job(cli: Cli) -> Result<JobArgs, String> {
+fn job(cli: Cli) -> Result<JobArgs, UsageError> {
     if cli.man {
-        return Err("--man is not in this version".into());
+        return Err(UsageError::OptionToCome("--man"));
     }
     if cli.completions.is_some() {
-        return Err("--completions is not in this version".into());
+        return Err(UsageError::OptionToCome("--completions"));
     }
     let (name, job) = match cli.command {
         Some(Subcommand::Run(job)) => ("run", job),
@@ -206,8 +231,8 @@ fn job(cli: Cli) -> Result<JobArgs, String> {
     };
     match name {
         "run" if job.job.is_some() || !job.commands.is_empty() => Ok(job),
-        "run" => Err(format!("run needs a JOB: a script, a deck, or a ROOT{}", namesake(name))),
-        _ => Err(format!("{name} is not in this version{}", namesake(name))),
+        "run" => Err(UsageError::NoJob),
+        _ => Err(UsageError::CommandToCome { name }),
     }
 }
 
@@ -243,8 +268,8 @@ fn run_job(cli: JobArgs) -> u8 {
     }
     let (input, root) = match input(&cli, terminal) {
         Ok(found) => found,
-        Err(text) => {
-            complain(&text);
+        Err(error) => {
+            complain(&error.to_string());
             return USAGE;
         }
     };
@@ -334,21 +359,17 @@ fn screen_columns() -> Option<usize> {
     stdout().is_terminal().then(|| size().map(|(width, _)| usize::from(width.0)).filter(|w| *w > 0).unwrap_or(80))
 }
 
-fn input(cli: &JobArgs, terminal: bool) -> Result<(RecordSource, PathBuf), String> {
+fn input(cli: &JobArgs, terminal: bool) -> Result<(RecordSource, PathBuf), UsageError> {
     let here = PathBuf::from("windlass");
     if !cli.commands.is_empty() {
         if let Some(job) = &cli.job {
-            return Err(format!(
-                "a script and -c cannot be given together; if `{job}` is a record, it needs a -c of its own"
-            ));
+            return Err(UsageError::ScriptAndRecords(job.clone()));
         }
         return Ok((RecordSource::Records(cli.commands.join("\n")), here));
     }
     if let Some(surplus) = cli.surplus.first() {
-        return Err(match cli.job.as_ref().and_then(|job| meant_command(job, true)) {
-            Some(help) => help,
-            None => format!("one script at a time: `{surplus}` is one too many"),
-        });
+        let meant = cli.job.as_ref().and_then(|job| meant_command(job, true));
+        return Err(meant.unwrap_or_else(|| UsageError::SecondScript(surplus.clone())));
     }
     let Some(job) = &cli.job else {
         return if terminal { Ok((RecordSource::Terminal, here)) } else { Ok((standard_input()?, here)) };
@@ -369,29 +390,26 @@ fn input(cli: &JobArgs, terminal: bool) -> Result<(RecordSource, PathBuf), Strin
         ));
     }
     if path.is_dir() {
-        return Err(format!("{job} is a folder"));
+        return Err(UsageError::Folder(job.clone()));
     }
-    if let Some(help) = meant_command(job, false) {
-        return Err(help);
+    if let Some(error) = meant_command(job, false) {
+        return Err(error);
     }
     if path.extension().is_some() || !terminal {
         let script = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("cif"));
-        return Err(format!(
-            "there is no file {job}{}",
-            if script { String::new() } else { format!(", nor {job}.cif") }
-        ));
+        return Err(if script { UsageError::NoScript(job.clone()) } else { UsageError::NoRoot(job.clone()) });
     }
     Ok((RecordSource::Terminal, path.into()))
 }
 
-/// What to say of a word that is no file and is a command but for its case, or is near to one: a lone word may be a new ROOT.
-fn meant_command(word: &str, near_too: bool) -> Option<String> {
+/// The error of a word that is no file and is a command but for its case, or is near to one: a lone word may be a new ROOT.
+fn meant_command(word: &str, near_too: bool) -> Option<UsageError> {
     if Path::new(word).exists() || script_of_root(Path::new(word)).is_some() {
         return None;
     }
     let same = COMMANDS.into_iter().find(|name| name.eq_ignore_ascii_case(word));
-    let meant = same.or_else(|| nearest(word, COMMANDS).first().copied().filter(|_| near_too))?;
-    Some(format!("there is no file {word}, nor {word}.cif; did you mean the command `{meant}`?"))
+    let command = same.or_else(|| nearest(word, COMMANDS).first().copied().filter(|_| near_too))?;
+    Some(UsageError::MeantCommand { word: word.to_string(), command })
 }
 
 /// The script of a ROOT, where there is one.
@@ -404,7 +422,7 @@ fn script_of_root(root: &Path) -> Option<PathBuf> {
     [".cif", ".CIF"].map(with).into_iter().find(|script| script.is_file())
 }
 
-fn standard_input() -> Result<RecordSource, String> {
+fn standard_input() -> Result<RecordSource, UsageError> {
     let text = read_all(stdin(), "standard input")?;
     Ok(RecordSource::Script { name: "standard input".into(), text, then_terminal: false })
 }

@@ -8,7 +8,7 @@ use super::files::is_unlinked;
 use std::fs::File;
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
-use windlass_solve::time::{Snapshot, Watcher};
+use windlass_solve::time::{RunFileError, Snapshot, Watcher};
 
 /// Begins every such file; its last byte is the version.
 pub const MARK: [u8; 8] = *b"WINDRUN\x03";
@@ -38,11 +38,14 @@ pub struct StoredRun {
 }
 
 /// Why a file of a run cannot be gone on with.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum RunLogError {
-    /// The system refused.
+    /// The system refused to read.
     #[error("{0}")]
-    System(String),
+    Unreadable(#[from] std::io::Error),
+    /// The system refused to write.
+    #[error("{0}")]
+    Unwritable(#[from] RunFileError),
     /// Not such a file.
     #[error("it is no file of a run of this program")]
     Other,
@@ -68,7 +71,7 @@ impl RunLog {
         let mut head = MARK.to_vec();
         head.extend_from_slice(&fingerprint.to_le_bytes());
         head.extend_from_slice(&(width as u64).to_le_bytes());
-        log.file.write_all(&head).map_err(|e| RunLogError::System(log.write_error_text(&e)))?;
+        log.file.write_all(&head).map_err(|error| log.unwritable(error))?;
         Ok(log)
     }
 
@@ -79,17 +82,17 @@ impl RunLog {
     pub fn go_on(mut file: File, path: PathBuf, kept: &StoredRun) -> Result<Self, RunLogError> {
         let done = file.set_len(kept.end).and_then(|()| file.seek(SeekFrom::End(0)));
         let log = RunLog { file: BufWriter::new(file), path };
-        done.map_err(|e| RunLogError::System(log.write_error_text(&e)))?;
+        done.map_err(|error| log.unwritable(error))?;
         Ok(log)
     }
 
-    fn write_error_text(&self, error: &std::io::Error) -> String {
-        format!("{}: {error}", self.path.display())
+    fn unwritable(&self, error: std::io::Error) -> RunFileError {
+        RunFileError::Unwritable { path: self.path.clone(), error }
     }
 
     /// Sees that nobody has deleted the file: what is written to it would be lost.
-    fn still_there(&self) -> Result<(), String> {
-        let deleted = || format!("{} was deleted while the run was written to it", self.path.display());
+    fn still_there(&self) -> Result<(), RunFileError> {
+        let deleted = || RunFileError::Deleted { path: self.path.clone() };
         if is_unlinked(self.file.get_ref()) { Err(deleted()) } else { Ok(()) }
     }
 
@@ -102,19 +105,19 @@ impl RunLog {
 }
 
 impl Watcher for RunLog {
-    fn row(&mut self, row: &[f64]) -> Result<(), String> {
+    fn row(&mut self, row: &[f64]) -> Result<(), RunFileError> {
         let bytes: Vec<u8> = row.iter().flat_map(|v| v.to_le_bytes()).collect();
-        self.block(b'R', &bytes).map_err(|e| self.write_error_text(&e))
+        self.block(b'R', &bytes).map_err(|error| self.unwritable(error))
     }
 
-    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), String> {
+    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), RunFileError> {
         let bytes = snapshot.bytes();
-        self.block(b'S', &bytes).and_then(|()| self.file.flush()).map_err(|e| self.write_error_text(&e))?;
+        self.block(b'S', &bytes).and_then(|()| self.file.flush()).map_err(|error| self.unwritable(error))?;
         self.still_there()
     }
 
-    fn finish(&mut self) -> Result<(), String> {
-        self.file.flush().map_err(|e| self.write_error_text(&e))?;
+    fn finish(&mut self) -> Result<(), RunFileError> {
+        self.file.flush().map_err(|error| self.unwritable(error))?;
         self.still_there()
     }
 }
@@ -125,9 +128,7 @@ impl Watcher for RunLog {
 /// A file that is none, or holds no such snapshot.
 pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<StoredRun, RunLogError> {
     let mut bytes = Vec::new();
-    file.seek(SeekFrom::Start(0))
-        .and_then(|_| file.read_to_end(&mut bytes))
-        .map_err(|e| RunLogError::System(e.to_string()))?;
+    file.seek(SeekFrom::Start(0)).and_then(|_| file.read_to_end(&mut bytes))?;
     let word = |at: usize| {
         let found = bytes.get(at..).and_then(|b| b.first_chunk::<8>());
         found.map(|b| u64::from_le_bytes(*b)).ok_or(RunLogError::Other)
@@ -208,14 +209,14 @@ mod tests {
             let (mut log, path) = begun(folder.path());
             log.row(&[0.0, f64::NAN]).unwrap();
             log.snapshot(&at(1.5)).unwrap();
-            assert_eq!(kept(&path).map(|k| (k.snapshot.time, k.rows.len())), Ok((1.5, 2)));
+            assert_eq!(kept(&path).map(|k| (k.snapshot.time, k.rows.len())).unwrap(), (1.5, 2));
             log.snapshot(&at(bad)).unwrap();
-            assert_eq!(kept(&path), Err(RunLogError::NotFinite), "snapshot at {bad}");
+            assert!(matches!(kept(&path), Err(RunLogError::NotFinite)), "snapshot at {bad}");
             let folder = tempfile::tempdir().unwrap();
             let (mut log, path) = begun(folder.path());
             log.row(&[bad, 0.0]).unwrap();
             log.snapshot(&at(1.0)).unwrap();
-            assert_eq!(kept(&path), Err(RunLogError::NotFinite), "row at {bad}");
+            assert!(matches!(kept(&path), Err(RunLogError::NotFinite)), "row at {bad}");
         }
     }
 
@@ -227,7 +228,10 @@ mod tests {
         log.snapshot(&at(1.0)).unwrap();
         std::fs::remove_file(&path).unwrap();
         for done in [log.snapshot(&at(2.0)), log.finish()] {
-            assert!(done.unwrap_err().contains("TDOM.run was deleted"));
+            let error = done.unwrap_err();
+            assert!(
+                matches!(error, RunFileError::Deleted { .. }) && error.to_string().contains("TDOM.run was deleted")
+            );
         }
     }
 }

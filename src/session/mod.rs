@@ -6,7 +6,7 @@ mod named;
 mod reading;
 mod skipped_menu;
 
-pub use reading::{read_all, read_text};
+pub use reading::{ReadError, read_all, read_text};
 
 use self::named::{in_menu, unknown};
 use crate::commands::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
@@ -88,8 +88,8 @@ impl Session {
     /// Opens a script file.
     ///
     /// # Errors
-    /// A file that cannot be read, in one sentence.
-    pub fn open_file(&mut self, name: &str, path: &Path) -> Result<(), String> {
+    /// A file that cannot be read.
+    pub fn open_file(&mut self, name: &str, path: &Path) -> Result<(), ReadError> {
         let text = read_text(path)?;
         self.open(name, text);
         Ok(())
@@ -272,7 +272,7 @@ impl Session {
                 self.job.output.folder.note_reading(&path);
                 match read_text(&path) {
                     Ok(text) => self.insert_deck(&name, text, record.whole()),
-                    Err(text) => self.report(*Diagnostic::error(text, record.whole())),
+                    Err(error) => self.report(*Diagnostic::error(error.to_string(), record.whole())),
                 }
                 false
             }
@@ -281,7 +281,7 @@ impl Session {
 
     fn insert(&mut self, name: &str, path: &Path, tag: u32, span: Span) {
         self.job.output.folder.note_reading(path);
-        let read = read_text(path).map_err(|text| Diagnostic::error(text, span));
+        let read = read_text(path).map_err(|error| Diagnostic::error(error.to_string(), span));
         if let Ok(text) = &read
             && tag == INMODEL_FILE
             && aqwa::is_deck(text.as_str())

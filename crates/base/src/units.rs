@@ -9,6 +9,37 @@ use std::fmt;
 
 /// The smallest size but zero that is taken as input, in SI of any dimension: its fourth power stays a number.
 pub const MIN_INPUT_MAGNITUDE: f64 = 1e-36;
+
+/// Why a number of a record cannot be reckoned with.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SizeError {
+    /// Smaller than [`MIN_INPUT_MAGNITUDE`] in SI, and not zero.
+    #[error("smaller than {MIN_INPUT_MAGNITUDE:e}, which is zero here: write 0")]
+    TooSmall,
+    /// Larger than [`Dim::most`].
+    #[error("{}", largest_size(*dim, *units))]
+    TooLarge {
+        /// What it measures.
+        dim: Dim,
+        /// The units it was given in.
+        units: UnitSystem,
+    },
+}
+
+impl SizeError {
+    /// `small` or `large`.
+    pub fn size(self) -> &'static str {
+        match self {
+            SizeError::TooSmall => "small",
+            SizeError::TooLarge { .. } => "large",
+        }
+    }
+}
+
+fn largest_size(dim: Dim, units: UnitSystem) -> String {
+    let most = dim.from_si(dim.most(), units);
+    format!("the largest size taken is {} {}", eight_figures(most), dim.label(units)).trim_end().to_string()
+}
 /// One international foot (m).
 pub const METRES_PER_FOOT: f64 = 0.3048;
 /// One inch (m).
@@ -308,17 +339,16 @@ impl Dim {
     /// The number in SI, where it is one that can be reckoned with: zero, or of a size between [`MIN_INPUT_MAGNITUDE`] and [`Dim::most`].
     ///
     /// # Errors
-    /// Why it is none.
-    pub fn checked_si(self, value: f64, units: UnitSystem) -> Result<f64, String> {
+    /// A size beyond these.
+    pub fn checked_si(self, value: f64, units: UnitSystem) -> Result<f64, SizeError> {
         let si = self.to_si(value, units);
         if si != 0.0 && si.abs() < MIN_INPUT_MAGNITUDE {
-            return Err(format!("smaller than {MIN_INPUT_MAGNITUDE:e}, which is zero here: write 0"));
+            return Err(SizeError::TooSmall);
         }
         if si.abs() <= self.most() {
             return Ok(si);
         }
-        let most = self.from_si(self.most(), units);
-        Err(format!("the largest size taken is {} {}", eight_figures(most), self.label(units)).trim_end().to_string())
+        Err(SizeError::TooLarge { dim: self, units })
     }
 
     /// SI value of `value` user units.

@@ -20,6 +20,23 @@ pub fn word(value: bool) -> &'static str {
 const OPERATORS: &[&str] =
     &[".EQ.", ".NE.", ".LT.", ".LE.", ".GT.", ".GE.", ".AND.", ".OR.", ".NOT.", ".TRUE.", ".FALSE."];
 
+/// Why a phrase has no value.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+enum LogicError {
+    #[error("`{0}` has no place here")]
+    Surplus(String),
+    #[error("nested too deeply")]
+    Nested,
+    #[error("a `)` is missing")]
+    Unclosed,
+    #[error("a word is missing at the end")]
+    Missing,
+    #[error("`{0}` is neither .TRUE. nor .FALSE.")]
+    NotLogical(String),
+    #[error("{operator} compares numbers, and `{text}` is none")]
+    NotANumber { operator: String, text: String },
+}
+
 /// The value of a phrase.
 ///
 /// # Errors
@@ -29,11 +46,11 @@ pub fn evaluate(phrase: &str, span: Span) -> Outcome<bool> {
     let mut reader = LogicReader { words: &words, at: 0 };
     let result = reader.either(0).and_then(|value| match reader.peek() {
         None => Ok(value),
-        Some(word) => Err(format!("`{word}` has no place here")),
+        Some(word) => Err(LogicError::Surplus(word.to_string())),
     });
     result.map_err(|why| {
         Diagnostic::error("the logical phrase cannot be evaluated", span)
-            .label(why)
+            .label(why.to_string())
             .help(format!("read as: {}", words.join(" ")))
     })
 }
@@ -102,7 +119,7 @@ impl LogicReader<'_> {
         word
     }
 
-    fn either(&mut self, depth: usize) -> Result<bool, String> {
+    fn either(&mut self, depth: usize) -> Result<bool, LogicError> {
         let mut value = self.both(depth)?;
         while self.peek() == Some(".OR.") {
             self.at += 1;
@@ -111,7 +128,7 @@ impl LogicReader<'_> {
         Ok(value)
     }
 
-    fn both(&mut self, depth: usize) -> Result<bool, String> {
+    fn both(&mut self, depth: usize) -> Result<bool, LogicError> {
         let mut value = self.parse_negation(depth)?;
         while self.peek() == Some(".AND.") {
             self.at += 1;
@@ -120,9 +137,9 @@ impl LogicReader<'_> {
         Ok(value)
     }
 
-    fn parse_negation(&mut self, depth: usize) -> Result<bool, String> {
+    fn parse_negation(&mut self, depth: usize) -> Result<bool, LogicError> {
         if depth > MAX_NESTING {
-            return Err("nested too deeply".into());
+            return Err(LogicError::Nested);
         }
         match self.peek() {
             Some(".NOT.") => {
@@ -134,25 +151,25 @@ impl LogicReader<'_> {
                 let value = self.either(depth + 1)?;
                 match self.next_token().as_deref() {
                     Some(")") => Ok(value),
-                    _ => Err("a `)` is missing".into()),
+                    _ => Err(LogicError::Unclosed),
                 }
             }
             _ => self.comparison(),
         }
     }
 
-    fn comparison(&mut self) -> Result<bool, String> {
+    fn comparison(&mut self) -> Result<bool, LogicError> {
         let is_comparison = |w: &str| matches!(w, ".EQ." | ".NE." | ".LT." | ".LE." | ".GT." | ".GE.");
         // a variable or function that came to nothing leaves its place empty: the null string
         let left = match self.peek() {
             Some(word) if is_comparison(word) => String::new(),
-            _ => self.next_token().ok_or("a word is missing at the end")?,
+            _ => self.next_token().ok_or(LogicError::Missing)?,
         };
         let Some(operator) = self.peek().filter(|w| is_comparison(w)) else {
             return match left.as_str() {
                 ".TRUE." => Ok(true),
                 ".FALSE." => Ok(false),
-                other => Err(format!("`{other}` is neither .TRUE. nor .FALSE.")),
+                _ => Err(LogicError::NotLogical(left)),
             };
         };
         let operator = operator.to_string();
@@ -177,7 +194,7 @@ impl LogicReader<'_> {
             ".NE." => Ok(!left.eq_ignore_ascii_case(&right)),
             _ => {
                 let text = if numbers.0.is_err() { left } else { right };
-                Err(format!("{operator} compares numbers, and `{text}` is none"))
+                Err(LogicError::NotANumber { operator, text })
             }
         }
     }

@@ -455,9 +455,9 @@ fn current(job: &Job, given: &Given) -> Outcome<Current> {
                     .label(format!("this is {velocity}"))
                     .help("a current from the other side has another direction"));
             }
-            let velocity = Dim::Velocity
-                .checked_si(velocity, job.units)
-                .map_err(|why| Diagnostic::error("V of -CURRENT is too large", what.span).label(why))?;
+            let velocity = Dim::Velocity.checked_si(velocity, job.units).map_err(|error| {
+                Diagnostic::error(format!("V of -CURRENT is too {}", error.size()), what.span).label(error.to_string())
+            })?;
             return Ok(Current::Uniform { velocity, direction });
         }
         known_curve(job, Some(what), given, CurveKind::CurrentProfile)?;

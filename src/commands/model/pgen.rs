@@ -67,11 +67,19 @@ static PLANE_SPEC: CommandSpec = CommandSpec {
 /// A section: its x and the points of its half with y >= 0, from the keel up (m).
 type HullSection = (f64, Vec<[f64; 2]>);
 
+/// What sections are to make.
+#[derive(Clone, Debug)]
+enum PieceOfSections {
+    /// A piece of its own.
+    New(Box<Piece>),
+    /// The panels of the piece of this name, which is described already.
+    Described(String),
+}
+
 /// Sections on their way to a piece.
 #[derive(Clone, Debug)]
 pub struct Planes {
-    /// What the sections are to make; `None`: the panels of the piece of this name.
-    piece: Result<Piece, String>,
+    piece: PieceOfSections,
     sections: Vec<HullSection>,
     span: Span,
 }
@@ -80,7 +88,10 @@ fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = PGEN_SPEC.word("NAME");
     let args = &call.args;
     let piece = match args.word(NAME) {
-        Some(name) => Ok(piece::begin_piece(job, args, name, args.place(NAME), Shape::Panels(Vec::new()))?),
+        Some(name) => {
+            let begun = piece::begin_piece(job, args, name, args.place(NAME), Shape::Panels(Vec::new()))?;
+            PieceOfSections::New(Box::new(begun))
+        }
         None => {
             let described = job.model.current_piece.as_ref().and_then(|name| job.model.piece(name));
             let empty = described.filter(|(_, p)| matches!(&p.shape, Shape::Panels(panels) if panels.is_empty()));
@@ -94,7 +105,7 @@ fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     given.span,
                 ));
             }
-            Err(name)
+            PieceOfSections::Described(name)
         }
     };
     job.menus.push(Menu::Planes(Box::new(Planes { piece, sections: Vec::new(), span: args.span })));
@@ -173,8 +184,8 @@ pub fn build(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
         return Err(Diagnostic::error("the sections enclose nothing", span).other(planes.span, "begun here"));
     }
     match planes.piece {
-        Ok(piece) => piece::add(job, Piece { shape: Shape::Panels(panels), ..piece }, false),
-        Err(name) => {
+        PieceOfSections::New(piece) => piece::add(job, Piece { shape: Shape::Panels(panels), ..*piece }, false),
+        PieceOfSections::Described(name) => {
             if let Some(piece) = job.model.piece_mut(&name) {
                 piece.shape = Shape::Panels(panels);
             }

@@ -9,7 +9,7 @@ use crate::report::csv::guard_formula;
 use crate::report::files::{FilePlace, Growing};
 use crate::report::format::number_in_full;
 use crate::report::page;
-use input::{Input, InputError, InputRow};
+use input::{Input, InputError, InputRow, RowError};
 use std::collections::BTreeMap;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::table::{Digits, Table};
@@ -101,9 +101,9 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Say(tally.summary(name, &place, job)))
 }
 
-fn solve(row: &InputRow) -> Result<EndForces, String> {
+fn solve(row: &InputRow) -> Result<EndForces, RowError> {
     let case = row.case()?;
-    case.segment.solve_end_forces(case.x, case.z, case.bottom).map_err(|error| error.to_string())
+    Ok(case.segment.solve_end_forces(case.x, case.z, case.bottom)?)
 }
 
 /// The header of the output: no two names alike that were not so in the input.
@@ -125,7 +125,7 @@ fn write_row(
     writer: &mut csv::Writer<Growing>,
     row: &InputRow,
     width: usize,
-    solved: &Result<EndForces, String>,
+    solved: &Result<EndForces, RowError>,
 ) -> csv::Result<()> {
     for at in 0..width {
         let cell = row.cells.get(at).unwrap_or_default();
@@ -143,7 +143,7 @@ fn write_row(
         Err(reason) => {
             let mut added = ADDED.map(|_| String::new());
             if let Some(error) = added.last_mut() {
-                error.clone_from(reason);
+                *error = reason.to_string();
             }
             added
         }
@@ -164,7 +164,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn count(&mut self, name: &str, row: &InputRow, solved: &Result<EndForces, String>) {
+    fn count(&mut self, name: &str, row: &InputRow, solved: &Result<EndForces, RowError>) {
         match solved {
             Ok(forces) => {
                 self.solved += 1;

@@ -27,7 +27,9 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
 use windlass_solve::results::{fender_peaks, fender_table};
 use windlass_solve::screening::{self, Screening};
-use windlass_solve::time::{Ending, Method, Run, RunSettings, Snapshot, StepTolerance, TimeScheme, Trigger, Watcher};
+use windlass_solve::time::{
+    Ending, Method, Run, RunFileError, RunSettings, Snapshot, StepTolerance, TimeScheme, Trigger, Watcher,
+};
 use windlass_solve::{SolveError, find_equilibrium_with_rebuilds, run_tables, tethered};
 
 /// TDOM.
@@ -508,15 +510,15 @@ impl Drop for RunProgress {
 }
 
 impl Watcher for RunProgress {
-    fn row(&mut self, row: &[f64]) -> Result<(), String> {
+    fn row(&mut self, row: &[f64]) -> Result<(), RunFileError> {
         self.log.as_mut().map_or(Ok(()), |log| log.row(row))
     }
 
-    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), String> {
+    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), RunFileError> {
         self.log.as_mut().map_or(Ok(()), |log| log.snapshot(snapshot))
     }
 
-    fn finish(&mut self) -> Result<(), String> {
+    fn finish(&mut self) -> Result<(), RunFileError> {
         self.log.as_mut().map_or(Ok(()), |log| log.finish())
     }
 

@@ -163,9 +163,8 @@ fn to_diagnostic(error: ClassError, span: Span, connector: &Connector, units: Un
 /// A value (user units) in SI.
 fn value(parameter: Parameter, given: f64, span: Span, job: &Job) -> Outcome<f64> {
     let name = parameter.name().to_uppercase();
-    let si = parameter.dim().checked_si(given, job.units).map_err(|why| {
-        let size = if given.abs() < 1.0 { "small" } else { "large" };
-        Diagnostic::error(format!("a value of -VARY {name} is too {size}"), span).label(why)
+    let si = parameter.dim().checked_si(given, job.units).map_err(|error| {
+        Diagnostic::error(format!("a value of -VARY {name} is too {}", error.size()), span).label(error.to_string())
     })?;
     match parameter.lacks(given) {
         Some(want) => Err(Diagnostic::error(format!("a value of -VARY {name} must be {want}"), span)

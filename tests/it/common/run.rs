@@ -2,13 +2,15 @@
 
 use crate::common;
 use windlass_model::Model;
-use windlass_solve::time::{Action, Ending, Method, Run, RunSettings, StepTolerance, TimeScheme, Watcher};
+use windlass_solve::time::{
+    Action, Ending, Method, Run, RunFileError, RunSettings, StepTolerance, TimeScheme, Watcher,
+};
 
 /// Takes rows and says nothing.
 pub struct Quiet;
 
 impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
+    fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
         Ok(())
     }
 }

@@ -6,7 +6,7 @@ use run::{Quiet, model, settings};
 use windlass_base::table::Table;
 use windlass_solve::results::along::{LineResults, Where, envelope, histories, lines_at_rest, touchdown};
 use windlass_solve::results::events;
-use windlass_solve::time::{Ending, Run, RunSettings, Snapshot, Watcher};
+use windlass_solve::time::{Ending, Run, RunFileError, RunSettings, Snapshot, Watcher};
 
 const DEPTH: f64 = 100.0;
 
@@ -114,12 +114,12 @@ struct Keeper {
 }
 
 impl Watcher for Keeper {
-    fn row(&mut self, row: &[f64]) -> Result<(), String> {
+    fn row(&mut self, row: &[f64]) -> Result<(), RunFileError> {
         self.rows.push(row.to_vec());
         Ok(())
     }
 
-    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), String> {
+    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), RunFileError> {
         self.snapshots.push(Snapshot::read(&snapshot.bytes()).unwrap());
         Ok(())
     }

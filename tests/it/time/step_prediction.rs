@@ -12,14 +12,15 @@ use windlass_hydro::Category;
 use windlass_model::Model;
 use windlass_solve::System;
 use windlass_solve::time::{
-    BodyForces, BodyMotion, Ending, LoadMemory, Method, Run, RunRequirements, RunSettings, StepTolerance, Watcher,
+    BodyForces, BodyMotion, Ending, LoadMemory, Method, Run, RunFileError, RunRequirements, RunSettings, StepTolerance,
+    Watcher,
 };
 
 /// Takes rows and says nothing.
 struct Quiet;
 
 impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
+    fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
         Ok(())
     }
 }

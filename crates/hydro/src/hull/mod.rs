@@ -23,6 +23,7 @@ pub use tube::TubeHull;
 
 use super::Load;
 use nalgebra::{Matrix6, Vector3};
+use panels::MAX_POLYGON_CORNERS;
 use windlass_base::pose::{Pose, Six};
 
 /// Why a mesh or its file was not taken.
@@ -34,7 +35,7 @@ pub enum HullError {
         /// Its number, from 1.
         number: usize,
         /// What is wrong with it.
-        why: String,
+        why: PanelError,
     },
     /// A line of a text file.
     #[error("line {number}: {why}")]
@@ -52,6 +53,23 @@ pub enum HullError {
         /// What is wrong there.
         why: String,
     },
+}
+
+/// What is wrong with a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PanelError {
+    /// A coordinate that is infinite or no number.
+    #[error("a coordinate is not a finite number")]
+    NotFinite,
+    /// Fewer than three corners that differ: so many.
+    #[error("{0} corners that differ; a panel has three or more")]
+    FewCorners(usize),
+    /// Not convex, with more corners than are cut into triangles: so many.
+    #[error("not convex, with {0} corners; at most {MAX_POLYGON_CORNERS} are cut")]
+    ManyCorners(usize),
+    /// Edges that cross.
+    #[error("its edges cross each other")]
+    Crossing,
 }
 
 /// What is below the water's surface. Moments are taken about the origin of the pose, along global axes: x, y, z below are

@@ -1,11 +1,11 @@
 //! From polygons to a surface of triangles: corners that are one, and polygons cut into triangles.
 
-use super::{HullError, Surface};
+use super::{HullError, PanelError, Surface};
 use nalgebra::{Vector2, Vector3};
 use std::collections::HashMap;
 
 /// Corners of a polygon that is not convex: cutting it takes up to the cube of their number.
-const MAX_POLYGON_CORNERS: usize = 256;
+pub(super) const MAX_POLYGON_CORNERS: usize = 256;
 
 /// Vertices of which no two are nearer than a distance. The map is only asked, never listed, so its order does not matter.
 struct Welded {
@@ -57,9 +57,9 @@ impl Surface {
         let mut welded = Welded { vertices: Vec::new(), cells: HashMap::new(), weld };
         let mut faces = Vec::new();
         for (n, panel) in panels.iter().enumerate() {
-            let wrong = |why: String| HullError::Panel { number: n + 1, why };
+            let wrong = |why: PanelError| HullError::Panel { number: n + 1, why };
             if panel.iter().flatten().any(|x| !x.is_finite()) {
-                return Err(wrong("a coordinate is not a finite number".into()));
+                return Err(wrong(PanelError::NotFinite));
             }
             let mut corners: Vec<u32> = panel.iter().map(|&at| welded.vertex(at.into())).collect();
             corners.dedup();
@@ -70,7 +70,7 @@ impl Surface {
             distinct.sort_unstable();
             distinct.dedup();
             if distinct.len() < 3 {
-                return Err(wrong(format!("{} corners that differ; a panel has three or more", distinct.len())));
+                return Err(wrong(PanelError::FewCorners(distinct.len())));
             }
             triangulate(&corners, &welded.vertices, &mut faces).map_err(wrong)?;
         }
@@ -79,7 +79,7 @@ impl Surface {
 }
 
 /// Cuts a polygon into triangles of the same sense.
-fn triangulate(corners: &[u32], vertices: &[Vector3<f64>], faces: &mut Vec<[u32; 3]>) -> Result<(), String> {
+fn triangulate(corners: &[u32], vertices: &[Vector3<f64>], faces: &mut Vec<[u32; 3]>) -> Result<(), PanelError> {
     if let [a, b, c] = *corners {
         faces.push([a, b, c]);
         return Ok(());
@@ -102,12 +102,12 @@ fn triangulate(corners: &[u32], vertices: &[Vector3<f64>], faces: &mut Vec<[u32;
         return Ok(());
     }
     if corners.len() > MAX_POLYGON_CORNERS {
-        return Err(format!("not convex, with {} corners; at most {MAX_POLYGON_CORNERS} are cut", corners.len()));
+        return Err(PanelError::ManyCorners(corners.len()));
     }
     let mut left: Vec<(u32, Vector2<f64>, Vector3<f64>)> =
         corners.iter().zip(&flat).zip(&at).map(|((&n, &p), &q)| (n, p, q)).collect();
     while left.len() > 3 {
-        let Some(ear) = shortest_ear(&left, least) else { return Err("its edges cross each other".into()) };
+        let Some(ear) = shortest_ear(&left, least) else { return Err(PanelError::Crossing) };
         if let Some([a, b, c]) = corner_with_neighbours(&left, ear) {
             faces.push([a.0, b.0, c.0]);
         }
@@ -115,7 +115,7 @@ fn triangulate(corners: &[u32], vertices: &[Vector3<f64>], faces: &mut Vec<[u32;
     }
     if let [a, b, c] = *left {
         if turn(a.1, b.1, c.1) < -least {
-            return Err("its edges cross each other".into());
+            return Err(PanelError::Crossing);
         }
         faces.push([a.0, b.0, c.0]);
     }

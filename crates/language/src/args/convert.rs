@@ -224,8 +224,8 @@ fn number_in(spec: &ValueSpec, word: &Word, owner: &str, dim: Dim, units: UnitSy
         return Err(Diagnostic::error(format!("{} of {owner} must be {want}", spec.name), word.span)
             .label(format!("this is {}", in_short(value))));
     }
-    dim.checked_si(value, units).map_err(|why| {
-        let size = if value.abs() < 1.0 { "small" } else { "large" };
-        Diagnostic::error(format!("{} of {owner} is too {size}", spec.name), word.span).label(why)
+    dim.checked_si(value, units).map_err(|error| {
+        Diagnostic::error(format!("{} of {owner} is too {}", spec.name, error.size()), word.span)
+            .label(error.to_string())
     })
 }

@@ -6,6 +6,7 @@ use super::scheme::Method;
 use super::snapshot::Snapshot;
 use super::step::StepTolerance;
 use crate::system::SolveError;
+use std::path::PathBuf;
 use windlass_model::ClassError;
 
 /// How a run goes.
@@ -89,27 +90,46 @@ pub struct Counts {
     pub evaluations: usize,
 }
 
+/// Why what came of a run could not be kept in its file.
+#[derive(Debug, thiserror::Error)]
+pub enum RunFileError {
+    /// The system refused to write.
+    #[error("{}: {error}", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        error: std::io::Error,
+    },
+    /// Somebody deleted the file.
+    #[error("{} was deleted while the run was written to it", path.display())]
+    Deleted {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
 /// Who follows how a run goes.
 pub trait Watcher {
     /// A stored row.
     ///
     /// # Errors
-    /// It could not be kept, in one sentence: the run ends.
-    fn row(&mut self, row: &[f64]) -> Result<(), String>;
+    /// It could not be kept: the run ends.
+    fn row(&mut self, row: &[f64]) -> Result<(), RunFileError>;
 
     /// Everything needed to go on from here.
     ///
     /// # Errors
-    /// It could not be kept, in one sentence: the run ends.
-    fn snapshot(&mut self, _snapshot: &Snapshot) -> Result<(), String> {
+    /// It could not be kept: the run ends.
+    fn snapshot(&mut self, _snapshot: &Snapshot) -> Result<(), RunFileError> {
         Ok(())
     }
 
     /// No more comes.
     ///
     /// # Errors
-    /// What came could not be kept, in one sentence.
-    fn finish(&mut self) -> Result<(), String> {
+    /// What came could not be kept.
+    fn finish(&mut self) -> Result<(), RunFileError> {
         Ok(())
     }
 

@@ -32,7 +32,7 @@ pub use accuracy::{Accuracy, Distortion, Followed, POOR_DAMPING, POOR_PERIOD};
 pub use action::{Action, ActionKind, Observable, Trigger};
 pub use along::{AlongColumns, AlongEnvelope, BentRow, NodeQuantity, NodeRow};
 pub use compression::Pushing;
-pub use course::{Counts, Ending, RunSettings, Watcher};
+pub use course::{Counts, Ending, RunFileError, RunSettings, Watcher};
 pub use duties::RunRequirements;
 pub(crate) use ends::end_of;
 pub use forces::{BodyForces, BodyMotion, LoadMemory};

@@ -3,7 +3,7 @@
 use super::accuracy::Accuracy;
 use super::action::Action;
 use super::along::AlongEnvelope;
-use super::course::{Counts, Ending, RunSettings, Watcher};
+use super::course::{Counts, Ending, RunFileError, RunSettings, Watcher};
 use super::duties::RunRequirements;
 use super::forces::{BodyMotion, LoadMemory};
 use super::history::{History, RowLayout, RowSources};
@@ -78,8 +78,8 @@ struct Before {
 }
 
 /// A watcher could not store what it was given: the disk is full, say.
-fn unkept(text: String) -> SolveError {
-    SolveError::new(ClassError::new(text).help(
+fn unkept(error: RunFileError) -> SolveError {
+    SolveError::new(ClassError::new(error.to_string()).help(
         "the run ends here and what it has stays for PRCPOST; with room for its file, TDOM -RESTART goes on from the last snapshot there",
     ))
 }

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use windlass_base::diagnostic::nearest;
-use windlass_catenary::{FlatBottom, Segment};
+use windlass_catenary::{FlatBottom, LineError, Segment};
 use windlass_language::source::LARGEST_FILE;
 use windlass_language::spec::Range;
 
@@ -40,6 +40,43 @@ impl From<csv::Error> for InputError {
     fn from(error: csv::Error) -> Self {
         InputError::Unreadable(error.to_string())
     }
+}
+
+/// Why a row of the file has no solution.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RowError {
+    /// Cells without a header, or headers without a cell.
+    #[error("it has {cells} cells under {heads} headers")]
+    Width {
+        /// Cells of the row.
+        cells: usize,
+        /// Headers of the file.
+        heads: usize,
+    },
+    /// A cell that is needed and blank.
+    #[error("{0} is missing")]
+    Missing(&'static str),
+    /// A cell that holds no finite number.
+    #[error("{name} must be a finite number, this is `{text}`")]
+    NotANumber {
+        /// Its column.
+        name: &'static str,
+        /// What it holds.
+        text: String,
+    },
+    /// A number out of range.
+    #[error("{name} must be {wanted}, this is {value}")]
+    OutOfRange {
+        /// Its column.
+        name: &'static str,
+        /// Its range in words.
+        wanted: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// The line cannot be solved.
+    #[error("{0}")]
+    Unsolved(#[from] LineError),
 }
 
 /// One line to be solved, SI.
@@ -176,11 +213,11 @@ impl InputRow<'_> {
     /// The line it describes.
     ///
     /// # Errors
-    /// What is wrong with the row, in one sentence.
-    pub fn case(&self) -> Result<LineCase, String> {
+    /// What is wrong with the row.
+    pub fn case(&self) -> Result<LineCase, RowError> {
         let surplus = self.cells.iter().skip(self.heads).any(|cell| !cell.trim_ascii().is_empty());
         if self.cells.len() < self.heads || surplus {
-            return Err(format!("it has {} cells under {} headers", self.cells.len(), self.heads));
+            return Err(RowError::Width { cells: self.cells.len(), heads: self.heads });
         }
         let c = self.columns;
         let [_, x, z, length, ea, weight] = NEEDED;
@@ -199,7 +236,7 @@ impl InputRow<'_> {
         let bottom = match suspended {
             0.0 => Some(FlatBottom { friction }),
             1.0 => None,
-            other => return Err(format!("{SUSPENDED} must be 0 or 1, this is {other}")),
+            value => return Err(RowError::OutOfRange { name: SUSPENDED, wanted: "0 or 1", value }),
         };
         Ok(LineCase { segment, x, z, bottom })
     }
@@ -216,24 +253,24 @@ impl InputRow<'_> {
         }
     }
 
-    fn required_number(&self, at: usize, name: &str, range: Range) -> Result<f64, String> {
-        self.number(at, name, range)?.ok_or_else(|| format!("{name} is missing"))
+    fn required_number(&self, at: usize, name: &'static str, range: Range) -> Result<f64, RowError> {
+        self.number(at, name, range)?.ok_or(RowError::Missing(name))
     }
 
     /// The number of a cell; `None` of a blank one.
-    fn number(&self, at: usize, name: &str, range: Range) -> Result<Option<f64>, String> {
+    fn number(&self, at: usize, name: &'static str, range: Range) -> Result<Option<f64>, RowError> {
         let text = self.text(at);
         if text.is_empty() {
             return Ok(None);
         }
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
-        let value = value.ok_or_else(|| format!("{name} must be a finite number, this is `{}`", brief(&text)))?;
-        let wrong = match range {
+        let value = value.ok_or_else(|| RowError::NotANumber { name, text: brief(&text) })?;
+        let wanted = match range {
             Range::Positive if value <= 0.0 => "greater than zero",
             Range::NotNegative if value < 0.0 => "zero or more",
             _ => return Ok(Some(value)),
         };
-        Err(format!("{name} must be {wrong}, this is {value}"))
+        Err(RowError::OutOfRange { name, wanted, value })
     }
 }
 
@@ -303,7 +340,7 @@ mod tests {
         rows
     }
 
-    fn case(text: &str) -> Result<LineCase, String> {
+    fn case(text: &str) -> Result<LineCase, RowError> {
         open(text.as_bytes()).unwrap().next_row().unwrap().unwrap().case()
     }
 
@@ -343,8 +380,9 @@ mod tests {
         assert_eq!(with("", " "), Ok(Some(FlatBottom { friction: 0.0 })));
         assert_eq!(with("0.5", "0"), Ok(Some(FlatBottom { friction: 0.5 })));
         assert_eq!(with("0.5", "1.0"), Ok(None));
-        assert_eq!(with("0.5", "2"), Err("suspended must be 0 or 1, this is 2".into()));
-        assert_eq!(with("-1", "0"), Err("friction must be zero or more, this is -1".into()));
+        let refused = |friction, suspended| with(friction, suspended).unwrap_err().to_string();
+        assert_eq!(refused("0.5", "2"), "suspended must be 0 or 1, this is 2");
+        assert_eq!(refused("-1", "0"), "friction must be zero or more, this is -1");
     }
 
     #[test]
@@ -361,7 +399,7 @@ mod tests {
             ("1,4,\"a\nb\u{1b}[31m and much more text than that\",7,1e6,5", "`a b [31m and much more t ..`"),
         ] {
             let found = case(&format!("{HEAD}\n{row}\n")).unwrap_err();
-            assert!(found.ends_with(want), "{row}: {found}");
+            assert!(found.to_string().ends_with(want), "{row}: {found}");
         }
         assert!(case(&format!("{HEAD}\n1,4,3,7,1e6,5,, \n")).is_ok(), "blank cells behind the last header");
     }
