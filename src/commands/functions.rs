@@ -5,6 +5,8 @@
 use crate::commands::job::UserFile;
 use crate::commands::{COMMANDS, Job};
 use crate::report::format::fifteen_figures;
+use windlass_base::choice::Choice;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::geometry::Position;
 use windlass_base::span::Span;
@@ -13,7 +15,7 @@ use windlass_base::wildcard::matches;
 use windlass_language::logic;
 use windlass_language::number;
 use windlass_language::record::Word;
-use windlass_language::select::{Owner, choose};
+use windlass_language::select::choose_word;
 use windlass_language::substitution::FunctionHost;
 use windlass_model::{Mass, Model, Point};
 
@@ -91,8 +93,8 @@ impl FunctionHost for Job {
     }
 }
 
-fn pick(word: &Word, of: &str, list: &'static [&'static str]) -> Outcome<&'static str> {
-    choose(&word.text, word.span, &format!("action of &{of}"), list.iter().map(|a| (*a, Owner::Moses, *a)))
+fn pick<T: Choice>(word: &Word, of: &str) -> Outcome<T> {
+    choose_word(&word.text, word.span, &format!("action of &{of}"))
 }
 
 /// Numbers in user units, separated by blanks.
@@ -100,42 +102,50 @@ fn numbers(values: &[f64], dim: Dim, job: &Job) -> String {
     values.iter().map(|v| fifteen_figures(dim.from_si(*v, job.units))).collect::<Vec<_>>().join(" ")
 }
 
+choices! {
+    /// What `&INFO` gives.
+    enum InfoAction {
+        Severity = "SEVERITY",
+        Menu = "MENU",
+        Date = "DATE",
+        TimeOfDay = "T_OF_DAY",
+        Title = "TITLE",
+        Subtitle = "SUBTITLE",
+        Root = "ROOT",
+        WorkingFolder = "CWD",
+        BigForce = "BFORCE",
+        LittleForce = "LFORCE",
+        BigLength = "BLENGTH",
+        LittleLength = "LLENGTH",
+        FileExists = "FILE_EXISTS",
+    }
+}
+
 fn info(job: &Job, action: &Word, rest: &[Word]) -> Outcome<String> {
-    let list = &[
-        "SEVERITY",
-        "MENU",
-        "DATE",
-        "T_OF_DAY",
-        "TITLE",
-        "SUBTITLE",
-        "ROOT",
-        "CWD",
-        "BFORCE",
-        "LFORCE",
-        "BLENGTH",
-        "LLENGTH",
-        "FILE_EXISTS",
-    ];
     let first = || rest.first().map(|w| w.text.to_string()).unwrap_or_default();
-    Ok(match pick(action, "INFO", list)? {
-        "SEVERITY" => {
+    Ok(match pick(action, "INFO")? {
+        InfoAction::Severity => {
             let error = matches!(job.last_severity, Some(Severity::Error | Severity::Fatal));
             let warning = error || job.last_severity == Some(Severity::Warning);
             logic::word(if first().eq_ignore_ascii_case("WARNING") { warning } else { error }).into()
         }
-        "MENU" => job.menu().name().into(),
-        "DATE" => job.date(),
-        "T_OF_DAY" => {
+        InfoAction::Menu => job.menu().name().into(),
+        InfoAction::Date => job.date(),
+        InfoAction::TimeOfDay => {
             let now = time::OffsetDateTime::now_utc().time();
             format!("{:02}:{:02}:{:02}", now.hour(), now.minute(), now.second())
         }
-        "TITLE" => job.titles[0].clone(),
-        "SUBTITLE" => job.titles[1].clone(),
-        "ROOT" => job.output.folder.root.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
-        "CWD" => std::env::current_dir().map(|d| format!("{}/", d.display())).unwrap_or_default(),
-        "BFORCE" | "LFORCE" => job.units.words().1.into(),
-        "BLENGTH" | "LLENGTH" => job.units.words().0.into(),
-        _ => logic::word(crate::commands::settings::device::find_file(job, &first()).exists()).into(),
+        InfoAction::Title => job.titles[0].clone(),
+        InfoAction::Subtitle => job.titles[1].clone(),
+        InfoAction::Root => {
+            job.output.folder.root.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default()
+        }
+        InfoAction::WorkingFolder => std::env::current_dir().map(|d| format!("{}/", d.display())).unwrap_or_default(),
+        InfoAction::BigForce | InfoAction::LittleForce => job.units.words().1.into(),
+        InfoAction::BigLength | InfoAction::LittleLength => job.units.words().0.into(),
+        InfoAction::FileExists => {
+            logic::word(crate::commands::settings::device::find_file(job, &first()).exists()).into()
+        }
     })
 }
 
@@ -156,31 +166,35 @@ fn distance(a: Position, b: Position) -> f64 {
     a.iter().zip(b).map(|(p, q)| (p - q).powi(2)).sum::<f64>().sqrt()
 }
 
+choices! {
+    /// What `&POINT` gives.
+    enum PointAction {
+        Coordinates = "COORDINATES",
+        Distance = "D_NODE",
+        Part = "PART",
+        EulerAngles = "EULER_ANGLES",
+        Between = "N_2NODES",
+        InBox = "N_BOX",
+        Ratio = "RATIO",
+        Deflection = "DEFLECTION",
+        HookLocation = "HOOK_LOC",
+        Offset = "OFFSET",
+        Close = "CLOSE",
+        Nearest = "NEAREST",
+        RelativeMotion = "REL_MOTION",
+    }
+}
+
 fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String> {
     let model = &job.model;
-    let list = &[
-        "COORDINATES",
-        "D_NODE",
-        "PART",
-        "EULER_ANGLES",
-        "N_2NODES",
-        "N_BOX",
-        "RATIO",
-        "DEFLECTION",
-        "HOOK_LOC",
-        "OFFSET",
-        "CLOSE",
-        "NEAREST",
-        "REL_MOTION",
-    ];
     let at = |i: usize| find_point(job, rest.get(i)).map(|p| model.global(p));
     let joined = |list: Vec<&Point>| list.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(" ");
     let lengths = |i: usize| {
         number_words(rest.get(i..).unwrap_or_default())
             .map(|v| v.into_iter().map(|x| Dim::Length.to_si(x, job.units)).collect::<Vec<_>>())
     };
-    Ok(match pick(action, "POINT", list)? {
-        "COORDINATES" => {
+    Ok(match pick(action, "POINT")? {
+        PointAction::Coordinates => {
             let Some(found) = find_point(job, rest.first()) else { return Ok(String::new()) };
             let system = rest.get(1).map(|w| w.text.to_ascii_uppercase()).unwrap_or_default();
             let place = if !system.is_empty() && "-GLOBAL".starts_with(&system) {
@@ -192,9 +206,11 @@ fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String>
             };
             numbers(&place, Dim::Length, job)
         }
-        "D_NODE" => at(0).zip(at(1)).map_or(String::new(), |(a, b)| numbers(&[distance(a, b)], Dim::Length, job)),
-        "PART" => find_point(job, rest.first()).map_or(String::new(), |p| p.part.clone()),
-        "EULER_ANGLES" => {
+        PointAction::Distance => {
+            at(0).zip(at(1)).map_or(String::new(), |(a, b)| numbers(&[distance(a, b)], Dim::Length, job))
+        }
+        PointAction::Part => find_point(job, rest.first()).map_or(String::new(), |p| p.part.clone()),
+        PointAction::EulerAngles => {
             let (Some(o), Some(x), Some(xy)) = (at(0), at(1), at(2)) else { return Ok(String::new()) };
             let v = |p: Position| nalgebra::Vector3::from(p) - nalgebra::Vector3::from(o);
             let (e1, e3) = (v(x), v(x).cross(&v(xy)));
@@ -206,7 +222,7 @@ fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String>
             let (roll, pitch, yaw) = nalgebra::Rotation3::from_matrix_unchecked(matrix).euler_angles();
             numbers(&[roll, pitch, yaw], Dim::Angle, job)
         }
-        "N_2NODES" => {
+        PointAction::Between => {
             let (Some(a), Some(b)) = (at(0), at(1)) else { return Ok(String::new()) };
             let between = |p: &&Point| {
                 let g = model.global(p);
@@ -215,7 +231,7 @@ fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String>
             };
             joined(model.points.values().filter(between).collect())
         }
-        "N_BOX" => {
+        PointAction::InBox => {
             let b = lengths(0)?;
             let [x1, x2, y1, y2, z1, z2] = b.as_slice() else {
                 return Err(Diagnostic::error("N_BOX takes X1 X2 Y1 Y2 Z1 Z2", span));
@@ -226,12 +242,12 @@ fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String>
             };
             joined(model.points.values().filter(inside).collect())
         }
-        "RATIO" => {
+        PointAction::Ratio => {
             let (Some(a), Some(b)) = (at(0), at(1)) else { return Ok(String::new()) };
             let f = number_words(rest.get(2..).unwrap_or_default())?.first().copied().unwrap_or(0.5);
             numbers(&[0, 1, 2].map(|i| a[i] + f * (b[i] - a[i])), Dim::Length, job)
         }
-        "CLOSE" => {
+        PointAction::Close => {
             let Some(a) = at(0) else { return Ok(String::new()) };
             let r = lengths(1)?.first().copied().unwrap_or(0.0);
             let own = rest.first().map(|w| Model::key(&w.text)).unwrap_or_default();
@@ -243,83 +259,123 @@ fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String>
                     .collect(),
             )
         }
-        "NEAREST" => {
+        PointAction::Nearest => {
             let v = lengths(0)?;
             let [x, y, z] = v.as_slice() else { return Err(Diagnostic::error("NEAREST takes X Y Z", span)) };
             let to = |p: &Point| distance(model.global(p), [*x, *y, *z]);
             model.points.values().min_by(|a, b| to(a).total_cmp(&to(b))).map_or(String::new(), |p| p.name.clone())
         }
-        other => {
-            return Err(Diagnostic::error(format!("&POINT({other} ..) needs results of an engine"), action.span)
+        unsupported @ (PointAction::Deflection
+        | PointAction::HookLocation
+        | PointAction::Offset
+        | PointAction::RelativeMotion) => {
+            let text = format!("&POINT({} ..) needs results of an engine", unsupported.word());
+            return Err(Diagnostic::error(text, action.span)
                 .label("there is no time or frequency domain result in this version"));
         }
     })
 }
 
+choices! {
+    /// What `&BODY` gives.
+    enum BodyAction {
+        Location = "LOCATION",
+        Parts = "PARTS",
+        Points = "POINTS",
+        Weight = "WEIGHT",
+        CentreOfGravity = "CG",
+        Radii = "RADII",
+    }
+}
+
 fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String> {
-    let list = &["LOCATION", "PARTS", "POINTS", "WEIGHT", "CG", "RADII"];
-    let action_name = pick(action, "BODY", list)?;
+    let action_name = pick(action, "BODY")?;
     let Some(name) = rest.first() else { return Err(Diagnostic::error("&BODY lacks the body's name", span)) };
     let model = &job.model;
     let found = windlass_model::find(&model.bodies, &name.text, "body", name.span)?;
     let key = Model::key(&found.name);
+    let gravity = model.defaults.gravity;
+    let mass = || -> Outcome<Mass> {
+        let mass = Mass::from_parts(model.parts_of(found), gravity);
+        if mass.mass == 0.0 {
+            return Err(Diagnostic::error(format!("{} has no weight", found.name), name.span)
+                .help("#WEIGHT and &WEIGHT -TOTAL give one"));
+        }
+        Ok(mass)
+    };
     Ok(match action_name {
-        "LOCATION" => {
+        BodyAction::Location => {
             let [x, y, z, roll, pitch, yaw] = found.place.values();
             format!("{} {}", numbers(&[x, y, z], Dim::Length, job), numbers(&[roll, pitch, yaw], Dim::Angle, job))
         }
-        "PARTS" => model
+        BodyAction::Parts => model
             .parts
             .values()
             .filter(|p| Model::key(&p.body) == key)
             .map(|p| p.name.as_str())
             .collect::<Vec<_>>()
             .join(" "),
-        "POINTS" => {
+        BodyAction::Points => {
             let own = |p: &&Point| model.body_of(p).is_some_and(|b| Model::key(&b.name) == key);
             model.points.values().filter(own).map(|p| p.name.as_str()).collect::<Vec<_>>().join(" ")
         }
-        other => {
-            let gravity = model.defaults.gravity;
-            let mass = Mass::from_parts(model.parts_of(found), gravity);
-            if mass.mass == 0.0 {
-                return Err(Diagnostic::error(format!("{} has no weight", found.name), name.span)
-                    .help("#WEIGHT and &WEIGHT -TOTAL give one"));
-            }
-            match other {
-                "WEIGHT" => numbers(&[mass.mass * gravity], Dim::Force, job),
-                "CG" => numbers(mass.centre.as_slice(), Dim::Length, job),
-                _ => numbers(&mass.radii().map(|k| k.unwrap_or(0.0)), Dim::Length, job),
-            }
+        BodyAction::Weight => numbers(&[mass()?.mass * gravity], Dim::Force, job),
+        BodyAction::CentreOfGravity => numbers(mass()?.centre.as_slice(), Dim::Length, job),
+        BodyAction::Radii => numbers(&mass()?.radii().map(|k| k.unwrap_or(0.0)), Dim::Length, job),
+    })
+}
+
+choices! {
+    /// What `&CONNECTOR` gives.
+    enum ConnectorAction {
+        Class = "CLASS",
+        Points = "POINTS",
+        Status = "STATUS",
+        Anchor = "ANCHOR",
+        Length = "LENGTH",
+    }
+}
+
+fn connector(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String> {
+    let action = pick(action, "CONNECTOR")?;
+    let Some(name) = rest.first() else { return Err(Diagnostic::error("&CONNECTOR lacks the connector's name", span)) };
+    let found = windlass_model::find(&job.model.connectors, &name.text, "connector", name.span)?;
+    Ok(match action {
+        ConnectorAction::Class => found.class.clone(),
+        ConnectorAction::Points => found.points.join(" "),
+        ConnectorAction::Status => if found.active { "ACTIVE" } else { "INACTIVE" }.into(),
+        ConnectorAction::Anchor => found.anchor.map_or(String::new(), |a| numbers(&a.at, Dim::Length, job)),
+        ConnectorAction::Length => {
+            job.model.first_length(found).map_or(String::new(), |l| numbers(&[l], Dim::Length, job))
         }
     })
 }
 
-fn connector(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String> {
-    let action = pick(action, "CONNECTOR", &["CLASS", "POINTS", "STATUS", "ANCHOR", "LENGTH"])?;
-    let Some(name) = rest.first() else { return Err(Diagnostic::error("&CONNECTOR lacks the connector's name", span)) };
-    let found = windlass_model::find(&job.model.connectors, &name.text, "connector", name.span)?;
-    Ok(match action {
-        "CLASS" => found.class.clone(),
-        "POINTS" => found.points.join(" "),
-        "STATUS" => if found.active { "ACTIVE" } else { "INACTIVE" }.into(),
-        "ANCHOR" => found.anchor.map_or(String::new(), |a| numbers(&a.at, Dim::Length, job)),
-        _ => job.model.first_length(found).map_or(String::new(), |l| numbers(&[l], Dim::Length, job)),
-    })
+choices! {
+    /// What `&NAMES` lists.
+    enum NamesKind {
+        Bodies = "BODIES",
+        Parts = "PARTS",
+        Points = "POINTS",
+        Classes = "CLASSES",
+        Connectors = "CONNECTORS",
+        Curves = "CURVES",
+        Environments = "ENVIRONMENTS",
+        Selectors = "SELECTORS",
+    }
 }
 
 fn names(job: &Job, kind: &Word, rest: &[Word]) -> Outcome<String> {
-    let list = &["BODIES", "PARTS", "POINTS", "CLASSES", "CONNECTORS", "CURVES", "ENVIRONMENTS", "SELECTORS"];
     let m = &job.model;
-    let all: Vec<&str> = match pick(kind, "NAMES", list)? {
-        "BODIES" => m.bodies.values().map(|b| b.name.as_str()).collect(),
-        "PARTS" => m.parts.values().map(|p| p.name.as_str()).collect(),
-        "POINTS" => m.points.values().map(|p| p.name.as_str()).collect(),
-        "CLASSES" => m.classes.values().map(|c| c.name.as_str()).collect(),
-        "CONNECTORS" => m.connectors.values().map(|c| c.name.as_str()).collect(),
-        "CURVES" => m.curves.values().map(|c| c.name.as_str()).collect(),
-        "ENVIRONMENTS" => m.environments.values().map(|e| e.name.as_str()).collect(),
-        _ => m.selectors.values().map(|s| s.name.as_str()).collect(),
+    let all: Vec<&str> = match pick(kind, "NAMES")? {
+        NamesKind::Bodies => m.bodies.values().map(|b| b.name.as_str()).collect(),
+        NamesKind::Parts => m.parts.values().map(|p| p.name.as_str()).collect(),
+        NamesKind::Points => m.points.values().map(|p| p.name.as_str()).collect(),
+        NamesKind::Classes => m.classes.values().map(|c| c.name.as_str()).collect(),
+        NamesKind::Connectors => m.connectors.values().map(|c| c.name.as_str()).collect(),
+        NamesKind::Curves => m.curves.values().map(|c| c.name.as_str()).collect(),
+        NamesKind::Environments => m.environments.values().map(|e| e.name.as_str()).collect(),
+        NamesKind::Selectors => m.selectors.values().map(|s| s.name.as_str()).collect(),
     };
     let fits = |name: &&str| {
         rest.is_empty()

@@ -6,9 +6,11 @@
 use super::logic;
 use super::number;
 use super::record::{Record, Word};
-use super::select::{self, Owner};
+use super::select;
 use super::token::TokenKind;
 use super::variables::Variables;
+use windlass_base::choice::Choice;
+use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::units::eight_figures;
@@ -64,69 +66,76 @@ fn list(values: &[f64]) -> String {
     values.iter().map(|v| eight_figures(*v)).collect::<Vec<_>>().join(" ")
 }
 
-const ACTIONS: &[&str] = &[
-    "?",
-    "REAL",
-    "INTEGER",
-    "SIN",
-    "SIND",
-    "COS",
-    "COSD",
-    "TAN",
-    "TAND",
-    "ACOS",
-    "ASIN",
-    "ATAN",
-    "ATAN2",
-    "SQRT",
-    "LN",
-    "EXP",
-    "ABS",
-    "MIN",
-    "MAX",
-    "MEAN",
-    "SORT",
-    "INTERPOLATE",
-    "NORM",
-    "DOT",
-    "UNIT_VEC",
-    "CROSS",
-    "SCALE",
-    "ADDV",
-    "3PTS2Q",
-    "VECG2L",
-    "VECL2G",
-];
+choices! {
+    /// What `&NUMBER` makes of its numbers.
+    enum NumberAction {
+        IsNumber = "?",
+        Real = "REAL",
+        Integer = "INTEGER",
+        Sin = "SIN",
+        SinDegrees = "SIND",
+        Cos = "COS",
+        CosDegrees = "COSD",
+        Tan = "TAN",
+        TanDegrees = "TAND",
+        Acos = "ACOS",
+        Asin = "ASIN",
+        Atan = "ATAN",
+        AtanOfTwo = "ATAN2",
+        Sqrt = "SQRT",
+        Logarithm = "LN",
+        Exponential = "EXP",
+        Absolute = "ABS",
+        Min = "MIN",
+        Max = "MAX",
+        Mean = "MEAN",
+        Sort = "SORT",
+        Interpolate = "INTERPOLATE",
+        Norm = "NORM",
+        Dot = "DOT",
+        Unit = "UNIT_VEC",
+        Cross = "CROSS",
+        Scale = "SCALE",
+        Add = "ADDV",
+        AxesOfPoints = "3PTS2Q",
+        ToLocal = "VECG2L",
+        ToGlobal = "VECL2G",
+    }
+}
 
 fn number_function(words: &[Word], span: Span) -> Outcome<String> {
     let Some((action, rest)) = words.split_first() else {
-        return Err(Diagnostic::error("&NUMBER lacks its type", span).help(format!("known: {}", ACTIONS.join(" "))));
+        return Err(
+            Diagnostic::error("&NUMBER lacks its type", span).help(format!("known: {}", NumberAction::WORDS.join(" ")))
+        );
     };
-    let names = ACTIONS.iter().map(|a| (*a, Owner::Moses, *a));
-    let action = select::choose(&action.text, action.span, "type of &NUMBER", names)?;
-    if action == "?" {
+    let action: NumberAction = select::choose_word(&action.text, action.span, "type of &NUMBER")?;
+    let name = action.word();
+    if action == NumberAction::IsNumber {
         return Ok(logic::word(!rest.is_empty() && rest.iter().all(|w| number::evaluate(&w.text).is_ok())).to_string());
     }
     let mut x = Vec::with_capacity(rest.len());
     for word in rest {
         x.push(number::evaluate(&word.text).map_err(|e| {
-            Diagnostic::error(format!("&NUMBER({action} ..) needs numbers"), word.span).label(e.to_string())
+            Diagnostic::error(format!("&NUMBER({name} ..) needs numbers"), word.span).label(e.to_string())
         })?);
     }
     let value = vector_action(action, &x).ok_or_else(|| {
-        Diagnostic::error(format!("&NUMBER({action} ..) cannot be formed from these {} numbers", x.len()), span)
+        Diagnostic::error(format!("&NUMBER({name} ..) cannot be formed from these {} numbers", x.len()), span)
             .help(FUNCTION_HELP.first().map_or("", |h| h.2))
     })?;
     if let Some(bad) = value.iter().find(|v| !v.is_finite()) {
-        return Err(
-            Diagnostic::error(format!("&NUMBER({action} ..) has no finite result"), span).label(bad.to_string())
-        );
+        return Err(Diagnostic::error(format!("&NUMBER({name} ..) has no finite result"), span).label(bad.to_string()));
     }
-    Ok(if action == "INTEGER" { format!("{:.0}", value.first().copied().unwrap_or(0.0) + 0.0) } else { list(&value) })
+    Ok(if action == NumberAction::Integer {
+        format!("{:.0}", value.first().copied().unwrap_or(0.0) + 0.0)
+    } else {
+        list(&value)
+    })
 }
 
 /// The numbers an action makes of its arguments; `None` when their number does not fit.
-fn vector_action(action: &str, x: &[f64]) -> Option<Vec<f64>> {
+fn vector_action(action: NumberAction, x: &[f64]) -> Option<Vec<f64>> {
     let one = |f: fn(f64) -> f64| match x {
         [a] => Some(vec![f(*a)]),
         _ => None,
@@ -135,58 +144,60 @@ fn vector_action(action: &str, x: &[f64]) -> Option<Vec<f64>> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(p, q)| p * q).sum::<f64>();
     let some = (!x.is_empty()).then_some(x);
     match action {
-        "REAL" => one(|a| a),
-        "INTEGER" => one(f64::round),
-        "SIN" => one(f64::sin),
-        "SIND" => one(number::sine_of_degrees),
-        "COS" => one(f64::cos),
-        "COSD" => one(number::cosine_of_degrees),
-        "TAN" => one(f64::tan),
-        "TAND" => one(number::tangent_of_degrees),
-        "ACOS" => one(f64::acos),
-        "ASIN" => one(f64::asin),
-        "ATAN" => one(f64::atan),
-        "SQRT" => one(f64::sqrt),
-        "LN" => one(f64::ln),
-        "EXP" => one(f64::exp),
-        "ABS" => one(f64::abs),
-        "ATAN2" => match x {
+        NumberAction::Real => one(|a| a),
+        NumberAction::Integer => one(f64::round),
+        NumberAction::Sin => one(f64::sin),
+        NumberAction::SinDegrees => one(number::sine_of_degrees),
+        NumberAction::Cos => one(f64::cos),
+        NumberAction::CosDegrees => one(number::cosine_of_degrees),
+        NumberAction::Tan => one(f64::tan),
+        NumberAction::TanDegrees => one(number::tangent_of_degrees),
+        NumberAction::Acos => one(f64::acos),
+        NumberAction::Asin => one(f64::asin),
+        NumberAction::Atan => one(f64::atan),
+        NumberAction::Sqrt => one(f64::sqrt),
+        NumberAction::Logarithm => one(f64::ln),
+        NumberAction::Exponential => one(f64::exp),
+        NumberAction::Absolute => one(f64::abs),
+        NumberAction::AtanOfTwo => match x {
             [across, up] => Some(vec![up.atan2(*across)]),
             _ => None,
         },
-        "MIN" => some.map(|v| vec![v.iter().copied().fold(f64::INFINITY, f64::min)]),
-        "MAX" => some.map(|v| vec![v.iter().copied().fold(f64::NEG_INFINITY, f64::max)]),
-        "MEAN" => some.map(|v| vec![v.iter().sum::<f64>() / v.len() as f64]),
-        "SORT" => some.map(|v| {
+        NumberAction::Min => some.map(|v| vec![v.iter().copied().fold(f64::INFINITY, f64::min)]),
+        NumberAction::Max => some.map(|v| vec![v.iter().copied().fold(f64::NEG_INFINITY, f64::max)]),
+        NumberAction::Mean => some.map(|v| vec![v.iter().sum::<f64>() / v.len() as f64]),
+        NumberAction::Sort => some.map(|v| {
             let mut sorted = v.to_vec();
             sorted.sort_by(f64::total_cmp);
             sorted
         }),
-        "INTERPOLATE" => interpolate(x).map(|v| vec![v]),
-        "NORM" => some.map(|v| vec![dot(v, v).sqrt()]),
-        "DOT" => halves().map(|(a, b)| vec![dot(a, b)]),
-        "UNIT_VEC" => some.map(|v| v.iter().map(|c| c / dot(v, v).sqrt()).collect()),
-        "CROSS" => match x {
+        NumberAction::Interpolate => interpolate(x).map(|v| vec![v]),
+        NumberAction::Norm => some.map(|v| vec![dot(v, v).sqrt()]),
+        NumberAction::Dot => halves().map(|(a, b)| vec![dot(a, b)]),
+        NumberAction::Unit => some.map(|v| v.iter().map(|c| c / dot(v, v).sqrt()).collect()),
+        NumberAction::Cross => match x {
             [a, b, c, d, e, f] => Some(cross([*a, *b, *c], [*d, *e, *f]).to_vec()),
             _ => None,
         },
-        "SCALE" => x.split_first().filter(|(_, v)| !v.is_empty()).map(|(f, v)| v.iter().map(|c| f * c).collect()),
-        "ADDV" => {
+        NumberAction::Scale => {
+            x.split_first().filter(|(_, v)| !v.is_empty()).map(|(f, v)| v.iter().map(|c| f * c).collect())
+        }
+        NumberAction::Add => {
             let (factor, v) = x.split_first()?;
             let half = v.len() / 2;
             (half > 0 && v.len() == 2 * half)
                 .then(|| v.iter().zip(v.iter().skip(half)).map(|(a, b)| a + factor * b).collect())
         }
-        "3PTS2Q" => rotation(x),
-        "VECG2L" | "VECL2G" => {
+        NumberAction::AxesOfPoints => rotation(x),
+        NumberAction::ToLocal | NumberAction::ToGlobal => {
             let (q, v) = (x.len() == 12).then(|| x.split_at(9))?;
             let at = |i: usize| q.get(i).copied().unwrap_or(0.0);
             let element = |row: usize, column: usize| {
-                if action == "VECG2L" { at(3 * row + column) } else { at(3 * column + row) }
+                if action == NumberAction::ToLocal { at(3 * row + column) } else { at(3 * column + row) }
             };
             Some((0..3).map(|r| v.iter().enumerate().map(|(c, value)| element(r, c) * value).sum()).collect())
         }
-        _ => None,
+        NumberAction::IsNumber => None,
     }
 }
 

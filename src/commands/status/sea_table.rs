@@ -3,13 +3,14 @@
 use crate::commands::Job;
 use crate::commands::status::kind::StatusKind;
 use std::f64::consts::{PI, TAU};
+use windlass_base::choice::Choice;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::sea::{EnvironmentSea, Sea};
 use windlass_model::EntityKind;
-use windlass_model::{Division, Environment, Stretching};
+use windlass_model::{Division, Environment};
 
 /// `&STATUS SEA_SPECTRUM`.
 pub static SEA_SPECTRUM: StatusKind = StatusKind {
@@ -159,13 +160,7 @@ pub(crate) fn phasing(sea: &Sea) -> String {
 }
 
 fn stretching_name(sea: &Sea) -> &'static str {
-    match sea.stretching {
-        _ if sea.stokes.is_some() => "by Stokes' theory",
-        Stretching::Linear => "LINEAR",
-        Stretching::Wheeler => "WHEELER",
-        Stretching::Delta => "DELTA",
-        Stretching::Exponential => "EXPONENTIAL",
-    }
+    if sea.stokes.is_some() { "by Stokes' theory" } else { sea.stretching.word() }
 }
 
 fn density(env: &Environment, train: &EnvironmentSea) -> Option<Table> {
