@@ -6,7 +6,7 @@
 //! (1998), 508-523). Each step is shortened until the forces along it have not turned around.
 
 use super::parts::{BodySubset, parts};
-use super::search::{EquilibriumSearch, Stand};
+use super::search::{BodyPlaces, EquilibriumSearch};
 use super::system::{Contribution, DOFS, SolveError, System, SystemState};
 use super::unknowns::{Turns, Unknowns, kept_turns};
 use nalgebra::DMatrix;
@@ -100,7 +100,7 @@ fn find(
     let mut search = EquilibriumSearch::new(system, options, part);
     search.evaluate(state)?;
     let start: Vec<f64> = state.poses.iter().map(|p| p.origin.z).collect();
-    let mut best = (f64::INFINITY, Stand::from_state(state));
+    let mut best = (f64::INFINITY, BodyPlaces::from_state(state));
     let mut stale = 0;
     for steps in 0..=options.most {
         if system.is_interrupted() {
@@ -114,7 +114,7 @@ fn find(
         }
         stale = if worst <= 0.5 * best.0 { 0 } else { stale + 1 };
         if worst < best.0 {
-            best = (worst, Stand::from_state(state));
+            best = (worst, BodyPlaces::from_state(state));
         }
         let polished = worst <= FINAL_TOLERANCE_SHARE || unknowns.rows.is_empty();
         // within the tolerance the search goes on as long as it gets better

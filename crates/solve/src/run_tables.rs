@@ -1,7 +1,7 @@
 //! What a run says of itself, and how it compares with another.
 
 use super::screening::quasi_static_lines;
-use super::time::{Counts, Followed, History, Method, POOR_PERIOD, Resolution, ResultSeries, Run, Swing, results};
+use super::time::{Counts, History, Method, POOR_PERIOD, Resolution, ResultSeries, Run, Swing, WorstFollowed, results};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
@@ -47,7 +47,7 @@ pub fn run_table(run: &Run) -> Table {
         table =
             table.fact("Shortest Waves", format!("{} s, {} steps", format_digits(*period), steps(*period)), Dim::None);
     }
-    if let Some(Followed { body, dof, period, distortion }) = run.followed_worst() {
+    if let Some(WorstFollowed { body, dof, period, distortion }) = run.worst_followed() {
         let (error, ..) = run.accuracy.largest;
         let [longer, damping] = [distortion.period, distortion.damping].map(percent);
         let text = format!("{longer} of {} s ({body} {dof}), damping {damping} of critical", format_digits(period));
@@ -184,7 +184,8 @@ pub fn warnings_of_step(run: &Run) -> Vec<String> {
 
 /// What the steps of a run were too long for, as it saw itself.
 pub fn warning_of_accuracy(run: &Run) -> Option<String> {
-    let Followed { body, dof, period, distortion } = run.followed_worst().filter(|w| w.distortion.measure() > 1.0)?;
+    let WorstFollowed { body, dof, period, distortion } =
+        run.worst_followed().filter(|w| w.distortion.measure() > 1.0)?;
     let [longer, damping] = [distortion.period, distortion.damping].map(percent);
     Some(format!(
         "the steps were too long for the motion of {body} in {dof}: of its period of {} s the scheme errs by {longer} and damps {damping} of critical; a step of at most {} s follows it, and -CHECK shows the difference",

@@ -3,7 +3,7 @@
 
 pub use super::outline::Outline;
 use super::outline::outline;
-use super::results::along::standing;
+use super::results::along::visit_lines_at_rest;
 use super::system::SolveError;
 use std::collections::BTreeSet;
 use windlass_base::geometry::Position;
@@ -209,7 +209,7 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
 /// The nodes of a dynamic line, at rest in the mean current.
 fn at_rest(model: &Model, connector: &Connector) -> Result<Vec<Position>, SolveError> {
     let mut nodes = Vec::new();
-    standing(model, &|name| name == connector.name, |_, line, at, state| {
+    visit_lines_at_rest(model, &|name| name == connector.name, |_, line, at, state| {
         line.find_nodes(at, state, &mut nodes).map_err(SolveError::error_about(&connector.name))
     })?;
     Ok(nodes.iter().map(|node| node.position.into()).collect())

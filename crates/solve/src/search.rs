@@ -35,14 +35,14 @@ const MAX_BLOCKED_STEPS: usize = 6;
 
 /// Where bodies are, and the forces of stiff ties there.
 #[derive(Clone, Debug)]
-pub(super) struct Stand {
+pub(super) struct BodyPlaces {
     poses: Vec<Pose>,
     ties: Vec<Option<Six>>,
 }
 
-impl Stand {
+impl BodyPlaces {
     pub fn from_state(state: &SystemState) -> Self {
-        Stand { poses: state.poses.clone(), ties: state.ties.forces.clone() }
+        BodyPlaces { poses: state.poses.clone(), ties: state.ties.forces.clone() }
     }
 
     /// Puts a state there.
@@ -55,7 +55,7 @@ impl Stand {
 /// Steps that may leave more than the one before.
 struct NonMonotoneSteps {
     /// The place where they began, or the better one that they found.
-    best: Stand,
+    best: BodyPlaces,
     /// What is left there, over what is tolerated.
     left: f64,
     /// Steps since.
@@ -114,7 +114,7 @@ impl<'a> EquilibriumSearch<'a> {
     pub fn advance(&mut self, unknowns: &Unknowns, state: &mut SystemState, worst: f64) -> Result<(), SolveError> {
         if let Some(steps) = &mut self.non_monotone {
             if worst < steps.left {
-                *steps = NonMonotoneSteps { best: Stand::from_state(state), left: worst, since: 0 };
+                *steps = NonMonotoneSteps { best: BodyPlaces::from_state(state), left: worst, since: 0 };
             } else {
                 steps.since += 1;
             }
@@ -126,7 +126,7 @@ impl<'a> EquilibriumSearch<'a> {
                 return self.evaluate(state);
             }
         } else if self.short_steps >= self.max_short_steps {
-            self.non_monotone = Some(NonMonotoneSteps { best: Stand::from_state(state), left: worst, since: 0 });
+            self.non_monotone = Some(NonMonotoneSteps { best: BodyPlaces::from_state(state), left: worst, since: 0 });
         }
         self.step(unknowns, state, worst)
     }
@@ -138,7 +138,7 @@ impl<'a> EquilibriumSearch<'a> {
         let made = direction(unknowns, &unknowns.stiffness(state), &asked, self.regularisation, &stop);
         let (step, needed) = made.map_err(|e| unknowns.singular_stiffness_error(self.system, e))?;
         let work = residual.dot(&step).abs();
-        let from = Stand::from_state(state);
+        let from = BodyPlaces::from_state(state);
         let motions = unknowns.motions(from.poses.len(), &step, 1.0);
         let ties = state.ties.predict(&|body| motions[body]);
         let place = |state: &mut SystemState, share: f64| {

@@ -187,7 +187,7 @@ impl System {
     }
 
     /// Dynamic lines begin a run in these states, given for all connectors.
-    pub(super) fn begin_moving(&mut self, states: &[f64]) {
+    pub(super) fn begin_dynamic_lines(&mut self, states: &[f64]) {
         for link in self.links.iter().filter(|l| l.is_dynamic()) {
             self.states[link.states.clone()].copy_from_slice(&states[link.states.clone()]);
         }
@@ -258,7 +258,7 @@ impl System {
             arms.clear();
             arms.extend(link.ends.iter().map(|end| arm(end, &state.poses)));
             let held = state.ties.forces.get(index).and_then(Option::as_ref);
-            match link.element.as_stiff_tie().filter(|_| state.ties.holds) {
+            match state.ties.holds.then(|| link.element.as_stiff_tie()).flatten() {
                 Some(tie) => {
                     let tie = tie.evaluate_tie(&at, held, &mut state.response);
                     let tie = tie.map_err(SolveError::error_about(&link.name))?;

@@ -45,7 +45,7 @@ fn trapezoidal_period_error_matches_closed_form() {
     // tan(W h/2) = w h/2 [HUGHES-1987 9.1]
     for steps in [8.0, 12.0, 40.0] {
         let made = oscillated(trapezoidal(), steps, 60.0);
-        let worst = made.followed_worst().unwrap();
+        let worst = made.worst_followed().unwrap();
         let angle: f64 = TAU / steps;
         let exact = angle / (2.0 * (0.5 * angle).atan()) - 1.0;
         // over n periods and a part of one the integral of a squared sine is off by 1/(4 pi n) of itself, one way for the velocity
@@ -64,7 +64,7 @@ fn generalised_alpha_error_and_damping_match_the_oscillation() {
         [(0.2, 10.0, 0.080910, 0.022552), (0.2, 20.0, 0.023147, 0.003954), (0.5, 12.0, 0.032954, 0.002313)]
     {
         let made = oscillated(Method::Implicit(TimeScheme::generalised_alpha(rho)), steps, 16.0);
-        let worst = made.followed_worst().unwrap();
+        let worst = made.worst_followed().unwrap();
         let (own, decay) = seen(&made.history);
         let own = own / (TAU / 2.0) - 1.0;
         // the first steps settle into the oscillation of the scheme; velocity and acceleration of a decay are not quite those of a sine

@@ -3,7 +3,7 @@
 use super::super::system::SolveError;
 use super::super::time::{RowLayout, Run};
 use super::forces::{add, no_wrench, wrench_columns};
-use super::rest_state::{SettledConnector, Settling};
+use super::rest_state::{RestSolver, SettledConnector};
 use super::{EventTable, Magnitude, RunEvent, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
@@ -53,7 +53,7 @@ pub fn connector_forces(
         links.iter().filter_map(|link| layout.links.get(*link).map(|columns| (*link, columns))).collect();
     let (mut settling, mut remembering) = (Vec::new(), Vec::new());
     for (_, columns) in &chosen {
-        let made = Settling::new(&run.model, &columns.name)?;
+        let made = RestSolver::new(&run.model, &columns.name)?;
         if made.is_none() {
             remembering.push(columns.name.as_str());
         }

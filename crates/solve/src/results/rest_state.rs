@@ -25,7 +25,7 @@ impl SettledConnector {
 }
 
 /// A connector that is settled between other ends again and again.
-pub(super) struct Settling<'a> {
+pub(super) struct RestSolver<'a> {
     model: &'a Model,
     connector: Connector,
     ends: [EndAttachment; 2],
@@ -38,7 +38,7 @@ pub(super) struct Settling<'a> {
     between: Vec<End>,
 }
 
-impl<'a> Settling<'a> {
+impl<'a> RestSolver<'a> {
     /// A connector of the model of a run, whose bodies stand where the run began. None of a pipe, nor of what remembers: a piston's
     /// force does not follow from its ends alone.
     ///
@@ -50,7 +50,7 @@ impl<'a> Settling<'a> {
         if element.states() > 0 {
             return Ok(None);
         }
-        Ok(Some(Settling {
+        Ok(Some(RestSolver {
             model,
             ends: end_attachments(model, connector),
             element,

@@ -121,7 +121,7 @@ impl Method {
 
 /// A degree of freedom and what the steps of a run make of its motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Followed {
+pub struct WorstFollowed {
     /// The body, as written.
     pub body: String,
     /// The degree of freedom.
@@ -169,7 +169,7 @@ impl Accuracy {
     }
 
     /// The degree of freedom that its scheme follows worst, of those that move enough to count; none where nothing moves.
-    pub(super) fn worst(&self, system: &System, motions: &[BodyMotion], method: &Method) -> Option<Followed> {
+    pub(super) fn worst(&self, system: &System, motions: &[BodyMotion], method: &Method) -> Option<WorstFollowed> {
         // integrals of the squares of the velocity without its mean
         let moved = |[v, vv, ..]: &[f64; 4]| if self.time > 0.0 { (vv - v * v / self.time).max(0.0) } else { 0.0 };
         let arms: Vec<Six> = system.nodes.iter().zip(motions).map(|(n, m)| arms(n, m)).collect();
@@ -187,9 +187,10 @@ impl Accuracy {
             let square = moved(self.sums.get(at)?);
             let distortion = method.errs_as().distortion((haha / square).sqrt());
             let dof = DOFS.get(at % 6)?;
-            Some(Followed { body: node.name.clone(), dof, period: TAU * (square / aa).sqrt(), distortion })
+            Some(WorstFollowed { body: node.name.clone(), dof, period: TAU * (square / aa).sqrt(), distortion })
         };
-        let worse = |a: Followed, b: Followed| if b.distortion.measure() > a.distortion.measure() { b } else { a };
+        let worse =
+            |a: WorstFollowed, b: WorstFollowed| if b.distortion.measure() > a.distortion.measure() { b } else { a };
         (0..self.sums.len()).filter_map(of).reduce(worse)
     }
 

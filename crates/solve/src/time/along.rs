@@ -266,7 +266,7 @@ mod tests {
         assert_eq!(columns.node(1, &row), None);
         assert_eq!(columns.node(9, &row), None);
         assert!(columns.node(0, &row).unwrap().clearance.is_nan());
-        // more than were foretold: the end and those next to the other
+        // more than were expected: the end and those next to the other
         columns.write(&line(7), &mut row).unwrap();
         let now: Vec<f64> = columns.nodes(&row).map(|(_, n)| n.arc).collect();
         assert_eq!(now, [0.0, 3.0, 4.0, 5.0, 6.0]);

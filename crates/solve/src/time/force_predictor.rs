@@ -1,7 +1,7 @@
-//! The forces at the end of a step, foretold from those of its start.
+//! The forces at the end of a step, predicted from those of its start.
 //!
 //! `F1 = F0 - (K0 + K1)/2 (q1 - q0) - (C0 + C1)/2 (v1 - v0)` by the trapezoidal rule on the straight way between the two states,
-//! K1 and C1 continued from the ends of the last three steps by a parabola. What is foretold is a trial's first correction only:
+//! K1 and C1 continued from the ends of the last three steps by a parabola. What is predicted is a trial's first correction only:
 //! the forces of a step are always evaluated.
 //!
 //! A dynamic line changes its pull without its ends, and by their accelerations: `- (M0 + M1)/2 (a1 - a0)` more, and by how much
@@ -43,7 +43,7 @@ impl MatrixHistory {
     }
 }
 
-/// What the next step is foretold by.
+/// What the next step is predicted from.
 #[derive(Debug, Default)]
 pub(super) struct ForcePredictor {
     /// Steps of one length in a row at the end of which there was balance.
@@ -61,7 +61,7 @@ pub(super) struct ForcePredictor {
 }
 
 impl ForcePredictor {
-    /// Nothing foretells the next step.
+    /// Nothing predicts the next step.
     pub(super) fn clear(&mut self) {
         (self.count, self.known) = (0, 0);
     }
@@ -89,7 +89,7 @@ impl ForcePredictor {
 
     /// Adds to the forces of the start of a step what accelerations make of them over it, and by how much the steps before were off.
     /// False without enough of these to go by.
-    pub(super) fn add_moving(&self, (trial, start): (&[BodyMotion], &[BodyMotion]), sum: &mut DVector<f64>) -> bool {
+    pub(super) fn add_dynamic(&self, (trial, start): (&[BodyMotion], &[BodyMotion]), sum: &mut DVector<f64>) -> bool {
         let weights = match self.known {
             0 => return false,
             1 => [1.0, 0.0, 0.0],
@@ -196,7 +196,7 @@ mod tests {
             let mut predicted = force(t);
             made.begin(&predicted);
             let ready = made.add(dt, (&trial, &start, &over), &mut predicted)
-                && made.add_moving((&trial, &start), &mut predicted);
+                && made.add_dynamic((&trial, &start), &mut predicted);
             // three steps to learn from, behind one that gives the matrices
             assert_eq!(ready, step >= 2);
             let off = (&predicted - force(t + dt)).amax();

@@ -148,13 +148,13 @@ pub struct BodyForces {
     pub trial: Vec<f64>,
     /// What the solvers of the connectors keep.
     pub(super) caches: Vec<SolverCache>,
-    foretelling: ForcePredictor,
+    predictor: ForcePredictor,
     /// Whether a connector has inertia of its own.
-    pub(super) moving: bool,
+    pub(super) has_dynamic_lines: bool,
     /// Whether a load adds to the inertia of its body.
-    carried: bool,
+    has_load_inertia: bool,
     /// Those of them, evaluated side by side.
-    pub(super) alone: Vec<LineTask>,
+    pub(super) line_tasks: Vec<LineTask>,
     made: DynamicLoad,
     response: ElementResponse,
     pub(super) ends: Vec<End>,
@@ -179,30 +179,30 @@ impl BodyForces {
         self.categories.clear();
         self.categories.resize(system.nodes.len(), [Six::zeros(); CATEGORY_COUNT]);
         self.wrenches.clear();
-        self.carried = false;
+        self.has_load_inertia = false;
         self.ties.begin(system.links.len(), system.nodes.len());
-        self.moving = system.links.iter().any(|l| l.is_dynamic());
+        self.has_dynamic_lines = system.links.iter().any(|l| l.is_dynamic());
         self.caches.resize_with(system.links.len(), SolverCache::new);
         self.trial.clear();
         self.trial.extend_from_slice(&system.states);
     }
 
-    /// Nothing foretells the next step.
-    pub(super) fn unsettle(&mut self) {
-        self.foretelling.clear();
+    /// Drops what predicts the forces of the next step.
+    pub(super) fn clear_predictor(&mut self) {
+        self.predictor.clear();
     }
 
     /// They are those of the end of a step of a length (s).
     pub(super) fn end_step(&mut self, dt: f64) {
-        if self.moving || self.carried {
-            self.foretelling.take_inertia(dt, &self.inertia);
+        if self.has_dynamic_lines || self.has_load_inertia {
+            self.predictor.take_inertia(dt, &self.inertia);
         }
-        self.foretelling.take(dt, &self.stiffness, &self.damping);
+        self.predictor.take(dt, &self.stiffness, &self.damping);
     }
 
     /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and
     /// the change of velocity of each body over the step, with what its loads hold ready. False without a step to go by.
-    pub(super) fn foretell(
+    pub(super) fn predict(
         &mut self,
         (memory, dt): (&LoadMemory, f64),
         motions: (&[BodyMotion], &[BodyMotion], &[Six]),
@@ -211,21 +211,21 @@ impl BodyForces {
             let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
             at += held;
         }
-        if self.moving {
-            self.foretelling.begin(&self.sum);
+        if self.has_dynamic_lines {
+            self.predictor.begin(&self.sum);
         }
         let parts = (motions.0, motions.1);
-        if self.carried && !self.moving {
-            self.foretelling.add_inertia(parts, &mut self.sum);
+        if self.has_load_inertia && !self.has_dynamic_lines {
+            self.predictor.add_inertia(parts, &mut self.sum);
         }
-        self.foretelling.add(dt, motions, &mut self.sum)
-            && (!self.moving || self.foretelling.add_moving(parts, &mut self.sum))
+        self.predictor.add(dt, motions, &mut self.sum)
+            && (!self.has_dynamic_lines || self.predictor.add_dynamic(parts, &mut self.sum))
     }
 
-    /// They are those of a trial that holds, of a step of a length (s): what foretells the next learns by it.
+    /// They are those of a trial that holds, of a step of a length (s): what predicts the next learns by it.
     pub(super) fn learn(&mut self, dt: f64, motions: (&[BodyMotion], &[BodyMotion], &[Six])) {
-        if self.moving {
-            self.foretelling.learn(dt, motions, &self.sum);
+        if self.has_dynamic_lines {
+            self.predictor.learn(dt, motions, &self.sum);
         }
     }
 
@@ -255,7 +255,7 @@ impl BodyForces {
                     self.add(body, load.category().index(), &-(inertia * motion.acceleration));
                     let mut block = self.inertia.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                     block += inertia;
-                    self.carried = true;
+                    self.has_load_inertia = true;
                 }
                 let Some(divided) = load.as_divided() else { continue };
                 for other in divided.other_categories() {
@@ -303,8 +303,8 @@ impl BodyForces {
 
     /// Adds what connectors exert.
     fn connect(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
-        self.connect_moving(system, motions, (time, dt));
-        let mut alone = 0..;
+        self.evaluate_dynamic_lines(system, motions, (time, dt));
+        let mut tasks = 0..;
         let flexible = Category::FlexConnectors.index();
         for (index, link) in system.links.iter().enumerate() {
             self.place_ends(link, motions);
@@ -322,7 +322,7 @@ impl BodyForces {
                 continue;
             }
             if link.is_dynamic() {
-                let Some(found) = alone.next().and_then(|at| self.alone.get_mut(at)) else { continue };
+                let Some(found) = tasks.next().and_then(|at| self.line_tasks.get_mut(at)) else { continue };
                 if let Some(error) = found.failed.take() {
                     return Err(SolveError::error_about(&link.name)(error));
                 }
@@ -330,7 +330,7 @@ impl BodyForces {
                 std::mem::swap(&mut self.response, &mut found.response);
             } else {
                 let held = self.ties.forces.get(index).and_then(Option::as_ref);
-                match link.element.as_stiff_tie().filter(|_| self.ties.holds) {
+                match self.ties.holds.then(|| link.element.as_stiff_tie()).flatten() {
                     Some(tie) => {
                         let tie = tie.evaluate_tie(&at, held, &mut self.response);
                         let tie = tie.map_err(SolveError::error_about(&link.name))?;

@@ -28,7 +28,7 @@ mod snapshot;
 mod statistics;
 mod step;
 
-pub use accuracy::{Accuracy, Distortion, Followed, POOR_DAMPING, POOR_PERIOD};
+pub use accuracy::{Accuracy, Distortion, POOR_DAMPING, POOR_PERIOD, WorstFollowed};
 pub use action::{Action, ActionKind, Observable, Trigger};
 pub use along::{AlongColumns, AlongEnvelope, BentRow, NodeQuantity, NodeRow};
 pub use compression::Pushing;

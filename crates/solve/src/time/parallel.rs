@@ -25,15 +25,15 @@ impl std::fmt::Debug for LineTask {
 
 impl BodyForces {
     /// Evaluates the dynamic lines.
-    pub(super) fn connect_moving(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) {
-        if !self.moving {
-            self.alone.clear();
+    pub(super) fn evaluate_dynamic_lines(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) {
+        if !self.has_dynamic_lines {
+            self.line_tasks.clear();
             return;
         }
-        let moving = || system.links.iter().enumerate().filter(|(_, l)| l.is_dynamic());
-        self.alone.resize_with(moving().count(), LineTask::default);
-        let mut alone = std::mem::take(&mut self.alone);
-        for (one, (index, link)) in alone.iter_mut().zip(moving()) {
+        let dynamic_lines = || system.links.iter().enumerate().filter(|(_, l)| l.is_dynamic());
+        self.line_tasks.resize_with(dynamic_lines().count(), LineTask::default);
+        let mut tasks = std::mem::take(&mut self.line_tasks);
+        for (one, (index, link)) in tasks.iter_mut().zip(dynamic_lines()) {
             self.place_ends(link, motions);
             one.link = index;
             one.ends.clone_from(&self.ends);
@@ -41,13 +41,13 @@ impl BodyForces {
             one.trial.resize(link.states.len(), 0.0);
             one.cache = self.caches.get_mut(index).map(SolverCache::take).unwrap_or_default();
         }
-        evaluate(system, &mut alone, Some(TimeStep { time, dt }));
-        for one in &mut alone {
+        evaluate(system, &mut tasks, Some(TimeStep { time, dt }));
+        for one in &mut tasks {
             if let Some(cache) = self.caches.get_mut(one.link) {
                 *cache = one.cache.take();
             }
         }
-        self.alone = alone;
+        self.line_tasks = tasks;
     }
 }
 

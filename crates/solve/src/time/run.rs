@@ -70,7 +70,7 @@ pub struct Run {
 }
 
 /// What stood before a part of a step.
-struct Before {
+struct Checkpoint {
     time: f64,
     motions: Vec<BodyMotion>,
     memory: LoadMemory,
@@ -191,7 +191,7 @@ impl Run {
         let SystemInstant { time, motions, memory, forces } = &mut self.now;
         forces.evaluate(&self.system, memory, motions, (*time, 0.0))?;
         // a dynamic line begins where it hangs
-        self.system.begin_moving(&self.now.forces.trial);
+        self.system.begin_dynamic_lines(&self.now.forces.trial);
         self.resolution = self.resolve();
         Ok(())
     }
@@ -342,8 +342,8 @@ impl Run {
     }
 
     /// What a part of a step changes.
-    fn checkpoint(&self) -> Before {
-        Before {
+    fn checkpoint(&self) -> Checkpoint {
+        Checkpoint {
             time: self.now.time,
             motions: self.now.motions.clone(),
             memory: self.now.memory.clone(),
@@ -352,17 +352,17 @@ impl Run {
     }
 
     /// Forgets a part of a step.
-    fn rollback(&mut self, before: Before) {
+    fn rollback(&mut self, before: Checkpoint) {
         (self.now.time, self.now.motions) = (before.time, before.motions);
         (self.now.memory, self.system.states) = (before.memory, before.states);
-        self.now.forces.unsettle();
+        self.now.forces.clear_predictor();
     }
 
     /// Forgets what solvers remember, so that a run that goes on from a snapshot finds the same digits.
     pub(super) fn clear_caches(&mut self) {
         self.now.forces.caches.clear();
         self.now.forces.ties.forces.clear();
-        self.now.forces.unsettle();
+        self.now.forces.clear_predictor();
     }
 
     fn write_snapshot(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {

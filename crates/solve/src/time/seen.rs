@@ -1,6 +1,6 @@
 //! What can be seen of a run from outside, and all that is needed to go on from where it is.
 
-use super::accuracy::Followed;
+use super::accuracy::WorstFollowed;
 use super::forces::BodyMotion;
 use super::run::Run;
 use super::snapshot::Snapshot;
@@ -15,7 +15,7 @@ impl Run {
     }
 
     /// The motion that its steps follow worst, of those that are large enough to count; none where nothing moved.
-    pub fn followed_worst(&self) -> Option<Followed> {
+    pub fn worst_followed(&self) -> Option<WorstFollowed> {
         self.accuracy.worst(&self.system, &self.now.motions, &self.settings.method)
     }
 

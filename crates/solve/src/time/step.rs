@@ -194,8 +194,8 @@ impl Stepper {
         };
         match made {
             Ok(effort) if effort.iterations > 0 => now.forces.end_step(dt),
-            // a trial that held as it was needs no foretelling, nor does most likely the next
-            _ => now.forces.unsettle(),
+            // a trial that held as it was needs no prediction, nor does most likely the next
+            _ => now.forces.clear_predictor(),
         }
         made
     }
@@ -271,22 +271,22 @@ impl Stepper {
         let gain = scheme.gain();
         let (by_place, by_velocity) = (dt * dt * scheme.beta * gain, dt * scheme.gamma * gain);
         let parts = (self.trial.as_slice(), now.motions.as_slice(), self.over.as_slice());
-        // what is foretold knows no forces held in ties
-        let mut foretold = now.forces.ties.is_empty() && now.forces.foretell((&now.memory, dt), parts);
+        // what is predicted knows no forces held in ties
+        let mut predicted = now.forces.ties.is_empty() && now.forces.predict((&now.memory, dt), parts);
         now.forces.ties.holds = true;
         let unexplained = wanted.tolerance * system.gravity * by_place;
-        if foretold {
+        if predicted {
             let left = self.residual(system, &now.forces);
-            // a trial that is expected to hold needs no correction: half, as what is foretold is off, too
-            foretold = left.is_finite() && left > 0.5 * wanted.tolerance * system.gravity;
+            // a trial that is expected to hold needs no correction: half, as what is predicted is off, too
+            predicted = left.is_finite() && left > 0.5 * wanted.tolerance * system.gravity;
         }
-        if foretold {
+        if predicted {
             // stiffness and damping are still those of the start
             self.turn(system);
             self.jacobian(&now.forces, dt, by_place, by_velocity);
-            foretold = self.solve(system).is_ok();
+            predicted = self.solve(system).is_ok();
         }
-        if foretold {
+        if predicted {
             effort.iterations += 1;
             self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
             self.weigh_again(system);
@@ -300,8 +300,12 @@ impl Stepper {
                 return Err(not_finite(system, &now.forces.sum, time));
             }
             if left <= wanted.tolerance * system.gravity && now.forces.ties.gap() <= unexplained {
-                // what is foretold is near, not balanced: with the matrix at hand what is left goes, too
-                if foretold && effort.evaluations == 1 && !now.forces.moving && self.solve_again(system).is_ok() {
+                // what is predicted is near, not balanced: with the matrix at hand what is left goes, too
+                if predicted
+                    && effort.evaluations == 1
+                    && !now.forces.has_dynamic_lines
+                    && self.solve_again(system).is_ok()
+                {
                     self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
                 }
                 break;

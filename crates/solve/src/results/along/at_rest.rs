@@ -14,7 +14,7 @@ use windlass_model::{DynamicElement, Element, End, Idealisation, LineNode, Model
 ///
 /// # Errors
 /// What reporting comes to.
-pub(crate) fn standing(
+pub(crate) fn visit_lines_at_rest(
     model: &Model,
     fits: &dyn Fn(&str) -> bool,
     mut tell: impl FnMut(&str, &dyn DynamicElement, &Situation, &[f64]) -> Result<(), SolveError>,
@@ -54,7 +54,7 @@ pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
     let mut made = Vec::new();
     // of others nothing is to be said
     let is_dynamic = |name: &str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.is_dynamic_line(c));
-    let reported = standing(model, &is_dynamic, |name, line, at, _| {
+    let reported = visit_lines_at_rest(model, &is_dynamic, |name, line, at, _| {
         made.extend(line.static_caution(at).map(|text| (name.to_string(), text)));
         Ok(())
     });
@@ -68,7 +68,7 @@ pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
 /// A line that has no answer there.
 pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Table>, SolveError> {
     let mut tables = Vec::new();
-    standing(model, fits, |name, line, at, state| {
+    visit_lines_at_rest(model, fits, |name, line, at, state| {
         let mut nodes = Vec::new();
         line.find_nodes(at, state, &mut nodes).map_err(SolveError::error_about(name))?;
         let sections = sections(model, name);

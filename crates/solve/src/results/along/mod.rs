@@ -12,7 +12,7 @@ mod shape;
 mod supports;
 mod touchdown;
 
-pub(crate) use at_rest::standing;
+pub(crate) use at_rest::visit_lines_at_rest;
 pub use at_rest::{cautions, lines_at_rest};
 pub use check::{Code, check};
 pub use envelope::envelope;

@@ -1,6 +1,6 @@
 //! How a line swings between its ends where they stand.
 
-use super::at_rest::standing;
+use super::at_rest::visit_lines_at_rest;
 use crate::system::SolveError;
 use nalgebra::Vector3;
 use windlass_base::table::{Digits, Table};
@@ -19,7 +19,7 @@ pub fn natural_modes(
     shapes: bool,
 ) -> Result<Vec<Table>, SolveError> {
     let mut tables = Vec::new();
-    standing(model, fits, |name, line, at, state| {
+    visit_lines_at_rest(model, fits, |name, line, at, state| {
         let wrong = SolveError::error_about(name);
         // what is too much is refused before anything is solved
         let modes = line.natural_modes(at, state, number).map_err(&wrong)?;
