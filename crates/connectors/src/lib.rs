@@ -40,7 +40,6 @@ mod mooring;
 mod mooring_table;
 pub mod options;
 mod per_line;
-mod piston;
 mod restraint;
 mod rod;
 mod roller;

@@ -226,12 +226,6 @@ pub fn no_curve(name: &str, at: Span) -> ClassError {
         .help(format!("define it: &DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .."))
 }
 
-/// The curve that -CONVOLUTION names, with its place.
-pub fn convolution(options: &PerLineOptions) -> Option<(String, Span)> {
-    let given = options.option(&o::CONVOLUTION)?;
-    given.first_word().map(|name| (name.to_string(), given.span))
-}
-
 /// A line whose other end is not known.
 pub fn no_other_end() -> ClassError {
     ClassError::new("the other end of the line has no place")

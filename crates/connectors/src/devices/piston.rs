@@ -5,12 +5,22 @@
 //! while it can follow and the tension departs from it while it cannot; of MAX the way back to LD is as fast as VSHORT allows without
 //! passing TMAX; in statics it has all the time it needs, and starts at LD.
 
-use super::options::{PISTON, PistonKind};
+use super::{ControlState, Device, DeviceAction, DeviceKind, TensionControl};
+use crate::options::{self as o, PistonKind};
+use std::sync::Arc;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
-use windlass_model::ClassError;
-use windlass_model::Note;
+use windlass_model::{ClassError, Connection, Note};
 use windlass_nonlinear::NewtonBracket;
+
+/// -PISTON.
+pub(super) static PISTON: DeviceKind = DeviceKind {
+    option: &o::PISTON,
+    read: |given| Piston::read(given).map(|piston| Arc::new(piston) as Arc<dyn Device>),
+};
+
+/// What a table or a shape of a line with a piston says of it.
+const NOMINAL: &str = "here the piston of -PISTON stands at its nominal position";
 
 /// Most evaluations of a search.
 const MAX_EVALUATIONS: usize = 200;
@@ -21,26 +31,26 @@ const ACCEPTED_TENSION_ERROR: f64 = 1e-8;
 
 /// A piston; positions from 0, the shortest, to its stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piston {
+struct Piston {
     /// MINMAX: holds TMIN too, and stays where it is between the limits. Else MAX: goes back to its nominal position.
-    pub both: bool,
+    both: bool,
     /// Total stroke LT (m).
-    pub stroke: f64,
+    stroke: f64,
     /// Nominal position LD (m).
-    pub nominal: f64,
+    nominal: f64,
     /// Largest velocity of lengthening (m/s).
-    pub lengthening: f64,
+    lengthening: f64,
     /// Largest velocity of shortening (m/s).
-    pub shortening: f64,
+    shortening: f64,
     /// TMAX (N).
-    pub most: f64,
+    most: f64,
     /// TMIN (N).
-    pub least: f64,
+    least: f64,
 }
 
 /// What a piston does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PistonState {
+enum PistonState {
     /// The tension is within its limits; the piston stays, or is on its way back.
     Nothing,
     /// It holds TMAX.
@@ -59,12 +69,12 @@ pub enum PistonState {
 
 impl PistonState {
     /// Whether the tension is what a limit says, so that the line has no stiffness along it.
-    pub fn holds(self) -> bool {
+    fn holds(self) -> bool {
         matches!(self, PistonState::HoldsMost | PistonState::HoldsLeast)
     }
 
     /// What is reported to the user.
-    pub fn note(self) -> Note {
+    fn note(self) -> Note {
         let text = match self {
             PistonState::Nothing => {
                 "the piston is at rest or on its way to its nominal position, the tension within its limits"
@@ -83,6 +93,32 @@ impl PistonState {
     }
 }
 
+impl Device for Piston {
+    fn action(&self, _: &Connection) -> Result<DeviceAction, ClassError> {
+        Ok(DeviceAction::Control(Box::new(*self)))
+    }
+
+    fn note(&self) -> Option<Note> {
+        Some(NOMINAL.into())
+    }
+}
+
+impl TensionControl for Piston {
+    fn nominal(&self) -> f64 {
+        self.nominal
+    }
+
+    fn stand(
+        &self,
+        before: f64,
+        dt: Option<f64>,
+        at: &mut dyn FnMut(f64) -> Result<(f64, f64), ClassError>,
+    ) -> Result<(f64, ControlState), ClassError> {
+        let (position, does) = self.find_position(before, dt, at)?;
+        Ok((position, ControlState { holds: does.holds(), note: does.note() }))
+    }
+}
+
 /// A place of the piston with the tension there (N) and its derivative by the position (N/m, not above zero).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct OperatingPoint {
@@ -92,16 +128,16 @@ struct OperatingPoint {
 }
 
 impl Piston {
-    /// From the values of its option, which [`super::checks::piston`] has checked.
-    pub fn read(given: &Given) -> Option<Piston> {
+    /// From the values of its option, which [`crate::checks::piston`] has checked.
+    fn read(given: &Given) -> Option<Piston> {
         Some(Piston {
-            both: given.choice(const { PISTON.choice("TYPE") }) == Some(PistonKind::MinMax),
-            stroke: given.number(const { PISTON.number("LT") })?,
-            nominal: given.number(const { PISTON.number("LD") })?,
-            lengthening: given.number(const { PISTON.number("VLONG") })?,
-            shortening: given.number(const { PISTON.number("VSHORT") })?,
-            most: given.number(const { PISTON.number("TMAX") })?,
-            least: given.number(const { PISTON.number("TMIN") }).unwrap_or(0.0),
+            both: given.choice(const { o::PISTON.choice("TYPE") }) == Some(PistonKind::MinMax),
+            stroke: given.number(const { o::PISTON.number("LT") })?,
+            nominal: given.number(const { o::PISTON.number("LD") })?,
+            lengthening: given.number(const { o::PISTON.number("VLONG") })?,
+            shortening: given.number(const { o::PISTON.number("VSHORT") })?,
+            most: given.number(const { o::PISTON.number("TMAX") })?,
+            least: given.number(const { o::PISTON.number("TMIN") }).unwrap_or(0.0),
         })
     }
 
@@ -112,7 +148,7 @@ impl Piston {
     ///
     /// # Errors
     /// A position at which the line has no answer; a limit that no position holds.
-    pub fn stand(
+    fn find_position(
         &self,
         before: f64,
         dt: Option<f64>,
@@ -189,13 +225,13 @@ mod tests {
         }
     }
 
-    const PISTON: Piston =
+    const EXAMPLE: Piston =
         Piston { both: true, stroke: 3.0, nominal: 1.0, lengthening: 0.5, shortening: 0.25, most: 800.0, least: 300.0 };
 
     #[test]
     fn piston_step_is_bounded_by_limit_and_velocity() {
         let after = |both: bool, before: f64, stretch: f64| {
-            let (s, does) = Piston { both, ..PISTON }.stand(before, Some(1.0), spring(stretch)).unwrap();
+            let (s, does) = Piston { both, ..EXAMPLE }.find_position(before, Some(1.0), spring(stretch)).unwrap();
             ((s * 1e9).round() / 1e9, does)
         };
         // between the limits; held at TMAX; too fast; at the end of the stroke
@@ -218,7 +254,7 @@ mod tests {
     #[test]
     fn static_piston_slides_from_nominal_position_as_needed() {
         let at_rest = |both: bool, stretch: f64| {
-            let (s, does) = Piston { both, ..PISTON }.stand(2.5, None, spring(stretch)).unwrap();
+            let (s, does) = Piston { both, ..EXAMPLE }.find_position(2.5, None, spring(stretch)).unwrap();
             ((s * 1e9).round() / 1e9, does)
         };
         assert_eq!(at_rest(true, 0.5), (1.0, PistonState::Nothing));
