@@ -2,60 +2,62 @@
 //!
 //! Source: [MOSES-FLEX B_CAT].
 
+use super::devices;
 use super::dynamic_line as m;
 use super::line_class::{LineClass, LineClassKind, LineForm, devices_help, dynamics_help};
 use super::section;
 use super::{ClassKind, options as o};
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_language::spec::{CommandSpec, DatumKey, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, OptionSpec, ValueSpec, join_options};
 use windlass_model::{ConnectorClass, StaticLineClass, Surroundings};
 
 /// The class type.
 pub static B_CAT: ClassKind =
     ClassKind { spec: &SPEC, build: |records| LineClass::build(&KIND, records), idle: section::CATENARY_IDLE };
 
+const OWN_OPTIONS: &[OptionSpec] = &[
+    o::LEN,
+    o::TYPE,
+    o::DEPANCHOR,
+    o::REFINE,
+    o::IG_STIFF,
+    o::SEND,
+    o::X_PY,
+    o::SPGRAVITY,
+    o::DENSITY,
+    o::EMODULUS,
+    o::POI_RAT,
+    o::ALPHA,
+    o::FYIELD,
+    o::TENSTR,
+    o::WTPLEN,
+    o::DISPLEN,
+    o::B_TENSION,
+    o::C_SN,
+    o::TAB_LIM,
+    o::TABLE,
+    o::CLUMP,
+    o::BUOYDIAMETER,
+    o::DRAGDIAMETER,
+    o::WINDDIAMETER,
+    o::AMASDIAMETER,
+    o::FRICTION,
+    o::SLOPE,
+    m::CD,
+    m::CA,
+    m::AX_DAMPING,
+    m::SEABED,
+];
+
+static OPTIONS: [OptionSpec; OWN_OPTIONS.len() + devices::OPTIONS.len()] = join_options(OWN_OPTIONS, &devices::OPTIONS);
+
 static SPEC: CommandSpec = CommandSpec {
     data: &[
         o::LINE_OD,
         ValueSpec::choice::<o::CatenaryFlag>("FLAG", "without effect: the line is always solved exactly").or("exact"),
     ],
-    options: &[
-        o::LEN,
-        o::TYPE,
-        o::DEPANCHOR,
-        o::REFINE,
-        o::IG_STIFF,
-        o::SEND,
-        o::X_PY,
-        o::X_DAMPING_LINE,
-        o::SPGRAVITY,
-        o::DENSITY,
-        o::CONVOLUTION,
-        o::EMODULUS,
-        o::POI_RAT,
-        o::ALPHA,
-        o::FYIELD,
-        o::TENSTR,
-        o::WTPLEN,
-        o::DISPLEN,
-        o::PISTON,
-        o::B_TENSION,
-        o::C_SN,
-        o::TAB_LIM,
-        o::TABLE,
-        o::CLUMP,
-        o::BUOYDIAMETER,
-        o::DRAGDIAMETER,
-        o::WINDDIAMETER,
-        o::AMASDIAMETER,
-        o::FRICTION,
-        o::SLOPE,
-        m::CD,
-        m::CA,
-        m::AX_DAMPING,
-        m::SEABED,
-    ],
+    options: &OPTIONS,
     detail: concat!(
         dynamics_help!(),
         "One record a segment, fairlead first, all with the same class name. A negative -CLUMP is a spring buoy: \
@@ -78,18 +80,7 @@ const FLAG: DatumKey<o::CatenaryFlag> = SPEC.choice("FLAG");
 static KIND: LineClassKind = LineClassKind {
     spec: &SPEC,
     flag: |args| args.choice(FLAG).map(|o::CatenaryFlag::Exact| args.place(FLAG)),
-    per_line: &[
-        o::DEPANCHOR,
-        o::FRICTION,
-        o::SLOPE,
-        o::TAB_LIM,
-        o::SEND,
-        o::X_PY,
-        o::X_DAMPING_LINE,
-        o::CONVOLUTION,
-        o::PISTON,
-        m::SEABED,
-    ],
+    per_line: &[o::DEPANCHOR, o::FRICTION, o::SLOPE, o::TAB_LIM, o::SEND, o::X_PY, m::SEABED],
     max_bodies: 1,
     takes_spring_buoys: true,
     has_dynamics: true,

@@ -2,7 +2,6 @@
 
 use super::options as o;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::spec::ValueKey;
 use windlass_base::values::{Args, Given};
 use windlass_model::{ClassError, Connection, Connector};
 
@@ -54,33 +53,6 @@ pub fn py_curves(args: &Args) -> Outcome<()> {
         }
     }
     Ok(())
-}
-
-/// A piston: the nominal position within the stroke, the tensions in order.
-///
-/// # Errors
-/// What contradicts itself, at its value.
-pub fn piston(args: &Args) -> Outcome<()> {
-    let Some(given) = args.option_if_declared(&o::PISTON) else { return Ok(()) };
-    const STROKE: ValueKey<f64> = o::PISTON.number("LT");
-    const NOMINAL: ValueKey<f64> = o::PISTON.number("LD");
-    const MOST: ValueKey<f64> = o::PISTON.number("TMAX");
-    const LEAST: ValueKey<f64> = o::PISTON.number("TMIN");
-    if let (Some(stroke), Some(nominal)) = (given.number(STROKE), given.number(NOMINAL))
-        && nominal > stroke
-    {
-        return Err(Diagnostic::error(
-            "the nominal position LD of -PISTON lies beyond its stroke LT",
-            given.place(NOMINAL),
-        ));
-    }
-    match (given.choice(const { o::PISTON.choice("TYPE") }), given.number(MOST), given.number(LEAST)) {
-        (Some(o::PistonKind::MinMax), _, None) => Err(Diagnostic::error("-PISTON MINMAX needs TMIN", given.span)),
-        (_, Some(most), Some(least)) if least >= most => {
-            Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", given.place(LEAST)))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// The length of every segment must be defined (seed: "every segment's length must be defined for flexible classes").

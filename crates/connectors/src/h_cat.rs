@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-FLEX H_CAT]; [MOSES-HELP connect]: weightless unless EXACT, then with its weight in air.
 
+use super::devices;
 use super::dynamic_line as m;
 use super::line_class::{LineClass, LineClassKind, LineForm, devices_help, dynamics_help};
 use super::section::{self, LineSection};
@@ -17,18 +18,16 @@ use windlass_model::Surroundings;
 pub static H_CAT: ClassKind =
     ClassKind { spec: &H_CAT_SPEC, build: |records| LineClass::build(&KIND, records), idle: section::HANGING_IDLE };
 
-/// Options of lines between two places.
-pub const LINE_OPTIONS: &[OptionSpec] = &[
+/// Options of lines between two places, but those of devices.
+const OWN_OPTIONS: &[OptionSpec] = &[
     o::LEN,
     o::TYPE,
     o::REFINE,
     o::IG_STIFF,
     o::SEND,
     o::X_PY,
-    o::X_DAMPING_LINE,
     o::SPGRAVITY,
     o::DENSITY,
-    o::CONVOLUTION,
     o::EMODULUS,
     o::POI_RAT,
     o::ALPHA,
@@ -36,7 +35,6 @@ pub const LINE_OPTIONS: &[OptionSpec] = &[
     o::TENSTR,
     o::WTPLEN,
     o::DISPLEN,
-    o::PISTON,
     o::B_TENSION,
     o::C_SN,
     o::TAB_LIM,
@@ -51,11 +49,15 @@ pub const LINE_OPTIONS: &[OptionSpec] = &[
     m::SEABED,
 ];
 
+/// Options of lines between two places.
+pub const LINE_OPTIONS: [OptionSpec; OWN_OPTIONS.len() + devices::OPTIONS.len()] =
+    join_options(OWN_OPTIONS, &devices::OPTIONS);
+
 /// Options of a B_CAT that are taken, and do nothing without a bottom or give the place of an anchor.
 const BOTTOM_OPTIONS: [OptionSpec; 3] = [o::DEPANCHOR, o::FRICTION, o::SLOPE];
 
 static H_CAT_OPTIONS: [OptionSpec; LINE_OPTIONS.len() + BOTTOM_OPTIONS.len()] =
-    join_options(LINE_OPTIONS, &BOTTOM_OPTIONS);
+    join_options(&LINE_OPTIONS, &BOTTOM_OPTIONS);
 
 /// What is said of a class with options of the bottom.
 const NO_BOTTOM: &str = "it has no bottom: -FRICTION and -SLOPE do nothing, and -DEPANCHOR is the depth of its anchor alone; a B_CAT lies on the bottom";
@@ -78,18 +80,7 @@ const FLAG: DatumKey<o::CatenaryFlag> = H_CAT_SPEC.choice("FLAG");
 static KIND: LineClassKind = LineClassKind {
     spec: &H_CAT_SPEC,
     flag: |args| args.choice(FLAG).map(|o::CatenaryFlag::Exact| args.place(FLAG)),
-    per_line: &[
-        o::SEND,
-        o::X_PY,
-        o::X_DAMPING_LINE,
-        o::CONVOLUTION,
-        o::PISTON,
-        o::TAB_LIM,
-        o::DEPANCHOR,
-        o::FRICTION,
-        o::SLOPE,
-        m::SEABED,
-    ],
+    per_line: &[o::SEND, o::X_PY, o::TAB_LIM, o::DEPANCHOR, o::FRICTION, o::SLOPE, m::SEABED],
     max_bodies: 2,
     takes_spring_buoys: false,
     has_dynamics: true,

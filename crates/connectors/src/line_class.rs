@@ -5,7 +5,7 @@
 
 use super::chord::Chord;
 use super::chord::ChordElement;
-use super::devices::Devices;
+use super::devices::{self, Devices};
 use super::dynamic_line::{self as m, DynamicLine, Flexure, Seabed};
 use super::extension::Extended;
 use super::line_element::LineElement;
@@ -70,7 +70,7 @@ pub struct LineClassKind {
     pub spec: &'static CommandSpec,
     /// The place of its flag in a record, where given.
     pub flag: fn(&Args) -> Option<Span>,
-    /// Options that hold for the whole line.
+    /// Options that hold for the whole line, beside those of devices.
     pub per_line: &'static [OptionSpec],
     /// Most points of its connectors that are on bodies.
     pub max_bodies: usize,
@@ -378,6 +378,7 @@ impl SegmentedClass for LineClass {
         }
         let section = LineSection::read(record, kind.spec.name, false)?;
         self.per_line.check(args, kind.per_line)?;
+        self.per_line.check(args, &devices::OPTIONS)?;
         let tabulated = self.tabulated.or(args.option_if_declared(&o::TABLE).map(|given| given.span));
         let flag = self.flag.or((kind.flag)(args));
         if let (Some(table), Some(flag)) = (tabulated, flag) {
@@ -392,7 +393,8 @@ impl SegmentedClass for LineClass {
         self.sections.push(section);
         self.places.push(args.option(&o::CLUMP).map_or(args.span, |clump| clump.span));
         (self.tabulated, self.flag) = (tabulated, flag);
-        if self.per_line.take(args, kind.per_line) {
+        // both take, whatever the first has taken
+        if self.per_line.take(args, kind.per_line) | self.per_line.take(args, &devices::OPTIONS) {
             self.seabed = m::parse_seabed(&self.per_line);
             self.springs = end_springs(&self.per_line);
             self.devices = Devices::read(&self.per_line);

@@ -4,6 +4,7 @@
 //! length is WTPLEN - DISPLEN - rho_w g pi/4 BUOYDIA^2. With -TYPE these come from the library of line types; an option
 //! given beside it overrides it.
 
+use super::devices;
 use super::dynamic_line as m;
 use super::line_types::{LineType, library};
 use super::{checks, options as o};
@@ -203,7 +204,7 @@ impl LineSection {
         }
         let length = checks::length(args, kind)?;
         checks::py_curves(args)?;
-        checks::piston(args)?;
+        devices::check(args)?;
         let area = FRAC_PI_4 * (od * od - thickness.map_or(0.0, |t| (od - 2.0 * t).powi(2)));
         let number = |option: &OptionSpec| args.number_if_declared(option);
         let solid_weight = |density: f64| density * record.defaults.gravity * area;

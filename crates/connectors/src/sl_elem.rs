@@ -53,7 +53,7 @@ static SL_ELEM_SPEC: CommandSpec = CommandSpec {
         devices_help!(),
     ),
     example: "MEDIT\n~TIE SL_ELEM 3 TENSION -LEN 50\nEND\n&STATUS CLASS ~TIE",
-    options: LINE_OPTIONS,
+    options: &LINE_OPTIONS,
     ..CommandSpec::new("SL_ELEM", "spring along the chord between its ends")
 };
 
@@ -62,7 +62,7 @@ const FLAG: DatumKey<BarFlag> = SL_ELEM_SPEC.choice("FLAG");
 static KIND: LineClassKind = LineClassKind {
     spec: &SL_ELEM_SPEC,
     flag: |args| args.choice(FLAG).map(|BarFlag::Tension| args.place(FLAG)),
-    per_line: &[o::SEND, o::X_PY, o::X_DAMPING_LINE, o::CONVOLUTION, o::PISTON, o::TAB_LIM],
+    per_line: &[o::SEND, o::X_PY, o::TAB_LIM],
     max_bodies: 2,
     takes_spring_buoys: false,
     has_dynamics: false,

@@ -11,6 +11,7 @@ use windlass_model::{ClassError, Connection};
 /// -CONVOLUTION.
 pub(super) static CONVOLUTION: DeviceKind = DeviceKind {
     option: &o::CONVOLUTION,
+    check: |_| Ok(()),
     read: |given| {
         let name = given.first_word()?.to_string();
         Some(Arc::new(ConvolutionSpring { name, span: given.span }))

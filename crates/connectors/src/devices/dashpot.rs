@@ -10,6 +10,7 @@ use windlass_model::{ClassError, Connection};
 /// -X_DAMPING.
 pub(super) static X_DAMPING: DeviceKind = DeviceKind {
     option: &o::X_DAMPING_LINE,
+    check: |_| Ok(()),
     read: |given| Dashpot::from_given(given).map(|dashpot| Arc::new(dashpot) as Arc<dyn Device>),
 };
 

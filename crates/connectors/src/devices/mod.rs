@@ -15,8 +15,9 @@ use super::viscous::Affine;
 use nalgebra::{Matrix3, Vector3};
 use std::fmt::Debug;
 use std::sync::Arc;
+use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
-use windlass_base::values::Given;
+use windlass_base::values::{Args, Given};
 use windlass_language::spec::OptionSpec;
 use windlass_model::{
     ClassError, Connection, Element, ElementResponse, ElementSummary, End, Note, Situation, SolverCache, SpringState,
@@ -25,11 +26,34 @@ use windlass_model::{
 /// Every device, in the order in which they stand from the first end of a line on.
 static DEVICES: &[&DeviceKind] = &[&piston::PISTON, &convolution::CONVOLUTION, &dashpot::X_DAMPING];
 
+/// Their options, for the specs of classes of lines.
+pub const OPTIONS: [OptionSpec; DEVICES.len()] = options();
+
+const fn options() -> [OptionSpec; DEVICES.len()] {
+    let mut options = [*piston::PISTON.option; DEVICES.len()];
+    let mut i = 0;
+    while i < options.len() {
+        options[i] = *DEVICES[i].option;
+        i += 1;
+    }
+    options
+}
+
+/// Checks what a record says of devices.
+///
+/// # Errors
+/// What contradicts itself, at its value.
+pub fn check(args: &Args) -> Outcome<()> {
+    DEVICES.iter().try_for_each(|kind| args.option_if_declared(kind.option).map_or(Ok(()), kind.check))
+}
+
 /// A device that an option adds to a line. One is declared in the file that has its law, and listed in [`DEVICES`].
 struct DeviceKind {
     /// Its option, which holds for the whole line.
     option: &'static OptionSpec,
-    /// The device of such an option, which the records have checked.
+    /// Refuses values that contradict each other.
+    check: fn(&Given) -> Outcome<()>,
+    /// The device of such an option, checked.
     read: fn(&Given) -> Option<Arc<dyn Device>>,
 }
 

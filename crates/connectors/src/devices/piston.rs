@@ -8,6 +8,8 @@
 use super::{ControlState, Device, DeviceAction, DeviceKind, TensionControl};
 use crate::options::{self as o, PistonKind};
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_model::{ClassError, Connection, Note};
@@ -16,8 +18,35 @@ use windlass_nonlinear::NewtonBracket;
 /// -PISTON.
 pub(super) static PISTON: DeviceKind = DeviceKind {
     option: &o::PISTON,
+    check,
     read: |given| Piston::read(given).map(|piston| Arc::new(piston) as Arc<dyn Device>),
 };
+
+/// The nominal position is within the stroke, the tensions are in order.
+///
+/// # Errors
+/// What contradicts itself, at its value.
+fn check(given: &Given) -> Outcome<()> {
+    const STROKE: ValueKey<f64> = o::PISTON.number("LT");
+    const NOMINAL: ValueKey<f64> = o::PISTON.number("LD");
+    const MOST: ValueKey<f64> = o::PISTON.number("TMAX");
+    const LEAST: ValueKey<f64> = o::PISTON.number("TMIN");
+    if let (Some(stroke), Some(nominal)) = (given.number(STROKE), given.number(NOMINAL))
+        && nominal > stroke
+    {
+        return Err(Diagnostic::error(
+            "the nominal position LD of -PISTON lies beyond its stroke LT",
+            given.place(NOMINAL),
+        ));
+    }
+    match (given.choice(const { o::PISTON.choice("TYPE") }), given.number(MOST), given.number(LEAST)) {
+        (Some(o::PistonKind::MinMax), _, None) => Err(Diagnostic::error("-PISTON MINMAX needs TMIN", given.span)),
+        (_, Some(most), Some(least)) if least >= most => {
+            Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", given.place(LEAST)))
+        }
+        _ => Ok(()),
+    }
+}
 
 /// What a table or a shape of a line with a piston says of it.
 const NOMINAL: &str = "here the piston of -PISTON stands at its nominal position";
@@ -128,7 +157,7 @@ struct OperatingPoint {
 }
 
 impl Piston {
-    /// From the values of its option, which [`crate::checks::piston`] has checked.
+    /// From the values of its option, which [`check`] has checked.
     fn read(given: &Given) -> Option<Piston> {
         Some(Piston {
             both: given.choice(const { o::PISTON.choice("TYPE") }) == Some(PistonKind::MinMax),
