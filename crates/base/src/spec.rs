@@ -167,7 +167,7 @@ impl<T: ?Sized> Clone for DatumKey<T> {
 impl<T: ?Sized> Copy for DatumKey<T> {}
 
 impl Kind {
-    const fn is_number(self) -> bool {
+    pub(crate) const fn is_number(self) -> bool {
         matches!(
             self,
             Kind::Number(_) | Kind::Integer | Kind::StiffnessOfDof | Kind::ForceOfDof | Kind::DampingCoefficient
@@ -175,7 +175,7 @@ impl Kind {
     }
 
     /// Whether it is read as text; a choice is read as the enum of its words.
-    const fn is_text(self) -> bool {
+    pub(crate) const fn is_text(self) -> bool {
         matches!(self, Kind::Name(_) | Kind::ChoiceOrName(..) | Kind::Text | Kind::File)
     }
 }

@@ -265,6 +265,11 @@ impl Given {
     }
 }
 
+/// Whether the first value of an option is of a kind.
+fn begins_with(option: &OptionSpec, is: impl Fn(Kind) -> bool) -> bool {
+    option.values.first().is_some_and(|value| is(value.kind))
+}
+
 impl Args {
     /// A positional datum; `None` when it is left out. The command must declare it.
     pub fn datum<T: ?Sized>(&self, key: DatumKey<T>) -> Option<&Value> {
@@ -330,6 +335,7 @@ impl Args {
 
     /// The first number of such an option.
     pub fn number_if_declared(&self, option: &OptionSpec) -> Option<f64> {
+        debug_assert!(begins_with(option, Kind::is_number), "{} is read as a number", option.name);
         self.option_if_declared(option).and_then(Given::first_number)
     }
 
@@ -352,16 +358,19 @@ impl Args {
 
     /// The first number of an option.
     pub fn option_number(&self, option: &OptionSpec) -> Option<f64> {
+        debug_assert!(begins_with(option, Kind::is_number), "{} is read as a number", option.name);
         self.option(option).and_then(Given::first_number)
     }
 
     /// The first whole number of an option.
     pub fn option_integer(&self, option: &OptionSpec) -> Option<i64> {
+        debug_assert!(begins_with(option, |kind| kind == Kind::Integer), "{} is read as a whole number", option.name);
         self.option(option).and_then(Given::first_integer)
     }
 
     /// The first word of an option.
     pub fn option_word(&self, option: &OptionSpec) -> Option<&str> {
+        debug_assert!(begins_with(option, Kind::is_text), "{} is read as text", option.name);
         self.option(option).and_then(Given::first_word)
     }
 
