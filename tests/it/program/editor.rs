@@ -139,7 +139,7 @@ fn completion_hints_wrong_record_and_ctrl_c() {
     t.see("~LEG B_CAT -TYPE WIRE_SPIRAL");
     t.press("3.5 -LEN 100\r");
     t.ready("MEDIT> ");
-    t.press("&STATUS LIN\tHM\t");
+    t.press("&STATUS LINE_T\tHM\t");
     t.see("&STATUS LINE_TYPES HMPE");
     t.press("\x03");
     t.ready("MEDIT> ");
