@@ -32,6 +32,23 @@ pub trait Choice: Copy + PartialEq + 'static {
 /// assert_eq!((Form::WORDS, Form::from_word("PNG")), (&["SVG", "PNG"][..], Some(Form::Png)));
 /// # let _ = key;
 /// ```
+///
+/// A key for another enum's words does not compile, nor one for a value that the declaration does not have:
+///
+/// ```compile_fail,E0080
+/// # use windlass_base::choice::YesNo;
+/// # use windlass_base::spec::{OptionSpec, ValueSpec};
+/// # windlass_base::choices! { pub enum Form { Svg = "SVG", Png = "PNG" } }
+/// const FORMAT: OptionSpec = OptionSpec::new("-FORMAT", &[ValueSpec::choice::<Form>("FORM", "its form")], "the form");
+/// let key = const { FORMAT.choice::<YesNo>("FORM") };
+/// ```
+///
+/// ```compile_fail,E0080
+/// # use windlass_base::spec::{OptionSpec, ValueSpec};
+/// # windlass_base::choices! { pub enum Form { Svg = "SVG", Png = "PNG" } }
+/// const FORMAT: OptionSpec = OptionSpec::new("-FORMAT", &[ValueSpec::choice::<Form>("FORM", "its form")], "the form");
+/// let key = const { FORMAT.choice::<Form>("FROM") };
+/// ```
 #[macro_export]
 macro_rules! choices {
     ($(#[$meta:meta])* $visibility:vis enum $name:ident { $($(#[$detail:meta])* $variant:ident = $word:literal),+ $(,)? }) => {
