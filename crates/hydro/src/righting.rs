@@ -29,6 +29,9 @@ pub struct Balanced {
 
 /// Balances heave and trim under weight and buoyancy at the roll of a place, from that place.
 ///
+/// Newton's iteration with steps that are limited in length and not searched: the balance is smooth, and without a waterplane the matrix is
+/// singular on the way.
+///
 /// # Errors
 /// A body without weight, or for which no balance was found.
 pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balanced, ClassError> {

@@ -20,12 +20,14 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod bisection;
 mod bracketed_root;
 mod convergence;
 mod line_search;
 mod newton_bracket;
 mod statistics;
 
+pub use bisection::bisect;
 pub use bracketed_root::{BracketedRoot, Halvings};
 pub use convergence::{Convergence, ConvergenceStatus};
 pub use line_search::backtrack;

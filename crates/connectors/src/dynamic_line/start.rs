@@ -6,11 +6,14 @@ use std::f64::consts::PI;
 use windlass_catenary::{self as catenary, Joint, Line, Segment};
 use windlass_line_dynamics::{PlaneBottom, SeabedShape};
 use windlass_model::Surroundings;
+use windlass_nonlinear::bisect;
 
 /// Points of each part between its ends: so many that their chords follow a touchdown of a few metres' radius.
 const POINTS_PER_PART: usize = 400;
 /// Points of a shape that only has the right length.
 const ROUGH_SHAPE_POINTS: usize = 60;
+/// Halvings of the sag of a bow: what is left is below the rounding of its length.
+const SAG_HALVINGS: usize = 60;
 
 /// How far from the bottom an end lies on it (m).
 const ON_BOTTOM: f64 = 0.1;
@@ -123,13 +126,9 @@ fn bow(
             .collect()
     };
     let long = |points: &[Vector3<f64>]| points.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>();
-    let (mut low, mut high) = (0.0, length);
     if long(&shape(0.0)) >= length {
         return shape(0.0);
     }
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if long(&shape(middle)) < length { low = middle } else { high = middle }
-    }
-    shape(high)
+    let [_, sag] = bisect([0.0, length], SAG_HALVINGS, |sag| long(&shape(sag)) < length);
+    shape(sag)
 }

@@ -18,6 +18,7 @@ use multiversion::multiversion;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use windlass_model::Stretching;
+use windlass_nonlinear::bisect;
 
 /// Error of the interpolated elevation and pressure, as a share of their standard deviation.
 const TOLERANCE: f64 = 1e-5;
@@ -249,12 +250,9 @@ fn layers(members: &[&Component], water: Option<f64>, across: f64) -> Vec<[f64; 
         if next > across || spacing(members, water, (deepest - above).max(0.0)) < next {
             break;
         }
-        let [mut low, mut high] = [0.0, (deepest - above).max(0.0)];
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if spacing(members, water, middle) < next { low = middle } else { high = middle }
-        }
-        let found = (high + above).max(top);
+        let lowest = (deepest - above).max(0.0);
+        let [_, place] = bisect([0.0, lowest], HALVINGS, |depth| spacing(members, water, depth) < next);
+        let found = (place + above).max(top);
         if found >= deepest {
             break;
         }

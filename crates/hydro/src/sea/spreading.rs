@@ -6,9 +6,12 @@
 
 use statrs::function::beta::beta_reg;
 use std::f64::consts::{FRAC_PI_2, PI};
+use windlass_nonlinear::bisect;
 
 /// From this exponent on a sea is long-crested.
 pub const LONG_CRESTED: f64 = 200.0;
+/// Halvings of the half circle after which an angle is known to 1e-12.
+const ANGLE_HALVINGS: usize = 42;
 /// The golden section less one.
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
@@ -21,11 +24,7 @@ pub fn share(angle: f64, exponent: f64) -> f64 {
 
 /// The angle (rad) below which a share of the energy is.
 pub fn angle(of: f64, exponent: f64) -> f64 {
-    let (mut low, mut high) = (-FRAC_PI_2, FRAC_PI_2);
-    while high - low > 1e-12 {
-        let middle = 0.5 * (low + high);
-        if share(middle, exponent) < of { low = middle } else { high = middle }
-    }
+    let [low, high] = bisect([-FRAC_PI_2, FRAC_PI_2], ANGLE_HALVINGS, |angle| share(angle, exponent) < of);
     0.5 * (low + high)
 }
 

@@ -8,6 +8,7 @@ use super::{Kinematics, Water};
 use nalgebra::Vector3;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
+use windlass_nonlinear::bisect;
 
 /// Share of the length that a wave breaks at in deep water [MICHE-1944]: H = 0.142 L tanh(k d).
 const MICHE_BREAKING_STEEPNESS: f64 = 0.142;
@@ -160,17 +161,14 @@ impl Stokes {
         breaks(height, linear, &water)?;
         serves(height, linear, &water)?;
         // a wave of finite height is faster than a small one, so it is longer
-        let (mut low, mut high) = (0.2 * linear, linear * (1.0 + 1e-12));
+        let [low, high] = [0.2 * linear, linear * (1.0 + 1e-12)];
         if !(over(low) < 0.0 && over(high) >= 0.0) {
             let text = "no wave number was found for a Stokes wave {} high with a period of {}";
             let told = [(height, Dim::Length), (std::f64::consts::TAU / frequency, Dim::Time)];
             return Err(ClassError::with_values(text, &told).help("REGULAR is the linear wave"));
         }
         // halves until the bounds are neighbours
-        for _ in 0..120 {
-            let middle = 0.5 * (low + high);
-            if over(middle) < 0.0 { low = middle } else { high = middle }
-        }
+        let [low, high] = bisect([low, high], 120, |k| over(k) < 0.0);
         let number = 0.5 * (low + high);
         breaks(height, number, &water)?;
         serves(height, number, &water)?;
