@@ -5,7 +5,7 @@ use std::cell::Cell;
 use windlass_base::diagnostic::Severity;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
-use windlass_base::table::Table;
+use windlass_base::table::{Table, TableNote};
 use windlass_base::values::Value;
 use windlass_base::wildcard::matches;
 use windlass_model::{EntityKind, Model};
@@ -69,54 +69,52 @@ impl<'a> NameFilter<'a> {
     }
 }
 
-/// The remarks of several things, each text once, with the names of all it holds for; `warning: ` stays in front.
-pub fn merge_remarks(list: &[(String, Vec<String>)]) -> Vec<String> {
+/// The remarks of several things, each once, with the names of all it holds for.
+pub fn merge_remarks(list: &[(String, Vec<TableNote>)]) -> Vec<TableNote> {
     /// Names written out; of more the number is given.
     const MAX_NAMES: usize = 8;
-    let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
+    let mut merged: Vec<(&TableNote, Vec<&str>)> = Vec::new();
     for (name, notes) in list {
         for note in notes {
-            match texts.iter_mut().find(|(text, _)| text == note) {
+            match merged.iter_mut().find(|(known, _)| *known == note) {
                 Some((_, names)) => names.push(name),
-                None => texts.push((note, vec![name])),
+                None => merged.push((note, vec![name])),
             }
         }
     }
-    let line = |(text, names): (&str, Vec<&str>)| {
-        let (mark, text) = text.strip_prefix(WARNING).map_or(("", text), |rest| (WARNING, rest));
+    let line = |(note, names): (&TableNote, Vec<&str>)| {
         let more = names.len().saturating_sub(MAX_NAMES);
         let names = names.into_iter().take(MAX_NAMES).collect::<Vec<_>>().join(", ");
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        format!("{mark}{names}{more}: {text}")
+        TableNote { text: format!("{names}{more}: {}", note.text), ..note.clone() }
     };
-    texts.into_iter().map(line).collect()
+    merged.into_iter().map(line).collect()
 }
-
-/// What stands before a note that warns.
-pub const WARNING: &str = Severity::Warning.mark();
 
 /// Raises the warnings among the notes of a table at once: they concern all of it, whatever is then printed of it.
 pub fn raise(job: &mut Job, table: &Table, span: Span) {
     job.verdict.absent += table.absent;
-    let warnings = table.notes.iter().filter_map(|n| n.strip_prefix(WARNING));
-    warnings.for_each(|text| job.warn(text, span));
+    let warnings = table.notes.iter().filter(|note| note.severity == Severity::Warning);
+    warnings.for_each(|note| job.warn(note.text.as_str(), span));
 }
 
 /// Notes what is computed by a shortcut or is missing and accepted, under the first of some tables.
 pub fn note_caveats(model: &Model, tables: &mut [Table]) {
     if let Some(table) = tables.first_mut() {
-        table.notes.extend(model.caveats());
+        table.add_notes(model.caveats());
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::merge_remarks;
+    use super::TableNote;
 
     #[test]
     fn remark_on_several_items_is_reported_once_with_all_names() {
-        let both = || vec!["warning: it breaks".to_string(), "it is slack".into()];
-        let list = [("A".to_string(), both()), ("B".into(), vec!["warning: it breaks".into()])];
+        let breaks = || TableNote::warning("it breaks");
+        let both = || vec![breaks(), "it is slack".into()];
+        let list = [("A".to_string(), both()), ("B".into(), vec![breaks()])];
+        let merge_remarks = |list: &[_]| super::merge_remarks(list).iter().map(ToString::to_string).collect::<Vec<_>>();
         assert_eq!(merge_remarks(&list), ["warning: A, B: it breaks", "A: it is slack"]);
         let many: Vec<_> = (1..=10).map(|n| (n.to_string(), both())).collect();
         assert_eq!(merge_remarks(&many)[1], "1, 2, 3, 4, 5, 6, 7, 8 and 2 more: it is slack");

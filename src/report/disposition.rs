@@ -292,7 +292,8 @@ impl Disposition {
             column.cells = rows.iter().filter_map(|row| column.cells.get(*row)).cloned().collect();
         }
         let notes = &mut out.table.notes;
-        let renumbered = rows.len() < self.table.rows() && notes.first().is_some_and(|first| first != OF_THE_WHOLE);
+        let renumbered =
+            rows.len() < self.table.rows() && notes.first().is_some_and(|first| first.text != OF_THE_WHOLE);
         if renumbered {
             notes.insert(0, OF_THE_WHOLE.into());
         }

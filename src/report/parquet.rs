@@ -59,7 +59,7 @@ fn written(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
         ("title", table.title.clone()),
         ("source", SOURCE.to_string()),
         ("units", format!("{{{}}}", units.join(","))),
-        ("notes", table.notes.join("\n")),
+        ("notes", table.notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")),
     ];
     let facts = facts.into_iter().map(|(key, value)| KeyValue::new(key.to_string(), value)).collect();
     let properties = Arc::new(WriterProperties::builder().set_key_value_metadata(Some(facts)).build());

@@ -43,6 +43,15 @@ pub struct Column {
     pub cells: Vec<Cell>,
 }
 
+/// A remark under the rows of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableNote {
+    /// How serious.
+    pub severity: Severity,
+    /// One sentence, without what its severity begins with.
+    pub text: String,
+}
+
 /// A result: a title, facts that hold for all rows, columns of equal length, and remarks for the reader.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Table {
@@ -53,7 +62,7 @@ pub struct Table {
     /// Columns; all have the same number of cells.
     pub columns: Vec<Column>,
     /// Remarks printed under the rows.
-    pub notes: Vec<String>,
+    pub notes: Vec<TableNote>,
     /// Results that were asked for and could not be found; the remarks say why.
     pub absent: usize,
 }
@@ -111,6 +120,32 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
     }
 }
 
+impl TableNote {
+    /// A warning.
+    pub fn warning(text: impl Into<String>) -> Self {
+        TableNote { severity: Severity::Warning, text: text.into() }
+    }
+}
+
+impl std::fmt::Display for TableNote {
+    /// The remark as it is printed: with what its severity begins with.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}{}", self.severity.mark(), self.text)
+    }
+}
+
+impl From<String> for TableNote {
+    fn from(text: String) -> Self {
+        TableNote { severity: Severity::Note, text }
+    }
+}
+
+impl From<&str> for TableNote {
+    fn from(text: &str) -> Self {
+        text.to_string().into()
+    }
+}
+
 impl Table {
     /// An empty table with a title.
     pub fn new(title: impl Into<String>) -> Self {
@@ -142,12 +177,17 @@ impl Table {
 
     /// Adds a warning below the table.
     pub fn warn(&mut self, text: impl std::fmt::Display) {
-        self.notes.push(format!("{}{text}", Severity::Warning.mark()));
+        self.notes.push(TableNote::warning(text.to_string()));
     }
 
     /// Adds a remark.
-    pub fn note(&mut self, text: impl Into<String>) {
+    pub fn note(&mut self, text: impl Into<TableNote>) {
         self.notes.push(text.into());
+    }
+
+    /// Adds remarks.
+    pub fn add_notes<N: Into<TableNote>>(&mut self, notes: impl IntoIterator<Item = N>) {
+        self.notes.extend(notes.into_iter().map(Into::into));
     }
 
     /// Counts a result that was asked for and could not be found, and warns of the reason.

@@ -329,7 +329,7 @@ impl LineModel for Mooring {
             .column("", "Touchdown", Dim::Length, Digits::Usual, |p| p.is_touchdown.then_some(p.point.z))
             .column("", "Joint", Dim::Length, Digits::Usual, |p| p.is_joint.then_some(p.point.z))
             .build();
-        out.notes.extend(state.joints.iter().enumerate().filter_map(|(i, j)| {
+        out.add_notes(state.joints.iter().enumerate().filter_map(|(i, j)| {
             j.buoy.map(|b| format!("the buoy at the end of segment {} is {}", i + 1, buoy_word(b)))
         }));
         if state.slack {

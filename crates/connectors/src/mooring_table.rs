@@ -47,8 +47,8 @@ pub fn report(mooring: &Mooring, connector: &str, found: &[TableRow], missing: &
     }
     let buoy = |row: &Option<&TableRow>| row.and_then(|r| r.state.joints.iter().find_map(|j| j.buoy));
     let states: Vec<Option<Buoy>> = rows.iter().map(buoy).collect();
-    out.notes.extend(buoy_notes(&states));
-    out.notes.extend(mooring.notes.iter().map(Note::without_values));
+    out.add_notes(buoy_notes(&states));
+    out.add_notes(mooring.notes.iter().map(Note::for_table_without_values));
     if rows.iter().any(is(|r| !r.state.below_bottom.is_empty())) {
         out.warn("a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
     }

@@ -2,6 +2,7 @@
 
 use windlass_base::diagnostic::Severity;
 use windlass_base::message::Message;
+use windlass_base::table::TableNote;
 use windlass_base::units::{Dim, UnitSystem};
 
 /// A sentence with values; `{}` in it stands for each of them.
@@ -31,6 +32,16 @@ impl Note {
     /// The sentence with its values to so many decimals in these units.
     pub fn text(&self, units: UnitSystem) -> String {
         self.severity.mark().to_string() + &self.sentence(units)
+    }
+
+    /// The same for a table.
+    pub fn for_table(&self, units: UnitSystem) -> TableNote {
+        TableNote { severity: self.severity, text: self.sentence(units) }
+    }
+
+    /// The same for a table made where no units are known.
+    pub fn for_table_without_values(&self) -> TableNote {
+        TableNote { severity: self.severity, text: self.message.without_values() }
     }
 
     /// The same without its severity.

@@ -6,7 +6,7 @@ use super::system::{DOFS, SolveError, System, without_rounding};
 use super::watch::{Circle, WatchedBody};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
-use windlass_base::table::{Digits, Table, TableBuilder};
+use windlass_base::table::{Digits, Table, TableBuilder, TableNote};
 use windlass_base::units::{Dim, UnitSystem};
 
 /// The system without the lines that are removed, and the one with them where some are.
@@ -89,22 +89,23 @@ fn degrees(angle: f64) -> String {
 }
 
 /// How a path ended, as a note.
-fn note(end: &ExcursionEnd, names: &[String], at: f64, units: UnitSystem) -> Option<String> {
+fn note(end: &ExcursionEnd, names: &[String], at: f64, units: UnitSystem) -> Option<TableNote> {
     let with_unit = |dim: Dim, value: f64| format!("{:.2} {}", dim.from_si(value, units), dim.label(units));
     match end {
         ExcursionEnd::Breaks(line) => {
             let name = names.get(*line).map_or("", String::as_str);
             Some(if at > 0.0 {
-                format!("line {name} breaks at an excursion of {}", with_unit(Dim::Length, at))
+                format!("line {name} breaks at an excursion of {}", with_unit(Dim::Length, at)).into()
             } else {
-                format!("warning: line {name} is beyond its breaking tension where the body is")
+                TableNote::warning(format!("line {name} is beyond its breaking tension where the body is"))
             })
         }
         ExcursionEnd::Most => None,
         ExcursionEnd::Lost(SolveError { who, error }) => {
             let who = who.as_deref().map_or(String::new(), |w| format!("{w}: "));
             let at = with_unit(Dim::Length, at);
-            Some(format!("warning: the table ends at an excursion of {at}: farther on {who}{}", error.text(units)))
+            let text = format!("the table ends at an excursion of {at}: farther on {who}{}", error.text(units));
+            Some(TableNote::warning(text))
         }
     }
 }
@@ -176,7 +177,7 @@ pub fn table_along_direction(
             .column("Intact", "Intact Line", Dim::None, Digits::Usual, |row| row.intact.line.as_deref());
     }
     let mut table = table.build();
-    table.notes.extend(note(&end, &names, list.last().map_or(0.0, |m| m.excursion), units));
+    table.add_notes(note(&end, &names, list.last().map_or(0.0, |m| m.excursion), units));
     table.note("the restoring force pushes back along the direction; the transverse force is toward its left");
     table.note("moments are about the body's origin, along global axes");
     Ok(table)
@@ -267,7 +268,7 @@ pub fn table_of_directions(
             });
     }
     let mut table = table.build();
-    table.notes.extend(lost);
+    table.add_notes(lost);
     table.note("directions in which the body is moved, from +X toward +Y; PLOT Direction Excursion -POLAR draws them");
     if at.iter().any(|(excursion, _)| table.get("Excursion").is_some_and(|c| c.numbers().iter().any(|e| e < excursion)))
     {

@@ -74,7 +74,7 @@ pub fn run_table(run: &Run) -> Table {
     if !quasi_static.is_empty() {
         table.note(format!("quasi-static lines, without inertia and drag of their own: {}", list_names(&quasi_static)));
     }
-    table.notes.extend(run.model.caveats());
+    table.add_notes(run.model.caveats());
     if let Some(names) = without_drift(&run.model).filter(|_| run.sea.is_some()) {
         table.note(format!(
             "{names}: -DIFTYPE FK is no drift force; its mean (W_MEAN of BODY_FORCE) is of the undisturbed waves alone, and #DRIFT gives drift"
@@ -218,7 +218,7 @@ pub fn extremes(run: &Run) -> Vec<Table> {
         }
     }
     if let Some(last) = tables.last_mut() {
-        last.notes.extend(run.model.caveats());
+        last.add_notes(run.model.caveats());
         last.note(match run.settings.transient {
             t if t > 0.0 => "of the stored instants behind TTRA_SET: PRCPOST takes other parts",
             _ => "of all stored instants, the beginning included: PRCPOST takes parts",

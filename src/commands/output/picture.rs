@@ -1,12 +1,13 @@
 //! `&PICTURE`: the system as it stands, in plan, elevation or slantwise.
 
-use crate::commands::chosen::{NameFilter, WARNING, merge_remarks};
+use crate::commands::chosen::{NameFilter, merge_remarks};
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
 use windlass_base::choice::{Choice, YesNo};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::table::TableNote;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
@@ -201,12 +202,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("interrupted", args.span));
     };
     chosen.check_used("what can be drawn", &[EntityKind::Connector, EntityKind::Body])?;
-    let problems: Vec<(String, Vec<String>)> = unshaped
+    let problems: Vec<(String, Vec<TableNote>)> = unshaped
         .into_iter()
         .map(|(name, error)| {
             let straight = scene.paths.iter().any(|p| p.name == name);
             let how = if straight { "dashed between its ends" } else { "not drawn" };
-            (name, vec![format!("{WARNING}{how}: {}", error.text(job.units))])
+            (name, vec![format!("{how}: {}", error.text(job.units)).into()])
         })
         .collect();
     let title = args.option_word(&HEADING).unwrap_or(&job.titles[0]).to_string();
@@ -237,8 +238,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             job.say(&text);
         }
     }
-    for text in merge_remarks(&problems) {
-        job.warn(text.strip_prefix(WARNING).unwrap_or(&text), args.span);
+    for note in merge_remarks(&problems) {
+        job.warn(note.text, args.span);
     }
     Ok(Effect::Done)
 }

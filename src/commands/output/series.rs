@@ -225,7 +225,7 @@ fn open(
 ) -> Outcome<Effect> {
     let (record, without) = record(job, &call.args)?;
     let mut table = make(&record, &call.args).map_err(|e| wrong(&call.args, &e))?;
-    table.notes.extend(without);
+    table.add_notes(without);
     enter(job, table);
     Ok(Effect::Done)
 }
@@ -247,7 +247,7 @@ fn spectrum(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(without) = &without {
         text.push_str(&format!("\n\n   {without}"));
     }
-    table.notes.extend(without);
+    table.add_notes(without);
     job.say(&text);
     enter(job, table);
     Ok(Effect::Done)

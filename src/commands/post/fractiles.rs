@@ -55,7 +55,7 @@ fn build(query: &PostQuery) -> Outcome<Table> {
     });
     let percent = query.args().option(&PERCENT).map_or(DEFAULT_PERCENT.to_vec(), Given::numbers);
     let mut table = fractile_table(&records.collect::<Vec<_>>(), &percent, events.len());
-    table.notes.extend(series.notes);
+    table.add_notes(series.notes);
     Ok(table)
 }
 

@@ -174,7 +174,7 @@ fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .and_then(|l| {
             let mut made = l.geometry(&connector.name, condition)?;
             let remarks = l.configuration(condition)?.notes;
-            made.notes.splice(0..0, remarks.iter().map(|note| note.text(job.units)));
+            made.notes.splice(0..0, remarks.iter().map(|note| note.for_table(job.units)));
             Ok(made)
         })
         .map_err(|e| e.diagnostic(span, job.units).help(format!("while shaping connector {}", connector.name)))?;

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-REF equi].
 
-use crate::commands::chosen::{WARNING, note_caveats, raise};
+use crate::commands::chosen::{note_caveats, raise};
 use crate::commands::output::disposition::{BOTH, HARD, send};
 use crate::commands::verdict::{OverBreak, check_over_break};
 use crate::commands::{Call, Command, Effect, Job};
@@ -152,8 +152,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?,
         ),
         Err(error) => {
-            let text = format!("{WARNING}natural periods are left out: {}", error.text(job.units));
-            list.iter_mut().take(1).for_each(|t| t.note(text.as_str()));
+            let text = format!("natural periods are left out: {}", error.text(job.units));
+            list.iter_mut().take(1).for_each(|t| t.warn(&text));
         }
     }
     note_caveats(&job.model, &mut list);

@@ -170,7 +170,7 @@ fn systems(job: &Job, args: &Args) -> Outcome<Systems> {
 /// Opens the disposition menu over a table, and raises its warnings.
 fn dispose(job: &mut Job, mut made: Table, args: &Args) -> Effect {
     let acting = job.model.connectors.values().filter(|c| c.active).map(|c| c.name.as_str());
-    made.notes.extend(job.model.idealisations(acting));
+    made.add_notes(job.model.idealisations(acting));
     note_caveats(&job.model, std::slice::from_mut(&mut made));
     raise(job, &made, args.place(NAMED));
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-REF freq_mot].
 
-use crate::commands::chosen::{WARNING, raise};
+use crate::commands::chosen::raise;
 use crate::commands::environment::env;
 use crate::commands::environment::probability;
 use crate::commands::menu;
@@ -11,7 +11,7 @@ use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::page;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
@@ -172,7 +172,7 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
         headings.len(),
         Dim::None,
     );
-    table.notes.extend(linear.notes.iter().cloned());
+    table.add_notes(linear.notes.iter().cloned());
     say(job, &table, args.span);
     keep(job, FrequencyResults::Operators(Arc::new(linear), made));
     Ok(Effect::Done)
@@ -182,7 +182,7 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn say(job: &mut Job, table: &Table, span: Span) {
     raise(job, table, span);
     let mut plain = table.clone();
-    plain.notes.retain(|n| !n.starts_with(WARNING));
+    plain.notes.retain(|note| note.severity != Severity::Warning);
     let head = job.page_head();
     job.say(&page::render(&plain, job.units, &head));
 }
@@ -220,7 +220,7 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .fact("Frequencies of Waves", made.waves.len(), Dim::None)
         .fact("Frequencies of Slow Drift", made.slow.len(), Dim::None)
         .fact("Rounds of Linearisation", made.rounds, Dim::None);
-    table.notes.extend(linear.notes.iter().cloned());
+    table.add_notes(linear.notes.iter().cloned());
     say(job, &table, args.span);
     keep(job, FrequencyResults::Spectral(Arc::new(linear), made, probability::extreme(&model.environment)));
     Ok(Effect::Done)

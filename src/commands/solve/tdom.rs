@@ -393,7 +393,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         first.note(format!("the quasi-static lines are not replayed as dynamic lines: {reason}"));
     }
     let screening = screening.unwrap_or_default();
-    first.notes.extend(screening::remarks(&screening, job.units));
+    first.add_notes(screening::remarks(&screening, job.units));
     let mut tables = vec![first];
     tables.extend(run_tables::extremes(&made));
     tables.extend(run_tables::balance(&made));

@@ -130,7 +130,7 @@ pub fn tabulate(
         let found = line.and_then(|line| line.configuration(condition));
         match found {
             Ok(found) => {
-                notes.push((named, found.notes.iter().map(|note| note.text(job.units)).collect()));
+                notes.push((named, found.notes.iter().map(|note| note.for_table(job.units)).collect()));
                 rows.push((value, Some(found)));
             }
             Err(error) => {
@@ -148,7 +148,7 @@ pub fn tabulate(
     if place.bathymetry.is_some() && matches!(parameter, Parameter::Depth | Parameter::Slope) {
         table.note("the line lies on a plane through its anchor here, not on the bathymetry");
     }
-    table.notes.extend(missing.iter().map(|(text, _)| text.clone()));
+    table.add_notes(missing.iter().map(|(text, _)| text.clone()));
     table.absent = missing.len();
     Ok((table, missing))
 }

@@ -4,7 +4,7 @@ use crate::commands::Job;
 use crate::commands::help::wrap;
 use crate::commands::status::kind::StatusKind;
 use windlass_base::choice::Choice;
-use windlass_base::table::{Digits, Table};
+use windlass_base::table::{Digits, Table, TableNote};
 use windlass_base::units::Dim;
 use windlass_model::EntityKind;
 use windlass_model::options::C_SN;
@@ -84,7 +84,8 @@ fn segments(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
             let curve = name.as_deref().and_then(|n| find(n, &model.fatigue));
             let number = index + 1;
             if let (Some(name), None) = (&name, &curve) {
-                unknown.push(format!("warning: {} segment {number}: there is no fatigue curve {name}", class.name));
+                let text = format!("{} segment {number}: there is no fatigue curve {name}", class.name);
+                unknown.push(TableNote::warning(text));
             }
             rows.push(SegmentRow { class: (index == 0).then_some(&class.name), number, segment, name, curve });
         }
@@ -117,7 +118,7 @@ fn segments(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
             table = table.fact("                     MAXCOR", thickness.most, Dim::None);
         }
     }
-    table.notes.extend(unknown);
+    table.add_notes(unknown);
     Some(table)
 }
 

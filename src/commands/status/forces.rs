@@ -1,10 +1,10 @@
 //! `&STATUS F_CONNECTOR`: the forces of the connectors between their ends as they are.
 
-use crate::commands::chosen::{WARNING, merge_remarks};
+use crate::commands::chosen::merge_remarks;
 use crate::commands::status::kind::StatusKind;
 use crate::commands::verdict::{Verdict, check_over_break};
 use windlass_base::pose::Six;
-use windlass_base::table::{Digits, Table};
+use windlass_base::table::{Digits, Table, TableNote};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
@@ -47,7 +47,7 @@ pub(crate) struct ConnectorForces {
 /// solution have no forces. Tensions beyond a break go to `verdict`.
 pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, verdict: &mut Verdict) -> Vec<Table> {
     let mut table = Table::new("Connector Forces");
-    let mut notes: Vec<(String, Vec<String>)> = Vec::new();
+    let mut notes: Vec<(String, Vec<TableNote>)> = Vec::new();
     let (mut rows, mut springs, mut fenders) = (Vec::new(), Vec::new(), Vec::new());
     for connector in model.connectors.values().filter(|c| fits(&c.name)) {
         let (solution, found) = match connector.active {
@@ -60,7 +60,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
                 }
                 Err(error) => {
                     table.absent += 1;
-                    notes.push((connector.name.clone(), vec![format!("{WARNING}{}", error.text(units))]));
+                    notes.push((connector.name.clone(), vec![TableNote::warning(error.text(units))]));
                     ("none", None)
                 }
             },
@@ -108,7 +108,7 @@ fn force_columns(table: Table, rows: &[(&Connector, &str, Option<ConnectorForces
 /// The FOUNDATION check [MOSES-FLEX FOUNDATION]: every spring of every foundation against its allowable, and the largest of each.
 pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Table {
     let (mut springs, mut absent) = (Vec::new(), 0);
-    let mut notes: Vec<(String, Vec<String>)> = Vec::new();
+    let mut notes: Vec<(String, Vec<TableNote>)> = Vec::new();
     let mut largest: Option<(f64, &str)> = None;
     let foundation = |c: &&Connector| {
         model.classes.get(&Model::key(&c.class)).is_some_and(|class| class.object.role() == ClassRole::Foundation)
@@ -126,7 +126,7 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
             }
             Err(error) => {
                 absent += 1;
-                notes.push((connector.name.clone(), vec![format!("{WARNING}{}", error.text(units))]));
+                notes.push((connector.name.clone(), vec![TableNote::warning(error.text(units))]));
             }
         }
     }
@@ -138,8 +138,8 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
 }
 
 /// Takes what a user should know out of a summary, in these units.
-fn take_remarks(summary: &mut ElementSummary, units: UnitSystem) -> Vec<String> {
-    std::mem::take(&mut summary.notes).iter().map(|note| note.text(units)).collect()
+fn take_remarks(summary: &mut ElementSummary, units: UnitSystem) -> Vec<TableNote> {
+    std::mem::take(&mut summary.notes).iter().map(|note| note.for_table(units)).collect()
 }
 
 /// What a connector does between its ends as they are.

@@ -102,7 +102,7 @@ fn culled_table_notes_state_once_they_cover_the_whole_table() {
     let mut d = menu();
     d.table.note("row 5 is beyond the breaking tension");
     let us = UnitSystem::default();
-    let notes = |d: &Disposition| d.table.notes.join("; ");
+    let notes = |d: &Disposition| d.table.notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
     assert_eq!(notes(&d.cull("X", &[(8.0, 9.0)], us).unwrap()), "row 5 is beyond the breaking tension");
     let once = d.cull("X", &[(1.0, 1.0)], us).unwrap();
     let want = "of the whole table, by its row numbers before CULL:; row 5 is beyond the breaking tension";

@@ -134,7 +134,7 @@ fn paid_out_pipe_is_checked_against_static_state_of_its_position() {
     let all = events(&made.history, None).unwrap();
     let factors = LrfdFactors::default();
     let table = check(&line, &Code::Lrfd(factors, 0.0), &all[all.len() - 1..]).unwrap();
-    assert!(table.notes.iter().any(|n| n.contains("winch")), "{:?}", table.notes);
+    assert!(table.notes.iter().any(|n| n.text.contains("winch")), "{:?}", table.notes);
     // design tension gamma_F T0 + gamma_E (T - T0), T0 that of 50 m from the place to the load and 1000 N
     let (used, arcs, tension) = (column(&table, "Utilisation"), column(&table, "Arc"), column(&table, "Tension"));
     let design = |arc: f64, tension: f64| {

@@ -330,11 +330,11 @@ fn clumps_and_spring_buoys_act_at_segment_end_and_follow_tide() {
     assert!(weighed < bare, "{weighed} {bare}");
     let (held, notes) = joint(&line("-CLUMP -2E6 60"));
     near(held, -60.0, 1e-9);
-    assert!(notes.iter().any(|n| n.contains("held by its pendant")), "{notes:?}");
+    assert!(notes.iter().any(|n| n.text.contains("held by its pendant")), "{notes:?}");
     let (tide, _) = joint(&format!("END\n&ENV -TIDE 3\nMEDIT\n{}", line("-CLUMP -2E6 60")));
     near(tide, -57.0, 1e-9);
     let (sunk, notes) = joint(&line("-CLUMP -1E5 60"));
-    assert!(sunk < -60.0 && notes.iter().any(|n| n.contains("is sunk")), "{sunk} {notes:?}");
+    assert!(sunk < -60.0 && notes.iter().any(|n| n.text.contains("is sunk")), "{sunk} {notes:?}");
 }
 
 #[test]

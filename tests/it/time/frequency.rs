@@ -363,7 +363,7 @@ fn dynamic_lines_are_reported_as_quasi_static_in_frequency_domain() {
         let mut model = model(more, "");
         attach(&mut model, DriftMethod::None);
         let linear = LinearSystem::new(&model).unwrap();
-        let found = linear.notes.iter().any(|n| n.starts_with("ROD: ") && n.contains("without dynamics"));
+        let found = linear.notes.iter().any(|n| n.text.starts_with("ROD: ") && n.text.contains("without dynamics"));
         assert_eq!(found, told, "{:?}", linear.notes);
     }
 }

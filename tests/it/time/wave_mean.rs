@@ -53,7 +53,12 @@ fn mean_pressure_on_flared_hull_matches_waterline_drift() {
     for group in ["WAVE", "W_MEAN"] {
         assert!(mean(&table, group, "FX").abs() < allowed, "{group} {}", mean(&table, group, "FX"));
     }
-    let notes = table.notes.join(" ") + &run_tables::run_table(&made).notes.join(" ");
+    let notes = [table.notes, run_tables::run_table(&made).notes]
+        .concat()
+        .iter()
+        .map(|n| n.text.as_str())
+        .collect::<Vec<_>>()
+        .join(" ");
     assert!(notes.contains("W_MEAN is what is slow") && notes.contains("B: -DIFTYPE FK is no drift force"), "{notes}");
 }
 

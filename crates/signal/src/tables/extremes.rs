@@ -74,7 +74,7 @@ pub fn extremes(record: &SeriesRecord, asked: Extremes) -> Result<Table, SeriesE
     table.note("Rayleigh: a Gaussian narrow-banded process of this deviation and up-crossing period");
     table.note("Weibull: greatest likelihood on the maxima between crossings of the mean; Gumbel: the same on maxima of blocks");
     table.note("intervals of the most probable value are asymptotic (Fisher information, delta method), maxima being independent");
-    table.notes.extend(notes);
+    table.add_notes(notes);
     Ok(table)
 }
 
@@ -149,7 +149,11 @@ mod tests {
     fn short_record_states_its_minimum_length() {
         let t = extremes(&record(200.0), Extremes { duration: 10800.0, blocks: None, lows: false }).unwrap();
         assert_eq!(t.columns[1].numbers().len(), 1);
-        assert!(t.notes.iter().any(|n| n.starts_with("Weibull of S") && n.contains("at least 30")), "{:?}", t.notes);
+        assert!(
+            t.notes.iter().any(|n| n.text.starts_with("Weibull of S") && n.text.contains("at least 30")),
+            "{:?}",
+            t.notes
+        );
         assert!(extremes(&record(4.0), Extremes { duration: 10800.0, blocks: None, lows: false }).is_err());
         assert!(extremes(&record(200.0), Extremes { duration: 1.0, blocks: None, lows: false }).is_err());
     }

@@ -80,7 +80,7 @@ pub fn density(record: &SeriesRecord, length: Option<usize>) -> Result<Table, Se
     if resampled {
         table.note(RESAMPLED);
     }
-    table.notes.extend(notes);
+    table.add_notes(notes);
     Ok(table)
 }
 
@@ -151,7 +151,7 @@ mod tests {
         r.times[7] += 0.2;
         let t = density(&r, Some(1024)).unwrap();
         assert!(
-            t.notes.iter().any(|n| n == RESAMPLED) && t.notes.iter().any(|n| n.contains("SI units")),
+            t.notes.iter().any(|n| n.text == RESAMPLED) && t.notes.iter().any(|n| n.text.contains("SI units")),
             "{:?}",
             t.notes
         );

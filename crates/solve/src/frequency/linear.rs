@@ -7,6 +7,7 @@ use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
 use windlass_base::dense::{DenseError, Lu, SymmetricEigen, never};
 use windlass_base::pose::{Pose, Six};
+use windlass_base::table::TableNote;
 use windlass_base::units::Dim;
 use windlass_hydro::database::radiation::Radiation;
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
@@ -65,7 +66,7 @@ pub struct LinearSystem {
     /// Depth with the tide (m).
     pub(super) depth: Option<f64>,
     /// What a user should know; `warning: ` before what is dangerous.
-    pub notes: Vec<String>,
+    pub notes: Vec<TableNote>,
 }
 
 impl Floats {
@@ -113,7 +114,7 @@ impl LinearSystem {
         let around = &system.surroundings;
         let depth = around.depth.map(|d| d + around.tide);
         let linearised = DMatrix::zeros(mass.nrows(), mass.nrows());
-        let notes = model.caveats();
+        let notes = model.caveats().into_iter().map(Into::into).collect();
         let (poses, stiffness) = (state.poses.clone(), state.stiffness.clone());
         let mut made = LinearSystem {
             system,
@@ -152,21 +153,22 @@ impl LinearSystem {
             }
         }
         if !restless.is_empty() {
-            let text = format!("warning: {} not at rest where the motions are taken about: &EQUI", list(&restless));
-            self.notes.push(text);
+            let text = format!("{} not at rest where the motions are taken about: &EQUI", list(&restless));
+            self.notes.push(TableNote::warning(text));
         }
         if !still.is_empty() {
-            self.notes.push(format!("no waves act on {}: without a hydrodynamic database", still.join(", ")));
+            self.notes.push(format!("no waves act on {}: without a hydrodynamic database", still.join(", ")).into());
         }
         if !in_time.is_empty() {
             let text = format!("waves act on members and hulls (-DIFTYPE FK) of {} in TDOM alone", in_time.join(", "));
-            self.notes.push(text);
+            self.notes.push(text.into());
         }
         for (index, node) in self.system.nodes.iter().enumerate() {
             let own = self.damping.fixed_view::<6, 6>(6 * index, 6 * index).into_owned();
             let least = SymmetricEigen::new(own + own.transpose(), &never).map_or(0.0, |e| e.values.min());
             if least < -1e-9 * own.amax() {
-                self.notes.push(format!("warning: {} has a damping that is negative in some motion", node.name));
+                let text = format!("{} has a damping that is negative in some motion", node.name);
+                self.notes.push(TableNote::warning(text));
             }
         }
     }
@@ -180,7 +182,7 @@ impl LinearSystem {
                 "{}: a dynamic line follows the bodies here as at rest, without dynamics of its own",
                 moving.join(", ")
             );
-            self.notes.push(text);
+            self.notes.push(text.into());
         }
     }
 

@@ -105,7 +105,7 @@ pub fn connector_forces(
     }
     table.note("the force is that on the first end on a body");
     if several {
-        table.notes.extend(idealisations(run, links));
+        table.add_notes(idealisations(run, links));
     }
     table.note(
         "Mag./Break is the largest tension of a segment over its own break; the length on the bottom is unstretched",
@@ -143,7 +143,7 @@ pub fn magnitudes(run: &Run, links: &[usize], magnitude: Magnitude, events: &[Ru
         });
     }
     let mut table = table.build();
-    table.notes.extend(idealisations(run, links));
+    table.add_notes(idealisations(run, links));
     Ok(table)
 }
 

@@ -196,8 +196,12 @@ fn check_table(line: &LineResults, code: &Code, checked: &[Checked], worst: &[Op
     if let Some((node, Worst { used, time, .. })) = most {
         // sums of steps are off in their last digits
         let time = (time * 1e6).round() / 1e6;
-        let holds = if used > 1.0 { "warning: it does not hold; most" } else { "most" };
-        table.note(format!("{holds} is used at node {node}: {used:.3} at {time} s"));
+        let where_most = format!("most is used at node {node}: {used:.3} at {time} s");
+        if used > 1.0 {
+            table.warn(format!("it does not hold; {where_most}"));
+        } else {
+            table.note(where_most);
+        }
     }
     match code {
         Code::Lrfd(factors, _) if by_code => table.note(format!(

@@ -127,7 +127,7 @@ pub fn fatigue_table(
 
 fn note_once(table: &mut Table, curve: &SnCurve) {
     let text = format!("the numbers of curve {} are not confirmed: &STATUS SN", curve.name);
-    if !table.notes.contains(&text) {
+    if !table.notes.iter().any(|note| note.text == text) {
         table.note(text);
     }
 }

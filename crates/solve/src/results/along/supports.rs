@@ -39,6 +39,6 @@ pub fn supports(line: &LineResults, magnitude: Magnitude, events: &[RunEvent]) -
         });
     }
     let mut table = table.build();
-    table.notes.extend(grounded);
+    table.add_notes(grounded);
     Ok(table)
 }
