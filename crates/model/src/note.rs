@@ -29,12 +29,7 @@ impl Note {
         self.severity.mark().to_string() + &self.message.without_values()
     }
 
-    /// The sentence with its values to so many decimals in these units.
-    pub fn text(&self, units: UnitSystem) -> String {
-        self.severity.mark().to_string() + &self.sentence(units)
-    }
-
-    /// The same for a table.
+    /// The remark for a table, in these units.
     pub fn for_table(&self, units: UnitSystem) -> TableNote {
         TableNote { severity: self.severity, text: self.sentence(units) }
     }
@@ -44,7 +39,7 @@ impl Note {
         TableNote { severity: self.severity, text: self.message.without_values() }
     }
 
-    /// The same without its severity.
+    /// The sentence with its values to so many decimals in these units, without its severity.
     pub fn sentence(&self, units: UnitSystem) -> String {
         const DECIMALS: usize = 2;
         self.message.text(units, |value| format!("{value:.DECIMALS$}"))
