@@ -40,7 +40,7 @@ static LISTS: &[HelpList] = &[
     HelpList {
         command: &status::STATUS,
         head: "It reports:",
-        rows: |_| status::kinds_told().map(|(name, help)| (name, help.to_string())).collect(),
+        rows: |_| status::listed_kinds().map(|(name, help)| (name, help.to_string())).collect(),
     },
     HelpList {
         command: &menus::PRCPOST,

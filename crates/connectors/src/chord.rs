@@ -1,6 +1,6 @@
 //! A spring along the chord between two ends: a weightless line, or one that also takes compression.
 
-use super::extension::{EndPull, Extended, Extension};
+use super::extension::{EndPull, ExtensibleLine, Extension};
 use super::mooring::{Mooring, no_other_end, too_short, too_short_note};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::table::Table;
@@ -141,7 +141,7 @@ impl ChordElement {
     }
 }
 
-impl Extended for ChordElement {
+impl ExtensibleLine for ChordElement {
     fn pull(
         &self,
         ends: &[End],
@@ -208,7 +208,7 @@ impl Element for ChordElement {
     }
 
     fn compression_onset(&self) -> Option<f64> {
-        Extended::compression_onset(self)
+        ExtensibleLine::compression_onset(self)
     }
 }
 

@@ -34,7 +34,7 @@ pub struct EndPull {
 }
 
 /// A line that can be lengthened at its first end.
-pub trait Extended: Debug + Send + Sync {
+pub trait ExtensibleLine: Debug + Send + Sync {
     /// Writes the forces on both ends of the line with the link, and their exact derivatives.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ pub trait Extended: Debug + Send + Sync {
     /// What is reported of the line with the link.
     ///
     /// # Errors
-    /// As [`Extended::pull`].
+    /// As [`ExtensibleLine::pull`].
     fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ElementSummary, ClassError>;
 
     /// See [`windlass_model::Element::compression_onset`].

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-REF cls_res]. The reference restrains only translations in a simulation; here rotations are held as well.
 
-use super::restraint::Restraining;
+use super::restraint::RestraintClass;
 use super::spring::Restraint;
 use super::{ClassKind, options as o};
 use std::sync::Arc;
@@ -43,7 +43,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     if list.is_empty() {
         list = Dof::SIX.map(held_dof).into();
     }
-    Ok(Arc::new(Restraining::new("FIX", list)))
+    Ok(Arc::new(RestraintClass::new("FIX", list)))
 }
 
 fn held_dof(dof: Dof) -> Restraint {

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-FLEX FOUNDATION]. The check takes the ratio and the springs of [`windlass_model::ElementSummary`].
 
-use super::spring::Generalized;
+use super::spring::GeneralizedSpring;
 use super::{ClassKind, options as o};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
@@ -43,5 +43,5 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    Ok(Arc::new(Generalized::read(records, "FOUNDATION")?.with_foundation_check()))
+    Ok(Arc::new(GeneralizedSpring::read(records, "FOUNDATION")?.with_foundation_check()))
 }

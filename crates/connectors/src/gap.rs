@@ -3,7 +3,7 @@
 //! Source: [MOSES-REF cls_res].
 
 use super::fix::RIGID_STIFFNESS;
-use super::restraint::Restraining;
+use super::restraint::RestraintClass;
 use super::spring::Restraint;
 use super::zero_law::Friction;
 use super::{ClassKind, options as o};
@@ -33,5 +33,5 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let mu = records.last().and_then(|r| r.args.number(const { SPEC.number("COEF") })).unwrap_or(0.0);
     let push = Restraint { dof: Dof::X, stiffness: RIGID_STIFFNESS, allowable: None };
     let friction = if mu > 0.0 { Friction::Stick { mu, stiffness: RIGID_STIFFNESS } } else { Friction::None };
-    Ok(Arc::new(Restraining::new("GAP", vec![push]).pushing(friction)))
+    Ok(Arc::new(RestraintClass::new("GAP", vec![push]).pushing(friction)))
 }

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-FLEX GSPR].
 
-use super::spring::Generalized;
+use super::spring::GeneralizedSpring;
 use super::{ClassKind, foundation, options as o};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
@@ -31,5 +31,5 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    Ok(Arc::new(Generalized::read(records, "GSPR")?))
+    Ok(Arc::new(GeneralizedSpring::read(records, "GSPR")?))
 }

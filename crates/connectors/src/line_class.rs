@@ -7,10 +7,10 @@ use super::chord::Chord;
 use super::chord::ChordElement;
 use super::devices::{self, Devices};
 use super::dynamic_line::{self as m, DynamicLine, Flexure, Seabed};
-use super::extension::Extended;
+use super::extension::ExtensibleLine;
 use super::line_element::LineElement;
 use super::line_profile::LineProfile;
-use super::mooring::{Mooring, end_springs, line_error, no_other_end, parts, with_series};
+use super::mooring::{Mooring, end_springs, line_error, no_other_end, segments_and_joints, with_series};
 use super::per_line::PerLineOptions;
 use super::section::{LineSection, properties};
 use super::{checks, options as o};
@@ -197,7 +197,7 @@ impl LineClass {
     }
 
     /// What a line is reported by, whatever its shape.
-    fn moored(&self, line: Line, place: &Placement, surroundings: &Surroundings) -> Mooring {
+    fn build_mooring(&self, line: Line, place: &Placement, surroundings: &Surroundings) -> Mooring {
         Mooring {
             line,
             breaks: self.sections.iter().map(|s| s.breaking).collect(),
@@ -223,12 +223,12 @@ impl LineClass {
         springs: &[Option<StretchLaw>; 2],
     ) -> Result<Mooring, ClassError> {
         let [_, _, far] = place.other.ok_or_else(no_other_end)?;
-        let (segments, joints) = parts(sections, place, weight);
+        let (segments, joints) = segments_and_joints(sections, place, weight);
         let line = Line::new(segments, joints, far, surroundings.tide)
             .and_then(|l| l.with_seabed(None))
             .and_then(|l| l.with_springs(springs.clone()))
             .map_err(|e| line_error(&e, &self.places))?;
-        Ok(self.moored(line, place, surroundings))
+        Ok(self.build_mooring(line, place, surroundings))
     }
 
     /// A line on the bottom, which is a plane through its anchor or the profile of the bathymetry along its azimuth.
@@ -247,7 +247,7 @@ impl LineClass {
             _ => self.anchor_depth(surroundings).ok_or_else(unknown)?,
         };
         let error = |e: LineError| line_error(&e, &self.places);
-        let (segments, joints) = parts(&self.sections, place, |s| s.submerged_weight(surroundings));
+        let (segments, joints) = segments_and_joints(&self.sections, place, |s| s.submerged_weight(surroundings));
         let slope = self.slope().unwrap_or(0.0);
         let floor = SeabedModel { elevation: -depth, slope, friction: self.friction() };
         let (distance, azimuth) = place.span();
@@ -274,7 +274,7 @@ impl LineClass {
                 ClassError::new("the fairlead lies below the anchor's depth").help("check &INSTATE and -DEPANCHOR")
             );
         }
-        let mut made = Mooring { bottom: Some(-depth), ..self.moored(line, place, surroundings) };
+        let mut made = Mooring { bottom: Some(-depth), ..self.build_mooring(line, place, surroundings) };
         if let Some(known) = surroundings.depth.filter(|d| (d - depth).abs() > 0.2 * d.max(depth) && flat) {
             let share = depth / known;
             made.notes.push(Note::warning(format!("the depth of the anchor is {share:.2} of the depth of &ENV")));
@@ -335,7 +335,7 @@ impl ConnectorClass for LineClass {
         }
         let around = connection.surroundings;
         let line = self.mooring(&connection.placement, around, &self.springs)?;
-        let line: Box<dyn Extended> = match self.form() {
+        let line: Box<dyn ExtensibleLine> = match self.form() {
             LineForm::Chord { takes_compression } => {
                 let made = (line, self.springs.clone());
                 Box::new(ChordElement::new(self.chord(made, takes_compression, around))?)
@@ -442,7 +442,7 @@ impl DynamicLineClass for LineClass {
         let plain = self.devices.is_none() && self.springs.iter().all(Option::is_none);
         let made = (self.sections.as_slice(), self.flexures.as_slice());
         let seabed = Seabed { with_anchor: self.is_on_bottom(), ..self.seabed };
-        let made = m::chain((self.name(), plain), made, seabed, elements, connection.surroundings)?;
+        let made = m::describe_chain((self.name(), plain), made, seabed, elements, connection.surroundings)?;
         Ok(Box::new(DynamicLine::build(made, connection)?))
     }
 

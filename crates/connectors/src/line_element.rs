@@ -1,7 +1,7 @@
 //! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
 
 use super::extended_line::{end_wrenches, solve_with_link};
-use super::extension::{EndPull, Extended, Extension};
+use super::extension::{EndPull, ExtensibleLine, Extension};
 use super::line_profile::LineProfile;
 use super::mooring::{Mooring, too_short, too_short_note};
 use nalgebra::{Matrix3, Matrix6, Vector3};
@@ -106,7 +106,7 @@ impl LineElement {
     }
 
     /// The same; none of a weightless line that is not tight.
-    fn tight(
+    fn forces_if_taut(
         &self,
         x: f64,
         z: f64,
@@ -121,10 +121,10 @@ impl LineElement {
     }
 
     /// The element with its line on the bottom in a direction from the fairlead to the anchor.
-    fn facing(&self, along: [f64; 2]) -> Result<Cow<'_, LineElement>, ClassError> {
+    fn at_azimuth(&self, along: [f64; 2]) -> Result<Cow<'_, LineElement>, ClassError> {
         match &self.mooring.profile {
             Some(profile) if profile.azimuth() != along => {
-                let profile = profile.facing(along);
+                let profile = profile.with_azimuth(along);
                 let line = profile.lay(self.mooring.line.clone()).map_err(|e| self.mooring.error(&e))?;
                 let mooring = Mooring { line, profile: Some(profile), ..self.mooring.clone() };
                 Ok(Cow::Owned(LineElement { mooring }))
@@ -135,14 +135,14 @@ impl LineElement {
 
     /// How the pull on the first end and on the other change with the direction from the first to the other (N/rad), for a line
     /// on a bathymetry: a line that turns lies on another profile.
-    fn by_azimuth(&self, x: f64, along: [f64; 2], z: f64, by: Extension) -> Result<[[f64; 2]; 2], ClassError> {
+    fn rates_by_azimuth(&self, x: f64, along: [f64; 2], z: f64, by: Extension) -> Result<[[f64; 2]; 2], ClassError> {
         if self.mooring.profile.is_none() || x == 0.0 {
             return Ok([[0.0; 2]; 2]);
         }
         let [ux, uy] = along;
         let turned = |angle: f64| -> Result<LineForces, ClassError> {
             let (sin, cos) = angle.sin_cos();
-            let there = self.facing([ux * cos - uy * sin, uy * cos + ux * sin])?;
+            let there = self.at_azimuth([ux * cos - uy * sin, uy * cos + ux * sin])?;
             let found =
                 there.forces_with_link(x, z, by, &mut SolverCache::new()).map_err(|e| self.mooring.error(&e))?;
             Ok(found.0)
@@ -173,7 +173,7 @@ impl LineElement {
 
 /// -d(force)/d(place of the first end) for a force `sign` (pull toward the other end, downward): `k` is d(pull)/d(x, z),
 /// `across` the horizontal pull over the distance.
-fn by_place([ux, uy]: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Matrix3<f64> {
+fn stiffness_by_place([ux, uy]: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Matrix3<f64> {
     // a fairlead on the bottom is held there without a slope that has an end
     let [[xx, xz], [zx, zz]] = k.map(|row| row.map(|v| if v.is_finite() { v } else { xx_of(k) }));
     let plane = |a: f64, b: f64, same: f64| xx * a * b + across * (same - a * b);
@@ -185,7 +185,7 @@ fn by_place([ux, uy]: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Mat
 
 /// The part of the same that comes of the bottom, where the pull changes by `rate` with the direction (N/rad): the first end that goes
 /// across the line by a length turns it by that length over the distance `x`.
-fn by_turn([ux, uy]: [f64; 2], [horizontal, vertical]: [f64; 2], x: f64) -> Matrix3<f64> {
+fn stiffness_by_azimuth([ux, uy]: [f64; 2], [horizontal, vertical]: [f64; 2], x: f64) -> Matrix3<f64> {
     if x == 0.0 {
         return Matrix3::zeros();
     }
@@ -194,9 +194,9 @@ fn by_turn([ux, uy]: [f64; 2], [horizontal, vertical]: [f64; 2], x: f64) -> Matr
 }
 
 /// The same as the block of two ends that exert no moments.
-fn block(along: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Matrix6<f64> {
+fn end_block(along: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Matrix6<f64> {
     let mut block = Matrix6::zeros();
-    block.fixed_view_mut::<3, 3>(0, 0).copy_from(&by_place(along, k, across, sign));
+    block.fixed_view_mut::<3, 3>(0, 0).copy_from(&stiffness_by_place(along, k, across, sign));
     block
 }
 
@@ -206,7 +206,7 @@ fn xx_of(k: [[f64; 2]; 2]) -> f64 {
     if xx.is_finite() { xx } else { 0.0 }
 }
 
-impl Extended for LineElement {
+impl ExtensibleLine for LineElement {
     fn pull(
         &self,
         ends: &[End],
@@ -216,18 +216,18 @@ impl Extended for LineElement {
     ) -> Result<EndPull, ClassError> {
         out.clear(2);
         let (x, along, z) = self.horizontal_distance(ends);
-        let here = self.facing(along)?;
-        let Some((plane, _)) = here.tight(x, z, by, cache)? else {
+        let here = self.at_azimuth(along)?;
+        let Some((plane, _)) = here.forces_if_taut(x, z, by, cache)? else {
             return Ok(EndPull { tension: 0.0, along: Vector3::zeros() });
         };
         let ([h, _], [far_h, _]) = (plane.fairlead, plane.anchor);
         let over = |force: f64, k: [[f64; 2]; 2]| if x > 0.0 { force / x } else { xx_of(k) };
-        let mut first = block(along, plane.stiffness, over(h, plane.stiffness), 1.0);
-        let mut other = block(along, plane.coupling, over(far_h, plane.coupling), -1.0);
-        let [near, far] = here.by_azimuth(x, along, z, by)?;
+        let mut first = end_block(along, plane.stiffness, over(h, plane.stiffness), 1.0);
+        let mut other = end_block(along, plane.coupling, over(far_h, plane.coupling), -1.0);
+        let [near, far] = here.rates_by_azimuth(x, along, z, by)?;
         for (block, rate, sign) in [(&mut first, near, 1.0), (&mut other, far, -1.0)] {
             let mut translations = block.fixed_view_mut::<3, 3>(0, 0);
-            translations += by_turn(along, rate, x) * sign;
+            translations += stiffness_by_azimuth(along, rate, x) * sign;
         }
         let wrenches = end_wrenches(&plane, along);
         let pull = wrenches[0].fixed_rows::<3>(0).into_owned();
@@ -242,14 +242,14 @@ impl Extended for LineElement {
         let mut ends = ends.to_vec();
         if by != Extension::NONE {
             let (x, [ux, uy], z) = self.horizontal_distance(&ends);
-            let here = self.facing([ux, uy])?;
-            let [line_x, line_z] = here.tight(x, z, by, &mut SolverCache::new())?.map_or([x, z], |(_, at)| at);
+            let here = self.at_azimuth([ux, uy])?;
+            let [line_x, line_z] = here.forces_if_taut(x, z, by, &mut SolverCache::new())?.map_or([x, z], |(_, at)| at);
             if let Some(first) = ends.first_mut() {
                 first.pose.origin += Vector3::new((x - line_x) * ux, (x - line_x) * uy, line_z - z);
             }
         }
         let (_, along, _) = self.horizontal_distance(&ends);
-        let line = self.facing(along)?.with_ends(&ends);
+        let line = self.at_azimuth(along)?.with_ends(&ends);
         let tabulated = line.tabulated;
         let loads = if tabulated { line.tabled_loads()? } else { line.exact_loads()? };
         let mut over_given_break = loads.over_given_break;
@@ -301,7 +301,7 @@ impl Element for LineElement {
         out: &mut Vec<Six>,
     ) -> Result<(), ClassError> {
         let (x, along, z) = self.horizontal_distance(at.ends);
-        let found = self.facing(along)?.tight(x, z, Extension::NONE, cache)?;
+        let found = self.at_azimuth(along)?.forces_if_taut(x, z, Extension::NONE, cache)?;
         out.clear();
         out.extend(found.map_or([Six::zeros(); 2], |(plane, _)| end_wrenches(&plane, along)));
         Ok(())
@@ -315,14 +315,14 @@ impl Element for LineElement {
 impl AnchoredElement for LineElement {
     fn evaluate_anchored(&self, at: &Situation, cache: &mut SolverCache) -> Result<AnchoredResponse, ClassError> {
         let (x, along, z) = self.horizontal_distance(at.ends);
-        let here = self.facing(along)?;
-        let Some((plane, _)) = here.tight(x, z, Extension::NONE, cache)? else {
+        let here = self.at_azimuth(along)?;
+        let Some((plane, _)) = here.forces_if_taut(x, z, Extension::NONE, cache)? else {
             return Ok(AnchoredResponse { wrenches: [Six::zeros(); 2], stiffness: Matrix3::zeros() });
         };
         let [force, _] = plane.fairlead;
         let across = if x > 0.0 { force / x } else { xx_of(plane.stiffness) };
-        let [rate, _] = here.by_azimuth(x, along, z, Extension::NONE)?;
-        let stiffness = by_place(along, plane.stiffness, across, 1.0) + by_turn(along, rate, x);
+        let [rate, _] = here.rates_by_azimuth(x, along, z, Extension::NONE)?;
+        let stiffness = stiffness_by_place(along, plane.stiffness, across, 1.0) + stiffness_by_azimuth(along, rate, x);
         Ok(AnchoredResponse { wrenches: end_wrenches(&plane, along), stiffness })
     }
 }

@@ -66,7 +66,7 @@ impl LineProfile {
     }
 
     /// The profile in another direction from the fairlead to the anchor.
-    pub fn facing(&self, azimuth: [f64; 2]) -> LineProfile {
+    pub fn with_azimuth(&self, azimuth: [f64; 2]) -> LineProfile {
         LineProfile { azimuth, ..self.clone() }
     }
 

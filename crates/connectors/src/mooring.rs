@@ -168,7 +168,7 @@ impl Mooring {
 }
 
 /// Segments and joints of a line's sections; the first is as long as the placement says, where it does.
-pub fn parts(
+pub fn segments_and_joints(
     sections: &[LineSection],
     place: &Placement,
     weight: impl Fn(&LineSection) -> f64,

@@ -15,27 +15,27 @@ use windlass_model::{ClassError, Connection, Connector, ConnectorCategory, Conne
 
 /// A class of restraints.
 #[derive(Debug)]
-pub struct Restraining {
+pub struct RestraintClass {
     kind: &'static str,
     restraints: Vec<Restraint>,
     sense: Sense,
     friction: Friction,
 }
 
-impl Restraining {
+impl RestraintClass {
     /// Of a class with these springs, that act both ways.
     pub fn new(kind: &'static str, restraints: Vec<Restraint>) -> Self {
-        Restraining { kind, restraints, sense: Sense::Both, friction: Friction::None }
+        RestraintClass { kind, restraints, sense: Sense::Both, friction: Friction::None }
     }
 
     /// The same that only pushes along X, with friction.
     #[must_use]
     pub fn pushing(self, friction: Friction) -> Self {
-        Restraining { sense: Sense::Compression, friction, ..self }
+        RestraintClass { sense: Sense::Compression, friction, ..self }
     }
 }
 
-impl ConnectorClass for Restraining {
+impl ConnectorClass for RestraintClass {
     fn kind(&self) -> &'static str {
         self.kind
     }

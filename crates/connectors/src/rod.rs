@@ -182,7 +182,7 @@ impl SegmentedClass for RodClass {
         let flexure = Flexure::read(record, &section)?;
         let mut clamps = self.clamps.clone();
         clamps.extend(args.occurrences(&m::CLAMP).cloned());
-        let holds = m::holds(&clamps, [self.flexures.first().unwrap_or(&flexure), &flexure])?;
+        let holds = m::read_end_fixities(&clamps, [self.flexures.first().unwrap_or(&flexure), &flexure])?;
         self.per_line.check(args, &PER_LINE)?;
         // nothing is refused from here on
         self.sections.push(section);

@@ -271,7 +271,7 @@ impl LineSection {
 }
 
 /// A value to four figures, with its unit.
-pub fn short(value: f64, dim: Dim, units: UnitSystem) -> String {
+pub fn four_figures(value: f64, dim: Dim, units: UnitSystem) -> String {
     let own = dim.from_si(value, units);
     format!("{} {}", eight_figures(format!("{own:.3e}").parse().unwrap_or(own)), dim.label(units))
 }
@@ -289,10 +289,10 @@ pub fn bar_notice(
         return None;
     }
     let (weight, there) = weight(own);
-    let (od, weight) = (short(own.od, Dim::Section, units), short(weight, Dim::ForcePerLength, units));
+    let (od, weight) = (four_figures(own.od, Dim::Section, units), four_figures(weight, Dim::ForcePerLength, units));
     let mut text = format!("{od} without a weight is a solid steel bar, {weight} {there}");
     if !own.break_is_given {
-        text.push_str(&format!(", break {}", short(own.breaking, Dim::Force, units)));
+        text.push_str(&format!(", break {}", four_figures(own.breaking, Dim::Force, units)));
     }
     let advice =
         "-TYPE CHAIN_R4 D makes it a chain (&STATUS LINE_TYPES lists chain, wire and rope); -WTPLEN gives a weight";

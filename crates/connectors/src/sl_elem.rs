@@ -5,7 +5,7 @@
 use super::dynamic_line as m;
 use super::h_cat::LINE_OPTIONS;
 use super::line_class::{LineClass, LineClassKind, LineForm, devices_help};
-use super::section::short;
+use super::section::four_figures;
 use super::{ClassKind, options as o};
 use windlass_base::choices;
 use windlass_base::diagnostic::Diagnostic;
@@ -86,6 +86,6 @@ fn notices(class: &LineClass, last: &Args, units: UnitSystem, around: &Surroundi
     if weight == 0.0 {
         return Vec::new();
     }
-    let text = format!("an SL_ELEM has no weight: {} in water are left out", short(weight, Dim::Force, units));
+    let text = format!("an SL_ELEM has no weight: {} in water are left out", four_figures(weight, Dim::Force, units));
     vec![*Diagnostic::remark(text, last.span).help("H_CAT EXACT has its weight, ROD bends as well")]
 }

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-REF cls_res].
 
-use super::restraint::Restraining;
+use super::restraint::RestraintClass;
 use super::spring::restraints;
 use super::{ClassKind, options as o};
 use std::sync::Arc;
@@ -28,5 +28,5 @@ static SPEC: CommandSpec = CommandSpec {
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let record = records.last().ok_or_else(|| Diagnostic::error("a class needs a record", Span::default()))?;
     let list = restraints(&record.args.data, 2)?;
-    Ok(Arc::new(Restraining::new("SPR", list)))
+    Ok(Arc::new(RestraintClass::new("SPR", list)))
 }

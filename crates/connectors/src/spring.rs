@@ -247,7 +247,7 @@ impl Springs {
 
 /// GSPR and FOUNDATION: generalized springs in chosen degrees of freedom.
 #[derive(Debug)]
-pub struct Generalized {
+pub struct GeneralizedSpring {
     kind: &'static str,
     sense: Sense,
     springs: Springs,
@@ -255,7 +255,7 @@ pub struct Generalized {
     role: ClassRole,
 }
 
-impl Generalized {
+impl GeneralizedSpring {
     /// Reads the last of a class's records.
     ///
     /// # Errors
@@ -264,7 +264,7 @@ impl Generalized {
         let record = records.last().ok_or_else(|| Diagnostic::error("a class needs a record", Span::default()))?;
         let args = &record.args;
         looks_along_x(args, kind)?;
-        Ok(Generalized {
+        Ok(GeneralizedSpring {
             kind,
             sense: args.choice(SENSE).unwrap_or(Sense::Both),
             springs: Springs::read(args, args.data_after(SENSE), false)?,
@@ -276,7 +276,7 @@ impl Generalized {
     /// The same, reported in a FOUNDATION check.
     #[must_use]
     pub fn with_foundation_check(self) -> Self {
-        Generalized { role: ClassRole::Foundation, ..self }
+        GeneralizedSpring { role: ClassRole::Foundation, ..self }
     }
 }
 
@@ -293,7 +293,7 @@ fn looks_along_x(args: &Args, kind: &str) -> Outcome<()> {
         .help("turn element X to their direction with -EULER of CONNECTOR and give X; BOTH for springs that act always; FENDER for a fender"))
 }
 
-impl ConnectorClass for Generalized {
+impl ConnectorClass for GeneralizedSpring {
     fn kind(&self) -> &'static str {
         self.kind
     }

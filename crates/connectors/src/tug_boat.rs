@@ -28,7 +28,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 #[derive(Debug)]
-struct Tugs {
+struct TugClass {
     force: f64,
 }
 
@@ -40,10 +40,10 @@ struct TugForce {
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let force = records.last().and_then(|r| r.args.number(const { SPEC.number("FORCE") }));
-    Ok(Arc::new(Tugs { force: force.unwrap_or(0.0) }))
+    Ok(Arc::new(TugClass { force: force.unwrap_or(0.0) }))
 }
 
-impl ConnectorClass for Tugs {
+impl ConnectorClass for TugClass {
     fn kind(&self) -> &'static str {
         "TUG_BOAT"
     }

@@ -155,7 +155,7 @@ pub struct ZeroLaw {
 }
 
 /// What the law answers.
-pub struct Answer {
+pub struct LawResponse {
     /// Forces and moments on the holder, element axes, positive where the other end is drawn near (N, N m).
     pub force: Vector6<f64>,
     /// Deflections they belong to (m, rad).
@@ -188,16 +188,16 @@ impl ZeroLaw {
     }
 
     /// Forces at a displacement and rotation `q`; the step is `None` in statics.
-    pub fn answer(
+    pub fn evaluate(
         &self,
         q: &Vector6<f64>,
         rate: &Vector3<f64>,
         dt: Option<f64>,
         committed: &[f64],
         trial: &mut [f64],
-    ) -> Answer {
+    ) -> LawResponse {
         let u = q.fixed_rows::<3>(0).into_owned();
-        let mut answer = Answer {
+        let mut answer = LawResponse {
             force: Vector6::zeros(),
             deflection: *q,
             slopes: Matrix6::zeros(),
@@ -254,7 +254,14 @@ impl ZeroLaw {
     }
 
     /// No force: what remembers recovers, and a later contact begins where it is made.
-    fn release(&self, u: &Vector3<f64>, dt: Option<f64>, committed: &[f64], trial: &mut [f64], none: Answer) -> Answer {
+    fn release(
+        &self,
+        u: &Vector3<f64>,
+        dt: Option<f64>,
+        committed: &[f64],
+        trial: &mut [f64],
+        none: LawResponse,
+    ) -> LawResponse {
         let mut from = 0;
         for group in &self.groups {
             let to = from + group.states();

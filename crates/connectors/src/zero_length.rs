@@ -6,7 +6,7 @@
 //! conjugated to them exerts R s_u on the holder with the moment d x R s_u about its point, -R s_u on the other, and the moments
 //! +-R J^-T s_theta with J the left Jacobian of SO(3) [SIMO-VUQUOC-1986; SOLA-2018 eq. 145]: what the virtual work of s asks.
 
-use super::zero_law::{Answer, ZeroLaw};
+use super::zero_law::{LawResponse, ZeroLaw};
 use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, UnitQuaternion, Vector3, Vector6};
 use windlass_base::choice::{Choice, Dof};
 use windlass_base::geometry::Place;
@@ -130,14 +130,14 @@ impl ZeroLength {
         Ok(RelativeMotion { axes, apart, q, rate: axes.transpose() * moving, spin: [moving, turning] })
     }
 
-    fn answer(
+    fn evaluate_law(
         &self,
         at: &Situation,
         committed: &[f64],
         trial: &mut [f64],
-    ) -> Result<(RelativeMotion, Answer), ClassError> {
+    ) -> Result<(RelativeMotion, LawResponse), ClassError> {
         let motion = self.motion(at)?;
-        let answer = self.law.answer(&motion.q, &motion.rate, at.step.map(|s| s.dt), committed, trial);
+        let answer = self.law.evaluate(&motion.q, &motion.rate, at.step.map(|s| s.dt), committed, trial);
         Ok((motion, answer))
     }
 
@@ -149,12 +149,12 @@ impl ZeroLength {
         let back = Matrix3::identity() + turn * 0.5 + turn * turn * c;
         let g = motion.axes * force.fixed_rows::<3>(0);
         let moment = motion.axes * (back * force.fixed_rows::<3>(3));
-        let made = [join(&g, &(motion.apart.cross(&g) + moment)), join(&-g, &-moment)];
+        let made = [join_halves(&g, &(motion.apart.cross(&g) + moment)), join_halves(&-g, &-moment)];
         if self.holder == 0 { made } else { [made[1], made[0]] }
     }
 
     /// How displacement and rotation change with the motions of both ends, in their order.
-    fn deflected_by(&self, motion: &RelativeMotion) -> [Matrix6<f64>; 2] {
+    fn deflection_derivatives(&self, motion: &RelativeMotion) -> [Matrix6<f64>; 2] {
         let rt = motion.axes.transpose();
         let theta = motion.q.fixed_rows::<3>(3).into_owned();
         let (c, _) = coefficient(theta.norm_squared());
@@ -170,7 +170,7 @@ impl ZeroLength {
     }
 
     /// Writes forces and moments on both ends and their derivatives.
-    fn respond(&self, motion: &RelativeMotion, answer: &Answer, out: &mut ElementResponse) {
+    fn write_response(&self, motion: &RelativeMotion, answer: &LawResponse, out: &mut ElementResponse) {
         let RelativeMotion { axes: r, apart, q, spin: [moving, turning], .. } = motion;
         let rt = r.transpose();
         let part = |six: &Vector6<f64>, from: usize| six.fixed_rows::<3>(from).into_owned();
@@ -211,28 +211,28 @@ impl ZeroLength {
 
         out.clear(2);
         let order = if self.holder == 0 { [0, 1] } else { [1, 0] };
-        let wrenches = [join(&g, &held), join(&-g, &-moment)];
+        let wrenches = [join_halves(&g, &held), join_halves(&-g, &-moment)];
         let slopes = [[d_g, d_held], [-d_g, -d_moment]];
         for (own, end) in order.iter().enumerate() {
             if let (Some(slot), Some(w)) = (out.wrench.get_mut(*end), wrenches.get(own)) {
                 *slot = *w;
             }
         }
-        spread(&slopes, order, &mut out.stiffness);
+        write_blocks(&slopes, order, &mut out.stiffness);
         if answer.by_rate != zero {
             let by_rate = r * answer.by_rate * d_u;
             out.damping.resize(4, Matrix6::zeros());
-            spread(&[[by_rate, cross(apart) * by_rate], [-by_rate, Wide::zeros()]], order, &mut out.damping);
+            write_blocks(&[[by_rate, cross(apart) * by_rate], [-by_rate, Wide::zeros()]], order, &mut out.damping);
         }
     }
 }
 
-fn join(force: &Vector3<f64>, moment: &Vector3<f64>) -> Vector6<f64> {
+fn join_halves(force: &Vector3<f64>, moment: &Vector3<f64>) -> Vector6<f64> {
     Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
 /// Negative derivatives of the wrenches as blocks in the order of the ends.
-fn spread(slopes: &[[Wide; 2]; 2], order: [usize; 2], blocks: &mut [Matrix6<f64>]) {
+fn write_blocks(slopes: &[[Wide; 2]; 2], order: [usize; 2], blocks: &mut [Matrix6<f64>]) {
     for (own, end) in slopes.iter().zip(order) {
         for (column, other) in order.iter().enumerate() {
             let Some(block) = blocks.get_mut(2 * end + other) else { continue };
@@ -256,8 +256,8 @@ impl Element for ZeroLength {
         _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
-        let (motion, answer) = self.answer(at, committed, trial)?;
-        self.respond(&motion, &answer, out);
+        let (motion, answer) = self.evaluate_law(at, committed, trial)?;
+        self.write_response(&motion, &answer, out);
         let blocks = out.stiffness.iter().chain(&out.damping).flat_map(|b| b.iter());
         if out.wrench.iter().flat_map(|w| w.iter()).chain(blocks).any(|v| !v.is_finite()) {
             return Err(ClassError::new("the force of the spring, or its stiffness, is too large a number"));
@@ -267,7 +267,7 @@ impl Element for ZeroLength {
 
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
         let mut trial = committed.to_vec();
-        let (motion, answer) = self.answer(at, committed, &mut trial)?;
+        let (motion, answer) = self.evaluate_law(at, committed, &mut trial)?;
         // the law knows the force on the holder
         let sign = if self.holder == 0 { 1.0 } else { -1.0 };
         let springs: Vec<SpringState> = self
@@ -313,13 +313,13 @@ impl StiffTie for ZeroLength {
         out: &mut ElementResponse,
     ) -> Result<TieResponse, ClassError> {
         let motion = self.motion(at)?;
-        let mut answer = self.law.answer(&motion.q, &Vector3::zeros(), None, &[], &mut []);
+        let mut answer = self.law.evaluate(&motion.q, &Vector3::zeros(), None, &[], &mut []);
         let force = answer.force;
         let held = held.copied().unwrap_or(force);
         let more = force - held;
         answer.force = held;
-        self.respond(&motion, &answer, out);
-        let slopes = self.deflected_by(&motion).map(|by| answer.slopes * by);
+        self.write_response(&motion, &answer, out);
+        let slopes = self.deflection_derivatives(&motion).map(|by| answer.slopes * by);
         let far = at.ends.iter().map(|end| end.pose.origin.norm()).fold(0.0, f64::max);
         let rounding = DEFLECTION_ROUNDING + 8.0 * f64::EPSILON * far;
         let lack = |i: usize| {

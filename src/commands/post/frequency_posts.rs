@@ -33,7 +33,7 @@ pub static FR_POINT: Command = Command { spec: &POINT_SPEC, edits: false, run: p
 /// CONFORCE.
 pub static CONFORCE: Command = Command { spec: &FORCE_SPEC, edits: false, run: force };
 /// STATISTICS.
-pub static STATISTICS: Command = Command { spec: &STATISTICS_SPEC, edits: false, run: told_statistics };
+pub static STATISTICS: Command = Command { spec: &STATISTICS_SPEC, edits: false, run: report_statistics };
 
 /// The duration of the most probable maximum (s): three hours.
 const MPM_DURATION_S: f64 = 10_800.0;
@@ -295,7 +295,7 @@ fn response(job: &Job, args: &Args) -> Outcome<(Arc<LinearSystem>, FrequencyResp
     }
 }
 
-fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
+fn report_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let derivative = derivative(args)?;
     let of_env = match open_results(job, args.span)? {

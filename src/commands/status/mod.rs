@@ -77,7 +77,7 @@ static KINDS: &[&StatusKind] = &[
 ];
 
 /// What &STATUS can tell of, with one line each, for its help.
-pub fn kinds_told() -> impl Iterator<Item = (&'static str, &'static str)> {
+pub fn listed_kinds() -> impl Iterator<Item = (&'static str, &'static str)> {
     KINDS.iter().map(|kind| (kind.name, kind.help))
 }
 

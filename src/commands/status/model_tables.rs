@@ -4,7 +4,7 @@ use crate::commands::environment::bathymetry;
 use crate::commands::model::t_pressure;
 use crate::commands::solve::prescribe::motions;
 use crate::commands::status::kind::StatusKind;
-use crate::commands::status::kinds_told;
+use crate::commands::status::listed_kinds;
 use crate::commands::status::offsets::offsets;
 use windlass_base::choice::Choice;
 use windlass_base::geometry::Place;
@@ -192,6 +192,6 @@ pub fn summary(model: &Model) -> Table {
         .text("What", |(name, _)| *name)
         .column("", "Number", Dim::None, Digits::Usual, |(_, count)| *count)
         .build();
-    table.note(format!("&STATUS reports: {}", kinds_told().map(|k| k.0).collect::<Vec<_>>().join(" ")));
+    table.note(format!("&STATUS reports: {}", listed_kinds().map(|k| k.0).collect::<Vec<_>>().join(" ")));
     table
 }

@@ -9,7 +9,7 @@ mod convolution;
 mod dashpot;
 mod piston;
 
-use super::extension::{EndPull, Extended, Extension};
+use super::extension::{EndPull, ExtensibleLine, Extension};
 use super::per_line::PerLineOptions;
 use super::viscous::Affine;
 use nalgebra::{Matrix3, Vector3};
@@ -96,7 +96,7 @@ trait TensionControl: Debug + Send + Sync {
     ///
     /// # Errors
     /// A position at which the line has no answer; a limit that no position holds.
-    fn stand(
+    fn find_position(
         &self,
         before: f64,
         dt: Option<f64>,
@@ -161,7 +161,11 @@ impl Devices {
     ///
     /// # Errors
     /// A curve that is not defined, or is no convolution, or does not keep any stiffness.
-    pub fn element(&self, connection: &Connection, line: Box<dyn Extended>) -> Result<Box<dyn Element>, ClassError> {
+    pub fn element(
+        &self,
+        connection: &Connection,
+        line: Box<dyn ExtensibleLine>,
+    ) -> Result<Box<dyn Element>, ClassError> {
         let mut made = DeviceElement { line, control: None, springs: Vec::new(), dampers: Vec::new() };
         for device in &self.list {
             match device.action(connection)? {
@@ -177,7 +181,7 @@ impl Devices {
 /// A line with devices, as an engine sees it. Its state: the position of the control (m), then the states of the springs.
 #[derive(Debug)]
 struct DeviceElement {
-    line: Box<dyn Extended>,
+    line: Box<dyn ExtensibleLine>,
     control: Option<Box<dyn TensionControl>>,
     springs: Vec<Box<dyn SeriesSpring>>,
     dampers: Vec<Box<dyn ChordDamper>>,
@@ -196,7 +200,7 @@ struct DeviceState {
 
 impl DeviceElement {
     /// State of the control, and those of the springs.
-    fn parts<'a>(&self, states: &'a [f64]) -> (Option<f64>, &'a [f64]) {
+    fn split_states<'a>(&self, states: &'a [f64]) -> (Option<f64>, &'a [f64]) {
         match self.control {
             Some(_) => (states.first().copied(), states.get(1..).unwrap_or_default()),
             None => (None, states),
@@ -211,7 +215,7 @@ impl DeviceElement {
         out: &mut ElementResponse,
     ) -> Result<DeviceState, ClassError> {
         let dt = at.step.map(|s| s.dt);
-        let (before, mut memory) = self.parts(committed);
+        let (before, mut memory) = self.split_states(committed);
         let mut springs = Vec::with_capacity(self.springs.len());
         for spring in &self.springs {
             let (own, rest) = memory.split_at(spring.states().min(memory.len()));
@@ -226,7 +230,9 @@ impl DeviceElement {
         let spring = links.reduce(in_series).unwrap_or(Extension::NONE);
         let mut pull_at = |by: f64| {
             let extension = Extension { length: spring.length + by, ..spring };
-            self.line.pull(at.ends, extension, cache, out).map(|pull| (extension, pull, -axial(out, &pull.along)))
+            self.line
+                .pull(at.ends, extension, cache, out)
+                .map(|pull| (extension, pull, -axial_stiffness(out, &pull.along)))
         };
         let Some(control) = &self.control else {
             let (extension, pull, _) = pull_at(0.0)?;
@@ -234,7 +240,7 @@ impl DeviceElement {
         };
         let nominal = control.nominal();
         let mut last = None;
-        let stand = control.stand(before.unwrap_or(nominal), dt, &mut |s| {
+        let stand = control.find_position(before.unwrap_or(nominal), dt, &mut |s| {
             let (extension, pull, slope) = pull_at(s - nominal)?;
             last = Some((s, extension, pull));
             Ok((pull.tension, slope))
@@ -246,8 +252,8 @@ impl DeviceElement {
         Ok(DeviceState { pull, control: Some(stand), springs, extension })
     }
 
-    fn remember(&self, at: &Situation, committed: &[f64], trial: &mut [f64], found: &DeviceState) {
-        let (_, mut memory) = self.parts(committed);
+    fn write_state(&self, at: &Situation, committed: &[f64], trial: &mut [f64], found: &DeviceState) {
+        let (_, mut memory) = self.split_states(committed);
         let (own, mut rest) = trial.split_at_mut(trial.len().min(usize::from(self.control.is_some())));
         if let (Some((position, _)), Some(first)) = (&found.control, own.first_mut()) {
             *first = *position;
@@ -263,15 +269,15 @@ impl DeviceElement {
 }
 
 /// Stiffness of the first end along a direction (N/m).
-fn axial(out: &ElementResponse, along: &Vector3<f64>) -> f64 {
+fn axial_stiffness(out: &ElementResponse, along: &Vector3<f64>) -> f64 {
     out.stiffness.first().map_or(0.0, |k| along.dot(&(k.fixed_view::<3, 3>(0, 0) * along)))
 }
 
 /// Takes the stiffness away with which the tension would change. A link at the first end that grows by da acts as that end moved by
 /// da along the tension t, so that with K the stiffness without control and da such that the tension stays,
 /// K'ij = Kij - (Ki1 t)(t' K1j) / (t' K11 t).
-fn hold(along: &Vector3<f64>, out: &mut ElementResponse) {
-    let axial = axial(out, along);
+fn remove_axial_stiffness(along: &Vector3<f64>, out: &mut ElementResponse) {
+    let axial = axial_stiffness(out, along);
     let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() else { return };
     if axial <= 0.0 {
         return;
@@ -288,7 +294,7 @@ fn hold(along: &Vector3<f64>, out: &mut ElementResponse) {
 }
 
 /// Adds a damper along the chord between two ends.
-fn damp(damper: &dyn ChordDamper, ends: &[End], out: &mut ElementResponse) {
+fn add_damper(damper: &dyn ChordDamper, ends: &[End], out: &mut ElementResponse) {
     let [first, second] = ends else { return };
     let along = second.pose.origin - first.pose.origin;
     let chord = along.norm();
@@ -340,11 +346,11 @@ impl Element for DeviceElement {
     ) -> Result<(), ClassError> {
         let found = self.find_forces(at, committed, cache, out)?;
         if found.control.as_ref().is_some_and(|(_, does)| does.holds) {
-            hold(&found.pull.along, out);
+            remove_axial_stiffness(&found.pull.along, out);
         }
-        self.remember(at, committed, trial, &found);
+        self.write_state(at, committed, trial, &found);
         if at.step.is_some() && found.pull.tension != 0.0 {
-            self.dampers.iter().for_each(|damper| damp(damper.as_ref(), at.ends, out));
+            self.dampers.iter().for_each(|damper| add_damper(damper.as_ref(), at.ends, out));
         }
         Ok(())
     }

@@ -98,7 +98,7 @@ enum PistonState {
 
 impl PistonState {
     /// Whether the tension is what a limit says, so that the line has no stiffness along it.
-    fn holds(self) -> bool {
+    fn is_holding(self) -> bool {
         matches!(self, PistonState::HoldsMost | PistonState::HoldsLeast)
     }
 
@@ -137,14 +137,14 @@ impl TensionControl for Piston {
         self.nominal
     }
 
-    fn stand(
+    fn find_position(
         &self,
         before: f64,
         dt: Option<f64>,
         at: &mut dyn FnMut(f64) -> Result<(f64, f64), ClassError>,
     ) -> Result<(f64, ControlState), ClassError> {
         let (position, does) = self.find_position(before, dt, at)?;
-        Ok((position, ControlState { holds: does.holds(), note: does.note() }))
+        Ok((position, ControlState { holds: does.is_holding(), note: does.note() }))
     }
 }
 

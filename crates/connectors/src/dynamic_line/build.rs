@@ -3,7 +3,7 @@
 use super::describe::{LineDescription, LinePart};
 use super::element::DynamicLine;
 use super::environment::ground;
-use super::mesh::{Cut, JOIN_BELOW_SHARE, attachments, few, mesh, to_class_error};
+use super::mesh::{Cut, JOIN_BELOW_SHARE, attachments, check_element_count, mesh, to_class_error};
 use super::rod_cache::{Base, EndDirection};
 use super::start;
 use super::state_layout::StateLayout;
@@ -32,7 +32,7 @@ impl DynamicLine {
         if let Some(length) = lengths.first_mut() {
             *length = first;
         }
-        few(&description.parts, first)?;
+        check_element_count(&description.parts, first)?;
         let far = ends[1];
         let anchored = description.seabed.with_anchor && connection.to_ground;
         let depth = if anchored { Some(-far.z) } else { description.seabed.depth };
@@ -73,7 +73,7 @@ impl DynamicLine {
                 rod::MAX_ELEMENTS
             )));
         }
-        let holds = holds(&description, connection)?;
+        let holds = end_directions(&description, connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
         let layout = StateLayout::new(capacity, RodState::packed_len_with(&rod, capacity), connection.duty.balance);
         let base = Base {
@@ -96,7 +96,10 @@ impl DynamicLine {
 }
 
 /// The directions in which the ends are held, in the axes of their holders as defined.
-fn holds(description: &LineDescription, connection: &Connection) -> Result<[Option<EndDirection>; 2], ClassError> {
+fn end_directions(
+    description: &LineDescription,
+    connection: &Connection,
+) -> Result<[Option<EndDirection>; 2], ClassError> {
     let [a, b] = connection.connector.defined;
     let b = if connection.to_ground { windlass_base::pose::Pose { origin: connection.ends[1].origin, ..b } } else { b };
     let chord = b.origin - a.origin;

@@ -131,7 +131,7 @@ impl DynamicLine {
     }
 
     /// Where it hangs at rest between ends.
-    pub(super) fn rest(&self, at: &Situation, cache: &mut RodCache) -> Result<LineAtRest, ClassError> {
+    pub(super) fn find_rest(&self, at: &Situation, cache: &mut RodCache) -> Result<LineAtRest, ClassError> {
         let ends = self.end_conditions(at.ends, true)?;
         if cache.rod != self.base.rod {
             cache.rod = self.base.rod.clone();
@@ -203,7 +203,7 @@ impl DynamicLine {
                 let state = RodState::unpack(other.as_ref().unwrap_or(base), kept.motion).map_err(to_class_error)?;
                 Ok((other, state, at.step.is_none()))
             }
-            None => Ok((None, self.rest(at, &mut RodCache::new(&self.base))?.state, true)),
+            None => Ok((None, self.find_rest(at, &mut RodCache::new(&self.base))?.state, true)),
         }
     }
 
@@ -331,7 +331,7 @@ impl Element for DynamicLine {
         if let (Some(step), Some(kept)) = (at.step, &kept) {
             return self.step(at, (step.time, step.dt), kept, trial, cache, out);
         }
-        let (found, places) = (self.rest(at, cache)?, places(at.ends));
+        let (found, places) = (self.find_rest(at, cache)?, places(at.ends));
         let RodCache { rod, solver, flows, .. } = &mut *cache;
         self.with_environment((at, true, 0.0), flows, |environment| match self.base.laid {
             Some(_) => {

@@ -49,7 +49,7 @@ fn wound(part: &LinePart, length: f64) -> f64 {
 
 /// Refuses more elements than a rod may have before any of them takes memory: those of the class, and those of a first part with a
 /// length (m).
-pub(super) fn few(parts: &[LinePart], first: f64) -> Result<(), ClassError> {
+pub(super) fn check_element_count(parts: &[LinePart], first: f64) -> Result<(), ClassError> {
     let own = |part: &LinePart| part.segment.elements as f64;
     let whole: f64 = parts.iter().map(own).sum();
     let longer = parts.first().map_or(0.0, |part| wound(part, first) - own(part));

@@ -22,6 +22,6 @@ mod static_start;
 pub use describe::{EndFixity, JointMass, LineDescription, LinePart, Seabed, Strength};
 pub use element::DynamicLine;
 pub use sections::{
-    AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, Flexure, ROPE, SEABED, SLAM, STRETCH, chain, description, holds,
-    parse_seabed,
+    AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, Flexure, ROPE, SEABED, SLAM, STRETCH, describe_chain, description,
+    parse_seabed, read_end_fixities,
 };

@@ -17,7 +17,7 @@ const EQUAL_FREQUENCIES_SHARE: f64 = 1e-6;
 ///
 /// # Errors
 /// Their number, or what memory they would take.
-pub(super) fn few(nodes: usize, number: usize) -> Result<(), ClassError> {
+pub(super) fn check_mode_count(nodes: usize, number: usize) -> Result<(), ClassError> {
     if number > MAX_MODES {
         return Err(ClassError::new(format!("{number} modes of a line are not found: at most {MAX_MODES}")));
     }

@@ -79,7 +79,7 @@ impl DynamicElement for DynamicLine {
     }
 
     fn natural_modes(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
-        modes::few(self.base.rod.nodes(), number)?;
+        modes::check_mode_count(self.base.rod.nodes(), number)?;
         let paid = self.layout.paid(state);
         let (other, state, _) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
@@ -100,7 +100,7 @@ impl DynamicElement for DynamicLine {
             return None;
         }
         let mut cache = RodCache::new(&self.base);
-        let slid = self.rest(at, &mut cache).is_ok() && cache.solver.has_slid_without_friction();
+        let slid = self.find_rest(at, &mut cache).is_ok() && cache.solver.has_slid_without_friction();
         slid.then_some(
             "friction of the bottom at rest is left out, but against sliding down a slope: no rest was found with it",
         )
@@ -109,7 +109,7 @@ impl DynamicElement for DynamicLine {
 
 impl DynamicLine {
     /// What is said of ends that are held where elements are too long for the bending there, which fades over sqrt(EI/T).
-    fn coarse(&self, nodes: &[LineNode]) -> Vec<Note> {
+    fn coarse_mesh_notes(&self, nodes: &[LineNode]) -> Vec<Note> {
         let parts = &self.base.description.parts;
         let of = |part: Option<&LinePart>, pair: Option<&[LineNode; 2]>, name: &str| {
             let (part, [a, b]) = (part?, pair?);
@@ -130,7 +130,7 @@ impl DynamicLine {
 
     /// What is said of segments with elements that are pushed harder than one with hinged ends bears: they are straight between their
     /// nodes, and buckle at nodes alone.
-    fn stocky(&self, nodes: &[LineNode]) -> Vec<Note> {
+    fn stocky_element_notes(&self, nodes: &[LineNode]) -> Vec<Note> {
         let beyond = |number: usize, part: &LinePart| {
             let mut own = nodes.array_windows().filter(|[a, _]| a.segment == number);
             let euler = |length: f64| PI.powi(2) * part.segment.bending / length.powi(2);
@@ -170,8 +170,8 @@ impl DynamicLine {
                 summary.notes.push(Note::warning("the line is beyond its breaking tension"));
             }
         }
-        summary.notes.extend(self.coarse(&nodes));
-        summary.notes.extend(self.stocky(&nodes));
+        summary.notes.extend(self.coarse_mesh_notes(&nodes));
+        summary.notes.extend(self.stocky_element_notes(&nodes));
         if at.step.is_none() {
             summary.notes.extend(self.static_caution(at).map(Note::warning));
         }

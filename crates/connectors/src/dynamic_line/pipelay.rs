@@ -3,7 +3,7 @@
 use super::describe::{LineDescription, LinePart};
 use super::element::DynamicLine;
 use super::environment::ground;
-use super::mesh::{Cut, few, mesh, to_class_error};
+use super::mesh::{Cut, check_element_count, mesh, to_class_error};
 use super::pipelay_supports::{PipeLay, SupportedPart, Tensioner};
 use super::rod_cache::{Base, RodCache};
 use super::state_layout::StateLayout;
@@ -142,7 +142,7 @@ impl DynamicLine {
         let part = description.parts.first().ok_or_else(|| ClassError::new("the class has no record"))?;
         let mut course = PipePath::new(part, &layout, bottom(&description, &layout)?)?;
         course.settle_on(&layout);
-        let held = holds(&layout, &course)?;
+        let held = find_supported_parts(&layout, &course)?;
         // a riser goes down from its roller
         let down = Matrix3::new(0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0);
         let turn = if nodes.len() < 2 { down } else { Matrix3::identity() };
@@ -163,7 +163,7 @@ impl DynamicLine {
             let line = along_course(&description, part, &layout, (&course, laid))?;
             let Some(tensioner) = tensioner.as_mut().filter(|t| t.stiffness == 0.0) else { return Ok(line) };
             // it is cut where the tensioner holds it as laid
-            let rest = line.rest(&at, &mut RodCache::new(&line.base))?.state;
+            let rest = line.find_rest(&at, &mut RodCache::new(&line.base))?.state;
             let end = ends.last().zip(rest.place(0));
             let short =
                 end.map_or(0.0, |(end, x)| (end.pose.axes * turn * tensioner.along).dot(&(x - end.pose.origin)));
@@ -227,7 +227,7 @@ fn along_course(
     let lengths: Vec<f64> = course.spans.iter().map(|(_, length)| *length).collect();
     let (elements, first) = course.spans.first().copied().unwrap_or((1, 0.0));
     let grown = if layout.ambient.is_some_and(|a| a.grows()) { course.points.as_slice() } else { &[] };
-    few(&parts, first)?;
+    check_element_count(&parts, first)?;
     let cut = Cut::new(&parts, &lengths, layout.ambient.map(|a| a.as_ref()), grown);
     let mut mesh = mesh(&parts, first);
     cut.bands.lay(&mut mesh);
@@ -265,7 +265,7 @@ fn tensioner(layout: &PipeLayout, pulled: f64) -> Result<Option<Tensioner>, Clas
 }
 
 /// What each support holds: davits the nodes below them, rollers what crosses them, and the last of them the end.
-fn holds(layout: &PipeLayout, course: &PipePath) -> Result<Vec<SupportedPart>, ClassError> {
+fn find_supported_parts(layout: &PipeLayout, course: &PipePath) -> Result<Vec<SupportedPart>, ClassError> {
     let last = layout.nodes.len().saturating_sub(1);
     let of =
         |(i, (node, at)): (usize, (&Pose, &usize))| match layout.nodes.get(i + 1).filter(|_| layout.upper.is_some()) {

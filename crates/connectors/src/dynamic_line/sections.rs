@@ -337,7 +337,7 @@ pub fn parse_seabed(options: &PerLineOptions) -> Seabed {
 ///
 /// # Errors
 /// An end held twice, or one that does not bend.
-pub fn holds(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<EndFixity>; 2]> {
+pub fn read_end_fixities(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<EndFixity>; 2]> {
     let mut made = [None, None];
     let bends = ends.map(|f| f.bending > 0.0);
     for given in clamps {
@@ -379,7 +379,7 @@ pub fn holds(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<EndFixity
 ///
 /// # Errors
 /// Springs or devices at its ends, which a dynamic line does not have.
-pub fn chain(
+pub fn describe_chain(
     (kind, plain): (&'static str, bool),
     (sections, flexures): (&[LineSection], &[Flexure]),
     seabed: Seabed,

@@ -42,7 +42,7 @@ impl DynamicLine {
             let mut state = match laid {
                 Some(laid) => laid,
                 None => {
-                    let mut state = self.fallen(places, environment, around, aside)?;
+                    let mut state = self.fallen_shape(places, environment, around, aside)?;
                     solver.statics(rod, &mut state, environment, ends).map_err(to_class_error)?;
                     state
                 }
@@ -60,7 +60,7 @@ impl DynamicLine {
     }
 
     /// From where it falls: in the plane of its ends, or bowed aside from it.
-    fn fallen(
+    fn fallen_shape(
         &self,
         places: [Vector3<f64>; 2],
         environment: &LineEnvironment,
@@ -100,7 +100,7 @@ impl DynamicLine {
         let (plane, _) = start::plane(places, other)?;
         let last = rod.nodes() - 1;
         let mut state = self
-            .fallen(places, &LineEnvironment { bottom: Some((&plane, ground)), ..*environment }, around, false)
+            .fallen_shape(places, &LineEnvironment { bottom: Some((&plane, ground)), ..*environment }, around, false)
             .ok()?;
         let (mut share, mut step) = (0.0, FIRST_STEP_SHARE);
         let mut to = share;
