@@ -65,11 +65,7 @@ impl RodSolver {
         next.bedding.copy_from_slice(&from.bedding);
         (next.time, next.origin) = (time, from.origin);
         let last = from.position.len() - 1;
-        for i in 0..=last {
-            let u = (from.velocity[i] + from.averaged[i] * (0.5 * scheme.h)) * scheme.h;
-            next.position[i] = from.position[i] + u;
-            [next.averaged[i], next.velocity[i], next.acceleration[i]] = scheme.node_motion(from, i, u);
-        }
+        scheme.predict(from, next);
         for (side, node) in [(0, 0), (1, last)] {
             if let Some(motion) = ends[side].motion {
                 next.hold(node, &motion);

@@ -132,8 +132,18 @@ impl Rod {
 
 impl Rod {
     /// What a run keeps of the nodes of a state: [`Rod::results`], in memory that is there. Of a rod that neither bends nor has a
-    /// tube velocity and curvature are left out, which takes most of the time.
-    pub fn row(&self, state: &RodState, world: &LineEnvironment, ends: &[RodEnd; 2], out: &mut Vec<LineNode>) {
+    /// tube velocity and curvature are left out, which takes most of the time. `sampled` is the fluid at the nodes by which a trial
+    /// came to the state ([`RodSolver::fluid`]), where it did: the environment is then not asked again.
+    ///
+    /// [`RodSolver::fluid`]: super::RodSolver::fluid
+    pub fn row(
+        &self,
+        state: &RodState,
+        world: &LineEnvironment,
+        ends: &[RodEnd; 2],
+        sampled: Option<&[FluidState]>,
+        out: &mut Vec<LineNode>,
+    ) {
         out.clear();
         let plain = self.elements.iter().all(|e| e.bending == 0.0) && self.segments.iter().all(|s| s.tube.is_none());
         if !plain {
@@ -155,7 +165,11 @@ impl Rod {
             out.push(made);
             (arc, before) = (arc + if i < last { element.rest } else { 0.0 }, pull);
         }
-        let beside = self.beside_ends(state, world);
+        let sampled = sampled.filter(|fluid| fluid.len() == state.position.len());
+        let beside = match sampled {
+            Some(fluid) => [[fluid[0], fluid[1]], [fluid[last], fluid[last - 1]]],
+            None => self.beside_ends(state, world),
+        };
         for (side, node, element) in [(0, 0, 0), (1, last, last - 1)] {
             let ((t, _), pull) = self.element_force(element, state, [&fluid; 2], world.gravity);
             let effective = self.tension_at_end(side, state, world, &beside, (&t, pull));
@@ -163,7 +177,8 @@ impl Rod {
         }
         for held in self.attachments.iter().filter(|a| a.node > 0 && a.node < last) {
             let i = held.node;
-            let near = [i - 1, i, i + 1].map(|node| world.fluid.sample(&state.position[node], state.time));
+            let sample = |node: usize| world.fluid.sample(&state.position[node], state.time);
+            let near = [i - 1, i, i + 1].map(|node| sampled.map_or_else(|| sample(node), |fluid| fluid[node]));
             let [a, b] = [i - 1, i].map(|element| self.element_force(element, state, [&fluid; 2], world.gravity));
             let effective = self.tension_beside_node(i, state, world, near.each_ref(), [(&a.0.0, a.1), (&b.0.0, b.1)]);
             (out[i].effective, out[i].wall) = (effective, effective);

@@ -2,7 +2,8 @@
 
 use super::state::RodState;
 use super::system::Weights;
-use nalgebra::Vector3;
+use bytemuck::{cast_slice, cast_slice_mut};
+use multiversion::multiversion;
 use windlass_model::SchemeWeights;
 
 /// How a rod is stepped.
@@ -56,9 +57,9 @@ pub(super) struct StepScheme {
 /// Takes what is smaller than 1e-136 as zero: a motion that dies away would end in denormal numbers, which cost a
 /// hundred times as much as others.
 #[inline(always)]
-fn flush_to_zero(v: Vector3<f64>) -> Vector3<f64> {
+fn flush_to_zero(c: f64) -> f64 {
     const MIN_MAGNITUDE: f64 = 1e-120;
-    v.map(|c| (c + MIN_MAGNITUDE) - MIN_MAGNITUDE)
+    (c + MIN_MAGNITUDE) - MIN_MAGNITUDE
 }
 
 impl StepScheme {
@@ -94,13 +95,72 @@ impl StepScheme {
         Weights { k: 1.0, c: self.v_by_new * self.new_by_u, m: self.a_by_new * self.new_by_u }
     }
 
-    /// Averaged acceleration, velocity and acceleration of node `i` moved by `u` from where the step began.
+    /// Gives `to` the positions at which its nodes end if their averaged accelerations stay, and the motion that belongs to them.
+    pub fn predict(&self, from: &RodState, to: &mut RodState) {
+        let start = StepStart::new(from);
+        let [x, averaged, velocity, acceleration] = motions(to);
+        predict(self, &start, x, [averaged, velocity, acceleration]);
+    }
+
+    /// Gives `to` averaged accelerations, velocities and accelerations that belong to its positions.
+    pub fn set_motions(&self, from: &RodState, to: &mut RodState) {
+        let start = StepStart::new(from);
+        let [x, averaged, velocity, acceleration] = motions(to);
+        set_motions(self, &start, x, [averaged, velocity, acceleration]);
+    }
+
+    /// New averaged acceleration, velocity and acceleration of a coordinate that moves by `u` from where the step began, by its
+    /// velocity, averaged acceleration and acceleration there.
     #[inline(always)]
-    pub fn node_motion(&self, from: &RodState, i: usize, u: Vector3<f64>) -> [Vector3<f64>; 3] {
-        let (v, a, acc) = (&from.velocity[i], &from.averaged[i], &from.acceleration[i]);
+    fn motion(&self, u: f64, [v, a, acceleration]: [f64; 3]) -> [f64; 3] {
         let new = flush_to_zero((u - v * self.h) * self.new_by_u - a * self.new_by_old);
         let velocity = flush_to_zero(v + a * self.v_by_old + new * self.v_by_new);
-        let acceleration = flush_to_zero(new * self.a_by_new + a * self.a_by_old - acc * self.a_by_last);
-        [new, velocity, acceleration]
+        [new, velocity, flush_to_zero(new * self.a_by_new + a * self.a_by_old - acceleration * self.a_by_last)]
+    }
+}
+
+/// The coordinates of a state at the start of a step, one after the other.
+struct StepStart<'a> {
+    x: &'a [f64],
+    v: &'a [f64],
+    averaged: &'a [f64],
+    a: &'a [f64],
+}
+
+impl<'a> StepStart<'a> {
+    fn new(from: &'a RodState) -> Self {
+        let [x, v, averaged, a] =
+            [&from.position, &from.velocity, &from.averaged, &from.acceleration].map(|list| cast_slice(list));
+        StepStart { x, v, averaged, a }
+    }
+}
+
+/// Positions, averaged accelerations, velocities and accelerations of a state, one coordinate after the other.
+fn motions(state: &mut RodState) -> [&mut [f64]; 4] {
+    let RodState { position, averaged, velocity, acceleration, .. } = state;
+    [position, averaged, velocity, acceleration].map(|list| cast_slice_mut(list))
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn predict(scheme: &StepScheme, from: &StepStart, x: &mut [f64], [averaged, velocity, acceleration]: [&mut [f64]; 3]) {
+    let count = x.len();
+    let (averaged, velocity, acceleration) =
+        (&mut averaged[..count], &mut velocity[..count], &mut acceleration[..count]);
+    let (x0, v0, averaged0, a0) = (&from.x[..count], &from.v[..count], &from.averaged[..count], &from.a[..count]);
+    for i in 0..count {
+        let u = (v0[i] + averaged0[i] * (0.5 * scheme.h)) * scheme.h;
+        x[i] = x0[i] + u;
+        [averaged[i], velocity[i], acceleration[i]] = scheme.motion(u, [v0[i], averaged0[i], a0[i]]);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn set_motions(scheme: &StepScheme, from: &StepStart, x: &[f64], [averaged, velocity, acceleration]: [&mut [f64]; 3]) {
+    let count = x.len();
+    let (averaged, velocity, acceleration) =
+        (&mut averaged[..count], &mut velocity[..count], &mut acceleration[..count]);
+    let (x0, v0, averaged0, a0) = (&from.x[..count], &from.v[..count], &from.averaged[..count], &from.a[..count]);
+    for i in 0..count {
+        [averaged[i], velocity[i], acceleration[i]] = scheme.motion(x[i] - x0[i], [v0[i], averaged0[i], a0[i]]);
     }
 }

@@ -1,7 +1,7 @@
 //! Accelerations with which a run starts.
 
 use super::ends::RodEnd;
-use super::environment::LineEnvironment;
+use super::environment::{FluidState, LineEnvironment};
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
@@ -13,14 +13,20 @@ use super::viscoelastic::update_memory;
 use nalgebra::{Matrix3, Vector3};
 
 impl RodSolver {
-    /// Copies where the last trial ended, without taking it as the new state of the solver's own run.
-    pub fn set_accelerations(&self, state: &mut RodState) {
+    /// Gives a state where the last trial ended, without taking it as the new state of the solver's own run.
+    pub fn copy_end_to(&self, state: &mut RodState) {
         state.copy_from(&self.next);
     }
 
     /// Where the last trial ended.
     pub fn end(&self) -> &RodState {
         &self.next
+    }
+
+    /// The fluid at the nodes by which the last trial ended: where it was sampled they have moved by no more than a thousandth of the
+    /// shortest element since.
+    pub fn fluid(&self) -> &[FluidState] {
+        &self.trial.fluid
     }
 
     /// What each holder feels of inertia at the instant of the last [`RodSolver::start`]: d(force the holder needs)/d(its

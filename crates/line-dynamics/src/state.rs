@@ -120,18 +120,40 @@ impl RodState {
         }
     }
 
-    /// Becomes another state of the same rod, in memory that is there.
-    pub(super) fn copy_from(&mut self, other: &RodState) {
+    /// Becomes another state, in memory that is there where it is one of as many nodes.
+    pub fn copy_from(&mut self, other: &RodState) {
         self.time = other.time;
         self.origin = other.origin;
-        self.position.copy_from_slice(&other.position);
-        self.velocity.copy_from_slice(&other.velocity);
-        self.acceleration.copy_from_slice(&other.acceleration);
-        self.averaged.copy_from_slice(&other.averaged);
-        self.director.copy_from_slice(&other.director);
-        self.bedding.copy_from_slice(&other.bedding);
-        self.stuck.copy_from_slice(&other.stuck);
-        self.yielded.copy_from_slice(&other.yielded);
+        self.position.clone_from(&other.position);
+        self.velocity.clone_from(&other.velocity);
+        self.acceleration.clone_from(&other.acceleration);
+        self.averaged.clone_from(&other.averaged);
+        self.director.clone_from(&other.director);
+        self.bedding.clone_from(&other.bedding);
+        self.stuck.clone_from(&other.stuck);
+        self.yielded.clone_from(&other.yielded);
+    }
+
+    /// Moves every node by its part of a change of the unknowns, of which there are `stride` a node, positions first.
+    pub(super) fn move_nodes(&mut self, change: &[f64], stride: usize) {
+        if stride == 3 {
+            let coordinates: &mut [f64] = bytemuck::cast_slice_mut(&mut self.position);
+            coordinates.iter_mut().zip(change).for_each(|(x, d)| *x += d);
+        } else {
+            for (x, d) in self.position.iter_mut().zip(change.chunks_exact(stride)) {
+                *x += Vector3::new(d[0], d[1], d[2]);
+            }
+        }
+    }
+
+    /// Position, velocity, acceleration and averaged acceleration of a node.
+    pub(super) fn node_motion(&self, node: usize) -> [Vector3<f64>; 4] {
+        [self.position[node], self.velocity[node], self.acceleration[node], self.averaged[node]]
+    }
+
+    /// Gives a node the motion of [`RodState::node_motion`].
+    pub(super) fn set_node_motion(&mut self, node: usize, motion: [Vector3<f64>; 4]) {
+        [self.position[node], self.velocity[node], self.acceleration[node], self.averaged[node]] = motion;
     }
 
     /// Whether it is a state of a rod, by the length of all its lists.

@@ -370,16 +370,11 @@ impl RodSolver {
             self.end_jacobian.moved += size;
             let next = &mut self.next;
             turn_directors(&mut next.director, &next.position, &self.change, stride, known);
-            for i in 0..=last {
-                if (i == 0 && known[0]) || (i == last && known[1]) {
-                    continue;
-                }
-                let d = &self.change[stride * i..stride * i + 3];
-                next.position[i] += Vector3::new(d[0], d[1], d[2]);
-                let u = next.position[i] - from.position[i];
-                let [averaged, v, a] = scheme.node_motion(from, i, u);
-                (next.averaged[i], next.velocity[i], next.acceleration[i]) = (averaged, v, a);
-            }
+            // ends whose motion is given keep it
+            let given = [(0, 0), (1, last)].map(|(side, node)| known[side].then(|| (node, next.node_motion(node))));
+            next.move_nodes(&self.change, stride);
+            scheme.set_motions(from, next);
+            given.into_iter().flatten().for_each(|(node, motion)| next.set_node_motion(node, motion));
             // what is still missing if the moves go on shrinking as they do
             let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
             if size.min(missing) <= tolerance {

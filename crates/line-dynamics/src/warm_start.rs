@@ -102,12 +102,8 @@ impl RodSolver {
         self.end_jacobian.moved += most;
         let next = &mut self.next;
         turn_directors(&mut next.director, &next.position, &self.change, stride, [false; 2]);
-        for i in 0..=last {
-            let d = &self.change[stride * i..stride * i + 3];
-            next.position[i] += Vector3::new(d[0], d[1], d[2]);
-            let u = next.position[i] - from.position[i];
-            [next.averaged[i], next.velocity[i], next.acceleration[i]] = scheme.node_motion(from, i, u);
-        }
+        next.move_nodes(&self.change, stride);
+        scheme.set_motions(from, next);
         for (side, node) in [(0, 0), (1, last)] {
             if let Some(motion) = ends[side].motion {
                 next.hold(node, &motion);

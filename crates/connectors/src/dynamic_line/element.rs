@@ -133,6 +133,8 @@ impl DynamicLine {
     /// Where it hangs at rest between ends.
     pub(super) fn find_rest(&self, at: &Situation, cache: &mut RodCache) -> Result<LineAtRest, ClassError> {
         let ends = self.end_conditions(at.ends, true)?;
+        cache.forget_start();
+        cache.forget_end();
         if cache.rod != self.base.rod {
             cache.rod = self.base.rod.clone();
         }
@@ -212,28 +214,37 @@ impl DynamicLine {
         &self,
         at: &Situation,
         (time, dt): (f64, f64),
-        kept: &StateView,
+        (committed, kept): (&[f64], &StateView),
         trial: &mut [f64],
         cache: &mut RodCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
         let (ends, places) = (self.end_conditions(at.ends, false)?, places(at.ends));
-        if let Some(rod) = self.rod_with_mesh(kept, &cache.rod)? {
-            cache.rod = rod;
+        if !cache.has_start(committed) {
+            cache.forget_start();
+            if let Some(rod) = self.rod_with_mesh(kept, &cache.rod)? {
+                cache.rod = rod;
+            }
+            cache.state.unpack_into(&cache.rod, kept.motion).map_err(to_class_error)?;
+            cache.keep_start(committed);
         }
+        cache.forget_end();
         let RodCache { rod, state, .. } = &mut *cache;
-        state.unpack_into(rod, kept.motion).map_err(to_class_error)?;
         state.time = time - dt;
-        if dt > 0.0 {
-            wind(rod, state, (self.first, self.nominal, dt), &self.base.bands)?;
+        let is_wound =
+            if dt > 0.0 { wind(rod, state, (self.first, self.nominal, dt), &self.base.bands) } else { Ok(false) };
+        // an instant, a winch, a pipe and the energy balance leave another state behind
+        if dt == 0.0 || !matches!(is_wound, Ok(false)) || self.base.laid.is_some() || self.layout.has_balance() {
+            cache.forget_start();
         }
+        is_wound?;
         cache.fit();
         let RodCache { rod, solver, state, flows, .. } = cache;
         let forces = self.with_environment((at, false, kept.paid), flows, |environment| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, environment, time, ends).map_err(to_class_error)?;
                 if self.base.laid.is_some() {
-                    solver.set_accelerations(state);
+                    solver.copy_end_to(state);
                     on_supports(
                         out,
                         &rod.support_forces(state, environment),
@@ -267,7 +278,7 @@ impl DynamicLine {
         let balance = self.layout.has_balance().then(|| {
             self.with_environment((at, false, kept.paid), flows, |environment| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
-                    solver.set_accelerations(state);
+                    solver.copy_end_to(state);
                     balance.enter(rod, state, environment, solver, &forces);
                     balance
                 }
@@ -283,6 +294,9 @@ impl DynamicLine {
         self.layout.write((rod, &self.base.bands), (end, paid), trial)?;
         if let Some(balance) = balance {
             self.layout.keep_books(&balance, trial);
+        }
+        if dt > 0.0 {
+            cache.keep_end(trial);
         }
         Ok(())
     }
@@ -329,7 +343,7 @@ impl Element for DynamicLine {
         let kept = self.layout.read(committed)?;
         let Some(cache) = self.rod_cache(cache) else { return Err(ClassError::new(NO_MEMORY).lasting()) };
         if let (Some(step), Some(kept)) = (at.step, &kept) {
-            return self.step(at, (step.time, step.dt), kept, trial, cache, out);
+            return self.step(at, (step.time, step.dt), (committed, kept), trial, cache, out);
         }
         let (found, places) = (self.find_rest(at, cache)?, places(at.ends));
         let RodCache { rod, solver, flows, .. } = &mut *cache;
@@ -352,7 +366,7 @@ impl Element for DynamicLine {
             if let Some(kept) = self.layout.read(&begun)? {
                 // its balance is not begun yet
                 let kept = kept.without_books();
-                return self.step(at, (step.time, 0.0), &kept, trial, cache, out);
+                return self.step(at, (step.time, 0.0), (&begun, &kept), trial, cache, out);
             }
         }
         Ok(())

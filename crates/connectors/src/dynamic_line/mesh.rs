@@ -223,22 +223,22 @@ pub(super) fn attachments(parts: &[LinePart], counts: &[usize], density: f64) ->
 }
 
 /// Takes the first part of a line to another length (m) over a step (s): elements appear at its first end or go. Of a change by more than
-/// [`max_payout_step`] the element there stays longer than it should.
+/// [`max_payout_step`] the element there stays longer than it should. Whether anything changed.
 pub(super) fn wind(
     rod: &mut Rod,
     state: &mut RodState,
     (first, nominal, dt): (f64, f64, f64),
     bands: &Bands,
-) -> Result<(), ClassError> {
+) -> Result<bool, ClassError> {
     let own = rod.each_of_mesh().take_while(|e| bands.part_of(e.2) == 0);
     let (count, now) = own.fold((0, 0.0), |(count, sum), e| (count + 1, sum + e.0));
     let change = first - now;
-    let Some((mut rest, rate, _)) = rod.each_of_mesh().next() else { return Ok(()) };
+    let Some((mut rest, rate, _)) = rod.each_of_mesh().next() else { return Ok(false) };
     if change.abs() <= 1e-12 * now {
         if rate != 0.0 {
             rod.set_length(0, rest, 0.0).map_err(to_class_error)?;
         }
-        return Ok(());
+        return Ok(rate != 0.0);
     }
     if change > 0.0 && rest + change > DIVIDE_ABOVE_SHARE * nominal {
         rod.divide(0, state).map_err(to_class_error)?;
@@ -259,7 +259,7 @@ pub(super) fn wind(
             *rod = Rod::with_mesh(rod.name(), rod.segments().to_vec(), attached, &mesh).map_err(to_class_error)?;
         }
     }
-    Ok(())
+    Ok(true)
 }
 
 /// The most by which a winch may change a line in one step (m): an element at the winch is divided or taken in once, and is then as long as

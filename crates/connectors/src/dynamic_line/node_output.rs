@@ -52,14 +52,19 @@ impl NodalElement for DynamicLine {
         let (Some(kept), Some(cache)) = (self.layout.read(state)?, self.rod_cache(cache)) else {
             return self.find_nodes(at, state, out);
         };
-        if self.rod_with_mesh(&kept, &cache.rod)?.is_some() {
-            return self.find_nodes(at, state, out);
-        }
         let ends = self.end_conditions(at.ends, at.step.is_none())?;
-        let RodCache { rod, state, flows, .. } = cache;
-        state.unpack_into(rod, kept.motion).map_err(to_class_error)?;
+        let is_end = cache.has_end(state);
+        if !is_end {
+            if self.rod_with_mesh(&kept, &cache.rod)?.is_some() {
+                return self.find_nodes(at, state, out);
+            }
+            cache.forget_start();
+            cache.state.unpack_into(&cache.rod, kept.motion).map_err(to_class_error)?;
+        }
+        let RodCache { rod, state, solver, flows, .. } = cache;
+        let (state, sampled) = if is_end { (solver.end(), Some(solver.fluid())) } else { (&*state, None) };
         self.with_environment((at, at.step.is_none(), kept.paid), flows, |environment| {
-            rod.row(state, environment, &ends, out)
+            rod.row(state, environment, &ends, sampled, out);
         });
         Ok(())
     }

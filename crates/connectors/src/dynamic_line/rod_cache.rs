@@ -49,9 +49,20 @@ pub(super) struct RodCache {
     nodes: usize,
     /// Where it last hung at rest.
     pub rest: Option<RodState>,
-    /// Room for its state on the way, and for the water at its nodes.
+    /// Its state at the start of a step.
     pub state: RodState,
+    /// The numbers `state` was unpacked from, of the mesh that `rod` has; empty where `state` is another.
+    started: Vec<f64>,
+    /// The numbers that the end of the solver's last trial was packed into, of the mesh that `rod` has; empty where it was not.
+    ended: Vec<f64>,
+    /// Room for the water at its nodes.
     pub flows: Vec<Flow>,
+}
+
+/// Whether two lists are of the same numbers, to the last bit.
+fn same_bits(a: &[f64], b: &[f64]) -> bool {
+    // without a way out of the loop it goes many at a time
+    a.len() == b.len() && a.iter().zip(b).fold(0, |other, (a, b)| other | (a.to_bits() ^ b.to_bits())) == 0
 }
 
 impl RodCache {
@@ -59,7 +70,50 @@ impl RodCache {
         let rod = base.rod.clone();
         let (state, flows) = (RodState::default(), Vec::new());
         let nodes = rod.nodes();
-        RodCache { base: base.clone(), solver: solver_of(base, &rod), nodes, rod, rest: None, state, flows }
+        let (started, ended) = (Vec::new(), Vec::new());
+        let solver = solver_of(base, &rod);
+        RodCache { base: base.clone(), solver, nodes, rod, rest: None, state, started, ended, flows }
+    }
+
+    /// Makes `rod` and `state` those of the numbers of a state where that is known without unpacking them: of another trial of the
+    /// same step, or of the step that follows the last trial.
+    pub fn has_start(&mut self, committed: &[f64]) -> bool {
+        if !self.started.is_empty() && same_bits(&self.started, committed) {
+            return true;
+        }
+        if !self.has_end(committed) {
+            return false;
+        }
+        self.state.copy_from(self.solver.end());
+        std::mem::swap(&mut self.started, &mut self.ended);
+        true
+    }
+
+    /// Whether the solver's last trial ended in the numbers of a state.
+    pub fn has_end(&self, state: &[f64]) -> bool {
+        !self.ended.is_empty() && same_bits(&self.ended, state)
+    }
+
+    /// Keeps the numbers that `state` was unpacked from.
+    pub fn keep_start(&mut self, committed: &[f64]) {
+        self.started.clear();
+        self.started.extend_from_slice(committed);
+    }
+
+    /// Keeps the numbers that the end of the solver's trial was packed into.
+    pub fn keep_end(&mut self, trial: &[f64]) {
+        self.ended.clear();
+        self.ended.extend_from_slice(trial);
+    }
+
+    /// `state` is no longer that of the start of a step.
+    pub fn forget_start(&mut self) {
+        self.started.clear();
+    }
+
+    /// The solver no longer has the end of a trial.
+    pub fn forget_end(&mut self) {
+        self.ended.clear();
     }
 
     /// Gives the rod another solver, if a winch has given it more nodes or fewer: of other lengths alone the solver remembers where it was.
@@ -86,8 +140,8 @@ mod tests {
     use crate::dynamic_line::{Seabed, description};
     use windlass_line_dynamics::{LineEnvironment, RodEnd, RodSegment, UniformFluid};
 
-    #[test]
-    fn solver_is_reused_while_winch_changes_lengths_only() {
+    /// A line of five elements between ends 8 m apart, at rest.
+    fn hanging_line(environment: &LineEnvironment) -> (RodCache, Rod, RodState) {
         let rod = Rod::new("R", vec![RodSegment::line(10.0, 5, 10.0, 1e6, 0.1)], vec![]).unwrap();
         let ground = SeabedLaw::elastic(0.0);
         let base = Base {
@@ -106,11 +160,41 @@ mod tests {
             laid: None,
         };
         let mut cache = RodCache::new(&Arc::new(base));
+        let mut state = RodState::along_points(&rod, &ENDS).unwrap();
+        cache.solver.statics(&rod, &mut state, environment, ENDS.map(RodEnd::pin)).unwrap();
+        (cache, rod, state)
+    }
+
+    const ENDS: [Vector3<f64>; 2] = [Vector3::new(0.0, 0.0, 0.0), Vector3::new(8.0, 0.0, 0.0)];
+
+    #[test]
+    fn end_of_trial_is_start_of_next_step_to_the_last_bit() {
         let fluid = UniformFluid::vacuum();
         let environment = LineEnvironment::new(&fluid, 9.81);
-        let ends = [Vector3::zeros(), Vector3::new(8.0, 0.0, 0.0)];
-        let mut state = RodState::along_points(&rod, &ends).unwrap();
-        cache.solver.statics(&rod, &mut state, &environment, ends.map(RodEnd::pin)).unwrap();
+        let (mut cache, rod, start) = hanging_line(&environment);
+        let ends = [ENDS[0], ENDS[1] + Vector3::new(0.01, 0.0, 0.0)];
+        cache.solver.trial(&rod, &start, &environment, 0.1, ends.map(RodEnd::pin)).unwrap();
+        let mut numbers = Vec::new();
+        cache.solver.end().pack(&mut numbers);
+        assert!(!cache.has_start(&numbers));
+        cache.keep_end(&numbers);
+        assert!(cache.has_end(&numbers) && cache.has_start(&numbers));
+        assert_eq!(cache.state, RodState::unpack(&rod, &numbers).unwrap());
+        // another trial of that step, and one from a state that differs by the sign of a zero
+        assert!(cache.has_start(&numbers) && !cache.has_end(&numbers));
+        let zero = numbers.iter().position(|v| *v == 0.0).unwrap();
+        numbers[zero] = -numbers[zero];
+        assert!(!cache.has_start(&numbers));
+        cache.forget_start();
+        numbers[zero] = -numbers[zero];
+        assert!(!cache.has_start(&numbers));
+    }
+
+    #[test]
+    fn solver_is_reused_while_winch_changes_lengths_only() {
+        let fluid = UniformFluid::vacuum();
+        let environment = LineEnvironment::new(&fluid, 9.81);
+        let (mut cache, rod, mut state) = hanging_line(&environment);
         cache.rod.set_length(0, 2.5, 0.5).unwrap();
         cache.fit();
         assert!(cache.solver.end_tangent(&rod, &environment).is_some());

@@ -183,8 +183,8 @@ impl BodyForces {
         self.ties.begin(system.links.len(), system.nodes.len());
         self.has_dynamic_lines = system.links.iter().any(|l| l.is_dynamic());
         self.caches.resize_with(system.links.len(), SolverCache::new);
-        self.trial.clear();
-        self.trial.extend_from_slice(&system.states);
+        // connectors write all of it
+        self.trial.resize(system.states.len(), 0.0);
     }
 
     /// Drops what predicts the forces of the next step.
@@ -310,6 +310,9 @@ impl BodyForces {
             self.place_ends(link, motions);
             let committed = &system.states[link.states.clone()];
             let trial = &mut self.trial[link.states.clone()];
+            if !link.is_dynamic() {
+                trial.copy_from_slice(committed);
+            }
             let Some(cache) = self.caches.get_mut(index) else { continue };
             let step = (dt > 0.0).then_some(TimeStep { time, dt });
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
@@ -326,7 +329,6 @@ impl BodyForces {
                 if let Some(error) = found.failed.take() {
                     return Err(SolveError::error_about(&link.name)(error));
                 }
-                trial.copy_from_slice(&found.trial);
                 std::mem::swap(&mut self.response, &mut found.response);
             } else {
                 let held = self.ties.forces.get(index).and_then(Option::as_ref);

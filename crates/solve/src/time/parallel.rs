@@ -11,7 +11,6 @@ pub(super) struct LineTask {
     /// Its number among the connectors.
     pub link: usize,
     pub ends: Vec<End>,
-    pub trial: Vec<f64>,
     pub cache: SolverCache,
     pub response: ElementResponse,
     pub failed: Option<ClassError>,
@@ -32,16 +31,21 @@ impl BodyForces {
         }
         let dynamic_lines = || system.links.iter().enumerate().filter(|(_, l)| l.is_dynamic());
         self.line_tasks.resize_with(dynamic_lines().count(), LineTask::default);
-        let mut tasks = std::mem::take(&mut self.line_tasks);
+        let (mut tasks, mut trial) = (std::mem::take(&mut self.line_tasks), std::mem::take(&mut self.trial));
+        let (mut lines, mut others, mut from) = (Vec::with_capacity(tasks.len()), trial.as_mut_slice(), 0);
         for (one, (index, link)) in tasks.iter_mut().zip(dynamic_lines()) {
             self.place_ends(link, motions);
             one.link = index;
             one.ends.clone_from(&self.ends);
-            // all of it is written
-            one.trial.resize(link.states.len(), 0.0);
             one.cache = self.caches.get_mut(index).map(SolverCache::take).unwrap_or_default();
+            // states stand in the order of connectors
+            let (_, own) = std::mem::take(&mut others).split_at_mut(link.states.start - from);
+            let (own, behind) = own.split_at_mut(link.states.len());
+            (others, from) = (behind, link.states.end);
+            lines.push((one, own));
         }
-        evaluate(system, &mut tasks, Some(TimeStep { time, dt }));
+        evaluate(system, &mut lines, Some(TimeStep { time, dt }));
+        self.trial = trial;
         for one in &mut tasks {
             if let Some(cache) = self.caches.get_mut(one.link) {
                 *cache = one.cache.take();
@@ -52,12 +56,12 @@ impl BodyForces {
 }
 
 /// Evaluates them at the end of a step; `step` as of [`Situation`].
-fn evaluate(system: &System, lines: &mut [LineTask], step: Option<TimeStep>) {
-    let one = |line: &mut LineTask| {
+fn evaluate(system: &System, lines: &mut [(&mut LineTask, &mut [f64])], step: Option<TimeStep>) {
+    let one = |(line, trial): &mut (&mut LineTask, &mut [f64])| {
         let Some(link) = system.links.get(line.link) else { return };
         let at = Situation { ends: &line.ends, step, surroundings: &system.surroundings };
         let committed = &system.states[link.states.clone()];
-        let made = link.element.evaluate(&at, committed, &mut line.trial, &mut line.cache, &mut line.response);
+        let made = link.element.evaluate(&at, committed, trial, &mut line.cache, &mut line.response);
         line.failed = made.err();
     };
     let helpers = rayon::current_num_threads().min(lines.len()).saturating_sub(1);
