@@ -11,8 +11,8 @@ use super::nodal_loads::add_nodal_loads;
 use super::statics_friction::{NodeFriction, seabed_friction};
 use super::stick_friction::{StickFriction, stick_friction};
 use super::system::{RodSystem, Weights};
-use super::tension::{ElementStretch, ElementTension, TensionOptions, tension};
-use super::trial::Trial;
+use super::tension::{ElementStretch, ElementTension, tension};
+use super::trial::{StaticFriction, Trial};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
@@ -79,7 +79,7 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
         system.block::<TANGENT>(i + 1, i + 1, &share.bb);
         i += 1;
     }
-    if let Some(side) = trial.pulled_end {
+    if let Some(side) = trial.friction.pulled_end() {
         for i in range.clone() {
             let Some(NodeFriction { node, force, by, .. }) = seabed_friction(rod, world, trial, i, side) else {
                 continue;
@@ -90,14 +90,14 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
             system.block::<TANGENT>(own, other, &(by[1] * -weights.k));
         }
     }
-    if trial.stick_friction {
+    if trial.friction == StaticFriction::Stick {
         for node in range.start..=range.end {
             let Some(StickFriction { force, by, .. }) = stick_friction(rod, world, trial, node) else { continue };
             system.push(node, &-force);
             system.block::<TANGENT>(node, node, &(by * -weights.k));
         }
     }
-    if !trial.tension_only && rod.elements[range.clone()].iter().any(|e| e.bending > 0.0) {
+    if !trial.softening.tension_only && rod.elements[range.clone()].iter().any(|e| e.bending > 0.0) {
         let mut before: Option<(Vector3<f64>, f64)> = None;
         for i in range.clone() {
             let edge = ElementAxis::from_trial(rod, trial, i);
@@ -139,12 +139,9 @@ fn axial(
     let inverse_rest = 1.0 / element.rest;
     let stretch = length * inverse_rest;
     let dv = trial.v[i + 1] - trial.v[*i];
-    let let_out = if trial.winches_locked { 0.0 } else { element.rate };
+    let let_out = if trial.is_static { 0.0 } else { element.rate };
     let rate = (t.dot(&dv) - stretch * let_out) * inverse_rest;
-    let taken = TensionOptions {
-        compression: (element.compression || trial.resists_shortening()) && !trial.tension_only,
-        axial_stiffness_scale: trial.axial_stiffness_scale,
-    };
+    let taken = trial.tension_options(element);
     let stretched = ElementStretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z), datum: trial.origin.z };
     let memory = trial.memory.get(*i);
     let ElementTension { value, by_strain, by_rate, by_height } =
@@ -215,7 +212,7 @@ fn add_water_load<const TANGENT: bool>(
                 // depth below the surface falls as a node rises
                 let (to_own, to_other) = (-(by_own + 0.5 * by_middle), -0.5 * by_middle);
                 sum.add_lift(second, &load.force, [k * to_own, k * to_other]);
-                if *slam && !trial.winches_locked {
+                if *slam && !trial.is_static {
                     sum.add::<TANGENT>(&add_slam_load(element, trial, weights, edge, [own, middle], second));
                 }
             }

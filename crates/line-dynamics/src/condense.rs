@@ -145,9 +145,9 @@ impl RodSolver {
         let at_rest = self.phase == SolverPhase::Rest;
         let close = !exact && !at_rest && self.end_jacobian.moved <= MAX_REUSE_MOVE * rod.shortest();
         if !(close && (0..2).all(|side| self.end_jacobian.ready[side] || !asked[side])) {
-            (self.trial.exact_friction_tangent, self.trial.winches_locked) = (!close, at_rest);
+            (self.trial.exact_friction_tangent, self.trial.is_static) = (!close, at_rest);
             let made = self.columns(rod, world, (close, at_rest), asked);
-            (self.trial.exact_friction_tangent, self.trial.winches_locked) = (false, false);
+            (self.trial.exact_friction_tangent, self.trial.is_static) = (false, false);
             made?;
         }
         Some(())

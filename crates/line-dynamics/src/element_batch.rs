@@ -98,9 +98,9 @@ impl ElementBatch {
         self.gather_input(rod, trial, gravity, (first, count));
         let ElementBatch { asked, shares } = self;
         if TANGENT {
-            add_forces_and_tangents(asked, (weights, gravity, trial.axial_stiffness_scale), shares);
+            add_forces_and_tangents(asked, (weights, gravity, trial.softening.axial_stiffness_scale), shares);
         } else {
-            add_forces(asked, (weights, gravity, trial.axial_stiffness_scale), shares);
+            add_forces(asked, (weights, gravity, trial.softening.axial_stiffness_scale), shares);
         }
     }
 
@@ -109,7 +109,7 @@ impl ElementBatch {
         let asked = &mut self.asked;
         for (n, element) in rod.elements[first..first + count].iter().enumerate().take(BATCH_SIZE) {
             asked.rest[n] = element.rest;
-            asked.rate[n] = if trial.winches_locked { 0.0 } else { element.rate };
+            asked.rate[n] = if trial.is_static { 0.0 } else { element.rate };
             asked.ea[n] = element.ea;
             let tube = rod.segments[element.segment].tube.as_ref();
             let TubeAreas { free_strain: free, outside, inside, contents } =
@@ -117,8 +117,7 @@ impl ElementBatch {
             (asked.free[n], asked.outside[n]) = (free, outside);
             (asked.inside[n], asked.contents[n]) = (inside, contents);
             asked.damping[n] = element.damping;
-            let pushes = (element.compression || trial.resists_shortening()) && !trial.tension_only;
-            asked.pushes[n] = f64::from(u8::from(pushes));
+            asked.pushes[n] = f64::from(u8::from(trial.tension_options(element).compression));
             asked.mass[n] = element.mass;
             asked.volume[n] = element.volume;
             for side in 0..2 {

@@ -7,7 +7,7 @@ use super::mesh::Rod;
 use super::state::RodState;
 use super::step::{RodSolver, SolverPhase};
 use super::system::Weights;
-use super::trial::{sample_fluid, set_friction_directions, set_seabed_penetration_scales};
+use super::trial::{StaticFriction, sample_fluid, set_friction_directions, set_seabed_penetration_scales};
 use super::viscoelastic::update_memory;
 use super::workspace::Workspace;
 use nalgebra::{DMatrix, Vector3};
@@ -79,7 +79,7 @@ impl RodSolver {
         self.trial.director.copy_from_slice(&state.director);
         self.trial.v.fill(Vector3::zeros());
         self.trial.a.fill(Vector3::zeros());
-        (self.trial.pulled_end, self.trial.stick_friction) = (None, false);
+        self.trial.friction = StaticFriction::None;
         self.trial.stuck_at.copy_from_slice(&state.stuck);
         set_friction_directions(rod, state, world, &mut self.trial.friction_direction);
         set_seabed_penetration_scales(state, world, &mut self.trial.seabed_penetration_scale);

@@ -7,7 +7,7 @@ use super::error::RodError;
 use super::mesh::{Rod, RodElement};
 use super::step::RodSolver;
 use super::tension::{ElementStretch, TensionOptions, tension};
-use super::trial::{largest_change, sample_fluid, turn_directors};
+use super::trial::{Softening, StaticFriction, largest_change, sample_fluid, turn_directors};
 use nalgebra::Vector3;
 
 /// Newton iterations after which one pseudo-step is given up and repeated shorter.
@@ -50,17 +50,16 @@ impl RodSolver {
     ) -> Result<(), RodError> {
         let last = rod.elements.len();
         let weight = total_weight(rod, world);
-        if !self.trial.resists_shortening() && !self.trial.stick_friction && !self.is_stiff {
+        if !self.trial.resists_shortening() && self.trial.friction != StaticFriction::Stick && !self.is_stiff {
             // a start that is much too short would buckle in all its elements at once: it is first solved without compression
             let strains =
                 rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
-            self.trial.tension_only = strains.fold(0.0, f64::min) < MIN_START_STRAIN;
+            let tension_only = strains.fold(0.0, f64::min) < MIN_START_STRAIN;
             // and a rod that is stiff for its weight converges more easily when softened
             let stiffness = rod.segments.iter().map(|s| s.axial.evaluate(0.0).1).fold(0.0, f64::max);
-            self.trial.axial_stiffness_scale = (weight / (SOFTENED_STRAIN * stiffness)).min(1.0);
-            if self.trial.axial_stiffness_scale == 0.0 {
-                self.trial.axial_stiffness_scale = 1.0;
-            }
+            let scale = (weight / (SOFTENED_STRAIN * stiffness)).min(1.0);
+            let axial_stiffness_scale = if scale == 0.0 { 1.0 } else { scale };
+            self.trial.softening = Softening { tension_only, axial_stiffness_scale };
         }
         let mut from = self.trial.x.clone();
         let mut director = self.trial.director.clone();
@@ -71,7 +70,7 @@ impl RodSolver {
         let mut worst = (0, f64::INFINITY);
         while *done < most_iterations && pseudo > least {
             if world.fluid.is_interrupted() {
-                (self.trial.tension_only, self.trial.axial_stiffness_scale) = (false, 1.0);
+                self.trial.softening = Softening::NONE;
                 return Err(RodError::Interrupted { rod: rod.name.clone() });
             }
             let mut before = f64::INFINITY;
@@ -79,12 +78,10 @@ impl RodSolver {
             for inner in 1..=MAX_INNER_ITERATIONS {
                 *done += 1;
                 match self.iterate_pseudo_step(rod, world, mass, &from, pseudo) {
-                    StepOutcome::Converged | StepOutcome::Unstable
-                        if self.trial.tension_only || self.trial.axial_stiffness_scale < 1.0 =>
-                    {
-                        self.trial.tension_only = false;
-                        self.trial.axial_stiffness_scale =
-                            (self.trial.axial_stiffness_scale * STIFFENING_FACTOR).min(1.0);
+                    StepOutcome::Converged | StepOutcome::Unstable if self.trial.softening.is_soft() => {
+                        let scale = self.trial.softening.axial_stiffness_scale;
+                        let axial_stiffness_scale = (scale * STIFFENING_FACTOR).min(1.0);
+                        self.trial.softening = Softening { tension_only: false, axial_stiffness_scale };
                         from.copy_from_slice(&self.trial.x);
                         director.copy_from_slice(&self.trial.director);
                         pseudo = first_pseudo_step(rod, world);
@@ -117,8 +114,8 @@ impl RodSolver {
                     }
                 }
             }
-            if (self.trial.tension_only || self.trial.axial_stiffness_scale < 1.0) && *done > MAX_SOFTENED_ITERATIONS {
-                (self.trial.tension_only, self.trial.axial_stiffness_scale) = (false, 1.0);
+            if self.trial.softening.is_soft() && *done > MAX_SOFTENED_ITERATIONS {
+                self.trial.softening = Softening::NONE;
                 pseudo = first_pseudo_step(rod, world);
             }
             match settled {
@@ -145,8 +142,8 @@ impl RodSolver {
                 }
             }
         }
-        let whole = !self.trial.tension_only && self.trial.axial_stiffness_scale == 1.0;
-        (self.trial.tension_only, self.trial.axial_stiffness_scale) = (false, 1.0);
+        let whole = !self.trial.softening.is_soft();
+        self.trial.softening = Softening::NONE;
         if whole && self.largest_residual(rod, world) <= ACCEPTED_RESIDUAL_SHARE * weight {
             return Ok(());
         }

@@ -8,7 +8,7 @@ use super::mesh::Rod;
 use super::state::RodState;
 use super::step::{RodEndForces, RodSolver, SolverPhase};
 use super::system::Weights;
-use super::trial::{sample_fluid, set_friction_directions, set_seabed_penetration_scales};
+use super::trial::{StaticFriction, sample_fluid, set_friction_directions, set_seabed_penetration_scales};
 use super::viscoelastic::update_memory;
 use nalgebra::{Matrix3, Vector3};
 
@@ -78,7 +78,7 @@ impl RodSolver {
         let known = ends.map(|e| e.motion.is_some());
         self.trial.time = state.time;
         self.trial.ends = ends;
-        (self.trial.pulled_end, self.trial.stick_friction) = (None, false);
+        self.trial.friction = StaticFriction::None;
         self.trial.stuck_at.copy_from_slice(&state.stuck);
         self.trial.x.copy_from_slice(&state.position);
         self.trial.v.copy_from_slice(&state.velocity);

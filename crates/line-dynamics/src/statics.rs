@@ -11,7 +11,7 @@ use super::statics_friction::{RESIDUAL_TENSION_SHARE, pulled_end};
 use super::step::{RodEndForces, RodSolver, SolverPhase};
 use super::stick_friction::StillFluid;
 use super::system::Weights;
-use super::trial::{sample_fluid, set_friction_directions, set_seabed_penetration_scales};
+use super::trial::{StaticFriction, sample_fluid, set_friction_directions, set_seabed_penetration_scales};
 use super::viscoelastic::MaxwellMemory;
 use nalgebra::Vector3;
 
@@ -93,12 +93,12 @@ impl RodSolver {
         self.is_stiff = rod.is_stiff(total_weight(rod, world));
         self.phase = SolverPhase::Idle;
         self.slid_without_friction = false;
-        self.trial.winches_locked = true;
+        self.trial.is_static = true;
         Ok(())
     }
 
     fn end_statics<T>(&mut self, made: Result<T, RodError>, rests: impl Fn(&T) -> bool) -> Result<T, RodError> {
-        self.trial.winches_locked = false;
+        self.trial.is_static = false;
         if made.as_ref().is_ok_and(rests) {
             self.phase = SolverPhase::Rest;
         }
@@ -137,13 +137,12 @@ impl RodSolver {
         }
         // without drag friction it settles freely; but it does not slide down a slope
         self.set_trial_at_rest(rod, state, world, &ends);
-        (self.trial.pulled_end, self.trial.no_drag_friction, self.trial.stick_friction) =
-            (drawn, drawn.is_some(), false);
+        self.trial.friction = StaticFriction::pulled(drawn, false);
         let most = if drawn.is_some() { done + MAX_ITERATIONS_WITHOUT_DRAG_FRICTION } else { MAX_ITERATIONS };
         match self.solve_pseudo_transient(rod, world, &mass, &mut done, most) {
             Err(RodError::Statics { .. }) if drawn.is_some() => {
                 self.set_trial_at_rest(rod, state, world, &ends);
-                (self.trial.pulled_end, self.trial.no_drag_friction) = (None, false);
+                self.trial.friction = StaticFriction::None;
                 self.solve_pseudo_transient(rod, world, &mass, &mut done, MAX_ITERATIONS)?;
                 self.slid_without_friction = true;
             }
@@ -152,11 +151,12 @@ impl RodSolver {
         let drags = self.relative_drag(rod, world);
         if drags > RESIDUAL_TENSION_SHARE {
             let (x, director, laid) = (self.trial.x.clone(), self.trial.director.clone(), self.trial.laid_at.clone());
-            self.trial.no_drag_friction = false;
+            self.trial.friction.set_drag(true);
             let most = done + MAX_ITERATIONS_FRICTION_ADDED;
             if !self.find_rest_pulled(rod, world, &mass, &mut done, most)? {
                 // less than the friction of one node is less than the mesh knows
-                (self.trial.no_drag_friction, self.slid_without_friction) = (true, drags > 1.0);
+                self.trial.friction.set_drag(false);
+                self.slid_without_friction = drags > 1.0;
                 (self.trial.x, self.trial.director, self.trial.laid_at) = (x, director, laid);
                 self.largest_residual(rod, world);
                 self.work.keep_ends();
@@ -180,15 +180,15 @@ impl RodSolver {
         if drawn.is_none() && self.touches_rough_bottom(rod, world) && self.has_moving_fluid(world) {
             return Ok(None);
         }
-        (self.trial.pulled_end, self.trial.stick_friction) = (drawn, false);
-        self.trial.no_drag_friction = drawn.is_some() && self.least_strain(rod) < PILED_UP_STRAIN;
+        let is_piled_up = self.least_strain(rod) < PILED_UP_STRAIN;
+        self.trial.friction = StaticFriction::pulled(drawn, !is_piled_up);
         self.lay_as_in_state(rod, world);
         if let Some(done) = self.rest_from_warm_start(rod, state, world, mass, &ends)
-            && !(self.trial.no_drag_friction && self.relative_drag(rod, world) > 1.0)
+            && !(is_piled_up && self.relative_drag(rod, world) > 1.0)
         {
             return Ok(Some(self.accept_rest(rod, state, world, &ends, done)));
         }
-        self.trial.no_drag_friction = false;
+        self.trial.friction.set_drag(true);
         if drawn.is_some() {
             self.set_trial_at_rest(rod, state, world, &ends);
             self.swing_with_end(rod, state, world);
@@ -247,7 +247,7 @@ impl RodSolver {
             return Ok(None);
         }
         self.trial.laid_at.copy_from_slice(&laid.position);
-        (self.trial.pulled_end, self.trial.no_drag_friction, self.trial.stick_friction) = (None, false, true);
+        self.trial.friction = StaticFriction::Stick;
         let most = *done + MAX_ITERATIONS_FRICTION_ADDED;
         if self.find_rest_pulled(rod, world, mass, done, most)? {
             return Ok(Some(self.accept_rest(rod, state, world, &ends, *done)));

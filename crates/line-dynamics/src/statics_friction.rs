@@ -22,8 +22,8 @@ use super::morison::{HalfNode, half_force};
 use super::state::RodState;
 use super::step::RodSolver;
 use super::stick_friction::stick_friction;
-use super::tension::{ElementStretch, TensionOptions, tension};
-use super::trial::{Trial, set_friction_directions, transport_directors};
+use super::tension::{ElementStretch, tension};
+use super::trial::{StaticFriction, Trial, set_friction_directions, transport_directors};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// Friction on that node of an element that is nearer the pulled end.
@@ -150,16 +150,13 @@ pub(super) fn seabed_friction(
     let wanted = if mu > 0.0 { way.dot(&steep) / mu } else { 0.0 };
     let kept = wanted.clamp(-most, most);
     let spare = (most - kept).max(MIN_DRAG_FRICTION_SHARE);
-    let taken = TensionOptions {
-        compression: (element.compression || !trial.no_drag_friction) && !trial.tension_only,
-        axial_stiffness_scale: trial.axial_stiffness_scale,
-    };
+    let taken = trial.tension_options(element);
     let height = 0.5 * (trial.x[node].z + trial.x[other].z);
     let stretch = ElementStretch { strain: length / element.rest - 1.0, rate: 0.0, height, datum: trial.origin.z };
     let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
     let pull = tension(rod, element, taken, &stretch, trial.memory.get(i), fluids, world.gravity);
     let drawn = if mu > 0.0 { pull.value / (spare * mu * n) } else { 0.0 };
-    let (share, slope) = if trial.no_drag_friction { (0.0, 0.0) } else { mobilised_share(drawn) };
+    let (share, slope) = if trial.resists_shortening() { mobilised_share(drawn) } else { (0.0, 0.0) };
     let a = kept + spare * share;
     let held = way * a + aside * c;
     let force = (way * (mu * a) + aside * (mu_across * c)) * n;
@@ -208,8 +205,8 @@ impl RodSolver {
         from: &[Vector3<f64>],
         hasty: f64,
     ) {
-        let (Some(side), Some((_, ground))) =
-            (self.trial.pulled_end.filter(|_| !self.trial.no_drag_friction), world.bottom)
+        let (StaticFriction::Pulled { end: side, drags: true }, Some((_, ground))) =
+            (self.trial.friction, world.bottom)
         else {
             return;
         };
@@ -238,7 +235,7 @@ impl RodSolver {
     }
 
     fn lay_nodes(&mut self, rod: &Rod, world: &LineEnvironment, off: impl Fn(f64) -> f64) {
-        let Some(side) = self.trial.pulled_end else { return };
+        let Some(side) = self.trial.friction.pulled_end() else { return };
         let mut laid = self.trial.x.clone();
         for i in 0..rod.elements.len() {
             if let Some(NodeFriction { node, aside, .. }) = seabed_friction(rod, world, &self.trial, i, side) {
@@ -250,7 +247,7 @@ impl RodSolver {
 
     /// Takes the nodes along with an end that has moved: the line swings round about the one it is held by.
     pub(super) fn swing_with_end(&mut self, rod: &Rod, state: &RodState, world: &LineEnvironment) {
-        let (Some(side), Some((bottom, _))) = (self.trial.pulled_end, world.bottom) else { return };
+        let (Some(side), Some((bottom, _))) = (self.trial.friction.pulled_end(), world.bottom) else { return };
         let last = rod.elements.len();
         let (tip, root) = (side * last, (1 - side) * last);
         let (was, x) = (&state.position, &mut self.trial.x);
@@ -279,7 +276,7 @@ impl RodSolver {
 
     /// Total drag friction of a rod at rest, or what it would be where it is switched off, over the most that a single node has.
     pub(super) fn relative_drag(&self, rod: &Rod, world: &LineEnvironment) -> f64 {
-        let Some(side) = self.trial.pulled_end else { return 0.0 };
+        let Some(side) = self.trial.friction.pulled_end() else { return 0.0 };
         let all = (0..rod.elements.len()).filter_map(|i| seabed_friction(rod, world, &self.trial, i, side));
         let (sum, most) = all.fold((0.0, 0.0f64), |(sum, most), rub| (sum + rub.drag, most.max(rub.whole)));
         if most > 0.0 { sum / most } else { 0.0 }
@@ -301,14 +298,14 @@ impl RodSolver {
     /// Sets the stick points of a state at rest so that dynamics begins with the friction of statics.
     pub(super) fn set_stick_points(&mut self, rod: &Rod, world: &LineEnvironment, state: &mut RodState) {
         state.stuck.copy_from_slice(&state.position);
-        if let (Some(side), Some((_, ground))) = (self.trial.pulled_end, world.bottom) {
+        if let (Some(side), Some((_, ground))) = (self.trial.friction.pulled_end(), world.bottom) {
             for i in 0..rod.elements.len() {
                 if let Some(rub) = seabed_friction(rod, world, &self.trial, i, side) {
                     state.stuck[rub.node] += rub.held * ground.friction_travel;
                 }
             }
         }
-        if let (true, Some((_, ground))) = (self.trial.stick_friction, world.bottom) {
+        if let (StaticFriction::Stick, Some((_, ground))) = (self.trial.friction, world.bottom) {
             for node in 0..rod.nodes() {
                 if let Some(hold) = stick_friction(rod, world, &self.trial, node) {
                     state.stuck[node] += hold.held * ground.friction_travel;

@@ -11,8 +11,8 @@ use super::scheme::{RodSettings, StepScheme};
 use super::state::RodState;
 use super::system::Weights;
 use super::trial::{
-    Trial, advance_stick_points, interpolate, resample_fluid, sample_fluid, set_friction_directions,
-    set_seabed_penetration_scales, turn_directors,
+    Softening, StaticFriction, Trial, advance_stick_points, interpolate, resample_fluid, sample_fluid,
+    set_friction_directions, set_seabed_penetration_scales, turn_directors,
 };
 use super::viscoelastic::{MaxwellMemory, set_yielded_strains, update_memory};
 use super::warm_start::WarmStart;
@@ -115,13 +115,10 @@ impl RodSolver {
             laid_at: zero,
             seabed_penetration_scale: vec![0.0; nodes],
             ends: [RodEnd::FREE; 2],
-            tension_only: false,
-            axial_stiffness_scale: 1.0,
+            softening: Softening::NONE,
             exact_friction_tangent: false,
-            winches_locked: false,
-            pulled_end: None,
-            no_drag_friction: false,
-            stick_friction: false,
+            is_static: false,
+            friction: StaticFriction::None,
             director: state.director.clone(),
             memory: vec![MaxwellMemory::default(); state.yielded.len()],
         };
@@ -320,7 +317,7 @@ impl RodSolver {
         self.trial.ends = ends;
         match moved {
             None => {
-                (self.trial.pulled_end, self.trial.stick_friction) = (None, false);
+                self.trial.friction = StaticFriction::None;
                 self.trial.stuck_at.copy_from_slice(&from.stuck);
                 set_friction_directions(rod, from, world, &mut self.trial.friction_direction);
                 set_seabed_penetration_scales(from, world, &mut self.trial.seabed_penetration_scale);

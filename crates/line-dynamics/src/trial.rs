@@ -3,9 +3,10 @@
 use super::contact::update_stick_point;
 use super::ends::{RodEnd, RodEndMotion};
 use super::environment::{FluidState, LineEnvironment};
-use super::mesh::Rod;
+use super::mesh::{Rod, RodElement};
 use super::spatial::{rotate_director, transport_director};
 use super::state::RodState;
+use super::tension::TensionOptions;
 use super::viscoelastic::MaxwellMemory;
 use nalgebra::{Rotation3, Vector3};
 
@@ -30,30 +31,88 @@ pub(super) struct Trial {
     /// Penetration over which the bottom's stiffness grows at each node (m).
     pub seabed_penetration_scale: Vec<f64>,
     pub ends: [RodEnd; 2],
-    /// Without resistance to compression and bending: on the way to a position of rest.
-    pub tension_only: bool,
-    /// Scale of the axial stiffness: below one on the way to a position of rest.
-    pub axial_stiffness_scale: f64,
+    pub softening: Softening,
     /// Whether the tangent of friction is the exact one, as a body needs it, or the secant that converges.
     pub exact_friction_tangent: bool,
-    /// Winches stand still, as in statics.
-    pub winches_locked: bool,
-    /// The pulled end (0 or 1) of a rod in statics, if it lies on a bottom with friction: see [`super::statics_friction`].
-    pub pulled_end: Option<usize>,
-    /// A rod with a pulled end has no drag friction, but only friction against sliding down a slope.
-    pub no_drag_friction: bool,
-    /// A rod in statics without a pulled end is held by friction where it was laid: see [`super::stick_friction`].
-    pub stick_friction: bool,
+    /// Whether it is in statics: winches stand still, nothing slams, and friction is that of `friction` alone.
+    pub is_static: bool,
+    pub friction: StaticFriction,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
     /// How each element of a rod with viscoelastic rope follows its strain.
     pub memory: Vec<MaxwellMemory>,
 }
 
+/// How a rod is softened on the way to a position of rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Softening {
+    /// Without resistance to compression and bending.
+    pub tension_only: bool,
+    /// Scale of the axial stiffness, up to one.
+    pub axial_stiffness_scale: f64,
+}
+
+impl Softening {
+    /// The rod as it is.
+    pub const NONE: Softening = Softening { tension_only: false, axial_stiffness_scale: 1.0 };
+
+    /// Whether the rod is softer than it is.
+    pub fn is_soft(&self) -> bool {
+        self.tension_only || self.axial_stiffness_scale < 1.0
+    }
+}
+
+/// Friction of a rod in statics on a bottom that has some.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum StaticFriction {
+    /// None here. In time friction is that of [`super::contact`].
+    None,
+    /// Of a rod with a pulled end (0 or 1): see [`super::statics_friction`].
+    Pulled {
+        /// The pulled end.
+        end: usize,
+        /// Whether it has drag friction, beside friction against sliding down a slope.
+        drags: bool,
+    },
+    /// Of a rod without a pulled end that is held where it was laid: see [`super::stick_friction`].
+    Stick,
+}
+
+impl StaticFriction {
+    /// That of a rod with a pulled end, or none.
+    pub fn pulled(end: Option<usize>, drags: bool) -> Self {
+        end.map_or(StaticFriction::None, |end| StaticFriction::Pulled { end, drags })
+    }
+
+    /// The pulled end, where there is one.
+    pub fn pulled_end(&self) -> Option<usize> {
+        match self {
+            StaticFriction::Pulled { end, .. } => Some(*end),
+            StaticFriction::None | StaticFriction::Stick => None,
+        }
+    }
+
+    /// Gives a rod with a pulled end drag friction, or takes it away.
+    pub fn set_drag(&mut self, drags: bool) {
+        *self = match *self {
+            StaticFriction::Pulled { end, .. } => StaticFriction::Pulled { end, drags },
+            other => other,
+        };
+    }
+}
+
 impl Trial {
     /// Whether tension-only elements resist compression all the same: see [`super::statics_friction`].
     pub fn resists_shortening(&self) -> bool {
-        self.pulled_end.is_some() && !self.no_drag_friction
+        matches!(self.friction, StaticFriction::Pulled { drags: true, .. })
+    }
+
+    /// How an element takes its strain.
+    #[inline(always)]
+    pub fn tension_options(&self, element: &RodElement) -> TensionOptions {
+        let Softening { tension_only, axial_stiffness_scale } = self.softening;
+        let compression = (element.compression || self.resists_shortening()) && !tension_only;
+        TensionOptions { compression, axial_stiffness_scale }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Tangents are the differences of what they are tangents of.
 
 use super::super::system::Weights;
+use super::super::trial::StaticFriction;
 use super::super::*;
 use nalgebra::Vector3;
 
@@ -65,7 +66,7 @@ fn whole_rod_tangent_matches_residual_finite_difference() {
         solver.trial.ends[1] = RodEnd { rotation: Some(2e5), ..RodEnd::FREE.with_clamp(Vector3::new(0.5, -0.3, 0.5)) };
         compare(&rod, &state, &world, &mut solver);
         for side in [0, 1] {
-            solver.trial.pulled_end = Some(side);
+            solver.trial.friction = StaticFriction::Pulled { end: side, drags: true };
             compare(&rod, &state, &world, &mut solver);
         }
     }
