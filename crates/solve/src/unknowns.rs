@@ -97,7 +97,7 @@ impl<'a> Unknowns<'a> {
         })
     }
 
-    /// The residual acceleration tolerance (fraction of g).
+    /// The largest residual acceleration (fraction of g).
     pub fn largest(&self, residual: &DVector<f64>) -> f64 {
         residual.iter().zip(self.measure.iter()).fold(0.0, |most: f64, (r, m)| most.max(r.abs() / m))
     }

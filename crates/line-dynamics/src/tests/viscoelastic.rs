@@ -19,7 +19,7 @@ struct Cycle {
     lost: f64,
     /// Mean tension (N).
     mean: f64,
-    /// What the balance say was lost (J), and what they cannot say (J).
+    /// Energy lost by damping in the balance, and its imbalance (J).
     booked: [f64; 2],
 }
 
@@ -81,7 +81,7 @@ fn cycled_rope_matches_standard_linear_solid_modulus_and_loss() {
         assert!((found.storage / storage - 1.0).abs() < 1e-4, "{frequency}: {} {storage}", found.storage);
         assert!((found.lost / lost - 1.0).abs() < 2e-3, "{frequency}: {} {lost}", found.lost);
         assert!((found.booked[0] / lost - 1.0).abs() < 2e-3, "{frequency}: {:?} {lost}", found.booked);
-        // the balance sum power by the trapezoidal rule
+        // the balance sums power by the trapezoidal rule
         assert!(found.booked[1].abs() < 1e-4 * slow * 0.02 * 0.02 * LENGTH, "{frequency}: {:?}", found.booked);
     }
 }
@@ -129,7 +129,7 @@ fn hanging_load_creeps_to_static_length_with_closed_energy_balance() {
     for i in 1..=10_000 {
         let t = i as f64 * h;
         let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
-        // the load that comes at once is an impact, of which the balance know as little as the step
+        // the load that comes at once is an impact, of which the balance knows as little as the step
         if i == 10 {
             balance = Balance::open(&rod, &state, &world, &solver, &made);
         }
@@ -220,7 +220,7 @@ fn viscoelastic_rod_tangent_matches_finite_difference() {
 
 #[test]
 fn fast_slackening_rope_carries_no_compression_through_damper() {
-    // one massless element let in at a steady speed: T = EA e - c v / L, but never less than nothing; its balance add up
+    // one massless element let in at a steady speed: T = EA e - c v / L, but never less than nothing; its balance adds up
     let (ea, damping, speed, strain) = (1e7, 2e6, 0.05, 0.01);
     for rope in [None, Some(ViscoelasticRope { slow: TensionLaw::Linear(ea), fast: [ea, 0.0], relaxation: 5.0 })] {
         let axial = rope.map_or(TensionLaw::Linear(ea), |rope| TensionLaw::Viscoelastic(Box::new(rope)));

@@ -65,7 +65,7 @@ pub struct LinearSystem {
     pub(super) floats: Vec<Option<Floats>>,
     /// Depth with the tide (m).
     pub(super) depth: Option<f64>,
-    /// What a user should know; `warning: ` before what is dangerous.
+    /// What a user should know.
     pub notes: Vec<TableNote>,
 }
 

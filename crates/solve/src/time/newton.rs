@@ -1,6 +1,6 @@
 //! Newton iteration of one time step: the residual of the equations of motion, its Jacobian (inertia, damping and stiffness by the
 //! weights of the scheme), and the correction of the trial accelerations. There is no line search: a step that fails is halved.
-//! The loop (`Stepper::implicit`) is its own because the first correction may be foretold before the forces are evaluated.
+//! The loop (`Stepper::implicit`) is its own because the first correction may be predicted before the forces are evaluated.
 
 use super::forces::{BodyForces, BodyMotion};
 use super::inertia::{gyroscopic, turned_inertia};

@@ -34,7 +34,7 @@ pub(super) static GAUSSIAN: WaveSpectrum = WaveSpectrum {
 fn build(sea: &SeaState) -> Result<Spectrum, ClassError> {
     let ([deviation], peak) = (sea.parameters(), TAU / sea.period);
     if NARROWEST * deviation > peak {
-        let text = "a Gaussian swell of standard deviation {} and peak frequency {} has waves of no frequency";
+        let text = "a Gaussian swell of standard deviation {} is too wide for its peak frequency of {}";
         return Err(ClassError::with_values(text, &[(deviation, Dim::Frequency), (peak, Dim::Frequency)])
             .help("SIGMA is a quarter of the peak frequency at most"));
     }

@@ -9,11 +9,11 @@ use windlass_base::units::Dim;
 use windlass_hydro::ambient;
 use windlass_model::{DynamicElement, Element, End, Idealisation, LineNode, Model, Situation};
 
-/// Tells of each dynamic line and whose name fits, between its ends where they stand: its name, its element, how its ends
+/// Visits each dynamic line whose name fits, between its ends where they stand: with its name, its element, how its ends
 /// stand, and its state before anything has happened.
 ///
 /// # Errors
-/// What reporting comes to.
+/// A line that makes no element, and what `tell` returns.
 pub(crate) fn visit_lines_at_rest(
     model: &Model,
     fits: &dyn Fn(&str) -> bool,
