@@ -18,6 +18,7 @@ mod aqwa;
 mod b_cat;
 mod checks;
 mod chord;
+mod ct_line;
 mod davit;
 mod devices;
 mod dynamic_line;
@@ -121,4 +122,5 @@ pub static CLASSES: &[&ClassKind] = &[
     &gap::GAP,
     &fender::FENDER,
     &tug_boat::TUG_BOAT,
+    &ct_line::CT_LINE,
 ];

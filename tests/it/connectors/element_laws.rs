@@ -136,6 +136,7 @@ fn cases() -> Vec<Case> {
             free: false,
             ..spring("TUG_BOAT", "~C TUG_BOAT 5E5", [0.0; 6], Elastic)
         },
+        spring("CT_LINE", "~C CT_LINE 5E5", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Elastic),
         line(
             "B_CAT",
             "~C B_CAT 100 EXACT -LEN 1100 -BUOY 0 -WTPL 900 -DEP 200",

@@ -469,6 +469,19 @@ fn tug_force_is_toward_its_direction() {
     assert!(out.stiffness.iter().all(|k| k.amax() == 0.0));
 }
 
+#[test]
+fn constant_tension_line_pulls_along_chord_with_stiffness_of_its_direction() {
+    let joint = Joint::between("~C CT_LINE 2600");
+    // the chord (3, 4, 12) is 13 m long: 200 N a metre
+    let (out, _) = joint.at([0.0; 6], [3.0, 4.0, 12.0, 0.0, 0.0, 0.0], [0.0; 3], None);
+    near(out.wrench[0].as_slice(), &[600.0, 800.0, 2400.0, 0.0, 0.0, 0.0]);
+    near(out.wrench[1].as_slice(), &[-600.0, -800.0, -2400.0, 0.0, 0.0, 0.0]);
+    // 2600 / 13 (1 - n n'), n = (3, 4, 12) / 13
+    let row = |block: usize, i: usize| [0, 1, 2].map(|j| out.stiffness[block][(i, j)]);
+    near(&row(0, 0), &[200.0 * 160.0 / 169.0, -200.0 * 12.0 / 169.0, -200.0 * 36.0 / 169.0]);
+    near(&row(1, 2), &[200.0 * 36.0 / 169.0, 200.0 * 48.0 / 169.0, -200.0 * 25.0 / 169.0]);
+}
+
 /// 1.5 m high; 200 kN at 0.3 m, 150 kN at 0.5 m, 300 kN at 0.8 m.
 const BUCKLING: &str = "~C FENDER 1.5 2E5 0.3 1.5E5 0.5 3E5 0.8 -RATED 0.6 -NORMAL 0 1 0";
 
