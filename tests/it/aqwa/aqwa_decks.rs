@@ -282,6 +282,13 @@ fn lines_become_classes_of_same_stiffness() {
 }
 
 #[test]
+fn constant_force_line_pulls_with_its_force_towards_second_node() {
+    let text = edited("    14TSLK                         0.001\n", "    14FORC    1 1010    0 9010     100.0\n");
+    let made = lines(&records(&text).unwrap());
+    assert!(made.contains("~L1 CT_LINE 100") && made.contains("CONNECTOR L1 ~L1 *S1_1010 *N9010"), "{made}");
+}
+
+#[test]
 fn unsupported_deck_data_is_refused_with_card_and_alternative() {
     let refused = |from: &str, to: &str, said: &str| {
         let list = records(&edited(from, to)).unwrap_err();
@@ -293,7 +300,7 @@ fn unsupported_deck_data_is_refused_with_card_and_alternative() {
     refused(inertia, "    04PMAS         1  1.0339E9     1.0E6", "products of inertia");
     refused("    12    NONE", "    12    CONS\n END12DACF    1    6", "DACF");
     let first = "    14TSLK                         0.001\n";
-    refused(first, "    14FORC    1 1010    0 9010     100.0\n", "FORC");
+    refused(first, "    14FORC    1 1010    0 9010    -100.0\n", "FORC");
     refused(first, "    14POLY                         100.0\n    14NLIN    1 1010    0 9010\n", "POLY");
     refused("JOB MINT  NAUT", "JOB MINT  LIBR", "run in time");
 }

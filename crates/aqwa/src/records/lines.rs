@@ -43,13 +43,15 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
                 _ => refuse_class("POLY", "a GSPR with a table of force over extension", line, out),
             },
             LineKind::Winched { .. } => refuse_class("LNDW", "an SL_ELEM, with &ACTION for the winch", line, out),
-            LineKind::Force(_) => refuse_class("FORC", "a TUG_BOAT, or #TABLE for a force on the body", line, out),
+            LineKind::Force(force) => constant_tension(number, force, line, out),
             LineKind::Winch { .. } => refuse_class("WNCH", "an SL_ELEM with -PISTON, which keeps a tension", line, out),
         };
         let Some(class) = class else { continue };
         let fairlead = point(first.0, first.1);
         let other = match anchor {
-            Some((place, _)) if !matches!(line.kind, LineKind::Elastic { .. }) => format!("-ANCHOR {}", numbers(place)),
+            Some((place, _)) if !matches!(line.kind, LineKind::Elastic { .. } | LineKind::Force(_)) => {
+                format!("-ANCHOR {}", numbers(place))
+            }
             _ => point(second.0, second.1),
         };
         out.card(format!("deck 14, {}", card(&line.kind)), line.span);
@@ -115,6 +117,17 @@ fn elastic(number_of: usize, stiffness: f64, length: f64, line: &MooringLine, ou
         number(length),
         number(round_value(modulus))
     ));
+    Some(name)
+}
+
+/// A constant force towards the second node, on each end towards the other.
+fn constant_tension(number_of: usize, force: f64, line: &MooringLine, out: &mut Script) -> Option<String> {
+    if force < 0.0 {
+        return refuse_class("FORC with a negative force", "a #TABLE for a force on the body", line, out);
+    }
+    let name = format!("L{number_of}");
+    out.card("deck 14, FORC", line.span);
+    out.record(format!("~{name} CT_LINE {}", number(out.scale.force(force, 0))));
     Some(name)
 }
 
