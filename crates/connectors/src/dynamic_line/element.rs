@@ -293,7 +293,7 @@ impl DynamicLine {
         };
         self.layout.write((rod, &self.base.bands), (end, paid), trial)?;
         if let Some(balance) = balance {
-            self.layout.keep_books(&balance, trial);
+            self.layout.write_balance(&balance, trial);
         }
         if dt > 0.0 {
             cache.keep_end(trial);
@@ -365,7 +365,7 @@ impl Element for DynamicLine {
             let begun = trial.to_vec();
             if let Some(kept) = self.layout.read(&begun)? {
                 // its balance is not begun yet
-                let kept = kept.without_books();
+                let kept = kept.without_balance();
                 return self.step(at, (step.time, 0.0), (&begun, &kept), trial, cache, out);
             }
         }

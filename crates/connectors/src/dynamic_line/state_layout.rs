@@ -31,7 +31,7 @@ pub(super) struct StateView<'a> {
 
 impl StateView<'_> {
     /// The same before its balance is begun.
-    pub fn without_books(self) -> Self {
+    pub fn without_balance(self) -> Self {
         StateView { balance: None, ..self }
     }
 
@@ -71,7 +71,7 @@ impl StateLayout {
     }
 
     /// Writes the energy balance behind a state.
-    pub fn keep_books(&self, balance: &Balance, out: &mut [f64]) {
+    pub fn write_balance(&self, balance: &Balance, out: &mut [f64]) {
         if self.balance > 0
             && let Some(place) = out.last_chunk_mut()
         {
