@@ -66,7 +66,7 @@ impl Known {
             environments: model.environments.values().map(|e| e.name.clone()).collect(),
             selectors: model.selectors.values().map(|s| s.name.clone()).collect(),
             columns: match menu {
-                crate::commands::Menu::Disposition(d) => d.table.columns.iter().map(|c| c.name.clone()).collect(),
+                crate::commands::Menu::Disposition(d) => d.table.columns().iter().map(|c| c.name.clone()).collect(),
                 _ => Vec::new(),
             },
             macros: session.interpreter.macros().map(|m| m.name.clone()).collect(),

@@ -41,7 +41,7 @@ fn in_group(column: &Column, selector: &str) -> bool {
 /// # Errors
 /// A name that fits no column, a number or range beyond the columns, a range that runs backward.
 pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn> {
-    let count = table.columns.len();
+    let count = table.columns().len();
     let refused = |help: String| NoSuchColumn { name: selector.to_string(), help: Some(help) };
     // a number too long for the machine is past the last column too
     let number = |text: &str| {
@@ -63,7 +63,7 @@ pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn>
         return Ok((from - 1..to).collect());
     }
     let fits = |test: &dyn Fn(&Column) -> bool| -> Vec<usize> {
-        table.columns.iter().enumerate().filter(|(_, c)| test(c)).map(|(i, _)| i).collect()
+        table.columns().iter().enumerate().filter(|(_, c)| test(c)).map(|(i, _)| i).collect()
     };
     let exact = fits(&|c| is_called(c, selector));
     if !exact.is_empty() {
@@ -74,7 +74,7 @@ pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn>
     if prefix.len() == 1 {
         return Ok(prefix);
     }
-    let names: Vec<&str> = table.columns.iter().map(|c| c.name.as_str()).collect();
+    let names: Vec<&str> = table.columns().iter().map(|c| c.name.as_str()).collect();
     let several: Vec<&str> = prefix.iter().filter_map(|i| names.get(*i).copied()).collect();
     let help = if several.is_empty() {
         did_you_mean(selector, names)
@@ -91,11 +91,11 @@ pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn>
 /// As [`choose`].
 pub fn report_columns(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn> {
     let of_group = |(index, column): (usize, &Column)| in_group(column, selector).then_some(index);
-    let mut group: Vec<usize> = table.columns.iter().enumerate().filter_map(of_group).collect();
-    if group.is_empty() || table.columns.iter().any(|c| is_called(c, selector)) {
+    let mut group: Vec<usize> = table.columns().iter().enumerate().filter_map(of_group).collect();
+    if group.is_empty() || table.columns().iter().any(|c| is_called(c, selector)) {
         return choose(table, selector);
     }
-    if table.columns.first().is_some_and(|c| c.group.is_empty()) {
+    if table.columns().first().is_some_and(|c| c.group.is_empty()) {
         group.insert(0, 0);
     }
     Ok(group)

@@ -16,7 +16,7 @@ pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, csv::Error> {
     writer.write_record(heads(table, units).iter().map(|head| guard_formula(head).into_owned()))?;
     for row in 0..table.rows() {
         writer.write_record(
-            table.columns.iter().map(|c| c.cells.get(row).map_or(String::new(), |cell| written(cell, c.dim, units))),
+            table.columns().iter().map(|c| c.cells.get(row).map_or(String::new(), |cell| written(cell, c.dim, units))),
         )?;
     }
     writer.into_inner().map_err(|e| csv::Error::from(std::io::Error::other(e.to_string())))
@@ -43,12 +43,12 @@ pub fn remove_guard(text: &str) -> &str {
 /// apart, with its number.
 pub(super) fn heads(table: &Table, units: UnitSystem) -> Vec<String> {
     let twice = |of: &dyn Fn(&Column) -> String, column: &Column| {
-        table.columns.iter().filter(|c| of(c) == of(column)).count() > 1
+        table.columns().iter().filter(|c| of(c) == of(column)).count() > 1
     };
     let short = |c: &Column| format::head(c, units);
     let long = |c: &Column| format::name_with_unit(&long_name(c), c.dim, units);
     let heads =
-        table.columns.iter().enumerate().map(|(index, column)| match (twice(&short, column), twice(&long, column)) {
+        table.columns().iter().enumerate().map(|(index, column)| match (twice(&short, column), twice(&long, column)) {
             (false, _) => short(column),
             (true, false) => long(column),
             (true, true) => format!("{} #{}", long(column), index + 1),

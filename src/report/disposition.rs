@@ -86,13 +86,13 @@ const OF_THE_WHOLE: &str = "of the whole table, by its row numbers before CULL:"
 impl Disposition {
     /// A menu over a table.
     pub fn new(table: Table) -> Self {
-        let adjust = vec![(1.0, 0.0); table.columns.len()];
+        let adjust = vec![(1.0, 0.0); table.columns().len()];
         Disposition { table, adjust, transient: None }
     }
 
     /// The same over a run whose transient lasts so long (s): its statistics leave that out.
     pub fn after_transient(self, transient: f64) -> Self {
-        let times = self.table.columns.first().is_some_and(|c| c.dim == Dim::Time);
+        let times = self.table.columns().first().is_some_and(|c| c.dim == Dim::Time);
         Disposition { transient: Some(transient).filter(|t| times && *t > 0.0), ..self }
     }
 
@@ -119,7 +119,7 @@ impl Disposition {
 
     fn columns_by(&self, selectors: &[&str], choose: Choose) -> Result<Vec<usize>, DispositionError> {
         if selectors.is_empty() {
-            return Ok((0..self.table.columns.len()).collect());
+            return Ok((0..self.table.columns().len()).collect());
         }
         let mut chosen = Vec::new();
         for selector in selectors {
@@ -141,7 +141,7 @@ impl Disposition {
     pub fn numeric(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
         let chosen = self.columns(selectors)?;
         for index in &chosen {
-            if let Some(column) = self.table.columns.get(*index)
+            if let Some(column) = self.table.columns().get(*index)
                 && column.cells.iter().any(|c| matches!(c, Cell::Text(_)))
             {
                 return Err(DispositionError::Text(column.name.clone()));
@@ -190,15 +190,14 @@ impl Disposition {
         units: UnitSystem,
     ) -> Result<Table, DispositionError> {
         let taken = self.rows(rows, units)?;
-        let mut out = Table { columns: Vec::new(), ..self.table.clone() };
-        for index in columns {
-            let Some(column) = self.table.columns.get(*index) else { continue };
+        let extracted = |index: &usize| {
+            let column = self.table.columns().get(*index)?;
             let change =
                 |cell: &Cell| if adjusted { self.adjust_cell(*index, cell, column.dim, units) } else { cell.clone() };
             let cells = taken.iter().filter_map(|row| column.cells.get(*row)).map(change).collect();
-            out.columns.push(Column { cells, ..column.clone() });
-        }
-        Ok(out)
+            Some(Column { cells, ..column.clone() })
+        };
+        Ok(self.table.clone().with_columns(columns.iter().filter_map(extracted).collect()))
     }
 
     /// A cell of a column with C_SCALE and C_SHIFT applied.
@@ -224,7 +223,7 @@ impl Disposition {
                 return Err(DispositionError::Rows { from, to, rows: count });
             }
         }
-        if let (Some(from), Some(times)) = (choice.from, self.table.columns.first()) {
+        if let (Some(from), Some(times)) = (choice.from, self.table.columns().first()) {
             // a time that is an instant's but for rounding
             let near = 1e-9 * from.abs().max(1.0);
             taken.retain(|row| times.cells.get(*row).and_then(Cell::number).is_some_and(|t| t >= from - near));
@@ -257,7 +256,7 @@ impl Disposition {
     /// The number of a cell as VIEW shows it: user units, scaled and shifted, without the rounding of the conversion.
     fn displayed_value(&self, column: usize, row: usize, units: UnitSystem) -> Option<f64> {
         let (factor, shift) = self.adjust.get(column).copied().unwrap_or((1.0, 0.0));
-        let column = self.table.columns.get(column)?;
+        let column = self.table.columns().get(column)?;
         let value = column.dim.from_si(column.cells.get(row)?.number()?, units) * factor + shift;
         Some(format::rounded_to_fifteen_figures(value))
     }
@@ -278,22 +277,19 @@ impl Disposition {
         let &[index] = chosen.as_slice() else {
             return Err(DispositionError::NotOne { selector: selector.into(), count: chosen.len() });
         };
-        let outside = |row: &usize| {
-            let value = self.displayed_value(index, *row, units);
+        let outside = |row: usize| {
+            let value = self.displayed_value(index, row, units);
             !value.is_some_and(|value| excluded.iter().any(|(low, high)| (*low..=*high).contains(&value)))
         };
-        let rows: Vec<usize> = (0..self.table.rows()).filter(outside).collect();
-        if rows.is_empty() {
-            let name = self.table.columns.get(index).map_or_else(String::new, super::columns::long_name);
+        let mut out = self.clone();
+        out.table.keep_rows(outside);
+        let kept = out.table.rows();
+        if kept == 0 {
+            let name = self.table.columns().get(index).map_or_else(String::new, super::columns::long_name);
             return Err(DispositionError::AllCulled(name));
         }
-        let mut out = self.clone();
-        for column in &mut out.table.columns {
-            column.cells = rows.iter().filter_map(|row| column.cells.get(*row)).cloned().collect();
-        }
         let notes = &mut out.table.notes;
-        let renumbered =
-            rows.len() < self.table.rows() && notes.first().is_some_and(|first| first.text != OF_THE_WHOLE);
+        let renumbered = kept < self.table.rows() && notes.first().is_some_and(|first| first.text != OF_THE_WHOLE);
         if renumbered {
             notes.insert(0, OF_THE_WHOLE.into());
         }
@@ -302,9 +298,9 @@ impl Disposition {
 
     /// `VLIST`: number, name and unit of every column, with its range (C_SCALE and C_SHIFT applied, as in VIEW).
     pub fn vlist(&self, units: UnitSystem) -> Vec<String> {
-        let names: Vec<String> = self.table.columns.iter().map(super::columns::long_name).collect();
+        let names: Vec<String> = self.table.columns().iter().map(super::columns::long_name).collect();
         let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
-        let lines = self.table.columns.iter().zip(names).enumerate().map(|(index, (column, name))| {
+        let lines = self.table.columns().iter().zip(names).enumerate().map(|(index, (column, name))| {
             let cells: Vec<Cell> = column.cells.iter().map(|c| self.adjust_cell(index, c, column.dim, units)).collect();
             let range = cells.iter().filter_map(Cell::number).fold(None, |range: Option<(f64, f64)>, v| {
                 Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
@@ -326,7 +322,7 @@ impl Disposition {
         let columns = self.columns(&[selector])?;
         let table = self.extract(&columns, rows, true, units)?;
         let numbers = self.rows(rows, units)?;
-        for column in &table.columns {
+        for column in table.columns() {
             if let Some((_, row)) = column.cells.iter().zip(&numbers).find(|(cell, _)| **cell == Cell::Missing) {
                 return Err(DispositionError::NoValue { column: column.name.clone(), row: row + 1 });
             }
@@ -335,7 +331,7 @@ impl Disposition {
             Cell::Number(value) => format::fifteen_figures(dim.from_si(*value, units)),
             other => format::full(other, dim, units),
         };
-        let cells = table.columns.iter().flat_map(|c| c.cells.iter().map(move |cell| text(cell, c.dim)));
+        let cells = table.columns().iter().flat_map(|c| c.cells.iter().map(move |cell| text(cell, c.dim)));
         Ok(cells.collect::<Vec<_>>().join(" "))
     }
 }

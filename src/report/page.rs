@@ -88,22 +88,22 @@ type CellFormat = fn(&Cell, Dim, Digits, UnitSystem) -> String;
 /// Aligns the rows with comfy-table and adds heads, units, group heads and dashes. Numbers stand to the right.
 fn lay_out(table: &Table, units: UnitSystem, shown: CellFormat) -> Vec<String> {
     let mut rows: Vec<Vec<String>> = vec![
-        table.columns.iter().map(|c| c.name.clone()).collect(),
-        table.columns.iter().map(|c| c.dim.label(units)).collect(),
+        table.columns().iter().map(|c| c.name.clone()).collect(),
+        table.columns().iter().map(|c| c.dim.label(units)).collect(),
     ];
     rows.retain(|row| row.iter().any(|text| !text.is_empty()));
     let heads = rows.len();
     let cell = |column: &Column, row: usize| {
         column.cells.get(row).map_or(String::new(), |cell| shown(cell, column.dim, column.digits, units))
     };
-    rows.extend((0..table.rows()).map(|row| table.columns.iter().map(|c| cell(c, row)).collect()));
+    rows.extend((0..table.rows()).map(|row| table.columns().iter().map(|c| cell(c, row)).collect()));
     make_room(table, &mut rows);
     let mut grid = Grid::new();
     grid.load_style(NOTHING);
     for row in &rows {
         grid.add_row(row);
     }
-    for (index, column) in table.columns.iter().enumerate() {
+    for (index, column) in table.columns().iter().enumerate() {
         let text = |c: &Cell| matches!(c, Cell::Text(_));
         let words = column.cells.iter().any(text) && column.cells.iter().all(|c| text(c) || *c == Cell::Missing);
         if let Some(place) = grid.column_mut(index) {
@@ -113,7 +113,7 @@ fn lay_out(table: &Table, units: UnitSystem, shown: CellFormat) -> Vec<String> {
     }
     let mut lines: Vec<String> = grid.lines().map(|l| l.trim_end().to_string()).collect();
     let width = |i: usize| rows.iter().filter_map(|r| r.get(i)).map(|t| t.chars().count()).max().unwrap_or(0) + 2;
-    let widths: Vec<usize> = (0..table.columns.len()).map(width).collect();
+    let widths: Vec<usize> = (0..table.columns().len()).map(width).collect();
     lines.insert(heads.min(lines.len()), "-".repeat(widths.iter().sum()));
     if let Some(groups) = group_heads(table, &widths) {
         lines.insert(0, groups);
@@ -127,8 +127,8 @@ fn make_room(table: &Table, rows: &mut [Vec<String>]) {
         rows.iter().filter_map(|r| r.get(i)).map(|t| t.chars().count()).max().unwrap_or(0)
     };
     let mut at = 0;
-    while let Some(column) = table.columns.get(at) {
-        let run = table.columns.iter().skip(at).take_while(|c| c.group == column.group).count();
+    while let Some(column) = table.columns().get(at) {
+        let run = table.columns().iter().skip(at).take_while(|c| c.group == column.group).count();
         let last = at + run - 1;
         let have: usize = (at..=last).map(|i| width(rows, i) + 2).sum();
         let want = if column.group.is_empty() { 0 } else { column.group.chars().count() + 3 };
@@ -144,13 +144,13 @@ fn make_room(table: &Table, rows: &mut [Vec<String>]) {
 
 /// The line of group heads, `/---- Tension ----/` over the columns of each group; `None` without groups.
 fn group_heads(table: &Table, widths: &[usize]) -> Option<String> {
-    if table.columns.iter().all(|c| c.group.is_empty()) {
+    if table.columns().iter().all(|c| c.group.is_empty()) {
         return None;
     }
     let mut line = String::new();
     let mut at = 0;
-    while let Some(column) = table.columns.get(at) {
-        let run = table.columns.iter().skip(at).take_while(|c| c.group == column.group).count();
+    while let Some(column) = table.columns().get(at) {
+        let run = table.columns().iter().skip(at).take_while(|c| c.group == column.group).count();
         let width: usize = widths.iter().skip(at).take(run).sum();
         if column.group.is_empty() {
             line.push_str(&" ".repeat(width));

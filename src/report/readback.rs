@@ -92,7 +92,8 @@ fn number(word: &str) -> Option<f64> {
 }
 
 struct Made {
-    table: Table,
+    title: String,
+    columns: Vec<Column>,
     units: Vec<UnitSystem>,
 }
 
@@ -101,23 +102,23 @@ impl Made {
         if heads.len() > MAX_COLUMNS {
             return Err(ReadError::Wide(heads.len()));
         }
-        let mut made = Made { table: Table::new(title), units: Vec::new() };
+        let mut made = Made { title: title.into(), columns: Vec::new(), units: Vec::new() };
         for (index, text) in heads.iter().enumerate() {
             let (name, dim, units) = head(remove_guard(text.trim()));
             let name = if name.is_empty() { format!("Column {}", index + 1) } else { name };
             let digits = if dim == Dim::None { SIX_DIGITS } else { Digits::Usual };
-            made.table.columns.push(Column::new("", &name, dim, digits, [] as [Cell; 0]));
+            made.columns.push(Column::new("", &name, dim, digits, [] as [Cell; 0]));
             made.units.push(units);
         }
         Ok(made)
     }
 
     fn push(&mut self, line: usize, words: &[&str]) -> Result<(), ReadError> {
-        let want = self.table.columns.len();
+        let want = self.columns.len();
         if words.len() != want {
             return Err(ReadError::Cells { line, got: words.len(), want });
         }
-        for ((column, word), units) in self.table.columns.iter_mut().zip(words).zip(&self.units) {
+        for ((column, word), units) in self.columns.iter_mut().zip(words).zip(&self.units) {
             let word = word.trim();
             let cell = match number(word) {
                 Some(value) => {
@@ -136,7 +137,8 @@ impl Made {
     }
 
     fn into_table(self) -> Result<Table, ReadError> {
-        if self.table.rows() == 0 { Err(ReadError::NoRows) } else { Ok(self.table) }
+        let table = Table::from_columns(self.title, self.columns);
+        if table.rows() == 0 { Err(ReadError::NoRows) } else { Ok(table) }
     }
 }
 
@@ -215,14 +217,14 @@ mod tests {
             let text = String::from_utf8(written::bytes(&t, units).unwrap()).unwrap();
             let read = csv("t", &text).unwrap();
             assert_eq!(
-                read.columns.iter().map(|c| c.dim).collect::<Vec<_>>(),
-                t.columns.iter().map(|c| c.dim).collect::<Vec<_>>()
+                read.columns().iter().map(|c| c.dim).collect::<Vec<_>>(),
+                t.columns().iter().map(|c| c.dim).collect::<Vec<_>>()
             );
             // kips and degrees and back: two roundings
-            let (a, b) = (read.columns[1].numbers()[0], read.columns[2].numbers()[1]);
+            let (a, b) = (read.columns()[1].numbers()[0], read.columns()[2].numbers()[1]);
             assert!((a - 1e6).abs() < 1e-9 && (b + 0.5).abs() < 1e-15);
             assert_eq!(
-                (&read.columns[1].cells[1], &read.columns[3].cells[0]),
+                (&read.columns()[1].cells[1], &read.columns()[3].cells[0]),
                 (&Cell::Missing, &Cell::Text("a,b".into()))
             );
         }
@@ -232,10 +234,10 @@ mod tests {
     fn one_label_per_line_is_read_above_rows_with_or_without_blank() {
         for blank in ["", "\n"] {
             let t = brief("t", &format!("Time (s)\nPower of 2\n{blank}0 1\n1, 2\n2\t4\n")).unwrap();
-            assert_eq!((t.columns[1].name.as_str(), t.columns[1].numbers()), ("Power of 2", vec![1.0, 2.0, 4.0]));
-            assert_eq!((t.columns[0].name.as_str(), t.columns[0].dim), ("Time", Dim::Time));
+            assert_eq!((t.columns()[1].name.as_str(), t.columns()[1].numbers()), ("Power of 2", vec![1.0, 2.0, 4.0]));
+            assert_eq!((t.columns()[0].name.as_str(), t.columns()[0].dim), ("Time", Dim::Time));
         }
-        assert_eq!(brief("t", "1 2\n3 4").unwrap().columns[1].name, "Column 2");
+        assert_eq!(brief("t", "1 2\n3 4").unwrap().columns()[1].name, "Column 2");
     }
 
     #[test]

@@ -12,7 +12,7 @@ use windlass_signal::tables::{self, SeriesRecord};
 /// `independent` is the column of `table` that positions are given in; `columns` those described. The standard
 /// deviation is that of the values themselves (divided by their number).
 pub fn table(table: &Table, independent: Option<usize>, columns: &[usize]) -> Table {
-    let at = independent.and_then(|i| table.columns.get(i));
+    let at = independent.and_then(|i| table.columns().get(i));
     let (at_name, at_dim) = at.map_or(("Row".to_string(), Dim::None), |c| (format!("at {}", c.name), c.dim));
     let at_digits = if at.is_some() { Digits::Usual } else { Digits::Decimals(0) };
     let place = |extreme: Option<(usize, f64)>| match (extreme, at) {
@@ -20,7 +20,7 @@ pub fn table(table: &Table, independent: Option<usize>, columns: &[usize]) -> Ta
         (Some((row, _)), None) => Cell::from(row + 1),
         (None, _) => Cell::Missing,
     };
-    let rows: Vec<Extent> = columns.iter().filter_map(|i| table.columns.get(*i)).map(Extent::new).collect();
+    let rows: Vec<Extent> = columns.iter().filter_map(|i| table.columns().get(*i)).map(Extent::new).collect();
     Table::new(format!("Statistics of {}", table.title))
         .with_rows(&rows)
         .text("Column", |row| super::columns::long_name(row.column))
@@ -66,22 +66,19 @@ impl<'t> Extent<'t> {
 
 /// The same in user units, for printing: each described column keeps its own unit, named in the `Unit` column.
 pub fn in_units(source: &Table, independent: Option<usize>, columns: &[usize], units: UnitSystem) -> Table {
-    let dims: Vec<Dim> = columns.iter().filter_map(|i| source.columns.get(*i)).map(|c| c.dim).collect();
+    let dims: Vec<Dim> = columns.iter().filter_map(|i| source.columns().get(*i)).map(|c| c.dim).collect();
     by_row(table(source, independent, columns), &["Mean", "Std. Dev.", "Minimum", "Maximum"], &dims, units)
 }
 
 /// A table of one row a quantity in user units: the columns named measure what the row's dimension says, and `Unit` names it.
 fn by_row(mut table: Table, names: &[&str], dims: &[Dim], units: UnitSystem) -> Table {
-    for column in &mut table.columns {
-        let describes = names.contains(&column.name.as_str());
-        for (cell, dim) in column.cells.iter_mut().zip(dims) {
-            if describes && let Cell::Number(value) = cell {
-                *value = dim.from_si(*value, units);
-            } else if column.name == "Unit" {
-                *cell = Cell::Text(dim.label(units));
-            }
+    table.map_cells(|column, row, cell| match (dims.get(row), cell) {
+        (Some(dim), Cell::Number(value)) if names.contains(&column.name.as_str()) => {
+            Cell::Number(dim.from_si(*value, units))
         }
-    }
+        (Some(dim), _) if column.name == "Unit" => Cell::Text(dim.label(units)),
+        _ => cell.clone(),
+    });
     table
 }
 
@@ -94,7 +91,7 @@ struct Described<'a> {
 }
 
 fn describe_columns(table: &Table) -> Vec<Described<'_>> {
-    let (first, rest) = match table.columns.split_first() {
+    let (first, rest) = match table.columns().split_first() {
         Some((only, [])) => (None, std::slice::from_ref(only)),
         Some((first, rest)) => (Some(first), rest),
         None => (None, &[][..]),
@@ -125,7 +122,7 @@ impl Described<'_> {
 
 /// Dimension of the first column of several.
 fn independent(table: &Table) -> Dim {
-    table.columns.first().filter(|_| table.columns.len() > 1).map_or(Dim::None, |c| c.dim)
+    table.columns().first().filter(|_| table.columns().len() > 1).map_or(Dim::None, |c| c.dim)
 }
 
 /// Shape, and cycles about the mean, in user units. The first column is the independent one.
@@ -165,7 +162,7 @@ pub fn cycles(table: &Table, units: UnitSystem) -> Result<Table, SeriesError> {
 /// # Errors
 /// A first column that is no time or does not grow; fewer than two cycles in the record or the duration.
 pub fn expected_extremes(table: &Table, duration: f64, units: UnitSystem) -> Result<Table, SeriesError> {
-    if table.columns.len() < 2 || independent(table) != Dim::Time {
+    if table.columns().len() < 2 || independent(table) != Dim::Time {
         return Err(SeriesError::Refused("-DURATION asks for a first column of time".into()));
     }
     let (mut rows, mut dims) = (Vec::new(), Vec::new());
@@ -277,10 +274,13 @@ mod tests {
         let want = 3.0 + 2f64.sqrt() * (2.0 * 1080f64.ln()).sqrt();
         assert!((number(&e, "Prob. Max.") - want).abs() < 0.02, "{e:?}");
         let p = peaks(&t).unwrap();
-        assert_eq!((p.columns.len(), p.columns[1].numbers().len()), (4, 9));
-        t.columns[0].dim = Dim::Length;
+        assert_eq!((p.columns().len(), p.columns()[1].numbers().len()), (4, 9));
+        let mut columns = t.columns().to_vec();
+        columns[0].dim = Dim::Length;
+        t = t.with_columns(columns.clone());
         assert!(expected_extremes(&t, 10_800.0, us).is_err());
-        t.columns[0].cells.reverse();
+        columns[0].cells.reverse();
+        t = t.with_columns(columns);
         assert!(peaks(&t).is_err() && cycles(&t, us).unwrap().get("Period").unwrap().numbers().is_empty());
     }
 }

@@ -56,7 +56,7 @@ pub fn stored_columns(table: &Table, units: UnitSystem) -> Result<Vec<StoredColu
         unit: column.dim.label(units),
         values: values(column, units),
     };
-    Ok(table.columns.iter().zip(super::csv::heads(table, units)).map(make).collect())
+    Ok(table.columns().iter().zip(super::csv::heads(table, units)).map(make).collect())
 }
 
 /// The narrowest type that holds every cell.

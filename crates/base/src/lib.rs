@@ -12,7 +12,7 @@
 //! let lengths = [Dim::Length.to_si(500.0, UnitSystem::default())];
 //! let table = Table::new("Lines").with_rows(&lengths).column("", "Length", Dim::Length, Digits::Usual, |l| *l).build();
 //! let metres = UnitSystem { length: LengthUnit::Meters, force: ForceUnit::Kilonewtons };
-//! let length = table.columns[0].numbers()[0];
+//! let length = table.columns()[0].numbers()[0];
 //! assert!((Dim::Length.from_si(length, metres) - 500.0 * 0.3048).abs() < 1e-12);
 //! ```
 

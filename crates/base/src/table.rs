@@ -59,8 +59,8 @@ pub struct Table {
     pub title: String,
     /// Facts for the sub-header: name, value, dimension of the value.
     pub facts: Vec<(String, Cell, Dim)>,
-    /// Columns; all have the same number of cells.
-    pub columns: Vec<Column>,
+    /// All have the same number of cells.
+    columns: Vec<Column>,
     /// Remarks printed under the rows.
     pub notes: Vec<TableNote>,
     /// Results that were asked for and could not be found; the remarks say why.
@@ -154,14 +154,45 @@ impl Table {
 
     /// A table of complete columns. Columns shorter than the longest end in missing cells.
     pub fn from_columns(title: impl Into<String>, columns: Vec<Column>) -> Self {
-        Table { title: title.into(), columns, ..Table::default() }.filled_up()
+        Table::new(title).with_columns(columns)
+    }
+
+    /// The table with other columns in place of its own. Columns shorter than the longest end in missing cells.
+    pub fn with_columns(self, columns: Vec<Column>) -> Self {
+        Table { columns, ..self }.filled_up()
+    }
+
+    /// Adds a complete column at the right. It ends in missing cells if it is shorter than the others; the others do if
+    /// it is longer.
+    pub fn add_column(&mut self, column: Column) {
+        self.columns.push(column);
+        self.fill_up();
+    }
+
+    /// Drops the rows (from 0) of which `keeps` is false.
+    pub fn keep_rows(&mut self, keeps: impl Fn(usize) -> bool) {
+        for column in &mut self.columns {
+            let cells = std::mem::take(&mut column.cells).into_iter().enumerate();
+            column.cells = cells.filter(|(row, _)| keeps(*row)).map(|(_, cell)| cell).collect();
+        }
+    }
+
+    /// Replaces each cell by what `changed` makes of its column, its row (from 0) and itself.
+    pub fn map_cells(&mut self, changed: impl Fn(&Column, usize, &Cell) -> Cell) {
+        for column in &mut self.columns {
+            column.cells = column.cells.iter().enumerate().map(|(row, cell)| changed(column, row, cell)).collect();
+        }
     }
 
     /// The table with its columns as long as the longest of them.
     fn filled_up(mut self) -> Self {
+        self.fill_up();
+        self
+    }
+
+    fn fill_up(&mut self) {
         let rows = self.columns.iter().map(|c| c.cells.len()).max().unwrap_or(0);
         self.columns.iter_mut().for_each(|c| c.cells.resize(rows, Cell::Missing));
-        self
     }
 
     /// Begins the columns of a table whose rows these are.
@@ -196,6 +227,11 @@ impl Table {
         self.warn(reason);
     }
 
+    /// The columns, left to right; all have the same number of cells.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |c| c.cells.len())
@@ -227,7 +263,7 @@ impl Table {
 ///     .columns("Tension", ["Top", "Anchor"], Dim::Force, Digits::Usual, |(_, _, tension)| *tension)
 ///     .build();
 /// assert_eq!(table.rows(), 2);
-/// assert_eq!(table.columns[3].numbers(), [2e3, 4e3]);
+/// assert_eq!(table.columns()[3].numbers(), [2e3, 4e3]);
 /// ```
 #[derive(Debug)]
 pub struct TableBuilder<'r, R> {

@@ -56,7 +56,7 @@ impl RodSolver {
         })
     }
 
-    /// [`Solver::modes`] in coordinates from the origin of the state.
+    /// [`RodSolver::modes`] in coordinates from the origin of the state.
     fn modes_nearby(
         &mut self,
         rod: &Rod,

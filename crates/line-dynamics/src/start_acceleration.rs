@@ -66,7 +66,7 @@ impl RodSolver {
         self.in_local_coordinates(world, |solver, world, near| solver.start_nearby(rod, state, world, near.ends(ends)))
     }
 
-    /// [`Solver::start`] in coordinates from the origin of the state.
+    /// [`RodSolver::start`] in coordinates from the origin of the state.
     fn start_nearby(
         &mut self,
         rod: &Rod,

@@ -25,7 +25,7 @@ pub struct RodState {
     /// Director of each element of a rod with torsion: a unit vector across it that twists with it.
     pub(super) director: Vec<Vector3<f64>>,
     /// Least penetration over which the bottom's stiffness grows at each node (m): see
-    /// [`Solver::statics`](super::Solver::statics).
+    /// [`RodSolver::statics`](super::RodSolver::statics).
     pub(super) bedding: Vec<f64>,
     /// Where each node sticks to the bottom by friction (m, from the origin): see [`SeabedLaw`](super::SeabedLaw).
     pub(super) stuck: Vec<Vector3<f64>>,

@@ -320,7 +320,7 @@ impl RodSolver {
         RodEndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 }
     }
 
-    /// Sets how softly each node meets the bottom: see [`Solver::statics`].
+    /// Sets how softly each node meets the bottom: see [`RodSolver::statics`].
     fn set_seabed_penetration_scale(&self, rod: &Rod, world: &LineEnvironment, state: &mut RodState) {
         let last = rod.elements.len();
         let sag = |i: usize| {

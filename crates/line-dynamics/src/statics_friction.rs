@@ -11,7 +11,7 @@
 //!
 //! On the way to rest the line also resists compression: a node that lost its tension would lose its friction as well, and be pulled
 //! away at once. At rest every element has a tension. A line too long for that, which piles up straight under its upper end, is solved
-//! without drag friction and without resistance to compression. [`Solver::has_slid_without_friction`] is set where such a line has a
+//! without drag friction and without resistance to compression. [`RodSolver::has_slid_without_friction`] is set where such a line has a
 //! tension that friction should have taken.
 
 use super::contact::{NormalReaction, normal_reaction};

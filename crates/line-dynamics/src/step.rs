@@ -54,7 +54,7 @@ pub struct RodSolver {
     /// Whether the current step is made by implicit Euler: see [`super::euler_fallback`].
     pub(super) uses_implicit_euler: bool,
     pub(super) weights: Weights,
-    /// See [`Solver::has_slid_without_friction`].
+    /// See [`RodSolver::has_slid_without_friction`].
     pub(super) slid_without_friction: bool,
     /// Whether the current rod stands by its bending stiffness: see [`Rod::is_stiff`].
     pub(super) is_stiff: bool,
@@ -187,7 +187,7 @@ impl RodSolver {
         })
     }
 
-    /// [`Solver::trial`] in coordinates from the origin of the state.
+    /// [`RodSolver::trial`] in coordinates from the origin of the state.
     fn trial_nearby(
         &mut self,
         rod: &Rod,

@@ -306,7 +306,7 @@ impl RodSolver {
         self.in_local_coordinates(world, |solver, world, _| solver.support_tangent_nearby(rod, world))
     }
 
-    /// [`Solver::support_tangent`] in coordinates from the origin of the trial.
+    /// [`RodSolver::support_tangent`] in coordinates from the origin of the trial.
     fn support_tangent_nearby(&mut self, rod: &Rod, world: &LineEnvironment) -> Option<SupportTangent> {
         self.linearise(rod, world, true, [false; 2])?;
         let count = world.supports.len();

@@ -28,7 +28,7 @@ impl Rod {
 
     /// Divides an element, as one that a winch has let out far enough, into two of half its length with a node
     /// between them. Of an element at an end the part beside that end keeps the rate, and the new node moves as the
-    /// rest of the rod; of another both halves grow. The rod then needs a new [`Solver`](super::RodSolver).
+    /// rest of the rod; of another both halves grow. The rod then needs a new [`RodSolver`](super::RodSolver).
     ///
     /// # Errors
     /// An element that is not there, too many elements, or a rod with torsional stiffness, whose elements cannot be divided.
@@ -73,7 +73,7 @@ impl Rod {
     }
 
     /// Makes one of an element and the next, as one that a winch has hauled in far enough; it is of the segment of the next. The rod
-    /// then needs a new [`Solver`](super::RodSolver).
+    /// then needs a new [`RodSolver`](super::RodSolver).
     ///
     /// # Errors
     /// An element that is not there or has none after it, something attached between the two, or a rod with torsional stiffness.

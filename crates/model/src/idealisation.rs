@@ -70,11 +70,11 @@ impl Model {
 
 /// Adds a column Model to a table whose first column names the connectors of the rows; last, so that the numbers of the others stay.
 pub fn add_model_column(table: &mut Table, model_of: impl Fn(&str) -> Option<Idealisation>) {
-    let Some(names) = table.columns.first() else { return };
+    let Some(names) = table.columns().first() else { return };
     let cell = |name: &Cell| match name {
         Cell::Text(name) => model_of(name).into(),
         _ => Cell::Missing,
     };
     let cells: Vec<Cell> = names.cells.iter().map(cell).collect();
-    table.columns.push(Column::new("", "Model", Dim::None, Digits::Usual, cells));
+    table.add_column(Column::new("", "Model", Dim::None, Digits::Usual, cells));
 }

@@ -261,7 +261,7 @@ impl LineShape {
     /// From the table of a line's geometry.
     fn from_table(table: &Table, placement: &Placement) -> LineShape {
         let column = |name: &str| -> Vec<Option<f64>> {
-            let found = table.columns.iter().find(|c| c.name == name);
+            let found = table.columns().iter().find(|c| c.name == name);
             found.map_or(Vec::new(), |c| c.cells.iter().map(Cell::number).collect())
         };
         let (_, along) = placement.span();

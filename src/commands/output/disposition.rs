@@ -8,7 +8,7 @@ use crate::report::disposition::{Disposition, DispositionError, RowChoice};
 use crate::report::page;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
-use windlass_base::table::Table;
+use windlass_base::table::{Cell, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun, Value};
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
@@ -196,11 +196,10 @@ fn chosen_rows(job: &Job, args: &Args, columns: &[Value], rows: &RowChoice) -> O
     let result = d.columns(&selectors(columns)).and_then(|c| d.extract(&c, rows, true, job.units));
     let mut table = result.map_err(|e| to_diagnostic(args, &e))?;
     if args.option_if_declared(&MAG_USE).is_some() {
-        for cell in table.columns.iter_mut().flat_map(|c| c.cells.iter_mut()) {
-            if let windlass_base::table::Cell::Number(value) = cell {
-                *value = value.abs();
-            }
-        }
+        table.map_cells(|_, _, cell| match cell {
+            Cell::Number(value) => Cell::Number(value.abs()),
+            other => other.clone(),
+        });
     }
     Ok(table)
 }
@@ -316,7 +315,7 @@ fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let column = args.word(COLUMN).unwrap_or_default();
     let culled =
         open_disposition(job, args.span)?.cull(column, &excluded, job.units).map_err(|e| to_diagnostic(args, &e))?;
-    let (rows, columns) = (culled.table.rows(), culled.table.columns.len());
+    let (rows, columns) = (culled.table.rows(), culled.table.columns().len());
     job.menus.push(Menu::Disposition(Box::new(culled)));
     job.say(&format!("{rows} rows of {columns} columns kept; END returns to all rows"));
     Ok(Effect::Done)

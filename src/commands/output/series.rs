@@ -232,7 +232,7 @@ fn open(
 
 /// Opens an inner menu over a table and says what it holds.
 fn enter(job: &mut Job, table: Table) {
-    let text = format!("{}: {} rows of {} columns; END returns", table.title, table.rows(), table.columns.len());
+    let text = format!("{}: {} rows of {} columns; END returns", table.title, table.rows(), table.columns().len());
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
     job.say(&text);
 }

@@ -44,7 +44,7 @@ fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     open_disposition(job, args.span)?.numeric(&selectors(&args.data)).map_err(|e| to_diagnostic(args, &e))?;
     let (table, without) = chosen_for_statistics(job, args)?;
-    let count = table.columns.len();
+    let count = table.columns().len();
     let (independent, described) = if count > 1 { (Some(0), (1..count).collect()) } else { (None, vec![0]) };
     let mut parts = vec![statistic::in_units(&table, independent, &described, job.units)];
     let wrong = |e: SeriesError| Diagnostic::error(e.to_string(), args.span);

@@ -48,7 +48,7 @@ fn build(query: &PostQuery) -> Outcome<Table> {
     let events = asked_behind_transient(query.job, query.args())?.1;
     let series = query.solved(results::magnitudes(query.run, &query.connectors()?, query.magnitude(), &events))?;
     // the first column is the time
-    let records = series.columns.iter().skip(1).map(|column| {
+    let records = series.columns().iter().skip(1).map(|column| {
         let mut sorted = column.numbers();
         sorted.sort_by(f64::total_cmp);
         ForceRecord { name: column.name.clone(), sorted }

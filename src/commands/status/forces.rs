@@ -130,7 +130,9 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
             }
         }
     }
-    let mut table = Table { absent, notes: merge_remarks(&notes), ..spring_table("Foundation Check", &springs) };
+    let mut table = spring_table("Foundation Check", &springs);
+    table.absent = absent;
+    table.add_notes(merge_remarks(&notes));
     if let Some((ratio, name)) = largest {
         table = table.fact("Largest Unity", ratio, Dim::None).fact("Of", name, Dim::None);
     }

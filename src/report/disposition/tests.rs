@@ -10,6 +10,12 @@ fn menu() -> Disposition {
     Disposition::new(t)
 }
 
+fn with_missing_cell(table: &Table, column: usize, row: usize) -> Table {
+    let mut columns = table.columns().to_vec();
+    columns[column].cells[row] = Cell::Missing;
+    table.clone().with_columns(columns)
+}
+
 #[test]
 fn scale_and_shift_act_on_views_in_user_units_but_not_on_table() {
     let mut d = menu();
@@ -20,7 +26,7 @@ fn scale_and_shift_act_on_views_in_user_units_but_not_on_table() {
     let values: Vec<f64> = text.split(' ').map(|v| v.parse().unwrap()).collect();
     // feet to metres and back rounds once each way
     assert!(values.iter().zip([9.0, 19.0, 29.0, 39.0, 49.0]).all(|(a, b)| (a - b).abs() < 1e-13 * b), "{text}");
-    assert_eq!(d.table.columns[0].cells[0], Cell::Number(METRES_PER_FOOT));
+    assert_eq!(d.table.columns()[0].cells[0], Cell::Number(METRES_PER_FOOT));
 }
 
 #[test]
@@ -54,7 +60,7 @@ fn culled_rows_keep_values_and_earlier_scales_and_shifts() {
     d.shift(-1.0, &["F", "X"]).unwrap();
     // F shows 2 n n - 1: rows 2 and 3 show 7 and 17
     let mut culled = d.cull("F", &[(0.0, 6.9), (17.1, 1e9)], us).unwrap();
-    assert_eq!(culled.table.columns[1].cells, [Cell::Number(4.0), Cell::Number(9.0)]);
+    assert_eq!(culled.table.columns()[1].cells, [Cell::Number(4.0), Cell::Number(9.0)]);
     let kept = RowChoice { record: Some((2, 3)), values: None, from: None };
     for column in [0, 1] {
         let before = d.extract(&[column], &kept, true, us).unwrap();
@@ -68,10 +74,10 @@ fn culled_rows_keep_values_and_earlier_scales_and_shifts() {
 #[test]
 fn cull_excludes_closed_ranges_in_user_units() {
     let mut d = menu();
-    d.table.columns[1].cells[2] = Cell::Missing;
+    d.table = with_missing_cell(&d.table, 1, 2);
     let us = UnitSystem::default();
     let kept = |column: &str, ranges: &[(f64, f64)]| {
-        let rows = d.cull(column, ranges, us).map(|c| c.table.columns[0].clone());
+        let rows = d.cull(column, ranges, us).map(|c| c.table.columns()[0].clone());
         rows.map(|c| c.numbers().iter().map(|x| (x / METRES_PER_FOOT).round() as i32).collect::<Vec<_>>())
     };
     assert_eq!(kept("X", &[(2.0, 3.0), (4.5, 9.0)]), Ok(vec![1, 4]));
@@ -113,7 +119,7 @@ fn culled_table_notes_state_once_they_cover_the_whole_table() {
 #[test]
 fn missing_value_is_reported_not_skipped() {
     let mut d = menu();
-    d.table.columns[1].cells[2] = Cell::Missing;
+    d.table = with_missing_cell(&d.table, 1, 2);
     let us = UnitSystem::default();
     let from_two = RowChoice { record: Some((2, 5)), values: None, from: None };
     let want = DispositionError::NoValue { column: "F".into(), row: 3 };

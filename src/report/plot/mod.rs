@@ -141,7 +141,7 @@ impl Chart {
     /// # Errors
     /// Columns of different units on one side; none on the left.
     pub fn with_right(table: &Table, right: &[usize], units: UnitSystem) -> Result<Chart, PlotError> {
-        let (x, ys) = match table.columns.split_first() {
+        let (x, ys) = match table.columns().split_first() {
             Some((x, ys)) => (Some(x), ys),
             None => (None, [].as_slice()),
         };

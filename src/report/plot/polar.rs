@@ -27,13 +27,13 @@ impl Chart {
     /// # Errors
     /// A first column that holds no angles; a distance below zero.
     pub fn polar(table: &Table, units: UnitSystem) -> Result<Chart, PlotError> {
-        let angles = table.columns.first().filter(|c| c.dim == Dim::Angle);
+        let angles = table.columns().first().filter(|c| c.dim == Dim::Angle);
         let angles = angles.ok_or_else(|| {
-            PlotError::NoAngle(table.columns.first().map_or(String::new(), super::super::columns::long_name))
+            PlotError::NoAngle(table.columns().first().map_or(String::new(), super::super::columns::long_name))
         })?;
         let mut made = Chart { polar: true, ..Chart::from_table(table, units)? };
         if made.right_label.is_some() {
-            let names: Vec<String> = table.columns.iter().skip(1).map(|c| format::head(c, units)).collect();
+            let names: Vec<String> = table.columns().iter().skip(1).map(|c| format::head(c, units)).collect();
             return Err(PlotError::Units(names.join(", ")));
         }
         for series in &mut made.series {
@@ -45,7 +45,7 @@ impl Chart {
                 *point = angle.number().map(|a| (distance * a.cos(), distance * a.sin()));
             }
         }
-        let distance = match table.columns.get(1..) {
+        let distance = match table.columns().get(1..) {
             Some([one]) => format::head(one, units),
             _ => made.y_label.clone(),
         };
@@ -189,8 +189,7 @@ mod tests {
     fn negative_radius_and_non_angle_column_are_refused() {
         let negative = Chart::polar(&table(|_| -1.0), UnitSystem::SI);
         assert_eq!(negative, Err(PlotError::Negative("Excursion".into(), -1.0)));
-        let mut lengths = table(|_| 1.0);
-        lengths.columns.remove(0);
+        let lengths = Table::from_columns("Watch", table(|_| 1.0).columns()[1..].to_vec());
         assert_eq!(Chart::polar(&lengths, UnitSystem::SI), Err(PlotError::NoAngle("Excursion".into())));
     }
 }

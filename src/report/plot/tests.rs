@@ -119,8 +119,7 @@ fn third_unit_is_refused_and_one_unit_may_use_both_axes() {
     let column =
         |(n, (name, dim)): (usize, (&str, Dim))| Column::new("", name, dim, Digits::Usual, [n as f64, (n * n) as f64]);
     let t = Table::from_columns("t", dims.into_iter().enumerate().map(column).collect());
-    let taken =
-        |list: &[usize]| Table { columns: list.iter().map(|n| t.columns[*n].clone()).collect(), ..Table::new("t") };
+    let taken = |list: &[usize]| Table::from_columns("t", list.iter().map(|n| t.columns()[*n].clone()).collect());
     let refused = Err(PlotError::Units("L (m), T (s)".into()));
     assert_eq!(Chart::from_table(&t, UnitSystem::SI), refused);
     assert_eq!(Chart::with_right(&taken(&[0, 1, 2]), &[2], UnitSystem::SI).unwrap().right_label.unwrap(), "G (N)");

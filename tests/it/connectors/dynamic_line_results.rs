@@ -95,7 +95,7 @@ fn thinned_node_output_matches_full_output() {
     let arcs = whole.get("Arc").unwrap().numbers();
     let middle = 0.5 * (arcs[1] + arcs[2]);
     let table = histories(&line, &[Where::Node(2), Where::Arc(middle), Where::Node(3)], &kept).unwrap();
-    let tensions: Vec<Vec<f64>> = table.columns.iter().filter(|c| c.name == "Tension").map(|c| c.numbers()).collect();
+    let tensions: Vec<Vec<f64>> = table.columns().iter().filter(|c| c.name == "Tension").map(|c| c.numbers()).collect();
     for ((low, middle), high) in tensions[0].iter().zip(&tensions[1]).zip(&tensions[2]) {
         assert!(
             (middle - (low + high) / 2.0).abs() <= 1e-9 * (low.abs() + high.abs()),

@@ -167,7 +167,7 @@ fn support_forces_add_up_to_load_on_barge() {
     let line = LineResults::find(run, PIPE).unwrap();
     let events = results::events(&run.history, None).unwrap();
     let table = along::supports(&line, Magnitude::default(), &events).unwrap();
-    let number = |column: usize, row: usize| match table.columns[column].cells[row] {
+    let number = |column: usize, row: usize| match table.columns()[column].cells[row] {
         Cell::Number(value) => value,
         ref other => panic!("{other:?}"),
     };

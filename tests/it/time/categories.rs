@@ -91,7 +91,7 @@ fn model(records: &str) -> Model {
 
 /// A column of a table.
 fn column(table: &Table, group: &str, name: &str) -> Vec<f64> {
-    let found = table.columns.iter().find(|c| c.group == group && c.name == name).unwrap();
+    let found = table.columns().iter().find(|c| c.group == group && c.name == name).unwrap();
     found.cells.iter().map(|cell| if let Cell::Number(value) = cell { *value } else { f64::NAN }).collect()
 }
 
@@ -177,7 +177,7 @@ fn categories_of_every_class_add_up_in_run_and_statics() {
         for (n, name) in COMPONENTS.into_iter().enumerate() {
             let group = if n < 3 { "Force" } else { "Moment" };
             let values = column(&table, group, name);
-            let rows = table.columns[0].cells.iter().zip(&table.columns[1].cells).zip(values);
+            let rows = table.columns()[0].cells.iter().zip(&table.columns()[1].cells).zip(values);
             let rows: Vec<(String, String, f64)> =
                 rows.map(|((body, what), v)| (format!("{body:?}"), format!("{what:?}"), v)).collect();
             for (body, node) in system.nodes.iter().enumerate() {

@@ -28,7 +28,7 @@ fn held(pieces: &str) -> Model {
 
 /// The mean of a column over the last ten periods.
 fn mean(table: &Table, group: &str, name: &str) -> f64 {
-    let found = table.columns.iter().find(|c| c.group == group && c.name == name).unwrap();
+    let found = table.columns().iter().find(|c| c.group == group && c.name == name).unwrap();
     let value = |cell: &Cell| if let Cell::Number(v) = cell { *v } else { f64::NAN };
     found.cells.iter().rev().take(700).map(value).sum::<f64>() / 700.0
 }

@@ -127,7 +127,7 @@ mod tests {
         assert_eq!(all.get("Cycles").unwrap().numbers().iter().sum::<f64>(), 4.0);
         // ranges 3 4 6 8 9 in bins of 1 from 0 to 9: those of 8 and 9 share the last
         let binned = rainflow(&record(), 9, 1).unwrap();
-        assert_eq!(binned.columns[0].numbers(), [3.0, 4.0, 6.0, 8.0]);
+        assert_eq!(binned.columns()[0].numbers(), [3.0, 4.0, 6.0, 8.0]);
         assert_eq!(binned.get("Cycles").unwrap().numbers(), [0.5, 1.5, 0.5, 1.5]);
         let by_mean = rainflow(&record(), 9, 4).unwrap();
         assert_eq!(by_mean.get("Cycles").unwrap().numbers().iter().sum::<f64>(), 4.0);
@@ -136,9 +136,9 @@ mod tests {
     #[test]
     fn exceedance_shares_fall_with_level() {
         let t = exceedance(&record(), 5).unwrap();
-        assert_eq!(t.columns[0].numbers(), [-4.0, -1.75, 0.5, 2.75, 5.0]);
+        assert_eq!(t.columns()[0].numbers(), [-4.0, -1.75, 0.5, 2.75, 5.0]);
         // maxima between crossings of the mean 1/9: 1, 5, 3 and 4
-        assert_eq!(t.columns[2].numbers(), [1.0, 1.0, 1.0, 0.75, 0.0]);
+        assert_eq!(t.columns()[2].numbers(), [1.0, 1.0, 1.0, 0.75, 0.0]);
         let h = histogram(&record(), 3).unwrap();
         assert_eq!(h.get("Count").unwrap().numbers().iter().sum::<f64>(), 9.0);
         assert!((h.get("Share").unwrap().numbers().iter().sum::<f64>() - 1.0).abs() < 1e-15);

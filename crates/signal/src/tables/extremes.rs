@@ -139,16 +139,16 @@ mod tests {
         turned.series[0].values.iter_mut().for_each(|v| *v = -*v);
         let low = extremes(&turned, Extremes { lows: true, ..asked }).unwrap();
         for (a, b) in [(1, 1), (2, 2), (3, 4), (4, 3)] {
-            let (a, b) = (high.columns[a].numbers(), low.columns[b].numbers());
+            let (a, b) = (high.columns()[a].numbers(), low.columns()[b].numbers());
             assert_eq!(a, b.iter().map(|v| -v).collect::<Vec<_>>());
         }
-        assert_eq!(high.columns[1].numbers().len(), 3);
+        assert_eq!(high.columns()[1].numbers().len(), 3);
     }
 
     #[test]
     fn short_record_states_its_minimum_length() {
         let t = extremes(&record(200.0), Extremes { duration: 10800.0, blocks: None, lows: false }).unwrap();
-        assert_eq!(t.columns[1].numbers().len(), 1);
+        assert_eq!(t.columns()[1].numbers().len(), 1);
         assert!(
             t.notes.iter().any(|n| n.text.starts_with("Weibull of S") && n.text.contains("at least 30")),
             "{:?}",

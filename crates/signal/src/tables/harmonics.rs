@@ -75,8 +75,8 @@ mod tests {
         let series = vec![series("A", of(2.0, 0.5)), series("B", of(3.0, -0.5))];
         let r = SeriesRecord { title: "t".into(), series, times };
         let t = harmonics(&r, Analysis { period: None, orders: 2, cycles: None }).unwrap();
-        assert_eq!((t.columns.len(), t.rows()), (6, 3));
-        let b = t.columns[4].numbers();
+        assert_eq!((t.columns().len(), t.rows()), (6, 3));
+        let b = t.columns()[4].numbers();
         assert!((b[0] - 5.0).abs() < 1e-6 && (b[1] - 3.0).abs() < 1e-6 && b[2].abs() < 1e-6, "{b:?}");
     }
 }

@@ -56,7 +56,7 @@ impl SeriesRecord {
     /// # Errors
     /// A table of one column, a first column that measures something else, a cell without a number, times that do not grow.
     pub fn from_table(table: &Table) -> Result<SeriesRecord, SeriesError> {
-        let Some((time, rest)) = table.columns.split_first().filter(|(_, rest)| !rest.is_empty()) else {
+        let Some((time, rest)) = table.columns().split_first().filter(|(_, rest)| !rest.is_empty()) else {
             return Err(SeriesError::Refused("the time and at least one more column are needed".into()));
         };
         if !matches!(time.dim, Dim::Time | Dim::None) {
@@ -104,9 +104,12 @@ mod tests {
             .build();
         let r = SeriesRecord::from_table(&t).unwrap();
         assert_eq!((r.series[0].name.as_str(), r.length()), ("A: F", 3.0));
-        t.columns[1].cells[1] = Cell::Missing;
+        let mut columns = t.columns().to_vec();
+        columns[1].cells[1] = Cell::Missing;
+        t = t.with_columns(columns.clone());
         assert!(SeriesRecord::from_table(&t).unwrap_err().to_string().contains("row 2"));
-        t.columns[0].dim = Dim::Length;
+        columns[0].dim = Dim::Length;
+        t = t.with_columns(columns);
         assert!(SeriesRecord::from_table(&t).unwrap_err().to_string().contains("no time"));
         assert!(SeriesRecord::from_table(&Table::new("t")).is_err());
     }

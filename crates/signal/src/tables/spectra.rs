@@ -137,10 +137,10 @@ mod tests {
     fn density_table_sums_to_variance_in_its_unit() {
         let r = record(0.5, Dim::Force);
         let t = density(&r, None).unwrap();
-        let w = t.columns[0].numbers();
-        let sum: f64 = t.columns[2].numbers().iter().sum::<f64>() * (w[1] - w[0]);
+        let w = t.columns()[0].numbers();
+        let sum: f64 = t.columns()[2].numbers().iter().sum::<f64>() * (w[1] - w[0]);
         assert!((sum - 2.0).abs() < 1e-9, "{sum}");
-        assert_eq!(t.columns[2].dim, Dim::Derived { force: 2, length: 0, seconds: 1 });
+        assert_eq!(t.columns()[2].dim, Dim::Derived { force: 2, length: 0, seconds: 1 });
         let m = moments(&r, None).unwrap();
         assert!((m[0].1.peak_period - 32.0).abs() < 1e-9 && w.len() == 256);
     }
@@ -156,8 +156,8 @@ mod tests {
             t.notes
         );
         let t = amplitudes(&record(0.5, Dim::Angle)).unwrap();
-        assert_eq!((t.columns.len(), t.rows(), t.columns[1].cells[0].clone()), (4, 2049, Cell::Missing));
-        assert!((t.columns[2].numbers()[64] - 2.0).abs() < 1e-12);
+        assert_eq!((t.columns().len(), t.rows(), t.columns()[1].cells[0].clone()), (4, 2049, Cell::Missing));
+        assert!((t.columns()[2].numbers()[64] - 2.0).abs() < 1e-12);
         assert!(density(&r, Some(5000)).is_err());
     }
 }

@@ -125,7 +125,7 @@ pub fn histories(line: &LineResults, wanted: &[Where], events: &[RunEvent]) -> R
     let table = table.build();
     let empty = |c: &&windlass_base::table::Column| c.cells.iter().all(|c| *c == Cell::Missing);
     if wanted.iter().any(|w| matches!(w, Where::Arc(_)))
-        && let Some(column) = table.columns.iter().filter(|c| c.name == "Tension").find(empty)
+        && let Some(column) = table.columns().iter().filter(|c| c.name == "Tension").find(empty)
     {
         let text = format!("{} of {} is beyond its ends at all these times", column.group, line.name);
         return Err(SolveError::new(ClassError::new(text)));
