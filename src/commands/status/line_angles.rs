@@ -27,6 +27,7 @@ struct LineEnds<'m> {
     tension: f64,
     /// Azimuth of the line at its fairlead, and its declination from straight down (rad); none of a line that does not pull.
     fairlead: Option<[f64; 2]>,
+    /// The same at the far end (N).
     anchor_tension: f64,
     /// Angle above the horizontal of the pull at the far end (rad); none of a line that does not pull.
     uplift: Option<f64>,
@@ -40,12 +41,13 @@ impl<'m> LineEnds<'m> {
         let [level, anchor_level] = [fx.hypot(fy), ax.hypot(ay)];
         let tension = level.hypot(fz);
         let pushes = found.summary.tension.is_some_and(|t| t < 0.0);
+        let sign = if pushes { -1.0 } else { 1.0 };
         let is_taut = tension > 0.0 && !pushes;
         LineEnds {
             name,
-            tension: if pushes { -tension } else { tension },
+            tension: sign * tension,
             fairlead: is_taut.then(|| [fy.atan2(fx).rem_euclid(std::f64::consts::TAU), level.atan2(-fz)]),
-            anchor_tension: anchor_level.hypot(az),
+            anchor_tension: sign * anchor_level.hypot(az),
             // no pull is zero without a sign
             uplift: is_taut.then(|| az.atan2(anchor_level) + 0.0),
             grounded: found.summary.grounded,

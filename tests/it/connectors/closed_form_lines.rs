@@ -229,7 +229,28 @@ fn line_angles_match_catenary_with_and_without_uplift() {
     // the strain, 3e-8 here, changes the slopes of a line this taut by some thousand times as much
     near(taut.column("Uplift")[0], 5.0, 1e-4);
     near(taut.column("Declination")[0], 90.0 - t.atan().to_degrees(), 1e-4);
-    assert!(taut.text.contains("uplift at the anchor: A; a drag anchor is rated without"), "{}", taut.text);
+    assert!(taut.text.contains("uplift at the anchor: A; drag anchors are rated for none"), "{}", taut.text);
+}
+
+#[test]
+fn line_angles_list_lines_that_do_not_pull_and_dynamic_lines() {
+    // a chord (3, 4, -12) of 13 m: 14 m are slack, and push where they are not TENSION; a declination of atan(5 / 12)
+    let records = "MEDIT\n*P 0 0 0\n*Q 3 4 -12\n~S SL_ELEM 100 TENSION -LEN 14 -WTPL 0\n~C SL_ELEM 100 -LEN 14 -WTPL 0\n\
+                   ~D SL_ELEM 100 -LEN 12.9 -WTPL 0\nCONNECTOR S ~S *P *Q\nCONNECTOR C ~C *P *Q\nCONNECTOR D ~D *P *Q\nEND";
+    let done = run(records, |_| (), "&STATUS LINE_ANGLES -DISPOSE\nSTORE t\nREPORT\nEND");
+    assert_eq!(done.errors, 0, "{:?}", done.said);
+    let (tension, declination) = (&done.stored["Fairlead: Tension"], &done.stored["Declination"]);
+    assert_eq!(done.stored["Azimuth"].iter().map(Option::is_some).collect::<Vec<_>>(), [false, false, true]);
+    assert!(tension[0] == Some(0.0) && tension[1] < Some(0.0), "{tension:?}");
+    assert_eq!(done.stored["Anchor: Tension"], *tension);
+    assert!(declination[0].is_none() && declination[1].is_none());
+    near(declination[2].unwrap(), (5f64 / 12.0).atan().to_degrees(), 1e-6);
+    near(done.stored["Azimuth"][2].unwrap(), (4f64 / 3.0).atan().to_degrees(), 1e-6);
+    // as a dynamic line of 60 elements the catenary of the test above, to what its elements of 17 m leave
+    let records = stiff("EXACT", 0.0).replace("-ANC 30 0", &format!("-ANC 30 {}", closed(3e5, 200.0, 1010.0)[0]));
+    let dynamic =
+        run(&records, |_| (), "&CONNECTOR A -DYNAMICS 60\n&STATUS LINE_ANGLES -DISPOSE\nSTORE t\nREPORT\nEND");
+    near(dynamic.column("Declination")[0], 90.0 - (4f64 / 3.0).atan().to_degrees(), 1e-3);
 }
 
 #[test]
