@@ -63,7 +63,7 @@ static CONN_DESIGN_SPEC: CommandSpec = CommandSpec {
 static PRCPOST_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu(&menu::PRCPOST),
     menus: &[&menu::MAIN],
-    detail: "Tables of the last run of TDOM; each opens the disposition menu. A run whose model has been changed since is told \
+    detail: "Tables of the last run of TDOM; each opens the disposition menu. A run whose model has been changed since is reported \
              as it was; points are taken where they stand in their bodies now.",
     example: "PRCPOST\nEND",
     ..CommandSpec::new("PRCPOST", "post-processing of a run, up to END")

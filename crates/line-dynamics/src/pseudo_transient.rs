@@ -257,16 +257,16 @@ impl RodSolver {
     fn residual_tolerance(&self, rod: &Rod, world: &LineEnvironment) -> f64 {
         let weight = total_weight(rod, world);
         let place = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
-        let mut told = RESIDUAL_TOLERANCE * weight;
+        let mut tolerance = RESIDUAL_TOLERANCE * weight;
         for (i, (element, x)) in rod.elements.iter().zip(self.trial.x.windows(2)).enumerate() {
-            told = told.max(RESIDUAL_TOLERANCE * self.element_tension(rod, world, i).abs());
+            tolerance = tolerance.max(RESIDUAL_TOLERANCE * self.element_tension(rod, world, i).abs());
             // a slack element, too, may be made taut by the rounding of a position
             let strain = (x[1] - x[0]).norm() / element.rest - 1.0;
             let slope = rod.segments[element.segment].axial.evaluate(strain).1;
             let stiffness = slope / element.rest + 10.0 * element.bending / element.rest.powi(3);
-            told = told.max(32.0 * f64::EPSILON * place * stiffness);
+            tolerance = tolerance.max(32.0 * f64::EPSILON * place * stiffness);
         }
-        told
+        tolerance
     }
 }
 

@@ -139,7 +139,7 @@ static SPEC: CommandSpec = CommandSpec {
              where it stands, about its origin. STIFFNESS is the change of these forces with the motion of one body, other bodies held: \
              -d(force)/d(translation of the point, rotation in radians) in global axes, about the body's origin or the point of -ABOUT, \
              taken to move with the body; junctions follow to their own equilibrium; with names of connectors that of each of them. Connectors of classes with -IG_STIFF between two bodies are left out of it. \
-             ROD_MODES holds the ends of a line where they stand, and tells of its slowest modes about its rest there. -DISPOSE takes a table to the disposition menu: \
+             ROD_MODES reports the slowest modes of a line about its rest, its ends held where they stand. -DISPOSE takes a table to the disposition menu: \
              REPORT, VIEW, STORE, PLOT.",
     example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 EXACT -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nEND\n&STATUS F_CONNECTOR A\n\
               &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3\n&STATUS F_CONNECTOR -DISPOSE\nVIEW Name FX FZ\nEND\n\

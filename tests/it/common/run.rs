@@ -17,11 +17,21 @@ impl Watcher for Quiet {
 
 /// The model of records in metres and newtons.
 pub fn model(records: &str) -> Model {
-    let (mut session, _, _folder) = common::session();
-    session.open("test", format!("&DIMEN -DIMEN METERS N\n{records}"));
+    model_as_written(&format!("&DIMEN -DIMEN METERS N\n{records}\n"))
+}
+
+/// The model of records that draw no error, in the units they set.
+pub fn model_as_written(records: &str) -> Model {
+    let (mut session, screen, _folder) = common::session();
+    session.open("records", records.to_string());
     session.run();
-    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
     session.job.model.clone()
+}
+
+/// A body B with records on points of it, in an environment, in metres and newtons.
+pub fn body(records: &str, environment: &str) -> Model {
+    model(&format!("MEDIT\n&DESCRIBE BODY B\n{records}\nEND\n{environment}"))
 }
 
 /// A run over a time with a step (s) by the usual scheme, every step kept.

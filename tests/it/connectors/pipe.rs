@@ -1,19 +1,9 @@
 //! A pipe on five rollers: the balance of what it exerts on them, its stiffness, its shape against the field's theory.
 
-use crate::common;
+use crate::common::run::model;
 
-use windlass::session::Session;
-use windlass_base::diagnostic::Severity;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{Element, ElementResponse, End, Model, PIPE, RunRequirement, Situation, SolverCache};
-
-fn model(records: &str) -> Model {
-    let (mut session, _screen, _folder): (Session, _, _) = common::session();
-    session.open("records", format!("&DIMEN -DIMEN METERS N\n{records}\n"));
-    session.run();
-    assert!(session.reports.iter().all(|r| r.severity != Severity::Error), "{:?}", session.reports);
-    session.job.model.clone()
-}
 
 /// A stinger 150 m in radius; the pipe weighs 300 N/m in water and in air.
 fn stinger(tension: f64) -> Model {

@@ -1,20 +1,12 @@
 //! Far starts: a moored barge and a load in four slings come to the same rest from forty places each, in a bounded number of steps.
 
-use crate::common;
+use crate::common::run::model_as_written as model;
 
 use std::fmt::Write;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_model::Model;
 use windlass_solve::{Options, System, equilibrium};
-
-fn model(records: &str) -> Model {
-    let (mut session, screen, _folder) = common::session();
-    session.open("records", records.to_string());
-    session.run();
-    assert_eq!(session.errors, 0, "{}", screen.text());
-    session.job.model.clone()
-}
 
 /// A barge of 60 m by 60 m on eight chains of 900 m in 300 m, as in benches/equilibrium.rs.
 fn barge() -> Model {

@@ -1,6 +1,6 @@
 //! Wind, current and mean wave drift on bodies, against numbers derived by hand beside them.
 
-use crate::common;
+use crate::common::run::{body, model};
 use crate::common::tangent;
 
 use nalgebra::Vector3;
@@ -14,20 +14,6 @@ use windlass_hydro::{BodyLoad, Category, Floating};
 use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;
-
-/// The model that records make, in metres and newtons.
-fn model(records: &str) -> Model {
-    let (mut session, screen, _folder) = common::session();
-    session.open("records", format!("&DIMEN -DIMEN METERS N\n{records}\n"));
-    session.run();
-    assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
-    session.job.model.clone()
-}
-
-/// A body with records on points of it, in an environment.
-fn body(records: &str, environment: &str) -> Model {
-    model(&format!("MEDIT\n&DESCRIBE BODY B\n{records}\nEND\n{environment}"))
-}
 
 fn sum(model: &Model, category: Category, pose: &Pose) -> Six {
     let floating = Floating::at_rest(model, &model.bodies["B"]).unwrap();

@@ -1,7 +1,7 @@
 //! Wind and current on bodies that move, and that vary in time: against closed forms beside them, and tangents by differences.
 
-use crate::common;
 use crate::common::body_load::begin_step;
+use crate::common::run::{body, model};
 
 use nalgebra::Matrix6;
 use windlass_base::geometry::Place;
@@ -11,20 +11,6 @@ use windlass_hydro::{BodyLoad, Category, DynamicLoad, Floating, Underway};
 use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;
-
-/// The model that records make, in metres and newtons.
-fn model(records: &str) -> Model {
-    let (mut session, screen, _folder) = common::session();
-    session.open("records", format!("&DIMEN -DIMEN METERS N\n{records}\n"));
-    session.run();
-    assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
-    session.job.model.clone()
-}
-
-/// A body with records on points of it, in an environment.
-fn body(records: &str, environment: &str) -> Model {
-    model(&format!("MEDIT\n&DESCRIBE BODY B\n{records}\nEND\n{environment}"))
-}
 
 fn floating(model: &Model) -> Floating {
     Floating::under_way(model, &model.bodies["B"], None).unwrap()

@@ -1,7 +1,7 @@
 //! Forces by category: every load and every class has a place in the tables, whose rows add up to what moves the body.
 
-use crate::common;
 use crate::common::run as runs;
+use crate::common::run::model_as_written;
 
 use runs::{Quiet, settings};
 use windlass_base::table::{Cell, Table};
@@ -81,12 +81,12 @@ const CONNECTORS: [(&str, &str); 18] = [
 ];
 
 fn model(records: &str) -> Model {
-    let (mut session, screen, _folder) = common::session();
     let records = records.replace("DATA/", concat!(env!("CARGO_MANIFEST_DIR"), "/"));
-    session.open("records", format!("&DIMEN -DIMEN METERS K-NTS\n{records}\n"));
-    session.run();
-    assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
-    session.job.model.clone()
+    model_as_written(&format!(
+        "&DIMEN -DIMEN METERS K-NTS
+{records}
+"
+    ))
 }
 
 /// A column of a table.

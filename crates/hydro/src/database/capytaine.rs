@@ -56,12 +56,12 @@ impl Set<'_> {
 
     /// A variable of numbers.
     fn numbers(&self, name: &str) -> Result<Variable, DatabaseError> {
-        let told = |e: netcdf_reader::Error| self.wrong(format!("{name}: {e}"));
-        let variable = self.file.variable(name).map_err(told)?;
+        let to_error = |e: netcdf_reader::Error| self.wrong(format!("{name}: {e}"));
+        let variable = self.file.variable(name).map_err(to_error)?;
         let names = variable.dimensions().iter().map(|d| d.name.clone()).collect();
         let sizes: Vec<usize> = variable.shape().iter().map(|n| usize::try_from(*n).unwrap_or(usize::MAX)).collect();
         self.small(name, &sizes)?;
-        let array = self.file.read_variable_as_f64(name).map_err(told)?;
+        let array = self.file.read_variable_as_f64(name).map_err(to_error)?;
         let values: Vec<f64> = array.iter().copied().collect();
         if sizes.iter().product::<usize>() != values.len() {
             return Err(self.wrong(format!("{name} has {} values on dimensions of other sizes", values.len())));
@@ -83,11 +83,11 @@ impl Set<'_> {
 
     /// A variable of words.
     fn words(&self, name: &str) -> Result<Vec<String>, DatabaseError> {
-        let told = |e: netcdf_reader::Error| self.wrong(format!("{name}: {e}"));
-        let variable = self.file.variable(name).map_err(told)?;
+        let to_error = |e: netcdf_reader::Error| self.wrong(format!("{name}: {e}"));
+        let variable = self.file.variable(name).map_err(to_error)?;
         let sizes: Vec<usize> = variable.shape().iter().map(|n| usize::try_from(*n).unwrap_or(usize::MAX)).collect();
         self.small(name, &sizes)?;
-        let words = self.file.read_variable_as_strings(name).map_err(told)?;
+        let words = self.file.read_variable_as_strings(name).map_err(to_error)?;
         Ok(words.iter().map(|w| w.trim_end_matches('\0').trim().to_string()).collect())
     }
 

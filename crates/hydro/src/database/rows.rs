@@ -254,13 +254,13 @@ pub(super) fn by_wave(file: &SourceFile, rows: &[ModeRow]) -> Result<ByWave, Dat
         ([place(&headings, r.heading), place(&frequencies, r.frequency), place(&modes, r.mode as f64)], r.value)
     });
     let sizes = [headings.len(), frequencies.len(), modes.len()];
-    let told = |[h, f, m]: [usize; 3]| {
+    let describe = |[h, f, m]: [usize; 3]| {
         let (heading, frequency, mode) = (headings[h].to_degrees(), frequencies[f], modes[m] + 1.0);
         format!("for mode {mode}, heading {heading:.2} degrees, {frequency:.5} rad/s (period {:.4} s)", TAU / frequency)
     };
     let dense = complete(placed.collect(), sizes, |a, b| (a - b).norm() <= 1e-4 * size).map_err(|flaw| match flaw {
-        Flaw::Missing(at) => file.wrong(format!("it has no row {}", told(at))),
-        Flaw::Twice(at) => file.wrong(format!("it has two unlike rows {}", told(at))),
+        Flaw::Missing(at) => file.wrong(format!("it has no row {}", describe(at))),
+        Flaw::Twice(at) => file.wrong(format!("it has two unlike rows {}", describe(at))),
     })?;
     let six = |chunk: &[Complex<f64>]| {
         let mut six: Amplitudes = Default::default();

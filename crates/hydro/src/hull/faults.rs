@@ -163,7 +163,7 @@ impl Surface {
     /// Connected parts of negative volume that are not hollows of the others.
     fn turned_parts(&self, list: &mut Vec<Fault>) {
         let parts = self.parts();
-        let told = list.len();
+        let earlier = list.len();
         for (n, part) in parts.iter().enumerate() {
             let volume = part.volume();
             let Some(&at) = part.vertices.first() else { continue };
@@ -171,7 +171,7 @@ impl Surface {
             if volume < 0.0 && others.map(|(_, p)| p.winding(at)).sum::<f64>() < 0.5 {
                 list.push(Fault::InsideOut { volume, at: at.into() });
             }
-            if list.len() >= told + MAX_REPORTED_FAULTS {
+            if list.len() >= earlier + MAX_REPORTED_FAULTS {
                 break;
             }
         }

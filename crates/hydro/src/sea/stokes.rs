@@ -36,8 +36,8 @@ fn serves(height: f64, number: f64, water: &Water) -> Result<(), ClassError> {
     match water.depth {
         Some(depth) if height * length * length > MAX_URSELL_NUMBER * depth.powi(3) => {
             let text = "a wave {} high and {} long is too long for Stokes' theory in a depth of {}";
-            let told = [(height, Dim::Length), (length, Dim::Length), (depth, Dim::Length)];
-            Err(ClassError::with_values(text, &told).help("H L^2/d^3 may be 40; REGULAR is the linear wave"))
+            let values = [(height, Dim::Length), (length, Dim::Length), (depth, Dim::Length)];
+            Err(ClassError::with_values(text, &values).help("H L^2/d^3 may be 40; REGULAR is the linear wave"))
         }
         _ => Ok(()),
     }
@@ -164,8 +164,8 @@ impl Stokes {
         let [low, high] = [0.2 * linear, linear * (1.0 + 1e-12)];
         if !(over(low) < 0.0 && over(high) >= 0.0) {
             let text = "no wave number was found for a Stokes wave {} high with a period of {}";
-            let told = [(height, Dim::Length), (std::f64::consts::TAU / frequency, Dim::Time)];
-            return Err(ClassError::with_values(text, &told).help("REGULAR is the linear wave"));
+            let values = [(height, Dim::Length), (std::f64::consts::TAU / frequency, Dim::Time)];
+            return Err(ClassError::with_values(text, &values).help("REGULAR is the linear wave"));
         }
         // halves until the bounds are neighbours
         let [low, high] = bisect([low, high], 120, |k| over(k) < 0.0);

@@ -30,8 +30,9 @@ pub fn torsethaugen(height: f64, period: f64) -> Result<Vec<SpectralPeak>, Class
     let (shortest, longest) = (2.0 * height.sqrt(), 25.0);
     if period < shortest.min(fetch) || period > longest || fetch >= longest {
         let text = "the spectrum of Torsethaugen has no peak period of {} with a height of {}: it knows {} to {}";
-        let told = [(period, Dim::Time), (height, Dim::Length), (shortest.min(fetch), Dim::Time), (longest, Dim::Time)];
-        return Err(ClassError::with_values(text, &told));
+        let values =
+            [(period, Dim::Time), (height, Dim::Length), (shortest.min(fetch), Dim::Time), (longest, Dim::Time)];
+        return Err(ClassError::with_values(text, &values));
     }
     let steep = |height: f64, period: f64| 35.0 * (TAU / FITTED_GRAVITY * height / (period * period)).powf(6.0 / 7.0);
     let rest = |share: f64| height * (1.0 - share * share).max(0.0).sqrt();
