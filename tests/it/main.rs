@@ -98,4 +98,5 @@ mod time {
 mod aqwa {
     mod aqwa_decks;
     mod aqwa_tether_fatigue;
+    mod aqwa_tether_statistics;
 }

@@ -19,7 +19,7 @@ use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::SeriesError;
 use windlass_signal::tether::fatigue::{Endurance, FatigueSettings};
-use windlass_solve::tethered::{self, Of, TetherHistory, TetherStatistics, Tethered};
+use windlass_solve::tethered::{self, Of, StatisticsSteps, TetherHistory, TetherStatistics, Tethered};
 use windlass_tether::installed::RigChange;
 
 /// TETHER.
@@ -84,6 +84,18 @@ const SLACK: OptionSpec = ours(
     &[ValueSpec::new("T", Kind::Number(Dim::Time), "time reported from each time a tether goes slack").not_negative()],
     "only instants after a tether of the run went slack",
 );
+const STEPS: OptionSpec = ours(
+    "-STEPS",
+    &[
+        ValueSpec::new("FIRST", Kind::Integer, "step at which statistics start; the start of the run is step 1")
+            .in_range(1.0, 1e9),
+        ValueSpec::new("LAST", Kind::Integer, "step at which they finish").or("the last").in_range(1.0, 1e9),
+        ValueSpec::new("EVERY", Kind::Integer, "steps from one record to the next")
+            .or("-STORE of the run")
+            .in_range(1.0, 1e9),
+    ],
+    "the steps of STATISTICS, RANGES and FATIGUE, as cards TSTS, TSTF and TGRV count them; the record at or before FIRST is the first",
+);
 const AT: OptionSpec =
     ours("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "times, twenty at most")], "instants of ALONG")
         .repeating(1)
@@ -115,13 +127,13 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("N", Kind::Text, "number of the node or the element, or what ALONG is of")
             .or("1, and 2 of STATISTICS"),
     ],
-    options: &[EVENTS, SLACK, AT, SN, HOURS, DISPOSE, HARD, BOTH],
+    options: &[EVENTS, STEPS, SLACK, AT, SN, HOURS, DISPOSE, HARD, BOTH],
     detail: "Of a tether that TDOM -TETHERS has run. MOTIONS and FORCES are pages at instants, NODE and END_OF have one node or one \
              end of an element over time (END_OF 5 is the lower end of element 3, 6 its upper end), ALONG one quantity along the tether, with the least and the \
              largest of the run: Y Z RY RZ (X Y RX RY of an installed tether), the same with V or A before them for velocities and accelerations, and \
              of a towed tether SY SZ MY MZ SMAX STY STZ, of an installed one EFF WALL SX SY MX MY SHEAR MAX MIN MISES STY. STATISTICS 1 has a page \
-             for each node and end, STATISTICS 2 one for each parameter: mean, twice the deviation, means of the highest thirds of the turning \
-             points, three largest peaks. RANGES and FATIGUE are of towed tethers: rainflow as that program has it, life in days, peak expected. \
+             for each node and end, STATISTICS 2 one for each parameter: mean, twice the deviation, means of the highest third of the maxima and \
+             of the lowest of the minima, three largest peaks. RANGES and FATIGUE are of towed tethers: rainflow as that program has it, life in days, peak expected. \
              Nodes and elements count from the anchor or the trailing end.",
     example: EXAMPLE,
     ..CommandSpec::new("TETHER", "results of a tether")
@@ -203,11 +215,27 @@ fn slack_alone(run: &Tethered, given: Option<&Given>, list: Vec<usize>) -> Vec<u
     list.into_iter().filter(near).collect()
 }
 
-fn window(run: &Tethered, args: &Args) -> TetherStatistics {
+/// The records that statistics are of: between steps, or between times.
+fn window(run: &Tethered, args: &Args) -> Outcome<TetherStatistics> {
+    if let Some(given) = args.option(&STEPS) {
+        let whole = |n: Option<i64>| n.and_then(|n| usize::try_from(n).ok());
+        let keys = const { [STEPS.integer("FIRST"), STEPS.integer("LAST"), STEPS.integer("EVERY")] };
+        let [first, last, every] = keys.map(|key| whole(given.integer(key)));
+        let steps = StatisticsSteps {
+            first: first.unwrap_or(1),
+            last: last.unwrap_or(usize::MAX),
+            every: every.unwrap_or(run.settings.store),
+        };
+        if let Some(times) = args.option(&EVENTS) {
+            return Err(Diagnostic::error("-EVENTS does not go with -STEPS", times.span)
+                .help("-STEPS counts steps from 1, -EVENTS has times: one of them sets the records"));
+        }
+        return TetherStatistics::between_steps(run, steps).map_err(|e| Diagnostic::error(e.to_string(), given.span));
+    }
     let given = args.option(&EVENTS);
     let from = given.and_then(|given| given.number(const { EVENTS.number("BEG") })).unwrap_or(run.settings.transient);
     let to = given.and_then(|given| given.number(const { EVENTS.number("END") })).unwrap_or(f64::INFINITY);
-    TetherStatistics::new(run, from, to)
+    Ok(TetherStatistics::new(run, from, to))
 }
 
 /// The number of a record, within a range.
@@ -255,7 +283,7 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         }
         TetherReport::Along => vec![table_along(run, tether, args)?],
         TetherReport::Statistics => {
-            let window = window(run, args);
+            let window = window(run, args)?;
             let made = match args.word(NUMBER) {
                 Some("1") => window.type_one(run, tether),
                 None | Some("2") => window.type_two(run, tether),
@@ -265,7 +293,7 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         }
         TetherReport::Ranges | TetherReport::Fatigue => {
             towed_alone()?;
-            let [ranges, fatigue] = window(run, args).fatigue(run, tether, fatigue_settings(args)).map_err(wrong)?;
+            let [ranges, fatigue] = window(run, args)?.fatigue(run, tether, fatigue_settings(args)).map_err(wrong)?;
             vec![if what == TetherReport::Ranges { ranges } else { fatigue }]
         }
         TetherReport::Events => vec![tethered::events(run)],

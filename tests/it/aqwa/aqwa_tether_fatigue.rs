@@ -9,7 +9,7 @@ use serde_json::Value;
 use windlass_signal::tether::fatigue::{
     Endurance, FatigueSettings, Ranges, STRESS_RANGE_BINS, damage_rate, expected_peak, life_days,
 };
-use windlass_solve::tethered::TetherStatistics;
+use windlass_solve::tethered::{StatisticsSteps, TetherStatistics};
 
 const RECORD: f64 = 350.25;
 
@@ -93,7 +93,8 @@ fn simulated_series_match_printed_lives_and_peaks() {
     session.run();
     let run = session.job.tethered.as_ref().unwrap_or_else(|| panic!("{}", screen.text()));
     let asked = FatigueSettings { duration: 1.0, curve: Endurance::KILONEWTONS.in_unit(1000.0), peak_time: 10_800.0 };
-    let [_, table] = TetherStatistics::new(run, 24.75, 375.0).fatigue(run, &run.tethers[0], asked).unwrap();
+    let records = TetherStatistics::between_steps(run, StatisticsSteps { first: 100, last: 1501, every: 2 }).unwrap();
+    let [_, table] = records.fatigue(run, &run.tethers[0], asked).unwrap();
     let column = |name: &str| table.columns().iter().find(|c| c.name == name).unwrap().numbers();
     let (lives, peaks, ranges) = (column("Life"), column("Peak"), column("Eff Range"));
     let (mut worst_life, mut worst_peak): (f64, f64) = (0.0, 0.0);

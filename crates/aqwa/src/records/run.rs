@@ -217,10 +217,8 @@ fn pages(deck: &Deck, name: &str, slack: Option<f64>, out: &mut Script) {
 
 /// Statistics between TSTS and TSTF, and of towed tethers stress ranges and fatigue.
 fn statistics(deck: &Deck, name: &str, tether: &Tether, out: &mut Script) {
-    let Some(steps) = deck.steps else { return };
     let (first, last) = deck.statistics();
-    let time = |step: i64| round_value((step - 1).max(0) as f64 * steps.step.value);
-    let between = format!("-EVENTS {}", numbers([time(first), time(last)]));
+    let between = format!("-STEPS {first} {last} {}", every(deck.printing.records).unwrap_or(1));
     out.record(format!("TETHER {name} STATISTICS 1 {between}"));
     out.record(format!("TETHER {name} STATISTICS 2 {between}"));
     if !tether.is_towed() {

@@ -10,9 +10,9 @@ pub struct GlobalStatistics {
     pub mean: f64,
     /// Twice the root mean square about the mean, "significant" in the manual's words.
     pub significant: f64,
-    /// Mean of the highest third of all turning points, above the mean.
+    /// Mean of the highest third of the maxima, above the mean. Every local maximum counts, also one below the mean.
     pub highest_third: f64,
-    /// Mean of the lowest third of all turning points, above the mean (a negative number).
+    /// Mean of the lowest third of the minima, above the mean (a negative number).
     pub lowest_third: f64,
     /// The three largest maxima, largest first; 0 where there are fewer.
     pub maxima: [f64; 3],
@@ -39,14 +39,6 @@ pub fn global(values: &[f64]) -> Result<GlobalStatistics, SeriesError> {
     }
     let (mean, rms) = spread(values);
     let points = reversals(values);
-    let inner = points.get(1..points.len().saturating_sub(1)).unwrap_or_default();
-    let mut sorted = inner.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let third = sorted.len() / 3;
-    let mean_of =
-        |part: &[f64]| if part.is_empty() { 0.0 } else { part.iter().sum::<f64>() / part.len() as f64 - mean };
-    let highest_third = mean_of(sorted.get(sorted.len() - third..).unwrap_or_default());
-    let lowest_third = mean_of(sorted.get(..third).unwrap_or_default());
     let (mut maxima, mut minima) = (Vec::new(), Vec::new());
     for window in points.windows(3) {
         if let [before, here, _] = window {
@@ -55,6 +47,12 @@ pub fn global(values: &[f64]) -> Result<GlobalStatistics, SeriesError> {
     }
     maxima.sort_by(|a, b| b.total_cmp(a));
     minima.sort_by(f64::total_cmp);
+    // both lists begin with the extreme that lies furthest from the mean
+    let third = |found: &[f64]| {
+        let part = found.get(..found.len() / 3).unwrap_or_default();
+        if part.is_empty() { 0.0 } else { part.iter().sum::<f64>() / part.len() as f64 - mean }
+    };
+    let (highest_third, lowest_third) = (third(&maxima), third(&minima));
     let three = |found: &[f64]| std::array::from_fn(|i| found.get(i).copied().unwrap_or(0.0));
     Ok(GlobalStatistics {
         mean,
@@ -78,6 +76,18 @@ mod tests {
         assert!((found.mean - 3.0).abs() < 1e-12 && (found.significant - 2.0 * 2.0_f64.sqrt()).abs() < 1e-12);
         assert!((found.highest_third - 2.0).abs() < 1e-12 && (found.lowest_third + 2.0).abs() < 1e-12);
         assert!(found.maxima.iter().all(|m| (m - 5.0).abs() < 1e-12));
+    }
+
+    /// Six maxima 4 to 9 between minima at 0 and -1: the highest third of the maxima is 8 and 9. Of all thirteen extremes, maxima and minima in
+    /// one list, the highest third is 6 to 9.
+    #[test]
+    fn thirds_are_of_maxima_and_of_minima_apart() {
+        let values = [0.0, 4.0, -1.0, 5.0, 0.0, 6.0, -2.0, 7.0, 0.0, 8.0, -3.0, 9.0, 0.0];
+        let found = global(&values).unwrap_or_default();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        assert!((found.highest_third + mean - 8.5).abs() < 1e-12);
+        // minima inside the series: -1, 0, -2, 0, -3; a third of five is one
+        assert!((found.lowest_third + mean + 3.0).abs() < 1e-12);
     }
 
     #[test]

@@ -84,7 +84,7 @@ pub const PAGES: [StatisticRow; 4] = [
 ];
 
 /// Statistics of type 2: one page a parameter, a row for each place along the tether (figures 7.7, 7.8, 7.13), and their
-/// mean, largest or smallest below; `what` is the head of the first column, `Node` or `Elem`.
+/// mean, largest or least below; `what` is the head of the first column, `Node` or `Elem`.
 ///
 /// # Errors
 /// As [`global`].
@@ -92,9 +92,9 @@ pub fn type_two(title: &str, what: &str, places: &[NodeSeries]) -> Result<Vec<Ta
     let found = places.iter().map(of_place).collect::<Result<Vec<_>, _>>()?;
     let page = |(index, (name, value)): (usize, &StatisticRow)| {
         let last = match index {
-            2 => "Largest",
-            3 => "Smallest",
-            _ => "Mean",
+            0 => "MEAN",
+            3 => "MINIMUM",
+            _ => "MAXIMUM",
         };
         let mut numbers: Vec<Cell> = places.iter().map(|p| Cell::Integer(p.number as i64)).collect();
         numbers.push(Cell::Text(last.into()));
@@ -107,9 +107,9 @@ pub fn type_two(title: &str, what: &str, places: &[NodeSeries]) -> Result<Vec<Ta
         for (at, channel) in places.first().map_or(&[][..], |p| &p.channels).iter().enumerate() {
             let values: Vec<f64> = found.iter().map(|of| of.get(at).map_or(f64::NAN, value)).collect();
             let summary = match index {
-                2 => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+                0 => values.iter().sum::<f64>() / values.len() as f64,
                 3 => values.iter().copied().fold(f64::INFINITY, f64::min),
-                _ => values.iter().sum::<f64>() / values.len() as f64,
+                _ => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
             };
             columns.push(channel_column(channel, values.into_iter().chain([summary])));
         }

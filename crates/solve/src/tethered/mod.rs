@@ -17,7 +17,7 @@ mod tables;
 pub use case::{TetherCase, case};
 pub use history::{Happening, StructureHistory, TetherHistory, TetherQuantity};
 pub use modal::{description_table, names, natural};
-pub use statistics::TetherStatistics;
+pub use statistics::{StatisticsSteps, TetherStatistics};
 pub use structure::{harmonics, structure, structure_series};
 pub use tables::{Of, events, forces, motions, run_table, series, table_along_tether};
 

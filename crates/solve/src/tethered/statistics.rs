@@ -8,13 +8,30 @@ use windlass_signal::SeriesError;
 use windlass_signal::tether::fatigue::{self, EndRecord, FatigueSettings};
 use windlass_signal::tether::tables::{AtEnd, Channel, NodeSeries, histogram, type_one, type_two};
 
-/// Which of the stored instants statistics and fatigue are of.
+/// The records that statistics and fatigue are of: stored instants, and the time they stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TetherStatistics {
-    /// First of them.
+    /// The stored instant of the first record.
     pub first: usize,
-    /// One behind the last.
+    /// One behind that of the last.
     pub end: usize,
+    /// Stored instants from one record to the next.
+    pub every: usize,
+    /// Time that the cycles of fatigue and the peaks are counted in (s).
+    pub elapsed: f64,
+    /// First and last record as [AQWA-TETHER B.3] numbers them, with the times of the steps asked for.
+    records: Option<[(usize, f64); 2]>,
+}
+
+/// Steps between which statistics are processed, as cards TSTS, TSTF and TGRV count them [AQWA-TETHER B.2, B.3]: the start is step 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StatisticsSteps {
+    /// First step.
+    pub first: usize,
+    /// Last step.
+    pub last: usize,
+    /// Steps from one record to the next.
+    pub every: usize,
 }
 
 impl TetherStatistics {
@@ -22,15 +39,49 @@ impl TetherStatistics {
     pub fn new(run: &Tethered, from: f64, to: f64) -> Self {
         let slack = 1e-6 * run.settings.step;
         let first = run.times.iter().position(|t| *t >= from - slack).unwrap_or(run.times.len());
-        let end = run.times.iter().rposition(|t| *t <= to + slack).map_or(first, |i| i + 1);
-        TetherStatistics { first, end: end.max(first) }
+        let end = run.times.iter().rposition(|t| *t <= to + slack).map_or(first, |i| i + 1).max(first);
+        let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
+        let elapsed = time(end.saturating_sub(1)) - time(first);
+        TetherStatistics { first, end, every: 1, elapsed, records: None }
+    }
+
+    /// Those between two steps. The listing of [AQWA-TETHER 8.1] has records 1, 3, 5, .. of the steps under TGRV 2 and processes "RECORDS 50
+    /// (TIME= 24.75) TO 751" under TSTS 100: the window begins with the last record at or before its first step, and lasts from step to step.
+    ///
+    /// # Errors
+    /// Steps that the run has not, or between which it kept no records of their own.
+    pub fn between_steps(run: &Tethered, steps: StatisticsSteps) -> Result<Self, SeriesError> {
+        let (store, every) = (run.settings.store.max(1), steps.every.max(1));
+        if !every.is_multiple_of(store) {
+            return Err(SeriesError::Refused(format!(
+                "records are asked for every {every} steps, and the run kept every {store}: the first must be a multiple of the second"
+            )));
+        }
+        let states = (run.times.len().max(1) - 1) * store + 1;
+        let last = steps.last.min(states);
+        if steps.first == 0 || steps.first > last {
+            let [first, last] = [steps.first, steps.last];
+            return Err(SeriesError::Refused(format!(
+                "steps {first} to {last} are not of the run, which has 1 to {states}"
+            )));
+        }
+        let record = |step: usize| (step - 1) / every;
+        let time = |step: usize| (step - 1) as f64 * run.settings.step;
+        let (first, end) = (record(steps.first), record(last));
+        let numbered = [(first + 1, time(steps.first)), (end + 1, time(last))];
+        let each = every / store;
+        let elapsed = time(last) - time(steps.first);
+        Ok(TetherStatistics { first: first * each, end: end * each + 1, every: each, elapsed, records: Some(numbered) })
     }
 
     fn pick(self, values: Vec<f64>) -> Vec<f64> {
-        values.get(self.first..self.end).unwrap_or_default().to_vec()
+        values.get(self.first..self.end).unwrap_or_default().iter().step_by(self.every.max(1)).copied().collect()
     }
 
     fn title(self, run: &Tethered, what: &str) -> String {
+        if let Some([(first, from), (last, to)]) = self.records {
+            return format!("{what}, Records {first} (Time {from:.2}) to {last} (Time {to:.2})");
+        }
         let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
         format!("{what}, {:.2} to {:.2} s", time(self.first), time(self.end.saturating_sub(1)))
     }
@@ -126,8 +177,8 @@ impl TetherStatistics {
         list.into_iter().filter_map(|(q, values)| Some((q?, values))).collect()
     }
 
-    /// The histogram of stress ranges and the table of fatigue of a towed tether (7.9, 7.10). `asked.duration` is overwritten by the time
-    /// between the first and the last instant.
+    /// The histogram of stress ranges and the table of fatigue of a towed tether (7.9, 7.10). `asked.duration` is overwritten by the elapsed
+    /// time of the records.
     ///
     /// # Errors
     /// Fewer than two instants; what [`fatigue::fatigue_of_ends`] refuses.
@@ -137,8 +188,7 @@ impl TetherStatistics {
         tether: &TetherHistory,
         asked: FatigueSettings,
     ) -> Result<[Table; 2], SeriesError> {
-        let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
-        let duration = time(self.end.saturating_sub(1)) - time(self.first);
+        let duration = self.elapsed;
         let count = 2 * tether.line.elements().len();
         let moments: Vec<[Vec<f64>; 2]> = (0..count).map(|end| [2, 3].map(|q| self.pick(tether.end(end, q)))).collect();
         let tube = |end: usize| tether.line.elements().get(end / 2).map(|e| e.tube().stress_of_moment());
