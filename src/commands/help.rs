@@ -2,7 +2,7 @@
 
 use crate::commands::environment::env;
 use crate::commands::menu::join_names;
-use crate::commands::post::TABLES;
+use crate::commands::post::{TABLES, rod, structure, tether};
 use crate::commands::{COMMANDS, Call, Command, Effect, Job, commands_of_menu, menus, status};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
@@ -47,6 +47,9 @@ static LISTS: &[HelpList] = &[
         head: "Its tables:",
         rows: |_| TABLES.iter().map(|table| (table.spec.name, table.spec.help.to_string())).collect(),
     },
+    HelpList { command: &rod::ROD, head: "It reports:", rows: |_| rod::help_rows() },
+    HelpList { command: &tether::TETHER, head: "It reports:", rows: |_| tether::help_rows() },
+    HelpList { command: &structure::STRUCTURE, head: "It reports:", rows: |_| structure::help_rows() },
     HelpList { command: &env::ENV, head: "Spectra of -SEA and -A_SEA:", rows: spectra_help },
     HelpList {
         command: &env::ENV,

@@ -349,6 +349,11 @@ impl OptionSpec {
         OptionSpec { default, ..self }
     }
 
+    /// Whether this is its name.
+    pub const fn is_named(&self, name: &str) -> bool {
+        same(self.name, name)
+    }
+
     /// The same, owned by somebody else than MOSES.
     pub const fn owner(self, owner: Owner) -> Self {
         OptionSpec { owner, ..self }

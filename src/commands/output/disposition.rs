@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-REF disp_men].
 
+use crate::commands::chosen::raise;
 use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
@@ -11,6 +12,7 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun, Value};
+use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
 
 /// Where these commands are offered.
@@ -41,6 +43,13 @@ pub(crate) const VALUES: OptionSpec = OptionSpec::new(
 pub(crate) const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the report file OUT00001.TXT");
 /// -BOTH.
 pub(crate) const BOTH: OptionSpec = OptionSpec::new("-BOTH", &[], "to the screen and the report file");
+/// -DISPOSE.
+pub(crate) const DISPOSE: OptionSpec = OptionSpec::new(
+    "-DISPOSE",
+    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").in_range(1.0, 1e6)],
+    "opens the disposition menu over a table instead of printing",
+)
+.owner(Owner::Ours);
 /// -HEADING.
 pub(crate) const HEADING: OptionSpec = OptionSpec::new(
     "-HEADING",
@@ -220,6 +229,44 @@ pub(crate) fn send(job: &mut Job, args: &Args, text: &str) -> Outcome<()> {
         job.say(&text);
     }
     Ok(())
+}
+
+/// Opens the disposition menu over the one of some tables that -DISPOSE asks for. Statistics of it leave out the instants before
+/// `transient` (s); its warnings are raised at `place`. False without the option.
+///
+/// # Errors
+/// There is no table of this number.
+pub(crate) fn open_chosen_table(
+    job: &mut Job,
+    args: &Args,
+    tables: &[Table],
+    (transient, place): (f64, Span),
+) -> Outcome<bool> {
+    let Some(given) = args.option(&DISPOSE) else { return Ok(false) };
+    let wanted = given.first_integer().unwrap_or(1);
+    let index = usize::try_from(wanted - 1).unwrap_or(0);
+    let Some(table) = tables.get(index).cloned() else {
+        let text = format!("there is no table {wanted} here: there are {}", tables.len());
+        return Err(Diagnostic::error(text, given.span));
+    };
+    raise(job, &table, place);
+    job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).after_transient(transient))));
+    Ok(true)
+}
+
+/// Prints some tables where -HARD and -BOTH say, or opens the disposition menu over one of them: [`open_chosen_table`].
+///
+/// # Errors
+/// There is no table of the number of -DISPOSE; the report file cannot be written.
+pub(crate) fn print_or_dispose(job: &mut Job, args: &Args, tables: &[Table], when: (f64, Span)) -> Outcome<Effect> {
+    if open_chosen_table(job, args, tables, when)? {
+        return Ok(Effect::Done);
+    }
+    let head = job.page_head();
+    let text = tables.iter().map(|table| page::render(table, job.units, &head)).collect::<Vec<_>>().join("\n");
+    send(job, args, &text)?;
+    tables.iter().for_each(|table| raise(job, table, when.1));
+    Ok(Effect::Done)
 }
 
 fn report(job: &mut Job, call: &Call) -> Outcome<Effect> {

@@ -11,8 +11,10 @@ pub(crate) mod motions;
 pub(crate) mod points;
 pub(crate) mod prcpost;
 pub(crate) mod rep_select;
-pub(crate) mod rod_post;
-pub(crate) mod tether_post;
+pub(crate) mod report;
+pub(crate) mod rod;
+pub(crate) mod structure;
+pub(crate) mod tether;
 pub(crate) mod total_forces;
 
 use crate::commands::Command;
@@ -28,7 +30,7 @@ pub static TABLES: &[&Command] = &[
     &lengths::C_LENGTH,
     &body_forces::BODY_FORCE,
     &fatigue::FATIGUE,
-    &rod_post::ROD,
-    &tether_post::TETHER,
-    &tether_post::STRUCTURE,
+    &rod::ROD,
+    &tether::TETHER,
+    &structure::STRUCTURE,
 ];

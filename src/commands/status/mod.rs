@@ -23,11 +23,10 @@ pub(crate) mod wind_table;
 
 use crate::commands::chosen::{NameFilter, note_caveats, raise};
 use crate::commands::menu;
-use crate::commands::output::disposition::{BOTH, HARD, send};
+use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, open_chosen_table, send};
 use crate::commands::status::kind::{Query, StatusKind};
 use crate::commands::verdict::Verdict;
-use crate::commands::{Call, Command, Effect, Job, Menu};
-use crate::report::disposition::Disposition;
+use crate::commands::{Call, Command, Effect, Job};
 use crate::report::page;
 use crate::report::plot::Chart;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -109,13 +108,6 @@ pub(crate) const SHAPE: OptionSpec =
 pub(crate) const AQWA: OptionSpec =
     OptionSpec::new("-AQWA", &[], "modes of tethers with the peculiarities of AQWA, as TDOM -TETHERS AQWA")
         .owner(Owner::Ours);
-const DISPOSE: OptionSpec = OptionSpec::new(
-    "-DISPOSE",
-    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").in_range(1.0, 1e6)],
-    "opens the disposition menu over a table instead of printing",
-)
-.owner(Owner::Ours);
-
 static SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::new("WHAT", Kind::Text, "what to report, as listed below").or("a summary"),
@@ -166,15 +158,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let charts = if args.has(&PLOT) { (kind.charts)(&query, &tables)? } else { Vec::new() };
     job.verdict.over_break.append(&mut verdict.over_break);
-    if let Some(given) = args.option(&DISPOSE) {
-        let wanted = given.first_integer().unwrap_or(1);
-        let index = usize::try_from(wanted - 1).unwrap_or(0);
-        let Some(table) = tables.get(index).cloned() else {
-            let text = format!("{} makes no table {wanted} here: there are {}", kind.name, tables.len());
-            return Err(Diagnostic::error(text, given.span));
-        };
-        raise(job, &table, args.place(const { SPEC.word("NAME") }));
-        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
+    let place = args.place(const { SPEC.word("NAME") });
+    if open_chosen_table(job, args, &tables, (0.0, place))? {
         return Ok(Effect::Done);
     }
     let head = job.page_head();
@@ -186,6 +171,6 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         text.push_str(&drawn.map_err(|e| Diagnostic::error(e.to_string(), args.span))?);
     }
     send(job, args, &text)?;
-    tables.iter().for_each(|t| raise(job, t, args.place(const { SPEC.word("NAME") })));
+    tables.iter().for_each(|t| raise(job, t, place));
     Ok(Effect::Done)
 }

@@ -1,0 +1,13 @@
+//! `NODE` of TETHER: one node over time.
+
+use super::{TetherQuery, TetherReport};
+use crate::commands::post::report::Tables;
+use windlass_solve::tethered::{self, Of};
+
+/// NODE.
+pub(super) static NODE: TetherReport = TetherReport::new("NODE", "node N over time", tables).with_data();
+
+fn tables(query: &TetherQuery) -> Tables {
+    let node = query.number(query.tether.line.nodes(), "node of the tether")?;
+    Ok(vec![tethered::series(query.run, query.tether, Of::Node(node - 1))])
+}
