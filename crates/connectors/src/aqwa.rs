@@ -19,8 +19,8 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{self as rod, TensionLaw};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element, LineModel, Placement,
-    SegmentedClass, StaticLineClass, StaticSeabed, Surroundings,
+    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element,
+    LengthClass, LineModel, Placement, SegmentedClass, StaticLineClass, StaticSeabed, Surroundings,
 };
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
@@ -216,14 +216,6 @@ impl ConnectorClass for CatenaryClass {
             .build()
     }
 
-    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
-        self.depth.or(surroundings.depth)
-    }
-
-    fn first_length(&self) -> Option<f64> {
-        self.sections.first().map(|s| s.length)
-    }
-
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         self.line(&connection.placement, connection.surroundings)?.element()
     }
@@ -242,6 +234,26 @@ impl ConnectorClass for CatenaryClass {
 
     fn as_segmented_mut(&mut self) -> Option<&mut dyn SegmentedClass> {
         Some(self)
+    }
+
+    fn as_length(&self) -> Option<&dyn LengthClass> {
+        Some(self)
+    }
+
+    fn as_anchored(&self) -> Option<&dyn AnchoredClass> {
+        Some(self)
+    }
+}
+
+impl LengthClass for CatenaryClass {
+    fn first_length(&self) -> Option<f64> {
+        self.sections.first().map(|s| s.length)
+    }
+}
+
+impl AnchoredClass for CatenaryClass {
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
+        self.depth.or(surroundings.depth)
     }
 }
 

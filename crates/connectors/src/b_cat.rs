@@ -10,7 +10,7 @@ use super::{ClassKind, options as o};
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, DatumKey, OptionSpec, ValueSpec, join_options};
-use windlass_model::{ConnectorClass, StaticLineClass, Surroundings};
+use windlass_model::{AnchoredClass, ConnectorClass, StaticLineClass, Surroundings};
 
 /// The class type.
 pub static B_CAT: ClassKind =

@@ -22,7 +22,7 @@ use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec
 use windlass_model::Note;
 use windlass_model::{
     ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, Element,
-    ElementResponse, ElementSummary, FenderState, Situation, SolverCache, Surroundings,
+    ElementResponse, ElementSummary, FenderState, LengthClass, Situation, SolverCache, Surroundings,
 };
 
 /// The class type.
@@ -227,10 +227,6 @@ impl ConnectorClass for Fender {
             .build()
     }
 
-    fn first_length(&self) -> Option<f64> {
-        Some(self.height)
-    }
-
     fn role(&self) -> ClassRole {
         ClassRole::Fender
     }
@@ -264,6 +260,16 @@ impl ConnectorClass for Fender {
             category: ConnectorCategory::Flexible,
         };
         Ok(Box::new(FenderGeometry { spring, curve: Arc::clone(&self.curve), height: self.height, rated: self.rated }))
+    }
+
+    fn as_length(&self) -> Option<&dyn LengthClass> {
+        Some(self)
+    }
+}
+
+impl LengthClass for Fender {
+    fn first_length(&self) -> Option<f64> {
+        Some(self.height)
     }
 }
 

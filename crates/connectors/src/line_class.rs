@@ -23,8 +23,9 @@ use windlass_base::values::Args;
 use windlass_catenary::{Line, LineError, SeabedModel, StretchLaw};
 use windlass_language::spec::{CommandSpec, OptionSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element, FatigueSegment,
-    LineModel, Note, Placement, SegmentedClass, StaticLineClass, StaticSeabed, Surroundings,
+    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element,
+    FatigueSegment, LengthClass, LineModel, Note, Placement, SegmentedClass, StaticLineClass, StaticSeabed,
+    Surroundings,
 };
 
 /// What -PISTON and -X_DAMPING do, of the help of every class of lines.
@@ -345,14 +346,6 @@ impl ConnectorClass for LineClass {
         self.devices.element(connection, line)
     }
 
-    fn first_length(&self) -> Option<f64> {
-        self.sections.first().map(|s| s.length)
-    }
-
-    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
-        self.depth().or(surroundings.depth)
-    }
-
     fn as_line(&self) -> Option<&dyn StaticLineClass> {
         Some(self)
     }
@@ -367,6 +360,26 @@ impl ConnectorClass for LineClass {
 
     fn as_segmented_mut(&mut self) -> Option<&mut dyn SegmentedClass> {
         Some(self)
+    }
+
+    fn as_length(&self) -> Option<&dyn LengthClass> {
+        Some(self)
+    }
+
+    fn as_anchored(&self) -> Option<&dyn AnchoredClass> {
+        Some(self)
+    }
+}
+
+impl LengthClass for LineClass {
+    fn first_length(&self) -> Option<f64> {
+        self.sections.first().map(|s| s.length)
+    }
+}
+
+impl AnchoredClass for LineClass {
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
+        self.depth().or(surroundings.depth)
     }
 }
 

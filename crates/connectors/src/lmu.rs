@@ -15,7 +15,8 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, LengthClass,
+    Surroundings,
 };
 
 /// The class type.
@@ -93,10 +94,6 @@ impl ConnectorClass for PinInCone {
             .fact("Symmetric about X", if self.springs.symmetric { "YES" } else { "NO" }, Dim::None)
     }
 
-    fn first_length(&self) -> Option<f64> {
-        Some(self.length)
-    }
-
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         // the cone carries the axes, the pin is displaced in them
         let holder = 1;
@@ -113,5 +110,15 @@ impl ConnectorClass for PinInCone {
             listed,
             category: ConnectorCategory::Flexible,
         }))
+    }
+
+    fn as_length(&self) -> Option<&dyn LengthClass> {
+        Some(self)
+    }
+}
+
+impl LengthClass for PinInCone {
+    fn first_length(&self) -> Option<f64> {
+        Some(self.length)
     }
 }

@@ -11,8 +11,8 @@ use windlass_base::table::Table;
 use windlass_base::values::Given;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element, FatigueSegment,
-    Idealisation, PipeClass, PipeLayout, SegmentedClass, Surroundings,
+    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element,
+    FatigueSegment, Idealisation, LengthClass, PipeClass, PipeLayout, SegmentedClass, Surroundings,
 };
 
 /// The class type.
@@ -125,20 +125,8 @@ impl ConnectorClass for RodClass {
         properties(name, "ROD", &sections, surroundings)
     }
 
-    fn first_length(&self) -> Option<f64> {
-        self.sections.first().map(|s| s.length)
-    }
-
-    fn has_adjustable_length(&self) -> bool {
-        true
-    }
-
     fn idealisation(&self) -> Idealisation {
         Idealisation::Dynamic
-    }
-
-    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
-        self.seabed.depth.or(surroundings.depth)
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
@@ -159,6 +147,30 @@ impl ConnectorClass for RodClass {
 
     fn as_segmented_mut(&mut self) -> Option<&mut dyn SegmentedClass> {
         Some(self)
+    }
+
+    fn as_length(&self) -> Option<&dyn LengthClass> {
+        Some(self)
+    }
+
+    fn as_anchored(&self) -> Option<&dyn AnchoredClass> {
+        Some(self)
+    }
+}
+
+impl LengthClass for RodClass {
+    fn first_length(&self) -> Option<f64> {
+        self.sections.first().map(|s| s.length)
+    }
+
+    fn is_adjustable(&self) -> bool {
+        true
+    }
+}
+
+impl AnchoredClass for RodClass {
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
+        self.seabed.depth.or(surroundings.depth)
     }
 }
 

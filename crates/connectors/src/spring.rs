@@ -17,7 +17,8 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Value};
 use windlass_model::{
-    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings,
+    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, Element, LengthClass,
+    Surroundings,
 };
 
 /// One restrained degree of freedom.
@@ -324,16 +325,22 @@ impl ConnectorClass for GeneralizedSpring {
             .fact("Symmetric about X", if self.springs.symmetric { "YES" } else { "NO" }, Dim::None)
     }
 
-    fn first_length(&self) -> Option<f64> {
-        Some(self.offset)
-    }
-
     fn role(&self) -> ClassRole {
         self.role
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         self.springs.element(connection, self.sense, ContactGeometry::Whole, Vector3::x() * self.offset)
+    }
+
+    fn as_length(&self) -> Option<&dyn LengthClass> {
+        Some(self)
+    }
+}
+
+impl LengthClass for GeneralizedSpring {
+    fn first_length(&self) -> Option<f64> {
+        Some(self.offset)
     }
 }
 

@@ -16,7 +16,7 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Note;
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
-    SegmentedClass, Situation, SolverCache, Surroundings, TetherSection, TetherUse,
+    LengthClass, SegmentedClass, Situation, SolverCache, Surroundings, TetherSection, TetherSectionsClass, TetherUse,
 };
 
 /// The class type TETHER: an AQWA tether/riser section.
@@ -104,14 +104,6 @@ impl ConnectorClass for TetherClass {
             .build()
     }
 
-    fn first_length(&self) -> Option<f64> {
-        self.0.first().map(|s| s.length)
-    }
-
-    fn tether_sections(&self) -> &[TetherSection] {
-        &self.0
-    }
-
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         Ok(Box::new(Bar::new(&self.0, connection)))
     }
@@ -122,6 +114,26 @@ impl ConnectorClass for TetherClass {
 
     fn as_segmented_mut(&mut self) -> Option<&mut dyn SegmentedClass> {
         Some(self)
+    }
+
+    fn as_length(&self) -> Option<&dyn LengthClass> {
+        Some(self)
+    }
+
+    fn as_tether(&self) -> Option<&dyn TetherSectionsClass> {
+        Some(self)
+    }
+}
+
+impl LengthClass for TetherClass {
+    fn first_length(&self) -> Option<f64> {
+        self.0.first().map(|s| s.length)
+    }
+}
+
+impl TetherSectionsClass for TetherClass {
+    fn sections(&self) -> &[TetherSection] {
+        &self.0
     }
 }
 

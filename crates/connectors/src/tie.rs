@@ -11,7 +11,7 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_model::{
     ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorClass, Element, ElementResponse,
-    ElementSummary, Note, Situation, SolverCache, Surroundings,
+    ElementSummary, LengthClass, Note, Situation, SolverCache, Surroundings,
 };
 
 /// The force of a tie on its first end, toward the second.
@@ -128,14 +128,6 @@ impl ConnectorClass for TieClass {
         properties(name, self.kind, section, surroundings).fact("Stiffness AE/L", stiffness, Dim::ForcePerLength)
     }
 
-    fn first_length(&self) -> Option<f64> {
-        self.section.map(|s| s.length)
-    }
-
-    fn has_adjustable_length(&self) -> bool {
-        true
-    }
-
     fn role(&self) -> ClassRole {
         self.role
     }
@@ -151,5 +143,19 @@ impl ConnectorClass for TieClass {
             breaking: section.breaking,
             break_is_given: section.break_is_given,
         }))
+    }
+
+    fn as_length(&self) -> Option<&dyn LengthClass> {
+        Some(self)
+    }
+}
+
+impl LengthClass for TieClass {
+    fn first_length(&self) -> Option<f64> {
+        self.section.map(|s| s.length)
+    }
+
+    fn is_adjustable(&self) -> bool {
+        true
     }
 }

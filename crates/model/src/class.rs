@@ -245,23 +245,18 @@ pub trait ConnectorClass: Debug + Send + Sync {
         if self.as_line().is_some() { Idealisation::QuasiStatic } else { Idealisation::Massless }
     }
 
-    /// The sections of a tether from the fairlead; none of other classes.
-    fn tether_sections(&self) -> &[TetherSection] {
-        &[]
-    }
-
-    /// Length of the first segment (m) for geometry reports; `None` for classes without length.
-    fn first_length(&self) -> Option<f64> {
+    /// The class as one of connectors with a length.
+    fn as_length(&self) -> Option<&dyn LengthClass> {
         None
     }
 
-    /// Whether `&CONNECTOR` may give its connectors another length though it makes no quasi-static line.
-    fn has_adjustable_length(&self) -> bool {
-        false
+    /// The class as one of lines that go to an anchor.
+    fn as_anchored(&self) -> Option<&dyn AnchoredClass> {
+        None
     }
 
-    /// Depth of the anchor below z = 0 (m), where the class goes to ground and knows it.
-    fn anchor_depth(&self, _: &Surroundings) -> Option<f64> {
+    /// The class as one of tethers.
+    fn as_tether(&self) -> Option<&dyn TetherSectionsClass> {
         None
     }
 
@@ -303,6 +298,29 @@ pub trait SegmentedClass {
     fn fatigue_segments(&self) -> Vec<FatigueSegment> {
         Vec::new()
     }
+}
+
+/// A class of connectors with a length.
+pub trait LengthClass {
+    /// Unstretched length of the first segment (m), which a connector may have its own of; none of a tie without a segment.
+    fn first_length(&self) -> Option<f64>;
+
+    /// Whether `&CONNECTOR` may give its connectors another length though it makes no quasi-static line.
+    fn is_adjustable(&self) -> bool {
+        false
+    }
+}
+
+/// A class of lines that go to an anchor in the ground.
+pub trait AnchoredClass {
+    /// Depth of the anchor below z = 0 (m): of the class, else of the bottom; none where neither is known.
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64>;
+}
+
+/// A class of tethers.
+pub trait TetherSectionsClass {
+    /// Its sections, from the fairlead.
+    fn sections(&self) -> &[TetherSection];
 }
 
 /// The bottom that a quasi-static line lies on.
@@ -362,6 +380,16 @@ pub trait PipeClass {
 }
 
 impl Class {
+    /// Unstretched length of the first segment (m); none of a class without length.
+    pub fn first_length(&self) -> Option<f64> {
+        self.object.as_length()?.first_length()
+    }
+
+    /// The sections of a tether from the fairlead; none of other classes.
+    pub fn tether_sections(&self) -> &[TetherSection] {
+        self.object.as_tether().map_or(&[], |class| class.sections())
+    }
+
     /// The quasi-static line that a connector of this class makes between two places.
     ///
     /// # Errors

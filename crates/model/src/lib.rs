@@ -48,8 +48,8 @@ pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayou
 pub use bathymetry::Bathymetry;
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{
-    Class, ClassError, ClassRecord, ClassRole, ConnectorClass, DynamicLineClass, PipeClass, SegmentedClass,
-    StaticLineClass, StaticSeabed, WallMaterial,
+    AnchoredClass, Class, ClassError, ClassRecord, ClassRole, ConnectorClass, DynamicLineClass, LengthClass, PipeClass,
+    SegmentedClass, StaticLineClass, StaticSeabed, TetherSectionsClass, WallMaterial,
 };
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
@@ -183,7 +183,7 @@ impl Model {
             let [x, y] = anchor.at;
             around.depth = Some(-bottom.elevation_and_slopes(x, y).0);
         }
-        class.object.anchor_depth(&around)
+        class.object.as_anchored()?.anchor_depth(&around)
     }
 
     /// Global coordinates of a point (m), in the present configuration of its body.
@@ -320,7 +320,7 @@ impl Model {
 
     /// Length of a connector's first segment (m): its own, else its class's; `None` for classes without length.
     pub fn first_length(&self, connector: &Connector) -> Option<f64> {
-        let class = || self.classes.get(&Model::key(&connector.class)).and_then(|c| c.object.first_length());
+        let class = || self.classes.get(&Model::key(&connector.class)).and_then(Class::first_length);
         connector.first_length.or_else(class)
     }
 

@@ -27,7 +27,7 @@ mod line_search;
 mod newton_bracket;
 mod statistics;
 
-pub use bisection::bisect;
+pub use bisection::{bisect, try_bisect};
 pub use bracketed_root::{BracketedRoot, Halvings};
 pub use convergence::{Convergence, ConvergenceStatus};
 pub use line_search::backtrack;

@@ -9,6 +9,7 @@ use super::beam::PlaneMatrix;
 use std::f64::consts::{PI, TAU};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
+use windlass_nonlinear::try_bisect;
 
 /// Halvings of an interval at most; a double has no more to give.
 const MAX_BISECTIONS: usize = 200;
@@ -162,18 +163,10 @@ impl ModeSearch<'_> {
     }
 
     /// A value close to eigenvalue `index` (from 0), between two that enclose it.
-    fn enclose(&mut self, index: usize, mut low: f64, mut high: f64, rounding: f64) -> Result<f64, ClassError> {
-        for _ in 0..MAX_BISECTIONS {
-            if high - low <= 1e-9 * low.abs().max(high.abs()) || high - low <= rounding {
-                break;
-            }
-            let middle = 0.5 * (low + high);
-            if self.count_eigenvalues_below(middle)? > index {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
+    fn enclose(&mut self, index: usize, low: f64, high: f64, rounding: f64) -> Result<f64, ClassError> {
+        let is_close = |[low, high]: [f64; 2]| high - low <= 1e-9 * low.abs().max(high.abs()) || high - low <= rounding;
+        let is_below = |value| Ok::<bool, ClassError>(self.count_eigenvalues_below(value)? <= index);
+        let [low, high] = try_bisect([low, high], MAX_BISECTIONS, is_close, is_below)?;
         Ok(0.5 * (low + high))
     }
 

@@ -318,7 +318,8 @@ fn others(found: &FoundLength, said: &Said) -> String {
 
 /// Whether it has a length though it is no mooring line.
 fn adjustable(model: &Model, connector: &Connector) -> bool {
-    model.classes.get(&Model::key(&connector.class)).is_some_and(|c| c.object.has_adjustable_length())
+    let class = model.classes.get(&Model::key(&connector.class)).and_then(|class| class.object.as_length());
+    class.is_some_and(|class| class.is_adjustable())
 }
 
 /// The line a connector makes.

@@ -153,7 +153,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     });
     class.object.check()?;
     class.object.check_ends(&made, on_bodies)?;
-    if made.tether.is_some() && class.object.tether_sections().is_empty() {
+    if made.tether.is_some() && class.tether_sections().is_empty() {
         let text = format!("{} is of class type {}, which is no tether", made.class, class.object.kind());
         return Err(Diagnostic::error(text, args.place(CLASS)).help("the options of tethers go with class type TETHER"));
     }

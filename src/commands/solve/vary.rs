@@ -200,7 +200,7 @@ fn facts(parameter: Parameter, class: &Class, connector: &Connector, place: &Pla
         table = table.fact("Fairlead Above Mean Water", fairlead, Dim::Length);
     }
     if parameter != Parameter::Length {
-        let first = place.first_length.or_else(|| class.object.first_length());
+        let first = place.first_length.or_else(|| class.first_length());
         table = table.fact("Length of First Segment", first, Dim::Length);
     }
     if !parameter.is_condition() {

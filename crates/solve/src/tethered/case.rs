@@ -70,7 +70,7 @@ pub struct Installed {
 
 /// The sections of a connector that is a tether; none of others.
 pub(super) fn sections<'a>(model: &'a Model, connector: &Connector) -> &'a [TetherSection] {
-    model.classes.get(&Model::key(&connector.class)).map_or(&[], |class| class.object.tether_sections())
+    model.classes.get(&Model::key(&connector.class)).map_or(&[], |class| class.tether_sections())
 }
 
 /// The elements of a tether from its anchor or trailing end; the class has them from the vessel.

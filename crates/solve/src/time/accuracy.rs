@@ -12,6 +12,7 @@ use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 use windlass_base::dense::{eigenvalues, never};
 use windlass_base::pose::Six;
+use windlass_nonlinear::bisect;
 
 /// Error of a period, as a share of it, above which a step is too long: that of the trapezoidal rule with eight steps a period.
 pub const POOR_PERIOD: f64 = 0.05;
@@ -28,6 +29,9 @@ const STANDSTILL_VELOCITY: f64 = 1e-6;
 const MAX_STEP_ANGLE_RAD: f64 = 1e3;
 /// A rotation counts in the error of a step with this arm (m), as in `-ADAPTIVE`.
 const ROTATION_ARM_M: f64 = 10.0;
+
+/// Halvings of the angle of a step: the longest one to 1e-14.
+const STEP_HALVINGS: usize = 50;
 
 /// What a scheme makes of an undamped oscillation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,15 +103,7 @@ impl Method {
     /// The longest step that is not too long for a period (s).
     pub fn longest_step(&self, period: f64) -> f64 {
         let scheme = self.errs_as();
-        let (mut short, mut long) = (0.0, TAU);
-        for _ in 0..50 {
-            let middle = 0.5 * (short + long);
-            if scheme.distortion(middle).measure() <= 1.0 {
-                short = middle;
-            } else {
-                long = middle;
-            }
-        }
+        let [short, _] = bisect([0.0, TAU], STEP_HALVINGS, |angle| scheme.distortion(angle).measure() <= 1.0);
         short * period / TAU
     }
 

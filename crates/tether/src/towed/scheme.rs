@@ -11,9 +11,13 @@ use super::loads::Loading;
 use super::{Towed, run::ElementEnd};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
+use windlass_nonlinear::try_bisect;
 
 /// The value of b that [AQWA-TETHER 3.6] found best.
 pub const USUAL_B: f64 = 0.54;
+
+/// Halvings between no step and one that is too long: the longest stable one to 1e-12 of it.
+const STEP_HALVINGS: usize = 40;
 
 /// Deflections and slopes of the nodes in the planes y and z, and their rates.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -237,11 +241,7 @@ impl<'a> TowedScheme<'a> {
         if stable(self.step)? {
             return Ok(self.step);
         }
-        let (mut low, mut high) = (0.0, self.step);
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            if stable(middle)? { low = middle } else { high = middle }
-        }
-        Ok(low)
+        let [longest, _] = try_bisect([0.0, self.step], STEP_HALVINGS, |_| false, stable)?;
+        Ok(longest)
     }
 }
