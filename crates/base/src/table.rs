@@ -340,3 +340,45 @@ impl Column {
         self.cells.iter().filter_map(Cell::number).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(table: &Table) -> Vec<Vec<Option<f64>>> {
+        table.columns().iter().map(|column| column.cells.iter().map(Cell::number).collect()).collect()
+    }
+
+    fn column(name: &str, values: &[f64]) -> Column {
+        Column::new("", name, Dim::None, Digits::Usual, values.iter().copied())
+    }
+
+    #[test]
+    fn added_column_of_another_length_fills_shorter_ones_with_missing_cells() {
+        let mut table = Table::from_columns("T", vec![column("A", &[1.0, 2.0])]);
+        table.add_column(column("B", &[3.0]));
+        assert_eq!(numbers(&table), [[Some(1.0), Some(2.0)], [Some(3.0), None]]);
+        table.add_column(column("C", &[4.0, 5.0, 6.0]));
+        assert_eq!((table.rows(), table.get("A").map(|a| a.cells.len())), (3, Some(3)));
+        assert_eq!(numbers(&table)[2], [Some(4.0), Some(5.0), Some(6.0)]);
+    }
+
+    #[test]
+    fn kept_rows_stay_in_order_in_every_column() {
+        let mut table = Table::from_columns("T", vec![column("A", &[1.0, 2.0, 3.0]), column("B", &[4.0, 5.0, 6.0])]);
+        table.keep_rows(|row| row != 1);
+        assert_eq!(numbers(&table), [[Some(1.0), Some(3.0)], [Some(4.0), Some(6.0)]]);
+        table.keep_rows(|_| false);
+        assert_eq!((table.rows(), table.columns().len()), (0, 2));
+    }
+
+    #[test]
+    fn mapped_cells_see_their_column_row_and_value() {
+        let mut table = Table::from_columns("T", vec![column("A", &[1.0, 2.0]), column("B", &[3.0, 4.0])]);
+        table.map_cells(|column, row, cell| match cell {
+            Cell::Number(number) if column.name == "B" => Cell::Number(number * 10.0 + row as f64),
+            _ => Cell::Missing,
+        });
+        assert_eq!(numbers(&table), [[None, None], [Some(30.0), Some(41.0)]]);
+    }
+}

@@ -58,6 +58,10 @@ impl ConnectorClass for ConstantTensionClass {
         Ok(())
     }
 
+    fn is_line(&self) -> bool {
+        true
+    }
+
     fn properties(&self, name: &str, _: &Surroundings) -> Table {
         Table::new(format!("Class {name}")).fact("Type", "CT_LINE", Dim::None).fact("Tension", self.tension, Dim::Force)
     }

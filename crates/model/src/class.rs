@@ -235,6 +235,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
     /// A class whose connectors an assembly takes care of, or values that make none here.
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError>;
 
+    /// Whether its connectors are lines between two ends, which reports of the angles of lines list; dynamic lines always are.
+    fn is_line(&self) -> bool {
+        self.as_line().is_some()
+    }
+
     /// What the class is for beside.
     fn role(&self) -> ClassRole {
         ClassRole::Connector

@@ -8,6 +8,7 @@ use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::span::Span;
 use windlass_base::spec::ValueKey;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given, Noun, Value};
@@ -374,13 +375,13 @@ fn sea(job: &Job, given: &Given) -> Outcome<SeaDefinition> {
         direction,
         height,
         period,
-        shape: shape(name, given.values_from(PARAMETERS), job.units)?,
+        shape: shape(name, (given.values_from(PARAMETERS), given.span), job.units)?,
         places: [given.place(NAME), at_direction, at_height, at_period],
     })
 }
 
-/// The parameters that a record gives a spectrum, SI.
-fn shape(name: &str, given: &[Value], units: UnitSystem) -> Outcome<Vec<Option<f64>>> {
+/// The parameters that a record gives a spectrum, SI; `span` is that of the option.
+fn shape(name: &str, (given, span): (&[Value], Span), units: UnitSystem) -> Outcome<Vec<Option<f64>>> {
     let declared = spectra::find(name).map(|spectrum| spectrum.parameters).filter(|declared| !declared.is_empty());
     let declared = declared.unwrap_or(std::slice::from_ref(&spectra::GAMMA));
     if let Some(value) = given.get(declared.len()) {
@@ -388,7 +389,7 @@ fn shape(name: &str, given: &[Value], units: UnitSystem) -> Outcome<Vec<Option<f
         let text = format!("{name} takes no further value behind {}", names.join(" "));
         return Err(Diagnostic::error(text, value.span));
     }
-    let read = |(parameter, value): (&ShapeParameter, &Value)| {
+    let to_si = |(parameter, value): (&ShapeParameter, &Value)| {
         let Some(number) = value.number() else { return Ok(None) };
         let si = parameter.dim.to_si(number, units);
         let [low, high] = parameter.range;
@@ -399,7 +400,15 @@ fn shape(name: &str, given: &[Value], units: UnitSystem) -> Outcome<Vec<Option<f
         }
         Ok(Some(si))
     };
-    declared.iter().zip(given).map(read).collect()
+    let read: Vec<Option<f64>> = declared.iter().zip(given).map(to_si).collect::<Outcome<_>>()?;
+    let is_missing = |(index, parameter): &(usize, &ShapeParameter)| {
+        parameter.default.is_none() && read.get(*index).copied().flatten().is_none()
+    };
+    if let Some((_, missing)) = declared.iter().enumerate().find(is_missing) {
+        let text = format!("{name} needs {} behind its period", missing.name);
+        return Err(Diagnostic::error(text, span).help(format!("{}: {}", missing.name, missing.help)));
+    }
+    Ok(read)
 }
 
 /// Sees that the first word names a known spectrum or a curve that is one.

@@ -13,6 +13,8 @@ use windlass_solve::results;
 /// CF_FRACTILES.
 pub static CF_FRACTILES: Command = Command { spec: &SPEC, edits: false, run: |job, call| show(job, call, build) };
 
+/// A force below this (N) is rounding of sums that cancel, as on the end of a line that was released, and counts as zero.
+const MIN_FORCE_N: f64 = 1e-9;
 /// Shares of the time where none are given (per cent).
 const DEFAULT_PERCENT: [f64; 4] = [50.0, 90.0, 99.0, 99.9];
 
@@ -48,11 +50,7 @@ fn build(query: &PostQuery) -> Outcome<Table> {
     let events = asked_behind_transient(query.job, query.args())?.1;
     let series = query.solved(results::magnitudes(query.run, &query.connectors()?, query.magnitude(), &events))?;
     // the first column is the time
-    let records = series.columns().iter().skip(1).map(|column| {
-        let mut sorted = column.numbers();
-        sorted.sort_by(f64::total_cmp);
-        ForceRecord { name: column.name.clone(), sorted }
-    });
+    let records = series.columns().iter().skip(1).map(|column| ForceRecord::new(column.name.clone(), column.numbers()));
     let percent = query.args().option(&PERCENT).map_or(DEFAULT_PERCENT.to_vec(), Given::numbers);
     let mut table = fractile_table(&records.collect::<Vec<_>>(), &percent, events.len());
     table.add_notes(series.notes);
@@ -82,6 +80,12 @@ fn fractile_table(records: &[ForceRecord], percent: &[f64], instants: usize) -> 
 }
 
 impl ForceRecord {
+    fn new(name: String, mut forces: Vec<f64>) -> Self {
+        forces.iter_mut().filter(|force| **force < MIN_FORCE_N).for_each(|force| *force = 0.0);
+        forces.sort_by(f64::total_cmp);
+        ForceRecord { name, sorted: forces }
+    }
+
     fn mean(&self) -> Option<f64> {
         (!self.sorted.is_empty()).then(|| self.sorted.iter().sum::<f64>() / self.sorted.len() as f64)
     }
@@ -105,12 +109,11 @@ impl ForceRecord {
 mod tests {
     use super::*;
 
-    fn record(mut sorted: Vec<f64>) -> ForceRecord {
-        sorted.sort_by(f64::total_cmp);
-        ForceRecord { name: "A".into(), sorted }
+    fn record(forces: Vec<f64>) -> ForceRecord {
+        ForceRecord::new("A".into(), forces)
     }
 
-    fn near(got: Option<f64>, want: f64, tolerance: f64) {
+    fn assert_near(got: Option<f64>, want: f64, tolerance: f64) {
         assert!(got.is_some_and(|got| (got - want).abs() <= tolerance), "{got:?} is not {want}");
     }
 
@@ -119,12 +122,21 @@ mod tests {
         // numpy.percentile([15, 20, 35, 40, 50], [5, 30, 40, 95]) = 16, 23, 29, 48
         let record = record(vec![35.0, 15.0, 50.0, 40.0, 20.0]);
         for (percent, want) in [(0.0, 15.0), (5.0, 16.0), (30.0, 23.0), (40.0, 29.0), (95.0, 48.0), (100.0, 50.0)] {
-            near(record.fractile(0.01 * percent), want, 1e-12);
+            assert_near(record.fractile(0.01 * percent), want, 1e-12);
         }
-        near(record.mean(), 32.0, 1e-12);
+        assert_near(record.mean(), 32.0, 1e-12);
         // numpy.std of the same
-        near(record.deviation(), 12.884_098_726_725_126, 1e-12);
+        assert_near(record.deviation(), 12.884_098_726_725_126, 1e-12);
         assert_eq!(self::record(Vec::new()).fractile(0.5), None);
+    }
+
+    #[test]
+    fn rounding_of_released_line_counts_as_zero() {
+        let record = record(vec![2.0, 9e-17, 0.0, 4.0]);
+        assert_eq!(
+            (record.fractile(0.0), record.fractile(1.0 / 3.0), record.mean()),
+            (Some(0.0), Some(0.0), Some(1.5))
+        );
     }
 
     #[test]
@@ -133,8 +145,8 @@ mod tests {
         let record =
             record((0..10_000).map(|i| 5.0 + 2.0 * (std::f64::consts::TAU * f64::from(i) / 1e4).sin()).collect());
         for share in [0.5, 0.9, 0.99, 0.999] {
-            near(record.fractile(share), 5.0 - 2.0 * (std::f64::consts::PI * share).cos(), 1e-3);
+            assert_near(record.fractile(share), 5.0 - 2.0 * (std::f64::consts::PI * share).cos(), 1e-3);
         }
-        near(record.deviation(), 2f64.sqrt(), 1e-9);
+        assert_near(record.deviation(), 2f64.sqrt(), 1e-9);
     }
 }

@@ -59,7 +59,7 @@ fn angles(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Tabl
     let mut table = Table::new("Angles of Lines");
     let mut rows = Vec::new();
     let has_line_class =
-        |class: &str| model.classes.get(&Model::key(class)).is_some_and(|class| class.object.as_line().is_some());
+        |class: &str| model.classes.get(&Model::key(class)).is_some_and(|class| class.object.is_line());
     let is_line = |c: &Connector| has_line_class(&c.class) || model.is_dynamic_line(c);
     for connector in model.connectors.values().filter(|c| c.active && is_line(c) && fits(&c.name)) {
         if model.holds_pipe(&connector.name) {

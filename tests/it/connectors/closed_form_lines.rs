@@ -254,6 +254,19 @@ fn line_angles_list_lines_that_do_not_pull_and_dynamic_lines() {
 }
 
 #[test]
+fn constant_tension_line_angles_match_its_chord() {
+    // a chord (3, 4, -12) of 13 m, which carries its tension straight
+    let records = "MEDIT\n*P 0 0 0\n*Q 3 4 -12\n~W CT_LINE 100\nCONNECTOR W ~W *P *Q\nEND";
+    let done = run(records, |_| (), "&STATUS LINE_ANGLES -DISPOSE\nSTORE t\nREPORT\nEND");
+    assert_eq!(done.errors, 0, "{:?}", done.said);
+    near(done.column("Azimuth")[0], (4f64 / 3.0).atan().to_degrees(), 1e-6);
+    near(done.column("Declination")[0], (5f64 / 12.0).atan().to_degrees(), 1e-6);
+    near(done.column("Uplift")[0], (12f64 / 5.0).atan().to_degrees(), 1e-6);
+    assert_eq!(done.stored["Fairlead: Tension"], done.stored["Anchor: Tension"]);
+    near(done.stored["Fairlead: Tension"][0].unwrap(), 100.0, 1e-6);
+}
+
+#[test]
 fn tabulated_connector_forces_are_near_exact_and_marked_tabulated() {
     let x = closed(3e5, 200.0, 1010.0)[0];
     let done = run(&stiff("-TABLE", x), |_| (), "&STATUS F_CONNECTOR");

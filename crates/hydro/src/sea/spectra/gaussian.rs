@@ -7,8 +7,6 @@ use std::f64::consts::TAU;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
-/// Standard deviation where none is given (Hz).
-const DEFAULT_DEVIATION_HZ: f64 = 0.005;
 /// Standard deviations to either side beyond which there is no energy: less than 2e-15 of it is left out.
 const REACH: f64 = 8.0;
 /// The least peak frequency in standard deviations: 3e-5 of the energy would then be below zero.
@@ -25,14 +23,17 @@ pub(super) static GAUSSIAN: WaveSpectrum = WaveSpectrum {
         label: "Sigma",
         dim: Dim::Frequency,
         range: [1e-3, 1.0],
-        help: "standard deviation of the frequency, a quarter of the peak frequency at most; without it 0.0314 rad/s (0.005 Hz)",
-        usual: |_, _, _| TAU * DEFAULT_DEVIATION_HZ,
+        help: "standard deviation of the frequency, a quarter of the peak frequency at most; no default",
+        default: None,
     }],
     form: WaveForm::Irregular { period: PeriodInput::PeakOnly("a Gaussian swell"), build },
 };
 
 fn build(sea: &SeaState) -> Result<Spectrum, ClassError> {
     let ([deviation], peak) = (sea.parameters(), TAU / sea.period);
+    if deviation.is_nan() {
+        return Err(ClassError::new("a Gaussian swell has no standard deviation").help("SIGMA behind PERIOD gives it"));
+    }
     if NARROWEST * deviation > peak {
         let text = "a Gaussian swell of standard deviation {} is too wide for its peak frequency of {}";
         return Err(ClassError::with_values(text, &[(deviation, Dim::Frequency), (peak, Dim::Frequency)])
@@ -77,6 +78,10 @@ mod tests {
     fn swell_wider_than_its_peak_frequency_allows_is_refused() {
         let sea = SeaState { height: 2.0, period: 20.0, period_type: PeriodType::Peak, shape: vec![0.08] };
         assert!(build(&sea).is_err());
-        assert!(build(&SeaState { shape: vec![0.078], ..sea }).is_ok());
+        assert!(build(&SeaState { shape: vec![0.078], ..sea.clone() }).is_ok());
+        assert!(
+            build(&SeaState { shape: Vec::new(), ..sea })
+                .is_err_and(|e| e.to_string().contains("no standard deviation"))
+        );
     }
 }

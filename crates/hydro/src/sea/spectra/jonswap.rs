@@ -13,7 +13,7 @@ pub static GAMMA: ShapeParameter = ShapeParameter {
     range: [1.0, 20.0],
     help: "peakedness; without it that of DNV-RP-C205 3.5.5.5: 5 up to Tp/sqrt(HS) = 3.6 (s, m), exp(5.75 - 1.15 Tp/sqrt(HS)) \
            up to 5, 1 beyond",
-    usual: default_gamma,
+    default: Some(default_gamma),
 };
 
 /// JONSWAP.

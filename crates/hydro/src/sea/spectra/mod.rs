@@ -102,8 +102,8 @@ pub struct ShapeParameter {
     pub range: [f64; 2],
     /// One line of help.
     pub help: &'static str,
-    /// What it is where it is not given, from height (m), period (s) and what the period is.
-    pub usual: fn(f64, f64, PeriodType) -> f64,
+    /// What it is where it is not given, from height (m), period (s) and what the period is; none where a record must give it.
+    pub default: Option<fn(f64, f64, PeriodType) -> f64>,
 }
 
 /// A sea state, as its spectrum sees it.
@@ -150,11 +150,11 @@ impl WaveSpectrum {
         }
     }
 
-    /// The values of its parameters for a sea: given, or the usual ones.
+    /// The values of its parameters for a sea: given, or their defaults; no number of one that has none.
     pub fn shape(&self, sea: &SeaDefinition, period_type: PeriodType) -> Vec<f64> {
         let values = self.parameters.iter().enumerate().map(|(index, parameter)| {
             let given = sea.shape.get(index).copied().flatten();
-            given.unwrap_or_else(|| (parameter.usual)(sea.height, sea.period, period_type))
+            given.or_else(|| Some(parameter.default?(sea.height, sea.period, period_type))).unwrap_or(f64::NAN)
         });
         values.collect()
     }
