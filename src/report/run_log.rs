@@ -194,11 +194,11 @@ mod tests {
         (RunLog::begin(file, path.clone(), 1, 2).unwrap(), path)
     }
 
-    fn at(time: f64) -> Snapshot {
+    fn snapshot_at(time: f64) -> Snapshot {
         Snapshot { time, ..Snapshot::default() }
     }
 
-    fn kept(path: &std::path::Path) -> Result<StoredRun, RunLogError> {
+    fn read_file(path: &std::path::Path) -> Result<StoredRun, RunLogError> {
         read(&mut File::open(path).unwrap(), f64::INFINITY)
     }
 
@@ -208,15 +208,15 @@ mod tests {
             let folder = tempfile::tempdir().unwrap();
             let (mut log, path) = begun(folder.path());
             log.row(&[0.0, f64::NAN]).unwrap();
-            log.snapshot(&at(1.5)).unwrap();
-            assert_eq!(kept(&path).map(|k| (k.snapshot.time, k.rows.len())).unwrap(), (1.5, 2));
-            log.snapshot(&at(bad)).unwrap();
-            assert!(matches!(kept(&path), Err(RunLogError::NotFinite)), "snapshot at {bad}");
+            log.snapshot(&snapshot_at(1.5)).unwrap();
+            assert_eq!(read_file(&path).map(|k| (k.snapshot.time, k.rows.len())).unwrap(), (1.5, 2));
+            log.snapshot(&snapshot_at(bad)).unwrap();
+            assert!(matches!(read_file(&path), Err(RunLogError::NotFinite)), "snapshot at {bad}");
             let folder = tempfile::tempdir().unwrap();
             let (mut log, path) = begun(folder.path());
             log.row(&[bad, 0.0]).unwrap();
-            log.snapshot(&at(1.0)).unwrap();
-            assert!(matches!(kept(&path), Err(RunLogError::NotFinite)), "row at {bad}");
+            log.snapshot(&snapshot_at(1.0)).unwrap();
+            assert!(matches!(read_file(&path), Err(RunLogError::NotFinite)), "row at {bad}");
         }
     }
 
@@ -225,9 +225,9 @@ mod tests {
     fn run_file_deleted_during_run_ends_run() {
         let folder = tempfile::tempdir().unwrap();
         let (mut log, path) = begun(folder.path());
-        log.snapshot(&at(1.0)).unwrap();
+        log.snapshot(&snapshot_at(1.0)).unwrap();
         std::fs::remove_file(&path).unwrap();
-        for done in [log.snapshot(&at(2.0)), log.finish()] {
+        for done in [log.snapshot(&snapshot_at(2.0)), log.finish()] {
             let error = done.unwrap_err();
             assert!(
                 matches!(error, RunFileError::Deleted { .. }) && error.to_string().contains("TDOM.run was deleted")

@@ -186,11 +186,11 @@ mod tests {
     /// Sea water (kg/m3).
     const SEA: f64 = 1025.0;
 
-    fn named(name: &str) -> &'static LineType {
+    fn find_type(name: &str) -> &'static LineType {
         library().types.iter().find(|t| t.name == name).unwrap()
     }
 
-    fn near(name: &str, what: &str, got: f64, want: f64, tolerance: f64) {
+    fn assert_share(name: &str, what: &str, got: f64, want: f64, tolerance: f64) {
         assert!(
             (got / want - 1.0).abs() <= tolerance,
             "{what} of {name}: {got}, catalogue {want}, off {}",
@@ -251,32 +251,56 @@ mod tests {
         ] {
             for link in ["", "_STUD"] {
                 for (d, kilonewtons) in rows {
-                    let got = named(&format!("CHAIN_{grade}{link}")).breaking.evaluate(d) / 1e3;
+                    let got = find_type(&format!("CHAIN_{grade}{link}")).breaking.evaluate(d) / 1e3;
                     assert!((got - kilonewtons).abs() < 1.0, "{grade} at {d}: {got}, table {kilonewtons}");
                 }
             }
         }
         // the 185 mm R3 chain of the IEA 15 MW VolturnUS-S (JMSE 12(1) 33): 22,286 kN, 685 kg/m
-        let r3 = named("CHAIN_R3");
-        near("CHAIN_R3", "break", r3.breaking.evaluate(0.185), 22.286e6, 1e-4);
-        near("CHAIN_R3", "mass", r3.mass.evaluate(0.185), 685.0, 0.01);
+        let r3 = find_type("CHAIN_R3");
+        assert_share("CHAIN_R3", "break", r3.breaking.evaluate(0.185), 22.286e6, 1e-4);
+        assert_share("CHAIN_R3", "mass", r3.mass.evaluate(0.185), 685.0, 0.01);
     }
 
     #[test]
     fn chain_mass_and_stiffness_match_other_published_formulas() {
         // MoorPy's fits to four makers: 20.0e3 and 21.9e3 d**2 kg/m; 1 % is their difference from OrcaFlex
-        near("CHAIN_R4", "mass", named("CHAIN_R4").mass.evaluate(0.084), 20.0e3 * 0.084 * 0.084, 0.01);
-        near("CHAIN_R4_STUD", "mass", named("CHAIN_R4_STUD").mass.evaluate(0.084), 21.9e3 * 0.084 * 0.084, 1e-9);
+        assert_share("CHAIN_R4", "mass", find_type("CHAIN_R4").mass.evaluate(0.084), 20.0e3 * 0.084 * 0.084, 0.01);
+        assert_share(
+            "CHAIN_R4_STUD",
+            "mass",
+            find_type("CHAIN_R4_STUD").mass.evaluate(0.084),
+            21.9e3 * 0.084 * 0.084,
+            1e-9,
+        );
         // [DNV-OS-E301] (ckunte.net/2015/ea; 5.6e10 for studlink by MoorPy): E on the area of both legs. OrcaFlex is older
         // and, for studlink, 15 % stiffer
         let legs = 2.0 * FRAC_PI_4 * 0.084 * 0.084;
-        near("CHAIN_R4", "AE", named("CHAIN_R4").ea.evaluate(0.084), (5.45 - 0.0025 * 84.0) * 1e10 * legs, 0.04);
-        near("CHAIN_R3", "AE", named("CHAIN_R3").ea.evaluate(0.084), (5.40 - 0.0040 * 84.0) * 1e10 * legs, 0.08);
-        near("CHAIN_R4_STUD", "AE", named("CHAIN_R4_STUD").ea.evaluate(0.084), 5.6e10 * legs, 0.15);
+        assert_share(
+            "CHAIN_R4",
+            "AE",
+            find_type("CHAIN_R4").ea.evaluate(0.084),
+            (5.45 - 0.0025 * 84.0) * 1e10 * legs,
+            0.04,
+        );
+        assert_share(
+            "CHAIN_R3",
+            "AE",
+            find_type("CHAIN_R3").ea.evaluate(0.084),
+            (5.40 - 0.0040 * 84.0) * 1e10 * legs,
+            0.08,
+        );
+        assert_share("CHAIN_R4_STUD", "AE", find_type("CHAIN_R4_STUD").ea.evaluate(0.084), 5.6e10 * legs, 0.15);
         // steel of 7850 kg/m3 in sea water keeps 0.87 of its weight
         for name in ["CHAIN_R4", "CHAIN_R4_STUD"] {
-            let line = named(name);
-            near(name, "submerged mass", line.submerged_mass(0.084, SEA), 0.87 * line.mass.evaluate(0.084), 0.005);
+            let line = find_type(name);
+            assert_share(
+                name,
+                "submerged mass",
+                line.submerged_mass(0.084, SEA),
+                0.87 * line.mass.evaluate(0.084),
+                0.005,
+            );
         }
     }
 
@@ -285,57 +309,63 @@ mod tests {
         // API Spec 9A mooring rope, IWRC, galvanized (Standard Handbook of Petroleum and Natural Gas Engineering, Table
         // 4-25): 1 in 1.89 lb/ft 414 kN; 2 in 1590 kN; 3 in 16.6 lb/ft 3400 kN. One formula for ropes of several
         // constructions: 10 %
-        let rope = named("WIRE_6STRAND");
-        near("WIRE_6STRAND", "mass", rope.mass.evaluate(0.0254), 1.89 * 1.48816, 0.1);
-        near("WIRE_6STRAND", "mass", rope.mass.evaluate(0.0762), 16.6 * 1.48816, 0.1);
+        let rope = find_type("WIRE_6STRAND");
+        assert_share("WIRE_6STRAND", "mass", rope.mass.evaluate(0.0254), 1.89 * 1.48816, 0.1);
+        assert_share("WIRE_6STRAND", "mass", rope.mass.evaluate(0.0762), 16.6 * 1.48816, 0.1);
         for (d, newtons) in [(0.0254, 414e3), (0.0508, 1590e3), (0.0762, 3400e3)] {
-            near("WIRE_6STRAND", "break", rope.breaking.evaluate(d), newtons, 0.1);
+            assert_share("WIRE_6STRAND", "break", rope.breaking.evaluate(d), newtons, 0.1);
         }
         // 6x19 fibre core, improved plow steel (engineeringtoolbox.com): 1 in 2.50 kg/m 372 kN; 2 in 10.0 kg/m 1420 kN
-        let rope = named("WIRE_6STRAND_FC");
+        let rope = find_type("WIRE_6STRAND_FC");
         for (d, mass, newtons) in [(0.0254, 2.50, 372e3), (0.0508, 10.0, 1420e3)] {
-            near("WIRE_6STRAND_FC", "mass", rope.mass.evaluate(d), mass, 0.08);
-            near("WIRE_6STRAND_FC", "break", rope.breaking.evaluate(d), newtons, 0.07);
+            assert_share("WIRE_6STRAND_FC", "mass", rope.mass.evaluate(d), mass, 0.08);
+            assert_share("WIRE_6STRAND_FC", "break", rope.breaking.evaluate(d), newtons, 0.07);
         }
         // spiral strand, sheathed (Vryhof anchor manual, FROM MEMORY): 76 mm 5647 kN, 557 MN, 30.4 kg/m, 23.8 in water
-        let rope = named("WIRE_SPIRAL");
-        near("WIRE_SPIRAL", "break", rope.breaking.evaluate(0.076), 5647e3, 0.05);
-        near("WIRE_SPIRAL", "AE", rope.ea.evaluate(0.076), 557e6, 0.02);
-        near("WIRE_SPIRAL", "mass", rope.mass.evaluate(0.076), 30.4, 0.02);
-        near("WIRE_SPIRAL", "submerged mass", rope.submerged_mass(0.076, SEA), 23.8, 0.02);
+        let rope = find_type("WIRE_SPIRAL");
+        assert_share("WIRE_SPIRAL", "break", rope.breaking.evaluate(0.076), 5647e3, 0.05);
+        assert_share("WIRE_SPIRAL", "AE", rope.ea.evaluate(0.076), 557e6, 0.02);
+        assert_share("WIRE_SPIRAL", "mass", rope.mass.evaluate(0.076), 30.4, 0.02);
+        assert_share("WIRE_SPIRAL", "submerged mass", rope.submerged_mass(0.076, SEA), 23.8, 0.02);
     }
 
     #[test]
     fn fibre_rope_matches_published_tables() {
         // 8-strand polyester, 48 mm: 1.74 kg/m (engineeringtoolbox.com); DIN 83331 36.7 t
         // [OCIMF-MEG2 table 6.5]. Makers exceed the standards: 12 %
-        let rope = named("POLYESTER");
-        near("POLYESTER", "mass", rope.mass.evaluate(0.048), 1.74, 0.06);
-        near("POLYESTER", "break", rope.breaking.evaluate(0.048), 36.7 * 9806.65, 0.12);
+        let rope = find_type("POLYESTER");
+        assert_share("POLYESTER", "mass", rope.mass.evaluate(0.048), 1.74, 0.06);
+        assert_share("POLYESTER", "break", rope.breaking.evaluate(0.048), 36.7 * 9806.65, 0.12);
         // the 290 mm rope of MoorDyn's own polyester test: 52.0 kg/m, 333.9 MN, volume diameter 0.217 m; one rope
         // against a fit to seven makers: 12 %
-        let rope = named("POLYESTER_MOORING");
-        near("POLYESTER_MOORING", "mass", rope.mass.evaluate(0.290), 52.0, 0.12);
-        near("POLYESTER_MOORING", "AE", rope.ea.evaluate(0.290), 333.9e6, 0.12);
-        near("POLYESTER_MOORING", "volume diameter", rope.volume_diameter(0.290), 0.217, 0.06);
+        let rope = find_type("POLYESTER_MOORING");
+        assert_share("POLYESTER_MOORING", "mass", rope.mass.evaluate(0.290), 52.0, 0.12);
+        assert_share("POLYESTER_MOORING", "AE", rope.ea.evaluate(0.290), 333.9e6, 0.12);
+        assert_share("POLYESTER_MOORING", "volume diameter", rope.volume_diameter(0.290), 0.217, 0.06);
         // nylon, 48 mm: 1.49 kg/m, 376 kN dry (engineeringtoolbox.com); wet nylon keeps 0.85 of it
-        let rope = named("NYLON");
-        near("NYLON", "mass", rope.mass.evaluate(0.048), 1.49, 0.01);
-        near("NYLON", "break", rope.breaking.evaluate(0.048), 0.85 * 376e3, 0.01);
+        let rope = find_type("NYLON");
+        assert_share("NYLON", "mass", rope.mass.evaluate(0.048), 1.49, 0.01);
+        assert_share("NYLON", "break", rope.breaking.evaluate(0.048), 0.85 * 376e3, 0.01);
         // nylon braid, 48 mm: 50,000 kg (English Braids, Superyacht Dockline)
-        near("NYLON_MOORING", "break", named("NYLON_MOORING").breaking.evaluate(0.048), 50_000.0 * 9.80665, 0.03);
+        assert_share(
+            "NYLON_MOORING",
+            "break",
+            find_type("NYLON_MOORING").breaking.evaluate(0.048),
+            50_000.0 * 9.80665,
+            0.03,
+        );
         // HMPE, 60 mm: MoorPy's earlier formula of its own, 619e6 d**2 N and 38.17e9 d**2 N; 48 mm: 1.29 kg/m, 1503 kN
         // mean strength (Samson AmSteel-Blue 2 in, FROM MEMORY)
-        let rope = named("HMPE");
-        near("HMPE", "break", rope.breaking.evaluate(0.060), 619e6 * 0.0036, 0.01);
-        near("HMPE", "AE", rope.ea.evaluate(0.060), 38.17e9 * 0.0036, 0.10);
-        near("HMPE", "break", rope.breaking.evaluate(0.048), 1503e3, 0.10);
-        near("HMPE", "mass", rope.mass.evaluate(0.048), 1.29, 0.12);
+        let rope = find_type("HMPE");
+        assert_share("HMPE", "break", rope.breaking.evaluate(0.060), 619e6 * 0.0036, 0.01);
+        assert_share("HMPE", "AE", rope.ea.evaluate(0.060), 38.17e9 * 0.0036, 0.10);
+        assert_share("HMPE", "break", rope.breaking.evaluate(0.048), 1503e3, 0.10);
+        assert_share("HMPE", "mass", rope.mass.evaluate(0.048), 1.29, 0.12);
     }
 
     #[test]
     fn diameter_range_ends_are_inside_in_inches_too() {
-        let chain = named("CHAIN_R4");
+        let chain = find_type("CHAIN_R4");
         assert!(chain.covers(0.034) && chain.covers(0.185 / 0.0254 * 0.0254));
         assert!(!chain.covers(0.033) && !chain.covers(0.186));
     }

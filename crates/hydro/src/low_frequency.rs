@@ -249,7 +249,7 @@ mod tests {
     use super::*;
 
     /// What is left of a sine of a period (s), with steps of a length (s): in phase, and ahead by a quarter.
-    fn left(dividing: f64, period: f64, dt: f64) -> Complex<f64> {
+    fn gain_of_sine(dividing: f64, period: f64, dt: f64) -> Complex<f64> {
         let filter = LowPass::new(dividing);
         let mut state = LowPass::at_rest(0.0);
         let count = (period / dt).round() as usize;
@@ -274,7 +274,7 @@ mod tests {
             (3.0, 2.446673, 2.626557),
             (10.0, 1.223272, 0.248002),
         ] {
-            let got = left(12.0, 12.0 * times, 0.02);
+            let got = gain_of_sine(12.0, 12.0 * times, 0.02);
             // a straight signal between steps errs by (w h)^2/12: 4e-5 of the shortest
             assert!((got.norm() - whole).abs() < 1e-4 && ((1.0 - got).norm() - off).abs() < 1e-4, "{times}: {got}");
         }

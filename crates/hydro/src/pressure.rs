@@ -543,7 +543,7 @@ impl BodyLoad for WavePressure {
     }
 
     fn dynamic_load(&self, _at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
-        Ok(DynamicLoad::from(Load { wrench: kept(state), ..Load::none() }))
+        Ok(DynamicLoad::from(Load { wrench: memory_of(state), ..Load::none() }))
     }
 
     fn as_stateful(&self) -> Option<&dyn StatefulLoad> {
@@ -576,14 +576,14 @@ impl StatefulLoad for WavePressure {
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
-        let wrench = kept(state);
+        let wrench = memory_of(state);
         self.slow.commit(&wrench, at.dt, state.get_mut(KEPT..).unwrap_or_default());
     }
 }
 
 impl PreparedLoad for WavePressure {
     fn prepared_wrench(&self, _at: &Underway, state: &[f64]) -> Six {
-        kept(state)
+        memory_of(state)
     }
 }
 
@@ -597,7 +597,7 @@ impl DividedLoad for WavePressure {
     }
 }
 
-fn kept(state: &[f64]) -> Six {
+fn memory_of(state: &[f64]) -> Six {
     Six::from_iterator(state.iter().copied().chain([0.0; KEPT]).take(KEPT))
 }
 

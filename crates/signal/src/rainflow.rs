@@ -126,7 +126,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn counted(cycles: &[RainflowCycle], range: f64) -> f64 {
+    fn count_cycles_of_range(cycles: &[RainflowCycle], range: f64) -> f64 {
         cycles.iter().filter(|c| c.range == range).map(|c| c.count).sum()
     }
 
@@ -136,7 +136,7 @@ mod tests {
         let found = cycles(&[-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]).unwrap();
         let want = [(3.0, 0.5), (4.0, 1.5), (6.0, 0.5), (8.0, 1.0), (9.0, 0.5)];
         for (range, count) in want {
-            assert_eq!(counted(&found, range), count, "range {range}: {found:?}");
+            assert_eq!(count_cycles_of_range(&found, range), count, "range {range}: {found:?}");
         }
         assert_eq!(found.iter().map(|c| c.count).sum::<f64>(), 4.0);
         // the whole cycle is E-F, from -1 to 3

@@ -145,7 +145,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn near(a: f64, b: f64, tolerance: f64) -> bool {
+    fn is_near(a: f64, b: f64, tolerance: f64) -> bool {
         (a - b).abs() <= tolerance * (1.0 + b.abs())
     }
 
@@ -162,10 +162,10 @@ mod tests {
             }
             let s = r.summary().unwrap();
             // rounding of 300 values of up to 1e3 with a spread near 5
-            prop_assert!(near(s.mean, m.mean, 1e-13) && near(s.rms, m.rms, 1e-12));
+            prop_assert!(is_near(s.mean, m.mean, 1e-13) && is_near(s.rms, m.rms, 1e-12));
             prop_assume!(m.deviation > 0.1);
-            prop_assert!(near(s.deviation, m.deviation, 1e-11) && near(s.skewness, m.skewness, 1e-9));
-            prop_assert!(near(s.kurtosis, m.kurtosis, 1e-8), "{} {}", s.kurtosis, m.kurtosis);
+            prop_assert!(is_near(s.deviation, m.deviation, 1e-11) && is_near(s.skewness, m.skewness, 1e-9));
+            prop_assert!(is_near(s.kurtosis, m.kurtosis, 1e-8), "{} {}", s.kurtosis, m.kurtosis);
             prop_assert_eq!((s.minimum.value, s.maximum.value), (m.minimum.1, m.maximum.1));
             prop_assert_eq!((s.up, s.down), (c.up as u64, c.down as u64));
         }

@@ -197,7 +197,7 @@ mod tests {
         sum
     }
 
-    fn near(one: Matrix4, other: Matrix4) {
+    fn assert_near(one: Matrix4, other: Matrix4) {
         for (x, y) in one.iter().flatten().zip(other.iter().flatten()) {
             assert!((x - y).abs() < 1e-13 * (1.0 + y.abs()), "{x} {y}");
         }
@@ -205,11 +205,11 @@ mod tests {
 
     #[test]
     fn beam_matrices_match_integrals_of_shape_functions() {
-        near(mass(1.0, L), integral(deflection));
-        near(geometric(1.0, L), integral(slope));
-        near(stiffness(1.0, L), integral(curvature));
+        assert_near(mass(1.0, L), integral(deflection));
+        assert_near(geometric(1.0, L), integral(slope));
+        assert_near(stiffness(1.0, L), integral(curvature));
         let uniform = uniform_load(2.0, L);
-        near([uniform; 4], [load(L, |_| 2.0); 4]);
+        assert_near([uniform; 4], [load(L, |_| 2.0); 4]);
     }
 
     #[test]

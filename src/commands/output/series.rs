@@ -37,51 +37,51 @@ const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
     }
 }
 
-const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
-    OptionSpec::new(name, values, help).owner(Owner::Ours)
-}
-
-const SEGMENT: OptionSpec = ours(
+const SEGMENT: OptionSpec = OptionSpec::ours(
     "-SEGMENT",
     &[ValueSpec::new("N", Kind::Integer, "samples").in_range(8.0, 67_108_864.0)],
     "samples of a segment",
 )
 .default("an eighth of the series, as a power of two");
-const DURATION: OptionSpec = ours(
+const DURATION: OptionSpec = OptionSpec::ours(
     "-DURATION",
     &[ValueSpec::new("HOURS", Kind::Number(Dim::None), "hours").positive()],
     "time the extreme is sought in",
 )
 .default("3 hours");
-const BLOCKS: OptionSpec = ours(
+const BLOCKS: OptionSpec = OptionSpec::ours(
     "-BLOCKS",
     &[ValueSpec::new("N", Kind::Integer, "number of blocks").in_range(10.0, 1e6)],
     "blocks the record is cut into for Gumbel",
 )
 .default("20, or as many as hold ten up-crossings of the mean");
-const LOWS: OptionSpec = ours("-MINIMA", &[], "seeks the smallest value");
+const LOWS: OptionSpec = OptionSpec::ours("-MINIMA", &[], "seeks the smallest value");
 const LEVELS: OptionSpec =
-    ours("-LEVELS", &[ValueSpec::new("N", Kind::Integer, "number of levels").in_range(2.0, 1e4)], "levels")
+    OptionSpec::ours("-LEVELS", &[ValueSpec::new("N", Kind::Integer, "number of levels").in_range(2.0, 1e4)], "levels")
         .default("50");
 const BINS: OptionSpec =
-    ours("-BINS", &[ValueSpec::new("N", Kind::Integer, "number of bins").in_range(1.0, 1e3)], "bins").default("20");
-const MEANS: OptionSpec = ours(
+    OptionSpec::ours("-BINS", &[ValueSpec::new("N", Kind::Integer, "number of bins").in_range(1.0, 1e3)], "bins")
+        .default("20");
+const MEANS: OptionSpec = OptionSpec::ours(
     "-MEANS",
     &[ValueSpec::new("N", Kind::Integer, "number of bins").in_range(1.0, 1e3)],
     "bins of the mean of the cycles",
 )
 .default("1: means are not distinguished");
-const CYCLES: OptionSpec = ours("-CYCLES", &[], "lists every cycle instead of counting them into bins");
-const PERIOD: OptionSpec = ours(
+const CYCLES: OptionSpec = OptionSpec::ours("-CYCLES", &[], "lists every cycle instead of counting them into bins");
+const PERIOD: OptionSpec = OptionSpec::ours(
     "-PERIOD",
     &[ValueSpec::new("T", Kind::Number(Dim::Time), "period").positive()],
     "period of the first harmonic",
 )
 .default("that of the sine which fits the first series best");
-const ORDERS: OptionSpec =
-    ours("-ORDERS", &[ValueSpec::new("N", Kind::Integer, "number of harmonics").in_range(1.0, 50.0)], "harmonics")
-        .default("3");
-const LAST: OptionSpec = ours(
+const ORDERS: OptionSpec = OptionSpec::ours(
+    "-ORDERS",
+    &[ValueSpec::new("N", Kind::Integer, "number of harmonics").in_range(1.0, 50.0)],
+    "harmonics",
+)
+.default("3");
+const LAST: OptionSpec = OptionSpec::ours(
     "-LAST",
     &[ValueSpec::new("N", Kind::Integer, "number of cycles").in_range(1.0, 1e9)],
     "only the last cycles of the series",
@@ -210,10 +210,10 @@ fn whole(args: &Args, option: &OptionSpec) -> Option<usize> {
 fn record(job: &Job, args: &Args) -> Outcome<(SeriesRecord, Option<String>)> {
     open_disposition(job, args.span)?.numeric(&selectors(&args.data)).map_err(|e| to_diagnostic(args, &e))?;
     let (table, without) = chosen_for_statistics(job, args)?;
-    Ok((SeriesRecord::from_table(&table).map_err(|e| wrong(args, &e))?, without))
+    Ok((SeriesRecord::from_table(&table).map_err(|e| series_error(args, &e))?, without))
 }
 
-fn wrong(args: &Args, error: &SeriesError) -> Box<Diagnostic> {
+fn series_error(args: &Args, error: &SeriesError) -> Box<Diagnostic> {
     Diagnostic::error(error.to_string(), args.span)
 }
 
@@ -224,7 +224,7 @@ fn open(
     make: impl Fn(&SeriesRecord, &Args) -> Result<Table, SeriesError>,
 ) -> Outcome<Effect> {
     let (record, without) = record(job, &call.args)?;
-    let mut table = make(&record, &call.args).map_err(|e| wrong(&call.args, &e))?;
+    let mut table = make(&record, &call.args).map_err(|e| series_error(&call.args, &e))?;
     table.add_notes(without);
     enter(job, table);
     Ok(Effect::Done)
@@ -241,8 +241,8 @@ fn spectrum(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (record, without) = record(job, args)?;
     let length = whole(args, &SEGMENT);
-    let mut table = tables::density(&record, length).map_err(|e| wrong(args, &e))?;
-    let moments = statistic::spectral(&record, length, job.units).map_err(|e| wrong(args, &e))?;
+    let mut table = tables::density(&record, length).map_err(|e| series_error(args, &e))?;
+    let moments = statistic::spectral(&record, length, job.units).map_err(|e| series_error(args, &e))?;
     let mut text = format!("{}\n\n{}", moments.title, page::grid(&moments, job.units).join("\n"));
     if let Some(without) = &without {
         text.push_str(&format!("\n\n   {without}"));

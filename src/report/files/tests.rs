@@ -190,7 +190,7 @@ fn growing_file_is_not_deleted_moved_or_overwritten() {
 }
 
 /// A job whose user answers every question so, and counts the questions.
-fn asked(job: &mut JobFolder, answer: Option<&'static str>) -> Arc<Mutex<Vec<String>>> {
+fn answer_questions_with(job: &mut JobFolder, answer: Option<&'static str>) -> Arc<Mutex<Vec<String>>> {
     let questions = Arc::new(Mutex::new(Vec::new()));
     let list = Arc::clone(&questions);
     job.typed = true;
@@ -209,7 +209,7 @@ fn typed_record_creates_outside_file_after_one_question_only() {
     for (answer, made) in
         [(Some("y"), true), (Some(" Yes "), true), (Some(""), false), (Some("n"), false), (None, false)]
     {
-        let questions = asked(&mut job, answer);
+        let questions = answer_questions_with(&mut job, answer);
         for done in [
             job.write(&outside("file"), b"1").map(|_| ()),
             job.make_folder(&outside("folder/sub")).map(|_| ()),
@@ -234,7 +234,7 @@ fn typed_record_creates_outside_file_after_one_question_only() {
             std::fs::remove_dir_all(outside("folder")).unwrap();
         }
     }
-    let questions = asked(&mut job, Some("y"));
+    let questions = answer_questions_with(&mut job, Some("y"));
     job.typed = false;
     assert!(matches!(job.write(&outside("file"), b"1"), Err(FileError::NotOwn { .. })), "a script is not asked for");
     job.typed = true;

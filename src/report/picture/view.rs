@@ -228,21 +228,21 @@ pub fn hull(mut points: Vec<(i32, i32)>) -> Vec<(i32, i32)> {
 mod tests {
     use super::*;
 
-    fn near(a: [f64; 2], b: [f64; 2]) {
+    fn assert_near(a: [f64; 2], b: [f64; 2]) {
         assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12, "{a:?} {b:?}");
     }
 
     #[test]
     fn each_view_projects_points_to_expected_positions() {
         let at = [3.0, 4.0, 5.0];
-        near(View::plan().project(at), [3.0, 4.0]);
+        assert_near(View::plan().project(at), [3.0, 4.0]);
         // from -Y X runs to the right, from +Y to the left; from +X (astern) Y runs to the right, from -X to the left
-        near(View::elevation(-FRAC_PI_2, 1.0).project(at), [3.0, 5.0]);
-        near(View::elevation(FRAC_PI_2, 1.0).project(at), [-3.0, 5.0]);
-        near(View::elevation(0.0, 1.0).project(at), [4.0, 5.0]);
-        near(View::elevation(2.0 * FRAC_PI_2, 2.0).project(at), [-4.0, 10.0]);
+        assert_near(View::elevation(-FRAC_PI_2, 1.0).project(at), [3.0, 5.0]);
+        assert_near(View::elevation(FRAC_PI_2, 1.0).project(at), [-3.0, 5.0]);
+        assert_near(View::elevation(0.0, 1.0).project(at), [4.0, 5.0]);
+        assert_near(View::elevation(2.0 * FRAC_PI_2, 2.0).project(at), [-4.0, 10.0]);
         // from -45 degrees the place (3, 4) lies (3 + 4) / sqrt 2 to the right
-        near(View::elevation(-0.5 * FRAC_PI_2, 1.0).project(at), [7.0 / 2f64.sqrt(), 5.0]);
+        assert_near(View::elevation(-0.5 * FRAC_PI_2, 1.0).project(at), [7.0 / 2f64.sqrt(), 5.0]);
     }
 
     #[test]

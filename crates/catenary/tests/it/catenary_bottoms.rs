@@ -94,7 +94,7 @@ fn first_segment_above_spring_buoy_may_hang_below_seabed() {
 }
 
 /// A line of 500 m cut in so many parts; whether each has a weight of its own.
-fn cut(parts: usize, varied: bool, friction: f64) -> Line {
+fn line_in_parts(parts: usize, varied: bool, friction: f64) -> Line {
     let share = |i: usize| if varied { 1.0 + 0.3 * ((i * 7919) % 101) as f64 / 101.0 } else { 1.0 };
     let segment = |i: usize| Segment { length: 500.0 / parts as f64, weight: 600.0 * share(i), ea: 7e8 };
     let segments = (0..parts).map(segment).collect();
@@ -105,10 +105,10 @@ fn cut(parts: usize, varied: bool, friction: f64) -> Line {
 #[test]
 fn line_cut_in_1000_parts_matches_uncut_line() {
     for friction in [0.0, 0.5] {
-        let whole = cut(1, false, friction).at_distance(480.0, 0.0).unwrap();
+        let whole = line_in_parts(1, false, friction).at_distance(480.0, 0.0).unwrap();
         let mut work = Vec::new();
         for parts in [30, 1000, 10_000] {
-            let state = cut(parts, false, friction).at_distance(480.0, 0.0).unwrap();
+            let state = line_in_parts(parts, false, friction).at_distance(480.0, 0.0).unwrap();
             close(state.force, whole.force, 1e-11 * whole.force, "H");
             close(state.top_tension, whole.top_tension, 1e-11 * whole.top_tension, "T");
             close(state.grounded, whole.grounded, 1e-9 * 500.0, "on the bottom");
@@ -123,7 +123,7 @@ fn line_cut_in_1000_parts_matches_uncut_line() {
 #[test]
 fn thousand_different_parts_carry_their_weights() {
     for (parts, friction) in [(40, 0.0), (1000, 0.0), (1000, 0.3)] {
-        let line = cut(parts, true, friction);
+        let line = line_in_parts(parts, true, friction);
         let state = line.at_distance(480.0, 0.0).unwrap();
         // what hangs is carried by the fairlead; friction takes mu times what lies
         let lies = |(s, at): (&Segment, &windlass_catenary::SegmentState)| s.weight * at.grounded;

@@ -7,7 +7,7 @@ use windlass_model::{
 
 const GRAVITY: f64 = 9.80665;
 
-fn named(kind: &str, value: Option<f64>) -> Option<CurveReference> {
+fn curve_reference(kind: &str, value: Option<f64>) -> Option<CurveReference> {
     Some(CurveReference { kind: kind.into(), value, span: Span::default() })
 }
 
@@ -37,7 +37,7 @@ fn curve(model: &mut Model, name: &str, kind: CurveKind, points: &[(f64, f64)]) 
     model.curves.insert(name.into(), made);
 }
 
-fn of(model: &Model) -> (Arc<dyn Ambient>, Option<Arc<Sea>>) {
+fn build_ambient(model: &Model) -> (Arc<dyn Ambient>, Option<Arc<Sea>>) {
     let sea = Sea::new(model, &model.environment).unwrap().map(Arc::new);
     (ambient(model, sea.as_ref()).unwrap(), sea)
 }
@@ -51,7 +51,7 @@ fn flow(around: &Arc<dyn Ambient>, time: f64, place: [f64; 3]) -> Flow {
 #[test]
 fn regular_wave_matches_closed_form_with_tide() {
     let env = Environment { sea: sea("REGULAR", 4.0, 10.0), tide: Some(1.5), ..Environment::default() };
-    let (around, _) = of(&model(env));
+    let (around, _) = build_ambient(&model(env));
     let (w, a) = (TAU / 10.0, 2.0);
     let k = w * w / GRAVITY;
     for (x, y, z, t) in [(0.0, 0.0, -3.0, 0.0), (17.0, -40.0, -0.2, 3.3), (-250.0, 9.0, -25.0, 77.0)] {
@@ -87,7 +87,7 @@ fn kinematics_are_sea_below_surface_and_surface_values_above() {
             phasing: Some(Phasing::Seeded(3)),
             ..Environment::default()
         };
-        let (around, sea) = of(&model(env));
+        let (around, sea) = build_ambient(&model(env));
         let sea = sea.unwrap();
         let time = 21.0;
         let (mut over, mut under) = (0, 0);
@@ -127,7 +127,7 @@ fn pressure_matches_wave_at_depth_and_is_zero_at_surface() {
             stretching: Some(stretching),
             ..Environment::default()
         };
-        let (around, _) = of(&model(env));
+        let (around, _) = build_ambient(&model(env));
         // a crest and a trough of 5 m at x = y = 0
         for (time, amplitude) in [(0.0, 5.0), (4.0, -5.0)] {
             let head = |depth: f64| {
@@ -155,7 +155,7 @@ fn pressure_matches_wave_at_depth_and_is_zero_at_surface() {
 fn current_has_profile_history_and_no_waves_in_mean() {
     let env = Environment {
         current: Some(Current::Profiles(vec![("CUR".into(), PI), ("SIDE".into(), -PI / 2.0)])),
-        current_history: named("TURN", None),
+        current_history: curve_reference("TURN", None),
         sea: sea("REGULAR", 4.0, 10.0),
         depth: Some(100.0),
         tide: Some(1.0),
@@ -165,7 +165,7 @@ fn current_has_profile_history_and_no_waves_in_mean() {
     curve(&mut model, "CUR", CurveKind::CurrentProfile, &[(0.0, 2.0), (50.0, 1.0)]);
     curve(&mut model, "SIDE", CurveKind::CurrentProfile, &[(0.0, 0.5), (10.0, 0.5)]);
     curve(&mut model, "TURN", CurveKind::CurrentHistory, &[(0.0, 1.0), (100.0, 3.0)]);
-    let (around, sea) = of(&model);
+    let (around, sea) = build_ambient(&model);
     let sea = sea.unwrap();
     // 26 m deep at z = -25 with the tide: 2 - 26/50; at 50 s twice that
     let at = Vector3::new(5.0, 6.0, -25.0);
@@ -187,13 +187,13 @@ fn current_has_profile_history_and_no_waves_in_mean() {
 fn wind_has_profile_and_history() {
     let env = Environment {
         wind: Some(Wind { speed: 0.0, direction: PI / 2.0 }),
-        wind_history: named("BLOW", None),
+        wind_history: curve_reference("BLOW", None),
         tide: Some(1.0),
         ..Environment::default()
     };
     let mut model = model(env);
     curve(&mut model, "BLOW", CurveKind::WindHistory, &[(0.0, 0.0), (60.0, 30.0)]);
-    let (around, _) = of(&model);
+    let (around, _) = build_ambient(&model);
     // a power law of exponent 1/7 over 10 m above the water, from +Y
     let found = flow(&around, 40.0, [0.0, 0.0, 31.0]);
     assert!((found.wind - Vector3::new(0.0, -20.0 * 3f64.powf(1.0 / 7.0), 0.0)).norm() < 1e-9, "{}", found.wind);
@@ -202,12 +202,12 @@ fn wind_has_profile_and_history() {
     assert_eq!(out[0].wind.norm(), 0.0);
     model.environment.wind = Some(Wind { speed: 25.0, direction: PI / 2.0 });
     model.environment.wind_history = None;
-    let (around, _) = of(&model);
+    let (around, _) = build_ambient(&model);
     around.mean(&[Vector3::new(0.0, 0.0, 11.0)], &mut out);
     assert!((out[0].wind - Vector3::new(0.0, -25.0, 0.0)).norm() < 1e-9);
     // gusts are the same at all heights
-    model.environment.gusts = named("NPD", None);
-    let (around, _) = of(&model);
+    model.environment.gusts = curve_reference("NPD", None);
+    let (around, _) = build_ambient(&model);
     let gust = |z: f64| flow(&around, 12.0, [0.0, 0.0, z]).wind.norm();
     let still = |z: f64| 25.0 * (z / 10.0f64).powf(1.0 / 7.0);
     assert!((gust(11.0) - 25.0).abs() > 1e-3);
@@ -216,16 +216,16 @@ fn wind_has_profile_and_history() {
 
 #[test]
 fn growth_is_half_of_diameter_increase() {
-    let mut model = model(Environment { growth: named("GROW", None), ..Environment::default() });
+    let mut model = model(Environment { growth: curve_reference("GROW", None), ..Environment::default() });
     curve(&mut model, "GROW", CurveKind::MarineGrowth, &[(-40.0, 0.1), (0.0, 0.2)]);
-    let (around, _) = of(&model);
+    let (around, _) = build_ambient(&model);
     assert_eq!(around.growth(0.0), (0.1, super::super::growth::DEFAULT_DENSITY));
     assert!((around.growth(-20.0).0 - 0.075).abs() < 1e-15);
     assert_eq!(around.growth(0.1).0, 0.0);
-    model.environment.growth = named("GROW", Some(1100.0));
-    assert_eq!(of(&model).0.growth(0.0).1, 1100.0);
+    model.environment.growth = curve_reference("GROW", Some(1100.0));
+    assert_eq!(build_ambient(&model).0.growth(0.0).1, 1100.0);
     model.environment.growth = None;
-    assert_eq!(of(&model).0.growth(0.0), (0.0, 0.0));
+    assert_eq!(build_ambient(&model).0.growth(0.0), (0.0, 0.0));
 }
 
 #[test]
@@ -237,33 +237,33 @@ fn seabed_is_flat_or_gridded_and_current_continues_below_flat_one() {
     };
     let mut model = model(env);
     let deep = Vector3::new(50.0, 0.0, -54.0);
-    let (around, _) = of(&model);
+    let (around, _) = build_ambient(&model);
     assert_eq!(around.bottom(3.0, 4.0), Some((-50.0, [0.0, 0.0])));
     assert!((flow(&around, 0.0, deep.into()).velocity.x - 1.0).abs() < 1e-15);
     let heights = [-50.0, -60.0, -50.0, -60.0];
     let grid = Bathymetry::new("SLOPE", vec![0.0, 100.0], vec![0.0, 100.0], &heights, Span::default()).unwrap();
     model.bathymetries.insert("SLOPE".into(), Arc::new(grid));
-    model.environment.bathymetry = named("slope", None);
-    let (around, _) = of(&model);
+    model.environment.bathymetry = curve_reference("slope", None);
+    let (around, _) = build_ambient(&model);
     let (z, [by_x, by_y]) = around.bottom(50.0, 70.0).unwrap();
     assert!((z + 55.0).abs() < 1e-12 && (by_x + 0.1).abs() < 1e-15 && by_y.abs() < 1e-15);
     assert!((flow(&around, 0.0, deep.into()).velocity.x - 1.0).abs() < 1e-15);
-    model.environment.bathymetry = named("GONE", None);
+    model.environment.bathymetry = curve_reference("GONE", None);
     assert!(ambient(&model, None).unwrap_err().to_string().contains("no bathymetry GONE"));
     model.environment = Environment::default();
     model.defaults.depth = None;
-    assert_eq!(of(&model).0.bottom(0.0, 0.0), None);
+    assert_eq!(build_ambient(&model).0.bottom(0.0, 0.0), None);
 }
 
 #[test]
 fn contents_match_set_named_by_environment() {
-    let mut model = model(Environment { filling: named("HOT", None), ..Environment::default() });
+    let mut model = model(Environment { filling: curve_reference("HOT", None), ..Environment::default() });
     assert!(ambient(&model, None).unwrap_err().to_string().contains("no set of T_PRESSURE data HOT"));
     let contents = Contents { warmer: 60.0, pressure: 1.5e7, at: 12.0, density: 800.0 };
     model.fillings.insert("HOT".into(), Filling { name: "Hot".into(), contents, span: Span::default() });
-    assert_eq!(of(&model).0.contents(), Some(contents));
+    assert_eq!(build_ambient(&model).0.contents(), Some(contents));
     model.environment.filling = None;
-    assert_eq!(of(&model).0.contents(), None);
+    assert_eq!(build_ambient(&model).0.contents(), None);
 }
 
 #[test]
@@ -280,7 +280,7 @@ fn many_points_match_single_point_evaluation() {
         current: Some(Current::Uniform { velocity: 1.0, direction: PI }),
         ..Environment::default()
     };
-    let (around, _) = of(&model(env));
+    let (around, _) = build_ambient(&model(env));
     let places: Vec<Vector3<f64>> =
         (0..200).map(|i| Vector3::new(3.0 * f64::from(i), f64::from(i), -190.0 + f64::from(i))).collect();
     let mut out = vec![Flow::still(0.0); places.len()];

@@ -177,7 +177,7 @@ mod tests {
         model
     }
 
-    fn made(model: &Model) -> Sea {
+    fn build_sea(model: &Model) -> Sea {
         Sea::new(model, &model.environment).unwrap().unwrap()
     }
 
@@ -185,7 +185,7 @@ mod tests {
     fn all_components_are_in_phase_at_reinforcement_time() {
         let mut model = model("JONSWAP");
         model.environment.phasing = Some(Phasing::Reinforced(500.0));
-        let sea = made(&model);
+        let sea = build_sea(&model);
         let highest: f64 = sea.components.iter().map(|c| c.amplitude).sum();
         assert!((sea.elevation(0.0, 0.0, 500.0) / highest - 1.0).abs() < 1e-12);
         assert_eq!((sea.reinforcement, sea.seed), (Some(500.0), None));
@@ -194,7 +194,7 @@ mod tests {
     #[test]
     fn default_sea_is_reproducible_with_realistic_crest() {
         let model = model("ISSC");
-        let (sea, again) = (made(&model), made(&model));
+        let (sea, again) = (build_sea(&model), build_sea(&model));
         assert_eq!((sea.components.len(), sea.seed), (USUAL_NUMBER, Some(1)));
         assert_eq!(sea.components, again.components);
         let record: Vec<f64> = (0..21_600).map(|i| sea.elevation(0.0, 0.0, 0.5 * f64::from(i))).collect();
@@ -207,7 +207,7 @@ mod tests {
 
     #[test]
     fn waves_propagate_away_from_their_source_direction() {
-        let sea = made(&model("REGULAR"));
+        let sea = build_sea(&model("REGULAR"));
         let [wave] = sea.components[..] else { panic!("one wave") };
         assert_eq!(wave.amplitude, 2.0);
         // the crest at the origin at t = 0 is after t at c t along the direction of travel, 210 degrees
@@ -220,7 +220,7 @@ mod tests {
     fn added_sea_adds_energy_with_independent_phases() {
         let mut model = model("ISSC");
         model.environment.added_sea = model.environment.sea.clone();
-        let sea = made(&model);
+        let sea = build_sea(&model);
         let energy: f64 = sea.components.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
         assert!((energy - 2.0).abs() < 1e-9);
         assert_ne!(sea.components[0].phase, sea.components[USUAL_NUMBER].phase);
@@ -232,7 +232,7 @@ mod tests {
     fn ramped_wave_equals_wave_times_its_factor() {
         let mut model = model("STOKES");
         model.environment.ramp = Some(40.0);
-        let sea = made(&model);
+        let sea = build_sea(&model);
         let stokes = sea.stokes.unwrap();
         let time = 13.0;
         assert!((sea.elevation(5.0, 1.0, time) - sea.factor(time) * stokes.elevation(5.0, 1.0, time)).abs() < 1e-12);

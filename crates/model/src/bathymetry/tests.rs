@@ -1,6 +1,6 @@
 use super::*;
 
-fn made(x: &[f64], y: &[f64], height: impl Fn(f64, f64) -> f64) -> Bathymetry {
+fn bathymetry(x: &[f64], y: &[f64], height: impl Fn(f64, f64) -> f64) -> Bathymetry {
     let heights: Vec<f64> = y.iter().flat_map(|y| x.iter().map(|x| height(*x, *y)).collect::<Vec<_>>()).collect();
     Bathymetry::new("B", x.to_vec(), y.to_vec(), &heights, Span::default()).unwrap()
 }
@@ -13,7 +13,7 @@ fn quadratic_surface_is_interpolated_exactly_with_slopes() {
     let height = |x: f64, y: f64| {
         -500.0 + 0.1 * x - 0.05 * y + 2e-4 * x * x - 3e-4 * y * y + 1e-4 * x * y + 2e-9 * x * x * y * y
     };
-    let bottom = made(&X, &Y, height);
+    let bottom = bathymetry(&X, &Y, height);
     for i in 0..40 {
         for j in 0..30 {
             let (x, y) = (-300.0 + 700.0 * f64::from(i) / 39.0, -200.0 + 460.0 * f64::from(j) / 29.0);
@@ -28,7 +28,7 @@ fn quadratic_surface_is_interpolated_exactly_with_slopes() {
 
 #[test]
 fn slopes_match_finite_differences_of_depth_and_are_continuous() {
-    let bottom = made(&X, &Y, |x, y| -100.0 + 20.0 * (x / 90.0).sin() * (y / 70.0).cos());
+    let bottom = bathymetry(&X, &Y, |x, y| -100.0 + 20.0 * (x / 90.0).sin() * (y / 70.0).cos());
     let step = 1e-4;
     for i in 0..50 {
         for j in 0..50 {
@@ -53,7 +53,7 @@ fn slopes_match_finite_differences_of_depth_and_are_continuous() {
 
 #[test]
 fn four_corners_give_a_plane_constant_beyond_its_edges() {
-    let bottom = made(&[0.0, 100.0], &[0.0, 50.0], |x, y| -20.0 - 0.1 * x + 0.2 * y);
+    let bottom = bathymetry(&[0.0, 100.0], &[0.0, 50.0], |x, y| -20.0 - 0.1 * x + 0.2 * y);
     let near = |found: (f64, [f64; 2]), z: f64, slopes: [f64; 2]| {
         assert!((found.0 - z).abs() < 1e-12, "{found:?}");
         assert!((0..2).all(|i| (found.1[i] - slopes[i]).abs() < 1e-13), "{found:?}");
@@ -72,7 +72,7 @@ fn smooth_bathymetry_converges_with_third_order() {
     let height = |x: f64, y: f64| (x / 50.0).sin() + (y / 40.0).cos() * (x / 80.0).cos();
     let error = |count: u32| {
         let places: Vec<f64> = (0..=count).map(|i| 200.0 * f64::from(i) / f64::from(count)).collect();
-        let bottom = made(&places, &places, height);
+        let bottom = bathymetry(&places, &places, height);
         let off = |i: u32| {
             let at = (200.0 * (f64::from(i) * 0.618_034).fract(), 200.0 * (f64::from(i) * 0.754_878).fract());
             (bottom.elevation_and_slopes(at.0, at.1).0 - height(at.0, at.1)).abs()
@@ -89,7 +89,7 @@ fn point_file_gives_same_bathymetry_in_any_order() {
     let mut points: Vec<[f64; 3]> = X.iter().flat_map(|x| Y.iter().map(|y| [*x, *y, height(*x, *y)])).collect();
     points.reverse();
     points.swap(3, 11);
-    assert_eq!(Bathymetry::from_points("B", points, Span::default()).unwrap(), made(&X, &Y, height));
+    assert_eq!(Bathymetry::from_points("B", points, Span::default()).unwrap(), bathymetry(&X, &Y, height));
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn invalid_bathymetry_is_refused_with_reason() {
 
 #[test]
 fn bathymetry_reports_extent_size_and_depths() {
-    let bottom = made(&X, &Y, |x, _| -100.0 + 0.1 * x);
+    let bottom = bathymetry(&X, &Y, |x, _| -100.0 + 0.1 * x);
     assert_eq!(bottom.extent(), [[-300.0, 400.0], [-200.0, 260.0]]);
     assert_eq!((bottom.size(), bottom.heights()), ([5, 4], [-130.0, -60.0]));
 }

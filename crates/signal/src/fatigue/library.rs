@@ -133,7 +133,7 @@ pub fn find(name: &str, selection: &FatigueSelection) -> Option<SnCurve> {
 mod tests {
     use super::*;
 
-    fn named(name: &str) -> SnCurve {
+    fn find_curve(name: &str) -> SnCurve {
         find(name, &FatigueSelection::default()).unwrap()
     }
 
@@ -183,22 +183,22 @@ mod tests {
     #[test]
     fn tension_curves_match_reference() {
         // [API-RP-2SK]: N R^M = K
-        assert!((named("CHAIN").cycles(0.1, 0.3).unwrap() - 1e6).abs() < 1e-3);
-        assert_eq!(named("API_CHAIN"), named("chain"));
-        assert!((named("API_STUDLESS").cycles(0.1, 0.0).unwrap() / 316e3 - 1.0).abs() < 1e-12);
+        assert!((find_curve("CHAIN").cycles(0.1, 0.3).unwrap() - 1e6).abs() < 1e-3);
+        assert_eq!(find_curve("API_CHAIN"), find_curve("chain"));
+        assert!((find_curve("API_STUDLESS").cycles(0.1, 0.0).unwrap() / 316e3 - 1.0).abs() < 1e-12);
         let wire = 10f64.powf(3.20 - 2.79 * 0.3) / 0.1f64.powf(4.09);
-        assert!((named("WIRE").cycles(0.1, 0.3).unwrap() / wire - 1.0).abs() < 1e-12);
+        assert!((find_curve("WIRE").cycles(0.1, 0.3).unwrap() / wire - 1.0).abs() < 1e-12);
         let spiral = 10f64.powf(3.25 - 3.43 * 0.3) / 0.1f64.powf(5.05);
-        assert!((named("API_SPIRAL").cycles(0.1, 0.3).unwrap() / spiral - 1.0).abs() < 1e-12);
+        assert!((find_curve("API_SPIRAL").cycles(0.1, 0.3).unwrap() / spiral - 1.0).abs() < 1e-12);
         // [DNV-OS-E301]: studless chain 6.0e10 S^-3
-        let studless = named("DNV_STUDLESS");
+        let studless = find_curve("DNV_STUDLESS");
         assert!((studless.cycles(100.0, 0.0).unwrap() / 6.0e4 - 1.0).abs() < 1e-3 && studless.legs == 2.0);
         assert!(find("NOTHING", &FatigueSelection::default()).is_none());
     }
 
     #[test]
     fn endurance_limit_gives_no_damage_below() {
-        let x = named("API_X");
+        let x = find_curve("API_X");
         assert!(x.damage(34.0, 0.0) == 0.0 && x.damage(36.0, 0.0) > 0.0 && x.unconfirmed);
     }
 }

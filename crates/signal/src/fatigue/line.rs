@@ -178,7 +178,7 @@ mod tests {
     use crate::fatigue::find;
     use windlass_model::FatigueSelection;
 
-    fn named(name: &str) -> SnCurve {
+    fn find_curve(name: &str) -> SnCurve {
         find(name, &FatigueSelection::default()).unwrap()
     }
 
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn equal_cycles_give_number_over_life() {
-        let (chain, wire, tension) = (named("CHAIN"), named("WIRE"), record());
+        let (chain, wire, tension) = (find_curve("CHAIN"), find_curve("WIRE"), record());
         let (a, b) = (segment(5e6, 0.1), segment(4e6, 0.08));
         let made = line_damage(
             &[
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn stress_uses_both_chain_legs_and_thickness_factor() {
-        let (chain, plain, tension) = (named("DNV_STUDLESS"), named("DNV_D_FREE"), record());
+        let (chain, plain, tension) = (find_curve("DNV_STUDLESS"), find_curve("DNV_D_FREE"), record());
         let a = segment(5e6, 0.1);
         let of = |curve: &SnCurve, t: Option<&ThicknessCorrection>| {
             line_damage(&[Loaded { segment: &a, curve, tension: &tension }], t).unwrap().segments[0].damage
@@ -230,19 +230,19 @@ mod tests {
 
     #[test]
     fn largest_stress_segment_governs_where_a_stress_curve_exists() {
-        let (stress, tension) = (named("DNV_D_FREE"), record());
+        let (stress, tension) = (find_curve("DNV_D_FREE"), record());
         // the first is nearer its break, the second has the higher stress
         let (a, b) = (segment(2e6, 0.2), segment(9e6, 0.05));
         let load = |segment| Loaded { segment, curve: &stress, tension: &tension };
         assert_eq!(line_damage(&[load(&a), load(&b)], None).unwrap().governing, 1);
-        let chain = named("CHAIN");
+        let chain = find_curve("CHAIN");
         let made = line_damage(&[Loaded { segment: &a, curve: &chain, tension: &tension }, load(&b)], None).unwrap();
         assert_eq!(made.governing, 0);
     }
 
     #[test]
     fn segment_without_strength_is_refused() {
-        let (chain, tension) = (named("CHAIN"), record());
+        let (chain, tension) = (find_curve("CHAIN"), record());
         let a = segment(0.0, 0.1);
         assert!(line_damage(&[Loaded { segment: &a, curve: &chain, tension: &tension }], None).is_err());
         assert!(line_damage(&[], None).is_err());
@@ -250,7 +250,7 @@ mod tests {
 
     #[test]
     fn segment_life_weights_environments_by_duration() {
-        let (chain, tension) = (named("CHAIN"), record());
+        let (chain, tension) = (find_curve("CHAIN"), record());
         let a = segment(5e6, 0.1);
         let storm = line_damage(&[Loaded { segment: &a, curve: &chain, tension: &tension }], None).unwrap();
         let calm: Vec<f64> = tension.iter().map(|t| 1e6 + (t - 1e6) / 2.0).collect();

@@ -114,7 +114,7 @@ mod tests {
     use std::f64::consts::PI;
     use windlass_model::FatigueSelection;
 
-    fn named(name: &str) -> SnCurve {
+    fn find_curve(name: &str) -> SnCurve {
         find(name, &FatigueSelection::default()).unwrap()
     }
 
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn single_slope_damage_matches_narrow_band_closed_form() {
-        let curve = named("DNV_D_FREE");
+        let curve = find_curve("DNV_D_FREE");
         let m = flat(400.0, 0.6, 0.7);
         let rate = (m[2] / m[0]).sqrt() / TAU;
         // m = 3: (2 sqrt 2 sigma)^3 Gamma(5/2), Gamma(5/2) = 3 sqrt(pi) / 4
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn two_slope_damage_matches_integral_of_density() {
-        let curve = named("DNV_D_AIR");
+        let curve = find_curve("DNV_D_AIR");
         let m = flat(225.0, 0.3, 1.5);
         let (steps, top) = (200_000, 15.0 * 15.0);
         let h = top / f64::from(steps);
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn dirlik_of_impossible_moments_is_refused() {
-        let curve = named("DNV_D_FREE");
+        let curve = find_curve("DNV_D_FREE");
         // of a process m1^2 <= m0 m2: 0.9025 is more than 0.81
         assert!(dirlik(&[1.0, 0.95, 0.81, 1.0], &curve, 0.0).is_err());
         assert!(dirlik(&[1.0, 0.89, 0.81, 1.0], &curve, 0.0).is_ok());
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn dirlik_approaches_narrow_band_from_below() {
-        let curve = named("DNV_D_FREE");
+        let curve = find_curve("DNV_D_FREE");
         let narrow = flat(400.0, 0.99, 1.01);
         let ratio = dirlik(&narrow, &curve, 0.0).unwrap() / narrow_band(&narrow, &curve, 0.0).unwrap();
         // the weights leave a few per cent at a width of two per cent
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn impossible_spectral_moments_are_refused() {
-        let curve = named("CHAIN");
+        let curve = find_curve("CHAIN");
         assert!(dirlik(&[1.0, 1.0, 2.0, 1.0], &curve, 0.0).is_err());
         assert!(narrow_band(&[0.0, 1.0, 1.0, 1.0], &curve, 0.0).is_err());
         assert!(narrow_band(&[f64::NAN, 1.0, 1.0, 1.0], &curve, 0.0).is_err());

@@ -105,34 +105,37 @@ mod tests {
         History { layout, values: (0..=20).map(|n| 0.5 * f64::from(n)).collect() }
     }
 
-    fn asked(begin: f64, end: Option<f64>, increment: Option<f64>) -> Result<Vec<(usize, f64)>, ClassError> {
+    fn events_between(begin: f64, end: Option<f64>, increment: Option<f64>) -> Result<Vec<(usize, f64)>, ClassError> {
         let found = events(&history(), Some(&EventWindow { begin, end, increment }))?;
         Ok(found.into_iter().map(|e| (e.row, e.share)).collect())
     }
 
     #[test]
     fn events_are_times_and_end_beyond_data_is_clipped() {
-        assert_eq!(asked(9.0, Some(9000.0), None).unwrap(), [(18, 0.0), (19, 0.0), (20, 0.0)]);
-        assert_eq!(asked(8.0, Some(9000.0), Some(1.0)).unwrap(), [(16, 0.0), (18, 0.0), (20, 0.0)]);
+        assert_eq!(events_between(9.0, Some(9000.0), None).unwrap(), [(18, 0.0), (19, 0.0), (20, 0.0)]);
+        assert_eq!(events_between(8.0, Some(9000.0), Some(1.0)).unwrap(), [(16, 0.0), (18, 0.0), (20, 0.0)]);
         assert_eq!(
-            asked(-3.0, Some(0.0), Some(2.0)).unwrap_err().to_string().matches("none of the instants").count(),
+            events_between(-3.0, Some(0.0), Some(2.0)).unwrap_err().to_string().matches("none of the instants").count(),
             1
         );
-        assert_eq!(asked(-2.0, Some(0.0), Some(2.0)).unwrap(), [(0, 0.0)]);
+        assert_eq!(events_between(-2.0, Some(0.0), Some(2.0)).unwrap(), [(0, 0.0)]);
         assert_eq!(events(&history(), None).unwrap().len(), 21);
     }
 
     #[test]
     fn instant_between_stored_ones_has_its_fraction() {
-        assert_eq!(asked(1.0, Some(1.5), Some(0.125)).unwrap(), [(2, 0.0), (2, 0.25), (2, 0.5), (2, 0.75), (3, 0.0)]);
+        assert_eq!(
+            events_between(1.0, Some(1.5), Some(0.125)).unwrap(),
+            [(2, 0.0), (2, 0.25), (2, 0.5), (2, 0.75), (3, 0.0)]
+        );
     }
 
     #[test]
     fn empty_or_too_large_time_windows_are_refused() {
-        assert!(asked(11.0, None, None).is_err());
-        assert!(asked(0.6, Some(0.7), None).is_err());
-        assert!(asked(5.0, Some(4.0), None).unwrap_err().to_string().contains("before it begins"));
-        assert!(asked(0.0, None, Some(1e-9)).unwrap_err().to_string().contains("two million"));
+        assert!(events_between(11.0, None, None).is_err());
+        assert!(events_between(0.6, Some(0.7), None).is_err());
+        assert!(events_between(5.0, Some(4.0), None).unwrap_err().to_string().contains("before it begins"));
+        assert!(events_between(0.0, None, Some(1e-9)).unwrap_err().to_string().contains("two million"));
         assert!(events(&History::default(), None).is_err());
     }
 }

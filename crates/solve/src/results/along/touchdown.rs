@@ -24,7 +24,7 @@ pub fn touchdown(line: &LineResults, events: &[RunEvent]) -> Result<Table, Solve
         };
         let Some((number, node)) = there.get(first) else { return Ok(Touchdown::NONE) };
         let before = |back: usize| first.checked_sub(back).and_then(|i| there.get(i)).map(|(_, n)| n);
-        let (arc, place) = met(before(2), before(1), node);
+        let (arc, place) = interpolate_touchdown(before(2), before(1), node);
         let lies = |pair: &&[(usize, NodeRow)]| pair.iter().all(|(_, n)| n.clearance <= 0.0);
         let pairs = there.windows(2).filter(lies).filter_map(|p| Some(p.last()?.1.arc - p.first()?.1.arc));
         let (node_arc, tension) = (node.arc, node.effective);
@@ -72,7 +72,7 @@ impl Touchdown {
 
 /// The unstretched distance and the place at which a line comes down between the last node off the bottom and the first on it. A
 /// heavy line leaves the bottom with the height growing as the square of the distance, so that the roots of two heights tell where from.
-fn met(far: Option<&NodeRow>, last: Option<&NodeRow>, first: &NodeRow) -> (f64, [f64; 3]) {
+fn interpolate_touchdown(far: Option<&NodeRow>, last: Option<&NodeRow>, first: &NodeRow) -> (f64, [f64; 3]) {
     let Some(last) = last else { return (first.arc, first.position) };
     let far = far.filter(|f| f.clearance > last.clearance && last.clearance > 0.0);
     let on = far.map_or(first.arc, |far| {
@@ -101,12 +101,12 @@ mod tests {
         // heights 0.02 (s - 7.3)^2 on the way down
         let height = |s: f64| 0.02 * (s - 7.3f64).powi(2);
         let [far, last, first] = [node(5.0, height(5.0)), node(6.0, height(6.0)), node(8.0, -0.001)];
-        let (arc, at) = met(Some(&far), Some(&last), &first);
+        let (arc, at) = interpolate_touchdown(Some(&far), Some(&last), &first);
         assert!((arc - 7.3).abs() < 1e-12 && (at[0] - 73.0).abs() < 1e-9, "{arc} {at:?}");
         // never beyond the node that lies
-        assert_eq!(met(Some(&far), Some(&last), &node(7.0, 0.0)).0, 7.0);
+        assert_eq!(interpolate_touchdown(Some(&far), Some(&last), &node(7.0, 0.0)).0, 7.0);
         // without a node to tell the slope by, that node
-        assert_eq!(met(None, Some(&last), &first).0, 8.0);
-        assert_eq!(met(None, None, &first), (8.0, first.position));
+        assert_eq!(interpolate_touchdown(None, Some(&last), &first).0, 8.0);
+        assert_eq!(interpolate_touchdown(None, None, &first), (8.0, first.position));
     }
 }

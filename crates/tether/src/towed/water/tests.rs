@@ -41,7 +41,7 @@ fn case(compatibility: TowedCompatibility, depth: Option<f64>) -> Towed {
 }
 
 /// Elevation and flow at a place of the tether's axes.
-fn at(waters: &Waters, time: f64, x: f64, y: f64, height: f64) -> (f64, TowedFlow) {
+fn flow_at(waters: &Waters, time: f64, x: f64, y: f64, height: f64) -> (f64, TowedFlow) {
     let (mut turns, mut place) = (Vec::new(), Vec::new());
     waters.at_time(time, &mut turns);
     waters.at_place(x, y, &mut place);
@@ -72,7 +72,7 @@ fn towed_water_matches_sea_in_tether_axes() {
         let (sin, cos) = 0.7f64.sin_cos();
         for (time, x, y, height) in [(0.0, 0.0, 0.0, -1.0), (7.3, 6.0, -0.4, -3.0), (12.9, 9.0, 2.0, -0.9)] {
             let global = Vector3::new(-20.0 + cos * x - sin * y, 4.0 + sin * x + cos * y, height);
-            let (elevation, flow) = at(&waters, time, x, y, height);
+            let (elevation, flow) = flow_at(&waters, time, x, y, height);
             let want = sea.kinematics(global, time);
             assert!((elevation - sea.elevation(global.x, global.y, time)).abs() < 1e-13);
             assert!(height < elevation, "the place is under water");
@@ -95,8 +95,8 @@ fn towed_surface_matches_surface_at_current_position() {
     let (sin, cos) = 0.7f64.sin_cos();
     for t in [0.0, 3.0, 11.0] {
         let (dx, dy) = (cos * vx + sin * vy, cos * vy - sin * vx);
-        let (passed, flow) = at(&one, t, 2.0 + dx * t, 1.0 + dy * t, -2.0);
-        let (met, felt) = at(&other, t, 2.0, 1.0, -2.0);
+        let (passed, flow) = flow_at(&one, t, 2.0 + dx * t, 1.0 + dy * t, -2.0);
+        let (met, felt) = flow_at(&other, t, 2.0, 1.0, -2.0);
         assert!((passed - met).abs() < 1e-13);
         assert!((flow.velocity[0] - dx - felt.velocity[0]).abs() < 1e-13);
         assert!((flow.velocity[1] - dy - felt.velocity[1]).abs() < 1e-13);
