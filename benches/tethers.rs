@@ -31,7 +31,7 @@ fn afloat(elements: usize) -> Model {
 }
 
 /// Everything that a listing tells of a run.
-fn told(made: &Tethered) {
+fn print_result(made: &Tethered) {
     let whole = TetherStatistics::new(made, 24.75, f64::INFINITY);
     let asked = FatigueSettings { duration: 1.0, curve: Endurance::KILONEWTONS.in_unit(1000.0), peak_time: 10_800.0 };
     for tether in &made.tethers {
@@ -51,7 +51,7 @@ fn pass(name: &str, model: &Model, settings: TetherRunSettings, statistics: bool
         let (start, clock) = (measured::processor(), Instant::now());
         let made = run(model, settings, &mut |_| true).unwrap();
         if statistics {
-            told(&made);
+            print_result(&made);
         }
         let spent = measured::processor().zip(start).map(|(end, start)| end - start).filter(|s| *s > 0.5);
         least = least.min(spent.unwrap_or(clock.elapsed().as_secs_f64()));

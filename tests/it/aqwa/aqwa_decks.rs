@@ -166,7 +166,7 @@ fn inmodel_reads_model_of_deck_and_keeps_units_and_job() {
 }
 
 #[test]
-fn deck_with_error_runs_nothing() {
+fn deck_with_error_is_not_run() {
     for (from, to, said) in [
         (" END14TETH    1 1040    0 9040", " END14TETH    1 1040    0 9999", "9999"),
         (" END15VEL1               0.000", " END15VEL1               1.000", "at rest"),
@@ -306,7 +306,7 @@ fn unsupported_deck_data_is_refused_with_card_and_alternative() {
 }
 
 #[test]
-fn data_check_runs_nothing_and_reports_it() {
+fn data_check_is_reported_and_not_run() {
     let made = records(&edited("OPTIONS END", "OPTIONS DATA END")).unwrap();
     assert!(!made.job.iter().any(|line| line.starts_with("TDOM")), "{:?}", made.job);
     assert!(
@@ -378,7 +378,7 @@ fn placed(deck: &str) -> (Session, String) {
     (session, text)
 }
 
-fn near(got: f64, want: f64) {
+fn assert_near(got: f64, want: f64) {
     // the digits given
     assert!((got / want - 1.0).abs() < 1e-8, "{got} is not {want}");
 }
@@ -393,13 +393,13 @@ fn deck_line_is_on_seabed_at_its_anchor() {
         let (session, text) = placed(&moored("LIBR", depth, &cards, STILL));
         assert_eq!(text.contains("-DEPANCHOR 100"), depth > 100.0, "{text}");
         let [pull] = pulls(&session.job.model)[..] else { panic!() };
-        near(pull[0], 135470.09879651);
-        near(-pull[2], 211989.18607666);
+        assert_near(pull[0], 135470.09879651);
+        assert_near(-pull[2], 211989.18607666);
     }
     // the anchor first and the structure second: the same line
     let swapped = cards.replace("    1    2    0   12", "    0   12    1    2");
     let (session, _) = placed(&moored("LIBR", 100.0, &swapped, STILL));
-    near(pulls(&session.job.model)[0][0], 135470.09879651);
+    assert_near(pulls(&session.job.model)[0][0], 135470.09879651);
 }
 
 #[test]
@@ -411,9 +411,9 @@ fn composite_lines_to_anchors_at_two_depths_each_reach_own_seabed() {
     let (session, text) = placed(&moored("LIBR", 100.0, &cards, STILL));
     assert!(text.contains("~COMP1_2 CATENARY 150 0.018 -LEN 570 -EA 600000000 -TMAX 5000000 -DEPANCHOR 95"), "{text}");
     let [first, second] = pulls(&session.job.model)[..] else { panic!() };
-    near(first[0], 135470.09879651);
-    near(second[1], 111006.07003181);
-    near(-second[2], 190715.33656658);
+    assert_near(first[0], 135470.09879651);
+    assert_near(second[1], 111006.07003181);
+    assert_near(-second[2], 190715.33656658);
 }
 
 #[test]
@@ -431,8 +431,8 @@ fn composite_joints_weigh_mass_less_displaced_water() {
         );
         let (session, _) = placed(&moored("LIBR", 100.0, &cards, STILL));
         let [pull] = pulls(&session.job.model)[..] else { panic!() };
-        near(pull[0], horizontal);
-        near(-pull[2], vertical);
+        assert_near(pull[0], horizontal);
+        assert_near(-pull[2], vertical);
     }
 }
 
@@ -447,19 +447,25 @@ fn said(text: &str) -> Vec<Diagnostic> {
 fn composite_table_and_anchor_off_seabed_are_reported() {
     let cards = |comp: &str| format!("    14COMP{comp}\n{SECTION} END14NLIN    1    2    0   12\n");
     let plain = "                   1";
-    let told = |depth: f64, comp: &str| {
+    let remarks = |depth: f64, comp: &str| {
         let list = said(&moored("LIBR", depth, &cards(comp), STILL));
         list.into_iter().map(|m| format!("{:?}: {}", m.severity, m.message)).collect::<Vec<_>>().join("\n")
     };
-    assert_eq!(told(100.0, plain), "");
+    assert_eq!(remarks(100.0, plain), "");
     for comp in ["   10              1", "        20         1", "                   1     -20.0       0.0"] {
         assert_eq!(
-            told(100.0, comp),
+            remarks(100.0, comp),
             "Note: deck 14, COMP: no table is made; a line is solved exactly at each position"
         );
     }
-    assert_eq!(told(150.0, plain), "Note: deck 14: the anchor of this line is at Z = -100, above the sea bed at -150");
-    assert_eq!(told(80.0, plain), "Warning: deck 14: the anchor of this line is at Z = -100, below the sea bed at -80");
+    assert_eq!(
+        remarks(150.0, plain),
+        "Note: deck 14: the anchor of this line is at Z = -100, above the sea bed at -150"
+    );
+    assert_eq!(
+        remarks(80.0, plain),
+        "Warning: deck 14: the anchor of this line is at Z = -100, below the sea bed at -80"
+    );
 }
 
 #[test]

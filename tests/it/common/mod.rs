@@ -17,6 +17,16 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
+/// Fails unless a number is another to a share of it, or to that share of 1 where it is smaller.
+pub fn assert_near(got: f64, want: f64, share: f64) {
+    assert!((got - want).abs() <= share * want.abs().max(1.0), "{got} is not {want}");
+}
+
+/// Fails unless a number is another to a share of it, however small it is.
+pub fn assert_share(got: f64, want: f64, share: f64) {
+    assert!((got - want).abs() <= share * want.abs().max(1e-9), "{got} is not {want}");
+}
+
 /// What a session prints.
 #[derive(Clone, Default)]
 pub struct Screen(Arc<Mutex<Vec<u8>>>);

@@ -2,6 +2,7 @@
 //! does not stretch, y = H/w (cosh(w x/H) - 1), against AE/L, and against each other.
 
 use crate::common;
+use crate::common::assert_near;
 
 use std::collections::HashMap;
 use windlass::session::Session;
@@ -71,10 +72,6 @@ fn closed(force: f64, h: f64, length: f64) -> [f64; 3] {
     [length - suspended + a * (1.0 + h / a).acosh(), 1000.0 * suspended, suspended]
 }
 
-fn near(got: f64, want: f64, share: f64) {
-    assert!((got - want).abs() <= share * want.abs().max(1.0), "{got} is not {want}");
-}
-
 /// Whether a number is what a report shows of another: forces to 1 N, distances to 0.01 m, ratios to 0.001.
 fn printed(got: f64, want: f64) -> bool {
     (got - want).abs() <= if want.abs() > 1e4 { 0.51 } else { 0.0051 }
@@ -87,21 +84,21 @@ fn stiff_line_shape_matches_closed_form_catenary() {
     let done =
         run(&stiff("", 900.0), |_| (), "CONN_DESIGN\nGEOMETRY A -HORIZONTAL 300000\nREPORT X\nSTORE t\nEND\nEND");
     let [x, _, suspended] = closed(force, 200.0, 1010.0);
-    near(suspended, 400.0, 1e-12);
+    assert_near(suspended, 400.0, 1e-12);
     let touchdown = x - 610.0;
     let (xs, zs, arcs) = (done.column("X"), done.column("Z"), done.column("Arc Length"));
     let (tensions, angles) = (done.column("Tension"), done.column("Angle"));
-    near(*xs.last().unwrap(), x, 1e-8);
+    assert_near(*xs.last().unwrap(), x, 1e-8);
     for i in 0..xs.len() {
         let u = ((touchdown - xs[i]) / a).max(0.0);
-        near(zs[i], -200.0 + a * (u.cosh() - 1.0), 1e-8);
-        near(arcs[i], if u > 0.0 { 400.0 - a * u.sinh() } else { 400.0 + xs[i] - touchdown }, 1e-8);
-        near(tensions[i], force * u.cosh(), 1e-8);
-        near(angles[i], u.sinh().atan().to_degrees(), 1e-7);
+        assert_near(zs[i], -200.0 + a * (u.cosh() - 1.0), 1e-8);
+        assert_near(arcs[i], if u > 0.0 { 400.0 - a * u.sinh() } else { 400.0 + xs[i] - touchdown }, 1e-8);
+        assert_near(tensions[i], force * u.cosh(), 1e-8);
+        assert_near(angles[i], u.sinh().atan().to_degrees(), 1e-7);
     }
     let marked: Vec<usize> = (0..xs.len()).filter(|i| done.stored["Touchdown"][*i].is_some()).collect();
     assert_eq!(marked.len(), 1);
-    near(xs[marked[0]], touchdown, 1e-8);
+    assert_near(xs[marked[0]], touchdown, 1e-8);
     assert!(done.stored["Joint"].iter().all(Option::is_none));
     for fact in ["Horizontal Force                 = 300000 N", "Tension at Top                   = 500000 N"] {
         assert!(done.text.contains(fact), "{fact} is not in\n{}", done.text);
@@ -118,7 +115,7 @@ fn every_configuration_request_gives_same_configuration() {
     for other in [shape(x, ""), shape(900.0, "-TENSION 5E5"), shape(900.0, &format!("-DISTANCE {x}"))] {
         for name in ["X", "Z", "Tension"] {
             // a force known to 1e-9 leaves the nearly stiff line's distance and with it the force this uncertain
-            other.column(name).iter().zip(want.column(name)).for_each(|(a, b)| near(*a, b, 1e-6));
+            other.column(name).iter().zip(want.column(name)).for_each(|(a, b)| assert_near(*a, b, 1e-6));
         }
     }
 }
@@ -143,7 +140,7 @@ fn sensitivity_tables_match_closed_form_catenary() {
                 ("H. Pull", *force),
                 ("Line on Bottom", l - suspended),
             ] {
-                near(done.column(name)[i], want, 2e-6);
+                assert_near(done.column(name)[i], want, 2e-6);
             }
         }
     };
@@ -197,9 +194,9 @@ fn connector_forces_match_placed_shape_and_point_to_anchor() {
     for (got, want) in row.iter().zip([x, h * c, h * s, -v, h.hypot(v), h.hypot(v) / 1e6, 1.0, 0.0, h]) {
         assert!(printed(*got, want), "{got} is not {want} in {row:?}");
     }
-    near(h, 3e5, 1e-6);
-    near(v, 4e5, 1e-6);
-    near(row[9], 610.0, 1e-5);
+    assert_near(h, 3e5, 1e-6);
+    assert_near(v, 4e5, 1e-6);
+    assert_near(row[9], 610.0, 1e-5);
     assert!(done.text.lines().any(|l| l.trim_start().starts_with("A ") && l.contains(" exact ")));
 }
 
@@ -211,11 +208,11 @@ fn line_angles_match_catenary_with_and_without_uplift() {
     };
     // on the bottom the slope at the fairlead is V/H, and the height is s tan(b/2) of a suspended length s
     let slack = table(closed(3e5, 200.0, 1010.0)[0]);
-    near(slack.column("Azimuth")[0], 30.0, 1e-6);
-    near(slack.column("Declination")[0], 90.0 - (4f64 / 3.0).atan().to_degrees(), 1e-6);
-    near(slack.column("Uplift")[0], 0.0, 1e-6);
+    assert_near(slack.column("Azimuth")[0], 30.0, 1e-6);
+    assert_near(slack.column("Declination")[0], 90.0 - (4f64 / 3.0).atan().to_degrees(), 1e-6);
+    assert_near(slack.column("Uplift")[0], 0.0, 1e-6);
     let below = (90.0 - slack.column("Declination")[0]).to_radians();
-    near((1010.0 - slack.column("Unstretched")[0]) * (0.5 * below).tan(), 200.0, 1e-5);
+    assert_near((1010.0 - slack.column("Unstretched")[0]) * (0.5 * below).tan(), 200.0, 1e-5);
     // lifted off the bottom by a slope u at the anchor: h = H/w (sqrt(1 + t^2) - sqrt(1 + u^2)), t = u + w L/H, grows as H falls
     let u = 5f64.to_radians().tan();
     let height = |a: f64| a * ((1.0 + (u + 1010.0 / a).powi(2)).sqrt() - (1.0 + u * u).sqrt());
@@ -227,8 +224,8 @@ fn line_angles_match_catenary_with_and_without_uplift() {
     let t = u + 1010.0 / low;
     let taut = table(low * (t.asinh() - u.asinh()));
     // the strain, 3e-8 here, changes the slopes of a line this taut by some thousand times as much
-    near(taut.column("Uplift")[0], 5.0, 1e-4);
-    near(taut.column("Declination")[0], 90.0 - t.atan().to_degrees(), 1e-4);
+    assert_near(taut.column("Uplift")[0], 5.0, 1e-4);
+    assert_near(taut.column("Declination")[0], 90.0 - t.atan().to_degrees(), 1e-4);
     assert!(taut.text.contains("uplift at the anchor: A; drag anchors are rated for none"), "{}", taut.text);
 }
 
@@ -244,13 +241,13 @@ fn line_angles_list_lines_that_do_not_pull_and_dynamic_lines() {
     assert!(tension[0] == Some(0.0) && tension[1] < Some(0.0), "{tension:?}");
     assert_eq!(done.stored["Anchor: Tension"], *tension);
     assert!(declination[0].is_none() && declination[1].is_none());
-    near(declination[2].unwrap(), (5f64 / 12.0).atan().to_degrees(), 1e-6);
-    near(done.stored["Azimuth"][2].unwrap(), (4f64 / 3.0).atan().to_degrees(), 1e-6);
+    assert_near(declination[2].unwrap(), (5f64 / 12.0).atan().to_degrees(), 1e-6);
+    assert_near(done.stored["Azimuth"][2].unwrap(), (4f64 / 3.0).atan().to_degrees(), 1e-6);
     // as a dynamic line of 60 elements the catenary of the test above, to what its elements of 17 m leave
     let records = stiff("EXACT", 0.0).replace("-ANC 30 0", &format!("-ANC 30 {}", closed(3e5, 200.0, 1010.0)[0]));
     let dynamic =
         run(&records, |_| (), "&CONNECTOR A -DYNAMICS 60\n&STATUS LINE_ANGLES -DISPOSE\nSTORE t\nREPORT\nEND");
-    near(dynamic.column("Declination")[0], 90.0 - (4f64 / 3.0).atan().to_degrees(), 1e-3);
+    assert_near(dynamic.column("Declination")[0], 90.0 - (4f64 / 3.0).atan().to_degrees(), 1e-3);
 }
 
 #[test]
@@ -259,11 +256,11 @@ fn constant_tension_line_angles_match_its_chord() {
     let records = "MEDIT\n*P 0 0 0\n*Q 3 4 -12\n~W CT_LINE 100\nCONNECTOR W ~W *P *Q\nEND";
     let done = run(records, |_| (), "&STATUS LINE_ANGLES -DISPOSE\nSTORE t\nREPORT\nEND");
     assert_eq!(done.errors, 0, "{:?}", done.said);
-    near(done.column("Azimuth")[0], (4f64 / 3.0).atan().to_degrees(), 1e-6);
-    near(done.column("Declination")[0], (5f64 / 12.0).atan().to_degrees(), 1e-6);
-    near(done.column("Uplift")[0], (12f64 / 5.0).atan().to_degrees(), 1e-6);
+    assert_near(done.column("Azimuth")[0], (4f64 / 3.0).atan().to_degrees(), 1e-6);
+    assert_near(done.column("Declination")[0], (5f64 / 12.0).atan().to_degrees(), 1e-6);
+    assert_near(done.column("Uplift")[0], (12f64 / 5.0).atan().to_degrees(), 1e-6);
     assert_eq!(done.stored["Fairlead: Tension"], done.stored["Anchor: Tension"]);
-    near(done.stored["Fairlead: Tension"][0].unwrap(), 100.0, 1e-6);
+    assert_near(done.stored["Fairlead: Tension"][0].unwrap(), 100.0, 1e-6);
 }
 
 #[test]
@@ -273,8 +270,8 @@ fn tabulated_connector_forces_are_near_exact_and_marked_tabulated() {
     let row = done.row("A");
     assert!(done.text.lines().any(|l| l.trim_start().starts_with("A ") && l.contains(" table ")), "{}", done.text);
     // thirty rows between 0 and 1 MN: a monotone cubic is within some percent of the steep force
-    near(row[1].hypot(row[2]), 3e5, 0.03);
-    near(-row[3], 4e5, 0.03);
+    assert_near(row[1].hypot(row[2]), 3e5, 0.03);
+    assert_near(-row[3], 4e5, 0.03);
 }
 
 #[test]
@@ -304,7 +301,7 @@ fn inactive_unsolved_or_non_line_connector_stops_no_other() {
     }
     assert!(done.said.iter().any(|m| m == "LOST: the other end of the line has no place"), "{:?}", done.said);
     // one newton per metre over seven metres
-    near(done.row("GS")[1].abs(), 7.0, 1e-9);
+    assert_near(done.row("GS")[1].abs(), 7.0, 1e-9);
 }
 
 #[test]
@@ -322,12 +319,12 @@ fn spring_along_chord_keeps_ae_over_l_at_any_varied_distance() {
     );
     let stiffness = std::f64::consts::FRAC_PI_4 * 1e4 * 100.0 / 10.0;
     for (got, want) in done.column("Force").iter().zip([-4.0, 0.0, 1.0]) {
-        near(*got, stiffness * want, 1e-9);
+        assert_near(*got, stiffness * want, 1e-9);
     }
 }
 
 #[test]
-fn exactly_the_line_making_classes_are_marked_so() {
+fn only_line_classes_declare_line_capability() {
     for kind in CLASSES {
         let (mut session, _screen, _folder) = common::session();
         session.open("example", format!("&ENV -DEPTH 5000\n{}", kind.spec.example));

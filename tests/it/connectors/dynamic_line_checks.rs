@@ -82,7 +82,7 @@ fn riser_pressure_below_wave_matches_wave_at_its_depth() {
 fn thin_pipe_governs_at_thick_junction_from_either_end() {
     let thin = "~R ROD 300 10 -LEN 92.5 -REFINE 6 -FYIELD 450\n";
     let thick = "~R ROD 300 40 -LEN 92.5 -REFINE 6 -FYIELD 450\n";
-    let told = |class: String, ends: &str| {
+    let checked = |class: String, ends: &str| {
         let records = format!(
             "&ENV -DEPTH 300\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*T 0 0 -5\n#WEIGHT *T 1000 5 5 5\n*E 150 0 -100\n\
              {class}CONNECTOR A ~R {ends}\nEND\n"
@@ -91,8 +91,8 @@ fn thin_pipe_governs_at_thick_junction_from_either_end() {
         ["Z", "Tension", "Moment", "Wall", "Axial", "Bending", "Von Mises", "Utilisation"]
             .map(|name| column(&table, name)[6])
     };
-    let one = told(format!("{thin}{thick}"), "*T *E");
-    let other = told(format!("{thick}{thin}"), "*E *T");
+    let one = checked(format!("{thin}{thick}"), "*T *E");
+    let other = checked(format!("{thick}{thin}"), "*E *T");
     for (a, b) in one.iter().zip(&other) {
         // two searches for rest to 1e-9 of the weight, in a hanging shape
         assert!((a / b - 1.0).abs() < 1e-4, "{one:?} {other:?}");

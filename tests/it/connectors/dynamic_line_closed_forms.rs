@@ -52,7 +52,7 @@ fn moored(class: &str, reach: f64) -> String {
 }
 
 /// A line between two bodies, in deep water.
-fn between(class: &str, from: [f64; 3], to: [f64; 3]) -> String {
+fn line_between(class: &str, from: [f64; 3], to: [f64; 3]) -> String {
     let place = |p: [f64; 3]| format!("{} {} {}", p[0], p[1], p[2]);
     format!(
         "&ENV -DEPTH 1000\nMEDIT\n&DESCRIBE BODY A -IGNORE X Y Z RX RY RZ\n*A {}\n&DESCRIBE BODY B -IGNORE X Y Z RX RY RZ\n\
@@ -124,10 +124,10 @@ fn hanging_dynamic_line_converges_to_catenary_with_second_order() {
         let up = net.signum();
         let turned = |p: [f64; 3]| [p[0], p[1], up * p[2]];
         let class = format!("H_CAT 120 EXACT -LEN {length} -WTPLEN {}", net.abs());
-        let [x, y, z] = pull(&model(&between(&class, turned(from), turned(to))), "L");
+        let [x, y, z] = pull(&model(&line_between(&class, turned(from), turned(to))), "L");
         let weight = if options.is_empty() { format!("-WTPLEN {}", heavy(0.0)) } else { options.to_string() };
         let errors = refined([x, y, up * z], |n| {
-            between(&format!("ROD 120 60 -LEN {length} -REFINE {n} -EI 0 {weight}"), from, to)
+            line_between(&format!("ROD 120 60 -LEN {length} -REFINE {n} -EI 0 {weight}"), from, to)
         });
         assert!(errors[3] < 1e-4, "{what}: {errors:?}");
         // a U whose bend is within a few elements converges faster than its mesh, until it is fine enough
@@ -259,7 +259,7 @@ fn line_in_current_leans_by_drag_over_weight() {
 fn riser(options: &str) -> Table {
     let weight = 1025.0 * 9.80665 * FRAC_PI_4 * 0.09;
     let class = format!("ROD 300 15 -LEN 99.98 -REFINE 80 -WTPLEN {weight} -EA 1E9 -EI 4E7 -CD 1.2 0 {options}");
-    let records = between(&class, [0.0, 0.0, -10.0], [0.0, 0.0, -110.0]);
+    let records = line_between(&class, [0.0, 0.0, -10.0], [0.0, 0.0, -110.0]);
     at_rest(&model(&records.replace("-DEPTH 1000", "-DEPTH 1000 -CURRENT 0.5 180")))
 }
 
@@ -293,7 +293,7 @@ fn pipe_fixed_at_both_ends_has_thermal_and_pressure_wall_force() {
         [(50.0, -40.0, 0.0, 0.0), (50.0, 0.0, 20.0, 0.0), (50.0, 15.0, 30.0, 0.0), (-500.0, -40.0, 10.0, 800.0)]
     {
         let class = "ROD 400 20 -LEN 20 -REFINE 20 -WTPLEN 1 -BUOY 0 -EMOD 210000 -POI 0.3 -ALPHA 1.2E-5";
-        let records = between(class, [0.0, 0.0, z + 10.0], [0.0, 0.0, z - 10.0]);
+        let records = line_between(class, [0.0, 0.0, z + 10.0], [0.0, 0.0, z - 10.0]);
         let hot = format!(
             "T_PRESSURE HOT {warmer} {pressure} -AT {z} -DENSITY {filled}\nEND\n&ENV -DEPTH 1000 -T_PRESSURE HOT\n"
         );

@@ -17,7 +17,7 @@ const GRAVITY: f64 = 9.80665;
 const WATER: f64 = 1025.0;
 
 /// A session after records in metres and newtons, none of them refused.
-fn after(records: &str) -> Session {
+fn run_records(records: &str) -> Session {
     let (mut session, _, _folder) = common::session();
     session.open("test", format!("&DIMEN -DIMEN METERS N\n{records}"));
     session.run();
@@ -51,7 +51,7 @@ fn moored(environment: &str, class: &str, reach: f64) -> String {
 }
 
 /// A line between two bodies.
-fn between(environment: &str, class: &str, from: &str, to: &str) -> String {
+fn line_between(environment: &str, class: &str, from: &str, to: &str) -> String {
     format!(
         "&ENV -DEPTH 1000 {environment}\nMEDIT\n&DESCRIBE BODY A -IGNORE X Y Z RX RY RZ\n*A {from}\n\
          &DESCRIBE BODY B -IGNORE X Y Z RX RY RZ\n*B {to}\n{class}\nCONNECTOR L ~L *A *B\nEND\n"
@@ -71,7 +71,7 @@ fn winch_lowers_and_hauls_load_to_target_length_and_holds_it() {
         (format!("{lower}&ACTION HAUL -AT 90 -WINCH ROPE -1 50\n"), 0.5, 50.0, 8..=16),
         ("&ACTION HAUL -AT 5 -WINCH ROPE -0.5 12\n".to_string(), -0.5, 12.0, 2..=4),
     ] {
-        let session = after(&format!("{crane}{actions}TDOM\n"));
+        let session = run_records(&format!("{crane}{actions}TDOM\n"));
         let run = session.job.run.as_ref().unwrap();
         let history = &run.history;
         let wound = history.series(history.layout.links[0].active + 1);
@@ -98,7 +98,7 @@ fn load_falling_into_stiff_line_never_rebounds_higher() {
     for (step, start) in
         [(0.05, "0 0 110.2"), (0.1, "0 0 110.2"), (0.25, "0 0 110.2"), (0.5, "0 0 112"), (0.25, "60 0 150")]
     {
-        let session = after(&format!(
+        let session = run_records(&format!(
             "&ENV -DEPTH 1000 -TIME 60 {step}\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*H 0 0 210\n\
              &DESCRIBE BODY LOAD -IGNORE Y RX RY RZ\n*P 0 0 0\n#WEIGHT *P 1E5 1 1 1\n\
              ~R ROD 60 30 -LEN 100 -REFINE 8 -EI 0\nCONNECTOR R ~R *H *P\nEND\n&INSTATE -LOCATE LOAD {start}\nTDOM\n"
@@ -118,11 +118,11 @@ fn let_go(time: f64, step: f64, options: &str) -> Vec<(f64, Vec<NodeRow>)> {
         &format!("ROD 120 60 -LEN 300 -REFINE 60 -EI 0 {options}"),
         250.0,
     );
-    nodes(after(&format!("{records}&ACTION LET -AT 10 -RELEASE L\nTDOM\n")).job.run.as_ref().unwrap())
+    nodes(run_records(&format!("{records}&ACTION LET -AT 10 -RELEASE L\nTDOM\n")).job.run.as_ref().unwrap())
 }
 
 #[test]
-fn released_line_end_falls_alike_with_coarse_and_fine_step() {
+fn released_line_end_fall_is_independent_of_step() {
     let [coarse, fine] = [0.1, 0.01].map(|step| let_go(13.0, step, ""));
     for (time, share) in [(11.0, 0.15), (12.0, 0.09), (13.0, 0.06)] {
         let fallen = [&coarse, &fine].map(|rows| -5.0 - tip(rows, time)[2]);
@@ -152,8 +152,8 @@ fn folded_chain_end_falls_with_gravity_and_then_faster() {
     let length = 20.0;
     let class = format!("~L ROD 20 10 -LEN {length} -REFINE 200 -EI 0 -EA 1E7 -WTPLEN 50 -BUOY 0 -CD 0 0 0 -CA 0");
     let fold = |time: f64, step: f64| {
-        let records = between(&format!("-TIME {time} {step}"), &class, "0 0 120", "0.2 0 120");
-        nodes(after(&format!("{records}&ACTION LET -AT 0.5 -RELEASE L\nTDOM\n")).job.run.as_ref().unwrap())
+        let records = line_between(&format!("-TIME {time} {step}"), &class, "0 0 120", "0.2 0 120");
+        nodes(run_records(&format!("{records}&ACTION LET -AT 0.5 -RELEASE L\nTDOM\n")).job.run.as_ref().unwrap())
     };
     // half the weight drew at the end: it springs back with T/(m c), c = sqrt(EA/m)
     let mass = 50.0 / GRAVITY;
@@ -186,7 +186,7 @@ fn line_between_two_bodies_holds_them_at_catenary_span() {
          ~S GSPR BOTH X 1E5 1E9 -LEN 0\nCONNECTOR S ~S *A *G\nCONNECTOR T ~S *B *K\nEND\n\
          &INSTATE -LOCATE A 0 0 100\n&INSTATE -LOCATE B 390 0 100\n&EQUI\n"
     );
-    let session = after(&records);
+    let session = run_records(&records);
     let [a, b] = [0, 1].map(|i| session.job.model.bodies[i].place.shift[0]);
     let h = 1e5 * (a + 5.0);
     // the springs agree to what EQUI leaves
@@ -198,8 +198,8 @@ fn line_between_two_bodies_holds_them_at_catenary_span() {
 
 /// Amplitude of the force (N) over that of the motion (m) of a taut line of 100 m that is moved across itself at both ends alike in
 /// 6 s, and its tension (N).
-fn moved(class: &str, dynamics: bool) -> (f64, f64) {
-    let mut records = between("", class, "0 0 -10", "100 0 -10").replace(" -IGNORE X Y Z RX RY RZ", "");
+fn transfer_function(class: &str, dynamics: bool) -> (f64, f64) {
+    let mut records = line_between("", class, "0 0 -10", "100 0 -10").replace(" -IGNORE X Y Z RX RY RZ", "");
     for body in ["A", "B"] {
         records.push_str(&format!("MEDIT\nPRESCRIBE {body} -SINUSOID Y 1E-3 6 -RAMP 30\nEND\n"));
     }
@@ -231,13 +231,13 @@ fn aqwa_line_oscillates_with_added_mass_of_sections_and_joints() {
     let own = WATER * area * 0.995;
     for (options, ca) in [("", 1.0), ("-CA 0", 0.0), ("-CA 2.5", 2.5)] {
         let class = format!("~L CATENARY {} {area} -LEN 99.5 -CD 0 -CX 0 {options}", WATER * area);
-        let (found, tension) = moved(&class, true);
+        let (found, tension) = transfer_function(&class, true);
         // 60 elements, and (w h)^2/12 of the step
         assert!((found / string(own * (1.0 + ca), 0.0, tension) - 1.0).abs() < 3e-3, "{options}: {found}");
     }
     for (joint, mass) in [("-CLUMP 200 0 300", 500.0), ("-CLUMP 500 0", 500.0), ("-BUOY 100 100.001 50", 150.0)] {
         let section = format!("~L CATENARY {} {area} -LEN 49.75 -CD 0 -CX 0 -CA 0", WATER * area);
-        let (found, tension) = moved(&format!("{section} {joint}\n{section}"), true);
+        let (found, tension) = transfer_function(&format!("{section} {joint}\n{section}"), true);
         // the clump hangs down by up to a hundredth of the length
         assert!((found / string(own, mass, tension) - 1.0).abs() < 5e-3, "{joint}: {found}");
     }
@@ -262,7 +262,7 @@ fn aqwa_section_bending_stiffness_matches_tensioned_beam() {
     // pinned under its weight: w L2/8T - w EI/T2 (1 - sech u), u = L/2 sqrt(T/EI); T is the pull across at an end
     let (mass, ei, l): (f64, f64, f64) = (100.0, 2e6, 30.0);
     let class = format!("~L CATENARY {mass} 0.001 -LEN 29.99 -EA 1E8 -EI {ei}");
-    let mut made = model(&between("", &class, "0 0 50", "30 0 50"));
+    let mut made = model(&line_between("", &class, "0 0 50", "30 0 50"));
     made.connectors[0].dynamics = Some(40);
     let z = lines_at_rest(&made, &|_| true).unwrap().remove(0).get("Z").unwrap().numbers();
     let w = mass * GRAVITY;
@@ -295,7 +295,7 @@ fn line_uses_class_depth_and_current_in_connector_forces_too() {
 }
 
 #[test]
-fn connector_forces_include_current_on_the_line() {
+fn connector_forces_include_current_on_line() {
     let class = "ROD 120 60 -LEN 300 -REFINE 100 -EI 0";
     let (mut session, screen, _folder) = common::session();
     let records = moored("&ENV -DEPTH 100 -CURRENT 2 270", class, 260.0);
@@ -303,12 +303,12 @@ fn connector_forces_include_current_on_the_line() {
     session.run();
     let text = screen.text();
     let row: Vec<&str> = text.lines().find(|l| l.starts_with(" L ")).unwrap().split_whitespace().collect();
-    let told: Vec<f64> = row[4..7].iter().map(|v| v.parse().unwrap()).collect();
+    let reported: Vec<f64> = row[4..7].iter().map(|v| v.parse().unwrap()).collect();
     let model = &session.job.model;
     let system = System::new(model, &[]).unwrap();
     let held = system.contributions(&system.state(model).poses).unwrap()[0].load.wrench;
     // whole newtons are printed
-    assert!(held[1] > 1e3 && (0..3).all(|i| (told[i] - held[i]).abs() < 1.0), "{told:?} {held}");
+    assert!(held[1] > 1e3 && (0..3).all(|i| (reported[i] - held[i]).abs() < 1.0), "{reported:?} {held}");
 }
 
 /// A vessel on four rods in a sea; a winch and a line that is let go.
@@ -373,7 +373,7 @@ fn fine_winch(action: &str) -> String {
 fn winch_adds_and_removes_as_many_elements_as_its_rate_needs() {
     // 2 m/s: two elements of half a metre in every step
     for (action, length) in [("2 80", 80.0), ("-2 6", 6.0)] {
-        let session = after(&fine_winch(action));
+        let session = run_records(&fine_winch(action));
         let run = session.job.run.as_ref().unwrap();
         let history = &run.history;
         for (time, row) in nodes(run) {
@@ -402,20 +402,20 @@ fn winch_needing_thousands_of_elements_a_step_is_reported_early() {
     let (mut session, _, _folder) = common::session();
     session.open("test", format!("&DIMEN -DIMEN METERS N\n{}", fine_winch("2000 70")));
     session.run();
-    let told = format!("{:?}", session.reports);
-    assert_eq!(session.errors, 1, "{told}");
-    assert!(told.contains("ROPE") && told.contains("4000 parts of the step"), "{told}");
+    let reported = format!("{:?}", session.reports);
+    assert_eq!(session.errors, 1, "{reported}");
+    assert!(reported.contains("ROPE") && reported.contains("4000 parts of the step"), "{reported}");
     assert!(session.job.run.is_none());
 }
 
 #[test]
 fn winch_that_cannot_reach_its_length_ends_run_at_start() {
-    for (action, told) in [("0.5 20", "30 m"), ("-0.5 40", "30 m")] {
+    for (action, reported) in [("0.5 20", "30 m"), ("-0.5 40", "30 m")] {
         let (mut session, _, _folder) = common::session();
         session.open("test", format!("&DIMEN -DIMEN METERS N\n{}", fine_winch(action)));
         session.run();
         let reports = format!("{:?}", session.reports);
-        assert!(session.errors == 1 && reports.contains(told) && reports.contains("never comes to"), "{reports}");
+        assert!(session.errors == 1 && reports.contains(reported) && reports.contains("never comes to"), "{reports}");
     }
 }
 
@@ -424,7 +424,7 @@ fn released_line_is_wound_no_further() {
     // until the load falls freely, before the rope whips
     let records =
         fine_winch("0.5 60").replace("-TIME 60", "-TIME 18").replace("TDOM", "&ACTION OFF -AT 15 -RELEASE ROPE\nTDOM");
-    let session = after(&records);
+    let session = run_records(&records);
     for (time, row) in nodes(session.job.run.as_ref().unwrap()).iter().filter(|r| r.0 > 5.0) {
         let long = row.last().unwrap().arc;
         assert!((long - (30.0 + 0.5 * (time.min(15.0) - 5.0))).abs() < 1e-6, "{time}: {long}");

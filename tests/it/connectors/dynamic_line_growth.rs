@@ -2,6 +2,7 @@
 //! without it while a run goes on.
 
 use crate::common;
+use crate::common::assert_share;
 use crate::common::run as runs;
 
 use nalgebra::Vector3;
@@ -24,7 +25,7 @@ const FOUL: &str = "-M_GROWTH G 1400";
 const RING: f64 = FRAC_PI_4 * (0.09 - 0.04);
 
 /// A line between two bodies that are held, with a curve of growth G that an environment may name.
-fn between(curve: &str, environment: &str, class: &str, [from, to]: [&str; 2]) -> String {
+fn line_between(curve: &str, environment: &str, class: &str, [from, to]: [&str; 2]) -> String {
     format!(
         "&DATA CURVES M_GROWTH G {curve}\n&ENV -DEPTH 1000 {environment}\nMEDIT\n&DESCRIBE BODY A -IGNORE X Y Z RX RY RZ\n*A {from}\n\
          &DESCRIBE BODY B -IGNORE X Y Z RX RY RZ\n*B {to}\n{class}\nCONNECTOR L ~L *A *B\nEND\n"
@@ -46,11 +47,7 @@ const LEVEL: [&str; 2] = ["0 0 -50", "100 0 -50"];
 
 /// All that loads a level line 50 m deep (N).
 fn load(environment: &str) -> Vector3<f64> {
-    pulls(&model(&between(ALL, environment, EVEN, LEVEL))).iter().sum()
-}
-
-fn near(got: f64, want: f64, share: f64) {
-    assert!((got - want).abs() <= share * want.abs(), "{got} instead of {want}");
+    pulls(&model(&line_between(ALL, environment, EVEN, LEVEL))).iter().sum()
 }
 
 #[test]
@@ -58,9 +55,9 @@ fn growth_adds_submerged_weight_and_drag_diameter() {
     let stream = "-CURRENT 1 -90";
     let [bare, foul] = [stream.to_string(), format!("{FOUL} {stream}")].map(|e| load(&e));
     // statics leaves less than 1e-9 of a pull of 1e7 N at each of 20 nodes; the density of -M_GROWTH is that in air
-    near(foul.z - bare.z, -(1400.0 - RHO) * G * RING * 99.0, 1e-4);
+    assert_share(foul.z - bare.z, -(1400.0 - RHO) * G * RING * 99.0, 1e-4);
     // the line bows by some thousandths, which changes what drags it by its square
-    near(foul.y / bare.y, 1.5, 1e-3);
+    assert_share(foul.y / bare.y, 1.5, 1e-3);
 }
 
 #[test]
@@ -68,16 +65,16 @@ fn growth_between_two_depths_adds_weight_between_them() {
     // 20 of 100 elements of a plumb line, whose ends are bare: 1 % of its length is stretch
     let class = "~L ROD 200 100 -EI 0 -EA 1E9 -LEN 99 -REFINE 100 -WTPLEN 315.792";
     let band = "-60 0 -59.999999 100 -40.000001 100 -40 0";
-    let [bare, foul] = ["", FOUL].map(|e| pulls(&model(&between(band, e, class, ["0 0 -2", "0 0 -102"]))));
+    let [bare, foul] = ["", FOUL].map(|e| pulls(&model(&line_between(band, e, class, ["0 0 -2", "0 0 -102"]))));
     let more: f64 = foul.iter().zip(&bare).map(|(a, b)| a.z - b.z).sum();
     // statics leaves 1e-9 of the pull of 1e7 N at each of 100 nodes: 1 N of 2859
-    near(more, -(1400.0 - RHO) * G * RING * 20.0 * 0.99, 5e-4);
+    assert_share(more, -(1400.0 - RHO) * G * RING * 20.0 * 0.99, 5e-4);
 }
 
 /// Amplitude of the force (N) over that of the motion (m) of the level line moved across at both ends alike in 6 s, and its tension (N).
-fn moved(environment: &str) -> (f64, f64) {
+fn transfer_function(environment: &str) -> (f64, f64) {
     let class = EVEN.replace("1E9", "1E8") + " -CD 0 0 0";
-    let mut records = between(ALL, environment, &class, LEVEL).replace(" -IGNORE X Y Z RX RY RZ", "");
+    let mut records = line_between(ALL, environment, &class, LEVEL).replace(" -IGNORE X Y Z RX RY RZ", "");
     for body in ["A", "B"] {
         records.push_str(&format!("MEDIT\nPRESCRIBE {body} -SINUSOID Y 1E-3 6 -RAMP 30\nEND\n"));
     }
@@ -95,12 +92,12 @@ fn moved(environment: &str) -> (f64, f64) {
 fn line_oscillates_with_mass_and_added_mass_of_its_growth() {
     // as dense as water, so that it hangs straight: a string of 100 m that is moved at both ends pulls by 2 T k tan(k L/2)
     for (environment, diameter) in [("", 0.2f64), ("-M_GROWTH G 1025", 0.3)] {
-        let (found, tension) = moved(environment);
+        let (found, tension) = transfer_function(environment);
         // own mass and added mass, spread over the stretched length
         let mass = 2.0 * RHO * FRAC_PI_4 * diameter * diameter * 0.99;
         let k = TAU / 6.0 * (mass / tension).sqrt();
         // 60 elements, and (w h)^2/12 of the step
-        near(found, 2.0 * tension * k * (50.0 * k).tan(), 3e-3);
+        assert_share(found, 2.0 * tension * k * (50.0 * k).tan(), 3e-3);
     }
 }
 
@@ -111,12 +108,12 @@ fn changing(first: &str, then: &str) -> String {
         format!("&ENV {name} -DEPTH 1000 -CURRENT 1 -90 -TIME 200 0.2 {growth}\n")
     };
     let class = "~L ROD 200 100 -EI 0 -EA 1E7 -LEN 99 -REFINE 20 -WTPLEN 500 -AX_DAMPING 1E7";
-    let line = between(ALL, "", class, ["0 0 -50", "80 0 -70"]);
+    let line = line_between(ALL, "", class, ["0 0 -50", "80 0 -70"]);
     let line = line.replace("&ENV -DEPTH 1000 \n", &(env(then) + &env(first)));
     format!("&DIMEN -DIMEN METERS N\n{line}&ACTION TURN -AT 40 -ENVIRONMENT {then}\n")
 }
 
-fn after(records: &str, folder: &tempfile::TempDir, mut session: Session) -> Session {
+fn run_records(records: &str, folder: &tempfile::TempDir, mut session: Session) -> Session {
     assert!(folder.path().exists());
     session.open("test", records.to_string());
     session.run();
@@ -126,7 +123,7 @@ fn after(records: &str, folder: &tempfile::TempDir, mut session: Session) -> Ses
 
 fn done(records: &str) -> Session {
     let (session, _, folder) = common::session();
-    after(records, &folder, session)
+    run_records(records, &folder, session)
 }
 
 /// The pull on the first body at an instant of a run (N).
@@ -161,14 +158,14 @@ fn run_with_changed_growth_restarts_with_uninterrupted_digits() {
     let values =
         |s: &Session| -> Vec<u64> { s.job.run.as_ref().unwrap().history.values.iter().map(|v| v.to_bits()).collect() };
     let (session, _, folder) = common::session();
-    let whole = after(&format!("{wound}TDOM\n"), &folder, session);
+    let whole = run_records(&format!("{wound}TDOM\n"), &folder, session);
     let bytes = fs::read(folder.path().join("job.ans/TDOM.run")).unwrap();
     for share in [0.3, 0.9] {
         let (session, _, folder) = common::session();
         fs::create_dir_all(folder.path().join("job.ans")).unwrap();
         let cut = &bytes[..(bytes.len() as f64 * share) as usize];
         fs::write(folder.path().join("job.ans/TDOM.run"), cut).unwrap();
-        let again = after(&format!("{wound}TDOM -RESTART\n"), &folder, session);
+        let again = run_records(&format!("{wound}TDOM -RESTART\n"), &folder, session);
         assert!(values(&again) == values(&whole), "cut at {share}");
     }
 }
@@ -184,6 +181,6 @@ fn line_with_growth_is_hauled_and_paid_out_over_its_elements() {
         let session = done(&format!("{records}&ACTION W -AT 5 {action}\nTDOM\n"));
         let net = 500.0 - RHO * G * FRAC_PI_4 * 0.04 + (1400.0 - RHO) * G * RING;
         let force = pull_at(&session, 160.0).z;
-        near(force, -(49033.25 + net * length), 1e-5);
+        assert_share(force, -(49033.25 + net * length), 1e-5);
     }
 }

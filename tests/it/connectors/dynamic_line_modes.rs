@@ -58,14 +58,14 @@ fn hanging_chain_modes_match_bessel_zeros() {
         let lumped = ((i + 1) as f64 * PI / 50.0).powi(2) / 24.0;
         assert!((-2.0 * lumped..0.0).contains(&coarse_errors[i]), "{coarse_errors:?}");
         assert!(fine_errors[i].abs() < 0.15 * lumped + 3e-6, "{fine_errors:?} {coarse_errors:?}");
-        // alike in both directions, told one in each
+        // alike in both directions, reported one in each
         assert!((fine[2 * i] / fine[2 * i + 1] - 1.0).abs() < 1e-6);
     }
-    let told = table(50);
+    let reported = table(50);
     let sides: Vec<[f64; 2]> =
-        column(&told, "In Plane").into_iter().zip(column(&told, "Across")).map(Into::into).collect();
+        column(&reported, "In Plane").into_iter().zip(column(&reported, "Across")).map(Into::into).collect();
     assert!(sides.iter().all(|s| s.iter().any(|v| (v - 1.0).abs() < 1e-3)), "{sides:?}");
-    assert!((column(&told, "In Plane").iter().sum::<f64>() - 3.0).abs() < 1e-3);
+    assert!((column(&reported, "In Plane").iter().sum::<f64>() - 3.0).abs() < 1e-3);
 }
 
 #[test]

@@ -55,8 +55,8 @@ fn run_with_short_motion_file_restarts_with_longer_one() {
     let even = |end: u32| (0..=end).map(|n| (10.0 * f64::from(n), f64::from(n)));
     let file = path(&folder, even(2));
     let (short, kept) = run(records(&file, "", ""), None);
-    let told = error(&short);
-    assert!(told.contains("from 0 s to 20 s") && told.contains("asked for at 20.0"), "{told}");
+    let message = error(&short);
+    assert!(message.contains("from 0 s to 20 s") && message.contains("asked for at 20.0"), "{message}");
     // all up to there is there
     let (time, _) = last(&short);
     assert!((time - 20.0).abs() < 1e-9, "{time}");
@@ -79,10 +79,10 @@ fn overload_error_reports_time_and_element_and_survives_restart() {
     let rows = (0..=160).map(|n| 0.25 * f64::from(n)).map(|t| (t, -6.0 * (t - 5.0f64).max(0.0)));
     let file = path(&folder, rows);
     let (broken, kept) = run(records(&file, "-EA 1E8 -1E9", ""), None);
-    let told = error(&broken);
-    assert!(told.contains("connector L") && told.contains("worst at element "), "{told}");
+    let message = error(&broken);
+    assert!(message.contains("connector L") && message.contains("worst at element "), "{message}");
     let number = |before: &str| -> f64 {
-        let rest = told.split(before).nth(1).unwrap();
+        let rest = message.split(before).nth(1).unwrap();
         rest.chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect::<String>().parse().unwrap()
     };
     let (failed, element) = (number("no solution at "), number("worst at element "));
@@ -97,7 +97,7 @@ fn overload_error_reports_time_and_element_and_survives_restart() {
     assert!((2e6..2.6e6).contains(&most), "{most}");
     // what was kept is what it was: nothing has been put right, and the same is reported
     let (again, _kept) = run(records(&file, "-EA 1E8 -1E9", "-RESTART"), Some(&kept));
-    assert_eq!(error(&again).split(" by steps").next(), told.split(" by steps").next());
+    assert_eq!(error(&again).split(" by steps").next(), message.split(" by steps").next());
     let bits =
         |s: &Session| -> Vec<u64> { s.job.run.as_ref().unwrap().history.values.iter().map(|v| v.to_bits()).collect() };
     assert!(bits(&broken) == bits(&again));
@@ -132,9 +132,9 @@ fn winch_hauling_to_its_end_stops_run_with_action_line_and_time() {
              &INSTATE -LOCATE LOAD 0 0 -60\n&EQUI\n&ACTION PULL -AT 10 -WINCH HOIST -{rate}\nTDOM\n"
         );
         let (session, _kept) = run(records, None);
-        let told = error(&session);
+        let message = error(&session);
         for text in ["HOIST", "by action PULL", &format!("at {time}")] {
-            assert!(told.contains(text), "{step} {rate}: {told}");
+            assert!(message.contains(text), "{step} {rate}: {message}");
         }
     }
 }

@@ -24,7 +24,7 @@ fn last(table: &Table, column: &str) -> f64 {
 }
 
 #[test]
-fn static_chain_touches_down_where_catenary_does() {
+fn static_chain_touchdown_matches_catenary() {
     let mut off = Vec::new();
     for elements in [40, 80] {
         let model = model(&chain(elements, ""));
@@ -72,12 +72,12 @@ fn thinned_node_output_matches_full_output() {
     };
     let (all, fourth) = (ran(|s| s), ran(|s| RunSettings { along: 4, ..s }));
     let (bare, none) = (ran(|s| RunSettings { keep: false, ..s }), ran(|s| RunSettings { along: 0, ..s }));
-    let told = |run: &Run| {
+    let reported = |run: &Run| {
         let line = LineResults::find(run, "A").unwrap();
         let kept = if run.history.is_empty() { Vec::new() } else { events(&run.history, None).unwrap() };
         envelope(&line, &kept).unwrap()
     };
-    let (whole, some, flat) = (told(&all), told(&fourth), told(&bare));
+    let (whole, some, flat) = (reported(&all), reported(&fourth), reported(&bare));
     for column in ["Arc", "T Min", "T Mean", "T Max", "C Min", "Utilisation"] {
         let (a, b, c) = (&whole.get(column).unwrap().cells, &some.get(column).unwrap().cells, flat.get(column));
         // from the second end: 13, 9, 5 and 1 of thirteen

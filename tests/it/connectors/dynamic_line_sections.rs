@@ -39,7 +39,7 @@ fn column(table: &Table, name: &str) -> Vec<f64> {
 }
 
 /// A line between two bodies that are held, of classes from the first to the second.
-fn between(environment: &str, classes: &[&str], [from, to]: [&str; 2]) -> String {
+fn line_between(environment: &str, classes: &[&str], [from, to]: [&str; 2]) -> String {
     let records: String = classes.iter().map(|class| format!("~L {class}\n")).collect();
     format!(
         "{environment}\nMEDIT\n&DESCRIBE BODY A -IGNORE X Y Z RX RY RZ\n*A {from}\n&DESCRIBE BODY B -IGNORE X Y Z RX RY RZ\n*B {to}\n\
@@ -55,7 +55,7 @@ fn junction(turned: bool) -> Model {
     );
     let places = ["0 0 -5", "150 0 -100"];
     let (classes, places) = if turned { ([thick, thin], [places[1], places[0]]) } else { ([thin, thick], places) };
-    model(&between("&ENV -DEPTH 300 -SEA REGULAR 180 4 9", &classes, places))
+    model(&line_between("&ENV -DEPTH 300 -SEA REGULAR 180 4 9", &classes, places))
 }
 
 #[test]
@@ -109,16 +109,17 @@ fn junction_reports_side_of_higher_utilisation_in_either_direction() {
 }
 
 #[test]
-fn end_tension_is_line_pull_there() {
+fn end_tension_matches_line_pull() {
     // a rope that bows under its weight, in few elements
-    let model = model(&between("&ENV -DEPTH 1000", &["ROD 120 60 -EI 0 -LEN 200 -REFINE 8"], ["0 0 -5", "150 0 -60"]));
+    let model =
+        model(&line_between("&ENV -DEPTH 1000", &["ROD 120 60 -EI 0 -LEN 200 -REFINE 8"], ["0 0 -5", "150 0 -60"]));
     let tension = column(&at_rest(&model), "Tension");
     let ends = [tension[0], tension[8]];
     // weight in water of half an element, which pulls across the line: (W / T)^2 / 2
     let half = (7850.0 - RHO) * FRAC_PI_4 * 0.0144 * G * 12.5;
-    for (told, pull) in ends.iter().zip(pulls(&model)) {
+    for (reported, pull) in ends.iter().zip(pulls(&model)) {
         let pull = size(&pull);
-        assert!((told / pull - 1.0).abs() < 0.5 * (half / pull).powi(2), "{told} {pull}");
+        assert!((reported / pull - 1.0).abs() < 0.5 * (half / pull).powi(2), "{reported} {pull}");
     }
 }
 
@@ -126,7 +127,7 @@ fn end_tension_is_line_pull_there() {
 fn slack_rope_carries_no_compression_at_its_ends() {
     for length in [210.0, 260.0, 320.0] {
         let class = format!("ROD 300 20 -EI 0 -LEN {length} -REFINE 12");
-        let model = model(&between("&ENV -DEPTH 60", &[&class], ["0 0 -5", "150 0 -60"]));
+        let model = model(&line_between("&ENV -DEPTH 60", &[&class], ["0 0 -5", "150 0 -60"]));
         let tension = column(&at_rest(&model), "Tension");
         assert!(tension.iter().all(|t| *t >= 0.0), "{tension:?}");
     }
@@ -143,7 +144,7 @@ fn pipe_without_bending_keeps_contents_pressure_and_heat() {
     let hot = format!(
         "T_PRESSURE HOT {warmer} {pressure} -AT -500 -DENSITY {filled}\nEND\n&ENV -DEPTH 1000 -T_PRESSURE HOT\n"
     );
-    let records = between("&ENV -DEPTH 1000", &[class], ["0 0 -489.99", "0 0 -510.01"]);
+    let records = line_between("&ENV -DEPTH 1000", &[class], ["0 0 -489.99", "0 0 -510.01"]);
     let [empty, full] = [records.clone(), records.replace("END\n", &hot)].map(|records| model(&records));
     let middle = |model: &Model, name: &str| column(&at_rest(model), name)[10];
     let pe = RHO * G * 500.0;
@@ -151,8 +152,8 @@ fn pipe_without_bending_keeps_contents_pressure_and_heat() {
         let effective = 2.1e11 * wall * (1e-3 - heat) + 0.4 * (pe * outside - pi * inside);
         // half the submerged weight of an element, 1e-3 of 3.5 MN
         assert!((middle(model, "Tension") / effective - 1.0).abs() < 1e-3, "{} {effective}", middle(model, "Tension"));
-        let told = middle(model, "Wall") - middle(model, "Tension");
-        assert!((told / (pi * inside - pe * outside) - 1.0).abs() < 1e-3, "{told}");
+        let reported = middle(model, "Wall") - middle(model, "Tension");
+        assert!((reported / (pi * inside - pe * outside) - 1.0).abs() < 1e-3, "{reported}");
     };
     force(&empty, 0.0, 0.0);
     force(&full, warmer * 1.2e-5, 1e6 * pressure);
@@ -164,7 +165,8 @@ fn pipe_without_bending_keeps_contents_pressure_and_heat() {
         weight(&full) - weight(&empty)
     );
     // a chain or rope: a bar has no contents, and is reported without a wall
-    let bar = model(&between("&ENV -DEPTH 1000", &["ROD 100 50 -EI 0 -LEN 20 -REFINE 4"], ["0 0 -489", "0 0 -508"]));
+    let bar =
+        model(&line_between("&ENV -DEPTH 1000", &["ROD 100 50 -EI 0 -LEN 20 -REFINE 4"], ["0 0 -489", "0 0 -508"]));
     assert!(at_rest(&bar).get("Shear").is_none());
 }
 
@@ -173,7 +175,7 @@ fn grid_seabed_supports_line_like_flat_seabed() {
     let grid = "&BATHYMETRY GRID -DEPTHS\nX -1000 1000\nY -1000 60 60\nY 1000 60 60\nEND\n";
     let rod = |environment: &str| {
         let class = "ROD 120 60 -EI 0 -LEN 185 -REFINE 20";
-        model(&between(&format!("{grid}{environment}"), &[class], ["0 0 -5", "150 0 -60"]))
+        model(&line_between(&format!("{grid}{environment}"), &[class], ["0 0 -5", "150 0 -60"]))
     };
     let [flat, charted] = ["&ENV -DEPTH 60", "&ENV -BATHYMETRY GRID"].map(|e| at_rest(&rod(e)));
     for name in ["Z", "Tension", "Clearance"] {
@@ -187,11 +189,12 @@ fn grid_seabed_supports_line_like_flat_seabed() {
 
 #[test]
 fn equilibrium_search_may_be_interrupted() {
-    let model = model(&between("&ENV -DEPTH 1000", &["ROD 120 60 -EI 0 -LEN 400 -REFINE 50"], ["0 0 -5", "150 0 -60"]));
+    let model =
+        model(&line_between("&ENV -DEPTH 1000", &["ROD 120 60 -EI 0 -LEN 400 -REFINE 50"], ["0 0 -5", "150 0 -60"]));
     model.interrupt.store(true, Ordering::Relaxed);
-    let told = lines_at_rest(&model, &|_| true).unwrap_err();
-    assert_eq!(told.error.to_string(), "interrupted");
-    assert!(told.error.lasting);
+    let reported = lines_at_rest(&model, &|_| true).unwrap_err();
+    assert_eq!(reported.error.to_string(), "interrupted");
+    assert!(reported.error.lasting);
 }
 
 #[test]
@@ -202,7 +205,7 @@ fn grounded_line_in_current_matches_line_on_bathymetry() {
              &ENV -DEPTH 50 -CURRENT 1.0 90 {chart}"
         );
         let rope = "ROD 100 10 -LEN 100 -REFINE 20 -EI 0 -WTPLEN 100 -CD 1.2 0";
-        let table = at_rest(&model(&between(&environment, &[rope], ["0 0 -49.9", "99 0 -49.9"])));
+        let table = at_rest(&model(&line_between(&environment, &[rope], ["0 0 -49.9", "99 0 -49.9"])));
         column(&table, "Y")
     };
     let (flat, charted) = (bow(""), bow("-BATHYMETRY FLAT"));
@@ -232,7 +235,7 @@ fn seabed_follows_anchor_for_dynamic_and_quasi_static_lines() {
 
 #[test]
 fn unrestrained_line_is_refused() {
-    for (class, told) in [
+    for (class, reported) in [
         ("ROD 100 10 -LEN 100 -REFINE 20 -EI 0 -CLAMP FIRST 90", "its segment does not bend"),
         ("ROD 100 10 -LEN 100 -REFINE 20 -CLUMP_DRAG 5 10", "no clump or buoy"),
         ("ROD 100 10 -LEN 100 -REFINE 20 -CLAMP FIRST 720", "straight down"),
@@ -242,7 +245,7 @@ fn unrestrained_line_is_refused() {
         session.open("records", format!("&DIMEN -DIMEN METERS N\nMEDIT\n~L {class}\nEND\n"));
         session.run();
         let reports = format!("{:?}", session.reports);
-        assert!(session.errors == 1 && reports.contains(told), "{reports}");
+        assert!(session.errors == 1 && reports.contains(reported), "{reports}");
     }
 }
 
@@ -251,7 +254,7 @@ fn node_with_clump_has_larger_adjacent_tension() {
     // 50 m of 200 N/m in water, 30 kN, and 50 m more, upright and taut
     let weight = 200.0 + RHO * G * FRAC_PI_4 * 0.05 * 0.05;
     let class = |end: &str| format!("ROD 50 25 -LEN 50 -REFINE 10 -EI 0 -WTPLEN {weight} {end}");
-    let records = between("&ENV -DEPTH 200", &[&class("-CLUMP 30000"), &class("")], ["0 0 -20", "0 0 -120.1"]);
+    let records = line_between("&ENV -DEPTH 200", &[&class("-CLUMP 30000"), &class("")], ["0 0 -20", "0 0 -120.1"]);
     let tension = column(&at_rest(&model(&records)), "Tension");
     assert!((tension[0] - 200.0 * 50.0 - tension[10]).abs() < 1.0, "{} {}", tension[0], tension[10]);
     // the mean of the two elements of 5 m below it is that of the node between
@@ -288,7 +291,7 @@ fn class_listing_has_stiffness_of_its_lines() {
 fn slack_pipe_lays_sideways_instead_of_folding() {
     for (bending, elements, length) in [(1e4, 50, 207.0), (1e5, 100, 248.0), (3.57e7, 40, 400.0)] {
         let class = format!("ROD 300 20 -LEN {length} -REFINE {elements} -EI {bending} -EA 3E8 -WTPLEN 1200");
-        let table = at_rest(&model(&between("&ENV -DEPTH 100", &[&class], ["0 0 -5", "100 0 -100"])));
+        let table = at_rest(&model(&line_between("&ENV -DEPTH 100", &[&class], ["0 0 -5", "100 0 -100"])));
         let [x, y, z] = ["X", "Y", "Z"].map(|axis| column(&table, axis));
         let aside = y.iter().fold(0.0f64, |most, y| most.max(y.abs()));
         assert!(aside > 10.0, "{bending} {aside}");

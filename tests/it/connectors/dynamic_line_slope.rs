@@ -4,7 +4,7 @@ use crate::common;
 
 /// Lines of a body that is held, of classes ~C and ~B with their anchors toward X and Y, in an environment: warnings that friction of ~C
 /// is left out, and the horizontal force and the tension at the fairlead (N) of the lines of those classes.
-fn held(environment: &str, classes: &[String]) -> (usize, Vec<[f64; 2]>) {
+fn solve_held_body(environment: &str, classes: &[String]) -> (usize, Vec<[f64; 2]>) {
     held_at(environment, classes, 400.0)
 }
 
@@ -42,7 +42,7 @@ const FLAT: &str = "&ENV -DEPTH 100 -TIME 0.2 0.1";
 fn rod_and_catenary(length: f64, slope: f64) -> (usize, Vec<[f64; 2]>) {
     let line = format!("-LEN {length} -WTPLEN 1000 -FRICTION 0.6 -SLOPE {slope}");
     let rod = format!("ROD 100 50 -REFINE 88 -EI 0 -EA 1E9 {line}");
-    held(FLAT, &[rod, format!("B_CAT 100 -EMOD 1.2732E11 {line}")])
+    solve_held_body(FLAT, &[rod, format!("B_CAT 100 -EMOD 1.2732E11 {line}")])
 }
 
 #[test]
@@ -104,8 +104,8 @@ fn rod(length: f64, elements: usize) -> String {
 
 #[test]
 fn planar_grid_slope_supports_line_like_plane() {
-    let plane = held(FLAT, &[format!("{} -SLOPE 0.1", rod(440.0, 88))]);
-    let charted = held(&grid(|x| 60.0 + 0.1 * x), &[rod(440.0, 88)]);
+    let plane = solve_held_body(FLAT, &[format!("{} -SLOPE 0.1", rod(440.0, 88))]);
+    let charted = solve_held_body(&grid(|x| 60.0 + 0.1 * x), &[rod(440.0, 88)]);
     println!("{plane:?} {charted:?}");
     assert_eq!([plane.0, charted.0], [0, 0]);
     for (a, b) in plane.1[0].iter().zip(&charted.1[0]) {
@@ -121,7 +121,7 @@ fn friction_holds_slack_line_over_hills_and_valleys_of_grid() {
         let hill = |x: f64| amplitude * (std::f64::consts::TAU * x / wave).sin();
         let bottom = grid(|x| 100.0 + slope * (x - 400.0) + hill(x) - hill(400.0));
         let [coarse, fine] = [66, 110].map(|elements| {
-            let (warned, pulls) = held(&bottom, &[rod(length, elements)]);
+            let (warned, pulls) = solve_held_body(&bottom, &[rod(length, elements)]);
             assert_eq!(warned, 0);
             pulls[0]
         });

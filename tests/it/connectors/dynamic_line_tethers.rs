@@ -241,7 +241,7 @@ fn platform_on_tethers_and_lines_converges_with_second_order() {
 }
 
 #[test]
-fn dynamic_line_is_compressed_where_listing_tether_is_slack() {
+fn dynamic_line_is_compressed_at_slack_tether_of_listing() {
     let (_, session) = of_rods(0.05);
     let history = &session.job.run.as_ref().unwrap().history;
     let (link, columns) = history.layout.links.iter().enumerate().find(|(_, l)| l.name == "R1A").unwrap();
@@ -277,11 +277,11 @@ fn platform_harmonics_on_lines_match_listing_except_half_wet_tubes() {
     // means, drifts and first amplitudes of surge and heave, as printed
     let listing = [[-56.0, -7.6679, 6.3223], [-19.5151, -1.5671, 1.3677]];
     for (f, listing) in listing.iter().enumerate() {
-        let told = |m: &Motion| {
+        let measured = |m: &Motion| {
             let cycle = harmonics(m, f);
             [cycle.mean, cycle.drift, cycle.harmonics[0].amplitude]
         };
-        let (rod, tether, same) = (told(&RODS), told(&TETHERS), told(&aqwa));
+        let (rod, tether, same) = (measured(&RODS), measured(&TETHERS), measured(&aqwa));
         // the tether engine as AQWA has the listing's, to 3 mm
         assert!(same.iter().zip(listing).all(|(a, b)| (a - b).abs() < 3e-3), "{same:?}");
         // without AQWA's peculiarities, above all the velocity of the water at a tube's point that is half wet taken from another of its

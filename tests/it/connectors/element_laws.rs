@@ -296,7 +296,7 @@ fn ask(
 }
 
 /// Velocities of the two ends, unlike in all directions.
-fn moving(ends: [Pose; 2]) -> [End; 2] {
+fn moving_ends(ends: [Pose; 2]) -> [End; 2] {
     [
         End { velocity: Six::new(0.4, -0.3, 0.2, 0.1, 0.25, -0.15), ..End::still(ends[0]) },
         End { velocity: Six::new(-0.2, 0.35, 0.5, -0.3, 0.1, 0.2), ..End::still(ends[1]) },
@@ -304,7 +304,7 @@ fn moving(ends: [Pose; 2]) -> [End; 2] {
 }
 
 /// A state that a step from nearby has left.
-fn left(element: &dyn Element, bench: &Bench) -> Vec<f64> {
+fn state_after_step(element: &dyn Element, bench: &Bench) -> Vec<f64> {
     let mut start = vec![0.0; element.states()];
     element.start(&mut start);
     let shift = Six::new(0.001, -0.002, 0.0015, 0.01, -0.02, 0.01);
@@ -399,9 +399,9 @@ fn dynamic_line_stiffness_matches_differences_and_rotates_with_ends() {
 fn stiffness_and_damping_match_wrench_finite_differences() {
     each(|case, bench, element| {
         let surroundings = bench.surroundings();
-        let committed = left(element, bench);
+        let committed = state_after_step(element, bench);
         for dt in [None, Some(0.2)] {
-            let ends = moving(bench.ends);
+            let ends = moving_ends(bench.ends);
             let (middle, _) = ask(element, &surroundings, &ends, dt, &committed);
             let scale = middle.stiffness.iter().fold(0.0, |m: f64, k| m.max(k.amax()));
             // metres or radians: small beside what bends the law, large beside rounding
@@ -457,7 +457,7 @@ fn stiffness_and_damping_match_wrench_finite_differences() {
 fn rotated_pose_has_rotated_wrenches() {
     each(|case, bench, element| {
         let surroundings = bench.surroundings();
-        let committed = left(element, bench);
+        let committed = state_after_step(element, bench);
         let axis = if case.free { Vector3::new(0.5, -1.1, 0.8) } else { Vector3::new(0.0, 0.0, 1.3) };
         if case.class == "TUG_BOAT" {
             return;
@@ -467,7 +467,7 @@ fn rotated_pose_has_rotated_wrenches() {
             let (a, b) = (turn * v.fixed_rows::<3>(0), turn * v.fixed_rows::<3>(3));
             Six::new(a.x, a.y, a.z, b.x, b.y, b.z)
         };
-        let ends = moving(bench.ends);
+        let ends = moving_ends(bench.ends);
         let turned = ends.map(|end| End {
             pose: Pose { origin: turn * end.pose.origin, axes: turn * end.pose.axes },
             velocity: both(&end.velocity),
@@ -492,8 +492,8 @@ fn end_wrenches_are_equal_and_opposite() {
         if !case.balanced {
             return;
         }
-        let committed = left(element, bench);
-        let ends = moving(bench.ends);
+        let committed = state_after_step(element, bench);
+        let ends = moving_ends(bench.ends);
         for dt in [None, Some(0.2)] {
             let (got, _) = ask(element, &bench.surroundings(), &ends, dt, &committed);
             let part = |six: &Six, from: usize| six.fixed_rows::<3>(from).into_owned();
@@ -570,9 +570,9 @@ fn dashpots_friction_and_viscous_springs_only_dissipate() {
         }
         let surroundings = bench.surroundings();
         // what depends on the rate opposes it
-        let committed = left(element, bench);
+        let committed = state_after_step(element, bench);
         for scale in [1e-4, 0.1, 1.0, 30.0] {
-            let fast = moving(bench.ends).map(|e| End { velocity: e.velocity * scale, ..e });
+            let fast = moving_ends(bench.ends).map(|e| End { velocity: e.velocity * scale, ..e });
             let slow = bench.ends.map(End::still);
             let (a, b) = (
                 ask(element, &surroundings, &fast, Some(0.1), &committed).0,
@@ -607,8 +607,8 @@ fn dashpots_friction_and_viscous_springs_only_dissipate() {
 fn same_committed_state_gives_same_result() {
     each(|case, bench, element| {
         let surroundings = bench.surroundings();
-        let committed = left(element, bench);
-        let (ends, away) = (moving(bench.ends), path(moving(bench.ends).map(|e| e.pose), 0.3, 0.1));
+        let committed = state_after_step(element, bench);
+        let (ends, away) = (moving_ends(bench.ends), path(moving_ends(bench.ends).map(|e| e.pose), 0.3, 0.1));
         for dt in [None, Some(0.2)] {
             let first = ask(element, &surroundings, &ends, dt, &committed);
             ask(element, &surroundings, &away, dt, &committed);

@@ -51,7 +51,7 @@ fn tension(model: &Model, name: &str) -> f64 {
     model.element(connector).unwrap().summary(&at, &[]).unwrap().tension.unwrap()
 }
 
-fn near(got: f64, want: f64, tolerance: f64) {
+fn assert_near(got: f64, want: f64, tolerance: f64) {
     assert!((got - want).abs() <= tolerance, "{got} {want}");
 }
 
@@ -71,16 +71,16 @@ fn four_equal_slings_carry_quarter_load_each_with_its_stretch() {
     let model = settled(&records(weight(l, [20.0; 4]), [20.0; 4], "-INITIAL"));
     let w = weight(l, [20.0; 4]);
     for name in ["L1", "L2", "L3", "L4"] {
-        near(tension(&model, name) / (EA * 0.001), 1.0, 1e-9);
+        assert_near(tension(&model, name) / (EA * 0.001), 1.0, 1e-9);
     }
-    near(tension(&model, "FALL") / w, 1.0, 1e-9);
+    assert_near(tension(&model, "FALL") / w, 1.0, 1e-9);
     // the fall of 200 mm has four times the AE
     let hook = 60.0 - 10.0 * (1.0 + w / (4.0 * EA));
     let want = [3.0, 5.0, hook - (l * l - 100.0).sqrt() - 1.0, 0.0, 0.0];
     for (got, want) in place(&model, "DECK").iter().zip(want) {
-        near(*got, want, 1e-8);
+        assert_near(*got, want, 1e-8);
     }
-    near(place(&model, "HOOK")[2], hook, 1e-8);
+    assert_near(place(&model, "HOOK")[2], hook, 1e-8);
 }
 
 #[test]
@@ -89,10 +89,10 @@ fn longer_diagonal_is_slack_and_other_carries_all() {
     let l: f64 = 20.03;
     let model = settled(&records(weight(l, lengths), lengths, "-INITIAL"));
     for name in ["L1", "L3"] {
-        near(tension(&model, name) / (EA * 0.0015), 1.0, 1e-8);
+        assert_near(tension(&model, name) / (EA * 0.0015), 1.0, 1e-8);
     }
     for name in ["L2", "L4"] {
-        near(tension(&model, name), 0.0, 0.0);
+        assert_near(tension(&model, name), 0.0, 0.0);
     }
 }
 
@@ -103,7 +103,7 @@ fn unequal_diagonals_share_weight_by_their_stretch() {
     let l: f64 = 20.03;
     let model = settled(&records(weight(l, lengths), lengths, "-INITIAL"));
     for (name, own) in ["L1", "L2", "L3", "L4"].iter().zip(lengths) {
-        near(tension(&model, name) / (EA * (l - own) / own), 1.0, 1e-8);
+        assert_near(tension(&model, name) / (EA * (l - own) / own), 1.0, 1e-8);
     }
 }
 
@@ -117,9 +117,9 @@ fn longer_sling_shifts_load_to_other_diagonal() {
     let model = settled(&records(w, lengths, "-INITIAL"));
     let [a, b, c, e] = ["L1", "L2", "L3", "L4"].map(|n| tension(&model, n));
     let half = EA * d / 20.0;
-    near(a + c - b - e, half, d / 10.0 * w);
-    near(a + b + c + e, 4.0 * EA * 0.001, d / 10.0 * w);
-    near(a - c, 0.0, d / 10.0 * w);
+    assert_near(a + c - b - e, half, d / 10.0 * w);
+    assert_near(a + b + c + e, 4.0 * EA * 0.001, d / 10.0 * w);
+    assert_near(a - c, 0.0, d / 10.0 * w);
 }
 
 #[test]
@@ -128,10 +128,10 @@ fn initial_places_hook_below_boom_and_keeps_attitude() {
     let model = &session.job.model;
     let want = [3.0, 5.0, 50.0 - 300.0_f64.sqrt() - 1.0, 0.0, 0.0, 0.0];
     for (got, want) in place(model, "DECK").iter().zip(want) {
-        near(*got, want, 1e-12);
+        assert_near(*got, want, 1e-12);
     }
     for (got, want) in place(model, "HOOK").iter().zip([3.0, 5.0, 50.0]) {
-        near(*got, want, 1e-12);
+        assert_near(*got, want, 1e-12);
     }
 }
 
@@ -143,17 +143,17 @@ fn vertical_rotates_body_to_hang_with_centre_below_hook() {
     let (session, _) = run(&records(1e6, lengths, "-INITIAL -VERTICAL"));
     let model = &session.job.model;
     let [x, y, z, roll, pitch, _] = place(model, "DECK");
-    near(roll, 0.0, 1e-9);
+    assert_near(roll, 0.0, 1e-9);
     // (2, 0, 21) from the centre to the hook is turned upright
-    near(pitch, -(2.0_f64 / 21.0).atan(), 1e-9);
+    assert_near(pitch, -(2.0_f64 / 21.0).atan(), 1e-9);
     let centre = windlass_base::geometry::Place::new([x, y, z, roll, pitch, 0.0]).apply([0.0, 0.0, -2.0]);
     for (got, want) in centre.iter().zip([3.0, 5.0, 50.0 - (4.0_f64 + 441.0).sqrt()]) {
-        near(*got, want, 1e-8);
+        assert_near(*got, want, 1e-8);
     }
     // and there it rests, but for the stretch
     let mut rest = model.clone();
     find_equilibrium_with_rebuilds(&mut rest, &Options::default()).unwrap();
-    near(place(&rest, "DECK")[4], pitch, 1e-3);
+    assert_near(place(&rest, "DECK")[4], pitch, 1e-3);
 }
 
 #[test]
@@ -166,8 +166,8 @@ fn later_set_removes_sag_from_its_lines() {
     assert_eq!(place(model, "DECK"), place(&before.job.model, "DECK"));
     let deck = place(model, "DECK")[2];
     let hook = deck + 1.0 + (900.0_f64 - 16.0).sqrt();
-    near(place(model, "SECOND")[2], hook, 1e-9);
-    near(model.connectors.get("FALL2").unwrap().first_length.unwrap(), 70.0 - hook, 1e-9);
+    assert_near(place(model, "SECOND")[2], hook, 1e-9);
+    assert_near(model.connectors.get("FALL2").unwrap().first_length.unwrap(), 70.0 - hook, 1e-9);
     assert_eq!(model.connectors.get("A").unwrap().first_length, None);
     assert!(session.reports.iter().any(|r| r.message.starts_with("connector FALL2: ")), "{text}");
 }
@@ -182,7 +182,7 @@ fn orient_aligns_body_system_with_its_nodes_without_moving_it() {
     let (plain, turned) = (&plain.job.model, &turned.job.model);
     for point in ["*CG", "*S1", "*S2", "*S3", "*S4"] {
         let [a, b] = [plain, turned].map(|m| m.global(m.points.get(point).unwrap()));
-        a.iter().zip(b).for_each(|(a, b)| near(*a, b, 1e-12));
+        a.iter().zip(b).for_each(|(a, b)| assert_near(*a, b, 1e-12));
     }
     // x of the new system is y of the old, y its x turned about: the side of node 1 against node 2 is +x
     let body = turned.bodies.get("DECK").unwrap();
@@ -190,7 +190,7 @@ fn orient_aligns_body_system_with_its_nodes_without_moving_it() {
     for (new, was) in
         [([0.0; 3], [0.0, 0.0, 1.0]), ([1.0, 0.0, 0.0], [0.0, 1.0, 1.0]), ([0.0, 1.0, 0.0], [1.0, 0.0, 1.0])]
     {
-        body.place.apply(new).iter().zip(old.place.apply(was)).for_each(|(a, b)| near(*a, b, 1e-12));
+        body.place.apply(new).iter().zip(old.place.apply(was)).for_each(|(a, b)| assert_near(*a, b, 1e-12));
     }
 }
 
@@ -205,7 +205,7 @@ fn deactivated_sets_leave_their_hooks_in_place() {
     let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
     assert_eq!(place(&model, "HOOK"), before);
     assert!(found.found.loose.iter().all(|(body, _)| body == "DECK"), "{:?}", found.found.loose);
-    near(tension(&model, "FALL2") / 1e6, 1.0, 1e-8);
+    assert_near(tension(&model, "FALL2") / 1e6, 1.0, 1e-8);
 }
 
 #[test]

@@ -31,7 +31,7 @@ fn loads(records: &str, place: Placement) -> LineLoads {
     with(records, place, |line| line.loads().unwrap_or_else(|e| panic!("{records}: {e}")))
 }
 
-fn near(got: f64, want: f64, share: f64) {
+fn assert_near(got: f64, want: f64, share: f64) {
     assert!((got - want).abs() <= share * want.abs().max(1e-6), "{got} is not {want}");
 }
 
@@ -146,8 +146,8 @@ fn weight_in_water_includes_every_contributing_option() {
     for (options, w) in cases {
         let records = format!("~L B_CAT 100 EXACT -LEN 500 -EMOD 1E9 -DEP 300 {options}");
         let got = loads(&records, place([0.0; 3], [20.0, 0.0, -300.0], true));
-        near(-got.fairlead[2], w * 300.0, 1e-6);
-        near(got.fairlead[0], 0.0, 1e-9);
+        assert_near(-got.fairlead[2], w * 300.0, 1e-6);
+        assert_near(got.fairlead[0], 0.0, 1e-9);
     }
 }
 
@@ -164,8 +164,8 @@ fn break_comes_from_given_tension_ultimate_stress_or_yield_stress() {
         ("", 36.0 / 0.6 * 6.894_757_293_168_36 * area),
     ] {
         let got = loads(&format!("{base} {options}"), end.clone());
-        near(got.tension, tension, 1e-9);
-        near(got.ratio, tension / limit, 1e-6);
+        assert_near(got.tension, tension, 1e-9);
+        assert_near(got.ratio, tension / limit, 1e-6);
     }
 }
 
@@ -179,9 +179,9 @@ fn sl_elem_acts_both_ways_along_chord_unless_tension_only() {
         if flag == "TENSION" {
             want = want.max(0.0);
         }
-        near(got.fairlead[0], 0.6 * want, 1e-12);
-        near(got.fairlead[2], -0.8 * want, 1e-12);
-        near(got.other[0], -0.6 * want, 1e-12);
+        assert_near(got.fairlead[0], 0.6 * want, 1e-12);
+        assert_near(got.fairlead[2], -0.8 * want, 1e-12);
+        assert_near(got.other[0], -0.6 * want, 1e-12);
         assert_eq!(got.tension, if want == 0.0 { 0.0 } else { got.tension });
     }
     // only the distance counts: the same line turned
@@ -190,7 +190,7 @@ fn sl_elem_acts_both_ways_along_chord_unless_tension_only() {
         loads(records, place([0.0; 3], [30.0, 0.0, -40.0], false)),
         loads(records, place([0.0; 3], [0.0, 50.0, 0.0], false)),
     );
-    near(a.tension, b.tension, 1e-12);
+    assert_near(a.tension, b.tension, 1e-12);
 }
 
 #[test]
@@ -199,17 +199,17 @@ fn springs_of_send_and_x_py_are_in_series_with_line() {
     let k = 2e11 * area / 50.0;
     let end = place([0.0; 3], [52.0, 0.0, 0.0], false);
     let one = |options: &str| loads(&format!("~L SL_ELEM 100 -LEN 50 -EMOD 200000 {options}"), end.clone()).tension;
-    near(one(""), 2.0 * k, 1e-12);
-    near(one("-SEND 1E6"), 2.0 / (1.0 / k + 1e-6), 1e-10);
-    near(one("-SEND 1E6 5E5"), 2.0 / (1.0 / k + 1e-6 + 2e-6), 1e-10);
-    near(one("-SEND , 5E5"), 2.0 / (1.0 / k + 2e-6), 1e-10);
+    assert_near(one(""), 2.0 * k, 1e-12);
+    assert_near(one("-SEND 1E6"), 2.0 / (1.0 / k + 1e-6), 1e-10);
+    assert_near(one("-SEND 1E6 5E5"), 2.0 / (1.0 / k + 1e-6 + 2e-6), 1e-10);
+    assert_near(one("-SEND , 5E5"), 2.0 / (1.0 / k + 2e-6), 1e-10);
     // the curve: 0.5 m to 4E5 N, and its last slope of 1 m per 1E6 N beyond 9E5 N
     let t = one("-X_PY 4E5 0.5 9E5 1.0");
-    near(t / k + 1.0 + (t - 9e5) * 1e-6, 2.0, 1e-10);
+    assert_near(t / k + 1.0 + (t - 9e5) * 1e-6, 2.0, 1e-10);
     // and in compression as in tension
     let pushed =
         loads("~L SL_ELEM 100 -LEN 50 -EMOD 200000 -X_PY 4E5 0.5 9E5 1.0", place([0.0; 3], [48.0, 0.0, 0.0], false));
-    near(pushed.tension, -t, 1e-9);
+    assert_near(pushed.tension, -t, 1e-9);
 }
 
 #[test]
@@ -223,35 +223,35 @@ fn weightless_h_cat_is_tension_only_sl_elem() {
 
 const TABLED: &str = "~L B_CAT 100 -LEN 1500 -BUOY 0 -WTPL 900 -EMOD 50000 -DEP 300 -TABLE";
 
-fn at(x: f64) -> Placement {
+fn placement_at(x: f64) -> Placement {
     place([0.0, 0.0, -10.0], [x, 0.0, -300.0], true)
 }
 
 #[test]
 fn table_matches_its_thirty_rows_and_is_monotone_between() {
-    let rows = with(TABLED, at(1300.0), |l| l.tabulate("A").unwrap().0);
+    let rows = with(TABLED, placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
     assert_eq!(rows.rows(), 30);
     let number = |row: usize, column: usize| rows.row(row)[column].number().unwrap();
     let exact = TABLED.replace(" -TABLE", "");
     for row in 1..29 {
-        let got = loads(TABLED, at(number(row, 0)));
+        let got = loads(TABLED, placement_at(number(row, 0)));
         assert_eq!(got.solution, "table");
-        near(got.fairlead[0], number(row, 1), 1e-9);
-        near(got.tension, number(row, 3), 1e-9);
-        near(-got.stiffness[0][0], number(row, 2), 1e-6);
+        assert_near(got.fairlead[0], number(row, 1), 1e-9);
+        assert_near(got.tension, number(row, 3), 1e-9);
+        assert_near(-got.stiffness[0][0], number(row, 2), 1e-6);
         assert_eq!(got.stiffness[2][1], 0.0);
-        let solved = loads(&exact, at(number(row, 0)));
-        (0..3).for_each(|i| near(got.stiffness[i][2], solved.stiffness[i][2], 1e-9));
+        let solved = loads(&exact, placement_at(number(row, 0)));
+        (0..3).for_each(|i| assert_near(got.stiffness[i][2], solved.stiffness[i][2], 1e-9));
         if row > 1 {
-            let slope = (loads(TABLED, at(number(row, 0) + 1e-4)).fairlead[2] - got.fairlead[2]) / 1e-4;
-            near(-got.stiffness[2][0], slope, 1e-2);
+            let slope = (loads(TABLED, placement_at(number(row, 0) + 1e-4)).fairlead[2] - got.fairlead[2]) / 1e-4;
+            assert_near(-got.stiffness[2][0], slope, 1e-2);
         }
         let middle = 0.5 * (number(row, 0) + number(row + 1, 0));
-        let halfway = loads(TABLED, at(middle));
+        let halfway = loads(TABLED, placement_at(middle));
         let between = halfway.fairlead[0];
         assert_eq!(-halfway.other[0], between, "no friction: the anchor is pulled with the same");
         assert!(between > number(row, 1) && between < number(row + 1, 1));
-        let want = loads(&exact, at(middle));
+        let want = loads(&exact, placement_at(middle));
         assert_eq!(want.solution, "exact");
         assert!((between - want.fairlead[0]).abs() < 2e-3 * number(row + 1, 1), "{between} {}", want.fairlead[0]);
     }
@@ -259,10 +259,10 @@ fn table_matches_its_thirty_rows_and_is_monotone_between() {
 
 #[test]
 fn force_beyond_table_is_extrapolated_linearly_with_a_note() {
-    let rows = with(TABLED, at(1300.0), |l| l.tabulate("A").unwrap().0);
+    let rows = with(TABLED, placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
     let last = |column: usize| rows.row(29)[column].number().unwrap();
-    let got = loads(TABLED, at(last(0) + 2.0));
-    near(got.fairlead[0], last(1) + 2.0 * last(2), 1e-9);
+    let got = loads(TABLED, placement_at(last(0) + 2.0));
+    assert_near(got.fairlead[0], last(1) + 2.0 * last(2), 1e-9);
     assert!(got.notes.iter().any(|n| n.without_values().contains("beyond the table")), "{:?}", got.notes);
 }
 
@@ -270,7 +270,7 @@ fn force_beyond_table_is_extrapolated_linearly_with_a_note() {
 fn tabled_line_nearer_than_first_row_is_solved_exactly() {
     let exact = TABLED.replace(" -TABLE", "");
     for x in [0.0, 50.0, 900.0] {
-        let (got, want) = (loads(TABLED, at(x)), loads(&exact, at(x)));
+        let (got, want) = (loads(TABLED, placement_at(x)), loads(&exact, placement_at(x)));
         assert_eq!((got.fairlead, got.grounded), (want.fairlead, want.grounded));
         assert!(got.fairlead[2] < 0.0 && got.grounded < 1500.0, "{got:?}");
         assert!(got.notes.iter().any(|n| n.without_values().contains("solved exactly")), "{:?}", got.notes);
@@ -279,10 +279,10 @@ fn tabled_line_nearer_than_first_row_is_solved_exactly() {
 
 #[test]
 fn tab_lim_is_largest_horizontal_force_of_table() {
-    let limited = with(&format!("{TABLED} -TAB_LIM 1E6"), at(1300.0), |l| l.tabulate("A").unwrap().0);
-    near(limited.row(29)[1].number().unwrap(), 1e6, 1e-12);
-    let free = with(TABLED, at(1300.0), |l| l.tabulate("A").unwrap().0);
-    near(
+    let limited = with(&format!("{TABLED} -TAB_LIM 1E6"), placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
+    assert_near(limited.row(29)[1].number().unwrap(), 1e6, 1e-12);
+    let free = with(TABLED, placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
+    assert_near(
         free.row(29)[1].number().unwrap(),
         36.0 / 0.6 * 6.894_757_293_168_36e6 * std::f64::consts::FRAC_PI_4 * 0.01,
         1e-6,
@@ -292,10 +292,10 @@ fn tab_lim_is_largest_horizontal_force_of_table() {
 #[test]
 fn friction_reduces_anchor_pull_only() {
     let exact = TABLED.replace(" -TABLE", "");
-    let smooth = loads(&exact, at(1440.0));
-    let rough = loads(&format!("{exact} -FRICTION 0.2"), at(1440.0));
-    near(-rough.other[0], rough.fairlead[0] - 0.2 * 900.0 * rough.grounded, 1e-9);
-    near(-smooth.other[0], smooth.fairlead[0], 1e-12);
+    let smooth = loads(&exact, placement_at(1440.0));
+    let rough = loads(&format!("{exact} -FRICTION 0.2"), placement_at(1440.0));
+    assert_near(-rough.other[0], rough.fairlead[0] - 0.2 * 900.0 * rough.grounded, 1e-9);
+    assert_near(-smooth.other[0], smooth.fairlead[0], 1e-12);
     assert!(rough.fairlead[0] > smooth.fairlead[0] && rough.grounded > 100.0);
 }
 
@@ -303,11 +303,12 @@ fn friction_reduces_anchor_pull_only() {
 fn positive_slope_is_deeper_at_anchor_than_below_vessel() {
     let exact = TABLED.replace(" -TABLE", "");
     for (slope, rises) in [(0.05, true), (-0.05, false)] {
-        let shape =
-            with(&format!("{exact} -SLOPE {slope}"), at(1400.0), |l| l.geometry("A", Condition::Placed).unwrap());
+        let shape = with(&format!("{exact} -SLOPE {slope}"), placement_at(1400.0), |l| {
+            l.geometry("A", Condition::Placed).unwrap()
+        });
         let fact = |name: &str| shape.facts.iter().find(|f| f.0 == name).unwrap().1.number().unwrap();
         let (x, z) = (fact("Touchdown at X"), fact("Touchdown at Z"));
-        near(z, -300.0 + slope * (1400.0 - x), 1e-9);
+        assert_near(z, -300.0 + slope * (1400.0 - x), 1e-9);
         assert_eq!(z > -300.0, rises);
     }
 }
@@ -321,7 +322,7 @@ fn clumps_and_spring_buoys_act_at_segment_end_and_follow_tide() {
         )
     };
     let joint = |records: &str| {
-        let table = with(records, at(1250.0), |l| l.geometry("A", Condition::Placed).unwrap());
+        let table = with(records, placement_at(1250.0), |l| l.geometry("A", Condition::Placed).unwrap());
         let row = (0..table.rows()).map(|i| table.row(i)).find(|r| r[12].number().is_some()).unwrap();
         (row[1].number().unwrap(), table.notes.clone())
     };
@@ -329,29 +330,29 @@ fn clumps_and_spring_buoys_act_at_segment_end_and_follow_tide() {
     let (weighed, _) = joint(&line("-CLUMP 2E5"));
     assert!(weighed < bare, "{weighed} {bare}");
     let (held, notes) = joint(&line("-CLUMP -2E6 60"));
-    near(held, -60.0, 1e-9);
+    assert_near(held, -60.0, 1e-9);
     assert!(notes.iter().any(|n| n.text.contains("held by its pendant")), "{notes:?}");
     let (tide, _) = joint(&format!("END\n&ENV -TIDE 3\nMEDIT\n{}", line("-CLUMP -2E6 60")));
-    near(tide, -57.0, 1e-9);
+    assert_near(tide, -57.0, 1e-9);
     let (sunk, notes) = joint(&line("-CLUMP -1E5 60"));
     assert!(sunk < -60.0 && notes.iter().any(|n| n.text.contains("is sunk")), "{sunk} {notes:?}");
 }
 
 #[test]
-fn first_length_giving_a_force_gives_it() {
+fn first_length_for_force_gives_that_force() {
     let exact = TABLED.replace(" -TABLE", "");
     for condition in [Condition::Horizontal(4e5), Condition::Tension(9e5)] {
-        let length = with(&exact, at(1400.0), |l| l.first_length(condition).unwrap().length);
-        let got = loads(&exact, Placement { first_length: Some(length), ..at(1400.0) });
+        let length = with(&exact, placement_at(1400.0), |l| l.first_length(condition).unwrap().length);
+        let got = loads(&exact, Placement { first_length: Some(length), ..placement_at(1400.0) });
         match condition {
-            Condition::Horizontal(f) => near(got.fairlead[0], f, 1e-8),
-            _ => near(got.tension, 9e5, 1e-8),
+            Condition::Horizontal(f) => assert_near(got.fairlead[0], f, 1e-8),
+            _ => assert_near(got.tension, 9e5, 1e-8),
         }
-        let x = with(&exact, at(1400.0), |l| l.distance(condition).unwrap());
-        let moved = loads(&exact, at(x));
+        let x = with(&exact, placement_at(1400.0), |l| l.distance(condition).unwrap());
+        let moved = loads(&exact, placement_at(x));
         match condition {
-            Condition::Horizontal(f) => near(moved.fairlead[0], f, 1e-8),
-            _ => near(moved.tension, 9e5, 1e-8),
+            Condition::Horizontal(f) => assert_near(moved.fairlead[0], f, 1e-8),
+            _ => assert_near(moved.tension, 9e5, 1e-8),
         }
     }
 }
@@ -361,7 +362,7 @@ fn aqwa_section_weight_is_mass_less_displaced_water() {
     for (area, w) in [(0.0, 170.0 * 9.80665), (0.02, (170.0 - 1025.0 * 0.02) * 9.80665)] {
         let records = format!("~L CATENARY 170 {area} -LEN 500 -EA 1E14 -DEP 300");
         let got = loads(&records, place([0.0; 3], [10.0, 0.0, -300.0], true));
-        near(-got.fairlead[2], w * 300.0, 1e-6);
+        assert_near(-got.fairlead[2], w * 300.0, 1e-6);
     }
 }
 
@@ -372,13 +373,13 @@ fn aqwa_section_stretch_follows_polynomial_up_to_largest_tension() {
         let records = format!("~L CATENARY 170 {:e} -LEN 100 {options}", 170.0 / 1025.0);
         loads(&records, place([0.0; 3], [100.0 * (1.0 + strain), 0.0, 0.0], false)).tension
     };
-    near(one("", 0.005), 5.0e6 * 170.0 * 0.005, 1e-9);
-    near(one("-EA 1E7 -TMAX 1E6", 0.02), 2e5, 1e-6);
+    assert_near(one("", 0.005), 5.0e6 * 170.0 * 0.005, 1e-9);
+    assert_near(one("-EA 1E7 -TMAX 1E6", 0.02), 2e5, 1e-6);
     // beyond the maximum the tension is held, and keeps a millionth of its stiffness
-    near(one("-EA 1E7 -TMAX 1E5", 0.05), 1e5, 1e-5);
+    assert_near(one("-EA 1E7 -TMAX 1E5", 0.05), 1e5, 1e-5);
     let k = "-EA 1E7 -K 2E7 3E8 4E9 -TMAX 1E6";
     let ea = |e: f64| 1e7 + e * (2e7 + e * (3e8 + e * 4e9));
-    near(one(k, 0.03), ea(0.03) * 0.03, 1e-6);
+    assert_near(one(k, 0.03), ea(0.03) * 0.03, 1e-6);
     // e at the maximum tension by bisection, straight on beyond it
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..200 {
@@ -386,7 +387,7 @@ fn aqwa_section_stretch_follows_polynomial_up_to_largest_tension() {
         if ea(e) * e < 1e6 { low = e } else { high = e }
     }
     let slope = 2e7 + low * (6e8 + low * 12e9);
-    near(one(k, low + 0.02), (ea(low) + slope * 0.02) * (low + 0.02), 1e-6);
+    assert_near(one(k, low + 0.02), (ea(low) + slope * 0.02) * (low + 0.02), 1e-6);
 }
 
 #[test]
@@ -428,7 +429,7 @@ fn viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
         let connector = model.connectors.get("S").unwrap_or_else(|| panic!("{:?}", session.reports));
         let class = &model.classes[&connector.class];
         let line = class.line(&model.placement(connector), &model.surroundings()).unwrap();
-        near(line.loads().unwrap().tension, 2.0 / (1.0 / k + 1.0 / spring), 1e-10);
+        assert_near(line.loads().unwrap().tension, 2.0 / (1.0 / k + 1.0 / spring), 1e-10);
     }
     let missing = session("END\nINMODEL\n~L SL_ELEM 100 -LEN 50 -CONVOLUTION NONE");
     let class = &missing.job.model.classes["~L"];
@@ -442,7 +443,7 @@ fn aqwa_line_table_ends_at_largest_expected_tension() {
         let records = format!("~L CATENARY 170 0.02 -LEN 900 -DEP 150 {options}");
         let rows = with(&records, place([0.0; 3], [850.0, 0.0, -150.0], true), |l| l.tabulate("A").unwrap().0);
         let limit = if options.is_empty() { 5.0e4 * 170.0 } else { 5e6 };
-        near(rows.row(29)[3].number().unwrap(), limit, 1e-6);
+        assert_near(rows.row(29)[3].number().unwrap(), limit, 1e-6);
         assert!(rows.row(29)[0].number().unwrap() < 900.0 * 1.05, "{:?}", rows.row(29)[0]);
     }
 }

@@ -62,12 +62,12 @@ impl Bench {
     }
 }
 
-fn turned([x, y, z]: [f64; 3], angle: f64) -> [f64; 3] {
+fn rotate_about_z([x, y, z]: [f64; 3], angle: f64) -> [f64; 3] {
     let (s, c) = angle.sin_cos();
     [c * x - s * y, s * x + c * y, z]
 }
 
-fn near(got: [f64; 3], want: [f64; 3], share: f64, what: &str) {
+fn assert_near(got: [f64; 3], want: [f64; 3], share: f64, what: &str) {
     let size = want.iter().map(|v| v * v).sum::<f64>().sqrt();
     for (a, b) in got.iter().zip(want) {
         assert!((a - b).abs() <= share * size, "{what}: {got:?} is not {want:?}");
@@ -90,14 +90,14 @@ fn rotated_or_mirrored_line_has_rotated_or_mirrored_forces() {
         let bench = Bench::new(records);
         let straight = bench.loads(*from, *to, *ground);
         for angle in [0.4, 1.9, 3.0, -2.2] {
-            let got = bench.loads(turned(*from, angle), turned(*to, angle), *ground);
-            near(got.fairlead, turned(straight.fairlead, angle), 1e-9, name);
-            near(got.other, turned(straight.other, angle), 1e-9, name);
+            let got = bench.loads(rotate_about_z(*from, angle), rotate_about_z(*to, angle), *ground);
+            assert_near(got.fairlead, rotate_about_z(straight.fairlead, angle), 1e-9, name);
+            assert_near(got.other, rotate_about_z(straight.other, angle), 1e-9, name);
         }
         let mirror = |[x, y, z]: [f64; 3]| [x, -y, z];
-        near(bench.loads(mirror(*from), mirror(*to), *ground).fairlead, mirror(straight.fairlead), 1e-9, name);
+        assert_near(bench.loads(mirror(*from), mirror(*to), *ground).fairlead, mirror(straight.fairlead), 1e-9, name);
         let shift = |[x, y, z]: [f64; 3]| [x + 1234.5, y - 777.0, z];
-        near(bench.loads(shift(*from), shift(*to), *ground).fairlead, straight.fairlead, 1e-8, name);
+        assert_near(bench.loads(shift(*from), shift(*to), *ground).fairlead, straight.fairlead, 1e-8, name);
     }
 }
 

@@ -12,7 +12,7 @@ use windlass_solve::results::{events, line_damages};
 use windlass_solve::time::Run;
 
 /// A session after records in metres and kilonewtons, none of them refused.
-fn after(records: &str) -> Session {
+fn run_records(records: &str) -> Session {
     let (mut session, _, _folder) = common::session();
     session.open("test", format!("&DIMEN -DIMEN METERS K-NTS\n{records}"));
     session.run();
@@ -40,14 +40,14 @@ const BELOW: &str = "0 0 -100";
 /// Least and most tension of the only connector of a run (N).
 fn tensions(run: &Run) -> [f64; 2] {
     let found = run.statistics.results().find(|(series, _)| series.name == "T1 Tension").unwrap();
-    let told = found.1.summary().unwrap();
-    [told.minimum.value, told.maximum.value]
+    let reported = found.1.summary().unwrap();
+    [reported.minimum.value, reported.maximum.value]
 }
 
 #[test]
 fn compressed_tendon_and_spring_have_negative_tension() {
     for class in [ROD, SPRING] {
-        let session = after(&tendon(class, BELOW, "TDOM"));
+        let session = run_records(&tendon(class, BELOW, "TDOM"));
         let run = session.job.run.as_ref().unwrap();
         let [least, most] = tensions(run);
         let force = run.history.series(run.history.layout.wrench(0, 0).unwrap() + 2);
@@ -57,7 +57,7 @@ fn compressed_tendon_and_spring_have_negative_tension() {
         assert!((least / -up - 1.0).abs() < 1e-3 && (most / -down - 1.0).abs() < 1e-3, "{class}: {least} {most}");
     }
     // EA/L times 0.05 m less what 20 mm of pretension and the weight leave
-    let session = after(&tendon(ROD, BELOW, "TDOM"));
+    let session = run_records(&tendon(ROD, BELOW, "TDOM"));
     let [least, _] = tensions(session.job.run.as_ref().unwrap());
     assert!((least / -6.7e6 - 1.0).abs() < 0.05, "{least}");
 }
@@ -70,7 +70,7 @@ fn hanging_and_tension_only_lines_never_have_negative_tension() {
         ("ROD 60 30 -LEN 79.98 -REF 8 -EI 0", BELOW),
         ("SL_ELEM 50 TENSION -LEN 79.98", BELOW),
     ] {
-        let session = after(&tendon(class, far, "TDOM"));
+        let session = run_records(&tendon(class, far, "TDOM"));
         let [least, most] = tensions(session.job.run.as_ref().unwrap());
         assert!(least >= 0.0 && most > 0.0, "{class}: {least} {most}");
     }
@@ -80,7 +80,7 @@ fn hanging_and_tension_only_lines_never_have_negative_tension() {
 fn action_treats_compressed_line_as_slack() {
     for class in [ROD, SPRING] {
         let met = |force: &str| {
-            let session = after(&tendon(class, BELOW, &format!("&ACTION SL -SLACK T1 {force} -STOP\nTDOM")));
+            let session = run_records(&tendon(class, BELOW, &format!("&ACTION SL -SLACK T1 {force} -STOP\nTDOM")));
             let run = session.job.run.as_ref().unwrap();
             let [Some(time)] = run.fired[..] else { panic!("{class}: {:?}", run.fired) };
             time
@@ -93,7 +93,7 @@ fn action_treats_compressed_line_as_slack() {
 
 #[test]
 fn damage_counts_full_range_of_sign_changing_tension() {
-    let session = after(&tendon(ROD, BELOW, "&ENV -TIME 55 0.05\nTDOM"));
+    let session = run_records(&tendon(ROD, BELOW, "&ENV -TIME 55 0.05\nTDOM"));
     let run = session.job.run.as_ref().unwrap();
     let all = events(&run.history, None).unwrap();
     let whole = line_damages(run, &[0], &run.model.fatigue, &all).unwrap().remove(0).1.segments.remove(0);
@@ -115,11 +115,11 @@ fn damage_counts_full_range_of_sign_changing_tension() {
 #[test]
 fn elements_beyond_their_euler_load_are_reported() {
     // 12 MN by EA/L times 0.05 m; an element of 80 m bears 3.4 MN, one of 10 m 220 MN
-    for (elements, told) in [(1, true), (8, false)] {
+    for (elements, reported) in [(1, true), (8, false)] {
         let class = format!("ROD 1000 30 -LEN 80.05 -REF {elements}");
-        let session = after(&tendon(&class, BELOW, "&STATUS F_CONNECTOR"));
+        let session = run_records(&tendon(&class, BELOW, "&STATUS F_CONNECTOR"));
         let found =
             reports(&session).iter().any(|r| r.contains("elements of its segment 1 are pushed beyond Euler's load"));
-        assert_eq!(found, told, "{elements}: {:?}", session.reports);
+        assert_eq!(found, reported, "{elements}: {:?}", session.reports);
     }
 }

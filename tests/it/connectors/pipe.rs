@@ -63,8 +63,8 @@ fn pipe_on_rollers_rolls_and_seabed_lacks_weight_by_its_height() {
     let layer = w * (3.66e7_f64 / bottom).sqrt();
     assert!((-sum[2] - w * (arc + along)).abs() < 2.0 * layer, "{} {} {layer}", -sum[2], w * (arc + along));
     // and the tensioner holds what it was given
-    let told = element.summary(&at, &state).unwrap();
-    assert!((told.tension.unwrap() / tension - 1.0).abs() < 1e-3, "{told:?}");
+    let summary = element.summary(&at, &state).unwrap();
+    assert!((summary.tension.unwrap() / tension - 1.0).abs() < 1e-3, "{summary:?}");
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn records(limits: [f64; 2], motion: &str) -> String {
 }
 
 /// A session after records, none of them refused, with the folder of its answers.
-fn after(records: String, earlier: Option<&[u8]>) -> (Session, TempDir) {
+fn run_records(records: String, earlier: Option<&[u8]>) -> (Session, TempDir) {
     let (mut session, screen, folder) = common::session();
     if let Some(bytes) = earlier {
         fs::create_dir_all(folder.path().join("job.ans")).unwrap();
@@ -38,12 +38,12 @@ fn after(records: String, earlier: Option<&[u8]>) -> (Session, TempDir) {
 }
 
 /// A run of it.
-fn laid(limits: [f64; 2], motion: &str, tdom: &str) -> Session {
-    after(format!("{}TDOM -ALONG 1 {tdom}\n", records(limits, motion)), None).0
+fn run_pipelay(limits: [f64; 2], motion: &str, tdom: &str) -> Session {
+    run_records(format!("{}TDOM -ALONG 1 {tdom}\n", records(limits, motion)), None).0
 }
 
 /// Time, tension at the tensioner, and the wrench on each support from the first, of each stored instant.
-fn told(run: &Run) -> Vec<(f64, f64, Vec<[f64; 6]>)> {
+fn read_rows(run: &Run) -> Vec<(f64, f64, Vec<[f64; 6]>)> {
     let layout = &run.history.layout;
     let link = layout.links.iter().position(|l| l.name == PIPE).unwrap();
     let along = layout.links[link].along.as_ref().unwrap();
@@ -59,8 +59,8 @@ fn told(run: &Run) -> Vec<(f64, f64, Vec<[f64; 6]>)> {
 
 #[test]
 fn pipe_at_rest_on_fixed_barge_stays_in_place() {
-    let session = laid([4e5, 5e5], "-SINUSOID X 0 10", "");
-    let rows = told(session.job.run.as_ref().unwrap());
+    let session = run_pipelay([4e5, 5e5], "-SINUSOID X 0 10", "");
+    let rows = read_rows(session.job.run.as_ref().unwrap());
     let ((_, first, begun), (_, last, ended)) = (rows.first().unwrap(), rows.last().unwrap());
     // laid at the mean of its limits; at rest and under way it is the same, to the tolerance of steps
     assert!((first / 4.5e5 - 1.0).abs() < 1e-3, "{first}");
@@ -73,9 +73,9 @@ fn pipe_at_rest_on_fixed_barge_stays_in_place() {
 #[test]
 fn tensioner_keeps_its_limits_and_rollers_never_pull_down() {
     let limits = [4.3e5, 4.7e5];
-    let session = laid(limits, "-SINUSOID X 1.0 20 -SINUSOID RY 1.0 9 -RAMP 10", "-BALANCE");
+    let session = run_pipelay(limits, "-SINUSOID X 1.0 20 -SINUSOID RY 1.0 9 -RAMP 10", "-BALANCE");
     let run = session.job.run.as_ref().unwrap();
-    let rows = told(run);
+    let rows = read_rows(run);
     let (mut low, mut high) = (f64::INFINITY, 0.0f64);
     for (time, tension, supports) in &rows {
         // the pull along X of the tensioner is within its limits, at the pitch of the barge and the slope of the pipe
@@ -125,11 +125,11 @@ fn pipe_run_restarts_with_digits_of_uninterrupted_run() {
     let bits =
         |s: &Session| -> Vec<u64> { s.job.run.as_ref().unwrap().history.values.iter().map(|v| v.to_bits()).collect() };
     let records = records([4.3e5, 4.7e5], MOVES);
-    let (whole, folder) = after(format!("{records}TDOM -ALONG 5\n"), None);
+    let (whole, folder) = run_records(format!("{records}TDOM -ALONG 5\n"), None);
     let bytes = fs::read(folder.path().join("job.ans/TDOM.run")).unwrap();
     for share in [0.4, 0.9] {
         let cut = &bytes[..(bytes.len() as f64 * share) as usize];
-        let (again, _folder) = after(format!("{records}TDOM -ALONG 5 -RESTART\n"), Some(cut));
+        let (again, _folder) = run_records(format!("{records}TDOM -ALONG 5 -RESTART\n"), Some(cut));
         assert!(again.reports.iter().any(|r| r.message.starts_with("goes on from ")));
         assert!(bits(&again) == bits(&whole), "{share}");
     }
@@ -141,7 +141,7 @@ fn sea_starting_during_run_finds_pipe_on_its_supports() {
     let sea = "&ENV SEA -DEPTH 50 -SEA REGULAR 180 3 8 -TIME 40 0.1\n&ENV CALM -DEPTH 50 -TIME 40 0.1\n";
     let run = |action: &str| {
         let still = records(limits, "-SINUSOID X 0 10");
-        after(format!("{still}{sea}&ENV CALM\n{action}TDOM -ALONG 1\n"), None).0
+        run_records(format!("{still}{sea}&ENV CALM\n{action}TDOM -ALONG 1\n"), None).0
     };
     let [calm, rough] = ["", "&ACTION STORM -AT 20 -ENVIRONMENT SEA\n"].map(|action| {
         let session = run(action);
@@ -162,7 +162,7 @@ fn sea_starting_during_run_finds_pipe_on_its_supports() {
 
 #[test]
 fn support_forces_add_up_to_load_on_barge() {
-    let session = laid([4.3e5, 4.7e5], MOVES, "");
+    let session = run_pipelay([4.3e5, 4.7e5], MOVES, "");
     let run = session.job.run.as_ref().unwrap();
     let line = LineResults::find(run, PIPE).unwrap();
     let events = results::events(&run.history, None).unwrap();
@@ -186,15 +186,15 @@ fn action_on_pipe_support_is_refused() {
         let (mut session, _, _folder) = common::session();
         session.open("records", format!("{}&ACTION OFF {action}\nTDOM\n", records([4e5, 5e5], "-SINUSOID X 0 10")));
         session.run();
-        let told = format!("{:?}", session.reports);
-        assert!(session.errors == 1 && told.contains("R2: a pipe lies on it"), "{told}");
+        let reported = format!("{:?}", session.reports);
+        assert!(session.errors == 1 && reported.contains("R2: a pipe lies on it"), "{reported}");
     }
 }
 
 #[test]
 fn run_ends_when_pipe_pull_exceeds_limit() {
     let records = records([4.3e5, 4.7e5], MOVES);
-    let (session, _folder) = after(format!("{records}&ACTION OFF -TENSION &PIPE 4.6E5 -STOP\nTDOM\n"), None);
+    let (session, _folder) = run_records(format!("{records}&ACTION OFF -TENSION &PIPE 4.6E5 -STOP\nTDOM\n"), None);
     let run = session.job.run.as_ref().unwrap();
     let at = run.history.layout.pull(0).unwrap();
     let pulls: Vec<f64> =
@@ -206,7 +206,7 @@ fn run_ends_when_pipe_pull_exceeds_limit() {
 #[test]
 fn tensioner_holds_at_its_current_position() {
     // surge of half a metre turns at 10 s and 30 s; from then on it is held until the pipe itself pulls by the other limit
-    let session = laid([5.8e5, 6.2e5], "-SINUSOID X 0.5 40", "");
+    let session = run_pipelay([5.8e5, 6.2e5], "-SINUSOID X 0.5 40", "");
     let run = session.job.run.as_ref().unwrap();
     let at = run.history.layout.pull(0).unwrap();
     for row in run.history.rows() {
@@ -226,7 +226,7 @@ fn current_starting_during_run_keeps_pipe_length() {
     let still = records([4e5, 8e5], "-SINUSOID X 0 10");
     let streams = "&ENV STREAM -DEPTH 50 -CURRENT 1.0 90 -TIME 40 0.1\n&ENV CALM -DEPTH 50 -TIME 40 0.1\n";
     let (session, _folder) =
-        after(format!("{still}{streams}&ENV CALM\n&ACTION SW -AT 5 -ENVIRONMENT STREAM\nTDOM -ALONG 1\n"), None);
+        run_records(format!("{still}{streams}&ENV CALM\n&ACTION SW -AT 5 -ENVIRONMENT STREAM\nTDOM -ALONG 1\n"), None);
     let run = session.job.run.as_ref().unwrap();
     let (at, along) = (run.history.layout.pull(0).unwrap(), run.history.layout.links[0].along.as_ref().unwrap());
     let seen = |row: &[f64]| {

@@ -46,7 +46,7 @@ impl Rig {
     }
 
     /// The answer with the second end moved along X from where it was defined, with a velocity.
-    fn at(&self, moved: f64, speed: f64, dt: Option<f64>) -> (ElementResponse, Vec<f64>) {
+    fn evaluate_at(&self, moved: f64, speed: f64, dt: Option<f64>) -> (ElementResponse, Vec<f64>) {
         let [first, second] = self.ends;
         let there = [
             End::still(Pose::from_position(first.into())),
@@ -74,19 +74,19 @@ impl Rig {
 
     /// Tension after a step to a place, which is committed.
     fn step(&mut self, moved: f64, dt: f64) -> f64 {
-        let (out, trial) = self.at(moved, 0.0, Some(dt));
+        let (out, trial) = self.evaluate_at(moved, 0.0, Some(dt));
         self.state = trial;
         out.wrench[0][0]
     }
 
     /// Tension and position of the piston at rest.
     fn rest(&self, moved: f64) -> (f64, f64) {
-        let (out, trial) = self.at(moved, 0.0, None);
+        let (out, trial) = self.evaluate_at(moved, 0.0, None);
         (out.wrench[0][0], trial[0])
     }
 }
 
-fn near(got: f64, want: f64) {
+fn assert_near(got: f64, want: f64) {
     assert!((got - want).abs() <= 1e-8 * want.abs().max(1.0), "{got} is not {want}");
 }
 
@@ -101,8 +101,8 @@ fn slow_pull_raises_tension_to_tmax_while_piston_extends() {
     for i in 1..=60 {
         let moved = 0.04 * f64::from(i);
         let tension = rig.step(moved, 0.1);
-        near(tension, (1e4 * moved).min(8000.0));
-        near(rig.state[0], 1.0 + (moved - 0.8).max(0.0));
+        assert_near(tension, (1e4 * moved).min(8000.0));
+        assert_near(rig.state[0], 1.0 + (moved - 0.8).max(0.0));
     }
 }
 
@@ -114,11 +114,11 @@ fn pull_faster_than_piston_exceeds_tmax_by_speed_difference() {
         let (t, moved) = (0.1 * f64::from(i), 0.08 * f64::from(i));
         let tension = rig.step(moved, 0.1);
         let piston = (0.5 * (t - 1.0)).clamp(0.0, 2.0);
-        near(rig.state[0], 1.0 + piston);
-        near(tension, 1e4 * (moved - piston));
+        assert_near(rig.state[0], 1.0 + piston);
+        assert_near(tension, 1e4 * (moved - piston));
         // it lags or has stopped: the spring is as stiff as ever
         if t > 1.05 {
-            near(rig.at(moved + 0.08, 0.0, Some(0.1)).0.stiffness[0][(0, 0)], 1e4);
+            assert_near(rig.evaluate_at(moved + 0.08, 0.0, Some(0.1)).0.stiffness[0][(0, 0)], 1e4);
         }
     }
 }
@@ -129,32 +129,32 @@ fn max_piston_returns_to_nominal_and_never_exceeds_tmax() {
     rig.state[0] = 2.0;
     // let go at once: 0.25 m/s back, 4 s to LD, and no shorter
     for i in 1..=50 {
-        near(rig.step(0.2, 0.1), (1e4 * (0.2 - (rig.state[0] - 1.0))).max(0.0));
-        near(rig.state[0], (2.0 - 0.025 * f64::from(i)).max(1.0));
+        assert_near(rig.step(0.2, 0.1), (1e4 * (0.2 - (rig.state[0] - 1.0))).max(0.0));
+        assert_near(rig.state[0], (2.0 - 0.025 * f64::from(i)).max(1.0));
     }
     // stretched by 1.5 m it holds TMAX at 0.7 m beyond LD, though it could go further back
     rig.state[0] = 1.72;
-    near(rig.step(1.5, 0.1), 8000.0);
-    near(rig.state[0], 1.7);
+    assert_near(rig.step(1.5, 0.1), 8000.0);
+    assert_near(rig.state[0], 1.7);
 }
 
 #[test]
 fn minmax_piston_keeps_tension_between_both_limits() {
     let mut rig = Rig::spring(MINMAX);
     // 5000 N, then relaxed at 0.2 m/s: TMIN after 1.5 s, held from there by shortening to 0 another 5 s later; then slack
-    near(rig.step(0.5, 0.1), 5000.0);
-    near(rig.state[0], 1.0);
+    assert_near(rig.step(0.5, 0.1), 5000.0);
+    assert_near(rig.state[0], 1.0);
     for i in 1..=90 {
         let moved = 0.5 - 0.02 * f64::from(i);
         let piston = (1.0 - (0.2 - moved).max(0.0)).max(0.0);
-        near(rig.step(moved, 0.1), (1e4 * (moved + 1.0 - piston)).max(0.0));
-        near(rig.state[0], piston);
+        assert_near(rig.step(moved, 0.1), (1e4 * (moved + 1.0 - piston)).max(0.0));
+        assert_near(rig.state[0], piston);
     }
     // pulled again it stays at 0 up to TMAX: 8000 N at -0.2 m, and then lengthens at once
     for i in 0..=30 {
         let moved = -1.0 + 0.04 * f64::from(i);
-        near(rig.step(moved, 0.1), (1e4 * (moved + 1.0)).min(8000.0));
-        near(rig.state[0], (moved + 0.2).max(0.0));
+        assert_near(rig.step(moved, 0.1), (1e4 * (moved + 1.0)).min(8000.0));
+        assert_near(rig.state[0], (moved + 0.2).max(0.0));
     }
 }
 
@@ -163,7 +163,7 @@ fn release_faster_than_piston_drops_below_tmin_and_recovers() {
     let mut rig = Rig::spring(MINMAX);
     // held at 0.1 m, 1000 N: 0.025 m a step, 250 N, up to 2000 N
     for i in 1..=6 {
-        near(rig.step(0.1, 0.1), (1000.0 + 250.0 * f64::from(i)).min(2000.0));
+        assert_near(rig.step(0.1, 0.1), (1000.0 + 250.0 * f64::from(i)).min(2000.0));
     }
 }
 
@@ -181,7 +181,7 @@ fn monotone_pull_gives_monotone_tension_at_any_step() {
             assert!(taken || rig.state[0] >= place - 1e-12, "{dt}: {} after {place}", rig.state[0]);
             (before, place) = (tension, rig.state[0]);
         }
-        near(before, 8000.0);
+        assert_near(before, 8000.0);
     }
 }
 
@@ -198,15 +198,15 @@ fn static_piston_slides_to_hold_limit_or_to_its_stop() {
         (-2.0, 0.0, 0.0),
     ] {
         let (got, at) = rig.rest(moved);
-        near(got, tension);
-        near(at, position);
+        assert_near(got, tension);
+        assert_near(at, position);
     }
     // of MAX nothing is taken up
     let (tension, position) = Rig::spring(MAX).rest(-0.3);
     assert_eq!((tension, position), (0.0, 1.0));
-    let told = rig.summary(1.3);
-    near(told.springs[0].deflection, 1.5);
-    assert!(told.notes.iter().any(|n| n.without_values().contains("holds TMAX")), "{told:?}");
+    let reported = rig.summary(1.3);
+    assert_near(reported.springs[0].deflection, 1.5);
+    assert!(reported.notes.iter().any(|n| n.without_values().contains("holds TMAX")), "{reported:?}");
     assert!(
         rig.summary(3.5)
             .notes
@@ -216,15 +216,15 @@ fn static_piston_slides_to_hold_limit_or_to_its_stop() {
 }
 
 #[test]
-fn held_tension_leaves_only_geometric_stiffness() {
+fn constant_tension_leaves_only_geometric_stiffness() {
     let rig = Rig::spring(MINMAX);
     for dt in [None, Some(5.0)] {
-        let (out, _) = rig.at(1.3, 0.0, dt);
+        let (out, _) = rig.evaluate_at(1.3, 0.0, dt);
         // T over the distance across, nothing along
         let k = out.stiffness[0];
-        near(k[(0, 0)], 0.0);
-        near(k[(1, 1)], 8000.0 / 101.3);
-        near(k[(2, 2)], 8000.0 / 101.3);
+        assert_near(k[(0, 0)], 0.0);
+        assert_near(k[(1, 1)], 8000.0 / 101.3);
+        assert_near(k[(2, 2)], 8000.0 / 101.3);
     }
 }
 
@@ -237,7 +237,7 @@ fn piston_limits_pushing_spring_too() {
     );
     // pushed together by 0.4 m the piston gives way, down to no force; by 1.4 m it is shortest and 0.4 m are left
     assert!(rig.rest(-0.4).0.abs() < 1e-6);
-    near(rig.rest(-1.4).0, -4000.0);
+    assert_near(rig.rest(-1.4).0, -4000.0);
 }
 
 #[test]
@@ -245,9 +245,9 @@ fn evaluation_does_not_move_the_piston() {
     let mut rig = Rig::spring(MAX);
     rig.step(1.0, 10.0);
     let before = rig.state.clone();
-    let first = rig.at(1.1, 0.0, Some(0.1));
-    rig.at(2.9, 0.0, Some(0.1));
-    let again = rig.at(1.1, 0.0, Some(0.1));
+    let first = rig.evaluate_at(1.1, 0.0, Some(0.1));
+    rig.evaluate_at(2.9, 0.0, Some(0.1));
+    let again = rig.evaluate_at(1.1, 0.0, Some(0.1));
     assert_eq!(first.1, again.1);
     assert_eq!(first.0.wrench, again.0.wrench);
     assert_eq!(before, rig.state);
@@ -265,7 +265,7 @@ fn line_to_ground_is_held_at_tmax_by_travel_along_tension() {
             (out.wrench[0].fixed_rows::<3>(0).into_owned(), trial)
         };
         let (force, state) = wrench(&held, held.ends[0]);
-        near(force.norm() / 2.3e6, 1.0);
+        assert_near(force.norm() / 2.3e6, 1.0);
         let way = state[0] - 1.0;
         assert!(way > 0.5 && way < 8.0, "{state:?}");
         // the same line without a piston, its end that much further in
@@ -285,16 +285,16 @@ fn dashpot_adds_limited_power_law_force_under_tension_only() {
         (0.5, -2.0, 1000.0),
         (-0.1, 1.0, 0.0),
     ] {
-        let (out, _) = rig.at(moved, speed, Some(0.1));
-        near(out.wrench[0][0], want);
-        near(out.wrench[1][0], -want);
+        let (out, _) = rig.evaluate_at(moved, speed, Some(0.1));
+        assert_near(out.wrench[0][0], want);
+        assert_near(out.wrench[1][0], -want);
         // none at rest
-        near(rig.at(moved, speed, None).0.wrench[0][0], (1e4 * moved).max(0.0));
+        assert_near(rig.evaluate_at(moved, speed, None).0.wrench[0][0], (1e4 * moved).max(0.0));
     }
     // 2 Co v
-    near(rig.at(0.5, 0.7, Some(0.1)).0.damping[0][(0, 0)], 4200.0);
+    assert_near(rig.evaluate_at(0.5, 0.7, Some(0.1)).0.damping[0][(0, 0)], 4200.0);
     // no cap without Fo
-    near(Rig::spring("-X_DAMPING 3000 1").at(0.5, 9.0, Some(0.1)).0.wrench[0][0], 32_000.0);
+    assert_near(Rig::spring("-X_DAMPING 3000 1").evaluate_at(0.5, 9.0, Some(0.1)).0.wrench[0][0], 32_000.0);
 }
 
 #[test]
@@ -305,12 +305,12 @@ fn series_viscoelastic_spring_relaxes_by_combined_exponential() {
     let law = windlass_connectors::viscous::ViscoelasticLaw::fit(curve).unwrap().law;
     assert_eq!(law.branches.len(), 1);
     let (k, lasting, branch, tau) = (1e4, law.long_term, law.branches[0].stiffness, law.branches[0].time);
-    near(lasting, 2e4);
+    assert_near(lasting, 2e4);
     // stretched by 1 m at once: k in series with all of the spring
     let glassy = lasting + branch;
     let steps = 4000;
     let dt = 3.0 * tau / f64::from(steps);
-    near(rig.step(1.0, 1e-9 * tau) / (k * glassy / (k + glassy)), 1.0);
+    assert_near(rig.step(1.0, 1e-9 * tau) / (k * glassy / (k + glassy)), 1.0);
     // T = k (u - d), d the deflection; (k + lasting + branch) d' = -(d (k + lasting) - k u) / tau: held, it relaxes with the time
     // tau (k + lasting + branch) / (k + lasting)
     let slow = tau * (k + glassy) / (k + lasting);
@@ -323,13 +323,13 @@ fn series_viscoelastic_spring_relaxes_by_combined_exponential() {
     // the step takes the deflection for even: its error falls with the square of it
     assert!((tension - want).abs() < 1e-6 * want, "{tension} {want}");
     // statics has the last
-    near(rig.at(1.0, 0.0, None).0.wrench[0][0], last);
+    assert_near(rig.evaluate_at(1.0, 0.0, None).0.wrench[0][0], last);
 }
 
 #[test]
 fn static_viscoelastic_catenary_has_end_spring_of_long_term_stiffness() {
     let class = |more: &str| format!("H_CAT 100 EXACT -LEN 320 -WTPL 700 {more}");
-    let at = |more: &str| Rig::new(&class(more), "~C *A *B", [250.0, 180.0, -40.0]).at(0.0, 0.0, None).0;
+    let at = |more: &str| Rig::new(&class(more), "~C *A *B", [250.0, 180.0, -40.0]).evaluate_at(0.0, 0.0, None).0;
     let (soft, plain) = (at("-CONVOLUTION SOFT"), at("-SEND 2E4"));
     for i in 0..2 {
         assert!((soft.wrench[i] - plain.wrench[i]).norm() <= 1e-8 * plain.wrench[i].norm());
@@ -351,7 +351,7 @@ fn contradictory_pistons_are_refused() {
         session.open("records", format!("&DIMEN -DIMEN METERS N\nMEDIT\n~C SL_ELEM 100 -LEN 100 {bad}\nEND\n"));
         session.run();
         assert_eq!(session.errors, 1, "{bad}");
-        let told = format!("{:?}", session.reports);
-        assert!(told.contains(says), "{bad}: {told}");
+        let reported = format!("{:?}", session.reports);
+        assert!(reported.contains(says), "{bad}: {reported}");
     }
 }

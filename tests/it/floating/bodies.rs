@@ -2,6 +2,7 @@
 //! the multi-point mooring sample [W-SAMPLE]: a box of 400 x 100 x 20 ft with its origin at bow and keel.
 
 use crate::common;
+use crate::common::assert_share;
 
 use common::session;
 use nalgebra::{Vector3, Vector6};
@@ -23,10 +24,6 @@ fn model(records: &str) -> (Model, Vec<String>) {
     (session.job.model.clone(), session.reports.iter().map(|r| r.message.clone()).collect())
 }
 
-fn near(found: f64, want: f64, part: f64) {
-    assert!((found - want).abs() <= part * want.abs(), "{found} instead of {want}");
-}
-
 const BARGE: &str = "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 12\nPGEN HULL\nPLANE 0 400 -RECT 0 20 100\nEND PGEN\nEND\n\
                      &WEIGHT -TOTAL TBRG 23000 200 0 12 38 118 120\n&INSTATE -CONDITION 9\n";
 
@@ -43,16 +40,16 @@ fn barge_hydrostatics_match_box_formulas() {
     let (length, beam, draft, kg) = (400.0, 100.0, 9.0, 12.0);
     let found = state(&model(BARGE).0);
     let volume = length * beam * draft;
-    near(found.volume / METRES_PER_FOOT.powi(3), volume, 1e-12);
-    near(found.displacement, volume * METRES_PER_FOOT.powi(3) * 1025.0 * 9.80665, 1e-12);
-    near(found.kb / METRES_PER_FOOT, draft / 2.0, 1e-12);
-    near(found.plane_area / METRES_PER_FOOT.powi(2), length * beam, 1e-12);
-    near(found.wetted_area / METRES_PER_FOOT.powi(2), length * beam + 2.0 * draft * (length + beam), 1e-12);
-    near(found.bm_t / METRES_PER_FOOT, beam * beam / (12.0 * draft), 1e-12);
-    near(found.bm_l / METRES_PER_FOOT, length * length / (12.0 * draft), 1e-12);
-    near(found.gm_t / METRES_PER_FOOT, draft / 2.0 + beam * beam / (12.0 * draft) - kg, 1e-12);
+    assert_share(found.volume / METRES_PER_FOOT.powi(3), volume, 1e-12);
+    assert_share(found.displacement, volume * METRES_PER_FOOT.powi(3) * 1025.0 * 9.80665, 1e-12);
+    assert_share(found.kb / METRES_PER_FOOT, draft / 2.0, 1e-12);
+    assert_share(found.plane_area / METRES_PER_FOOT.powi(2), length * beam, 1e-12);
+    assert_share(found.wetted_area / METRES_PER_FOOT.powi(2), length * beam + 2.0 * draft * (length + beam), 1e-12);
+    assert_share(found.bm_t / METRES_PER_FOOT, beam * beam / (12.0 * draft), 1e-12);
+    assert_share(found.bm_l / METRES_PER_FOOT, length * length / (12.0 * draft), 1e-12);
+    assert_share(found.gm_t / METRES_PER_FOOT, draft / 2.0 + beam * beam / (12.0 * draft) - kg, 1e-12);
     let [x, y] = found.centre_of_flotation.unwrap();
-    near(x / METRES_PER_FOOT, 200.0, 1e-12);
+    assert_share(x / METRES_PER_FOOT, 200.0, 1e-12);
     assert!(y.abs() < 1e-9);
 }
 
@@ -107,11 +104,11 @@ fn moved_part_takes_its_pieces_and_weights_along() {
     assert!((mass.centre / METRES_PER_FOOT - Vector3::new(100.0, 10.0, 6.0)).norm() < 1e-9, "{}", mass.centre);
     let radii = mass.radii().map(|k| k.unwrap() / METRES_PER_FOOT);
     for (k, want) in radii.into_iter().zip([2.0, 1.0, 2.0]) {
-        near(k, want, 1e-6);
+        assert_share(k, want, 1e-6);
     }
     let found = state(&model);
     // between z = -5 and 0: half of 20 x 10 x 10 ft
-    near(found.volume / METRES_PER_FOOT.powi(3), 1000.0, 1e-12);
+    assert_share(found.volume / METRES_PER_FOOT.powi(3), 1000.0, 1e-12);
     let centre = found.centre_of_buoyancy / METRES_PER_FOOT;
     assert!((centre - Vector3::new(95.0, 10.0, -2.5)).norm() < 1e-9, "{centre}");
 }
@@ -122,14 +119,14 @@ fn total_adds_the_missing_weight() {
         "MEDIT\n&DESCRIBE BODY B\n*A 100 0 10\n*C 0 20 0\n#WEIGHT *A 300 5 6 7\n#WEIGHT *C 200\nEND\n&WEIGHT -TOTAL B 1000 50 2 8 30 60 70\n",
     );
     let mass = Mass::from_parts(model.parts_of(&model.bodies[0]), model.defaults.gravity);
-    near(mass.mass * 9.80665, 1000.0 * NEWTONS_PER_KIP, 1e-12);
+    assert_share(mass.mass * 9.80665, 1000.0 * NEWTONS_PER_KIP, 1e-12);
     assert!((mass.centre / METRES_PER_FOOT - Vector3::new(50.0, 2.0, 8.0)).norm() < 1e-9);
     for (k, want) in mass.radii().into_iter().zip([30.0, 60.0, 70.0]) {
-        near(k.unwrap() / METRES_PER_FOOT, want, 1e-9);
+        assert_share(k.unwrap() / METRES_PER_FOOT, want, 1e-9);
     }
     // 500 kips at (1000 c - 300 a - 200 c') / 500, by hand: x (50000 - 30000) / 500 = 40, y (2000 - 4000) / 500 = -4, z (8000 - 3000) / 500 = 10
     let added = model.parts["B"].weights.last().unwrap();
-    near(added.weight, 500.0 * NEWTONS_PER_KIP, 1e-12);
+    assert_share(added.weight, 500.0 * NEWTONS_PER_KIP, 1e-12);
     assert!((Vector3::from(added.at) / METRES_PER_FOOT - Vector3::new(40.0, -4.0, 10.0)).norm() < 1e-9);
 }
 
@@ -138,9 +135,9 @@ fn margins_compound_and_keep_centre_and_radii() {
     let records = format!("{BARGE}&WEIGHT -MARGIN TBRG 10 -MARGIN TBRG 10\n");
     let (model, _) = model(&records);
     let mass = Mass::from_parts(model.parts_of(&model.bodies[0]), model.defaults.gravity);
-    near(mass.mass * 9.80665, 1.21 * 23000.0 * NEWTONS_PER_KIP, 1e-12);
+    assert_share(mass.mass * 9.80665, 1.21 * 23000.0 * NEWTONS_PER_KIP, 1e-12);
     for (k, want) in mass.radii().into_iter().zip([38.0, 118.0, 120.0]) {
-        near(k.unwrap() / METRES_PER_FOOT, want, 1e-9);
+        assert_share(k.unwrap() / METRES_PER_FOOT, want, 1e-9);
     }
 }
 
@@ -168,7 +165,7 @@ fn body_weight_and_buoyancy_tangent_matches_finite_differences() {
 #[test]
 fn tide_raises_water_surface_for_buoyancy() {
     let (low, high) = (state(&model(BARGE).0), state(&model(&format!("&DEFAULT -DEPTH 500\n{BARGE}&ENV -TIDE 2\n")).0));
-    near((high.volume - low.volume) / METRES_PER_FOOT.powi(3), 400.0 * 100.0 * 2.0, 1e-12);
+    assert_share((high.volume - low.volume) / METRES_PER_FOOT.powi(3), 400.0 * 100.0 * 2.0, 1e-12);
 }
 
 #[test]
@@ -183,10 +180,10 @@ fn linear_stiffness_matches_aqwa_deck_buoyancy() {
     let pose = Pose::from_place(&body.place);
     let total: Vector6<f64> = floating.loads.iter().map(|l| l.mean_load(&pose).unwrap().wrench).sum();
     let depth = 2.0 + 0.5 * (1.0 - 0.01f64.cos());
-    near(total[2] / NEWTONS_PER_KIP, 70.0 * depth, 1e-9);
+    assert_share(total[2] / NEWTONS_PER_KIP, 70.0 * depth, 1e-9);
     let arm = pose.axes * floating.mass.centre;
     let about = Vector3::new(total[3], total[4], total[5]) - arm.cross(&Vector3::new(total[0], total[1], total[2]));
-    near(about.x / NEWTONS_PER_KIP / METRES_PER_FOOT, -12.0, 1e-9);
+    assert_share(about.x / NEWTONS_PER_KIP / METRES_PER_FOOT, -12.0, 1e-9);
 }
 
 #[test]
@@ -272,7 +269,7 @@ fn box_righting_arm_matches_wall_sided_formula() {
         let roll = degrees.to_radians();
         let found = balance_heave_and_trim(&floating, &Place::new([5.0, 6.0, -2.0, roll, 0.0, yaw])).unwrap();
         let want = roll.sin() * (gm + 0.5 * bm * roll.tan().powi(2));
-        near(found.arm / METRES_PER_FOOT, want, 1e-8);
+        assert_share(found.arm / METRES_PER_FOOT, want, 1e-8);
         assert!(found.place.turn[1].abs() < 1e-9, "{found:?}");
     }
 }

@@ -27,7 +27,7 @@ fn barge() -> Model {
 }
 
 /// A load of 5,000 kN, 10 m by 8 m, in four slings of 20 m from four points of a frame 12 m by 10 m.
-fn hung() -> Model {
+fn hanging_load() -> Model {
     let mut records = String::from("&DIMEN -DIMEN METERS K-NTS\nMEDIT\n");
     let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
     for (n, (x, y)) in corners.iter().enumerate() {
@@ -100,5 +100,5 @@ fn barge_on_eight_chains_converges_from_200_m_and_large_angles() {
 
 #[test]
 fn load_in_four_slings_converges_from_distant_start() {
-    pinned(&steps(&hung(), [15.0, 15.0, 10.0]), 36);
+    pinned(&steps(&hanging_load(), [15.0, 15.0, 10.0]), 36);
 }

@@ -103,13 +103,13 @@ const TRIM: f64 = 4e9;
 struct Seeded(u64);
 
 impl Seeded {
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    fn draw(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
     }
 
     fn one_in(&mut self, count: u32) -> bool {
-        self.within(0.0, 1.0) < 1.0 / f64::from(count)
+        self.draw(0.0, 1.0) < 1.0 / f64::from(count)
     }
 }
 
@@ -125,11 +125,11 @@ impl Network {
     /// A line from a point to an anchor on the bottom.
     fn anchored(&mut self, on: (&str, Vector3<f64>, Vector3<f64>), seeded: &mut Seeded) {
         let (name, point, at) = on;
-        let angle = seeded.within(0.0, std::f64::consts::TAU);
-        let far = seeded.within(0.8, 3.0) * (at.z + DEPTH);
+        let angle = seeded.draw(0.0, std::f64::consts::TAU);
+        let far = seeded.draw(0.8, 3.0) * (at.z + DEPTH);
         let anchor = Vector3::new(at.x + far * angle.cos(), at.y + far * angle.sin(), -DEPTH);
-        let length = (anchor - at).norm() * seeded.within(1.01, 1.3);
-        let line = Line { length, weight: seeded.within(200.0, 2000.0), ea: seeded.within(1e8, 1e9), bottom: true };
+        let length = (anchor - at).norm() * seeded.draw(1.01, 1.3);
+        let line = Line { length, weight: seeded.draw(200.0, 2000.0), ea: seeded.draw(1e8, 1e9), bottom: true };
         let class = self.class("B_CAT", &line);
         let number = self.lines.len();
         let end = self.point(name, point, number);
@@ -146,8 +146,8 @@ impl Network {
         other: (&str, Vector3<f64>, Vector3<f64>),
         seeded: &mut Seeded,
     ) {
-        let length = (one.2 - other.2).norm().max(20.0) * seeded.within(0.97, 1.1);
-        let line = Line { length, weight: seeded.within(50.0, 800.0), ea: seeded.within(5e7, 5e8), bottom: false };
+        let length = (one.2 - other.2).norm().max(20.0) * seeded.draw(0.97, 1.1);
+        let line = Line { length, weight: seeded.draw(50.0, 800.0), ea: seeded.draw(5e7, 5e8), bottom: false };
         let class = self.class("H_CAT", &line);
         let number = self.lines.len();
         let ends = [self.point(one.0, one.1, 2 * number + 1000), self.point(other.0, other.1, 2 * number + 1001)];
@@ -166,42 +166,42 @@ impl Network {
 
     /// A cluster of one to four bodies and junctions, each joined to the one before, each with lines to anchors; bodies by a bridle now and then.
     fn cluster(&mut self, number: usize, centre: Vector3<f64>, seeded: &mut Seeded) {
-        let count = seeded.within(1.0, 4.99) as usize;
+        let count = seeded.draw(1.0, 4.99) as usize;
         let mut before: Option<(String, Vector3<f64>, Vector3<f64>)> = None;
         for i in 0..count {
-            let mut at = centre + Vector3::new(150.0 * i as f64, seeded.within(-60.0, 60.0), 0.0);
+            let mut at = centre + Vector3::new(150.0 * i as f64, seeded.draw(-60.0, 60.0), 0.0);
             let is_body = seeded.one_in(2);
             let name = format!("{}{number}N{i}", if is_body { 'B' } else { 'J' });
             let point = |s: &mut Seeded| {
                 if is_body {
-                    Vector3::new(s.within(-20.0, 20.0), s.within(-10.0, 10.0), s.within(-8.0, 2.0))
+                    Vector3::new(s.draw(-20.0, 20.0), s.draw(-10.0, 10.0), s.draw(-8.0, 2.0))
                 } else {
                     Vector3::zeros()
                 }
             };
             if is_body {
-                let weight = seeded.within(5e6, 5e7);
+                let weight = seeded.draw(5e6, 5e7);
                 self.records
                     .push_str(&format!("&DESCRIBE BODY {name}\n*G{name} 0 0 0\n#WEIGHT *G{name} {weight} 8 9 12\n"));
                 self.records.push_str(&format!("END\n&INSTATE -LOCATE {name} {} {} 0\nMEDIT\n", at.x, at.y));
                 self.floating.push((name.clone(), weight));
             } else {
-                at.z = seeded.within(-200.0, -10.0);
+                at.z = seeded.draw(-200.0, -10.0);
                 let (weight, buoyancy) =
-                    (seeded.within(0.0, 8e4), if seeded.one_in(2) { seeded.within(2e5, 9e5) } else { 0.0 });
+                    (seeded.draw(0.0, 8e4), if seeded.one_in(2) { seeded.draw(2e5, 9e5) } else { 0.0 });
                 self.records.push_str(&format!(
                     "JUNCTION {name} {} {} {} -WEIGHT {weight} -DISPLACEMENT {buoyancy}\n",
                     at.x, at.y, at.z
                 ));
                 self.junctions.push((name.clone(), weight, buoyancy));
             }
-            for _ in 0..seeded.within(1.0, 4.99) as usize {
+            for _ in 0..seeded.draw(1.0, 4.99) as usize {
                 let on = point(seeded);
                 self.anchored((&name, on, at + on), seeded);
             }
             if is_body && seeded.one_in(2) {
                 let knot = format!("J{number}K{i}");
-                let place = at + Vector3::new(seeded.within(30.0, 60.0), seeded.within(-30.0, 30.0), -40.0);
+                let place = at + Vector3::new(seeded.draw(30.0, 60.0), seeded.draw(-30.0, 30.0), -40.0);
                 self.records.push_str(&format!("JUNCTION {knot} {} {} {} -WEIGHT 1000\n", place.x, place.y, place.z));
                 self.junctions.push((knot.clone(), 1000.0, 0.0));
                 for side in [-8.0, 8.0] {
@@ -242,7 +242,7 @@ impl Network {
     }
 
     /// The largest force that is left, over the largest at an end of a line there: in X, Y and Z of all, and the moment about Z of bodies.
-    fn left(&self, model: &Model) -> (f64, String) {
+    fn residual(&self, model: &Model) -> (f64, String) {
         let pose = |name: &str| Pose::from_place(&model.bodies[name].place);
         let water = model.surroundings().water_weight();
         let mut sums: std::collections::BTreeMap<&str, (Vector3<f64>, f64, f64)> = Default::default();
@@ -326,7 +326,7 @@ fn random_networks_match_closed_form_catenary_balance() {
     for number in 0..NETWORKS {
         let mut seeded = Seeded(9_000 + 17 * number);
         let mut network = Network::default();
-        for cluster in 0..seeded.within(1.0, 3.99) as usize {
+        for cluster in 0..seeded.draw(1.0, 3.99) as usize {
             network.cluster(cluster, Vector3::new(0.0, 2500.0 * cluster as f64, 0.0), &mut seeded);
         }
         let mut model = network.model();
@@ -343,7 +343,7 @@ fn random_networks_match_closed_form_catenary_balance() {
             }
             Err(error) => refused.push((number, error)),
         }
-        let (left, what) = network.left(&model);
+        let (left, what) = network.residual(&model);
         if left / allowed > worst.0 {
             worst = (left / allowed, format!("network {number}, {what}"));
         }

@@ -2,6 +2,7 @@
 //! mooring sample [W-SAMPLE]: a box of 400 x 100 x 20 ft with its origin at bow and keel.
 
 use crate::common;
+use crate::common::assert_share;
 use crate::common::tangent;
 
 use nalgebra::Vector3;
@@ -48,27 +49,23 @@ fn place(values: [f64; 6]) -> Pose {
 
 const AFLOAT: [f64; 6] = [0.0, 0.0, -9.0, 0.0, 0.0, 0.0];
 
-fn near(got: f64, want: f64, tolerance: f64) {
-    assert!((got - want).abs() <= tolerance * want.abs().max(1e-9), "{got} is not {want}");
-}
-
 #[test]
 fn wind_on_freeboard_matches_closed_form_at_its_centre() {
     let even = "-W_PROFILE POWER 0";
     // ahead: 11 x 100 ft2, 9 + 5.5 ft above the keel
     let ahead = sum(&body(HULL, &format!("&ENV -WIND 60 180 {even}")), Category::Wind, &place(AFLOAT));
     let force = WIND * 11.0 * 100.0 * METRES_PER_FOOT * METRES_PER_FOOT;
-    near(ahead[0], force, 1e-12);
-    near(ahead[4], 14.5 * METRES_PER_FOOT * force, 1e-12);
+    assert_share(ahead[0], force, 1e-12);
+    assert_share(ahead[4], 14.5 * METRES_PER_FOOT * force, 1e-12);
     assert!(ahead[1].abs() < 1e-6 * force && ahead[2].abs() < 1e-6 * force && ahead[5].abs() < 1e-6 * force);
     // abeam, from starboard (90): toward -y on 11 x 400 ft2, 200 ft aft of the origin
     let beam = sum(&body(HULL, &format!("&ENV -WIND 60 90 {even}")), Category::Wind, &place(AFLOAT));
-    near(beam[1], -4.0 * force, 1e-12);
-    near(beam[3], 4.0 * force * 14.5 * METRES_PER_FOOT, 1e-12);
-    near(beam[5], -4.0 * force * 200.0 * METRES_PER_FOOT, 1e-12);
+    assert_share(beam[1], -4.0 * force, 1e-12);
+    assert_share(beam[3], 4.0 * force * 14.5 * METRES_PER_FOOT, 1e-12);
+    assert_share(beam[5], -4.0 * force * 200.0 * METRES_PER_FOOT, 1e-12);
     // twice the coefficient across, none along
     let given = body(&format!("{HULL} -CS_WIND 0 2 1"), &format!("&ENV -WIND 60 90 {even}"));
-    near(sum(&given, Category::Wind, &place(AFLOAT))[1], -8.0 * force, 1e-12);
+    assert_share(sum(&given, Category::Wind, &place(AFLOAT))[1], -8.0 * force, 1e-12);
 }
 
 #[test]
@@ -78,7 +75,7 @@ fn wind_profile_is_integrated_over_freeboard() {
     let factor = ten * (1.0 + 7.0 / 9.0 * (h.powf(9.0 / 7.0) - 1.0));
     let got = sum(&body(HULL, "&ENV -WIND 60 180"), Category::Wind, &place(AFLOAT))[0];
     // what the parabolas of a strip leave (hydro/strips.rs)
-    near(got, WIND * 100.0 * METRES_PER_FOOT * factor, 5e-4);
+    assert_share(got, WIND * 100.0 * METRES_PER_FOOT * factor, 5e-4);
 }
 
 #[test]
@@ -90,7 +87,7 @@ fn every_wind_profile_matches_integration_by_fine_slices() {
         let step = high / f64::from(slices);
         let at = |n: i32| steady.velocity(Medium::Air, (f64::from(n) + 0.5) * step).0.norm_squared();
         let want = 0.5 * 1.226 * 30.0 * METRES_PER_FOOT * step * (0..slices).map(at).sum::<f64>();
-        near(sum(&model, Category::Wind, &Pose::default())[0], want, 5e-4);
+        assert_share(sum(&model, Category::Wind, &Pose::default())[0], want, 5e-4);
     }
 }
 
@@ -100,23 +97,31 @@ fn current_is_integrated_over_the_draft() {
     let even = body(HULL, "&ENV -CURRENT 2 90");
     let got = sum(&even, Category::ViscousDrag, &place(AFLOAT));
     let force = current(2.0 * METRES_PER_FOOT) * 9.0 * 400.0 * METRES_PER_FOOT * METRES_PER_FOOT;
-    near(got[1], -force, 1e-12);
-    near(got[3], force * 4.5 * METRES_PER_FOOT, 1e-12);
+    assert_share(got[1], -force, 1e-12);
+    assert_share(got[3], force * 4.5 * METRES_PER_FOOT, 1e-12);
     // v = 2 (1 - d/40): its square from 0 to 9 ft is 4 x 40/3 (1 - (31/40)^3) ft
     let curve = "&DATA CURVES C_PROFILE C 0 2 40 0\n&ENV -CURRENT C 90";
     let got = sum(&body(HULL, curve), Category::ViscousDrag, &place(AFLOAT));
     let long = 40.0 / 3.0 * (1.0 - 0.775f64.powi(3));
-    near(got[1], -force * long / 9.0, 1e-12);
+    assert_share(got[1], -force * long / 9.0, 1e-12);
     // int (1 - d/40)^2 d dd = 1600 (1/12 - q^3/3 + q^4/4), q = 31/40, at 9 - d above the keel
     let first = 1600.0 * (1.0 / 12.0 - 0.775f64.powi(3) / 3.0 + 0.775f64.powi(4) / 4.0);
-    near(got[3], force / 9.0 * (9.0 * long - first) * METRES_PER_FOOT, 1e-12);
+    assert_share(got[3], force / 9.0 * (9.0 * long - first) * METRES_PER_FOOT, 1e-12);
 }
 
 #[test]
-fn tide_raises_the_waterline() {
+fn tide_raises_waterline() {
     let model = body(HULL, "&ENV -WIND 60 180 -W_PROFILE POWER 0 -CURRENT 2 180 -DEPTH 600 -TIDE 5");
-    near(sum(&model, Category::Wind, &place(AFLOAT))[0], WIND * 600.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-12);
-    near(sum(&model, Category::ViscousDrag, &place(AFLOAT))[0], 512.5 * 4.0 * 1400.0 * METRES_PER_FOOT.powi(4), 1e-12);
+    assert_share(
+        sum(&model, Category::Wind, &place(AFLOAT))[0],
+        WIND * 600.0 * METRES_PER_FOOT * METRES_PER_FOOT,
+        1e-12,
+    );
+    assert_share(
+        sum(&model, Category::ViscousDrag, &place(AFLOAT))[0],
+        512.5 * 4.0 * 1400.0 * METRES_PER_FOOT.powi(4),
+        1e-12,
+    );
 }
 
 #[test]
@@ -131,8 +136,8 @@ fn capsized_dry_or_sunken_box_has_projected_areas_of_its_pose() {
         // on its side: 100 ft high
         ([0.0, 0.0, 0.0, 90.0, 0.0, 0.0], 10.0, 10.0),
     ] {
-        near(sum(&model, Category::Wind, &place(pose))[0], air * out, 1e-9);
-        near(sum(&model, Category::ViscousDrag, &place(pose))[0], water * under, 1e-9);
+        assert_share(sum(&model, Category::Wind, &place(pose))[0], air * out, 1e-9);
+        assert_share(sum(&model, Category::ViscousDrag, &place(pose))[0], water * under, 1e-9);
     }
 }
 
@@ -142,8 +147,8 @@ fn pitched_dry_box_exposes_its_bottom_too() {
     let got = sum(&model, Category::Wind, &place([0.0, 0.0, 200.0, 0.0, 10.0, 0.0]));
     // along x: A_x cos^2 + A_z sin^2 with 2,000 and 40,000 ft2; up: (A_z - A_x) sin cos
     let (sin, cos) = 10f64.to_radians().sin_cos();
-    near(got[0], WIND * METRES_PER_FOOT * METRES_PER_FOOT * (2000.0 * cos * cos + 40_000.0 * sin * sin), 1e-12);
-    near(got[2], WIND * METRES_PER_FOOT * METRES_PER_FOOT * 38_000.0 * sin * cos, 1e-12);
+    assert_share(got[0], WIND * METRES_PER_FOOT * METRES_PER_FOOT * (2000.0 * cos * cos + 40_000.0 * sin * sin), 1e-12);
+    assert_share(got[2], WIND * METRES_PER_FOOT * METRES_PER_FOOT * 38_000.0 * sin * cos, 1e-12);
 }
 
 #[test]
@@ -155,8 +160,12 @@ fn vertical_area_on_even_keel_matches_deck() {
         let mine = found.loads.iter().find(|l| l.category() == category).unwrap();
         mine.mean_load(&place(AFLOAT)).unwrap().stiffness[(2, 4)]
     };
-    near(lift(Category::Wind), -WIND * METRES_PER_FOOT * METRES_PER_FOOT * (40_000.0 - 1100.0), 1e-12);
-    near(lift(Category::ViscousDrag), -0.5 * 1025.0 * 4.0 * METRES_PER_FOOT.powi(4) * (40_000.0 - 900.0), 1e-12);
+    assert_share(lift(Category::Wind), -WIND * METRES_PER_FOOT * METRES_PER_FOOT * (40_000.0 - 1100.0), 1e-12);
+    assert_share(
+        lift(Category::ViscousDrag),
+        -0.5 * 1025.0 * 4.0 * METRES_PER_FOOT.powi(4) * (40_000.0 - 900.0),
+        1e-12,
+    );
 }
 
 #[test]
@@ -166,12 +175,16 @@ fn tube_projects_its_diameter_to_every_side() {
         // 40 ft x 60 ft and 40 ft x 300 ft; a prism of 64 sides is 0.04 % narrower at most, 0.08 % wider
         let model = body(spar, &format!("&ENV -WIND 60 {from} -W_PROFILE POWER 0 -CURRENT 2 {from}"));
         let [wind, current] = [Category::Wind, Category::ViscousDrag].map(|c| sum(&model, c, &Pose::default()));
-        near(wind.xy().norm(), WIND * 2400.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-3);
-        near(current.xy().norm(), 0.5 * 1025.0 * 4.0 * 12_000.0 * METRES_PER_FOOT.powi(4), 1e-3);
+        assert_share(wind.xy().norm(), WIND * 2400.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-3);
+        assert_share(current.xy().norm(), 0.5 * 1025.0 * 4.0 * 12_000.0 * METRES_PER_FOOT.powi(4), 1e-3);
     }
     // lying half in the water: its radius is above it
     let model = body("TUBE PONTOON *C *D 120 -PERM 1", "&ENV -WIND 60 90 -W_PROFILE POWER 0");
-    near(sum(&model, Category::Wind, &Pose::default())[1], -WIND * 500.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-3);
+    assert_share(
+        sum(&model, Category::Wind, &Pose::default())[1],
+        -WIND * 500.0 * METRES_PER_FOOT * METRES_PER_FOOT,
+        1e-3,
+    );
 }
 
 #[test]
@@ -179,7 +192,7 @@ fn tube_prism_is_closed_surface_of_its_perimeter() {
     let tube = TubeHull { ends: [Vector3::new(1.0, 2.0, 3.0), Vector3::new(4.0, -2.0, 3.0)], diameter: 2.0 };
     let prism = tube.prism(64).unwrap();
     assert!(prism.faults().is_empty());
-    near(prism.volume(), std::f64::consts::PI * 5.0, 1e-3);
+    assert_share(prism.volume(), std::f64::consts::PI * 5.0, 1e-3);
 }
 
 #[test]
@@ -191,7 +204,7 @@ fn coefficients_act_along_part_axes() {
     session.run();
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     // y of the part is -x of the body: the area across it is 10 x 30 ft2
-    near(
+    assert_share(
         sum(&session.job.model, Category::Wind, &Pose::default())[0],
         1.5 * WIND * 300.0 * METRES_PER_FOOT * METRES_PER_FOOT,
         1e-12,
@@ -209,14 +222,14 @@ fn piece_without_displacement_takes_wind_only_on_request() {
     assert_eq!(forces(&format!("{HULL} -PERM -1")), [0.0; 2]);
     assert_eq!(forces(&format!("{HULL} -PERM -1 -CS_WIND 1 1 1")), [0.0; 2]);
     let [wind, current] = forces("BLOCK HOUSE 300 -40 20 380 40 60 -PERM 0 -CS_WIND 1 1 1");
-    near(wind, WIND * 80.0 * 40.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-12);
+    assert_share(wind, WIND * 80.0 * 40.0 * METRES_PER_FOOT * METRES_PER_FOOT, 1e-12);
     assert_eq!(current, 0.0);
 }
 
 #[test]
 fn multipliers_scale_piece_loads() {
     let env = "&ENV -WIND 60 180 -W_PROFILE POWER 0\n&APPLY -PERCENT -FORCE WIND 50";
-    near(
+    assert_share(
         sum(&body(HULL, env), Category::Wind, &place(AFLOAT))[0],
         WIND * 550.0 * METRES_PER_FOOT * METRES_PER_FOOT,
         1e-12,

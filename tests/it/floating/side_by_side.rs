@@ -7,7 +7,7 @@ use windlass_model::Model;
 use windlass_solve::System;
 
 /// The model and the screen after so many equilibria of the script.
-fn after(equilibria: usize) -> (Model, String) {
+fn solve_equilibria(equilibria: usize) -> (Model, String) {
     let script = std::fs::read_to_string("scripts/side_by_side.cif").unwrap();
     let (mut end, record) = (0, "&EQUI\n&STATUS F_CONNECTOR\n");
     for _ in 0..equilibria {
@@ -21,7 +21,7 @@ fn after(equilibria: usize) -> (Model, String) {
 }
 
 /// Global place of a point on a body (m).
-fn at(model: &Model, body: &str, point: [f64; 3]) -> Vector3<f64> {
+fn point_of_body(model: &Model, body: &str, point: [f64; 3]) -> Vector3<f64> {
     let system = System::new(model, &[]).unwrap();
     system.state(model).poses[system.nodes.iter().position(|n| n.name == body).unwrap()].point(point.into())
 }
@@ -38,9 +38,10 @@ const HAWSERS: [(&str, f64, f64, f64); 4] = [
 /// What the fenders and hawsers do to the outer barge, by hand from where the barges are (kN): force and where it acts.
 fn by_hand(model: &Model) -> Vec<(&'static str, Vector3<f64>, Vector3<f64>)> {
     let mut list = Vec::new();
-    let side = at(model, "INNER", [0.0, 1.0, 0.0]) - at(model, "INNER", [0.0; 3]);
+    let side = point_of_body(model, "INNER", [0.0, 1.0, 0.0]) - point_of_body(model, "INNER", [0.0; 3]);
     for (name, x) in FENDERS {
-        let (inner, outer) = (at(model, "INNER", [x, 10.0, 2.0]), at(model, "OUTER", [x, -10.0, 2.0]));
+        let (inner, outer) =
+            (point_of_body(model, "INNER", [x, 10.0, 2.0]), point_of_body(model, "OUTER", [x, -10.0, 2.0]));
         // pushed in by u = 4 m less what is between the sides; the spring in series with the curve: u = P / 100000 + Y(P). To
         // (100 kN, 0.3 m) Y = 0.003 P, so that P = u / 0.00301; to (400 kN, 0.6 m) Y = 0.3 + (P - 100) / 1000: P = (u - 0.2) / 0.00101
         let pushed = 4.0 - (outer - inner).dot(&side);
@@ -49,7 +50,8 @@ fn by_hand(model: &Model) -> Vec<(&'static str, Vector3<f64>, Vector3<f64>)> {
         list.push((name, side * push, outer));
     }
     for (name, from, to, length) in HAWSERS {
-        let (inner, outer) = (at(model, "INNER", [from, 4.0, 4.0]), at(model, "OUTER", [to, -4.0, 4.0]));
+        let (inner, outer) =
+            (point_of_body(model, "INNER", [from, 4.0, 4.0]), point_of_body(model, "OUTER", [to, -4.0, 4.0]));
         // EA (chord - L) / L, EA of a full section of 60 mm and 2000 MPa
         let chord = inner - outer;
         let ea = 2000.0e3 * std::f64::consts::FRAC_PI_4 * 0.06 * 0.06;
@@ -80,7 +82,7 @@ fn wind(model: &Model) -> (Vector3<f64>, Vector3<f64>) {
 
 #[test]
 fn fender_forces_balance_hawser_forces_in_calm() {
-    let (model, screen) = after(1);
+    let (model, screen) = solve_equilibria(1);
     let hand = by_hand(&model);
     let sum = |names: &dyn Fn(&str) -> bool| hand.iter().filter(|(n, ..)| names(n)).map(|(_, f, _)| f.y).sum::<f64>();
     let (fenders, hawsers) = (sum(&|n| n.starts_with('F')), sum(&|n| !n.starts_with('F')));
@@ -98,13 +100,13 @@ fn fender_forces_balance_hawser_forces_in_calm() {
 #[test]
 fn printed_forces_and_moments_balance_wind() {
     for equilibria in [2, 3] {
-        let (model, screen) = after(equilibria);
+        let (model, screen) = solve_equilibria(equilibria);
         let hand = by_hand(&model);
         let (force, moment) = wind(&model);
         assert!(force.y.abs() > 150.0 && force.x.abs() > 40.0, "{force}");
         let mut total = force;
         let mut yaw = moment.z;
-        let origin = at(&model, "OUTER", [0.0; 3]);
+        let origin = point_of_body(&model, "OUTER", [0.0; 3]);
         for (name, force, point) in &hand {
             let got = printed(&screen, name);
             assert!((0..3).all(|i| (got[i] + force[i]).abs() < 0.0051), "{name}: {got:?} {force}");

@@ -27,7 +27,7 @@ fn run(bytes: &[u8]) -> (Output, String, String) {
     (output, out, err)
 }
 
-fn refused(script: &str, message: &str) {
+fn assert_refused(script: &str, message: &str) {
     let (output, out, err) = run(format!("{script}{AFTER}").as_bytes());
     assert_eq!(output.status.code(), Some(1), "{err}");
     assert!(err.contains(message), "{message} is missing from\n{}", &err[..err.len().min(2000)]);
@@ -37,13 +37,13 @@ fn refused(script: &str, message: &str) {
 
 #[test]
 fn line_of_ten_megabytes_is_error() {
-    refused(&"A".repeat(10 << 20), "characters; at most");
-    refused(&format!("&TYPE {}", "word ".repeat(2 << 20)), "characters; at most");
+    assert_refused(&"A".repeat(10 << 20), "characters; at most");
+    assert_refused(&format!("&TYPE {}", "word ".repeat(2 << 20)), "characters; at most");
 }
 
 #[test]
 fn endlessly_continued_record_is_error() {
-    refused(&"&TYPE x \\\n".repeat(1 << 20), "characters; at most");
+    assert_refused(&"&TYPE x \\\n".repeat(1 << 20), "characters; at most");
     let (_, _, err) = run(b"&TYPE x \\");
     assert!(err.contains("ends inside a record that is continued"), "{err}");
 }
@@ -74,7 +74,7 @@ fn record_continued_over_bad_line_is_one_error_and_is_not_run() {
 }
 
 #[test]
-fn binary_lines_of_any_file_are_errors_there_and_others_run() {
+fn binary_lines_are_errors_and_other_lines_run() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
     write(
@@ -142,10 +142,10 @@ fn huge_binary_file_stops_at_error_limit_in_seconds() {
 #[test]
 fn endless_nesting_is_error() {
     let deep = |n: usize| format!("{}1{}", "(".repeat(n), ")".repeat(n));
-    refused(&format!("&ENV -DEPTH {}", deep(10_000)), "too deeply nested");
-    refused(&format!("&TYPE x {}1{}", "&NUMBER(REAL ".repeat(10_000), ")".repeat(10_000)), "nested deeper");
-    refused(&format!("&IF {} .TRUE. &THEN\n&ENDIF", ".NOT. ".repeat(100_000)), "nested too deeply");
-    refused(&"&IF .TRUE. &THEN\n".repeat(50_000), "not closed");
+    assert_refused(&format!("&ENV -DEPTH {}", deep(10_000)), "too deeply nested");
+    assert_refused(&format!("&TYPE x {}1{}", "&NUMBER(REAL ".repeat(10_000), ")".repeat(10_000)), "nested deeper");
+    assert_refused(&format!("&IF {} .TRUE. &THEN\n&ENDIF", ".NOT. ".repeat(100_000)), "nested too deeply");
+    assert_refused(&"&IF .TRUE. &THEN\n".repeat(50_000), "not closed");
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn self_inserting_file_ends_in_error() {
 
 #[test]
 fn endless_macros_and_loops_end_in_error() {
-    refused("&MACRO M\nM\n&ENDMACRO\nM", "macros call each other deeper than");
+    assert_refused("&MACRO M\nM\n&ENDMACRO\nM", "macros call each other deeper than");
     let (output, out, err) = run(b"&DEVICE -RECORDS 5000\n&LOOP\n&SET A = 1\n&ENDLOOP\n&TYPE after\n");
     assert_eq!(output.status.code(), Some(1));
     assert!(err.contains("has executed its 5000 records"), "{err}");
@@ -171,14 +171,14 @@ fn endless_macros_and_loops_end_in_error() {
 
 #[test]
 fn variable_doubled_repeatedly_is_error() {
-    refused("&SET A = xxxxxxxx\n&LOOP I 1 9\n&SET A = %A%%A%%A%%A%%A%%A%%A%%A%\n&ENDLOOP", "longer than");
+    assert_refused("&SET A = xxxxxxxx\n&LOOP I 1 9\n&SET A = %A%%A%%A%%A%%A%%A%%A%%A%\n&ENDLOOP", "longer than");
 }
 
 #[test]
 fn numbers_out_of_all_bounds_are_errors() {
     for word in ["1E400", "9**9**9**9", "1/0", "0**(-1)", "(-1)**0.5", "LN(0)", "1E308*1E308", "--", "((", "1..2", "é"]
     {
-        refused(&format!("&ENV -DEPTH {word}"), "must be");
+        assert_refused(&format!("&ENV -DEPTH {word}"), "must be");
     }
 }
 

@@ -114,7 +114,7 @@ fn missing_model_file_takes_no_records_from_script() {
 }
 
 #[test]
-fn refused_opener_at_prompt_opens_nothing() {
+fn refused_opener_at_prompt_opens_no_menu() {
     let run = run_with(&format!("{MODEL}CONN_DESIGN\nTABLE NOPE\nREPORT\nEND\n"), |s| s.interactive = true);
     assert_eq!(run.messages.len(), 2, "{:?}", run.messages);
     assert!(run.messages[1].contains("unknown command `REPORT`"));
@@ -122,7 +122,7 @@ fn refused_opener_at_prompt_opens_nothing() {
 }
 
 #[test]
-fn terminal_after_script_skips_nothing() {
+fn terminal_after_script_runs_every_record() {
     let mut run = run(&format!("{MODEL}CONN_DESIGN\nTABLE NOPE\nREPORT\n"));
     run.session.take_terminal();
     assert_eq!(run.session.job.menu().name(), "CONN_DESIGN");

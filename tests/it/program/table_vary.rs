@@ -21,7 +21,7 @@ fn model(options: &str, length: f64) -> String {
 }
 
 #[test]
-fn each_value_of_varied_parameter_matches_class_with_that_value() {
+fn varied_parameter_matches_class_of_each_value() {
     let base = "300 -WTPL 1.6 -EMOD 50000 -FRICTION 0.4 -SLOPE 0.02";
     let cases = [
         (

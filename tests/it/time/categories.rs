@@ -99,7 +99,7 @@ const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "MX", "MY", "MZ"];
 
 /// What the categories of the run of a model leave on a body, over its weight, moments over that and its radius of gyration, of which a step
 /// leaves 1e-7; and the categories.
-fn left(model: &Model, actions: Vec<Action>, body: usize) -> ([f64; 2], Vec<&'static str>) {
+fn residual_of_categories(model: &Model, actions: Vec<Action>, body: usize) -> ([f64; 2], Vec<&'static str>) {
     let mut made = Run::new(model, settings(2.0, 0.1), actions).unwrap();
     made.run(&mut Quiet).unwrap();
     let events = results::events(&made.history, None).unwrap();
@@ -144,7 +144,7 @@ fn tube_across_current_has_drag_category_and_zero_total() {
 fn all_load_categories_add_up_to_inertia_in_run() {
     let made = model(&format!("{LOADS}END\n&ENV STORM"));
     for body in 0..3 {
-        let (shares, groups) = left(&made, vec![], body);
+        let (shares, groups) = residual_of_categories(&made, vec![], body);
         for group in ["WIND", "V_DRAG", "WAVE", "R_DRAG", "W_DRIFT", "BOTTOM", "BUOYANCY", "A_INERTIA"] {
             assert!(groups.contains(&group), "{group} of {groups:?}");
         }
@@ -156,7 +156,7 @@ fn all_load_categories_add_up_to_inertia_in_run() {
 fn categories_of_an_action_have_columns_from_the_start() {
     let made = model(&format!("{LOADS}END\n&ENV CALM"));
     let storm = Action { name: "S".into(), when: Trigger::At(1.0), what: ActionKind::Environment("STORM".into()) };
-    let (shares, groups) = left(&made, vec![storm], 0);
+    let (shares, groups) = residual_of_categories(&made, vec![storm], 0);
     assert!(["WIND", "V_DRAG", "WAVE", "W_DRIFT"].iter().all(|g| groups.contains(g)), "{groups:?}");
     assert!(shares.iter().all(|s| *s < 2e-7), "{shares:?}");
 }
@@ -166,7 +166,7 @@ fn categories_of_every_class_add_up_in_run_and_statics() {
     assert!(CLASSES.iter().all(|c| CONNECTORS.iter().any(|(name, _)| c.spec.name == *name)), "a class has no case");
     for (class, records) in CONNECTORS {
         let made = model(&format!("{LOADS}{records}\nEND\n&ENV STORM"));
-        let (shares, groups) = left(&made, vec![], usize::from(class == "FIX"));
+        let (shares, groups) = residual_of_categories(&made, vec![], usize::from(class == "FIX"));
         assert!(shares.iter().all(|s| *s < 2e-7), "{class}: {shares:?}");
         let acts = made.connectors.len();
         assert_eq!(usize::from(groups.contains(&"FLEX_CONNECTORS")), acts, "{class}");

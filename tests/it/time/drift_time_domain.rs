@@ -36,7 +36,7 @@ fn under_way(model: &Model) -> Vec<Box<dyn BodyLoad>> {
 }
 
 /// The force at a time under way.
-fn at(loads: &[Box<dyn BodyLoad>], time: f64, pose: &Pose) -> Six {
+fn force_at(loads: &[Box<dyn BodyLoad>], time: f64, pose: &Pose) -> Six {
     let velocity = Six::zeros();
     let now = Underway { time, dt: 0.1, pose, velocity: &velocity };
     let one = |load: &dyn BodyLoad| {
@@ -51,7 +51,7 @@ fn at_rest(model: &Model, pose: &Pose) -> Six {
     loads.iter().map(|load| load.mean_load(pose).unwrap().wrench).sum()
 }
 
-fn turned(x: f64, y: f64, yaw: f64) -> Pose {
+fn yawed_pose(x: f64, y: f64, yaw: f64) -> Pose {
     Pose::from_place(&Place::new([x, y, 0.0, 0.0, 0.0, f64::to_radians(yaw)]))
 }
 
@@ -72,15 +72,15 @@ fn regular_wave_drift_equals_static_mean_at_all_times() {
             let model =
                 body(&format!("{part}*P 12 3 0\n{}", table("*P")), &format!("&ENV -SEA REGULAR {from} 3 9 -RAMP 50"));
             let loads = under_way(&model);
-            for pose in [Pose::default(), turned(40.0, -70.0, 77.0)] {
+            for pose in [Pose::default(), yawed_pose(40.0, -70.0, 77.0)] {
                 let want = at_rest(&model, &pose);
                 for time in [50.0, 61.7, 300.0] {
-                    let got = at(&loads, time, &pose);
+                    let got = force_at(&loads, time, &pose);
                     // straight between headings of 5 degrees, where the table is cubic: h^2/8 = 1e-3 of its second derivative
                     assert!((got - want).amax() <= 5e-3 * want.amax(), "{from} {got} {want}");
                 }
                 // half the ramp: a quarter of the square of the amplitude
-                assert!((at(&loads, 25.0, &pose) * 4.0 - want).amax() <= 5e-3 * want.amax());
+                assert!((force_at(&loads, 25.0, &pose) * 4.0 - want).amax() <= 5e-3 * want.amax());
             }
         }
     }
@@ -108,7 +108,7 @@ fn slow_drift_in_sea_has_static_mean() {
         }
     }
     assert!(error < 0.2 * exact, "{error} {exact}");
-    let series: Vec<f64> = (0..count).map(|n| at(&loads, f64::from(n) * step, &Pose::default())[0]).collect();
+    let series: Vec<f64> = (0..count).map(|n| force_at(&loads, f64::from(n) * step, &Pose::default())[0]).collect();
     let mean = series.iter().sum::<f64>() / f64::from(count);
     assert!((mean - exact).abs() <= error, "{mean} {exact} {error}");
     // and it is slow drift: it varies about its mean, by no less than a half of it in a sea of one hump

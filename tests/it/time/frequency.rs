@@ -147,7 +147,10 @@ fn response_statistics_match_rayleigh() {
 }
 
 /// Response in the sea of a model.
-fn seen(model: &Model, asked: &ResponseOptions) -> (LinearSystem, windlass_solve::frequency::FrequencyResponse) {
+fn respond_in_sea(
+    model: &Model,
+    asked: &ResponseOptions,
+) -> (LinearSystem, windlass_solve::frequency::FrequencyResponse) {
     let trains = Trains::new(model, &model.environment).unwrap().unwrap();
     let mut linear = LinearSystem::new(model).unwrap();
     let made = respond(&mut linear, &trains, asked).unwrap();
@@ -165,13 +168,13 @@ fn body_following_waves_has_sea_height_and_period() {
     // held beyond the last frequency, where the excitation would fade
     data.frequencies.iter_mut().for_each(|w| *w *= 10.0);
     data.excitation.iter_mut().flatten().for_each(|x| x[2] = Complex::new(1e15, 0.0));
-    let (linear, made) = seen(&model, &ResponseOptions::default());
+    let (linear, made) = respond_in_sea(&model, &ResponseOptions::default());
     let z = LinearQuantity::dof(&linear, 0, 2);
-    let told = ResponseStatistics::new(&made, &z, Derivative::Place);
+    let reported = ResponseStatistics::new(&made, &z, Derivative::Place);
     // the energy is exact; what is above 15 times the frequency of the peak is counted there, which takes 0.3 % of the second moment
-    assert!((told.significant() / 2.0 - 1.0).abs() < 1e-6, "{told:?}");
+    assert!((reported.significant() / 2.0 - 1.0).abs() < 1e-6, "{reported:?}");
     let tz = 10.0 * (0.8 / PI).powf(0.25);
-    assert!((told.period.unwrap() / tz - 1.0).abs() < 2e-3, "{told:?} {tz}");
+    assert!((reported.period.unwrap() / tz - 1.0).abs() < 2e-3, "{reported:?} {tz}");
 }
 
 #[test]
@@ -190,7 +193,7 @@ fn spread_sea_response_is_mean_square_over_directions() {
             vec![six; data.frequencies.len()]
         };
         data.excitation = data.headings.iter().map(one).collect();
-        let (linear, made) = seen(&model, &ResponseOptions::default());
+        let (linear, made) = respond_in_sea(&model, &ResponseOptions::default());
         ResponseStatistics::new(&made, &LinearQuantity::dof(&linear, 0, 0), Derivative::Place).deviation
     };
     let ratio = of("-SPREAD 2") / of("");
@@ -204,7 +207,7 @@ fn slow_drift_of_rectangular_spectrum_matches_pinkster() {
     let curve = format!("&DATA CURVES\nF_SPECTRUM BOX {low} 1 {high} 1\nEND\n");
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", &format!("{curve}&ENV -SEA BOX 180 4 {}", TAU / low));
     attach(&mut model, DriftMethod::Newman);
-    let (linear, made) = seen(&model, &ResponseOptions { spectral: true, ..ResponseOptions::default() });
+    let (linear, made) = respond_in_sea(&model, &ResponseOptions { spectral: true, ..ResponseOptions::default() });
     let x = LinearQuantity::dof(&linear, 0, 0);
     // S = 1 m2 over 0.3 rad/s; S_F = 8 S2 D2 (high - low - mu)
     let s = 1.0 / (high - low);
@@ -220,7 +223,7 @@ fn slow_drift_of_rectangular_spectrum_matches_pinkster() {
     }
     // no drift, no slow motion
     attach(&mut model, DriftMethod::Mean);
-    let (_, none) = seen(&model, &ResponseOptions { spectral: true, ..ResponseOptions::default() });
+    let (_, none) = respond_in_sea(&model, &ResponseOptions { spectral: true, ..ResponseOptions::default() });
     assert!(none.slow.is_empty());
 }
 
@@ -230,7 +233,7 @@ fn quadratic_dashpot_linearisation_matches_borgman() {
     let dashpot = "~D GSPR BOTH Z 1E-6 1000 -LEN 0 -Z_DAMPING 400 2\nCONNECTOR D ~D *C *G\n";
     let mut model = model(dashpot, "&ENV -SEA ISSC 180 4 9");
     attach(&mut model, DriftMethod::None);
-    let (mut linear, made) = seen(&model, &ResponseOptions { spectral: true, ..ResponseOptions::default() });
+    let (mut linear, made) = respond_in_sea(&model, &ResponseOptions { spectral: true, ..ResponseOptions::default() });
     assert!(made.rounds > 1);
     let z = LinearQuantity::dof(&linear, 0, 2);
     let velocity = ResponseStatistics::new(&made, &z, Derivative::Velocity).deviation;
@@ -241,7 +244,7 @@ fn quadratic_dashpot_linearisation_matches_borgman() {
     // a dashpot so strong that nothing else holds the body settles too
     let mut strong = self::model(&dashpot.replace("400 2", "4E5 2"), "&ENV -SEA ISSC 180 4 9");
     attach(&mut strong, DriftMethod::None);
-    assert!(seen(&strong, &ResponseOptions { spectral: true, ..ResponseOptions::default() }).1.rounds > 1);
+    assert!(respond_in_sea(&strong, &ResponseOptions { spectral: true, ..ResponseOptions::default() }).1.rounds > 1);
     // without it waves are answered as by a body without the dashpot
     let trains = Trains::new(&model, &model.environment).unwrap().unwrap();
     linear = LinearSystem::new(&model).unwrap();
@@ -359,11 +362,11 @@ fn moored_hemisphere_in_small_waves_matches_frequency_domain() {
 #[test]
 fn dynamic_lines_are_reported_as_quasi_static_in_frequency_domain() {
     let rod = "~R ROD 60 30 -LEN 90 -REFINE 8 -EI 0 -DEPANCHOR 60\nCONNECTOR ROD -ANC 0 60 ~R *C\n";
-    for (more, told) in [(rod, true), ("", false)] {
+    for (more, reported) in [(rod, true), ("", false)] {
         let mut model = model(more, "");
         attach(&mut model, DriftMethod::None);
         let linear = LinearSystem::new(&model).unwrap();
         let found = linear.notes.iter().any(|n| n.text.starts_with("ROD: ") && n.text.contains("without dynamics"));
-        assert_eq!(found, told, "{:?}", linear.notes);
+        assert_eq!(found, reported, "{:?}", linear.notes);
     }
 }

@@ -1,6 +1,7 @@
 //! Members with marine growth, in a current that varies, and in runs: against larger tubes and closed forms.
 
 use crate::common;
+use crate::common::assert_share;
 use crate::common::body_load::begin_step;
 use crate::common::run as runs;
 
@@ -40,14 +41,10 @@ fn sea(frequency: f64, number: f64, amplitude: f64) -> Arc<Sea> {
     Arc::new(Sea::airy(vec![component], water, 0.0, Stretching::Wheeler))
 }
 
-fn at(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> Six {
+fn force_at(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> Six {
     let ahead = Underway { time, dt: 0.0, pose, velocity };
     let state = begin_step(load, &ahead);
     load.dynamic_load(&ahead, &state).unwrap().load.wrench
-}
-
-fn near(got: f64, want: f64, tolerance: f64) {
-    assert!((got - want).abs() <= tolerance * want.abs().max(1e-9), "{got} is not {want}");
 }
 
 fn members(model: &Model, sea: Option<&Arc<Sea>>) -> Box<dyn BodyLoad> {
@@ -83,7 +80,7 @@ fn pile_with_growth_has_drag_and_inertia_of_larger_pile() {
     let velocity = Six::new(0.5, -0.3, 0.2, 0.01, 0.02, 0.0);
     for pose in [Pose::default(), leaning] {
         for time in [0.0, 1.3, 4.0] {
-            let (got, want) = (at(&*first, time, &pose, &velocity), at(&*second, time, &pose, &velocity));
+            let (got, want) = (force_at(&*first, time, &pose, &velocity), force_at(&*second, time, &pose, &velocity));
             assert!((got - want).amax() <= 1e-12 * want.amax(), "{got} {want}");
         }
     }
@@ -94,10 +91,10 @@ fn growth_on_part_of_pile_increases_diameter_there() {
     // 0.3 m more between 30 m and 10 m deep, and 0.6 m from there to the surface; ends are free at the foot alone
     let growth = "&DATA CURVES M_GROWTH G -30 300 -10 300 -9.9999999 600 20 600\n&ENV -CURRENT 1.5 180 -M_GROWTH G";
     let model = body("", &format!("TUBE PILE *A *B 1500 {PILE}"), growth);
-    near(drag(&model)[0], 0.5 * RHO * 0.8 * 2.25 * (50.0 * 1.5 + 20.0 * 0.3 + 10.0 * 0.6), 1e-7);
+    assert_share(drag(&model)[0], 0.5 * RHO * 0.8 * 2.25 * (50.0 * 1.5 + 20.0 * 0.3 + 10.0 * 0.6), 1e-7);
     let areas = FRAC_PI_4 * (20.0 * 1.5 * 1.5 + 20.0 * 1.8 * 1.8 + 10.0 * 2.1 * 2.1);
-    near(added(&model)[(0, 0)], RHO * 0.9 * areas, 1e-7);
-    near(added(&model)[(2, 2)], RHO * PI / 12.0 * 1.5f64.powi(3) * 0.6, 1e-9);
+    assert_share(added(&model)[(0, 0)], RHO * 0.9 * areas, 1e-7);
+    assert_share(added(&model)[(2, 2)], RHO * PI / 12.0 * 1.5f64.powi(3) * 0.6, 1e-9);
 }
 
 #[test]
@@ -106,8 +103,8 @@ fn tapering_growth_is_integrated_over_pile() {
     let model = body("", &format!("TUBE PILE *A *B 1000 {PILE}"), growth);
     // D = 1.5 + 0.01 z: of D the lengths have the exact mean, but that what cuts the surface goes on above it (0.01 m of 50);
     // of D2 one that is 0.02^2/12 = 3e-5 short
-    near(drag(&model)[0], 0.5 * RHO * 0.8 * 2.25 * 50.0 * 1.25, 1e-6);
-    near(added(&model)[(0, 0)], RHO * 0.9 * FRAC_PI_4 * (1.5f64.powi(3) - 1.0) / 0.03, 4e-5);
+    assert_share(drag(&model)[0], 0.5 * RHO * 0.8 * 2.25 * 50.0 * 1.25, 1e-6);
+    assert_share(added(&model)[(0, 0)], RHO * 0.9 * FRAC_PI_4 * (1.5f64.powi(3) - 1.0) / 0.03, 4e-5);
 }
 
 #[test]
@@ -118,9 +115,9 @@ fn growth_in_rising_level_floats_like_larger_tube() {
     let model = body("", "TUBE PILE *A *B 2000", growth);
     let floating = Floating::under_way(&model, &model.bodies["B"], Some(&long)).unwrap();
     let mine = floating.loads.iter().filter(|l| l.category() != Category::Weight);
-    let got: Six = mine.map(|l| at(l.as_ref(), 0.0, &Pose::default(), &Six::zeros())).sum();
+    let got: Six = mine.map(|l| force_at(l.as_ref(), 0.0, &Pose::default(), &Six::zeros())).sum();
     let tube = TubeHull { ends: [Vector3::new(0.0, 0.0, -50.0), Vector3::new(0.0, 0.0, 20.0)], diameter: 2.6 };
-    near(got[2], tube.wet(&Pose::default(), 1.7).load(RHO * G).wrench[2], 1e-7);
+    assert_share(got[2], tube.wet(&Pose::default(), 1.7).load(RHO * G).wrench[2], 1e-7);
 }
 
 #[test]
@@ -132,10 +129,10 @@ fn member_uses_current_of_present_time() {
     );
     let want = 0.5 * RHO * 0.65 * 2.0 * 50.0 * 1.5 * 1.5;
     // statics has the current itself
-    near(drag(&model)[0], want, 1e-12);
+    assert_share(drag(&model)[0], want, 1e-12);
     let load = members(&model, None);
     for (time, factor) in [(0.0, 1.0f64), (40.0, 0.4), (100.0, -0.5), (500.0, -0.5)] {
-        near(at(&*load, time, &Pose::default(), &Six::zeros())[0], want * factor * factor.abs(), 1e-12);
+        assert_share(force_at(&*load, time, &Pose::default(), &Six::zeros())[0], want * factor * factor.abs(), 1e-12);
     }
     // half of a ramp: half of what the history changes
     let ramped = body(
@@ -143,7 +140,7 @@ fn member_uses_current_of_present_time() {
         "TUBE PILE *A *B 2000 -CD 0.65",
         "&DATA CURVES C_HISTORY F 0 2 9 2\n&ENV -CURRENT 1.5 180 -C_HISTORY F -RAMP 60",
     );
-    near(at(&*members(&ramped, None), 30.0, &Pose::default(), &Six::zeros())[0], want * 1.5 * 1.5, 1e-12);
+    assert_share(force_at(&*members(&ramped, None), 30.0, &Pose::default(), &Six::zeros())[0], want * 1.5 * 1.5, 1e-12);
 }
 
 /// Time, place and velocity of one degree of freedom of the only body in a run by the trapezoidal rule.
@@ -221,13 +218,13 @@ fn spar_heave_in_still_water_has_its_period_and_gains_no_energy() {
     }
     let cycles = passages.len() - 1;
     // the rule makes a period (w h)^2/12 = 8e-5 longer; friction of second degree changes it in the second order
-    near((passages[cycles] - passages[0]) / cycles as f64, period, 2e-4);
+    assert_share((passages[cycles] - passages[0]) / cycles as f64, period, 2e-4);
     // m x" + c |x'| x' + k x = 0 loses 4/3 c/m A^2 each half cycle [FALTINSEN-1990 7.1], so that 1/A grows by 8/3 c/m a cycle
     let c = 0.5 * RHO * friction * PI * diameter * draft;
     let last = (energy(rows.last().unwrap()) * 2.0 / stiffness).sqrt();
     let want = 1.0 / (1.0 / start + 10.0 * 8.0 / 3.0 * c / whole);
     // the wet length differs by z/draft = 1 %, and the formula is of first order in what is lost, 1 % a half cycle
-    near(last, want, 5e-3);
+    assert_share(last, want, 5e-3);
     assert!(last < 0.9 * start);
 }
 

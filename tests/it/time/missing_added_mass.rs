@@ -14,8 +14,8 @@ fn printed(load: &str, records: &str) -> (String, i64) {
         ),
     );
     session.run();
-    let told: Vec<String> = session.reports.iter().map(|d| format!("{} {}", d.message, d.help.join(" "))).collect();
-    (format!("{}\n{}", screen.text(), told.join("\n")), session.errors)
+    let reported: Vec<String> = session.reports.iter().map(|d| format!("{} {}", d.message, d.help.join(" "))).collect();
+    (format!("{}\n{}", screen.text(), reported.join("\n")), session.errors)
 }
 
 #[test]

@@ -34,7 +34,7 @@ fn vectors(table: &Table, group: &str, names: [&str; 3]) -> Vec<Vector3<f64>> {
     (0..x.len()).map(|i| Vector3::new(x[i], y[i], z[i])).collect()
 }
 
-fn near(got: &[Vector3<f64>], want: impl Fn(f64) -> Vector3<f64>, dt: f64, tolerance: f64) {
+fn assert_near(got: &[Vector3<f64>], want: impl Fn(f64) -> Vector3<f64>, dt: f64, tolerance: f64) {
     for (i, got) in got.iter().enumerate() {
         let want = want(dt * i as f64);
         assert!((got - want).norm() <= tolerance, "at {}: {got:?} is not {want:?}", dt * i as f64);
@@ -46,7 +46,7 @@ const TOP: &str = "&ENV E -DEPTH 50\nMEDIT\n&DESCRIBE BODY TOP -IGNORE X Y Z RX 
                    END\n&INSTATE -LOCATE TOP 10 20 5\n&DESCRIBE INTEREST *P\n";
 const SPIN: f64 = 0.7;
 
-fn turned(angle: f64, v: Vector3<f64>) -> Vector3<f64> {
+fn rotate_about_z(angle: f64, v: Vector3<f64>) -> Vector3<f64> {
     let (sin, cos) = angle.sin_cos();
     Vector3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z)
 }
@@ -59,13 +59,18 @@ fn point_of_rotating_body_moves_on_a_circle() {
     let events = results::events(&made.history, None).unwrap();
     let spin = Vector3::new(0.0, 0.0, SPIN);
     let (origin, centre) = (Vector3::new(10.0, 20.0, 5.0), Vector3::new(4.0, 0.0, 2.0));
-    let told = MotionOptions { centre: true, ..MotionOptions::default() };
-    let table = results::trajectory(&made, &[0], &told, &events).unwrap();
-    let at = |t: f64| turned(SPIN * t, centre);
-    near(&vectors(&table, "Location", ["X", "Y", "Z"]), |t| origin + at(t), dt, tolerance);
-    near(&vectors(&table, "Velocity", ["VX", "VY", "VZ"]), |t| spin.cross(&at(t)), dt, tolerance);
-    near(&vectors(&table, "Acceleration", ["AX", "AY", "AZ"]), |t| spin.cross(&spin.cross(&at(t))), dt, tolerance);
-    near(&vectors(&table, "Displacement", ["DX", "DY", "DZ"]), |t| at(t) - centre, dt, tolerance);
+    let options = MotionOptions { centre: true, ..MotionOptions::default() };
+    let table = results::trajectory(&made, &[0], &options, &events).unwrap();
+    let at = |t: f64| rotate_about_z(SPIN * t, centre);
+    assert_near(&vectors(&table, "Location", ["X", "Y", "Z"]), |t| origin + at(t), dt, tolerance);
+    assert_near(&vectors(&table, "Velocity", ["VX", "VY", "VZ"]), |t| spin.cross(&at(t)), dt, tolerance);
+    assert_near(
+        &vectors(&table, "Acceleration", ["AX", "AY", "AZ"]),
+        |t| spin.cross(&spin.cross(&at(t))),
+        dt,
+        tolerance,
+    );
+    assert_near(&vectors(&table, "Displacement", ["DX", "DY", "DZ"]), |t| at(t) - centre, dt, tolerance);
     // two turns and more: angles do not jump
     let yaw = column(&table, "Displacement", "DYaw");
     assert!((yaw.last().unwrap() - SPIN * 20.0).abs() < tolerance, "{yaw:?}");
@@ -74,10 +79,15 @@ fn point_of_rotating_body_moves_on_a_circle() {
     assert!(column(&table, "Velocity", "V Mag.").iter().all(|v| (v - 4.0 * SPIN).abs() < tolerance));
 
     // along its own axes what turns with it stands still
-    let told = MotionOptions { centre: true, local: true, magnitude: Magnitude([true, false, false]) };
-    let table = results::trajectory(&made, &[0], &told, &events).unwrap();
-    near(&vectors(&table, "Velocity", ["VX", "VY", "VZ"]), |_| spin.cross(&centre), dt, tolerance);
-    near(&vectors(&table, "Acceleration", ["AX", "AY", "AZ"]), |_| spin.cross(&spin.cross(&centre)), dt, tolerance);
+    let options = MotionOptions { centre: true, local: true, magnitude: Magnitude([true, false, false]) };
+    let table = results::trajectory(&made, &[0], &options, &events).unwrap();
+    assert_near(&vectors(&table, "Velocity", ["VX", "VY", "VZ"]), |_| spin.cross(&centre), dt, tolerance);
+    assert_near(
+        &vectors(&table, "Acceleration", ["AX", "AY", "AZ"]),
+        |_| spin.cross(&spin.cross(&centre)),
+        dt,
+        tolerance,
+    );
     assert!(column(&table, "Acceleration", "A Mag.").iter().all(|a| (a - 4.0 * SPIN * SPIN).abs() < tolerance));
     // columns where the published samples have them
     assert_eq!(table.columns()[1].name, "X");
@@ -101,9 +111,9 @@ fn points_of_interest_move_with_body_in_wave_of_run() {
     let table = results::points(&made, &[on_body, fixed], (false, Magnitude::default()), &events).unwrap();
     assert_eq!(table.rows(), 21);
     let own = Vector3::new(3.0, -4.0, 1.0);
-    let at = |t: f64| Vector3::new(10.0, 20.0, 5.0) + turned(SPIN * t, own);
-    near(&vectors(&table, "*P Location", ["X", "Y", "Z"]), at, 0.2, 1e-10);
-    near(&vectors(&table, "*P Motion", ["DX", "DY", "DZ"]), |t| at(t) - Vector3::from(marked), 0.2, 1e-10);
+    let at = |t: f64| Vector3::new(10.0, 20.0, 5.0) + rotate_about_z(SPIN * t, own);
+    assert_near(&vectors(&table, "*P Location", ["X", "Y", "Z"]), at, 0.2, 1e-10);
+    assert_near(&vectors(&table, "*P Motion", ["DX", "DY", "DZ"]), |t| at(t) - Vector3::from(marked), 0.2, 1e-10);
     let level = |at: Vector3<f64>, t: f64| 1.5 * (0.04 * (0.6 * at.x + 0.8 * at.y) - 0.6 * t + 0.3).cos();
     for (name, place) in [("*P Waves", None), ("*G Waves", Some(Vector3::new(100.0, 50.0, 3.0)))] {
         let (waves, clear) = (column(&table, name, "W. Elv"), column(&table, name, "Clearance"));
@@ -169,7 +179,7 @@ fn line_forces_match_catenary_at_every_event() {
     for (link, (line, point)) in [("A", "*A"), ("B", "*B"), ("D", "*D")].into_iter().enumerate() {
         let table = results::connector_forces(&made, &[link], Magnitude::default(), &events).unwrap();
         let forces = vectors(&table, "Force", ["FX", "FY", "FZ"]);
-        let told = column(&table, "Force", "Mag./Break");
+        let ratios = column(&table, "Force", "Mag./Break");
         let grounded = column(&table, "On Bottom", "Length");
         let (up, along) = (column(&table, "Anchor", "V. Pull"), column(&table, "Anchor", "H. Pull"));
         let length = column(&lengths, "First Segment", line);
@@ -178,13 +188,13 @@ fn line_forces_match_catenary_at_every_event() {
             let t = 0.5 * i as f64;
             let want = if line == "A" { 1010.0 + 0.3 * (t - 10.0).max(0.0) } else { 1010.0 };
             assert!((length[i] - want).abs() < 1e-9, "{line} {t}: {}", length[i]);
-            let to = anchor - (at[i] + turned(yaw[i], own));
+            let to = anchor - (at[i] + rotate_about_z(yaw[i], own));
             let (h, suspended) = closed(to.x.hypot(to.y), length[i]);
             let tension = h + W * HEIGHT;
             let want = Vector3::new(h * to.x / to.x.hypot(to.y), h * to.y / to.x.hypot(to.y), -W * suspended);
             // the strain is 6e-10 of a length of 1010 m, and a metre changes the force by some hundredth
             assert!((forces[i] - want).norm() < 1e-6 * tension, "{line} {t}: {:?} is not {want:?}", forces[i]);
-            assert!((told[i] - tension / BREAK).abs() < 1e-6, "{line} {t}: {}", told[i]);
+            assert!((ratios[i] - tension / BREAK).abs() < 1e-6, "{line} {t}: {}", ratios[i]);
             assert!((grounded[i] - (length[i] - suspended)).abs() < 1e-4, "{line} {t}: {}", grounded[i]);
             assert!(up[i].abs() < 1e-6 && (along[i] - h).abs() < 1e-6 * tension, "{line} {t}: {} {}", up[i], along[i]);
         }
@@ -209,7 +219,7 @@ fn total_connector_force_is_sum_of_forces_and_moments() {
         .map(|n| (vectors(&all, &format!("{n} Force"), ["FX", "FY", "FZ"]), ends(&model, n, &format!("*{n}")).1))
         .collect();
     let sum = |i: usize| each.iter().map(|(f, _)| f[i]).sum::<Vector3<f64>>();
-    let moment = |i: usize| each.iter().map(|(f, own)| turned(yaw[i], *own).cross(&f[i])).sum::<Vector3<f64>>();
+    let moment = |i: usize| each.iter().map(|(f, own)| rotate_about_z(yaw[i], *own).cross(&f[i])).sum::<Vector3<f64>>();
     let (forces, moments) =
         (vectors(&total, "Connectors", ["FX", "FY", "FZ"]), vectors(&total, "Connectors", ["MX", "MY", "MZ"]));
     for i in 0..forces.len() {
@@ -285,7 +295,7 @@ fn segment_damage_uses_upper_end_tension_and_scatter_adds_by_days() {
     let (anchor, own) = ends(&made.model, "T", "*B");
     let (mut top, mut joint) = (Vec::new(), Vec::new());
     for (at, yaw) in at.iter().zip(&yaw) {
-        let to = anchor - (at + turned(*yaw, own));
+        let to = anchor - (at + rotate_about_z(*yaw, own));
         let (h, suspended) = closed(to.x.hypot(to.y), 1010.0);
         top.push((h + W * HEIGHT) / 2e6);
         joint.push(h.hypot(W * (suspended - 150.0)) / 1e6);

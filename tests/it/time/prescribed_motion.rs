@@ -35,7 +35,7 @@ fn motion(file: &str, records: &str, sea: Option<&Arc<Sea>>) -> Box<dyn Prescrib
     build_prescribed(&model.bodies["B"], sea).unwrap().unwrap()
 }
 
-fn at(motion: &dyn Prescribed, time: f64) -> BodyMotion {
+fn motion_at(motion: &dyn Prescribed, time: f64) -> BodyMotion {
     motion.motion_at(time).unwrap()
 }
 
@@ -43,7 +43,7 @@ fn at(motion: &dyn Prescribed, time: f64) -> BodyMotion {
 fn derivatives_agree(motion: &dyn Prescribed, times: impl Iterator<Item = f64>) {
     for time in times {
         let h = 1e-4;
-        let (before, now, after) = (at(motion, time - h), at(motion, time), at(motion, time + h));
+        let (before, now, after) = (motion_at(motion, time - h), motion_at(motion, time), motion_at(motion, time + h));
         // of a small turn, the part of the matrix that changes its sign with it
         let m = after.pose.axes * before.pose.axes.transpose();
         let turn = Vector3::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)]) * 0.5;
@@ -68,11 +68,11 @@ fn sinusoids_match_their_derivatives_with_all_three_angles() {
     let made = motion("", records, None);
     derivatives_agree(made.as_ref(), steps(0.5, 40.0));
     // what grows from nothing begins at rest, and stands where the body stood
-    let start = at(made.as_ref(), 0.0);
+    let start = motion_at(made.as_ref(), 0.0);
     assert_eq!(start.pose.origin, Vector3::new(5.0, 6.0, 7.0));
     assert_eq!((start.velocity, start.acceleration), (Six::zeros(), Six::zeros()));
     // beyond the ramp: z = 7 + sin(2 pi t/7 + 30 degrees)
-    let z = at(made.as_ref(), 30.0).pose.origin.z;
+    let z = motion_at(made.as_ref(), 30.0).pose.origin.z;
     assert!((z - 7.0 - (TAU * 30.0 / 7.0 + PI / 6.0).sin()).abs() < 1e-14);
 }
 
@@ -111,7 +111,7 @@ fn body_heaving_with_wave_is_at_its_surface() {
     let waves = sea(&[(0.5, 2.0, 0.3, 1.0), (0.9, 1.0, -2.0, 0.2), (0.4, 0.7, 1.1, -2.0)], 15.0);
     let made = motion(&file, "&INSTATE -LOCATE B 31 -17 0 0 0 40\nMEDIT\nPRESCRIBE B -RAO FILE.CSV\nEND", Some(&waves));
     for time in steps(0.0, 60.0) {
-        let z = at(made.as_ref(), time).pose.origin.z;
+        let z = motion_at(made.as_ref(), time).pose.origin.z;
         assert!((z - waves.elevation(31.0, -17.0, time)).abs() < 1e-12);
     }
     derivatives_agree(made.as_ref(), steps(0.5, 40.0));
@@ -129,11 +129,11 @@ fn raos_are_lagged_rotated_with_body_and_mirrored() {
     let w = TAU / 10.0;
     // the body looks along +y; a wave that goes toward -y comes from ahead of it
     let ahead = motion(&file, record, Some(&sea(&[(w, 1.5, -PI / 2.0, 0.0)], 0.0)));
-    let now = at(ahead.as_ref(), 1.7);
+    let now = motion_at(ahead.as_ref(), 1.7);
     assert!((now.pose.origin - Vector3::y() * 1.5 * (w * 1.7 - PI / 2.0).cos()).norm() < 1e-12);
     // one that goes toward +x comes from -x, the left of the body, which is its +y: a heading of 90 degrees
     let beam = motion(&file, record, Some(&sea(&[(w, 1.5, 0.0, 0.0)], 0.0)));
-    let now = at(beam.as_ref(), 1.7);
+    let now = motion_at(beam.as_ref(), 1.7);
     let swing = 1.5 * (w * 1.7).cos();
     assert!((now.pose.origin + Vector3::x() * swing).norm() < 1e-12, "{}", now.pose.origin);
     let place =
@@ -141,7 +141,7 @@ fn raos_are_lagged_rotated_with_body_and_mirrored() {
     assert!((now.pose.axes - place(-(3.0 * swing).to_radians())).norm() < 1e-12);
     // from the other side all of it is the other way
     let other = motion(&file, record, Some(&sea(&[(w, 1.5, PI, 0.0)], 0.0)));
-    let now = at(other.as_ref(), 1.7);
+    let now = motion_at(other.as_ref(), 1.7);
     assert!((now.pose.origin - Vector3::x() * swing).norm() < 1e-12);
     assert!((now.pose.axes - place((3.0 * swing).to_radians())).norm() < 1e-12);
 }
@@ -158,13 +158,13 @@ fn raos_between_rows_are_linear_in_real_and_imaginary_parts() {
     let made = motion(&file, "MEDIT\nPRESCRIBE B -RAO FILE.CSV\nEND", Some(&sea(&[(w, 1.0, 0.7, 0.0)], 0.0)));
     for time in [0.0, 1.0, 4.0] {
         let want = 0.5 * ((w * time).cos() + (w * time).sin());
-        assert!((at(made.as_ref(), time).pose.origin.z - want).abs() < 1e-12);
+        assert!((motion_at(made.as_ref(), time).pose.origin.z - want).abs() < 1e-12);
     }
     // shorter waves than the shortest move nothing, longer ones than the longest as that
     let short = motion(&file, "MEDIT\nPRESCRIBE B -RAO FILE.CSV\nEND", Some(&sea(&[(TAU / 4.9, 1.0, 0.7, 0.0)], 0.0)));
-    assert_eq!(at(short.as_ref(), 0.0).pose.origin.z, 0.0);
+    assert_eq!(motion_at(short.as_ref(), 0.0).pose.origin.z, 0.0);
     let long = motion(&file, "MEDIT\nPRESCRIBE B -RAO FILE.CSV\nEND", Some(&sea(&[(TAU / 40.0, 1.0, 0.7, 0.0)], 0.0)));
-    assert!((at(long.as_ref(), 10.0).pose.origin.z - 1.0).abs() < 1e-12);
+    assert!((motion_at(long.as_ref(), 10.0).pose.origin.z - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -188,7 +188,7 @@ fn spline_passes_its_rows_with_continuous_curvature() {
     }
     let made = motion(&file, "MEDIT\nPRESCRIBE B -FILE FILE.CSV\nEND", None);
     for t in times {
-        let now = at(made.as_ref(), t);
+        let now = motion_at(made.as_ref(), t);
         assert!((now.pose.origin.x - 2.0 * (0.9 * t).sin()).abs() < 1e-12);
         // the yaw goes on by 30 degrees a second through 360; straight rows have no bend
         let heading = now.pose.axes.column(0).y.atan2(now.pose.axes.column(0).x);
@@ -197,11 +197,11 @@ fn spline_passes_its_rows_with_continuous_curvature() {
     }
     derivatives_agree(made.as_ref(), steps(0.1, 9.9).filter(|t| times.iter().all(|k| (t - k).abs() > 1e-3)));
     for t in &times[1..8] {
-        let (before, after) = (at(made.as_ref(), t - 1e-9), at(made.as_ref(), t + 1e-9));
+        let (before, after) = (motion_at(made.as_ref(), t - 1e-9), motion_at(made.as_ref(), t + 1e-9));
         assert!((before.acceleration - after.acceleration).amax() < 1e-7, "{t}");
     }
     // natural: no bend at the ends, and the body stands where the file begins
-    assert!(at(made.as_ref(), 0.0).acceleration.fixed_rows::<3>(0).amax() < 1e-12);
+    assert!(motion_at(made.as_ref(), 0.0).acceleration.fixed_rows::<3>(0).amax() < 1e-12);
 }
 
 #[test]
@@ -214,7 +214,7 @@ fn spline_of_sine_converges_with_fourth_order() {
         let made = motion(&file, "MEDIT\nPRESCRIBE B -FILE FILE.CSV\nEND", None);
         let error = |n: u32| {
             let t = TAU * f64::from(n) / 1000.0;
-            (at(made.as_ref(), t).pose.origin.x - t.sin()).abs()
+            (motion_at(made.as_ref(), t).pose.origin.x - t.sin()).abs()
         };
         let worst = (0..=1000).map(error).fold(0.0, f64::max);
         assert!(worst <= 5.0 / 384.0 * h.powi(4), "{worst:e}");
@@ -225,7 +225,7 @@ fn spline_of_sine_converges_with_fourth_order() {
 }
 
 #[test]
-fn body_starts_where_its_motion_file_begins() {
+fn body_starts_at_first_row_of_motion_file() {
     let (model, errors, _) =
         session("-1,0,0,0,0,0,0\n0,3,4,-5,1,2,33\n5,0,0,0,0,0,0\n", "MEDIT\nPRESCRIBE B -FILE FILE.CSV\nEND");
     assert_eq!(errors, 0);
@@ -244,7 +244,7 @@ fn time_outside_motion_file_is_error_with_its_span() {
 
 #[test]
 fn invalid_motion_files_are_refused_with_line_number() {
-    for (file, option, told) in [
+    for (file, option, expected) in [
         ("0,0,0,0,0,0,0\n2,0,0,0,0,0,0\n2,0,0,0,0,0,0\n", "-FILE", "the time 2 of line 3 is not after 2"),
         ("0,0,0,0,0,0,0\n2,0,0,NaN,0,0,0\n", "-FILE", "line 2: value 4 is `NaN`, which is no number"),
         ("0,0,0,0,0,0,0\n2,0,0,1e999,0,0,0\n", "-FILE", "line 2: value 4 is `1e999`"),
@@ -262,7 +262,7 @@ fn invalid_motion_files_are_refused_with_line_number() {
         assert_eq!(errors, 1, "{file}");
         // the page is wrapped
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(text.contains(told), "{told}: {text}");
+        assert!(text.contains(expected), "{expected}: {text}");
         assert!(model.bodies["B"].prescribed.is_none());
     }
 }

@@ -25,7 +25,7 @@ fn oscillated(method: Method, steps: f64, periods: f64) -> Run {
 }
 
 /// Period and damping (share of critical) of an oscillation, by a fit of its zeros and of its envelope.
-fn seen(history: &History) -> (f64, f64) {
+fn fit_period_and_damping(history: &History) -> (f64, f64) {
     let at = history.layout.body(0);
     let rows: Vec<(f64, f64, f64)> = history.rows().map(|r| (r[0], r[at], r[at + 6])).collect();
     // phase and amplitude of x and v/w, unwrapped; the phase of each round is the same however x and v are scaled
@@ -65,7 +65,7 @@ fn generalised_alpha_error_and_damping_match_the_oscillation() {
     {
         let made = oscillated(Method::Implicit(TimeScheme::generalised_alpha(rho)), steps, 16.0);
         let worst = made.worst_followed().unwrap();
-        let (own, decay) = seen(&made.history);
+        let (own, decay) = fit_period_and_damping(&made.history);
         let own = own / (TAU / 2.0) - 1.0;
         // the first steps settle into the oscillation of the scheme; velocity and acceleration of a decay are not quite those of a sine
         assert!((own / period - 1.0).abs() < 0.03 && (decay / damping - 1.0).abs() < 0.03, "{own} {decay}");

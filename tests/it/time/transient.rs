@@ -7,7 +7,7 @@ const GROWN: &str = "&DIMEN -DIMEN METERS KN\n&ENV -TIME 70 0.1 20\nMEDIT\n&DESC
                      PRESCRIBE B -SINUSOID X 3 10 -RAMP 20\nEND\nTDOM\n";
 
 /// What a session shows for records behind the run.
-fn shown(posts: &str) -> String {
+fn screen_after(posts: &str) -> String {
     let (mut session, screen, _folder) = common::session();
     session.open("test", format!("{GROWN}{posts}"));
     session.run();
@@ -27,7 +27,7 @@ const WHOLE: f64 = 2.119_203;
 
 #[test]
 fn result_and_run_statistics_skip_the_same_transient() {
-    let text = shown(
+    let text = screen_after(
         "PRCPOST\nTRAJECTORY B\nSTATISTIC Time X\nSTATISTIC Time X -RECORD 1 701\nEND\nTRAJECTORY B -EVENTS 0 70\nSTATISTIC Time X\nEND\nEND\n",
     );
     // mean, deviation, least, ... to two decimals; the first number of a row of STATISTIC is the count
@@ -44,7 +44,7 @@ fn result_and_run_statistics_skip_the_same_transient() {
 
 #[test]
 fn result_extremes_and_shares_skip_the_transient() {
-    let text = shown(
+    let text = screen_after(
         "PRCPOST\nTRAJECTORY B\nEXTREMES Time X\nREPORT\nEND\nEXCEEDANCE Time X -LEVELS 5\nREPORT\nEND\nHISTOGRAM Time X -BINS 2\nREPORT\nEND\nEND\nEND\n",
     );
     // Rayleigh's scale is the deviation

@@ -11,7 +11,7 @@ use windlass_solve::run_tables;
 use windlass_solve::time::Run;
 
 /// A held body of pieces, in waves of 4 m and 7 s.
-fn held(pieces: &str) -> Model {
+fn held_body(pieces: &str) -> Model {
     let (mut session, screen, _folder) = common::session();
     session.open(
         "records",
@@ -38,7 +38,7 @@ fn mean_pressure_on_flared_hull_matches_waterline_drift() {
     // the pressure on a length of flare is int rho g (zeta - z) dz tan(b) over the mean level, upward, and what a trough takes away of
     // rho g (zeta exp(kz) - z): zeta^2/2, and k zeta^3/2 in troughs, so that the mean is rho g (a^2/4 - k a^3/(3 pi)) times the flare around the
     // waterline: two sides of 40 m, 1 m in 2 m: 374.0 kN. The waterline is closed: none along the waves
-    let model = held("PGEN HULL -PERM 1 -DIFTYPE FK\nPLANE -20 20 -CARTESIAN 5 -5 10 5\nEND PGEN");
+    let model = held_body("PGEN HULL -PERM 1 -DIFTYPE FK\nPLANE -20 20 -CARTESIAN 5 -5 10 5\nEND PGEN");
     let mut made = Run::new(&model, settings(210.0, 0.1), vec![]).unwrap();
     made.run(&mut Quiet).unwrap();
     let events = results::events(&made.history, None).unwrap();
@@ -64,7 +64,7 @@ fn mean_pressure_on_flared_hull_matches_waterline_drift() {
 
 #[test]
 fn member_mean_wave_force_excludes_waves_and_drag() {
-    let model = held("END\n&SURFACE\nTUBE T *T1 *T2 2000 -CD 1");
+    let model = held_body("END\n&SURFACE\nTUBE T *T1 *T2 2000 -CD 1");
     let mut made = Run::new(&model, settings(210.0, 0.1), vec![]).unwrap();
     made.run(&mut Quiet).unwrap();
     let events = results::events(&made.history, None).unwrap();
