@@ -47,9 +47,9 @@ static LISTS: &[HelpList] = &[
         head: "Its tables:",
         rows: |_| TABLES.iter().map(|table| (table.spec.name, table.spec.help.to_string())).collect(),
     },
-    HelpList { command: &rod::ROD, head: "It reports:", rows: |_| rod::help_rows() },
-    HelpList { command: &tether::TETHER, head: "It reports:", rows: |_| tether::help_rows() },
-    HelpList { command: &structure::STRUCTURE, head: "It reports:", rows: |_| structure::help_rows() },
+    HelpList { command: &rod::ROD, head: "It reports:", rows: |_| rod::RodReport::help_rows() },
+    HelpList { command: &tether::TETHER, head: "It reports:", rows: |_| tether::TetherReport::help_rows() },
+    HelpList { command: &structure::STRUCTURE, head: "It reports:", rows: |_| structure::StructureReport::help_rows() },
     HelpList { command: &env::ENV, head: "Spectra of -SEA and -A_SEA:", rows: spectra_help },
     HelpList {
         command: &env::ENV,

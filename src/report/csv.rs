@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn text_read_as_a_formula_is_escaped_and_numbers_are_not() {
+    fn text_of_formula_is_escaped_and_numbers_are_not() {
         let texts = ["=cmd|' /C calc'!A0", "+1+1", "@SUM(A1)", "-2+3", "-", "-5", "+5", "-1e3", "x=1", "\t=1", "\r=1"];
         let table = Table::new("t")
             .with_rows(&texts)

@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn text_that_is_not_a_table_is_reported_with_its_line() {
+    fn text_without_table_is_reported_with_its_line() {
         assert_eq!(csv("t", "a,b\n1,2\n3\n"), Err(ReadError::Cells { line: 3, got: 1, want: 2 }));
         assert_eq!(csv("t", "a\n1\ninf\n"), Err(ReadError::NotFinite { line: 3, text: "inf".into() }));
         assert_eq!(csv("t", "a,b\n"), Err(ReadError::NoRows));

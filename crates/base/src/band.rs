@@ -375,7 +375,7 @@ mod tests {
     }
 
     #[test]
-    fn eigenvalue_itself_is_factored_a_rounding_beside() {
+    fn factors_at_eigenvalue_are_those_a_rounding_beside() {
         // the chain of springs [[1 -1][-1 1]] has the eigenvalues 0 and 2
         let mut band = BandMatrix::<1, 3>::new(2);
         band.add(0, 0, 1.0);

@@ -344,6 +344,11 @@ impl OptionSpec {
         OptionSpec { name, aliases: &[], owner: Owner::Moses, values, repeat: 0, many: false, help, default: "" }
     }
 
+    /// An option of windlass' own.
+    pub const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> Self {
+        OptionSpec::new(name, values, help).owner(Owner::Ours)
+    }
+
     /// The same with what holds when the option is not given.
     pub const fn default(self, default: &'static str) -> Self {
         OptionSpec { default, ..self }

@@ -439,7 +439,7 @@ mod tests {
     }
 
     #[test]
-    fn switch_is_on_unless_it_says_no() {
+    fn switch_without_no_is_on() {
         const SWITCH: OptionSpec =
             OptionSpec::new("-SWITCH", &[ValueSpec::choice::<YesNo>("YES/NO", "on or off").or("YES")], "a switch");
         let given =

@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn held_deflection_follows_relaxation_curve_and_ramp_its_integral() {
+    fn constant_deflection_follows_relaxation_curve() {
         let law = ViscoelasticLaw {
             long_term: 2.0,
             branches: vec![Maxwell { stiffness: 3.0, time: 4.0 }, Maxwell { stiffness: 1.0, time: 0.5 }],

@@ -33,7 +33,7 @@ mod junction;
 mod linear;
 pub mod low_frequency;
 pub mod morison;
-mod parts;
+pub mod parts;
 pub mod pieces;
 pub mod plate;
 pub mod pressure;

@@ -3,19 +3,17 @@
 
 use std::sync::{Mutex, PoisonError};
 
-/// Applies a function to each part; the calling thread takes parts, too, and threads of the pool that find time.
-pub(crate) fn map_parts<P: Send, R: Send>(parts: impl Iterator<Item = P>, function: impl Fn(P) -> R + Sync) -> Vec<R> {
-    let parts: Vec<P> = parts.collect();
-    let helpers = rayon::current_num_threads().min(parts.len()).saturating_sub(1);
+/// Hands each of `count` parts to a function; the calling thread takes parts, too, and threads of the pool that find time.
+pub fn for_each_part<P>(count: usize, parts: impl Iterator<Item = P> + Send, function: impl Fn(P) + Sync) {
+    let helpers = rayon::current_num_threads().min(count).saturating_sub(1);
     if helpers == 0 {
-        return parts.into_iter().map(function).collect();
+        return parts.for_each(function);
     }
-    let mut results: Vec<Option<R>> = parts.iter().map(|_| None).collect();
-    let left = Mutex::new(parts.into_iter().zip(&mut results));
+    let left = Mutex::new(parts);
     let next = || left.lock().unwrap_or_else(PoisonError::into_inner).next();
     let work = || {
-        while let Some((part, result)) = next() {
-            *result = Some(function(part));
+        while let Some(part) = next() {
+            function(part);
         }
     };
     rayon::in_place_scope(|scope| {
@@ -24,6 +22,13 @@ pub(crate) fn map_parts<P: Send, R: Send>(parts: impl Iterator<Item = P>, functi
         }
         work();
     });
+}
+
+/// Applies a function to each part, as [`for_each_part`].
+pub(crate) fn map_parts<P: Send, R: Send>(parts: impl Iterator<Item = P>, function: impl Fn(P) -> R + Sync) -> Vec<R> {
+    let parts: Vec<P> = parts.collect();
+    let mut results: Vec<Option<R>> = parts.iter().map(|_| None).collect();
+    for_each_part(parts.len(), parts.into_iter().zip(&mut results), |(part, result)| *result = Some(function(part)));
     results.into_iter().flatten().collect()
 }
 

@@ -18,7 +18,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn first_share_that_lowers_the_function_is_taken() {
+    fn first_share_with_lower_function_is_taken() {
         // Newton's step from 3 for the root of atan: a quarter of it comes nearer than the start, a half does not
         let (at, step) = (3.0f64, -3f64.atan() * 10.0);
         let lower = |share: f64| Some(at + share * step).filter(|x| x.atan().abs() < at.atan());

@@ -42,9 +42,6 @@ const MAX_OGILVIE_ERROR: f64 = 0.05;
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
-const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
-    OptionSpec::new(name, values, help).owner(Owner::Ours)
-}
 const YES_NO: &[ValueSpec] = &[ValueSpec::choice::<YesNo>("YES/NO", "yes or no").or("YES")];
 
 choices! {
@@ -75,47 +72,50 @@ choices! {
     }
 }
 
-const WAMIT: OptionSpec = ours(
+const WAMIT: OptionSpec = OptionSpec::ours(
     "-WAMIT",
     &[ValueSpec::new("ROOT", Kind::File, "name of the files without their endings")],
     "reads ROOT.1, .3, .4, .8, .9, .12d, .hst, those that there are",
 );
-const ULEN: OptionSpec = ours(
+const ULEN: OptionSpec = OptionSpec::ours(
     "-ULEN",
     &[number("L", Dim::Length, "length").positive()],
     "length by which WAMIT made its output dimensionless",
 )
 .default("one metre");
-const NEMOH: OptionSpec =
-    ours("-NEMOH", &[ValueSpec::new("FOLDER", Kind::File, "folder of Nemoh.cal")], "reads results of NEMOH 2 or 3");
-const CAPYTAINE: OptionSpec = ours(
+const NEMOH: OptionSpec = OptionSpec::ours(
+    "-NEMOH",
+    &[ValueSpec::new("FOLDER", Kind::File, "folder of Nemoh.cal")],
+    "reads results of NEMOH 2 or 3",
+);
+const CAPYTAINE: OptionSpec = OptionSpec::ours(
     "-CAPYTAINE",
     &[ValueSpec::new("FILE", Kind::File, "NetCDF file, classic or version 4")],
     "reads a data set of Capytaine",
 );
-const RAO: OptionSpec = ours(
+const RAO: OptionSpec = OptionSpec::ours(
     "-RAO",
     &[ValueSpec::new("FILE", Kind::File, "text or CSV file")],
     "reads a table of motions, with the columns of OrcaFlex",
 );
-const PHASE: OptionSpec = ours(
+const PHASE: OptionSpec = OptionSpec::ours(
     "-PHASE",
     &[ValueSpec::choice::<PhaseSense>("LAG/LEAD", "sense")],
     "whether phases of -RAO lag behind the crest or lead it",
 )
 .default("LAG");
-const ROTATION: OptionSpec = ours(
+const ROTATION: OptionSpec = OptionSpec::ours(
     "-ROTATION",
     &[ValueSpec::choice::<AngleUnit>("DEG/RAD", "unit")],
     "unit of rotations of -RAO a metre of wave amplitude",
 )
 .default("DEG");
-const INDEX: OptionSpec = ours(
+const INDEX: OptionSpec = OptionSpec::ours(
     "-INDEX",
     &[ValueSpec::new("N", Kind::Integer, "number").in_range(1.0, 1000.0)],
     "which body of a source of several, from 1",
 );
-const AT: OptionSpec = ours(
+const AT: OptionSpec = OptionSpec::ours(
     "-AT",
     &[
         number("X", Dim::Length, "in the body"),
@@ -126,22 +126,24 @@ const AT: OptionSpec = ours(
 )
 .default("the body's origin");
 const SYMMETRIC: OptionSpec =
-    ours("-SYMMETRIC", YES_NO, "adds the headings of the other side of a body with port like starboard").default("NO");
-const INFINITE: OptionSpec = ours(
+    OptionSpec::ours("-SYMMETRIC", YES_NO, "adds the headings of the other side of a body with port like starboard")
+        .default("NO");
+const INFINITE: OptionSpec = OptionSpec::ours(
     "-INFINITE",
     YES_NO,
     "uses the added mass at infinite frequency of the source; NO finds it by Ogilvie's relation",
 )
 .default("YES, where the source has it");
-const MEMORY: OptionSpec = ours("-MEMORY", &[number("T", Dim::Time, "length").positive()], "memory of radiated waves")
-    .default("60 s, or up to 300 s until the kernel has died away");
-const DRIFT: OptionSpec = ours(
+const MEMORY: OptionSpec =
+    OptionSpec::ours("-MEMORY", &[number("T", Dim::Time, "length").positive()], "memory of radiated waves")
+        .default("60 s, or up to 300 s until the kernel has died away");
+const DRIFT: OptionSpec = OptionSpec::ours(
     "-DRIFT",
     &[ValueSpec::choice::<DriftChoice>("METHOD", "method")],
     "slow drift in time: by Newman's approximation, the mean only, by the QTF of the source, or none",
 )
 .default("QTF where the source has one, else NEWMAN");
-const HYDROSTATICS: OptionSpec = ours(
+const HYDROSTATICS: OptionSpec = OptionSpec::ours(
     "-HYDROSTATICS",
     YES_NO,
     "whether the hydrostatic stiffness of the source bears the body, which then has no hull",

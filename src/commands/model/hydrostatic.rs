@@ -37,26 +37,22 @@ const MOMENT_ROW: &[ValueSpec] = &[
 ];
 const ROWS: [OptionSpec; 6] = [KX, KY, KZ, KRX, KRY, KRZ];
 
-const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
-    OptionSpec::new(name, values, help).owner(Owner::Ours)
-}
-
-const BUOYANCY: OptionSpec = ours(
+const BUOYANCY: OptionSpec = OptionSpec::ours(
     "-BUOYANCY",
     &[number("B", Dim::Force, "upward force").not_negative()],
     "buoyancy when the body floats at rest: BFEQ",
 );
-const ZCGE: OptionSpec = ours(
+const ZCGE: OptionSpec = OptionSpec::ours(
     "-ZCGE",
     &[number("Z", Dim::Length, "height in the global system")],
     "height of the point when the body floats at rest",
 );
-const KX: OptionSpec = ours("-KX", FORCE_ROW, "row of the force in x");
-const KY: OptionSpec = ours("-KY", FORCE_ROW, "row of the force in y");
-const KZ: OptionSpec = ours("-KZ", FORCE_ROW, "row of the force in z");
-const KRX: OptionSpec = ours("-KRX", MOMENT_ROW, "row of the roll moment");
-const KRY: OptionSpec = ours("-KRY", MOMENT_ROW, "row of the pitch moment");
-const KRZ: OptionSpec = ours("-KRZ", MOMENT_ROW, "row of the yaw moment");
+const KX: OptionSpec = OptionSpec::ours("-KX", FORCE_ROW, "row of the force in x");
+const KY: OptionSpec = OptionSpec::ours("-KY", FORCE_ROW, "row of the force in y");
+const KZ: OptionSpec = OptionSpec::ours("-KZ", FORCE_ROW, "row of the force in z");
+const KRX: OptionSpec = OptionSpec::ours("-KRX", MOMENT_ROW, "row of the roll moment");
+const KRY: OptionSpec = OptionSpec::ours("-KRY", MOMENT_ROW, "row of the pitch moment");
+const KRZ: OptionSpec = OptionSpec::ours("-KRZ", MOMENT_ROW, "row of the yaw moment");
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,

@@ -1,9 +1,10 @@
 //! What a report of ROD, TETHER or STRUCTURE declares: its word, the options it alone takes, and the tables it makes.
 
+use windlass_base::choice::Choice;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::spec::OptionSpec;
 use windlass_base::table::Table;
-use windlass_base::values::Args;
+use windlass_base::values::{Args, Value};
 
 /// A report of a command that has several, which one `WHAT` chooses. One is declared in the file that makes its tables, and
 /// listed in the `REPORTS` of its command. `Q` is the function that makes its tables of a record.
@@ -44,94 +45,101 @@ impl<Q> PartialEq for Report<Q> {
     }
 }
 
-/// More options than a command with reports has.
-const MAX_OPTIONS: usize = 32;
-
-/// The words of some reports.
-pub(crate) const fn words<Q, const N: usize>(reports: &[&Report<Q>]) -> [&'static str; N] {
-    let mut words = [""; N];
-    let mut i = 0;
-    while i < N {
-        words[i] = reports[i].name;
-        i += 1;
-    }
-    words
+/// The reports of a command, by the function that makes their tables. Words, options and help follow from them.
+pub(crate) trait ReportRegistry: Sized + 'static {
+    /// The reports, in the order of the help.
+    const REPORTS: &'static [&'static Report<Self>];
+    /// The options that all of them take.
+    const SHARED: &'static [OptionSpec];
 }
 
-/// Whether an option is among the first `count` of some.
-const fn contains(options: &[OptionSpec], count: usize, name: &str) -> bool {
+/// More reports than a command has, and more options.
+const MAX_ENTRIES: usize = 32;
+
+impl<Q: ReportRegistry> Choice for &'static Report<Q> {
+    const WORDS: &'static [&'static str] = Report::<Q>::PADDED_WORDS.split_at(Q::REPORTS.len()).0;
+    const ALL: &'static [Self] = Q::REPORTS;
+
+    fn word(self) -> &'static str {
+        self.name
+    }
+}
+
+impl<Q: ReportRegistry> Report<Q> {
+    const PADDED_WORDS: &'static [&'static str; MAX_ENTRIES] = &{
+        let mut words = [""; MAX_ENTRIES];
+        let mut i = 0;
+        while i < Q::REPORTS.len() {
+            words[i] = Q::REPORTS[i].name;
+            i += 1;
+        }
+        words
+    };
+
+    /// The options, each once, and how many they are.
+    const PADDED_OPTIONS: &'static ([OptionSpec; MAX_ENTRIES], usize) = &{
+        let mut all = [OptionSpec::new("", &[], ""); MAX_ENTRIES];
+        let mut count = 0;
+        while count < Q::SHARED.len() {
+            all[count] = Q::SHARED[count];
+            count += 1;
+        }
+        let mut i = 0;
+        while i < Q::REPORTS.len() {
+            let own = Q::REPORTS[i].options;
+            let mut j = 0;
+            while j < own.len() {
+                if !contains(&all, own[j].name) {
+                    all[count] = own[j];
+                    count += 1;
+                }
+                j += 1;
+            }
+            i += 1;
+        }
+        (all, count)
+    };
+
+    /// The options of the command: those that all reports take, then their own in the order of the reports.
+    pub const OPTIONS: &'static [OptionSpec] = Self::PADDED_OPTIONS.0.split_at(Self::PADDED_OPTIONS.1).0;
+
+    /// Names and help of the reports, for the help of their command.
+    pub fn help_rows() -> Vec<(&'static str, String)> {
+        Q::REPORTS.iter().map(|report| (report.name, report.help.to_string())).collect()
+    }
+
+    /// Refuses options that belong to other reports, and data (`what`) behind the word of a report that takes none.
+    ///
+    /// # Errors
+    /// Such an option or datum, at its place.
+    pub fn check_record(&self, args: &Args, surplus: Option<&Value>, what: &str) -> Outcome<()> {
+        let takes = |report: &Report<Q>, name: &str| report.options.iter().any(|option| option.name == name);
+        for given in args.options.iter().filter(|given| !takes(self, given.option.name)) {
+            let name = given.option.name;
+            let owners: Vec<&str> =
+                Q::REPORTS.iter().filter(|report| takes(report, name)).map(|report| report.name).collect();
+            if !owners.is_empty() {
+                let text = format!("{name} goes with {}, not with {}", owners.join(", "), self.name);
+                return Err(Diagnostic::error(text, given.span));
+            }
+        }
+        match surplus.filter(|_| !self.takes_data) {
+            Some(surplus) => Err(Diagnostic::error(format!("{} takes no {what}", self.name), surplus.span)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Whether an option is among some.
+const fn contains(options: &[OptionSpec], name: &str) -> bool {
     let mut i = 0;
-    while i < count {
+    while i < options.len() {
         if options[i].is_named(name) {
             return true;
         }
         i += 1;
     }
     false
-}
-
-/// The options of a command, each once: those that its reports share, then their own in the order of the reports. The second
-/// is how many there are; the rest of the array is not used.
-const fn collect_options<Q>(shared: &[OptionSpec], reports: &[&Report<Q>]) -> ([OptionSpec; MAX_OPTIONS], usize) {
-    let mut all = [OptionSpec::new("", &[], ""); MAX_OPTIONS];
-    let mut count = 0;
-    while count < shared.len() {
-        all[count] = shared[count];
-        count += 1;
-    }
-    let mut i = 0;
-    while i < reports.len() {
-        let own = reports[i].options;
-        let mut j = 0;
-        while j < own.len() {
-            if !contains(&all, count, own[j].name) {
-                all[count] = own[j];
-                count += 1;
-            }
-            j += 1;
-        }
-        i += 1;
-    }
-    (all, count)
-}
-
-/// How many options a command has: those that its reports share and their own.
-pub(crate) const fn count_options<Q>(shared: &[OptionSpec], reports: &[&Report<Q>]) -> usize {
-    collect_options(shared, reports).1
-}
-
-/// The options of a command: those that its reports share, then their own in the order of the reports.
-pub(crate) const fn options<Q, const N: usize>(shared: &[OptionSpec], reports: &[&Report<Q>]) -> [OptionSpec; N] {
-    let (all, _) = collect_options(shared, reports);
-    let mut options = [OptionSpec::new("", &[], ""); N];
-    let mut i = 0;
-    while i < N {
-        options[i] = all[i];
-        i += 1;
-    }
-    options
-}
-
-/// Refuses an option that belongs to other reports.
-///
-/// # Errors
-/// Such an option, at its place.
-pub(crate) fn refuse_options_of_others<Q>(args: &Args, chosen: &Report<Q>, reports: &[&Report<Q>]) -> Outcome<()> {
-    let takes = |report: &Report<Q>, name: &str| report.options.iter().any(|option| option.name == name);
-    for given in args.options.iter().filter(|given| !takes(chosen, given.option.name)) {
-        let name = given.option.name;
-        let owners: Vec<&str> = reports.iter().filter(|report| takes(report, name)).map(|report| report.name).collect();
-        if !owners.is_empty() {
-            let text = format!("{name} goes with {}, not with {}", owners.join(", "), chosen.name);
-            return Err(Diagnostic::error(text, given.span));
-        }
-    }
-    Ok(())
-}
-
-/// Names and help of some reports, for the help of their command.
-pub(crate) fn help_rows<Q>(reports: &[&Report<Q>]) -> Vec<(&'static str, String)> {
-    reports.iter().map(|report| (report.name, report.help.to_string())).collect()
 }
 
 /// The tables of a record as its report makes them.

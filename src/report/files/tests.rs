@@ -350,7 +350,7 @@ fn temporary_files_of_killed_jobs_are_removed_and_others_kept() {
 }
 
 #[test]
-fn number_for_an_earlier_file_is_found_among_many() {
+fn earlier_file_gets_next_free_number() {
     let (_dir, job) = job();
     for number in 0..100 {
         job.write("t", format!("{number}").as_bytes()).unwrap();

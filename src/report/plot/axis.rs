@@ -114,7 +114,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_values_give_an_axis_with_ticks_inside(
+        fn axis_of_any_values_has_ticks_inside(
             values in prop::collection::vec(any::<f64>().prop_filter("drawable", |v| v.abs() <= MAX_PLOTTED_VALUE), 1..5),
             most in 2usize..12,
         ) {

@@ -10,7 +10,6 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
-use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{RodSegment, TensionLaw, TubeSection, ViscoelasticRope};
 use windlass_model::{ClassError, ClassRecord, Surroundings};
@@ -28,10 +27,6 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
 
-const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
-    OptionSpec::new(name, values, help).owner(Owner::Ours)
-}
-
 /// Relaxation time of a fibre rope (s) where none is given: beyond waves, within the slow drift of a vessel.
 const DEFAULT_RELAXATION_TIME_S: f64 = 100.0;
 
@@ -43,7 +38,7 @@ const PER_DEPTH: Dim = Dim::Derived { force: 1, length: -3, seconds: 0 };
 const PER_SPEED: Dim = Dim::Derived { force: 1, length: -3, seconds: 1 };
 
 /// `-CD`.
-pub const CD: OptionSpec = ours(
+pub const CD: OptionSpec = OptionSpec::ours(
     "-CD",
     &[
         number("CDN", Dim::None, "drag coefficient across").not_negative(),
@@ -56,7 +51,7 @@ pub const CD: OptionSpec = ours(
 )
 .default("1.0 0.025/pi 1.2");
 /// `-CA`.
-pub const CA: OptionSpec = ours(
+pub const CA: OptionSpec = OptionSpec::ours(
     "-CA",
     &[
         number("CAN", Dim::None, "added mass coefficient across").not_negative(),
@@ -66,7 +61,7 @@ pub const CA: OptionSpec = ours(
 )
 .default("1.0 0");
 /// `-EA`.
-pub const EA: OptionSpec = ours(
+pub const EA: OptionSpec = OptionSpec::ours(
     "-EA",
     &[
         number("K1", Dim::Force, "coefficient of strain").positive(),
@@ -77,14 +72,14 @@ pub const EA: OptionSpec = ours(
 )
 .default("that of the tube");
 /// `-STRETCH`.
-pub const STRETCH: OptionSpec = ours(
+pub const STRETCH: OptionSpec = OptionSpec::ours(
     "-STRETCH",
     &[number("T", Dim::Force, "tension"), number("E", Dim::None, "strain at it")],
     "tension by strain as a table, straight between its points",
 )
 .repeating(2);
 /// `-ROPE`.
-pub const ROPE: OptionSpec = ours(
+pub const ROPE: OptionSpec = OptionSpec::ours(
     "-ROPE",
     &[
         number("EAD", Dim::Force, "stiffness when pulled fast, without load").positive(),
@@ -94,7 +89,7 @@ pub const ROPE: OptionSpec = ours(
     "fibre rope: -EA or -STRETCH is its static stiffness, EAD + B T its dynamic one",
 );
 /// `-CLUMP_DRAG`.
-pub const CLUMP_DRAG: OptionSpec = ours(
+pub const CLUMP_DRAG: OptionSpec = OptionSpec::ours(
     "-CLUMP_DRAG",
     &[
         number("CDA", Dim::Area, "drag coefficient times area, the same in all directions").not_negative(),
@@ -105,9 +100,9 @@ pub const CLUMP_DRAG: OptionSpec = ours(
     "drag and added mass of what -CLUMP attaches",
 );
 /// `-SLAM`.
-pub const SLAM: OptionSpec = ours("-SLAM", &[], "the line is slammed where it enters the water");
+pub const SLAM: OptionSpec = OptionSpec::ours("-SLAM", &[], "the line is slammed where it enters the water");
 /// `-AX_DAMPING`.
-pub const AX_DAMPING: OptionSpec = ours(
+pub const AX_DAMPING: OptionSpec = OptionSpec::ours(
     "-AX_DAMPING",
     &[number("C", PER_RATE, "tension per rate of strain").not_negative()],
     "axial internal damping",
@@ -126,7 +121,7 @@ choices! {
 }
 
 /// `-CLAMP`.
-pub const CLAMP: OptionSpec = ours(
+pub const CLAMP: OptionSpec = OptionSpec::ours(
     "-CLAMP",
     &[
         ValueSpec::choice::<ClampedEnd>("WHICH", "which end is held in its direction"),
@@ -139,7 +134,7 @@ pub const CLAMP: OptionSpec = ours(
 .default("both turn freely")
 .many();
 /// `-SEABED`.
-pub const SEABED: OptionSpec = ours(
+pub const SEABED: OptionSpec = OptionSpec::ours(
     "-SEABED",
     &[
         number("K", PER_DEPTH, "normal stiffness per area of the line's shadow").positive(),

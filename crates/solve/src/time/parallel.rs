@@ -2,7 +2,7 @@
 
 use super::forces::{BodyForces, BodyMotion};
 use crate::system::System;
-use std::sync::{Mutex, PoisonError};
+use windlass_hydro::parts::for_each_part;
 use windlass_model::{ClassError, ElementResponse, End, Situation, SolverCache, TimeStep};
 
 /// One of them, with what its evaluation needs and finds.
@@ -64,23 +64,5 @@ fn evaluate(system: &System, lines: &mut [(&mut LineTask, &mut [f64])], step: Op
         let made = link.element.evaluate(&at, committed, trial, &mut line.cache, &mut line.response);
         line.failed = made.err();
     };
-    let helpers = rayon::current_num_threads().min(lines.len()).saturating_sub(1);
-    if helpers == 0 {
-        lines.iter_mut().for_each(one);
-        return;
-    }
-    // this thread takes one after the other, as do others that find time
-    let left = Mutex::new(lines.iter_mut());
-    let next = || left.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let work = || {
-        while let Some(line) = next() {
-            one(line);
-        }
-    };
-    rayon::in_place_scope(|scope| {
-        for _ in 0..helpers {
-            scope.spawn(|_| work());
-        }
-        work();
-    });
+    for_each_part(lines.len(), lines.iter_mut(), one);
 }

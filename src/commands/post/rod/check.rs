@@ -1,6 +1,6 @@
 //! `CHECK` of ROD: the largest utilisation of each node, and when.
 
-use super::{RodQuery, RodReport, ours, plain};
+use super::{RodQuery, RodReport, plain};
 use crate::commands::post::report::Tables;
 use windlass_base::choice::Choice;
 use windlass_base::choices;
@@ -37,15 +37,16 @@ choices! {
     }
 }
 
-const CODE: OptionSpec = ours(
+const CODE: OptionSpec = OptionSpec::ours(
     "-CODE",
     &[ValueSpec::choice::<CheckCode>("C", "F201: DNV-ST-F201, 2RD: API RP 2RD, BREAK: tension over break")],
     "what CHECK checks tubes by; other sections go by tension over break",
 )
 .default("F201");
 const SAFETY_OPTION: OptionSpec =
-    ours("-SAFETY", &[ValueSpec::choice::<SafetyClass>("C", "safety class")], "safety class of F201").default("NORMAL");
-const FACTORS: OptionSpec = ours(
+    OptionSpec::ours("-SAFETY", &[ValueSpec::choice::<SafetyClass>("C", "safety class")], "safety class of F201")
+        .default("NORMAL");
+const FACTORS: OptionSpec = OptionSpec::ours(
     "-FACTORS",
     &[
         plain("GF", "gamma_F, on what acts at rest").positive(),
@@ -55,7 +56,7 @@ const FACTORS: OptionSpec = ours(
     "factors of F201; a load that relieves takes the inverse",
 )
 .default("1.1 1.3 1.15");
-const PIPE: OptionSpec = ours(
+const PIPE: OptionSpec = OptionSpec::ours(
     "-PIPE",
     &[
         plain("F0", "ovality, at least 0.005").in_range(0.0, 0.1),
@@ -64,10 +65,13 @@ const PIPE: OptionSpec = ours(
     "how round the tubes of F201 are and how they were made",
 )
 .default("0.005 1");
-const CASE: OptionSpec =
-    ours("-CASE", &[ValueSpec::choice::<DesignCase>("C", "design case")], "design case of 2RD: 1, 1.2 or 1.5")
-        .default("OPERATING");
-const CORROSION: OptionSpec = ours(
+const CASE: OptionSpec = OptionSpec::ours(
+    "-CASE",
+    &[ValueSpec::choice::<DesignCase>("C", "design case")],
+    "design case of 2RD: 1, 1.2 or 1.5",
+)
+.default("OPERATING");
+const CORROSION: OptionSpec = OptionSpec::ours(
     "-CORROSION",
     &[ValueSpec::new("T", Kind::Number(Dim::Section), "of the wall").not_negative()],
     "what CHECK takes from the walls",

@@ -1,6 +1,6 @@
 //! `FATIGUE` of ROD: rainflow cycles along the line.
 
-use super::{RodQuery, RodReport, ours, plain};
+use super::{RodQuery, RodReport, plain};
 use crate::commands::post::report::Tables;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_signal::line::fatigue::{MAX_CIRCUMFERENCE_POINTS, Round};
@@ -14,17 +14,21 @@ pub(super) static FATIGUE: RodReport = RodReport::new(
 )
 .with_options(&[POINTS, SCF, DFF]);
 
-const POINTS: OptionSpec = ours(
+const POINTS: OptionSpec = OptionSpec::ours(
     "-POINTS",
     &[ValueSpec::new("N", Kind::Integer, "points").in_range(1.0, MAX_CIRCUMFERENCE_POINTS as f64)],
     "points round a tube at which FATIGUE looks",
 )
 .default("8");
 const SCF: OptionSpec =
-    ours("-SCF", &[plain("F", "factor on stress").positive()], "stress concentration of tubes in FATIGUE").default("1");
-const DFF: OptionSpec =
-    ours("-DFF", &[plain("F", "factor").in_range(1.0, 1000.0)], "design fatigue factor: life is divided by it")
+    OptionSpec::ours("-SCF", &[plain("F", "factor on stress").positive()], "stress concentration of tubes in FATIGUE")
         .default("1");
+const DFF: OptionSpec = OptionSpec::ours(
+    "-DFF",
+    &[plain("F", "factor").in_range(1.0, 1000.0)],
+    "design fatigue factor: life is divided by it",
+)
+.default("1");
 
 fn tables(query: &RodQuery) -> Tables {
     let (args, events) = (query.args(), query.events_after_transient()?);

@@ -11,11 +11,10 @@ mod touchdown;
 use crate::commands::menu;
 use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, print_or_dispose};
 use crate::commands::post::prcpost::{self, asked_behind_transient, last_run, run_and_events, transient_of};
-use crate::commands::post::report::{self, Report, Tables, refuse_options_of_others};
+use crate::commands::post::report::{Report, ReportRegistry, Tables};
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::{Call, Command, Effect, Job};
-use windlass_base::choice::Choice;
-use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun};
@@ -30,39 +29,24 @@ use windlass_solve::time::Run;
 pub static ROD: Command = Command { spec: &SPEC, edits: false, run };
 
 /// A report of ROD.
-type RodReport = Report<fn(&RodQuery) -> Tables>;
+pub(crate) type RodReport = Report<fn(&RodQuery) -> Tables>;
 
-/// The reports of ROD, in the order of the help.
-static REPORTS: &[&RodReport] = &[
-    &envelope::ENVELOPE,
-    &at::AT,
-    &node::NODE,
-    &touchdown::TOUCHDOWN,
-    &supports::SUPPORTS,
-    &fatigue::FATIGUE,
-    &check::CHECK,
-];
-
-impl Choice for &'static RodReport {
-    const WORDS: &'static [&'static str] = &report::words::<_, { REPORTS.len() }>(REPORTS);
-    const ALL: &'static [Self] = REPORTS;
-
-    fn word(self) -> &'static str {
-        self.name
-    }
-}
-
-/// Names and help of the reports.
-pub(crate) fn help_rows() -> Vec<(&'static str, String)> {
-    report::help_rows(REPORTS)
+impl ReportRegistry for fn(&RodQuery) -> Tables {
+    const REPORTS: &'static [&'static RodReport] = &[
+        &envelope::ENVELOPE,
+        &at::AT,
+        &node::NODE,
+        &touchdown::TOUCHDOWN,
+        &supports::SUPPORTS,
+        &fatigue::FATIGUE,
+        &check::CHECK,
+    ];
+    const SHARED: &'static [OptionSpec] = &[EVENTS, DISPOSE, HARD, BOTH];
 }
 
 const NAME: DatumKey<str> = SPEC.word("NAME");
 const WHAT: DatumKey<&'static RodReport> = SPEC.choice("WHAT");
 
-const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
-    OptionSpec::new(name, values, help).owner(Owner::Ours)
-}
 const fn plain(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::None), help)
 }
@@ -70,7 +54,6 @@ const fn plain(name: &'static str, help: &'static str) -> ValueSpec {
 const EVENTS: OptionSpec = prcpost::EVENTS
     .owner(Owner::Ours)
     .default("all stored instants; ENVELOPE, FATIGUE and CHECK leave out those before TTRA_SET");
-const SHARED: &[OptionSpec] = &[EVENTS, DISPOSE, HARD, BOTH];
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
@@ -82,7 +65,7 @@ static SPEC: CommandSpec = CommandSpec {
         plain("N", "times of AT (s), numbers of NODE").or("the last instant; node 1"),
     ],
     repeat: 1,
-    options: &report::options::<_, { report::count_options(SHARED, REPORTS) }>(SHARED, REPORTS),
+    options: RodReport::OPTIONS,
     detail: "Of a ROD, or a line that &CONNECTOR -DYNAMICS makes dynamic, in the last TDOM. Nodes count from 1 at the first end, those that \
              TDOM -ALONG has kept. The curve of FATIGUE is that of -C_SN of the class or the last of &REP_SELECT -SN. \
              F201 of CHECK is combined loading of DNV-ST-F201 (of 2018, as others publish it), ultimate limit state: the \
@@ -99,7 +82,7 @@ const EXAMPLE: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY SHIP -I
      ROD A CHECK -SAFETY HIGH\nROD A CHECK -CODE 2RD -CASE EXTREME\nEND";
 
 /// A record of ROD as its reports see it.
-struct RodQuery<'a> {
+pub(crate) struct RodQuery<'a> {
     job: &'a Job,
     call: &'a Call<'a>,
     run: &'a Run,
@@ -142,9 +125,6 @@ fn tables(job: &Job, call: &Call) -> Tables {
     let line = LineResults::find(run, args.word(NAME).unwrap_or_default())
         .map_err(|e| e.diagnostic(args.place(NAME), job.units))?;
     let chosen = args.choice(WHAT).unwrap_or(&envelope::ENVELOPE);
-    refuse_options_of_others(args, chosen, REPORTS)?;
-    if let (Some(surplus), false) = (args.data_after(WHAT).first(), chosen.takes_data) {
-        return Err(Diagnostic::error(format!("{} takes no numbers", chosen.name), surplus.span));
-    }
+    chosen.check_record(args, args.data_after(WHAT).first(), "numbers")?;
     (chosen.tables)(&RodQuery { job, call, run, line })
 }

@@ -8,10 +8,9 @@ mod pages;
 
 use crate::commands::menu;
 use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, print_or_dispose};
-use crate::commands::post::report::{self, Report, Tables, refuse_options_of_others};
+use crate::commands::post::report::{Report, ReportRegistry, Tables};
 use crate::commands::post::tether::instants::{EVENTS, instants, last_run, transient_of};
 use crate::commands::{Call, Command, Effect, Job};
-use windlass_base::choice::Choice;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::{Args, Noun};
 use windlass_language::select::Owner;
@@ -22,27 +21,14 @@ use windlass_solve::tethered::{StructureHistory, Tethered};
 pub static STRUCTURE: Command = Command { spec: &SPEC, edits: false, run };
 
 /// A report of STRUCTURE.
-type StructureReport = Report<fn(&StructureQuery) -> Tables>;
+pub(crate) type StructureReport = Report<fn(&StructureQuery) -> Tables>;
 
-/// The reports of STRUCTURE, in the order of the help.
-static REPORTS: &[&StructureReport] = &[&pages::PAGES, &history::HISTORY, &harmonics::HARMONICS];
-
-impl Choice for &'static StructureReport {
-    const WORDS: &'static [&'static str] = &report::words::<_, { REPORTS.len() }>(REPORTS);
-    const ALL: &'static [Self] = REPORTS;
-
-    fn word(self) -> &'static str {
-        self.name
-    }
-}
-
-/// Names and help of the reports.
-pub(crate) fn help_rows() -> Vec<(&'static str, String)> {
-    report::help_rows(REPORTS)
+impl ReportRegistry for fn(&StructureQuery) -> Tables {
+    const REPORTS: &'static [&'static StructureReport] = &[&pages::PAGES, &history::HISTORY, &harmonics::HARMONICS];
+    const SHARED: &'static [OptionSpec] = &[DISPOSE, HARD, BOTH];
 }
 
 const WHAT: DatumKey<&'static StructureReport> = SPEC.choice("WHAT");
-const SHARED: &[OptionSpec] = &[DISPOSE, HARD, BOTH];
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
@@ -53,7 +39,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("*P", Kind::Name(Noun::Point), "points of the structure whose places are reported").or("none"),
     ],
     repeat: 1,
-    options: &report::options::<_, { report::count_options(SHARED, REPORTS) }>(SHARED, REPORTS),
+    options: StructureReport::OPTIONS,
     detail: "Of the body that installed tethers hold, in a run of TDOM -TETHERS. Columns of HISTORY are X to RZ, VX, AX, and of forces \
              G (gravity), H (hydrostatic), D (drag), FK (Froude-Krylov), WI (wave inertia), DF (diffraction and what else acts on the \
              body), GY (gyroscopic), M (mooring), T (total) with the axis behind.",
@@ -65,7 +51,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 /// A record of STRUCTURE as its reports see it.
-struct StructureQuery<'a> {
+pub(crate) struct StructureQuery<'a> {
     job: &'a Job,
     call: &'a Call<'a>,
     run: &'a Tethered,
@@ -98,9 +84,6 @@ fn tables(job: &Job, call: &Call) -> Tables {
         return Err(Diagnostic::error("the run is of a towed tether, which has no structure", args.span));
     };
     let chosen = args.choice(WHAT).unwrap_or(&pages::PAGES);
-    refuse_options_of_others(args, chosen, REPORTS)?;
-    if let (Some(surplus), false) = (args.data_after(WHAT).first(), chosen.takes_data) {
-        return Err(Diagnostic::error(format!("{} takes no points", chosen.name), surplus.span));
-    }
+    chosen.check_record(args, args.data_after(WHAT).first(), "points")?;
     (chosen.tables)(&StructureQuery { job, call, run, structure })
 }

@@ -1,6 +1,6 @@
 //! `ALONG` of TETHER: one quantity along the tether.
 
-use super::{NUMBER, TetherQuery, TetherReport, ours};
+use super::{NUMBER, TetherQuery, TetherReport};
 use crate::commands::post::report::Tables;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::units::Dim;
@@ -21,10 +21,13 @@ pub(super) static ALONG: TetherReport = TetherReport::new(
 /// Times on one graph [AQWA-TETHER 2.2].
 const MAX_CURVES: usize = 20;
 
-const AT: OptionSpec =
-    ours("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "times, twenty at most")], "instants of ALONG")
-        .repeating(1)
-        .default("the last");
+const AT: OptionSpec = OptionSpec::ours(
+    "-AT",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "times, twenty at most")],
+    "instants of ALONG",
+)
+.repeating(1)
+.default("the last");
 
 fn tables(query: &TetherQuery) -> Tables {
     let (run, tether, args) = (query.run, query.tether, query.args());

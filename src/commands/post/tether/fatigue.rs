@@ -1,7 +1,7 @@
 //! `RANGES` and `FATIGUE` of TETHER: rainflow ranges of a towed tether, and the life they leave.
 
 use super::records::{STEPS, find_statistics};
-use super::{EVENTS, TetherQuery, TetherReport, WHAT, ours};
+use super::{EVENTS, TetherQuery, TetherReport, WHAT};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
@@ -22,7 +22,7 @@ pub(super) static FATIGUE: TetherReport =
     })
     .with_options(&[EVENTS, STEPS, SN, HOURS]);
 
-const SN: OptionSpec = ours(
+const SN: OptionSpec = OptionSpec::ours(
     "-SN",
     &[
         ValueSpec::new("SCF", Kind::Number(Dim::None), "stress concentration factor").positive(),
@@ -32,7 +32,7 @@ const SN: OptionSpec = ours(
     "fatigue curve",
 )
 .default("1.24 1.3367E24 3.5");
-const HOURS: OptionSpec = ours(
+const HOURS: OptionSpec = OptionSpec::ours(
     "-HOURS",
     &[ValueSpec::new("H", Kind::Number(Dim::None), "hours").positive()],
     "time in which the peak stress is expected",

@@ -16,9 +16,8 @@ mod statistics;
 use self::instants::{EVENTS, instants, last_run, transient_of};
 use crate::commands::menu;
 use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, print_or_dispose};
-use crate::commands::post::report::{self, Report, Tables, refuse_options_of_others};
+use crate::commands::post::report::{Report, ReportRegistry, Tables};
 use crate::commands::{Call, Command, Effect, Job};
-use windlass_base::choice::Choice;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun};
@@ -32,50 +31,33 @@ use windlass_tether::installed::RigChange;
 pub static TETHER: Command = Command { spec: &SPEC, edits: false, run };
 
 /// A report of TETHER.
-type TetherReport = Report<fn(&TetherQuery) -> Tables>;
+pub(crate) type TetherReport = Report<fn(&TetherQuery) -> Tables>;
 
-/// The reports of TETHER, in the order of the help.
-static REPORTS: &[&TetherReport] = &[
-    &motions::MOTIONS,
-    &forces::FORCES,
-    &node::NODE,
-    &end_of::END_OF,
-    &along::ALONG,
-    &statistics::STATISTICS,
-    &fatigue::RANGES,
-    &fatigue::FATIGUE,
-    &events::EVENTS,
-];
-
-impl Choice for &'static TetherReport {
-    const WORDS: &'static [&'static str] = &report::words::<_, { REPORTS.len() }>(REPORTS);
-    const ALL: &'static [Self] = REPORTS;
-
-    fn word(self) -> &'static str {
-        self.name
-    }
-}
-
-/// Names and help of the reports.
-pub(crate) fn help_rows() -> Vec<(&'static str, String)> {
-    report::help_rows(REPORTS)
+impl ReportRegistry for fn(&TetherQuery) -> Tables {
+    const REPORTS: &'static [&'static TetherReport] = &[
+        &motions::MOTIONS,
+        &forces::FORCES,
+        &node::NODE,
+        &end_of::END_OF,
+        &along::ALONG,
+        &statistics::STATISTICS,
+        &fatigue::RANGES,
+        &fatigue::FATIGUE,
+        &events::EVENTS,
+    ];
+    const SHARED: &'static [OptionSpec] = &[DISPOSE, HARD, BOTH];
 }
 
 const NAME: DatumKey<str> = SPEC.word("NAME");
 const WHAT: DatumKey<&'static TetherReport> = SPEC.choice("WHAT");
 const NUMBER: DatumKey<str> = SPEC.word("N");
 
-const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
-    OptionSpec::new(name, values, help).owner(Owner::Ours)
-}
-
 /// -SLACK.
-const SLACK: OptionSpec = ours(
+const SLACK: OptionSpec = OptionSpec::ours(
     "-SLACK",
     &[ValueSpec::new("T", Kind::Number(Dim::Time), "time reported from each time a tether goes slack").not_negative()],
     "only instants after a tether of the run went slack",
 );
-const SHARED: &[OptionSpec] = &[DISPOSE, HARD, BOTH];
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
@@ -87,7 +69,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("N", Kind::Text, "number of the node or the end, quantity of ALONG, type of STATISTICS")
             .or("1, Y of ALONG, 2 of STATISTICS"),
     ],
-    options: &report::options::<_, { report::count_options(SHARED, REPORTS) }>(SHARED, REPORTS),
+    options: TetherReport::OPTIONS,
     detail: "Of a tether that TDOM -TETHERS has run. Quantities of ALONG are \
              Y Z RY RZ (X Y RX RY of an installed tether), the same with V or A before them for velocities and accelerations, and \
              of a towed tether SY SZ MY MZ SMAX STY STZ, of an installed one EFF WALL SX SY MX MY SHEAR MAX MIN MISES STY. \
@@ -104,7 +86,7 @@ const EXAMPLE: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*E -100 0 -0.5\n&DESCR
      VIEW Time Z VZ\nEND\nEND";
 
 /// A record of TETHER as its reports see it.
-struct TetherQuery<'a> {
+pub(crate) struct TetherQuery<'a> {
     call: &'a Call<'a>,
     run: &'a Tethered,
     tether: &'a TetherHistory,
@@ -165,9 +147,6 @@ fn tables(job: &Job, call: &Call) -> Tables {
         return Err(Diagnostic::error(text, args.place(NAME)));
     };
     let Some(chosen) = args.choice(WHAT) else { return Ok(Vec::new()) };
-    refuse_options_of_others(args, chosen, REPORTS)?;
-    if args.word(NUMBER).is_some() && !chosen.takes_data {
-        return Err(Diagnostic::error(format!("{} takes no number", chosen.name), args.place(NUMBER)));
-    }
+    chosen.check_record(args, args.data_after(WHAT).first(), "number")?;
     (chosen.tables)(&TetherQuery { call, run, tether })
 }

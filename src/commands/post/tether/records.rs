@@ -2,12 +2,11 @@
 
 use super::{EVENTS, TetherQuery};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_solve::tethered::{StatisticsSteps, TetherStatistics};
 
 /// -STEPS.
-pub(super) const STEPS: OptionSpec = OptionSpec::new(
+pub(super) const STEPS: OptionSpec = OptionSpec::ours(
     "-STEPS",
     &[
         ValueSpec::new("FIRST", Kind::Integer, "step at which statistics start; the start of the run is step 1")
@@ -18,8 +17,7 @@ pub(super) const STEPS: OptionSpec = OptionSpec::new(
             .in_range(1.0, 1e9),
     ],
     "the steps of STATISTICS, RANGES and FATIGUE, as cards TSTS, TSTF and TGRV count them; the record at or before FIRST is the first",
-)
-.owner(Owner::Ours);
+);
 
 /// The statistics of the records that a record of TETHER chooses.
 ///
