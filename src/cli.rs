@@ -4,7 +4,7 @@ use crate::commands::verdict::{OverBreak, Verdict};
 use crate::repl;
 use crate::report::files::JobFolder;
 use crate::report::output::Output;
-use crate::session::{ReadError, Session, SessionEnd, read_all};
+use crate::session::{RecordReadError, Session, SessionEnd, read_all};
 use clap::Parser;
 use std::io::{BufWriter, ErrorKind, IsTerminal, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -157,7 +157,7 @@ enum UsageError {
     #[error("there is no file {0}, nor {0}.cif")]
     NoRoot(String),
     #[error(transparent)]
-    Unreadable(#[from] ReadError),
+    Unreadable(#[from] RecordReadError),
 }
 
 /// Where records come from.

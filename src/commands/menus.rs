@@ -70,7 +70,7 @@ static PRCPOST_SPEC: CommandSpec = CommandSpec {
 };
 
 /// The menu that a record of this command opens, so that an `END` of its own belongs to it.
-pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'static MenuSpec> {
+pub fn find_opened_menu(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'static MenuSpec> {
     match spec.opens {
         Opens::Nothing => None,
         Opens::Menu(name) => Some(name),
@@ -138,9 +138,9 @@ fn conn_design(job: &mut Job, _: &Call) -> Outcome<Effect> {
 pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Diagnostic> {
     match left {
         Menu::Inmodel => {
-            let mut told = piece::complete_piece(job, at);
-            told.extend(finish_inmodel(job));
-            told
+            let mut notices = piece::complete_piece(job, at);
+            notices.extend(finish_inmodel(job));
+            notices
         }
         Menu::Medit | Menu::Block | Menu::Mesh => piece::complete_piece(job, at),
         Menu::Building(building) => buildg::built(job, &building, at).err().into_iter().map(|e| *e).collect(),

@@ -25,7 +25,7 @@ use environment::{bathymetry, curves, env};
 use files::file;
 pub use files::file::write_open_files;
 pub use job::{DeviceSettings, Job, Menu};
-pub use menus::{finish, opened_by};
+pub use menus::{find_opened_menu, finish};
 use model::{
     alter, apply, assembly, class, connector, database, describe, hydrostatic, junction, loads, names, pgen, piece,
     pipe, select, surface, t_pressure, weight,

@@ -51,11 +51,11 @@ pub fn over_break(connector: &str, largest: Option<(f64, usize)>, command: &'sta
 }
 
 /// The same from its summary; one that is far too short for its ends is over its break whoever gives that.
-pub fn check_over_break(connector: &str, told: &ElementSummary, command: &'static str) -> Option<OverBreak> {
-    let over = over_break(connector, told.over_given_break, command);
+pub fn check_over_break(connector: &str, summary: &ElementSummary, command: &'static str) -> Option<OverBreak> {
+    let over = over_break(connector, summary.over_given_break, command);
     over.or_else(|| {
-        let too_short = told.too_short?;
-        let made = over_break(connector, told.ratio.zip(told.critical), command)?;
+        let too_short = summary.too_short?;
+        let made = over_break(connector, summary.ratio.zip(summary.critical), command)?;
         Some(OverBreak { too_short: Some(too_short), ..made })
     })
 }

@@ -393,7 +393,7 @@ impl Highlighter for Assistant {
 impl Validator for Assistant {
     /// A record goes on while its last line, or the one before lines of comment, ends with a lone `\`.
     fn validate(&self, context: &mut ValidationContext) -> rustyline::Result<ValidationResult> {
-        let open = !self.asking && context.input().lines().fold(false, |open, line| token::goes_on(line, open));
+        let open = !self.asking && context.input().lines().fold(false, |open, line| token::is_continued(line, open));
         Ok(if open { ValidationResult::Incomplete } else { ValidationResult::Valid(None) })
     }
 }

@@ -141,7 +141,7 @@ fn read_piped_record() -> Option<Vec<u8>> {
         if !matches!(read, Ok(1..)) {
             return (!bytes.is_empty()).then_some(bytes);
         }
-        if !token::goes_on(&line, start > 0) || bytes.len() > LONGEST_RECORD {
+        if !token::is_continued(&line, start > 0) || bytes.len() > LONGEST_RECORD {
             return Some(bytes);
         }
     }

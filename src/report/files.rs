@@ -471,7 +471,7 @@ impl JobFolder {
 
     /// Sees that a path is no file that grows as the job runs, nor a folder above one.
     fn not_in_use(&self, path: &Path) -> Result<(), FileError> {
-        match self.growing.iter().find(|file| lies_in(file, path)) {
+        match self.growing.iter().find(|file| is_within(file, path)) {
             Some(file) => Err(FileError::InUse(file.clone())),
             None => Ok(()),
         }
@@ -592,7 +592,7 @@ pub fn is_inside(name: &str) -> bool {
 }
 
 /// Whether a path is a file or folder, or lies in that folder, links and `..` followed.
-pub fn lies_in(path: &Path, folder: &Path) -> bool {
+pub fn is_within(path: &Path, folder: &Path) -> bool {
     real(path).zip(real(folder)).is_some_and(|(path, folder)| path.starts_with(folder))
 }
 

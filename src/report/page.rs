@@ -63,12 +63,12 @@ pub fn render(table: &Table, units: UnitSystem, head: &PageHead) -> String {
 
 /// The rows of a table with their heads, without page head and title: what listings use.
 pub fn grid(table: &Table, units: UnitSystem) -> Vec<String> {
-    lay_out(table, units, format::report)
+    format_rows(table, units, format::report)
 }
 
 /// As [`grid`] with three digits more and the row numbers `numbers` (from 0) counted from 1: what `VIEW` shows.
 pub fn view(table: &Table, numbers: &[usize], units: UnitSystem) -> Vec<String> {
-    let mut lines = lay_out(table, units, format::view);
+    let mut lines = format_rows(table, units, format::view);
     let heads = lines.len().saturating_sub(numbers.len() + 1);
     for (index, line) in lines.iter_mut().enumerate() {
         let label = match index.checked_sub(heads) {
@@ -86,7 +86,7 @@ pub fn view(table: &Table, numbers: &[usize], units: UnitSystem) -> Vec<String> 
 type CellFormat = fn(&Cell, Dim, Digits, UnitSystem) -> String;
 
 /// Aligns the rows with comfy-table and adds heads, units, group heads and dashes. Numbers stand to the right.
-fn lay_out(table: &Table, units: UnitSystem, shown: CellFormat) -> Vec<String> {
+fn format_rows(table: &Table, units: UnitSystem, shown: CellFormat) -> Vec<String> {
     let mut rows: Vec<Vec<String>> = vec![
         table.columns().iter().map(|c| c.name.clone()).collect(),
         table.columns().iter().map(|c| c.dim.label(units)).collect(),

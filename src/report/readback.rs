@@ -10,7 +10,7 @@ use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 
 /// Why a text is no table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ReadError {
+pub enum TableReadError {
     /// A row with another number of cells than there are heads.
     #[error("line {line} holds {got} values for {want} columns")]
     Cells {
@@ -98,9 +98,9 @@ struct Made {
 }
 
 impl Made {
-    fn from_heads(title: &str, heads: &[&str]) -> Result<Made, ReadError> {
+    fn from_heads(title: &str, heads: &[&str]) -> Result<Made, TableReadError> {
         if heads.len() > MAX_COLUMNS {
-            return Err(ReadError::Wide(heads.len()));
+            return Err(TableReadError::Wide(heads.len()));
         }
         let mut made = Made { title: title.into(), columns: Vec::new(), units: Vec::new() };
         for (index, text) in heads.iter().enumerate() {
@@ -113,10 +113,10 @@ impl Made {
         Ok(made)
     }
 
-    fn push(&mut self, line: usize, words: &[&str]) -> Result<(), ReadError> {
+    fn push(&mut self, line: usize, words: &[&str]) -> Result<(), TableReadError> {
         let want = self.columns.len();
         if words.len() != want {
-            return Err(ReadError::Cells { line, got: words.len(), want });
+            return Err(TableReadError::Cells { line, got: words.len(), want });
         }
         for ((column, word), units) in self.columns.iter_mut().zip(words).zip(&self.units) {
             let word = word.trim();
@@ -124,7 +124,7 @@ impl Made {
                 Some(value) => {
                     let si = column.dim.to_si(value, *units);
                     if !si.is_finite() {
-                        return Err(ReadError::NotFinite { line, text: word.into() });
+                        return Err(TableReadError::NotFinite { line, text: word.into() });
                     }
                     Cell::Number(si)
                 }
@@ -136,9 +136,9 @@ impl Made {
         Ok(())
     }
 
-    fn into_table(self) -> Result<Table, ReadError> {
+    fn into_table(self) -> Result<Table, TableReadError> {
         let table = Table::from_columns(self.title, self.columns);
-        if table.rows() == 0 { Err(ReadError::NoRows) } else { Ok(table) }
+        if table.rows() == 0 { Err(TableReadError::NoRows) } else { Ok(table) }
     }
 }
 
@@ -149,11 +149,11 @@ const SIX_DIGITS: Digits = Digits::Scientific(6);
 ///
 /// # Errors
 /// A row of another length than the first, a number that is not finite, no rows.
-pub fn csv(title: &str, text: &str) -> Result<Table, ReadError> {
+pub fn csv(title: &str, text: &str) -> Result<Table, TableReadError> {
     let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
     let mut made: Option<Made> = None;
     for record in reader.records() {
-        let record = record.map_err(|e| ReadError::Csv(e.to_string()))?;
+        let record = record.map_err(|e| TableReadError::Csv(e.to_string()))?;
         let line = record.position().map_or(0, |p| usize::try_from(p.line()).unwrap_or(usize::MAX));
         let words: Vec<&str> = record.iter().collect();
         let values = words.iter().all(|w| number(w.trim()).is_some());
@@ -167,7 +167,7 @@ pub fn csv(title: &str, text: &str) -> Result<Table, ReadError> {
         };
         table.push(line, &words)?;
     }
-    made.ok_or(ReadError::NoRows)?.into_table()
+    made.ok_or(TableReadError::NoRows)?.into_table()
 }
 
 /// A table from labels, one a line, and rows of numbers parted by blanks or commas, behind a blank line or not: the rows begin
@@ -175,7 +175,7 @@ pub fn csv(title: &str, text: &str) -> Result<Table, ReadError> {
 ///
 /// # Errors
 /// A row of another length than there are labels, a number that is not finite, no rows.
-pub fn brief(title: &str, text: &str) -> Result<Table, ReadError> {
+pub fn brief(title: &str, text: &str) -> Result<Table, TableReadError> {
     let mut labels: Vec<&str> = Vec::new();
     let mut made: Option<Made> = None;
     for (index, line) in text.lines().enumerate() {
@@ -196,7 +196,7 @@ pub fn brief(title: &str, text: &str) -> Result<Table, ReadError> {
         };
         table.push(index + 1, &words)?;
     }
-    made.ok_or(ReadError::NoRows)?.into_table()
+    made.ok_or(TableReadError::NoRows)?.into_table()
 }
 
 #[cfg(test)]
@@ -242,10 +242,10 @@ mod tests {
 
     #[test]
     fn text_without_table_is_reported_with_its_line() {
-        assert_eq!(csv("t", "a,b\n1,2\n3\n"), Err(ReadError::Cells { line: 3, got: 1, want: 2 }));
-        assert_eq!(csv("t", "a\n1\ninf\n"), Err(ReadError::NotFinite { line: 3, text: "inf".into() }));
-        assert_eq!(csv("t", "a,b\n"), Err(ReadError::NoRows));
-        assert_eq!(brief("t", "only a label\n"), Err(ReadError::NoRows));
-        assert_eq!(brief("t", "a\n1 2"), Err(ReadError::Cells { line: 2, got: 2, want: 1 }));
+        assert_eq!(csv("t", "a,b\n1,2\n3\n"), Err(TableReadError::Cells { line: 3, got: 1, want: 2 }));
+        assert_eq!(csv("t", "a\n1\ninf\n"), Err(TableReadError::NotFinite { line: 3, text: "inf".into() }));
+        assert_eq!(csv("t", "a,b\n"), Err(TableReadError::NoRows));
+        assert_eq!(brief("t", "only a label\n"), Err(TableReadError::NoRows));
+        assert_eq!(brief("t", "a\n1 2"), Err(TableReadError::Cells { line: 2, got: 2, want: 1 }));
     }
 }

@@ -79,7 +79,7 @@ impl RunLog {
     ///
     /// # Errors
     /// What the system refuses.
-    pub fn go_on(mut file: File, path: PathBuf, kept: &StoredRun) -> Result<Self, RunLogError> {
+    pub fn resume(mut file: File, path: PathBuf, kept: &StoredRun) -> Result<Self, RunLogError> {
         let done = file.set_len(kept.end).and_then(|()| file.seek(SeekFrom::End(0)));
         let log = RunLog { file: BufWriter::new(file), path };
         done.map_err(|error| log.unwritable(error))?;
@@ -91,7 +91,7 @@ impl RunLog {
     }
 
     /// Sees that nobody has deleted the file: what is written to it would be lost.
-    fn still_there(&self) -> Result<(), RunFileError> {
+    fn check_file_exists(&self) -> Result<(), RunFileError> {
         let deleted = || RunFileError::Deleted { path: self.path.clone() };
         if is_unlinked(self.file.get_ref()) { Err(deleted()) } else { Ok(()) }
     }
@@ -113,12 +113,12 @@ impl Watcher for RunLog {
     fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), RunFileError> {
         let bytes = snapshot.bytes();
         self.block(b'S', &bytes).and_then(|()| self.file.flush()).map_err(|error| self.unwritable(error))?;
-        self.still_there()
+        self.check_file_exists()
     }
 
     fn finish(&mut self) -> Result<(), RunFileError> {
         self.file.flush().map_err(|error| self.unwritable(error))?;
-        self.still_there()
+        self.check_file_exists()
     }
 }
 

@@ -20,7 +20,7 @@ pub fn table(table: &Table, independent: Option<usize>, columns: &[usize]) -> Ta
         (Some((row, _)), None) => Cell::from(row + 1),
         (None, _) => Cell::Missing,
     };
-    let rows: Vec<Extent> = columns.iter().filter_map(|i| table.columns().get(*i)).map(Extent::new).collect();
+    let rows: Vec<ColumnRange> = columns.iter().filter_map(|i| table.columns().get(*i)).map(ColumnRange::new).collect();
     Table::new(format!("Statistics of {}", table.title))
         .with_rows(&rows)
         .text("Column", |row| super::columns::long_name(row.column))
@@ -36,7 +36,7 @@ pub fn table(table: &Table, independent: Option<usize>, columns: &[usize]) -> Ta
 }
 
 /// What the numbers of a column come to.
-struct Extent<'t> {
+struct ColumnRange<'t> {
     column: &'t Column,
     /// Cells with a number.
     count: usize,
@@ -47,14 +47,14 @@ struct Extent<'t> {
     high: Option<(usize, f64)>,
 }
 
-impl<'t> Extent<'t> {
+impl<'t> ColumnRange<'t> {
     fn new(column: &'t Column) -> Self {
         let numbered = column.cells.iter().enumerate();
         let values: Vec<(usize, f64)> = numbered.filter_map(|(row, cell)| Some((row, cell.number()?))).collect();
         let count = values.len();
         let mean = values.iter().map(|(_, v)| v).sum::<f64>() / count as f64;
         let variance = values.iter().map(|(_, v)| (v - mean).powi(2)).sum::<f64>() / count as f64;
-        Extent {
+        ColumnRange {
             column,
             count,
             moments: (count > 0).then(|| (mean, variance.sqrt())),
@@ -84,13 +84,13 @@ fn by_row(mut table: Table, names: &[&str], dims: &[Dim], units: UnitSystem) -> 
 
 /// A column of a table as a series over the first one; rows without a number are left out. `None` for times where the first
 /// column does not grow, or is the only one.
-struct Described<'a> {
+struct ColumnSeries<'a> {
     column: &'a Column,
     values: Vec<f64>,
     times: Option<Vec<f64>>,
 }
 
-fn describe_columns(table: &Table) -> Vec<Described<'_>> {
+fn describe_columns(table: &Table) -> Vec<ColumnSeries<'_>> {
     let (first, rest) = match table.columns().split_first() {
         Some((only, [])) => (None, std::slice::from_ref(only)),
         Some((first, rest)) => (Some(first), rest),
@@ -103,12 +103,12 @@ fn describe_columns(table: &Table) -> Vec<Described<'_>> {
             times.into_iter().zip(&values).filter(|(_, v)| v.is_some()).map(|(t, _)| t).collect::<Option<Vec<f64>>>()
         });
         let times = times.filter(|t| t.windows(2).all(|w| matches!(w, [a, b] if a < b)));
-        Described { column, values: values.into_iter().flatten().collect(), times }
+        ColumnSeries { column, values: values.into_iter().flatten().collect(), times }
     };
     rest.iter().map(of).collect()
 }
 
-impl Described<'_> {
+impl ColumnSeries<'_> {
     /// Its moments, and its crossings of the mean where times grow; `None` without a value.
     fn moments_and_crossings(&self) -> Result<Option<(Moments, Option<Crossings>)>, SeriesError> {
         if self.values.is_empty() {

@@ -6,7 +6,7 @@ mod named;
 mod reading;
 mod skipped_menu;
 
-pub use reading::{ReadError, read_all, read_text};
+pub use reading::{RecordReadError, read_all, read_text};
 
 use self::named::{in_menu, unknown};
 use crate::commands::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
@@ -89,7 +89,7 @@ impl Session {
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub fn open_file(&mut self, name: &str, path: &Path) -> Result<(), ReadError> {
+    pub fn open_file(&mut self, name: &str, path: &Path) -> Result<(), RecordReadError> {
         let text = read_text(path)?;
         self.open(name, text);
         Ok(())
@@ -217,7 +217,7 @@ impl Session {
             self.job.output.text(&format!("> {text}"));
         }
         self.job.output.folder.typed = self.interpreter.reads_what_is_typed();
-        let over = self.carry_out(record, text);
+        let over = self.execute_record(record, text);
         self.job.output.folder.typed = false;
         for path in self.job.output.folder.read_outside() {
             self.job.output.log(&format!("read {}, outside of the script's folder", path.display()));
@@ -227,7 +227,7 @@ impl Session {
     }
 
     /// Does what a record says; true when the job is over.
-    fn carry_out(&mut self, record: &Record, text: &str) -> bool {
+    fn execute_record(&mut self, record: &Record, text: &str) -> bool {
         let words = record.words();
         let asked = self.job.last_severity;
         self.job.last_severity = None;
@@ -396,8 +396,8 @@ impl Session {
             return;
         }
         if let Some(menu) = self.job.menus.pop() {
-            for told in commands::finish(&mut self.job, menu, at) {
-                self.report(told);
+            for diagnostic in commands::finish(&mut self.job, menu, at) {
+                self.report(diagnostic);
             }
         }
     }

@@ -7,7 +7,7 @@ use windlass_language::source::{LARGEST_FILE, Text};
 
 /// Why a file or a stream of records cannot be read.
 #[derive(Debug, thiserror::Error)]
-pub enum ReadError {
+pub enum RecordReadError {
     /// The system refused.
     #[error("{name}: {error}")]
     Unreadable {
@@ -28,11 +28,11 @@ pub enum ReadError {
 ///
 /// # Errors
 /// A file that is not there or too large.
-pub fn read_text(path: &Path) -> Result<Text, ReadError> {
+pub fn read_text(path: &Path) -> Result<Text, RecordReadError> {
     let name = path.display().to_string();
     match open_regular(path) {
         Ok(file) => read_all(file, &name),
-        Err(error) => Err(ReadError::Unreadable { name, error }),
+        Err(error) => Err(RecordReadError::Unreadable { name, error }),
     }
 }
 
@@ -40,12 +40,12 @@ pub fn read_text(path: &Path) -> Result<Text, ReadError> {
 ///
 /// # Errors
 /// A stream that breaks or is too long.
-pub fn read_all(from: impl Read, name: &str) -> Result<Text, ReadError> {
+pub fn read_all(from: impl Read, name: &str) -> Result<Text, RecordReadError> {
     let mut bytes = Vec::new();
-    let unreadable = |error| ReadError::Unreadable { name: name.to_string(), error };
+    let unreadable = |error| RecordReadError::Unreadable { name: name.to_string(), error };
     from.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > LARGEST_FILE {
-        return Err(ReadError::TooLong { name: name.to_string() });
+        return Err(RecordReadError::TooLong { name: name.to_string() });
     }
     Ok(Text::from_bytes(bytes))
 }

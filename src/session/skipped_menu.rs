@@ -2,7 +2,7 @@
 //! passed over up to its `END`, so that one mistake gives one message and every `END` leaves the menu it was written for.
 
 use super::{Meaning, Session};
-use crate::commands::{Command, Menu, opened_by};
+use crate::commands::{Command, Menu, find_opened_menu};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_language::record::Word;
 use windlass_language::token::TokenKind;
@@ -13,7 +13,7 @@ impl Session {
     pub(super) fn refuse(&mut self, command: &Command, words: &[Word], error: Box<Diagnostic>) -> Box<Diagnostic> {
         let settings = &self.job.settings;
         let last = settings.batch || self.errors + 1 >= settings.error_limit || error.severity == Severity::Fatal;
-        match opened_by(&self.job, command.spec, words) {
+        match find_opened_menu(&self.job, command.spec, words) {
             Some(name) if !self.interactive && !last => {
                 self.job.menus.push(Menu::Refused(name));
                 error.help("the commands up to its END are passed over")
@@ -37,7 +37,7 @@ impl Session {
             Ok(Meaning::Macro(_)) => false,
             Ok(Meaning::Command(command)) if command.spec.menus.is_empty() => false,
             Ok(Meaning::Command(command)) => {
-                self.job.menus.extend(opened_by(&self.job, command.spec, words).map(Menu::Refused));
+                self.job.menus.extend(find_opened_menu(&self.job, command.spec, words).map(Menu::Refused));
                 true
             }
             Err(_) => true,

@@ -2,7 +2,7 @@
 //! script for every command.
 
 use std::fs;
-use windlass::commands::{COMMANDS, commands_of_menu, menu, opened_by};
+use windlass::commands::{COMMANDS, commands_of_menu, find_opened_menu, menu};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
@@ -146,7 +146,7 @@ fn command_opens_menu_in_example_exactly_when_its_spec_says() {
             let words = read.words();
             let first = words.first().map(|w| w.text.to_ascii_uppercase()).unwrap_or_default();
             let command = commands_of_menu(session.job.menu().spec()).find(|c| c.spec.name == first);
-            let said = command.and_then(|c| opened_by(&session.job, c.spec, &words));
+            let said = command.and_then(|c| find_opened_menu(&session.job, c.spec, &words));
             let depth = session.job.menus.len();
             session.interpreter.feed("example", line, 1);
             session.run();

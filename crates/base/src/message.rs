@@ -6,11 +6,11 @@ use std::fmt::Display;
 /// A sentence for the user whose values are numbers in SI with what they measure.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Message {
-    parts: Vec<Part>,
+    parts: Vec<MessagePart>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum Part {
+enum MessagePart {
     Text(String),
     Value(f64, Dim),
 }
@@ -23,17 +23,17 @@ impl Message {
             return Message::from(sentence);
         }
         debug_assert_eq!(sentence.matches("{}").count(), values.len(), "places and values of `{sentence}`");
-        let texts = sentence.splitn(values.len() + 1, "{}").map(|text| Part::Text(text.to_string()));
-        let mut values = values.iter().map(|(value, dim)| Part::Value(*value, *dim));
+        let texts = sentence.splitn(values.len() + 1, "{}").map(|text| MessagePart::Text(text.to_string()));
+        let mut values = values.iter().map(|(value, dim)| MessagePart::Value(*value, *dim));
         let parts = texts.flat_map(|text| [Some(text), values.next()]).flatten().collect();
         Message { parts }
     }
 
     /// The sentence in these units, each value with its unit; `digits` writes a number.
     pub fn text<T: Display>(&self, units: UnitSystem, digits: impl Fn(f64) -> T) -> String {
-        let part = |part: &Part| match part {
-            Part::Text(text) => text.clone(),
-            Part::Value(value, dim) => {
+        let part = |part: &MessagePart| match part {
+            MessagePart::Text(text) => text.clone(),
+            MessagePart::Value(value, dim) => {
                 format!("{} {}", digits(dim.from_si(*value, units)), dim.label(units)).trim_end().to_string()
             }
         };
@@ -43,16 +43,16 @@ impl Message {
     /// Its values in SI, in their order.
     pub fn values(&self) -> impl Iterator<Item = f64> {
         self.parts.iter().filter_map(|part| match part {
-            Part::Value(value, _) => Some(*value),
-            Part::Text(_) => None,
+            MessagePart::Value(value, _) => Some(*value),
+            MessagePart::Text(_) => None,
         })
     }
 
     /// The sentence without its values, for where no units are known: `..` in the place of each.
     pub fn without_values(&self) -> String {
-        let part = |part: &Part| match part {
-            Part::Text(text) => text.clone(),
-            Part::Value(..) => "..".to_string(),
+        let part = |part: &MessagePart| match part {
+            MessagePart::Text(text) => text.clone(),
+            MessagePart::Value(..) => "..".to_string(),
         };
         self.parts.iter().map(part).collect()
     }
@@ -71,7 +71,7 @@ impl Message {
 
 impl From<String> for Message {
     fn from(text: String) -> Self {
-        Message { parts: vec![Part::Text(text)] }
+        Message { parts: vec![MessagePart::Text(text)] }
     }
 }
 

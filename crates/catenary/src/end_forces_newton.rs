@@ -48,12 +48,12 @@ pub(super) fn newton(
         }
         let first = step_share(forces, change);
         if !options.line_search {
-            (forces, reach) = evaluate(moved(forces, change, first));
+            (forces, reach) = evaluate(add_share(forces, change, first));
             continue;
         }
         let work = rx * change[0] + rz * change[1];
         let accept = |share: f64| {
-            let made = evaluate(moved(forces, change, share));
+            let made = evaluate(add_share(forces, change, share));
             let left = (made.1.x - x) * change[0] + (made.1.z - z) * change[1];
             (left <= MAX_OVERSHOOT * work || convergence.is_near(off)).then_some(made)
         };
@@ -68,7 +68,7 @@ pub(super) fn step_share([h, _]: [f64; 2], [dh, _]: [f64; 2]) -> f64 {
 }
 
 /// The forces after a share of a change.
-pub(super) fn moved([h, v]: [f64; 2], [dh, dv]: [f64; 2], share: f64) -> [f64; 2] {
+pub(super) fn add_share([h, v]: [f64; 2], [dh, dv]: [f64; 2], share: f64) -> [f64; 2] {
     [h + share * dh, v + share * dv]
 }
 

@@ -6,7 +6,7 @@
 
 use super::end_forces::{EndForces, FlatBottom, Regime};
 use super::end_forces_cold::{RESIDUAL_TOLERANCE, check, in_contact, prove, prove_contact, solve_cold_start};
-use super::end_forces_newton::{NewtonOptions, moved, newton, square, step_share};
+use super::end_forces_newton::{NewtonOptions, add_share, newton, square, step_share};
 use super::error::LineError;
 use super::line::Segment;
 use super::segment::hanging;
@@ -84,5 +84,5 @@ fn predicted([x, z]: [f64; 2], last: &EndForces) -> [f64; 2] {
     let [[a, b], [c, d]] = last.stiffness;
     let (dx, dz) = (x - last.at[0], z - last.at[1]);
     let change = [a * dx + b * dz, c * dx + d * dz];
-    moved(last.fairlead, change, step_share(last.fairlead, change))
+    add_share(last.fairlead, change, step_share(last.fairlead, change))
 }

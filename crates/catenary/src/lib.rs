@@ -55,7 +55,7 @@ pub use end_forces::{EndForces, FlatBottom, Regime};
 pub use error::LineError;
 pub use interpolate::{FromTable, Interpolated};
 pub use line::{Joint, Line, SeabedModel, Segment};
-pub use line_forces::{LineForces, WarmStart};
+pub use line_forces::{CatenaryWarmStart, LineForces};
 pub use search::{FunctionPoint, rising_root};
 pub use shape::ShapePoint;
 pub use state::{Buoy, Heap, JointState, LineState, SegmentState};

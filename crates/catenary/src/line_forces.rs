@@ -35,7 +35,7 @@ impl From<&LineState> for LineForces {
 
 /// The last solution of a line: it decides how long the next one takes, and its digits only within the proof.
 #[derive(Clone, Debug)]
-pub struct WarmStart(LastSolution);
+pub struct CatenaryWarmStart(LastSolution);
 
 #[derive(Clone, Debug)]
 enum LastSolution {
@@ -43,7 +43,7 @@ enum LastSolution {
     Line(Box<LineState>),
 }
 
-impl WarmStart {
+impl CatenaryWarmStart {
     /// The last pull on the fairlead (N, toward the anchor and downward).
     pub fn fairlead(&self) -> [f64; 2] {
         match &self.0 {
@@ -59,25 +59,30 @@ impl Line {
     ///
     /// # Errors
     /// [`LineError`]; forces that are returned have been proven. `warm` is then as before.
-    pub fn solve_forces(&self, x: f64, fairlead: f64, warm: &mut Option<WarmStart>) -> Result<LineForces, LineError> {
+    pub fn solve_forces(
+        &self,
+        x: f64,
+        fairlead: f64,
+        warm: &mut Option<CatenaryWarmStart>,
+    ) -> Result<LineForces, LineError> {
         let Some((segment, bottom)) = self.lone_segment else {
             let state = match warm {
-                Some(WarmStart(LastSolution::Line(last))) => self.solve_warm_start(x, fairlead, last)?,
+                Some(CatenaryWarmStart(LastSolution::Line(last))) => self.solve_warm_start(x, fairlead, last)?,
                 _ => self.at_distance(x, fairlead)?,
             };
             let forces = LineForces::from(&state);
             match warm {
-                Some(WarmStart(LastSolution::Line(last))) => **last = state,
-                _ => *warm = Some(WarmStart(LastSolution::Line(Box::new(state)))),
+                Some(CatenaryWarmStart(LastSolution::Line(last))) => **last = state,
+                _ => *warm = Some(CatenaryWarmStart(LastSolution::Line(Box::new(state)))),
             }
             return Ok(forces);
         };
         let rise = fairlead - self.anchor;
         let found = match warm {
-            Some(WarmStart(LastSolution::Segment(last))) => segment.solve_warm_start(x, rise, bottom, last)?,
+            Some(CatenaryWarmStart(LastSolution::Segment(last))) => segment.solve_warm_start(x, rise, bottom, last)?,
             _ => segment.solve_end_forces(x, rise, bottom)?,
         };
-        *warm = Some(WarmStart(LastSolution::Segment(found)));
+        *warm = Some(CatenaryWarmStart(LastSolution::Segment(found)));
         let coupling = found.coupling(bottom.map_or(0.0, |b| b.friction));
         Ok(LineForces { fairlead: found.fairlead, anchor: found.anchor, stiffness: found.stiffness, coupling })
     }

@@ -103,8 +103,8 @@ impl Line {
                 while let Some(s) = inside.next_if(|s| *s <= part.to + 1e-9 * length) {
                     points.extend(point(element, part, s, x, (number, arc)));
                 }
-                let goes_on = |next: &&PieceStretch| next.element == index && next.runs_on_from(part);
-                let last = !stretches.peek().is_some_and(goes_on);
+                let should_continue = |next: &&PieceStretch| next.element == index && next.continues_on_face_of(part);
+                let last = !stretches.peek().is_some_and(should_continue);
                 if last && points.last().is_none_or(|p| (p.arc - arc - part.to).abs() > 1e-9 * length) {
                     points.extend(point(element, part, part.to, x, (number, arc)));
                 }

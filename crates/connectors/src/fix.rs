@@ -38,14 +38,14 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         if list.iter().any(|r| r.dof == dof) {
             return Err(Diagnostic::error(format!("degree of freedom {} is given twice", dof.word()), value.span));
         }
-        list.push(held_dof(dof));
+        list.push(restrain_dof(dof));
     }
     if list.is_empty() {
-        list = Dof::SIX.map(held_dof).into();
+        list = Dof::SIX.map(restrain_dof).into();
     }
     Ok(Arc::new(RestraintClass::new("FIX", list)))
 }
 
-fn held_dof(dof: Dof) -> Restraint {
+fn restrain_dof(dof: Dof) -> Restraint {
     Restraint { dof, stiffness: RIGID_STIFFNESS, allowable: None }
 }

@@ -25,7 +25,7 @@ static SPEC: CommandSpec = CommandSpec {
              global axes when it is on ground. With one node the spring acts between it and the ground at the place where the \
              connector was defined. A rotation is the rotation vector of the turn of the ends against each other since then, at \
              most half a turn. The force acts at the second end: on the body of the first it has that arm, a couple that F_CONNECTOR does not \
-             print and FORCE has. &HELP ~CLASS FOUNDATION tells of the options.",
+             print and FORCE has. &HELP ~CLASS FOUNDATION lists the options.",
     example: "MEDIT\n~FENDER GSPR COMPRESSION X 1000 500 -X_PY 10 0.1 50 0.3\nEND\n&STATUS CLASS ~FENDER",
     ..CommandSpec::new("GSPR", "generalized spring")
 };

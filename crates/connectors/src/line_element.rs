@@ -7,7 +7,7 @@ use super::mooring::{Mooring, too_short, too_short_note};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::borrow::Cow;
 use windlass_base::pose::Six;
-use windlass_catenary::{Interpolated, LineError, LineForces, WarmStart};
+use windlass_catenary::{CatenaryWarmStart, Interpolated, LineError, LineForces};
 use windlass_model::{
     AnchoredElement, AnchoredResponse, ClassError, Element, ElementResponse, ElementSummary, End, Placement, Situation,
     SolverCache,
@@ -65,7 +65,7 @@ impl LineElement {
         if self.mooring.tabulated {
             return self.interpolate_forces(x, z, cache);
         }
-        match cache.get_or_insert::<Option<WarmStart>>(|_| true, || None) {
+        match cache.get_or_insert::<Option<CatenaryWarmStart>>(|_| true, || None) {
             Some(warm) => self.mooring.line.solve_forces(x, z, warm),
             None => self.mooring.line.solve_forces(x, z, &mut None),
         }
@@ -98,7 +98,7 @@ impl LineElement {
         if by == Extension::NONE {
             return self.forces(x, z, cache).map(|forces| (forces, [x, z]));
         }
-        let start = cache.get::<Option<WarmStart>>().and_then(Option::as_ref).map(WarmStart::fairlead);
+        let start = cache.get::<Option<CatenaryWarmStart>>().and_then(Option::as_ref).map(CatenaryWarmStart::fairlead);
         let rise = z - self.mooring.line.anchor();
         let apart = x.hypot(rise);
         let straight = if apart > 0.0 { [x / apart, rise / apart] } else { [0.0, 1.0] };

@@ -40,7 +40,7 @@ static SPEC: CommandSpec = CommandSpec {
              D_v)) deflects Y (and Z), which push the pin toward the axis. Bottom: c = max(0, D_v - LEN) + T d compresses X, which \
              pushes the pin out of the cone. That is the text of the manual with two signs mended: taken literally it pulls a centred \
              pin outward, and unloads one that has landed. With unlike SPV in X and Y these forces have no energy. A tip beside the mouth \
-             is warned of. Symmetric unless -SYMMETRIC NO or Z properties are given. &HELP ~CLASS FOUNDATION tells of the options.",
+             is warned of. Symmetric unless -SYMMETRIC NO or Z properties are given. &HELP ~CLASS FOUNDATION lists the options.",
     example: "MEDIT\n*CONE 0 0 0\n&DESCRIBE BODY DECK\n*PIN 0 0 0\n~LMU1 LMU 60 24 48 X 5000 1000 Y 800 300\n\
               CONNECTOR L1 ~LMU1 *PIN *CONE\nEND\n&STATUS CLASS ~LMU1",
     ..CommandSpec::new("LMU", "leg mating unit: a pin in a cone")

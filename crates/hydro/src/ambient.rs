@@ -57,8 +57,8 @@ impl Ambient for EnvironmentAmbient {
         // another thread that comes meanwhile prepares its own
         let last = prepared().take();
         let sea = self.sea.as_ref().map(|sea| match last {
-            Some(last) => sea.at_again(time, last),
-            None => sea.at(time),
+            Some(last) => sea.reuse_at_time(time, last),
+            None => sea.at_time(time),
         });
         let level = self.steady.around.tide;
         let weight = self.sea.as_ref().map_or(1.0, |sea| (sea.density * sea.gravity).max(f64::MIN_POSITIVE));

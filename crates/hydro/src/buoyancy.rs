@@ -136,7 +136,7 @@ impl Solidified {
             let error = ClassError::new(format!("piece {name}: {why}"));
             Solidified { form: None, faults: vec![PieceFault { error, fatal: true, remark: false }] }
         };
-        let panels = match piece.shape.moved_by(&part.place) {
+        let panels = match piece.shape.with_displacement(&part.place) {
             Shape::Tube { ends, diameter } => {
                 let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
                 return Solidified { form: Some(SolidForm::Tube(tube)), faults: Vec::new() };
@@ -211,7 +211,7 @@ fn sentence(name: &str, fault: &Fault) -> ClassError {
 
 /// The least and the greatest coordinates of a piece in its body (m).
 fn bounds(part: &Part, piece: &Piece) -> [Vector3<f64>; 2] {
-    let (corners, beside): (Vec<[f64; 3]>, f64) = match piece.shape.moved_by(&part.place) {
+    let (corners, beside): (Vec<[f64; 3]>, f64) = match piece.shape.with_displacement(&part.place) {
         Shape::Panels(panels) => (panels.into_iter().flatten().collect(), 0.0),
         Shape::Block { low, high } => (vec![low, high], 0.0),
         Shape::Tube { ends, diameter } => (ends.to_vec(), 0.5 * diameter),

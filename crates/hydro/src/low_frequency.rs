@@ -217,19 +217,19 @@ impl LowFrequency {
                 own.copy_from_slice(&LowPass::at_rest(value));
             }
         }
-        self.gone_on(at, state).1
+        self.advance_filters(at, state).1
     }
 
     /// The step is accepted with its end there.
     pub fn commit(&self, at: &Underway, state: &mut [f64]) {
-        let signals = self.gone_on(at, state).0;
+        let signals = self.advance_filters(at, state).0;
         if let [started, own @ ..] = state {
             *started = 1.0;
             own.iter_mut().zip(signals.as_flattened()).for_each(|(own, now)| *own = *now);
         }
     }
 
-    fn gone_on(&self, at: &Underway, state: &[f64]) -> ([[f64; LowPass::STATES]; 3], Slow) {
+    fn advance_filters(&self, at: &Underway, state: &[f64]) -> ([[f64; LowPass::STATES]; 3], Slow) {
         let mut signals = [[0.0; LowPass::STATES]; 3];
         let kept = &state[1..];
         signals.as_flattened_mut().iter_mut().zip(kept).for_each(|(signal, kept)| *signal = *kept);

@@ -104,7 +104,7 @@ pub fn build_piece_load(
     if !media.iter().any(acts) {
         return Ok(Vec::new());
     }
-    let surface = match (growth, piece.shape.moved_by(&part.place)) {
+    let surface = match (growth, piece.shape.with_displacement(&part.place)) {
         (Some((growth, pose)), Shape::Tube { ends, diameter }) => {
             let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
             tube.with_diameters(&growth_loads::stations(growth, pose, tube.ends, diameter), TUBE_PRISM_SIDES)

@@ -77,7 +77,7 @@ struct Pressed {
 /// pressure of the waves differs there from that of water at rest below their surface (Pa), and a coordinate above whose zero it does not: there
 /// the stretching ends.
 #[derive(Clone, Copy, Debug, Default)]
-struct Near {
+struct NodePressure {
     arm: Vector3<f64>,
     height: f64,
     over: f64,
@@ -192,7 +192,7 @@ const QUADRATIC_MOMENTS: [[f64; 3]; 6] = {
     ]
 };
 
-/// A corner of a part of a panel: its barycentric coordinates, and what a [`Near`] says of it.
+/// A corner of a part of a panel: its barycentric coordinates, and what a [`NodePressure`] says of it.
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     place: [f64; 3],
@@ -203,7 +203,7 @@ struct Corner {
 
 /// Where the line through the corners' zeros of a value divides a triangle.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack, for a few instructions")]
-enum Division {
+enum ZeroLineCut {
     /// The whole triangle is below it.
     Below,
     /// The whole triangle is above it.
@@ -214,10 +214,10 @@ enum Division {
 
 /// How the zeros of a value divide a triangle; zero counts as below.
 #[inline(always)]
-fn divide([a, b, c]: &[Corner; 3], value: impl Fn(&Corner) -> f64) -> Division {
+fn divide([a, b, c]: &[Corner; 3], value: impl Fn(&Corner) -> f64) -> ZeroLineCut {
     let [p, q, r] = match [value(a) <= 0.0, value(b) <= 0.0, value(c) <= 0.0] {
-        [true, true, true] => return Division::Below,
-        [false, false, false] => return Division::Above,
+        [true, true, true] => return ZeroLineCut::Below,
+        [false, false, false] => return ZeroLineCut::Above,
         [true, false, false] | [false, true, true] => [a, b, c],
         [false, true, false] | [true, false, true] => [b, c, a],
         _ => [c, a, b],
@@ -232,14 +232,14 @@ fn divide([a, b, c]: &[Corner; 3], value: impl Fn(&Corner) -> f64) -> Division {
             kink: between(p.kink, q.kink),
         }
     };
-    Division::Across { below: value(p) <= 0.0, ends: [end(q), end(r)], corners: [*p, *q, *r] }
+    ZeroLineCut::Across { below: value(p) <= 0.0, ends: [end(q), end(r)], corners: [*p, *q, *r] }
 }
 
 /// Integrals of a pressure over parts of a panel, times each of its barycentric coordinates, over the panel's area.
 #[derive(Clone, Copy, Debug, Default)]
-struct Moments([f64; 3]);
+struct PressureMoments([f64; 3]);
 
-impl Moments {
+impl PressureMoments {
     /// Adds those over a triangle, which counts by a share, of a pressure that is linear on it, by its values at the corners.
     #[inline(always)]
     fn add_linear(&mut self, corners: &[Corner; 3], counts: f64, [a, b, c]: [f64; 3]) {
@@ -270,10 +270,10 @@ impl Moments {
 #[inline(always)]
 fn below_surface(corners: &[Corner; 3], counts: f64, mut integral: impl FnMut(&[Corner; 3], f64)) {
     match divide(corners, |c| c.over) {
-        Division::Above => {}
-        Division::Below => integral(corners, counts),
-        Division::Across { below: true, corners: [p, ..], ends: [q, r] } => integral(&[p, q, r], counts),
-        Division::Across { below: false, corners: [p, ..], ends: [q, r] } => {
+        ZeroLineCut::Above => {}
+        ZeroLineCut::Below => integral(corners, counts),
+        ZeroLineCut::Across { below: true, corners: [p, ..], ends: [q, r] } => integral(&[p, q, r], counts),
+        ZeroLineCut::Across { below: false, corners: [p, ..], ends: [q, r] } => {
             integral(corners, counts);
             integral(&[p, q, r], -counts);
         }
@@ -290,7 +290,7 @@ fn quadratic(values: &[f64; 6], [u, v, w]: &[f64; 3]) -> f64 {
 /// Adds what the waves differ from water at rest below their surface, linear on the part of a triangle below the end of the stretching and zero at that
 /// end, over what of it is wet. A quadrangle is cut along each of its diagonals, and each way counts half, so that a mirrored one gives the same.
 #[inline(always)]
-fn add_stretched(sum: &mut Moments, corners: &[Corner; 3], ends_at_surface: bool) {
+fn add_stretched(sum: &mut PressureMoments, corners: &[Corner; 3], ends_at_surface: bool) {
     let mut wet = |part: [Corner; 3], counts: f64| {
         below_surface(&part, counts, |part, counts| sum.add_linear(part, counts, part.each_ref().map(|c| c.extra)));
     };
@@ -298,9 +298,9 @@ fn add_stretched(sum: &mut Moments, corners: &[Corner; 3], ends_at_surface: bool
     let at_end = |c: Corner| Corner { extra: 0.0, over: if ends_at_surface { 0.0 } else { c.over }, ..c };
     let ended = |c: Corner| if c.kink == 0.0 { at_end(c) } else { c };
     match divide(corners, |c| c.kink) {
-        Division::Above => {}
-        Division::Below => wet(corners.map(ended), 1.0),
-        Division::Across { below, corners: [p, q, r], ends: [pq, pr] } => {
+        ZeroLineCut::Above => {}
+        ZeroLineCut::Below => wet(corners.map(ended), 1.0),
+        ZeroLineCut::Across { below, corners: [p, q, r], ends: [pq, pr] } => {
             let ([p, q, r], pq, pr) = ([p, q, r].map(ended), at_end(pq), at_end(pr));
             if below {
                 wet([p, pq, pr], 1.0);
@@ -317,11 +317,11 @@ fn add_stretched(sum: &mut Moments, corners: &[Corner; 3], ends_at_surface: bool
 /// Force and moment of the waves on a panel near the surface, beyond those of the mean level. Of its quarters the wet parts are taken: on each
 /// the pressure of water at rest below the surface of the waves, which is of the second degree between the nodes, and linearly what the
 /// waves differ from it, up to where the stretching ends. What the mean level gives is linear.
-fn near_surface(near: &[Near; 6], weight: f64) -> Six {
+fn near_surface(near: &[NodePressure; 6], weight: f64) -> Six {
     let over = near.map(|n| n.over);
     let ends_at_surface = near.iter().all(|n| n.kink == n.over);
     let all_wet = over.iter().all(|over| *over <= 0.0);
-    let mut sum = Moments::default();
+    let mut sum = PressureMoments::default();
     if all_wet {
         for (value, moments) in over.iter().zip(&QUADRATIC_MOMENTS) {
             for (sum, moment) in sum.0.iter_mut().zip(moments) {
@@ -331,7 +331,7 @@ fn near_surface(near: &[Near; 6], weight: f64) -> Six {
     }
     for quarter in QUARTERS {
         let corners = quarter.map(|n| {
-            let Near { over, extra, kink, .. } = near[n];
+            let NodePressure { over, extra, kink, .. } = near[n];
             Corner { place: NODES[n], over, extra, kink }
         });
         if corners.iter().all(|c| c.over > 0.0) {
@@ -417,7 +417,7 @@ impl<'a> Around<'a> {
     }
 
     /// The surface and the pressure at an arm from the origin.
-    fn near(&self, arm: &Vector3<f64>) -> Near {
+    fn surface_and_pressure(&self, arm: &Vector3<f64>) -> NodePressure {
         let height = arm.z - self.sunk;
         let on_grid = self.grid.as_ref().and_then(|grid| {
             let elevation = grid.elevation(arm)?;
@@ -431,7 +431,7 @@ impl<'a> Around<'a> {
         });
         let over = height - elevation;
         let kink = if self.sea.ends_at_surface() { over } else { self.sea.stretched(height, elevation).iter().sum() };
-        Near { arm: *arm, height, over, extra: dynamic - self.weight * elevation, kink }
+        NodePressure { arm: *arm, height, over, extra: dynamic - self.weight * elevation, kink }
     }
 
     /// Dynamic pressure (Pa) at an arm from the origin that is deep.
@@ -448,13 +448,13 @@ impl<'a> Around<'a> {
 impl WavePressure {
     /// The force of the waves at a time in a pose, beyond that of the mean level. Nodes and panels are taken in parts of a fixed size side by
     /// side, whose sums are added in their order: the digits do not depend on the number of threads.
-    pub fn at(&self, time: f64, pose: &Pose) -> Six {
+    pub fn force_at(&self, time: f64, pose: &Pose) -> Six {
         let [x, y, z] = [0, 1, 2].map(|axis| pose.axes.column(axis).into_owned());
         let arm = |Node { place: p, .. }: &Node| x * p.x + y * p.y + z * p.z;
         let arms: Vec<Vector3<f64>> = self.nodes.iter().map(arm).collect();
         let origin = pose.origin;
         let grid = self.grid.as_ref().map(|grid| grid.fill(&self.sea, time, origin, &arms));
-        let around = Around::new(self.sea.at(time), grid, (origin, self.sea.level), self.weight);
+        let around = Around::new(self.sea.at_time(time), grid, (origin, self.sea.level), self.weight);
         // of all that is deep, by the middles of the edges
         let mut lies = vec![Lies::Dry; arms.len()];
         let mut pressures = vec![0.0; arms.len()];
@@ -495,7 +495,7 @@ impl WavePressure {
             });
             at_surface.push((own, pressed));
         }
-        let near = |n: &usize| arms.get(*n).map(|arm| (around.near(arm), pressures.get(*n).copied()));
+        let near = |n: &usize| arms.get(*n).map(|arm| (around.surface_and_pressure(arm), pressures.get(*n).copied()));
         let known =
             map_parts(asked.chunks(NODES_A_PART / 4), |part| part.iter().map(near).collect::<Vec<_>>()).concat();
         let sums = map_parts(at_surface.chunks(PANELS_A_PART), |panels| {
@@ -505,8 +505,12 @@ impl WavePressure {
     }
 
     /// The force on a panel at the surface, less that of the deep ones among the middles of its edges, by what is known of its nodes.
-    fn beyond_deep(&self, (nodes, pressed): &([u32; 6], &Pressed), known: &[Option<(Near, Option<f64>)>]) -> Six {
-        let (mut near, mut counted) = ([Near::default(); 6], [0.0; 6]);
+    fn beyond_deep(
+        &self,
+        (nodes, pressed): &([u32; 6], &Pressed),
+        known: &[Option<(NodePressure, Option<f64>)>],
+    ) -> Six {
+        let (mut near, mut counted) = ([NodePressure::default(); 6], [0.0; 6]);
         for ((near, counted), n) in near.iter_mut().zip(&mut counted).zip(nodes) {
             if let Some(Some((found, deep))) = known.get(*n as usize) {
                 (*near, *counted) = (*found, deep.unwrap_or_default());
@@ -565,7 +569,7 @@ impl StatefulLoad for WavePressure {
     }
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
-        let found = self.at(ahead.time, ahead.pose);
+        let found = self.force_at(ahead.time, ahead.pose);
         if found.iter().any(|x| !x.is_finite()) {
             return Err(ClassError::new("the pressure of the waves has no value where the body is"));
         }
@@ -656,7 +660,7 @@ mod tests {
             let (sin, cos) = (w * time).sin_cos();
             // the gradient of rho g a e^(kz) cos(kx x + ky y - wt) over the volume, against it
             let want = Vector3::new(-kx * sin, -ky * sin, -k * cos) * (scale * x * y * z);
-            let got = made.at(time, &Pose::default());
+            let got = made.force_at(time, &Pose::default());
             // cells of 5.6 m by 5 m, k h = 0.63 (the mean number of one wave is its own): fourth powers over some hundreds
             let error = (got.fixed_rows::<3>(0) - want).norm() / (scale * x * y * z * k).abs();
             assert!(error < 5e-4, "{error} at {time}");
@@ -681,7 +685,7 @@ mod tests {
                 want += Vector3::new(k * sin, 0.0, -k * cos) * (RHO * G * a * volume);
                 scale += (RHO * G * a * k * volume).powi(2);
             }
-            let got = made.at(time, &pose).fixed_rows::<3>(0).into_owned();
+            let got = made.force_at(time, &pose).fixed_rows::<3>(0).into_owned();
             // panels of half the usual length: a sixteenth of 5e-4, by the standard deviation of the force; rounding of 1e-9 m
             let error = (got - want).norm() / (0.5 * scale).sqrt();
             assert!(error < 5e-5, "{error} at {time}");
@@ -698,7 +702,7 @@ mod tests {
                 let axes = *Rotation3::from_euler_angles(0.0, 0.05, 0.0).matrix();
                 let pose = Pose { origin: Vector3::new(3.0, 0.0, -0.4), axes };
                 for time in [10.0, 11.3, 12.9] {
-                    let got = made.at(time, &pose);
+                    let got = made.force_at(time, &pose);
                     // rounding, of the buoyancy of the whole hull on arms of 30 m
                     let gross = RHO
                         * G
@@ -726,11 +730,11 @@ mod tests {
             let axes = *Rotation3::from_euler_angles(0.03 * t.sin(), 0.04 * (2.0 * t).cos(), 0.1).matrix();
             let pose = Pose { origin: Vector3::new(3.0 * t.sin(), 5.0, t.cos()), axes };
             let time = 200.0 + 3.7 * t;
-            let (got, fine) = (usual.at(time, &pose), finer.at(time, &pose));
+            let (got, fine) = (usual.force_at(time, &pose), finer.force_at(time, &pose));
             largest = largest.sup(&fine.abs());
             off = off.sup(&(got - fine).abs());
             if n < 2 {
-                of_grid = of_grid.sup(&(got - direct.at(time, &pose)).abs());
+                of_grid = of_grid.sup(&(got - direct.force_at(time, &pose)).abs());
             }
         }
         let (off, of_grid) = (off.component_div(&largest), of_grid.component_div(&largest));

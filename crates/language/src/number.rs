@@ -133,7 +133,7 @@ pub fn evaluate(word: &str) -> Result<f64, NumberError> {
         meval::RPNError::UnexpectedComma(_) => NumberError::NotANumber,
         meval::RPNError::NotEnoughOperands(_) | meval::RPNError::TooManyOperands => NumberError::Incomplete,
     })?;
-    carry_out(&rpn)
+    evaluate_tokens(&rpn)
 }
 
 /// A number without operations, the common case: digits, point, exponent with E or D.
@@ -200,7 +200,7 @@ fn number_end(bytes: &[u8], start: usize) -> usize {
 }
 
 /// Carries out the operations in meval's order, each result checked.
-fn carry_out(rpn: &[Token]) -> Result<f64, NumberError> {
+fn evaluate_tokens(rpn: &[Token]) -> Result<f64, NumberError> {
     let mut stack: Vec<f64> = Vec::with_capacity(rpn.len());
     for token in rpn {
         let value = match token {

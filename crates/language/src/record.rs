@@ -169,7 +169,7 @@ pub fn read(text: &str, source: SourceId, start: usize) -> (Record, usize, bool)
             return (record, next, false);
         }
         let (end, _) = token::line_end(line);
-        let continued = token::goes_on(line, at != start);
+        let continued = token::is_continued(line, at != start);
         let kept = line.get(..end).unwrap_or_default();
         if !record.text.is_empty() {
             record.push_replaced(" ", Span::new(source, at, at));

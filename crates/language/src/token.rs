@@ -7,7 +7,7 @@
 use logos::Logos;
 use std::ops::Range;
 
-/// What a token is, told from its first characters alone.
+/// What a token is, found from its first characters alone.
 #[derive(Logos, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
     /// A run of blanks.
@@ -122,7 +122,7 @@ pub fn line_end(line: &str) -> (usize, bool) {
 
 /// Whether the record of a physical line goes on in the next one; `inside`: the line itself continues a record, where a
 /// line of comment is passed over.
-pub fn goes_on(line: &str, inside: bool) -> bool {
+pub fn is_continued(line: &str, inside: bool) -> bool {
     (inside && line.trim_start().starts_with('$')) || line_end(line).1
 }
 

@@ -98,7 +98,7 @@ impl Shape {
     }
 
     /// The same form moved within its part. A block that turns becomes panels.
-    pub fn moved_by(&self, by: &Place) -> Shape {
+    pub fn with_displacement(&self, by: &Place) -> Shape {
         match self {
             Shape::Panels(panels) => {
                 Shape::Panels(panels.iter().map(|p| p.iter().map(|at| by.apply(*at)).collect()).collect())
@@ -106,7 +106,7 @@ impl Shape {
             Shape::Block { low, high } if by.turn == [0.0; 3] => {
                 Shape::Block { low: by.apply(*low), high: by.apply(*high) }
             }
-            Shape::Block { low, high } => Shape::Panels(box_panels(*low, *high)).moved_by(by),
+            Shape::Block { low, high } => Shape::Panels(box_panels(*low, *high)).with_displacement(by),
             Shape::Tube { ends, diameter } => Shape::Tube { ends: ends.map(|at| by.apply(at)), diameter: *diameter },
         }
     }
@@ -149,9 +149,12 @@ mod tests {
     #[test]
     fn hull_extent_is_restored_after_moving_back() {
         let block = Shape::Block { low: [0.0, -50.0, 0.0], high: [400.0, 50.0, 20.0] };
-        let turned = block.moved_by(&Place::new([0.0, 0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2]));
+        let turned = block.with_displacement(&Place::new([0.0, 0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2]));
         assert_eq!(turned.extent(), Some([[-50.0, 0.0, 0.0], [50.0, 400.0, 20.0]]));
-        assert_eq!(block.moved_by(&Place::new([5.0, 0.0, 0.0, 0.0, 0.0, 0.0])).extent().map(|e| e[0][0]), Some(5.0));
+        assert_eq!(
+            block.with_displacement(&Place::new([5.0, 0.0, 0.0, 0.0, 0.0, 0.0])).extent().map(|e| e[0][0]),
+            Some(5.0)
+        );
         assert_eq!(Shape::Panels(Vec::new()).extent(), None);
     }
 

@@ -87,7 +87,7 @@ impl System {
     ///
     /// # Errors
     /// A connector that makes no element.
-    pub fn take_in(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
+    pub fn activate_connector(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
         if self.links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
             return Ok(());
         }
@@ -100,7 +100,7 @@ impl System {
     ///
     /// # Errors
     /// A connector that makes no element.
-    pub fn make_anew(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
+    pub fn rebuild_connector(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
         let Some(at) = self.links.iter().position(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(()) };
         let made = self.element(model, connector(model, name)?).map_err(SolveError::error_about(name))?;
         if let Some(link) = self.links.get_mut(at) {
@@ -119,7 +119,7 @@ impl System {
     ///
     /// # Errors
     /// An environment that cannot be computed, or one with other water.
-    pub fn load_anew(
+    pub fn rebuild_loads(
         &mut self,
         model: &Model,
         sea: Option<&Arc<Sea>>,
@@ -142,7 +142,7 @@ impl System {
         let again = |l: &&Link| l.is_dynamic() && l.element.as_placed().is_none();
         let moving: Vec<String> = self.links.iter().filter(again).map(|l| l.name.clone()).collect();
         for name in &moving {
-            self.make_anew(model, name)?;
+            self.rebuild_connector(model, name)?;
         }
         for (new, old) in nodes.iter_mut().zip(&mut self.nodes) {
             let given = model.bodies.get(&new.key).and_then(|body| body.prescribed.as_ref());

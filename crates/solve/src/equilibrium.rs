@@ -8,7 +8,7 @@
 use super::parts::{BodySubset, parts};
 use super::search::{BodyPlaces, EquilibriumSearch};
 use super::system::{Contribution, DOFS, SolveError, System, SystemState};
-use super::unknowns::{Turns, Unknowns, kept_turns};
+use super::unknowns::{Turns, Unknowns, find_restrained_rotations};
 use nalgebra::DMatrix;
 use windlass_base::dense::SymmetricEigen;
 use windlass_base::units::Dim;
@@ -72,7 +72,7 @@ const LONG_STALE: usize = 12;
 /// what acts on it most; a direction that nothing holds, with a force in it.
 pub fn equilibrium(system: &System, state: &mut SystemState, options: &Options) -> Result<Equilibrium, SolveError> {
     check_weights(system, options)?;
-    let turns = kept_turns(system, state, options);
+    let turns = find_restrained_rotations(system, state, options);
     let free = |body: usize, dof: usize| {
         system.nodes.get(body).and_then(|n| n.free.get(dof)) == Some(&true) && !options.ignored.contains(&(body, dof))
     };

@@ -1,4 +1,4 @@
-//! Reasons behind a solution that was not found: what a user changes, where a connector or a step alone tells what gave up.
+//! Reasons behind a solution that was not found: what a user changes, where a connector or a step alone names what failed.
 
 use super::link::EndAttachment;
 use super::system::{DOFS, SolveError, System};

@@ -97,15 +97,15 @@ pub fn quasi_static_lines(run: &Run) -> Vec<&str> {
     quasi_static(run).into_iter().filter_map(name).collect()
 }
 
-/// Replays the most loaded quasi-static lines of a run that kept its instants; `goes_on` is asked before each step, and false ends it.
-pub fn screen(run: &Run, goes_on: &dyn Fn() -> bool) -> Screening {
+/// Replays the most loaded quasi-static lines of a run that kept its instants; `should_continue` is asked before each step, and false ends it.
+pub fn screen(run: &Run, should_continue: &dyn Fn() -> bool) -> Screening {
     let mut made = Screening::default();
     for (number, peak) in by_load(run) {
         if made.replays.len() == REPLAYED_LINES {
             break;
         }
         let Some(link) = run.history.layout.links.get(number) else { continue };
-        match replay(run, (number, link), peak, goes_on) {
+        match replay(run, (number, link), peak, should_continue) {
             Ok(replay) => made.replays.push(replay),
             Err(error) => made.left.push((link.name.clone(), error)),
         }
@@ -146,7 +146,7 @@ fn replay(
     run: &Run,
     (number, link): (usize, &LinkColumns),
     peak: f64,
-    goes_on: &dyn Fn() -> bool,
+    should_continue: &dyn Fn() -> bool,
 ) -> Result<Replay, ClassError> {
     let connector = run.model.connectors.get(&Model::key(&link.name));
     let connector = connector.ok_or_else(|| ClassError::new("it is no more in the model"))?;
@@ -157,7 +157,7 @@ fn replay(
     let steps = ((motion.window[1] - motion.begin) / dt - 1e-6).ceil().max(1.0) as usize;
     let mut dynamic = (f64::NEG_INFINITY, motion.begin);
     for step in 1..=steps {
-        if !goes_on() {
+        if !should_continue() {
             return Err(ClassError::new("the replay was interrupted"));
         }
         let time = (motion.begin + dt * step as f64).min(motion.window[1]);

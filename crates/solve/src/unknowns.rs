@@ -143,7 +143,7 @@ impl<'a> Unknowns<'a> {
     pub fn move_bodies(&self, poses: &[Pose], step: &DVector<f64>, share: f64) -> Vec<Pose> {
         let motions = self.motions(poses.len(), step, share);
         let turn = |body: usize, pose: Pose| match self.turns.get(body) {
-            Some(turns) if turns.iter().any(Option::is_some) => turned_back(pose, turns),
+            Some(turns) if turns.iter().any(Option::is_some) => restore_restrained_rotations(pose, turns),
             _ => pose,
         };
         let one = |(body, (p, m)): (usize, (&Pose, &Six))| {
@@ -166,7 +166,7 @@ fn transverse_direction(body: usize, angle: f64, free: &[bool; 6]) -> Option<Unk
 pub(super) type Turns = [Option<f64>; 3];
 
 /// The angles each body of a system keeps.
-pub(super) fn kept_turns(system: &System, state: &SystemState, options: &Options) -> Vec<Turns> {
+pub(super) fn find_restrained_rotations(system: &System, state: &SystemState, options: &Options) -> Vec<Turns> {
     let kept = |(body, (node, pose)): (usize, (&SystemBody, &Pose))| {
         let free = [3, 4, 5].map(|f| node.free.get(f) == Some(&true) && !options.ignored.contains(&(body, f)));
         let some = free.contains(&true) && free.contains(&false);
@@ -183,7 +183,7 @@ pub(super) fn kept_turns(system: &System, state: &SystemState, options: &Options
 }
 
 /// A pose with the angles it keeps.
-fn turned_back(pose: Pose, turns: &Turns) -> Pose {
+fn restore_restrained_rotations(pose: Pose, turns: &Turns) -> Pose {
     let mut place = pose.place(&Place::default());
     for (turn, kept) in place.turn.iter_mut().zip(turns) {
         *turn = kept.unwrap_or(*turn);

@@ -41,7 +41,7 @@ static SPEC: CommandSpec = CommandSpec {
              short-term, of the last the long-term stiffness, with which statics work; by frequency K is the stiffness in phase, \
              that of the first frequency the long-term one. -NDOF M behind either: the time domain works with M exponentials fitted \
              to the curve (least squares, none negative, times spaced on a log scale; at most one fewer than points), M 5 unless given; \
-             &STATUS CURVES tells them and how far they are off. In RX, RY, RZ K is a moment per radian, in the same units. &DATA ENVIRONMENT opens a menu of ENV records up to END.",
+             &STATUS CURVES reports them and how far they are off. In RX, RY, RZ K is a moment per radian, in the same units. &DATA ENVIRONMENT opens a menu of ENV records up to END.",
     example: "&DATA CURVES C_PROFILE CUR 0 3.0 100 2.0 500 0.5\n&DATA CURVES\nM_GROWTH MG -100 0 0 2\nEND\n&STATUS CURVES CUR",
     ..CommandSpec::new("&DATA", "defines curves and environments")
 };

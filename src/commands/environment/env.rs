@@ -199,7 +199,7 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              below 200 each component has one direction, from the cumulative spreading function at points of low discrepancy. \
              Phases are random from -SEED, 1 unless given: the same in every run, without the crest that one reinforcement time \
              makes; another seed is another realisation. -T_REINFORCE puts all components in phase at X = Y = 0 at TB, as MOSES \
-             does: the crest there is the sum of the amplitudes, which &STATUS SEA_SPECTRUM tells; let TB be outside the run unless \
+             does: the crest there is the sum of the amplitudes, which &STATUS SEA_SPECTRUM reports; let TB be outside the run unless \
              it is wanted. A regular wave has its crest at X = Y = 0 at TB, or at 0 s. Of -SEED, -T_REINFORCE and -PHASES the last one \
              holds. -PHASES gives the phase of each component, in the order of &STATUS SEA_SPECTRUM with the added sea last, of \
              zeta = sum a cos(k x - w t + phase), x along its travel. -STRETCHING is what linear waves do above the mean level: LINEAR goes straight on from it, WHEELER takes the \

@@ -32,7 +32,7 @@ pub(crate) const PROBABILITY: OptionSpec = OptionSpec::new(
         ValueSpec::choice::<Statistic>("STAT", "statistic"),
         ValueSpec::new("DATA", Kind::Number(Dim::None), "its value").or("1; 3 h of MAXIMUM; 10800 s of TIME; 0.001"),
     ],
-    "the maximum that STATISTICS of FREQ_RESPONSE tells: DATA times the rms or the significant amplitude, the most probable one of DATA \
+    "the maximum that STATISTICS of FREQ_RESPONSE reports: DATA times the rms or the significant amplitude, the most probable one of DATA \
      hours (MAXIMUM) or seconds (TIME), the one that a share DATA of the peaks exceeds (PROBABILITY)",
 );
 

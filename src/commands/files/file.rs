@@ -3,7 +3,7 @@
 use crate::commands::job::UserFile;
 use crate::commands::settings::device::{existing, read_input, readable};
 use crate::commands::{Call, Command, Effect, Job, PLAIN};
-use crate::report::files::{FileError, FilePlace, Side, lies_in};
+use crate::report::files::{FileError, FilePlace, Side, is_within};
 use windlass_base::choice::Choice;
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -152,8 +152,8 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn not_open(job: &Job, name: &Word) -> Outcome<()> {
     let Ok(path) = job.output.folder.resolve(&name.text) else { return Ok(()) };
     let of = |file: &UserFile| match file {
-        UserFile::Writing { place, .. } => lies_in(place.path(), &path),
-        UserFile::Reading { path: read, .. } => lies_in(read, &path),
+        UserFile::Writing { place, .. } => is_within(place.path(), &path),
+        UserFile::Reading { path: read, .. } => is_within(read, &path),
     };
     match job.user_files.iter().find(|(_, file)| of(file)) {
         Some((kind, _)) => {

@@ -48,7 +48,7 @@ static SPEC: CommandSpec = CommandSpec {
     options: &[INITIAL, ORIENT, VERTICAL, DEACTIVATE],
     detail: "All connectors are of class type SLING, of a single node, and defined before; the nodes of the ELs are on one body, that of BHE \
              on another or on ground. The hook is a point without weight with three degrees of freedom that &EQUI solves with the bodies; it makes \
-             the point *NAME, the second end of every line. &STATUS ASSEMBLIES tells where it is and what its lines bear; &CONNECTOR changes \
+             the point *NAME, the second end of every line. &STATUS ASSEMBLIES reports where it is and what its lines bear; &CONNECTOR changes \
              their -LENGTH and activity; DELETE NAME takes the set apart. \
              -INITIAL of the first set: the hook is put the length of BHE straight below the boom, and the body so that the hook is at \
              the highest place above it that stretches no sling; its attitude stays. With four slings, or unlike ones, those that are longer \

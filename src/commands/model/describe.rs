@@ -76,7 +76,7 @@ static DESCRIBE_SPEC: CommandSpec = CommandSpec {
              begins a surface: its PANEL records follow, or PGEN; it is complete at the next &DESCRIBE, PGEN or &SURFACE, and at END. \
              &HELP &SURFACE says how pieces are read, and what wind and current do to them: without -CS_WIND and -CS_CURRENT the shape \
              coefficients of a piece that displaces water are 1 1 1. INTEREST marks points, on bodies or in the ground, for POINTS of \
-             PRCPOST, which tells their motion from where they stand now; marks add up.",
+             PRCPOST, which reports their motion from where they stand now; marks add up.",
     example: "&DESCRIBE BODY TBRG\n&DESCRIBE PART DECK -MOVE 0 0 20\n&STATUS BODIES\nMEDIT\n*BOW 90 0 5\n&DESCRIBE INTEREST *BOW\n&DESCRIBE PIECE WEDGE -PERM 1\n\
               PANEL 0 0 0  0 9 0  9 0 0\nPANEL 0 0 0  9 0 0  0 0 9\nPANEL 0 0 0  0 0 9  0 9 0\nPANEL 9 0 0  0 9 0  0 0 9\nEND\n\
               &STATUS PIECES",

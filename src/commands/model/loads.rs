@@ -352,8 +352,8 @@ fn against<'a>(job: &mut Job, args: &Args, mut rows: impl Iterator<Item = (f64, 
         fx * cos + fy * sin > 1e-6 * fx.hypot(*fy)
     };
     if let Some((heading, _)) = rows.find(wrong) {
-        let told = eight_figures(heading.to_degrees());
-        job.remark(format!("the force at heading {told} is against what comes from there"), args.span);
+        let degrees = eight_figures(heading.to_degrees());
+        job.remark(format!("the force at heading {degrees} is against what comes from there"), args.span);
     }
 }
 

@@ -192,8 +192,8 @@ pub fn build(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
             job.model.current_piece = Some(name);
         }
     }
-    let told = piece::complete_piece(job, at);
-    job.notices.extend(told);
+    let notices = piece::complete_piece(job, at);
+    job.notices.extend(notices);
     Ok(())
 }
 

@@ -310,10 +310,10 @@ pub fn complete_piece(job: &mut Job, at: Option<Span>) -> Vec<Diagnostic> {
     let Some((part, piece)) = job.model.piece(&name) else { return Vec::new() };
     let Some(body) = job.model.bodies.get(&Model::key(&part.body)) else { return Vec::new() };
     let faults = hydro::piece_faults(&job.model, body, part, piece);
-    let told = faults.into_iter().map(|fault| {
+    let diagnostics = faults.into_iter().map(|fault| {
         let (text, span) = (fault.error.text(job.units), at.unwrap_or(piece.span));
-        let told = if fault.remark { Diagnostic::remark(text, span) } else { Diagnostic::warning(text, span) };
-        *if at.is_some() { told.other(piece.span, "the piece") } else { told }
+        let diagnostic = if fault.remark { Diagnostic::remark(text, span) } else { Diagnostic::warning(text, span) };
+        *if at.is_some() { diagnostic.other(piece.span, "the piece") } else { diagnostic }
     });
-    told.collect()
+    diagnostics.collect()
 }

@@ -53,7 +53,7 @@ static SPEC: CommandSpec = CommandSpec {
              the end of the pipe: laid at the mean of TLOWER and TUPPER, the end is held along X of its body while its tension stays between \
              them, is paid out or hauled in beyond them, and is held anew where it then is, as our reading. &EQUI lays the pipe anew where the vessel comes to rest; in TDOM its far \
              end stays where it was when the run began. A single roller makes a vertical riser, pulled up by TUPPER as it is laid and pinned on \
-             the bottom below; X of its roller then runs down the pipe and Z along X of the body, and -Y_ROLLER 0 0 -Z_ROLLER 0 0 hold it all around. Springs of the ROLLER in X, RX, RY and RZ do nothing to it. &STATUS ASSEMBLIES tells what it exerts on its supports; \
+             the bottom below; X of its roller then runs down the pipe and Z along X of the body, and -Y_ROLLER 0 0 -Z_ROLLER 0 0 hold it all around. Springs of the ROLLER in X, RX, RY and RZ do nothing to it. &STATUS ASSEMBLIES reports what it exerts on its supports; \
              &STATUS ROD, ROD_MODES and ROD of PRCPOST what is along it, by its name or &PIPE.",
     example: "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 50\nMEDIT\n*R1 40 0 2\n*R2 30 0 3.2\n*R3 20 0 4\n~ROLL ROLLER COMPRESSION Z 5000\n\
               ~PIPE ROD 323.9 15.9 -LEN 12\nCONNECTOR R1 ~ROLL *R1\nCONNECTOR R2 ~ROLL *R2\nCONNECTOR R3 ~ROLL *R3\n\

@@ -100,7 +100,7 @@ impl Rigging<'_> {
             let text = format!("the slings reach the boom: no length is left for {}", self.boom);
             return Err(Diagnostic::error(text, self.span).help("shorten the slings, or put the boom higher"));
         }
-        let told = |length: f64| {
+        let with_unit = |length: f64| {
             let digits = report(&Cell::Number(length), Dim::Length, Digits::Usual, self.units);
             format!("{digits} {}", Dim::Length.label(self.units))
         };
@@ -111,7 +111,7 @@ impl Rigging<'_> {
             if (straight - length).abs() <= 1e-9 * length {
                 continue;
             }
-            said.push(format!("connector {name}: {} (was {}): no sag", told(straight), told(length)));
+            said.push(format!("connector {name}: {} (was {}): no sag", with_unit(straight), with_unit(length)));
             if let Some(connector) = model.connectors.get_mut(&Model::key(name)) {
                 connector.first_length = Some(straight);
             }

@@ -214,7 +214,7 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let by = args.option(&MOVE).map_or(Place::default(), |given| {
         Place::new(given.numbers_or_zero(const { MOVE.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }))
     });
-    whole(job, args, Shape::Panels(scaled).moved_by(&by))
+    whole(job, args, Shape::Panels(scaled).with_displacement(&by))
 }
 
 /// The panels of a mesh file, in its own unit.
@@ -267,7 +267,7 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
         error.help.extend(help);
         return Err(error);
     };
-    *shape = shape.moved_by(&by);
+    *shape = shape.with_displacement(&by);
     job.model.current_piece = Some(name.clone());
     piece::finish_piece(job);
     Ok(Effect::Done)

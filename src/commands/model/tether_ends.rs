@@ -34,7 +34,7 @@ const PRESSURE: Dim = Dim::Derived { force: 1, length: -2, seconds: 0 };
 
 choices! {
     /// What a constraint holds, and by what.
-    enum ConstraintKind {
+    enum EndConstraint {
         LateralFixed = "LATERAL_FIXED",
         RotationalFixed = "ROTATIONAL_FIXED",
         LateralVessel = "LATERAL_VESSEL",
@@ -97,7 +97,7 @@ pub const CONSTRAINT: OptionSpec = OptionSpec {
     ..option(
         "-CONSTRAINT",
         &[
-            ValueSpec::choice::<ConstraintKind>("KIND", "what is held, and by what"),
+            ValueSpec::choice::<EndConstraint>("KIND", "what is held, and by what"),
             ValueSpec::new("NODE", Kind::Integer, "the node, 1 at the anchor").in_range(1.0, 1e5),
             number("GAP", Dim::Length, "free radius of LATERAL_VESSEL").or("0").not_negative(),
         ],
@@ -169,16 +169,16 @@ fn constraints(args: &Args) -> Outcome<Vec<TetherConstraint>> {
     for given in args.occurrences(&CONSTRAINT) {
         let gap = given.number(const { CONSTRAINT.number("GAP") });
         let Some(kind) = given.choice(const { CONSTRAINT.choice("KIND") }) else { continue };
-        if gap.is_some_and(|g| g > 0.0) && kind != ConstraintKind::LateralVessel {
+        if gap.is_some_and(|g| g > 0.0) && kind != EndConstraint::LateralVessel {
             return Err(Diagnostic::error("only LATERAL_VESSEL has a gap", given.span));
         }
         let node =
             given.integer(const { CONSTRAINT.integer("NODE") }).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
         let hold = match kind {
-            ConstraintKind::LateralFixed => TetherHold::LateralFixed,
-            ConstraintKind::RotationalFixed => TetherHold::RotationalFixed,
-            ConstraintKind::LateralVessel => TetherHold::LateralVessel { gap: gap.unwrap_or(0.0) },
-            ConstraintKind::RotationalVessel => TetherHold::RotationalVessel,
+            EndConstraint::LateralFixed => TetherHold::LateralFixed,
+            EndConstraint::RotationalFixed => TetherHold::RotationalFixed,
+            EndConstraint::LateralVessel => TetherHold::LateralVessel { gap: gap.unwrap_or(0.0) },
+            EndConstraint::RotationalVessel => TetherHold::RotationalVessel,
         };
         found.push(TetherConstraint { node, hold });
         if found.len() > MAX_CONSTRAINTS {

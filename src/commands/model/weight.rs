@@ -116,9 +116,9 @@ fn item(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn no_body_has(radii: [f64; 3], units: UnitSystem) -> Option<String> {
     let squares = radii.map(|k| k * k);
     let (sum, most) = (squares.iter().sum::<f64>(), squares.iter().copied().fold(0.0, f64::max));
-    let told = radii.map(|k| eight_figures(Dim::Length.from_si(k, units))).join(" ");
+    let lengths = radii.map(|k| eight_figures(Dim::Length.from_si(k, units))).join(" ");
     (2.0 * most > sum * (1.0 + 1e-9)).then(|| {
-        format!("no body has the radii of gyration {told}: the square of each is at most the sum of the squares of the others")
+        format!("no body has the radii of gyration {lengths}: the square of each is at most the sum of the squares of the others")
     })
 }
 
@@ -170,14 +170,14 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
     const X: ValueKey<f64> = TOTAL.number("XCG");
     const Y: ValueKey<f64> = TOTAL.number("YCG");
     const Z: ValueKey<f64> = TOTAL.number("ZCG");
-    let told = |value: f64, dim: Dim| format!("{} {}", eight_figures(dim.from_si(value, units)), dim.label(units));
+    let with_unit = |value: f64, dim: Dim| format!("{} {}", eight_figures(dim.from_si(value, units)), dim.label(units));
     let [weight, x, y, z] = given.numbers_or_zero([WEIGHT, X, Y, Z]);
     let (total, centre) = (weight / gravity, Vector3::new(x, y, z));
     let lacking = total - now.mass;
     let size = 1e-9 * total;
     if lacking < -size {
         return Err(Diagnostic::error("the weights there already weigh more than the total", given.place(WEIGHT))
-            .label(format!("they weigh {}", told(now.mass * gravity, Dim::Force))));
+            .label(format!("they weigh {}", with_unit(now.mass * gravity, Dim::Force))));
     }
     let moment = centre * total - now.centre * now.mass;
     if lacking <= size {
@@ -186,7 +186,7 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
             Ok(None)
         } else {
             Err(Diagnostic::error("nothing is left to add, and the centre of gravity is elsewhere", given.place(X))
-                .label(format!("the weights there already make the total, {} from here", told(off, Dim::Length))))
+                .label(format!("the weights there already make the total, {} from here", with_unit(off, Dim::Length))))
         };
     }
     let at = moment / lacking;
@@ -199,7 +199,7 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
         let own = wanted - there[(i, i)];
         if own < -1e-9 * there[(i, i)] {
             let axis = ["x", "y", "z"].get(i).copied().unwrap_or_default();
-            let most = told((there[(i, i)] / total).sqrt(), Dim::Length);
+            let most = with_unit((there[(i, i)] / total).sqrt(), Dim::Length);
             return Err(Diagnostic::error(
                 format!("the weight to be added would need a negative moment of inertia about {axis}"),
                 given.place(key),
@@ -207,8 +207,8 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
             .label(format!("with what is there already the radius is at least {most}"))
             .help(format!(
                 "it would be {} at {}",
-                told(lacking * gravity, Dim::Force),
-                [at.x, at.y, at.z].map(|x| told(x, Dim::Length)).join(", ")
+                with_unit(lacking * gravity, Dim::Force),
+                [at.x, at.y, at.z].map(|x| with_unit(x, Dim::Length)).join(", ")
             )));
         }
         *radius = (own.max(0.0) / lacking).sqrt();

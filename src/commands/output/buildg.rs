@@ -6,7 +6,7 @@ use crate::commands::menu;
 use crate::commands::settings::device::{read_input, readable};
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
-use crate::report::readback::{self, ReadError};
+use crate::report::readback::{self, TableReadError};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_language::record::Record;
@@ -96,7 +96,7 @@ pub fn built(job: &mut Job, building: &Building, at: Option<Span>) -> Outcome<()
     })
 }
 
-fn open(job: &mut Job, brief: bool, name: &str, text: &str) -> Result<(), ReadError> {
+fn open(job: &mut Job, brief: bool, name: &str, text: &str) -> Result<(), TableReadError> {
     let table = if brief { readback::brief(name, text) } else { readback::csv(name, text) }?;
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
     Ok(())

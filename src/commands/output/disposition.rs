@@ -186,7 +186,7 @@ fn rows(args: &Args) -> RowChoice {
 }
 
 /// The columns that words of a record choose, as a table with scales, shifts and -MAG_USE applied.
-pub(crate) fn chosen(job: &Job, args: &Args, columns: &[Value]) -> Outcome<Table> {
+pub(crate) fn chosen_columns(job: &Job, args: &Args, columns: &[Value]) -> Outcome<Table> {
     chosen_rows(job, args, columns, &rows(args))
 }
 
@@ -293,7 +293,7 @@ fn view(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let d = open_disposition(job, args.span)?;
         d.rows(&rows(args), job.units).map_err(|e| to_diagnostic(args, &e))?
     };
-    let table = chosen(job, args, &args.data)?;
+    let table = chosen_columns(job, args, &args.data)?;
     let text = page::view(&table, &numbers, job.units).join("\n");
     send(job, args, &text)?;
     Ok(Effect::Done)

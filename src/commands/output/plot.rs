@@ -1,8 +1,8 @@
 //! PLOT: columns of a result against one of them, in the terminal or as a file.
 
 use crate::commands::output::disposition::{
-    ANY_COLUMN, COLUMN, HEADING, MAG_USE, RECORD, VALUES, chosen, open_disposition, selectors, spec, to_diagnostic,
-    write_file,
+    ANY_COLUMN, COLUMN, HEADING, MAG_USE, RECORD, VALUES, chosen_columns, open_disposition, selectors, spec,
+    to_diagnostic, write_file,
 };
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::plot::{Chart, PlotError};
@@ -41,7 +41,7 @@ static SPEC: CommandSpec = CommandSpec {
     options: &[RECORD, VALUES, HEADING, MAG_USE, NO, HARD, FILE, HTML, RAX, POLAR],
     detail: "The first column is the independent one. A last word that ends in .svg, .png or .html is a file name, inside the \
              job's folder when relative (&HELP &FILE); without one the plot is drawn in the terminal. Columns of a second unit have an \
-             axis of their own on the right; more than two units on one plot are refused. A page (.html) needs nothing from elsewhere: it tells \
+             axis of their own on the right; more than two units on one plot are refused. A page (.html) needs nothing from elsewhere: it shows \
              the values under the pointer, zooms where one drags, and hides a curve whose name is clicked. -POLAR counts \
              directions from +X, to the right, toward +Y, up, and has the other columns as distances from the middle, all of one unit.",
     ..spec("PLOT", "plots columns against the first one")
@@ -81,7 +81,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     // places in the table of the chosen columns
     let right: Vec<usize> = numbers.iter().enumerate().filter(|(_, n)| right.contains(n)).map(|(at, _)| at).collect();
-    let table = chosen(job, &args, &args.data)?;
+    let table = chosen_columns(job, &args, &args.data)?;
     let wrong = |e: PlotError| Diagnostic::error(e.to_string(), on_right.as_ref().map_or(args.span, |g| g.span));
     let made =
         if args.has(&POLAR) { Chart::polar(&table, job.units) } else { Chart::with_right(&table, &right, job.units) };

@@ -1,6 +1,6 @@
 //! STORE: columns of a result as a file, by the ending of its name.
 
-use crate::commands::output::disposition::{MAG_USE, RECORD, VALUES, chosen, write_file};
+use crate::commands::output::disposition::{MAG_USE, RECORD, VALUES, chosen_columns, write_file};
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::{csv, netcdf, parquet};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -24,7 +24,7 @@ static SPEC: CommandSpec = CommandSpec {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const FILE: DatumKey<str> = SPEC.word("FILE");
     let args = &call.args;
-    let table = chosen(job, args, args.data_after(FILE))?;
+    let table = chosen_columns(job, args, args.data_after(FILE))?;
     let name = crate::commands::files::file::with_csv_ending(args.word(FILE).unwrap_or_default());
     let ending = std::path::Path::new(&name).extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let bytes = match ending.as_deref() {

@@ -38,7 +38,7 @@ impl<Q: Copy> Report<Q> {
     }
 }
 
-/// Reports are told apart by their words, which are unique among those of a command.
+/// Reports differ by their words, which are unique among those of a command.
 impl<Q> PartialEq for Report<Q> {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name

@@ -60,7 +60,7 @@ static SPEC: CommandSpec = CommandSpec {
              far as rounding lets it, of each group of bodies and junctions that connectors join by itself and then of all; what is left is reported, and must be less than the tolerance, which is a \
              share of gravity: 0.001 means a force of a thousandth of the body's weight. Far from rest, or where the stiffness is not \
              stable, a share of the mass helps it. Options but -IGNORE are remembered. Freedoms are global directions at the body's \
-             origin. A direction that nothing holds, and no force acts in, stays as it is and is told. The result is the \
+             origin. A direction that nothing holds, and no force acts in, stays as it is and is reported. The result is the \
              configuration from then on; &INSTATE -PREVIOUS goes back. \
              Several equilibria may exist; none is promised.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*A 0 0 20\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\n*CG 0 0 0\n#WEIGHT *CG 500 1 1 1\n\

@@ -68,7 +68,7 @@ static MENU_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::MAIN],
     opens: Opens::Menu(&menu::FREQ_RESPONSE),
     detail: "RAO or SRESPONSE finds the motions of all bodies about their present places, which &EQUI should have found: the stiffness \
-             is that of everything there. MOTION, FR_POINT and CONFORCE then show them, STATISTICS tells what they come to in a sea. \
+             is that of everything there. MOTION, FR_POINT and CONFORCE then show them, STATISTICS reports what they come to in a sea. \
              Waves act on the bodies that have a DATABASE; they do not on members, whose drag meets the body alone, and gusts have no part in it.",
     example: concat!(heaving!(), "RAO\nMOTION BALL\nREPORT\nEND\nEND"),
     ..CommandSpec::new("FREQ_RESPONSE", "motions in the frequency domain, up to END")

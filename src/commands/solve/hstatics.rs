@@ -98,8 +98,8 @@ fn dispose(job: &mut Job, table: Table, span: Span) -> Effect {
 fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let body = body(job, span)?;
-    let told = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
-    let hull = Hull::new(&job.model, body).map_err(told)?;
+    let to_error = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
+    let hull = Hull::new(&job.model, body).map_err(to_error)?;
     let hull = hull.ok_or_else(|| {
         Diagnostic::error(format!("{} has no hull", body.name), span)
             .help("PGEN, &SURFACE and &DESCRIBE PIECE give one")
@@ -145,8 +145,8 @@ fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let body = body(job, span)?;
-    let told = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
-    let floating = Floating::at_rest(&job.model, body).map_err(told)?;
+    let to_error = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
+    let floating = Floating::at_rest(&job.model, body).map_err(to_error)?;
     let weight = floating.mass.mass * job.model.defaults.gravity;
     let mut table = Table::new(format!("Righting Arms of {}", body.name)).fact("Weight", weight, Dim::Force);
     let step = args.number(const { RARM_SPEC.number("INC") }).unwrap_or_default();
@@ -157,7 +157,7 @@ fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
         place.turn[0] = roll;
         let found = match balance_heave_and_trim(&floating, &place) {
             Ok(found) => found,
-            Err(error) if n == 0 => return Err(told(error)),
+            Err(error) if n == 0 => return Err(to_error(error)),
             Err(error) => {
                 table.note_absent(format!("{}: {}", body.name, error.text(job.units)));
                 break;

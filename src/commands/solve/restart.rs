@@ -10,7 +10,7 @@ use windlass_base::values::Given;
 use windlass_solve::time::Run;
 
 /// Takes a run that begins to where the one in the file was, by the option that says so of the record at `span`; the file, to go on with.
-pub(crate) fn go_on(job: &mut Job, made: &mut Run, again: &Given, span: Span) -> Outcome<RunLog> {
+pub(crate) fn resume(job: &mut Job, made: &mut Run, again: &Given, span: Span) -> Outcome<RunLog> {
     let refused = |text: String| Diagnostic::error(text, again.span).help("TDOM without -RESTART begins a run");
     let folder = &mut job.output.folder;
     let path = folder.folder.join(FILE);
@@ -32,8 +32,8 @@ pub(crate) fn go_on(job: &mut Job, made: &mut Run, again: &Given, span: Span) ->
             "all must be as they were, -ALONG too, but for the time observed; a winch without a LENGTH has room for as much as it winds in that time",
         ));
     }
-    let log = RunLog::go_on(file, path, &kept).map_err(|e| refused(e.to_string()))?;
-    made.take_up(&kept.snapshot, kept.rows).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
+    let log = RunLog::resume(file, path, &kept).map_err(|e| refused(e.to_string()))?;
+    made.resume_from(&kept.snapshot, kept.rows).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
     job.remark(format!("goes on from {} s", kept.snapshot.time), again.span);
     Ok(log)
 }

@@ -4,7 +4,7 @@
 
 use crate::commands::menu;
 use crate::commands::solve::equilibrium::{to_diagnostic, warn_of_breaks, warn_of_lines};
-use crate::commands::solve::restart::go_on;
+use crate::commands::solve::restart::resume;
 use crate::commands::solve::tether_run;
 use crate::commands::verdict::over_break_in;
 use crate::commands::{Call, Command, Effect, Job};
@@ -289,7 +289,7 @@ fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run,
         let log = RunLog::begin(file, path, made.fingerprint(), made.history.layout.width);
         return Ok((made, Some(log.map_err(|e| refused(e.to_string()))?)));
     };
-    let log = go_on(job, &mut made, again, args.span)?;
+    let log = resume(job, &mut made, again, args.span)?;
     Ok((made, Some(log)))
 }
 
@@ -522,7 +522,7 @@ impl Watcher for RunProgress {
         self.log.as_mut().map_or(Ok(()), |log| log.finish())
     }
 
-    fn goes_on(&mut self, time: f64) -> bool {
+    fn should_continue(&mut self, time: f64) -> bool {
         if self.asked.is_multiple_of(STEPS_PER_TERMINAL_CHECK) {
             let rate = time / self.bar.elapsed().as_secs_f64().max(1e-9);
             self.bar.set_position(time as u64);

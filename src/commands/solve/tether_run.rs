@@ -109,9 +109,9 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         transient: window.transient.unwrap_or(0.0),
     };
     let interrupt = Arc::clone(&job.interrupt);
-    let mut goes_on = |_: f64| !interrupt.load(Ordering::Relaxed);
-    let made =
-        tethered::run(&job.model, settings, &mut goes_on).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
+    let mut should_continue = |_: f64| !interrupt.load(Ordering::Relaxed);
+    let made = tethered::run(&job.model, settings, &mut should_continue)
+        .map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
     let mut tables = vec![tethered::run_table(&made)];
     note_caveats(&job.model, &mut tables);
     let events = tethered::events(&made);

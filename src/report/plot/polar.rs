@@ -157,13 +157,13 @@ mod tests {
     fn polar_plot_has_circles_direction_names_and_zero_direction() {
         let chart = Chart::polar(&table(|_| 3.0), UnitSystem::SI).unwrap();
         let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
-        let told = "directions from +X (right) toward +Y (up); distance: Excursion (m)";
-        for text in ["Watch", told, "270", "330"] {
+        let caption = "directions from +X (right) toward +Y (up); distance: Excursion (m)";
+        for text in ["Watch", caption, "270", "330"] {
             assert!(svg.contains(text), "{text} is missing from the SVG");
         }
         assert!(chart.png().unwrap().starts_with(b"\x89PNG"));
         let screen = chart.terminal(72, 24).unwrap();
-        assert!([told, "Watch", " 90", "180", "270"].iter().all(|t| screen.contains(t)), "{screen}");
+        assert!([caption, "Watch", " 90", "180", "270"].iter().all(|t| screen.contains(t)), "{screen}");
     }
 
     #[test]

@@ -45,7 +45,7 @@ impl LineLayout<'_> {
         let lands_in = span.checked_sub(1).and_then(|before| side.lands_in.get(before).copied());
         let shorts = [first.short.value, second.short.value];
         let found = |lands_in: Option<usize>| {
-            let hold = FixedDeparture { span, weight: from, lands_in, goes_on: false };
+            let hold = FixedDeparture { span, weight: from, lands_in, should_continue: false };
             let found = self.between_places(top, shifted, (hold, to), (at, shorts));
             found.filter(|(_, laid)| laid.short.value.abs() <= JUMP_SHARE * self.length)
         };
@@ -67,8 +67,9 @@ impl LineLayout<'_> {
             let hold = FixedDeparture { weight: hold.weight + share * (to - hold.weight), ..hold };
             let parameter = self.parameter_of_landing(top, shifted, near, hold)?;
             near = parameter;
-            let laid =
-                self.lay(&Top { hold: Some(FixedDeparture { goes_on: true, ..hold }), ..top(parameter) }).ok()?;
+            let laid = self
+                .lay(&Top { hold: Some(FixedDeparture { should_continue: true, ..hold }), ..top(parameter) })
+                .ok()?;
             Some((parameter, laid))
         };
         let mut before = (0.0, short_at_first);

@@ -97,7 +97,7 @@ pub(super) struct PieceStretch {
 
 impl PieceStretch {
     /// Whether it lies on the same face as the one before it.
-    pub fn runs_on_from(&self, before: &PieceStretch) -> bool {
+    pub fn continues_on_face_of(&self, before: &PieceStretch) -> bool {
         match (self.manner, before.manner) {
             (Manner::Lies { tilt, .. }, Manner::Lies { tilt: same, .. }) => tilt == same,
             _ => false,
@@ -209,7 +209,7 @@ pub(super) struct FixedDeparture {
     /// The piece of the line with which the span before it lands, whatever it would reach beyond; any where none is given.
     pub lands_in: Option<usize>,
     /// Whether the line is laid on behind it.
-    pub goes_on: bool,
+    pub should_continue: bool,
 }
 
 impl<'a> LineLayout<'a> {
@@ -300,7 +300,7 @@ impl<'a> LineLayout<'a> {
         for _ in 0..=8 * (self.elements.len() + self.bottom.faces() + 2) {
             let hold = top.hold.filter(|h| h.span == laid.left_at.len());
             let (departure, landing) = self.next_span(&origin, top, sunk, &mut laid)?;
-            if laid.gap.is_some() && hold.is_some_and(|h| !h.goes_on) {
+            if laid.gap.is_some() && hold.is_some_and(|h| !h.should_continue) {
                 return Ok(Some(laid));
             }
             if let TouchKind::Held(joint) = landing.kind {

@@ -180,7 +180,7 @@ impl LineLayout<'_> {
                     return;
                 }
                 let next = match path.spare {
-                    Spare::None => self.lie_on(path, &mut cursor),
+                    Spare::None => self.follow_seabed(path, &mut cursor),
                     spare => self.heap(path, &mut cursor, spare),
                 };
                 match next {
@@ -224,7 +224,7 @@ impl LineLayout<'_> {
     }
 
     /// Lies on a face: up to the end of the piece, to the next face, or to where no tension is left.
-    fn lie_on(&self, path: &mut LaidPath, cursor: &mut Cursor) -> Next {
+    fn follow_seabed(&self, path: &mut LaidPath, cursor: &mut Cursor) -> Next {
         let tilt = self.bottom.tilt(cursor.face);
         let Some(LinePiece::Length { segment, law, .. }) = self.elements.get(cursor.at.element) else {
             return Next::Joint;
@@ -329,7 +329,7 @@ impl LineLayout<'_> {
         let (along, normal) = to_face(tilt, at.h, at.v + lift);
         let presses = if normal.value < 0.0 { -normal } else { Var::constant(0.0) };
         let pulled = along - presses * self.friction;
-        let held = self.held_by_heap(path, pulled, presses);
+        let held = self.heap_resistance(path, pulled, presses);
         path.push(
             presses.value,
             PathPieceKind::Support { joint, at, face, along: along - held, normal: -presses, lift },
@@ -342,7 +342,7 @@ impl LineLayout<'_> {
 
     /// What a heap holds of the force that pulls a joint down its face. A joint at the edge of a heap takes as much of the
     /// spare length as a line of its weight, and is held by the share of that which is there: so no force is jumped over.
-    fn held_by_heap(&self, path: &mut LaidPath, pulled: Var, presses: Var) -> Var {
+    fn heap_resistance(&self, path: &mut LaidPath, pulled: Var, presses: Var) -> Var {
         match path.spare {
             Spare::Length(left) if pulled.value > self.least => {
                 let all = presses * (self.length / self.weight);
@@ -363,12 +363,12 @@ impl LineLayout<'_> {
         let face = vertex.saturating_sub(1);
         let by = self.bottom.tilt(face).angle() - angle.value;
         path.push(tension.value * by, PathPieceKind::Turn { vertex, at, tension, angle });
-        let next = self.turned_by(tension, -angle + self.bottom.tilt(face).angle());
+        let next = self.tension_after_turn(tension, -angle + self.bottom.tilt(face).angle());
         Cursor { at, face, tension: next }
     }
 
     /// The tension after a turn (Euler and Eytelwein).
-    fn turned_by(&self, tension: Var, turn: Var) -> Var {
+    fn tension_after_turn(&self, tension: Var, turn: Var) -> Var {
         let share = (-self.friction * turn.value).exp();
         let left =
             Var::function(tension.value * share, [(tension, share), (turn, -self.friction * tension.value * share)]);
@@ -426,7 +426,7 @@ impl LineLayout<'_> {
             PathPieceKind::Turn { vertex, at, tension, angle } => {
                 let slope = 1.0 / tension.value;
                 let turn = Var::parameter(share * slope, SPAN_UNKNOWN, slope);
-                let left = self.turned_by(tension, turn);
+                let left = self.tension_after_turn(tension, turn);
                 let angle = angle + turn;
                 let (sin, cos) = angle.value.sin_cos();
                 let h = Var::function(left.value * cos, [(left, cos), (angle, -left.value * sin)]);

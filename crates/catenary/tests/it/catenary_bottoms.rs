@@ -19,29 +19,29 @@ fn moorings_over_slopes_match_closed_form() {
     for row in reader.records() {
         let row = row.unwrap();
         let v = |i: usize| row[i].parse::<f64>().unwrap();
-        let told = format!("mooring {} line {}", &row[0], &row[1]);
+        let label = format!("mooring {} line {}", &row[0], &row[1]);
         let segment = Segment { length: v(4), weight: v(5), ea: v(6) };
         let floor = SeabedModel { elevation: -v(3), slope: v(7), friction: v(8) };
         let line = Line::new(vec![segment], vec![], -v(3), 1e4).unwrap().with_seabed(Some(floor)).unwrap();
-        let state = line.at_distance(v(2), 0.0).unwrap_or_else(|e| panic!("{told}: {e}"));
+        let state = line.at_distance(v(2), 0.0).unwrap_or_else(|e| panic!("{label}: {e}"));
         // 1e-8 of the tension at the fairlead, as for the lines over a flat bottom
         let scale = 1e-8 * v(9).hypot(v(10));
-        close(state.force, v(9), scale, &told);
-        close(state.top_vertical, v(10), scale, &told);
-        close(state.anchor_horizontal, v(11), scale, &told);
-        close(state.anchor_vertical, v(12), scale, &told);
-        close(state.grounded, v(13), 1e-7 * segment.length, &told);
+        close(state.force, v(9), scale, &label);
+        close(state.top_vertical, v(10), scale, &label);
+        close(state.anchor_horizontal, v(11), scale, &label);
+        close(state.anchor_vertical, v(12), scale, &label);
+        close(state.grounded, v(13), 1e-7 * segment.length, &label);
         let heap = match &row[14] {
             "heap_anchor" => Some(Heap::Anchor),
             "heap_touchdown" => Some(Heap::Touchdown),
             _ => None,
         };
-        assert_eq!(state.heap.map(|h| h.0), heap, "{told}");
+        assert_eq!(state.heap.map(|h| h.0), heap, "{label}");
         *regimes.entry(row[14].to_string()).or_insert(0) += 1;
         // and back from the force
         if state.force > 1e-3 * scale / 1e-8 {
             let back = line.at_horizontal_force(state.force, 0.0).unwrap();
-            close(back.x, v(2), 1e-8 * segment.length + scale / state.stiffness[0][0], &told);
+            close(back.x, v(2), 1e-8 * segment.length + scale / state.stiffness[0][0], &label);
         }
     }
     assert!(regimes.len() == 5 && regimes.values().all(|n| *n >= 10), "{regimes:?}");
@@ -153,14 +153,14 @@ fn lines_over_ridges_and_hollows_match_hand_solved_contacts() {
         (0.2, BRIDGE, [900.0, 976.0], [336315.556233, 457296.219797, 148784.226590, 29756.845318, 422.246514812]),
     ];
     for (friction, places, [x, length], want) in cases {
-        let told = format!("{friction} {places:?}");
+        let label = format!("{friction} {places:?}");
         let (_, anchor) = places[0];
         let segment = Segment { length, weight: 1200.0, ea: 6e8 };
         let line = Line::new(vec![segment], vec![], anchor, 0.0).unwrap().over_profile(places, friction).unwrap();
-        let state = line.at_distance(x, -10.0).unwrap_or_else(|e| panic!("{told}: {e}"));
+        let state = line.at_distance(x, -10.0).unwrap_or_else(|e| panic!("{label}: {e}"));
         let got = [state.force, state.top_vertical, state.anchor_horizontal, state.anchor_vertical, state.grounded];
         for (got, want) in got.into_iter().zip(want) {
-            close(got, want, 1e-8 * 6e5, &told);
+            close(got, want, 1e-8 * 6e5, &label);
         }
         // the stiffness is the difference of the forces
         let d = 1e-4;
@@ -170,16 +170,16 @@ fn lines_over_ridges_and_hollows_match_hand_solved_contacts() {
             let far = [plus.anchor_horizontal - minus.anchor_horizontal, plus.anchor_vertical - minus.anchor_vertical];
             let scale = 1e-5 * (state.stiffness[0][0] + state.stiffness[1][1]);
             for row in 0..2 {
-                close(state.stiffness[row][column], force[row] / (2.0 * d), scale, &told);
-                close(state.coupling[row][column], far[row] / (2.0 * d), scale, &told);
+                close(state.stiffness[row][column], force[row] / (2.0 * d), scale, &label);
+                close(state.coupling[row][column], far[row] / (2.0 * d), scale, &label);
             }
         }
         // the shape does not pass below the bottom, and runs to the anchor
         let shape = line.shape(&state, 200);
-        assert!(shape.iter().all(|p| p.z >= line.bottom_at(x - p.x).unwrap() - 1e-6), "{told}");
+        assert!(shape.iter().all(|p| p.z >= line.bottom_at(x - p.x).unwrap() - 1e-6), "{label}");
         let last = shape.last().unwrap();
-        close(last.x, x, 1e-6, &told);
-        close(last.z, anchor, 1e-6, &told);
+        close(last.x, x, 1e-6, &label);
+        close(last.z, anchor, 1e-6, &label);
     }
 }
 

@@ -48,9 +48,9 @@ fn two_solvers_agree_on_random_lines_of_every_kind() {
         let line = Line::new(vec![segment], vec![], 0.0, 1e5).unwrap().with_seabed(bottom.then_some(floor)).unwrap();
         let (one, two) =
             (segment.solve_end_forces(x, z, bottom.then_some(FlatBottom { friction })), line.at_distance(x, z));
-        let told = format!("{number}: {segment:?} x {x} z {z} friction {friction} bottom {bottom}");
+        let case = format!("{number}: {segment:?} x {x} z {z} friction {friction} bottom {bottom}");
         let (Ok(one), Ok(two)) = (&one, &two) else {
-            wrong.push(format!("{told}: {one:?} {two:?}"));
+            wrong.push(format!("{case}: {one:?} {two:?}"));
             continue;
         };
         let [fh, fv, ah, av] = [two.force, two.top_vertical, two.anchor_horizontal, two.anchor_vertical];
@@ -59,7 +59,7 @@ fn two_solvers_agree_on_random_lines_of_every_kind() {
         let off = pairs.iter().fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
         worst = worst.max(off / scale.max(f64::MIN_POSITIVE));
         if off > 1e-9 * scale {
-            wrong.push(format!("{told}: {:.2e} {:?} {one:?} {fh} {fv} {ah} {av}", off / scale, one.regime));
+            wrong.push(format!("{case}: {:.2e} {:?} {one:?} {fh} {fv} {ah} {av}", off / scale, one.regime));
         }
     }
     assert!(

@@ -38,7 +38,8 @@ impl DynamicLine {
         (around, ends): (&Surroundings, [RodEnd; 2]),
     ) -> Result<(RodState, RodEndForces), ClassError> {
         let mut from = |aside: bool| {
-            let laid = if aside { None } else { self.laid_down((rod, solver), places, environment, (around, ends)) };
+            let laid =
+                if aside { None } else { self.start_on_plane((rod, solver), places, environment, (around, ends)) };
             let mut state = match laid {
                 Some(laid) => laid,
                 None => {
@@ -85,7 +86,7 @@ impl DynamicLine {
 
     /// Where it rests by friction on a bottom over a grid: laid on a plane, where its catenary is known, which then takes the shape of the
     /// bottom step by step.
-    fn laid_down(
+    fn start_on_plane(
         &self,
         (rod, solver): (&Rod, &mut RodSolver),
         places: [Vector3<f64>; 2],

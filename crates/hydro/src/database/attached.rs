@@ -135,7 +135,7 @@ impl RadiationLoad {
             let text = format!("a memory of {length} s in steps of {step} s is none of 1 to {MAX_LAGS} steps");
             return Err(ClassError::new(text));
         }
-        let kernel = |time: f64| radiation.faded_at(time, length);
+        let kernel = |time: f64| radiation.tapered_retardation(time, length);
         let memory = RetardationMemory::new(&kernel, (radiation.finest(), length), step);
         Ok(RadiationLoad { memory, linear: LinearMotion { slow: LowFrequency::new(dividing) } })
     }

@@ -46,7 +46,7 @@ struct Set<'a> {
 }
 
 impl Set<'_> {
-    fn wrong(&self, why: impl Into<String>) -> DatabaseError {
+    fn error(&self, why: impl Into<String>) -> DatabaseError {
         DatabaseError::File { file: self.source.to_string(), why: why.into() }
     }
 
@@ -56,7 +56,7 @@ impl Set<'_> {
 
     /// A variable of numbers.
     fn numbers(&self, name: &str) -> Result<Variable, DatabaseError> {
-        let to_error = |e: netcdf_reader::Error| self.wrong(format!("{name}: {e}"));
+        let to_error = |e: netcdf_reader::Error| self.error(format!("{name}: {e}"));
         let variable = self.file.variable(name).map_err(to_error)?;
         let names = variable.dimensions().iter().map(|d| d.name.clone()).collect();
         let sizes: Vec<usize> = variable.shape().iter().map(|n| usize::try_from(*n).unwrap_or(usize::MAX)).collect();
@@ -64,7 +64,7 @@ impl Set<'_> {
         let array = self.file.read_variable_as_f64(name).map_err(to_error)?;
         let values: Vec<f64> = array.iter().copied().collect();
         if sizes.iter().product::<usize>() != values.len() {
-            return Err(self.wrong(format!("{name} has {} values on dimensions of other sizes", values.len())));
+            return Err(self.error(format!("{name} has {} values on dimensions of other sizes", values.len())));
         }
         Ok(Variable { names, sizes, values })
     }
@@ -76,14 +76,14 @@ impl Set<'_> {
             [value] => Ok(*value),
             list => {
                 let text = format!("{name} has {} values: select one before it is exported", list.len());
-                Err(self.wrong(text))
+                Err(self.error(text))
             }
         }
     }
 
     /// A variable of words.
     fn words(&self, name: &str) -> Result<Vec<String>, DatabaseError> {
-        let to_error = |e: netcdf_reader::Error| self.wrong(format!("{name}: {e}"));
+        let to_error = |e: netcdf_reader::Error| self.error(format!("{name}: {e}"));
         let variable = self.file.variable(name).map_err(to_error)?;
         let sizes: Vec<usize> = variable.shape().iter().map(|n| usize::try_from(*n).unwrap_or(usize::MAX)).collect();
         self.small(name, &sizes)?;
@@ -94,7 +94,7 @@ impl Set<'_> {
     fn small(&self, name: &str, sizes: &[usize]) -> Result<(), DatabaseError> {
         let cells = sizes.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
         let fits = cells.is_some_and(|n| n <= MAX_DATABASE_NUMBERS);
-        if fits { Ok(()) } else { Err(self.wrong(format!("{name} has more than {MAX_DATABASE_NUMBERS} values"))) }
+        if fits { Ok(()) } else { Err(self.error(format!("{name} has more than {MAX_DATABASE_NUMBERS} values"))) }
     }
 
     /// The directions of the body on a dimension of the data set.
@@ -116,20 +116,20 @@ impl Set<'_> {
             (None, list) => {
                 let names = list.iter().map(|n| n.as_str()).collect::<Vec<_>>().join(", ");
                 let text = format!("it has {} bodies ({names}): -INDEX says which one to take", list.len());
-                return Err(self.wrong(text));
+                return Err(self.error(text));
             }
             (Some(n), list) => match n.checked_sub(1).and_then(|i| list.get(i)) {
                 Some(one) => *one,
-                None => return Err(self.wrong(format!("there is no body {n}: it has {}", list.len()))),
+                None => return Err(self.error(format!("there is no body {n}: it has {}", list.len()))),
             },
         };
         let mut found: BodyDirections = Vec::new();
         for (index, (_, dof)) in named.iter().enumerate().filter(|(_, (b, _))| b == chosen) {
             let Some(mode) = DOFS.iter().position(|d| d == dof) else {
-                return Err(self.wrong(format!("{dof} is none of the six directions of a rigid body")));
+                return Err(self.error(format!("{dof} is none of the six directions of a rigid body")));
             };
             if found.iter().any(|f| f.1 == mode) {
-                return Err(self.wrong(format!("{dof} stands twice on {dimension}")));
+                return Err(self.error(format!("{dof} stands twice on {dimension}")));
             }
             found.push((index, mode));
         }
@@ -168,11 +168,11 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
     })?;
     let set = Set { source, file };
     if !set.has("omega") || !(set.has("added_mass") || set.has("excitation_force")) {
-        return Err(set.wrong("it has no omega, added_mass or excitation_force: it is no data set of Capytaine"));
+        return Err(set.error("it has no omega, added_mass or excitation_force: it is no data set of Capytaine"));
     }
     let omega = set.numbers("omega")?;
     let [along] = omega.names.as_slice() else {
-        return Err(set.wrong("omega stands on several dimensions"));
+        return Err(set.error("omega stands on several dimensions"));
     };
     let depth = set.single("water_depth")?;
     let mut data = Database {
@@ -186,10 +186,10 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
     let mut order: Vec<(usize, f64)> = omega.values.iter().copied().enumerate().collect();
     order.sort_by(|a, b| a.1.total_cmp(&b.1));
     if order.windows(2).any(|w| matches!(w, [a, b] if a.1 == b.1)) {
-        return Err(set.wrong("a frequency stands twice on omega"));
+        return Err(set.error("a frequency stands twice on omega"));
     }
     if order.iter().any(|(_, w)| w.is_nan() || *w < 0.0) {
-        return Err(set.wrong("omega holds what is no frequency"));
+        return Err(set.error("omega holds what is no frequency"));
     }
     let rigid = set.directions("influenced_dof", body)?;
     let mut between: Vec<(usize, f64)> = order.iter().copied().filter(|(_, w)| *w > 0.0 && w.is_finite()).collect();
@@ -224,7 +224,7 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
     if set.has("rotation_center") {
         let centre = set.numbers("rotation_center")?.values;
         let [x, y, z] = centre.as_slice() else {
-            return Err(set.wrong("rotation_center is no single point"));
+            return Err(set.error("rotation_center is no single point"));
         };
         data.reference = Vector3::new(*x, *y, *z);
         refer_phases(&mut data, -*x, -*y);
@@ -240,7 +240,7 @@ fn single_places(set: &Set, name: &str, of: &Variable, used: &[&str]) -> Result<
     let other = of.names.iter().zip(&of.sizes).find(|(n, size)| **size != 1 && !used.contains(&n.as_str()));
     match other {
         None => Ok(()),
-        Some((n, size)) => Err(set.wrong(format!("{name} has {size} places on {n}: select one before it is exported"))),
+        Some((n, size)) => Err(set.error(format!("{name} has {size} places on {n}: select one before it is exported"))),
     }
 }
 
@@ -254,11 +254,11 @@ fn excitation(
     let force = set.numbers("excitation_force")?;
     single_places(set, "excitation_force", &force, &[along, "influenced_dof", "wave_direction", "complex"])?;
     if force.size("complex") != 2 {
-        return Err(set.wrong("excitation_force has no dimension complex of two: export it by export_dataset"));
+        return Err(set.error("excitation_force has no dimension complex of two: export it by export_dataset"));
     }
     let directions = set.numbers("wave_direction")?.values;
     if directions.is_empty() || directions.iter().any(|h| !h.is_finite()) {
-        return Err(set.wrong("wave_direction holds what is no heading"));
+        return Err(set.error("wave_direction holds what is no heading"));
     }
     let mut headings: Vec<(usize, f64)> = directions.iter().map(|h| heading(h.to_degrees())).enumerate().collect();
     headings.sort_by(|a, b| a.1.total_cmp(&b.1));

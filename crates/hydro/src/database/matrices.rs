@@ -21,7 +21,7 @@ pub(super) struct ByFrequency {
 /// No rows; a frequency without a pair that others have, or with two unlike rows of it.
 pub(super) fn by_frequency(file: &SourceFile, rows: &[PairRow]) -> Result<ByFrequency, DatabaseError> {
     if rows.is_empty() {
-        return Err(file.wrong("it has no frequency of this body"));
+        return Err(file.error("it has no frequency of this body"));
     }
     let frequencies = axis(rows.iter().map(|r| r.0), same_frequency);
     let pairs = axis(rows.iter().map(|r| r.1 as f64), |a, b| a == b);
@@ -36,7 +36,7 @@ pub(super) fn by_frequency(file: &SourceFile, rows: &[PairRow]) -> Result<ByFreq
         let w = frequencies.get(w).copied().unwrap_or_default();
         let n = pairs.get(p).copied().unwrap_or_default() as usize;
         let pair = format!("{} {}", n / 6 + 1, n % 6 + 1);
-        file.wrong(format!("{text} for modes {pair} at {w:.5} rad/s (period {:.4} s)", TAU / w))
+        file.error(format!("{text} for modes {pair} at {w:.5} rad/s (period {:.4} s)", TAU / w))
     })?;
     let (mut added_mass, mut damping) = (Vec::new(), Vec::new());
     for chunk in dense.chunks(pairs.len()) {

@@ -34,15 +34,15 @@ pub fn read(source: &str, files: &[SourceFile], body: Option<usize>) -> Result<D
     let chosen = match (body, case.bodies.len()) {
         (None, 1) => 0,
         (None, count) => {
-            return Err(file.wrong(format!("it has {count} bodies: -INDEX says which one to take")));
+            return Err(file.error(format!("it has {count} bodies: -INDEX says which one to take")));
         }
         (Some(n), count) if n == 0 || n > count => {
-            return Err(file.wrong(format!("there is no body {n}: it has {count}")));
+            return Err(file.error(format!("there is no body {n}: it has {count}")));
         }
         (Some(n), _) => n - 1,
     };
     let Some(about) = case.reference_point(chosen) else {
-        return Err(file.wrong("rotations and moments of the body are about several points"));
+        return Err(file.error("rotations and moments of the body are about several points"));
     };
     let mut data = Database {
         source: source.to_string(),
@@ -65,7 +65,7 @@ pub fn read(source: &str, files: &[SourceFile], body: Option<usize>) -> Result<D
         if data.frequencies.is_empty() {
             data.frequencies = table.frequencies;
         } else if let Some(odd) = odd(&data.frequencies, &table.frequencies) {
-            return Err(file.wrong(format!("{odd:.5} rad/s is in one of its radiation and excitation files only")));
+            return Err(file.error(format!("{odd:.5} rad/s is in one of its radiation and excitation files only")));
         }
         (data.headings, data.excitation) = (table.headings, table.values);
         let [x, y] = case.waves_at;
@@ -141,7 +141,7 @@ fn zones(file: &SourceFile) -> Result<(Vec<TecplotZone>, ToFrequency), DatabaseE
             None => return Err(file.wrong_at(index + 1, "a row of finite numbers is expected")),
         }
     }
-    if zones.is_empty() { Err(file.wrong("it has no Zone: it is no file of NEMOH")) } else { Ok((zones, frequency)) }
+    if zones.is_empty() { Err(file.error("it has no Zone: it is no file of NEMOH")) } else { Ok((zones, frequency)) }
 }
 
 /// The frequency of a row and its columns of one force, from 0.
@@ -177,7 +177,7 @@ fn radiation(file: &SourceFile, case: &NemohCase, body: usize) -> Result<Vec<Pai
         let whole: Vec<usize> = zone.title.split_whitespace().filter_map(|w| w.parse().ok()).collect();
         let [of, n] = whole.as_slice() else {
             return Err(
-                file.wrong(format!("the zone `{}` names no motion of a body", shorten_for_message(&zone.title)))
+                file.error(format!("the zone `{}` names no motion of a body", shorten_for_message(&zone.title)))
             );
         };
         if *of != body + 1 {
@@ -185,7 +185,7 @@ fn radiation(file: &SourceFile, case: &NemohCase, body: usize) -> Result<Vec<Pai
         }
         let motion = case.bodies.get(body).and_then(|b| b.0.get(n.wrapping_sub(1)));
         let Some(motion) = motion else {
-            return Err(file.wrong(format!("it has a motion {n} of body {of} that Nemoh.cal does not have")));
+            return Err(file.error(format!("it has a motion {n} of body {of} that Nemoh.cal does not have")));
         };
         for row in &zone.rows {
             for (column, force) in forces(case, body) {
@@ -205,7 +205,7 @@ fn excitation(file: &SourceFile, case: &NemohCase, body: usize) -> Result<(Vec<M
     for zone in &zones {
         let beta = zone.title.split('=').nth(1).and_then(|t| t.split_whitespace().next()).and_then(number);
         let Some(beta) = beta else {
-            return Err(file.wrong(format!("the zone `{}` names no heading", shorten_for_message(&zone.title))));
+            return Err(file.error(format!("the zone `{}` names no heading", shorten_for_message(&zone.title))));
         };
         for row in &zone.rows {
             for (column, force) in forces(case, body) {
@@ -230,7 +230,7 @@ fn excitation(file: &SourceFile, case: &NemohCase, body: usize) -> Result<(Vec<M
 fn stiffness(file: &SourceFile) -> Result<Matrix6<f64>, DatabaseError> {
     let rows = file.rows(6)?;
     if rows.len() != 6 {
-        return Err(file.wrong(format!("it has {} rows, not six", rows.len())));
+        return Err(file.error(format!("it has {} rows, not six", rows.len())));
     }
     let value = |i: usize, j: usize| rows.get(i).map_or(0.0, |r| r.number(j));
     Ok(Matrix6::from_fn(value))

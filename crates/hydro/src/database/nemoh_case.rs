@@ -38,7 +38,7 @@ struct FileLines<'a> {
 
 impl<'a> FileLines<'a> {
     fn next_line(&mut self) -> Result<&'a str, DatabaseError> {
-        let (index, line) = self.rest.next().ok_or_else(|| self.file.wrong("it ends too early"))?;
+        let (index, line) = self.rest.next().ok_or_else(|| self.file.error("it ends too early"))?;
         self.at = index + 1;
         Ok(line)
     }

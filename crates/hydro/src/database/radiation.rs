@@ -98,7 +98,7 @@ impl Radiation {
 
     /// The kernel of a memory that ends (s): over its second half it fades as a squared cosine. Cut off at once, what is left of it would give
     /// slow motions a damping, or take it from them.
-    pub fn faded_at(&self, time: f64, memory: f64) -> Matrix6<f64> {
+    pub fn tapered_retardation(&self, time: f64, memory: f64) -> Matrix6<f64> {
         let faded = (2.0 * time / memory - 1.0).clamp(0.0, 1.0);
         self.kernel_at(time) * (0.5 * PI * faded).cos().powi(2)
     }

@@ -39,7 +39,7 @@ pub fn read(source: &str, file: &SourceFile, convention: &RaoConvention) -> Resu
     let columns = find_columns(file)?;
     let place = |column: usize| columns.iter().position(|c| *c == column);
     let (Some(direction), Some(wave)) = (place(0), place(1).or_else(|| place(RADIANS)).or_else(|| place(HERTZ))) else {
-        return Err(file.wrong("its columns have no direction WD, or no period WP and no frequency WFR or WFH"));
+        return Err(file.error("its columns have no direction WD, or no period WP and no frequency WFR or WFH"));
     };
     let kind = columns.get(wave).copied().unwrap_or_default();
     let mut rows = Vec::new();

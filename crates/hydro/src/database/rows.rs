@@ -47,7 +47,7 @@ impl SourceFile {
     }
 
     /// An error of the file.
-    pub(super) fn wrong(&self, why: impl Into<String>) -> DatabaseError {
+    pub(super) fn error(&self, why: impl Into<String>) -> DatabaseError {
         DatabaseError::File { file: self.name.clone(), why: why.into() }
     }
 
@@ -83,7 +83,7 @@ impl SourceFile {
                 }
             }
         }
-        if rows.is_empty() { Err(self.wrong("it has no rows of numbers")) } else { Ok(rows) }
+        if rows.is_empty() { Err(self.error("it has no rows of numbers")) } else { Ok(rows) }
     }
 }
 
@@ -244,7 +244,7 @@ pub(super) struct ByWave {
 /// A wave without a row of a mode that others have, or with two unlike ones.
 pub(super) fn by_wave(file: &SourceFile, rows: &[ModeRow]) -> Result<ByWave, DatabaseError> {
     if rows.is_empty() {
-        return Err(file.wrong("it has no row of this body"));
+        return Err(file.error("it has no row of this body"));
     }
     let headings = axis(rows.iter().map(|r| r.heading), same_heading);
     let frequencies = axis(rows.iter().map(|r| r.frequency), same_frequency);
@@ -259,8 +259,8 @@ pub(super) fn by_wave(file: &SourceFile, rows: &[ModeRow]) -> Result<ByWave, Dat
         format!("for mode {mode}, heading {heading:.2} degrees, {frequency:.5} rad/s (period {:.4} s)", TAU / frequency)
     };
     let dense = complete(placed.collect(), sizes, |a, b| (a - b).norm() <= 1e-4 * size).map_err(|flaw| match flaw {
-        Flaw::Missing(at) => file.wrong(format!("it has no row {}", describe(at))),
-        Flaw::Twice(at) => file.wrong(format!("it has two unlike rows {}", describe(at))),
+        Flaw::Missing(at) => file.error(format!("it has no row {}", describe(at))),
+        Flaw::Twice(at) => file.error(format!("it has two unlike rows {}", describe(at))),
     })?;
     let six = |chunk: &[Complex<f64>]| {
         let mut six: Amplitudes = Default::default();

@@ -171,9 +171,9 @@ fn same_waves(data: &mut Database, file: &SourceFile, table: ByWave) -> Result<V
         if own.is_empty() {
             *own = other;
         } else if let Some(odd) = own.iter().find(|a| !other.iter().any(|b| same(**a, *b))) {
-            return Err(file.wrong(format!("it lacks the {what} {:.5} of the other files", show(*odd))));
+            return Err(file.error(format!("it lacks the {what} {:.5} of the other files", show(*odd))));
         } else if let Some(odd) = other.iter().find(|a| !own.iter().any(|b| same(**a, *b))) {
-            return Err(file.wrong(format!("the other files lack its {what} {:.5}", show(*odd))));
+            return Err(file.error(format!("the other files lack its {what} {:.5}", show(*odd))));
         }
         Ok(())
     };
@@ -226,7 +226,7 @@ pub(super) fn check_table_size(file: &SourceFile, sizes: &[usize]) -> Result<usi
     let cells = sizes.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
     cells
         .filter(|n| *n <= MAX_DATABASE_NUMBERS)
-        .ok_or_else(|| file.wrong(format!("its table has more than {MAX_DATABASE_NUMBERS} places")))
+        .ok_or_else(|| file.error(format!("its table has more than {MAX_DATABASE_NUMBERS} places")))
 }
 
 /// An empty QTF on its axes.

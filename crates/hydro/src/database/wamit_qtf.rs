@@ -40,7 +40,7 @@ pub(super) fn read(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitSc
         remarks.push(format!("{}: {crossing} rows of crossing waves are not used", file.name));
     }
     if pairs.is_empty() {
-        return Err(file.wrong("it has no row of this body with both waves of one heading"));
+        return Err(file.error("it has no row of this body with both waves of one heading"));
     }
     let headings = axis(pairs.iter().map(|p| p.heading), same_heading);
     let frequencies = axis(pairs.iter().flat_map(|p| [p.first, p.second]), same_frequency);
@@ -67,7 +67,7 @@ pub(super) fn read(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitSc
         if let Some(i) = (0..count).find(|i| marks.get(i * count + i) != Some(&true)) {
             let at = |list: &[f64], i: usize| list.get(i).copied().unwrap_or_default();
             let (turn, w) = (at(&qtf.headings, h).to_degrees(), at(&qtf.frequencies, i));
-            return Err(file.wrong(format!("it has no row of {w:.5} rad/s with itself at heading {turn:.2} degrees")));
+            return Err(file.error(format!("it has no row of {w:.5} rad/s with itself at heading {turn:.2} degrees")));
         }
     }
     if lacking > 0 {

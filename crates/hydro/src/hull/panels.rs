@@ -90,7 +90,7 @@ fn triangulate(corners: &[u32], vertices: &[Vector3<f64>], faces: &mut Vec<[u32;
     let size: f64 = flat.iter().map(|p| p.norm_squared()).fold(0.0, f64::max);
     // a corner that turns by less than rounding is straight
     let least = 1e-12 * size;
-    if corners.len() > 4 && once_around(&flat) && turns.clone().all(|t| t > least) {
+    if corners.len() > 4 && winds_around_once(&flat) && turns.clone().all(|t| t > least) {
         let [first, rest @ ..] = corners else { return Ok(()) };
         faces.extend(rest.windows(2).filter_map(|w| if let [b, c] = *w { Some([*first, b, c]) } else { None }));
         return Ok(());
@@ -147,7 +147,7 @@ fn turn(a: Vector2<f64>, b: Vector2<f64>, c: Vector2<f64>) -> f64 {
 }
 
 /// Whether the edges turn by one full turn in all.
-fn once_around(flat: &[Vector2<f64>]) -> bool {
+fn winds_around_once(flat: &[Vector2<f64>]) -> bool {
     let all: f64 = cycle(flat).map(|[a, b, c]| (b - a).perp(&(c - b)).atan2((b - a).dot(&(c - b)))).sum();
     (all - std::f64::consts::TAU).abs() < 1e-6
 }

@@ -132,7 +132,8 @@ fn rods(
     reach: f64,
     growth: Option<(&Growth, &Pose)>,
 ) -> Vec<MemberLength> {
-    let (Some(own), Shape::Tube { ends, diameter: bare }) = (piece.member, piece.shape.moved_by(&part.place)) else {
+    let (Some(own), Shape::Tube { ends, diameter: bare }) = (piece.member, piece.shape.with_displacement(&part.place))
+    else {
         return Vec::new();
     };
     let ends = ends.map(Vector3::from);

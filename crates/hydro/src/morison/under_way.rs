@@ -115,7 +115,7 @@ impl UnderWay {
 
     /// Finds the water at the stations, and the force of the waves.
     pub(super) fn begin(&self, rods: &[MemberLength], steady: &Steady, ahead: &Underway, state: &mut [f64]) {
-        let sea = self.sea.as_ref().map(|sea| sea.at(ahead.time));
+        let sea = self.sea.as_ref().map(|sea| sea.at_time(ahead.time));
         let streams = steady.streams_at_time(ahead.time);
         let water = WaterAtTime { sea, steady, streams, origin: ahead.pose.origin, level: self.level };
         let (head, rest) = state.split_at_mut(HEADER_STATES);

@@ -3,8 +3,8 @@
 //! Of a component [FALTINSEN-1990 table 2.1], with q = k (toward . (x, y)) - w t + phase:
 //! u = a w C cos q, w = a w S sin q, p = rho g a cosh(k(z+d))/cosh(kd) cos q; C and S are cosh and sinh of k(z+d) over sinh(kd).
 
+use super::deep_places::{FarDown, Places};
 use super::eight::{Eight, FAR, exp, sin_cos};
-use super::far_down::{FarDown, Places};
 use super::{Component, Kinematics, Sea};
 use multiversion::multiversion;
 use nalgebra::Vector3;
@@ -239,16 +239,16 @@ impl<'a> SeaAt<'a> {
             let group = &mut groups[usize::from(lies)];
             group.push(index, at, height.max(bottom), sea.lanes.toward);
             if group.count == 8 {
-                self.far_down(group, lies, &mut take);
+                self.visit_deep_places(group, lies, &mut take);
             }
         }
         let [above, lying] = &mut groups;
-        self.far_down(above, false, &mut take);
-        self.far_down(lying, true, &mut take);
+        self.visit_deep_places(above, false, &mut take);
+        self.visit_deep_places(lying, true, &mut take);
     }
 
     /// The water at places far down, which are then taken off their list.
-    fn far_down(&self, group: &mut DeepPlaces, lies: bool, take: &mut impl FnMut(usize, Kinematics)) {
+    fn visit_deep_places(&self, group: &mut DeepPlaces, lies: bool, take: &mut impl FnMut(usize, Kinematics)) {
         let count = std::mem::take(&mut group.count);
         if count == 0 {
             return;
@@ -355,7 +355,7 @@ impl<'a> SeaAt<'a> {
         let sea = self.sea;
         let height = sea.depth.map_or(height, |d| height.max(-d));
         let [elevation, pressure, u, v, w, u_rate, v_rate, w_rate] =
-            added_up(&sea.lanes.blocks, &self.phasors, [at.x, at.y], [height, rise]);
+            sum_components(&sea.lanes.blocks, &self.phasors, [at.x, at.y], [height, rise]);
         let velocity = Vector3::new(u, v, w);
         let acceleration = Vector3::new(u_rate, v_rate, w_rate) + velocity * self.growth;
         Kinematics { velocity, acceleration, pressure: pressure * sea.density * sea.gravity, elevation }
@@ -376,7 +376,12 @@ fn sum_elevation(blocks: &[ComponentBlock], phasors: &[[Eight; 2]], [x, y]: [f64
 /// Elevation, pressure over rho g, velocity and acceleration, each added up over the waves, at a place, a height over the mean
 /// level and a rise above it (m).
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn added_up(blocks: &[ComponentBlock], phasors: &[[Eight; 2]], [x, y]: [f64; 2], [height, rise]: [f64; 2]) -> [f64; 8] {
+fn sum_components(
+    blocks: &[ComponentBlock],
+    phasors: &[[Eight; 2]],
+    [x, y]: [f64; 2],
+    [height, rise]: [f64; 2],
+) -> [f64; 8] {
     let mut sums = [[0.0; 8]; 8];
     for (block, [c, s]) in blocks.iter().zip(phasors) {
         let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));

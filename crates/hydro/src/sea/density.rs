@@ -129,7 +129,7 @@ impl Spectrum {
         if open && let Some(last) = made.panels.last().copied() {
             let (low, high) = (last.high, limits.map_or(f64::INFINITY, |l| l[1]));
             let before = [0, 1].map(|i| last.before[i] + last.within[i]);
-            let (near, far) = (made.beyond(low), made.beyond(high));
+            let (near, far) = (made.tail_moments(low), made.tail_moments(high));
             made.panels.push(FrequencyPanel { low, high, before, within: [near[0] - far[0], near[1] - far[1]] });
         }
         made
@@ -187,7 +187,7 @@ impl Spectrum {
     }
 
     /// Energy and first moment of the tail of the humps beyond a frequency, where they are powers of it.
-    fn beyond(&self, frequency: f64) -> [f64; 2] {
+    fn tail_moments(&self, frequency: f64) -> [f64; 2] {
         if frequency.is_infinite() {
             return [0.0, 0.0];
         }
@@ -276,7 +276,7 @@ impl Spectrum {
             return panel.before;
         }
         let part = if self.is_tail(panel) {
-            let (near, far) = (self.beyond(panel.low), self.beyond(frequency));
+            let (near, far) = (self.tail_moments(panel.low), self.tail_moments(frequency));
             [near[0] - far[0], near[1] - far[1]]
         } else {
             self.integrals(panel.low, frequency)

@@ -134,10 +134,10 @@ struct FilledLayer<'a> {
 }
 
 /// Levels of a station that places need: from one, to before another.
-type Window = (usize, usize);
+type LevelRange = (usize, usize);
 
 /// None of them.
-const CLOSED: Window = (usize::MAX, 0);
+const CLOSED: LevelRange = (usize::MAX, 0);
 
 impl PressureGrid {
     /// That of a sea for a number of places no farther from each other than a distance (m), and over a height (m); `None` where the direct
@@ -181,7 +181,7 @@ impl PressureGrid {
             for layer in train.layers.iter().take_while(|layer| layer.top <= lowest) {
                 layers.push(FilledLayer::new(layer, ends, lowest));
             }
-            let mut windows: Vec<Vec<Window>> = layers.iter().map(|layer| vec![CLOSED; layer.stations()]).collect();
+            let mut windows: Vec<Vec<LevelRange>> = layers.iter().map(|layer| vec![CLOSED; layer.stations()]).collect();
             let mut filled = FilledTrain { toward: train.toward, layers, surface: Vec::new(), bounds: Vec::new() };
             if self.unstretched {
                 for arm in arms.iter().filter(|arm| arm.z < sunk) {
@@ -207,7 +207,7 @@ impl PressureGrid {
                 })
             });
             map_parts(parts, |(layer, levels, (windows, surface), from, heads)| {
-                let phasors = train.blocks.iter().map(|b| b.at(time, from, factor)).collect();
+                let phasors = train.blocks.iter().map(|b| b.phasors(time, from, factor)).collect();
                 sum_waves(phasors, (&layer.turns, &layer.decay), levels, (&windows, surface), heads);
             });
             if let Some(top) = filled.layers.first() {
@@ -222,7 +222,7 @@ impl PressureGrid {
 
 impl Block {
     /// Amplitudes times cosine and sine of `k begin - w t + phase`.
-    fn at(&self, time: f64, begin: f64, factor: f64) -> [Eight; 2] {
+    fn phasors(&self, time: f64, begin: f64, factor: f64) -> [Eight; 2] {
         // whole turns are taken off each term first, so that neither a long run nor a far origin costs digits
         let angle = |i: usize| (self.k[i] * begin) % TAU - (self.w[i] * time) % TAU + self.phase[i];
         let (sin, cos) = sin_cos(&std::array::from_fn(angle));
@@ -322,8 +322,8 @@ fn head(k: f64, height: f64, depth: Option<f64>) -> f64 {
 }
 
 /// The levels that each station is needed at, from those of the places whose first station it is.
-fn spread(first: &[Window]) -> Vec<Window> {
-    let join = |(low, high): Window, (a, b): &Window| (low.min(*a), high.max(*b));
+fn spread(first: &[LevelRange]) -> Vec<LevelRange> {
+    let join = |(low, high): LevelRange, (a, b): &LevelRange| (low.min(*a), high.max(*b));
     (0..first.len())
         .map(|n| first.get(n.saturating_sub(POINTS - 1)..=n).unwrap_or_default().iter().fold(CLOSED, join))
         .collect()
@@ -336,7 +336,7 @@ fn sum_waves(
     Phasors { mut cos, mut sin }: Phasors,
     (turns, decay): (&Phasors, &[f64]),
     levels: usize,
-    (windows, surface): (&[Window], bool),
+    (windows, surface): (&[LevelRange], bool),
     values: &mut [f64],
 ) {
     let stride = decay.len() / turns.cos.len().max(1);
@@ -553,7 +553,7 @@ mod tests {
     }
 
     /// sum a cosh(k(z+d))/cosh(kd) cos(k x - w t + phase), written out.
-    fn written_out(sea: &Sea, time: f64, [x, y]: [f64; 2], depth: f64) -> f64 {
+    fn sum_directly(sea: &Sea, time: f64, [x, y]: [f64; 2], depth: f64) -> f64 {
         let wave = |c: &Component| {
             let vary = match sea.depth {
                 Some(d) => (c.number * (d - depth)).cosh() / (c.number * d).cosh(),
@@ -586,9 +586,9 @@ mod tests {
                 let depth = sea.level - (origin.z + arm.z);
                 let place = [origin.x + arm.x, origin.y + arm.y];
                 let found = filled.head(arm, sea.level - origin.z - arm.z).unwrap();
-                square += (found - written_out(&sea, time, place, depth)).powi(2);
+                square += (found - sum_directly(&sea, time, place, depth)).powi(2);
                 let [low, high] = filled.bounds(arm).unwrap();
-                let surface = written_out(&sea, time, place, 0.0);
+                let surface = sum_directly(&sea, time, place, 0.0);
                 // to the error of the interpolation
                 assert!(low - 1e-4 * deviation < surface && surface < high + 1e-4 * deviation);
             }

@@ -5,10 +5,10 @@
 
 mod airy;
 pub mod components;
+mod deep_places;
 pub mod density;
 pub mod dispersion;
 pub mod eight;
-mod far_down;
 mod grid;
 pub mod phases;
 pub mod spectra;
@@ -135,23 +135,23 @@ impl Sea {
     }
 
     /// The sea at one time (s), prepared for many places.
-    pub fn at(&self, time: f64) -> SeaAt<'_> {
+    pub fn at_time(&self, time: f64) -> SeaAt<'_> {
         SeaAt::new(self, time)
     }
 
     /// The same, in what was prepared of this sea for some time: nothing is found again where that is this one.
-    pub fn at_again(&self, time: f64, prepared: Prepared) -> SeaAt<'_> {
+    pub fn reuse_at_time(&self, time: f64, prepared: Prepared) -> SeaAt<'_> {
         SeaAt::from_prepared(self, time, prepared)
     }
 
     /// Height of the surface above the mean level (m).
     pub fn elevation(&self, x: f64, y: f64, time: f64) -> f64 {
-        self.at(time).elevation(x, y)
+        self.at_time(time).elevation(x, y)
     }
 
     /// The water at a global place (m) and a time (s): nothing above the surface.
     pub fn kinematics(&self, at: Vector3<f64>, time: f64) -> Kinematics {
-        self.at(time).kinematics(at)
+        self.at_time(time).kinematics(at)
     }
 }
 

@@ -212,7 +212,7 @@ fn deep_line_kinematics_keep_their_error_bounds() {
         let water = Water { depth: Some(depth), level: 1.5, gravity: GRAVITY, density: 1025.0 };
         let sea = Sea::airy(components.clone(), water, 0.0, Stretching::Linear);
         let time = 777.3;
-        let at = sea.at(time);
+        let at = sea.at_time(time);
         let heights: Vec<f64> = (0..66).map(|i| -30.0 - 4.5 * f64::from(i)).collect();
         let places: Vec<Vector3<f64>> = (0..66)
             .zip(&heights)

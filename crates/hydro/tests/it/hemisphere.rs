@@ -162,7 +162,7 @@ fn time_domain_heave_matches_frequency_domain() {
     let radiation = Radiation::new(&data).unwrap().unwrap();
     let (dt, mass) = (0.05, data.mass.unwrap());
     let stiffness = data.hydrostatics.unwrap()[(2, 2)];
-    let memory = RetardationMemory::new(&|t| radiation.faded_at(t, 100.0), (radiation.finest(), 100.0), dt);
+    let memory = RetardationMemory::new(&|t| radiation.tapered_retardation(t, 100.0), (radiation.finest(), 100.0), dt);
     for w in [0.6, 0.9, 1.2, 1.8] {
         let sea = sea(vec![wave(w, 1.0, 0.0, 0.0)]);
         let excitation = Excitation::new(&data, &sea).unwrap();
@@ -363,7 +363,8 @@ fn mean_slow_drift_matches_mean_at_rest() {
 #[test]
 fn retardation_of_symmetric_body_has_few_pairs() {
     let radiation = Radiation::new(&hemisphere()).unwrap().unwrap();
-    let pairs = RetardationMemory::new(&|t| radiation.faded_at(t, 60.0), (radiation.finest(), 60.0), 0.1).pairs();
+    let pairs =
+        RetardationMemory::new(&|t| radiation.tapered_retardation(t, 60.0), (radiation.finest(), 60.0), 0.1).pairs();
     assert!(pairs < 30, "{pairs}");
 }
 
@@ -379,7 +380,8 @@ fn slow_and_wave_motion_damping_matches_source_at_any_step() {
         let critical = 2.0 * inertia * w;
         let want = data.damping_at(w).unwrap()[(0, 0)];
         for step in steps {
-            let memory = RetardationMemory::new(&|t| radiation.faded_at(t, 100.0), (radiation.finest(), 100.0), step);
+            let memory =
+                RetardationMemory::new(&|t| radiation.tapered_retardation(t, 100.0), (radiation.finest(), 100.0), step);
             let mut state = vec![0.0; memory.states()];
             let dt = period / (period / step).round();
             let (count, surge) = ((period / dt).round() as usize, |v: f64| Six::new(v, 0.0, 0.0, 0.0, 0.0, 0.0));

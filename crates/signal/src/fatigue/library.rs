@@ -49,7 +49,7 @@ pub struct Shipped {
     #[serde(default)]
     pub aliases: Vec<String>,
     /// `STRESS` or `TENSION`.
-    kind: Word,
+    kind: CurveKeyword,
     /// What it is for, in a line.
     pub what: String,
     /// Branches from the largest ranges down.
@@ -76,7 +76,7 @@ fn unit_factor() -> f64 {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
-enum Word {
+enum CurveKeyword {
     Stress,
     Tension,
 }
@@ -103,8 +103,8 @@ impl Shipped {
         SnCurve {
             name: self.name.clone(),
             kind: match self.kind {
-                Word::Stress => FatigueKind::Stress,
-                Word::Tension => FatigueKind::Tension,
+                CurveKeyword::Stress => FatigueKind::Stress,
+                CurveKeyword::Tension => FatigueKind::Tension,
             },
             branches: branches.collect(),
             limit: self.limit,

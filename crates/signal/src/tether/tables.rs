@@ -146,10 +146,10 @@ const THREE_DIGITS: Digits = Digits::Scientific(3);
 /// Fatigue life and expected peak stress of every end, and the worst along the tether below (figure 7.10).
 pub fn fatigue(title: &str, ends: &[AtEnd]) -> Table {
     let degrees = Digits::Decimals(0);
-    type Field = (&'static str, &'static str, Dim, Digits, fn(&EndFatigue) -> f64, fn(f64, f64) -> f64);
+    type FatigueField = (&'static str, &'static str, Dim, Digits, fn(&EndFatigue) -> f64, fn(f64, f64) -> f64);
     let smaller: fn(f64, f64) -> f64 = f64::min;
     let larger: fn(f64, f64) -> f64 = f64::max;
-    let fields: [Field; 14] = [
+    let fields: [FatigueField; 14] = [
         ("Significant Moment", "Y", MOMENT, THREE_DIGITS, |f| f.significant_moments[0], larger),
         ("Significant Moment", "Z", MOMENT, THREE_DIGITS, |f| f.significant_moments[1], larger),
         ("Significant Moment", "Max Dam", MOMENT, THREE_DIGITS, |f| f.significant_moments[2], larger),

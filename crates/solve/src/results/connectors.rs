@@ -98,8 +98,8 @@ pub fn connector_forces(
     let mut table = table.build();
     if !remembering.is_empty() {
         table.note(format!(
-            "{}: its force does not follow from where its ends are; Mag./Break, bottom and anchor are left out (of a line that moves by \
-             itself ROD tells what is along it)",
+            "{}: its force does not follow from where its ends are; Mag./Break, bottom and anchor are left out (of a dynamic \
+             line ROD reports what is along it)",
             remembering.join(", ")
         ));
     }

@@ -37,7 +37,7 @@ pub(super) struct Moving {
 
 /// A point of a body, `own` in its system (m), whose values begin at `from` of a row:
 /// `v = v0 + w x r` and `a = a0 + dw/dt x r + w x (w x r)`.
-pub(super) fn moving(row: &[f64], from: usize, own: Vector3<f64>) -> Moving {
+pub(super) fn find_motion(row: &[f64], from: usize, own: Vector3<f64>) -> Moving {
     let mut values = [f64::NAN; OF_BODY];
     for (value, stored) in values.iter_mut().zip(row.get(from..).unwrap_or_default()) {
         *value = *stored;
@@ -80,12 +80,12 @@ pub fn trajectory(
         let mass = model.bodies.get(key).map(|b| Mass::from_parts(model.parts_of(b), model.defaults.gravity));
         let own = mass.filter(|_| options.centre).map_or(Vector3::zeros(), |m| m.centre);
         let from = layout.body(*body);
-        chosen.push((name, from, own, moving(first, from, own)));
+        chosen.push((name, from, own, find_motion(first, from, own)));
     }
     let mut table = EventTable::new("Trajectory", (&run.history, events), |row| {
         Ok(chosen
             .iter()
-            .map(|(_, from, own, start)| Displaced::new(moving(row, *from, *own), start, options.local))
+            .map(|(_, from, own, start)| Displaced::new(find_motion(row, *from, *own), start, options.local))
             .collect())
     })?;
     let none = Displaced::default();

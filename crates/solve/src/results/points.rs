@@ -2,7 +2,7 @@
 
 use super::super::system::SolveError;
 use super::super::time::Run;
-use super::motions::moving;
+use super::motions::find_motion;
 use super::{EventTable, Magnitude, RunEvent, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Position;
@@ -39,10 +39,10 @@ pub fn points(
     let several = chosen.len() > 1;
     let mut table = EventTable::new("Points of Interest", (&run.history, events), |row| {
         let time = row.first().copied().unwrap_or(0.0);
-        let waves = run.sea_at(time).map(|sea| (sea.level, sea.at(time)));
+        let waves = run.sea_at(time).map(|sea| (sea.level, sea.at_time(time)));
         let of_point = |point: &TrackedPoint| {
             let own = Vector3::from(point.at);
-            let now = point.body.map(|body| moving(row, layout.body(body), own));
+            let now = point.body.map(|body| find_motion(row, layout.body(body), own));
             let along = |v: Vector3<f64>| match &now {
                 Some(now) if local => now.pose.axes.transpose() * v,
                 _ => v,

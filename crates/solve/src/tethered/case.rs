@@ -304,7 +304,8 @@ fn tubes_alone(model: &Model, body: &Body, centre: Vector3<f64>) -> Option<Vec<T
             return None;
         }
         for piece in &part.pieces {
-            let (Some(member), Shape::Tube { ends, diameter }) = (piece.member, piece.shape.moved_by(&part.place))
+            let (Some(member), Shape::Tube { ends, diameter }) =
+                (piece.member, piece.shape.with_displacement(&part.place))
             else {
                 return None;
             };

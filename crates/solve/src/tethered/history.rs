@@ -212,14 +212,14 @@ pub struct Happening {
 pub fn run_towed(
     (name, case): &(String, Towed),
     kept: &mut Tethered,
-    goes_on: &mut dyn FnMut(f64) -> bool,
+    should_continue: &mut dyn FnMut(f64) -> bool,
 ) -> Result<(), ClassError> {
     let settings = kept.settings;
     let per = case.line.nodes() * TOWED_NODE.len() + 2 * case.line.elements().len() * TOWED_END.len();
     settings.room(per)?;
     let steps = TowedSteps { step: settings.step, number: settings.states(), ..TowedSteps::default() };
     let mut history = TowedHistory { every: settings.store.max(1), ..TowedHistory::default() };
-    let mut keeper = Keeper { history: &mut history, goes_on, interrupted: false };
+    let mut keeper = Keeper { history: &mut history, should_continue, interrupted: false };
     case.run(&steps, &mut keeper)?;
     kept.interrupted = keeper.interrupted;
     kept.times = std::mem::take(&mut history.times);
@@ -230,13 +230,13 @@ pub fn run_towed(
 
 struct Keeper<'a> {
     history: &'a mut TowedHistory,
-    goes_on: &'a mut dyn FnMut(f64) -> bool,
+    should_continue: &'a mut dyn FnMut(f64) -> bool,
     interrupted: bool,
 }
 
 impl towed::TowedObserver for Keeper<'_> {
     fn record(&mut self, record: &towed::TowedRecord<'_>) -> ControlFlow<()> {
-        if !(self.goes_on)(record.time) {
+        if !(self.should_continue)(record.time) {
             self.interrupted = true;
             return ControlFlow::Break(());
         }
@@ -251,7 +251,7 @@ impl towed::TowedObserver for Keeper<'_> {
 pub fn run_installed(
     case: Installed,
     kept: &mut Tethered,
-    goes_on: &mut dyn FnMut(f64) -> bool,
+    should_continue: &mut dyn FnMut(f64) -> bool,
 ) -> Result<(), ClassError> {
     let Installed { body, mut structure, tethers, flow, compatibility, course, points, .. } = case;
     let of = |t: &windlass_tether::installed::InstalledTether| {
@@ -271,7 +271,7 @@ pub fn run_installed(
     let mut near = Place::default();
     let start = course.pose.place(&near);
     near = start;
-    let mut taker = Taker { kept, goes_on, places, near, stopped: false };
+    let mut taker = Taker { kept, should_continue, places, near, stopped: false };
     let mut installation = Installation::new(structure.as_mut(), tethers, &flow, compatibility)?;
     let ended = installation.run(&course, &mut taker);
     if taker.stopped {
@@ -283,7 +283,7 @@ pub fn run_installed(
 
 struct Taker<'a> {
     kept: &'a mut Tethered,
-    goes_on: &'a mut dyn FnMut(f64) -> bool,
+    should_continue: &'a mut dyn FnMut(f64) -> bool,
     places: Vec<nalgebra::Vector3<f64>>,
     near: Place,
     stopped: bool,
@@ -291,7 +291,7 @@ struct Taker<'a> {
 
 impl InstalledObserver for Taker<'_> {
     fn observe(&mut self, moment: &Moment) -> Result<(), ClassError> {
-        if !(self.goes_on)(moment.time) {
+        if !(self.should_continue)(moment.time) {
             self.stopped = true;
             return Err(ClassError::new("the run was interrupted"));
         }

@@ -98,14 +98,14 @@ pub fn has_tethers(model: &Model) -> bool {
     model.connectors.values().any(|c| c.active && !case::sections(model, c).is_empty())
 }
 
-/// Runs the tethers of a model; `goes_on` is asked at every state.
+/// Runs the tethers of a model; `should_continue` is asked at every state.
 ///
 /// # Errors
 /// A model without tethers, or with what does not run with them; what the engine refuses.
 pub fn run(
     model: &Model,
     settings: TetherRunSettings,
-    goes_on: &mut dyn FnMut(f64) -> bool,
+    should_continue: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Tethered, SolveError> {
     settings.check().map_err(SolveError::new)?;
     let made = case(model, &settings)?;
@@ -121,10 +121,10 @@ pub fn run(
     };
     match made.kind {
         case::TetherCaseKind::Towed(towed) => {
-            history::run_towed(&towed, &mut kept, goes_on).map_err(SolveError::new)?
+            history::run_towed(&towed, &mut kept, should_continue).map_err(SolveError::new)?
         }
         case::TetherCaseKind::Installed(installed) => {
-            history::run_installed(*installed, &mut kept, goes_on).map_err(SolveError::new)?;
+            history::run_installed(*installed, &mut kept, should_continue).map_err(SolveError::new)?;
         }
     }
     Ok(kept)

@@ -134,7 +134,7 @@ pub trait Watcher {
     }
 
     /// Asked before every step; false ends the run, which keeps what it has.
-    fn goes_on(&mut self, _time: f64) -> bool {
+    fn should_continue(&mut self, _time: f64) -> bool {
         true
     }
 }

@@ -111,19 +111,19 @@ impl Run {
             }
             if length <= 0.0 {
                 let (name, left) = (name.clone(), old / rate.abs());
-                return Err(self.taken_in(&name, left));
+                return Err(self.reeled_in_error(&name, left));
             }
             if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
                 connector.first_length = Some(length);
             }
-            self.system.make_anew(&self.model, name)?;
+            self.system.rebuild_connector(&self.model, name)?;
         }
         self.winches.retain(|(_, rate, _)| *rate != 0.0);
         Ok(before)
     }
 
     /// The error of a winch that has nothing left to haul in so much later than now (s).
-    fn taken_in(&self, name: &str, left: f64) -> SolveError {
+    fn reeled_in_error(&self, name: &str, left: f64) -> SolveError {
         let winds = |what: &ActionKind| match what {
             ActionKind::Winch(names, ..) => names.iter().any(|n| n.eq_ignore_ascii_case(name)),
             _ => false,
@@ -139,11 +139,11 @@ impl Run {
 
     /// The error of a winch that has less left than it hauls in within a step of the run: the shorter a line, the stiffer, and what
     /// a last step finds no balance for is its end.
-    pub(super) fn nearly_taken_in(&self) -> Option<SolveError> {
+    pub(super) fn find_line_nearly_reeled_in(&self) -> Option<SolveError> {
         self.winches.iter().filter(|(_, rate, _)| *rate < 0.0).find_map(|(name, rate, _)| {
             let length = self.model.first_length(self.model.connectors.get(&Model::key(name))?)?;
             let left = length / rate.abs();
-            (left <= self.settings.dt * (1.0 + 1e-9)).then(|| self.taken_in(name, left))
+            (left <= self.settings.dt * (1.0 + 1e-9)).then(|| self.reeled_in_error(name, left))
         })
     }
 
@@ -287,7 +287,7 @@ impl Run {
                     }
                     if falls {
                         self.system.duties.let_go(name, true);
-                        self.system.make_anew(&self.model, name)?;
+                        self.system.rebuild_connector(&self.model, name)?;
                     } else {
                         self.system.leave_out(name);
                     }
@@ -302,7 +302,7 @@ impl Run {
                         // what has fallen is brought back as it first hung
                         self.system.leave_out(name);
                     }
-                    self.system.take_in(&self.model, name)?;
+                    self.system.activate_connector(&self.model, name)?;
                 }
             }
             ActionKind::Environment(name) => {
@@ -311,7 +311,7 @@ impl Run {
                 self.model.environment = found.ok_or_else(missing)?;
                 self.sea = Sea::new(&self.model, &self.model.environment).map_err(SolveError::new)?.map(Arc::new);
                 self.seas.push((self.now.time, self.sea.clone()));
-                let memory = self.system.load_anew(&self.model, self.sea.as_ref(), &self.now.memory)?;
+                let memory = self.system.rebuild_loads(&self.model, self.sea.as_ref(), &self.now.memory)?;
                 self.now.memory = memory;
                 // a body that rides on the waves is where the new ones have it, as they are there at once
                 self.prescribe()?;

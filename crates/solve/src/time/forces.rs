@@ -112,7 +112,7 @@ impl LoadMemory {
         Ok(())
     }
 
-    /// Tells every load that a step is accepted.
+    /// Commits every load to an accepted step.
     pub(super) fn commit(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) {
         for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(motions) {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };

@@ -73,7 +73,7 @@ impl Run {
         (snapshot, rows): (&Snapshot, Vec<f64>),
     ) -> Result<Run, SolveError> {
         let mut run = Run::new(model, settings, actions)?;
-        run.take_up(snapshot, rows)?;
+        run.resume_from(snapshot, rows)?;
         Ok(run)
     }
 
@@ -81,7 +81,7 @@ impl Run {
     ///
     /// # Errors
     /// A snapshot of another system.
-    pub fn take_up(&mut self, snapshot: &Snapshot, rows: Vec<f64>) -> Result<(), SolveError> {
+    pub fn resume_from(&mut self, snapshot: &Snapshot, rows: Vec<f64>) -> Result<(), SolveError> {
         let other = || SolveError::new(ClassError::new("what was kept is of another system"));
         let mut happened: Vec<(f64, usize)> =
             snapshot.fired.iter().enumerate().filter_map(|(i, f)| f.map(|t| (t, i))).collect();
@@ -96,7 +96,7 @@ impl Run {
             let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) else { continue };
             if connector.first_length != *length {
                 connector.first_length = *length;
-                self.system.make_anew(&self.model, name)?;
+                self.system.rebuild_connector(&self.model, name)?;
             }
         }
         // winches are not compared: one that has reached its length is no longer among them

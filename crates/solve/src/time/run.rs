@@ -214,14 +214,14 @@ impl Run {
             self.write_snapshot(watcher)?;
         }
         while self.taken < steps {
-            if !watcher.goes_on(self.now.time) {
+            if !watcher.should_continue(self.now.time) {
                 return Ok(Ending::Interrupted);
             }
             let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
             let mut stop = match self.advance_to(end) {
                 Ok(stop) => stop,
                 // a factorisation that listened ends its step with an error
-                Err(_) if !watcher.goes_on(self.now.time) => return Ok(Ending::Interrupted),
+                Err(_) if !watcher.should_continue(self.now.time) => return Ok(Ending::Interrupted),
                 Err(error) => {
                     // from here -RESTART goes on, with what made it fail put right
                     self.write_snapshot(watcher)?;
@@ -317,7 +317,7 @@ impl Run {
                         return Err(error);
                     }
                     if level >= MAX_STEP_HALVINGS {
-                        return Err(self.nearly_taken_in().unwrap_or_else(|| self.reason(error)));
+                        return Err(self.find_line_nearly_reeled_in().unwrap_or_else(|| self.reason(error)));
                     }
                     self.counts.cut += 1;
                     level += 1;

@@ -206,10 +206,10 @@ impl<'a> Installation<'a> {
         water: &FlowAt,
         (dt, time): (f64, f64),
     ) -> Result<(), ClassError> {
-        let told = if self.compatibility.second_stage_tables { Which::Second } else { Which::First };
+        let stage_in_tables = if self.compatibility.second_stage_tables { Which::Second } else { Which::First };
         for rig in &mut self.rigs {
             rig.solve(which, structure, water, dt).map_err(|e| with_tether_and_time(e, rig.tether(), time))?;
-            if which == told {
+            if which == stage_in_tables {
                 rig.bear(which, water, dt, time);
             }
         }

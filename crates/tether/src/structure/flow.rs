@@ -54,7 +54,7 @@ impl WaterFlow {
     /// The water at a time (s), ready to be asked at many places.
     pub fn at_time(&self, time: f64) -> FlowAt<'_> {
         let sea = match &self.waves {
-            FlowWaves::Sea(sea) => Some(sea.at(time)),
+            FlowWaves::Sea(sea) => Some(sea.at_time(time)),
             _ => None,
         };
         FlowAt { flow: self, time, sea }

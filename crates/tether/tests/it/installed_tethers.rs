@@ -95,10 +95,10 @@ fn tension_includes_stretch_pressure_weight_contents_and_caps() {
     near(history.end(0, 0, false, 0)[0], effective - 0.5 * weight);
     near(history.end(0, 3, true, 1)[0], effective + 0.5 * weight - out(high) * outer + inside(high) * inner);
     near(history.force(7, 2)[0], -(effective + 0.5 * weight - out(high) * 0.4));
-    let told = InstalledDescription::new(&tether, at, &still()).unwrap();
-    near(told.tension, effective);
+    let description = InstalledDescription::new(&tether, at, &still()).unwrap();
+    near(description.tension, effective);
     // the free hanging reaction balances steel, contents, displaced water and the caps
-    near(told.hanging, weight + out(deep) * 0.3 - out(250.0 - 200.0) * 0.4);
+    near(description.hanging, weight + out(deep) * 0.3 - out(250.0 - 200.0) * 0.4);
 }
 
 #[test]

@@ -198,10 +198,10 @@ fn towed_tether_responds_at_encounter_frequency() {
 fn step_too_large_for_springs_is_refused_and_proposed_step_runs() {
     let stiff = EndSpring { along: 0.0, y: 1e6, z: 1e6 };
     let run = Towed { springs: [stiff; 2], ..case(0.95, 0.3) };
-    let told =
+    let error =
         run.run(&TowedSteps { step: 0.5, number: 2, ..TowedSteps::default() }, &mut |_: &TowedRecord| {}).unwrap_err();
-    assert!(told.to_string().contains("too large for the end springs"), "{told}");
-    let longest = told.message.values().nth(1).unwrap();
+    assert!(error.to_string().contains("too large for the end springs"), "{error}");
+    let longest = error.message.values().nth(1).unwrap();
     let mut most: f64 = 0.0;
     let good = TowedSteps { step: 0.99 * longest, number: 500, ..TowedSteps::default() };
     run.run(&good, &mut |r: &TowedRecord| most = most.max(r.positions[0][1].abs())).unwrap();

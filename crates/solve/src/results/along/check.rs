@@ -128,7 +128,7 @@ pub fn check(line: &LineResults, code: &Code, events: &[RunEvent]) -> Result<Tab
                     Checked::Break(breaking) => over_break(node.effective, *breaking).map_err(wrong)?,
                 };
                 if !used.is_finite() {
-                    return Err(line.wrong(format!("its check at {time} s is no number")));
+                    return Err(line.error(format!("its check at {time} s is no number")));
                 }
                 if worst.is_none_or(|w| used > w.used) {
                     *worst = Some(Worst { used, time, arc: node.arc, segment, acting });

@@ -29,7 +29,7 @@ pub fn envelope(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveE
     let mut row = Vec::new();
     for event in events {
         line.row(event, &mut row);
-        made.take(columns, &row).map_err(|e| line.wrong(e.to_string()))?;
+        made.take(columns, &row).map_err(|e| line.error(e.to_string()))?;
     }
     let seen = match run.envelopes.get(line.link) {
         Some(kept) if run.history.is_empty() => kept,

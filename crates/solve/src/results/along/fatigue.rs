@@ -89,7 +89,7 @@ pub fn fatigue_table(
         rows.push(FatigueRow { node: index + 1, record, curve, found, years });
     }
     if rows.is_empty() {
-        return Err(line.wrong("fatigue needs more than one instant at which it acts"));
+        return Err(line.error("fatigue needs more than one instant at which it acts"));
     }
     let largest = |row: &FatigueRow, kind: FatigueKind| (row.curve.kind == kind).then_some(row.found.largest);
     let mut columns = table

@@ -206,7 +206,7 @@ impl<'a> LineResults<'a> {
         self.sides(node, row).map(used).reduce(f64::max)
     }
 
-    fn wrong(&self, text: impl Into<Message>) -> SolveError {
+    fn error(&self, text: impl Into<Message>) -> SolveError {
         SolveError { who: Some(self.name.to_string()), error: ClassError::new(text) }
     }
 }

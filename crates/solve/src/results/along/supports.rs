@@ -17,7 +17,7 @@ pub fn supports(line: &LineResults, magnitude: Magnitude, events: &[RunEvent]) -
     let (model, layout) = (&line.run.model, &line.run.history.layout);
     let names = match model.assemblies.get(&Model::key(line.name)).map(|a| &a.kind) {
         Some(AssemblyKind::Pipe { supports, .. }) => supports,
-        _ => return Err(line.wrong("it lies on no supports: a pipe assembly does")),
+        _ => return Err(line.error("it lies on no supports: a pipe assembly does")),
     };
     let acts = |name: &&String| model.connectors.get(&Model::key(name)).is_some_and(|c| c.active);
     let (mut places, mut grounded) = (Vec::new(), Vec::new());

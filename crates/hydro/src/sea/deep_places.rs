@@ -119,12 +119,12 @@ impl FarDown {
     /// Pressure over rho g, velocity along x, y and up, and acceleration alike, of waves of full height at a time (s), each added up over
     /// the waves that reach down there.
     pub fn sums<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Eight; 7] {
-        added_up::<SPREAD, false>(&self.waves, time, places)
+        sum_components::<SPREAD, false>(&self.waves, time, places)
     }
 
     /// The same on the bottom, whose height is that of all places.
     pub fn sums_on_bottom<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Eight; 7] {
-        added_up::<SPREAD, true>(&self.waves, time, places)
+        sum_components::<SPREAD, true>(&self.waves, time, places)
     }
 }
 
@@ -164,7 +164,7 @@ fn polynomial<const N: usize>(factors: &[f64; N], at: f64) -> f64 {
 /// What comes out at a place is the same whatever the other places are: a wave that is left out at one of them is left out there
 /// alone.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn added_up<const SPREAD: bool, const LYING: bool>(waves: &[FarWave], time: f64, places: &Places) -> [Eight; 7] {
+fn sum_components<const SPREAD: bool, const LYING: bool>(waves: &[FarWave], time: f64, places: &Places) -> [Eight; 7] {
     let (mut highest, mut lowest) = (places.height[0], places.height[0]);
     for height in &places.height {
         highest = highest.max(*height);
