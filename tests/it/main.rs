@@ -99,4 +99,5 @@ mod aqwa {
     mod aqwa_decks;
     mod aqwa_tether_fatigue;
     mod aqwa_tether_statistics;
+    mod deck_lines;
 }

@@ -5,7 +5,7 @@ use super::Deck;
 use super::card::Field;
 use super::elements::ElementShape;
 use super::job::Program;
-use super::lines::{LineKind, MooringLine};
+use super::lines::{DYNAMIC_ELEMENTS, LineKind, MooringLine};
 use super::placed;
 use super::remarks::Remarks;
 use super::tethers::Tether;
@@ -23,6 +23,8 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
             tether_refers(deck, tether, remarks);
         }
         line_ends(deck, remarks);
+        line_breaks(deck, remarks);
+        joints(deck, remarks);
         numbers_of_structures(deck, remarks);
         placed::check(deck, remarks);
     }
@@ -156,10 +158,13 @@ fn tether_refers(deck: &Deck, tether: &Tether, remarks: &mut Remarks) {
 
 fn line_ends(deck: &Deck, remarks: &mut Remarks) {
     for line in &deck.mooring.lines {
-        if matches!(line.kind, LineKind::Property { dynamic: true, .. }) {
+        if matches!(line.kind, LineKind::Property { dynamic: true, .. }) && deck.mooring.dynamics_off.is_none() {
             remarks.add_once("NLID", || {
-                Diagnostic::remark("deck 14, NLID: cable dynamics is chosen by the class of the line here", line.span)
-                    .help("the line is taken as NLIN")
+                Diagnostic::remark(
+                    format!("deck 14, NLID: a dynamic line is cut into {DYNAMIC_ELEMENTS} elements"),
+                    line.span,
+                )
+                .help("no source gives another number; -DYNAMICS N of &CONNECTOR does in a script")
             });
         }
         let ends = line.ends;
@@ -171,12 +176,48 @@ fn line_ends(deck: &Deck, remarks: &mut Remarks) {
                     .other(same.span, "the other one"),
             );
         }
-        if matches!(line.kind, LineKind::Property { .. }) {
+        if deck.mooring.composite(line).is_some() {
             bottom(deck, line, remarks);
         }
         for (number, point) in [(ends.structure1, ends.node1), (ends.structure2, ends.node2)] {
             structure(deck, "deck 14, structure of a line", number, remarks);
             node(deck, "deck 14, node of a line", point, remarks);
+        }
+    }
+}
+
+/// Whether the structures and nodes of joints and fenders are there.
+fn joints(deck: &Deck, remarks: &mut Remarks) {
+    for joint in &deck.articulations {
+        for side in joint.sides {
+            structure(deck, "deck 12, DCON, structure", side.structure, remarks);
+            node(deck, "deck 12, DCON, node", side.node, remarks);
+            if side.axis.value != 0 {
+                node(deck, "deck 12, DCON, node on an axis", side.axis, remarks);
+            }
+        }
+    }
+    for fender in &deck.mooring.fenders {
+        for side in fender.sides {
+            structure(deck, "deck 14, FLIN, structure", side.structure, remarks);
+            node(deck, "deck 14, FLIN, node", side.node, remarks);
+            if side.direction.value != 0 {
+                node(deck, "deck 14, FLIN, node on a normal", side.direction, remarks);
+            }
+        }
+    }
+}
+
+/// Whether the lines that break (LBRK) are there.
+fn line_breaks(deck: &Deck, remarks: &mut Remarks) {
+    for broken in &deck.mooring.breaks {
+        let found = usize::try_from(broken.line.value - 1).ok().and_then(|index| deck.mooring.lines.get(index));
+        if found.is_none() {
+            let message = format!("deck 14, LBRK, columns 16-20: there is no line {}", broken.line.value);
+            remarks.add(
+                Diagnostic::error(message, broken.line.span)
+                    .label(format!("lines count in the order of their cards, 1 to {}", deck.mooring.lines.len())),
+            );
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use super::layout::{CardLayout, CardRecord};
 use super::reader::{CardReader, Cards};
-use super::{Deck, elements, hydrostatics, mooring, nodes, printing, properties, run, surroundings, waves};
+use super::{
+    Deck, articulations, elements, hydrostatics, mooring, nodes, printing, properties, run, surroundings, waves,
+};
 use hydrostatics::HydrostaticsDecks;
 use windlass_base::diagnostic::Diagnostic;
 
@@ -59,7 +61,10 @@ fn single(deck: &mut Deck, number: u8, reader: &mut CardReader<'_>) {
         4 => deck.geometries = properties::read_geometries(&records, remarks),
         5 => deck.global = properties::read_global(&records, remarks),
         11 => deck.surroundings = surroundings::read(&records, remarks),
-        12 => deck.held = surroundings::read_constraints(&records, remarks),
+        12 => {
+            deck.held = surroundings::read_constraints(&records, remarks);
+            deck.articulations = articulations::read(&records, remarks);
+        }
         13 if header.keyword == "WAVE" => deck.waves = waves::read_regular(&records, remarks),
         13 => deck.waves = waves::read_spectra(&records, remarks),
         14 => deck.mooring = mooring::read(&records, remarks),

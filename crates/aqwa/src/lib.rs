@@ -16,9 +16,10 @@
 //! | 5 | [`properties::WaterAndGravity`] | depth, density, gravity of the environment |
 //! | 7 | [`hydrostatics::HydrostaticsDecks`] | linear stiffness of a body about (X, Y, ZCGE) with buoyancy BFEQ, as of a hydrodynamic database |
 //! | 10, 11, 13 CURR, WIND | [`surroundings::SurroundingsDeck`], [`surroundings::UniformStream`] | current profile and wind; the model's directions are those they come FROM, so add 180 degrees |
-//! | 12 | [`surroundings::FixedDof`] | fixed degrees of freedom of a body |
+//! | 12 | [`surroundings::FixedDof`], [`articulations::Articulation`] | fixed degrees of freedom of a body; joints as FIX |
 //! | 13 | [`waves::WaveDeck`] | sea of spectral components, or regular wave (second order unless AIRY) |
-//! | 14 LINE, FORC, WNCH, POLY, COMP | [`lines::MooringLine`] | connectors of the classes SL_ELEM, GSPR, B_CAT and so on |
+//! | 14 LINE, FORC, WNCH, LNDW, POLY, SWIR, COMP | [`lines::MooringLine`] | connectors of the classes SL_ELEM, CT_LINE, LNDW, NLIN, CATENARY |
+//! | 14 FEND, FLIN | [`fenders::Fender`] | fenders |
 //! | 14 TELM .. TETH | [`tethers::Tether`] | a tether connector, towed or installed |
 //! | 15 | [`run::Start`] | position and velocity of the bodies at the start (of their centres of gravity) |
 //! | 16 | [`run::TimeSteps`] | steps of the time domain: the first is the start |
@@ -39,12 +40,14 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod articulations;
 pub mod card;
 mod checks;
 mod deck_dispatch;
 mod echo;
 pub mod elements;
 pub mod end_springs;
+pub mod fenders;
 pub mod hydrostatics;
 pub mod job;
 pub mod layout;
@@ -106,6 +109,8 @@ pub struct Deck {
     pub surroundings: SurroundingsDeck,
     /// Deck 12.
     pub held: Vec<FixedDof>,
+    /// Joints of deck 12.
+    pub articulations: Vec<articulations::Articulation>,
     /// Deck 13.
     pub waves: WaveDeck,
     /// Deck 14.

@@ -1,7 +1,7 @@
 //! Mooring lines of deck 14 and the properties they refer to.
 //!
-//! A property (POLY; COMP with its ECAT, ECAX, ECAH, ECAB, BUOY and CLMP cards) serves all NLIN cards that follow it, up
-//! to the next one. Sections are listed from the anchor upwards.
+//! A property (POLY; SWIR; COMP with its ECAT, ECAX, ECAH, ECAB, BUOY and CLMP cards) serves all NLIN cards that follow it, up
+//! to the next one. Sections are listed from the anchor upwards. DWT0 and DWAL serve the LNDW cards that follow them.
 //!
 //! Source: [AQWA-REF deck 14]; [AQWA-CONN 5.8.3] for what a section holds.
 
@@ -13,6 +13,10 @@ use windlass_base::span::Span;
 
 /// Most sections of a composite line.
 const MAX_SECTIONS: i64 = 10;
+/// Elements of a dynamic line (NLID).
+pub const DYNAMIC_ELEMENTS: u32 = 50;
+/// Steepest sea bed that is read (degrees): the bed of a CATENARY is at most 10 in 1.
+const MAX_SLOPE_DEGREES: f64 = 84.0;
 /// Most points of the table of a composite line.
 const MAX_TABLE_POINTS: i64 = 600;
 
@@ -54,10 +58,14 @@ pub enum LineKind {
         start: f64,
         /// Length at which the winch stops.
         end: f64,
-        /// Speed of paying out.
+        /// Speed of the drum, positive pays out.
         speed: f64,
-        /// Tension at which the winch stalls.
+        /// Tension above which the drum stands; 0 for none.
         tension: f64,
+        /// When the drum begins to turn (DWT0, s).
+        begins: f64,
+        /// Additional length of the stiffness (DWAL).
+        added: f64,
     },
     /// FORC: constant force towards the second node.
     Force(
@@ -180,14 +188,64 @@ pub struct Composite {
 pub enum Property {
     /// POLY: tension P1 e + P2 e^2 + .. + P5 e^5 of the extension e.
     Polynomial([f64; 5]),
+    /// SWIR: tension k (e - d tanh(e/d)) of the extension e.
+    SteelWire {
+        /// Asymptotic stiffness k.
+        stiffness: f64,
+        /// Asymptotic offset d.
+        offset: f64,
+    },
     /// COMP with its sections.
     Composite(Composite),
+}
+
+/// A line that breaks during a run (LBRK).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineBreak {
+    /// Number of the line, in the order of input.
+    pub line: Field<i64>,
+    /// Time of the break, or with a tension from which on it may break (s).
+    pub time: Field<f64>,
+    /// Tensions at the first and the second structure at which it breaks; 0 for none.
+    pub tensions: [Field<f64>; 2],
+    /// The card.
+    pub span: Span,
+}
+
+impl LineBreak {
+    /// Reads a card LBRK.
+    pub fn read(record: &CardRecord, remarks: &mut Remarks) -> Option<LineBreak> {
+        let spectrum = record.int(11);
+        if spectrum.value > 1 {
+            remarks.add(
+                Diagnostic::error("deck 14, LBRK, columns 11-15: one spectrum is run, the first", spectrum.span)
+                    .label("1 or nothing belongs here"),
+            );
+        }
+        let found = LineBreak {
+            line: record.int(16),
+            time: record.real(31),
+            tensions: [record.real(41), record.real(51)],
+            span: record.span,
+        };
+        let columns = [("31-40", found.time), ("41-50", found.tensions[0]), ("51-60", found.tensions[1])];
+        for (columns, field) in columns {
+            if field.value < 0.0 {
+                let message = format!("deck 14, LBRK, columns {columns}: {} is below 0", field.value);
+                remarks.add(Diagnostic::error(message, field.span).label("a time or a tension is not below 0"));
+                return None;
+            }
+        }
+        Some(found)
+    }
 }
 
 /// The walk through the cards of mooring lines.
 #[derive(Clone, Debug, Default)]
 pub struct LineCardParser {
     resistance: Option<SectionResistance>,
+    /// DWT0 and DWAL in force.
+    winching: (f64, f64),
 }
 
 impl LineCardParser {
@@ -212,8 +270,36 @@ impl LineCardParser {
                 self.resistance = None;
                 return;
             }
+            "SWIR" => {
+                self.complete(properties, remarks);
+                let (stiffness, offset) = (value(31), value(41));
+                if stiffness <= 0.0 || offset <= 0.0 {
+                    remarks.add(
+                        Diagnostic::error(
+                            "deck 14, SWIR: a steel wire has a stiffness and an offset above 0",
+                            record.span,
+                        )
+                        .label("asymptotic stiffness in columns 31-40, asymptotic offset in 41-50"),
+                    );
+                }
+                properties.push(Property::SteelWire { stiffness, offset });
+                return;
+            }
             "ECAT" | "ECAX" | "ECAH" | "ECAB" | "BUOY" | "CLMP" => {
                 self.section(record, properties, remarks);
+                return;
+            }
+            "DWT0" | "DWAL" => {
+                let field = record.real(31);
+                if field.value < 0.0 {
+                    let message = format!("deck 14, {}, columns 31-40: {} is below 0", record.keyword, field.value);
+                    remarks.add(Diagnostic::error(message, field.span).label("a time or a length is not below 0"));
+                }
+                if record.keyword == "DWT0" {
+                    self.winching.0 = field.value;
+                } else {
+                    self.winching.1 = field.value;
+                }
                 return;
             }
             "LINE" => LineKind::Elastic { stiffness: value(31), length: value(41) },
@@ -223,6 +309,8 @@ impl LineCardParser {
                 end: value(51),
                 speed: value(61),
                 tension: value(71),
+                begins: self.winching.0,
+                added: self.winching.1,
             },
             "FORC" => LineKind::Force(value(31)),
             "WNCH" => {
@@ -236,7 +324,7 @@ impl LineCardParser {
                             format!("deck 14, {}: no property comes before this line", record.keyword),
                             record.span,
                         )
-                        .help("POLY, or COMP with its ECAT cards, belongs before it"),
+                        .help("POLY, SWIR, or COMP with its ECAT cards, belongs before it"),
                     );
                     return;
                 };
@@ -261,6 +349,7 @@ impl LineCardParser {
                 .label("stiffness in columns 31-40, unstretched length in 41-50"),
             );
         }
+        check_winch(&kind, record, remarks);
         let ends = Ends {
             structure1: record.int(11),
             node1: record.int(16),
@@ -337,6 +426,48 @@ impl LineCardParser {
     }
 }
 
+/// What the numbers of a winch must be.
+fn check_winch(kind: &LineKind, record: &CardRecord, remarks: &mut Remarks) {
+    match *kind {
+        LineKind::Winched { stiffness, start, end, speed, tension, .. } => {
+            let wrong =
+                [("31-40", "stiffness", stiffness), ("41-50", "initial length", start), ("51-60", "final length", end)];
+            for (columns, what, value) in wrong {
+                if value <= 0.0 {
+                    let message = format!("deck 14, LNDW, columns {columns}: the {what} is above 0");
+                    remarks.add(Diagnostic::error(message, record.span).label(format!("{value} stands here")));
+                }
+            }
+            if speed == 0.0 || tension < 0.0 {
+                remarks.add(
+                    Diagnostic::error(
+                        "deck 14, LNDW: a drum has a speed, and a greatest tension not below 0",
+                        record.span,
+                    )
+                    .label("speed in columns 61-70, greatest tension in 71-80"),
+                );
+            }
+        }
+        LineKind::Winch { tension, length, winding_in, paying_out }
+        | LineKind::Property { tension, length, winding_in, paying_out, .. } => {
+            let friction = winding_in.abs() >= 1.0 || paying_out < 0.0;
+            if tension < 0.0 || length < 0.0 || friction {
+                remarks.add(
+                    Diagnostic::error(
+                        format!(
+                            "deck 14, {}: tension and length are not below 0, friction factors are",
+                            record.keyword
+                        ) + " below 1 winding in and not below 0 paying out",
+                        record.span,
+                    )
+                    .label("tension in columns 31-40, length in 41-50, friction in 51-60 and 61-70"),
+                );
+            }
+        }
+        LineKind::Elastic { .. } | LineKind::Force(_) => {}
+    }
+}
+
 fn composite(record: &CardRecord, remarks: &mut Remarks) -> Composite {
     let points = (record.int(11).or(15), record.int(16).or(40));
     let announced = record.int(26);
@@ -355,19 +486,27 @@ fn composite(record: &CardRecord, remarks: &mut Remarks) -> Composite {
                 .label(format!("columns 11-15 times columns 16-20 is 1 to {MAX_TABLE_POINTS}")),
         );
     }
-    let of_table =
-        [record.int(11).span, record.int(16).span, record.int(21).span, record.real(31).span, record.real(41).span];
-    let given = [
-        record.int(11).given,
-        record.int(16).given,
-        record.int(21).given,
-        record.real(31).given,
-        record.real(41).given,
-    ];
-    if let Some((span, _)) = of_table.into_iter().zip(given).find(|(_, given)| *given) {
+    let whole = [11, 16, 21].map(|column| (record.int(column).given, record.int(column).span));
+    let heights = [31, 41].map(|column| (record.real(column).given, record.real(column).span));
+    if let Some((_, span)) = whole.into_iter().chain(heights).find(|(given, _)| *given) {
         remarks.add_once("table of a composite", || {
             Diagnostic::remark("deck 14, COMP: no table is made; a line is solved exactly at each position", span)
-                .label("columns 11-25 and 31-50 describe the table and have no effect")
+                .label("columns 11-25 and 31-50 describe the table: they limit nothing and change no result")
+        });
+    }
+    let slope = record.real(51);
+    if slope.value.abs() >= MAX_SLOPE_DEGREES {
+        remarks.add(
+            Diagnostic::error(
+                format!("deck 14, COMP, columns 51-60: {} is no slope of a sea bed", slope.value),
+                slope.span,
+            )
+            .label(format!("degrees, between -{MAX_SLOPE_DEGREES} and {MAX_SLOPE_DEGREES}")),
+        );
+    } else if slope.value != 0.0 {
+        remarks.add_once("slope of a composite", || {
+            Diagnostic::remark("deck 14, COMP, columns 51-60: no source gives the sign of the slope", slope.span)
+                .label("assumed: degrees, positive where the bed rises from the anchor toward the structure")
         });
     }
     Composite {

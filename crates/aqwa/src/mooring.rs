@@ -4,15 +4,15 @@
 //! Source: [AQWA-TETHER Appendix A]; [AQWA-REF deck 14].
 
 use super::card::Field;
+use super::fenders::{Fender, FenderProperties};
 use super::layout::{CardLayout, CardRecord, Slot, int, num};
-use super::lines::{LineCardParser, MooringLine, Property};
+use super::lines::{Composite, LineBreak, LineCardParser, LineKind, MooringLine, Property};
 use super::remarks::Remarks;
 use super::tethers::{Builder, Tether};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 const ENDS: [Slot; 4] = [int("structure 1", 11), int("node 1", 16), int("structure 2", 21), int("node 2", 26)];
-const UNREAD_CARD_REASON: &str = "this card is not read; give the line with the classes of the model";
 const NOT_YET: &str = "pre-processing of tethers is not available in AQWA 5.4 [AQWA-TETHER A.13] nor here";
 
 /// The card that closes a tether.
@@ -137,18 +137,53 @@ pub const LAYOUTS: &[CardLayout] = &[
     CardLayout::new("ECAB", &[num("EI", 31)]).repeatable_after(SECTION),
     CardLayout::assume("BUOY", JOINT).one_of("joint", SECTION),
     CardLayout::assume("CLMP", JOINT).one_of("joint", SECTION),
-    CardLayout::pass_over("DYNM", "cable dynamics is chosen by the class of the line here; the card has no effect"),
-    CardLayout::pass_over("DOFF", "cable dynamics is chosen by the class of the line here; the card has no effect"),
-    CardLayout::refuse("NCEL", UNREAD_CARD_REASON),
-    CardLayout::refuse("LBRK", UNREAD_CARD_REASON),
-    CardLayout::refuse("SWIR", UNREAD_CARD_REASON),
-    CardLayout::refuse("FEND", UNREAD_CARD_REASON),
-    CardLayout::refuse("FLIN", UNREAD_CARD_REASON),
-    CardLayout::refuse("FENP", UNREAD_CARD_REASON),
-    CardLayout::refuse("DWT0", UNREAD_CARD_REASON),
-    CardLayout::refuse("DWAL", UNREAD_CARD_REASON),
-    CardLayout::refuse("PULY", UNREAD_CARD_REASON),
-    CardLayout::refuse("FILE", UNREAD_CARD_REASON),
+    CardLayout::new("DYNM", &[]).one_of("cable dynamics", &[]),
+    CardLayout::new("DOFF", &[]).one_of("cable dynamics", &[]),
+    CardLayout::new("SWIR", &[num("asymptotic stiffness", 31), num("asymptotic offset", 41)]).freely(),
+    CardLayout::new(
+        "LBRK",
+        &[
+            int("spectrum", 11),
+            int("number of the line", 16),
+            num("time", 31),
+            num("breaking tension at structure 1", 41),
+            num("breaking tension at structure 2", 51),
+        ],
+    )
+    .freely(),
+    CardLayout::new("DWT0", &[num("time at which winching starts", 31)]).freely(),
+    CardLayout::new("DWAL", &[num("additional length", 31)]).freely(),
+    CardLayout::refuse(
+        "NCEL",
+        "no public source has the columns of this card; -DYNAMICS N of &CONNECTOR gives the elements of a line",
+    ),
+    CardLayout::new("FEND", &[num("size", 31), num("friction coefficient", 51), num("damping over stiffness", 71)])
+        .freely(),
+    CardLayout::new(
+        "FLIN",
+        &[
+            int("type", 11),
+            int("structure 1", 21),
+            int("node 1", 26),
+            int("node on normal 1", 31),
+            int("structure 2", 41),
+            int("node 2", 46),
+            int("node on normal 2", 51),
+        ],
+    )
+    .freely(),
+    CardLayout::refuse("FENP", "no public source has the columns of this card; FEND and FLIN give a fender"),
+    CardLayout::refuse(
+        "PULY",
+        "a line over a pulley has three points, and a connector here two; its spans are not read",
+    ),
+    CardLayout::refuse("FILE", "the file of a load-extension table is not read; POLY and NLIN give a nonlinear line"),
+    CardLayout::refuse(
+        "LE2D",
+        "load-extension tables are not read; COMP and ECAT give the line, which is solved exactly",
+    ),
+    CardLayout::refuse("PRLD", "no public source has the columns of this card; COMP and ECAT give the line"),
+    CardLayout::refuse("DRUM", "no public source has this card; LNDW with DWT0 and DWAL is the drum winch of AQWA"),
 ];
 
 const SPRING: &[Slot] = &[
@@ -177,6 +212,12 @@ pub struct MooringDeck {
     pub properties: Vec<Property>,
     /// Mooring lines in the order of input.
     pub lines: Vec<MooringLine>,
+    /// Fenders in the order of input.
+    pub fenders: Vec<Fender>,
+    /// Lines that break (LBRK).
+    pub breaks: Vec<LineBreak>,
+    /// The card that switches cable dynamics off (DOFF): NLID lines are then quasi-static.
+    pub dynamics_off: Option<Span>,
     /// Tethers in the order of their TETH cards.
     pub tethers: Vec<Tether>,
     /// Modes to print of the eigenvalue solution of each tether (TEIG).
@@ -187,11 +228,25 @@ pub struct MooringDeck {
     pub span: Span,
 }
 
+impl MooringDeck {
+    /// The composite catenary that a line is, if it is one.
+    pub fn composite(&self, line: &MooringLine) -> Option<&Composite> {
+        match line.kind {
+            LineKind::Property { property, .. } => match self.properties.get(property) {
+                Some(Property::Composite(composite)) => Some(composite),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
+
 /// The mooring of the cards of deck 14.
 pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> MooringDeck {
     let mut mooring = MooringDeck::default();
     let mut tether = Builder::default();
     let mut walk = LineCardParser::default();
+    let mut fender = None;
     for record in records {
         mooring.span = record.span;
         match record.keyword.as_str() {
@@ -210,6 +265,11 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> MooringDeck {
                 }
             }
             keyword if keyword.starts_with('T') => tether.take(record, remarks),
+            "DOFF" => mooring.dynamics_off = Some(record.span),
+            "DYNM" => {}
+            "FEND" => fender = Some(FenderProperties::read(record, remarks)),
+            "FLIN" => mooring.fenders.extend(Fender::read(record, &mooring.properties, fender, remarks)),
+            "LBRK" => mooring.breaks.extend(LineBreak::read(record, remarks)),
             _ => walk.take(record, &mut mooring.properties, &mut mooring.lines, remarks),
         }
     }

@@ -18,15 +18,36 @@ pub const LAYOUTS: &[CardLayout] = &[
     CardLayout::new("CDRN", &[num("direction of the profile", 11)]),
 ];
 
-const ARTICULATION: &str = "articulations are not read from a deck; join the bodies with connectors instead";
+const NO_COLUMNS: &str =
+    "no public source has the columns of this card; GSPR of the model is a spring or a dashpot at a joint";
 
 /// Cards of deck 12.
 pub const CONSTRAINTS: &[CardLayout] = &[
-    CardLayout::assume("DACF", &[int("structure", 11), int("degree of freedom", 16)]).repeated_by(&[11, 16]),
-    CardLayout::refuse("DCON", ARTICULATION),
-    CardLayout::refuse("FDCN", ARTICULATION),
-    CardLayout::refuse("KFCN", ARTICULATION),
-    CardLayout::refuse("DFCN", ARTICULATION),
+    CardLayout::new("DACF", &[int("structure", 11), int("degree of freedom", 16)]).repeated_by(&[11, 16]),
+    CardLayout::new(
+        "FDOF",
+        &[int("structure", 16), int("X", 21), int("Y", 26), int("Z", 31), int("RX", 36), int("RY", 41), int("RZ", 46)],
+    )
+    .repeated_by(&[16]),
+    CardLayout::new(
+        "DCON",
+        &[
+            int("locked rotations", 11),
+            int("structure 1", 16),
+            int("node 1", 21),
+            int("node on axis 1", 26),
+            int("structure 2", 36),
+            int("node 2", 41),
+            int("node on axis 2", 46),
+        ],
+    )
+    .freely(),
+    CardLayout::refuse("DLCK", "no public source has this card; 3 in columns 11-15 of DCON locks a joint"),
+    CardLayout::refuse("FCON", "friction of joints by their reactions is not modelled"),
+    CardLayout::refuse("FDCN", NO_COLUMNS),
+    CardLayout::refuse("KFCN", NO_COLUMNS),
+    CardLayout::refuse("CFCN", NO_COLUMNS),
+    CardLayout::refuse("DFCN", NO_COLUMNS),
 ];
 
 /// A uniform stream.
@@ -64,7 +85,7 @@ pub struct SurroundingsDeck {
     pub profile: Vec<CurrentLayer>,
 }
 
-/// A degree of freedom of a structure that is held (DACF).
+/// A degree of freedom of a structure that is held (DACF, FDOF).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FixedDof {
     /// The structure.
@@ -123,17 +144,42 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> SurroundingsDeck {
 pub fn read_constraints(records: &[CardRecord], remarks: &mut Remarks) -> Vec<FixedDof> {
     let mut list = Vec::new();
     for record in records {
-        let (structure, dof) = (record.int(11), record.int(16));
-        if (1..=6).contains(&dof.value) {
-            list.push(FixedDof { structure, dof });
-        } else {
-            remarks.add(
-                Diagnostic::error(
-                    format!("deck 12, DACF, columns 16-20: {} is no degree of freedom", dof.value),
-                    dof.span,
-                )
-                .label("1 to 6 belongs here: X, Y, Z, RX, RY, RZ"),
-            );
+        match record.keyword.as_str() {
+            "DACF" => {
+                let (structure, dof) = (record.int(11), record.int(16));
+                if (1..=6).contains(&dof.value) {
+                    list.push(FixedDof { structure, dof });
+                } else {
+                    remarks.add(
+                        Diagnostic::error(
+                            format!("deck 12, DACF, columns 16-20: {} is no degree of freedom", dof.value),
+                            dof.span,
+                        )
+                        .label("1 to 6 belongs here: X, Y, Z, RX, RY, RZ"),
+                    );
+                }
+            }
+            "FDOF" => {
+                let structure = record.int(16);
+                for dof in 1..=6 {
+                    let flag = record.int(16 + 5 * dof);
+                    match flag.value {
+                        0 => {}
+                        1 => list.push(FixedDof {
+                            structure,
+                            dof: Field { value: i64::try_from(dof).unwrap_or(0), given: true, span: flag.span },
+                        }),
+                        other => remarks.add(
+                            Diagnostic::error(
+                                format!("deck 12, FDOF: {other} says nothing of a degree of freedom"),
+                                flag.span,
+                            )
+                            .label("1 holds it, 0 or nothing leaves it free"),
+                        ),
+                    }
+                }
+            }
+            _ => {}
         }
     }
     list

@@ -89,6 +89,12 @@ const CLUMP: OptionSpec =
 const DEPANCHOR: OptionSpec =
     aqwa("-DEPANCHOR", &[number("DEPTH", Dim::Metres, "depth of the anchor").positive()], "depth at the anchor")
         .default("depth of &ENV");
+const SLOPE: OptionSpec = aqwa(
+    "-SLOPE",
+    &[number("SLOP", Dim::None, "vertical / horizontal distance").in_range(-10.0, 10.0)],
+    "slope of the bottom, positive where it rises from the anchor toward the fairlead",
+)
+.default("0");
 
 static CATENARY_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Aqwa,
@@ -96,7 +102,7 @@ static CATENARY_SPEC: CommandSpec = CommandSpec {
         number("MASS", Dim::MassPerLength, "mass per unit length").positive(),
         number("AREA", Dim::SquareMetres, "equivalent cross-sectional area").or("0").not_negative(),
     ],
-    options: &[LENGTH, EA, TMAX, K, EI, CA, CD, DE, CX, BUOY, CLUMP, DEPANCHOR],
+    options: &[LENGTH, EA, TMAX, K, EI, CA, CD, DE, CX, BUOY, CLUMP, DEPANCHOR, SLOPE],
     detail: "An AQWA catenary section, in kg, m and N in every unit system; one record a section, fairlead first. Buoys \
              always have the same buoyancy and do not know where the surface is; those of a line that &CONNECTOR -DYNAMICS makes dynamic \
              lose it as they come out of the water.",
@@ -128,13 +134,15 @@ struct CatenarySection {
 }
 
 /// Options of the whole line.
-const PER_LINE: [OptionSpec; 1] = [DEPANCHOR];
+const PER_LINE: [OptionSpec; 2] = [DEPANCHOR, SLOPE];
 
 #[derive(Debug, Default)]
 struct CatenaryClass {
     per_line: PerLineOptions,
     sections: Vec<CatenarySection>,
     depth: Option<f64>,
+    /// Slope of the bottom, positive where it rises from the anchor toward the fairlead.
+    slope: f64,
 }
 
 impl CatenarySection {
@@ -288,6 +296,7 @@ impl SegmentedClass for CatenaryClass {
         self.sections.push(section);
         if self.per_line.take(args, &PER_LINE) {
             self.depth = self.per_line.number(&DEPANCHOR);
+            self.slope = self.per_line.number(&SLOPE).unwrap_or(0.0);
         }
         Ok(())
     }
@@ -309,7 +318,7 @@ impl StaticLineClass for CatenaryClass {
         let joints = self.sections.iter().take(count.saturating_sub(1)).map(joint);
         let places: Vec<Span> = self.sections.iter().map(|s| s.span).collect();
         // ends on a structure see no bottom, an anchor lies on it
-        let floor = place.anchored.then_some(SeabedModel { elevation: far, slope: 0.0, friction: 0.0 });
+        let floor = place.anchored.then_some(SeabedModel { elevation: far, slope: self.slope, friction: 0.0 });
         let line = Line::new(segments.collect(), joints.collect(), far, surroundings.tide)
             .and_then(|l| l.with_seabed(floor))
             .and_then(|l| l.with_laws(self.sections.iter().map(CatenarySection::law).collect()))
@@ -393,9 +402,14 @@ impl DynamicLineClass for CatenaryClass {
                 pendant: 0.0,
             }),
         };
-        let seabed = Seabed { depth: self.depth, with_anchor: true, ..Seabed::default() };
+        let slope = Some(self.slope).filter(|slope| *slope != 0.0);
+        let seabed = Seabed { depth: self.depth, slope, with_anchor: true, ..Seabed::default() };
         let parts = self.sections.iter().map(part).collect();
         let made = description("CATENARY", parts, seabed, [None, None]);
         Ok(Box::new(DynamicLine::build(made, connection)?))
+    }
+
+    fn has_sloped_seabed(&self) -> bool {
+        self.slope != 0.0
     }
 }

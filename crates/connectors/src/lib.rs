@@ -36,9 +36,11 @@ mod line_element;
 mod line_profile;
 pub mod line_types;
 mod lmu;
+mod lndw;
 mod loads;
 mod mooring;
 mod mooring_table;
+mod nlin;
 pub mod options;
 mod per_line;
 mod restraint;
@@ -50,6 +52,7 @@ mod sling;
 mod spr;
 mod spring;
 mod spring_law;
+mod taut_span;
 mod tether;
 mod tie;
 mod tug_boat;
@@ -123,4 +126,6 @@ pub static CLASSES: &[&ClassKind] = &[
     &fender::FENDER,
     &tug_boat::TUG_BOAT,
     &ct_line::CT_LINE,
+    &nlin::NLIN,
+    &lndw::LNDW,
 ];

@@ -45,6 +45,12 @@ const BELOW: OptionSpec =
     OptionSpec::new("-BELOW", &[BODY, DOF, LIMIT], "when a body degree of freedom first falls below V");
 const HIGH: OptionSpec = OptionSpec::new("-HIGH", &[POINT, HEIGHT], "when a point is first higher than Z");
 const LOW: OptionSpec = OptionSpec::new("-LOW", &[POINT, HEIGHT], "when a point is first lower than Z");
+const AFTER: OptionSpec = OptionSpec::new(
+    "-AFTER",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()],
+    "a condition is looked for from this time on",
+)
+.default("from the start");
 const RELEASE: OptionSpec =
     OptionSpec::new("-RELEASE", LINES, "connectors act no more: they break or are let go").repeating(1);
 const ACTIVATE: OptionSpec = OptionSpec::new("-ACTIVATE", LINES, "connectors that are inactive act").repeating(1);
@@ -69,7 +75,23 @@ const CLEAR: OptionSpec = OptionSpec::new("-CLEAR", &[], "forgets all actions");
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the action").or("none: with -CLEAR")],
-    options: &[AT, TENSION, SLACK, ABOVE, BELOW, HIGH, LOW, RELEASE, ACTIVATE, WINCH, ENVIRONMENT, STOP, DELETE, CLEAR],
+    options: &[
+        AT,
+        TENSION,
+        SLACK,
+        ABOVE,
+        BELOW,
+        HIGH,
+        LOW,
+        AFTER,
+        RELEASE,
+        ACTIVATE,
+        WINCH,
+        ENVIRONMENT,
+        STOP,
+        DELETE,
+        CLEAR,
+    ],
     detail: "Says what happens in runs of TDOM, from then on in every one; an action happens once a run. One option says when, one says \
              what. A time is met exactly: a step is cut there. A step in which a condition comes true is cut in halves until it is met \
              within a 64th of the step. Connectors that come to act are made between their ends as these stand at \
@@ -105,7 +127,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Ok(Effect::Done);
     }
     rule::check(name, None, "action", args.place(NAME))?;
-    let when = parse_trigger(&job.model, single_option(args, &WHEN, "when it happens")?, job.units)?;
+    let mut when = parse_trigger(&job.model, single_option(args, &WHEN, "when it happens")?, job.units)?;
+    if let Some(given) = args.option(&AFTER) {
+        if matches!(when, Trigger::At(_)) {
+            return Err(Diagnostic::error("-AFTER goes with a condition, and -AT is a time", given.span));
+        }
+        when = Trigger::After(given.number(const { AFTER.number("T") }).unwrap_or(0.0), Box::new(when));
+    }
     let what = parse_action(&job.model, single_option(args, &WHAT, "what happens")?)?;
     job.actions.retain(|a| !a.name.eq_ignore_ascii_case(name));
     job.actions.push(Action { name: name.to_string(), when, what });

@@ -26,7 +26,7 @@ fn number(value: &Value) -> f64 {
 }
 
 /// A job that has no error, with what it wrote as NAME.cif where it is a deck.
-fn run(name: &str, text: &str) -> (Session, Option<String>) {
+pub(super) fn run(name: &str, text: &str) -> (Session, Option<String>) {
     let (mut session, _, folder) = common::session();
     session.open_job(name, text);
     session.run();
@@ -42,7 +42,7 @@ fn silent(text: &str) -> String {
     text.lines().filter(line).map(|line| format!("{line}\n")).collect()
 }
 
-fn records(text: &str) -> Result<Records, Vec<Diagnostic>> {
+pub(super) fn records(text: &str) -> Result<Records, Vec<Diagnostic>> {
     let mut sources = Sources::default();
     let id = sources.add("deck", text, 1);
     let reading = aqwa::read(&sources, id);
@@ -187,7 +187,7 @@ fn edited(from: &str, to: &str) -> String {
     text.replacen(from, to, 1)
 }
 
-fn lines(records: &Records) -> String {
+pub(super) fn lines(records: &Records) -> String {
     records.model.join("\n")
 }
 
@@ -301,7 +301,7 @@ fn unsupported_deck_data_is_refused_with_card_and_alternative() {
     refused("    12    NONE", "    12    CONS\n END12DACF    1    6", "DACF");
     let first = "    14TSLK                         0.001\n";
     refused(first, "    14FORC    1 1010    0 9010    -100.0\n", "FORC");
-    refused(first, "    14POLY                         100.0\n    14NLIN    1 1010    0 9010\n", "POLY");
+    refused(first, "    14POLY                         100.0\n    14NLID    1 1010    0 9010\n", "NLID");
     refused("JOB MINT  NAUT", "JOB MINT  LIBR", "run in time");
 }
 
@@ -337,7 +337,7 @@ fn number_of_phases_must_match_components() {
 }
 
 /// A body in 100 m of water (kg, m, N), its fairlead at z = -10, and these cards of deck 14 and decks 5, 13, 16.
-fn moored(program: &str, depth: f64, lines: &str, waves: &str) -> String {
+pub(super) fn moored(program: &str, depth: f64, lines: &str, waves: &str) -> String {
     let none = |decks: std::ops::RangeInclusive<u8>| decks.map(|n| format!("    {n:02}    NONE\n")).collect::<String>();
     format!(
         "JOB MOOR  {program}\nTITLE               Lines on the bottom\nOPTIONS END\n\
@@ -353,11 +353,11 @@ fn moored(program: &str, depth: f64, lines: &str, waves: &str) -> String {
     )
 }
 
-const STILL: &str = "    13    NONE\n";
-const SECTION: &str = "    14ECAT                         150.0     0.018     6.0E8     5.0E6     570.0\n";
+pub(super) const STILL: &str = "    13    NONE\n";
+pub(super) const SECTION: &str = "    14ECAT                         150.0     0.018     6.0E8     5.0E6     570.0\n";
 
 /// The force of each connector of a model on its first end, as placed (N).
-fn pulls(model: &windlass_model::Model) -> Vec<[f64; 3]> {
+pub(super) fn pulls(model: &windlass_model::Model) -> Vec<[f64; 3]> {
     let surroundings = model.surroundings();
     let pull = |connector: &windlass_model::Connector| {
         let element = model.element(connector).unwrap();
@@ -371,14 +371,14 @@ fn pulls(model: &windlass_model::Model) -> Vec<[f64; 3]> {
     model.connectors.values().map(pull).collect()
 }
 
-fn placed(deck: &str) -> (Session, String) {
+pub(super) fn placed(deck: &str) -> (Session, String) {
     let records = records(deck).unwrap();
     let (session, _) = run("model.cif", &records.model_alone().text);
     let text = lines(&records);
     (session, text)
 }
 
-fn assert_near(got: f64, want: f64) {
+pub(super) fn assert_near(got: f64, want: f64) {
     // the digits given
     assert!((got / want - 1.0).abs() < 1e-8, "{got} is not {want}");
 }
@@ -437,7 +437,7 @@ fn composite_joints_weigh_mass_less_displaced_water() {
 }
 
 /// What reading a deck says.
-fn said(text: &str) -> Vec<Diagnostic> {
+pub(super) fn said(text: &str) -> Vec<Diagnostic> {
     let mut sources = Sources::default();
     let id = sources.add("deck", text, 1);
     aqwa::read(&sources, id).messages

@@ -488,6 +488,65 @@ fn constant_tension_line_stiffness_matches_chord_direction() {
     assert_near(&row(1, 2), &[200.0 * 36.0 / 169.0, 200.0 * 48.0 / 169.0, -200.0 * 25.0 / 169.0]);
 }
 
+#[test]
+fn winch_friction_changes_tension_winding_in_and_paying_out() {
+    // 1000 N, friction 0.3 and 0.1: 700 N winding in and 1100 N paying out, the example of the workbench's manual
+    let joint = Joint::between_bodies("~C CT_LINE 1000 -LENGTH 5 -FRICTION 0.3 0.1");
+    assert_eq!(joint.pull([6.0, 0.0, 0.0])[0], 700.0);
+    assert_eq!(joint.passing([6.0, 0.0, 0.0], [-0.5, 0.0, 0.0])[0], 700.0);
+    assert!((joint.passing([6.0, 0.0, 0.0], [0.5, 0.0, 0.0])[0] - 1100.0).abs() < 1e-9);
+    // a negative factor of winding in: the tension of paying out at rest
+    let joint = Joint::between_bodies("~C CT_LINE 1000 -LENGTH 5 -FRICTION -0.3 0.1");
+    assert!((joint.pull([6.0, 0.0, 0.0])[0] - 1100.0).abs() < 1e-9);
+    assert!((joint.passing([6.0, 0.0, 0.0], [-0.5, 0.0, 0.0])[0] - 700.0).abs() < 1e-9);
+    // nearer than its length it is slack
+    assert_eq!(joint.pull([4.99, 0.0, 0.0])[0], 0.0);
+}
+
+#[test]
+fn nonlinear_line_follows_polynomial_and_steel_wire_law() {
+    // 13 m apart, 1 m beyond 12: 3 + 5 + 7 + 11 + 13 N; 1.5 m beyond 11.5 by numpy.polyval([13, 11, 7, 5, 3, 0], 1.5)
+    let poly =
+        |length: &str| Joint::between_bodies(&format!("~C NLIN {length} -POLY 3 5 7 11 13")).pull([3.0, 4.0, 12.0]);
+    assert_near(&poly("12")[..3], &[39.0 * 3.0 / 13.0, 12.0, 36.0]);
+    assert_near(&poly("11.5")[..3], &[193.78125 * 3.0 / 13.0, 193.78125 * 4.0 / 13.0, 193.78125 * 12.0 / 13.0]);
+    // at its length and below it is slack
+    assert_eq!((poly("13")[0], poly("14")[0]), (0.0, 0.0));
+    // k (e - d tanh(e/d)) with k = 2E5 N/m, d = 0.4 m, e = 0.5 m: 2E5 (0.5 - 0.4 numpy.tanh(1.25)) = 32137.30880
+    let wire = Joint::between_bodies("~C NLIN 12.5 -SWIRE 2E5 0.4").pull([13.0, 0.0, 0.0]);
+    assert!((wire[0] - 32_137.308_803).abs() < 1e-3, "{wire:?}");
+}
+
+#[test]
+fn drum_winds_in_to_its_last_length_or_largest_tension() {
+    // EA = 2E5 N/m times (10 + 2) m; the ends 10.1 m apart
+    let drum = |data: &str, dt: f64| {
+        let joint = Joint::between_bodies(&format!("~C LNDW 2E5 10 {data} -ADDED 2"));
+        let (out, trial) = joint.evaluate_at([0.0; 6], [10.1, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 3], Some(dt));
+        (out.wrench[0][0], trial[0])
+    };
+    let tension = |free: f64| 2.4e6 / (2.0 + free) * (10.1 - free);
+    let meets = |got: (f64, f64), free: f64, force: f64| {
+        assert!(
+            (got.0 - force).abs() < 1e-6 * force && (got.1 - (free - 10.0)).abs() < 1e-9,
+            "{got:?}, {free} {force}"
+        );
+    };
+    meets(drum("9 -0.1", 2.0), 9.8, tension(9.8));
+    meets(drum("9.9 -0.1", 2.0), 9.9, tension(9.9));
+    // paying out: slack beyond 10.1 m
+    meets(drum("10.05 0.1", 2.0), 10.05, tension(10.05));
+    // 50 kN at most: EA (10.1 - L) = 5E4 (2 + L)
+    let held = (2.4e6 * 10.1 - 5e4 * 2.0) / (2.4e6 + 5e4);
+    meets(drum("9 -0.1 5E4", 2.0), held, 5e4);
+    // the tension is beyond it at once: the drum stands
+    meets(drum("9 -0.1 1E4", 2.0), 10.0, tension(10.0));
+    // a final length on the wrong side, and a start that is still to come
+    meets(drum("11 -0.1", 2.0), 10.0, tension(10.0));
+    meets(drum("9 -0.1 -START 5", 2.0), 10.0, tension(10.0));
+    meets(drum("9 -0.1 -START 1.5", 2.0), 9.95, tension(9.95));
+}
+
 /// 1.5 m high; 200 kN at 0.3 m, 150 kN at 0.5 m, 300 kN at 0.8 m.
 const BUCKLING: &str = "~C FENDER 1.5 2E5 0.3 1.5E5 0.5 3E5 0.8 -RATED 0.6 -NORMAL 0 1 0";
 

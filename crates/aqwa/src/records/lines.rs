@@ -3,7 +3,9 @@
 use super::model::point;
 use super::written::{Script, difference, number, numbers, round_value};
 use crate::Deck;
-use crate::lines::{Composite, CompositeJoint, CompositeSection, Ends, LineKind, MooringLine, Property};
+use crate::lines::{
+    Composite, CompositeJoint, CompositeSection, DYNAMIC_ELEMENTS, Ends, LineKind, MooringLine, Property,
+};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::Diagnostic;
 
@@ -20,42 +22,140 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
         let anchor = anchor(deck, line, out);
         let class = match line.kind {
             LineKind::Elastic { stiffness, length } => elastic(number, stiffness, length, line, out),
-            LineKind::Property { property, tension, .. } => match deck.mooring.properties.get(property) {
-                Some(Property::Composite(composite)) if tension == 0.0 => {
-                    let depth = anchor.and_then(|(_, depth)| depth);
-                    let variant = (property, depth);
-                    let others = written.iter().filter(|(other, _)| *other == property).count();
-                    let known = written.iter().position(|other| *other == variant);
-                    let place = known.map_or(others, |at| written.iter().take(at).filter(|w| w.0 == property).count());
-                    let name = match place {
-                        0 => format!("COMP{}", property + 1),
-                        _ => format!("COMP{}_{}", property + 1, place + 1),
-                    };
-                    if known.is_none() {
-                        written.push(variant);
-                        catenary(&name, composite, depth, out);
+            LineKind::Property { property, tension, length, winding_in, paying_out, .. } => {
+                match deck.mooring.properties.get(property) {
+                    Some(Property::Composite(composite)) if [tension, length, winding_in, paying_out] == [0.0; 4] => {
+                        let depth = anchor.and_then(|(_, depth)| depth);
+                        let variant = (property, depth);
+                        let others = written.iter().filter(|(other, _)| *other == property).count();
+                        let known = written.iter().position(|other| *other == variant);
+                        let place =
+                            known.map_or(others, |at| written.iter().take(at).filter(|w| w.0 == property).count());
+                        let name = match place {
+                            0 => format!("COMP{}", property + 1),
+                            _ => format!("COMP{}_{}", property + 1, place + 1),
+                        };
+                        if known.is_none() {
+                            written.push(variant);
+                            catenary(&name, composite, depth, out);
+                        }
+                        Some(name)
                     }
-                    Some(name)
+                    Some(Property::Composite(_)) => refuse_class(
+                        &format!("{} of a COMP with columns 31-70", card(&line.kind)),
+                        "those columns are the winch and the length of a POLY line; -PISTON of B_CAT is a tensioner of a catenary",
+                        line,
+                        out,
+                    ),
+                    Some(Property::Polynomial(_)) if tension > 0.0 => {
+                        winch(number, tension, length, [winding_in, paying_out], line, out)
+                    }
+                    Some(_) if tension > 0.0 || winding_in != 0.0 || paying_out != 0.0 => refuse_class(
+                        "NLIN with friction or a tension and no POLY winch",
+                        "a winch has a tension in columns 31-40 and goes with POLY",
+                        line,
+                        out,
+                    ),
+                    Some(Property::Polynomial(powers)) => {
+                        let mut power = 0;
+                        let coefficients = powers.map(|p| {
+                            power += 1;
+                            out.scale.newtons_per(p, power)
+                        });
+                        nonlinear(number, length, &format!("-POLY {}", numbers(coefficients)), line, out)
+                    }
+                    Some(Property::SteelWire { stiffness, offset }) => {
+                        let law = [out.scale.newtons_per(*stiffness, 1), out.scale.length(*offset)];
+                        nonlinear(number, length, &format!("-SWIRE {}", numbers(law)), line, out)
+                    }
+                    None => None,
                 }
-                Some(Property::Composite(_)) => {
-                    refuse_class("NLIN with a winch tension", "a CATENARY with a PISTON of the model", line, out)
-                }
-                _ => refuse_class("POLY", "a GSPR with a table of force over extension", line, out),
-            },
-            LineKind::Winched { .. } => refuse_class("LNDW", "an SL_ELEM, with &ACTION for the winch", line, out),
+            }
+            LineKind::Winched { .. } => drum(number, line, out),
             LineKind::Force(force) => constant_tension(number, force, line, out),
-            LineKind::Winch { .. } => refuse_class("WNCH", "an SL_ELEM with -PISTON, which keeps a tension", line, out),
+            LineKind::Winch { tension, length, winding_in, paying_out } => {
+                winch(number, tension, length, [winding_in, paying_out], line, out)
+            }
         };
         let Some(class) = class else { continue };
         let fairlead = point(first.0, first.1);
         let other = match anchor {
-            Some((place, _)) if !matches!(line.kind, LineKind::Elastic { .. } | LineKind::Force(_)) => {
-                format!("-ANCHOR {}", numbers(place))
-            }
+            Some((place, _)) if deck.mooring.composite(line).is_some() => format!("-ANCHOR {}", numbers(place)),
             _ => point(second.0, second.1),
         };
         out.card(format!("deck 14, {}", card(&line.kind)), line.span);
         out.record(format!("CONNECTOR L{number} ~{class} {fairlead} {other}"));
+    }
+    dynamics(deck, out);
+}
+
+/// Cable dynamics of the NLID lines.
+fn dynamics(deck: &Deck, out: &mut Script) {
+    if let Some(span) = deck.mooring.dynamics_off {
+        out.card("deck 14, DOFF", span);
+        out.remark("DOFF: the NLID lines are quasi-static");
+        return;
+    }
+    for (index, line) in deck.mooring.lines.iter().enumerate() {
+        let LineKind::Property { dynamic: true, .. } = line.kind else { continue };
+        if deck.mooring.composite(line).is_none() {
+            out.refuse(
+                Diagnostic::error("deck 14, NLID: cable dynamics is of composite catenaries", line.span)
+                    .help("NLIN is the card of a POLY or SWIR line"),
+            );
+            continue;
+        }
+        out.card("deck 14, NLID", line.span);
+        out.record(format!("&CONNECTOR L{} -DYNAMICS {DYNAMIC_ELEMENTS}", index + 1));
+    }
+}
+
+/// The actions of lines that break during a run.
+pub(super) fn breaks(deck: &Deck, out: &mut Script) {
+    for (index, broken) in deck.mooring.breaks.iter().enumerate() {
+        let found = usize::try_from(broken.line.value - 1).ok().and_then(|at| deck.mooring.lines.get(at));
+        let Some(line) = found else { continue };
+        let name = format!("L{}", broken.line.value);
+        let [first, second] = broken.tensions.map(|field| field.value);
+        // a straight weightless line has one tension
+        let tension = match (first > 0.0, second > 0.0) {
+            (false, false) => None,
+            (true, false) => Some(first),
+            (both, true) if deck.mooring.composite(line).is_none() => {
+                Some(if both { first.min(second) } else { second })
+            }
+            _ => {
+                out.refuse(
+                    Diagnostic::error(
+                        "deck 14, LBRK, columns 51-60: the tension at the second end of a catenary is not watched",
+                        broken.tensions[1].span,
+                    )
+                    .help("give the breaking tension at the first structure, columns 41-50"),
+                );
+                continue;
+            }
+        };
+        // the first end of the connector is the one on a structure
+        if tension.is_some() && deck.mooring.composite(line).is_some() && line.ends.structure1.value <= 0 {
+            out.refuse(
+                Diagnostic::error(
+                    "deck 14, LBRK, columns 41-50: the tension at the anchor of a catenary is not watched",
+                    broken.tensions[0].span,
+                )
+                .help("give the structure first on the card of the line"),
+            );
+            continue;
+        }
+        out.card("deck 14, LBRK", broken.span);
+        let time = broken.time.value;
+        match tension {
+            None => out.record(format!("&ACTION LBRK{} -AT {} -RELEASE {name}", index + 1, number(time))),
+            Some(tension) => {
+                let after = if time > 0.0 { format!(" -AFTER {}", number(time)) } else { String::new() };
+                let force = number(out.scale.force(tension, 0));
+                out.record(format!("&ACTION LBRK{} -TENSION {name} {force}{after} -RELEASE {name}", index + 1));
+            }
+        }
     }
 }
 
@@ -103,7 +203,8 @@ fn refuse_class(card: &str, class: &str, line: &MooringLine, out: &mut Script) -
 /// A linear elastic line: EA over its length is the stiffness.
 fn elastic(number_of: usize, stiffness: f64, length: f64, line: &MooringLine, out: &mut Script) -> Option<String> {
     if length <= 0.0 {
-        return refuse_class("LINE without a length", "a GSPR along X between the two points", line, out);
+        let law = format!("-POLY {}", number(out.scale.newtons_per(stiffness, 1)));
+        return nonlinear(number_of, length, &law, line, out);
     }
     let name = format!("L{number_of}");
     let length = out.scale.length(length);
@@ -131,15 +232,60 @@ fn constant_tension(number_of: usize, force: f64, line: &MooringLine, out: &mut 
     Some(name)
 }
 
+/// A winch that keeps a tension, with friction winding in and paying out.
+fn winch(
+    number_of: usize,
+    tension: f64,
+    length: f64,
+    friction: [f64; 2],
+    line: &MooringLine,
+    out: &mut Script,
+) -> Option<String> {
+    let name = format!("L{number_of}");
+    let mut text = format!("~{name} CT_LINE {}", number(out.scale.force(tension, 0)));
+    if length > 0.0 {
+        text.push_str(&format!(" -LENGTH {}", number(out.scale.length(length))));
+    }
+    if friction != [0.0; 2] {
+        text.push_str(&format!(" -FRICTION {}", numbers(friction)));
+    }
+    out.card(format!("deck 14, {}", card(&line.kind)), line.span);
+    out.record(text);
+    Some(name)
+}
+
+/// A straight line of a law of its extension.
+fn nonlinear(number_of: usize, length: f64, law: &str, line: &MooringLine, out: &mut Script) -> Option<String> {
+    let name = format!("L{number_of}");
+    out.card(format!("deck 14, {}", card(&line.kind)), line.span);
+    out.record(format!("~{name} NLIN {} {law}", number(out.scale.length(length))));
+    Some(name)
+}
+
+/// A linear line on a drum.
+fn drum(number_of: usize, line: &MooringLine, out: &mut Script) -> Option<String> {
+    let LineKind::Winched { stiffness, start, end, speed, tension, begins, added } = line.kind else { return None };
+    let name = format!("L{number_of}");
+    let scale = out.scale;
+    let [start, end, speed, added] = [start, end, speed, added].map(|x| scale.length(x));
+    let mut text = format!("~{name} LNDW {}", numbers([scale.newtons_per(stiffness, 1), start, end, speed]));
+    if tension > 0.0 {
+        text.push_str(&format!(" {}", number(scale.newtons(tension))));
+    }
+    if begins > 0.0 {
+        text.push_str(&format!(" -START {}", number(begins)));
+    }
+    if added > 0.0 {
+        text.push_str(&format!(" -ADDED {}", number(added)));
+    }
+    out.card("deck 14, LNDW", line.span);
+    out.record(text);
+    Some(name)
+}
+
 /// A composite line: one record a section from the fairlead, in kg, m, N. `depth` (m) is that of the anchor, on which the line lies,
 /// where it is not the depth of the water.
 fn catenary(name: &str, composite: &Composite, depth: Option<f64>, out: &mut Script) {
-    if composite.slope != 0.0 {
-        out.refuse(
-            Diagnostic::error("deck 14, COMP, columns 51-60: the sea bed of a CATENARY is level", composite.span)
-                .help("B_CAT of the model has -SLOPE"),
-        );
-    }
     if let Some(joint) = composite.sections.last().and_then(|section| section.joint) {
         out.refuse(
             Diagnostic::error("deck 14: a joint at the fairlead belongs to the structure", joint.span)
@@ -152,6 +298,9 @@ fn catenary(name: &str, composite: &Composite, depth: Option<f64>, out: &mut Scr
     below.extend(composite.sections.iter().map(|section| section.joint));
     let rows: Vec<(&CompositeSection, Option<CompositeJoint>)> = composite.sections.iter().zip(below).collect();
     let mut depth = depth.map_or(String::new(), |depth| format!(" -DEPANCHOR {}", number(depth)));
+    if composite.slope != 0.0 {
+        depth.push_str(&format!(" -SLOPE {}", number(round_value(composite.slope.to_radians().tan()))));
+    }
     for (section, joint) in rows.into_iter().rev() {
         let text = record(name, section, joint, out) + &std::mem::take(&mut depth);
         out.card("deck 14, ECAT", section.span);

@@ -4,6 +4,7 @@
 //! converted once, from the units of the deck to `&DIMEN -DIMEN METERS K-NTS` (tethers and catenaries: kg, m, N), and written with the
 //! digits that read back as they are.
 
+mod articulations;
 mod environment;
 mod lines;
 mod model;
@@ -145,6 +146,8 @@ fn model(deck: &Deck, units: &super::units::Units, out: &mut Script) {
     model::starts(deck, out);
     tethers::tethers(deck, out);
     lines::lines(deck, out);
+    articulations::fenders(deck, out);
+    articulations::articulations(deck, out);
     out.card("deck 0, JOB", deck.job.span);
     out.record("END");
 }

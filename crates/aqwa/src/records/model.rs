@@ -36,7 +36,7 @@ pub(super) fn ground(deck: &Deck, out: &mut Script) {
         [(ends.structure1.value, ends.node1.value), (ends.structure2.value, ends.node2.value)]
     });
     let mut nodes: Vec<i64> = of_tethers.collect();
-    nodes.extend(of_lines.filter(|(structure, _)| *structure <= 0).map(|(_, node)| node));
+    nodes.extend(of_lines.chain(of_joints(deck)).filter(|(structure, _)| *structure <= 0).map(|(_, node)| node));
     nodes.sort_unstable();
     nodes.dedup();
     for node in nodes {
@@ -46,6 +46,13 @@ pub(super) fn ground(deck: &Deck, out: &mut Script) {
             out.record(format!("{} {}", point(0, node), numbers(place)));
         }
     }
+}
+
+/// Structures and nodes of fenders and joints.
+fn of_joints(deck: &Deck) -> impl Iterator<Item = (i64, i64)> + '_ {
+    let fenders = deck.mooring.fenders.iter().flat_map(|f| f.sides.map(|s| (s.structure.value, s.node.value)));
+    let joints = deck.articulations.iter().flat_map(|j| j.sides.map(|s| (s.structure.value, s.node.value)));
+    fenders.chain(joints)
 }
 
 /// The nodes of a structure that something refers to, in order.
@@ -60,6 +67,7 @@ fn nodes(deck: &Deck, structure: &StructureDeck) -> Vec<i64> {
             list.extend((number.value == own).then_some(node.value));
         }
     }
+    list.extend(of_joints(deck).filter(|(number, _)| *number == own).map(|(_, node)| node));
     list.extend(deck.printing.nodes.iter().filter(|n| n.structure.value == own).map(|n| n.node.value));
     list.sort_unstable();
     list.dedup();

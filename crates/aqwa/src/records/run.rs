@@ -1,6 +1,7 @@
 //! What a deck runs and prints: decks 0, 14, 16, 17 and 18.
 
 use super::environment::spectrum;
+use super::lines;
 use super::model::{body, point};
 use super::tethers::name;
 use super::written::{Script, number, numbers, opposite, round_value};
@@ -49,6 +50,7 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
     }
     if matches!(deck.job.program, Program::Drift | Program::Naut) {
         wave_loads(deck, out);
+        lines::breaks(deck, out);
     }
     match (deck.job.program, deck.mooring.tethers.is_empty()) {
         (Program::Drift | Program::Naut, false) => write_tether_run(deck, out),

@@ -111,6 +111,11 @@ impl Scale {
         Self::times(value, self.kilograms * self.metres)
     }
 
+    /// Force over a length to a power (N/m^p).
+    pub(super) fn newtons_per(&self, value: f64, power: i32) -> f64 {
+        Self::times(value, self.kilograms * self.metres.powi(1 - power))
+    }
+
     /// Force times a length to a power (kN m^p).
     pub(super) fn force(&self, value: f64, power: i32) -> f64 {
         Self::times(value, self.kilograms * self.metres.powi(1 + power) / 1000.0)

@@ -823,7 +823,7 @@ fn incomplete_decks_are_refused() {
             ],
             "a section is at least 1 long",
         ),
-        (&["    14FEND", " END14LINE    1 1010    0 9010      10.0"], "deck 14 MOOR, FEND: this card is not read"),
+        (&["    14PULY", " END14LINE    1 1010    0 9010      10.0"], "deck 14 MOOR, PULY: a line over a pulley"),
     ];
     for (cards, part) in cases {
         let error = refused(&moor(cards)).0;

@@ -23,6 +23,8 @@ pub enum Trigger {
     Above(Observable, f64),
     /// When it is first below.
     Below(Observable, f64),
+    /// When another condition is first met at this time (s) or after it.
+    After(f64, Box<Trigger>),
 }
 
 /// What happens.
@@ -53,10 +55,19 @@ pub struct Action {
 }
 
 impl Trigger {
+    /// What is watched; nothing for a time.
+    pub fn observable(&self) -> Option<&Observable> {
+        match self {
+            Trigger::At(_) => None,
+            Trigger::Above(watched, _) | Trigger::Below(watched, _) => Some(watched),
+            Trigger::After(_, condition) => condition.observable(),
+        }
+    }
+
     /// The connector whose tension is watched.
     pub fn connector(&self) -> Option<&String> {
-        match self {
-            Trigger::Above(Observable::Tension(name), _) | Trigger::Below(Observable::Tension(name), _) => Some(name),
+        match self.observable() {
+            Some(Observable::Tension(name)) => Some(name),
             _ => None,
         }
     }

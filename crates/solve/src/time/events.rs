@@ -65,9 +65,7 @@ impl Run {
     pub(super) fn check_actions(&self) -> Result<(), SolveError> {
         for action in &self.actions {
             let wrong = |error: ClassError| SolveError::new(error.about(format!("action {}", action.name)));
-            if let Trigger::Above(Observable::Height(point), _) | Trigger::Below(Observable::Height(point), _) =
-                &action.when
-            {
+            if let Some(Observable::Height(point)) = action.when.observable() {
                 point_in_body(&self.model, point).map_err(wrong)?;
             }
             if let ActionKind::Winch(names, rate, _) = &action.what {
@@ -176,6 +174,7 @@ impl Run {
             Trigger::At(time) => self.now.time >= time - 1e-9 * self.settings.dt,
             Trigger::Above(watched, value) => self.observed_value(watched).is_some_and(|v| v > *value),
             Trigger::Below(watched, value) => self.observed_value(watched).is_some_and(|v| v < *value),
+            Trigger::After(time, condition) => self.due(&Trigger::At(*time)) && self.due(condition),
         }
     }
 

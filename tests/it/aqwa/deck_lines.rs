@@ -1,0 +1,261 @@
+//! Lines of deck 14 through their cards: forces on the structure where the deck puts it, and over time, against closed forms.
+//!
+//! The fairlead is at (0, 0, -10), the anchor at (535, 0, -100): sqrt(535^2 + 90^2) m apart. Numbers by numpy in double precision from the
+//! formulas beside them.
+
+use super::aqwa_decks::{SECTION, STILL, assert_near, lines, moored, placed, pulls, records, run, said};
+
+use windlass::session::Session;
+use windlass_hydro::Category;
+
+/// The structure is held in all degrees of freedom.
+fn held(deck: &str) -> String {
+    let card = |dof: u8| format!("{:>4}12DACF    1{dof:5}\n", if dof == 6 { "END" } else { "" });
+    let cards: String = (1..=6).map(card).collect();
+    deck.replace("    12    NONE\n", &format!("    12    CONS\n{cards}"))
+}
+
+/// Forces of the connectors on a held structure over time: (s, N along X and Z), by its deck.
+fn pulls_over_time(cards: &str) -> Vec<[f64; 3]> {
+    let (session, _) = run("held.dat", &held(&moored("NAUT", 100.0, cards, STILL)));
+    let made = session.job.run.as_ref().unwrap();
+    let history = &made.history;
+    let (x, z) = match history.layout.category(0, Category::FlexConnectors) {
+        Some(column) => (column, column + 2),
+        None => panic!("no connectors"),
+    };
+    history.times().iter().zip(history.rows()).map(|(time, row)| [*time, row[x], row[z]]).collect()
+}
+
+/// Horizontal and vertical force of the one line of a deck on its structure (N), toward and down to the anchor.
+fn pull(cards: &str) -> [f64; 2] {
+    let (session, _) = placed(&moored("LIBR", 100.0, cards, STILL));
+    let [pull] = pulls(&session.job.model)[..] else { panic!() };
+    [pull[0], -pull[2]]
+}
+
+fn meets(cards: &str, horizontal: f64, vertical: f64) {
+    let [h, v] = pull(cards);
+    assert_near(h, horizontal);
+    assert_near(v, vertical);
+}
+
+#[test]
+fn polynomial_line_pulls_by_five_coefficients_and_is_slack_within_its_length() {
+    // e = 2.5172808 m; 1E5 e + 2E3 e2 + 5E2 e3 - 30 e4 + 4 e5
+    let cards = |length: &str| {
+        format!(
+            "    14POLY                         1.0E5     2.0E3     5.0E2     -30.0       4.0\n END14NLIN    1    2    0   12{length:>20}\n"
+        )
+    };
+    meets(&cards("540.0"), 267_813.76919560, 45_052.78360300);
+    assert_eq!(pull(&cards("543.0")), [0.0; 2]);
+}
+
+#[test]
+fn steel_wire_line_pulls_by_its_asymptotic_law() {
+    // k (e - d tanh(e/d)), k = 3E5 N/m, d = 1.2 m
+    meets(
+        "    14SWIR                         3.0E5       1.2\n END14NLIN    1    2    0   12               540.0\n",
+        400_245.30841804,
+        67_330.98646285,
+    );
+}
+
+#[test]
+fn line_without_length_pulls_by_its_whole_distance() {
+    meets(" END14LINE    1    2    0   12     500.0\n", 267_500.0, 45_000.0);
+}
+
+#[test]
+fn winch_lines_keep_tension_less_friction_winding_in() {
+    // 100 kN, 0.3 winding in: 70 kN; a negative factor begins with paying out: 110 kN
+    for kind in ["WNCH", "NLIN"] {
+        let card = |friction: &str| {
+            format!(
+                "    14POLY                         1.0E5\n END14{kind}    1    2    0   12     1.0E5     540.0{friction:>10}       0.1\n"
+            )
+        };
+        meets(&card("0.3"), 69_030.05917646, 11_612.53331940);
+        meets(&card("-0.3"), 108_475.80727730, 18_248.26664478);
+    }
+}
+
+#[test]
+fn drum_winch_winds_in_from_its_start_at_its_speed() {
+    // EA = 2E5 N/m (540 + 20) m; from 4 s on 0.05 m/s: 539.7 m at 10 s
+    let cards = "    14DWT0                           4.0\n    14DWAL                          20.0\n\
+                 \x20END14LNDW    1    2    0   12     2.0E5     540.0     530.0     -0.05\n";
+    meets(cards, 496_480.12774578, 83_520.02148994);
+    let rows = pulls_over_time(cards);
+    let at = |time: f64| rows.iter().find(|row| (row[0] - time).abs() < 1e-9).unwrap();
+    assert_near(at(4.0)[1], 496_480.12774578);
+    assert_near(at(10.0)[1], 555_946.57842118);
+    assert_near(-at(10.0)[2], 93_523.72347272);
+}
+
+#[test]
+fn broken_line_acts_no_more_after_its_time_or_tension() {
+    let line = "    14LINE    1    2    0   12     1.0E5     540.0\n";
+    let acts = |time: &str, tension: &str| {
+        let rows = pulls_over_time(&format!("{line} END14LBRK         1{time:>20}{tension:>10}\n"));
+        rows.iter().rev().find(|row| row[1] != 0.0).map(|row| row[0])
+    };
+    // 248.2 kN along X, 251.7 kN in the line: at 3.05 s; at once beyond 250 kN; beyond 250 kN from 6 s on; never beyond 260 kN
+    let last = acts("3.05", "").unwrap();
+    assert!((2.9..=3.06).contains(&last), "{last}");
+    assert!(acts("", "250.0E3").is_none_or(|last| last <= 0.1));
+    let last = acts("6.0", "250.0E3").unwrap();
+    assert!((5.9..=6.1).contains(&last), "{last}");
+    assert_eq!(acts("", "260.0E3"), Some(10.0));
+}
+
+#[test]
+fn composite_line_lies_on_sloping_bed_of_its_card() {
+    // Elastic catenary on a plane without friction: from the anchor T falls by w sin(b) a metre down the bed; from the touchdown on
+    // x = H/w (asinh(V1/H) - asinh(V0/H)) + H L/EA with V0 = H tan(b). Newton's method to 1E-9 m. 0 degrees give the numbers of the level bed.
+    for (slope, horizontal, vertical) in
+        [("3.0", 42_779.75566846, 119_143.65812504), ("-3.0", 252_748.87183456, 298_778.21120421)]
+    {
+        let cards = format!(
+            "    14COMP                   1                    {slope:>10}\n{SECTION} END14NLIN    1    2    0   12\n"
+        );
+        meets(&cards, horizontal, vertical);
+        let text = moored("LIBR", 100.0, &cards, STILL);
+        assert!(said(&text).iter().any(|note| note.message.contains("sign of the slope")));
+    }
+}
+
+#[test]
+fn dynamic_line_of_deck_hangs_as_catenary_unless_switched_off() {
+    let cards =
+        |switch: &str| format!("    14COMP                   1\n{SECTION}{switch} END14NLID    1    2    0   12\n");
+    let deck = moored("LIBR", 100.0, &cards(""), STILL);
+    let (session, text) = placed(&deck);
+    assert!(text.contains("&CONNECTOR L1 -DYNAMICS"), "{text}");
+    let [pull] = pulls(&session.job.model)[..] else { panic!() };
+    // the chords of its elements, and a bottom that gives way: 1 per cent
+    assert!((pull[0] / 135_470.098_796_51 - 1.0).abs() < 0.01, "{pull:?}");
+    let off = lines(&records(&moored("LIBR", 100.0, &cards("    14DOFF\n"), STILL)).unwrap());
+    assert!(!off.contains("&CONNECTOR"), "{off}");
+}
+
+#[test]
+fn wrong_winches_and_breaks_are_refused_with_card_and_columns() {
+    for (cards, message) in [
+        (" END14LNDW    1    2    0   12     2.0E5     540.0     530.0\n", "deck 14, LNDW: a drum has a speed"),
+        (" END14LNDW    1    2    0   12       0.0     540.0     530.0      -1.0\n", "deck 14, LNDW, columns 31-40"),
+        (" END14WNCH    1    2    0   12     1.0E5     540.0       1.5\n", "deck 14, WNCH: tension and length"),
+        ("    14LINE    1    2    0   12     1.0E5     540.0\n END14LBRK         2       3.0\n", "deck 14 MOOR, LBRK"),
+        (
+            "    14LINE    1    2    0   12     1.0E5     540.0\n END14LBRK         2                 3.0\n",
+            "deck 14, LBRK, columns 16-20: there is no line 2",
+        ),
+        (
+            "    14LINE    1    2    0   12     1.0E5     540.0\n END14LBRK         1                -3.0\n",
+            "deck 14, LBRK, columns 31-40",
+        ),
+        (" END14SWIR                         3.0E5\n", "deck 14, SWIR: a steel wire"),
+        (" END14DRUM    1    2    0   12\n", "deck 14 MOOR, DRUM: no public source"),
+        (" END14FENP    1    2    0   12\n", "deck 14 MOOR, FENP: no public source"),
+    ] {
+        let list = said(&moored("LIBR", 100.0, cards, STILL));
+        let found = list.iter().find(|error| error.message.starts_with(message));
+        assert!(found.is_some_and(|error| error.span.is_some()), "{message}: {list:?}");
+    }
+    // a composite has no winch, and the far end of a catenary is not watched
+    let composite = format!("    14COMP                   1\n{SECTION}");
+    let line = "14NLIN    1    2    0   12";
+    for (cards, message) in [
+        (format!("{composite} END{line}{:>10}\n", "1.0E5"), "NLIN of a COMP with columns 31-70"),
+        (format!("{composite}    {line}\n END14LBRK{:>10}{:>40}\n", "1", "1.0E5"), "columns 51-60"),
+    ] {
+        let list = records(&moored("NAUT", 100.0, &cards, STILL)).unwrap_err();
+        assert!(list.iter().any(|error| error.message.contains(message) && error.span.is_some()), "{list:?}");
+    }
+}
+
+/// The deck with more nodes.
+fn with_nodes(deck: &str, nodes: &[(u32, [f64; 3])]) -> String {
+    let card = |(number, [x, y, z]): &(u32, [f64; 3])| format!("    01{number:4}          {x:10.3}{y:10.3}{z:10.3}\n");
+    let cards: String = nodes.iter().map(card).collect();
+    deck.replace(" END01  12", &format!("{cards} END01  12"))
+}
+
+/// Force and moment (N, N m) of the one connector of a model on its first end.
+fn wrench(session: &Session) -> [f64; 6] {
+    let model = &session.job.model;
+    let surroundings = model.surroundings();
+    let connector = model.connectors.values().next().unwrap();
+    let element = model.element(connector).unwrap();
+    let ends = model.end_poses(connector).map(windlass_model::End::still);
+    let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
+    let mut out = windlass_model::ElementResponse::default();
+    let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
+    element.evaluate(&at, &committed, &mut trial, &mut windlass_model::SolverCache::new(), &mut out).unwrap();
+    out.wrench[0].into()
+}
+
+#[test]
+fn fixed_fender_pushes_by_polynomial_of_its_compression() {
+    // 1 m high, its base on the structure at (0, 0, -10); the face of the ground 0.6 m in front of it along X, so 0.4 m of compression:
+    // 1E5 0.4 + 2E5 0.4^2 + 3E5 0.4^3 = 91,200 N
+    let nodes = [(21, [0.6, 0.0, -10.0]), (22, [1.6, 0.0, -10.0])];
+    let cards = |poly: &str, damping: &str| {
+        format!(
+            "    14POLY{:20}{poly}\n    14FEND{:>30}{:>20}{damping:>20}\n END14FLIN    1{:>10}    2{:>15}   21   22\n",
+            "", "1.0", "0.2", "1", "0"
+        )
+    };
+    let cubic = cards("     1.0E5     2.0E5     3.0E5", "");
+    for yaw in ["0.0", "30.0"] {
+        let deck = with_nodes(&moored("LIBR", 100.0, &cubic, STILL), &nodes)
+            .replace("       0.0\n    16    TINT", &format!("{yaw:>10}\n    16    TINT"));
+        let (session, _) = placed(&deck);
+        let [x, y, z, ..] = wrench(&session);
+        assert!((x + 91_200.0).abs() < 1e-3 && y.abs() < 1e-3 && z.abs() < 1e-3, "{yaw}: {x} {y} {z}");
+    }
+    // a linear one: 4E4 N, damped by 0.1 s times 1E5 N/m
+    let text =
+        lines(&records(&with_nodes(&moored("LIBR", 100.0, &cards("     1.0E5", "0.1"), STILL), &nodes)).unwrap());
+    assert!(text.contains("-FRICTION 0.2 -X_DAMPING 10 1"), "{text}");
+    // damping of a stiffness that changes, and other types, are refused
+    let list =
+        records(&with_nodes(&moored("LIBR", 100.0, &cards("     1.0E5     2.0E5", "0.1"), STILL), &nodes)).unwrap_err();
+    assert!(list[0].message.starts_with("deck 14, FEND, columns 71-80"), "{list:?}");
+    let floating = cubic.replace("14FLIN    1", "14FLIN    2");
+    assert!(
+        said(&moored("LIBR", 100.0, &floating, STILL))
+            .iter()
+            .any(|e| e.message == "deck 14, FLIN, columns 11-15: a fender of type 2 is not read")
+    );
+}
+
+/// A body of 1E7 kg at (0, 0, 0) that hangs from a joint of the ground, at rest.
+fn hung(joint: &str, others: &str) -> [f64; 6] {
+    let nodes = [(24, [3.0, 0.0, 2.0]), (25, [4.0, 0.0, 2.0]), (26, [3.0, 0.0, 3.0]), (27, [0.0, 0.0, 5.0])];
+    let deck = with_nodes(&moored("LIBR", 100.0, "", STILL), &nodes)
+        .replace("    14    MOOR\n", "    14    NONE\n")
+        .replace("    12    NONE\n", &format!("    12    CONS\n{others} END12DCON{joint}\n"));
+    let (session, _) = run("hung.dat", &deck);
+    wrench(&session)
+}
+
+#[test]
+fn articulation_reactions_carry_weight_and_locked_moments() {
+    let weight = 1e7 * 9.81;
+    let close = |got: [f64; 6], want: [f64; 6]| {
+        // the joint gives by 1E-4 m and 3E-4 rad, which moves the weight's arm as much
+        assert!(got.iter().zip(want).all(|(g, w)| (g - w).abs() < 1e-3 * weight), "{got:?}, {want:?}");
+    };
+    // on the body: up, and about its Y axis 3 m times the weight where that rotation is locked
+    close(hung("    0    1   27              0   27", ""), [0.0, 0.0, weight, 0.0, 0.0, 0.0]);
+    close(hung("    3    1   24              0   24", ""), [0.0, 0.0, weight, 0.0, 3.0 * weight, 0.0]);
+    // a hinge along X, 2 m above the centre
+    close(hung("    2    1   24   25         0   24   25", ""), [0.0, 0.0, weight, 0.0, 3.0 * weight, 0.0]);
+    // a universal joint that is free about X and Z, with RZ held by DACF
+    close(
+        hung("    1    1   24   25         0   24   26", "    12DACF    1    6\n"),
+        [0.0, 0.0, weight, 0.0, 3.0 * weight, 0.0],
+    );
+}
