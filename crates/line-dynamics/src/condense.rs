@@ -5,6 +5,7 @@ use super::hinges::{Clamp, clamp};
 use super::mesh::Rod;
 use super::step::{RodSolver, SolverPhase};
 use super::system::Weights;
+use super::workspace::Workspace;
 use nalgebra::SMatrix;
 
 /// Places of the widest row of a band.
@@ -136,15 +137,18 @@ impl RodSolver {
         exact: bool,
         asked: [bool; 2],
     ) -> Option<()> {
-        match self.phase {
-            SolverPhase::Idle => return None,
-            // the trial's own positions are at hand in the state that follows it
-            SolverPhase::Trial => self.set_trial_from_next(),
-            SolverPhase::Rest => {}
+        if self.phase == SolverPhase::Idle {
+            return None;
         }
         let at_rest = self.phase == SolverPhase::Rest;
         let close = !exact && !at_rest && self.end_jacobian.moved <= MAX_REUSE_MOVE * rod.shortest();
-        if !(close && (0..2).all(|side| self.end_jacobian.ready[side] || !asked[side])) {
+        let ready = close && (0..2).all(|side| self.end_jacobian.ready[side] || !asked[side]);
+        // the trial's own positions are at hand in the state that follows it; a rope, which nothing clamps, needs them for a matrix alone
+        let asks_nothing = ready && matches!(self.work, Workspace::Rope(_));
+        if !(at_rest || asks_nothing) {
+            self.set_trial_from_next();
+        }
+        if !ready {
             (self.trial.exact_friction_tangent, self.trial.is_static) = (!close, at_rest);
             let made = self.columns(rod, world, (close, at_rest), asked);
             (self.trial.exact_friction_tangent, self.trial.is_static) = (false, false);

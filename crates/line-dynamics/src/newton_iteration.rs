@@ -14,18 +14,18 @@ use super::trial::{largest_change, transport_directors};
 /// place than this says no more than that the work has a kink there.
 const MIN_LINE_SEARCH_SHARE: f64 = 0.1;
 
-/// Line search of Newton's iteration: the last change and the work of the residual along it (J).
+/// Line search of Newton's iteration: the last change, and the residual that asked for it.
 #[derive(Clone, Debug)]
 pub(super) struct LineSearch {
     change: Vec<f64>,
-    work: f64,
+    residual: Vec<f64>,
     /// Whether there is one.
     known: bool,
 }
 
 impl LineSearch {
     pub fn new(size: usize) -> Self {
-        LineSearch { change: vec![0.0; size], work: 0.0, known: false }
+        LineSearch { change: vec![0.0; size], residual: vec![0.0; size], known: false }
     }
 
     pub fn reset(&mut self) {
@@ -33,16 +33,18 @@ impl LineSearch {
     }
 
     /// Shortens a change that takes back half or more of the one before, as happens without end between two places at which an element is
-    /// slack and taut. The shortened change ends where the work of the residual, taken as linear between the two, is zero: the least energy.
+    /// slack and taut. The shortened change ends where the work of the residual (J), taken as linear between the two, is zero: the least
+    /// energy.
     fn damp_reversal(&mut self, residual: &[f64], change: &mut [f64]) {
         if self.known && product(change, &self.change) < -0.5 * product(&self.change, &self.change) {
-            let here = product(residual, &self.change);
-            let share = here / (here - self.work);
+            let [before, here] = [&self.residual, residual].map(|residual| product(residual, &self.change));
+            let share = here / (here - before);
             let share = if share > MIN_LINE_SEARCH_SHARE && share < 1.0 - MIN_LINE_SEARCH_SHARE { share } else { 0.5 };
             change.iter_mut().for_each(|c| *c *= share);
         }
         self.change.copy_from_slice(change);
-        (self.work, self.known) = (product(residual, change), true);
+        self.residual.copy_from_slice(residual);
+        self.known = true;
     }
 }
 

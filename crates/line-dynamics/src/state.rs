@@ -134,6 +134,21 @@ impl RodState {
         self.yielded.clone_from(&other.yielded);
     }
 
+    /// Whether it equals another state: as `==`, in loops without a way out, which go many numbers at a time.
+    pub(super) fn is_same(&self, other: &RodState) -> bool {
+        fn vectors(state: &RodState) -> [&[f64]; 6] {
+            let RodState { position, velocity, acceleration, averaged, director, stuck, .. } = state;
+            [position, velocity, acceleration, averaged, director, stuck].map(|list| bytemuck::cast_slice(list))
+        }
+        let same =
+            |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).fold(true, |same, (a, b)| same & (a == b));
+        self.time == other.time
+            && self.origin == other.origin
+            && vectors(self).into_iter().zip(vectors(other)).all(|(a, b)| same(a, b))
+            && same(&self.bedding, &other.bedding)
+            && same(&self.yielded, &other.yielded)
+    }
+
     /// Moves every node by its part of a change of the unknowns, of which there are `stride` a node, positions first.
     pub(super) fn move_nodes(&mut self, change: &[f64], stride: usize) {
         if stride == 3 {

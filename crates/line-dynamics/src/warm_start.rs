@@ -41,7 +41,7 @@ impl RodSolver {
             && self.is_single_part
             && self.next.time == time
             && held(&self.trial.ends) == held(ends)
-            && self.step_start == *state
+            && self.step_start.is_same(state)
     }
 
     /// Begins a trial where the last one of the step ended, moved by the linear response to what is new in the motion
