@@ -175,14 +175,14 @@ fn line_forces_match_catenary_at_every_event() {
     let events = results::events(&made.history, None).unwrap();
     let places = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
     let (at, yaw) = (vectors(&places, "Location", ["X", "Y", "Z"]), column(&places, "Location", "Yaw"));
-    let lengths = results::lengths(&made, &[0, 1, 2], &events).unwrap();
     for (link, (line, point)) in [("A", "*A"), ("B", "*B"), ("D", "*D")].into_iter().enumerate() {
         let table = results::connector_forces(&made, &[link], Magnitude::default(), &events).unwrap();
         let forces = vectors(&table, "Force", ["FX", "FY", "FZ"]);
         let ratios = column(&table, "Force", "Mag./Break");
         let grounded = column(&table, "On Bottom", "Length");
         let (up, along) = (column(&table, "Anchor", "V. Pull"), column(&table, "Anchor", "H. Pull"));
-        let length = column(&lengths, "First Segment", line);
+        let columns = &made.history.layout.links[link];
+        let length: Vec<f64> = made.history.rows().map(|row| columns.length(row).unwrap()).collect();
         let (anchor, own) = ends(&model, line, point);
         for i in 0..forces.len() {
             let t = 0.5 * i as f64;
@@ -257,13 +257,14 @@ fn released_line_has_no_values_after_release() {
     let window = EventWindow { begin: 4.0, end: Some(6.0), increment: Some(0.25) };
     let events = results::events(&made.history, Some(&window)).unwrap();
     let table = results::connector_forces(&made, &[2], Magnitude::default(), &events).unwrap();
-    let lengths = results::lengths(&made, &[2], &events).unwrap();
     for (at, time) in column(&table, "", "Time").into_iter().enumerate() {
         let known = time < 5.0;
-        let all = table.columns().iter().skip(1).chain(lengths.columns().iter().skip(1));
-        for cells in all {
+        for cells in table.columns().iter().skip(1) {
             assert_eq!(cells.cells[at] != Cell::Missing, known, "{} at {time}", cells.name);
         }
+    }
+    for row in made.history.rows() {
+        assert_eq!(made.history.layout.links[2].length(row).is_some(), row[0] < 5.0, "{}", row[0]);
     }
 }
 

@@ -181,22 +181,3 @@ pub fn total_forces(
     }
     Ok(table.build())
 }
-
-/// The length of the first segment of connectors of a run, which a winch changes. One without a length has none.
-///
-/// # Errors
-/// None of its own.
-pub fn lengths(run: &Run, links: &[usize], events: &[RunEvent]) -> Result<Table, SolveError> {
-    let layout = &run.history.layout;
-    let chosen: Vec<_> = links.iter().filter_map(|l| layout.links.get(*l)).collect();
-    let mut table = EventTable::new("Lengths of Connectors", (&run.history, events), |row| Ok(row.to_vec()))?;
-    for link in chosen {
-        table = table.column("First Segment", &link.name, Dim::Length, Digits::Usual, |row| {
-            let acts = row.get(link.active).is_some_and(|a| *a > 0.0);
-            row.get(link.active + 1).copied().filter(|_| acts).unwrap_or(f64::NAN)
-        });
-    }
-    let mut table = table.build();
-    table.note("unstretched; of a connector while it acts");
-    Ok(table)
-}

@@ -13,7 +13,7 @@ mod motions;
 mod points;
 mod rest_state;
 
-pub use connectors::{connector_forces, lengths, magnitudes, total_forces};
+pub use connectors::{connector_forces, magnitudes, total_forces};
 pub use events::{EventWindow, RunEvent, events};
 pub use fatigue::{ScatterExposure, line_damages, scatter};
 pub use fenders::{FenderPeak, fender_peaks, fender_table};
@@ -58,7 +58,8 @@ fn group_head(several: bool, name: &str, group: &str) -> String {
 ///
 /// The numbers of an instant between two rows lie on the straight line between theirs, as in MOSES; where only one of the two has a
 /// number, it is that of the row before. What is not finite is left out.
-struct EventTable<T> {
+#[derive(Debug)]
+pub struct EventTable<T> {
     table: Table,
     /// The times of the stored rows that events need, and what they come to.
     samples: Vec<(f64, T)>,
@@ -67,6 +68,7 @@ struct EventTable<T> {
 }
 
 /// An event between two samples.
+#[derive(Debug)]
 struct Instant {
     before: usize,
     behind: Option<usize>,
@@ -74,11 +76,13 @@ struct Instant {
 }
 
 impl<T> EventTable<T> {
-    /// The table of some events; `sample` says what a stored row comes to.
+    /// The table of some events of a run; `sample` says what a stored row comes to, whose columns [`RowLayout`] names.
     ///
     /// # Errors
     /// What `sample` says.
-    fn new(
+    ///
+    /// [`RowLayout`]: crate::time::RowLayout
+    pub fn new(
         title: impl Into<String>,
         (history, events): (&History, &[RunEvent]),
         mut sample: impl FnMut(&[f64]) -> Result<T, SolveError>,
@@ -139,27 +143,33 @@ impl<T> EventTable<T> {
     }
 
     /// Adds a column with its number of a stored row, SI.
-    fn column(self, group: &str, name: &str, dim: Dim, digits: Digits, value: impl Fn(&T) -> f64) -> Self {
+    pub fn column(self, group: &str, name: &str, dim: Dim, digits: Digits, value: impl Fn(&T) -> f64) -> Self {
         let mut made = self;
         made.add(group, [name], dim, digits, |(_, sample)| [value(sample)]);
         made
     }
 
     /// Adds columns of one group and dimension with their numbers of a stored row, SI.
-    fn columns<const N: usize>(self, group: &str, names: [&str; N], dim: Dim, values: impl Fn(&T) -> [f64; N]) -> Self {
+    pub fn columns<const N: usize>(
+        self,
+        group: &str,
+        names: [&str; N],
+        dim: Dim,
+        values: impl Fn(&T) -> [f64; N],
+    ) -> Self {
         let mut made = self;
         made.add(group, names, dim, Digits::Usual, |(_, sample)| values(sample));
         made
     }
 
     /// Adds a fact to the sub-header.
-    fn fact(mut self, name: &str, value: impl Into<Cell>, dim: Dim) -> Self {
+    pub fn fact(mut self, name: &str, value: impl Into<Cell>, dim: Dim) -> Self {
         self.table = self.table.fact(name, value, dim);
         self
     }
 
     /// The table with the columns added so far.
-    fn build(self) -> Table {
+    pub fn build(self) -> Table {
         self.table
     }
 }

@@ -37,6 +37,15 @@ pub struct LinkColumns {
     pub pushing: Option<Pushing>,
 }
 
+impl LinkColumns {
+    /// The unstretched length of its first segment (m) in a stored row, which a winch changes; none while it does not act, or
+    /// without a length.
+    pub fn length(&self, row: &[f64]) -> Option<f64> {
+        let acts = row.get(self.active).is_some_and(|active| *active > 0.0);
+        row.get(self.active + 1).copied().filter(|length| acts && length.is_finite())
+    }
+}
+
 /// A connector as a layout is made of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LinkEnds {
