@@ -262,19 +262,13 @@ impl LineModel for Chord {
         let unit = if chord > 0.0 { along.map(|v| v / chord) } else { [0.0, 0.0, -1.0] };
         let (force, slope) = self.force(chord - self.line.line.length());
         let across = if chord > 0.0 { force / chord } else { 0.0 };
-        let row = |i: usize| {
-            let a = unit.get(i).copied().unwrap_or(0.0);
-            let mut row = unit.map(|b| -slope * a * b + across * a * b);
-            if let Some(own) = row.get_mut(i) {
-                *own -= across;
-            }
-            row
-        };
+        let mut stiffness = unit.map(|a| unit.map(|b| -slope * a * b + across * a * b));
+        (0..3).for_each(|i| stiffness[i][i] -= across);
         let (ratio, critical) = self.ratio(force);
         Ok(LineLoads {
             fairlead: unit.map(|u| force * u),
             other: unit.map(|u| -force * u),
-            stiffness: [row(0), row(1), row(2)],
+            stiffness,
             distance: along[0].hypot(along[1]),
             tension: force,
             ratio,

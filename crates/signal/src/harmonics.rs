@@ -93,9 +93,8 @@ pub fn analyse(
         return Err(SeriesError::Refused("the samples do not determine the harmonics".into()));
     };
     let left = &right - &matrix * &found;
-    let at = |i: usize| found.get(i).copied().unwrap_or(0.0);
     let harmonics = (1..=orders).map(|order| {
-        let (c, s) = (at(2 * order - 1), at(2 * order));
+        let (c, s) = (found[2 * order - 1], found[2 * order]);
         // a cos(k w (t - last) + p) with c = a cos p, s = -a sin p; the phase is moved to t = 0
         let phase = (-s).atan2(c) - w * last * order as f64;
         Harmonic { order, amplitude: c.hypot(s), phase: wrap_angle(phase) }
@@ -103,7 +102,7 @@ pub fn analyse(
     Ok(Harmonics {
         period,
         cycles: used as usize,
-        mean: at(0),
+        mean: found[0],
         harmonics: harmonics.collect(),
         residual: (left.norm_squared() / rows as f64).sqrt(),
     })

@@ -86,8 +86,10 @@ impl ForceRecord {
         ForceRecord { name, sorted: forces }
     }
 
+    /// Reckoned from the least: of equal forces it is that force to the last digit, and they deviate by nothing.
     fn mean(&self) -> Option<f64> {
-        (!self.sorted.is_empty()).then(|| self.sorted.iter().sum::<f64>() / self.sorted.len() as f64)
+        let least = self.sorted.first()?;
+        Some(least + self.sorted.iter().map(|force| force - least).sum::<f64>() / self.sorted.len() as f64)
     }
 
     fn deviation(&self) -> Option<f64> {
@@ -128,6 +130,12 @@ mod tests {
         // numpy.std of the same
         assert_near(record.deviation(), 12.884_098_726_725_126, 1e-12);
         assert_eq!(self::record(Vec::new()).fractile(0.5), None);
+    }
+
+    #[test]
+    fn equal_forces_have_no_deviation() {
+        let record = record(vec![146.387_123_456_789; 33]);
+        assert_eq!((record.mean(), record.deviation()), (Some(146.387_123_456_789), Some(0.0)));
     }
 
     #[test]

@@ -5,8 +5,11 @@ use crate::commands::post::report::Tables;
 use windlass_solve::results::along;
 
 /// ENVELOPE.
-pub(super) static ENVELOPE: RodReport =
-    RodReport::new("ENVELOPE", "each node's least, mean and most; alone of a run with -STATISTICS", tables);
+pub(super) static ENVELOPE: RodReport = RodReport::new(
+    "ENVELOPE",
+    "least, mean and largest of each node; the one report of a run with -STATISTICS",
+    tables,
+);
 
 fn tables(query: &RodQuery) -> Tables {
     // of a run without rows its own envelope is reported
