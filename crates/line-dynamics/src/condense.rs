@@ -55,7 +55,7 @@ pub(super) struct EndJacobian {
     /// The condensed tangent asked for last.
     pub condensed: Option<Box<EndTangent>>,
     /// These ends, where it is the tangent by the columns that are there: of a rod that nothing clamps.
-    pub felt: Option<[bool; 2]>,
+    pub condensed_sides: Option<[bool; 2]>,
     /// How far a node may have moved since the matrix was factored (m).
     pub moved: f64,
 }
@@ -74,7 +74,7 @@ impl EndJacobian {
             together: none,
             ready: [false; 2],
             condensed: None,
-            felt: None,
+            condensed_sides: None,
             moved: f64::INFINITY,
         }
     }
@@ -100,31 +100,36 @@ impl RodSolver {
 
     /// The same, of which only the rows and columns of some ends are asked for, A and B: an end in the ground feels nothing and
     /// does not move. The others are zero. That of end A alone costs next to nothing.
-    pub fn end_tangent_of_sides(&mut self, rod: &Rod, world: &LineEnvironment, felt: [bool; 2]) -> Option<&EndTangent> {
-        self.in_local_coordinates(world, |solver, world, _| solver.linearise(rod, world, false, felt))?;
-        self.condense(rod, felt)
+    pub fn end_tangent_of_sides(
+        &mut self,
+        rod: &Rod,
+        world: &LineEnvironment,
+        sides: [bool; 2],
+    ) -> Option<&EndTangent> {
+        self.in_local_coordinates(world, |solver, world, _| solver.linearise(rod, world, false, sides))?;
+        self.condense(rod, sides)
     }
 
     /// Condenses the current matrix to the ends that are asked about.
-    fn condense(&mut self, rod: &Rod, felt: [bool; 2]) -> Option<&EndTangent> {
+    fn condense(&mut self, rod: &Rod, sides: [bool; 2]) -> Option<&EndTangent> {
         let clamps = [0, 1].map(|side| clamp(rod, &self.trial, side));
         let pinned = clamps.iter().all(Option::is_none);
-        if pinned && self.end_jacobian.felt == Some(felt) {
+        if pinned && self.end_jacobian.condensed_sides == Some(sides) {
             return self.end_jacobian.condensed.as_deref();
         }
         let mut made = self.end_jacobian.condensed.take().unwrap_or_default();
         let EndTangent { position, velocity, acceleration } = &mut *made;
         let mut kinds = [position, velocity, acceleration];
         kinds.iter_mut().for_each(|kind| kind.fill(0.0));
-        for side in (0..2).filter(|side| felt[*side]) {
+        for side in (0..2).filter(|side| sides[*side]) {
             let held = self.trial.ends[side].motion.is_some();
             match &clamps[side] {
-                Some(_) => self.add_end_columns::<6>((side, felt), &clamps, &mut kinds),
-                None if held => self.add_end_columns::<3>((side, felt), &clamps, &mut kinds),
+                Some(_) => self.add_end_columns::<6>((side, sides), &clamps, &mut kinds),
+                None if held => self.add_end_columns::<3>((side, sides), &clamps, &mut kinds),
                 None => {}
             }
         }
-        (self.end_jacobian.condensed, self.end_jacobian.felt) = (Some(made), pinned.then_some(felt));
+        (self.end_jacobian.condensed, self.end_jacobian.condensed_sides) = (Some(made), pinned.then_some(sides));
         self.end_jacobian.condensed.as_deref()
     }
 
@@ -210,8 +215,8 @@ impl RodSolver {
 
     /// Keeps of a matrix that has just been assembled what is asked of it later: the rows and columns of the ends.
     pub(super) fn reset_end_jacobian(&mut self) {
-        (self.end_jacobian.ready, self.end_jacobian.felt) = ([false; 2], None);
-        self.work.keep_rows();
+        (self.end_jacobian.ready, self.end_jacobian.condensed_sides) = ([false; 2], None);
+        self.work.store_end_rows();
         let place = [0, self.change.len() - self.work.stride()];
         for (columns, place) in self.end_jacobian.together.iter_mut().zip(place) {
             for (axis, column) in columns.iter_mut().enumerate() {
@@ -226,7 +231,7 @@ impl RodSolver {
     /// F_u: a row of the tangent is one solution with the transpose, whatever the number of motions.
     fn add_end_columns<const N: usize>(
         &mut self,
-        (side, felt): (usize, [bool; 2]),
+        (side, sides): (usize, [bool; 2]),
         clamps: &[Option<Clamp>; 2],
         made: &mut [&mut Matrix12; 3],
     ) {
@@ -246,7 +251,7 @@ impl RodSolver {
         let right = &mut right[..size];
         right.fill([0.0; N]);
         if known[side] {
-            self.work.kept_rows(side, |i, column, value| right[column][i] = -value);
+            self.work.visit_end_rows(side, |i, column, value| right[column][i] = -value);
         }
         if let Some(clamp) = clamps[side].as_ref().filter(|_| N == 6) {
             for (local, column, sign) in edge(side) {
@@ -259,7 +264,7 @@ impl RodSolver {
         let own = place.map(|first| [0, 1, 2].map(|axis| right[first + axis]));
         // rows beside end A, where nothing is asked or answered beyond them
         let beside = 2 * stride + MAX_BANDWIDTH / 2;
-        let wanted = if felt[1] { size } else { beside };
+        let wanted = if sides[1] { size } else { beside };
         self.work.solve_transposed(right, (if side == 0 { beside } else { size }, wanted));
         // what an entry of R_p does: on an inner row through the solution, on a row of this end as its own force
         let add = |column: &mut [f64; N], row: usize, entry: f64| match end_of(row) {
@@ -271,7 +276,7 @@ impl RodSolver {
             Some(end) if end == side => column[row - place[side]] -= entry,
             Some(_) => {}
         };
-        for other in (0..2).filter(|other| felt[*other]) {
+        for other in (0..2).filter(|other| sides[*other]) {
             for (kind, matrix) in made.iter_mut().enumerate().filter(|_| known[other]) {
                 for axis in 0..3 {
                     let mut column = [0.0; N];

@@ -94,7 +94,7 @@ impl RodSolver {
         } else {
             self.work.forces(rod, world, &self.trial);
         }
-        self.work.keep_ends();
+        self.work.store_end_residuals();
         for (side, node) in [(0, 0), (1, last)] {
             if known[side] {
                 self.work.drop_residual(node);
@@ -111,7 +111,7 @@ impl RodSolver {
         // what is still to move counts, also where less of it is made
         let size = largest_change(&self.change, self.work.stride(), rod.shortest());
         self.line_search.damp_reversal(self.work.residuals(), &mut self.change);
-        self.work.carry_ends(&self.change);
+        self.work.update_end_residuals(&self.change);
         // without a way out of the loop it goes many at a time
         if !self.change.iter().fold(true, |finite, c| finite & c.is_finite()) {
             return Err(Failure { node: self.work.largest_residual(known).0, why: "a force is no number" });

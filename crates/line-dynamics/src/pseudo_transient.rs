@@ -120,7 +120,7 @@ impl RodSolver {
             }
             match settled {
                 Some(inner) => {
-                    self.lay_at_trial(rod, world);
+                    self.place_laid_nodes_at_trial(rod, world);
                     from.copy_from_slice(&self.trial.x);
                     director.copy_from_slice(&self.trial.director);
                     longest = (longest * 1.3f64).min(most);
@@ -183,7 +183,7 @@ impl RodSolver {
             fluid.acceleration = Vector3::zeros();
         }
         self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
-        self.work.keep_ends();
+        self.work.store_end_residuals();
         let worst = self.work.largest_residual(known);
         if !worst.1.is_finite() {
             return StepOutcome::Failed;

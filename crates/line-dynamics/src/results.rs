@@ -32,7 +32,7 @@ impl Rod {
         if self.segments.iter().any(|s| s.tube.is_some()) {
             world.fluid.sample_into(x, state.time, &mut fluids);
         }
-        let beside = self.beside_ends(state, world);
+        let beside = self.sample_fluid_near_ends(state, world);
         let fluid_at = |node: usize| world.fluid.sample(&x[node], state.time);
         let (edges, pulls): (Vec<(Vector3<f64>, f64)>, Vec<f64>) =
             (0..last).map(|i| self.element_force(i, state, [&fluids[i], &fluids[i + 1]], world.gravity)).unzip();
@@ -168,7 +168,7 @@ impl Rod {
         let sampled = sampled.filter(|fluid| fluid.len() == state.position.len());
         let beside = match sampled {
             Some(fluid) => [[fluid[0], fluid[1]], [fluid[last], fluid[last - 1]]],
-            None => self.beside_ends(state, world),
+            None => self.sample_fluid_near_ends(state, world),
         };
         for (side, node, element) in [(0, 0, 0), (1, last, last - 1)] {
             let ((t, _), pull) = self.element_force(element, state, [&fluid; 2], world.gravity);
@@ -206,7 +206,7 @@ impl Rod {
     }
 
     /// The fluid at the two nodes beside end A, and at the two beside end B: each end first.
-    fn beside_ends(&self, state: &RodState, world: &LineEnvironment) -> [[FluidState; 2]; 2] {
+    fn sample_fluid_near_ends(&self, state: &RodState, world: &LineEnvironment) -> [[FluidState; 2]; 2] {
         let last = self.elements.len();
         let mut found = [UniformFluid::vacuum().0; 4];
         let places = [0, 1, last, last - 1].map(|node| state.position[node]);
@@ -238,7 +238,7 @@ impl Rod {
     }
 
     /// Tension (N) at end A (0) or end B (1), of whose element the direction and the tension are known, by the fluid
-    /// [`Rod::beside_ends`].
+    /// [`Rod::sample_fluid_near_ends`].
     fn tension_at_end(
         &self,
         side: usize,

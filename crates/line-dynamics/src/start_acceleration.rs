@@ -37,7 +37,7 @@ impl RodSolver {
             let mut made = Matrix3::zeros();
             if self.trial.ends[side].motion.is_some() {
                 let first = side * last;
-                self.work.kept_rows(side, |i, column, value| {
+                self.work.visit_end_rows(side, |i, column, value| {
                     if (first..first + 3).contains(&column) {
                         made[(i, column - first)] = value;
                     }
@@ -94,8 +94,8 @@ impl RodSolver {
         update_memory(rod, state, 0.0, &mut self.trial.memory);
         sample_fluid(world, state.time, &mut self.trial);
         self.work.assemble(rod, world, &self.trial, Weights { k: 0.0, c: 0.0, m: 1.0 }, 0..last);
-        self.work.keep_rows();
-        self.work.keep_ends();
+        self.work.store_end_rows();
+        self.work.store_end_residuals();
         for (side, node) in [(0, 0), (1, last)] {
             if known[side] {
                 self.work.drop_residual(node);
@@ -120,7 +120,7 @@ impl RodSolver {
             (state.acceleration[i], state.averaged[i]) = (moved, moved);
         }
         // forces are linear in the accelerations, so one solution has them whole
-        self.work.carry_ends(&self.change);
+        self.work.update_end_residuals(&self.change);
         let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
         Ok(RodEndForces { force: self.work.end_forces(), moment, iterations: 1, parts: 1 })
     }

@@ -159,7 +159,7 @@ impl RodSolver {
                 self.slid_without_friction = drags > 1.0;
                 (self.trial.x, self.trial.director, self.trial.laid_at) = (x, director, laid);
                 self.largest_residual(rod, world);
-                self.work.keep_ends();
+                self.work.store_end_residuals();
             }
         }
         Ok(self.accept_rest(rod, state, world, &ends, done))
@@ -182,7 +182,7 @@ impl RodSolver {
         }
         let is_piled_up = self.least_strain(rod) < PILED_UP_STRAIN;
         self.trial.friction = StaticFriction::pulled(drawn, !is_piled_up);
-        self.lay_as_in_state(rod, world);
+        self.place_laid_nodes_from_state(rod, world);
         if let Some(done) = self.rest_from_warm_start(rod, state, world, mass, &ends)
             && !(is_piled_up && self.relative_drag(rod, world) > 1.0)
         {
@@ -192,7 +192,7 @@ impl RodSolver {
         if drawn.is_some() {
             self.set_trial_at_rest(rod, state, world, &ends);
             self.swing_with_end(rod, state, world);
-            self.lay_as_in_state(rod, world);
+            self.place_laid_nodes_from_state(rod, world);
             if self.find_rest_pulled(rod, world, mass, done, MAX_ITERATIONS_WITH_FRICTION)? {
                 return Ok(Some(self.accept_rest(rod, state, world, &ends, *done)));
             }

@@ -221,20 +221,20 @@ impl RodSolver {
 
     /// Lays nodes where they are: those on the bottom without the way along the rod that they have gone since they were laid, the others
     /// as they hang.
-    pub(super) fn lay_at_trial(&mut self, rod: &Rod, world: &LineEnvironment) {
-        self.lay_nodes(rod, world, |off| off);
+    pub(super) fn place_laid_nodes_at_trial(&mut self, rod: &Rod, world: &LineEnvironment) {
+        self.place_laid_nodes(rod, world, |off| off);
     }
 
     /// Lays nodes where their friction across is what it was in a state with the same way from where they stuck.
-    pub(super) fn lay_as_in_state(&mut self, rod: &Rod, world: &LineEnvironment) {
+    pub(super) fn place_laid_nodes_from_state(&mut self, rod: &Rod, world: &LineEnvironment) {
         let Some((_, ground)) = world.bottom else { return };
-        self.lay_nodes(rod, world, |off| {
+        self.place_laid_nodes(rod, world, |off| {
             let share = (off / ground.friction_travel).clamp(-MAX_STUCK_SHARE, MAX_STUCK_SHARE);
             ground.friction_travel * share / (1.0 - share * share).sqrt()
         });
     }
 
-    fn lay_nodes(&mut self, rod: &Rod, world: &LineEnvironment, off: impl Fn(f64) -> f64) {
+    fn place_laid_nodes(&mut self, rod: &Rod, world: &LineEnvironment, off: impl Fn(f64) -> f64) {
         let Some(side) = self.trial.friction.pulled_end() else { return };
         let mut laid = self.trial.x.clone();
         for i in 0..rod.elements.len() {

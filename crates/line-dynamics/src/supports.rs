@@ -282,7 +282,7 @@ impl SupportState {
     }
 
     /// Change of the wrench on the support with its own motion, the rod as it is.
-    fn by_itself(&self, rates: bool) -> Matrix6<f64> {
+    fn stiffness_by_own_motion(&self, rates: bool) -> Matrix6<f64> {
         let mut made = Matrix6::zeros();
         for row in 0..self.meeting.count {
             made += self.carried[row].transpose() * self.by_support(row, rates);
@@ -331,7 +331,7 @@ impl RodSolver {
             }
             for (j, from) in held.iter().enumerate() {
                 let Some(from) = from else { continue };
-                blocks[count * j + j] += from.by_itself(rates);
+                blocks[count * j + j] += from.stiffness_by_own_motion(rates);
                 for dof in 0..6 {
                     right.fill(0.0);
                     for (row, node) in from.meeting.nodes().enumerate().filter(|(_, node)| !given(*node)) {

@@ -19,7 +19,7 @@ pub(super) struct RodSystem<const W: usize, const H: usize, const S: usize> {
     pub band: BandMatrix<H, S>,
     pub residual: Vec<f64>,
     /// Room for elements taken at once.
-    pub abreast: ElementBatch,
+    pub batch: ElementBatch,
     /// Residual of the two end nodes.
     pub ends: [Vector3<f64>; 2],
     /// Rows of the two end nodes.
@@ -31,7 +31,7 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
         RodSystem {
             band: BandMatrix::new(W * nodes),
             residual: vec![0.0; W * nodes],
-            abreast: ElementBatch::default(),
+            batch: ElementBatch::default(),
             ends: [Vector3::zeros(); 2],
             rows: [[[0.0; S]; 3]; 2],
         }
@@ -65,7 +65,7 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
 
     /// Adds so many elements that were taken at once, from the first on.
     pub fn shares<const TANGENT: bool>(&mut self, first: usize, count: usize) {
-        let ElementBatch { shares, .. } = &self.abreast;
+        let ElementBatch { shares, .. } = &self.batch;
         for n in 0..count.min(BATCH_SIZE) {
             add_share::<TANGENT, W, H, S>((&mut self.band, &mut self.residual), (first + n, n), shares);
         }
@@ -108,7 +108,7 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
     }
 
     /// Keeps the rows of the end nodes.
-    pub fn keep_rows(&mut self) {
+    pub fn store_end_rows(&mut self) {
         let last = self.residual.len() / W - 1;
         for (side, node) in [(0, 0), (1, last)] {
             for i in 0..3 {
@@ -118,7 +118,7 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
     }
 
     /// Keeps the residual of the end nodes.
-    pub fn keep_ends(&mut self) {
+    pub fn store_end_residuals(&mut self) {
         let last = self.residual.len() / W - 1;
         for (side, node) in [(0, 0), (1, last)] {
             self.ends[side] = self.residual_at(node);
@@ -131,8 +131,8 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
         Vector3::from_fn(|i, _| BandMatrix::<H, S>::product(&self.rows[side][i], W * node + i, change))
     }
 
-    /// Tells every entry of the kept rows of an end: row of the three, column, value.
-    pub fn kept_rows(&self, side: usize, mut entry: impl FnMut(usize, usize, f64)) {
+    /// Visits every entry of the stored rows of an end: row of the three, column, value.
+    pub fn visit_end_rows(&self, side: usize, mut entry: impl FnMut(usize, usize, f64)) {
         let size = self.residual.len();
         let node = if side == 0 { 0 } else { size / W - 1 };
         for (i, row) in self.rows[side].iter().enumerate() {
@@ -145,7 +145,7 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
     }
 
     /// Takes the kept residuals on to changed unknowns.
-    pub fn carry_ends(&mut self, change: &[f64]) {
+    pub fn update_end_residuals(&mut self, change: &[f64]) {
         for side in [0, 1] {
             self.ends[side] += self.ends_by(side, change);
         }

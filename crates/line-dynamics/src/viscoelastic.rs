@@ -38,7 +38,7 @@ impl MaxwellMemory {
 
     /// After a share `alpha` of the relaxation time in which the strain went evenly from `before` to where it is: the
     /// exact answer of dy/dt = d(strain)/dt - y / tau.
-    fn over_step(alpha: f64, before: f64, yielded: f64) -> Self {
+    fn from_relaxation_over_step(alpha: f64, before: f64, yielded: f64) -> Self {
         let follows = if alpha > 0.0 { -(-alpha).exp_m1() / alpha } else { 1.0 };
         MaxwellMemory { kept: (-alpha).exp() * (before - yielded) - follows * before, follows }
     }
@@ -154,7 +154,7 @@ pub(super) fn update_memory(rod: &Rod, from: &RodState, h: f64, memory: &mut [Ma
         if let Some(rope) = rod.viscoelastic_law(element) {
             let before =
                 rod.viscoelastic_tension(element, rope, [&x[0], &x[1]], &MaxwellMemory::instantaneous(*yielded));
-            *memory = MaxwellMemory::over_step(h / rope.relaxation, before, *yielded);
+            *memory = MaxwellMemory::from_relaxation_over_step(h / rope.relaxation, before, *yielded);
         }
     }
 }
@@ -185,7 +185,7 @@ mod tests {
             let rope = ViscoelasticRope { slow, fast: [2e7, 12.0], relaxation: 30.0 };
             assert_eq!(rope.find_fault(), None);
             for alpha in [0.0, 1e-3, 0.7, 1e3] {
-                let memory = MaxwellMemory::over_step(alpha, 0.015, 0.012);
+                let memory = MaxwellMemory::from_relaxation_over_step(alpha, 0.015, 0.012);
                 let (h, strain) = (1e-7, 0.031);
                 let slope = (rope.maxwell_tension(strain + h, &memory).0 - rope.maxwell_tension(strain - h, &memory).0)
                     / (2.0 * h);
@@ -204,7 +204,7 @@ mod tests {
         for steps in [1, 7, 200] {
             let alpha = 1.3 / steps as f64;
             let yielded = (0..steps).fold(0.0, |yielded, _| {
-                let memory = MaxwellMemory::over_step(alpha, 0.02, yielded);
+                let memory = MaxwellMemory::from_relaxation_over_step(alpha, 0.02, yielded);
                 0.02 - (memory.kept + memory.follows * 0.02)
             });
             // exact but for rounding

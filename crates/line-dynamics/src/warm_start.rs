@@ -64,7 +64,7 @@ impl RodSolver {
             _ => (known[0] && row < 3).then_some((0, row)),
         };
         // what the ends themselves feel of velocities and accelerations the scheme does not make
-        let mut felt = [Vector3::zeros(); 2];
+        let mut end_changes = [Vector3::zeros(); 2];
         // and the moves with which the scheme would make them
         let mut aside: f64 = 0.0;
         self.change.fill(0.0);
@@ -86,7 +86,7 @@ impl RodSolver {
                     let Some(row) = row.filter(|row| *row < size) else { continue };
                     let force = c * faster[axis] + m * harder[axis];
                     match held(row) {
-                        Some((side, axis)) => felt[side][axis] += force,
+                        Some((side, axis)) => end_changes[side][axis] += force,
                         None => self.change[row] -= force,
                     }
                 }
@@ -122,8 +122,8 @@ impl RodSolver {
         if all > LINEAR_MOVE_SHARE * self.settings.tolerance || turned(0) || turned(1) {
             return Some(WarmStart::Iterate);
         }
-        self.work.carry_ends(&self.change);
-        self.work.add_to_ends(&felt);
+        self.work.update_end_residuals(&self.change);
+        self.work.add_to_end_residuals(&end_changes);
         Some(WarmStart::Converged)
     }
 }

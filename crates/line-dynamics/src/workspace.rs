@@ -120,9 +120,9 @@ impl Workspace {
         });
     }
 
-    /// Tells every entry of the kept rows of an end: row of the three, column, value.
-    pub fn kept_rows(&self, side: usize, entry: impl FnMut(usize, usize, f64)) {
-        each!(self, system => system.kept_rows(side, entry));
+    /// Visits every entry of the stored rows of an end: row of the three, column, value.
+    pub fn visit_end_rows(&self, side: usize, entry: impl FnMut(usize, usize, f64)) {
+        each!(self, system => system.visit_end_rows(side, entry));
     }
 
     /// The block that couples a node's residual to the position of another.
@@ -132,22 +132,22 @@ impl Workspace {
     }
 
     /// Keeps the rows of the end nodes before they are fixed.
-    pub fn keep_rows(&mut self) {
-        each!(self, system => system.keep_rows());
+    pub fn store_end_rows(&mut self) {
+        each!(self, system => system.store_end_rows());
     }
 
     /// Keeps the residuals of the end nodes.
-    pub fn keep_ends(&mut self) {
-        each!(self, system => system.keep_ends());
+    pub fn store_end_residuals(&mut self) {
+        each!(self, system => system.store_end_residuals());
     }
 
     /// Takes the kept residuals of the ends on to changed positions.
-    pub fn carry_ends(&mut self, change: &[f64]) {
-        each!(self, system => system.carry_ends(change));
+    pub fn update_end_residuals(&mut self, change: &[f64]) {
+        each!(self, system => system.update_end_residuals(change));
     }
 
     /// Adds to the kept residuals of the ends.
-    pub fn add_to_ends(&mut self, by: &[Vector3<f64>; 2]) {
+    pub fn add_to_end_residuals(&mut self, by: &[Vector3<f64>; 2]) {
         each!(self, system => for (end, by) in system.ends.iter_mut().zip(by) {
             *end += by;
         });

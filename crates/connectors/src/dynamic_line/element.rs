@@ -166,7 +166,7 @@ impl DynamicLine {
                         let forces = solver.statics(rod, &mut state, environment, ends).map_err(to_class_error)?;
                         (state, forces)
                     }
-                    (afar, _) => afar?,
+                    (from_catenary, _) => from_catenary?,
                 },
             };
             *rest = Some(state.clone());

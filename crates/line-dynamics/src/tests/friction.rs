@@ -123,15 +123,15 @@ fn friction_equilibrium_stiffness_matches_force_finite_difference() {
         (made.force[1], solver.end_tangent(&rod, &world).unwrap().position)
     };
     rest(Vector3::zeros());
-    let told = rest(Vector3::zeros()).1;
+    let result = rest(Vector3::zeros()).1;
     for axis in 0..3 {
         let mut by = Vector3::zeros();
         by[axis] = 1e-4;
         let [plus, minus] = [by, -by].map(|by| rest(by).0);
         let found = (plus - minus) / 2e-4;
-        let column = Vector3::from_column_slice(told.fixed_view::<3, 1>(6, 6 + axis).as_slice());
+        let column = Vector3::from_column_slice(result.fixed_view::<3, 1>(6, 6 + axis).as_slice());
         println!("{axis}: {found:?} {column:?}");
         // a touchdown that moves by a tenth of a millimetre takes its softness along
-        assert!((found - column).norm() < 1e-3 * told.norm(), "{axis}: {found} {column}");
+        assert!((found - column).norm() < 1e-3 * result.norm(), "{axis}: {found} {column}");
     }
 }

@@ -128,9 +128,9 @@ fn static_friction_derivatives_match_finite_differences() {
                 solver.trial.laid_at =
                     solver.trial.x.iter().map(|x| x - Vector3::new(-0.1, 1.0, 0.0) * aside).collect();
                 let at = |trial: &super::super::trial::Trial| seabed_friction(&rod, &world, trial, 1, side).unwrap();
-                let told = at(&solver.trial);
-                assert!(told.held.norm() <= 1.0 + 2e-3, "{}", told.held.norm());
-                for (j, node) in [told.node, 3 - told.node].into_iter().enumerate() {
+                let result = at(&solver.trial);
+                assert!(result.held.norm() <= 1.0 + 2e-3, "{}", result.held.norm());
+                for (j, node) in [result.node, 3 - result.node].into_iter().enumerate() {
                     for axis in 0..3 {
                         let h = 1e-7;
                         let [plus, minus] = [h, -h].map(|h| {
@@ -139,8 +139,8 @@ fn static_friction_derivatives_match_finite_differences() {
                             at(&trial).force
                         });
                         let found = (plus - minus) / (2.0 * h);
-                        let column = told.by[j].column(axis);
-                        let size = told.by.iter().map(|b| b.norm()).fold(1.0, f64::max);
+                        let column = result.by[j].column(axis);
+                        let size = result.by.iter().map(|b| b.norm()).fold(1.0, f64::max);
                         assert!(
                             (found - column).norm() < 1e-5 * size,
                             "{slope:?} {along} {across} {stretch} {aside} {side} {j} {axis}: {found} {column}"

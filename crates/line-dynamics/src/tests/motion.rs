@@ -283,8 +283,8 @@ fn failing_step_is_subdivided_and_then_reported() {
     let nowhere = RodEndMotion::at_rest(Vector3::new(f64::NAN, 0.0, 0.0));
     let failed =
         solver.step(&rod, &mut state, &world, 0.5, [RodEnd::pin(a), RodEnd::from_motion(nowhere)]).unwrap_err();
-    let told = failed.to_string();
-    assert!(told.starts_with("LINE7: no solution at t = 0.5 s") && told.contains("element"), "{told}");
+    let message = failed.to_string();
+    assert!(message.starts_with("LINE7: no solution at t = 0.5 s") && message.contains("element"), "{message}");
     assert_eq!(state, before);
     // and goes on from the state it had
     solver.step(&rod, &mut state, &world, 0.5, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();

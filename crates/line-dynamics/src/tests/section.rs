@@ -191,20 +191,20 @@ fn pressure_is_continuous_to_zero_at_surface_with_its_slope() {
 #[test]
 fn invalid_rod_is_refused_with_its_reason() {
     let good = RodSegment::line(10.0, 5, 10.0, 1e6, 0.1);
-    let told = |segment: RodSegment| Rod::new("R", vec![segment], vec![]).unwrap_err().to_string();
-    assert!(told(RodSegment { elements: 0, ..good.clone() }).contains("number of elements"));
-    assert!(told(RodSegment { mass: 0.0, ..good.clone() }).contains("mass per length is 0"));
-    assert!(told(RodSegment { axial: TensionLaw::Linear(0.0), ..good.clone() }).contains("axial stiffness"));
+    let message = |segment: RodSegment| Rod::new("R", vec![segment], vec![]).unwrap_err().to_string();
+    assert!(message(RodSegment { elements: 0, ..good.clone() }).contains("number of elements"));
+    assert!(message(RodSegment { mass: 0.0, ..good.clone() }).contains("mass per length is 0"));
+    assert!(message(RodSegment { axial: TensionLaw::Linear(0.0), ..good.clone() }).contains("axial stiffness"));
     assert!(
-        told(RodSegment { axial: TensionLaw::Table(vec![(0.0, 0.0)]), ..good.clone() }).contains("axial stiffness")
+        message(RodSegment { axial: TensionLaw::Table(vec![(0.0, 0.0)]), ..good.clone() }).contains("axial stiffness")
     );
-    assert!(told(RodSegment { length: f64::NAN, ..good.clone() }).contains("length"));
-    assert!(told(RodSegment { bending: -1.0, ..good.clone() }).contains("bending stiffness"));
+    assert!(message(RodSegment { length: f64::NAN, ..good.clone() }).contains("length"));
+    assert!(message(RodSegment { bending: -1.0, ..good.clone() }).contains("bending stiffness"));
     assert!(
-        told(RodSegment { tube: Some(TubeSection::empty(0.1, 0.1)), ..good.clone() })
+        message(RodSegment { tube: Some(TubeSection::empty(0.1, 0.1)), ..good.clone() })
             .contains("thinner than the radius")
     );
-    let huge = told(RodSegment { elements: usize::MAX, ..good.clone() });
+    let huge = message(RodSegment { elements: usize::MAX, ..good.clone() });
     assert!(huge.contains("MB"), "{huge}");
     assert!(Rod::new("R", vec![], vec![]).is_err());
     let attachment = Attachment::mass(6, 1.0);

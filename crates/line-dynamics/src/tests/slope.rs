@@ -148,15 +148,15 @@ fn stiffness_on_slope_matches_finite_difference_of_force() {
             let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(Vector3::zeros()), RodEnd::pin(far)]);
             (made.unwrap().force[1], solver.end_tangent(&rod, &world).unwrap().position)
         };
-        let told = pull(Vector3::zeros()).1;
+        let result = pull(Vector3::zeros()).1;
         for axis in 0..3 {
             let mut by = Vector3::zeros();
             by[axis] = 1e-4;
             let [plus, minus] = [by, -by].map(|by| pull(by).0);
             let found = (plus - minus) / 2e-4;
-            let column = Vector3::from_column_slice(told.fixed_view::<3, 1>(6, 6 + axis).as_slice());
+            let column = Vector3::from_column_slice(result.fixed_view::<3, 1>(6, 6 + axis).as_slice());
             println!("{slope} {length} {axis}: {found:?} {column:?}");
-            assert!((found - column).norm() < 1e-3 * told.norm(), "{axis}: {found} {column}");
+            assert!((found - column).norm() < 1e-3 * result.norm(), "{axis}: {found} {column}");
         }
     }
 }

@@ -66,8 +66,8 @@ fn twisted_state_is_restored_and_wrong_one_refused() {
     let mut numbers = Vec::new();
     state.pack(&mut numbers);
     assert_eq!(RodState::unpack(&rod, &numbers).unwrap(), state);
-    let told = RodState::unpack(&rod, &numbers[1..]).unwrap_err().to_string();
-    assert_eq!(told, "pipe: its state is 172 numbers, not 171");
+    let message = RodState::unpack(&rod, &numbers[1..]).unwrap_err().to_string();
+    assert_eq!(message, "pipe: its state is 172 numbers, not 171");
     numbers[5] = f64::NAN;
     assert!(RodState::unpack(&rod, &numbers).unwrap_err().to_string().contains("number 6 of its state is NaN"));
     let made = |mesh: &[(f64, f64, usize)]| Rod::with_mesh("pipe", vec![segment.clone(); 2], vec![], mesh);

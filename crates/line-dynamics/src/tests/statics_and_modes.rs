@@ -208,8 +208,8 @@ fn rope_end_tension_is_nonnegative_and_matches_holder_in_motion() {
     let mut ends = [RodEnd::pin(a), RodEnd::pin(b)];
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     for i in 0..=100 {
-        let told = rod.results(&state, &world, &ends);
-        assert!(told.iter().all(|n| n.effective >= 0.0), "{i}: {told:?}");
+        let result = rod.results(&state, &world, &ends);
+        assert!(result.iter().all(|n| n.effective >= 0.0), "{i}: {result:?}");
         let t = f64::from(i + 1) * 0.05;
         let (s, c) = t.sin_cos();
         ends[0] = RodEnd::from_motion(RodEndMotion {
@@ -218,12 +218,16 @@ fn rope_end_tension_is_nonnegative_and_matches_holder_in_motion() {
             acceleration: Vector3::z() * c,
         });
         let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
-        let told = rod.results(&state, &world, &ends);
+        let result = rod.results(&state, &world, &ends);
         let d = (state.position[1] - state.position[0]).normalize();
         let along = made.force[0].dot(&d);
         // the rod's pull on its holder along its first element, but for the tolerance of a step: 1e-5 of an element by the
         // stiffness of one is far more than what its last change leaves
-        assert!((told[0].effective - along).abs() < 1e-4 * along.abs().max(1e4), "{i}: {} {along}", told[0].effective);
+        assert!(
+            (result[0].effective - along).abs() < 1e-4 * along.abs().max(1e4),
+            "{i}: {} {along}",
+            result[0].effective
+        );
     }
 }
 

@@ -111,12 +111,12 @@ fn beam_on_three_rollers_matches_continuous_beam_reactions() {
         let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
         let mut solver = RodSolver::new(&rod, RodSettings::default());
         let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::FREE]).unwrap();
-        let told = rod.support_forces(&state, &world);
-        for (told, wanted) in told.iter().zip(wanted) {
+        let result = rod.support_forces(&state, &world);
+        for (result, wanted) in result.iter().zip(wanted) {
             // second order in the element, (1/80)^2; a support sinks by 2e-5 m, which takes 12 EI / L^3 of it
-            assert!((-told.force.z / wanted - 1.0).abs() < 1e-3, "{elements}: {told:?} {wanted}");
+            assert!((-result.force.z / wanted - 1.0).abs() < 1e-3, "{elements}: {result:?} {wanted}");
         }
-        let sum = -told.iter().map(|r| r.force.z).sum::<f64>() - made.force[0].z;
+        let sum = -result.iter().map(|r| r.force.z).sum::<f64>() - made.force[0].z;
         // of the whole weight, to the residual of statics
         assert!((sum / (w * rod.length()) - 1.0).abs() < 1e-6, "{sum}");
         let moment = rod.results(&state, &world, &[RodEnd::pin(a), RodEnd::FREE]);
@@ -194,21 +194,21 @@ fn cradle_holds_pipe_by_force_balance_of_faces() {
     let load = Vector3::new(0.0, 300.0, -1000.0);
     // a V of 90 degrees: N1 + N2 = W / sin 45, N1 - N2 = H / cos 45
     let vee = Cradle { half_width: 0.0, opening: std::f64::consts::FRAC_PI_2, ..plain(0.0, 1e5) };
-    let (place, told) = lying(vee, load);
+    let (place, result) = lying(vee, load);
     // the rope, taut by 1e7 (d / 100)^2 / 2, bears a hundred-thousandth
-    assert!((told.force - load).norm() < 1e-3 * load.norm(), "{told:?}");
+    assert!((result.force - load).norm() < 1e-3 * load.norm(), "{result:?}");
     // depth of each face N / k: z = -(N1 + N2) sin / (2 k sin^2) and y = (N1 - N2) cos / (2 k cos^2)
     assert!((place.z + 1000.0 / 1e5).abs() < 1e-5 && (place.y - 300.0 / 1e5).abs() < 1e-5, "{place}");
     // a U: the floor bears the weight, the flank at 0.2 m the side load
     let (place, _) = lying(Cradle { half_width: 0.2, ..plain(0.0, 1e5) }, load);
     assert!((place.z + 0.01).abs() < 2e-4 && (place.y - 0.203).abs() < 2e-4, "{place}");
     // lifted: nothing acts
-    let (place, told) = lying(Cradle { half_width: 0.2, ..plain(0.0, 1e5) }, Vector3::z() * 2.0);
-    assert_eq!(told.force, Vector3::zeros());
+    let (place, result) = lying(Cradle { half_width: 0.2, ..plain(0.0, 1e5) }, Vector3::z() * 2.0);
+    assert_eq!(result.force, Vector3::zeros());
     assert!(place.z > 0.0, "{place}");
     // a rod that ends before it
-    let (_, told) = lying(plain(300.0, 1e5), load * 1e-3);
-    assert_eq!((told.force, told.arc), (Vector3::zeros(), None));
+    let (_, result) = lying(plain(300.0, 1e5), load * 1e-3);
+    assert_eq!((result.force, result.arc), (Vector3::zeros(), None));
 }
 
 /// The energy balance of a pipe dropped on two rollers that heave, by steps of `h` seconds.
@@ -341,14 +341,14 @@ fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) 
     let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     solver.statics(&rod, &mut state, &world, [RodEnd::FREE, RodEnd::pin(b)]).unwrap();
-    let told = rod.support_forces(&state, &world).iter().map(|s| [s.force, s.moment]).collect();
-    (told, solver.support_tangent(&rod, &world).unwrap())
+    let result = rod.support_forces(&state, &world).iter().map(|s| [s.force, s.moment]).collect();
+    (result, solver.support_tangent(&rod, &world).unwrap())
 }
 
 #[test]
 fn support_force_derivatives_match_motion_finite_differences() {
-    let (told, tangent) = on_three(&[[0.0; 6]; 3]);
-    assert!(told.iter().all(|t| t[0].norm() > 100.0), "{told:?}");
+    let (result, tangent) = on_three(&[[0.0; 6]; 3]);
+    assert!(result.iter().all(|t| t[0].norm() > 100.0), "{result:?}");
     assert!(tangent.velocity.is_empty());
     let size = tangent.position.iter().map(|k| k.amax()).fold(0.0, f64::max);
     let step = 1e-4;

@@ -94,10 +94,10 @@ fn slow_cycle_has_static_and_fast_cycle_dynamic_stiffness() {
         let slow = TensionLaw::Polynomial(vec![1e7, 1e8]);
         let rope = || ViscoelasticRope { slow: slow.clone(), fast: [a, b], relaxation: 20.0 };
         let (still, quick) = (cycle(rope(), mean, 1e-4, 100), cycle(rope(), mean, 6.0, 100));
-        let (told, at) = (slow.evaluate(mean), a + b * tension);
-        assert!((told.0 / tension - 1.0).abs() < 1e-12);
+        let (law, at) = (slow.evaluate(mean), a + b * tension);
+        assert!((law.0 / tension - 1.0).abs() < 1e-12);
         // (w tau)^2 is 4e-6 and the sums 3e-4; 7e-5 for the fast one
-        assert!((still.storage / told.1 - 1.0).abs() < 1e-3, "{} {told:?}", still.storage);
+        assert!((still.storage / law.1 - 1.0).abs() < 1e-3, "{} {law:?}", still.storage);
         assert!((quick.storage / at - 1.0).abs() < 1e-3, "{} {at}", quick.storage);
         // the swing's square in the slow law: 1e8 e^2 / 2 = 50 N
         assert!((quick.mean - tension).abs() < 100.0, "{} {tension}", quick.mean);
@@ -141,8 +141,8 @@ fn hanging_load_creeps_to_static_length_with_closed_energy_balance() {
             assert!((stretch / wanted - 1.0).abs() < 1e-3, "{t}: {stretch} {wanted}");
         }
     }
-    let told = rod.results(&state, &world, &ends);
-    assert!((told[2].effective / load - 1.0).abs() < 1e-4, "{}", told[2].effective);
+    let nodes = rod.results(&state, &world, &ends);
+    assert!((nodes[2].effective / load - 1.0).abs() < 1e-4, "{}", nodes[2].effective);
     assert!(balance.energy_error().abs() < 0.01 * balance.turnover, "{} {}", balance.energy_error(), balance.turnover);
     // and statics go to the static law at once
     solver.statics(&rod, &mut state, &world, ends).unwrap();
@@ -182,22 +182,22 @@ fn rope_released_slack_carries_no_compression() {
 
 #[test]
 fn invalid_viscoelastic_law_is_refused() {
-    let told = |slow: TensionLaw, fast, relaxation| {
+    let message = |slow: TensionLaw, fast, relaxation| {
         let axial = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope { slow, fast, relaxation }));
         let segment = RodSegment { axial, ..RodSegment::line(10.0, 1, 1.0, 1.0, 0.1) };
         Rod::new("rope", vec![segment], vec![]).unwrap_err().to_string()
     };
-    assert!(told(TensionLaw::Linear(2e7), [1e7, 1.0], 10.0).contains("no less than the static one"));
-    assert!(told(TensionLaw::Linear(1e7), [f64::NAN, 1.0], 10.0).contains("no less than the static one"));
-    assert!(told(TensionLaw::Linear(1e7), [2e7, -1.0], 10.0).contains("mean tension"));
-    assert!(told(TensionLaw::Linear(1e7), [2e7, 1.0], 0.0).contains("relaxation time"));
-    assert!(told(TensionLaw::Linear(0.0), [2e7, 1.0], 1.0).contains("positive"));
+    assert!(message(TensionLaw::Linear(2e7), [1e7, 1.0], 10.0).contains("no less than the static one"));
+    assert!(message(TensionLaw::Linear(1e7), [f64::NAN, 1.0], 10.0).contains("no less than the static one"));
+    assert!(message(TensionLaw::Linear(1e7), [2e7, -1.0], 10.0).contains("mean tension"));
+    assert!(message(TensionLaw::Linear(1e7), [2e7, 1.0], 0.0).contains("relaxation time"));
+    assert!(message(TensionLaw::Linear(0.0), [2e7, 1.0], 1.0).contains("positive"));
     let inner = TensionLaw::Viscoelastic(Box::new(ViscoelasticRope {
         slow: TensionLaw::Linear(1.0),
         fast: [2.0, 0.0],
         relaxation: 1.0,
     }));
-    assert!(told(inner, [2e7, 1.0], 1.0).contains("viscoelastic itself"));
+    assert!(message(inner, [2e7, 1.0], 1.0).contains("viscoelastic itself"));
 }
 
 #[test]
@@ -249,8 +249,8 @@ fn fast_slackening_rope_carries_no_compression_through_damper() {
             slack += usize::from(exact == 0.0);
             // a mass of a hundred-thousandth of a kilogram; rounding of 1e5 N
             assert!((made.force[0].x - exact).abs() < 1e-5, "{t}: {} {exact}", made.force[0].x);
-            let told = rod.results(&state, &world, &ends);
-            assert!((told[0].effective - exact).abs() < 1e-5 && told[1].effective >= 0.0, "{t}: {told:?}");
+            let nodes = rod.results(&state, &world, &ends);
+            assert!((nodes[0].effective - exact).abs() < 1e-5 && nodes[1].effective >= 0.0, "{t}: {nodes:?}");
         }
         assert!((69..72).contains(&slack), "{slack}");
         // what its stretch held went into the damper and the holder; the trapezoidal rule is out at the kink by one step's

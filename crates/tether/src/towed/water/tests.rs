@@ -96,11 +96,11 @@ fn towed_surface_matches_surface_at_current_position() {
     for t in [0.0, 3.0, 11.0] {
         let (dx, dy) = (cos * vx + sin * vy, cos * vy - sin * vx);
         let (passed, flow) = flow_at(&one, t, 2.0 + dx * t, 1.0 + dy * t, -2.0);
-        let (met, felt) = flow_at(&other, t, 2.0, 1.0, -2.0);
+        let (met, flow_nearby) = flow_at(&other, t, 2.0, 1.0, -2.0);
         assert!((passed - met).abs() < 1e-13);
-        assert!((flow.velocity[0] - dx - felt.velocity[0]).abs() < 1e-13);
-        assert!((flow.velocity[1] - dy - felt.velocity[1]).abs() < 1e-13);
-        assert!((flow.acceleration[2] - felt.acceleration[2]).abs() < 1e-13);
+        assert!((flow.velocity[0] - dx - flow_nearby.velocity[0]).abs() < 1e-13);
+        assert!((flow.velocity[1] - dy - flow_nearby.velocity[1]).abs() < 1e-13);
+        assert!((flow.acceleration[2] - flow_nearby.acceleration[2]).abs() < 1e-13);
     }
 }
 
