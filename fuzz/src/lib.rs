@@ -125,7 +125,7 @@ pub fn decks(data: &[u8]) {
         let _ = windlass_language::render::render(message, &sources, false);
     }
     let deck = &reading.deck;
-    let _ = (deck.echo(), deck.data_tables());
+    let _ = (deck.echo(), deck.listing_before_tethers(), deck.listing_before_motion());
     if !reading.failed {
         if let Ok(records) = windlass_aqwa::records(deck) {
             let _ = records.script();

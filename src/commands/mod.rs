@@ -91,6 +91,8 @@ pub const PLAIN: u32 = 0;
 pub const INMODEL_FILE: u32 = 1;
 /// Tag of the job's own script.
 pub const SCRIPT: u32 = 2;
+/// Tag of the records of a deck up to its motion.
+pub const DECK_HEAD: u32 = 3;
 
 /// A command: its declaration and what it does.
 pub struct Command {

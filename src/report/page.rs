@@ -7,7 +7,7 @@
 use super::format;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table as Grid};
-use windlass_base::table::{Cell, Column, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Fact, Table};
 use windlass_base::units::{Dim, UnitSystem};
 
 /// What stands at the head of a page.
@@ -40,14 +40,7 @@ pub fn render(table: &Table, units: UnitSystem, head: &PageHead) -> String {
     let process = if head.process.is_empty() { "DEFAULT" } else { &head.process };
     lines.push(centre(&format!("Process is {process}: Units Are {units} Unless Specified"), width));
     lines.push(String::new());
-    for (name, cell, dim) in &table.facts {
-        let label = dim.label(units);
-        let value = format::report(cell, *dim, Digits::Usual, units);
-        lines.push(match cell {
-            Cell::Missing => format!("   {name:<32} = not given"),
-            _ => format!("   {name:<32} = {value} {label}"),
-        });
-    }
+    lines.extend(facts(table, units));
     if !table.facts.is_empty() {
         lines.push(String::new());
     }
@@ -59,6 +52,31 @@ pub fn render(table: &Table, units: UnitSystem, head: &PageHead) -> String {
     let mut text = lines.iter().map(|l| l.trim_end()).collect::<Vec<_>>().join("\n");
     text.push('\n');
     text
+}
+
+/// The facts of a table, a line each.
+fn facts(table: &Table, units: UnitSystem) -> impl Iterator<Item = String> {
+    table.facts.iter().map(move |Fact { name, value, dim, digits }| match value {
+        Cell::Missing => format!("   {name:<32} = not given"),
+        _ => format!("   {name:<32} = {} {}", format::report(value, *dim, *digits, units), dim.label(units)),
+    })
+}
+
+/// A page of a deck's listing: its title spaced between stars, its facts, rows and notes.
+pub fn listing(table: &Table, units: UnitSystem) -> Vec<String> {
+    let mut lines = vec![String::new(), format!(" * * * * {} * * * *", space_letters(&table.title)), String::new()];
+    let parts: [Vec<String>; 3] = [
+        facts(table, units).map(|line| line.trim_end().to_string()).collect(),
+        if table.columns().is_empty() { Vec::new() } else { grid(table, units) },
+        table.notes.iter().map(|note| format!("   {note}")).collect(),
+    ];
+    for part in parts.into_iter().filter(|part| !part.is_empty()) {
+        if lines.last().is_some_and(|line| !line.is_empty()) {
+            lines.push(String::new());
+        }
+        lines.extend(part);
+    }
+    lines
 }
 
 /// The rows of a table with their heads, without page head and title: what listings use.

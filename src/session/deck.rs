@@ -1,12 +1,19 @@
 //! AQWA decks: read, listed, and run as the records they amount to.
 
 use super::Session;
-use crate::commands::{PLAIN, SCRIPT};
+use crate::commands::{DECK_HEAD, PLAIN, SCRIPT};
 use crate::report::page;
 use std::path::Path;
+use windlass_aqwa::job::Program;
+use windlass_aqwa::listing::ListingPart;
+use windlass_aqwa::waves::WaveDeck;
 use windlass_aqwa::{self as aqwa, Deck, Records, WrittenRecords};
 use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_base::fortran::fixed;
 use windlass_base::span::Span;
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
+use windlass_hydro::sea::Sea;
 use windlass_language::source::Text;
 
 impl Session {
@@ -21,7 +28,7 @@ impl Session {
             return;
         }
         let Some((deck, records)) = self.translate_deck(name, text, aqwa::records) else { return };
-        self.tell(&deck);
+        self.list(&deck);
         let script = records.script();
         let named = format!("{}.cif", stem(name));
         if let Err(error) = self.job.output.folder.write(&named, script.text.as_bytes()) {
@@ -29,7 +36,11 @@ impl Session {
             self.report(Diagnostic::plain(Severity::Warning, text));
         }
         self.job.settings.batch = true;
-        self.open_records(&named, script, SCRIPT, None);
+        // what the listing has between the tethers and the motion comes where the records of the model end
+        let [head, motion] = script.split();
+        self.open_records(&named, motion, SCRIPT, None);
+        self.open_records(&named, head, DECK_HEAD, None);
+        self.listed = Some(Box::new(deck));
     }
 
     /// Reads the model of a deck next.
@@ -102,21 +113,58 @@ impl Session {
         }
     }
 
-    /// The echo of the cards and the data of decks 1 to 5.
-    fn tell(&mut self, deck: &Deck) {
+    /// The echo of the cards and the data of the decks.
+    fn list(&mut self, deck: &Deck) {
         let mut lines: Vec<String> = Vec::new();
-        for echo in deck.echo().into_iter().filter(|echo| !echo.lines.is_empty()) {
-            lines.push(format!("\n {}", echo.title));
-            lines.extend(echo.lines);
+        for part in deck.listing_before_tethers() {
+            match part {
+                ListingPart::Echo(echo) => {
+                    lines.push(format!("\n {}", echo.title));
+                    lines.extend(echo.lines);
+                }
+                ListingPart::Page(page) => lines.extend(page::listing(&page, self.job.units)),
+            }
         }
-        let unit = deck.units().map_or("", |units| units.name);
-        // a deck always makes its tables (their rows are made with them)
-        for table in deck.data_tables() {
-            lines.push(format!("\n {} ({unit})\n", table.title));
-            lines.extend(page::grid(&table, self.job.units));
+        if let Ok(units) = deck.units() {
+            lines.push(format!("\n pages of the data are in {}", units.name));
         }
         self.job.say(&lines.join("\n"));
     }
+
+    /// The pages between the tethers and the motion, once the model of the deck is made.
+    pub(super) fn list_start(&mut self) {
+        let Some(deck) = self.listed.take() else { return };
+        let mut pages = deck.listing_before_motion();
+        if matches!(deck.waves, WaveDeck::Spectra(_)) && deck.job.program == Program::Drift {
+            let length = deck.units().map_or(1.0, |units| units.length);
+            // the run refuses a sea that cannot be, at its record
+            let sea = Sea::new(&self.job.model, &self.job.model.environment).ok().flatten();
+            pages.extend(sea.as_ref().and_then(|sea| spectral_lines(sea, length)));
+        }
+        let lines: Vec<String> = pages.iter().flat_map(|page| page::listing(page, self.job.units)).collect();
+        if !lines.is_empty() {
+            self.job.say(&lines.join("\n"));
+        }
+    }
+}
+
+/// The lines of a spectrum [AQWA-TETHER 8.1], in a unit of length (m).
+fn spectral_lines(sea: &Sea, length: f64) -> Option<Table> {
+    let train = sea.trains.first()?;
+    let waves = sea.components.get(train.components.clone())?;
+    let variance: f64 = waves.iter().map(|wave| 0.5 * wave.amplitude * wave.amplitude).sum();
+    let rows: Vec<_> = (1usize..).zip(waves.iter().zip(&train.bands)).collect();
+    let four = Digits::Decimals(4);
+    let table = Table::new("Wave Spectral Lines")
+        .with_rows(&rows)
+        .column("", "NUMBER", Dim::None, Digits::Usual, |(number, _)| *number)
+        .column("", "WAVE NUMBER", Dim::None, Digits::Scientific(5), |(_, (wave, _))| wave.number * length)
+        .column("", "FREQUENCY", Dim::None, four, |(_, (wave, _))| wave.frequency)
+        .column("", "PHASE", Dim::None, four, |(_, (wave, _))| wave.phase.to_degrees().rem_euclid(360.0))
+        .column("", "ORDINATES", Dim::None, four, |(_, (_, band))| band.mean_density().map(|s| s / (length * length)))
+        .build();
+    let height = fixed(4.0 * variance.sqrt() / length, 3);
+    Some(table.fact("4 TIMES SQUARE ROOT OF RASTER AREA(S.W.H.)", height, Dim::None))
 }
 
 /// A file's name without its folder and ending.

@@ -58,6 +58,8 @@ pub struct Session {
     errors_at_prompt: i64,
     /// Texts made of decks, with the cards they are made of.
     decks: Vec<(SourceId, aqwa::WrittenRecords)>,
+    /// The deck that is the job, until the pages before its motion are listed.
+    listed: Option<Box<aqwa::Deck>>,
 }
 
 impl Session {
@@ -75,6 +77,7 @@ impl Session {
             reports: Vec::new(),
             errors_at_prompt: 0,
             decks: Vec::new(),
+            listed: None,
         }
     }
 
@@ -101,6 +104,10 @@ impl Session {
             self.interpreter.passing = self.passing();
             let over = match self.interpreter.next_step(&mut self.job) {
                 Ok(FlowStep::Record(record)) => self.execute(&record),
+                Ok(FlowStep::Ended(commands::DECK_HEAD)) => {
+                    self.list_start();
+                    false
+                }
                 Ok(FlowStep::Ended(tag)) => {
                     while tag == INMODEL_FILE && self.passing() {
                         self.leave_menu(None);

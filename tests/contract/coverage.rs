@@ -28,7 +28,7 @@ fn exists(test: &str, files: &[(String, String)]) -> bool {
     match file {
         "golden" => {
             Path::new(&format!("tests/golden/{name}.txt")).exists()
-                && Path::new(&format!("scripts/{name}.cif")).exists()
+                && ["cif", "dat"].iter().any(|end| Path::new(&format!("scripts/{name}.{end}")).exists())
         }
         "errors" => Path::new(&format!("tests/errors/{name}.cif")).exists(),
         _ => files.iter().any(|(stem, text)| {

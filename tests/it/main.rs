@@ -97,6 +97,7 @@ mod time {
 /// AQWA decks run by the session.
 mod aqwa {
     mod aqwa_decks;
+    mod aqwa_listing;
     mod aqwa_tether_fatigue;
     mod aqwa_tether_statistics;
     mod deck_lines;

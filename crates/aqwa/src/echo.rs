@@ -5,10 +5,13 @@
 use super::Deck;
 use super::layout::CardRecord;
 use super::reader::{Cards, HEADERS};
+use windlass_base::fortran::exponent;
 
 /// The echo of one deck.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Echo {
+    /// Number of the deck.
+    pub deck: u8,
     /// `DECK 14`; decks of structures `DECK 7.1`; a regular wave `DECK 13N`.
     pub title: String,
     /// A line a card.
@@ -54,7 +57,7 @@ impl Deck {
                 } else {
                     Vec::new()
                 };
-                Echo { title: title(cards), lines }
+                Echo { deck: cards.deck, title: title(cards), lines }
             })
             .collect()
     }
@@ -69,14 +72,6 @@ fn title(cards: &Cards) -> String {
         _ if series => format!("DECK {deck}.{}", cards.header.structure.max(1)),
         _ => format!("DECK {deck}"),
     }
-}
-
-/// A real number in E format with a sign and two digits of exponent, as Fortran writes it.
-fn exponent(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$E}");
-    let (mantissa, power) = text.split_once('E').unwrap_or((&text, "0"));
-    let (sign, digits) = power.strip_prefix('-').map_or(('+', power), |digits| ('-', digits));
-    format!("{mantissa}E{sign}{digits:0>2}")
 }
 
 fn line(deck: u8, record: &CardRecord) -> String {
@@ -112,17 +107,4 @@ fn line(deck: u8, record: &CardRecord) -> String {
         }
     }
     text.trim_end().to_string()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::exponent;
-
-    #[test]
-    fn exponents_are_written_with_sign_and_two_digits() {
-        assert_eq!(exponent(1.0698e12, 3), "1.070E+12");
-        assert_eq!(exponent(0.0, 3), "0.000E+00");
-        assert_eq!(exponent(-2.5e-3, 2), "-2.50E-03");
-        assert_eq!(exponent(1.0e-120, 3), "1.000E-120");
-    }
 }

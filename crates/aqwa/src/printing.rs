@@ -3,6 +3,7 @@
 //! Source: [AQWA-TETHER Appendix B, 8.1.18 and 8.2.18]; [AQWA-REF deck 18].
 
 use super::card::Field;
+use super::job::Program;
 use super::layout::{CardLayout, CardRecord, Slot, int};
 use super::remarks::Remarks;
 use windlass_base::diagnostic::Diagnostic;
@@ -36,6 +37,16 @@ pub const LAYOUTS: &[CardLayout] = &[
     CardLayout::pass_over("PTST", "has no effect"),
     CardLayout::pass_over("PTRT", "has no effect"),
 ];
+
+/// Parameters that both listings of [AQWA-TETHER 8] turn off, or that stand for rows windlass never has: positions, velocities and accelerations by RAO, at wave
+/// and at drift frequency, and forces of other programs.
+const ROWS_NEVER_PRINTED: [i64; 18] = [4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 26, 27, 28, 29, 30, 31, 32, 34];
+/// Gyroscopic, diffraction, linear damping, hydrodynamic and wave frequency forces (8.2.18): which number is which is published nowhere, so that they act together.
+const FORCES_OF_WAVES: [i64; 6] = [15, 16, 17, 19, 23, 25];
+/// Those of them that the deck of DRIF turns off, while its listing has diffraction.
+const FORCES_OF_WAVES_DRIFT: [i64; 3] = [17, 19, 25];
+/// The expected error of a step: of the two listings the one whose deck asks for it has the row.
+const ERROR_OF_STEP: i64 = 49;
 
 /// A node whose position is printed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,6 +150,7 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> Printing {
             _ => {}
         }
     }
+    say_unknown_parameters(&printing, remarks);
     if let (Some(first), Some(last)) = (printing.first, printing.last)
         && first.value > last.value
     {
@@ -149,4 +161,42 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> Printing {
         );
     }
     printing
+}
+
+/// Says which NOPR and PRNT cards have no effect.
+fn say_unknown_parameters(printing: &Printing, remarks: &mut Remarks) {
+    for switch in &printing.switches {
+        let number = switch.parameter.value;
+        let keyword = if switch.on { "PRNT" } else { "NOPR" };
+        let card = format!("deck 18, {keyword}, columns 16-20: parameter {number}");
+        let acts = number == ERROR_OF_STEP || FORCES_OF_WAVES.contains(&number);
+        if acts || (!switch.on && ROWS_NEVER_PRINTED.contains(&number)) {
+            continue;
+        }
+        let message = if ROWS_NEVER_PRINTED.contains(&number) {
+            Diagnostic::warning(format!("{card} is a row that windlass does not have"), switch.parameter.span)
+                .help("it is not printed")
+        } else {
+            Diagnostic::warning(format!("{card} stands for a row that no source names"), switch.parameter.span)
+                .help("the card has no effect; 4-12, 15-17, 19, 20, 23, 25-32, 34 and 49 are known")
+        };
+        remarks.add_once(&format!("{keyword} {number}"), || message);
+    }
+}
+
+/// Rows of the pages of a structure that are left out, by the names of `STRUCTURE PAGES -OMIT`.
+pub fn omitted_rows(printing: &Printing, structure: i64, program: Program) -> Vec<&'static str> {
+    let mut rows = Vec::new();
+    let set: &[i64] = if program == Program::Drift { &FORCES_OF_WAVES_DRIFT } else { &FORCES_OF_WAVES };
+    if set.iter().all(|number| !printing.prints(structure, *number, true)) {
+        rows.push("WAVE_INERTIA");
+        if program != Program::Drift {
+            rows.push("DIFFRACTION");
+        }
+        rows.push("GYROSCOPIC");
+    }
+    if !printing.prints(structure, ERROR_OF_STEP, false) {
+        rows.push("ERROR");
+    }
+    rows
 }

@@ -23,6 +23,7 @@ pub mod band;
 pub mod choice;
 pub mod dense;
 pub mod diagnostic;
+pub mod fortran;
 pub mod geometry;
 pub mod message;
 pub mod pose;

@@ -52,13 +52,26 @@ pub struct TableNote {
     pub text: String,
 }
 
+/// A fact that holds for all rows of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fact {
+    /// Its name.
+    pub name: String,
+    /// Its value, SI.
+    pub value: Cell,
+    /// What the value measures.
+    pub dim: Dim,
+    /// Digits in the formatted report.
+    pub digits: Digits,
+}
+
 /// A result: a title, facts that hold for all rows, columns of equal length, and remarks for the reader.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Table {
     /// Title without decoration, e.g. `Properties of Line A`.
     pub title: String,
-    /// Facts for the sub-header: name, value, dimension of the value.
-    pub facts: Vec<(String, Cell, Dim)>,
+    /// Facts for the sub-header.
+    pub facts: Vec<Fact>,
     /// All have the same number of cells.
     columns: Vec<Column>,
     /// Remarks printed under the rows.
@@ -201,8 +214,13 @@ impl Table {
     }
 
     /// Adds a fact to the sub-header; returns the table for chaining.
-    pub fn fact(mut self, name: &str, value: impl Into<Cell>, dim: Dim) -> Self {
-        self.facts.push((name.into(), value.into(), dim));
+    pub fn fact(self, name: &str, value: impl Into<Cell>, dim: Dim) -> Self {
+        self.fact_with_digits(name, value, dim, Digits::Usual)
+    }
+
+    /// Adds a fact with its digits to the sub-header; returns the table for chaining.
+    pub fn fact_with_digits(mut self, name: &str, value: impl Into<Cell>, dim: Dim, digits: Digits) -> Self {
+        self.facts.push(Fact { name: name.into(), value: value.into(), dim, digits });
         self
     }
 
@@ -323,6 +341,13 @@ impl<'r, R> TableBuilder<'r, R> {
 }
 
 impl Column {
+    /// A column of texts that end below each other: numbers whose digits go with the row.
+    pub fn right_aligned(group: &str, name: &str, texts: impl IntoIterator<Item = String>) -> Self {
+        let texts: Vec<String> = texts.into_iter().collect();
+        let width = texts.iter().map(|text| text.chars().count()).max().unwrap_or(0);
+        Column::new(group, name, Dim::None, Digits::Usual, texts.into_iter().map(|text| format!("{text:>width$}")))
+    }
+
     /// A column under a group head (empty text for none) with its cells, SI.
     pub fn new(
         group: &str,

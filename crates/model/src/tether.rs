@@ -81,6 +81,8 @@ pub struct TetherEnds {
     pub constraints: Vec<TetherConstraint>,
     /// Identical tethers side by side: what they do to the structure counts so many times; 0 as 1.
     pub group: usize,
+    /// Place of the node at the vessel as a deck gives it, for the description (m).
+    pub given: Option<[f64; 3]>,
 }
 
 impl TetherEnds {

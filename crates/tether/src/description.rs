@@ -2,6 +2,7 @@
 
 use super::TetherElement;
 use super::line::{ElementLabel, TetherLine};
+use windlass_base::fortran::without_noise;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 
@@ -104,11 +105,10 @@ impl TetherDescription<'_> {
         self.weight() + self.buoyancy() + self.end_cap_buoyancy()
     }
 
-    /// The table of 7.1: nodes from the vessel down with the element below each, and the facts under it in the listing.
+    /// The table of 7.1: nodes from the vessel down with the element below each, and the facts under it in the listing. A towed tether has its lateral
+    /// springs in two columns more.
     pub fn table(&self) -> Table {
         let towed = self.configuration == TetherArrangement::Towed;
-        let second = if towed { Dim::ForcePerLength } else { Dim::MomentPerRadian };
-        let names = if towed { ["Along", "Y", "Z"] } else { ["Inline", "X Rot", "Y Rot"] };
         let last = self.line.nodes() - 1;
         let nodes: Vec<DescriptionRow> = (0..=last)
             .rev()
@@ -119,61 +119,86 @@ impl TetherDescription<'_> {
             })
             .collect();
         let label = |row: &DescriptionRow, value: fn(&ElementLabel) -> i64| row.element.map(|e| value(&e.label));
-        self.facts(Table::new(format!("Description of Tether {}", self.number)))
+        const ELEMENT: &str = "ELEMENT DESCRIPTION";
+        const AREA: &str = "EXT AREA";
+        const SPRINGS: &str = "SPRINGS/CONSTRAINTS";
+        let coil = |row: &DescriptionRow, axis: usize| row.end.map(|e| if towed { 0.0 } else { self.springs[e][axis] });
+        let mut table = self
+            .facts(Table::new(format!("Description of Tension Leg Tether {}", self.number)))
             .with_rows(&nodes)
-            .column("", "Tether Node", Dim::None, Digits::Usual, |row| row.node + 1)
-            .column("", "Distance", Dim::Length, Digits::Decimals(1), |row| self.line.distances()[row.node])
-            .column("Element", "Node 1", Dim::None, Digits::Usual, |row| label(row, |l| l.nodes[0]))
-            .column("Element", "Node 2", Dim::None, Digits::Usual, |row| label(row, |l| l.nodes[1]))
-            .column("Element", "Material", Dim::None, Digits::Usual, |row| label(row, |l| l.material))
-            .column("Element", "Geometry", Dim::None, Digits::Usual, |row| label(row, |l| l.geometry))
-            .column("Section", "Area", Dim::Area, Digits::Decimals(4), |row| row.element.map(|e| e.tube().area()))
-            .column("Section", "2nd Moment", QUARTIC, Digits::Decimals(6), |row| {
+            .column("TETHER", "NODE", Dim::None, Digits::Usual, |row| row.node + 1)
+            .column("", "ELEVATION", Dim::Length, Digits::Decimals(1), |row| self.line.distances()[row.node])
+            .column(ELEMENT, "NODE 1", Dim::None, Digits::Usual, |row| label(row, |l| l.nodes[0]))
+            .column(ELEMENT, "NODE 2", Dim::None, Digits::Usual, |row| label(row, |l| l.nodes[1]))
+            .column(ELEMENT, "MATE GROUP", Dim::None, Digits::Usual, |row| label(row, |l| l.material))
+            .column(ELEMENT, "GEOM GROUP", Dim::None, Digits::Usual, |row| label(row, |l| l.geometry))
+            .column(ELEMENT, "X-SECT AREA", Dim::Area, Digits::Decimals(4), |row| row.element.map(|e| e.tube().area()))
+            .column(ELEMENT, "2ND-MOM OF AREA", QUARTIC, Digits::Decimals(6), |row| {
                 row.element.map(|e| e.tube().second_moment())
             })
-            .column("Section", "EI", BENDING, Digits::Scientific(4), |row| row.element.map(|e| e.bending_stiffness()))
-            .column("Section", "EA", Dim::Force, Digits::Scientific(4), |row| row.element.map(|e| e.axial_stiffness()))
-            .column("Outside Area", "Cap", Dim::Area, Digits::Decimals(3), |row| row.end.map(|e| self.caps[e]))
-            .column("Outside Area", "Diameter", Dim::Area, Digits::Decimals(3), |row| {
+            .column(ELEMENT, "EI", BENDING, Digits::Scientific(4), |row| row.element.map(|e| e.bending_stiffness()))
+            .column(ELEMENT, "EA", Dim::Force, Digits::Scientific(4), |row| row.element.map(|e| e.axial_stiffness()))
+            .column(AREA, "CAP AREA", Dim::Area, Digits::Decimals(3), |row| row.end.map(|e| self.caps[e]))
+            .column(AREA, "EXTERNAL DIAM AREA", Dim::Area, Digits::Decimals(3), |row| {
                 row.element.map(|e| e.tube().external_area())
             })
-            .column("Spring", names[0], Dim::ForcePerLength, Digits::Scientific(3), |row| {
+            .column(SPRINGS, "INLINE/VERTICAL", Dim::ForcePerLength, Digits::Scientific(3), |row| {
                 row.end.map(|e| self.springs[e][0])
             })
-            .columns("Spring", [names[1], names[2]], second, Digits::Scientific(3), |row| {
-                row.end.map_or([None; 2], |e| [Some(self.springs[e][1]), Some(self.springs[e][2])])
-            })
-            .build()
-    }
-
-    /// The facts under the table of the listing, in its order.
-    fn facts(&self, out: Table) -> Table {
-        let word = if self.configuration == TetherArrangement::Towed { "TOWED" } else { "INSTALLED" };
-        let mut out = out.fact("Configuration", word, Dim::None);
-        for (name, end) in [("Vessel Attachment", &self.ends[1]), ("Anchor Attachment", &self.ends[0])] {
-            out = out.fact(&format!("{name} Node"), end.node.as_str(), Dim::None);
-            for (axis, value) in ["X", "Y", "Z"].iter().zip(end.given) {
-                out = out.fact(&format!("{name} Given {axis}"), value, Dim::Length);
-            }
-            for (axis, value) in ["X", "Y", "Z"].iter().zip(end.initial) {
-                out = out.fact(&format!("{name} Initial {axis}"), value, Dim::Length);
+            .column(SPRINGS, "X ROT COIL", Dim::MomentPerRadian, Digits::Scientific(3), |row| coil(row, 1))
+            .column(SPRINGS, "Y ROT COIL", Dim::MomentPerRadian, Digits::Scientific(3), |row| coil(row, 2));
+        if towed {
+            for (axis, name) in [(1, "LATERAL Y"), (2, "LATERAL Z")] {
+                table = table.column(SPRINGS, name, Dim::ForcePerLength, Digits::Scientific(3), |row| {
+                    row.end.map(|e| self.springs[e][axis])
+                });
             }
         }
+        table.build()
+    }
+
+    /// The facts under the table of the listing, in its order and with its digits.
+    fn facts(&self, out: Table) -> Table {
+        const MILLIMETRES: Digits = Digits::Decimals(3);
+        const FOUR: Digits = Digits::Scientific(4);
+        let word = if self.configuration == TetherArrangement::Towed { "TOWED" } else { "INSTALLED" };
+        let mut out = out.fact("TETHER CONFIGURATION", word, Dim::None);
+        let axes = ["X", "Y", "Z"];
+        let [anchor, vessel] = &self.ends;
+        out = out.fact("VESSEL ATTACHMENT - NODE", vessel.node.as_str(), Dim::None);
+        for (what, place) in [("POSITION IN FRA", vessel.given), ("INITIAL POSITION", vessel.initial)] {
+            for (axis, value) in axes.into_iter().zip(place) {
+                // what is rounding of the length is no place
+                let value = without_noise(value, self.line.length());
+                out = out.fact_with_digits(&format!("- {what} {axis}"), value, Dim::Length, MILLIMETRES);
+            }
+        }
+        out = out.fact("ANCHOR ATTACHMENT - AT NODE", anchor.node.as_str(), Dim::None);
+        for (axis, value) in axes.into_iter().zip(anchor.given) {
+            out = out.fact_with_digits(&format!("- POSITION IN FRA {axis}"), value, Dim::Length, MILLIMETRES);
+        }
         out = match self.stop.is_finite() {
-            true => out.fact("Stop Below Anchor", self.stop, Dim::Length),
-            false => out.fact("Stop Below Anchor", "none", Dim::None),
+            true => out.fact_with_digits("- STOP DIST BELOW ANCHOR", self.stop, Dim::Length, MILLIMETRES),
+            false => out.fact("- STOP DIST BELOW ANCHOR", "none", Dim::None),
         };
-        out.fact("Unstretched Length", self.line.length(), Dim::Length)
-            .fact("Initial Distance", self.initial_distance(), Dim::Length)
-            .fact("Longitudinal Stiffness", self.longitudinal_stiffness(), Dim::ForcePerLength)
-            .fact("Weight", self.weight(), Dim::Force)
-            .fact("Buoyancy", self.buoyancy(), Dim::Force)
-            .fact("End Cap Buoyancy", self.end_cap_buoyancy(), Dim::Force)
-            .fact("Free Hanging Reaction", self.free_hanging_reaction(), Dim::Force)
-            .fact("Internal Pressure", self.internal[0], Dim::Derived { force: 1, length: -2, seconds: 0 })
-            .fact("Internal Density", self.internal[1], Dim::Density)
-            .fact("Impact Stress Factor", self.impact[0], Dim::Derived { force: 1, length: -3, seconds: 1 })
-            .fact("Impact Half Life", self.impact[1], Dim::Time)
-            .fact("Group Factor", Cell::Integer(self.group), Dim::None)
+        let pressure = Dim::Derived { force: 1, length: -2, seconds: 0 };
+        let impact = Dim::Derived { force: 1, length: -3, seconds: 1 };
+        let list = [
+            ("UNSTRETCHED LENGTH OF TETHER", self.line.length(), Dim::Length, MILLIMETRES),
+            ("INITIAL DISTANCE BETWEEN ANCHOR/ATTACHMENT", self.initial_distance(), Dim::Length, MILLIMETRES),
+            ("LONGITUDINAL STIFFNESS OF COMPLETE TETHER", self.longitudinal_stiffness(), Dim::ForcePerLength, FOUR),
+            ("WEIGHT OF TETHER", self.weight(), Dim::Force, FOUR),
+            ("BUOYANCY OF TETHER (EXCLUDING END CAP EFFECTS)", self.buoyancy(), Dim::Force, FOUR),
+            ("END CAP BUOYANCY (TETHER ASSUMED VERTICAL)", self.end_cap_buoyancy(), Dim::Force, FOUR),
+            ("FREE HANGING REACTION (SUM OF ABOVE)", self.free_hanging_reaction(), Dim::Force, FOUR),
+            ("INTERNAL FLUID - PRESSURE AT SEA LEVEL", self.internal[0], pressure, FOUR),
+            ("INTERNAL FLUID - DENSITY", self.internal[1], Dim::Density, MILLIMETRES),
+            ("IMPACT COEFFICIENTS - AXIAL STRESS FACTOR", self.impact[0], impact, FOUR),
+            ("IMPACT COEFFICIENTS - HALF LIFE", self.impact[1], Dim::Time, MILLIMETRES),
+        ];
+        for (name, value, dim, digits) in list {
+            out = out.fact_with_digits(name, value, dim, digits);
+        }
+        out.fact("TETHER GROUP FACTOR (FACTOR FOR VESSEL FORCES)", Cell::Integer(self.group), Dim::None)
     }
 }

@@ -14,6 +14,7 @@
 //! | [`mod@line`] | elements one after the other, checked |
 //! | [`beam`] | matrices and loads of one element in one plane |
 //! | [`modes`] | natural modes of a plane |
+//! | [`jacobi`] | the place of each mode in the matrices, as the listing has it |
 //! | [`description`] | what is reported of a tether before a run |
 //! | [`towed`] | the towed tether in waves |
 //! | [`structure`] | the structure that installed tethers hold, and the water around |
@@ -48,6 +49,7 @@ pub mod beam;
 pub mod compatibility;
 pub mod description;
 pub mod installed;
+pub mod jacobi;
 pub mod line;
 pub mod modes;
 pub mod section;

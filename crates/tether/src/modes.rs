@@ -6,6 +6,7 @@
 //! the last digit, so that modes held by soft springs alone keep all their digits beside a stiffness a million times theirs.
 
 use super::beam::PlaneMatrix;
+use super::jacobi::eigenvalue_places;
 use std::f64::consts::{PI, TAU};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
@@ -36,6 +37,8 @@ pub struct PlaneMode {
     pub eigenvalue: f64,
     /// Deflection and slope of each node; `phi' M phi = 1`.
     pub shape: Vec<f64>,
+    /// Its unknown in the matrices ([`super::jacobi::eigenvalue_places`]): twice the node, and one more for a slope.
+    pub place: Option<usize>,
 }
 
 /// The plane a mode lies in.
@@ -59,6 +62,8 @@ pub struct NaturalMode {
     pub deflections: Vec<f64>,
     /// Slope d/dx of each node (rad) at that scale.
     pub slopes: Vec<f64>,
+    /// Its unknown in the matrices of its plane: twice the node, and one more for a slope.
+    pub place: Option<usize>,
 }
 
 impl NaturalMode {
@@ -70,6 +75,17 @@ impl NaturalMode {
     /// Period (s); none of a mode that is not stable or has no stiffness.
     pub fn period(&self) -> Option<f64> {
         (self.eigenvalue > 0.0).then(|| TAU / self.eigenvalue.sqrt())
+    }
+
+    /// `MODE FREEDOM POSN` [AQWA-TETHER 7.2]: its place among the four freedoms Y, Z, RY, RZ of each node, from 1.
+    pub fn freedom_position(&self) -> Option<usize> {
+        self.freedom_of([[1, 4], [2, 3]])
+    }
+
+    /// The place by those of deflection and slope in the two planes.
+    pub(crate) fn freedom_of(&self, freedoms: [[usize; 2]; 2]) -> Option<usize> {
+        let [deflection, slope] = freedoms[usize::from(self.plane == ModePlane::Z)];
+        self.place.map(|place| 4 * (place / 2) + if place % 2 == 0 { deflection } else { slope })
     }
 
     /// Y, Z (scaled), RY, RZ (rad) of a node by the right hand.
@@ -118,6 +134,9 @@ pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<PlaneMode>, ClassErro
         found.push(search.shape(shift, &found)?);
     }
     found.sort_by(|a, b| a.eigenvalue.total_cmp(&b.eigenvalue));
+    for (mode, place) in found.iter_mut().zip(eigenvalue_places(pencil.stiffness, pencil.mass)) {
+        mode.place = Some(place);
+    }
     Ok(found)
 }
 
@@ -144,7 +163,8 @@ fn scale_mode(plane: ModePlane, mode: &PlaneMode) -> NaturalMode {
     let size = if deflection.abs() >= slope.abs() { deflection } else { slope };
     let size = if size == 0.0 { 1.0 } else { size };
     let times = |list: Vec<f64>| list.into_iter().map(|v| v / size).collect();
-    NaturalMode { plane, eigenvalue: mode.eigenvalue, deflections: times(deflections), slopes: times(slopes) }
+    let (eigenvalue, place) = (mode.eigenvalue, mode.place);
+    NaturalMode { plane, eigenvalue, deflections: times(deflections), slopes: times(slopes), place }
 }
 
 /// A search with its work space.
@@ -197,7 +217,7 @@ impl ModeSearch<'_> {
             let message = "the natural mode of the tether near a squared frequency of {} cannot be found";
             return Err(ClassError::with_values(message, &[(shift, Dim::None)]));
         }
-        Ok(PlaneMode { eigenvalue, shape })
+        Ok(PlaneMode { eigenvalue, shape, place: None })
     }
 
     /// Takes the found modes out of a shape (twice: once leaves the rounding of what was taken out) and gives it unit mass.
@@ -310,7 +330,7 @@ mod tests {
 
     #[test]
     fn shape_is_scaled_to_unit_deflection_or_ten_degrees() {
-        let mode = |shape: Vec<f64>| PlaneMode { eigenvalue: 1.0, shape };
+        let mode = |shape: Vec<f64>| PlaneMode { eigenvalue: 1.0, shape, place: None };
         let found = together(&[mode(vec![2.0, 0.1, -4.0, 0.2])], &[mode(vec![0.1, 0.5, 0.0, -1.0])], 9);
         assert_eq!((found[0].plane, found[1].plane), (ModePlane::Z, ModePlane::Y));
         assert_eq!(found[1].deflections, [-0.5, 1.0]);

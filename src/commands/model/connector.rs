@@ -73,6 +73,7 @@ static CONNECTOR_SPEC: CommandSpec = CommandSpec {
         tether::LOW_STOP,
         tether::CONSTRAINT,
         tether::GROUP,
+        tether::GIVEN,
     ],
     detail: "With one point the other end is ground. A tether (class type TETHER) goes from the vessel to its anchor or, towed, to \
              its trailing end. In INMODEL the names may be defined later. No body, part, curve or \

@@ -81,14 +81,14 @@ pub const IMPACT: OptionSpec = option(
         number("FACTOR", STRESS_OF_SPEED, "axial stress at unit closing velocity").not_negative(),
         number("HALF_LIFE", Dim::Time, "time after which half of it is left").positive(),
     ],
-    "stress when a slack tether is taken up",
+    "stress when a slack tether is taken up; no effect on a towed one",
 )
 .default("none");
 /// Card TLOW.
 pub const LOW_STOP: OptionSpec = option(
     "-LOW_STOP",
     &[number("D", Dim::Length, "distance below the anchor").not_negative()],
-    "lower stop of a tether that hangs free; a warning says when it is passed",
+    "lower stop of a tether that hangs free; a warning says when it is passed; no effect on a towed one",
 )
 .default("none");
 /// Cards TLAC, TROC, TLAV, TROV.
@@ -112,10 +112,20 @@ pub const GROUP: OptionSpec = option(
 )
 .default("1");
 
+/// Place of the vessel's node as it was given.
+pub const GIVEN: OptionSpec = option(
+    "-GIVEN",
+    &[number("X", Dim::Length, "X"), number("Y", Dim::Length, "Y"), number("Z", Dim::Length, "Z")],
+    "place of the node at the vessel as a deck gives it; &STATUS TETHERS lists it",
+)
+.default("where the model has it");
+
 /// Most constraints of a tether [AQWA-TETHER A.14].
 const MAX_CONSTRAINTS: usize = 5;
 
-const OF_INSTALLED: [OptionSpec; 8] = [INSTALLED, V_SPRINGS, A_SPRINGS, CAPS, FLUID, IMPACT, LOW_STOP, CONSTRAINT];
+const OF_INSTALLED: [OptionSpec; 6] = [INSTALLED, V_SPRINGS, A_SPRINGS, CAPS, FLUID, CONSTRAINT];
+/// Options of installed tethers that a towed one lists and does not use, as the listing of [AQWA-TETHER 8.1] has them.
+const OF_BOTH: [OptionSpec; 4] = [IMPACT, LOW_STOP, GROUP, GIVEN];
 const OF_TOWED: [OptionSpec; 3] = [TOWED, V_MOORING, A_MOORING];
 
 fn first_of<'a>(args: &'a Args, options: &[OptionSpec]) -> Option<&'a Given> {
@@ -132,7 +142,7 @@ pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
         let text = format!("{} is of a towed tether, {} of an installed one", other.name(), one.name());
         return Err(Diagnostic::error(text, other.span).other(one.span, "given here"));
     }
-    if installed.is_none() && towed.is_none() && !args.has(&GROUP) {
+    if installed.is_none() && towed.is_none() && first_of(args, &OF_BOTH).is_none() {
         return Ok(None);
     }
     let three =
@@ -161,6 +171,7 @@ pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
         low_stop: args.option_number(&LOW_STOP),
         constraints: constraints(args)?,
         group: group.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
+        given: args.option(&GIVEN).map(|given| given.numbers_or_zero(const { GIVEN.numbers(["X", "Y", "Z"]) })),
     }))
 }
 

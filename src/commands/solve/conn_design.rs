@@ -9,7 +9,7 @@ use crate::report::disposition::Disposition;
 use crate::report::page;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
-use windlass_base::table::Table;
+use windlass_base::table::{Digits, Fact, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
@@ -133,7 +133,8 @@ fn condition(args: &Args) -> Outcome<Condition> {
 
 /// Opens the disposition menu over the table of a class's line, and raises its warnings.
 fn dispose(job: &mut Job, class: &str, mut made: Table, span: Span) -> Effect {
-    made.facts.insert(0, ("Line Class".into(), class.into(), Dim::None));
+    let name = Fact { name: "Line Class".into(), value: class.into(), dim: Dim::None, digits: Digits::Usual };
+    made.facts.insert(0, name);
     raise(job, &made, span);
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
     Effect::Done

@@ -96,7 +96,7 @@ fn simulated_series_match_printed_lives_and_peaks() {
     let records = TetherStatistics::between_steps(run, StatisticsSteps { first: 100, last: 1501, every: 2 }).unwrap();
     let [_, table] = records.fatigue(run, &run.tethers[0], asked).unwrap();
     let column = |name: &str| table.columns().iter().find(|c| c.name == name).unwrap().numbers();
-    let (lives, peaks, ranges) = (column("Life"), column("Peak"), column("Eff Range"));
+    let (lives, peaks, ranges) = (column("FATIGUE LIFE-DYS"), column("3HR PK STRESS"), column("EFFECTIVE STRS RNG"));
     let (mut worst_life, mut worst_peak): (f64, f64) = (0.0, 0.0);
     for end in 0..26 {
         let printed = field(&listing, end, "lifedays");

@@ -19,10 +19,27 @@ struct Compared {
     found: [f64; 10],
 }
 
-/// The page of a node or of an end of an element.
-fn page<'a>(pages: &'a [Table], place: &str, number: usize) -> &'a Table {
-    let index = if place == "node" { number - 1 } else { 14 + number };
+/// The page of a quantity of a node, or of an end of an element: three pages a node, then one an end.
+fn page<'a>(pages: &'a [Table], place: &str, number: usize, quantity: &str) -> &'a Table {
+    let motion = ["POSITION", "VELOCITY", "ACCELERATION"].iter().position(|motion| *motion == quantity);
+    let index = if place == "node" { 3 * (number - 1) + motion.unwrap() } else { 3 * 14 + number };
+    let said =
+        if place == "node" { format!("Node {number} - {quantity}") } else { format!("Element {} - ", number / 2 + 1) };
+    assert!(pages[index].title.contains(&said), "{} for {said}", pages[index].title);
     &pages[index]
+}
+
+/// The head of a column in the listing.
+fn head(quantity: &str, column: &str) -> &'static str {
+    match (quantity, column) {
+        ("BENDING MOMENT", "Y") => "Y (LATERAL) BND MOMENT",
+        ("BENDING MOMENT", _) => "MAXIMUM BND MOMENT",
+        ("BENDING STRESS", "MAX") => "MAX BND STRESS",
+        ("BENDING STRESS", "Y") => "Y (LAT) BND STRESS",
+        ("BENDING STRESS", _) => "MAX SG BND STRESS",
+        (_, "Z") => "HEAVE (Z)",
+        _ => "PITCH (Y)",
+    }
 }
 
 fn compared() -> Vec<Compared> {
@@ -32,17 +49,13 @@ fn compared() -> Vec<Compared> {
     let run = session.job.tethered.as_ref().unwrap_or_else(|| panic!("{}", screen.text()));
     let records = TetherStatistics::between_steps(run, StatisticsSteps { first: 100, last: 1501, every: 2 }).unwrap();
     let pages = records.type_one(run, &run.tethers[0]).unwrap();
-    assert_eq!(pages.len(), 14 + 26);
+    assert_eq!(pages.len(), 3 * 14 + 26);
     let mut list = Vec::new();
     let mut reader = csv::Reader::from_path("tests/data/towed_tether_statistics.csv").unwrap();
     for row in reader.records().map(Result::unwrap) {
         let number: usize = row[1].parse().unwrap();
         let (quantity, column) = (row[2].to_string(), row[3].to_string());
-        let found = page(&pages, &row[0], number)
-            .columns()
-            .iter()
-            .find(|c| c.group.eq_ignore_ascii_case(&quantity) && c.name.eq_ignore_ascii_case(&column))
-            .unwrap_or_else(|| panic!("{quantity} {column}"));
+        let found = page(&pages, &row[0], number, &quantity).get(head(&quantity, &column)).unwrap();
         let degrees = column.starts_with('R');
         let unit = |value: f64| {
             if &row[0] == "end" {
@@ -152,7 +165,8 @@ fn window_has_records_of_listing() {
     assert_eq!((records.first + 1, records.end, records.end - records.first), (50, 751, 702));
     assert_eq!((run.times[records.first], run.times[records.end - 1], records.elapsed), (24.5, 375.0, 350.25));
     let pages = records.type_two(run, &run.tethers[0]).unwrap();
-    assert_eq!(pages[0].title, "Statistics of Tether T1, Records 50 (Time 24.75) to 751 (Time 375.00): Mean value");
+    assert_eq!(pages[0].title, "Tether T1 Statistics: Mean Value");
+    assert_eq!(pages[0].facts[0].value, "50 (TIME= 24.75) TO 751 (TIME= 375.00)".into());
     // every second of the records kept
     let half = TetherStatistics::between_steps(run, StatisticsSteps { every: 4, ..steps }).unwrap();
     assert_eq!((half.first, half.every), (48, 2));
@@ -163,5 +177,40 @@ fn window_has_records_of_listing() {
     ] {
         let error = TetherStatistics::between_steps(run, wrong).unwrap_err().to_string();
         assert!(error.contains(said), "{error}");
+    }
+}
+
+/// The pages of type 2 have the numbers of type 1 along the tether [AQWA-TETHER 7.7, 7.8], and below them their mean, largest or least: of the mean values -2.058
+/// and 309.8 are printed, of 2 x RMS 2.900 and 3168, of the maxima 2.436 and 5841, of the minima -7.009 and -5562.
+#[test]
+fn pages_along_tether_end_with_printed_summaries() {
+    let (mut session, _, _folder) = common::session();
+    session.open_job("he01_phases.dat", std::fs::read_to_string("scripts/he01_phases.dat").unwrap());
+    session.run();
+    let run = session.job.tethered.as_ref().unwrap();
+    let records = TetherStatistics::between_steps(run, StatisticsSteps { first: 100, last: 1501, every: 2 }).unwrap();
+    let pages = records.type_two(run, &run.tethers[0]).unwrap();
+    assert_eq!(pages.len(), 8);
+    // how far: 0.3 % of twice the deviation for means, the misfits of the pages of type 1 for the others
+    let wanted = [
+        ("Mean Value", "MEAN", [-2.058, 309.8], [0.009, 4.0]),
+        ("2 x R.M.S", "MAXIMUM", [2.900, 3168.0], [0.010, 38.0]),
+        ("Maximum Peaks", "MAXIMUM", [2.436, 5841.0], [0.035, 60.0]),
+        ("Minimum Peaks", "MINIMUM", [-7.009, -5562.0], [0.035, 60.0]),
+    ];
+    for (page, (name, summary, printed, room)) in pages.chunks(2).zip(wanted) {
+        assert!(page.iter().all(|page| page.title.ends_with(name)));
+        for ((page, places), index) in page.iter().zip([14, 26]).zip(0..) {
+            assert_eq!(page.rows(), places + 1);
+            let column = if index == 0 {
+                page.columns().iter().find(|c| c.group == "POSITION" && c.name == "Z").unwrap()
+            } else {
+                page.get("Y (LATERAL) BND MOMENT").unwrap()
+            };
+            assert_eq!(page.columns()[0].cells[places], summary.into());
+            let scale = if index == 0 { 1.0 } else { 1e3 };
+            let found = column.numbers()[places] / scale;
+            assert!((found - printed[index]).abs() < room[index], "{name} {index}: {found}");
+        }
     }
 }

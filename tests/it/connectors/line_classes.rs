@@ -306,7 +306,7 @@ fn positive_slope_is_deeper_at_anchor_than_below_vessel() {
         let shape = with(&format!("{exact} -SLOPE {slope}"), placement_at(1400.0), |l| {
             l.geometry("A", Condition::Placed).unwrap()
         });
-        let fact = |name: &str| shape.facts.iter().find(|f| f.0 == name).unwrap().1.number().unwrap();
+        let fact = |name: &str| shape.facts.iter().find(|f| f.name == name).unwrap().value.number().unwrap();
         let (x, z) = (fact("Touchdown at X"), fact("Touchdown at Z"));
         assert_near(z, -300.0 + slope * (1400.0 - x), 1e-9);
         assert_eq!(z > -300.0, rises);

@@ -58,8 +58,8 @@ fn points_between_shape_rows_are_on_the_line() {
     let force = line.configuration(Condition::Placed).unwrap().horizontal;
     let a = force / 500.0;
     let bound = 3.0 * (700.0f64 / 10.0).powi(4) / (384.0 * a.powi(3));
-    let touchdown = table.facts.iter().find(|f| f.0 == "Touchdown at X").unwrap();
-    let x0 = 100.0 + touchdown.1.number().unwrap();
+    let touchdown = table.facts.iter().find(|f| f.name == "Touchdown at X").unwrap();
+    let x0 = 100.0 + touchdown.value.number().unwrap();
     let hanging: Vec<_> = path.points.iter().filter(|p| p[0] < x0).collect();
     assert!(hanging.len() > 20, "{}", hanging.len());
     for [x, _, z] in hanging {

@@ -29,6 +29,8 @@ pub struct Records {
     pub model: Vec<String>,
     /// What is run, and what is reported.
     pub job: Vec<String>,
+    /// Records of `job` before the motion: title and tethers.
+    before_motion: usize,
     /// The cards that the records of `model` and `job` are made of, by place in the record.
     origins: Vec<Vec<(usize, CardOrigin)>>,
 }
@@ -40,6 +42,8 @@ pub struct WrittenRecords {
     pub text: String,
     /// From which byte on the text is made of which card, in order.
     pub origins: Vec<(usize, CardOrigin)>,
+    /// The byte from which on the text runs the motion.
+    pub motion: usize,
 }
 
 impl WrittenRecords {
@@ -50,6 +54,15 @@ impl WrittenRecords {
         self.text.push('\n');
     }
 
+    /// The model with its tethers, and the motion, as texts of their own.
+    pub fn split(mut self) -> [WrittenRecords; 2] {
+        let text = self.text.split_off(self.motion.min(self.text.len()));
+        let from = self.text.len();
+        let place = self.origins.partition_point(|(at, _)| *at < from);
+        let origins = self.origins.split_off(place).into_iter().map(|(at, origin)| (at - from, origin)).collect();
+        [self, WrittenRecords { text, origins, motion: 0 }]
+    }
+
     /// The card that a byte of the text is made of; none before the first record of a deck.
     pub fn origin(&self, byte: usize) -> Option<&CardOrigin> {
         let behind = self.origins.partition_point(|(at, _)| *at <= byte);
@@ -58,18 +71,25 @@ impl WrittenRecords {
 }
 
 impl Records {
-    fn new(model: Vec<RecordLine>, job: Vec<RecordLine>) -> Self {
+    fn new(model: Vec<RecordLine>, job: Vec<RecordLine>, before_motion: usize) -> Self {
         let origins = model.iter().chain(&job).map(|line| line.origins.clone()).collect();
         let texts = |lines: Vec<RecordLine>| lines.into_iter().map(|line| line.text).collect();
-        Records { model: texts(model), job: texts(job), origins }
+        Records { model: texts(model), job: texts(job), before_motion, origins }
     }
 
     /// The whole as a script.
     pub fn script(&self) -> WrittenRecords {
         let mut made = WrittenRecords::default();
         made.add(UNITS, &[]);
-        for (record, origins) in self.model.iter().chain(&self.job).zip(&self.origins) {
+        let first = self.model.len() + self.before_motion;
+        for (index, (record, origins)) in self.model.iter().chain(&self.job).zip(&self.origins).enumerate() {
+            if index == first {
+                made.motion = made.text.len();
+            }
             made.add(record, origins);
+        }
+        if self.origins.len() <= first {
+            made.motion = made.text.len();
         }
         made
     }
@@ -94,8 +114,10 @@ impl Records {
 pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
     let mut out = written(deck)?;
     let model = std::mem::take(&mut out.lines);
-    run::job(deck, &mut out);
-    if out.wrong.is_empty() { Ok(Records::new(model, out.lines)) } else { Err(out.wrong) }
+    run::tethers(deck, &mut out);
+    let before_motion = out.lines.len();
+    run::motion(deck, &mut out);
+    if out.wrong.is_empty() { Ok(Records::new(model, out.lines, before_motion)) } else { Err(out.wrong) }
 }
 
 /// The records of the model of a deck, whatever program it is for.
@@ -104,7 +126,7 @@ pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
 /// As [`records`], but for what is run.
 pub fn model_records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
     let out = written(deck)?;
-    if out.wrong.is_empty() { Ok(Records::new(out.lines, Vec::new())) } else { Err(out.wrong) }
+    if out.wrong.is_empty() { Ok(Records::new(out.lines, Vec::new(), 0)) } else { Err(out.wrong) }
 }
 
 /// The model as it could be written, with what is wrong with it.

@@ -8,6 +8,7 @@ use super::written::{Script, number, numbers, opposite, round_value};
 use crate::Deck;
 use crate::elements::ElementShape;
 use crate::job::Program;
+use crate::printing::omitted_rows;
 use crate::tethers::{Fatigue, Tether};
 use crate::waves::WaveDeck;
 use windlass_base::diagnostic::Diagnostic;
@@ -15,8 +16,8 @@ use windlass_base::diagnostic::Diagnostic;
 /// Hours for which the peak stress is expected when TPSH is not given (A.5).
 const DEFAULT_PEAK_HOURS: f64 = 3.0;
 
-/// The records that run a deck.
-pub(super) fn job(deck: &Deck, out: &mut Script) {
+/// The title, and what is listed of the tethers before they move.
+pub(super) fn tethers(deck: &Deck, out: &mut Script) {
     // a title may hold what the language would read
     let plain = |c: char| if c.is_ascii_alphanumeric() || "-.()/+=".contains(c) { c } else { ' ' };
     let title: String = deck.job.title.chars().map(plain).collect();
@@ -32,8 +33,12 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
             out.card("deck 14, TEIG", modes.span);
             out.record(format!("&STATUS TETHER_MODES -NUMBER {} -AQWA", modes.value));
         }
-        out.card("deck 0, JOB", deck.job.span);
     }
+}
+
+/// The records that run a deck.
+pub(super) fn motion(deck: &Deck, out: &mut Script) {
+    out.card("deck 0, JOB", deck.job.span);
     if !deck.job.runs() {
         let (_, finish) = deck.job.stages;
         out.remark(if deck.job.option("DATA") {
@@ -153,9 +158,7 @@ fn write_tether_run(deck: &Deck, out: &mut Script) {
     }
     out.record(run);
     out.record("PRCPOST");
-    if !towed {
-        structure(deck, out);
-    }
+    structure(deck, towed, out);
     let asked = |tether: &Tether| {
         printing.tensions.iter().any(|field| field.value == 0 || field.value == tether.structure.value)
     };
@@ -173,26 +176,33 @@ fn write_tether_run(deck: &Deck, out: &mut Script) {
     }
     if !towed {
         out.record(format!("TETHER {} EVENTS", name(0)));
+        harmonics(deck, out);
     }
     out.record("END");
 }
 
-/// Pages of the structure, and the harmonics of its motion in a regular wave.
-fn structure(deck: &Deck, out: &mut Script) {
+/// Pages of the structure.
+fn structure(deck: &Deck, towed: bool, out: &mut Script) {
     let printing = &deck.printing;
-    if !printing.switches.is_empty() {
-        out.remark("NOPR, PRNT: pages of a structure have all of its forces here");
-    }
     if let Some(steps) = every(printing.structures) {
         let mut text = String::from("STRUCTURE PAGES");
-        for printed in &printing.nodes {
+        for printed in printing.nodes.iter().filter(|_| !towed) {
             text.push_str(&format!(" {}", point(printed.structure.value, printed.node.value)));
             if printed.reference.0.value > 0 || printed.reference.1.value > 0 {
                 out.remark("NODE: places are reported in the fixed system, also those with a reference");
             }
         }
+        let number = deck.mooring.tethers.first().map_or(1, |tether| tether.structure.value);
+        let omitted = omitted_rows(printing, number, deck.job.program);
+        if !omitted.is_empty() {
+            text.push_str(&format!(" -OMIT {}", omitted.join(" ")));
+        }
         out.record(format!("{text} {}", events(deck, steps)));
     }
+}
+
+/// The harmonics of the motion of the structure in a regular wave: the last pages of the listing.
+fn harmonics(deck: &Deck, out: &mut Script) {
     let WaveDeck::Regular(wave) = &deck.waves else { return };
     if deck.job.program != Program::Naut || wave.amplitude == 0.0 {
         return;

@@ -23,7 +23,7 @@ pub(super) fn tethers(deck: &Deck, out: &mut Script) {
         if tether.copy_of.is_none() {
             class(deck, index, tether, out);
         }
-        connector(index, tether, out);
+        connector(deck, index, tether, out);
     }
 }
 
@@ -79,7 +79,7 @@ fn length(deck: &Deck, element: &TelmCard, out: &Script) -> Option<f64> {
     })
 }
 
-fn connector(index: usize, tether: &Tether, out: &mut Script) {
+fn connector(deck: &Deck, index: usize, tether: &Tether, out: &mut Script) {
     let class = tether.copy_of.map_or(index, |number| number.saturating_sub(1));
     let mut text = format!(
         "CONNECTOR {} ~{} {} {}",
@@ -105,8 +105,13 @@ fn connector(index: usize, tether: &Tether, out: &mut Script) {
     }
     if tether.is_towed() {
         not_of_towed(description, out);
+        text.push_str(&impact_and_stop(description, out));
     } else {
         text.push_str(&of_installed(description, out));
+    }
+    if let Some(node) = deck.nodes.get(&tether.node.value) {
+        let place = node.position.map(|x| out.scale.length(x));
+        text.push_str(&format!(" \\\n  -GIVEN {}", numbers(place)));
     }
     out.record(text);
 }
@@ -123,8 +128,6 @@ fn not_of_towed(description: &TetherCards, out: &mut Script) {
     let cards = [
         ("TCAP", description.caps != (0.0, 0.0)),
         ("TIFL", description.fluid != (0.0, 0.0)),
-        ("TIMP", description.impact.is_some()),
-        ("TLOW", description.lower_stop.is_some()),
         ("TEGR", description.group > 1),
         ("TLAC, TROC, TLAV, TROV", !description.constraints.is_empty()),
     ];
@@ -132,6 +135,24 @@ fn not_of_towed(description: &TetherCards, out: &mut Script) {
     if !given.is_empty() {
         out.remark(&format!("{} are of installed tethers and have no effect on a towed one", given.join(", ")));
     }
+}
+
+/// Impact and lower stop. A towed tether has them for its description alone.
+fn impact_and_stop(description: &TetherCards, out: &mut Script) -> String {
+    let mut text = String::new();
+    match description.impact {
+        Some((factor, half_life)) if factor > 0.0 && half_life > 0.0 => {
+            text.push_str(&format!(" \\\n  -IMPACT {}", numbers([out.scale.force(factor, -3), half_life])));
+        }
+        Some((factor, _)) if factor > 0.0 => {
+            out.remark("TIMP without a half life: the stress of an impact is gone at once")
+        }
+        _ => {}
+    }
+    if let Some(stop) = description.lower_stop {
+        text.push_str(&format!(" -LOW_STOP {}", number(out.scale.length(stop))));
+    }
+    text
 }
 
 fn of_installed(description: &TetherCards, out: &mut Script) -> String {
@@ -153,18 +174,7 @@ fn of_installed(description: &TetherCards, out: &mut Script) -> String {
         let values = [out.scale.force(pressure, -2), out.scale.density(density)];
         text.push_str(&format!(" \\\n  -FLUID {}", numbers(values)));
     }
-    match description.impact {
-        Some((factor, half_life)) if factor > 0.0 && half_life > 0.0 => {
-            text.push_str(&format!(" \\\n  -IMPACT {}", numbers([out.scale.force(factor, -3), half_life])));
-        }
-        Some((factor, _)) if factor > 0.0 => {
-            out.remark("TIMP without a half life: the stress of an impact is gone at once")
-        }
-        _ => {}
-    }
-    if let Some(stop) = description.lower_stop {
-        text.push_str(&format!(" -LOW_STOP {}", number(out.scale.length(stop))));
-    }
+    text.push_str(&impact_and_stop(description, out));
     for (kind, gap, span) in &description.constraints {
         let node = constrained_node(description, *kind, *span, out);
         text.push_str(&format!(" \\\n  -CONSTRAINT {} {node}", hold(*kind)));

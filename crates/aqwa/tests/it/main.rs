@@ -4,3 +4,4 @@
 
 mod aqwa_tether_decks;
 mod columns;
+mod listing;

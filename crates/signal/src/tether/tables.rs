@@ -4,6 +4,7 @@
 use super::fatigue::{EndFatigue, STRESS_RANGE_BINS};
 use super::global::{GlobalStatistics, global};
 use crate::SeriesError;
+use windlass_base::fortran::without_noise;
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 
@@ -40,6 +41,29 @@ fn of_place(place: &NodeSeries) -> Result<Vec<GlobalStatistics>, SeriesError> {
     place.channels.iter().map(|channel| global(channel.values)).collect()
 }
 
+/// The same with zeros for what is rounding beside the largest of its group and dimension.
+fn quiet(mut places: Vec<Vec<GlobalStatistics>>, channels: &[Channel]) -> Vec<Vec<GlobalStatistics>> {
+    let alike = |one: &Channel, other: &Channel| one.group == other.group && one.dim == other.dim;
+    let largest: Vec<f64> = channels
+        .iter()
+        .map(|channel| {
+            let of_place = |place: &Vec<GlobalStatistics>| -> f64 {
+                let same = place.iter().zip(channels).filter(|(_, other)| alike(channel, other));
+                same.fold(0.0, |most: f64, (of, _)| most.max(of.mean.abs()).max(of.significant))
+            };
+            places.iter().map(of_place).fold(0.0, f64::max)
+        })
+        .collect();
+    for of in places.iter_mut().flat_map(|place| place.iter_mut().zip(&largest)) {
+        let (of, largest) = of;
+        let numbers = [&mut of.mean, &mut of.significant, &mut of.highest_third, &mut of.lowest_third];
+        for value in numbers.into_iter().chain(&mut of.maxima).chain(&mut of.minima) {
+            *value = without_noise(*value, *largest);
+        }
+    }
+    places
+}
+
 /// The column of a channel.
 fn channel_column(channel: &Channel, cells: impl IntoIterator<Item = f64>) -> Column {
     Column::new(channel.group, channel.name, channel.dim, channel.digits, cells)
@@ -49,14 +73,14 @@ fn channel_column(channel: &Channel, cells: impl IntoIterator<Item = f64>) -> Co
 type StatisticRow = (&'static str, fn(&GlobalStatistics) -> f64);
 
 const TABLE_ROWS: [StatisticRow; 10] = [
-    ("Mean", |g| g.mean),
-    ("2 x RMS", |g| g.significant),
-    ("Mean highest 1/3 peaks +", |g| g.highest_third),
-    ("Mean highest 1/3 peaks -", |g| g.lowest_third),
-    ("Maximum peaks", |g| g.maxima[0]),
+    ("MEAN VALUE", |g| g.mean),
+    ("2 x R.M.S", |g| g.significant),
+    ("MEAN HIGHEST 1/3 PEAKS +", |g| g.highest_third),
+    ("MEAN HIGHEST 1/3 PEAKS -", |g| g.lowest_third),
+    ("MAXIMUM PEAKS +", |g| g.maxima[0]),
     ("", |g| g.maxima[1]),
     ("", |g| g.maxima[2]),
-    ("Minimum peaks", |g| g.minima[0]),
+    ("MINIMUM PEAKS -", |g| g.minima[0]),
     ("", |g| g.minima[1]),
     ("", |g| g.minima[2]),
 ];
@@ -67,29 +91,30 @@ const TABLE_ROWS: [StatisticRow; 10] = [
 /// # Errors
 /// As [`global`].
 pub fn type_one(title: &str, place: &NodeSeries) -> Result<Table, SeriesError> {
-    let found = of_place(place)?;
-    let mut columns = vec![Column::new("", "Parameter", Dim::None, Digits::Usual, TABLE_ROWS.map(|(label, _)| label))];
+    let found = quiet(vec![of_place(place)?], &place.channels).pop().unwrap_or_default();
+    let mut columns = vec![Column::new("", "", Dim::None, Digits::Usual, TABLE_ROWS.map(|(label, _)| label))];
     for (channel, of) in place.channels.iter().zip(&found) {
         columns.push(channel_column(channel, TABLE_ROWS.map(|(_, value)| value(of))));
     }
-    Ok(Table::from_columns(title, columns).fact("Distance", place.distance, Dim::Length))
+    Ok(Table::from_columns(title, columns).fact("DISTANCE", place.distance, Dim::Length))
 }
 
 /// The pages of the statistics of type 2, in their order.
 pub const PAGES: [StatisticRow; 4] = [
-    ("Mean value", |g| g.mean),
-    ("2 x RMS", |g| g.significant),
-    ("Maximum peaks", |g| g.maxima[0]),
-    ("Minimum peaks", |g| g.minima[0]),
+    ("Mean Value", |g| g.mean),
+    ("2 x R.M.S", |g| g.significant),
+    ("Maximum Peaks", |g| g.maxima[0]),
+    ("Minimum Peaks", |g| g.minima[0]),
 ];
 
 /// Statistics of type 2: one page a parameter, a row for each place along the tether (figures 7.7, 7.8, 7.13), and their
-/// mean, largest or least below; `what` is the head of the first column, `Node` or `Elem`.
+/// mean, largest or least below; `what` is the head of the first column, `NODE` or `ELEM`.
 ///
 /// # Errors
 /// As [`global`].
 pub fn type_two(title: &str, what: &str, places: &[NodeSeries]) -> Result<Vec<Table>, SeriesError> {
-    let found = places.iter().map(of_place).collect::<Result<Vec<_>, _>>()?;
+    let channels = places.first().map_or(&[][..], |place| &place.channels);
+    let found = quiet(places.iter().map(of_place).collect::<Result<Vec<_>, _>>()?, channels);
     let page = |(index, (name, value)): (usize, &StatisticRow)| {
         let last = match index {
             0 => "MEAN",
@@ -102,7 +127,7 @@ pub fn type_two(title: &str, what: &str, places: &[NodeSeries]) -> Result<Vec<Ta
         distances.push(Cell::Missing);
         let mut columns = vec![
             Column::new("", what, Dim::None, Digits::Usual, numbers),
-            Column::new("", "Distance", Dim::Length, Digits::Decimals(2), distances),
+            Column::new("", "DISTNCE", Dim::Length, Digits::Decimals(2), distances),
         ];
         for (at, channel) in places.first().map_or(&[][..], |p| &p.channels).iter().enumerate() {
             let values: Vec<f64> = found.iter().map(|of| of.get(at).map_or(f64::NAN, value)).collect();
@@ -126,16 +151,17 @@ pub fn histogram(title: &str, ends: &[AtEnd]) -> Table {
     let width = ends.first().map_or(0.0, |(_, _, found)| found.ranges.width);
     let edge = |shift: usize| (0..STRESS_RANGE_BINS).map(move |bin| (bin + shift) as f64 * width);
     let mut columns = vec![
-        Column::new("", "Bin", Dim::None, Digits::Usual, 1..=STRESS_RANGE_BINS),
-        Column::new("Stress Range", "From", STRESS, Digits::Scientific(5), edge(0)),
-        Column::new("Stress Range", "To", STRESS, Digits::Scientific(5), edge(1)),
+        Column::new("", "BIN", Dim::None, Digits::Usual, 1..=STRESS_RANGE_BINS),
+        Column::new("STRESS RANGE", "FROM", STRESS, Digits::Scientific(5), edge(0)),
+        Column::new("STRESS RANGE", "TO", STRESS, Digits::Scientific(5), edge(1)),
     ];
     for (element, distance, found) in ends {
-        let (group, name) = (format!("Element {element}"), format!("{distance:.2} m"));
+        let (group, name) = (format!("ELEMENT {element}"), format!("{distance:.0}"));
         let counts = found.ranges.counts.iter().map(|n| *n as i64);
         columns.push(Column::new(&group, &name, Dim::None, Digits::Usual, counts));
     }
     let mut table = Table::from_columns(title, columns);
+    table.note("distances in metres");
     table.note("half cycles of the rainflow at the place round the circumference that has the most damage");
     table
 }
@@ -143,39 +169,45 @@ pub fn histogram(title: &str, ends: &[AtEnd]) -> Table {
 const MOMENT: Dim = Dim::Moment;
 const THREE_DIGITS: Digits = Digits::Scientific(3);
 
-/// Fatigue life and expected peak stress of every end, and the worst along the tether below (figure 7.10).
-pub fn fatigue(title: &str, ends: &[AtEnd]) -> Table {
+/// Fatigue life and the peak stress expected in some hours of every end; below them what the listing has along the tether: largest values, least life, mean
+/// angles and mean stress (figure 7.10).
+pub fn fatigue(title: &str, ends: &[AtEnd], hours: f64) -> Table {
+    let peak_head = &format!("{hours}HR PK STRESS");
     let degrees = Digits::Decimals(0);
-    type FatigueField = (&'static str, &'static str, Dim, Digits, fn(&EndFatigue) -> f64, fn(f64, f64) -> f64);
-    let smaller: fn(f64, f64) -> f64 = f64::min;
-    let larger: fn(f64, f64) -> f64 = f64::max;
+    type FatigueField<'h> = (&'static str, &'h str, Dim, Digits, fn(&EndFatigue) -> f64, fn(&[f64]) -> f64);
+    let mean: fn(&[f64]) -> f64 = |values| values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let smallest: fn(&[f64]) -> f64 = |values| values.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest: fn(&[f64]) -> f64 = |values| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    const MOMENTS: &str = "BENDING MOMENTS SIGNIFICANT";
+    const FATIGUE: &str = "FATIGUE";
+    const STRESSES: &str = "MAX BENDING STRESS";
     let fields: [FatigueField; 14] = [
-        ("Significant Moment", "Y", MOMENT, THREE_DIGITS, |f| f.significant_moments[0], larger),
-        ("Significant Moment", "Z", MOMENT, THREE_DIGITS, |f| f.significant_moments[1], larger),
-        ("Significant Moment", "Max Dam", MOMENT, THREE_DIGITS, |f| f.significant_moments[2], larger),
-        ("Fatigue", "Eff Range", STRESS, THREE_DIGITS, |f| f.effective_range, larger),
-        ("Fatigue", "Pn", Dim::Angle, degrees, |f| f.angle, larger),
-        ("Fatigue", "Cyc/Hour", Dim::None, degrees, |f| f.cycles * 3600.0, larger),
-        ("Fatigue", "Damage/Hour", Dim::None, THREE_DIGITS, |f| f.damage_rate * 3600.0, larger),
-        ("Fatigue", "Life", Dim::Days, Digits::Decimals(1), |f| f.life_days * 86_400.0, smaller),
-        ("Max Bending Stress", "Max Pk", STRESS, THREE_DIGITS, |f| f.largest, larger),
-        ("Max Bending Stress", "Mean", STRESS, THREE_DIGITS, |f| f.mean, larger),
-        ("Max Bending Stress", "Signfcnt", STRESS, THREE_DIGITS, |f| f.significant, larger),
-        ("Max Bending Stress", "Pn", Dim::Angle, degrees, |f| f.peak_angle, larger),
-        ("Max Bending Stress", "Cyc/Hour", Dim::None, degrees, |f| f.peak_cycles * 3600.0, larger),
-        ("Max Bending Stress", "Peak", STRESS, THREE_DIGITS, |f| f.expected_peak, larger),
+        (MOMENTS, "Y", MOMENT, THREE_DIGITS, |f| f.significant_moments[0], largest),
+        (MOMENTS, "Z", MOMENT, THREE_DIGITS, |f| f.significant_moments[1], largest),
+        (MOMENTS, "MAX DAM", MOMENT, THREE_DIGITS, |f| f.significant_moments[2], largest),
+        (FATIGUE, "EFFECTIVE STRS RNG", STRESS, THREE_DIGITS, |f| f.effective_range, largest),
+        (FATIGUE, "PN.", Dim::Angle, degrees, |f| f.angle, mean),
+        (FATIGUE, "CYC/HR", Dim::None, degrees, |f| f.cycles * 3600.0, largest),
+        (FATIGUE, "DAMAGE/HR", Dim::None, THREE_DIGITS, |f| f.damage_rate * 3600.0, largest),
+        (FATIGUE, "FATIGUE LIFE-DYS", Dim::Days, Digits::Decimals(1), |f| f.life_days * 86_400.0, smallest),
+        (STRESSES, "MAX PK", STRESS, THREE_DIGITS, |f| f.largest, largest),
+        (STRESSES, "MEAN", STRESS, THREE_DIGITS, |f| f.mean, mean),
+        (STRESSES, "SIGNFCNT", STRESS, THREE_DIGITS, |f| f.significant, largest),
+        (STRESSES, "PN.", Dim::Angle, degrees, |f| f.peak_angle, mean),
+        (STRESSES, "CYC/HR", Dim::None, degrees, |f| f.peak_cycles * 3600.0, largest),
+        (STRESSES, peak_head, STRESS, THREE_DIGITS, |f| f.expected_peak, largest),
     ];
     let mut elements: Vec<Cell> = ends.iter().map(|(element, _, _)| Cell::Integer(*element as i64)).collect();
-    elements.push(Cell::Text("Worst".into()));
+    elements.push(Cell::Text("ALONG TETHER".into()));
     let mut distances: Vec<Cell> = ends.iter().map(|(_, distance, _)| Cell::Number(*distance)).collect();
     distances.push(Cell::Missing);
     let mut columns = vec![
         Column::new("", "Elem", Dim::None, Digits::Usual, elements),
-        Column::new("", "Distance", Dim::Length, Digits::Decimals(2), distances),
+        Column::new("", "DISTNCE", Dim::Length, Digits::Decimals(2), distances),
     ];
-    for (group, name, dim, digits, value, worst) in fields {
+    for (group, name, dim, digits, value, along) in fields {
         let values: Vec<f64> = ends.iter().map(|(_, _, found)| value(found)).collect();
-        let last = values.iter().copied().reduce(worst);
+        let last = (!values.is_empty()).then(|| along(&values));
         let cells = values.into_iter().map(Some).chain([last]);
         columns.push(Column::new(group, name, dim, digits, cells));
     }

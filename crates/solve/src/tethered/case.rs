@@ -6,6 +6,7 @@ use crate::SolveError;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::sync::Arc;
+use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::Floating;
 use windlass_hydro::current::CurrentField;
@@ -41,10 +42,34 @@ pub struct TetherCase {
 /// The two sorts of case.
 #[derive(Debug)]
 pub enum TetherCaseKind {
-    /// One towed tether, with its name.
-    Towed(Box<(String, Towed)>),
+    /// One towed tether.
+    Towed(Box<TowedCase>),
     /// Installed tethers with their structure.
     Installed(Box<Installed>),
+}
+
+/// A towed tether with the vessel that it hangs on.
+#[derive(Debug)]
+pub struct TowedCase {
+    /// Name of the tether.
+    pub name: String,
+    /// The tether.
+    pub tether: Towed,
+    /// The vessel, where its end is on a body.
+    pub vessel: Option<TowingVessel>,
+}
+
+/// The vessel of a towed tether. It is held: its pages have its place, its weight, and the pull of the spring at the tether's end.
+#[derive(Debug)]
+pub struct TowingVessel {
+    /// Name of the body.
+    pub body: String,
+    /// Place of its centre of gravity.
+    pub place: Place,
+    /// Weight (N).
+    pub weight: f64,
+    /// The tether's end from the centre of gravity (m, global).
+    pub arm: Vector3<f64>,
 }
 
 /// Installed tethers with the structure they hold.
@@ -128,7 +153,8 @@ pub fn case(model: &Model, settings: &TetherRunSettings) -> Result<TetherCase, S
         }
         let made = towed_case(model, first, sea.as_deref(), settings, &mut notes);
         let made = made.map_err(|error| SolveError { who: Some(first.name.clone()), error })?;
-        return Ok(TetherCase { kind: TetherCaseKind::Towed(Box::new((first.name.clone(), made))), seed, notes });
+        let made = TowedCase { name: first.name.clone(), tether: made, vessel: towing_vessel(model, first) };
+        return Ok(TetherCase { kind: TetherCaseKind::Towed(Box::new(made)), seed, notes });
     }
     let made = installed_case(model, &tethers, sea.as_ref(), settings, &mut notes)?;
     Ok(TetherCase { kind: TetherCaseKind::Installed(Box::new(made)), seed, notes })
@@ -204,6 +230,18 @@ fn towed_case(
     made.check()?;
     notes.extend(made.warnings());
     Ok(made)
+}
+
+/// The body at the vessel's end of a towed tether.
+fn towing_vessel(model: &Model, connector: &Connector) -> Option<TowingVessel> {
+    let body = model.body_of(model.points.get(&Model::key(connector.points.first()?))?)?;
+    let gravity = model.defaults.gravity;
+    let mass = Mass::from_parts(model.parts_of(body), gravity);
+    let pose = Pose::from_place(&body.place);
+    let centre = pose.point(mass.centre);
+    let [end, _] = model.end_poses(connector).map(|pose| pose.origin);
+    let place = Place { shift: centre.into(), turn: body.place.turn };
+    Some(TowingVessel { body: body.name.clone(), place, weight: mass.mass * gravity, arm: end - centre })
 }
 
 /// The body that all installed tethers hold.

@@ -1,7 +1,7 @@
 //! What is kept of a run of tethers.
 
 use super::Tethered;
-use super::case::Installed;
+use super::case::{Installed, TowedCase, TowingVessel};
 use std::ops::ControlFlow;
 use windlass_base::geometry::Place;
 use windlass_base::table::Digits;
@@ -10,7 +10,7 @@ use windlass_model::ClassError;
 use windlass_tether::TetherLine;
 use windlass_tether::installed::{Installation, InstalledObserver, Moment, RigChange};
 use windlass_tether::structure::StructureForces;
-use windlass_tether::towed::{self, Towed, TowedHistory, TowedSteps};
+use windlass_tether::towed::{self, TowedHistory, TowedSteps};
 
 /// A quantity of nodes or of ends of elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +39,7 @@ const fn quantity(
 
 const FOUR: Digits = Digits::Scientific(4);
 const STRESS: Dim = windlass_signal::tether::tables::STRESS;
-const GROUPS: [&str; 3] = ["Position", "Velocity", "Acceleration"];
+const GROUPS: [&str; 3] = ["POSITION", "VELOCITY", "ACCELERATION"];
 const LINEAR: [(Dim, Digits); 3] = [
     (Dim::Length, Digits::Decimals(3)),
     (Dim::Velocity, Digits::Decimals(3)),
@@ -210,26 +210,34 @@ pub struct Happening {
 /// # Errors
 /// What the engine refuses; a run that would keep too much.
 pub fn run_towed(
-    (name, case): &(String, Towed),
+    case: &TowedCase,
     kept: &mut Tethered,
     should_continue: &mut dyn FnMut(f64) -> bool,
 ) -> Result<(), ClassError> {
+    let TowedCase { name, tether, vessel } = case;
     let settings = kept.settings;
-    let per = case.line.nodes() * TOWED_NODE.len() + 2 * case.line.elements().len() * TOWED_END.len();
+    let line = &tether.line;
+    let of_vessel = if vessel.is_some() { 6 * StructureHistory::KINDS.len() } else { 0 };
+    let per = line.nodes() * TOWED_NODE.len() + 2 * line.elements().len() * TOWED_END.len() + of_vessel;
     settings.room(per)?;
     let steps = TowedSteps { step: settings.step, number: settings.states(), ..TowedSteps::default() };
     let mut history = TowedHistory { every: settings.store.max(1), ..TowedHistory::default() };
-    let mut keeper = Keeper { history: &mut history, should_continue, interrupted: false };
-    case.run(&steps, &mut keeper)?;
+    let mut rows = Vec::new();
+    let mut keeper = Keeper { case, history: &mut history, rows: &mut rows, should_continue, interrupted: false };
+    tether.run(&steps, &mut keeper)?;
     kept.interrupted = keeper.interrupted;
     kept.times = std::mem::take(&mut history.times);
     let (nodes, ends) = (history.nodes, history.ends);
-    kept.tethers.push(TetherHistory { name: name.clone(), towed: true, line: case.line.clone(), nodes, ends });
+    kept.tethers.push(TetherHistory { name: name.clone(), towed: true, line: line.clone(), nodes, ends });
+    kept.structure = vessel.as_ref().map(|v| StructureHistory { body: v.body.clone(), points: Vec::new(), rows });
     Ok(())
 }
 
 struct Keeper<'a> {
+    case: &'a TowedCase,
     history: &'a mut TowedHistory,
+    /// Rows of the vessel.
+    rows: &'a mut Vec<f64>,
     should_continue: &'a mut dyn FnMut(f64) -> bool,
     interrupted: bool,
 }
@@ -240,8 +248,34 @@ impl towed::TowedObserver for Keeper<'_> {
             self.interrupted = true;
             return ControlFlow::Break(());
         }
+        if record.index.is_multiple_of(self.history.every)
+            && let (Some(vessel), Some([y, z, ..])) = (&self.case.vessel, record.positions.last())
+        {
+            self.rows.extend(vessel_row(vessel, &self.case.tether, [*y, *z]));
+        }
         self.history.record(record)
     }
+}
+
+/// What is kept of the vessel of a towed tether whose end is displaced: it is held, and feels its weight, as much buoyancy, and the end spring.
+fn vessel_row(vessel: &TowingVessel, tether: &towed::Towed, [y, z]: [f64; 2]) -> Vec<f64> {
+    let (sine, cosine) = tether.heading.sin_cos();
+    let spring = &tether.springs[1];
+    let (across, up) = (spring.y * y, spring.z * z);
+    let pull = nalgebra::Vector3::new(-sine * across, cosine * across, up);
+    let turning = vessel.arm.cross(&pull);
+    let mut row = vec![0.0; 6 * StructureHistory::KINDS.len()];
+    let mut put = |name: &str, values: [f64; 6]| {
+        let kind = StructureHistory::KINDS.iter().position(|kind| *kind == name);
+        if let Some(place) = kind.and_then(|kind| row.get_mut(6 * kind..6 * kind + 6)) {
+            place.copy_from_slice(&values);
+        }
+    };
+    put("POSITION", vessel.place.values());
+    put("GRAVITY", [0.0, 0.0, -vessel.weight, 0.0, 0.0, 0.0]);
+    put("HYDROSTATIC", [0.0, 0.0, vessel.weight, 0.0, 0.0, 0.0]);
+    put("MOORING", [pull.x, pull.y, pull.z, turning.x, turning.y, turning.z]);
+    row
 }
 
 /// Runs installed tethers with their structure.

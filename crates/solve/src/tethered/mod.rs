@@ -14,7 +14,7 @@ mod statistics;
 mod structure;
 mod tables;
 
-pub use case::{TetherCase, case};
+pub use case::{TetherCase, TowedCase, TowingVessel, case};
 pub use history::{Happening, StructureHistory, TetherHistory, TetherQuantity};
 pub use modal::{description_table, names, natural};
 pub use statistics::{StatisticsSteps, TetherStatistics};

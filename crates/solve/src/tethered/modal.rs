@@ -7,7 +7,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, Model};
 use windlass_tether::installed::description::InstalledDescription;
-use windlass_tether::installed::modes::modes;
+use windlass_tether::installed::modes::modes as installed_modes;
 
 /// Settings under which a case is made to be reported, not to be run.
 const AT_REST: TetherRunSettings = TetherRunSettings {
@@ -44,17 +44,32 @@ pub fn description_table(model: &Model, name: &str) -> Result<Table, SolveError>
     let connector = model.connectors.get(&Model::key(name));
     let point = |end: usize| connector.and_then(|c| c.points.get(end)).map_or("", String::as_str);
     let nodes = [point(1), point(0)];
+    let ends = connector.and_then(|c| c.tether.clone()).unwrap_or_default();
     let mut table = match &made.kind {
-        TetherCaseKind::Towed(towed) => towed.1.description(1, nodes).table(),
+        TetherCaseKind::Towed(towed) => {
+            let mut description = towed.tether.description(1, nodes);
+            // a towed tether has no stop and no impact: the listing has them as they were given
+            description.stop = ends.low_stop.unwrap_or(0.0);
+            description.impact = ends.impact.unwrap_or_default();
+            description.ends[1].given = ends.given.unwrap_or(description.ends[1].given);
+            description.table()
+        }
         TetherCaseKind::Installed(case) => {
             let tether = find_tether(case, name)?;
             let attachment = case.course.pose.point(tether.attachment);
             let description = InstalledDescription::new(tether, attachment, &case.flow).map_err(SolveError::new)?;
-            let table = description.to_listing(tether, (1, nodes), case.centre, &case.flow).table();
-            table.fact("Effective Tension in the Middle", description.tension, Dim::Force)
+            let mut listed = description.to_listing(tether, (1, nodes), case.centre, &case.flow);
+            listed.ends[1].given = ends.given.unwrap_or(listed.ends[1].given);
+            let table = listed.table();
+            table.fact_with_digits(
+                "EFFECTIVE TENSION IN THE MIDDLE",
+                description.tension,
+                Dim::Force,
+                Digits::Scientific(4),
+            )
         }
     };
-    table.title = format!("Description of Tether {name}");
+    table.title = format!("Description of Tension Leg Tether {name}");
     let named = |note: &str| {
         let list = note.strip_prefix("tether ").and_then(|rest| rest.split([',', ':']).next());
         list.is_none_or(|list| list.split(' ').any(|n| n.eq_ignore_ascii_case(name)))
@@ -67,50 +82,86 @@ pub fn description_table(model: &Model, name: &str) -> Result<Table, SolveError>
     Ok(table)
 }
 
-/// A page for each of the lowest natural modes of a tether where it stands [AQWA-TETHER 7.2]: frequency, period and the shape, of largest
-/// deflection one or, without one, of largest slope ten degrees. `compatible` keeps the peculiarities of AQWA.
+/// Frequencies (rad/s) from which on modes are not listed.
+const LARGEST_LISTED_FREQUENCY: f64 = 999.999;
+
+/// A mode as it is listed.
+struct ListedMode {
+    frequency: Option<f64>,
+    period: Option<f64>,
+    position: Option<usize>,
+    /// Place of each node along the tether (m), and its shape.
+    nodes: Vec<(f64, [f64; 4])>,
+}
+
+/// A page for each of the lowest natural modes of a tether where it stands [AQWA-TETHER 7.2]: place in the matrices, frequency, period and the shape,
+/// of largest deflection one or, without one, of largest slope ten degrees. The last page says how many modes are not listed. `compatible` keeps the
+/// peculiarities of AQWA.
 ///
 /// # Errors
 /// As [`case`]; a name that is no tether's; modes that cannot be found.
 pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Result<Vec<Table>, SolveError> {
     let made = case(model, &TetherRunSettings { compatible, ..AT_REST })?;
-    type Page = (Option<f64>, Option<f64>, Vec<(f64, [f64; 4])>);
-    let (heads, pages): ([&str; 4], Vec<Page>) = match &made.kind {
+    // one more: the first that is not listed
+    let asked = number.saturating_add(1);
+    let towed = matches!(made.kind, TetherCaseKind::Towed(_));
+    let (freedoms, modes): (usize, Vec<ListedMode>) = match &made.kind {
         TetherCaseKind::Towed(towed) => {
-            let distances = towed.1.line.distances();
-            let list = towed.1.modes(number).map_err(SolveError::new)?;
-            let page = |m: &windlass_tether::modes::NaturalMode| {
-                let rows = distances.iter().enumerate().map(|(i, d)| (*d, m.node(i))).collect();
-                (m.frequency(), m.period(), rows)
+            let distances = towed.tether.line.distances();
+            let list = towed.tether.modes(asked).map_err(SolveError::new)?;
+            let listed = |m: &windlass_tether::modes::NaturalMode| ListedMode {
+                frequency: m.frequency(),
+                period: m.period(),
+                position: m.freedom_position(),
+                nodes: distances.iter().enumerate().map(|(i, d)| (*d, m.node(i))).collect(),
             };
-            (["Y", "Z", "RY", "RZ"], list.iter().map(page).collect())
+            (4 * towed.tether.line.nodes(), list.iter().map(listed).collect())
         }
         TetherCaseKind::Installed(case) => {
             let tether = find_tether(case, name)?;
             let attachment = case.course.pose.point(tether.attachment);
-            let list = modes(tether, attachment, &case.flow, number, &case.compatibility).map_err(SolveError::new)?;
-            let page = |m: &windlass_tether::installed::modes::InstalledMode| {
-                let rows = m.heights.iter().enumerate().map(|(i, h)| (*h, m.node(i))).collect();
-                (m.mode.frequency(), m.mode.period(), rows)
+            let list = installed_modes(tether, attachment, &case.flow, asked, &case.compatibility);
+            let listed = |m: &windlass_tether::installed::modes::InstalledMode| ListedMode {
+                frequency: m.mode.frequency(),
+                period: m.mode.period(),
+                position: m.freedom_position(),
+                nodes: m.heights.iter().enumerate().map(|(i, h)| (*h, m.node(i))).collect(),
             };
-            (["X", "Y", "RX", "RY"], list.iter().map(page).collect())
+            (4 * tether.line.nodes(), list.map_err(SolveError::new)?.iter().map(listed).collect())
         }
     };
-    let mut tables = Vec::new();
-    for (index, (frequency, period, rows)) in pages.into_iter().enumerate() {
-        let nodes: Vec<_> = rows.iter().enumerate().rev().collect();
-        let [u, v, ru, rv] = heads;
-        let table = Table::new(format!("Mode {} of Tether {name}", index + 1))
-            .fact("Frequency", frequency, Dim::Frequency)
-            .fact("Frequency in Hertz", frequency.map(|w| w / std::f64::consts::TAU), Dim::None)
-            .fact("Period", period, Dim::Time)
-            .with_rows(&nodes)
-            .column("", "Node", Dim::None, Digits::Usual, |(node, _)| node + 1)
-            .column("", "Height", Dim::Length, Digits::Decimals(2), |(_, (height, _))| *height)
-            .columns("Displacement", [u, v], Dim::None, Digits::Decimals(4), |(_, (_, shape))| [shape[0], shape[1]])
-            .columns("Slope", [ru, rv], Dim::Angle, Digits::Decimals(4), |(_, (_, shape))| [shape[2], shape[3]])
-            .build();
-        tables.push(table);
+    let is_listed = |mode: &ListedMode| mode.frequency.is_none_or(|w| w <= LARGEST_LISTED_FREQUENCY);
+    let listed = modes.iter().take(number).take_while(|mode| is_listed(mode)).count();
+    let mut tables: Vec<Table> =
+        modes.iter().take(listed).zip(1..).map(|(mode, order)| mode_page(mode, order, name, towed)).collect();
+    if freedoms > listed
+        && let Some(last) = tables.last_mut()
+    {
+        let next = modes.get(listed).and_then(|mode| mode.frequency);
+        let next = next.map_or(LARGEST_LISTED_FREQUENCY, |w| w.min(LARGEST_LISTED_FREQUENCY));
+        let period = std::f64::consts::TAU / next;
+        last.note(format!("{} MODES> {next:.3} RAD/SEC (PERIOD= {period:.4} SECS) NOT PRINTED", freedoms - listed));
     }
     Ok(tables)
+}
+
+/// The page of a mode.
+fn mode_page(mode: &ListedMode, order: usize, name: &str, towed: bool) -> Table {
+    let four = Digits::Decimals(4);
+    let (place, displacement, [u, v, ru, rv]) = match towed {
+        true => ("DISTANCE ALONG TETHER", "VERT/HORIZONTAL DISPLACEMENT", ["Y", "Z", "RY", "RZ"]),
+        false => ("HEIGHT ABOVE ANCHOR", "LATERAL DISPLACEMENT", ["X", "Y", "RX", "RY"]),
+    };
+    let nodes: Vec<(usize, &(f64, [f64; 4]))> = mode.nodes.iter().enumerate().rev().collect();
+    Table::new(format!("Eigensolution Mode {order} - Tether {name}"))
+        .fact("MODE FREEDOM POSN", mode.position, Dim::None)
+        .fact_with_digits("FREQUENCY (RAD/SEC)", mode.frequency, Dim::None, four)
+        .fact_with_digits("FREQUENCY (HERTZ)", mode.frequency.map(|w| w / std::f64::consts::TAU), Dim::None, four)
+        .fact_with_digits("PERIOD", mode.period, Dim::Time, Digits::Decimals(2))
+        .with_rows(&nodes)
+        .column("", "NODE", Dim::None, Digits::Usual, |(node, _)| node + 1)
+        .column("", place, Dim::Length, Digits::Decimals(2), |(_, (place, _))| *place)
+        .columns(displacement, [u, v], Dim::None, four, |(_, (_, shape))| [shape[0], shape[1]])
+        .columns("SLOPE", [ru, rv], Dim::Angle, four, |(_, (_, shape))| [shape[2], shape[3]])
+        .build()
 }

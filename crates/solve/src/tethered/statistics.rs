@@ -2,7 +2,7 @@
 
 use super::Tethered;
 use super::history::{TetherHistory, TetherQuantity};
-use windlass_base::table::Table;
+use windlass_base::table::{Digits, Fact, Table};
 use windlass_base::units::Dim;
 use windlass_signal::SeriesError;
 use windlass_signal::tether::fatigue::{self, EndRecord, FatigueSettings};
@@ -78,41 +78,69 @@ impl TetherStatistics {
         values.get(self.first..self.end).unwrap_or_default().iter().step_by(self.every.max(1)).copied().collect()
     }
 
-    fn title(self, run: &Tethered, what: &str) -> String {
-        if let Some([(first, from), (last, to)]) = self.records {
-            return format!("{what}, Records {first} (Time {from:.2}) to {last} (Time {to:.2})");
-        }
-        let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
-        format!("{what}, {:.2} to {:.2} s", time(self.first), time(self.end.saturating_sub(1)))
+    /// A page with the records that it is of, as the listing has them.
+    fn with_records(self, run: &Tethered, mut table: Table) -> Table {
+        let text = match self.records {
+            Some([(first, from), (last, to)]) => format!("{first} (TIME= {from:.2}) TO {last} (TIME= {to:.2})"),
+            None => {
+                let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
+                format!("TIME= {:.2} TO TIME= {:.2}", time(self.first), time(self.end.saturating_sub(1)))
+            }
+        };
+        let fact = Fact {
+            name: "RECORDS PROCESSED".into(),
+            value: text.as_str().into(),
+            dim: Dim::None,
+            digits: Digits::Usual,
+        };
+        table.facts.insert(0, fact);
+        table
     }
 
-    /// Statistics of type 1 (7.5, 7.6, 7.12): a page for each node and each end.
+    /// Statistics of type 1 (7.5, 7.6, 7.12): for each node a page of positions, of velocities and of accelerations, and a page for each end of an element.
     ///
     /// # Errors
     /// No instants.
     pub fn type_one(self, run: &Tethered, tether: &TetherHistory) -> Result<Vec<Table>, SeriesError> {
         let mut out = Vec::new();
-        for (places, what) in [(self.nodes(tether), "Node"), (self.ends(tether), "Element")] {
-            for place in &places {
-                let title = format!("Statistics of Tether {}, {what} {}", tether.name, place.number);
-                out.push(type_one(&self.title(run, &title), &place.as_place())?);
+        let title = format!("Tether {} Statistics", tether.name);
+        let heads =
+            if tether.towed { ["SWAY (Y)", "HEAVE (Z)", "PITCH (Y)", "YAW (Z)"] } else { ["X", "Y", "RX", "RY"] };
+        for node in self.nodes(tether) {
+            let place = node.as_place();
+            for motion in place.channels.chunks(4) {
+                let named = motion.iter().zip(heads);
+                let channels =
+                    named.map(|(c, name)| Channel { group: "", name, digits: Digits::Decimals(4), ..*c }).collect();
+                let group = motion.first().map_or("", |channel| channel.group);
+                let title = format!("{title}: Node {} - {group}", place.number);
+                out.push(self.with_records(run, type_one(&title, &NodeSeries { channels, ..place.clone() })?));
             }
+        }
+        let what = if tether.towed { "Bending Moments and Stresses" } else { "Tensions and Stresses" };
+        for end in self.ends(tether) {
+            let title = format!("{title}: Element {} - {what}", end.number);
+            let place = end.with_digits(Digits::Scientific(5));
+            out.push(self.with_records(run, type_one(&title, &place.as_place())?));
         }
         Ok(out)
     }
 
-    /// Statistics of type 2 (7.7, 7.8, 7.13): a page for each parameter.
+    /// Statistics of type 2 (7.7, 7.8, 7.13): a page for each parameter, of nodes and of ends.
     ///
     /// # Errors
     /// No instants.
     pub fn type_two(self, run: &Tethered, tether: &TetherHistory) -> Result<Vec<Table>, SeriesError> {
-        let mut out = Vec::new();
-        for (places, what) in [(self.nodes(tether), "Node"), (self.ends(tether), "Elem")] {
-            let title = self.title(run, &format!("Statistics of Tether {}", tether.name));
-            let borrowed: Vec<NodeSeries> = places.iter().map(Owned::as_place).collect();
-            out.extend(type_two(&title, what, &borrowed)?);
-        }
-        Ok(out)
+        let title = format!("Tether {} Statistics", tether.name);
+        let nodes: Vec<Owned> =
+            self.nodes(tether).into_iter().map(|node| node.with_digits(Digits::Decimals(3))).collect();
+        let of_nodes: Vec<NodeSeries> = nodes.iter().map(Owned::as_place).collect();
+        let ends = self.ends(tether);
+        let of_ends: Vec<NodeSeries> = ends.iter().map(Owned::as_place).collect();
+        let pages = [type_two(&title, "NODE", &of_nodes)?, type_two(&title, "ELEM", &of_ends)?];
+        // the listing has the two pages of a parameter together
+        let [nodes, ends] = pages.map(Vec::into_iter);
+        Ok(nodes.zip(ends).flat_map(|(one, other)| [one, other]).map(|page| self.with_records(run, page)).collect())
     }
 
     fn nodes(self, tether: &TetherHistory) -> Vec<Owned> {
@@ -138,8 +166,20 @@ impl TetherStatistics {
     /// The seven columns of figure 7.12.
     fn installed_end(self, tether: &TetherHistory, end: usize) -> Vec<(TetherQuantity, Vec<f64>)> {
         let of = tether.end_quantities();
-        let reported = [0, 1, 6, 7, 8, 9, 10];
-        reported.iter().filter_map(|q| Some((*of.get(*q)?, self.pick(tether.end(end, *q))))).collect()
+        let reported = [
+            (0, "EFFECTIVE TENSION"),
+            (1, "WALL TENSION"),
+            (6, "SHEAR STRESS"),
+            (7, "MAX BND + AXL STRESS"),
+            (8, "MIN BND + AXL STRESS"),
+            (9, "VON MISES STRESS"),
+            (10, "Y BENDING STRESS"),
+        ];
+        let named = |(q, name): (usize, &'static str)| {
+            let quantity = TetherQuantity { group: "", name, ..*of.get(q)? };
+            Some((quantity, self.pick(tether.end(end, q))))
+        };
+        reported.into_iter().filter_map(named).collect()
     }
 
     /// The seven columns of figure 7.6: both moments, the moment where its deviation round the tube is largest, the largest stress, both
@@ -164,15 +204,15 @@ impl TetherStatistics {
         let worst = turned(best.0);
         let tube = tether.line.elements().get(end / 2).map(|e| e.tube().stress_of_moment()).unwrap_or_default();
         let stress = worst.iter().map(|m| m * tube).collect();
-        let named = |q: usize, name: &'static str| of.get(q).map(|q| TetherQuantity { name, ..*q });
+        let named = |q: usize, name: &'static str| of.get(q).map(|q| TetherQuantity { group: "", name, ..*q });
         let list = [
-            (named(2, "Y"), y.clone()),
-            (named(3, "Z"), z.clone()),
-            (named(3, "Max"), worst.clone()),
-            (named(4, "Max"), values(4)),
-            (named(5, "Y"), values(5)),
-            (named(6, "Z"), values(6)),
-            (named(6, "Max Sig"), stress),
+            (named(2, "Y (LATERAL) BND MOMENT"), y.clone()),
+            (named(3, "Z (VERTICAL) BND MOMENT"), z.clone()),
+            (named(3, "MAXIMUM BND MOMENT"), worst.clone()),
+            (named(4, "MAX BND STRESS"), values(4)),
+            (named(5, "Y (LAT) BND STRESS"), values(5)),
+            (named(6, "Z (VER) BND STRESS"), values(6)),
+            (named(6, "MAX SG BND STRESS"), stress),
         ];
         list.into_iter().filter_map(|(q, values)| Some((q?, values))).collect()
     }
@@ -200,17 +240,25 @@ impl TetherStatistics {
         let found = fatigue::fatigue_of_ends(&records, FatigueSettings { duration, ..asked })?;
         let distance = |end: usize| tether.line.distances().get(end.div_ceil(2)).copied().unwrap_or_default();
         let ends: Vec<AtEnd> = found.into_iter().enumerate().map(|(end, f)| (end / 2 + 1, distance(end), f)).collect();
-        let title = |what: &str| self.title(run, &format!("{what} of Tether {}", tether.name));
-        let mut table = windlass_signal::tether::tables::fatigue(&title("Fatigue and Peak Stress"), &ends)
-            .fact("Elapsed Time", duration, Dim::Time)
-            .fact("Stress Concentration Factor", asked.curve.concentration, Dim::None)
-            .fact("S-N Curve Intercept A", asked.curve.in_unit(1e-3).intercept, Dim::None)
-            .fact("S-N Curve Slope m", asked.curve.slope, Dim::None)
-            .fact("Time of Expected Peak", asked.peak_time / 3600.0, Dim::None);
-        table.note(
-            "the expected peak is of the time of expected peaks, in hours; the intercept is for stresses in kN/m2",
-        );
-        Ok([histogram(&title("Stress Ranges, Half Cycles,"), &ends), table])
+        let title = |what: &str| format!("{what} of Tether {}", tether.name);
+        let four = Digits::Decimals(4);
+        let hours = asked.peak_time / 3600.0;
+        let mut table =
+            windlass_signal::tether::tables::fatigue(&title("Fatigue Analysis and Maximum Stress"), &ends, hours)
+                .fact_with_digits("Elapsed time", duration, Dim::Time, Digits::Decimals(3))
+                .fact_with_digits("Stress Cutoff value (S0)", 0.0, Dim::None, Digits::Scientific(5))
+                .fact_with_digits("Stress concentration factor", asked.curve.concentration, Dim::None, four)
+                .fact_with_digits(
+                    "SN curve intercept coefficient A",
+                    asked.curve.in_unit(1e-3).intercept,
+                    Dim::None,
+                    Digits::Scientific(5),
+                )
+                .fact_with_digits("SN curve slope-m", asked.curve.slope, Dim::None, four)
+                .fact_with_digits("Thickness Effect Value", 0.0, Dim::None, four);
+        table.note("the intercept is for stresses in kN/m2; there is no cutoff and no effect of thickness");
+        let ranges = histogram(&title("Stress Range Probability Distribution (1/2 Cycles)"), &ends);
+        Ok([ranges, table].map(|page| self.with_records(run, page)))
     }
 }
 
@@ -222,6 +270,12 @@ struct Owned {
 }
 
 impl Owned {
+    /// The same with other digits.
+    fn with_digits(mut self, digits: Digits) -> Self {
+        self.channels.iter_mut().for_each(|(of, _)| of.digits = digits);
+        self
+    }
+
     fn as_place(&self) -> NodeSeries<'_> {
         NodeSeries {
             number: self.number,

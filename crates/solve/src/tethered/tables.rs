@@ -2,6 +2,7 @@
 
 use super::Tethered;
 use super::history::{TetherHistory, TetherQuantity};
+use windlass_base::fortran::without_noise;
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_signal::tether::tables::STRESS;
@@ -60,41 +61,99 @@ pub fn events(run: &Tethered) -> Table {
         .build()
 }
 
+/// Number of a step, from 1 at the start.
+fn step_number(run: &Tethered, instant: usize) -> Option<usize> {
+    let time = run.times.get(instant)?;
+    Some((time / run.settings.step).round() as usize + 1)
+}
+
 /// Positions, velocities and accelerations of the nodes at some instants, from the vessel down (7.3).
 pub fn motions(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Table {
     let quantities = tether.node_quantities();
     let along = quantities.len() - 1;
     let nodes = || (0..tether.line.nodes()).rev();
     let rows: Vec<(usize, usize)> = instants.iter().flat_map(|i| nodes().map(move |node| (*i, node))).collect();
-    let mut table = Table::new(format!("Motions of Tether {}", tether.name))
+    let place = if tether.towed { "POSITION ALONG TETHER" } else { "HEIGHT ABOVE ANCHOR" };
+    let mut table = Table::new(format!("Time History of Single Tether {}", tether.name))
         .with_rows(&rows)
-        .column("", "Time", Dim::Time, SECONDS, |(instant, _)| run.times.get(*instant).copied())
-        .column("", "Node", Dim::None, Digits::Usual, |(_, node)| node + 1);
-    for (q, of) in std::iter::once(along).chain(0..along).filter_map(|q| quantities.get(q).map(|of| (q, of))) {
-        table =
-            table.column(of.group, of.name, of.dim, of.digits, |(instant, node)| tether.node_at(*instant, *node, q));
+        .column("STEP", "NUMB", Dim::None, Digits::Usual, |(instant, _)| step_number(run, *instant))
+        .column("", "TIME", Dim::Time, SECONDS, |(instant, _)| run.times.get(*instant).copied())
+        .column("", "NODE", Dim::None, Digits::Usual, |(_, node)| node + 1)
+        .column("", place, Dim::Length, Digits::Decimals(1), |(instant, node)| tether.node_at(*instant, *node, along));
+    let groups = ["POSITIONS", "VELOCITIES", "ACCELERATIONS"];
+    for (q, of) in quantities.iter().enumerate().take(along) {
+        let group = groups.get(q / 4).copied().unwrap_or_default();
+        table = table.column(group, of.name, of.dim, of.digits, |(instant, node)| {
+            let alike = (0..tether.line.nodes())
+                .flat_map(|n| [4 * (q / 4) + q % 4 / 2 * 2, 4 * (q / 4) + q % 4 / 2 * 2 + 1].map(|q| (n, q)));
+            let values = alike.filter_map(|(n, q)| tether.node_at(*instant, n, q));
+            let largest = values.fold(0.0, |most: f64, v| most.max(v.abs()));
+            tether.node_at(*instant, *node, q).map(|value| without_noise(value, largest))
+        });
     }
     table.build()
 }
 
-/// Forces and stresses at both ends of the elements at some instants, the upper or vessel's end of each first (7.4, 7.11).
+/// Forces and stresses at both ends of the elements at some instants, the upper or vessel's end of each first (7.4, 7.11). The listing has tensions and
+/// shear stress of a towed tether too: they are zero.
 pub fn forces(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Table {
     let ends = || (0..2 * tether.line.elements().len()).rev();
     let rows: Vec<(usize, usize)> = instants.iter().flat_map(|i| ends().map(move |end| (*i, end))).collect();
     let along = tether.node_quantities().len() - 1;
-    let mut table = Table::new(format!("Forces and Stresses of Tether {}", tether.name))
+    let place = if tether.towed { "DISTANCE" } else { "ELEVATION" };
+    let mut table = Table::new(format!("Time History of Forces and Stresses for Tether {}", tether.name))
         .with_rows(&rows)
-        .column("", "Time", Dim::Time, SECONDS, |(instant, _)| run.times.get(*instant).copied())
-        .column("", "Elem", Dim::None, Digits::Usual, |(_, end)| end / 2 + 1)
-        .column("", "Node", Dim::None, Digits::Usual, |(_, end)| end.div_ceil(2) + 1)
-        .column("", "Along", Dim::Length, Digits::Decimals(1), |(instant, end)| {
+        .column("", "TIME", Dim::Time, SECONDS, |(instant, _)| run.times.get(*instant).copied())
+        .column("", "ELEM", Dim::None, Digits::Usual, |(_, end)| end / 2 + 1)
+        .column("NODE", "NUMB", Dim::None, Digits::Usual, |(_, end)| end.div_ceil(2) + 1)
+        .column("", place, Dim::Length, Digits::Decimals(1), |(instant, end)| {
             tether.node_at(*instant, end.div_ceil(2), along)
         });
-    for (q, of) in tether.end_quantities().iter().enumerate() {
-        table = table.column(of.group, of.name, of.dim, of.digits, |(instant, end)| tether.end_at(*instant, *end, q));
+    let heads = if tether.towed { &TOWED_HEADS[..] } else { &INSTALLED_HEADS[..] };
+    if tether.towed {
+        for name in ["EFFECTIVE", "WALL"] {
+            table = table.column("TENSIONS", name, Dim::Force, Digits::Scientific(4), |_| 0.0);
+        }
+    }
+    for (q, ((group, name), of)) in heads.iter().zip(tether.end_quantities()).enumerate() {
+        if tether.towed && q == 4 {
+            table = table.column("STRESSES", "SHEAR", STRESS, Digits::Scientific(3), |_| 0.0);
+        }
+        // the listing has stresses with three figures
+        let digits = if of.dim == STRESS { Digits::Scientific(3) } else { of.digits };
+        table = table.column(group, name, of.dim, digits, |(instant, end)| {
+            let alike = tether.end_quantities().iter().enumerate().filter(|(_, other)| other.dim == of.dim);
+            let values = alike.flat_map(|(q, _)| ends().filter_map(move |end| tether.end_at(*instant, end, q)));
+            let largest = values.fold(0.0, |most: f64, v| most.max(v.abs()));
+            tether.end_at(*instant, *end, q).map(|value| without_noise(value, largest))
+        });
     }
     table.build()
 }
+
+/// Heads of the columns of forces in the listing, in the order of the quantities.
+const TOWED_HEADS: [(&str, &str); 7] = [
+    ("SHEAR FORCE", "Y"),
+    ("SHEAR FORCE", "Z"),
+    ("BENDING MOMENTS", "Y"),
+    ("BENDING MOMENTS", "Z"),
+    ("STRESSES", "BENDING+AXIAL MAX"),
+    ("STRESSES", "Y"),
+    ("STRESSES", "Z"),
+];
+const INSTALLED_HEADS: [(&str, &str); 11] = [
+    ("TENSIONS", "EFFECTIVE"),
+    ("TENSIONS", "WALL"),
+    ("SHEAR FORCE", "X"),
+    ("SHEAR FORCE", "Y"),
+    ("BENDING MOMENTS", "X"),
+    ("BENDING MOMENTS", "Y"),
+    ("STRESSES", "SHEAR"),
+    ("STRESSES", "BENDING+AXIAL MAX"),
+    ("STRESSES", "BENDING+AXIAL MIN"),
+    ("STRESSES", "MAXIMUM VON MISES"),
+    ("STRESSES", "BENDING Y"),
+];
 
 /// What a history in time is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,6 +14,9 @@ use crate::structure::flow::WaterFlow;
 use nalgebra::Vector3;
 use windlass_model::ClassError;
 
+/// Squared frequencies that differ by less of themselves are those of a pair.
+const SAME_MODE: f64 = 1e-9;
+
 /// A mode of an installed tether.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InstalledMode {
@@ -24,6 +27,11 @@ pub struct InstalledMode {
 }
 
 impl InstalledMode {
+    /// `MODE FREEDOM POSN` [AQWA-TETHER 7.2]: its place among the four freedoms X, Y, RX, RY of each node, from 1.
+    pub fn freedom_position(&self) -> Option<usize> {
+        self.mode.freedom_of([[2, 3], [1, 4]])
+    }
+
     /// X, Y (scaled), RX, RY (rad) of a node.
     pub fn node(&self, index: usize) -> [f64; 4] {
         let value = |list: &[f64]| list[index];
@@ -72,5 +80,15 @@ pub fn modes(
     let heights: Vec<f64> = shares.collect();
     let [x, y] = found;
     let all = modes::together(&y, &x, number);
-    Ok(all.into_iter().map(|mode| InstalledMode { mode, heights: heights.clone() }).collect())
+    let mut all: Vec<InstalledMode> =
+        all.into_iter().map(|mode| InstalledMode { mode, heights: heights.clone() }).collect();
+    // a tether that is alike in both planes has modes in pairs: the listing has them by their places in the matrices
+    for at in 1..all.len() {
+        let (one, other) = (&all[at - 1], &all[at]);
+        let equal = (other.mode.eigenvalue - one.mode.eigenvalue).abs() <= SAME_MODE * other.mode.eigenvalue.abs();
+        if equal && one.freedom_position() > other.freedom_position() {
+            all.swap(at - 1, at);
+        }
+    }
+    Ok(all)
 }

@@ -5,7 +5,9 @@ use nalgebra::Vector3;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
-/// The stiffness of an end that nothing gives way at [AQWA-TETHER A.2], in the units of its deck: N/m, N m/rad.
+/// The stiffness along the tether of an end that does not give way (N/m): 1E15 kN/m [AQWA-TETHER A.2].
+pub const RIGID_INLINE_STIFFNESS: f64 = 1e18;
+/// The stiffness of an end that does not turn (N m/rad): a thousandth of [AQWA-TETHER A.2], which leaves the moments of the end three digits more.
 pub const RIGID_STIFFNESS: f64 = 1e15;
 /// Constraints of a tether at most [AQWA-TETHER A.14].
 pub const MAX_CONSTRAINTS: usize = 5;
@@ -24,16 +26,16 @@ pub struct EndSprings {
 impl Default for EndSprings {
     /// Rigid, as of a card that is missing.
     fn default() -> Self {
-        EndSprings { inline: RIGID_STIFFNESS, rotation: [RIGID_STIFFNESS; 2] }
+        EndSprings { inline: RIGID_INLINE_STIFFNESS, rotation: [RIGID_STIFFNESS; 2] }
     }
 }
 
 /// A value of an end spring that was not taken as it was given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DefaultTaken {
-    /// No values were given: all are [`RIGID_STIFFNESS`].
+    /// No values were given: [`RIGID_INLINE_STIFFNESS`] and [`RIGID_STIFFNESS`].
     Missing,
-    /// The inline stiffness was blank, zero or negative: it is [`RIGID_STIFFNESS`].
+    /// The inline stiffness was blank, zero or negative: it is [`RIGID_INLINE_STIFFNESS`].
     Inline,
     /// The rotational stiffness about X (0) or Y (1) was negative: it is zero.
     Rotation(usize),
@@ -43,8 +45,8 @@ impl DefaultTaken {
     /// What to report of it.
     pub const fn text(self) -> &'static str {
         match self {
-            DefaultTaken::Missing => "no end springs are given: all are rigid (1E15)",
-            DefaultTaken::Inline => "the inline spring is blank, zero or negative: it is rigid (1E15)",
+            DefaultTaken::Missing => "no end springs are given: all are rigid",
+            DefaultTaken::Inline => "the inline spring is blank, zero or negative: it is rigid (1E15 kN/m)",
             DefaultTaken::Rotation(0) => "the rotational spring about X is negative: it is zero",
             DefaultTaken::Rotation(_) => "the rotational spring about Y is negative: it is zero",
         }
@@ -60,7 +62,7 @@ impl EndSprings {
         // a value that is no number is left to the checks of the tether
         let inline = if inline <= 0.0 {
             taken.push(DefaultTaken::Inline);
-            RIGID_STIFFNESS
+            RIGID_INLINE_STIFFNESS
         } else {
             inline
         };

@@ -125,7 +125,7 @@ fn moored_database_body_heaves_as_oscillator() {
     installation.run(&course, &mut history).unwrap();
     for (time, z) in history.times().iter().zip(history.motion(0, 2)) {
         let want = height + amplitude * (frequency * time).cos();
-        // 3.6 rad/s of its own, which the scheme damps by (w h)^4/24 a step and the rigid springs' 1e15 N/m lower by 2e-7
+        // 3.6 rad/s of its own, which the scheme damps by (w h)^4/24 a step
         assert!((z - want).abs() < 2e-3 * amplitude.abs(), "{time} {z} {want}");
     }
     assert!(amplitude.abs() > 5e-3 && history.motion(0, 0).iter().all(|x| x.abs() < 1e-9));

@@ -81,7 +81,7 @@ fn tables(job: &Job, call: &Call) -> Tables {
     let args = &call.args;
     let run = last_run(job, args.span)?;
     let Some(structure) = &run.structure else {
-        return Err(Diagnostic::error("the run is of a towed tether, which has no structure", args.span));
+        return Err(Diagnostic::error("the run is of a towed tether whose vessel is no body", args.span));
     };
     let chosen = args.choice(WHAT).unwrap_or(&pages::PAGES);
     chosen.check_record(args, args.data_after(WHAT).first(), "points")?;

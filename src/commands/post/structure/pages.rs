@@ -2,7 +2,10 @@
 
 use super::{EVENTS, StructureQuery, StructureReport, WHAT};
 use crate::commands::post::report::Tables;
+use windlass_base::choice::Choice;
+use windlass_base::choices;
 use windlass_base::diagnostic::Diagnostic;
+use windlass_language::spec::{OptionSpec, ValueSpec};
 use windlass_solve::tethered;
 
 /// PAGES.
@@ -11,8 +14,42 @@ pub(super) static PAGES: StructureReport = StructureReport::new(
     "at instants the motion of the centre of gravity and of points, forces by category, expected error of the step",
     tables,
 )
-.with_options(&[EVENTS])
+.with_options(&[EVENTS, OMIT])
 .with_data();
+
+choices! {
+    /// Rows of a page, in the order of what a run keeps.
+    enum PageRow {
+        Position = "POSITION",
+        Velocity = "VELOCITY",
+        Acceleration = "ACCELERATION",
+        Gravity = "GRAVITY",
+        Hydrostatic = "HYDROSTATIC",
+        Drag = "DRAG",
+        FroudeKrylov = "FROUDE",
+        WaveInertia = "WAVE_INERTIA",
+        Diffraction = "DIFFRACTION",
+        Gyroscopic = "GYROSCOPIC",
+        Mooring = "MOORING",
+        Total = "TOTAL",
+        Error = "ERROR",
+    }
+}
+
+const OMIT: OptionSpec = OptionSpec::ours(
+    "-OMIT",
+    &[ValueSpec::choice::<PageRow>("ROW", "rows of the pages")],
+    "rows that PAGES leaves out",
+)
+.repeating(1);
+
+/// The kinds of rows that -OMIT leaves out.
+fn omitted(query: &StructureQuery) -> Vec<usize> {
+    let given = query.args().option(&OMIT);
+    let rows: Vec<PageRow> =
+        given.map(|given| given.choices(const { OMIT.choice("ROW") }).collect()).unwrap_or_default();
+    (0..).zip(PageRow::ALL).filter(|(_, row)| rows.contains(row)).map(|(index, _)| index).collect()
+}
 
 fn tables(query: &StructureQuery) -> Tables {
     let (run, structure) = (query.run, query.structure);
@@ -25,6 +62,8 @@ fn tables(query: &StructureQuery) -> Tables {
         };
         points.push(place);
     }
-    let instants = query.instants()?;
-    Ok(instants.iter().flat_map(|instant| tethered::structure(run, structure, *instant, &points)).collect())
+    let omitted = omitted(query);
+    let rows = (points.as_slice(), omitted.as_slice());
+    let page = |instant: &usize| tethered::structure(run, structure, *instant, rows, query.job.units);
+    Ok(query.instants()?.iter().map(page).collect())
 }
