@@ -56,12 +56,22 @@ fn elements(deck: &Deck, remarks: &mut Remarks) {
             }
             match element.shape {
                 ElementShape::Quad | ElementShape::Triangle | ElementShape::FieldPoint => {
+                    if deck.database(structure).is_some() {
+                        remarks.add_once(&format!("panels of {}", structure.number), || {
+                            Diagnostic::remark(
+                                format!("deck 2, {keyword}: the panels are not used: FILE gives what comes of them"),
+                                element.span,
+                            )
+                        });
+                        continue;
+                    }
                     remarks.add_once("panels", || {
-                        Diagnostic::error(
-                            format!("deck 2, {keyword}: the diffraction analysis of panels is not done here"),
-                            element.span,
-                        )
-                        .help("take the coefficients of the hull from a hydrodynamic database of the model")
+                        let whose = match deck.job.program {
+                            Program::Line => "LINE, the diffraction analysis of panels, has no solver here",
+                            _ => "the diffraction analysis of panels is not done here",
+                        };
+                        Diagnostic::error(format!("deck 2, {keyword}: {whose}"), element.span)
+                        .help("FILE NAME.AH1 in deck 6 or 7 gives the coefficients that AQWA-LINE writes with OPTIONS AHD1 END")
                     })
                 }
                 ElementShape::Stub | ElementShape::Disc => remarks.add_once("stubs", || {

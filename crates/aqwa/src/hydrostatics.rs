@@ -34,7 +34,7 @@ pub const FREQUENCIES: &[CardLayout] = &[
     CardLayout::assume("HRTZ", VALUES).freely(),
     CardLayout::assume("DIRN", VALUES).freely(),
     CardLayout::refuse("CSTR", UNPUBLISHED_CARD_REASON),
-    CardLayout::refuse("FILE", DATABASE),
+    CardLayout::text("FILE"),
     CardLayout::refuse("MVEF", UNPUBLISHED_CARD_REASON),
     CardLayout::refuse("FWDS", UNPUBLISHED_CARD_REASON),
 ];
@@ -55,7 +55,7 @@ pub const STIFFNESS: &[CardLayout] = &[
     CardLayout::refuse("PERD", DATABASE),
     CardLayout::refuse("HRTZ", DATABASE),
     CardLayout::refuse("DIRN", DATABASE),
-    CardLayout::refuse("FILE", DATABASE),
+    CardLayout::text("FILE"),
 ];
 
 /// Cards of deck 8.
@@ -111,12 +111,15 @@ pub struct HydrostaticsDecks {
     pub current: Option<UniformStream>,
     /// First LSTF card, else the header.
     pub span: Span,
+    /// File with the coefficients of the hull (FILE), with its place.
+    pub database: Option<(String, Span)>,
 }
 
 /// Takes the cards of one of the decks 6 to 10 into what is known of a structure.
 pub fn read(into: &mut HydrostaticsDecks, deck: u8, records: &[CardRecord], remarks: &mut Remarks) {
     for record in records {
         match (deck, record.keyword.as_str()) {
+            (6 | 7, "FILE") => file(into, record, remarks),
             (6, "DIRN") => into.directions.extend(given_values(record)),
             (6, keyword) => into.frequencies.extend(given_values(record).filter_map(|value| frequency(keyword, value))),
             (_, "LSTF") => {
@@ -148,6 +151,28 @@ pub fn read(into: &mut HydrostaticsDecks, deck: u8, records: &[CardRecord], rema
             }
         }
     }
+}
+
+/// The file with the coefficients of a hull, whose name is the last word of the card.
+fn file(into: &mut HydrostaticsDecks, record: &CardRecord, remarks: &mut Remarks) {
+    let name = record.text.split(' ').next_back().unwrap_or_default();
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_uppercase();
+    if ending != "AH1" {
+        remarks.add(
+            Diagnostic::error(format!("FILE, columns 21-80: `{name}` is no text database of AQWA"), record.text_place)
+                .label("a file of ending AH1 belongs here")
+                .help("the form of .HYD and .RES is not public: run the deck of AQWA-LINE with OPTIONS AHD1 END, which writes the same as text"),
+        );
+        return;
+    }
+    if let Some((_, earlier)) = &into.database {
+        remarks.add(
+            Diagnostic::error("FILE: the coefficients of this structure are given twice", record.span)
+                .other(*earlier, "given here first"),
+        );
+        return;
+    }
+    into.database = Some((name.to_string(), record.text_place));
 }
 
 fn given_values(record: &CardRecord) -> impl Iterator<Item = f64> + '_ {

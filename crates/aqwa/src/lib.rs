@@ -149,6 +149,12 @@ impl Deck {
         self.structures.iter().find(|structure| structure.number == number)
     }
 
+    /// The file with the coefficients of the hull of a structure, with its place.
+    pub fn database(&self, structure: &elements::StructureDeck) -> Option<&(String, windlass_base::span::Span)> {
+        let index = self.structures.iter().position(|other| other.number == structure.number)?;
+        self.hydrostatics.get(index)?.database.as_ref()
+    }
+
     /// Position of the centre of gravity of a structure at the start: X, Y, Z, RX, RY, RZ (degrees). The place of deck 15,
     /// else that of the structure as modelled.
     pub fn start(&self, structure: &StructureDeck) -> [f64; 6] {

@@ -18,7 +18,7 @@ use windlass_base::values::Noun;
 use windlass_hydro::database::mirror_headings;
 use windlass_hydro::database::rao::RaoConvention;
 use windlass_hydro::database::wamit::WamitScale;
-use windlass_hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
+use windlass_hydro::database::{Database, DatabaseError, SourceFile, aqwa, capytaine, nemoh, rao, wamit};
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
@@ -93,6 +93,11 @@ const CAPYTAINE: OptionSpec = OptionSpec::ours(
     &[ValueSpec::new("FILE", Kind::File, "NetCDF file, classic or version 4")],
     "reads a data set of Capytaine",
 );
+const AQWA: OptionSpec = OptionSpec::ours(
+    "-AQWA",
+    &[ValueSpec::new("FILE", Kind::File, "text file of ending AH1")],
+    "reads the hydrodynamic database that AQWA-LINE writes with OPTIONS AHD1",
+);
 const RAO: OptionSpec = OptionSpec::ours(
     "-RAO",
     &[ValueSpec::new("FILE", Kind::File, "text or CSV file")],
@@ -124,7 +129,7 @@ const AT: OptionSpec = OptionSpec::ours(
     ],
     "where the origin of the source stands in the body; its axes are those of the body",
 )
-.default("the body's origin");
+.default("the body's origin; of -AQWA where its centre of gravity is that of the body");
 const SYMMETRIC: OptionSpec =
     OptionSpec::ours("-SYMMETRIC", YES_NO, "adds the headings of the other side of a body with port like starboard")
         .default("NO");
@@ -159,6 +164,7 @@ static SPEC: CommandSpec = CommandSpec {
         ULEN,
         NEMOH,
         CAPYTAINE,
+        AQWA,
         RAO,
         PHASE,
         ROTATION,
@@ -170,7 +176,7 @@ static SPEC: CommandSpec = CommandSpec {
         DRIFT,
         HYDROSTATICS,
     ],
-    detail: "One of -WAMIT, -NEMOH, -CAPYTAINE and -RAO is given; a second DATABASE of a body replaces the first. The matrices make added \
+    detail: "One of -WAMIT, -NEMOH, -CAPYTAINE, -AQWA and -RAO is given; a second DATABASE of a body replaces the first. The matrices make added \
              mass at infinite frequency and a memory of radiated waves, the excitation wave forces by the heading of the body, \
              drift coefficients mean and slow drift; a table of motions makes no force. #DRIFT of the same body would count twice, and is refused but with -DRIFT NONE. Headings of a source are the direction waves travel toward, from its x axis; gaps of more than 90 degrees \
              between them are refused when waves come from there. Density and gravity of WAMIT and RAO are those in force. \
@@ -186,9 +192,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.place(BODY))?;
     let (key, name) = (Model::key(&body.name), body.name.clone());
-    let mass = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity).mass;
+    let weight = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity);
+    let mass = weight.mass;
     let (source, mut data) = read(job, args)?;
-    let at = args.option(&AT).map_or([0.0; 3], |given| given.numbers_or_zero(const { AT.numbers(["X", "Y", "Z"]) }));
+    // AQWA gives the centre of gravity, which is that of the body
+    let usual = if args.has(&AQWA) { weight.centre - data.reference } else { Vector3::zeros() };
+    let at =
+        args.option(&AT).map_or(usual.into(), |given| given.numbers_or_zero(const { AT.numbers(["X", "Y", "Z"]) }));
     data.reference += Vector3::from(at);
     if args.switch(&SYMMETRIC, false) {
         data = mirror_headings(data);
@@ -278,11 +288,11 @@ fn method(args: &Args, data: &Database) -> Outcome<DriftMethod> {
 
 /// Reads the source that is given, with its place.
 fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
-    const SOURCES: [OptionSpec; 4] = [WAMIT, NEMOH, CAPYTAINE, RAO];
+    const SOURCES: [OptionSpec; 5] = [WAMIT, NEMOH, CAPYTAINE, AQWA, RAO];
     let mut given = args.options.iter().filter(|given| given.is_any(&SOURCES));
     let Some(source) = given.next() else {
         return Err(Diagnostic::error("DATABASE lacks its source", args.span)
-            .help("form: DATABASE BODY -WAMIT ROOT | -NEMOH FOLDER | -CAPYTAINE FILE | -RAO FILE"));
+            .help("form: DATABASE BODY -WAMIT ROOT | -NEMOH FOLDER | -CAPYTAINE FILE | -AQWA FILE | -RAO FILE"));
     };
     if let Some(second) = given.next() {
         return Err(Diagnostic::error("a body has one database", second.span).other(source.span, "first given here"));
@@ -325,6 +335,11 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
             &bytes(job, &crate::commands::settings::device::readable(job, name, span)?, name, span)?,
             body,
         ),
+        _ if source.is(&AQWA) => {
+            refuse_binary(name, span)?;
+            let file = text(job, &crate::commands::settings::device::readable(job, name, span)?, name, span)?;
+            aqwa::read(name, &file, body)
+        }
         _ => {
             let file = text(job, &crate::commands::settings::device::readable(job, name, span)?, name, span)?;
             let phase = args.option_choice(&PHASE, const { PHASE.choice("LAG/LEAD") });
@@ -335,6 +350,16 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
         }
     };
     Ok((span, made.map_err(|e: DatabaseError| Diagnostic::error(format!("{e}"), span))?))
+}
+
+/// Refuses the binary files of AQWA by their endings.
+fn refuse_binary(name: &str, span: Span) -> Outcome<()> {
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_uppercase();
+    if ["HYD", "RES", "PLT", "POT", "USS", "EQP"].contains(&ending.as_str()) {
+        return Err(Diagnostic::error(format!("{name} is a binary file of AQWA, whose form is not public"), span)
+            .help("run the deck of AQWA-LINE with OPTIONS AHD1 END: it then writes the same database as text, in a file of ending AH1"));
+    }
+    Ok(())
 }
 
 /// Those files that there are.

@@ -5,6 +5,7 @@
 
 use super::aqwa_decks::{SECTION, STILL, assert_near, lines, moored, placed, pulls, records, run, said};
 
+use crate::common;
 use windlass::session::Session;
 use windlass_hydro::Category;
 
@@ -173,6 +174,96 @@ fn wrong_winches_and_breaks_are_refused_with_card_and_columns() {
         let list = records(&moored("NAUT", 100.0, &cards, STILL)).unwrap_err();
         assert!(list.iter().any(|error| error.message.contains(message) && error.span.is_some()), "{list:?}");
     }
+}
+
+/// A hemisphere of 10 m whose coefficients are in tests/data/hemisphere/hemisphere.AH1, held but for heave, with a constant force of 1 MN in
+/// its line and these decks 12 and 13.
+fn hemisphere(program: &str, held: &[u8], waves: &str) -> String {
+    let file = "    07    WFS1\n END07FILE              tests/data/hemisphere/hemisphere.AH1\n";
+    let card =
+        |(n, dof): (usize, &u8)| format!("{:>4}12DACF    1{dof:5}\n", if n + 1 == held.len() { "END" } else { "" });
+    let cards: String = held.iter().enumerate().map(card).collect();
+    moored(program, 100.0, " END14FORC    1    2    0   12     1.0E6\n", waves)
+        .replace(" END02PMAS", "    02QPPL DIFF     (1)(1)(1)(2)(2)\n END02PMAS")
+        .replace("    1     1.0E7\n", "    1 2146755.0\n")
+        .replace("END05ACCG      9.81", "END05ACCG   9.80665")
+        .replace(
+            "     1.0E9       0.0       0.0     1.0E9       0.0     1.0E9",
+            "   5.367E7       0.0       0.0   5.367E7       0.0   5.367E7",
+        )
+        .replace("    07    NONE\n", file)
+        .replace("    12    NONE\n", &format!("    12    CONS\n{cards}"))
+}
+
+const BUT_HEAVE: [u8; 5] = [1, 2, 4, 5, 6];
+
+#[test]
+fn librium_job_of_hull_with_text_database_sinks_by_its_stiffness() {
+    let (session, _) = run("hull.dat", &hemisphere("LIBR", &BUT_HEAVE, STILL));
+    let body = session.job.model.bodies.values().next().unwrap();
+    // 3152.8 kN/m of the file against 1 MN down the line: dz = -1E6 v / sqrt(535^2 + v^2) / 3.1528E6, v = 90 + dz
+    assert!((body.place.shift[2] + 0.052_587_879).abs() < 1e-6, "{:?}", body.place);
+}
+
+#[test]
+fn fer_job_has_heave_of_coefficients_of_its_file() {
+    let (mut session, screen, _folder) = common::session();
+    session.open_job("hull.dat", hemisphere("FER ", &BUT_HEAVE, STILL));
+    session.run();
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    // 0.95 rad/s, X / (C + T/L (1 - n2) - w2 (M + A) - i w B) with the rows of the file: 1.757507, lag 24.3267 degrees
+    let text = screen.text();
+    let row = text.lines().find(|line| line.starts_with("    0.00    6.61     0.9500")).unwrap();
+    assert!(row.contains("1.7575E+00       24.33"), "{row}");
+    // a sea gives statistics
+    let sea = "    13    SPEC\n END13PSMZ                 0.3       2.0       3.0       6.0\n";
+    let made = records(&hemisphere("FER ", &BUT_HEAVE, sea)).unwrap().job.join("\n");
+    assert!(
+        made.contains("FREQ_RESPONSE\nSRESPONSE\nSTATISTICS MOTION S1\nREPORT\nEND\nSTATISTICS TENSION L1"),
+        "{made}"
+    );
+}
+
+#[test]
+fn naut_job_of_hull_reaches_heave_of_its_coefficients() {
+    // 0.1 m of 6.613879 s, 0.95 rad/s: 1.757507 times 0.1 m about where it rests, once what it began with has died away
+    let wave = "    13    WAVE\n    13WAMP                 0.1\n    13PERD            6.613879\n END13AIRY\n";
+    let deck = hemisphere("NAUT", &BUT_HEAVE, wave)
+        .replace("16TIME       101       0.1", "16TIME       901       0.1")
+        .replace(
+            "       0.0       0.0       0.0       0.0       0.0       0.0\n    16",
+            "       0.0       0.0 -0.052588       0.0       0.0       0.0\n    16",
+        );
+    let (session, _) = run("hull.dat", &deck);
+    let history = &session.job.run.as_ref().unwrap().history;
+    let heave = history.layout.body(0) + 2;
+    let last: Vec<f64> =
+        history.times().iter().zip(history.rows()).filter(|(t, _)| **t > 70.0).map(|(_, row)| row[heave]).collect();
+    let (low, high) = last.iter().fold((f64::MAX, f64::MIN), |(low, high), z| (low.min(*z), high.max(*z)));
+    // the step of 0.1 s and a ramp that has left under a per cent
+    assert!(((high - low) / 2.0 / 0.175_750_7 - 1.0).abs() < 0.01, "{low} {high}");
+}
+
+#[test]
+fn job_without_coefficients_of_its_hull_is_an_error() {
+    let sea = "    13    SPEC\n END13PSMZ                 0.3       2.0       3.0       6.0\n";
+    for program in ["LIBR", "FER ", "DRIF", "NAUT"] {
+        let deck = moored(program, 100.0, " END14FORC    1    2    0   12     1.0E6\n", sea);
+        let list = records(&deck).unwrap_err();
+        assert!(
+            list.iter().any(|e| e.message.starts_with("decks 6 to 8: structure 1 has no wave coefficients")),
+            "{list:?}"
+        );
+    }
+    // binary files, and LINE, are refused by name
+    let binary = hemisphere("DRIF", &BUT_HEAVE, sea).replace("hemisphere.AH1", "hemisphere.HYD");
+    let list = said(&binary);
+    let found = list.iter().find(|e| {
+        e.message == "FILE, columns 21-80: `tests/data/hemisphere/hemisphere.HYD` is no text database of AQWA"
+    });
+    assert!(found.is_some_and(|e| e.span.is_some() && e.help[0].contains("AHD1")), "{list:?}");
+    let list = records(&hemisphere("LINE", &BUT_HEAVE, STILL)).unwrap_err();
+    assert!(list[0].message.starts_with("deck 0: LINE is the diffraction analysis"), "{list:?}");
 }
 
 /// The deck with more nodes.

@@ -107,8 +107,31 @@ pub(super) fn structure(deck: &Deck, of: &StructureDeck, out: &mut Script) {
         out.card("deck 7, LSTF", known.span);
         hydrostatics(deck, of, known, nominal, out);
     }
+    if let Some((name, span)) = known.and_then(|known| known.database.as_ref()) {
+        database(deck, of, name, *span, out);
+    }
     out.card(&header, of.span);
     tubes(deck, of, out);
+}
+
+/// The coefficients of a hull. Its hydrostatics are those of the file where the deck gives none.
+fn database(deck: &Deck, of: &StructureDeck, name: &str, span: Span, out: &mut Script) {
+    let own = |at: usize| deck.hydrostatics.get(at);
+    let index = deck.structures.iter().position(|s| s.number == of.number).unwrap_or(0);
+    let mut text = format!("DATABASE {} -AQWA {name}", body(of.number));
+    // a file that several structures name holds all of them
+    let sharing = (0..deck.structures.len()).filter(|at| {
+        own(*at).and_then(|known| known.database.as_ref()).is_some_and(|(other, _)| other.eq_ignore_ascii_case(name))
+    });
+    if sharing.count() > 1 {
+        text.push_str(&format!(" -INDEX {}", of.number));
+    }
+    let has_tubes = of.elements.iter().any(|element| element.shape == ElementShape::Tube);
+    if own(index).is_none_or(|known| known.stiffness.is_none()) && !has_tubes {
+        text.push_str(" -HYDROSTATICS YES");
+    }
+    out.card("deck 7, FILE", span);
+    out.record(text);
 }
 
 /// Mass, centre and inertia of a structure. Tubes whose mass is a nominal one (decks of structures whose whole mass stands in PMAS give

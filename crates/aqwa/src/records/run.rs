@@ -53,8 +53,10 @@ pub(super) fn motion(deck: &Deck, out: &mut Script) {
     if let Some(steps) = deck.steps {
         out.card("deck 16, TIME", steps.span);
     }
-    if matches!(deck.job.program, Program::Drift | Program::Naut) {
+    if deck.job.program != Program::Line {
         wave_loads(deck, out);
+    }
+    if matches!(deck.job.program, Program::Drift | Program::Naut) {
         lines::breaks(deck, out);
     }
     match (deck.job.program, deck.mooring.tethers.is_empty()) {
@@ -72,10 +74,15 @@ pub(super) fn motion(deck: &Deck, out: &mut Script) {
                 .label("LIBR is the equilibrium")
                 .help("INMODEL -AQWA reads the model; &EQUI then takes installed tethers as bars"),
         ),
-        (Program::Line | Program::Fer, _) => out.refuse(
-            Diagnostic::error("deck 0: this program is not run from a deck", deck.job.span)
-                .label("DRIF, NAUT or LIBR belongs here")
-                .help("LINE is the diffraction analysis; for FER, INMODEL -AQWA reads the model and FREQ_RESPONSE runs it"),
+        (Program::Fer, true) => frequency_domain(deck, out),
+        (Program::Fer, false) => out.refuse(
+            Diagnostic::error("deck 0: tethers are run in time, with DRIF or NAUT", deck.job.span)
+                .label("FER is the frequency domain"),
+        ),
+        (Program::Line, _) => out.refuse(
+            Diagnostic::error("deck 0: LINE is the diffraction analysis, for which there is no solver here", deck.job.span)
+                .label("LIBR, FER, DRIF or NAUT belongs here")
+                .help("run it in AQWA with OPTIONS AHD1 END: FILE NAME.AH1 in deck 6 or 7, or DATABASE -AQWA of the model, reads what it writes"),
         ),
     }
 }
@@ -92,13 +99,14 @@ fn wave_loads(deck: &Deck, out: &mut Script) {
         return;
     }
     for structure in &deck.structures {
-        if structure.elements.iter().all(|element| element.shape != ElementShape::Tube) {
+        let has_tubes = structure.elements.iter().any(|element| element.shape == ElementShape::Tube);
+        if !has_tubes && deck.database(structure).is_none() {
             let message =
                 format!("decks 6 to 8: structure {} has no wave coefficients, and no tubes", structure.number);
             out.refuse(
                 Diagnostic::error(message, structure.span)
                     .label("no load of the waves would act on it")
-                    .help("coefficients of a deck are not read; INMODEL -AQWA takes its model, and DATABASE of the model its coefficients")
+                    .help("FILE NAME.AH1 in deck 6 or 7 gives them; or INMODEL -AQWA takes the model of the deck, and DATABASE of the model its coefficients")
                     .help("still water is NONE in the place of deck 13"),
             );
         }
@@ -111,6 +119,32 @@ fn bodies(deck: &Deck, out: &mut Script) {
     out.record("PRCPOST");
     for structure in &deck.structures {
         out.record(format!("TRAJECTORY {}", body(structure.number)));
+        out.record("REPORT");
+        out.record("END");
+    }
+    out.record("END");
+}
+
+/// Motions and tensions in the sea of the deck about the places where it puts the structures; without a sea in unit waves.
+fn frequency_domain(deck: &Deck, out: &mut Script) {
+    if let WaveDeck::Regular(_) = deck.waves {
+        out.refuse(
+            Diagnostic::error("deck 13: a regular wave is for NAUT, this JOB is for FER", deck.job.span)
+                .help("SPEC is the deck of a spectrum; NONE gives the motions in unit waves"),
+        );
+        return;
+    }
+    let sea = matches!(deck.waves, WaveDeck::Spectra(_));
+    out.record("FREQ_RESPONSE");
+    out.record(if sea { "SRESPONSE" } else { "RAO" });
+    let (prefix, tensions) = if sea { ("STATISTICS ", "STATISTICS TENSION") } else { ("", "CONFORCE") };
+    for structure in &deck.structures {
+        out.record(format!("{prefix}MOTION {}", body(structure.number)));
+        out.record("REPORT");
+        out.record("END");
+    }
+    for index in 0..deck.mooring.lines.len() {
+        out.record(format!("{tensions} L{}", index + 1));
         out.record("REPORT");
         out.record("END");
     }

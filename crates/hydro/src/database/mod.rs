@@ -1,8 +1,9 @@
 //! Hydrodynamic databases: what programs of potential flow computed, and the forces it makes in time.
 //!
-//! The data and its conventions are [`Database`] of the model. Sources are read by [`wamit`], [`nemoh`], [`capytaine`] and [`rao`]; [`interpolation`]
+//! The data and its conventions are [`Database`] of the model. Sources are read by [`wamit`], [`nemoh`], [`capytaine`], [`aqwa`] and [`rao`]; [`interpolation`]
 //! interpolates; [`radiation`], [`excitation`] and [`slow_drift`] make the loads on a body, which [`attached`] puts together.
 
+pub mod aqwa;
 pub mod attached;
 pub mod capytaine;
 pub mod checks;

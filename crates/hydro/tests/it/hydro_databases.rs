@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 use windlass_hydro::database::rao::{self, RaoConvention};
 use windlass_hydro::database::wamit::{self, WamitScale};
-use windlass_hydro::database::{Database, SourceFile, capytaine, nemoh};
+use windlass_hydro::database::{Database, SourceFile, aqwa, capytaine, nemoh};
 use windlass_hydro::database::{DatabaseLookup, mirror_headings};
 
 const FOLDER: &str = "../../tests/data/hemisphere/";
@@ -85,6 +85,110 @@ fn every_database_format_gives_same_hemisphere() {
     assert!((nemoh.mass.unwrap() / all.mass.unwrap() - 1.0).abs() < 1e-6);
     // headings 0 to 180 only, and nothing else to say
     assert!(matches!(nemoh.remarks.as_slice(), [one] if one.contains("gap of 180 degrees")), "{:?}", nemoh.remarks);
+}
+
+#[test]
+fn aqwa_text_database_in_tonnes_gives_same_hemisphere() {
+    let (all, data) = (whole(), aqwa::read("aqwa", &file("hemisphere.AH1"), None).unwrap());
+    assert_eq!((data.frequencies.len(), data.headings.len(), data.depth), (25, 8, Some(1000.0)));
+    // seven digits of values and frequencies, 5E-4 degrees of phases
+    agrees(&data, &all, 3e-5);
+    let (own, other) = (data.hydrostatics.unwrap(), all.hydrostatics.unwrap());
+    assert!((own - other).amax() < 1e-6 * other.amax());
+    assert!((data.mass.unwrap() / (1025.0 * 2.0 / 3.0 * PI * 1000.0) - 1.0).abs() < 1e-6);
+    assert!((data.density - 1025.0).abs() < 1e-9 && data.remarks.is_empty(), "{:?}", data.remarks);
+}
+
+/// Two structures, two directions, two frequencies; `general` is the row of GENERAL.
+fn two_structures(general: &str) -> String {
+    let matrix = |head: String, first: f64| {
+        let row =
+            |i: usize| (0..6).map(|j| format!(" {}", if i == j { first + i as f64 } else { 0.0 })).collect::<String>();
+        (0..6).map(|i| format!("{}{}\n", if i == 0 { head.as_str() } else { "" }, row(i))).collect::<String>()
+    };
+    let pairs = [(1, 1), (1, 2), (2, 1), (2, 2)];
+    let radiation = |base: f64| -> String {
+        let at =
+            |(a, b): (usize, usize), w: usize| matrix(format!(" {a} {b} {w}"), base + (100 * a + 10 * b + w) as f64);
+        pairs.iter().flat_map(|pair| [at(*pair, 1), at(*pair, 2)]).collect()
+    };
+    let mut force = String::new();
+    for body in 1..=2 {
+        for direction in 1..=2 {
+            for w in 1..=2 {
+                force.push_str(&format!(
+                    " {body} {direction} {w} {} 2 3 4 5 6\n 90 0 0 -90 0 0\n",
+                    100 * body + 10 * direction + w
+                ));
+            }
+        }
+    }
+    format!(
+        "* made by hand\n 2 2 2 180.0 0.0\n 1.0 0.5\n GENERAL\n {general}\n COG\n 1 10 0 -2\n 2 -30 0 -4\n MASS\n{}{} HYDSTIFFNESS\n{}{} \
+         ADDEDMASS\n{} DAMPING\n{} FORCERAO\n{force}",
+        matrix(" 1".into(), 5.0),
+        matrix(" 2".into(), 7.0),
+        matrix(" 1".into(), 50.0),
+        matrix(" 2".into(), 70.0),
+        radiation(1000.0),
+        radiation(2000.0),
+    )
+}
+
+#[test]
+fn aqwa_text_database_has_lags_order_and_units_of_its_file() {
+    let text_of = |general: &str| text("two.AH1", &two_structures(general));
+    let read = |general: &str, body: Option<usize>| aqwa::read("two", &text_of(general), body);
+    let data = read("200 1025 9.81 0", Some(1)).unwrap();
+    assert_eq!((data.frequencies.as_slice(), data.headings.as_slice()), (&[0.5, 1.0][..], &[0.0, PI][..]));
+    assert_eq!((data.reference.x, data.reference.z, data.depth, data.mass), (10.0, -2.0, Some(200.0), Some(5.0)));
+    // frequencies grow here, so that the second of the file is the first; its own matrix 1 1
+    assert_eq!((data.added_mass[0][(0, 0)], data.added_mass[1][(5, 5)]), (1112.0, 1116.0));
+    assert_eq!((data.damping[0][(1, 1)], data.hydrostatics.unwrap()[(2, 2)]), (2113.0, 52.0));
+    // direction 2 of the file is 0 degrees; a lag of 90 degrees is i, -90 is -i
+    let force = data.excitation[0][1];
+    assert!(
+        (force[0] - Complex::new(0.0, 121.0)).norm() < 1e-12 && (force[3] - Complex::new(0.0, -4.0)).norm() < 1e-12
+    );
+    // tonnes; a leading number as later versions have it; feet and slugs
+    let tonnes = read("7 200 1.025 9.81", Some(1)).unwrap();
+    assert_eq!((tonnes.added_mass[0][(0, 0)], tonnes.density, tonnes.depth), (1_112_000.0, 1025.0, Some(200.0)));
+    let feet = read("200 1.9905 32.2 0", Some(1)).unwrap();
+    assert!((feet.added_mass[0][(0, 0)] / (1112.0 * 14.593_903) - 1.0).abs() < 1e-12);
+    assert!((feet.added_mass[0][(3, 3)] / (1115.0 * 14.593_903 * 0.3048 * 0.3048) - 1.0).abs() < 1e-12);
+    // the second structure: phases refer to the centre of the first, 40 m along the waves
+    let second = read("200 1025 9.81 0", Some(2)).unwrap();
+    let k = 0.5f64.powi(2) / 9.81;
+    let turned = Complex::new(0.0, 222.0) * Complex::from_polar(1.0, 40.0 * k);
+    assert!((second.excitation[0][0][0] - turned).norm() < 0.02 * 222.0, "{} {turned}", second.excitation[0][0][0]);
+    assert!(second.remarks.iter().any(|r| r.contains("centre of gravity of the first")));
+}
+
+#[test]
+fn wrong_aqwa_text_database_reports_missing_part() {
+    let good = two_structures("200 1025 9.81 0");
+    let refused = |file: &str, body: Option<usize>, wanted: &str| {
+        let error = aqwa::read("two", &text("two.AH1", file), body).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{error}");
+    };
+    refused(&good, None, "it has 2 structures: -INDEX says which one to take");
+    refused(&good, Some(3), "there is no structure 3: it has 2");
+    refused("", None, "it is no file .AH1");
+    refused("1 1 1 0 1\n", None, "no section GENERAL");
+    refused(&good.replace("200 1025 9.81 0", "200 1.5 9.81 0"), Some(1), "belong to no set of units");
+    refused(
+        &good.replace(" 2 2 2 180.0 0.0", " 2 2 3 180.0 0.0"),
+        Some(1),
+        "3 frequencies are announced, and 4 numbers follow",
+    );
+    refused(&good.replace(" 1 1 2 1112", " 1 1 3 1112"), Some(1), "ADDEDMASS lacks the matrix 1 1 2");
+    refused(
+        &good.replace(" 1 2 2 122 2", " 1 2 3 122 2"),
+        Some(1),
+        "FORCERAO lacks structure 1, direction 2, frequency 2",
+    );
+    refused(&good.replace(" COG\n", " CG\n"), Some(1), "it has no section COG");
+    refused(&good.replace("1112", "nan"), Some(1), "a row of finite numbers is expected");
 }
 
 #[test]
@@ -296,6 +400,7 @@ proptest! {
 
     #[test]
     fn arbitrary_text_does_not_panic_database_reader(body in "([0-9.eED+\\- ]{0,12}[ \\n,\"=A-Za-z]{0,4}){0,60}", cut in 0usize..4000, junk in "\\PC{0,20}") {
+        let _ = aqwa::read("a", &text("a.AH1", &body), None);
         for ending in ["1", "3", "9", "12d", "hst"] {
             let _ = wamit::read("w", &[text(&format!("w.{ending}"), &body)], &scale(1.0));
         }
