@@ -176,6 +176,36 @@ fn wrong_winches_and_breaks_are_refused_with_card_and_columns() {
     }
 }
 
+#[test]
+fn line_beside_tethers_pulls_platform_in_mooring_forces() {
+    let deck = std::fs::read_to_string("scripts/mint.dat").unwrap().replace("16TIME       101", "16TIME         3");
+    let slack = "    14TSLK                         0.001\n";
+    let with = deck.replace(slack, &format!("{slack}    14LINE    1 1010    0 9010     100.0     250.0\n"));
+    assert_ne!(deck, with);
+    let mooring = |text: &str| {
+        let (session, _) = run("mint.dat", text);
+        let structure = session.job.tethered.as_ref().unwrap().structure.clone().unwrap();
+        let kinds = windlass_solve::tethered::StructureHistory::KINDS;
+        let column = |name: &str| 6 * kinds.iter().position(|kind| *kind == name).unwrap();
+        ["MOORING", "TOTAL FORCE", "DIFFRACTION"]
+            .map(|kind| [0, 1, 2].map(|axis| structure.value(0, column(kind) + axis).unwrap()))
+    };
+    let (own, both) = (mooring(&deck), mooring(&with));
+    // 100 kN/m over 250 m, from node 1010 as POS1 puts it to the anchor
+    let mut sources = windlass_language::source::Sources::default();
+    let id = sources.add("deck", with.as_str(), 1);
+    let read = windlass_aqwa::read(&sources, id).deck;
+    let from = read.node_position(read.structure(1).unwrap(), 1010).unwrap();
+    let to = [-52.630, 52.630, -329.735_43];
+    let chord = [0, 1, 2].map(|axis| to[axis] - from[axis]);
+    let length = chord.iter().map(|x| x * x).sum::<f64>().sqrt();
+    for axis in 0..3 {
+        let pull = 100e3 * (length - 250.0) * chord[axis] / length;
+        assert!((both[0][axis] - own[0][axis] - pull).abs() < 1.0, "{axis}: {} {pull}", both[0][axis] - own[0][axis]);
+        assert!((both[1][axis] - own[1][axis] - pull).abs() < 1.0 && both[2] == own[2]);
+    }
+}
+
 /// A hemisphere of 10 m whose coefficients are in tests/data/hemisphere/hemisphere.AH1, held but for heave, with a constant force of 1 MN in
 /// its line and these decks 12 and 13.
 fn hemisphere(program: &str, held: &[u8], waves: &str) -> String {

@@ -128,7 +128,7 @@ impl Structure for Moored {
                 .map_err(named)?;
             for ((end, kind), wrench) in ends.iter().zip(&link.ends).zip(&self.response.wrench) {
                 if matches!(kind, EndAttachment::Body(..)) {
-                    out.floating += move_wrench(wrench, end.pose.origin - at.pose.origin);
+                    out.mooring += move_wrench(wrench, end.pose.origin - at.pose.origin);
                 }
             }
         }

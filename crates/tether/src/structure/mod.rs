@@ -35,7 +35,7 @@ pub struct StructureForces {
     pub floating: Six,
     /// What the turning axes add to inertia, as a force.
     pub gyroscopic: Six,
-    /// The tethers.
+    /// Tethers, mooring lines and other connectors.
     pub mooring: Six,
     /// Inertia with added mass, global axes (kg, kg m, kg m2).
     pub inertia: Matrix6<f64>,
