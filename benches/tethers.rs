@@ -73,6 +73,7 @@ fn main() {
         slam: 1.0,
         tow: [0.0; 2],
         transient: 0.0,
+        keep: true,
     };
     pass("towed example, statistics and fatigue", &scripted("towed_tether"), settings(375.0, 0.25, 2), true);
     pass("installed example", &scripted("installed_tether"), settings(25.0, 0.25, 1), true);

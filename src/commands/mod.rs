@@ -33,6 +33,7 @@ use model::{
 pub use output::buildg::take as take_row;
 use output::{animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
 use post::{frequency_posts, rep_select};
+pub(crate) use settings::device::existing;
 use settings::{device, parameter, units};
 use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};
 pub use status::kinds as status_kinds;

@@ -1,14 +1,14 @@
 //! AQWA decks: read, listed, and run as the records they amount to.
 
-use super::Session;
-use crate::commands::{DECK_HEAD, PLAIN, SCRIPT};
+use super::{Session, read_text};
+use crate::commands::{DECK_HEAD, PLAIN, SCRIPT, existing};
 use crate::report::page;
 use std::path::Path;
 use windlass_aqwa::job::Program;
 use windlass_aqwa::listing::ListingPart;
 use windlass_aqwa::waves::WaveDeck;
 use windlass_aqwa::{self as aqwa, Deck, Records, WrittenRecords};
-use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::fortran::fixed;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
@@ -87,6 +87,24 @@ impl Session {
         said
     }
 
+    /// The deck of the stages before the first one of RESTART, where that names it: a file beside the job.
+    fn earlier_stages(&mut self, deck: &Deck) -> Outcome<Option<(String, Text)>> {
+        let (start, _) = deck.job.stages;
+        let name = &deck.job.database;
+        if start <= 1 || name.is_empty() {
+            return Ok(None);
+        }
+        let file = format!("{name}.dat");
+        let path = existing(&self.job, &file, deck.job.span).map_err(|error| {
+            let text = format!("deck 0, RESTART: {}", error.message);
+            let help = "columns 21 on name the deck of the earlier stages; a database of AQWA is not read";
+            Diagnostic::error(text, deck.job.span).help(help)
+        })?;
+        self.job.output.folder.note_reading(&path);
+        let text = read_text(&path).map_err(|error| Diagnostic::error(error.to_string(), deck.job.span))?;
+        Ok(Some((file, text)))
+    }
+
     /// A deck with its records; nothing when it has an error, which is reported.
     fn translate_deck(
         &mut self,
@@ -96,6 +114,17 @@ impl Session {
     ) -> Option<(Deck, Records)> {
         let id = self.interpreter.sources.add(name, text, 1);
         let reading = aqwa::read(&self.interpreter.sources, id);
+        let reading = match self.earlier_stages(&reading.deck) {
+            Ok(None) => reading,
+            Ok(Some((name, text))) => {
+                let earlier = self.interpreter.sources.add(&name, text, 1);
+                aqwa::read_after(&self.interpreter.sources, id, earlier)
+            }
+            Err(error) => {
+                self.report(*error);
+                return None;
+            }
+        };
         for message in reading.messages {
             self.report(message);
         }

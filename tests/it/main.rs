@@ -88,6 +88,7 @@ mod time {
     mod screening;
     mod step_accuracy;
     mod step_prediction;
+    mod tether_restart;
     mod time_domain;
     mod time_runs;
     mod transient;
@@ -98,6 +99,7 @@ mod time {
 mod aqwa {
     mod aqwa_decks;
     mod aqwa_listing;
+    mod aqwa_stages;
     mod aqwa_tether_fatigue;
     mod aqwa_tether_statistics;
     mod deck_lines;

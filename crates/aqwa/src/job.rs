@@ -117,6 +117,23 @@ impl JobDeck {
     }
 }
 
+impl JobDeck {
+    /// Whether a deck belongs to a stage before the first one.
+    pub fn is_earlier(&self, deck: u8) -> bool {
+        let (start, _) = self.stages;
+        start > stage_of(deck)
+    }
+}
+
+/// The stage that a deck belongs to.
+fn stage_of(deck: u8) -> u8 {
+    match deck {
+        0..=5 => 1,
+        6..=8 => 2,
+        _ => 4,
+    }
+}
+
 /// Whether a text is a deck: its first line that is no comment is a JOB line that names a program.
 pub fn is_deck(text: &str) -> bool {
     let first = text

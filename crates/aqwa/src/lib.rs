@@ -125,6 +125,8 @@ pub struct Deck {
     pub printing: Printing,
     /// All cards from deck 1 on as they were read, for the echo.
     pub cards: Vec<Cards>,
+    /// Whether the decks of the stages before the first one of RESTART are there, from the file of an earlier run.
+    pub has_earlier_stages: bool,
 }
 
 /// What came of reading a file.
@@ -197,13 +199,33 @@ impl Deck {
 
 /// Reads a file of cards.
 pub fn read(sources: &Sources, id: SourceId) -> Reading {
+    read_stages(sources, id, None)
+}
+
+/// Reads a file of cards that begins after stage 1 [AQWA-TETHER chapter 5]; the decks of the stages before are those of the file of an earlier run.
+pub fn read_after(sources: &Sources, id: SourceId, earlier: SourceId) -> Reading {
+    read_stages(sources, id, Some(earlier))
+}
+
+fn read_stages(sources: &Sources, id: SourceId, earlier: Option<SourceId>) -> Reading {
     let Some(source) = sources.get(id) else { return Reading::default() };
     let mut reader = CardReader::new(source, id);
     let mut deck = Deck { job: job::read(&mut reader), ..Deck::default() };
+    let mut before = earlier.and_then(|id| Some(CardReader::new(sources.get(id)?, id)));
+    let done = before.as_mut().map(job::read);
+    deck.has_earlier_stages = done.is_some();
     for number in 1..=20 {
         if deck.job.has_deck(number) {
             deck_dispatch::read(&mut deck, number, &mut reader);
+        } else if let (Some(job), Some(before)) = (&done, &mut before)
+            && job.has_deck(number)
+            && deck.job.is_earlier(number)
+        {
+            deck_dispatch::read(&mut deck, number, before);
         }
+    }
+    if let Some(before) = before {
+        reader.remarks.take_over(before.remarks);
     }
     if let Some(line) = reader.peek() {
         let warning = Diagnostic::warning("what follows the last deck is not read", line.whole());

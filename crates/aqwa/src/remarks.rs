@@ -39,6 +39,12 @@ impl Remarks {
         result.map_err(|error| self.add(error)).ok()
     }
 
+    /// Adds all messages of another reading.
+    pub fn take_over(&mut self, other: Remarks) {
+        other.list.into_iter().for_each(|message| self.add(Box::new(message)));
+        self.dropped += other.dropped;
+    }
+
     /// Whether an error was added.
     pub fn has_error(&self) -> bool {
         self.failed

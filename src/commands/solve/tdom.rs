@@ -482,7 +482,7 @@ fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
 }
 
 /// Where the progress of a run goes: its file, the terminal; and Ctrl-C.
-struct RunProgress {
+pub(crate) struct RunProgress {
     log: Option<RunLog>,
     interrupt: Arc<AtomicBool>,
     bar: ProgressBar,
@@ -494,8 +494,13 @@ const STEPS_PER_TERMINAL_CHECK: u64 = 256;
 
 impl RunProgress {
     fn new(job: &Job, run: &Run, log: Option<RunLog>) -> Self {
+        RunProgress::with_length(job, run.settings.observed, log)
+    }
+
+    /// That of a run over a time (s).
+    pub(crate) fn with_length(job: &Job, observed: f64, log: Option<RunLog>) -> Self {
         // hidden when nobody looks: it goes to the terminal behind stderr alone
-        let bar = ProgressBar::new(run.settings.observed.ceil() as u64);
+        let bar = ProgressBar::new(observed.ceil() as u64);
         if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}, {elapsed} gone, {eta} to go") {
             bar.set_style(style);
         }

@@ -1,14 +1,15 @@
-//! `TDOM -TETHERS`: tethers in time, with bending and dynamics of their own.
+//! `TDOM -TETHERS`: tethers in time, with bending and dynamics of their own. A run is kept in a file, from whose last checkpoint -RESTART goes on;
+//! -STATISTICS keeps statistics alone.
 //!
 //! Source: [AQWA-TETHER chapters 1 to 4]; [AQWA-REF decks 16, 17].
 
 use crate::commands::chosen::note_caveats;
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::solve::tdom;
+use crate::commands::solve::tdom::RunProgress;
 use crate::commands::{Effect, Job};
 use crate::report::page;
-use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use crate::report::run_log::{self, RunLog};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
@@ -16,7 +17,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_solve::tethered::{self, TetherRunSettings};
+use windlass_solve::tethered::{self, TetherRun, TetherRunSettings};
 
 choices! {
     /// Whose peculiarities a run of tethers has.
@@ -58,18 +59,18 @@ pub const TOW: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours)
 .default("0: it stays");
 
+/// The file of a run of tethers.
+const FILE: &str = "TETHERS.run";
 /// Options of TDOM that a run of tethers does not take.
-const NOT_TAKEN: [OptionSpec; 12] = [
+const NOT_TAKEN: [OptionSpec; 10] = [
     tdom::NO_CAPSIZE,
     tdom::EQUI,
     tdom::NEWMARK,
     tdom::CONVERGE,
-    tdom::RESTART,
     tdom::RESET,
     tdom::RHO,
     tdom::ADAPTIVE,
     tdom::CHECK,
-    tdom::STATISTICS,
     tdom::ALONG,
     tdom::SCREEN,
 ];
@@ -107,17 +108,22 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         slam: args.option_number(&SLAM).unwrap_or(0.0),
         tow: tow.unwrap_or_default(),
         transient: window.transient.unwrap_or(0.0),
+        keep: !args.has(&tdom::STATISTICS),
     };
-    let interrupt = Arc::clone(&job.interrupt);
-    let mut should_continue = |_: f64| !interrupt.load(Ordering::Relaxed);
-    let made = tethered::run(&job.model, settings, &mut should_continue)
-        .map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
+    let wrong = |e, job: &Job| to_diagnostic(e, &job.model, span, job.units);
+    let mut run = TetherRun::new(&job.model, settings).map_err(|e| wrong(e, job))?;
+    let log = open_log(job, args, &mut run)?;
+    let mut progress = RunProgress::with_length(job, window.observed, log);
+    let made = run.run(&mut progress);
+    drop(progress);
+    let made = made.map_err(|e| wrong(e, job))?;
     let mut tables = vec![tethered::run_table(&made)];
     note_caveats(&job.model, &mut tables);
     let events = tethered::events(&made);
     if events.rows() > 0 {
         tables.push(events);
     }
+    tables.extend(tethered::statistics_tables(&made));
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     job.say(&text);
@@ -127,8 +133,45 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         job.warn(format!("tether {} fell on its lower stop at {:.2} s", event.tether, event.time), span);
     }
     if made.interrupted {
-        job.warn("the run was interrupted: what it has is kept", span);
+        let kept = if made.settings.keep {
+            "what it has is kept, and -RESTART goes on"
+        } else {
+            "the statistics are those up to there"
+        };
+        job.warn(format!("the run was interrupted: {kept}"), span);
     }
     job.tethered = Some(made);
     Ok(Effect::Done)
+}
+
+/// The file of a run that keeps its instants; with -RESTART, what is in it is taken up.
+fn open_log(job: &mut Job, args: &Args, run: &mut TetherRun) -> Outcome<Option<RunLog>> {
+    if let (Some(one), Some(other)) = (args.option(&tdom::STATISTICS), args.option(&tdom::RESTART)) {
+        let error = Diagnostic::error("-RESTART does not go with -STATISTICS", other.span);
+        return Err(error.other(one.span, "it keeps no file to go on from"));
+    }
+    if args.has(&tdom::STATISTICS) {
+        return Ok(None);
+    }
+    let folder = &mut job.output.folder;
+    let path = folder.folder.join(FILE);
+    let Some(again) = args.option(&tdom::RESTART) else {
+        let refused = |text: String| Diagnostic::error(text, args.span);
+        let file = folder.create(FILE).map_err(|e| refused(e.to_string()))?;
+        let log = RunLog::begin(file, path, run.fingerprint(), run.width());
+        return Ok(Some(log.map_err(|e| refused(e.to_string()))?));
+    };
+    let refused =
+        |text: String| Diagnostic::error(text, again.span).help("TDOM -TETHERS without -RESTART begins a run");
+    let mut file = folder.reopen(FILE).map_err(|e| refused(e.to_string()))?;
+    let kept = run_log::read(&mut file, again.first_number().unwrap_or(f64::INFINITY));
+    let kept = kept.map_err(|e| refused(format!("{}: {e}", path.display())))?;
+    if kept.fingerprint != run.fingerprint() || kept.width != run.width() {
+        let text = format!("the run kept in {} is of another model, environment, step or scheme", path.display());
+        return Err(refused(text).help("all must be as they were, -STORE too, but for the time observed"));
+    }
+    run.take_up(&kept.snapshot, &kept.rows).map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
+    let log = RunLog::resume(file, path, &kept).map_err(|e| refused(e.to_string()))?;
+    job.remark(format!("goes on from {} s", kept.snapshot.time), again.span);
+    Ok(Some(log))
 }

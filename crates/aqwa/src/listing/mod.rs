@@ -33,7 +33,7 @@ impl Deck {
     /// What the listing has before the tethers: the echo of the cards and the data, stage by stage.
     pub fn listing_before_tethers(&self) -> Vec<ListingPart> {
         let (mut first, mut second, mut last) = (Vec::new(), Vec::new(), Vec::new());
-        for echo in self.echo().into_iter().filter(|echo| !echo.lines.is_empty()) {
+        for echo in self.echo().into_iter().filter(|echo| !echo.lines.is_empty() && self.job.has_deck(echo.deck)) {
             let stage = match echo.deck {
                 1..=5 => &mut first,
                 6..=8 => &mut second,
@@ -42,15 +42,23 @@ impl Deck {
             stage.push(ListingPart::Echo(echo));
         }
         let pages = |list: Vec<Table>| list.into_iter().map(ListingPart::Page);
+        // the pages of a stage come when it is run or was run
+        let (_, finish) = self.job.stages;
         first.extend(pages(self.geometry_pages()));
-        second.extend(pages(self.hydrostatic_pages()));
-        last.extend(pages(self.water_pages()));
+        if finish >= 2 {
+            second.extend(pages(self.hydrostatic_pages()));
+        }
+        if finish >= 4 {
+            last.extend(pages(self.water_pages()));
+        }
         first.into_iter().chain(second).chain(last).collect()
     }
 
     /// What the listing has between the tethers and the motion, but the lines of the spectrum: how the analysis starts. Only DRIF and NAUT have it.
     pub fn listing_before_motion(&self) -> Vec<Table> {
-        if matches!(self.job.program, Program::Drift | Program::Naut) { self.start_pages() } else { Vec::new() }
+        let (_, finish) = self.job.stages;
+        let lists = finish >= 4 && matches!(self.job.program, Program::Drift | Program::Naut);
+        if lists { self.start_pages() } else { Vec::new() }
     }
 }
 

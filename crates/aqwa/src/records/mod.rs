@@ -132,10 +132,10 @@ pub fn model_records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
 /// The model as it could be written, with what is wrong with it.
 fn written(deck: &Deck) -> Result<Script, Vec<Diagnostic>> {
     let (start, _) = deck.job.stages;
-    if start > 1 {
+    if start > 1 && !deck.has_earlier_stages {
         let error = Diagnostic::error("deck 0, RESTART: this file begins after stage 1", deck.job.span)
             .label(format!("decks before those of stage {start} are not in it"))
-            .help("give all stages in one file, 1 to 5: what an earlier run kept in its database is not read");
+            .help("name the deck of the earlier stages in columns 21 on of RESTART, without .dat, or give all stages in one file: a database is not read");
         return Err(vec![*error]);
     }
     let units = deck.units().map_err(|error| vec![*error])?;

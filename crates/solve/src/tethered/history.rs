@@ -1,16 +1,12 @@
 //! What is kept of a run of tethers.
 
-use super::Tethered;
-use super::case::{Installed, TowedCase, TowingVessel};
-use std::ops::ControlFlow;
-use windlass_base::geometry::Place;
+use super::case::TowingVessel;
 use windlass_base::table::Digits;
 use windlass_base::units::Dim;
-use windlass_model::ClassError;
 use windlass_tether::TetherLine;
-use windlass_tether::installed::{Installation, InstalledObserver, Moment, RigChange};
+use windlass_tether::installed::RigChange;
 use windlass_tether::structure::StructureForces;
-use windlass_tether::towed::{self, TowedHistory, TowedSteps};
+use windlass_tether::towed;
 
 /// A quantity of nodes or of ends of elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -205,60 +201,8 @@ pub struct Happening {
     pub change: RigChange,
 }
 
-/// Runs a towed tether.
-///
-/// # Errors
-/// What the engine refuses; a run that would keep too much.
-pub fn run_towed(
-    case: &TowedCase,
-    kept: &mut Tethered,
-    should_continue: &mut dyn FnMut(f64) -> bool,
-) -> Result<(), ClassError> {
-    let TowedCase { name, tether, vessel } = case;
-    let settings = kept.settings;
-    let line = &tether.line;
-    let of_vessel = if vessel.is_some() { 6 * StructureHistory::KINDS.len() } else { 0 };
-    let per = line.nodes() * TOWED_NODE.len() + 2 * line.elements().len() * TOWED_END.len() + of_vessel;
-    settings.room(per)?;
-    let steps = TowedSteps { step: settings.step, number: settings.states(), ..TowedSteps::default() };
-    let mut history = TowedHistory { every: settings.store.max(1), ..TowedHistory::default() };
-    let mut rows = Vec::new();
-    let mut keeper = Keeper { case, history: &mut history, rows: &mut rows, should_continue, interrupted: false };
-    tether.run(&steps, &mut keeper)?;
-    kept.interrupted = keeper.interrupted;
-    kept.times = std::mem::take(&mut history.times);
-    let (nodes, ends) = (history.nodes, history.ends);
-    kept.tethers.push(TetherHistory { name: name.clone(), towed: true, line: line.clone(), nodes, ends });
-    kept.structure = vessel.as_ref().map(|v| StructureHistory { body: v.body.clone(), points: Vec::new(), rows });
-    Ok(())
-}
-
-struct Keeper<'a> {
-    case: &'a TowedCase,
-    history: &'a mut TowedHistory,
-    /// Rows of the vessel.
-    rows: &'a mut Vec<f64>,
-    should_continue: &'a mut dyn FnMut(f64) -> bool,
-    interrupted: bool,
-}
-
-impl towed::TowedObserver for Keeper<'_> {
-    fn record(&mut self, record: &towed::TowedRecord<'_>) -> ControlFlow<()> {
-        if !(self.should_continue)(record.time) {
-            self.interrupted = true;
-            return ControlFlow::Break(());
-        }
-        if record.index.is_multiple_of(self.history.every)
-            && let (Some(vessel), Some([y, z, ..])) = (&self.case.vessel, record.positions.last())
-        {
-            self.rows.extend(vessel_row(vessel, &self.case.tether, [*y, *z]));
-        }
-        self.history.record(record)
-    }
-}
-
 /// What is kept of the vessel of a towed tether whose end is displaced: it is held, and feels its weight, as much buoyancy, and the end spring.
-fn vessel_row(vessel: &TowingVessel, tether: &towed::Towed, [y, z]: [f64; 2]) -> Vec<f64> {
+pub(super) fn vessel_row(vessel: &TowingVessel, tether: &towed::Towed, [y, z]: [f64; 2]) -> Vec<f64> {
     let (sine, cosine) = tether.heading.sin_cos();
     let spring = &tether.springs[1];
     let (across, up) = (spring.y * y, spring.z * z);
@@ -276,107 +220,4 @@ fn vessel_row(vessel: &TowingVessel, tether: &towed::Towed, [y, z]: [f64; 2]) ->
     put("HYDROSTATIC", [0.0, 0.0, vessel.weight, 0.0, 0.0, 0.0]);
     put("MOORING", [pull.x, pull.y, pull.z, turning.x, turning.y, turning.z]);
     row
-}
-
-/// Runs installed tethers with their structure.
-///
-/// # Errors
-/// What the engine refuses; a run that would keep too much.
-pub fn run_installed(
-    case: Installed,
-    kept: &mut Tethered,
-    should_continue: &mut dyn FnMut(f64) -> bool,
-) -> Result<(), ClassError> {
-    let Installed { body, mut structure, tethers, flow, compatibility, course, points, .. } = case;
-    let of = |t: &windlass_tether::installed::InstalledTether| {
-        t.line.nodes() * INSTALLED_NODE.len() + 2 * t.line.elements().len() * INSTALLED_END.len()
-    };
-    let per = tethers.iter().map(of).sum::<usize>() + 6 * StructureHistory::KINDS.len() + 3 * points.len();
-    kept.settings.room(per)?;
-    kept.tethers.extend(tethers.iter().map(|t| TetherHistory {
-        name: t.name.clone(),
-        towed: false,
-        line: t.line.clone(),
-        nodes: Vec::new(),
-        ends: Vec::new(),
-    }));
-    let (names, places) = points.into_iter().unzip();
-    kept.structure = Some(StructureHistory { body, points: names, rows: Vec::new() });
-    let mut near = Place::default();
-    let start = course.pose.place(&near);
-    near = start;
-    let mut taker = Taker { kept, should_continue, places, near, stopped: false };
-    let mut installation = Installation::new(structure.as_mut(), tethers, &flow, compatibility)?;
-    let ended = installation.run(&course, &mut taker);
-    if taker.stopped {
-        kept.interrupted = true;
-        return Ok(());
-    }
-    ended
-}
-
-struct Taker<'a> {
-    kept: &'a mut Tethered,
-    should_continue: &'a mut dyn FnMut(f64) -> bool,
-    places: Vec<nalgebra::Vector3<f64>>,
-    near: Place,
-    stopped: bool,
-}
-
-impl InstalledObserver for Taker<'_> {
-    fn observe(&mut self, moment: &Moment) -> Result<(), ClassError> {
-        if !(self.should_continue)(moment.time) {
-            self.stopped = true;
-            return Err(ClassError::new("the run was interrupted"));
-        }
-        let kept = &mut *self.kept;
-        for event in moment.events {
-            let name = kept.tethers.get(event.tether).map(|t| t.name.clone()).unwrap_or_default();
-            kept.happened.push(Happening { time: event.time, tether: name, change: event.change });
-        }
-        self.near = moment.pose.place(&self.near);
-        if !moment.state.is_multiple_of(kept.settings.store.max(1)) {
-            return Ok(());
-        }
-        kept.times.push(moment.time);
-        if let Some(structure) = &mut kept.structure {
-            let rows = &mut structure.rows;
-            rows.extend(self.near.values());
-            rows.extend(moment.velocity.iter());
-            rows.extend(moment.acceleration.iter());
-            for kind in moment.forces.kinds() {
-                rows.extend(kind.iter());
-            }
-            rows.extend(moment.error.iter());
-            for place in &self.places {
-                rows.extend(moment.pose.point(*place).iter());
-            }
-        }
-        for (history, rig) in kept.tethers.iter_mut().zip(moment.tethers) {
-            for node in 0..rig.nodes() {
-                history.nodes.extend(rig.position(node));
-                history.nodes.extend(rig.velocity(node));
-                history.nodes.extend(rig.acceleration(node));
-                history.nodes.push(rig.height(node));
-            }
-            for (loads, stresses) in rig.ends().iter().flatten().zip(rig.stresses().iter().flatten()) {
-                let [shear_x, shear_y] = loads.shear;
-                let [moment_x, moment_y] = loads.moment;
-                history.ends.extend([
-                    loads.effective,
-                    loads.wall,
-                    shear_x,
-                    shear_y,
-                    moment_x,
-                    moment_y,
-                    stresses.shear,
-                    stresses.maximum,
-                    stresses.minimum,
-                    stresses.von_mises,
-                    stresses.bending_y,
-                ]);
-            }
-        }
-        Ok(())
-    }
 }

@@ -8,6 +8,7 @@
 
 mod case;
 mod history;
+mod kept;
 mod modal;
 mod moored;
 mod statistics;
@@ -16,13 +17,16 @@ mod tables;
 
 pub use case::{TetherCase, TowedCase, TowingVessel, case};
 pub use history::{Happening, StructureHistory, TetherHistory, TetherQuantity};
+pub use kept::{TetherRun, statistics_tables};
 pub use modal::{description_table, names, natural};
 pub use statistics::{StatisticsSteps, TetherStatistics};
 pub use structure::{harmonics, structure, structure_series};
 pub use tables::{Of, events, forces, motions, run_table, series, table_along_tether};
 
 use crate::SolveError;
+use crate::time::{RunFileError, Watcher};
 use windlass_model::{ClassError, Model};
+use windlass_signal::running::Running;
 
 /// How a run of tethers goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +45,8 @@ pub struct TetherRunSettings {
     pub tow: [f64; 2],
     /// Time that statistics leave out at the beginning (s).
     pub transient: f64,
+    /// Whether the stored instants are kept; else statistics of them alone are.
+    pub keep: bool,
 }
 
 /// A run of tethers.
@@ -62,6 +68,8 @@ pub struct Tethered {
     pub notes: Vec<String>,
     /// Whether it was interrupted before its end.
     pub interrupted: bool,
+    /// Statistics of each value of a stored instant behind the transient, where the instants are not kept: structure, then nodes and ends of each tether.
+    pub running: Vec<Running>,
 }
 
 /// Values kept at most: some 4 GB.
@@ -83,13 +91,13 @@ impl TetherRunSettings {
 
     /// Refuses to keep more than memory has.
     fn room(&self, values: usize) -> Result<(), ClassError> {
-        let instants = self.states() as f64 / self.store.max(1) as f64;
+        let instants = if self.keep { self.states() as f64 / self.store.max(1) as f64 } else { 1.0 };
         if instants * values as f64 <= MAX_STORED_VALUES {
             return Ok(());
         }
         let store = (self.states() as f64 * values as f64 / MAX_STORED_VALUES).ceil();
         Err(ClassError::new(format!("this run would keep {:.1E} numbers", instants * values as f64))
-            .help(format!("-STORE {store} keeps fewer instants")))
+            .help(format!("-STORE {store} keeps fewer instants, -STATISTICS none")))
     }
 }
 
@@ -107,25 +115,15 @@ pub fn run(
     settings: TetherRunSettings,
     should_continue: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Tethered, SolveError> {
-    settings.check().map_err(SolveError::new)?;
-    let made = case(model, &settings)?;
-    let mut kept = Tethered {
-        settings,
-        times: Vec::new(),
-        structure: None,
-        tethers: Vec::new(),
-        happened: Vec::new(),
-        seed: made.seed,
-        notes: made.notes,
-        interrupted: false,
-    };
-    match made.kind {
-        case::TetherCaseKind::Towed(towed) => {
-            history::run_towed(&towed, &mut kept, should_continue).map_err(SolveError::new)?
+    struct Asked<'a>(&'a mut dyn FnMut(f64) -> bool);
+    impl Watcher for Asked<'_> {
+        fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
+            Ok(())
         }
-        case::TetherCaseKind::Installed(installed) => {
-            history::run_installed(*installed, &mut kept, should_continue).map_err(SolveError::new)?;
+
+        fn should_continue(&mut self, time: f64) -> bool {
+            (self.0)(time)
         }
     }
-    Ok(kept)
+    TetherRun::new(model, settings)?.run(&mut Asked(should_continue))
 }

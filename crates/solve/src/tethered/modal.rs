@@ -18,6 +18,7 @@ const AT_REST: TetherRunSettings = TetherRunSettings {
     slam: 0.0,
     tow: [0.0; 2],
     transient: 0.0,
+    keep: true,
 };
 
 /// A tether of the case, by its name.

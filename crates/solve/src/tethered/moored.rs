@@ -137,4 +137,17 @@ impl Structure for Moored {
         }
         Ok(())
     }
+
+    fn memory(&self) -> Vec<f64> {
+        let mut numbers = self.states.clone();
+        numbers.extend(self.inner.memory());
+        numbers
+    }
+
+    fn remember(&mut self, numbers: &[f64]) -> bool {
+        let Some((own, inner)) = numbers.split_at_checked(self.states.len()) else { return false };
+        self.states.copy_from_slice(own);
+        self.trial.copy_from_slice(own);
+        self.inner.remember(inner)
+    }
 }

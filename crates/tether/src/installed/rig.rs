@@ -221,6 +221,38 @@ impl Rig {
         }
     }
 
+    /// Writes what it remembers from one step to the next.
+    pub(super) fn write(&self, out: &mut Vec<f64>) {
+        let case = |case: TensionCase| match case {
+            TensionCase::Taut => 0.0,
+            TensionCase::Slack => 1.0,
+            TensionCase::OnStop => 2.0,
+        };
+        let TetherTension { standing, bottom, cosine, length, heights, drop, pull } = self.tension;
+        out.extend([case(standing), bottom, cosine, length, heights[0], heights[1], drop, pull]);
+        out.push(self.before.map_or(-1.0, case));
+        let (stress, time) = self.impact.unwrap_or((f64::NAN, f64::NAN));
+        out.extend([stress, time]);
+        self.bending.write(out);
+    }
+
+    /// Takes it back; what is left of the numbers, or nothing where there are too few.
+    pub(super) fn take_up<'n>(&mut self, numbers: &'n [f64]) -> Option<&'n [f64]> {
+        let (own, rest) = numbers.split_first_chunk::<11>()?;
+        let case = |number: f64| match number {
+            0.0 => Some(TensionCase::Taut),
+            1.0 => Some(TensionCase::Slack),
+            2.0 => Some(TensionCase::OnStop),
+            _ => None,
+        };
+        let [standing, bottom, cosine, length, low, high, drop, pull, before, stress, time] = *own;
+        self.tension =
+            TetherTension { standing: case(standing)?, bottom, cosine, length, heights: [low, high], drop, pull };
+        self.before = case(before);
+        self.impact = stress.is_finite().then_some((stress, time));
+        self.bending.take_up(rest)
+    }
+
     /// The end of the step.
     pub(super) fn advance(&mut self, dt: f64) {
         self.bending.advance(dt);

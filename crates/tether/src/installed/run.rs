@@ -10,7 +10,7 @@ use super::tether::InstalledTether;
 use crate::compatibility::{Compatibility, VesselScheme};
 use crate::structure::flow::{FlowAt, WaterFlow};
 use crate::structure::{Structure, StructureForces};
-use nalgebra::Matrix6;
+use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::f64::consts::TAU;
 use windlass_base::dense::{Cholesky, SymmetricEigen, never};
 use windlass_base::message::Message;
@@ -80,6 +80,44 @@ pub trait InstalledObserver {
     /// # Errors
     /// What ends the run.
     fn observe(&mut self, moment: &Moment) -> Result<(), ClassError>;
+
+    /// Is told before each state, and at the end, that the run can go on from here: the number of the state that comes next, and what
+    /// [`Installation::resume`] needs.
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn checkpoint(&mut self, _next: usize, _numbers: &dyn Fn() -> Vec<f64>) -> Result<(), ClassError> {
+        Ok(())
+    }
+}
+
+/// What moves of the structure: place, velocity, and its accelerations at the two states before.
+#[derive(Clone, Copy, Debug)]
+struct Course {
+    pose: Pose,
+    velocity: Six,
+    earlier: [Six; 2],
+}
+
+impl Course {
+    const NUMBERS: usize = 30;
+
+    fn numbers(&self) -> Vec<f64> {
+        let pose = self.pose.origin.iter().chain(self.pose.axes.iter());
+        pose.chain(self.velocity.iter()).chain(self.earlier.iter().flatten()).copied().collect()
+    }
+
+    fn from_numbers(numbers: &[f64]) -> Option<Self> {
+        let part = |from: usize, count: usize| numbers.get(from..from + count);
+        Some(Course {
+            pose: Pose {
+                origin: Vector3::from_column_slice(part(0, 3)?),
+                axes: Matrix3::from_column_slice(part(3, 9)?),
+            },
+            velocity: Six::from_column_slice(part(12, 6)?),
+            earlier: [Six::from_column_slice(part(18, 6)?), Six::from_column_slice(part(24, 6)?)],
+        })
+    }
 }
 
 /// A structure with its tethers in its water, ready to run.
@@ -116,18 +154,59 @@ impl<'a> Installation<'a> {
         course: &InstalledRunSettings,
         observer: &mut dyn InstalledObserver,
     ) -> Result<(), ClassError> {
+        let start = Course { pose: course.pose, velocity: course.velocity, earlier: [Six::zeros(); 2] };
+        self.run_on(course, (0, start), observer)
+    }
+
+    /// Goes on from a checkpoint of a run of the same course: the number of the state that comes next, and the numbers of
+    /// [`InstalledObserver::checkpoint`]. It comes to the numbers of the run that was not interrupted, bit for bit.
+    ///
+    /// # Errors
+    /// Those of [`Installation::run`]; numbers of another structure or of other tethers.
+    pub fn resume(
+        &mut self,
+        course: &InstalledRunSettings,
+        (next, numbers): (usize, &[f64]),
+        observer: &mut dyn InstalledObserver,
+    ) -> Result<(), ClassError> {
+        let other = || ClassError::new("the checkpoint is not one of this structure and its tethers");
+        let start = Course::from_numbers(numbers).ok_or_else(other)?;
+        let mut rest = numbers.get(Course::NUMBERS..).unwrap_or_default();
+        for rig in &mut self.rigs {
+            rest = rig.take_up(rest).ok_or_else(other)?;
+        }
+        if !self.structure.remember(rest) {
+            return Err(other());
+        }
+        self.run_on(course, (next, start), observer)
+    }
+
+    /// What a checkpoint holds.
+    fn numbers(&self, at: &Course) -> Vec<f64> {
+        let mut numbers = at.numbers();
+        self.rigs.iter().for_each(|rig| rig.write(&mut numbers));
+        numbers.extend(self.structure.memory());
+        numbers
+    }
+
+    fn run_on(
+        &mut self,
+        course: &InstalledRunSettings,
+        (from, mut at): (usize, Course),
+        observer: &mut dyn InstalledObserver,
+    ) -> Result<(), ClassError> {
         course.check()?;
         for rig in &self.rigs {
-            let at = course.pose.point(rig.attachment());
-            rig.tether().spans((at - rig.tether().anchor).norm())?;
+            let attachment = course.pose.point(rig.attachment());
+            rig.tether().spans((attachment - rig.tether().anchor).norm())?;
         }
         let dt = course.step;
         let mut water = self.flow.at_time(course.start);
         let mut forces = [StructureForces::default(), StructureForces::default()];
         let mut events = Vec::with_capacity(self.rigs.len());
-        let (mut pose, mut velocity) = (course.pose, course.velocity);
-        let mut earlier = [Six::zeros(); 2];
-        for state in 0..course.states {
+        for state in from..course.states {
+            observer.checkpoint(state, &|| self.numbers(&at))?;
+            let Course { pose, velocity, earlier } = at;
             let time = course.start + state as f64 * dt;
             water.move_to(time);
             let led = if state == 0 { 0.0 } else { dt };
@@ -149,7 +228,6 @@ impl<'a> Installation<'a> {
             let a2 = self.accelerate(Which::Second, &end, &water, second)?;
             self.tethers(Which::Second, (&ahead.0, &a2), &water, (dt, time))?;
             let error = (a1 - earlier[0] * 2.0 + earlier[1]) * (-dt * dt / 24.0);
-            earlier = [a1, earlier[0]];
             observer.observe(&Moment {
                 state,
                 time,
@@ -165,11 +243,14 @@ impl<'a> Installation<'a> {
                 VesselScheme::StraightAcceleration => (a1 * 2.0 + a2) / 6.0,
                 VesselScheme::MeanVelocity => (a1 + a2) / 4.0,
             };
-            pose = pose.after_motion(&(velocity * dt + second * (dt * dt)));
-            velocity += (a1 + a2) * (0.5 * dt);
+            at = Course {
+                pose: pose.after_motion(&(velocity * dt + second * (dt * dt))),
+                velocity: velocity + (a1 + a2) * (0.5 * dt),
+                earlier: [a1, earlier[0]],
+            };
             self.rigs.iter_mut().for_each(|rig| rig.advance(dt));
         }
-        Ok(())
+        observer.checkpoint(course.states.max(from), &|| self.numbers(&at))
     }
 
     /// Pull of the tethers, forces and acceleration of the structure.

@@ -101,4 +101,16 @@ impl Structure for Afloat {
         out.gyroscopic = Six::new(0.0, 0.0, 0.0, gyroscopic.x, gyroscopic.y, gyroscopic.z);
         Ok(())
     }
+
+    fn memory(&self) -> Vec<f64> {
+        self.states.iter().flatten().copied().collect()
+    }
+
+    fn remember(&mut self, numbers: &[f64]) -> bool {
+        let mut rest = numbers.iter();
+        for (value, number) in self.states.iter_mut().flatten().zip(&mut rest) {
+            *value = *number;
+        }
+        numbers.len() == self.states.iter().map(Vec::len).sum::<usize>()
+    }
 }

@@ -128,4 +128,14 @@ pub trait Structure: Debug {
         accepted: bool,
         out: &mut StructureForces,
     ) -> Result<(), ClassError>;
+
+    /// What it remembers of its history, for a checkpoint.
+    fn memory(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Takes back what [`Structure::memory`] gave; whether these are as many numbers as it remembers.
+    fn remember(&mut self, numbers: &[f64]) -> bool {
+        numbers.is_empty()
+    }
 }

@@ -61,6 +61,15 @@ pub struct TowedRecord<'a> {
 pub trait TowedObserver {
     /// Takes a record; [`ControlFlow::Break`] ends the run.
     fn record(&mut self, record: &TowedRecord<'_>) -> ControlFlow<()>;
+
+    /// Is told before each step, and at the end, that the run can go on from here: the number of the record that comes next, and what
+    /// [`Towed::resume`] needs.
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn checkpoint(&mut self, _next: usize, _numbers: &dyn Fn() -> Vec<f64>) -> Result<(), ClassError> {
+        Ok(())
+    }
 }
 
 impl<F: FnMut(&TowedRecord<'_>)> TowedObserver for F {
@@ -140,7 +149,38 @@ impl Towed {
     /// Those of [`Towed::run`]; a state of another number of nodes.
     pub fn run_from(
         &self,
-        mut state: TowedState,
+        state: TowedState,
+        steps: &TowedSteps,
+        observer: &mut dyn TowedObserver,
+    ) -> Result<TowedState, ClassError> {
+        let order = 2 * self.line.nodes();
+        self.run_on((0, state, [vec![0.0; order], vec![0.0; order]]), steps, observer)
+    }
+
+    /// Goes on from a checkpoint of a run of the same steps: the number of the record that comes next, and the numbers of
+    /// [`TowedObserver::checkpoint`]. It comes to the numbers of the run that was not interrupted, bit for bit.
+    ///
+    /// # Errors
+    /// Those of [`Towed::run`]; numbers of another tether.
+    pub fn resume(
+        &self,
+        (next, numbers): (usize, &[f64]),
+        steps: &TowedSteps,
+        observer: &mut dyn TowedObserver,
+    ) -> Result<TowedState, ClassError> {
+        let order = 2 * self.line.nodes();
+        if numbers.len() != 6 * order {
+            return Err(ClassError::new("the checkpoint is not one of this towed tether"));
+        }
+        let mut lists = numbers.chunks(order.max(1)).map(<[f64]>::to_vec);
+        let mut pair = || [lists.next().unwrap_or_default(), lists.next().unwrap_or_default()];
+        let state = TowedState { at: pair(), velocity: pair() };
+        self.run_on((next, state, pair()), steps, observer)
+    }
+
+    fn run_on(
+        &self,
+        (first, mut state, before): (usize, TowedState, [Vec<f64>; 2]),
         steps: &TowedSteps,
         observer: &mut dyn TowedObserver,
     ) -> Result<TowedState, ClassError> {
@@ -152,8 +192,10 @@ impl Towed {
         }
         let mut scheme = TowedScheme::new(self, steps.step, steps.b)?;
         scheme.check_step()?;
-        let mut shown = RecordLists::new(order / 2);
-        for index in 0..steps.number {
+        let mut shown = RecordLists { before, ..RecordLists::new(order / 2) };
+        let mut next = first;
+        for index in first..steps.number {
+            observer.checkpoint(index, &|| checkpoint_numbers(&state, &shown.before))?;
             let time = steps.start + index as f64 * steps.step;
             scheme.stages(time, &state)?;
             shown.fill(self, &scheme, &state, index)?;
@@ -171,9 +213,16 @@ impl Towed {
             }
             scheme.advance(&mut state);
             shown.keep(&scheme);
+            next = index + 1;
         }
+        observer.checkpoint(next, &|| checkpoint_numbers(&state, &shown.before))?;
         Ok(state)
     }
+}
+
+/// Deflections, their rates and the mean accelerations of the step before, plane by plane.
+fn checkpoint_numbers(state: &TowedState, before: &[Vec<f64>; 2]) -> Vec<f64> {
+    state.at.iter().chain(&state.velocity).chain(before).flatten().copied().collect()
 }
 
 impl TowedSteps {

@@ -17,7 +17,12 @@ pub(crate) const EVENTS: OptionSpec = prcpost::EVENTS
 /// The last run of tethers.
 pub(crate) fn last_run(job: &Job, span: Span) -> Outcome<&Tethered> {
     let missing = || Diagnostic::error("there is no run of tethers yet", span).help("TDOM -TETHERS makes one");
-    job.tethered.as_ref().ok_or_else(missing)
+    let run = job.tethered.as_ref().ok_or_else(missing)?;
+    if !run.settings.keep {
+        return Err(Diagnostic::error("the last run of tethers kept statistics alone", span)
+            .help("TDOM -TETHERS without -STATISTICS keeps its instants"));
+    }
+    Ok(run)
 }
 
 /// The places of the stored instants that a record asks for.

@@ -115,6 +115,33 @@ pub struct Bending {
 }
 
 impl Bending {
+    /// Writes what it remembers from one step to the next: springs at rest, motion, the accelerations found last.
+    pub(in crate::installed) fn write(&self, out: &mut Vec<f64>) {
+        out.extend(self.rest.iter().flatten());
+        for motion in &self.now {
+            out.extend(motion.place.iter().chain(&motion.velocity));
+        }
+        out.extend(self.found.iter().flatten().flatten());
+    }
+
+    /// Takes it back; what is left of the numbers, or nothing where there are too few.
+    pub(in crate::installed) fn take_up<'n>(&mut self, numbers: &'n [f64]) -> Option<&'n [f64]> {
+        let mut rest = numbers;
+        let mut take = |into: &mut [f64]| -> Option<()> {
+            let (own, behind) = rest.split_at_checked(into.len())?;
+            into.copy_from_slice(own);
+            rest = behind;
+            Some(())
+        };
+        self.rest.iter_mut().try_for_each(|end| take(end))?;
+        for motion in &mut self.now {
+            take(&mut motion.place)?;
+            take(&mut motion.velocity)?;
+        }
+        self.found.iter_mut().flatten().try_for_each(|list| take(list))?;
+        Some(rest)
+    }
+
     /// That of a tether in water of a density (kg/m3) under a gravity (m/s2), straight and at rest.
     pub fn new(tether: &InstalledTether, density: f64, gravity: f64) -> Self {
         let line = &tether.line;
