@@ -18,7 +18,7 @@
 //! | 10, 11, 13 CURR, WIND | [`surroundings::SurroundingsDeck`], [`surroundings::UniformStream`] | current profile and wind; the model's directions are those they come FROM, so add 180 degrees |
 //! | 12 | [`surroundings::FixedDof`], [`articulations::Articulation`] | fixed degrees of freedom of a body; joints as FIX |
 //! | 13 | [`waves::WaveDeck`] | sea of spectral components, or regular wave (second order unless AIRY) |
-//! | 14 LINE, FORC, WNCH, LNDW, POLY, SWIR, COMP | [`lines::MooringLine`] | connectors of the classes SL_ELEM, CT_LINE, LNDW, NLIN, CATENARY |
+//! | 14 LINE, FORC, WNCH, LNDW, POLY, SWIR, COMP | [`lines::MooringLine`] | connectors of the classes CT_LINE, LNDW, NLIN, CATENARY |
 //! | 14 FEND, FLIN | [`fenders::Fender`] | fenders |
 //! | 14 TELM .. TETH | [`tethers::Tether`] | a tether connector, towed or installed |
 //! | 15 | [`run::Start`] | position and velocity of the bodies at the start (of their centres of gravity) |

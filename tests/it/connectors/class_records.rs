@@ -50,6 +50,7 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
                 "FENDER" => ["4 1 0.3"].map(String::from).to_vec(),
                 "TETHER" => ["1 0.03"].map(String::from).to_vec(),
                 "CATENARY" => ["170 0.02"].map(String::from).to_vec(),
+                "LNDW" => ["5000 20 200 0.5"].map(String::from).to_vec(),
                 _ => ["4"].map(String::from).to_vec(),
             };
             let mut text = values.join(" ");

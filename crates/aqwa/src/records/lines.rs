@@ -6,11 +6,7 @@ use crate::Deck;
 use crate::lines::{
     Composite, CompositeJoint, CompositeSection, DYNAMIC_ELEMENTS, Ends, LineKind, MooringLine, Property,
 };
-use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::Diagnostic;
-
-/// Diameter (m) of an elastic line as the class has it: only EA of the section counts.
-const NOMINAL_DIAMETER_M: f64 = 1.0;
 
 /// Classes and connectors.
 pub(super) fn lines(deck: &Deck, out: &mut Script) {
@@ -200,25 +196,10 @@ fn refuse_class(card: &str, class: &str, line: &MooringLine, out: &mut Script) -
     None
 }
 
-/// A linear elastic line: EA over its length is the stiffness.
+/// A linear elastic line: the first of the coefficients of a polynomial alone.
 fn elastic(number_of: usize, stiffness: f64, length: f64, line: &MooringLine, out: &mut Script) -> Option<String> {
-    if length <= 0.0 {
-        let law = format!("-POLY {}", number(out.scale.newtons_per(stiffness, 1)));
-        return nonlinear(number_of, length, &law, line, out);
-    }
-    let name = format!("L{number_of}");
-    let length = out.scale.length(length);
-    // N/m times m over the area, in MPa
-    let modulus =
-        out.scale.force(stiffness, -1) * 1e3 * length / (FRAC_PI_4 * NOMINAL_DIAMETER_M * NOMINAL_DIAMETER_M) / 1e6;
-    out.card("deck 14, LINE", line.span);
-    out.record(format!(
-        "~{name} SL_ELEM {} TENSION -LEN {} -EMODULUS {}",
-        number(1000.0 * NOMINAL_DIAMETER_M),
-        number(length),
-        number(round_value(modulus))
-    ));
-    Some(name)
+    let law = format!("-POLY {}", number(out.scale.newtons_per(stiffness, 1)));
+    nonlinear(number_of, length, &law, line, out)
 }
 
 /// A constant force towards the second node, on each end towards the other.
