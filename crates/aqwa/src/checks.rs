@@ -177,6 +177,10 @@ fn line_ends(deck: &Deck, remarks: &mut Remarks) {
                 .help("no source gives another number; -DYNAMICS N of &CONNECTOR does in a script")
             });
         }
+        if let Some(pulley) = line.pulley {
+            node(deck, "deck 14, PULY, columns 16-20", pulley.ends.node1, remarks);
+            node(deck, "deck 14, PULY, columns 26-30", pulley.ends.node2, remarks);
+        }
         let ends = line.ends;
         let earlier = deck.mooring.lines.iter().take_while(|other| other.span != line.span);
         if let Some(same) = earlier.into_iter().find(|other| other.ends.numbers() == ends.numbers()) {

@@ -100,6 +100,17 @@ pub enum LineKind {
     },
 }
 
+/// A pulley on a LINE (PULY).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulley {
+    /// Structure and node of the pulley, then of the end of the line behind it.
+    pub ends: Ends,
+    /// Ratio of the tensions of a line that runs; 1 without friction.
+    pub ratio: f64,
+    /// The card.
+    pub span: Span,
+}
+
 /// A mooring line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MooringLine {
@@ -107,6 +118,8 @@ pub struct MooringLine {
     pub ends: Ends,
     /// What it is.
     pub kind: LineKind,
+    /// The pulley it runs over.
+    pub pulley: Option<Pulley>,
     /// The card.
     pub span: Span,
 }
@@ -289,6 +302,10 @@ impl LineCardParser {
                 self.section(record, properties, remarks);
                 return;
             }
+            "PULY" => {
+                pulley(record, lines.last_mut(), remarks);
+                return;
+            }
             "DWT0" | "DWAL" => {
                 let field = record.real(31);
                 if field.value < 0.0 {
@@ -356,7 +373,7 @@ impl LineCardParser {
             structure2: record.int(21),
             node2: record.int(26),
         };
-        lines.push(MooringLine { ends, kind, span: record.span });
+        lines.push(MooringLine { ends, kind, pulley: None, span: record.span });
     }
 
     /// Ends the walk.
@@ -424,6 +441,62 @@ impl LineCardParser {
             }
         }
     }
+}
+
+/// Puts a pulley on the last line.
+fn pulley(record: &CardRecord, line: Option<&mut MooringLine>, remarks: &mut Remarks) {
+    let mut refuse = |message: String, span: Span, help: &str| {
+        remarks.add(Diagnostic::error(format!("deck 14, PULY: {message}"), span).help(help));
+    };
+    let Some(line) = line.filter(|line| matches!(line.kind, LineKind::Elastic { length, .. } if length > 0.0)) else {
+        return refuse(
+            "no LINE with a length comes before this pulley".into(),
+            record.span,
+            "a pulley is on the LINE before it",
+        );
+    };
+    if line.pulley.is_some() {
+        return refuse("a line over two pulleys is not modelled".into(), record.span, "one pulley a line is");
+    }
+    for (column, columns) in [(31, "31-40, angle"), (41, "41-50, radius")] {
+        let field = record.real(column);
+        if field.value != 0.0 {
+            let message = format!("columns {columns}: {} is not modelled", field.value);
+            return refuse(message, field.span, "the pulley is a point here: leave the field blank");
+        }
+    }
+    let ends =
+        Ends { structure1: record.int(11), node1: record.int(16), structure2: record.int(21), node2: record.int(26) };
+    let [structure, node, behind, _] = ends.numbers();
+    let [.., second, last] = line.ends.numbers();
+    if (structure, node) != (second, last) {
+        let message = format!(
+            "the pulley is at node {node} of structure {structure}, the line ends at node {last} of structure {second}"
+        );
+        return refuse(
+            message,
+            record.span,
+            "assumed: columns 11-20 repeat the second end of the LINE, columns 21-30 are the end behind the pulley",
+        );
+    }
+    if behind != structure {
+        return refuse(
+            "a line over a pulley between two structures is not modelled".into(),
+            record.span,
+            "the pulley and the end behind it are on one structure, as fairlead and winch are",
+        );
+    }
+    let given = [51, 61].map(|column| record.real(column));
+    if let Some(wrong) = given.iter().find(|field| field.given && field.value != 0.0 && field.value < 1.0) {
+        return refuse(
+            format!("{} is no ratio of tensions T2/T1", wrong.value),
+            wrong.span,
+            "1 or more belongs in columns 51-60 and 61-70",
+        );
+    }
+    // the sheave turns or the line slides over it, whichever is easier
+    let ratio = given.iter().map(|field| field.value).filter(|ratio| *ratio > 0.0).reduce(f64::min).unwrap_or(1.0);
+    line.pulley = Some(Pulley { ends, ratio, span: record.span });
 }
 
 /// What the numbers of a winch must be.

@@ -173,10 +173,20 @@ pub const LAYOUTS: &[CardLayout] = &[
     )
     .freely(),
     CardLayout::refuse("FENP", "no public source has the columns of this card; FEND and FLIN give a fender"),
-    CardLayout::refuse(
+    CardLayout::new(
         "PULY",
-        "a line over a pulley has three points, and a connector here two; its spans are not read",
-    ),
+        &[
+            ENDS[0],
+            ENDS[1],
+            ENDS[2],
+            ENDS[3],
+            num("angle", 31),
+            num("radius", 41),
+            num("bearing friction T2/T1", 51),
+            num("sliding friction T2/T1", 61),
+        ],
+    )
+    .freely(),
     CardLayout::refuse("FILE", "the file of a load-extension table is not read; POLY and NLIN give a nonlinear line"),
     CardLayout::refuse(
         "LE2D",

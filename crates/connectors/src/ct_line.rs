@@ -7,7 +7,7 @@
 
 use super::ClassKind;
 use super::spring::no_anchor;
-use super::taut_span::{MAX_SPANS, SpanTension, TautSpan, apply_tensions, read_spans, smooth_step};
+use super::taut_span::{SpanTension, TautSpan, apply_tension, read_span, smooth_step};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -110,15 +110,10 @@ impl ConstantTensionLine {
         } else {
             (1.0, 0.0)
         };
-        let alone = |value: f64| {
-            let mut all = [0.0; MAX_SPANS];
-            all[0] = value;
-            all
-        };
         SpanTension {
             tension: self.tension * factor * taut,
-            by_length: alone(self.tension * factor * by_length),
-            by_rate: alone(self.tension * taut * factor_by_rate),
+            by_length: self.tension * factor * by_length,
+            by_rate: self.tension * taut * factor_by_rate,
         }
     }
 }
@@ -175,16 +170,14 @@ impl Element for ConstantTensionLine {
         _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
-        let spans = read_spans(at.ends)?;
-        let tensions: Vec<SpanTension> = spans.iter().map(|span| self.tension_of(span)).collect();
-        apply_tensions(&spans, &tensions, out);
+        let span = read_span(at.ends)?;
+        apply_tension(&span, &self.tension_of(&span), out);
         Ok(())
     }
 
     fn summary(&self, at: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
-        let tension = read_spans(at.ends)?.first().map(|span| self.tension_of(span).tension);
-        let notes =
-            if tension == Some(0.0) && self.tension > 0.0 { vec!["the line is slack".into()] } else { Vec::new() };
-        Ok(ElementSummary { tension, notes, solution: "exact", ..ElementSummary::default() })
+        let tension = self.tension_of(&read_span(at.ends)?).tension;
+        let notes = if tension == 0.0 && self.tension > 0.0 { vec!["the line is slack".into()] } else { Vec::new() };
+        Ok(ElementSummary { tension: Some(tension), notes, solution: "exact", ..ElementSummary::default() })
     }
 }

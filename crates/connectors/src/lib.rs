@@ -43,6 +43,7 @@ mod mooring_table;
 mod nlin;
 pub mod options;
 mod per_line;
+mod puly;
 mod restraint;
 mod rod;
 mod roller;
@@ -128,4 +129,5 @@ pub static CLASSES: &[&ClassKind] = &[
     &ct_line::CT_LINE,
     &nlin::NLIN,
     &lndw::LNDW,
+    &puly::PULY,
 ];

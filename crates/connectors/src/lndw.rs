@@ -9,7 +9,7 @@
 use super::ClassKind;
 use super::options::aqwa;
 use super::spring::no_anchor;
-use super::taut_span::{MAX_SPANS, SpanTension, apply_tensions, read_spans};
+use super::taut_span::{SpanTension, apply_tension, read_span};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -177,21 +177,18 @@ impl Element for DrumLine {
         _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
-        let spans = read_spans(at.ends)?;
-        let distance = spans.first().map_or(0.0, |span| span.length);
-        let state = self.state(at.step, committed, distance);
+        let span = read_span(at.ends)?;
+        let state = self.state(at.step, committed, span.length);
         for (value, new) in trial.iter_mut().zip([state.free - self.initial, state.tension]) {
             *value = new;
         }
-        let mut by_length = [0.0; MAX_SPANS];
-        by_length[0] = state.slope;
-        let tension = SpanTension { tension: state.tension, by_length, ..SpanTension::default() };
-        apply_tensions(&spans, &[tension], out);
+        let tension = SpanTension { tension: state.tension, by_length: state.slope, by_rate: 0.0 };
+        apply_tension(&span, &tension, out);
         Ok(())
     }
 
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
-        let distance = read_spans(at.ends)?.first().map_or(0.0, |span| span.length);
+        let distance = read_span(at.ends)?.length;
         let state = self.state(None, committed, distance);
         let mut notes: Vec<Note> = Vec::new();
         if state.tension == 0.0 {

@@ -6,7 +6,7 @@
 use super::ClassKind;
 use super::options::aqwa;
 use super::spring::no_anchor;
-use super::taut_span::{MAX_SPANS, SpanTension, apply_tensions, read_spans};
+use super::taut_span::{SpanTension, apply_tension, read_span};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -166,22 +166,15 @@ impl Element for NonlinearLine {
         _: &mut SolverCache,
         out: &mut ElementResponse,
     ) -> Result<(), ClassError> {
-        let spans = read_spans(at.ends)?;
-        let tension = |length: f64| {
-            let (tension, slope) = self.law.tension(length - self.length);
-            let mut by_length = [0.0; MAX_SPANS];
-            if tension > 0.0 {
-                by_length[0] = slope;
-            }
-            SpanTension { tension: tension.max(0.0), by_length, ..SpanTension::default() }
-        };
-        let tensions: Vec<SpanTension> = spans.iter().map(|span| tension(span.length)).collect();
-        apply_tensions(&spans, &tensions, out);
+        let span = read_span(at.ends)?;
+        let (tension, slope) = self.law.tension(span.length - self.length);
+        let by_length = if tension > 0.0 { slope } else { 0.0 };
+        apply_tension(&span, &SpanTension { tension: tension.max(0.0), by_length, by_rate: 0.0 }, out);
         Ok(())
     }
 
     fn summary(&self, at: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
-        let extension = read_spans(at.ends)?.first().map_or(0.0, |span| span.length) - self.length;
+        let extension = read_span(at.ends)?.length - self.length;
         let (tension, _) = self.law.tension(extension);
         let mut notes: Vec<Note> = Vec::new();
         if extension <= 0.0 {

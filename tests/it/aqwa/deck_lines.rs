@@ -69,6 +69,26 @@ fn line_without_length_pulls_by_its_whole_distance() {
 }
 
 #[test]
+fn line_over_pulley_of_structure_has_length_behind_it() {
+    // from the ground to the fairlead (0, 0, -10) and 10 m on to (0, 0, 0): 1E5 N/m (542.5172808 + 10 - 550) m, less friction at rest
+    let card = |ends: &str| {
+        format!("    14LINE    0   12    1    2     1.0E5     550.0\n END14PULY{ends}{:>30}       1.3\n", "1.2")
+    };
+    let (session, text) = placed(&moored("LIBR", 100.0, &card("    1    2    1    1"), STILL));
+    assert!(text.contains("-RATIO 1.2") && text.contains("CONNECTOR L1 ~L1 *N12 *S1_2"), "{text}");
+    let [pull] = pulls(&session.job.model)[..] else { panic!() };
+    let tension = 1e5 * (542.517_280_830_758_4 - 540.0);
+    assert_near(-pull[0], tension * 535.0 / 542.517_280_830_758_4);
+    assert_near(pull[2], tension * 90.0 / 542.517_280_830_758_4);
+    for (ends, message) in
+        [("    1    1    1    2", "the pulley is at node 1"), ("    1    2    0   12", "between two structures")]
+    {
+        let list = said(&moored("LIBR", 100.0, &card(ends), STILL));
+        assert!(list.iter().any(|e| e.message.contains(message) && e.span.is_some()), "{list:?}");
+    }
+}
+
+#[test]
 fn winch_lines_keep_tension_less_friction_winding_in() {
     // 100 kN, 0.3 winding in: 70 kN; a negative factor begins with paying out: 110 kN
     for kind in ["WNCH", "NLIN"] {

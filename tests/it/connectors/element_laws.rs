@@ -141,6 +141,8 @@ fn cases() -> Vec<Case> {
         spring("CT_LINE", "~C CT_LINE 5E5 -LENGTH 5.097", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Other),
         spring("NLIN", "~C NLIN 5 -POLY 2E5 1E4 3E4 4E3 5E2", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Elastic),
         spring("NLIN", "~C NLIN 4 -SWIRE 2E5 0.8", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Elastic),
+        spring("PULY", "~C PULY 2E5 12 8", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Elastic),
+        spring("PULY", "~C PULY 2E5 12 8 -RATIO 1.3", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Dissipative),
         // the drum winds in; it stands at its maximum
         spring("LNDW", "~C LNDW 2E5 5 3 -0.2 -START 1 -ADDED 2", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Other),
         spring("LNDW", "~C LNDW 2E5 5 3 -0.2 3E4", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Other),

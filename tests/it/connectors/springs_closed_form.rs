@@ -518,6 +518,18 @@ fn nonlinear_line_follows_polynomial_and_steel_wire_law() {
 }
 
 #[test]
+fn line_over_pulley_shares_stretch_by_ratio_of_tensions() {
+    // 13 m to the pulley and 8 m behind it of 20 m: 1E5 N without friction; running with 1.2, 21E5 / (13 + 8 / 1.2) and 21E5 / (13 + 8 1.2)
+    let joint = Joint::between_bodies("~C PULY 1E5 20 8 -RATIO 1.2");
+    let pull = |rate: f64| {
+        let [x, y, z] = joint.passing([3.0, 4.0, 12.0], [3.0, 4.0, 12.0].map(|part| rate * part / 13.0));
+        x.hypot(y).hypot(z)
+    };
+    assert_near(&[pull(0.0), pull(0.5), pull(-0.5)], &[1e5, 21e5 / (13.0 + 8.0 / 1.2), 21e5 / (13.0 + 9.6)]);
+    assert_eq!(joint.pull([3.0, 4.0, 10.0])[0], 0.0);
+}
+
+#[test]
 fn drum_winds_in_to_its_last_length_or_largest_tension() {
     // EA = 2E5 N/m times (10 + 2) m; the ends 10.1 m apart
     let drum = |data: &str, dt: f64| {

@@ -59,7 +59,7 @@ MEDIT
 ";
 
 /// A connector of each class that acts on a body by itself; those of hooks and pipes act as the one connector that they are part of.
-const CONNECTORS: [(&str, &str); 20] = [
+const CONNECTORS: [(&str, &str); 21] = [
     ("FOUNDATION", "~FO FOUNDATION X 50 Y 50 Z 50\nCONNECTOR FO ~FO *E *G"),
     ("GSPR", "~GS GSPR X 50 Y 20 -LEN 1 -X_DAMPING 20 1 -CONVOLUTION Y SOFT\nCONNECTOR GS ~GS *E *G"),
     ("LMU", "~LM LMU 60 24 48 X 50 Y 50\nCONNECTOR LM ~LM *E *G"),
@@ -79,6 +79,7 @@ const CONNECTORS: [(&str, &str); 20] = [
     ("CT_LINE", "~CT CT_LINE 80\nCONNECTOR CT ~CT *E *G"),
     ("NLIN", "~NL NLIN 5 -POLY 2E4 1E3\nCONNECTOR NL ~NL *E *G"),
     ("LNDW", "~LW LNDW 2E4 5 4 -0.1 8E4\nCONNECTOR LW ~LW *E *G"),
+    ("PULY", "~PU PULY 2E4 12 8\nCONNECTOR PU ~PU *E *G"),
     ("TETHER", "~TE TETHER 1.1 0.035 -LEN 94\nCONNECTOR TE ~TE *F *GT"),
 ];
 

@@ -4,7 +4,7 @@ use super::model::point;
 use super::written::{Script, difference, number, numbers, round_value};
 use crate::Deck;
 use crate::lines::{
-    Composite, CompositeJoint, CompositeSection, DYNAMIC_ELEMENTS, Ends, LineKind, MooringLine, Property,
+    Composite, CompositeJoint, CompositeSection, DYNAMIC_ELEMENTS, Ends, LineKind, MooringLine, Property, Pulley,
 };
 use windlass_base::diagnostic::Diagnostic;
 
@@ -14,10 +14,19 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
     let mut written: Vec<(usize, Option<f64>)> = Vec::new();
     for (index, line) in deck.mooring.lines.iter().enumerate() {
         let number = index + 1;
-        let [first, second] = ends(line.ends);
+        let [first, second] = match line.pulley {
+            Some(_) => [
+                (line.ends.structure1.value, line.ends.node1.value),
+                (line.ends.structure2.value, line.ends.node2.value),
+            ],
+            None => ends(line.ends),
+        };
         let anchor = anchor(deck, line, out);
         let class = match line.kind {
-            LineKind::Elastic { stiffness, length } => elastic(number, stiffness, length, line, out),
+            LineKind::Elastic { stiffness, length } => match line.pulley {
+                Some(pulley) => over_pulley(deck, number, (stiffness, length), pulley, out),
+                None => elastic(number, stiffness, length, line, out),
+            },
             LineKind::Property { property, tension, length, winding_in, paying_out, .. } => {
                 match deck.mooring.properties.get(property) {
                     Some(Property::Composite(composite)) if [tension, length, winding_in, paying_out] == [0.0; 4] => {
@@ -210,6 +219,29 @@ fn constant_tension(number_of: usize, force: f64, line: &MooringLine, out: &mut 
     let name = format!("L{number_of}");
     out.card("deck 14, FORC", line.span);
     out.record(format!("~{name} CT_LINE {}", number(out.scale.force(force, 0))));
+    Some(name)
+}
+
+/// An elastic line over a pulley, whose far end is on the structure of the pulley.
+fn over_pulley(
+    deck: &Deck,
+    number_of: usize,
+    (stiffness, length): (f64, f64),
+    pulley: Pulley,
+    out: &mut Script,
+) -> Option<String> {
+    let place = |node: i64| deck.nodes.get(&node).map(|node| node.position);
+    let (from, to) = (place(pulley.ends.node1.value)?, place(pulley.ends.node2.value)?);
+    let behind = from.iter().zip(to).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    let name = format!("L{number_of}");
+    let [length, behind] = [length, behind].map(|x| out.scale.length(x));
+    let mut text =
+        format!("~{name} PULY {}", numbers([out.scale.newtons_per(stiffness, 1), length, round_value(behind)]));
+    if pulley.ratio > 1.0 {
+        text.push_str(&format!(" -RATIO {}", number(pulley.ratio)));
+    }
+    out.card("deck 14, PULY", pulley.span);
+    out.record(text);
     Some(name)
 }
 
