@@ -51,6 +51,7 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
                 "TETHER" => ["1 0.03"].map(String::from).to_vec(),
                 "CATENARY" => ["170 0.02"].map(String::from).to_vec(),
                 "LNDW" => ["5000 20 200 0.5"].map(String::from).to_vec(),
+                "PULY" => ["5000 20 8"].map(String::from).to_vec(),
                 _ => ["4"].map(String::from).to_vec(),
             };
             let mut text = values.join(" ");
@@ -62,6 +63,7 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
                 "-ROPE" => text = "1000000 20 100".into(),
                 "-CLUMP" if spec.name == "CATENARY" => text = "100 50".into(),
                 "-BUOY" => text = "50 100".into(),
+                "-RATIO" => text = "1.2".into(),
                 _ => {}
             }
             let needs_length = spec.options.iter().any(|o| o.name == "-LEN") && option.name != "-LEN";
