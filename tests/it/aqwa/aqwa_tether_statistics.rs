@@ -97,19 +97,18 @@ const fn misfit(
     Misfit { quantity, columns, mean, two_rms, thirds, peaks }
 }
 
-/// What of the listing is met, and how far. The listing is of a program in single precision; its acceleration is 1 % more restless than that of an
-/// independent program of the same formulas too [W-TOWED 5], and angular velocity and acceleration follow acceleration. Peaks of these are of slams,
-/// one record wide at 0.5 s: the worst is the third maximum of RY velocity at node 9, 2.27 printed and 1.86 found.
+/// What of the listing is met, and how far. The listing is of a program in single precision; angular velocity and acceleration follow its
+/// acceleration. Peaks of these are of slams, one record wide at 0.5 s: the worst is the third maximum of RY velocity at node 9, 2.27 printed.
 const MET: [Misfit; 9] = [
-    misfit("POSITION", &["Z"], [0.0033, 0.0033, 0.030, 0.012]),
-    misfit("POSITION", &["RY"], [0.0015, 0.0045, 0.027, 0.018]),
-    misfit("VELOCITY", &["Z"], [0.0002, 0.0090, 0.024, 0.039]),
-    misfit("VELOCITY", &["RY"], [0.0002, 0.0110, 0.033, 0.306]),
-    misfit("ACCELERATION", &["Z"], [0.0002, 0.0165, 0.025, 0.158]),
-    misfit("ACCELERATION", &["RY"], [0.0004, 0.0320, 0.042, 0.275]),
-    misfit("BENDING MOMENT", &["Y", "MAX"], [0.0030, 0.0116, 0.0293, 0.085]),
-    misfit("BENDING STRESS", &["MAX"], [0.0050, 0.0116, 0.0225, 0.085]),
-    misfit("BENDING STRESS", &["Y", "MAX SIG"], [0.0031, 0.0116, 0.0293, 0.085]),
+    misfit("POSITION", &["Z"], [0.0033, 0.0029, 0.029, 0.010]),
+    misfit("POSITION", &["RY"], [0.0018, 0.0040, 0.032, 0.024]),
+    misfit("VELOCITY", &["Z"], [0.0002, 0.0078, 0.024, 0.046]),
+    misfit("VELOCITY", &["RY"], [0.0002, 0.0100, 0.032, 0.296]),
+    misfit("ACCELERATION", &["Z"], [0.0002, 0.0137, 0.030, 0.117]),
+    misfit("ACCELERATION", &["RY"], [0.0002, 0.0212, 0.033, 0.168]),
+    misfit("BENDING MOMENT", &["Y", "MAX"], [0.0028, 0.0098, 0.0204, 0.059]),
+    misfit("BENDING STRESS", &["MAX"], [0.0040, 0.0098, 0.0136, 0.059]),
+    misfit("BENDING STRESS", &["Y", "MAX SIG"], [0.0029, 0.0098, 0.0204, 0.059]),
 ];
 
 #[test]
@@ -142,13 +141,13 @@ fn most_printed_numbers_are_met_within_one_percent() {
     let peaks = |c: &Compared| (4..10).map(|i| (c.found[i] - c.printed[i]) / c.printed[1]).collect::<Vec<f64>>();
     let means = |c: &Compared| vec![(c.found[0] - c.printed[0]) / c.printed[1]];
     let doubled = |c: &Compared| vec![c.found[1] / c.printed[1] - 1.0];
-    assert_eq!([count(&means, 0.005), count(&doubled, 0.035)], [204; 2]);
-    assert!(count(&doubled, 0.01) >= 158);
+    assert_eq!([count(&means, 0.005), count(&doubled, 0.022)], [204; 2]);
+    assert!(count(&doubled, 0.01) >= 186);
     assert_eq!(count(&thirds, 0.05), 408);
-    assert!(count(&thirds, 0.01) >= 250);
+    assert!(count(&thirds, 0.01) >= 276);
     // shares of twice the deviation, of 1,224 peaks
     let near = [0.01, 0.05, 0.1].map(|within| count(&peaks, within));
-    assert!(near[0] >= 680 && near[1] >= 1128 && near[2] >= 1193, "{near:?}");
+    assert!(near[0] >= 738 && near[1] >= 1151 && near[2] >= 1214, "{near:?}");
 }
 
 #[test]

@@ -2,6 +2,9 @@
 //!
 //! Each element is divided into integration lengths, each of these where the surface passes the top or the bottom of the
 //! tube, and each piece is integrated at four Gauss points with the actual surface [AQWA-TETHER 3.3 and 3.4].
+//!
+//! The waves meet each place where the slopes of the tether have drawn it, along the axis toward the vessel's end, which is the origin of
+//! the axis [AQWA-TETHER 4]: an element of length `L` reaches over `L (1 - slope^2/2)`.
 
 use super::super::beam::{self, GAUSS, Matrix4, Vector4, add, deflection, dot, of_element, slope};
 use super::super::line::TetherElement;
@@ -14,6 +17,8 @@ use windlass_model::ClassError;
 
 /// Integration lengths at most: a long element in short waves has many.
 const MAX_INTEGRATION_LENGTHS: usize = 200_000;
+/// Largest change of a wave's phase (rad) that turns kept for the straight axis are taken on by its series: within 1e-16 of the sine.
+const MAX_SERIES_PHASE: f64 = 0.1;
 /// Turns kept at most for places that do not move (128 bytes each: 32 MB); beyond that they are taken anew.
 const MAX_CACHED_PHASES: usize = 1 << 18;
 
@@ -28,6 +33,23 @@ struct IntegrationLength {
     x: [f64; 4],
     deflections: [Vector4; 4],
     slopes: [Vector4; 4],
+}
+
+/// By how much the slopes of a tether draw an element toward the vessel's end.
+#[derive(Clone, Copy, Debug, Default)]
+struct Foreshortening {
+    /// At its first node (m), not below zero.
+    start: f64,
+    /// A metre of its length: half the square of its slope, from node to node.
+    rate: f64,
+}
+
+impl Foreshortening {
+    /// Shift of a place so far (m) from its first node.
+    #[inline]
+    fn shift(&self, distance: f64) -> f64 {
+        self.start - self.rate * distance
+    }
 }
 
 /// How an element stands and moves in both planes (y, z).
@@ -45,6 +67,8 @@ pub struct Loading<'a> {
     scan: Scan,
     /// Turns of the waves at the Gauss points of the lengths, in order; empty when they would be too many or are none.
     kept: Vec<Turn>,
+    /// How each element is drawn toward the vessel's end.
+    shortened: Vec<Foreshortening>,
     /// Turns at the time and at the place in hand.
     time: Vec<Turn>,
     place: Vec<Turn>,
@@ -97,6 +121,7 @@ impl<'a> Loading<'a> {
             lengths,
             scan: Scan::default(),
             kept,
+            shortened: vec![Foreshortening::default(); elements.len()],
             time: Vec::with_capacity(waters.blocks()),
             place: Vec::with_capacity(waters.blocks()),
             gravity: elements.iter().map(weight).collect(),
@@ -109,6 +134,7 @@ impl<'a> Loading<'a> {
     /// Finds the loads at a time (s) of a state.
     pub fn find(&mut self, time: f64, state: &TowedState) {
         self.waters.at_time(time, &mut self.time);
+        self.shorten(state);
         for ((forces, added), gravity) in self.forces.iter_mut().zip(&mut self.added).zip(&self.gravity) {
             *forces = [[0.0; 4], *gravity];
             *added = [[[0.0; 4]; 4]; 2];
@@ -128,6 +154,21 @@ impl<'a> Loading<'a> {
         }
     }
 
+    /// Finds by how much each element is drawn toward the vessel's end in a state.
+    fn shorten(&mut self, state: &TowedState) {
+        let mut end = 0.0;
+        let elements = self.case.line.elements().iter().enumerate();
+        for ((index, element), shortened) in elements.zip(&mut self.shortened).rev() {
+            let chords = [0, 1].map(|plane| {
+                let [near, _, far, _] = of_element(&state.at[plane], index);
+                (far - near) / element.length
+            });
+            let rate = 0.5 * (chords[0] * chords[0] + chords[1] * chords[1]);
+            *shortened = Foreshortening { start: end + rate * element.length, rate };
+            end = shortened.start;
+        }
+    }
+
     /// Adds the loads of an integration length.
     fn add_loads(&mut self, index: usize, length: &IntegrationLength, state: &TowedState) {
         let motion = ElementMotion {
@@ -139,17 +180,22 @@ impl<'a> Loading<'a> {
         let blocks = self.waters.blocks();
         let straight = !self.waters.lateral || motion.at[0] == [0.0; 4];
         let usable = straight && !self.kept.is_empty();
-        if !usable {
-            self.place.clear();
-            for (x, shape) in length.x.iter().zip(&length.deflections) {
-                self.waters.at_place(*x, dot(shape, &motion.at[0]), &mut self.place);
+        let shortened = self.shortened.get(length.element).copied().unwrap_or_default();
+        let start = length.x[0] - (length.from + length.share * GAUSS[0].0) * element.length;
+        let shifts = length.x.map(|x| shortened.shift(x - start));
+        self.place.clear();
+        for (i, (x, shift)) in length.x.iter().zip(shifts).enumerate() {
+            if usable && shift.abs() * self.waters.steepest <= MAX_SERIES_PHASE {
+                let kept = &self.kept[(4 * index + i) * blocks..(4 * index + i + 1) * blocks];
+                self.waters.at_shifted_place(kept, shift, &mut self.place);
+            } else {
+                self.waters.at_place(x + shift, dot(&length.deflections[i], &motion.at[0]), &mut self.place);
             }
         }
-        let turns = if usable { &self.kept[4 * index * blocks..4 * (index + 1) * blocks] } else { &self.place[..] };
         let mut elevations = [0.0; 4];
         let mut heights = [0.0; 4];
         for i in 0..4 {
-            elevations[i] = self.waters.elevation(&self.time, &turns[i * blocks..(i + 1) * blocks]);
+            elevations[i] = self.waters.elevation(&self.time, &self.place[i * blocks..(i + 1) * blocks]);
             heights[i] = elevations[i] - case.origin[2] - dot(&length.deflections[i], &motion.at[1]);
         }
         let radius = 0.5 * element.outer_diameter;
@@ -159,7 +205,8 @@ impl<'a> Loading<'a> {
                 let wet = Wetted::new(radius, element.outer_diameter);
                 for i in 0..4 {
                     let z = elevations[i] - heights[i];
-                    let flow = self.waters.flow(&self.time, &turns[i * blocks..(i + 1) * blocks], z, elevations[i]);
+                    let flow =
+                        self.waters.flow(&self.time, &self.place[i * blocks..(i + 1) * blocks], z, elevations[i]);
                     let place = AxisPlace {
                         weight: GAUSS[i].1 * length.share * element.length,
                         deflection: length.deflections[i],
@@ -195,7 +242,9 @@ impl<'a> Loading<'a> {
             let shape = deflection(a, element.length);
             let y = if self.waters.lateral { dot(&shape, &motion.at[0]) } else { 0.0 };
             self.place.clear();
-            self.waters.at_place(start + a * element.length, y, &mut self.place);
+            let distance = a * element.length;
+            let shift = self.shortened.get(length.element).map_or(0.0, |shortened| shortened.shift(distance));
+            self.waters.at_place(start + distance + shift, y, &mut self.place);
             let elevation = self.waters.elevation(&self.time, &self.place);
             let z = case.origin[2] + dot(&shape, &motion.at[1]);
             let wet = Wetted::new(elevation - z, element.outer_diameter);

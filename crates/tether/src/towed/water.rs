@@ -85,6 +85,8 @@ pub struct Waters {
     blocks: Vec<WaveBlock>,
     /// Whether a wave goes across the axis.
     pub lateral: bool,
+    /// Largest wave number along the axis (1/m).
+    pub steepest: f64,
     /// Current less tow in the axes of the tether: height (m) and velocity along x and y (m/s), heights falling.
     current: Vec<(f64, [f64; 2])>,
     depth: Option<f64>,
@@ -152,7 +154,8 @@ impl Waters {
         // a wave along the axis has the rounding of its direction's sine across it
         let lateral = blocks.iter().any(|b| b.ky.iter().zip(&b.k).any(|(y, k)| y.abs() > 1e-12 * k));
         let stretched = !case.compatibility.unstretched_crests;
-        Waters { blocks, lateral, current, depth: case.depth, stretched }
+        let steepest = blocks.iter().flat_map(|b| b.kx).fold(0.0, |most: f64, k| most.max(k.abs()));
+        Waters { blocks, lateral, steepest, current, depth: case.depth, stretched }
     }
 
     /// Number of blocks of eight waves.
@@ -175,6 +178,14 @@ impl Waters {
             let (sin, cos) = sin_cos(&eight(|i| b.kx[i] * x + b.ky[i] * y));
             [cos, sin]
         }));
+    }
+
+    /// Turns at a place that lies so far (m) along the axis from one whose turns are at hand, to the end of a list: by the series of sine
+    /// and cosine, for changes of phase up to 0.1.
+    pub fn at_shifted_place(&self, turns: &[Turn], shift: f64, shifted: &mut Vec<Turn>) {
+        let from = shifted.len();
+        shifted.extend_from_slice(turns);
+        shift_turns(&self.blocks, shift, &mut shifted[from..]);
     }
 
     /// Height of the surface above the still water level (m).
@@ -223,6 +234,20 @@ impl Waters {
         let mut numbers: Vec<f64> = waves.iter().map(|c| c.number).collect();
         numbers.sort_by(f64::total_cmp);
         numbers.get(4 * numbers.len() / 5).map(|k| std::f64::consts::FRAC_PI_2 / k)
+    }
+}
+
+/// Takes turns at a place to one that lies so far (m) along the axis.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn shift_turns(blocks: &[WaveBlock], shift: f64, turns: &mut [Turn]) {
+    for (block, [cos, sin]) in blocks.iter().zip(turns) {
+        for i in 0..8 {
+            let phase = block.kx[i] * shift;
+            let square = phase * phase;
+            let s = phase * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
+            let c = 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0)));
+            (cos[i], sin[i]) = (cos[i] * c - sin[i] * s, sin[i] * c + cos[i] * s);
+        }
     }
 }
 

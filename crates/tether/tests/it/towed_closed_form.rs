@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass_hydro::sea::Component;
+use windlass_tether::towed::loads::Loading;
+use windlass_tether::towed::scheme::TowedState;
 use windlass_tether::towed::{
     EndSpring, Towed, TowedCompatibility, TowedHistory, TowedRecord, TowedSteps, WaterForceMultipliers,
 };
@@ -227,4 +229,34 @@ fn invalid_towed_tether_is_error() {
     assert!(go(usual(), TowedSteps { b: 0.4, ..steps(2) }).contains("not stable"));
     let gale = Towed { tow: [0.0, 1e9], ..usual() };
     assert!(go(gale, steps(200)).contains("towed tether"));
+}
+
+#[test]
+fn waves_meet_bent_tether_where_its_slopes_have_drawn_it() {
+    // a straight tether 30 m down that lies at a slope of s in plan: a place x from the vessel's end is at x (1 - s^2/2) from there
+    let (s, time) = (0.3, 4.0_f64);
+    let mut case = case(1.0, 30.0);
+    case.compatibility.unstretched_crests = true;
+    let elements: Vec<_> = case.line.elements().iter().map(|e| TetherElement { drag: 0.0, ..e.clone() }).collect();
+    case.line = TetherLine::with_numbered_nodes(elements).unwrap();
+    for frequency in [0.6, 1.5] {
+        case.waves = vec![wave(2.0, frequency, 0.0, 0.4)];
+        let length: f64 = case.line.elements().iter().map(|e| e.length).sum();
+        let mut state = TowedState { at: [vec![0.0; 22], vec![0.0; 22]], velocity: [vec![0.0; 22], vec![0.0; 22]] };
+        for (node, x) in case.line.distances().iter().enumerate() {
+            (state.at[0][2 * node], state.at[0][2 * node + 1]) = (s * x, s);
+        }
+        let mut loading = Loading::new(&case).unwrap();
+        loading.find(time, &state);
+        let found: f64 = loading.forces.iter().map(|[_, z]| z[0] + z[2]).sum();
+        // displaced and added mass times the mean of -a w^2 exp(kz) cos(k (x - 100) - w t + phase); it weighs what it displaces
+        let (k, shorter) = (case.waves[0].number, 1.0 - 0.5 * s * s);
+        let phase = |x: f64| k * (length - (length - x) * shorter - 100.0) - frequency * time + 0.4;
+        let mean = (phase(length).sin() - phase(0.0).sin()) / (k * shorter * length);
+        let moved = 2.0 * DENSITY * FRAC_PI_4 * length;
+        let wanted = -moved * 2.0 * frequency * frequency * (-30.0 * k).exp() * mean;
+        // four Gauss points a quarter wave
+        let size = moved * 2.0 * frequency * frequency * (-30.0 * k).exp();
+        assert!((found - wanted).abs() < 1e-8 * size, "{frequency}: {found} {wanted} {size}");
+    }
 }
