@@ -237,7 +237,7 @@ fn waves_meet_bent_tether_where_its_slopes_have_drawn_it() {
     let (s, time) = (0.3, 4.0_f64);
     let mut case = case(1.0, 30.0);
     case.compatibility.unstretched_crests = true;
-    let elements: Vec<_> = case.line.elements().iter().map(|e| TetherElement { drag: 0.0, ..e.clone() }).collect();
+    let elements: Vec<_> = case.line.elements().iter().map(|e| TetherElement { drag: 0.0, ..*e }).collect();
     case.line = TetherLine::with_numbered_nodes(elements).unwrap();
     for frequency in [0.6, 1.5] {
         case.waves = vec![wave(2.0, frequency, 0.0, 0.4)];
