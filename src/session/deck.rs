@@ -132,7 +132,12 @@ impl Session {
             return None;
         }
         match records(&reading.deck) {
-            Ok(made) => Some((reading.deck, made)),
+            Ok(mut made) => {
+                for note in std::mem::take(&mut made.notes) {
+                    self.report(note);
+                }
+                Some((reading.deck, made))
+            }
             Err(list) => {
                 for message in list {
                     self.report(message);

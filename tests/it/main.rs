@@ -103,4 +103,5 @@ mod aqwa {
     mod aqwa_tether_fatigue;
     mod aqwa_tether_statistics;
     mod deck_lines;
+    mod deck_tethers;
 }

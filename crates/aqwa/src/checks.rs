@@ -10,6 +10,7 @@ use super::placed;
 use super::remarks::Remarks;
 use super::tethers::Tether;
 use super::waves::WaveDeck;
+use std::f64::consts::TAU;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
@@ -30,6 +31,7 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
     }
     check_towed_tether(deck, whole, remarks);
     run(deck, remarks);
+    time_step(deck, remarks);
     output(deck, remarks);
 }
 
@@ -399,6 +401,33 @@ fn run(deck: &Deck, remarks: &mut Remarks) {
             }
         }
         _ => {}
+    }
+}
+
+/// Chapter 4: the step of a tether's run is at most a tenth of the period of any response. The shortest is that of the shortest wave.
+fn time_step(deck: &Deck, remarks: &mut Remarks) {
+    let (Some(steps), false) = (deck.steps, deck.mooring.tethers.is_empty()) else { return };
+    let shortest = match &deck.waves {
+        WaveDeck::Still => return,
+        WaveDeck::Regular(wave) => wave.period,
+        WaveDeck::Spectra(list) => {
+            let highest = list.iter().map(|sea| sea.range.1).fold(0.0, f64::max);
+            if highest <= 0.0 {
+                return;
+            }
+            TAU / highest
+        }
+    };
+    // a wave of 2.5 rad/s and a step of 0.25 s are the manual's own
+    if shortest > 0.0 && steps.step.value > 0.1 * shortest {
+        let message = format!(
+            "deck 16, TIME, columns 21-30: a step of {} s is more than a tenth of the period of the shortest wave, {shortest:.3} s",
+            steps.step.value
+        );
+        remarks.add(
+            Diagnostic::warning(message, steps.step.span)
+                .help("compare the bending moments of a short run with those of one of half the step (chapter 4)"),
+        );
     }
 }
 

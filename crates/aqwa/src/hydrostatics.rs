@@ -196,8 +196,11 @@ fn row(matrix: &mut Option<SixBySix>, record: &CardRecord, remarks: &mut Remarks
     match usize::try_from(number.value - 1).ok().and_then(|index| matrix.get_mut(index)) {
         Some(row) => *row = record.reals(21).map(|field| field.value),
         None => remarks.add(
-            Diagnostic::error(format!("{}, columns 16-20: a matrix has rows 1 to 6", record.keyword), number.span)
-                .label("row belongs here"),
+            Diagnostic::error(
+                format!("deck 7, {}, columns 16-20: a matrix has rows 1 to 6", record.keyword),
+                number.span,
+            )
+            .label("row belongs here"),
         ),
     }
 }

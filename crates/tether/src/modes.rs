@@ -100,6 +100,32 @@ impl NaturalMode {
     }
 }
 
+/// Shortest natural period that a tether should have (s): those of very short elements are below it, and their bending is lost in the
+/// rounding of the program [AQWA-TETHER 4].
+pub const SHORTEST_PERIOD: f64 = 0.01;
+
+/// How many modes of a plane have a period below one (s).
+///
+/// # Errors
+/// A matrix with an entry that is no finite number.
+pub fn count_below_period(pencil: &Pencil, period: f64) -> Result<usize, ClassError> {
+    let order = pencil.mass.order();
+    let massive = (0..order).filter(|i| pencil.mass.get(*i, *i) > 0.0).count();
+    let mut search = ModeSearch { pencil, factors: PlaneMatrix::new(order), shifted: PlaneMatrix::new(order) };
+    let slower = search.count_eigenvalues_below((TAU / period).powi(2))?;
+    Ok(massive.saturating_sub(slower))
+}
+
+/// What is said of a tether with modes that are too fast; nothing without one.
+pub fn warn_of_fast_modes(tether: &str, count: usize) -> Option<String> {
+    (count > 0).then(|| {
+        format!(
+            "tether {tether}: {count} natural periods are below {SHORTEST_PERIOD} s, the limit of the AQWA-TETHER manual: its shortest \
+             elements are too stiff; give them a lower Young's modulus"
+        )
+    })
+}
+
 /// The lowest `number` modes of a plane (fewer when it has fewer), lowest eigenvalue first.
 ///
 /// # Errors

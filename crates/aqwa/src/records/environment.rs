@@ -107,7 +107,10 @@ fn current(deck: &Deck, out: &mut Script) -> Option<String> {
     if let [(taken, _), others @ ..] = given.as_slice()
         && !others.is_empty()
     {
-        out.remark(&format!("assumed: of several uniform currents that of {taken} is taken"));
+        let text = format!("no current is taken from here: that of {taken} is in force");
+        for (card, flow) in others {
+            out.warn(card, flow.span, &text);
+        }
     }
     let uniform = given.first().map(|(_, flow)| *flow);
     if deck.surroundings.profile.is_empty() {
@@ -159,8 +162,8 @@ fn wind_of(deck: &Deck) -> Option<(&'static str, UniformStream)> {
 }
 
 fn wind(deck: &Deck, out: &mut Script) -> Option<String> {
-    let (_, flow) = wind_of(deck)?;
-    out.remark("the structures of a deck have no areas for the wind; #AREA of the model gives them");
+    let (card, flow) = wind_of(deck)?;
+    out.warn(card, flow.span, "the structures of a deck have no areas for the wind; #AREA of the model gives them");
     let speed = out.scale.length(flow.speed.value);
     let toward = if speed < 0.0 { flow.direction.value + 180.0 } else { flow.direction.value };
     Some(format!("-WIND {}", numbers([round_value(speed.abs() / METRES_PER_SECOND_PER_KNOT), opposite(toward)])))

@@ -31,6 +31,8 @@ pub struct Records {
     pub job: Vec<String>,
     /// Records of `job` before the motion: title and tethers.
     before_motion: usize,
+    /// What was assumed of the cards, and which of them have no effect.
+    pub notes: Vec<Diagnostic>,
     /// The cards that the records of `model` and `job` are made of, by place in the record.
     origins: Vec<Vec<(usize, CardOrigin)>>,
 }
@@ -71,10 +73,10 @@ impl WrittenRecords {
 }
 
 impl Records {
-    fn new(model: Vec<RecordLine>, job: Vec<RecordLine>, before_motion: usize) -> Self {
+    fn new(model: Vec<RecordLine>, job: Vec<RecordLine>, before_motion: usize, notes: Vec<Diagnostic>) -> Self {
         let origins = model.iter().chain(&job).map(|line| line.origins.clone()).collect();
         let texts = |lines: Vec<RecordLine>| lines.into_iter().map(|line| line.text).collect();
-        Records { model: texts(model), job: texts(job), before_motion, origins }
+        Records { model: texts(model), job: texts(job), before_motion, notes, origins }
     }
 
     /// The whole as a script.
@@ -117,7 +119,7 @@ pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
     run::tethers(deck, &mut out);
     let before_motion = out.lines.len();
     run::motion(deck, &mut out);
-    if out.wrong.is_empty() { Ok(Records::new(model, out.lines, before_motion)) } else { Err(out.wrong) }
+    if out.wrong.is_empty() { Ok(Records::new(model, out.lines, before_motion, out.notes)) } else { Err(out.wrong) }
 }
 
 /// The records of the model of a deck, whatever program it is for.
@@ -126,7 +128,7 @@ pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
 /// As [`records`], but for what is run.
 pub fn model_records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
     let out = written(deck)?;
-    if out.wrong.is_empty() { Ok(Records::new(out.lines, Vec::new(), 0)) } else { Err(out.wrong) }
+    if out.wrong.is_empty() { Ok(Records::new(out.lines, Vec::new(), 0, out.notes)) } else { Err(out.wrong) }
 }
 
 /// The model as it could be written, with what is wrong with it.
@@ -150,6 +152,10 @@ fn model(deck: &Deck, units: &super::units::Units, out: &mut Script) {
         "its units are {}; all numbers below are in m, kN, kg/m3 and degrees, tethers in kg, m, N",
         units.name
     ));
+    if deck.job.analysis == "DRFT" {
+        let text = "DRFT runs as WFRQ: loads of wave and drift frequency act together in one run in time";
+        out.note("deck 0, JOB, columns 17-20", deck.job.span, text);
+    }
     let density = number(out.scale.density(deck.global.density));
     let gravity = number(out.scale.length(deck.global.gravity));
     let global = &deck.global;

@@ -115,6 +115,11 @@ fn wave_loads(deck: &Deck, out: &mut Script) {
 
 /// A run without tethers: bodies and lines as the model has them.
 fn bodies(deck: &Deck, out: &mut Script) {
+    if let Some(asked) = deck.printing.tensions.first() {
+        let text =
+            "the tensions of lines over time are not printed from a deck; TENSIONS of PRCPOST reports them in a script";
+        out.note("deck 18, PTEN, columns 11-15", asked.span, text);
+    }
     out.record("TDOM");
     out.record("PRCPOST");
     for structure in &deck.structures {
@@ -180,14 +185,16 @@ fn write_tether_run(deck: &Deck, out: &mut Script) {
     if towed && slam > 0.0 {
         run.push_str(&format!(" -SLAM {}", number(slam)));
     } else if slam > 0.0 {
-        out.remark("SLMM: slam is of towed tethers; it has no effect here");
+        let span = deck.multipliers.first().map_or(deck.job.span, |given| given.structure.span);
+        out.warn("deck 17, SLMM, columns 21-30", span, "slam is of towed tethers; it has no effect here");
     }
     if let Some((speed, toward)) = spectrum(deck).and_then(|s| s.towing).filter(|(speed, _)| *speed != 0.0) {
         if towed {
             let toward = if speed < 0.0 { opposite(toward) } else { toward };
             run.push_str(&format!(" -TOW {}", numbers([out.scale.length(speed.abs()), toward])));
         } else {
-            out.remark("TOWS is of towed tethers; it has no effect here");
+            let span = spectrum(deck).map_or(deck.job.span, |sea| sea.span);
+            out.warn("deck 13, TOWS", span, "a card of towed tethers; it has no effect here");
         }
     }
     out.record(run);
@@ -197,7 +204,10 @@ fn write_tether_run(deck: &Deck, out: &mut Script) {
         printing.tensions.iter().any(|field| field.value == 0 || field.value == tether.structure.value)
     };
     let silent = !deck.mooring.tethers.iter().any(asked);
-    if silent {
+    if let (true, Some(other)) = (silent, printing.tensions.first()) {
+        let text = "no tether is on this structure: nothing is printed of the tethers over time";
+        out.warn("deck 18, PTEN, columns 11-15", other.span, text);
+    } else if silent {
         out.remark("without PTEN nothing is reported of the tethers over time");
     }
     for (index, tether) in deck.mooring.tethers.iter().enumerate() {
@@ -223,7 +233,9 @@ fn structure(deck: &Deck, towed: bool, out: &mut Script) {
         for printed in printing.nodes.iter().filter(|_| !towed) {
             text.push_str(&format!(" {}", point(printed.structure.value, printed.node.value)));
             if printed.reference.0.value > 0 || printed.reference.1.value > 0 {
-                out.remark("NODE: places are reported in the fixed system, also those with a reference");
+                let span = printed.reference.0.span;
+                let text = "places are printed in the fixed reference axes, and not relative to this";
+                out.warn("deck 18, NODE, columns 21-30", span, text);
             }
         }
         let number = deck.mooring.tethers.first().map_or(1, |tether| tether.structure.value);
@@ -243,7 +255,12 @@ fn harmonics(deck: &Deck, out: &mut Script) {
     }
     let lasts = deck.steps.map_or(0.0, |steps| (steps.count.value - 1) as f64 * steps.step.value);
     if lasts < wave.period {
-        out.remark("the run is shorter than a cycle of the wave: no harmonics of the structure");
+        let span = deck.steps.map_or(deck.job.span, |steps| steps.span);
+        let text = format!(
+            "the run lasts {lasts} s, less than the cycle of the wave of {} s: no harmonics of the structure are printed",
+            number(wave.period)
+        );
+        out.note("deck 16, TIME, columns 16-30", span, &text);
     } else {
         out.record("STRUCTURE HARMONICS");
     }

@@ -68,12 +68,14 @@ fn irregular(deck: &Deck, sea: &SpectrumCard, out: &mut Script) -> Vec<String> {
         // from 0 on is from where no wave is long enough for the last digit
         components.push_str(&format!(" {}", numbers([if low > 0.0 { low } else { 1e-3 }, high])));
     } else if !given {
-        out.remark("assumed: a spectrum without a first and last frequency has all of its energy");
+        let text = "no last frequency is given: the spectrum is assumed to have all of its energy";
+        out.note("deck 13, columns 21-40", sea.span, text);
     }
     options.push(components);
     if sea.phases.is_empty() {
         options.push(format!("-SEED {}", sea.seed.max(0)));
-        out.remark("the phases are random as windlass makes them; those of that program are had with PHAS cards");
+        let text = "random phases are those of windlass and differ from those of AQWA; PHAS cards give phases";
+        out.note("deck 13", sea.span, text);
     } else {
         let rows = sea.phases.chunks(PHASES_PER_LINE).map(|row| numbers(row.iter().copied()));
         options.push(format!("-PHASES \\\n    {}", rows.collect::<Vec<_>>().join(" \\\n    ")));

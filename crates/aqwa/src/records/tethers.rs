@@ -125,15 +125,17 @@ fn springs(spring: EndSpringCard, side: char, towed: bool, out: &Script) -> Stri
 
 /// Says which cards have no effect on a towed tether.
 fn not_of_towed(description: &TetherCards, out: &mut Script) {
-    let cards = [
+    let given = [
         ("TCAP", description.caps != (0.0, 0.0)),
         ("TIFL", description.fluid != (0.0, 0.0)),
         ("TEGR", description.group > 1),
-        ("TLAC, TROC, TLAV, TROV", !description.constraints.is_empty()),
     ];
-    let given: Vec<&str> = cards.iter().filter(|(_, given)| *given).map(|(card, _)| *card).collect();
-    if !given.is_empty() {
-        out.remark(&format!("{} are of installed tethers and have no effect on a towed one", given.join(", ")));
+    let cards = given.into_iter().filter(|(_, given)| *given);
+    let cards = cards.filter_map(|(keyword, _)| Some((keyword, description.card(keyword)?)));
+    let constraints = description.constraints.iter().map(|(kind, _, span)| (card(*kind), *span));
+    for (keyword, span) in cards.chain(constraints) {
+        let card = format!("deck 14, {keyword}, columns 7-10");
+        out.note(&card, span, "a card of installed tethers; it has no effect on a towed one");
     }
 }
 
@@ -211,15 +213,23 @@ fn hold(kind: ConstraintKind) -> &'static str {
 fn constrained_node(description: &TetherCards, kind: ConstraintKind, at: Span, out: &mut Script) -> usize {
     let count = description.elements.len();
     let before = description.elements.iter().filter(|element| element.span.start < at.start).count();
-    let card = card(kind);
+    let card = format!("deck 14, {}, columns 7-10", card(kind));
+    let number = |node: usize| {
+        let elements = &description.elements;
+        let field = node.checked_sub(2).and_then(|index| elements.get(index)).map(|element| element.node2);
+        field.map_or_else(String::new, |field| format!(" {}", field.value))
+    };
     if (1..count).contains(&before) {
-        out.remark(&format!("assumed: {card} holds the node of the TELM card before it"));
+        let text = format!("assumed to hold node{} of the TELM card before it", number(before + 1));
+        out.note(&card, at, &text);
         return before + 1;
     }
     let (node, end) = match kind {
         ConstraintKind::LateralFixed | ConstraintKind::RotationalFixed => (2, "anchor"),
         ConstraintKind::LateralVessel | ConstraintKind::RotationalVessel => (count.max(1), "vessel"),
     };
-    out.remark(&format!("assumed: {card} names no node and holds the one next to the {end}"));
-    node.min(count + 1)
+    let node = node.min(count + 1);
+    let text = format!("the card names no node: assumed to hold node{} next to the {end}", number(node));
+    out.note(&card, at, &text);
+    node
 }

@@ -157,13 +157,15 @@ pub(super) struct Script {
     words: Vec<(&'static str, CardOrigin)>,
     /// What could not be written.
     pub(super) wrong: Vec<Diagnostic>,
+    /// What was assumed, and what has no effect.
+    pub(super) notes: Vec<Diagnostic>,
 }
 
 impl Script {
     /// A script whose records are made of a card until another one is named.
     pub(super) fn new(scale: Scale, card: &str, span: Span) -> Self {
         let card = CardOrigin { card: card.into(), span };
-        Script { scale, lines: Vec::new(), card, words: Vec::new(), wrong: Vec::new() }
+        Script { scale, lines: Vec::new(), card, words: Vec::new(), wrong: Vec::new(), notes: Vec::new() }
     }
 
     /// The card that the records to come are made of.
@@ -202,6 +204,21 @@ impl Script {
         if self.lines.last().is_none_or(|line| line.text != text) {
             self.lines.push(RecordLine { text, origins: vec![(0, self.card.clone())] });
         }
+    }
+
+    /// Tells what was assumed, or has no effect: of a card and its columns, in a remark line and as a note on the card.
+    pub(super) fn note(&mut self, card: &str, span: Span, text: &str) {
+        self.tell(*Diagnostic::remark(format!("{card}: {text}"), span));
+    }
+
+    /// The same as a warning: what the user may not have meant.
+    pub(super) fn warn(&mut self, card: &str, span: Span, text: &str) {
+        self.tell(*Diagnostic::warning(format!("{card}: {text}"), span));
+    }
+
+    fn tell(&mut self, said: Diagnostic) {
+        self.remark(&said.message);
+        self.notes.push(said);
     }
 
     /// Notes what cannot be written.

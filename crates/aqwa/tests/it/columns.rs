@@ -8,12 +8,12 @@ use windlass_aqwa::{Deck, read, records};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_language::source::Sources;
 
-fn deck(name: &str) -> String {
+pub fn deck(name: &str) -> String {
     std::fs::read_to_string(format!("../../scripts/{name}")).unwrap()
 }
 
 /// What a deck says and amounts to; nothing where it is refused.
-fn meaning(text: &str) -> Option<(Deck, String)> {
+pub fn meaning(text: &str) -> Option<(Deck, String)> {
     let mut sources = Sources::default();
     let id = sources.add("deck", text, 1);
     let reading = read(&sources, id);

@@ -16,10 +16,12 @@ use windlass_model::{
     Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse,
 };
 use windlass_tether::compatibility::Compatibility;
+use windlass_tether::installed::modes::count_fast_modes;
 use windlass_tether::installed::{
     EndSprings, Impact, InstalledRunSettings, InstalledTether, InternalFluid, NodeConstraint,
 };
 use windlass_tether::line::ElementLabel;
+use windlass_tether::modes::warn_of_fast_modes;
 use windlass_tether::structure::Structure;
 use windlass_tether::structure::afloat::Afloat;
 use windlass_tether::structure::flow::{FlowWaves, WaterFlow};
@@ -229,6 +231,7 @@ fn towed_case(
     };
     made.check()?;
     notes.extend(made.warnings());
+    notes.extend(warn_of_fast_modes(&connector.name, made.count_fast_modes()?));
     Ok(made)
 }
 
@@ -424,6 +427,12 @@ fn installed_case(
         pose: Pose { origin: pose.point(centre), axes: pose.axes },
         velocity: Six::zeros(),
     };
+    for tether in &list {
+        let attachment = course.pose.point(tether.attachment);
+        // one that is too short for its span has an error of its own in the run
+        let fast = count_fast_modes(tether, attachment, &flow, &compatibility).unwrap_or(0);
+        notes.extend(warn_of_fast_modes(&tether.name, fast));
+    }
     let points = model.points.values().filter(|p| model.body_of(p).is_some_and(|b| b.name == body.name));
     let points = points.map(|p| (p.name.clone(), pose.local(Vector3::from(model.global(p))) - centre)).collect();
     Ok(Installed { body: body.name.clone(), structure, tethers: list, flow, compatibility, course, centre, points })

@@ -55,30 +55,9 @@ pub fn modes(
     number: usize,
     compatibility: &Compatibility,
 ) -> Result<Vec<InstalledMode>, ClassError> {
-    tether.check()?;
-    tether.spans((attachment - tether.anchor).norm())?;
-    let Some(axis) = TetherAxis::new(tether.anchor, attachment) else {
-        return Err(ClassError::new(format!("tether {} hangs straight below its anchor", tether.name)));
-    };
-    let axial = TensionModel::new(tether, [flow.density, flow.gravity], compatibility.uniform_tension);
-    let tension = axial.tension(&axis, attachment.z, 0.0, &flow.at_time(0.0));
-    let bending = Bending::new(tether, flow.density, flow.gravity);
-    let mut found = [Vec::new(), Vec::new()];
-    for (plane, list) in found.iter_mut().enumerate() {
-        let Matrices { stiffness, mass, beams, springs } = bending.matrices(plane, &tension, &axial);
-        let last = mass.order() - 1;
-        let energy = |x: &[f64]| {
-            let of = |(index, [ei, pull, length]): (usize, &[f64; 3])| {
-                beam::twice_energy(*ei, *pull, *length, &beam::of_element(x, index))
-            };
-            let coils = springs[0] * x[1] * x[1] + springs[1] * x[last] * x[last];
-            beams.iter().enumerate().map(of).sum::<f64>() + coils
-        };
-        *list = modes::modes(&Pencil { stiffness: &stiffness, mass: &mass, twice_energy: &energy }, number)?;
-    }
-    let shares = tether.line.distances().iter().map(|s| s / tether.line.length() * tension.length);
+    let ([x, y], length) = of_planes(tether, attachment, flow, compatibility, |pencil| modes::modes(pencil, number))?;
+    let shares = tether.line.distances().iter().map(|s| s / tether.line.length() * length);
     let heights: Vec<f64> = shares.collect();
-    let [x, y] = found;
     let all = modes::together(&y, &x, number);
     let mut all: Vec<InstalledMode> =
         all.into_iter().map(|mode| InstalledMode { mode, heights: heights.clone() }).collect();
@@ -91,4 +70,50 @@ pub fn modes(
         }
     }
     Ok(all)
+}
+
+/// How many natural modes have a period below [`modes::SHORTEST_PERIOD`], with the attachment at a place (m, global).
+///
+/// # Errors
+/// Those of [`modes`].
+pub fn count_fast_modes(
+    tether: &InstalledTether,
+    attachment: Vector3<f64>,
+    flow: &WaterFlow,
+    compatibility: &Compatibility,
+) -> Result<usize, ClassError> {
+    let find = |pencil: &Pencil| modes::count_below_period(pencil, modes::SHORTEST_PERIOD);
+    let ([x, y], _) = of_planes(tether, attachment, flow, compatibility, find)?;
+    Ok(x + y)
+}
+
+/// What a function finds in the eigenvalue problem of each plane, and the length in tension (m).
+fn of_planes<T>(
+    tether: &InstalledTether,
+    attachment: Vector3<f64>,
+    flow: &WaterFlow,
+    compatibility: &Compatibility,
+    find: impl Fn(&Pencil) -> Result<T, ClassError>,
+) -> Result<([T; 2], f64), ClassError> {
+    tether.check()?;
+    tether.spans((attachment - tether.anchor).norm())?;
+    let Some(axis) = TetherAxis::new(tether.anchor, attachment) else {
+        return Err(ClassError::new(format!("tether {} hangs straight below its anchor", tether.name)));
+    };
+    let axial = TensionModel::new(tether, [flow.density, flow.gravity], compatibility.uniform_tension);
+    let tension = axial.tension(&axis, attachment.z, 0.0, &flow.at_time(0.0));
+    let bending = Bending::new(tether, flow.density, flow.gravity);
+    let of = |plane: usize| {
+        let Matrices { stiffness, mass, beams, springs } = bending.matrices(plane, &tension, &axial);
+        let last = mass.order() - 1;
+        let energy = |x: &[f64]| {
+            let of = |(index, [ei, pull, length]): (usize, &[f64; 3])| {
+                beam::twice_energy(*ei, *pull, *length, &beam::of_element(x, index))
+            };
+            let coils = springs[0] * x[1] * x[1] + springs[1] * x[last] * x[last];
+            beams.iter().enumerate().map(of).sum::<f64>() + coils
+        };
+        find(&Pencil { stiffness: &stiffness, mass: &mass, twice_energy: &energy })
+    };
+    Ok(([of(0)?, of(1)?], tension.length))
 }

@@ -186,16 +186,29 @@ impl Towed {
     /// # Errors
     /// Those of [`Towed::check`] and [`modes::modes`].
     pub fn modes(&self, number: usize) -> Result<Vec<NaturalMode>, ClassError> {
+        let [y, z] = self.of_planes(|pencil| modes::modes(pencil, number))?;
+        Ok(modes::together(&y, &z, number))
+    }
+
+    /// How many natural modes have a period below [`modes::SHORTEST_PERIOD`].
+    ///
+    /// # Errors
+    /// Those of [`Towed::modes`].
+    pub fn count_fast_modes(&self) -> Result<usize, ClassError> {
+        let [y, z] = self.of_planes(|pencil| modes::count_below_period(pencil, modes::SHORTEST_PERIOD))?;
+        Ok(y + z)
+    }
+
+    /// What a function finds in the eigenvalue problem of each plane.
+    fn of_planes<T>(&self, find: impl Fn(&Pencil) -> Result<T, ClassError>) -> Result<[T; 2], ClassError> {
         self.check()?;
-        let mut found = [Vec::new(), Vec::new()];
-        for (plane, list) in found.iter_mut().enumerate() {
+        let of = |plane: usize| {
             let stiffness = self.stiffness(plane);
             let mass = self.mass_at_rest(plane);
             let energy = |x: &[f64]| self.twice_energy(plane, x);
-            *list = modes::modes(&Pencil { stiffness: &stiffness, mass: &mass, twice_energy: &energy }, number)?;
-        }
-        let [y, z] = found;
-        Ok(modes::together(&y, &z, number))
+            find(&Pencil { stiffness: &stiffness, mass: &mass, twice_energy: &energy })
+        };
+        Ok([of(0)?, of(1)?])
     }
 
     /// Spring of an end in a plane (0: y, 1: z).

@@ -6,6 +6,9 @@ use std::ops::ControlFlow;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
+/// Square of the largest slope of an element: rotations of more than 30 degrees invalidate the analysis [AQWA-TETHER 4].
+const LARGEST_STEEPNESS: f64 = 1.0 / 3.0;
+
 /// Steps of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TowedSteps {
@@ -136,7 +139,7 @@ impl Towed {
     ///
     /// # Errors
     /// Those of [`Towed::check`]; steps that cannot be, or too large for the end springs; a motion without bound, or slopes
-    /// beyond one radian, where the theory of small deflections has long ended.
+    /// of 30 degrees or more, where the theory of small deflections has ended.
     pub fn run(&self, steps: &TowedSteps, observer: &mut dyn TowedObserver) -> Result<TowedState, ClassError> {
         let order = 2 * self.line.nodes();
         let zeros = || [vec![0.0; order], vec![0.0; order]];
@@ -287,9 +290,9 @@ impl RecordLists {
         for (i, e) in case.line.elements().iter().enumerate() {
             let chord: [f64; 2] = std::array::from_fn(|p| (state.at[p][2 * i + 2] - state.at[p][2 * i]) / e.length);
             let steepness = chord[0] * chord[0] + chord[1] * chord[1];
-            if steepness > 1.0 {
+            if steepness > LARGEST_STEEPNESS {
                 let message = format!(
-                    "element {} of the towed tether is steeper than one in one at record {}: small deflections have ended",
+                    "element {} of the towed tether is steeper than 30 degrees at record {}: small deflections have ended",
                     i + 1,
                     index + 1
                 );

@@ -260,3 +260,38 @@ fn waves_meet_bent_tether_where_its_slopes_have_drawn_it() {
         assert!((found - wanted).abs() < 1e-8 * size, "{frequency}: {found} {wanted} {size}");
     }
 }
+
+#[test]
+fn rotation_of_thirty_degrees_ends_small_deflections() {
+    // chapter 4: rotations of more than 30 degrees invalidate the analysis
+    let run = case(0.95, 50.0);
+    let straight = |degrees: f64| {
+        let slope = degrees.to_radians().tan();
+        let state: Vec<f64> = (0..11).flat_map(|node| [10.0 * slope * f64::from(node), slope]).collect();
+        let velocity = [vec![0.0; 22], vec![0.0; 22]];
+        run.run_from(TowedState { at: [vec![0.0; 22], state], velocity }, &steps(1), &mut |_: &TowedRecord| {})
+    };
+    assert!(straight(29.9).is_ok());
+    let error = straight(30.1).unwrap_err().to_string();
+    assert!(error.contains("element 1 of the towed tether is steeper than 30 degrees at record 1"), "{error}");
+}
+
+#[test]
+fn natural_periods_below_hundredth_of_second_are_counted() {
+    // modes of a free element with consistent mass in a plane: w2 = 720 EI/(m L4) and 8400 EI/(m L4), and two rigid ones; the
+    // mass is that of the tube and the water that goes along, deep under it
+    let mut run = Towed { springs: [EndSpring::default(); 2], ..case(0.95, 50.0) };
+    let element = run.line.elements()[0];
+    let mass = element.mass_per_length() + DENSITY * FRAC_PI_4;
+    let stiffness_of = |period: f64, factor: f64| (2.0 * PI / period).powi(2) * mass * element.length.powi(4) / factor;
+    for (stiffness, fast) in [
+        (stiffness_of(0.0101, 8400.0), 0),
+        (stiffness_of(0.0099, 8400.0), 2),
+        (stiffness_of(0.0101, 720.0), 2),
+        (stiffness_of(0.0099, 720.0), 4),
+    ] {
+        let youngs_modulus = element.youngs_modulus * stiffness / element.bending_stiffness();
+        run.line = TetherLine::with_numbered_nodes(vec![TetherElement { youngs_modulus, ..element }]).unwrap();
+        assert_eq!(run.count_fast_modes().unwrap(), fast, "{stiffness}");
+    }
+}
