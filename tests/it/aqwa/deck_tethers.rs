@@ -38,6 +38,12 @@ struct Case<'a> {
     printing: &'a str,
 }
 
+/// Deflection and its derivatives at a place of a span: by its four constants, and what its load gives.
+type SpanRows = (Matrix4<f64>, [f64; 4]);
+
+/// A derivative at a place of a span, with its sign.
+type SpanTerm<'a> = (usize, &'a SpanRows, usize, f64);
+
 impl Default for Case<'_> {
     fn default() -> Self {
         Case {
@@ -218,7 +224,7 @@ fn bow(pull: f64, [first, place, whole]: [f64; 3], support: Support) -> Bowed {
     let mut right = SVector::<f64, 8>::zeros();
     let mut row = 0;
     // one condition: derivatives of the spans with their signs, and the value of the sum
-    let mut add = |terms: &[(usize, &(Matrix4<f64>, [f64; 4]), usize, f64)], value: f64| {
+    let mut add = |terms: &[SpanTerm], value: f64| {
         right[row] = value;
         for (span, at, derivative, sign) in terms {
             for i in 0..4 {
@@ -244,7 +250,7 @@ fn bow(pull: f64, [first, place, whole]: [f64; 3], support: Support) -> Bowed {
         add(&[(0, &middle, derivative, 1.0)], value);
     }
     let found = system.lu().solve(&right).unwrap();
-    let value = |span: usize, at: &(Matrix4<f64>, [f64; 4]), derivative: usize| {
+    let value = |span: usize, at: &SpanRows, derivative: usize| {
         (0..4).map(|i| at.0[(derivative, i)] * found[4 * span + i]).sum::<f64>() + at.1[derivative]
     };
     let (span, behind) = if place < first { (0, place) } else { (1, place - first) };
