@@ -75,7 +75,7 @@ pub fn modes(
 /// How many natural modes have a period below [`modes::SHORTEST_PERIOD`], with the attachment at a place (m, global).
 ///
 /// # Errors
-/// Those of [`modes`].
+/// Those of [`modes()`].
 pub fn count_fast_modes(
     tether: &InstalledTether,
     attachment: Vector3<f64>,
