@@ -72,7 +72,7 @@ struct Converged {
 }
 
 impl Converged {
-    fn made() -> Self {
+    fn compute() -> Self {
         let step = 0.0125;
         let (forces, _, _) = run(400, step, 1e-6, false);
         let late = &forces[(20.0 / step) as usize..];
@@ -102,7 +102,7 @@ struct Peer {
 
 impl Peer {
     /// None where the script cannot run.
-    fn made() -> Option<Self> {
+    fn run_moordyn() -> Option<Self> {
         let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/moordyn.py");
         let made = Command::new("python3").args([script, "--forces"]).output().ok().filter(|o| o.status.success())?;
         let mut peer = Peer::default();
@@ -125,7 +125,7 @@ impl Peer {
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|w| !w.starts_with('-')).collect();
     let wanted = |name: &str| words.is_empty() || words.iter().any(|w| name.contains(w.as_str()));
-    let converged = Converged::made();
+    let converged = Converged::compute();
     let timed = |(i, f): (usize, f64)| ((i + 1) as f64 * STEP, f);
     let mut speeds = Vec::new();
     for (name, body) in [("chain900", false), ("chain900 with a body", true)] {
@@ -164,7 +164,7 @@ fn main() {
             speeds.push((format!("{of}{how}"), "vessel", elements, speed, error));
         }
     }
-    let Some(peer) = wanted("MoorDyn").then(Peer::made).flatten() else {
+    let Some(peer) = wanted("MoorDyn").then(Peer::run_moordyn).flatten() else {
         println!("MoorDyn is not here: benches/moordyn.py says what it needs");
         return;
     };

@@ -6,12 +6,13 @@ use crate::report::files::JobFolder;
 use crate::report::output::Output;
 use crate::session::{RecordReadError, Session, SessionEnd, read_all};
 use clap::Parser;
-use std::io::{BufWriter, ErrorKind, IsTerminal, Write, stderr, stdin, stdout};
+use std::io::{BufRead, BufWriter, ErrorKind, IsTerminal, Read, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use windlass_base::diagnostic::nearest;
 use windlass_base::printable::printable;
+use windlass_language::record::LONGEST_RECORD;
 use windlass_language::source::Text;
 
 /// What stands at the end of `--help`.
@@ -75,15 +76,24 @@ pub struct JobArgs {
     pub allow_files: bool,
 }
 
+/// The script to check.
+#[derive(clap::Args, Debug, Default)]
+pub struct CheckArgs {
+    /// A script (model.cif)
+    pub script: String,
+    /// List the records by name, and those that do not act
+    #[arg(long)]
+    pub compat: bool,
+}
+
 /// The words that stand for a command of windlass and for no ROOT.
 #[derive(clap::Subcommand, Debug)]
 pub enum Subcommand {
     /// Run a job; the word may be left out
     #[command(after_help = EXIT_CODES)]
     Run(JobArgs),
-    /// Checks scripts without running them.
-    #[command(hide = true)]
-    Check(Words),
+    /// Check a script: what of it would act, stop a solve, be noted or refused; nothing is solved or written
+    Check(CheckArgs),
     /// Runs a table of cases.
     #[command(hide = true)]
     Study(Words),
@@ -142,6 +152,8 @@ enum UsageError {
     OptionToCome(&'static str),
     #[error("{name} is not in this version{}", namesake(name))]
     CommandToCome { name: &'static str },
+    #[error("check comes first, and takes a script: windlass check --compat model.cif")]
+    CheckFirst,
     #[error("run needs a JOB: a script, a deck, or a ROOT{}", namesake("run"))]
     NoJob,
     #[error("a script and -c cannot be given together; if `{0}` is a record, it needs a -c of its own")]
@@ -181,6 +193,9 @@ const INTERRUPTED: u8 = 130;
 
 /// Runs the program; returns the exit code, as `--help` lists them.
 pub fn run(cli: Cli) -> u8 {
+    if let Some(Subcommand::Check(check)) = &cli.command {
+        return check_script(check);
+    }
     match job(cli) {
         Ok(job) => run_job(job),
         Err(error) => {
@@ -232,6 +247,7 @@ fn job(cli: Cli) -> Result<JobArgs, UsageError> {
     match name {
         "run" if job.job.is_some() || !job.commands.is_empty() => Ok(job),
         "run" => Err(UsageError::NoJob),
+        "check" => Err(UsageError::CheckFirst),
         _ => Err(UsageError::CommandToCome { name }),
     }
 }
@@ -250,6 +266,33 @@ fn namesake(name: &str) -> String {
         None if here.is_file() => format!("; there is a file of this name: write `./{name}` to run it"),
         None => String::new(),
     }
+}
+
+/// Checks a script; 1 where a record is refused.
+fn check_script(args: &CheckArgs) -> u8 {
+    let path = Path::new(&args.script);
+    let text = match crate::session::read_text(path) {
+        Ok(text) => text,
+        Err(error) => {
+            complain(&error.to_string());
+            return USAGE;
+        }
+    };
+    if windlass_aqwa::is_deck(text.as_str()) {
+        complain(&format!("{} is an AQWA deck; its cards are checked where it is read: windlass {0}", args.script));
+        return USAGE;
+    }
+    let colour = stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+    let folder = JobFolder::new(path.with_extension(""), None, false);
+    let mut session = Session::new(Output::new(folder, Box::new(stdout()), Box::new(stderr()), colour));
+    session.job.output.columns = screen_columns;
+    session.job.output.keep_log = false;
+    session.start_check();
+    session.open(&args.script, text);
+    session.run();
+    session.print_check(args.compat);
+    session.job.output.flush();
+    exit_code(&session)
 }
 
 fn run_job(cli: JobArgs) -> u8 {
@@ -285,6 +328,8 @@ fn run_job(cli: JobArgs) -> u8 {
     let mut session = Session::new(Output::new(folder, screen, Box::new(stderr()), colour));
     session.job.output.columns = screen_columns;
     session.job.settings.batch = cli.batch;
+    // a terminal that goes on to give records asks in its own way
+    session.job.ask = Some(Arc::new(ask_standard_input));
     session.job.output.keep_log = cli.out.is_some() || !matches!(input, RecordSource::Records(_));
     // nothing has set it before
     let _ = running.set(Arc::clone(&session.interpreter.interrupt));
@@ -319,6 +364,20 @@ fn run_job(cli: JobArgs) -> u8 {
         }
     }
     code
+}
+
+/// The answer to a `&GET` of a script: a line of standard input; `None` at its end. The question stands on the message stream.
+fn ask_standard_input(prompt: &str) -> Option<String> {
+    // nothing else can be done when the message stream is gone
+    let _ = write!(stderr(), "{}? ", printable(prompt)).and_then(|()| stderr().flush());
+    let mut bytes = Vec::new();
+    let most = u64::try_from(LONGEST_RECORD).unwrap_or(u64::MAX);
+    let read = stdin().lock().take(most).read_until(b'\n', &mut bytes);
+    if !stdin().is_terminal() {
+        let _ = writeln!(stderr());
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    matches!(read, Ok(1..)).then(|| text.trim_end_matches(['\n', '\r']).to_string())
 }
 
 fn exit_code(session: &Session) -> u8 {

@@ -30,7 +30,7 @@ impl Moving {
 
     /// The fairlead at a step: 1 % of the length to and fro, half of that up and down, but neither beyond the anchor,
     /// nor into the bottom or, from where it lies on it, off it.
-    fn at(&self, step: usize) -> (f64, f64) {
+    fn fairlead_at_step(&self, step: usize) -> (f64, f64) {
         let phase = TAU * step as f64 / STEPS as f64;
         let x = (self.x + 0.01 * self.segment.length * phase.sin()).max(0.0);
         let rise = 0.005 * self.segment.length * (phase.cos() - 1.0);
@@ -49,7 +49,7 @@ impl Moving {
     /// The sum of horizontal forces along the path, each from nothing.
     pub fn cold_along(&self) -> f64 {
         (1..=STEPS)
-            .map(|n| self.at(n))
+            .map(|n| self.fairlead_at_step(n))
             .map(|(x, z)| self.segment.solve_end_forces(x, z, self.bottom).unwrap().fairlead[0])
             .sum()
     }
@@ -58,7 +58,7 @@ impl Moving {
     pub fn followed_along(&self) -> f64 {
         let mut last = self.segment.solve_end_forces(self.x, self.z, self.bottom).unwrap();
         let mut sum = 0.0;
-        for (x, z) in (1..=STEPS).map(|n| self.at(n)) {
+        for (x, z) in (1..=STEPS).map(|n| self.fairlead_at_step(n)) {
             last = self.segment.solve_warm_start(x, z, self.bottom, &last).unwrap();
             sum += last.fairlead[0];
         }

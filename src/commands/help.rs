@@ -3,7 +3,7 @@
 use crate::commands::environment::env;
 use crate::commands::menu::join_names;
 use crate::commands::post::{TABLES, rod, structure, tether};
-use crate::commands::{COMMANDS, Call, Command, Effect, Job, commands_of_menu, menus, status};
+use crate::commands::{COMMANDS, Call, Command, Effect, Job, absent, commands_of_menu, menus, status};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
 use windlass_connectors::CLASSES;
@@ -37,11 +37,7 @@ struct HelpList {
 }
 
 static LISTS: &[HelpList] = &[
-    HelpList {
-        command: &status::STATUS,
-        head: "It reports:",
-        rows: |_| status::listed_kinds().map(|(name, help)| (name, help.to_string())).collect(),
-    },
+    HelpList { command: &status::STATUS, head: "It reports:", rows: |_| status::listed_kinds().collect() },
     HelpList {
         command: &menus::PRCPOST,
         head: "Its tables:",
@@ -97,6 +93,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 text
             } else {
                 let menu = job.menu().spec();
+                let known_here = COMMANDS.iter().map(|c| c.spec.name).chain(CONTROL.iter().map(|s| s.name));
+                if let Some(entry) = absent::ABSENT.iter().find(|e| e.name.eq_ignore_ascii_case(&word.text))
+                    && !known_here.into_iter().any(|name| name == entry.name)
+                {
+                    job.say(&format!("{}\n   {}", entry.sentence(), entry.instead));
+                    return Ok(Effect::Done);
+                }
                 let here = COMMANDS
                     .iter()
                     .find(|c| c.spec.name.eq_ignore_ascii_case(&word.text) && c.spec.menus.contains(&menu));

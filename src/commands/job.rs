@@ -3,6 +3,7 @@
 use crate::commands::environment::bathymetry::Soundings;
 use crate::commands::menu;
 use crate::commands::model::pgen::Planes;
+use crate::commands::model::process::Process;
 use crate::commands::output::buildg::Building;
 use crate::commands::solve::frequency::FrequencyResults;
 use crate::commands::verdict::Verdict;
@@ -10,6 +11,7 @@ use crate::report::disposition::Disposition;
 use crate::report::files::{FilePlace, Question};
 use crate::report::output::Output;
 use crate::report::page::PageHead;
+use indexmap::IndexMap;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -56,8 +58,8 @@ pub enum Menu {
     Selectors,
     /// Surfaces of hulls being defined by `&SURFACE`.
     Surface,
-    /// A surface of panels being given by `BLOCK`.
-    Block,
+    /// A surface of sections or panels being given by `BLOCK`.
+    Block(Box<Planes>),
     /// A surface of panels being given by `MESH`.
     Mesh,
     /// Hydrostatics of the body of this name.
@@ -68,10 +70,14 @@ pub enum Menu {
     Building(Box<Building>),
     /// Rows of a bottom being given by the records of `&BATHYMETRY`.
     Soundings(Box<Soundings>),
+    /// Summaries of `&SUMMARY`.
+    Summary,
     /// Sections of a hull being given by `PGEN`.
     Planes(Box<Planes>),
     /// The menu whose opener was refused: its commands are passed over up to its `END`.
     Refused(&'static MenuSpec),
+    /// The menu of a command that a check does not run.
+    Checked(&'static MenuSpec),
 }
 
 impl Menu {
@@ -89,14 +95,15 @@ impl Menu {
             Menu::Curves => &menu::CURVES,
             Menu::Selectors => &menu::SELECT,
             Menu::Surface => &menu::SURFACE,
-            Menu::Block => &menu::BLOCK,
+            Menu::Block(_) => &menu::BLOCK,
             Menu::Mesh => &menu::MESH,
             Menu::Building(_) => &menu::BUILDG,
             Menu::Soundings(_) => &menu::BATHYMETRY,
             Menu::Planes(_) => &menu::PGEN,
             Menu::Hydrostatics(_) => &menu::HSTATICS,
             Menu::Frequency(_) => &menu::FREQ_RESPONSE,
-            Menu::Refused(menu) => menu,
+            Menu::Summary => &menu::SUMMARY,
+            Menu::Refused(menu) | Menu::Checked(menu) => menu,
         }
     }
 
@@ -230,6 +237,13 @@ impl UserFiles {
     }
 }
 
+/// What a check of a script knows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Checking {
+    /// A solve has been passed over: places and forces are not known any more.
+    pub solved: bool,
+}
+
 /// One running job.
 pub struct Job {
     /// The model.
@@ -250,6 +264,14 @@ pub struct Job {
     pub notices: Vec<Diagnostic>,
     /// Options that do nothing in their class type, which the user has been warned of: type and option.
     pub idle_said: Vec<(&'static str, &'static str)>,
+    /// Records of MOSES without effect here, or that windlass does not have, which the user has been told of.
+    pub absent_said: Vec<&'static str>,
+    /// Classes of types that windlass does not have, by key, with what their connectors would do.
+    pub absent_classes: HashMap<String, Option<&'static str>>,
+    /// The last solve, where it was refused: what asks for its results is no error of its own.
+    pub refused_solve: Option<&'static str>,
+    /// Set while a script is only checked.
+    pub checking: Option<Checking>,
     /// Severity of the last record, for `&INFO(SEVERITY ..)`.
     pub last_severity: Option<Severity>,
     /// CONNECTOR records of an open INMODEL, waiting for names defined later.
@@ -270,6 +292,10 @@ pub struct Job {
     pub equilibrium: Options,
     /// What happens during runs.
     pub actions: Vec<Action>,
+    /// The name of the current process.
+    pub process: String,
+    /// The other processes, by key.
+    pub processes: IndexMap<String, Process>,
     /// The last run.
     pub run: Option<Run>,
     /// The last run of tethers.
@@ -295,6 +321,10 @@ impl Job {
             output,
             notices: Vec::new(),
             idle_said: Vec::new(),
+            absent_said: Vec::new(),
+            refused_solve: None,
+            absent_classes: HashMap::new(),
+            checking: None,
             last_severity: None,
             deferred: Vec::new(),
             deferred_assemblies: Vec::new(),
@@ -305,6 +335,8 @@ impl Job {
             long_name_said: false,
             equilibrium: Options::default(),
             actions: Vec::new(),
+            process: "DEFAULT".into(),
+            processes: IndexMap::new(),
             run: None,
             tethered: None,
             scatter: Vec::new(),
@@ -329,6 +361,14 @@ impl Job {
             self.output.log(text);
         } else {
             self.output.text(text);
+        }
+    }
+
+    /// What is said where results of a solve are asked for that are not there: a note where one of `solves` has just been refused.
+    pub fn lacks_results(&self, text: &str, solves: &[&str], help: &str, span: Span) -> Box<Diagnostic> {
+        match self.refused_solve.filter(|refused| solves.contains(refused)) {
+            Some(refused) => Diagnostic::remark(format!("{text}: {refused} was refused"), span),
+            None => Diagnostic::error(text, span).help(help),
         }
     }
 
@@ -357,7 +397,7 @@ impl Job {
 
     /// What stands at the head of a page.
     pub fn page_head(&self) -> PageHead {
-        PageHead { date: Some(self.date()), titles: self.titles.clone(), process: "DEFAULT".into() }
+        PageHead { date: Some(self.date()), titles: self.titles.clone(), process: self.process.clone() }
     }
 
     /// The date of reports: that of `&DEVICE -SET_DATE`, else today (UTC).

@@ -39,8 +39,11 @@ pub static HSTATICS: MenuSpec = MenuSpec { name: "HSTATICS", end: "END_HSTATICS"
 /// FREQ_RESPONSE.
 pub static FREQ_RESPONSE: MenuSpec = MenuSpec { name: "FREQ_RESPONSE", end: "END_FREQ_RESPONSE" };
 
+/// SUMMARY.
+pub static SUMMARY: MenuSpec = MenuSpec { name: "SUMMARY", end: "END_&SUMMARY" };
+
 /// All of them.
-pub static ALL: [&MenuSpec; 18] = [
+pub static ALL: [&MenuSpec; 19] = [
     &MAIN,
     &INMODEL,
     &MEDIT,
@@ -59,6 +62,7 @@ pub static ALL: [&MenuSpec; 18] = [
     &BATHYMETRY,
     &HSTATICS,
     &FREQ_RESPONSE,
+    &SUMMARY,
 ];
 
 /// The names of menus, joined by a word.

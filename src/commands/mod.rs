@@ -4,6 +4,8 @@
 //! changes nothing; a command that edits in several steps says so with [`Command::edits`], and the session restores the
 //! model when it fails.
 
+pub mod absent;
+pub mod check_list;
 mod chosen;
 mod environment;
 mod files;
@@ -24,19 +26,20 @@ mod written;
 use environment::{bathymetry, curves, env};
 use files::file;
 pub use files::file::write_open_files;
-pub use job::{DeviceSettings, Job, Menu};
+pub use job::{Checking, DeviceSettings, Job, Menu};
 pub use menus::{find_opened_menu, finish};
 use model::{
-    alter, apply, assembly, class, connector, database, describe, hydrostatic, junction, loads, names, pgen, piece,
-    pipe, select, surface, t_pressure, weight,
+    alter, apply, assembly, class, compartment, connector, database, describe, hydrostatic, junction, loads, names,
+    pgen, piece, pipe, select, surface, t_pressure, weight,
 };
 pub use output::buildg::take as take_row;
 use output::{animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
 use post::{frequency_posts, rep_select};
 pub(crate) use settings::device::existing;
-use settings::{device, parameter, units};
+use settings::{accepted, device, parameter, units};
 use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};
 pub use status::kinds as status_kinds;
+use status::summary_menu;
 
 use std::path::PathBuf;
 use windlass_base::diagnostic::Outcome;
@@ -141,6 +144,9 @@ static LISTED: &[&Command] = &[
     &loads::DRAG,
     &loads::DAMP,
     &loads::AMASS,
+    &loads::BUOY,
+    &loads::TANAKA,
+    &loads::TANKER,
     &apply::APPLY,
     &weight::ITEM,
     &weight::WEIGHT,
@@ -155,9 +161,15 @@ static LISTED: &[&Command] = &[
     &surface::TUBE,
     &surface::MOVE_BLOCK,
     &surface::LIST_BLOCK,
+    &surface::COPY_BLOCK,
+    &surface::REFLECT_BLOCK,
+    &surface::EMIT,
+    &compartment::COMPARTMENT,
+    &compartment::CMP_BAL,
     &hstatics::HSTATICS,
     &hstatics::CFORM,
     &hstatics::RARM,
+    &hstatics::TANK_CAPACITY,
     &class::CLASS,
     &connector::CONNECTOR,
     &junction::JUNCTION,
@@ -223,16 +235,29 @@ static LISTED: &[&Command] = &[
     &buildg::BUILDG,
     &rep_select::REP_SELECT,
     &status::STATUS,
+    &summary_menu::SUMMARY,
+    &summary_menu::CATEG_SUM,
+    &summary_menu::LOADG_SUM,
+    &summary_menu::POINT_SUM,
+    &summary_menu::PIECE_SUM,
+    &summary_menu::COMPART_SUM,
+    &summary_menu::CLASS_SUM,
+    &summary_menu::N_COINCIDENT,
+    &summary_menu::GEOM,
     &picture::PICTURE,
     &animate::ANIMATE,
     &units::DIMEN,
     &units::DEFAULT,
     &parameter::PARAMETER,
     &device::DEVICE,
+    &accepted::LOGDEVICE,
+    &accepted::CHANNEL,
+    &accepted::PI_VIEW,
     &file::FILE,
     &message::TITLE,
     &message::SUBTITLE,
     &message::TYPE,
+    &message::S_BACK,
     &message::CTYPE,
     &message::CUTYPE,
     &message::ERROR,

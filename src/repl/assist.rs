@@ -55,7 +55,7 @@ impl Known {
         *self = Known {
             menu: Some(menu.spec()),
             bodies: model.bodies.values().map(|b| b.name.clone()).collect(),
-            parts: model.parts.values().map(|p| p.name.clone()).collect(),
+            parts: model.names(windlass_model::EntityKind::Part).into_iter().map(str::to_string).collect(),
             points: model.points.values().map(|p| p.name.clone()).collect(),
             classes: model.classes.values().map(|c| c.name.clone()).collect(),
             connectors: model.connectors.values().map(|c| c.name.clone()).collect(),

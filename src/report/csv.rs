@@ -16,13 +16,16 @@ pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, csv::Error> {
     writer.write_record(heads(table, units).iter().map(|head| guard_formula(head).into_owned()))?;
     for row in 0..table.rows() {
         writer.write_record(
-            table.columns().iter().map(|c| c.cells.get(row).map_or(String::new(), |cell| written(cell, c.dim, units))),
+            table
+                .columns()
+                .iter()
+                .map(|c| c.cells.get(row).map_or(String::new(), |cell| format_cell(cell, c.dim, units))),
         )?;
     }
     writer.into_inner().map_err(|e| csv::Error::from(std::io::Error::other(e.to_string())))
 }
 
-fn written(cell: &Cell, dim: Dim, units: UnitSystem) -> String {
+fn format_cell(cell: &Cell, dim: Dim, units: UnitSystem) -> String {
     let text = format::full(cell, dim, units);
     if matches!(cell, Cell::Text(_)) { guard_formula(&text).into_owned() } else { text }
 }

@@ -20,7 +20,7 @@ use windlass_base::units::UnitSystem;
 /// # Errors
 /// Columns that the format cannot hold, and what the writer refuses.
 pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
-    written(table, units).map_err(|e| match e {
+    encode_table(table, units).map_err(|e| match e {
         Failed::Store(e) => e,
         Failed::Parquet(e) => StoreError::Library(e.to_string()),
     })
@@ -37,7 +37,7 @@ impl From<ParquetError> for Failed {
     }
 }
 
-fn written(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
+fn encode_table(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
     let columns = stored_columns(table, units).map_err(Failed::Store)?;
     let mut fields = Vec::new();
     for column in &columns {

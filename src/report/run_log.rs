@@ -188,7 +188,7 @@ fn block(bytes: &[u8], at: usize) -> Option<(u8, &[u8], usize)> {
 mod tests {
     use super::*;
 
-    fn begun(folder: &std::path::Path) -> (RunLog, PathBuf) {
+    fn start_log(folder: &std::path::Path) -> (RunLog, PathBuf) {
         let path = folder.join("TDOM.run");
         let file = File::options().read(true).write(true).create_new(true).open(&path).unwrap();
         (RunLog::begin(file, path.clone(), 1, 2).unwrap(), path)
@@ -206,14 +206,14 @@ mod tests {
     fn run_file_with_time_not_a_number_is_refused() {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let folder = tempfile::tempdir().unwrap();
-            let (mut log, path) = begun(folder.path());
+            let (mut log, path) = start_log(folder.path());
             log.row(&[0.0, f64::NAN]).unwrap();
             log.snapshot(&snapshot_at(1.5)).unwrap();
             assert_eq!(read_file(&path).map(|k| (k.snapshot.time, k.rows.len())).unwrap(), (1.5, 2));
             log.snapshot(&snapshot_at(bad)).unwrap();
             assert!(matches!(read_file(&path), Err(RunLogError::NotFinite)), "snapshot at {bad}");
             let folder = tempfile::tempdir().unwrap();
-            let (mut log, path) = begun(folder.path());
+            let (mut log, path) = start_log(folder.path());
             log.row(&[bad, 0.0]).unwrap();
             log.snapshot(&snapshot_at(1.0)).unwrap();
             assert!(matches!(read_file(&path), Err(RunLogError::NotFinite)), "row at {bad}");
@@ -224,7 +224,7 @@ mod tests {
     #[test]
     fn run_file_deleted_during_run_ends_run() {
         let folder = tempfile::tempdir().unwrap();
-        let (mut log, path) = begun(folder.path());
+        let (mut log, path) = start_log(folder.path());
         log.snapshot(&snapshot_at(1.0)).unwrap();
         std::fs::remove_file(&path).unwrap();
         for done in [log.snapshot(&snapshot_at(2.0)), log.finish()] {

@@ -1,14 +1,18 @@
 //! One running job: takes records from the interpreter, finds the command each means in the present menu, and keeps the
 //! error policy.
 
+mod absent_record;
 mod deck;
 mod named;
 mod reading;
+mod script_check;
 mod skipped_menu;
 
 pub use reading::{RecordReadError, read_all, read_text};
 
 use self::named::{in_menu, unknown};
+use self::script_check::ScriptCheck;
+use crate::commands::absent::{self, Absent};
 use crate::commands::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
 use crate::report::output::Output;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -27,7 +31,11 @@ use windlass_language::render::render;
 use windlass_language::select::{SearchResult, keyword};
 use windlass_language::source::Text;
 use windlass_language::spec::TextForm;
+use windlass_language::substitution::UNKNOWN;
 use windlass_language::token::TokenKind;
+
+/// Commands whose results others report.
+const SOLVES: [&str; 3] = ["TDOM", "RAO", "SRESPONSE"];
 
 /// Why a run came back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,10 +64,14 @@ pub struct Session {
     pub reports: Vec<Diagnostic>,
     /// Errors when the terminal was last asked for a line.
     errors_at_prompt: i64,
+    /// Errors of records that windlass does not have: they do not count toward the limit at which a run ends.
+    errors_of_absent: i64,
     /// Texts made of decks, with the cards they are made of.
     decks: Vec<(SourceId, aqwa::WrittenRecords)>,
     /// The deck that is the job, until the pages before its motion are listed.
     listed: Option<Box<aqwa::Deck>>,
+    /// What a check has found, where the script is only checked.
+    check: Option<ScriptCheck>,
 }
 
 impl Session {
@@ -76,8 +88,10 @@ impl Session {
             keep_reports: false,
             reports: Vec::new(),
             errors_at_prompt: 0,
+            errors_of_absent: 0,
             decks: Vec::new(),
             listed: None,
+            check: None,
         }
     }
 
@@ -126,6 +140,7 @@ impl Session {
                     return SessionEnd::Done;
                 }
                 Err(error) => {
+                    self.judge_control_error(&error);
                     self.report(*error);
                     self.job.last_severity == Some(Severity::Fatal) && !self.interactive
                 }
@@ -153,7 +168,7 @@ impl Session {
         if settings.batch {
             return true;
         }
-        if self.errors >= limit {
+        if self.errors - self.errors_of_absent >= limit {
             let text = format!("{limit} errors: the run ends here (&DEVICE -LIMERROR)");
             self.report(Diagnostic::plain(Severity::Note, text));
             return true;
@@ -198,6 +213,9 @@ impl Session {
             self.errors += 1;
         }
         self.job.last_severity = Some(diagnostic.severity);
+        if self.check.is_some() && !matches!(diagnostic.severity, Severity::Error | Severity::Fatal) {
+            return;
+        }
         let sources = &self.interpreter.sources;
         let plain = render(&diagnostic, sources, false);
         let coloured = if self.job.output.colour { render(&diagnostic, sources, true) } else { String::new() };
@@ -224,7 +242,8 @@ impl Session {
             self.job.output.text(&format!("> {text}"));
         }
         self.job.output.folder.typed = self.interpreter.reads_what_is_typed();
-        let over = self.execute_record(record, text);
+        let over =
+            if self.check.is_some() { self.check_record(record, text) } else { self.execute_record(record, text) };
         self.job.output.folder.typed = false;
         for path in self.job.output.folder.read_outside() {
             self.job.output.log(&format!("read {}, outside of the script's folder", path.display()));
@@ -327,9 +346,14 @@ impl Session {
         }
         match self.resolve(first)? {
             Meaning::Command(command) => {
+                if let Some(entry) = words.get(1).and_then(|second| absent::find_form(command.spec.name, &second.text))
+                {
+                    return self.answer_absent(entry, first);
+                }
                 self.invoke(command, record, words).map_err(|error| self.refuse(command, words, error))
             }
             Meaning::Macro(found) => self.interpreter.call(&found, record).map(|()| Effect::Done),
+            Meaning::Absent(entry) => self.answer_absent(entry, first),
         }
     }
 
@@ -355,7 +379,10 @@ impl Session {
             }
             SearchResult::One(None) | SearchResult::None => match found_macro {
                 Some((_, found)) => Ok(Meaning::Macro(Arc::clone(found))),
-                None => Err(unknown(first, menu, names.map(|(n, _, _)| n), self.interpreter.macros())),
+                None => match absent::find(&first.text, menu.spec()) {
+                    Some(entry) => Ok(Meaning::Absent(entry)),
+                    None => Err(unknown(first, menu, names.map(|(n, _, _)| n), self.interpreter.macros())),
+                },
             },
         }
     }
@@ -363,10 +390,14 @@ impl Session {
     fn invoke(&mut self, command: &'static Command, record: &Record, words: &[Word]) -> Outcome<Effect> {
         let span = words.first().map_or(Span::default(), |w| w.span);
         let args = match command.spec.form {
+            _ if self.check.is_some() && record.text().contains(UNKNOWN) => Args::empty(span),
             TextForm::Words => args::read(command.spec, span, words.get(1..).unwrap_or_default(), self.job.units)?,
             TextForm::Text => Args::empty(span),
         };
         let call = Call { record, words, args };
+        if self.check.is_some() && !self.runs_in_check(command, &call)? {
+            return Ok(Effect::Done);
+        }
         let open = self.job.menus.len();
         let kept = command.edits.then(|| self.job.model.clone());
         let job = &mut self.job;
@@ -374,6 +405,9 @@ impl Session {
             Err(Diagnostic::error(format!("{} met a defect of windlass and was given up", command.spec.name), span)
                 .help("please report this record; the session goes on"))
         });
+        if SOLVES.contains(&command.spec.name) {
+            self.job.refused_solve = outcome.is_err().then_some(command.spec.name);
+        }
         if outcome.is_err() {
             self.job.menus.truncate(open);
             if let Some(model) = kept {
@@ -413,4 +447,6 @@ impl Session {
 enum Meaning {
     Command(&'static Command),
     Macro(Arc<Macro>),
+    /// What MOSES has and windlass does not.
+    Absent(&'static Absent),
 }

@@ -2,6 +2,7 @@
 //! passed over up to its `END`, so that one mistake gives one message and every `END` leaves the menu it was written for.
 
 use super::{Meaning, Session};
+use crate::commands::absent;
 use crate::commands::{Command, Menu, find_opened_menu};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_language::record::Word;
@@ -12,7 +13,9 @@ impl Session {
     /// taken by a menu that passes over what follows.
     pub(super) fn refuse(&mut self, command: &Command, words: &[Word], error: Box<Diagnostic>) -> Box<Diagnostic> {
         let settings = &self.job.settings;
-        let last = settings.batch || self.errors + 1 >= settings.error_limit || error.severity == Severity::Fatal;
+        let last = settings.batch
+            || self.errors - self.errors_of_absent + 1 >= settings.error_limit
+            || error.severity == Severity::Fatal;
         match find_opened_menu(&self.job, command.spec, words) {
             Some(name) if !self.interactive && !last => {
                 self.job.menus.push(Menu::Refused(name));
@@ -33,7 +36,15 @@ impl Session {
         if !self.passing() || first.kind == TokenKind::Internal {
             return false;
         }
+        if let Some(inner) = absent::find_inner(&first.text, self.job.menu().spec()) {
+            self.job.menus.push(Menu::Refused(inner));
+            return true;
+        }
         match self.resolve(first) {
+            Ok(Meaning::Absent(entry)) => {
+                self.job.menus.extend(entry.opens.map(Menu::Refused));
+                true
+            }
             Ok(Meaning::Macro(_)) => false,
             Ok(Meaning::Command(command)) if command.spec.menus.is_empty() => false,
             Ok(Meaning::Command(command)) => {

@@ -6,18 +6,22 @@ mod common;
 
 /// The terminal, files and wrong input.
 mod program {
+    mod absent_records;
     mod command_line;
     mod disk_full;
     mod editor;
     mod file_names;
     mod film;
+    mod functions;
     mod fuzz_corpus;
     mod hostile_input;
     mod lines;
     mod menus;
+    mod moses_records;
     mod names;
     mod never_panics;
     mod picture;
+    mod script_check;
     mod table_vary;
 }
 
@@ -60,16 +64,20 @@ mod floating {
     mod ambient;
     mod aqwa_tether_platform;
     mod bodies;
+    mod compartments;
     mod equilibrium;
     mod equilibrium_distant_starts;
     mod equilibrium_trials;
     mod excursion;
     mod members;
     mod moorpy_equilibrium;
+    mod moses_hulls;
+    mod moses_weights;
     mod networks;
     mod piece_loads;
     mod side_by_side;
     mod steady_loads;
+    mod unmodelled_effects;
     mod wind_current_time_domain;
 }
 

@@ -19,6 +19,7 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
     let whole = deck.job.has_deck(1);
     if whole {
         elements(deck, remarks);
+        assumed_coefficients(deck, remarks);
         waterlines(deck, remarks);
         for tether in &deck.mooring.tethers {
             tether_refers(deck, tether, remarks);
@@ -92,6 +93,28 @@ fn elements(deck: &Deck, remarks: &mut Remarks) {
                 let message = format!("deck 2, TUBE: nodes {first} and {second} are at one place");
                 remarks.add(Diagnostic::error(message, element.span).label("a tube has a length"));
             }
+        }
+    }
+}
+
+/// Says which tubes have the assumed coefficients.
+fn assumed_coefficients(deck: &Deck, remarks: &mut Remarks) {
+    for ((shape, group), geometry) in &deck.geometries {
+        if *shape != ElementShape::Tube {
+            continue;
+        }
+        let blank = [
+            ("drag", geometry.drag.is_none(), geometry.drag()),
+            ("added mass", geometry.added_mass.is_none(), geometry.added_mass()),
+        ];
+        for (what, _, value) in blank.into_iter().filter(|(_, assumed, _)| *assumed) {
+            remarks.add(
+                Diagnostic::remark(
+                    format!("deck 4, TUBE: group {group} has no {what} coefficient: {value} is assumed"),
+                    geometry.span,
+                )
+                .help("CONT behind the card: drag in columns 21-30, added mass in columns 31-40"),
+            );
         }
     }
 }
@@ -194,6 +217,13 @@ fn line_ends(deck: &Deck, remarks: &mut Remarks) {
         }
         if deck.mooring.composite(line).is_some() {
             bottom(deck, line, remarks);
+        }
+        if ends.structure1.value == 0 && ends.structure2.value == 0 {
+            let message = "deck 14, columns 11-15 and 21-25: this line is on no structure";
+            remarks.add(
+                Diagnostic::error(message, line.span)
+                    .label("the number of a structure belongs in columns 11-15 or 21-25; 0 is the ground"),
+            );
         }
         for (number, point) in [(ends.structure1, ends.node1), (ends.structure2, ends.node2)] {
             structure(deck, "deck 14, structure of a line", number, remarks);

@@ -36,40 +36,70 @@ const MAX_OPTIONS: usize = 200;
 /// Codes of an analysis on the JOB line.
 const ANALYSES: &[&str] = &["WFRQ", "DRFT", "STAT", "DYNA", "FIXD"];
 
-/// Options by name, with what they ask for.
-pub const OPTIONS: &[(&str, &str)] = &[
-    ("REST", "the RESTART line names the stages"),
-    ("DATA", "check of the data: stages 1, 2 and 4 only"),
-    ("LSTF", "the hydrostatics of the structure are the linear stiffness of deck 7"),
-    ("NOST", "no statistics of the structure"),
-    ("PRCE", "echo of decks 1 to 5"),
-    ("PPEL", "properties of each element are printed"),
-    ("PBIS", "forces of each step of an iteration are printed"),
-    ("PFLH", "low and high frequency results apart"),
-    ("PRAF", "inactive degrees of freedom are printed"),
-    ("PRAS", "spectra of articulation reactions"),
-    ("PRFS", "spectra of forces"),
-    ("PRCS", "withdrawn"),
-    ("PRTI", "transfer functions"),
-    ("PRRI", "response amplitude operators"),
-    ("PRRS", "response spectra"),
-    ("PRRP", "response spectra"),
-    ("PRTS", "tension spectra"),
-    ("PRDL", "contents of the restart file"),
-    ("RDEP", "the start is the equilibrium of an earlier run"),
-    ("AHD1", "hydrodynamic database in text"),
-    ("AQTF", "quadratic transfer functions in text"),
-    ("CQTF", "quadratic transfer functions"),
-    ("MQTF", "quadratic transfer functions with directions"),
-    ("CONV", "radiation by convolution"),
-    ("NCNV", "no convolution"),
-    ("CRAO", "response amplitude operators with moorings"),
-    ("CRNM", "response amplitude operators without moorings"),
-    ("LDRG", "linearised drag"),
-    ("NASF", "additional stiffness is ignored"),
-    ("SUFC", "forces from another program"),
-    ("GOON", "on after errors of the mesh"),
-    ("LHFR", "irregular frequencies removed"),
+/// What an option of deck 0 does here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OptionEffect {
+    /// It is acted on, or windlass does so anyway.
+    Acts,
+    /// It asks for pages that are not printed: no result depends on it.
+    Prints(&'static str),
+    /// It belongs to AQWA-LINE, which is not run here: no result depends on it.
+    OfLine(&'static str),
+    /// It would change results and is refused: the reason, and what to do instead.
+    Refused(&'static str, &'static str),
+}
+
+use OptionEffect::{Acts, OfLine, Prints, Refused};
+
+/// Options by name, with what becomes of them.
+pub const OPTIONS: &[(&str, OptionEffect)] = &[
+    ("REST", Acts),
+    ("DATA", Acts),
+    ("LSTF", Acts),
+    ("PRCE", Acts),
+    ("NOST", Acts),
+    ("PPEL", Prints("properties of each element")),
+    ("PBIS", Prints("forces of each step of an iteration")),
+    ("PFLH", Prints("results of low and high frequency apart")),
+    ("PRAF", Prints("inactive degrees of freedom")),
+    ("PRAS", Prints("spectra of articulation reactions")),
+    ("PRFS", Prints("spectra of forces")),
+    ("PRCS", Prints("what was withdrawn from AQWA")),
+    ("PRTI", Prints("transfer functions")),
+    ("PRRI", Prints("response amplitude operators")),
+    ("PRRS", Prints("response spectra")),
+    ("PRRP", Prints("response spectra")),
+    ("PRTS", Prints("tension spectra")),
+    ("PRDL", Prints("contents of the restart file")),
+    ("AHD1", OfLine("a database in text")),
+    ("AQTF", OfLine("quadratic transfer functions in text")),
+    ("CQTF", OfLine("quadratic transfer functions")),
+    ("MQTF", OfLine("quadratic transfer functions with directions")),
+    ("GOON", OfLine("errors of the mesh passed over")),
+    ("LHFR", OfLine("irregular frequencies removed")),
+    ("CONV", Acts),
+    (
+        "NCNV",
+        Refused(
+            "radiation acts by convolution here, and not by coefficients of one frequency",
+            "leave out NCNV: CONV is what windlass does",
+        ),
+    ),
+    ("CRAO", Acts),
+    (
+        "CRNM",
+        Refused("response amplitude operators are those with the lines of the deck", "leave out the lines of deck 14"),
+    ),
+    ("LDRG", Acts),
+    ("NASF", Acts),
+    (
+        "RDEP",
+        Refused(
+            "a position file (.EQP) of an earlier run is not read",
+            "POS1 of deck 15 puts structure 1 into its place",
+        ),
+    ),
+    ("SUFC", Refused("forces of another program are not taken", "FORC of deck 14 is a constant force")),
 ];
 
 /// Deck 0.
@@ -215,11 +245,11 @@ fn read_job(job: &mut JobDeck, line: &CardLine<'_>, rest: &str, remarks: &mut Re
         }
     }
     if !job.analysis.is_empty() && !ANALYSES.contains(&job.analysis.as_str()) {
-        let mut warning =
-            Diagnostic::warning(format!("deck 0, JOB: `{}` is no known analysis", job.analysis), line.whole())
-                .label("columns 17-20 hold WFRQ or DRFT for DRIF, nothing for NAUT");
-        warning.help.extend(did_you_mean(&job.analysis, ANALYSES.iter().copied()));
-        remarks.add(warning);
+        let mut error =
+            Diagnostic::error(format!("deck 0, JOB: `{}` is no known analysis", job.analysis), line.whole())
+                .label("columns 17-20 hold WFRQ or DRFT for DRIF, STAT or DYNA for LIBR, nothing for NAUT");
+        error.help.extend(did_you_mean(&job.analysis, ANALYSES.iter().copied()));
+        remarks.add(error);
     }
 }
 
@@ -231,17 +261,35 @@ fn read_options(job: &mut JobDeck, line: &CardLine<'_>, rest: &str, remarks: &mu
             return true;
         }
         let span = line.place_of(word);
-        if !OPTIONS.iter().any(|(known, _)| *known == name) {
-            let mut warning =
-                Diagnostic::warning(format!("deck 0, OPTIONS: {name} is not known and has no effect"), span);
-            warning.help.extend(did_you_mean(&name, OPTIONS.iter().map(|(known, _)| *known)));
-            remarks.add(warning);
+        if let Some(said) = report_option(&name, span) {
+            remarks.add_once(&format!("option {name}"), || said);
         }
         if job.options.len() < MAX_OPTIONS {
             job.options.push((name, span));
         }
     }
     false
+}
+
+/// What is said of an option that is not acted on; a name that is not known may be a part of one.
+fn report_option(name: &str, span: Span) -> Option<Box<Diagnostic>> {
+    let card = format!("deck 0, OPTIONS, {name}");
+    match OPTIONS.iter().find(|(known, _)| *known == name).map(|(_, effect)| *effect) {
+        Some(Acts) => None,
+        Some(Prints(what)) => Some(Diagnostic::remark(format!("{card}: {what}; no page is added or left out"), span)),
+        Some(OfLine(what)) => {
+            Some(Diagnostic::remark(format!("{card}: {what}; an option of LINE, without effect here"), span))
+        }
+        Some(Refused(why, help)) => Some(Diagnostic::error(format!("{card}: {why}"), span).help(help)),
+        None => {
+            let mut error = Diagnostic::error(format!("deck 0, OPTIONS: {name} is not known"), span)
+                .label("a name of four letters belongs here, with blanks between two names");
+            error.help.extend(did_you_mean(name, OPTIONS.iter().map(|(known, _)| *known)));
+            Some(
+                error.help("an option may change results, so that none is passed over: leave it out if it only prints"),
+            )
+        }
+    }
 }
 
 fn read_restart(job: &mut JobDeck, restart: Option<CardLine<'_>>, remarks: &mut Remarks) {

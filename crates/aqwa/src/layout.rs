@@ -26,19 +26,33 @@ pub struct Slot {
     pub width: usize,
     /// What it holds.
     pub holds: FieldType,
+    /// Whether a value below 0 has a meaning.
+    pub signed: bool,
+    /// Whether it is commonly left blank before others: nothing is said of it then.
+    pub often_blank: bool,
 }
 
 /// A whole number, five columns wide.
 pub const fn int(name: &'static str, column: usize) -> Slot {
-    Slot { name, column, width: 5, holds: FieldType::Integer }
+    Slot { name, column, width: 5, holds: FieldType::Integer, signed: true, often_blank: false }
 }
 
 /// A number, ten columns wide.
 pub const fn num(name: &'static str, column: usize) -> Slot {
-    Slot { name, column, width: 10, holds: FieldType::Real }
+    Slot { name, column, width: 10, holds: FieldType::Real, signed: true, often_blank: false }
 }
 
 impl Slot {
+    /// The same, refused below 0.
+    pub const fn not_below_zero(self) -> Self {
+        Slot { signed: false, ..self }
+    }
+
+    /// The same, of which nothing is said where it is blank.
+    pub const fn often_blank(self) -> Self {
+        Slot { often_blank: true, ..self }
+    }
+
     fn last_column(&self) -> usize {
         self.column + self.width - 1
     }
@@ -222,6 +236,17 @@ impl CardLayout {
                 .label(format!("{} belongs here", slot.name))
                 .help(self.usage())
             };
+            if !slot.signed && real(word).is_some_and(|value| value < 0.0) {
+                let message = format!(
+                    "{}, columns {}-{}: {word} is below 0",
+                    self.name_with_deck(deck),
+                    slot.column,
+                    slot.last_column()
+                );
+                return Err(Diagnostic::error(message, span)
+                    .label(format!("{} is 0 or above", slot.name))
+                    .help(self.usage()));
+            }
             match slot.holds {
                 FieldType::Integer => {
                     let value = if given { integer(word).ok_or_else(wrong)? } else { 0 };
@@ -293,6 +318,26 @@ impl CardLayout {
             .label(format!("{} ends with column {}", right.name, right.last_column()))
             .help(format!("if this is {}, it belongs in columns {}-{}", left.name, left.column, left.last_column()))
             .help(self.usage()))
+    }
+
+    /// Notes a number that is left blank before another one of the card: it reads as 0. Rows of matrices are written so.
+    pub fn blank_note(&self, deck: &str, record: &CardRecord) -> Option<Box<Diagnostic>> {
+        if matches!(self.repeats, Repeats::Once { by, .. } if !by.is_empty()) {
+            return None;
+        }
+        let last = record.reals.iter().rposition(|(_, field)| field.given)?;
+        let blank = record.reals.iter().take(last).filter(|(_, field)| !field.given);
+        let slot_at = |column: usize| self.slots.iter().find(|slot| slot.column == column);
+        let with_slot = |(column, field): &(usize, Field<f64>)| {
+            Some((*column, *field, slot_at(*column).filter(|slot| !slot.often_blank)?))
+        };
+        let (column, field, slot) = blank.filter_map(with_slot).next()?;
+        let message = format!(
+            "{}, columns {column}-{}: this field is blank and reads as 0",
+            self.name_with_deck(deck),
+            slot.last_column()
+        );
+        Some(Diagnostic::remark(message, field.span).label(format!("{} belongs here", slot.name)))
     }
 
     fn nothing_between(

@@ -12,7 +12,12 @@ use super::tethers::{Builder, Tether};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
-const ENDS: [Slot; 4] = [int("structure 1", 11), int("node 1", 16), int("structure 2", 21), int("node 2", 26)];
+const ENDS: [Slot; 4] = [
+    int("structure 1", 11).not_below_zero(),
+    int("node 1", 16).not_below_zero(),
+    int("structure 2", 21).not_below_zero(),
+    int("node 2", 26).not_below_zero(),
+];
 const NOT_YET: &str = "pre-processing of tethers is not available in AQWA 5.4 [AQWA-TETHER A.13] nor here";
 
 /// The card that closes a tether.
@@ -41,7 +46,7 @@ pub const LAYOUTS: &[CardLayout] = &[
     )
     .repeatable_after(TETHER),
     CardLayout::new("TPSH", &[int("hours", 11), num("hours", 31)]).repeatable_after(TETHER),
-    CardLayout::new("TSLK", &[num("time", 31)]),
+    CardLayout::new("TSLK", &[num("time", 31).not_below_zero()]),
     CardLayout::new("TEGR", &[int("number of identical tethers", 11)]).repeatable_after(TETHER),
     CardLayout::new("TCAP", &[num("anchor cap area", 31), num("vessel cap area", 41)]).repeatable_after(TETHER),
     CardLayout::new("TIFL", &[num("internal pressure", 31), num("density of the internal fluid", 41)])
@@ -115,11 +120,11 @@ pub const LAYOUTS: &[CardLayout] = &[
         "ECAT",
         &[
             int("pretension flag", 26),
-            num("mass a length", 31),
-            num("area", 41),
-            num("EA", 51),
-            num("greatest tension", 61),
-            num("length", 71),
+            num("mass a length", 31).not_below_zero(),
+            num("area", 41).not_below_zero(),
+            num("EA", 51).not_below_zero(),
+            num("greatest tension", 61).not_below_zero(),
+            num("length", 71).not_below_zero(),
         ],
     )
     .freely(),

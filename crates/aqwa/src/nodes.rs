@@ -16,15 +16,22 @@ use windlass_base::span::Span;
 pub const MAX_NODES: usize = 60_000;
 
 const SLOTS: &[super::layout::Slot] = &[
-    super::layout::Slot { name: "node number", column: 7, width: 4, holds: super::layout::FieldType::Integer },
+    super::layout::Slot {
+        name: "node number",
+        column: 7,
+        width: 4,
+        holds: super::layout::FieldType::Integer,
+        signed: true,
+        often_blank: false,
+    },
     int("how many nodes to generate", 11),
     int("step of the node numbers", 16),
     num("X", 21),
     num("Y", 31),
     num("Z", 41),
-    num("step of X", 51),
-    num("step of Y", 61),
-    num("step of Z", 71),
+    num("step of X", 51).often_blank(),
+    num("step of Y", 61).often_blank(),
+    num("step of Z", 71).often_blank(),
 ];
 const UNPUBLISHED_CARD_REASON: &str = "the columns of this card are published nowhere; give the nodes one by one";
 
@@ -63,6 +70,10 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> NodeTable {
         let step = step.or(1);
         let from: [Field<f64>; 3] = record.reals(21);
         let by: [Field<f64>; 3] = record.reals(51);
+        if let (true, true, Some(blank)) = (from[0].given, from[1].given, from.last().filter(|field| !field.given)) {
+            let message = "deck 1, columns 41-50: this field is blank and reads as 0";
+            remarks.add(Diagnostic::remark(message, blank.span).label("Z belongs here"));
+        }
         if let (1, Some(idle)) = (count, by.iter().find(|field| field.value != 0.0)) {
             remarks.add(
                 Diagnostic::error(

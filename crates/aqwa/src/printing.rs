@@ -10,18 +10,18 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 const STEP_SLOTS: &[Slot] = &[int("number of steps", 11)];
-const PARAMETER: &[Slot] = &[int("structure", 11), int("parameter", 16)];
+const PARAMETER: &[Slot] = &[int("structure", 11).not_below_zero(), int("parameter", 16).not_below_zero()];
 
 /// Cards of deck 18.
 pub const LAYOUTS: &[CardLayout] = &[
     CardLayout::new("PREV", STEP_SLOTS),
     CardLayout::new("TPRV", STEP_SLOTS),
     CardLayout::new("TGRV", STEP_SLOTS),
-    CardLayout::new("GREV", STEP_SLOTS),
-    CardLayout::new("PPRV", STEP_SLOTS),
+    CardLayout::pass_over("GREV", "no graphics file is written; plots are had with the reports of the session"),
+    CardLayout::pass_over("PPRV", "no file of positions is written; the reports of the session give them"),
     CardLayout::new("TSTS", &[int("first step of the statistics", 11)]),
     CardLayout::new("TSTF", &[int("last step of the statistics", 11)]),
-    CardLayout::new("PTEN", &[int("structure", 11)]).repeated_by(&[11]),
+    CardLayout::new("PTEN", &[int("structure", 11).not_below_zero()]).repeated_by(&[11]),
     CardLayout::new(
         "NODE",
         &[int("structure", 11), int("node", 16), int("reference structure", 21), int("reference node", 26)],
@@ -108,7 +108,7 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> Printing {
         printing.span = record.span;
         let first = record.int(11);
         let keyword = record.keyword.as_str();
-        let counts = matches!(keyword, "PREV" | "TPRV" | "TGRV" | "TSTS" | "TSTF" | "GREV" | "PPRV");
+        let counts = matches!(keyword, "PREV" | "TPRV" | "TGRV" | "TSTS" | "TSTF");
         if counts && first.value <= 0 && first.given {
             remarks.add(
                 Diagnostic::error(

@@ -21,9 +21,9 @@ pub const MATERIALS: &[CardLayout] = &[CardLayout::new(
     "",
     &[
         int("material group", 16),
-        num("density or mass", 21),
-        num("Young's modulus or second property", 31),
-        num("third property", 41),
+        num("density or mass", 21).not_below_zero(),
+        num("Young's modulus or second property", 31).not_below_zero(),
+        num("third property", 41).not_below_zero(),
     ],
 )
 .freely()];
@@ -44,7 +44,11 @@ pub const GEOMETRIES: &[CardLayout] = &[
     CardLayout::new("PMAS", DOF_SLOTS).freely(),
     CardLayout::assume("STUB", DOF_SLOTS).freely(),
     CardLayout::assume("DISC", DOF_SLOTS).freely(),
-    CardLayout::new("CONT", &[num("drag coefficient", 21), num("added mass coefficient", 31)]).freely(),
+    CardLayout::new(
+        "CONT",
+        &[num("drag coefficient", 21).not_below_zero(), num("added mass coefficient", 31).not_below_zero()],
+    )
+    .freely(),
 ];
 
 /// Cards of deck 5.
@@ -187,12 +191,24 @@ pub fn read_geometries(records: &[CardRecord], remarks: &mut Remarks) -> Geometr
         let parameters = record.reals(21);
         let geometry =
             Geometry { shape, group: group.value, parameters, drag: None, added_mass: None, span: record.span };
-        if shape == ElementShape::Tube {
-            check_tube(&geometry, remarks);
+        match shape {
+            ElementShape::Tube => check_tube(&geometry, remarks),
+            ElementShape::PointMass => check_inertia(&geometry, remarks),
+            _ => {}
         }
         list.insert(key, geometry);
     }
     list
+}
+
+/// Moments of inertia are not below 0; products may be.
+fn check_inertia(geometry: &Geometry, remarks: &mut Remarks) {
+    for (index, name) in [(0, "Ixx"), (3, "Iyy"), (5, "Izz")] {
+        let Some(inertia) = geometry.parameters.get(index).filter(|inertia| inertia.value < 0.0) else { continue };
+        let (first, last) = (21 + 10 * index, 30 + 10 * index);
+        let message = format!("deck 4, PMAS, columns {first}-{last}: an {name} of {} is below 0", inertia.value);
+        remarks.add(Diagnostic::error(message, inertia.span).label("a moment of inertia is 0 or above"));
+    }
 }
 
 fn check_tube(geometry: &Geometry, remarks: &mut Remarks) {
@@ -228,6 +244,11 @@ pub fn read_global(records: &[CardRecord], remarks: &mut Remarks) -> WaterAndGra
             let message = format!("deck 5, {}, columns 11-20: {} is not above 0", record.keyword, value.value);
             remarks.add(Diagnostic::error(message, value.span));
             continue;
+        }
+        if !value.given {
+            let message =
+                format!("deck 5, {}, columns 11-20: this field is blank and the default is taken", record.keyword);
+            remarks.add(Diagnostic::remark(message, record.span));
         }
         match record.keyword.as_str() {
             "DPTH" => {

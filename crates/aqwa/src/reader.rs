@@ -318,7 +318,11 @@ impl<'a> CardReader<'a> {
                 return None;
             }
         }
-        self.remarks.keep(layout.read(label, line, face))
+        let record = self.remarks.keep(layout.read(label, line, face))?;
+        if let Some(note) = layout.blank_note(label, &record) {
+            self.remarks.add(note);
+        }
+        Some(record)
     }
 }
 

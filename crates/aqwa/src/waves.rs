@@ -22,8 +22,8 @@ pub const MAX_SPECTRAL_LINES: i64 = 10_000;
 /// Spectral lines when NSPL is not given (assumed; newer versions of AQWA have 200).
 const USUAL_LINES: i64 = 50;
 
-const START: Slot = num("first frequency", 21);
-const FINISH: Slot = num("last frequency", 31);
+const START: Slot = num("first frequency", 21).not_below_zero();
+const FINISH: Slot = num("last frequency", 31).not_below_zero();
 const UNPUBLISHED_CARD_REASON: &str = "the columns of this card are published nowhere";
 
 /// Cards that give a spectrum; settings stand before them.
@@ -141,6 +141,8 @@ pub struct SpectrumCard {
     pub range: (f64, f64),
     /// Number of spectral lines.
     pub lines: i64,
+    /// Whether NSPL gave it.
+    pub lines_given: bool,
     /// Direction towards which the waves travel (degrees).
     pub direction: f64,
     /// Seed of the phases; 1 by default.
@@ -204,6 +206,7 @@ pub fn read_spectra(records: &[CardRecord], remarks: &mut Remarks) -> WaveDeck {
         form: SpectrumForm::Given(Vec::new()),
         range: (0.0, 0.0),
         lines: USUAL_LINES,
+        lines_given: false,
         direction: 0.0,
         seed: 1,
         phases: Vec::new(),
@@ -226,6 +229,7 @@ pub fn read_spectra(records: &[CardRecord], remarks: &mut Remarks) -> WaveDeck {
             }
             "NSPL" => {
                 now.lines = lines(record.int(16), remarks);
+                now.lines_given = record.int(16).value != 0;
                 continue;
             }
             "SPDN" => {
@@ -394,6 +398,14 @@ pub fn read_regular(records: &[CardRecord], remarks: &mut Remarks) -> WaveDeck {
     let mut wave = RegularWave { span, ..RegularWave::default() };
     for record in records {
         let value = record.real(21).value;
+        if !record.real(21).given && matches!(record.keyword.as_str(), "WAMP" | "HGHT") {
+            let message = format!("deck 13, {}, columns 21-30: this field is blank", record.keyword);
+            remarks.add(
+                Diagnostic::error(message, record.real(21).span)
+                    .label("the size of the wave belongs here")
+                    .help("still water is NONE in the place of WAVE"),
+            );
+        }
         match record.keyword.as_str() {
             "WAMP" => wave.amplitude = value,
             "HGHT" => wave.amplitude = value / 2.0,

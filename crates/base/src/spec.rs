@@ -33,6 +33,8 @@ pub enum Kind {
     ChoiceOrName(&'static [&'static str], Noun),
     /// Any word.
     Text,
+    /// A name, a selector, an attribute or a number, in an order that the handler reads.
+    Item,
     /// A file name.
     File,
     /// A number whose dimension follows from the degree of freedom before it: stiffness.
@@ -176,7 +178,7 @@ impl Kind {
 
     /// Whether it is read as text; a choice is read as the enum of its words.
     pub(crate) const fn is_text(self) -> bool {
-        matches!(self, Kind::Name(_) | Kind::ChoiceOrName(..) | Kind::Text | Kind::File)
+        matches!(self, Kind::Name(_) | Kind::ChoiceOrName(..) | Kind::Text | Kind::Item | Kind::File)
     }
 }
 

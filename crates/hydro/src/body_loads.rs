@@ -13,11 +13,12 @@ use super::steady::{Medium, Steady};
 use super::stream::LoadPlace;
 use super::{
     BodyLoad, Category, DividedLoad, DynamicLoad, InertialLoad, Load, PreparedLoad, StatefulLoad, Underway, pieces,
+    roll_damping,
 };
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece};
+use windlass_model::{Attribute, Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece};
 
 /// What records have put on a body.
 #[derive(Debug)]
@@ -28,6 +29,39 @@ pub struct BodyLoads {
     pub added_mass: Matrix6<f64>,
     /// Damping about the origin of the body.
     pub damping: Matrix6<f64>,
+}
+
+/// Buoyancy at a point, `#BUOY`.
+#[derive(Debug)]
+struct PointBuoyancy {
+    /// Upward force when it is all under water (N).
+    force: f64,
+    /// Its place in the body (m).
+    at: Vector3<f64>,
+    /// The height over which it comes under water (m).
+    height: f64,
+    /// Height of the water's surface (m, global).
+    level: f64,
+}
+
+impl BodyLoad for PointBuoyancy {
+    fn category(&self) -> Category {
+        Category::Buoyancy
+    }
+
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let arm = pose.axes * self.at;
+        let depth = self.level - pose.origin.z - arm.z;
+        let share = if self.height > 0.0 { depth / self.height + 0.5 } else { f64::from(u8::from(depth >= 0.0)) };
+        let wet = share.clamp(0.0, 1.0);
+        let mut load = Load::constant(Vector3::new(0.0, 0.0, self.force * wet), arm);
+        if self.height > 0.0 && share > 0.0 && share < 1.0 {
+            // the force falls as the point rises by d_z + (turn x arm)_z
+            let rise = Six::new(0.0, 0.0, 1.0, arm.y, -arm.x, 0.0);
+            load.stiffness += rise * rise.transpose() * (self.force / self.height);
+        }
+        Ok(load)
+    }
 }
 
 /// A load times its multiplier.
@@ -102,6 +136,8 @@ pub fn scale_load(load: Box<dyn BodyLoad>, factor: f64) -> Box<dyn BodyLoad> {
 struct PartAxes<'a> {
     part: &'a Part,
     axes: Matrix3<f64>,
+    /// Height of the water's surface (m, global).
+    level: f64,
 }
 
 impl PartAxes<'_> {
@@ -142,7 +178,7 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
         let mine: Vec<&PartLoad> =
             model.loads.iter().filter(|l| Model::key(&l.part) == Model::key(&part.name)).collect();
         let bare = |piece: &Piece| piece.cs_wind == [0.0; 3] && piece.cs_current == [0.0; 3];
-        if mine.is_empty() && part.pieces.iter().all(bare) {
+        if mine.is_empty() && part.pieces.iter().all(|piece| bare(piece) && piece.eddy_damping == 0.0) {
             continue;
         }
         let steady = match &around {
@@ -155,12 +191,42 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
             }
         };
         around = Some(Arc::clone(&steady));
-        let frame = PartAxes { part, axes: *part.place.rotation().matrix() };
-        let first = sum.loads.len();
+        let frame = PartAxes { part, axes: *part.place.rotation().matrix(), level: model.surroundings().tide };
         for load in &mine {
+            let (before, mass, damping) = (sum.loads.len(), sum.added_mass, sum.damping);
             add_part_load(&mut sum, &steady, &frame, load, under_way)?;
+            let factor = |attribute| model.load_factor(&part.name, load.group.as_deref(), &load.category, attribute);
+            sum.added_mass = mass + (sum.added_mass - mass) * factor(Attribute::AddedMass);
+            sum.damping = damping + (sum.damping - damping) * factor(Attribute::Drag);
+            let made = sum.loads.split_off(before);
+            sum.loads.extend(made.into_iter().map(|made| {
+                let attribute = match made.category() {
+                    Category::Wind => Attribute::Wind,
+                    Category::Buoyancy => Attribute::Buoyancy,
+                    _ => Attribute::Drag,
+                };
+                let whole =
+                    factor(attribute) * model.multipliers.categories.get(made.category().name()).unwrap_or(&1.0);
+                if whole == 1.0 { made } else { Box::new(ScaledLoad { load: made, factor: whole }) }
+            }));
         }
+        let first = sum.loads.len();
         drift(&mut sum, (&steady, sea), &frame, &mine)?;
+        if under_way {
+            let mass = super::tank::laden_mass(model, body)?;
+            for load in &mine {
+                let LoadKind::EddyDamping(factor) = load.kind else { continue };
+                let factor =
+                    factor * model.load_factor(&part.name, load.group.as_deref(), &load.category, Attribute::Drag);
+                let made = roll_damping::build(model, (body, &mass), part, part.pieces.iter(), factor)?;
+                sum.loads.extend(made.map(|load| Box::new(load) as Box<dyn BodyLoad>));
+            }
+            for piece in part.pieces.iter().filter(|p| p.eddy_damping != 0.0) {
+                let one = std::iter::once(piece);
+                let made = roll_damping::build(model, (body, &mass), part, one, piece.eddy_damping)?;
+                sum.loads.extend(made.map(|load| Box::new(load) as Box<dyn BodyLoad>));
+            }
+        }
         let on = growth.as_ref().map(|growth| (growth, &pose));
         for piece in &part.pieces {
             sum.loads.extend(
@@ -197,7 +263,10 @@ fn add_part_load(
         }
         LoadKind::Damping(matrix) => sum.damping += at_origin(matrix, &frame.axes, at),
         LoadKind::AddedMass(matrix) => sum.added_mass += at_origin(matrix, &frame.axes, at),
-        LoadKind::Drift { .. } => {}
+        LoadKind::Drift { .. } | LoadKind::EddyDamping(_) => {}
+        LoadKind::Buoyancy { force, size } => {
+            sum.loads.push(Box::new(PointBuoyancy { force: *force, at, height: size[2], level: frame.level }));
+        }
         _ => {
             let media: &[Medium] = match load.fluid {
                 Fluid::ByHeight => &[Medium::Air, Medium::Water],

@@ -2,7 +2,7 @@
 
 use super::hull::{Fault, Solid, Surface, TubeHull, Wet, intersect};
 use super::{BodyLoad, Category, Load};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use windlass_base::geometry::Position;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
@@ -14,13 +14,78 @@ const WELD_DISTANCE_SHARE: f64 = 1e-6;
 /// Sides of the prism that a tube is to wind and current: with 64 its width is within 0.1 % of the diameter from every side.
 pub(super) const TUBE_PRISM_SIDES: u32 = 64;
 
+/// A piece as a solid of its body.
 #[derive(Debug)]
-enum SolidForm {
+pub(super) enum SolidForm {
     Surface(Surface),
     Tube(TubeHull),
 }
 
 impl SolidForm {
+    /// That of a piece.
+    ///
+    /// # Errors
+    /// A piece without panels or with a surface that is not closed or looks the wrong way.
+    pub(super) fn of_piece(part: &Part, piece: &Piece) -> Result<SolidForm, ClassError> {
+        let solid = Solidified::new(part, piece, Surface::leaks);
+        let fatal = solid.faults.into_iter().find(|fault| fault.fatal);
+        match (fatal, solid.form) {
+            (None, Some(form)) => Ok(form),
+            (fatal, _) => {
+                let error =
+                    fatal.map_or_else(|| ClassError::new(format!("piece {} has no volume", piece.name)), |f| f.error);
+                Err(ClassError { span: Some(piece.span), ..error })
+            }
+        }
+    }
+
+    /// Its volume (m3).
+    pub(super) fn volume(&self) -> f64 {
+        match self {
+            SolidForm::Surface(surface) => surface.volume(),
+            SolidForm::Tube(TubeHull { ends: [a, b], diameter }) => {
+                std::f64::consts::FRAC_PI_4 * diameter * diameter * (b - a).norm()
+            }
+        }
+    }
+
+    /// What of it is below a height in a pose.
+    pub(super) fn wet(&self, pose: &Pose, level: f64) -> Wet {
+        match self {
+            SolidForm::Surface(surface) => surface.wet(pose, level),
+            SolidForm::Tube(tube) => tube.wet(pose, level),
+        }
+    }
+
+    /// Its least and greatest height in a pose (m, global).
+    pub(super) fn reach(&self, pose: &Pose) -> [f64; 2] {
+        let height = |at: &Vector3<f64>| pose.origin.z + (pose.axes * at).z;
+        let span = |heights: &mut dyn Iterator<Item = f64>| {
+            heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)])
+        };
+        match self {
+            SolidForm::Surface(surface) => span(&mut surface.vertices.iter().map(height)),
+            SolidForm::Tube(TubeHull { ends, diameter }) => {
+                let [a, b] = *ends;
+                let axis = (pose.axes * (b - a)).try_normalize(0.0).unwrap_or_else(Vector3::z);
+                let beside = 0.5 * diameter * (1.0 - axis.z * axis.z).max(0.0).sqrt();
+                let [low, high] = span(&mut ends.iter().map(height));
+                [low - beside, high + beside]
+            }
+        }
+    }
+
+    /// Integrals of xx, xy .. zz over what of it is below a height (m5), about the origin of the pose in global axes; a tube as a prism of
+    /// its volume.
+    pub(super) fn second_moments(&self, pose: &Pose, level: f64) -> Matrix3<f64> {
+        match self {
+            SolidForm::Surface(surface) => surface.second_moments(pose, level),
+            SolidForm::Tube(tube) => tube.prism(TUBE_PRISM_SIDES).map_or_else(Matrix3::zeros, |prism| {
+                prism.second_moments(pose, level) * (self.volume() / prism.volume())
+            }),
+        }
+    }
+
     /// Its surface, of a tube that of a prism; `None` of a tube without length.
     fn surface(self) -> Option<Surface> {
         match self {
@@ -48,7 +113,7 @@ impl Hull {
     pub fn new(model: &Model, body: &Body) -> Result<Option<Self>, ClassError> {
         let mut pieces = Vec::new();
         for part in model.parts_of(body) {
-            for piece in part.pieces.iter().filter(|p| p.permeability != 0.0) {
+            for piece in part.pieces.iter().filter(|p| p.permeability != 0.0 && p.compartment.is_none()) {
                 let solid = Solidified::new(part, piece, Surface::leaks);
                 if let Some(fault) = solid.faults.iter().find(|f| f.fatal) {
                     return Err(ClassError { span: Some(piece.span), ..fault.error.clone() }
@@ -66,11 +131,7 @@ impl Hull {
     pub fn wet(&self, pose: &Pose) -> Wet {
         let mut sum = Wet::default();
         for (permeability, form) in &self.pieces {
-            let wet = match form {
-                SolidForm::Surface(surface) => surface.wet(pose, self.level),
-                SolidForm::Tube(tube) => tube.wet(pose, self.level),
-            };
-            sum.add(&wet, *permeability);
+            sum.add(&form.wet(pose, self.level), *permeability);
         }
         sum
     }
@@ -249,7 +310,9 @@ pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> V
     let round = tube_of(part, piece);
     for other in model.parts_of(body).flat_map(|p| p.pieces.iter().map(move |piece| (p, piece))) {
         // an interior lies within an exterior; two of one sort count twice where they overlap
-        if other.1.name == piece.name || other.1.permeability * piece.permeability <= 0.0 {
+        let apart =
+            other.1.compartment != piece.compartment && (other.1.compartment.is_none() || piece.compartment.is_none());
+        if apart || other.1.name == piece.name || other.1.permeability * piece.permeability <= 0.0 {
             continue;
         }
         if are_disjoint(&bounds, &self::bounds(other.0, other.1)) {

@@ -60,7 +60,7 @@ pub fn build_growth_loads(model: &Model, body: &Body) -> Result<GrowthLoads, Cla
     let (pose, around) = (Pose::from_place(&body.place), model.surroundings());
     let mut all = Vec::new();
     for part in model.parts_of(body) {
-        for piece in part.pieces.iter().filter(|p| p.permeability >= 0.0) {
+        for piece in part.pieces.iter().filter(|p| p.permeability >= 0.0 && p.compartment.is_none()) {
             if let Shape::Tube { ends, diameter } = piece.shape.with_displacement(&part.place) {
                 all.extend(rings(&growth, &pose, ends.map(Vector3::from), diameter));
             }

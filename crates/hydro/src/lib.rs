@@ -39,12 +39,14 @@ pub mod plate;
 pub mod pressure;
 pub mod ramp;
 mod righting;
+pub mod roll_damping;
 pub mod sea;
 pub mod spectrum;
 pub mod steady;
 pub mod stream;
 pub mod strips;
 pub mod surface_integrals;
+mod tank;
 pub mod variation;
 mod weight;
 pub mod wind;
@@ -53,6 +55,7 @@ pub use ambient::ambient;
 pub use body_load::{BodyLoad, DividedLoad, DynamicLoad, InertialLoad, PreparedLoad, StatefulLoad, Underway};
 pub use buoyancy::{Hull, PieceFault, piece_faults};
 pub use righting::{Balanced, balance_heave_and_trim};
+pub use tank::{Liquid, Tank, balance_tanks, compartments_of, contents_mass, laden_mass};
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use sea::Sea;
@@ -67,6 +70,8 @@ use windlass_model::{Body, ClassError, ConnectorCategory, Mass, Model};
 pub enum Category {
     /// Weights.
     Weight,
+    /// Contents of compartments.
+    Contents,
     /// Hydrostatic pressure.
     Buoyancy,
     /// Wind.
@@ -109,8 +114,9 @@ impl From<ConnectorCategory> for Category {
 
 impl Category {
     /// All, in the order of reports.
-    pub const ALL: [Category; 15] = [
+    pub const ALL: [Category; 16] = [
         Category::Weight,
+        Category::Contents,
         Category::Buoyancy,
         Category::Wind,
         Category::ViscousDrag,
@@ -136,6 +142,7 @@ impl Category {
     pub const fn name(self) -> &'static str {
         match self {
             Category::Weight => "WEIGHT",
+            Category::Contents => "CONTENTS",
             Category::Buoyancy => "BUOYANCY",
             Category::Wind => "WIND",
             Category::ViscousDrag => "V_DRAG",
@@ -240,7 +247,7 @@ pub fn cross(a: Vector3<f64>) -> Matrix3<f64> {
 /// A body with all that acts on it besides its connectors.
 #[derive(Debug)]
 pub struct Floating {
-    /// Its mass.
+    /// Its mass, with what is in its compartments.
     pub mass: Mass,
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
@@ -275,6 +282,7 @@ impl Floating {
         let mass = Mass::from_parts(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
         loads.extend(weight::build_weight(&mass, gravity));
+        loads.extend(tank::build_tank_loads(model, body)?);
         if let Some(junction) = &body.junction {
             loads.extend(junction::build_junction_loads(junction, &mass, &model.surroundings()));
         }
@@ -302,6 +310,7 @@ impl Floating {
             loads.extend(brought.loads);
             added_mass += brought.added_mass;
         }
+        let mass = mass.with(&tank::contents_mass(model, body)?);
         Ok(Floating { mass, loads, added_mass, damping })
     }
 

@@ -32,13 +32,13 @@ const EDGE: f64 = 0.8;
 /// The same of a panel that waves may cut; there the error goes with the square.
 const EDGE_AT_SURFACE: f64 = 0.45;
 /// Standard deviations of the surface from the mean level within which waves may cut a panel.
-const NEAR: f64 = 3.0;
+const SURFACE_BAND_DEVIATIONS: f64 = 3.0;
 /// Nodes taken together by one thread.
 const NODES_A_PART: usize = 256;
 /// Panels at the surface taken together by one thread.
 const PANELS_A_PART: usize = 64;
 /// Panels of a piece beyond which all their edges are longer.
-const MOST: usize = 20_000;
+const MAX_PANELS_A_PIECE: usize = 20_000;
 
 /// The pressure of a sea on the pieces of a body.
 #[derive(Debug)]
@@ -127,7 +127,8 @@ fn from_surfaces(
     pose: &Pose,
     finer: f64,
 ) -> WavePressure {
-    let near = NEAR * (0.5 * sea.components.iter().map(|c| c.amplitude * c.amplitude).sum::<f64>()).sqrt();
+    let near =
+        SURFACE_BAND_DEVIATIONS * (0.5 * sea.components.iter().map(|c| c.amplitude * c.amplitude).sum::<f64>()).sqrt();
     let at_surface = EDGE_AT_SURFACE / mean_number(sea, 0.0) / finer;
     let height = |place: &Vector3<f64>| pose.origin.z + (pose.axes * place).z - sea.level;
     // a body that is raised by the waves takes its panels with it
@@ -142,7 +143,7 @@ fn from_surfaces(
     let (mut nodes, mut panels): (Vec<Node>, Vec<Pressed>) = (Vec::new(), Vec::new());
     for (factor, surface) in surfaces {
         let lowest = surface.vertices.iter().map(height).fold(f64::INFINITY, f64::min);
-        let made = Panelling::new(&surface, longest_at(lowest), MOST).refined(&limit, MOST);
+        let made = Panelling::new(&surface, longest_at(lowest), MAX_PANELS_A_PIECE).refined(&limit, MAX_PANELS_A_PIECE);
         let first = nodes.len() as u32;
         nodes.extend(made.nodes.into_iter().map(|place| Node { place, wrench: Six::zeros(), counts: false }));
         panels.extend(made.panels.into_iter().map(|p| Pressed { panel: p.map(|n| n + first), factor }));

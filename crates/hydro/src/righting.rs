@@ -25,6 +25,13 @@ pub struct Balanced {
     /// Righting arm (m): the moment about the fore-and-aft axis through the centre of gravity that turns the body back from a
     /// positive roll, over the weight.
     pub arm: f64,
+    /// The weight it is of, with the contents of compartments (N).
+    pub weight: f64,
+}
+
+/// Whether a category acts on a body in still water and air by itself.
+fn still(category: Category) -> bool {
+    matches!(category, Category::Weight | Category::Contents | Category::Buoyancy)
 }
 
 /// Balances heave and trim under weight and buoyancy at the roll of a place, from that place.
@@ -35,8 +42,7 @@ pub struct Balanced {
 /// # Errors
 /// A body without weight, or for which no balance was found.
 pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balanced, ClassError> {
-    let loads: Vec<_> =
-        floating.loads.iter().filter(|load| matches!(load.category(), Category::Weight | Category::Buoyancy)).collect();
+    let loads: Vec<_> = floating.loads.iter().filter(|load| still(load.category())).collect();
     let sum = |pose: &Pose| {
         let mut total = super::Load::none();
         for load in &loads {
@@ -46,8 +52,9 @@ pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balan
         }
         Ok::<_, ClassError>(total)
     };
-    let weight = loads.iter().find(|load| load.category() == Category::Weight);
-    let weight = -weight.map_or(Ok(0.0), |load| load.mean_load(&Pose::from_place(from)).map(|l| l.wrench[2]))?;
+    let heavy = loads.iter().filter(|load| load.category() != Category::Buoyancy);
+    let weight =
+        -heavy.map(|load| load.mean_load(&Pose::from_place(from)).map(|l| l.wrench[2])).sum::<Result<f64, _>>()?;
     if weight <= 0.0 {
         return Err(ClassError::new("it has no weight"));
     }
@@ -68,7 +75,7 @@ pub fn balance_heave_and_trim(floating: &Floating, from: &Place) -> Result<Balan
         let size = (by_trim.fixed_rows::<3>(3).dot(&across).abs() / weight).max(arm.norm());
         let trim = about.dot(&across);
         if force.z.abs() <= RESIDUAL_TOLERANCE * weight && trim.abs() <= RESIDUAL_TOLERANCE * weight * size {
-            return Ok(Balanced { place, arm: -about.dot(&along) / weight });
+            return Ok(Balanced { place, arm: -about.dot(&along) / weight, weight });
         }
         let matrix = Matrix2::new(
             by_heave[2],

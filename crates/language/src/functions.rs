@@ -6,7 +6,7 @@
 use super::logic;
 use super::number;
 use super::record::{Record, Word};
-use super::select;
+use super::select::{self, Owner};
 use super::token::TokenKind;
 use super::variables::Variables;
 use windlass_base::choice::Choice;
@@ -27,14 +27,22 @@ pub const FUNCTION_HELP: &[(&str, &str, &str)] = &[
         "? | REAL | INTEGER (nearest) | SIN SIND COS COSD TAN TAND ACOS ASIN ATAN (D: degrees in) | ATAN2 x y | SQRT LN \
          EXP ABS | MIN MAX MEAN SORT | INTERPOLATE x x1 y1 x2 y2 .. | NORM | DOT v1 v2 | UNIT_VEC | CROSS v1 v2 | SCALE f \
          v | ADDV f v1 v2 (v1 + f v2) | 3PTS2Q p1 p2 p3 (origin, on x, in xy; rows are the local axes) | VECG2L q v | \
-         VECL2G q v",
+         VECL2G q v. Ours: ASIND ACOSD ATAND (degrees out) | ATAN2D x y | LOG10 | ROUND x [n] (to n decimals, 0 without; halves \
+         away from zero) | FLOOR CEILING | MOD a b (remainder with the sign of a, as in Fortran) | SUM PRODUCT",
     ),
     (
         "&FORMAT",
         "&FORMAT(FMT text)",
-        "Fw.d, Ew.d or Iw for a number; UPPER, LOWER, FIRST (capital first letters) or COMMA (commas between words)",
+        "Fw.d, Ew.d or Iw for a number; UPPER, LOWER, FIRST (capital first letters) or COMMA (commas between words, and `and` before the last)",
     ),
-    ("&STRING", "&STRING(MATCH a b)", ".TRUE. when the two are equal up to the wild characters @ and / in either"),
+    (
+        "&STRING",
+        "&STRING(ACTION words ..)",
+        "MATCH a b: .TRUE. when the two are equal up to the wild characters @ and / in either. The other actions are our reading: LENGTH text \
+         (characters) | UPPER text | LOWER text | CONCAT a b .. (joined without blanks) | SUBSTRING i j text (characters i to j, from 1) | \
+         POSITION part text (of its first character, 0 where it is not there) | REPLACE old new text. Blanks between words count as one; \
+         quotes keep them",
+    ),
     ("&TOKEN", "&TOKEN(n words ..)", "the n-th word; N gives their number, a:b a range, LAST the last"),
     ("&LOGICAL", "&LOGICAL(phrase)", ".TRUE. or .FALSE."),
     ("&V_EXIST", "&V_EXIST(VAR)", ".TRUE. when the variable exists"),
@@ -100,6 +108,37 @@ choices! {
         AxesOfPoints = "3PTS2Q",
         ToLocal = "VECG2L",
         ToGlobal = "VECL2G",
+        AsinDegrees = "ASIND",
+        AcosDegrees = "ACOSD",
+        AtanDegrees = "ATAND",
+        AtanOfTwoDegrees = "ATAN2D",
+        CommonLogarithm = "LOG10",
+        Round = "ROUND",
+        Floor = "FLOOR",
+        Ceiling = "CEILING",
+        Modulo = "MOD",
+        Sum = "SUM",
+        Product = "PRODUCT",
+    }
+}
+
+impl NumberAction {
+    /// Whose name it is: those of MOSES keep their abbreviations [MOSES-REF lang_number].
+    fn owner(self) -> Owner {
+        match self {
+            NumberAction::AsinDegrees
+            | NumberAction::AcosDegrees
+            | NumberAction::AtanDegrees
+            | NumberAction::AtanOfTwoDegrees
+            | NumberAction::CommonLogarithm
+            | NumberAction::Round
+            | NumberAction::Floor
+            | NumberAction::Ceiling
+            | NumberAction::Modulo
+            | NumberAction::Sum
+            | NumberAction::Product => Owner::Ours,
+            _ => Owner::Moses,
+        }
     }
 }
 
@@ -109,7 +148,8 @@ fn number_function(words: &[Word], span: Span) -> Outcome<String> {
             Diagnostic::error("&NUMBER lacks its type", span).help(format!("known: {}", NumberAction::WORDS.join(" ")))
         );
     };
-    let action: NumberAction = select::choose_word(&action.text, action.span, "type of &NUMBER")?;
+    let known = NumberAction::ALL.iter().map(|known| (known.word(), known.owner(), *known));
+    let action = select::choose(&action.text, action.span, "type of &NUMBER", known)?;
     let name = action.word();
     if action == NumberAction::IsNumber {
         return Ok(logic::word(!rest.is_empty() && rest.iter().all(|w| number::evaluate(&w.text).is_ok())).to_string());
@@ -159,6 +199,27 @@ fn vector_action(action: NumberAction, x: &[f64]) -> Option<Vec<f64>> {
         NumberAction::Logarithm => one(f64::ln),
         NumberAction::Exponential => one(f64::exp),
         NumberAction::Absolute => one(f64::abs),
+        NumberAction::AsinDegrees => one(|a| a.asin().to_degrees()),
+        NumberAction::AcosDegrees => one(|a| a.acos().to_degrees()),
+        NumberAction::AtanDegrees => one(|a| a.atan().to_degrees()),
+        NumberAction::AtanOfTwoDegrees => match x {
+            [across, up] => Some(vec![up.atan2(*across).to_degrees()]),
+            _ => None,
+        },
+        NumberAction::CommonLogarithm => one(f64::log10),
+        NumberAction::Round => match x {
+            [a] => round_to_decimals(*a, 0.0).map(|a| vec![a]),
+            [a, decimals] => round_to_decimals(*a, *decimals).map(|a| vec![a]),
+            _ => None,
+        },
+        NumberAction::Floor => one(f64::floor),
+        NumberAction::Ceiling => one(f64::ceil),
+        NumberAction::Modulo => match x {
+            [a, b] => Some(vec![a % b]),
+            _ => None,
+        },
+        NumberAction::Sum => some.map(|v| vec![v.iter().sum()]),
+        NumberAction::Product => some.map(|v| vec![v.iter().product()]),
         NumberAction::AtanOfTwo => match x {
             [across, up] => Some(vec![up.atan2(*across)]),
             _ => None,
@@ -199,6 +260,16 @@ fn vector_action(action: NumberAction, x: &[f64]) -> Option<Vec<f64>> {
         }
         NumberAction::IsNumber => None,
     }
+}
+
+/// A number to so many decimals, from -15 to 15, halves away from zero; `None` of another number of decimals.
+fn round_to_decimals(value: f64, decimals: f64) -> Option<f64> {
+    const MAX_DECIMALS: f64 = 15.0;
+    let scale = 10f64.powi(decimals.abs() as i32);
+    // of fifteen figures: 2.345 as written has its half, as a binary number it is a little less
+    let nearest = |x: f64| format!("{x:.14e}").parse().unwrap_or(x).round();
+    (decimals.fract() == 0.0 && decimals.abs() <= MAX_DECIMALS)
+        .then(|| if decimals < 0.0 { nearest(value / scale) * scale } else { nearest(value * scale) / scale })
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -245,7 +316,13 @@ fn format_function(arguments: &Record, words: &[Word], span: Span) -> Outcome<St
         "UPPER" => return Ok(text.to_uppercase()),
         "LOWER" => return Ok(text.to_lowercase()),
         "FIRST" => return Ok(rest.iter().map(|w| capital(&w.text)).collect::<Vec<_>>().join(" ")),
-        "COMMA" => return Ok(rest.iter().map(|w| w.text.to_string()).collect::<Vec<_>>().join(", ")),
+        "COMMA" => {
+            let mut words: Vec<String> = rest.iter().map(|w| w.text.to_string()).collect();
+            if let (true, Some(last)) = (words.len() > 1, words.last_mut()) {
+                last.insert_str(0, "and ");
+            }
+            return Ok(words.join(", "));
+        }
         _ => {}
     }
     let bad = || {
@@ -296,13 +373,64 @@ pub fn exponent(value: f64, decimals: usize) -> String {
     }
 }
 
-fn string_function(words: &[Word], span: Span) -> Outcome<String> {
-    match words {
-        [action, a, b] if "MATCH".starts_with(&action.text.to_ascii_uppercase()) => {
-            Ok(logic::word(matches(&a.text, &b.text) || matches(&b.text, &a.text)).to_string())
-        }
-        _ => Err(Diagnostic::error("&STRING has the form &STRING(MATCH a b)", span)),
+choices! {
+    /// What `&STRING` does with its words.
+    enum StringAction {
+        Match = "MATCH",
+        Length = "LENGTH",
+        Upper = "UPPER",
+        Lower = "LOWER",
+        Concatenate = "CONCAT",
+        Substring = "SUBSTRING",
+        Position = "POSITION",
+        Replace = "REPLACE",
     }
+}
+
+fn string_function(words: &[Word], span: Span) -> Outcome<String> {
+    let Some((action, rest)) = words.split_first() else {
+        return Err(Diagnostic::error("&STRING lacks its action", span)
+            .help(format!("known: {}", StringAction::WORDS.join(" "))));
+    };
+    let action: StringAction = select::choose_word(&action.text, action.span, "action of &STRING")?;
+    let text = |from: usize| {
+        rest.get(from..).unwrap_or_default().iter().map(|w| w.text.as_ref()).collect::<Vec<_>>().join(" ")
+    };
+    let lacks = |form: &str| Diagnostic::error(format!("&STRING has the form &STRING({} {form})", action.word()), span);
+    Ok(match (action, rest) {
+        (StringAction::Match, [a, b]) => {
+            logic::word(matches(&a.text, &b.text) || matches(&b.text, &a.text)).to_string()
+        }
+        (StringAction::Match, _) => return Err(lacks("a b")),
+        (StringAction::Length, _) => text(0).chars().count().to_string(),
+        (StringAction::Upper, _) => text(0).to_uppercase(),
+        (StringAction::Lower, _) => text(0).to_lowercase(),
+        (StringAction::Concatenate, _) => rest.iter().map(|w| w.text.as_ref()).collect(),
+        (StringAction::Substring, [first, last, _, ..]) => {
+            let [first, last] = [character_number(first)?, character_number(last)?];
+            text(2).chars().skip(first - 1).take((last + 1).saturating_sub(first)).collect()
+        }
+        (StringAction::Substring, _) => return Err(lacks("i j text")),
+        (StringAction::Position, [part, _, ..]) => {
+            let whole = text(1);
+            let found = whole.find(part.text.as_ref()).and_then(|at| whole.get(..at));
+            found.map_or(0, |before| before.chars().count() + 1).to_string()
+        }
+        (StringAction::Position, _) => return Err(lacks("part text")),
+        (StringAction::Replace, [old, new, _, ..]) if !old.text.is_empty() => {
+            text(2).replace(old.text.as_ref(), &new.text)
+        }
+        (StringAction::Replace, _) => return Err(lacks("old new text")),
+    })
+}
+
+/// The number of a character, from 1.
+fn character_number(word: &Word) -> Outcome<usize> {
+    let number = number::evaluate(&word.text).ok().filter(|n| *n >= 1.0 && n.fract() == 0.0 && *n < 1e9);
+    number.map(|n| n as usize).ok_or_else(|| {
+        Diagnostic::error("&STRING(SUBSTRING ..) needs the numbers of two characters", word.span)
+            .label("expected a whole number from 1")
+    })
 }
 
 fn token_function(words: &[Word], span: Span) -> Outcome<String> {

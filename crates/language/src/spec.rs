@@ -216,6 +216,7 @@ pub fn describe_expected(kind: Kind, units: UnitSystem) -> String {
         }
         .into(),
         Kind::Text => "a word".into(),
+        Kind::Item => "a name, a selector or a number".into(),
         Kind::File => "a file name".into(),
         Kind::StiffnessOfDof => {
             format!("a stiffness ({} or {})", Dim::ForcePerLength.label(units), Dim::MomentPerRadian.label(units))

@@ -10,6 +10,9 @@ use super::variables::Variables;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
 
+/// Stands for a value that a check of a script cannot know, as nothing is solved in it. A function of it is not known either.
+pub const UNKNOWN: &str = "\u{FFFC}";
+
 /// Deepest nesting of functions within functions.
 const MAX_NESTING: usize = 32;
 
@@ -23,6 +26,11 @@ pub trait FunctionHost {
     /// # Errors
     /// Whatever is wrong with the arguments, at their place.
     fn function(&mut self, name: &str, words: &[Word], span: Span) -> Outcome<String>;
+
+    /// Whether a script is only checked: what is solved for is [`UNKNOWN`].
+    fn is_checking(&self) -> bool {
+        false
+    }
 
     /// The menus in which a command keeps a macro of this name from being called, empty for every menu; `None` when
     /// there is no such command.
@@ -204,6 +212,11 @@ fn function(
     arguments.push_range(record, open + 1..close);
     let arguments = expand(&arguments, variables, world, depth + 1)?;
     let words = arguments.words();
+    if world.is_checking() && arguments.text().contains(UNKNOWN) {
+        out.push_range(record, kept..mark);
+        out.push_replaced(UNKNOWN, span);
+        return Ok(Some(close + 1));
+    }
     let value = match functions::call(name, &arguments, &words, variables, span) {
         Some(result) => result?,
         None => world.function(name, &words, span)?,

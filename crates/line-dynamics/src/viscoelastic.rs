@@ -4,6 +4,10 @@ use super::mesh::{Rod, RodElement};
 use super::section::TensionLaw;
 use super::state::RodState;
 use nalgebra::Vector3;
+use windlass_nonlinear::bisect;
+
+/// Halvings of the strain of a slack rope: to the last digit of its share of the bracket.
+const SLACK_HALVINGS: usize = 60;
 
 /// A rope with a static and a dynamic stiffness, as one of polyester: a standard linear solid, the slow law with a
 /// Maxwell element beside it, whose spring makes up the dynamic stiffness and whose damper lets it go within the
@@ -74,12 +78,10 @@ impl ViscoelasticRope {
     /// Strain of a rope that is slack: that at which it has no tension. It shrinks as its damper goes back.
     fn slack_strain(&self, memory: &MaxwellMemory) -> f64 {
         // without the Maxwell spring's pull there is tension, at no strain there is none
-        let (mut low, mut high) = (0.0, -memory.kept / memory.follows.max(f64::MIN_POSITIVE));
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            let tension = self.slow.evaluate(middle).0 + self.maxwell_tension(middle, memory).0;
-            *(if tension > 0.0 { &mut high } else { &mut low }) = middle;
-        }
+        let high = -memory.kept / memory.follows.max(f64::MIN_POSITIVE);
+        let [low, _] = bisect([0.0, high], SLACK_HALVINGS, |strain| {
+            self.slow.evaluate(strain).0 + self.maxwell_tension(strain, memory).0 <= 0.0
+        });
         low.max(0.0)
     }
 

@@ -11,6 +11,9 @@ use windlass_base::span::Span;
 /// The part that points outside of any body belong to: fixed in the global system.
 pub const GROUND: &str = "GROUND";
 
+/// The part that surfaces given in `&SURFACE` before any body belong to, until `EMIT` puts them into a body: it has none.
+pub const LOOSE_SURFACES: &str = "&SURFACE";
+
 /// A rigid body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body {
@@ -60,8 +63,11 @@ pub struct Part {
     pub span: Span,
 }
 
+/// The category of loads that name none [MOSES-REF load_g].
+pub const EXTRA: &str = "EXTRA";
+
 /// A weight at a place of a part.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Weight {
     /// Its centre, in the part (m).
     pub at: Position,
@@ -69,8 +75,31 @@ pub struct Weight {
     pub weight: f64,
     /// Radii of gyration about axes through its centre, along those of the part (m).
     pub radii: [f64; 3],
+    /// Its category.
+    pub category: String,
+    /// The load group it belongs to; none: that of its part.
+    pub group: Option<String>,
+    /// The stations it is spread between for longitudinal strength, x in the part (m).
+    pub spread: Option<[f64; 2]>,
+    /// What `&APPLY` multiplies it by; kept up to date by [`crate::Model::refresh_weight_multipliers`].
+    pub multiplier: f64,
     /// Where it was given.
     pub span: Span,
+}
+
+impl Default for Weight {
+    fn default() -> Self {
+        Weight {
+            at: [0.0; 3],
+            weight: 0.0,
+            radii: [0.0; 3],
+            category: EXTRA.to_string(),
+            group: None,
+            spread: None,
+            multiplier: 1.0,
+            span: Span::default(),
+        }
+    }
 }
 
 /// Mass of a rigid body.
@@ -106,7 +135,7 @@ impl Mass {
         for part in parts {
             let turn = *part.place.rotation().matrix();
             for weight in &part.weights {
-                let mass = weight.weight / gravity;
+                let mass = weight.weight * weight.multiplier / gravity;
                 let at = Vector3::from(part.place.apply(weight.at));
                 let own = weight.radii.map(|k| mass * k * k);
                 let own = turn * Matrix3::from_diagonal(&own.into()) * turn.transpose();
@@ -119,6 +148,15 @@ impl Mass {
             sum.centre = first / sum.mass;
         }
         sum
+    }
+
+    /// The sum with another mass of the same body.
+    #[must_use]
+    pub fn with(&self, other: &Mass) -> Mass {
+        let mass = self.mass + other.mass;
+        let first = self.centre * self.mass + other.centre * other.mass;
+        let centre = if mass != 0.0 { first / mass } else { Vector3::zeros() };
+        Mass { mass, centre, inertia: self.inertia + other.inertia }
     }
 
     /// Moments of inertia about another point of the body (m), its axes (kg m2).

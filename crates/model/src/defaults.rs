@@ -2,7 +2,9 @@
 //!
 //! Source: [W-DEFAULTS].
 
+use windlass_base::geometry::Place;
 use windlass_base::units::{METRES_PER_INCH, NEWTONS_PER_KIP, STANDARD_GRAVITY};
+use windlass_base::values::Given;
 
 /// Material of a section where a record gives none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +24,7 @@ pub struct DefaultMaterial {
 }
 
 /// How coordinates of points are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coordinates {
     /// x y z.
     Rectangular,
@@ -30,6 +32,21 @@ pub enum Coordinates {
     Cylindrical,
     /// radius, angle (deg) in the plane, angle (deg) above the plane.
     Spherical,
+    /// x y z in a system that stands here in the part.
+    Placed(Place),
+}
+
+/// What `&DEFAULT` holds of waves and their statistics.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WaveDefaults {
+    /// Periods of RAO (s); none: those of the databases.
+    pub periods: Vec<f64>,
+    /// Headings of RAO (rad); none: those of the databases.
+    pub headings: Vec<f64>,
+    /// Time at which the components of a sea are in phase (s), of environments defined from then on.
+    pub reinforcement: Option<f64>,
+    /// The statistic of reports, where the environment gives none.
+    pub probability: Option<Given>,
 }
 
 /// Everything `&DEFAULT` holds.

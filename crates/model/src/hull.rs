@@ -1,5 +1,6 @@
 //! What makes a body float: pieces of its parts, each a closed surface, or one linear stiffness.
 
+use crate::UnmodelledEffect;
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::geometry::{Place, Position};
 use windlass_base::span::Span;
@@ -46,8 +47,14 @@ pub struct Piece {
     pub member: Option<Member>,
     /// What waves do to it.
     pub waves: WaveAction,
-    /// Options that are kept for what comes later: added mass, roll damping.
+    /// Factor of its eddy damping of roll; zero of none.
+    pub eddy_damping: f64,
+    /// Options that do not act, as given.
     pub kept: Vec<Given>,
+    /// Those of them whose effect no solver computes.
+    pub unmodelled: Vec<UnmodelledEffect>,
+    /// The interior compartment it belongs to; none of a piece of the hull.
+    pub compartment: Option<String>,
     /// Where it was defined.
     pub span: Span,
 }

@@ -21,10 +21,12 @@ mod assembly;
 pub mod bathymetry;
 mod body;
 mod class;
+mod compartment;
 mod connector;
 mod curve;
 mod database;
 mod defaults;
+mod draft_mark;
 mod element;
 mod environment;
 mod fatigue;
@@ -41,20 +43,23 @@ mod scheme;
 mod selector;
 mod tether;
 mod tie;
+mod unmodelled;
 
 pub use along::{EnergyBalance, LineMode, LineNode, LineSide, LineStress};
 pub use ambient::{Ambient, Contents, Filling, Flow};
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout, line_name};
 pub use bathymetry::Bathymetry;
-pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
+pub use body::{Body, EXTRA, GROUND, Junction, LOOSE_SURFACES, Mass, Part, Point, Weight};
 pub use class::{
     AnchoredClass, Class, ClassError, ClassRecord, ClassRole, ConnectorClass, DynamicLineClass, LengthClass, PipeClass,
     SegmentedClass, StaticLineClass, StaticSeabed, TetherSectionsClass, WallMaterial,
 };
+pub use compartment::{Compartment, FreeSurface, Hole, HoleKind, TankContents};
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
-pub use defaults::{Coordinates, DefaultMaterial, Defaults};
+pub use defaults::{Coordinates, DefaultMaterial, Defaults, WaveDefaults};
+pub use draft_mark::DraftMark;
 pub use element::{
     AnchoredElement, AnchoredResponse, Connection, ConnectorCategory, DynamicElement, Element, ElementResponse,
     ElementSummary, End, FenderState, NodalElement, PlacedElement, RunRequirement, Situation, SolverCache, SpringState,
@@ -68,7 +73,7 @@ pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, T
 pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
 pub use idealisation::{Idealisation, add_model_column};
 pub use line::{AbsentRow, Condition, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, Placement};
-pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
+pub use load::{Attribute, AttributeMultiplier, Fluid, LoadGroup, LoadKind, Multipliers, PartLoad};
 pub use names::EntityKind;
 pub use note::Note;
 pub use parameters::Parameters;
@@ -77,6 +82,7 @@ pub use scheme::SchemeWeights;
 pub use selector::Selector;
 pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, TetherUse};
 pub use tie::TieResponse;
+pub use unmodelled::{SolveKind, UnmodelledEffect};
 
 use indexmap::IndexMap;
 use std::sync::Arc;
@@ -101,6 +107,12 @@ pub struct Model {
     pub multipliers: Multipliers,
     /// What `&PARAMETER` said.
     pub parameters: Parameters,
+    /// Parameters saved by `&PARAMETER -SAVE`, innermost last.
+    pub saved_parameters: Vec<Parameters>,
+    /// Records whose effect no solver computes, but for those of pieces.
+    pub unmodelled: Vec<UnmodelledEffect>,
+    /// Draft marks.
+    pub draft_marks: IndexMap<String, DraftMark>,
     /// Classes.
     pub classes: IndexMap<String, Class>,
     /// Connectors.
@@ -123,8 +135,20 @@ pub struct Model {
     pub environment: Environment,
     /// Defaults in force.
     pub defaults: Defaults,
+    /// Defaults of waves in force.
+    pub wave_defaults: WaveDefaults,
     /// Defaults saved by `&DEFAULT -SAVE`, innermost last.
-    pub saved_defaults: Vec<Defaults>,
+    pub saved_defaults: Vec<(Defaults, WaveDefaults)>,
+    /// Interior compartments.
+    pub compartments: IndexMap<String, Compartment>,
+    /// Holes of compartments.
+    pub holes: IndexMap<String, Hole>,
+    /// The compartment that pieces now being given belong to; none: the hull of their part.
+    pub current_compartment: Option<String>,
+    /// Load groups.
+    pub load_groups: IndexMap<String, LoadGroup>,
+    /// The load group that loads now being given belong to; none: that of their part.
+    pub current_load_group: Option<String>,
     /// The part that points now being defined belong to.
     pub current_part: Option<String>,
     /// The piece that panels now being given belong to.

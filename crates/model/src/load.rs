@@ -3,10 +3,12 @@
 //! Source: [MOSES-REF load_g]; [MOSES-HELP lgroup]. Everything is in the axes of its part; the floors above turn it into
 //! forces.
 
+use crate::Model;
 use indexmap::IndexMap;
 use nalgebra::Matrix6;
 use windlass_base::geometry::Position;
 use windlass_base::span::Span;
+use windlass_base::wildcard::matches;
 
 /// What decides whether a load is one of wind or of current.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +46,16 @@ pub enum LoadKind {
     Damping(Matrix6<f64>),
     /// Added mass (kg, kg m, kg m2).
     AddedMass(Matrix6<f64>),
+    /// Buoyancy at a point: the upward force when it is all under water (N), and the sides of the box about the point that it grows
+    /// with (m).
+    Buoyancy {
+        /// The force (N).
+        force: f64,
+        /// Lengths along the axes of the part (m).
+        size: [f64; 3],
+    },
+    /// Eddy damping of the roll of the hull of its part, times this factor.
+    EddyDamping(f64),
     /// Mean wave drift in waves from one direction.
     Drift {
         /// Direction in the part that the waves come from (rad).
@@ -66,7 +78,24 @@ pub struct PartLoad {
     pub fluid: Fluid,
     /// What it is.
     pub kind: LoadKind,
+    /// Its category.
+    pub category: String,
+    /// The load group it belongs to; none: that of its part.
+    pub group: Option<String>,
     /// Where it was given.
+    pub span: Span,
+}
+
+/// Nodes of a part whose loads share a name, which `&APPLY` multiplies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadGroup {
+    /// Its name as written.
+    pub name: String,
+    /// The part of its nodes.
+    pub part: String,
+    /// Its nodes; none: those that carry its loads.
+    pub nodes: Vec<String>,
+    /// Where it was described.
     pub span: Span,
 }
 
@@ -80,24 +109,97 @@ impl LoadKind {
             LoadKind::Drag(_) => "#DRAG",
             LoadKind::Damping(_) => "#DAMP",
             LoadKind::AddedMass(_) => "#AMASS",
+            LoadKind::Buoyancy { .. } => "#BUOY",
+            LoadKind::EddyDamping(_) => "#TANAKA",
             LoadKind::Drift { .. } => "#DRIFT",
         }
     }
 }
 
-/// Multipliers of loads: those of a category, and those of all loads of a part. A load has the product of both.
+/// What of a load category `&APPLY` multiplies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attribute {
+    /// Weights.
+    Dead,
+    /// Buoyancy of `#BUOY`.
+    Buoyancy,
+    /// Wind.
+    Wind,
+    /// Current, and linear drag and damping.
+    Drag,
+    /// Added mass.
+    AddedMass,
+}
+
+/// A multiplier of the attributes of some categories.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttributeMultiplier {
+    /// A category, a pattern or a selector.
+    pub categories: String,
+    /// What it multiplies; none: every attribute.
+    pub attribute: Option<Attribute>,
+    /// The multiplier.
+    pub factor: f64,
+}
+
+/// Multipliers of loads: those of a force category, those of all loads of a part or a load group, and those of attributes of load
+/// categories. A load has the product of the three.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Multipliers {
-    /// By the name of a category.
+    /// By the name of a force category.
     pub categories: IndexMap<String, f64>,
-    /// By the name of a part in upper case.
+    /// By the name of a part or a load group in upper case.
     pub parts: IndexMap<String, f64>,
+    /// Of attributes of load categories; of several that fit the last counts.
+    pub attributes: Vec<AttributeMultiplier>,
 }
 
 impl Multipliers {
-    /// The multiplier of a category of loads on a part; one where none was given.
+    /// The multiplier of a force category of loads on a part; one where none was given.
     pub fn factor(&self, category: &str, part: &str) -> f64 {
         let one = |table: &IndexMap<String, f64>, name: &str| table.get(name).copied().unwrap_or(1.0);
-        one(&self.categories, category) * one(&self.parts, &part.to_ascii_uppercase())
+        one(&self.categories, category) * self.group(part)
+    }
+
+    /// The multiplier of a load group, or of the one that every part has; one where none was given.
+    pub fn group(&self, name: &str) -> f64 {
+        self.parts.get(&name.to_ascii_uppercase()).copied().unwrap_or(1.0)
+    }
+}
+
+impl Model {
+    /// The multiplier of an attribute of a load category; one where none was given.
+    pub fn attribute_factor(&self, category: &str, attribute: Attribute) -> f64 {
+        let fits = |rule: &&AttributeMultiplier| {
+            rule.attribute.is_none_or(|own| own == attribute)
+                && match self.selectors.get(&Model::key(&rule.categories)) {
+                    Some(selector) => selector.takes(category, self),
+                    None => matches(&rule.categories, category),
+                }
+        };
+        self.multipliers.attributes.iter().rev().find(fits).map_or(1.0, |rule| rule.factor)
+    }
+
+    /// The multiplier of an attribute of a load: that of its load group or part times that of its category.
+    pub fn load_factor(&self, part: &str, group: Option<&str>, category: &str, attribute: Attribute) -> f64 {
+        self.multipliers.group(group.unwrap_or(part)) * self.attribute_factor(category, attribute)
+    }
+
+    /// Gives every weight the multiplier that `&APPLY` says.
+    pub fn refresh_weight_multipliers(&mut self) {
+        let factors: Vec<Vec<f64>> = self
+            .parts
+            .values()
+            .map(|part| {
+                let factor =
+                    |w: &crate::Weight| self.load_factor(&part.name, w.group.as_deref(), &w.category, Attribute::Dead);
+                part.weights.iter().map(factor).collect()
+            })
+            .collect();
+        for (part, factors) in self.parts.values_mut().zip(factors) {
+            for (weight, factor) in part.weights.iter_mut().zip(factors) {
+                weight.multiplier = factor;
+            }
+        }
     }
 }

@@ -1,10 +1,10 @@
 //! What things are called: the sorts of things that have names, which names are taken, and what uses a thing.
 //!
-//! Connectors, bodies, parts, pieces, curves, bathymetries, sets of T_PRESSURE data and environments share one set of names, so that a name means one thing;
+//! Connectors, bodies, parts, pieces, curves, bathymetries, sets of T_PRESSURE data, draft marks and environments share one set of names, so that a name means one thing;
 //! classes, points and selectors are distinguished by their markers. A body and its own part have one name, and a piece may have
 //! that of its body or part.
 
-use super::{Assembly, AssemblyKind, CurveReference, Environment, Model, Piece};
+use super::{Assembly, AssemblyKind, CurveReference, DraftMark, Environment, LOOSE_SURFACES, Model, Piece};
 use windlass_base::diagnostic::with_article;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -27,6 +27,8 @@ pub enum EntityKind {
     Part,
     /// A piece of a hull.
     Piece,
+    /// An interior compartment.
+    Compartment,
     /// An environment kept under a name.
     Environment,
     /// A curve.
@@ -35,13 +37,15 @@ pub enum EntityKind {
     Bathymetry,
     /// What pipes hold.
     Filling,
+    /// A draft mark.
+    DraftMark,
     /// A selector.
     Selector,
 }
 
 impl EntityKind {
     /// All sorts.
-    pub const ALL: [EntityKind; 12] = [
+    pub const ALL: [EntityKind; 14] = [
         EntityKind::Connector,
         EntityKind::Class,
         EntityKind::Point,
@@ -49,10 +53,12 @@ impl EntityKind {
         EntityKind::Body,
         EntityKind::Part,
         EntityKind::Piece,
+        EntityKind::Compartment,
         EntityKind::Environment,
         EntityKind::Curve,
         EntityKind::Bathymetry,
         EntityKind::Filling,
+        EntityKind::DraftMark,
         EntityKind::Selector,
     ];
 
@@ -66,26 +72,30 @@ impl EntityKind {
             EntityKind::Body => "body",
             EntityKind::Part => "part",
             EntityKind::Piece => "piece",
+            EntityKind::Compartment => "compartment",
             EntityKind::Environment => "environment",
             EntityKind::Curve => "curve",
             EntityKind::Bathymetry => "bathymetry",
             EntityKind::Filling => "set of T_PRESSURE data",
+            EntityKind::DraftMark => "draft mark",
             EntityKind::Selector => "selector",
         }
     }
 }
 
 /// The sorts without a marker, which share one set of names.
-const UNMARKED: [EntityKind; 9] = [
+const UNMARKED: [EntityKind; 11] = [
     EntityKind::Connector,
     EntityKind::Assembly,
     EntityKind::Body,
     EntityKind::Part,
     EntityKind::Piece,
+    EntityKind::Compartment,
     EntityKind::Environment,
     EntityKind::Curve,
     EntityKind::Bathymetry,
     EntityKind::Filling,
+    EntityKind::DraftMark,
 ];
 
 impl Model {
@@ -97,12 +107,16 @@ impl Model {
             EntityKind::Point => self.points.values().map(|p| p.name.as_str()).collect(),
             EntityKind::Assembly => self.assemblies.values().map(|a| a.name.as_str()).collect(),
             EntityKind::Body => self.bodies.values().map(|b| b.name.as_str()).collect(),
-            EntityKind::Part => self.parts.values().map(|p| p.name.as_str()).collect(),
+            EntityKind::Part => {
+                self.parts.values().map(|p| p.name.as_str()).filter(|name| *name != LOOSE_SURFACES).collect()
+            }
             EntityKind::Piece => self.parts.values().flat_map(|p| p.pieces.iter().map(|s| s.name.as_str())).collect(),
+            EntityKind::Compartment => self.compartments.values().map(|c| c.name.as_str()).collect(),
             EntityKind::Environment => self.environments.values().map(|e| e.name.as_str()).collect(),
             EntityKind::Curve => self.curves.values().map(|c| c.name.as_str()).collect(),
             EntityKind::Bathymetry => self.bathymetries.values().map(|b| b.name.as_str()).collect(),
             EntityKind::Filling => self.fillings.values().map(|f| f.name.as_str()).collect(),
+            EntityKind::DraftMark => self.draft_marks.values().map(|m| m.name.as_str()).collect(),
             EntityKind::Selector => self.selectors.values().map(|s| s.name.as_str()).collect(),
         }
     }
@@ -117,7 +131,9 @@ impl Model {
                 name.strip_prefix('*').is_some_and(|own| self.assemblies.contains_key(&Model::key(own)))
             }
             EntityKind::Part => self.bodies.contains_key(&Model::key(name)),
-            EntityKind::Piece => self.parts.contains_key(&Model::key(name)),
+            EntityKind::Piece => {
+                self.parts.contains_key(&Model::key(name)) || self.compartments.contains_key(&Model::key(name))
+            }
             _ => false,
         };
         list.filter(|(thing, name)| !taken(*thing, name)).collect()
@@ -134,10 +150,12 @@ impl Model {
             EntityKind::Body => self.bodies.get(&key).map(|b| b.span),
             EntityKind::Part => self.parts.get(&key).map(|p| p.span),
             EntityKind::Piece => self.piece(name).map(|(_, piece)| piece.span),
+            EntityKind::Compartment => self.compartments.get(&key).map(|c| c.span),
             EntityKind::Environment => self.environments.get(&key).map(|e| e.span),
             EntityKind::Curve => self.curves.get(&key).map(|c| c.span),
             EntityKind::Bathymetry => self.bathymetries.get(&key).map(|b| b.span),
             EntityKind::Filling => self.fillings.get(&key).map(|f| f.span),
+            EntityKind::DraftMark => self.draft_marks.get(&key).map(|m| m.span),
             EntityKind::Selector => self.selectors.get(&key).map(|s| s.span),
         }
     }
@@ -155,7 +173,7 @@ impl Model {
             Some((thing, place)) => {
                 Err(Diagnostic::error(format!("{name} is the name of {} already", with_article(thing.word())), span)
                     .other(place, "defined here")
-                    .help("connectors, bodies, parts, pieces, curves, bathymetries, T_PRESSURE data and environments all have different names"))
+                    .help("connectors, bodies, parts, pieces, curves, bathymetries, T_PRESSURE data, draft marks and environments all have different names"))
             }
         }
     }
@@ -170,7 +188,11 @@ impl Model {
                 let pipes = self.assemblies.values().filter(made_of).map(|a| a.name.as_str());
                 self.users_of_class(name).into_iter().chain(pipes).collect()
             }
-            EntityKind::Point => self.users_of_point(name),
+            EntityKind::Point => {
+                let on_it = |mark: &&DraftMark| mark.points.iter().any(|p| Model::key(p) == key);
+                let marks = self.draft_marks.values().filter(on_it).map(|m| m.name.as_str());
+                self.users_of_point(name).into_iter().chain(marks).collect()
+            }
             EntityKind::Body => {
                 let own = self.points.values().filter(|p| self.body_of(p).is_some_and(|b| Model::key(&b.name) == key));
                 own.flat_map(|p| self.users_of_point(&p.name)).collect()
@@ -187,7 +209,11 @@ impl Model {
                 users.map(|s| s.name.as_str()).collect()
             }
             EntityKind::Connector => self.assembly_of(name).map(|a| a.name.as_str()).into_iter().collect(),
-            EntityKind::Environment | EntityKind::Piece | EntityKind::Assembly => Vec::new(),
+            EntityKind::Environment
+            | EntityKind::Piece
+            | EntityKind::Compartment
+            | EntityKind::Assembly
+            | EntityKind::DraftMark => Vec::new(),
         }
     }
 

@@ -5,8 +5,16 @@ use crate::{Body, ClassError, LoadKind, Model, WaveAction};
 /// What holds for all computations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parameters {
-    /// Whether modes and runs go on without what a body lacks, and reports say so.
+    /// Whether solves go on without what a body lacks and without effects that are not computed, and reports say so.
     pub accept_missing: bool,
+    /// Drag coefficient of tubes whose record gives none (`-DRGTUB`).
+    pub tube_drag: Option<f64>,
+    /// Added mass coefficient of tubes whose record gives none (`-AMCTUB`).
+    pub tube_added_mass: Option<f64>,
+    /// Shape coefficient of tubes in wind whose record gives none (`-WCSTUBE`).
+    pub tube_wind: Option<f64>,
+    /// Drag coefficient of plates whose record gives none (`-DRGPLA`).
+    pub plate_drag: Option<f64>,
     /// The dividing period of first-order and low-frequency motion (s), where one is given.
     pub dividing: Option<f64>,
 }
@@ -54,6 +62,6 @@ impl Model {
         let accepted = (!names.is_empty() && self.parameters.accept_missing).then(|| {
             format!("without added mass and radiation, as &PARAMETER -ACCEPT_MISSING accepts: {}", names.join(", "))
         });
-        self.interpolated_lines().into_iter().chain(accepted).collect()
+        self.interpolated_lines().into_iter().chain(accepted).chain(self.accepted_effects()).collect()
     }
 }

@@ -26,12 +26,17 @@ pub struct Options {
     pub ignored: Vec<(usize, usize)>,
     /// A body that does not move along a horizontal direction, from +X toward +Y (rad): across it, it does.
     pub held: Option<(usize, f64)>,
+    /// The fraction of each Newton step that is tried first: 1 is the whole step.
+    pub fraction: f64,
+    /// The longest step of a body, in translation (m) and rotation (rad), where it is given.
+    pub longest_step: Option<[f64; 2]>,
 }
 
 impl Default for Options {
     /// Source: [MOSES-REF equi].
     fn default() -> Self {
-        Options { most: 50, tolerance: [1e-3, 1e-3], ignored: Vec::new(), held: None }
+        let (ignored, held, longest_step) = (Vec::new(), None, None);
+        Options { most: 50, tolerance: [1e-3, 1e-3], ignored, held, fraction: 1.0, longest_step }
     }
 }
 

@@ -145,9 +145,11 @@ impl<'a> EquilibriumSearch<'a> {
             state.poses = unknowns.move_bodies(&from.poses, &step, share);
             state.ties.forces = interpolate_forces(&from.ties, &ties, share);
         };
-        let longest = unknowns.limit(&step);
+        let within = unknowns.limit(&step);
         // nothing holds back along a step that had to be limited: it is no measure of how far it is
-        let blind = needed > 0.0 && longest < 1.0;
+        let blind = needed > 0.0 && within < 1.0;
+        let asked = self.options.longest_step.map_or(1.0, |longest| unknowns.limit_to(&step, longest));
+        let longest = self.options.fraction * within.min(asked);
         let takes_any = self.non_monotone.is_some() && !blind;
         // share and force along the step of the farthest place before the forces turn around, and of the nearest behind
         let (mut before, mut behind): ((f64, f64), Option<(f64, f64)>) = ((0.0, work), None);

@@ -14,7 +14,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::Sea;
 use windlass_hydro::{Category, Floating, Load, ambient, move_stiffness, move_wrench, turning};
 use windlass_model::{
-    Ambient, Body, ClassError, ElementResponse, End, Mass, Model, Situation, SolverCache, Surroundings,
+    Ambient, Body, ClassError, ElementResponse, End, Mass, Model, Situation, SolveKind, SolverCache, Surroundings,
 };
 
 /// Degrees of freedom of a body, in order.
@@ -165,6 +165,7 @@ impl System {
         left_out: &[String],
         duties: RunRequirements,
     ) -> Result<Self, SolveError> {
+        model.check_effects(SolveKind::Statics).map_err(SolveError::new)?;
         let ambient = ambient(model, sea).map_err(SolveError::new)?;
         let mut states = Vec::new();
         let mut links: Vec<Link> = Vec::new();

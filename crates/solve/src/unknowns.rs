@@ -120,7 +120,11 @@ impl<'a> Unknowns<'a> {
 
     /// The share of a step that stays within the longest.
     pub fn limit(&self, step: &DVector<f64>) -> f64 {
-        let [far, turn] = MAX_STEP;
+        self.limit_to(step, MAX_STEP)
+    }
+
+    /// The share of a step that stays within a longest one, in translation (m) and rotation (rad).
+    pub fn limit_to(&self, step: &DVector<f64>, [far, turn]: [f64; 2]) -> f64 {
         step.iter().enumerate().fold(1.0, |share: f64, (i, s)| {
             let most = if self.dof(i) >= 3 { turn } else { far };
             share.min(most / s.abs().max(1e-300))

@@ -18,7 +18,7 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::options::PHASES;
 use windlass_model::{
-    Current, Curve, CurveKind, CurveReference, EntityKind, Environment, FormulaChoice, Model, PeriodType,
+    Current, Curve, CurveKind, CurveReference, EntityKind, Environment, FormulaChoice, Model, PeriodType, Phasing,
     SeaDefinition, TimeWindow, find,
 };
 
@@ -254,6 +254,7 @@ fn build(job: &Job, args: &Args) -> Outcome<Environment> {
     let mut env = kept.cloned().unwrap_or_else(|| Environment {
         name: name.to_string(),
         span: args.span,
+        phasing: job.model.wave_defaults.reinforcement.map(Phasing::Reinforced),
         ..Environment::default()
     });
     sea_options::one_phasing(args)?;

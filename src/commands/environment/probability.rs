@@ -6,7 +6,7 @@ use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::Environment;
+use windlass_model::Model;
 use windlass_solve::frequency::ExtremeKind;
 
 choices! {
@@ -68,7 +68,8 @@ pub(crate) fn check(given: &Given) -> Outcome<()> {
     read(given).map(|_| ()).map_err(|text| Diagnostic::error(text, place))
 }
 
-/// The extreme that an environment asks for.
-pub(crate) fn extreme(env: &Environment) -> Option<ExtremeKind> {
-    env.options.iter().rev().find(|given| given.is(&PROBABILITY)).and_then(|given| read(given).ok())
+/// The extreme that the environment in force asks for, else `&DEFAULT`.
+pub(crate) fn extreme(model: &Model) -> Option<ExtremeKind> {
+    let given = model.environment.options.iter().rev().find(|given| given.is(&PROBABILITY));
+    given.or(model.wave_defaults.probability.as_ref()).and_then(|given| read(given).ok())
 }

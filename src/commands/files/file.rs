@@ -2,7 +2,7 @@
 
 use crate::commands::job::UserFile;
 use crate::commands::settings::device::{existing, read_input, readable};
-use crate::commands::{Call, Command, Effect, Job, PLAIN};
+use crate::commands::{Call, Command, Effect, Job, PLAIN, absent};
 use crate::report::files::{FileError, FilePlace, Side, is_within};
 use windlass_base::choice::Choice;
 use windlass_base::choices;
@@ -86,8 +86,15 @@ fn use_mac(job: &mut Job, call: &Call) -> Outcome<Effect> {
             return Ok(Effect::Insert { name: candidate, path, tag: PLAIN });
         }
     }
-    Err(Diagnostic::error(format!("there is no macro library {name}"), call.args.place(NAME))
-        .label("looked for NAME, NAME.mac and NAME.cif beside the script"))
+    let error = Diagnostic::error(format!("there is no macro library {name}"), call.args.place(NAME))
+        .label("looked for NAME, NAME.mac and NAME.cif beside the script");
+    let library = absent::LIBRARIES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
+    Err(match library {
+        Some((_, macros)) => {
+            error.help(format!("it ships with MOSES and defines {macros}, which windlass does not have"))
+        }
+        None => error,
+    })
 }
 
 fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {

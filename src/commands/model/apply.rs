@@ -2,14 +2,18 @@
 //!
 //! Source: [MOSES-HELP general, modeling]: multipliers compound.
 
-use crate::commands::{Call, Command, Effect};
+use crate::commands::{Call, Command, Effect, Job};
+use windlass_base::choice::Choice;
 use windlass_base::choices;
-use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::units::Dim;
-use windlass_base::values::Noun;
+use windlass_base::values::{Given, Value};
+use windlass_base::wildcard::matches;
 use windlass_hydro::Category;
+use windlass_language::number::evaluate;
+use windlass_language::select::choose_word;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Model, find};
+use windlass_model::{Attribute, AttributeMultiplier, EntityKind, Model, Multipliers};
 
 /// &APPLY.
 pub static APPLY: Command = Command { spec: &SPEC, edits: false, run };
@@ -35,51 +39,174 @@ impl LoadCategory {
     }
 }
 
-const CATEGORY: &[ValueSpec] = &[ValueSpec::choice::<LoadCategory>("CATEGORY", "category of force"), VALUE];
+choices! {
+    /// Attributes of load categories that have a multiplier.
+    enum AttributeWord {
+        Dead = "#DEAD",
+        Buoyancy = "#BUOY",
+        Wind = "#WIND",
+        Drag = "#DRAG",
+        AddedMass = "#AMASS",
+    }
+}
 
-const FRACTION: OptionSpec = OptionSpec::new("-FRACTION", &[], "values are fractions").default("as with -FRACTION");
-const PERCENT: OptionSpec = OptionSpec::new("-PERCENT", &[], "values are percent");
-const CATEGORY_OPTION: OptionSpec = OptionSpec::new("-CATEGORY", CATEGORY, "multiplier of a category of force").many();
-const FORCE: OptionSpec = OptionSpec::new("-FORCE", CATEGORY, "the same as -CATEGORY").many();
-const LOAD_GROUP: OptionSpec = OptionSpec::new(
-    "-LOAD_GROUP",
-    &[ValueSpec::new("PART", Kind::Name(Noun::Part), "body or part: each has a group of its name"), VALUE],
-    "multiplier of the loads of a part",
-)
-.many();
+impl AttributeWord {
+    fn attribute(self) -> Attribute {
+        match self {
+            AttributeWord::Dead => Attribute::Dead,
+            AttributeWord::Buoyancy => Attribute::Buoyancy,
+            AttributeWord::Wind => Attribute::Wind,
+            AttributeWord::Drag => Attribute::Drag,
+            AttributeWord::AddedMass => Attribute::AddedMass,
+        }
+    }
+}
+
+/// The word of an attribute.
+pub fn attribute_word(attribute: Attribute) -> &'static str {
+    AttributeWord::ALL.iter().find(|word| word.attribute() == attribute).map_or("", |word| word.word())
+}
+
+const WORDS: &[ValueSpec] = &[ValueSpec::new(
+    "WORD",
+    Kind::Item,
+    "a selector of load categories, then #ATTRIBUTE VALUE ..; or VALUE, of all attributes",
+)];
+const GROUPS: &[ValueSpec] =
+    &[ValueSpec::new("WORD", Kind::Item, "a selector of load groups and VALUE, in turn; without it nothing")
+        .or("nothing")];
+const FORCES: &[ValueSpec] = &[ValueSpec::choice::<LoadCategory>("CATEGORY", "category of force"), VALUE];
+
+const FRACTION: OptionSpec =
+    OptionSpec::new("-FRACTION", GROUPS, "values are fractions; values of its own are those of load groups")
+        .repeating(1)
+        .default("as with -FRACTION");
+const PERCENT: OptionSpec =
+    OptionSpec::new("-PERCENT", GROUPS, "values are percent; values of its own are those of load groups").repeating(1);
+const CATEGORY_OPTION: OptionSpec =
+    OptionSpec::new("-CATEGORY", WORDS, "multipliers of attributes of load categories").repeating(1).many();
+const FORCE: OptionSpec = OptionSpec::new("-FORCE", FORCES, "multiplier of a category of force").many();
+const LOAD_GROUP: OptionSpec =
+    OptionSpec::new("-LOAD_GROUP", GROUPS, "multipliers of load groups; each body and part has one of its name")
+        .repeating(1)
+        .many();
 
 static SPEC: CommandSpec = CommandSpec {
     options: &[FRACTION, PERCENT, CATEGORY_OPTION, FORCE, LOAD_GROUP],
-    detail: "Each record sets multipliers anew; a load has the product of that of its category and that of its part: 0.5 of \
-             both leave a quarter. They act on wind (WIND), current (V_DRAG) and mean wave drift (W_DRIFT); the other \
-             categories have no multiplier yet. The sources do not tell -CATEGORY and -FORCE apart.",
-    example: "&DESCRIBE BODY TBRG\n&APPLY -PERCENT -FORCE WIND 50 -LOAD_GROUP TBRG 120\n&STATUS LOADS",
+    detail: "Each record sets multipliers anew; a load has the product of that of its force category, of its load group and of its load category: 0.5 of \
+             two leave a quarter. -CATEGORY names load categories (-CATEGORY of #WEIGHT, #AREA ..; EXTRA where none was given) by a name, a \
+             pattern or a selector, and attributes: #DEAD weights, with their inertia, #BUOY the buoyancy of #BUOY, #WIND, #DRAG current, linear drag and damping, \
+             #AMASS added mass; a value without attribute is that of all. Of several that fit a load the last counts. -FORCE acts on all wind \
+             (WIND), current (V_DRAG) or mean wave drift (W_DRIFT). -CATEGORY WIND 50 is read as -FORCE WIND 50. A load group \
+             multiplies its weights too. -PERCENT @ 100 sets all load groups.",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 8\n#WEIGHT *CG 100 -CATEGORY STEEL\nEND\n\
+              &APPLY -PERCENT -CATEGORY @ #DEAD 110 #BUOY 100 -CATEGORY STEEL #DEAD 105 #BUOY 100\n\
+              &APPLY -PERCENT -FORCE WIND 50 -LOAD_GROUP TBRG 120\n&STATUS LOADS",
     ..CommandSpec::new("&APPLY", "sets multipliers of loads")
 };
 
-fn run(job: &mut crate::commands::Job, call: &Call) -> Outcome<Effect> {
+/// A multiplier among the words of an option.
+fn multiplier(value: &Value, unit: f64) -> Outcome<f64> {
+    let word = value.word().unwrap_or_default();
+    match evaluate(word) {
+        Ok(number) if number.abs() <= 1e6 => Ok(number * unit),
+        Ok(_) => Err(Diagnostic::error("a multiplier is between -1000000 and 1000000", value.span)),
+        Err(_) => Err(Diagnostic::error(format!("expected a multiplier, not {word}"), value.span)),
+    }
+}
+
+/// Pairs of a selector of load groups and a value.
+fn set_groups(job: &Job, made: &mut Multipliers, given: &Given, unit: f64) -> Outcome<()> {
+    let model = &job.model;
+    for pair in given.values.chunks(2) {
+        let [name, value] = pair else {
+            let lacking = pair.first().filter(|v| v.word().is_some());
+            return lacking.map_or(Ok(()), |name| {
+                Err(Diagnostic::error(format!("{} lacks its value", name.word().unwrap_or_default()), name.span))
+            });
+        };
+        let word = name.word().unwrap_or_default();
+        let factor = multiplier(value, unit)?;
+        let known: Vec<&str> = model
+            .names(EntityKind::Part)
+            .into_iter()
+            .chain(model.load_groups.values().map(|g| g.name.as_str()))
+            .collect();
+        let fits = |group: &&&str| match model.selectors.get(&Model::key(word)) {
+            Some(selector) => selector.takes(group, model),
+            None => matches(word, group),
+        };
+        let chosen: Vec<String> = known.iter().filter(fits).map(|group| Model::key(group)).collect();
+        if chosen.is_empty() && word != "@" {
+            let mut error = Diagnostic::error(format!("unknown part or load group {word}"), name.span);
+            error.help.extend(did_you_mean(word, known.iter().copied()));
+            return Err(error);
+        }
+        made.parts.extend(chosen.into_iter().map(|group| (group, factor)));
+    }
+    Ok(())
+}
+
+/// A selector of load categories, and attributes with their values.
+fn set_categories(made: &mut Multipliers, given: &Given, unit: f64) -> Outcome<()> {
+    let [name, rest @ ..] = given.values.as_slice() else { return Ok(()) };
+    let categories = Model::key(name.word().unwrap_or_default());
+    if let ([value], Some(force)) = (rest, LoadCategory::from_word(&categories)) {
+        made.categories.insert(force.category().name().to_string(), multiplier(value, unit)?);
+        return Ok(());
+    }
+    if rest.is_empty() {
+        return Err(Diagnostic::error(format!("-CATEGORY {categories} lacks #ATTRIBUTE VALUE"), name.span));
+    }
+    if let [value] = rest {
+        let factor = multiplier(value, unit)?;
+        made.attributes.push(AttributeMultiplier { categories, attribute: None, factor });
+        return Ok(());
+    }
+    for pair in rest.chunks(2) {
+        let [word, value] = pair else {
+            let at = pair.first().map_or(given.span, |v| v.span);
+            return Err(Diagnostic::error("an attribute lacks its value", at));
+        };
+        let chosen: AttributeWord =
+            choose_word(word.word().unwrap_or_default(), word.span, "attribute of a load category")?;
+        let factor = multiplier(value, unit)?;
+        made.attributes.push(AttributeMultiplier {
+            categories: categories.clone(),
+            attribute: Some(chosen.attribute()),
+            factor,
+        });
+    }
+    Ok(())
+}
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let unit = match (args.has(&FRACTION), args.option(&PERCENT)) {
-        (true, Some(given)) => {
+    let unit = match (args.option(&FRACTION), args.option(&PERCENT)) {
+        (Some(_), Some(given)) => {
             return Err(Diagnostic::error("-FRACTION and -PERCENT contradict each other", given.span));
         }
         (_, Some(_)) => 0.01,
         _ => 1.0,
     };
     let mut made = job.model.multipliers.clone();
+    if args.options.iter().any(|given| given.is(&CATEGORY_OPTION)) {
+        made.attributes.clear();
+    }
     for given in &args.options {
-        if given.is_any(&[FRACTION, PERCENT]) {
-            continue;
-        }
-        let Some(value) = given.number(const { FORCE.number("VALUE") }) else { continue };
-        if given.is(&LOAD_GROUP) {
-            let name = given.word(const { LOAD_GROUP.word("PART") }).unwrap_or_default();
-            find(&job.model.parts, name, "part", given.first_place())?;
-            made.parts.insert(Model::key(name), value * unit);
-        } else if let Some(chosen) = given.choice::<LoadCategory>(const { FORCE.choice("CATEGORY") }) {
-            made.categories.insert(chosen.category().name().to_string(), value * unit);
+        match given {
+            _ if given.is(&CATEGORY_OPTION) => set_categories(&mut made, given, unit)?,
+            _ if given.is(&FORCE) => {
+                let value = given.number(const { FORCE.number("VALUE") });
+                let chosen = given.choice::<LoadCategory>(const { FORCE.choice("CATEGORY") });
+                if let (Some(value), Some(chosen)) = (value, chosen) {
+                    made.categories.insert(chosen.category().name().to_string(), value * unit);
+                }
+            }
+            _ => set_groups(job, &mut made, given, unit)?,
         }
     }
     job.model.multipliers = made;
+    job.model.refresh_weight_multipliers();
     Ok(Effect::Done)
 }

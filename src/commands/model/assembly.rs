@@ -30,6 +30,8 @@ choices! {
     /// Types of assemblies.
     enum AssemblyForm {
         TipHook = "T-H_DEFINITION",
+        LaunchLeg = "LLEG",
+        Control = "CONTROL",
     }
 }
 

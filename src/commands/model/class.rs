@@ -1,10 +1,12 @@
 //! `~NAME TYPE ...`: defines a class, or adds a segment to one.
 
+use crate::commands::absent::{self, AbsentClass};
 use crate::commands::environment::plausible;
 use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_connectors::{CLASSES, ClassKind, type_notices};
@@ -38,6 +40,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help(format!("known: {}", types.join(" "))));
     };
     name::check(&name.text, Some('~'), "class", name.span)?;
+    if let (Some(absent), false) =
+        (absent::find_class(&word.text), known().any(|(n, ..)| n.eq_ignore_ascii_case(&word.text)))
+    {
+        keep_absent(job, &name.text, absent, word.span);
+        return Ok(Effect::Done);
+    }
     let kind = choose(&word.text, word.span, "class type", known())?;
     let read = args::read(kind.spec, name.span, rest.get(1..).unwrap_or_default(), job.units)?;
     if matches!(job.menu(), Menu::Medit) {
@@ -96,6 +104,18 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.remark(text, name.span);
     }
     Ok(Effect::Done)
+}
+
+/// Keeps the name of a class of a type that windlass does not have, so that what uses it is not an error of its own; says so once a type.
+fn keep_absent(job: &mut Job, name: &str, absent: &'static AbsentClass, span: Span) {
+    job.absent_classes.insert(Model::key(name), absent.of_connectors);
+    if job.absent_said.contains(&absent.name) {
+        return;
+    }
+    job.absent_said.push(absent.name);
+    let what = absent.of_connectors.unwrap_or("a section of structural members");
+    let text = format!("class type {} of MOSES is not in windlass: {what} (said once)", absent.name);
+    if absent.of_connectors.is_some() { job.warn(text, span) } else { job.remark(text, span) }
 }
 
 /// Sees that the curves a record names exist and are convolutions: no other curve has a place in a class.

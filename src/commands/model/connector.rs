@@ -11,7 +11,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Anchor, Connector, Model, Point, Tug, find};
+use windlass_model::{Anchor, Connector, Model, Point, SolveKind, Tug, UnmodelledEffect, find};
 
 /// CONNECTOR.
 pub static CONNECTOR: Command = Command { spec: &CONNECTOR_SPEC, edits: false, run: connector };
@@ -101,8 +101,16 @@ fn connector(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// # Errors
 /// Unknown names, a class that is not complete, ends that do not fit the class, a name that is taken.
 pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
-    let model = &job.model;
     let name = args.word(NAME).unwrap_or_default();
+    let class = Model::key(args.word(CLASS).unwrap_or_default());
+    if let Some(effect) = job.absent_classes.get(&class).filter(|_| !job.model.classes.contains_key(&class)) {
+        let record = format!("CONNECTOR {name} of class {}", args.word(CLASS).unwrap_or_default());
+        let effect = effect.unwrap_or("what a connector of structural sections does").to_string();
+        let (matters_to, span) = (SolveKind::Statics, args.place(CLASS));
+        job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to, span });
+        return Ok(());
+    }
+    let model = &job.model;
     if let Some(old) = model.connectors.get(&Model::key(name)) {
         return Err(Diagnostic::error(format!("connector {name} exists already"), args.place(NAME))
             .other(old.span, "defined here")

@@ -2,17 +2,22 @@
 
 use crate::commands::chosen::NameFilter;
 use crate::commands::menu;
+use crate::commands::model::compartment;
+use crate::commands::model::draft_mark;
 use crate::commands::model::piece::{self, OPTIONS};
+use crate::commands::model::process;
+use crate::commands::solve::tdom;
 use crate::commands::{Call, Command, Effect, Job};
-use windlass_base::choice::Dof;
+use windlass_base::choice::{Choice, Dof, YesNo};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position, unit_vector};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::{Given, Noun, Value};
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, TextForm, ValueSpec, join_options};
-use windlass_model::{Body, Coordinates, EntityKind, GROUND, Model, Part, Point, Shape, find};
+use windlass_model::{Body, Coordinates, EntityKind, GROUND, LoadGroup, Model, Part, Point, Shape, find};
 
 /// &DESCRIBE.
 pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };
@@ -47,9 +52,28 @@ const IGNORE: OptionSpec = OptionSpec::new(
 )
 .repeating(1);
 
-/// What a body or a part takes.
-const OWN: &[OptionSpec] = &[MOVE, IGNORE];
-static DESCRIBE_OPTIONS: [OptionSpec; OWN.len() + OPTIONS.len()] = join_options(OWN, &OPTIONS);
+const ASSOCIATE: OptionSpec = OptionSpec::new(
+    "-ASSOCIATE",
+    &[ValueSpec::new("POINT", Kind::Name(Noun::Selector), "a point, a pattern or a selector")],
+    "the points of INTEREST",
+)
+.repeating(1);
+
+const FUSE: &[ValueSpec] = &[ValueSpec::choice::<YesNo>("YES/NO", "YES or NO")];
+const DAMP_FUSE: OptionSpec =
+    OptionSpec::new("-DAMP_FUSE", FUSE, "of a load group: whether its damping is one matrix; the same on a rigid body");
+const AMASS_FUSE: OptionSpec = OptionSpec::new(
+    "-AMASS_FUSE",
+    FUSE,
+    "of a load group: whether its added mass is one matrix; the same on a rigid body",
+);
+
+const EVENTS: OptionSpec = OptionSpec::new("-EVENTS", &[], "of PROCESS: forgets its events (our reading)");
+
+/// What a body, a part, INTEREST, a load group or PROCESS takes.
+const OWN: &[OptionSpec] = &[MOVE, IGNORE, ASSOCIATE, DAMP_FUSE, AMASS_FUSE, EVENTS];
+const OWN_AND_TANKS: [OptionSpec; OWN.len() + compartment::OWN.len()] = join_options(OWN, &compartment::OWN);
+static DESCRIBE_OPTIONS: [OptionSpec; OWN_AND_TANKS.len() + OPTIONS.len()] = join_options(&OWN_AND_TANKS, &OPTIONS);
 
 choices! {
     /// What `&DESCRIBE` describes.
@@ -58,6 +82,12 @@ choices! {
         Part = "PART",
         Piece = "PIECE",
         Interest = "INTEREST",
+        DraftMark = "DMARK",
+        Compartment = "COMPARTMENT",
+        Hole = "HOLE",
+        LoadGroup = "LOAD_GROUP",
+        Load = "LOAD",
+        Process = "PROCESS",
     }
 }
 
@@ -67,8 +97,10 @@ const NAME: DatumKey<str> = DESCRIBE_SPEC.word("NAME");
 static DESCRIBE_SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::choice::<Described>("KIND", "what is described"),
-        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "its name; of INTEREST a point, a pattern or a selector"),
-        ValueSpec::new("POINT", Kind::Name(Noun::Selector), "further points of INTEREST").or("none"),
+        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "its name; of INTEREST a point, a pattern or a selector")
+            .or("PIECE1, PIECE2 .. of a PIECE; not of INTEREST -ASSOCIATE; the others need one"),
+        ValueSpec::new("POINT", Kind::Name(Noun::Selector), "further points of INTEREST; the two points of DMARK")
+            .or("none"),
     ],
     repeat: 1,
     options: &DESCRIBE_OPTIONS,
@@ -76,8 +108,16 @@ static DESCRIBE_SPEC: CommandSpec = CommandSpec {
              begins a surface: its PANEL records follow, or PGEN; it is complete at the next &DESCRIBE, PGEN or &SURFACE, and at END. \
              &HELP &SURFACE says how pieces are read, and what wind and current do to them: without -CS_WIND and -CS_CURRENT the shape \
              coefficients of a piece that displaces water are 1 1 1. INTEREST marks points, on bodies or in the ground, for POINTS of \
-             PRCPOST, which reports their motion from where they stand now; marks add up.",
-    example: "&DESCRIBE BODY TBRG\n&DESCRIBE PART DECK -MOVE 0 0 20\n&STATUS BODIES\nMEDIT\n*BOW 90 0 5\n&DESCRIBE INTEREST *BOW\n&DESCRIBE PIECE WEDGE -PERM 1\n\
+             PRCPOST, which reports their motion from where they stand now; marks add up; -ASSOCIATE gives the points too. DMARK is a draft mark: the draft \
+             is read along the line from its first point to its second one, from the first (our reading); PROCESS goes over to a process: each has places of bodies, activity, lengths and anchors of connectors, multipliers, an environment and \
+             a run of its own, a new one those of the one before and no run; the first is DEFAULT, and TDOM -RESTART goes on from the run made last. &STATUS DRAFT reports a draft mark, -DRAFT of \
+             &INSTATE sets it. LOAD_GROUP (or LOAD GROUP) NAME begins a group of loads of the \
+             part: # records that follow belong to it, &APPLY -LOAD_GROUP multiplies it; every body and part has a group of its own name. COMPARTMENT NAME begins a compartment of the \
+             part described last: pieces that follow bound it, with -PERMEABILITY -1 where none is given (-0.98: liquid fills 98 % of it). They take no wind, \
+             current and waves and displace nothing; what is in them weighs (&COMPARTMENT). A NAME that is a part's is its exterior, the hull. HOLE NAME TYPE \
+             describes a hole; &STATUS V_HOLES reports its height above the water. Water does not flow through holes: &COMPARTMENT -FLOOD opens a \
+             compartment to the sea.",
+    example: "&DESCRIBE BODY TBRG\nMEDIT\n*LOW 0 50 0\n*HIGH 0 50 20\nEND\n&DESCRIBE DMARK FWD_S *LOW *HIGH\n&STATUS DRAFT\n&DESCRIBE PART DECK -MOVE 0 0 20\n&STATUS BODIES\nMEDIT\n*BOW 90 0 5\n&DESCRIBE INTEREST *BOW\n&DESCRIBE PIECE WEDGE -PERM 1\n\
               PANEL 0 0 0  0 9 0  9 0 0\nPANEL 0 0 0  9 0 0  0 0 9\nPANEL 0 0 0  0 0 9  0 9 0\nPANEL 9 0 0  0 9 0  0 0 9\nEND\n\
               &STATUS PIECES",
     ..CommandSpec::new("&DESCRIBE", "describes a body, a part or a piece")
@@ -109,14 +149,42 @@ const CONDITION: OptionSpec = OptionSpec::new(
     "sets draft, roll and trim of a body",
 )
 .many();
+const DRAFT: OptionSpec = OptionSpec::new(
+    "-DRAFT",
+    &[
+        ValueSpec::new("DMARK", Kind::Name(Noun::Selector), "a draft mark"),
+        number("DRAFT", Dim::Length, "the draft along it"),
+    ],
+    "brings the body of one to three draft marks to these drafts",
+)
+.repeating(2)
+.many();
+const TO_POINT: OptionSpec = OptionSpec::new(
+    "-POINT",
+    &[
+        ValueSpec::new("*PT", Kind::Name(Noun::Point), "a point of the body"),
+        number("X", Dim::Length, "global X").or("as it is"),
+        number("Y", Dim::Length, "global Y").or("as it is"),
+        number("Z", Dim::Length, "global Z").or("as it is"),
+    ],
+    "moves the body of a point, without turning it, until the point stands there",
+)
+.many();
+const EVENT: OptionSpec = OptionSpec::new(
+    "-EVENT",
+    &[number("EVENT", Dim::Time, "time of the event").not_negative()],
+    "puts the bodies where they were in the last run of TDOM, at the stored instant nearest to a time",
+);
 const PREVIOUS: OptionSpec = OptionSpec::new("-PREVIOUS", &[], "puts every body back to where it was before");
 
 static INSTATE_SPEC: CommandSpec = CommandSpec {
-    options: &[LOCATE, MOVE_BODY, CONDITION, PREVIOUS],
+    options: &[LOCATE, MOVE_BODY, CONDITION, DRAFT, TO_POINT, EVENT, PREVIOUS],
+    absent: &[("-SL_SET", "lengths of slings are found by ASSEMBLY T-H_DEFINITION, and set by &CONNECTOR -LENGTH")],
     detail: "Options act in the order given. Angles: yaw about Z, then pitch about Y, then roll about X, about the axes already turned. \
              -CONDITION leaves x, y and yaw; with x aft, y to starboard and z up a roll lifts the starboard side and a trim sinks the stern. \
              -MOVE adds to the six numbers of &STATUS CONFIGURATION, angles to angles, so that moving back by the same numbers restores them \
-             to the digit; x, y, z are global. -PREVIOUS stands alone: it goes back to before the last &INSTATE or equilibrium, and given \
+             to the digit; x, y, z are global. What follows is our reading: -DRAFT changes the height at one mark, height and trim or roll \
+             at two (as the marks are farther apart lengthwise or across), all three at three; an event of -EVENT is a time of the run. -PREVIOUS stands alone: it goes back to before the last &INSTATE or equilibrium, and given \
              again it returns.",
     example: "&DESCRIBE BODY TBRG\n&INSTATE -CONDITION 9 0 1\n&INSTATE -LOCATE TBRG 0 0 -9\n&INSTATE -MOVE TBRG 10\n&STATUS CONFIGURATION",
     ..CommandSpec::new("&INSTATE", "sets the initial configuration")
@@ -128,6 +196,11 @@ enum PartKind {
     Body,
     Part,
     Piece,
+    Interest,
+    LoadGroup,
+    Process,
+    Compartment,
+    Hole,
 }
 
 impl PartKind {
@@ -136,26 +209,62 @@ impl PartKind {
             PartKind::Body => "body",
             PartKind::Part => "part",
             PartKind::Piece => "piece",
+            PartKind::Interest => "set of points of INTEREST",
+            PartKind::LoadGroup => "load group",
+            PartKind::Process => "process",
+            PartKind::Compartment => "compartment",
+            PartKind::Hole => "hole",
         }
     }
 }
 
 fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let name = args.word(NAME).unwrap_or_default().to_string();
+    let lacks_name = args.word(NAME).is_none();
+    if let (true, Some(described)) =
+        (lacks_name, args.choice::<Described>(KIND).filter(|d| !matches!(d, Described::Piece | Described::Interest)))
+    {
+        return Err(Diagnostic::error(
+            format!("&DESCRIBE {} lacks its value NAME", described.word()),
+            args.place(KIND),
+        ));
+    }
+    let name = args.word(NAME).map_or_else(|| piece::free_piece_name(&job.model), str::to_string);
     let (key, span) = (Model::key(&name), args.place(NAME));
     let kind = match args.choice(KIND) {
         Some(Described::Body) => PartKind::Body,
         Some(Described::Part) => PartKind::Part,
         Some(Described::Piece) => PartKind::Piece,
+        Some(Described::Process) => {
+            if let Some(given) = args.options.iter().find(|given| !given.is(&EVENTS)) {
+                return Err(Diagnostic::error(format!("{} does not belong to PROCESS", given.name()), given.span));
+            }
+            process::describe(job, &name, span, args.has(&EVENTS))?;
+            return Ok(Effect::Done);
+        }
+        Some(Described::Compartment) => PartKind::Compartment,
+        Some(Described::Hole) => PartKind::Hole,
+        Some(Described::DraftMark) => {
+            if let Some(given) = args.options.first() {
+                return Err(Diagnostic::error(format!("{} does not belong to DMARK", given.name()), given.span));
+            }
+            draft_mark::describe(job, &name, span, args.data_after(NAME))?;
+            return Ok(Effect::Done);
+        }
+        Some(Described::LoadGroup | Described::Load) => return load_group(job, call),
         Some(Described::Interest) | None => return interest(job, call),
     };
-    if let Some(surplus) = args.data_after(NAME).first() {
+    if let Some(surplus) = args.data_after(NAME).first().filter(|_| kind != PartKind::Hole) {
         return Err(Diagnostic::error("&DESCRIBE takes one name", surplus.span).help("only INTEREST takes several"));
     }
     let of = |given: &Given| match given {
         _ if given.is(&MOVE) => PartKind::Part,
         _ if given.is(&IGNORE) => PartKind::Body,
+        _ if given.is(&ASSOCIATE) => PartKind::Interest,
+        _ if given.is_any(&[DAMP_FUSE, AMASS_FUSE]) => PartKind::LoadGroup,
+        _ if given.is(&EVENTS) => PartKind::Process,
+        _ if given.is_any(&compartment::OF_HOLE) => PartKind::Hole,
+        _ if given.is_any(&compartment::OWN) => PartKind::Compartment,
         _ => PartKind::Piece,
     };
     if let Some(given) = args.options.iter().find(|given| of(given) != kind) {
@@ -165,6 +274,14 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
         } else {
             error
         });
+    }
+    if kind == PartKind::Compartment {
+        compartment::describe(job, args, &name, span)?;
+        return Ok(Effect::Done);
+    }
+    if kind == PartKind::Hole {
+        compartment::describe_hole(job, args, &name, span, args.data_after(NAME))?;
+        return Ok(Effect::Done);
     }
     if kind == PartKind::Piece {
         let piece = piece::begin_piece(job, args, &name, span, Shape::Panels(Vec::new()))?;
@@ -221,19 +338,74 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     }
     model.current_part = Some(name.clone());
+    model.current_load_group = None;
+    model.current_compartment = None;
     piece::finish_piece(job);
     job.note_name(&name, span);
+    Ok(Effect::Done)
+}
+
+/// Begins a load group of the part described last: loads that follow belong to it.
+fn load_group(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let mut rest = args.data_after(KIND).iter();
+    if args.choice(KIND) == Some(Described::Load)
+        && let Some(value) = rest.next().filter(|v| !v.word().is_some_and(|w| w.eq_ignore_ascii_case("GROUP")))
+    {
+        return Err(Diagnostic::error("expected GROUP behind LOAD", value.span)
+            .help("form: &DESCRIBE LOAD_GROUP NAME :NODES, or LOAD GROUP NAME :NODES"));
+    }
+    let Some((name, span)) = rest.next().and_then(|v| Some((v.word()?.to_string(), v.span))) else {
+        return Err(Diagnostic::error("&DESCRIBE LOAD_GROUP lacks its value NAME", args.span));
+    };
+    rule::check(&name, None, "load group", span)?;
+    if let Some(given) = args.options.iter().find(|given| !given.is_any(&[DAMP_FUSE, AMASS_FUSE])) {
+        return Err(Diagnostic::error(format!("{} does not belong to LOAD_GROUP", given.name()), given.span));
+    }
+    let Some(part) = job.model.current_part.clone().filter(|part| Model::key(part) != GROUND) else {
+        return Err(Diagnostic::error("a load group belongs to a part, and none is described yet", args.span)
+            .help("&DESCRIBE BODY describes one"));
+    };
+    let values: Vec<&Value> = rest.collect();
+    let nodes: Vec<String> = if values.is_empty() {
+        Vec::new()
+    } else {
+        let chosen = NameFilter::new(values, &job.model);
+        let points = job.model.points.values().filter(|p| chosen.takes(&p.name));
+        let nodes: Vec<String> = points.map(|p| p.name.clone()).collect();
+        chosen.check_used("the points", &[EntityKind::Point])?;
+        nodes
+    };
+    let spans = nodes.iter().filter_map(|name| job.model.points.get(&Model::key(name)));
+    if let Some(point) = spans.into_iter().find(|p| Model::key(&p.part) != Model::key(&part)) {
+        return Err(Diagnostic::error(
+            format!("load group {name} spans parts: {} is no point of part {part}", point.name),
+            span,
+        )
+        .other(point.span, "defined here"));
+    }
+    let made = LoadGroup { name: name.clone(), part, nodes, span };
+    job.model.load_groups.insert(Model::key(&name), made);
+    job.model.current_load_group = Some(name);
+    piece::finish_piece(job);
     Ok(Effect::Done)
 }
 
 /// Marks points of interest where they stand.
 fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    if let Some(given) = args.options.first() {
+    if let Some(given) = args.options.iter().find(|given| !given.is(&ASSOCIATE)) {
         return Err(Diagnostic::error(format!("{} does not belong to INTEREST", given.name()), given.span));
     }
+    let named = args.data_after(KIND).iter().filter(|value| value.is_given());
+    let associated = args.option(&ASSOCIATE).map_or(&[][..], |given| &given.values);
+    let values: Vec<&Value> = named.chain(associated).collect();
+    if values.is_empty() {
+        return Err(Diagnostic::error("INTEREST lacks its points", args.place(KIND))
+            .help("form: &DESCRIBE INTEREST *PT .. or &DESCRIBE INTEREST -ASSOCIATE :SEL .."));
+    }
     let marked: Vec<(String, Position)> = {
-        let (model, chosen) = (&job.model, NameFilter::new(call.args.data_after(KIND), &job.model));
+        let (model, chosen) = (&job.model, NameFilter::new(values, &job.model));
         let points = model.points.iter().filter(|(_, p)| chosen.takes(&p.name));
         let marked = points.map(|(key, point)| (key.clone(), model.global(point))).collect();
         chosen.check_used("the points", &[EntityKind::Point])?;
@@ -274,6 +446,7 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let ((cos, sin), (flat, up)) = (direction(b), direction(c));
             [a * flat * cos, a * flat * sin, a * up]
         }
+        Coordinates::Placed(place) => place.apply(at),
     };
     let part = job.model.current_part.clone().unwrap_or_else(|| GROUND.to_string());
     let key = Model::key(&name.text);
@@ -293,6 +466,24 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
+/// Moves the body of a point until the point stands at the coordinates given.
+fn move_point(model: &mut Model, given: &Given) -> Outcome<()> {
+    const POINT: ValueKey<str> = TO_POINT.word("*PT");
+    let place = given.place(POINT);
+    let point = find(&model.points, given.word(POINT).unwrap_or_default(), "point", place)?;
+    let now = model.global(point);
+    let body = model.body_of(point).map(|b| Model::key(&b.name));
+    let wrong = || Diagnostic::error(format!("{} is on no body", point.name), place);
+    let body = body.ok_or_else(wrong)?;
+    let wanted = const { TO_POINT.numbers(["X", "Y", "Z"]) }.map(|key| given.number(key));
+    if let Some(body) = model.bodies.get_mut(&body) {
+        for ((shift, now), wanted) in body.place.shift.iter_mut().zip(now).zip(wanted) {
+            *shift += wanted.map_or(0.0, |wanted| wanted - now);
+        }
+    }
+    Ok(())
+}
+
 fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let model = &mut job.model;
     let before: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
@@ -300,8 +491,10 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("-PREVIOUS stands alone", given.span));
     }
     for given in &call.args.options {
+        let names_body = given.is_any(&[LOCATE, MOVE_BODY, CONDITION]);
         let body = given
             .first_word()
+            .filter(|_| names_body)
             .map(|name| find(&model.bodies, name, "body", given.first_place()).map(|b| Model::key(&b.name)));
         match given {
             _ if given.is(&PREVIOUS) => {
@@ -309,6 +502,14 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     std::mem::swap(&mut body.place, &mut body.previous);
                 }
                 return Ok(Effect::Done);
+            }
+            _ if given.is(&DRAFT) => draft_mark::set_drafts(model, given)?,
+            _ if given.is(&TO_POINT) => move_point(model, given)?,
+            _ if given.is(&EVENT) => {
+                let time = given.first_number().unwrap_or_default();
+                tdom::reset(job.run.as_ref(), model, time).ok_or_else(|| {
+                    Diagnostic::error("there is no run of these bodies to take an event of", given.span)
+                })?;
             }
             _ if given.is(&CONDITION) => {
                 let key = body.transpose()?.or_else(|| model.current_body().map(|b| Model::key(&b.name)));

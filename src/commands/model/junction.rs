@@ -92,7 +92,7 @@ pub(crate) fn insert(model: &mut Model, name: &str, at: Position, [weight, displ
     let point = format!("*{name}");
     let [x, y, z] = at;
     let volume = displacement / (model.defaults.water_density * model.defaults.gravity);
-    let weights = if weight > 0.0 { vec![Weight { at: [0.0; 3], weight, radii: [0.0; 3], span }] } else { Vec::new() };
+    let weights = if weight > 0.0 { vec![Weight { weight, span, ..Weight::default() }] } else { Vec::new() };
     let place = Place::new([x, y, z, 0.0, 0.0, 0.0]);
     let body = Body {
         name: name.to_string(),

@@ -3,7 +3,9 @@
 //! Source: [MOSES-HELP lgroup]; `#AREA *PT AX AY AZ` as in [MOSES-RUNS sea_keep/cargo]. The
 //! order of the values of the others is ours: no source gives it.
 
+use crate::commands::files::number_rows::rows;
 use crate::commands::menu;
+use crate::commands::model::weight::{self, CATEGORY};
 use crate::commands::{Call, Command, Effect, Job};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::choices;
@@ -35,6 +37,13 @@ pub static DAMP: Command =
     Command { spec: &DAMP_SPEC, edits: false, run: |job, call| matrix(job, call, LoadKind::Damping) };
 /// #AMASS.
 pub static AMASS: Command = Command { spec: &AMASS_SPEC, edits: false, run: added_mass };
+
+/// #TANAKA.
+pub static TANAKA: Command = Command { spec: &TANAKA_SPEC, edits: false, run: tanaka };
+/// #TANKER.
+pub static TANKER: Command = Command { spec: &TANKER_SPEC, edits: true, run: tanker };
+/// #BUOY.
+pub static BUOY: Command = Command { spec: &BUOY_SPEC, edits: false, run: buoy };
 
 const MENUS: &[&MenuSpec] = &[&menu::INMODEL, &menu::MEDIT];
 const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "a point of the part");
@@ -121,7 +130,7 @@ static AREA_SPEC: CommandSpec = CommandSpec {
         number("AY", Dim::Area, "along y").or("0").not_negative(),
         number("AZ", Dim::Area, "along z").or("0").not_negative(),
     ],
-    options: &[FLUID],
+    options: &[FLUID, CATEGORY],
     detail: "The force along each axis of the part is 1/2 rho A |w| w, with w the component and |w| the speed of the stream in \
              these axes, on the point. Above the water it is wind, below it current, by the global height of the point, with a \
              passage of 0.5 m about the surface in which both act in part (our reading: a jump would hide equilibria).",
@@ -138,7 +147,7 @@ static PLATE_SPEC: CommandSpec = CommandSpec {
     menus: MENUS,
     data: &[POINT, POINT, POINT, ValueSpec { name: "*PT", help: "a further corner", ..POINT }.or("none")],
     repeat: 1,
-    options: &[CD, FLUID],
+    options: &[CD, FLUID, CATEGORY],
     detail: "Corners in order round the plate, at least three, not on one line. The drag 1/2 rho CD A |w.n| (w.n) is along the \
              normal alone, on the centre of the area; the sense of the normal does not matter. Wind or current as with #AREA, by \
              the height of the centre.",
@@ -160,7 +169,7 @@ static TABLE_SPEC: CommandSpec = CommandSpec {
         STREAM[5],
     ],
     repeat: 7,
-    options: &[SYMMETRIC, FLUID],
+    options: &[SYMMETRIC, FLUID, CATEGORY],
     detail: "Groups of a heading and six coefficients: force and moment about the point, in the axes of the part, over the \
              square of the speed, which is in ft/s or m/s for wind too. The heading is the direction the stream comes from, \
              from x toward y of the part: 180 is a stream from ahead for a vessel with x aft, and pushes with a positive FX; a force \
@@ -186,7 +195,7 @@ static DRIFT_SPEC: CommandSpec = CommandSpec {
         WAVE[5],
     ],
     repeat: 7,
-    options: &[SYMMETRIC],
+    options: &[SYMMETRIC, CATEGORY],
     detail: "One record a heading: groups of a period and six mean forces and moments about the point, in the axes of the part, \
              over the square of the wave amplitude, as MOSES reports mean drift forces. Records of one point make one table, of at \
              least two headings. The mean in a sea is twice the sum of its energies S dw times the coefficient, in a regular wave \
@@ -202,7 +211,7 @@ static DRIFT_SPEC: CommandSpec = CommandSpec {
 static DRAG_SPEC: CommandSpec = CommandSpec {
     menus: MENUS,
     data: OF_RATE,
-    options: &[FULL_RATE],
+    options: &[FULL_RATE, CATEGORY],
     detail: "Linear drag of the water at a point: force over velocity, moment over rate, in the axes of the part. In statics the \
              current at the depth of the point acts through it, above the water that of the surface. Forces, never masses.",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 8\n#DRAG *CG 50 400\nEND\n&ENV -CURRENT 3 150\n&STATUS LOADS",
@@ -212,7 +221,7 @@ static DRAG_SPEC: CommandSpec = CommandSpec {
 static DAMP_SPEC: CommandSpec = CommandSpec {
     menus: MENUS,
     data: OF_RATE,
-    options: &[FULL_RATE],
+    options: &[FULL_RATE, CATEGORY],
     detail: "Linear damping of the part's own motion: force over velocity, moment over rate, in the axes of the part. No current \
              acts through it (our reading; #DRAG is for that).",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 8\n#DAMP *CG 50 400 900\nEND\n&STATUS LOADS",
@@ -222,11 +231,82 @@ static DAMP_SPEC: CommandSpec = CommandSpec {
 static AMASS_SPEC: CommandSpec = CommandSpec {
     menus: MENUS,
     data: OF_WEIGHT,
-    options: &[FULL_WEIGHT],
+    options: &[FULL_WEIGHT, CATEGORY],
     detail: "Added mass as a weight (never a mass): X Y Z in force, RX RY RZ in force times length squared, about the point and in \
              the axes of the part; divided by gravity when computed.",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 8\n#AMASS *CG 4E3 2E4 6E4 5E7 6E8 5E8\nEND\n&STATUS LOADS",
     ..CommandSpec::new("#AMASS", "added mass at a point")
+};
+
+static TANAKA_SPEC: CommandSpec = CommandSpec {
+    menus: MENUS,
+    data: &[number("F", Dim::None, "factor").not_negative()],
+    options: &[CATEGORY],
+    detail: "Eddy damping of the roll of the part described last: a moment F b |p| p against the rate of roll p, with b that of a sharp-cornered barge \
+             [IKEDA-1993] of the box around the pieces of the part, at the draft and the center of gravity of the place where a run begins. It acts in TDOM and, \
+             linearised in the sea, in SRESPONSE; in RAO, which has no amplitude, not. Round bilges have less: F is 1 for sharp corners. -TANAKA of a \
+             piece is the same of the box around that piece. Our reading: MOSES names Tanaka's formula.",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\nPGEN\nPLANE 0 400 -RECT 0 20 100\nEND\n#TANAKA 1\nEND\n&STATUS LOADS",
+    ..CommandSpec::new("#TANAKA", "eddy damping of roll")
+};
+
+const COEFFICIENT_FILE: OptionSpec = OptionSpec::ours(
+    "-FILE",
+    &[ValueSpec::new("FILE", Kind::File, "coefficients by heading; looked for where it says, then beside the script")],
+    "the coefficients",
+);
+const LBP: OptionSpec =
+    OptionSpec::ours("-LBP", &[number("L", Dim::Length, "length").positive()], "length between perpendiculars");
+const TANKER_DRAFT: OptionSpec = OptionSpec::ours(
+    "-DRAFT",
+    &[number("T", Dim::Length, "draft").positive()],
+    "draft that the coefficients of current are for",
+);
+const WIND_AREAS: OptionSpec = OptionSpec::ours(
+    "-WIND_AREAS",
+    &[
+        number("AT", Dim::Area, "transverse area, seen from ahead").positive(),
+        number("AL", Dim::Area, "longitudinal area, seen from the side").positive(),
+    ],
+    "areas that the coefficients of wind are for",
+);
+/// What a row of the file of `#TANKER` is.
+const TANKER_ROW: &str = "HEADING CXW CYW CNW CXC CYC CNC, separated by commas: degrees that grow, three coefficients of wind, three of current";
+/// Most headings of a file.
+const MAX_HEADINGS: usize = 361;
+
+static TANKER_SPEC: CommandSpec = CommandSpec {
+    menus: MENUS,
+    data: &[
+        number("SIZE", Dim::None, "deadweight in thousands of tons, as MOSES has it: listed alone").positive(),
+        ValueSpec::new("*PT", Kind::Name(Noun::Point), "the point the moments are about: midship"),
+    ],
+    options: &[COEFFICIENT_FILE, LBP, TANKER_DRAFT, WIND_AREAS, SYMMETRIC, CATEGORY],
+    detail: "Wind and current on a tanker by coefficients of your own, as [OCIMF-1994] defines them: wind FX = 1/2 rho CXW V^2 AT, FY = 1/2 rho CYW V^2 AL, \
+             MZ = 1/2 rho CNW V^2 AL LBP; current FX = 1/2 rho CXC V^2 LBP T, FY likewise with CYC, MZ = 1/2 rho CNC V^2 LBP^2 T. windlass ships no \
+             coefficients: OCIMF's are not free. The file has a row a heading: HEADING, CXW, CYW, CNW, CXC, CYC, CNC, separated by commas, after a line of heads or none. \
+             Headings are directions the stream comes from and forces are in the axes of the part, as in #TABLE: with x aft 180 is a stream from ahead, and \
+             CXW is positive there. Coefficients of MOSES by SIZE alone are refused.",
+    example: "&FILE OPEN C tanker.csv\n&FILE WRITE C 0,-0.9,0,0,-0.04,0,0\n&FILE WRITE C 90,0,-0.7,0.05,0,-0.6,0.02\n&FILE WRITE C 180,0.9,0,0,0.04,0,0\n&FILE CLOSE C\n\
+              MEDIT\n&DESCRIBE BODY TANKER\n*MID 450 0 0\n#TANKER 150 *MID -FILE job.ans/tanker.csv -LBP 900 -DRAFT 50 -WIND_AREAS 13000 38000 -SYMMETRIC\nEND\n\
+              &ENV -WIND 60 90 -CURRENT 2 180\n&STATUS LOADS",
+    ..CommandSpec::new("#TANKER", "wind and current on a tanker by coefficients of a file")
+};
+
+static BUOY_SPEC: CommandSpec = CommandSpec {
+    menus: MENUS,
+    data: &[
+        POINT,
+        number("B", Dim::Force, "buoyancy when it is all under water"),
+        number("DX", Dim::Length, "length along x").or("0").not_negative(),
+        number("DY", Dim::Length, "length along y").or("0").not_negative(),
+        number("DZ", Dim::Length, "height").or("0").not_negative(),
+    ],
+    options: &[CATEGORY],
+    detail: "A force upward at the point, in proportion to what is under water of a height DZ about the point, measured along the vertical; without DZ all of it \
+             below the surface and none above. DX and DY are listed and change nothing. The reading is ours. &APPLY multiplies it by #BUOY.",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\n*F 200 0 8\n#BUOY *F 50 0 0 4 -CATEGORY FLOATS\nEND\n&APPLY -PERCENT -CATEGORY @ #BUOY 105\n&STATUS LOADS",
+    ..CommandSpec::new("#BUOY", "buoyancy at a point")
 };
 
 /// The first datum of every load.
@@ -261,7 +341,69 @@ fn keep(job: &mut Job, args: &Args, (part, at): (String, Position), kind: LoadKi
         Some(FluidChoice::Water) => Fluid::Water,
         None => Fluid::ByHeight,
     };
-    job.model.loads.push(PartLoad { part, at, fluid, kind, span: args.span });
+    let category = weight::category_of(args);
+    let point = args.data.iter().find_map(|value| value.word()).unwrap_or_default();
+    let group = weight::group_for(&job.model, point, args.span)?;
+    job.model.loads.push(PartLoad { part, at, fluid, kind, category, group, span: args.span });
+    Ok(Effect::Done)
+}
+
+fn buoy(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let force = args.number(const { BUOY_SPEC.number("B") }).unwrap_or_default();
+    let size = args.numbers_or_zero(const { BUOY_SPEC.numbers(["DX", "DY", "DZ"]) });
+    keep(job, args, place(job, args)?, LoadKind::Buoyancy { force, size })
+}
+
+fn tanaka(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let Some(part) = job.model.current_part.clone().filter(|p| Model::key(p) != GROUND) else {
+        return Err(Diagnostic::error("a load belongs to a part, and none is described yet", args.span)
+            .help("&DESCRIBE BODY describes one"));
+    };
+    let factor = args.number(const { TANAKA_SPEC.number("F") }).unwrap_or_default();
+    keep(job, args, (part, [0.0; 3]), LoadKind::EddyDamping(factor))
+}
+
+fn tanker(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const MIDSHIP: DatumKey<str> = TANKER_SPEC.word("*PT");
+    let args = &call.args;
+    let place = place_of_point(job, args, args.word(MIDSHIP).unwrap_or_default(), args.place(MIDSHIP))?;
+    let lacking = [COEFFICIENT_FILE, LBP, TANKER_DRAFT, WIND_AREAS].into_iter().find(|option| !args.has(option));
+    if let Some(option) = lacking {
+        return Err(Diagnostic::error(
+            format!("#TANKER lacks {}: windlass ships no coefficients of tankers", option.name),
+            args.span,
+        )
+        .help("form: #TANKER SIZE *PT -FILE FILE -LBP L -DRAFT T -WIND_AREAS AT AL")
+        .help(format!("a row of the file is {TANKER_ROW}: 0,-0.9,0,0,-0.04,0,0")));
+    }
+    let file = args.option(&COEFFICIENT_FILE).and_then(|given| given.values.first());
+    let (name, span) = file.and_then(|v| Some((v.word()?, v.span))).unwrap_or(("", args.span));
+    let found = rows::<7>(job, (name, span), TANKER_ROW, MAX_HEADINGS)?;
+    let (length, draft) = (args.option_number(&LBP).unwrap_or(0.0), args.option_number(&TANKER_DRAFT).unwrap_or(0.0));
+    let [ahead, beside] = args
+        .option(&WIND_AREAS)
+        .map_or([0.0; 2], |given| given.numbers_or_zero(const { WIND_AREAS.numbers(["AT", "AL"]) }));
+    let around = job.model.surroundings();
+    let (air, water) = (0.5 * around.air_density, 0.5 * around.water_density);
+    let (mut wind, mut current) = (Vec::new(), Vec::new());
+    for (_, [heading, xw, yw, nw, xc, yc, nc]) in found {
+        let angle = heading.to_radians();
+        wind.push((angle, [air * xw * ahead, air * yw * beside, 0.0, 0.0, 0.0, air * nw * beside * length]));
+        let area = length * draft;
+        current.push((angle, [water * xc * area, water * yc * area, 0.0, 0.0, 0.0, water * nc * area * length]));
+    }
+    let symmetric = args.has(&SYMMETRIC);
+    for table in [&wind, &current] {
+        ByHeading::new(table, symmetric).map_err(|e| e.diagnostic(span, job.units))?;
+    }
+    for (fluid, rows) in [(Fluid::Air, wind), (Fluid::Water, current)] {
+        let (category, group) = (weight::category_of(args), None);
+        let kind = LoadKind::Coefficients { rows, symmetric };
+        let (part, at) = place.clone();
+        job.model.loads.push(PartLoad { part, at, fluid, kind, category, group, span: args.span });
+    }
     Ok(Effect::Done)
 }
 
@@ -297,7 +439,7 @@ fn plate(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("give it as several plates"));
     }
     let moment: Vector3<f64> = triangles().map(|(b, c, area)| (first + b + c) / 3.0 * area.dot(&normal)).sum();
-    let drag = args.option_number(&CD).unwrap_or(1.0);
+    let drag = args.option_number(&CD).or(job.model.parameters.plate_drag).unwrap_or(1.0);
     let kind = LoadKind::Plate { area: drag * size, normal: normal.into() };
     keep(job, args, (part, (moment / size).into()), kind)
 }

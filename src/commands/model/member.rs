@@ -9,7 +9,7 @@ use windlass_base::values::Args;
 use windlass_hydro::morison;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::{ClassError, Member, Model, Part, Piece, Shape, WaveAction};
+use windlass_model::{ClassError, Member, Model, Parameters, Part, Piece, Shape, WaveAction};
 
 const fn factor(
     name: &'static str,
@@ -37,10 +37,15 @@ const CAA: [ValueSpec; 2] = [
         .not_negative(),
 ];
 
-const CD_OPTION: OptionSpec =
-    factor("-CD", &CD, "drag coefficient", "1; 0 with -CS_CURRENT, and of what displaces no water");
+const CD_OPTION: OptionSpec = factor(
+    "-CD",
+    &CD,
+    "drag coefficient",
+    "1, or that of &PARAMETER -DRGTUB; 0 with -CS_CURRENT, and of what displaces no water",
+);
 const CDA_OPTION: OptionSpec = factor("-CDA", &CDA, "coefficient of skin friction", "0.016; 0 where CD is 0");
-const CA_OPTION: OptionSpec = factor("-CA", &CA, "coefficient of added mass", "1; 0 of what displaces no water");
+const CA_OPTION: OptionSpec =
+    factor("-CA", &CA, "coefficient of added mass", "1, or that of &PARAMETER -AMCTUB; 0 of what displaces no water");
 const CAA_OPTION: OptionSpec = factor("-CAA", &CAA, "coefficient of added mass of the ends", "0");
 
 /// What a TUBE takes besides what every piece takes.
@@ -58,11 +63,11 @@ pub const TUBE_HELP: &str = "A round member with flat ends between two points of
      the part, as of other pieces; with CD it contradicts. -DIFTYPE 3DDIF says that a hydrodynamic database has the tube in its hull: of the \
      formula drag alone is left. Slamming and the drag of flat ends are not counted.";
 
-/// The coefficients of a TUBE.
+/// The coefficients of a TUBE; those that its record leaves out are the usual ones.
 ///
 /// # Errors
 /// Two sorts of drag; coefficients of an interior.
-pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
+pub fn coefficients(args: &Args, permeability: f64, usual: &Parameters) -> Outcome<Member> {
     let given = |option: &OptionSpec| args.option_number(option);
     let own =
         OPTIONS.iter().find_map(|option| args.option(option).filter(|g| g.first_number().is_some_and(|c| c != 0.0)));
@@ -80,7 +85,9 @@ pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
             .help("leave one of them out"));
     }
     let wet = permeability > 0.0;
-    let (drag, added) = (if wet && areas.is_none() { 1.0 } else { 0.0 }, if wet { 1.0 } else { 0.0 });
+    let usual = [usual.tube_drag.filter(|_| areas.is_none()), usual.tube_added_mass].map(|c| c.unwrap_or(1.0));
+    let drag = if wet && areas.is_none() { usual[0] } else { 0.0 };
+    let added = if wet { usual[1] } else { 0.0 };
     let cd = given(&CD_OPTION).unwrap_or(drag);
     let friction = if cd > 0.0 { 0.016 } else { 0.0 };
     Ok(Member {

@@ -11,7 +11,7 @@ use windlass_base::wildcard::{is_wild, matches};
 use windlass_language::name;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, ValueSpec};
-use windlass_model::{AssemblyKind, EntityKind, Model, Piece};
+use windlass_model::{AssemblyKind, Compartment, EntityKind, Model, Piece};
 
 /// DELETE.
 pub static DELETE: Command = Command { spec: &DELETE_SPEC, edits: true, run: delete };
@@ -87,6 +87,7 @@ fn remove(model: &mut Model, thing: EntityKind, name: &str) {
         EntityKind::Curve => drop(model.curves.shift_remove(&key)),
         EntityKind::Bathymetry => drop(model.bathymetries.shift_remove(&key)),
         EntityKind::Filling => drop(model.fillings.shift_remove(&key)),
+        EntityKind::DraftMark => drop(model.draft_marks.shift_remove(&key)),
         EntityKind::Selector => drop(model.selectors.shift_remove(&key)),
         EntityKind::Part => {
             model.loads.retain(|l| Model::key(&l.part) != key);
@@ -97,15 +98,23 @@ fn remove(model: &mut Model, thing: EntityKind, name: &str) {
             let other = |piece: &Piece| !piece.name.eq_ignore_ascii_case(name);
             model.parts.values_mut().for_each(|part| part.pieces.retain(other));
         }
+        EntityKind::Compartment => {
+            remove_compartments(model, |c| Model::key(&c.name) == key);
+        }
         EntityKind::Assembly => model.take_apart(name),
         EntityKind::Body => {
             let parts = &model.parts;
             let own = |part: &str| parts.get(&Model::key(part)).is_some_and(|p| Model::key(&p.body) == key);
+            let tanks: Vec<String> =
+                model.compartments.values().filter(|c| own(&c.part)).map(|c| c.name.clone()).collect();
             model.points.retain(|_, p| !own(&p.part));
+            let points = &model.points;
+            model.draft_marks.retain(|_, mark| mark.points.iter().all(|p| points.contains_key(&Model::key(p))));
             model.loads.retain(|l| !own(&l.part));
             model.multipliers.parts.retain(|part, _| !own(part));
             model.parts.retain(|_, p| Model::key(&p.body) != key);
             model.bodies.shift_remove(&key);
+            remove_compartments(model, |c| tanks.contains(&c.name));
         }
     }
     if model.current_part.as_ref().is_some_and(|p| !model.parts.contains_key(&Model::key(p))) {
@@ -113,6 +122,19 @@ fn remove(model: &mut Model, thing: EntityKind, name: &str) {
     }
     if model.current_piece.as_ref().is_some_and(|piece| model.piece(piece).is_none()) {
         model.current_piece = None;
+    }
+}
+
+/// Takes compartments out of the model with their pieces.
+fn remove_compartments(model: &mut Model, goes: impl Fn(&Compartment) -> bool) {
+    let names: Vec<String> = model.compartments.values().filter(|c| goes(c)).map(|c| c.name.clone()).collect();
+    let own = |piece: &Piece| {
+        piece.compartment.as_ref().is_some_and(|of| names.iter().any(|name| name.eq_ignore_ascii_case(of)))
+    };
+    model.parts.values_mut().for_each(|part| part.pieces.retain(|piece| !own(piece)));
+    model.compartments.retain(|_, c| !names.contains(&c.name));
+    if model.current_compartment.as_ref().is_some_and(|c| !model.compartments.contains_key(&Model::key(c))) {
+        model.current_compartment = None;
     }
 }
 
@@ -167,6 +189,7 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
         EntityKind::Point => {
             move_entry(&mut model.points, &from, to, |p| p.name = new.to_string());
             model.connectors.values_mut().flat_map(|c| c.points.iter_mut()).for_each(follow);
+            model.draft_marks.values_mut().flat_map(|m| m.points.iter_mut()).for_each(follow);
         }
         sort => {
             if sort == EntityKind::Assembly {

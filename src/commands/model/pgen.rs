@@ -1,18 +1,20 @@
-//! `PGEN` and `PLANE`: a hull of sections.
+//! `PGEN` and `PLANE`: a hull or a tank of sections.
 //!
-//! No source gives the form of these records; the reading is ours and stands in their help.
+//! Source: [MOSES-REF pieces, surface] for the names; `PLANE 0 91.5 -RECT 0 6.10 27.50` as in [MOSES-RUNS ves_mod/b_tutorial]. What no
+//! source says is our reading and stands in the help.
 
 use crate::commands::menu;
+use crate::commands::model::describe::PLACE;
 use crate::commands::model::piece::{self, OPTIONS};
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::geometry::Position;
+use windlass_base::geometry::{Place, Position, unit_vector};
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
-use windlass_base::values::Value;
-use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{Piece, Shape};
+use windlass_base::values::{Args, Given, Value};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec, join_options};
+use windlass_model::{Piece, Shape, box_panels};
 
 /// PGEN.
 pub static PGEN: Command = Command { spec: &PGEN_SPEC, edits: false, run: pgen };
@@ -23,49 +25,180 @@ const fn number(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::Length), help)
 }
 
+const LOCATION: OptionSpec = OptionSpec::new(
+    "-LOCATION",
+    &PLACE,
+    "places the piece in its part: it is turned by yaw, pitch and roll, then shifted",
+);
+const STBD: OptionSpec =
+    OptionSpec::new("-STBD", &[], "the sections are the whole piece, as given: to starboard, y > 0");
+const PORT: OptionSpec = OptionSpec::new("-PORT", &[], "the sections mirrored to -y are the whole piece");
+const BOTH: OptionSpec =
+    OptionSpec::new("-BOTH", &[], "two pieces: the sections as given, and mirrored under the name with a P behind it");
+
+/// Where a piece of sections or panels stands, and on which side.
+pub const PLACING: [OptionSpec; 4] = [LOCATION, STBD, PORT, BOTH];
+static PGEN_OPTIONS: [OptionSpec; OPTIONS.len() + PLACING.len()] = join_options(&OPTIONS, &PLACING);
+
+/// What -LOCATION, -STBD, -PORT and -BOTH mean, for help.
+pub const PLACING_HELP: &str = "Without -STBD, -PORT and -BOTH the points of a section with y >= 0 are half of it, from the keel up, and are \
+     mirrored to -y. With one of them, in a compartment (&DESCRIBE COMPARTMENT), or where a point of -CARTESIAN has y < 0, the points \
+     run once round the whole section, whose last point is joined to its first; -RECTANGLE is then the half with y >= 0 under -STBD, -PORT \
+     and -BOTH and the whole without. -PORT and -BOTH mirror in the system of the points; -LOCATION follows. This is our reading.";
+
 static PGEN_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::INMODEL, &menu::MEDIT],
     opens: Opens::Menu(&menu::PGEN),
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the piece")
-        .or("the piece described last, which has no panels yet")],
-    options: &OPTIONS,
-    detail: "Opens a menu of PLANE records, up to END PGEN or END_PGEN, which makes the panels of the piece: each section is mirrored \
-             to -y, neighbouring sections are joined point by point where they have the same number of points, else by \
-             triangles, and the first and the last section close the ends. &HELP PLANE has the form of a section.",
+        .or("the piece described last, where it has no panels yet; else PIECE1, PIECE2 ..")],
+    options: &PGEN_OPTIONS,
+    detail: "Opens a menu of PLANE records, up to END PGEN or END_PGEN, which makes the panels of the piece: \
+             neighbouring sections are joined point by point where they have the same number of points, else by \
+             triangles by the share of the outline, and the first and the last section close the ends. &HELP PLANE has the form of a section.",
     example: "MEDIT\n&DESCRIBE BODY TBRG\nPGEN HULL -PERM 1 -CS_WIND 1 1 1\nPLANE 0 400 -RECTANGLE 0 20 100\nEND PGEN\nEND\n\
-              &STATUS PIECES",
+              &STATUS PIECES\nMEDIT\nPGEN\nPLANE 0 20 -CIRC 0 -30 10 17\nEND\nEND\n&STATUS PIECES",
     ..CommandSpec::new("PGEN", "makes a piece of sections, up to END")
 };
 
 const RECTANGLE: OptionSpec = OptionSpec::new(
     "-RECTANGLE",
-    &[number("ZBOT", "bottom"), number("ZTOP", "top"), number("BEAM", "whole breadth").positive()],
+    &[
+        number("ZBOT", "bottom"),
+        number("ZTOP", "top"),
+        number("BEAM", "whole breadth").positive(),
+        ValueSpec::new(
+            "NPTS",
+            Kind::Integer,
+            "points of the half section; further ones divide its edges and change no volume",
+        )
+        .in_range(2.0, MAX_POINTS)
+        .or("its corners"),
+    ],
     "a rectangular section, at every X given",
-);
+)
+.aliases(&["-RECTANGULAR"]);
 const CARTESIAN: OptionSpec = OptionSpec::new(
     "-CARTESIAN",
-    &[number("Y", "half-breadth").not_negative(), number("Z", "height")],
+    &[number("Y", "y"), number("Z", "height")],
     "points of the section, at every X given",
 )
 .repeating(2);
+const CIRCULAR: OptionSpec = OptionSpec::new(
+    "-CIRCULAR",
+    &[
+        number("Y", "y of the centre"),
+        number("Z", "height of the centre"),
+        number("RADIUS", "radius").positive(),
+        ValueSpec::new(
+            "NPTS",
+            Kind::Integer,
+            "points on it; of a whole circle the last is the first, so that 9 points make 8 sides",
+        )
+        .in_range(2.0, MAX_POINTS),
+        ValueSpec::new("THETA", Kind::Number(Dim::Angle), "angle of the first point, from +y toward +z")
+            .or("-90: the lowest"),
+        ValueSpec::new("DTHETA", Kind::Number(Dim::Angle), "angle from point to point")
+            .or("360 over NPTS - 1: the whole circle"),
+    ],
+    "a section of points on a circle, or on an arc of it, at every X given",
+);
+/// Most points of a section.
+const MAX_POINTS: f64 = 1000.0;
 
 static PLANE_SPEC: CommandSpec = CommandSpec {
-    menus: &[&menu::PGEN],
+    menus: &[&menu::PGEN, &menu::BLOCK],
     data: &[number("X", "where the section is; without an option its points follow: Y1 Z1 Y2 Z2 ..")],
     repeat: 1,
-    options: &[RECTANGLE, CARTESIAN],
+    options: &[RECTANGLE, CARTESIAN, CIRCULAR],
     detail: "PLANE X Y1 Z1 Y2 Z2 .. is the section at X by points of its half with y >= 0, from the keel up; PLANE X1 X2 .. \
-             -CARTESIAN Y1 Z1 .. and -RECTANGLE give the same section at several X. X grows, or falls, from section to \
-             section. Where the first point lies beside y = 0 the bottom is flat from there to its mirror image, and the deck \
-             above the last point likewise. A section may be a line at y = 0, as a stem is. The reading is ours: no source gives \
-             the form.",
+             -CARTESIAN Y1 Z1 .., -RECTANGLE and -CIRCULAR give the same section at several X. X grows, or falls, from section to \
+             section. Where the first point of a half lies beside y = 0 the bottom is flat from there to its mirror image, and the deck \
+             above the last point likewise. A half section may be a line at y = 0, as a stem is. A whole circle is the polygon of its points, \
+             within the circle: of 17 points its area is 0.974 of the circle's. The readings are ours: no source gives the number of sides \
+             of -CIRCULAR and the order of its values. &HELP PGEN says when points are half a section.",
     example: "MEDIT\n&DESCRIBE BODY SHIP\nPGEN HULL\nPLANE 0 0 0 0 30\nPLANE 60 30 0 40 8 40 30\nPLANE 300 380 -CART 30 0 40 8 40 30\n\
-              END PGEN\nEND\n&STATUS PIECES",
+              END PGEN\nPGEN WING -PERM -1 -STBD\nPLANE 320 360 -CART 30 10 39 10 39 28 30 28\nEND PGEN\nEND\n&STATUS PIECES",
     ..CommandSpec::new("PLANE", "a section of a hull")
 };
 
-/// A section: its x and the points of its half with y >= 0, from the keel up (m).
-type HullSection = (f64, Vec<[f64; 2]>);
+/// A section as its record gives it.
+#[derive(Clone, Debug)]
+enum Outline {
+    /// Points with their y and z (m).
+    Points(Vec<[f64; 2]>),
+    /// A rectangle about y = 0, with the points of its half with y >= 0 from the keel up.
+    Rectangle(Vec<[f64; 2]>),
+    /// A whole circle, its points once round.
+    Circle(Vec<[f64; 2]>),
+}
+
+impl Outline {
+    fn points(&self) -> &[[f64; 2]] {
+        match self {
+            Outline::Points(list) | Outline::Rectangle(list) | Outline::Circle(list) => list,
+        }
+    }
+}
+
+/// A section: its x and its outline (m).
+type HullSection = (f64, Outline);
+/// A section: its x and points of its half, or all round it (m).
+type SectionPoints = (f64, Vec<[f64; 2]>);
+
+/// Which side of the ship sections stand on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Side {
+    /// Half sections are mirrored.
+    #[default]
+    Mirrored,
+    Starboard,
+    Port,
+    Both,
+}
+
+/// Where a piece stands in its part.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Placing {
+    place: Option<Place>,
+    side: Side,
+}
+
+impl Placing {
+    /// That of a record.
+    ///
+    /// # Errors
+    /// Two of -STBD, -PORT and -BOTH.
+    pub fn from_args(args: &Args) -> Outcome<Placing> {
+        let sides = [(STBD, Side::Starboard), (PORT, Side::Port), (BOTH, Side::Both)];
+        let mut given = sides.iter().filter_map(|(option, side)| args.option(option).map(|given| (given, *side)));
+        let first = given.next();
+        if let (Some((first, _)), Some((second, _))) = (first, given.next()) {
+            return Err(Diagnostic::error(
+                format!("{} and {} contradict each other", first.name(), second.name()),
+                second.span,
+            ));
+        }
+        let place = args.option(&LOCATION).map(|given| {
+            Place::new(given.numbers_or_zero(const { LOCATION.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }))
+        });
+        Ok(Placing { place, side: first.map_or(Side::Mirrored, |(_, side)| side) })
+    }
+
+    /// The pieces that panels make: as they are, mirrored, or both.
+    fn sides(&self, panels: Vec<Vec<Position>>) -> Vec<Vec<Vec<Position>>> {
+        let mirrored = || panels.iter().map(|p| p.iter().rev().map(|[x, y, z]| [*x, -y, *z]).collect()).collect();
+        let sides = match self.side {
+            Side::Mirrored | Side::Starboard => vec![panels],
+            Side::Port => vec![mirrored()],
+            Side::Both => vec![panels.clone(), mirrored()],
+        };
+        let Some(place) = self.place else { return sides };
+        let placed = |panels: Vec<Vec<Position>>| -> Vec<Vec<Position>> {
+            panels.into_iter().map(|p| p.into_iter().map(|at| place.apply(at)).collect()).collect()
+        };
+        sides.into_iter().map(placed).collect()
+    }
+}
 
 /// What sections are to make.
 #[derive(Clone, Debug)]
@@ -81,34 +214,45 @@ enum PieceOfSections {
 pub struct Planes {
     piece: PieceOfSections,
     sections: Vec<HullSection>,
+    placing: Placing,
     span: Span,
+}
+
+impl Planes {
+    /// Those of a piece whose sections or panels follow in a menu of BLOCK.
+    pub fn of_block(piece: &str, placing: Placing, span: Span) -> Planes {
+        Planes { piece: PieceOfSections::Described(piece.to_string()), sections: Vec::new(), placing, span }
+    }
+
+    /// Whether a section has been given.
+    pub fn has_sections(&self) -> bool {
+        !self.sections.is_empty()
+    }
 }
 
 fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = PGEN_SPEC.word("NAME");
     let args = &call.args;
-    let piece = match args.word(NAME) {
-        Some(name) => {
-            let begun = piece::begin_piece(job, args, name, args.place(NAME), Shape::Panels(Vec::new()))?;
-            PieceOfSections::New(Box::new(begun))
-        }
-        None => {
-            let described = job.model.current_piece.as_ref().and_then(|name| job.model.piece(name));
-            let empty = described.filter(|(_, p)| matches!(&p.shape, Shape::Panels(panels) if panels.is_empty()));
-            let name = empty.map(|(_, p)| p.name.clone()).ok_or_else(|| {
-                Diagnostic::error("PGEN lacks the name of the piece", args.span)
-                    .help("form: PGEN NAME -OPTIONS, or &DESCRIBE PIECE NAME -OPTIONS and then PGEN")
-            })?;
-            if let Some(given) = args.options.first() {
+    let placing = Placing::from_args(args)?;
+    let described = job.model.current_piece.as_ref().and_then(|name| job.model.piece(name));
+    let empty = described.filter(|(_, p)| matches!(&p.shape, Shape::Panels(panels) if panels.is_empty()));
+    let piece = match (args.word(NAME), empty) {
+        (None, Some((_, empty))) => {
+            if let Some(given) = args.options.iter().find(|given| !given.is_any(&PLACING)) {
                 return Err(Diagnostic::error(
-                    format!("{} belongs to &DESCRIBE PIECE {name}", given.name()),
+                    format!("{} belongs to &DESCRIBE PIECE {}", given.name(), empty.name),
                     given.span,
                 ));
             }
-            PieceOfSections::Described(name)
+            PieceOfSections::Described(empty.name.clone())
+        }
+        (name, _) => {
+            let name = name.map_or_else(|| piece::free_piece_name(&job.model), str::to_string);
+            let begun = piece::begin_piece(job, args, &name, args.place(NAME), Shape::Panels(Vec::new()))?;
+            PieceOfSections::New(Box::new(begun))
         }
     };
-    job.menus.push(Menu::Planes(Box::new(Planes { piece, sections: Vec::new(), span: args.span })));
+    job.menus.push(Menu::Planes(Box::new(Planes { piece, sections: Vec::new(), placing, span: args.span })));
     Ok(Effect::Done)
 }
 
@@ -117,7 +261,7 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let numbers: Vec<f64> = args.data.iter().filter_map(Value::number).collect();
     let pairs = |list: &[f64]| list.chunks_exact(2).map(|c| [c[0], c[1]]).collect::<Vec<_>>();
-    let (at, outline): (Vec<(f64, Span)>, Vec<[f64; 2]>) = match args.options.as_slice() {
+    let (at, outline): (Vec<(f64, Span)>, Outline) = match args.options.as_slice() {
         [] => {
             let [x, rest @ ..] = numbers.as_slice() else { return Ok(Effect::Done) };
             if rest.len() < 4 || rest.len() % 2 != 0 {
@@ -125,33 +269,40 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .label(format!("{} numbers follow this X", rest.len()))
                     .help("form: PLANE X Y1 Z1 Y2 Z2 .., or PLANE X1 X2 .. -CARTESIAN Y1 Z1 .."));
             }
-            (vec![(*x, args.place(X))], pairs(rest))
+            (vec![(*x, args.place(X))], Outline::Points(pairs(rest)))
         }
         [one] => {
             let at = args.data.iter().filter_map(|v| Some((v.number()?, v.span))).collect();
-            let given = one.numbers();
-            let outline = match given.as_slice() {
-                [bottom, top, beam] if one.is(&RECTANGLE) && bottom < top => {
-                    vec![[0.5 * beam, *bottom], [0.5 * beam, *top]]
-                }
-                _ if one.is(&RECTANGLE) => return Err(Diagnostic::error("ZTOP must be greater than ZBOT", one.span)),
-                _ => pairs(&given),
+            let outline = match one {
+                _ if one.is(&RECTANGLE) => rectangle(one)?,
+                _ if one.is(&CIRCULAR) => circle(one)?,
+                _ => Outline::Points(pairs(&one.numbers())),
             };
             (at, outline)
         }
         [_, second, ..] => {
-            return Err(Diagnostic::error("a section is given by -RECTANGLE or by -CARTESIAN", second.span));
+            return Err(Diagnostic::error(
+                "a section is given by one of -RECTANGLE, -CARTESIAN and -CIRCULAR",
+                second.span,
+            ));
         }
     };
     if let Some(value) =
         args.data_after(X).iter().step_by(2).find(|v| args.options.is_empty() && v.number().is_some_and(|y| y < 0.0))
     {
-        return Err(Diagnostic::error("a half-breadth must be zero or more", value.span));
+        return Err(Diagnostic::error("a half-breadth must be zero or more", value.span)
+            .help("PLANE X1 .. -CARTESIAN Y1 Z1 .. takes points all round a section"));
     }
-    if outline.len() < 2 {
+    if outline.points().len() < 2 {
         return Err(Diagnostic::error("a section has two or more points", args.span));
     }
-    let Some(Menu::Planes(planes)) = job.menus.last_mut() else { return Ok(Effect::Done) };
+    if let Some(Menu::Block(_)) = job.menus.last()
+        && let Some((_, piece)) = job.model.current_piece.as_ref().and_then(|name| job.model.piece(name))
+        && piece.shape != Shape::Panels(Vec::new())
+    {
+        return Err(Diagnostic::error(format!("piece {} is given by panels already", piece.name), args.span));
+    }
+    let Some(Menu::Planes(planes) | Menu::Block(planes)) = job.menus.last_mut() else { return Ok(Effect::Done) };
     let mut sections = planes.sections.clone();
     for (x, span) in at {
         let ends = [sections.first(), sections.get(1), sections.last()].map(|s| s.map(|(x, _)| *x));
@@ -169,36 +320,252 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
+/// A rectangle by the points of its half with y >= 0.
+fn rectangle(given: &Given) -> Outcome<Outline> {
+    let [bottom, top, beam] = given.numbers_or_zero(const { RECTANGLE.numbers(["ZBOT", "ZTOP", "BEAM"]) });
+    if bottom >= top {
+        return Err(Diagnostic::error("ZTOP must be greater than ZBOT", given.span));
+    }
+    let (half, count) = (0.5 * beam, given.integer(const { RECTANGLE.integer("NPTS") }).unwrap_or(2).max(2) as usize);
+    let mut points = vec![[half, bottom], [half, top]];
+    if count > 3 {
+        points.insert(0, [0.0, bottom]);
+        points.push([0.0, top]);
+    }
+    // the longest edge is halved until there are as many
+    while points.len() < count {
+        let long = |n: &usize| match (points.get(*n), points.get(n + 1)) {
+            (Some([y, z]), Some([v, w])) => (v - y).hypot(w - z),
+            _ => 0.0,
+        };
+        let edge = (0..points.len() - 1).max_by(|m, n| long(m).total_cmp(&long(n)).then(n.cmp(m)));
+        let Some(n) = edge else { break };
+        if let (Some([y, z]), Some([v, w])) = (points.get(n).copied(), points.get(n + 1).copied()) {
+            points.insert(n + 1, [0.5 * (y + v), 0.5 * (z + w)]);
+        }
+    }
+    Ok(Outline::Rectangle(points))
+}
+
+/// Points on a circle.
+fn circle(given: &Given) -> Outcome<Outline> {
+    const NPTS: windlass_base::spec::ValueKey<i64> = CIRCULAR.integer("NPTS");
+    let [y, z, radius] = given.numbers_or_zero(const { CIRCULAR.numbers(["Y", "Z", "RADIUS"]) });
+    let count = given.integer(NPTS).unwrap_or(2).max(2);
+    let from = given.number(const { CIRCULAR.number("THETA") }).unwrap_or(-std::f64::consts::FRAC_PI_2);
+    let step = given.number(const { CIRCULAR.number("DTHETA") });
+    let turn = std::f64::consts::TAU;
+    let by = step.unwrap_or(turn / (count - 1) as f64);
+    let whole = ((count - 1) as f64 * by.abs() - turn).abs() < 1e-9 * turn;
+    let points = |count: i64| -> Vec<[f64; 2]> {
+        let at = |n: i64| unit_vector(from + by * n as f64);
+        (0..count).map(at).map(|(cos, sin)| [y + radius * cos, z + radius * sin].map(snap(radius))).collect()
+    };
+    if !whole {
+        return if (count - 1) as f64 * by.abs() > turn {
+            Err(Diagnostic::error("the arc goes more than once round its circle", given.span))
+        } else {
+            Ok(Outline::Points(points(count)))
+        };
+    }
+    if count < 4 {
+        return Err(Diagnostic::error("a whole circle needs four or more points", given.place(NPTS))
+            .help("the last of them is the first: 9 points make 8 sides"));
+    }
+    Ok(Outline::Circle(points(count - 1)))
+}
+
+/// Zero for what rounding leaves of a coordinate that is zero.
+fn snap(size: f64) -> impl Fn(f64) -> f64 {
+    move |x| if x.abs() < 1e-12 * size { 0.0 } else { x }
+}
+
 /// The end of PGEN: makes the panels.
 ///
 /// # Errors
 /// Fewer than two sections, or sections that enclose nothing.
 pub fn build(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
+    let is_described = matches!(planes.piece, PieceOfSections::Described(_));
+    let made = build_pieces(job, planes, at);
+    if made.is_err() && is_described {
+        job.model.current_piece = None;
+    }
+    made
+}
+
+fn build_pieces(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
     let span = at.unwrap_or(planes.span);
     if planes.sections.len() < 2 {
         return Err(Diagnostic::error("a hull needs two or more sections", span).other(planes.span, "begun here"));
     }
-    let flat = planes.sections.iter().all(|(_, outline)| outline.iter().all(|[y, _]| *y == 0.0));
-    let panels = panels(planes.sections);
+    let is_tank = match &planes.piece {
+        PieceOfSections::New(piece) => piece.compartment.is_some(),
+        PieceOfSections::Described(name) => job.model.piece(name).is_some_and(|(_, p)| p.compartment.is_some()),
+    };
+    let as_given = is_tank || planes.placing.side != Side::Mirrored;
+    let beyond = |outline: &Outline| matches!(outline, Outline::Points(list) if list.iter().any(|[y, _]| *y < 0.0));
+    let crosses = planes.sections.iter().any(|(_, outline)| beyond(outline));
+    let has_circle = planes.sections.iter().any(|(_, outline)| matches!(outline, Outline::Circle(_)));
+    let panels = if as_given || crosses || has_circle {
+        let half_rectangle = planes.placing.side != Side::Mirrored;
+        let round = |(x, outline): HullSection| (x, loop_of(outline, half_rectangle, as_given || crosses));
+        loft(planes.sections.into_iter().map(round).collect())
+    } else {
+        panels(planes.sections.into_iter().map(|(x, outline)| (x, outline.points().to_vec())).collect())
+    };
+    let flat = panels.iter().flatten().all(|[_, y, _]| *y == 0.0);
     if flat || panels.is_empty() {
         return Err(Diagnostic::error("the sections enclose nothing", span).other(planes.span, "begun here"));
     }
-    match planes.piece {
-        PieceOfSections::New(piece) => piece::add(job, Piece { shape: Shape::Panels(panels), ..*piece }, false),
+    place_panels(job, planes.piece, planes.placing, panels, at)
+}
+
+/// Puts panels into a piece, mirrored and placed as its record says, and into a second piece under -BOTH.
+fn place_panels(
+    job: &mut Job,
+    piece: PieceOfSections,
+    placing: Placing,
+    panels: Vec<Vec<Position>>,
+    at: Option<Span>,
+) -> Outcome<()> {
+    let mut sides = placing.sides(panels).into_iter();
+    let first = Shape::Panels(sides.next().unwrap_or_default());
+    let name = match piece {
+        PieceOfSections::New(piece) => {
+            let name = piece.name.clone();
+            piece::add(job, Piece { shape: first, ..*piece }, false);
+            name
+        }
         PieceOfSections::Described(name) => {
             if let Some(piece) = job.model.piece_mut(&name) {
-                piece.shape = Shape::Panels(panels);
+                piece.shape = first;
             }
-            job.model.current_piece = Some(name);
+            job.model.current_piece = Some(name.clone());
+            name
         }
-    }
+    };
+    let original = job.model.piece(&name).map(|(_, piece)| piece.clone());
     let notices = piece::complete_piece(job, at);
     job.notices.extend(notices);
+    if let (Some(panels), Some(original)) = (sides.next(), original) {
+        let other = format!("{name}P");
+        if let Some((_, taken)) = job.model.piece(&other) {
+            return Err(Diagnostic::error(
+                format!("-BOTH makes a piece {other}, which exists already"),
+                at.unwrap_or(original.span),
+            )
+            .other(taken.span, "defined here"));
+        }
+        piece::add(job, Piece { name: other, shape: Shape::Panels(panels), ..original }, false);
+        let notices = piece::complete_piece(job, at);
+        job.notices.extend(notices);
+    }
     Ok(())
 }
 
+/// Puts a box into the part described last, mirrored and placed as its record says.
+///
+/// # Errors
+/// A name that the second piece of -BOTH would have and that is taken.
+pub fn add_placed(job: &mut Job, piece: Piece, placing: Placing) -> Outcome<()> {
+    let panels = match &piece.shape {
+        Shape::Block { low, high } => box_panels(*low, *high),
+        Shape::Panels(panels) => panels.clone(),
+        Shape::Tube { .. } => Vec::new(),
+    };
+    place_panels(job, PieceOfSections::New(Box::new(piece)), placing, panels, None)
+}
+
+/// The end of a menu of BLOCK: its sections or panels are complete.
+///
+/// # Errors
+/// As [`build`].
+pub fn finish_block(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
+    if planes.has_sections() {
+        return build(job, planes, at);
+    }
+    let given = job.model.current_piece.as_ref().and_then(|name| job.model.piece(name));
+    let Some(Shape::Panels(panels)) =
+        given.map(|(_, piece)| piece.shape.clone()).filter(|shape| shape.extent().is_some())
+    else {
+        let notices = piece::complete_piece(job, at);
+        job.notices.extend(notices);
+        return Ok(());
+    };
+    place_panels(job, planes.piece, planes.placing, panels, at)
+}
+
+/// The points once round a section: of a rectangle its whole, or its half with y >= 0; of points what is given, or what they are with
+/// their mirror images.
+fn loop_of(outline: Outline, half_rectangle: bool, as_given: bool) -> Vec<[f64; 2]> {
+    let mirror =
+        |list: &[[f64; 2]]| list.iter().rev().filter(|[y, _]| *y != 0.0).map(|[y, z]| [-y, *z]).collect::<Vec<_>>();
+    // loops begin on the plane of symmetry, so that those of unequal number of points match
+    let from_keel = |list: Vec<[f64; 2]>| match list.first() {
+        Some([y, z]) if *y != 0.0 => std::iter::once([0.0, *z]).chain(list.iter().copied()).collect(),
+        _ => list,
+    };
+    match outline {
+        Outline::Circle(list) => list,
+        Outline::Points(list) if as_given => list,
+        Outline::Rectangle(list) if half_rectangle => {
+            let ends = [list.first(), list.last()].map(|end| end.map(|[_, z]| [0.0, *z]));
+            let [bottom, top] = ends;
+            let mut made: Vec<[f64; 2]> = bottom.into_iter().chain(list).chain(top).collect();
+            made.dedup();
+            made
+        }
+        Outline::Points(list) | Outline::Rectangle(list) => {
+            let port = mirror(&list);
+            from_keel(list).into_iter().chain(port).collect()
+        }
+    }
+}
+
+/// The panels of a solid between whole sections, each given by the points once round it.
+fn loft(mut sections: Vec<SectionPoints>) -> Vec<Vec<Position>> {
+    if sections.first().zip(sections.last()).is_some_and(|(a, b)| a.0 > b.0) {
+        sections.reverse();
+    }
+    let round = |(x, points): &SectionPoints| {
+        let mut points = points.clone();
+        if points.len() > 1 && points.first() == points.last() {
+            points.pop();
+        }
+        let next = points.iter().cycle().skip(1);
+        let area: f64 = points.iter().zip(next).map(|([y, z], [v, w])| y * w - v * z).sum();
+        // once round from +y toward +z, from the same first point
+        if area < 0.0 {
+            points.get_mut(1..).into_iter().for_each(<[_]>::reverse);
+        }
+        points.iter().map(|[y, z]| [*x, *y, *z]).collect::<Vec<Position>>()
+    };
+    let rings: Vec<Vec<Position>> = sections.iter().map(round).collect();
+    let closed = |ring: &[Position]| ring.iter().chain(ring.first()).copied().collect::<Vec<Position>>();
+    let mut list: Vec<Vec<Position>> = Vec::new();
+    for pair in rings.windows(2) {
+        let [a, b] = pair else { continue };
+        list.extend(strip(&closed(a), &closed(b)));
+    }
+    list.extend(rings.first().map(|ring| ring.iter().rev().copied().collect()));
+    list.extend(rings.last().cloned());
+    clean(&mut list);
+    list
+}
+
+/// Leaves out corners that coincide with the one before, and panels without area.
+fn clean(list: &mut Vec<Vec<Position>>) {
+    for corners in list.iter_mut() {
+        corners.dedup();
+        while corners.len() > 1 && corners.first() == corners.last() {
+            corners.pop();
+        }
+    }
+    list.retain(|corners| corners.len() > 2 && piece::area(corners) > 0.0);
+}
+
 /// The panels of a hull, their corners counterclockwise from outside; panels without area are left out.
-fn panels(mut sections: Vec<HullSection>) -> Vec<Vec<Position>> {
+fn panels(mut sections: Vec<SectionPoints>) -> Vec<Vec<Position>> {
     if sections.first().zip(sections.last()).is_some_and(|(a, b)| a.0 > b.0) {
         sections.reverse();
     }
@@ -208,7 +575,7 @@ fn panels(mut sections: Vec<HullSection>) -> Vec<Vec<Position>> {
         list.push(corners.iter().rev().map(|at| mirror(*at)).collect());
         list.push(corners);
     };
-    let placed = |(x, outline): &HullSection| outline.iter().map(|[y, z]| [*x, *y, *z]).collect::<Vec<Position>>();
+    let placed = |(x, outline): &SectionPoints| outline.iter().map(|[y, z]| [*x, *y, *z]).collect::<Vec<Position>>();
     let halves: Vec<Vec<Position>> = sections.iter().map(placed).collect();
     for pair in halves.windows(2) {
         let [a, b] = pair else { continue };
@@ -226,13 +593,7 @@ fn panels(mut sections: Vec<HullSection>) -> Vec<Vec<Position>> {
             list.push(corners);
         }
     }
-    for corners in &mut list {
-        corners.dedup();
-        while corners.len() > 1 && corners.first() == corners.last() {
-            corners.pop();
-        }
-    }
-    list.retain(|corners| corners.len() > 2 && piece::area(corners) > 0.0);
+    clean(&mut list);
     list
 }
 
@@ -331,5 +692,19 @@ mod tests {
         let sections = vec![(0.0, vec![[5.0, 0.0], [5.0, 4.0]]), (10.0, vec![[5.0, 0.0], [5.0, 1.0], [5.0, 4.0]])];
         let (found, open) = volume(&panels(sections));
         assert!((found - 400.0).abs() < 1e-9 && open < 1e-9, "{found} {open}");
+    }
+
+    #[test]
+    fn prism_over_octagon_has_area_of_inscribed_polygon() {
+        // 8 sides within a circle of radius 31.5: 8/2 R^2 sin(45 deg) = 2806.5; given either way round
+        let octagon: Vec<[f64; 2]> = (0..8)
+            .map(|n| (f64::from(n) * std::f64::consts::FRAC_PI_4).sin_cos())
+            .map(|(sin, cos)| [31.5 * cos, 31.5 * sin])
+            .collect();
+        let turned: Vec<[f64; 2]> = octagon.iter().rev().copied().collect();
+        for section in [octagon, turned] {
+            let (found, open) = volume(&loft(vec![(0.0, section.clone()), (2.0, section)]));
+            assert!((found / 2.0 - 2806.5).abs() < 0.05 && open < 1e-9, "{found} {open}");
+        }
     }
 }

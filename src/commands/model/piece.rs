@@ -5,21 +5,22 @@
 use crate::commands::menu;
 use crate::commands::model::member;
 use crate::commands::written::option_as_written;
-use crate::commands::{Call, Command, Effect, Job};
+use crate::commands::{Call, Command, Effect, Job, Menu};
 use nalgebra::Vector3;
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::geometry::Position;
+use windlass_base::geometry::{Place, Position};
 use windlass_base::span::Span;
-use windlass_base::units::Dim;
-use windlass_base::values::Noun;
-use windlass_base::values::{Args, Value};
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::{Args, Given, Noun, Value};
 use windlass_hydro as hydro;
 use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, TextForm, ValueSpec};
 use windlass_language::token::TokenKind as Lex;
-use windlass_model::{EntityKind, Model, Part, Piece, Shape, WaveAction, find};
+use windlass_model::{
+    EntityKind, GROUND, LOOSE_SURFACES, Model, Part, Piece, Shape, SolveKind, UnmodelledEffect, WaveAction, find,
+};
 
 /// PANEL.
 pub static PANEL: Command = Command { spec: &PANEL_SPEC, edits: false, run: panel };
@@ -48,12 +49,18 @@ const CS_WIND: OptionSpec =
 pub(crate) const CS_CURRENT: OptionSpec =
     OptionSpec::new("-CS_CURRENT", FACTORS, "shape coefficients of the current force along the part's x y z")
         .default(CS);
-const OBSTACLE: OptionSpec = OptionSpec::new("-OBSTACLE", &[], "stops what moves against it; kept");
+const OBSTACLE: OptionSpec = OptionSpec::new(
+    "-OBSTACLE",
+    &[],
+    "a piece that does not move with the body: no buoyancy, wind or current of it acts on the body",
+);
 choices! {
     /// What waves do to a piece.
     enum DiffractionType {
         /// It is in the hull of a hydrodynamic database.
         Database = "3DDIF",
+        /// Strip theory.
+        Strip = "STRIP",
         /// What its form says.
         None = "NONE",
         /// Pressure of the waves as they are without it.
@@ -65,7 +72,7 @@ const DIFTYPE: OptionSpec = OptionSpec::new(
         "-DIFTYPE",
         &[ValueSpec::choice::<DiffractionType>(
             "TYPE",
-            "3DDIF: in the hull of a hydrodynamic database; NONE: as its form says; FK (ours): the pressure of waves it does not change",
+            "3DDIF: in the hull of a hydrodynamic database; STRIP: by strip theory, which is not computed; NONE: as its form says; FK (ours): the pressure of waves it does not change",
         )],
         "what waves do to it",
     )
@@ -73,23 +80,23 @@ const DIFTYPE: OptionSpec = OptionSpec::new(
 const CS_VELOCITY: OptionSpec = OptionSpec::new(
     "-CS_VELOCITY",
     &[ValueSpec::new("NAME", Kind::Name(Noun::Curve), "curve of factors by velocity")],
-    "factors of drag by velocity; kept",
+    "factors of drag by velocity",
 );
-const DD_MULT: OptionSpec = OptionSpec::new("-DD_MULT", FACTOR, "factor of drift damping; kept");
+const DD_MULT: OptionSpec = OptionSpec::new("-DD_MULT", FACTOR, "factor of drift damping");
 const AMASS: OptionSpec = OptionSpec::new(
     "-AMASS",
     &[
         number("M", Dim::None, "factor of added mass").not_negative(),
         ValueSpec::new("CURVE", Kind::Name(Noun::Curve), "curve of pressures").or("none"),
     ],
-    "added mass; kept",
+    "added mass by pressures",
 );
-const TANAKA: OptionSpec = OptionSpec::new("-TANAKA", FACTOR, "factor of Tanaka's roll damping; kept");
-const ROLL_DAMPING: OptionSpec = OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping; kept");
+const TANAKA: OptionSpec = OptionSpec::new("-TANAKA", FACTOR, "factor of the eddy damping of roll: &HELP #TANAKA");
+const ROLL_DAMPING: OptionSpec = OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping");
 const COLOR: OptionSpec =
-    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures; kept");
+    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures");
 const TEXTURE: OptionSpec =
-    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures; kept");
+    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures");
 
 /// What every piece takes, however its surface is given.
 pub const OPTIONS: [OptionSpec; 12] = [
@@ -119,7 +126,8 @@ pub const PIECE_HELP: &str = "A piece belongs to the part described last and is 
      from its two sides (a hollow counts as if nothing sheltered it). |v| v is integrated over the height, by the profiles of \
      &ENV. CS is 1 1 1 where it is not given, so that wind in force is never without effect on a hull; -CS_WIND 0 0 0 turns it \
      off. A piece of permeability 0 or less takes none unless CS is given, an interior (less than 0) never. Tubes are \
-     prisms of 64 sides for it. Under way in waves a TUBE is a member by Morison's formula (&HELP TUBE). Any other piece feels no waves of first order, \
+     prisms of 64 sides for it. -CS_VELOCITY stops the next solve, -OBSTACLE, -DD_MULT, -AMASS and -ROLL_DAMPING the next \
+     solve of motions, as their effect is not computed (&HELP &PARAMETER); -COLOR and -TEXTURE are for pictures. Under way in waves a TUBE is a member by Morison's formula (&HELP TUBE). Any other piece feels no waves of first order, \
      and keeps the buoyancy of the mean level, unless a hydrodynamic database holds it (-DIFTYPE 3DDIF) or it has -DIFTYPE FK: then the \
      pressure that the waves have without it is integrated up to their surface, without diffraction and radiation. TDOM warns of pieces \
      that feel none. &STATUS PIECES lists CS, &STATUS LOADS the forces.";
@@ -158,6 +166,11 @@ fn panel(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Diagnostic::error("a panel belongs to a piece, and none is described", command.span)
             .help("&DESCRIBE PIECE NAME describes one")
     })?;
+    if let Menu::Block(planes) = job.menu()
+        && planes.has_sections()
+    {
+        return Err(Diagnostic::error(format!("piece {name} is given by sections already"), command.span));
+    }
     let found = job.model.piece(&name).map(|(part, piece)| (part.clone(), piece.shape.clone()));
     let Some((part, Shape::Panels(_))) = found else {
         return Err(Diagnostic::error(format!("piece {name} is not made of panels"), command.span));
@@ -198,7 +211,8 @@ pub fn area(corners: &[Position]) -> f64 {
 /// An unknown point, or one of another body.
 pub fn point_in_part(model: &Model, name: &str, part: &Part, span: Span) -> Outcome<Position> {
     let point = find(&model.points, name, "point", span)?;
-    if Model::key(&point.part) == Model::key(&part.name) {
+    let loose = part.name == LOOSE_SURFACES && Model::key(&point.part) == GROUND;
+    if loose || Model::key(&point.part) == Model::key(&part.name) {
         return Ok(point.at);
     }
     let own = model.parts.get(&Model::key(&point.part)).filter(|p| Model::key(&p.body) == Model::key(&part.body));
@@ -209,6 +223,12 @@ pub fn point_in_part(model: &Model, name: &str, part: &Part, span: Span) -> Outc
     })?;
     let in_body = Vector3::from(own.place.apply(point.at));
     Ok((part.place.rotation().inverse() * (in_body - Vector3::from(part.place.shift))).into())
+}
+
+/// The first of PIECE1, PIECE2 .. that nothing is called.
+pub fn free_piece_name(model: &Model) -> String {
+    let taken = |name: &str| model.piece(name).is_some() || model.free_name(name, &[], Span::default()).is_err();
+    (1..).map(|n| format!("PIECE{n}")).find(|name| !taken(name)).unwrap_or_default()
 }
 
 /// The part described last.
@@ -223,6 +243,21 @@ pub fn current_part(model: &Model, span: Span) -> Outcome<&Part> {
     })
 }
 
+/// What an option of a piece would change that no solver computes; none of what is for pictures alone.
+fn unmodelled_effect(given: &Given, piece: &str, units: UnitSystem) -> Option<UnmodelledEffect> {
+    let (effect, matters_to) = match given {
+        _ if given.is(&DIFTYPE) => ("strip theory of waves", SolveKind::Motions),
+        _ if given.is(&OBSTACLE) => ("what a fixed obstacle does to waves", SolveKind::Motions),
+        _ if given.is(&CS_VELOCITY) => ("drag factors by velocity", SolveKind::Statics),
+        _ if given.is(&DD_MULT) => ("wave drift damping by a factor of the piece", SolveKind::Motions),
+        _ if given.is(&AMASS) => ("added mass by a curve of pressures", SolveKind::Motions),
+        _ if given.is(&ROLL_DAMPING) => ("viscous damping of roll", SolveKind::Motions),
+        _ => return None,
+    };
+    let record = format!("{} of piece {piece}", option_as_written(given, units));
+    Some(UnmodelledEffect { record, effect: effect.into(), matters_to, span: given.span })
+}
+
 /// A new piece of the part described last, with the options of its record; it is not yet in the model.
 ///
 /// # Errors
@@ -230,41 +265,56 @@ pub fn current_part(model: &Model, span: Span) -> Outcome<&Part> {
 pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -> Outcome<Piece> {
     rule::check(name, None, "piece", span)?;
     let model = &job.model;
-    current_part(model, span)?;
+    if !job.menus.iter().any(|menu| matches!(menu, Menu::Surface)) {
+        current_part(model, span)?;
+    }
     if let Some((_, old)) = model.piece(name) {
         return Err(Diagnostic::error(format!("piece {} exists already", old.name), span)
             .other(old.span, "defined here")
             .help(format!("DELETE {} first, or use another name", old.name)));
     }
-    model.free_name(name, &[EntityKind::Body, EntityKind::Part], span)?;
+    model.free_name(name, &[EntityKind::Body, EntityKind::Part, EntityKind::Compartment], span)?;
     let own = args.options.iter().filter(|given| given.is_any(&OPTIONS));
     for value in own.clone().flat_map(|g| g.names(Noun::Curve)) {
         if let Some(word) = value.word() {
             find(&model.curves, word, "curve", value.span)?;
         }
     }
-    let acting = [PERMEABILITY, CS_WIND, CS_CURRENT, DIFTYPE];
-    let kept: Vec<_> = own.filter(|given| !given.is_any(&acting)).cloned().collect();
-    if !kept.is_empty() {
-        let list: Vec<String> = kept.iter().map(|g| option_as_written(g, job.units)).collect();
-        job.remark(format!("kept, without effect yet: {}", list.join(" ")), span);
-    }
-    let permeability = args.option_number(&PERMEABILITY).unwrap_or(1.0);
-    let member = matches!(shape, Shape::Tube { .. }).then(|| member::coefficients(args, permeability)).transpose()?;
+    let acting = [PERMEABILITY, CS_WIND, CS_CURRENT, DIFTYPE, TANAKA];
     let chosen = args.option_choice(&DIFTYPE, const { DIFTYPE.choice("TYPE") });
+    let is_strip = chosen == Some(DiffractionType::Strip);
+    let kept: Vec<_> =
+        own.filter(|given| !given.is_any(&acting) || (is_strip && given.is(&DIFTYPE))).cloned().collect();
+    let unmodelled: Vec<_> = kept.iter().filter_map(|given| unmodelled_effect(given, name, job.units)).collect();
+    for effect in &unmodelled {
+        job.remark(format!("not computed: {}; solves it matters to will stop", effect.sentence()), effect.span);
+    }
+    let compartment = job.model.current_compartment.clone();
+    let in_tank = compartment.is_some();
+    if let Some(given) = args.option(&DIFTYPE).filter(|_| in_tank && chosen != Some(DiffractionType::None)) {
+        return Err(Diagnostic::error("waves do nothing to a compartment: its pieces have -DIFTYPE NONE", given.span));
+    }
+    let is_obstacle = args.has(&OBSTACLE);
+    let permeability =
+        if is_obstacle { 0.0 } else { args.option_number(&PERMEABILITY).unwrap_or(if in_tank { -1.0 } else { 1.0 }) };
+    let member = (matches!(shape, Shape::Tube { .. }) && !in_tank)
+        .then(|| member::coefficients(args, permeability, &job.model.parameters))
+        .transpose()?;
     let waves = match chosen.unwrap_or(DiffractionType::None) {
         DiffractionType::Database => WaveAction::Database,
         DiffractionType::FroudeKrylov if member.is_none() => WaveAction::Pressure,
-        DiffractionType::FroudeKrylov | DiffractionType::None => WaveAction::ByForm,
+        DiffractionType::FroudeKrylov | DiffractionType::Strip | DiffractionType::None => WaveAction::ByForm,
     };
-    let usual = if permeability > 0.0 { [1.0; 3] } else { [0.0; 3] };
+    let usual = if permeability > 0.0 && !in_tank { [1.0; 3] } else { [0.0; 3] };
+    let tube_wind =
+        job.model.parameters.tube_wind.filter(|_| member.is_some() && permeability > 0.0 && !args.has(&CS_WIND));
     // a member's drag is its own, unless -CS_CURRENT says other
     let by_area = member.is_none() || args.has(&CS_CURRENT);
     let mut factors = |option: &OptionSpec| {
         let given = args.option(option).map(|given| {
             (given.span, const { CS_WIND.numbers(["X", "Y", "Z"]) }.map(|key| given.number(key).unwrap_or(1.0)))
         });
-        if let Some((at, _)) = given.filter(|(_, cs)| permeability < 0.0 && *cs != [0.0; 3]) {
+        if let Some((at, _)) = given.filter(|(_, cs)| (permeability < 0.0 || in_tank) && *cs != [0.0; 3]) {
             job.remark(format!("an interior takes no wind and no current: {} of {name} is 0 0 0", option.name), at);
             return usual;
         }
@@ -274,11 +324,14 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
         name: name.to_string(),
         permeability,
         shape,
-        cs_wind: factors(&CS_WIND),
+        cs_wind: tube_wind.map_or_else(|| factors(&CS_WIND), |cs| [cs; 3]),
         cs_current: if by_area { factors(&CS_CURRENT) } else { [0.0; 3] },
         member,
         waves,
+        eddy_damping: args.option_number(&TANAKA).unwrap_or(0.0),
         kept,
+        unmodelled,
+        compartment,
         span,
     })
 }
@@ -287,8 +340,12 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
 pub fn add(job: &mut Job, piece: Piece, complete: bool) {
     finish_piece(job);
     let (name, span) = (piece.name.clone(), piece.span);
-    let part = job.model.current_part.as_ref().map(|p| Model::key(p));
-    if let Some(part) = part.and_then(|key| job.model.parts.get_mut(&key)) {
+    let part = job.model.current_part.as_ref().map_or_else(|| LOOSE_SURFACES.to_string(), |p| Model::key(p));
+    if part == LOOSE_SURFACES {
+        let loose = Part::new(LOOSE_SURFACES, "", Place::default(), span);
+        job.model.parts.entry(part.clone()).or_insert(loose);
+    }
+    if let Some(part) = job.model.parts.get_mut(&part) {
         part.pieces.push(piece);
     }
     job.note_name(&name, span);

@@ -9,7 +9,7 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_connectors::hook::{SlingConstraint, SlingObjective, hanging, hook};
-use windlass_model::{Connector, Mass, Model};
+use windlass_model::{Connector, Model};
 
 /// A tip-hook set that is being defined.
 pub struct Rigging<'a> {
@@ -63,7 +63,7 @@ impl Rigging<'_> {
         let Some(body) = model.bodies.get(&key) else { return Err(self.too_short()) };
         let pose = Pose::from_place(&body.place);
         let (at, turn) = if turned {
-            let mass = Mass::from_parts(model.parts_of(body), model.defaults.gravity);
+            let mass = windlass_hydro::laden_mass(model, body).map_err(|e| e.diagnostic(self.span, self.units))?;
             if mass.mass <= 0.0 {
                 return Err(Diagnostic::error(format!("{} has no weight that could hang", body.name), self.span));
             }

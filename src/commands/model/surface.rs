@@ -5,6 +5,7 @@
 use crate::commands::menu;
 use crate::commands::model::describe::PLACE;
 use crate::commands::model::member;
+use crate::commands::model::pgen::{PLACING, PLACING_HELP, Placing, Planes, add_placed};
 use crate::commands::model::piece::{self, OPTIONS, PIECE_HELP};
 use crate::commands::settings::device::existing;
 use crate::commands::status::body_tables::pieces;
@@ -17,11 +18,13 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_base::wildcard::matches;
 use windlass_hydro::hull::{MeshKind, read_mesh};
+use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec, join_options};
-use windlass_model::{Piece, Shape};
+use windlass_model::{EntityKind, LOOSE_SURFACES, Model, Piece, Shape};
 
 /// &SURFACE.
 pub static SURFACE: Command = Command { spec: &SURFACE_SPEC, edits: false, run: surface };
@@ -49,24 +52,28 @@ static SURFACE_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("&SURFACE", "opens the menu of surfaces, up to END")
 };
 
+static BLOCK_OPTIONS: [OptionSpec; OPTIONS.len() + PLACING.len()] = join_options(&OPTIONS, &PLACING);
+
 static BLOCK_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::SURFACE],
     opens: Opens::Short(&menu::BLOCK, 1),
     data: &[
-        NEW,
-        number("X1", Dim::Length, "a corner of a box").or("PANEL records follow, up to END_BLOCK"),
+        NEW.or("PIECE1, PIECE2 .."),
+        number("X1", Dim::Length, "a corner of a box").or("PLANE or PANEL records follow, up to END_BLOCK"),
         number("Y1", Dim::Length, "a corner of a box").or("as X1"),
         number("Z1", Dim::Length, "a corner of a box").or("as X1"),
         number("X2", Dim::Length, "the corner opposite").or("as X1"),
         number("Y2", Dim::Length, "the corner opposite").or("as X1"),
         number("Z2", Dim::Length, "the corner opposite").or("as X1"),
     ],
-    options: &OPTIONS,
-    detail: "BLOCK NAME X1 Y1 Z1 X2 Y2 Z2 is a box along the axes of the part, complete in one record. BLOCK NAME alone opens a menu of \
-             PANEL records, up to END_BLOCK or END. Options stand behind the corners.",
-    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nBLOCK FIN -CS_WIND 0 0 0\nPANEL 0 0 -3  3 0 -3  0 3 -3\n\
+    options: &BLOCK_OPTIONS,
+    detail: PLACING_HELP,
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK COLUMN -BOTH -LOCATION 0 0 -60\nPLANE 0 30 -CIRC 200 0 40 17\nEND_BLOCK\nBLOCK HULL 0 -50 0 400 50 20\nBLOCK FIN -CS_WIND 0 0 0\nPANEL 0 0 -3  3 0 -3  0 3 -3\n\
               PANEL 0 0 -3  0 0 -1  3 0 -3\nPANEL 0 0 -3  0 3 -3  0 0 -1\nPANEL 3 0 -3  0 0 -1  0 3 -3\nEND_BLOCK\nEND\n&STATUS PIECES",
-    ..CommandSpec::new("BLOCK", "a box, or a surface of panels")
+    ..CommandSpec::new(
+        "BLOCK",
+        "a box by two corners (ours: BLOCK NAME X1 Y1 Z1 X2 Y2 Z2), or sections (PLANE) or panels up to END_BLOCK",
+    )
 };
 
 const FORMAT: OptionSpec =
@@ -146,9 +153,167 @@ static LIST_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("LIST_BLOCK", "lists the pieces")
 };
 
-fn surface(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    piece::current_part(&job.model, call.args.span)?;
+/// EMIT.
+pub static EMIT: Command = Command { spec: &EMIT_SPEC, edits: true, run: emit };
+/// COPY_BLOCK.
+pub static COPY_BLOCK: Command = Command { spec: &COPY_SPEC, edits: true, run: copy_block };
+/// REFLECT_BLOCK.
+pub static REFLECT_BLOCK: Command = Command { spec: &REFLECT_SPEC, edits: true, run: reflect_block };
+
+static EMIT_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::MAIN, &menu::INMODEL, &menu::MEDIT, &menu::SURFACE],
+    data: &[ValueSpec::new("NAME", Kind::Text, "a surface; wild characters may be used")],
+    repeat: 1,
+    detail: "A surface given in &SURFACE before any body is described belongs to no body and displaces nothing. EMIT puts it into the part described \
+             last, with the options it was given. Surfaces given while a body is described belong to it already. This is our reading.",
+    example: "&SURFACE\nBLOCK COLUMN 0 -5 0 10 5 30\nCOPY_BLOCK COLUMN COLUMN2 50\nEND_&SURFACE\n&DESCRIBE BODY SEMI\nEMIT @\n&STATUS PIECES",
+    ..CommandSpec::new("EMIT", "puts surfaces into the part described last")
+};
+static COPY_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::SURFACE],
+    data: &[
+        ValueSpec::new("NAME", Kind::Text, "the piece"),
+        ValueSpec::new("NEW", Kind::Name(Noun::New), "name of the copy"),
+        PLACE[0],
+        PLACE[1],
+        PLACE[2],
+        PLACE[3],
+        PLACE[4],
+        PLACE[5],
+    ],
+    detail: "The copy has the options of the piece and is moved as by MOVE_BLOCK. The order of the data is our reading.",
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK A 0 -5 0 10 5 20\nCOPY_BLOCK A B 50 0 0\nLIST_BLOCK\nEND",
+    ..CommandSpec::new("COPY_BLOCK", "copies a piece and moves the copy")
+};
+static REFLECT_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::SURFACE],
+    data: &[
+        ValueSpec::new("NAME", Kind::Text, "the piece"),
+        ValueSpec::new("NEW", Kind::Name(Noun::New), "name of the mirror image").or("the piece itself is mirrored"),
+    ],
+    detail: "Mirrors at y = 0 of the part. The order of the data is our reading.",
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK A 0 5 0 10 9 20\nREFLECT_BLOCK A B\nLIST_BLOCK\nEND",
+    ..CommandSpec::new("REFLECT_BLOCK", "mirrors a piece to the other side")
+};
+
+/// A piece by its name, with the nearest names where there is none.
+fn known_piece(job: &Job, name: &str, span: Span) -> Outcome<Piece> {
+    if let Some((_, piece)) = job.model.piece(name) {
+        return Ok(piece.clone());
+    }
+    let mut error = Diagnostic::error(format!("unknown piece {name}"), span);
+    error.help.extend(windlass_base::diagnostic::did_you_mean(name, job.model.names(EntityKind::Piece)));
+    Err(error)
+}
+
+fn emit(job: &mut Job, call: &Call) -> Outcome<Effect> {
     piece::finish_piece(job);
+    let part = Model::key(&piece::current_part(&job.model, call.args.span)?.name);
+    for value in &call.args.data {
+        let pattern = value.word().unwrap_or_default();
+        let fits = |piece: &Piece| matches(&pattern.to_ascii_uppercase(), &piece.name.to_ascii_uppercase());
+        let loose = job.model.parts.get_mut(LOOSE_SURFACES);
+        let (taken, left): (Vec<Piece>, Vec<Piece>) =
+            loose.map(|p| std::mem::take(&mut p.pieces)).unwrap_or_default().into_iter().partition(fits);
+        if let Some(loose) = job.model.parts.get_mut(LOOSE_SURFACES) {
+            loose.pieces = left;
+        }
+        if taken.is_empty() {
+            let why = match job.model.piece(pattern) {
+                Some((part, piece)) => format!("{} belongs to {} already", piece.name, part.name),
+                None => format!("no surface without a body is called {pattern}"),
+            };
+            return Err(Diagnostic::error(why, value.span));
+        }
+        for piece in taken {
+            let name = piece.name.clone();
+            if let Some(part) = job.model.parts.get_mut(&part) {
+                part.pieces.push(piece);
+            }
+            job.model.current_piece = Some(name);
+            piece::finish_piece(job);
+        }
+    }
+    Ok(Effect::Done)
+}
+
+/// Adds a piece made of another one, behind it in its part.
+fn add_beside(job: &mut Job, original: &str, made: Piece, span: Span) -> Outcome<()> {
+    rule::check(&made.name, None, "piece", span)?;
+    if let Some((_, old)) = job.model.piece(&made.name) {
+        return Err(
+            Diagnostic::error(format!("piece {} exists already", old.name), span).other(old.span, "defined here")
+        );
+    }
+    job.model.free_name(&made.name, &[EntityKind::Body, EntityKind::Part], span)?;
+    let part = job.model.piece(original).map(|(part, _)| Model::key(&part.name)).unwrap_or_default();
+    let name = made.name.clone();
+    if let Some(part) = job.model.parts.get_mut(&part) {
+        part.pieces.push(made);
+    }
+    job.model.current_piece = Some(name);
+    piece::finish_piece(job);
+    Ok(())
+}
+
+fn copy_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    const NAME: DatumKey<str> = COPY_SPEC.word("NAME");
+    const NEW_NAME: DatumKey<str> = COPY_SPEC.word("NEW");
+    let original = known_piece(job, args.word(NAME).unwrap_or_default(), args.place(NAME))?;
+    let by = Place::new(args.numbers_or_zero(const { COPY_SPEC.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }));
+    let made = Piece {
+        name: args.word(NEW_NAME).unwrap_or_default().to_string(),
+        shape: original.shape.with_displacement(&by),
+        span: args.place(NEW_NAME),
+        ..original.clone()
+    };
+    add_beside(job, &original.name, made, args.place(NEW_NAME))?;
+    Ok(Effect::Done)
+}
+
+/// A form mirrored at y = 0.
+fn mirrored(shape: &Shape) -> Shape {
+    let over = |[x, y, z]: Position| [x, -y, z];
+    match shape {
+        Shape::Panels(panels) => {
+            Shape::Panels(panels.iter().map(|p| p.iter().rev().map(|at| over(*at)).collect()).collect())
+        }
+        Shape::Block { low: [x, y, z], high: [v, w, u] } => Shape::Block { low: [*x, -w, *z], high: [*v, -y, *u] },
+        Shape::Tube { ends, diameter } => Shape::Tube { ends: ends.map(over), diameter: *diameter },
+    }
+}
+
+fn reflect_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    const NAME: DatumKey<str> = REFLECT_SPEC.word("NAME");
+    const NEW_NAME: DatumKey<str> = REFLECT_SPEC.word("NEW");
+    let original = known_piece(job, args.word(NAME).unwrap_or_default(), args.place(NAME))?;
+    let shape = mirrored(&original.shape);
+    match args.word(NEW_NAME) {
+        Some(new) => {
+            let made = Piece { name: new.to_string(), shape, span: args.place(NEW_NAME), ..original.clone() };
+            add_beside(job, &original.name, made, args.place(NEW_NAME))?;
+        }
+        None => {
+            if let Some(piece) = job.model.piece_mut(&original.name) {
+                piece.shape = shape;
+            }
+            job.model.current_piece = Some(original.name);
+            piece::finish_piece(job);
+        }
+    }
+    Ok(Effect::Done)
+}
+
+fn surface(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    piece::finish_piece(job);
+    if piece::current_part(&job.model, call.args.span).is_err() {
+        job.remark(
+            "no body is described yet: these surfaces belong to none until EMIT puts them into one",
+            call.args.span,
+        );
+    }
     job.menus.push(Menu::Surface);
     Ok(Effect::Done)
 }
@@ -158,18 +323,12 @@ const PIECE: DatumKey<str> = BLOCK_SPEC.word("NAME");
 /// Two opposite corners of a box.
 const CORNERS: [DatumKey<f64>; 6] = BLOCK_SPEC.numbers(["X1", "Y1", "Z1", "X2", "Y2", "Z2"]);
 
-/// A piece of a record without a surface: panels follow in a menu.
-fn panels_follow(job: &mut Job, args: &Args, menu: Menu) -> Outcome<Effect> {
-    let piece = piece::begin_piece(
-        job,
-        args,
-        args.word(PIECE).unwrap_or_default(),
-        args.place(PIECE),
-        Shape::Panels(Vec::new()),
-    )?;
+/// A piece of a record without a surface: what its records give follows in a menu. Returns its name.
+fn begin_menu(job: &mut Job, args: &Args) -> Outcome<String> {
+    let name = args.word(PIECE).map_or_else(|| piece::free_piece_name(&job.model), str::to_string);
+    let piece = piece::begin_piece(job, args, &name, args.place(PIECE), Shape::Panels(Vec::new()))?;
     piece::add(job, piece, false);
-    job.menus.push(menu);
-    Ok(Effect::Done)
+    Ok(name)
 }
 
 /// A piece that its record gives whole.
@@ -183,7 +342,12 @@ fn block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let corners: Vec<f64> = CORNERS.iter().filter_map(|key| args.number(*key)).collect();
     let [x1, y1, z1, x2, y2, z2] = corners.as_slice() else {
-        let Some(last) = args.data_after(PIECE).last() else { return panels_follow(job, args, Menu::Block) };
+        let Some(last) = args.data_after(PIECE).last() else {
+            let placing = Placing::from_args(args)?;
+            let name = begin_menu(job, args)?;
+            job.menus.push(Menu::Block(Box::new(Planes::of_block(&name, placing, args.span))));
+            return Ok(Effect::Done);
+        };
         return Err(Diagnostic::error("a box has two opposite corners", last.span)
             .label(format!("{} of six coordinates are given", corners.len()))
             .help("form: BLOCK NAME X1 Y1 Z1 X2 Y2 Z2"));
@@ -195,13 +359,23 @@ fn block(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error(format!("the box has no volume: {axis}1 is {axis}2"), args.place(key)));
     }
     let shape = Shape::Block { low: pairs.map(|(a, b)| a.min(*b)), high: pairs.map(|(a, b)| a.max(*b)) };
-    whole(job, args, shape)
+    let placing = Placing::from_args(args)?;
+    if placing == Placing::default() {
+        return whole(job, args, shape);
+    }
+    let piece = piece::begin_piece(job, args, args.word(PIECE).unwrap_or_default(), args.place(PIECE), shape)?;
+    add_placed(job, piece, placing)?;
+    Ok(Effect::Done)
 }
 
 fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     const FILE: DatumKey<str> = MESH_SPEC.word("FILE");
-    let Some(name) = args.word(FILE) else { return panels_follow(job, args, Menu::Mesh) };
+    let Some(name) = args.word(FILE) else {
+        begin_menu(job, args)?;
+        job.menus.push(Menu::Mesh);
+        return Ok(Effect::Done);
+    };
     let span = args.place(FILE);
     let panels = mesh_of(job, args, name, span)?;
     let scale = Dim::Length.to_si(args.option_number(&SCALE).unwrap_or(1.0), job.units);

@@ -20,6 +20,8 @@ pub static TITLE: Command = Command { spec: &TITLE_SPEC, edits: false, run: titl
 pub static SUBTITLE: Command = Command { spec: &SUBTITLE_SPEC, edits: false, run: subtitle };
 /// &TYPE.
 pub static TYPE: Command = Command { spec: &TYPE_SPEC, edits: false, run: say };
+/// &S_BACK.
+pub static S_BACK: Command = Command { spec: &S_BACK_SPEC, edits: false, run: send_back };
 /// &CTYPE.
 pub static CTYPE: Command = Command { spec: &CTYPE_SPEC, edits: false, run: say_centred };
 /// &CUTYPE.
@@ -34,6 +36,12 @@ pub static FINISH: Command = Command { spec: &FINISH_SPEC, edits: false, run: fi
 static TITLE_SPEC: CommandSpec = text("&TITLE", "the title of every report", "&TITLE Mooring of the barge");
 static SUBTITLE_SPEC: CommandSpec = text("&SUBTITLE", "the subtitle of every report", "&SUBTITLE intact");
 static TYPE_SPEC: CommandSpec = text("&TYPE", "prints text", "&TYPE Hello");
+static S_BACK_SPEC: CommandSpec = CommandSpec {
+    form: TextForm::Text,
+    detail: "Printed also where &DEVICE -SILENT YES keeps the rest off the screen: for programs that read windlass through a pipe.",
+    example: "&DEVICE -SILENT YES\n&TYPE not seen\n&S_BACK seen",
+    ..CommandSpec::new("&S_BACK", "prints text, also when silent")
+};
 static CTYPE_SPEC: CommandSpec = text("&CTYPE", "prints text, centred", "&CTYPE Hello");
 static CUTYPE_SPEC: CommandSpec = text("&CUTYPE", "prints text, centred and underlined", "&CUTYPE Hello");
 static ERROR_SPEC: CommandSpec = CommandSpec {
@@ -67,6 +75,11 @@ fn subtitle(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn say(job: &mut Job, call: &Call) -> Outcome<Effect> {
     job.say(call.record.rest().0);
+    Ok(Effect::Done)
+}
+
+fn send_back(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    job.output.text(call.record.rest().0);
     Ok(Effect::Done)
 }
 

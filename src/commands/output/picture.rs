@@ -10,9 +10,10 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::TableNote;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
-use windlass_base::values::Noun;
+use windlass_base::values::{Noun, Value};
+use windlass_language::number;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec, join_options};
 use windlass_model::EntityKind;
 use windlass_solve::scene::{Scene, SceneOptions};
 
@@ -65,12 +66,42 @@ const NAMES: OptionSpec =
 const INACTIVE: OptionSpec = OptionSpec::new("-INACTIVE", &[YES_NO], "connectors that do not act, in a light stroke")
     .default("YES")
     .owner(Owner::Ours);
+/// An option of pictures of MOSES that changes nothing here.
+const fn idle(name: &'static str, help: &'static str) -> OptionSpec {
+    const ANY: &[ValueSpec] = &[ValueSpec::new("DATA", Kind::Text, "as in MOSES").or("none")];
+    OptionSpec::new(name, ANY, help).repeating(1)
+}
+
+/// Options of MOSES that choose colours, styles and views that windlass does not draw.
+const IDLE: [OptionSpec; 17] = [
+    idle("-CATEGORY", "accepted: categories of elements"),
+    idle("-RENDER", "accepted: how surfaces are drawn"),
+    idle("-RESET", "accepted: settings of pictures are not remembered"),
+    idle("-SUBTITLE", "accepted: the picture has one title"),
+    idle("-MOVIE", "accepted: &ANIMATE makes films"),
+    idle("-PLANE", "accepted: a slice of the picture"),
+    idle("-INC_VIEW", "accepted: turns of the view"),
+    idle("-EVENTS", "accepted: &INSTATE -EVENT puts bodies where they were in a run"),
+    idle("-TYPE", "accepted: what is drawn"),
+    idle("-CONNECTORS", "accepted: NAME chooses connectors"),
+    idle("-PARTS", "accepted: NAME chooses bodies"),
+    idle("-BODY", "accepted: NAME chooses bodies"),
+    idle("-WATER_COLOR", "accepted: a colour"),
+    idle("-BACK_COLOR", "accepted: a colour"),
+    idle("-DETAIL", "accepted: how much is drawn"),
+    idle("-POINTS", "accepted: which points are drawn"),
+    idle("-ANNOTATE", "accepted: what is written on the picture"),
+];
+const OWN: [OptionSpec; 9] = [NO, HARD, FILE, FORMAT, FROM, EXAGGERATE, NAMES, INACTIVE, HEADING];
+static OPTIONS: [OptionSpec; OWN.len() + IDLE.len()] = join_options(&OWN, &IDLE);
+
 const HEADING: OptionSpec = OptionSpec::new(
     "-HEADING",
     &[ValueSpec::new("TEXT", Kind::Text, "title, in quotes when it holds blanks")],
     "title of the picture",
 )
 .default("that of &TITLE")
+.aliases(&["-TITLE"])
 .owner(Owner::Ours);
 
 choices! {
@@ -103,7 +134,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("NAME", Kind::Name(Noun::Selector), "connector or body, pattern or selector").or("all"),
     ],
     repeat: 1,
-    options: &[NO, HARD, FILE, FORMAT, FROM, EXAGGERATE, NAMES, INACTIVE, HEADING],
+    options: &OPTIONS,
     detail: "Draws the system as it stands now: bodies as their hull pieces, each as its convex \
              outline with its sharp edges, or as the convex outline of their points where they have none, mooring lines in the shape they \
              hang in between their ends, dynamic lines by their nodes at rest, other connectors straight, with anchors, fairleads, touchdowns and joints. Both \
@@ -115,7 +146,7 @@ static SPEC: CommandSpec = CommandSpec {
              A NAME chooses connectors and bodies, and with a connector come its bodies; the VIEW may be left out, but for a NAME \
              that begins one. Without -HARD, -FILE or -FORMAT the \
              picture is drawn in the terminal; in a terminal names that find no place are left out, in a file that is said. \
-             A relative file name is inside the job's folder: &HELP &FILE.",
+             Options of MOSES for colours and styles are accepted, and said once to have no effect. A relative file name is inside the job's folder: &HELP &FILE.",
     example: "MEDIT\n&DESCRIBE BODY BARGE\n*BOW 0 0 20\n*STERN 400 0 20\n~W B_CAT 4 -LEN 2200 -DEP 500\n\
               CONNECTOR A -ANC 180 2100 ~W *BOW\nCONNECTOR B -ANC 0 2100 ~W *STERN\nEND\n&PICTURE\n\
               &PICTURE ELEVATION A -EXAGGERATE 2\n&PICTURE ISO -HARD -FROM -45\n&PICTURE BOTH -FILE mooring.png",
@@ -189,10 +220,34 @@ fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
     }
 }
 
+/// What is said of angles behind the view, once.
+const ANGLES_SAID: &str =
+    "angles behind the view have no effect in windlass: -FROM turns an elevation or a view from a corner (said once)";
+
+/// Whether a word behind the view is an angle, as MOSES takes them there.
+fn is_angle(value: &Value) -> bool {
+    value.word().is_some_and(|word| number::evaluate(word).is_ok())
+}
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
+    for given in args.options.iter().filter(|given| given.is_any(&IDLE)) {
+        let option = given.option.name;
+        if !job.absent_said.contains(&option) {
+            job.absent_said.push(option);
+            job.remark(format!("{option} of &PICTURE has no effect in windlass (said once)"), given.span);
+        }
+    }
     let (views, file) = (views(args)?, file(job, args)?);
-    let (chosen, light) = (NameFilter::new(args.data_after(VIEW), &job.model), args.switch(&INACTIVE, true));
+    let angles: Vec<&Value> = args.data_after(VIEW).iter().filter(|value| is_angle(value)).collect();
+    if let Some(span) = angles.first().map(|first| first.span)
+        && !job.absent_said.contains(&ANGLES_SAID)
+    {
+        job.absent_said.push(ANGLES_SAID);
+        job.remark(ANGLES_SAID, span);
+    }
+    let names = args.data_after(VIEW).iter().filter(|value| !is_angle(value));
+    let (chosen, light) = (NameFilter::new(names, &job.model), args.switch(&INACTIVE, true));
     let choice = SceneOptions {
         connector: &|c| (chosen.takes(&c.name)) && (c.active || light),
         body: &|b| chosen.takes(&b.name),

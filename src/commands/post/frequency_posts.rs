@@ -7,7 +7,7 @@ use crate::commands::environment::env::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_
 use crate::commands::environment::probability;
 use crate::commands::menu;
 use crate::commands::solve::equilibrium::to_diagnostic;
-use crate::commands::solve::frequency::{FrequencyResults, heaving, open_results, seas};
+use crate::commands::solve::frequency::{FrequencyResults, heaving, no_motions, open_results, seas};
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use nalgebra::Vector3;
@@ -291,7 +291,7 @@ fn response(job: &Job, args: &Args) -> Outcome<(Arc<LinearSystem>, FrequencyResp
             let made = in_sea(linear, &trains, &ResponseOptions::default());
             Ok((Arc::clone(linear), made.map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?))
         }
-        (FrequencyResults::Nothing, _) => Err(Diagnostic::error("there are no motions yet", args.span)),
+        (FrequencyResults::Nothing, _) => Err(no_motions(job, args.span)),
     }
 }
 
@@ -300,7 +300,7 @@ fn report_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let derivative = derivative(args)?;
     let of_env = match open_results(job, args.span)? {
         FrequencyResults::Spectral(.., extreme) => *extreme,
-        _ => probability::extreme(&job.model.environment),
+        _ => probability::extreme(&job.model),
     };
     let given = args.option_number(&DURATION_OPTION).map(ExtremeKind::MostProbable);
     let extreme = given.or(of_env).unwrap_or(ExtremeKind::MostProbable(MPM_DURATION_S));

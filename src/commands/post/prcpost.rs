@@ -87,7 +87,7 @@ pub(crate) const fn spec(name: &'static str, data: &'static [ValueSpec], help: &
 /// # Errors
 /// There is none.
 pub(crate) fn last_run(job: &Job, span: Span) -> Outcome<&Run> {
-    job.run.as_ref().ok_or_else(|| Diagnostic::error("there is no run yet", span).help("TDOM makes one"))
+    job.run.as_ref().ok_or_else(|| job.lacks_results("there is no run yet", &["TDOM"], "TDOM makes one", span))
 }
 
 /// The run a record is about, and its events.

@@ -1,7 +1,7 @@
 //! `&DEVICE`: how the program behaves.
 
 use crate::commands::{Call, Command, Effect, Job};
-use crate::report::files::{open_regular, read_regular};
+use crate::report::files::{is_within, open_regular, read_regular};
 use std::path::{Path, PathBuf};
 use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -162,7 +162,19 @@ pub fn find_file(job: &Job, name: &str) -> PathBuf {
 /// A file that is not there.
 pub fn readable(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
     let path = find_file(job, name);
-    if path.is_file() { Ok(path) } else { existing(job, name, span) }
+    if path.is_file() { within_check(job, path, span) } else { existing(job, name, span) }
+}
+
+/// A file that is to be read, which a check of a script takes from the script's folder alone.
+fn within_check(job: &Job, path: PathBuf, span: Span) -> Outcome<PathBuf> {
+    let folder = job.output.folder.root.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if job.checking.is_none() || is_within(&path, folder) {
+        return Ok(path);
+    }
+    Err(Diagnostic::error(
+        format!("{} is outside of the script's folder: a check does not read it", path.display()),
+        span,
+    ))
 }
 
 /// Opens a file that is input: a regular one; what is outside of the script's folder comes into the log.
@@ -190,7 +202,7 @@ pub fn read_input(job: &Job, path: &Path, largest: u64) -> std::io::Result<Vec<u
 pub fn existing(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
     let path = beside_root(job, name);
     if path.is_file() {
-        return Ok(path);
+        return within_check(job, path, span);
     }
     if path.exists() {
         let sort = if path.is_dir() { "a folder" } else { "not a regular file" };

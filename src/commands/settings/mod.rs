@@ -1,5 +1,6 @@
 //! Units, parameters and how the program behaves.
 
+pub(crate) mod accepted;
 pub(crate) mod device;
 pub(crate) mod parameter;
 pub(crate) mod units;

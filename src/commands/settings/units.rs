@@ -1,8 +1,12 @@
 //! `&DIMEN` and `&DEFAULT`.
 
+use crate::commands::environment::env;
+use crate::commands::environment::probability::{self, PROBABILITY};
+use crate::commands::model::describe::PLACE;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Place;
 use windlass_base::spec::ValueKey;
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 use windlass_language::select::Owner;
@@ -145,6 +149,41 @@ pub(crate) const CYLINDER: OptionSpec = OptionSpec::new("-CYLINDER", &[], "point
 /// `-SPHERICAL`.
 pub(crate) const SPHERICAL: OptionSpec =
     OptionSpec::new("-SPHERICAL", &[], "points are given by radius, angle, angle above the plane");
+/// `-LOCATION`.
+pub(crate) const LOCATION: OptionSpec =
+    OptionSpec::new("-LOCATION", &PLACE, "points are given by x y z in a system that stands here in the part");
+const PERIOD: OptionSpec =
+    OptionSpec::new("-PERIOD", &[number("T", Dim::Time, "period").positive()], "periods of RAO where it gives none")
+        .repeating(1);
+const HEADING: OptionSpec = OptionSpec::new(
+    "-HEADING",
+    &[number("H", Dim::Angle, "where the waves come from, from +X toward +Y")],
+    "headings of RAO where it gives none",
+)
+.repeating(1);
+const T_REINF: OptionSpec = OptionSpec::new(
+    "-T_REINFORCE",
+    &[number("TB", Dim::Time, "time")],
+    "time of reinforcement of environments defined after that give none",
+);
+const SP_ORIENT: OptionSpec = OptionSpec::new(
+    "-SP_ORIENT",
+    &[number("V", Dim::None, "component")],
+    "accepted: axes of a STATIC_PROCESS, which is not in windlass",
+)
+.repeating(1);
+const DIR_BEAM: OptionSpec = OptionSpec::new(
+    "-DIR_BEAM",
+    &[ValueSpec::new("V", Kind::Text, "direction")],
+    "accepted: orientation of beams, which are not in windlass",
+)
+.repeating(1);
+const DIR_PLATE: OptionSpec = OptionSpec::new(
+    "-DIR_PLATE",
+    &[ValueSpec::new("V", Kind::Text, "direction")],
+    "accepted: orientation of plates, which are not in windlass",
+)
+.repeating(1);
 const AIR: OptionSpec =
     OptionSpec::new("-AIR", &[number("RHO", Dim::Density, "density").positive()], "density of air").owner(Owner::Ours);
 const GRAVITY: OptionSpec =
@@ -168,24 +207,53 @@ static DEFAULT_SPEC: CommandSpec = CommandSpec {
         RECT,
         CYLINDER,
         SPHERICAL,
+        LOCATION,
+        PERIOD,
+        HEADING,
+        PROBABILITY,
+        T_REINF,
+        SP_ORIENT,
+        DIR_BEAM,
+        DIR_PLATE,
         AIR,
         GRAVITY,
     ],
-    detail: "What holds where a record gives no value; &STATUS DEFAULTS lists all. Defaults hold for classes defined after.",
+    absent: &[("-SN", "&REP_SELECT -SN and -C_SN of a class choose fatigue curves")],
+    detail: "What holds where a record gives no value; &STATUS DEFAULTS lists all. Defaults hold for classes and points defined after. The angles \
+             of -LOCATION are roll, pitch and yaw, as of a part (our reading); the form with four points is not supported.",
     example: "&DEFAULT -SAVE -EMODULUS 12000\n&STATUS DEFAULTS\n&DEFAULT -REMEMBER",
     ..CommandSpec::new("&DEFAULT", "sets defaults")
 };
 
 fn default(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut defaults = job.model.defaults;
+    let mut waves = job.model.wave_defaults.clone();
     let mut saved = job.model.saved_defaults.clone();
+    let mut remarks = Vec::new();
     for given in &call.args.options {
-        let value = given.first_number().unwrap_or(0.0);
+        let value = given.values.first().and_then(|v| v.number()).unwrap_or(0.0);
         let material = &mut defaults.material;
         match given {
-            _ if given.is(&SAVE_DEFAULTS) => saved.push(defaults),
+            _ if given.is(&LOCATION) => {
+                let six = const { LOCATION.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) };
+                defaults.coordinates = Coordinates::Placed(Place::new(given.numbers_or_zero(six)));
+            }
+            _ if given.is(&PERIOD) => {
+                env::periods(given)?;
+                waves.periods = given.numbers();
+            }
+            _ if given.is(&HEADING) => waves.headings = given.numbers(),
+            _ if given.is(&PROBABILITY) => {
+                probability::check(given)?;
+                waves.probability = Some(given.clone());
+            }
+            _ if given.is(&T_REINF) => waves.reinforcement = Some(value),
+            _ if given.is_any(&[SP_ORIENT, DIR_BEAM, DIR_PLATE]) => {
+                remarks.push((format!("{} has no effect in windlass", given.name()), given.span));
+            }
+            _ if given.is(&SAVE_DEFAULTS) => saved.push((defaults, waves.clone())),
             _ if given.is(&REMEMBER_DEFAULTS) => {
-                defaults = saved.pop().ok_or_else(|| {
+                (defaults, waves) = saved.pop().ok_or_else(|| {
                     Diagnostic::error("no defaults have been saved", given.span).help("&DEFAULT -SAVE saves them")
                 })?;
             }
@@ -207,6 +275,7 @@ fn default(job: &mut Job, call: &Call) -> Outcome<Effect> {
             _ => defaults.gravity = value,
         }
     }
-    (job.model.defaults, job.model.saved_defaults) = (defaults, saved);
+    (job.model.defaults, job.model.wave_defaults, job.model.saved_defaults) = (defaults, waves, saved);
+    remarks.into_iter().for_each(|(text, span)| job.remark(text, span));
     Ok(Effect::Done)
 }

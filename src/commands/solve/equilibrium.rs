@@ -8,7 +8,7 @@ use crate::commands::verdict::{OverBreak, check_over_break};
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::page;
 use indexmap::IndexMap;
-use windlass_base::choice::Dof;
+use windlass_base::choice::{Dof, YesNo};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::units::{Dim, UnitSystem};
@@ -54,12 +54,33 @@ const IGNORE: OptionSpec = OptionSpec::new(
 )
 .many();
 
+const OMEGA: OptionSpec = OptionSpec::new(
+    "-OMEGA",
+    &[ValueSpec::new("FRACT", Kind::Number(Dim::None), "fraction of the step").in_range(1e-3, 1.0)],
+    "the fraction of each Newton step that is taken",
+)
+.default("1");
+const MOVE_MAX: OptionSpec = OptionSpec::new(
+    "-MOVE_MAX",
+    &[
+        ValueSpec::new("TRANSLATION", Kind::Number(Dim::Length), "translation").positive(),
+        ValueSpec::new("ANGLE", Kind::Number(Dim::Angle), "rotation").or("not limited").positive(),
+    ],
+    "the largest change of a degree of freedom in one step",
+);
+const ECHO: OptionSpec = OptionSpec::new(
+    "-ECHO",
+    &[ValueSpec::choice::<YesNo>("YES/NO", "either")],
+    "accepted: steps are not printed, the report says how many there were",
+);
+
 static SPEC: CommandSpec = CommandSpec {
-    options: &[DEFAULTS, ITER_MAX, TOLERANCE_OPTION, IGNORE, HARD, BOTH],
+    options: &[DEFAULTS, ITER_MAX, TOLERANCE_OPTION, IGNORE, OMEGA, MOVE_MAX, ECHO, HARD, BOTH],
     detail: "All bodies and active connectors in the environment in force. Newton's iteration with the analytic stiffness goes on as \
              far as rounding lets it, of each group of bodies and junctions that connectors join by itself and then of all; what is left is reported, and must be less than the tolerance, which is a \
              share of gravity: 0.001 means a force of a thousandth of the body's weight. Far from rest, or where the stiffness is not \
-             stable, a share of the mass helps it. Options but -IGNORE are remembered. Freedoms are global directions at the body's \
+             stable, a share of the mass helps it. -OMEGA and -MOVE_MAX shorten steps, where whole ones go too far or to another equilibrium; they change the \
+             way to it and not what counts as rest, and want a larger -ITER_MAX. Options but -IGNORE are remembered. Freedoms are global directions at the body's \
              origin. A direction that nothing holds, and no force acts in, stays as it is and is reported. The result is the \
              configuration from then on; &INSTATE -PREVIOUS goes back. \
              Several equilibria may exist; none is promised.",
@@ -92,6 +113,13 @@ fn options(job: &Job, call: &Call) -> Outcome<Options> {
         let [shift, turn] = const { TOLERANCE_OPTION.numbers([TOLERANCE.name, "R"]) }.map(|key| given.number(key));
         let shift = shift.unwrap_or(made.tolerance[0]);
         made.tolerance = [shift, turn.unwrap_or(shift)];
+    }
+    if let Some(fraction) = args.option_number(&OMEGA) {
+        made.fraction = fraction;
+    }
+    if let Some(given) = args.option(&MOVE_MAX) {
+        let [far, turn] = const { MOVE_MAX.numbers(["TRANSLATION", "ANGLE"]) }.map(|key| given.number(key));
+        made.longest_step = far.map(|far| [far, turn.unwrap_or(f64::INFINITY)]);
     }
     for given in args.occurrences(&IGNORE) {
         made.ignored.extend(ignored_dofs(&job.model, given)?);
@@ -146,7 +174,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     job.equilibrium = Options { ignored: Vec::new(), ..options };
     let mut list = vec![tables::rest(&job.model, &settled), forces];
-    match job.model.check_added_mass() {
+    match job.model.check_motions() {
         Ok(()) => list.push(
             tables::periods(&settled.system, &settled.state)
                 .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?,

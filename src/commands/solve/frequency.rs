@@ -87,11 +87,11 @@ const HEADING: OptionSpec = OptionSpec::new(
     "headings",
 )
 .repeating(1)
-.default("those of the first body's database");
+.default("those of &DEFAULT, else of the first body's database");
 
 static RAO_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::FREQ_RESPONSE],
-    options: &[PERIOD.default("those of the databases"), HEADING],
+    options: &[PERIOD.default("those of &DEFAULT, else of the databases"), HEADING],
     detail: "Motions in waves of unit amplitude, at each heading and period. Damping is that of radiated waves, #DAMP, #DRAG and \
              connectors, as it is at rest: what grows with the velocity has none. A new sea may then be given with STATISTICS. Slow drift \
              has no part in it.",
@@ -119,6 +119,11 @@ fn open(job: &mut Job, _: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
+/// What is said where there are no motions.
+pub(crate) fn no_motions(job: &Job, span: Span) -> Box<Diagnostic> {
+    job.lacks_results("there are no motions yet", &["RAO", "SRESPONSE"], "RAO or SRESPONSE finds them", span)
+}
+
 /// What the open menu has found.
 ///
 /// # Errors
@@ -129,9 +134,7 @@ pub(crate) fn open_results(job: &Job, span: Span) -> Outcome<&FrequencyResults> 
         _ => None,
     });
     match menu {
-        Some(FrequencyResults::Nothing) | None => {
-            Err(Diagnostic::error("there are no motions yet", span).help("RAO or SRESPONSE finds them"))
-        }
+        Some(FrequencyResults::Nothing) | None => Err(no_motions(job, span)),
         Some(found) => Ok(found),
     }
 }
@@ -162,9 +165,14 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let linear = linear(job, &job.model, args.span)?;
     let mut periods = frequencies(args);
     if periods.is_empty() {
+        periods = job.model.wave_defaults.periods.iter().map(|period| TAU / period).collect();
+    }
+    if periods.is_empty() {
         periods = linear.frequencies();
     }
-    let headings = args.option(&HEADING).map_or_else(|| linear.headings(), |g| g.numbers());
+    let usual = || Some(job.model.wave_defaults.headings.clone()).filter(|list| !list.is_empty());
+    let headings = args.option(&HEADING).map(|given| given.numbers()).or_else(usual);
+    let headings = headings.unwrap_or_else(|| linear.headings());
     let made =
         Operators::new(&linear, &periods, &headings).map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
     let mut table = Table::new("Motions in Unit Waves").fact("Periods", periods.len(), Dim::None).fact(
@@ -222,6 +230,6 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .fact("Rounds of Linearisation", made.rounds, Dim::None);
     table.add_notes(linear.notes.iter().cloned());
     say(job, &table, args.span);
-    keep(job, FrequencyResults::Spectral(Arc::new(linear), made, probability::extreme(&model.environment)));
+    keep(job, FrequencyResults::Spectral(Arc::new(linear), made, probability::extreme(&model)));
     Ok(Effect::Done)
 }

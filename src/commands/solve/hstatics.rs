@@ -14,9 +14,9 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_hydro::hull::Hydrostatics;
-use windlass_hydro::{Floating, Hull, balance_heave_and_trim};
-use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, ValueSpec};
-use windlass_model::{Body, Mass, find};
+use windlass_hydro::{Floating, Hull, Tank, balance_heave_and_trim, laden_mass};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Body, SolveKind, find};
 
 /// HSTATICS.
 pub static HSTATICS: Command = Command { spec: &HSTATICS_SPEC, edits: false, run: hstatics };
@@ -51,6 +51,30 @@ static CFORM_SPEC: CommandSpec = CommandSpec {
     example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nEND\nHSTATICS\nCFORM 1 1 12\nREPORT\nEND\nEND",
     ..CommandSpec::new("CFORM", "curves of form")
 };
+/// TANK_CAPACITY.
+pub static TANK_CAPACITY: Command = Command { spec: &CAPACITY_SPEC, edits: false, run: tank_capacity };
+
+const ROLL: OptionSpec =
+    OptionSpec::new("-ROLL", &[ValueSpec::new("A", Kind::Number(Dim::Angle), "roll")], "roll of the body").default("0");
+const PITCH: OptionSpec =
+    OptionSpec::new("-PITCH", &[ValueSpec::new("A", Kind::Number(Dim::Angle), "pitch")], "pitch of the body")
+        .default("0");
+
+static CAPACITY_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::HSTATICS],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    data: &[
+        ValueSpec::new("TNAME", Kind::Text, "the compartment"),
+        ValueSpec::new("INC", Kind::Number(Dim::Length), "step of the sounding").positive(),
+    ],
+    options: &[ROLL, PITCH],
+    detail: "What a compartment holds by its sounding, from the bottom of its tube to its top, in the attitude given. Weights are of the liquid that is in it. \
+             Centres are in the system of the body; the second moments of the surface are about axes through its centroid. The result goes to the \
+             disposition menu.",
+    example: "&DESCRIBE BODY TBRG\nMEDIT\n&DESCRIBE COMPARTMENT T1\nPGEN\nPLANE 10 60 -RECT 1 19 90\nEND\nEND\nHSTATICS\nTANK_CAPACITY T1 3\nREPORT\nEND\nEND",
+    ..CommandSpec::new("TANK_CAPACITY", "what a compartment holds by its sounding")
+};
+
 static RARM_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::HSTATICS],
     opens: Opens::Menu(&menu::DISPOSITION),
@@ -58,8 +82,8 @@ static RARM_SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("INC", Kind::Number(Dim::Angle), "step of roll"),
         ValueSpec::new("NUM", Kind::Integer, "number of steps").in_range(1.0, MAX_ROWS),
     ],
-    detail: "Righting arms of the body rolled from upright in steps, at constant displacement, heave and trim balanced under weight and \
-             buoyancy. The arm is positive where it turns the body back from a positive roll. Area is that under the arm from upright, by \
+    detail: "Righting arms of the body rolled from upright in steps, heave and trim balanced under weight, contents of \
+             compartments and buoyancy; free surfaces are exact at every angle. The arm is positive where it turns the body back from a positive roll. Area is that under the arm from upright, by \
              trapezoids. A roll without a balance ends the table, and is said. The result goes to the disposition menu.",
     example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nEND\n&WEIGHT -TOTAL TBRG 23000 200 0 12 38 118 120\n\
               &INSTATE -CONDITION 9\nHSTATICS\nRARM 5 12\nREPORT\nEND\nEND",
@@ -104,7 +128,7 @@ fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Diagnostic::error(format!("{} has no hull", body.name), span)
             .help("PGEN, &SURFACE and &DESCRIBE PIECE give one")
     })?;
-    let mass = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity);
+    let mass = laden_mass(&job.model, body).map_err(to_error)?;
     let [first, step] = args.numbers_or_zero(const { CFORM_SPEC.numbers(["DRAFT", "INC"]) });
     let at_draft = |draft: f64| {
         let mut place = Place { turn: [0.0, 0.0, body.place.turn[2]], ..body.place };
@@ -142,13 +166,65 @@ fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(dispose(job, table, span))
 }
 
+fn tank_capacity(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const TANK: DatumKey<str> = CAPACITY_SPEC.word("TNAME");
+    const STEP: DatumKey<f64> = CAPACITY_SPEC.number("INC");
+    let (args, span) = (&call.args, call.args.span);
+    let model = &job.model;
+    let to_error = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
+    let compartment = find(&model.compartments, args.word(TANK).unwrap_or_default(), "compartment", args.place(TANK))?;
+    let tank = Tank::new(model, compartment).map_err(to_error)?;
+    let turn = [args.option_number(&ROLL).unwrap_or(0.0), args.option_number(&PITCH).unwrap_or(0.0), 0.0];
+    let pose = Pose::from_place(&Place { turn, ..Place::default() });
+    let tube = tank.sounding_tube(model, compartment);
+    let [top, bottom] = tube.map(nalgebra::Vector3::from);
+    let (length, step) = ((top - bottom).norm(), args.number(STEP).unwrap_or(1.0));
+    if length / step > MAX_ROWS {
+        return Err(Diagnostic::error(format!("more than {MAX_ROWS} steps"), args.place(STEP)));
+    }
+    let mut soundings: Vec<f64> =
+        (0..).map(|n| f64::from(n) * step).take_while(|s| *s < length * (1.0 - 1e-9)).collect();
+    soundings.push(length);
+    let at = |sounding: &f64| {
+        let volume = tank.volume_at(&pose, tube, *sounding).ok_or_else(|| {
+            windlass_model::ClassError::new(format!(
+                "the sounding tube of {} lies level in this attitude",
+                compartment.name
+            ))
+        })?;
+        Ok((*sounding, tank.liquid_of(&pose, volume)?))
+    };
+    let rows = soundings.iter().map(at).collect::<Result<Vec<_>, _>>().map_err(to_error)?;
+    let weight = tank.density() * model.defaults.gravity;
+    let centre = |liquid: &windlass_hydro::Liquid| {
+        let found = liquid.centroid().map(|c| pose.axes.transpose() * c);
+        found.map_or([None; 3], |c| [c.x, c.y, c.z].map(|x| Some(if x.abs() < 1e-9 { 0.0 } else { x })))
+    };
+    let fourth = Dim::Derived { force: 0, length: 4, seconds: 0 };
+    let table = Table::new(format!("Capacity of {}", compartment.name))
+        .fact("Roll", turn[0], Dim::Angle)
+        .fact("Pitch", turn[1], Dim::Angle)
+        .with_rows(&rows)
+        .column("", "Sounding", Dim::Length, Digits::Usual, |(sounding, _)| *sounding)
+        .column("", "% Full", Dim::None, Digits::Decimals(2), |(_, l)| 100.0 * l.volume() / tank.capacity)
+        .column("", "Volume", Dim::Volume, Digits::Usual, |(_, l)| l.volume())
+        .column("", "Weight", Dim::Force, Digits::Usual, |(_, l)| l.volume() * weight)
+        .columns("Center", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, l)| centre(l))
+        .columns("Free Surface", ["Trans.", "Long."], fourth, Digits::Usual, |(_, l)| {
+            l.surface_inertia(&pose).map(Some)
+        })
+        .build();
+    Ok(dispose(job, table, span))
+}
+
 fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let body = body(job, span)?;
     let to_error = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
+    job.model.check_effects(SolveKind::Statics).map_err(to_error)?;
     let floating = Floating::at_rest(&job.model, body).map_err(to_error)?;
-    let weight = floating.mass.mass * job.model.defaults.gravity;
-    let mut table = Table::new(format!("Righting Arms of {}", body.name)).fact("Weight", weight, Dim::Force);
+    let dry = floating.mass.mass * job.model.defaults.gravity;
+    let mut table = Table::new(format!("Righting Arms of {}", body.name)).fact("Weight", dry, Dim::Force);
     let step = args.number(const { RARM_SPEC.number("INC") }).unwrap_or_default();
     let mut place = Place { turn: [0.0, 0.0, body.place.turn[2]], ..body.place };
     let (mut area, mut before, mut rows) = (0.0, None, Vec::new());
@@ -166,18 +242,19 @@ fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
         area += before.map_or(0.0, |arm: f64| 0.5 * (arm + found.arm) * step);
         before = Some(found.arm);
         place = found.place;
-        rows.push((roll, found.arm, area, place));
+        rows.push((roll, found, area));
     }
+    table.add_notes(job.model.caveats());
     table.note("Area in length times radians; draft is that of the body's origin");
     let small = |x: f64| if x.abs() < 1e-9 { 0.0 } else { x };
     let table = table
         .with_rows(&rows)
         .column("", "Roll", Dim::Angle, Digits::Usual, |(roll, ..)| *roll)
-        .column("", "Arm", Dim::Length, Digits::Decimals(4), |(_, arm, ..)| small(*arm))
-        .column("", "Moment", Dim::Moment, Digits::Usual, |(_, arm, ..)| small(*arm) * weight)
-        .column("", "Area", Dim::Length, Digits::Decimals(4), |(_, _, area, _)| small(*area))
-        .column("", "Draft", Dim::Length, Digits::Usual, |(.., place)| -place.shift[2])
-        .column("", "Trim", Dim::Angle, Digits::Usual, |(.., place)| small(place.turn[1]))
+        .column("", "Arm", Dim::Length, Digits::Decimals(4), |(_, found, _)| small(found.arm))
+        .column("", "Moment", Dim::Moment, Digits::Usual, |(_, found, _)| small(found.arm) * found.weight)
+        .column("", "Area", Dim::Length, Digits::Decimals(4), |(_, _, area)| small(*area))
+        .column("", "Draft", Dim::Length, Digits::Usual, |(_, found, _)| -found.place.shift[2])
+        .column("", "Trim", Dim::Angle, Digits::Usual, |(_, found, _)| small(found.place.turn[1]))
         .build();
     Ok(dispose(job, table, span))
 }

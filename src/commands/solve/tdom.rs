@@ -53,7 +53,7 @@ pub(crate) const EQUI: OptionSpec =
 pub(crate) const NEWMARK: OptionSpec = OptionSpec::new(
     "-NEWMARK",
     &[
-        yes_no("NO is the predictor and corrector"),
+        yes_no("NO is the predictor and corrector").or("YES"),
         ValueSpec::new("BETA", Kind::Number(Dim::None), "beta").or("that of generalised-alpha").in_range(1e-3, 1.0),
         ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma in the usual notation").or("0.5").in_range(0.0, 2.0),
     ],
@@ -262,7 +262,7 @@ fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run,
     let mut began = None;
     if let Some(given) = args.option(&RESET) {
         let time = given.first_number().unwrap_or(0.0);
-        velocities = reset(job, &mut model, time)
+        velocities = reset(job.run.as_ref(), &mut model, time)
             .ok_or_else(|| Diagnostic::error("there is no run of these bodies to begin from", given.span))?;
         began = Some(format!("as the run before had the bodies at {} s", Dim::Time.from_si(time, job.units)));
     }
@@ -294,8 +294,8 @@ fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run,
 }
 
 /// Puts the bodies of a model where those of the last run were at the stored instant nearest to a time; their velocities.
-fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
-    let history = &job.run.as_ref()?.history;
+pub(crate) fn reset(run: Option<&Run>, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
+    let history = &run?.history;
     let far = |row: &[f64]| (row.first().copied().unwrap_or(f64::INFINITY) - time).abs();
     let row = history.rows().min_by(|a, b| far(a).total_cmp(&far(b)))?;
     let mut velocities = Vec::new();
@@ -313,7 +313,8 @@ fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
 fn warn_of_throwing(job: &mut Job, args: &Args, method: &Method) {
     let Some(given) = args.option(&RHO).or(args.option(&NEWMARK)) else { return };
     let damps = given.is(&RHO) && given.first_number().is_some_and(|r| r <= 0.2);
-    if damps || usual(&job.model) != Method::with_moving_lines() {
+    let usual = usual(&job.model);
+    if damps || *method == usual || usual != Method::with_moving_lines() {
         return;
     }
     let text = match method {

@@ -16,7 +16,8 @@ pub static ASSEMBLIES: StatusKind =
     StatusKind::new("ASSEMBLIES", "tip-hook sets: where the hook is, what its lines bear", |query, _| {
         Ok(assemblies(query.model(), &query.fits(), query.job.units))
     })
-    .named(&[EntityKind::Assembly]);
+    .named(&[EntityKind::Assembly])
+    .also(&["TIP-HOOK"]);
 
 /// What a row of the tip-hook sets shows: the hook of a set, or one of its lines.
 struct HookRow<'m> {

@@ -2,11 +2,13 @@
 
 use crate::commands::chosen::NameFilter;
 use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::status::ForceName;
 use crate::commands::status::kind::StatusKind;
 use crate::commands::{Call, Job};
+use windlass_base::choice::Choice;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::geometry::Position;
-use windlass_base::table::Table;
+use windlass_base::table::{Cell, Table};
 use windlass_base::units::Dim;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::EntityKind;
@@ -22,6 +24,7 @@ pub static FORCE: StatusKind = StatusKind {
     })
     .named(&[EntityKind::Body])
     .of_moses()
+    .also(&["G_FORCE"])
 };
 
 /// `&STATUS STIFFNESS`.
@@ -57,7 +60,15 @@ pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Ve
     let wrong = |e| to_diagnostic(e, &job.model, call.args.place(super::WHAT), job.units);
     let system = System::new(&job.model, &[]).map_err(wrong)?;
     let state = system.state(&job.model);
-    Ok(vec![tables::by_category(&system, &state, fits).map_err(wrong)?])
+    let mut table = tables::by_category(&system, &state, fits).map_err(wrong)?;
+    if let Some(given) = call.args.option(&super::FORCE) {
+        let chosen: Vec<&str> = given.choices(const { super::FORCE.choice("NAME") }).map(ForceName::word).collect();
+        let of_row: Vec<bool> = table.get("Category").map_or(Vec::new(), |column| {
+            column.cells.iter().map(|cell| chosen.iter().any(|word| *cell == Cell::from(*word))).collect()
+        });
+        table.keep_rows(|row| of_row.get(row).copied().unwrap_or(false));
+    }
+    Ok(vec![table])
 }
 
 /// Natural periods, damping and shapes of the modes of small motions.

@@ -7,9 +7,9 @@ use windlass_base::pose::{Pose, Six};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::hull::Hydrostatics;
-use windlass_hydro::{Category, Floating, Hull};
+use windlass_hydro::{Category, Floating, Hull, Tank, compartments_of};
 use windlass_model::EntityKind;
-use windlass_model::{Body, ClassError, Mass, Model, Shape};
+use windlass_model::{Body, ClassError, FreeSurface, Mass, Model, Shape};
 
 /// `&STATUS WEIGHT`.
 pub static WEIGHT: StatusKind =
@@ -144,7 +144,11 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
     let mass = floating.mass;
     let weight = mass.mass * model.defaults.gravity;
     let (mut stiffness, mut wrench) = (Matrix6::zeros(), Six::zeros());
-    for load in floating.loads.iter().filter(|l| matches!(l.category(), Category::Weight | Category::Buoyancy)) {
+    for load in floating
+        .loads
+        .iter()
+        .filter(|l| matches!(l.category(), Category::Weight | Category::Contents | Category::Buoyancy))
+    {
         let load = load.mean_load(&pose)?;
         wrench += load.wrench;
         stiffness += load.stiffness;
@@ -156,6 +160,14 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
     let size = found.map_or(arm.norm(), |f| f.volume.cbrt());
     if let Some(found) = &found {
         table = facts(table, found, size);
+        let [transverse, longitudinal] = free_surface(model, body, &pose, found.displacement)?;
+        if transverse > 0.0 || longitudinal > 0.0 {
+            table = table
+                .fact("Free Surface Transverse", transverse, Dim::Length)
+                .fact("Free Surface Longitudinal", longitudinal, Dim::Length)
+                .fact("Corrected GM Transverse", found.gm_t - transverse, Dim::Length)
+                .fact("Corrected GM Longitudinal", found.gm_l - longitudinal, Dim::Length);
+        }
     } else if hull.is_some() {
         table.note(format!("{} displaces no water where it is", body.name));
     } else if let Some(linear) = &body.linear {
@@ -173,6 +185,27 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
     let [forces, moments] = [(table, 0), (Table::new(format!("Stiffness of {} in Rotation", body.name)), 3)]
         .map(|(table, first)| stiffness_rows(table, &about, first));
     Ok(vec![forces, moments])
+}
+
+/// What free surfaces of closed compartments take from the metacentric heights (m): the weight per volume of the liquid times the second
+/// moment of its surface, over the displacement.
+fn free_surface(model: &Model, body: &Body, pose: &Pose, displacement: f64) -> Result<[f64; 2], ClassError> {
+    let mut sum = [0.0; 2];
+    for compartment in compartments_of(model, body) {
+        let state = compartment.contents;
+        if state.surface == FreeSurface::Frozen || state.fraction <= compartment.residual {
+            continue;
+        }
+        let tank = Tank::new(model, compartment)?;
+        if state.is_flooded {
+            continue;
+        }
+        let inertia = tank.liquid(pose)?.surface_inertia(pose);
+        for (sum, inertia) in sum.iter_mut().zip(inertia) {
+            *sum += tank.density() * model.defaults.gravity * inertia / displacement;
+        }
+    }
+    Ok(sum)
 }
 
 /// A number that is zero but for rounding as zero; `size` is that of the numbers it was made of.

@@ -14,6 +14,8 @@ use windlass_model::{EntityKind, Model};
 pub struct StatusKind {
     /// The word that asks for it.
     pub name: &'static str,
+    /// Other words of MOSES that ask for it.
+    pub aliases: &'static [&'static str],
     /// Whose word it is.
     pub owner: Owner,
     /// One line of help.
@@ -35,12 +37,18 @@ impl StatusKind {
         help: &'static str,
         tables: fn(&Query, &mut Verdict) -> Outcome<Vec<Table>>,
     ) -> Self {
-        StatusKind { name, owner: Owner::Ours, help, names: &[], caveats: false, tables, charts: |_, _| Ok(Vec::new()) }
+        let (owner, aliases, names) = (Owner::Ours, &[], &[]);
+        StatusKind { name, aliases, owner, help, names, caveats: false, tables, charts: |_, _| Ok(Vec::new()) }
     }
 
     /// The same, with the names of these sorts of things behind its word.
     pub const fn named(self, names: &'static [EntityKind]) -> Self {
         StatusKind { names, ..self }
+    }
+
+    /// The same, which these words of MOSES ask for too.
+    pub const fn also(self, aliases: &'static [&'static str]) -> Self {
+        StatusKind { aliases, ..self }
     }
 
     /// The same, a word of MOSES.

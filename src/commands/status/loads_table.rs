@@ -1,6 +1,7 @@
 //! `&STATUS LOADS`: the loads of wind, current and waves that records have put on parts, and what they come to.
 
 use crate::commands::Job;
+use crate::commands::model::apply;
 use crate::commands::status::kind::StatusKind;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::{Digits, Table};
@@ -14,7 +15,8 @@ pub static LOADS: StatusKind =
     StatusKind::new("LOADS", "loads of wind, current and waves on parts, and the forces they come to", |query, _| {
         Ok(loads(query.job, &query.fits()))
     })
-    .named(&[EntityKind::Body, EntityKind::Part]);
+    .named(&[EntityKind::Body, EntityKind::Part])
+    .also(&["G_LOAD", "LOAD_GROUP"]);
 
 /// One table of the records, one of the forces on each body as it stands.
 pub(crate) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
@@ -30,6 +32,7 @@ pub(crate) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         .text("Record", |load| load.kind.name())
         .text("Acts in", |load| match (&load.kind, load.fluid) {
             (LoadKind::Drift { .. }, _) => "waves",
+            (LoadKind::Buoyancy { .. } | LoadKind::EddyDamping(_), _) => "water",
             (LoadKind::Drag(_) | LoadKind::Damping(_) | LoadKind::AddedMass(_), _) => "water",
             (_, Fluid::ByHeight) => "by height",
             (_, Fluid::Air) => "air",
@@ -52,6 +55,10 @@ pub(crate) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         .build();
     for (name, factor) in model.multipliers.categories.iter().chain(&model.multipliers.parts) {
         records.note(format!("&APPLY multiplies loads of {name} by {factor}"));
+    }
+    for rule in &model.multipliers.attributes {
+        let of = rule.attribute.map_or("loads", |attribute| apply::attribute_word(attribute));
+        records.note(format!("&APPLY multiplies {of} of category {} by {}", rule.categories, rule.factor));
     }
     vec![records, forces(job, &chosen)]
 }

@@ -3,9 +3,13 @@
 pub(crate) mod assembly_table;
 pub(crate) mod body_status;
 pub(crate) mod body_tables;
+pub(crate) mod buoyancy_weight;
+pub(crate) mod categories;
 pub(crate) mod class_tables;
+pub(crate) mod compartments;
 pub(crate) mod curve_table;
 pub(crate) mod database_table;
+pub(crate) mod draft_marks;
 pub(crate) mod environment_table;
 pub(crate) mod fatigue_table;
 pub(crate) mod forces;
@@ -18,6 +22,8 @@ pub(crate) mod offsets;
 pub(crate) mod rod_status;
 pub(crate) mod sea_table;
 pub(crate) mod settings_table;
+pub(crate) mod summary_menu;
+pub(crate) mod system;
 pub(crate) mod tether_status;
 pub(crate) mod wind_table;
 
@@ -26,16 +32,42 @@ use crate::commands::menu;
 use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, open_chosen_table, send};
 use crate::commands::status::kind::{Query, StatusKind};
 use crate::commands::verdict::Verdict;
-use crate::commands::{Call, Command, Effect, Job};
+use crate::commands::{Call, Command, Effect, Job, absent};
 use crate::report::page;
 use crate::report::plot::Chart;
-use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::values::Noun;
+use windlass_base::choices;
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
+use windlass_base::values::{Args, Noun};
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 
 /// &STATUS.
 pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };
+
+choices! {
+    /// The forces of reports [MOSES-REF forces].
+    pub(crate) enum ForceName {
+        Weight = "WEIGHT",
+        Contents = "CONTENTS",
+        Buoyancy = "BUOYANCY",
+        Wind = "WIND",
+        ViscousDrag = "V_DRAG",
+        Wave = "WAVE",
+        RadiationDrag = "R_DRAG",
+        Slam = "SLAM",
+        Coriolis = "CORIOLIS",
+        WaveDrift = "W_DRIFT",
+        Deformation = "DEFORMATION",
+        Extra = "EXTRA",
+        Applied = "APPLIED",
+        Inertia = "INERTIA",
+        AddedInertia = "A_INERTIA",
+        ConvolutionInertia = "C_INERTIA",
+        FlexibleConnectors = "FLEX_CONNECTORS",
+        RigidConnectors = "RIGID_CONNECTORS",
+        Total = "TOTAL",
+    }
+}
 
 /// Every kind, in the order of the help.
 static KINDS: &[&StatusKind] = &[
@@ -45,7 +77,11 @@ static KINDS: &[&StatusKind] = &[
     &forces::F_CONNECTOR,
     &forces::FOUNDATION,
     &line_angles::LINE_ANGLES,
+    &system::SYSTEM,
     &body_status::FORCE,
+    &buoyancy_weight::B_W,
+    &categories::CATEGORY,
+    &draft_marks::DRAFT,
     &assembly_table::ASSEMBLIES,
     &body_status::STIFFNESS,
     &body_status::MODES,
@@ -64,6 +100,8 @@ static KINDS: &[&StatusKind] = &[
     &loads_table::LOADS,
     &body_tables::WEIGHT,
     &body_tables::PIECES,
+    &compartments::COMPARTMENT,
+    &compartments::V_HOLES,
     &body_tables::HYDROSTATICS,
     &database_table::DATABASE,
     &model_tables::BODIES,
@@ -71,18 +109,28 @@ static KINDS: &[&StatusKind] = &[
     &settings_table::DIMENSIONS,
     &settings_table::DEFAULTS,
     &model_tables::SELECTORS,
+    &system::SIZE,
+    &system::NAMES,
+    &system::PARAMETER,
+    &system::PROCESS,
     &fatigue_table::SN,
     &line_types::LINE_TYPES,
 ];
 
 /// What &STATUS can tell of, with one line each, for its help.
-pub fn listed_kinds() -> impl Iterator<Item = (&'static str, &'static str)> {
-    KINDS.iter().map(|kind| (kind.name, kind.help))
+pub fn listed_kinds() -> impl Iterator<Item = (&'static str, String)> {
+    KINDS.iter().map(|kind| match kind.aliases {
+        [] => (kind.name, kind.help.to_string()),
+        aliases => (kind.name, format!("{} (also {})", kind.help, aliases.join(", "))),
+    })
 }
 
-/// What &STATUS can tell of, for completion.
+/// What &STATUS can tell of, for completion: each word with the kind it asks for.
 pub fn kinds() -> impl Iterator<Item = (&'static str, Owner, &'static str)> + Clone {
-    KINDS.iter().map(|kind| (kind.name, kind.owner, kind.name))
+    KINDS.iter().flat_map(|kind| {
+        let aliases = kind.aliases.iter().map(|alias| (*alias, Owner::Moses, kind.name));
+        std::iter::once((kind.name, kind.owner, kind.name)).chain(aliases)
+    })
 }
 
 /// The kind of a name of [`kinds`].
@@ -108,6 +156,15 @@ pub(crate) const SHAPE: OptionSpec =
 pub(crate) const AQWA: OptionSpec =
     OptionSpec::new("-AQWA", &[], "modes of tethers with the peculiarities of AQWA, as TDOM -TETHERS AQWA")
         .owner(Owner::Ours);
+const BRIEF: OptionSpec = OptionSpec::new("-BRIEF", &[], "leaves out the notes below the tables (our reading)");
+/// `-FORCE`.
+pub(crate) const FORCE: OptionSpec = OptionSpec::new(
+    "-FORCE",
+    &[ValueSpec::choice::<ForceName>("NAME", "name of a force")],
+    "only these categories of FORCE and SYSTEM",
+)
+.repeating(1)
+.default("all");
 static SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::new("WHAT", Kind::Text, "what to report, as listed below").or("a summary"),
@@ -120,7 +177,7 @@ static SPEC: CommandSpec = CommandSpec {
     ],
     repeat: 1,
     opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
-    options: &[PLOT, body_status::ABOUT, NUMBER, SHAPE, AQWA, DISPOSE, HARD, BOTH],
+    options: &[PLOT, BRIEF, FORCE, body_status::ABOUT, NUMBER, SHAPE, AQWA, DISPOSE, HARD, BOTH],
     detail: "Alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
              class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
@@ -131,7 +188,7 @@ static SPEC: CommandSpec = CommandSpec {
              where it stands, about its origin. STIFFNESS is the change of these forces with the motion of one body, other bodies held: \
              -d(force)/d(translation of the point, rotation in radians) in global axes, about the body's origin or the point of -ABOUT, \
              taken to move with the body; junctions follow to their own equilibrium; with names of connectors that of each of them. Connectors of classes with -IG_STIFF between two bodies are left out of it. \
-             ROD_MODES reports the slowest modes of a line about its rest, its ends held where they stand. -DISPOSE takes a table to the disposition menu: \
+             B_W lists weights and buoyancy of bodies; DRAFT the drafts at the marks of &DESCRIBE DMARK. ROD_MODES reports the slowest modes of a line about its rest, its ends held where they stand. -DISPOSE takes a table to the disposition menu: \
              REPORT, VIEW, STORE, PLOT.",
     example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 EXACT -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nEND\n&STATUS F_CONNECTOR A\n\
               &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3\n&STATUS F_CONNECTOR -DISPOSE\nVIEW Name FX FZ\nEND\n\
@@ -142,12 +199,39 @@ static SPEC: CommandSpec = CommandSpec {
 /// The kind of table.
 pub(super) const WHAT: DatumKey<str> = SPEC.word("WHAT");
 
+/// The kind that a record asks for.
+fn asked_kind(args: &Args) -> Outcome<&'static StatusKind> {
+    Ok(match args.word(WHAT) {
+        Some(word) => match absent::find_report(word)
+            .filter(|_| kinds().all(|(name, ..)| !name.eq_ignore_ascii_case(word)))
+        {
+            Some((name, instead)) => {
+                return Err(Diagnostic::error(format!("&STATUS {name} of MOSES is not in windlass"), args.place(WHAT))
+                    .help(*instead));
+            }
+            None => find_kind(choose(word, args.place(WHAT), "kind of &STATUS", kinds())?),
+        },
+        None => &model_tables::SUMMARY,
+    })
+}
+
+/// Sees that a record asks for a kind that is there, without making its tables.
+///
+/// # Errors
+/// No such kind.
+pub(crate) fn check_kind(call: &Call) -> Outcome<()> {
+    asked_kind(&call.args).map(|_| ())
+}
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let kind = match args.word(WHAT) {
-        Some(word) => find_kind(choose(word, args.place(WHAT), "kind of &STATUS", kinds())?),
-        None => &model_tables::SUMMARY,
-    };
+    let kind = asked_kind(args)?;
+    if let Some(given) =
+        args.option(&FORCE).filter(|_| *kind.name != *body_status::FORCE.name && *kind.name != *system::SYSTEM.name)
+    {
+        return Err(Diagnostic::error(format!("{} has no forces to choose among", kind.name), given.span)
+            .help("-FORCE goes with FORCE and SYSTEM"));
+    }
     let names = NameFilter::new(args.data_after(WHAT), &job.model);
     let query = Query { job, call, names: &names };
     let mut verdict = Verdict::default();
@@ -155,6 +239,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     names.check(kind.name, &tables, kind.names)?;
     if kind.caveats {
         note_caveats(&job.model, &mut tables);
+    }
+    if args.has(&BRIEF) {
+        // what is dangerous stays
+        tables.iter_mut().for_each(|table| table.notes.retain(|note| note.severity == Severity::Warning));
     }
     let charts = if args.has(&PLOT) { (kind.charts)(&query, &tables)? } else { Vec::new() };
     job.verdict.over_break.append(&mut verdict.over_break);

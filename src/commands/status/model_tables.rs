@@ -11,7 +11,7 @@ use windlass_base::geometry::Place;
 use windlass_base::table::{Digits, Table, TableBuilder};
 use windlass_base::units::Dim;
 use windlass_model::EntityKind;
-use windlass_model::{Body, Connector, Model, Part, Point, Selector};
+use windlass_model::{Body, Connector, LOOSE_SURFACES, Model, Part, Point, Selector};
 
 /// `&STATUS` alone.
 pub static SUMMARY: StatusKind =
@@ -51,14 +51,16 @@ pub static BODIES: StatusKind = StatusKind::new("BODIES", "bodies and their part
     let (model, fits) = (query.model(), query.fits());
     Ok(std::iter::once(bodies(model, &fits)).chain(motions(model, &fits)).collect())
 })
-.named(&[EntityKind::Body, EntityKind::Part]);
+.named(&[EntityKind::Body, EntityKind::Part])
+.also(&["PARTS"]);
 
 /// `&STATUS POINTS`.
 pub static POINTS: StatusKind =
     StatusKind::new("POINTS", "points, in their parts and in the global system", |query, _| {
         Ok(vec![points(query.model(), &query.fits())])
     })
-    .named(&[EntityKind::Point]);
+    .named(&[EntityKind::Point])
+    .also(&["POINT", "NODE"]);
 
 /// `&STATUS SELECTORS`.
 pub static SELECTORS: StatusKind =
@@ -84,7 +86,8 @@ pub fn configuration(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
 
 /// Bodies with their parts.
 pub fn bodies(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
-    let parts: Vec<&Part> = model.parts.values().filter(|p| fits(&p.body) || fits(&p.name)).collect();
+    let parts: Vec<&Part> =
+        model.parts.values().filter(|p| p.name != LOOSE_SURFACES && (fits(&p.body) || fits(&p.name))).collect();
     let table = Table::new("Bodies and Parts")
         .with_rows(&parts)
         .text("Body", |part| &part.body)

@@ -14,7 +14,8 @@ pub static ROD: StatusKind =
     StatusKind::new("ROD", "dynamic lines, at rest between their ends as they stand", |query, _| {
         tables(query, |_| lines_at_rest(query.model(), &query.fits()))
     })
-    .named(&[EntityKind::Connector, EntityKind::Assembly]);
+    .named(&[EntityKind::Connector, EntityKind::Assembly])
+    .also(&["F_ROD", "S_ROD"]);
 
 /// `&STATUS ROD_MODES`.
 pub static ROD_MODES: StatusKind =

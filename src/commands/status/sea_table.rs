@@ -22,6 +22,7 @@ pub static SEA_SPECTRUM: StatusKind = StatusKind {
     )
     .named(&[EntityKind::Environment])
     .of_moses()
+    .also(&["SEA"])
 };
 
 /// Points of a spectrum plotted, and the shares of the energy between which they lie.

@@ -53,7 +53,9 @@ pub(crate) fn defaults(model: &Model) -> Table {
         Coordinates::Rectangular => units::RECT.name,
         Coordinates::Cylindrical => units::CYLINDER.name,
         Coordinates::Spherical => units::SPHERICAL.name,
+        Coordinates::Placed(_) => units::LOCATION.name,
     };
+    let waves = &model.wave_defaults;
     Table::new("Defaults")
         .fact("Density of Material", d.material.density, Dim::Density)
         .fact("Young's Modulus", d.material.emodulus, Dim::Stress)
@@ -67,6 +69,9 @@ pub(crate) fn defaults(model: &Model) -> Table {
         .fact("Water Depth", d.depth, Dim::Length)
         .fact("Ramp", d.ramp, Dim::Time)
         .fact("Coordinates of Points", mode, Dim::None)
+        .fact("Periods of RAO", waves.periods.len(), Dim::None)
+        .fact("Headings of RAO", waves.headings.len(), Dim::None)
+        .fact("Time of Reinforcement", waves.reinforcement, Dim::Time)
         .fact("Directions of Sea, Wind, Current", "where they come from, from +X toward +Y", Dim::None)
         .fact("Directions of -ANCHOR", "from fairlead to anchor, from +X toward +Y", Dim::None)
 }

@@ -308,7 +308,8 @@ fn data_check_is_reported_and_not_run() {
     let made = records(&edited("OPTIONS END", "OPTIONS DATA END")).unwrap();
     assert!(!made.job.iter().any(|line| line.starts_with("TDOM")), "{:?}", made.job);
     assert!(
-        made.job.iter().any(|line| line.starts_with("$ DATA")) && made.job.contains(&"&STATUS TETHERS".to_string())
+        made.job.iter().any(|line| line.starts_with("$ deck 0, OPTIONS, DATA"))
+            && made.job.contains(&"&STATUS TETHERS".to_string())
     );
 }
 
@@ -560,13 +561,13 @@ fn record_error_points_at_its_source_card() {
     let start = "    15    STRT\n    15POS1             -46.000     0.000   -17.400     0.000     0.000       0.0\n \
                  END15VEL1               0.000     0.000     0.000     0.000     0.000       0.0";
     let cases = [
-        // a density below 0: the field of deck 3
+        // a density of 0: the field of deck 3
         (
             "mint.dat",
             " END03           101   7.81694    2.15E8\n",
-            " END03           101  -7.81694    2.15E8\n",
+            " END03           101       0.0    2.15E8\n",
             "deck 3, columns 21-30: RHO of -DENSITY of TETHER must be greater than zero",
-            " -7.81694",
+            "101       0.0    2.15E8",
         ),
         // blank springs are 1.0E15, too stiff for the step
         (

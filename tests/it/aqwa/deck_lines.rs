@@ -10,7 +10,7 @@ use windlass::session::Session;
 use windlass_hydro::Category;
 
 /// The structure is held in all degrees of freedom.
-fn held(deck: &str) -> String {
+fn hold_structure(deck: &str) -> String {
     let card = |dof: u8| format!("{:>4}12DACF    1{dof:5}\n", if dof == 6 { "END" } else { "" });
     let cards: String = (1..=6).map(card).collect();
     deck.replace("    12    NONE\n", &format!("    12    CONS\n{cards}"))
@@ -18,7 +18,7 @@ fn held(deck: &str) -> String {
 
 /// Forces of the connectors on a held structure over time: (s, N along X and Z), by its deck.
 fn pulls_over_time(cards: &str) -> Vec<[f64; 3]> {
-    let (session, _) = run("held.dat", &held(&moored("NAUT", 100.0, cards, STILL)));
+    let (session, _) = run("held.dat", &hold_structure(&moored("NAUT", 100.0, cards, STILL)));
     let made = session.job.run.as_ref().unwrap();
     let history = &made.history;
     let (x, z) = match history.layout.category(0, Category::FlexConnectors) {
@@ -42,7 +42,7 @@ fn meets(cards: &str, horizontal: f64, vertical: f64) {
 }
 
 #[test]
-fn polynomial_line_pulls_by_five_coefficients_and_is_slack_within_its_length() {
+fn polynomial_line_pulls_by_five_coefficients_beyond_its_length() {
     // e = 2.5172808 m; 1E5 e + 2E3 e2 + 5E2 e3 - 30 e4 + 4 e5
     let cards = |length: &str| {
         format!(
@@ -145,6 +145,25 @@ fn composite_line_lies_on_sloping_bed_of_its_card() {
         let text = moored("LIBR", 100.0, &cards, STILL);
         assert!(said(&text).iter().any(|note| note.message.contains("sign of the slope")));
     }
+}
+
+#[test]
+fn stiffening_composite_line_pulls_by_its_polynomial_of_strain() {
+    // 540 m of 15.2055 N/m in water, taut: x = int H/T (1 + e) ds and z so, T = (6E7 + 2E8 e + 3E9 e2 + 1E10 e3) e of ECAX, solved in
+    // 25 digits; without ECAX T = 6E7 e. Drag and bending (ECAH, ECAB) are of cable dynamics
+    let cards = |growth: &str| {
+        format!(
+            "    14COMP                   1\n    14ECAT                          20.0     0.018     6.0E7     5.0E6     540.0\n{growth}\
+             \x20   14ECAH                           1.1                 1.2       0.3      0.04\n    14ECAB                           5.0\n\
+             \x20END14NLIN    1    2    0   12\n"
+        )
+    };
+    meets(
+        &cards("    14ECAX                         2.0E8     3.0E9    1.0E10\n"),
+        282_450.460_016_26,
+        51_623.754_579_408,
+    );
+    meets(&cards(""), 277_857.602_872_07, 50_851.177_663_471);
 }
 
 #[test]
@@ -265,6 +284,12 @@ fn fer_job_has_heave_of_coefficients_of_its_file() {
     let text = screen.text();
     let row = text.lines().find(|line| line.starts_with("    0.00    6.61     0.9500")).unwrap();
     assert!(row.contains("1.7575E+00       24.33"), "{row}");
+    // without a place in deck 15 the equilibrium is found: 0.0526 m down by 1 MN in the line over 3152.8 kN/m of the file
+    let start = hemisphere("FER ", &BUT_HEAVE, STILL);
+    let (from, to) = (start.find("    15    STRT").unwrap(), start.find("    16    ").unwrap());
+    let (session, _) = run("hull.dat", &format!("{}    15    NONE\n{}", &start[..from], &start[to..]));
+    let body = session.job.model.bodies.values().next().unwrap();
+    assert!((body.place.shift[2] + 0.052_587_879).abs() < 1e-6, "{:?}", body.place);
     // a sea gives statistics
     let sea = "    13    SPEC\n END13PSMZ                 0.3       2.0       3.0       6.0\n";
     let made = records(&hemisphere("FER ", &BUT_HEAVE, sea)).unwrap().job.join("\n");

@@ -126,7 +126,7 @@ fn tension(raised: f64, [pressure, density]: [f64; 2]) -> f64 {
         - (pressure + density * GRAVITY * depth) * circle(bore())
 }
 
-fn near(got: f64, want: f64, share: f64) {
+fn assert_near(got: f64, want: f64, share: f64) {
     assert!((got / want - 1.0).abs() < share, "{got} is not {want}");
 }
 
@@ -141,13 +141,13 @@ fn tcap_and_tifl_enter_pull_of_tether_on_vessel() {
     let upper = tension(0.05, [2e6, 850.0]) + 0.5 * weight(850.0);
     let tether = &made.tethers[0];
     // 1e15 kN/m of the springs that are not given, over EA/L
-    near(tether.end_at(0, 19, 0).unwrap(), upper, 1e-6);
-    near(tether.end_at(0, 19, 1).unwrap(), upper - out * circle(OUTER) + inside * circle(bore()), 1e-6);
-    near(made.structure.as_ref().unwrap().value(0, PULL_Z).unwrap(), -(upper - out * 0.4), 1e-6);
+    assert_near(tether.end_at(0, 19, 0).unwrap(), upper, 1e-6);
+    assert_near(tether.end_at(0, 19, 1).unwrap(), upper - out * circle(OUTER) + inside * circle(bore()), 1e-6);
+    assert_near(made.structure.as_ref().unwrap().value(0, PULL_Z).unwrap(), -(upper - out * 0.4), 1e-6);
     // neither card: the pull is the effective tension
     let (session, _) = run("pull.dat", &deck(&Case { raised: 0.05, ..Case::default() }));
     let bare = tension(0.05, [0.0, 0.0]) + 0.5 * weight(0.0);
-    near(tethered(&session).structure.as_ref().unwrap().value(0, PULL_Z).unwrap(), -bare, 1e-6);
+    assert_near(tethered(&session).structure.as_ref().unwrap().value(0, PULL_Z).unwrap(), -bare, 1e-6);
 }
 
 #[test]
@@ -169,10 +169,10 @@ fn tlow_stop_takes_tether_that_fell_by_its_distance() {
     // an instant of 0.05 s on either side
     assert!((hit.time - ((0.5 + short) / 0.01).sqrt()).abs() < 0.1, "{hit:?}");
     // at 10 s it is 1 m down, and half of it is below the stop
-    near(last(&stopped) / (ea / LENGTH), 0.5 - short, 2e-3);
+    assert_near(last(&stopped) / (ea / LENGTH), 0.5 - short, 2e-3);
     let free = fall("    14TLOW                           2.0\n");
     assert!(tethered(&free).happened.iter().all(|e| !matches!(e.change, RigChange::LowerStop { .. })));
-    near(last(&free), -weight(0.0), 1e-9);
+    assert_near(last(&free), -weight(0.0), 1e-9);
 }
 
 /// What a middle support holds.
@@ -308,7 +308,40 @@ fn lateral_and_rotational_constraints_bow_tether_as_a_beam() {
         let of_vessel =
             if (cards, middle) == ("", "") || !format!("{cards}{middle}").contains("TLAV") { 0.0 } else { support };
         // the program has the slope of the tension alone on the structure; a slope of one element is off by more than a place
-        near(push(&session), of_vessel - top * pull, 4e-3);
+        assert_near(push(&session), of_vessel - top * pull, 4e-3);
+    }
+}
+
+#[test]
+fn held_node_off_the_axis_takes_its_tension_at_a_quarter_second() {
+    // the vessel stands 20 m off, the node in the middle over the anchor: T = EA (c - L + arc)/L + p A with the arc of ten cubic elements under
+    // this tension, solved together in twenty digits: an arc of 1.0214 m and 308.77 MN, the top at 0.1037 rad from the axis
+    let case = Case { middle: "    14TLAC\n", steps: (401, 0.25), ..Case::default() };
+    let text = deck(&case).replace("END15POS1                 0.0", "END15POS1                20.0");
+    let (session, _) = run("pull.dat", &text);
+    let structure = tethered(&session).structure.as_ref().unwrap();
+    assert_near(*structure.series(PULL_X).last().unwrap(), -62_553_927.07, 1e-3);
+    assert_near(*structure.series(PULL_Z).last().unwrap(), -304_060_064.96, 1e-3);
+}
+
+#[test]
+fn installed_example_runs_with_held_nodes_at_its_own_step() {
+    let text = file("mint.dat");
+    let of = |card: &str, step: usize| {
+        let with = text.replace("    14TEGR    4\n", &format!("    14TEGR    4\n    14{card}\n"));
+        let count = 100 * step + 1;
+        let with = with
+            .replace("END16TIME       101     0.250", &format!("END16TIME     {count:5}{:10.3}", 0.25 / step as f64));
+        let (session, _) = run("mint.dat", &with);
+        let made = tethered(&session);
+        // surge and heave after 5 s
+        [0, 2].map(|dof| made.structure.as_ref().unwrap().value(20 * step, dof).unwrap())
+    };
+    for card in ["TLAC", "TLAV"] {
+        let (whole, tenth) = (of(card, 1), of(card, 10));
+        // a quarter of a second is coarse for a held node: 0.35 m of surge and 0.9 m of heave off, where half the step is off by 0.2 and 0.4 m
+        let off = [0, 1].map(|dof| (whole[dof] - tenth[dof]).abs());
+        assert!(off[0] < 0.4 && off[1] < 1.0, "{card}: {whole:?} {tenth:?}");
     }
 }
 
@@ -318,14 +351,14 @@ fn tlav_gap_lets_tether_move_and_holds_it_there() {
     let pull = tension(0.2, [0.0, 0.0]);
     // wider than the tether bows: nothing touches
     let wide = in_current("", "    14TLAV                         0.100\n");
-    near(deflection(&wide, 5), free.deflection, 2e-3);
-    near(push(&wide), -free.top * pull, 4e-3);
+    assert_near(deflection(&wide, 5), free.deflection, 2e-3);
+    assert_near(push(&wide), -free.top * pull, 4e-3);
     let narrow = in_current("", "    14TLAV                         0.030\n");
     // the edge is as soft as the step asks for: it gives way by 0.9 mm
     let at = deflection(&narrow, 5);
     assert!((0.03..0.031).contains(&at), "{at}");
     let want = bow_at(100.0, 5, Support::Place(at));
-    near(push(&narrow), want.push - want.top * pull, 4e-3);
+    assert_near(push(&narrow), want.push - want.top * pull, 4e-3);
 }
 
 /// Times on the pages of what a session printed of a tether: those of the rows that begin with a step, a time and a node.
@@ -411,7 +444,7 @@ fn current_of_deck_10_bows_tether_as_that_of_deck_11() {
     let text = deck(&case).replace("    11    ENVR\n END11CURR       1.0       0.0\n", "    11    NONE\n");
     let text = text.replace("    10    NONE\n", "    10    HLD1\n END10CURR       1.0       0.0\n");
     let (session, _) = run("pull.dat", &text);
-    near(deflection(&session, 5), bow_at(100.0, 5, Support::None).deflection, 2e-3);
+    assert_near(deflection(&session, 5), bow_at(100.0, 5, Support::None).deflection, 2e-3);
 }
 
 /// The last column of the fatigue page: expected peaks.
@@ -439,7 +472,7 @@ fn tpsh_hours_enter_expected_peak() {
             let n: f64 = field(end, "cychr2") * hours;
             let want = field(end, "mean").abs() + 0.5 * field(end, "sig") * (2.0 * n.ln()).sqrt();
             // peaks are printed with three figures, and the run's own are within 1 % of the listing
-            near(peak, want, 0.01);
+            assert_near(peak, want, 0.01);
         }
     }
 }
@@ -463,4 +496,52 @@ fn half_the_step_keeps_printed_moments() {
         let share = if node == 5 { 0.05 } else { 0.12 };
         assert!((found - want).abs() < share * 2271.0, "node {node}: {found} for {want}");
     }
+}
+
+/// A towed tether of 5 m that floats half submerged, in a regular wave of 3 m along its axis in 60 m of water: kN, t, m.
+fn towed_in_wave(theory: &str) -> String {
+    let none = |decks: std::ops::RangeInclusive<u8>| decks.map(|n| format!("    {n:02}    NONE\n")).collect::<String>();
+    format!(
+        "JOB RIDE  NAUT\nTITLE               A short tether\nOPTIONS LSTF END\n\
+        \x20   01    COOR\n    01   1    3    1       0.0       0.0       0.0       2.5       0.0       0.0\n\
+        \x20   01 100                -5.0       0.0       0.0\n END01 999\n\
+        \x20   02    ELM1\n END02PMAS           (1) (2) (2) (2)\n    02    FINI\n\
+        \x20   03    MATE\n    03             1    6.5361    2.15E8\n END03             2     1.0E6\n\
+        \x20   04    GEOM\n    04TUBE         1       1.0      0.02       0.0       0.0       0.0\n    04CONT                0.75       1.0\n\
+        \x20END04PMAS         2     1.0E6       0.0       0.0     1.0E6       0.0     1.0E6\n\
+        \x20   05    GLOB\n    05DPTH      60.0\n    05DENS     1.025\n END05ACCG      9.81\n    06    NONE\n\
+        \x20   07    WFS1\n    07LSTF         3                         1.0E6\n    07BFEQ            9.81E6\n END07ZCGE                 0.0\n{}\
+        \x20   13    WAVE\n{theory}    13WAMP                 3.0\n    13PERD                16.0\n END13WVDN                 0.0\n\
+        \x20   14    MOOR\n    14TELM    1    2    1    1\n    14TELM    2    3    1    1\n\
+        \x20   14TSPV    1                0.001     0.001     0.001\n    14TSPA    1                0.001     0.001     0.001\n\
+        \x20END14TETH    1  999    0  100\n    15    NONE\n\
+        \x20   16    TINT\n END16TIME      2561      0.05\n    17    NONE\n\
+        \x20   18    PROP\n    18TPRV 2560\n END18PTEN    1\n{}",
+        none(8..=12),
+        none(19..=20)
+    )
+}
+
+#[test]
+fn towed_tether_of_naut_deck_rides_on_stokes_wave_of_second_order() {
+    // the height of the second harmonic in water of this depth, k a^2 cosh kd (2 + cosh 2kd) / (4 sinh^3 kd) [DEAN-DALRYMPLE-1991 11.2]; 0.0707 m
+    // in deep water
+    let (number, want) = (0.019_205_302_8, 0.183_601_095);
+    let second = |theory: &str| {
+        let (session, _) = run("ride.dat", &towed_in_wave(theory));
+        let made = tethered(&session);
+        let heights = made.tethers[0].node(1, 1);
+        // the last two of ten periods
+        let rate = 2.0 * 2.0 * PI / 16.0;
+        let harmonic =
+            |of: fn(f64) -> f64| (1920..2560).map(|i| heights[i] * of(rate * made.times[i]) / 320.0).sum::<f64>();
+        let [cos, sin] = [harmonic(f64::cos), harmonic(f64::sin)];
+        // the middle is 2.5 m behind the origin, where the crest is at the start
+        let (s, c) = (2.0 * number * -2.5f64).sin_cos();
+        [cos * c + sin * s, sin * c - cos * s]
+    };
+    let ([with, across], without) = (second(""), second("    13AIRY\n"));
+    // a heave of a period of 1.8 s is not at rest on waves of 8 s
+    assert!((with - want).abs() < 0.05 * want && across.abs() < 0.05 * want, "{with} {across} {want}");
+    assert!(without[0].hypot(without[1]) < 0.1 * want, "{without:?}");
 }

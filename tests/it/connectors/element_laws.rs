@@ -42,7 +42,7 @@ const fn spring(class: &'static str, records: &'static str, now: [f64; 6], kind:
     Case { class, records, connector: "", defined: [0.0; 3], now, kind, balanced: true, free: true }
 }
 
-const NEAR: [f64; 6] = [-0.2, 0.15, -0.1, 0.3, -0.2, 0.4];
+const SMALL_MOTION: [f64; 6] = [-0.2, 0.15, -0.1, 0.3, -0.2, 0.4];
 
 fn cases() -> Vec<Case> {
     use Kind::{Dissipative, Elastic, Other};
@@ -58,11 +58,16 @@ fn cases() -> Vec<Case> {
         free: false,
     };
     vec![
-        spring("FOUNDATION", "~C FOUNDATION COMPRESSION X 2E5 1E4 Y 1E5 Z 5E4 RX 3E4 RY 2E4 RZ 1E4", NEAR, Elastic),
-        spring("GSPR", "~C GSPR Z 2E5 RY 3E4 -LEN 1.5", NEAR, Elastic),
+        spring(
+            "FOUNDATION",
+            "~C FOUNDATION COMPRESSION X 2E5 1E4 Y 1E5 Z 5E4 RX 3E4 RY 2E4 RZ 1E4",
+            SMALL_MOTION,
+            Elastic,
+        ),
+        spring("GSPR", "~C GSPR Z 2E5 RY 3E4 -LEN 1.5", SMALL_MOTION, Elastic),
         Case {
             connector: "-EULER 20 -30 40",
-            ..spring("GSPR", "~C GSPR X 2E5 Y 1E5 RX 3E4 -SYMMETRIC", NEAR, Elastic)
+            ..spring("GSPR", "~C GSPR X 2E5 Y 1E5 RX 3E4 -SYMMETRIC", SMALL_MOTION, Elastic)
         },
         spring(
             "GSPR",
@@ -73,19 +78,24 @@ fn cases() -> Vec<Case> {
         spring(
             "GSPR",
             "~C GSPR X 2E5 Y 1E5 Z 1E5 RZ 4E4 -X_DAMPING 5E3 1 -Y_DAMPING 4E3 2 9E2 -Z_DAMPING 3E3 0.5",
-            NEAR,
+            SMALL_MOTION,
             Dissipative,
         ),
-        spring("GSPR", "~C GSPR X 2E5 Y 1E5 -SYMM -Y_DAMPING 4E3 1.7", NEAR, Dissipative),
-        spring("GSPR", "~C GSPR COMPRESSION X 2E5 Y 1E5 Z 7E4 -FRICTION 0.2 -X_DAMPING 5E3 1", NEAR, Other),
-        spring("GSPR", "~C GSPR COMPRESSION X 2E5 -FRICTION 0.2", NEAR, Dissipative),
+        spring("GSPR", "~C GSPR X 2E5 Y 1E5 -SYMM -Y_DAMPING 4E3 1.7", SMALL_MOTION, Dissipative),
+        spring("GSPR", "~C GSPR COMPRESSION X 2E5 Y 1E5 Z 7E4 -FRICTION 0.2 -X_DAMPING 5E3 1", SMALL_MOTION, Other),
+        spring("GSPR", "~C GSPR COMPRESSION X 2E5 -FRICTION 0.2", SMALL_MOTION, Dissipative),
         spring(
             "GSPR",
             "~C GSPR COMPRESSION X 2E5 Y 1E5 RX 5E4 -CONVOLUTION X SOFT -CONVOLUTION RX SOFT -CONVOLUTION Y SOFT -X_PY 1E3 0.05 9E4 0.2",
-            NEAR,
+            SMALL_MOTION,
             Dissipative,
         ),
-        spring("GSPR", "~C GSPR X 2E5 Y 1E5 -SYMM -CONVOLUTION Y SOFT -Y_PY 1E3 0.05 9E4 0.3", NEAR, Dissipative),
+        spring(
+            "GSPR",
+            "~C GSPR X 2E5 Y 1E5 -SYMM -CONVOLUTION Y SOFT -Y_PY 1E3 0.05 9E4 0.3",
+            SMALL_MOTION,
+            Dissipative,
+        ),
         // the side of the cone; the pin is the first end, and the second end is the cone: 0.4 m below its mouth, then 1.3 m
         spring("LMU", "~C LMU 1000 400 800 X 2E5 Y 2E5", [-0.3, 0.25, 0.4, 0.1, 0.05, 0.3], Elastic),
         spring("LMU", "~C LMU 1000 400 800 X 2E5 Y 1E5 RX 3E4", [-0.3, 0.25, 0.4, 0.1, 0.05, 0.3], Other),

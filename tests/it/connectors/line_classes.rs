@@ -19,7 +19,7 @@ fn place(fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> Placement {
     Placement { fairlead, other: Some(other), to_ground, anchored: to_ground, ..Placement::default() }
 }
 
-fn with<T>(records: &str, place: Placement, ask: impl Fn(&dyn LineModel) -> T) -> T {
+fn with_line<T>(records: &str, place: Placement, ask: impl Fn(&dyn LineModel) -> T) -> T {
     let session = session(records);
     let model = &session.job.model;
     let class = model.classes.values().next_back().unwrap_or_else(|| panic!("{records}: {:?}", session.reports));
@@ -28,7 +28,7 @@ fn with<T>(records: &str, place: Placement, ask: impl Fn(&dyn LineModel) -> T) -
 }
 
 fn loads(records: &str, place: Placement) -> LineLoads {
-    with(records, place, |line| line.loads().unwrap_or_else(|e| panic!("{records}: {e}")))
+    with_line(records, place, |line| line.loads().unwrap_or_else(|e| panic!("{records}: {e}")))
 }
 
 fn assert_near(got: f64, want: f64, share: f64) {
@@ -229,7 +229,7 @@ fn placement_at(x: f64) -> Placement {
 
 #[test]
 fn table_matches_its_thirty_rows_and_is_monotone_between() {
-    let rows = with(TABLED, placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
+    let rows = with_line(TABLED, placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
     assert_eq!(rows.rows(), 30);
     let number = |row: usize, column: usize| rows.row(row)[column].number().unwrap();
     let exact = TABLED.replace(" -TABLE", "");
@@ -259,7 +259,7 @@ fn table_matches_its_thirty_rows_and_is_monotone_between() {
 
 #[test]
 fn force_beyond_table_is_extrapolated_linearly_with_a_note() {
-    let rows = with(TABLED, placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
+    let rows = with_line(TABLED, placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
     let last = |column: usize| rows.row(29)[column].number().unwrap();
     let got = loads(TABLED, placement_at(last(0) + 2.0));
     assert_near(got.fairlead[0], last(1) + 2.0 * last(2), 1e-9);
@@ -279,9 +279,9 @@ fn tabled_line_nearer_than_first_row_is_solved_exactly() {
 
 #[test]
 fn tab_lim_is_largest_horizontal_force_of_table() {
-    let limited = with(&format!("{TABLED} -TAB_LIM 1E6"), placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
+    let limited = with_line(&format!("{TABLED} -TAB_LIM 1E6"), placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
     assert_near(limited.row(29)[1].number().unwrap(), 1e6, 1e-12);
-    let free = with(TABLED, placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
+    let free = with_line(TABLED, placement_at(1300.0), |l| l.tabulate("A").unwrap().0);
     assert_near(
         free.row(29)[1].number().unwrap(),
         36.0 / 0.6 * 6.894_757_293_168_36e6 * std::f64::consts::FRAC_PI_4 * 0.01,
@@ -303,7 +303,7 @@ fn friction_reduces_anchor_pull_only() {
 fn positive_slope_is_deeper_at_anchor_than_below_vessel() {
     let exact = TABLED.replace(" -TABLE", "");
     for (slope, rises) in [(0.05, true), (-0.05, false)] {
-        let shape = with(&format!("{exact} -SLOPE {slope}"), placement_at(1400.0), |l| {
+        let shape = with_line(&format!("{exact} -SLOPE {slope}"), placement_at(1400.0), |l| {
             l.geometry("A", Condition::Placed).unwrap()
         });
         let fact = |name: &str| shape.facts.iter().find(|f| f.name == name).unwrap().value.number().unwrap();
@@ -322,7 +322,7 @@ fn clumps_and_spring_buoys_act_at_segment_end_and_follow_tide() {
         )
     };
     let joint = |records: &str| {
-        let table = with(records, placement_at(1250.0), |l| l.geometry("A", Condition::Placed).unwrap());
+        let table = with_line(records, placement_at(1250.0), |l| l.geometry("A", Condition::Placed).unwrap());
         let row = (0..table.rows()).map(|i| table.row(i)).find(|r| r[12].number().is_some()).unwrap();
         (row[1].number().unwrap(), table.notes.clone())
     };
@@ -342,13 +342,13 @@ fn clumps_and_spring_buoys_act_at_segment_end_and_follow_tide() {
 fn first_length_for_force_gives_that_force() {
     let exact = TABLED.replace(" -TABLE", "");
     for condition in [Condition::Horizontal(4e5), Condition::Tension(9e5)] {
-        let length = with(&exact, placement_at(1400.0), |l| l.first_length(condition).unwrap().length);
+        let length = with_line(&exact, placement_at(1400.0), |l| l.first_length(condition).unwrap().length);
         let got = loads(&exact, Placement { first_length: Some(length), ..placement_at(1400.0) });
         match condition {
             Condition::Horizontal(f) => assert_near(got.fairlead[0], f, 1e-8),
             _ => assert_near(got.tension, 9e5, 1e-8),
         }
-        let x = with(&exact, placement_at(1400.0), |l| l.distance(condition).unwrap());
+        let x = with_line(&exact, placement_at(1400.0), |l| l.distance(condition).unwrap());
         let moved = loads(&exact, placement_at(x));
         match condition {
             Condition::Horizontal(f) => assert_near(moved.fairlead[0], f, 1e-8),
@@ -394,7 +394,8 @@ fn aqwa_section_stretch_follows_polynomial_up_to_largest_tension() {
 fn aqwa_buoys_and_clumps_have_mass_and_ignore_surface() {
     let line =
         |joint: &str| format!("~L CATENARY 100 -LEN 200 -EA 1E9 -DEP 300 {joint}\n~L CATENARY 100 -LEN 400 -EA 1E9");
-    let notes = |joint: &str| with(&line(joint), place([0.0; 3], [420.0, 0.0, -300.0], true), |l| l.loads().unwrap());
+    let notes =
+        |joint: &str| with_line(&line(joint), place([0.0; 3], [420.0, 0.0, -300.0], true), |l| l.loads().unwrap());
     let bare = notes("");
     let clump = notes("-CLUMP 30000 5000");
     assert!(-clump.fairlead[2] > -bare.fairlead[2] + 1e4);
@@ -441,7 +442,7 @@ fn viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
 fn aqwa_line_table_ends_at_largest_expected_tension() {
     for options in ["", "-EA 7E8 -TMAX 5E6", "-EA 7E8 -TMAX 5E6 -K 1E9 1E10"] {
         let records = format!("~L CATENARY 170 0.02 -LEN 900 -DEP 150 {options}");
-        let rows = with(&records, place([0.0; 3], [850.0, 0.0, -150.0], true), |l| l.tabulate("A").unwrap().0);
+        let rows = with_line(&records, place([0.0; 3], [850.0, 0.0, -150.0], true), |l| l.tabulate("A").unwrap().0);
         let limit = if options.is_empty() { 5.0e4 * 170.0 } else { 5e6 };
         assert_near(rows.row(29)[3].number().unwrap(), limit, 1e-6);
         assert!(rows.row(29)[0].number().unwrap() < 900.0 * 1.05, "{:?}", rows.row(29)[0]);

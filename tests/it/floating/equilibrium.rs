@@ -3,7 +3,6 @@
 use crate::common;
 
 use windlass::session::Session;
-use windlass_base::span::Span;
 use windlass_model::{Model, SolverCache, Weight};
 use windlass_solve::{Options, SolveError, System, find_equilibrium_with_rebuilds, modes};
 
@@ -19,7 +18,7 @@ fn model(records: &str, weights: &[(&str, [f64; 3], f64, [f64; 3])]) -> Model {
     );
     let mut model = session.job.model.clone();
     for (part, at, weight, radii) in weights {
-        let made = Weight { at: *at, weight: *weight, radii: *radii, span: Span::default() };
+        let made = Weight { at: *at, weight: *weight, radii: *radii, ..Weight::default() };
         model.parts.get_mut(*part).unwrap().weights.push(made);
     }
     model

@@ -5,7 +5,6 @@ use crate::common;
 use std::f64::consts::{FRAC_PI_4, TAU};
 use windlass::session::Session;
 use windlass_base::pose::{Pose, Six};
-use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_catenary::{Line, Segment};
 use windlass_model::{Model, Weight};
@@ -165,7 +164,7 @@ fn held_excursion_stays_on_its_line_and_free_one_yields_sideways() {
                    ~T SL_ELEM 50 TENSION -LEN 116 -B_TENSION 1E9\nCONNECTOR L0 ~T *P *G0\nCONNECTOR L1 ~T *Q *G1\n\
                    CONNECTOR L2 ~T *R *G2\nEND";
     let mut made = model(records);
-    let weight = Weight { at: [0.0, 0.0, -1.0], weight: 5e5, radii: [2.0; 3], span: Span::default() };
+    let weight = Weight { at: [0.0, 0.0, -1.0], weight: 5e5, radii: [2.0; 3], ..Weight::default() };
     made.parts.get_mut("SHIP").unwrap().weights.push(weight);
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
@@ -354,7 +353,7 @@ fn free_watch_circle_of_hanging_weight_matches_pendulum() {
     let records = "MEDIT\n*A 0 0 0\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\n~TIE SL_ELEM 50 TENSION -LEN 10\n\
                    CONNECTOR T ~TIE *HOOK *A\nEND\n&INSTATE -LOCATE LOAD 0 0 -12";
     let mut made = model(records);
-    let weight = Weight { at: [0.0; 3], weight: 1e5, radii: [1.0; 3], span: Span::default() };
+    let weight = Weight { at: [0.0; 3], weight: 1e5, radii: [1.0; 3], ..Weight::default() };
     made.parts.get_mut("LOAD").unwrap().weights.push(weight);
     let (force, tension) = (2e4, 2e4_f64.hypot(1e5));
     let reach = 10.0 * (1.0 + tension / ea()) + 2.0;

@@ -1,7 +1,8 @@
 //! The command line as its user types it: records given with -c, wrong uses, the log.
 
+use std::io::Write;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// Exit code, standard output and messages of a run in a folder.
 fn run_in(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
@@ -205,11 +206,23 @@ fn missing_result_exits_with_1_and_a_message() {
 #[test]
 fn reserved_words_are_commands_and_such_a_root_needs_extension() {
     let folder = tempfile::tempdir().unwrap();
-    for word in ["check", "study", "verify", "open", "report", "fmt", "lsp", "manual"] {
+    for word in ["study", "verify", "open", "report", "fmt", "lsp", "manual"] {
         let (code, out, err) = run_in(folder.path(), &[word, "cases.csv", "--jobs", "3"]);
         assert_eq!((code, out.as_str()), (Some(2), ""));
         assert_eq!(err, format!("windlass: {word} is not in this version\n"));
     }
+    let (code, _, err) = run_in(folder.path(), &["check"]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("Usage: windlass check <SCRIPT>"), "{err}");
+    std::fs::write(folder.path().join("d.dat"), "JOB TEST  NAUT  TIME\nTITLE\nOPTIONS REST END\nRESTART   4  5\n")
+        .unwrap();
+    let (code, _, err) = run_in(folder.path(), &["check", "d.dat"]);
+    assert_eq!((code, err.contains("d.dat is an AQWA deck")), (Some(2), true), "{err}");
+    let (code, _, err) = run_in(folder.path(), &["--batch", "check", "a.cif"]);
+    assert_eq!(
+        (code, err.as_str()),
+        (Some(2), "windlass: check comes first, and takes a script: windlass check --compat model.cif\n")
+    );
     for flag in [&["--man"][..], &["--completions", "bash"]] {
         let (code, _, err) = run_in(folder.path(), flag);
         assert_eq!((code, err), (Some(2), format!("windlass: {} is not in this version\n", flag[0])));
@@ -248,4 +261,33 @@ fn help_lists_exit_codes() {
     {
         assert!(out.contains(line), "{out}");
     }
+}
+
+#[test]
+fn questions_of_script_are_answered_by_lines_of_standard_input() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("ask.cif"),
+        "&SET A = &GET(LENGTH )\n&SET B = &GET(AGAIN YES/NO )\n&TYPE <%A|%B>\n",
+    )
+    .unwrap();
+    let answer = |input: &str| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_windlass"))
+            .arg("ask.cif")
+            .current_dir(folder.path())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+        let done = child.wait_with_output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (done.status.code(), text(done.stdout), text(done.stderr))
+    };
+    let (code, out, err) = answer("120\nYES\n");
+    assert_eq!((code, out.as_str()), (Some(0), "<120|YES>\n"));
+    assert!(err.contains("LENGTH? ") && err.contains("AGAIN YES/NO? "), "{err}");
+    let (code, _, err) = answer("120\n");
+    assert!(code == Some(1) && err.contains("&GET got no answer"), "{code:?} {err}");
 }

@@ -285,7 +285,7 @@ fn completion_offers_every_kind_of_word_and_no_lone_dash() {
     t.ready("MEDIT> ");
     for (keys, line) in [
         ("~W B_CAT 4 -LEN \t5", "~W B_CAT 4 -LEN 5"),
-        ("&STATUS CO\t!", "&STATUS CONFIGURATION !"),
+        ("&STATUS CON\t!", "&STATUS CONFIGURATION !"),
         ("&HELP TRAJ\t!", "&HELP TRAJECTORY !"),
         ("&HELP DIM\t!", "&HELP &DIMEN !"),
         ("&HELP &NUM\t!", "&HELP &NUMBER !"),

@@ -114,7 +114,7 @@ impl Records {
 /// Units that cannot be determined; earlier stages that are not in the file; cards for which the model or its engines have no place: each
 /// with the reason, and where there is one the native record to use.
 pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
-    let mut out = written(deck)?;
+    let mut out = write_script(deck)?;
     let model = std::mem::take(&mut out.lines);
     run::tethers(deck, &mut out);
     let before_motion = out.lines.len();
@@ -127,12 +127,12 @@ pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
 /// # Errors
 /// As [`records`], but for what is run.
 pub fn model_records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
-    let out = written(deck)?;
+    let out = write_script(deck)?;
     if out.wrong.is_empty() { Ok(Records::new(out.lines, Vec::new(), 0, out.notes)) } else { Err(out.wrong) }
 }
 
 /// The model as it could be written, with what is wrong with it.
-fn written(deck: &Deck) -> Result<Script, Vec<Diagnostic>> {
+fn write_script(deck: &Deck) -> Result<Script, Vec<Diagnostic>> {
     let (start, _) = deck.job.stages;
     if start > 1 && !deck.has_earlier_stages {
         let error = Diagnostic::error("deck 0, RESTART: this file begins after stage 1", deck.job.span)

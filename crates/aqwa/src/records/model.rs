@@ -105,7 +105,7 @@ pub(super) fn structure(deck: &Deck, of: &StructureDeck, out: &mut Script) {
     let known = index.and_then(|index| deck.hydrostatics.get(index));
     if let Some(known) = known {
         out.card("deck 7, LSTF", known.span);
-        hydrostatics(deck, of, known, nominal, out);
+        hydrostatics(of, known, nominal, out);
     }
     if let Some((name, span)) = known.and_then(|known| known.database.as_ref()) {
         database(deck, of, name, *span, out);
@@ -143,7 +143,13 @@ fn mass(deck: &Deck, of: &StructureDeck, out: &mut Script) -> MassProperties {
     if tubes == 0.0 || tubes > NOMINAL_MASS_SHARE * whole.mass {
         return whole;
     }
-    out.remark(&format!("the nominal mass of its tubes, {tubes:.1E} of {}, is left out", number(whole.mass)));
+    let first = of.elements.iter().find(|element| element.shape == ElementShape::Tube);
+    let text = format!(
+        "the nominal mass of the tubes of structure {}, {tubes:.1E} of {}, is left out",
+        of.number,
+        number(round_value(whole.mass - tubes))
+    );
+    out.note("deck 2, TUBE", first.map_or(of.span, |tube| tube.span), &text);
     let elements = of.elements.iter().filter(|element| element.shape != ElementShape::Tube).cloned().collect();
     deck.mass_properties(&StructureDeck { elements, ..of.clone() })
 }
@@ -151,7 +157,8 @@ fn mass(deck: &Deck, of: &StructureDeck, out: &mut Script) -> MassProperties {
 /// The degrees of freedom that are held, as an option.
 fn fixed_dof_option(deck: &Deck, of: &StructureDeck, nominal: bool, out: &mut Script) -> String {
     if nominal {
-        out.remark("a towed tether runs by itself: its nominal vessel is held where it is");
+        let text = "a towed tether runs by itself: its nominal vessel is held where it is";
+        out.note(&format!("deck 2, ELM{}", of.number), of.span, text);
         return format!(" -IGNORE {}", DOFS.join(" "));
     }
     let given: Vec<_> = deck.held.iter().filter(|held| held.structure.value == of.number).collect();
@@ -199,7 +206,7 @@ fn refuse_card(what: &str, at: Span, help: &str, out: &mut Script) {
     out.refuse(Diagnostic::error(format!("deck 7: {what} is not read into the model"), at).help(help));
 }
 
-fn hydrostatics(deck: &Deck, of: &StructureDeck, known: &HydrostaticsDecks, nominal: bool, out: &mut Script) {
+fn hydrostatics(of: &StructureDeck, known: &HydrostaticsDecks, nominal: bool, out: &mut Script) {
     if !nominal {
         if known.added_mass.is_some() {
             refuse_card("added mass (FIAM, FIDA)", known.span, "#AMASS of the model adds mass to a body", out);
@@ -240,9 +247,6 @@ fn hydrostatics(deck: &Deck, of: &StructureDeck, known: &HydrostaticsDecks, nomi
         if values.iter().any(|value| *value != 0.0) {
             text.push_str(&format!(" {name} {}", numbers(values)));
         }
-    }
-    if nominal && !deck.job.option("LSTF") {
-        out.remark("without the option LSTF that program would not take this stiffness");
     }
     out.word("-BUOYANCY", "deck 7, BFEQ", buoyancy.span);
     out.word("-ZCGE", "deck 7, ZCGE", height.span);

@@ -41,13 +41,17 @@ pub(super) fn motion(deck: &Deck, out: &mut Script) {
     out.card("deck 0, JOB", deck.job.span);
     if !deck.job.runs() {
         let (_, finish) = deck.job.stages;
-        out.remark(if deck.job.option("DATA") {
-            "DATA: the data are checked and listed; nothing is run"
-        } else if finish < 4 {
-            "the stages end before the analysis: the model is made, and nothing is run"
-        } else {
-            "the stages end before the motion: nothing is run"
-        });
+        let data = deck.job.options.iter().find(|(name, _)| name == "DATA");
+        let (card, span, text) = match data {
+            Some((_, span)) => ("deck 0, OPTIONS, DATA", *span, "the data are checked and listed; nothing is run"),
+            None if finish < 4 => (
+                "deck 0, RESTART",
+                deck.job.span,
+                "the stages end before the analysis: the model is made, and nothing is run",
+            ),
+            None => ("deck 0, RESTART", deck.job.span, "the stages end before the motion: nothing is run"),
+        };
+        out.note(card, span, text);
         return;
     }
     if let Some(steps) = deck.steps {
@@ -130,7 +134,8 @@ fn bodies(deck: &Deck, out: &mut Script) {
     out.record("END");
 }
 
-/// Motions and tensions in the sea of the deck about the places where it puts the structures; without a sea in unit waves.
+/// Motions and tensions in the sea of the deck, without a sea in unit waves: about the places of deck 15, which are those of an equilibrium, or about the
+/// equilibrium where a structure has no place there.
 fn frequency_domain(deck: &Deck, out: &mut Script) {
     if let WaveDeck::Regular(_) = deck.waves {
         out.refuse(
@@ -140,6 +145,20 @@ fn frequency_domain(deck: &Deck, out: &mut Script) {
         return;
     }
     let sea = matches!(deck.waves, WaveDeck::Spectra(_));
+    let placed = |number: i64| deck.starts.iter().any(|start| start.structure == number && !start.velocity);
+    match deck.structures.iter().find(|structure| !placed(structure.number)) {
+        Some(structure) => {
+            let text = format!("deck 15 has no POS{}: the equilibrium is found first, as with LIBR", structure.number);
+            out.note(&format!("deck 2, ELM{}", structure.number), structure.span, &text);
+            out.record("&EQUI");
+        }
+        None => {
+            for start in deck.starts.iter().filter(|start| !start.velocity) {
+                let text = "the place is taken for that of the equilibrium, about which FER works; without the card it is found";
+                out.note(&format!("deck 15, POS{}", start.structure), start.span, text);
+            }
+        }
+    }
     out.record("FREQ_RESPONSE");
     out.record(if sea { "SRESPONSE" } else { "RAO" });
     let (prefix, tensions) = if sea { ("STATISTICS ", "STATISTICS TENSION") } else { ("", "CONFORCE") };
@@ -207,8 +226,6 @@ fn write_tether_run(deck: &Deck, out: &mut Script) {
     if let (true, Some(other)) = (silent, printing.tensions.first()) {
         let text = "no tether is on this structure: nothing is printed of the tethers over time";
         out.warn("deck 18, PTEN, columns 11-15", other.span, text);
-    } else if silent {
-        out.remark("without PTEN nothing is reported of the tethers over time");
     }
     for (index, tether) in deck.mooring.tethers.iter().enumerate() {
         if asked(tether) {

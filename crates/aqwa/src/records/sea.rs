@@ -64,6 +64,10 @@ fn irregular(deck: &Deck, sea: &SpectrumCard, out: &mut Script) -> Vec<String> {
     let mut components = format!("-COMPONENTS {} EQUAL_ENERGY", sea.lines);
     let (low, high) = sea.range;
     let given = matches!(sea.form, SpectrumForm::Given(_));
+    if !sea.lines_given {
+        let text = format!("no NSPL before this spectrum: assumed to have {} spectral lines", sea.lines);
+        out.note("deck 13", sea.span, &text);
+    }
     if high > 0.0 && !given {
         // from 0 on is from where no wave is long enough for the last digit
         components.push_str(&format!(" {}", numbers([if low > 0.0 { low } else { 1e-3 }, high])));
@@ -123,7 +127,8 @@ fn form(deck: &Deck, sea: &SpectrumCard, from: f64, out: &mut Script) -> Option<
             let at = |i: i32| peak + sigma * reach * (2.0 * f64::from(i) / f64::from(count) - 1.0);
             let points =
                 (0..=count).map(at).filter(|w| *w > 0.0).map(|w| (round_value(w), round_value(density(w)))).collect();
-            out.remark("GAUS: a curve of the Gaussian spectrum");
+            let text = format!("the spectrum is a curve of {count} chords over {reach} sigma to each side of its peak");
+            out.note("deck 13, GAUS", sea.span, &text);
             curve(points, from, sea, out)
         }
         SpectrumForm::Given(pairs) => {

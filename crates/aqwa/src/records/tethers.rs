@@ -147,7 +147,8 @@ fn impact_and_stop(description: &TetherCards, out: &mut Script) -> String {
             text.push_str(&format!(" \\\n  -IMPACT {}", numbers([out.scale.force(factor, -3), half_life])));
         }
         Some((factor, _)) if factor > 0.0 => {
-            out.remark("TIMP without a half life: the stress of an impact is gone at once")
+            let span = description.card("TIMP").unwrap_or_default();
+            out.warn("deck 14, TIMP, columns 41-50", span, "no half life: the stress of an impact is gone at once")
         }
         _ => {}
     }

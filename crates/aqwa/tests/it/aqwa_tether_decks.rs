@@ -41,14 +41,14 @@ fn edited(text: &str, from: &str, to: &str) -> String {
 }
 
 /// The installed example with other cards in deck 14 (or another deck, by its header and the header after it).
-fn with(header: &str, next: &str, cards: &[&str]) -> String {
+fn mint_with_deck(header: &str, next: &str, cards: &[&str]) -> String {
     let text = script("mint.dat");
     let (start, end) = (text.find(header).unwrap(), text.find(next).unwrap());
     format!("{}{header}\n{}\n{}", &text[..start], cards.join("\n"), &text[end..])
 }
 
 fn moor(cards: &[&str]) -> String {
-    with("    14    MOOR", "    15    STRT", cards)
+    mint_with_deck("    14    MOOR", "    15    STRT", cards)
 }
 
 fn close(got: f64, want: f64) -> bool {
@@ -415,7 +415,7 @@ fn unsupported_cards_are_reported_as_unsupported() {
 
 #[test]
 fn appendix_b_card_fields_are_all_read() {
-    let deck = deck(&with(
+    let deck = deck(&mint_with_deck(
         "    18    PROP",
         "    19    NONE",
         &["    18TPRV    5", "    18TGRV    2", "    18TSTS   10", " END18TSTF  100"],
@@ -473,7 +473,7 @@ fn mooring_lines_of_other_decks_are_read() {
 #[test]
 fn spectra_are_read_with_settings_and_frequency_unit() {
     let spec = |cards: &[&str]| match deck(
-        &with("    13    WAVE", "    14    MOOR", cards).replace("13    WAVE", "13    SPEC"),
+        &mint_with_deck("    13    WAVE", "    14    MOOR", cards).replace("13    WAVE", "13    SPEC"),
     )
     .waves
     {
@@ -520,7 +520,7 @@ fn currents_and_their_direction_are_read() {
         "    11WIND      20.0      60.0",
         " END11CDRN      45.0",
     ];
-    let deck = deck(&with("    11    NONE", "    12    NONE", &cards).replace("11    NONE", "11    ENVR"));
+    let deck = deck(&mint_with_deck("    11    NONE", "    12    NONE", &cards).replace("11    NONE", "11    ENVR"));
     let layers: Vec<(f64, f64, f64)> =
         deck.surroundings.profile.iter().map(|l| (l.height, l.speed, l.direction)).collect();
     assert_eq!(layers, [(-100.0, 0.2, 45.0), (-50.0, 0.4, 30.0), (0.0, 0.8, 45.0)]);
@@ -854,7 +854,7 @@ fn towed_tether_must_satisfy_chapter_8() {
             .contains("Error: deck 14: the nodes of a towed tether lie along +X")
     );
     assert!(said("TSTF 1501", "TSTF 1502").contains("Warning: deck 18, TSTF: step 1502 comes after the last one"));
-    assert!(said("NOST", "NOTS").contains("Warning: deck 0, OPTIONS: NOTS is not known and has no effect"));
+    assert!(said("NOST", "NOTS").contains("Error: deck 0, OPTIONS: NOTS is not known"));
 }
 
 #[test]

@@ -3,5 +3,6 @@
 #![allow(clippy::unwrap_used)]
 
 mod aqwa_tether_decks;
+mod bad_input;
 mod columns;
 mod listing;

@@ -29,8 +29,8 @@ pub(super) static PISTON: DeviceKind = DeviceKind {
 fn check(given: &Given) -> Outcome<()> {
     const STROKE: ValueKey<f64> = o::PISTON.number("LT");
     const NOMINAL: ValueKey<f64> = o::PISTON.number("LD");
-    const MOST: ValueKey<f64> = o::PISTON.number("TMAX");
-    const LEAST: ValueKey<f64> = o::PISTON.number("TMIN");
+    const MAX_TENSION: ValueKey<f64> = o::PISTON.number("TMAX");
+    const MIN_TENSION: ValueKey<f64> = o::PISTON.number("TMIN");
     if let (Some(stroke), Some(nominal)) = (given.number(STROKE), given.number(NOMINAL))
         && nominal > stroke
     {
@@ -39,10 +39,10 @@ fn check(given: &Given) -> Outcome<()> {
             given.place(NOMINAL),
         ));
     }
-    match (given.choice(const { o::PISTON.choice("TYPE") }), given.number(MOST), given.number(LEAST)) {
+    match (given.choice(const { o::PISTON.choice("TYPE") }), given.number(MAX_TENSION), given.number(MIN_TENSION)) {
         (Some(o::PistonKind::MinMax), _, None) => Err(Diagnostic::error("-PISTON MINMAX needs TMIN", given.span)),
         (_, Some(most), Some(least)) if least >= most => {
-            Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", given.place(LEAST)))
+            Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", given.place(MIN_TENSION)))
         }
         _ => Ok(()),
     }

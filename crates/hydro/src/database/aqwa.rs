@@ -2,7 +2,8 @@
 //!
 //! Source: the readers [BEMIO-AQWA] and [BEMROSETTA-AQWA], which agree. After lines that begin with `*`: the numbers of structures, directions and
 //! frequencies, then the directions (degrees) and the frequencies (rad/s). Then sections, each a head and rows of numbers: GENERAL (depth, density, gravity,
-//! symmetry; with a leading number in files of 18.2 and later), COG, MASS, HYDSTIFFNESS, ADDEDMASS, DAMPING and FORCERAO. The first row of a matrix, and the row
+//! symmetry; with a leading number in files of 18.2 and later), COG, MASS, HYDSTIFFNESS, ADDEDMASS, DAMPING and FORCERAO,
+//! in newer files ADDEDMASS_LF and ADDEDMASS_HF, the limits of long and of short waves. FIDD, a damping of drift frequencies alone, is refused unless it is zero. The first row of a matrix, and the row
 //! of moduli of a force, has the numbers of its structure, direction or frequency before its six values; a row of phases (degrees) follows that of the moduli. A phase is
 //! a lag behind the crest at the centre of gravity. Matrices are about that centre. Units are any consistent set, which gravity and density tell apart.
 
@@ -99,20 +100,16 @@ pub fn read(source: &str, file: &SourceFile, body: Option<usize>) -> Result<Data
         data.remarks
             .push("of several structures phases are taken to refer to the centre of gravity of the first".into());
     }
-    let extra = |name: &str| {
-        sections.rows(name).is_some_and(|rows| rows.iter().any(|(_, row)| row.iter().skip(1).any(|x| *x != 0.0)))
-    };
-    if extra("FIDD") {
-        data.remarks.push("its damping of drift frequencies (FIDD) is not read; #DAMP gives it".into());
+    // the limits that newer files have beside the frequencies
+    for (name, limit) in [("ADDEDMASS_LF", &mut data.zero), ("ADDEDMASS_HF", &mut data.infinite)] {
+        if sections.has(name) {
+            *limit = Some(units.matrix(&sections.matrix(name, &[chosen, chosen])?, units.kilograms));
+        }
     }
-    let unread: Vec<&str> = sections
-        .sections
-        .keys()
-        .map(String::as_str)
-        .filter(|name| name.contains("LF") || name.contains("HF"))
-        .collect();
-    if !unread.is_empty() {
-        data.remarks.push(format!("these sections are not read: {}", unread.join(", ")));
+    let own = |(_, row): &&Row| row.iter().skip(1).any(|x| *x != 0.0) && row.first() == Some(&(chosen as f64));
+    if let Some((line, _)) = sections.rows("FIDD").and_then(|rows| rows.iter().find(own)) {
+        let why = "a damping of drift frequencies alone (FIDD) has no place in the model: put zeros here and give #DAMP, which acts at all frequencies";
+        return Err(file.wrong_at(*line, why));
     }
     check_database(data)
 }
@@ -210,7 +207,7 @@ impl<'a> Sections<'a> {
             }
             if text.starts_with(|c: char| c.is_ascii_alphabetic()) {
                 let words: Vec<String> = text.split_whitespace().map(str::to_ascii_uppercase).collect();
-                let title = words.join(" ");
+                let title = words.join("_");
                 if made.sections.insert(title.clone(), (line, Vec::new())).is_some() {
                     return Err(file.wrong_at(line, format!("the section {title} is there twice")));
                 }

@@ -1,7 +1,7 @@
 //! A closed surface of triangles: its volume, and the exact integrals over its part below the water's surface.
 
 use super::{Solid, Wet};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use windlass_base::pose::Pose;
 
 /// A closed surface of triangles, body coordinates (m), normals outward.
@@ -54,7 +54,20 @@ struct Sum {
     second: [f64; 3],
     /// Twice the wetted area.
     skin: f64,
+    /// Twice the integrals of xx, yy, zz, yz, xz, xy over the volume, where they are asked for.
+    products: Option<[f64; 6]>,
 }
+
+/// Points of a triangle by their shares of its corners, with weights: exact for polynomials of the third degree.
+const CUBIC: [([f64; 3], f64); 7] = [
+    ([1.0, 0.0, 0.0], 0.05),
+    ([0.0, 1.0, 0.0], 0.05),
+    ([0.0, 0.0, 1.0], 0.05),
+    ([0.5, 0.5, 0.0], 2.0 / 15.0),
+    ([0.0, 0.5, 0.5], 2.0 / 15.0),
+    ([0.5, 0.0, 0.5], 2.0 / 15.0),
+    ([1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0], 0.45),
+];
 
 impl Sum {
     /// A triangle of the wet skin.
@@ -73,6 +86,23 @@ impl Sum {
         );
         self.moment += normal.z * (s * s.z + squares);
         self.skin += normal.norm();
+        if let Some(products) = &mut self.products {
+            // fluxes whose divergences are xx .. xy, and that vanish on z = 0
+            for ([p, q, r], weight) in CUBIC {
+                let at = a * p + b * q + c * r;
+                let flux = [
+                    at.x * at.x * at.z,
+                    at.y * at.y * at.z,
+                    at.z * at.z * at.z / 3.0,
+                    0.5 * at.y * at.z * at.z,
+                    0.5 * at.x * at.z * at.z,
+                    at.x * at.y * at.z,
+                ];
+                for (sum, flux) in products.iter_mut().zip(flux) {
+                    *sum += weight * normal.z * flux;
+                }
+            }
+        }
     }
 
     /// A piece of the waterline, run through with the waterplane on the left as seen from above: against the rim of the wet
@@ -117,6 +147,26 @@ impl Solid for Surface {
     /// Exact for the polyhedron: each triangle is cut at the surface and its polynomials are integrated. What lies in the
     /// surface itself is dry: a deck that is just awash leaves its waterplane, a keel that just touches has none.
     fn wet(&self, pose: &Pose, level: f64) -> Wet {
+        self.gather(pose, level, Sum::default()).wet(pose.origin.z - level)
+    }
+}
+
+impl Surface {
+    /// Integrals of xx, xy .. zz over what of it is below z = `level` (m, global) in a pose (m5), about the origin of the pose in global axes.
+    pub fn second_moments(&self, pose: &Pose, level: f64) -> Matrix3<f64> {
+        let drop = pose.origin.z - level;
+        let sum = self.gather(pose, level, Sum { products: Some([0.0; 6]), ..Sum::default() });
+        let [xx, yy, zz, yz, xz, xy] = sum.products.unwrap_or_default().map(|twice| 0.5 * twice);
+        // z from the water's surface to the origin of the pose, `drop` above it
+        let wet = sum.wet(drop);
+        let [x, y, z] = wet.moment.into();
+        let (xz, yz) = (xz - drop * x, yz - drop * y);
+        let zz = zz - 2.0 * drop * (z + drop * wet.volume) + drop * drop * wet.volume;
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
+
+    /// Adds up what of it is below the surface.
+    fn gather(&self, pose: &Pose, level: f64, mut sum: Sum) -> Sum {
         let drop = pose.origin.z - level;
         let axes = &pose.axes;
         let place = |p: &Vector3<f64>| {
@@ -126,7 +176,6 @@ impl Solid for Surface {
         };
         let placed: Vec<Vector3<f64>> = self.vertices.iter().map(place).collect();
         let corner = |n: u32| placed.get(n as usize).copied();
-        let mut sum = Sum::default();
         for &[a, b, c] in &self.faces {
             let (Some(a), Some(b), Some(c)) = (corner(a), corner(b), corner(c)) else { continue };
             match [a.z < 0.0, b.z < 0.0, c.z < 0.0] {
@@ -140,7 +189,7 @@ impl Solid for Surface {
                 [true, true, false] => stump(&mut sum, c, a, b),
             }
         }
-        sum.wet(drop)
+        sum
     }
 }
 

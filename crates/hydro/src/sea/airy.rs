@@ -4,7 +4,7 @@
 //! u = a w C cos q, w = a w S sin q, p = rho g a cosh(k(z+d))/cosh(kd) cos q; C and S are cosh and sinh of k(z+d) over sinh(kd).
 
 use super::deep_places::{FarDown, Places};
-use super::eight::{Eight, FAR, exp, sin_cos};
+use super::eight::{Eight, MAX_REDUCIBLE_ANGLE, exp, sin_cos};
 use super::{Component, Kinematics, Sea};
 use multiversion::multiversion;
 use nalgebra::Vector3;
@@ -82,7 +82,7 @@ impl WaveLanes {
         let toward = components.first().map(|c| c.toward).filter(|first| components.iter().all(|c| c.toward == *first));
         WaveLanes {
             blocks: components.chunks(8).map(block).collect(),
-            far: FarDown::new(components, depth, toward.is_some(), FAR),
+            far: FarDown::new(components, depth, toward.is_some(), MAX_REDUCIBLE_ANGLE),
             toward,
             stretch: 2.0 * variance.sqrt(),
             highest: components.iter().map(|c| c.amplitude.abs()).sum(),

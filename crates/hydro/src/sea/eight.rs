@@ -10,7 +10,7 @@ pub type Eight = [f64; 8];
 /// Added to a number and subtracted again it rounds to a whole one, which then stands in the lowest bits.
 pub(super) const ROUND: f64 = 6_755_399_441_055_744.0;
 /// Up to here an angle loses nothing when whole quarter turns are subtracted.
-pub(super) const FAR: f64 = 1.0e6;
+pub(super) const MAX_REDUCIBLE_ANGLE: f64 = 1.0e6;
 /// A quarter turn in three parts; 33 bits each, so that their whole multiples are exact.
 const QUARTER: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
 const SIN: [f64; 6] = [
@@ -48,7 +48,7 @@ const DEEP: f64 = 700.0;
 #[inline(always)]
 pub fn sin_cos(angles: &Eight) -> (Eight, Eight) {
     let (mut sines, mut cosines) = ([0.0; 8], [0.0; 8]);
-    if !angles.iter().all(|a| a.abs() <= FAR) {
+    if !angles.iter().all(|a| a.abs() <= MAX_REDUCIBLE_ANGLE) {
         for ((sin, cos), angle) in sines.iter_mut().zip(&mut cosines).zip(angles) {
             (*sin, *cos) = angle.sin_cos();
         }

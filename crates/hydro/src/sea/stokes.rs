@@ -120,6 +120,20 @@ impl Coefficients {
     }
 }
 
+/// A water particle in the plane of a wave's travel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ParticleMotion {
+    /// Along the travel of the wave and up (m/s).
+    pub velocity: [f64; 2],
+    /// Along the travel of the wave and up (m/s2).
+    pub acceleration: [f64; 2],
+}
+
+/// Cosine and sine of an angle and of its multiples, 1 first.
+fn multiples([cos, sin]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    std::iter::successors(Some([cos, sin]), move |[c, s]| Some([c * cos - s * sin, s * cos + c * sin]))
+}
+
 /// A Stokes wave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stokes {
@@ -200,6 +214,43 @@ impl Stokes {
         (1u8..).zip(&self.surface).map(|(j, a)| a * (f64::from(j) * angle).cos()).sum()
     }
 
+    /// Amplitudes of the velocities of harmonic `j`, along and up (m/s), at a height above the mean level (m), by that `along` it at the mean level.
+    fn velocities_at_height(&self, j: f64, along: f64, z: f64) -> [f64; 2] {
+        // cosh(jk(z+d)) / cosh(jkd), and so the sine, without their overflow
+        let twice = -2.0 * j * self.number;
+        let (near, far) = self.water.depth.map_or((0.0, 0.0), |d| ((twice * (z + d)).exp(), (twice * d).exp()));
+        let scale = along * (j * self.number * z).exp() / (1.0 + far);
+        [scale * (1.0 + near), scale * (1.0 - near)]
+    }
+
+    /// Height of the surface above the mean level (m) where the angle from the crest has this cosine and sine.
+    pub fn elevation_of_phase(&self, phase: [f64; 2]) -> f64 {
+        multiples(phase).zip(&self.surface).map(|([cos, _], a)| a * cos).sum()
+    }
+
+    /// The water particle where the angle from the crest has this cosine and sine, at a height above the mean level (m), also above the
+    /// surface; below the bottom as on it. The acceleration is that of the particle: `du/dt + u . grad u`.
+    pub fn particle_of_phase(&self, phase: [f64; 2], height: f64) -> ParticleMotion {
+        let z = self.water.depth.map_or(height, |d| height.max(-d));
+        // velocities, their rates at a place, and their slopes along the wave and up; without rotation dw/dx = du/dz, without sources
+        // dw/dz = -du/dx
+        let ([mut u, mut w], mut rates, [mut along_x, mut along_z]) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+        for ((j, [cos, sin]), along) in (1u8..).zip(multiples(phase)).zip(&self.along) {
+            let j = f64::from(j);
+            let [cosh, sinh] = self.velocities_at_height(j, *along, z);
+            u += cosh * cos;
+            w += sinh * sin;
+            rates[0] += j * self.frequency * cosh * sin;
+            rates[1] -= j * self.frequency * sinh * cos;
+            along_x -= j * self.number * cosh * sin;
+            along_z += j * self.number * sinh * cos;
+        }
+        ParticleMotion {
+            velocity: [u, w],
+            acceleration: [rates[0] + u * along_x + w * along_z, rates[1] + u * along_z - w * along_x],
+        }
+    }
+
     /// The water at a global place (m) and a time (s), also above the surface; below the bottom as on it.
     pub fn kinematics(&self, at: Vector3<f64>, time: f64) -> Kinematics {
         let angle = self.angle(at.x, at.y, time);
@@ -210,11 +261,7 @@ impl Stokes {
             let j = f64::from(j);
             let (sin, cos) = (j * angle).sin_cos();
             elevation += surface * cos;
-            // cosh(jk(z+d)) / cosh(jkd), and so the sine, without their overflow
-            let twice = -2.0 * j * self.number;
-            let (near, far) = self.water.depth.map_or((0.0, 0.0), |d| ((twice * (z + d)).exp(), (twice * d).exp()));
-            let scale = along * (j * self.number * z).exp() / (1.0 + far);
-            let (cosh, sinh) = (scale * (1.0 + near), scale * (1.0 - near));
+            let [cosh, sinh] = self.velocities_at_height(j, *along, z);
             let rate = j * self.frequency;
             u += cosh * cos;
             w += sinh * sin;

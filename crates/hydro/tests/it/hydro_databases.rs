@@ -165,6 +165,44 @@ fn aqwa_text_database_has_lags_order_and_units_of_its_file() {
 }
 
 #[test]
+fn aqwa_text_database_has_limits_of_long_and_short_waves() {
+    let limit = |body: usize, value: u32| {
+        let rows = (0..6).map(|i| {
+            let head = if i == 0 { format!(" {body} {body}") } else { String::new() };
+            head + &(0..6).map(|j| format!(" {}", if i == j { value + i } else { 0 })).collect::<String>() + "\n"
+        });
+        rows.collect::<String>()
+    };
+    // with a blank for the underscore, too
+    for (low, high) in [("ADDEDMASS_LF", "ADDEDMASS_HF"), ("ADDEDMASS LF", "ADDEDMASS HF")] {
+        let whole = format!(
+            "{} {low}\n{}{} {high}\n{}{}",
+            two_structures("200 1.025 9.81 0"),
+            limit(1, 3000),
+            limit(2, 3200),
+            limit(1, 900),
+            limit(2, 920)
+        );
+        let data = aqwa::read("two", &text("two.AH1", &whole), Some(2)).unwrap();
+        let [zero, infinite] = [data.zero.unwrap(), data.infinite.unwrap()];
+        // tonnes
+        assert_eq!((zero[(0, 0)], zero[(5, 5)]), (3_200_000.0, 3_205_000.0));
+        assert_eq!((infinite[(0, 0)], infinite[(5, 5)]), (920_000.0, 925_000.0));
+    }
+}
+
+#[test]
+fn damping_of_drift_frequencies_in_aqwa_text_database_is_refused() {
+    let with = |row: &str| format!("{} FIDD\n 1 0 0 0 0 0 0\n{row}", two_structures("200 1025 9.81 0"));
+    let read = |row: &str, body| aqwa::read("two", &text("two.AH1", &with(row)), Some(body));
+    assert!(read(" 2 0 0 0 0 0 0\n", 2).is_ok());
+    // that of the other structure is none of its own
+    assert!(read(" 2 1E5 0 0 0 0 0\n", 1).is_ok());
+    let error = read(" 2 1E5 0 0 0 0 0\n", 2).unwrap_err().to_string();
+    assert!(error.contains("FIDD") && error.contains("#DAMP"), "{error}");
+}
+
+#[test]
 fn wrong_aqwa_text_database_reports_missing_part() {
     let good = two_structures("200 1025 9.81 0");
     let refused = |file: &str, body: Option<usize>, wanted: &str| {

@@ -6,3 +6,4 @@ mod aqwa_tether_spectrum;
 mod hemisphere;
 mod hydro_databases;
 mod hydrostatics;
+mod tanks;

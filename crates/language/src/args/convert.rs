@@ -60,6 +60,7 @@ fn fits(kind: Kind, word: &Word) -> bool {
         Kind::Name(Noun::Selector) => {
             matches!(word.kind, Lex::Word | Lex::Selector | Lex::Quoted | Lex::Point | Lex::Class)
         }
+        Kind::Item => !matches!(word.kind, Lex::Option | Lex::Empty),
         Kind::ChoiceOrName(..) | Kind::Name(_) | Kind::Text | Kind::File => {
             matches!(word.kind, Lex::Word | Lex::Quoted) && !numeric
         }
@@ -170,7 +171,7 @@ fn convert_value(
             noun_fits(spec, noun, word, owner, units)?;
             Content::Word(word.text.clone())
         }
-        Kind::ChoiceOrName(..) | Kind::Text | Kind::File => Content::Word(word.text.clone()),
+        Kind::ChoiceOrName(..) | Kind::Text | Kind::Item | Kind::File => Content::Word(word.text.clone()),
     };
     Ok(Value { content, dim, noun, span })
 }

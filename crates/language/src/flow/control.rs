@@ -5,7 +5,7 @@ use super::frames::{Collected, Collecting, ConditionalBranch, FlowFrame, Trips};
 use super::macros::{Macro, control_word};
 use super::specs::CONTROL;
 use crate::record::Record;
-use crate::substitution::{FunctionHost, substitute};
+use crate::substitution::{FunctionHost, UNKNOWN, substitute};
 use crate::{logic, number};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
@@ -57,7 +57,13 @@ impl Interpreter {
         match control {
             Some("&IF") => {
                 let depth = self.frames.len();
-                self.branches.push(ConditionalBranch { span: record.whole(), active: false, settled: true, depth });
+                self.branches.push(ConditionalBranch {
+                    span: record.whole(),
+                    active: false,
+                    settled: true,
+                    unknown: false,
+                    depth,
+                });
                 Ok(())
             }
             Some(name @ ("&ELSEIF" | "&ELSE" | "&ENDIF")) => self.control(name, record, world),
@@ -67,13 +73,14 @@ impl Interpreter {
 
     pub(super) fn control(&mut self, name: &'static str, record: &Record, world: &mut dyn FunctionHost) -> Outcome<()> {
         match name {
-            "&SET" | "&LOCAL" => self.assign(name, record, world),
+            "&SET" | "&SET_VAR" | "&LOCAL" => self.assign(name, record, world),
             "&IF" => {
                 let depth = self.frames.len();
                 let value = self.phrase(record, world);
-                let active = matches!(value, Ok(true));
-                let settled = active || value.is_err();
-                self.branches.push(ConditionalBranch { span: record.whole(), active, settled, depth });
+                let unknown = matches!(value, Ok(None));
+                let active = unknown || matches!(value, Ok(Some(true)));
+                let settled = (active && !unknown) || value.is_err();
+                self.branches.push(ConditionalBranch { span: record.whole(), active, settled, unknown, depth });
                 value.map(|_| ())
             }
             "&ELSEIF" | "&ELSE" => self.other_branch(name, record, world),
@@ -101,7 +108,8 @@ impl Interpreter {
                 if !matches!(self.frames.last(), Some(FlowFrame::Loop { .. })) {
                     return Err(Diagnostic::error(format!("{name} outside of a &LOOP"), record.whole()));
                 }
-                if record.rest().0.is_empty() || self.phrase(record, world)? {
+                // what is not known ends a loop: without an end of its own it would be read for ever
+                if record.rest().0.is_empty() || self.phrase(record, world)?.unwrap_or(name == "&EXIT") {
                     self.branches.retain(|b| b.depth < depth);
                     if name == "&EXIT" {
                         self.frames.pop();
@@ -169,17 +177,20 @@ impl Interpreter {
         result
     }
 
-    /// The value of the phrase behind a control word; a final `&THEN` is not part of it.
-    fn phrase(&self, record: &Record, world: &mut dyn FunctionHost) -> Outcome<bool> {
+    /// The value of the phrase behind a control word; a final `&THEN` is not part of it. None where a check does not know it.
+    fn phrase(&self, record: &Record, world: &mut dyn FunctionHost) -> Outcome<Option<bool>> {
         let record = substitute(record, &self.variables, world)?;
         let (text, range) = record.rest();
+        if world.is_checking() && text.contains(UNKNOWN) {
+            return Ok(None);
+        }
         let upper = text.to_ascii_uppercase();
         let text = match upper.rfind("&THEN") {
             Some(at) if at + 5 == upper.len() => text.get(..at).unwrap_or_default(),
             _ => text,
         };
         let text = text.trim_end();
-        logic::evaluate(text, record.span(range.start..range.start + text.len()))
+        logic::evaluate(text, record.span(range.start..range.start + text.len())).map(Some)
     }
 
     fn other_branch(&mut self, name: &str, record: &Record, world: &mut dyn FunctionHost) -> Outcome<()> {
@@ -188,10 +199,14 @@ impl Interpreter {
             return Err(Diagnostic::error(format!("{name} without an &IF"), record.whole()));
         };
         let conditional = name == "&ELSEIF" || !record.rest().0.is_empty();
-        let value = if branch.settled || !conditional { Ok(true) } else { self.phrase(record, world) };
+        if branch.unknown {
+            return Ok(());
+        }
+        let value = if branch.settled || !conditional { Ok(Some(true)) } else { self.phrase(record, world) };
         if let Some(branch) = self.branches.last_mut() {
-            branch.active = !branch.settled && matches!(value, Ok(true));
-            branch.settled |= branch.active || value.is_err();
+            branch.unknown = matches!(value, Ok(None));
+            branch.active = !branch.settled && matches!(value, Ok(None | Some(true)));
+            branch.settled |= (branch.active && !branch.unknown) || value.is_err();
         }
         value.map(|_| ())
     }
@@ -210,15 +225,16 @@ impl Interpreter {
             return Err(Diagnostic::error(format!("`{}` cannot name a variable", variable.text), variable.span)
                 .label("letters, digits and _ only"));
         }
-        if equals.text.as_ref() != "=" {
+        let is_older_form = name == "&SET_VAR" && equals.text.as_ref() == ":=";
+        if equals.text.as_ref() != "=" && !is_older_form {
             return Err(Diagnostic::error(format!("expected `=` after {}", variable.text), equals.span).help(form()));
         }
         let value = record.rest().0.split_once('=').map_or("", |(_, v)| v).trim_start();
         let value = value.strip_prefix(',').map_or(value, str::trim_start);
-        let done = if name == "&SET" {
-            self.variables.set(&variable.text, value)
-        } else {
-            self.variables.set_local(&variable.text, value)
+        let value = if self.is_unjudged() { UNKNOWN } else { value };
+        let done = match name {
+            "&LOCAL" => self.variables.set_local(&variable.text, value),
+            _ => self.variables.set(&variable.text, value),
         };
         done.map_err(|e| Diagnostic::error(e.to_string(), record.whole()))
     }
@@ -237,6 +253,11 @@ fn read_loop(record: &Record) -> Outcome<Trips> {
         };
         let items = Record::verbatim(list, record.whole()).words();
         let items: Vec<String> = items.iter().map(|w| w.text.to_string()).collect();
+        return Ok(Trips::List { variable: variable.text.to_string(), items: items.into_iter() });
+    }
+    if rest.iter().any(|word| word.text.contains(UNKNOWN)) {
+        // a check reads the body once
+        let items = vec![UNKNOWN.to_string()];
         return Ok(Trips::List { variable: variable.text.to_string(), items: items.into_iter() });
     }
     let mut bounds = Vec::new();

@@ -33,6 +33,8 @@ pub(super) struct ConditionalBranch {
     pub(super) active: bool,
     /// A branch has been taken, or the whole block is passed over.
     pub(super) settled: bool,
+    /// The phrase is not known in a check: all branches from here on are read, none is judged.
+    pub(super) unknown: bool,
     /// Number of frames when it was opened.
     pub(super) depth: usize,
 }

@@ -9,18 +9,25 @@ use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 
-/// One argument and what it is when it is not given.
+/// One argument and what it is when it is not given; without a default it must be given.
 #[derive(Clone, Debug, PartialEq)]
 struct Argument {
     name: String,
-    default: String,
+    default: Option<String>,
 }
 
 impl Argument {
     /// The local that a word of a call makes; a field left out takes the default.
     fn argument_value(&self, word: &Word) -> (String, String) {
-        let value = if word.kind == TokenKind::Empty { self.default.clone() } else { word.text.to_string() };
-        (self.name.clone(), value)
+        match word.kind {
+            TokenKind::Empty => self.default_value(),
+            _ => (self.name.clone(), word.text.to_string()),
+        }
+    }
+
+    /// The local it makes where the call does not give it.
+    fn default_value(&self) -> (String, String) {
+        (self.name.clone(), self.default.clone().unwrap_or_default())
     }
 }
 
@@ -77,7 +84,7 @@ impl Macro {
                 return Err(Diagnostic::error("an `=` in a macro header follows a name", word.span));
             }
             let has_default = words.get(at + 1).is_some_and(|w| w.text.as_ref() == "=");
-            let default = words.get(at + 2).filter(|_| has_default).map_or(String::new(), |w| w.text.to_string());
+            let default = has_default.then(|| words.get(at + 2).map_or(String::new(), |w| w.text.to_string()));
             let argument = Argument { name: word.text.to_string(), default };
             match made.options.last_mut() {
                 Some(option) if option.flag.is_none() && !has_default => option.flag = Some(argument.name),
@@ -109,11 +116,12 @@ impl Macro {
         text
     }
 
-    /// The locals a call makes: name and value. `words` are those behind the macro's name.
+    /// The locals a call makes: name and value. `words` are those behind the macro's name, `call` is that name.
     ///
     /// # Errors
-    /// An unknown or ambiguous option or a surplus argument, unless the picture is a name alone.
-    pub fn locals(&self, words: &[Word], argv: &str) -> Outcome<Vec<(String, String)>> {
+    /// An unknown or ambiguous option, one given twice, a surplus argument, an argument or a value of an option without a default
+    /// that is not given; none of them where the picture is a name alone.
+    pub fn locals(&self, call: Span, words: &[Word], argv: &str) -> Outcome<Vec<(String, String)>> {
         let mut locals = vec![("ARGV".to_string(), argv.to_string())];
         if self.arguments.is_empty() && self.options.is_empty() {
             return Ok(locals);
@@ -122,21 +130,32 @@ impl Macro {
             if let Some(flag) = &option.flag {
                 locals.push((flag.clone(), ".FALSE.".into()));
             }
-            locals.extend(option.values.iter().map(|v| (v.name.clone(), v.default.clone())));
+            locals.extend(option.values.iter().map(Argument::default_value));
         }
+        let mut seen: Vec<(&MacroOption, Span)> = Vec::new();
         let mut given = 0;
         let mut at = 0;
         while let Some(word) = words.get(at) {
             at += 1;
             if word.kind == TokenKind::Option {
                 let option = self.option(word)?;
+                if let Some((_, first)) = seen.iter().find(|(known, _)| *known == option) {
+                    let text = format!("{} of macro {} is given twice", option.name, self.name);
+                    return Err(Diagnostic::error(text, word.span).other(*first, "first given here"));
+                }
+                seen.push((option, word.span));
                 if let Some(flag) = &option.flag {
                     locals.push((flag.clone(), ".TRUE.".into()));
                 }
                 for value in &option.values {
-                    let Some(word) = words.get(at).filter(|w| w.kind != TokenKind::Option) else { break };
-                    locals.push(value.argument_value(word));
-                    at += 1;
+                    match words.get(at).filter(|w| w.kind != TokenKind::Option) {
+                        Some(word) => {
+                            locals.push(value.argument_value(word));
+                            at += 1;
+                        }
+                        None if value.default.is_some() => {}
+                        None => return Err(self.lacks(&format!("{} of {}", value.name, option.name), word.span)),
+                    }
                 }
                 continue;
             }
@@ -148,8 +167,17 @@ impl Macro {
             given += 1;
         }
         let rest = self.arguments.get(given..).unwrap_or_default();
-        locals.extend(rest.iter().map(|a| (a.name.clone(), a.default.clone())));
+        if let Some(missing) = rest.iter().find(|argument| argument.default.is_none()) {
+            return Err(self.lacks(&missing.name, call));
+        }
+        locals.extend(rest.iter().map(Argument::default_value));
         Ok(locals)
+    }
+
+    /// The error of a call that leaves out a value without a default.
+    fn lacks(&self, what: &str, span: Span) -> Box<Diagnostic> {
+        Diagnostic::error(format!("macro {} lacks {what}", self.name), span)
+            .help(format!("form: {}; two commas in a row give an empty value", self.syntax()))
     }
 
     fn option(&self, word: &Word) -> Outcome<&MacroOption> {

@@ -144,6 +144,11 @@ impl Interpreter {
         matches!(self.frames.last(), Some(FlowFrame::Terminal { .. }))
     }
 
+    /// Whether a check reads records of which it does not know whether a run would come to them.
+    pub fn is_unjudged(&self) -> bool {
+        self.branches.iter().any(|branch| branch.unknown)
+    }
+
     /// Abandons everything open but the terminal: after Ctrl-C or a fatal error.
     pub fn unwind(&mut self) {
         self.collecting = None;
@@ -264,7 +269,11 @@ impl Interpreter {
             return Err(Diagnostic::error(format!("macros call each other deeper than {DEEPEST_MACRO}"), span));
         }
         let words = record.words();
-        let locals = called.locals(words.get(1..).unwrap_or_default(), record.rest().0)?;
+        let locals = called.locals(
+            words.first().map_or(span, |w| w.span),
+            words.get(1..).unwrap_or_default(),
+            record.rest().0,
+        )?;
         self.variables.enter();
         for (name, value) in locals {
             if let Err(error) = self.variables.set_local(&name, &value) {

@@ -17,6 +17,12 @@ pub static CONTROL: &[CommandSpec] = &[
         "The value is kept as text and put in wherever %VAR, %VAR% or %(VAR) stands; a blank must follow the =.",
         "&SET DOG = 20\n&SET CAT = %DOG%*2000\n&TYPE &NUMBER(REAL %CAT)",
     ),
+    control(
+        "&SET_VAR",
+        "VAR := value: as &SET, in the older form",
+        "= may stand for :=; a blank must follow.",
+        "&SET_VAR LEN := 215\n&TYPE %LEN",
+    ),
     control("&LOCAL", "VAR = value: sets a variable that ends with its macro", "", "&LOCAL A = 1 2 3"),
     control(
         "&IF",
@@ -49,8 +55,9 @@ pub static CONTROL: &[CommandSpec] = &[
     control(
         "&MACRO",
         "NAME ARG .. -OPT FLAG VALUE = default ..: defines a macro up to &ENDMACRO",
-        "Called by its name: arguments become locals, FLAG is .TRUE. when -OPT is given. With a name alone nothing is \
-         checked; the text of the call is always in ARGV.",
+        "Called by its name: arguments become locals, FLAG is .TRUE. when -OPT is given. An argument without a default must be given, as a \
+         value of an option that is (our reading: an empty value would change what a record means); two commas in a row give an empty \
+         one. An option is given once. With a name alone nothing is checked; the text of the call is always in ARGV.",
         "&MACRO HELLO WHO -LOUD YELL MARK = !\n&TYPE Hello %WHO %MARK\n&ENDMACRO\nHELLO you -LOUD !!",
     ),
     control("&ENDMACRO", "ends a &MACRO", "", "&MACRO NOTHING\n&ENDMACRO"),

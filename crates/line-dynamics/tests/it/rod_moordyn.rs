@@ -18,7 +18,7 @@ fn run(elements: usize, step: f64) -> (f64, Vec<f64>) {
 }
 
 /// A history of the force at a time that is one of its steps.
-fn at(history: &[f64], step: f64, t: f64) -> f64 {
+fn interpolate_history(history: &[f64], step: f64, t: f64) -> f64 {
     history[(t / step).round() as usize - 1]
 }
 
@@ -28,7 +28,7 @@ fn driven_chain_fairlead_force_matches_moordyn() {
     let (rest, fine) = run(400, 0.0125);
     // the exact catenary; 400 elements and 3 mm of sinking in
     assert!((rest / 1_248_715.534 - 1.0).abs() < 1e-4, "{rest}");
-    let away = |step: f64, history: &[f64], t: f64, force: f64| (at(history, step, t) - force) / range;
+    let away = |step: f64, history: &[f64], t: f64, force: f64| (interpolate_history(history, step, t) - force) / range;
     let errors: Vec<f64> = reference.iter().map(|(t, f)| away(0.0125, &fine, *t, *f)).collect();
     let most = errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
     let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
@@ -37,7 +37,10 @@ fn driven_chain_fairlead_force_matches_moordyn() {
     // mesh and step have converged: 0.05 % of the range
     let (_, medium) = run(300, 0.025);
     let own = |step: f64, history: &[f64]| {
-        reference.iter().map(|(t, _)| away(step, history, *t, at(&fine, 0.0125, *t)).abs()).fold(0.0, f64::max)
+        reference
+            .iter()
+            .map(|(t, _)| away(step, history, *t, interpolate_history(&fine, 0.0125, *t)).abs())
+            .fold(0.0, f64::max)
     };
     assert!(own(0.025, &medium) < 5e-4, "{}", own(0.025, &medium));
     // what a user runs: 100 elements and a tenth of a second

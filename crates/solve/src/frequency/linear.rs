@@ -87,7 +87,7 @@ impl LinearSystem {
     /// # Errors
     /// The body or connector that makes no part of the system, or has no answer there.
     pub fn new(model: &Model) -> Result<Self, SolveError> {
-        model.check_added_mass().map_err(SolveError::new)?;
+        model.check_motions().map_err(SolveError::new)?;
         let system = System::new(model, &[])?;
         let mut state = system.state(model);
         system.evaluate(&mut state)?;

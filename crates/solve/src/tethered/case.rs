@@ -195,9 +195,6 @@ fn towed_case(
     if let Some(sea) = sea.filter(|s| s.ramp > 0.0) {
         notes.push(format!("waves act on a towed tether from the start: the ramp of {} s is left out", sea.ramp));
     }
-    if sea.is_some_and(|s| s.stokes.is_some()) {
-        notes.push("a towed tether has the linear wave of the STOKES wave".into());
-    }
     let [at_vessel, at_trailing] = ends.springs_in_force().map(|[along, y, z]| EndSpring { along, y, z });
     let field = current(model)?;
     let current = if field.is_none() {
@@ -220,6 +217,7 @@ fn towed_case(
         gravity: around.gravity,
         depth: around.depth.map(|d| d + around.tide),
         waves: sea.map(|s| s.components.clone()).unwrap_or_default(),
+        stokes: sea.and_then(|s| s.stokes),
         current,
         tow: settings.tow,
         multipliers: towed::WaterForceMultipliers { slam: settings.slam, ..towed::WaterForceMultipliers::default() },

@@ -90,7 +90,7 @@ impl Run {
     /// # Errors
     /// The body or connector that makes no part of it; an action on what is not there.
     pub fn new(model: &Model, settings: RunSettings, actions: Vec<Action>) -> Result<Self, SolveError> {
-        model.check_added_mass().map_err(SolveError::new)?;
+        model.check_motions().map_err(SolveError::new)?;
         let (origin, model) = (model.clone(), model.clone());
         let sea = Sea::new(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
         let duties = RunRequirements::foreseen(&model, &actions, &settings);

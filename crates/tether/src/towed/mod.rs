@@ -24,6 +24,7 @@ use super::line::TetherLine;
 use super::modes::{self, NaturalMode, Pencil};
 use windlass_base::units::Dim;
 use windlass_hydro::sea::Component;
+use windlass_hydro::sea::stokes::Stokes;
 use windlass_model::ClassError;
 
 pub use compatibility::TowedCompatibility;
@@ -81,6 +82,8 @@ pub struct Towed {
     pub depth: Option<f64>,
     /// The waves; phases at the global origin.
     pub waves: Vec<Component>,
+    /// The Stokes wave that the only one of `waves` stands for: surface, velocities and accelerations are its.
+    pub stokes: Option<Stokes>,
     /// Current: height from the still water level (m) and velocity of the water along global X and Y (m/s), heights falling.
     /// Straight between them, and constant above the first and below the last. Empty: none.
     pub current: Vec<(f64, [f64; 2])>,
@@ -160,6 +163,10 @@ impl Towed {
                     format!("wave component {number} has no positive frequency and wave number, or is not finite");
                 return Err(ClassError::new(message));
             }
+        }
+        if self.stokes.is_some() && self.waves.len() != 1 {
+            let message = format!("a Stokes wave is one wave component, and there are {}", self.waves.len());
+            return Err(ClassError::new(message));
         }
         Ok(())
     }

@@ -1,5 +1,8 @@
 //! Waves and current in the axes of the tether, laid out for many places at one time.
 //!
+//! A Stokes wave (`windlass_hydro::sea::stokes`) is one wave of the frequency of encounter, whose angle goes by the same turns; it reaches up to its own
+//! surface, and its accelerations are those of the water particle.
+//!
 //! Airy waves added up (as [`windlass_hydro::sea`]): with `q = kx x + ky y - w t + phase`, C and S being cosh and sinh of k(z+d)
 //! over sinh(kd), u = a w C cos q, w = a w S sin q. Along an element the places of the first look do not move, so their
 //! `cos(kx x)` and `sin(kx x)` are kept; sines of the time are taken anew at every time, without recurrence. The sums are compiled for
@@ -10,6 +13,7 @@ use multiversion::multiversion;
 use std::f64::consts::{LN_2, LOG2_E};
 use windlass_hydro::sea::Component;
 use windlass_hydro::sea::eight::{Eight, sin_cos};
+use windlass_hydro::sea::stokes::Stokes;
 
 /// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
 const DEEP_WATER_KD: f64 = 20.0;
@@ -91,6 +95,8 @@ pub struct Waters {
     current: Vec<(f64, [f64; 2])>,
     depth: Option<f64>,
     stretched: bool,
+    /// The wave where it is Stokes', with its direction in the axes of the tether.
+    stokes: Option<(Stokes, [f64; 2])>,
 }
 
 /// Velocity and acceleration of the water in the axes of the tether; the tow is taken off the velocity.
@@ -155,7 +161,9 @@ impl Waters {
         let lateral = blocks.iter().any(|b| b.ky.iter().zip(&b.k).any(|(y, k)| y.abs() > 1e-12 * k));
         let stretched = !case.compatibility.unstretched_crests;
         let steepest = blocks.iter().flat_map(|b| b.kx).fold(0.0, |most: f64, k| most.max(k.abs()));
-        Waters { blocks, lateral, steepest, current, depth: case.depth, stretched }
+        // a wave of no height has no angle
+        let stokes = case.stokes.filter(|wave| wave.height > 0.0).map(|wave| (wave, turned(wave.toward)));
+        Waters { blocks, lateral, steepest, current, depth: case.depth, stretched, stokes }
     }
 
     /// Number of blocks of eight waves.
@@ -191,16 +199,35 @@ impl Waters {
     /// Height of the surface above the still water level (m).
     #[inline]
     pub fn elevation(&self, time: &[Turn], place: &[Turn]) -> f64 {
+        if let Some((wave, _)) = &self.stokes {
+            return wave.elevation_of_phase(self.first_phase(time, place));
+        }
         total(&elevations(&self.blocks, time, place))
     }
 
     /// The water at a height above the still water level (m), under a surface of an elevation (m).
     pub fn flow(&self, time: &[Turn], place: &[Turn], height: f64, elevation: f64) -> TowedFlow {
+        if let Some((wave, toward)) = &self.stokes {
+            let motion = wave.particle_of_phase(self.first_phase(time, place), height);
+            let axes = |[along, up]: [f64; 2]| [toward[0] * along, toward[1] * along, up];
+            let [u, v, w] = axes(motion.velocity);
+            let [cx, cy] = self.current_at(height);
+            return TowedFlow { velocity: [u + cx, v + cy, w], acceleration: axes(motion.acceleration) };
+        }
         let z = self.reach(height, elevation);
         let sums = flows(&self.blocks, time, place, z, self.lateral);
         let [u, v, w, ax, ay, az] = sums.map(|s| (s[0] + s[2]) + (s[1] + s[3]));
         let [cx, cy] = self.current_at(height);
         TowedFlow { velocity: [u + cx, v + cy, w], acceleration: [ax, ay, az] }
+    }
+
+    /// Cosine and sine of the angle of the first wave.
+    fn first_phase(&self, time: &[Turn], place: &[Turn]) -> [f64; 2] {
+        let (Some(block), Some(t), Some(p)) = (self.blocks.first(), time.first(), place.first()) else {
+            return [1.0, 0.0];
+        };
+        let speed = block.speed[0];
+        [(t[0][0] * p[0][0] - t[1][0] * p[1][0]) / speed, (t[1][0] * p[0][0] + t[0][0] * p[1][0]) / speed]
     }
 
     /// The height at which the waves are taken for that of a place [WHEELER-1970]: the actual surface is taken for the still

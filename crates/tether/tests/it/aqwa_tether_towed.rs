@@ -79,6 +79,7 @@ fn case() -> Towed {
         gravity: 9.81,
         depth: Some(345.0),
         waves: waves(),
+        stokes: None,
         current: Vec::new(),
         tow: [0.0; 2],
         multipliers: WaterForceMultipliers { slam: 1.0, ..WaterForceMultipliers::default() },

@@ -33,7 +33,7 @@ fn model(pull: f64, height: f64) -> Model {
     let gravity = model.defaults.gravity;
     let span = Span::default();
     let mut part = Part::new("B", "B", Place::default(), span);
-    part.weights = vec![Weight { at: CENTRE, weight: MASS * gravity, radii: [30.0; 3], span }];
+    part.weights = vec![Weight { at: CENTRE, weight: MASS * gravity, radii: [30.0; 3], span, ..Weight::default() }];
     let mut stiffness = Matrix6::zeros();
     stiffness[(2, 2)] = SPRING;
     let frequencies: Vec<f64> = (1..=60).map(|i| 0.05 * f64::from(i)).collect();

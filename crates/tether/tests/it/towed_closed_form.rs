@@ -1,7 +1,8 @@
 //! The towed tether where its motion is known without a program: rest, a particle's path, symmetry, the frame of the tow.
 
-use std::f64::consts::{FRAC_PI_4, PI};
-use windlass_hydro::sea::Component;
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
+use windlass_hydro::sea::stokes::Stokes;
+use windlass_hydro::sea::{Component, Water};
 use windlass_tether::towed::loads::Loading;
 use windlass_tether::towed::scheme::TowedState;
 use windlass_tether::towed::{
@@ -38,6 +39,7 @@ fn case(share: f64, depth: f64) -> Towed {
         gravity: GRAVITY,
         depth: None,
         waves: Vec::new(),
+        stokes: None,
         current: Vec::new(),
         tow: [0.0; 2],
         multipliers: WaterForceMultipliers { slam: 1.0, ..WaterForceMultipliers::default() },
@@ -118,6 +120,44 @@ fn neutrally_buoyant_tube_follows_small_beam_wave() {
             assert!(node[2].abs() < 1e-12 && node[3].abs() < 1e-12);
         }
     }
+}
+
+#[test]
+fn short_tether_rides_on_second_harmonic_of_stokes_wave() {
+    // held along its axis, a short tether on long waves has the height of the surface at its place: k a^2/2 cos 2 w t of the second order
+    // in deep water [DEAN-DALRYMPLE-1991 11.2], nothing of an Airy wave
+    let (amplitude, period) = (4.0, 16.0);
+    let frequency = TAU / period;
+    let water = Water { depth: None, level: 0.0, gravity: GRAVITY, density: DENSITY };
+    let stokes = Stokes::new(2, (2.0 * amplitude, frequency), ([1.0, 0.0], 0.0), water).unwrap();
+    let short = |e: &TetherElement| TetherElement { length: 0.5, ..*e };
+    let second = |stokes: Option<Stokes>| {
+        let run = Towed {
+            line: TetherLine::new(line(0.5).elements().iter().map(short).collect()).unwrap(),
+            origin: [-5.0, 0.0, 0.0],
+            waves: vec![wave(amplitude, frequency, 0.0, 0.0)],
+            stokes,
+            springs: [EndSpring { along: 1.0, y: 1.0, z: 1.0 }; 2],
+            multipliers: WaterForceMultipliers::default(),
+            ..case(0.5, 0.0)
+        };
+        let found = positions(&run, &TowedSteps { step: 0.05, number: 2561, ..TowedSteps::default() });
+        // the last two of eight periods, of the middle node
+        let cycle = 320;
+        let of = |i: usize| (0.05 * i as f64, found[11 * i + 5][1]);
+        let [mut cos, mut sin] = [0.0; 2];
+        for (time, z) in (2560 - 2 * cycle..2560).map(of) {
+            cos += z * (2.0 * frequency * time).cos() / cycle as f64;
+            sin += z * (2.0 * frequency * time).sin() / cycle as f64;
+        }
+        // the angle at the middle, which is 2.5 m behind the vessel's end at the origin
+        let angle = 2.0 * -2.5 * frequency * frequency / GRAVITY;
+        [cos * angle.cos() + sin * angle.sin(), sin * angle.cos() - cos * angle.sin()]
+    };
+    let want = 0.5 * frequency * frequency / GRAVITY * amplitude * amplitude;
+    let ([with, across], without) = (second(Some(stokes)), second(None));
+    assert!((with - want).abs() < 0.05 * want && across.abs() < 0.05 * want, "{want} {with} {across}");
+    assert!(without[0].hypot(without[1]) < 0.1 * want, "{want} {without:?}");
 }
 
 #[test]

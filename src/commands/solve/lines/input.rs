@@ -276,9 +276,9 @@ impl InputRow<'_> {
 
 /// A text short enough for a message, on one line.
 fn brief(text: &str) -> String {
-    const MOST: usize = 24;
-    let shown = text.chars().take(MOST).map(|c| if c.is_control() { ' ' } else { c });
-    let end = if text.chars().count() > MOST { " .." } else { "" };
+    const MAX_SHOWN_CHARS: usize = 24;
+    let shown = text.chars().take(MAX_SHOWN_CHARS).map(|c| if c.is_control() { ' ' } else { c });
+    let end = if text.chars().count() > MAX_SHOWN_CHARS { " .." } else { "" };
     shown.chain(end.chars()).collect()
 }
 

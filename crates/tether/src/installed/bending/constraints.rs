@@ -3,7 +3,7 @@
 //! What is held rigidly has its acceleration given, and its place and velocity put right at the start of each step; the edge of an opening
 //! wider than the tether is a spring.
 
-use super::{Bending, OPENING_EDGE_STIFFNESS_RATIO, Stage};
+use super::{Bending, LOOK_AHEAD, OPENING_EDGE_STIFFNESS_RATIO, Stage};
 use crate::installed::axis::{TetherAxis, tilt};
 use nalgebra::Vector3;
 
@@ -129,16 +129,19 @@ impl Bending {
     }
 
     /// What the constraints on the structure do to it, by what is missing in the balance of the unknowns they hold.
-    pub(super) fn react(&mut self, plane: usize, stage: &Stage, implicit: f64) {
+    pub(super) fn react(&mut self, second: bool, plane: usize, stage: &Stage) {
         if !self.held[plane].iter().any(|h| h.1 == DofConstraint::Opening) {
             return;
         }
         self.frame_acceleration(plane, stage);
-        for (frame, a) in self.frame.iter_mut().zip(&self.right) {
+        let found = &self.found[usize::from(second)][plane];
+        for (frame, a) in self.frame.iter_mut().zip(found) {
             *frame += a;
         }
-        for (ahead, a) in self.ahead.iter_mut().zip(&self.right) {
-            *ahead += implicit * a;
+        let now = &self.now[plane];
+        let moving = now.place.iter().zip(&now.velocity).zip(found);
+        for (ahead, ((x, v), a)) in self.ahead.iter_mut().zip(moving) {
+            *ahead = x + LOOK_AHEAD * stage.dt * (v + 0.5 * stage.dt * a);
         }
         for index in 0..self.held[plane].len() {
             let (unknown, hold) = self.held[plane][index];
@@ -154,6 +157,7 @@ impl Bending {
             }
             let element = unknown / 2;
             let load = |e: Option<usize>, i: usize| e.and_then(|e| self.loads[plane].get(e)).map_or(0.0, |l| l[i]);
+            push += self.tension_ahead[usize::from(second)] * self.arc_slope[plane][unknown];
             push -= load(Some(element), 0) + load(element.checked_sub(1), 2);
             let share = self.shares[element];
             let [at, ..] = self.opening(share, stage);

@@ -41,6 +41,12 @@ impl Bending {
             let mut sum = beam::times(&bends, &ahead);
             beam::add(&mut sum, 1.0, &beam::times(&pulls, &ahead));
             beam::add(&mut sum, 1.0, &beam::times(&mass, &all));
+            if self.axial > 0.0 {
+                let motion = if second { &self.trial } else { &self.now };
+                let at_stage = beam::of_element(&motion[plane].place, element);
+                let more = beam::geometric(self.tension_ahead[usize::from(second)], length);
+                beam::add(&mut sum, 1.0, &beam::times(&more, &at_stage));
+            }
             beam::add(&mut sum, -1.0, &self.loads[plane][element]);
             sum
         })

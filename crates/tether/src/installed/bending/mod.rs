@@ -8,13 +8,17 @@
 //! - weight in water across the axis;
 //! - `-M` times the acceleration of the axis, s/L of that of the attachment.
 //!
+//! The tension of a taut tether goes with its arc, `1/2 int w'^2`: a node that is held to one side of the axis has slopes in which a small
+//! deflection stretches the tether, stiffer than bending and tension by far. Of tethers with such a node each stage therefore finds the tension
+//! where it looks ahead, too: `k g g^T` joins K, with k the axial stiffness and g the slope of the arc by the unknowns, by a correction of rank one.
+//!
 //! End springs are at rest where the tether is vertical at the anchor, and upright in the structure at its other end.
 
 mod constraints;
 mod ends;
 
 use super::axis::{AxisAttachment, TetherAxis, tilt};
-use super::tension::{TensionModel, TetherTension};
+use super::tension::{TensionCase, TensionModel, TetherTension};
 use super::tether::{InstalledTether, NodeConstraint, RIGID_STIFFNESS};
 use crate::beam::{self, PlaneMatrix, Vector4};
 use crate::structure::flow::FlowAt;
@@ -96,6 +100,15 @@ pub struct Bending {
     /// Unknowns that do not go by their forces, by plane.
     held: [Vec<(usize, DofConstraint)>; 2],
     openings: Vec<(usize, f64)>,
+    /// Whether a node is held across the axis, so that the tension is looked ahead.
+    holds_across: bool,
+    /// Axial stiffness at the stage (N/m); zero where the tension does not go with the arc.
+    axial: f64,
+    /// Slope of the arc by the unknowns at the stage, and the accelerations a force along it makes, by plane.
+    arc_slope: [Vec<f64>; 2],
+    arc_response: [Vec<f64>; 2],
+    /// By how much the tension that each stage looks ahead to exceeds that of its place (N).
+    tension_ahead: [f64; 2],
     stiffness: [PlaneMatrix; 2],
     mass: PlaneMatrix,
     system: PlaneMatrix,
@@ -205,6 +218,14 @@ impl Bending {
             held,
             pushes: Vec::with_capacity(2 * tether.constraints.len()),
             openings,
+            holds_across: tether
+                .constraints
+                .iter()
+                .any(|c| matches!(c, NodeConstraint::FixedLateral { .. } | NodeConstraint::VesselLateral { .. })),
+            axial: 0.0,
+            arc_slope: [zeros(), zeros()],
+            arc_response: [zeros(), zeros()],
+            tension_ahead: [0.0; 2],
             stiffness: [PlaneMatrix::new(order), PlaneMatrix::new(order)],
             mass: PlaneMatrix::new(order),
             system: PlaneMatrix::new(order),
@@ -247,6 +268,9 @@ impl Bending {
         let stretch = stage.tension.length / self.length;
         self.stiffness.iter_mut().for_each(PlaneMatrix::clear);
         self.mass.clear();
+        let taut = stage.tension.standing == TensionCase::Taut;
+        self.axial = if self.holds_across && taut { axial.stiffness() } else { 0.0 };
+        self.arc_slope.iter_mut().for_each(|slope| slope.fill(0.0));
         let motion = if second { &self.trial } else { &self.now };
         for (index, cell) in self.cells.iter().enumerate() {
             let length = cell.length * stretch;
@@ -262,6 +286,12 @@ impl Bending {
             (*x, *y) = ([0.0; 4], [0.0; 4]);
             let places = [0, 1].map(|p| beam::of_element(&motion[p].place, index));
             let speeds = [0, 1].map(|p| beam::of_element(&motion[p].velocity, index));
+            if self.axial > 0.0 {
+                let unit = beam::geometric(1.0, length);
+                for (slope, place) in self.arc_slope.iter_mut().zip(&places) {
+                    beam::gather(slope, index, &beam::times(&unit, place));
+                }
+            }
             let share = cell.length / self.length;
             for (a, weight) in beam::GAUSS {
                 let shape = beam::deflection(a, length);
@@ -309,11 +339,21 @@ impl Bending {
             self.hold(plane, stage);
             beam::factor(&self.system, &mut self.factors)?;
             self.factors.solve(&mut self.right);
-            if !self.right.iter().all(|a| a.is_finite()) {
-                return Err(ClassError::new("its acceleration has no value"));
-            }
             self.found[usize::from(second)][plane].copy_from_slice(&self.right);
-            self.react(plane, stage, implicit);
+            if self.axial > 0.0 {
+                let response = &mut self.arc_response[plane];
+                response.copy_from_slice(&self.arc_slope[plane]);
+                self.held[plane].iter().for_each(|(unknown, _)| response[*unknown] = 0.0);
+                self.factors.solve(response);
+            }
+        }
+        self.look_ahead_with_tension(second, dt);
+        if !self.found[usize::from(second)].iter().flatten().all(|a| a.is_finite()) {
+            return Err(ClassError::new("its acceleration has no value")
+                .help("a shorter time step may do: its motion across the axis grew from step to step"));
+        }
+        for plane in 0..2 {
+            self.react(second, plane, stage);
         }
         if !second {
             for plane in 0..2 {
@@ -325,6 +365,32 @@ impl Bending {
             }
         }
         Ok(())
+    }
+
+    /// Takes the tension that the stage looks ahead to into its accelerations: with the slope g of the arc, its response `y = S^-1 g` and the
+    /// accelerations a without it, `a - y (r + c k g.a)/(1 + c k g.y)`, r being what the arc grows by anyway.
+    fn look_ahead_with_tension(&mut self, second: bool, dt: f64) {
+        let stage = usize::from(second);
+        self.tension_ahead[stage] = 0.0;
+        if self.axial == 0.0 {
+            return;
+        }
+        let implicit = 0.5 * LOOK_AHEAD * dt * dt;
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let (mut growth, mut driven, mut yielding) = (0.0, 0.0, 0.0);
+        for plane in 0..2 {
+            let (slope, now) = (&self.arc_slope[plane], &self.now[plane]);
+            let places = if second { &self.trial[plane].place } else { &now.place };
+            let ahead = now.place.iter().zip(&now.velocity).map(|(x, v)| x + LOOK_AHEAD * dt * v);
+            growth += slope.iter().zip(ahead.zip(places)).map(|(g, (ahead, place))| g * (ahead - place)).sum::<f64>();
+            driven += dot(slope, &self.found[stage][plane]);
+            yielding += dot(slope, &self.arc_response[plane]);
+        }
+        let more = self.axial * (growth + implicit * driven) / (1.0 + implicit * self.axial * yielding);
+        for (found, response) in self.found[stage].iter_mut().zip(&self.arc_response) {
+            found.iter_mut().zip(response).for_each(|(a, y)| *a -= more * y);
+        }
+        self.tension_ahead[stage] = more;
     }
 
     /// The acceleration of the axis at the nodes.

@@ -33,6 +33,7 @@ fn case(compatibility: TowedCompatibility, depth: Option<f64>) -> Towed {
         gravity: 9.81,
         depth,
         waves: (0..11).map(wave).collect(),
+        stokes: None,
         current: Vec::new(),
         tow: [0.0; 2],
         multipliers: WaterForceMultipliers::default(),
@@ -101,6 +102,71 @@ fn towed_surface_matches_surface_at_current_position() {
         assert!((flow.velocity[0] - dx - flow_nearby.velocity[0]).abs() < 1e-13);
         assert!((flow.velocity[1] - dy - flow_nearby.velocity[1]).abs() < 1e-13);
         assert!((flow.acceleration[2] - flow_nearby.acceleration[2]).abs() < 1e-13);
+    }
+}
+
+/// Place, surface, velocity, acceleration.
+type WavePoint = ([f64; 3], f64, [f64; 2], [f64; 2]);
+
+/// A wave of the second order, 4 m high with a period of 10 s in 30 m, by its closed form [DEAN-DALRYMPLE-1991 11.2] in forty digits: place along it, height (m)
+/// and time (s); surface (m), velocity along and up (m/s), acceleration of the particle (m/s2).
+const SECOND_ORDER: [WavePoint; 4] = [
+    ([0.0, -5.0, 0.0], 2.149_852_451_373_923, [1.213_269_444_540_679, 0.0], [0.0, -0.591_157_534_951_884_3]),
+    (
+        [17.0, -3.0, 2.5],
+        1.401_817_589_246_167,
+        [0.890_394_390_158_456_3, -0.806_769_227_036_505_8],
+        [-0.610_784_043_212_502_1, -0.404_632_618_372_480_7],
+    ),
+    (
+        [-40.0, -20.0, 6.1],
+        1.677_275_108_343_625,
+        [0.616_364_872_819_284_7, 0.194_486_914_255_156_5],
+        [0.276_799_689_333_313_1, -0.156_472_607_698_296_9],
+    ),
+    (
+        [5.0, 0.5, 0.8],
+        2.053_457_740_495_545,
+        [1.455_540_404_165_443, -0.380_030_902_490_654],
+        [-0.280_288_898_833_338_1, -0.747_207_629_932_350_9],
+    ),
+];
+
+#[test]
+fn second_order_wave_of_towed_water_matches_closed_form() {
+    let water = Water { depth: Some(30.0), level: 0.0, gravity: 9.80665, density: 1025.0 };
+    let frequency = std::f64::consts::TAU / 10.0;
+    // the wave runs 0.4 rad from the axis; the axis begins 3 m behind a crest
+    let (turn, start) = (0.4f64, 3.0);
+    for (heading, tow) in [(0.0, [0.0; 2]), (1.1, [0.9, -0.5])] {
+        let toward = [(heading + turn).cos(), (heading + turn).sin()];
+        let wave = Stokes::new(2, (4.0, frequency), (toward, 0.0), water).unwrap();
+        assert!((wave.number - 0.045_775_705_189_078_34).abs() < 1e-15);
+        let component = Component { frequency, number: wave.number, amplitude: 2.0, toward, phase: 0.0 };
+        let waters = Waters::new(&Towed {
+            origin: [-start * toward[0], -start * toward[1], -0.5],
+            heading,
+            gravity: 9.80665,
+            waves: vec![component],
+            stokes: Some(wave),
+            tow,
+            ..case(TowedCompatibility::native(), Some(30.0))
+        });
+        for ([along, height, time], elevation, velocity, acceleration) in SECOND_ORDER {
+            // as the axis, which goes with the tow, has the place then
+            let (sin, cos) = heading.sin_cos();
+            let gone = [cos * tow[0] + sin * tow[1], cos * tow[1] - sin * tow[0]];
+            let [x, y] = [turn.cos() * (along + start), turn.sin() * (along + start)];
+            let (surface, flow) = flow_at(&waters, time, x - gone[0] * time, y - gone[1] * time, height);
+            assert!((surface - elevation).abs() < 1e-12, "{surface} {elevation}");
+            let axes = |[along, up]: [f64; 2]| [turn.cos() * along, turn.sin() * along, up];
+            let [u, v, w] = axes(velocity);
+            for (found, want) in
+                [(flow.velocity, [u - gone[0], v - gone[1], w]), (flow.acceleration, axes(acceleration))]
+            {
+                assert!(found.iter().zip(want).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {want:?}");
+            }
+        }
     }
 }
 

@@ -1,0 +1,318 @@
+//! What MOSES has and windlass does not: menus, records, classes, reports, libraries of macros. One table, from which the session answers a script that
+//! has them, `&HELP` explains them, and lists are made.
+//!
+//! A word of this table is looked at where no command and no macro has it. A menu gives one message, and its records are passed over up to its END.
+//! A record that would change a mass, a buoyancy, a stiffness, a damping, a load, a length or a place stops the next solve it matters to
+//! ([`Loss::Solves`]); one that asks for results is an error; one for pictures, devices or layout is noted.
+
+use crate::commands::menu;
+use windlass_language::spec::MenuSpec;
+use windlass_model::SolveKind;
+
+/// What a script loses with a record that windlass does not have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Loss {
+    /// Nothing that is computed: it draws or lays out, or acts in a stress analysis alone.
+    Nothing,
+    /// Results that it asks for.
+    Results,
+    /// Its effect on solves of a kind.
+    Solves(SolveKind),
+}
+
+/// A menu or a record of MOSES that windlass does not have.
+#[derive(Debug)]
+pub struct Absent {
+    /// Its word.
+    pub name: &'static str,
+    /// The menus it belongs to; empty means every menu.
+    pub menus: &'static [&'static MenuSpec],
+    /// The menu it opens, which an `END` of its own leaves.
+    pub opens: Option<&'static MenuSpec>,
+    /// Words of that menu that open menus in turn.
+    pub inner: &'static [&'static str],
+    /// What is lost with it.
+    pub loss: Loss,
+    /// What it is or does, as a phrase.
+    pub what: &'static str,
+    /// What windlass has instead; empty where it has nothing.
+    pub instead: &'static str,
+}
+
+impl Absent {
+    const fn new(name: &'static str, loss: Loss, what: &'static str) -> Self {
+        Absent { name, menus: &[], opens: None, inner: &[], loss, what, instead: "" }
+    }
+
+    /// One in these menus alone.
+    const fn within(self, menus: &'static [&'static MenuSpec]) -> Self {
+        Absent { menus, ..self }
+    }
+
+    /// One that opens a menu.
+    const fn opens(self, menu: &'static MenuSpec) -> Self {
+        Absent { opens: Some(menu), ..self }
+    }
+
+    /// The same, with words that open menus in that menu.
+    const fn with_inner(self, inner: &'static [&'static str]) -> Self {
+        Absent { inner, ..self }
+    }
+
+    /// The same, with what windlass has instead.
+    const fn instead(self, instead: &'static str) -> Self {
+        Absent { instead, ..self }
+    }
+
+    /// What is said of it, without what windlass has instead.
+    pub fn sentence(&self) -> String {
+        match self.loss {
+            Loss::Nothing => format!("{} of MOSES has no effect in windlass: {} (said once)", self.name, self.what),
+            Loss::Results => format!("{} of MOSES is not in windlass: {}", self.name, self.what),
+            Loss::Solves(_) => {
+                format!(
+                    "{} of MOSES is not in windlass: {}; solves it matters to will stop (said once)",
+                    self.name, self.what
+                )
+            }
+        }
+    }
+}
+
+const STATICS: Loss = Loss::Solves(SolveKind::Statics);
+const MOTIONS: Loss = Loss::Solves(SolveKind::Motions);
+
+const MAIN: &[&MenuSpec] = &[&menu::MAIN];
+const MODEL: &[&MenuSpec] = &[&menu::INMODEL, &menu::MEDIT];
+const SURFACES: &[&MenuSpec] = &[&menu::SURFACE];
+const POST: &[&MenuSpec] = &[&menu::PRCPOST];
+const FREQUENCY: &[&MenuSpec] = &[&menu::FREQ_RESPONSE];
+const STABILITY: &[&MenuSpec] = &[&menu::HSTATICS];
+
+static STRUCTURAL: MenuSpec = MenuSpec { name: "STRUCTURAL", end: "END_STRUCTURAL" };
+static STRPOST: MenuSpec = MenuSpec { name: "STRPOST", end: "END_STRPOST" };
+static LAUNCH: MenuSpec = MenuSpec { name: "LAUNCH", end: "END_LAUNCH" };
+static STATIC_PROCESS: MenuSpec = MenuSpec { name: "STATIC_PROCESS", end: "END_STATIC_PROCESS" };
+static HYDRODYNAMICS: MenuSpec = MenuSpec { name: "HYDRODYNAMICS", end: "END_HYDRODYNAMICS" };
+static UGX: MenuSpec = MenuSpec { name: "&UGX", end: "END_&UGX" };
+static TABLES: MenuSpec = MenuSpec { name: "&TABLE", end: "END_&TABLE" };
+static DOCUMENTS: MenuSpec = MenuSpec { name: "&D_GENERATE", end: "END_&D_GENERATE" };
+static PLTMODE: MenuSpec = MenuSpec { name: "&PLTMODE", end: "END_&PLTMODE" };
+static SHAPES: MenuSpec = MenuSpec { name: "&DATA SHAPES", end: "END_&DATA" };
+/// The disposition menu of a table that is not made.
+static DISPOSITION: MenuSpec = MenuSpec { name: "DISPOSITION", end: "END_DISPOSE" };
+/// The menu in a menu that is passed over.
+static INNER: MenuSpec = MenuSpec { name: "of a record that is passed over", end: "END" };
+
+const NO_STRESS: &str = "a stress analysis, which windlass does not make";
+const STRUCTURE: &str = "weight, buoyancy, wind and drag of structural members";
+const TUBE_INSTEAD: &str = "TUBE of &SURFACE, #WEIGHT and #AREA give members, weights and areas";
+
+/// A table of PRCPOST that is not made.
+const fn post(name: &'static str, what: &'static str) -> Absent {
+    Absent::new(name, Loss::Results, what).within(POST).opens(&DISPOSITION)
+}
+
+/// A table of FREQ_RESPONSE that is not made.
+const fn frequency(name: &'static str, what: &'static str) -> Absent {
+    Absent::new(name, Loss::Results, what).within(FREQUENCY).opens(&DISPOSITION)
+}
+
+/// A table of HSTATICS that is not made.
+const fn stability(name: &'static str, what: &'static str) -> Absent {
+    Absent::new(name, Loss::Results, what).within(STABILITY).opens(&DISPOSITION)
+}
+
+/// All of them. What a later version of windlass has goes from here.
+pub static ABSENT: &[Absent] = &[
+    Absent::new("STRUCTURAL", Loss::Results, NO_STRESS).within(MAIN).opens(&STRUCTURAL),
+    Absent::new("STRPOST", Loss::Results, NO_STRESS).within(MAIN).opens(&STRPOST),
+    Absent::new("LCASE", Loss::Results, NO_STRESS),
+    Absent::new("LAUNCH", Loss::Results, "the launch of a structure from a barge").within(MAIN).opens(&LAUNCH),
+    Absent::new("STATIC_PROCESS", Loss::Results, "lifting, flooding and upending of a body step by step")
+        .within(MAIN)
+        .opens(&STATIC_PROCESS)
+        .instead("&EQUI finds each equilibrium; &DESCRIBE PROCESS keeps configurations apart"),
+    Absent::new("HYDRODYNAMICS", MOTIONS, "added mass, radiation damping, wave loads and drift by diffraction")
+        .within(MAIN)
+        .opens(&HYDRODYNAMICS)
+        .with_inner(&["I_TOTAL", "I_PRESSURE", "I_MDRIFT", "V_MATRICES", "V_EXFORCES", "V_MDRIFT"])
+        .instead(
+            "DATABASE reads those of WAMIT, NEMOH, Capytaine and AQWA; #AMASS, #DAMP and #DRIFT give them as numbers",
+        ),
+    Absent::new("&UGX", Loss::Nothing, "it draws").opens(&UGX),
+    Absent::new("&TABLE", Loss::Nothing, "it lays out tables; STORE and REPORT of the disposition menu write them")
+        .opens(&TABLES),
+    Absent::new("&D_GENERATE", Loss::Nothing, "it formats documents").opens(&DOCUMENTS),
+    Absent::new("&PLTMODE", Loss::Nothing, "it draws; &PICTURE draws the system").opens(&PLTMODE),
+    Absent::new("&EVENT_STORE", Loss::Results, "events stored by hand")
+        .instead("&INFO and string functions give values to keep"),
+    Absent::new("&VARIABLE", Loss::Results, "names kept in a database")
+        .instead("&SET keeps a list of words, &TOKEN takes it apart"),
+    Absent::new("BEAM", STATICS, STRUCTURE).within(MODEL).instead(TUBE_INSTEAD),
+    Absent::new("PLATE", STATICS, STRUCTURE).within(MODEL).instead(TUBE_INSTEAD),
+    Absent::new("TUBTANK", STATICS, "a cylinder between two points that belongs to a compartment")
+        .within(MODEL)
+        .instead("PGEN with PLANE -CIRCULAR encloses it"),
+    Absent::new("DELETE_BLOCK", STATICS, "a surface is taken away")
+        .within(SURFACES)
+        .instead("EMIT takes the surfaces it names"),
+    Absent::new("RENAME_BLOCK", STATICS, "a surface has another name")
+        .within(SURFACES)
+        .instead("COPY_BLOCK gives a copy a name"),
+    Absent::new("&EMIT", STATICS, "surfaces go into a file or a body")
+        .instead("EMIT puts surfaces into the part described last"),
+    Absent::new("SP_BEAM", STATICS, STRUCTURE).within(MODEL).instead(TUBE_INSTEAD),
+    Absent::new("SP_PLATE", STATICS, STRUCTURE).within(MODEL).instead(TUBE_INSTEAD),
+    Absent::new("ED_ELEMENT", STATICS, "changes of structural members").within(MODEL),
+    Absent::new("RESTRAINT", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
+    Absent::new("REST", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
+    Absent::new("JOINT", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
+    Absent::new("ASSEMBLY LLEG", STATICS, "launch legs, on which a jacket slides from its barge").within(MODEL),
+    Absent::new("ASSEMBLY CONTROL", STATICS, "a control of lengths and forces").within(MODEL),
+    Absent::new("ASSEMBLY PULLEY", STATICS, "lines over pulleys")
+        .within(MODEL)
+        .instead("class PULY is a line over a pulley"),
+    Absent::new("ASSEMBLY WINCH", STATICS, "winches")
+        .within(MODEL)
+        .instead("&ACTION pays lines out and in; class CT_LINE keeps a tension"),
+    Absent::new("&DESCRIBE SENSOR", Loss::Results, "sensors").instead("INTEREST marks points whose motion is reported"),
+    Absent::new("&DATA SHAPES", Loss::Nothing, "shapes are sections of structural members").opens(&SHAPES),
+    Absent::new("TKR_MODEL", STATICS, "the hull, weight, wind and current of a tanker, by the macro library V_MODEL")
+        .instead(TUBE_INSTEAD),
+    Absent::new("W_BOX", STATICS, "a wind box, by the macro library V_MODEL").instead("#AREA gives areas in wind"),
+    Absent::new("JGEN_INIT", STATICS, "a jackup, by the macro library V_MODEL"),
+    Absent::new("TKR_GEN", STATICS, "a moored tanker, by a macro library of MOSES"),
+    Absent::new("TKR_SIM", Loss::Results, "simulations of a moored tanker, by a macro library of MOSES"),
+    Absent::new("JKT_GEN", STATICS, "a jacket, by a macro library of MOSES"),
+    Absent::new("SU_SHOW", Loss::Nothing, "it draws"),
+    Absent::new("SUPLOT", Loss::Nothing, "it draws"),
+    post("DRAFT", "drafts over time")
+        .instead("&STATUS DRAFT reads the marks where the bodies stand; POINTS gives points over time"),
+    post("SENSOR", "sensors over time").instead("POINTS and CONFORCE give points and forces over time"),
+    post("REL_MOTION", "the motion of two points relative to each other").instead("POINTS gives the motion of each"),
+    post("P_MIN_DISTANCE", "the least distance of two points").instead("POINTS gives the motion of each"),
+    post("ELMFORCE", "forces of structural members"),
+    post("LDGFORCE", "forces of load groups over time").instead("BODY_FORCE gives those of bodies by category"),
+    post("TANK_BAL", "contents of tanks over time"),
+    post("TANK_FLD", "flooding of tanks over time"),
+    post("HOLE_FLOODING", "flow through holes over time"),
+    frequency("ST_POINT", "statistics of a point").instead("STATISTICS POINT *PT reports them"),
+    frequency("TD_POINT", "one realisation of the motion of a point").instead("TDOM gives motions in time"),
+    frequency("FR_CFORCE", "the force of a connector in unit waves").instead("CONFORCE gives it"),
+    frequency("ST_CFORCE", "statistics of the force of a connector").instead("STATISTICS CONFORCE reports them"),
+    frequency("EXFORCE", "exciting forces of the equations"),
+    frequency("FR_FCARGO", "the force on a cargo in unit waves")
+        .instead("FR_POINT -ACCELERATION gives the acceleration at it"),
+    frequency("ST_FCARGO", "statistics of the force on a cargo")
+        .instead("STATISTICS POINT -ACCELERATION reports the acceleration at it"),
+    frequency("FR_PANPRESS", "pressures on panels in unit waves"),
+    frequency("ST_PANPRESS", "statistics of pressures on panels"),
+    Absent::new("EQU_SUM", Loss::Results, "the equations of motion")
+        .within(FREQUENCY)
+        .instead("&STATUS MODES reports periods and damping"),
+    Absent::new("MATRICES", Loss::Results, "the matrices of the equations of motion")
+        .within(FREQUENCY)
+        .instead("&STATUS STIFFNESS and &STATUS DATABASE report stiffness and added mass"),
+    Absent::new("FP_STD", Loss::Results, "the standard set of tables of a point").within(FREQUENCY),
+    Absent::new("EQUI_H", STATICS, "the place of a body in heave, roll and pitch")
+        .within(STABILITY)
+        .instead("&EQUI finds the equilibrium"),
+    stability("MOMENT", "shear and bending along a body"),
+    stability("STAB_OK", "checks of stability criteria").instead("RARM gives righting arms and areas"),
+    stability("KG_ALLOW", "the allowable height of the center of gravity")
+        .instead("RARM gives righting arms and areas"),
+    Absent::new("BEAM_SUM", Loss::Results, NO_STRESS).within(&[&menu::SUMMARY]),
+];
+
+/// A class type of MOSES that windlass does not have.
+#[derive(Debug)]
+pub struct AbsentClass {
+    /// Its word.
+    pub name: &'static str,
+    /// What its connectors would do; `None` of classes of structural members, which do nothing by themselves.
+    pub of_connectors: Option<&'static str>,
+}
+
+/// A class of structural members.
+const fn section(name: &'static str) -> AbsentClass {
+    AbsentClass { name, of_connectors: None }
+}
+
+/// The class types.
+pub static CLASSES: &[AbsentClass] = &[
+    AbsentClass { name: "LLEG", of_connectors: Some("forces of launch legs") },
+    AbsentClass { name: "PROPULSION", of_connectors: Some("the thrust of a propeller") },
+    AbsentClass { name: "PILE", of_connectors: Some("the resistance of a pile") },
+    section("TUBE"),
+    section("CONE"),
+    section("BOX"),
+    section("WBOX"),
+    section("PRI"),
+    section("IBEAM"),
+    section("G_IBEAM"),
+    section("TEE"),
+    section("CHANNEL"),
+    section("ANGLE"),
+    section("D_ANGLE"),
+    section("PLATE"),
+];
+
+/// Kinds of `&STATUS` that MOSES has and windlass does not, with what to ask for instead.
+pub static REPORTS: &[(&str, &str)] = &[
+    ("DG_CONNECTOR", "G_CONNECTOR reports the geometry of connectors, TABLE of CONN_DESIGN their design"),
+    ("SPREAD", "G_CONNECTOR and LINE_ANGLES report the lines of a mooring"),
+    ("PILE", "windlass has no piles"),
+    ("LLEG", "windlass has no launch legs"),
+    ("NOTE", "messages stand in the log"),
+    ("DISPLACEMENT", "CONFIGURATION reports places, HYDROSTATICS what bodies displace"),
+    ("SEA_TSERIES", "POINTS of PRCPOST gives the wave elevation of a run; SEA_SPECTRUM the components"),
+    ("WIND_TSERIES", "WIND_SPECTRUM reports the gusts"),
+    ("T_CONVOLUTION", "CURVES reports curves"),
+    ("F_CONVOLUTION", "CURVES reports curves"),
+];
+
+/// Libraries of macros that ship with MOSES, each with the macros that scripts call.
+pub static LIBRARIES: &[(&str, &str)] =
+    &[("V_MODEL", "TKR_MODEL, W_BOX, JGEN_INIT"), ("AUTO_TKR", "TKR_GEN, TKR_SIM"), ("JKTGEN", "JKT_GEN")];
+
+/// The entry of a word in a menu: by its whole name, else by a beginning of four letters or more that one alone has.
+pub fn find(word: &str, menu: &MenuSpec) -> Option<&'static Absent> {
+    const SHORTEST: usize = 4;
+    let here = || ABSENT.iter().filter(|entry| entry.menus.is_empty() || entry.menus.contains(&menu));
+    let begins = |entry: &&Absent| entry.name.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));
+    here().find(|entry| entry.name.eq_ignore_ascii_case(word)).or_else(|| {
+        let mut hits = here().filter(begins).filter(|_| word.len() >= SHORTEST);
+        hits.next().filter(|_| hits.next().is_none())
+    })
+}
+
+/// The entry of a command of windlass with a second word that it does not have.
+pub fn find_form(command: &str, second: &str) -> Option<&'static Absent> {
+    ABSENT.iter().find(|entry| {
+        entry.name.split_once(' ').is_some_and(|(name, form)| name == command && form.eq_ignore_ascii_case(second))
+    })
+}
+
+/// The menu that a word opens within a menu that is passed over.
+pub fn find_inner(word: &str, menu: &MenuSpec) -> Option<&'static MenuSpec> {
+    let entry = ABSENT.iter().find(|entry| entry.opens.is_some_and(|opened| opened == menu))?;
+    entry.inner.iter().any(|inner| inner.eq_ignore_ascii_case(word)).then_some(&INNER)
+}
+
+/// The class type of a word, that of a rolled shape among them: `W14X140`.
+pub fn find_class(word: &str) -> Option<&'static AbsentClass> {
+    let named = CLASSES.iter().find(|class| class.name.eq_ignore_ascii_case(word));
+    named.or_else(|| {
+        let letters = word.bytes().take_while(u8::is_ascii_alphabetic).count();
+        let (depth, weight) = word.get(letters..)?.split_once(['X', 'x'])?;
+        let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+        let is_shape = (1..=3).contains(&letters) && is_number(depth) && is_number(weight);
+        CLASSES.iter().find(|class| is_shape && class.name == "IBEAM")
+    })
+}
+
+/// What windlass has instead of a kind of `&STATUS`.
+pub fn find_report(word: &str) -> Option<&'static (&'static str, &'static str)> {
+    REPORTS.iter().find(|(name, _)| name.eq_ignore_ascii_case(word))
+}
