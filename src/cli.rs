@@ -1,11 +1,13 @@
 //! The command line: what is run, from where, and the exit code.
 
 use crate::commands::verdict::{OverBreak, Verdict};
+use crate::manual;
 use crate::repl;
 use crate::report::files::JobFolder;
 use crate::report::output::Output;
 use crate::session::{RecordReadError, Session, SessionEnd, read_all};
-use clap::Parser;
+use clap::{CommandFactory, Parser};
+use clap_complete::Shell;
 use std::io::{BufRead, BufWriter, ErrorKind, IsTerminal, Read, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -43,12 +45,12 @@ pub struct Cli {
     /// The job.
     #[command(flatten)]
     pub job: JobArgs,
-    /// Prints the man page.
-    #[arg(long, hide = true)]
+    /// Print the man page
+    #[arg(long)]
     pub man: bool,
-    /// Prints the completions of a shell.
-    #[arg(long, hide = true, value_name = "SHELL")]
-    pub completions: Option<String>,
+    /// Print the completions of a shell
+    #[arg(long, value_name = "SHELL")]
+    pub completions: Option<Shell>,
 }
 
 /// The job to run, and how to run it.
@@ -86,6 +88,13 @@ pub struct CheckArgs {
     pub compat: bool,
 }
 
+/// Where the manual goes.
+#[derive(clap::Args, Debug, Default)]
+pub struct ManualArgs {
+    /// A folder; it is made where there is none
+    pub dir: PathBuf,
+}
+
 /// The words that stand for a command of windlass and for no ROOT.
 #[derive(clap::Subcommand, Debug)]
 pub enum Subcommand {
@@ -112,9 +121,8 @@ pub enum Subcommand {
     /// Serves an editor.
     #[command(hide = true)]
     Lsp(Words),
-    /// Writes the manual.
-    #[command(hide = true)]
-    Manual(Words),
+    /// Write the pages of the manual that are made from the declarations of records below DIR
+    Manual(ManualArgs),
 }
 
 /// The words that stand for a command.
@@ -148,12 +156,12 @@ impl Subcommand {
 /// Why the command line starts no job.
 #[derive(Debug, thiserror::Error)]
 enum UsageError {
-    #[error("{0} is not in this version")]
-    OptionToCome(&'static str),
     #[error("{name} is not in this version{}", namesake(name))]
     CommandToCome { name: &'static str },
     #[error("check comes first, and takes a script: windlass check --compat model.cif")]
     CheckFirst,
+    #[error("manual comes first, and takes a folder: windlass manual docs")]
+    ManualFirst,
     #[error("run needs a JOB: a script, a deck, or a ROOT{}", namesake("run"))]
     NoJob,
     #[error("a script and -c cannot be given together; if `{0}` is a record, it needs a -c of its own")]
@@ -193,8 +201,25 @@ const INTERRUPTED: u8 = 130;
 
 /// Runs the program; returns the exit code, as `--help` lists them.
 pub fn run(cli: Cli) -> u8 {
-    if let Some(Subcommand::Check(check)) = &cli.command {
-        return check_script(check);
+    if cli.man {
+        let mut page = Vec::new();
+        return match clap_mangen::Man::new(Cli::command()).render(&mut page) {
+            Ok(()) => print_bytes(&page),
+            Err(error) => {
+                complain(&format!("the man page cannot be made: {error}"));
+                1
+            }
+        };
+    }
+    if let Some(shell) = cli.completions {
+        let mut script = Vec::new();
+        clap_complete::generate(shell, &mut Cli::command(), "windlass", &mut script);
+        return print_bytes(&script);
+    }
+    match &cli.command {
+        Some(Subcommand::Check(check)) => return check_script(check),
+        Some(Subcommand::Manual(manual)) => return write_manual(&manual.dir),
+        _ => {}
     }
     match job(cli) {
         Ok(job) => run_job(job),
@@ -223,12 +248,6 @@ fn complain(text: &str) {
 
 /// The job to run, of what stands on the command line.
 fn job(cli: Cli) -> Result<JobArgs, UsageError> {
-    if cli.man {
-        return Err(UsageError::OptionToCome("--man"));
-    }
-    if cli.completions.is_some() {
-        return Err(UsageError::OptionToCome("--completions"));
-    }
     let (name, job) = match cli.command {
         Some(Subcommand::Run(job)) => ("run", job),
         Some(command) => (command.name(), JobArgs::default()),
@@ -248,8 +267,43 @@ fn job(cli: Cli) -> Result<JobArgs, UsageError> {
         "run" if job.job.is_some() || !job.commands.is_empty() => Ok(job),
         "run" => Err(UsageError::NoJob),
         "check" => Err(UsageError::CheckFirst),
+        "manual" => Err(UsageError::ManualFirst),
         _ => Err(UsageError::CommandToCome { name }),
     }
+}
+
+/// Prints bytes on the standard output; returns the exit code.
+fn print_bytes(bytes: &[u8]) -> u8 {
+    match stdout().write_all(bytes).and_then(|()| stdout().flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            complain(&format!("standard output cannot be written: {error}"));
+            1
+        }
+        _ => 0,
+    }
+}
+
+/// Writes the made pages of the manual below a folder; returns the exit code.
+fn write_manual(dir: &Path) -> u8 {
+    let pages = manual::build_pages();
+    let mut written = Vec::new();
+    for page in &pages {
+        let path = dir.join(&page.path);
+        let (parent, name) = (path.parent().unwrap_or(dir), path.file_name().unwrap_or_default());
+        let made = std::fs::create_dir_all(parent).map_err(|error| format!("{}: {error}", parent.display()));
+        let folder = JobFolder::new(PathBuf::from("manual"), Some(parent.to_path_buf()), false);
+        let done = made.and_then(|()| folder.check().map_err(|e| e.to_string())).and_then(|()| {
+            folder.write(&name.to_string_lossy(), page.text.as_bytes()).map_err(|error| error.to_string())
+        });
+        match done {
+            Ok(place) => written.push(place),
+            Err(error) => {
+                complain(&format!("the manual cannot be written: {error}"));
+                return 1;
+            }
+        }
+    }
+    print_bytes(format!("{} pages below {}\n", written.len(), printable(&dir.display().to_string())).as_bytes())
 }
 
 /// How to run a file that has the name of a command, where there is one.

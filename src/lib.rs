@@ -9,6 +9,7 @@
 
 pub mod cli;
 pub mod commands;
+pub mod manual;
 pub mod repl;
 pub mod report;
 pub mod session;

@@ -13,7 +13,7 @@ use windlass_language::flow::specs::CONTROL;
 use windlass_language::functions;
 use windlass_language::name;
 use windlass_language::select::{Owner, choose};
-use windlass_language::spec::{CommandSpec, Kind, Need, ValueSpec, describe_expected};
+use windlass_language::spec::{CommandSpec, Kind, Need, OptionEffect, SolveKind, ValueSpec, describe_expected};
 
 /// &HELP.
 pub static HELP: Command = Command { spec: &SPEC, edits: false, run };
@@ -180,7 +180,13 @@ pub fn describe(spec: &CommandSpec, lead: &str, units: UnitSystem) -> String {
     lines.extend(spec.data.iter().map(|v| format!("   {:<28} {}", v.name, value_help(v, units))));
     for option in spec.options {
         let default = if option.default.is_empty() { String::new() } else { format!(" [default: {}]", option.default) };
-        lines.push(format!("   {:<28} {}{default}", option.syntax(), option.help));
+        let effect = match option.effect {
+            OptionEffect::Acts => "",
+            OptionEffect::Noted => " [no effect on results]",
+            OptionEffect::Stops(SolveKind::Statics, _) => " [not computed: stops the next solve]",
+            OptionEffect::Stops(SolveKind::Motions, _) => " [not computed: stops the next solve of motions]",
+        };
+        lines.push(format!("   {:<28} {}{default}{effect}", option.syntax(), option.help));
         if option.values.len() > 1 || option.values.iter().any(|v| v.help != option.help) {
             lines.extend(option.values.iter().map(|v| format!("        {:<23} {}", v.name, value_help(v, units))));
         }

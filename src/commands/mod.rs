@@ -26,6 +26,7 @@ mod written;
 use environment::{bathymetry, curves, env};
 use files::file;
 pub use files::file::write_open_files;
+pub use functions::FUNCTION_HELP;
 pub use job::{Checking, DeviceSettings, Job, Menu};
 pub use menus::{find_opened_menu, finish};
 use model::{
@@ -38,8 +39,8 @@ use post::{frequency_posts, rep_select};
 pub(crate) use settings::device::existing;
 use settings::{accepted, device, parameter, units};
 use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};
-pub use status::kinds as status_kinds;
 use status::summary_menu;
+pub use status::{kinds as status_kinds, rows as status_rows};
 
 use std::path::PathBuf;
 use windlass_base::diagnostic::Outcome;

@@ -4,6 +4,7 @@
 
 mod coverage;
 mod crates;
+mod manual;
 mod registries;
 mod sources;
 mod specs;

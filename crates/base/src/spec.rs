@@ -119,6 +119,26 @@ impl ValueSpec {
     }
 }
 
+/// What a solver finds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SolveKind {
+    /// Forces and rest.
+    Statics,
+    /// Motions: modes, the frequency domain, the time domain.
+    Motions,
+}
+
+/// What an option does to results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OptionEffect {
+    /// What its help says.
+    Acts,
+    /// Nothing: it is read, kept and shown.
+    Noted,
+    /// No solver computes what it asks, named here: the next solve of this kind stops.
+    Stops(SolveKind, &'static str),
+}
+
 /// An option with its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OptionSpec {
@@ -138,6 +158,8 @@ pub struct OptionSpec {
     pub help: &'static str,
     /// What holds without the option.
     pub default: &'static str,
+    /// What it does to results.
+    pub effect: OptionEffect,
 }
 
 /// A value of an option, by the name its declaration gives it, and the type it is read as: `f64`, `i64`, `str` or an enum
@@ -343,7 +365,17 @@ impl OptionSpec {
 
     /// A MOSES option.
     pub const fn new(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> Self {
-        OptionSpec { name, aliases: &[], owner: Owner::Moses, values, repeat: 0, many: false, help, default: "" }
+        OptionSpec {
+            name,
+            aliases: &[],
+            owner: Owner::Moses,
+            values,
+            repeat: 0,
+            many: false,
+            help,
+            default: "",
+            effect: OptionEffect::Acts,
+        }
     }
 
     /// An option of windlass' own.
@@ -364,6 +396,16 @@ impl OptionSpec {
     /// The same, owned by somebody else than MOSES.
     pub const fn owner(self, owner: Owner) -> Self {
         OptionSpec { owner, ..self }
+    }
+
+    /// The same, without effect on results.
+    pub const fn noted(self) -> Self {
+        OptionSpec { effect: OptionEffect::Noted, ..self }
+    }
+
+    /// The same, where no solver computes what it asks: the next solve of this kind stops.
+    pub const fn stops(self, kind: SolveKind, effect: &'static str) -> Self {
+        OptionSpec { effect: OptionEffect::Stops(kind, effect), ..self }
     }
 
     /// The same, its last `count` values repeating as a group.

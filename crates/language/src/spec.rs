@@ -4,7 +4,7 @@
 use super::select::Owner;
 use windlass_base::choice::Choice;
 use windlass_base::spec::values_syntax;
-pub use windlass_base::spec::{DatumKey, Kind, Need, OptionSpec, Range, ValueSpec};
+pub use windlass_base::spec::{DatumKey, Kind, Need, OptionEffect, OptionSpec, Range, SolveKind, ValueSpec};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Noun;
 

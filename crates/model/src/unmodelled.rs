@@ -9,14 +9,7 @@ use windlass_base::span::Span;
 /// Most records that one message lists.
 const MAX_LISTED: usize = 6;
 
-/// What a solver finds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum SolveKind {
-    /// Forces and rest.
-    Statics,
-    /// Motions: modes, the frequency domain, the time domain.
-    Motions,
-}
+pub use windlass_base::spec::SolveKind;
 
 /// A record that changes a mass, a buoyancy, a stiffness, a damping, a load, a length or a place, where no solver computes it.
 #[derive(Clone, Debug, PartialEq)]

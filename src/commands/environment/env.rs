@@ -75,8 +75,7 @@ pub(crate) const SPGWATER: OptionSpec = OptionSpec::new(
 /// `-S_PERIOD`.
 pub(crate) const S_PERIOD: OptionSpec =
     OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1);
-const MD_PERIOD: OptionSpec =
-    OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift: kept and shown, without effect").repeating(1);
+const MD_PERIOD: OptionSpec = OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift").repeating(1).noted();
 /// `-TIME`.
 pub(crate) const TIME: OptionSpec = OptionSpec::new(
     "-TIME",
@@ -123,11 +122,9 @@ const M_GROWTH: OptionSpec = OptionSpec::new(
     &[curve("M_GROWTH curve"), number("RHO", Dim::Density, "density of the growth").or("1325 kg/m3").positive()],
     "marine growth",
 );
-const USE_MEAN: OptionSpec = OptionSpec::new(
-    "-USE_MEAN",
-    &[ValueSpec::choice::<YesNo>("YES/NO", "on or off").or("YES")],
-    "uses mean values: kept and shown, without effect",
-);
+const USE_MEAN: OptionSpec =
+    OptionSpec::new("-USE_MEAN", &[ValueSpec::choice::<YesNo>("YES/NO", "on or off").or("YES")], "uses mean values")
+        .noted();
 /// `-E_PERIOD`.
 pub(crate) const E_PERIOD: OptionSpec =
     OptionSpec::new("-E_PERIOD", PERIODS, "periods of the waves in SRESPONSE, where it gives none").repeating(1);

@@ -16,7 +16,7 @@ use windlass_base::values::{Args, Given, Noun, Value};
 use windlass_hydro as hydro;
 use windlass_language::args;
 use windlass_language::name as rule;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, TextForm, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, OptionEffect, OptionSpec, TextForm, ValueSpec};
 use windlass_language::token::TokenKind as Lex;
 use windlass_model::{
     EntityKind, GROUND, LOOSE_SURFACES, Model, Part, Piece, Shape, SolveKind, UnmodelledEffect, WaveAction, find,
@@ -53,7 +53,8 @@ const OBSTACLE: OptionSpec = OptionSpec::new(
     "-OBSTACLE",
     &[],
     "a piece that does not move with the body: no buoyancy, wind or current of it acts on the body",
-);
+)
+.stops(SolveKind::Motions, "what a fixed obstacle does to waves");
 choices! {
     /// What waves do to a piece.
     enum DiffractionType {
@@ -81,8 +82,10 @@ const CS_VELOCITY: OptionSpec = OptionSpec::new(
     "-CS_VELOCITY",
     &[ValueSpec::new("NAME", Kind::Name(Noun::Curve), "curve of factors by velocity")],
     "factors of drag by velocity",
-);
-const DD_MULT: OptionSpec = OptionSpec::new("-DD_MULT", FACTOR, "factor of drift damping");
+)
+.stops(SolveKind::Statics, "drag factors by velocity");
+const DD_MULT: OptionSpec = OptionSpec::new("-DD_MULT", FACTOR, "factor of drift damping")
+    .stops(SolveKind::Motions, "wave drift damping by a factor of the piece");
 const AMASS: OptionSpec = OptionSpec::new(
     "-AMASS",
     &[
@@ -90,13 +93,15 @@ const AMASS: OptionSpec = OptionSpec::new(
         ValueSpec::new("CURVE", Kind::Name(Noun::Curve), "curve of pressures").or("none"),
     ],
     "added mass by pressures",
-);
+)
+.stops(SolveKind::Motions, "added mass by a curve of pressures");
 const TANAKA: OptionSpec = OptionSpec::new("-TANAKA", FACTOR, "factor of the eddy damping of roll: &HELP #TANAKA");
-const ROLL_DAMPING: OptionSpec = OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping");
+const ROLL_DAMPING: OptionSpec = OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping")
+    .stops(SolveKind::Motions, "viscous damping of roll");
 const COLOR: OptionSpec =
-    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures");
+    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures").noted();
 const TEXTURE: OptionSpec =
-    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures");
+    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures").noted();
 
 /// What every piece takes, however its surface is given.
 pub const OPTIONS: [OptionSpec; 12] = [
@@ -245,14 +250,10 @@ pub fn current_part(model: &Model, span: Span) -> Outcome<&Part> {
 
 /// What an option of a piece would change that no solver computes; none of what is for pictures alone.
 fn unmodelled_effect(given: &Given, piece: &str, units: UnitSystem) -> Option<UnmodelledEffect> {
-    let (effect, matters_to) = match given {
-        _ if given.is(&DIFTYPE) => ("strip theory of waves", SolveKind::Motions),
-        _ if given.is(&OBSTACLE) => ("what a fixed obstacle does to waves", SolveKind::Motions),
-        _ if given.is(&CS_VELOCITY) => ("drag factors by velocity", SolveKind::Statics),
-        _ if given.is(&DD_MULT) => ("wave drift damping by a factor of the piece", SolveKind::Motions),
-        _ if given.is(&AMASS) => ("added mass by a curve of pressures", SolveKind::Motions),
-        _ if given.is(&ROLL_DAMPING) => ("viscous damping of roll", SolveKind::Motions),
-        _ => return None,
+    let (matters_to, effect) = match given.option.effect {
+        _ if given.is(&DIFTYPE) => (SolveKind::Motions, "strip theory of waves"),
+        OptionEffect::Stops(kind, effect) => (kind, effect),
+        OptionEffect::Acts | OptionEffect::Noted => return None,
     };
     let record = format!("{} of piece {piece}", option_as_written(given, units));
     Some(UnmodelledEffect { record, effect: effect.into(), matters_to, span: given.span })

@@ -22,7 +22,7 @@ pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };
 
 const YES_NO: ValueSpec = ValueSpec::choice::<YesNo>("YES/NO", "shown or not").or("YES");
 
-const NO: OptionSpec = OptionSpec::new("-NO", &[], "accepted: nothing is asked before drawing").owner(Owner::Ours);
+const NO: OptionSpec = OptionSpec::new("-NO", &[], "nothing is asked before drawing").owner(Owner::Ours).noted();
 const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the next figure file, FIGUREn.svg").owner(Owner::Ours);
 const FILE: OptionSpec = OptionSpec::new(
     "-FILE",
@@ -69,28 +69,28 @@ const INACTIVE: OptionSpec = OptionSpec::new("-INACTIVE", &[YES_NO], "connectors
 /// An option of pictures of MOSES that changes nothing here.
 const fn idle(name: &'static str, help: &'static str) -> OptionSpec {
     const ANY: &[ValueSpec] = &[ValueSpec::new("DATA", Kind::Text, "as in MOSES").or("none")];
-    OptionSpec::new(name, ANY, help).repeating(1)
+    OptionSpec::new(name, ANY, help).repeating(1).noted()
 }
 
 /// Options of MOSES that choose colours, styles and views that windlass does not draw.
 const IDLE: [OptionSpec; 17] = [
-    idle("-CATEGORY", "accepted: categories of elements"),
-    idle("-RENDER", "accepted: how surfaces are drawn"),
-    idle("-RESET", "accepted: settings of pictures are not remembered"),
-    idle("-SUBTITLE", "accepted: the picture has one title"),
-    idle("-MOVIE", "accepted: &ANIMATE makes films"),
-    idle("-PLANE", "accepted: a slice of the picture"),
-    idle("-INC_VIEW", "accepted: turns of the view"),
-    idle("-EVENTS", "accepted: &INSTATE -EVENT puts bodies where they were in a run"),
-    idle("-TYPE", "accepted: what is drawn"),
-    idle("-CONNECTORS", "accepted: NAME chooses connectors"),
-    idle("-PARTS", "accepted: NAME chooses bodies"),
-    idle("-BODY", "accepted: NAME chooses bodies"),
-    idle("-WATER_COLOR", "accepted: a colour"),
-    idle("-BACK_COLOR", "accepted: a colour"),
-    idle("-DETAIL", "accepted: how much is drawn"),
-    idle("-POINTS", "accepted: which points are drawn"),
-    idle("-ANNOTATE", "accepted: what is written on the picture"),
+    idle("-CATEGORY", "categories of elements"),
+    idle("-RENDER", "how surfaces are drawn"),
+    idle("-RESET", "settings of pictures are not remembered"),
+    idle("-SUBTITLE", "the picture has one title"),
+    idle("-MOVIE", "&ANIMATE makes films"),
+    idle("-PLANE", "a slice of the picture"),
+    idle("-INC_VIEW", "turns of the view"),
+    idle("-EVENTS", "&INSTATE -EVENT puts bodies where they were in a run"),
+    idle("-TYPE", "what is drawn"),
+    idle("-CONNECTORS", "NAME chooses connectors"),
+    idle("-PARTS", "NAME chooses bodies"),
+    idle("-BODY", "NAME chooses bodies"),
+    idle("-WATER_COLOR", "a colour"),
+    idle("-BACK_COLOR", "a colour"),
+    idle("-DETAIL", "how much is drawn"),
+    idle("-POINTS", "which points are drawn"),
+    idle("-ANNOTATE", "what is written on the picture"),
 ];
 const OWN: [OptionSpec; 9] = [NO, HARD, FILE, FORMAT, FROM, EXAGGERATE, NAMES, INACTIVE, HEADING];
 static OPTIONS: [OptionSpec; OWN.len() + IDLE.len()] = join_options(&OWN, &IDLE);

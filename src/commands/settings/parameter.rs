@@ -6,7 +6,7 @@ use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, OptionEffect, OptionSpec, ValueSpec};
 use windlass_model::{SolveKind, UnmodelledEffect};
 
 /// &PARAMETER.
@@ -45,11 +45,9 @@ const WCSTUBE: OptionSpec = factor(
 .default("1");
 const DRGPLA: OptionSpec =
     factor("-DRGPLA", &[number("CD", "drag coefficient")], "drag of #PLATE whose record has no -CD").default("1");
-const F_CD_TUBE: OptionSpec = factor(
-    "-F_CD_TUBE",
-    &[number("CD", "drag coefficient")],
-    "drag of tubes in the frequency domain: stops the next solve of motions",
-);
+const F_CD_TUBE: OptionSpec =
+    factor("-F_CD_TUBE", &[number("CD", "drag coefficient")], "drag of tubes in the frequency domain")
+        .stops(SolveKind::Motions, "another drag of tubes in the frequency domain");
 const FM_ROD: OptionSpec =
     factor("-FM_ROD", &[number("F", "factor")], "factor of forces on rods: stops the next solve of motions, but for 1");
 const AF_ENVIRONMENT: OptionSpec = factor(
@@ -58,8 +56,9 @@ const AF_ENVIRONMENT: OptionSpec = factor(
         "YES/NO",
         "YES: force along the flow on the area seen from there; NO: along the normal",
     )],
-    "how areas are loaded: stops the next solve, as #AREA, #PLATE and pieces have laws of their own",
-);
+    "how areas are loaded; #AREA, #PLATE and pieces have laws of their own",
+)
+.stops(SolveKind::Statics, "the direction of forces on areas");
 const REL_WIND: OptionSpec = factor(
     "-REL_WIND",
     &[ValueSpec::choice::<YesNo>("YES/NO", "NO stops the next solve of motions")],
@@ -67,11 +66,11 @@ const REL_WIND: OptionSpec = factor(
 )
 .default("YES");
 const M_DISTANCE: OptionSpec =
-    factor("-M_DISTANCE", &[number("D", "length")], "accepted: meshes of a diffraction that is not made");
+    factor("-M_DISTANCE", &[number("D", "length")], "meshes of a diffraction that is not made").noted();
 const M_WLFRACTION: OptionSpec =
-    factor("-M_WLFRACTION", &[number("F", "fraction")], "accepted: meshes of a diffraction that is not made");
+    factor("-M_WLFRACTION", &[number("F", "fraction")], "meshes of a diffraction that is not made").noted();
 const MAXREFINE: OptionSpec =
-    factor("-MAXREFINE", &[number("N", "number")], "accepted: meshes of a diffraction that is not made");
+    factor("-MAXREFINE", &[number("N", "number")], "meshes of a diffraction that is not made").noted();
 
 static SPEC: CommandSpec = CommandSpec {
     options: &[
@@ -128,14 +127,15 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 }
                 made.tube_drag = first;
             }
-            _ if given.is(&F_CD_TUBE) => lacks("another drag of tubes in the frequency domain", SolveKind::Motions),
             _ if given.is(&FM_ROD) && value != Some(1.0) => lacks("a factor of forces on rods", SolveKind::Motions),
             _ if given.is(&FM_ROD) => {}
-            _ if given.is(&AF_ENVIRONMENT) => lacks("the direction of forces on areas", SolveKind::Statics),
             _ if given.is(&REL_WIND) && !given.is_on() => lacks("wind that does not see motions", SolveKind::Motions),
             _ if given.is(&REL_WIND) => {}
-            _ => remarks
-                .push((format!("{} has no effect: windlass makes no diffraction mesh", given.name()), given.span)),
+            _ => match given.option.effect {
+                OptionEffect::Stops(kind, effect) => lacks(effect, kind),
+                OptionEffect::Acts | OptionEffect::Noted => remarks
+                    .push((format!("{} has no effect: windlass makes no diffraction mesh", given.name()), given.span)),
+            },
         }
     }
     (job.model.parameters, job.model.saved_parameters) = (made, saved);

@@ -169,21 +169,24 @@ const T_REINF: OptionSpec = OptionSpec::new(
 const SP_ORIENT: OptionSpec = OptionSpec::new(
     "-SP_ORIENT",
     &[number("V", Dim::None, "component")],
-    "accepted: axes of a STATIC_PROCESS, which is not in windlass",
+    "axes of a STATIC_PROCESS, which is not in windlass",
 )
-.repeating(1);
+.repeating(1)
+.noted();
 const DIR_BEAM: OptionSpec = OptionSpec::new(
     "-DIR_BEAM",
     &[ValueSpec::new("V", Kind::Text, "direction")],
-    "accepted: orientation of beams, which are not in windlass",
+    "orientation of beams, which are not in windlass",
 )
-.repeating(1);
+.repeating(1)
+.noted();
 const DIR_PLATE: OptionSpec = OptionSpec::new(
     "-DIR_PLATE",
     &[ValueSpec::new("V", Kind::Text, "direction")],
-    "accepted: orientation of plates, which are not in windlass",
+    "orientation of plates, which are not in windlass",
 )
-.repeating(1);
+.repeating(1)
+.noted();
 const AIR: OptionSpec =
     OptionSpec::new("-AIR", &[number("RHO", Dim::Density, "density").positive()], "density of air").owner(Owner::Ours);
 const GRAVITY: OptionSpec =

@@ -71,8 +71,9 @@ const MOVE_MAX: OptionSpec = OptionSpec::new(
 const ECHO: OptionSpec = OptionSpec::new(
     "-ECHO",
     &[ValueSpec::choice::<YesNo>("YES/NO", "either")],
-    "accepted: steps are not printed, the report says how many there were",
-);
+    "steps are not printed, the report says how many there were",
+)
+.noted();
 
 static SPEC: CommandSpec = CommandSpec {
     options: &[DEFAULTS, ITER_MAX, TOLERANCE_OPTION, IGNORE, OMEGA, MOVE_MAX, ECHO, HARD, BOTH],

@@ -119,9 +119,17 @@ static KINDS: &[&StatusKind] = &[
 
 /// What &STATUS can tell of, with one line each, for its help.
 pub fn listed_kinds() -> impl Iterator<Item = (&'static str, String)> {
-    KINDS.iter().map(|kind| match kind.aliases {
-        [] => (kind.name, kind.help.to_string()),
-        aliases => (kind.name, format!("{} (also {})", kind.help, aliases.join(", "))),
+    rows().map(|(name, help, _)| (name, help))
+}
+
+/// Every kind with one line of help, and whose word it is.
+pub fn rows() -> impl Iterator<Item = (&'static str, String, Owner)> {
+    KINDS.iter().map(|kind| {
+        let help = match kind.aliases {
+            [] => kind.help.to_string(),
+            aliases => format!("{} (also {})", kind.help, aliases.join(", ")),
+        };
+        (kind.name, help, kind.owner)
     })
 }
 

@@ -206,7 +206,7 @@ fn missing_result_exits_with_1_and_a_message() {
 #[test]
 fn reserved_words_are_commands_and_such_a_root_needs_extension() {
     let folder = tempfile::tempdir().unwrap();
-    for word in ["study", "verify", "open", "report", "fmt", "lsp", "manual"] {
+    for word in ["study", "verify", "open", "report", "fmt", "lsp"] {
         let (code, out, err) = run_in(folder.path(), &[word, "cases.csv", "--jobs", "3"]);
         assert_eq!((code, out.as_str()), (Some(2), ""));
         assert_eq!(err, format!("windlass: {word} is not in this version\n"));
@@ -223,10 +223,11 @@ fn reserved_words_are_commands_and_such_a_root_needs_extension() {
         (code, err.as_str()),
         (Some(2), "windlass: check comes first, and takes a script: windlass check --compat model.cif\n")
     );
-    for flag in [&["--man"][..], &["--completions", "bash"]] {
-        let (code, _, err) = run_in(folder.path(), flag);
-        assert_eq!((code, err), (Some(2), format!("windlass: {} is not in this version\n", flag[0])));
-    }
+    let (code, _, err) = run_in(folder.path(), &["--batch", "manual", "docs"]);
+    assert_eq!(
+        (code, err.as_str()),
+        (Some(2), "windlass: manual comes first, and takes a folder: windlass manual docs\n")
+    );
     std::fs::write(folder.path().join("study.cif"), "&TYPE mine\n&FINISH\n").unwrap();
     let (code, _, err) = run_in(folder.path(), &["study"]);
     assert_eq!(code, Some(2));
@@ -250,6 +251,38 @@ fn reserved_words_are_commands_and_such_a_root_needs_extension() {
         assert_eq!(code, Some(2));
         assert!(err.contains(&format!("did you mean the command `{meant}`?")), "{err}");
     }
+}
+
+#[test]
+fn man_page_and_completions_name_every_option() {
+    let (code, page, err) = run(&["--man"]);
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    let (code, script, err) = run(&["--completions", "bash"]);
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    for option in ["batch", "interactive", "out", "allow-files", "man", "completions"] {
+        assert!(page.contains(&format!("\\-\\-{}", option.replace('-', "\\-"))), "{option}: {page}");
+        assert!(script.contains(&format!("--{option}")), "{option}: {script}");
+    }
+    let (code, _, err) = run(&["--completions", "dish"]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("invalid value 'dish'") && err.contains("fish"), "{err}");
+}
+
+#[test]
+fn manual_is_written_below_named_folder_or_refused_with_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, out, err) = run_in(folder.path(), &["manual", "docs"]);
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    assert!(out.ends_with("pages below docs\n"), "{out}");
+    assert!(std::fs::read_to_string(folder.path().join("docs/moses.md")).unwrap().starts_with("# MOSES scripts\n"));
+    assert!(folder.path().join("docs/reference/classes.md").is_file());
+    std::fs::write(folder.path().join("taken"), "").unwrap();
+    let (code, _, err) = run_in(folder.path(), &["manual", "taken"]);
+    assert_eq!(code, Some(1));
+    assert!(err.starts_with("windlass: the manual cannot be written: taken"), "{err}");
+    let (code, _, err) = run_in(folder.path(), &["manual"]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("Usage: windlass manual <DIR>"), "{err}");
 }
 
 #[test]

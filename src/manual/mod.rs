@@ -1,0 +1,22 @@
+//! The pages of the manual that are made from the declarations: every command, option, class, function and report, and the
+//! state of every record of MOSES. `windlass manual DIR` writes them, and the copy in `docs/` is held to them by a test.
+
+mod markdown;
+mod moses;
+mod reference;
+
+/// A page.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Page {
+    /// Where it stands in the manual: `reference/classes.md`.
+    pub path: String,
+    /// Its Markdown.
+    pub text: String,
+}
+
+/// All pages that are made from declarations, in the order of the manual.
+pub fn build_pages() -> Vec<Page> {
+    let mut pages = reference::build_pages();
+    pages.push(Page { path: "moses.md".into(), text: moses::build_page() });
+    pages
+}
