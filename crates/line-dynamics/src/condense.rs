@@ -3,8 +3,8 @@
 use super::environment::LineEnvironment;
 use super::hinges::{Clamp, clamp};
 use super::mesh::Rod;
-use super::step::{RodSolver, SolverPhase};
 use super::system::Weights;
+use super::trial::Trial;
 use super::workspace::Workspace;
 use nalgebra::SMatrix;
 
@@ -42,164 +42,77 @@ impl EndTangent {
     }
 }
 
-/// Jacobian columns of the ends in the current tangent matrix, and the tangent condensed to them.
+/// Condensation of the current tangent to the ends: its columns of the ends, and the condensed tangent.
 #[derive(Clone, Debug)]
-pub(super) struct EndJacobian {
+pub(super) struct EndCondensation {
     /// How the unknowns beside an end feel its position, velocity and acceleration: kind, side, axis; a column of the
     /// matrix with its diagonal in the middle place.
     pub columns: [[EndColumns; 2]; 3],
     /// The same by all three together, as the scheme makes them follow each other.
-    pub together: [EndColumns; 2],
+    together: [EndColumns; 2],
     /// Whether the columns of each end are there.
     pub ready: [bool; 2],
     /// The condensed tangent asked for last.
-    pub condensed: Option<Box<EndTangent>>,
+    condensed: Option<Box<EndTangent>>,
     /// These ends, where it is the tangent by the columns that are there: of a rod that nothing clamps.
-    pub condensed_sides: Option<[bool; 2]>,
+    condensed_sides: Option<[bool; 2]>,
     /// How far a node may have moved since the matrix was factored (m).
     pub moved: f64,
+    /// Workspace for the parts of a matrix beside its ends, which keeps the current factors.
+    spare_work: Workspace,
+    /// Solutions with the transpose of the matrix.
+    adjoint: Vec<f64>,
 }
 
 /// Columns of the matrix by the three translations of an end.
 type EndColumns = [[f64; MAX_BANDWIDTH]; 3];
 
 /// Share of the shortest element that nodes may have moved since a matrix was factored that is as good as a new one.
-const MAX_REUSE_MOVE: f64 = 1e-3;
+pub(super) const MAX_REUSE_MOVE: f64 = 1e-3;
 
-impl EndJacobian {
-    pub fn new() -> Self {
+impl EndCondensation {
+    /// Memory for a system of so many unknowns.
+    pub fn new(work: &Workspace, size: usize) -> Self {
         let none = [[[0.0; MAX_BANDWIDTH]; 3]; 2];
-        EndJacobian {
+        EndCondensation {
             columns: [none; 3],
             together: none,
             ready: [false; 2],
             condensed: None,
             condensed_sides: None,
             moved: f64::INFINITY,
+            spare_work: work.clone(),
+            adjoint: vec![0.0; 6 * size],
         }
     }
-}
 
-impl RodSolver {
-    /// The tangent of the end forces at the last [`RodSolver::trial`], before it is accepted, or at rest after
-    /// [`RodSolver::statics`], when velocities and accelerations have no part in it: the rod condensed to its ends. Of a
-    /// step that was cut it is that of its last part.
-    ///
-    /// None where there is no trial, or the system cannot be solved, as it could in the trial.
-    pub fn end_tangent(&mut self, rod: &Rod, world: &LineEnvironment) -> Option<&EndTangent> {
-        self.in_local_coordinates(world, |solver, world, _| solver.linearise(rod, world, true, [true; 2]))?;
-        self.condense(rod, [true; 2])
-    }
-
-    /// The same by the factors the trial has left, as long as its nodes have moved by less than a thousandth of the
-    /// shortest element since, with friction by its secant: for a body's Newton iteration, which converges by it as
-    /// well, at a quarter of the cost. The trial's forces stay what they are.
-    pub fn end_tangent_from_factors(&mut self, rod: &Rod, world: &LineEnvironment) -> Option<&EndTangent> {
-        self.end_tangent_of_sides(rod, world, [true; 2])
-    }
-
-    /// The same, of which only the rows and columns of some ends are asked for, A and B: an end in the ground feels nothing and
-    /// does not move. The others are zero. That of end A alone costs next to nothing.
-    pub fn end_tangent_of_sides(
+    /// Finds the columns of the ends that are asked about, where the trial is; at rest velocities and accelerations have none.
+    pub fn find_columns(
         &mut self,
-        rod: &Rod,
-        world: &LineEnvironment,
-        sides: [bool; 2],
-    ) -> Option<&EndTangent> {
-        self.in_local_coordinates(world, |solver, world, _| solver.linearise(rod, world, false, sides))?;
-        self.condense(rod, sides)
-    }
-
-    /// Condenses the current matrix to the ends that are asked about.
-    fn condense(&mut self, rod: &Rod, sides: [bool; 2]) -> Option<&EndTangent> {
-        let clamps = [0, 1].map(|side| clamp(rod, &self.trial, side));
-        let pinned = clamps.iter().all(Option::is_none);
-        if pinned && self.end_jacobian.condensed_sides == Some(sides) {
-            return self.end_jacobian.condensed.as_deref();
-        }
-        let mut made = self.end_jacobian.condensed.take().unwrap_or_default();
-        let EndTangent { position, velocity, acceleration } = &mut *made;
-        let mut kinds = [position, velocity, acceleration];
-        kinds.iter_mut().for_each(|kind| kind.fill(0.0));
-        for side in (0..2).filter(|side| sides[*side]) {
-            let held = self.trial.ends[side].motion.is_some();
-            match &clamps[side] {
-                Some(_) => self.add_end_columns::<6>((side, sides), &clamps, &mut kinds),
-                None if held => self.add_end_columns::<3>((side, sides), &clamps, &mut kinds),
-                None => {}
-            }
-        }
-        (self.end_jacobian.condensed, self.end_jacobian.condensed_sides) = (Some(made), pinned.then_some(sides));
-        self.end_jacobian.condensed.as_deref()
-    }
-
-    /// Sees to factors of the matrix where the last trial ended, or unless `exact` near enough, and to the columns of
-    /// the ends that are asked about.
-    pub(super) fn linearise(
-        &mut self,
-        rod: &Rod,
-        world: &LineEnvironment,
-        exact: bool,
+        (rod, world): (&Rod, &LineEnvironment),
+        trial: &Trial,
+        weights: Weights,
+        at_rest: bool,
         asked: [bool; 2],
-    ) -> Option<()> {
-        if self.phase == SolverPhase::Idle {
-            return None;
-        }
-        let at_rest = self.phase == SolverPhase::Rest;
-        let close = !exact && !at_rest && self.end_jacobian.moved <= MAX_REUSE_MOVE * rod.shortest();
-        let ready = close && (0..2).all(|side| self.end_jacobian.ready[side] || !asked[side]);
-        // the trial's own positions are at hand in the state that follows it; a rope, which nothing clamps, needs them for a matrix alone
-        let asks_nothing = ready && matches!(self.work, Workspace::Rope(_));
-        if !(at_rest || asks_nothing) {
-            self.set_trial_from_next();
-        }
-        if !ready {
-            (self.trial.exact_friction_tangent, self.trial.is_static) = (!close, at_rest);
-            let made = self.columns(rod, world, (close, at_rest), asked);
-            (self.trial.exact_friction_tangent, self.trial.is_static) = (false, false);
-            made?;
-        }
-        Some(())
-    }
-
-    /// Factors the matrix where the trial is unless those at hand are `close`, and finds the columns of the ends.
-    fn columns(
-        &mut self,
-        rod: &Rod,
-        world: &LineEnvironment,
-        (close, at_rest): (bool, bool),
-        asked: [bool; 2],
-    ) -> Option<()> {
+    ) {
         let last = rod.elements.len();
-        let known = self.trial.ends.map(|e| e.motion.is_some());
-        if !close {
-            self.end_jacobian.moved = f64::INFINITY;
-            self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
-            self.reset_end_jacobian();
-            for (side, node) in [(0, 0), (1, last)] {
-                if known[side] {
-                    self.work.fix(node);
-                }
-            }
-            self.work.factor().ok()?;
-            self.end_jacobian.moved = 0.0;
-        }
-        let stride = self.work.stride();
-        let reach = self.work.bandwidth().min(last);
+        let known = trial.ends.map(|e| e.motion.is_some());
+        let stride = self.spare_work.stride();
+        let reach = self.spare_work.bandwidth().min(last);
         let single = [Weights { k: 0.0, c: 1.0, m: 0.0 }, Weights { k: 0.0, c: 0.0, m: 1.0 }];
-        let shares = [self.weights.c, self.weights.m];
-        let [by_position, others @ ..] = &mut self.end_jacobian.columns;
+        let shares = [weights.c, weights.m];
+        let [by_position, others @ ..] = &mut self.columns;
         for (side, range) in [(0, 0..reach), (1, last - reach..last)] {
-            if !asked[side] || self.end_jacobian.ready[side] {
+            if !asked[side] || self.ready[side] {
                 continue;
             }
-            by_position[side] = self.end_jacobian.together[side];
-            for ((kind, weights), share) in others.iter_mut().zip(single).zip(shares) {
+            by_position[side] = self.together[side];
+            for ((kind, single), share) in others.iter_mut().zip(single).zip(shares) {
                 kind[side] = [[0.0; MAX_BANDWIDTH]; 3];
                 if !known[side] || at_rest {
                     continue;
                 }
-                self.spare_work.assemble_part(rod, world, &self.trial, weights, range.clone());
+                self.spare_work.assemble_part(rod, world, trial, single, range.clone());
                 for axis in 0..3 {
                     let column = &mut kind[side][axis];
                     self.spare_work.column(side * stride * last + axis, column);
@@ -209,18 +122,40 @@ impl RodSolver {
                 }
             }
         }
-        self.end_jacobian.ready = [0, 1].map(|side| self.end_jacobian.ready[side] || asked[side]);
-        Some(())
+        self.ready = [0, 1].map(|side| self.ready[side] || asked[side]);
+    }
+
+    /// Condenses the current matrix to the ends that are asked about.
+    pub fn condense(&mut self, rod: &Rod, trial: &Trial, work: &Workspace, sides: [bool; 2]) -> Option<&EndTangent> {
+        let clamps = [0, 1].map(|side| clamp(rod, trial, side));
+        let pinned = clamps.iter().all(Option::is_none);
+        if pinned && self.condensed_sides == Some(sides) {
+            return self.condensed.as_deref();
+        }
+        let mut made = self.condensed.take().unwrap_or_default();
+        let EndTangent { position, velocity, acceleration } = &mut *made;
+        let mut kinds = [position, velocity, acceleration];
+        kinds.iter_mut().for_each(|kind| kind.fill(0.0));
+        for side in (0..2).filter(|side| sides[*side]) {
+            let held = trial.ends[side].motion.is_some();
+            match &clamps[side] {
+                Some(_) => self.add_end_columns::<6>((trial, work), (side, sides), &clamps, &mut kinds),
+                None if held => self.add_end_columns::<3>((trial, work), (side, sides), &clamps, &mut kinds),
+                None => {}
+            }
+        }
+        (self.condensed, self.condensed_sides) = (Some(made), pinned.then_some(sides));
+        self.condensed.as_deref()
     }
 
     /// Keeps of a matrix that has just been assembled what is asked of it later: the rows and columns of the ends.
-    pub(super) fn reset_end_jacobian(&mut self) {
-        (self.end_jacobian.ready, self.end_jacobian.condensed_sides) = ([false; 2], None);
-        self.work.store_end_rows();
-        let place = [0, self.change.len() - self.work.stride()];
-        for (columns, place) in self.end_jacobian.together.iter_mut().zip(place) {
+    pub fn reset(&mut self, work: &mut Workspace) {
+        (self.ready, self.condensed_sides) = ([false; 2], None);
+        work.store_end_rows();
+        let place = [0, work.residuals().len() - work.stride()];
+        for (columns, place) in self.together.iter_mut().zip(place) {
             for (axis, column) in columns.iter_mut().enumerate() {
-                self.work.column(place + axis, column);
+                work.column(place + axis, column);
             }
         }
     }
@@ -231,14 +166,15 @@ impl RodSolver {
     /// F_u: a row of the tangent is one solution with the transpose, whatever the number of motions.
     fn add_end_columns<const N: usize>(
         &mut self,
+        (trial, work): (&Trial, &Workspace),
         (side, sides): (usize, [bool; 2]),
         clamps: &[Option<Clamp>; 2],
         made: &mut [&mut Matrix12; 3],
     ) {
-        let stride = self.work.stride();
-        let size = self.change.len();
+        let stride = work.stride();
+        let size = work.residuals().len();
         let place = [0, size - stride];
-        let known = self.trial.ends.map(|e| e.motion.is_some());
+        let known = trial.ends.map(|e| e.motion.is_some());
         let end_of = |row: usize| (0..2).find(|s| known[*s] && (place[*s]..place[*s] + 3).contains(&row));
         // where the edge beside an end and its turn have their unknowns, and with what sign
         let edge = |side: usize| {
@@ -251,7 +187,7 @@ impl RodSolver {
         let right = &mut right[..size];
         right.fill([0.0; N]);
         if known[side] {
-            self.work.visit_end_rows(side, |i, column, value| right[column][i] = -value);
+            work.visit_end_rows(side, |i, column, value| right[column][i] = -value);
         }
         if let Some(clamp) = clamps[side].as_ref().filter(|_| N == 6) {
             for (local, column, sign) in edge(side) {
@@ -265,7 +201,7 @@ impl RodSolver {
         // rows beside end A, where nothing is asked or answered beyond them
         let beside = 2 * stride + MAX_BANDWIDTH / 2;
         let wanted = if sides[1] { size } else { beside };
-        self.work.solve_transposed(right, (if side == 0 { beside } else { size }, wanted));
+        work.solve_transposed(right, (if side == 0 { beside } else { size }, wanted));
         // what an entry of R_p does: on an inner row through the solution, on a row of this end as its own force
         let add = |column: &mut [f64; N], row: usize, entry: f64| match end_of(row) {
             None => {
@@ -280,7 +216,7 @@ impl RodSolver {
             for (kind, matrix) in made.iter_mut().enumerate().filter(|_| known[other]) {
                 for axis in 0..3 {
                     let mut column = [0.0; N];
-                    for (i, entry) in self.end_jacobian.columns[kind][other][axis].iter().enumerate() {
+                    for (i, entry) in self.columns[kind][other][axis].iter().enumerate() {
                         let row = (place[other] + axis + i).checked_sub(MAX_BANDWIDTH / 2).filter(|row| *row < size);
                         if let Some(row) = row.filter(|_| *entry != 0.0) {
                             add(&mut column, row, *entry);

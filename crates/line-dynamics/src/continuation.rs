@@ -9,8 +9,9 @@ use super::ends::{RodEnd, RodEndMotion};
 use super::environment::LineEnvironment;
 use super::error::RodError;
 use super::mesh::Rod;
+use super::pseudo_transient::PseudoTransient;
 use super::state::RodState;
-use super::step::RodSolver;
+use super::statics_warm_start::rest_from_warm_start;
 use nalgebra::Vector3;
 
 /// First and least step, as shares of the whole way.
@@ -36,101 +37,91 @@ impl Rod {
     }
 }
 
-impl RodSolver {
-    /// Rest of a stiff rod: from the state, if that rests where its ends are, or else from the straight rod free of load. None where
-    /// neither way leads there.
-    pub(super) fn rest_by_continuation(
-        &mut self,
-        rod: &Rod,
-        state: &RodState,
-        world: &LineEnvironment,
-        ends: &[RodEnd; 2],
-        mass: &[f64],
-    ) -> Result<Option<usize>, RodError> {
-        let mut done = 0;
-        let near = ContinuationStart { state: state.clone(), loaded: 1.0 };
-        for start in std::iter::once(near).chain(straight_start(rod, state, ends)) {
-            if self.follow_path(rod, start, world, ends, mass, &mut done)? {
-                return Ok(Some(done));
-            }
-        }
-        Ok(None)
-    }
-
-    /// Whether the way from a start leads to the ends wanted: the trial is then there.
-    fn follow_path(
-        &mut self,
-        rod: &Rod,
-        mut start: ContinuationStart,
-        world: &LineEnvironment,
-        ends: &[RodEnd; 2],
-        mass: &[f64],
-        done: &mut usize,
-    ) -> Result<bool, RodError> {
-        let last = rod.elements.len();
-        let from = [0, last].map(|node| start.state.position[node]);
-        let (mut share, mut step) = (0.0, FIRST_STEP_SHARE);
-        // nothing is moved at first: the start itself has to rest
-        let mut to = 0.0;
-        loop {
-            if world.fluid.is_interrupted() {
-                return Err(RodError::Interrupted { rod: rod.name.clone() });
-            }
-            let loaded = start.loaded + (1.0 - start.loaded) * to;
-            let forces: Vec<_> = world.forces.iter().map(|(node, force)| (*node, force * loaded)).collect();
-            let world = LineEnvironment { gravity: world.gravity * loaded, forces: &forces, ..*world };
-            let between = [0, 1].map(|side| {
-                let place = |motion: RodEndMotion| from[side] + (motion.position - from[side]) * to;
-                RodEnd {
-                    motion: ends[side].motion.map(|m| if to < 1.0 { RodEndMotion::at_rest(place(m)) } else { m }),
-                    ..ends[side]
-                }
-            });
-            self.set_trial_at_rest(rod, &start.state, &world, &between);
-            let found = match self.rest_from_warm_start(rod, &start.state, &world, mass, &between) {
-                None if to > 0.0 && step < MIN_STEP_SHARE => {
-                    self.next_shape(rod, &start.state, &world, mass, &between)?
-                }
-                found => found,
-            };
-            match found {
-                Some(count) => {
-                    *done += count;
-                    if to >= 1.0 {
-                        return Ok(true);
-                    }
-                    start.state.position.copy_from_slice(&self.trial.x);
-                    start.state.director.copy_from_slice(&self.trial.director);
-                    (share, step) = (to, if to > 0.0 { STEP_GROWTH * step } else { step });
-                }
-                None if to == 0.0 || step < MIN_STEP_SHARE => return Ok(false),
-                None => step *= 0.25,
-            }
-            to = (share + step).min(1.0);
+/// Rest of a stiff rod: from the state, if that rests where its ends are, or else from the straight rod free of load. None where
+/// neither way leads there.
+pub(super) fn rest_by_continuation(
+    pseudo: &mut PseudoTransient,
+    state: &RodState,
+    ends: &[RodEnd; 2],
+) -> Result<Option<usize>, RodError> {
+    let mut done = 0;
+    let near = ContinuationStart { state: state.clone(), loaded: 1.0 };
+    for start in std::iter::once(near).chain(straight_start(pseudo.rod, state, ends)) {
+        if follow_path(pseudo, start, ends, &mut done)? {
+            return Ok(Some(done));
         }
     }
+    Ok(None)
+}
 
-    /// Falls from a state, moved along with its ends, into a shape beside it: the iterations it took.
-    fn next_shape(
-        &mut self,
-        rod: &Rod,
-        state: &RodState,
-        world: &LineEnvironment,
-        mass: &[f64],
-        ends: &[RodEnd; 2],
-    ) -> Result<Option<usize>, RodError> {
-        self.set_trial_at_rest(rod, state, world, ends);
-        let (length, last) = (rod.length(), rod.elements.len());
-        let moved = [0, last].map(|node| self.trial.x[node] - state.position[node]);
-        for (x, (from, arc)) in self.trial.x.iter_mut().zip(state.position.iter().zip(rod.arc())) {
-            let s = arc / length;
-            *x = from + moved[0] * (1.0 - s) + moved[1] * s;
+/// Whether the way from a start leads to the ends wanted: the trial is then there.
+fn follow_path(
+    pseudo: &mut PseudoTransient,
+    mut start: ContinuationStart,
+    ends: &[RodEnd; 2],
+    done: &mut usize,
+) -> Result<bool, RodError> {
+    let (rod, outer) = (pseudo.rod, pseudo.world);
+    let last = rod.elements.len();
+    let from = [0, last].map(|node| start.state.position[node]);
+    let (mut share, mut step) = (0.0, FIRST_STEP_SHARE);
+    // nothing is moved at first: the start itself has to rest
+    let mut to = 0.0;
+    loop {
+        if outer.fluid.is_interrupted() {
+            return Err(RodError::Interrupted { rod: rod.name.clone() });
         }
-        let mut done = 0;
-        match self.solve_pseudo_transient(rod, world, mass, &mut done, MAX_NEXT_SHAPE_ITERATIONS) {
-            Err(interrupted @ RodError::Interrupted { .. }) => Err(interrupted),
-            made => Ok(made.is_ok().then_some(done)),
+        let loaded = start.loaded + (1.0 - start.loaded) * to;
+        let forces: Vec<_> = outer.forces.iter().map(|(node, force)| (*node, force * loaded)).collect();
+        let world = LineEnvironment { gravity: outer.gravity * loaded, forces: &forces, ..*outer };
+        let mut pseudo = pseudo.in_world(&world);
+        let between = [0, 1].map(|side| {
+            let place = |motion: RodEndMotion| from[side] + (motion.position - from[side]) * to;
+            RodEnd {
+                motion: ends[side].motion.map(|m| if to < 1.0 { RodEndMotion::at_rest(place(m)) } else { m }),
+                ..ends[side]
+            }
+        });
+        pseudo.set_trial_at_rest(&start.state, &between);
+        let found = match rest_from_warm_start(&mut pseudo, &start.state, &between) {
+            None if to > 0.0 && step < MIN_STEP_SHARE => find_next_shape(&mut pseudo, &start.state, &between)?,
+            found => found,
+        };
+        match found {
+            Some(count) => {
+                *done += count;
+                if to >= 1.0 {
+                    return Ok(true);
+                }
+                start.state.position.copy_from_slice(&pseudo.trial.x);
+                start.state.director.copy_from_slice(&pseudo.trial.director);
+                (share, step) = (to, if to > 0.0 { STEP_GROWTH * step } else { step });
+            }
+            None if to == 0.0 || step < MIN_STEP_SHARE => return Ok(false),
+            None => step *= 0.25,
         }
+        to = (share + step).min(1.0);
+    }
+}
+
+/// Falls from a state, moved along with its ends, into a shape beside it: the iterations it took.
+fn find_next_shape(
+    pseudo: &mut PseudoTransient,
+    state: &RodState,
+    ends: &[RodEnd; 2],
+) -> Result<Option<usize>, RodError> {
+    pseudo.set_trial_at_rest(state, ends);
+    let rod = pseudo.rod;
+    let (length, last) = (rod.length(), rod.elements.len());
+    let moved = [0, last].map(|node| pseudo.trial.x[node] - state.position[node]);
+    for (x, (from, arc)) in pseudo.trial.x.iter_mut().zip(state.position.iter().zip(rod.arc())) {
+        let s = arc / length;
+        *x = from + moved[0] * (1.0 - s) + moved[1] * s;
+    }
+    let mut done = 0;
+    match pseudo.solve(&mut done, MAX_NEXT_SHAPE_ITERATIONS) {
+        Err(interrupted @ RodError::Interrupted { .. }) => Err(interrupted),
+        made => Ok(made.is_ok().then_some(done)),
     }
 }
 

@@ -213,7 +213,7 @@ fn assemble_lane<const TANGENT: bool>(
     assemble_half::<TANGENT, 1>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
 }
 
-/// Pressure (Pa) in the water about a node at a height, and its slope: as [`Fluid::pressure`](super::surroundings::Fluid::pressure).
+/// Pressure (Pa) in the water about a node at a height, and its slope: as [`FluidState::pressure`](super::environment::FluidState::pressure).
 #[inline(always)]
 fn pressure(asked: &BatchInput, node: usize, height: f64, gravity: f64) -> (f64, f64) {
     let (weight, head) = (asked.density[node] * gravity, asked.head[node]);

@@ -12,11 +12,10 @@
 //! [BROGLIATO-2008 10]. It is of the first order,
 //! but a motion that the step follows never comes to it, and so keeps its order.
 
-use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::mesh::Rod;
 use super::state::RodState;
-use super::step::{Failure, RodSolver};
+use super::trial::Trial;
 
 /// Share of the energy of motion that the energy of the changes of speed by changed accelerations has at least in a step of
 /// a snap. Of an oscillation it is some (w h)^2, so that the step no longer follows one of w h > 0.3.
@@ -25,51 +24,28 @@ const MIN_JUMP_ENERGY_SHARE: f64 = 0.1;
 /// up by more than it falls in a step.
 const MIN_JUMP_ACCELERATION: f64 = 1.0;
 
-impl RodSolver {
-    /// Newton's iterations of one step, from where the last trial ended if that is `near`, and once more where it was
-    /// one of a snap: the iterations it took.
-    pub(super) fn step_with_fallback(
-        &mut self,
-        rod: &Rod,
-        from: &RodState,
-        world: &LineEnvironment,
-        time: f64,
-        ends: [RodEnd; 2],
-        near: bool,
-    ) -> Result<usize, Failure> {
-        // a trial that follows another is made as that one was, so that a body's iteration can end
-        self.uses_implicit_euler &= near;
-        let done = self.converge(rod, from, world, time, ends, near)?;
-        if self.uses_implicit_euler || !self.has_jump(rod, world, from) {
-            return Ok(done);
+/// Whether accelerations have changed in the step that led to `next` by more than it follows.
+pub(super) fn has_jump(rod: &Rod, world: &LineEnvironment, trial: &Trial, from: &RodState, next: &RodState) -> bool {
+    let (last, h) = (rod.elements.len(), next.time - from.time);
+    let known = trial.ends.map(|e| e.motion.is_some());
+    let least = MIN_JUMP_ACCELERATION * world.gravity.abs();
+    let change = |node: usize| {
+        if (node == 0 && known[0]) || (node == last && known[1]) {
+            return 0.0;
         }
-        self.uses_implicit_euler = true;
-        Ok(done + self.converge(rod, from, world, time, ends, false)?)
+        let a = &next.acceleration[node];
+        (from.averaged[node] - a).norm_squared().max((from.acceleration[node] - a).norm_squared())
+    };
+    if !(0..=last).any(|node| change(node) > least * least) {
+        return false;
     }
-
-    /// Whether accelerations have changed in the step at hand by more than it follows.
-    fn has_jump(&self, rod: &Rod, world: &LineEnvironment, from: &RodState) -> bool {
-        let (last, h) = (rod.elements.len(), self.next.time - from.time);
-        let known = self.trial.ends.map(|e| e.motion.is_some());
-        let least = MIN_JUMP_ACCELERATION * world.gravity.abs();
-        let change = |node: usize| {
-            if (node == 0 && known[0]) || (node == last && known[1]) {
-                return 0.0;
-            }
-            let a = &self.next.acceleration[node];
-            (from.averaged[node] - a).norm_squared().max((from.acceleration[node] - a).norm_squared())
-        };
-        if !(0..=last).any(|node| change(node) > least * least) {
-            return false;
-        }
-        let (mut jumped, mut moving) = (0.0, 0.0);
-        let masses = (0..last).flat_map(|i| [i, i + 1].map(|node| (node, rod.elements[i].mass)));
-        for (node, mass) in masses.chain(rod.attachments.iter().map(|a| (a.node, a.mass))) {
-            // an oscillation has its acceleration where it has no speed
-            let begun = from.velocity[node].norm_squared().max(from.acceleration[node].norm_squared() * h * h);
-            jumped += mass * change(node) * h * h;
-            moving += mass * begun.max(self.next.velocity[node].norm_squared());
-        }
-        jumped > MIN_JUMP_ENERGY_SHARE * moving
+    let (mut jumped, mut moving) = (0.0, 0.0);
+    let masses = (0..last).flat_map(|i| [i, i + 1].map(|node| (node, rod.elements[i].mass)));
+    for (node, mass) in masses.chain(rod.attachments.iter().map(|a| (a.node, a.mass))) {
+        // an oscillation has its acceleration where it has no speed
+        let begun = from.velocity[node].norm_squared().max(from.acceleration[node].norm_squared() * h * h);
+        jumped += mass * change(node) * h * h;
+        moving += mass * begun.max(next.velocity[node].norm_squared());
     }
+    jumped > MIN_JUMP_ENERGY_SHARE * moving
 }

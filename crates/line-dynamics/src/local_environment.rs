@@ -1,12 +1,11 @@
 //! The environment of a rod in the rod's own coordinates.
 //!
 //! Bending forces follow second differences of the nodes' positions over the cube of the element length: on short elements the rounding
-//! of a position far from the global origin is a force of its own. A [`State`](super::State) therefore has its positions from an
+//! of a position far from the global origin is a force of its own. A [`RodState`](super::RodState) therefore has its positions from an
 //! origin beside the rod, and so has all that the solver does. What lies around the rod is in global places; this module takes it there.
 
 use super::ends::RodEnd;
 use super::environment::{FluidField, FluidState, LineEnvironment, SeabedShape, Support};
-use super::step::RodSolver;
 use nalgebra::Vector3;
 use std::cell::RefCell;
 
@@ -52,6 +51,11 @@ impl<'a> LocalEnvironment<'a> {
         LineEnvironment { fluid: &self.fluid, bottom, supports: &self.supports, ..*self.world }
     }
 
+    /// Gives back the memory for global places.
+    pub fn into_room(self) -> Vec<Vector3<f64>> {
+        self.fluid.room.into_inner()
+    }
+
     /// Ends in coordinates from the origin.
     pub fn ends(&self, ends: [RodEnd; 2]) -> [RodEnd; 2] {
         ends.map(|mut end| {
@@ -93,19 +97,5 @@ impl SeabedShape for LocalBottom<'_> {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         let (height, slope) = self.bottom.height(x + self.origin.x, y + self.origin.y);
         (height - self.origin.z, slope)
-    }
-}
-
-impl RodSolver {
-    /// Acts in a world as it is in coordinates from the origin of the trial.
-    pub(super) fn in_local_coordinates<T>(
-        &mut self,
-        world: &LineEnvironment,
-        act: impl FnOnce(&mut Self, &LineEnvironment, &LocalEnvironment) -> T,
-    ) -> T {
-        let near = LocalEnvironment::new(world, self.trial.origin, std::mem::take(&mut self.room));
-        let made = act(self, &near.world(), &near);
-        self.room = near.fluid.room.into_inner();
-        made
     }
 }

@@ -1,14 +1,14 @@
-//! Predictor of a step, one Newton iteration of it, and its line search.
+//! The linear system of a rod, one Newton iteration of a step, and its line search.
 //!
 //! The iteration is its own because factors serve several iterations and the end forces with them, and because nothing is allocated.
 
-use super::ends::RodEnd;
+use super::condense::EndCondensation;
 use super::environment::LineEnvironment;
 use super::mesh::Rod;
-use super::scheme::StepScheme;
-use super::state::RodState;
-use super::step::{Failure, RodSolver};
-use super::trial::{largest_change, transport_directors};
+use super::step::Failure;
+use super::system::Weights;
+use super::trial::{Trial, largest_change};
+use super::workspace::Workspace;
 
 /// Least share of a change, and of the way back, that is left where a change is cut short: a line of work that ends nearer to either
 /// place than this says no more than that the work has a kink there.
@@ -60,39 +60,67 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest.iter().zip(left).map(|(a, b)| a * b).sum::<f64>()
 }
 
-impl RodSolver {
-    /// Where a step ends if its averaged accelerations stay.
-    pub(super) fn predict_step(&mut self, from: &RodState, scheme: &StepScheme, time: f64, ends: &[RodEnd; 2]) {
-        let next = &mut self.next;
-        next.bedding.copy_from_slice(&from.bedding);
-        (next.time, next.origin) = (time, from.origin);
-        let last = from.position.len() - 1;
-        scheme.predict(from, next);
+/// The linear system of a rod, with what Newton's iteration keeps from one iteration to the next.
+#[derive(Clone, Debug)]
+pub(super) struct NewtonSystem {
+    /// Residual and tangent, or the factors of the tangent.
+    pub work: Workspace,
+    /// Shares of position, velocity and acceleration in the tangent.
+    pub weights: Weights,
+    /// The last change of the unknowns.
+    pub change: Vec<f64>,
+    pub line_search: LineSearch,
+    /// The ends in the current tangent.
+    pub ends: EndCondensation,
+}
+
+impl NewtonSystem {
+    /// Memory for a rod.
+    pub fn new(rod: &Rod) -> Self {
+        let work = Workspace::new(rod);
+        let size = work.stride() * rod.nodes();
+        NewtonSystem {
+            weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
+            change: vec![0.0; size],
+            line_search: LineSearch::new(size),
+            ends: EndCondensation::new(&work, size),
+            work,
+        }
+    }
+
+    /// Factors the tangent at the trial, and keeps the rows and columns of its ends.
+    pub fn factor_tangent(&mut self, rod: &Rod, world: &LineEnvironment, trial: &Trial) -> Option<()> {
+        let last = rod.elements.len();
+        self.ends.moved = f64::INFINITY;
+        self.work.assemble(rod, world, trial, self.weights, 0..last);
+        self.ends.reset(&mut self.work);
         for (side, node) in [(0, 0), (1, last)] {
-            if let Some(motion) = ends[side].motion {
-                next.hold(node, &motion);
+            if trial.ends[side].motion.is_some() {
+                self.work.fix(node);
             }
         }
-        next.director.copy_from_slice(&from.director);
-        transport_directors(&mut next.director, &from.position, &next.position);
+        self.work.factor().ok()?;
+        self.ends.moved = 0.0;
+        Some(())
     }
 
     /// One Newton iteration at the trial, with a fresh tangent or the existing factors: largest change of a coordinate
     /// (m), a turn taken on an arm of the shortest element. The forces of the ends are kept, taken on to the changed positions by their tangent.
-    pub(super) fn iterate(
+    pub fn iterate(
         &mut self,
         rod: &Rod,
         world: &LineEnvironment,
+        trial: &Trial,
         known: [bool; 2],
         fresh: bool,
     ) -> Result<f64, Failure> {
         let last = rod.elements.len();
         if fresh {
-            self.end_jacobian.moved = f64::INFINITY;
-            self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
-            self.reset_end_jacobian();
+            self.ends.moved = f64::INFINITY;
+            self.work.assemble(rod, world, trial, self.weights, 0..last);
+            self.ends.reset(&mut self.work);
         } else {
-            self.work.forces(rod, world, &self.trial);
+            self.work.forces(rod, world, trial);
         }
         self.work.store_end_residuals();
         for (side, node) in [(0, 0), (1, last)] {
@@ -105,7 +133,7 @@ impl RodSolver {
         }
         if fresh {
             self.work.factor().map_err(|node| Failure { node, why: "its stiffness vanishes" })?;
-            self.end_jacobian.moved = 0.0;
+            self.ends.moved = 0.0;
         }
         self.work.newton(&mut self.change);
         // what is still to move counts, also where less of it is made

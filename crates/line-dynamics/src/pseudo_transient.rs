@@ -1,14 +1,22 @@
-//! Pseudo-transient statics: damped steps in pseudo-time from a trial to equilibrium. See [`RodSolver::statics`].
+//! Pseudo-transient statics: damped steps in pseudo-time from a trial to equilibrium. See [`RodSolver::statics`](super::RodSolver::statics).
 //!
 //! The iteration is its own because the pivots of each factorisation decide whether the step is taken, and the rod is softened on the way.
 
+use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::error::RodError;
 use super::mesh::{Rod, RodElement};
-use super::step::RodSolver;
+use super::newton_iteration::NewtonSystem;
+use super::state::RodState;
+use super::statics_friction::{NodeFriction, place_laid_nodes_at_trial, seabed_friction};
+use super::system::Weights;
 use super::tension::{ElementStretch, TensionOptions, tension};
-use super::trial::{Softening, StaticFriction, largest_change, sample_fluid, turn_directors};
-use nalgebra::Vector3;
+use super::trial::{
+    Softening, StaticFriction, Trial, largest_change, sample_fluid, set_friction_directions,
+    set_seabed_penetration_scales, turn_directors,
+};
+use super::viscoelastic::MaxwellMemory;
+use nalgebra::{Matrix3, Vector3};
 
 /// Newton iterations after which one pseudo-step is given up and repeated shorter.
 const MAX_INNER_ITERATIONS: usize = 12;
@@ -36,18 +44,57 @@ const RESIDUAL_TOLERANCE: f64 = 1e-9;
 /// Residual, as a share of the rod's weight, that is accepted where no pseudo-step reduces it further.
 const ACCEPTED_RESIDUAL_SHARE: f64 = 1e-7;
 
-impl RodSolver {
+/// Stiffness that holds a grounded node about the start of the first pseudo-step, over its friction stiffness.
+const CREEP_STIFFNESS_RATIO: f64 = 10.0;
+
+/// Pseudo-transient continuation of a rod in a world: damped steps of a trial toward rest.
+pub(super) struct PseudoTransient<'a> {
+    pub rod: &'a Rod,
+    pub world: &'a LineEnvironment<'a>,
+    /// Pseudo-mass of each node (kg).
+    pub mass: &'a [f64],
+    pub trial: &'a mut Trial,
+    pub system: &'a mut NewtonSystem,
+    /// Whether the rod stands by its bending stiffness: see [`Rod::is_stiff`].
+    pub is_stiff: bool,
+    /// Whether a position that any push would make the rod leave counts as rest.
+    pub accepts_unstable: bool,
+}
+
+impl PseudoTransient<'_> {
+    /// The same in another world.
+    pub fn in_world<'b>(&'b mut self, world: &'b LineEnvironment<'b>) -> PseudoTransient<'b> {
+        PseudoTransient { world, trial: &mut *self.trial, system: &mut *self.system, ..*self }
+    }
+
+    /// Takes the state as the trial, at rest with its ends where they are to be.
+    pub fn set_trial_at_rest(&mut self, state: &RodState, ends: &[RodEnd; 2]) {
+        let (rod, world) = (self.rod, self.world);
+        let (last, zero) = (rod.elements.len(), Vector3::zeros());
+        self.system.weights = Weights { k: 1.0, c: 0.0, m: 0.0 };
+        self.trial.time = state.time;
+        self.trial.ends = *ends;
+        self.trial.x.copy_from_slice(&state.position);
+        self.trial.director.copy_from_slice(&state.director);
+        self.trial.v.fill(zero);
+        self.trial.a.fill(zero);
+        for (side, node) in [(0, 0), (1, last)] {
+            if let Some(motion) = ends[side].motion {
+                self.trial.x[node] = motion.position;
+            }
+        }
+        set_friction_directions(rod, state, world, &mut self.trial.friction_direction);
+        set_seabed_penetration_scales(state, world, &mut self.trial.seabed_penetration_scale);
+        self.trial.laid_at.copy_from_slice(&state.stuck);
+        // at rest viscoelastic rope has let go of everything
+        self.trial.memory.fill(MaxwellMemory::default());
+    }
+
     /// Pseudo-transient solution from the trial to rest. `done` counts the iterations so far, `most_iterations` bounds them.
     ///
     /// With friction the rod is not softened: the start is near its final shape.
-    pub(super) fn solve_pseudo_transient(
-        &mut self,
-        rod: &Rod,
-        world: &LineEnvironment,
-        mass: &[f64],
-        done: &mut usize,
-        most_iterations: usize,
-    ) -> Result<(), RodError> {
+    pub fn solve(&mut self, done: &mut usize, most_iterations: usize) -> Result<(), RodError> {
+        let (rod, world) = (self.rod, self.world);
         let last = rod.elements.len();
         let weight = total_weight(rod, world);
         if !self.trial.resists_shortening() && self.trial.friction != StaticFriction::Stick && !self.is_stiff {
@@ -77,7 +124,7 @@ impl RodSolver {
             let mut settled = None;
             for inner in 1..=MAX_INNER_ITERATIONS {
                 *done += 1;
-                match self.iterate_pseudo_step(rod, world, mass, &from, pseudo) {
+                match self.iterate(&from, pseudo) {
                     StepOutcome::Converged | StepOutcome::Unstable if self.trial.softening.is_soft() => {
                         let scale = self.trial.softening.axial_stiffness_scale;
                         let axial_stiffness_scale = (scale * STIFFENING_FACTOR).min(1.0);
@@ -120,7 +167,7 @@ impl RodSolver {
             }
             match settled {
                 Some(inner) => {
-                    self.place_laid_nodes_at_trial(rod, world);
+                    place_laid_nodes_at_trial(self.trial, rod, world);
                     from.copy_from_slice(&self.trial.x);
                     director.copy_from_slice(&self.trial.director);
                     longest = (longest * 1.3f64).min(most);
@@ -144,7 +191,7 @@ impl RodSolver {
         }
         let whole = !self.trial.softening.is_soft();
         self.trial.softening = Softening::NONE;
-        if whole && self.largest_residual(rod, world) <= ACCEPTED_RESIDUAL_SHARE * weight {
+        if whole && self.largest_residual() <= ACCEPTED_RESIDUAL_SHARE * weight {
             return Ok(());
         }
         if let Some(element) = rod.find_overstretched(&self.trial.x) {
@@ -160,106 +207,92 @@ impl RodSolver {
     }
 
     /// Largest residual (N) of a node at the trial.
-    pub(super) fn largest_residual(&mut self, rod: &Rod, world: &LineEnvironment) -> f64 {
-        sample_fluid(world, self.trial.time, &mut self.trial);
+    pub fn largest_residual(&mut self) -> f64 {
+        let (rod, world) = (self.rod, self.world);
+        sample_fluid(world, self.trial.time, self.trial);
         self.trial.fluid.iter_mut().for_each(|fluid| fluid.acceleration = Vector3::zeros());
-        self.work.forces(rod, world, &self.trial);
-        self.work.largest_residual(self.trial.ends.map(|e| e.motion.is_some())).1
+        self.system.work.forces(rod, world, self.trial);
+        self.system.work.largest_residual(self.trial.ends.map(|e| e.motion.is_some())).1
     }
 
     /// One Newton iteration of a pseudo-step of length `pseudo` (s) that began at `from`.
-    pub(super) fn iterate_pseudo_step(
-        &mut self,
-        rod: &Rod,
-        world: &LineEnvironment,
-        mass: &[f64],
-        from: &[Vector3<f64>],
-        pseudo: f64,
-    ) -> StepOutcome {
+    pub fn iterate(&mut self, from: &[Vector3<f64>], pseudo: f64) -> StepOutcome {
+        let (rod, world) = (self.rod, self.world);
         let last = rod.elements.len();
         let known = self.trial.ends.map(|e| e.motion.is_some());
-        sample_fluid(world, self.trial.time, &mut self.trial);
+        sample_fluid(world, self.trial.time, self.trial);
         for fluid in &mut self.trial.fluid {
             fluid.acceleration = Vector3::zeros();
         }
-        self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
-        self.work.store_end_residuals();
-        let worst = self.work.largest_residual(known);
+        self.system.work.assemble(rod, world, self.trial, self.system.weights, 0..last);
+        self.system.work.store_end_residuals();
+        let worst = self.system.work.largest_residual(known);
         if !worst.1.is_finite() {
             return StepOutcome::Failed;
         }
-        let rest = worst.1 <= self.residual_tolerance(rod, world);
+        let rest = worst.1 <= self.residual_tolerance();
         // at rest the tangent is checked with almost no inertia: an instability that grows slower than this is allowed
         let pseudo = if rest { 100.0 * first_pseudo_step(rod, world) } else { pseudo };
-        for (node, m) in mass.iter().enumerate() {
+        for (node, m) in self.mass.iter().enumerate() {
             let inertia = m / (pseudo * pseudo);
-            self.work.add_node_inertia(node, inertia, &((self.trial.x[node] - from[node]) * inertia));
+            self.system.work.add_node_inertia(node, inertia, &((self.trial.x[node] - from[node]) * inertia));
         }
-        self.add_creep_stiffness(rod, world, from, first_pseudo_step(rod, world) / pseudo);
+        self.add_creep_stiffness(from, first_pseudo_step(rod, world) / pseudo);
         for (side, node) in [(0, 0), (1, last)] {
             if known[side] {
-                self.work.drop_residual(node);
-                self.work.fix(node);
+                self.system.work.drop_residual(node);
+                self.system.work.fix(node);
             }
         }
-        match (self.work.factor(), rest) {
-            (Ok(_), true) if self.settings.unstable => return StepOutcome::Converged,
-            (Ok(_), false) if self.settings.unstable => {}
+        match (self.system.work.factor(), rest) {
+            (Ok(_), true) if self.accepts_unstable => return StepOutcome::Converged,
+            (Ok(_), false) if self.accepts_unstable => {}
             (Ok(0), true) => return StepOutcome::Converged,
             (_, true) => return StepOutcome::Unstable,
             (Ok(0), false) => {}
             // with a negative pivot the step would go to a saddle of the energy
             (_, false) => return StepOutcome::Failed,
         }
-        self.work.newton(&mut self.change);
-        let (stride, shortest) = (self.work.stride(), rod.shortest());
-        let size = largest_change(&self.change, stride, shortest);
+        self.system.work.newton(&mut self.system.change);
+        let (stride, shortest) = (self.system.work.stride(), rod.shortest());
+        let size = largest_change(&self.system.change, stride, shortest);
         if size > 2.0 * rod.length() {
             return StepOutcome::Failed;
         }
-        turn_directors(&mut self.trial.director, &self.trial.x, &self.change, stride, known);
+        turn_directors(&mut self.trial.director, &self.trial.x, &self.system.change, stride, known);
         for i in 0..=last {
-            let d = &self.change[stride * i..stride * i + 3];
+            let d = &self.system.change[stride * i..stride * i + 3];
             self.trial.x[i] += Vector3::new(d[0], d[1], d[2]);
         }
-        StepOutcome::Moved { share: self.relative_change(rod, size), worst }
+        StepOutcome::Moved { share: self.relative_change(size), worst }
     }
 
     /// Size of the last change relative to what Newton's iteration converges for; `size` is its largest coordinate (m). Relative to the
     /// shortest element; for a stiff rod, which moves far without bending much, the largest change of an element's vector over its length.
-    pub(super) fn relative_change(&self, rod: &Rod, size: f64) -> f64 {
+    pub fn relative_change(&self, size: f64) -> f64 {
+        let rod = self.rod;
         if !self.is_stiff {
             return size / rod.shortest();
         }
-        let stride = self.work.stride();
-        let pairs = self.change.chunks_exact(stride).zip(self.change.chunks_exact(stride).skip(1));
+        let stride = self.system.work.stride();
+        let pairs = self.system.change.chunks_exact(stride).zip(self.system.change.chunks_exact(stride).skip(1));
         let edge = |((a, b), element): ((&[f64], &[f64]), &RodElement)| {
             let square: f64 = a.iter().zip(b).take(3).map(|(a, b)| (b - a) * (b - a)).sum();
             square.sqrt() / element.rest
         };
-        let turns = self.change.chunks_exact(stride).flat_map(|node| node[3..].iter().map(|turn| turn.abs()));
+        let turns = self.system.change.chunks_exact(stride).flat_map(|node| node[3..].iter().map(|turn| turn.abs()));
         pairs.zip(&rod.elements).map(edge).chain(turns).fold(0.0, f64::max)
-    }
-
-    /// Tension (N) of an element of the trial, at rest, with what heat and pressure do to it.
-    pub(super) fn element_tension(&self, rod: &Rod, world: &LineEnvironment, i: usize) -> f64 {
-        let (element, trial) = (&rod.elements[i], &self.trial);
-        let (a, b) = (&trial.x[i], &trial.x[i + 1]);
-        let strain = (b - a).norm() / element.rest - 1.0;
-        let stretched = ElementStretch { strain, rate: 0.0, height: 0.5 * (a.z + b.z), datum: trial.origin.z };
-        let taken = TensionOptions { compression: element.compression, axial_stiffness_scale: 1.0 };
-        let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
-        tension(rod, element, taken, &stretched, trial.memory.get(i), fluids, world.gravity).value
     }
 
     /// Convergence tolerance of the residual (N): a share of the largest force in the rod, or the force that rounding of positions makes
     /// through its stiffness.
-    fn residual_tolerance(&self, rod: &Rod, world: &LineEnvironment) -> f64 {
+    fn residual_tolerance(&self) -> f64 {
+        let (rod, world) = (self.rod, self.world);
         let weight = total_weight(rod, world);
         let place = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
         let mut tolerance = RESIDUAL_TOLERANCE * weight;
         for (i, (element, x)) in rod.elements.iter().zip(self.trial.x.windows(2)).enumerate() {
-            tolerance = tolerance.max(RESIDUAL_TOLERANCE * self.element_tension(rod, world, i).abs());
+            tolerance = tolerance.max(RESIDUAL_TOLERANCE * element_tension(rod, world, self.trial, i).abs());
             // a slack element, too, may be made taut by the rounding of a position
             let strain = (x[1] - x[0]).norm() / element.rest - 1.0;
             let slope = rod.segments[element.segment].axial.evaluate(strain).1;
@@ -268,6 +301,37 @@ impl RodSolver {
         }
         tolerance
     }
+
+    /// Holds grounded nodes about the start of a pseudo-step; `hasty` is the length of the first pseudo-step over that of this one.
+    ///
+    /// A slack grounded line has no other resistance to compression: one pseudo-step from a start that is not quite at rest would fold it.
+    /// This stiffness lets it creep; it vanishes as pseudo-steps get longer.
+    pub fn add_creep_stiffness(&mut self, from: &[Vector3<f64>], hasty: f64) {
+        let (rod, world) = (self.rod, self.world);
+        let (StaticFriction::Pulled { end: side, drags: true }, Some((_, ground))) =
+            (self.trial.friction, world.bottom)
+        else {
+            return;
+        };
+        for i in 0..rod.elements.len() {
+            if let Some(NodeFriction { node, whole, normal, .. }) = seabed_friction(rod, world, self.trial, i, side) {
+                let flat = Matrix3::identity() - normal * normal.transpose();
+                let held = flat * (CREEP_STIFFNESS_RATIO * hasty * whole / ground.friction_travel);
+                self.system.work.add_node_stiffness(node, &held, &(held * (self.trial.x[node] - from[node])));
+            }
+        }
+    }
+}
+
+/// Tension (N) of an element of the trial, at rest, with what heat and pressure do to it.
+pub(super) fn element_tension(rod: &Rod, world: &LineEnvironment, trial: &Trial, i: usize) -> f64 {
+    let element = &rod.elements[i];
+    let (a, b) = (&trial.x[i], &trial.x[i + 1]);
+    let strain = (b - a).norm() / element.rest - 1.0;
+    let stretched = ElementStretch { strain, rate: 0.0, height: 0.5 * (a.z + b.z), datum: trial.origin.z };
+    let taken = TensionOptions { compression: element.compression, axial_stiffness_scale: 1.0 };
+    let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
+    tension(rod, element, taken, &stretched, trial.memory.get(i), fluids, world.gravity).value
 }
 
 /// Length of the first pseudo-step (s): the time of a free fall through half a hundredth of the rod's length.

@@ -11,7 +11,7 @@
 //!
 //! On the way to rest the line also resists compression: a node that lost its tension would lose its friction as well, and be pulled
 //! away at once. At rest every element has a tension. A line too long for that, which piles up straight under its upper end, is solved
-//! without drag friction and without resistance to compression. [`RodSolver::has_slid_without_friction`] is set where such a line has a
+//! without drag friction and without resistance to compression. [`RodSolver::has_slid_without_friction`](super::RodSolver::has_slid_without_friction) is set where such a line has a
 //! tension that friction should have taken.
 
 use super::contact::{NormalReaction, normal_reaction};
@@ -20,7 +20,6 @@ use super::environment::LineEnvironment;
 use super::mesh::Rod;
 use super::morison::{HalfNode, half_force};
 use super::state::RodState;
-use super::step::RodSolver;
 use super::stick_friction::stick_friction;
 use super::tension::{ElementStretch, tension};
 use super::trial::{StaticFriction, Trial, set_friction_directions, transport_directors};
@@ -190,129 +189,99 @@ pub(super) fn seabed_friction(
 /// The largest share of friction across by which a node is taken to be held about where it was laid.
 const MAX_STUCK_SHARE: f64 = 0.9999;
 
-/// Stiffness that holds a grounded node about the start of the first pseudo-step, over its friction stiffness.
-const CREEP_STIFFNESS_RATIO: f64 = 10.0;
+/// Lays nodes where they are: those on the bottom without the way along the rod that they have gone since they were laid, the others
+/// as they hang.
+pub(super) fn place_laid_nodes_at_trial(trial: &mut Trial, rod: &Rod, world: &LineEnvironment) {
+    place_laid_nodes(trial, rod, world, |off| off);
+}
 
-impl RodSolver {
-    /// Holds grounded nodes about the start of a pseudo-step; `hasty` is the length of the first pseudo-step over that of this one.
-    ///
-    /// A slack grounded line has no other resistance to compression: one pseudo-step from a start that is not quite at rest would fold it.
-    /// This stiffness lets it creep; it vanishes as pseudo-steps get longer.
-    pub(super) fn add_creep_stiffness(
-        &mut self,
-        rod: &Rod,
-        world: &LineEnvironment,
-        from: &[Vector3<f64>],
-        hasty: f64,
-    ) {
-        let (StaticFriction::Pulled { end: side, drags: true }, Some((_, ground))) =
-            (self.trial.friction, world.bottom)
-        else {
-            return;
-        };
+/// Lays nodes where their friction across is what it was in a state with the same way from where they stuck.
+pub(super) fn place_laid_nodes_from_state(trial: &mut Trial, rod: &Rod, world: &LineEnvironment) {
+    let Some((_, ground)) = world.bottom else { return };
+    place_laid_nodes(trial, rod, world, |off| {
+        let share = (off / ground.friction_travel).clamp(-MAX_STUCK_SHARE, MAX_STUCK_SHARE);
+        ground.friction_travel * share / (1.0 - share * share).sqrt()
+    });
+}
+
+fn place_laid_nodes(trial: &mut Trial, rod: &Rod, world: &LineEnvironment, off: impl Fn(f64) -> f64) {
+    let Some(side) = trial.friction.pulled_end() else { return };
+    let mut laid = trial.x.clone();
+    for i in 0..rod.elements.len() {
+        if let Some(NodeFriction { node, aside, .. }) = seabed_friction(rod, world, trial, i, side) {
+            laid[node] -= aside * off(aside.dot(&(trial.x[node] - trial.laid_at[node])));
+        }
+    }
+    trial.laid_at = laid;
+}
+
+/// Takes the nodes along with an end that has moved: the line swings round about the one it is held by.
+pub(super) fn swing_with_end(trial: &mut Trial, rod: &Rod, state: &RodState, world: &LineEnvironment) {
+    let (Some(side), Some((bottom, _))) = (trial.friction.pulled_end(), world.bottom) else { return };
+    let last = rod.elements.len();
+    let (tip, root) = (side * last, (1 - side) * last);
+    let (was, x) = (&state.position, &mut trial.x);
+    if x[tip] == was[tip] && x[root] == was[root] {
+        return;
+    }
+    let (from, to) = (was[tip] - was[root], x[tip] - x[root]);
+    let angle = (from.x * to.y - from.y * to.x).atan2(from.x * to.x + from.y * to.y);
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
+    let base = x[root];
+    let over = |x: &Vector3<f64>| x.z - bottom.height(x.x, x.y).0;
+    // from the held end on
+    let at = |i: usize| if side == 1 { i } else { last - i };
+    let foot = (0..=last).rev().find(|i| over(&was[at(*i)]) < 0.0).unwrap_or(0);
+    let rotated = |i: usize| base + turn * (was[at(i)] - was[root]);
+    for i in 1..last {
+        let mut place = rotated(i);
+        if i <= foot {
+            place.z += over(&was[at(i)]) - over(&place);
+        }
+        trial.laid_at[at(i)] = place - turn * (was[at(i)] - trial.laid_at[at(i)]);
+        x[at(i)] = place;
+    }
+    transport_directors(&mut trial.director, was, x);
+}
+
+/// Total drag friction of a rod at rest, or what it would be where it is switched off, over the most that a single node has.
+pub(super) fn relative_drag(trial: &Trial, rod: &Rod, world: &LineEnvironment) -> f64 {
+    let Some(side) = trial.friction.pulled_end() else { return 0.0 };
+    let all = (0..rod.elements.len()).filter_map(|i| seabed_friction(rod, world, trial, i, side));
+    let (sum, most) = all.fold((0.0, 0.0f64), |(sum, most), rub| (sum + rub.drag, most.max(rub.whole)));
+    if most > 0.0 { sum / most } else { 0.0 }
+}
+
+/// Least strain of the elements of the trial that bear no compression.
+pub(super) fn least_strain(trial: &Trial, rod: &Rod) -> f64 {
+    let soft = rod.elements.iter().zip(trial.x.windows(2)).filter(|(element, _)| !element.compression);
+    soft.map(|(element, x)| (x[1] - x[0]).norm() / element.rest - 1.0).fold(0.0, f64::min)
+}
+
+/// Whether a rod at rest with friction has an element in compression, which it cannot bear.
+pub(super) fn has_compressed_element(trial: &Trial, rod: &Rod) -> bool {
+    // what rounding and the proof of rest leave
+    const ROUNDING_STRAIN: f64 = -1e-9;
+    trial.resists_shortening() && least_strain(trial, rod) < ROUNDING_STRAIN
+}
+
+/// Sets the stick points of a state at rest so that dynamics begins with the friction of statics.
+pub(super) fn set_stick_points(trial: &mut Trial, rod: &Rod, world: &LineEnvironment, state: &mut RodState) {
+    state.stuck.copy_from_slice(&state.position);
+    if let (Some(side), Some((_, ground))) = (trial.friction.pulled_end(), world.bottom) {
         for i in 0..rod.elements.len() {
-            if let Some(NodeFriction { node, whole, normal, .. }) = seabed_friction(rod, world, &self.trial, i, side) {
-                let flat = Matrix3::identity() - normal * normal.transpose();
-                let held = flat * (CREEP_STIFFNESS_RATIO * hasty * whole / ground.friction_travel);
-                self.work.add_node_stiffness(node, &held, &(held * (self.trial.x[node] - from[node])));
+            if let Some(rub) = seabed_friction(rod, world, trial, i, side) {
+                state.stuck[rub.node] += rub.held * ground.friction_travel;
             }
         }
     }
-
-    /// Lays nodes where they are: those on the bottom without the way along the rod that they have gone since they were laid, the others
-    /// as they hang.
-    pub(super) fn place_laid_nodes_at_trial(&mut self, rod: &Rod, world: &LineEnvironment) {
-        self.place_laid_nodes(rod, world, |off| off);
-    }
-
-    /// Lays nodes where their friction across is what it was in a state with the same way from where they stuck.
-    pub(super) fn place_laid_nodes_from_state(&mut self, rod: &Rod, world: &LineEnvironment) {
-        let Some((_, ground)) = world.bottom else { return };
-        self.place_laid_nodes(rod, world, |off| {
-            let share = (off / ground.friction_travel).clamp(-MAX_STUCK_SHARE, MAX_STUCK_SHARE);
-            ground.friction_travel * share / (1.0 - share * share).sqrt()
-        });
-    }
-
-    fn place_laid_nodes(&mut self, rod: &Rod, world: &LineEnvironment, off: impl Fn(f64) -> f64) {
-        let Some(side) = self.trial.friction.pulled_end() else { return };
-        let mut laid = self.trial.x.clone();
-        for i in 0..rod.elements.len() {
-            if let Some(NodeFriction { node, aside, .. }) = seabed_friction(rod, world, &self.trial, i, side) {
-                laid[node] -= aside * off(aside.dot(&(self.trial.x[node] - self.trial.laid_at[node])));
+    if let (StaticFriction::Stick, Some((_, ground))) = (trial.friction, world.bottom) {
+        for node in 0..rod.nodes() {
+            if let Some(hold) = stick_friction(rod, world, trial, node) {
+                state.stuck[node] += hold.held * ground.friction_travel;
             }
         }
-        self.trial.laid_at = laid;
     }
-
-    /// Takes the nodes along with an end that has moved: the line swings round about the one it is held by.
-    pub(super) fn swing_with_end(&mut self, rod: &Rod, state: &RodState, world: &LineEnvironment) {
-        let (Some(side), Some((bottom, _))) = (self.trial.friction.pulled_end(), world.bottom) else { return };
-        let last = rod.elements.len();
-        let (tip, root) = (side * last, (1 - side) * last);
-        let (was, x) = (&state.position, &mut self.trial.x);
-        if x[tip] == was[tip] && x[root] == was[root] {
-            return;
-        }
-        let (from, to) = (was[tip] - was[root], x[tip] - x[root]);
-        let angle = (from.x * to.y - from.y * to.x).atan2(from.x * to.x + from.y * to.y);
-        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
-        let base = x[root];
-        let over = |x: &Vector3<f64>| x.z - bottom.height(x.x, x.y).0;
-        // from the held end on
-        let at = |i: usize| if side == 1 { i } else { last - i };
-        let foot = (0..=last).rev().find(|i| over(&was[at(*i)]) < 0.0).unwrap_or(0);
-        let rotated = |i: usize| base + turn * (was[at(i)] - was[root]);
-        for i in 1..last {
-            let mut place = rotated(i);
-            if i <= foot {
-                place.z += over(&was[at(i)]) - over(&place);
-            }
-            self.trial.laid_at[at(i)] = place - turn * (was[at(i)] - self.trial.laid_at[at(i)]);
-            x[at(i)] = place;
-        }
-        transport_directors(&mut self.trial.director, was, x);
-    }
-
-    /// Total drag friction of a rod at rest, or what it would be where it is switched off, over the most that a single node has.
-    pub(super) fn relative_drag(&self, rod: &Rod, world: &LineEnvironment) -> f64 {
-        let Some(side) = self.trial.friction.pulled_end() else { return 0.0 };
-        let all = (0..rod.elements.len()).filter_map(|i| seabed_friction(rod, world, &self.trial, i, side));
-        let (sum, most) = all.fold((0.0, 0.0f64), |(sum, most), rub| (sum + rub.drag, most.max(rub.whole)));
-        if most > 0.0 { sum / most } else { 0.0 }
-    }
-
-    /// Least strain of the elements of the trial that bear no compression.
-    pub(super) fn least_strain(&self, rod: &Rod) -> f64 {
-        let soft = rod.elements.iter().zip(self.trial.x.windows(2)).filter(|(element, _)| !element.compression);
-        soft.map(|(element, x)| (x[1] - x[0]).norm() / element.rest - 1.0).fold(0.0, f64::min)
-    }
-
-    /// Whether a rod at rest with friction has an element in compression, which it cannot bear.
-    pub(super) fn has_compressed_element(&self, rod: &Rod) -> bool {
-        // what rounding and the proof of rest leave
-        const ROUNDING_STRAIN: f64 = -1e-9;
-        self.trial.resists_shortening() && self.least_strain(rod) < ROUNDING_STRAIN
-    }
-
-    /// Sets the stick points of a state at rest so that dynamics begins with the friction of statics.
-    pub(super) fn set_stick_points(&mut self, rod: &Rod, world: &LineEnvironment, state: &mut RodState) {
-        state.stuck.copy_from_slice(&state.position);
-        if let (Some(side), Some((_, ground))) = (self.trial.friction.pulled_end(), world.bottom) {
-            for i in 0..rod.elements.len() {
-                if let Some(rub) = seabed_friction(rod, world, &self.trial, i, side) {
-                    state.stuck[rub.node] += rub.held * ground.friction_travel;
-                }
-            }
-        }
-        if let (StaticFriction::Stick, Some((_, ground))) = (self.trial.friction, world.bottom) {
-            for node in 0..rod.nodes() {
-                if let Some(hold) = stick_friction(rod, world, &self.trial, node) {
-                    state.stuck[node] += hold.held * ground.friction_travel;
-                }
-            }
-        }
-        self.trial.stuck_at.copy_from_slice(&state.stuck);
-        set_friction_directions(rod, state, world, &mut self.trial.friction_direction);
-    }
+    trial.stuck_at.copy_from_slice(&state.stuck);
+    set_friction_directions(rod, state, world, &mut trial.friction_direction);
 }

@@ -3,8 +3,9 @@
 use super::environment::{LineEnvironment, Support, SupportReaction, SupportTarget};
 use super::local_environment::LocalEnvironment;
 use super::mesh::Rod;
+use super::newton_iteration::NewtonSystem;
 use super::state::RodState;
-use super::step::RodSolver;
+use super::trial::Trial;
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3};
 
 /// What a rod does to one of its supports.
@@ -296,61 +297,54 @@ impl SupportState {
     }
 }
 
-impl RodSolver {
-    /// How what the rod does to its supports follows their motion at the last [`RodSolver::trial`], before it is accepted,
-    /// or at rest after [`RodSolver::statics`]: the rod condensed to its supports, each derivative with the other motion
-    /// and the start of the step as they are. That the turn of a support changes how fast the rod goes by it is left out.
-    ///
-    /// None where there is no trial, or the system cannot be solved, as it could in the trial.
-    pub fn support_tangent(&mut self, rod: &Rod, world: &LineEnvironment) -> Option<SupportTangent> {
-        self.in_local_coordinates(world, |solver, world, _| solver.support_tangent_nearby(rod, world))
+/// [`super::RodSolver::support_tangent`] in coordinates from the origin of the trial, by the factors of the system.
+pub(super) fn condense_to_supports(
+    rod: &Rod,
+    world: &LineEnvironment,
+    trial: &Trial,
+    system: &NewtonSystem,
+) -> SupportTangent {
+    let count = world.supports.len();
+    let (x, v) = (&trial.x, &trial.v);
+    let smooth = rod.smooth();
+    let held: Vec<_> = world.supports.iter().map(|support| SupportState::evaluate(smooth, support, x, v)).collect();
+    let feels = |h: &SupportState| h.load.by_velocity.iter().flatten().any(|block| *block != Matrix3::zeros());
+    let rated = held.iter().flatten().any(feels);
+    let mut made = SupportTangent::default();
+    made.position.resize(count * count, Matrix6::zeros());
+    if rated {
+        made.velocity.resize(count * count, Matrix6::zeros());
     }
-
-    /// [`RodSolver::support_tangent`] in coordinates from the origin of the trial.
-    fn support_tangent_nearby(&mut self, rod: &Rod, world: &LineEnvironment) -> Option<SupportTangent> {
-        self.linearise(rod, world, true, [false; 2])?;
-        let count = world.supports.len();
-        let (x, v) = (&self.trial.x, &self.trial.v);
-        let smooth = rod.smooth();
-        let held: Vec<_> = world.supports.iter().map(|support| SupportState::evaluate(smooth, support, x, v)).collect();
-        let feels = |h: &SupportState| h.load.by_velocity.iter().flatten().any(|block| *block != Matrix3::zeros());
-        let rated = held.iter().flatten().any(feels);
-        let mut made = SupportTangent::default();
-        made.position.resize(count * count, Matrix6::zeros());
-        if rated {
-            made.velocity.resize(count * count, Matrix6::zeros());
+    let (stride, last) = (system.work.stride(), rod.elements.len());
+    let known = trial.ends.map(|end| end.motion.is_some());
+    let given = |node: usize| (node == 0 && known[0]) || (node == last && known[1]);
+    let weights = [system.weights.k, system.weights.c];
+    let mut right = vec![0.0; system.change.len()];
+    for (blocks, rates) in [(&mut made.position, false), (&mut made.velocity, true)] {
+        if rates && !rated {
+            continue;
         }
-        let (stride, last) = (self.work.stride(), rod.elements.len());
-        let known = self.trial.ends.map(|end| end.motion.is_some());
-        let given = |node: usize| (node == 0 && known[0]) || (node == last && known[1]);
-        let weights = [self.weights.k, self.weights.c];
-        let mut right = vec![0.0; self.change.len()];
-        for (blocks, rates) in [(&mut made.position, false), (&mut made.velocity, true)] {
-            if rates && !rated {
-                continue;
-            }
-            for (j, from) in held.iter().enumerate() {
-                let Some(from) = from else { continue };
-                blocks[count * j + j] += from.stiffness_by_own_motion(rates);
-                for dof in 0..6 {
-                    right.fill(0.0);
-                    for (row, node) in from.meeting.nodes().enumerate().filter(|(_, node)| !given(*node)) {
-                        let load = from.by_support(row, rates);
-                        for axis in 0..3 {
-                            right[stride * node + axis] -= load[(axis, dof)];
-                        }
+        for (j, from) in held.iter().enumerate() {
+            let Some(from) = from else { continue };
+            blocks[count * j + j] += from.stiffness_by_own_motion(rates);
+            for dof in 0..6 {
+                right.fill(0.0);
+                for (row, node) in from.meeting.nodes().enumerate().filter(|(_, node)| !given(*node)) {
+                    let load = from.by_support(row, rates);
+                    for axis in 0..3 {
+                        right[stride * node + axis] -= load[(axis, dof)];
                     }
-                    self.work.solve(&mut right);
-                    let moved = |node: usize| Vector3::from_row_slice(&right[stride * node..stride * node + 3]);
-                    for (i, on) in held.iter().enumerate() {
-                        let Some(on) = on else { continue };
-                        let change = on.by_rod(moved, weights);
-                        let mut column = blocks[count * i + j].column_mut(dof);
-                        column += change;
-                    }
+                }
+                system.work.solve(&mut right);
+                let moved = |node: usize| Vector3::from_row_slice(&right[stride * node..stride * node + 3]);
+                for (i, on) in held.iter().enumerate() {
+                    let Some(on) = on else { continue };
+                    let change = on.by_rod(moved, weights);
+                    let mut column = blocks[count * i + j].column_mut(dof);
+                    column += change;
                 }
             }
         }
-        Some(made)
     }
+    made
 }

@@ -3,10 +3,10 @@
 use super::ends::RodEnd;
 use super::environment::LineEnvironment;
 use super::mesh::Rod;
+use super::newton_iteration::NewtonSystem;
 use super::scheme::StepScheme;
 use super::state::RodState;
-use super::step::{RodSolver, SolverPhase};
-use super::trial::{largest_change, turn_directors};
+use super::trial::{Trial, largest_change, turn_directors};
 use nalgebra::Vector3;
 
 /// Largest move of a node, as a share of the shortest element, that is predicted from the previous trial.
@@ -25,39 +25,29 @@ pub(super) enum WarmStart {
     Converged,
 }
 
-impl RodSolver {
-    /// Takes the end of the last trial as the trial's motion.
-    pub(super) fn set_trial_from_next(&mut self) {
-        self.trial.x.copy_from_slice(&self.next.position);
-        self.trial.v.copy_from_slice(&self.next.velocity);
-        self.trial.a.copy_from_slice(&self.next.acceleration);
-        self.trial.director.copy_from_slice(&self.next.director);
-    }
+/// The prediction of a trial from the previous one of the same step, whose tangent is at hand.
+pub(super) struct TrialPrediction<'a> {
+    pub rod: &'a Rod,
+    pub world: &'a LineEnvironment<'a>,
+    pub scheme: &'a StepScheme,
+    /// Where the step begins.
+    pub from: &'a RodState,
+    /// The previous trial.
+    pub trial: &'a Trial,
+    pub system: &'a mut NewtonSystem,
+    /// Where it ended, and this one begins.
+    pub next: &'a mut RodState,
+    /// Convergence tolerance, as a share of the shortest element.
+    pub tolerance: f64,
+}
 
-    /// Whether the last trial was of the same step, made in one part.
-    pub(super) fn is_same_step(&self, state: &RodState, time: f64, ends: &[RodEnd; 2]) -> bool {
-        let held = |ends: &[RodEnd; 2]| ends.map(|e| e.motion.is_some());
-        self.phase == SolverPhase::Trial
-            && self.is_single_part
-            && self.next.time == time
-            && held(&self.trial.ends) == held(ends)
-            && self.step_start.is_same(state)
-    }
-
+impl TrialPrediction<'_> {
     /// Begins a trial where the last one of the step ended, moved by the linear response to what is new in the motion
     /// of the ends; none if the last one is too far away.
-    pub(super) fn predict_from_last_trial(
-        &mut self,
-        rod: &Rod,
-        from: &RodState,
-        world: &LineEnvironment,
-        scheme: &StepScheme,
-        ends: &[RodEnd; 2],
-    ) -> Option<WarmStart> {
-        let elsewhere = [0, 1].map(|side: usize| self.trial.ends[side].motion != ends[side].motion);
-        self.linearise(rod, world, false, elsewhere)?;
-        let (stride, last) = (self.work.stride(), rod.elements.len());
-        let size = self.change.len();
+    pub fn move_with_ends(self, ends: &[RodEnd; 2], elsewhere: [bool; 2]) -> Option<WarmStart> {
+        let TrialPrediction { rod, world, scheme, from, trial, system, next, tolerance } = self;
+        let (stride, last) = (system.work.stride(), rod.elements.len());
+        let size = system.change.len();
         let known = ends.map(|e| e.motion.is_some());
         let held = |row: usize| match row.checked_sub(stride * last) {
             Some(axis) if known[1] && axis < 3 => Some((1, axis)),
@@ -67,42 +57,41 @@ impl RodSolver {
         let mut end_changes = [Vector3::zeros(); 2];
         // and the moves with which the scheme would make them
         let mut aside: f64 = 0.0;
-        self.change.fill(0.0);
+        system.change.fill(0.0);
         for (side, node) in [(0, 0), (1, last)] {
-            let (Some(old), Some(new)) = (self.trial.ends[side].motion, ends[side].motion) else { continue };
+            let (Some(old), Some(new)) = (trial.ends[side].motion, ends[side].motion) else { continue };
             if !elsewhere[side] {
                 continue;
             }
             let place = stride * node;
             let moved = new.position - old.position;
             // the matrix has the columns of the ends, with velocity and acceleration as the scheme makes them follow
-            let faster = new.velocity - old.velocity - moved * self.weights.c;
-            let harder = new.acceleration - old.acceleration - moved * self.weights.m;
-            aside = aside.max(faster.amax() / self.weights.c).max(harder.amax() / self.weights.m);
+            let faster = new.velocity - old.velocity - moved * system.weights.c;
+            let harder = new.acceleration - old.acceleration - moved * system.weights.m;
+            aside = aside.max(faster.amax() / system.weights.c).max(harder.amax() / system.weights.m);
             for axis in 0..3 {
-                let by = [&self.end_jacobian.columns[1][side][axis], &self.end_jacobian.columns[2][side][axis]];
+                let by = [&system.ends.columns[1][side][axis], &system.ends.columns[2][side][axis]];
                 for (i, (c, m)) in by[0].iter().zip(by[1]).enumerate() {
                     let row = (place + axis + i + 1).checked_sub(by[0].len().div_ceil(2));
                     let Some(row) = row.filter(|row| *row < size) else { continue };
                     let force = c * faster[axis] + m * harder[axis];
                     match held(row) {
                         Some((side, axis)) => end_changes[side][axis] += force,
-                        None => self.change[row] -= force,
+                        None => system.change[row] -= force,
                     }
                 }
             }
-            self.change[place..place + 3].copy_from_slice(moved.as_slice());
+            system.change[place..place + 3].copy_from_slice(moved.as_slice());
         }
-        self.work.solve(&mut self.change);
-        let most = largest_change(&self.change, stride, rod.shortest());
+        system.work.solve(&mut system.change);
+        let most = largest_change(&system.change, stride, rod.shortest());
         let share = most / rod.shortest();
         if share > MAX_PREDICTED_MOVE {
             return None;
         }
-        self.end_jacobian.moved += most;
-        let next = &mut self.next;
-        turn_directors(&mut next.director, &next.position, &self.change, stride, [false; 2]);
-        next.move_nodes(&self.change, stride);
+        system.ends.moved += most;
+        turn_directors(&mut next.director, &next.position, &system.change, stride, [false; 2]);
+        next.move_nodes(&system.change, stride);
         scheme.set_motions(from, next);
         for (side, node) in [(0, 0), (1, last)] {
             if let Some(motion) = ends[side].motion {
@@ -111,7 +100,7 @@ impl RodSolver {
         }
         // what holds an end turns it otherwise
         let turned = |side: usize| {
-            let (old, new) = (&self.trial.ends[side], &ends[side]);
+            let (old, new) = (&trial.ends[side], &ends[side]);
             old.direction != new.direction || old.side != new.side || old.rotation != new.rotation
         };
         let all = share.max(aside / rod.shortest());
@@ -119,11 +108,11 @@ impl RodSolver {
         if !world.supports.is_empty() {
             return Some(WarmStart::Iterate);
         }
-        if all > LINEAR_MOVE_SHARE * self.settings.tolerance || turned(0) || turned(1) {
+        if all > LINEAR_MOVE_SHARE * tolerance || turned(0) || turned(1) {
             return Some(WarmStart::Iterate);
         }
-        self.work.update_end_residuals(&self.change);
-        self.work.add_to_end_residuals(&end_changes);
+        system.work.update_end_residuals(&system.change);
+        system.work.add_to_end_residuals(&end_changes);
         Some(WarmStart::Converged)
     }
 }

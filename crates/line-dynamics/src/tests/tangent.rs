@@ -83,8 +83,8 @@ pub(super) fn compare(rod: &Rod, state: &RodState, world: &LineEnvironment, solv
         trial::set_friction_directions(rod, state, world, &mut solver.trial.friction_direction);
         trial::set_seabed_penetration_scales(state, world, &mut solver.trial.seabed_penetration_scale);
         let last = rod.elements.len();
-        solver.work.assemble(rod, world, &solver.trial, w, 0..last);
-        solver.work.clone()
+        solver.system.work.assemble(rod, world, &solver.trial, w, 0..last);
+        solver.system.work.clone()
     };
     for (kind, w) in [(0, [1.0, 0.0, 0.0]), (1, [0.0, 1.0, 0.0]), (2, [0.0, 0.0, 1.0])] {
         let weights = Weights { k: w[0], c: w[1], m: w[2] };
@@ -163,25 +163,28 @@ fn batched_elements_match_single_elements() {
                 super::super::element_batch::count_batchable(&rod, &solver.trial, 0..19),
                 if plain { 8 } else { 0 }
             );
-            solver.work.assemble(&rod, &world, &solver.trial, weights, 0..19);
+            solver.system.work.assemble(&rod, &world, &solver.trial, weights, 0..19);
             solver
         });
         let [at_once, alone] = &made;
         for row in 0..rod.nodes() {
             // forces of 1e6 N, and stiffnesses of 1e7 N/m, to rounding
-            assert!((at_once.work.residual(row) - alone.work.residual(row)).norm() < 1e-8, "{bending} {row}");
+            assert!(
+                (at_once.system.work.residual(row) - alone.system.work.residual(row)).norm() < 1e-8,
+                "{bending} {row}"
+            );
             for column in 0..rod.nodes() {
-                let away = (at_once.work.block(row, column) - alone.work.block(row, column)).norm();
+                let away = (at_once.system.work.block(row, column) - alone.system.work.block(row, column)).norm();
                 assert!(away < 1e-7, "{bending} {row} {column}: {away}");
             }
         }
         for (solver, plain) in made.iter_mut().zip([true, false]) {
             rod.elements.iter_mut().for_each(|e| e.plain = plain);
-            solver.work.forces(&rod, &world, &solver.trial);
+            solver.system.work.forces(&rod, &world, &solver.trial);
         }
         let [at_once, alone] = &made;
         for row in 0..rod.nodes() {
-            assert!((at_once.work.residual(row) - alone.work.residual(row)).norm() < 1e-8);
+            assert!((at_once.system.work.residual(row) - alone.system.work.residual(row)).norm() < 1e-8);
         }
     }
 }
