@@ -176,7 +176,6 @@ pub static ABSENT: &[Absent] = &[
     Absent::new("ASSEMBLY WINCH", STATICS, "winches")
         .within(MODEL)
         .instead("&ACTION pays lines out and in; class CT_LINE keeps a tension"),
-    Absent::new("&DESCRIBE SENSOR", Loss::Results, "sensors").instead("INTEREST marks points whose motion is reported"),
     Absent::new("&DATA SHAPES", Loss::Nothing, "shapes are sections of structural members").opens(&SHAPES),
     Absent::new("TKR_MODEL", STATICS, "the hull, weight, wind and current of a tanker, by the macro library V_MODEL")
         .instead(TUBE_INSTEAD),
@@ -187,16 +186,8 @@ pub static ABSENT: &[Absent] = &[
     Absent::new("JKT_GEN", STATICS, "a jacket, by a macro library of MOSES"),
     Absent::new("SU_SHOW", Loss::Nothing, "it draws"),
     Absent::new("SUPLOT", Loss::Nothing, "it draws"),
-    post("DRAFT", "drafts over time")
-        .instead("&STATUS DRAFT reads the marks where the bodies stand; POINTS gives points over time"),
-    post("SENSOR", "sensors over time").instead("POINTS and CONFORCE give points and forces over time"),
-    post("REL_MOTION", "the motion of two points relative to each other").instead("POINTS gives the motion of each"),
-    post("P_MIN_DISTANCE", "the least distance of two points").instead("POINTS gives the motion of each"),
     post("ELMFORCE", "forces of structural members"),
     post("LDGFORCE", "forces of load groups over time").instead("BODY_FORCE gives those of bodies by category"),
-    post("TANK_BAL", "contents of tanks over time"),
-    post("TANK_FLD", "flooding of tanks over time"),
-    post("HOLE_FLOODING", "flow through holes over time"),
     frequency("ST_POINT", "statistics of a point").instead("STATISTICS POINT *PT reports them"),
     frequency("TD_POINT", "one realisation of the motion of a point").instead("TDOM gives motions in time"),
     frequency("FR_CFORCE", "the force of a connector in unit waves").instead("CONFORCE gives it"),

@@ -280,6 +280,8 @@ pub struct Job {
     pub deferred_assemblies: Vec<Args>,
     /// Files of `&FILE`.
     pub user_files: UserFiles,
+    /// Files that STORE has named by itself.
+    pub stored_unnamed: usize,
     /// Variables that `&F_READ` sets.
     pub assignments: Vec<(String, String)>,
     /// Processor time at the last `&DCPTIME`.
@@ -329,6 +331,7 @@ impl Job {
             deferred: Vec::new(),
             deferred_assemblies: Vec::new(),
             user_files: UserFiles::default(),
+            stored_unnamed: 0,
             assignments: Vec::new(),
             clock: Instant::now(),
             ask: None,

@@ -34,7 +34,7 @@ use model::{
     pgen, piece, pipe, select, surface, t_pressure, weight,
 };
 pub use output::buildg::take as take_row;
-use output::{animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
+use output::{add_column, animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
 use post::{frequency_posts, rep_select};
 pub(crate) use settings::device::existing;
 use settings::{accepted, device, parameter, units};
@@ -226,6 +226,7 @@ static LISTED: &[&Command] = &[
     &disposition::C_SCALE,
     &disposition::C_SHIFT,
     &disposition::CULL,
+    &add_column::ADD_COLUMN,
     &series::SPECTRUM,
     &series::FFT,
     &series::EXTREMES,

@@ -96,6 +96,12 @@ impl Disposition {
         Disposition { transient: Some(transient).filter(|t| times && *t > 0.0), ..self }
     }
 
+    /// Puts a column of as many rows behind the others.
+    pub fn add_column(&mut self, column: Column) {
+        self.table.add_column(column);
+        self.adjust.push((1.0, 0.0));
+    }
+
     /// The time before which statistics leave rows out (s), where they do.
     pub fn transient(&self) -> Option<f64> {
         self.transient

@@ -1,7 +1,7 @@
 //! Tables read back from text: what STORE wrote, or any series in columns.
 //!
 //! Source: [MOSES-REF men_buildg]: `&BUILDG -BRIEF` reads labels, one per line, a blank, and rows of numbers;
-//! `&BUILDG -CSV` a line of heads and rows. A head that ends in a unit in parentheses, as STORE writes it, gives its column
+//! `&BUILDG -CSV` a line of heads and rows, which the example there parts by blanks. A head that ends in a unit in parentheses, as STORE writes it, gives its column
 //! that dimension, whatever units the user has now.
 
 use super::csv::remove_guard;
@@ -145,11 +145,52 @@ impl Made {
 /// Digits of a column that is a plain number of unknown size.
 const SIX_DIGITS: Digits = Digits::Scientific(6);
 
+/// A line of words parted by blanks as one parted by commas; a word in parentheses goes with the word before it.
+fn by_commas(line: &str, joins_units: bool) -> String {
+    let mut cells: Vec<String> = Vec::new();
+    for word in line.split_whitespace() {
+        match cells.last_mut() {
+            Some(last) if joins_units && word.starts_with('(') => *last = format!("{last} {word}"),
+            _ => cells.push(word.to_string()),
+        }
+    }
+    cells.join(",")
+}
+
+/// A text in which lines without a comma part their words by blanks, with commas. Quotes part nothing.
+fn blanks_to_commas(text: &str) -> Option<String> {
+    let parted = |line: &str| !line.contains(',') && line.split_whitespace().count() > 1;
+    if text.contains('"') || !text.lines().any(parted) {
+        return None;
+    }
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+    let cells = |line: &str| match line.contains(',') {
+        true => line.split(',').count(),
+        false => line.split_whitespace().count(),
+    };
+    let first = lines.next()?;
+    let is_row = first.split([' ', '\t', ',']).filter(|w| !w.is_empty()).all(|w| number(w).is_some());
+    // of one column a head may be of several words
+    let columns = if is_row { cells(first) } else { lines.next().map_or(1, cells) };
+    if columns < 2 {
+        return None;
+    }
+    let mut is_head = !is_row;
+    let one = |line: &str| {
+        let made = if parted(line) { by_commas(line, is_head) } else { line.to_string() };
+        is_head = is_head && line.trim().is_empty();
+        made
+    };
+    Some(text.lines().map(one).collect::<Vec<_>>().join("\n"))
+}
+
 /// A table from comma-separated values: a line of heads, unless all its words are numbers, and rows.
 ///
 /// # Errors
 /// A row of another length than the first, a number that is not finite, no rows.
 pub fn csv(title: &str, text: &str) -> Result<Table, TableReadError> {
+    let parted = blanks_to_commas(text);
+    let text = parted.as_deref().unwrap_or(text);
     let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
     let mut made: Option<Made> = None;
     for record in reader.records() {
@@ -238,6 +279,17 @@ mod tests {
             assert_eq!((t.columns()[0].name.as_str(), t.columns()[0].dim), ("Time", Dim::Time));
         }
         assert_eq!(brief("t", "1 2\n3 4").unwrap().columns()[1].name, "Column 2");
+    }
+
+    #[test]
+    fn lines_without_commas_are_parted_by_blanks() {
+        let t = csv("t", "Time (s)  Tension (kips)\n0 100\n1.5, 120\n").unwrap();
+        assert_eq!(t.columns()[0].numbers(), [0.0, 1.5]);
+        assert_eq!((t.columns()[1].name.as_str(), t.columns()[1].dim), ("Tension", Dim::Force));
+        // heads by commas, and one column whose head has two words
+        assert_eq!(csv("t", "Top Tension,Z\n1 2\n").unwrap().columns()[0].name, "Top Tension");
+        assert_eq!(csv("t", "Top Tension\n1\n2\n").unwrap().columns()[0].name, "Top Tension");
+        assert_eq!(csv("t", "1 2\n3 4\n").unwrap().columns()[1].numbers(), [2.0, 4.0]);
     }
 
     #[test]

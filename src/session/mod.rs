@@ -116,6 +116,7 @@ impl Session {
     pub fn run(&mut self) -> SessionEnd {
         loop {
             self.interpreter.passing = self.passing();
+            self.interpreter.keeps_empty_lines = matches!(self.job.menu(), Menu::Building(table) if table.is_brief());
             let over = match self.interpreter.next_step(&mut self.job) {
                 Ok(FlowStep::Record(record)) => self.execute(&record),
                 Ok(FlowStep::Ended(commands::DECK_HEAD)) => {
@@ -327,7 +328,12 @@ impl Session {
 
     /// Finds what a record means and does it.
     fn dispatch(&mut self, record: &Record, words: &[Word]) -> Outcome<Effect> {
-        let Some(first) = words.first() else { return Ok(Effect::Done) };
+        let Some(first) = words.first() else {
+            if matches!(self.job.menu(), Menu::Building(table) if table.is_brief() && table.has_rows()) {
+                self.leave_menu(Some(record.whole()));
+            }
+            return Ok(Effect::Done);
+        };
         let word = first.text.to_ascii_uppercase();
         if word == "END" || word.starts_with("END_") {
             return self.end(first, &word);

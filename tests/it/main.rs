@@ -91,6 +91,7 @@ mod time {
     mod low_frequency_position;
     mod members_time_domain;
     mod missing_added_mass;
+    mod moses_posts;
     mod prcpost;
     mod prescribed_motion;
     mod screening;

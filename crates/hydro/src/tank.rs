@@ -202,6 +202,11 @@ impl Tank {
         self.surface == FreeSurface::Frozen || self.fraction <= self.residual
     }
 
+    /// The pose in which its surface is level: upright for contents that turn with the body, else where the body is.
+    pub fn level_pose(&self, pose: &Pose) -> Pose {
+        if self.is_frozen() && !self.is_flooded { Pose::default() } else { *pose }
+    }
+
     /// The wrench and stiffness of its contents.
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let weight = self.density() * self.gravity;
@@ -233,7 +238,7 @@ impl Tank {
     /// # Errors
     /// A level that is not found.
     pub fn mass(&self, pose: &Pose) -> Result<Mass, ClassError> {
-        let at = if self.is_frozen() && !self.is_flooded { Pose::default() } else { *pose };
+        let at = self.level_pose(pose);
         let liquid = self.liquid(&at)?;
         let Some(centroid) = liquid.centroid() else { return Ok(Mass::default()) };
         let density = self.density();

@@ -24,6 +24,7 @@ struct TextPiece {
 pub struct Record {
     text: String,
     pieces: Vec<TextPiece>,
+    has_comment: bool,
 }
 
 /// One word of a record, ready to be read.
@@ -142,6 +143,11 @@ impl Record {
         (trimmed, start..start + trimmed.len())
     }
 
+    /// True of a line without anything on it, not even a comment.
+    pub fn is_empty_line(&self) -> bool {
+        self.is_blank() && !self.has_comment
+    }
+
     /// True when there is nothing to do: blanks or a comment.
     pub fn is_blank(&self) -> bool {
         self.first_word().is_empty() && !self.text.trim_start().starts_with(',')
@@ -171,6 +177,7 @@ pub fn read(text: &str, source: SourceId, start: usize) -> (Record, usize, bool)
         let (end, _) = token::line_end(line);
         let continued = token::is_continued(line, at != start);
         let kept = line.get(..end).unwrap_or_default();
+        record.has_comment |= end < line.trim_end().len();
         if !record.text.is_empty() {
             record.push_replaced(" ", Span::new(source, at, at));
         }

@@ -41,6 +41,7 @@ mod parameters;
 mod prescribed;
 mod scheme;
 mod selector;
+mod sensor;
 mod tether;
 mod tie;
 mod unmodelled;
@@ -80,6 +81,7 @@ pub use parameters::Parameters;
 pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
 pub use scheme::SchemeWeights;
 pub use selector::Selector;
+pub use sensor::{SensorRecord, SensorSignal};
 pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, TetherUse};
 pub use tie::TieResponse;
 pub use unmodelled::{SolveKind, UnmodelledEffect};
@@ -111,6 +113,8 @@ pub struct Model {
     pub saved_parameters: Vec<Parameters>,
     /// Records whose effect no solver computes, but for those of pieces.
     pub unmodelled: Vec<UnmodelledEffect>,
+    /// Sensors.
+    pub sensors: IndexMap<String, SensorRecord>,
     /// Draft marks.
     pub draft_marks: IndexMap<String, DraftMark>,
     /// Classes.

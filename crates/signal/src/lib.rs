@@ -16,6 +16,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod band_filter;
 pub mod cycle;
 pub mod distribution;
 pub mod extremes;

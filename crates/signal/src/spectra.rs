@@ -36,7 +36,7 @@ fn transform(values: &mut [f64]) -> Result<Vec<(f64, f64)>, SeriesError> {
     Ok(out.into_iter().map(|z| (z.re, z.im)).collect())
 }
 
-fn usable(values: &[f64], step: f64, least: usize) -> Result<(), SeriesError> {
+pub(super) fn usable(values: &[f64], step: f64, least: usize) -> Result<(), SeriesError> {
     finite(values)?;
     if !(step.is_finite() && step > 0.0) {
         return Err(SeriesError::Setting { what: "the step", expected: "greater than zero", value: step });

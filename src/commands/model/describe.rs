@@ -6,6 +6,7 @@ use crate::commands::model::compartment;
 use crate::commands::model::draft_mark;
 use crate::commands::model::piece::{self, OPTIONS};
 use crate::commands::model::process;
+use crate::commands::model::sensor;
 use crate::commands::solve::tdom;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::{Choice, Dof, YesNo};
@@ -73,7 +74,9 @@ const EVENTS: OptionSpec = OptionSpec::new("-EVENTS", &[], "of PROCESS: forgets 
 /// What a body, a part, INTEREST, a load group or PROCESS takes.
 const OWN: &[OptionSpec] = &[MOVE, IGNORE, ASSOCIATE, DAMP_FUSE, AMASS_FUSE, EVENTS];
 const OWN_AND_TANKS: [OptionSpec; OWN.len() + compartment::OWN.len()] = join_options(OWN, &compartment::OWN);
-static DESCRIBE_OPTIONS: [OptionSpec; OWN_AND_TANKS.len() + OPTIONS.len()] = join_options(&OWN_AND_TANKS, &OPTIONS);
+const OWN_AND_SENSORS: [OptionSpec; OWN_AND_TANKS.len() + sensor::OWN.len()] =
+    join_options(&OWN_AND_TANKS, &sensor::OWN);
+static DESCRIBE_OPTIONS: [OptionSpec; OWN_AND_SENSORS.len() + OPTIONS.len()] = join_options(&OWN_AND_SENSORS, &OPTIONS);
 
 choices! {
     /// What `&DESCRIBE` describes.
@@ -88,6 +91,7 @@ choices! {
         LoadGroup = "LOAD_GROUP",
         Load = "LOAD",
         Process = "PROCESS",
+        Sensor = "SENSOR",
     }
 }
 
@@ -98,7 +102,7 @@ static DESCRIBE_SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::choice::<Described>("KIND", "what is described"),
         ValueSpec::new("NAME", Kind::Name(Noun::Selector), "its name; of INTEREST a point, a pattern or a selector")
-            .or("PIECE1, PIECE2 .. of a PIECE; not of INTEREST -ASSOCIATE; the others need one"),
+            .or("PIECE1, PIECE2 .. of a PIECE; not of INTEREST -ASSOCIATE nor of SENSOR -ON, -OFF and -DELETE; the others need one"),
         ValueSpec::new("POINT", Kind::Name(Noun::Selector), "further points of INTEREST; the two points of DMARK")
             .or("none"),
     ],
@@ -116,7 +120,7 @@ static DESCRIBE_SPEC: CommandSpec = CommandSpec {
              part described last: pieces that follow bound it, with -PERMEABILITY -1 where none is given (-0.98: liquid fills 98 % of it). They take no wind, \
              current and waves and displace nothing; what is in them weighs (&COMPARTMENT). A NAME that is a part's is its exterior, the hull. HOLE NAME TYPE \
              describes a hole; &STATUS V_HOLES reports its height above the water. Water does not flow through holes: &COMPARTMENT -FLOOD opens a \
-             compartment to the sea.",
+             compartment to the sea. SENSOR NAME -SIGNAL .. describes a sensor, which SENSOR of PRCPOST reports.",
     example: "&DESCRIBE BODY TBRG\nMEDIT\n*LOW 0 50 0\n*HIGH 0 50 20\nEND\n&DESCRIBE DMARK FWD_S *LOW *HIGH\n&STATUS DRAFT\n&DESCRIBE PART DECK -MOVE 0 0 20\n&STATUS BODIES\nMEDIT\n*BOW 90 0 5\n&DESCRIBE INTEREST *BOW\n&DESCRIBE PIECE WEDGE -PERM 1\n\
               PANEL 0 0 0  0 9 0  9 0 0\nPANEL 0 0 0  9 0 0  0 0 9\nPANEL 0 0 0  0 0 9  0 9 0\nPANEL 9 0 0  0 9 0  0 0 9\nEND\n\
               &STATUS PIECES",
@@ -201,6 +205,7 @@ enum PartKind {
     Process,
     Compartment,
     Hole,
+    Sensor,
 }
 
 impl PartKind {
@@ -214,6 +219,7 @@ impl PartKind {
             PartKind::Process => "process",
             PartKind::Compartment => "compartment",
             PartKind::Hole => "hole",
+            PartKind::Sensor => "sensor",
         }
     }
 }
@@ -221,9 +227,11 @@ impl PartKind {
 fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let lacks_name = args.word(NAME).is_none();
-    if let (true, Some(described)) =
-        (lacks_name, args.choice::<Described>(KIND).filter(|d| !matches!(d, Described::Piece | Described::Interest)))
-    {
+    if let (true, Some(described)) = (
+        lacks_name,
+        args.choice::<Described>(KIND)
+            .filter(|d| !matches!(d, Described::Piece | Described::Interest | Described::Sensor)),
+    ) {
         return Err(Diagnostic::error(
             format!("&DESCRIBE {} lacks its value NAME", described.word()),
             args.place(KIND),
@@ -240,6 +248,10 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 return Err(Diagnostic::error(format!("{} does not belong to PROCESS", given.name()), given.span));
             }
             process::describe(job, &name, span, args.has(&EVENTS))?;
+            return Ok(Effect::Done);
+        }
+        Some(Described::Sensor) => {
+            sensor::describe(job, args, args.word(NAME).map(|name| (name, span)), args.data_after(NAME))?;
             return Ok(Effect::Done);
         }
         Some(Described::Compartment) => PartKind::Compartment,
@@ -263,6 +275,7 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
         _ if given.is(&ASSOCIATE) => PartKind::Interest,
         _ if given.is_any(&[DAMP_FUSE, AMASS_FUSE]) => PartKind::LoadGroup,
         _ if given.is(&EVENTS) => PartKind::Process,
+        _ if given.is_any(&sensor::OWN) => PartKind::Sensor,
         _ if given.is_any(&compartment::OF_HOLE) => PartKind::Hole,
         _ if given.is_any(&compartment::OWN) => PartKind::Compartment,
         _ => PartKind::Piece,

@@ -20,6 +20,7 @@ pub(crate) mod pipe;
 pub(crate) mod process;
 pub(crate) mod rigging;
 pub(crate) mod select;
+pub(crate) mod sensor;
 pub(crate) mod surface;
 pub(crate) mod t_pressure;
 pub(crate) mod tether_ends;

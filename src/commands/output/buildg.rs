@@ -17,8 +17,10 @@ pub static BUILDG: Command = Command { spec: &SPEC, edits: false, run };
 
 const FILE: ValueSpec = ValueSpec::new("FILE", Kind::File, "file name").or("the records that follow, up to END");
 
-const CSV: OptionSpec = OptionSpec::new("-CSV", &[FILE], "comma-separated values: a line of heads, then rows");
-const BRIEF: OptionSpec = OptionSpec::new("-BRIEF", &[FILE], "labels, one a line, then rows of numbers");
+const CSV: OptionSpec =
+    OptionSpec::new("-CSV", &[FILE], "a line of heads, then rows, parted by commas or blanks, up to END");
+const BRIEF: OptionSpec =
+    OptionSpec::new("-BRIEF", &[FILE], "labels, one a line, a blank line, then rows of numbers up to a blank line");
 
 static SPEC: CommandSpec = CommandSpec {
     opens: Opens::AtMostElse(&menu::BUILDG, 1, &menu::DISPOSITION),
@@ -26,10 +28,11 @@ static SPEC: CommandSpec = CommandSpec {
     detail: "With a FILE it reads that and opens the disposition menu; without one the records that follow are the table, and \
              END opens the menu. A head that ends in a unit in parentheses, as STORE writes it, gives its column that unit, \
              whatever units are in force. With -CSV a first line of nothing but numbers is a row; with -BRIEF the rows begin \
-             with the first line of nothing but numbers, their values parted by blanks or commas. Records that begin with & \
+             with the first line of nothing but numbers, their values parted by blanks or commas; a blank line behind them ends the table and opens the menu, \
+             as END does. With -CSV a line without a comma is parted by its blanks, a unit in parentheses going with the word before it. Records that begin with & \
              act as elsewhere: &INSERT reads rows from a file. FILE is looked for as by &FILE USE.",
     example: "&BUILDG -CSV\nTime (s),Tension (kips)\n0,100\n1,120\n2,90\nEND\nVLIST\nSTORE rows.csv\nEND\n&BUILDG -CSV rows.csv\nVIEW\nEND\n\
-              &BUILDG -BRIEF\nTime (s)\nHeave (ft)\n0 1.5\n1 -1.5\nEND\nVIEW\nEND",
+              &BUILDG -BRIEF\nTime (s)\nHeave (ft)\n\n0 1.5\n1 -1.5\n\nVIEW\nEND",
     ..CommandSpec::new("&BUILDG", "reads a table for the disposition menu")
 };
 
@@ -38,10 +41,24 @@ static SPEC: CommandSpec = CommandSpec {
 pub struct Building {
     /// Whether labels stand one a line.
     brief: bool,
+    /// Whether a line of nothing but numbers was among them.
+    has_rows: bool,
     /// The records so far.
     text: String,
     /// Where it began.
     span: Span,
+}
+
+impl Building {
+    /// Whether labels stand one a line, and a blank line ends the rows.
+    pub fn is_brief(&self) -> bool {
+        self.brief
+    }
+
+    /// Whether its rows have begun.
+    pub fn has_rows(&self) -> bool {
+        self.has_rows
+    }
 }
 
 /// Largest table given by records or a file (bytes).
@@ -55,7 +72,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     let brief = given.is(&BRIEF);
     let Some(file) = given.values.first() else {
-        job.menus.push(Menu::Building(Box::new(Building { brief, text: String::new(), span: args.span })));
+        job.menus.push(Menu::Building(Box::new(Building {
+            brief,
+            has_rows: false,
+            text: String::new(),
+            span: args.span,
+        })));
         return Ok(Effect::Done);
     };
     let name = file.word().unwrap_or_default();
@@ -77,6 +99,8 @@ pub fn take(job: &mut Job, record: &Record) -> Outcome<Effect> {
         if (building.text.len() + line.len()) as u64 > MAX_TABLE_BYTES {
             return Err(Diagnostic::error("the table grows too large", record.whole()));
         }
+        let mut words = line.split([' ', '\t', ',']).filter(|word| !word.is_empty());
+        building.has_rows |= !line.is_empty() && words.all(|word| word.parse::<f64>().is_ok());
         building.text.push_str(line);
         building.text.push('\n');
     }

@@ -89,7 +89,8 @@ pub(crate) const STORED: ValueSpec = ValueSpec::new(
     "FILE",
     Kind::File,
     "file name ending in .csv, .parquet or .nc; .csv is added when it has no ending",
-);
+)
+.or("PPO00001.CSV, PPO00002.CSV ..");
 /// A column that may be left out.
 pub(crate) const ANY_COLUMN: ValueSpec = COLUMN.or("all columns");
 static REPORT_SPEC: CommandSpec = CommandSpec {

@@ -1,5 +1,6 @@
 //! What becomes of a result: printed, plotted, stored, reduced; titles and messages.
 
+pub(crate) mod add_column;
 pub(crate) mod animate;
 pub(crate) mod buildg;
 pub(crate) mod disposition;

@@ -1,6 +1,6 @@
 //! STORE: columns of a result as a file, by the ending of its name.
 
-use crate::commands::output::disposition::{MAG_USE, RECORD, VALUES, chosen_columns, write_file};
+use crate::commands::output::disposition::{MAG_USE, RECORD, VALUES, chosen_columns, open_disposition, write_file};
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::{csv, netcdf, parquet};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -17,15 +17,28 @@ static SPEC: CommandSpec = CommandSpec {
              precision. Parquet (.parquet): columns with the same names, of doubles, whole numbers or text, not compressed; title, source, units \
              and notes in the metadata. NetCDF-3 (.nc): a variable for each column over the dimension row, named in letters, digits and \
              underscores, with units and long_name; text as characters. All are in user units, and a value that is missing is missing in the \
-             file. A relative file name is inside the job's folder: &HELP &FILE.",
+             file. Without a name, or with columns alone as in MOSES (STORE 1 2 5:8, STORE Time Z), the file is PPO00001.CSV, the next PPO00002.CSV and so on (our \
+             reading). A relative file name is inside the job's folder: &HELP &FILE.",
     ..crate::commands::output::disposition::spec("STORE", "writes columns to a CSV, Parquet or NetCDF file")
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const FILE: DatumKey<str> = SPEC.word("FILE");
     let args = &call.args;
-    let table = chosen_columns(job, args, args.data_after(FILE))?;
-    let name = crate::commands::files::file::with_csv_ending(args.word(FILE).unwrap_or_default());
+    // a word that is a column chooses it: the record is MOSES's, which names no file
+    let columns = open_disposition(job, args.span)?.table.columns();
+    let is_column = |word: &str| {
+        word.bytes().all(|b| b.is_ascii_digit() || b == b':')
+            || word.contains('@')
+            || columns.iter().any(|column| column.name.eq_ignore_ascii_case(word))
+    };
+    let named = args.word(FILE).filter(|word| !is_column(word)).map(crate::commands::files::file::with_csv_ending);
+    let columns = if named.is_some() { args.data_after(FILE) } else { args.data.as_slice() };
+    let table = chosen_columns(job, args, columns)?;
+    let name = named.unwrap_or_else(|| {
+        job.stored_unnamed += 1;
+        format!("PPO{:05}.CSV", job.stored_unnamed)
+    });
     let ending = std::path::Path::new(&name).extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let bytes = match ending.as_deref() {
         Some("parquet") => parquet::bytes(&table, job.units).map_err(|e| e.to_string()),

@@ -7,7 +7,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
-use windlass_model::{EntityKind, Model};
+use windlass_model::{EntityKind, Model, Point};
 use windlass_solve::results::{self, TrackedPoint};
 
 /// POINTS.
@@ -26,6 +26,29 @@ static SPEC: CommandSpec = CommandSpec {
     )
 };
 
+/// A point as the run follows it, where it stands in its body now.
+///
+/// # Errors
+/// A body that makes no part of the run.
+pub(super) fn track(query: &PostQuery, point: &Point) -> Outcome<TrackedPoint> {
+    let model = &query.job.model;
+    let part = model.parts.get(&Model::key(&point.part));
+    let at = part.map_or(point.at, |p| p.place.apply(point.at));
+    let body = match model.body_of(point) {
+        None => None,
+        Some(body) => {
+            let key = Model::key(&body.name);
+            let found = query.run.history.layout.bodies.iter().position(|(_, k)| *k == key);
+            let missing = || {
+                let text = format!("body {} of point {} makes no part of the run", body.name, point.name);
+                Diagnostic::error(text, query.span()).help("it was made after the run: TDOM makes another")
+            };
+            Some(found.ok_or_else(missing)?)
+        }
+    };
+    Ok(TrackedPoint { name: point.name.clone(), body, at, marked: point.interest.unwrap_or_default() })
+}
+
 fn build(query: &PostQuery) -> Outcome<Table> {
     let (model, chosen) = (&query.job.model, NameFilter::new(&query.call.args.data, &query.job.model));
     let mut list = Vec::new();
@@ -33,21 +56,7 @@ fn build(query: &PostQuery) -> Outcome<Table> {
         if !chosen.takes(&point.name) {
             continue;
         }
-        let part = model.parts.get(&Model::key(&point.part));
-        let at = part.map_or(point.at, |p| p.place.apply(point.at));
-        let body = match model.body_of(point) {
-            None => None,
-            Some(body) => {
-                let key = Model::key(&body.name);
-                let found = query.run.history.layout.bodies.iter().position(|(_, k)| *k == key);
-                let missing = || {
-                    let text = format!("body {} of point {} makes no part of the run", body.name, point.name);
-                    Diagnostic::error(text, query.span()).help("it was made after the run: TDOM makes another")
-                };
-                Some(found.ok_or_else(missing)?)
-            }
-        };
-        list.push(TrackedPoint { name: point.name.clone(), body, at, marked: point.interest.unwrap_or_default() });
+        list.push(track(query, point)?);
     }
     chosen.check_used("the points of interest", &[EntityKind::Point])?;
     if list.is_empty() {

@@ -62,13 +62,15 @@ pub(crate) const LOCAL: OptionSpec = OptionSpec::new(
 )
 .default("along the global axes");
 
-const EXAMPLE: &str = "MEDIT\n&DESCRIBE BODY BUOY -IGNORE Z RX RY RZ\n*P 0 0 0\n#WEIGHT *P 2000 10 10 10\n~W B_CAT 4 -LEN 4000 -DEP 500\n\
-                       CONNECTOR A -ANC 0 3900 ~W *P\nCONNECTOR B -ANC 180 3900 ~W *P\n&DESCRIBE INTEREST *P\nEND\n\
+const EXAMPLE: &str = "MEDIT\n&DESCRIBE BODY BUOY -IGNORE Z RX RY RZ\n*P 0 0 0\n*Q 0 10 5\n#WEIGHT *P 2000 10 10 10\n~W B_CAT 4 -LEN 4000 -DEP 500\n\
+                       CONNECTOR A -ANC 0 3900 ~W *P\nCONNECTOR B -ANC 180 3900 ~W *P\n&DESCRIBE INTEREST *P\n&DESCRIBE DMARK MARK *P *Q\n\
+                       &DESCRIBE SENSOR PULL -SIGNAL C_FORCE A\nEND\n\
                        &INSTATE -LOCATE BUOY 5\n&ENV -TIME 4 1\nTDOM\nPRCPOST\n\
                        TRAJECTORY BUOY -CG -LOCAL\nREPORT LOCATION\nEND\nPOINTS *P -EVENTS 0 9000 2\nREPORT\nEND\n\
                        CONFORCE A -MAG_DEFINE X Y\nREPORT\nEND\nCF_MAGNITUDE -EVENTS 1 3 0.5\nREPORT\nEND\n\
                        TOT_CFORCE -BODY BUOY\nVIEW Time FX\nEND\nC_LENGTH A\nREPORT\nEND\nBODY_FORCE BUOY -EVENTS 4\n\
-                       REPORT INERTIA TOTAL\nEND\nEND";
+                       REPORT INERTIA TOTAL\nEND\nREL_MOTION *P *Q\nREPORT\nEND\nP_MIN_DISTANCE *P *Q\nREPORT\nEND\n\
+                       DRAFT MARK\nREPORT\nEND\nSENSOR PULL\nREPORT\nEND\nEND";
 
 /// The spec of a table; fill in the rest with `..`.
 pub(crate) const fn spec(name: &'static str, data: &'static [ValueSpec], help: &'static str) -> CommandSpec {

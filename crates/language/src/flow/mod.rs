@@ -52,6 +52,8 @@ pub struct Interpreter {
     pub budget: u64,
     /// Plain records are being passed over: one that cannot be substituted comes as it stands.
     pub passing: bool,
+    /// Lines without anything on them are data, and come as records.
+    pub keeps_empty_lines: bool,
     /// Set by Ctrl-C; the run stops at the next record.
     pub interrupt: Arc<AtomicBool>,
     /// Whether it has ever been set.
@@ -74,6 +76,7 @@ impl Interpreter {
             variables: Variables::default(),
             budget: RECORD_BUDGET,
             passing: false,
+            keeps_empty_lines: false,
             interrupt: Arc::new(AtomicBool::new(false)),
             was_interrupted: false,
             frames: Vec::new(),
@@ -220,7 +223,8 @@ impl Interpreter {
                     format!("the record has {} characters; at most {LONGEST_RECORD} are taken", record.text().len());
                 return Err(Diagnostic::error(text, record.span(0..40)));
             }
-            if record.is_blank() && self.collecting.is_none() {
+            let is_data = self.keeps_empty_lines && record.is_empty_line();
+            if record.is_blank() && self.collecting.is_none() && !is_data {
                 continue;
             }
             self.spent += 1;

@@ -5,21 +5,29 @@
 
 pub mod along;
 mod connectors;
+mod drafts;
 mod events;
 mod fatigue;
 mod fenders;
 mod forces;
 mod motions;
 mod points;
+mod relative;
 mod rest_state;
+mod sensors;
+mod tanks;
 
 pub use connectors::{connector_forces, magnitudes, total_forces};
+pub use drafts::{TrackedMark, drafts};
 pub use events::{EventWindow, RunEvent, events};
 pub use fatigue::{ScatterExposure, line_damages, scatter};
 pub use fenders::{FenderPeak, fender_peaks, fender_table};
 pub use forces::body_forces;
 pub use motions::{MotionOptions, trajectory};
 pub use points::{TrackedPoint, points};
+pub use relative::{least_distance, relative_motions};
+pub use sensors::{Sensor, Signal, SignalComponent, sensors};
+pub use tanks::{TrackedHole, TrackedTank, holes, tanks};
 
 use super::system::SolveError;
 use super::time::History;

@@ -1,7 +1,7 @@
 //! Where points of interest go, and the waves there.
 
 use super::super::system::SolveError;
-use super::super::time::Run;
+use super::super::time::{RowLayout, Run};
 use super::motions::find_motion;
 use super::{EventTable, Magnitude, RunEvent, group_head};
 use nalgebra::Vector3;
@@ -20,6 +20,24 @@ pub struct TrackedPoint {
     pub at: Position,
     /// Where it stood when it was marked (m, global).
     pub marked: Position,
+}
+
+impl TrackedPoint {
+    /// Where it is (m), its velocity (m/s) and its acceleration (m/s2) at a stored instant, global axes.
+    pub(super) fn motion(&self, row: &[f64], layout: &RowLayout) -> [Vector3<f64>; 3] {
+        let own = Vector3::from(self.at);
+        match self.body.map(|body| find_motion(row, layout.body(body), own)) {
+            Some(now) => [now.at, now.velocity[0], now.acceleration[0]],
+            None => [own, Vector3::zeros(), Vector3::zeros()],
+        }
+    }
+}
+
+/// The mean water level (m) at a time of a run, and the elevation of the waves above it at a place (m).
+pub(super) fn water_at(run: &Run, time: f64) -> (f64, impl Fn(f64, f64) -> f64 + '_) {
+    let waves = run.sea_at(time).map(|sea| (sea.level, sea.at_time(time)));
+    let level = waves.as_ref().map_or_else(|| run.model.surroundings().tide, |(level, _)| *level);
+    (level, move |x, y| waves.as_ref().map_or(0.0, |(_, sea)| sea.elevation(x, y)))
 }
 
 /// Location, velocity and acceleration of points, their motion from where they were marked, the elevation of the waves above the

@@ -1,0 +1,180 @@
+//! Tables of PRCPOST that MOSES has, and columns made in the disposition menu, against closed forms: a box that falls freely, whose
+//! height is a parabola that the run follows to rounding.
+
+use crate::common::{assert_near, session};
+
+use std::f64::consts::TAU;
+use windlass::commands::Menu;
+use windlass_base::table::Table;
+
+const G: f64 = 9.80665;
+
+/// The table over which a script leaves the disposition menu open.
+fn table(script: &str) -> Table {
+    let (mut session, screen, _folder) = session();
+    session.open("test", script.to_string());
+    session.run();
+    assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
+    match session.job.menu() {
+        Menu::Disposition(made) => made.table.clone(),
+        _ => panic!("no table is open: {}", screen.text()),
+    }
+}
+
+/// The numbers of a column by its long name.
+fn column(table: &Table, group: &str, name: &str) -> Vec<f64> {
+    let found = table.columns().iter().find(|c| c.group == group && c.name == name);
+    let found = found.unwrap_or_else(|| panic!("no {group}: {name} in {:?}", table.columns()));
+    found.cells.iter().map(|c| c.number().unwrap_or(f64::NAN)).collect()
+}
+
+fn assert_follows(table: &Table, (group, name): (&str, &str), want: impl Fn(f64) -> f64) {
+    let times = column(table, "", "Time");
+    assert!(times.len() > 5, "{times:?}");
+    for (t, got) in times.iter().zip(column(table, group, name)) {
+        // rounding of some hundred steps
+        assert_near(got, want(*t), 1e-9);
+    }
+}
+
+/// A box of 4 x 2 x 3 m from 2 m above the water, half full of a liquid twice as heavy as the sea, falling from rest.
+const BOX: &str = "&DIMEN -DIMEN METERS K-NTS\n&ENV E -DEPTH 500 -TIME 1.5 0.1 -RAMP 0\nMEDIT\n*GND 3 4 -10\n\
+    &DESCRIBE BODY BOX -IGNORE X Y RX RY RZ\n*C 2 0 1.5\n#WEIGHT *C 500 1 1 1\n*LOW 0 0 -1\n*HIGH 0 3 3\n*VENT 0 0 2.5\n*FAR 3 4 0\n\
+    &DESCRIBE HOLE H1 VENT -POINT *VENT\n&DESCRIBE COMPARTMENT TANK -HOLES H1\nPGEN\nPLANE 0 4 -RECT 0 3 2\nEND\nEND\n\
+    &COMPARTMENT -PERCENT TANK 50 2.05\n&DESCRIBE DMARK MARK *LOW *HIGH\n&INSTATE -LOCATE BOX 0 0 2\n";
+
+/// The height of the box.
+fn height(t: f64) -> f64 {
+    2.0 - 0.5 * G * t * t
+}
+
+fn posted(describe: &str, post: &str) -> Table {
+    table(&format!("{BOX}{describe}TDOM\nPRCPOST\n{post}\n"))
+}
+
+#[test]
+fn relative_motion_of_falling_point_is_its_fall() {
+    let made = posted("", "REL_MOTION *C *GND *FAR *LOW");
+    let of = |group: &str| format!("*C less *GND {group}");
+    assert_follows(&made, (&of("Location"), "Z"), |t| height(t) + 11.5);
+    assert_follows(&made, (&of("Location"), "Mag."), |t| (1.0f64 + 16.0 + (height(t) + 11.5).powi(2)).sqrt());
+    assert_follows(&made, (&of("Velocity"), "VZ"), |t| -G * t);
+    assert_follows(&made, (&of("Acceleration"), "AZ"), |_| -G);
+    assert_follows(&made, ("*FAR less *LOW Location", "Mag."), |_| 26f64.sqrt());
+    assert_follows(&made, ("*FAR less *LOW Velocity", "V Mag."), |_| 0.0);
+}
+
+#[test]
+fn least_distance_is_of_nearest_pair_and_its_rate() {
+    // of *FAR and *C the first is above *GND at all times
+    let made = posted("", "P_MIN_DISTANCE *FAR *GND");
+    assert_follows(&made, ("", "Distance"), |t| (height(t) + 10.0).abs());
+    assert_follows(&made, ("", "Rate"), |t| -G * t * (height(t) + 10.0).signum());
+    let fact = |name: &str| made.facts.iter().find(|f| f.name == name).and_then(|f| f.value.number()).unwrap();
+    let times = column(&made, "", "Time");
+    let least = times.iter().map(|t| (height(*t) + 10.0).abs()).fold(f64::INFINITY, f64::min);
+    assert_near(fact("Least"), least, 1e-9);
+    // *FAR is 3 4 beside *LOW, *VENT 2.5 above it: in the plane *VENT is nearest
+    let made = posted("", "P_MIN_DISTANCE @F@ *GND -MAG_DEFINE X Y");
+    assert_follows(&made, ("", "Distance"), |_| 0.0);
+}
+
+#[test]
+fn draft_at_inclined_mark_follows_the_fall() {
+    // the mark is 5 m long and rises 4 m from 1 m below the origin
+    let made = posted("", "DRAFT MARK");
+    assert_follows(&made, ("MARK", "Draft"), |t| -1.25 * (height(t) - 1.0));
+    assert_follows(&made, ("MARK", "W. Elv"), |_| 0.0);
+}
+
+#[test]
+fn tank_heads_follow_the_fall_and_contents_stay() {
+    let made = posted("", "TANK_FLD TANK");
+    for (name, want) in [("% Full", 50.0), ("Sounding", 1.5), ("Ullage", 1.5), ("Amount", 12.0 * 2050.0 * G)] {
+        assert_follows(&made, ("Contents", name), |_| want);
+    }
+    // 1.5 m of twice the density of the sea
+    assert_follows(&made, ("Head", "Pressure"), |_| 3.0);
+    let difference = |t: f64| {
+        let heads = |z: f64| 2.0 * (height(t) + 1.5 - z).max(0.0) - (-z).max(0.0);
+        // a fine search of the wall, whose kinks are within a millimetre of its points
+        (0..=3000).map(|i| heads(height(t) + 0.001 * f64::from(i)).abs()).fold(0.0, f64::max)
+    };
+    for (t, got) in column(&made, "", "Time").iter().zip(column(&made, "Head", "Max Diff.")) {
+        assert!((got - difference(*t)).abs() <= 0.002, "at {t}: {got}");
+    }
+    // the vent is a metre above the liquid, and goes under water
+    assert_follows(&made, ("Hole", "Above Water"), |t| height(t) + 2.5);
+    assert_follows(&made, ("Head", "External"), |t| (-height(t) - 2.5).max(0.0));
+    assert_follows(&made, ("Head", "Internal"), |_| 0.0);
+    assert!(made.notes.iter().any(|n| n.text.contains("times to flood are not computed")), "{:?}", made.notes);
+}
+
+#[test]
+fn sensors_read_signals_of_the_fall_and_raise_alarms() {
+    let sensors = "&DESCRIBE SENSOR Z -SIGNAL POINT *C Z -LIMITS 0 9\n&DESCRIBE SENSOR RATE -SIGNAL POINT *C Z -DERIVATIVE YES\n\
+        &DESCRIBE SENSOR APART -SIGNAL VECTOR *GND *C\n&DESCRIBE SENSOR VENTS -SIGNAL MIN_NWT_DOWN BOX\n\
+        &DESCRIBE SENSOR CLOCK -SIGNAL TIME\n&DESCRIBE SENSOR ROLL -SIGNAL BODY_ANG BOX ROLL\n&DESCRIBE SENSOR -OFF CLOCK\n";
+    let made = posted(sensors, "SENSOR");
+    assert_follows(&made, ("Z", "Value"), |t| height(t) + 1.5);
+    assert_follows(&made, ("Z", "Alarm"), |t| f64::from(u8::from(height(t) + 1.5 < 0.0)));
+    assert_follows(&made, ("RATE", "Value"), |t| -G * t);
+    assert_follows(&made, ("APART", "Value"), |t| (17.0 + (height(t) + 11.5).powi(2)).sqrt());
+    assert_follows(&made, ("VENTS", "Value"), |t| height(t) + 2.5);
+    assert_follows(&made, ("ROLL", "Value"), |_| 0.0);
+    assert!(made.columns().iter().all(|c| c.group != "CLOCK"));
+}
+
+/// 400 s of two sines that fit it whole, one of 8 s and one of 100 s, about 50.
+fn two_sines() -> String {
+    let row = |i: i32| {
+        let t = 0.5 * f64::from(i);
+        format!("{t} {}\n", 50.0 + 3.0 * (TAU * t / 8.0).sin() + 8.0 * (TAU * t / 100.0).sin())
+    };
+    let rows: String = (0..800).map(row).collect();
+    format!("&BUILDG -BRIEF\nTime (s)\nOffset (ft)\n\n{rows}\n")
+}
+
+#[test]
+fn filter_of_two_sines_leaves_one_and_combination_the_other() {
+    let made = table(&format!(
+        "{}ADD_COLUMN S_HIGH -FILTER PERIOD 1 2 30 1E5\nADD_COLUMN S_LOW -COMBINE Offset 1 S_HIGH -1\n",
+        two_sines()
+    ));
+    let foot = 0.3048;
+    for ((t, high), low) in
+        column(&made, "", "Time").iter().zip(column(&made, "", "S_HIGH")).zip(column(&made, "", "S_LOW"))
+    {
+        // seven figures of the rows given
+        assert!((high - foot * (50.0 + 3.0 * (TAU * t / 8.0).sin())).abs() < 1e-9, "{t}: {high}");
+        assert!((low - foot * 8.0 * (TAU * t / 100.0).sin()).abs() < 1e-9, "{t}: {low}");
+    }
+}
+
+#[test]
+fn rp2sk_combination_is_of_maximum_and_significant_by_band() {
+    let (mut session, screen, _folder) = session();
+    let script = format!(
+        "{}ADD_COLUMN S_HIGH -FILTER PERIOD 1 2 30 1E5\nADD_COLUMN S_LOW -COMBINE 2 1 3 -1\nC_SHIFT -50 S_HIGH\n\
+         ADD_COLUMN MAX_LOW -COMBINE S_LOW 3.72 S_HIGH 2\nSTATISTIC Time S_HIGH S_LOW\nEND\n",
+        two_sines()
+    );
+    session.open("test", script);
+    session.run();
+    assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
+    let text = screen.text();
+    // name, unit, count, mean, deviation
+    let deviation = |name: &str| -> f64 {
+        let line = text.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
+        line.split_whitespace().nth(4).unwrap().parse().unwrap()
+    };
+    let (high, low) = (deviation("S_HIGH"), deviation("S_LOW"));
+    // sines have the root mean square of their amplitude over sqrt(2); printed with six figures
+    assert_near(high, 3.0 / 2f64.sqrt(), 1e-5);
+    assert_near(low, 8.0 / 2f64.sqrt(), 1e-5);
+    // API RP 2SK: the maximum of the larger and the significant value of the smaller, against the maximum of both together
+    let (ratio, both) = (high / low, 3.72 * high.hypot(low));
+    let combined = 3.72 * low + 2.0 * high;
+    assert_near(combined / both, (1.0 + 0.5376 * ratio) / (1.0 + ratio * ratio).sqrt(), 1e-4);
+    assert_near(combined, (3.72 * 8.0 + 2.0 * 3.0) / 2f64.sqrt(), 1e-5);
+}
