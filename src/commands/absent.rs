@@ -29,8 +29,6 @@ pub struct Absent {
     pub menus: &'static [&'static MenuSpec],
     /// The menu it opens, which an `END` of its own leaves.
     pub opens: Option<&'static MenuSpec>,
-    /// Words of that menu that open menus in turn.
-    pub inner: &'static [&'static str],
     /// What is lost with it.
     pub loss: Loss,
     /// What it is or does, as a phrase.
@@ -41,7 +39,7 @@ pub struct Absent {
 
 impl Absent {
     const fn new(name: &'static str, loss: Loss, what: &'static str) -> Self {
-        Absent { name, menus: &[], opens: None, inner: &[], loss, what, instead: "" }
+        Absent { name, menus: &[], opens: None, loss, what, instead: "" }
     }
 
     /// One in these menus alone.
@@ -52,11 +50,6 @@ impl Absent {
     /// One that opens a menu.
     const fn opens(self, menu: &'static MenuSpec) -> Self {
         Absent { opens: Some(menu), ..self }
-    }
-
-    /// The same, with words that open menus in that menu.
-    const fn with_inner(self, inner: &'static [&'static str]) -> Self {
-        Absent { inner, ..self }
     }
 
     /// The same, with what windlass has instead.
@@ -87,13 +80,14 @@ const MODEL: &[&MenuSpec] = &[&menu::INMODEL, &menu::MEDIT];
 const SURFACES: &[&MenuSpec] = &[&menu::SURFACE];
 const POST: &[&MenuSpec] = &[&menu::PRCPOST];
 const FREQUENCY: &[&MenuSpec] = &[&menu::FREQ_RESPONSE];
-const STABILITY: &[&MenuSpec] = &[&menu::HSTATICS];
+const HYDRODYNAMIC: &[&MenuSpec] = &[&menu::HYDRODYNAMICS];
 
 static STRUCTURAL: MenuSpec = MenuSpec { name: "STRUCTURAL", end: "END_STRUCTURAL" };
 static STRPOST: MenuSpec = MenuSpec { name: "STRPOST", end: "END_STRPOST" };
 static LAUNCH: MenuSpec = MenuSpec { name: "LAUNCH", end: "END_LAUNCH" };
 static STATIC_PROCESS: MenuSpec = MenuSpec { name: "STATIC_PROCESS", end: "END_STATIC_PROCESS" };
-static HYDRODYNAMICS: MenuSpec = MenuSpec { name: "HYDRODYNAMICS", end: "END_HYDRODYNAMICS" };
+static I_PRESSURE: MenuSpec = MenuSpec { name: "I_PRESSURE", end: "END_I_PRESSURE" };
+static I_MDRIFT: MenuSpec = MenuSpec { name: "I_MDRIFT", end: "END_I_MDRIFT" };
 static UGX: MenuSpec = MenuSpec { name: "&UGX", end: "END_&UGX" };
 static TABLES: MenuSpec = MenuSpec { name: "&TABLE", end: "END_&TABLE" };
 static DOCUMENTS: MenuSpec = MenuSpec { name: "&D_GENERATE", end: "END_&D_GENERATE" };
@@ -101,9 +95,9 @@ static PLTMODE: MenuSpec = MenuSpec { name: "&PLTMODE", end: "END_&PLTMODE" };
 static SHAPES: MenuSpec = MenuSpec { name: "&DATA SHAPES", end: "END_&DATA" };
 /// The disposition menu of a table that is not made.
 static DISPOSITION: MenuSpec = MenuSpec { name: "DISPOSITION", end: "END_DISPOSE" };
-/// The menu in a menu that is passed over.
-static INNER: MenuSpec = MenuSpec { name: "of a record that is passed over", end: "END" };
 
+const TOTAL: &str = "I_TOTAL gives added mass, damping and wave forces by records, DATABASE reads them";
+const DRIFT: &str = "#DRIFT gives mean drift by records, DATABASE reads it";
 const NO_STRESS: &str = "a stress analysis, which windlass does not make";
 const STRUCTURE: &str = "weight, buoyancy, wind and drag of structural members";
 const TUBE_INSTEAD: &str = "TUBE of &SURFACE, #WEIGHT and #AREA give members, weights and areas";
@@ -118,11 +112,6 @@ const fn frequency(name: &'static str, what: &'static str) -> Absent {
     Absent::new(name, Loss::Results, what).within(FREQUENCY).opens(&DISPOSITION)
 }
 
-/// A table of HSTATICS that is not made.
-const fn stability(name: &'static str, what: &'static str) -> Absent {
-    Absent::new(name, Loss::Results, what).within(STABILITY).opens(&DISPOSITION)
-}
-
 /// All of them. What a later version of windlass has goes from here.
 pub static ABSENT: &[Absent] = &[
     Absent::new("STRUCTURAL", Loss::Results, NO_STRESS).within(MAIN).opens(&STRUCTURAL),
@@ -133,13 +122,18 @@ pub static ABSENT: &[Absent] = &[
         .within(MAIN)
         .opens(&STATIC_PROCESS)
         .instead("&EQUI finds each equilibrium; &DESCRIBE PROCESS keeps configurations apart"),
-    Absent::new("HYDRODYNAMICS", MOTIONS, "added mass, radiation damping, wave loads and drift by diffraction")
-        .within(MAIN)
-        .opens(&HYDRODYNAMICS)
-        .with_inner(&["I_TOTAL", "I_PRESSURE", "I_MDRIFT", "V_MATRICES", "V_EXFORCES", "V_MDRIFT"])
-        .instead(
-            "DATABASE reads those of WAMIT, NEMOH, Capytaine and AQWA; #AMASS, #DAMP and #DRIFT give them as numbers",
-        ),
+    Absent::new("I_PRESSURE", MOTIONS, "hydrodynamic data of panels")
+        .within(HYDRODYNAMIC)
+        .opens(&I_PRESSURE)
+        .instead(TOTAL),
+    Absent::new("E_PRESSURE", Loss::Results, "hydrodynamic data of panels").within(HYDRODYNAMIC),
+    Absent::new("G_MDRIFT", MOTIONS, "mean wave drift by formulas of MOSES, which are not public")
+        .within(HYDRODYNAMIC)
+        .instead(DRIFT),
+    Absent::new("I_MDRIFT", MOTIONS, "mean wave drift by records").within(HYDRODYNAMIC).opens(&I_MDRIFT).instead(DRIFT),
+    Absent::new("E_MDRIFT", Loss::Results, "a file of mean wave drift")
+        .within(HYDRODYNAMIC)
+        .instead("V_MDRIFT shows it, STORE of its menu writes it"),
     Absent::new("&UGX", Loss::Nothing, "it draws").opens(&UGX),
     Absent::new("&TABLE", Loss::Nothing, "it lays out tables; STORE and REPORT of the disposition menu write them")
         .opens(&TABLES),
@@ -206,13 +200,6 @@ pub static ABSENT: &[Absent] = &[
         .within(FREQUENCY)
         .instead("&STATUS STIFFNESS and &STATUS DATABASE report stiffness and added mass"),
     Absent::new("FP_STD", Loss::Results, "the standard set of tables of a point").within(FREQUENCY),
-    Absent::new("EQUI_H", STATICS, "the place of a body in heave, roll and pitch")
-        .within(STABILITY)
-        .instead("&EQUI finds the equilibrium"),
-    stability("MOMENT", "shear and bending along a body"),
-    stability("STAB_OK", "checks of stability criteria").instead("RARM gives righting arms and areas"),
-    stability("KG_ALLOW", "the allowable height of the center of gravity")
-        .instead("RARM gives righting arms and areas"),
     Absent::new("BEAM_SUM", Loss::Results, NO_STRESS).within(&[&menu::SUMMARY]),
 ];
 
@@ -283,12 +270,6 @@ pub fn find_form(command: &str, second: &str) -> Option<&'static Absent> {
     ABSENT.iter().find(|entry| {
         entry.name.split_once(' ').is_some_and(|(name, form)| name == command && form.eq_ignore_ascii_case(second))
     })
-}
-
-/// The menu that a word opens within a menu that is passed over.
-pub fn find_inner(word: &str, menu: &MenuSpec) -> Option<&'static MenuSpec> {
-    let entry = ABSENT.iter().find(|entry| entry.opens.is_some_and(|opened| opened == menu))?;
-    entry.inner.iter().any(|inner| inner.eq_ignore_ascii_case(word)).then_some(&INNER)
 }
 
 /// The class type of a word, that of a rolled shape among them: `W14X140`.

@@ -2,9 +2,10 @@
 
 use super::{
     Call, Command, accepted, action, alter, apply, assembly, bathymetry, buildg, class, compartment, connector, curves,
-    database, describe, device, disposition, env, file, hydrostatic, junction, loads, menus, message, names, parameter,
-    pgen, piece, pipe, prescribe, rep_select, select, status, surface, t_pressure, units, weight,
+    database, describe, device, disposition, env, file, hydrodynamics, hydrostatic, junction, loads, menus, message,
+    names, parameter, pgen, piece, pipe, prescribe, rep_select, select, status, surface, t_pressure, units, weight,
 };
+use crate::commands::solve::hstatics::equi_h;
 use crate::commands::solve::{equilibrium, tdom};
 use windlass_base::diagnostic::Outcome;
 
@@ -42,6 +43,15 @@ static RUN: &[&Command] = &[
     &surface::REFLECT_BLOCK,
     &surface::EMIT,
     &compartment::COMPARTMENT,
+    &hydrodynamics::HYDRODYNAMICS,
+    &hydrodynamics::G_PRESSURE,
+    &hydrodynamics::I_TOTAL,
+    &hydrodynamics::H_ORIGIN,
+    &hydrodynamics::H_EULERA,
+    &hydrodynamics::H_PERIOD,
+    &hydrodynamics::H_AMASS,
+    &hydrodynamics::H_DAMP,
+    &hydrodynamics::H_FORCE,
     &class::CLASS,
     &connector::CONNECTOR,
     &junction::JUNCTION,
@@ -85,7 +95,7 @@ static RUN: &[&Command] = &[
 ];
 
 /// Commands whose places and forces functions ask for afterwards.
-static SOLVE: &[&Command] = &[&equilibrium::EQUI, &tdom::TDOM, &compartment::CMP_BAL];
+static SOLVE: &[&Command] = &[&equilibrium::EQUI, &tdom::TDOM, &compartment::CMP_BAL, &equi_h::EQUI_H];
 
 /// Commands whose rows follow, or stand in a file that the script itself may have written.
 static WITH_ROWS: &[&Command] = &[&buildg::BUILDG];

@@ -2,10 +2,12 @@
 
 use crate::commands::environment::bathymetry::Soundings;
 use crate::commands::menu;
+use crate::commands::model::hydrodynamics::TotalData;
 use crate::commands::model::pgen::Planes;
 use crate::commands::model::process::Process;
 use crate::commands::output::buildg::Building;
 use crate::commands::solve::frequency::FrequencyResults;
+use crate::commands::solve::hstatics::HydrostaticsMenu;
 use crate::commands::verdict::Verdict;
 use crate::report::disposition::Disposition;
 use crate::report::files::{FilePlace, Question};
@@ -62,10 +64,14 @@ pub enum Menu {
     Block(Box<Planes>),
     /// A surface of panels being given by `MESH`.
     Mesh,
-    /// Hydrostatics of the body of this name.
-    Hydrostatics(String),
+    /// Hydrostatics of a body.
+    Hydrostatics(HydrostaticsMenu),
     /// The frequency domain, with what it has found.
     Frequency(Box<FrequencyResults>),
+    /// Hydrodynamic data.
+    Hydrodynamics,
+    /// A database being given by the records of `I_TOTAL`.
+    Total(Box<TotalData>),
     /// A table being given by the records of `&BUILDG`.
     Building(Box<Building>),
     /// Rows of a bottom being given by the records of `&BATHYMETRY`.
@@ -102,6 +108,8 @@ impl Menu {
             Menu::Planes(_) => &menu::PGEN,
             Menu::Hydrostatics(_) => &menu::HSTATICS,
             Menu::Frequency(_) => &menu::FREQ_RESPONSE,
+            Menu::Hydrodynamics => &menu::HYDRODYNAMICS,
+            Menu::Total(_) => &menu::I_TOTAL,
             Menu::Summary => &menu::SUMMARY,
             Menu::Refused(menu) | Menu::Checked(menu) => menu,
         }

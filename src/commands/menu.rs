@@ -39,11 +39,15 @@ pub static HSTATICS: MenuSpec = MenuSpec { name: "HSTATICS", end: "END_HSTATICS"
 /// FREQ_RESPONSE.
 pub static FREQ_RESPONSE: MenuSpec = MenuSpec { name: "FREQ_RESPONSE", end: "END_FREQ_RESPONSE" };
 
+/// HYDRODYNAMICS.
+pub static HYDRODYNAMICS: MenuSpec = MenuSpec { name: "HYDRODYNAMICS", end: "END_HYDRODYNAMICS" };
+/// I_TOTAL.
+pub static I_TOTAL: MenuSpec = MenuSpec { name: "I_TOTAL", end: "END_I_TOTAL" };
 /// SUMMARY.
 pub static SUMMARY: MenuSpec = MenuSpec { name: "SUMMARY", end: "END_&SUMMARY" };
 
 /// All of them.
-pub static ALL: [&MenuSpec; 19] = [
+pub static ALL: [&MenuSpec; 21] = [
     &MAIN,
     &INMODEL,
     &MEDIT,
@@ -63,6 +67,8 @@ pub static ALL: [&MenuSpec; 19] = [
     &HSTATICS,
     &FREQ_RESPONSE,
     &SUMMARY,
+    &HYDRODYNAMICS,
+    &I_TOTAL,
 ];
 
 /// The names of menus, joined by a word.

@@ -5,7 +5,7 @@ use crate::commands::menu;
 use crate::commands::model::assembly::build_assembly;
 use crate::commands::model::class::known_curves;
 use crate::commands::model::connector::build_connector;
-use crate::commands::model::{pgen, piece};
+use crate::commands::model::{hydrodynamics, pgen, piece};
 use crate::commands::output::buildg;
 use crate::commands::settings::device::existing;
 use crate::commands::{Call, Command, Effect, INMODEL_FILE, Job, Menu};
@@ -148,6 +148,7 @@ pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Diagnostic> {
         Menu::Soundings(soundings) => {
             bathymetry::finish_grid(job, *soundings, at).err().into_iter().map(|e| *e).collect()
         }
+        Menu::Total(data) => hydrodynamics::finish_total(job, *data, at),
         Menu::Planes(planes) => pgen::build(job, *planes, at).err().into_iter().map(|e| *e).collect(),
         _ => Vec::new(),
     }

@@ -30,8 +30,8 @@ pub use functions::FUNCTION_HELP;
 pub use job::{Checking, DeviceSettings, Job, Menu};
 pub use menus::{find_opened_menu, finish};
 use model::{
-    alter, apply, assembly, class, compartment, connector, database, describe, hydrostatic, junction, loads, names,
-    pgen, piece, pipe, select, surface, t_pressure, weight,
+    alter, apply, assembly, class, compartment, connector, database, describe, hydrodynamics, hydrostatic, junction,
+    loads, names, pgen, piece, pipe, select, surface, t_pressure, weight,
 };
 pub use output::buildg::take as take_row;
 use output::{add_column, animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
@@ -168,9 +168,26 @@ static LISTED: &[&Command] = &[
     &compartment::COMPARTMENT,
     &compartment::CMP_BAL,
     &hstatics::HSTATICS,
-    &hstatics::CFORM,
-    &hstatics::RARM,
-    &hstatics::TANK_CAPACITY,
+    &hstatics::cform::CFORM,
+    &hstatics::arms::RARM,
+    &hstatics::criteria::STAB_OK,
+    &hstatics::kg_allow::KG_ALLOW,
+    &hstatics::equi_h::EQUI_H,
+    &hstatics::moment::MOMENT,
+    &hstatics::tank_capacity::TANK_CAPACITY,
+    &hydrodynamics::HYDRODYNAMICS,
+    &hydrodynamics::G_PRESSURE,
+    &hydrodynamics::I_TOTAL,
+    &hydrodynamics::E_TOTAL,
+    &hydrodynamics::H_ORIGIN,
+    &hydrodynamics::H_EULERA,
+    &hydrodynamics::H_PERIOD,
+    &hydrodynamics::H_AMASS,
+    &hydrodynamics::H_DAMP,
+    &hydrodynamics::H_FORCE,
+    &hydrodynamics::V_MATRICES,
+    &hydrodynamics::V_EXFORCES,
+    &hydrodynamics::V_MDRIFT,
     &class::CLASS,
     &connector::CONNECTOR,
     &junction::JUNCTION,

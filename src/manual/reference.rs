@@ -69,8 +69,14 @@ const CHAPTERS: &[Chapter] = &[
     Chapter {
         file: "hydrostatics",
         title: "Stability: HSTATICS",
-        head: "Hydrostatics, righting arms and tanks.",
+        head: "Hydrostatics, floating position, righting and heeling arms, stability criteria, longitudinal strength and tanks.",
         menus: &[&menu::HSTATICS],
+    },
+    Chapter {
+        file: "hydrodynamics",
+        title: "Hydrodynamic data: HYDRODYNAMICS",
+        head: "Databases of bodies by records, and tables of databases.",
+        menus: &[&menu::HYDRODYNAMICS, &menu::I_TOTAL],
     },
     Chapter {
         file: "frequency",

@@ -2,7 +2,6 @@
 //! passed over up to its `END`, so that one mistake gives one message and every `END` leaves the menu it was written for.
 
 use super::{Meaning, Session};
-use crate::commands::absent;
 use crate::commands::{Command, Menu, find_opened_menu};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_language::record::Word;
@@ -35,10 +34,6 @@ impl Session {
     pub(super) fn pass_over(&mut self, first: &Word, words: &[Word]) -> bool {
         if !self.passing() || first.kind == TokenKind::Internal {
             return false;
-        }
-        if let Some(inner) = absent::find_inner(&first.text, self.job.menu().spec()) {
-            self.job.menus.push(Menu::Refused(inner));
-            return true;
         }
         match self.resolve(first) {
             Ok(Meaning::Absent(entry)) => {

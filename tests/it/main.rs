@@ -69,6 +69,7 @@ mod floating {
     mod equilibrium_distant_starts;
     mod equilibrium_trials;
     mod excursion;
+    mod hydrostatics_menu;
     mod members;
     mod moorpy_equilibrium;
     mod moses_hulls;
@@ -101,6 +102,7 @@ mod time {
     mod time_domain;
     mod time_runs;
     mod transient;
+    mod typed_database;
     mod wave_mean;
 }
 

@@ -6,8 +6,10 @@
 //!
 //! What only some loads can do are traits of their own, which the accessors `as_..` of [`BodyLoad`] give.
 
+use super::hull::Wet;
+use super::stability::WaterSlabs;
 use super::{Category, Load};
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, Vector2};
 use std::fmt::Debug;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::ClassError;
@@ -97,6 +99,26 @@ pub trait BodyLoad: Debug + Send + Sync {
     fn as_divided(&self) -> Option<&dyn DividedLoad> {
         None
     }
+
+    /// The load as the weight of sea water.
+    fn as_immersed(&self) -> Option<&dyn Immersed> {
+        None
+    }
+}
+
+/// A load that is the weight of sea water: what a hull displaces, or what fills a compartment that is open to the sea.
+pub trait Immersed {
+    /// The lift of a volume of water (N/m3): negative of water that is taken in.
+    fn lift(&self) -> f64;
+
+    /// What of it is below the sea at rest, in a pose.
+    fn wet(&self, pose: &Pose) -> Wet;
+
+    /// What of it is below a water surface, slab by slab.
+    fn wet_slabs(&self, pose: &Pose, water: &WaterSlabs) -> Vec<Wet>;
+
+    /// The least and the greatest distance of its points from the origin of a pose along a horizontal direction (m).
+    fn reach_along(&self, pose: &Pose, ahead: &Vector2<f64>) -> [f64; 2];
 }
 
 /// A load that keeps values from step to step.

@@ -1,8 +1,9 @@
 //! Buoyancy of a body's hull: the pieces of its parts, as solids in the system of the body.
 
 use super::hull::{Fault, Solid, Surface, TubeHull, Wet, intersect};
-use super::{BodyLoad, Category, Load};
-use nalgebra::{Matrix3, Vector3};
+use super::stability::WaterSlabs;
+use super::{BodyLoad, Category, Immersed, Load};
+use nalgebra::{Matrix3, Vector2, Vector3};
 use windlass_base::geometry::Position;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
@@ -86,6 +87,36 @@ impl SolidForm {
         }
     }
 
+    /// Adds what of it is below a water surface in a pose, slab by slab, times a factor; a tube as a prism of its volume.
+    pub(super) fn add_slabs(&self, pose: &Pose, water: &WaterSlabs, factor: f64, sums: &mut [Wet]) {
+        match self {
+            SolidForm::Surface(surface) => water.add_surface(surface, pose, factor, sums),
+            SolidForm::Tube(tube) => {
+                if let Some(prism) = tube.prism(TUBE_PRISM_SIDES) {
+                    water.add_surface(&prism, pose, factor * self.volume() / prism.volume(), sums);
+                }
+            }
+        }
+    }
+
+    /// Its least and greatest distance from the origin of a pose along a horizontal direction (m).
+    pub(super) fn reach_along(&self, pose: &Pose, ahead: &Vector2<f64>) -> [f64; 2] {
+        let distance = |at: &Vector3<f64>| ahead.dot(&(pose.axes * at).xy());
+        let span = |list: &mut dyn Iterator<Item = f64>| {
+            list.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)])
+        };
+        match self {
+            SolidForm::Surface(surface) => span(&mut surface.vertices.iter().map(distance)),
+            SolidForm::Tube(TubeHull { ends, diameter }) => {
+                let axis = (pose.axes * (ends[1] - ends[0])).try_normalize(0.0).unwrap_or_else(Vector3::z);
+                let along = ahead.dot(&axis.xy());
+                let beside = 0.5 * diameter * (1.0 - along * along).max(0.0).sqrt();
+                let [low, high] = span(&mut ends.iter().map(distance));
+                [low - beside, high + beside]
+            }
+        }
+    }
+
     /// Its surface, of a tube that of a prism; `None` of a tube without length.
     fn surface(self) -> Option<Surface> {
         match self {
@@ -155,6 +186,35 @@ impl BodyLoad for Hull {
             Err(ClassError::new("the buoyancy has no value where the body is"))
         }
     }
+
+    fn as_immersed(&self) -> Option<&dyn Immersed> {
+        Some(self)
+    }
+}
+
+impl Immersed for Hull {
+    fn lift(&self) -> f64 {
+        self.water_weight
+    }
+
+    fn wet(&self, pose: &Pose) -> Wet {
+        Hull::wet(self, pose)
+    }
+
+    fn wet_slabs(&self, pose: &Pose, water: &WaterSlabs) -> Vec<Wet> {
+        let mut sums = vec![Wet::default(); water.count()];
+        self.pieces.iter().for_each(|(share, form)| form.add_slabs(pose, water, *share, &mut sums));
+        sums
+    }
+
+    fn reach_along(&self, pose: &Pose, ahead: &Vector2<f64>) -> [f64; 2] {
+        join_reaches(self.pieces.iter().map(|(_, form)| form.reach_along(pose, ahead)))
+    }
+}
+
+/// The reach of several things together.
+pub(super) fn join_reaches(reaches: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    reaches.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [a, b]| [low.min(a), high.max(b)])
 }
 
 /// The surface of a piece in its body, its tubes as prisms; `None` of a piece without panels or one that bounds no volume.

@@ -38,10 +38,10 @@ pub mod pieces;
 pub mod plate;
 pub mod pressure;
 pub mod ramp;
-mod righting;
 pub mod roll_damping;
 pub mod sea;
 pub mod spectrum;
+pub mod stability;
 pub mod steady;
 pub mod stream;
 pub mod strips;
@@ -52,9 +52,8 @@ mod weight;
 pub mod wind;
 
 pub use ambient::ambient;
-pub use body_load::{BodyLoad, DividedLoad, DynamicLoad, InertialLoad, PreparedLoad, StatefulLoad, Underway};
+pub use body_load::{BodyLoad, DividedLoad, DynamicLoad, Immersed, InertialLoad, PreparedLoad, StatefulLoad, Underway};
 pub use buoyancy::{Hull, PieceFault, piece_faults};
-pub use righting::{Balanced, balance_heave_and_trim};
 pub use tank::{Liquid, Tank, balance_tanks, compartments_of, contents_mass, laden_mass};
 
 use nalgebra::{Matrix3, Matrix6, Vector3};

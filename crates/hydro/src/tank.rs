@@ -9,10 +9,11 @@
 //! In time the contents are quasi-static: the surface is level at every instant, and the mass of the liquid is that of a solid of the form it has
 //! where the run begins. Sloshing and flow through holes are not computed.
 
-use super::buoyancy::SolidForm;
+use super::buoyancy::{SolidForm, join_reaches};
 use super::hull::Wet;
-use super::{BodyLoad, Category, Load};
-use nalgebra::{Matrix3, SVector, Vector3};
+use super::stability::WaterSlabs;
+use super::{BodyLoad, Category, Immersed, Load};
+use nalgebra::{Matrix3, SVector, Vector2, Vector3};
 use windlass_base::dense::{Lu, never};
 use windlass_base::geometry::Position;
 use windlass_base::pose::{Pose, Six};
@@ -233,6 +234,35 @@ impl Tank {
         Ok(Load { wrench: -fixed.wrench, stiffness: -kept })
     }
 
+    /// What of it is below a water surface, slab by slab.
+    fn slabs_below(&self, pose: &Pose, water: &WaterSlabs) -> Vec<Wet> {
+        let mut sums = vec![Wet::default(); water.count()];
+        self.solids.iter().for_each(|(share, form)| form.add_slabs(pose, water, *share, &mut sums));
+        sums
+    }
+
+    /// Whether it is open to the sea.
+    pub fn is_flooded(&self) -> bool {
+        self.is_flooded
+    }
+
+    /// Its liquid in a pose, in the slabs of a water surface: that of the sea where it is flooded, else its own level. A liquid that turns
+    /// with the body is taken as it lies upright.
+    ///
+    /// # Errors
+    /// A level that is not found.
+    pub fn liquid_slabs(&self, pose: &Pose, sea: &WaterSlabs) -> Result<Vec<Wet>, ClassError> {
+        if self.is_flooded {
+            return Ok(self.slabs_below(pose, sea));
+        }
+        let (x, y) = (sea.ahead.x, sea.ahead.y);
+        let upright = Matrix3::new(x, -y, 0.0, y, x, 0.0, 0.0, 0.0, 1.0);
+        let lies = if self.is_frozen() { Pose { axes: upright, ..*pose } } else { *pose };
+        let level = self.liquid(&lies)?.level;
+        let stations = sea.stations.iter().map(|[at, _]| [*at, level]).collect();
+        Ok(self.slabs_below(&lies, &WaterSlabs { stations, ..sea.clone() }))
+    }
+
     /// The mass of its contents in the axes of its body, as they lie in a pose.
     ///
     /// # Errors
@@ -305,6 +335,28 @@ impl BodyLoad for TankLoad {
 
     fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         self.0.load(pose)
+    }
+
+    fn as_immersed(&self) -> Option<&dyn Immersed> {
+        self.0.is_flooded.then_some(self)
+    }
+}
+
+impl Immersed for TankLoad {
+    fn lift(&self) -> f64 {
+        -self.0.density() * self.0.gravity
+    }
+
+    fn wet(&self, pose: &Pose) -> Wet {
+        self.0.below(pose, self.0.sea.0)
+    }
+
+    fn wet_slabs(&self, pose: &Pose, water: &WaterSlabs) -> Vec<Wet> {
+        self.0.slabs_below(pose, water)
+    }
+
+    fn reach_along(&self, pose: &Pose, ahead: &Vector2<f64>) -> [f64; 2] {
+        join_reaches(self.0.solids.iter().map(|(_, form)| form.reach_along(pose, ahead)))
     }
 }
 

@@ -1,6 +1,7 @@
 //! `DATABASE`: the hydrodynamic database of a body, read from the files of another program.
 
 use crate::commands::menu;
+use crate::commands::model::hydrodynamics;
 use crate::commands::settings::device::find_file;
 use crate::commands::{Call, Command, Effect, Job};
 use nalgebra::Vector3;
@@ -191,9 +192,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const BODY: DatumKey<str> = SPEC.word("BODY");
     let args = &call.args;
     let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.place(BODY))?;
-    let (key, name) = (Model::key(&body.name), body.name.clone());
+    let name = body.name.clone();
     let weight = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity);
-    let mass = weight.mass;
     let (source, mut data) = read(job, args)?;
     // AQWA gives the centre of gravity, which is that of the body
     let usual = if args.has(&AQWA) { weight.centre - data.reference } else { Vector3::zeros() };
@@ -212,7 +212,26 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error(format!("{} has no hydrostatics", data.source), source)
             .help("leave out -HYDROSTATICS YES, and give the body a hull or #HYDROSTATIC"));
     }
-    let radiation = windlass_hydro::database::radiation::Radiation::new(&data);
+    let memory = args.option_number(&MEMORY);
+    let made = AttachedDatabase { data: Arc::new(data), at, memory, drift, hydrostatics, span: args.span };
+    attach(job, &name, made, source)?;
+    Ok(Effect::Done)
+}
+
+/// Gives a body a database, and warns of what looks wrong with it.
+///
+/// # Errors
+/// Radiation that makes no memory.
+pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: Span) -> Outcome<()> {
+    let key = Model::key(body);
+    let Some(name) = job.model.bodies.get(&key).map(|b| b.name.clone()) else { return Ok(()) };
+    let mass = job
+        .model
+        .bodies
+        .get(&key)
+        .map_or(0.0, |b| Mass::from_parts(job.model.parts_of(b), job.model.defaults.gravity).mass);
+    let data = &made.data;
+    let radiation = windlass_hydro::database::radiation::Radiation::new(data);
     let radiation = radiation.map_err(|e| Diagnostic::error(e.to_string(), source))?;
     for text in &data.remarks {
         job.warn(format!("{}: {text}", data.source), source);
@@ -229,16 +248,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let text = format!("{name} has {:.4} times the mass that {} was computed for", mass / other, data.source);
         job.warn(text, source);
     }
-    if let Some(text) = unlike(&data, mass) {
+    if let Some(text) = unlike(data, mass) {
         job.warn(format!("{name}: {text}"), source);
     }
-    let memory = args.option_number(&MEMORY);
-    let made = AttachedDatabase { data: Arc::new(data), at, memory, drift, hydrostatics, span: args.span };
+    let span = made.span;
     let old = job.model.bodies.get_mut(&key).and_then(|b| b.database.replace(made));
     if old.is_some() {
-        job.remark(format!("the database of {name} is replaced"), args.span);
+        job.remark(format!("the database of {name} is replaced"), span);
     }
-    Ok(Effect::Done)
+    hydrodynamics::settle_pressure(&mut job.model, &name);
+    Ok(())
 }
 
 /// The sign that a database belongs to a body of another size, where its source does not say the mass it was computed for: added

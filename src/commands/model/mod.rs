@@ -9,6 +9,7 @@ pub(crate) mod connector;
 pub(crate) mod database;
 pub(crate) mod describe;
 pub(crate) mod draft_mark;
+pub(crate) mod hydrodynamics;
 pub(crate) mod hydrostatic;
 pub(crate) mod junction;
 pub(crate) mod loads;

@@ -44,13 +44,11 @@ pub(crate) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
             whole.note(format!("{text}; frequencies stray from it by {:.1} %", 100.0 * stray));
         }
         tables.extend(radiation.map(|r| radiation_table(body, attached, &r)));
-        let by_wave = |title: &str, table: &[Vec<Amplitudes>], dims: [Dim; 2]| {
-            amplitudes(format!("{title} of {}", body.name), (&data.headings, &data.frequencies), table, dims)
-        };
-        if !data.excitation.is_empty() {
-            tables.push(by_wave("Excitation", &data.excitation, [Dim::ForcePerLength, Dim::Force]));
-        }
-        tables.extend(data.motions.iter().map(|m| by_wave("Motions", m, [Dim::None, Dim::None])));
+        tables.extend(excitation(body, attached));
+        tables.extend(data.motions.iter().map(|motions| {
+            let title = format!("Motions of {}", body.name);
+            amplitudes(title, (&data.headings, &data.frequencies), motions, [Dim::None, Dim::None])
+        }));
         tables.extend(drift(body, attached));
     }
     let whole = whole
@@ -73,6 +71,14 @@ pub(crate) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         .text("Drift", |(_, attached, _)| drift_word(attached))
         .build();
     std::iter::once(whole).chain(tables).collect()
+}
+
+/// Exciting forces over wave amplitude.
+pub(crate) fn excitation(body: &Body, attached: &AttachedDatabase) -> Option<Table> {
+    let data = &attached.data;
+    let title = format!("Excitation of {}", body.name);
+    let axes = (data.headings.as_slice(), data.frequencies.as_slice());
+    (!data.excitation.is_empty()).then(|| amplitudes(title, axes, &data.excitation, [Dim::ForcePerLength, Dim::Force]))
 }
 
 /// How slow drift is found.
@@ -163,7 +169,7 @@ fn amplitudes(
 }
 
 /// Mean drift over the square of the wave amplitude.
-fn drift(body: &Body, attached: &AttachedDatabase) -> Option<Table> {
+pub(crate) fn drift(body: &Body, attached: &AttachedDatabase) -> Option<Table> {
     let data = &attached.data;
     let drift = data.drift.clone().or_else(|| data.qtf.as_ref().map(mean_drift))?;
     let rows = by_frequency(&drift.headings, &drift.frequencies, &drift.values);

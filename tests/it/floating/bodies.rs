@@ -11,7 +11,8 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::units::{METRES_PER_FOOT, NEWTONS_PER_KIP};
 use windlass_hydro::hull::Hydrostatics;
-use windlass_hydro::{Category, Floating, Hull, balance_heave_and_trim};
+use windlass_hydro::stability::{Attitude, BalanceLimits, StillBody};
+use windlass_hydro::{Category, Floating, Hull};
 use windlass_model::{Mass, Model};
 
 /// The model of records that must draw no error; and the texts of what else they draw.
@@ -261,16 +262,17 @@ fn box_righting_arm_matches_wall_sided_formula() {
     // while neither bilge nor deck edge crosses the surface (tan roll < 9 / 50): GZ = sin roll (GM + BM tan^2 roll / 2), with the draft
     // that carries the weight; trim stays zero, and the heading does not matter
     let (model, _) = model(BARGE);
-    let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
+    let still = StillBody::new(&model, &model.bodies[0], None).unwrap();
     let draft = 23000.0 * NEWTONS_PER_KIP / (1025.0 * 9.80665) / METRES_PER_FOOT.powi(3) / 40_000.0;
     let bm = 10_000.0 / 12.0 / draft;
     let gm = draft / 2.0 + bm - 12.0;
     for (degrees, yaw) in [(0.5f64, 0.0), (5.0, 1.0), (10.0, -2.0), (-10.0, 3.0)] {
         let roll = degrees.to_radians();
-        let found = balance_heave_and_trim(&floating, &Place::new([5.0, 6.0, -2.0, roll, 0.0, yaw])).unwrap();
+        let from = Attitude::from_place(&Place::new([5.0, 6.0, -2.0, roll, 0.0, yaw]));
+        let found = still.balance(&from, [true, false, true], &BalanceLimits::default()).unwrap();
         let want = roll.sin() * (gm + 0.5 * bm * roll.tan().powi(2));
         assert_share(found.arm / METRES_PER_FOOT, want, 1e-8);
-        assert!(found.place.turn[1].abs() < 1e-9, "{found:?}");
+        assert!(found.attitude.trim.abs() < 1e-9, "{found:?}");
     }
 }
 
@@ -278,8 +280,10 @@ fn box_righting_arm_matches_wall_sided_formula() {
 fn body_that_cannot_float_gets_no_righting_arm() {
     let (model, _) =
         model("MEDIT\n&DESCRIBE BODY B\n*P 5 5 5\n#WEIGHT *P 5000\nEND\n&SURFACE\nBLOCK H 0 0 0 10 10 10\nEND\n");
-    let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
-    assert!(balance_heave_and_trim(&floating, &Place::default()).unwrap_err().to_string().contains("no balance"));
+    let still = StillBody::new(&model, &model.bodies[0], None).unwrap();
+    let from = Attitude::from_place(&Place::default());
+    let error = still.balance(&from, [true, false, true], &BalanceLimits::default()).unwrap_err();
+    assert!(error.to_string().contains("no balance"));
 }
 
 #[test]

@@ -18,6 +18,7 @@ pub mod rao;
 mod rows;
 pub mod slow_drift;
 mod symmetry;
+pub mod typed;
 pub mod wamit;
 mod wamit_qtf;
 mod waves;

@@ -1,0 +1,565 @@
+//! `HYDRODYNAMICS`: the hydrodynamic data of bodies in the forms of MOSES. `G_PRESSURE` keeps headings and periods; `I_TOTAL` reads the
+//! values of a database and `E_TOTAL` writes them; `V_MATRICES`, `V_EXFORCES` and `V_MDRIFT` show them.
+//!
+//! Source: [MOSES-REF hydr_men, pressure] for the menu and G_PRESSURE. The records of I_TOTAL are from memory of MOSES; their units, and
+//! the file of E_TOTAL, are our reading.
+
+use crate::commands::menu;
+use crate::commands::model::database;
+use crate::commands::output::disposition::write_file;
+use crate::commands::status::database_table;
+use crate::commands::{Call, Command, Effect, Job, Menu};
+use crate::report::disposition::Disposition;
+use nalgebra::{Complex, Matrix6, Vector3};
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Place;
+use windlass_base::span::Span;
+use windlass_base::table::{Column, Digits, Table};
+use windlass_base::units::Dim;
+use windlass_base::values::{Args, Given, Noun, Value};
+use windlass_hydro::database::Amplitudes;
+use windlass_hydro::database::typed::{self, TypedAxes, TypedPeriod};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{AttachedDatabase, Body, DriftMethod, Model, SolveKind, UnmodelledEffect, find};
+
+/// HYDRODYNAMICS.
+pub static HYDRODYNAMICS: Command = Command { spec: &MENU_SPEC, edits: false, run: open };
+/// G_PRESSURE.
+pub static G_PRESSURE: Command = Command { spec: &PRESSURE_SPEC, edits: false, run: pressure };
+/// I_TOTAL.
+pub static I_TOTAL: Command = Command { spec: &TOTAL_SPEC, edits: false, run: total };
+/// E_TOTAL.
+pub static E_TOTAL: Command = Command { spec: &EXPORT_SPEC, edits: false, run: export };
+/// H_ORIGIN.
+pub static H_ORIGIN: Command = Command { spec: &ORIGIN_SPEC, edits: false, run: origin };
+/// H_EULERA.
+pub static H_EULERA: Command = Command { spec: &EULER_SPEC, edits: false, run: euler };
+/// H_PERIOD.
+pub static H_PERIOD: Command = Command { spec: &PERIOD_SPEC, edits: false, run: period };
+/// H_AMASS.
+pub static H_AMASS: Command = Command { spec: &MASS_SPEC, edits: false, run: |job, call| matrix(job, call, true) };
+/// H_DAMP.
+pub static H_DAMP: Command = Command { spec: &DAMPING_SPEC, edits: false, run: |job, call| matrix(job, call, false) };
+/// H_FORCE.
+pub static H_FORCE: Command = Command { spec: &FORCE_SPEC, edits: false, run: force };
+/// V_MATRICES.
+pub static V_MATRICES: Command = Command { spec: &MATRICES_SPEC, edits: false, run: show_matrices };
+/// V_EXFORCES.
+pub static V_EXFORCES: Command = Command { spec: &FORCES_SPEC, edits: false, run: show_forces };
+/// V_MDRIFT.
+pub static V_MDRIFT: Command = Command { spec: &DRIFT_SPEC, edits: false, run: show_drift };
+
+/// Most periods of a database [MOSES-REF pressure].
+const MAX_PERIODS: usize = 200;
+
+const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body");
+const PACKET: ValueSpec = ValueSpec::new("PKT_NAME", Kind::Text, "name of the data, kept in reports alone").or("none");
+
+macro_rules! typed {
+    () => {
+        "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY BALL -IGNORE X Y RX RY RZ\n*CG 0 0 0\n#WEIGHT *CG 20000 4 4 4\n\
+         #HYDROSTATIC *CG 3000 0 0 -BUOYANCY 20000 -ZCGE 0\nEND\nHYDRODYNAMICS\nI_TOTAL BALL\nH_ORIGIN 0 0 0\nH_PERIOD 6\n\
+         H_AMASS 0 0 0 0 0 0  0 0 0 0 0 0  0 0 9000 0 0 0  0 0 0 0 0 0  0 0 0 0 0 0  0 0 0 0 0 0\n\
+         H_DAMP 0 0 0 0 0 0  0 0 0 0 0 0  0 0 300 0 0 0  0 0 0 0 0 0  0 0 0 0 0 0  0 0 0 0 0 0\n\
+         H_FORCE 180 0 0 0 0 1500 20 0 0 0 0 0 0\nH_PERIOD 9\n\
+         H_AMASS 0 0 0 0 0 0  0 0 0 0 0 0  0 0 11000 0 0 0  0 0 0 0 0 0  0 0 0 0 0 0  0 0 0 0 0 0\n\
+         H_DAMP 0 0 0 0 0 0  0 0 0 0 0 0  0 0 400 0 0 0  0 0 0 0 0 0  0 0 0 0 0 0  0 0 0 0 0 0\n\
+         H_FORCE 180 0 0 0 0 2200 -10 0 0 0 0 0 0\nEND_I_TOTAL\n"
+    };
+}
+
+static MENU_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::MAIN],
+    opens: Opens::Menu(&menu::HYDRODYNAMICS),
+    detail: "Diffraction is not computed: DATABASE reads databases of WAMIT, NEMOH, Capytaine and AQWA, I_TOTAL those given by records.",
+    example: concat!(typed!(), "V_MATRICES BALL\nREPORT\nEND\nEND"),
+    ..CommandSpec::new("HYDRODYNAMICS", "hydrodynamic data of bodies, up to END")
+};
+
+const HEADING: OptionSpec = OptionSpec::new(
+    "-HEADING",
+    &[ValueSpec::new("H", Kind::Number(Dim::Angle), "where the waves come from, from +X toward +Y")],
+    "headings",
+)
+.repeating(1)
+.default("those of &DEFAULT");
+const PERIOD: OptionSpec = OptionSpec::new(
+    "-PERIOD",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "period").positive()],
+    "periods, at most 200",
+)
+.repeating(1)
+.default("those of &DEFAULT");
+const MAX_DIST: OptionSpec = OptionSpec::new(
+    "-MAX_DIST",
+    &[ValueSpec::new("D", Kind::Number(Dim::Length), "length").positive()],
+    "accepted: meshes of a diffraction that is not made",
+);
+
+static PRESSURE_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::HYDRODYNAMICS],
+    data: &[BODY, PACKET],
+    options: &[HEADING, PERIOD, MAX_DIST],
+    detail: "Headings and periods are kept as those of RAO (and of &DEFAULT). A body with a database, of DATABASE or I_TOTAL, has what G_PRESSURE of MOSES \
+             computes: that is said. For one without, motions stop with one error until it is given a database.",
+    example: concat!(typed!(), "G_PRESSURE BALL -HEADING 180 -PERIOD 6 9\nEND\nFREQ_RESPONSE\nRAO\nEND"),
+    ..CommandSpec::new("G_PRESSURE", "hydrodynamic pressures of a body")
+};
+
+static TOTAL_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::HYDRODYNAMICS],
+    opens: Opens::Menu(&menu::I_TOTAL),
+    data: &[BODY, PACKET],
+    detail: "The database of a body by records, up to END_I_TOTAL, where it replaces the one it has: H_ORIGIN and H_EULERA, then for each period H_PERIOD, H_AMASS, \
+             H_DAMP and one H_FORCE a heading. All periods have the same headings, and all or none have matrices. They are checked as those of DATABASE: asymmetry and negative damping are warned of; \
+             &STATUS DATABASE reports them.",
+    example: concat!(typed!(), "E_TOTAL BALL ball.tot\nEND\n&INSERT job.ans/ball.tot"),
+    ..CommandSpec::new("I_TOTAL", "reads the database of a body, up to END_I_TOTAL")
+};
+
+const fn coordinate(name: &'static str, dim: Dim) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), "in the body")
+}
+static ORIGIN_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::I_TOTAL],
+    data: &[coordinate("X", Dim::Length), coordinate("Y", Dim::Length), coordinate("Z", Dim::Length)],
+    detail: "Moments and phases of the values are about this point of the body; without it they are about its origin.",
+    example: concat!(typed!(), "END"),
+    ..CommandSpec::new("H_ORIGIN", "the point that the values of I_TOTAL are about")
+};
+static EULER_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::I_TOTAL],
+    data: &[coordinate("RX", Dim::Angle), coordinate("RY", Dim::Angle), coordinate("RZ", Dim::Angle)],
+    detail: "Roll, pitch and yaw of the axes of the values in the body, in the order of &DESCRIBE PART -MOVE; headings turn with the yaw (our reading). Without it they are those of the body.",
+    example: concat!(typed!(), "END"),
+    ..CommandSpec::new("H_EULERA", "the axes of the values of I_TOTAL")
+};
+static PERIOD_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::I_TOTAL],
+    data: &[ValueSpec::new("T", Kind::Number(Dim::Time), "period").positive()],
+    detail: "H_AMASS, H_DAMP and H_FORCE that follow are of this period.",
+    example: concat!(typed!(), "END"),
+    ..CommandSpec::new("H_PERIOD", "begins a period of I_TOTAL")
+};
+const ENTRIES: &[ValueSpec] = &[ValueSpec::new("A", Kind::Number(Dim::None), "36 values, row by row")];
+static MASS_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::I_TOTAL],
+    data: ENTRIES,
+    repeat: 1,
+    detail: "X Y Z RX RY RZ by rows, as a weight like #AMASS (our reading): force; force times length between translation and rotation; force times length squared of rotations. Divided by gravity when computed. \
+             MOSES prints added mass divided by the mass of the body: such values times its weight are these.",
+    example: concat!(typed!(), "END"),
+    ..CommandSpec::new("H_AMASS", "added mass of a period of I_TOTAL")
+};
+static DAMPING_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::I_TOTAL],
+    data: ENTRIES,
+    repeat: 1,
+    detail: "X Y Z RX RY RZ by rows: force over velocity, with a power of length more for each rotation (our reading).",
+    example: concat!(typed!(), "END"),
+    ..CommandSpec::new("H_DAMP", "radiation damping of a period of I_TOTAL")
+};
+static FORCE_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::I_TOTAL],
+    data: &[
+        ValueSpec::new(
+            "HEADING",
+            Kind::Number(Dim::Angle),
+            "where the waves come from, from +X toward +Y of the values",
+        ),
+        ValueSpec::new("F", Kind::Number(Dim::None), "amplitude and phase of X, Y, Z, RX, RY, RZ: 12 values"),
+    ],
+    repeat: 1,
+    detail: "Force and moment over wave amplitude, each with its lag behind the crest at H_ORIGIN in degrees (our reading).",
+    example: concat!(typed!(), "END"),
+    ..CommandSpec::new("H_FORCE", "exciting forces of a heading of I_TOTAL")
+};
+static EXPORT_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::HYDRODYNAMICS],
+    data: &[BODY, ValueSpec::new("FILE", Kind::File, "file in the folder of answers").or("BODY.tot")],
+    detail: "Writes the database of a body as the records of HYDRODYNAMICS and I_TOTAL that read it back by &INSERT, in the units in force. Added mass at infinite frequency, drift, hydrostatics and motions have no records in it.",
+    example: concat!(typed!(), "E_TOTAL BALL ball.tot\nEND"),
+    ..CommandSpec::new("E_TOTAL", "writes the database of a body")
+};
+static MATRICES_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::HYDRODYNAMICS],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    data: &[BODY],
+    detail: "Added mass as a weight, and damping, by period, about the point of the database, in the units in force: actual values. MOSES prints them divided by the mass of the body: added mass over \
+             its weight, damping over its mass.",
+    example: concat!(typed!(), "V_MATRICES BALL\nVLIST\nEND\nEND"),
+    ..CommandSpec::new("V_MATRICES", "added mass and damping of a body")
+};
+static FORCES_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::HYDRODYNAMICS],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    data: &[BODY],
+    detail: "Exciting forces over wave amplitude by heading and period, about the point of the database, with their lag behind the crest there; headings are where the waves travel toward in the body, as in &STATUS DATABASE.",
+    example: concat!(typed!(), "V_EXFORCES BALL\nREPORT\nEND\nEND"),
+    ..CommandSpec::new("V_EXFORCES", "exciting forces of a body")
+};
+static DRIFT_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::HYDRODYNAMICS],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    data: &[BODY],
+    detail: "Mean drift over the square of the wave amplitude by heading and period, as in &STATUS DATABASE. I_TOTAL gives none.",
+    example: "&DIMEN -DIMEN METERS K-NTS\n&FILE OPEN A ball.1\n&FILE WRITE A 6 3 3 900 300\n&FILE WRITE A 9 3 3 1100 400\n&FILE CLOSE A\n\
+              &FILE OPEN D ball.8\n&FILE WRITE D 6 180 180 1 5 180 -5 0\n&FILE WRITE D 9 180 180 1 3 180 -3 0\n&FILE CLOSE D\n\
+              MEDIT\n&DESCRIBE BODY BALL\n*CG 0 0 0\n#WEIGHT *CG 20000 4 4 4\nDATABASE BALL -WAMIT job.ans/ball\nEND\n\
+              HYDRODYNAMICS\nV_MDRIFT BALL\nREPORT\nEND\nEND",
+    ..CommandSpec::new("V_MDRIFT", "mean drift of a body")
+};
+
+fn open(job: &mut Job, _: &Call) -> Outcome<Effect> {
+    job.menus.push(Menu::Hydrodynamics);
+    Ok(Effect::Done)
+}
+
+/// The record that a body without a database lacks, as solves name it.
+fn pressure_record(body: &str) -> String {
+    format!("G_PRESSURE of {body}")
+}
+
+/// Takes back what G_PRESSURE said of a body that has a database now.
+pub(super) fn settle_pressure(model: &mut Model, body: &str) {
+    let record = pressure_record(body);
+    model.unmodelled.retain(|effect| !effect.record.eq_ignore_ascii_case(&record));
+}
+
+fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = PRESSURE_SPEC.word("BODY");
+    let (args, span) = (&call.args, call.args.span);
+    let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.place(NAME))?;
+    let (name, has_database) = (body.name.clone(), body.database.is_some());
+    let given = |option: &OptionSpec| args.option(option).map(Given::numbers).filter(|list| !list.is_empty());
+    let (headings, periods) = (given(&HEADING), given(&PERIOD));
+    if let Some(list) = periods.as_ref().filter(|list| list.len() > MAX_PERIODS) {
+        let place = args.option(&PERIOD).map_or(span, |given| given.span);
+        return Err(Diagnostic::error(format!("{} periods; at most {MAX_PERIODS} are taken", list.len()), place));
+    }
+    let defaults = &mut job.model.wave_defaults;
+    defaults.headings = headings.unwrap_or_else(|| std::mem::take(&mut defaults.headings));
+    defaults.periods = periods.unwrap_or_else(|| std::mem::take(&mut defaults.periods));
+    if has_database {
+        job.remark(
+            format!("the hydrodynamic data of {name} are those of its database: G_PRESSURE computes none"),
+            span,
+        );
+        return Ok(Effect::Done);
+    }
+    settle_pressure(&mut job.model, &name);
+    let effect = UnmodelledEffect {
+        record: pressure_record(&name),
+        effect: "added mass, radiation damping and wave forces by diffraction".into(),
+        matters_to: SolveKind::Motions,
+        span,
+    };
+    job.model.keep_unmodelled(effect);
+    let said = Diagnostic::warning(
+        format!("diffraction of {name} is not computed; motions stop until it has a database"),
+        span,
+    );
+    job.notices.push(
+        *said.help(
+            "DATABASE reads those of WAMIT, NEMOH, Capytaine and AQWA; I_TOTAL .. END_I_TOTAL gives one by records",
+        ),
+    );
+    Ok(Effect::Done)
+}
+
+/// A database that records are giving.
+#[derive(Clone, Debug)]
+pub struct TotalData {
+    body: String,
+    /// Its packet.
+    name: String,
+    origin: [f64; 3],
+    turn: [f64; 3],
+    periods: Vec<TypedPeriod>,
+    span: Span,
+    /// A record of it was refused: it is not to be used.
+    is_wrong: bool,
+}
+
+fn total(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = TOTAL_SPEC.word("BODY");
+    const PACKET: DatumKey<str> = TOTAL_SPEC.word("PKT_NAME");
+    let args = &call.args;
+    let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.place(NAME))?;
+    let made = TotalData {
+        body: body.name.clone(),
+        name: args.word(PACKET).unwrap_or_default().to_string(),
+        origin: [0.0; 3],
+        turn: [0.0; 3],
+        periods: Vec::new(),
+        span: args.span,
+        is_wrong: false,
+    };
+    job.menus.push(Menu::Total(Box::new(made)));
+    Ok(Effect::Done)
+}
+
+/// The database being given.
+fn current(job: &mut Job, span: Span) -> Outcome<&mut TotalData> {
+    match job.menus.last_mut() {
+        Some(Menu::Total(data)) => Ok(data),
+        _ => Err(Diagnostic::error("no I_TOTAL is open", span)),
+    }
+}
+
+/// Its period now being given; a record that is wrong spoils the whole.
+fn change(
+    job: &mut Job,
+    span: Span,
+    edit: impl FnOnce(&mut TypedPeriod) -> Result<(), Box<Diagnostic>>,
+) -> Outcome<Effect> {
+    let data = current(job, span)?;
+    let done = match data.periods.last_mut() {
+        Some(period) => edit(period),
+        None => Err(Diagnostic::error("H_PERIOD stands before the values of a period", span)),
+    };
+    data.is_wrong |= done.is_err();
+    done.map(|()| Effect::Done)
+}
+
+fn origin(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let at = call.args.numbers_or_zero(const { ORIGIN_SPEC.numbers(["X", "Y", "Z"]) });
+    current(job, call.args.span)?.origin = at;
+    Ok(Effect::Done)
+}
+
+fn euler(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let turn = call.args.numbers_or_zero(const { EULER_SPEC.numbers(["RX", "RY", "RZ"]) });
+    current(job, call.args.span)?.turn = turn;
+    Ok(Effect::Done)
+}
+
+fn period(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let period = call.args.number(const { PERIOD_SPEC.number("T") }).unwrap_or_default();
+    let data = current(job, call.args.span)?;
+    if data.periods.len() >= MAX_PERIODS {
+        data.is_wrong = true;
+        return Err(Diagnostic::error(format!("at most {MAX_PERIODS} periods are taken"), call.args.span));
+    }
+    data.periods.push(TypedPeriod { period, ..TypedPeriod::default() });
+    Ok(Effect::Done)
+}
+
+/// So many numbers of a record.
+fn numbers(args: &Args, values: &[Value], count: usize) -> Outcome<Vec<f64>> {
+    let list: Vec<f64> = values.iter().filter_map(Value::number).collect();
+    if list.len() == count {
+        return Ok(list);
+    }
+    let place = values.last().map_or(args.span, |value| value.span);
+    Err(Diagnostic::error(format!("{} values; {count} are expected", list.len()), place))
+}
+
+/// The dimension of an entry of added mass as a weight, or of damping.
+fn entry_dim(at: (usize, usize), is_mass: bool) -> Dim {
+    let length = i8::from(at.0 >= 3) + i8::from(at.1 >= 3);
+    if is_mass {
+        Dim::Derived { force: 1, length, seconds: 0 }
+    } else {
+        Dim::Derived { force: 1, length: length - 1, seconds: 1 }
+    }
+}
+
+fn matrix(job: &mut Job, call: &Call, is_mass: bool) -> Outcome<Effect> {
+    let (args, units, gravity) = (&call.args, job.units, job.model.defaults.gravity);
+    change(job, args.span, |period| {
+        let list = numbers(args, &args.data, 36)?;
+        let mut made = Matrix6::zeros();
+        for (n, value) in list.into_iter().enumerate() {
+            let at = (n / 6, n % 6);
+            made[at] = entry_dim(at, is_mass).to_si(value, units);
+        }
+        let slot = if is_mass { &mut period.added_mass } else { &mut period.damping };
+        if slot.is_some() {
+            return Err(Diagnostic::error(format!("the period of {} s has them already", period.period), args.span));
+        }
+        *slot = Some(if is_mass { made / gravity } else { made });
+        Ok(())
+    })
+}
+
+/// The dimension of an exciting force over wave amplitude.
+fn force_dim(direction: usize) -> Dim {
+    Dim::Derived { force: 1, length: if direction < 3 { -1 } else { 0 }, seconds: 0 }
+}
+
+fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const HEADING: DatumKey<f64> = FORCE_SPEC.number("HEADING");
+    let (args, units) = (&call.args, job.units);
+    change(job, args.span, |period| {
+        let list = numbers(args, args.data_after(HEADING), 12)?;
+        let mut made: Amplitudes = [Complex::new(0.0, 0.0); 6];
+        for (direction, (slot, pair)) in made.iter_mut().zip(list.chunks(2)).enumerate() {
+            if let [size, lag] = pair {
+                *slot = Complex::from_polar(force_dim(direction).to_si(*size, units), lag.to_radians());
+            }
+        }
+        // waves that come from a heading travel the other way
+        let toward = args.number(HEADING).unwrap_or_default() + PI;
+        period.forces.push((toward, made));
+        Ok(())
+    })
+}
+
+/// Gives the body the database whose records are complete. Returns what is wrong with it.
+pub fn finish_total(job: &mut Job, data: TotalData, at: Option<Span>) -> Vec<Diagnostic> {
+    if data.is_wrong {
+        let text = format!("the data of {} are not used: a record of them is wrong", data.body);
+        return vec![*Diagnostic::warning(text, at.unwrap_or(data.span))];
+    }
+    match attach_total(job, &data) {
+        Ok(()) => Vec::new(),
+        Err(error) => vec![*error],
+    }
+}
+
+fn attach_total(job: &mut Job, data: &TotalData) -> Outcome<()> {
+    let around = job.model.surroundings();
+    let place = Place { shift: [0.0; 3], turn: data.turn };
+    let axes = TypedAxes { reference: Vector3::from(data.origin), axes: *place.rotation().matrix(), yaw: data.turn[2] };
+    let source = if data.name.is_empty() { "I_TOTAL".to_string() } else { format!("I_TOTAL {}", data.name) };
+    let made = typed::build(&source, &axes, &data.periods, (around.water_density, around.gravity, around.depth));
+    let made = made.map_err(|e| Diagnostic::error(e.to_string(), data.span))?;
+    let attached = AttachedDatabase {
+        data: std::sync::Arc::new(made),
+        at: [0.0; 3],
+        memory: None,
+        drift: DriftMethod::None,
+        hydrostatics: false,
+        span: data.span,
+    };
+    database::attach(job, &data.body, attached, data.span)
+}
+
+/// A body that has a database.
+fn find_database<'j>(job: &'j Job, args: &Args, key: DatumKey<str>) -> Outcome<(&'j Body, &'j AttachedDatabase)> {
+    let body = find(&job.model.bodies, args.word(key).unwrap_or_default(), "body", args.place(key))?;
+    let attached = body.database.as_ref().ok_or_else(|| {
+        Diagnostic::error(format!("{} has no database", body.name), args.place(key))
+            .help("DATABASE reads one, I_TOTAL .. END_I_TOTAL gives one by records")
+    })?;
+    Ok((body, attached))
+}
+
+fn export(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = EXPORT_SPEC.word("BODY");
+    const FILE: DatumKey<str> = EXPORT_SPEC.word("FILE");
+    let (args, units, gravity) = (&call.args, job.units, job.model.defaults.gravity);
+    let (body, attached) = find_database(job, args, NAME)?;
+    let data = &attached.data;
+    if data.added_mass.is_empty() && data.excitation.is_empty() {
+        return Err(Diagnostic::error(format!("the database of {} holds motions alone", body.name), args.place(NAME)));
+    }
+    let [x, y, z]: [f64; 3] = data.reference.into();
+    let lengths = [x, y, z].map(|x| Dim::Length.from_si(x, units));
+    let mut text = format!("$ database of {}: {}\nHYDRODYNAMICS\nI_TOTAL {}\n", body.name, data.source, body.name);
+    // writing into text does not fail
+    let _ = writeln!(text, "H_ORIGIN {:?} {:?} {:?}", lengths[0], lengths[1], lengths[2]);
+    let rows = |text: &mut String, name: &str, matrix: &Matrix6<f64>, is_mass: bool| {
+        text.push_str(name);
+        for row in 0..6 {
+            text.push_str(" \\\n ");
+            for column in 0..6 {
+                let _ = write!(text, " {:?}", entry_dim((row, column), is_mass).from_si(matrix[(row, column)], units));
+            }
+        }
+        text.push('\n');
+    };
+    for (n, frequency) in data.frequencies.iter().enumerate().rev() {
+        let _ = writeln!(text, "H_PERIOD {:?}", TAU / frequency);
+        if let (Some(mass), Some(damping)) = (data.added_mass.get(n), data.damping.get(n)) {
+            rows(&mut text, "H_AMASS", &(mass * gravity), true);
+            rows(&mut text, "H_DAMP", damping, false);
+        }
+        for (heading, forces) in data.headings.iter().zip(&data.excitation) {
+            let Some(forces) = forces.get(n) else { continue };
+            let from = (heading + PI).rem_euclid(TAU).to_degrees();
+            let _ = write!(text, "H_FORCE {from:?} \\\n ");
+            for (direction, value) in forces.iter().enumerate() {
+                let size = force_dim(direction).from_si(value.norm(), units);
+                let _ = write!(text, " {size:?} {:?}", value.arg().to_degrees());
+            }
+            text.push('\n');
+        }
+    }
+    text.push_str("END_I_TOTAL\nEND_HYDRODYNAMICS\n");
+    let file = args.word(FILE).map_or_else(|| format!("{}.tot", body.name), str::to_string);
+    let lost: Vec<&str> = [
+        (data.infinite.is_some(), "added mass at infinite frequency"),
+        (data.drift.is_some() || data.qtf.is_some(), "drift"),
+        (data.hydrostatics.is_some(), "hydrostatics"),
+        (data.motions.is_some(), "motions"),
+    ]
+    .into_iter()
+    .filter_map(|(is_lost, what)| is_lost.then_some(what))
+    .collect();
+    write_file(job, &file, text.as_bytes(), args.place(FILE))?;
+    if !lost.is_empty() {
+        job.warn(format!("{file} has no records of {}", lost.join(", ")), args.span);
+    }
+    Ok(Effect::Done)
+}
+
+fn dispose(job: &mut Job, table: Table) -> Effect {
+    job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
+    Effect::Done
+}
+
+/// Names of the six directions, as in columns.
+const DIRECTIONS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
+
+fn show_matrices(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = MATRICES_SPEC.word("BODY");
+    let (body, attached) = find_database(job, &call.args, NAME)?;
+    let data = &attached.data;
+    if data.added_mass.is_empty() {
+        return Err(Diagnostic::error(format!("the database of {} has no matrices", body.name), call.args.place(NAME)));
+    }
+    let gravity = job.model.defaults.gravity;
+    let mut table = Table::new(format!("Added Mass and Damping of {}", body.name));
+    table.note("actual values, about the point of the database; MOSES prints them divided by the mass of the body: added mass, here a weight, over its weight, damping over its mass");
+    let mut table = table
+        .with_rows(&data.frequencies)
+        .column("", "Period", Dim::Time, Digits::Decimals(3), |w| TAU / w)
+        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4), |w| *w)
+        .build();
+    for (group, letter, list, factor) in
+        [("Added Mass", "A", &data.added_mass, gravity), ("Damping", "B", &data.damping, 1.0)]
+    {
+        for (row, down) in DIRECTIONS.iter().enumerate() {
+            for (column, across) in DIRECTIONS.iter().enumerate() {
+                let cells = list.iter().map(|matrix| matrix[(row, column)] * factor);
+                let dim = entry_dim((row, column), letter == "A");
+                let name = format!("{letter} {down}-{across}");
+                table.add_column(Column::new(group, &name, dim, Digits::Scientific(4), cells));
+            }
+        }
+    }
+    Ok(dispose(job, table))
+}
+
+fn show_forces(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = FORCES_SPEC.word("BODY");
+    let (body, attached) = find_database(job, &call.args, NAME)?;
+    let table = database_table::excitation(body, attached).ok_or_else(|| {
+        Diagnostic::error(format!("the database of {} has no exciting forces", body.name), call.args.place(NAME))
+    })?;
+    Ok(dispose(job, table))
+}
+
+fn show_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = DRIFT_SPEC.word("BODY");
+    let (body, attached) = find_database(job, &call.args, NAME)?;
+    let table = database_table::drift(body, attached).ok_or_else(|| {
+        Diagnostic::error(format!("the database of {} has no mean drift", body.name), call.args.place(NAME))
+            .help("#DRIFT gives it by records; DATABASE reads it from the files of WAMIT, NEMOH, Capytaine and AQWA")
+    })?;
+    Ok(dispose(job, table))
+}
