@@ -20,6 +20,9 @@ const MAX_ANGLE_CHANGE_RAD: f64 = 0.1;
 /// What may be left of force and moment, as a share of the weight and of the weight times the size.
 const RESIDUAL_TOLERANCE: f64 = 1e-10;
 
+/// A waterplane that is none, as a share of the wetted area.
+const NO_WATERPLANE: f64 = 1e-12;
+
 /// Where a body stands to the water: rolled about a horizontal axis and trimmed across it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attitude {
@@ -213,6 +216,10 @@ impl StillBody {
             match &water {
                 None => own = immersed.wet(&pose),
                 Some(water) => immersed.wet_slabs(&pose, water).iter().for_each(|wet| own.add(wet, 1.0)),
+            }
+            // under a wave the waterplane is a difference of areas: what rounding leaves of none is none
+            if own.plane_area.abs() <= NO_WATERPLANE * own.wetted_area {
+                (own.plane_area, own.plane_moment, own.plane_second) = (0.0, [0.0; 2], [0.0; 3]);
             }
             sum.add(&own, immersed.lift().signum());
             skin += if immersed.lift() > 0.0 { own.wetted_area } else { 0.0 };

@@ -172,7 +172,10 @@ pub fn find_strength(model: &Model, body: &Body, still: &StillBody, intervals: u
         LoadAlong::Point { at, .. } => [at, at],
         LoadAlong::Trapezoid { between, .. } => between,
     });
-    let fine: Vec<StrengthRow> = stations(FINE_INTERVALS).chain(ends).map(|at| loads.before(at)).collect();
+    let mut fine: Vec<StrengthRow> = stations(FINE_INTERVALS).chain(ends).map(|at| loads.before(at)).collect();
+    // the shear jumps at a force: the greatest may be that just before it
+    let jumps: Vec<StrengthRow> = fine.iter().map(|row| loads.without_points_at(row)).collect();
+    fine.extend(jumps);
     let extreme = |value: &dyn Fn(&StrengthRow) -> f64| {
         fine.iter().max_by(|a, b| value(a).total_cmp(&value(b))).copied().unwrap_or_default()
     };
@@ -228,6 +231,21 @@ fn gather(
 }
 
 impl Loads {
+    /// A row without the forces at its station.
+    fn without_points_at(&self, row: &StrengthRow) -> StrengthRow {
+        let here = |load: &LoadAlong| match load {
+            LoadAlong::Point { force, at } if *at == row.station => *force,
+            _ => 0.0,
+        };
+        let (weights, others): (f64, f64) = (self.weights.iter().map(here).sum(), self.others.iter().map(here).sum());
+        StrengthRow {
+            weight: row.weight + weights,
+            buoyancy: row.buoyancy - others,
+            shear: row.shear - weights - others,
+            ..*row
+        }
+    }
+
     fn before(&self, station: f64) -> StrengthRow {
         let sum = |loads: &[LoadAlong]| {
             loads.iter().map(|load| load.before(station)).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]])

@@ -75,7 +75,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     if found.points.0 > 0 {
         table.note(format!(
-            "{} weights without -LDIST, {} in all, act at their centers",
+            "weights without -LDIST act at their centers: {}, of {} in all",
             found.points.0,
             value(found.points.1, Dim::Force)
         ));
