@@ -180,25 +180,13 @@ pub static ABSENT: &[Absent] = &[
     Absent::new("JKT_GEN", STATICS, "a jacket, by a macro library of MOSES"),
     Absent::new("SU_SHOW", Loss::Nothing, "it draws"),
     Absent::new("SUPLOT", Loss::Nothing, "it draws"),
-    post("ELMFORCE", "forces of structural members"),
-    post("LDGFORCE", "forces of load groups over time").instead("BODY_FORCE gives those of bodies by category"),
-    frequency("ST_POINT", "statistics of a point").instead("STATISTICS POINT *PT reports them"),
+    post("ELMFORCE", "forces of structural members: a run keeps the sum over each body alone")
+        .instead("BODY_FORCE gives those of bodies by category"),
+    post("LDGFORCE", "forces of load groups over time: a run keeps the sum over each body alone")
+        .instead("BODY_FORCE gives those of bodies by category"),
     frequency("TD_POINT", "one realisation of the motion of a point").instead("TDOM gives motions in time"),
-    frequency("FR_CFORCE", "the force of a connector in unit waves").instead("CONFORCE gives it"),
-    frequency("ST_CFORCE", "statistics of the force of a connector").instead("STATISTICS CONFORCE reports them"),
-    frequency("EXFORCE", "exciting forces of the equations"),
-    frequency("FR_FCARGO", "the force on a cargo in unit waves")
-        .instead("FR_POINT -ACCELERATION gives the acceleration at it"),
-    frequency("ST_FCARGO", "statistics of the force on a cargo")
-        .instead("STATISTICS POINT -ACCELERATION reports the acceleration at it"),
     frequency("FR_PANPRESS", "pressures on panels in unit waves"),
     frequency("ST_PANPRESS", "statistics of pressures on panels"),
-    Absent::new("EQU_SUM", Loss::Results, "the equations of motion")
-        .within(FREQUENCY)
-        .instead("&STATUS MODES reports periods and damping"),
-    Absent::new("MATRICES", Loss::Results, "the matrices of the equations of motion")
-        .within(FREQUENCY)
-        .instead("&STATUS STIFFNESS and &STATUS DATABASE report stiffness and added mass"),
     Absent::new("FP_STD", Loss::Results, "the standard set of tables of a point").within(FREQUENCY),
     Absent::new("BEAM_SUM", Loss::Results, NO_STRESS).within(&[&menu::SUMMARY]),
 ];

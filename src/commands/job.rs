@@ -6,7 +6,7 @@ use crate::commands::model::hydrodynamics::TotalData;
 use crate::commands::model::pgen::Planes;
 use crate::commands::model::process::Process;
 use crate::commands::output::buildg::Building;
-use crate::commands::solve::frequency::FrequencyResults;
+use crate::commands::solve::frequency::FrequencyMenu;
 use crate::commands::solve::hstatics::HydrostaticsMenu;
 use crate::commands::verdict::Verdict;
 use crate::report::disposition::Disposition;
@@ -67,7 +67,7 @@ pub enum Menu {
     /// Hydrostatics of a body.
     Hydrostatics(HydrostaticsMenu),
     /// The frequency domain, with what it has found.
-    Frequency(Box<FrequencyResults>),
+    Frequency(Box<FrequencyMenu>),
     /// Hydrodynamic data.
     Hydrodynamics,
     /// A database being given by the records of `I_TOTAL`.
@@ -386,6 +386,12 @@ impl Job {
     /// Raises a remark.
     pub fn remark(&mut self, text: impl Into<String>, span: Span) {
         self.notices.push(*Diagnostic::remark(text, span));
+    }
+
+    /// The name of the next file of a table that the user gives none.
+    pub fn next_unnamed_file(&mut self) -> String {
+        self.stored_unnamed += 1;
+        format!("PPO{:05}.CSV", self.stored_unnamed)
     }
 
     /// Raises a warning.

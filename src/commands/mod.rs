@@ -35,7 +35,7 @@ use model::{
 };
 pub use output::buildg::take as take_row;
 use output::{add_column, animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
-use post::{frequency_posts, rep_select};
+use post::{frequency_equations, frequency_posts, frequency_statistics, rep_select};
 pub(crate) use settings::device::existing;
 use settings::{accepted, device, parameter, units};
 use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};
@@ -205,6 +205,14 @@ static LISTED: &[&Command] = &[
     &frequency_posts::FR_POINT,
     &frequency_posts::CONFORCE,
     &frequency_posts::STATISTICS,
+    &frequency_statistics::FR_CFORCE,
+    &frequency_statistics::ST_POINT,
+    &frequency_statistics::ST_CFORCE,
+    &frequency_statistics::FR_FCARGO,
+    &frequency_statistics::ST_FCARGO,
+    &frequency_equations::EXFORCE,
+    &frequency_equations::MATRICES,
+    &frequency_equations::EQU_SUM,
     &tdom::TDOM,
     &action::ACTION,
     &select::SELECT,

@@ -6,7 +6,7 @@ use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::Model;
+use windlass_model::{Environment, Model};
 use windlass_solve::frequency::ExtremeKind;
 
 choices! {
@@ -70,6 +70,11 @@ pub(crate) fn check(given: &Given) -> Outcome<()> {
 
 /// The extreme that the environment in force asks for, else `&DEFAULT`.
 pub(crate) fn extreme(model: &Model) -> Option<ExtremeKind> {
-    let given = model.environment.options.iter().rev().find(|given| given.is(&PROBABILITY));
+    extreme_in(model, &model.environment)
+}
+
+/// The extreme that an environment asks for, else `&DEFAULT`.
+pub(crate) fn extreme_in(model: &Model, env: &Environment) -> Option<ExtremeKind> {
+    let given = env.options.iter().rev().find(|given| given.is(&PROBABILITY));
     given.or(model.wave_defaults.probability.as_ref()).and_then(|given| read(given).ok())
 }

@@ -86,7 +86,8 @@ const ACTION: OptionSpec = OptionSpec::new(
     &[ValueSpec::new("ACTION", Kind::Item, "what is done, and to what")],
     "of a sensor: what its alarm does; stops motions, for windlass does not do it (&ACTION acts on conditions)",
 )
-.repeating(1);
+.repeating(1)
+.stops(SolveKind::Motions, "what the alarm of a sensor does");
 
 /// What a sensor takes.
 pub(super) const OWN: [OptionSpec; 8] = [ON, OFF, DELETE, SIGNAL, DERIVATIVE, LIMITS, CONVOLUTION, ACTION];
@@ -144,7 +145,7 @@ pub(super) fn describe(job: &mut Job, args: &Args, name: Option<(&str, Span)>, s
     };
     let made = SensorRecord { name: name.to_string(), signal, sources, component, is_rate, limits, is_on: true, span };
     if let Some(given) = args.option(&ACTION) {
-        let (record, effect) = (format!("-ACTION of sensor {name}"), "what its alarm does".to_string());
+        let (record, effect) = (format!("-ACTION of sensor {name}"), "what the alarm of a sensor does".to_string());
         let effect = UnmodelledEffect { record, effect, matters_to: SolveKind::Motions, span: given.span };
         job.model.keep_unmodelled(effect);
     }

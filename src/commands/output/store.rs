@@ -35,10 +35,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let named = args.word(FILE).filter(|word| !is_column(word)).map(crate::commands::files::file::with_csv_ending);
     let columns = if named.is_some() { args.data_after(FILE) } else { args.data.as_slice() };
     let table = chosen_columns(job, args, columns)?;
-    let name = named.unwrap_or_else(|| {
-        job.stored_unnamed += 1;
-        format!("PPO{:05}.CSV", job.stored_unnamed)
-    });
+    let name = named.unwrap_or_else(|| job.next_unnamed_file());
     let ending = std::path::Path::new(&name).extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let bytes = match ending.as_deref() {
         Some("parquet") => parquet::bytes(&table, job.units).map_err(|e| e.to_string()),

@@ -7,7 +7,9 @@ use crate::commands::environment::env::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_
 use crate::commands::environment::probability;
 use crate::commands::menu;
 use crate::commands::solve::equilibrium::to_diagnostic;
-use crate::commands::solve::frequency::{FrequencyResults, heaving, no_motions, open_results, seas};
+use crate::commands::solve::frequency::{
+    FrequencyResults, PlacedPoint, heaving, keep_points, no_motions, open_results, seas,
+};
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use nalgebra::Vector3;
@@ -18,6 +20,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun, Value};
+use windlass_language::number::evaluate;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{EntityKind, Environment, Idealisation, Model, add_model_column, find};
@@ -36,7 +39,7 @@ pub static CONFORCE: Command = Command { spec: &FORCE_SPEC, edits: false, run: f
 pub static STATISTICS: Command = Command { spec: &STATISTICS_SPEC, edits: false, run: report_statistics };
 
 /// The duration of the most probable maximum (s): three hours.
-const MPM_DURATION_S: f64 = 10_800.0;
+pub(super) const MPM_DURATION_S: f64 = 10_800.0;
 choices! {
     /// What STATISTICS is of.
     enum StatisticsOf {
@@ -46,9 +49,8 @@ choices! {
     }
 }
 
-const VELOCITY: OptionSpec = OptionSpec::new("-VELOCITY", &[], "velocities instead of motions");
-const ACCELERATION: OptionSpec = OptionSpec::new("-ACCELERATION", &[], "accelerations instead of motions");
-const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "point of a body");
+pub(super) const VELOCITY: OptionSpec = OptionSpec::new("-VELOCITY", &[], "velocities instead of motions");
+pub(super) const ACCELERATION: OptionSpec = OptionSpec::new("-ACCELERATION", &[], "accelerations instead of motions");
 
 static MOTION_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
@@ -63,9 +65,15 @@ static MOTION_SPEC: CommandSpec = CommandSpec {
 static POINT_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::FREQ_RESPONSE],
     opens: Opens::Menu(&menu::DISPOSITION),
-    data: &[POINT, POINT.or("none: the motion of the first")],
+    data: &[
+        ValueSpec::new("*PT", Kind::Item, "a point of a body; or X, before Y and Z, in the system of the first body"),
+        ValueSpec::new("*PT2", Kind::Item, "a point whose motion is taken off; or Y")
+            .or("none: the motion of the first"),
+        ValueSpec::new("Z", Kind::Item, "Z of a point given by coordinates").or("none"),
+    ],
     options: &[VELOCITY, ACCELERATION],
-    detail: "Motions of a point of a body, or of one point less those of another; as MOTION.",
+    detail: "Motions of a point of a body, or of one point less those of another; as MOTION. ST_POINT, EXFORCE, MATRICES, EQU_SUM and the \
+             forces on cargo are about the point of the last FR_POINT.",
     example: concat!(heaving!(), "RAO\nFR_POINT *CG -ACCELERATION\nREPORT\nEND\nEND"),
     ..CommandSpec::new("FR_POINT", "motions of points")
 };
@@ -80,7 +88,7 @@ static FORCE_SPEC: CommandSpec = CommandSpec {
     example: concat!(heaving!(), "RAO\nCONFORCE LINE\nREPORT\nEND\nEND"),
     ..CommandSpec::new("CONFORCE", "forces of connectors")
 };
-const DURATION_OPTION: OptionSpec = OptionSpec::new(
+pub(super) const DURATION_OPTION: OptionSpec = OptionSpec::new(
     "-DURATION",
     &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").positive()],
     "time of the most probable maximum",
@@ -110,7 +118,7 @@ static STATISTICS_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("STATISTICS", "statistics of motions and forces in a sea")
 };
 
-fn derivative(args: &Args) -> Outcome<Derivative> {
+pub(super) fn derivative(args: &Args) -> Outcome<Derivative> {
     match (args.option(&VELOCITY), args.option(&ACCELERATION)) {
         (Some(first), Some(second)) => {
             Err(Diagnostic::error("-VELOCITY and -ACCELERATION cannot hold at once", second.span)
@@ -122,7 +130,7 @@ fn derivative(args: &Args) -> Outcome<Derivative> {
     }
 }
 
-fn derivative_name(derivative: Derivative) -> &'static str {
+pub(super) fn derivative_name(derivative: Derivative) -> &'static str {
     match derivative {
         Derivative::Place => "Motion",
         Derivative::Velocity => "Velocity",
@@ -131,19 +139,19 @@ fn derivative_name(derivative: Derivative) -> &'static str {
 }
 
 /// How a connector is idealised here: a dynamic line follows the bodies as at rest.
-fn idealisation(model: &Model, name: &str) -> Option<Idealisation> {
+pub(super) fn idealisation(model: &Model, name: &str) -> Option<Idealisation> {
     model.idealisation(name).map(|kind| if kind == Idealisation::Dynamic { Idealisation::QuasiStatic } else { kind })
 }
 
 /// Opens the disposition menu over a table.
-fn dispose(job: &mut Job, made: Table, span: Span) -> Effect {
+pub(super) fn dispose(job: &mut Job, made: Table, span: Span) -> Effect {
     raise(job, &made, span);
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
     Effect::Done
 }
 
 /// The table of what is found: amplitudes and phases, or spectra.
-fn results_table(
+pub(super) fn results_table(
     job: &Job,
     title: String,
     list: &[NamedQuantity],
@@ -161,7 +169,7 @@ fn results_table(
 }
 
 /// The number of a body of the motions by its name.
-fn body(job: &Job, linear: &LinearSystem, name: Option<&str>, span: Span) -> Outcome<(usize, String)> {
+pub(super) fn body(job: &Job, linear: &LinearSystem, name: Option<&str>, span: Span) -> Outcome<(usize, String)> {
     let gone = || Diagnostic::error("that body has no part in the motions found", span).help("RAO or SRESPONSE again");
     let Some(name) = name else {
         let first = linear.system.nodes.iter().position(|n| !n.junction).unwrap_or(0);
@@ -172,36 +180,60 @@ fn body(job: &Job, linear: &LinearSystem, name: Option<&str>, span: Span) -> Out
     Ok((index, found.name.clone()))
 }
 
-/// The coordinates of a point of a body.
-fn coordinates(job: &Job, linear: &LinearSystem, name: &str, span: Span) -> Outcome<[LinearQuantity; 3]> {
+/// A point of a body by its name.
+fn placed(job: &Job, name: &str, span: Span) -> Outcome<PlacedPoint> {
     let point = find(&job.model.points, name, "point", span)?;
     let Some(owner) = job.model.body_of(point) else {
         return Err(Diagnostic::error(format!("point {name} belongs to no body"), span));
     };
-    let (index, _) = body(job, linear, Some(&owner.name), span)?;
     let part = job.model.parts.get(&Model::key(&point.part));
     let at = part.map_or(point.at, |p| p.place.apply(point.at));
-    Ok(LinearQuantity::point(linear, index, Vector3::from(at)))
+    Ok(PlacedPoint { name: name.to_string(), body: owner.name.clone(), at })
 }
 
-/// A point, or one less another, with a name for both.
-fn points(job: &Job, linear: &LinearSystem, named: &[Value], span: Span) -> Outcome<(String, Vec<NamedQuantity>)> {
-    let mut named = named.iter().filter_map(|value| Some((value.word()?, value.span)));
-    let Some((first, place)) = named.next() else {
-        return Err(Diagnostic::error("a point is missing", span).help("form: STATISTICS POINT *PT [*PT]"));
+/// One or two points by their names, or one by its coordinates in the first body.
+fn read_points(job: &Job, linear: &LinearSystem, named: &[Value], span: Span) -> Outcome<Vec<PlacedPoint>> {
+    let words: Vec<(&str, Span)> = named.iter().filter_map(|value| Some((value.word()?, value.span))).collect();
+    let coordinates = words.first().is_some_and(|(word, _)| evaluate(word).is_ok());
+    if coordinates {
+        let [x, y, z] = words.as_slice() else {
+            return Err(Diagnostic::error("a point is given by X, Y and Z", span)
+                .help("form: FR_POINT X Y Z or FR_POINT *PT [*PT]"));
+        };
+        let number = |(word, place): &(&str, Span)| {
+            let value = evaluate(word).map_err(|e| Diagnostic::error(e.to_string(), *place))?;
+            Ok::<f64, Box<Diagnostic>>(Dim::Length.to_si(value, job.units))
+        };
+        let at = [number(x)?, number(y)?, number(z)?];
+        let (_, body) = body(job, linear, None, span)?;
+        return Ok(vec![PlacedPoint { name: format!("{} {} {} of {body}", x.0, y.0, z.0), body, at }]);
+    }
+    match words.as_slice() {
+        [] => Err(Diagnostic::error("a point is missing", span).help("form: STATISTICS POINT *PT [*PT]")),
+        [_, _, (_, surplus), ..] => Err(Diagnostic::error("there are more than two points", *surplus)),
+        list => list.iter().map(|(word, place)| placed(job, word, *place)).collect(),
+    }
+}
+
+/// The coordinates of a point, or of one less another, with a name for both.
+pub(super) fn point_quantities(
+    job: &Job,
+    linear: &LinearSystem,
+    points: &[PlacedPoint],
+    span: Span,
+) -> Outcome<(String, Vec<NamedQuantity>)> {
+    let axes = |point: &PlacedPoint| -> Outcome<[LinearQuantity; 3]> {
+        let (index, _) = body(job, linear, Some(&point.body), span)?;
+        Ok(LinearQuantity::point(linear, index, Vector3::from(point.at)))
     };
-    let mut axes = coordinates(job, linear, first, place)?;
-    let mut title = first.to_string();
-    if let Some((second, place)) = named.next() {
-        let other = coordinates(job, linear, second, place)?;
-        let [x, y, z] = axes;
-        let [a, b, c] = &other;
-        axes = [x.minus(a), y.minus(b), z.minus(c)];
-        title = format!("{first} less {second}");
-    }
-    if let Some((_, place)) = named.next() {
-        return Err(Diagnostic::error("there are more than two points", place));
-    }
+    let (title, axes) = match points {
+        [] => return Err(Diagnostic::error("a point is missing", span).help("FR_POINT chooses one")),
+        [first] => (first.name.clone(), axes(first)?),
+        [first, second, ..] => {
+            let ([x, y, z], [a, b, c]) = (axes(first)?, axes(second)?);
+            (format!("{} less {}", first.name, second.name), [x.minus(&a), y.minus(&b), z.minus(&c)])
+        }
+    };
     let list = ["X", "Y", "Z"].into_iter().zip(axes).map(|(name, q)| NamedQuantity::new(name, Dim::Length, q));
     Ok((title, list.collect()))
 }
@@ -222,13 +254,21 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let linear = open_results(job, args.span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
     let derivative = derivative(args)?;
-    let (name, list) = points(job, &linear, &args.data, args.span)?;
-    let made = results_table(job, format!("{} of {name}", derivative_name(derivative)), &list, derivative, args.span)?;
+    let points = read_points(job, &linear, &args.data, args.span)?;
+    let (name, list) = point_quantities(job, &linear, &points, args.span)?;
+    keep_points(job, points.clone());
+    let mut made =
+        results_table(job, format!("{} of {name}", derivative_name(derivative)), &list, derivative, args.span)?;
+    for point in points {
+        for (axis, value) in ["X", "Y", "Z"].into_iter().zip(point.at) {
+            made = made.fact(&format!("{axis} of {}", point.name), value, Dim::Length);
+        }
+    }
     Ok(dispose(job, made, args.span))
 }
 
 /// Tensions of the connectors that words of a record choose; with `components` those of a single one.
-fn tensions(
+pub(super) fn tensions(
     job: &Job,
     linear: &LinearSystem,
     named: &[Value],
@@ -254,7 +294,7 @@ fn tensions(
     Ok(list)
 }
 
-fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
+pub(super) fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let span = call.args.span;
     let linear = open_results(job, span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
@@ -311,7 +351,8 @@ fn report_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let named = args.data_after(WHAT);
     let table = match args.choice(WHAT).unwrap_or(StatisticsOf::Motion) {
         StatisticsOf::Point => {
-            let (name, list) = points(job, &linear, named, args.span)?;
+            let points = read_points(job, &linear, named, args.span)?;
+            let (name, list) = point_quantities(job, &linear, &points, args.span)?;
             statistics(format!("Statistics: {of} of {name}"), both, &list, how)
         }
         StatisticsOf::Tension => {

@@ -42,6 +42,26 @@ pub enum FrequencyResults {
     Spectral(Arc<LinearSystem>, FrequencyResponse, Option<ExtremeKind>),
 }
 
+/// The open menu: what it has found, and the point asked for last.
+#[derive(Clone, Debug, Default)]
+pub struct FrequencyMenu {
+    /// What it has found.
+    pub results: FrequencyResults,
+    /// The points of the last FR_POINT: one, or one and another it is relative to.
+    pub points: Vec<PlacedPoint>,
+}
+
+/// A point of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedPoint {
+    /// Its name, or its coordinates.
+    pub name: String,
+    /// Its body.
+    pub body: String,
+    /// Where it is in the body (m).
+    pub at: [f64; 3],
+}
+
 impl FrequencyResults {
     /// The equations it was found with.
     pub(crate) fn linear(&self) -> Option<&Arc<LinearSystem>> {
@@ -89,12 +109,24 @@ const HEADING: OptionSpec = OptionSpec::new(
 .repeating(1)
 .default("those of &DEFAULT, else of the first body's database");
 
+const SPEED: OptionSpec = OptionSpec::new(
+    "-SPEED",
+    &[ValueSpec::new(
+        "V",
+        Kind::Number(Dim::WindSpeed),
+        "speed in knots, toward -X of the first body: ahead, with the origin at the bow",
+    )],
+    "the speed of the bodies (our reading)",
+)
+.default("0");
+
 static RAO_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::FREQ_RESPONSE],
-    options: &[PERIOD.default("those of &DEFAULT, else of the databases"), HEADING],
+    options: &[PERIOD.default("those of &DEFAULT, else of the databases"), HEADING, SPEED],
     detail: "Motions in waves of unit amplitude, at each heading and period. Damping is that of radiated waves, #DAMP, #DRAG and \
              connectors, as it is at rest: what grows with the velocity has none. A new sea may then be given with STATISTICS. Slow drift \
-             has no part in it.",
+             has no part in it. With -SPEED periods are those of the waves; the bodies move at the period at which they meet them, with added mass and damping there, \
+             and forces of the waves are those without speed: what speed itself changes in radiation and excitation is left out (our reading).",
     example: concat!(
         heaving!(),
         "RAO -PERIOD 6 7 8 9 -HEADING 0\nMOTION BALL\nVIEW Period 'Z Amp' 'Z Phase'\nEND\nEND"
@@ -129,19 +161,39 @@ pub(crate) fn no_motions(job: &Job, span: Span) -> Box<Diagnostic> {
 /// # Errors
 /// Nothing yet.
 pub(crate) fn open_results(job: &Job, span: Span) -> Outcome<&FrequencyResults> {
-    let menu = job.menus.iter().rev().find_map(|menu| match menu {
-        Menu::Frequency(found) => Some(found.as_ref()),
-        _ => None,
-    });
-    match menu {
+    match open_menu(job).map(|menu| &menu.results) {
         Some(FrequencyResults::Nothing) | None => Err(no_motions(job, span)),
         Some(found) => Ok(found),
     }
 }
 
+/// The open menu.
+fn open_menu(job: &Job) -> Option<&FrequencyMenu> {
+    job.menus.iter().rev().find_map(|menu| match menu {
+        Menu::Frequency(found) => Some(found.as_ref()),
+        _ => None,
+    })
+}
+
+/// The points of the last FR_POINT; none before the first.
+pub(crate) fn last_points(job: &Job) -> &[PlacedPoint] {
+    open_menu(job).map_or(&[], |menu| &menu.points)
+}
+
+/// Keeps the points of an FR_POINT for what is asked about them.
+pub(crate) fn keep_points(job: &mut Job, points: Vec<PlacedPoint>) {
+    let menu = job.menus.iter_mut().rev().find_map(|menu| match menu {
+        Menu::Frequency(found) => Some(found),
+        _ => None,
+    });
+    if let Some(menu) = menu {
+        menu.points = points;
+    }
+}
+
 fn keep(job: &mut Job, made: FrequencyResults) {
     if let Some(Menu::Frequency(found)) = job.menus.last_mut() {
-        **found = made;
+        found.results = made;
     }
 }
 
@@ -162,7 +214,8 @@ fn frequencies(args: &Args) -> Vec<f64> {
 
 fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let linear = linear(job, &job.model, args.span)?;
+    let mut linear = linear(job, &job.model, args.span)?;
+    linear.set_speed(args.option_number(&SPEED).unwrap_or(0.0));
     let mut periods = frequencies(args);
     if periods.is_empty() {
         periods = job.model.wave_defaults.periods.iter().map(|period| TAU / period).collect();

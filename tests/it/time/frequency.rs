@@ -94,7 +94,7 @@ fn oscillator_amplitude_and_phase_match_closed_form() {
     // waves from 150 degrees travel toward -30; the body stands at (30, -20)
     let (from, w) = (150f64.to_radians(), 0.7);
     let found = Operators::new(&linear, &[w, 0.4], &[from]).unwrap();
-    let (_, _, motions) = found.operators().next().unwrap();
+    let motions = found.operators().next().unwrap().motions;
     let lag = w * w / G * (30.0 * (from + PI).cos() - 20.0 * (from + PI).sin());
     let force = Complex::from_polar(7e5, 40f64.to_radians() + lag);
     for (dof, stiffness, damping) in [(0, 3e5, 5e4 + RADIATED), (2, 8e5, 9e4 + RADIATED)] {
@@ -105,6 +105,82 @@ fn oscillator_amplitude_and_phase_match_closed_form() {
     let [_, _, z] = LinearQuantity::point(&linear, 0, nalgebra::Vector3::new(3.0, 4.0, 5.0));
     let ratio = z.amplitude(motions, w, Derivative::Acceleration) / motions[2];
     assert!((ratio + w * w).norm() < 1e-12, "{ratio}");
+}
+
+/// Sailing toward -x: waves that travel toward a direction meet the body at `w - k V cos b` with V along -x.
+#[test]
+fn sailing_oscillator_moves_at_encounter_frequency() {
+    let sea = model("", "&ENV -SEA REGULAR 180 2 10.4719755119659774\n").environment;
+    let mut model = model("#DAMP *C 50 0 90 0 0 0\n", "");
+    attach(&mut model, DriftMethod::None);
+    let mut linear = LinearSystem::new(&model).unwrap();
+    let (speed, w) = (6.0, 0.6);
+    linear.set_speed(speed);
+    let k = w * w / G;
+    // head waves come from 180 degrees, following ones from 0; fast ones are overtaken
+    for (from, v) in [(PI, speed), (0.0, speed), (0.0, 25.0), (PI / 2.0, speed)] {
+        let mut linear = LinearSystem::new(&model).unwrap();
+        linear.set_speed(v);
+        let met = w - k * v * from.cos();
+        let found = Operators::new(&linear, &[w], &[from]).unwrap();
+        let own = found.operators().next().unwrap();
+        assert!((own.encounter - met).abs() < 1e-9, "{} {met}", own.encounter);
+        let lag = k * (30.0 * (from + PI).cos() - 20.0 * (from + PI).sin());
+        let force = Complex::from_polar(7e5, 40f64.to_radians() + lag);
+        let want = oscillator(force, 8e5, 9e4 + RADIATED, met);
+        assert!((own.motions[2] - want).norm() < 1e-8 * want.norm(), "{from} {v} {} {want}", own.motions[2]);
+        let [_, _, z] = LinearQuantity::point(&linear, 0, nalgebra::Vector3::zeros());
+        let ratio = z.amplitude(own.motions, own.encounter, Derivative::Velocity) / own.motions[2];
+        assert!((ratio - Complex::new(0.0, -met)).norm() < 1e-9, "{ratio}");
+    }
+    // a regular head sea: the variance is half the square of the amplitude, the period that of encounter
+    let trains = Trains::new(&model, &sea).unwrap().unwrap();
+    let made = in_sea(&linear, &trains, &ResponseOptions::default()).unwrap();
+    let [_, _, z] = LinearQuantity::point(&linear, 0, nalgebra::Vector3::zeros());
+    let found = ResponseStatistics::new(&made, &z, Derivative::Place);
+    let met = w + k * speed;
+    let want = oscillator(Complex::new(7e5, 0.0), 8e5, 9e4 + RADIATED, met).norm() / 2f64.sqrt();
+    // the period of the sea is 2 pi / 0.6 to sixteen figures
+    assert!((found.deviation / want - 1.0).abs() < 1e-8, "{} {want}", found.deviation);
+    assert!((found.period.unwrap() * met / TAU - 1.0).abs() < 1e-8, "{found:?}");
+    // waves that keep pace
+    linear.set_speed(G / w);
+    let wrong = Operators::new(&linear, &[w], &[0.0]).unwrap_err();
+    assert!(wrong.error.to_string().contains("keep pace"), "{wrong:?}");
+}
+
+/// Turning by a small angle about y and sinking, by hand: a point at height h moves h times the angle along x.
+#[test]
+fn cargo_force_and_relative_motion_of_pitching_body() {
+    let mut model = model("", "");
+    attach(&mut model, DriftMethod::None);
+    let linear = LinearSystem::new(&model).unwrap();
+    let (w, pitch, heave, height, ahead) = (0.7, 0.01, 0.3, 12.0, 5.0);
+    let mut motions = nalgebra::DVector::from_element(6, Complex::new(0.0, 0.0));
+    (motions[2], motions[4]) = (Complex::new(heave, 0.0), Complex::new(pitch, 0.0));
+    let at = nalgebra::Vector3::new(ahead, 0.0, height);
+    let (weight, ky) = (3e5, 4.0);
+    let mass = weight / G;
+    let force = LinearQuantity::cargo_force(&linear, 0, at, (weight, [2.0, ky, 3.0]));
+    let of = |i: usize| force[i].amplitude(&motions, w, Derivative::Place).re;
+    let want = [
+        mass * w * w * height * pitch + weight * pitch,
+        0.0,
+        mass * w * w * (heave - ahead * pitch),
+        0.0,
+        mass * ky * ky * w * w * pitch,
+        0.0,
+    ];
+    for (i, want) in want.into_iter().enumerate() {
+        assert!((of(i) - want).abs() < 1e-9 * weight, "{i}: {} {want}", of(i));
+    }
+    assert!((force[2].mean + weight).abs() < 1e-9 * weight && force[0].mean.abs() < 1e-9);
+    let [x, y, z] = LinearQuantity::point(&linear, 0, at);
+    let [a, b, c] = LinearQuantity::point(&linear, 0, nalgebra::Vector3::new(-ahead, 7.0, 0.0));
+    let between = [x.minus(&a), y.minus(&b), z.minus(&c)].map(|q| q.amplitude(&motions, w, Derivative::Place).re);
+    for (got, want) in between.into_iter().zip([height * pitch, 0.0, -2.0 * ahead * pitch]) {
+        assert!((got - want).abs() < 1e-12, "{got} {want}");
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::common::{assert_near, session};
 
 use std::f64::consts::TAU;
 use windlass::commands::Menu;
-use windlass_base::table::Table;
+use windlass_base::table::{Cell, Table};
 
 const G: f64 = 9.80665;
 
@@ -136,6 +136,17 @@ fn two_sines() -> String {
 }
 
 #[test]
+fn blank_line_ends_brief_table_also_in_a_macro() {
+    let records = "&BUILDG -BRIEF\n$ heads\nTime (s)\nForce (kips)\n\n0 2\n$ a remark\n1 4\n\nC_SCALE 3 Time\n";
+    for script in [records.to_string(), format!("&MACRO MAKE\n{records}&ENDMACRO\nMAKE\n")] {
+        let made = table(&script);
+        assert_eq!(column(&made, "", "Time"), [0.0, 1.0], "{script}");
+        // 4.4482216152605 kN a kip
+        assert_near(column(&made, "", "Force")[1], 4.0 * 4448.2216152605, 1e-12);
+    }
+}
+
+#[test]
 fn filter_of_two_sines_leaves_one_and_combination_the_other() {
     let made = table(&format!(
         "{}ADD_COLUMN S_HIGH -FILTER PERIOD 1 2 30 1E5\nADD_COLUMN S_LOW -COMBINE Offset 1 S_HIGH -1\n",
@@ -177,4 +188,112 @@ fn rp2sk_combination_is_of_maximum_and_significant_by_band() {
     let combined = 3.72 * low + 2.0 * high;
     assert_near(combined / both, (1.0 + 0.5376 * ratio) / (1.0 + ratio * ratio).sqrt(), 1e-4);
     assert_near(combined, (3.72 * 8.0 + 2.0 * 3.0) / 2f64.sqrt(), 1e-5);
+}
+
+/// A ball that heaves on its water plane of 3000 kN/m and a spring of 100 kN/m, with a database of two periods.
+fn ball() -> String {
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/heave/heave");
+    format!(
+        "&DIMEN -DIMEN METERS K-NTS\n&ENV -SPGWATER 1.025\nMEDIT\n*G 0 0 1\n&DESCRIBE BODY BALL -IGNORE X Y RX RY RZ\n*CG 0 0 0\n\
+         #WEIGHT *CG 20000 4 4 4\n#HYDROSTATIC *CG 3000 0 0 -BUOYANCY 20000 -ZCGE 0\n~S GSPR BOTH Z 100 1000 -LEN 0\n\
+         CONNECTOR LINE ~S *CG *G\nDATABASE BALL -WAMIT {data}\nEND\n&EQUI\n&DEFAULT -PROBABILITY RMS 3.72\nFREQ_RESPONSE\n\
+         RAO -PERIOD 6 -HEADING 180\n"
+    )
+}
+
+/// The heave of the ball in waves of unit amplitude of 6 s, by hand: coefficients over the density and the frequency, the force over
+/// density and gravity.
+fn ball_heave() -> f64 {
+    let w = TAU / 6.0;
+    let real = 3100e3 - w * w * (20000e3 / G + 1025.0 * 900.0);
+    1025.0 * G * 150.0 / real.hypot(w * w * 1025.0 * 300.0)
+}
+
+fn first(table: &Table, group: &str, name: &str) -> f64 {
+    column(table, group, name)[0]
+}
+
+fn of_row(table: &Table, label: &str, name: &str) -> f64 {
+    let rows = &table.columns()[0].cells;
+    let row = rows.iter().position(|cell| matches!(cell, Cell::Text(text) if text == label)).unwrap();
+    let column = table.columns().iter().find(|c| c.name == name).unwrap();
+    column.cells[row].number().unwrap()
+}
+
+#[test]
+fn point_statistics_in_regular_sea_follow_oscillator() {
+    let heave = ball_heave();
+    let made = table(&format!("{}FR_POINT 0 0 0\n", ball()));
+    // water density and gravity to five figures and more
+    assert_near(first(&made, "Z", "Z Amp") / heave, 1.0, 1e-6);
+    let made = table(&format!("{}FR_POINT *CG\nEND\nST_POINT -SEA REGULAR 180 2 6\n", ball()));
+    assert_near(of_row(&made, "Z", "RMS") * 2f64.sqrt() / heave, 1.0, 1e-6);
+    assert_near(of_row(&made, "Z", "Maximum") / of_row(&made, "Z", "RMS"), 3.72, 1e-9);
+    // a named environment is defined anew, and keeps its sea
+    let made = table(&format!(
+        "{}FR_POINT *CG\nEND\nST_POINT STORM -SEA REGULAR 180 4 6\nEND\nST_CFORCE LINE STORM\n",
+        ball()
+    ));
+    assert_near(of_row(&made, "LINE", "RMS") / (2.0 * 100e3 * heave / 2f64.sqrt()), 1.0, 1e-6);
+    let made = table(&format!("{}FR_CFORCE LINE\n", ball()));
+    assert_near(first(&made, "LINE", "LINE Amp") / (100e3 * heave), 1.0, 1e-6);
+}
+
+#[test]
+fn cargo_force_in_regular_sea_is_its_inertia() {
+    let (heave, w) = (ball_heave(), TAU / 6.0);
+    let inertia = 500e3 / G * w * w * heave;
+    let made = table(&format!("{}FR_POINT 3 0 2\nEND\nFR_FCARGO 500 2 2 2\n", ball()));
+    assert_near(first(&made, "FZ", "FZ Amp") / inertia, 1.0, 1e-6);
+    let made = table(&format!("{}FR_POINT 3 0 2\nEND\nST_FCARGO 500 2 2 2 -SEA REGULAR 180 2 6\n", ball()));
+    assert_near(of_row(&made, "Z", "RMS") * 2f64.sqrt() / inertia, 1.0, 1e-6);
+    assert_near(of_row(&made, "Z", "Mean"), -500e3, 1e-9);
+}
+
+#[test]
+fn exciting_forces_about_a_point_have_its_moment() {
+    // a force of 150 rho g up at the origin turns about 2 m along x by -2 m of it: about y, r x F of (-2, 0, 0) and (0, 0, F) is +2 F
+    let made = table(&format!("{}FR_POINT 2 0 3\nEND\nEXFORCE\n", ball()));
+    let force = 1025.0 * G * 150.0;
+    assert_near(first(&made, "FZ", "FZ Amp") / force, 1.0, 1e-6);
+    assert_near(first(&made, "MY", "MY Amp") / (2.0 * force), 1.0, 1e-6);
+    assert_near(first(&made, "MX", "MX Amp"), 0.0, 1e-6);
+    let phase = first(&made, "MY", "MY Phase") - first(&made, "FZ", "FZ Phase");
+    assert_near(phase.cos(), 1.0, 1e-9);
+}
+
+#[test]
+fn matrices_about_a_point_are_moved_by_its_arm() {
+    let (mut session, screen, folder) = session();
+    // the spring bears nothing at rest: it is 100 kN/m alone
+    let free = ball().replace("*G 0 0 1", "*G 0 0 0");
+    session.open("test", format!("{free}FR_POINT 2 0 3\nEND\nMATRICES -FILE\nEQU_SUM\nEND\n"));
+    session.run();
+    assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
+    let text = std::fs::read_to_string(find_file(folder.path(), "PPO00001.CSV")).unwrap();
+    let mut lines = text.lines();
+    let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row: Vec<f64> = lines.next().unwrap().split(',').map(|v| v.parse().unwrap()).collect();
+    let value = |name: &str| row[heads.iter().position(|head| head.starts_with(name)).unwrap()];
+    // heave stiffness of 3100 kN/m, 2 m off: a pitch coupling of 2 and a pitch stiffness of 4 times it; added mass alike
+    assert_near(value("K33"), 3100.0, 1e-9);
+    assert_near(value("K35").abs(), 6200.0, 1e-9);
+    assert_near(value("K55"), 12_400.0, 1e-9);
+    assert_near(value("B33"), 1.025 * TAU / 6.0 * 300.0, 1e-6);
+    assert_near(value("M33"), 20000.0 / G + 1.025 * 900.0, 1e-6);
+}
+
+/// A file of a name anywhere in a folder.
+fn find_file(folder: &std::path::Path, name: &str) -> std::path::PathBuf {
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()) {
+            if entry.is_dir() {
+                folders.push(entry);
+            } else if entry.file_name().is_some_and(|n| n == name) {
+                return entry;
+            }
+        }
+    }
+    panic!("no file {name}");
 }

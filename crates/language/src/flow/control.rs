@@ -23,7 +23,8 @@ impl Interpreter {
             }
             collecting.nested -= 1;
         }
-        if !record.is_blank() {
+        // an empty line may be data where the block is executed
+        if !record.is_blank() || record.is_empty_line() {
             collecting.body.push(record);
         }
         Ok(())

@@ -24,6 +24,8 @@ const MAX_REST_ACCELERATION_SHARE: f64 = 2e-3;
 const UNBOUNDED_RESPONSE_RATIO: f64 = 1e9;
 /// Share of the largest motion (m, rad) that is what rounding leaves.
 const ROUNDING_SHARE: f64 = 1e-13;
+/// Frequency of encounter, as a share of that of the wave, below which waves keep pace with the bodies.
+const LEAST_ENCOUNTER_SHARE: f64 = 1e-6;
 /// The time over which dashpots in series with springs are taken (s).
 const DASHPOT_STEP_S: f64 = 1.0;
 
@@ -65,6 +67,8 @@ pub struct LinearSystem {
     pub(super) floats: Vec<Option<Floats>>,
     /// Depth with the tide (m).
     pub(super) depth: Option<f64>,
+    /// The velocity all bodies sail with (m/s, global plan); zero of bodies that keep their place.
+    speed: [f64; 2],
     /// What a user should know.
     pub notes: Vec<TableNote>,
 }
@@ -128,11 +132,44 @@ impl LinearSystem {
             heavy,
             floats,
             depth,
+            speed: [0.0; 2],
             notes,
         };
         made.look(model, &state.residual);
         made.look_at_lines(model);
         Ok(made)
+    }
+
+    /// Lets all bodies sail toward -x of the first one on the plan (m/s). Waves then meet them at the encounter frequency
+    /// `w - k V cos b`, at which motions, added mass and damping are taken; forces of the waves stay those of their own frequency
+    /// without speed. What else speed changes in radiation and excitation is left out.
+    pub fn set_speed(&mut self, speed: f64) {
+        let yaw = self.poses.first().map_or(0.0, |pose| pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]));
+        let (sin, cos) = yaw.sin_cos();
+        self.speed = [-speed * cos, -speed * sin];
+        if speed != 0.0 {
+            let text = "with speed: forces of the waves at their own frequency, motions, added mass and damping at that of encounter; what speed changes in \
+                        radiation and excitation itself is left out";
+            self.notes.push(text.into());
+        }
+    }
+
+    /// Whether the bodies sail.
+    pub fn sails(&self) -> bool {
+        self.speed != [0.0; 2]
+    }
+
+    /// The frequency (rad/s) at which the bodies meet waves of a frequency (rad/s) that travel toward a direction (rad); negative
+    /// where they overtake the waves.
+    ///
+    /// # Errors
+    /// A frequency without a wave number.
+    pub fn encounter(&self, frequency: f64, toward: f64) -> Result<f64, SolveError> {
+        if !self.sails() {
+            return Ok(frequency);
+        }
+        let (sin, cos) = toward.sin_cos();
+        Ok(frequency - self.wave_number(frequency)? * (self.speed[0] * cos + self.speed[1] * sin))
     }
 
     /// Remarks on the place and the bodies.
@@ -271,12 +308,12 @@ impl LinearSystem {
         wave_number(frequency, self.depth, self.system.gravity).map_err(SolveError::new)
     }
 
-    /// Motions under forces of a frequency (rad/s).
+    /// Motions under forces of a frequency (rad/s), negative of waves that are overtaken.
     ///
     /// # Errors
     /// A motion without bound: no damping at its natural period.
     pub fn motions(&self, frequency: f64, forces: &[Motions]) -> Result<Vec<Motions>, SolveError> {
-        let (mass, damping) = self.inertia_and_damping(frequency);
+        let (mass, damping) = self.inertia_and_damping(frequency.abs());
         let real = &self.stiffness - mass * (frequency * frequency);
         let to = self.follow.transpose();
         let (real, damping) = (&to * real * &self.follow, &to * damping * &self.follow);
@@ -302,7 +339,7 @@ impl LinearSystem {
             let row = bound.and_then(|(_, i)| self.heavy.get(i)).copied();
             let text = "its motion has no bound at a period of {}: it is a natural period without damping";
             let error =
-                ClassError::with_values(text, &[(TAU / frequency, Dim::Time)]).help("#DAMP gives a body damping");
+                ClassError::with_values(text, &[(TAU / frequency.abs(), Dim::Time)]).help("#DAMP gives a body damping");
             let name = |row: usize| {
                 let node = self.system.nodes.get(row / 6)?;
                 Some(format!("{} in {}", node.name, DOFS.get(row % 6)?))
@@ -331,7 +368,20 @@ impl LinearSystem {
     /// As [`LinearSystem::excitation`] and [`LinearSystem::motions`].
     pub fn operators(&self, frequency: f64, toward: &[f64]) -> Result<Vec<Motions>, SolveError> {
         let forces = toward.iter().map(|b| self.excitation(frequency, *b)).collect::<Result<Vec<_>, _>>()?;
-        self.motions(frequency, &forces)
+        if !self.sails() {
+            return self.motions(frequency, &forces);
+        }
+        let mut all = Vec::new();
+        for (force, toward) in forces.into_iter().zip(toward) {
+            let met = self.encounter(frequency, *toward)?;
+            if met.abs() < LEAST_ENCOUNTER_SHARE * frequency {
+                let text = "waves of a period of {} keep pace with the bodies: their frequency of encounter is zero";
+                let error = ClassError::with_values(text, &[(TAU / frequency, Dim::Time)]);
+                return Err(SolveError::new(error.help("other periods or headings, or another -SPEED")));
+            }
+            all.extend(self.motions(met, &[force])?);
+        }
+        Ok(all)
     }
 }
 

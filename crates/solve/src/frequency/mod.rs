@@ -4,6 +4,7 @@
 //! [`windlass_model::Database`]: the argument of an amplitude is its lag behind the crest at the global origin. [`LinearSystem`] holds them,
 //! [`LinearQuantity`] what is asked of the motions, [`FrequencyResponse`] the motions in a sea with their spectra and statistics.
 
+mod equations;
 mod linear;
 mod linearise;
 mod natural;
@@ -15,9 +16,10 @@ mod statistics;
 pub mod tables;
 mod trains;
 
+pub use equations::{Frame, diagonals, exciting_forces, matrices, stiffness};
 pub use linear::{LinearSystem, Motions};
 pub use natural::{Natural, natural};
-pub use operators::Operators;
+pub use operators::{Operator, Operators};
 pub use quantity::{Derivative, LinearQuantity};
 pub use response::{FrequencyResponse, ResponseOptions, ResponsePoint, in_sea, respond};
 pub use statistics::{ExtremeKind, ResponseStatistics};

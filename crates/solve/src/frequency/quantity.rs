@@ -30,7 +30,7 @@ impl Derivative {
     }
 }
 
-/// A number linear in the motions of all bodies and their velocities.
+/// A number linear in the motions of all bodies, their velocities and accelerations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearQuantity {
     /// Its value at rest.
@@ -39,6 +39,8 @@ pub struct LinearQuantity {
     place: DVector<f64>,
     /// Its change with the velocities.
     rate: DVector<f64>,
+    /// Its change with the accelerations.
+    second: DVector<f64>,
 }
 
 /// The force of a connector on its first end on a body: its components in global axes, and its size, which for a line is its
@@ -50,7 +52,7 @@ impl LinearQuantity {
     pub fn dof(linear: &LinearSystem, body: usize, dof: usize) -> Self {
         let size = 6 * linear.system.nodes.len();
         let place = DVector::from_fn(size, |i, _| if i == 6 * body + dof { 1.0 } else { 0.0 });
-        LinearQuantity { mean: 0.0, place, rate: DVector::zeros(size) }
+        LinearQuantity { mean: 0.0, place, rate: DVector::zeros(size), second: DVector::zeros(size) }
     }
 
     /// The three coordinates of a point of a body, given in the body (m).
@@ -69,7 +71,46 @@ impl LinearQuantity {
 
     /// What this is more than another.
     pub fn minus(self, other: &LinearQuantity) -> Self {
-        LinearQuantity { mean: self.mean - other.mean, place: self.place - &other.place, rate: self.rate - &other.rate }
+        LinearQuantity {
+            mean: self.mean - other.mean,
+            place: self.place - &other.place,
+            rate: self.rate - &other.rate,
+            second: self.second - &other.second,
+        }
+    }
+
+    /// The force and moment that a weight (N) at a point of a body, given in the body (m), exerts on it there, along the axes of
+    /// the body: by its inertia, and by gravity as the body turns. `radii` are its radii of gyration about these axes (m).
+    pub fn cargo_force(
+        linear: &LinearSystem,
+        body: usize,
+        at: Vector3<f64>,
+        (weight, radii): (f64, [f64; 3]),
+    ) -> [Self; 6] {
+        let (axes, gravity) = (linear.poses[body].axes, linear.system.gravity);
+        let mass = weight / gravity;
+        let point = LinearQuantity::point(linear, body, at);
+        let size = 6 * linear.system.nodes.len();
+        let zeros = || DVector::zeros(size);
+        std::array::from_fn(|i| {
+            let axis: Vector3<f64> = axes.column(i % 3).into_owned();
+            let mut made = LinearQuantity { mean: 0.0, place: zeros(), rate: zeros(), second: zeros() };
+            if i < 3 {
+                // axis . mass (gravity - acceleration); along the axes of the body gravity changes by -(turn x gravity)
+                made.mean = -weight * axis.z;
+                for (component, own) in point.iter().zip(axis.iter()) {
+                    made.second -= &component.place * (mass * own);
+                }
+                let down = Vector3::new(0.0, 0.0, -weight);
+                // axis . (turn x down) = turn . (down x axis)
+                let change = down.cross(&axis);
+                (0..3).for_each(|k| made.place[6 * body + 3 + k] -= change[k]);
+            } else {
+                let inertia = mass * radii[i - 3] * radii[i - 3];
+                (0..3).for_each(|k| made.second[6 * body + 3 + k] -= inertia * axis[k]);
+            }
+            made
+        })
     }
 
     /// The force of a connector; `None` of a name that does not act on a body.
@@ -99,6 +140,7 @@ impl LinearQuantity {
             mean: wrench[i],
             place: DVector::zeros(size),
             rate: DVector::zeros(size),
+            second: DVector::zeros(size),
         });
         for (j, end) in link.ends.iter().enumerate() {
             let EndAttachment::Body(body, _) = end else { continue };
@@ -120,7 +162,12 @@ impl LinearQuantity {
             let unit = force / tension;
             let sum =
                 |part: fn(&LinearQuantity) -> &DVector<f64>| part(x) * unit.x + part(y) * unit.y + part(z) * unit.z;
-            LinearQuantity { mean: tension, place: sum(|q| &q.place), rate: sum(|q| &q.rate) }
+            LinearQuantity {
+                mean: tension,
+                place: sum(|q| &q.place),
+                rate: sum(|q| &q.rate),
+                second: DVector::zeros(size),
+            }
         });
         Ok(Some((made, along)))
     }
@@ -129,6 +176,6 @@ impl LinearQuantity {
     pub fn amplitude(&self, motions: &Motions, frequency: f64, derivative: Derivative) -> Complex<f64> {
         let rate = Complex::new(0.0, -frequency);
         let part = |by: &DVector<f64>| by.iter().zip(motions.iter()).map(|(a, q)| q * *a).sum::<Complex<f64>>();
-        (part(&self.place) + part(&self.rate) * rate) * rate.powi(derivative.order())
+        (part(&self.place) + part(&self.rate) * rate + part(&self.second) * rate * rate) * rate.powi(derivative.order())
     }
 }

@@ -6,7 +6,7 @@
 use super::linear::{LinearSystem, Motions};
 use super::natural::{Natural, natural};
 use super::quantity::{Derivative, LinearQuantity};
-use super::trains::{Trains, bounds, refine_near_resonance};
+use super::trains::{Trains, bounds, even, refine_near_resonance};
 use super::{linearise, slow};
 use crate::system::SolveError;
 use std::f64::consts::TAU;
@@ -27,12 +27,24 @@ pub struct ResponsePoint {
     pub energy: f64,
     /// Motions of independent parts, whose squares add up: half the square of an amplitude is one of them squared.
     pub parts: Vec<Motions>,
+    /// The frequency of each part (rad/s), where the bodies sail: that of encounter. Empty: all have the frequency of the band.
+    pub encounters: Vec<f64>,
 }
 
 impl ResponsePoint {
     /// Variance of a quantity, or a derivative of it, in this band.
     pub fn variance(&self, quantity: &LinearQuantity, derivative: Derivative) -> f64 {
-        self.parts.iter().map(|v| quantity.amplitude(v, self.frequency, derivative).norm_sqr()).sum()
+        self.moments(quantity, derivative)[0]
+    }
+
+    /// Variance of a quantity, or a derivative of it, in this band, and the same of its rate.
+    pub fn moments(&self, quantity: &LinearQuantity, derivative: Derivative) -> [f64; 2] {
+        let met = self.encounters.iter().copied().chain(std::iter::repeat(self.frequency));
+        let own = self.parts.iter().zip(met).map(|(v, w)| {
+            let variance = quantity.amplitude(v, w, derivative).norm_sqr();
+            [variance, variance * w * w]
+        });
+        own.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]])
     }
 }
 
@@ -113,7 +125,8 @@ fn waves(
 ) -> Result<Vec<ResponsePoint>, SolveError> {
     let mut points = Vec::new();
     if let Some(range) = trains.range() {
-        let usual = || refine_near_resonance(trains.points(range), resonant);
+        let resonant = waves_met_at(linear, trains, resonant, range)?;
+        let usual = || refine_near_resonance(trains.points(range), &resonant);
         let own = if asked.frequencies.is_empty() { usual() } else { asked.frequencies.clone() };
         let directions: usize = trains.irregular.iter().map(|d| d.toward.len()).sum();
         check_memory(own.len(), directions, linear)?;
@@ -161,7 +174,48 @@ fn point(
         let text = "the motions at a period of {} are no numbers";
         return Err(SolveError::new(ClassError::with_values(text, &[(TAU / frequency, Dim::Time)])));
     }
-    Ok(ResponsePoint { frequency, width, energy: energies.iter().sum(), parts })
+    let mut encounters = Vec::new();
+    if linear.sails() {
+        for toward in toward {
+            encounters.push(linear.encounter(frequency, *toward)?);
+        }
+    }
+    Ok(ResponsePoint { frequency, width, energy: energies.iter().sum(), parts, encounters })
+}
+
+/// The frequencies of the waves in a range (rad/s) that bodies meet at natural frequencies, each with the damping ratio there.
+fn waves_met_at(
+    linear: &LinearSystem,
+    trains: &Trains,
+    resonant: &[(f64, f64)],
+    range: [f64; 2],
+) -> Result<Vec<(f64, f64)>, SolveError> {
+    /// Pieces of the range in each of which one such frequency is found at most, and halvings of a piece.
+    const PIECES: usize = 200;
+    const HALVINGS: usize = 40;
+    if !linear.sails() {
+        return Ok(resonant.to_vec());
+    }
+    let mut found = Vec::new();
+    let points = even(range, PIECES);
+    for toward in trains.irregular.iter().flat_map(|train| &train.toward) {
+        for (natural, ratio) in resonant {
+            let excess = |w: f64| linear.encounter(w, *toward).map(|met| met.abs() - natural);
+            for piece in points.windows(2) {
+                let [mut low, mut high] = [piece.first(), piece.last()].map(|w| w.copied().unwrap_or(0.0));
+                let sign = excess(low)? > 0.0;
+                if (excess(high)? > 0.0) == sign {
+                    continue;
+                }
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (low + high);
+                    if (excess(middle)? > 0.0) == sign { low = middle } else { high = middle }
+                }
+                found.push((0.5 * (low + high), *ratio));
+            }
+        }
+    }
+    Ok(found)
 }
 
 /// Refuses more than memory is taken for.

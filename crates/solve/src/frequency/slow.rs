@@ -62,7 +62,13 @@ pub(super) fn drift(
             list.push(force);
         }
         let parts = linear.motions(*frequency, &list)?;
-        points.push(ResponsePoint { frequency: *frequency, width: Some(width), energy: 0.0, parts });
+        points.push(ResponsePoint {
+            frequency: *frequency,
+            width: Some(width),
+            energy: 0.0,
+            parts,
+            encounters: Vec::new(),
+        });
     }
     Ok(points)
 }

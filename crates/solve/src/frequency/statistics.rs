@@ -38,8 +38,8 @@ impl ResponseStatistics {
     pub fn new(response: &FrequencyResponse, quantity: &LinearQuantity, derivative: Derivative) -> Self {
         let moments = |points: &[ResponsePoint]| {
             points.iter().fold([0.0; 2], |[m0, m2], p| {
-                let own = p.variance(quantity, derivative);
-                [m0 + own, m2 + own * p.frequency * p.frequency]
+                let [own, own_2] = p.moments(quantity, derivative);
+                [m0 + own, m2 + own_2]
             })
         };
         let ([waves, waves_2], [slow, slow_2]) = (moments(&response.waves), moments(&response.slow));

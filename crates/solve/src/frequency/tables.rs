@@ -1,14 +1,14 @@
 //! The frequency domain as tables.
 
-use super::Motions;
 use super::linear::LinearSystem;
 use super::natural::{Natural, natural};
-use super::operators::Operators;
+use super::operators::{Operator, Operators};
 use super::quantity::{Derivative, LinearQuantity};
 use super::response::{FrequencyResponse, ResponsePoint};
 use super::statistics::{ExtremeKind, ResponseStatistics};
 use crate::equilibrium::is_unstable;
 use crate::system::{DOFS, SolveError, SystemBody};
+use nalgebra::Complex;
 use std::f64::consts::TAU;
 use windlass_base::table::{Digits, Table, TableBuilder};
 use windlass_base::units::Dim;
@@ -60,6 +60,7 @@ fn density(dim: Dim, derivative: Derivative) -> Dim {
         }
         Dim::Angle => Dim::AngleDensity,
         Dim::Force => Dim::Derived { force: 2, length: 0, seconds: 1 },
+        Dim::Moment => Dim::Derived { force: 2, length: 2, seconds: 1 },
         other => other,
     }
 }
@@ -75,13 +76,14 @@ pub fn operators(
     let mut table = Table::new(title)
         .fact("Wave Amplitude", amplitude, Dim::Length)
         .with_rows(&rows)
-        .column("", "Heading", Dim::Angle, Digits::Usual, |(heading, ..)| *heading)
-        .column("", "Period", Dim::Time, Digits::Usual, |(_, frequency, _)| TAU / frequency)
-        .column("", "Frequency", Dim::Frequency, Digits::Usual, |(_, frequency, _)| *frequency);
+        .column("", "Heading", Dim::Angle, Digits::Usual, |row| row.heading)
+        .column("", "Period", Dim::Time, Digits::Usual, |row| TAU / row.frequency)
+        .column("", "Frequency", Dim::Frequency, Digits::Usual, |row| row.frequency);
+    if linear.sails() {
+        table = table.column("", "Encounter", Dim::Time, Digits::Usual, |row| TAU / row.encounter.abs());
+    }
     for NamedQuantity { name, dim, quantity } in list {
-        let value = |(_, frequency, motions): &(f64, f64, &Motions)| {
-            quantity.amplitude(motions, *frequency, derivative) * amplitude
-        };
+        let value = |row: &Operator| quantity.amplitude(row.motions, row.encounter, derivative) * amplitude;
         table = table
             .column(
                 name,
@@ -91,11 +93,16 @@ pub fn operators(
                 |row| value(row).norm(),
             )
             .column(name, &format!("{name} Phase"), Dim::Angle, Digits::Usual, |row| {
-                Some(value(row)).filter(|v| v.norm() > 0.0).map(|v| v.arg())
+                // where a wave is overtaken its amplitude turns the other way
+                let lag = |v: Complex<f64>| if row.encounter < 0.0 { -v.arg() } else { v.arg() };
+                Some(value(row)).filter(|v| v.norm() > 0.0).map(lag)
             });
     }
     let mut table = table.build();
     table.note("heading is where the waves come from; phase is the lag behind the crest at the global origin");
+    if linear.sails() {
+        table.note("Encounter is the period at which the bodies meet the waves: that of the motions");
+    }
     linear.notes.iter().for_each(|n| table.note(n.clone()));
     table
 }
@@ -132,6 +139,9 @@ pub fn spectra(
 fn notes(table: &mut Table, linear: &LinearSystem, response: &FrequencyResponse) {
     if !response.slow.is_empty() {
         table.note("slow drift by Newman's approximation stands below the frequencies of the waves");
+    }
+    if linear.sails() {
+        table.note("frequencies and densities are those of the waves; Tz is that of the motions, which are met at the frequency of encounter");
     }
     if response.rounds > 0 {
         table.note(format!("damping that is not linear is linearised in this sea, in {} rounds", response.rounds));
@@ -210,6 +220,24 @@ pub fn body_statistics(
     let table = statistic_columns(table, ("Translation", ""), shift, |(_, made, _)| made);
     let mut table = statistic_columns(table, ("Rotation", "R "), turn, |(.., made)| made).build();
     table.note(format!("significant and {} are amplitudes about the place at rest", describe_extreme(extreme)));
+    notes(&mut table, linear, response);
+    table
+}
+
+/// Statistics of a force and a moment along three axes.
+pub fn load_statistics(
+    title: String,
+    (linear, response): (&LinearSystem, &FrequencyResponse),
+    list: &[LinearQuantity; 6],
+    extreme: ExtremeKind,
+) -> Table {
+    let made = |quantity: &LinearQuantity| ResponseStatistics::new(response, quantity, Derivative::Place);
+    let axes = ["X", "Y", "Z"].into_iter().zip(list.iter().zip(list.iter().skip(3)));
+    let rows: Vec<_> = axes.map(|(name, (force, moment))| (name, made(force), made(moment))).collect();
+    let table = statistics_table(title, extreme).with_rows(&rows).text("Axis", |(name, ..)| *name);
+    let table = statistic_columns(table, ("Force", ""), (Dim::Force, extreme), |(_, made, _)| made);
+    let mut table = statistic_columns(table, ("Moment", "M "), (Dim::Moment, extreme), |(.., made)| made).build();
+    table.note(format!("significant and {} are amplitudes about the mean", describe_extreme(extreme)));
     notes(&mut table, linear, response);
     table
 }
