@@ -6,7 +6,6 @@
 
 pub mod absent;
 pub mod check_list;
-mod chosen;
 mod environment;
 mod files;
 pub mod functions;
@@ -15,13 +14,14 @@ mod job;
 pub mod menu;
 mod menus;
 mod model;
+mod model_values;
+mod name_filter;
 mod output;
 mod post;
 mod settings;
 mod solve;
 mod status;
 pub mod verdict;
-mod written;
 
 use environment::{bathymetry, curves, env};
 use files::file;

@@ -55,7 +55,7 @@ pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn>
     };
     if let Some((from, to)) = range {
         if from > to {
-            return Err(refused(format!("{from} is behind {to}")));
+            return Err(refused(format!("{from} comes after {to}")));
         }
         if from < 1 || to > count {
             return Err(refused(format!("their numbers are 1 to {count}")));
@@ -148,7 +148,7 @@ mod tests {
         for beyond in ["0", "3", "0:1", "1:3", "99999999999999999999999", "3:99999999999999999999999"] {
             assert!(choose(&table, beyond).unwrap_err().to_string().contains("their numbers are 1 to 2"), "{beyond}");
         }
-        assert!(choose(&table, "2:1").unwrap_err().to_string().contains("2 is behind 1"));
+        assert!(choose(&table, "2:1").unwrap_err().to_string().contains("2 comes after 1"));
         assert!(choose(&table, "fo").unwrap_err().to_string().contains("it could be Force or Form"));
         assert!(choose(&table, "").is_err());
     }

@@ -1,6 +1,6 @@
 //! The file of a run: rows and snapshots as they come, so that a run that was killed goes on from its last snapshot.
 //!
-//! Eight bytes of mark, the fingerprint of the run, the width of its rows; then blocks: a byte that says what it is (`R` a row,
+//! Lanes8 bytes of mark, the fingerprint of the run, the width of its rows; then blocks: a byte that says what it is (`R` a row,
 //! `S` a snapshot), the number of bytes, the bytes, and their checksum (FNV-1a, 64 bits). Numbers are little-endian. What stands
 //! behind the last whole block was being written when the program ended, and does not count.
 

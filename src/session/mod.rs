@@ -408,8 +408,11 @@ impl Session {
         let kept = command.edits.then(|| self.job.model.clone());
         let job = &mut self.job;
         let outcome = catch_unwind(AssertUnwindSafe(|| (command.run)(job, &call))).unwrap_or_else(|_| {
-            Err(Diagnostic::error(format!("{} met a defect of windlass and was given up", command.spec.name), span)
-                .help("please report this record; the session goes on"))
+            Err(Diagnostic::error(
+                format!("internal error in {}; the record was not executed", command.spec.name),
+                span,
+            )
+            .help("please report this record; the session goes on"))
         });
         if SOLVES.contains(&command.spec.name) {
             self.job.refused_solve = outcome.is_err().then_some(command.spec.name);

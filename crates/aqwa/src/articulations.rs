@@ -38,7 +38,7 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> Vec<Articulation> 
         if !(0..=3).contains(&locked.value) {
             remarks.add(
                 Diagnostic::error(
-                    format!("deck 12, DCON, columns 11-15: {} is no number of locked rotations", locked.value),
+                    format!("deck 12, DCON, columns 11-15: {} is not a valid number of locked rotations", locked.value),
                     locked.span,
                 )
                 .label("0 ball and socket, 1 universal, 2 hinge, 3 locked"),

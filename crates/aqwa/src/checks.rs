@@ -6,8 +6,8 @@ use super::card::Field;
 use super::elements::ElementShape;
 use super::job::Program;
 use super::lines::{DYNAMIC_ELEMENTS, LineKind, MooringLine};
-use super::placed;
 use super::remarks::Remarks;
+use super::start_positions;
 use super::tethers::Tether;
 use super::waves::WaveDeck;
 use std::f64::consts::TAU;
@@ -28,7 +28,7 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
         line_breaks(deck, remarks);
         joints(deck, remarks);
         numbers_of_structures(deck, remarks);
-        placed::check(deck, remarks);
+        start_positions::check(deck, remarks);
     }
     check_towed_tether(deck, whole, remarks);
     run(deck, remarks);
@@ -113,7 +113,7 @@ fn assumed_coefficients(deck: &Deck, remarks: &mut Remarks) {
                     format!("deck 4, TUBE: group {group} has no {what} coefficient: {value} is assumed"),
                     geometry.span,
                 )
-                .help("CONT behind the card: drag in columns 21-30, added mass in columns 31-40"),
+                .help("CONT after the card: drag in columns 21-30, added mass in columns 31-40"),
             );
         }
     }
@@ -319,7 +319,7 @@ fn check_towed_tether(deck: &Deck, whole: bool, remarks: &mut Remarks) {
     if deck.mooring.tethers.len() > 1 {
         remarks.add(
             Diagnostic::error("deck 14: a towed tether is the only tether of a deck", tether.span)
-                .help("its TETH card is the last and only one (A.12)"),
+                .help("its TETH card is the last and only one [AQWA-TETHER A.12]"),
         );
     }
     if tether.structure.value != 1 {
@@ -337,7 +337,7 @@ fn check_towed_tether(deck: &Deck, whole: bool, remarks: &mut Remarks) {
     if !deck.job.option("LSTF") {
         remarks.add(
             Diagnostic::warning("deck 0: a towed tether asks for the option LSTF", deck.job.span)
-                .help("the nominal vessel is held by the linear stiffness of deck 7 (8.1.0)"),
+                .help("the nominal vessel is held by the linear stiffness of deck 7 [AQWA-TETHER 8.1.0]"),
         );
     }
     let place = |number: i64| deck.nodes.get(&number).map(|node| node.position);
@@ -369,13 +369,13 @@ fn check_towed_tether(deck: &Deck, whole: bool, remarks: &mut Remarks) {
                 format!("deck 14, TETH: the trailing end is at X = {}, the tether is {length} long", trailing[0]),
                 tether.anchor.span,
             )
-            .help("X of the trailing end is minus the length of the tether (6.1)"),
+            .help("X of the trailing end is minus the length of the tether [AQWA-TETHER 6.1]"),
         );
     }
     nominal_vessel(deck, trailing[2], remarks);
 }
 
-/// BFEQ is the weight of the nominal vessel, ZCGE the Z of the trailing end (6.2).
+/// BFEQ is the weight of the nominal vessel, ZCGE the Z of the trailing end [AQWA-TETHER 6.2].
 fn nominal_vessel(deck: &Deck, depth: f64, remarks: &mut Remarks) {
     let (Some(structure), Some(known)) = (deck.structures.first(), deck.hydrostatics.first()) else { return };
     let weight = deck.mass_properties(structure).mass * deck.global.gravity;
@@ -385,7 +385,7 @@ fn nominal_vessel(deck: &Deck, depth: f64, remarks: &mut Remarks) {
     {
         remarks.add(
             Diagnostic::warning(format!("deck 7, BFEQ: the weight of the vessel is {weight}"), buoyancy.span)
-                .help("the buoyancy force is the mass times gravity (8.1.7)"),
+                .help("the buoyancy force is the mass times gravity [AQWA-TETHER 8.1.7]"),
         );
     }
     if let Some(height) = known.height
@@ -393,7 +393,7 @@ fn nominal_vessel(deck: &Deck, depth: f64, remarks: &mut Remarks) {
     {
         remarks.add(
             Diagnostic::warning(format!("deck 7, ZCGE: the trailing end of the tether is at Z = {depth}"), height.span)
-                .help("the two are the same (8.1.7)"),
+                .help("the two are the same [AQWA-TETHER 8.1.7]"),
         );
     }
 }
@@ -472,14 +472,14 @@ fn output(deck: &Deck, remarks: &mut Remarks) {
                     format!("deck 14, TEIG: a tether has at most {most} modes here; all are printed"),
                     modes.span,
                 )
-                .help("there are four degrees of freedom at each node (A.3)"),
+                .help("there are four degrees of freedom at each node [AQWA-TETHER A.3]"),
             );
         }
     }
     if deck.job.has_deck(18) && deck.printing.tensions.is_empty() {
         remarks.add(
             Diagnostic::warning("deck 18 has no PTEN card: nothing is printed of the tethers", tether.span)
-                .help("PTEN, structure in columns 11-15, asks for it (8.1.18)"),
+                .help("PTEN, structure in columns 11-15, asks for it [AQWA-TETHER 8.1.18]"),
         );
     }
     let slack = deck.mooring.slack_time.filter(|time| time.value > 0.0);

@@ -8,7 +8,7 @@ use super::tethers::Tether;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
-/// Stiffness of an end spring that is not given (A.2).
+/// Stiffness of an end spring that is not given [AQWA-TETHER A.2].
 pub const DEFAULT_SPRING_STIFFNESS: f64 = 1.0e15;
 /// A TSPA or TSPV card.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,8 +23,8 @@ pub struct EndSpringCard {
 
 /// The stiffnesses in force of the springs at an end.
 ///
-/// Installed (A.2): inline 1.0E15 where blank, zero or negative, rotational 0 where negative, all three 1.0E15 where the
-/// card is missing. Towed (8.1.14): 1.0E15 in place of zero.
+/// Installed [AQWA-TETHER A.2]: inline 1.0E15 where blank, zero or negative, rotational 0 where negative, all three 1.0E15 where the
+/// card is missing. Towed [AQWA-TETHER 8.1.14]: 1.0E15 in place of zero.
 pub fn in_force(spring: Option<EndSpringCard>, towed: bool) -> [f64; 3] {
     let Some(spring) = spring else { return [DEFAULT_SPRING_STIFFNESS; 3] };
     let [first, second, third] = spring.stiffness.map(|field| field.value);
@@ -85,7 +85,7 @@ fn check_installed(keyword: &str, spring: Option<EndSpringCard>, at: Span, remar
         remarks.add_once(&format!("{keyword} missing"), || {
             let message =
                 format!("deck 14: no {keyword} card; 1.0E15 is taken for the inline and both rotational springs");
-            Diagnostic::remark(message, at).help("so for every installed tether without the card (A.2)")
+            Diagnostic::remark(message, at).help("so for every installed tether without the card [AQWA-TETHER A.2]")
         });
         return;
     };
@@ -93,13 +93,13 @@ fn check_installed(keyword: &str, spring: Option<EndSpringCard>, at: Span, remar
     if inline.value <= 0.0 {
         remarks.add_once(&format!("{keyword} inline"), || {
             Diagnostic::remark(format!("deck 14, {keyword}: the inline stiffness is taken as 1.0E15"), inline.span)
-                .help("so for every installed tether where it is blank, zero or negative (A.2)")
+                .help("so for every installed tether where it is blank, zero or negative [AQWA-TETHER A.2]")
         });
     }
     for rotational in [second, third] {
         if rotational.value < 0.0 {
             remarks.add(Diagnostic::remark(
-                format!("deck 14, {keyword}: the negative rotational stiffness is taken as 0 (A.2)"),
+                format!("deck 14, {keyword}: the negative rotational stiffness is taken as 0 [AQWA-TETHER A.2]"),
                 rotational.span,
             ));
         }

@@ -34,7 +34,7 @@ pub struct FenderSide {
 
 /// A fender (FLIN).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fender {
+pub struct FenderCard {
     /// Type.
     pub kind: Field<i64>,
     /// Where it is fixed, and the contact plane that it meets.
@@ -65,14 +65,14 @@ impl FenderProperties {
     }
 }
 
-impl Fender {
+impl FenderCard {
     /// Reads a card FLIN with the properties in force.
     pub fn read(
         record: &CardRecord,
         properties: &[Property],
         fender: Option<FenderProperties>,
         remarks: &mut Remarks,
-    ) -> Option<Fender> {
+    ) -> Option<FenderCard> {
         let (Some(Property::Polynomial(reaction)), Some(known)) = (properties.last(), fender) else {
             remarks.add(
                 Diagnostic::error("deck 14, FLIN: POLY and FEND belong before a fender", record.span)
@@ -102,6 +102,12 @@ impl Fender {
             Diagnostic::remark("deck 14, FLIN: no source gives the codes of fender types", kind.span)
                 .label("assumed: 1 or nothing, a fixed fender that acts along the normal of its contact plane")
         });
-        Some(Fender { kind, sides: [side(21), side(41)], reaction: *reaction, properties: known, span: record.span })
+        Some(FenderCard {
+            kind,
+            sides: [side(21), side(41)],
+            reaction: *reaction,
+            properties: known,
+            span: record.span,
+        })
     }
 }

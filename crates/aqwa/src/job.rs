@@ -38,7 +38,7 @@ const ANALYSES: &[&str] = &["WFRQ", "DRFT", "STAT", "DYNA", "FIXD"];
 
 /// What an option of deck 0 does here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OptionEffect {
+pub enum DeckOptionEffect {
     /// It is acted on, or windlass does so anyway.
     Acts,
     /// It asks for pages that are not printed: no result depends on it.
@@ -49,10 +49,10 @@ pub enum OptionEffect {
     Refused(&'static str, &'static str),
 }
 
-use OptionEffect::{Acts, OfLine, Prints, Refused};
+use DeckOptionEffect::{Acts, OfLine, Prints, Refused};
 
 /// Options by name, with what becomes of them.
-pub const OPTIONS: &[(&str, OptionEffect)] = &[
+pub const OPTIONS: &[(&str, DeckOptionEffect)] = &[
     ("REST", Acts),
     ("DATA", Acts),
     ("LSTF", Acts),

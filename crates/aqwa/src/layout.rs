@@ -308,7 +308,7 @@ impl CardLayout {
         let Some((left, right)) = slipped else { return Ok(()) };
         let word = line.columns(right.column, right.last_column()).trim();
         let message = format!(
-            "{}, columns {}-{}: `{word}` stands behind a blank field and does not end with column {}",
+            "{}, columns {}-{}: `{word}` follows a blank field and does not end with column {}",
             self.name_with_deck(deck),
             right.column,
             right.last_column(),

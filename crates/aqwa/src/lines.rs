@@ -547,7 +547,7 @@ fn composite(record: &CardRecord, remarks: &mut Remarks) -> Composite {
     if !(1..=MAX_SECTIONS).contains(&announced.value) {
         remarks.add(
             Diagnostic::error(
-                format!("deck 14, COMP, columns 26-30: {} is no number of sections", announced.value),
+                format!("deck 14, COMP, columns 26-30: {} is not a valid number of sections", announced.value),
                 announced.span,
             )
             .label(format!("1 to {MAX_SECTIONS} belongs here")),

@@ -4,7 +4,7 @@
 //! Source: [AQWA-TETHER Appendix A]; [AQWA-REF deck 14].
 
 use super::card::Field;
-use super::fenders::{Fender, FenderProperties};
+use super::fenders::{FenderCard, FenderProperties};
 use super::layout::{CardLayout, CardRecord, Slot, int, num};
 use super::lines::{Composite, LineBreak, LineCardParser, LineKind, MooringLine, Property};
 use super::remarks::Remarks;
@@ -228,7 +228,7 @@ pub struct MooringDeck {
     /// Mooring lines in the order of input.
     pub lines: Vec<MooringLine>,
     /// Fenders in the order of input.
-    pub fenders: Vec<Fender>,
+    pub fenders: Vec<FenderCard>,
     /// Lines that break (LBRK).
     pub breaks: Vec<LineBreak>,
     /// The card that switches cable dynamics off (DOFF): NLID lines are then quasi-static.
@@ -283,7 +283,7 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> MooringDeck {
             "DOFF" => mooring.dynamics_off = Some(record.span),
             "DYNM" => {}
             "FEND" => fender = Some(FenderProperties::read(record, remarks)),
-            "FLIN" => mooring.fenders.extend(Fender::read(record, &mooring.properties, fender, remarks)),
+            "FLIN" => mooring.fenders.extend(FenderCard::read(record, &mooring.properties, fender, remarks)),
             "LBRK" => mooring.breaks.extend(LineBreak::read(record, remarks)),
             _ => walk.take(record, &mut mooring.properties, &mut mooring.lines, remarks),
         }

@@ -41,7 +41,7 @@ pub const LAYOUTS: &[CardLayout] = &[
 /// Parameters that both listings of [AQWA-TETHER 8] turn off, or that stand for rows windlass never has: positions, velocities and accelerations by RAO, at wave
 /// and at drift frequency, and forces of other programs.
 const ROWS_NEVER_PRINTED: [i64; 18] = [4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 26, 27, 28, 29, 30, 31, 32, 34];
-/// Gyroscopic, diffraction, linear damping, hydrodynamic and wave frequency forces (8.2.18): which number is which is published nowhere, so that they act together.
+/// Gyroscopic, diffraction, linear damping, hydrodynamic and wave frequency forces [AQWA-TETHER 8.2.18]: which number is which is published nowhere, so that they act together.
 const FORCES_OF_WAVES: [i64; 6] = [15, 16, 17, 19, 23, 25];
 /// Those of them that the deck of DRIF turns off, while its listing has diffraction.
 const FORCES_OF_WAVES_DRIFT: [i64; 3] = [17, 19, 25];
@@ -112,7 +112,7 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> Printing {
         if counts && first.value <= 0 && first.given {
             remarks.add(
                 Diagnostic::error(
-                    format!("deck 18, {keyword}, columns 11-15: {} is no number of steps", first.value),
+                    format!("deck 18, {keyword}, columns 11-15: {} is not a valid number of steps", first.value),
                     first.span,
                 )
                 .label("a whole number above 0 belongs here"),

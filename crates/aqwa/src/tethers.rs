@@ -17,7 +17,7 @@ use windlass_base::span::Span;
 const MAX_ELEMENTS: usize = 1000;
 /// Most tethers of a deck, as AQWA has 100 lines.
 const MAX_TETHERS: usize = 100;
-/// Most constraints of an installed tether (A.14).
+/// Most constraints of an installed tether [AQWA-TETHER A.14].
 const MAX_CONSTRAINTS: usize = 5;
 
 /// A TELM card.
@@ -77,7 +77,7 @@ pub struct TetherCards {
     pub vessel: Option<EndSpringCard>,
     /// Fatigue parameters; the defaults of A.4 where not given.
     pub fatigue: Fatigue,
-    /// Hours for which the expected peak stress is computed; 3 where not given (A.5).
+    /// Hours for which the expected peak stress is computed; 3 where not given [AQWA-TETHER A.5].
     pub peak_hours: Option<f64>,
     /// Number of identical tethers: forces on the vessel are multiplied by it. 0 when not given, which stands for 1.
     pub group: i64,
@@ -87,7 +87,7 @@ pub struct TetherCards {
     pub fluid: (f64, f64),
     /// Stress factor and half life (s) of impact.
     pub impact: Option<(f64, f64)>,
-    /// Distance of the lower stop below the anchor (TLOW); 0 means that the tether can never hang free (A.11), none that it meets
+    /// Distance of the lower stop below the anchor (TLOW); 0 means that the tether can never hang free [AQWA-TETHER A.11], none that it meets
     /// no stop.
     pub lower_stop: Option<f64>,
     /// Constraints with the gap of TLAV and their cards.

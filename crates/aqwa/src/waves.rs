@@ -330,8 +330,11 @@ fn lines(field: Field<i64>, remarks: &mut Remarks) -> i64 {
     }
     if field.given && field.value != 0 {
         remarks.add(
-            Diagnostic::error(format!("deck 13, NSPL: {} is no number of spectral lines", field.value), field.span)
-                .label(format!("1 to {MAX_SPECTRAL_LINES} belongs in columns 16-20")),
+            Diagnostic::error(
+                format!("deck 13, NSPL: {} is not a valid number of spectral lines", field.value),
+                field.span,
+            )
+            .label(format!("1 to {MAX_SPECTRAL_LINES} belongs in columns 16-20")),
         );
     }
     USUAL_LINES

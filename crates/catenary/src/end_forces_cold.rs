@@ -209,11 +209,11 @@ fn solve_suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineE
     }
     let elements = vec![LinePiece::Length { segment: *segment, law: None, sees_bottom: false }];
     let chain = MultiSegmentLine { elements, pulls: Vec::new(), least: 0.0 };
-    let (h, steps) = rising_root(h, x, |h| match chain.rest(h, z, 0.0, None) {
+    let (h, steps) = rising_root(h, x, |h| match chain.solve_contact(h, z, 0.0, None) {
         Ok(rested) => FunctionPoint { value: rested.x, slope: rested.x_by[0] },
         Err(_) => FunctionPoint { value: f64::NAN, slope: f64::NAN },
     });
-    let v = chain.rest(h, z, 0.0, None)?.held.first().map_or(f64::NAN, |held| held.v_hi);
+    let v = chain.solve_contact(h, z, 0.0, None)?.held.first().map_or(f64::NAN, |held| held.v_hi);
     let reach = hanging(segment, h, v - all);
     prove(segment, Regime::Suspended, [x, z], [h, v], [h, v - all], &reach, 0.0, steps)
 }

@@ -109,7 +109,13 @@ impl MultiSegmentLine {
     ///
     /// # Errors
     /// [`LineError::NotConverged`].
-    pub fn rest(&self, h: f64, top: f64, bottom: f64, near: Option<&LineSolution>) -> Result<LineSolution, LineError> {
+    pub fn solve_contact(
+        &self,
+        h: f64,
+        top: f64,
+        bottom: f64,
+        near: Option<&LineSolution>,
+    ) -> Result<LineSolution, LineError> {
         let mut rested = ContactProblem::new(self, h, top, bottom, near).solve_active_set()?;
         for (index, (dh, dtop)) in [(1.0, 0.0), (0.0, 1.0)].into_iter().enumerate() {
             let values = self.change(&rested, dh, dtop);

@@ -23,7 +23,7 @@ impl Line {
         if !self.is_plain() {
             return layout::at_force(self, force, fairlead);
         }
-        let found = self.rest(force, fairlead, None).and_then(|rested| self.state(rested, None, fairlead));
+        let found = self.solve_contact(force, fairlead, None).and_then(|rested| self.state(rested, None, fairlead));
         found.or_else(|error| layout::at_force(self, force, fairlead).map_err(|_| error))
     }
 
@@ -77,7 +77,7 @@ impl Line {
             let predicted = h + (x - last.rested.x - x_z * risen) / x_h;
             if predicted > 0.1 * h { predicted } else { h.max(least) }
         });
-        let (_, steps) = rising_root(begin, x, |h| match self.rest(h.max(least), fairlead, near.as_ref()) {
+        let (_, steps) = rising_root(begin, x, |h| match self.solve_contact(h.max(least), fairlead, near.as_ref()) {
             Ok(rested) => {
                 // without horizontal force nothing changes any more
                 let limp = h <= least && rested.x >= x;
@@ -105,7 +105,7 @@ impl Line {
         if rested.x >= x && h <= least && hanging > least && hanging * 1e-11 < least {
             let finer = MultiSegmentLine { least: 1e-11 * hanging, ..chain.clone() };
             let [top, bottom] = self.heights(fairlead);
-            rested = finer.rest(finer.least, top, bottom, Some(&rested)).unwrap_or(rested);
+            rested = finer.solve_contact(finer.least, top, bottom, Some(&rested)).unwrap_or(rested);
         }
         rested.iterations += steps;
         match (self.state(rested, Some(x), fairlead), failed) {
@@ -171,19 +171,19 @@ impl Line {
         [fairlead - self.datum(), self.anchor - self.datum()]
     }
 
-    fn rest(&self, h: f64, fairlead: f64, near: Option<&LineSolution>) -> Result<LineSolution, LineError> {
+    fn solve_contact(&self, h: f64, fairlead: f64, near: Option<&LineSolution>) -> Result<LineSolution, LineError> {
         let [top, bottom] = self.heights(fairlead);
         if self.elements_see_bottom() && top < 0.0 {
             return Err(LineError::BelowBottom(-top));
         }
         let chain = &self.chain;
-        let warm = chain.rest(h, top, bottom, near);
+        let warm = chain.solve_contact(h, top, bottom, near);
         if warm.is_ok() {
             return warm;
         }
         // begun anew: with what is not lifted on the bottom, then with nothing there
-        let cold = if near.is_some() { chain.rest(h, top, bottom, None) } else { warm };
-        cold.or_else(|error| chain.rest(h, top, bottom, Some(&chain.afloat(h))).map_err(|_| error))
+        let cold = if near.is_some() { chain.solve_contact(h, top, bottom, None) } else { warm };
+        cold.or_else(|error| chain.solve_contact(h, top, bottom, Some(&chain.afloat(h))).map_err(|_| error))
     }
 
     /// Whether the bottom carries the first piece.

@@ -376,7 +376,7 @@ impl DynamicLineClass for CatenaryClass {
             segment: rod::RodSegment {
                 axial: s
                     .coefficients
-                    .map_or(TensionLaw::Linear(s.ea), |[k1, k2, k3]| TensionLaw::of_powers(vec![s.ea, k1, k2, k3])),
+                    .map_or(TensionLaw::Linear(s.ea), |[k1, k2, k3]| TensionLaw::from_powers(vec![s.ea, k1, k2, k3])),
                 bending: s.ei,
                 compression: s.ei > 0.0,
                 displaced: s.area,

@@ -36,7 +36,7 @@ fn rows(m: &Matrix2<f64>) -> [[f64; 2]; 2] {
 }
 
 /// A place of the line's end with what is there.
-struct Tried {
+struct TrialPoint {
     at: Vector2<f64>,
     plane: LineForces,
     /// C.
@@ -45,7 +45,7 @@ struct Tried {
     rest: Vector2<f64>,
 }
 
-impl Tried {
+impl TrialPoint {
     fn tension(&self) -> f64 {
         Vector2::from(self.plane.fairlead).norm()
     }
@@ -82,11 +82,11 @@ pub fn solve_with_link(
         let axis = unit * unit.transpose();
         (unit * by.length(tension), axis * by.compliance + (Matrix2::identity() - axis) * across)
     };
-    let mut at = |mut at: Vector2<f64>| -> Result<Tried, LineError> {
+    let mut at = |mut at: Vector2<f64>| -> Result<TrialPoint, LineError> {
         at.x = at.x.max(0.0);
         let plane = line(at.x, at.y)?;
         let (way, give) = link(plane.fairlead);
-        Ok(Tried { at, plane, give, rest: place - at - way })
+        Ok(TrialPoint { at, plane, give, rest: place - at - way })
     };
     let begun = start.map(|pull| at(place - link(pull).0));
     let mut now = match begun {

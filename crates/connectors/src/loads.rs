@@ -14,7 +14,7 @@ impl Mooring {
         let (distance, along) = self.distance_and_direction()?;
         let state = match self.state(Condition::Placed) {
             Ok(state) => state,
-            Err(error) => return self.limp(distance).ok_or(error),
+            Err(error) => return self.slack_loads(distance).ok_or(error),
         };
         let (ratio, critical) = self.ratio(&state);
         let kept = state.stiffness;
@@ -119,7 +119,7 @@ impl Mooring {
     }
 
     /// A weightless line that is not tight: no force.
-    fn limp(&self, distance: f64) -> Option<LineLoads> {
+    fn slack_loads(&self, distance: f64) -> Option<LineLoads> {
         let z = self.fairlead();
         let limp = self.weightless() && matches!(self.line.at_distance(distance, z), Err(LineError::Undetermined));
         limp.then(|| LineLoads {

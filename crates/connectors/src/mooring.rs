@@ -426,11 +426,11 @@ struct ProfilePoint {
 
 /// Stretch beyond which a line over its break is too short for its ends: steel breaks below 0.02, nylon above 0.2, and that has its break
 /// given.
-const TOO_SHORT: f64 = 0.05;
+const MAX_STRAIN_OVER_BREAK: f64 = 0.05;
 
 /// By what share of its length a line is too short for its ends, by their distance over its length and its tension over its break.
 pub fn too_short(taut: f64, ratio: f64) -> Option<f64> {
-    (taut > 1.0 + TOO_SHORT && ratio > 1.0).then_some(taut - 1.0)
+    (taut > 1.0 + MAX_STRAIN_OVER_BREAK && ratio > 1.0).then_some(taut - 1.0)
 }
 
 /// What is said of it.

@@ -78,14 +78,14 @@ pub struct LineSection {
     /// Elements.
     pub refine: i64,
     /// Its type of the library.
-    pub of_type: Option<OfType>,
+    pub of_type: Option<TypeProperties>,
     /// Whether its record gives no weight: it has that of a solid bar.
     pub is_bar: bool,
 }
 
 /// What a section of the library has beside weight, stiffness and strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OfType {
+pub struct TypeProperties {
     /// The type.
     pub line_type: &'static LineType,
     /// Nominal diameter (m).
@@ -98,16 +98,16 @@ pub struct OfType {
     pub wind: f64,
 }
 
-impl OfType {
+impl TypeProperties {
     /// From `-TYPE NAME D` and the diameters given beside it.
-    fn read(args: &Args) -> Outcome<Option<OfType>> {
+    fn read(args: &Args) -> Outcome<Option<TypeProperties>> {
         let Some((line_type, diameter)) = line_type_and_diameter(args)? else { return Ok(None) };
         if !line_type.has_values(diameter) {
             let text = format!("the formulas of {} give no line at this diameter", line_type.name);
             return Err(Diagnostic::error(text, diameter_place(args)).label("far outside of their range"));
         }
         let drag = line_type.drag.ratio * diameter;
-        Ok(Some(OfType {
+        Ok(Some(TypeProperties {
             line_type,
             diameter,
             drag: args.number_if_declared(&o::DRAGDIAMETER).unwrap_or(drag),
@@ -190,7 +190,7 @@ impl LineSection {
     pub fn read(record: &ClassRecord, kind: &str, tube: bool) -> Outcome<LineSection> {
         let args = &record.args;
         let material = &record.defaults.material;
-        let of_type = OfType::read(args)?;
+        let of_type = TypeProperties::read(args)?;
         let od = args.number(OD).or(of_type.map(|t| t.diameter)).ok_or_else(|| {
             Diagnostic::error(format!("{kind} lacks its value OD"), args.span)
                 .label("expected a diameter after this, or -TYPE NAME D")

@@ -105,7 +105,7 @@ impl Dashpot {
 
     /// Force along velocities (m/s), of those components that `takes` keeps, and its derivative. Of two components the law holds
     /// for their resultant.
-    pub fn act(&self, rate: &Vector3<f64>, takes: [bool; 3]) -> (Vector3<f64>, Matrix3<f64>) {
+    pub fn evaluate(&self, rate: &Vector3<f64>, takes: [bool; 3]) -> (Vector3<f64>, Matrix3<f64>) {
         let takes = Vector3::from(takes.map(|t| f64::from(u8::from(t))));
         let kept = rate.component_mul(&takes);
         let Sized { secant, slope } = self.force(kept.norm());
@@ -145,7 +145,7 @@ impl SpringGroup {
     }
 
     /// Adds the forces at these deflections (m, rad) and their derivatives, and writes the state.
-    pub fn act(
+    pub fn evaluate(
         &self,
         deflection: &Vector6<f64>,
         dt: Option<f64>,
@@ -220,12 +220,12 @@ mod tests {
     fn dashpot_force_is_power_law_up_to_its_limit() {
         let dashpot = Dashpot { coefficient: 5.0, exponent: 2.0, most: 40.0 };
         for (v, f) in [(0.0, 0.0), (2.0, 20.0), (-2.0, -20.0), (3.0, 40.0), (-9.0, -40.0)] {
-            let (got, _) = dashpot.act(&Vector3::new(v, 7.0, 0.0), [true, false, false]);
+            let (got, _) = dashpot.evaluate(&Vector3::new(v, 7.0, 0.0), [true, false, false]);
             assert!((got - Vector3::new(f, 0.0, 0.0)).norm() < 1e-12, "{v}: {got}");
         }
         // a root, away from rest
         let root = Dashpot { coefficient: 5.0, exponent: 0.5, most: f64::INFINITY };
-        let (got, _) = root.act(&Vector3::new(4.0, 0.0, 0.0), [true, false, false]);
+        let (got, _) = root.evaluate(&Vector3::new(4.0, 0.0, 0.0), [true, false, false]);
         assert!((got.x - 10.0).abs() < 1e-6);
     }
 }

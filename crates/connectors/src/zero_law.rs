@@ -21,7 +21,7 @@ choices! {
 
 impl Sense {
     /// Whether a value along X, a displacement or a force, is of the sign in which it acts; zero is.
-    fn takes(self, x: f64) -> bool {
+    fn acts_at(self, x: f64) -> bool {
         match self {
             Sense::Tension => x >= 0.0,
             Sense::Compression => x <= 0.0,
@@ -204,7 +204,7 @@ impl ZeroLaw {
             by_rate: Matrix3::zeros(),
             notes: Vec::new(),
         };
-        let deflection = if self.sense.takes(u.x) { self.contact.deflection(&u) } else { None };
+        let deflection = if self.sense.acts_at(u.x) { self.contact.deflection(&u) } else { None };
         let Some(deflection) = deflection else { return self.release(&u, dt, committed, trial, answer) };
         answer.deflection.fixed_rows_mut::<3>(0).copy_from(&deflection.at);
         if deflection.outside {
@@ -216,11 +216,11 @@ impl ZeroLaw {
             let to = from + group.states();
             let (old, new) = (committed.get(from..to), trial.get_mut(from..to));
             let (old, new) = (old.unwrap_or_default(), new.unwrap_or_default());
-            group.act(&answer.deflection, dt, old, new, &mut answer.force, &mut by_deflection);
+            group.evaluate(&answer.deflection, dt, old, new, &mut answer.force, &mut by_deflection);
             from = to;
         }
         // a spring that has not recovered yet does not pull where the element only pushes
-        if !self.sense.takes(answer.force.x) {
+        if !self.sense.acts_at(answer.force.x) {
             answer.force = Vector6::zeros();
             return self.release(&u, dt, committed, trial, answer);
         }
@@ -229,12 +229,12 @@ impl ZeroLaw {
         let mut force = answer.force.fixed_rows::<3>(0).into_owned();
         let mut slopes = k_u;
         if !self.pushes_only {
-            self.rub(&u, rate, dt.is_some(), committed, trial, (&mut force, &mut slopes, &mut answer.by_rate));
+            self.add_friction(&u, rate, dt.is_some(), committed, trial, (&mut force, &mut slopes, &mut answer.by_rate));
         }
         if dt.is_some() {
             let [x, y, z] = deflection.touches;
             for (dashpot, [in_x, in_y, in_z]) in &self.dashpots {
-                let (more, slope) = dashpot.act(rate, [*in_x && x, *in_y && y, *in_z && z]);
+                let (more, slope) = dashpot.evaluate(rate, [*in_x && x, *in_y && y, *in_z && z]);
                 force += more;
                 answer.by_rate += slope;
             }
@@ -246,7 +246,7 @@ impl ZeroLaw {
                 answer.by_rate.row_mut(0).fill(0.0);
             }
             // what rubs is pressed on by spring and dashpot together
-            self.rub(&u, rate, dt.is_some(), committed, trial, (&mut force, &mut slopes, &mut answer.by_rate));
+            self.add_friction(&u, rate, dt.is_some(), committed, trial, (&mut force, &mut slopes, &mut answer.by_rate));
         }
         answer.force.fixed_rows_mut::<3>(0).copy_from(&force);
         answer.slopes.fixed_view_mut::<3, 3>(0, 0).copy_from(&slopes);
@@ -277,7 +277,7 @@ impl ZeroLaw {
     }
 
     /// Friction: changes the lateral forces and their derivatives by displacement and rate.
-    fn rub(
+    fn add_friction(
         &self,
         u: &Vector3<f64>,
         rate: &Vector3<f64>,

@@ -5,7 +5,7 @@
 //! this is the drag of that area alone.
 
 use super::steady::{Medium, Steady};
-use super::stream::{InStream, LoadPlace, Push};
+use super::stream::{LoadPlace, StreamLoad, StreamWrench};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Six;
@@ -42,15 +42,15 @@ impl AreaLoad {
     }
 }
 
-impl InStream for AreaLoad {
-    fn stands(&self) -> (&LoadPlace, &Steady) {
+impl StreamLoad for AreaLoad {
+    fn placement(&self) -> (&LoadPlace, &Steady) {
         (&self.place, &self.steady)
     }
 
-    fn push(&self, stream: Vector3<f64>) -> Push {
+    fn push(&self, stream: Vector3<f64>) -> StreamWrench {
         let speed = stream.norm();
         if speed == 0.0 {
-            return Push::zero();
+            return StreamWrench::zero();
         }
         let half = 0.5 * self.steady.density(self.place.medium);
         let tensor = self.axes * nalgebra::Matrix3::from_diagonal(&(self.areas * half)) * self.axes.transpose();
@@ -58,6 +58,6 @@ impl InStream for AreaLoad {
         let mut by_velocity = Matrix6x3::zeros();
         let change = tensor * speed + (tensor * stream) * stream.transpose() / speed;
         by_velocity.fixed_rows_mut::<3>(0).copy_from(&change);
-        Push { wrench: Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), by_velocity }
+        StreamWrench { wrench: Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), by_velocity }
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! What only some loads can do are traits of their own, which the accessors `as_..` of [`BodyLoad`] give.
 
-use super::hull::Wet;
+use super::hull::SubmergedVolume;
 use super::stability::WaterSlabs;
 use super::{Category, Load};
 use nalgebra::{Matrix6, Vector2};
@@ -16,7 +16,7 @@ use windlass_model::ClassError;
 
 /// A body at the end of a step of time.
 #[derive(Clone, Copy, Debug)]
-pub struct Underway<'a> {
+pub struct BodyStep<'a> {
     /// Time at the end of the step (s).
     pub time: f64,
     /// Length of the step (s); zero at the start of a run.
@@ -64,7 +64,7 @@ pub trait BodyLoad: Debug + Send + Sync {
     ///
     /// # Errors
     /// A place for which it has no value.
-    fn dynamic_load(&self, at: &Underway, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, at: &BodyStep, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
         self.mean_load(at.pose).map(DynamicLoad::from)
     }
 
@@ -72,7 +72,7 @@ pub trait BodyLoad: Debug + Send + Sync {
     ///
     /// # Errors
     /// As [`BodyLoad::dynamic_load`].
-    fn add_dynamic_load(&self, at: &Underway, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
+    fn add_dynamic_load(&self, at: &BodyStep, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
         let made = self.dynamic_load(at, state)?;
         out.load.wrench += made.load.wrench;
         out.load.stiffness += made.load.stiffness;
@@ -112,10 +112,10 @@ pub trait Immersed {
     fn lift(&self) -> f64;
 
     /// What of it is below the sea at rest, in a pose.
-    fn wet(&self, pose: &Pose) -> Wet;
+    fn wet(&self, pose: &Pose) -> SubmergedVolume;
 
     /// What of it is below a water surface, slab by slab.
-    fn wet_slabs(&self, pose: &Pose, water: &WaterSlabs) -> Vec<Wet>;
+    fn wet_slabs(&self, pose: &Pose, water: &WaterSlabs) -> Vec<SubmergedVolume>;
 
     /// The least and the greatest distance of its points from the origin of a pose along a horizontal direction (m).
     fn reach_along(&self, pose: &Pose, ahead: &Vector2<f64>) -> [f64; 2];
@@ -131,17 +131,17 @@ pub trait StatefulLoad {
     ///
     /// # Errors
     /// A place for which it has no value.
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError>;
+    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) -> Result<(), ClassError>;
 
     /// The step is accepted with its end there.
-    fn commit(&self, _at: &Underway, _state: &mut [f64]) {}
+    fn commit(&self, _at: &BodyStep, _state: &mut [f64]) {}
 }
 
 /// A load whose [`StatefulLoad::begin`] decides what time changes in it: an engine predicts from it how the load goes on from the step
 /// before.
 pub trait PreparedLoad {
     /// The wrench as the state has it. It is linear in the axes, which may be the mean of two poses.
-    fn prepared_wrench(&self, at: &Underway, state: &[f64]) -> Six;
+    fn prepared_wrench(&self, at: &BodyStep, state: &[f64]) -> Six;
 }
 
 /// A load that adds to the inertia of the body.
@@ -158,5 +158,5 @@ pub trait DividedLoad {
     fn other_categories(&self) -> &'static [Category];
 
     /// The part of the load that is counted in one of them instead of its own (N, N m; as the load itself).
-    fn part(&self, category: Category, at: &Underway, state: &[f64]) -> Six;
+    fn part(&self, category: Category, at: &BodyStep, state: &[f64]) -> Six;
 }

@@ -12,7 +12,7 @@ use super::sea::Sea;
 use super::steady::{Medium, Steady};
 use super::stream::LoadPlace;
 use super::{
-    BodyLoad, Category, DividedLoad, DynamicLoad, InertialLoad, Load, PreparedLoad, StatefulLoad, Underway, pieces,
+    BodyLoad, BodyStep, Category, DividedLoad, DynamicLoad, InertialLoad, Load, PreparedLoad, StatefulLoad, pieces,
     roll_damping,
 };
 use nalgebra::{Matrix3, Matrix6, Vector3};
@@ -81,7 +81,7 @@ impl BodyLoad for ScaledLoad {
         Ok(Load { wrench: load.wrench * self.factor, stiffness: load.stiffness * self.factor })
     }
 
-    fn dynamic_load(&self, at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, at: &BodyStep, state: &[f64]) -> Result<DynamicLoad, ClassError> {
         let DynamicLoad { load, damping } = self.load.dynamic_load(at, state)?;
         let load = Load { wrench: load.wrench * self.factor, stiffness: load.stiffness * self.factor };
         Ok(DynamicLoad { load, damping: damping * self.factor })
@@ -106,7 +106,7 @@ impl BodyLoad for ScaledLoad {
 }
 
 impl PreparedLoad for ScaledLoad {
-    fn prepared_wrench(&self, at: &Underway, state: &[f64]) -> Six {
+    fn prepared_wrench(&self, at: &BodyStep, state: &[f64]) -> Six {
         self.load.as_prepared().map_or_else(Six::zeros, |load| load.prepared_wrench(at, state) * self.factor)
     }
 }
@@ -122,7 +122,7 @@ impl DividedLoad for ScaledLoad {
         self.load.as_divided().map_or(&[], |load| load.other_categories())
     }
 
-    fn part(&self, category: Category, at: &Underway, state: &[f64]) -> Six {
+    fn part(&self, category: Category, at: &BodyStep, state: &[f64]) -> Six {
         self.load.as_divided().map_or_else(Six::zeros, |load| load.part(category, at, state) * self.factor)
     }
 }

@@ -1,6 +1,6 @@
 //! Buoyancy of a body's hull: the pieces of its parts, as solids in the system of the body.
 
-use super::hull::{Fault, Solid, Surface, TubeHull, Wet, intersect};
+use super::hull::{Fault, Solid, SubmergedVolume, Surface, TubeHull, intersect};
 use super::stability::WaterSlabs;
 use super::{BodyLoad, Category, Immersed, Load};
 use nalgebra::{Matrix3, Vector2, Vector3};
@@ -51,7 +51,7 @@ impl SolidForm {
     }
 
     /// What of it is below a height in a pose.
-    pub(super) fn wet(&self, pose: &Pose, level: f64) -> Wet {
+    pub(super) fn wet(&self, pose: &Pose, level: f64) -> SubmergedVolume {
         match self {
             SolidForm::Surface(surface) => surface.wet(pose, level),
             SolidForm::Tube(tube) => tube.wet(pose, level),
@@ -88,7 +88,7 @@ impl SolidForm {
     }
 
     /// Adds what of it is below a water surface in a pose, slab by slab, times a factor; a tube as a prism of its volume.
-    pub(super) fn add_slabs(&self, pose: &Pose, water: &WaterSlabs, factor: f64, sums: &mut [Wet]) {
+    pub(super) fn add_slabs(&self, pose: &Pose, water: &WaterSlabs, factor: f64, sums: &mut [SubmergedVolume]) {
         match self {
             SolidForm::Surface(surface) => water.add_surface(surface, pose, factor, sums),
             SolidForm::Tube(tube) => {
@@ -159,8 +159,8 @@ impl Hull {
     }
 
     /// What of it is below the water's surface in a pose.
-    pub fn wet(&self, pose: &Pose) -> Wet {
-        let mut sum = Wet::default();
+    pub fn wet(&self, pose: &Pose) -> SubmergedVolume {
+        let mut sum = SubmergedVolume::default();
         for (permeability, form) in &self.pieces {
             sum.add(&form.wet(pose, self.level), *permeability);
         }
@@ -197,12 +197,12 @@ impl Immersed for Hull {
         self.water_weight
     }
 
-    fn wet(&self, pose: &Pose) -> Wet {
+    fn wet(&self, pose: &Pose) -> SubmergedVolume {
         Hull::wet(self, pose)
     }
 
-    fn wet_slabs(&self, pose: &Pose, water: &WaterSlabs) -> Vec<Wet> {
-        let mut sums = vec![Wet::default(); water.count()];
+    fn wet_slabs(&self, pose: &Pose, water: &WaterSlabs) -> Vec<SubmergedVolume> {
+        let mut sums = vec![SubmergedVolume::default(); water.count()];
         self.pieces.iter().for_each(|(share, form)| form.add_slabs(pose, water, *share, &mut sums));
         sums
     }

@@ -5,7 +5,7 @@
 
 use super::heading::ByHeading;
 use super::steady::Steady;
-use super::stream::{InStream, LoadPlace, Push};
+use super::stream::{LoadPlace, StreamLoad, StreamWrench};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 
@@ -24,21 +24,21 @@ impl CoefficientLoad {
     }
 }
 
-impl InStream for CoefficientLoad {
-    fn stands(&self) -> (&LoadPlace, &Steady) {
+impl StreamLoad for CoefficientLoad {
+    fn placement(&self) -> (&LoadPlace, &Steady) {
         (&self.place, &self.steady)
     }
 
-    fn push(&self, stream: Vector3<f64>) -> Push {
+    fn push(&self, stream: Vector3<f64>) -> StreamWrench {
         let square = stream.x * stream.x + stream.y * stream.y;
         if square == 0.0 {
-            return Push::zero();
+            return StreamWrench::zero();
         }
         let (value, slope) = self.table.interpolate((-stream.y).atan2(-stream.x));
         // speed^2 d(heading) = x dy - y dx, so that the change has no singularity
         let turned = nalgebra::RowVector3::new(-stream.y, stream.x, 0.0);
         let grown = nalgebra::RowVector3::new(2.0 * stream.x, 2.0 * stream.y, 0.0);
         let by_velocity: Matrix6x3<f64> = slope * turned + value * grown;
-        Push { wrench: value * square, by_velocity }
+        StreamWrench { wrench: value * square, by_velocity }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::steady::{Medium, Steady};
 use super::stream::category;
-use super::stream::{LoadPlace, Push};
-use super::{BodyLoad, Category, DynamicLoad, Load, Underway, cross};
+use super::stream::{LoadPlace, StreamWrench};
+use super::{BodyLoad, BodyStep, Category, DynamicLoad, Load, cross};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
@@ -25,8 +25,8 @@ impl LinearDrag {
         LinearDrag { steady, place, by_velocity: matrix.fixed_columns::<3>(0).into_owned() }
     }
 
-    fn push(&self, stream: Vector3<f64>) -> Push {
-        Push { wrench: self.by_velocity * stream, by_velocity: self.by_velocity }
+    fn push(&self, stream: Vector3<f64>) -> StreamWrench {
+        StreamWrench { wrench: self.by_velocity * stream, by_velocity: self.by_velocity }
     }
 }
 
@@ -40,7 +40,7 @@ impl BodyLoad for LinearDrag {
     }
 
     /// In the current of the time; the body's own motion is in the damping of the body.
-    fn dynamic_load(&self, at: &Underway, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, at: &BodyStep, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
         let stream = self.steady.streams_at_time(at.time).velocity(Medium::Water, at.pose.point(self.place.at).z);
         let load = self.place.load_in(&self.steady, at.pose, stream, |stream| self.push(stream));
         Ok(DynamicLoad::from(load))

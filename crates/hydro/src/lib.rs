@@ -52,7 +52,7 @@ mod weight;
 pub mod wind;
 
 pub use ambient::ambient;
-pub use body_load::{BodyLoad, DividedLoad, DynamicLoad, Immersed, InertialLoad, PreparedLoad, StatefulLoad, Underway};
+pub use body_load::{BodyLoad, BodyStep, DividedLoad, DynamicLoad, Immersed, InertialLoad, PreparedLoad, StatefulLoad};
 pub use buoyancy::{Hull, PieceFault, piece_faults};
 pub use tank::{Liquid, Tank, balance_tanks, compartments_of, contents_mass, laden_mass};
 

@@ -8,7 +8,7 @@
 //! takes away its lag at constant speed. Of a sine it leaves 0.7 % at the dividing period T and at most 4 % below; one of 10 T comes through within
 //! 25 %, of 20 T within 6 %, a constant speed exactly. In between, motions of 2 to 5 T count up to two and a half times.
 
-use super::body_load::Underway;
+use super::body_load::BodyStep;
 use super::sea::Sea;
 use nalgebra::{Complex, Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -27,7 +27,7 @@ const RESIDUES: [Complex<f64>; 3] = [
     Complex::new(2.687_878_320_690_456_4, -0.103_656_624_706_494_59),
     Complex::new(-0.897_650_001_127_465_8, -0.299_201_707_195_963_6),
 ];
-const AT_ONCE: f64 = 0.035_227_674_540_170_55;
+const DIRECT_GAIN: f64 = 0.035_227_674_540_170_55;
 
 /// The share of a sea's energy that has longer periods than the dividing period.
 const LONGER_WAVES: f64 = 0.01;
@@ -97,10 +97,10 @@ impl LowPass {
     }
 
     /// What is slow of the signal.
-    pub fn slow(state: &[f64; Self::STATES]) -> f64 {
+    pub fn low_frequency_part(state: &[f64; Self::STATES]) -> f64 {
         let [value, a, _, b, bi, c, ci] = state;
         let [first, second, third] = RESIDUES;
-        AT_ONCE * value + first.re * a + (second.re * b - second.im * bi) + (third.re * c - third.im * ci)
+        DIRECT_GAIN * value + first.re * a + (second.re * b - second.im * bi) + (third.re * c - third.im * ci)
     }
 }
 
@@ -145,26 +145,26 @@ impl SlowWrench {
     }
 
     /// What was slow of it at the end of the last step.
-    pub fn slow(state: &[f64]) -> Six {
+    pub fn low_frequency_part(state: &[f64]) -> Six {
         let (signals, _) = state.as_chunks::<{ LowPass::STATES }>();
-        Six::from_iterator(signals.iter().map(LowPass::slow).chain([0.0; 6]).take(6))
+        Six::from_iterator(signals.iter().map(LowPass::low_frequency_part).chain([0.0; 6]).take(6))
     }
 }
 
 /// Where a body is but for its first-order motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Slow {
+pub struct LowFrequencyPosition {
     /// Its origin on the plan (m, global).
     pub origin: Vector2<f64>,
     /// Where its x axis points on the plan (rad).
     pub heading: f64,
 }
 
-impl Slow {
+impl LowFrequencyPosition {
     /// A body without first-order motion in a pose.
     pub fn still(pose: &Pose) -> Self {
         let heading = pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]);
-        Slow { origin: pose.origin.xy(), heading }
+        LowFrequencyPosition { origin: pose.origin.xy(), heading }
     }
 
     /// Axes of the heading: x along it, z upward.
@@ -179,7 +179,7 @@ impl Slow {
         UnitQuaternion::from(Rotation3::from_matrix_unchecked(self.axes().transpose() * axes)).scaled_axis()
     }
 
-    /// What gives of a rate of rotation (global axes) the rates of [`Slow::rotation`] at a heading that stays. The mean of such rates over whole periods
+    /// What gives of a rate of rotation (global axes) the rates of [`LowFrequencyPosition::rotation`] at a heading that stays. The mean of such rates over whole periods
     /// is nothing, where that of the rate of rotation is not: an axis that goes round a cone turns the body.
     pub fn rates(&self, axes: &Matrix3<f64>) -> Matrix3<f64> {
         let turned = self.rotation(axes);
@@ -208,11 +208,11 @@ impl LowFrequency {
 
     /// Where the body will be at the end of the step from a state to a pose expected. Before the first step it is taken to have been there
     /// always.
-    pub fn ahead(&self, at: &Underway, state: &mut [f64]) -> Slow {
+    pub fn predict(&self, at: &BodyStep, state: &mut [f64]) -> LowFrequencyPosition {
         if let [started, signals @ ..] = state
             && *started == 0.0
         {
-            let Slow { origin, heading } = Slow::still(at.pose);
+            let LowFrequencyPosition { origin, heading } = LowFrequencyPosition::still(at.pose);
             for (own, value) in signals.chunks_exact_mut(LowPass::STATES).zip([origin.x, origin.y, heading]) {
                 own.copy_from_slice(&LowPass::at_rest(value));
             }
@@ -221,7 +221,7 @@ impl LowFrequency {
     }
 
     /// The step is accepted with its end there.
-    pub fn commit(&self, at: &Underway, state: &mut [f64]) {
+    pub fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         let signals = self.advance_filters(at, state).0;
         if let [started, own @ ..] = state {
             *started = 1.0;
@@ -229,18 +229,18 @@ impl LowFrequency {
         }
     }
 
-    fn advance_filters(&self, at: &Underway, state: &[f64]) -> ([[f64; LowPass::STATES]; 3], Slow) {
+    fn advance_filters(&self, at: &BodyStep, state: &[f64]) -> ([[f64; LowPass::STATES]; 3], LowFrequencyPosition) {
         let mut signals = [[0.0; LowPass::STATES]; 3];
         let kept = &state[1..];
         signals.as_flattened_mut().iter_mut().zip(kept).for_each(|(signal, kept)| *signal = *kept);
-        let Slow { origin, heading } = Slow::still(at.pose);
+        let LowFrequencyPosition { origin, heading } = LowFrequencyPosition::still(at.pose);
         // a heading goes on without a jump
         let heading = signals[2][0] + (heading - signals[2][0] + PI).rem_euclid(TAU) - PI;
         for (signal, value) in signals.iter_mut().zip([origin.x, origin.y, heading]) {
             self.filter.advance(value, at.dt, signal);
         }
-        let [x, y, heading] = signals.map(|s| LowPass::slow(&s));
-        (signals, Slow { origin: Vector2::new(x, y), heading })
+        let [x, y, heading] = signals.map(|s| LowPass::low_frequency_part(&s));
+        (signals, LowFrequencyPosition { origin: Vector2::new(x, y), heading })
     }
 }
 
@@ -259,7 +259,7 @@ mod tests {
             let angle = TAU * n as f64 / count as f64;
             filter.advance(angle.cos(), dt, &mut state);
             if n > settled {
-                sum += LowPass::slow(&state) * Complex::from_polar(1.0, -angle) * (2.0 / count as f64);
+                sum += LowPass::low_frequency_part(&state) * Complex::from_polar(1.0, -angle) * (2.0 / count as f64);
             }
         }
         sum
@@ -290,21 +290,21 @@ mod tests {
             time += dt;
             filter.advance(2.0 * time, dt, &mut state);
         }
-        assert!((LowPass::slow(&state) - 2.0 * time).abs() < 1e-9 * time);
+        assert!((LowPass::low_frequency_part(&state) - 2.0 * time).abs() < 1e-9 * time);
     }
 
     #[test]
     fn filtered_heading_is_continuous_through_half_turn() {
         let slow = LowFrequency::new(10.0);
         let mut state = [0.0; LowFrequency::STATES];
-        let mut found = Slow::default();
+        let mut found = LowFrequencyPosition::default();
         for n in 0..4000 {
             let time = 0.1 * f64::from(n);
-            let axes = Slow { heading: 0.05 * time, ..Slow::default() }.axes();
+            let axes = LowFrequencyPosition { heading: 0.05 * time, ..LowFrequencyPosition::default() }.axes();
             let pose = Pose { origin: Vector3::new(time, -time, 3.0), axes };
             let velocity = Six::zeros();
-            let at = Underway { time, dt: if n == 0 { 0.0 } else { 0.1 }, pose: &pose, velocity: &velocity };
-            found = slow.ahead(&at, &mut state);
+            let at = BodyStep { time, dt: if n == 0 { 0.0 } else { 0.1 }, pose: &pose, velocity: &velocity };
+            found = slow.predict(&at, &mut state);
             if n > 0 {
                 slow.commit(&at, &mut state);
             }
@@ -314,7 +314,7 @@ mod tests {
 
     #[test]
     fn small_rotation_rates_match_finite_differences() {
-        let slow = Slow { heading: 0.7, ..Slow::default() };
+        let slow = LowFrequencyPosition { heading: 0.7, ..LowFrequencyPosition::default() };
         let turned = |angle: Vector3<f64>| slow.axes() * Rotation3::new(angle).matrix();
         for angle in [Vector3::new(0.3, -0.2, 0.4), Vector3::new(1e-4, 0.0, -2e-4), Vector3::zeros()] {
             let rates = slow.rates(&turned(angle));

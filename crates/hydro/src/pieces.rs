@@ -22,7 +22,7 @@ use super::steady::{Medium, Steady};
 use super::stream::category;
 use super::strips::Strips;
 use super::surface_integrals::{Skin, SurfaceIntegrals};
-use super::{BodyLoad, Category, DynamicLoad, Load, Underway, cross};
+use super::{BodyLoad, BodyStep, Category, DynamicLoad, Load, cross};
 use nalgebra::{Matrix3, Matrix6, RowVector6, SVector, Vector3, Vector6};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
@@ -47,7 +47,7 @@ impl PieceLoad {
     /// A skin in the wind or the current in force, with shape coefficients along the axes of its part: the columns of a matrix, in
     /// the body.
     pub fn new(skin: Arc<Skin>, steady: &Arc<Steady>, medium: Medium, axes: Matrix3<f64>, cs: [f64; 3]) -> Self {
-        let (strips, even) = (Strips::new(steady, medium), Strips::even(steady, medium));
+        let (strips, even) = (Strips::new(steady, medium), Strips::uniform(steady, medium));
         PieceLoad { skin, steady: Arc::clone(steady), strips, even, medium, axes, cs }
     }
 
@@ -59,7 +59,7 @@ impl PieceLoad {
     }
 
     /// What the motion of the body and what varies in time add to the load in the mean stream.
-    fn dynamic_part(&self, at: &Underway) -> DynamicLoad {
+    fn dynamic_part(&self, at: &BodyStep) -> DynamicLoad {
         let found = self.skin.surface_integrals(at.pose, &self.even);
         let height = at.pose.origin.z - self.even.level;
         let mut sum = DynamicLoad::from(Load::none());
@@ -253,7 +253,7 @@ impl BodyLoad for PieceLoad {
         finite(sum)
     }
 
-    fn dynamic_load(&self, at: &Underway, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, at: &BodyStep, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
         let mean = self.mean_load(at.pose)?;
         let DynamicLoad { load, damping } = self.dynamic_part(at);
         let load = Load { wrench: mean.wrench + load.wrench, stiffness: mean.stiffness + load.stiffness };

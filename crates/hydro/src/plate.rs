@@ -1,7 +1,7 @@
 //! `#PLATE`: a flat plate in wind or current, with drag along its normal alone: `1/2 rho Cd A |w.n| (w.n) n` at its centre.
 
 use super::steady::Steady;
-use super::stream::{InStream, LoadPlace, Push};
+use super::stream::{LoadPlace, StreamLoad, StreamWrench};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Six;
@@ -23,18 +23,18 @@ impl PlateLoad {
     }
 }
 
-impl InStream for PlateLoad {
-    fn stands(&self) -> (&LoadPlace, &Steady) {
+impl StreamLoad for PlateLoad {
+    fn placement(&self) -> (&LoadPlace, &Steady) {
         (&self.place, &self.steady)
     }
 
-    fn push(&self, stream: Vector3<f64>) -> Push {
+    fn push(&self, stream: Vector3<f64>) -> StreamWrench {
         let rho = self.steady.density(self.place.medium);
         let across = stream.dot(&self.normal);
         let force = self.normal * (0.5 * rho * self.area * across.abs() * across);
         let mut by_velocity = Matrix6x3::zeros();
         let change = self.normal * self.normal.transpose() * (rho * self.area * across.abs());
         by_velocity.fixed_rows_mut::<3>(0).copy_from(&change);
-        Push { wrench: Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), by_velocity }
+        StreamWrench { wrench: Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), by_velocity }
     }
 }

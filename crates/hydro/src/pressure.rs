@@ -20,7 +20,7 @@ use super::hull::{Panel, Panelling, Surface};
 use super::low_frequency::{SlowWrench, dividing_period, dividing_period_of};
 use super::parts::map_parts;
 use super::sea::{FilledGrid, PressureGrid, Sea, SeaAt};
-use super::{BodyLoad, Category, DividedLoad, DynamicLoad, Load, PreparedLoad, StatefulLoad, Underway};
+use super::{BodyLoad, BodyStep, Category, DividedLoad, DynamicLoad, Load, PreparedLoad, StatefulLoad};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
@@ -48,7 +48,7 @@ pub struct WavePressure {
     grid: Option<PressureGrid>,
     /// Nodes of all pieces, body coordinates (m).
     nodes: Vec<Node>,
-    panels: Vec<Pressed>,
+    panels: Vec<ScaledPanel>,
     /// Weight of the water (N/m3).
     weight: f64,
     slow: SlowWrench,
@@ -68,7 +68,7 @@ struct Node {
 
 /// A panel with the factor of its piece.
 #[derive(Clone, Copy, Debug)]
-struct Pressed {
+struct ScaledPanel {
     panel: Panel,
     factor: f64,
 }
@@ -140,16 +140,16 @@ fn from_surfaces(
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)]);
         if low < near && high > -near { at_surface } else { longest_at(high) }
     };
-    let (mut nodes, mut panels): (Vec<Node>, Vec<Pressed>) = (Vec::new(), Vec::new());
+    let (mut nodes, mut panels): (Vec<Node>, Vec<ScaledPanel>) = (Vec::new(), Vec::new());
     for (factor, surface) in surfaces {
         let lowest = surface.vertices.iter().map(height).fold(f64::INFINITY, f64::min);
         let made = Panelling::new(&surface, longest_at(lowest), MAX_PANELS_A_PIECE).refined(&limit, MAX_PANELS_A_PIECE);
         let first = nodes.len() as u32;
         nodes.extend(made.nodes.into_iter().map(|place| Node { place, wrench: Six::zeros(), counts: false }));
-        panels.extend(made.panels.into_iter().map(|p| Pressed { panel: p.map(|n| n + first), factor }));
+        panels.extend(made.panels.into_iter().map(|p| ScaledPanel { panel: p.map(|n| n + first), factor }));
     }
     let place = |nodes: &[Node], n: u32| nodes.get(n as usize).map_or_else(Vector3::zeros, |node| node.place);
-    for Pressed { panel: [a, b, c, middles @ ..], factor } in &panels {
+    for ScaledPanel { panel: [a, b, c, middles @ ..], factor } in &panels {
         let [a, b, c] = [a, b, c].map(|n| place(&nodes, *n));
         // a third of the area against the normal
         let third = (b - a).cross(&(c - a)) * (-factor / 6.0);
@@ -368,7 +368,7 @@ fn share([a, b, c]: &[Corner; 3]) -> f64 {
 }
 
 /// The sea at one time around a body.
-struct Around<'a> {
+struct LocalSea<'a> {
     sea: SeaAt<'a>,
     grid: Option<FilledGrid<'a>>,
     origin: Vector3<f64>,
@@ -381,7 +381,7 @@ struct Around<'a> {
 
 /// How a node lies in the water of an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Lies {
+enum NodeSubmergence {
     /// Below the mean level and the waves.
     Deep,
     /// Near the surface.
@@ -390,30 +390,30 @@ enum Lies {
     Dry,
 }
 
-impl<'a> Around<'a> {
+impl<'a> LocalSea<'a> {
     /// That around an origin, and over a mean level (m), in water of a weight (N/m3).
     fn new(sea: SeaAt<'a>, grid: Option<FilledGrid<'a>>, (origin, level): (Vector3<f64>, f64), weight: f64) -> Self {
         let highest = sea.highest();
         let [low, high] = grid.as_ref().map_or([-highest, highest], FilledGrid::range);
         let range = [low.min(0.0), high.max(0.0)];
-        Around { sunk: level - origin.z, sea, grid, origin, weight, range }
+        LocalSea { sunk: level - origin.z, sea, grid, origin, weight, range }
     }
 
     /// How a place at an arm from the origin lies, with the waves of this instant near it.
-    fn lies(&self, arm: &Vector3<f64>) -> Lies {
+    fn lies(&self, arm: &Vector3<f64>) -> NodeSubmergence {
         let height = arm.z - self.sunk;
         let [low, high] = match self.grid.as_ref() {
-            _ if height < self.range[0] => return Lies::Deep,
-            _ if height > self.range[1] => return Lies::Dry,
+            _ if height < self.range[0] => return NodeSubmergence::Deep,
+            _ if height > self.range[1] => return NodeSubmergence::Dry,
             Some(grid) => grid.bounds(arm).unwrap_or(self.range),
             None => [self.sea.elevation(self.origin.x + arm.x, self.origin.y + arm.y); 2],
         };
         if height < low.min(0.0) {
-            Lies::Deep
+            NodeSubmergence::Deep
         } else if height > high.max(0.0) {
-            Lies::Dry
+            NodeSubmergence::Dry
         } else {
-            Lies::Near
+            NodeSubmergence::Near
         }
     }
 
@@ -455,9 +455,9 @@ impl WavePressure {
         let arms: Vec<Vector3<f64>> = self.nodes.iter().map(arm).collect();
         let origin = pose.origin;
         let grid = self.grid.as_ref().map(|grid| grid.fill(&self.sea, time, origin, &arms));
-        let around = Around::new(self.sea.at_time(time), grid, (origin, self.sea.level), self.weight);
+        let around = LocalSea::new(self.sea.at_time(time), grid, (origin, self.sea.level), self.weight);
         // of all that is deep, by the middles of the edges
-        let mut lies = vec![Lies::Dry; arms.len()];
+        let mut lies = vec![NodeSubmergence::Dry; arms.len()];
         let mut pressures = vec![0.0; arms.len()];
         let inputs = self.nodes.chunks(NODES_A_PART).zip(arms.chunks(NODES_A_PART));
         let outputs = lies.chunks_mut(NODES_A_PART).zip(pressures.chunks_mut(NODES_A_PART));
@@ -465,7 +465,7 @@ impl WavePressure {
             let mut sum = Six::zeros();
             for (((node, arm), lies), kept) in nodes.iter().zip(arms).zip(lies).zip(pressures) {
                 *lies = around.lies(arm);
-                if *lies == Lies::Deep && node.counts {
+                if *lies == NodeSubmergence::Deep && node.counts {
                     *kept = around.dynamic(arm);
                     sum += node.wrench * *kept;
                 }
@@ -478,11 +478,11 @@ impl WavePressure {
         let whole = Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
         // the other panels: what their deep middles gave is replaced
         let (mut asked, mut places) = (Vec::new(), vec![u32::MAX; arms.len()]);
-        let mut at_surface: Vec<([u32; 6], &Pressed)> = Vec::new();
+        let mut at_surface: Vec<([u32; 6], &ScaledPanel)> = Vec::new();
         for pressed in &self.panels {
-            let all = |how: Lies| pressed.panel.iter().all(|n| lies.get(*n as usize) == Some(&how));
+            let all = |how: NodeSubmergence| pressed.panel.iter().all(|n| lies.get(*n as usize) == Some(&how));
             // of a dry panel no middle is deep
-            if all(Lies::Deep) || all(Lies::Dry) {
+            if all(NodeSubmergence::Deep) || all(NodeSubmergence::Dry) {
                 continue;
             }
             let own = pressed.panel.map(|n| match places.get_mut(n as usize) {
@@ -508,7 +508,7 @@ impl WavePressure {
     /// The force on a panel at the surface, less that of the deep ones among the middles of its edges, by what is known of its nodes.
     fn beyond_deep(
         &self,
-        (nodes, pressed): &([u32; 6], &Pressed),
+        (nodes, pressed): &([u32; 6], &ScaledPanel),
         known: &[Option<(NodePressure, Option<f64>)>],
     ) -> Six {
         let (mut near, mut counted) = ([NodePressure::default(); 6], [0.0; 6]);
@@ -535,7 +535,7 @@ impl WavePressure {
 }
 
 /// Of the state of [`WavePressure`] what the step has kept; behind it what is slow.
-const KEPT: usize = 6;
+const STEP_STATES: usize = 6;
 
 impl BodyLoad for WavePressure {
     fn category(&self) -> Category {
@@ -547,7 +547,7 @@ impl BodyLoad for WavePressure {
         Ok(Load::none())
     }
 
-    fn dynamic_load(&self, _at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, _at: &BodyStep, state: &[f64]) -> Result<DynamicLoad, ClassError> {
         Ok(DynamicLoad::from(Load { wrench: memory_of(state), ..Load::none() }))
     }
 
@@ -566,10 +566,10 @@ impl BodyLoad for WavePressure {
 
 impl StatefulLoad for WavePressure {
     fn states(&self) -> usize {
-        KEPT + SlowWrench::STATES
+        STEP_STATES + SlowWrench::STATES
     }
 
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) -> Result<(), ClassError> {
         let found = self.force_at(ahead.time, ahead.pose);
         if found.iter().any(|x| !x.is_finite()) {
             return Err(ClassError::new("the pressure of the waves has no value where the body is"));
@@ -580,14 +580,14 @@ impl StatefulLoad for WavePressure {
         Ok(())
     }
 
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
+    fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         let wrench = memory_of(state);
-        self.slow.commit(&wrench, at.dt, state.get_mut(KEPT..).unwrap_or_default());
+        self.slow.commit(&wrench, at.dt, state.get_mut(STEP_STATES..).unwrap_or_default());
     }
 }
 
 impl PreparedLoad for WavePressure {
-    fn prepared_wrench(&self, _at: &Underway, state: &[f64]) -> Six {
+    fn prepared_wrench(&self, _at: &BodyStep, state: &[f64]) -> Six {
         memory_of(state)
     }
 }
@@ -597,13 +597,13 @@ impl DividedLoad for WavePressure {
         &[Category::WaveMean]
     }
 
-    fn part(&self, _: Category, _: &Underway, state: &[f64]) -> Six {
-        SlowWrench::slow(state.get(KEPT..).unwrap_or_default())
+    fn part(&self, _: Category, _: &BodyStep, state: &[f64]) -> Six {
+        SlowWrench::low_frequency_part(state.get(STEP_STATES..).unwrap_or_default())
     }
 }
 
 fn memory_of(state: &[f64]) -> Six {
-    Six::from_iterator(state.iter().copied().chain([0.0; KEPT]).take(KEPT))
+    Six::from_iterator(state.iter().copied().chain([0.0; STEP_STATES]).take(STEP_STATES))
 }
 
 #[cfg(test)]

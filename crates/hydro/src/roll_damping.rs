@@ -6,7 +6,7 @@
 //! moment `-b |p| p` of a rate of roll p with `B_E = 8/(3 pi) b phi w`, so that `b = 3/4 rho L d^4 (..) (..)`; that moment acts here, times
 //! the factor of the record. MOSES names Tanaka's formula, whose coefficients stand in no source at hand; the choice is ours.
 
-use super::{BodyLoad, Category, DynamicLoad, Load, Underway};
+use super::{BodyLoad, BodyStep, Category, DynamicLoad, Load};
 use nalgebra::{RowVector3, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{Body, ClassError, Mass, Model, Part, Piece};
@@ -84,7 +84,7 @@ impl BodyLoad for RollDamping {
         Ok(Load::none())
     }
 
-    fn dynamic_load(&self, at: &Underway, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, at: &BodyStep, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
         let axis = at.pose.axes * self.axis;
         let spin = at.velocity.fixed_rows::<3>(3).into_owned();
         let rate = axis.dot(&spin);
@@ -126,7 +126,7 @@ mod tests {
             let phase = std::f64::consts::TAU * (f64::from(n) + 0.5) / f64::from(steps);
             let rate = amplitude * frequency * phase.cos();
             let velocity = Six::new(0.0, 0.0, 0.0, rate, 0.0, 0.0);
-            let at = Underway { time: 0.0, dt: 0.1, pose: &Pose::default(), velocity: &velocity };
+            let at = BodyStep { time: 0.0, dt: 0.1, pose: &Pose::default(), velocity: &velocity };
             work -= load.dynamic_load(&at, &[]).unwrap().load.wrench[3] * rate;
         }
         work *= std::f64::consts::TAU / frequency / f64::from(steps);
@@ -140,7 +140,7 @@ mod tests {
         let pose = Pose::from_place(&Place::new([1.0, 2.0, 3.0, 0.3, -0.2, 0.5]));
         let velocity = Six::new(0.1, 0.2, -0.3, 0.4, -0.7, 0.2);
         let of = |pose: &Pose, velocity: &Six| {
-            load.dynamic_load(&Underway { time: 0.0, dt: 0.1, pose, velocity }, &[]).unwrap()
+            load.dynamic_load(&BodyStep { time: 0.0, dt: 0.1, pose, velocity }, &[]).unwrap()
         };
         let made = of(&pose, &velocity);
         let step = 1e-6;

@@ -89,7 +89,7 @@ fn whole(model: &Model, env: &Environment, sea: &SeaDefinition) -> Result<Spectr
             return Err(ClassError::new(format!("there is no spectrum {}", sea.spectrum)));
         };
         of_peak("a spectrum curve")?;
-        return of_curve(curve, sea.height, sea.period);
+        return from_curve(curve, sea.height, sea.period);
     };
     let WaveForm::Irregular { period, build } = spectrum.form else {
         return Err(ClassError::new(format!("{} is a regular wave, not a spectrum", sea.spectrum)));
@@ -106,7 +106,7 @@ fn whole(model: &Model, env: &Environment, sea: &SeaDefinition) -> Result<Spectr
 ///
 /// # Errors
 /// A curve that is no spectrum, or has no energy or no peak at a real frequency.
-pub fn of_curve(curve: &Curve, height: f64, period: f64) -> Result<Spectrum, ClassError> {
+pub fn from_curve(curve: &Curve, height: f64, period: f64) -> Result<Spectrum, ClassError> {
     let wrong = |text: &str| ClassError::new(format!("curve {} {text}", curve.name)).with_span(curve.span);
     let points: Vec<(f64, f64)> = match curve.kind {
         CurveKind::FrequencySpectrum => curve.points.clone(),
@@ -119,7 +119,7 @@ pub fn of_curve(curve: &Curve, height: f64, period: f64) -> Result<Spectrum, Cla
     if top.0 <= 0.0 {
         return Err(wrong("has no peak at a frequency above zero"));
     }
-    let found = Spectrum::of_curve(points, None);
+    let found = Spectrum::from_curve(points, None);
     found
         .with_scaled_frequencies(TAU / period / top.0, height * height / 16.0, None)
         .map_err(|_| wrong("has no energy"))
@@ -139,7 +139,7 @@ impl WaveEnergies {
 
     /// JONSWAP of a significant height (m) and a period (s); ISSC with gamma 1.
     pub fn from_peak(height: f64, period: f64, kind: PeriodType, gamma: f64) -> Self {
-        WaveEnergies { energies: Spectrum::of_humps(jonswap(height, period, kind, gamma), None).energies() }
+        WaveEnergies { energies: Spectrum::from_peaks(jonswap(height, period, kind, gamma), None).energies() }
     }
 
     /// The sum of energy times the frequency to a power: `m0`, `m1`, `m2` (m2 (rad/s)^n).

@@ -1,48 +1,48 @@
 //! A load that a stream of air or water exerts on a point of a body, and its exact tangent.
 
 use super::steady::{Medium, Steady};
-use super::{BodyLoad, Category, DynamicLoad, Load, Underway, cross};
+use super::{BodyLoad, BodyStep, Category, DynamicLoad, Load, cross};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_model::ClassError;
 
 /// Force and moment about the point, in body axes, in a stream of a velocity in body axes; and how they change with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Push {
+pub struct StreamWrench {
     /// Force (N) and moment (N m).
     pub wrench: Six,
     /// d(wrench)/d(velocity).
     pub by_velocity: Matrix6x3<f64>,
 }
 
-impl Push {
+impl StreamWrench {
     /// Nothing.
     pub fn zero() -> Self {
-        Push { wrench: Six::zeros(), by_velocity: Matrix6x3::zeros() }
+        StreamWrench { wrench: Six::zeros(), by_velocity: Matrix6x3::zeros() }
     }
 }
 
 /// What a stream pushes at one point of a body: a load.
-pub trait InStream: std::fmt::Debug + Send + Sync {
+pub trait StreamLoad: std::fmt::Debug + Send + Sync {
     /// Where it stands, and the stream.
-    fn stands(&self) -> (&LoadPlace, &Steady);
+    fn placement(&self) -> (&LoadPlace, &Steady);
 
     /// The push of a stream of a velocity in body axes (m/s).
-    fn push(&self, stream: Vector3<f64>) -> Push;
+    fn push(&self, stream: Vector3<f64>) -> StreamWrench;
 }
 
-impl<T: InStream> BodyLoad for T {
+impl<T: StreamLoad> BodyLoad for T {
     fn category(&self) -> Category {
-        category(self.stands().0.medium)
+        category(self.placement().0.medium)
     }
 
     fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        let (place, steady) = self.stands();
+        let (place, steady) = self.placement();
         Ok(place.load(steady, pose, |stream| self.push(stream)))
     }
 
-    fn dynamic_load(&self, at: &Underway, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
-        let (place, steady) = self.stands();
+    fn dynamic_load(&self, at: &BodyStep, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
+        let (place, steady) = self.placement();
         Ok(place.dynamic_load(steady, at, |stream| self.push(stream)))
     }
 }
@@ -68,7 +68,7 @@ pub struct LoadPlace {
 
 impl LoadPlace {
     /// The load on the body at rest that `push` makes in the mean stream at the point.
-    pub fn load(&self, steady: &Steady, pose: &Pose, push: impl Fn(Vector3<f64>) -> Push) -> Load {
+    pub fn load(&self, steady: &Steady, pose: &Pose, push: impl Fn(Vector3<f64>) -> StreamWrench) -> Load {
         let stream = steady.velocity(self.medium, pose.point(self.at).z);
         self.load_in(steady, pose, stream, push)
     }
@@ -79,13 +79,18 @@ impl LoadPlace {
         steady: &Steady,
         pose: &Pose,
         stream: (Vector3<f64>, Vector3<f64>),
-        push: impl Fn(Vector3<f64>) -> Push,
+        push: impl Fn(Vector3<f64>) -> StreamWrench,
     ) -> Load {
         self.exert(steady, pose, stream, Matrix3::zeros(), push).0
     }
 
     /// The load on a body under way: `push` in the stream of the time as seen from the point, which moves with the body.
-    pub fn dynamic_load(&self, steady: &Steady, at: &Underway, push: impl Fn(Vector3<f64>) -> Push) -> DynamicLoad {
+    pub fn dynamic_load(
+        &self,
+        steady: &Steady,
+        at: &BodyStep,
+        push: impl Fn(Vector3<f64>) -> StreamWrench,
+    ) -> DynamicLoad {
         let arm = at.pose.axes * self.at;
         let (own, spin) = (at.velocity.fixed_rows::<3>(0), at.velocity.fixed_rows::<3>(3).into_owned());
         let (stream, slope) = steady.streams_at_time(at.time).velocity(self.medium, at.pose.origin.z + arm.z);
@@ -113,12 +118,12 @@ impl LoadPlace {
         pose: &Pose,
         (stream, slope): (Vector3<f64>, Vector3<f64>),
         carried: Matrix3<f64>,
-        push: impl Fn(Vector3<f64>) -> Push,
+        push: impl Fn(Vector3<f64>) -> StreamWrench,
     ) -> (Load, [Matrix3<f64>; 2]) {
         let (axes, arm) = (pose.axes, pose.axes * self.at);
         let z = pose.origin.z + arm.z;
         let (share, share_slope) = if self.shared { steady.share(self.medium, z) } else { (1.0, 0.0) };
-        let Push { wrench, by_velocity } = push(axes.transpose() * stream);
+        let StreamWrench { wrench, by_velocity } = push(axes.transpose() * stream);
         let halves = |m: &Matrix6x3<f64>| -> [Matrix3<f64>; 2] {
             [m.fixed_rows::<3>(0).into_owned(), m.fixed_rows::<3>(3).into_owned()]
         };

@@ -25,7 +25,7 @@ pub struct Strip<const D: usize = 2> {
 
 impl<const D: usize> Strip<D> {
     /// Whether w is the same all over it.
-    pub fn even(&self) -> bool {
+    pub fn is_uniform(&self) -> bool {
         self.terms[1] == SVector::<f64, D>::zeros() && self.terms[2] == SVector::<f64, D>::zeros()
     }
 
@@ -101,7 +101,7 @@ impl Strips {
 
 impl Strips<1> {
     /// A pressure of one all over air or water.
-    pub fn even(steady: &Steady, medium: Medium) -> Self {
+    pub fn uniform(steady: &Steady, medium: Medium) -> Self {
         let sense = if medium == Medium::Air { 1.0 } else { -1.0 };
         let strip = Strip { from: 0.0, terms: [SVector::from([1.0]), SVector::zeros(), SVector::zeros()] };
         Strips { strips: vec![strip], sense, level: steady.around.tide, density: steady.density(medium) }
@@ -125,7 +125,7 @@ impl<const D: usize> Strips<D> {
 
 /// Adds a strip, or lets the one before go on where nothing changes.
 fn join(strips: &mut Vec<Strip>, strip: Strip) {
-    let same = strips.last().is_some_and(|s| s.even() && strip.even() && s.terms[0] == strip.terms[0]);
+    let same = strips.last().is_some_and(|s| s.is_uniform() && strip.is_uniform() && s.terms[0] == strip.terms[0]);
     if !same {
         strips.push(strip);
     }

@@ -80,7 +80,7 @@ impl<const D: usize> Sums<D> {
         let area = 0.5 * (b - a).cross(&(c - a)).norm();
         let s = a + b + c;
         let middle = s / 3.0;
-        if strip.even() {
+        if strip.is_uniform() {
             let w = strip.terms[0] * area;
             self.value += w * SMatrix::<f64, 1, 4>::from_row_slice(&[1.0, middle.x, middle.y, middle.z]);
             return;

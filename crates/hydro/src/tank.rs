@@ -10,7 +10,7 @@
 //! where the run begins. Sloshing and flow through holes are not computed.
 
 use super::buoyancy::{SolidForm, join_reaches};
-use super::hull::Wet;
+use super::hull::SubmergedVolume;
 use super::stability::WaterSlabs;
 use super::{BodyLoad, Category, Immersed, Load};
 use nalgebra::{Matrix3, SVector, Vector2, Vector3};
@@ -54,7 +54,7 @@ pub struct Liquid {
     /// Height of its surface (m, global).
     pub level: f64,
     /// What is below it.
-    pub below: Wet,
+    pub below: SubmergedVolume,
 }
 
 impl Liquid {
@@ -104,7 +104,7 @@ impl Tank {
         if capacity <= 0.0 || !capacity.is_finite() {
             return Err(ClassError::new(format!("compartment {} encloses no volume", compartment.name))
                 .with_span(compartment.span)
-                .help("PGEN and &DESCRIBE PIECE behind &DESCRIBE COMPARTMENT give its surface"));
+                .help("PGEN and &DESCRIBE PIECE after &DESCRIBE COMPARTMENT give its surface"));
         }
         let (around, contents) = (model.surroundings(), compartment.contents);
         Ok(Tank {
@@ -133,8 +133,8 @@ impl Tank {
     }
 
     /// What of it is below a height, in a pose.
-    pub fn below(&self, pose: &Pose, level: f64) -> Wet {
-        let mut sum = Wet::default();
+    pub fn below(&self, pose: &Pose, level: f64) -> SubmergedVolume {
+        let mut sum = SubmergedVolume::default();
         for (share, form) in &self.solids {
             sum.add(&form.wet(pose, level), *share);
         }
@@ -167,7 +167,7 @@ impl Tank {
         let [low, high] = self.reach(pose);
         let size = high - low;
         if volume <= PRESSED * self.capacity {
-            return Ok(Liquid { level: low, below: Wet::default() });
+            return Ok(Liquid { level: low, below: SubmergedVolume::default() });
         }
         if volume >= (1.0 - PRESSED) * self.capacity {
             let mut below = self.below(pose, high + size);
@@ -235,8 +235,8 @@ impl Tank {
     }
 
     /// What of it is below a water surface, slab by slab.
-    fn slabs_below(&self, pose: &Pose, water: &WaterSlabs) -> Vec<Wet> {
-        let mut sums = vec![Wet::default(); water.count()];
+    fn slabs_below(&self, pose: &Pose, water: &WaterSlabs) -> Vec<SubmergedVolume> {
+        let mut sums = vec![SubmergedVolume::default(); water.count()];
         self.solids.iter().for_each(|(share, form)| form.add_slabs(pose, water, *share, &mut sums));
         sums
     }
@@ -251,7 +251,7 @@ impl Tank {
     ///
     /// # Errors
     /// A level that is not found.
-    pub fn liquid_slabs(&self, pose: &Pose, sea: &WaterSlabs) -> Result<Vec<Wet>, ClassError> {
+    pub fn liquid_slabs(&self, pose: &Pose, sea: &WaterSlabs) -> Result<Vec<SubmergedVolume>, ClassError> {
         if self.is_flooded {
             return Ok(self.slabs_below(pose, sea));
         }
@@ -347,11 +347,11 @@ impl Immersed for TankLoad {
         -self.0.density() * self.0.gravity
     }
 
-    fn wet(&self, pose: &Pose) -> Wet {
+    fn wet(&self, pose: &Pose) -> SubmergedVolume {
         self.0.below(pose, self.0.sea.0)
     }
 
-    fn wet_slabs(&self, pose: &Pose, water: &WaterSlabs) -> Vec<Wet> {
+    fn wet_slabs(&self, pose: &Pose, water: &WaterSlabs) -> Vec<SubmergedVolume> {
         self.0.slabs_below(pose, water)
     }
 

@@ -1,6 +1,6 @@
 //! The weight of a body.
 
-use super::{BodyLoad, Category, DynamicLoad, Load, Underway};
+use super::{BodyLoad, BodyStep, Category, DynamicLoad, Load};
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{ClassError, Mass};
@@ -28,7 +28,7 @@ impl BodyLoad for WeightLoad {
         Ok(Load::constant(Vector3::new(0.0, 0.0, -self.weight), pose.axes * self.centre))
     }
 
-    fn add_dynamic_load(&self, at: &Underway, _state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
+    fn add_dynamic_load(&self, at: &BodyStep, _state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
         let (force, arm) = (Vector3::new(0.0, 0.0, -self.weight), at.pose.axes * self.centre);
         let moment = arm.cross(&force);
         out.load.wrench += Six::new(0.0, 0.0, force.z, moment.x, moment.y, moment.z);

@@ -119,7 +119,7 @@ fn strays(spec: &CommandSpec, data: &[Value], behind: &[(&Word, &Given)]) -> Out
         };
         if let Some((word, given, (value, _))) = kinds.iter().find(|(word, _, (value, _))| by_place(word, value)) {
             return Err(Diagnostic::error(
-                format!("`{}` stands behind {}, which takes no further value", word.text, given.name()),
+                format!("`{}` follows {}, which takes no further value", word.text, given.name()),
                 word.span,
             )
             .label(format!("{} of {} stands before the options", value.name, spec.name))

@@ -178,14 +178,14 @@ pub(super) fn slam_load(
 /// over it is a number.
 const MIN_DIAMETER: f64 = 1e-6;
 
-/// Wet share of a prism of a `height` whose middle lies `depth` below the surface (m), and its slope.
+/// SubmergedVolume share of a prism of a `height` whose middle lies `depth` below the surface (m), and its slope.
 pub(super) fn wet_prism(depth: f64, height: f64) -> (f64, f64) {
     let height = height.max(MIN_DIAMETER);
     let share = depth / height + 0.5;
     if (0.0..1.0).contains(&share) { (share, 1.0 / height) } else { (share.clamp(0.0, 1.0), 0.0) }
 }
 
-/// Wet share of a section of a `width` whose middle lies `depth` below the surface (m): a cubic near the segment of the
+/// SubmergedVolume share of a section of a `width` whose middle lies `depth` below the surface (m): a cubic near the segment of the
 /// circle (they differ by 0.04 at most), whose slope has no jump. With its first and second derivative by depth over
 /// width, and its integral.
 fn wet_section(depth: f64, width: f64) -> [f64; 4] {
@@ -205,7 +205,7 @@ const LEVEL_SLOPE: f64 = 1e-3;
 /// Places of Gauss's two points on a length of one.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
-/// Wet share of a length whose ends lie `a` and `b` below the surface (m, negative above), and its slopes by a and b.
+/// SubmergedVolume share of a length whose ends lie `a` and `b` below the surface (m, negative above), and its slopes by a and b.
 /// A section wets as its diameter goes under, so the share has no jump for a length that lies in the surface.
 #[inline]
 pub(super) fn wet_share(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {

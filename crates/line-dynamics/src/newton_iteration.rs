@@ -142,7 +142,7 @@ impl NewtonSystem {
         self.work.update_end_residuals(&self.change);
         // without a way out of the loop it goes many at a time
         if !self.change.iter().fold(true, |finite, c| finite & c.is_finite()) {
-            return Err(Failure { node: self.work.largest_residual(known).0, why: "a force is no number" });
+            return Err(Failure { node: self.work.largest_residual(known).0, why: "a force is not finite" });
         }
         Ok(size)
     }

@@ -195,7 +195,7 @@ impl PseudoTransient<'_> {
             return Ok(());
         }
         if let Some(element) = rod.find_overstretched(&self.trial.x) {
-            let why = format!("element {} is stretched beyond the most that its law of tension bears", element + 1);
+            let why = format!("element {} has a strain beyond the limit of its tension law", element + 1);
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }
         Err(RodError::Statics {

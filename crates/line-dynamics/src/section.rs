@@ -19,7 +19,7 @@ pub enum TensionLaw {
 impl TensionLaw {
     /// The law of coefficients as of [`TensionLaw::Polynomial`], those of the highest powers left out that are zero: a line of one alone is
     /// linear, and quicker.
-    pub fn of_powers(mut coefficients: Vec<f64>) -> Self {
+    pub fn from_powers(mut coefficients: Vec<f64>) -> Self {
         while coefficients.len() > 1 && coefficients.last() == Some(&0.0) {
             coefficients.pop();
         }
@@ -324,8 +324,8 @@ mod tests {
     }
     #[test]
     fn first_power_law_is_linear() {
-        assert_eq!(TensionLaw::of_powers(vec![3.0, 0.0, 0.0]), TensionLaw::Linear(3.0));
-        assert_eq!(TensionLaw::of_powers(vec![3.0, 0.0, 5.0, 0.0]), TensionLaw::Polynomial(vec![3.0, 0.0, 5.0]));
-        assert_eq!(TensionLaw::of_powers(vec![]), TensionLaw::Polynomial(vec![]));
+        assert_eq!(TensionLaw::from_powers(vec![3.0, 0.0, 0.0]), TensionLaw::Linear(3.0));
+        assert_eq!(TensionLaw::from_powers(vec![3.0, 0.0, 5.0, 0.0]), TensionLaw::Polynomial(vec![3.0, 0.0, 5.0]));
+        assert_eq!(TensionLaw::from_powers(vec![]), TensionLaw::Polynomial(vec![]));
     }
 }

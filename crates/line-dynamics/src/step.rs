@@ -254,7 +254,7 @@ impl RodSolver {
             let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
             if size.min(missing) <= tolerance {
                 if let Some(element) = rod.find_overstretched(&next.position) {
-                    return Err(Failure { node: element + 1, why: "it is stretched beyond the most that it bears" });
+                    return Err(Failure { node: element + 1, why: "its strain exceeds the limit of its tension law" });
                 }
                 set_yielded_strains(rod, &self.trial.memory, next);
                 advance_stick_points(world, from, next);

@@ -43,7 +43,7 @@ impl Bathymetry {
             return Err(ClassError::new(text).with_span(span));
         }
         if heights.iter().any(|z| !z.is_finite()) {
-            return Err(ClassError::new("a height of the bottom is no number").with_span(span));
+            return Err(ClassError::new("a height of the bottom is not finite").with_span(span));
         }
         let mut points: Vec<[f64; 4]> = heights.iter().map(|z| [*z, 0.0, 0.0, 0.0]).collect();
         let columns = x.len();
@@ -70,7 +70,7 @@ impl Bathymetry {
     /// Points that make no grid: a place without a height or with two, and as [`Bathymetry::new`].
     pub fn from_points(name: &str, mut given: Vec<[f64; 3]>, span: Span) -> Result<Self, ClassError> {
         if given.iter().flatten().any(|v| !v.is_finite()) {
-            return Err(ClassError::new("a place of the bottom is no number").with_span(span));
+            return Err(ClassError::new("a position of the bottom is not finite").with_span(span));
         }
         // one zero, not two
         given.iter_mut().flatten().for_each(|v| *v += 0.0);

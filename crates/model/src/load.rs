@@ -173,7 +173,7 @@ impl Model {
         let fits = |rule: &&AttributeMultiplier| {
             rule.attribute.is_none_or(|own| own == attribute)
                 && match self.selectors.get(&Model::key(&rule.categories)) {
-                    Some(selector) => selector.takes(category, self),
+                    Some(selector) => selector.matches(category, self),
                     None => matches(&rule.categories, category),
                 }
         };

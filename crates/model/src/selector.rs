@@ -22,14 +22,14 @@ pub struct Selector {
 
 impl Selector {
     /// Whether a name is selected; patterns may be selectors themselves, to a depth of 16.
-    pub fn takes(&self, name: &str, model: &Model) -> bool {
-        takes(&self.select, &self.except, name, model, 0)
+    pub fn matches(&self, name: &str, model: &Model) -> bool {
+        matches_any(&self.select, &self.except, name, model, 0)
     }
 }
 
 impl Model {
     /// Whether a selector selects by the one of this key, directly or through others, or is it.
-    pub fn reaches(&self, selector: &str, key: &str) -> bool {
+    pub fn refers_to(&self, selector: &str, key: &str) -> bool {
         let mut seen = vec![Model::key(selector)];
         let mut at = 0;
         while let Some(next) = seen.get(at).cloned() {
@@ -48,12 +48,12 @@ impl Model {
     }
 }
 
-fn takes(select: &[String], except: &[String], name: &str, model: &Model, depth: usize) -> bool {
+fn matches_any(select: &[String], except: &[String], name: &str, model: &Model, depth: usize) -> bool {
     let fits = |pattern: &String| match pattern.strip_prefix(':') {
         Some(_) if depth < 16 => model
             .selectors
             .get(&Model::key(pattern))
-            .is_some_and(|s| takes(&s.select, &s.except, name, model, depth + 1)),
+            .is_some_and(|s| matches_any(&s.select, &s.except, name, model, depth + 1)),
         Some(_) => false,
         None => matches(pattern, name) || matches(name, pattern),
     };

@@ -20,7 +20,7 @@ use windlass_nonlinear::NewtonStatistics;
 pub struct Options {
     /// Most steps.
     pub most: usize,
-    /// Largest acceleration left, as a share of gravity: of translation, and of rotation times the radius of gyration.
+    /// Residual acceleration tolerance (fraction of gravity): of translation, and of rotation times the radius of gyration.
     pub tolerance: [f64; 2],
     /// Degrees of freedom that do not move in this solution: number of the body, number of the degree of freedom.
     pub ignored: Vec<(usize, usize)>,
@@ -43,7 +43,7 @@ impl Default for Options {
 /// An equilibrium that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
-    /// The search: its steps, and as residual the largest acceleration left, as a share of gravity.
+    /// The search: its steps, and as residual the largest residual acceleration (fraction of gravity).
     pub search: NewtonStatistics,
     /// Degrees of freedom that nothing holds, with their bodies, as written.
     pub loose: Vec<(String, String)>,
@@ -91,7 +91,7 @@ pub fn equilibrium(system: &System, state: &mut SystemState, options: &Options) 
     }
     search += find(system, state, options, (&turns, None))?;
     let unknowns = Unknowns::new(system, state, options, (&turns, None));
-    let loose = loose(system, &unknowns, state)?;
+    let loose = find_unrestrained_dofs(system, &unknowns, state)?;
     Ok(Equilibrium { search, loose })
 }
 
@@ -169,7 +169,11 @@ fn check_weights(system: &System, options: &Options) -> Result<(), SolveError> {
 const MAX_TRAVEL_M: f64 = 5000.0;
 
 /// Degrees of freedom along which nothing holds a body.
-fn loose(system: &System, unknowns: &Unknowns, state: &SystemState) -> Result<Vec<(String, String)>, SolveError> {
+fn find_unrestrained_dofs(
+    system: &System,
+    unknowns: &Unknowns,
+    state: &SystemState,
+) -> Result<Vec<(String, String)>, SolveError> {
     let stiffness = unknowns.stiffness(state);
     let root = unknowns.inertia.map(|d| 1.0 / d.sqrt());
     let scaled = DMatrix::from_fn(root.len(), root.len(), |i, j| {
@@ -215,7 +219,7 @@ fn failure(system: &System, state: &SystemState, unknowns: &Unknowns, at: usize,
     let largest: Vec<String> = acting.iter().take(3).map(|(_, who)| format!("{who} {{}}")).collect();
     values.extend(acting.iter().take(3).map(|(value, _)| (*value, dim)));
     let largest = if largest.is_empty() { "nothing acts on it".to_string() } else { largest.join(", ") };
-    let mut free = loose(system, unknowns, state).unwrap_or_default();
+    let mut free = find_unrestrained_dofs(system, unknowns, state).unwrap_or_default();
     // nor does what holds so little that the body would go a mile
     let held = unknowns.stiffness(state)[(at, at)];
     if dof < 3 && left.abs() > held.abs() * MAX_TRAVEL_M {

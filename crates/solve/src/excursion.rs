@@ -80,7 +80,7 @@ const BREAK_TOLERANCE: f64 = 1e-13;
 
 /// A body on its way.
 #[derive(Debug)]
-pub struct Walk<'a> {
+pub struct ExcursionSearch<'a> {
     system: &'a System,
     path: ExcursionPath,
     from: Vec<Pose>,
@@ -91,7 +91,7 @@ pub struct Walk<'a> {
     state: SystemState,
 }
 
-impl<'a> Walk<'a> {
+impl<'a> ExcursionSearch<'a> {
     /// A body of a system, with all bodies where a state has them.
     ///
     /// # Errors
@@ -102,7 +102,7 @@ impl<'a> Walk<'a> {
         let size = connectors.size(system, &from).max(1.0);
         let along = Vector3::new(path.direction.cos(), path.direction.sin(), 0.0);
         let state = SystemState::from_poses(from.clone());
-        Ok(Walk { system, path, from, along, connectors, size, state })
+        Ok(ExcursionSearch { system, path, from, along, connectors, size, state })
     }
 
     /// Names of the body's connectors.
@@ -123,7 +123,7 @@ impl<'a> Walk<'a> {
             let strides = ((excursion - gone).abs() / (MAX_STEP_SHARE * self.size)).ceil().clamp(1.0, MAX_STRIDES);
             for n in 1..=strides as usize {
                 let to = if n as f64 >= strides { excursion } else { gone + (excursion - gone) * n as f64 / strides };
-                if let Err(error) = self.rest(start, to) {
+                if let Err(error) = self.find_equilibrium(start, to) {
                     self.state = SystemState::from_poses(before);
                     return Err(error);
                 }
@@ -138,7 +138,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Puts the body at an excursion and lets all else come to rest.
-    fn rest(&mut self, start: Pose, excursion: f64) -> Result<(), SolveError> {
+    fn find_equilibrium(&mut self, start: Pose, excursion: f64) -> Result<(), SolveError> {
         let held = Some((self.path.body, self.path.direction));
         if let Some(pose) = self.state.poses.get_mut(self.path.body) {
             let off = excursion - (pose.origin - start.origin).dot(&self.along);
@@ -148,7 +148,7 @@ impl<'a> Walk<'a> {
     }
 
     /// All bodies where they were.
-    pub fn back(&mut self) {
+    pub fn restore_start(&mut self) {
         self.state = SystemState::from_poses(self.from.clone());
     }
 
@@ -234,10 +234,10 @@ impl<'a> Walk<'a> {
     /// Equal steps from where the body is to the end of its path, `rows` in all.
     ///
     /// # Errors
-    /// As [`Walk::end`] and [`Walk::move_to`].
+    /// As [`ExcursionSearch::end`] and [`ExcursionSearch::move_to`].
     pub fn rows(&mut self, rows: usize) -> Result<(Vec<ExcursionStep>, ExcursionEnd), SolveError> {
         let (last, end) = self.end()?;
-        self.back();
+        self.restore_start();
         let count = if last.excursion > 0.0 { rows.max(2) - 1 } else { 0 };
         let step = |n: usize| last.excursion * n as f64 / count.max(1) as f64;
         let mut list = (0..count).map(|n| self.move_to(step(n))).collect::<Result<Vec<_>, _>>()?;

@@ -1,7 +1,7 @@
 //! Excursions and watch circles as tables.
 
 use super::excursion;
-use super::excursion::{ExcursionEnd, ExcursionPath, ExcursionStep, Walk, worst};
+use super::excursion::{ExcursionEnd, ExcursionPath, ExcursionSearch, ExcursionStep, worst};
 use super::system::{DOFS, SolveError, System, without_rounding};
 use super::watch::{Circle, WatchedBody};
 use windlass_base::geometry::Place;
@@ -49,7 +49,7 @@ fn restoring_cells(moved: &ExcursionStep, direction: f64) -> [f64; 3] {
 /// The facts that hold for all rows.
 fn build_table(title: String, asked: &ExcursionTableOptions, systems: &Systems) -> Table {
     let others = if asked.path.free { "free" } else { "held" };
-    let table = Table::new(title).fact("Other Freedoms", others, Dim::None);
+    let table = Table::new(title).fact("Other DOF", others, Dim::None);
     if systems.removed.is_empty() { table } else { table.fact("Removed", systems.removed.join(" "), Dim::None) }
 }
 
@@ -113,19 +113,19 @@ fn note(end: &ExcursionEnd, names: &[String], at: f64, units: UnitSystem) -> Opt
 /// One direction: a row an excursion.
 ///
 /// # Errors
-/// As [`Walk::rows`].
+/// As [`ExcursionSearch::rows`].
 pub fn table_along_direction(
     systems: &Systems,
     asked: &ExcursionTableOptions,
     rows: usize,
 ) -> Result<Table, SolveError> {
     let ExcursionTableOptions { path, units, start, .. } = *asked;
-    let mut walk = Walk::new(&systems.system, start, path)?;
+    let mut walk = ExcursionSearch::new(&systems.system, start, path)?;
     let names = walk.names();
     let (list, end) = walk.rows(rows)?;
     let title = format!("Excursion of {} toward {} degrees", asked.name, degrees(path.direction));
-    let mut intact = systems.intact.as_ref().map(|system| Walk::new(system, start, path)).transpose()?;
-    let all = intact.as_ref().map_or(Vec::new(), Walk::names);
+    let mut intact = systems.intact.as_ref().map(|system| ExcursionSearch::new(system, start, path)).transpose()?;
+    let all = intact.as_ref().map_or(Vec::new(), ExcursionSearch::names);
     let mut rows = Vec::new();
     for moved in &list {
         let there = intact.as_mut().and_then(|walk| walk.move_to(moved.excursion).ok());
@@ -196,7 +196,7 @@ struct AlongRow<'m> {
 /// Several directions: a row each, where its path ends, and at each of the excursions `at` (m) with its name in heads.
 ///
 /// # Errors
-/// As [`Walk::end`].
+/// As [`ExcursionSearch::end`].
 pub fn table_of_directions(
     systems: &Systems,
     asked: &ExcursionTableOptions,
@@ -208,7 +208,7 @@ pub fn table_of_directions(
     let mut lost = None;
     for direction in directions {
         let path = ExcursionPath { direction: *direction, ..asked.path };
-        let mut walk = Walk::new(&systems.system, asked.start, path)?;
+        let mut walk = ExcursionSearch::new(&systems.system, asked.start, path)?;
         let names = walk.names();
         let (last, end) = walk.end()?;
         let broken = matches!(end, ExcursionEnd::Breaks(_));
@@ -219,7 +219,7 @@ pub fn table_of_directions(
         }
         let mut forces_at = Vec::new();
         for (excursion, _) in at {
-            walk.back();
+            walk.restore_start();
             let there = if *excursion <= last.excursion { walk.move_to(*excursion).ok() } else { None };
             forces_at.push(there.map(|there| {
                 let [force, ..] = restoring_cells(&there, *direction);
@@ -228,7 +228,7 @@ pub fn table_of_directions(
         }
         let intact = match &systems.intact {
             Some(system) => {
-                let mut walk = Walk::new(system, asked.start, path)?;
+                let mut walk = ExcursionSearch::new(system, asked.start, path)?;
                 let (last, _) = walk.end()?;
                 let [force, ..] = restoring_cells(&last, *direction);
                 Some((last.excursion, force, Critical::new(last.worst(), &walk.names()).line))

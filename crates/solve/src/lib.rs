@@ -28,10 +28,10 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-mod change;
 mod equilibrium;
 pub mod excursion;
 pub mod excursion_tables;
+mod failure_reasons;
 pub mod film;
 pub mod frequency;
 mod link;
@@ -40,7 +40,6 @@ pub mod offset;
 mod outline;
 mod parts;
 pub mod pretension;
-mod reason;
 mod rebuild;
 pub mod results;
 pub mod run_tables;
@@ -48,6 +47,7 @@ pub mod scene;
 pub mod screening;
 mod search;
 mod system;
+mod system_changes;
 pub mod tables;
 pub mod tethered;
 mod ties;

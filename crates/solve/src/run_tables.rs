@@ -1,7 +1,9 @@
 //! What a run says of itself, and how it compares with another.
 
 use super::screening::quasi_static_lines;
-use super::time::{Counts, History, Method, POOR_PERIOD, Resolution, ResultSeries, Run, Swing, WorstFollowed, results};
+use super::time::{
+    Counts, History, Method, NaturalPeriod, POOR_PERIOD, Resolution, ResultSeries, Run, WorstFollowed, results,
+};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
@@ -39,7 +41,7 @@ pub fn run_table(run: &Run) -> Table {
         .fact("Evaluations", evaluations, Dim::None);
     let Resolution { natural, wave, .. } = &run.resolution;
     let steps = |period: f64| format_digits(period / run.settings.dt);
-    if let Some(Swing { body, dof, period }) = natural.first() {
+    if let Some(NaturalPeriod { body, dof, period }) = natural.first() {
         let text = format!("{} s ({body} {dof}), {} steps", format_digits(*period), steps(*period));
         table = table.fact("Shortest Natural Period", text, Dim::None);
     }
@@ -168,8 +170,8 @@ pub fn warnings_of_step(run: &Run) -> Vec<String> {
         ));
     }
     // stiffer modes than waves excite follow their forces as in statics
-    let excited = |swing: &&Swing| wave.is_some_and(|wave| swing.period >= 0.5 * wave);
-    if let Some((Swing { body, dof, period }, remedy)) =
+    let excited = |swing: &&NaturalPeriod| wave.is_some_and(|wave| swing.period >= 0.5 * wave);
+    if let Some((NaturalPeriod { body, dof, period }, remedy)) =
         natural.iter().find(excited).and_then(|swing| poor(swing.period).map(|r| (swing, r)))
     {
         let by = percent(method.distortion(*period, dt).period);
@@ -220,7 +222,7 @@ pub fn extremes(run: &Run) -> Vec<Table> {
     if let Some(last) = tables.last_mut() {
         last.add_notes(run.model.caveats());
         last.note(match run.settings.transient {
-            t if t > 0.0 => "of the stored instants behind TTRA_SET: PRCPOST takes other parts",
+            t if t > 0.0 => "of the stored instants after TTRA_SET: PRCPOST takes other parts",
             _ => "of all stored instants, the beginning included: PRCPOST takes parts",
         });
     }
@@ -269,7 +271,7 @@ pub fn comparison_tables(run: &Run, second: &History) -> Vec<Table> {
         }
     }
     if let Some(last) = tables.last_mut() {
-        last.note("at the instants both runs have behind TTRA_SET; a difference that does not fall with the step again is one of an action or an impact");
+        last.note("at the instants both runs have after TTRA_SET; a difference that does not fall with the step again is one of an action or an impact");
     }
     tables
 }

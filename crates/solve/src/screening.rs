@@ -15,7 +15,7 @@
 //! would do to the bodies, were it a dynamic line in the run, is not found.
 
 use crate::link::{EndAttachment, end_attachments};
-use crate::time::{BodyMotion, LinkColumns, OF_BODY, RowLayout, Run, end_of};
+use crate::time::{BodyMotion, LinkColumns, RowLayout, Run, VALUES_PER_BODY, end_of};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use windlass_base::geometry::Place;
@@ -313,7 +313,7 @@ impl EndMotion {
 fn stored_ends(layout: &RowLayout, number: usize, attached: &[EndAttachment; 2], row: &[f64]) -> Option<StoredEnds> {
     let motion = |body: usize| {
         let at = layout.body(body);
-        let Some(numbers) = row.get(at..at + OF_BODY) else { return BodyMotion::default() };
+        let Some(numbers) = row.get(at..at + VALUES_PER_BODY) else { return BodyMotion::default() };
         let (place, rest) = numbers.split_at(6);
         let place = Place { shift: [place[0], place[1], place[2]], turn: [place[3], place[4], place[5]] };
         let (velocity, acceleration) = rest.split_at(6);

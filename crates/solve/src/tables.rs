@@ -83,7 +83,7 @@ struct RestRow<'m> {
     /// The force (N) and the moment (N m) left on its degrees of freedom.
     force: f64,
     moment: f64,
-    /// The acceleration left over gravity, of a body with mass.
+    /// The residual acceleration over gravity, of a body with mass.
     share: Option<f64>,
 }
 
@@ -176,7 +176,7 @@ pub fn periods(system: &System, state: &SystemState) -> Result<Table, SolveError
         )
         .column("", "Period", Dim::Time, Digits::Usual, |(_, mode)| mode.period.filter(|_| held(mode)))
         .column("Moves Most", "Body", Dim::None, Digits::Usual, |(_, mode)| &mode.most.0)
-        .column("Moves Most", "Freedom", Dim::None, Digits::Usual, |(_, mode)| mode.most.1)
+        .column("Moves Most", "DOF", Dim::None, Digits::Usual, |(_, mode)| mode.most.1)
         .build();
     Ok(table)
 }

@@ -84,7 +84,7 @@ impl<'a> Unknowns<'a> {
         })
     }
 
-    /// The largest acceleration left over what is tolerated, and the unknown that has it.
+    /// The largest residual acceleration over the tolerance, and the unknown that has it.
     pub fn worst(&self, residual: &DVector<f64>, options: &Options) -> (f64, usize) {
         let [shift, turn] = options.tolerance;
         let share = |(i, (r, m)): (usize, (&f64, &f64))| {

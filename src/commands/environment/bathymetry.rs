@@ -71,7 +71,7 @@ static Y_SPEC: CommandSpec = CommandSpec {
     form: TextForm::Text,
     data: &[length("y", "place of the row, growing from record to record"), length("z", "height at each X in turn")],
     repeat: 1,
-    detail: "As many heights as there are X: a record goes on behind a \\ at its end. With -DEPTHS of &BATHYMETRY they are depths.",
+    detail: "As many heights as there are X: a record goes on after a \\ at its end. With -DEPTHS of &BATHYMETRY they are depths.",
     example: "&BATHYMETRY SLOPE\nX 0 100\nY 0 -30 -35\nY 150 -31 \\\n -36\nEND",
     ..CommandSpec::new("Y", "a row of a bottom")
 };

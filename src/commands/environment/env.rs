@@ -183,7 +183,7 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              those of -W_PERIOD, with phases of -SEED. A curve is a density over rad/s in ft2/s or m2/s, as it is; INTENSITY scales any \
              spectrum. -W_HISTORY takes the place of the speed of -WIND in the time domain, with its direction and profile; -C_HISTORY \
              multiplies the current; both are straight between their points, and with the gusts grow over -RAMP from the means, \
-             on which statics stands. -M_GROWTH adds to the diameter of tubes in drag, inertia and waves, with its weight, buoyancy and inertia, by the elevations at which they stand when loads are made; not to other pieces, and of lines to those that move by themselves alone. -W_MD_CORRELATION other than 0 is refused in the time domain. \
+             on which statics stands. -M_GROWTH adds to the diameter of tubes in drag, inertia and waves, with its weight, buoyancy and inertia, by the elevations at which they stand when loads are made; not to other pieces; of lines it acts on dynamic ones, quasi-static lines have none. -W_MD_CORRELATION other than 0 is refused in the time domain. \
              -WIND is the mean 10 m above the water over the time of the formula (1 h for API, NPD, ISO; 10 min for DNV; 1 min for \
              ABS); below 1 m it is that of 1 m. -W_PROFILE: POWER, exponent 1/7 unless given (also without the option); \
              LOGARITHMIC, with Charnock's roughness; API RP 2A 20th edition, exponent 0.125; NPD (Froya) and ISO 19901-1; DNV-RP-C205; \
@@ -384,7 +384,7 @@ fn shape(name: &str, (given, span): (&[Value], Span), units: UnitSystem) -> Outc
     let declared = declared.unwrap_or(std::slice::from_ref(&spectra::GAMMA));
     if let Some(value) = given.get(declared.len()) {
         let names: Vec<&str> = declared.iter().map(|parameter| parameter.name).collect();
-        let text = format!("{name} takes no further value behind {}", names.join(" "));
+        let text = format!("{name} takes no further value after {}", names.join(" "));
         return Err(Diagnostic::error(text, value.span));
     }
     let to_si = |(parameter, value): (&ShapeParameter, &Value)| {
@@ -403,7 +403,7 @@ fn shape(name: &str, (given, span): (&[Value], Span), units: UnitSystem) -> Outc
         parameter.default.is_none() && read.get(*index).copied().flatten().is_none()
     };
     if let Some((_, missing)) = declared.iter().enumerate().find(is_missing) {
-        let text = format!("{name} needs {} behind its period", missing.name);
+        let text = format!("{name} needs {} after its period", missing.name);
         return Err(Diagnostic::error(text, span).help(format!("{}: {}", missing.name, missing.help)));
     }
     Ok(read)

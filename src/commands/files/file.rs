@@ -37,7 +37,7 @@ static FILE_SPEC: CommandSpec = CommandSpec {
     detail: "MKDIR A; RM A; MV A B; CP A B; ANS_DIRECTORY A (a folder where answers go from now on, made if it is not there); OPEN TYPE FILE, WRITE TYPE text, \
              CLOSE TYPE (writes the file, whole; a file still open when the job ends is written then); USE TYPE FILE (for \
              &F_READ). Names that are written to, here and in STORE, PLOT and LINES: a relative name, with folders or without, is \
-             inside the job's own folder (ROOT.ans or --out DIR) and may not climb out of it; a name that begins with ./ or \
+             inside the job's own folder (ROOT.ans or --out DIR) and must stay inside it; a name that begins with ./ or \
              ../ and an absolute name mean what they mean to the shell. In the job's folder an earlier file is kept as \
              name.1. Outside of it, and where a link leads out of it, writing needs --allow-files; a record typed at the terminal, not in \
              a loop or macro, may create a file or folder there after a question. No file outside is overwritten. The job's log and report and the files that are \

@@ -44,7 +44,7 @@ pub(crate) fn rows<const N: usize>(
         let mut row = [0.0; N];
         for (column, (slot, text)) in row.iter_mut().zip(&record).enumerate() {
             *slot = number(text).ok().filter(|v| v.abs() <= Dim::Length.most()).ok_or_else(|| {
-                refused(format!("line {line}: value {} is `{text}`, which is no number up to 1E9", column + 1))
+                refused(format!("line {line}: value {} is `{text}`, which is not a number up to 1E9", column + 1))
             })?;
         }
         if found.len() >= most {

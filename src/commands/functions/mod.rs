@@ -71,7 +71,7 @@ pub const FUNCTION_HELP: &[(&str, &str, &str)] = &[
     (
         "&COMPARTMENT",
         "&COMPARTMENT(NAME -OPTION)",
-        "-AMOUNT, -PERCENT: name, amount or percent full, specific gravity, to stand behind the same option of the record &COMPARTMENT. Our reading: \
+        "-AMOUNT, -PERCENT: name, amount or percent full, specific gravity, to stand after the same option of the record &COMPARTMENT. Our reading: \
          -FRACTION, -SOUNDING likewise | -VOLUME | -CG (of the contents, in the body) | -SPGR | -HOLES (their names)",
     ),
     (

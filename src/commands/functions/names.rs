@@ -50,7 +50,7 @@ pub(super) fn names(job: &Job, kind: &Word, rest: &[Word]) -> Outcome<String> {
     let fits = |name: &&str| {
         rest.is_empty()
             || rest.iter().any(|w| match model.selectors.get(&Model::key(&w.text)) {
-                Some(selector) => selector.takes(name, model),
+                Some(selector) => selector.matches(name, model),
                 None => matches(&w.text, name),
             })
     };

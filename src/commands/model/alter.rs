@@ -158,7 +158,7 @@ pub(crate) fn select_connectors(model: &Model, names: &[Value]) -> Outcome<Vec<S
         let all = || model.connectors.values().map(|c| c.name.as_str());
         let found: Vec<&str> = if name.starts_with(':') {
             let selector = find(&model.selectors, name, "selector", value.span)?;
-            all().filter(|n| selector.takes(n, model)).collect()
+            all().filter(|n| selector.matches(n, model)).collect()
         } else if is_wild(name) && !model.connectors.contains_key(&Model::key(name)) {
             all().filter(|n| matches(name, n)).collect()
         } else {

@@ -133,7 +133,7 @@ fn set_groups(job: &Job, made: &mut Multipliers, given: &Given, unit: f64) -> Ou
             .chain(model.load_groups.values().map(|g| g.name.as_str()))
             .collect();
         let fits = |group: &&&str| match model.selectors.get(&Model::key(word)) {
-            Some(selector) => selector.takes(group, model),
+            Some(selector) => selector.matches(group, model),
             None => matches(word, group),
         };
         let chosen: Vec<String> = known.iter().filter(fits).map(|group| Model::key(group)).collect();

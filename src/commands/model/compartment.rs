@@ -3,8 +3,8 @@
 //! Source: [MOSES-REF cmp, cmp_fill]; `&COMPARTMENT -PERCENT @ 0 4P 100 1.0255` as in [MOSES-RUNS hystat/pcomp]. The other forms are from
 //! memory of MOSES and marked in the help.
 
-use crate::commands::chosen::NameFilter;
 use crate::commands::model::piece;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -273,7 +273,7 @@ static SPEC: CommandSpec = CommandSpec {
 /// The compartments a word chooses.
 fn chosen(model: &Model, value: &Value) -> Outcome<Vec<String>> {
     let filter = NameFilter::new([value], model);
-    let keys = model.compartments.iter().filter(|(_, c)| filter.takes(&c.name)).map(|(key, _)| key.clone()).collect();
+    let keys = model.compartments.iter().filter(|(_, c)| filter.matches(&c.name)).map(|(key, _)| key.clone()).collect();
     filter.check_used("the compartments", &[EntityKind::Compartment])?;
     Ok(keys)
 }

@@ -1,12 +1,12 @@
 //! `&DESCRIBE`, points, and `&INSTATE`.
 
-use crate::commands::chosen::NameFilter;
 use crate::commands::menu;
 use crate::commands::model::compartment;
 use crate::commands::model::draft_mark;
 use crate::commands::model::piece::{self, OPTIONS};
 use crate::commands::model::process;
 use crate::commands::model::sensor;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::solve::tdom;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::{Choice, Dof, YesNo};
@@ -365,7 +365,7 @@ fn load_group(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if args.choice(KIND) == Some(Described::Load)
         && let Some(value) = rest.next().filter(|v| !v.word().is_some_and(|w| w.eq_ignore_ascii_case("GROUP")))
     {
-        return Err(Diagnostic::error("expected GROUP behind LOAD", value.span)
+        return Err(Diagnostic::error("expected GROUP after LOAD", value.span)
             .help("form: &DESCRIBE LOAD_GROUP NAME :NODES, or LOAD GROUP NAME :NODES"));
     }
     let Some((name, span)) = rest.next().and_then(|v| Some((v.word()?.to_string(), v.span))) else {
@@ -384,7 +384,7 @@ fn load_group(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Vec::new()
     } else {
         let chosen = NameFilter::new(values, &job.model);
-        let points = job.model.points.values().filter(|p| chosen.takes(&p.name));
+        let points = job.model.points.values().filter(|p| chosen.matches(&p.name));
         let nodes: Vec<String> = points.map(|p| p.name.clone()).collect();
         chosen.check_used("the points", &[EntityKind::Point])?;
         nodes
@@ -419,7 +419,7 @@ fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let marked: Vec<(String, Position)> = {
         let (model, chosen) = (&job.model, NameFilter::new(values, &job.model));
-        let points = model.points.iter().filter(|(_, p)| chosen.takes(&p.name));
+        let points = model.points.iter().filter(|(_, p)| chosen.matches(&p.name));
         let marked = points.map(|(key, point)| (key.clone(), model.global(point))).collect();
         chosen.check_used("the points", &[EntityKind::Point])?;
         marked

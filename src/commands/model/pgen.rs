@@ -34,7 +34,7 @@ const STBD: OptionSpec =
     OptionSpec::new("-STBD", &[], "the sections are the whole piece, as given: to starboard, y > 0");
 const PORT: OptionSpec = OptionSpec::new("-PORT", &[], "the sections mirrored to -y are the whole piece");
 const BOTH: OptionSpec =
-    OptionSpec::new("-BOTH", &[], "two pieces: the sections as given, and mirrored under the name with a P behind it");
+    OptionSpec::new("-BOTH", &[], "two pieces: the sections as given, and mirrored under the name with a P after it");
 
 /// Where a piece of sections or panels stands, and on which side.
 pub const PLACING: [OptionSpec; 4] = [LOCATION, STBD, PORT, BOTH];
@@ -123,7 +123,7 @@ static PLANE_SPEC: CommandSpec = CommandSpec {
 
 /// A section as its record gives it.
 #[derive(Clone, Debug)]
-enum Outline {
+enum SectionOutline {
     /// Points with their y and z (m).
     Points(Vec<[f64; 2]>),
     /// A rectangle about y = 0, with the points of its half with y >= 0 from the keel up.
@@ -132,16 +132,16 @@ enum Outline {
     Circle(Vec<[f64; 2]>),
 }
 
-impl Outline {
+impl SectionOutline {
     fn points(&self) -> &[[f64; 2]] {
         match self {
-            Outline::Points(list) | Outline::Rectangle(list) | Outline::Circle(list) => list,
+            SectionOutline::Points(list) | SectionOutline::Rectangle(list) | SectionOutline::Circle(list) => list,
         }
     }
 }
 
 /// A section: its x and its outline (m).
-type HullSection = (f64, Outline);
+type HullSection = (f64, SectionOutline);
 /// A section: its x and points of its half, or all round it (m).
 type SectionPoints = (f64, Vec<[f64; 2]>);
 
@@ -261,7 +261,7 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let numbers: Vec<f64> = args.data.iter().filter_map(Value::number).collect();
     let pairs = |list: &[f64]| list.chunks_exact(2).map(|c| [c[0], c[1]]).collect::<Vec<_>>();
-    let (at, outline): (Vec<(f64, Span)>, Outline) = match args.options.as_slice() {
+    let (at, outline): (Vec<(f64, Span)>, SectionOutline) = match args.options.as_slice() {
         [] => {
             let [x, rest @ ..] = numbers.as_slice() else { return Ok(Effect::Done) };
             if rest.len() < 4 || rest.len() % 2 != 0 {
@@ -269,14 +269,14 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .label(format!("{} numbers follow this X", rest.len()))
                     .help("form: PLANE X Y1 Z1 Y2 Z2 .., or PLANE X1 X2 .. -CARTESIAN Y1 Z1 .."));
             }
-            (vec![(*x, args.place(X))], Outline::Points(pairs(rest)))
+            (vec![(*x, args.place(X))], SectionOutline::Points(pairs(rest)))
         }
         [one] => {
             let at = args.data.iter().filter_map(|v| Some((v.number()?, v.span))).collect();
             let outline = match one {
                 _ if one.is(&RECTANGLE) => rectangle(one)?,
                 _ if one.is(&CIRCULAR) => circle(one)?,
-                _ => Outline::Points(pairs(&one.numbers())),
+                _ => SectionOutline::Points(pairs(&one.numbers())),
             };
             (at, outline)
         }
@@ -321,7 +321,7 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// A rectangle by the points of its half with y >= 0.
-fn rectangle(given: &Given) -> Outcome<Outline> {
+fn rectangle(given: &Given) -> Outcome<SectionOutline> {
     let [bottom, top, beam] = given.numbers_or_zero(const { RECTANGLE.numbers(["ZBOT", "ZTOP", "BEAM"]) });
     if bottom >= top {
         return Err(Diagnostic::error("ZTOP must be greater than ZBOT", given.span));
@@ -344,11 +344,11 @@ fn rectangle(given: &Given) -> Outcome<Outline> {
             points.insert(n + 1, [0.5 * (y + v), 0.5 * (z + w)]);
         }
     }
-    Ok(Outline::Rectangle(points))
+    Ok(SectionOutline::Rectangle(points))
 }
 
 /// Points on a circle.
-fn circle(given: &Given) -> Outcome<Outline> {
+fn circle(given: &Given) -> Outcome<SectionOutline> {
     const NPTS: windlass_base::spec::ValueKey<i64> = CIRCULAR.integer("NPTS");
     let [y, z, radius] = given.numbers_or_zero(const { CIRCULAR.numbers(["Y", "Z", "RADIUS"]) });
     let count = given.integer(NPTS).unwrap_or(2).max(2);
@@ -365,14 +365,14 @@ fn circle(given: &Given) -> Outcome<Outline> {
         return if (count - 1) as f64 * by.abs() > turn {
             Err(Diagnostic::error("the arc goes more than once round its circle", given.span))
         } else {
-            Ok(Outline::Points(points(count)))
+            Ok(SectionOutline::Points(points(count)))
         };
     }
     if count < 4 {
         return Err(Diagnostic::error("a whole circle needs four or more points", given.place(NPTS))
             .help("the last of them is the first: 9 points make 8 sides"));
     }
-    Ok(Outline::Circle(points(count - 1)))
+    Ok(SectionOutline::Circle(points(count - 1)))
 }
 
 /// Zero for what rounding leaves of a coordinate that is zero.
@@ -403,9 +403,9 @@ fn build_pieces(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> 
         PieceOfSections::Described(name) => job.model.piece(name).is_some_and(|(_, p)| p.compartment.is_some()),
     };
     let as_given = is_tank || planes.placing.side != Side::Mirrored;
-    let beyond = |outline: &Outline| matches!(outline, Outline::Points(list) if list.iter().any(|[y, _]| *y < 0.0));
+    let beyond = |outline: &SectionOutline| matches!(outline, SectionOutline::Points(list) if list.iter().any(|[y, _]| *y < 0.0));
     let crosses = planes.sections.iter().any(|(_, outline)| beyond(outline));
-    let has_circle = planes.sections.iter().any(|(_, outline)| matches!(outline, Outline::Circle(_)));
+    let has_circle = planes.sections.iter().any(|(_, outline)| matches!(outline, SectionOutline::Circle(_)));
     let panels = if as_given || crosses || has_circle {
         let half_rectangle = planes.placing.side != Side::Mirrored;
         let round = |(x, outline): HullSection| (x, loop_of(outline, half_rectangle, as_given || crosses));
@@ -497,7 +497,7 @@ pub fn finish_block(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<
 
 /// The points once round a section: of a rectangle its whole, or its half with y >= 0; of points what is given, or what they are with
 /// their mirror images.
-fn loop_of(outline: Outline, half_rectangle: bool, as_given: bool) -> Vec<[f64; 2]> {
+fn loop_of(outline: SectionOutline, half_rectangle: bool, as_given: bool) -> Vec<[f64; 2]> {
     let mirror =
         |list: &[[f64; 2]]| list.iter().rev().filter(|[y, _]| *y != 0.0).map(|[y, z]| [-y, *z]).collect::<Vec<_>>();
     // loops begin on the plane of symmetry, so that those of unequal number of points match
@@ -506,16 +506,16 @@ fn loop_of(outline: Outline, half_rectangle: bool, as_given: bool) -> Vec<[f64; 
         _ => list,
     };
     match outline {
-        Outline::Circle(list) => list,
-        Outline::Points(list) if as_given => list,
-        Outline::Rectangle(list) if half_rectangle => {
+        SectionOutline::Circle(list) => list,
+        SectionOutline::Points(list) if as_given => list,
+        SectionOutline::Rectangle(list) if half_rectangle => {
             let ends = [list.first(), list.last()].map(|end| end.map(|[_, z]| [0.0, *z]));
             let [bottom, top] = ends;
             let mut made: Vec<[f64; 2]> = bottom.into_iter().chain(list).chain(top).collect();
             made.dedup();
             made
         }
-        Outline::Points(list) | Outline::Rectangle(list) => {
+        SectionOutline::Points(list) | SectionOutline::Rectangle(list) => {
             let port = mirror(&list);
             from_keel(list).into_iter().chain(port).collect()
         }

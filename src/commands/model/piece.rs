@@ -4,7 +4,7 @@
 
 use crate::commands::menu;
 use crate::commands::model::member;
-use crate::commands::written::option_as_written;
+use crate::commands::model_values::option_as_written;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use nalgebra::Vector3;
 use windlass_base::choices;

@@ -78,7 +78,7 @@ fn define(job: &mut Job, call: &Call, name: &str, span: Span) -> Outcome<Effect>
     };
     for value in call.args.options.iter().flat_map(|given| given.values.iter()) {
         if let Some(used) = value.word().filter(|word| word.starts_with(':')) {
-            if job.model.reaches(used, &key) {
+            if job.model.refers_to(used, &key) {
                 return Err(circular(name, used, value.span));
             }
             find(&job.model.selectors, used, "selector", value.span)?;

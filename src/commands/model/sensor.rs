@@ -4,7 +4,7 @@
 //! ones are our reading.
 
 use crate::commands::Job;
-use crate::commands::chosen::NameFilter;
+use crate::commands::name_filter::NameFilter;
 use windlass_base::choice::{Choice, YesNo};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -233,7 +233,7 @@ fn switch(job: &mut Job, args: &Args) -> Outcome<()> {
         return Err(Diagnostic::error("&DESCRIBE SENSOR lacks its value NAME", args.span));
     }
     let chosen = NameFilter::new(&given.values, &job.model);
-    let names: Vec<String> = job.model.sensors.keys().filter(|key| chosen.takes(key)).cloned().collect();
+    let names: Vec<String> = job.model.sensors.keys().filter(|key| chosen.matches(key)).cloned().collect();
     chosen.check_used("the sensors", &[])?;
     for key in names {
         if given.is(&DELETE) {

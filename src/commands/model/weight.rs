@@ -152,7 +152,7 @@ fn item(job: &mut Job, call: &Call) -> Outcome<Effect> {
             args.place(POINT),
         )
         .other(point.span, "defined here")
-        .help("points behind &DESCRIBE BODY or PART belong to it"));
+        .help("points after &DESCRIBE BODY or PART belong to it"));
     }
     let radii = args.numbers_or_zero(OWN_RADII);
     let weight = args.number(WEIGHT).unwrap_or_default();

@@ -1,6 +1,6 @@
 //! `&ANIMATE`: the last run as a film.
 
-use crate::commands::chosen::NameFilter;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::files::JobFolder;
 use crate::report::film;
@@ -13,7 +13,7 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::EntityKind;
-use windlass_solve::film::{Film, Take};
+use windlass_solve::film::{Film, FilmSelection};
 use windlass_solve::results::EventWindow;
 
 /// &ANIMATE.
@@ -28,7 +28,7 @@ const EVENTS: OptionSpec = OptionSpec::new(
     "-EVENTS",
     &[
         ValueSpec::new("BEG", Kind::Number(Dim::Time), "time of the first instant"),
-        ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last; one behind the run is its end")
+        ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last; one after the run is its end")
             .or("the end of the run"),
         ValueSpec::new("INC", Kind::Number(Dim::Time), "time from one to the next; 0: the stored instants")
             .or("the stored instants")
@@ -107,9 +107,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         const { EVENTS.numbers(["BEG", "END", "INC"]) }.map(|key| events.and_then(|given| given.number(key)));
     let points = args.option_integer(&POINTS_OPTION);
     let chosen = NameFilter::new(args.data_after(FILE), &job.model);
-    let take = Take {
-        connector: &|c| chosen.takes(c),
-        body: &|b| chosen.takes(b),
+    let take = FilmSelection {
+        connector: &|c| chosen.matches(c),
+        body: &|b| chosen.matches(b),
         window: begin.map(|begin| EventWindow { begin, end, increment }),
         points: points.and_then(|n| usize::try_from(n).ok()).unwrap_or(DEFAULT_LINE_POINTS),
         stop: &|| job.is_interrupted(),

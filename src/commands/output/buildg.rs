@@ -116,7 +116,7 @@ pub fn built(job: &mut Job, building: &Building, at: Option<Span>) -> Outcome<()
         job.menus.push(Menu::Refused(&menu::DISPOSITION));
         Diagnostic::error(format!("the records of &BUILDG make no table: {e}"), at.unwrap_or(building.span))
             .other(building.span, "begun here")
-            .help("lines are counted from the record behind &BUILDG")
+            .help("lines are counted from the record after &BUILDG")
     })
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Source: [MOSES-REF disp_men].
 
-use crate::commands::chosen::raise;
 use crate::commands::menu;
+use crate::commands::name_filter::raise;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
 use crate::report::page;
@@ -98,7 +98,7 @@ static REPORT_SPEC: CommandSpec = CommandSpec {
     repeat: 1,
     options: &[RECORD, VALUES, HARD, BOTH, HEADING],
     detail: "The formatted report; C_SCALE and C_SHIFT do not act on it. The name of a group of columns, as of LOCATION, VELOCITY and \
-             ACCELERATION of a TRAJECTORY, is all of it, behind the first column.",
+             ACCELERATION of a TRAJECTORY, is all of it, after the first column.",
     ..spec("REPORT", "prints the formatted report")
 };
 static VLIST_SPEC: CommandSpec = spec("VLIST", "lists the columns with their units and ranges");

@@ -1,6 +1,6 @@
 //! `&PICTURE`: the system as it stands, in plan, elevation or slantwise.
 
-use crate::commands::chosen::{NameFilter, merge_remarks};
+use crate::commands::name_filter::{NameFilter, merge_remarks};
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
@@ -222,7 +222,7 @@ fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
 
 /// What is said of angles behind the view, once.
 const ANGLES_SAID: &str =
-    "angles behind the view have no effect in windlass: -FROM turns an elevation or a view from a corner (said once)";
+    "angles after the view have no effect in windlass: -FROM turns an elevation or a view from a corner (said once)";
 
 /// Whether a word behind the view is an angle, as MOSES takes them there.
 fn is_angle(value: &Value) -> bool {
@@ -249,8 +249,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let names = args.data_after(VIEW).iter().filter(|value| !is_angle(value));
     let (chosen, light) = (NameFilter::new(names, &job.model), args.switch(&INACTIVE, true));
     let choice = SceneOptions {
-        connector: &|c| (chosen.takes(&c.name)) && (c.active || light),
-        body: &|b| chosen.takes(&b.name),
+        connector: &|c| (chosen.matches(&c.name)) && (c.active || light),
+        body: &|b| chosen.matches(&b.name),
         stop: &|| job.is_interrupted(),
     };
     let Some((scene, unshaped)) = Scene::build(&job.model, &choice) else {

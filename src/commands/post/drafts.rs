@@ -1,7 +1,7 @@
 //! `DRAFT` of the PRCPOST menu: drafts read at draft marks.
 
 use crate::commands::Command;
-use crate::commands::chosen::NameFilter;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::post::points::track;
 use crate::commands::post::prcpost::{EVENTS, PostQuery, show, spec};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -29,7 +29,7 @@ fn build(query: &PostQuery) -> Outcome<Table> {
     let model = &query.job.model;
     let chosen = NameFilter::new(&query.args().data, model);
     let mut marks = Vec::new();
-    for mark in model.draft_marks.values().filter(|mark| chosen.takes(&mark.name)) {
+    for mark in model.draft_marks.values().filter(|mark| chosen.matches(&mark.name)) {
         let end = |name: &String| track(query, find(&model.points, name, "point", query.span())?);
         let points = [end(&mark.points[0])?, end(&mark.points[1])?];
         marks.push(TrackedMark { name: mark.name.clone(), points });

@@ -2,9 +2,9 @@
 //!
 //! Source: [MOSES-REF sn_def, sn_bind, fatigue].
 
-use crate::commands::chosen::note_caveats;
 use crate::commands::environment::env;
 use crate::commands::menu;
+use crate::commands::name_filter::note_caveats;
 use crate::commands::post::prcpost::{CONNECTORS, asked_behind_transient, connectors};
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::{Call, Command, Effect, Job, Menu};

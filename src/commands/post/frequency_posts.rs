@@ -2,10 +2,10 @@
 //!
 //! Source: [MOSES-REF freq_mot]; the forms of MOTION, CONFORCE and STATISTICS are ours.
 
-use crate::commands::chosen::{NameFilter, raise};
 use crate::commands::environment::env::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_OPTION};
 use crate::commands::environment::probability;
 use crate::commands::menu;
+use crate::commands::name_filter::{NameFilter, raise};
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::solve::frequency::{
     FrequencyResults, PlacedPoint, heaving, keep_points, no_motions, open_results, seas,
@@ -26,7 +26,7 @@ use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, Va
 use windlass_model::{EntityKind, Environment, Idealisation, Model, add_model_column, find};
 use windlass_solve::frequency::tables::{NamedQuantity, body_statistics, operators, spectra, statistics};
 use windlass_solve::frequency::{
-    Derivative, ExtremeKind, FrequencyResponse, LinearQuantity, LinearSystem, ResponseOptions, in_sea,
+    Derivative, ExtremeKind, FrequencyResponse, LinearQuantity, LinearSystem, ResponseOptions, sea_response,
 };
 
 /// MOTION.
@@ -276,7 +276,7 @@ pub(super) fn tensions(
     components: bool,
 ) -> Outcome<Vec<NamedQuantity>> {
     let chosen = NameFilter::new(named, &job.model);
-    let names: Vec<String> = linear.connectors().filter(|name| chosen.takes(name)).map(str::to_string).collect();
+    let names: Vec<String> = linear.connectors().filter(|name| chosen.matches(name)).map(str::to_string).collect();
     chosen.check_used("the connectors that act", &[EntityKind::Connector])?;
     let mut list = Vec::new();
     for name in &names {
@@ -328,7 +328,7 @@ fn response(job: &Job, args: &Args) -> Outcome<(Arc<LinearSystem>, FrequencyResp
         (FrequencyResults::Spectral(linear, made, _), None) => Ok((Arc::clone(linear), made.clone())),
         (FrequencyResults::Operators(linear, _), _) => {
             let trains = seas(job, &sea(job, args)?, args.span)?;
-            let made = in_sea(linear, &trains, &ResponseOptions::default());
+            let made = sea_response(linear, &trains, &ResponseOptions::default());
             Ok((Arc::clone(linear), made.map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?))
         }
         (FrequencyResults::Nothing, _) => Err(no_motions(job, args.span)),

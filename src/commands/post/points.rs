@@ -1,7 +1,7 @@
 //! `POINTS` of the PRCPOST menu: motions of points of interest.
 
 use crate::commands::Command;
-use crate::commands::chosen::NameFilter;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::post::prcpost::{EVENTS, LOCAL, MAG_DEFINE, PostQuery, show, spec};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -53,7 +53,7 @@ fn build(query: &PostQuery) -> Outcome<Table> {
     let (model, chosen) = (&query.job.model, NameFilter::new(&query.call.args.data, &query.job.model));
     let mut list = Vec::new();
     for point in model.points.values().filter(|p| p.interest.is_some()) {
-        if !chosen.takes(&point.name) {
+        if !chosen.matches(&point.name) {
             continue;
         }
         list.push(track(query, point)?);

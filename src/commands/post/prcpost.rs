@@ -3,8 +3,8 @@
 //! Source: [MOSES-REF ppo_conn, ppo_bodies, ppo_afor]. In MOSES the events of a run are times, its increment is one of time, and what lies between
 //! two stored instants is on the straight line between them.
 
-use crate::commands::chosen::{NameFilter, note_caveats};
 use crate::commands::menu;
+use crate::commands::name_filter::{NameFilter, note_caveats};
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::{Call, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
@@ -26,7 +26,7 @@ pub(crate) const EVENTS: OptionSpec = OptionSpec::new(
     "-EVENTS",
     &[
         ValueSpec::new("BEG", Kind::Number(Dim::Time), "time of the first event"),
-        ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last; one behind the run is its end")
+        ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last; one after the run is its end")
             .or("the end of the run"),
         ValueSpec::new("INC", Kind::Number(Dim::Time), "time from one to the next; 0: the stored instants")
             .or("the stored instants")
@@ -115,7 +115,7 @@ pub(crate) fn asked_behind_transient<'a>(job: &'a Job, args: &Args) -> Outcome<(
     let run = last_run(job, args.span)?;
     let window = EventWindow { begin: transient, end: None, increment: None };
     let found = results::events(&run.history, Some(&window)).map_err(|_| {
-        let text = format!("the run has no instant behind TTRA_SET, {transient} s, which is left out");
+        let text = format!("the run has no instant after TTRA_SET, {transient} s, which is left out");
         Diagnostic::error(text, args.span).help("-EVENTS takes a part of the run")
     })?;
     Ok((run, found))
@@ -197,7 +197,7 @@ pub(crate) fn show(job: &mut Job, call: &Call, build: fn(&PostQuery) -> Outcome<
 
 /// The places among some names of those that a record chooses.
 fn places<'n>(chosen: &NameFilter, names: impl Iterator<Item = &'n str>) -> Vec<usize> {
-    names.enumerate().filter(|(_, name)| chosen.takes(name)).map(|(place, _)| place).collect()
+    names.enumerate().filter(|(_, name)| chosen.matches(name)).map(|(place, _)| place).collect()
 }
 
 /// The bodies of a run that a record chooses, by data and -BODY.

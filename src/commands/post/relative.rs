@@ -1,7 +1,7 @@
 //! `REL_MOTION` and `P_MIN_DISTANCE` of the PRCPOST menu: how points move relative to each other.
 
 use crate::commands::Command;
-use crate::commands::chosen::NameFilter;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::post::points::track;
 use crate::commands::post::prcpost::{EVENTS, MAG_DEFINE, PostQuery, show, spec};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -77,7 +77,7 @@ fn least(query: &PostQuery) -> Outcome<Table> {
     };
     let set = |values: &[Value]| -> Outcome<Vec<TrackedPoint>> {
         let chosen = NameFilter::new(values, model);
-        let points: Vec<_> = model.points.values().filter(|point| chosen.takes(&point.name)).collect();
+        let points: Vec<_> = model.points.values().filter(|point| chosen.matches(&point.name)).collect();
         chosen.check_used("the points", &[EntityKind::Point])?;
         points.into_iter().map(|point| track(query, point)).collect()
     };

@@ -1,7 +1,7 @@
 //! `SENSOR` of the PRCPOST menu: what sensors read.
 
 use crate::commands::Command;
-use crate::commands::chosen::NameFilter;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::post::points::track;
 use crate::commands::post::prcpost::{EVENTS, PostQuery, show, spec};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -29,7 +29,7 @@ static SPEC: CommandSpec = CommandSpec {
 fn build(query: &PostQuery) -> Outcome<Table> {
     let model = &query.job.model;
     let chosen = NameFilter::new(&query.args().data, model);
-    let records: Vec<&SensorRecord> = model.sensors.values().filter(|s| chosen.takes(&s.name) && s.is_on).collect();
+    let records: Vec<&SensorRecord> = model.sensors.values().filter(|s| chosen.matches(&s.name) && s.is_on).collect();
     chosen.check_used("the sensors", &[])?;
     if records.is_empty() {
         return Err(Diagnostic::error("no sensor is on", query.span())

@@ -3,7 +3,7 @@
 //! Source: [MOSES-REF ppo_tank].
 
 use crate::commands::Command;
-use crate::commands::chosen::NameFilter;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::post::points::track;
 use crate::commands::post::prcpost::{EVENTS, PostQuery, show, spec};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -71,7 +71,7 @@ fn tracked(query: &PostQuery, takes: impl Fn(&str) -> bool) -> Outcome<Vec<Track
 /// The compartments that a record chooses.
 fn chosen_tanks(query: &PostQuery) -> Outcome<Vec<TrackedTank>> {
     let chosen = NameFilter::new(&query.args().data, &query.job.model);
-    let tanks = tracked(query, |name| chosen.takes(name))?;
+    let tanks = tracked(query, |name| chosen.matches(name))?;
     chosen.check_used("the compartments of the run", &[EntityKind::Compartment])?;
     match tanks.is_empty() {
         true => Err(Diagnostic::error("the run has no compartment", query.span())),
@@ -103,7 +103,7 @@ fn tracked_holes(query: &PostQuery, tanks: &[TrackedTank], takes: impl Fn(&Hole)
 fn at_holes(query: &PostQuery) -> Outcome<Table> {
     let tanks = tracked(query, |_| true)?;
     let chosen = NameFilter::new(&query.args().data, &query.job.model);
-    let holes = tracked_holes(query, &tanks, |hole| chosen.takes(&hole.name))?;
+    let holes = tracked_holes(query, &tanks, |hole| chosen.matches(&hole.name))?;
     chosen.check_used("the holes", &[])?;
     if holes.is_empty() {
         return Err(Diagnostic::error("there is no hole", query.span())

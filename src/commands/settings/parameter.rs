@@ -1,6 +1,6 @@
 //! `&PARAMETER`: what holds for all computations.
 
-use crate::commands::written::option_as_written;
+use crate::commands::model_values::option_as_written;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};

@@ -93,8 +93,8 @@ static SPEC: CommandSpec = CommandSpec {
         CLEAR,
     ],
     detail: "Says what happens in runs of TDOM, from then on in every one; an action happens once a run. One option says when, one says \
-             what. A time is met exactly: a step is cut there. A step in which a condition comes true is cut in halves until it is met \
-             within a 64th of the step. Connectors that come to act are made between their ends as these stand at \
+             what. A time is met exactly: a step ends there. Conditions are checked after each step; the step is bisected to locate them \
+             within 1/64 of it. Connectors that come to act are made between their ends as these stand at \
              the start of the run. One that is cut into \
              elements changes by half of one at most in a part of a step, of which there are as many as that takes, up to 1000.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\

@@ -1,7 +1,7 @@
 //! The CONN_DESIGN menu.
 
-use crate::commands::chosen::{NameFilter, raise};
 use crate::commands::menu;
+use crate::commands::name_filter::{NameFilter, raise};
 use crate::commands::output::disposition::{BOTH, HARD, send};
 use crate::commands::solve::vary;
 use crate::commands::{Call, Command, Effect, Job, Menu, status};
@@ -186,7 +186,7 @@ fn properties(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let text = {
         let chosen = NameFilter::new(&call.args.data, &job.model);
         let tables = status::class_tables::classes(job, &|class| {
-            if chosen.chooses_all() { class.object.as_line().is_some() } else { chosen.takes(&class.name) }
+            if chosen.chooses_all() { class.object.as_line().is_some() } else { chosen.matches(&class.name) }
         });
         chosen.check("the classes", &tables, &[EntityKind::Class])?;
         if tables.is_empty() {

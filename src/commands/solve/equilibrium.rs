@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-REF equi].
 
-use crate::commands::chosen::{note_caveats, raise};
+use crate::commands::name_filter::{note_caveats, raise};
 use crate::commands::output::disposition::{BOTH, HARD, send};
 use crate::commands::verdict::{OverBreak, check_over_break};
 use crate::commands::{Call, Command, Effect, Job};
@@ -16,7 +16,7 @@ use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, find};
-use windlass_solve::results::along::cautions;
+use windlass_solve::results::along::static_cautions;
 use windlass_solve::{Options, SolveError, find_equilibrium_with_rebuilds, tables};
 
 /// &EQUI.
@@ -77,12 +77,11 @@ const ECHO: OptionSpec = OptionSpec::new(
 
 static SPEC: CommandSpec = CommandSpec {
     options: &[DEFAULTS, ITER_MAX, TOLERANCE_OPTION, IGNORE, OMEGA, MOVE_MAX, ECHO, HARD, BOTH],
-    detail: "All bodies and active connectors in the environment in force. Newton's iteration with the analytic stiffness goes on as \
-             far as rounding lets it, of each group of bodies and junctions that connectors join by itself and then of all; what is left is reported, and must be less than the tolerance, which is a \
-             share of gravity: 0.001 means a force of a thousandth of the body's weight. Far from rest, or where the stiffness is not \
-             stable, a share of the mass helps it. -OMEGA and -MOVE_MAX shorten steps, where whole ones go too far or to another equilibrium; they change the \
-             way to it and not what counts as rest, and want a larger -ITER_MAX. Options but -IGNORE are remembered. Freedoms are global directions at the body's \
-             origin. A direction that nothing holds, and no force acts in, stays as it is and is reported. The result is the \
+    detail: "All bodies and active connectors in the environment in force. Newton iteration with the analytic stiffness, of each group of bodies and junctions that \
+             connectors join and then of all together; far from equilibrium, and where the stiffness is not stable, it is regularised by a share of the mass. The residual acceleration is \
+             reported and must be below the tolerance, a fraction of gravity: 0.001 means a force of a thousandth of the body's weight. -OMEGA and -MOVE_MAX shorten steps, where whole ones go too far or to another equilibrium; they need a \
+             larger -ITER_MAX and leave the tolerance as it is. Options but -IGNORE are remembered. Degrees of freedom are global directions at the body's \
+             origin. An unrestrained direction without force is left as it is and reported. The result is the \
              configuration from then on; &INSTATE -PREVIOUS goes back. \
              Several equilibria may exist; none is promised.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*A 0 0 20\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\n*CG 0 0 0\n#WEIGHT *CG 500 1 1 1\n\
@@ -141,7 +140,7 @@ pub(crate) fn to_diagnostic(wrong: SolveError, model: &Model, span: Span, units:
 /// Warns of what is to be known of dynamic lines where they rest.
 pub(crate) fn warn_of_lines(job: &mut Job, span: Span) {
     let mut texts: IndexMap<&str, Vec<String>> = IndexMap::new();
-    for (name, text) in cautions(&job.model) {
+    for (name, text) in static_cautions(&job.model) {
         texts.entry(text).or_default().push(name);
     }
     for (text, names) in texts {

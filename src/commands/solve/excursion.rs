@@ -2,8 +2,8 @@
 //!
 //! Source: [MOSES-RUNS con_d]: MOVE body [angle]; its sixth column is the restoring force.
 
-use crate::commands::chosen::{note_caveats, raise};
 use crate::commands::menu;
+use crate::commands::name_filter::{note_caveats, raise};
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;

@@ -2,10 +2,10 @@
 //!
 //! Source: [MOSES-REF freq_mot].
 
-use crate::commands::chosen::raise;
 use crate::commands::environment::env;
 use crate::commands::environment::probability;
 use crate::commands::menu;
+use crate::commands::name_filter::raise;
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::page;

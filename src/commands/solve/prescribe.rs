@@ -168,7 +168,7 @@ pub fn motions(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
         .with_rows(&rows)
         .text("Body", |row| row.body)
         .text("By", |row| row.by)
-        .text("Freedom", |row| row.dof)
+        .text("DOF", |row| row.dof)
         .column("Amplitude", "Length", Dim::Length, Digits::Usual, |row| row.length)
         .column("Amplitude", "Angle", Dim::Angle, Digits::Usual, |row| row.angle)
         .column("", "Period", Dim::Time, Digits::Usual, |row| row.period)

@@ -110,7 +110,7 @@ pub(crate) const ADAPTIVE: OptionSpec = OptionSpec::new(
 const DIVIDING: OptionSpec = OptionSpec::new(
             "-DIVIDING",
             &[ValueSpec::new("T", Kind::Number(Dim::Time), "period").positive()],
-            "period that divides motion: what is quicker is of first order, about the place and heading at which waves act on databases",
+            "dividing period between first-order and low-frequency motion; first-order loads of databases act at the low-frequency position and heading",
         )
         .owner(Owner::Ours)
         .default("1.05 times the period above which a hundredth of the energy of the sea is; 15 s without waves");
@@ -323,7 +323,7 @@ fn warn_of_throwing(job: &mut Job, args: &Args, method: &Method) {
             "dynamic lines have short natural periods: with 2 BETA below ALPHA the step must be shorter than these, or the lines become unstable"
         }
         Method::Implicit(_) => {
-            "with dynamic lines a scheme that damps less than -RHO 0.2 can throw up what hangs on a stiff line that goes slack within a step"
+            "with -RHO above 0.2 a body on a stiff dynamic line that goes slack within a step can rebound too high"
         }
     };
     job.warn(text, given.span);
@@ -476,7 +476,7 @@ fn screen_lines(
 
 /// The same run again with half the step, and what differs.
 fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
-    let mut again = first.begun_again(|s| RunSettings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
+    let mut again = first.restart_with(|s| RunSettings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
     let mut going = RunProgress::new(job, &again, None);
     again.run(&mut going)?;
     Ok(run_tables::comparison_tables(first, &again.history))

@@ -3,7 +3,7 @@
 //!
 //! Source: [AQWA-TETHER chapters 1 to 4]; [AQWA-REF decks 16, 17].
 
-use crate::commands::chosen::note_caveats;
+use crate::commands::name_filter::note_caveats;
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::solve::tdom;
 use crate::commands::solve::tdom::RunProgress;

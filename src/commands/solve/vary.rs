@@ -1,7 +1,7 @@
 //! `TABLE LINE -VARY`: what a line does for each of several values of one parameter.
 
 use crate::commands::Job;
-use crate::commands::chosen::merge_remarks;
+use crate::commands::name_filter::merge_remarks;
 use crate::report::format::number_in_full;
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};

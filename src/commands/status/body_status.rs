@@ -1,6 +1,6 @@
 //! `&STATUS FORCE`, `STIFFNESS` and `MODES`: what acts on the bodies where they stand, how it changes, how they swing.
 
-use crate::commands::chosen::NameFilter;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::status::ForceName;
 use crate::commands::status::kind::StatusKind;
@@ -92,10 +92,10 @@ pub fn stiffness(job: &Job, call: &Call, chosen: &NameFilter) -> Outcome<Vec<Tab
     let system = System::new(&job.model, &[]).map_err(wrong)?;
     let mut state = system.state(&job.model);
     system.evaluate(&mut state).map_err(wrong)?;
-    let named = |name: &str| !chosen.chooses_all() && chosen.takes(name);
+    let named = |name: &str| !chosen.chooses_all() && chosen.matches(name);
     let connectors: Vec<&str> =
         job.model.connectors.values().map(|c| c.name.as_str()).filter(|name| named(name)).collect();
-    let bodies = |name: &str| chosen.takes(name);
+    let bodies = |name: &str| chosen.matches(name);
     let model = &job.model;
     // between two bodies; one to ground or to a junction counts
     let left_out = |name: &str| {

@@ -1,9 +1,9 @@
 //! `&STATUS CL_FLEX`: the property tables of classes.
 
 use crate::commands::Job;
+use crate::commands::model_values::{as_written, option_as_written};
 use crate::commands::status::kind::Query;
 use crate::commands::status::kind::StatusKind;
-use crate::commands::written::{as_written, option_as_written};
 use windlass_base::table::Table;
 use windlass_model::Class;
 use windlass_model::EntityKind;

@@ -3,10 +3,10 @@
 use crate::commands::Job;
 use crate::commands::environment::env;
 use crate::commands::environment::wind_options;
+use crate::commands::model_values::option_as_written;
 use crate::commands::status::kind::StatusKind;
 use crate::commands::status::sea_table::phasing;
 use crate::commands::status::wind_table;
-use crate::commands::written::option_as_written;
 use windlass_base::table::{Cell, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::gusts::Gusts;

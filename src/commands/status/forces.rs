@@ -1,6 +1,6 @@
 //! `&STATUS F_CONNECTOR`: the forces of the connectors between their ends as they are.
 
-use crate::commands::chosen::merge_remarks;
+use crate::commands::name_filter::merge_remarks;
 use crate::commands::status::kind::StatusKind;
 use crate::commands::verdict::{Verdict, check_over_break};
 use windlass_base::pose::Six;

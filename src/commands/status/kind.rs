@@ -1,6 +1,6 @@
 //! What a kind of `&STATUS` declares: its name, whose names it takes, and the tables it makes.
 
-use crate::commands::chosen::NameFilter;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::verdict::Verdict;
 use crate::commands::{Call, Job};
 use windlass_base::diagnostic::Outcome;
@@ -81,7 +81,7 @@ impl<'a> Query<'a> {
     /// Whether the record takes a thing of a name.
     pub fn fits(&self) -> impl Fn(&str) -> bool + use<'a> {
         let names = self.names;
-        move |name| names.takes(name)
+        move |name| names.matches(name)
     }
 
     /// Whether the record gives names.

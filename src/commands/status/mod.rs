@@ -27,8 +27,8 @@ pub(crate) mod system;
 pub(crate) mod tether_status;
 pub(crate) mod wind_table;
 
-use crate::commands::chosen::{NameFilter, note_caveats, raise};
 use crate::commands::menu;
+use crate::commands::name_filter::{NameFilter, note_caveats, raise};
 use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, open_chosen_table, send};
 use crate::commands::status::kind::{Query, StatusKind};
 use crate::commands::verdict::Verdict;
@@ -158,7 +158,7 @@ pub(crate) const NUMBER: OptionSpec = OptionSpec::new(
 .default("6");
 /// `-SHAPE`.
 pub(crate) const SHAPE: OptionSpec =
-    OptionSpec::new("-SHAPE", &[], "a table of the shape of each mode of ROD_MODES behind that of their periods")
+    OptionSpec::new("-SHAPE", &[], "a table of the shape of each mode of ROD_MODES after that of their periods")
         .owner(Owner::Ours);
 /// `-AQWA`.
 pub(crate) const AQWA: OptionSpec =

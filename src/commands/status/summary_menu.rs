@@ -3,8 +3,8 @@
 //! Source: [MOSES-HELP lgroup] names LOADG_SUM, published samples CATEG_SUM, POINT_SUM, N_COINCIDENT and the macro GEOM; what stands in each is our reading: the
 //! tables of &STATUS.
 
-use crate::commands::chosen::NameFilter;
 use crate::commands::menu;
+use crate::commands::name_filter::NameFilter;
 use crate::commands::status::kind::{Query, StatusKind};
 use crate::commands::status::{body_tables, categories, class_tables, compartments, loads_table, model_tables};
 use crate::commands::verdict::Verdict;

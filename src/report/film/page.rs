@@ -78,7 +78,7 @@ fn strand(strand: &Strand, [low, high]: [[f64; 3]; 2], (tension, share): (f64, f
     let place = |at: &[f64; 3]| -> [u16; 3] { std::array::from_fn(|i| step(at[i], low[i], high[i])) };
     let state = |s: &ConnectorState| match s {
         ConnectorState::Inactive => 0u8,
-        ConnectorState::Acting => 1,
+        ConnectorState::SectionLoads => 1,
         ConnectorState::Unsolved => 2,
     };
     object([

@@ -78,9 +78,9 @@ fn installed_deck_reaches_printed_positions_and_slack_times() {
             assert!(off < if time <= 5.0 { 4e-4 } else { 6e-3 }, "{axis} at {time} s: {off}");
         }
     }
-    let slack = |e: &&windlass_solve::tethered::Happening| e.change == RigChange::Slack;
+    let slack = |e: &&windlass_solve::tethered::TetherRunEvent| e.change == RigChange::Slack;
     let (slack, struck): (Vec<_>, Vec<_>) = run.happened.iter().partition(slack);
-    let named = |list: &[&windlass_solve::tethered::Happening]| -> Vec<(String, f64)> {
+    let named = |list: &[&windlass_solve::tethered::TetherRunEvent]| -> Vec<(String, f64)> {
         list.iter().map(|e| (e.tether.clone(), e.time)).collect()
     };
     assert_eq!(named(&slack), [("T1".to_string(), 6.5), ("T2".to_string(), 6.5)]);
@@ -521,7 +521,7 @@ fn regular_wave_amplitude_period_and_direction_have_own_cards() {
 #[test]
 fn tslk_prints_tethers_from_slack_for_its_duration() {
     // the listing has TSLK 0.001 and prints all four tethers at 6.5 s, when the first two go slack, and no more of them up to the
-    // impact at 7.5 s; with 0.6 s each step of 0.25 s up to 7.1 s is printed (A.6)
+    // impact at 7.5 s; with 0.6 s each step of 0.25 s up to 7.1 s is printed [AQWA-TETHER A.6]
     for (time, printed) in [("0.001", &["6.50"][..]), ("  0.6", &["6.50", "6.75", "7.00"])] {
         let text = file("mint.dat")
             .replace("16TIME       101", "16TIME        31")

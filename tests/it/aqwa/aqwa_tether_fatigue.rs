@@ -24,7 +24,7 @@ fn number(value: &Value) -> f64 {
 /// Half cycles of element end `end` (0 to 25) by bin.
 fn counts(listing: &Value, end: usize) -> Ranges {
     let (rows, column) = if end < 20 { (&listing["hist_first20"], end) } else { (&listing["hist_last6"], end - 20) };
-    let mut ranges = Ranges::of_width(number(&listing["hist_bin_width"]));
+    let mut ranges = Ranges::from_width(number(&listing["hist_bin_width"]));
     for bin in 0..STRESS_RANGE_BINS {
         ranges.counts[bin] = rows[bin][column].as_u64().unwrap();
     }

@@ -4,7 +4,7 @@ use crate::common::run;
 
 use run::{Quiet, model, settings};
 use windlass_base::table::Table;
-use windlass_solve::results::along::{LineResults, Where, envelope, histories, lines_at_rest, touchdown};
+use windlass_solve::results::along::{LinePosition, LineResults, envelope, histories, lines_at_rest, touchdown};
 use windlass_solve::results::events;
 use windlass_solve::time::{Ending, Run, RunFileError, RunSettings, Snapshot, Watcher};
 
@@ -94,7 +94,8 @@ fn thinned_node_output_matches_full_output() {
     let kept = events(&all.history, None).unwrap();
     let arcs = whole.get("Arc").unwrap().numbers();
     let middle = 0.5 * (arcs[1] + arcs[2]);
-    let table = histories(&line, &[Where::Node(2), Where::Arc(middle), Where::Node(3)], &kept).unwrap();
+    let table =
+        histories(&line, &[LinePosition::Node(2), LinePosition::Arc(middle), LinePosition::Node(3)], &kept).unwrap();
     let tensions: Vec<Vec<f64>> = table.columns().iter().filter(|c| c.name == "Tension").map(|c| c.numbers()).collect();
     for ((low, middle), high) in tensions[0].iter().zip(&tensions[1]).zip(&tensions[2]) {
         assert!(
@@ -102,18 +103,18 @@ fn thinned_node_output_matches_full_output() {
             "{low} {middle} {high}, nodes at {arcs:?}"
         );
     }
-    assert!(histories(&line, &[Where::Arc(401.0)], &kept).is_err());
-    assert!(histories(&line, &[Where::Node(14)], &kept).is_err());
+    assert!(histories(&line, &[LinePosition::Arc(401.0)], &kept).is_err());
+    assert!(histories(&line, &[LinePosition::Node(14)], &kept).is_err());
 }
 
 /// Keeps snapshots and rows as they come.
 #[derive(Default)]
-struct Keeper {
+struct RunRecorder {
     snapshots: Vec<Snapshot>,
     rows: Vec<Vec<f64>>,
 }
 
-impl Watcher for Keeper {
+impl Watcher for RunRecorder {
     fn row(&mut self, row: &[f64]) -> Result<(), RunFileError> {
         self.rows.push(row.to_vec());
         Ok(())
@@ -130,7 +131,7 @@ fn continued_run_has_nodes_of_uninterrupted_run() {
     let model = model(&chain(8, "-SEA REGULAR 180 4 9"));
     let wanted = settings(60.0, 0.1);
     let mut whole = Run::new(&model, wanted.clone(), Vec::new()).unwrap();
-    let mut kept = Keeper::default();
+    let mut kept = RunRecorder::default();
     assert_eq!(whole.run(&mut kept), Ok(Ending::Done));
     // one at the start, one after 500 steps
     assert_eq!(kept.snapshots.iter().map(|s| s.taken).collect::<Vec<_>>(), [0, 500]);

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use std::sync::atomic::Ordering;
 use windlass_base::table::Table;
 use windlass_model::Model;
-use windlass_signal::line::fatigue::Round;
+use windlass_signal::line::fatigue::TubeCircumference;
 use windlass_signal::line::lrfd::LrfdFactors;
 use windlass_solve::System;
 use windlass_solve::results::along::{Code, LineResults, check, envelope, fatigue_along, lines_at_rest, shape};
@@ -93,7 +93,7 @@ fn junction_reports_side_of_higher_utilisation_in_either_direction() {
             envelope(&line, &all).unwrap(),
             shape(&line, &all[40]).unwrap(),
             check(&line, &Code::Lrfd(LrfdFactors::default(), 0.0), &all).unwrap(),
-            fatigue_along(&line, &run.model.fatigue, (&Round::default(), 1.0), &all).unwrap(),
+            fatigue_along(&line, &run.model.fatigue, (&TubeCircumference::default(), 1.0), &all).unwrap(),
         ]
     });
     let [ahead, back] = &tables;

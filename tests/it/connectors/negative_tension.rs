@@ -4,8 +4,8 @@ use crate::common;
 
 use std::f64::consts::FRAC_PI_4;
 use windlass::session::Session;
-use windlass_signal::fatigue::{find, of_cycles};
-use windlass_signal::line::fatigue::Round;
+use windlass_signal::fatigue::{cycle_damage, find};
+use windlass_signal::line::fatigue::TubeCircumference;
 use windlass_signal::rainflow::RainflowCycle;
 use windlass_solve::results::along::{LineResults, fatigue_along};
 use windlass_solve::results::{events, line_damages};
@@ -98,7 +98,7 @@ fn damage_counts_full_range_of_sign_changing_tension() {
     let all = events(&run.history, None).unwrap();
     let whole = line_damages(run, &[0], &run.model.fatigue, &all).unwrap().remove(0).1.segments.remove(0);
     let line = LineResults::find(run, "T1").unwrap();
-    let along = fatigue_along(&line, &run.model.fatigue, (&Round::default(), 1.0), &all).unwrap();
+    let along = fatigue_along(&line, &run.model.fatigue, (&TubeCircumference::default(), 1.0), &all).unwrap();
     let along = along.get("Damage").unwrap().numbers();
     // the record begins and ends halfway; later it buckles sideways; until then a cycle each 5 s of the range over the wall
     let area = FRAC_PI_4 * (1.0 - 0.94_f64.powi(2));
@@ -107,7 +107,7 @@ fn damage_counts_full_range_of_sign_changing_tension() {
     let [from, to] = [all.first(), all.last()].map(|e| e.unwrap().time(&run.history).unwrap());
     let periods = (to - from) / 5.0;
     let curve = find("DNV_D_FREE", &run.model.fatigue).unwrap();
-    let by_hand = of_cycles(&[RainflowCycle { range, mean: 0.0, count: periods }], &curve, 0.0).unwrap().sum;
+    let by_hand = cycle_damage(&[RainflowCycle { range, mean: 0.0, count: periods }], &curve, 0.0).unwrap().sum;
     assert!((whole.damage / by_hand - 1.0).abs() < 0.05, "{whole:?} {by_hand}");
     assert!((along[0] / by_hand - 1.0).abs() < 0.05, "{along:?} {by_hand}");
 }

@@ -8,7 +8,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_base::table::Table;
 use windlass_catenary::{Line, Segment};
 use windlass_model::{Model, Weight};
-use windlass_solve::excursion::{ExcursionEnd, ExcursionPath, Walk, resolve_wrench};
+use windlass_solve::excursion::{ExcursionEnd, ExcursionPath, ExcursionSearch, resolve_wrench};
 use windlass_solve::offset::{BodyConnectors, ConnectorPull};
 use windlass_solve::watch::{WatchedBody, watch};
 use windlass_solve::{SolveError, System};
@@ -73,7 +73,7 @@ fn four_taut_springs_match_closed_form_and_break_at_windward() {
     let made = model(&springs(4));
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
-    let mut walk = Walk::new(&system, &start, path(0.0)).unwrap();
+    let mut walk = ExcursionSearch::new(&system, &start, path(0.0)).unwrap();
     let (rows, end) = walk.rows(30).unwrap();
     assert_eq!((rows.len(), end), (30, ExcursionEnd::Breaks(2)));
     for row in &rows {
@@ -103,7 +103,7 @@ fn pair_of_chains_restores_with_difference_of_its_lines() {
     let made = model(PAIR);
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
-    let (rows, end) = Walk::new(&system, &start, path(0.0)).unwrap().rows(30).unwrap();
+    let (rows, end) = ExcursionSearch::new(&system, &start, path(0.0)).unwrap().rows(30).unwrap();
     assert_eq!(end, ExcursionEnd::Breaks(1));
     let segment = Segment { length: 900.0, weight: 1700.0, ea: 108734.2e6 * FRAC_PI_4 * 0.01 };
     let line = Line::new(vec![segment], vec![], -300.0, 0.0).unwrap();
@@ -170,7 +170,7 @@ fn held_excursion_stays_on_its_line_and_free_one_yields_sideways() {
     let start = system.state(&made).poses;
     let angle = 20.0_f64.to_radians();
     let held = ExcursionPath { most: Some(6.0), ..path(angle) };
-    let (rows, _) = Walk::new(&system, &start, held).unwrap().rows(5).unwrap();
+    let (rows, _) = ExcursionSearch::new(&system, &start, held).unwrap().rows(5).unwrap();
     for row in &rows {
         let gone = row.poses[0].origin - start[0].origin;
         assert!((gone.x - row.excursion * angle.cos()).abs() < 1e-12);
@@ -178,7 +178,7 @@ fn held_excursion_stays_on_its_line_and_free_one_yields_sideways() {
         assert!(gone.z == 0.0 && row.poses[0].axes == start[0].axes);
     }
     let free = ExcursionPath { free: true, ..held };
-    let (rows, end) = Walk::new(&system, &start, free).unwrap().rows(5).unwrap();
+    let (rows, end) = ExcursionSearch::new(&system, &start, free).unwrap().rows(5).unwrap();
     assert_eq!((rows.len(), end), (5, ExcursionEnd::Most));
     for row in &rows {
         let gone = row.poses[0].origin - start[0].origin;
@@ -258,15 +258,17 @@ fn unbreakable_mooring_requires_distance_and_unmoored_body_is_named() {
     let made = model(&records);
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
-    let SolveError { who, error } = Walk::new(&system, &start, path(0.3)).unwrap().end().unwrap_err();
+    let SolveError { who, error } = ExcursionSearch::new(&system, &start, path(0.3)).unwrap().end().unwrap_err();
     assert_eq!(who.as_deref(), Some("SHIP"));
     assert!(error.to_string().contains("none of its lines breaks"), "{error}");
     let near = ExcursionPath { most: Some(5.0), ..path(0.3) };
-    let (last, end) = Walk::new(&system, &start, near).unwrap().end().unwrap();
+    let (last, end) = ExcursionSearch::new(&system, &start, near).unwrap().end().unwrap();
     assert!(end == ExcursionEnd::Most && last.excursion == 5.0);
     let names: Vec<String> = (0..4).map(|n| format!("L{n}")).collect();
     let bare = System::new(&made, &names).unwrap();
-    assert!(Walk::new(&bare, &start, near).unwrap_err().error.to_string().contains("no connector acts on it"));
+    assert!(
+        ExcursionSearch::new(&bare, &start, near).unwrap_err().error.to_string().contains("no connector acts on it")
+    );
 }
 
 #[test]
@@ -294,8 +296,9 @@ fn free_excursion_without_freedoms_equals_held_one() {
     let made = model(&records);
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
-    let (held, _) = Walk::new(&system, &start, path(0.4)).unwrap().rows(5).unwrap();
-    let (free, _) = Walk::new(&system, &start, ExcursionPath { free: true, ..path(0.4) }).unwrap().rows(5).unwrap();
+    let (held, _) = ExcursionSearch::new(&system, &start, path(0.4)).unwrap().rows(5).unwrap();
+    let (free, _) =
+        ExcursionSearch::new(&system, &start, ExcursionPath { free: true, ..path(0.4) }).unwrap().rows(5).unwrap();
     for (a, b) in held.iter().zip(&free) {
         assert!((a.wrench - b.wrench).norm() < 1e-6 * BREAK, "{:?} {:?}", a.wrench, b.wrench);
     }
@@ -319,7 +322,7 @@ fn body_on_eight_chains_matches_moorpy_forces() {
     let made = model(&(records + "END"));
     let system = System::new(&made, &[]).unwrap();
     let start = system.state(&made).poses;
-    let mut walk = Walk::new(&system, &start, path(0.0)).unwrap();
+    let mut walk = ExcursionSearch::new(&system, &start, path(0.0)).unwrap();
     for (excursion, restoring, vertical, pitch, tensions) in [
         (
             20.0,

@@ -14,7 +14,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::hull::{Solid, TubeHull};
 use windlass_hydro::sea::{Component, Sea, Water, dispersion::wave_number};
-use windlass_hydro::{BodyLoad, Category, DynamicLoad, Floating, Underway, morison};
+use windlass_hydro::{BodyLoad, BodyStep, Category, DynamicLoad, Floating, morison};
 use windlass_model::{Model, Stretching};
 
 const RHO: f64 = 1025.0;
@@ -51,7 +51,7 @@ fn members(model: &Model, sea: Option<&Arc<Sea>>) -> Box<dyn BodyLoad> {
 
 /// The load at a time, in a pose and with a velocity that are those expected.
 fn load_at(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> DynamicLoad {
-    let ahead = Underway { time, dt: 0.0, pose, velocity };
+    let ahead = BodyStep { time, dt: 0.0, pose, velocity };
     let state = begin_step(load, &ahead);
     load.dynamic_load(&ahead, &state).unwrap()
 }
@@ -347,10 +347,10 @@ fn added_mass_change_with_surface_is_in_step_inertia() {
     let load = members(&model, None);
     let (start, deeper) = (Pose::default(), place([0.0, 0.0, -5.0, 0.0, 0.0, 0.0]));
     let before = Six::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    let now = Underway { time: 0.0, dt: 0.0, pose: &start, velocity: &before };
+    let now = BodyStep { time: 0.0, dt: 0.0, pose: &start, velocity: &before };
     let mut state = begin_step(load.as_ref(), &now);
     let after = Six::new(1.3, 0.0, 0.0, 0.0, 0.0, 0.0);
-    let end = Underway { time: 0.5, dt: 0.5, pose: &deeper, velocity: &after };
+    let end = BodyStep { time: 0.5, dt: 0.5, pose: &deeper, velocity: &after };
     load.as_stateful().unwrap().begin(&end, &mut state).unwrap();
     let more = RHO * PI * 100.0 * 0.9 * 5.0;
     assert_share(load.as_inertial().unwrap().inertia(&state)[(0, 0)], more, 1e-9);
@@ -376,7 +376,7 @@ fn drag_in_time_domain_has_its_own_category() {
     let model = body("TUBE T *A *B 2000", "&ENV -CURRENT 1 180");
     let load = members(&model, Some(&wave(2.0, 0.8, 0.0, None, Stretching::Wheeler)));
     let (pose, velocity) = (Pose::default(), Six::zeros());
-    let now = Underway { time: 0.0, dt: 0.0, pose: &pose, velocity: &velocity };
+    let now = BodyStep { time: 0.0, dt: 0.0, pose: &pose, velocity: &velocity };
     let state = begin_step(load.as_ref(), &now);
     let divided = load.as_divided().unwrap();
     assert_eq!(divided.other_categories(), [Category::ViscousDrag, Category::WaveMean]);

@@ -8,7 +8,7 @@ use nalgebra::Matrix6;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::gusts::{FREQUENCY_RANGE_HZ, GUST_SPECTRA, Gusts};
-use windlass_hydro::{BodyLoad, Category, DynamicLoad, Floating, Underway};
+use windlass_hydro::{BodyLoad, BodyStep, Category, DynamicLoad, Floating};
 use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;
@@ -23,7 +23,7 @@ fn place(values: [f64; 6]) -> Pose {
 }
 
 fn load_of_moving_body(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> DynamicLoad {
-    let at = Underway { time, dt: 0.1, pose, velocity };
+    let at = BodyStep { time, dt: 0.1, pose, velocity };
     let state = begin_step(load, &at);
     load.dynamic_load(&at, &state).unwrap()
 }

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
 use windlass::session::Session;
-use windlass_solve::film::{Film, MAX_FRAMES, Take};
+use windlass_solve::film::{Film, FilmSelection, MAX_FRAMES};
 
 /// A box with a hull on two chains, away from rest; the chain `B` is let go at 3 s.
 const MOORED: &str = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100 -TIME 6 0.2\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE Z RX RY\n*CG 0 0 0\n\
@@ -147,11 +147,11 @@ fn film_beyond_limits_is_thinned_evenly_with_a_note() {
         })
         .collect();
     let all = |_: &str| true;
-    let take = Take { connector: &|_| false, body: &all, window: None, points: 40, stop: &|| false };
+    let take = FilmSelection { connector: &|_| false, body: &all, window: None, points: 40, stop: &|| false };
     let film = Film::build(run, &take).unwrap();
     assert!(film.times.len() <= MAX_FRAMES && film.times.len() == 1667, "{}", film.times.len());
     assert!(film.notes[0].contains("one in 3 of 5001"), "{:?}", film.notes);
-    let stopped = Film::build(run, &Take { stop: &|| true, ..take });
+    let stopped = Film::build(run, &FilmSelection { stop: &|| true, ..take });
     assert_eq!(stopped.unwrap_err().to_string(), "interrupted");
 }
 
@@ -208,7 +208,7 @@ fn film_shows_dynamic_line_nodes_and_released_line_falls() {
     let (session, ..) = run(&format!("{RODS}TDOM\n"));
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let run = session.job.run.as_ref().unwrap();
-    let take = Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
+    let take = FilmSelection { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
     let film = Film::build(run, &take).unwrap();
     assert_eq!(film.times, run.history.times());
     for (strand, link) in film.strands.iter().zip(&run.history.layout.links) {
@@ -236,7 +236,7 @@ fn film_shows_dynamic_line_nodes_and_released_line_falls() {
 fn film_of_line_without_stored_nodes_reports_it() {
     let (session, ..) = run(&format!("{RODS}TDOM -ALONG 0\n"));
     let run = session.job.run.as_ref().unwrap();
-    let take = Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
+    let take = FilmSelection { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
     let film = Film::build(run, &take).unwrap();
     for name in ["A", "B"] {
         assert!(

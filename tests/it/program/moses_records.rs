@@ -273,7 +273,7 @@ fn options_of_pictures_without_effect_leave_picture_as_it_is() {
     let (with, said) = picture("-CATEGORY STR_MODEL A -RENDER GL -DETAIL YES");
     assert_eq!((plain, said.len()), (with, 3), "{said:?}");
     let (_, said) = run(&format!("{CART}&PICTURE TOP 30 45\n&PICTURE TOP 30\n"));
-    assert!(said.len() == 1 && said[0].starts_with("angles behind the view"), "{said:?}");
+    assert!(said.len() == 1 && said[0].starts_with("angles after the view"), "{said:?}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::Sea;
-use windlass_hydro::{BodyLoad, Category, Floating, Underway};
+use windlass_hydro::{BodyLoad, BodyStep, Category, Floating};
 use windlass_model::Model;
 
 /// A body with records on points of it, in an environment; metres and newtons.
@@ -38,7 +38,7 @@ fn under_way(model: &Model) -> Vec<Box<dyn BodyLoad>> {
 /// The force at a time under way.
 fn force_at(loads: &[Box<dyn BodyLoad>], time: f64, pose: &Pose) -> Six {
     let velocity = Six::zeros();
-    let now = Underway { time, dt: 0.1, pose, velocity: &velocity };
+    let now = BodyStep { time, dt: 0.1, pose, velocity: &velocity };
     let one = |load: &dyn BodyLoad| {
         let state = begin_step(load, &now);
         load.dynamic_load(&now, &state).unwrap().load.wrench

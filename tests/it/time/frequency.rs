@@ -12,7 +12,7 @@ use windlass_hydro::database::{Database, DriftTable};
 use windlass_model::{AttachedDatabase, DriftMethod, Model};
 use windlass_solve::frequency::{
     Derivative, ExtremeKind, LinearQuantity, LinearSystem, Operators, ResponseOptions, ResponseStatistics, Trains,
-    in_sea, natural, respond,
+    natural, respond, sea_response,
 };
 
 const G: f64 = 9.80665;
@@ -324,7 +324,7 @@ fn quadratic_dashpot_linearisation_matches_borgman() {
     // without it waves are answered as by a body without the dashpot
     let trains = Trains::new(&model, &model.environment).unwrap().unwrap();
     linear = LinearSystem::new(&model).unwrap();
-    let free = in_sea(&linear, &trains, &ResponseOptions::default()).unwrap();
+    let free = sea_response(&linear, &trains, &ResponseOptions::default()).unwrap();
     assert!(ResponseStatistics::new(&free, &z, Derivative::Velocity).deviation > 1.2 * velocity);
 }
 

@@ -13,7 +13,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::hull::{Solid, TubeHull};
 use windlass_hydro::sea::{Component, Sea, Water};
-use windlass_hydro::{BodyLoad, Category, Floating, Underway, growth_loads};
+use windlass_hydro::{BodyLoad, BodyStep, Category, Floating, growth_loads};
 use windlass_model::{Model, Stretching};
 use windlass_solve::time::RunSettings;
 
@@ -42,7 +42,7 @@ fn sea(frequency: f64, number: f64, amplitude: f64) -> Arc<Sea> {
 }
 
 fn force_at(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> Six {
-    let ahead = Underway { time, dt: 0.0, pose, velocity };
+    let ahead = BodyStep { time, dt: 0.0, pose, velocity };
     let state = begin_step(load, &ahead);
     load.dynamic_load(&ahead, &state).unwrap().load.wrench
 }

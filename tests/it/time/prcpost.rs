@@ -10,7 +10,7 @@ use windlass_base::pose::Six;
 use windlass_base::table::{Cell, Table};
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{FatigueSelection, Model, Stretching};
-use windlass_signal::fatigue::{find, of_cycles};
+use windlass_signal::fatigue::{cycle_damage, find};
 use windlass_signal::rainflow::cycles;
 use windlass_solve::results::{self, EventWindow, Magnitude, MotionOptions, ScatterExposure, TrackedPoint};
 use windlass_solve::time::{Action, ActionKind, Ending, Run, Trigger};
@@ -304,7 +304,7 @@ fn segment_damage_uses_upper_end_tension_and_scatter_adds_by_days() {
     let chain = find("CHAIN", &selection).unwrap();
     for (segment, ratios) in segments.iter().zip([&top, &joint]) {
         let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
-        let want = of_cycles(&cycles(ratios).unwrap(), &chain, mean).unwrap();
+        let want = cycle_damage(&cycles(ratios).unwrap(), &chain, mean).unwrap();
         let most = ratios.iter().copied().fold(0.0, f64::max);
         assert!((segment.most_used - most).abs() < 1e-6, "{segment:?} {most}");
         // by the third power of ranges of a hundredth, each with an error of 1e-6 of the tension

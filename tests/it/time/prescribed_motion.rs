@@ -246,7 +246,7 @@ fn time_outside_motion_file_is_error_with_its_span() {
 fn invalid_motion_files_are_refused_with_line_number() {
     for (file, option, expected) in [
         ("0,0,0,0,0,0,0\n2,0,0,0,0,0,0\n2,0,0,0,0,0,0\n", "-FILE", "the time 2 of line 3 is not after 2"),
-        ("0,0,0,0,0,0,0\n2,0,0,NaN,0,0,0\n", "-FILE", "line 2: value 4 is `NaN`, which is no number"),
+        ("0,0,0,0,0,0,0\n2,0,0,NaN,0,0,0\n", "-FILE", "line 2: value 4 is `NaN`, which is not a number"),
         ("0,0,0,0,0,0,0\n2,0,0,1e999,0,0,0\n", "-FILE", "line 2: value 4 is `1e999`"),
         ("0,0,0,0,0,0,0\n2,0,0\n", "-FILE", "line 2 has 3 values, not 7"),
         ("0,0,0,0,0,0,0\n", "-FILE", "two or more rows"),

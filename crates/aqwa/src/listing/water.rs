@@ -145,8 +145,8 @@ impl Deck {
                 list.push(("GAMMA", fixed(*gamma, 3)));
                 list.push(("ALPHA", fixed(*alpha, 5)));
                 list.push(("PEAK FREQUENCY", fixed(*peak, 3)));
-                let hump = SpectralPeak::of_alpha(*alpha, *peak, *gamma, gravity);
-                4.0 * Spectrum::of_humps(vec![hump], None).moment(0).sqrt()
+                let hump = SpectralPeak::from_alpha(*alpha, *peak, *gamma, gravity);
+                4.0 * Spectrum::from_peaks(vec![hump], None).moment(0).sqrt()
             }
             SpectrumForm::JonswapHeight { gamma, height, peak } => {
                 list.push(("GAMMA", fixed(*gamma, 3)));

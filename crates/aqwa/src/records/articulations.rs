@@ -1,10 +1,10 @@
 //! Articulations of deck 12 and fenders of deck 14 as connectors of the model.
 
 use super::model::point;
-use super::written::{Script, difference, number, numbers, round_value};
+use super::record_writer::{Script, difference, number, numbers, round_value};
 use crate::Deck;
 use crate::articulations::{Articulation, JointSide};
-use crate::fenders::{Fender, FenderSide};
+use crate::fenders::{FenderCard, FenderSide};
 use nalgebra::{Rotation3, Vector3};
 use windlass_base::diagnostic::Diagnostic;
 
@@ -106,7 +106,7 @@ pub(super) fn fenders(deck: &Deck, out: &mut Script) {
     }
 }
 
-fn write_fender(deck: &Deck, name: &str, fender: &Fender, out: &mut Script) {
+fn write_fender(deck: &Deck, name: &str, fender: &FenderCard, out: &mut Script) {
     let [base, face] = fender.sides;
     let at = |side: &FenderSide| place(deck, side.structure.value, side.node.value);
     let (Some(from), Some(to)) = (at(&base), at(&face)) else { return };

@@ -1,7 +1,7 @@
 //! The water, waves, current and wind: decks 5, 10, 11, 13 and 16.
 
+use super::record_writer::{Script, difference, number, numbers, opposite, round_value};
 use super::sea;
-use super::written::{Script, difference, number, numbers, opposite, round_value};
 use crate::Deck;
 use crate::surroundings::{CurrentLayer, UniformStream};
 use crate::waves::{SpectrumCard, WaveDeck};

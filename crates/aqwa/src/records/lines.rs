@@ -1,7 +1,7 @@
 //! Mooring lines of deck 14 as classes of the model.
 
 use super::model::point;
-use super::written::{Script, difference, number, numbers, round_value};
+use super::record_writer::{Script, difference, number, numbers, round_value};
 use crate::Deck;
 use crate::lines::{
     Composite, CompositeJoint, CompositeSection, DYNAMIC_ELEMENTS, Ends, LineKind, MooringLine, Property, Pulley,

@@ -8,16 +8,16 @@ mod articulations;
 mod environment;
 mod lines;
 mod model;
+mod record_writer;
 mod run;
 mod sea;
 mod tethers;
-mod written;
 
 use super::Deck;
+use record_writer::{RecordLine, Scale, Script, number};
 use windlass_base::diagnostic::Diagnostic;
-use written::{RecordLine, Scale, Script, number};
 
-pub use written::CardOrigin;
+pub use record_writer::CardOrigin;
 
 /// The record that sets the units of the others.
 pub const UNITS: &str = "&DIMEN -DIMEN METERS K-NTS";

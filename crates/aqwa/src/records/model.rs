@@ -1,6 +1,6 @@
 //! Structures as bodies: decks 1 to 4, 7, 12, 15 and 17.
 
-use super::written::{Script, difference, number, numbers, round_value};
+use super::record_writer::{Script, difference, number, numbers, round_value};
 use crate::Deck;
 use crate::elements::{ElementShape, StructureDeck, StructureElement};
 use crate::hydrostatics::{HydrostaticsDecks, SixBySix};

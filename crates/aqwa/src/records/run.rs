@@ -3,8 +3,8 @@
 use super::environment::spectrum;
 use super::lines;
 use super::model::{body, point};
+use super::record_writer::{Script, number, numbers, opposite, round_value};
 use super::tethers::name;
-use super::written::{Script, number, numbers, opposite, round_value};
 use crate::Deck;
 use crate::elements::ElementShape;
 use crate::job::Program;
@@ -13,7 +13,7 @@ use crate::tethers::{Fatigue, Tether};
 use crate::waves::WaveDeck;
 use windlass_base::diagnostic::Diagnostic;
 
-/// Hours for which the peak stress is expected when TPSH is not given (A.5).
+/// Hours for which the peak stress is expected when TPSH is not given [AQWA-TETHER A.5].
 const DEFAULT_PEAK_HOURS: f64 = 3.0;
 
 /// The title, and what is listed of the tethers before they move.

@@ -1,6 +1,6 @@
 //! Waves: the spectra and the regular wave of deck 13 as options of `&ENV`.
 
-use super::written::{Script, number, numbers, opposite, round_value};
+use super::record_writer::{Script, number, numbers, opposite, round_value};
 use crate::Deck;
 use crate::waves::{RegularWave, SpectrumCard, SpectrumForm, WaveDeck};
 use std::f64::consts::{PI, TAU};
@@ -107,8 +107,8 @@ fn form(deck: &Deck, sea: &SpectrumCard, from: f64, out: &mut Script) -> Option<
         }
         SpectrumForm::Jonswap { gamma, alpha, peak } => {
             let gravity = out.scale.length(deck.global.gravity);
-            let hump = SpectralPeak::of_alpha(*alpha, *peak, *gamma, gravity);
-            let energy = Density::of_humps(vec![hump], None).moment(0);
+            let hump = SpectralPeak::from_alpha(*alpha, *peak, *gamma, gravity);
+            let energy = Density::from_peaks(vec![hump], None).moment(0);
             out.remark(&format!(
                 "JONS: alpha {}, gamma {}, peak frequency {} rad/s",
                 number(*alpha),

@@ -1,7 +1,7 @@
 //! Tethers of deck 14: a class for each description, a connector for each TETH card.
 
 use super::model::{point, product};
-use super::written::{Script, difference, number, numbers, round_value};
+use super::record_writer::{Script, difference, number, numbers, round_value};
 use crate::Deck;
 use crate::elements::ElementShape;
 use crate::end_springs::EndSpringCard;
@@ -209,7 +209,7 @@ fn hold(kind: ConstraintKind) -> &'static str {
     }
 }
 
-/// The node that a constraint holds, 1 at the anchor. The cards name none (A.14): a card between two TELM cards is taken for the node
+/// The node that a constraint holds, 1 at the anchor. The cards name none [AQWA-TETHER A.14]: a card between two TELM cards is taken for the node
 /// between them; else it is next to the end that its kind belongs to.
 fn constrained_node(description: &TetherCards, kind: ConstraintKind, at: Span, out: &mut Script) -> usize {
     let count = description.elements.len();

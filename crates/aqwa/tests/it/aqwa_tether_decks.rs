@@ -371,7 +371,7 @@ fn appendix_a_card_fields_are_all_read() {
         [element.node1, element.node2, element.material, element.geometry].map(|f| f.value),
         [104, 103, 101, 101]
     );
-    // inline blank is 1E15, a negative rotational stiffness is 0 (A.2)
+    // inline blank is 1E15, a negative rotational stiffness is 0 [AQWA-TETHER A.2]
     assert_eq!(first.springs(), [[1000.0, 200.0, 0.0], [DEFAULT_SPRING_STIFFNESS, 4.0, 5.0]]);
     assert_eq!(tether.fatigue, Fatigue { concentration: 1.3, intercept: 1e24, slope: 3.0 });
     assert_eq!((tether.peak_hours, tether.group), (Some(6.0), 3));
@@ -733,7 +733,7 @@ fn bad_cards_are_refused_at_their_place() {
         ("(2) (11,1)", "(2) (15,1)", "node 16 is not in deck 1", "02TUBE"),
         ("(2) (11,1) (12,1) (2) (2)", "(2) (11,1) (12,1) (7) (2)", "material group 7 is not in deck 3", "02TUBE"),
         ("    18NODE    1", "    18NODE    0", "structure 0 carries no node", "0"),
-        ("    18PREV   10", "    18PREV   -1", "-1 is no number of steps", "-1"),
+        ("    18PREV   10", "    18PREV   -1", "-1 is not a valid number of steps", "-1"),
         ("    15POS1", "    15POS2", "structure 2 is not in deck 2", "15POS2"),
         (" END16TIME       101", " END16TIME         0", "0 steps cannot be run", "0"),
         (" END16TIME       101     0.250", " END16TIME       101    -0.250", "a time step is above 0", "-0.250"),

@@ -255,7 +255,7 @@ fn negative_value_is_refused_or_legal() {
             }
         }
     }
-    // places, phases and rows of a stiffness have signs; BFEQ has a warning; springs below 0 are none (A.2)
+    // places, phases and rows of a stiffness have signs; BFEQ has a warning; springs below 0 are none [AQWA-TETHER A.2]
     let signed = |card: &&String| {
         let word = card.get(4..10).unwrap_or_default();
         word.starts_with("01") || ["13PHAS", "07LSTF", "07BFEQ", "14TSPA", "14TSPV", "15POS1"].contains(&word)

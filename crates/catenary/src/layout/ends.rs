@@ -1,6 +1,6 @@
 //! The line between two given ends, or with a given horizontal force.
 
-use super::{LaidLine, LineLayout, Manner, Top};
+use super::{LaidLine, LineLayout, SupportMode, Top};
 use crate::dual::Var;
 use crate::element::LinePiece;
 use crate::error::LineError;
@@ -26,7 +26,7 @@ impl LineLayout<'_> {
 
     /// The least force stands for none: what hangs under it is upright but for this (m).
     fn aside(&self, laid: &LaidLine) -> f64 {
-        let hanging = laid.stretches.iter().filter(|s| s.manner == Manner::Hangs && s.h <= 2.0 * self.least);
+        let hanging = laid.stretches.iter().filter(|s| s.manner == SupportMode::Hangs && s.h <= 2.0 * self.least);
         hanging.map(|s| s.u - s.low[0]).sum()
     }
 
@@ -111,7 +111,7 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&LineState>) -> Re
         if line.weightless() && laid.short.value < -1e-9 * (layout.length + x) {
             return Err(LineError::Undetermined);
         }
-        let lies = laid.stretches.iter().any(|s| s.manner != Manner::Hangs);
+        let lies = laid.stretches.iter().any(|s| s.manner != SupportMode::Hangs);
         if lies && laid.short.value < -layout.fine {
             laid = heap_at_touchdown(&layout, x, z, &laid)?;
         }

@@ -69,7 +69,7 @@ impl LinePoint {
 
 /// How a stretch of a piece is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Manner {
+pub(super) enum SupportMode {
     /// It hangs free.
     Hangs,
     /// It lies on a face, losing this much tension a length (N/m).
@@ -92,14 +92,14 @@ pub(super) struct PieceStretch {
     pub v: f64,
     /// Place and forces at its lower end.
     pub low: [f64; 4],
-    pub manner: Manner,
+    pub manner: SupportMode,
 }
 
 impl PieceStretch {
     /// Whether it lies on the same face as the one before it.
     pub fn continues_on_face_of(&self, before: &PieceStretch) -> bool {
         match (self.manner, before.manner) {
-            (Manner::Lies { tilt, .. }, Manner::Lies { tilt: same, .. }) => tilt == same,
+            (SupportMode::Lies { tilt, .. }, SupportMode::Lies { tilt: same, .. }) => tilt == same,
             _ => false,
         }
     }

@@ -1,7 +1,7 @@
 //! What lies: from the place where a span lands to the last one from which the line can leave.
 
 use super::span::{Candidate, Departure, TouchKind, stretch_between};
-use super::{LaidLine, LineLayout, LinePoint, Manner, PieceStretch};
+use super::{LaidLine, LineLayout, LinePoint, PieceStretch, SupportMode};
 use crate::dual::{SPAN_UNKNOWN, Var};
 use crate::element::{LinePiece, mean_strain, strain};
 use crate::profile::Tilt;
@@ -76,7 +76,7 @@ pub struct LaidPath {
 }
 
 /// What comes behind a piece of the path.
-enum Next {
+enum PathContinuation {
     /// The joint at the end of the line's piece.
     Joint,
     /// More of the same piece.
@@ -184,9 +184,9 @@ impl LineLayout<'_> {
                     spare => self.heap(path, &mut cursor, spare),
                 };
                 match next {
-                    Next::Joint => {}
-                    Next::Piece => continue,
-                    Next::Stop => return,
+                    PathContinuation::Joint => {}
+                    PathContinuation::Piece => continue,
+                    PathContinuation::Stop => return,
                 }
             } else {
                 let hung = self.hang(&with_forces(&cursor, tilt), Var::constant(0.0));
@@ -208,12 +208,12 @@ impl LineLayout<'_> {
     }
 
     /// Heaps the rest of a piece, or what is left of the spare length.
-    fn heap(&self, path: &mut LaidPath, cursor: &mut Cursor, spare: Spare) -> Next {
+    fn heap(&self, path: &mut LaidPath, cursor: &mut Cursor, spare: Spare) -> PathContinuation {
         let from = cursor.at;
         let room = -from.s + self.element_length(from.element);
         let (length, next) = match spare {
-            Spare::Length(left) if left.value < room.value => (left, Next::Piece),
-            _ => (room, Next::Joint),
+            Spare::Length(left) if left.value < room.value => (left, PathContinuation::Piece),
+            _ => (room, PathContinuation::Joint),
         };
         let weight = self.elements[from.element].weight_per_length();
         path.push(weight * length.value, PathPieceKind::Heap { from, length });
@@ -224,10 +224,10 @@ impl LineLayout<'_> {
     }
 
     /// Lies on a face: up to the end of the piece, to the next face, or to where no tension is left.
-    fn follow_seabed(&self, path: &mut LaidPath, cursor: &mut Cursor) -> Next {
+    fn follow_seabed(&self, path: &mut LaidPath, cursor: &mut Cursor) -> PathContinuation {
         let tilt = self.bottom.tilt(cursor.face);
         let Some(LinePiece::Length { segment, law, .. }) = self.elements.get(cursor.at.element) else {
-            return Next::Joint;
+            return PathContinuation::Joint;
         };
         let loss = segment.weight * (tilt.sin + self.friction * tilt.cos);
         let mut length = -cursor.at.s + segment.length;
@@ -236,13 +236,13 @@ impl LineLayout<'_> {
             let sump = self.sump(cursor.face);
             if sump > 0.0 {
                 path.end = PathEnd::Hollow { at: cursor.at, sump };
-                return Next::Stop;
+                return PathContinuation::Stop;
             }
             path.push(0.0, PathPieceKind::Slide { from: cursor.at });
             path.spare = Spare::All;
             let (u, z) = (Var::constant(0.0), Var::constant(self.bottom.elevation_of(0, 0.0)));
             *cursor = Cursor { at: LinePoint { u, z, ..cursor.at }, face: 0, tension: Var::constant(self.least) };
-            return Next::Piece;
+            return PathContinuation::Piece;
         }
         let mut spent = false;
         if !limp && loss > 0.0 && (cursor.tension.value - self.least) < loss * length.value {
@@ -284,17 +284,17 @@ impl LineLayout<'_> {
                 let bend = tilt.angle() - self.bottom.tilt(vertex.saturating_sub(1)).angle();
                 let span = cursor.tension.value * bend;
                 if span > SHORTEST_SPAN * self.length * segment.weight {
-                    return Next::Stop;
+                    return PathContinuation::Stop;
                 }
                 cursor.face = vertex.saturating_sub(1);
             }
-            return Next::Piece;
+            return PathContinuation::Piece;
         }
         if spent {
             cursor.tension = Var::constant(self.least);
-            return Next::Piece;
+            return PathContinuation::Piece;
         }
-        Next::Joint
+        PathContinuation::Joint
     }
 
     /// Along a face for a length.
@@ -479,7 +479,7 @@ impl LineLayout<'_> {
                         _ => 0.0,
                     };
                     let (at, low) = (with_forces(&start, tilt), with_forces(&low, tilt));
-                    laid.stretches.push(stretch_between(&at, &low, Manner::Lies { tilt, loss }));
+                    laid.stretches.push(stretch_between(&at, &low, SupportMode::Lies { tilt, loss }));
                 }
                 PathPieceKind::Support { joint, at, face, normal, lift, .. } => {
                     // the curve may leave at the joint itself, which then carries what is missing
@@ -511,7 +511,7 @@ impl LineLayout<'_> {
 fn heap_stretch(from: &LinePoint, low: &LinePoint) -> PieceStretch {
     let none = Var::constant(0.0);
     let still = |p: &LinePoint| LinePoint { h: none, v: none, ..*p };
-    stretch_between(&still(from), &still(low), Manner::Heap)
+    stretch_between(&still(from), &still(low), SupportMode::Heap)
 }
 
 /// The point of a cursor with its forces.

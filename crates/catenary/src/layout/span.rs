@@ -1,7 +1,7 @@
 //! A span: the free curve that just touches what it must not pass.
 
 use super::path::Spare;
-use super::{JointAt, LaidLine, LineLayout, LinePoint, Manner, PieceStretch, SpanStart, Top};
+use super::{JointAt, LaidLine, LineLayout, LinePoint, PieceStretch, SpanStart, SupportMode, Top};
 use crate::dual::{SPAN_UNKNOWN, Var};
 use crate::element::{LinePiece, strain, stretch};
 use crate::error::LineError;
@@ -299,7 +299,7 @@ impl LineLayout<'_> {
                 element + 1 < last || matches!(to.kind, TouchKind::End | TouchKind::Joint(_) | TouchKind::Held(_));
             let length = if whole { -at.s + self.element_length(element) } else { to.at.s - at.s };
             let low = self.hang(&at, length);
-            laid.stretches.push(stretch_between(&at, &low, Manner::Hangs));
+            laid.stretches.push(stretch_between(&at, &low, SupportMode::Hangs));
             if element + 1 < last && element < self.pulls.len() {
                 let (above, below) = self.lifts(element);
                 let past = sunk.get(element).is_some_and(|past| *past);
@@ -326,7 +326,7 @@ impl LineLayout<'_> {
 }
 
 /// The stretch between two points of a piece.
-pub fn stretch_between(at: &LinePoint, low: &LinePoint, manner: Manner) -> PieceStretch {
+pub fn stretch_between(at: &LinePoint, low: &LinePoint, manner: SupportMode) -> PieceStretch {
     PieceStretch {
         element: at.element,
         from: at.s.value,

@@ -1,6 +1,6 @@
 //! What a laid line means: its state, proven, and its shape.
 
-use super::{LaidLine, LineLayout, Manner, PieceStretch};
+use super::{LaidLine, LineLayout, PieceStretch, SupportMode};
 use crate::dual::Var;
 use crate::element::{LinePiece, mean_strain, stretch};
 use crate::error::LineError;
@@ -30,7 +30,7 @@ impl LineLayout<'_> {
             stiffness[0] = [0.0; 2];
             coupling[0] = if laid.heap.is_some() { coupling[0] } else { [0.0; 2] };
         }
-        let on_bottom = first.manner != Manner::Hangs;
+        let on_bottom = first.manner != SupportMode::Hangs;
         if on_bottom {
             stiffness[1][1] = f64::INFINITY;
         }
@@ -65,12 +65,12 @@ impl LineLayout<'_> {
             let LinePiece::Length { segment, sees_bottom, .. } = element else { continue };
             let number = segments.len() + 1;
             let mut on_bottom = 0.0;
-            for part in parts.iter().filter(|p| p.manner != Manner::Hangs) {
+            for part in parts.iter().filter(|p| p.manner != SupportMode::Hangs) {
                 touchdown = touchdown.or(Some(place(part.u, part.z)));
                 on_bottom += part.to - part.from;
                 let [u, z, ..] = part.low;
                 grounded_stretched +=
-                    if part.manner == Manner::Heap { part.to - part.from } else { (part.u - u).hypot(part.z - z) };
+                    if part.manner == SupportMode::Heap { part.to - part.from } else { (part.u - u).hypot(part.z - z) };
             }
             grounded += on_bottom;
             let (top_h, top_v) = (clean(head.h), clean(head.v));
@@ -182,19 +182,19 @@ pub fn point(
     let LinePiece::Length { segment: properties, law, .. } = element else { return None };
     let length = (s - part.from).clamp(0.0, part.to - part.from);
     let (u, z, h, v) = match part.manner {
-        Manner::Hangs => {
+        SupportMode::Hangs => {
             let v = part.v - properties.weight * length;
             let reach = stretch(properties, law.as_ref(), length, part.h, v);
             (part.u - reach.x, part.z - reach.z, part.h, v)
         }
-        Manner::Lies { tilt, loss } => {
+        SupportMode::Lies { tilt, loss } => {
             let (tension, _) = tilt.to_face(part.h, part.v);
             let left = (tension - loss * length).max(0.0);
             let along = length * (1.0 + mean_strain(properties, law.as_ref(), tension, left).0);
             (part.u - along * tilt.cos, part.z - along * tilt.sin, left * tilt.cos, left * tilt.sin)
         }
-        Manner::Heap => (part.u, part.z, 0.0, 0.0),
+        SupportMode::Heap => (part.u, part.z, 0.0, 0.0),
     };
-    let on_bottom = part.manner != Manner::Hangs;
+    let on_bottom = part.manner != SupportMode::Hangs;
     Some(ShapePoint { arc: arc + s, segment, x: x - u, z, horizontal: h, vertical: v, on_bottom })
 }

@@ -22,7 +22,7 @@ impl Device for Dashpot {
 
 impl ChordDamper for Dashpot {
     fn force(&self, rate: f64) -> (f64, f64) {
-        let (force, slope) = self.act(&Vector3::new(rate, 0.0, 0.0), [true, false, false]);
+        let (force, slope) = self.evaluate(&Vector3::new(rate, 0.0, 0.0), [true, false, false]);
         (force.x, slope[(0, 0)])
     }
 }

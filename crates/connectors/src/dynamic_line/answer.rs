@@ -55,7 +55,7 @@ pub(super) fn on_supports(
 
 fn finite(out: &ElementResponse) -> Result<(), ClassError> {
     if out.wrench.iter().any(|w| w.iter().any(|v| !v.is_finite())) {
-        return Err(ClassError::new("its force is no number"));
+        return Err(ClassError::new("its force is not finite"));
     }
     Ok(())
 }

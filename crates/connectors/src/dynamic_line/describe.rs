@@ -94,7 +94,7 @@ pub struct LineDescription {
 
 impl LinePart {
     /// Its properties at an elevation (m, global z), with what grows on it there and with what it holds.
-    pub fn grown(&self, ambient: Option<&dyn Ambient>, z: f64) -> RodSegment {
+    pub fn with_growth(&self, ambient: Option<&dyn Ambient>, z: f64) -> RodSegment {
         let mut made = self.segment.clone();
         let Some(ambient) = ambient else { return made };
         let (thickness, density) = ambient.growth(z);
@@ -158,7 +158,7 @@ mod tests {
     fn growth_is_on_outside_of_line_at_any_displacement() {
         let bare = RodSegment { displaced: 0.0, ..RodSegment::line(10.0, 1, 100.0, 1e6, 0.3) };
         let strength = Strength { breaking: 1.0, is_given: true };
-        let grown = LinePart { segment: bare.clone(), strength, joint: None }.grown(Some(&Foul), -10.0);
+        let grown = LinePart { segment: bare.clone(), strength, joint: None }.with_growth(Some(&Foul), -10.0);
         // a ring from 0.3 to 0.4 m
         let ring = FRAC_PI_4 * 0.07;
         assert!((grown.mass - 100.0 - 1400.0 * ring).abs() < 1e-9);

@@ -288,7 +288,7 @@ impl DynamicLine {
         });
         let end = if dt > 0.0 { solver.end() } else { state };
         let paid = match (&self.base.laid, end.place(0)) {
-            (Some(laid), Some(place)) if dt > 0.0 => laid.paid(at.ends, &place, kept.paid),
+            (Some(laid), Some(place)) if dt > 0.0 => laid.payout(at.ends, &place, kept.paid),
             _ => kept.paid,
         };
         self.layout.write((rod, &self.base.bands), (end, paid), trial)?;

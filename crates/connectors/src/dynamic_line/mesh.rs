@@ -32,10 +32,12 @@ pub(super) fn to_class_error(error: RodError) -> ClassError {
         }
         RodError::Interrupted { .. } => "interrupted".to_string(),
         RodError::Statics { element, residual, .. } if !residual.is_finite() => {
-            format!("its rod finds no rest: a force at element {element} is no number")
+            format!("no static equilibrium of the dynamic line: the force at element {element} is not finite")
         }
         RodError::Statics { iterations, residual, element, .. } => {
-            let text = format!("its rod finds no rest in {iterations} iterations: {{}} is left at element {element}");
+            let text = format!(
+                "no static equilibrium of the dynamic line in {iterations} iterations: {{}} is left at element {element}"
+            );
             return ClassError::with_values(text, &[(residual, Dim::Force)]);
         }
     });
@@ -85,7 +87,7 @@ impl Cut {
             made.bands.each.push(EqualLengths { from: made.segments.len(), count, long });
             for band in 0..count {
                 let back = behind + long * (1.0 - (band as f64 + 0.5) / count as f64);
-                let segment = part.grown(ambient, elevation(shape, (1.0 - back / whole).max(0.0)));
+                let segment = part.with_growth(ambient, elevation(shape, (1.0 - back / whole).max(0.0)));
                 let (length, elements) = (long / count as f64, part.segment.elements / count);
                 made.segments.push(RodSegment { length, elements, ..segment });
                 made.bands.part.push(index);
@@ -170,7 +172,7 @@ fn elevation(shape: &[Vector3<f64>], share: f64) -> f64 {
 
 /// Water that what displaces nothing is taken to displace, as a share of its added mass, so that a coefficient on it makes that: it
 /// lifts by as small a share of the weight of the added mass.
-const NEXT_TO_NOTHING: f64 = 1e-9;
+const MIN_DISPLACED_SHARE: f64 = 1e-9;
 /// Height over which what has neither volume nor drag nor added mass meets the surface (m): nothing asks for it.
 const NO_HEIGHT: f64 = 1.0;
 /// Drag coefficient of a sphere below the critical Reynolds number [DNV-RP-C205 appendix E].
@@ -201,7 +203,7 @@ pub(super) fn attachments(parts: &[LinePart], counts: &[usize], density: f64) ->
         let (volume, added) = if joint.volume > 0.0 || density <= 0.0 {
             (joint.volume, joint.added)
         } else {
-            (NEXT_TO_NOTHING * joint.added / density, 1.0 / NEXT_TO_NOTHING)
+            (MIN_DISPLACED_SHARE * joint.added / density, 1.0 / MIN_DISPLACED_SHARE)
         };
         let height = height(&joint, density);
         // it presses itself in as deep as the line beside it, by whatever mesh

@@ -45,7 +45,7 @@ impl PipePath {
     /// Straight from support to support; a catenary from the first to the bottom, and as much again on it.
     fn new(part: &LinePart, layout: &PipeLayout, bottom: f64) -> Result<PipePath, ClassError> {
         let around = layout.surroundings;
-        let segment = part.grown(layout.ambient.map(|a| a.as_ref()), 0.5 * bottom);
+        let segment = part.with_growth(layout.ambient.map(|a| a.as_ref()), 0.5 * bottom);
         let weight = |density: f64| (segment.mass - density * segment.displaced) * around.gravity;
         let (in_air, in_water) = (weight(0.0), weight(around.water_density));
         let hung = |(node, hang): (&Pose, &f64)| node.origin - Vector3::z() * *hang;

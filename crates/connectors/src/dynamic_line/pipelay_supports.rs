@@ -125,7 +125,7 @@ impl PipeLay {
     }
 
     /// What its tensioner has paid out (m) at the end of a step in which the end of the pipe has come to a place.
-    pub fn paid(&self, ends: &[End], end: &Vector3<f64>, paid: f64) -> f64 {
+    pub fn payout(&self, ends: &[End], end: &Vector3<f64>, paid: f64) -> f64 {
         let (Some(tensioner), Some(held)) = (&self.tensioner, ends.last()) else { return paid };
         let along = held.pose.axes * self.turn * tensioner.along;
         tensioner.pays(along.dot(&(end - held.pose.origin)), paid)

@@ -288,7 +288,7 @@ fn law(args: &Args, ea: f64) -> Outcome<TensionLaw> {
             Err(Diagnostic::error("tension by strain is given twice", other.span).other(given.span, "and here"))
         }
         (Some(given), None) => {
-            Ok(TensionLaw::of_powers(given.numbers_or_zero(const { EA.numbers(["K1", "K2", "K3"]) }).to_vec()))
+            Ok(TensionLaw::from_powers(given.numbers_or_zero(const { EA.numbers(["K1", "K2", "K3"]) }).to_vec()))
         }
         (None, Some(given)) => {
             let mut points = vec![(0.0, 0.0)];

@@ -80,7 +80,7 @@ impl StateLayout {
     }
 
     /// How much pipe the tensioner of a state has paid out (m).
-    pub fn paid(&self, state: &[f64]) -> f64 {
+    pub fn payout(&self, state: &[f64]) -> f64 {
         state.get(HEADER_VALUES - 1).copied().unwrap_or(0.0)
     }
 

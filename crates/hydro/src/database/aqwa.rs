@@ -5,7 +5,7 @@
 //! symmetry; with a leading number in files of 18.2 and later), COG, MASS, HYDSTIFFNESS, ADDEDMASS, DAMPING and FORCERAO,
 //! in newer files ADDEDMASS_LF and ADDEDMASS_HF, the limits of long and of short waves. FIDD, a damping of drift frequencies alone, is refused unless it is zero. The first row of a matrix, and the row
 //! of moduli of a force, has the numbers of its structure, direction or frequency before its six values; a row of phases (degrees) follows that of the moduli. A phase is
-//! a lag behind the crest at the centre of gravity. Matrices are about that centre. Units are any consistent set, which gravity and density tell apart.
+//! a lag behind the crest at the centre of gravity. Matrices are about that centre. DatabaseUnits are any consistent set, which gravity and density tell apart.
 
 use super::checks::check_database;
 use super::nemoh::refer_phases;
@@ -37,7 +37,7 @@ struct Sections<'a> {
 
 /// Factors to SI.
 #[derive(Clone, Copy)]
-struct Units {
+struct DatabaseUnits {
     metres: f64,
     kilograms: f64,
 }
@@ -60,7 +60,7 @@ pub fn read(source: &str, file: &SourceFile, body: Option<usize>) -> Result<Data
         Some(n) => n,
     };
     let (depth, density, gravity) = sections.general()?;
-    let units = Units::find(density, gravity).ok_or_else(|| {
+    let units = DatabaseUnits::find(density, gravity).ok_or_else(|| {
         file.error(format!("gravity {gravity} and density {density} belong to no set of units that is known"))
     })?;
     let centre = |body: usize| -> Result<Vector3<f64>, DatabaseError> {
@@ -119,7 +119,7 @@ fn excitation(
     sections: &Sections,
     data: &mut Database,
     (body, order): (usize, &[(usize, f64)]),
-    units: Units,
+    units: DatabaseUnits,
 ) -> Result<(), DatabaseError> {
     let file = sections.file;
     let Some(rows) = sections.rows("FORCERAO") else { return Ok(()) };
@@ -174,13 +174,13 @@ fn key<const N: usize>(row: &[f64]) -> Option<[usize; N]> {
     (row.len() >= N).then_some(out)
 }
 
-impl Units {
+impl DatabaseUnits {
     /// The set that gravity and the density of the water belong to.
-    fn find(density: f64, gravity: f64) -> Option<Units> {
+    fn find(density: f64, gravity: f64) -> Option<DatabaseUnits> {
         let (_, metres) = LENGTH_UNITS.into_iter().find(|(usual, _)| (gravity / usual - 1.0).abs() < 0.01)?;
         let kilograms =
             MASS_UNITS.into_iter().find(|unit| WATER_DENSITY.contains(&(density * unit / metres.powi(3))))?;
-        Some(Units { metres, kilograms })
+        Some(DatabaseUnits { metres, kilograms })
     }
 
     /// A matrix of motions times a unit, with the lengths of its rotations.
@@ -260,7 +260,7 @@ impl<'a> Sections<'a> {
         match row.as_slice() {
             [depth, density, gravity, ..] if like_gravity(*gravity) => Ok((*depth, *density, *gravity)),
             [_, depth, density, gravity, ..] if like_gravity(*gravity) => Ok((*depth, *density, *gravity)),
-            _ => Err(self.file.wrong_at(*line, "no gravity of metres or feet stands behind depth and density")),
+            _ => Err(self.file.wrong_at(*line, "no gravity of metres or feet follows depth and density")),
         }
     }
 

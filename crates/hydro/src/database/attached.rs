@@ -4,8 +4,8 @@ use super::excitation::Excitation;
 use super::memory::{MAX_LAGS, RetardationMemory};
 use super::radiation::Radiation;
 use super::slow_drift::SlowDrift;
-use crate::body_load::{BodyLoad, DynamicLoad, InertialLoad, PreparedLoad, StatefulLoad, Underway};
-use crate::low_frequency::{LowFrequency, Slow, dividing_period};
+use crate::body_load::{BodyLoad, BodyStep, DynamicLoad, InertialLoad, PreparedLoad, StatefulLoad};
+use crate::low_frequency::{LowFrequency, LowFrequencyPosition, dividing_period};
 use crate::sea::Sea;
 use crate::steady::Steady;
 use crate::{Category, Load, in_pose, move_stiffness};
@@ -50,9 +50,9 @@ const LAST_STATE: usize = NEXT_STATE + 3;
 impl LinearMotion {
     const STATES: usize = LAST_STATE + 8;
 
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) {
+    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) {
         let (own, kept) = state.split_at_mut(HEADING_STATE);
-        let slow = self.slow.ahead(ahead, own);
+        let slow = self.slow.predict(ahead, own);
         let rates = slow.rates(&ahead.pose.axes);
         kept.iter_mut()
             .zip(std::iter::once(&slow.heading).chain(rates.iter()))
@@ -60,8 +60,8 @@ impl LinearMotion {
         state.copy_within(NEXT_STATE..LAST_STATE, ADDED_STATE);
     }
 
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
-        let slow = Slow { heading: state[HEADING_STATE], ..Slow::default() };
+    fn commit(&self, at: &BodyStep, state: &mut [f64]) {
+        let slow = LowFrequencyPosition { heading: state[HEADING_STATE], ..LowFrequencyPosition::default() };
         let (angle, rates) = (slow.rotation(&at.pose.axes), slow.rates(&at.pose.axes) * at.velocity.fixed_rows::<3>(3));
         let last = |from: usize| {
             Vector3::new(state[LAST_STATE + from], state[LAST_STATE + from + 1], state[LAST_STATE + from + 2])
@@ -79,7 +79,7 @@ impl LinearMotion {
 
     /// The axes of the heading.
     fn axes(state: &[f64]) -> Matrix3<f64> {
-        Slow { heading: state[HEADING_STATE], ..Slow::default() }.axes()
+        LowFrequencyPosition { heading: state[HEADING_STATE], ..LowFrequencyPosition::default() }.axes()
     }
 
     /// From a rate of rotation (global axes) to rates of small rotations about the axes of the heading.
@@ -88,7 +88,7 @@ impl LinearMotion {
     }
 
     /// The rates of the place and of small rotations, in axes of the heading.
-    fn velocity(at: &Underway, state: &[f64]) -> Six {
+    fn velocity(at: &BodyStep, state: &[f64]) -> Six {
         let along = LinearMotion::axes(state).transpose() * at.velocity.fixed_rows::<3>(0);
         let added = Vector3::from_iterator(state.iter().skip(ADDED_STATE).copied().chain([0.0; 3]).take(3));
         let turning = LinearMotion::rates(state) * at.velocity.fixed_rows::<3>(3) + added;
@@ -151,7 +151,7 @@ impl BodyLoad for RadiationLoad {
         Ok(Load::none())
     }
 
-    fn dynamic_load(&self, at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, at: &BodyStep, state: &[f64]) -> Result<DynamicLoad, ClassError> {
         let (own, memory) = state.split_at(LinearMotion::STATES);
         let (force, damping) = self.memory.force(&LinearMotion::velocity(at, own), memory);
         Ok(LinearMotion::load(&force, &damping, own))
@@ -171,14 +171,14 @@ impl StatefulLoad for RadiationLoad {
         LinearMotion::STATES + self.memory.states()
     }
 
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) -> Result<(), ClassError> {
         let (own, memory) = state.split_at_mut(LinearMotion::STATES);
         self.linear.begin(ahead, own);
         self.memory.begin(ahead.time, ahead.dt, memory);
         Ok(())
     }
 
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
+    fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         let (own, memory) = state.split_at_mut(LinearMotion::STATES);
         self.memory.commit(at.time, at.dt, &LinearMotion::velocity(at, own), memory);
         self.linear.commit(at, own);
@@ -186,7 +186,7 @@ impl StatefulLoad for RadiationLoad {
 }
 
 impl PreparedLoad for RadiationLoad {
-    fn prepared_wrench(&self, at: &Underway, state: &[f64]) -> Six {
+    fn prepared_wrench(&self, at: &BodyStep, state: &[f64]) -> Six {
         let (own, memory) = state.split_at(LinearMotion::STATES);
         LinearMotion::global(&self.memory.force(&LinearMotion::velocity(at, own), memory).0, own)
     }
@@ -209,7 +209,7 @@ impl BodyLoad for DampingLoad {
         Ok(Load::none())
     }
 
-    fn dynamic_load(&self, at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, at: &BodyStep, state: &[f64]) -> Result<DynamicLoad, ClassError> {
         Ok(LinearMotion::load(&-(self.damping * LinearMotion::velocity(at, state)), &self.damping, state))
     }
 
@@ -227,18 +227,18 @@ impl StatefulLoad for DampingLoad {
         LinearMotion::STATES
     }
 
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) -> Result<(), ClassError> {
         self.linear.begin(ahead, state);
         Ok(())
     }
 
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
+    fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         self.linear.commit(at, state);
     }
 }
 
 impl PreparedLoad for DampingLoad {
-    fn prepared_wrench(&self, at: &Underway, state: &[f64]) -> Six {
+    fn prepared_wrench(&self, at: &BodyStep, state: &[f64]) -> Six {
         LinearMotion::global(&-(self.damping * LinearMotion::velocity(at, state)), state)
     }
 }
@@ -274,12 +274,12 @@ impl StatefulLoad for AddedMassLoad {
         LinearMotion::STATES
     }
 
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) -> Result<(), ClassError> {
         self.linear.begin(ahead, state);
         Ok(())
     }
 
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
+    fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         self.linear.commit(at, state);
     }
 }
@@ -333,7 +333,7 @@ pub fn gather_database_loads(
             if !data.excitation.is_empty() {
                 loads.push(Box::new(Excitation::new(data, sea)?.with_dividing_period(dividing)));
             }
-            loads.extend(slow(attached, sea)?.map(|l| Box::new(l) as Box<dyn BodyLoad>));
+            loads.extend(build_slow_drift(attached, sea)?.map(|l| Box::new(l) as Box<dyn BodyLoad>));
         }
         Some(None) => {}
         None => loads.extend(mean(model, attached)?.map(|l| Box::new(l) as Box<dyn BodyLoad>)),
@@ -369,7 +369,7 @@ fn drift_of(data: &Database) -> Option<windlass_model::DriftTable> {
 }
 
 /// The slow drift of a sea.
-fn slow(attached: &AttachedDatabase, sea: &Arc<Sea>) -> Result<Option<SlowDrift>, ClassError> {
+fn build_slow_drift(attached: &AttachedDatabase, sea: &Arc<Sea>) -> Result<Option<SlowDrift>, ClassError> {
     let data = attached.data.as_ref();
     if attached.drift == DriftMethod::Full
         && let Some(qtf) = &data.qtf
@@ -442,13 +442,13 @@ mod tests {
         let velocity = Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2);
         for n in 0..20 {
             let then = velocity * (0.3 * f64::from(n)).cos();
-            let at = Underway { time: 0.1 * f64::from(n + 1), dt: 0.1, pose: &pose, velocity: &then };
+            let at = BodyStep { time: 0.1 * f64::from(n + 1), dt: 0.1, pose: &pose, velocity: &then };
             load.begin(&at, &mut state).unwrap();
             load.commit(&at, &mut state);
         }
-        load.begin(&Underway { time: 2.1, dt: 0.1, pose: &pose, velocity: &velocity }, &mut state).unwrap();
+        load.begin(&BodyStep { time: 2.1, dt: 0.1, pose: &pose, velocity: &velocity }, &mut state).unwrap();
         let at =
-            |pose: &Pose, velocity: &Six| load.dynamic_load(&Underway { time: 2.1, dt: 0.1, pose, velocity }, &state);
+            |pose: &Pose, velocity: &Six| load.dynamic_load(&BodyStep { time: 2.1, dt: 0.1, pose, velocity }, &state);
         let whole = at(&pose, &velocity).unwrap();
         for n in 0..6 {
             let mut by = Six::zeros();

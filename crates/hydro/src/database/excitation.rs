@@ -8,8 +8,8 @@
 
 use super::interpolation::DatabaseLookup;
 use super::waves::{WaveGroup, WaveTable, groups};
-use crate::body_load::{BodyLoad, DynamicLoad, PreparedLoad, StatefulLoad, Underway};
-use crate::low_frequency::{LowFrequency, Slow, dividing_period_of};
+use crate::body_load::{BodyLoad, BodyStep, DynamicLoad, PreparedLoad, StatefulLoad};
+use crate::low_frequency::{LowFrequency, LowFrequencyPosition, dividing_period_of};
 use crate::sea::Sea;
 use crate::{Category, Load, move_wrench};
 use nalgebra::Vector3;
@@ -82,7 +82,7 @@ impl Excitation {
     ///
     /// # Errors
     /// A heading in a gap of the database.
-    pub fn force_on_body(&self, slow: &Slow, time: f64) -> Result<Six, ClassError> {
+    pub fn force_on_body(&self, slow: &LowFrequencyPosition, time: f64) -> Result<Six, ClassError> {
         let arm = slow.axes() * self.reference;
         let at = slow.origin + arm.xy();
         Ok(move_wrench(&rotate_about_z(&self.force(time, (at.x, at.y), slow.heading)?, slow.heading), arm))
@@ -111,11 +111,11 @@ impl BodyLoad for Excitation {
         Ok(Load::none())
     }
 
-    fn dynamic_load(&self, _: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, _: &BodyStep, state: &[f64]) -> Result<DynamicLoad, ClassError> {
         Ok(DynamicLoad::from(own(state)))
     }
 
-    fn add_dynamic_load(&self, _: &Underway, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
+    fn add_dynamic_load(&self, _: &BodyStep, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
         out.load.wrench += own(state).wrench;
         Ok(())
     }
@@ -135,20 +135,20 @@ impl StatefulLoad for Excitation {
     }
 
     /// The force where the body is expected is that of the step.
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) -> Result<(), ClassError> {
         let (own, state) = state.split_at_mut(LowFrequency::STATES);
-        let force = self.force_on_body(&self.slow.ahead(ahead, own), ahead.time)?;
+        let force = self.force_on_body(&self.slow.predict(ahead, own), ahead.time)?;
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
     }
 
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
+    fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         self.slow.commit(at, &mut state[..LowFrequency::STATES]);
     }
 }
 
 impl PreparedLoad for Excitation {
-    fn prepared_wrench(&self, _: &Underway, state: &[f64]) -> Six {
+    fn prepared_wrench(&self, _: &BodyStep, state: &[f64]) -> Six {
         own(state).wrench
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn bracket_frequency(list: &[f64], at: f64) -> Bracket {
 pub(super) fn bracket_heading(headings: &[f64], heading: f64) -> Result<Bracket, ClassError> {
     let turn = heading.rem_euclid(TAU);
     if !turn.is_finite() {
-        return Err(ClassError::new("the heading is no number"));
+        return Err(ClassError::new("the heading is not finite"));
     }
     let next = headings.partition_point(|h| *h <= turn);
     let count = headings.len();

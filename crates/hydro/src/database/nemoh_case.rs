@@ -60,7 +60,7 @@ impl<'a> FileLines<'a> {
         if value >= 0.0 && value <= most as f64 && value.fract() == 0.0 {
             Ok(value as usize)
         } else {
-            Err(self.file.wrong_at(self.at, format!("{value} is no number of {what}, 0 to {most}")))
+            Err(self.file.wrong_at(self.at, format!("{value} is not a valid number of {what}, 0 to {most}")))
         }
     }
 

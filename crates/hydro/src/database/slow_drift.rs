@@ -15,7 +15,7 @@ use super::excitation::{load_from_state, rotate_about_z, yaw};
 use super::interpolation::drift_at;
 use super::interpolation::{bracket_frequency, bracket_heading};
 use super::waves::{LANES, WaveGroup, WaveTable, groups};
-use crate::body_load::{BodyLoad, DynamicLoad, PreparedLoad, StatefulLoad, Underway};
+use crate::body_load::{BodyLoad, BodyStep, DynamicLoad, PreparedLoad, StatefulLoad};
 use crate::sea::Sea;
 use crate::{Category, Load, move_wrench, turning};
 use nalgebra::{Complex, Vector3};
@@ -25,7 +25,7 @@ use windlass_model::{ClassError, DriftTable, Qtf};
 
 /// How the forces of a sea are found.
 #[derive(Clone, Debug)]
-enum Way {
+enum DriftFormula {
     /// The mean over the sea by heading of the table, for the groups.
     Mean,
     /// Newman's approximation: amplitude times drift, amplitude; the last of the seven.
@@ -44,7 +44,7 @@ pub struct SlowDrift {
     /// Mean force by heading of the table: direction of travel of the waves (rad), headings, values.
     means: Vec<(f64, Vec<Six>)>,
     headings: Vec<f64>,
-    way: Way,
+    way: DriftFormula,
 }
 
 impl SlowDrift {
@@ -70,7 +70,7 @@ impl SlowDrift {
             means.push((*toward, list));
         }
         let headings = table.headings.clone();
-        Ok(SlowDrift { reference, sea: None, groups: Vec::new(), means, headings, way: Way::Mean })
+        Ok(SlowDrift { reference, sea: None, groups: Vec::new(), means, headings, way: DriftFormula::Mean })
     }
 
     /// The mean of a sea under way; it grows with the square of the ramp.
@@ -102,7 +102,7 @@ impl SlowDrift {
             })
         });
         let lanes = lanes.collect::<Result<Vec<_>, _>>()?;
-        Ok(SlowDrift { way: Way::Newman(lanes), ..made })
+        Ok(SlowDrift { way: DriftFormula::Newman(lanes), ..made })
     }
 
     /// The full QTF.
@@ -119,7 +119,7 @@ impl SlowDrift {
             let energy = wave.amplitude * wave.amplitude;
             (x, y) = (x + energy * wave.toward[0], y + energy * wave.toward[1]);
         }
-        Ok(SlowDrift { way: Way::Full(Arc::clone(qtf), near, f64::atan2(y, x)), ..made })
+        Ok(SlowDrift { way: DriftFormula::Full(Arc::clone(qtf), near, f64::atan2(y, x)), ..made })
     }
 
     /// The mean about the reference point in axes turned by the yaw (rad), and its change with the yaw.
@@ -146,9 +146,9 @@ impl SlowDrift {
         let ramp = self.sea.as_ref().map_or(1.0, |sea| sea.factor(time)).powi(2);
         let at = (time, x, y);
         let force = match &self.way {
-            Way::Mean => self.mean_at(yaw)?.0,
-            Way::Newman(lanes) => self.by_newman(lanes, at, yaw)?,
-            Way::Full(qtf, near, toward) => self.by_pairs(qtf, near, at, toward - yaw)?,
+            DriftFormula::Mean => self.mean_at(yaw)?.0,
+            DriftFormula::Newman(lanes) => self.by_newman(lanes, at, yaw)?,
+            DriftFormula::Full(qtf, near, toward) => self.by_pairs(qtf, near, at, toward - yaw)?,
         };
         Ok(force * ramp)
     }
@@ -240,11 +240,11 @@ impl BodyLoad for SlowDrift {
         Ok(Load { wrench: move_wrench(&force, arm), stiffness })
     }
 
-    fn dynamic_load(&self, _: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, _: &BodyStep, state: &[f64]) -> Result<DynamicLoad, ClassError> {
         Ok(DynamicLoad::from(load_from_state(state)))
     }
 
-    fn add_dynamic_load(&self, _: &Underway, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
+    fn add_dynamic_load(&self, _: &BodyStep, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
         out.load.wrench += load_from_state(state).wrench;
         Ok(())
     }
@@ -264,7 +264,7 @@ impl StatefulLoad for SlowDrift {
     }
 
     /// The force where the body is expected is that of the step.
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) -> Result<(), ClassError> {
         let force = self.force_on_body(ahead.pose, ahead.time)?;
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
@@ -272,7 +272,7 @@ impl StatefulLoad for SlowDrift {
 }
 
 impl PreparedLoad for SlowDrift {
-    fn prepared_wrench(&self, _: &Underway, state: &[f64]) -> Six {
+    fn prepared_wrench(&self, _: &BodyStep, state: &[f64]) -> Six {
         load_from_state(state).wrench
     }
 }

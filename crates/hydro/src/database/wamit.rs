@@ -83,7 +83,7 @@ pub(super) fn mode_of(
     scale: &WamitScale,
 ) -> Result<Option<usize>, DatabaseError> {
     let Some(number) = row.ordinal(column) else {
-        return Err(file.wrong_at(row.line, format!("{} is no number of a mode", row.number(column))));
+        return Err(file.wrong_at(row.line, format!("{} is not a valid number of a mode", row.number(column))));
     };
     if number > 6 && scale.body.is_none() {
         let text = format!("mode {number} is of a second body: -INDEX says which body to take");

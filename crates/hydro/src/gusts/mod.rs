@@ -123,9 +123,9 @@ impl Gusts {
         let shape = find(&named.kind);
         let points = match shape {
             Some(shape) => table(shape, wind.speed),
-            None => of_curve(model, named)?,
+            None => from_curve(model, named)?,
         };
-        let mut spectrum = Spectrum::of_curve(points, None).with_energy().map_err(|e| e.with_span(named.span))?;
+        let mut spectrum = Spectrum::from_curve(points, None).with_energy().map_err(|e| e.with_span(named.span))?;
         let parts = env.gust_parts;
         let intensity = parts.and_then(|p| p.intensity);
         if let Some(intensity) = intensity {
@@ -183,7 +183,7 @@ fn table(shape: &GustSpectrum, speed: f64) -> Vec<(f64, f64)> {
 }
 
 /// A curve of the user: density over frequency, in the square of the unit of length, as it is.
-fn of_curve(model: &Model, named: &CurveReference) -> Result<Vec<(f64, f64)>, ClassError> {
+fn from_curve(model: &Model, named: &CurveReference) -> Result<Vec<(f64, f64)>, ClassError> {
     let points = |curve: &Curve| match curve.kind {
         CurveKind::FrequencySpectrum => Some(curve.points.clone()),
         CurveKind::PeriodSpectrum => {

@@ -1,7 +1,7 @@
 //! Hydrostatics of solids: the part below the water's surface, its buoyancy and exact stiffness, and meshes that bound it.
 //!
-//! A [`Surface`] of triangles and a [`TubeHull`] answer what of them is wet in a pose ([`Solid::wet`]); a [`Wet`] gives the
-//! buoyancy on the body ([`Wet::load`]) and its [`Hydrostatics`]. Meshes are read by [`read_mesh`] and examined by
+//! A [`Surface`] of triangles and a [`TubeHull`] answer what of them is wet in a pose ([`Solid::wet`]); a [`SubmergedVolume`] gives the
+//! buoyancy on the body ([`SubmergedVolume::load`]) and its [`Hydrostatics`]. Meshes are read by [`read_mesh`] and examined by
 //! [`Surface::faults`] and [`intersect`]. Nothing here knows a record, a class or a body.
 
 mod boxes;
@@ -75,7 +75,7 @@ pub enum PanelError {
 /// What is below the water's surface. Moments are taken about the origin of the pose, along global axes: x, y, z below are
 /// global coordinates less those of the pose's origin, so that a body far from the global origin loses no digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wet {
+pub struct SubmergedVolume {
     /// Displaced volume (m3).
     pub volume: f64,
     /// Integral of (x, y, z) over the displaced volume (m4), about the pose's origin.
@@ -93,13 +93,13 @@ pub struct Wet {
 /// A solid of which a part may be below the water's surface.
 pub trait Solid {
     /// The part of it below z = `level` (m, global) in a pose.
-    fn wet(&self, pose: &Pose, level: f64) -> Wet;
+    fn wet(&self, pose: &Pose, level: f64) -> SubmergedVolume;
 }
 
-impl Wet {
+impl SubmergedVolume {
     /// Adds another times a factor: a permeability, or -1 for what is not part of the solid. Both are of one pose. The
     /// wetted area takes the factor too: the skin of what is taken away is not skin of the body.
-    pub fn add(&mut self, other: &Wet, factor: f64) {
+    pub fn add(&mut self, other: &SubmergedVolume, factor: f64) {
         self.volume += factor * other.volume;
         self.moment += factor * other.moment;
         self.plane_area += factor * other.plane_area;

@@ -1,6 +1,6 @@
 //! What a naval architect reads from the displaced volume: centres and metacentric heights.
 
-use super::Wet;
+use super::SubmergedVolume;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use windlass_base::pose::Pose;
 
@@ -39,7 +39,7 @@ impl Hydrostatics {
     /// Those of what is wet in a pose, with the centre of mass (m, body coordinates), in water of a weight (N/m3).
     /// The longitudinal axis is the body's x axis as seen from above; where that stands upright, its z axis.
     /// None of a body that displaces nothing.
-    pub fn new(wet: &Wet, pose: &Pose, mass_centre: Vector3<f64>, water_weight: f64) -> Option<Self> {
+    pub fn new(wet: &SubmergedVolume, pose: &Pose, mass_centre: Vector3<f64>, water_weight: f64) -> Option<Self> {
         if wet.volume.is_nan() || wet.volume <= 0.0 {
             return None;
         }

@@ -1,6 +1,6 @@
 //! A closed surface of triangles: its volume, and the exact integrals over its part below the water's surface.
 
-use super::{Solid, Wet};
+use super::{Solid, SubmergedVolume};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::pose::Pose;
 
@@ -118,10 +118,10 @@ impl Sum {
     }
 
     /// What it comes to, with z from the pose's origin, `drop` below which is the water's surface.
-    fn wet(self, drop: f64) -> Wet {
+    fn wet(self, drop: f64) -> SubmergedVolume {
         let volume = self.volume / 6.0;
         let [x, y, z] = [self.moment.x / 24.0, self.moment.y / 24.0, self.moment.z / 48.0];
-        Wet {
+        SubmergedVolume {
             volume,
             moment: Vector3::new(x, y, z - drop * volume),
             plane_area: self.area / 2.0,
@@ -146,7 +146,7 @@ fn crossing(low: Vector3<f64>, high: Vector3<f64>) -> Vector3<f64> {
 impl Solid for Surface {
     /// Exact for the polyhedron: each triangle is cut at the surface and its polynomials are integrated. What lies in the
     /// surface itself is dry: a deck that is just awash leaves its waterplane, a keel that just touches has none.
-    fn wet(&self, pose: &Pose, level: f64) -> Wet {
+    fn wet(&self, pose: &Pose, level: f64) -> SubmergedVolume {
         self.gather(pose, level, Sum::default()).wet(pose.origin.z - level)
     }
 }

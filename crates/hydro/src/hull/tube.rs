@@ -7,7 +7,7 @@
 //! 25.4.30); with 16 points, h <= pi/2 and the highest m = 5 that is 1e-16. So it has the digits of the closed form, which
 //! itself loses them where the axis is nearly level (it divides small differences by the slope).
 
-use super::{Solid, Surface, Wet};
+use super::{Solid, SubmergedVolume, Surface};
 use nalgebra::{Matrix2, Vector2, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 use windlass_base::pose::Pose;
@@ -186,7 +186,7 @@ impl TubeInWater {
     }
 
     /// Adds the length from the foot that is wet all round.
-    fn whole(&self, to: f64, wet: &mut Wet) {
+    fn whole(&self, to: f64, wet: &mut SubmergedVolume) {
         let area = PI * self.radius * self.radius;
         wet.volume += area * to;
         wet.moment += (self.foot + self.axis * (to / 2.0)) * (area * to);
@@ -194,7 +194,7 @@ impl TubeInWater {
     }
 
     /// Adds what is wet, and the waterplane, along the zone.
-    fn add_wet_part(&self, zone: &CutZone, wet: &mut Wet) {
+    fn add_wet_part(&self, zone: &CutZone, wet: &mut SubmergedVolume) {
         let (r, s, c) = (self.radius, self.sine, self.cosine);
         let CutZone { long, half, .. } = *zone;
         // sin(half y) / sin(half), and its limit
@@ -257,8 +257,8 @@ fn segment(angle: f64, sin: f64, cos: f64) -> f64 {
 impl Solid for TubeHull {
     /// What is level with the surface is treated as by a [`super::Surface`]: an end or a side that just touches it from above is dry,
     /// an upright tube whose head is just awash has its waterplane.
-    fn wet(&self, pose: &Pose, level: f64) -> Wet {
-        let mut wet = Wet::default();
+    fn wet(&self, pose: &Pose, level: f64) -> SubmergedVolume {
+        let mut wet = SubmergedVolume::default();
         let Some(tube) = TubeInWater::new(self, pose, level) else { return wet };
         let zone = tube.zone();
         if zone.from > 0.0 {

@@ -3,7 +3,7 @@
 use super::super::Load;
 use super::super::hull::TubeHull;
 use super::super::steady::{Medium, Steady};
-use super::super::stream::{LoadPlace, Push};
+use super::super::stream::{LoadPlace, StreamWrench};
 use nalgebra::{Matrix3, Matrix6x3, RowVector6, Vector3};
 use std::f64::consts::PI;
 use windlass_base::pose::{Pose, Six};
@@ -186,7 +186,7 @@ impl MemberLength {
             let stream = steady.velocity(Medium::Water, pose.origin.z + arm.z);
             let load = place.load_in(steady, pose, stream, |flow| {
                 let (force, by_flow) = drag((self.across, self.along), &self.axis, &flow);
-                let mut push = Push { wrench: Six::zeros(), by_velocity: Matrix6x3::zeros() };
+                let mut push = StreamWrench { wrench: Six::zeros(), by_velocity: Matrix6x3::zeros() };
                 push.wrench.fixed_rows_mut::<3>(0).copy_from(&force);
                 push.by_velocity.fixed_rows_mut::<3>(0).copy_from(&by_flow);
                 push

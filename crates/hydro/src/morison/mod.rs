@@ -29,7 +29,7 @@
 
 mod added;
 mod member;
-mod under_way;
+mod member_wave_loads;
 
 use super::growth::Growth;
 use super::growth_loads;
@@ -37,12 +37,12 @@ use super::hull::TubeHull;
 use super::low_frequency::{SlowWrench, dividing_period};
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
-use super::{BodyLoad, Category, DividedLoad, DynamicLoad, InertialLoad, Load, StatefulLoad, Underway};
+use super::{BodyLoad, BodyStep, Category, DividedLoad, DynamicLoad, InertialLoad, Load, StatefulLoad};
 use member::MemberLength;
+use member_wave_loads::MemberWaveLoads;
 use nalgebra::{Matrix6, Vector3};
 use std::f64::consts::PI;
 use std::sync::Arc;
-use under_way::UnderWay;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, WaveAction};
 
@@ -62,7 +62,7 @@ pub struct Members {
     steady: Arc<Steady>,
     /// Heights at which the current begins to change otherwise (m, global), highest first.
     kinks: Vec<f64>,
-    under_way: Option<UnderWay>,
+    under_way: Option<MemberWaveLoads>,
     slow: SlowWrench,
 }
 
@@ -98,7 +98,7 @@ pub fn build_members(
     let acts = !rods.is_empty() && (under_way.is_some() || dragged);
     let load = acts.then(|| {
         let kinks = kinks(&steady);
-        let under_way = under_way.map(|sea| UnderWay::new(sea.cloned(), (&rods, &kinks), &steady, &added));
+        let under_way = under_way.map(|sea| MemberWaveLoads::new(sea.cloned(), (&rods, &kinks), &steady, &added));
         let slow = SlowWrench::new(dividing_period(model, sea.map(|sea| sea.as_ref())));
         Members { rods, steady, kinks, under_way, slow }
     });
@@ -238,7 +238,7 @@ impl BodyLoad for Members {
         Members::check_load(DynamicLoad::from(sum)).map(|made| made.load)
     }
 
-    fn dynamic_load(&self, at: &Underway, state: &[f64]) -> Result<DynamicLoad, ClassError> {
+    fn dynamic_load(&self, at: &BodyStep, state: &[f64]) -> Result<DynamicLoad, ClassError> {
         match &self.under_way {
             Some(way) => Members::check_load(way.dynamic_load(&self.rods, at, own(state))),
             None => self.mean_load(at.pose).map(DynamicLoad::from),
@@ -263,14 +263,14 @@ impl StatefulLoad for Members {
         self.under_way.as_ref().map_or(0, |way| SlowWrench::STATES + way.states())
     }
 
-    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) -> Result<(), ClassError> {
         if let (Some(way), Some(own)) = (&self.under_way, state.get_mut(SlowWrench::STATES..)) {
             way.begin(&self.rods, &self.steady, ahead, own);
         }
         Ok(())
     }
 
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
+    fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         let Some(way) = self.under_way.as_ref().filter(|way| way.has_waves()) else { return };
         let waves = way.dynamic_load(&self.rods, at, own(state)).load.wrench - way.drag(at, own(state)).0;
         let slow = &mut state[..SlowWrench::STATES];
@@ -280,7 +280,7 @@ impl StatefulLoad for Members {
 
 impl InertialLoad for Members {
     fn inertia(&self, state: &[f64]) -> Matrix6<f64> {
-        UnderWay::inertia(own(state))
+        MemberWaveLoads::inertia(own(state))
     }
 }
 
@@ -293,10 +293,10 @@ impl DividedLoad for Members {
         }
     }
 
-    fn part(&self, category: Category, at: &Underway, state: &[f64]) -> Six {
+    fn part(&self, category: Category, at: &BodyStep, state: &[f64]) -> Six {
         match (&self.under_way, category) {
             (Some(way), Category::ViscousDrag) => way.drag(at, own(state)).0,
-            (Some(_), Category::WaveMean) => SlowWrench::slow(state),
+            (Some(_), Category::WaveMean) => SlowWrench::low_frequency_part(state),
             _ => Six::zeros(),
         }
     }

@@ -3,8 +3,8 @@
 //! Of a component [FALTINSEN-1990 table 2.1], with q = k (toward . (x, y)) - w t + phase:
 //! u = a w C cos q, w = a w S sin q, p = rho g a cosh(k(z+d))/cosh(kd) cos q; C and S are cosh and sinh of k(z+d) over sinh(kd).
 
-use super::deep_places::{FarDown, Places};
-use super::eight::{Eight, MAX_REDUCIBLE_ANGLE, exp, sin_cos};
+use super::deep_places::{DeepWaveSum, Places};
+use super::simd_math::{Lanes8, MAX_REDUCIBLE_ANGLE, exp, sin_cos};
 use super::{Component, Kinematics, Sea};
 use multiversion::multiversion;
 use nalgebra::Vector3;
@@ -28,27 +28,27 @@ pub(super) struct WaveLanes {
     /// The sum of the amplitudes: the surface is never farther from the mean level (m).
     highest: f64,
     /// The same as they are felt below that.
-    far: FarDown,
+    far: DeepWaveSum,
 }
 
-/// Eight components; those that fill up the last block have no amplitude.
+/// Lanes8 components; those that fill up the last block have no amplitude.
 #[derive(Clone, Copy, Debug)]
 struct ComponentBlock {
     /// Wave number along x and y, and itself (1/m).
-    kx: Eight,
-    ky: Eight,
-    k: Eight,
+    kx: Lanes8,
+    ky: Lanes8,
+    k: Lanes8,
     /// Frequency (rad/s), amplitude (m), phase (rad).
-    w: Eight,
-    amplitude: Eight,
-    phase: Eight,
+    w: Lanes8,
+    amplitude: Lanes8,
+    phase: Lanes8,
     /// Travel along x and y.
-    x: Eight,
-    y: Eight,
+    x: Lanes8,
+    y: Lanes8,
     /// exp(-2 k d), one over one less it, and tanh(k d).
-    q: Eight,
-    whole: Eight,
-    tanh: Eight,
+    q: Lanes8,
+    whole: Lanes8,
+    tanh: Lanes8,
     /// Wave number of the longest of them (1/m).
     longest: f64,
 }
@@ -82,7 +82,7 @@ impl WaveLanes {
         let toward = components.first().map(|c| c.toward).filter(|first| components.iter().all(|c| c.toward == *first));
         WaveLanes {
             blocks: components.chunks(8).map(block).collect(),
-            far: FarDown::new(components, depth, toward.is_some(), MAX_REDUCIBLE_ANGLE),
+            far: DeepWaveSum::new(components, depth, toward.is_some(), MAX_REDUCIBLE_ANGLE),
             toward,
             stretch: 2.0 * variance.sqrt(),
             highest: components.iter().map(|c| c.amplitude.abs()).sum(),
@@ -129,7 +129,7 @@ pub struct SeaAt<'a> {
     /// The ramp's rate over its value (1/s).
     growth: f64,
     /// Amplitude, ramp in it, times cosine and sine of `phase - w t`.
-    phasors: Vec<[Eight; 2]>,
+    phasors: Vec<[Lanes8; 2]>,
 }
 
 /// What a sea at one time was prepared for, without the sea: for the next who asks for it at that time.
@@ -138,7 +138,7 @@ pub struct Prepared {
     time: f64,
     factor: f64,
     growth: f64,
-    phasors: Vec<[Eight; 2]>,
+    phasors: Vec<[Lanes8; 2]>,
 }
 
 impl<'a> SeaAt<'a> {
@@ -176,8 +176,8 @@ impl<'a> SeaAt<'a> {
         self.growth = if factor > 0.0 { rate / factor } else { 0.0 };
         self.phasors.clear();
         self.phasors.extend(self.sea.lanes.blocks.iter().map(|block| {
-            let (sin, cos) = sin_cos(&eight(|i| block.phase[i] - block.w[i] * time));
-            [eight(|i| factor * block.amplitude[i] * cos[i]), eight(|i| factor * block.amplitude[i] * sin[i])]
+            let (sin, cos) = sin_cos(&lanes8(|i| block.phase[i] - block.w[i] * time));
+            [lanes8(|i| factor * block.amplitude[i] * cos[i]), lanes8(|i| factor * block.amplitude[i] * sin[i])]
         }));
     }
 
@@ -364,11 +364,11 @@ impl<'a> SeaAt<'a> {
 
 /// Elevation at a place (m).
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn sum_elevation(blocks: &[ComponentBlock], phasors: &[[Eight; 2]], [x, y]: [f64; 2]) -> f64 {
+fn sum_elevation(blocks: &[ComponentBlock], phasors: &[[Lanes8; 2]], [x, y]: [f64; 2]) -> f64 {
     let mut sums = [0.0; 8];
     for (block, [c, s]) in blocks.iter().zip(phasors) {
-        let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
-        sums = eight(|i| sums[i] + c[i] * cos[i] - s[i] * sin[i]);
+        let (sin, cos) = sin_cos(&lanes8(|i| block.kx[i] * x + block.ky[i] * y));
+        sums = lanes8(|i| sums[i] + c[i] * cos[i] - s[i] * sin[i]);
     }
     sums.iter().sum()
 }
@@ -378,18 +378,18 @@ fn sum_elevation(blocks: &[ComponentBlock], phasors: &[[Eight; 2]], [x, y]: [f64
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn sum_components(
     blocks: &[ComponentBlock],
-    phasors: &[[Eight; 2]],
+    phasors: &[[Lanes8; 2]],
     [x, y]: [f64; 2],
     [height, rise]: [f64; 2],
 ) -> [f64; 8] {
     let mut sums = [[0.0; 8]; 8];
     for (block, [c, s]) in blocks.iter().zip(phasors) {
-        let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
+        let (sin, cos) = sin_cos(&lanes8(|i| block.kx[i] * x + block.ky[i] * y));
         if block.longest * height < VANISHED_EXPONENT {
-            sums[0] = eight(|i| sums[0][i] + (c[i] * cos[i] - s[i] * sin[i]));
+            sums[0] = lanes8(|i| sums[0][i] + (c[i] * cos[i] - s[i] * sin[i]));
             continue;
         }
-        let decay = exp(&eight(|i| block.k[i] * height));
+        let decay = exp(&lanes8(|i| block.k[i] * height));
         for i in 0..8 {
             let (a_cos, a_sin) = (c[i] * cos[i] - s[i] * sin[i], s[i] * cos[i] + c[i] * sin[i]);
             // cosh(k(z+d)) / sinh(kd) = exp(kz) (1 + exp(-2k(z+d))) / (1 - exp(-2kd)), and so the sine; in deep water
@@ -413,8 +413,8 @@ fn sum_components(
     sums.map(|lanes| lanes.iter().sum::<f64>())
 }
 
-/// Eight numbers by their index.
+/// Lanes8 numbers by their index.
 #[inline(always)]
-fn eight(value: impl FnMut(usize) -> f64) -> Eight {
+fn lanes8(value: impl FnMut(usize) -> f64) -> Lanes8 {
     std::array::from_fn(value)
 }

@@ -4,7 +4,7 @@
 //! without a remainder; what is left goes through polynomials.
 
 use super::Component;
-use super::eight::{Eight, ROUND};
+use super::simd_math::{Lanes8, ROUND};
 use multiversion::multiversion;
 use std::f64::consts::{FRAC_1_PI, LOG2_E};
 
@@ -43,7 +43,7 @@ const POWER: [f64; 8] = [
 
 /// The waves of a sea.
 #[derive(Clone, Debug, Default)]
-pub(super) struct FarDown {
+pub(super) struct DeepWaveSum {
     waves: Vec<FarWave>,
     /// Farthest from x = y = 0 at which the phase of the shortest wave is known (m).
     pub reach: f64,
@@ -68,15 +68,15 @@ struct FarWave {
     sizes: [f64; 7],
 }
 
-/// Eight places: x and y, or the way along the waves where all go one way, and the height over the mean level (m).
+/// Lanes8 places: x and y, or the way along the waves where all go one way, and the height over the mean level (m).
 #[derive(Clone, Debug, Default)]
 pub(super) struct Places {
-    pub x: Eight,
-    pub y: Eight,
-    pub height: Eight,
+    pub x: Lanes8,
+    pub y: Lanes8,
+    pub height: Lanes8,
 }
 
-impl FarDown {
+impl DeepWaveSum {
     /// The waves of components in a depth (m), of which all go one way if there is one; a phase is known up to so many radians.
     pub fn new(components: &[Component], depth: Option<f64>, one_way: bool, known: f64) -> Self {
         let wave = |c: &Component| {
@@ -113,17 +113,17 @@ impl FarDown {
             }
         };
         let shortest = components.iter().map(|c| c.number).fold(f64::MIN_POSITIVE, f64::max);
-        FarDown { waves: components.iter().map(wave).collect(), reach: known / shortest }
+        DeepWaveSum { waves: components.iter().map(wave).collect(), reach: known / shortest }
     }
 
     /// Pressure over rho g, velocity along x, y and up, and acceleration alike, of waves of full height at a time (s), each added up over
     /// the waves that reach down there.
-    pub fn sums<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Eight; 7] {
+    pub fn sums<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Lanes8; 7] {
         sum_components::<SPREAD, false>(&self.waves, time, places)
     }
 
     /// The same on the bottom, whose height is that of all places.
-    pub fn sums_on_bottom<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Eight; 7] {
+    pub fn sums_on_bottom<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Lanes8; 7] {
         sum_components::<SPREAD, true>(&self.waves, time, places)
     }
 }
@@ -164,7 +164,7 @@ fn polynomial<const N: usize>(factors: &[f64; N], at: f64) -> f64 {
 /// What comes out at a place is the same whatever the other places are: a wave that is left out at one of them is left out there
 /// alone.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn sum_components<const SPREAD: bool, const LYING: bool>(waves: &[FarWave], time: f64, places: &Places) -> [Eight; 7] {
+fn sum_components<const SPREAD: bool, const LYING: bool>(waves: &[FarWave], time: f64, places: &Places) -> [Lanes8; 7] {
     let (mut highest, mut lowest) = (places.height[0], places.height[0]);
     for height in &places.height {
         highest = highest.max(*height);
@@ -198,7 +198,7 @@ fn add<const SPREAD: bool, const LYING: bool, const MIRROR: bool>(
     wave: &FarWave,
     phase: f64,
     places: &Places,
-    sums: &mut [Eight; 7],
+    sums: &mut [Lanes8; 7],
 ) {
     for i in 0..8 {
         let mut turns = places.x[i] * wave.turns[0];

@@ -37,14 +37,14 @@ pub struct SpectralPeak {
 
 impl SpectralPeak {
     /// The hump of an energy m0 (m2).
-    pub fn of_energy(energy: f64, peak: f64, exponent: f64, gamma: f64) -> Self {
+    pub fn from_energy(energy: f64, peak: f64, exponent: f64, gamma: f64) -> Self {
         let unit = SpectralPeak { peak: 1.0, exponent, gamma, scale: 1.0 };
-        let whole = Spectrum::of_humps(vec![unit], None).moment(0);
+        let whole = Spectrum::from_peaks(vec![unit], None).moment(0);
         SpectralPeak { peak, exponent, gamma, scale: energy / (whole * peak) }
     }
 
     /// JONSWAP by Phillips' constant: `alpha g^2 w^-5 exp(-1.25 (wp/w)^4) gamma^..`.
-    pub fn of_alpha(alpha: f64, peak: f64, gamma: f64, gravity: f64) -> Self {
+    pub fn from_alpha(alpha: f64, peak: f64, gamma: f64, gravity: f64) -> Self {
         SpectralPeak { peak, exponent: 5.0, gamma, scale: alpha * gravity * gravity * peak.powi(-5) }
     }
 
@@ -115,7 +115,7 @@ pub struct Spectrum {
 
 impl Spectrum {
     /// The sum of humps, between two frequencies (rad/s) or over all.
-    pub fn of_humps(humps: Vec<SpectralPeak>, limits: Option<[f64; 2]>) -> Self {
+    pub fn from_peaks(humps: Vec<SpectralPeak>, limits: Option<[f64; 2]>) -> Self {
         let mut knots = Vec::with_capacity(humps.len() * (PANELS[0] + PANELS[1] + 1));
         let grow = |a: f64, b: f64, i: usize, n: usize| a * (b / a).powf(i as f64 / n as f64);
         for hump in &humps {
@@ -136,7 +136,7 @@ impl Spectrum {
     }
 
     /// A curve straight between its points: frequency (rad/s, growing), density (m2 s).
-    pub fn of_curve(points: Vec<(f64, f64)>, limits: Option<[f64; 2]>) -> Self {
+    pub fn from_curve(points: Vec<(f64, f64)>, limits: Option<[f64; 2]>) -> Self {
         let knots = points.iter().map(|p| p.0).collect();
         let mut made = Spectrum { humps: Vec::new(), free: None, curve: points, panels: Vec::new() };
         made.divide(knots, limits);
@@ -145,7 +145,7 @@ impl Spectrum {
 
     /// A density (m2 s) of any form of the frequency (rad/s) and parameters, between the first and the last of some frequencies and
     /// smooth between neighbours of them: Gauss' quadrature of eight nodes holds there.
-    pub fn of_form(form: fn(f64, &[f64]) -> f64, parameters: Vec<f64>, knots: Vec<f64>) -> Self {
+    pub fn from_form(form: fn(f64, &[f64]) -> f64, parameters: Vec<f64>, knots: Vec<f64>) -> Self {
         Spectrum::of_scaled_form(FreeForm { form, parameters, knots, scale: [1.0, 1.0] }, None)
     }
 
@@ -326,14 +326,14 @@ impl Spectrum {
         let density = m0 / (whole * factor);
         if !self.curve.is_empty() {
             let points = self.curve.iter().map(|(w, s)| (w * factor, s * density)).collect();
-            return Spectrum::of_curve(points, limits).with_energy();
+            return Spectrum::from_curve(points, limits).with_energy();
         }
         if let Some(free) = &self.free {
             let scale = [free.scale[0] * factor, free.scale[1] * density];
             return Spectrum::of_scaled_form(FreeForm { scale, ..free.clone() }, limits).with_energy();
         }
         let scale = |h: &SpectralPeak| SpectralPeak { peak: h.peak * factor, scale: h.scale * density, ..*h };
-        Spectrum::of_humps(self.humps.iter().map(scale).collect(), limits).with_energy()
+        Spectrum::from_peaks(self.humps.iter().map(scale).collect(), limits).with_energy()
     }
 
     /// Itself, when it has energy.

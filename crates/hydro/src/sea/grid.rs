@@ -12,7 +12,7 @@
 //! and take the direct sum.
 
 use super::super::parts::map_parts;
-use super::eight::{Eight, sin_cos};
+use super::simd_math::{Lanes8, sin_cos};
 use super::{Component, Sea};
 use multiversion::multiversion;
 use nalgebra::Vector3;
@@ -85,8 +85,8 @@ struct Phasors {
     sin: Vec<f64>,
 }
 
-impl FromIterator<[Eight; 2]> for Phasors {
-    fn from_iter<I: IntoIterator<Item = [Eight; 2]>>(blocks: I) -> Self {
+impl FromIterator<[Lanes8; 2]> for Phasors {
+    fn from_iter<I: IntoIterator<Item = [Lanes8; 2]>>(blocks: I) -> Self {
         let mut made = Phasors::default();
         for [cos, sin] in blocks {
             made.cos.extend(cos);
@@ -96,13 +96,13 @@ impl FromIterator<[Eight; 2]> for Phasors {
     }
 }
 
-/// Eight waves; those that fill up the last block have no amplitude.
+/// Lanes8 waves; those that fill up the last block have no amplitude.
 #[derive(Clone, Copy, Debug)]
 struct Block {
-    k: Eight,
-    w: Eight,
-    amplitude: Eight,
-    phase: Eight,
+    k: Lanes8,
+    w: Lanes8,
+    amplitude: Lanes8,
+    phase: Lanes8,
 }
 
 /// The values of one instant.
@@ -222,11 +222,11 @@ impl PressureGrid {
 
 impl Block {
     /// Amplitudes times cosine and sine of `k begin - w t + phase`.
-    fn phasors(&self, time: f64, begin: f64, factor: f64) -> [Eight; 2] {
+    fn phasors(&self, time: f64, begin: f64, factor: f64) -> [Lanes8; 2] {
         // whole turns are taken off each term first, so that neither a long run nor a far origin costs digits
         let angle = |i: usize| (self.k[i] * begin) % TAU - (self.w[i] * time) % TAU + self.phase[i];
         let (sin, cos) = sin_cos(&std::array::from_fn(angle));
-        let scaled = |part: Eight| std::array::from_fn(|i| factor * self.amplitude[i] * part[i]);
+        let scaled = |part: Lanes8| std::array::from_fn(|i| factor * self.amplitude[i] * part[i]);
         [scaled(cos), scaled(sin)]
     }
 }

@@ -12,7 +12,7 @@ use windlass_model::{Division, Phasing};
 const GRAVITY: f64 = 9.80665;
 
 fn issc() -> Spectrum {
-    Spectrum::of_humps(jonswap(4.0, 10.0, PeriodType::Peak, 1.0), None)
+    Spectrum::from_peaks(jonswap(4.0, 10.0, PeriodType::Peak, 1.0), None)
 }
 
 fn component(frequency: f64, amplitude: f64, toward: [f64; 2], phase: f64, depth: Option<f64>) -> Component {
@@ -79,11 +79,11 @@ fn ochi_and_hubble_matches_wafo() {
     // pywafo, wafo/spectrum/models.py, OchiHubble(par=2), Hm0 = 7 m: printed S(1), S(2), S(3)
     let fall = |a: f64, b: f64| a * (-b * 7.0f64).exp();
     let parts = [[0.84 * 7.0, fall(0.41, 0.016), 2.55], [0.54 * 7.0, fall(0.88, 0.026), fall(1.82, 0.089)]];
-    let spectrum = Spectrum::of_humps(ochi_hubble(parts).unwrap(), None);
+    let spectrum = Spectrum::from_peaks(ochi_hubble(parts).unwrap(), None);
     for (w, s) in [(1.0, 0.901_556_36), (2.0, 0.041_854_45), (3.0, 0.005_832_07)] {
         assert!((spectrum.density(w) - s).abs() < 1e-8, "{w}: {}", spectrum.density(w));
     }
-    let all = Spectrum::of_humps(ochi_hubble(most_probable(7.0)).unwrap(), None);
+    let all = Spectrum::from_peaks(ochi_hubble(most_probable(7.0)).unwrap(), None);
     // 0.84^2 + 0.54^2 = 0.9972
     assert!((all.moment(0) * 16.0 / 49.0 - 0.9972).abs() < 1e-12);
     assert!(ochi_hubble(most_probable(40.0)).is_err());
@@ -93,7 +93,7 @@ fn ochi_and_hubble_matches_wafo() {
 fn torsethaugen_keeps_height_and_peak_periods_of_its_model() {
     for (height, period) in [(3.0, 7.0), (3.0, 9.0), (8.0, 14.0), (2.0, 18.0), (12.0, 15.5)] {
         let humps = torsethaugen(height, period).unwrap();
-        let spectrum = Spectrum::of_humps(humps.clone(), None);
+        let spectrum = Spectrum::from_peaks(humps.clone(), None);
         assert!((4.0 * spectrum.moment(0).sqrt() / height - 1.0).abs() < 1e-6, "{height} {period}");
         assert!((humps[0].peak - TAU / period).abs() < 1e-12);
     }

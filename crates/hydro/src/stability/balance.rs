@@ -4,7 +4,7 @@
 
 use super::slabs::WaterSlabs;
 use super::static_wave::StaticWave;
-use crate::hull::Wet;
+use crate::hull::SubmergedVolume;
 use crate::{BodyLoad, Category, Floating, Load};
 use nalgebra::{Matrix3, Rotation3, Vector2, Vector3};
 use windlass_base::dense::{Lu, never};
@@ -200,7 +200,7 @@ impl StillBody {
     ///
     /// # Errors
     /// As [`StillBody::water`].
-    pub fn wet(&self, attitude: &Attitude) -> Result<Wet, ClassError> {
+    pub fn wet(&self, attitude: &Attitude) -> Result<SubmergedVolume, ClassError> {
         Ok(self.wet_and_skin(attitude)?.0)
     }
 
@@ -208,11 +208,11 @@ impl StillBody {
     ///
     /// # Errors
     /// As [`StillBody::water`].
-    pub fn wet_and_skin(&self, attitude: &Attitude) -> Result<(Wet, f64), ClassError> {
+    pub fn wet_and_skin(&self, attitude: &Attitude) -> Result<(SubmergedVolume, f64), ClassError> {
         let (pose, water) = (attitude.pose(), self.wave.map(|_| self.water(attitude)).transpose()?);
-        let (mut sum, mut skin) = (Wet::default(), 0.0);
+        let (mut sum, mut skin) = (SubmergedVolume::default(), 0.0);
         for immersed in self.loads().filter_map(|load| load.as_immersed()) {
-            let mut own = Wet::default();
+            let mut own = SubmergedVolume::default();
             match &water {
                 None => own = immersed.wet(&pose),
                 Some(water) => immersed.wet_slabs(&pose, water).iter().for_each(|wet| own.add(wet, 1.0)),
@@ -237,7 +237,7 @@ impl StillBody {
         for load in self.loads().filter(|load| is_still(load.category())) {
             let (mut made, heavy) = match (&water, load.as_immersed()) {
                 (Some(water), Some(immersed)) => {
-                    let mut wet = Wet::default();
+                    let mut wet = SubmergedVolume::default();
                     immersed.wet_slabs(&pose, water).iter().for_each(|slab| wet.add(slab, 1.0));
                     (wet.load(immersed.lift()), load.category() != Category::Buoyancy)
                 }

@@ -6,7 +6,7 @@
 //! the water's surface, so that neither cut needs a lid: the sums over the wet skin, cut at both, are the integrals over the volume. The
 //! area of the waterplane is the flux of (0, 0, 1) out of it, less that of the skin.
 
-use crate::hull::{Surface, Wet};
+use crate::hull::{SubmergedVolume, Surface};
 use nalgebra::{Vector2, Vector3};
 use windlass_base::pose::Pose;
 
@@ -51,7 +51,7 @@ impl WaterSlabs {
     }
 
     /// What of a surface is wet in a pose, slab by slab, times a factor.
-    pub fn add_surface(&self, surface: &Surface, pose: &Pose, factor: f64, sums: &mut [Wet]) {
+    pub fn add_surface(&self, surface: &Surface, pose: &Pose, factor: f64, sums: &mut [SubmergedVolume]) {
         let placed: Vec<Vector3<f64>> = surface.vertices.iter().map(|p| pose.axes * p).collect();
         let at = |n: u32| placed.get(n as usize).copied();
         for &[a, b, c] in &surface.faces {
@@ -96,7 +96,7 @@ fn keep_negative(polygon: &[Corner], value: impl Fn(&Corner) -> f64) -> Vec<Corn
 }
 
 /// Adds the integrals of a convex part of the wet skin.
-fn add_polygon(polygon: &[Corner], factor: f64, sum: &mut Wet) {
+fn add_polygon(polygon: &[Corner], factor: f64, sum: &mut SubmergedVolume) {
     let [first, rest @ ..] = polygon else { return };
     for pair in rest.windows(2) {
         let [second, third] = pair else { continue };

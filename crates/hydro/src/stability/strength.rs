@@ -8,7 +8,7 @@
 use super::balance::{Attitude, StillBody};
 use super::slabs::WaterSlabs;
 use crate::Category;
-use crate::hull::Wet;
+use crate::hull::SubmergedVolume;
 use crate::tank::{Tank, compartments_of};
 use nalgebra::Vector3;
 use windlass_model::{Body, ClassError, Model};
@@ -206,7 +206,7 @@ fn gather(
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
     let slabs = WaterSlabs { ahead: water.ahead, stations: cuts.iter().map(|at| [*at, water.level(*at)]).collect() };
-    let forces = |wets: &[Wet], lift: f64| -> Vec<[f64; 2]> {
+    let forces = |wets: &[SubmergedVolume], lift: f64| -> Vec<[f64; 2]> {
         wets.iter().map(|wet| [lift * wet.volume, lift * slabs.ahead.dot(&wet.moment.xy())]).collect()
     };
     let add = |sums: &mut Vec<[f64; 2]>, more: Vec<[f64; 2]>| {

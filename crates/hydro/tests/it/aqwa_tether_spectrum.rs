@@ -14,7 +14,7 @@ const LIMITS: [f64; 2] = [0.37, 2.5];
 
 /// JONSWAP by gamma 5.2273, alpha 0.01146, peak 0.6411 rad/s: the JONS card.
 fn hump() -> SpectralPeak {
-    SpectralPeak::of_alpha(0.01146, 0.6411, 5.2273, GRAVITY)
+    SpectralPeak::from_alpha(0.01146, 0.6411, 5.2273, GRAVITY)
 }
 
 /// Line, wave number, frequency, phase, ordinate.
@@ -26,7 +26,7 @@ fn printed() -> Vec<Vec<f64>> {
 
 #[test]
 fn significant_height_matches_listing_over_all_and_within_limits() {
-    let height = |limits| 4.0 * Spectrum::of_humps(vec![hump()], limits).moment(0).sqrt();
+    let height = |limits| 4.0 * Spectrum::from_peaks(vec![hump()], limits).moment(0).sqrt();
     // printed to three decimals; alpha has four digits, so its half unit is 2.2e-4 of the energy, 1.1e-4 of the height
     assert!((height(None) - 6.302).abs() < 1e-3, "{}", height(None));
     assert!((height(Some(LIMITS)) - 6.293).abs() < 1e-3, "{}", height(Some(LIMITS)));
@@ -34,7 +34,7 @@ fn significant_height_matches_listing_over_all_and_within_limits() {
 
 #[test]
 fn fifty_equal_energy_components_match_listing() {
-    let spectrum = Spectrum::of_humps(vec![hump()], Some(LIMITS));
+    let spectrum = Spectrum::from_peaks(vec![hump()], Some(LIMITS));
     let bands = bands(&spectrum, 50, Division::EqualEnergy, true).unwrap();
     let lines = printed();
     assert_eq!((bands.len(), lines.len()), (50, 50));

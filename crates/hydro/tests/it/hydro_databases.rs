@@ -347,7 +347,7 @@ fn incomplete_file_reports_missing_part() {
     refused(&[text("w.1", "8 3 3 nan 1\n")], "w.1, line 1: `nan` is no finite number");
     refused(&[text("w.1", "8 3 3 1e999 1\n")], "no finite number");
     refused(&[text("w.1", "8 3 9 1 1\n")], "is of a second body");
-    refused(&[text("w.1", "8 3 0 1 1\n")], "no number of a mode");
+    refused(&[text("w.1", "8 3 0 1 1\n")], "not a valid number of a mode");
     refused(&[text("w.1", "8 3\n")], "2 numbers stand here, 4 are expected");
     refused(&[text("w.1", "")], "no rows of numbers");
     refused(&[text("w.1", good), text("w.3", "8 0 3 1 0 1 0\n")], "lacks the frequency (rad/s) 1.04720");

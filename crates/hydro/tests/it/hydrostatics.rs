@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::hull::{
-    Fault, HullError, Hydrostatics, MeshKind, Solid, Surface, TubeHull, Wet, intersect, read_mesh,
+    Fault, HullError, Hydrostatics, MeshKind, Solid, SubmergedVolume, Surface, TubeHull, intersect, read_mesh,
 };
 
 const WATER: f64 = 1025.0 * 9.81;
@@ -23,7 +23,7 @@ fn close(a: f64, b: f64, tolerance: f64, what: &str) {
 }
 
 /// All integrals of two agree, each to a part of the size to its power.
-fn agree(a: &Wet, b: &Wet, size: f64, part: f64, what: &str) {
+fn agree(a: &SubmergedVolume, b: &SubmergedVolume, size: f64, part: f64, what: &str) {
     close(a.volume, b.volume, part * size.powi(3), &format!("{what}: volume"));
     for i in 0..3 {
         close(a.moment[i], b.moment[i], part * size.powi(4), &format!("{what}: moment {i}"));
@@ -202,7 +202,7 @@ fn cube_corner_down_displaces_pyramid_and_half_cube_at_its_hexagon() {
 fn faces_in_surface_are_dry_and_volumes_are_continuous() {
     let block = Surface::block([0.0; 3], [2.0, 3.0, 4.0]);
     let level = |z: f64| block.wet(&Pose::default(), z);
-    assert_eq!(level(0.0), Wet::default());
+    assert_eq!(level(0.0), SubmergedVolume::default());
     assert_eq!((level(4.0).volume, level(4.0).plane_area), (24.0, 6.0));
     assert_eq!((level(4.5).volume, level(4.5).plane_area), (24.0, 0.0));
     assert_eq!(level(4.5).wetted_area, block.wet(&Pose::default(), 1e3).wetted_area);
@@ -264,7 +264,7 @@ fn upright_tube_volume_is_section_times_draft() {
     // its head just awash and just covered
     assert!(tube.wet(&pose([0.0, 0.0, -10.0], [0.0; 3]), 0.0).plane_area > 28.0);
     assert_eq!(tube.wet(&pose([0.0, 0.0, -10.1], [0.0; 3]), 0.0).plane_area, 0.0);
-    assert_eq!(tube.wet(&pose([0.0, 0.0, 20.0], [0.0; 3]), 0.0), Wet::default());
+    assert_eq!(tube.wet(&pose([0.0, 0.0, 20.0], [0.0; 3]), 0.0), SubmergedVolume::default());
 }
 
 #[test]
@@ -453,8 +453,8 @@ fn platform() -> Vec<TubeHull> {
     tubes
 }
 
-fn floating(pose: &Pose) -> Wet {
-    let mut wet = Wet::default();
+fn floating(pose: &Pose) -> SubmergedVolume {
+    let mut wet = SubmergedVolume::default();
     for tube in platform() {
         wet.add(&tube.wet(pose, 0.0), 1.0);
     }
@@ -545,10 +545,10 @@ fn permeability_and_interior_scale_by_their_factor() {
     wet.add(&inner.wet(&at, 0.0), -1.0);
     close(wet.volume, 12.0 * 1.5, 1e-13, "moon pool");
     close(wet.plane_second[0], (256.0 - 16.0) / 12.0, 1e-13, "its second moment");
-    let mut porous = Wet::default();
+    let mut porous = SubmergedVolume::default();
     porous.add(&outer.wet(&at, 0.0), 0.95);
     close(porous.volume, 0.95 * 24.0, 1e-13, "permeability");
-    assert!(Hydrostatics::new(&Wet::default(), &at, Vector3::zeros(), WATER).is_none());
+    assert!(Hydrostatics::new(&SubmergedVolume::default(), &at, Vector3::zeros(), WATER).is_none());
 }
 
 // what is wrong with a mesh
@@ -699,7 +699,7 @@ fn text_and_binary_stl_give_same_cube() {
     );
     let wrong = text.replacen("vertex 0", "vertex zero", 1);
     let error = read_mesh(MeshKind::Stl, wrong.as_bytes()).unwrap_err();
-    assert!(error.to_string().contains("`zero` is no number"), "{error}");
+    assert!(error.to_string().contains("`zero` is not a number"), "{error}");
 }
 
 #[test]

@@ -103,7 +103,7 @@ fn invalid_bathymetry_is_refused_with_reason() {
     assert!(new(&[0.0, 0.0], &[0.0, 1.0], &[0.0; 4]).contains("x of the bottom must grow"));
     assert!(new(&[0.0, f64::NAN], &[0.0, 1.0], &[0.0; 4]).contains("x of the bottom must grow"));
     assert!(new(&[0.0, 1.0], &[0.0, 1.0], &[0.0; 3]).contains("have 4 heights, not 3"));
-    assert!(new(&[0.0, 1.0], &[0.0, 1.0], &[0.0, 0.0, f64::INFINITY, 0.0]).contains("no number"));
+    assert!(new(&[0.0, 1.0], &[0.0, 1.0], &[0.0, 0.0, f64::INFINITY, 0.0]).contains("not finite"));
     let many: Vec<f64> = (0..3000).map(f64::from).collect();
     assert!(new(&many, &many, &[]).contains("3000 by 3000 points asks for 288 MB"));
     assert!(fits(usize::MAX, 3).is_err());
@@ -114,7 +114,7 @@ fn invalid_bathymetry_is_refused_with_reason() {
     let inner = of(&[[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0]]);
     assert!(inner.contains("without a height is x = 1 m, y = 0 m"), "{inner}");
     assert!(of(&[[0.0, 0.0, -1.0], [0.0, 0.0, -2.0]]).contains("given twice: -1 m and -2 m"));
-    assert!(of(&[[0.0, 0.0, f64::NAN]]).contains("no number"));
+    assert!(of(&[[0.0, 0.0, f64::NAN]]).contains("not finite"));
 }
 
 #[test]

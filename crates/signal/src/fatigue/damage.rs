@@ -23,10 +23,10 @@ pub struct Damage {
 ///
 /// # Errors
 /// A damage that is no number: ranges beyond all meaning.
-pub fn of_cycles(cycles: &[RainflowCycle], curve: &SnCurve, mean: f64) -> Result<Damage, SeriesError> {
+pub fn cycle_damage(cycles: &[RainflowCycle], curve: &SnCurve, mean: f64) -> Result<Damage, SeriesError> {
     let sum: f64 = cycles.iter().map(|c| c.count * curve.damage(c.range, mean)).sum();
     if !sum.is_finite() {
-        return Err(SeriesError::Refused(format!("the damage by curve {} is no number", curve.name)));
+        return Err(SeriesError::Refused(format!("the damage by curve {} is not finite", curve.name)));
     }
     Ok(Damage { sum, cycles: cycles.iter().map(|c| c.count).sum() })
 }
@@ -82,7 +82,7 @@ mod tests {
     fn damage_equals_cycles_over_cycles_to_failure() {
         let chain = find("CHAIN", &FatigueSelection::default()).unwrap();
         let cycles = [(0.1, 1.0), (0.2, 0.5)].map(|(range, count)| RainflowCycle { range, mean: 0.3, count });
-        let d = of_cycles(&cycles, &chain, 0.3).unwrap();
+        let d = cycle_damage(&cycles, &chain, 0.3).unwrap();
         // K 1000, M 3: 1/1e6 + 0.5/125e3
         assert!((d.sum - (1e-6 + 4e-6)).abs() < 1e-18 && d.cycles == 1.5, "{d:?}");
     }

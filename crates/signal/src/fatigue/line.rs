@@ -1,7 +1,7 @@
 //! Damage of a mooring line's segments from a record of their tension.
 
 use super::curve::SnCurve;
-use super::damage::{ScatterState, life, of_cycles, sum_damage};
+use super::damage::{ScatterState, cycle_damage, life, sum_damage};
 use crate::rainflow::{RainflowCycle, cycles};
 use crate::{SeriesError, statistics};
 use windlass_model::{FatigueKind, FatigueSegment, ThicknessCorrection};
@@ -106,7 +106,7 @@ fn segment_damage(
         .iter()
         .map(|c| RainflowCycle { range: c.range * factor, mean: c.mean * factor, count: c.count })
         .collect();
-    let damage = of_cycles(&ranges, curve, mean)?;
+    let damage = cycle_damage(&ranges, curve, mean)?;
     Ok(SegmentDamage {
         segment: number,
         curve: curve.name.clone(),

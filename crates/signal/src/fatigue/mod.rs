@@ -7,6 +7,6 @@ pub mod line;
 pub mod spectral;
 
 pub use curve::{CurveBranch, SnCurve};
-pub use damage::{Damage, ScatterState, life, of_cycles, sum_damage};
+pub use damage::{Damage, ScatterState, cycle_damage, life, sum_damage};
 pub use library::{find, library};
 pub use line::{Exposure, LineDamage, Loaded, SegmentDamage, SegmentLife, line_damage, line_life};

@@ -45,7 +45,7 @@ fn sum_branches(
         }
     }
     let sum = sum * 10f64.powf(-curve.mean_slope * mean);
-    if sum.is_finite() { Ok(sum) } else { Err(SeriesError::Refused("the damage is no number".into())) }
+    if sum.is_finite() { Ok(sum) } else { Err(SeriesError::Refused("the damage is not finite".into())) }
 }
 
 /// Damage in a second of a narrow-banded process: up-crossings a second times the mean of 1/N over Rayleigh ranges. On one

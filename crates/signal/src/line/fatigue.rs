@@ -2,7 +2,7 @@
 //!
 //! Cycles are those of rainflow, damage is Palmgren's and Miner's sum, as for lines of the catenary classes ([`crate::fatigue`]).
 
-use crate::fatigue::{Loaded, SnCurve, line_damage, of_cycles};
+use crate::fatigue::{Loaded, SnCurve, cycle_damage, line_damage};
 use crate::rainflow::{RainflowCycle, cycles};
 use crate::{SeriesError, finite, statistics};
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -23,16 +23,16 @@ pub struct NodeRecord<'a> {
 
 /// How a tube is looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Round {
+pub struct TubeCircumference {
     /// Points round its circumference, the first in the direction that the first moment is about.
     pub points: usize,
     /// Stress concentration factor.
     pub concentration: f64,
 }
 
-impl Default for Round {
+impl Default for TubeCircumference {
     fn default() -> Self {
-        Round { points: 8, concentration: 1.0 }
+        TubeCircumference { points: 8, concentration: 1.0 }
     }
 }
 
@@ -60,7 +60,7 @@ pub struct NodeDamage {
 pub fn node_damage(
     node: &NodeRecord,
     thickness: Option<&ThicknessCorrection>,
-    round: &Round,
+    round: &TubeCircumference,
 ) -> Result<NodeDamage, SeriesError> {
     match (node.segment.thickness, node.bends, node.curve.kind) {
         (Some(wall), Some(bends), FatigueKind::Stress) => of_tube(node, (wall, bends), thickness, round),
@@ -84,7 +84,7 @@ fn of_tube(
     node: &NodeRecord,
     (wall, [about_one, about_other]): (f64, [&[f64]; 2]),
     thickness: Option<&ThicknessCorrection>,
-    round: &Round,
+    round: &TubeCircumference,
 ) -> Result<NodeDamage, SeriesError> {
     if !(1..=MAX_CIRCUMFERENCE_POINTS).contains(&round.points) {
         let expected = "between 1 and 360";
@@ -127,7 +127,7 @@ fn of_tube(
             .iter()
             .map(|c| RainflowCycle { range: c.range * factor, mean: c.mean * factor, count: c.count })
             .collect();
-        let damage = of_cycles(&ranges, node.curve, mean)?;
+        let damage = cycle_damage(&ranges, node.curve, mean)?;
         if damage.sum > worst.damage {
             let largest = found.iter().map(|c| c.range * round.concentration).fold(0.0, f64::max);
             worst = NodeDamage { damage: damage.sum, cycles: damage.cycles, angle: Some(angle), largest };
@@ -172,7 +172,8 @@ mod tests {
         let (one, other) = (record(1e5 * cosine, 0.0), record(1e5 * sine, 0.0));
         let tension = vec![1e6; 101];
         let node = NodeRecord { segment: &segment, curve: &curve, tension: &tension, bends: Some([&one, &other]) };
-        let found = node_damage(&node, None, &Round { points: 12, ..Round::default() }).unwrap();
+        let found =
+            node_damage(&node, None, &TubeCircumference { points: 12, ..TubeCircumference::default() }).unwrap();
         let range = 2e5 * 0.15 / (std::f64::consts::PI / 64.0 * (0.3f64.powi(4) - 0.26f64.powi(4)));
         assert!((found.largest / range - 1.0).abs() < 1e-12);
         // S-N curve D in sea water with free corrosion: log10 a 11.687, slope 3 [DNV-RP-C203]
@@ -181,7 +182,7 @@ mod tests {
         let degrees = found.angle.unwrap().to_degrees();
         assert!((degrees - 150.0).abs() < 1e-9 || (degrees - 330.0).abs() < 1e-9, "{degrees}");
         // stress twice as large, by the slope of 3
-        let twice = node_damage(&node, None, &Round { points: 12, concentration: 2.0 }).unwrap();
+        let twice = node_damage(&node, None, &TubeCircumference { points: 12, concentration: 2.0 }).unwrap();
         assert!((twice.damage / found.damage - 8.0).abs() < 1e-9);
     }
 
@@ -193,8 +194,9 @@ mod tests {
         let other: Vec<f64> = (0..161).map(|i| 1e5 * turn(i).sin()).collect();
         let tension = vec![1e6; 161];
         let node = NodeRecord { segment: &segment, curve: &curve, tension: &tension, bends: Some([&one, &other]) };
-        let [first, all] =
-            [1, 8].map(|points| node_damage(&node, None, &Round { points, ..Round::default() }).unwrap());
+        let [first, all] = [1, 8].map(|points| {
+            node_damage(&node, None, &TubeCircumference { points, ..TubeCircumference::default() }).unwrap()
+        });
         // of twenty turns the part that is not whole differs from point to point
         assert!((all.damage / first.damage - 1.0).abs() < 0.05, "{first:?} {all:?}");
     }
@@ -207,8 +209,9 @@ mod tests {
         let node = NodeRecord { segment: &segment, curve: &curve, tension: &tension, bends };
         let thick = ThicknessCorrection { reference: 0.01, power: 0.25, most: 2.0 };
         for correction in [None, Some(&thick)] {
-            let round = node_damage(&node, correction, &Round::default()).unwrap();
-            let line = node_damage(&NodeRecord { bends: None, ..node }, correction, &Round::default()).unwrap();
+            let round = node_damage(&node, correction, &TubeCircumference::default()).unwrap();
+            let line =
+                node_damage(&NodeRecord { bends: None, ..node }, correction, &TubeCircumference::default()).unwrap();
             assert!((round.damage / line.damage - 1.0).abs() < 1e-9, "{round:?} {line:?}");
             assert!((round.largest / line.largest - 1.0).abs() < 1e-9);
         }
@@ -220,7 +223,7 @@ mod tests {
         let curve = find("CHAIN", &FatigueSelection::default()).unwrap();
         let tension = record(1e5, 1e6);
         let node = NodeRecord { segment: &segment, curve: &curve, tension: &tension, bends: None };
-        let found = node_damage(&node, None, &Round::default()).unwrap();
+        let found = node_damage(&node, None, &TubeCircumference::default()).unwrap();
         // [API-RP-2SK]: K 1000, M 3
         assert!((found.damage / (50.0 * 0.04f64.powi(3) / 1000.0) - 1.0).abs() < 1e-12);
         assert!((found.largest - 0.04).abs() < 1e-12 && found.angle.is_none());
@@ -232,10 +235,13 @@ mod tests {
         let (tension, short) = (record(2e5, 1e6), vec![0.0; 100]);
         let bends: Option<[&[f64]; 2]> = Some([&short, &short]);
         let node = NodeRecord { segment: &segment, curve: &curve, tension: &tension, bends };
-        assert!(node_damage(&node, None, &Round::default()).is_err());
+        assert!(node_damage(&node, None, &TubeCircumference::default()).is_err());
         let bends: Option<[&[f64]; 2]> = Some([&tension, &tension]);
         let node = NodeRecord { bends, ..node };
-        assert!(node_damage(&node, None, &Round { points: 0, ..Round::default() }).is_err());
-        assert!(node_damage(&node, None, &Round { concentration: 0.0, ..Round::default() }).is_err());
+        assert!(node_damage(&node, None, &TubeCircumference { points: 0, ..TubeCircumference::default() }).is_err());
+        assert!(
+            node_damage(&node, None, &TubeCircumference { concentration: 0.0, ..TubeCircumference::default() })
+                .is_err()
+        );
     }
 }

@@ -71,7 +71,7 @@ impl CheckedTube {
 
 /// What acts on a section of a tube at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Acting {
+pub struct SectionLoads {
     /// Bending moment (N m); its sign does not matter.
     pub moment: f64,
     /// Effective tension (N); compression is negative.

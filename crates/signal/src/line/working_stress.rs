@@ -5,7 +5,7 @@
 //! usage 0.67, 0.8 and 1.0 for operating, extreme and survival loads [BAI-2001 table 21.2]. Its text
 //! could not be read, so equation numbers are not given.
 
-use super::{Acting, CheckedTube};
+use super::{CheckedTube, SectionLoads};
 use crate::SeriesError;
 use windlass_base::choices;
 
@@ -35,10 +35,10 @@ impl DesignCase {
 }
 
 /// Von Mises stress (Pa) at the middle of the wall, the larger of the two sides of the bend.
-pub fn membrane(tube: &CheckedTube, acting: &Acting) -> f64 {
+pub fn membrane(tube: &CheckedTube, acting: &SectionLoads) -> f64 {
     let (outer, bore) = (tube.diameter, tube.bore());
     let [whole, hole] = tube.areas();
-    let Acting { moment, wall, inside, outside, .. } = *acting;
+    let SectionLoads { moment, wall, inside, outside, .. } = *acting;
     let radial = -(outside * outer + inside * bore) / (outer + bore);
     let hoop = (inside - outside) * outer / (2.0 * tube.wall) - inside;
     let bending = moment * (outer - tube.wall) / (2.0 * tube.second_moment());
@@ -54,7 +54,7 @@ pub fn membrane(tube: &CheckedTube, acting: &Acting) -> f64 {
 ///
 /// # Errors
 /// What is no tube.
-pub fn utilisation(tube: &CheckedTube, acting: &Acting, case: DesignCase) -> Result<f64, SeriesError> {
+pub fn utilisation(tube: &CheckedTube, acting: &SectionLoads, case: DesignCase) -> Result<f64, SeriesError> {
     tube.check()?;
     Ok(membrane(tube, acting) / (case.factor() * 2.0 / 3.0 * tube.yield_stress))
 }
@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn tension_alone_equals_von_mises_stress() {
         let area = std::f64::consts::PI * 0.28 * 0.02;
-        let acting = Acting { wall: area * 2e8, ..Acting::default() };
+        let acting = SectionLoads { wall: area * 2e8, ..SectionLoads::default() };
         assert!((membrane(&TUBE, &acting) / 2e8 - 1.0).abs() < 1e-12);
         for (case, want) in [(DesignCase::Operating, 0.75), (DesignCase::Extreme, 0.625), (DesignCase::Survival, 0.5)] {
             assert!((utilisation(&TUBE, &acting, case).unwrap() - want).abs() < 1e-12);
@@ -81,17 +81,17 @@ mod tests {
         // a solid state of equal pressure on all sides has no von Mises stress: wall tension is that of capped ends
         let [whole, hole] = TUBE.areas();
         let p = 3e7;
-        let acting = Acting { wall: -p * (whole - hole), inside: p, outside: p, ..Acting::default() };
+        let acting = SectionLoads { wall: -p * (whole - hole), inside: p, outside: p, ..SectionLoads::default() };
         assert!(membrane(&TUBE, &acting) < 1e-3, "{}", membrane(&TUBE, &acting));
     }
 
     #[test]
     fn bending_stress_is_at_mid_wall_on_its_worse_side() {
-        let acting = Acting { moment: 1e5, ..Acting::default() };
+        let acting = SectionLoads { moment: 1e5, ..SectionLoads::default() };
         let want = 1e5 * 0.14 / TUBE.second_moment();
         assert!((membrane(&TUBE, &acting) / want - 1.0).abs() < 1e-12);
-        let pulled = Acting { wall: -1e6, ..acting };
-        let pushed = Acting { wall: 1e6, ..acting };
+        let pulled = SectionLoads { wall: -1e6, ..acting };
+        let pushed = SectionLoads { wall: 1e6, ..acting };
         assert!((membrane(&TUBE, &pulled) - membrane(&TUBE, &pushed)).abs() < 1e-6);
         assert!(utilisation(&CheckedTube { wall: 0.2, ..TUBE }, &acting, DesignCase::Operating).is_err());
     }

@@ -55,13 +55,13 @@ pub struct Ranges {
 
 impl Ranges {
     /// Counts of no cycles, for bins of this width.
-    pub fn of_width(width: f64) -> Ranges {
+    pub fn from_width(width: f64) -> Ranges {
         Ranges { width, counts: [0; STRESS_RANGE_BINS] }
     }
 
     /// Counts the half cycles of a series. What is beyond the last bin counts there.
     pub fn count(values: &[f64], width: f64) -> Ranges {
-        let mut ranges = Ranges::of_width(width);
+        let mut ranges = Ranges::from_width(width);
         for range in half_cycles(values) {
             let bin = if width > 0.0 { (range / width) as usize } else { 0 };
             if let Some(count) = ranges.counts.get_mut(bin.min(STRESS_RANGE_BINS - 1)) {
@@ -100,8 +100,8 @@ pub fn life_days(damage_rate: f64) -> f64 {
     (1.0 / (damage_rate * 86_400.0)).min(LONGEST_LIFE)
 }
 
-/// Peak expected of a Rayleigh-distributed stress: |mean| + rms sqrt(2 ln n) with the number n of cycles in the time (3.7,
-/// misprint mended). With less than one cycle, the mean alone.
+/// Peak expected of a Rayleigh-distributed stress: |mean| + rms sqrt(2 ln n) with the number n of cycles in the time [AQWA-TETHER 3.7],
+/// with a misprint mended. With less than one cycle, the mean alone.
 pub fn expected_peak(mean: f64, rms: f64, cycles: f64) -> f64 {
     mean.abs() + rms * (2.0 * cycles.max(1.0).ln()).sqrt()
 }
@@ -214,7 +214,7 @@ fn of_end(end: &EndRecord, width: f64, asked: FatigueSettings) -> EndFatigue {
         peak_angle: 0.0,
         peak_cycles: 0.0,
         expected_peak: -1.0,
-        ranges: Ranges::of_width(width),
+        ranges: Ranges::from_width(width),
     };
     for step in 0..CIRCUMFERENCE_POINTS {
         let angle = (step as f64 * 10.0).to_radians();

@@ -13,7 +13,7 @@ pub enum ConnectorState {
     /// It does not act.
     Inactive,
     /// It acts.
-    Acting,
+    SectionLoads,
     /// It acts, and no shape was found: straight between its ends.
     Unsolved,
 }
@@ -99,13 +99,13 @@ impl Strand {
         let (shape, state) = match (active, self.line) {
             (false, _) => (self.straight(model, connector, 0.0), ConnectorState::Inactive),
             (true, _) if self.has_stored_nodes(columns) => match moved() {
-                Some(shape) => (shape, ConnectorState::Acting),
+                Some(shape) => (shape, ConnectorState::SectionLoads),
                 None => (self.straight(model, connector, pull), ConnectorState::Unsolved),
             },
-            (true, false) => (self.straight(model, connector, pull), ConnectorState::Acting),
+            (true, false) => (self.straight(model, connector, pull), ConnectorState::SectionLoads),
             (true, true) => match hanging(model, connector, self.count) {
-                Ok(Some(shape)) => (shape, ConnectorState::Acting),
-                Ok(None) => (self.straight(model, connector, pull), ConnectorState::Acting),
+                Ok(Some(shape)) => (shape, ConnectorState::SectionLoads),
+                Ok(None) => (self.straight(model, connector, pull), ConnectorState::SectionLoads),
                 Err(error) => {
                     self.error = Some(error.to_string());
                     (self.straight(model, connector, pull), ConnectorState::Unsolved)

@@ -3,7 +3,7 @@
 //! A dynamic line is where its nodes were, which the run kept. The shapes of others are solved exactly between the ends at the
 //! instant, whatever the forces of the run came from, as those of a [`Scene`](super::scene::Scene) are.
 
-mod between;
+mod interpolation;
 mod lines;
 mod sea;
 mod solid;
@@ -26,12 +26,12 @@ pub const MAX_NUMBERS: usize = 4_000_000;
 /// Most triangles of the bodies; a hull beyond is shown as a box.
 pub const MAX_TRIANGLES: usize = 60_000;
 /// Numbers of a body at an instant: origin and rotation.
-const OF_BODY: usize = 7;
+const VALUES_PER_BODY: usize = 7;
 /// Numbers of a point of a line at an instant: place, tension, share of break.
-const OF_POINT: usize = 5;
+const VALUES_PER_POINT: usize = 5;
 
 /// What of a run is shown.
-pub struct Take<'a> {
+pub struct FilmSelection<'a> {
     /// Whether a connector of this name is.
     pub connector: &'a dyn Fn(&str) -> bool,
     /// Whether a body of this name is; one on which a shown connector ends always is.
@@ -85,7 +85,7 @@ impl Film {
     ///
     /// # Errors
     /// A run without instants, or none in the window; more than a film bears; interrupted.
-    pub fn build(run: &Run, take: &Take) -> Result<Film, ClassError> {
+    pub fn build(run: &Run, take: &FilmSelection) -> Result<Film, ClassError> {
         let layout = &run.history.layout;
         let links: Vec<usize> = (0..layout.links.len())
             .filter(|n| layout.links.get(*n).is_some_and(|l| (take.connector)(&l.name)))
@@ -103,7 +103,8 @@ impl Film {
             return Err(ClassError::new("there is nothing to show: no body and no connector"));
         }
         let mut film = Film::default();
-        let rows = film.instants(run, take, bodies.len() * OF_BODY + links.len() * OF_POINT * take.points)?;
+        let rows =
+            film.instants(run, take, bodies.len() * VALUES_PER_BODY + links.len() * VALUES_PER_POINT * take.points)?;
         let mut model = run.model.clone();
         let surroundings = model.surroundings();
         (film.level, film.bottom) = (surroundings.tide, surroundings.depth.map(|d| -d));
@@ -135,7 +136,7 @@ impl Film {
     }
 
     /// The rows shown, thinned to what a film bears.
-    fn instants(&mut self, run: &Run, take: &Take, numbers: usize) -> Result<Vec<Vec<f64>>, ClassError> {
+    fn instants(&mut self, run: &Run, take: &FilmSelection, numbers: usize) -> Result<Vec<Vec<f64>>, ClassError> {
         let chosen = events(&run.history, take.window.as_ref())?;
         let times: Vec<f64> = chosen.iter().filter_map(|e| e.time(&run.history)).collect();
         let most = MAX_FRAMES.min(MAX_NUMBERS / numbers.max(1));
@@ -153,7 +154,7 @@ impl Film {
             ));
         }
         self.times = times.into_iter().step_by(step).collect();
-        Ok(between::rows(&run.history, &self.times))
+        Ok(interpolation::rows(&run.history, &self.times))
     }
 
     /// The bodies with their forms.
@@ -203,7 +204,7 @@ impl Film {
         if self.extent.iter().flatten().all(|c| c.is_finite()) {
             Ok(())
         } else {
-            Err(ClassError::new("something stands nowhere: a place of the run is no number"))
+            Err(ClassError::new("the film has a position that is not finite"))
         }
     }
 

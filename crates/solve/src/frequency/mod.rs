@@ -21,6 +21,6 @@ pub use linear::{LinearSystem, Motions};
 pub use natural::{Natural, natural};
 pub use operators::{Operator, Operators};
 pub use quantity::{Derivative, LinearQuantity};
-pub use response::{FrequencyResponse, ResponseOptions, ResponsePoint, in_sea, respond};
+pub use response::{FrequencyResponse, ResponseOptions, ResponsePoint, respond, sea_response};
 pub use statistics::{ExtremeKind, ResponseStatistics};
 pub use trains::Trains;

@@ -92,7 +92,7 @@ pub fn respond(
 ///
 /// # Errors
 /// As [`respond`].
-pub fn in_sea(
+pub fn sea_response(
     linear: &LinearSystem,
     trains: &Trains,
     asked: &ResponseOptions,
@@ -171,7 +171,7 @@ fn point(
         part.iter_mut().for_each(|v| *v *= energy.sqrt());
     }
     if parts.iter().flat_map(|p| p.iter()).any(|v| !(v.re.is_finite() && v.im.is_finite())) {
-        let text = "the motions at a period of {} are no numbers";
+        let text = "the motions at a period of {} are not finite";
         return Err(SolveError::new(ClassError::with_values(text, &[(TAU / frequency, Dim::Time)])));
     }
     let mut encounters = Vec::new();

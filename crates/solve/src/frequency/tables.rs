@@ -271,7 +271,7 @@ pub fn modes(linear: &LinearSystem) -> Result<[Table; 2], SolveError> {
         .column("", "Frequency", Dim::Frequency, Digits::Usual, |(_, n)| period(n).map(|t| TAU / t))
         .column("Damping", "Ratio", Dim::None, Digits::Scientific(4), |(_, n)| n.damping)
         .column("Moves Most", "Body", Dim::None, Digits::Usual, |(_, n)| &n.mode.most.0)
-        .column("Moves Most", "Freedom", Dim::None, Digits::Usual, |(_, n)| n.mode.most.1)
+        .column("Moves Most", "DOF", Dim::None, Digits::Usual, |(_, n)| n.mode.most.1)
         .build();
     let nodes = linear.system.nodes.iter().enumerate();
     let of_mode = |(index, n)| nodes.clone().map(move |(number, node)| (index, n, number, node));

@@ -1,7 +1,7 @@
 //! Where bodies go.
 
 use super::super::system::SolveError;
-use super::super::time::{OF_BODY, Run};
+use super::super::time::{Run, VALUES_PER_BODY};
 use super::{EventTable, Magnitude, RunEvent, group_head};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
@@ -22,7 +22,7 @@ pub struct MotionOptions {
 }
 
 /// A point of a body at an instant; global axes.
-pub(super) struct Moving {
+pub(super) struct PointMotion {
     /// Where the body is.
     pub pose: Pose,
     /// Roll, pitch, yaw (rad), without jumps from row to row.
@@ -37,8 +37,8 @@ pub(super) struct Moving {
 
 /// A point of a body, `own` in its system (m), whose values begin at `from` of a row:
 /// `v = v0 + w x r` and `a = a0 + dw/dt x r + w x (w x r)`.
-pub(super) fn find_motion(row: &[f64], from: usize, own: Vector3<f64>) -> Moving {
-    let mut values = [f64::NAN; OF_BODY];
+pub(super) fn find_motion(row: &[f64], from: usize, own: Vector3<f64>) -> PointMotion {
+    let mut values = [f64::NAN; VALUES_PER_BODY];
     for (value, stored) in values.iter_mut().zip(row.get(from..).unwrap_or_default()) {
         *value = *stored;
     }
@@ -48,7 +48,7 @@ pub(super) fn find_motion(row: &[f64], from: usize, own: Vector3<f64>) -> Moving
     let pose = Pose::from_place(&Place { shift: [x, y, z], turn });
     let arm = pose.axes * own;
     let (spin, gain) = (Vector3::new(wx, wy, wz), Vector3::new(bx, by, bz));
-    Moving {
+    PointMotion {
         pose,
         turn,
         at: pose.origin + arm,
@@ -148,7 +148,7 @@ impl Default for Displaced {
 }
 
 impl Displaced {
-    fn new(now: Moving, start: &Moving, local: bool) -> Self {
+    fn new(now: PointMotion, start: &PointMotion, local: bool) -> Self {
         let along = |v: Vector3<f64>| if local { now.pose.axes.transpose() * v } else { v };
         let ([roll, pitch, yaw], [roll0, pitch0, yaw0]) = (now.turn, start.turn);
         Displaced {

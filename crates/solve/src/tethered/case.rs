@@ -23,7 +23,7 @@ use windlass_tether::installed::{
 use windlass_tether::line::ElementLabel;
 use windlass_tether::modes::warn_of_fast_modes;
 use windlass_tether::structure::Structure;
-use windlass_tether::structure::afloat::Afloat;
+use windlass_tether::structure::floating_body::Afloat;
 use windlass_tether::structure::flow::{FlowWaves, WaterFlow};
 use windlass_tether::structure::tubes::{TubeMember, Tubes};
 use windlass_tether::structure::wave::DeepWave;
@@ -303,7 +303,7 @@ pub(super) fn installed_tether(
     let line = line(sections(model, connector))?;
     let mut springs = [EndSprings::default(); 2];
     for ((into, given), place) in springs.iter_mut().zip(ends.springs).zip(["vessel", "anchor"]) {
-        let (made, taken) = EndSprings::of_card(given);
+        let (made, taken) = EndSprings::from_card(given);
         *into = made;
         for taken in &taken {
             let text = format!(", {place}: {}", taken.text());

@@ -33,7 +33,7 @@ const fn quantity(
     TetherQuantity { code, group, name, dim, digits }
 }
 
-const FOUR: Digits = Digits::Scientific(4);
+const FOUR_DECIMALS: Digits = Digits::Scientific(4);
 const STRESS: Dim = windlass_signal::tether::tables::STRESS;
 const GROUPS: [&str; 3] = ["POSITION", "VELOCITY", "ACCELERATION"];
 const LINEAR: [(Dim, Digits); 3] = [
@@ -71,27 +71,27 @@ pub const INSTALLED_NODE: [TetherQuantity; 13] =
     of_nodes([["X", "Y", "RX", "RY"], ["VX", "VY", "VRX", "VRY"], ["AX", "AY", "ARX", "ARY"]]);
 /// Quantities of the ends of elements of a towed tether.
 pub const TOWED_END: [TetherQuantity; 7] = [
-    quantity("SY", "Shear Force", "Y", Dim::Force, FOUR),
-    quantity("SZ", "Shear Force", "Z", Dim::Force, FOUR),
-    quantity("MY", "Bending Moment", "Y", Dim::Moment, FOUR),
-    quantity("MZ", "Bending Moment", "Z", Dim::Moment, FOUR),
-    quantity("SMAX", "Bending Stress", "Max", STRESS, FOUR),
-    quantity("STY", "Bending Stress", "Y", STRESS, FOUR),
-    quantity("STZ", "Bending Stress", "Z", STRESS, FOUR),
+    quantity("SY", "Shear Force", "Y", Dim::Force, FOUR_DECIMALS),
+    quantity("SZ", "Shear Force", "Z", Dim::Force, FOUR_DECIMALS),
+    quantity("MY", "Bending Moment", "Y", Dim::Moment, FOUR_DECIMALS),
+    quantity("MZ", "Bending Moment", "Z", Dim::Moment, FOUR_DECIMALS),
+    quantity("SMAX", "Bending Stress", "Max", STRESS, FOUR_DECIMALS),
+    quantity("STY", "Bending Stress", "Y", STRESS, FOUR_DECIMALS),
+    quantity("STZ", "Bending Stress", "Z", STRESS, FOUR_DECIMALS),
 ];
 /// Quantities of the ends of elements of an installed tether.
 pub const INSTALLED_END: [TetherQuantity; 11] = [
-    quantity("EFF", "Tension", "Effective", Dim::Force, FOUR),
-    quantity("WALL", "Tension", "Wall", Dim::Force, FOUR),
-    quantity("SX", "Shear Force", "X", Dim::Force, FOUR),
-    quantity("SY", "Shear Force", "Y", Dim::Force, FOUR),
-    quantity("MX", "Bending Moment", "X", Dim::Moment, FOUR),
-    quantity("MY", "Bending Moment", "Y", Dim::Moment, FOUR),
-    quantity("SHEAR", "Stress", "Shear", STRESS, FOUR),
-    quantity("MAX", "Bending and Axial", "Max", STRESS, FOUR),
-    quantity("MIN", "Bending and Axial", "Min", STRESS, FOUR),
-    quantity("MISES", "Stress", "von Mises", STRESS, FOUR),
-    quantity("STY", "Stress", "Y Bending", STRESS, FOUR),
+    quantity("EFF", "Tension", "Effective", Dim::Force, FOUR_DECIMALS),
+    quantity("WALL", "Tension", "Wall", Dim::Force, FOUR_DECIMALS),
+    quantity("SX", "Shear Force", "X", Dim::Force, FOUR_DECIMALS),
+    quantity("SY", "Shear Force", "Y", Dim::Force, FOUR_DECIMALS),
+    quantity("MX", "Bending Moment", "X", Dim::Moment, FOUR_DECIMALS),
+    quantity("MY", "Bending Moment", "Y", Dim::Moment, FOUR_DECIMALS),
+    quantity("SHEAR", "Stress", "Shear", STRESS, FOUR_DECIMALS),
+    quantity("MAX", "Bending and Axial", "Max", STRESS, FOUR_DECIMALS),
+    quantity("MIN", "Bending and Axial", "Min", STRESS, FOUR_DECIMALS),
+    quantity("MISES", "Stress", "von Mises", STRESS, FOUR_DECIMALS),
+    quantity("STY", "Stress", "Y Bending", STRESS, FOUR_DECIMALS),
 ];
 
 /// A tether in time.
@@ -192,7 +192,7 @@ impl StructureHistory {
 
 /// What happened to a tether.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Happening {
+pub struct TetherRunEvent {
     /// When (s).
     pub time: f64,
     /// Its name.

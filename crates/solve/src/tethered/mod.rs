@@ -8,20 +8,20 @@
 
 mod case;
 mod history;
-mod kept;
 mod modal;
 mod moored;
+mod run_record;
 mod statistics;
 mod structure;
 mod tables;
 
 pub use case::{TetherCase, TowedCase, TowingVessel, case};
-pub use history::{Happening, StructureHistory, TetherHistory, TetherQuantity};
-pub use kept::{TetherRun, statistics_tables};
+pub use history::{StructureHistory, TetherHistory, TetherQuantity, TetherRunEvent};
 pub use modal::{description_table, names, natural};
+pub use run_record::{TetherRun, statistics_tables};
 pub use statistics::{StatisticsSteps, TetherStatistics};
 pub use structure::{harmonics, structure, structure_series};
-pub use tables::{Of, events, forces, motions, run_table, series, table_along_tether};
+pub use tables::{HistoryTarget, events, forces, motions, run_table, series, table_along_tether};
 
 use crate::SolveError;
 use crate::time::{RunFileError, Watcher};
@@ -61,7 +61,7 @@ pub struct Tethered {
     /// The tethers, in the order of the model.
     pub tethers: Vec<TetherHistory>,
     /// What happened on the way.
-    pub happened: Vec<Happening>,
+    pub happened: Vec<TetherRunEvent>,
     /// Seed of the random phases of its sea, where they are random.
     pub seed: Option<u64>,
     /// What a user should know of how the case was made.

@@ -5,7 +5,7 @@ use crate::system::SolveError;
 use crate::time::RunRequirements;
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{Underway, ambient, move_wrench};
+use windlass_hydro::{BodyStep, ambient, move_wrench};
 use windlass_model::{Body, ClassError, Model, SolverCache};
 use windlass_model::{ElementResponse, End, Situation, Surroundings, TimeStep};
 use windlass_tether::structure::flow::FlowAt;
@@ -83,7 +83,7 @@ impl Moored {
 impl Structure for Moored {
     fn forces(
         &mut self,
-        at: &Underway,
+        at: &BodyStep,
         water: &FlowAt,
         accepted: bool,
         out: &mut StructureForces,

@@ -97,7 +97,7 @@ impl TetherStatistics {
         table
     }
 
-    /// Statistics of type 1 (7.5, 7.6, 7.12): for each node a page of positions, of velocities and of accelerations, and a page for each end of an element.
+    /// Statistics of type 1 [AQWA-TETHER 7.5, 7.6, 7.12]: for each node a page of positions, of velocities and of accelerations, and a page for each end of an element.
     ///
     /// # Errors
     /// No instants.
@@ -126,7 +126,7 @@ impl TetherStatistics {
         Ok(out)
     }
 
-    /// Statistics of type 2 (7.7, 7.8, 7.13): a page for each parameter, of nodes and of ends.
+    /// Statistics of type 2 [AQWA-TETHER 7.7, 7.8, 7.13]: a page for each parameter, of nodes and of ends.
     ///
     /// # Errors
     /// No instants.
@@ -217,7 +217,7 @@ impl TetherStatistics {
         list.into_iter().filter_map(|(q, values)| Some((q?, values))).collect()
     }
 
-    /// The histogram of stress ranges and the table of fatigue of a towed tether (7.9, 7.10). `asked.duration` is overwritten by the elapsed
+    /// The histogram of stress ranges and the table of fatigue of a towed tether [AQWA-TETHER 7.9, 7.10]. `asked.duration` is overwritten by the elapsed
     /// time of the records.
     ///
     /// # Errors

@@ -67,7 +67,7 @@ fn step_number(run: &Tethered, instant: usize) -> Option<usize> {
     Some((time / run.settings.step).round() as usize + 1)
 }
 
-/// Positions, velocities and accelerations of the nodes at some instants, from the vessel down (7.3).
+/// Positions, velocities and accelerations of the nodes at some instants, from the vessel down [AQWA-TETHER 7.3].
 pub fn motions(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Table {
     let quantities = tether.node_quantities();
     let along = quantities.len() - 1;
@@ -94,7 +94,7 @@ pub fn motions(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Ta
     table.build()
 }
 
-/// Forces and stresses at both ends of the elements at some instants, the upper or vessel's end of each first (7.4, 7.11). The listing has tensions and
+/// Forces and stresses at both ends of the elements at some instants, the upper or vessel's end of each first [AQWA-TETHER 7.4, 7.11]. The listing has tensions and
 /// shear stress of a towed tether too: they are zero.
 pub fn forces(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Table {
     let ends = || (0..2 * tether.line.elements().len()).rev();
@@ -157,7 +157,7 @@ const INSTALLED_HEADS: [(&str, &str); 11] = [
 
 /// What a history in time is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Of {
+pub enum HistoryTarget {
     /// A node, from 0 at the anchor or the trailing end.
     Node(usize),
     /// An end: twice the element and the end, from 0.
@@ -165,16 +165,16 @@ pub enum Of {
 }
 
 /// Everything of a node or of an end over time.
-pub fn series(run: &Tethered, tether: &TetherHistory, of: Of) -> Table {
+pub fn series(run: &Tethered, tether: &TetherHistory, of: HistoryTarget) -> Table {
     let (what, list) = match of {
-        Of::Node(node) => (format!("Node {}", node + 1), tether.node_quantities()),
-        Of::End(end) => (format!("Element {}, End {}", end / 2 + 1, end % 2 + 1), tether.end_quantities()),
+        HistoryTarget::Node(node) => (format!("Node {}", node + 1), tether.node_quantities()),
+        HistoryTarget::End(end) => (format!("Element {}, End {}", end / 2 + 1, end % 2 + 1), tether.end_quantities()),
     };
     let mut columns = vec![Column::new("", "Time", Dim::Time, SECONDS, run.times.iter().copied())];
     for (index, quantity) in list.iter().enumerate() {
         let values = match of {
-            Of::Node(node) => tether.node(node, index),
-            Of::End(end) => tether.end(end, index),
+            HistoryTarget::Node(node) => tether.node(node, index),
+            HistoryTarget::End(end) => tether.end(end, index),
         };
         // in one table of all of them, codes tell them apart
         columns.push(Column { name: quantity.code.into(), ..column(quantity, values) });
@@ -182,7 +182,7 @@ pub fn series(run: &Tethered, tether: &TetherHistory, of: Of) -> Table {
     Table::from_columns(format!("{what} of Tether {}", tether.name), columns)
 }
 
-/// One quantity along the tether at some instants, with the least and the largest of the whole run (2.2, 2.3).
+/// One quantity along the tether at some instants, with the least and the largest of the whole run [AQWA-TETHER 2.2, 2.3].
 pub fn table_along_tether(
     run: &Tethered,
     tether: &TetherHistory,

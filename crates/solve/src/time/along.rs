@@ -9,10 +9,10 @@ use windlass_signal::line::envelope::{Envelope, EnvelopeValue};
 
 /// Numbers of every node: unstretched distance from the first end, x, y, z, clearance of the bottom (m; none: not a number), effective
 /// tension (N).
-const OF_NODE: usize = 6;
+const VALUES_PER_NODE: usize = 6;
 /// Numbers of a node of a line that bends: also tension in the wall (N), shear (N), moments about two directions (N m), von Mises
 /// stress on both sides (Pa; 0 without a wall), pressures outside and inside (Pa).
-const OF_BENT: usize = OF_NODE + 8;
+const VALUES_PER_BENT_NODE: usize = VALUES_PER_NODE + 8;
 
 /// Which numbers of a row are those of the nodes of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +87,7 @@ impl AlongColumns {
 
     /// Numbers of a node.
     pub fn stride(&self) -> usize {
-        if self.bends { OF_BENT } else { OF_NODE }
+        if self.bends { VALUES_PER_BENT_NODE } else { VALUES_PER_NODE }
     }
 
     /// Numbers of all nodes that are kept.
@@ -113,7 +113,7 @@ impl AlongColumns {
             let clearance = if clearance.is_finite() { *clearance } else { f64::NAN };
             let values = [*arc, position.x, position.y, position.z, clearance, *effective];
             let mut whole = values.iter().enumerate().all(|(i, v)| i == 4 || v.is_finite());
-            let (first, rest) = place.split_at_mut(OF_NODE);
+            let (first, rest) = place.split_at_mut(VALUES_PER_NODE);
             first.copy_from_slice(&values);
             if self.bends {
                 // of a line that reports its moment alone, all of it is about one direction

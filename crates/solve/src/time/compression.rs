@@ -1,6 +1,6 @@
 //! The pull of a connector as a number: its tension, negative of one that pushes.
 
-use super::history::OF_BODY;
+use super::history::VALUES_PER_BODY;
 use crate::link::EndAttachment;
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
@@ -15,14 +15,14 @@ pub(super) fn pull(force: &Vector3<f64>, apart: &Vector3<f64>, from: f64) -> f64
 
 /// A connector that may push, in the rows of a run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pushing {
+pub struct CompressionOnset {
     /// Least distance of its ends from which on it does (m).
     from: f64,
     /// The end whose force is reported, and the other: a body with the point in its system, or a place in the ground (m).
     ends: [(Option<usize>, Vector3<f64>); 2],
 }
 
-impl Pushing {
+impl CompressionOnset {
     /// Of a connector between two ends, of which that of a number is reported, or else the first on a body.
     pub(crate) fn new(from: f64, ends: &[EndAttachment], pulling_end: usize) -> Option<Self> {
         let place = |end: &EndAttachment| match end {
@@ -33,7 +33,7 @@ impl Pushing {
         let on_body = |end: &EndAttachment| matches!(end, EndAttachment::Body(..));
         let is_second_end = if on_body(first) && on_body(second) { pulling_end == 1 } else { on_body(second) };
         let (near, far) = if is_second_end { (second, first) } else { (first, second) };
-        Some(Pushing { from, ends: [place(near), place(far)] })
+        Some(CompressionOnset { from, ends: [place(near), place(far)] })
     }
 
     /// The pull by the force on the end that is reported (N), where a row has the bodies.
@@ -45,7 +45,7 @@ impl Pushing {
 
 /// Where a body is in a row.
 fn pose(row: &[f64], body: usize) -> Pose {
-    let at = 1 + OF_BODY * body;
+    let at = 1 + VALUES_PER_BODY * body;
     match row.get(at..at + 6) {
         Some([x, y, z, roll, pitch, yaw]) => {
             Pose::from_place(&Place { shift: [*x, *y, *z], turn: [*roll, *pitch, *yaw] })

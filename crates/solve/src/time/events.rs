@@ -285,7 +285,7 @@ impl Run {
                         connector.active = falls;
                     }
                     if falls {
-                        self.system.duties.let_go(name, true);
+                        self.system.duties.set_end_released(name, true);
                         self.system.rebuild_connector(&self.model, name)?;
                     } else {
                         self.system.leave_out(name);
@@ -297,7 +297,7 @@ impl Run {
                     if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
                         connector.active = true;
                     }
-                    if self.system.duties.let_go(name, false) {
+                    if self.system.duties.set_end_released(name, false) {
                         // what has fallen is brought back as it first hung
                         self.system.leave_out(name);
                     }

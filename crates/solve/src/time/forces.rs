@@ -10,7 +10,7 @@ use crate::ties::Ties;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{BodyLoad, Category, DynamicLoad, Underway, move_stiffness, move_wrench, turning};
+use windlass_hydro::{BodyLoad, BodyStep, Category, DynamicLoad, move_stiffness, move_wrench, turning};
 use windlass_model::{AnchoredResponse, ElementResponse, End, Situation, SolverCache, TimeStep};
 
 /// Number of categories.
@@ -91,10 +91,10 @@ impl LoadMemory {
     ) -> Result<(), SolveError> {
         self.ahead.clear();
         for ((node, ranges), (old, motion)) in system.nodes.iter().zip(&self.ranges).zip(start.iter().zip(ahead)) {
-            let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            let at = BodyStep { time, dt, pose: &motion.pose, velocity: &motion.velocity };
             // what the loads hold changes while the body turns: by half with the axes of the start, by half with those of the end
             let axes = (old.pose.axes + motion.pose.axes) * 0.5;
-            let on_the_way = Underway { pose: &Pose { axes, ..motion.pose }, ..at };
+            let on_the_way = BodyStep { pose: &Pose { axes, ..motion.pose }, ..at };
             let mut more = Six::zeros();
             for (load, range) in node.floating.loads.iter().zip(ranges) {
                 let state = &mut self.loads[range.clone()];
@@ -115,7 +115,7 @@ impl LoadMemory {
     /// Commits every load to an accepted step.
     pub(super) fn commit(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) {
         for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(motions) {
-            let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            let at = BodyStep { time, dt, pose: &motion.pose, velocity: &motion.velocity };
             for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
                 if let Some(stateful) = load.as_stateful() {
                     stateful.commit(&at, &mut self.loads[range.clone()]);
@@ -242,7 +242,7 @@ impl BodyForces {
     ) -> Result<(), SolveError> {
         self.clear(system);
         for (body, (node, motion)) in system.nodes.iter().zip(motions).enumerate() {
-            let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            let at = BodyStep { time, dt, pose: &motion.pose, velocity: &motion.velocity };
             self.made.load.stiffness.fill(0.0);
             self.made.damping.fill(0.0);
             for (load, range) in memory.body_loads(system, body) {

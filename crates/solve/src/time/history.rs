@@ -4,7 +4,7 @@
 //! pull on the anchor, share of the break) follows from these when it is asked for.
 
 use super::along::AlongColumns;
-use super::compression::Pushing;
+use super::compression::CompressionOnset;
 use super::ends::end_of;
 use super::forces::{BodyForces, BodyMotion, CATEGORY_COUNT};
 use crate::link::{EndAttachment, Link};
@@ -16,7 +16,7 @@ use windlass_hydro::Category;
 use windlass_model::{ClassError, LineNode, Situation, SolverCache, TimeStep};
 
 /// Values of a body in a row: place (m), roll, pitch, yaw (rad), velocity (m/s, rad/s), acceleration (m/s2, rad/s2), global.
-pub const OF_BODY: usize = 18;
+pub const VALUES_PER_BODY: usize = 18;
 
 /// A connector in the rows.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub struct LinkColumns {
     /// Where its nodes stand, where it reports them and they are kept.
     pub along: Option<AlongColumns>,
     /// Of one that may push, where it does.
-    pub pushing: Option<Pushing>,
+    pub pushing: Option<CompressionOnset>,
 }
 
 impl LinkColumns {
@@ -58,7 +58,7 @@ pub struct LinkEnds {
     /// How many nodes it reports at most, and whether they bend.
     pub nodes: (usize, bool),
     /// Of one that may push, where it does.
-    pub pushing: Option<Pushing>,
+    pub pushing: Option<CompressionOnset>,
 }
 
 /// Which number of a row is what.
@@ -83,7 +83,7 @@ impl RowLayout {
     pub fn new(system: &System, later: &[SystemBody], links: Vec<LinkEnds>, every: usize) -> Self {
         let bodies: Vec<_> = system.nodes.iter().map(|n| (n.name.clone(), n.key.clone())).collect();
         let moves = system.nodes.iter().map(|n| n.free.map(|free| free || n.prescribed.is_some())).collect();
-        let mut at = 1 + OF_BODY * bodies.len();
+        let mut at = 1 + VALUES_PER_BODY * bodies.len();
         let mut columns = Vec::new();
         for LinkEnds { name, ends, pulling, nodes, pushing } in links {
             let (active, wrench) = (at, at + 2);
@@ -112,7 +112,7 @@ impl RowLayout {
 
     /// Where the numbers of a body begin.
     pub fn body(&self, body: usize) -> usize {
-        1 + OF_BODY * body
+        1 + VALUES_PER_BODY * body
     }
 
     /// Where the force of a category on a body begins: six numbers about its origin, global axes.

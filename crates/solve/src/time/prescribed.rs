@@ -8,7 +8,7 @@ mod spline;
 
 use super::forces::BodyMotion;
 use nalgebra::Vector3;
-use response::Riding;
+use response::RaoMotion;
 use spline::Spline;
 use std::f64::consts::TAU;
 use std::fmt::Debug;
@@ -35,10 +35,10 @@ pub fn build_prescribed(body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<Bo
     let Some(given) = &body.prescribed else { return Ok(None) };
     let made: Box<dyn Prescribed> = match &given.motion {
         GivenMotion::Sinusoids { list, ramp } => {
-            Box::new(Swinging { place: body.place, list: list.clone(), ramp: *ramp })
+            Box::new(SinusoidalMotion { place: body.place, list: list.clone(), ramp: *ramp })
         }
         GivenMotion::Responses(table) => {
-            Box::new(Riding::new(body.place, table, sea).map_err(|e| e.with_span(given.span))?)
+            Box::new(RaoMotion::new(body.place, table, sea).map_err(|e| e.with_span(given.span))?)
         }
         GivenMotion::Path(rows) => Box::new(Spline::new(rows).map_err(|e| e.with_span(given.span))?),
     };
@@ -46,14 +46,14 @@ pub fn build_prescribed(body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<Bo
 }
 
 /// x, y, z (m) and roll, pitch, yaw (rad), with their first and second derivatives in time.
-pub(super) type Freedoms = [[f64; 6]; 3];
+pub(super) type DofMotion = [[f64; 6]; 3];
 
 /// The motion of six degrees of freedom.
 ///
 /// The axes are those of yaw about z, pitch about y and roll about x, each about the axes already turned. With e1 the body's x axis, e2 the
 /// y axis after the yaw alone and e3 the vertical, the rotation is `roll' e1 + pitch' e2 + yaw' e3`; e2 turns with the yaw and e1 with
 /// yaw and pitch, which gives its derivative.
-pub(super) fn motion_from_dofs([values, rates, seconds]: &Freedoms) -> BodyMotion {
+pub(super) fn motion_from_dofs([values, rates, seconds]: &DofMotion) -> BodyMotion {
     let place = Place::new(*values);
     let pose = Pose::from_place(&place);
     let [_, _, yaw] = place.turn;
@@ -76,7 +76,7 @@ pub(super) fn motion_from_dofs([values, rates, seconds]: &Freedoms) -> BodyMotio
 
 /// Sines about a place.
 #[derive(Debug)]
-struct Swinging {
+struct SinusoidalMotion {
     place: Place,
     list: Vec<Sinusoid>,
     ramp: f64,
@@ -98,7 +98,7 @@ pub(super) fn product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] * b[0], a[1] * b[0] + a[0] * b[1], a[2] * b[0] + 2.0 * a[1] * b[1] + a[0] * b[2]]
 }
 
-impl Prescribed for Swinging {
+impl Prescribed for SinusoidalMotion {
     fn motion_at(&self, time: f64) -> Result<BodyMotion, ClassError> {
         let grown = ramp(time, self.ramp);
         let mut dofs = [self.place.values(), [0.0; 6], [0.0; 6]];

@@ -14,7 +14,7 @@ const MANY_STEPS: f64 = 2000.0;
 
 /// A period and what has it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Swing {
+pub struct NaturalPeriod {
     /// The body that moves most, as written.
     pub body: String,
     /// Its degree of freedom.
@@ -28,7 +28,7 @@ pub struct Swing {
 pub struct Resolution {
     /// The natural modes at the start of the run, shortest first, by the stiffness and inertia there: dynamic lines count with
     /// their inertia alone. None of many bodies in a short run, whose modes would cost more than a twentieth of it.
-    pub natural: Vec<Swing>,
+    pub natural: Vec<NaturalPeriod>,
     /// Of the waves the period below which a tenth of the energy is (s).
     pub wave: Option<f64>,
     /// The shortest period of the motions that are given by sines (s), and the body.
@@ -52,7 +52,7 @@ impl Run {
         }
     }
 
-    fn natural(&self) -> Vec<Swing> {
+    fn natural(&self) -> Vec<NaturalPeriod> {
         let free = self.system.nodes.iter().flat_map(|n| n.free).filter(|f| *f).count();
         if free > MAX_DOFS_ALWAYS_MODAL && self.settings.observed / self.settings.dt < MANY_STEPS {
             return Vec::new();
@@ -68,10 +68,10 @@ impl Run {
             return Vec::new();
         }
         // what cannot be solved here is found, and named, by the first step
-        let mut list: Vec<Swing> = modes_with(&self.system, &mass, &forces.stiffness)
+        let mut list: Vec<NaturalPeriod> = modes_with(&self.system, &mass, &forces.stiffness)
             .unwrap_or_default()
             .into_iter()
-            .filter_map(|m| m.period.map(|period| Swing { body: m.most.0, dof: m.most.1, period }))
+            .filter_map(|m| m.period.map(|period| NaturalPeriod { body: m.most.0, dof: m.most.1, period }))
             .collect();
         list.sort_by(|a, b| a.period.total_cmp(&b.period));
         list

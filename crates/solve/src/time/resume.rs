@@ -1,8 +1,8 @@
 //! A run that goes on from a snapshot, and how it knows its own.
 
 use super::action::Action;
-use super::course::RunSettings;
 use super::run::Run;
+use super::run_settings::RunSettings;
 use super::snapshot::Snapshot;
 use crate::system::SolveError;
 use windlass_model::{ClassError, Model};

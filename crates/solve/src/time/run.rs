@@ -3,12 +3,12 @@
 use super::accuracy::Accuracy;
 use super::action::Action;
 use super::along::AlongEnvelope;
-use super::course::{Counts, Ending, RunFileError, RunSettings, Watcher};
-use super::duties::RunRequirements;
 use super::forces::{BodyMotion, LoadMemory};
 use super::history::{History, RowLayout, RowSources};
 use super::inertia::gyroscopic;
 use super::resolution::Resolution;
+use super::run_requirements::RunRequirements;
+use super::run_settings::{Counts, Ending, RunFileError, RunSettings, Watcher};
 use super::statistics::RunStatistics;
 use super::step::{Stepper, SystemInstant};
 use crate::system::{SolveError, System, mass_block, moving_nodes};
@@ -93,7 +93,7 @@ impl Run {
         model.check_motions().map_err(SolveError::new)?;
         let (origin, model) = (model.clone(), model.clone());
         let sea = Sea::new(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
-        let duties = RunRequirements::foreseen(&model, &actions, &settings);
+        let duties = RunRequirements::new(&model, &actions, &settings);
         let system = System::under_way(&model, sea.as_ref(), duties)?;
         let mut links = system.link_ends();
         for name in actions.iter().filter_map(|a| a.when.connector()) {
@@ -160,7 +160,7 @@ impl Run {
     ///
     /// # Errors
     /// As [`Run::new`].
-    pub fn begun_again(&self, change: impl FnOnce(RunSettings) -> RunSettings) -> Result<Run, SolveError> {
+    pub fn restart_with(&self, change: impl FnOnce(RunSettings) -> RunSettings) -> Result<Run, SolveError> {
         let mut again = Run::new(&self.origin, change(self.settings.clone()), self.actions.clone())?;
         again.began.clone_from(&self.began);
         if !self.start.is_empty() {
@@ -254,7 +254,7 @@ impl Run {
 
     /// Goes to a time, in as many parts as that needs; gives the name of an action that ends the run before.
     fn advance_to(&mut self, end: f64) -> Result<Option<String>, SolveError> {
-        // halvings for the error or a balance, and for a condition that comes true
+        // halvings for the error or a balance, and to locate a trigger
         let (mut level, mut sought) = (0, 0);
         loop {
             let left = end - self.now.time;

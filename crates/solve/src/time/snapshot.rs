@@ -2,8 +2,8 @@
 //! its bytes in the run file. Warm starts of solvers are not part of it; they are discarded when a snapshot is written.
 
 use super::accuracy::Accuracy;
-use super::course::Counts;
 use super::forces::BodyMotion;
+use super::run_settings::Counts;
 use nalgebra::Matrix3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};

@@ -1,6 +1,6 @@
 //! The results a run is judged by, and their statistics as it goes, in flat memory.
 
-use super::compression::Pushing;
+use super::compression::CompressionOnset;
 use super::history::RowLayout;
 use crate::system::DOFS;
 use nalgebra::Vector3;
@@ -18,7 +18,7 @@ pub struct ResultSeries {
     /// Its numbers in a row: one, or the components of a force whose size it is.
     pub columns: std::ops::Range<usize>,
     /// Of the force of a connector that may push, where it does: its size is then negative.
-    pub pushing: Option<Pushing>,
+    pub pushing: Option<CompressionOnset>,
 }
 
 impl ResultSeries {

@@ -6,7 +6,7 @@
 use super::forces::{BodyForces, BodyMotion, LoadMemory};
 use super::inertia::{gyroscopic, inertia};
 use super::scheme::{Method, TimeScheme};
-use crate::reason::no_inertia;
+use crate::failure_reasons::no_inertia;
 use crate::system::{DOFS, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix6, U6};
 use windlass_base::dense::{DenseError, Lu};
@@ -23,7 +23,7 @@ const TIE_SETTLING_TIME_SQUARED: f64 = 1.0;
 pub struct StepTolerance {
     /// Most iterations before the step is cut.
     pub most: usize,
-    /// Largest acceleration left, as a share of gravity (rotations times the radius of gyration); of a degree of freedom without inertia the
+    /// Residual acceleration (fraction of gravity, rotations times the radius of gyration); of a degree of freedom without inertia the
     /// largest force left, as a share of the largest force of a connector on it.
     pub tolerance: f64,
 }
@@ -388,6 +388,6 @@ pub(super) fn unsolved_error(
 pub(super) fn not_finite(system: &System, sum: &DVector<f64>, time: f64) -> SolveError {
     let at = sum.iter().position(|v| !v.is_finite()).unwrap_or(0);
     let name = system.nodes.get(at / 6).map(|n| n.name.clone());
-    let error = ClassError::new(format!("the force in {} is no number at {time} s", DOFS[at % 6]));
+    let error = ClassError::new(format!("the force in {} is not finite at {time} s", DOFS[at % 6]));
     SolveError { who: name, error }
 }

@@ -14,7 +14,7 @@ use windlass_model::ClassError;
 
 /// Which of the two stages of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
+pub enum StepStage {
     /// The one at its start.
     First,
     /// The one at its end as predicted.
@@ -88,7 +88,7 @@ impl Rig {
     /// Finds axis and tension for a pose of the structure, and gives what the tether does to it about its centre of gravity.
     pub(super) fn pull(
         &mut self,
-        which: Which,
+        which: StepStage,
         (pose, velocity): (&Pose, &Six),
         water: &FlowAt,
         compatibility: &Compatibility,
@@ -101,7 +101,7 @@ impl Rig {
         if self.before.is_none() && compatibility.springs == SpringReference::InitialAxis {
             self.bending.rest_along(&axis, self.attachment.upright);
         }
-        if which == Which::First {
+        if which == StepStage::First {
             // what is held goes by the length; that of a slack one differs by its slack alone
             self.tension = TetherTension { length: axis.chord, ..self.tension };
             let Rig { bending, axis, attachment, tension, .. } = self;
@@ -113,15 +113,15 @@ impl Rig {
         let slopes = self.bending.top_slopes(motion);
         let coil = self.bending.coil(motion, &axis, self.attachment.upright);
         self.tension = tension;
-        if which == Which::First {
+        if which == StepStage::First {
             self.start = (axis, tension);
         }
         let stage = Stage { axis: &self.axis, attachment: &self.attachment, tension: &self.tension, water, dt: 0.0 };
-        self.bending.gather(which == Which::Second, &stage, &self.axial);
+        self.bending.gather(which == StepStage::Second, &stage, &self.axial);
         let across = if compatibility.tension_alone_on_structure {
             slopes.map(|slope| slope * tension.pull)
         } else {
-            self.bending.top_shear(which == Which::Second, &tension, &self.axial)
+            self.bending.top_shear(which == StepStage::Second, &tension, &self.axial)
         };
         let force = -(axis.along * tension.pull + axis.across[0] * across[0] + axis.across[1] * across[1]);
         let arm = self.attachment.at - pose.origin;
@@ -154,14 +154,14 @@ impl Rig {
     /// Finds the accelerations of a stage, that of the structure being known.
     pub(super) fn solve(
         &mut self,
-        which: Which,
+        which: StepStage,
         (pose, acceleration): (&Pose, &Six),
         water: &FlowAt,
         dt: f64,
     ) -> Result<(), ClassError> {
         self.attachment.add_acceleration(self.attachment.at - pose.origin, acceleration);
         let stage = Stage { axis: &self.axis, attachment: &self.attachment, tension: &self.tension, water, dt };
-        self.bending.stage(which == Which::Second, &stage)
+        self.bending.stage(which == StepStage::Second, &stage)
     }
 
     /// What changed since the last state, at a time (s).
@@ -193,14 +193,14 @@ impl Rig {
     }
 
     /// Finds what the elements bear and their stresses, of the stage just solved; `time` (s) is that they are reported for.
-    pub(super) fn bear(&mut self, which: Which, water: &FlowAt, dt: f64, time: f64) {
+    pub(super) fn bear(&mut self, which: StepStage, water: &FlowAt, dt: f64, time: f64) {
         let impact = self.impact_stress(time);
         let stage = Stage { axis: &self.axis, attachment: &self.attachment, tension: &self.tension, water, dt };
         let elements = self.tether.line.elements();
         for (index, (element, (ends, stresses))) in
             elements.iter().zip(self.ends.iter_mut().zip(&mut self.stresses)).enumerate()
         {
-            let [x, y] = self.bending.end_loads(index, which == Which::Second, &stage, &self.axial);
+            let [x, y] = self.bending.end_loads(index, which == StepStage::Second, &stage, &self.axial);
             let tensions = self.axial.ends(index, &self.tension, water);
             let tube = element.tube();
             for (end, upper) in [(0, false), (1, true)] {
@@ -258,10 +258,10 @@ impl Rig {
         self.bending.advance(dt);
     }
 
-    fn motion(&self, which: Which) -> &[PlaneMotion; 2] {
+    fn motion(&self, which: StepStage) -> &[PlaneMotion; 2] {
         match which {
-            Which::First => &self.bending.now,
-            Which::Second => &self.bending.trial,
+            StepStage::First => &self.bending.now,
+            StepStage::Second => &self.bending.trial,
         }
     }
 

@@ -5,7 +5,7 @@
 //! the tethers, which goes by places alone, is found first, then the acceleration of the structure, then that of the tethers, which ride on
 //! it. For a spring w the scheme is stable to w h = 2 (its roots: determinant `1 - (w h)^4/12`, trace `2 - (w h)^2 + (w h)^4/12`).
 
-use super::rig::{Rig, RigChange, Which};
+use super::rig::{Rig, RigChange, StepStage};
 use super::tether::InstalledTether;
 use crate::compatibility::{Compatibility, VesselScheme};
 use crate::structure::flow::{FlowAt, WaterFlow};
@@ -16,7 +16,7 @@ use windlass_base::dense::{Cholesky, SymmetricEigen, never};
 use windlass_base::message::Message;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
-use windlass_hydro::{Underway, cross};
+use windlass_hydro::{BodyStep, cross};
 use windlass_model::ClassError;
 
 /// Steps of a run at most.
@@ -93,13 +93,13 @@ pub trait InstalledObserver {
 
 /// What moves of the structure: place, velocity, and its accelerations at the two states before.
 #[derive(Clone, Copy, Debug)]
-struct Course {
+struct StructureMotion {
     pose: Pose,
     velocity: Six,
     earlier: [Six; 2],
 }
 
-impl Course {
+impl StructureMotion {
     const NUMBERS: usize = 30;
 
     fn numbers(&self) -> Vec<f64> {
@@ -109,7 +109,7 @@ impl Course {
 
     fn from_numbers(numbers: &[f64]) -> Option<Self> {
         let part = |from: usize, count: usize| numbers.get(from..from + count);
-        Some(Course {
+        Some(StructureMotion {
             pose: Pose {
                 origin: Vector3::from_column_slice(part(0, 3)?),
                 axes: Matrix3::from_column_slice(part(3, 9)?),
@@ -154,7 +154,7 @@ impl<'a> Installation<'a> {
         course: &InstalledRunSettings,
         observer: &mut dyn InstalledObserver,
     ) -> Result<(), ClassError> {
-        let start = Course { pose: course.pose, velocity: course.velocity, earlier: [Six::zeros(); 2] };
+        let start = StructureMotion { pose: course.pose, velocity: course.velocity, earlier: [Six::zeros(); 2] };
         self.run_on(course, (0, start), observer)
     }
 
@@ -170,8 +170,8 @@ impl<'a> Installation<'a> {
         observer: &mut dyn InstalledObserver,
     ) -> Result<(), ClassError> {
         let other = || ClassError::new("the checkpoint is not one of this structure and its tethers");
-        let start = Course::from_numbers(numbers).ok_or_else(other)?;
-        let mut rest = numbers.get(Course::NUMBERS..).unwrap_or_default();
+        let start = StructureMotion::from_numbers(numbers).ok_or_else(other)?;
+        let mut rest = numbers.get(StructureMotion::NUMBERS..).unwrap_or_default();
         for rig in &mut self.rigs {
             rest = rig.take_up(rest).ok_or_else(other)?;
         }
@@ -182,7 +182,7 @@ impl<'a> Installation<'a> {
     }
 
     /// What a checkpoint holds.
-    fn numbers(&self, at: &Course) -> Vec<f64> {
+    fn numbers(&self, at: &StructureMotion) -> Vec<f64> {
         let mut numbers = at.numbers();
         self.rigs.iter().for_each(|rig| rig.write(&mut numbers));
         numbers.extend(self.structure.memory());
@@ -192,7 +192,7 @@ impl<'a> Installation<'a> {
     fn run_on(
         &mut self,
         course: &InstalledRunSettings,
-        (from, mut at): (usize, Course),
+        (from, mut at): (usize, StructureMotion),
         observer: &mut dyn InstalledObserver,
     ) -> Result<(), ClassError> {
         course.check()?;
@@ -206,13 +206,13 @@ impl<'a> Installation<'a> {
         let mut events = Vec::with_capacity(self.rigs.len());
         for state in from..course.states {
             observer.checkpoint(state, &|| self.numbers(&at))?;
-            let Course { pose, velocity, earlier } = at;
+            let StructureMotion { pose, velocity, earlier } = at;
             let time = course.start + state as f64 * dt;
             water.move_to(time);
             let led = if state == 0 { 0.0 } else { dt };
             let [first, second] = &mut forces;
-            let now = Underway { time, dt: led, pose: &pose, velocity: &velocity };
-            let a1 = self.accelerate(Which::First, &now, &water, first)?;
+            let now = BodyStep { time, dt: led, pose: &pose, velocity: &velocity };
+            let a1 = self.accelerate(StepStage::First, &now, &water, first)?;
             if state == 0 {
                 self.bears(course, first)?;
             }
@@ -221,12 +221,12 @@ impl<'a> Installation<'a> {
                 let change = rig.change(time, &self.compatibility);
                 events.extend(change.map(|change| TetherEvent { time, tether, change }));
             }
-            self.tethers(Which::First, (&pose, &a1), &water, (dt, time))?;
+            self.tethers(StepStage::First, (&pose, &a1), &water, (dt, time))?;
             let ahead = (pose.after_motion(&(velocity * dt + a1 * (0.5 * dt * dt))), velocity + a1 * dt);
             water.move_to(time + dt);
-            let end = Underway { time: time + dt, dt, pose: &ahead.0, velocity: &ahead.1 };
-            let a2 = self.accelerate(Which::Second, &end, &water, second)?;
-            self.tethers(Which::Second, (&ahead.0, &a2), &water, (dt, time))?;
+            let end = BodyStep { time: time + dt, dt, pose: &ahead.0, velocity: &ahead.1 };
+            let a2 = self.accelerate(StepStage::Second, &end, &water, second)?;
+            self.tethers(StepStage::Second, (&ahead.0, &a2), &water, (dt, time))?;
             let error = (a1 - earlier[0] * 2.0 + earlier[1]) * (-dt * dt / 24.0);
             observer.observe(&Moment {
                 state,
@@ -243,7 +243,7 @@ impl<'a> Installation<'a> {
                 VesselScheme::StraightAcceleration => (a1 * 2.0 + a2) / 6.0,
                 VesselScheme::MeanVelocity => (a1 + a2) / 4.0,
             };
-            at = Course {
+            at = StructureMotion {
                 pose: pose.after_motion(&(velocity * dt + second * (dt * dt))),
                 velocity: velocity + (a1 + a2) * (0.5 * dt),
                 earlier: [a1, earlier[0]],
@@ -256,8 +256,8 @@ impl<'a> Installation<'a> {
     /// Pull of the tethers, forces and acceleration of the structure.
     fn accelerate(
         &mut self,
-        which: Which,
-        at: &Underway,
+        which: StepStage,
+        at: &BodyStep,
         water: &FlowAt,
         forces: &mut StructureForces,
     ) -> Result<Six, ClassError> {
@@ -266,7 +266,7 @@ impl<'a> Installation<'a> {
             let pull = rig.pull(which, (at.pose, at.velocity), water, &self.compatibility);
             forces.mooring += pull.map_err(|e| with_tether_and_time(e, rig.tether(), at.time))?;
         }
-        self.structure.forces(at, water, which == Which::First, forces)?;
+        self.structure.forces(at, water, which == StepStage::First, forces)?;
         if !self.compatibility.tension_alone_on_structure {
             for rig in &self.rigs {
                 forces.inertia += rig.entrained_inertia(at.pose);
@@ -282,12 +282,12 @@ impl<'a> Installation<'a> {
     /// Accelerations of the tethers, and what their elements bear.
     fn tethers(
         &mut self,
-        which: Which,
+        which: StepStage,
         structure: (&Pose, &Six),
         water: &FlowAt,
         (dt, time): (f64, f64),
     ) -> Result<(), ClassError> {
-        let stage_in_tables = if self.compatibility.second_stage_tables { Which::Second } else { Which::First };
+        let stage_in_tables = if self.compatibility.second_stage_tables { StepStage::Second } else { StepStage::First };
         for rig in &mut self.rigs {
             rig.solve(which, structure, water, dt).map_err(|e| with_tether_and_time(e, rig.tether(), time))?;
             if which == stage_in_tables {

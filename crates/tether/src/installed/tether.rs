@@ -56,7 +56,7 @@ impl DefaultTaken {
 impl EndSprings {
     /// The springs of a card [AQWA-TETHER A.2], the inline one and those against rotation about X and Y, and what was not taken as given.
     /// `None` is a card that is missing; blanks are zero.
-    pub fn of_card(given: Option<[f64; 3]>) -> (Self, Vec<DefaultTaken>) {
+    pub fn from_card(given: Option<[f64; 3]>) -> (Self, Vec<DefaultTaken>) {
         let Some([inline, x, y]) = given else { return (EndSprings::default(), vec![DefaultTaken::Missing]) };
         let mut taken = Vec::new();
         // a value that is no number is left to the checks of the tether

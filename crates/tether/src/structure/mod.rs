@@ -1,21 +1,21 @@
 //! The structure that installed tethers hold: what acts on it besides them, and its inertia.
 //!
 //! A structure is asked for its forces at a time, a place and a velocity ([`Structure`]). [`tubes::Tubes`] is one of round members under
-//! Morison's formula, as the tension leg platform of [AQWA-TETHER 8.2]; [`afloat::Afloat`] takes what the hydrodynamic floor makes of a body of
+//! Morison's formula, as the tension leg platform of [AQWA-TETHER 8.2]; [`floating_body::Afloat`] takes what the hydrodynamic floor makes of a body of
 //! the model, so that hulls and hydrodynamic databases serve.
 
-pub mod afloat;
+pub mod floating_body;
 pub mod flow;
+mod submergence;
 pub mod tubes;
 pub mod wave;
-mod wet;
 
 use flow::FlowAt;
 use nalgebra::Matrix6;
 use std::fmt::Debug;
 use windlass_base::dense::{Cholesky, never};
 use windlass_base::pose::Six;
-use windlass_hydro::Underway;
+use windlass_hydro::BodyStep;
 use windlass_model::ClassError;
 
 /// Forces (N) and moments (N m) about the centre of gravity, global axes, by what makes them, and the inertia they move.
@@ -123,7 +123,7 @@ pub trait Structure: Debug {
     /// A place for which it has no forces.
     fn forces(
         &mut self,
-        at: &Underway,
+        at: &BodyStep,
         water: &FlowAt,
         accepted: bool,
         out: &mut StructureForces,

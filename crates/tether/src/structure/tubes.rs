@@ -13,14 +13,14 @@
 //! The water is asked for at two Gauss points of the wet part.
 
 use super::flow::FlowAt;
-use super::wet::WetPart;
+use super::submergence::WetPart;
 use super::{Structure, StructureForces};
 use crate::compatibility::Compatibility;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::f64::consts::PI;
 use windlass_base::dense::{Cholesky, never};
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{Underway, cross, move_wrench};
+use windlass_hydro::{BodyStep, cross, move_wrench};
 use windlass_model::ClassError;
 
 /// Friction along a tube that AQWA always counts ([AQWA-REF TUBE]; a fit to the listing of [AQWA-TETHER 8.2] gives 0.01600).
@@ -92,7 +92,7 @@ impl Tubes {
 }
 
 impl Structure for Tubes {
-    fn forces(&mut self, at: &Underway, water: &FlowAt, _: bool, out: &mut StructureForces) -> Result<(), ClassError> {
+    fn forces(&mut self, at: &BodyStep, water: &FlowAt, _: bool, out: &mut StructureForces) -> Result<(), ClassError> {
         let mooring = out.mooring;
         *out = StructureForces { mooring, ..StructureForces::default() };
         let turned = at.pose.axes * self.inertia * at.pose.axes.transpose();

@@ -11,7 +11,7 @@ use super::super::line::TetherElement;
 use super::Towed;
 use super::scheme::TowedState;
 use super::water::{TowedFlow, Turn, Waters};
-use super::wet_section::{Scan, Wetness, Wetted};
+use super::wet_section::{Scan, SubmergedSection, SubmergenceState};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
@@ -200,9 +200,9 @@ impl<'a> Loading<'a> {
         }
         let radius = 0.5 * element.outer_diameter;
         match self.scan.wetness(&heights, radius) {
-            Wetness::Dry => {}
-            Wetness::Under => {
-                let wet = Wetted::new(radius, element.outer_diameter);
+            SubmergenceState::Dry => {}
+            SubmergenceState::Under => {
+                let wet = SubmergedSection::new(radius, element.outer_diameter);
                 for i in 0..4 {
                     let z = elevations[i] - heights[i];
                     let flow =
@@ -218,7 +218,7 @@ impl<'a> Loading<'a> {
                     place.load(case, element, &motion, forces, added);
                 }
             }
-            Wetness::Cut { limits, pieces } => {
+            SubmergenceState::Cut { limits, pieces } => {
                 for piece in limits.windows(2).take(pieces) {
                     self.piece(length, element, &motion, piece[0], piece[1]);
                 }
@@ -247,7 +247,7 @@ impl<'a> Loading<'a> {
             self.waters.at_place(start + distance + shift, y, &mut self.place);
             let elevation = self.waters.elevation(&self.time, &self.place);
             let z = case.origin[2] + dot(&shape, &motion.at[1]);
-            let wet = Wetted::new(elevation - z, element.outer_diameter);
+            let wet = SubmergedSection::new(elevation - z, element.outer_diameter);
             if wet.height == 0.0 {
                 continue;
             }
@@ -271,7 +271,7 @@ struct AxisPlace {
     /// Shapes there.
     deflection: Vector4,
     slope: Vector4,
-    wet: Wetted,
+    wet: SubmergedSection,
     flow: TowedFlow,
 }
 

@@ -12,7 +12,7 @@
 //! added mass that a current along a bent tether makes.
 
 pub mod compatibility;
-mod described;
+mod description;
 pub mod loads;
 pub mod run;
 pub mod scheme;
@@ -29,7 +29,7 @@ use windlass_model::ClassError;
 
 pub use compatibility::TowedCompatibility;
 pub use run::{TowedHistory, TowedObserver, TowedRecord, TowedSteps};
-use wet_section::Wetted;
+use wet_section::SubmergedSection;
 
 /// More waves than this are refused: memory goes with them times the elements.
 pub const MAX_WAVES: usize = 10_000;
@@ -171,7 +171,7 @@ impl Towed {
         Ok(())
     }
 
-    /// What the user should know before a run (8.1.14): springs of zero leave the tether a mechanism.
+    /// What the user should know before a run [AQWA-TETHER 8.1.14]: springs of zero leave the tether a mechanism.
     pub fn warnings(&self) -> Vec<String> {
         let mut found = Vec::new();
         for (end, spring) in ["trailing", "vessel's"].iter().zip(&self.springs) {
@@ -251,7 +251,7 @@ impl Towed {
     fn mass_at_rest(&self, plane: usize) -> PlaneMatrix {
         let mut m = PlaneMatrix::new(2 * self.line.nodes());
         for (i, e) in self.line.elements().iter().enumerate() {
-            let wet = Wetted::new(-self.origin[2], e.outer_diameter);
+            let wet = SubmergedSection::new(-self.origin[2], e.outer_diameter);
             let added = self.density * e.added_mass * self.multipliers.added_mass * wet.added[plane];
             let all: Matrix4 = beam::mass(e.mass_per_length() + added, e.length);
             beam::assemble(&mut m, i, &all);

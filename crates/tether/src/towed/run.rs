@@ -18,7 +18,7 @@ pub struct TowedSteps {
     pub step: f64,
     /// Number of records, the first at the start: the last is `(number - 1) * step` later, as card TIME of deck 16.
     pub number: usize,
-    /// The scheme's b (3.6): 0.5 to 1.
+    /// The scheme's b [AQWA-TETHER 3.6]: 0.5 to 1.
     pub b: f64,
 }
 

@@ -12,7 +12,7 @@ use super::Towed;
 use multiversion::multiversion;
 use std::f64::consts::{LN_2, LOG2_E};
 use windlass_hydro::sea::Component;
-use windlass_hydro::sea::eight::{Eight, sin_cos};
+use windlass_hydro::sea::simd_math::{Lanes8, sin_cos};
 use windlass_hydro::sea::stokes::Stokes;
 
 /// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
@@ -36,17 +36,17 @@ const EXP_CHEBYSHEV: [f64; 11] = [
 ];
 
 /// Four numbers: as many as stay in registers with all that is made of them.
-type Four = [f64; 4];
+type Lanes4 = [f64; 4];
 
 /// Four values, each of its number.
 #[inline(always)]
-fn four(value: impl Fn(usize) -> f64) -> Four {
+fn four(value: impl Fn(usize) -> f64) -> Lanes4 {
     [value(0), value(1), value(2), value(3)]
 }
 
 /// Exponentials. Beyond 1e300 and below 1e-300 they stay there.
 #[inline(always)]
-fn exp(powers: Four) -> Four {
+fn exp(powers: Lanes4) -> Lanes4 {
     let powers = four(|i| powers[i].clamp(-690.0, 690.0));
     let shifted = four(|i| powers[i] * LOG2_E + ROUNDING_SHIFT);
     // one part of the logarithm is enough: an error of 1e-16 of the power is one of the value
@@ -59,26 +59,26 @@ fn exp(powers: Four) -> Four {
 }
 
 /// Cosine and sine of eight waves at a place; at a time those times the speed `a w` (m/s).
-pub type Turn = [Eight; 2];
+pub type Turn = [Lanes8; 2];
 
-/// Eight waves in the axes of the tether; those that fill up the last block have no amplitude.
+/// Lanes8 waves in the axes of the tether; those that fill up the last block have no amplitude.
 #[derive(Clone, Debug)]
 struct WaveBlock {
-    kx: Eight,
-    ky: Eight,
-    k: Eight,
+    kx: Lanes8,
+    ky: Lanes8,
+    k: Lanes8,
     /// Frequency of encounter (rad/s), phase at the first node (rad).
-    met: Eight,
-    phase: Eight,
+    met: Lanes8,
+    phase: Lanes8,
     /// Speed at the surface `a w` (m/s), and what makes it the amplitude: 1/w (s).
-    speed: Eight,
-    slowness: Eight,
+    speed: Lanes8,
+    slowness: Lanes8,
     /// What makes it the velocity along x and y, and the acceleration along x, y (1/s) and z (1/s).
-    toward: [Eight; 2],
-    growth: [Eight; 3],
+    toward: [Lanes8; 2],
+    growth: [Lanes8; 3],
     /// exp(-2 k d), and one over one less it.
-    q: Eight,
-    whole: Eight,
+    q: Lanes8,
+    whole: Lanes8,
     /// Whether q is nothing for all of them.
     deep: bool,
 }
@@ -108,9 +108,9 @@ pub struct TowedFlow {
     pub acceleration: [f64; 3],
 }
 
-/// Eight values, each of its number.
+/// Lanes8 values, each of its number.
 #[inline(always)]
-fn eight(value: impl Fn(usize) -> f64) -> Eight {
+fn lanes8(value: impl Fn(usize) -> f64) -> Lanes8 {
     let mut made = [0.0; 8];
     for (i, lane) in made.iter_mut().enumerate() {
         *lane = value(i);
@@ -175,15 +175,15 @@ impl Waters {
     pub fn at_time(&self, time: f64, turns: &mut Vec<Turn>) {
         turns.clear();
         turns.extend(self.blocks.iter().map(|b| {
-            let (sin, cos) = sin_cos(&eight(|i| b.phase[i] - b.met[i] * time));
-            [eight(|i| b.speed[i] * cos[i]), eight(|i| b.speed[i] * sin[i])]
+            let (sin, cos) = sin_cos(&lanes8(|i| b.phase[i] - b.met[i] * time));
+            [lanes8(|i| b.speed[i] * cos[i]), lanes8(|i| b.speed[i] * sin[i])]
         }));
     }
 
     /// Turns of the waves at a place (m), to the end of a list.
     pub fn at_place(&self, x: f64, y: f64, turns: &mut Vec<Turn>) {
         turns.extend(self.blocks.iter().map(|b| {
-            let (sin, cos) = sin_cos(&eight(|i| b.kx[i] * x + b.ky[i] * y));
+            let (sin, cos) = sin_cos(&lanes8(|i| b.kx[i] * x + b.ky[i] * y));
             [cos, sin]
         }));
     }
@@ -256,7 +256,7 @@ impl Waters {
     }
 
     /// The longest integration length (m): a quarter of the length of the wave with number 4N/5 + 1 of N in order of their
-    /// wave numbers; of a regular wave its own (3.4). `None` without waves.
+    /// wave numbers; of a regular wave its own [AQWA-TETHER 3.4]. `None` without waves.
     pub fn integration_length(waves: &[Component]) -> Option<f64> {
         let mut numbers: Vec<f64> = waves.iter().map(|c| c.number).collect();
         numbers.sort_by(f64::total_cmp);
@@ -280,7 +280,7 @@ fn shift_turns(blocks: &[WaveBlock], shift: f64, turns: &mut [Turn]) {
 
 /// Sums of the elevations of every eighth wave (m).
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn elevations(blocks: &[WaveBlock], time: &[Turn], place: &[Turn]) -> Eight {
+fn elevations(blocks: &[WaveBlock], time: &[Turn], place: &[Turn]) -> Lanes8 {
     let mut sums = [0.0; 8];
     for ((block, t), p) in blocks.iter().zip(time).zip(place) {
         for (i, sum) in sums.iter_mut().enumerate() {
@@ -292,7 +292,7 @@ fn elevations(blocks: &[WaveBlock], time: &[Turn], place: &[Turn]) -> Eight {
 
 /// Sums of the velocities and accelerations of every fourth wave at a height.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn flows(blocks: &[WaveBlock], time: &[Turn], place: &[Turn], z: f64, lateral: bool) -> [Four; 6] {
+fn flows(blocks: &[WaveBlock], time: &[Turn], place: &[Turn], z: f64, lateral: bool) -> [Lanes4; 6] {
     let mut sums = [[0.0; 4]; 6];
     for ((b, t), p) in blocks.iter().zip(time).zip(place) {
         if b.deep {
@@ -314,7 +314,7 @@ fn half<const DEEP: bool, const FROM: usize>(
     p: &Turn,
     z: f64,
     lateral: bool,
-    sums: &mut [Four; 6],
+    sums: &mut [Lanes4; 6],
 ) {
     let grown = exp(four(|i| b.k[FROM + i] * z));
     let (along, up) = if DEEP {
@@ -339,7 +339,7 @@ fn half<const DEEP: bool, const FROM: usize>(
 
 /// The sum of eight.
 #[inline]
-fn total(lanes: &Eight) -> f64 {
+fn total(lanes: &Lanes8) -> f64 {
     ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]))
 }
 

@@ -10,7 +10,7 @@ use super::super::beam::GAUSS;
 /// diameter D and `c^2 = 4 D^2 h (1-h)` the waterline chord squared, across y that of a circle of diameter hD; along z that of
 /// half a flat plate of width c up to half depth, and what that lacks above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wetted {
+pub struct SubmergedSection {
     /// Submerged height (m), also the width that drag acts on.
     pub height: f64,
     /// Submerged area (m2).
@@ -23,24 +23,24 @@ pub struct Wetted {
     pub moment: f64,
 }
 
-impl Wetted {
+impl SubmergedSection {
     /// That of a surface `s` above the axis of a tube of diameter `d`.
     #[inline]
     pub fn new(s: f64, d: f64) -> Self {
         let r = 0.5 * d;
         if s >= r {
             let area = FRAC_PI_4 * d * d;
-            return Wetted { height: d, area, added: [area; 2], growth: 0.0, moment: 0.0 };
+            return SubmergedSection { height: d, area, added: [area; 2], growth: 0.0, moment: 0.0 };
         }
         // not `<=`: a surface that is no number is for the check of the step
         if s <= -r {
-            return Wetted { height: 0.0, area: 0.0, added: [0.0; 2], growth: 0.0, moment: 0.0 };
+            return SubmergedSection { height: 0.0, area: 0.0, added: [0.0; 2], growth: 0.0, moment: 0.0 };
         }
         let h = (s + r) / d;
         let half_chord_squared = r * r - s * s;
         let half_chord = half_chord_squared.sqrt();
         let plate = FRAC_PI_4 * 2.0 * half_chord_squared;
-        Wetted {
+        SubmergedSection {
             height: s + r,
             area: r * r * (FRAC_PI_2 + (s / r).asin()) + s * half_chord,
             added: [FRAC_PI_4 * (s + r) * (s + r), if h < 0.5 { plate } else { FRAC_PI_4 * d * d - plate }],
@@ -50,14 +50,14 @@ impl Wetted {
     }
 }
 
-/// Places along an integration length where its fitted surface is looked at (3.4).
+/// Places along an integration length where its fitted surface is looked at [AQWA-TETHER 3.4].
 const SURFACE_SAMPLES: usize = 23;
-/// Pieces of an integration length at most (3.4).
+/// Pieces of an integration length at most [AQWA-TETHER 3.4].
 pub const MAX_WETTED_PIECES: usize = 7;
 
 /// How the surface lies along an integration length.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wetness {
+pub enum SubmergenceState {
     /// Above the tube all along.
     Under,
     /// Below the tube all along.
@@ -96,7 +96,7 @@ impl Default for Scan {
 
 impl Scan {
     /// How the surface lies, of its heights over the axis at the Gauss points of the length and the radius of the tube.
-    pub fn wetness(&self, heights: &[f64; 4], radius: f64) -> Wetness {
+    pub fn wetness(&self, heights: &[f64; 4], radius: f64) -> SubmergenceState {
         let mut values = [0.0; SURFACE_SAMPLES];
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         for (value, w) in values.iter_mut().zip(&self.weights) {
@@ -105,10 +105,10 @@ impl Scan {
             most = most.max(*value);
         }
         if least >= radius {
-            return Wetness::Under;
+            return SubmergenceState::Under;
         }
         if most <= -radius {
-            return Wetness::Dry;
+            return SubmergenceState::Dry;
         }
         let mut limits = [0.0; MAX_WETTED_PIECES + 1];
         let mut pieces = 0;
@@ -125,7 +125,7 @@ impl Scan {
         }
         pieces += 1;
         limits[pieces] = 1.0;
-        Wetness::Cut { limits, pieces }
+        SubmergenceState::Cut { limits, pieces }
     }
 }
 
@@ -136,13 +136,13 @@ mod tests {
 
     #[test]
     fn half_submerged_tube_has_half_area_and_half_added_mass_along_z() {
-        let (half, whole) = (Wetted::new(0.0, 2.0), Wetted::new(1.0, 2.0));
+        let (half, whole) = (SubmergedSection::new(0.0, 2.0), SubmergedSection::new(1.0, 2.0));
         assert!((half.area - PI / 2.0).abs() < 1e-15 && (whole.area - PI).abs() < 1e-15);
         // a plate of the diameter has the added mass of the circle, half of it wet: [NEWMAN-1977 4.15]
         assert!((half.added[1] - PI / 2.0).abs() < 1e-15 && (half.added[0] - PI / 4.0).abs() < 1e-15);
         assert_eq!(
-            Wetted::new(-1.0, 2.0),
-            Wetted { height: 0.0, area: 0.0, added: [0.0; 2], growth: 0.0, moment: 0.0 }
+            SubmergedSection::new(-1.0, 2.0),
+            SubmergedSection { height: 0.0, area: 0.0, added: [0.0; 2], growth: 0.0, moment: 0.0 }
         );
         // the centre of half a disc is 4 r / 3 pi off
         assert!((half.moment - half.area * 4.0 / (3.0 * PI)).abs() < 1e-15);
@@ -152,7 +152,8 @@ mod tests {
     fn wetted_section_derivatives_match_added_mass_and_area() {
         let h = 1e-6;
         for s in [-0.9, -0.4, 0.3, 0.8] {
-            let (before, at, after) = (Wetted::new(s - h, 2.0), Wetted::new(s, 2.0), Wetted::new(s + h, 2.0));
+            let (before, at, after) =
+                (SubmergedSection::new(s - h, 2.0), SubmergedSection::new(s, 2.0), SubmergedSection::new(s + h, 2.0));
             assert!(((after.added[1] - before.added[1]) / (2.0 * h) - at.growth).abs() < 1e-8);
             assert!(((after.area - before.area) / (2.0 * h) - 2.0 * (1.0 - s * s).sqrt()).abs() < 1e-8);
         }
@@ -163,15 +164,15 @@ mod tests {
         let scan = Scan::default();
         // s = 4 a - 2 on a tube of radius 1: bottom at a quarter, top at three quarters
         let heights = GAUSS.map(|(a, _)| 4.0 * a - 2.0);
-        let Wetness::Cut { limits, pieces } = scan.wetness(&heights, 1.0) else { panic!("it is cut") };
+        let SubmergenceState::Cut { limits, pieces } = scan.wetness(&heights, 1.0) else { panic!("it is cut") };
         assert_eq!(pieces, 3);
         for (limit, want) in limits.iter().zip([0.0, 0.25, 0.75, 1.0]) {
             assert!((limit - want).abs() < 1e-14, "{limits:?}");
         }
-        assert_eq!(scan.wetness(&[1.5; 4], 1.0), Wetness::Under);
-        assert_eq!(scan.wetness(&[-1.5; 4], 1.0), Wetness::Dry);
+        assert_eq!(scan.wetness(&[1.5; 4], 1.0), SubmergenceState::Under);
+        assert_eq!(scan.wetness(&[-1.5; 4], 1.0), SubmergenceState::Dry);
         let down = GAUSS.map(|(a, _)| 5.0 - 100.0 * a);
-        let Wetness::Cut { limits, pieces } = scan.wetness(&down, 1.0) else { panic!("it is cut") };
+        let SubmergenceState::Cut { limits, pieces } = scan.wetness(&down, 1.0) else { panic!("it is cut") };
         assert!(pieces == 3 && (limits[1] - 0.04).abs() < 1e-14 && (limits[2] - 0.06).abs() < 1e-14);
     }
 }

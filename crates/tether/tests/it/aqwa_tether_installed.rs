@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::sync::LazyLock;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::Underway;
+use windlass_hydro::BodyStep;
 use windlass_signal::cycle::{AQWA_SAMPLES, HarmonicCycle};
 use windlass_tether::compatibility::Compatibility;
 use windlass_tether::installed::description::InstalledDescription;
@@ -140,7 +140,7 @@ fn structure_forces_match_listing_at_all_printed_times() {
     let (flow, mut platform) = (example::water(), example::platform(Compatibility::aqwa_5_4()));
     for state in LISTING["structure_history"].as_array().unwrap() {
         let time = number(&state["time"]);
-        let at = Underway { time, dt: 0.0, pose: &pose(&state["POSITION"]), velocity: &six(&state["VELOCITY"]) };
+        let at = BodyStep { time, dt: 0.0, pose: &pose(&state["POSITION"]), velocity: &six(&state["VELOCITY"]) };
         let mut forces =
             StructureForces { mooring: Six::from_vec(numbers(&state["MOORING"])) * 1e3, ..StructureForces::default() };
         platform.forces(&at, &flow.at_time(time), true, &mut forces).unwrap();

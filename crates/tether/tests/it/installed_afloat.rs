@@ -17,7 +17,7 @@ use windlass_tether::compatibility::Compatibility;
 use windlass_tether::installed::{
     EndSprings, Installation, InstalledHistory, InstalledRunSettings, InstalledTether, Keep,
 };
-use windlass_tether::structure::afloat::Afloat;
+use windlass_tether::structure::floating_body::Afloat;
 use windlass_tether::structure::flow::{FlowWaves, WaterFlow};
 
 const MASS: f64 = 4e7;

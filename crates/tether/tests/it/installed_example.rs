@@ -54,7 +54,7 @@ pub fn tethers() -> Vec<InstalledTether> {
         };
         let line = TetherLine::new([[4, 3], [3, 2], [2, 1]].map(element).to_vec()).unwrap();
         let (anchor, top) = (Vector3::new(*x, *y, -329.73543), Vector3::new(*x, *y, 12.85) - CENTRE);
-        let springs = EndSprings::of_card(Some([0.0, 5729.578e3, 5729.578e3])).0;
+        let springs = EndSprings::from_card(Some([0.0, 5729.578e3, 5729.578e3])).0;
         InstalledTether {
             anchor_springs: springs,
             vessel_springs: springs,

@@ -5,7 +5,7 @@ use crate::installed_example as example;
 use nalgebra::{Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::Underway;
+use windlass_hydro::BodyStep;
 use windlass_hydro::current::CurrentField;
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{ClassError, Stretching};
@@ -27,7 +27,7 @@ const NATIVE: Compatibility = Compatibility::native();
 struct Unmoved;
 
 impl Structure for Unmoved {
-    fn forces(&mut self, _: &Underway, _: &FlowAt, _: bool, out: &mut StructureForces) -> Result<(), ClassError> {
+    fn forces(&mut self, _: &BodyStep, _: &FlowAt, _: bool, out: &mut StructureForces) -> Result<(), ClassError> {
         *out =
             StructureForces { mooring: out.mooring, inertia: Matrix6::identity() * 1e30, ..StructureForces::default() };
         Ok(())
@@ -281,12 +281,12 @@ fn halving_step_shows_second_order() {
 fn missing_springs_get_defaults_and_a_note() {
     use DefaultTaken::{Inline, Missing, Rotation};
     let rigid = 1e18;
-    assert_eq!(EndSprings::of_card(None), (EndSprings::default(), vec![Missing]));
-    let (springs, said) = EndSprings::of_card(Some([0.0, 5.0, -1.0]));
+    assert_eq!(EndSprings::from_card(None), (EndSprings::default(), vec![Missing]));
+    let (springs, said) = EndSprings::from_card(Some([0.0, 5.0, -1.0]));
     assert_eq!((springs, said), (EndSprings { inline: rigid, rotation: [5.0, 0.0] }, vec![Inline, Rotation(1)]));
-    let (springs, said) = EndSprings::of_card(Some([-3.0, 0.0, 0.0]));
+    let (springs, said) = EndSprings::from_card(Some([-3.0, 0.0, 0.0]));
     assert_eq!((springs, said), (EndSprings { inline: rigid, rotation: [0.0; 2] }, vec![Inline]));
-    assert_eq!(EndSprings::of_card(Some([7.0, 1.0, 2.0])).1, []);
+    assert_eq!(EndSprings::from_card(Some([7.0, 1.0, 2.0])).1, []);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::{RodQuery, RodReport, plain};
 use crate::commands::post::report::Tables;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_signal::line::fatigue::{MAX_CIRCUMFERENCE_POINTS, Round};
+use windlass_signal::line::fatigue::{MAX_CIRCUMFERENCE_POINTS, TubeCircumference};
 use windlass_solve::results::along;
 
 /// FATIGUE.
@@ -32,9 +32,9 @@ const DFF: OptionSpec = OptionSpec::ours(
 
 fn tables(query: &RodQuery) -> Tables {
     let (args, events) = (query.args(), query.events_after_transient()?);
-    let usual = Round::default();
+    let usual = TubeCircumference::default();
     let points = args.option_integer(&POINTS).and_then(|n| usize::try_from(n).ok());
-    let round = Round {
+    let round = TubeCircumference {
         points: points.unwrap_or(usual.points),
         concentration: args.option_number(&SCF).unwrap_or(usual.concentration),
     };

@@ -7,7 +7,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_solve::results::along::{self, Where};
+use windlass_solve::results::along::{self, LinePosition};
 
 /// NODE.
 pub(super) static NODE: RodReport =
@@ -30,7 +30,7 @@ fn tables(query: &RodQuery) -> Tables {
 }
 
 /// The places of NODE.
-fn places(query: &RodQuery) -> Outcome<Vec<Where>> {
+fn places(query: &RodQuery) -> Outcome<Vec<LinePosition>> {
     let (args, line) = (query.args(), &query.line);
     let mut list = Vec::new();
     for given in args.data_after(WHAT) {
@@ -39,11 +39,11 @@ fn places(query: &RodQuery) -> Outcome<Vec<Where>> {
             let text = format!("{value} is no node of {}: they are 1 to {}", line.name, line.nodes());
             return Err(Diagnostic::error(text, given.span));
         }
-        list.push(Where::Node(value as usize));
+        list.push(LinePosition::Node(value as usize));
     }
-    list.extend(args.option(&ARC).map(Given::numbers).unwrap_or_default().into_iter().map(Where::Arc));
+    list.extend(args.option(&ARC).map(Given::numbers).unwrap_or_default().into_iter().map(LinePosition::Arc));
     if list.is_empty() {
-        list.push(Where::Node(1));
+        list.push(LinePosition::Node(1));
     }
     if list.len() > MAX_PLACES {
         let text = format!("{} places: {MAX_PLACES} at most stand side by side", list.len());

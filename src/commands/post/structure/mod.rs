@@ -42,7 +42,7 @@ static SPEC: CommandSpec = CommandSpec {
     options: StructureReport::OPTIONS,
     detail: "Of the body that installed tethers hold, in a run of TDOM -TETHERS. Columns of HISTORY are X to RZ, VX, AX, and of forces \
              G (gravity), H (hydrostatic), D (drag), FK (Froude-Krylov), WI (wave inertia), DF (diffraction and what else acts on the \
-             body), GY (gyroscopic), M (mooring), T (total) with the axis behind.",
+             body), GY (gyroscopic), M (mooring), T (total) with the axis after it.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*A 0 0 -100\n&DESCRIBE BODY SPAR\n*B 0 0 -30\n*T 0 0 12\n*G 0 0 -20\n#WEIGHT *G 18000 12 12 5\n\
               &SURFACE\nTUBE HULL *B *T 10000\nEND\n~T TETHER 0.6 0.03 -LEN 69.97 -REFINE 4\nCONNECTOR T ~T *B *A -V_SPRINGS 0 0 0 -A_SPRINGS 0 0 0\n\
               END\n&ENV -DEPTH 100 -SEA STOKES 180 4 8 -STOKES 2 -TIME 16 0.1\nTDOM -TETHERS\nPRCPOST\nSTRUCTURE PAGES *T -EVENTS 0 8 4\n\

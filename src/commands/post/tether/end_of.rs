@@ -2,7 +2,7 @@
 
 use super::{TetherQuery, TetherReport};
 use crate::commands::post::report::Tables;
-use windlass_solve::tethered::{self, Of};
+use windlass_solve::tethered::{self, HistoryTarget};
 
 /// END_OF.
 pub(super) static END_OF: TetherReport =
@@ -11,5 +11,5 @@ pub(super) static END_OF: TetherReport =
 
 fn tables(query: &TetherQuery) -> Tables {
     let end = query.number(2 * query.tether.line.elements().len(), "end of an element of the tether")?;
-    Ok(vec![tethered::series(query.run, query.tether, Of::End(end - 1))])
+    Ok(vec![tethered::series(query.run, query.tether, HistoryTarget::End(end - 1))])
 }

@@ -10,8 +10,8 @@ pub(crate) mod kg_allow;
 pub(crate) mod moment;
 pub(crate) mod tank_capacity;
 
-use crate::commands::chosen::raise;
 use crate::commands::menu;
+use crate::commands::name_filter::raise;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use windlass_base::diagnostic::{Diagnostic, Outcome};

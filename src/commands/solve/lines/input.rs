@@ -310,7 +310,7 @@ impl Read for ByLine {
         self.file.consume(taken);
         self.row += taken;
         if self.row > LONGEST_ROW {
-            let text = format!("the row that ends behind line {} has more than {LONGEST_ROW} bytes", self.lines);
+            let text = format!("the row that ends after line {} has more than {LONGEST_ROW} bytes", self.lines);
             return Err(std::io::Error::other(format!("{text}; is a quote not closed?")));
         }
         Ok(taken)

@@ -26,9 +26,9 @@ pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
     let (at, count) = header("NPAN")?;
     let mut words = fields(count);
     let stated = words.next().unwrap_or_default();
-    let panels: usize = stated
-        .parse()
-        .map_err(|_| at_line(at, format!("`{}` is no number of panels (NPAN)", shorten_for_message(stated))))?;
+    let panels: usize = stated.parse().map_err(|_| {
+        at_line(at, format!("`{}` is not a valid number of panels (NPAN)", shorten_for_message(stated)))
+    })?;
     if words.next().and_then(|w| w.parse::<i64>().ok()).is_some_and(|kind| kind != 0) {
         return Err(at_line(at, "a second number (IGDEF): patches of higher order are not read, only flat panels"));
     }
@@ -90,7 +90,7 @@ fn pair((at, line): (usize, &str), names: [&str; 2]) -> Result<[f64; 2], HullErr
     for (value, name) in values.iter_mut().zip(names) {
         let word = words.next().unwrap_or_default();
         *value = number(word)
-            .ok_or_else(|| at_line(at, format!("`{}` is no number for {name}", shorten_for_message(word))))?;
+            .ok_or_else(|| at_line(at, format!("`{}` is not a number for {name}", shorten_for_message(word))))?;
     }
     Ok(values)
 }

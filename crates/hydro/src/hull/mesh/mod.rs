@@ -63,7 +63,8 @@ fn triple<'a>(words: &mut impl Iterator<Item = &'a str>, line: usize) -> Result<
     let mut at = [0.0; 3];
     for (value, name) in at.iter_mut().zip(["x", "y", "z"]) {
         let word = words.next().ok_or_else(|| at_line(line, format!("no {name}; a corner has x y z")))?;
-        *value = number(word).ok_or_else(|| at_line(line, format!("`{}` is no number", shorten_for_message(word))))?;
+        *value =
+            number(word).ok_or_else(|| at_line(line, format!("`{}` is not a number", shorten_for_message(word))))?;
     }
     Ok(at)
 }

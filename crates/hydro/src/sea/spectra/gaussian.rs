@@ -32,7 +32,7 @@ pub(super) static GAUSSIAN: WaveSpectrum = WaveSpectrum {
 fn build(sea: &SeaState) -> Result<Spectrum, ClassError> {
     let ([deviation], peak) = (sea.parameters(), TAU / sea.period);
     if deviation.is_nan() {
-        return Err(ClassError::new("a Gaussian swell has no standard deviation").help("SIGMA behind PERIOD gives it"));
+        return Err(ClassError::new("a Gaussian swell has no standard deviation").help("SIGMA after PERIOD gives it"));
     }
     if NARROWEST * deviation > peak {
         let text = "a Gaussian swell of standard deviation {} is too wide for its peak frequency of {}";
@@ -48,7 +48,7 @@ fn build(sea: &SeaState) -> Result<Spectrum, ClassError> {
         [peak, deviation] => (-0.5 * ((w - peak) / deviation).powi(2)).exp(),
         _ => 0.0,
     };
-    Spectrum::of_form(form, vec![peak, deviation], knots).with_scaled_frequencies(1.0, sea.energy(), None)
+    Spectrum::from_form(form, vec![peak, deviation], knots).with_scaled_frequencies(1.0, sea.energy(), None)
 }
 
 #[cfg(test)]

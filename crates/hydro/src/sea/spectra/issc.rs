@@ -12,6 +12,6 @@ pub(super) static ISSC: WaveSpectrum = WaveSpectrum {
     parameters: &[],
     form: WaveForm::Irregular {
         period: PeriodInput::AsTyped(PeriodType::Mean),
-        build: |sea| Spectrum::of_humps(jonswap(sea.height, sea.period, sea.period_type, 1.0), None).with_energy(),
+        build: |sea| Spectrum::from_peaks(jonswap(sea.height, sea.period, sea.period_type, 1.0), None).with_energy(),
     },
 };

@@ -26,21 +26,21 @@ pub(super) static JONSWAP: WaveSpectrum = WaveSpectrum {
         build: |sea| {
             let [gamma] = sea.parameters();
             let peaks = jonswap(sea.height, sea.period, sea.period_type, gamma);
-            Spectrum::of_humps(peaks, None).with_energy()
+            Spectrum::from_peaks(peaks, None).with_energy()
         },
     },
 };
 
 /// ISSC (gamma 1) or JONSWAP.
 pub fn jonswap(height: f64, period: f64, kind: PeriodType, gamma: f64) -> Vec<SpectralPeak> {
-    let unit = Spectrum::of_humps(vec![SpectralPeak::of_energy(1.0, 1.0, 5.0, gamma)], None);
+    let unit = Spectrum::from_peaks(vec![SpectralPeak::from_energy(1.0, 1.0, 5.0, gamma)], None);
     // w = x wp: a period of the unit spectrum becomes the one asked for
     let peak = match kind {
         PeriodType::Peak => period,
         PeriodType::Mean => period * unit.moment(1),
         PeriodType::ZeroCrossing => period * unit.moment(2).sqrt(),
     };
-    vec![SpectralPeak::of_energy(height * height / 16.0, TAU / peak, 5.0, gamma)]
+    vec![SpectralPeak::from_energy(height * height / 16.0, TAU / peak, 5.0, gamma)]
 }
 
 /// The peakedness of JONSWAP where none is given: 5 up to Tp/sqrt(Hs) = 3.6, exp(5.75 - 1.15 Tp/sqrt(Hs)) up to 5, 1 beyond

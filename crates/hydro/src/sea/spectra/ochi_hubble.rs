@@ -13,7 +13,7 @@ pub(super) static OCHI: WaveSpectrum = WaveSpectrum {
     form: WaveForm::Irregular {
         period: PeriodInput::PeakOnly("the spectrum of Ochi and Hubble"),
         build: |sea| {
-            let found = Spectrum::of_humps(ochi_hubble(most_probable(sea.height))?, None).with_energy()?;
+            let found = Spectrum::from_peaks(ochi_hubble(most_probable(sea.height))?, None).with_energy()?;
             found.with_scaled_frequencies(TAU / sea.period / found.peak(), sea.energy(), None)
         },
     },
@@ -34,7 +34,7 @@ pub fn ochi_hubble(parts: [[f64; 3]; 2]) -> Result<Vec<SpectralPeak>, ClassError
             ))
             .help("its most probable shape is above 0.25 up to a significant height of 29 m"));
         }
-        Ok(SpectralPeak::of_energy(height * height / 16.0, peak, 4.0 * shape + 1.0, 1.0))
+        Ok(SpectralPeak::from_energy(height * height / 16.0, peak, 4.0 * shape + 1.0, 1.0))
     };
     parts.into_iter().map(hump).collect()
 }

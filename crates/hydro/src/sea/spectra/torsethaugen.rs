@@ -16,7 +16,7 @@ pub(super) static TORSETHAUGEN: WaveSpectrum = WaveSpectrum {
     parameters: &[],
     form: WaveForm::Irregular {
         period: PeriodInput::PeakOnly("the spectrum of Torsethaugen"),
-        build: |sea| Spectrum::of_humps(torsethaugen(sea.height, sea.period)?, None).with_energy(),
+        build: |sea| Spectrum::from_peaks(torsethaugen(sea.height, sea.period)?, None).with_energy(),
     },
 };
 
@@ -47,9 +47,9 @@ pub fn torsethaugen(height: f64, period: f64) -> Result<Vec<SpectralPeak>, Class
         let share = 0.6 + 0.4 * (-(near / 0.3).powi(2)).exp();
         (share * height, steep(height, fetch) * (1.0 + 6.0 * near), rest(share), 6.6 * rest(share).cbrt())
     };
-    let mut humps = vec![SpectralPeak::of_energy(first * first / 16.0, TAU / period, 4.0, gamma.max(1.0))];
+    let mut humps = vec![SpectralPeak::from_energy(first * first / 16.0, TAU / period, 4.0, gamma.max(1.0))];
     if second > 1e-6 * height {
-        humps.push(SpectralPeak::of_energy(second * second / 16.0, TAU / second_period, 4.0, 1.0));
+        humps.push(SpectralPeak::from_energy(second * second / 16.0, TAU / second_period, 4.0, 1.0));
     }
     Ok(humps)
 }

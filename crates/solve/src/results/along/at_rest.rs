@@ -50,7 +50,7 @@ pub(crate) fn visit_lines_at_rest(
 }
 
 /// What is to be known of the dynamic lines where they rest between their ends as they stand: their names with the text.
-pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
+pub fn static_cautions(model: &Model) -> Vec<(String, &'static str)> {
     let mut made = Vec::new();
     // of others nothing is to be said
     let is_dynamic = |name: &str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.is_dynamic_line(c));

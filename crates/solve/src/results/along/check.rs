@@ -10,7 +10,7 @@ use windlass_model::{ClassError, Idealisation};
 use windlass_signal::SeriesError;
 use windlass_signal::line::lrfd::{LrfdFactors, TubeResistance};
 use windlass_signal::line::working_stress::{self, DesignCase};
-use windlass_signal::line::{Acting, CheckedTube, over_break};
+use windlass_signal::line::{CheckedTube, SectionLoads, over_break};
 
 /// What a tube is checked by; other sections go by tension over break.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +81,7 @@ struct Worst {
     time: f64,
     arc: f64,
     segment: usize,
-    acting: Acting,
+    acting: SectionLoads,
 }
 
 /// The largest use of what each node resists over some events, and when; where two segments meet, of the one that uses more. What acts at the first stored instant, at rest, is functional
@@ -122,13 +122,13 @@ pub fn check(line: &LineResults, code: &Code, events: &[RunEvent]) -> Result<Tab
                     }
                     Checked::WorkingStress(tube, case) => {
                         // of the wall that corrosion leaves
-                        let acting = Acting { wall: wall_tension(tube, &node), ..acting };
+                        let acting = SectionLoads { wall: wall_tension(tube, &node), ..acting };
                         working_stress::utilisation(tube, &acting, *case).map_err(wrong)?
                     }
                     Checked::Break(breaking) => over_break(node.effective, *breaking).map_err(wrong)?,
                 };
                 if !used.is_finite() {
-                    return Err(line.error(format!("its check at {time} s is no number")));
+                    return Err(line.error(format!("its check at {time} s is not finite")));
                 }
                 if worst.is_none_or(|w| used > w.used) {
                     *worst = Some(Worst { used, time, arc: node.arc, segment, acting });
@@ -154,10 +154,16 @@ fn design(node: &NodeRow) -> [f64; 3] {
     [one, other, node.effective]
 }
 
-fn acting(node: &NodeRow, section: &ResultSection) -> Acting {
-    let Some(bent) = &node.bent else { return Acting { effective: node.effective, ..Acting::default() } };
+fn acting(node: &NodeRow, section: &ResultSection) -> SectionLoads {
+    let Some(bent) = &node.bent else { return SectionLoads { effective: node.effective, ..SectionLoads::default() } };
     let [outside, inside] = bent.pressures;
-    Acting { moment: bent.moment(), effective: node.effective, wall: section.stress_tension(node), inside, outside }
+    SectionLoads {
+        moment: bent.moment(),
+        effective: node.effective,
+        wall: section.stress_tension(node),
+        inside,
+        outside,
+    }
 }
 
 fn check_table(line: &LineResults, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Table {

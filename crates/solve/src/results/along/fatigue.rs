@@ -8,7 +8,7 @@ use windlass_base::units::Dim;
 use windlass_model::{ClassError, FatigueKind, FatigueSelection, Idealisation};
 use windlass_signal::SeriesError;
 use windlass_signal::fatigue::{SnCurve, find, life};
-use windlass_signal::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage};
+use windlass_signal::line::fatigue::{NodeDamage, NodeRecord, TubeCircumference, node_damage};
 
 /// Damage of each node over the stored instants of some events, round a tube at some points, and the life in years that it leaves
 /// when the record comes again for ever, with a design fatigue factor; where two segments meet that of the side that fails first. Each segment goes by its curve as for [`super::super::line_damages`].
@@ -18,7 +18,7 @@ use windlass_signal::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage}
 pub fn fatigue_table(
     line: &LineResults,
     selection: &FatigueSelection,
-    (round, factor): (&Round, f64),
+    (round, factor): (&TubeCircumference, f64),
     events: &[RunEvent],
 ) -> Result<Table, SolveError> {
     let wrong = |error: ClassError| SolveError { who: Some(line.name.to_string()), error };
@@ -59,7 +59,7 @@ pub fn fatigue_table(
     let by = |kind: FatigueKind| curves.iter().any(|c| c.kind == kind);
     let round_tubes = line.columns.bends && by(FatigueKind::Stress) && line.sections.iter().any(|s| s.tube.is_some());
     if round_tubes {
-        table = table.fact("Points Round a Tube", round.points, Dim::None).fact(
+        table = table.fact("Points TubeCircumference a Tube", round.points, Dim::None).fact(
             "Stress Concentration",
             round.concentration,
             Dim::None,

@@ -13,12 +13,12 @@ mod supports;
 mod touchdown;
 
 pub(crate) use at_rest::visit_lines_at_rest;
-pub use at_rest::{cautions, lines_at_rest};
+pub use at_rest::{lines_at_rest, static_cautions};
 pub use check::{Code, check};
 pub use envelope::envelope;
 pub use fatigue::fatigue_table as fatigue_along;
 pub use modes::natural_modes;
-pub use shape::{Where, histories, shape};
+pub use shape::{LinePosition, histories, shape};
 pub use supports::supports;
 pub use touchdown::touchdown;
 

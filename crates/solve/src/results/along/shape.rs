@@ -10,7 +10,7 @@ use windlass_model::{ClassError, Idealisation};
 
 /// A place along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Where {
+pub enum LinePosition {
     /// A node, from 1 at the first end.
     Node(usize),
     /// An unstretched distance from the first end (m); what is between two nodes is on the straight line between theirs.
@@ -81,12 +81,12 @@ pub fn shape(line: &LineResults, event: &RunEvent) -> Result<Table, SolveError> 
 ///
 /// # Errors
 /// A node that the line has not, a distance beyond its ends at every event.
-pub fn histories(line: &LineResults, wanted: &[Where], events: &[RunEvent]) -> Result<Table, SolveError> {
+pub fn histories(line: &LineResults, wanted: &[LinePosition], events: &[RunEvent]) -> Result<Table, SolveError> {
     let (run, bends) = (line.run, line.columns.bends);
     let (mut places, mut groups, mut arcs) = (Vec::new(), Vec::new(), Vec::new());
     for (index, place) in wanted.iter().enumerate() {
         match place {
-            Where::Node(number) => {
+            LinePosition::Node(number) => {
                 let found = number.checked_sub(1).and_then(|i| line.places.get(i));
                 let found = found.ok_or_else(|| {
                     let text = format!("{} has no node {number}: they are 1 to {}", line.name, line.nodes());
@@ -95,7 +95,7 @@ pub fn histories(line: &LineResults, wanted: &[Where], events: &[RunEvent]) -> R
                 places.push(Ok(*found));
                 groups.push(format!("Node {number}"));
             }
-            Where::Arc(arc) => {
+            LinePosition::Arc(arc) => {
                 places.push(Err(*arc));
                 let name = format!("Place {}", index + 1);
                 arcs.push((name.clone(), *arc));
@@ -124,7 +124,7 @@ pub fn histories(line: &LineResults, wanted: &[Where], events: &[RunEvent]) -> R
     }
     let table = table.build();
     let empty = |c: &&windlass_base::table::Column| c.cells.iter().all(|c| *c == Cell::Missing);
-    if wanted.iter().any(|w| matches!(w, Where::Arc(_)))
+    if wanted.iter().any(|w| matches!(w, LinePosition::Arc(_)))
         && let Some(column) = table.columns().iter().filter(|c| c.name == "Tension").find(empty)
     {
         let text = format!("{} of {} is beyond its ends at all these times", column.group, line.name);

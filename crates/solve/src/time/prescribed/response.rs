@@ -1,7 +1,7 @@
 //! A body that answers each wave of the sea as a table says.
 
 use super::super::forces::BodyMotion;
-use super::{Freedoms, Prescribed, motion_from_dofs};
+use super::{DofMotion, Prescribed, motion_from_dofs};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass_base::geometry::{Place, unit_vector};
@@ -11,7 +11,7 @@ use windlass_model::{ClassError, ResponseRow, Responses};
 
 /// A body that rides on the waves about its place.
 #[derive(Debug)]
-pub(super) struct Riding {
+pub(super) struct RaoMotion {
     place: Place,
     sea: Option<Arc<Sea>>,
     /// Of each wave its frequency (rad/s), and of each degree of freedom the factors of cos(w t) and sin(w t) (m, rad).
@@ -92,7 +92,7 @@ fn response_between(table: &Responses, from: f64, frequency: f64) -> Result<[Com
     }
 }
 
-impl Riding {
+impl RaoMotion {
     /// That of a body at a place.
     pub(super) fn new(place: Place, table: &Responses, sea: Option<&Arc<Sea>>) -> Result<Self, ClassError> {
         let [x, y, _] = place.shift;
@@ -118,7 +118,7 @@ impl Riding {
             let [heave, roll, pitch, yawing] = rest;
             waves.push((wave.frequency, [(xr, xi), (yr, yi), heave, roll, pitch, yawing]));
         }
-        Ok(Riding { place, sea: sea.cloned(), waves })
+        Ok(RaoMotion { place, sea: sea.cloned(), waves })
     }
 
     /// The ramp of the sea with its derivatives: `(1 - cos(pi t/T))/2`.
@@ -136,9 +136,9 @@ impl Riding {
     }
 }
 
-impl Prescribed for Riding {
+impl Prescribed for RaoMotion {
     fn motion_at(&self, time: f64) -> Result<BodyMotion, ClassError> {
-        let mut sums: Freedoms = [[0.0; 6]; 3];
+        let mut sums: DofMotion = [[0.0; 6]; 3];
         for (w, pairs) in &self.waves {
             let (sin, cos) = (w * time).sin_cos();
             for (i, (re, im)) in pairs.iter().enumerate() {
@@ -149,7 +149,7 @@ impl Prescribed for Riding {
             }
         }
         let (grown, mean) = (self.grown(time), self.place.values());
-        let mut dofs: Freedoms = [[0.0; 6]; 3];
+        let mut dofs: DofMotion = [[0.0; 6]; 3];
         for i in 0..6 {
             let [value, rate, second] = super::product(grown, [sums[0][i], sums[1][i], sums[2][i]]);
             dofs[0][i] = mean[i] + value;

@@ -1,7 +1,7 @@
 //! A motion through places at times.
 
 use super::super::forces::BodyMotion;
-use super::{Freedoms, Prescribed, motion_from_dofs};
+use super::{DofMotion, Prescribed, motion_from_dofs};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, PathRow};
@@ -82,7 +82,7 @@ impl Prescribed for Spline {
         };
         let long = b.0 - a.0;
         let (p, q) = ((b.0 - time) / long, (time - a.0) / long);
-        let mut dofs: Freedoms = [[0.0; 6]; 3];
+        let mut dofs: DofMotion = [[0.0; 6]; 3];
         for i in 0..6 {
             let (from, to, m, n) = (a.1[i], b.1[i], m[i], n[i]);
             let bend = long * long / 6.0;

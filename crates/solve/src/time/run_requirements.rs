@@ -1,7 +1,7 @@
-//! What a run asks of its dynamic lines: they are made for it.
+//! Per-run requirements used when building dynamic lines.
 
 use super::action::{Action, ActionKind};
-use super::course::RunSettings;
+use super::run_settings::RunSettings;
 use super::scheme::Method;
 use std::collections::{BTreeMap, BTreeSet};
 use windlass_model::{Model, RunRequirement, SchemeWeights};
@@ -21,7 +21,7 @@ pub struct RunRequirements {
 
 impl RunRequirements {
     /// Those of a run at its start.
-    pub fn foreseen(model: &Model, actions: &[Action], settings: &RunSettings) -> Self {
+    pub fn new(model: &Model, actions: &[Action], settings: &RunSettings) -> Self {
         let RunSettings { observed, balance, .. } = *settings;
         let scheme = match &settings.method {
             Method::Implicit(scheme) => Some(scheme.weights()),
@@ -43,7 +43,7 @@ impl RunRequirements {
     }
 
     /// Lets the first end of a line go, or holds it again; whether that is other than it was.
-    pub fn let_go(&mut self, name: &str, free: bool) -> bool {
+    pub fn set_end_released(&mut self, name: &str, free: bool) -> bool {
         let key = Model::key(name);
         if free { self.freed.insert(key) } else { self.freed.remove(&key) }
     }

@@ -1,7 +1,9 @@
 //! A run of tethers, kept instant by instant: in memory and in a file, or as statistics alone; and how it goes on from a checkpoint.
 
 use super::case::{Installed, TetherCase, TetherCaseKind, TowedCase, case};
-use super::history::{Happening, INSTALLED_END, StructureHistory, TOWED_END, TOWED_NODE, TetherHistory, vessel_row};
+use super::history::{
+    INSTALLED_END, StructureHistory, TOWED_END, TOWED_NODE, TetherHistory, TetherRunEvent, vessel_row,
+};
 use super::{TetherRunSettings, Tethered};
 use crate::SolveError;
 use crate::time::{RunFileError, STEPS_PER_SNAPSHOT, Snapshot, Watcher};
@@ -96,7 +98,7 @@ impl TetherRun {
                 _ => RigChange::LowerStop { drop: one },
             };
             let name = self.kept.tethers.get(tether as usize).map(|t| t.name.clone()).ok_or_else(other)?;
-            self.kept.happened.push(Happening { time, tether: name, change });
+            self.kept.happened.push(TetherRunEvent { time, tether: name, change });
         }
         self.from = Some((snapshot.taken, snapshot.states.clone()));
         Ok(())
@@ -192,7 +194,7 @@ impl Tethered {
     /// What happened so far, as numbers.
     fn event_numbers(&self) -> Vec<f64> {
         let place = |name: &str| self.tethers.iter().position(|t| t.name == name).unwrap_or(0) as f64;
-        let numbers = |event: &Happening| {
+        let numbers = |event: &TetherRunEvent| {
             let (kind, one, two) = match event.change {
                 RigChange::Slack => (0.0, 0.0, 0.0),
                 RigChange::Impact { velocity, stress } => (1.0, velocity, stress),
@@ -205,7 +207,7 @@ impl Tethered {
 }
 
 /// Takes the states of a run as they come.
-struct Keeper<'a> {
+struct RunRecorder<'a> {
     kept: &'a mut Tethered,
     watcher: &'a mut dyn Watcher,
     row: Vec<f64>,
@@ -215,10 +217,10 @@ struct Keeper<'a> {
     stopped: bool,
 }
 
-impl<'a> Keeper<'a> {
+impl<'a> RunRecorder<'a> {
     fn new(kept: &'a mut Tethered, watcher: &'a mut dyn Watcher) -> Self {
         let (rows, states) = (kept.times.len(), kept.settings.states());
-        Keeper { kept, watcher, row: Vec::new(), rows, states, stopped: false }
+        RunRecorder { kept, watcher, row: Vec::new(), rows, states, stopped: false }
     }
 
     /// Whether the run goes on at a time; remembers that it does not.
@@ -256,7 +258,7 @@ impl<'a> Keeper<'a> {
 }
 
 struct TowedKeeper<'a> {
-    keeper: Keeper<'a>,
+    keeper: RunRecorder<'a>,
     case: &'a TowedCase,
     /// An error of a file, told when the engine has let go.
     error: Option<ClassError>,
@@ -306,7 +308,7 @@ fn run_towed(
 ) -> Result<(), ClassError> {
     let settings = kept.settings;
     let steps = TowedSteps { step: settings.step, number: settings.states(), ..TowedSteps::default() };
-    let mut observer = TowedKeeper { keeper: Keeper::new(kept, watcher), case, error: None };
+    let mut observer = TowedKeeper { keeper: RunRecorder::new(kept, watcher), case, error: None };
     match from {
         Some(checkpoint) => case.tether.resume(checkpoint, &steps, &mut observer)?,
         None => case.tether.run(&steps, &mut observer)?,
@@ -321,7 +323,7 @@ fn run_towed(
 }
 
 struct InstalledKeeper<'a> {
-    keeper: Keeper<'a>,
+    keeper: RunRecorder<'a>,
     places: Vec<nalgebra::Vector3<f64>>,
     near: Place,
     /// What the engine needs to go on at the state that is shown next.
@@ -348,7 +350,7 @@ impl InstalledObserver for InstalledKeeper<'_> {
         let kept = &mut *self.keeper.kept;
         for event in moment.events {
             let name = kept.tethers.get(event.tether).map(|t| t.name.clone()).unwrap_or_default();
-            kept.happened.push(Happening { time: event.time, tether: name, change: event.change });
+            kept.happened.push(TetherRunEvent { time: event.time, tether: name, change: event.change });
         }
         self.near = moment.pose.place(&self.near);
         if !self.keeper.is_stored(moment.state) {
@@ -402,7 +404,7 @@ fn run_installed(
         near = Place { shift: [x, y, z], turn: [roll, pitch, yaw] };
     }
     let tethers: Vec<InstalledTether> = tethers;
-    let mut observer = InstalledKeeper { keeper: Keeper::new(kept, watcher), places, near, last: None };
+    let mut observer = InstalledKeeper { keeper: RunRecorder::new(kept, watcher), places, near, last: None };
     let mut installation = Installation::new(structure.as_mut(), tethers, &flow, compatibility)?;
     let ended = match from {
         Some(checkpoint) => installation.resume(&course, checkpoint, &mut observer),

@@ -2,10 +2,10 @@
 
 use super::added;
 use super::member::{MemberInPose, MemberLength, Station, drag};
-use crate::hull::{Solid, Wet};
+use crate::hull::{Solid, SubmergedVolume};
 use crate::sea::{Kinematics, Sea, SeaAt};
 use crate::steady::{Medium, Steady, Streams};
-use crate::{DynamicLoad, Load, Underway, in_pose};
+use crate::{BodyStep, DynamicLoad, Load, in_pose};
 use nalgebra::{Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Six;
@@ -23,7 +23,7 @@ const SURFACE_MARGIN_M: f64 = 1.0;
 
 /// What members meet under way.
 #[derive(Debug)]
-pub(super) struct UnderWay {
+pub(super) struct MemberWaveLoads {
     sea: Option<Arc<Sea>>,
     /// Added mass that the body's inertia holds, body axes.
     held: Matrix6<f64>,
@@ -90,7 +90,7 @@ impl WaterAtTime<'_> {
     }
 }
 
-impl UnderWay {
+impl MemberWaveLoads {
     pub(super) fn new(
         sea: Option<Arc<Sea>>,
         (rods, kinks): (&[MemberLength], &[f64]),
@@ -101,7 +101,7 @@ impl UnderWay {
         let (level, weight) = (steady.around.tide, steady.around.water_weight());
         let segments = rods.iter().map(|r| r.segments.len()).sum();
         let stations = rods.iter().map(|r| r.most_stations(kinks.len())).sum();
-        UnderWay { sea, held: *held, level, weight, kinks: kinks.to_vec(), segments, stations, reach }
+        MemberWaveLoads { sea, held: *held, level, weight, kinks: kinks.to_vec(), segments, stations, reach }
     }
 
     /// Whether there is a sea.
@@ -114,7 +114,7 @@ impl UnderWay {
     }
 
     /// Finds the water at the stations, and the force of the waves.
-    pub(super) fn begin(&self, rods: &[MemberLength], steady: &Steady, ahead: &Underway, state: &mut [f64]) {
+    pub(super) fn begin(&self, rods: &[MemberLength], steady: &Steady, ahead: &BodyStep, state: &mut [f64]) {
         let sea = self.sea.as_ref().map(|sea| sea.at_time(ahead.time));
         let streams = steady.streams_at_time(ahead.time);
         let water = WaterAtTime { sea, steady, streams, origin: ahead.pose.origin, level: self.level };
@@ -223,7 +223,7 @@ impl UnderWay {
     }
 
     /// Drag at a velocity of the body, and its change with that.
-    pub(super) fn drag(&self, at: &Underway, state: &[f64]) -> (Six, Matrix6<f64>) {
+    pub(super) fn drag(&self, at: &BodyStep, state: &[f64]) -> (Six, Matrix6<f64>) {
         let mut sum = (Six::zeros(), Matrix6::zeros());
         let (own, turn) = (three(at.velocity.as_slice()), three(&at.velocity.as_slice()[3..]));
         let stations = &state[HEADER_STATES + STATES_PER_SEGMENT * self.segments..];
@@ -242,7 +242,7 @@ impl UnderWay {
         sum
     }
 
-    pub(super) fn dynamic_load(&self, rods: &[MemberLength], at: &Underway, state: &[f64]) -> DynamicLoad {
+    pub(super) fn dynamic_load(&self, rods: &[MemberLength], at: &BodyStep, state: &[f64]) -> DynamicLoad {
         let (drag, damping) = self.drag(at, state);
         let mut load = Load { wrench: drag + six(state, WAVE_STATE), stiffness: Matrix6::zeros() };
         let segments = rods.iter().flat_map(|rod| rod.segments.iter().map(move |tube| (rod, tube)));
@@ -251,7 +251,7 @@ impl UnderWay {
             if *near == 0.0 {
                 continue;
             }
-            let mut wet = Wet::default();
+            let mut wet = SubmergedVolume::default();
             wet.add(&tube.wet(at.pose, self.level + over), 1.0);
             wet.add(&tube.wet(at.pose, self.level), -1.0);
             let more = wet.load(self.weight * rod.displaces() * rod.factor);

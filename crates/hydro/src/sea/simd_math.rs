@@ -4,8 +4,8 @@
 //! Sources: the kernels and split constants of fdlibm ([FDLIBM-5], k_sin.c, k_cos.c, e_rem_pio2.c, e_exp.c), without
 //! their last half unit: errors are below 3e-16 of one.
 
-/// Eight numbers.
-pub type Eight = [f64; 8];
+/// Lanes8 numbers.
+pub type Lanes8 = [f64; 8];
 
 /// Added to a number and subtracted again it rounds to a whole one, which then stands in the lowest bits.
 pub(super) const ROUND: f64 = 6_755_399_441_055_744.0;
@@ -46,7 +46,7 @@ const DEEP: f64 = 700.0;
 
 /// Sines and cosines of angles (rad).
 #[inline(always)]
-pub fn sin_cos(angles: &Eight) -> (Eight, Eight) {
+pub fn sin_cos(angles: &Lanes8) -> (Lanes8, Lanes8) {
     let (mut sines, mut cosines) = ([0.0; 8], [0.0; 8]);
     if !angles.iter().all(|a| a.abs() <= MAX_REDUCIBLE_ANGLE) {
         for ((sin, cos), angle) in sines.iter_mut().zip(&mut cosines).zip(angles) {
@@ -72,7 +72,7 @@ pub fn sin_cos(angles: &Eight) -> (Eight, Eight) {
 
 /// Exponentials.
 #[inline(always)]
-pub fn exp(powers: &Eight) -> Eight {
+pub fn exp(powers: &Lanes8) -> Lanes8 {
     let mut found = [0.0; 8];
     for (found, power) in found.iter_mut().zip(powers) {
         let power = power.clamp(-DEEP, DEEP);

@@ -30,11 +30,11 @@ impl<'a> NameFilter<'a> {
     }
 
     /// Whether a name is chosen.
-    pub fn takes(&self, name: &str) -> bool {
+    pub fn matches(&self, name: &str) -> bool {
         self.asked.set(true);
         self.given.iter().fold(self.given.is_empty(), |taken, (pattern, _, used)| {
             let fits = match self.model.selectors.get(&Model::key(pattern)) {
-                Some(selector) => selector.takes(name, self.model),
+                Some(selector) => selector.matches(name, self.model),
                 None => matches(pattern, name),
             };
             used.set(used.get() || fits);

@@ -4,7 +4,7 @@ use super::super::description::{TetherArrangement, TetherDescription, TetherEnd}
 use super::Towed;
 
 impl Towed {
-    /// Its description (7.1). Numbers of the nodes the user gave for the trailing end and the vessel's; impact and lower stop do
+    /// Its description [AQWA-TETHER 7.1]. Numbers of the nodes the user gave for the trailing end and the vessel's; impact and lower stop do
     /// not belong to a towed tether.
     pub fn description(&self, tether: usize, nodes: [&str; 2]) -> TetherDescription<'_> {
         let [x, y, z] = self.origin;

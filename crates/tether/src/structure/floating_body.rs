@@ -4,7 +4,7 @@ use super::flow::FlowAt;
 use super::{Structure, StructureForces};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
-use windlass_hydro::{BodyLoad, Category, Floating, Underway, in_pose, move_stiffness, move_wrench};
+use windlass_hydro::{BodyLoad, BodyStep, Category, Floating, in_pose, move_stiffness, move_wrench};
 use windlass_model::ClassError;
 
 /// A body with its loads, about its centre of gravity.
@@ -59,7 +59,7 @@ impl Afloat {
 impl Structure for Afloat {
     fn forces(
         &mut self,
-        at: &Underway,
+        at: &BodyStep,
         _: &FlowAt,
         accepted: bool,
         out: &mut StructureForces,
@@ -74,7 +74,7 @@ impl Structure for Afloat {
         for i in 0..3 {
             moves[i] -= turning[i];
         }
-        let own = Underway { pose: &origin, velocity: &moves, ..*at };
+        let own = BodyStep { pose: &origin, velocity: &moves, ..*at };
         out.inertia = in_pose(&self.inertia, at.pose);
         for (load, state) in self.loads.iter().zip(&mut self.states) {
             let stateful = load.as_stateful();

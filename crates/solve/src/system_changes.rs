@@ -2,7 +2,7 @@
 
 use super::link::{EndAttachment, Link, end_attachments, link};
 use super::system::{SolveError, System, moving_nodes};
-use super::time::{LinkEnds, LoadMemory, Pushing};
+use super::time::{CompressionOnset, LinkEnds, LoadMemory};
 use std::sync::Arc;
 use windlass_hydro::ambient;
 use windlass_hydro::sea::Sea;
@@ -30,8 +30,8 @@ fn nodes(element: &dyn Element) -> (usize, bool) {
 }
 
 /// How rows report compression, of an element that takes it.
-fn pushing(element: &dyn Element, ends: &[EndAttachment]) -> Option<Pushing> {
-    Pushing::new(element.compression_onset()?, ends, element.pulling_end())
+fn pushing(element: &dyn Element, ends: &[EndAttachment]) -> Option<CompressionOnset> {
+    CompressionOnset::new(element.compression_onset()?, ends, element.pulling_end())
 }
 
 impl System {

@@ -208,15 +208,15 @@ impl Script {
 
     /// Tells what was assumed, or has no effect: of a card and its columns, in a remark line and as a note on the card.
     pub(super) fn note(&mut self, card: &str, span: Span, text: &str) {
-        self.tell(*Diagnostic::remark(format!("{card}: {text}"), span));
+        self.add_remark(*Diagnostic::remark(format!("{card}: {text}"), span));
     }
 
     /// The same as a warning: what the user may not have meant.
     pub(super) fn warn(&mut self, card: &str, span: Span, text: &str) {
-        self.tell(*Diagnostic::warning(format!("{card}: {text}"), span));
+        self.add_remark(*Diagnostic::warning(format!("{card}: {text}"), span));
     }
 
-    fn tell(&mut self, said: Diagnostic) {
+    fn add_remark(&mut self, said: Diagnostic) {
         self.remark(&said.message);
         self.notes.push(said);
     }
