@@ -27,7 +27,7 @@ use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, Va
 use windlass_model::{Environment, Model, add_model_column, find};
 use windlass_solve::frequency::tables::{NamedQuantity, load_statistics, statistics};
 use windlass_solve::frequency::{
-    Derivative, ExtremeKind, FrequencyResponse, LinearQuantity, LinearSystem, ResponseOptions, in_sea,
+    Derivative, ExtremeKind, FrequencyResponse, LinearQuantity, LinearSystem, ResponseOptions, sea_response,
 };
 
 /// FR_CFORCE.
@@ -175,7 +175,7 @@ fn respond_in(job: &mut Job, args: &Args, name: Option<(&str, Span)>) -> Outcome
     frequencies.sort_by(f64::total_cmp);
     frequencies.dedup();
     let trains = seas(job, &env, args.span)?;
-    let made = in_sea(&linear, &trains, &ResponseOptions { frequencies, spectral: false });
+    let made = sea_response(&linear, &trains, &ResponseOptions { frequencies, spectral: false });
     let response = made.map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
     let extreme = usual(probability::extreme_in(&job.model, &env));
     if let Some((name, _)) = name.filter(|_| !changes.is_empty()) {

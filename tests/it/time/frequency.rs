@@ -135,7 +135,7 @@ fn sailing_oscillator_moves_at_encounter_frequency() {
     }
     // a regular head sea: the variance is half the square of the amplitude, the period that of encounter
     let trains = Trains::new(&model, &sea).unwrap().unwrap();
-    let made = in_sea(&linear, &trains, &ResponseOptions::default()).unwrap();
+    let made = sea_response(&linear, &trains, &ResponseOptions::default()).unwrap();
     let [_, _, z] = LinearQuantity::point(&linear, 0, nalgebra::Vector3::zeros());
     let found = ResponseStatistics::new(&made, &z, Derivative::Place);
     let met = w + k * speed;
