@@ -154,7 +154,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .columns(BASIC, ["KMT", "KML", "BMT", "BML"], Dim::Length, Digits::Usual, |(.., h)| {
             h.map_or([None; 4], |h| [h.kb + h.bm_t, h.kb + h.bm_l, h.bm_t, h.bm_l].map(Some))
         })
-        .column(COEFFICIENT, "SubmergedVolume Area", Dim::Area, Digits::Usual, |(.., h)| h.map(|h| h.wetted_area))
+        .column(COEFFICIENT, "Wet Area", Dim::Area, Digits::Usual, |(.., h)| h.map(|h| h.wetted_area))
         .column(COEFFICIENT, "Immersion", Dim::ForcePerLength, Digits::Usual, |(.., h)| {
             h.map(|h| h.plane_area * hull.water_weight())
         })

@@ -59,7 +59,7 @@ pub fn fatigue_table(
     let by = |kind: FatigueKind| curves.iter().any(|c| c.kind == kind);
     let round_tubes = line.columns.bends && by(FatigueKind::Stress) && line.sections.iter().any(|s| s.tube.is_some());
     if round_tubes {
-        table = table.fact("Points TubeCircumference a Tube", round.points, Dim::None).fact(
+        table = table.fact("Points Round a Tube", round.points, Dim::None).fact(
             "Stress Concentration",
             round.concentration,
             Dim::None,
