@@ -92,14 +92,12 @@ static UGX: MenuSpec = MenuSpec { name: "&UGX", end: "END_&UGX" };
 static TABLES: MenuSpec = MenuSpec { name: "&TABLE", end: "END_&TABLE" };
 static DOCUMENTS: MenuSpec = MenuSpec { name: "&D_GENERATE", end: "END_&D_GENERATE" };
 static PLTMODE: MenuSpec = MenuSpec { name: "&PLTMODE", end: "END_&PLTMODE" };
-static SHAPES: MenuSpec = MenuSpec { name: "&DATA SHAPES", end: "END_&DATA" };
 /// The disposition menu of a table that is not made.
 static DISPOSITION: MenuSpec = MenuSpec { name: "DISPOSITION", end: "END_DISPOSE" };
 
 const TOTAL: &str = "I_TOTAL gives added mass, damping and wave forces by records, DATABASE reads them";
 const DRIFT: &str = "#DRIFT gives mean drift by records, DATABASE reads it";
 const NO_STRESS: &str = "a stress analysis, which windlass does not make";
-const STRUCTURE: &str = "weight, buoyancy, wind and drag of structural members";
 const TUBE_INSTEAD: &str = "TUBE of &SURFACE, #WEIGHT and #AREA give members, weights and areas";
 
 /// A table of PRCPOST that is not made.
@@ -143,8 +141,6 @@ pub static ABSENT: &[Absent] = &[
         .instead("&INFO and string functions give values to keep"),
     Absent::new("&VARIABLE", Loss::Results, "names kept in a database")
         .instead("&SET keeps a list of words, &TOKEN takes it apart"),
-    Absent::new("BEAM", STATICS, STRUCTURE).within(MODEL).instead(TUBE_INSTEAD),
-    Absent::new("PLATE", STATICS, STRUCTURE).within(MODEL).instead(TUBE_INSTEAD),
     Absent::new("TUBTANK", STATICS, "a cylinder between two points that belongs to a compartment")
         .within(MODEL)
         .instead("PGEN with PLANE -CIRCULAR encloses it"),
@@ -156,11 +152,14 @@ pub static ABSENT: &[Absent] = &[
         .instead("COPY_BLOCK gives a copy a name"),
     Absent::new("&EMIT", STATICS, "surfaces go into a file or a body")
         .instead("EMIT puts surfaces into the part described last"),
-    Absent::new("SP_BEAM", STATICS, STRUCTURE).within(MODEL).instead(TUBE_INSTEAD),
-    Absent::new("SP_PLATE", STATICS, STRUCTURE).within(MODEL).instead(TUBE_INSTEAD),
+    Absent::new("SP_BEAM", Loss::Nothing, "it reports stresses of other members, and adds nothing to the model")
+        .within(MODEL),
+    Absent::new("SP_PLATE", Loss::Nothing, "it reports stresses of other members, and adds nothing to the model")
+        .within(MODEL),
     Absent::new("ED_ELEMENT", STATICS, "changes of structural members").within(MODEL),
     Absent::new("RESTRAINT", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
     Absent::new("REST", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
+    Absent::new("RELEASES", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
     Absent::new("JOINT", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
     Absent::new("ASSEMBLY LLEG", STATICS, "launch legs, on which a jacket slides from its barge").within(MODEL),
     Absent::new("ASSEMBLY CONTROL", STATICS, "a control of lengths and forces").within(MODEL),
@@ -170,7 +169,6 @@ pub static ABSENT: &[Absent] = &[
     Absent::new("ASSEMBLY WINCH", STATICS, "winches")
         .within(MODEL)
         .instead("&ACTION pays lines out and in; class CT_LINE keeps a tension"),
-    Absent::new("&DATA SHAPES", Loss::Nothing, "shapes are sections of structural members").opens(&SHAPES),
     Absent::new("TKR_MODEL", STATICS, "the hull, weight, wind and current of a tanker, by the macro library V_MODEL")
         .instead(TUBE_INSTEAD),
     Absent::new("W_BOX", STATICS, "a wind box, by the macro library V_MODEL").instead("#AREA gives areas in wind"),
@@ -196,32 +194,14 @@ pub static ABSENT: &[Absent] = &[
 pub struct AbsentClass {
     /// Its word.
     pub name: &'static str,
-    /// What its connectors would do; `None` of classes of structural members, which do nothing by themselves.
-    pub of_connectors: Option<&'static str>,
-}
-
-/// A class of structural members.
-const fn section(name: &'static str) -> AbsentClass {
-    AbsentClass { name, of_connectors: None }
+    /// What its connectors would do.
+    pub of_connectors: &'static str,
 }
 
 /// The class types.
 pub static CLASSES: &[AbsentClass] = &[
-    AbsentClass { name: "LLEG", of_connectors: Some("forces of launch legs") },
-    AbsentClass { name: "PROPULSION", of_connectors: Some("the thrust of a propeller") },
-    AbsentClass { name: "PILE", of_connectors: Some("the resistance of a pile") },
-    section("TUBE"),
-    section("CONE"),
-    section("BOX"),
-    section("WBOX"),
-    section("PRI"),
-    section("IBEAM"),
-    section("G_IBEAM"),
-    section("TEE"),
-    section("CHANNEL"),
-    section("ANGLE"),
-    section("D_ANGLE"),
-    section("PLATE"),
+    AbsentClass { name: "PROPULSION", of_connectors: "the thrust of a propeller" },
+    AbsentClass { name: "PILE", of_connectors: "the resistance of a pile" },
 ];
 
 /// Kinds of `&STATUS` that MOSES has and windlass does not, with what to ask for instead.
@@ -260,16 +240,17 @@ pub fn find_form(command: &str, second: &str) -> Option<&'static Absent> {
     })
 }
 
-/// The class type of a word, that of a rolled shape among them: `W14X140`.
+/// The class type of a word.
 pub fn find_class(word: &str) -> Option<&'static AbsentClass> {
-    let named = CLASSES.iter().find(|class| class.name.eq_ignore_ascii_case(word));
-    named.or_else(|| {
-        let letters = word.bytes().take_while(u8::is_ascii_alphabetic).count();
-        let (depth, weight) = word.get(letters..)?.split_once(['X', 'x'])?;
-        let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit() || b == b'.');
-        let is_shape = (1..=3).contains(&letters) && is_number(depth) && is_number(weight);
-        CLASSES.iter().find(|class| is_shape && class.name == "IBEAM")
-    })
+    CLASSES.iter().find(|class| class.name.eq_ignore_ascii_case(word))
+}
+
+/// Whether a word is the name of a rolled shape: `W14X140`.
+pub fn is_rolled_shape(word: &str) -> bool {
+    let letters = word.bytes().take_while(u8::is_ascii_alphabetic).count();
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+    let sizes = word.get(letters..).and_then(|sizes| sizes.split_once(['X', 'x']));
+    (1..=3).contains(&letters) && sizes.is_some_and(|(depth, weight)| is_number(depth) && is_number(weight))
 }
 
 /// What windlass has instead of a kind of `&STATUS`.

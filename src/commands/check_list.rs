@@ -2,8 +2,9 @@
 
 use super::{
     Call, Command, accepted, action, alter, apply, assembly, bathymetry, buildg, class, compartment, connector, curves,
-    database, describe, device, disposition, env, file, hydrodynamics, hydrostatic, junction, loads, menus, message,
-    names, parameter, pgen, piece, pipe, prescribe, rep_select, select, status, surface, t_pressure, units, weight,
+    database, describe, device, disposition, element, env, file, hydrodynamics, hydrostatic, junction, loads, menus,
+    message, names, parameter, pgen, piece, pipe, prescribe, rep_select, select, status, surface, t_pressure, units,
+    weight,
 };
 use crate::commands::solve::hstatics::equi_h;
 use crate::commands::solve::{equilibrium, tdom};
@@ -54,6 +55,8 @@ static RUN: &[&Command] = &[
     &hydrodynamics::H_FORCE,
     &class::CLASS,
     &connector::CONNECTOR,
+    &element::BEAM,
+    &element::PLATE,
     &junction::JUNCTION,
     &assembly::ASSEMBLY,
     &pipe::PIPE_COMMAND,

@@ -6,7 +6,7 @@ use crate::commands::post::{TABLES, rod, structure, tether};
 use crate::commands::{COMMANDS, Call, Command, Effect, Job, absent, commands_of_menu, menus, status};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
-use windlass_connectors::CLASSES;
+use windlass_connectors::class_specs;
 use windlass_hydro::gusts::GUST_SPECTRA;
 use windlass_hydro::sea::spectra::SPECTRA;
 use windlass_language::flow::specs::CONTROL;
@@ -73,11 +73,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         None => overview(job),
         Some(word) if word.text.starts_with('~') => match call.words.get(2) {
             None => {
-                CLASSES.iter().map(|k| format!("   {:<12} {}", k.spec.name, k.spec.help)).collect::<Vec<_>>().join("\n")
+                class_specs().map(|spec| format!("   {:<12} {}", spec.name, spec.help)).collect::<Vec<_>>().join("\n")
             }
             Some(kind) => {
-                let known = CLASSES.iter().map(|k| (k.spec.name, k.spec.owner, *k));
-                describe(choose(&kind.text, kind.span, "class type", known)?.spec, "~NAME ", units)
+                let known = class_specs().map(|spec| (spec.name, spec.owner, spec));
+                describe(choose(&kind.text, kind.span, "class type", known)?, "~NAME ", units)
             }
         },
         Some(word) => {
@@ -104,14 +104,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .iter()
                     .find(|c| c.spec.name.eq_ignore_ascii_case(&word.text) && c.spec.menus.contains(&menu));
                 let known = COMMANDS.iter().map(|c| c.spec).chain(CONTROL);
-                let classes = CLASSES.iter().map(|k| k.spec);
                 let spec = match here {
                     Some(command) => command.spec,
-                    None => {
-                        choose(&word.text, word.span, "command", known.chain(classes).map(|s| (s.name, s.owner, s)))?
-                    }
+                    None => choose(
+                        &word.text,
+                        word.span,
+                        "command",
+                        known.chain(class_specs()).map(|s| (s.name, s.owner, s)),
+                    )?,
                 };
-                let lead = if CLASSES.iter().any(|k| std::ptr::eq(k.spec, spec)) { "~NAME " } else { "" };
+                let lead = if class_specs().any(|class| std::ptr::eq(class, spec)) { "~NAME " } else { "" };
                 let mut text = describe(spec, lead, units);
                 for list in LISTS.iter().filter(|list| std::ptr::eq(spec, list.command.spec)) {
                     text.push_str(&format!("\n\n   {}", list.head));

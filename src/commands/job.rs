@@ -2,9 +2,11 @@
 
 use crate::commands::environment::bathymetry::Soundings;
 use crate::commands::menu;
+use crate::commands::model::element::DeferredElement;
 use crate::commands::model::hydrodynamics::TotalData;
 use crate::commands::model::pgen::Planes;
 use crate::commands::model::process::Process;
+use crate::commands::model::shapes::SectionShape;
 use crate::commands::output::buildg::Building;
 use crate::commands::solve::frequency::FrequencyMenu;
 use crate::commands::solve::hstatics::HydrostaticsMenu;
@@ -56,6 +58,8 @@ pub enum Menu {
     Environments,
     /// Curves being defined by `&DATA CURVES`.
     Curves,
+    /// Sections of structural members being defined by `&DATA SHAPES`.
+    Shapes,
     /// Selectors being defined by `&SELECT`.
     Selectors,
     /// Surfaces of hulls being defined by `&SURFACE`.
@@ -98,6 +102,7 @@ impl Menu {
             Menu::Disposition(_) => &menu::DISPOSITION,
             Menu::Report { .. } => &menu::REPORT,
             Menu::Environments => &menu::ENVIRONMENT,
+            Menu::Shapes => &menu::SHAPES,
             Menu::Curves => &menu::CURVES,
             Menu::Selectors => &menu::SELECT,
             Menu::Surface => &menu::SURFACE,
@@ -284,6 +289,10 @@ pub struct Job {
     pub last_severity: Option<Severity>,
     /// CONNECTOR records of an open INMODEL, waiting for names defined later.
     pub deferred: Vec<Args>,
+    /// BEAM and PLATE records of an open INMODEL, waiting for their classes and nodes.
+    pub deferred_elements: Vec<DeferredElement>,
+    /// Sections of `&DATA SHAPES`, by key.
+    pub shapes: HashMap<String, SectionShape>,
     /// ASSEMBLY records of an open INMODEL, waiting for their connectors.
     pub deferred_assemblies: Vec<Args>,
     /// Files of `&FILE`.
@@ -338,6 +347,8 @@ impl Job {
             last_severity: None,
             deferred: Vec::new(),
             deferred_assemblies: Vec::new(),
+            deferred_elements: Vec::new(),
+            shapes: HashMap::new(),
             user_files: UserFiles::default(),
             stored_unnamed: 0,
             assignments: Vec::new(),

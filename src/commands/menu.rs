@@ -20,6 +20,8 @@ pub static REPORT: MenuSpec = MenuSpec { name: "REPORT", end: "END_REPORT" };
 pub static ENVIRONMENT: MenuSpec = MenuSpec { name: "ENVIRONMENT", end: "END_&DATA" };
 /// CURVES.
 pub static CURVES: MenuSpec = MenuSpec { name: "CURVES", end: "END_&DATA" };
+/// SHAPES.
+pub static SHAPES: MenuSpec = MenuSpec { name: "SHAPES", end: "END_&DATA" };
 /// SELECT.
 pub static SELECT: MenuSpec = MenuSpec { name: "SELECT", end: "END_&SELECT" };
 /// SURFACE.
@@ -47,7 +49,7 @@ pub static I_TOTAL: MenuSpec = MenuSpec { name: "I_TOTAL", end: "END_I_TOTAL" };
 pub static SUMMARY: MenuSpec = MenuSpec { name: "SUMMARY", end: "END_&SUMMARY" };
 
 /// All of them.
-pub static ALL: [&MenuSpec; 21] = [
+pub static ALL: [&MenuSpec; 22] = [
     &MAIN,
     &INMODEL,
     &MEDIT,
@@ -57,6 +59,7 @@ pub static ALL: [&MenuSpec; 21] = [
     &REPORT,
     &ENVIRONMENT,
     &CURVES,
+    &SHAPES,
     &SELECT,
     &SURFACE,
     &BLOCK,

@@ -5,6 +5,7 @@ use crate::commands::menu;
 use crate::commands::model::assembly::build_assembly;
 use crate::commands::model::class::known_curves;
 use crate::commands::model::connector::build_connector;
+use crate::commands::model::element::build_elements;
 use crate::commands::model::{hydrodynamics, pgen, piece};
 use crate::commands::output::buildg;
 use crate::commands::settings::device::existing;
@@ -162,6 +163,13 @@ fn finish_inmodel(job: &mut Job) -> Vec<Diagnostic> {
     let curves: Vec<_> = records.filter_map(|r| known_curves(job, &r.args).err()).collect();
     let mut wrong: Vec<_> = curves.into_iter().collect();
     wrong.extend(waiting.iter().filter_map(|args| build_connector(job, args).err()));
+    for record in std::mem::take(&mut job.deferred_elements) {
+        let before = job.model.clone();
+        if let Err(error) = build_elements(job, &record) {
+            job.model = before;
+            wrong.push(error);
+        }
+    }
     for args in std::mem::take(&mut job.deferred_assemblies) {
         // one that fails half way leaves the model as it was
         let before = job.model.clone();

@@ -29,9 +29,10 @@ pub use files::file::write_open_files;
 pub use functions::FUNCTION_HELP;
 pub use job::{Checking, DeviceSettings, Job, Menu};
 pub use menus::{find_opened_menu, finish};
+pub use model::shapes::take_shape;
 use model::{
-    alter, apply, assembly, class, compartment, connector, database, describe, hydrodynamics, hydrostatic, junction,
-    loads, names, pgen, piece, pipe, select, surface, t_pressure, weight,
+    alter, apply, assembly, class, compartment, connector, database, describe, element, hydrodynamics, hydrostatic,
+    junction, loads, names, pgen, piece, pipe, select, surface, t_pressure, weight,
 };
 pub use output::buildg::take as take_row;
 use output::{add_column, animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
@@ -190,6 +191,8 @@ static LISTED: &[&Command] = &[
     &hydrodynamics::V_MDRIFT,
     &class::CLASS,
     &connector::CONNECTOR,
+    &element::BEAM,
+    &element::PLATE,
     &junction::JUNCTION,
     &assembly::ASSEMBLY,
     &pipe::PIPE_COMMAND,

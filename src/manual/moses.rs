@@ -171,16 +171,13 @@ fn idle_options(spec: &CommandSpec) -> String {
 }
 
 fn class_rows() -> Vec<[String; 3]> {
-    let there = windlass_connectors::CLASSES.iter().filter(|kind| kind.spec.owner == Owner::Moses);
+    let there = windlass_connectors::class_specs().filter(|spec| spec.owner == Owner::Moses);
     let mut rows: Vec<[String; 3]> = there
-        .map(|kind| [code(kind.spec.name), RecordState::Acts.word().to_string(), escape(&sentence(kind.spec.help))])
+        .map(|spec| [code(spec.name), RecordState::Acts.word().to_string(), escape(&sentence(spec.help))])
         .collect();
     rows.extend(CLASSES.iter().map(|class| {
-        let (state, says) = match class.of_connectors {
-            Some(effect) => (RecordState::Stops, format!("A connector of it stops solves: {effect}.")),
-            None => (RecordState::Noted, "A section of structural members; what has it stops solves.".to_string()),
-        };
-        [code(class.name), state.word().to_string(), escape(&says)]
+        let says = format!("A connector of it stops solves: {}.", class.of_connectors);
+        [code(class.name), RecordState::Stops.word().to_string(), escape(&says)]
     }));
     rows
 }

@@ -4,7 +4,7 @@ use super::Page;
 use super::markdown::{code, command_section, describe_owner, escape, sentence, table};
 use crate::commands::{COMMANDS, Command, FUNCTION_HELP, menu, status_rows};
 use windlass_base::units::UnitSystem;
-use windlass_connectors::CLASSES;
+use windlass_connectors::{CLASSES, SECTIONS, class_specs};
 use windlass_hydro::gusts::GUST_SPECTRA;
 use windlass_hydro::sea::spectra::SPECTRA;
 use windlass_language::flow::specs::CONTROL;
@@ -125,8 +125,7 @@ pub fn build_pages() -> Vec<Page> {
         list_names(CONTROL.iter().map(|spec| spec.name)),
         format!("Records that steer the interpreter. They act in every menu.\n\n{}", sections(&control, "")),
     );
-    let classes: Vec<&CommandSpec> = CLASSES.iter().map(|kind| kind.spec).collect();
-    add("classes", "Classes", list_names(classes.iter().map(|spec| spec.name)), class_sections());
+    add("classes", "Classes", list_names(class_specs().map(|spec| spec.name)), class_sections());
     let functions = functions::FUNCTION_HELP.iter().chain(FUNCTION_HELP);
     add(
         "functions",
@@ -184,6 +183,9 @@ fn class_sections() -> String {
         text.push_str(&command_section(kind.spec, "~NAME "));
         let idle: Vec<[String; 2]> = kind.idle.iter().map(|(option, with)| [code(option.name), escape(with)]).collect();
         text.push_str(&table(["Kept, without effect here", "Acts with"], &idle));
+    }
+    for kind in SECTIONS {
+        text.push_str(&command_section(kind.spec, "~NAME "));
     }
     text
 }

@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
 use windlass_base::printable::is_acted_on;
 use windlass_base::values::Noun;
-use windlass_connectors::CLASSES;
+use windlass_connectors::class_specs;
 use windlass_connectors::line_types::library;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::functions;
@@ -140,7 +140,7 @@ fn spec_of(menu: &'static MenuSpec, text: &str, words: &[Token]) -> Option<(&'st
     let first = words.first()?;
     match first.kind {
         TokenKind::Class => {
-            let kind = keyword(word(1)?, CLASSES.iter().map(|k| (k.spec.name, k.spec.owner, k.spec)));
+            let kind = keyword(word(1)?, class_specs().map(|spec| (spec.name, spec.owner, spec)));
             if let SearchResult::One(spec) = kind { Some((spec, 2)) } else { None }
         }
         TokenKind::Point => COMMANDS.iter().find(|c| c.spec.name == "*POINT").map(|c| (c.spec, 1)),
@@ -247,14 +247,14 @@ impl Completer for Assistant {
                 candidates.extend(COMMANDS.iter().map(|c| c.spec).chain(CONTROL).map(|s| s.name.to_string()));
                 candidates.extend(string_functions().map(|name| name.trim_end_matches('(').to_string()));
             }
-            candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
+            candidates.extend(class_specs().map(|spec| spec.name.to_string()));
             candidates.retain(|c| begins(c, word) || c.strip_prefix('&').is_some_and(|bare| begins(bare, word)));
             return Ok((start, sort_candidates(candidates)));
         } else if let Some(at) = function_start(word) {
             let name = word.get(at..).unwrap_or_default();
             return Ok((start + at, sort_candidates(string_functions().filter(|f| begins(f, name)).collect())));
         } else if words.first().is_some_and(|w| w.kind == TokenKind::Class) && words.len() == 1 {
-            candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
+            candidates.extend(class_specs().map(|spec| spec.name.to_string()));
         } else if let Some((spec, from)) = spec {
             let expected = expected_value(spec, head, &words, from);
             let begins_option = word.starts_with('-') && !word.starts_with("-.");

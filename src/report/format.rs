@@ -85,7 +85,7 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
     let small_force = matches!(units.force, ForceUnit::Newtons);
     match dim {
         Dim::Length | Dim::Angle | Dim::Time | Dim::TemperatureRise => 2,
-        Dim::Velocity | Dim::WindSpeed | Dim::Area | Dim::Volume => 2,
+        Dim::Velocity | Dim::WindSpeed | Dim::Area | Dim::SectionArea | Dim::Volume => 2,
         Dim::Force | Dim::Moment | Dim::MomentPerRadian => {
             if small_force {
                 0

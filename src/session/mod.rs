@@ -344,6 +344,9 @@ impl Session {
         if matches!(self.job.menu(), Menu::Building(_)) && first.kind != TokenKind::Internal {
             return commands::take_row(&mut self.job, record);
         }
+        if matches!(self.job.menu(), Menu::Shapes) && first.kind != TokenKind::Internal {
+            return commands::take_shape(&mut self.job, words);
+        }
         match first.kind {
             TokenKind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
             TokenKind::Point => return self.invoke(in_menu("*POINT", self.job.menu(), first)?, record, words),

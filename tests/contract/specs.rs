@@ -7,14 +7,14 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 use windlass_base::span::SourceId;
-use windlass_connectors::CLASSES;
+use windlass_connectors::{CLASSES, class_specs};
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::record;
 use windlass_language::select::{Owner, SearchResult, keyword};
 use windlass_language::spec::{CommandSpec, MenuSpec, Opens};
 
 fn specs() -> Vec<&'static CommandSpec> {
-    COMMANDS.iter().map(|c| c.spec).chain(CLASSES.iter().map(|k| k.spec)).chain(CONTROL).collect()
+    COMMANDS.iter().map(|c| c.spec).chain(class_specs()).chain(CONTROL).collect()
 }
 
 #[test]

@@ -78,6 +78,7 @@ mod floating {
     mod piece_loads;
     mod side_by_side;
     mod steady_loads;
+    mod structure;
     mod unmodelled_effects;
     mod wind_current_time_domain;
 }

@@ -167,6 +167,8 @@ pub enum Dim {
     Length,
     /// Section sizes and piston strokes, inches or mm (m).
     Section,
+    /// Areas of sections, in2 or mm2 (m2).
+    SectionArea,
     /// Force, `bforce` (N).
     Force,
     /// Weight per length, line or spring stiffness, `bforce/blength` (N/m).
@@ -288,6 +290,10 @@ impl Dim {
                     1.0
                 }
             }
+            Dim::SectionArea => {
+                let length = if feet { METRES_PER_INCH } else { 1e-3 };
+                length * length
+            }
             Dim::Area | Dim::SpectralDensity => m * m,
             Dim::Volume => m * m * m,
             Dim::Damping(exponent) => n / m.powf(exponent),
@@ -316,7 +322,7 @@ impl Dim {
             Dim::Frequency | Dim::ThermalExpansion | Dim::TemperatureRise => 1e6,
             Dim::Density | Dim::KilogramsPerCubicMetre => 1e9,
             Dim::Time | Dim::Days => 1e12,
-            Dim::Area | Dim::SquareMetres => 1e18,
+            Dim::Area | Dim::SectionArea | Dim::SquareMetres => 1e18,
             Dim::Volume => 1e27,
             Dim::None
             | Dim::Force
@@ -377,6 +383,7 @@ impl Dim {
             Dim::None => String::new(),
             Dim::Length => length.into(),
             Dim::Section => if feet { "in" } else { "mm" }.into(),
+            Dim::SectionArea => if feet { "in2" } else { "mm2" }.into(),
             Dim::Force => force.into(),
             Dim::ForcePerLength => format!("{force}/{length}"),
             Dim::Moment => format!("{force}-{length}"),

@@ -38,6 +38,7 @@ pub mod line_types;
 mod lmu;
 mod lndw;
 mod loads;
+mod member_section;
 mod mooring;
 mod mooring_table;
 mod nlin;
@@ -61,6 +62,7 @@ pub mod viscous;
 mod zero_law;
 mod zero_length;
 
+pub use member_section::{SECTIONS, SHAPE_SPEC, SectionKind, check_sections, class_specs, member_class};
 pub use section::type_notices;
 
 use std::sync::Arc;

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use windlass_base::geometry::Position;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
-use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, box_panels};
+use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, bar_panels, box_panels};
 
 /// Corners of panels nearer than this share of the size of a piece are one (files often keep seven digits).
 const WELD_DISTANCE_SHARE: f64 = 1e-6;
@@ -263,6 +263,7 @@ impl Solidified {
                 return Solidified { form: Some(SolidForm::Tube(tube)), faults: Vec::new() };
             }
             Shape::Block { low, high } => box_panels(low, high),
+            Shape::Bar { ends, sides } => bar_panels(&ends, &sides),
             Shape::Panels(panels) => panels,
         };
         if panels.is_empty() {
@@ -335,6 +336,7 @@ fn bounds(part: &Part, piece: &Piece) -> [Vector3<f64>; 2] {
     let (corners, beside): (Vec<[f64; 3]>, f64) = match piece.shape.with_displacement(&part.place) {
         Shape::Panels(panels) => (panels.into_iter().flatten().collect(), 0.0),
         Shape::Block { low, high } => (vec![low, high], 0.0),
+        Shape::Bar { ends, sides } => (bar_panels(&ends, &sides).into_iter().flatten().collect(), 0.0),
         Shape::Tube { ends, diameter } => (ends.to_vec(), 0.5 * diameter),
     };
     let beside = Vector3::repeat(beside);
@@ -372,7 +374,12 @@ pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> V
         // an interior lies within an exterior; two of one sort count twice where they overlap
         let apart =
             other.1.compartment != piece.compartment && (other.1.compartment.is_none() || piece.compartment.is_none());
-        if apart || other.1.name == piece.name || other.1.permeability * piece.permeability <= 0.0 {
+        // members of BEAM run into each other and into hulls, and are each counted up to their points
+        if apart
+            || other.1.element.is_some()
+            || other.1.name == piece.name
+            || other.1.permeability * piece.permeability <= 0.0
+        {
             continue;
         }
         if are_disjoint(&bounds, &self::bounds(other.0, other.1)) {

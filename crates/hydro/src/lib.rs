@@ -45,6 +45,7 @@ pub mod stability;
 pub mod steady;
 pub mod stream;
 pub mod strips;
+pub mod structure;
 pub mod surface_integrals;
 mod tank;
 pub mod variation;

@@ -66,6 +66,9 @@ pub struct Part {
 /// The category of loads that name none [MOSES-REF load_g].
 pub const EXTRA: &str = "EXTRA";
 
+/// The category of structural elements that name none, as samples multiply it [MOSES-RUNS install/two_blk].
+pub const STR_MODEL: &str = "STR_MODEL";
+
 /// A weight at a place of a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weight {
@@ -81,6 +84,8 @@ pub struct Weight {
     pub group: Option<String>,
     /// The stations it is spread between for longitudinal strength, x in the part (m).
     pub spread: Option<[f64; 2]>,
+    /// The structural element it is of; none of another weight.
+    pub element: Option<String>,
     /// What `&APPLY` multiplies it by; kept up to date by [`crate::Model::refresh_weight_multipliers`].
     pub multiplier: f64,
     /// Where it was given.
@@ -96,6 +101,7 @@ impl Default for Weight {
             category: EXTRA.to_string(),
             group: None,
             spread: None,
+            element: None,
             multiplier: 1.0,
             span: Span::default(),
         }

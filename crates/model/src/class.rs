@@ -8,6 +8,7 @@ use super::environment::Surroundings;
 use super::fatigue::FatigueSegment;
 use super::idealisation::Idealisation;
 use super::line::{LineModel, Placement};
+use super::member_section::MemberSection;
 use super::tether::TetherSection;
 use crate::options::{C_SN, EI, EMODULUS, FYIELD, IG_STIFF, POI_RAT, TENSTR};
 use std::fmt::Debug;
@@ -262,6 +263,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
 
     /// The class as one of tethers.
     fn as_tether(&self) -> Option<&dyn TetherSectionsClass> {
+        None
+    }
+
+    /// The sections of a class of structural members, from the first end.
+    fn as_members(&self) -> Option<&[MemberSection]> {
         None
     }
 

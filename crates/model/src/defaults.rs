@@ -66,6 +66,8 @@ pub struct Defaults {
     pub ramp: f64,
     /// Coordinate mode of points.
     pub coordinates: Coordinates,
+    /// Local z of beams, in the part; the second where a beam runs along the first.
+    pub beam_direction: [[f64; 3]; 2],
 }
 
 impl Default for Defaults {
@@ -86,6 +88,7 @@ impl Default for Defaults {
             depth: None,
             ramp: 0.0,
             coordinates: Coordinates::Rectangular,
+            beam_direction: [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
         }
     }
 }

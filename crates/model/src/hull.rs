@@ -25,6 +25,13 @@ pub enum Shape {
         /// Its outer diameter.
         diameter: f64,
     },
+    /// A straight member with a rectangular outline.
+    Bar {
+        /// Centres of its ends.
+        ends: [Position; 2],
+        /// Its width and its depth, as vectors across its axis: axis, width and depth are right-handed.
+        sides: [Position; 2],
+    },
 }
 
 /// A surface that water presses on, or a space within one that water fills.
@@ -43,8 +50,10 @@ pub struct Piece {
     pub cs_wind: [f64; 3],
     /// Shape coefficients of the current force along the axes of the part; zeros where it takes none.
     pub cs_current: [f64; 3],
-    /// What water does to it by Morison's formula, of a tube.
+    /// What water does to it by Morison's formula, of a tube or a bar.
     pub member: Option<Member>,
+    /// Where it is of a structural element: that.
+    pub element: Option<ElementOf>,
     /// What waves do to it.
     pub waves: WaveAction,
     /// Factor of its eddy damping of roll; zero of none.
@@ -70,6 +79,26 @@ pub struct Member {
     pub added: f64,
     /// Added mass along the axis at the first and the second end: rho Caa pi D^3/12, of the half sphere on the end.
     pub end_added: [f64; 2],
+    /// Of a bar, what counts instead of a diameter.
+    pub breadths: Option<Breadths>,
+}
+
+/// A structural element, of `BEAM` or `PLATE`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ElementOf {
+    /// Its name.
+    pub name: String,
+    /// The class of its section.
+    pub class: String,
+}
+
+/// What water meets of a bar, along its width and along its depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Breadths {
+    /// Breadth against a flow along each (m): 1/2 rho Cd b |u| u a length.
+    pub drag: [f64; 2],
+    /// Area whose water moves with it along each (m2): rho times it a length, whatever Ca is.
+    pub added: [f64; 2],
 }
 
 /// What waves do to a piece.
@@ -95,6 +124,9 @@ impl Shape {
                 // how far a circle across the axis reaches in each direction
                 (vec![a, b], axis.map(|c| 0.5 * diameter * (1.0 - c * c).max(0.0).sqrt()))
             }
+            Shape::Bar { ends: [a, b], sides: [width, depth] } => {
+                (vec![a, b], (Vector3::from(*width).abs() + Vector3::from(*depth).abs()) * 0.5)
+            }
         };
         let first = Vector3::from(**points.first()?);
         let (low, high) = points.iter().fold((first, first), |(low, high), at| {
@@ -115,8 +147,21 @@ impl Shape {
             }
             Shape::Block { low, high } => Shape::Panels(box_panels(*low, *high)).with_displacement(by),
             Shape::Tube { ends, diameter } => Shape::Tube { ends: ends.map(|at| by.apply(at)), diameter: *diameter },
+            Shape::Bar { ends, sides } => {
+                Shape::Bar { ends: ends.map(|at| by.apply(at)), sides: sides.map(|side| by.rotate(side)) }
+            }
         }
     }
+}
+
+/// The six faces of a bar, their corners counterclockwise from outside.
+pub fn bar_panels(ends: &[Position; 2], sides: &[Position; 2]) -> Vec<Vec<Position>> {
+    let ([foot, head], [width, depth]) = (ends.map(Vector3::from), sides.map(Vector3::from));
+    let corner = |at: [f64; 3]| -> Position {
+        let [along, across, up] = at;
+        (foot + (head - foot) * along + width * (across - 0.5) + depth * (up - 0.5)).into()
+    };
+    box_panels([0.0; 3], [1.0; 3]).into_iter().map(|face| face.into_iter().map(corner).collect()).collect()
 }
 
 /// The six faces of a box, their corners counterclockwise from outside.

@@ -34,6 +34,7 @@ mod hull;
 mod idealisation;
 mod line;
 mod load;
+mod member_section;
 mod names;
 mod note;
 pub mod options;
@@ -50,7 +51,7 @@ pub use along::{EnergyBalance, LineMode, LineNode, LineSide, LineStress};
 pub use ambient::{Ambient, Contents, Filling, Flow};
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout, line_name};
 pub use bathymetry::Bathymetry;
-pub use body::{Body, EXTRA, GROUND, Junction, LOOSE_SURFACES, Mass, Part, Point, Weight};
+pub use body::{Body, EXTRA, GROUND, Junction, LOOSE_SURFACES, Mass, Part, Point, STR_MODEL, Weight};
 pub use class::{
     AnchoredClass, Class, ClassError, ClassRecord, ClassRole, ConnectorClass, DynamicLineClass, LengthClass, PipeClass,
     SegmentedClass, StaticLineClass, StaticSeabed, TetherSectionsClass, WallMaterial,
@@ -71,10 +72,11 @@ pub use environment::{
     SeaDefinition, Stretching, Surroundings, TimeWindow, Wind, WindCode, WindLaw,
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
-pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
+pub use hull::{Breadths, ElementOf, LinearHydrostatics, Member, Piece, Shape, WaveAction, bar_panels, box_panels};
 pub use idealisation::{Idealisation, add_model_column};
 pub use line::{AbsentRow, Condition, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, Placement};
 pub use load::{Attribute, AttributeMultiplier, Fluid, LoadGroup, LoadKind, Multipliers, PartLoad};
+pub use member_section::{MemberSection, SectionOutline};
 pub use names::EntityKind;
 pub use note::Note;
 pub use parameters::Parameters;
@@ -381,10 +383,27 @@ impl Model {
         pieces.into_iter().find(|piece| piece.name.eq_ignore_ascii_case(name))
     }
 
-    /// Connectors that use a class.
+    /// Connectors and structural elements that use a class.
     pub fn users_of_class(&self, class: &str) -> Vec<&str> {
         let key = Model::key(class);
-        self.connectors.values().filter(|c| Model::key(&c.class) == key).map(|c| c.name.as_str()).collect()
+        let connectors = self.connectors.values().filter(|c| Model::key(&c.class) == key).map(|c| c.name.as_str());
+        let elements = self.parts.values().flat_map(|part| &part.pieces).filter_map(|piece| piece.element.as_ref());
+        let mut users: Vec<&str> =
+            connectors.chain(elements.filter(|e| Model::key(&e.class) == key).map(|e| e.name.as_str())).collect();
+        users.dedup();
+        users
+    }
+
+    /// Takes a structural element out of the model: its pieces and its weights. Says whether there was one.
+    pub fn remove_element(&mut self, name: &str) -> bool {
+        let mut found = false;
+        for part in self.parts.values_mut() {
+            let own = |piece: &Piece| piece.element.as_ref().is_some_and(|e| e.name.eq_ignore_ascii_case(name));
+            found |= part.pieces.iter().any(own);
+            part.pieces.retain(|piece| !own(piece));
+            part.weights.retain(|weight| !weight.element.as_ref().is_some_and(|e| e.eq_ignore_ascii_case(name)));
+        }
+        found
     }
 
     /// Connectors that use a point.

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use windlass_base::geometry::Position;
-use windlass_model::{Body, Model, Shape, box_panels};
+use windlass_model::{Body, Model, Shape, bar_panels, box_panels};
 
 /// Cosine of the angle between two panels beyond which their common edge is sharp: 30 degrees.
 const SHARP_EDGE_COSINE: f64 = 0.866;
@@ -49,6 +49,10 @@ pub(super) fn corners_and_edges(shape: &Shape) -> (Vec<Position>, Vec<[Position;
         Shape::Panels(panels) => (panels.iter().flatten().copied().collect(), sharp_edges(panels)),
         Shape::Block { low, high } => {
             let panels = box_panels(*low, *high);
+            (panels.iter().flatten().copied().collect(), sharp_edges(&panels))
+        }
+        Shape::Bar { ends, sides } => {
+            let panels = bar_panels(ends, sides);
             (panels.iter().flatten().copied().collect(), sharp_edges(&panels))
         }
         Shape::Tube { ends: [a, b], diameter } => {

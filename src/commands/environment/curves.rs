@@ -25,6 +25,7 @@ choices! {
         Curves = "CURVES",
         Convolution = "CONVOLUTION",
         Environment = "ENVIRONMENT",
+        Shapes = "SHAPES",
     }
 }
 
@@ -41,9 +42,12 @@ static SPEC: CommandSpec = CommandSpec {
              short-term, of the last the long-term stiffness, with which statics work; by frequency K is the stiffness in phase, \
              that of the first frequency the long-term one. -NDOF M behind either: the time domain works with M exponentials fitted \
              to the curve (least squares, none negative, times spaced on a log scale; at most one fewer than points), M 5 unless given; \
-             &STATUS CURVES reports them and how far they are off. In RX, RY, RZ K is a moment per radian, in the same units. &DATA ENVIRONMENT opens a menu of ENV records up to END.",
-    example: "&DATA CURVES C_PROFILE CUR 0 3.0 100 2.0 500 0.5\n&DATA CURVES\nM_GROWTH MG -100 0 0 2\nEND\n&STATUS CURVES CUR",
-    ..CommandSpec::new("&DATA", "defines curves and environments")
+             &STATUS CURVES reports them and how far they are off. In RX, RY, RZ K is a moment per radian, in the same units. &DATA ENVIRONMENT opens a menu of ENV records up to END. \
+             &DATA SHAPES opens a menu of sections of structural members, NAME TYPE A B .. -OPTIONS, as &HELP ~CLASS TYPE says of a type; ~C NAME is then a \
+             class with that section. windlass ships no table of rolled shapes.",
+    example: "&DATA CURVES C_PROFILE CUR 0 3.0 100 2.0 500 0.5\n&DATA CURVES\nM_GROWTH MG -100 0 0 2\nEND\n&STATUS CURVES CUR\n&DATA SHAPES\nW14X140 IBEAM 14.4 15.5 0.7 1.1 -SECTION 41.2\nEND_&DATA\n\
+              MEDIT\n~G W14X140\nEND\n&STATUS CLASS ~G",
+    ..CommandSpec::new("&DATA", "defines curves, environments and shapes")
 };
 
 const fn curve(name: &'static str, help: &'static str, example: &'static str) -> CommandSpec {
@@ -201,8 +205,7 @@ pub static AM_PRESSURE: Command = Command {
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let form =
-        "form: &DATA CURVES [TYPE NAME a1 b1 a2 b2 ..], &DATA CONVOLUTION TIME NAME t1 K1 .. or &DATA ENVIRONMENT";
+    let form = "form: &DATA CURVES [TYPE NAME a1 b1 a2 b2 ..], &DATA CONVOLUTION TIME NAME t1 K1 .., &DATA ENVIRONMENT or &DATA SHAPES";
     let Some(kind) = call.words.get(1) else {
         return Err(Diagnostic::error("&DATA lacks what it defines", call.record.whole()).help(form));
     };
@@ -210,6 +213,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     match choose_word(&kind.text, kind.span, "kind of &DATA")? {
         DataKind::Environment => {
             job.menus.push(Menu::Environments);
+            return Ok(Effect::Done);
+        }
+        DataKind::Shapes => {
+            job.menus.push(Menu::Shapes);
             return Ok(Effect::Done);
         }
         DataKind::Convolution => return convolution(job, call, kind.span, words),

@@ -9,9 +9,12 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
-use windlass_connectors::{CLASSES, ClassKind, type_notices};
+use windlass_connectors::{
+    CLASSES, ClassKind, SECTIONS, SHAPE_SPEC, SectionKind, check_sections, class_specs, member_class, type_notices,
+};
 use windlass_language::args;
 use windlass_language::name;
+use windlass_language::record::Word;
 use windlass_language::select::choose;
 use windlass_language::spec::{CommandSpec, TextForm};
 use windlass_model::options::{C_SN, IG_STIFF};
@@ -24,7 +27,7 @@ static SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::INMODEL, &menu::MEDIT],
     form: TextForm::Text,
     detail: "Repeating the name of a line class adds the next segment, fairlead first; for the other types it replaces the \
-             class. In MEDIT the curves it names exist; in INMODEL they may be defined up to its END. &HELP ~CLASS TYPE \
+             class. The types from TUBE on are sections of structural members, which BEAM and PLATE take; a name of &DATA SHAPES is such a type too. In MEDIT the curves it names exist; in INMODEL they may be defined up to its END. &HELP ~CLASS TYPE \
              shows a type.",
     example: "MEDIT\n~WIRE B_CAT 4 -LEN 2000\n~WIRE B_CAT 3.5 -LEN 1000\nEND",
     ..CommandSpec::new("~CLASS", "NAME TYPE ...: defines a class")
@@ -32,21 +35,39 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [name, rest @ ..] = call.words else { return Ok(Effect::Done) };
-    let known = || CLASSES.iter().map(|k| (k.spec.name, k.spec.owner, *k));
+    let known = || class_specs().map(|spec| (spec.name, spec.owner, spec));
     let Some(word) = rest.first() else {
-        let types: Vec<&str> = known().map(|(n, _, _)| n).collect();
+        let types: Vec<&str> = known().map(|(name, ..)| name).collect();
         return Err(Diagnostic::error(format!("class {} lacks its type", name.text), name.span)
             .label("expected a class type after this")
             .help(format!("known: {}", types.join(" "))));
     };
     name::check(&name.text, Some('~'), "class", name.span)?;
-    if let (Some(absent), false) =
-        (absent::find_class(&word.text), known().any(|(n, ..)| n.eq_ignore_ascii_case(&word.text)))
-    {
+    let is_known = known().any(|(known, ..)| known.eq_ignore_ascii_case(&word.text));
+    if let Some(shape) = job.shapes.get(&Model::key(&word.text)).filter(|_| !is_known).cloned() {
+        let read = args::read(&SHAPE_SPEC, name.span, rest.get(1..).unwrap_or_default(), job.units)?;
+        return append_section(job, name, shape.kind, shape.with_options(read));
+    }
+    if let (Some(absent), false) = (absent::find_class(&word.text), is_known) {
         keep_absent(job, &name.text, absent, word.span);
         return Ok(Effect::Done);
     }
-    let kind = choose(&word.text, word.span, "class type", known())?;
+    if absent::is_rolled_shape(&word.text) && !is_known {
+        job.absent_classes.insert(Model::key(&name.text), None);
+        job.warn(
+            format!("the dimensions of {} are not in windlass: members of {} will stop solves", word.text, name.text),
+            word.span,
+        );
+        return Ok(Effect::Done);
+    }
+    let spec = choose(&word.text, word.span, "class type", known())?;
+    if let Some(kind) = SECTIONS.iter().find(|kind| std::ptr::eq(kind.spec, spec)) {
+        let read = args::read(spec, name.span, rest.get(1..).unwrap_or_default(), job.units)?;
+        return append_section(job, name, kind, read);
+    }
+    let Some(kind) = CLASSES.iter().find(|kind| std::ptr::eq(kind.spec, spec)).copied() else {
+        return Ok(Effect::Done);
+    };
     let read = args::read(kind.spec, name.span, rest.get(1..).unwrap_or_default(), job.units)?;
     if matches!(job.menu(), Menu::Medit) {
         known_curves(job, &read)?;
@@ -106,16 +127,45 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
+/// Adds a section to a class of structural members, or defines the class.
+///
+/// # Errors
+/// Dimensions that make no section; a class of connectors of that name; a second segment without length.
+fn append_section(job: &mut Job, name: &Word, kind: &'static SectionKind, read: Args) -> Outcome<Effect> {
+    let record = ClassRecord { args: read, defaults: job.model.defaults };
+    let section = (kind.read)(&record)?;
+    let key = Model::key(&name.text);
+    let old = job.model.classes.get(&key);
+    if let Some(old) = old.filter(|old| old.object.as_members().is_none()) {
+        let text = format!("{} is a {} already", old.name, old.object.kind());
+        return Err(Diagnostic::error(text, name.span).other(old.span, "defined here"));
+    }
+    if let Some(user) = job.model.users_of_class(&name.text).first() {
+        let text = format!("{} is used by {user}; a further segment would change it", name.text);
+        return Err(Diagnostic::error(text, name.span).help("define all segments before the first BEAM of the class"));
+    }
+    let mut sections = old.and_then(|old| old.object.as_members()).map(<[_]>::to_vec).unwrap_or_default();
+    let mut records = old.map(|old| old.records.clone()).unwrap_or_default();
+    let span = old.map_or(name.span, |old| old.span);
+    sections.push(section);
+    check_sections(&sections, name.span)?;
+    records.push(record);
+    let class =
+        Class { name: name.text.to_string(), records, ignored_stiffness: false, object: member_class(sections), span };
+    job.model.classes.insert(key, class);
+    job.note_name(&name.text, name.span);
+    Ok(Effect::Done)
+}
+
 /// Keeps the name of a class of a type that windlass does not have, so that what uses it is not an error of its own; says so once a type.
 fn keep_absent(job: &mut Job, name: &str, absent: &'static AbsentClass, span: Span) {
-    job.absent_classes.insert(Model::key(name), absent.of_connectors);
+    job.absent_classes.insert(Model::key(name), Some(absent.of_connectors));
     if job.absent_said.contains(&absent.name) {
         return;
     }
     job.absent_said.push(absent.name);
-    let what = absent.of_connectors.unwrap_or("a section of structural members");
-    let text = format!("class type {} of MOSES is not in windlass: {what} (said once)", absent.name);
-    if absent.of_connectors.is_some() { job.warn(text, span) } else { job.remark(text, span) }
+    let text = format!("class type {} of MOSES is not in windlass: {} (said once)", absent.name, absent.of_connectors);
+    job.warn(text, span);
 }
 
 /// Sees that the curves a record names exist and are convolutions: no other curve has a place in a class.

@@ -101,6 +101,7 @@ pub fn coefficients(args: &Args, permeability: f64, usual: &Parameters) -> Outco
                 .or(given(&CAA_OPTION)),
         ]
         .map(|caa| caa.unwrap_or(0.0)),
+        breadths: None,
     })
 }
 
@@ -110,30 +111,45 @@ pub fn members(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
     let chosen = all.filter(|(part, p)| fits(&p.name) || fits(&part.name) || fits(&part.body));
     let rows: Vec<MemberRow> = chosen
         .filter_map(|(part, piece)| {
-            let (Some(member), Shape::Tube { ends: [a, b], diameter }) = (&piece.member, &piece.shape) else {
-                return None;
+            let member = piece.member.as_ref()?;
+            let ([a, b], diameter, sides) = match &piece.shape {
+                Shape::Tube { ends, diameter } => (ends, Some(*diameter), [None; 2]),
+                Shape::Bar { ends, sides } => {
+                    let long = |side: &[f64; 3]| Some(side.iter().map(|x| x * x).sum::<f64>().sqrt());
+                    (ends, None, [long(&sides[1]), long(&sides[0])])
+                }
+                Shape::Panels(_) | Shape::Block { .. } => return None,
             };
             let length = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
-            Some(MemberRow { part, piece, member, diameter: *diameter, length })
+            Some(MemberRow { part, piece, member, diameter, sides, length })
         })
         .collect();
     let added = |row: &MemberRow, c: f64| match row.piece.waves {
         WaveAction::Database => Cell::from("database"),
         _ => Cell::from(c),
     };
+    let has_bars = rows.iter().any(|row| row.diameter.is_none());
     let mut table = Table::new("Members")
         .with_rows(&rows)
         .text("Body", |row| &row.part.body)
         .text("Part", |row| &row.part.name)
         .text("Piece", |row| &row.piece.name)
-        .column("", "OD", Dim::Section, Digits::Usual, |row| row.diameter)
+        .column("", "OD", Dim::Section, Digits::Usual, |row| row.diameter);
+    if has_bars {
+        table = table.columns("Outline", ["Depth", "Width"], Dim::Section, Digits::Usual, |row| row.sides);
+    }
+    let mut table = table
         .column("", "Length", Dim::Length, Digits::Usual, |row| row.length)
         .column("Across", "CD", Dim::None, Digits::Usual, |row| row.member.drag)
         .column("Along", "CDA", Dim::None, Digits::Usual, |row| row.member.friction)
         .column("Across", "CA", Dim::None, Digits::Usual, |row| added(row, row.member.added))
         .columns("CAA of End", ["1", "2"], Dim::None, Digits::Usual, |row| row.member.end_added.map(|c| added(row, c)))
         .build();
-    table.note("By Morison's formula: CD and CA on the diameter, CDA on the skin, CAA on the half sphere over an end");
+    table.note(if has_bars {
+        "By Morison's formula: CD and CA on the diameter, of a bar on the breadth seen along its depth or width, CDA on the skin, CAA on the half sphere over an end"
+    } else {
+        "By Morison's formula: CD and CA on the diameter, CDA on the skin, CAA on the half sphere over an end"
+    });
     (!rows.is_empty()).then_some(table)
 }
 
@@ -142,8 +158,10 @@ struct MemberRow<'m> {
     part: &'m Part,
     piece: &'m Piece,
     member: &'m Member,
-    /// Outer diameter (m).
-    diameter: f64,
+    /// Outer diameter (m); none of a bar.
+    diameter: Option<f64>,
+    /// Depth and width of a bar (m).
+    sides: [Option<f64>; 2],
     /// Between the ends (m).
     length: f64,
 }

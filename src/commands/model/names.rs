@@ -95,6 +95,12 @@ fn remove(model: &mut Model, thing: EntityKind, name: &str) {
             model.parts.shift_remove(&key);
         }
         EntityKind::Piece => {
+            // an element goes whole, with its weight
+            let element = model.piece(name).and_then(|(_, piece)| piece.element.clone());
+            if let Some(element) = element {
+                model.remove_element(&element.name);
+                return;
+            }
             let other = |piece: &Piece| !piece.name.eq_ignore_ascii_case(name);
             model.parts.values_mut().for_each(|part| part.pieces.retain(other));
         }
@@ -180,6 +186,8 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
         EntityKind::Class => {
             move_entry(&mut model.classes, &from, to, |c| c.name = new.to_string());
             model.connectors.values_mut().for_each(|c| follow(&mut c.class));
+            let pieces = model.parts.values_mut().flat_map(|part| &mut part.pieces);
+            pieces.filter_map(|piece| piece.element.as_mut()).for_each(|element| follow(&mut element.class));
             for assembly in model.assemblies.values_mut() {
                 if let AssemblyKind::Pipe { class, .. } = &mut assembly.kind {
                     follow(class);

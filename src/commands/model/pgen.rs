@@ -14,7 +14,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given, Value};
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec, join_options};
-use windlass_model::{Piece, Shape, box_panels};
+use windlass_model::{Piece, Shape, bar_panels, box_panels};
 
 /// PGEN.
 pub static PGEN: Command = Command { spec: &PGEN_SPEC, edits: false, run: pgen };
@@ -471,6 +471,7 @@ pub fn add_placed(job: &mut Job, piece: Piece, placing: Placing) -> Outcome<()> 
     let panels = match &piece.shape {
         Shape::Block { low, high } => box_panels(*low, *high),
         Shape::Panels(panels) => panels.clone(),
+        Shape::Bar { ends, sides } => bar_panels(ends, sides),
         Shape::Tube { .. } => Vec::new(),
     };
     place_panels(job, PieceOfSections::New(Box::new(piece)), placing, panels, None)

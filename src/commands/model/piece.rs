@@ -232,8 +232,13 @@ pub fn point_in_part(model: &Model, name: &str, part: &Part, span: Span) -> Outc
 
 /// The first of PIECE1, PIECE2 .. that nothing is called.
 pub fn free_piece_name(model: &Model) -> String {
+    free_name_from(model, "PIECE", 1)
+}
+
+/// The first of a word with the numbers from one on that nothing is called.
+pub fn free_name_from(model: &Model, word: &str, first: usize) -> String {
     let taken = |name: &str| model.piece(name).is_some() || model.free_name(name, &[], Span::default()).is_err();
-    (1..).map(|n| format!("PIECE{n}")).find(|name| !taken(name)).unwrap_or_default()
+    (first..).map(|n| format!("{word}{n}")).find(|name| !taken(name)).unwrap_or_default()
 }
 
 /// The part described last.
@@ -328,6 +333,7 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
         cs_wind: tube_wind.map_or_else(|| factors(&CS_WIND), |cs| [cs; 3]),
         cs_current: if by_area { factors(&CS_CURRENT) } else { [0.0; 3] },
         member,
+        element: None,
         waves,
         eddy_damping: args.option_number(&TANAKA).unwrap_or(0.0),
         kept,

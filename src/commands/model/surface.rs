@@ -4,6 +4,7 @@
 
 use crate::commands::menu;
 use crate::commands::model::describe::PLACE;
+use crate::commands::model::element::refuse_element;
 use crate::commands::model::member;
 use crate::commands::model::pgen::{PLACING, PLACING_HELP, Placing, Planes, add_placed};
 use crate::commands::model::piece::{self, OPTIONS, PIECE_HELP};
@@ -261,6 +262,7 @@ fn copy_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = COPY_SPEC.word("NAME");
     const NEW_NAME: DatumKey<str> = COPY_SPEC.word("NEW");
     let original = known_piece(job, args.word(NAME).unwrap_or_default(), args.place(NAME))?;
+    refuse_element(&original, args.place(NAME))?;
     let by = Place::new(args.numbers_or_zero(const { COPY_SPEC.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }));
     let made = Piece {
         name: args.word(NEW_NAME).unwrap_or_default().to_string(),
@@ -281,6 +283,10 @@ fn mirrored(shape: &Shape) -> Shape {
         }
         Shape::Block { low: [x, y, z], high: [v, w, u] } => Shape::Block { low: [*x, -w, *z], high: [*v, -y, *u] },
         Shape::Tube { ends, diameter } => Shape::Tube { ends: ends.map(over), diameter: *diameter },
+        // the mirror image of a bar has the other hand, and so its width looks the other way
+        Shape::Bar { ends, sides: [width, depth] } => {
+            Shape::Bar { ends: ends.map(over), sides: [over(*width).map(|x| -x), over(*depth)] }
+        }
     }
 }
 
@@ -289,6 +295,7 @@ fn reflect_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = REFLECT_SPEC.word("NAME");
     const NEW_NAME: DatumKey<str> = REFLECT_SPEC.word("NEW");
     let original = known_piece(job, args.word(NAME).unwrap_or_default(), args.place(NAME))?;
+    refuse_element(&original, args.place(NAME))?;
     let shape = mirrored(&original.shape);
     match args.word(NEW_NAME) {
         Some(new) => {
@@ -433,6 +440,9 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     const NAME: DatumKey<str> = MOVE_SPEC.word("NAME");
     let name = args.word(NAME).unwrap_or_default();
+    if let Some((_, piece)) = job.model.piece(name) {
+        refuse_element(piece, args.place(NAME))?;
+    }
     let by = Place::new(args.numbers_or_zero(const { MOVE_SPEC.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }));
     let known = job.model.names(windlass_model::EntityKind::Piece);
     let help = windlass_base::diagnostic::did_you_mean(name, known);

@@ -3,6 +3,7 @@
 use crate::commands::environment::env;
 use crate::commands::environment::probability::{self, PROBABILITY};
 use crate::commands::model::describe::PLACE;
+use crate::commands::model::element::set_directions;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -175,18 +176,15 @@ const SP_ORIENT: OptionSpec = OptionSpec::new(
 .noted();
 const DIR_BEAM: OptionSpec = OptionSpec::new(
     "-DIR_BEAM",
-    &[ValueSpec::new("V", Kind::Text, "direction")],
-    "orientation of beams, which are not in windlass",
+    &[number("V", Dim::None, "components in the part, of one direction or two")],
+    "local z of beams is in the plane of the beam and this direction; the second counts where a beam runs along the first",
 )
 .repeating(1)
-.noted();
-const DIR_PLATE: OptionSpec = OptionSpec::new(
-    "-DIR_PLATE",
-    &[ValueSpec::new("V", Kind::Text, "direction")],
-    "orientation of plates, which are not in windlass",
-)
-.repeating(1)
-.noted();
+.default("0 0 1 1 0 0 (our reading)");
+const DIR_PLATE: OptionSpec =
+    OptionSpec::new("-DIR_PLATE", &[number("V", Dim::None, "component")], "axes of stresses in plates")
+        .repeating(1)
+        .noted();
 const AIR: OptionSpec =
     OptionSpec::new("-AIR", &[number("RHO", Dim::Density, "density").positive()], "density of air").owner(Owner::Ours);
 const GRAVITY: OptionSpec =
@@ -251,7 +249,8 @@ fn default(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 waves.probability = Some(given.clone());
             }
             _ if given.is(&T_REINF) => waves.reinforcement = Some(value),
-            _ if given.is_any(&[SP_ORIENT, DIR_BEAM, DIR_PLATE]) => {
+            _ if given.is(&DIR_BEAM) => set_directions(&mut defaults.beam_direction, given)?,
+            _ if given.is_any(&[SP_ORIENT, DIR_PLATE]) => {
                 remarks.push((format!("{} has no effect in windlass", given.name()), given.span));
             }
             _ if given.is(&SAVE_DEFAULTS) => saved.push((defaults, waves.clone())),

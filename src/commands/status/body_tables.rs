@@ -114,6 +114,7 @@ pub fn pieces(model: &Model, fits: Fits) -> Table {
             Shape::Panels(panels) => format!("{} panels", panels.len()),
             Shape::Block { .. } => "box".into(),
             Shape::Tube { .. } => "tube".into(),
+            Shape::Bar { .. } => "bar".into(),
         })
         .column("", "Perm.", Dim::None, Digits::Decimals(3), |(_, piece)| piece.permeability)
         .columns("From", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, piece)| end(&piece.shape, 0))

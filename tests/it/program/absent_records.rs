@@ -28,7 +28,6 @@ fn menu_that_is_absent_gives_one_message_and_is_passed_over() {
         ("LAUNCH\nPHASE 1\nEND\n", "LAUNCH of MOSES"),
         ("&UGX\nLINE 0 0 1 1\nTEXT hello\nEND_&UGX\n", "&UGX of MOSES has no effect"),
         ("&TABLE\nROW 1 2\nEND\n", "&TABLE of MOSES has no effect"),
-        ("&DATA SHAPES\nW14 IBEAM 1 2 3 4\nEND_&DATA\n", "&DATA SHAPES of MOSES has no effect"),
         ("HYDRODYNAMICS\nI_MDRIFT CART A\nHEADING 3 4\nEND\nEND\n", "I_MDRIFT of MOSES"),
     ] {
         let (text, said) = run(&format!("&DESCRIBE BODY CART\n{script}&TYPE behind &INFO(MENU)\n"));
@@ -54,7 +53,7 @@ fn absent_record_that_changes_forces_stops_next_solve_until_accepted() {
     for (records, names) in [
         (
             "~W W14X140\nBEAM ~W *C *D\nBEAM ~W *D *C\nEND\n",
-            "BEAM (weight, buoyancy, wind and drag of structural members)",
+            "BEAM of class ~W (weight, buoyancy, wind and drag of a shape without dimensions",
         ),
         ("ASSEMBLY LLEG *C *D CART 0 0 0\nEND\n", "ASSEMBLY LLEG (launch legs"),
         (

@@ -1,6 +1,6 @@
 //! Added mass of members.
 
-use super::member::{MemberInPose, MemberLength};
+use super::member::{MemberInPose, MemberLength, across_axis};
 use crate::{cross, in_pose};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::Pose;
@@ -15,17 +15,13 @@ pub(super) fn add(sum: &mut Matrix6<f64>, arm: &Vector3<f64>, mass: &Matrix3<f64
     }
 }
 
-/// Inertia across an axis alone.
-pub(super) fn transverse_inertia(axis: &Vector3<f64>, mass: f64) -> Matrix3<f64> {
-    (Matrix3::identity() - axis * axis.transpose()) * mass
-}
-
 /// Adds that of a member in a pose under a surface of a height (m, global).
 fn add_member_added_mass(sum: &mut Matrix6<f64>, rod: &MemberLength, standing: &MemberInPose, level: f64) {
     let axis = &standing.axis;
-    if rod.added != 0.0 {
+    if rod.added != [0.0; 2] {
+        let whole = across_axis(axis, &standing.first, rod.added);
         for station in rod.ranges().flat_map(|range| standing.stations(range, level)) {
-            add(sum, &standing.arm(station.at), &transverse_inertia(axis, rod.added * station.area() * station.long));
+            add(sum, &standing.arm(station.at), &(whole * (station.area() * station.long)));
         }
     }
     for (at, mass) in [0.0, rod.length].into_iter().zip(rod.end_added).filter(|(_, mass)| *mass != 0.0) {

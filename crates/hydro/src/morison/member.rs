@@ -1,4 +1,4 @@
-//! A round member as it stands to the water: where along its axis it is wet, and how much of its sections.
+//! A round member or a bar as it stands to the water: where along its axis it is wet, and how much of its sections.
 
 use super::super::Load;
 use super::super::hull::TubeHull;
@@ -30,16 +30,18 @@ pub(super) struct MemberLength {
     pub from: Vector3<f64>,
     /// Unit vector along it, in the body.
     pub axis: Vector3<f64>,
-    /// Length and outer diameter (m).
+    /// Unit vector along the width of a bar, in the body; of a tube any across its axis.
+    pub first: Vector3<f64>,
+    /// Length and outer diameter (m), of a bar that of a tube of its area.
     pub length: f64,
     pub diameter: f64,
-    /// 1/2 rho Cd D and 1/2 rho Cdt pi D (kg/m2).
-    pub across: f64,
+    /// 1/2 rho Cd b along its width and its depth, of a tube 1/2 rho Cd D twice, and 1/2 rho Cdt times the perimeter (kg/m2).
+    pub across: [f64; 2],
     pub along: f64,
     /// Area of the section by which waves press on it (m2): with the permeability, nothing of what a database holds.
     pub section: f64,
-    /// Added mass across a length (kg/m).
-    pub added: f64,
+    /// Added mass across a length, along its width and its depth (kg/m).
+    pub added: [f64; 2],
     /// Added mass along the axis at each end, where it begins first (kg); none where another length goes on.
     pub end_added: [f64; 2],
     /// Factor of the force of waves.
@@ -51,7 +53,7 @@ pub(super) struct MemberLength {
 impl MemberLength {
     /// Whether a stream drags it.
     pub fn drags(&self) -> bool {
-        self.across != 0.0 || self.along != 0.0
+        self.across != [0.0; 2] || self.along != 0.0
     }
 }
 
@@ -62,6 +64,8 @@ pub(super) struct MemberInPose {
     pub from: Vector3<f64>,
     /// Unit vector along the axis, global axes.
     pub axis: Vector3<f64>,
+    /// Unit vector along the width, global axes.
+    pub first: Vector3<f64>,
     /// Height of the body's origin (m, global).
     pub origin: f64,
     /// How far the highest point of a section is over its centre (m).
@@ -156,7 +160,7 @@ impl MemberLength {
         let rise = 0.5
             * self.diameter
             * (axis.x * axis.x + axis.y * axis.y + MIN_TRANSITION_SHARE * MIN_TRANSITION_SHARE).sqrt();
-        MemberInPose { from: pose.axes * self.from, axis, origin: pose.origin.z, rise }
+        MemberInPose { from: pose.axes * self.from, axis, first: pose.axes * self.first, origin: pose.origin.z, rise }
     }
 
     /// The share of its volume that displaces water.
@@ -185,7 +189,7 @@ impl MemberLength {
             let place = LoadPlace { at: self.from + self.axis * station.at, medium: Medium::Water, shared: false };
             let stream = steady.velocity(Medium::Water, pose.origin.z + arm.z);
             let load = place.load_in(steady, pose, stream, |flow| {
-                let (force, by_flow) = drag((self.across, self.along), &self.axis, &flow);
+                let (force, by_flow) = drag((self.across, self.along), (&self.axis, &self.first), &flow);
                 let mut push = StreamWrench { wrench: Six::zeros(), by_velocity: Matrix6x3::zeros() };
                 push.wrench.fixed_rows_mut::<3>(0).copy_from(&force);
                 push.by_velocity.fixed_rows_mut::<3>(0).copy_from(&by_flow);
@@ -211,20 +215,39 @@ impl MemberLength {
     }
 }
 
-/// Drag of a length by its factors across and along an axis (kg/m2): `c |u| u` of each part of the flow (m/s), and its change
-/// with the flow.
+/// Drag of a length by its factors along its width, its depth and its axis (kg/m2), with the unit vectors of axis and width: `c |u| u`
+/// of each part of the flow (m/s), |u| across being that of both, and its change with the flow.
 pub(super) fn drag(
-    (across, along): (f64, f64),
-    axis: &Vector3<f64>,
+    ([of_width, of_depth], along): ([f64; 2], f64),
+    (axis, first): (&Vector3<f64>, &Vector3<f64>),
     flow: &Vector3<f64>,
 ) -> (Vector3<f64>, Matrix3<f64>) {
     let slip = axis.dot(flow);
     let beside = flow - axis * slip;
     let speed = beside.norm();
     let tangent = axis * axis.transpose();
+    if of_width != of_depth {
+        let factors = across_axis(axis, first, [of_width, of_depth]);
+        let force = factors * beside;
+        let mut by_flow = factors * speed + tangent * (2.0 * along * slip.abs());
+        if speed > 0.0 {
+            by_flow += force * beside.transpose() / speed;
+        }
+        return (force * speed + axis * (along * slip.abs() * slip), by_flow);
+    }
+    let across = of_width;
     let mut by_flow = (Matrix3::identity() - tangent) * (across * speed) + tangent * (2.0 * along * slip.abs());
     if speed > 0.0 {
         by_flow += beside * beside.transpose() * (across / speed);
     }
     (beside * (across * speed) + axis * (along * slip.abs() * slip), by_flow)
+}
+
+/// What is one value along a width and another along the depth, across an axis.
+pub(super) fn across_axis(axis: &Vector3<f64>, first: &Vector3<f64>, [of_width, of_depth]: [f64; 2]) -> Matrix3<f64> {
+    if of_width == of_depth {
+        return (Matrix3::identity() - axis * axis.transpose()) * of_width;
+    }
+    let second = axis.cross(first);
+    first * first.transpose() * of_width + second * second.transpose() * of_depth
 }

@@ -1,7 +1,7 @@
 //! Members in waves, and moving.
 
 use super::added;
-use super::member::{MemberInPose, MemberLength, Station, drag};
+use super::member::{MemberInPose, MemberLength, Station, across_axis, drag};
 use crate::hull::{Solid, SubmergedVolume};
 use crate::sea::{Kinematics, Sea, SeaAt};
 use crate::steady::{Medium, Steady, Streams};
@@ -16,8 +16,8 @@ const ADDED_MASS_STATE: usize = 6;
 const HEADER_STATES: usize = 42;
 /// Of each segment: height of the surface over the mean level, and whether that may change what is wet of it.
 const STATES_PER_SEGMENT: usize = 2;
-/// Of each station: the drag factors times its length, the axis, its arm, and the velocity of the water.
-const STATES_PER_STATION: usize = 11;
+/// Of each station: the three drag factors times its length, the axis, the width, its arm, and the velocity of the water.
+const STATES_PER_STATION: usize = 15;
 /// How far a trial may be from where it was expected, for a segment to be taken as clear of the surface (m).
 const SURFACE_MARGIN_M: f64 = 1.0;
 
@@ -202,21 +202,23 @@ impl MemberWaveLoads {
         (sum, mass): (&mut Six, &mut Matrix6<f64>),
     ) {
         let axis = &standing.axis;
+        let added = across_axis(axis, &standing.first, rod.added);
         let parts = standing.parts(range, &self.kinks);
         for (station, slot) in parts.flat_map(|part| standing.stations(part, level)).zip(slots) {
             let arm = standing.arm(station.at);
             let found = water.kinematics_at(standing, &station);
             let beside = found.acceleration - axis * axis.dot(&found.acceleration);
             let share = station.area() * station.long;
-            *sum += at_arm(&arm, &(beside * ((water.steady.around.water_density * rod.section + rod.added) * share)));
-            if rod.added != 0.0 {
-                added::add(mass, &arm, &added::transverse_inertia(axis, rod.added * share));
+            let pressed = beside * (water.steady.around.water_density * rod.section);
+            *sum += at_arm(&arm, &((pressed + added * beside) * share));
+            if rod.added != [0.0; 2] {
+                added::add(mass, &arm, &(added * share));
             }
             let flow = found.velocity + water.current(water.origin.z + arm.z);
             let wet = station.share() * station.long;
-            let (slot_drag, places) = slot.split_at_mut(2);
-            slot_drag.copy_from_slice(&[rod.across * wet, rod.along * wet]);
-            for (kept, value) in places.iter_mut().zip(axis.iter().chain(&arm).chain(&flow)) {
+            let (slot_drag, places) = slot.split_at_mut(3);
+            slot_drag.copy_from_slice(&[rod.across[0] * wet, rod.across[1] * wet, rod.along * wet]);
+            for (kept, value) in places.iter_mut().zip(axis.iter().chain(&standing.first).chain(&arm).chain(&flow)) {
                 *kept = *value;
             }
         }
@@ -228,13 +230,13 @@ impl MemberWaveLoads {
         let (own, turn) = (three(at.velocity.as_slice()), three(&at.velocity.as_slice()[3..]));
         let stations = &state[HEADER_STATES + STATES_PER_SEGMENT * self.segments..];
         for station in stations.chunks_exact(STATES_PER_STATION) {
-            let [across, along, a, b, c, x, y, z, u, v, w] = station else { continue };
-            if *across == 0.0 && *along == 0.0 {
+            let [of_width, of_depth, along, places @ ..] = station else { continue };
+            if *of_width == 0.0 && *of_depth == 0.0 && *along == 0.0 {
                 continue;
             }
-            let (axis, arm) = (Vector3::new(*a, *b, *c), Vector3::new(*x, *y, *z));
-            let flow = Vector3::new(*u, *v, *w) - own - turn.cross(&arm);
-            let (force, by_flow) = drag((*across, *along), &axis, &flow);
+            let [axis, first, arm, flow] = [0, 3, 6, 9].map(|from| three(places.get(from..).unwrap_or_default()));
+            let flow = flow - own - turn.cross(&arm);
+            let (force, by_flow) = drag(([*of_width, *of_depth], *along), (&axis, &first), &flow);
             sum.0 += at_arm(&arm, &force);
             // the velocity of the place is own - arm x turn, so that this has the form of a mass there
             added::add(&mut sum.1, &arm, &by_flow);

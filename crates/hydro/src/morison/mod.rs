@@ -9,6 +9,10 @@
 //!   is what makes the whole pressure zero, so that an upright member bears on it with `A p` of its foot alone;
 //! - added mass: `rho Ca A (a - b)_n`, and `rho Caa pi D^3/12 (a - b)_t` at each wet end, with a Caa of its own.
 //!
+//! A bar has a drag and an added mass of its own along its width and along its depth: with e of the one and the other,
+//! `1/2 rho Cd b_e |u - v|_n ((u - v).e) e`, b_e its breadth against a flow along e, and `rho A_e ((a - b).e) e`. At the surface its
+//! sections are wet as those of a tube of the same area. Growth on bars is refused.
+//!
 //! Where the surface cuts sections, drag and friction act on the share of a section's height that is wet, inertia on the share of
 //! its area, in water of the middle of what is wet. The acceleration of the water is that at a place; what the water brings along
 //! (u . grad u), the slap on sections that enter the water (category SLAM), and drag of flat ends are left out.
@@ -88,6 +92,10 @@ pub fn build_members(
     let mut made = Vec::new();
     for part in model.parts_of(body) {
         for piece in &part.pieces {
+            if growth.is_some() && piece.member.is_some_and(|member| member.breadths.is_some()) {
+                let text = format!("marine growth on the bar {} is not computed: growth is for tubes", piece.name);
+                return Err(ClassError::new(text).with_span(piece.span).help("leave -M_GROWTH out of the environment"));
+            }
             let on = growth.as_ref().filter(|_| piece.permeability >= 0.0).map(|growth| (growth, &pose));
             made.extend(rods(model, &steady, (part, piece), reach, on));
         }
@@ -132,13 +140,22 @@ fn rods(
     reach: f64,
     growth: Option<(&Growth, &Pose)>,
 ) -> Vec<MemberLength> {
-    let (Some(own), Shape::Tube { ends, diameter: bare }) = (piece.member, piece.shape.with_displacement(&part.place))
-    else {
-        return Vec::new();
+    let Some(own) = piece.member else { return Vec::new() };
+    let (ends, bare, width) = match piece.shape.with_displacement(&part.place) {
+        Shape::Tube { ends, diameter } => (ends.map(Vector3::from), diameter, None),
+        Shape::Bar { ends, sides } => {
+            let [width, depth] = sides.map(Vector3::from);
+            // a tube of the same area stands for it where the surface cuts it
+            let diameter = (4.0 / PI * width.norm() * depth.norm()).sqrt();
+            (ends.map(Vector3::from), diameter, width.try_normalize(0.0))
+        }
+        Shape::Panels(_) | Shape::Block { .. } => return Vec::new(),
     };
-    let ends = ends.map(Vector3::from);
     let [foot, head] = ends;
     let Some(axis) = (head - foot).try_normalize(0.0) else { return Vec::new() };
+    let mut beside = Vector3::zeros();
+    beside[axis.iamin()] = 1.0;
+    let Some(across) = width.or_else(|| axis.cross(&beside).try_normalize(0.0)) else { return Vec::new() };
     let density = steady.around.water_density;
     let of = |category: Category| model.multipliers.factor(category.name(), &part.name);
     // what a database holds is not counted again
@@ -151,8 +168,11 @@ fn rods(
     let made = lengths.iter().enumerate().map(|(n, Length { ends: [start, end], diameter })| {
         let [from, to] = [*start, *end].map(|at| foot + (head - foot) * at);
         let length = (to - from).norm();
-        let (section, core) = (circle(*diameter), circle(bare));
-        let drags = 0.5 * density * diameter * of(Category::ViscousDrag);
+        let (section, core) = (section_area(*diameter), section_area(bare));
+        let drags = 0.5 * density * of(Category::ViscousDrag);
+        let breadths = own.breadths.map_or([*diameter; 2], |bar| bar.drag);
+        let moved = own.breadths.map_or([section_area(*diameter) * own.added; 2], |bar| bar.added);
+        let skin = own.breadths.map_or(PI * diameter, |bar| 2.0 * (bar.drag[0] + bar.drag[1]));
         let count = (length / reach).ceil().clamp(1.0, MAX_SEGMENTS as f64) as usize;
         let corner = |n: usize| from + axis * (length * n as f64 / count as f64);
         let half_sphere = density * PI * diameter.powi(3) / 12.0 * own_waves;
@@ -160,12 +180,13 @@ fn rods(
         MemberLength {
             from,
             axis,
+            first: across,
             length,
             diameter: *diameter,
-            across: drags * own.drag,
-            along: drags * PI * own.friction,
+            across: breadths.map(|breadth| drags * own.drag * breadth),
+            along: drags * skin * own.friction,
             section: (core * piece.permeability + (section - core)) * own_waves,
-            added: density * section * own.added * own_waves,
+            added: moved.map(|area| density * area * own_waves),
             end_added: [if n == 0 { first } else { 0.0 }, if n == last { second } else { 0.0 }],
             factor: of(Category::Wave),
             segments: (0..count).map(|n| TubeHull { ends: [corner(n), corner(n + 1)], diameter: *diameter }).collect(),
@@ -183,7 +204,7 @@ struct Length {
 }
 
 /// The area of a circle of a diameter (m).
-fn circle(diameter: f64) -> f64 {
+fn section_area(diameter: f64) -> f64 {
     PI * diameter * diameter / 4.0
 }
 

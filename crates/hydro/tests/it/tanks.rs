@@ -24,6 +24,7 @@ fn model(fraction: f64) -> Model {
         cs_wind: [0.0; 3],
         cs_current: [0.0; 3],
         member: None,
+        element: None,
         waves: WaveAction::ByForm,
         eddy_damping: 0.0,
         kept: Vec::new(),

@@ -3,7 +3,7 @@
 use crate::outline::corners_and_edges;
 use nalgebra::Vector3;
 use windlass_base::geometry::Position;
-use windlass_model::{Body, Model, Shape, box_panels};
+use windlass_model::{Body, Model, Shape, bar_panels, box_panels};
 
 /// A surface in the axes of a body (m).
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -56,6 +56,7 @@ impl FilmSolid {
         match shape {
             Shape::Panels(panels) => self.panels(panels, place),
             Shape::Block { low, high } => self.panels(&box_panels(*low, *high), place),
+            Shape::Bar { ends, sides } => self.panels(&bar_panels(ends, sides), place),
             Shape::Tube { .. } => {
                 // both rings one behind the other, as the outline has them
                 let count = corners.len() / 2;
