@@ -126,7 +126,7 @@ fn option_rows(option: &OptionSpec) -> Vec<[String; 2]> {
     }
     parts.retain(|part| !part.is_empty());
     let mut rows = vec![[code(&option.syntax()), parts.join(" ")]];
-    rows.extend(option.values.iter().map(|value| [format!("  {}", code(value.name)), describe_value(value)]));
+    rows.extend(option.values.iter().map(|value| [format!("&emsp;{}", code(value.name)), describe_value(value)]));
     rows
 }
 

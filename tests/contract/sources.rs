@@ -106,3 +106,36 @@ fn no_file_cites_unpublished_documents() {
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
+
+/// The sources of a crate and its tests, all together.
+fn crate_text(folder: &str) -> String {
+    let wanted: Vec<_> = ["src", "tests"].map(|part| PathBuf::from(folder).join(part)).into();
+    let here = |path: &PathBuf| wanted.iter().any(|part| path.starts_with(part));
+    tree().into_iter().filter(|(path, _)| here(path)).map(|(_, text)| text).collect()
+}
+
+#[test]
+fn tests_named_in_theory_and_verification_exist() {
+    let mut wrong = Vec::new();
+    for (path, text) in tree().into_iter().filter(|(path, _)| path.starts_with("docs/theory")) {
+        for command in text.split('`').filter(|code| code.starts_with("cargo test -p ")) {
+            let words: Vec<&str> = command.split_whitespace().skip(3).collect();
+            let folder = match words[0].strip_prefix("windlass-") {
+                Some(name) => format!("crates/{name}"),
+                None => String::new(),
+            };
+            let text = crate_text(&folder);
+            let filters = words[1..]
+                .iter()
+                .filter(|w| !w.starts_with('-') && !["it", "contract", "golden", "errors"].contains(*w));
+            for part in filters.flat_map(|filter| filter.split("::")) {
+                let is_module = text.contains(&format!("mod {part};")) || text.contains(&format!("mod {part} {{"));
+                let is_test = text.lines().any(|line| line.trim_start().starts_with("fn ") && line.contains(part));
+                if !is_module && !is_test {
+                    wrong.push(format!("{}: {command}: no {part}", path.display()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}

@@ -16,10 +16,7 @@ fn collect_pages(folder: &Path, pages: &mut BTreeMap<PathBuf, String>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
-            // what `mdbook build` has made
-            if !path.ends_with("book") {
-                collect_pages(&path, pages);
-            }
+            collect_pages(&path, pages);
         } else if path.extension().is_some_and(|e| e == "md") {
             let text = fs::read_to_string(&path).unwrap();
             pages.insert(path, text);

@@ -99,7 +99,7 @@ impl Records {
     /// The model alone, after which the units are as before.
     pub fn model_alone(&self) -> WrittenRecords {
         let mut made = WrittenRecords::default();
-        made.add(&UNITS.replacen("&DIMEN", "&DIMEN -SAVE", 1), &[]);
+        made.add("&DIMEN -SAVE -DIMEN METERS K-NTS", &[]);
         for (record, origins) in self.model.iter().zip(&self.origins) {
             made.add(record, origins);
         }
