@@ -19,7 +19,7 @@
 //! | 12 | [`surroundings::FixedDof`], [`articulations::Articulation`] | fixed degrees of freedom of a body; joints as FIX |
 //! | 13 | [`waves::WaveDeck`] | sea of spectral components, or regular wave (second order unless AIRY) |
 //! | 14 LINE, FORC, WNCH, LNDW, POLY, SWIR, COMP | [`lines::MooringLine`] | connectors of the classes CT_LINE, LNDW, NLIN, CATENARY |
-//! | 14 FEND, FLIN | [`fenders::Fender`] | fenders |
+//! | 14 FEND, FLIN | [`fenders::FenderCard`] | fenders |
 //! | 14 TELM .. TETH | [`tethers::Tether`] | a tether connector, towed or installed |
 //! | 15 | [`run::Start`] | position and velocity of the bodies at the start (of their centres of gravity) |
 //! | 16 | [`run::TimeSteps`] | steps of the time domain: the first is the start |
