@@ -1,6 +1,6 @@
 //! What a job comes to for who reads its exit code alone: results that are missing, tensions beyond a break.
 
-use windlass_model::{ElementSummary, Model};
+use windlass_model::{ConnectorSummary, Model};
 use windlass_solve::time::{ActionKind, Run};
 
 /// A connector whose tension exceeds a break that was given, in a state that was asked for.
@@ -51,7 +51,7 @@ pub fn over_break(connector: &str, largest: Option<(f64, usize)>, command: &'sta
 }
 
 /// The same from its summary; one that is far too short for its ends is over its break whoever gives that.
-pub fn check_over_break(connector: &str, summary: &ElementSummary, command: &'static str) -> Option<OverBreak> {
+pub fn check_over_break(connector: &str, summary: &ConnectorSummary, command: &'static str) -> Option<OverBreak> {
     let over = over_break(connector, summary.over_given_break, command);
     over.or_else(|| {
         let too_short = summary.too_short?;

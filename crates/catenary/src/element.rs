@@ -43,7 +43,7 @@ impl LinePiece {
     }
 
     /// The leg from where the piece leaves the bottom to its lower end, with `h` and `v` there: `v` is negative and the
-    /// rise with it; with a positive `v` as for [`Element::upper_leg`].
+    /// rise with it; with a positive `v` as for [`LinePiece::upper_leg`].
     pub fn lower_leg(&self, h: f64, v: f64) -> SpanReach {
         let LinePiece::Length { segment, law, .. } = self else { return SpanReach::default() };
         let s = v.abs() / segment.weight;

@@ -19,7 +19,7 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{self as rod, TensionLaw};
 use windlass_model::{
-    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element,
+    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, DynamicLineClass,
     LengthClass, LineModel, Placement, SegmentedClass, StaticLineClass, StaticSeabed, Surroundings,
 };
 
@@ -224,7 +224,7 @@ impl ConnectorClass for CatenaryClass {
             .build()
     }
 
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         self.line(&connection.placement, connection.surroundings)?.element()
     }
 
@@ -354,7 +354,7 @@ impl StaticLineClass for CatenaryClass {
 impl DynamicLineClass for CatenaryClass {
     /// Cable dynamics: `rho Ca A` of added mass, `0.5 rho Cd V2 De` across and `0.5 rho Cx V2 De` along, EI, and no maximum tension
     /// [AQWA-CONN 5.8.3.1].
-    fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
+    fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let density = connection.surroundings.water_density;
         if let Some(dry) = self.sections.iter().find(|s| s.area == 0.0) {
             return Err(ClassError::new("cable dynamics needs a section with an area")

@@ -6,8 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 use windlass_base::table::Table;
 use windlass_catenary::{FunctionPoint, StretchLaw, rising_root};
 use windlass_model::{
-    AbsentRow, ClassError, Condition, Element, ElementResponse, ElementSummary, End, FoundLength, LineChange,
-    LineConfiguration, LineLoads, LineModel, Note, Situation, SolverCache,
+    AbsentRow, ClassError, Condition, ConnectorElement, ConnectorResponse, ConnectorSummary, End, FoundLength,
+    LineChange, LineConfiguration, LineLoads, LineModel, Note, Situation, SolverCache,
 };
 
 /// A weightless line between two places.
@@ -147,7 +147,7 @@ impl ExtensibleLine for ChordElement {
         ends: &[End],
         by: Extension,
         _: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<EndPull, ClassError> {
         out.clear(2);
         let along = self.chord_vector(ends);
@@ -168,11 +168,11 @@ impl ExtensibleLine for ChordElement {
         Ok(EndPull { tension: force, along: unit })
     }
 
-    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ElementSummary, ClassError> {
+    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ConnectorSummary, ClassError> {
         let chord = self.chord_vector(ends).norm();
         let (force, _) = self.with_link(by, chord);
         let (ratio, critical) = self.chord.ratio(force);
-        Ok(ElementSummary {
+        Ok(ConnectorSummary {
             tension: Some(force),
             ratio: Some(ratio),
             critical: Some(critical),
@@ -191,19 +191,19 @@ impl ExtensibleLine for ChordElement {
     }
 }
 
-impl Element for ChordElement {
+impl ConnectorElement for ChordElement {
     fn evaluate(
         &self,
         at: &Situation,
         _committed: &[f64],
         _trial: &mut [f64],
         cache: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         self.pull(at.ends, Extension::NONE, cache, out).map(|_| ())
     }
 
-    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<ConnectorSummary, ClassError> {
         self.summary_with_link(at.ends, Extension::NONE)
     }
 
@@ -213,7 +213,7 @@ impl Element for ChordElement {
 }
 
 impl LineModel for Chord {
-    fn element(&self) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Ok(Box::new(ChordElement::new(self.clone())?))
     }
 

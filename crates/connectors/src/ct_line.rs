@@ -15,8 +15,8 @@ use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
-    Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
+    ConnectorSummary, Situation, SolverCache, Surroundings,
 };
 
 /// The class type.
@@ -156,28 +156,28 @@ impl ConnectorClass for ConstantTensionLine {
         table
     }
 
-    fn element(&self, _: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, _: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Ok(Box::new(*self))
     }
 }
 
-impl Element for ConstantTensionLine {
+impl ConnectorElement for ConstantTensionLine {
     fn evaluate(
         &self,
         at: &Situation,
         _: &[f64],
         _: &mut [f64],
         _: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let span = read_span(at.ends)?;
         apply_tension(&span, &self.tension_of(&span), out);
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
         let tension = self.tension_of(&read_span(at.ends)?).tension;
         let notes = if tension == 0.0 && self.tension > 0.0 { vec!["the line is slack".into()] } else { Vec::new() };
-        Ok(ElementSummary { tension: Some(tension), notes, solution: "exact", ..ElementSummary::default() })
+        Ok(ConnectorSummary { tension: Some(tension), notes, solution: "exact", ..ConnectorSummary::default() })
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use std::fmt::Debug;
-use windlass_model::{ClassError, ElementResponse, ElementSummary, End, SolverCache};
+use windlass_model::{ClassError, ConnectorResponse, ConnectorSummary, End, SolverCache};
 
 /// A link of `length + compliance T` between the first end and the line, in the direction of the tension T. A negative length takes
 /// as much off the way between the ends.
@@ -44,16 +44,16 @@ pub trait ExtensibleLine: Debug + Send + Sync {
         ends: &[End],
         by: Extension,
         cache: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<EndPull, ClassError>;
 
     /// What is reported of the line with the link.
     ///
     /// # Errors
     /// As [`ExtensibleLine::pull`].
-    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ElementSummary, ClassError>;
+    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ConnectorSummary, ClassError>;
 
-    /// See [`windlass_model::Element::compression_onset`].
+    /// See [`windlass_model::ConnectorElement::compression_onset`].
     fn compression_onset(&self) -> Option<f64> {
         None
     }

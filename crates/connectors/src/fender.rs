@@ -21,8 +21,8 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
 use windlass_model::Note;
 use windlass_model::{
-    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, Element,
-    ElementResponse, ElementSummary, FenderState, LengthClass, Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, ConnectorElement,
+    ConnectorResponse, ConnectorSummary, FenderState, LengthClass, Situation, SolverCache, Surroundings,
 };
 
 /// The class type.
@@ -231,7 +231,7 @@ impl ConnectorClass for Fender {
         ClassRole::Fender
     }
 
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let euler = connection.connector.euler.map_or(Matrix3::identity(), |turn| {
             let place = Place { turn, ..Default::default() };
             *place.rotation().matrix()
@@ -282,7 +282,7 @@ struct FenderGeometry {
     rated: f64,
 }
 
-impl Element for FenderGeometry {
+impl ConnectorElement for FenderGeometry {
     fn states(&self) -> usize {
         self.spring.states()
     }
@@ -293,12 +293,12 @@ impl Element for FenderGeometry {
         committed: &[f64],
         trial: &mut [f64],
         cache: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         self.spring.evaluate(at, committed, trial, cache, out)
     }
 
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ConnectorSummary, ClassError> {
         let mut summary = self.spring.summary(at, committed)?;
         let deflection = summary.springs.first().map_or(0.0, |s| (-s.deflection).max(0.0));
         summary.springs.clear();

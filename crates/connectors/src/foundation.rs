@@ -1,6 +1,6 @@
 //! FOUNDATION: a generalized spring of zero length that is checked in a FOUNDATION check.
 //!
-//! Source: [MOSES-FLEX FOUNDATION]. The check takes the ratio and the springs of [`windlass_model::ElementSummary`].
+//! Source: [MOSES-FLEX FOUNDATION]. The check takes the ratio and the springs of [`windlass_model::ConnectorSummary`].
 
 use super::spring::GeneralizedSpring;
 use super::{ClassKind, options as o};

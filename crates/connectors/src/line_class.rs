@@ -23,7 +23,7 @@ use windlass_base::values::Args;
 use windlass_catenary::{Line, LineError, SeabedModel, StretchLaw};
 use windlass_language::spec::{CommandSpec, OptionSpec};
 use windlass_model::{
-    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element,
+    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, DynamicLineClass,
     FatigueSegment, LengthClass, LineModel, Note, Placement, SegmentedClass, StaticLineClass, StaticSeabed,
     Surroundings,
 };
@@ -330,7 +330,7 @@ impl ConnectorClass for LineClass {
         (self.kind.add_facts)(self, table, surroundings)
     }
 
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         if self.devices.is_none() {
             return self.line(&connection.placement, connection.surroundings)?.element();
         }
@@ -451,7 +451,7 @@ impl StaticLineClass for LineClass {
 }
 
 impl DynamicLineClass for LineClass {
-    fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
+    fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let plain = self.devices.is_none() && self.springs.iter().all(Option::is_none);
         let made = (self.sections.as_slice(), self.flexures.as_slice());
         let seabed = Seabed { with_anchor: self.is_on_bottom(), ..self.seabed };

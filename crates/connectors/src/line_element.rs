@@ -9,8 +9,8 @@ use std::borrow::Cow;
 use windlass_base::pose::Six;
 use windlass_catenary::{CatenaryWarmStart, Interpolated, LineError, LineForces};
 use windlass_model::{
-    AnchoredElement, AnchoredResponse, ClassError, Element, ElementResponse, ElementSummary, End, Placement, Situation,
-    SolverCache,
+    AnchoredConnector, AnchoredResponse, ClassError, ConnectorElement, ConnectorResponse, ConnectorSummary, End,
+    Placement, Situation, SolverCache,
 };
 
 /// Angle (rad) over which forces of a line on a bathymetry are compared: a hundredth of the distance between faces of a long line's
@@ -212,7 +212,7 @@ impl ExtensibleLine for LineElement {
         ends: &[End],
         by: Extension,
         cache: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<EndPull, ClassError> {
         out.clear(2);
         let (x, along, z) = self.horizontal_distance(ends);
@@ -238,7 +238,7 @@ impl ExtensibleLine for LineElement {
         Ok(EndPull { tension: pull.norm(), along: pull.try_normalize(0.0).unwrap_or_default() })
     }
 
-    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ElementSummary, ClassError> {
+    fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ConnectorSummary, ClassError> {
         let mut ends = ends.to_vec();
         if by != Extension::NONE {
             let (x, [ux, uy], z) = self.horizontal_distance(&ends);
@@ -262,7 +262,7 @@ impl ExtensibleLine for LineElement {
         let too_short = too_short(chord / self.mooring.line.length(), loads.ratio);
         let mut notes = loads.notes;
         notes.extend(too_short.map(too_short_note));
-        Ok(ElementSummary {
+        Ok(ConnectorSummary {
             tension: Some(loads.tension),
             ratio: Some(loads.ratio),
             critical: Some(loads.critical),
@@ -277,19 +277,19 @@ impl ExtensibleLine for LineElement {
     }
 }
 
-impl Element for LineElement {
+impl ConnectorElement for LineElement {
     fn evaluate(
         &self,
         at: &Situation,
         _committed: &[f64],
         _trial: &mut [f64],
         cache: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         self.pull(at.ends, Extension::NONE, cache, out).map(|_| ())
     }
 
-    fn as_anchored(&self) -> Option<&dyn AnchoredElement> {
+    fn as_anchored(&self) -> Option<&dyn AnchoredConnector> {
         self.mooring.place.to_ground.then_some(self)
     }
 
@@ -307,12 +307,12 @@ impl Element for LineElement {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<ConnectorSummary, ClassError> {
         self.summary_with_link(at.ends, Extension::NONE)
     }
 }
 
-impl AnchoredElement for LineElement {
+impl AnchoredConnector for LineElement {
     fn evaluate_anchored(&self, at: &Situation, cache: &mut SolverCache) -> Result<AnchoredResponse, ClassError> {
         let (x, along, z) = self.horizontal_distance(at.ends);
         let here = self.at_azimuth(along)?;

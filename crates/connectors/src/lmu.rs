@@ -15,7 +15,7 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, Element, LengthClass,
+    ClassError, ClassRecord, Connection, Connector, ConnectorCategory, ConnectorClass, ConnectorElement, LengthClass,
     Surroundings,
 };
 
@@ -94,7 +94,7 @@ impl ConnectorClass for PinInCone {
             .fact("Symmetric about X", if self.springs.symmetric { "YES" } else { "NO" }, Dim::None)
     }
 
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         // the cone carries the axes, the pin is displaced in them
         let holder = 1;
         let (turn, other_turn) = element_turns(connection, holder, UPRIGHT);

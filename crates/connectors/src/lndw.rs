@@ -17,8 +17,8 @@ use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Note,
-    Situation, SolverCache, Surroundings, TimeStep,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
+    ConnectorSummary, Note, Situation, SolverCache, Surroundings, TimeStep,
 };
 
 /// The class type.
@@ -159,12 +159,12 @@ impl ConnectorClass for DrumLine {
         if self.most.is_finite() { table.fact("Stands Above", self.most, Dim::Newtons) } else { table }
     }
 
-    fn element(&self, _: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, _: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Ok(Box::new(*self))
     }
 }
 
-impl Element for DrumLine {
+impl ConnectorElement for DrumLine {
     fn states(&self) -> usize {
         2
     }
@@ -175,7 +175,7 @@ impl Element for DrumLine {
         committed: &[f64],
         trial: &mut [f64],
         _: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let span = read_span(at.ends)?;
         let state = self.state(at.step, committed, span.length);
@@ -187,7 +187,7 @@ impl Element for DrumLine {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ConnectorSummary, ClassError> {
         let distance = read_span(at.ends)?.length;
         let state = self.state(None, committed, distance);
         let mut notes: Vec<Note> = Vec::new();
@@ -197,6 +197,6 @@ impl Element for DrumLine {
         if state.tension > self.most {
             notes.push(Note::warning("the tension is above that at which the drum stands"));
         }
-        Ok(ElementSummary { tension: Some(state.tension), notes, solution: "exact", ..ElementSummary::default() })
+        Ok(ConnectorSummary { tension: Some(state.tension), notes, solution: "exact", ..ConnectorSummary::default() })
     }
 }

@@ -13,8 +13,8 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun};
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, MemberSection, SectionOutline, SolveKind,
-    Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, MemberSection, SectionOutline,
+    SolveKind, Surroundings,
 };
 
 /// A type of section that a `~NAME TYPE ...` record can name for BEAM or PLATE.
@@ -617,7 +617,7 @@ impl ConnectorClass for MemberClass {
             .build()
     }
 
-    fn element(&self, _: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, _: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Err(ClassError::new(format!("class type {} makes no connector", self.kind())))
     }
 

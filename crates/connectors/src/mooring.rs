@@ -15,8 +15,8 @@ use windlass_catenary::{
     table,
 };
 use windlass_model::{
-    AbsentRow, ClassError, Condition, Element, FoundLength, Idealisation, LineChange, LineConfiguration, LineLoads,
-    LineModel, Note, Placement,
+    AbsentRow, ClassError, Condition, ConnectorElement, FoundLength, Idealisation, LineChange, LineConfiguration,
+    LineLoads, LineModel, Note, Placement,
 };
 
 /// Points inside each segment in a shape table.
@@ -363,7 +363,7 @@ impl LineModel for Mooring {
         if self.tabulated { self.tabled_loads() } else { self.exact_loads() }
     }
 
-    fn element(&self) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Ok(Box::new(LineElement::new(self.clone())?))
     }
 

@@ -14,8 +14,8 @@ use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Note,
-    Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
+    ConnectorSummary, Note, Situation, SolverCache, Surroundings,
 };
 
 /// The class type.
@@ -152,19 +152,19 @@ impl ConnectorClass for NonlinearLine {
         }
     }
 
-    fn element(&self, _: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, _: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Ok(Box::new(*self))
     }
 }
 
-impl Element for NonlinearLine {
+impl ConnectorElement for NonlinearLine {
     fn evaluate(
         &self,
         at: &Situation,
         _: &[f64],
         _: &mut [f64],
         _: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let span = read_span(at.ends)?;
         let (tension, slope) = self.law.tension(span.length - self.length);
@@ -173,7 +173,7 @@ impl Element for NonlinearLine {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
         let extension = read_span(at.ends)?.length - self.length;
         let (tension, _) = self.law.tension(extension);
         let mut notes: Vec<Note> = Vec::new();
@@ -182,6 +182,11 @@ impl Element for NonlinearLine {
         } else if tension < 0.0 {
             notes.push(Note::warning("its polynomial is negative at this extension; a line does not push: no tension"));
         }
-        Ok(ElementSummary { tension: Some(tension.max(0.0)), notes, solution: "exact", ..ElementSummary::default() })
+        Ok(ConnectorSummary {
+            tension: Some(tension.max(0.0)),
+            notes,
+            solution: "exact",
+            ..ConnectorSummary::default()
+        })
     }
 }

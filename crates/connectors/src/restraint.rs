@@ -11,7 +11,9 @@ use nalgebra::Matrix3;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, Connection, Connector, ConnectorCategory, ConnectorClass, Element, Surroundings};
+use windlass_model::{
+    ClassError, Connection, Connector, ConnectorCategory, ConnectorClass, ConnectorElement, Surroundings,
+};
 
 /// A class of restraints.
 #[derive(Debug)]
@@ -53,7 +55,7 @@ impl ConnectorClass for RestraintClass {
         }
     }
 
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
         let list = || self.restraints.iter().map(|r| (r.dof.index(), r.stiffness));
         let group =

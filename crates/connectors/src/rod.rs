@@ -11,7 +11,7 @@ use windlass_base::table::Table;
 use windlass_base::values::Given;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, DynamicLineClass, Element,
+    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, DynamicLineClass,
     FatigueSegment, Idealisation, LengthClass, PipeClass, PipeLayout, SegmentedClass, Surroundings,
 };
 
@@ -129,7 +129,7 @@ impl ConnectorClass for RodClass {
         Idealisation::Dynamic
     }
 
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Ok(Box::new(DynamicLine::build(self.description(connection.surroundings), connection)?))
     }
 
@@ -217,7 +217,7 @@ impl DynamicLineClass for RodClass {
         self.seabed.slopes()
     }
 
-    fn dynamic_line(&self, _: &Connection, _: usize) -> Result<Box<dyn Element>, ClassError> {
+    fn dynamic_line(&self, _: &Connection, _: usize) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Err(ClassError::new("a ROD is a dynamic line already")
             .help("-REFINE of its class says into how many elements it is cut"))
     }
@@ -225,7 +225,7 @@ impl DynamicLineClass for RodClass {
 
 impl PipeClass for RodClass {
     /// A pipe of the first segment's section, as long as it needs to be.
-    fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
+    fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Ok(Box::new(DynamicLine::build_pipe(self.description(layout.surroundings), layout)?))
     }
 }

@@ -15,7 +15,7 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorClass, Element, Surroundings,
+    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorClass, ConnectorElement, Surroundings,
 };
 
 /// The class type.
@@ -142,7 +142,7 @@ impl ConnectorClass for Roller {
     }
 
     /// Between the node and the point of the pipe that an assembly gives: it asks with `to_ground` false.
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         checks::in_assembly("ROLLER", connection)?;
         self.springs.element(connection, Sense::Both, ContactGeometry::Gaps(self.gaps()), Vector3::zeros())
     }

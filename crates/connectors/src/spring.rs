@@ -17,8 +17,8 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Value};
 use windlass_model::{
-    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, Element, LengthClass,
-    Surroundings,
+    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, ConnectorElement,
+    LengthClass, Surroundings,
 };
 
 /// One restrained degree of freedom.
@@ -225,7 +225,7 @@ impl Springs {
         sense: Sense,
         contact: ContactGeometry,
         rest: Vector3<f64>,
-    ) -> Result<Box<dyn Element>, ClassError> {
+    ) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
         let law = self.law(connection, sense, contact)?;
         let listed = self.reported_stiffnesses();
@@ -329,7 +329,7 @@ impl ConnectorClass for GeneralizedSpring {
         self.role
     }
 
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         self.springs.element(connection, self.sense, ContactGeometry::Whole, Vector3::x() * self.offset)
     }
 

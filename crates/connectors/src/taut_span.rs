@@ -4,7 +4,7 @@
 //! against it; the stiffness is n (dT/dl n + dT/dl' (1 - n n')(vq - vp)/l)' + T/l (1 - n n').
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
-use windlass_model::{ClassError, ElementResponse, End};
+use windlass_model::{ClassError, ConnectorResponse, End};
 
 /// A straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub fn read_span(ends: &[End]) -> Result<TautSpan, ClassError> {
 }
 
 /// The wrenches on its ends with stiffness and damping, in `out`.
-pub fn apply_tension(span: &TautSpan, tension: &SpanTension, out: &mut ElementResponse) {
+pub fn apply_tension(span: &TautSpan, tension: &SpanTension, out: &mut ConnectorResponse) {
     out.clear(2);
     let n = span.direction;
     for (wrench, sign) in out.wrench.iter_mut().zip([1.0, -1.0]) {

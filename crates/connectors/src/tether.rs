@@ -15,8 +15,9 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Note;
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
-    LengthClass, SegmentedClass, Situation, SolverCache, Surroundings, TetherSection, TetherSectionsClass, TetherUse,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
+    ConnectorSummary, LengthClass, SegmentedClass, Situation, SolverCache, Surroundings, TetherSection,
+    TetherSectionsClass, TetherUse,
 };
 
 /// The class type TETHER: an AQWA tether/riser section.
@@ -104,7 +105,7 @@ impl ConnectorClass for TetherClass {
             .build()
     }
 
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Ok(Box::new(Bar::new(&self.0, connection)))
     }
 
@@ -266,14 +267,14 @@ impl Bar {
     }
 }
 
-impl Element for Bar {
+impl ConnectorElement for Bar {
     fn evaluate(
         &self,
         at: &Situation,
         _: &[f64],
         _: &mut [f64],
         _: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         out.clear(2);
         if self.towed {
@@ -294,10 +295,10 @@ impl Element for Bar {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
         if self.towed {
             let notes = vec!["a towed tether exerts nothing at rest: TDOM -TETHERS runs it".into()];
-            return Ok(ElementSummary { solution: "exact", notes, ..ElementSummary::default() });
+            return Ok(ConnectorSummary { solution: "exact", notes, ..ConnectorSummary::default() });
         }
         let found = self.pull(at)?;
         let mut notes = Vec::new();
@@ -308,6 +309,6 @@ impl Element for Bar {
             notes.push(Note::warning("it is slack"));
         }
         let at_fairlead = found.tension - 0.5 * found.toward.z * found.weight;
-        Ok(ElementSummary { tension: Some(at_fairlead), solution: "exact", notes, ..ElementSummary::default() })
+        Ok(ConnectorSummary { tension: Some(at_fairlead), solution: "exact", notes, ..ConnectorSummary::default() })
     }
 }

@@ -10,8 +10,8 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_model::{
-    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorClass, Element, ElementResponse,
-    ElementSummary, LengthClass, Note, Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
+    ConnectorSummary, LengthClass, Note, Situation, SolverCache, Surroundings,
 };
 
 /// The force of a tie on its first end, toward the second.
@@ -42,14 +42,14 @@ impl TieForce {
     }
 }
 
-impl Element for TieForce {
+impl ConnectorElement for TieForce {
     fn evaluate(
         &self,
         at: &Situation,
         _: &[f64],
         _: &mut [f64],
         _: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let (apart, distance) = TieForce::chord(at)?;
         let (tension, slope) = self.tension(distance);
@@ -68,7 +68,7 @@ impl Element for TieForce {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
         let (_, distance) = TieForce::chord(at)?;
         let (tension, _) = self.tension(distance);
         let ratio = tension / self.breaking;
@@ -81,14 +81,14 @@ impl Element for TieForce {
         }
         let over_given_break = self.break_is_given.then_some((ratio, 1));
         let (tension, ratio, critical) = (Some(tension), Some(ratio), Some(1));
-        Ok(ElementSummary {
+        Ok(ConnectorSummary {
             tension,
             ratio,
             critical,
             over_given_break,
             solution: "exact",
             notes,
-            ..ElementSummary::default()
+            ..ConnectorSummary::default()
         })
     }
 }
@@ -133,7 +133,7 @@ impl ConnectorClass for TieClass {
     }
 
     /// Between the node and the end that an assembly gives: it asks with `to_ground` false.
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let section = self.section.ok_or_else(|| ClassError::new("the class has no record"))?;
         checks::in_assembly(self.kind, connection)?;
         let length = connection.connector.first_length.unwrap_or(section.length);

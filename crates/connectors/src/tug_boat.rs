@@ -11,8 +11,8 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary,
-    Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
+    ConnectorSummary, Situation, SolverCache, Surroundings,
 };
 
 /// The class type.
@@ -63,21 +63,21 @@ impl ConnectorClass for TugClass {
         Table::new(format!("Class {name}")).fact("Type", "TUG_BOAT", Dim::None).fact("Force", self.force, Dim::Force)
     }
 
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let tug = connection.connector.tug.ok_or_else(|| ClassError::new("the connector has no -TUG"))?;
         let (cos, sin) = unit_vector(tug.direction);
         Ok(Box::new(TugForce { force: [self.force * cos, self.force * sin] }))
     }
 }
 
-impl Element for TugForce {
+impl ConnectorElement for TugForce {
     fn evaluate(
         &self,
         _: &Situation,
         _: &[f64],
         _: &mut [f64],
         _: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         out.clear(2);
         let [x, y] = self.force;
@@ -88,8 +88,8 @@ impl Element for TugForce {
         Ok(())
     }
 
-    fn summary(&self, _: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, _: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
         let [x, y] = self.force;
-        Ok(ElementSummary { tension: Some(x.hypot(y)), solution: "exact", ..ElementSummary::default() })
+        Ok(ConnectorSummary { tension: Some(x.hypot(y)), solution: "exact", ..ConnectorSummary::default() })
     }
 }

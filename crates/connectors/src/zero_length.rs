@@ -11,8 +11,8 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, UnitQuaternion, Vector3, Ve
 use windlass_base::choice::{Choice, Dof};
 use windlass_base::geometry::Place;
 use windlass_model::{
-    ClassError, Connection, ConnectorCategory, Element, ElementResponse, ElementSummary, Note, Situation, SolverCache,
-    SpringState, StiffTie, TieResponse,
+    ClassError, Connection, ConnectorCategory, ConnectorElement, ConnectorResponse, ConnectorSummary, Note, Situation,
+    SolverCache, SpringState, StiffTie, TieResponse,
 };
 
 type Wide = SMatrix<f64, 3, 12>;
@@ -170,7 +170,7 @@ impl ZeroLength {
     }
 
     /// Writes forces and moments on both ends and their derivatives.
-    fn write_response(&self, motion: &RelativeMotion, answer: &LawResponse, out: &mut ElementResponse) {
+    fn write_response(&self, motion: &RelativeMotion, answer: &LawResponse, out: &mut ConnectorResponse) {
         let RelativeMotion { axes: r, apart, q, spin: [moving, turning], .. } = motion;
         let rt = r.transpose();
         let part = |six: &Vector6<f64>, from: usize| six.fixed_rows::<3>(from).into_owned();
@@ -243,7 +243,7 @@ fn write_blocks(slopes: &[[Wide; 2]; 2], order: [usize; 2], blocks: &mut [Matrix
     }
 }
 
-impl Element for ZeroLength {
+impl ConnectorElement for ZeroLength {
     fn states(&self) -> usize {
         self.law.states()
     }
@@ -254,7 +254,7 @@ impl Element for ZeroLength {
         committed: &[f64],
         trial: &mut [f64],
         _: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let (motion, answer) = self.evaluate_law(at, committed, trial)?;
         self.write_response(&motion, &answer, out);
@@ -265,7 +265,7 @@ impl Element for ZeroLength {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ConnectorSummary, ClassError> {
         let mut trial = committed.to_vec();
         let (motion, answer) = self.evaluate_law(at, committed, &mut trial)?;
         // the law knows the force on the holder
@@ -290,7 +290,7 @@ impl Element for ZeroLength {
             notes.push(Note::warning("the ends are turned by nearly half a turn against each other, beyond which a spring does not determine the sense"));
         }
         let tension = self.listed.iter().any(|(dof, _)| *dof == 0).then(|| answer.force[0]);
-        Ok(ElementSummary { tension, ratio, solution: "exact", springs, notes, ..ElementSummary::default() })
+        Ok(ConnectorSummary { tension, ratio, solution: "exact", springs, notes, ..ConnectorSummary::default() })
     }
 
     fn category(&self) -> ConnectorCategory {
@@ -310,7 +310,7 @@ impl StiffTie for ZeroLength {
         &self,
         at: &Situation,
         held: Option<&Vector6<f64>>,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<TieResponse, ClassError> {
         let motion = self.motion(at)?;
         let mut answer = self.law.evaluate(&motion.q, &Vector3::zeros(), None, &[], &mut []);

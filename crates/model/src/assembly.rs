@@ -1,7 +1,8 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
 use super::{
-    Ambient, Body, ClassError, Connection, Connector, Element, Model, RunRequirement, SchemeWeights, Surroundings,
+    Ambient, Body, ClassError, Connection, Connector, ConnectorElement, Model, RunRequirement, SchemeWeights,
+    Surroundings,
 };
 use indexmap::IndexMap;
 use nalgebra::Vector3;
@@ -36,7 +37,7 @@ pub struct PipeLayout<'a> {
     /// Its name.
     pub name: &'a str,
     /// The law of each support, between its node and a point of the pipe.
-    pub supports: Arc<[Box<dyn Element>]>,
+    pub supports: Arc<[Box<dyn ConnectorElement>]>,
     /// Their nodes.
     pub nodes: Vec<Pose>,
     /// The way of the pipe through each, one way or the other, in the axes of its node: X as `-EULER` turns it.
@@ -62,7 +63,7 @@ pub struct LaidPipe<'a> {
     /// The supports.
     pub supports: Vec<&'a Connector>,
     /// The pipe, with an end at the node of each.
-    pub element: Box<dyn Element>,
+    pub element: Box<dyn ConnectorElement>,
 }
 
 /// Name of the one pipe assembly (the MOSES manual, conn_pipe).

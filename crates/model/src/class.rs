@@ -3,7 +3,7 @@
 use super::assembly::PipeLayout;
 use super::connector::Connector;
 use super::defaults::Defaults;
-use super::element::{Connection, Element};
+use super::element::{Connection, ConnectorElement};
 use super::environment::Surroundings;
 use super::fatigue::FatigueSegment;
 use super::idealisation::Idealisation;
@@ -234,7 +234,7 @@ pub trait ConnectorClass: Debug + Send + Sync {
     ///
     /// # Errors
     /// A class whose connectors an assembly takes care of, or values that make none here.
-    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError>;
+    fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError>;
 
     /// Whether its connectors are lines between two ends, which reports of the angles of lines list; dynamic lines always are.
     fn is_line(&self) -> bool {
@@ -373,7 +373,7 @@ pub trait DynamicLineClass {
     ///
     /// # Errors
     /// Values that make no such line.
-    fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError>;
+    fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn ConnectorElement>, ClassError>;
 
     /// Whether its dynamic lines lie on a plane bottom that the class slopes.
     fn has_sloped_seabed(&self) -> bool {
@@ -387,7 +387,7 @@ pub trait PipeClass {
     ///
     /// # Errors
     /// A layout that makes no pipe.
-    fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError>;
+    fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn ConnectorElement>, ClassError>;
 }
 
 impl Class {
@@ -421,7 +421,11 @@ impl Class {
     ///
     /// # Errors
     /// A class without dynamics of its own, or values that make no such line.
-    pub fn dynamic_line(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
+    pub fn dynamic_line(
+        &self,
+        connection: &Connection,
+        elements: usize,
+    ) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let class = self.object.as_dynamic_line().ok_or_else(|| {
             ClassError::new(format!("a connector of class type {} has no dynamics of its own", self.object.kind()))
         })?;

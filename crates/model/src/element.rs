@@ -52,7 +52,7 @@ pub struct TimeStep {
 pub struct Situation<'a> {
     /// The ends, in the order of the connector's points; a second end in the ground stands behind a single point.
     pub ends: &'a [End],
-    /// The step; `None` in statics. To an element with inertia of its own ([`Element::as_dynamic`]) also one without length: what
+    /// The step; `None` in statics. To an element with inertia of its own ([`ConnectorElement::as_dynamic`]) also one without length: what
     /// it exerts at once, as it moves.
     pub step: Option<TimeStep>,
     /// Water, depth, gravity.
@@ -112,7 +112,7 @@ impl Debug for SolverCache {
 /// What an element answers. Blocks are in the order of ends, row by row: block `i * ends + j` is that of the wrench on end `i` and
 /// the motion of end `j`.
 #[derive(Clone, Debug, Default)]
-pub struct ElementResponse {
+pub struct ConnectorResponse {
     /// Wrench on each end: force (N) and moment (N m) about the end's point, global axes.
     pub wrench: Vec<Six>,
     /// -d(wrench)/d(translation of the point, rotation vector), global axes (N/m, N/rad, N, N m/rad): positive where the
@@ -124,7 +124,7 @@ pub struct ElementResponse {
     pub inertia: Vec<Matrix6<f64>>,
 }
 
-impl ElementResponse {
+impl ConnectorResponse {
     /// All zero for so many ends, without rates.
     pub fn clear(&mut self, ends: usize) {
         self.wrench.clear();
@@ -166,7 +166,7 @@ pub struct FenderState {
 
 /// What is reported of an element in a situation, beside the wrench on its ends.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct ElementSummary {
+pub struct ConnectorSummary {
     /// Tension at the first end (N), of elements that have one; negative of a spring that pushes.
     pub tension: Option<f64>,
     /// Largest tension over own break, or force over allowable.
@@ -202,7 +202,7 @@ pub enum ConnectorCategory {
 
 /// A connector as an engine sees it: its force law. Its parameters do not change. What only some elements can do are traits of their
 /// own, which the accessors `as_..` give; an element that wraps another passes the accessor on.
-pub trait Element: Debug + Send + Sync {
+pub trait ConnectorElement: Debug + Send + Sync {
     /// Number of values of its state.
     fn states(&self) -> usize {
         0
@@ -221,13 +221,13 @@ pub trait Element: Debug + Send + Sync {
         committed: &[f64],
         trial: &mut [f64],
         cache: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError>;
 
-    /// The wrenches on its ends at rest, as of [`Element::evaluate`], without how they change; `out` is overwritten.
+    /// The wrenches on its ends at rest, as of [`ConnectorElement::evaluate`], without how they change; `out` is overwritten.
     ///
     /// # Errors
-    /// As [`Element::evaluate`].
+    /// As [`ConnectorElement::evaluate`].
     fn evaluate_wrenches(
         &self,
         at: &Situation,
@@ -235,7 +235,7 @@ pub trait Element: Debug + Send + Sync {
         cache: &mut SolverCache,
         out: &mut Vec<Six>,
     ) -> Result<(), ClassError> {
-        let (mut all, mut trial) = (ElementResponse::default(), committed.to_vec());
+        let (mut all, mut trial) = (ConnectorResponse::default(), committed.to_vec());
         self.evaluate(at, committed, &mut trial, cache, &mut all)?;
         *out = all.wrench;
         Ok(())
@@ -244,8 +244,8 @@ pub trait Element: Debug + Send + Sync {
     /// What is reported of it.
     ///
     /// # Errors
-    /// As [`Element::evaluate`].
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError>;
+    /// As [`ConnectorElement::evaluate`].
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ConnectorSummary, ClassError>;
 
     /// Where its force is counted.
     fn category(&self) -> ConnectorCategory {
@@ -264,7 +264,7 @@ pub trait Element: Debug + Send + Sync {
     }
 
     /// The element as one whose force follows from the place of its first end alone.
-    fn as_anchored(&self) -> Option<&dyn AnchoredElement> {
+    fn as_anchored(&self) -> Option<&dyn AnchoredConnector> {
         None
     }
 
@@ -274,23 +274,23 @@ pub trait Element: Debug + Send + Sync {
     }
 
     /// The element as one made for the place of its ends.
-    fn as_placed(&self) -> Option<&dyn PlacedElement> {
+    fn as_placed(&self) -> Option<&dyn PlacedConnector> {
         None
     }
 
     /// The element as one that is cut into nodes.
-    fn as_nodal(&self) -> Option<&dyn NodalElement> {
+    fn as_nodal(&self) -> Option<&dyn NodalConnector> {
         None
     }
 
     /// The element as a dynamic line: it has inertia between its ends, its wrench depends on their accelerations, and its state in a
     /// run begins where it hangs at rest.
-    fn as_dynamic(&self) -> Option<&dyn DynamicElement> {
+    fn as_dynamic(&self) -> Option<&dyn DynamicConnector> {
         None
     }
 }
 
-/// What an [`AnchoredElement`] exerts.
+/// What an [`AnchoredConnector`] exerts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AnchoredResponse {
     /// Wrench on each end, forces alone (N), global axes.
@@ -300,11 +300,11 @@ pub struct AnchoredResponse {
 }
 
 /// An element from a body to the ground without state, which pulls with a force that the place of its first end alone changes.
-pub trait AnchoredElement {
-    /// What [`Element::evaluate`] gives, with less work.
+pub trait AnchoredConnector {
+    /// What [`ConnectorElement::evaluate`] gives, with less work.
     ///
     /// # Errors
-    /// As [`Element::evaluate`].
+    /// As [`ConnectorElement::evaluate`].
     fn evaluate_anchored(&self, at: &Situation, cache: &mut SolverCache) -> Result<AnchoredResponse, ClassError>;
 }
 
@@ -313,23 +313,23 @@ pub trait StiffTie {
     /// What it exerts, in `out`, with a force that an engine holds in place of that of its law; `None` for that of its law.
     ///
     /// # Errors
-    /// As [`Element::evaluate`].
+    /// As [`ConnectorElement::evaluate`].
     fn evaluate_tie(
         &self,
         at: &Situation,
         held: Option<&Six>,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<TieResponse, ClassError>;
 }
 
 /// An element whose parameters depend on where its ends were when it was made, so that a solver makes it anew where they come to rest.
-pub trait PlacedElement {
+pub trait PlacedConnector {
     /// The same in other surroundings, without being made anew for them.
-    fn with_ambient(&self, ambient: &Arc<dyn Ambient>) -> Box<dyn Element>;
+    fn with_ambient(&self, ambient: &Arc<dyn Ambient>) -> Box<dyn ConnectorElement>;
 }
 
 /// An element that is cut into nodes and has results along itself.
-pub trait NodalElement {
+pub trait NodalConnector {
     /// How many nodes it reports at most: elements may appear at a winch.
     fn max_nodes(&self) -> usize;
 
@@ -346,7 +346,7 @@ pub trait NodalElement {
     /// bending all beside effective tension and clearance. What the solver keeps is room to work in.
     ///
     /// # Errors
-    /// As [`NodalElement::find_nodes`].
+    /// As [`NodalConnector::find_nodes`].
     fn find_row_nodes(
         &self,
         at: &Situation,
@@ -357,7 +357,7 @@ pub trait NodalElement {
 }
 
 /// A dynamic line.
-pub trait DynamicElement: NodalElement {
+pub trait DynamicConnector: NodalConnector {
     /// The energy and momentum balance in a state, where a run keeps them.
     fn energy_balance(&self, state: &[f64]) -> Option<EnergyBalance>;
 

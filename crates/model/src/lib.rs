@@ -63,9 +63,9 @@ pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTab
 pub use defaults::{Coordinates, DefaultMaterial, Defaults, WaveDefaults};
 pub use draft_mark::DraftMark;
 pub use element::{
-    AnchoredElement, AnchoredResponse, Connection, ConnectorCategory, DynamicElement, Element, ElementResponse,
-    ElementSummary, End, FenderState, NodalElement, PlacedElement, RunRequirement, Situation, SolverCache, SpringState,
-    StiffTie, TimeStep,
+    AnchoredConnector, AnchoredResponse, Connection, ConnectorCategory, ConnectorElement, ConnectorResponse,
+    ConnectorSummary, DynamicConnector, End, FenderState, NodalConnector, PlacedConnector, RunRequirement, Situation,
+    SolverCache, SpringState, StiffTie, TimeStep,
 };
 pub use environment::{
     Components, Current, CurveReference, Division, Environment, FormulaChoice, GustParts, PeriodType, Phasing,
@@ -279,7 +279,7 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::element_in`].
-    pub fn element(&self, connector: &Connector) -> Result<Box<dyn Element>, ClassError> {
+    pub fn element(&self, connector: &Connector) -> Result<Box<dyn ConnectorElement>, ClassError> {
         self.element_in(connector, None)
     }
 
@@ -292,7 +292,7 @@ impl Model {
         &self,
         connector: &Connector,
         ambient: Option<&Arc<dyn Ambient>>,
-    ) -> Result<Box<dyn Element>, ClassError> {
+    ) -> Result<Box<dyn ConnectorElement>, ClassError> {
         self.element_of_run(connector, ambient, RunRequirement::default())
     }
 
@@ -305,7 +305,7 @@ impl Model {
         connector: &Connector,
         ambient: Option<&Arc<dyn Ambient>>,
         duty: RunRequirement,
-    ) -> Result<Box<dyn Element>, ClassError> {
+    ) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let class = self.classes.get(&Model::key(&connector.class));
         let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
         let placement = self.placement(connector);

@@ -2,7 +2,7 @@
 
 use super::bathymetry::Bathymetry;
 use super::class::ClassError;
-use super::element::Element;
+use super::element::ConnectorElement;
 use super::note::Note;
 use std::sync::Arc;
 use windlass_base::geometry::Position;
@@ -82,7 +82,7 @@ pub struct LineLoads {
     pub ratio: f64,
     /// The segment that has it, from 1.
     pub critical: usize,
-    /// As [`super::ElementSummary::over_given_break`].
+    /// As [`super::ConnectorSummary::over_given_break`].
     pub over_given_break: Option<(f64, usize)>,
     /// Unstretched length on the bottom (m).
     pub grounded: f64,
@@ -188,7 +188,7 @@ pub trait LineModel {
     ///
     /// # Errors
     /// A line between moving ends that rests on the bottom; a table that cannot be made.
-    fn element(&self) -> Result<Box<dyn Element>, ClassError>;
+    fn element(&self) -> Result<Box<dyn ConnectorElement>, ClassError>;
 
     /// The horizontal distance between the ends under a condition (m).
     ///

@@ -6,7 +6,7 @@ use super::system::{SolveError, System, SystemState};
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, ElementSummary};
+use windlass_model::{ClassError, ConnectorSummary};
 
 /// How a body is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct ExcursionStep {
     /// Forces and moments of the connectors on the body about its origin, global axes.
     pub wrench: Six,
     /// What is reported of each of its connectors.
-    pub lines: Vec<ElementSummary>,
+    pub lines: Vec<ConnectorSummary>,
 }
 
 impl ExcursionStep {
@@ -47,7 +47,7 @@ impl ExcursionStep {
 }
 
 /// The largest T/break of connectors, and the number of the first that has it but for rounding.
-pub fn worst(lines: &[ElementSummary]) -> Option<(f64, usize)> {
+pub fn worst(lines: &[ConnectorSummary]) -> Option<(f64, usize)> {
     let ratios = lines.iter().enumerate().filter_map(|(i, l)| Some((l.ratio?, i)));
     ratios.fold(None, |worst, one| match worst {
         Some((ratio, _)) if one.0 <= ratio * (1.0 + EQUAL_RATIOS) => worst,

@@ -5,7 +5,7 @@ use super::time::RunRequirements;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::pose::Pose;
-use windlass_model::{Ambient, Assembly, Connector, Element, LaidPipe, Model};
+use windlass_model::{Ambient, Assembly, Connector, ConnectorElement, LaidPipe, Model};
 
 /// What an end of a connector is fixed to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub(super) enum EndAttachment {
 #[derive(Debug)]
 pub(super) struct Link {
     pub name: String,
-    pub element: Box<dyn Element>,
+    pub element: Box<dyn ConnectorElement>,
     pub ends: Vec<EndAttachment>,
     /// Where its values stand in the vector of states.
     pub states: std::ops::Range<usize>,
@@ -37,7 +37,7 @@ pub(super) fn link(
 }
 
 /// What a pipe is, and what its ends are fixed to.
-pub(super) type PipeLink = (Box<dyn Element>, Vec<EndAttachment>);
+pub(super) type PipeLink = (Box<dyn ConnectorElement>, Vec<EndAttachment>);
 
 /// The pipe of an assembly of a model, where it has one that acts.
 pub(super) fn build_pipe_link(
@@ -53,7 +53,12 @@ pub(super) fn build_pipe_link(
 
 impl Link {
     /// Of an element; its states go behind the others.
-    pub(super) fn new(name: &str, element: Box<dyn Element>, ends: Vec<EndAttachment>, states: &mut Vec<f64>) -> Link {
+    pub(super) fn new(
+        name: &str,
+        element: Box<dyn ConnectorElement>,
+        ends: Vec<EndAttachment>,
+        states: &mut Vec<f64>,
+    ) -> Link {
         let from = states.len();
         states.resize(from + element.states(), 0.0);
         if let Some(own) = states.get_mut(from..) {

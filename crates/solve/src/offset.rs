@@ -5,7 +5,7 @@ use super::link::{EndAttachment, Link, arm, pose_of};
 use super::system::{SolveError, System, SystemState};
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::move_wrench;
-use windlass_model::{ClassError, ElementSummary, End, Situation, SolverCache};
+use windlass_model::{ClassError, ConnectorSummary, End, Situation, SolverCache};
 
 /// The connectors on one body, followed from place to place.
 #[derive(Debug)]
@@ -94,7 +94,7 @@ impl BodyConnectors {
     ///
     /// # Errors
     /// A connector that has no answer there.
-    pub fn summaries(&self, system: &System, poses: &[Pose]) -> Result<Vec<ElementSummary>, SolveError> {
+    pub fn summaries(&self, system: &System, poses: &[Pose]) -> Result<Vec<ConnectorSummary>, SolveError> {
         self.links(system).map(|link| summary(system, link, poses)).collect()
     }
 }
@@ -107,12 +107,12 @@ impl System {
     pub fn summaries<'a>(
         &'a self,
         state: &'a SystemState,
-    ) -> impl Iterator<Item = (&'a str, Result<ElementSummary, SolveError>)> + use<'a> {
+    ) -> impl Iterator<Item = (&'a str, Result<ConnectorSummary, SolveError>)> + use<'a> {
         self.links.iter().map(|link| (link.name.as_str(), summary(self, link, &state.poses)))
     }
 }
 
-fn summary(system: &System, link: &Link, poses: &[Pose]) -> Result<ElementSummary, SolveError> {
+fn summary(system: &System, link: &Link, poses: &[Pose]) -> Result<ConnectorSummary, SolveError> {
     let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
     let committed = &system.states[link.states.clone()];
     let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };

@@ -24,8 +24,8 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
-    ClassError, Connector, Element, ElementResponse, End, Model, RunRequirement, Situation, SolverCache, Surroundings,
-    TimeStep, list_names,
+    ClassError, Connector, ConnectorElement, ConnectorResponse, End, Model, RunRequirement, Situation, SolverCache,
+    Surroundings, TimeStep, list_names,
 };
 use windlass_signal::statistics::crossings;
 
@@ -369,7 +369,7 @@ fn smooth(s: f64) -> [f64; 3] {
 
 /// A line as a dynamic one, at a time of its replay.
 struct Twin {
-    element: Box<dyn Element>,
+    element: Box<dyn ConnectorElement>,
     elements: usize,
     surroundings: Surroundings,
     pulled_end: usize,
@@ -377,7 +377,7 @@ struct Twin {
     committed: Vec<f64>,
     trial: Vec<f64>,
     cache: SolverCache,
-    response: ElementResponse,
+    response: ConnectorResponse,
 }
 
 impl Twin {
@@ -422,7 +422,7 @@ impl Twin {
             trial: committed.clone(),
             committed,
             cache: SolverCache::new(),
-            response: ElementResponse::default(),
+            response: ConnectorResponse::default(),
         };
         made.evaluate(&ends, motion.begin, 0.0)?;
         Ok(made)

@@ -14,7 +14,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::Sea;
 use windlass_hydro::{Category, Floating, Load, ambient, move_stiffness, move_wrench, turning};
 use windlass_model::{
-    Ambient, Body, ClassError, ElementResponse, End, Mass, Model, Situation, SolveKind, SolverCache, Surroundings,
+    Ambient, Body, ClassError, ConnectorResponse, End, Mass, Model, Situation, SolveKind, SolverCache, Surroundings,
 };
 
 /// Degrees of freedom of a body, in order.
@@ -104,7 +104,7 @@ pub struct SystemState {
     /// Stiff ties, whose forces a search holds.
     pub(super) ties: Ties,
     caches: Vec<SolverCache>,
-    response: ElementResponse,
+    response: ConnectorResponse,
     trial: Vec<f64>,
 }
 
@@ -305,7 +305,7 @@ impl System {
                 list.push(Contribution { body, connector: None, category, load });
             }
         }
-        let (mut response, mut trial) = (ElementResponse::default(), vec![0.0; self.states.len()]);
+        let (mut response, mut trial) = (ConnectorResponse::default(), vec![0.0; self.states.len()]);
         for link in &self.links {
             let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
             let committed = &self.states[link.states.clone()];

@@ -6,7 +6,7 @@ use super::time::{CompressionOnset, LinkEnds, LoadMemory};
 use std::sync::Arc;
 use windlass_hydro::ambient;
 use windlass_hydro::sea::Sea;
-use windlass_model::{ClassError, Connector, Element, GivenMotion, Model};
+use windlass_model::{ClassError, Connector, ConnectorElement, GivenMotion, Model};
 
 /// What is said of a connector that an action is about though a pipe lies on it.
 const HOLDS_PIPE: &str = "a pipe lies on it, which acts in its place: actions do nothing to the supports of a pipe";
@@ -25,12 +25,12 @@ fn bodies(ends: &[EndAttachment]) -> Vec<Option<usize>> {
 }
 
 /// How many nodes an element reports at most, and whether they have bending.
-fn nodes(element: &dyn Element) -> (usize, bool) {
+fn nodes(element: &dyn ConnectorElement) -> (usize, bool) {
     element.as_nodal().map_or((0, false), |nodal| (nodal.max_nodes(), nodal.has_bending()))
 }
 
 /// How rows report compression, of an element that takes it.
-fn pushing(element: &dyn Element, ends: &[EndAttachment]) -> Option<CompressionOnset> {
+fn pushing(element: &dyn ConnectorElement, ends: &[EndAttachment]) -> Option<CompressionOnset> {
     CompressionOnset::new(element.compression_onset()?, ends, element.pulling_end())
 }
 
@@ -110,7 +110,7 @@ impl System {
     }
 
     /// A connector of a model as its run asks for it.
-    fn element(&self, model: &Model, connector: &Connector) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, model: &Model, connector: &Connector) -> Result<Box<dyn ConnectorElement>, ClassError> {
         model.element_of_run(connector, Some(&self.ambient), self.duties.requirement(&connector.name))
     }
 

@@ -4,7 +4,7 @@ use super::equilibrium::{Options as Rest, equilibrium};
 use super::offset::BodyConnectors;
 use super::system::{SolveError, System, SystemState};
 use windlass_base::pose::{Pose, Six};
-use windlass_model::ElementSummary;
+use windlass_model::ConnectorSummary;
 
 /// Most steps of the solution from one direction to the next.
 const MAX_STEPS_BETWEEN_DIRECTIONS: usize = 2000;
@@ -17,7 +17,7 @@ pub struct WatchedBody {
     /// The body at rest under it.
     pub pose: Pose,
     /// What is reported of each of its connectors.
-    pub lines: Vec<ElementSummary>,
+    pub lines: Vec<ConnectorSummary>,
 }
 
 /// A body under a force from each of several directions.

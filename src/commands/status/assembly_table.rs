@@ -6,7 +6,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
-    Assembly, AssemblyKind, ClassError, Connector, ElementResponse, ElementSummary, End, LaidPipe, Model,
+    Assembly, AssemblyKind, ClassError, Connector, ConnectorResponse, ConnectorSummary, End, LaidPipe, Model,
     RunRequirement, Situation,
 };
 use windlass_model::{EntityKind, SolverCache};
@@ -39,7 +39,7 @@ struct HookLine<'m> {
     /// From the node to the hook (m).
     apart: Vector3<f64>,
     /// What it bears; `None` where it is inactive or has no solution.
-    summary: Option<ElementSummary>,
+    summary: Option<ConnectorSummary>,
 }
 
 /// One table of the tip-hook sets: the hook, then its lines.
@@ -109,7 +109,7 @@ fn pipe(model: &Model, assembly: &Assembly, units: UnitSystem) -> Table {
 }
 
 /// Forces on nodes (N), and a summary.
-type OnSupports = (Vec<[f64; 3]>, ElementSummary);
+type OnSupports = (Vec<[f64; 3]>, ConnectorSummary);
 
 /// The forces of a pipe on the nodes of its active supports (N), and its summary.
 fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>, ClassError> {
@@ -120,7 +120,7 @@ fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>,
     let ends: Vec<End> = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap_or_default())).collect();
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-    let mut out = ElementResponse::default();
+    let mut out = ConnectorResponse::default();
     let mut state = vec![0.0; element.states()];
     element.evaluate(&at, &state.clone(), &mut state, &mut SolverCache::new(), &mut out)?;
     let forces = out.wrench.iter().map(|w| [w[0], w[1], w[2]]).collect();
@@ -162,13 +162,13 @@ fn hook_rows<'m>(
 }
 
 /// What a line bears between its ends.
-fn line_summary(model: &Model, connector: &Connector) -> Result<ElementSummary, ClassError> {
+fn line_summary(model: &Model, connector: &Connector) -> Result<ConnectorSummary, ClassError> {
     let element = model.element(connector)?;
     let ends = model.end_poses(connector).map(End::still);
     let mut state = vec![0.0; element.states()];
     element.start(&mut state);
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-    element.evaluate(&at, &state.clone(), &mut state, &mut SolverCache::new(), &mut ElementResponse::default())?;
+    element.evaluate(&at, &state.clone(), &mut state, &mut SolverCache::new(), &mut ConnectorResponse::default())?;
     element.summary(&at, &state)
 }

@@ -8,7 +8,7 @@ use windlass_base::table::{Digits, Table, TableNote};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
-    ClassError, ClassRole, Connector, ElementResponse, ElementSummary, End, Model, Situation, SpringState,
+    ClassError, ClassRole, Connector, ConnectorResponse, ConnectorSummary, End, Model, Situation, SpringState,
     add_model_column,
 };
 use windlass_model::{EntityKind, SolverCache};
@@ -40,7 +40,7 @@ pub(crate) struct ConnectorForces {
     /// Horizontal distance between the ends (m).
     distance: f64,
     /// The rest of what it reports of itself.
-    pub(crate) summary: ElementSummary,
+    pub(crate) summary: ConnectorSummary,
 }
 
 /// One row a connector, and a second table with the springs of those that have some. Those that are inactive or without a
@@ -140,7 +140,7 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
 }
 
 /// Takes what a user should know out of a summary, in these units.
-fn take_remarks(summary: &mut ElementSummary, units: UnitSystem) -> Vec<TableNote> {
+fn take_remarks(summary: &mut ConnectorSummary, units: UnitSystem) -> Vec<TableNote> {
     std::mem::take(&mut summary.notes).iter().map(|note| note.for_table(units)).collect()
 }
 
@@ -159,7 +159,7 @@ pub(crate) fn find_forces(model: &Model, connector: &Connector) -> Result<Connec
     element.start(&mut committed);
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
-    let (mut out, mut trial) = (ElementResponse::default(), committed.clone());
+    let (mut out, mut trial) = (ConnectorResponse::default(), committed.clone());
     element.evaluate(&at, &committed, &mut trial, &mut SolverCache::new(), &mut out)?;
     // less than what a solution is exact to is no force
     let shown = |w: &Six| {
@@ -219,7 +219,7 @@ impl SpringRow<'_> {
     }
 }
 
-fn spring_rows<'m>(connector: &'m Connector, summary: &ElementSummary) -> impl Iterator<Item = SpringRow<'m>> {
+fn spring_rows<'m>(connector: &'m Connector, summary: &ConnectorSummary) -> impl Iterator<Item = SpringRow<'m>> {
     summary.springs.iter().map(|spring| SpringRow { connector: &connector.name, spring: spring.clone() })
 }
 

@@ -362,7 +362,7 @@ pub(super) fn pulls(model: &windlass_model::Model) -> Vec<[f64; 3]> {
         let element = model.element(connector).unwrap();
         let ends = model.end_poses(connector).map(windlass_model::End::still);
         let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
-        let mut out = windlass_model::ElementResponse::default();
+        let mut out = windlass_model::ConnectorResponse::default();
         let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
         element.evaluate(&at, &committed, &mut trial, &mut windlass_model::SolverCache::new(), &mut out).unwrap();
         [0, 1, 2].map(|axis| out.wrench[0][axis])

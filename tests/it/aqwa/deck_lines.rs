@@ -356,7 +356,7 @@ fn wrench(session: &Session) -> [f64; 6] {
     let element = model.element(connector).unwrap();
     let ends = model.end_poses(connector).map(windlass_model::End::still);
     let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
-    let mut out = windlass_model::ElementResponse::default();
+    let mut out = windlass_model::ConnectorResponse::default();
     let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
     element.evaluate(&at, &committed, &mut trial, &mut windlass_model::SolverCache::new(), &mut out).unwrap();
     out.wrench[0].into()

@@ -6,7 +6,7 @@ use crate::common::run as runs;
 use runs::{model, run, settings, trapezoidal};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use windlass_base::table::Table;
-use windlass_model::{ElementResponse, End, Model, Situation, SolverCache};
+use windlass_model::{ConnectorResponse, End, Model, Situation, SolverCache};
 use windlass_solve::System;
 use windlass_solve::results::along::lines_at_rest;
 use windlass_solve::time::{Run, RunSettings};
@@ -94,7 +94,7 @@ fn grounded_dynamic_line_anchor_carries_pull_along_seabed_alone() {
         let (element, ends) = (made.element(&made.connectors["L"]).unwrap(), made.end_poses(&made.connectors["L"]));
         let ends = ends.map(End::still);
         let at = Situation { ends: &ends, step: None, surroundings: &made.surroundings() };
-        let (mut state, mut out) = (vec![0.0; element.states()], ElementResponse::default());
+        let (mut state, mut out) = (vec![0.0; element.states()], ConnectorResponse::default());
         element.start(&mut state);
         let committed = state.clone();
         element.evaluate(&at, &committed, &mut state, &mut SolverCache::new(), &mut out).unwrap();

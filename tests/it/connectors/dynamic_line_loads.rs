@@ -7,11 +7,11 @@ use crate::common::assert_near;
 use nalgebra::Vector3;
 use windlass_base::pose::Six;
 use windlass_hydro::ambient;
-use windlass_model::{Element, ElementResponse, End, LineNode, Situation, SolverCache, TimeStep};
+use windlass_model::{ConnectorElement, ConnectorResponse, End, LineNode, Situation, SolverCache, TimeStep};
 
 /// A line of a class between two points in the ground 100 m apart, 50 m below the surface along X or, `dry`, 10 m above it.
 struct Held {
-    element: Box<dyn Element>,
+    element: Box<dyn ConnectorElement>,
     ends: [End; 2],
     around: windlass_model::Surroundings,
 }
@@ -34,9 +34,9 @@ fn solve_held_line(class: &str, environment: &str, (z, dynamics): (f64, bool)) -
 
 impl Held {
     /// What it answers at rest, or at the beginning of a run.
-    fn answer(&self, step: Option<TimeStep>) -> ElementResponse {
+    fn answer(&self, step: Option<TimeStep>) -> ConnectorResponse {
         let mut state = vec![0.0; self.element.states()];
-        let mut out = ElementResponse::default();
+        let mut out = ConnectorResponse::default();
         let at = Situation { ends: &self.ends, step, surroundings: &self.around };
         let committed = state.clone();
         self.element.evaluate(&at, &committed, &mut state, &mut SolverCache::new(), &mut out).unwrap();

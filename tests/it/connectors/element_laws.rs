@@ -8,8 +8,8 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_connectors::CLASSES;
 use windlass_model::{
-    ClassError, Connection, Connector, Element, ElementResponse, End, Model, Placement, RunRequirement, Situation,
-    SolverCache, Surroundings, TimeStep,
+    ClassError, Connection, Connector, ConnectorElement, ConnectorResponse, End, Model, Placement, RunRequirement,
+    Situation, SolverCache, Surroundings, TimeStep,
 };
 
 /// What a force obeys beside being the same for the same.
@@ -259,7 +259,7 @@ impl Bench {
         Bench { session, connector, ends }
     }
 
-    fn element(&self) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let model = &self.session.job.model;
         let class = model.classes.values().next().unwrap();
         let curve = |name: &str| model.curves.get(&Model::key(name));
@@ -286,7 +286,7 @@ impl Bench {
 }
 
 /// Each case whose class has an element, with its name.
-fn each(mut check: impl FnMut(&Case, &Bench, &dyn Element)) {
+fn each(mut check: impl FnMut(&Case, &Bench, &dyn ConnectorElement)) {
     for case in cases() {
         let bench = Bench::new(&case);
         match bench.element() {
@@ -300,13 +300,13 @@ fn each(mut check: impl FnMut(&Case, &Bench, &dyn Element)) {
 }
 
 fn ask(
-    element: &dyn Element,
+    element: &dyn ConnectorElement,
     surroundings: &Surroundings,
     ends: &[End; 2],
     dt: Option<f64>,
     committed: &[f64],
-) -> (ElementResponse, Vec<f64>) {
-    let mut out = ElementResponse::default();
+) -> (ConnectorResponse, Vec<f64>) {
+    let mut out = ConnectorResponse::default();
     let mut trial = vec![f64::NAN; committed.len()];
     let step = dt.map(|dt| TimeStep { time: 10.0, dt });
     let at = Situation { ends, step, surroundings };
@@ -323,7 +323,7 @@ fn moving_ends(ends: [Pose; 2]) -> [End; 2] {
 }
 
 /// A state that a step from nearby has left.
-fn state_after_step(element: &dyn Element, bench: &Bench) -> Vec<f64> {
+fn state_after_step(element: &dyn ConnectorElement, bench: &Bench) -> Vec<f64> {
     let mut start = vec![0.0; element.states()];
     element.start(&mut start);
     let shift = Six::new(0.001, -0.002, 0.0015, 0.01, -0.02, 0.01);

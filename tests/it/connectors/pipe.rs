@@ -3,7 +3,7 @@
 use crate::common::run::model;
 
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Element, ElementResponse, End, Model, PIPE, RunRequirement, Situation, SolverCache};
+use windlass_model::{ConnectorElement, ConnectorResponse, End, Model, PIPE, RunRequirement, Situation, SolverCache};
 
 /// A stinger 150 m in radius; the pipe weighs 300 N/m in water and in air.
 fn stinger(tension: f64) -> Model {
@@ -15,17 +15,17 @@ fn stinger(tension: f64) -> Model {
     ))
 }
 
-fn pipe(model: &Model) -> (Box<dyn Element>, Vec<End>) {
+fn pipe(model: &Model) -> (Box<dyn ConnectorElement>, Vec<End>) {
     let laid = model.pipe(model.assemblies.get(PIPE).unwrap(), None, RunRequirement::default()).unwrap().unwrap();
     let (supports, element) = (laid.supports, laid.element);
     let ends = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap())).collect();
     (element, ends)
 }
 
-fn answer(model: &Model, element: &dyn Element, ends: &[End]) -> ElementResponse {
+fn answer(model: &Model, element: &dyn ConnectorElement, ends: &[End]) -> ConnectorResponse {
     let surroundings = model.surroundings();
     let at = Situation { ends, step: None, surroundings: &surroundings };
-    let mut out = ElementResponse::default();
+    let mut out = ConnectorResponse::default();
     let mut state = vec![0.0; element.states()];
     element.evaluate(&at, &state.clone(), &mut state, &mut SolverCache::new(), &mut out).unwrap();
     out

@@ -5,12 +5,12 @@ use crate::common;
 use nalgebra::Vector3;
 use windlass::session::Session;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Element, ElementResponse, ElementSummary, End, Situation, SolverCache, TimeStep};
+use windlass_model::{ConnectorElement, ConnectorResponse, ConnectorSummary, End, Situation, SolverCache, TimeStep};
 
 /// A line between *A of body ONE at the origin and another end.
 struct Rig {
     session: Session,
-    element: Box<dyn Element>,
+    element: Box<dyn ConnectorElement>,
     /// Committed.
     state: Vec<f64>,
     /// Where the first end is and where the second.
@@ -46,7 +46,7 @@ impl Rig {
     }
 
     /// The answer with the second end moved along X from where it was defined, with a velocity.
-    fn evaluate_at(&self, moved: f64, speed: f64, dt: Option<f64>) -> (ElementResponse, Vec<f64>) {
+    fn evaluate_at(&self, moved: f64, speed: f64, dt: Option<f64>) -> (ConnectorResponse, Vec<f64>) {
         let [first, second] = self.ends;
         let there = [
             End::still(Pose::from_position(first.into())),
@@ -56,16 +56,16 @@ impl Rig {
         self.answer([there[0], End { velocity, ..there[1] }], dt)
     }
 
-    fn answer(&self, ends: [End; 2], dt: Option<f64>) -> (ElementResponse, Vec<f64>) {
+    fn answer(&self, ends: [End; 2], dt: Option<f64>) -> (ConnectorResponse, Vec<f64>) {
         let surroundings = self.session.job.model.surroundings();
         let step = dt.map(|dt| TimeStep { time: dt, dt });
-        let (mut out, mut trial) = (ElementResponse::default(), vec![f64::NAN; self.state.len()]);
+        let (mut out, mut trial) = (ConnectorResponse::default(), vec![f64::NAN; self.state.len()]);
         let at = Situation { ends: &ends, step, surroundings: &surroundings };
         self.element.evaluate(&at, &self.state, &mut trial, &mut SolverCache::new(), &mut out).unwrap();
         (out, trial)
     }
 
-    fn summary(&self, moved: f64) -> ElementSummary {
+    fn summary(&self, moved: f64) -> ConnectorSummary {
         let surroundings = self.session.job.model.surroundings();
         let [first, second] = self.ends;
         let ends = [first, second + Vector3::x() * moved].map(|p| End::still(Pose::from_position(p.into())));

@@ -6,14 +6,14 @@ use windlass::session::Session;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{
-    ClassRole, Connection, ConnectorCategory, Element, ElementResponse, ElementSummary, End, Model, Placement,
-    RunRequirement, Situation, SolverCache, TimeStep,
+    ClassRole, Connection, ConnectorCategory, ConnectorElement, ConnectorResponse, ConnectorSummary, End, Model,
+    Placement, RunRequirement, Situation, SolverCache, TimeStep,
 };
 
 /// A spring between a point of a body and another, or the ground, as records define it.
 struct Joint {
     session: Session,
-    element: Box<dyn Element>,
+    element: Box<dyn ConnectorElement>,
     state: Vec<f64>,
 }
 
@@ -60,7 +60,7 @@ impl Joint {
         second: [f64; 6],
         rate: [f64; 3],
         dt: Option<f64>,
-    ) -> (ElementResponse, Vec<f64>) {
+    ) -> (ConnectorResponse, Vec<f64>) {
         let [x, y, z] = rate;
         let ends = [
             End::still(Pose::from_place(&Place::new(first))),
@@ -68,7 +68,7 @@ impl Joint {
         ];
         let surroundings = self.session.job.model.surroundings();
         let step = dt.map(|dt| TimeStep { time: dt, dt });
-        let (mut out, mut trial) = (ElementResponse::default(), vec![0.0; self.state.len()]);
+        let (mut out, mut trial) = (ConnectorResponse::default(), vec![0.0; self.state.len()]);
         let at = Situation { ends: &ends, step, surroundings: &surroundings };
         self.element.evaluate(&at, &self.state, &mut trial, &mut SolverCache::new(), &mut out).unwrap();
         (out, trial)
@@ -87,7 +87,7 @@ impl Joint {
         [w[0], w[1], w[2]]
     }
 
-    fn summary(&self, first: [f64; 6], second: [f64; 6]) -> ElementSummary {
+    fn summary(&self, first: [f64; 6], second: [f64; 6]) -> ConnectorSummary {
         let ends = [first, second].map(|p| End::still(Pose::from_place(&Place::new(p))));
         let surroundings = self.session.job.model.surroundings();
         self.element.summary(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &self.state).unwrap()
@@ -149,7 +149,7 @@ fn single_node_is_held_at_its_position_at_definition() {
         duty: RunRequirement::default(),
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
-    let mut out = ElementResponse::default();
+    let mut out = ConnectorResponse::default();
     let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };
     element.evaluate(&at, &[], &mut [], &mut SolverCache::new(), &mut out).unwrap();
     assert_near(out.wrench[0].as_slice(), &[-500.0, 0.0, 0.0, 0.0, 0.0, 0.0]);

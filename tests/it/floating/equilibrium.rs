@@ -196,7 +196,7 @@ fn lifts(records: &str) -> Vec<(String, f64)> {
         let ends = model.end_poses(connector).map(windlass_model::End::still);
         let surroundings = model.surroundings();
         let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
-        let mut out = windlass_model::ElementResponse::default();
+        let mut out = windlass_model::ConnectorResponse::default();
         let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
         element.evaluate(&at, &committed, &mut trial, &mut SolverCache::new(), &mut out).unwrap();
         list.push((connector.name.clone(), out.wrench[0][2]));

@@ -8,8 +8,8 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::pose::Six;
 use windlass_base::table::Table;
 use windlass_model::{
-    ClassError, Connection, Connector, ConnectorClass, Element, ElementResponse, ElementSummary, Situation,
-    SolverCache, Surroundings,
+    ClassError, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse, ConnectorSummary,
+    Situation, SolverCache, Surroundings,
 };
 use windlass_solve::{Options, find_equilibrium_with_rebuilds};
 
@@ -21,14 +21,14 @@ const LIMIT: f64 = 1e-4;
 const STIFFNESS: f64 = 1e3;
 const WEIGHT: f64 = 1e5;
 
-impl Element for Rope {
+impl ConnectorElement for Rope {
     fn evaluate(
         &self,
         at: &Situation,
         _: &[f64],
         _: &mut [f64],
         _: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let d = -at.ends[0].pose.origin.z;
         if d >= LIMIT {
@@ -43,8 +43,8 @@ impl Element for Rope {
         Ok(())
     }
 
-    fn summary(&self, _: &Situation, _: &[f64]) -> Result<ElementSummary, ClassError> {
-        Ok(ElementSummary::default())
+    fn summary(&self, _: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
+        Ok(ConnectorSummary::default())
     }
 }
 
@@ -61,7 +61,7 @@ impl ConnectorClass for Rope {
         Table::new("Rope")
     }
 
-    fn element(&self, _: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, _: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         Ok(Box::new(*self))
     }
 }

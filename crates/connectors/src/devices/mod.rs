@@ -20,7 +20,8 @@ use windlass_base::span::Span;
 use windlass_base::values::{Args, Given};
 use windlass_language::spec::OptionSpec;
 use windlass_model::{
-    ClassError, Connection, Element, ElementResponse, ElementSummary, End, Note, Situation, SolverCache, SpringState,
+    ClassError, Connection, ConnectorElement, ConnectorResponse, ConnectorSummary, End, Note, Situation, SolverCache,
+    SpringState,
 };
 
 /// Every device, in the order in which they stand from the first end of a line on.
@@ -165,7 +166,7 @@ impl Devices {
         &self,
         connection: &Connection,
         line: Box<dyn ExtensibleLine>,
-    ) -> Result<Box<dyn Element>, ClassError> {
+    ) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let mut made = DeviceElement { line, control: None, springs: Vec::new(), dampers: Vec::new() };
         for device in &self.list {
             match device.action(connection)? {
@@ -212,7 +213,7 @@ impl DeviceElement {
         at: &Situation,
         committed: &[f64],
         cache: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<DeviceState, ClassError> {
         let dt = at.step.map(|s| s.dt);
         let (before, mut memory) = self.split_states(committed);
@@ -269,14 +270,14 @@ impl DeviceElement {
 }
 
 /// Stiffness of the first end along a direction (N/m).
-fn axial_stiffness(out: &ElementResponse, along: &Vector3<f64>) -> f64 {
+fn axial_stiffness(out: &ConnectorResponse, along: &Vector3<f64>) -> f64 {
     out.stiffness.first().map_or(0.0, |k| along.dot(&(k.fixed_view::<3, 3>(0, 0) * along)))
 }
 
 /// Takes the stiffness away with which the tension would change. A link at the first end that grows by da acts as that end moved by
 /// da along the tension t, so that with K the stiffness without control and da such that the tension stays,
 /// K'ij = Kij - (Ki1 t)(t' K1j) / (t' K11 t).
-fn remove_axial_stiffness(along: &Vector3<f64>, out: &mut ElementResponse) {
+fn remove_axial_stiffness(along: &Vector3<f64>, out: &mut ConnectorResponse) {
     let axial = axial_stiffness(out, along);
     let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() else { return };
     if axial <= 0.0 {
@@ -294,7 +295,7 @@ fn remove_axial_stiffness(along: &Vector3<f64>, out: &mut ElementResponse) {
 }
 
 /// Adds a damper along the chord between two ends.
-fn add_damper(damper: &dyn ChordDamper, ends: &[End], out: &mut ElementResponse) {
+fn add_damper(damper: &dyn ChordDamper, ends: &[End], out: &mut ConnectorResponse) {
     let [first, second] = ends else { return };
     let along = second.pose.origin - first.pose.origin;
     let chord = along.norm();
@@ -325,7 +326,7 @@ fn add_damper(damper: &dyn ChordDamper, ends: &[End], out: &mut ElementResponse)
     }
 }
 
-impl Element for DeviceElement {
+impl ConnectorElement for DeviceElement {
     fn states(&self) -> usize {
         usize::from(self.control.is_some()) + self.springs.iter().map(|spring| spring.states()).sum::<usize>()
     }
@@ -342,7 +343,7 @@ impl Element for DeviceElement {
         committed: &[f64],
         trial: &mut [f64],
         cache: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let found = self.find_forces(at, committed, cache, out)?;
         if found.control.as_ref().is_some_and(|(_, does)| does.holds) {
@@ -355,8 +356,8 @@ impl Element for DeviceElement {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
-        let found = self.find_forces(at, committed, &mut SolverCache::new(), &mut ElementResponse::default())?;
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ConnectorSummary, ClassError> {
+        let found = self.find_forces(at, committed, &mut SolverCache::new(), &mut ConnectorResponse::default())?;
         let mut summary = self.line.summary_with_link(at.ends, found.extension)?;
         if let Some((position, does)) = found.control {
             summary.notes.push(does.note);

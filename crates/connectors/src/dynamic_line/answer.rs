@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::pose::Six;
 use windlass_line_dynamics::{EndTangent, Matrix12, RodEndForces, SupportForce, SupportTangent};
-use windlass_model::{ClassError, ElementResponse};
+use windlass_model::{ClassError, ConnectorResponse};
 
 fn six(force: &Vector3<f64>, moment: &Vector3<f64>) -> Six {
     Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
@@ -11,7 +11,7 @@ fn six(force: &Vector3<f64>, moment: &Vector3<f64>) -> Six {
 
 /// Wrenches on the two ends, and their changes where they are known: by rates and accelerations where it is `moving`.
 pub(super) fn on_ends(
-    out: &mut ElementResponse,
+    out: &mut ConnectorResponse,
     forces: &RodEndForces,
     tangent: Option<&EndTangent>,
     moving: bool,
@@ -38,7 +38,7 @@ pub(super) fn on_ends(
 
 /// Wrenches on the supports of a pipe, and their changes where they are known.
 pub(super) fn on_supports(
-    out: &mut ElementResponse,
+    out: &mut ConnectorResponse,
     loads: &[SupportForce],
     tangent: Option<&SupportTangent>,
 ) -> Result<(), ClassError> {
@@ -53,7 +53,7 @@ pub(super) fn on_supports(
     finite(out)
 }
 
-fn finite(out: &ElementResponse) -> Result<(), ClassError> {
+fn finite(out: &ConnectorResponse) -> Result<(), ClassError> {
     if out.wrench.iter().any(|w| w.iter().any(|v| !v.is_finite())) {
         return Err(ClassError::new("its force is not finite"));
     }

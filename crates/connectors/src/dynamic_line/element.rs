@@ -15,8 +15,8 @@ use windlass_line_dynamics::{
     self as rod, Balance, EndTangent, LineEnvironment, Rod, RodEndForces, RodEndMotion, RodState, SeabedLaw,
 };
 use windlass_model::{
-    Ambient, ClassError, DynamicElement, Element, ElementResponse, ElementSummary, End, Flow, NodalElement,
-    PlacedElement, Situation, SolverCache,
+    Ambient, ClassError, ConnectorElement, ConnectorResponse, ConnectorSummary, DynamicConnector, End, Flow,
+    NodalConnector, PlacedConnector, Situation, SolverCache,
 };
 
 /// An end may lie this much below the bottom (m).
@@ -217,7 +217,7 @@ impl DynamicLine {
         (committed, kept): (&[f64], &StateView),
         trial: &mut [f64],
         cache: &mut RodCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let (ends, places) = (self.end_conditions(at.ends, false)?, places(at.ends));
         if !cache.has_start(committed) {
@@ -302,7 +302,7 @@ impl DynamicLine {
     }
 }
 
-impl Element for DynamicLine {
+impl ConnectorElement for DynamicLine {
     fn states(&self) -> usize {
         self.layout.size()
     }
@@ -320,15 +320,15 @@ impl Element for DynamicLine {
         (stiff && !wound && self.base.laid.is_none()).then(|| MIN_COMPRESSED_LENGTH_SHARE * length())
     }
 
-    fn as_placed(&self) -> Option<&dyn PlacedElement> {
+    fn as_placed(&self) -> Option<&dyn PlacedConnector> {
         self.base.laid.is_some().then_some(self)
     }
 
-    fn as_nodal(&self) -> Option<&dyn NodalElement> {
+    fn as_nodal(&self) -> Option<&dyn NodalConnector> {
         Some(self)
     }
 
-    fn as_dynamic(&self) -> Option<&dyn DynamicElement> {
+    fn as_dynamic(&self) -> Option<&dyn DynamicConnector> {
         Some(self)
     }
 
@@ -338,7 +338,7 @@ impl Element for DynamicLine {
         committed: &[f64],
         trial: &mut [f64],
         cache: &mut SolverCache,
-        out: &mut ElementResponse,
+        out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let kept = self.layout.read(committed)?;
         let Some(cache) = self.rod_cache(cache) else { return Err(ClassError::new(NO_MEMORY).lasting()) };
@@ -372,13 +372,13 @@ impl Element for DynamicLine {
         Ok(())
     }
 
-    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ConnectorSummary, ClassError> {
         self.summarize(at, committed)
     }
 }
 
-impl PlacedElement for DynamicLine {
-    fn with_ambient(&self, ambient: &Arc<dyn Ambient>) -> Box<dyn Element> {
+impl PlacedConnector for DynamicLine {
+    fn with_ambient(&self, ambient: &Arc<dyn Ambient>) -> Box<dyn ConnectorElement> {
         let base = Arc::new(Base { ambient: Some(ambient.clone()), ..Base::clone(&self.base) });
         Box::new(DynamicLine { base, ..*self })
     }

@@ -8,14 +8,14 @@ use super::rod_cache::RodCache;
 use std::f64::consts::PI;
 use windlass_line_dynamics::{RodSettings, RodSolver};
 use windlass_model::{
-    ClassError, DynamicElement, ElementSummary, EnergyBalance, LineMode, LineNode, LineSide, NodalElement, Note,
+    ClassError, ConnectorSummary, DynamicConnector, EnergyBalance, LineMode, LineNode, LineSide, NodalConnector, Note,
     Situation, SolverCache,
 };
 
 /// Longest elements at an end that is held, by sqrt(EI/T), of which nothing is said: moment there is then 3 % low.
 const COARSE_MESH_RATIO: f64 = 0.5;
 
-impl NodalElement for DynamicLine {
+impl NodalConnector for DynamicLine {
     fn max_nodes(&self) -> usize {
         self.layout.elements + 1
     }
@@ -70,7 +70,7 @@ impl NodalElement for DynamicLine {
     }
 }
 
-impl DynamicElement for DynamicLine {
+impl DynamicConnector for DynamicLine {
     fn energy_balance(&self, state: &[f64]) -> Option<EnergyBalance> {
         let found = self.layout.balance(state)?;
         let (e, w) = (&found.energy, &found.work);
@@ -152,11 +152,11 @@ impl DynamicLine {
         notes.collect()
     }
 
-    pub(super) fn summarize(&self, at: &Situation, committed: &[f64]) -> Result<ElementSummary, ClassError> {
+    pub(super) fn summarize(&self, at: &Situation, committed: &[f64]) -> Result<ConnectorSummary, ClassError> {
         let mut nodes = Vec::new();
         self.find_nodes(at, committed, &mut nodes)?;
         let notes = self.base.description.notes.iter().map(|n| n.as_str().into()).collect();
-        let mut summary = ElementSummary { solution: "rod", notes, ..ElementSummary::default() };
+        let mut summary = ConnectorSummary { solution: "rod", notes, ..ConnectorSummary::default() };
         summary.tension = nodes.first().map(|n| n.effective);
         let sides = nodes.iter().flat_map(|n| n.sides().map(move |s| (n.effective, s.segment)));
         let parts = &self.base.description.parts;

@@ -8,13 +8,13 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Pose;
 use windlass_line_dynamics::{Support, SupportLaw, SupportReaction, SupportTarget};
-use windlass_model::{Element, ElementResponse, End, Situation, SolverCache, Surroundings};
+use windlass_model::{ConnectorElement, ConnectorResponse, End, Situation, SolverCache, Surroundings};
 
 /// What a pipe lies on.
 #[derive(Clone, Debug)]
 pub(super) struct PipeLay {
     /// The law of each support, between its node and a point of the pipe.
-    pub supports: Arc<[Box<dyn Element>]>,
+    pub supports: Arc<[Box<dyn ConnectorElement>]>,
     pub holds: Vec<SupportedPart>,
     pub tensioner: Option<Tensioner>,
     /// Axes of the pipe at a support in those of its node.
@@ -70,7 +70,7 @@ impl Tensioner {
 /// A support where its end is, as the pipe feels it.
 #[derive(Debug)]
 pub(super) struct SupportContact<'a> {
-    law: &'a dyn Element,
+    law: &'a dyn ConnectorElement,
     /// With what it has paid out (m).
     tensioner: Option<(&'a Tensioner, f64)>,
     holds: SupportedPart,
@@ -78,7 +78,7 @@ pub(super) struct SupportContact<'a> {
     pose: Pose,
     velocity: Vector3<f64>,
     around: &'a Surroundings,
-    room: RefCell<ElementResponse>,
+    room: RefCell<ConnectorResponse>,
 }
 
 impl SupportLaw for SupportContact<'_> {

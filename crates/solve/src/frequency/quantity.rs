@@ -5,7 +5,7 @@ use crate::link::{EndAttachment, arm, pose_of};
 use crate::system::SolveError;
 use nalgebra::{Complex, DVector, Vector3};
 use windlass_hydro::move_stiffness;
-use windlass_model::{ElementResponse, End, Situation, SolverCache, TimeStep};
+use windlass_model::{ConnectorResponse, End, Situation, SolverCache, TimeStep};
 
 /// Which derivative with time is meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -124,7 +124,7 @@ impl LinearQuantity {
         let ends: Vec<End> = link.ends.iter().map(|e| End::still(pose_of(e, poses))).collect();
         let committed = &system.states[link.states.clone()];
         let mut trial = committed.to_vec();
-        let (mut rest, mut under_way) = (ElementResponse::default(), ElementResponse::default());
+        let (mut rest, mut under_way) = (ConnectorResponse::default(), ConnectorResponse::default());
         let step = Some(TimeStep { time: 0.0, dt: 1.0 });
         for (step, out) in [(None, &mut rest), (step, &mut under_way)] {
             let at = Situation { ends: &ends, step, surroundings: &system.surroundings };

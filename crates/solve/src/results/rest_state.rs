@@ -3,7 +3,7 @@
 use super::super::link::{EndAttachment, end_attachments, pose_of};
 use super::super::system::SolveError;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Connector, Element, End, Model, Situation, SolverCache, Surroundings};
+use windlass_model::{Connector, ConnectorElement, End, Model, Situation, SolverCache, Surroundings};
 
 /// What a row does not keep of a connector.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub(super) struct RestSolver<'a> {
     model: &'a Model,
     connector: Connector,
     ends: [EndAttachment; 2],
-    element: Box<dyn Element>,
+    element: Box<dyn ConnectorElement>,
     surroundings: Surroundings,
     /// Length of its first segment now (m).
     length: Option<f64>,

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{BodyStep, ambient, move_wrench};
 use windlass_model::{Body, ClassError, Model, SolverCache};
-use windlass_model::{ElementResponse, End, Situation, Surroundings, TimeStep};
+use windlass_model::{ConnectorResponse, End, Situation, Surroundings, TimeStep};
 use windlass_tether::structure::flow::FlowAt;
 use windlass_tether::structure::{Structure, StructureForces};
 
@@ -22,7 +22,7 @@ pub struct Moored {
     body: usize,
     centre: Vector3<f64>,
     surroundings: Surroundings,
-    response: ElementResponse,
+    response: ConnectorResponse,
 }
 
 impl Moored {
@@ -75,7 +75,7 @@ impl Moored {
             body: index,
             centre,
             surroundings,
-            response: ElementResponse::default(),
+            response: ConnectorResponse::default(),
         }))
     }
 }

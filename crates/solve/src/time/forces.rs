@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{BodyLoad, BodyStep, Category, DynamicLoad, move_stiffness, move_wrench, turning};
-use windlass_model::{AnchoredResponse, ElementResponse, End, Situation, SolverCache, TimeStep};
+use windlass_model::{AnchoredResponse, ConnectorResponse, End, Situation, SolverCache, TimeStep};
 
 /// Number of categories.
 pub const CATEGORY_COUNT: usize = Category::ALL.len();
@@ -156,7 +156,7 @@ pub struct BodyForces {
     /// Those of them, evaluated side by side.
     pub(super) line_tasks: Vec<LineTask>,
     made: DynamicLoad,
-    response: ElementResponse,
+    response: ConnectorResponse,
     pub(super) ends: Vec<End>,
     arms: Vec<Vector3<f64>>,
 }

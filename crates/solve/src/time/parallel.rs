@@ -3,7 +3,7 @@
 use super::forces::{BodyForces, BodyMotion};
 use crate::system::System;
 use windlass_hydro::parts::for_each_part;
-use windlass_model::{ClassError, ElementResponse, End, Situation, SolverCache, TimeStep};
+use windlass_model::{ClassError, ConnectorResponse, End, Situation, SolverCache, TimeStep};
 
 /// One of them, with what its evaluation needs and finds.
 #[derive(Default)]
@@ -12,7 +12,7 @@ pub(super) struct LineTask {
     pub link: usize,
     pub ends: Vec<End>,
     pub cache: SolverCache,
-    pub response: ElementResponse,
+    pub response: ConnectorResponse,
     pub failed: Option<ClassError>,
 }
 

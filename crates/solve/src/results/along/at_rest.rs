@@ -7,7 +7,7 @@ use crate::time::RunRequirements;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::ambient;
-use windlass_model::{DynamicElement, Element, End, Idealisation, LineNode, Model, Situation};
+use windlass_model::{ConnectorElement, DynamicConnector, End, Idealisation, LineNode, Model, Situation};
 
 /// Visits each dynamic line whose name fits, between its ends where they stand: with its name, its element, how its ends
 /// stand, and its state before anything has happened.
@@ -17,12 +17,12 @@ use windlass_model::{DynamicElement, Element, End, Idealisation, LineNode, Model
 pub(crate) fn visit_lines_at_rest(
     model: &Model,
     fits: &dyn Fn(&str) -> bool,
-    mut tell: impl FnMut(&str, &dyn DynamicElement, &Situation, &[f64]) -> Result<(), SolveError>,
+    mut tell: impl FnMut(&str, &dyn DynamicConnector, &Situation, &[f64]) -> Result<(), SolveError>,
 ) -> Result<(), SolveError> {
     let around = ambient(model, None).map_err(SolveError::new)?;
     let poses: Vec<_> = model.bodies.values().map(|b| windlass_base::pose::Pose::from_place(&b.place)).collect();
     let surroundings = model.surroundings();
-    let mut report = |name: &str, element: &dyn Element, ends: &[EndAttachment]| {
+    let mut report = |name: &str, element: &dyn ConnectorElement, ends: &[EndAttachment]| {
         let Some(line) = element.as_dynamic() else { return Ok(()) };
         let ends: Vec<End> = ends.iter().map(|end| End::still(pose_of(end, &poses))).collect();
         let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
