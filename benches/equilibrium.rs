@@ -13,7 +13,7 @@ mod measured;
 mod report;
 
 use report::report;
-use windlass_solve::{Options, System, equilibrium};
+use windlass_solve::{EquilibriumOptions, System, equilibrium};
 
 /// A box whose hull is cut at the surface.
 const HULL: &str = "*CG 0 0 -2\n#WEIGHT *CG 2E8 22 22 22\n&SURFACE\nBLOCK HULL -30 -30 -8 30 30 10\nEND_&SURFACE\n";
@@ -25,7 +25,7 @@ fn main() {
     };
     for (name, line) in [("one segment", &one as &dyn Fn(&str) -> String), ("two segments and a clump", &two)] {
         let model = eight::model(HULL, line, "&INSTATE -MOVE SHIP 10\n");
-        let options = Options::default();
+        let options = EquilibriumOptions::default();
         let system = System::new(&model, &[]).unwrap();
         let mut state = system.state(&model);
         let found = equilibrium(&system, &mut state, &options).unwrap();

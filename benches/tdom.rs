@@ -14,16 +14,7 @@ mod measured;
 use std::sync::Arc;
 use std::time::Instant;
 use windlass_model::{Database, Model};
-use windlass_solve::time::{Method, Run, RunFileError, RunSettings, StepTolerance, Watcher};
-
-/// Takes rows and says nothing.
-struct Quiet;
-
-impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
-        Ok(())
-    }
-}
+use windlass_solve::time::{Method, Run, RunSettings, SilentWatcher, StepTolerance};
 
 const STEP: f64 = 0.1;
 
@@ -73,7 +64,7 @@ fn pass_of(observed: f64, name: &str, model: &Model, keep: bool) {
     while begin.elapsed().as_secs_f64() < 4.0 {
         let mut run = Run::new(model, settings.clone(), Vec::new()).unwrap();
         let (start, clock) = (measured::processor(), Instant::now());
-        run.run(&mut Quiet).unwrap();
+        run.run(&mut SilentWatcher).unwrap();
         let spent = measured::processor().zip(start).map(|(end, start)| end - start);
         least = least.min(spent.unwrap_or(clock.elapsed().as_secs_f64()));
         counts = Some(run.counts);

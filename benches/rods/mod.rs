@@ -7,16 +7,7 @@ use crate::{eight, measured};
 use std::sync::Arc;
 use std::time::Instant;
 use windlass_model::{Database, Model};
-use windlass_solve::time::{Counts, Method, Run, RunFileError, RunSettings, StepTolerance, Watcher};
-
-/// Takes rows and says nothing.
-struct Quiet;
-
-impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
-        Ok(())
-    }
-}
+use windlass_solve::time::{Method, Run, RunCounts, RunSettings, SilentWatcher, StepTolerance};
 
 /// The records of ~CHAIN: 900 m in so many elements.
 fn section(elements: usize) -> String {
@@ -54,17 +45,17 @@ pub fn vessel(elements: usize, components: usize) -> Model {
 }
 
 /// How a run went.
-pub struct Made {
+pub struct MeasuredRun {
     /// Least seconds of the processor on one thread, and of the clock on as many as there are.
     pub seconds: [f64; 2],
-    pub counts: Counts,
+    pub counts: RunCounts,
     /// Force on the first end of the first connector at each instant (N).
     pub forces: Vec<f64>,
 }
 
 /// The least of some runs over a span by a step (s), as TDOM makes them: every instant kept, with `along` every so manieth node.
 /// Each is made on one thread and on all, and must come to the same.
-pub fn run(model: &Model, (span, dt): (f64, f64), along: usize, passes: usize) -> Made {
+pub fn run(model: &Model, (span, dt): (f64, f64), along: usize, passes: usize) -> MeasuredRun {
     let settings = RunSettings {
         observed: span,
         dt,
@@ -81,12 +72,12 @@ pub fn run(model: &Model, (span, dt): (f64, f64), along: usize, passes: usize) -
     let once = || {
         let mut run = Run::new(model, settings.clone(), Vec::new()).unwrap();
         let (clock, start) = (Instant::now(), measured::thread_time());
-        run.run(&mut Quiet).unwrap();
+        run.run(&mut SilentWatcher).unwrap();
         let wall = clock.elapsed().as_secs_f64();
         let spent = measured::thread_time().zip(start).map_or(wall, |(end, start)| end - start);
         let at = run.history.layout.wrench(0, 0).unwrap();
         let force = |row: &[f64]| row[at..at + 3].iter().map(|f| f * f).sum::<f64>().sqrt();
-        Made { seconds: [spent, wall], counts: run.counts, forces: run.history.rows().map(force).collect() }
+        MeasuredRun { seconds: [spent, wall], counts: run.counts, forces: run.history.rows().map(force).collect() }
     };
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let mut least = [f64::INFINITY; 2];
@@ -96,5 +87,5 @@ pub fn run(model: &Model, (span, dt): (f64, f64), along: usize, passes: usize) -
         assert!(alone.forces == together.forces, "the number of threads changes the answer");
         least = [least[0].min(alone.seconds[0]), least[1].min(together.seconds[1])];
     }
-    Made { seconds: least, ..single.install(once) }
+    MeasuredRun { seconds: least, ..single.install(once) }
 }

@@ -27,7 +27,7 @@ use windlass_base::units::UnitSystem;
 use windlass_base::values::Args;
 use windlass_language::spec::MenuSpec;
 use windlass_model::Model;
-use windlass_solve::Options;
+use windlass_solve::EquilibriumOptions;
 use windlass_solve::results::ScatterExposure;
 use windlass_solve::tethered::Tethered;
 use windlass_solve::time::{Action, Run};
@@ -308,7 +308,7 @@ pub struct Job {
     /// Names longer than MOSES takes have been remarked on.
     pub long_name_said: bool,
     /// What `&EQUI` was last given.
-    pub equilibrium: Options,
+    pub equilibrium: EquilibriumOptions,
     /// What happens during runs.
     pub actions: Vec<Action>,
     /// The name of the current process.
@@ -355,7 +355,7 @@ impl Job {
             clock: Instant::now(),
             ask: None,
             long_name_said: false,
-            equilibrium: Options::default(),
+            equilibrium: EquilibriumOptions::default(),
             actions: Vec::new(),
             process: "DEFAULT".into(),
             processes: IndexMap::new(),

@@ -260,7 +260,7 @@ struct ReadOutside {
 
 /// Which of two names an error is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum NameOperand {
     /// The present name.
     From,
     /// The new name.
@@ -494,20 +494,20 @@ impl JobFolder {
     /// # Errors
     /// Files that are not the job's own, a file to rename that is in use, a new name that exists, or what the system
     /// refuses; each with the name it is about.
-    pub fn transfer(&self, from: &str, to: &str, keep: bool) -> Result<PathBuf, (Side, FileError)> {
-        let from = self.spot(from, false).map_err(|e| (Side::From, e))?;
-        let beyond = |e| (Side::To, e);
+    pub fn transfer(&self, from: &str, to: &str, keep: bool) -> Result<PathBuf, (NameOperand, FileError)> {
+        let from = self.spot(from, false).map_err(|e| (NameOperand::From, e))?;
+        let beyond = |e| (NameOperand::To, e);
         let to = self.spot(to, true).map_err(beyond)?;
         if !keep {
-            self.not_in_use(&from.path).map_err(|e| (Side::From, e))?;
+            self.not_in_use(&from.path).map_err(|e| (NameOperand::From, e))?;
         }
         let (to_dir, to_name) = to.stand().map_err(beyond)?;
         if is_there(&to_dir, to_name) {
             return Err(beyond(FileError::Taken(to.path)));
         }
         self.consent(&to).map_err(beyond)?;
-        let at = |source| (Side::From, from.error(source));
-        let (from_dir, from_name) = from.stand().map_err(|e| (Side::From, e))?;
+        let at = |source| (NameOperand::From, from.error(source));
+        let (from_dir, from_name) = from.stand().map_err(|e| (NameOperand::From, e))?;
         if keep {
             let mut options = OpenOptions::new();
             options.read(true).nonblock(true);
@@ -522,7 +522,7 @@ impl JobFolder {
             return Ok(place.spot.path);
         }
         rename_new(&from_dir, from_name, &to_dir, to_name).map_err(|source| match source.kind() {
-            ErrorKind::AlreadyExists => (Side::To, FileError::Taken(to.path.clone())),
+            ErrorKind::AlreadyExists => (NameOperand::To, FileError::Taken(to.path.clone())),
             _ => at(source),
         })?;
         Ok(to.path)

@@ -91,18 +91,18 @@ fn number(word: &str) -> Option<f64> {
     word.parse().ok()
 }
 
-struct Made {
+struct ReadTable {
     title: String,
     columns: Vec<Column>,
     units: Vec<UnitSystem>,
 }
 
-impl Made {
-    fn from_heads(title: &str, heads: &[&str]) -> Result<Made, TableReadError> {
+impl ReadTable {
+    fn from_heads(title: &str, heads: &[&str]) -> Result<ReadTable, TableReadError> {
         if heads.len() > MAX_COLUMNS {
             return Err(TableReadError::Wide(heads.len()));
         }
-        let mut made = Made { title: title.into(), columns: Vec::new(), units: Vec::new() };
+        let mut made = ReadTable { title: title.into(), columns: Vec::new(), units: Vec::new() };
         for (index, text) in heads.iter().enumerate() {
             let (name, dim, units) = head(remove_guard(text.trim()));
             let name = if name.is_empty() { format!("Column {}", index + 1) } else { name };
@@ -192,7 +192,7 @@ pub fn csv(title: &str, text: &str) -> Result<Table, TableReadError> {
     let parted = blanks_to_commas(text);
     let text = parted.as_deref().unwrap_or(text);
     let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
-    let mut made: Option<Made> = None;
+    let mut made: Option<ReadTable> = None;
     for record in reader.records() {
         let record = record.map_err(|e| TableReadError::Csv(e.to_string()))?;
         let line = record.position().map_or(0, |p| usize::try_from(p.line()).unwrap_or(usize::MAX));
@@ -200,9 +200,9 @@ pub fn csv(title: &str, text: &str) -> Result<Table, TableReadError> {
         let values = words.iter().all(|w| number(w.trim()).is_some());
         let table = match &mut made {
             Some(table) => table,
-            None if values => made.insert(Made::from_heads(title, &vec![""; words.len()])?),
+            None if values => made.insert(ReadTable::from_heads(title, &vec![""; words.len()])?),
             None => {
-                made = Some(Made::from_heads(title, &words)?);
+                made = Some(ReadTable::from_heads(title, &words)?);
                 continue;
             }
         };
@@ -218,7 +218,7 @@ pub fn csv(title: &str, text: &str) -> Result<Table, TableReadError> {
 /// A row of another length than there are labels, a number that is not finite, no rows.
 pub fn brief(title: &str, text: &str) -> Result<Table, TableReadError> {
     let mut labels: Vec<&str> = Vec::new();
-    let mut made: Option<Made> = None;
+    let mut made: Option<ReadTable> = None;
     for (index, line) in text.lines().enumerate() {
         let words: Vec<&str> = line.split([' ', '\t', ',']).filter(|w| !w.is_empty()).collect();
         if words.is_empty() {
@@ -228,7 +228,7 @@ pub fn brief(title: &str, text: &str) -> Result<Table, TableReadError> {
             Some(table) => table,
             None if words.iter().all(|w| number(w).is_some()) => {
                 let heads = if labels.is_empty() { vec![""; words.len()] } else { std::mem::take(&mut labels) };
-                made.insert(Made::from_heads(title, &heads)?)
+                made.insert(ReadTable::from_heads(title, &heads)?)
             }
             None => {
                 labels.push(line);

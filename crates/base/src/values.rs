@@ -403,14 +403,14 @@ mod tests {
     }
 
     choices! {
-        enum Side {
+        enum VesselSide {
             Port = "PORT",
             Starboard = "STARBOARD",
         }
     }
 
     const DATA: &[ValueSpec] = &[
-        ValueSpec::choice::<Side>("SIDE", "a side"),
+        ValueSpec::choice::<VesselSide>("SIDE", "a side"),
         ValueSpec::new("X", Kind::Number(Dim::Length), "a place"),
         ValueSpec::new("Y", Kind::Number(Dim::Length), "further places"),
     ];
@@ -425,10 +425,10 @@ mod tests {
     fn positional_data_are_read_by_name() {
         let args = record(&[Content::Word("STARBOARD".into()), Content::Number(2.0), Content::Empty]);
         let [x, y] = const { [DatumKey::number(DATA, "X"), DatumKey::number(DATA, "Y")] };
-        assert_eq!(args.choice(const { DatumKey::choice(DATA, "SIDE") }), Some(Side::Starboard));
+        assert_eq!(args.choice(const { DatumKey::choice(DATA, "SIDE") }), Some(VesselSide::Starboard));
         assert_eq!((args.number(x), args.number(y)), (Some(2.0), None));
         assert_eq!((args.numbers_or_zero([x, y]), args.data_after(x).len()), ([2.0, 0.0], 1));
-        assert_eq!(record(&[]).choice(const { DatumKey::<Side>::choice(DATA, "SIDE") }), None);
+        assert_eq!(record(&[]).choice(const { DatumKey::<VesselSide>::choice(DATA, "SIDE") }), None);
     }
 
     #[test]

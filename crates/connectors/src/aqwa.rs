@@ -3,7 +3,7 @@
 //!
 //! Source: [AQWA-CONN 5.8.3.1 and 5.8.3.2]; defaults of EA, maximum tension and coefficients: [AQWA-REF deck 14].
 
-use super::dynamic_line::{DynamicLine, JointMass, LinePart, Seabed, Strength, description};
+use super::dynamic_line::{BreakingStrength, DynamicLine, JointMass, LinePart, Seabed, description};
 use super::mooring::{Mooring, line_error, no_other_end};
 use super::options::aqwa;
 use super::per_line::PerLineOptions;
@@ -393,7 +393,7 @@ impl DynamicLineClass for CatenaryClass {
                     (s.area / FRAC_PI_4).sqrt(),
                 )
             },
-            strength: Strength { breaking: s.largest, is_given: s.largest_is_given },
+            strength: BreakingStrength { breaking: s.largest, is_given: s.largest_is_given },
             joint: s.joint_mass.map(|[mass, displaced, added, drag]| JointMass {
                 mass,
                 volume: displaced / density,

@@ -195,7 +195,7 @@ const QUADRATIC_MOMENTS: [[f64; 3]; 6] = {
 
 /// A corner of a part of a panel: its barycentric coordinates, and what a [`NodePressure`] says of it.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
+struct PanelCorner {
     place: [f64; 3],
     over: f64,
     extra: f64,
@@ -210,12 +210,12 @@ enum ZeroLineCut {
     /// The whole triangle is above it.
     Above,
     /// It parts one corner from the others: that corner, the other two in turn, and the ends of the line on the edges to them.
-    Across { below: bool, corners: [Corner; 3], ends: [Corner; 2] },
+    Across { below: bool, corners: [PanelCorner; 3], ends: [PanelCorner; 2] },
 }
 
 /// How the zeros of a value divide a triangle; zero counts as below.
 #[inline(always)]
-fn divide([a, b, c]: &[Corner; 3], value: impl Fn(&Corner) -> f64) -> ZeroLineCut {
+fn divide([a, b, c]: &[PanelCorner; 3], value: impl Fn(&PanelCorner) -> f64) -> ZeroLineCut {
     let [p, q, r] = match [value(a) <= 0.0, value(b) <= 0.0, value(c) <= 0.0] {
         [true, true, true] => return ZeroLineCut::Below,
         [false, false, false] => return ZeroLineCut::Above,
@@ -223,10 +223,10 @@ fn divide([a, b, c]: &[Corner; 3], value: impl Fn(&Corner) -> f64) -> ZeroLineCu
         [false, true, false] | [true, false, true] => [b, c, a],
         _ => [c, a, b],
     };
-    let end = |q: &Corner| {
+    let end = |q: &PanelCorner| {
         let share = value(p) / (value(p) - value(q));
         let between = |a: f64, b: f64| a + (b - a) * share;
-        Corner {
+        PanelCorner {
             place: std::array::from_fn(|i| between(p.place[i], q.place[i])),
             over: between(p.over, q.over),
             extra: between(p.extra, q.extra),
@@ -243,7 +243,7 @@ struct PressureMoments([f64; 3]);
 impl PressureMoments {
     /// Adds those over a triangle, which counts by a share, of a pressure that is linear on it, by its values at the corners.
     #[inline(always)]
-    fn add_linear(&mut self, corners: &[Corner; 3], counts: f64, [a, b, c]: [f64; 3]) {
+    fn add_linear(&mut self, corners: &[PanelCorner; 3], counts: f64, [a, b, c]: [f64; 3]) {
         let twelfth = share(corners) * counts / 12.0;
         let [u, v, w] = corners.each_ref().map(|corner| &corner.place);
         for (i, sum) in self.0.iter_mut().enumerate() {
@@ -254,7 +254,7 @@ impl PressureMoments {
     /// Adds those over a triangle, which counts by a share, of a polynomial of the second degree by its values at the panel's nodes; by the
     /// middles of the edges.
     #[inline(always)]
-    fn add_quadratic(&mut self, corners: &[Corner; 3], counts: f64, values: &[f64; 6]) {
+    fn add_quadratic(&mut self, corners: &[PanelCorner; 3], counts: f64, values: &[f64; 6]) {
         let third = share(corners) * counts / 3.0;
         let [a, b, c] = corners.each_ref().map(|corner| &corner.place);
         for (p, q) in [(a, b), (b, c), (c, a)] {
@@ -269,7 +269,7 @@ impl PressureMoments {
 
 /// Applies an integral, which takes a triangle and by how much it counts, to the part of a triangle below the surface.
 #[inline(always)]
-fn below_surface(corners: &[Corner; 3], counts: f64, mut integral: impl FnMut(&[Corner; 3], f64)) {
+fn below_surface(corners: &[PanelCorner; 3], counts: f64, mut integral: impl FnMut(&[PanelCorner; 3], f64)) {
     match divide(corners, |c| c.over) {
         ZeroLineCut::Above => {}
         ZeroLineCut::Below => integral(corners, counts),
@@ -291,13 +291,13 @@ fn quadratic(values: &[f64; 6], [u, v, w]: &[f64; 3]) -> f64 {
 /// Adds what the waves differ from water at rest below their surface, linear on the part of a triangle below the end of the stretching and zero at that
 /// end, over what of it is wet. A quadrangle is cut along each of its diagonals, and each way counts half, so that a mirrored one gives the same.
 #[inline(always)]
-fn add_stretched(sum: &mut PressureMoments, corners: &[Corner; 3], ends_at_surface: bool) {
-    let mut wet = |part: [Corner; 3], counts: f64| {
+fn add_stretched(sum: &mut PressureMoments, corners: &[PanelCorner; 3], ends_at_surface: bool) {
+    let mut wet = |part: [PanelCorner; 3], counts: f64| {
         below_surface(&part, counts, |part, counts| sum.add_linear(part, counts, part.each_ref().map(|c| c.extra)));
     };
     // what is cut there is then at the surface, and not beside it by rounding
-    let at_end = |c: Corner| Corner { extra: 0.0, over: if ends_at_surface { 0.0 } else { c.over }, ..c };
-    let ended = |c: Corner| if c.kink == 0.0 { at_end(c) } else { c };
+    let at_end = |c: PanelCorner| PanelCorner { extra: 0.0, over: if ends_at_surface { 0.0 } else { c.over }, ..c };
+    let ended = |c: PanelCorner| if c.kink == 0.0 { at_end(c) } else { c };
     match divide(corners, |c| c.kink) {
         ZeroLineCut::Above => {}
         ZeroLineCut::Below => wet(corners.map(ended), 1.0),
@@ -333,7 +333,7 @@ fn near_surface(near: &[NodePressure; 6], weight: f64) -> Six {
     for quarter in QUARTERS {
         let corners = quarter.map(|n| {
             let NodePressure { over, extra, kink, .. } = near[n];
-            Corner { place: NODES[n], over, extra, kink }
+            PanelCorner { place: NODES[n], over, extra, kink }
         });
         if corners.iter().all(|c| c.over > 0.0) {
             continue;
@@ -341,14 +341,14 @@ fn near_surface(near: &[NodePressure; 6], weight: f64) -> Six {
         if !all_wet {
             below_surface(&corners, -weight, |part, counts| sum.add_quadratic(part, counts, &over));
         }
-        let below = |value: fn(&Corner) -> f64| corners.iter().filter(|c| value(c) < 0.0).count();
+        let below = |value: fn(&PanelCorner) -> f64| corners.iter().filter(|c| value(c) < 0.0).count();
         match (below(|c| c.kink), below(|c| c.over)) {
             (0, _) => {}
             (3, 3) => sum.add_linear(&corners, 1.0, corners.each_ref().map(|c| c.extra)),
             _ => add_stretched(&mut sum, &corners, ends_at_surface),
         }
     }
-    let corner = |n: usize| Corner { place: NODES[n], over: near[n].height, extra: 0.0, kink: 0.0 };
+    let corner = |n: usize| PanelCorner { place: NODES[n], over: near[n].height, extra: 0.0, kink: 0.0 };
     below_surface(&[corner(0), corner(1), corner(2)], weight, |part, counts| {
         sum.add_linear(part, counts, part.each_ref().map(|c| c.over));
     });
@@ -361,8 +361,8 @@ fn near_surface(near: &[NodePressure; 6], weight: f64) -> Six {
 }
 
 /// The area of a triangle in barycentric coordinates, as a share of the panel's.
-fn share([a, b, c]: &[Corner; 3]) -> f64 {
-    let edge = |p: &Corner, q: &Corner| [q.place[0] - p.place[0], q.place[1] - p.place[1]];
+fn share([a, b, c]: &[PanelCorner; 3]) -> f64 {
+    let edge = |p: &PanelCorner, q: &PanelCorner| [q.place[0] - p.place[0], q.place[1] - p.place[1]];
     let ([x, y], [u, v]) = (edge(a, b), edge(a, c));
     (x * v - y * u).abs()
 }

@@ -97,7 +97,7 @@ pub fn build_beam(
         for (share, weight) in gauss_weights(section.weight) {
             made.weights.push(((start + (end - start) * share).into(), weight * long));
         }
-        let along = Length { section, ends: [start, end], axis, width, depth, is_flooded: place.is_flooded };
+        let along = MemberPart { section, ends: [start, end], axis, width, depth, is_flooded: place.is_flooded };
         made.pieces.extend(along.pieces(coefficients, water_weight));
     }
     Ok(made)
@@ -145,7 +145,7 @@ fn circle(diameter: f64) -> f64 {
 }
 
 /// A length of one section.
-struct Length<'s> {
+struct MemberPart<'s> {
     section: &'s MemberSection,
     ends: [Vector3<f64>; 2],
     axis: Vector3<f64>,
@@ -154,7 +154,7 @@ struct Length<'s> {
     is_flooded: bool,
 }
 
-impl Length<'_> {
+impl MemberPart<'_> {
     fn pieces(&self, c: &MemberCoefficients, water_weight: f64) -> Vec<StructuralPiece> {
         let beside = if water_weight > 0.0 { self.section.displacement / water_weight } else { 0.0 };
         match self.section.outline {
@@ -193,7 +193,7 @@ impl Length<'_> {
         let diameter = if a == b { a } else { ((a * a + a * b + b * b) / 3.0).sqrt() };
         let mean = 0.5 * (a + b);
         let whole = circle(diameter);
-        let metal = Length::mean(section.metal, shares);
+        let metal = MemberPart::mean(section.metal, shares);
         let enclosed = if section.is_closed() { whole.max(metal) } else { metal };
         let displaced = match section.buoyancy_diameter {
             Some(given) => circle(given),

@@ -1,14 +1,14 @@
 //! Energy balance of a rod as numbers and back, for checkpoints of a run.
 
-use super::energy_balance::{Balance, Energy, Work};
+use super::energy_balance::{Energy, RodEnergyBalance, Work};
 use nalgebra::Vector3;
 
-impl Balance {
+impl RodEnergyBalance {
     /// How many numbers a packed balance has.
     pub const PACKED_LEN: usize = 34;
 
     /// The balance as numbers.
-    pub fn pack(&self) -> [f64; Balance::PACKED_LEN] {
+    pub fn pack(&self) -> [f64; RodEnergyBalance::PACKED_LEN] {
         let work = |w: &Work| [w.ends[0], w.ends[1], w.fluid, w.damping, w.bottom, w.supports, w.given];
         let e = &self.energy;
         let vectors = [self.opened.1, self.force, self.momentum, self.impulse];
@@ -18,15 +18,15 @@ impl Balance {
             .chain(work(&self.work))
             .chain([e.kinetic, e.elastic, e.gravity, e.bottom, e.supports])
             .chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z]));
-        let mut made = [0.0; Balance::PACKED_LEN];
+        let mut made = [0.0; RodEnergyBalance::PACKED_LEN];
         for (place, value) in made.iter_mut().zip(all) {
             *place = value;
         }
         made
     }
 
-    /// The balance that [`Balance::pack`] made numbers of.
-    pub fn unpack(from: &[f64; Balance::PACKED_LEN]) -> Balance {
+    /// The balance that [`RodEnergyBalance::pack`] made numbers of.
+    pub fn unpack(from: &[f64; RodEnergyBalance::PACKED_LEN]) -> RodEnergyBalance {
         let work = |at: usize| Work {
             ends: [from[at], from[at + 1]],
             fluid: from[at + 2],
@@ -36,7 +36,7 @@ impl Balance {
             given: from[at + 6],
         };
         let vector = |n: usize| Vector3::new(from[22 + 3 * n], from[23 + 3 * n], from[24 + 3 * n]);
-        Balance {
+        RodEnergyBalance {
             time: from[0],
             opened: (from[1], vector(0)),
             turnover: from[2],

@@ -76,7 +76,7 @@ impl Work {
 /// Energy and momentum balance of one rod. Work and impulse are sums of power and force over the steps by the trapezoidal rule, so
 /// the imbalance decreases with the square of the step; what is left is the numerical damping of the scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Balance {
+pub struct RodEnergyBalance {
     pub(super) time: f64,
     pub(super) opened: (f64, Vector3<f64>),
     pub(super) power: Work,
@@ -102,11 +102,11 @@ struct BalanceSample {
     force: Vector3<f64>,
 }
 
-impl Balance {
+impl RodEnergyBalance {
     /// Opens the balance at a state; `made` is the trial or statics that led to it.
     pub fn open(rod: &Rod, state: &RodState, world: &LineEnvironment, solver: &RodSolver, made: &RodEndForces) -> Self {
         let look = sample_balance(rod, state, world, solver, made);
-        Balance {
+        RodEnergyBalance {
             time: state.time,
             opened: (look.energy.total(), look.momentum),
             power: look.power,

@@ -279,8 +279,8 @@ mod tests {
             air_density: 1.226,
         };
         let (t, v, a) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.2, 0.7, -1.0), Vector3::new(0.3, -0.2, 0.9));
-        type Load = fn(&RodElement, Vector3<f64>, &FluidState, Vector3<f64>, Vector3<f64>) -> HalfLoad;
-        let loads: [Load; 3] = [
+        type LoadFunction = fn(&RodElement, Vector3<f64>, &FluidState, Vector3<f64>, Vector3<f64>) -> HalfLoad;
+        let loads: [LoadFunction; 3] = [
             |half, t, fluid, v, a| half_load(half, &t, fluid, &v, &a, 9.81),
             |half, t, fluid, v, _| wind_load(half, &t, fluid, &v),
             |half, t, fluid, v, _| slam_load(half, &t, fluid, &v, 0.7),

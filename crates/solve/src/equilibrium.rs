@@ -17,7 +17,7 @@ use windlass_nonlinear::NewtonStatistics;
 
 /// What an equilibrium is asked for.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Options {
+pub struct EquilibriumOptions {
     /// Most steps.
     pub most: usize,
     /// Residual acceleration tolerance (fraction of gravity): of translation, and of rotation times the radius of gyration.
@@ -32,11 +32,11 @@ pub struct Options {
     pub longest_step: Option<[f64; 2]>,
 }
 
-impl Default for Options {
+impl Default for EquilibriumOptions {
     /// Source: [MOSES-REF equi].
     fn default() -> Self {
         let (ignored, held, longest_step) = (Vec::new(), None, None);
-        Options { most: 50, tolerance: [1e-3, 1e-3], ignored, held, fraction: 1.0, longest_step }
+        EquilibriumOptions { most: 50, tolerance: [1e-3, 1e-3], ignored, held, fraction: 1.0, longest_step }
     }
 }
 
@@ -75,7 +75,11 @@ const LONG_STALE: usize = 12;
 /// # Errors
 /// A place on the way that cannot be evaluated; no equilibrium within the steps: the body and degree of freedom that is left, and
 /// what acts on it most; a direction that nothing holds, with a force in it.
-pub fn equilibrium(system: &System, state: &mut SystemState, options: &Options) -> Result<Equilibrium, SolveError> {
+pub fn equilibrium(
+    system: &System,
+    state: &mut SystemState,
+    options: &EquilibriumOptions,
+) -> Result<Equilibrium, SolveError> {
     check_weights(system, options)?;
     let turns = find_restrained_rotations(system, state, options);
     let free = |body: usize, dof: usize| {
@@ -99,7 +103,7 @@ pub fn equilibrium(system: &System, state: &mut SystemState, options: &Options) 
 fn find(
     system: &System,
     state: &mut SystemState,
-    options: &Options,
+    options: &EquilibriumOptions,
     (turns, part): (&[Turns], Option<&BodySubset>),
 ) -> Result<NewtonStatistics, SolveError> {
     let mut search = EquilibriumSearch::new(system, options, part);
@@ -151,7 +155,7 @@ fn find(
 }
 
 /// Sees that every body that is to come to rest has weight, unless it moves in the horizontal plane alone.
-fn check_weights(system: &System, options: &Options) -> Result<(), SolveError> {
+fn check_weights(system: &System, options: &EquilibriumOptions) -> Result<(), SolveError> {
     for (body, node) in system.nodes.iter().enumerate() {
         let free = |dof: usize| node.free.get(dof) == Some(&true) && !options.ignored.contains(&(body, dof));
         if !node.junction && node.floating.mass.mass <= 0.0 && (2..5).any(free) {
@@ -197,7 +201,13 @@ fn find_unrestrained_dofs(
 }
 
 /// The error of bodies that do not come to rest.
-fn failure(system: &System, state: &SystemState, unknowns: &Unknowns, at: usize, options: &Options) -> SolveError {
+fn failure(
+    system: &System,
+    state: &SystemState,
+    unknowns: &Unknowns,
+    at: usize,
+    options: &EquilibriumOptions,
+) -> SolveError {
     let (body, dof) = (unknowns.body(at), unknowns.dof(at));
     let name = system.nodes.get(body).map_or(String::new(), |n| n.name.clone());
     let dim = if dof >= 3 { Dim::Moment } else { Dim::Force };

@@ -1,6 +1,6 @@
 //! A body moved along a horizontal direction until a line breaks: what its connectors do to it on the way.
 
-use super::equilibrium::{Options as Rest, equilibrium};
+use super::equilibrium::{EquilibriumOptions as Rest, equilibrium};
 use super::offset::{BodyConnectors, ConnectorPull};
 use super::system::{SolveError, System, SystemState};
 use nalgebra::Vector3;

@@ -6,7 +6,7 @@
 //! ```
 //! use nalgebra::{Matrix6, Vector6};
 //! use windlass_model::{Body, LinearHydrostatics, Model, Part, Weight};
-//! use windlass_solve::{Options, find_equilibrium_with_rebuilds};
+//! use windlass_solve::{EquilibriumOptions, find_equilibrium_with_rebuilds};
 //!
 //! let linear = LinearHydrostatics {
 //!     at: [0.0; 3],
@@ -20,7 +20,7 @@
 //! let mut model = Model::default();
 //! model.bodies.insert("B".into(), Body { name: "B".into(), linear: Some(linear), ..Body::default() });
 //! model.parts.insert("B".into(), part);
-//! find_equilibrium_with_rebuilds(&mut model, &Options::default())?;
+//! find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default())?;
 //! assert!((model.bodies["B"].place.shift[2] + 0.2).abs() < 1e-9);
 //! # Ok::<(), windlass_solve::SolveError>(())
 //! ```
@@ -55,7 +55,7 @@ pub mod time;
 mod unknowns;
 pub mod watch;
 
-pub use equilibrium::{Equilibrium, Options, equilibrium};
+pub use equilibrium::{Equilibrium, EquilibriumOptions, equilibrium};
 pub use modes::{SystemMode, modes};
 pub use rebuild::{EquilibriumResult, find_equilibrium_with_rebuilds};
 pub use system::{Contribution, DOFS, SolveError, System, SystemBody, SystemState};

@@ -1,7 +1,7 @@
 //! The equilibrium of a model: the system is made, solved, and made anew where a part of it depends on where it came to
 //! rest.
 
-use super::equilibrium::{Equilibrium, Options, equilibrium};
+use super::equilibrium::{Equilibrium, EquilibriumOptions, equilibrium};
 use super::system::{SolveError, System, SystemState};
 use windlass_base::geometry::Place;
 use windlass_model::{ClassError, Model};
@@ -24,7 +24,10 @@ pub struct EquilibriumResult {
 ///
 /// # Errors
 /// As [`equilibrium`]; the model is then where the last solution had it: callers keep a copy.
-pub fn find_equilibrium_with_rebuilds(model: &mut Model, options: &Options) -> Result<EquilibriumResult, SolveError> {
+pub fn find_equilibrium_with_rebuilds(
+    model: &mut Model,
+    options: &EquilibriumOptions,
+) -> Result<EquilibriumResult, SolveError> {
     let start: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
     let made = |model: &Model| {
         let mut system = System::new(model, &[])?;

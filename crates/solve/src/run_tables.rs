@@ -2,7 +2,7 @@
 
 use super::screening::quasi_static_lines;
 use super::time::{
-    Counts, History, Method, NaturalPeriod, POOR_PERIOD, Resolution, ResultSeries, Run, WorstFollowed, results,
+    History, Method, NaturalPeriod, POOR_PERIOD, Resolution, ResultSeries, Run, RunCounts, WorstFollowed, results,
 };
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
@@ -29,7 +29,7 @@ fn scheme(run: &Run) -> String {
 
 /// What a run did.
 pub fn run_table(run: &Run) -> Table {
-    let Counts { steps: counted, cut, iterations, evaluations } = run.counts;
+    let RunCounts { steps: counted, cut, iterations, evaluations } = run.counts;
     let mut table = Table::new("Time Domain")
         .fact("Began", run.began.as_str(), Dim::None)
         .fact("Time Reached", run.time(), Dim::Time)

@@ -7,7 +7,7 @@
 //! The line search is its own because a place on the way may have no answer, and because what a step needed of regularisation and length
 //! decides on the next.
 
-use super::equilibrium::{Options, UNRESTRAINED_EIGENVALUE};
+use super::equilibrium::{EquilibriumOptions, UNRESTRAINED_EIGENVALUE};
 use super::parts::BodySubset;
 use super::system::{SolveError, System, SystemState};
 use super::ties::interpolate_forces;
@@ -65,7 +65,7 @@ struct NonMonotoneSteps {
 /// A search on its way.
 pub(super) struct EquilibriumSearch<'a> {
     pub system: &'a System,
-    pub options: &'a Options,
+    pub options: &'a EquilibriumOptions,
     /// The bodies that it brings to rest; all where there is none.
     part: Option<&'a BodySubset>,
     /// Evaluations and damped steps so far; who asks for steps counts them.
@@ -83,7 +83,7 @@ pub(super) struct EquilibriumSearch<'a> {
 }
 
 impl<'a> EquilibriumSearch<'a> {
-    pub fn new(system: &'a System, options: &'a Options, part: Option<&'a BodySubset>) -> Self {
+    pub fn new(system: &'a System, options: &'a EquilibriumOptions, part: Option<&'a BodySubset>) -> Self {
         EquilibriumSearch {
             system,
             options,

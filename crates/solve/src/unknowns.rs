@@ -1,6 +1,6 @@
 //! The unknowns of an equilibrium: degrees of freedom that move, what they weigh, and how a step in them moves the bodies.
 
-use super::equilibrium::Options;
+use super::equilibrium::EquilibriumOptions;
 use super::parts::BodySubset;
 use super::system::{SolveError, System, SystemBody, SystemState};
 use nalgebra::{DMatrix, DVector};
@@ -32,7 +32,7 @@ impl<'a> Unknowns<'a> {
     pub fn new(
         system: &System,
         state: &SystemState,
-        options: &Options,
+        options: &EquilibriumOptions,
         (turns, part): (&'a [Turns], Option<&BodySubset>),
     ) -> Self {
         let (mut rows, mut inertia, mut measure) = (Vec::new(), Vec::new(), Vec::new());
@@ -85,7 +85,7 @@ impl<'a> Unknowns<'a> {
     }
 
     /// The largest residual acceleration over the tolerance, and the unknown that has it.
-    pub fn worst(&self, residual: &DVector<f64>, options: &Options) -> (f64, usize) {
+    pub fn worst(&self, residual: &DVector<f64>, options: &EquilibriumOptions) -> (f64, usize) {
         let [shift, turn] = options.tolerance;
         let share = |(i, (r, m)): (usize, (&f64, &f64))| {
             let tolerance = if self.dof(i) >= 3 { turn } else { shift };
@@ -170,7 +170,11 @@ fn transverse_direction(body: usize, angle: f64, free: &[bool; 6]) -> Option<Unk
 pub(super) type Turns = [Option<f64>; 3];
 
 /// The angles each body of a system keeps.
-pub(super) fn find_restrained_rotations(system: &System, state: &SystemState, options: &Options) -> Vec<Turns> {
+pub(super) fn find_restrained_rotations(
+    system: &System,
+    state: &SystemState,
+    options: &EquilibriumOptions,
+) -> Vec<Turns> {
     let kept = |(body, (node, pose)): (usize, (&SystemBody, &Pose))| {
         let free = [3, 4, 5].map(|f| node.free.get(f) == Some(&true) && !options.ignored.contains(&(body, f)));
         let some = free.contains(&true) && free.contains(&false);

@@ -1,6 +1,6 @@
 //! A watch circle: where a horizontal force from each direction takes a body.
 
-use super::equilibrium::{Options as Rest, equilibrium};
+use super::equilibrium::{EquilibriumOptions as Rest, equilibrium};
 use super::offset::BodyConnectors;
 use super::system::{SolveError, System, SystemState};
 use windlass_base::pose::{Pose, Six};

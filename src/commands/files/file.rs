@@ -3,7 +3,7 @@
 use crate::commands::job::UserFile;
 use crate::commands::settings::device::{existing, read_input, readable};
 use crate::commands::{Call, Command, Effect, Job, PLAIN, absent};
-use crate::report::files::{FileError, FilePlace, Side, is_within};
+use crate::report::files::{FileError, FilePlace, NameOperand, is_within};
 use windlass_base::choice::Choice;
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -127,8 +127,8 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 not_open(job, first)?;
             }
             job.output.folder.transfer(&first.text, &to.text, keep).map_err(|(side, error)| match side {
-                Side::From => at(error),
-                Side::To => to_diagnostic(&error, to.span),
+                NameOperand::From => at(error),
+                NameOperand::To => to_diagnostic(&error, to.span),
             })?;
         }
         FileAction::AnswerFolder => {

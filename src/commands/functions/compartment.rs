@@ -15,7 +15,7 @@ use windlass_model::find;
 
 /// What the function gives.
 #[derive(Clone, Copy, PartialEq)]
-enum Asked {
+enum CompartmentQuantity {
     Amount,
     Percent,
     Fraction,
@@ -27,15 +27,15 @@ enum Asked {
 }
 
 /// The options.
-const OPTIONS: &[(&str, Owner, Asked)] = &[
-    ("-AMOUNT", Owner::Moses, Asked::Amount),
-    ("-PERCENT", Owner::Moses, Asked::Percent),
-    ("-FRACTION", Owner::Ours, Asked::Fraction),
-    ("-SOUNDING", Owner::Ours, Asked::Sounding),
-    ("-VOLUME", Owner::Ours, Asked::Volume),
-    ("-CG", Owner::Ours, Asked::Centre),
-    ("-SPGR", Owner::Ours, Asked::SpecificGravity),
-    ("-HOLES", Owner::Ours, Asked::Holes),
+const OPTIONS: &[(&str, Owner, CompartmentQuantity)] = &[
+    ("-AMOUNT", Owner::Moses, CompartmentQuantity::Amount),
+    ("-PERCENT", Owner::Moses, CompartmentQuantity::Percent),
+    ("-FRACTION", Owner::Ours, CompartmentQuantity::Fraction),
+    ("-SOUNDING", Owner::Ours, CompartmentQuantity::Sounding),
+    ("-VOLUME", Owner::Ours, CompartmentQuantity::Volume),
+    ("-CG", Owner::Ours, CompartmentQuantity::Centre),
+    ("-SPGR", Owner::Ours, CompartmentQuantity::SpecificGravity),
+    ("-HOLES", Owner::Ours, CompartmentQuantity::Holes),
 ];
 
 /// The value of `&COMPARTMENT(NAME -OPTION)`.
@@ -49,24 +49,24 @@ pub(super) fn compartment(job: &Job, name: &Word, rest: &[Word], span: Span) -> 
         );
     };
     let asked = choose(&option.text, option.span, "option of &COMPARTMENT", OPTIONS.iter().copied())?;
-    if asked == Asked::Holes {
+    if asked == CompartmentQuantity::Holes {
         return Ok(found.holes.join(" "));
     }
     let state = find_contents(model, found).map_err(|e| e.diagnostic(name.span, job.units))?;
     let gravity = numbers(&[state.density / 1000.0], Dim::None, job);
     let record = |value: f64, dim: Dim| format!("{} {} {gravity}", found.name, numbers(&[value], dim, job));
     Ok(match asked {
-        Asked::Amount => record(state.volume * state.density * model.defaults.gravity, Dim::Force),
-        Asked::Percent => record(100.0 * state.volume / state.capacity, Dim::None),
-        Asked::Fraction => record(state.volume / state.capacity, Dim::None),
-        Asked::Sounding => state.sounding.map_or(String::new(), |sounding| record(sounding, Dim::Length)),
-        Asked::Volume => numbers(&[state.volume], Dim::Volume, job),
-        Asked::Centre => {
+        CompartmentQuantity::Amount => record(state.volume * state.density * model.defaults.gravity, Dim::Force),
+        CompartmentQuantity::Percent => record(100.0 * state.volume / state.capacity, Dim::None),
+        CompartmentQuantity::Fraction => record(state.volume / state.capacity, Dim::None),
+        CompartmentQuantity::Sounding => state.sounding.map_or(String::new(), |sounding| record(sounding, Dim::Length)),
+        CompartmentQuantity::Volume => numbers(&[state.volume], Dim::Volume, job),
+        CompartmentQuantity::Centre => {
             let [x, y, z] = state.centre;
             let centre = x.zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
             centre.map_or(String::new(), |centre| numbers(&centre, Dim::Length, job))
         }
-        Asked::SpecificGravity => gravity,
-        Asked::Holes => String::new(),
+        CompartmentQuantity::SpecificGravity => gravity,
+        CompartmentQuantity::Holes => String::new(),
     })
 }

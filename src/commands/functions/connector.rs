@@ -99,20 +99,20 @@ pub(super) fn connector(job: &Job, action: &Word, rest: &[Word], span: Span) -> 
 }
 
 /// What `&ELEMENT` is asked about.
-enum Named<'m> {
+enum ElementSubject<'m> {
     Connector(&'m Connector),
     /// A tube: its ends in its part (m) and its diameter (m).
     Tube([[f64; 3]; 2], f64),
 }
 
-fn find_element<'m>(model: &'m Model, name: &Word) -> Outcome<Named<'m>> {
+fn find_element<'m>(model: &'m Model, name: &Word) -> Outcome<ElementSubject<'m>> {
     if let Some(connector) = model.connectors.get(&Model::key(&name.text)) {
-        return Ok(Named::Connector(connector));
+        return Ok(ElementSubject::Connector(connector));
     }
     if let Some((_, piece)) = model.piece(&name.text)
         && let Shape::Tube { ends, diameter } = &piece.shape
     {
-        return Ok(Named::Tube(*ends, *diameter));
+        return Ok(ElementSubject::Tube(*ends, *diameter));
     }
     let mut error = Diagnostic::error(format!("unknown element {}", name.text), name.span);
     let known = [EntityKind::Connector, EntityKind::Piece].into_iter().flat_map(|kind| model.names(kind));
@@ -136,39 +136,40 @@ pub(super) fn element(job: &Job, action: &Word, rest: &[Word], span: Span) -> Ou
     };
     match (find_element(model, name)?, asked) {
         (_, ElementAction::Stress | ElementAction::Damage) => absent("windlass makes no stress analysis"),
-        (Named::Connector(found), ElementAction::Nodes) => Ok(found.points.join(" ")),
-        (Named::Connector(found), ElementAction::Class) => Ok(found.class.clone()),
-        (Named::Connector(found), ElementAction::ElementType) => {
+        (ElementSubject::Connector(found), ElementAction::Nodes) => Ok(found.points.join(" ")),
+        (ElementSubject::Connector(found), ElementAction::Class) => Ok(found.class.clone()),
+        (ElementSubject::Connector(found), ElementAction::ElementType) => {
             let class = find(&model.classes, &found.class, "class", name.span)?;
             Ok(class.object.kind().to_string())
         }
-        (Named::Connector(found), ElementAction::Length) => {
+        (ElementSubject::Connector(found), ElementAction::Length) => {
             let [first, second] = model.end_poses(found).map(|p| p.origin);
             Ok(numbers(&[(second - first).norm()], Dim::Length, job))
         }
-        (Named::Connector(found), ElementAction::Cosines) => {
+        (ElementSubject::Connector(found), ElementAction::Cosines) => {
             let [first, second] = model.end_poses(found).map(|p| p.origin.into());
             Ok(unit(first, second))
         }
-        (Named::Connector(found), ElementAction::Ratio) => {
+        (ElementSubject::Connector(found), ElementAction::Ratio) => {
             let ratio = solve(job, found, name.span)?.map_or(Some(0.0), |f| f.summary.ratio);
             Ok(ratio.map_or(String::new(), |r| numbers(&[r], Dim::None, job)))
         }
-        (Named::Connector(_), ElementAction::Category) => absent("connectors belong to no category"),
-        (Named::Connector(_), ElementAction::Weight | ElementAction::Buoyancy | ElementAction::SegmentLengths) => {
-            absent("weights, buoyancies and lengths of segments are those of its class: &STATUS CL_FLEX")
-        }
-        (Named::Tube(ends, _), ElementAction::Length) => {
+        (ElementSubject::Connector(_), ElementAction::Category) => absent("connectors belong to no category"),
+        (
+            ElementSubject::Connector(_),
+            ElementAction::Weight | ElementAction::Buoyancy | ElementAction::SegmentLengths,
+        ) => absent("weights, buoyancies and lengths of segments are those of its class: &STATUS CL_FLEX"),
+        (ElementSubject::Tube(ends, _), ElementAction::Length) => {
             let [a, b] = ends.map(Vector3::from);
             Ok(numbers(&[(b - a).norm()], Dim::Length, job))
         }
-        (Named::Tube([a, b], _), ElementAction::Cosines) => Ok(unit(a, b)),
-        (Named::Tube(ends, diameter), ElementAction::Buoyancy) => {
+        (ElementSubject::Tube([a, b], _), ElementAction::Cosines) => Ok(unit(a, b)),
+        (ElementSubject::Tube(ends, diameter), ElementAction::Buoyancy) => {
             let [a, b] = ends.map(Vector3::from);
             let volume = PI / 4.0 * diameter * diameter * (b - a).norm();
             Ok(numbers(&[volume * model.surroundings().water_weight()], Dim::Force, job))
         }
-        (Named::Tube(..), ElementAction::ElementType) => Ok("TUBE".into()),
-        (Named::Tube(..), _) => absent("a tube of a hull has neither class, nodes, weight nor stress"),
+        (ElementSubject::Tube(..), ElementAction::ElementType) => Ok("TUBE".into()),
+        (ElementSubject::Tube(..), _) => absent("a tube of a hull has neither class, nodes, weight nor stress"),
     }
 }

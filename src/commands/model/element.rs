@@ -182,7 +182,7 @@ pub fn build_elements(job: &mut Job, record: &DeferredElement) -> Outcome<()> {
                 let (Some(of), [.., (_, a), (_, b)], false) = (class, nodes.as_slice(), record.is_plate) else {
                     continue;
                 };
-                make_beam(job, record, Named { name: name.take(), class: of, index }, [*a, *b])?;
+                make_beam(job, record, StatedElement { name: name.take(), class: of, index }, [*a, *b])?;
                 made += 1;
             }
             None => {
@@ -207,7 +207,7 @@ pub fn build_elements(job: &mut Job, record: &DeferredElement) -> Outcome<()> {
             return lacks("three nodes or more");
         }
         let corners: Vec<&Value> = nodes.iter().map(|(_, node)| *node).collect();
-        return make_plate(job, record, Named { name, class, index: args.data.len() }, &corners);
+        return make_plate(job, record, StatedElement { name, class, index: args.data.len() }, &corners);
     }
     if made == 0 {
         return lacks("two nodes");
@@ -216,7 +216,7 @@ pub fn build_elements(job: &mut Job, record: &DeferredElement) -> Outcome<()> {
 }
 
 /// The name and the class of an element, and how many words stand before it is complete.
-struct Named<'a> {
+struct StatedElement<'a> {
     name: Option<&'a Value>,
     class: &'a Value,
     index: usize,
@@ -262,7 +262,7 @@ fn coefficients(parameters: &Parameters) -> MemberCoefficients {
     }
 }
 
-fn make_beam(job: &mut Job, record: &DeferredElement, of: Named, nodes: [&Value; 2]) -> Outcome<()> {
+fn make_beam(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes: [&Value; 2]) -> Outcome<()> {
     let part = part_of(&job.model, nodes[0])?;
     let at = |node: &Value| -> Outcome<Vector3<f64>> {
         let place = piece::point_in_part(&job.model, node.word().unwrap_or_default(), part, node.span)?;
@@ -309,7 +309,7 @@ fn make_beam(job: &mut Job, record: &DeferredElement, of: Named, nodes: [&Value;
     insert(job, record, of, ("BEAM", &part, &class, unread), built)
 }
 
-fn make_plate(job: &mut Job, record: &DeferredElement, of: Named, nodes: &[&Value]) -> Outcome<()> {
+fn make_plate(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes: &[&Value]) -> Outcome<()> {
     let Some(first) = nodes.first() else { return Ok(()) };
     let part = part_of(&job.model, first)?;
     let place = |node: &&Value| piece::point_in_part(&job.model, node.word().unwrap_or_default(), part, node.span);
@@ -346,7 +346,7 @@ pub fn set_directions(directions: &mut [[f64; 3]; 2], given: &Given) -> Outcome<
 }
 
 /// Keeps the element of a shape without dimensions: the next solve stops.
-fn keep_missing(job: &mut Job, of: &Named, what: &str) {
+fn keep_missing(job: &mut Job, of: &StatedElement, what: &str) {
     let record = format!("{what} of class {}", of.class.word().unwrap_or_default());
     let effect = "weight, buoyancy, wind and drag of a shape without dimensions; &DATA SHAPES gives them".to_string();
     if !job.model.unmodelled.iter().any(|kept| kept.record == record) {
@@ -359,7 +359,7 @@ fn keep_missing(job: &mut Job, of: &Named, what: &str) {
 fn insert(
     job: &mut Job,
     record: &DeferredElement,
-    of: Named,
+    of: StatedElement,
     (what, part, class, unread): (&str, &str, &str, Option<&'static str>),
     built: StructuralElement,
 ) -> Outcome<()> {

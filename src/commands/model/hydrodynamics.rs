@@ -425,7 +425,7 @@ fn attach_total(job: &mut Job, data: &TotalData) -> Outcome<()> {
     let place = Place { shift: [0.0; 3], turn: data.turn };
     let axes = TypedAxes { reference: Vector3::from(data.origin), axes: *place.rotation().matrix(), yaw: data.turn[2] };
     let source = if data.name.is_empty() { "I_TOTAL".to_string() } else { format!("I_TOTAL {}", data.name) };
-    let made = typed::build(&source, &axes, &data.periods, (around.water_density, around.gravity, around.depth));
+    let made = typed::build(&source, &axes, &data.periods, &around);
     let made = made.map_err(|e| Diagnostic::error(e.to_string(), data.span))?;
     let attached = AttachedDatabase {
         data: std::sync::Arc::new(made),

@@ -123,7 +123,7 @@ static PLANE_SPEC: CommandSpec = CommandSpec {
 
 /// A section as its record gives it.
 #[derive(Clone, Debug)]
-enum SectionOutline {
+enum HullOutline {
     /// Points with their y and z (m).
     Points(Vec<[f64; 2]>),
     /// A rectangle about y = 0, with the points of its half with y >= 0 from the keel up.
@@ -132,22 +132,22 @@ enum SectionOutline {
     Circle(Vec<[f64; 2]>),
 }
 
-impl SectionOutline {
+impl HullOutline {
     fn points(&self) -> &[[f64; 2]] {
         match self {
-            SectionOutline::Points(list) | SectionOutline::Rectangle(list) | SectionOutline::Circle(list) => list,
+            HullOutline::Points(list) | HullOutline::Rectangle(list) | HullOutline::Circle(list) => list,
         }
     }
 }
 
 /// A section: its x and its outline (m).
-type HullSection = (f64, SectionOutline);
+type HullSection = (f64, HullOutline);
 /// A section: its x and points of its half, or all round it (m).
 type SectionPoints = (f64, Vec<[f64; 2]>);
 
 /// Which side of the ship sections stand on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Side {
+enum ShipSide {
     /// Half sections are mirrored.
     #[default]
     Mirrored,
@@ -160,7 +160,7 @@ enum Side {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placing {
     place: Option<Place>,
-    side: Side,
+    side: ShipSide,
 }
 
 impl Placing {
@@ -169,7 +169,7 @@ impl Placing {
     /// # Errors
     /// Two of -STBD, -PORT and -BOTH.
     pub fn from_args(args: &Args) -> Outcome<Placing> {
-        let sides = [(STBD, Side::Starboard), (PORT, Side::Port), (BOTH, Side::Both)];
+        let sides = [(STBD, ShipSide::Starboard), (PORT, ShipSide::Port), (BOTH, ShipSide::Both)];
         let mut given = sides.iter().filter_map(|(option, side)| args.option(option).map(|given| (given, *side)));
         let first = given.next();
         if let (Some((first, _)), Some((second, _))) = (first, given.next()) {
@@ -181,16 +181,16 @@ impl Placing {
         let place = args.option(&LOCATION).map(|given| {
             Place::new(given.numbers_or_zero(const { LOCATION.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }))
         });
-        Ok(Placing { place, side: first.map_or(Side::Mirrored, |(_, side)| side) })
+        Ok(Placing { place, side: first.map_or(ShipSide::Mirrored, |(_, side)| side) })
     }
 
     /// The pieces that panels make: as they are, mirrored, or both.
     fn sides(&self, panels: Vec<Vec<Position>>) -> Vec<Vec<Vec<Position>>> {
         let mirrored = || panels.iter().map(|p| p.iter().rev().map(|[x, y, z]| [*x, -y, *z]).collect()).collect();
         let sides = match self.side {
-            Side::Mirrored | Side::Starboard => vec![panels],
-            Side::Port => vec![mirrored()],
-            Side::Both => vec![panels.clone(), mirrored()],
+            ShipSide::Mirrored | ShipSide::Starboard => vec![panels],
+            ShipSide::Port => vec![mirrored()],
+            ShipSide::Both => vec![panels.clone(), mirrored()],
         };
         let Some(place) = self.place else { return sides };
         let placed = |panels: Vec<Vec<Position>>| -> Vec<Vec<Position>> {
@@ -261,7 +261,7 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let numbers: Vec<f64> = args.data.iter().filter_map(Value::number).collect();
     let pairs = |list: &[f64]| list.chunks_exact(2).map(|c| [c[0], c[1]]).collect::<Vec<_>>();
-    let (at, outline): (Vec<(f64, Span)>, SectionOutline) = match args.options.as_slice() {
+    let (at, outline): (Vec<(f64, Span)>, HullOutline) = match args.options.as_slice() {
         [] => {
             let [x, rest @ ..] = numbers.as_slice() else { return Ok(Effect::Done) };
             if rest.len() < 4 || rest.len() % 2 != 0 {
@@ -269,14 +269,14 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .label(format!("{} numbers follow this X", rest.len()))
                     .help("form: PLANE X Y1 Z1 Y2 Z2 .., or PLANE X1 X2 .. -CARTESIAN Y1 Z1 .."));
             }
-            (vec![(*x, args.place(X))], SectionOutline::Points(pairs(rest)))
+            (vec![(*x, args.place(X))], HullOutline::Points(pairs(rest)))
         }
         [one] => {
             let at = args.data.iter().filter_map(|v| Some((v.number()?, v.span))).collect();
             let outline = match one {
                 _ if one.is(&RECTANGLE) => rectangle(one)?,
                 _ if one.is(&CIRCULAR) => circle(one)?,
-                _ => SectionOutline::Points(pairs(&one.numbers())),
+                _ => HullOutline::Points(pairs(&one.numbers())),
             };
             (at, outline)
         }
@@ -321,7 +321,7 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// A rectangle by the points of its half with y >= 0.
-fn rectangle(given: &Given) -> Outcome<SectionOutline> {
+fn rectangle(given: &Given) -> Outcome<HullOutline> {
     let [bottom, top, beam] = given.numbers_or_zero(const { RECTANGLE.numbers(["ZBOT", "ZTOP", "BEAM"]) });
     if bottom >= top {
         return Err(Diagnostic::error("ZTOP must be greater than ZBOT", given.span));
@@ -344,11 +344,11 @@ fn rectangle(given: &Given) -> Outcome<SectionOutline> {
             points.insert(n + 1, [0.5 * (y + v), 0.5 * (z + w)]);
         }
     }
-    Ok(SectionOutline::Rectangle(points))
+    Ok(HullOutline::Rectangle(points))
 }
 
 /// Points on a circle.
-fn circle(given: &Given) -> Outcome<SectionOutline> {
+fn circle(given: &Given) -> Outcome<HullOutline> {
     const NPTS: windlass_base::spec::ValueKey<i64> = CIRCULAR.integer("NPTS");
     let [y, z, radius] = given.numbers_or_zero(const { CIRCULAR.numbers(["Y", "Z", "RADIUS"]) });
     let count = given.integer(NPTS).unwrap_or(2).max(2);
@@ -365,14 +365,14 @@ fn circle(given: &Given) -> Outcome<SectionOutline> {
         return if (count - 1) as f64 * by.abs() > turn {
             Err(Diagnostic::error("the arc goes more than once round its circle", given.span))
         } else {
-            Ok(SectionOutline::Points(points(count)))
+            Ok(HullOutline::Points(points(count)))
         };
     }
     if count < 4 {
         return Err(Diagnostic::error("a whole circle needs four or more points", given.place(NPTS))
             .help("the last of them is the first: 9 points make 8 sides"));
     }
-    Ok(SectionOutline::Circle(points(count - 1)))
+    Ok(HullOutline::Circle(points(count - 1)))
 }
 
 /// Zero for what rounding leaves of a coordinate that is zero.
@@ -402,12 +402,13 @@ fn build_pieces(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> 
         PieceOfSections::New(piece) => piece.compartment.is_some(),
         PieceOfSections::Described(name) => job.model.piece(name).is_some_and(|(_, p)| p.compartment.is_some()),
     };
-    let as_given = is_tank || planes.placing.side != Side::Mirrored;
-    let beyond = |outline: &SectionOutline| matches!(outline, SectionOutline::Points(list) if list.iter().any(|[y, _]| *y < 0.0));
+    let as_given = is_tank || planes.placing.side != ShipSide::Mirrored;
+    let beyond =
+        |outline: &HullOutline| matches!(outline, HullOutline::Points(list) if list.iter().any(|[y, _]| *y < 0.0));
     let crosses = planes.sections.iter().any(|(_, outline)| beyond(outline));
-    let has_circle = planes.sections.iter().any(|(_, outline)| matches!(outline, SectionOutline::Circle(_)));
+    let has_circle = planes.sections.iter().any(|(_, outline)| matches!(outline, HullOutline::Circle(_)));
     let panels = if as_given || crosses || has_circle {
-        let half_rectangle = planes.placing.side != Side::Mirrored;
+        let half_rectangle = planes.placing.side != ShipSide::Mirrored;
         let round = |(x, outline): HullSection| (x, loop_of(outline, half_rectangle, as_given || crosses));
         loft(planes.sections.into_iter().map(round).collect())
     } else {
@@ -498,7 +499,7 @@ pub fn finish_block(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<
 
 /// The points once round a section: of a rectangle its whole, or its half with y >= 0; of points what is given, or what they are with
 /// their mirror images.
-fn loop_of(outline: SectionOutline, half_rectangle: bool, as_given: bool) -> Vec<[f64; 2]> {
+fn loop_of(outline: HullOutline, half_rectangle: bool, as_given: bool) -> Vec<[f64; 2]> {
     let mirror =
         |list: &[[f64; 2]]| list.iter().rev().filter(|[y, _]| *y != 0.0).map(|[y, z]| [-y, *z]).collect::<Vec<_>>();
     // loops begin on the plane of symmetry, so that those of unequal number of points match
@@ -507,16 +508,16 @@ fn loop_of(outline: SectionOutline, half_rectangle: bool, as_given: bool) -> Vec
         _ => list,
     };
     match outline {
-        SectionOutline::Circle(list) => list,
-        SectionOutline::Points(list) if as_given => list,
-        SectionOutline::Rectangle(list) if half_rectangle => {
+        HullOutline::Circle(list) => list,
+        HullOutline::Points(list) if as_given => list,
+        HullOutline::Rectangle(list) if half_rectangle => {
             let ends = [list.first(), list.last()].map(|end| end.map(|[_, z]| [0.0, *z]));
             let [bottom, top] = ends;
             let mut made: Vec<[f64; 2]> = bottom.into_iter().chain(list).chain(top).collect();
             made.dedup();
             made
         }
-        SectionOutline::Points(list) | SectionOutline::Rectangle(list) => {
+        HullOutline::Points(list) | HullOutline::Rectangle(list) => {
             let port = mirror(&list);
             from_keel(list).into_iter().chain(port).collect()
         }

@@ -17,7 +17,7 @@ use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, find};
 use windlass_solve::results::along::static_cautions;
-use windlass_solve::{Options, SolveError, find_equilibrium_with_rebuilds, tables};
+use windlass_solve::{EquilibriumOptions, SolveError, find_equilibrium_with_rebuilds, tables};
 
 /// &EQUI.
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
@@ -102,10 +102,10 @@ fn ignored_dofs(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
 }
 
 /// What a record asks for, beside what was asked for before.
-fn options(job: &Job, call: &Call) -> Outcome<Options> {
+fn options(job: &Job, call: &Call) -> Outcome<EquilibriumOptions> {
     let args = &call.args;
-    let before = if args.has(&DEFAULTS) { Options::default() } else { job.equilibrium.clone() };
-    let mut made = Options { ignored: Vec::new(), ..before };
+    let before = if args.has(&DEFAULTS) { EquilibriumOptions::default() } else { job.equilibrium.clone() };
+    let mut made = EquilibriumOptions { ignored: Vec::new(), ..before };
     if let Some(most) = args.option_integer(&ITER_MAX) {
         made.most = usize::try_from(most).unwrap_or(made.most);
     }
@@ -172,7 +172,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             Err(error) => unknown.push(format!("the tension of {name} is not known: {}", error.error.text(job.units))),
         }
     }
-    job.equilibrium = Options { ignored: Vec::new(), ..options };
+    job.equilibrium = EquilibriumOptions { ignored: Vec::new(), ..options };
     let mut list = vec![tables::rest(&job.model, &settled), forces];
     match job.model.check_motions() {
         Ok(()) => list.push(

@@ -74,7 +74,7 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut writer = csv::Writer::from_writer(place.begin().map_err(refused)?);
     writer.write_record(heads(&input.heads).iter().map(|head| guard_formula(head).into_owned())).map_err(lost)?;
     let width = input.heads.len();
-    let mut tally = Tally::default();
+    let mut tally = SolvedCounts::default();
     while let Some(row) = input.next_row().map_err(unusable)? {
         if job.is_interrupted() {
             let text = format!("LINES is given up at line {} of {name}: {out} is not written", row.line);
@@ -156,14 +156,14 @@ fn write_row(
 
 /// What came of the rows.
 #[derive(Default)]
-struct Tally {
+struct SolvedCounts {
     solved: u64,
     refused: u64,
     regimes: BTreeMap<&'static str, usize>,
     warnings: Vec<Diagnostic>,
 }
 
-impl Tally {
+impl SolvedCounts {
     fn count(&mut self, name: &str, row: &InputRow, solved: &Result<EndForces, RowError>) {
         match solved {
             Ok(forces) => {

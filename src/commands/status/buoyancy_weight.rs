@@ -23,7 +23,7 @@ pub static B_W: StatusKind = StatusKind {
 };
 
 /// A row of the report.
-struct Row {
+struct LoadRow {
     load: String,
     /// Weight, or the force up (N).
     force: f64,
@@ -52,14 +52,14 @@ fn title(body: &Body) -> String {
 
 fn report(model: &Model, body: &Body) -> Result<Table, ClassError> {
     let gravity = model.defaults.gravity;
-    let of_mass = |load: &str, mass: &Mass| Row {
+    let of_mass = |load: &str, mass: &Mass| LoadRow {
         load: load.to_string(),
         force: mass.mass * gravity,
         centre: (mass.mass != 0.0).then(|| mass.centre.map(|x| round_to_zero(x, mass.centre.norm())).into()),
         radii: if mass.mass == 0.0 { [None; 3] } else { mass.radii() },
     };
     let weighed = model.parts_of(body).filter(|part| !part.weights.is_empty());
-    let mut rows: Vec<Row> = weighed
+    let mut rows: Vec<LoadRow> = weighed
         .map(|part| of_mass(&format!("Weight of {}", part.name), &Mass::from_parts(std::iter::once(part), gravity)))
         .collect();
     let contents = contents_mass(model, body)?;
@@ -76,7 +76,7 @@ fn report(model: &Model, body: &Body) -> Result<Table, ClassError> {
         (Some(found), _) => {
             let size = found.volume.cbrt();
             let centre = <[f64; 3]>::from(pose.local(found.centre_of_buoyancy)).map(|x| round_to_zero(x, size));
-            rows.push(Row {
+            rows.push(LoadRow {
                 load: "Buoyancy".into(),
                 force: found.displacement,
                 centre: Some(centre),
@@ -89,7 +89,7 @@ fn report(model: &Model, body: &Body) -> Result<Table, ClassError> {
             0.0
         }
         (None, None) => {
-            rows.push(Row { load: "Buoyancy".into(), force: 0.0, centre: None, radii: [None; 3] });
+            rows.push(LoadRow { load: "Buoyancy".into(), force: 0.0, centre: None, radii: [None; 3] });
             table.note(match hull {
                 Some(_) => format!("{} displaces no water where it is", body.name),
                 None => format!("{} has no hull", body.name),

@@ -19,14 +19,14 @@ pub static CATEGORY: StatusKind =
 
 /// A force and its first moment, in the body.
 #[derive(Clone, Copy, Default)]
-struct Sum {
+struct ForceMoment {
     /// N.
     force: f64,
     /// N m.
     moment: Vector3<f64>,
 }
 
-impl Sum {
+impl ForceMoment {
     fn add(&mut self, force: f64, at: [f64; 3]) {
         self.force += force;
         self.moment += Vector3::from(at) * force;
@@ -40,7 +40,7 @@ impl Sum {
 
 /// One row a body and category that has loads, with the multipliers of `&APPLY`.
 fn categories(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
-    let mut sums: IndexMap<(&str, &str), [Sum; 2]> = IndexMap::new();
+    let mut sums: IndexMap<(&str, &str), [ForceMoment; 2]> = IndexMap::new();
     for body in model.bodies.values() {
         for part in model.parts_of(body) {
             for weight in &part.weights {

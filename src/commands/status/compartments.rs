@@ -29,7 +29,7 @@ pub static V_HOLES: StatusKind =
     .also(&["WT_DOWN", "NWT_DOWN"]);
 
 /// What is in a compartment where its body stands: a row of the report.
-pub(crate) struct Row<'m> {
+pub(crate) struct CompartmentRow<'m> {
     compartment: &'m Compartment,
     /// Volume of it when full (m3).
     pub(crate) capacity: f64,
@@ -49,7 +49,7 @@ pub(crate) struct Row<'m> {
 ///
 /// # Errors
 /// A compartment that bounds no volume, or contents that have no level.
-pub(crate) fn find_contents<'m>(model: &Model, compartment: &'m Compartment) -> Result<Row<'m>, ClassError> {
+pub(crate) fn find_contents<'m>(model: &Model, compartment: &'m Compartment) -> Result<CompartmentRow<'m>, ClassError> {
     let tank = Tank::new(model, compartment)?;
     let pose = pose_of(model, compartment);
     let state = compartment.contents;
@@ -59,7 +59,7 @@ pub(crate) fn find_contents<'m>(model: &Model, compartment: &'m Compartment) -> 
     let centre = liquid.centroid().map(|c| at.axes.transpose() * c);
     let tube = tank.sounding_tube(model, compartment);
     let sounding = if liquid.volume() > 0.0 { tank.sounding(&at, tube, liquid.level) } else { Some(0.0) };
-    Ok(Row {
+    Ok(CompartmentRow {
         compartment,
         capacity: tank.capacity,
         volume: liquid.volume(),

@@ -51,13 +51,13 @@ fn file_commands_stay_inside_folder_through_links_and_dots() {
         assert!(matches!(job.remove("link/secret"), Err(FileError::NotOwn { .. })));
         std::os::unix::fs::symlink(dir.path().join("new"), job.folder.join("nowhere")).unwrap();
         job.write("b", b"1").unwrap();
-        assert!(matches!(job.transfer("b", "nowhere", true), Err((Side::To, FileError::NotOwn { .. }))));
+        assert!(matches!(job.transfer("b", "nowhere", true), Err((NameOperand::To, FileError::NotOwn { .. }))));
         job.remove("b").unwrap();
     }
     assert!(secret.exists());
     job.write("a", b"1").unwrap();
     job.transfer("a", "b", true).unwrap();
-    assert!(matches!(job.transfer("a", "b", false), Err((Side::To, FileError::Taken(_)))));
+    assert!(matches!(job.transfer("a", "b", false), Err((NameOperand::To, FileError::Taken(_)))));
     job.remove("b").unwrap();
 }
 
@@ -69,7 +69,7 @@ fn dangling_link_does_not_lead_out_of_folder() {
     let outside = dir.path().join("new");
     std::os::unix::fs::symlink(&outside, job.folder.join("link")).unwrap();
     for keep in [true, false] {
-        assert!(matches!(job.transfer("a", "link", keep), Err((Side::To, FileError::NotOwn { .. }))));
+        assert!(matches!(job.transfer("a", "link", keep), Err((NameOperand::To, FileError::NotOwn { .. }))));
     }
     assert!(matches!(job.write("link", b"x"), Err(FileError::NotOwn { .. })));
     assert!(matches!(job.make_folder("link/sub"), Err(FileError::NotOwn { .. })));
@@ -131,7 +131,7 @@ fn mkdir_makes_a_subfolder_that_takes_files() {
     job.write("sub/x", b"1").unwrap();
     job.write("sub/x", b"2").unwrap();
     job.transfer("sub/x.1", "y", false).unwrap();
-    assert!(matches!(job.transfer("y", "none/y", false), Err((Side::To, FileError::NoFolder(_)))));
+    assert!(matches!(job.transfer("y", "none/y", false), Err((NameOperand::To, FileError::NoFolder(_)))));
     let read = |name: &str| std::fs::read_to_string(job.folder.join(name)).unwrap();
     assert_eq!((read("sub/x"), read("y")), ("2".into(), "1".into()));
 }
@@ -180,11 +180,11 @@ fn growing_file_is_not_deleted_moved_or_overwritten() {
     let _log = job.create("log").unwrap();
     assert!(matches!(job.remove("log"), Err(FileError::InUse(_))));
     assert!(matches!(job.write("log", b"x"), Err(FileError::InUse(_))));
-    assert!(matches!(job.transfer("log", "b", false), Err((Side::From, FileError::InUse(_)))));
+    assert!(matches!(job.transfer("log", "b", false), Err((NameOperand::From, FileError::InUse(_)))));
     job.allow_files = true;
     let (folder, beside) = (job.folder.clone(), job.folder.with_extension("away"));
     let moved = job.transfer(folder.to_str().unwrap(), beside.to_str().unwrap(), false);
-    assert!(matches!(moved, Err((Side::From, FileError::InUse(_)))), "nor its folder");
+    assert!(matches!(moved, Err((NameOperand::From, FileError::InUse(_)))), "nor its folder");
     job.transfer("log", "copy", true).unwrap();
     assert!(job.folder.join("log").exists() && job.folder.join("copy").exists());
 }

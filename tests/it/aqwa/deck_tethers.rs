@@ -23,7 +23,7 @@ const PULL_Z: usize = 62;
 const DRAG: f64 = 0.5 * WATER * 0.75 * OUTER;
 
 /// What a deck of the tether is made of.
-struct Case<'a> {
+struct DeckCase<'a> {
     /// Cards between the TELM cards and TETH.
     cards: &'a str,
     /// A card behind the fifth TELM card: between the elements that meet in the middle.
@@ -44,9 +44,9 @@ type SpanRows = (Matrix4<f64>, [f64; 4]);
 /// A derivative at a place of a span, with its sign.
 type SpanTerm<'a> = (usize, &'a SpanRows, usize, f64);
 
-impl Default for Case<'_> {
+impl Default for DeckCase<'_> {
     fn default() -> Self {
-        Case {
+        DeckCase {
             cards: "",
             middle: "",
             raised: 0.2,
@@ -59,7 +59,7 @@ impl Default for Case<'_> {
 }
 
 /// The deck: kN, t, m.
-fn deck(case: &Case<'_>) -> String {
+fn deck(case: &DeckCase<'_>) -> String {
     let none = |decks: std::ops::RangeInclusive<u8>| decks.map(|n| format!("    {n:02}    NONE\n")).collect::<String>();
     let elements: Vec<String> =
         (101..111).map(|node| format!("    14TELM {node:4} {:4}    2    2\n", node + 1)).collect();
@@ -134,7 +134,7 @@ fn assert_near(got: f64, want: f64, share: f64) {
 fn tcap_and_tifl_enter_pull_of_tether_on_vessel() {
     let cards =
         "    14TCAP                           0.3       0.4\n    14TIFL                        2000.0      0.85\n";
-    let (session, _) = run("pull.dat", &deck(&Case { cards, raised: 0.05, ..Case::default() }));
+    let (session, _) = run("pull.dat", &deck(&DeckCase { cards, raised: 0.05, ..DeckCase::default() }));
     let made = tethered(&session);
     // the end at the vessel is 49.95 m deep
     let (out, inside) = (WATER * GRAVITY * 49.95, 2e6 + 850.0 * GRAVITY * 49.95);
@@ -145,7 +145,7 @@ fn tcap_and_tifl_enter_pull_of_tether_on_vessel() {
     assert_near(tether.end_at(0, 19, 1).unwrap(), upper - out * circle(OUTER) + inside * circle(bore()), 1e-6);
     assert_near(made.structure.as_ref().unwrap().value(0, PULL_Z).unwrap(), -(upper - out * 0.4), 1e-6);
     // neither card: the pull is the effective tension
-    let (session, _) = run("pull.dat", &deck(&Case { raised: 0.05, ..Case::default() }));
+    let (session, _) = run("pull.dat", &deck(&DeckCase { raised: 0.05, ..DeckCase::default() }));
     let bare = tension(0.05, [0.0, 0.0]) + 0.5 * weight(0.0);
     assert_near(tethered(&session).structure.as_ref().unwrap().value(0, PULL_Z).unwrap(), -bare, 1e-6);
 }
@@ -154,7 +154,8 @@ fn tcap_and_tifl_enter_pull_of_tether_on_vessel() {
 fn tlow_stop_takes_tether_that_fell_by_its_distance() {
     // the vessel is lighter by 0.02 m/s2 of its weight: after t it has fallen by 0.01 t2
     let fall = |cards: &str| {
-        let case = Case { cards, raised: 0.0, afloat: 1.0 - 0.02 / GRAVITY, steps: (201, 0.05), ..Case::default() };
+        let case =
+            DeckCase { cards, raised: 0.0, afloat: 1.0 - 0.02 / GRAVITY, steps: (201, 0.05), ..DeckCase::default() };
         run("pull.dat", &deck(&case)).0
     };
     // 150 m under water it is shorter by p A L/EA, and falls by the distance of the stop from there on
@@ -177,7 +178,7 @@ fn tlow_stop_takes_tether_that_fell_by_its_distance() {
 
 /// What a middle support holds.
 #[derive(Clone, Copy)]
-enum Support {
+enum BowSupport {
     None,
     /// The place, to this deflection.
     Place(f64),
@@ -192,7 +193,7 @@ struct Bowed {
     push: f64,
 }
 
-fn bow(pull: f64, [first, place, whole]: [f64; 3], support: Support) -> Bowed {
+fn bow(pull: f64, [first, place, whole]: [f64; 3], support: BowSupport) -> Bowed {
     let inertia = PI / 64.0 * (OUTER.powi(4) - bore().powi(4));
     let ei = MODULUS * inertia;
     let k = (pull / ei).sqrt();
@@ -239,9 +240,9 @@ fn bow(pull: f64, [first, place, whole]: [f64; 3], support: Support) -> Bowed {
         add(&[(1, &end, derivative, 1.0)], 0.0);
     }
     let (free, held): (&[usize], Option<(usize, f64)>) = match support {
-        Support::None => (&[0, 1, 2, 3], None),
-        Support::Place(at) => (&[0, 1, 2], Some((0, at))),
-        Support::Slope => (&[0, 1, 3], Some((1, 0.0))),
+        BowSupport::None => (&[0, 1, 2, 3], None),
+        BowSupport::Place(at) => (&[0, 1, 2], Some((0, at))),
+        BowSupport::Slope => (&[0, 1, 3], Some((1, 0.0))),
     };
     for derivative in free {
         add(&[(0, &middle, *derivative, 1.0), (1, &start, *derivative, -1.0)], 0.0);
@@ -263,7 +264,7 @@ fn bow(pull: f64, [first, place, whole]: [f64; 3], support: Support) -> Bowed {
 
 /// The run of a tether in a current of 1 m/s towards +X for 100 s, which the drag brings to rest.
 fn in_current(cards: &str, middle: &str) -> Session {
-    let case = Case { cards, middle, current: true, steps: (1001, 0.1), ..Case::default() };
+    let case = DeckCase { cards, middle, current: true, steps: (1001, 0.1), ..DeckCase::default() };
     run("pull.dat", &deck(&case)).0
 }
 
@@ -278,7 +279,7 @@ fn push(session: &Session) -> f64 {
 }
 
 /// A bow of the tether with a support at a distance, at the place of a node 20 m times its number up.
-fn bow_at(distance: f64, node: u8, support: Support) -> Bowed {
+fn bow_at(distance: f64, node: u8, support: BowSupport) -> Bowed {
     let stretched = [distance, 20.0 * f64::from(node), LENGTH].map(|x| x * (LENGTH + 0.2) / LENGTH);
     bow(tension(0.2, [0.0, 0.0]), stretched, support)
 }
@@ -287,15 +288,15 @@ fn bow_at(distance: f64, node: u8, support: Support) -> Bowed {
 fn lateral_and_rotational_constraints_bow_tether_as_a_beam() {
     let pull = tension(0.2, [0.0, 0.0]);
     for (cards, middle, distance, support) in [
-        ("", "", 100.0, Support::None),
+        ("", "", 100.0, BowSupport::None),
         // between two TELM cards: the node between them
-        ("", "    14TLAC\n", 100.0, Support::Place(0.0)),
-        ("", "    14TLAV\n", 100.0, Support::Place(0.0)),
+        ("", "    14TLAC\n", 100.0, BowSupport::Place(0.0)),
+        ("", "    14TLAV\n", 100.0, BowSupport::Place(0.0)),
         // behind them: the node next to the anchor, or to the vessel
-        ("    14TLAC\n", "", 20.0, Support::Place(0.0)),
-        ("    14TLAV\n", "", 180.0, Support::Place(0.0)),
-        ("    14TROC\n", "", 20.0, Support::Slope),
-        ("    14TROV\n", "", 180.0, Support::Slope),
+        ("    14TLAC\n", "", 20.0, BowSupport::Place(0.0)),
+        ("    14TLAV\n", "", 180.0, BowSupport::Place(0.0)),
+        ("    14TROC\n", "", 20.0, BowSupport::Slope),
+        ("    14TROV\n", "", 180.0, BowSupport::Slope),
     ] {
         let session = in_current(cards, middle);
         for node in [3, 5, 7] {
@@ -316,7 +317,7 @@ fn lateral_and_rotational_constraints_bow_tether_as_a_beam() {
 fn held_node_off_the_axis_takes_its_tension_at_a_quarter_second() {
     // the vessel stands 20 m off, the node in the middle over the anchor: T = EA (c - L + arc)/L + p A with the arc of ten cubic elements under
     // this tension, solved together in twenty digits: an arc of 1.0214 m and 308.77 MN, the top at 0.1037 rad from the axis
-    let case = Case { middle: "    14TLAC\n", steps: (401, 0.25), ..Case::default() };
+    let case = DeckCase { middle: "    14TLAC\n", steps: (401, 0.25), ..DeckCase::default() };
     let text = deck(&case).replace("END15POS1                 0.0", "END15POS1                20.0");
     let (session, _) = run("pull.dat", &text);
     let structure = tethered(&session).structure.as_ref().unwrap();
@@ -347,7 +348,7 @@ fn installed_example_runs_with_held_nodes_at_its_own_step() {
 
 #[test]
 fn tlav_gap_lets_tether_move_and_holds_it_there() {
-    let free = bow_at(100.0, 5, Support::None);
+    let free = bow_at(100.0, 5, BowSupport::None);
     let pull = tension(0.2, [0.0, 0.0]);
     // wider than the tether bows: nothing touches
     let wide = in_current("", "    14TLAV                         0.100\n");
@@ -357,7 +358,7 @@ fn tlav_gap_lets_tether_move_and_holds_it_there() {
     // the edge is as soft as the step asks for: it gives way by 0.9 mm
     let at = deflection(&narrow, 5);
     assert!((0.03..0.031).contains(&at), "{at}");
-    let want = bow_at(100.0, 5, Support::Place(at));
+    let want = bow_at(100.0, 5, BowSupport::Place(at));
     assert_near(push(&narrow), want.push - want.top * pull, 4e-3);
 }
 
@@ -389,13 +390,13 @@ fn tprv_prints_tethers_at_first_step_and_every_n_after() {
     let towed = printed("he01_phases.dat", file("he01_phases.dat"));
     assert_eq!(printed_times(&towed, "T 1"), ["0.00", "125.00", "250.00", "375.00"]);
     // 22 steps of 0.1 s: 1, 6, 11, 16, 21
-    let case = Case { steps: (22, 0.1), printing: "    18TPRV    5\n", ..Case::default() };
+    let case = DeckCase { steps: (22, 0.1), printing: "    18TPRV    5\n", ..DeckCase::default() };
     assert_eq!(printed_times(&printed("pull.dat", deck(&case)), "T 1"), ["0.00", "0.50", "1.00", "1.50", "2.00"]);
 }
 
 #[test]
 fn tether_of_structure_without_pten_is_not_printed() {
-    let case = Case { steps: (3, 0.1), printing: "    18TPRV    1\n", ..Case::default() };
+    let case = DeckCase { steps: (3, 0.1), printing: "    18TPRV    1\n", ..DeckCase::default() };
     let text = deck(&case);
     assert_eq!(printed_times(&printed("pull.dat", text.clone()), "T 1").len(), 3);
     let silent = printed("pull.dat", text.replace(" END18PTEN    1\n", " END18NODE    1    2\n"));
@@ -440,11 +441,11 @@ fn tslk_leaves_record_of_every_step() {
 
 #[test]
 fn current_of_deck_10_bows_tether_as_that_of_deck_11() {
-    let case = Case { current: true, steps: (1001, 0.1), ..Case::default() };
+    let case = DeckCase { current: true, steps: (1001, 0.1), ..DeckCase::default() };
     let text = deck(&case).replace("    11    ENVR\n END11CURR       1.0       0.0\n", "    11    NONE\n");
     let text = text.replace("    10    NONE\n", "    10    HLD1\n END10CURR       1.0       0.0\n");
     let (session, _) = run("pull.dat", &text);
-    assert_near(deflection(&session, 5), bow_at(100.0, 5, Support::None).deflection, 2e-3);
+    assert_near(deflection(&session, 5), bow_at(100.0, 5, BowSupport::None).deflection, 2e-3);
 }
 
 /// The last column of the fatigue page: expected peaks.

@@ -2,18 +2,7 @@
 
 use crate::common;
 use windlass_model::Model;
-use windlass_solve::time::{
-    Action, Ending, Method, Run, RunFileError, RunSettings, StepTolerance, TimeScheme, Watcher,
-};
-
-/// Takes rows and says nothing.
-pub struct Quiet;
-
-impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
-        Ok(())
-    }
-}
+use windlass_solve::time::{Action, Ending, Method, Run, RunSettings, SilentWatcher, StepTolerance, TimeScheme};
 
 /// The model of records in metres and newtons.
 pub fn model(records: &str) -> Model {
@@ -59,6 +48,6 @@ pub fn trapezoidal() -> Method {
 /// A run that comes to its end.
 pub fn run(model: &Model, settings: RunSettings, actions: Vec<Action>) -> Run {
     let mut run = Run::new(model, settings, actions).unwrap();
-    assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
+    assert_eq!(run.run(&mut SilentWatcher), Ok(Ending::Done));
     run
 }

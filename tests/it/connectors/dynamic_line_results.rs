@@ -2,11 +2,11 @@
 
 use crate::common::run;
 
-use run::{Quiet, model, settings};
+use run::{model, settings};
 use windlass_base::table::Table;
 use windlass_solve::results::along::{LinePosition, LineResults, envelope, histories, lines_at_rest, touchdown};
 use windlass_solve::results::events;
-use windlass_solve::time::{Ending, Run, RunFileError, RunSettings, Snapshot, Watcher};
+use windlass_solve::time::{Ending, Run, RunFileError, RunSettings, SilentWatcher, Snapshot, Watcher};
 
 const DEPTH: f64 = 100.0;
 
@@ -29,7 +29,7 @@ fn static_chain_touchdown_matches_catenary() {
     for elements in [40, 80] {
         let model = model(&chain(elements, ""));
         let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
-        run.run(&mut Quiet).unwrap();
+        run.run(&mut SilentWatcher).unwrap();
         let line = LineResults::find(&run, "a").unwrap();
         let table = touchdown(&line, &events(&run.history, None).unwrap()[..1]).unwrap();
         // w = 2000 N/m, H the tension on the bottom: a catenary of parameter a = H/w rises h over an arc sqrt(h^2 + 2 h a)
@@ -50,7 +50,7 @@ fn static_line_matches_first_row_of_run_in_still_water() {
     let model = model(&chain(20, ""));
     let rest = &lines_at_rest(&model, &|_| true).unwrap()[0];
     let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
-    run.run(&mut Quiet).unwrap();
+    run.run(&mut SilentWatcher).unwrap();
     let line = LineResults::find(&run, "A").unwrap();
     assert_eq!(line.nodes(), 21);
     let first = &events(&run.history, None).unwrap()[..1];
@@ -67,7 +67,7 @@ fn thinned_node_output_matches_full_output() {
     let model = model(&chain(12, "-SEA REGULAR 180 4 9"));
     let ran = |change: fn(RunSettings) -> RunSettings| {
         let mut run = Run::new(&model, change(settings(10.0, 0.25)), Vec::new()).unwrap();
-        assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
+        assert_eq!(run.run(&mut SilentWatcher), Ok(Ending::Done));
         run
     };
     let (all, fourth) = (ran(|s| s), ran(|s| RunSettings { along: 4, ..s }));
@@ -109,12 +109,12 @@ fn thinned_node_output_matches_full_output() {
 
 /// Keeps snapshots and rows as they come.
 #[derive(Default)]
-struct RunRecorder {
+struct RowRecorder {
     snapshots: Vec<Snapshot>,
     rows: Vec<Vec<f64>>,
 }
 
-impl Watcher for RunRecorder {
+impl Watcher for RowRecorder {
     fn row(&mut self, row: &[f64]) -> Result<(), RunFileError> {
         self.rows.push(row.to_vec());
         Ok(())
@@ -131,14 +131,14 @@ fn continued_run_has_nodes_of_uninterrupted_run() {
     let model = model(&chain(8, "-SEA REGULAR 180 4 9"));
     let wanted = settings(60.0, 0.1);
     let mut whole = Run::new(&model, wanted.clone(), Vec::new()).unwrap();
-    let mut kept = RunRecorder::default();
+    let mut kept = RowRecorder::default();
     assert_eq!(whole.run(&mut kept), Ok(Ending::Done));
     // one at the start, one after 500 steps
     assert_eq!(kept.snapshots.iter().map(|s| s.taken).collect::<Vec<_>>(), [0, 500]);
     for snapshot in &kept.snapshots {
         let rows: Vec<f64> = kept.rows[..snapshot.rows].concat();
         let mut again = Run::resume(&model, wanted.clone(), Vec::new(), (snapshot, rows)).unwrap();
-        assert_eq!(again.run(&mut Quiet), Ok(Ending::Done));
+        assert_eq!(again.run(&mut SilentWatcher), Ok(Ending::Done));
         // bit by bit: what is not there is not a number
         let bits = |run: &Run| run.history.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         assert_eq!(again.history.len(), whole.history.len());

@@ -14,7 +14,7 @@ use windlass_model::{
 
 /// What a force obeys beside being the same for the same.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum ConnectorKind {
     /// It has an energy.
     Elastic,
     /// It takes energy, never gives any.
@@ -23,7 +23,7 @@ enum Kind {
     Other,
 }
 
-struct Case {
+struct ClassCase {
     class: &'static str,
     records: &'static str,
     connector: &'static str,
@@ -31,22 +31,22 @@ struct Case {
     defined: [f64; 3],
     /// The same now, and the turn of the second end against the first.
     now: [f64; 6],
-    kind: Kind,
+    kind: ConnectorKind,
     /// Whether the wrenches of the ends balance: what has no weight, and nobody else bears.
     balanced: bool,
     /// Whether gravity or a fixed direction plays no part.
     free: bool,
 }
 
-const fn spring(class: &'static str, records: &'static str, now: [f64; 6], kind: Kind) -> Case {
-    Case { class, records, connector: "", defined: [0.0; 3], now, kind, balanced: true, free: true }
+const fn spring(class: &'static str, records: &'static str, now: [f64; 6], kind: ConnectorKind) -> ClassCase {
+    ClassCase { class, records, connector: "", defined: [0.0; 3], now, kind, balanced: true, free: true }
 }
 
 const SMALL_MOTION: [f64; 6] = [-0.2, 0.15, -0.1, 0.3, -0.2, 0.4];
 
-fn cases() -> Vec<Case> {
-    use Kind::{Dissipative, Elastic, Other};
-    let line = |class, records, connector, now: [f64; 3]| Case {
+fn cases() -> Vec<ClassCase> {
+    use ConnectorKind::{Dissipative, Elastic, Other};
+    let line = |class, records, connector, now: [f64; 3]| ClassCase {
         class,
         records,
         connector,
@@ -65,7 +65,7 @@ fn cases() -> Vec<Case> {
             Elastic,
         ),
         spring("GSPR", "~C GSPR Z 2E5 RY 3E4 -LEN 1.5", SMALL_MOTION, Elastic),
-        Case {
+        ClassCase {
             connector: "-EULER 20 -30 40",
             ..spring("GSPR", "~C GSPR X 2E5 Y 1E5 RX 3E4 -SYMMETRIC", SMALL_MOTION, Elastic)
         },
@@ -127,20 +127,23 @@ fn cases() -> Vec<Case> {
         ),
         spring("SLING", "~C SLING 50 -LEN 5", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Elastic),
         spring("DAVIT", "~C DAVIT 50 -LEN 5", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Elastic),
-        Case { defined: [0.5, 1.0, -2.0], ..spring("FIX", "~C FIX", [0.51, 1.02, -1.99, 0.02, -0.03, 0.01], Elastic) },
-        Case {
+        ClassCase {
+            defined: [0.5, 1.0, -2.0],
+            ..spring("FIX", "~C FIX", [0.51, 1.02, -1.99, 0.02, -0.03, 0.01], Elastic)
+        },
+        ClassCase {
             defined: [0.5, 1.0, -2.0],
             ..spring("SPR", "~C SPR X 2E5 Z 1E5 RY 3E4", [0.7, 1.2, -1.9, 0.2, -0.3, 0.1], Elastic)
         },
-        Case {
+        ClassCase {
             defined: [0.5, 1.0, -2.0],
             ..spring("GAP", "~C GAP 0.3", [0.49, 1.002, -2.001, 0.0, 0.1, 0.0], Dissipative)
         },
-        Case {
+        ClassCase {
             defined: [0.5, 1.0, -2.0],
             ..spring("GAP", "~C GAP 0.3", [0.49, 1.02, -2.03, 0.0, 0.1, 0.0], Dissipative)
         },
-        Case {
+        ClassCase {
             connector: "-TUG 30 100",
             balanced: false,
             free: false,
@@ -209,7 +212,7 @@ fn cases() -> Vec<Case> {
 }
 
 /// The poses of a case: the first end stands obliquely.
-struct Bench {
+struct ElementBench {
     session: Session,
     connector: Connector,
     ends: [Pose; 2],
@@ -220,8 +223,8 @@ fn oblique(line: bool) -> Pose {
     Pose::from_place(&Place::new(place))
 }
 
-impl Bench {
-    fn new(case: &Case) -> Bench {
+impl ElementBench {
+    fn new(case: &ClassCase) -> ElementBench {
         let (mut session, screen, _folder) = common::session();
         let points =
             if ["SLING", "DAVIT", "ROLLER", "TUG_BOAT", "B_CAT"].contains(&case.class) { "*A" } else { "*A *B" };
@@ -256,7 +259,7 @@ impl Bench {
         } else {
             ends
         };
-        Bench { session, connector, ends }
+        ElementBench { session, connector, ends }
     }
 
     fn element(&self) -> Result<Box<dyn ConnectorElement>, ClassError> {
@@ -286,9 +289,9 @@ impl Bench {
 }
 
 /// Each case whose class has an element, with its name.
-fn each(mut check: impl FnMut(&Case, &Bench, &dyn ConnectorElement)) {
+fn each(mut check: impl FnMut(&ClassCase, &ElementBench, &dyn ConnectorElement)) {
     for case in cases() {
-        let bench = Bench::new(&case);
+        let bench = ElementBench::new(&case);
         match bench.element() {
             Ok(element) => check(&case, &bench, element.as_ref()),
             Err(error) => {
@@ -323,7 +326,7 @@ fn moving_ends(ends: [Pose; 2]) -> [End; 2] {
 }
 
 /// A state that a step from nearby has left.
-fn state_after_step(element: &dyn ConnectorElement, bench: &Bench) -> Vec<f64> {
+fn state_after_step(element: &dyn ConnectorElement, bench: &ElementBench) -> Vec<f64> {
     let mut start = vec![0.0; element.states()];
     element.start(&mut start);
     let shift = Six::new(0.001, -0.002, 0.0015, 0.01, -0.02, 0.01);
@@ -366,17 +369,17 @@ fn every_class_with_an_element_is_tested() {
 
 #[test]
 fn dynamic_line_stiffness_matches_differences_and_rotates_with_ends() {
-    let case = Case {
+    let case = ClassCase {
         class: "ROD",
         records: "~C ROD 200 20 -LEN 60 -REFINE 6 -CLAMP BOTH",
         connector: "",
         defined: [45.0, 30.0, -20.0],
         now: [44.0, 31.0, -20.0, 0.1, -0.05, 0.02],
-        kind: Kind::Other,
+        kind: ConnectorKind::Other,
         balanced: false,
         free: false,
     };
-    let bench = Bench::new(&case);
+    let bench = ElementBench::new(&case);
     let (element, surroundings) = (bench.element().unwrap(), bench.surroundings());
     let none = vec![0.0; element.states()];
     let rest = |ends: &[End; 2]| ask(element.as_ref(), &surroundings, ends, None, &none).0;
@@ -562,7 +565,7 @@ fn path(ends: [Pose; 2], t: f64, size: f64) -> [End; 2] {
 #[test]
 fn conservative_element_does_no_work_over_closed_path() {
     each(|case, bench, element| {
-        if case.kind != Kind::Elastic {
+        if case.kind != ConnectorKind::Elastic {
             return;
         }
         let committed = vec![0.0; element.states()];
@@ -584,7 +587,7 @@ fn conservative_element_does_no_work_over_closed_path() {
 #[test]
 fn dashpots_friction_and_viscous_springs_only_dissipate() {
     each(|case, bench, element| {
-        if case.kind == Kind::Other {
+        if case.kind == ConnectorKind::Other {
             return;
         }
         let surroundings = bench.surroundings();
@@ -601,7 +604,7 @@ fn dashpots_friction_and_viscous_springs_only_dissipate() {
             let size: f64 = (0..2).map(|i| fast[i].velocity.norm() * b.wrench[i].norm()).sum();
             assert!(power <= 1e-12 * size, "{} at {scale}: {power}", case.records);
         }
-        if case.kind != Kind::Dissipative {
+        if case.kind != ConnectorKind::Dissipative {
             return;
         }
         // over a closed path from rest

@@ -9,7 +9,7 @@ use crate::common;
 use windlass::session::Session;
 use windlass_base::diagnostic::Severity;
 use windlass_model::{End, Model, Situation};
-use windlass_solve::{Options, find_equilibrium_with_rebuilds};
+use windlass_solve::{EquilibriumOptions, find_equilibrium_with_rebuilds};
 
 /// AE of 100 mm of the default steel (N).
 const EA: f64 = 29000.0 * 6894757.293168361 * std::f64::consts::FRAC_PI_4 * 0.01;
@@ -38,7 +38,7 @@ fn records(weight: f64, lengths: [f64; 4], options: &str) -> String {
 
 fn settled(records: &str) -> Model {
     let mut model = run(records).0.job.model.clone();
-    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     assert!(found.found.search.residual < 1e-9, "{:?}", found.found);
     model
 }
@@ -152,7 +152,7 @@ fn vertical_rotates_body_to_hang_with_centre_below_hook() {
     }
     // and there it rests, but for the stretch
     let mut rest = model.clone();
-    find_equilibrium_with_rebuilds(&mut rest, &Options::default()).unwrap();
+    find_equilibrium_with_rebuilds(&mut rest, &EquilibriumOptions::default()).unwrap();
     assert_near(place(&rest, "DECK")[4], pitch, 1e-3);
 }
 
@@ -202,7 +202,7 @@ fn deactivated_sets_leave_their_hooks_in_place() {
     let mut model = session.job.model.clone();
     assert!(!model.connectors.get("FALL").unwrap().active && model.connectors.get("FALL2").unwrap().active);
     let before = place(&model, "HOOK");
-    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     assert_eq!(place(&model, "HOOK"), before);
     assert!(found.found.loose.iter().all(|(body, _)| body == "DECK"), "{:?}", found.found.loose);
     assert_near(tension(&model, "FALL2") / 1e6, 1.0, 1e-8);

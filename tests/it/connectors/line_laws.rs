@@ -42,15 +42,15 @@ const EXAMPLES: &[Example] = &[
     ),
 ];
 
-struct Bench(Session);
+struct SessionBench(Session);
 
-impl Bench {
-    fn new(records: &str) -> Bench {
+impl SessionBench {
+    fn new(records: &str) -> SessionBench {
         let (mut session, screen, _folder) = common::session();
         session.open("records", format!("&DIMEN -DIMEN METERS N\n&ENV -DEPTH 300\nMEDIT\n{records}\nEND\n"));
         session.run();
         assert!(!session.job.model.classes.is_empty(), "{records}: {:?} {}", session.reports, screen.text());
-        Bench(session)
+        SessionBench(session)
     }
 
     fn loads(&self, fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> LineLoads {
@@ -78,7 +78,7 @@ fn assert_near(got: [f64; 3], want: [f64; 3], share: f64, what: &str) {
 fn every_line_class_is_tested() {
     for kind in CLASSES {
         let name = kind.spec.name;
-        let bench = Bench::new(kind.spec.example.trim_start_matches("MEDIT\n").split("\nEND").next().unwrap());
+        let bench = SessionBench::new(kind.spec.example.trim_start_matches("MEDIT\n").split("\nEND").next().unwrap());
         let line = bench.0.job.model.classes.values().next_back().is_some_and(|c| c.object.as_line().is_some());
         assert_eq!(line, EXAMPLES.iter().any(|e| e.0 == name), "{name}");
     }
@@ -87,7 +87,7 @@ fn every_line_class_is_tested() {
 #[test]
 fn rotated_or_mirrored_line_has_rotated_or_mirrored_forces() {
     for (name, records, from, to, ground, _) in EXAMPLES {
-        let bench = Bench::new(records);
+        let bench = SessionBench::new(records);
         let straight = bench.loads(*from, *to, *ground);
         for angle in [0.4, 1.9, 3.0, -2.2] {
             let got = bench.loads(rotate_about_z(*from, angle), rotate_about_z(*to, angle), *ground);
@@ -104,7 +104,7 @@ fn rotated_or_mirrored_line_has_rotated_or_mirrored_forces() {
 #[test]
 fn stiffness_is_symmetric_and_matches_force_finite_difference() {
     for (name, records, from, to, ground, conservative) in EXAMPLES {
-        let bench = Bench::new(records);
+        let bench = SessionBench::new(records);
         let middle = bench.loads(*from, *to, *ground);
         let scale = middle.stiffness.iter().flatten().fold(0.0, |m: f64, k| m.max(k.abs()));
         for axis in 0..3 {
@@ -131,7 +131,7 @@ fn stiffness_is_symmetric_and_matches_force_finite_difference() {
 #[test]
 fn line_force_does_no_work_over_closed_path() {
     for (name, records, from, to, ground, _) in EXAMPLES.iter().filter(|e| e.5) {
-        let bench = Bench::new(records);
+        let bench = SessionBench::new(records);
         let at = |t: f64| {
             let (s, c) = (std::f64::consts::TAU * t).sin_cos();
             [from[0] + 4.0 * c, from[1] + 3.0 * s, from[2] + 2.0 * s * c]
@@ -155,7 +155,7 @@ fn line_force_does_no_work_over_closed_path() {
 #[test]
 fn end_forces_balance_and_weight_hangs_between() {
     for (name, records, from, to, ground, conservative) in EXAMPLES {
-        let bench = Bench::new(records);
+        let bench = SessionBench::new(records);
         let got = bench.loads(*from, *to, *ground);
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]);

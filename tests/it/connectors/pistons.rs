@@ -8,7 +8,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_model::{ConnectorElement, ConnectorResponse, ConnectorSummary, End, Situation, SolverCache, TimeStep};
 
 /// A line between *A of body ONE at the origin and another end.
-struct Rig {
+struct PistonRig {
     session: Session,
     element: Box<dyn ConnectorElement>,
     /// Committed.
@@ -20,8 +20,8 @@ struct Rig {
 /// EA = 1E6 N; of 100 m: 1E4 N/m.
 const SPRING: &str = "100 TENSION -LEN 100 -EMOD 400/3.14159265358979323846";
 
-impl Rig {
-    fn new(class: &str, connector: &str, second: [f64; 3]) -> Rig {
+impl PistonRig {
+    fn new(class: &str, connector: &str, second: [f64; 3]) -> PistonRig {
         let (mut session, screen, _folder) = common::session();
         let [x, y, z] = second;
         let text = format!(
@@ -37,12 +37,12 @@ impl Rig {
         let ends = model.end_poses(connector).map(|p| p.origin);
         let mut state = vec![0.0; element.states()];
         element.start(&mut state);
-        Rig { session, element, state, ends }
+        PistonRig { session, element, state, ends }
     }
 
     /// A spring of 1E4 N/m and 100 m along X.
-    fn spring(options: &str) -> Rig {
-        Rig::new(&format!("SL_ELEM {SPRING} {options}"), "~C *A *B", [100.0, 0.0, -5.0])
+    fn spring(options: &str) -> PistonRig {
+        PistonRig::new(&format!("SL_ELEM {SPRING} {options}"), "~C *A *B", [100.0, 0.0, -5.0])
     }
 
     /// The answer with the second end moved along X from where it was defined, with a velocity.
@@ -96,7 +96,7 @@ const MAX: &str = "-PISTON MAX 3000 1000 0.5 0.25 8000";
 
 #[test]
 fn slow_pull_raises_tension_to_tmax_while_piston_extends() {
-    let mut rig = Rig::spring(MAX);
+    let mut rig = PistonRig::spring(MAX);
     // 0.4 m/s in steps of 0.1 s: 400 N a step; TMAX after 20 steps, then the piston goes 0.04 m a step
     for i in 1..=60 {
         let moved = 0.04 * f64::from(i);
@@ -108,7 +108,7 @@ fn slow_pull_raises_tension_to_tmax_while_piston_extends() {
 
 #[test]
 fn pull_faster_than_piston_exceeds_tmax_by_speed_difference() {
-    let mut rig = Rig::spring(MAX);
+    let mut rig = PistonRig::spring(MAX);
     // 0.8 m/s: TMAX after 1 s; then 0.3 m/s are left to the spring, 300 N a step, until the piston, 2 m further and 4 s later, stops
     for i in 1..=70 {
         let (t, moved) = (0.1 * f64::from(i), 0.08 * f64::from(i));
@@ -125,7 +125,7 @@ fn pull_faster_than_piston_exceeds_tmax_by_speed_difference() {
 
 #[test]
 fn max_piston_returns_to_nominal_and_never_exceeds_tmax() {
-    let mut rig = Rig::spring(MAX);
+    let mut rig = PistonRig::spring(MAX);
     rig.state[0] = 2.0;
     // let go at once: 0.25 m/s back, 4 s to LD, and no shorter
     for i in 1..=50 {
@@ -140,7 +140,7 @@ fn max_piston_returns_to_nominal_and_never_exceeds_tmax() {
 
 #[test]
 fn minmax_piston_keeps_tension_between_both_limits() {
-    let mut rig = Rig::spring(MINMAX);
+    let mut rig = PistonRig::spring(MINMAX);
     // 5000 N, then relaxed at 0.2 m/s: TMIN after 1.5 s, held from there by shortening to 0 another 5 s later; then slack
     assert_near(rig.step(0.5, 0.1), 5000.0);
     assert_near(rig.state[0], 1.0);
@@ -160,7 +160,7 @@ fn minmax_piston_keeps_tension_between_both_limits() {
 
 #[test]
 fn release_faster_than_piston_drops_below_tmin_and_recovers() {
-    let mut rig = Rig::spring(MINMAX);
+    let mut rig = PistonRig::spring(MINMAX);
     // held at 0.1 m, 1000 N: 0.025 m a step, 250 N, up to 2000 N
     for i in 1..=6 {
         assert_near(rig.step(0.1, 0.1), (1000.0 + 250.0 * f64::from(i)).min(2000.0));
@@ -170,7 +170,7 @@ fn release_faster_than_piston_drops_below_tmin_and_recovers() {
 #[test]
 fn monotone_pull_gives_monotone_tension_at_any_step() {
     for dt in [0.001, 0.013, 0.1, 1.0] {
-        let mut rig = Rig::spring(MINMAX);
+        let mut rig = PistonRig::spring(MINMAX);
         let (mut before, mut place) = (0.0, 1.0);
         let steps = (5.0_f64 / dt) as usize;
         for i in 1..=steps {
@@ -187,7 +187,7 @@ fn monotone_pull_gives_monotone_tension_at_any_step() {
 
 #[test]
 fn static_piston_slides_to_hold_limit_or_to_its_stop() {
-    let rig = Rig::spring(MINMAX);
+    let rig = PistonRig::spring(MINMAX);
     for (moved, tension, position) in [
         (0.5, 5000.0, 1.0),
         (1.3, 8000.0, 1.5),
@@ -202,7 +202,7 @@ fn static_piston_slides_to_hold_limit_or_to_its_stop() {
         assert_near(at, position);
     }
     // of MAX nothing is taken up
-    let (tension, position) = Rig::spring(MAX).rest(-0.3);
+    let (tension, position) = PistonRig::spring(MAX).rest(-0.3);
     assert_eq!((tension, position), (0.0, 1.0));
     let reported = rig.summary(1.3);
     assert_near(reported.springs[0].deflection, 1.5);
@@ -217,7 +217,7 @@ fn static_piston_slides_to_hold_limit_or_to_its_stop() {
 
 #[test]
 fn constant_tension_leaves_only_geometric_stiffness() {
-    let rig = Rig::spring(MINMAX);
+    let rig = PistonRig::spring(MINMAX);
     for dt in [None, Some(5.0)] {
         let (out, _) = rig.evaluate_at(1.3, 0.0, dt);
         // T over the distance across, nothing along
@@ -230,7 +230,7 @@ fn constant_tension_leaves_only_geometric_stiffness() {
 
 #[test]
 fn piston_limits_pushing_spring_too() {
-    let rig = Rig::new(
+    let rig = PistonRig::new(
         "SL_ELEM 100 -LEN 100 -EMOD 400/3.14159265358979323846 -PISTON MINMAX 3000 1000 0.5 0.25 8000 0",
         "~C *A *B",
         [100.0, 0.0, -5.0],
@@ -242,7 +242,7 @@ fn piston_limits_pushing_spring_too() {
 
 #[test]
 fn evaluation_does_not_move_the_piston() {
-    let mut rig = Rig::spring(MAX);
+    let mut rig = PistonRig::spring(MAX);
     rig.step(1.0, 10.0);
     let before = rig.state.clone();
     let first = rig.evaluate_at(1.1, 0.0, Some(0.1));
@@ -257,9 +257,9 @@ fn evaluation_does_not_move_the_piston() {
 fn line_to_ground_is_held_at_tmax_by_travel_along_tension() {
     for flag in ["EXACT", "-TABLE"] {
         let class = |piston: &str| format!("B_CAT 100 {flag} -LEN 1100 -BUOY 0 -WTPL 900 -DEP 200 {piston}");
-        let free = Rig::new(&class(""), "-ANCHOR 0 1080 ~C *A", [0.0; 3]);
-        let held = Rig::new(&class("-PISTON MAX 9000 1000 1 1 2.3E6"), "-ANCHOR 0 1080 ~C *A", [0.0; 3]);
-        let wrench = |rig: &Rig, first: Vector3<f64>| {
+        let free = PistonRig::new(&class(""), "-ANCHOR 0 1080 ~C *A", [0.0; 3]);
+        let held = PistonRig::new(&class("-PISTON MAX 9000 1000 1 1 2.3E6"), "-ANCHOR 0 1080 ~C *A", [0.0; 3]);
+        let wrench = |rig: &PistonRig, first: Vector3<f64>| {
             let ends = [first, rig.ends[1]].map(|p| End::still(Pose::from_position(p.into())));
             let (out, trial) = rig.answer(ends, None);
             (out.wrench[0].fixed_rows::<3>(0).into_owned(), trial)
@@ -276,7 +276,7 @@ fn line_to_ground_is_held_at_tmax_by_travel_along_tension() {
 
 #[test]
 fn dashpot_adds_limited_power_law_force_under_tension_only() {
-    let rig = Rig::spring("-X_DAMPING 3000 2 4000");
+    let rig = PistonRig::spring("-X_DAMPING 3000 2 4000");
     for (moved, speed, want) in [
         (0.5, 0.0, 5000.0),
         (0.5, 1.0, 8000.0),
@@ -294,13 +294,13 @@ fn dashpot_adds_limited_power_law_force_under_tension_only() {
     // 2 Co v
     assert_near(rig.evaluate_at(0.5, 0.7, Some(0.1)).0.damping[0][(0, 0)], 4200.0);
     // no cap without Fo
-    assert_near(Rig::spring("-X_DAMPING 3000 1").evaluate_at(0.5, 9.0, Some(0.1)).0.wrench[0][0], 32_000.0);
+    assert_near(PistonRig::spring("-X_DAMPING 3000 1").evaluate_at(0.5, 9.0, Some(0.1)).0.wrench[0][0], 32_000.0);
 }
 
 #[test]
 fn series_viscoelastic_spring_relaxes_by_combined_exponential() {
     // K(t) = 2E4 + 3E4 exp(-t/tau) in series with k = 1E4; the fit of two points is exact, and tells tau
-    let mut rig = Rig::spring("-CONVOLUTION SOFT");
+    let mut rig = PistonRig::spring("-CONVOLUTION SOFT");
     let curve = rig.session.job.model.curves.values().next().unwrap();
     let law = windlass_connectors::viscous::ViscoelasticLaw::fit(curve).unwrap().law;
     assert_eq!(law.branches.len(), 1);
@@ -329,7 +329,7 @@ fn series_viscoelastic_spring_relaxes_by_combined_exponential() {
 #[test]
 fn static_viscoelastic_catenary_has_end_spring_of_long_term_stiffness() {
     let class = |more: &str| format!("H_CAT 100 EXACT -LEN 320 -WTPL 700 {more}");
-    let at = |more: &str| Rig::new(&class(more), "~C *A *B", [250.0, 180.0, -40.0]).evaluate_at(0.0, 0.0, None).0;
+    let at = |more: &str| PistonRig::new(&class(more), "~C *A *B", [250.0, 180.0, -40.0]).evaluate_at(0.0, 0.0, None).0;
     let (soft, plain) = (at("-CONVOLUTION SOFT"), at("-SEND 2E4"));
     for i in 0..2 {
         assert!((soft.wrench[i] - plain.wrench[i]).norm() <= 1e-8 * plain.wrench[i].norm());

@@ -11,15 +11,15 @@ use windlass_model::{
 };
 
 /// A spring between a point of a body and another, or the ground, as records define it.
-struct Joint {
+struct JointBench {
     session: Session,
     element: Box<dyn ConnectorElement>,
     state: Vec<f64>,
 }
 
-impl Joint {
+impl JointBench {
     /// The class `~C` with a connector between *A of body ONE and `second`; an assembly's connectors have their second end given.
-    fn new(records: &str, connector: &str) -> Joint {
+    fn new(records: &str, connector: &str) -> JointBench {
         let (mut session, screen, _folder) = common::session();
         let text = format!(
             "&DIMEN -DIMEN METERS N\nMEDIT\n*GROUND 0 0 0\n&DESCRIBE BODY ONE\n*A 0 0 0\n&DESCRIBE BODY TWO\n*B 0 0 0\n\
@@ -46,11 +46,11 @@ impl Joint {
         };
         let element = class.object.element(&made).unwrap();
         let state = vec![0.0; element.states()];
-        Joint { session, element, state }
+        JointBench { session, element, state }
     }
 
-    fn between_bodies(records: &str) -> Joint {
-        Joint::new(records, "~C *A *B")
+    fn between_bodies(records: &str) -> JointBench {
+        JointBench::new(records, "~C *A *B")
     }
 
     /// The wrench on the first end: the second stands at these places and moves with this velocity.
@@ -101,7 +101,7 @@ fn assert_near(got: &[f64], want: &[f64]) {
 
 #[test]
 fn gspr_force_uses_spring_values_along_first_body_axes() {
-    let joint = Joint::between_bodies("~C GSPR X 1000 Y 200 Z 300");
+    let joint = JointBench::between_bodies("~C GSPR X 1000 Y 200 Z 300");
     // moment about the first point: d x F = (0.1, 0.2, -0.3) x (100, 40, -90)
     assert_near(&joint.pull([0.1, 0.2, -0.3]), &[100.0, 40.0, -90.0, -6.0, -21.0, -16.0]);
     // a quarter turn of the first body about Z: its X is global Y
@@ -113,7 +113,7 @@ fn gspr_force_uses_spring_values_along_first_body_axes() {
     );
     assert_near(&got.wrench[1].as_slice()[..3], &[-20.0, -200.0, 90.0]);
     // -EULER by the same angle, the body not turned
-    let euler = Joint::new("~C GSPR X 1000 Y 200 Z 300", "-EULER 0 0 90 ~C *A *B");
+    let euler = JointBench::new("~C GSPR X 1000 Y 200 Z 300", "-EULER 0 0 90 ~C *A *B");
     assert_near(&euler.pull([0.1, 0.2, -0.3])[..3], &[20.0, 200.0, -90.0]);
     // the second body may turn: translations do not know
     let (got, _) = joint.evaluate_at([0.0; 6], [0.1, 0.2, -0.3, 0.5, 0.6, 0.7], [0.0; 3], None);
@@ -122,7 +122,7 @@ fn gspr_force_uses_spring_values_along_first_body_axes() {
 
 #[test]
 fn element_axes_are_global_with_first_node_on_ground() {
-    let joint = Joint::new("~C GSPR X 1000", "~C *GROUND *B");
+    let joint = JointBench::new("~C GSPR X 1000", "~C *GROUND *B");
     let (got, _) = joint.evaluate_at([0.0; 6], [0.1, 0.2, 0.0, 0.4, 0.5, 0.6], [0.0; 3], None);
     assert_near(&got.wrench[0].as_slice()[..3], &[100.0, 0.0, 0.0]);
 }
@@ -157,7 +157,7 @@ fn single_node_is_held_at_its_position_at_definition() {
 
 #[test]
 fn rotation_spring_restores_rotation_since_definition() {
-    let joint = Joint::between_bodies("~C GSPR RX 100 RY 100 RZ 100");
+    let joint = JointBench::between_bodies("~C GSPR RX 100 RY 100 RZ 100");
     // an isotropic rotation spring: a moment along the rotation vector; here 0.3 rad about Y
     let (got, _) = joint.evaluate_at([0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.3, 0.0], [0.0; 3], None);
     assert_near(got.wrench[0].as_slice(), &[0.0, 0.0, 0.0, 0.0, 30.0, 0.0]);
@@ -166,7 +166,7 @@ fn rotation_spring_restores_rotation_since_definition() {
     let turn = [0.0, 0.0, 0.0, 0.4, -0.2, 1.0];
     assert_near(joint.evaluate_at(turn, turn, [0.0; 3], None).0.wrench[0].as_slice(), &[0.0; 6]);
     // one spring about X, the turn (t, 0, t): J^-T (K t, 0, 0) = K t (1, t/2, 0) + c t2-terms: c (K t) (-t2, 0, t2), c(2 t2)
-    let joint = Joint::between_bodies("~C GSPR RX 100");
+    let joint = JointBench::between_bodies("~C GSPR RX 100");
     let t: f64 = 0.5;
     let angle = 2.0_f64.sqrt() * t;
     let turn = nalgebra::Rotation3::new(nalgebra::Vector3::new(t, 0.0, t));
@@ -179,41 +179,41 @@ fn rotation_spring_restores_rotation_since_definition() {
 
 #[test]
 fn no_degree_of_freedom_is_loaded_against_its_sense() {
-    let tension = Joint::between_bodies("~C GSPR TENSION X 1000 Y 200 RZ 50");
+    let tension = JointBench::between_bodies("~C GSPR TENSION X 1000 Y 200 RZ 50");
     assert_near(&tension.pull([-0.1, 0.3, 0.0]), &[0.0; 6]);
     assert_near(&tension.pull([0.1, 0.3, 0.0])[..2], &[100.0, 60.0]);
     assert_near(&tension.pull([0.0, 0.3, 0.0])[..2], &[0.0, 60.0]);
     let turned = [-0.1, 0.3, 0.0, 0.0, 0.0, 0.2];
     assert_near(tension.evaluate_at([0.0; 6], turned, [0.0; 3], None).0.wrench[0].as_slice(), &[0.0; 6]);
-    let compression = Joint::between_bodies("~C FOUNDATION COMPRESSION X 1000 Y 200");
+    let compression = JointBench::between_bodies("~C FOUNDATION COMPRESSION X 1000 Y 200");
     assert_near(&compression.pull([0.1, 0.3, 0.0]), &[0.0; 6]);
     assert_near(&compression.pull([-0.1, 0.3, 0.0])[..2], &[-100.0, 60.0]);
 }
 
 #[test]
 fn len_offsets_spring_start_along_element_x() {
-    let joint = Joint::between_bodies("~C GSPR X 1000 Y 200 -LEN 2");
+    let joint = JointBench::between_bodies("~C GSPR X 1000 Y 200 -LEN 2");
     assert_near(&joint.pull([2.1, 0.3, 0.0]), &[100.0, 60.0, 0.0, 0.0, 0.0, 2.1 * 60.0 - 0.3 * 100.0]);
 }
 
 #[test]
 fn symmetric_spring_has_z_as_y_and_curve_on_resultant() {
-    let joint = Joint::between_bodies("~C GSPR X 1000 Y 200 RY 70 -SYMMETRIC");
+    let joint = JointBench::between_bodies("~C GSPR X 1000 Y 200 RY 70 -SYMMETRIC");
     assert_near(&joint.pull([0.0, 0.3, 0.4])[..3], &[0.0, 60.0, 80.0]);
     let (got, _) = joint.evaluate_at([0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.0, 0.2], [0.0; 3], None);
     assert_near(&got.wrench[0].as_slice()[3..], &[0.0, 0.0, 14.0]);
     // 200 N/m in series with 50 N at 0.25 m: at 0.5 m both have 50 N
-    let joint = Joint::between_bodies("~C GSPR X 1000 Y 200 -SYMMETRIC -Y_PY 50 0.25 500 0.5");
+    let joint = JointBench::between_bodies("~C GSPR X 1000 Y 200 -SYMMETRIC -Y_PY 50 0.25 500 0.5");
     assert_near(&joint.pull([0.0, 0.3, 0.4])[..3], &[0.0, 30.0, 40.0]);
     // not symmetric unless said: Z is free
-    assert_near(&Joint::between_bodies("~C GSPR X 1000 Y 200").pull([0.0, 0.3, 0.4])[..3], &[0.0, 60.0, 0.0]);
+    assert_near(&JointBench::between_bodies("~C GSPR X 1000 Y 200").pull([0.0, 0.3, 0.4])[..3], &[0.0, 60.0, 0.0]);
 }
 
 #[test]
 fn p_y_curves_are_in_series_with_basic_stiffness_in_x_y_and_z() {
     // 1000 N/m and a curve through (100, 0.3), (300, 0.5): at 200 N the two deflect 0.2 + 0.4 m, and 500 N/m lie beyond 0.8 m
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
-        let joint = Joint::between_bodies(&format!("~C GSPR X 1000 Y 1000 Z 1000 -{name}_PY 100 0.3 300 0.5"));
+        let joint = JointBench::between_bodies(&format!("~C GSPR X 1000 Y 1000 Z 1000 -{name}_PY 100 0.3 300 0.5"));
         for (u, f) in [(0.6, 200.0), (-0.6, -200.0), (0.2, 50.0), (1.2, 500.0)] {
             let mut at = [0.0; 3];
             at[axis] = u;
@@ -227,7 +227,7 @@ fn p_y_curves_are_in_series_with_basic_stiffness_in_x_y_and_z() {
 #[test]
 fn dashpot_has_limited_power_law_force_while_spring_acts() {
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
-        let joint = Joint::between_bodies(&format!("~C GSPR X 1000 Y 1000 Z 1000 -{name}_DAMPING 5 2 40"));
+        let joint = JointBench::between_bodies(&format!("~C GSPR X 1000 Y 1000 Z 1000 -{name}_DAMPING 5 2 40"));
         for (v, f) in [(2.0, 20.0), (-2.0, -20.0), (4.0, 40.0)] {
             let mut rate = [0.0; 3];
             rate[axis] = v;
@@ -237,7 +237,7 @@ fn dashpot_has_limited_power_law_force_while_spring_acts() {
         }
     }
     // without Fo no cap; with SENSE only while the spring has a force
-    let joint = Joint::between_bodies("~C GSPR COMPRESSION X 1000 -X_DAMPING 5 2");
+    let joint = JointBench::between_bodies("~C GSPR COMPRESSION X 1000 -X_DAMPING 5 2");
     assert_near(&joint.passing([-0.1, 0.0, 0.0], [-10.0, 0.0, 0.0]), &[-600.0, 0.0, 0.0]);
     assert_near(&joint.passing([0.1, 0.0, 0.0], [-10.0, 0.0, 0.0]), &[0.0; 3]);
     // statics know no rates
@@ -246,7 +246,7 @@ fn dashpot_has_limited_power_law_force_while_spring_acts() {
 
 #[test]
 fn friction_limits_resultant_of_lateral_springs() {
-    let joint = Joint::between_bodies("~C GSPR X 1000 Y 200 Z 200 -FRICTION 0.3");
+    let joint = JointBench::between_bodies("~C GSPR X 1000 Y 200 Z 200 -FRICTION 0.3");
     // Fx 100: at most 30; (60, 80) is cut to (18, 24), (12, 16) is not
     assert_near(&joint.pull([0.1, 0.3, 0.4])[..3], &[100.0, 18.0, 24.0]);
     assert_near(&joint.pull([-0.1, 0.06, 0.08])[..3], &[-100.0, 12.0, 16.0]);
@@ -255,7 +255,7 @@ fn friction_limits_resultant_of_lateral_springs() {
 
 #[test]
 fn friction_without_lateral_springs_acts_against_relative_velocity() {
-    let joint = Joint::between_bodies("~C GSPR COMPRESSION X 1000 -FRICTION 0.3");
+    let joint = JointBench::between_bodies("~C GSPR COMPRESSION X 1000 -FRICTION 0.3");
     // the second end slides with (0, 3, 4) m/s over the first and drags it along with 0.3 x 100 N; v0 = 0.01 m/s takes 2E-6 of it
     let got = joint.passing([-0.1, 0.0, 0.0], [0.0, 3.0, 4.0]);
     assert!((got[1] - 18.0).abs() < 1e-4 && (got[2] - 24.0).abs() < 1e-4, "{got:?}");
@@ -270,9 +270,9 @@ const VISCOUS: &str =
 fn viscoelastic_spring_is_in_series_with_own_stiffness_in_time() {
     // K(t) = 2000 + 3000 exp(-t/4) in series with 1000 N/m, a deflection of 0.6 m held: at once 1000 x 5000 / 6000, at last
     // 1000 x 2000 / 3000 of it; between, 1000 (u - w) = Kinf w + branch with the time constant 4 x 6000 / 3000 = 8 s
-    let mut joint = Joint::between_bodies(&format!("{VISCOUS}\n~C GSPR X 1000 -CONVOLUTION X SOFT"));
+    let mut joint = JointBench::between_bodies(&format!("{VISCOUS}\n~C GSPR X 1000 -CONVOLUTION X SOFT"));
     assert_near(&joint.pull([0.6, 0.0, 0.0])[..1], &[400.0]);
-    let force = |joint: &mut Joint, dt: f64| {
+    let force = |joint: &mut JointBench, dt: f64| {
         let (out, trial) = joint.evaluate_at([0.0; 6], [0.6, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 3], Some(dt));
         joint.state = trial;
         out.wrench[0][0]
@@ -286,7 +286,7 @@ fn viscoelastic_spring_is_in_series_with_own_stiffness_in_time() {
     // after 8 s: 400 + 100 / e; the curve is given to eight figures, and 1000 steps of second order
     assert!((last - (400.0 + 100.0 / std::f64::consts::E)).abs() < 1e-2, "{last}");
     // in a rotation the same numbers are N m/rad
-    let turned = Joint::between_bodies(&format!("{VISCOUS}\n~C GSPR RX 1000 -CONVOLUTION RX SOFT"));
+    let turned = JointBench::between_bodies(&format!("{VISCOUS}\n~C GSPR RX 1000 -CONVOLUTION RX SOFT"));
     let (out, _) = turned.evaluate_at([0.0; 6], [0.0, 0.0, 0.0, 0.6, 0.0, 0.0], [0.0; 3], None);
     assert_near(&out.wrench[0].as_slice()[3..4], &[400.0]);
 }
@@ -322,7 +322,7 @@ fn rotational_curve_in_feet_is_moment_per_radian() {
 
 #[test]
 fn report_has_deflections_forces_and_largest_utilisation() {
-    let joint = Joint::between_bodies("~C FOUNDATION COMPRESSION X 1000 500 Y 200 50 Z 300 -IG_STIFF");
+    let joint = JointBench::between_bodies("~C FOUNDATION COMPRESSION X 1000 500 Y 200 50 Z 300 -IG_STIFF");
     let summary = joint.summary([0.0; 6], [-0.1, 0.3, 0.2, 0.0, 0.0, 0.0]);
     assert_eq!(summary.tension, Some(-100.0));
     assert_near(&[summary.ratio.unwrap()], &[1.2]);
@@ -346,7 +346,7 @@ fn report_has_deflections_forces_and_largest_utilisation() {
 const LMU: &str = "~C LMU 1000 400 800 X 5000 Y 3000";
 
 fn pin(x: f64, down: f64) -> [f64; 3] {
-    let joint = Joint::between_bodies(LMU);
+    let joint = JointBench::between_bodies(LMU);
     let (out, _) = joint.evaluate_at([x, 0.0, -down, 0.0, 0.0, 0.0], [0.0; 6], [0.0; 3], None);
     [out.wrench[0][0], out.wrench[0][1], out.wrench[0][2]]
 }
@@ -366,7 +366,7 @@ fn pin_at_side_of_cone_is_pushed_to_axis_and_up() {
     assert_near(&pin(-0.18, 0.4), &[180.0, 0.0, 60.0]);
     assert_near(&pin(0.11, 0.4), &[0.0; 3]);
     // -SYMMETRIC is the default: across too
-    let joint = Joint::between_bodies(LMU);
+    let joint = JointBench::between_bodies(LMU);
     let (out, _) = joint.evaluate_at([0.0, 0.18, -0.4, 0.0, 0.0, 0.0], [0.0; 6], [0.0; 3], None);
     assert_near(&out.wrench[0].as_slice()[..3], &[0.0, -180.0, 60.0]);
 }
@@ -380,18 +380,18 @@ fn landed_pin_is_pushed_up_by_bottom_and_by_side() {
 #[test]
 fn cone_rotates_with_its_body_and_with_euler() {
     // body TWO lies on its side: its z axis along global x (a pitch of 90 degrees); the pin comes from +x
-    let joint = Joint::between_bodies(LMU);
+    let joint = JointBench::between_bodies(LMU);
     let lying = [0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2, 0.0];
     let (out, _) = joint.evaluate_at([-1.1, 0.05, 0.0, 0.0, 0.0, 0.0], lying, [0.0; 3], None);
     assert_near(&out.wrench[0].as_slice()[..3], &[550.0, -150.0, 0.0]);
-    let euler = Joint::new(LMU, "-EULER 0 90 0 ~C *A *B");
+    let euler = JointBench::new(LMU, "-EULER 0 90 0 ~C *A *B");
     let (out, _) = euler.evaluate_at([-1.1, 0.05, 0.0, 0.0, 0.0, 0.0], [0.0; 6], [0.0; 3], None);
     assert_near(&out.wrench[0].as_slice()[..3], &[550.0, -150.0, 0.0]);
 }
 
 #[test]
 fn pin_entering_beside_cone_mouth_is_warned() {
-    let joint = Joint::between_bodies(LMU);
+    let joint = JointBench::between_bodies(LMU);
     assert!(
         joint.summary([0.3, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 6]).notes[0]
             .without_values()
@@ -404,7 +404,7 @@ fn pin_entering_beside_cone_mouth_is_warned() {
 fn slings_and_davits_have_ae_over_l_in_tension_only() {
     // 50 mm: A = 1.9634954E-3 m2; E 2E5 MPa: AE/L = 3.9269908E8 / 5; the ends 5.1 m apart along (0.6, 0, -0.8)
     for kind in ["SLING", "DAVIT"] {
-        let joint = Joint::new(&format!("~C {kind} 50 -LEN 5 -EMOD 2E5"), "~C *A");
+        let joint = JointBench::new(&format!("~C {kind} 50 -LEN 5 -EMOD 2E5"), "~C *A");
         let force = std::f64::consts::FRAC_PI_4 * 0.0025 * 2e11 / 5.0 * 0.1;
         assert_near(&joint.pull([3.06, 0.0, -4.08]), &[0.6 * force, 0.0, -0.8 * force, 0.0, 0.0, 0.0]);
         assert_near(&joint.pull([2.9, 0.0, -4.0]), &[0.0; 6]);
@@ -414,24 +414,24 @@ fn slings_and_davits_have_ae_over_l_in_tension_only() {
 
 #[test]
 fn roller_pushes_beyond_its_gaps_and_frees_pipe_within() {
-    let joint = Joint::new("~C ROLLER Y 1000 Z 2000 -Y_ROLLER 20 30 -Z_ROLLER 0 10000", "~C *A");
+    let joint = JointBench::new("~C ROLLER Y 1000 Z 2000 -Y_ROLLER 20 30 -Z_ROLLER 0 10000", "~C *A");
     assert_near(&joint.pull([0.0, 0.03, 5.0])[..3], &[0.0; 3]);
     // on the node: pressed down by the pipe 0.1 m below it; beside: 0.05 beyond +30 mm, 0.05 beyond -20 mm
     assert_near(&joint.pull([0.3, 0.08, -0.1])[..3], &[0.0, 50.0, -200.0]);
     assert_near(&joint.pull([0.0, -0.07, 0.1])[..3], &[0.0, -50.0, 0.0]);
     // one pair alone: the other direction is free
-    let sides = Joint::new("~C ROLLER Y 1000 Z 2000 -Y_ROLLER 20 30", "~C *A");
+    let sides = JointBench::new("~C ROLLER Y 1000 Z 2000 -Y_ROLLER 20 30", "~C *A");
     assert_near(&sides.pull([0.0, 0.08, -0.1])[..3], &[0.0, 50.0, 0.0]);
 }
 
 #[test]
 fn roller_without_gaps_holds_pipe_by_curves_in_series() {
-    let joint = Joint::new("~C ROLLER X 1", "~C *A");
+    let joint = JointBench::new("~C ROLLER X 1", "~C *A");
     assert_near(&joint.pull([0.0, 1e-3, 0.1])[..3], &[0.0, 1e6, 0.0]);
     assert_near(&joint.pull([0.0, 0.0, -1e-3])[..3], &[0.0, 0.0, -1e6]);
     // 1000 N/m and 100 N at 0.1 m: 0.2 m together
     for (name, at, force) in [("Y", [0.0, 0.2, 0.0], [0.0, 100.0, 0.0]), ("Z", [0.0, 0.0, -0.2], [0.0, 0.0, -100.0])] {
-        let joint = Joint::new(&format!("~C ROLLER Y 1000 Z 1000 -{name}_PY 100 0.1"), "~C *A");
+        let joint = JointBench::new(&format!("~C ROLLER Y 1000 Z 1000 -{name}_PY 100 0.1"), "~C *A");
         assert_near(&joint.pull(at)[..3], &force);
     }
 }
@@ -439,21 +439,21 @@ fn roller_without_gaps_holds_pipe_by_curves_in_series() {
 #[test]
 fn restraints_have_no_force_at_definition_and_are_rigid_from_there() {
     let records = |class: &str| format!("*AWAY 3 4 5\n{class}");
-    let fix = Joint::new(&records("~C FIX X Z RY"), "~C *A *AWAY");
+    let fix = JointBench::new(&records("~C FIX X Z RY"), "~C *A *AWAY");
     assert_near(&fix.pull([3.0, 4.0, 5.0]), &[0.0; 6]);
     let got = fix.pull([3.0 + 1e-9, 7.0, 5.0]);
     assert!((got[0] - 1000.0).abs() < 1.0 && got[1] == 0.0, "{got:?}");
-    let all = Joint::new(&records("~C FIX"), "~C *A *AWAY");
+    let all = JointBench::new(&records("~C FIX"), "~C *A *AWAY");
     let (got, _) = all.evaluate_at([0.0; 6], [3.0, 4.0, 5.0, 1e-9, 0.0, 0.0], [0.0; 3], None);
     assert!((got.wrench[0][3] - 1000.0).abs() < 1.0, "{}", got.wrench[0]);
-    let spr = Joint::new(&records("~C SPR X 1000 RZ 50"), "~C *A *AWAY");
+    let spr = JointBench::new(&records("~C SPR X 1000 RZ 50"), "~C *A *AWAY");
     assert_near(&spr.pull([3.1, 4.0, 5.0])[..3], &[100.0, 0.0, 0.0]);
     assert!([fix, spr].iter().all(|joint| joint.element.category() == ConnectorCategory::Rigid));
 }
 
 #[test]
 fn gap_pushes_sticks_slides_and_releases() {
-    let mut gap = Joint::between_bodies("~C GAP 0.3");
+    let mut gap = JointBench::between_bodies("~C GAP 0.3");
     assert_near(&gap.pull([1e-3, 0.2, 0.0]), &[0.0; 6]);
     // pressed by 1E6 N: sticks up to 3E5 N, 0.3 um; then slides, and the force stays
     assert_near(&gap.pull([-1e-6, 2e-7, 0.0])[..3], &[-1e6, 2e5, 0.0]);
@@ -463,13 +463,13 @@ fn gap_pushes_sticks_slides_and_releases() {
     // from where it slid to, 0.2 um back: 2E5 N less
     gap.state = trial;
     assert_near(&gap.pull([-1e-6, 0.0, 0.5 - 2e-7])[..3], &[-1e6, 0.0, 1e5]);
-    let smooth = Joint::between_bodies("~C GAP");
+    let smooth = JointBench::between_bodies("~C GAP");
     assert_near(&smooth.pull([-1e-6, 0.5, 0.0])[..3], &[-1e6, 0.0, 0.0]);
 }
 
 #[test]
 fn tug_force_is_toward_its_direction() {
-    let joint = Joint::new("~C TUG_BOAT 500", "-TUG 60 100 ~C *A");
+    let joint = JointBench::new("~C TUG_BOAT 500", "-TUG 60 100 ~C *A");
     let (out, _) = joint.evaluate_at([1.0, 2.0, 3.0, 0.1, 0.2, 0.3], [0.0; 6], [0.0; 3], None);
     assert_near(out.wrench[0].as_slice(), &[250.0, 500.0 * 0.75_f64.sqrt(), 0.0, 0.0, 0.0, 0.0]);
     assert!(out.stiffness.iter().all(|k| k.amax() == 0.0));
@@ -477,7 +477,7 @@ fn tug_force_is_toward_its_direction() {
 
 #[test]
 fn constant_tension_line_stiffness_matches_chord_direction() {
-    let joint = Joint::between_bodies("~C CT_LINE 2600");
+    let joint = JointBench::between_bodies("~C CT_LINE 2600");
     // the chord (3, 4, 12) is 13 m long: 200 N a metre
     let (out, _) = joint.evaluate_at([0.0; 6], [3.0, 4.0, 12.0, 0.0, 0.0, 0.0], [0.0; 3], None);
     assert_near(out.wrench[0].as_slice(), &[600.0, 800.0, 2400.0, 0.0, 0.0, 0.0]);
@@ -491,12 +491,12 @@ fn constant_tension_line_stiffness_matches_chord_direction() {
 #[test]
 fn winch_friction_changes_tension_winding_in_and_paying_out() {
     // 1000 N, friction 0.3 and 0.1: 700 N winding in and 1100 N paying out, the example of the workbench's manual
-    let joint = Joint::between_bodies("~C CT_LINE 1000 -LENGTH 5 -FRICTION 0.3 0.1");
+    let joint = JointBench::between_bodies("~C CT_LINE 1000 -LENGTH 5 -FRICTION 0.3 0.1");
     assert_eq!(joint.pull([6.0, 0.0, 0.0])[0], 700.0);
     assert_eq!(joint.passing([6.0, 0.0, 0.0], [-0.5, 0.0, 0.0])[0], 700.0);
     assert!((joint.passing([6.0, 0.0, 0.0], [0.5, 0.0, 0.0])[0] - 1100.0).abs() < 1e-9);
     // a negative factor of winding in: the tension of paying out at rest
-    let joint = Joint::between_bodies("~C CT_LINE 1000 -LENGTH 5 -FRICTION -0.3 0.1");
+    let joint = JointBench::between_bodies("~C CT_LINE 1000 -LENGTH 5 -FRICTION -0.3 0.1");
     assert!((joint.pull([6.0, 0.0, 0.0])[0] - 1100.0).abs() < 1e-9);
     assert!((joint.passing([6.0, 0.0, 0.0], [-0.5, 0.0, 0.0])[0] - 700.0).abs() < 1e-9);
     // nearer than its length it is slack
@@ -506,21 +506,22 @@ fn winch_friction_changes_tension_winding_in_and_paying_out() {
 #[test]
 fn nonlinear_line_follows_polynomial_and_steel_wire_law() {
     // 13 m apart, 1 m beyond 12: 3 + 5 + 7 + 11 + 13 N; 1.5 m beyond 11.5 by numpy.polyval([13, 11, 7, 5, 3, 0], 1.5)
-    let poly =
-        |length: &str| Joint::between_bodies(&format!("~C NLIN {length} -POLY 3 5 7 11 13")).pull([3.0, 4.0, 12.0]);
+    let poly = |length: &str| {
+        JointBench::between_bodies(&format!("~C NLIN {length} -POLY 3 5 7 11 13")).pull([3.0, 4.0, 12.0])
+    };
     assert_near(&poly("12")[..3], &[39.0 * 3.0 / 13.0, 12.0, 36.0]);
     assert_near(&poly("11.5")[..3], &[193.78125 * 3.0 / 13.0, 193.78125 * 4.0 / 13.0, 193.78125 * 12.0 / 13.0]);
     // at its length and below it is slack
     assert_eq!((poly("13")[0], poly("14")[0]), (0.0, 0.0));
     // k (e - d tanh(e/d)) with k = 2E5 N/m, d = 0.4 m, e = 0.5 m: 2E5 (0.5 - 0.4 numpy.tanh(1.25)) = 32137.30880
-    let wire = Joint::between_bodies("~C NLIN 12.5 -SWIRE 2E5 0.4").pull([13.0, 0.0, 0.0]);
+    let wire = JointBench::between_bodies("~C NLIN 12.5 -SWIRE 2E5 0.4").pull([13.0, 0.0, 0.0]);
     assert!((wire[0] - 32_137.308_803).abs() < 1e-3, "{wire:?}");
 }
 
 #[test]
 fn line_over_pulley_shares_stretch_by_ratio_of_tensions() {
     // 13 m to the pulley and 8 m behind it of 20 m: 1E5 N without friction; running with 1.2, 21E5 / (13 + 8 / 1.2) and 21E5 / (13 + 8 1.2)
-    let joint = Joint::between_bodies("~C PULY 1E5 20 8 -RATIO 1.2");
+    let joint = JointBench::between_bodies("~C PULY 1E5 20 8 -RATIO 1.2");
     let pull = |rate: f64| {
         let [x, y, z] = joint.passing([3.0, 4.0, 12.0], [3.0, 4.0, 12.0].map(|part| rate * part / 13.0));
         x.hypot(y).hypot(z)
@@ -533,7 +534,7 @@ fn line_over_pulley_shares_stretch_by_ratio_of_tensions() {
 fn drum_winds_in_to_its_last_length_or_largest_tension() {
     // EA = 2E5 N/m times (10 + 2) m; the ends 10.1 m apart
     let drum = |data: &str, dt: f64| {
-        let joint = Joint::between_bodies(&format!("~C LNDW 2E5 10 {data} -ADDED 2"));
+        let joint = JointBench::between_bodies(&format!("~C LNDW 2E5 10 {data} -ADDED 2"));
         let (out, trial) = joint.evaluate_at([0.0; 6], [10.1, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 3], Some(dt));
         (out.wrench[0][0], trial[0])
     };
@@ -564,7 +565,7 @@ const BUCKLING: &str = "~C FENDER 1.5 2E5 0.3 1.5E5 0.5 3E5 0.8 -RATED 0.6 -NORM
 
 #[test]
 fn fender_pushes_by_curve_along_normal_and_never_pulls() {
-    let joint = Joint::between_bodies(BUCKLING);
+    let joint = JointBench::between_bodies(BUCKLING);
     // the face at y: deflection 1.5 - y, at 1.3 on the first piece, at 1.1 on the falling one, at 0.6 beyond the last point
     for (y, push) in [(1.6, 0.0), (1.5, 0.0), (1.3, 2e5 * 0.2 / 0.3), (1.1, 1.75e5), (1.0, 1.5e5), (0.6, 3.5e5)] {
         assert_near(&joint.pull([0.4, y, 0.2])[..3], &[0.0, -push, 0.0]);
@@ -583,7 +584,7 @@ fn fender_pushes_by_curve_along_normal_and_never_pulls() {
 
 #[test]
 fn fender_reports_deflection_and_energy_and_warns_beyond_rating() {
-    let joint = Joint::between_bodies(BUCKLING);
+    let joint = JointBench::between_bodies(BUCKLING);
     let summary = joint.summary([0.0; 6], [0.0, 0.85, 0.0, 0.0, 0.0, 0.0]);
     let state = summary.fender.unwrap();
     // to 0.3 m 30 kNm, to 0.5 m (200 + 150) / 2 x 0.2 = 35 kNm, to 0.65 m (150 + 225) / 2 x 0.15 = 28.125 kNm; rated 0.6 m, 200 kN there
@@ -603,7 +604,7 @@ fn fender_reports_deflection_and_energy_and_warns_beyond_rating() {
 
 #[test]
 fn fender_with_dashpot_pushes_more_going_in_and_never_pulls() {
-    let joint = Joint::between_bodies("~C FENDER 1.5 2E5 0.4 -FRICTION 0.25 -X_DAMPING 1E5 1");
+    let joint = JointBench::between_bodies("~C FENDER 1.5 2E5 0.4 -FRICTION 0.25 -X_DAMPING 1E5 1");
     // 0.2 m: 100 kN; 0.5 m/s: 50 kN
     assert_near(&joint.passing([1.3, 0.0, 0.0], [-0.5, 0.0, 0.0]), &[-1.5e5, 0.0, 0.0]);
     assert_near(&joint.passing([1.3, 0.0, 0.0], [0.5, 0.0, 0.0]), &[-0.5e5, 0.0, 0.0]);

@@ -5,7 +5,7 @@ use crate::common;
 use std::f64::consts::PI;
 use windlass_base::geometry::Place;
 use windlass_model::Model;
-use windlass_solve::{Options, find_equilibrium_with_rebuilds, modes};
+use windlass_solve::{EquilibriumOptions, find_equilibrium_with_rebuilds, modes};
 
 const G: f64 = 9.81;
 const MASS: f64 = 268.8e6;
@@ -30,7 +30,7 @@ fn platform() -> Model {
 #[test]
 fn platform_at_rest_has_buoyancy_less_weight_in_tethers() {
     let mut model = platform();
-    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     let [x, y, z, ..] = model.bodies.get("TLP").unwrap().place.values();
     // the length of the script is rounded to 1e-6 m, the platform with it
     assert!(x == 0.0 && y == 0.0 && (z + 17.4).abs() < 3e-6, "{x} {y} {z}");
@@ -50,7 +50,7 @@ fn platform_at_rest_has_buoyancy_less_weight_in_tethers() {
 #[test]
 fn platform_stiffness_matches_hydrostatics_and_four_strings() {
     let mut model = platform();
-    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     let (gamma, arm, half) = (1025.0 * G, 63.6, 40.0);
     let pull = gamma * VOLUME - MASS * G;
     let (across, along) = (pull / 264.0, 4.0 * EA / LENGTH);
@@ -83,7 +83,7 @@ fn platform_stiffness_matches_hydrostatics_and_four_strings() {
 #[test]
 fn platform_periods_match_string_spring_and_coupled_pair() {
     let mut model = platform();
-    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     let k = |r: usize, c: usize| found.state.stiffness[(r, c)];
     let close = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-6, "{got} is not {want}");
     let list = modes(&found.system, &found.state).unwrap();
@@ -105,7 +105,7 @@ fn platform_offset_sets_down_on_tether_circle() {
     let mut model = platform();
     model.bodies.get_mut("TLP").unwrap().place = Place::new([-46.0, 0.0, -21.4, 0.0, 0.0, 0.0]);
     let (x, pitch) = (0, 4);
-    let options = Options { ignored: vec![(0, x), (0, pitch)], ..Options::default() };
+    let options = EquilibriumOptions { ignored: vec![(0, x), (0, pitch)], ..EquilibriumOptions::default() };
     let found = find_equilibrium_with_rebuilds(&mut model, &options).unwrap();
     let [_, _, z, ..] = model.bodies.get("TLP").unwrap().place.values();
     // tethers of length l at 46 m: vertical balance rho g (V + A (z0 - z)) - W = T sqrt(l2 - 46 2) / l, T = EA (l - L) / L for four,

@@ -4,7 +4,7 @@ use crate::common;
 
 use windlass::session::Session;
 use windlass_model::{Model, SolverCache, Weight};
-use windlass_solve::{Options, SolveError, System, find_equilibrium_with_rebuilds, modes};
+use windlass_solve::{EquilibriumOptions, SolveError, System, find_equilibrium_with_rebuilds, modes};
 
 /// The model that records make, in metres and newtons; each `weights` is one of the body's own part.
 fn model(records: &str, weights: &[(&str, [f64; 3], f64, [f64; 3])]) -> Model {
@@ -34,7 +34,7 @@ fn z_of(model: &Model, body: &str) -> [f64; 6] {
 #[test]
 fn weight_on_spring_hangs_at_its_static_stretch() {
     let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
-    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     let ea = 29000.0 * 6894757.293168361 * std::f64::consts::FRAC_PI_4 * 0.05 * 0.05;
     let want = [0.0, 0.0, -10.0 * (1.0 + 1e5 / ea) - 2.0, 0.0, 0.0];
     for (got, want) in z_of(&model, "LOAD").iter().zip(want) {
@@ -47,7 +47,7 @@ fn weight_on_spring_hangs_at_its_static_stretch() {
 #[test]
 fn periods_match_spring_and_double_pendulum() {
     let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
-    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     let list = modes(&found.system, &found.state).unwrap();
     let ea = 29000.0 * 6894757.293168361 * std::f64::consts::FRAC_PI_4 * 0.05 * 0.05;
     let (g, m) = (9.80665, 1e5 / 9.80665);
@@ -67,7 +67,7 @@ fn periods_match_spring_and_double_pendulum() {
 #[test]
 fn corrupt_stiffness_has_no_modes_and_names_its_entry() {
     let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
-    let mut found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let mut found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     for value in [f64::NAN, f64::INFINITY] {
         for (row, column) in [(3, 3), (3, 5), (3, 0)] {
             let mut damaged = found.state.stiffness.clone();
@@ -95,7 +95,7 @@ fn top_heavy_body_is_reported_unstable() {
              ~PIN FIX X Y Z\nCONNECTOR P ~PIN *Q *P\nEND"
         );
         let mut model = model(&records, &[]);
-        let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+        let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
         let list = modes(&found.system, &found.state).unwrap();
         let want = -9.80665 * height / (25.0 + height * height);
         // rounding of a stiffness of 1e12 N/m over 1e5 kg leaves some 1e-9 rad2/s2
@@ -109,7 +109,7 @@ fn top_heavy_body_is_reported_unstable() {
 fn interrupted_equilibrium_ends_with_its_error() {
     let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
     model.interrupt.store(true, std::sync::atomic::Ordering::Relaxed);
-    let error = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap_err();
+    let error = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap_err();
     assert_eq!(error.error.to_string(), "interrupted");
 }
 
@@ -152,7 +152,8 @@ fn system_stiffness_matches_force_finite_difference() {
 fn unrestrained_weight_is_refused_with_name_and_direction() {
     let records = "MEDIT\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\nEND";
     let mut model = model(records, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
-    let SolveError { who, error } = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap_err();
+    let SolveError { who, error } =
+        find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap_err();
     assert_eq!(who.as_deref(), Some("LOAD"));
     assert!(error.to_string().contains("nothing holds it in Z") && error.to_string().contains("WEIGHT"), "{error}");
 }
@@ -163,8 +164,8 @@ fn stiffness_with_following_junctions_matches_finite_difference() {
     let records: String = records.lines().take_while(|l| !l.starts_with("&STATUS")).map(|l| format!("{l}\n")).collect();
     let mut model = model(&records, &[]);
     let buoy = model.bodies.get_index_of("BUOY").unwrap();
-    let held = Options { ignored: (0..6).map(|f| (buoy, f)).collect(), ..Options::default() };
-    let rest = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let held = EquilibriumOptions { ignored: (0..6).map(|f| (buoy, f)).collect(), ..EquilibriumOptions::default() };
+    let rest = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     let got = rest.system.followed_stiffness(&rest.state, buoy).unwrap();
     let start = rest.state.poses.clone();
     for column in 0..6 {

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_model::Model;
-use windlass_solve::{Options, System, equilibrium};
+use windlass_solve::{EquilibriumOptions, System, equilibrium};
 
 /// A barge of 60 m by 60 m on eight chains of 900 m in 300 m, as in benches/equilibrium.rs.
 fn barge() -> Model {
@@ -56,7 +56,7 @@ fn numbers() -> impl FnMut() -> f64 {
 fn steps(model: &Model, far: [f64; 3]) -> Vec<Result<usize, String>> {
     let system = System::new(model, &[]).unwrap();
     let mut at_rest = system.state(model);
-    equilibrium(&system, &mut at_rest, &Options::default()).unwrap();
+    equilibrium(&system, &mut at_rest, &EquilibriumOptions::default()).unwrap();
     let home = at_rest.poses[0];
     let mut next = numbers();
     let mut list = Vec::new();
@@ -66,7 +66,7 @@ fn steps(model: &Model, far: [f64; 3]) -> Vec<Result<usize, String>> {
         let place = [home.origin.x + x, home.origin.y + y, home.origin.z + z, roll, pitch, yaw];
         let mut state = system.state(model);
         state.poses[0] = Pose::from_place(&Place::new(place));
-        list.push(match equilibrium(&system, &mut state, &Options::default()) {
+        list.push(match equilibrium(&system, &mut state, &EquilibriumOptions::default()) {
             Ok(found) => {
                 let away = (state.poses[0].origin - home.origin).norm();
                 let turned = (state.poses[0].axes - home.axes).norm();

@@ -11,7 +11,7 @@ use windlass_model::{
     ClassError, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse, ConnectorSummary,
     Situation, SolverCache, Surroundings,
 };
-use windlass_solve::{Options, find_equilibrium_with_rebuilds};
+use windlass_solve::{EquilibriumOptions, find_equilibrium_with_rebuilds};
 
 /// A rope that stiffens without bound: at a stretch d it pulls by k d/(1 - d/LIMIT), and beyond LIMIT it has no answer.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +77,7 @@ fn trial_without_solution_shortens_step_to_its_fraction() {
     session.run();
     let mut model = session.job.model.clone();
     model.classes.values_mut().for_each(|class| class.object = Arc::new(Rope));
-    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     // k d/(1 - d/L) = W: d = W L/(k L + W); Newton's first step from d = 0 is W/k = 100 m, a million times the limit
     let want = -WEIGHT * LIMIT / (STIFFNESS * LIMIT + WEIGHT);
     let got = model.bodies["B"].place.shift[2];

@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write;
 use windlass_base::pose::Six;
 use windlass_model::Model;
-use windlass_solve::{Options, System, equilibrium};
+use windlass_solve::{EquilibriumOptions, System, equilibrium};
 
 /// The mooring of the script that made the file. MoorPy's hydrostatics are linear: the waterplane area at the origin, and at the
 /// metacentre the buoyancy at rest. By -KRX and -KRY: rho g V z_M against pitch about the origin, with the weight 2 m below it on
@@ -55,7 +55,7 @@ fn free_body_on_eight_chains_matches_moorpy_equilibrium() {
         let mut system = System::new(&model, &[]).unwrap();
         system.applied = vec![(0, Six::new(number(1), 0.0, 0.0, 0.0, 0.0, 0.0))];
         let mut state = system.state(&model);
-        let found = equilibrium(&system, &mut state, &Options::default()).unwrap();
+        let found = equilibrium(&system, &mut state, &EquilibriumOptions::default()).unwrap();
         assert!(found.search.residual < 1e-9 && found.loose.is_empty(), "{found:?}");
         assert!(found.search.iterations <= 6, "{} steps", found.search.iterations);
         let pose = state.poses[0];

@@ -12,11 +12,11 @@ use crate::common;
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::pose::Pose;
 use windlass_model::{LinearHydrostatics, Model};
-use windlass_solve::{Options, find_equilibrium_with_rebuilds, modes};
+use windlass_solve::{EquilibriumOptions, find_equilibrium_with_rebuilds, modes};
 
 /// A line by itself.
 #[derive(Clone, Copy, Debug)]
-struct Line {
+struct NetworkLine {
     length: f64,
     weight: f64,
     ea: f64,
@@ -24,10 +24,10 @@ struct Line {
     bottom: bool,
 }
 
-impl Line {
+impl NetworkLine {
     /// Distances along and up that a pull reaches.
     fn reach(&self, h: f64, v: f64) -> (f64, f64) {
-        let Line { length: l, weight: w, ea, bottom } = *self;
+        let NetworkLine { length: l, weight: w, ea, bottom } = *self;
         let root = |t: f64| (1.0 + t * t).sqrt();
         let low = v - w * l;
         if bottom && low < 0.0 {
@@ -89,7 +89,7 @@ enum Tip {
 #[derive(Default)]
 struct Network {
     records: String,
-    lines: Vec<(Line, [Tip; 2])>,
+    lines: Vec<(NetworkLine, [Tip; 2])>,
     floating: Vec<(String, f64)>,
     junctions: Vec<(String, f64, f64)>,
 }
@@ -114,7 +114,7 @@ impl Seeded {
 }
 
 impl Network {
-    fn class(&mut self, kind: &str, line: &Line) -> String {
+    fn class(&mut self, kind: &str, line: &NetworkLine) -> String {
         let name = format!("~L{}", self.lines.len());
         let emod = line.ea / (1e6 * std::f64::consts::FRAC_PI_4 * 0.1 * 0.1);
         let (l, w) = (line.length, line.weight);
@@ -129,7 +129,7 @@ impl Network {
         let far = seeded.draw(0.8, 3.0) * (at.z + DEPTH);
         let anchor = Vector3::new(at.x + far * angle.cos(), at.y + far * angle.sin(), -DEPTH);
         let length = (anchor - at).norm() * seeded.draw(1.01, 1.3);
-        let line = Line { length, weight: seeded.draw(200.0, 2000.0), ea: seeded.draw(1e8, 1e9), bottom: true };
+        let line = NetworkLine { length, weight: seeded.draw(200.0, 2000.0), ea: seeded.draw(1e8, 1e9), bottom: true };
         let class = self.class("B_CAT", &line);
         let number = self.lines.len();
         let end = self.point(name, point, number);
@@ -147,7 +147,7 @@ impl Network {
         seeded: &mut Seeded,
     ) {
         let length = (one.2 - other.2).norm().max(20.0) * seeded.draw(0.97, 1.1);
-        let line = Line { length, weight: seeded.draw(50.0, 800.0), ea: seeded.draw(5e7, 5e8), bottom: false };
+        let line = NetworkLine { length, weight: seeded.draw(50.0, 800.0), ea: seeded.draw(5e7, 5e8), bottom: false };
         let class = self.class("H_CAT", &line);
         let number = self.lines.len();
         let ends = [self.point(one.0, one.1, 2 * number + 1000), self.point(other.0, other.1, 2 * number + 1001)];
@@ -303,7 +303,7 @@ fn unconnected_junctions_settle_with_one_slow_junction() {
     session.open("records", records.to_string());
     session.run();
     let mut model = session.job.model.clone();
-    let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+    let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     assert!(found.found.search.iterations < 60, "{:?}", found.found);
     // the line hangs straight down from nothing: it lies on the bottom, and so does its end; scipy's fsolve of the catenary above gives
     // H = V = 0 for ends less than 1240 m apart at one height
@@ -332,11 +332,15 @@ fn random_networks_match_closed_form_catenary_balance() {
         let mut model = network.model();
         // as &EQUI has it; where that is stable, once more to a thousandth of what it leaves
         let mut allowed = 1e-3;
-        match find_equilibrium_with_rebuilds(&mut model, &Options { most: 200, ..Options::default() }) {
+        match find_equilibrium_with_rebuilds(
+            &mut model,
+            &EquilibriumOptions { most: 200, ..EquilibriumOptions::default() },
+        ) {
             Ok(found) => {
                 if modes(&found.system, &found.state).unwrap().iter().all(|m| m.eigenvalue > -1e-6) {
                     (allowed, stable) = (TOLERANCE, stable + 1);
-                    let fine = Options { most: 200, tolerance: [TOLERANCE; 2], ..Options::default() };
+                    let fine =
+                        EquilibriumOptions { most: 200, tolerance: [TOLERANCE; 2], ..EquilibriumOptions::default() };
                     refused
                         .extend(find_equilibrium_with_rebuilds(&mut model, &fine).err().map(|error| (number, error)));
                 }

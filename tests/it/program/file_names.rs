@@ -8,22 +8,22 @@ const TABLE: &str = "MEDIT\n&DESCRIBE BODY B\n*P 0 0 0\n~W B_CAT 4 -LEN 4000 -DE
                      CONNECTOR A ~W *P\nEND\nCONN_DESIGN\nTABLE A\n";
 const TABLE_END: &str = "END\nEND\n";
 
-struct Run {
+struct ProcessRun {
     folder: tempfile::TempDir,
     code: Option<i32>,
     out: String,
     err: String,
 }
 
-impl Run {
+impl ProcessRun {
     /// Runs a script `here/job.cif` from the folder `here`.
-    fn start(script: &str, arguments: &[&str]) -> Run {
+    fn start(script: &str, arguments: &[&str]) -> ProcessRun {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("here")).unwrap();
-        Run::start_in(folder, script, arguments)
+        ProcessRun::start_in(folder, script, arguments)
     }
 
-    fn start_in(folder: tempfile::TempDir, script: &str, arguments: &[&str]) -> Run {
+    fn start_in(folder: tempfile::TempDir, script: &str, arguments: &[&str]) -> ProcessRun {
         let here = folder.path().join("here");
         fs::write(here.join("job.cif"), script).unwrap();
         let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_windlass"))
@@ -33,7 +33,7 @@ impl Run {
             .output()
             .unwrap();
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        Run { folder, code: status.code(), out: text(&stdout), err: text(&stderr) }
+        ProcessRun { folder, code: status.code(), out: text(&stdout), err: text(&stderr) }
     }
 
     /// A file's text, its path taken from `here`.
@@ -63,7 +63,7 @@ fn relative_names_with_and_without_folders_are_inside_jobs_folder() {
         let beside = tempfile::tempdir().unwrap();
         // folders of the same names beside the script are none of the job's
         fs::create_dir_all(beside.path().join("here/a/b")).unwrap();
-        let run = Run::start_in(beside, &script, arguments);
+        let run = ProcessRun::start_in(beside, &script, arguments);
         assert_eq!(run.code, Some(0), "{}", run.err);
         assert!(run.names(".").iter().all(|name| ["a", folder, "job.cif"].contains(&name.as_str())));
         assert_eq!((run.names("a"), run.names("a/b")), (vec!["b".to_string()], vec![]));
@@ -84,7 +84,7 @@ fn dotted_and_absolute_names_are_shell_paths() {
          {TABLE}STORE ./s X Force\nPLOT X Force ../p.svg\n{TABLE_END}&FILE MKDIR x\n&FILE MV ./job.ans/x ./job.ans/y\n",
         absolute.display()
     );
-    let run = Run::start_in(folder, &script, &["--allow-files"]);
+    let run = ProcessRun::start_in(folder, &script, &["--allow-files"]);
     assert_eq!(run.code, Some(0), "{}", run.err);
     assert_eq!(run.names("."), ["job.ans", "job.cif", "s.csv", "sub"]);
     assert_eq!(run.names(".."), ["absolute.txt", "here", "p.svg"]);
@@ -100,15 +100,15 @@ fn outside_file_is_never_overwritten_and_needs_allow_files() {
         "{TABLE}STORE ./job.cif X Force\n{TABLE_END}&FILE RM ./job.cif\n&FILE CP ./job.cif ./copy\n\
          &FILE MV ./job.cif moved\n&FILE MKDIR ../new\n"
     );
-    let run = Run::start(&script, &[]);
+    let run = ProcessRun::start(&script, &[]);
     assert_eq!(run.code, Some(1));
     assert_eq!(run.err.matches("--allow-files lifts this").count(), 5, "{}", run.err);
     assert_eq!((run.names("."), run.names("..")), (vec!["job.ans".into(), "job.cif".into()], vec!["here".into()]));
     assert_eq!(run.read("job.cif").unwrap(), script);
-    let run = Run::start(&format!("{TABLE}STORE ./job.cif X Force\n{TABLE_END}"), &["--allow-files"]);
+    let run = ProcessRun::start(&format!("{TABLE}STORE ./job.cif X Force\n{TABLE_END}"), &["--allow-files"]);
     assert_eq!((run.code, run.err.matches("no file is overwritten").count()), (Some(1), 1), "{}", run.err);
     let script = "&FILE CP ./job.cif ./copy\n&FILE CP ./copy copy\n&FILE MV ./copy ../moved\n&FILE MKDIR ./new\n";
-    let run = Run::start(script, &["--allow-files"]);
+    let run = ProcessRun::start(script, &["--allow-files"]);
     assert_eq!(run.code, Some(0), "{}", run.err);
     assert_eq!(
         (run.names("."), run.names("..")),
@@ -125,7 +125,7 @@ fn climbing_relative_name_is_refused_even_with_allow_files() {
          {TABLE}STORE a/../../x X Force\nPLOT X Force a/../../x.svg\n{TABLE_END}"
     );
     for arguments in [&[][..], &["--allow-files"]] {
-        let run = Run::start(&script, arguments);
+        let run = ProcessRun::start(&script, arguments);
         assert_eq!(run.code, Some(1));
         assert_eq!(run.err.matches("leads to nothing below the job's own folder").count(), 9, "{}", run.err);
         assert_eq!(run.err.matches("begins with ./ or ../").count(), 9, "{}", run.err);
@@ -138,7 +138,7 @@ fn climbing_relative_name_is_refused_even_with_allow_files() {
 fn unwritable_file_fails_at_open() {
     let refused = |name: &str, why: &str| {
         let script = format!("&FILE MKDIR sub\n&FILE OPEN T {name}\n&FILE WRITE T lost\n");
-        let run = Run::start(&script, &["--allow-files"]);
+        let run = ProcessRun::start(&script, &["--allow-files"]);
         assert_eq!(run.code, Some(1));
         assert!(run.err.contains(why) && run.err.contains("--> job.cif:2:14"), "{name}: {}", run.err);
         assert!(run.err.contains("no file of type T is open"), "{name}: {}", run.err);
@@ -167,7 +167,7 @@ fn file_never_closed_is_written_whole_and_named_at_any_end() {
         (&*"NONSENSE\n".repeat(30), &[], 1),
         ("&FILE ANS_DIRECTORY other\n", &[], 0),
     ] {
-        let run = Run::start(&format!("{body}{end}"), &[arguments, &["--allow-files"]].concat());
+        let run = ProcessRun::start(&format!("{body}{end}"), &[arguments, &["--allow-files"]].concat());
         assert_eq!(run.code, Some(code), "{end}: {}", run.err);
         assert_eq!(run.read("job.ans/n.txt").as_deref(), Some("one\nthree\n"), "{end}");
         assert_eq!(run.read("o.txt").as_deref(), Some("two\n"), "{end}");
@@ -180,7 +180,7 @@ fn file_never_closed_is_written_whole_and_named_at_any_end() {
 
 #[test]
 fn reopened_type_writes_pending_output_and_file_has_one_type() {
-    let run = Run::start(
+    let run = ProcessRun::start(
         "&FILE OPEN T a.txt\n&FILE WRITE T first\n&FILE OPEN T a.txt\n&FILE WRITE T second\n&FILE OPEN U a.txt\n\
          &FILE CLOSE T\n",
         &[],
@@ -193,14 +193,14 @@ fn reopened_type_writes_pending_output_and_file_has_one_type() {
 
 #[test]
 fn file_that_cannot_be_written_at_end_is_error() {
-    let run = Run::start("&FILE OPEN T a.txt\n&FILE WRITE T x\n&FILE MKDIR a.txt\n", &[]);
+    let run = ProcessRun::start("&FILE OPEN T a.txt\n&FILE WRITE T x\n&FILE MKDIR a.txt\n", &[]);
     assert_eq!(run.code, Some(1));
     assert!(run.err.contains("a.txt: is a directory") && run.err.contains("job.cif:1:14"), "{}", run.err);
 }
 
 #[test]
 fn help_of_file_states_the_name_rule() {
-    let run = Run::start("&HELP &FILE\n", &[]);
+    let run = ProcessRun::start("&HELP &FILE\n", &[]);
     let text = run.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("a relative name, with folders or without, is inside the job's own folder"), "{text}");
 }
@@ -214,7 +214,7 @@ fn running_log_and_open_files_are_neither_removed_nor_moved() {
          &TYPE the log goes on\n&FILE CLOSE T\n&FILE RM a.txt.1\n&FILE CLOSE U\n&FILE RM copy\n"
     );
     for arguments in [&[][..], &["--allow-files"]] {
-        let run = Run::start(&script, arguments);
+        let run = ProcessRun::start(&script, arguments);
         assert_eq!(run.err.matches("is in use: this job has it open").count(), 7, "{}", run.err);
         assert_eq!(run.err.matches("error: ").count(), 7, "{}", run.err);
         assert!(run.err.contains("job.cif:8:10") && run.err.contains("&FILE CLOSE U closes it"), "{}", run.err);
@@ -235,7 +235,7 @@ fn script_reads_back_its_own_file_by_same_name() {
                   &FILE USE R ./n.txt\n&IF &F_READ(R LINE) &THEN\n&ENDIF\n&TYPE <%LINE%>\n\
                   &FILE USE R only.txt\n&IF &F_READ(R LINE) &THEN\n&ENDIF\n&TYPE <%LINE%>\n\
                   &TYPE &INFO(FILE_EXISTS sub/m.txt) &INFO(FILE_EXISTS only.txt) &INFO(FILE_EXISTS m.txt)\n";
-    let run = Run::start_in(folder, script, &[]);
+    let run = ProcessRun::start_in(folder, script, &[]);
     assert_eq!(run.code, Some(0), "{}", run.err);
     let want = "<mine>\n<mine>\n<beside the script>\n<only beside>\n.TRUE. .TRUE. .FALSE.";
     assert!(run.out.contains(want), "{}", run.out);
@@ -249,7 +249,7 @@ fn open_plot_and_store_write_nothing_through_link_out_of_folder() {
     fs::create_dir(folder.path().join("out")).unwrap();
     std::os::unix::fs::symlink(folder.path().join("out"), folder.path().join("here/job.ans/link")).unwrap();
     let script = format!("&FILE OPEN T link/x\n{TABLE}STORE link/s X Force\nPLOT X Force link/p.svg\n{TABLE_END}");
-    let run = Run::start_in(folder, &script, &[]);
+    let run = ProcessRun::start_in(folder, &script, &[]);
     assert_eq!(run.err.matches("is not below the job's own folder").count(), 3, "{}", run.err);
     assert!(run.names("../out").is_empty());
 }
@@ -258,7 +258,7 @@ fn open_plot_and_store_write_nothing_through_link_out_of_folder() {
 fn refused_copy_or_move_points_at_offending_name() {
     let script = "&FILE OPEN T h.txt\n&FILE CLOSE T\n&FILE CP h.txt ./new.txt\n&FILE MV h.txt ./new.txt\n&FILE CP h.txt h.txt\n\
                   &FILE CP none new.txt\n&FILE MV ./job.cif new.txt\n&FILE CP h.txt none/x\n";
-    let run = Run::start(script, &[]);
+    let run = ProcessRun::start(script, &[]);
     for place in ["job.cif:3:16", "job.cif:4:16", "job.cif:5:16", "job.cif:6:10", "job.cif:7:10", "job.cif:8:16"] {
         assert!(run.err.contains(place), "{place}: {}", run.err);
     }
@@ -355,7 +355,7 @@ fn file_read_outside_script_folder_is_in_log() {
     for (name, text) in [("out.cif", "&TYPE from outside\n"), ("out.txt", "x\n"), ("here/in.txt", "y\n")] {
         fs::write(folder.path().join(name), text).unwrap();
     }
-    let run = Run::start_in(
+    let run = ProcessRun::start_in(
         folder,
         "&INSERT ../out.cif\n&FILE USE T ../out.txt\n&FILE USE U in.txt\n&FILE USE U ../out.txt\n",
         &[],
@@ -384,7 +384,7 @@ fn special_file_is_refused_without_blocking_wherever_read() {
         "&DEVICE -LIMERROR 99\n&FILE USE T pipe\n&FILE USE T /dev/zero\n&INSERT pipe\nINMODEL -AQWA pipe\n\
          CONN_DESIGN\nLINES pipe out.csv\nEND\n{proc}&BUILDG -CSV pipe\n"
     );
-    let run = Run::start_in(folder, &script, &[]);
+    let run = ProcessRun::start_in(folder, &script, &[]);
     assert_eq!(run.code, Some(1));
     assert!(
         run.err.matches("error: ").count()
@@ -392,7 +392,7 @@ fn special_file_is_refused_without_blocking_wherever_read() {
         "{}",
         run.err
     );
-    let run = Run::start(if proc.is_empty() { "X\n" } else { proc }, &[]);
+    let run = ProcessRun::start(if proc.is_empty() { "X\n" } else { proc }, &[]);
     assert_eq!(run.err.matches("this is not a regular file").count(), proc.lines().count(), "{}", run.err);
 }
 
@@ -458,7 +458,7 @@ fn terminal_control_characters_are_escaped_wherever_printed() {
     );
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("here")).unwrap();
-    let run = Run::start_in(folder, &script, &[]);
+    let run = ProcessRun::start_in(folder, &script, &[]);
     assert_eq!(run.code, Some(1));
     let log = run.read("job.ans/LOG00001.TXT").unwrap();
     for text in [&run.out, &run.err, &log] {

@@ -14,7 +14,7 @@ use windlass_solve::time::{Snapshot, Watcher};
 
 /// What one change does to the bytes.
 #[derive(Clone, Debug)]
-enum Change {
+enum Mutation {
     Set(Index, u8),
     Insert(Index, Vec<u8>),
     Word(Index, &'static str),
@@ -43,34 +43,34 @@ const WORDS: [&str; 16] = [
     "\u{202e}",
 ];
 
-fn change() -> impl Strategy<Value = Change> {
+fn change() -> impl Strategy<Value = Mutation> {
     prop_oneof![
-        (any::<Index>(), any::<u8>()).prop_map(|(at, byte)| Change::Set(at, byte)),
-        (any::<Index>(), vec(any::<u8>(), 1..8)).prop_map(|(at, bytes)| Change::Insert(at, bytes)),
-        (any::<Index>(), proptest::sample::select(WORDS.to_vec())).prop_map(|(at, word)| Change::Word(at, word)),
-        (any::<Index>(), 1..60usize).prop_map(|(at, count)| Change::Delete(at, count)),
-        (any::<Index>(), any::<Index>(), 1..200usize).prop_map(|(from, to, count)| Change::Copy(from, to, count)),
-        any::<Index>().prop_map(Change::Cut),
+        (any::<Index>(), any::<u8>()).prop_map(|(at, byte)| Mutation::Set(at, byte)),
+        (any::<Index>(), vec(any::<u8>(), 1..8)).prop_map(|(at, bytes)| Mutation::Insert(at, bytes)),
+        (any::<Index>(), proptest::sample::select(WORDS.to_vec())).prop_map(|(at, word)| Mutation::Word(at, word)),
+        (any::<Index>(), 1..60usize).prop_map(|(at, count)| Mutation::Delete(at, count)),
+        (any::<Index>(), any::<Index>(), 1..200usize).prop_map(|(from, to, count)| Mutation::Copy(from, to, count)),
+        any::<Index>().prop_map(Mutation::Cut),
     ]
 }
 
-fn changed(bytes: &[u8], changes: &[Change]) -> Vec<u8> {
+fn changed(bytes: &[u8], changes: &[Mutation]) -> Vec<u8> {
     let mut out = bytes.to_vec();
     for change in changes {
         let size = out.len();
         let place = |at: &Index| at.index(size + 1);
         let piece = |from: usize, count: usize| from..(from + count).min(size);
         match change {
-            Change::Set(at, byte) if size > 0 => out[at.index(size)] = *byte,
-            Change::Set(..) => {}
-            Change::Insert(at, bytes) => drop(out.splice(place(at)..place(at), bytes.iter().copied())),
-            Change::Word(at, word) => drop(out.splice(place(at)..place(at), word.bytes())),
-            Change::Delete(at, count) => drop(out.drain(piece(place(at), *count))),
-            Change::Copy(from, to, count) => {
+            Mutation::Set(at, byte) if size > 0 => out[at.index(size)] = *byte,
+            Mutation::Set(..) => {}
+            Mutation::Insert(at, bytes) => drop(out.splice(place(at)..place(at), bytes.iter().copied())),
+            Mutation::Word(at, word) => drop(out.splice(place(at)..place(at), word.bytes())),
+            Mutation::Delete(at, count) => drop(out.drain(piece(place(at), *count))),
+            Mutation::Copy(from, to, count) => {
                 let copy = out[piece(place(from), *count)].to_vec();
                 drop(out.splice(place(to)..place(to), copy));
             }
-            Change::Cut(at) => out.truncate(place(at)),
+            Mutation::Cut(at) => out.truncate(place(at)),
         }
     }
     out

@@ -7,14 +7,14 @@ use crate::common;
 use windlass::session::{Session, SessionEnd};
 
 /// What a script prints, its messages, and the session behind it.
-struct Run {
+struct ScriptRun {
     text: String,
     messages: Vec<String>,
     session: Session,
     end: SessionEnd,
 }
 
-fn run_with(script: &str, prepare: impl Fn(&mut Session)) -> Run {
+fn run_with(script: &str, prepare: impl Fn(&mut Session)) -> ScriptRun {
     let (mut session, screen, _folder) = common::session();
     prepare(&mut session);
     session.open("script", script.to_string());
@@ -22,10 +22,10 @@ fn run_with(script: &str, prepare: impl Fn(&mut Session)) -> Run {
     session.job.output.flush();
     let text = screen.text();
     let messages = session.reports.iter().map(|r| r.message.clone()).collect();
-    Run { text, messages, session, end }
+    ScriptRun { text, messages, session, end }
 }
 
-fn run(script: &str) -> Run {
+fn run(script: &str) -> ScriptRun {
     run_with(script, |_| {})
 }
 
@@ -34,7 +34,7 @@ const MODEL: &str =
 const PASSED: &str = "the commands up to its END are passed over";
 
 /// One error, which says that what follows is passed over, and every menu left.
-fn one_error(run: &Run, message: &str) {
+fn one_error(run: &ScriptRun, message: &str) {
     assert_eq!(run.messages.len(), 1, "{:?}", run.messages);
     assert!(run.messages[0].contains(message), "{:?}", run.messages);
     assert_eq!(run.session.reports[0].help.iter().filter(|h| *h == PASSED).count(), 1, "{:?}", run.session.reports);
@@ -133,7 +133,7 @@ fn terminal_after_script_runs_every_record() {
 }
 
 /// A model without the places its parts were written at.
-fn without_places(run: &Run) -> (Vec<String>, Vec<String>) {
+fn without_places(run: &ScriptRun) -> (Vec<String>, Vec<String>) {
     let model = &run.session.job.model;
     let curves = model.curves.values().map(|c| format!("{} {:?} {:?}", c.name, c.kind, c.points)).collect();
     let selectors = model.selectors.values().map(|s| format!("{} {:?} {:?}", s.name, s.select, s.except)).collect();

@@ -3,12 +3,12 @@
 use crate::common::run as runs;
 use crate::common::run::model_as_written;
 
-use runs::{Quiet, settings};
+use runs::settings;
 use windlass_base::table::{Cell, Table};
 use windlass_connectors::CLASSES;
 use windlass_model::{Mass, Model};
 use windlass_solve::results::{self, Magnitude};
-use windlass_solve::time::{Action, ActionKind, Run, Trigger};
+use windlass_solve::time::{Action, ActionKind, Run, SilentWatcher, Trigger};
 use windlass_solve::{System, tables};
 
 /// A body on which every kind of load acts, one with a database, and a junction on the bottom.
@@ -104,7 +104,7 @@ const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "MX", "MY", "MZ"];
 /// leaves 1e-7; and the categories.
 fn residual_of_categories(model: &Model, actions: Vec<Action>, body: usize) -> ([f64; 2], Vec<&'static str>) {
     let mut made = Run::new(model, settings(2.0, 0.1), actions).unwrap();
-    made.run(&mut Quiet).unwrap();
+    made.run(&mut SilentWatcher).unwrap();
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[body], Magnitude::default(), &events).unwrap();
     let groups: Vec<&str> = made.history.layout.categories.iter().map(|c| c.name()).collect();
@@ -134,7 +134,7 @@ fn tube_across_current_has_drag_category_and_zero_total() {
          *G 0 0 -20\n#WEIGHT *G 1000 5 5 5\nEND\n&SURFACE\nTUBE T *A *E 1000 -CD 1",
     );
     let mut made = Run::new(&model, settings(1.0, 0.1), vec![]).unwrap();
-    made.run(&mut Quiet).unwrap();
+    made.run(&mut SilentWatcher).unwrap();
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[0], Magnitude::default(), &events).unwrap();
     assert!((column(&table, "V_DRAG", "FX")[0].abs() / 5125.0 - 1.0).abs() < 1e-12);

@@ -7,7 +7,7 @@ use crate::common::run as runs;
 use runs::{model, run, settings, trapezoidal};
 use windlass_model::Model;
 use windlass_solve::time::{Run, RunSettings, StepTolerance};
-use windlass_solve::{Options, find_equilibrium_with_rebuilds};
+use windlass_solve::{EquilibriumOptions, find_equilibrium_with_rebuilds};
 
 const G: f64 = 9.80665;
 
@@ -152,7 +152,7 @@ fn bodies_joined_by_fix_hang_plumb_below_their_pin() {
     for (weight, far, _) in CASES {
         for degrees in [30.0, 170.0] {
             let mut model = pendulum(weight, far, degrees);
-            let found = find_equilibrium_with_rebuilds(&mut model, &Options::default()).unwrap();
+            let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
             assert!(found.found.search.residual < 1e-9, "{weight} {far} {:?}", found.found);
             for body in model.bodies.values() {
                 let give = 1e-6 + 3.0 * weight / 1e12;

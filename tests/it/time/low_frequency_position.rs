@@ -4,12 +4,12 @@ use crate::common;
 use crate::common::run as runs;
 
 use nalgebra::Complex;
-use runs::{Quiet, settings};
+use runs::settings;
 use std::f64::consts::TAU;
 use windlass_hydro::Category;
 use windlass_model::Model;
 use windlass_solve::frequency::LinearSystem;
-use windlass_solve::time::{History, Run};
+use windlass_solve::time::{History, Run, SilentWatcher};
 
 /// A hemisphere on soft linear springs, its centre of gravity off its axis so that it yaws; in an environment, with more records.
 fn ball(environment: &str, more: &str) -> Model {
@@ -31,7 +31,7 @@ fn ball(environment: &str, more: &str) -> Model {
 
 fn run(model: &Model, (time, dt): (f64, f64)) -> Run {
     let mut made = Run::new(model, settings(time, dt), vec![]).unwrap();
-    made.run(&mut Quiet).unwrap();
+    made.run(&mut SilentWatcher).unwrap();
     made
 }
 

@@ -4,7 +4,7 @@
 use crate::common::run as runs;
 
 use nalgebra::Vector3;
-use runs::{Quiet, model, settings};
+use runs::{model, settings};
 use std::sync::Arc;
 use windlass_base::pose::Six;
 use windlass_base::table::{Cell, Table};
@@ -13,12 +13,12 @@ use windlass_model::{FatigueSelection, Model, Stretching};
 use windlass_signal::fatigue::{cycle_damage, find};
 use windlass_signal::rainflow::cycles;
 use windlass_solve::results::{self, EventWindow, Magnitude, MotionOptions, ScatterExposure, TrackedPoint};
-use windlass_solve::time::{Action, ActionKind, Ending, Run, Trigger};
+use windlass_solve::time::{Action, ActionKind, Ending, Run, SilentWatcher, Trigger};
 
 fn run(model: &Model, (observed, dt): (f64, f64), start: &[(usize, Six)], actions: Vec<Action>) -> Run {
     let mut run = Run::new(model, settings(observed, dt), actions).unwrap();
     run.begin_with(start).unwrap();
-    assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
+    assert_eq!(run.run(&mut SilentWatcher), Ok(Ending::Done));
     run
 }
 

@@ -4,7 +4,7 @@ use crate::common;
 use crate::common::run as runs;
 
 use nalgebra::Vector3;
-use runs::{Quiet, settings, trapezoidal};
+use runs::{settings, trapezoidal};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{Model, Stretching};
 use windlass_solve::time::{
-    Action, ActionKind, BodyMotion, Ending, Prescribed, Run, RunSettings, Trigger, build_prescribed,
+    Action, ActionKind, BodyMotion, Ending, Prescribed, Run, RunSettings, SilentWatcher, Trigger, build_prescribed,
 };
 
 /// A model with a body B and a file in the job's folder; the text of what was said.
@@ -319,7 +319,7 @@ fn body_following_waves_follows_those_of_its_new_sea() {
         Action { name: "CHANGE".into(), when: Trigger::At(20.0), what: ActionKind::Environment("LATER".into()) };
     let mut run = Run::new(&model, settings, vec![change]).unwrap();
     let seas = ["NOW", "LATER"].map(|name| Sea::new(&model, &model.environments[name]).unwrap().unwrap());
-    assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
+    assert_eq!(run.run(&mut SilentWatcher), Ok(Ending::Done));
     let at = run.history.layout.body(0);
     for row in run.history.rows() {
         let sea = if row[0] < 20.0 - 1e-9 { &seas[0] } else { &seas[1] };

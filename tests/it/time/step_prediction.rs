@@ -12,18 +12,8 @@ use windlass_hydro::Category;
 use windlass_model::Model;
 use windlass_solve::System;
 use windlass_solve::time::{
-    BodyForces, BodyMotion, Ending, LoadMemory, Method, Run, RunFileError, RunRequirements, RunSettings, StepTolerance,
-    Watcher,
+    BodyForces, BodyMotion, Ending, LoadMemory, Method, Run, RunRequirements, RunSettings, SilentWatcher, StepTolerance,
 };
-
-/// Takes rows and says nothing.
-struct Quiet;
-
-impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
-        Ok(())
-    }
-}
 
 const GRAVITY: f64 = 9.80665;
 const MASS: f64 = 2.0 / 3.0 * PI * 27000.0 * 1025.0;
@@ -57,7 +47,7 @@ fn run(model: &Model, observed: f64, tolerance: f64) -> Run {
         transient: 0.0,
     };
     let mut run = Run::new(model, settings, Vec::new()).unwrap();
-    assert_eq!(run.run(&mut Quiet), Ok(Ending::Done));
+    assert_eq!(run.run(&mut SilentWatcher), Ok(Ending::Done));
     run
 }
 

@@ -4,11 +4,11 @@
 
 use crate::common::run as runs;
 
-use runs::{Quiet, model, run, settings, trapezoidal};
+use runs::{model, run, settings, trapezoidal};
 use std::f64::consts::TAU;
 use windlass_base::pose::Six;
 use windlass_model::Model;
-use windlass_solve::time::{Ending, History, Method, Run, RunSettings, TimeScheme};
+use windlass_solve::time::{Ending, History, Method, Run, RunSettings, SilentWatcher, TimeScheme};
 
 fn x(history: &History) -> Vec<f64> {
     history.series(history.layout.body(0))
@@ -92,7 +92,7 @@ fn free_top_conserves_energy_and_angular_momentum_to_step_order() {
     let drift = |h: f64| {
         let mut made = Run::new(&model, settings(20.0, h), vec![]).unwrap();
         made.begin_with(&[(0, Six::new(0.0, 0.0, 0.0, 0.3, 0.6, 0.2))]).unwrap();
-        assert_eq!(made.run(&mut Quiet), Ok(Ending::Done));
+        assert_eq!(made.run(&mut SilentWatcher), Ok(Ending::Done));
         let inertia = nalgebra::Matrix3::from_diagonal(&nalgebra::Vector3::new(1.0, 4.0, 9.0)) * 1000.0;
         let motion = made.motions()[0];
         let turn = motion.velocity.fixed_rows::<3>(3).into_owned();
@@ -172,7 +172,7 @@ fn berthing_fender_absorbs_ship_energy_and_friction_its_impulse() {
     );
     let mut made = Run::new(&ship, RunSettings { method: trapezoidal(), ..settings(8.0, 0.01) }, vec![]).unwrap();
     made.begin_with(&[(0, Six::new(1.0, -0.15, 0.0, 0.0, 0.0, 0.0))]).unwrap();
-    made.run(&mut Quiet).unwrap();
+    made.run(&mut SilentWatcher).unwrap();
     let peaks = windlass_solve::results::fender_peaks(&made).unwrap();
     let [peak] = peaks.as_slice() else { panic!("{peaks:?}") };
     for (got, want) in [(peak.state.deflection, 0.25), (peak.state.reaction, 9e4), (peak.state.energy, 11_250.0)] {

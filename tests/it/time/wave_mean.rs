@@ -3,12 +3,12 @@
 use crate::common;
 use crate::common::run as runs;
 
-use runs::{Quiet, settings};
+use runs::settings;
 use windlass_base::table::{Cell, Table};
 use windlass_model::Model;
 use windlass_solve::results::{self, Magnitude};
 use windlass_solve::run_tables;
-use windlass_solve::time::Run;
+use windlass_solve::time::{Run, SilentWatcher};
 
 /// A held body of pieces, in waves of 4 m and 7 s.
 fn held_body(pieces: &str) -> Model {
@@ -40,7 +40,7 @@ fn mean_pressure_on_flared_hull_matches_waterline_drift() {
     // waterline: two sides of 40 m, 1 m in 2 m: 374.0 kN. The waterline is closed: none along the waves
     let model = held_body("PGEN HULL -PERM 1 -DIFTYPE FK\nPLANE -20 20 -CARTESIAN 5 -5 10 5\nEND PGEN");
     let mut made = Run::new(&model, settings(210.0, 0.1), vec![]).unwrap();
-    made.run(&mut Quiet).unwrap();
+    made.run(&mut SilentWatcher).unwrap();
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[0], Magnitude::default(), &events).unwrap();
     let (a, k) = (2.0f64, (std::f64::consts::TAU / 7.0).powi(2) / 9.80665);
@@ -66,7 +66,7 @@ fn mean_pressure_on_flared_hull_matches_waterline_drift() {
 fn member_mean_wave_force_excludes_waves_and_drag() {
     let model = held_body("END\n&SURFACE\nTUBE T *T1 *T2 2000 -CD 1");
     let mut made = Run::new(&model, settings(210.0, 0.1), vec![]).unwrap();
-    made.run(&mut Quiet).unwrap();
+    made.run(&mut SilentWatcher).unwrap();
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[0], Magnitude::default(), &events).unwrap();
     // pressure and inertia up to the surface: a ~ sin, zeta ~ cos have no mean along the waves; drag has: 1/2 rho Cd D <u|u| zeta> above

@@ -88,7 +88,7 @@ fn with_line(text: &str, at: usize, line: &str) -> String {
 
 /// What comes of decks that are each changed in one place: refused, the same, changed.
 #[derive(Debug, Default)]
-struct Tally {
+struct ShiftCounts {
     /// Messages of the deck itself.
     said: usize,
     tried: usize,
@@ -98,7 +98,7 @@ struct Tally {
     silent: Vec<String>,
 }
 
-impl Tally {
+impl ShiftCounts {
     fn add(&mut self, was: &str, text: &str, script: &str) {
         self.tried += 1;
         match meaning(text) {
@@ -121,7 +121,7 @@ impl Tally {
 
 #[test]
 fn tab_in_card_is_refused_with_its_column() {
-    let mut tally = Tally::default();
+    let mut tally = ShiftCounts::default();
     for text in decks() {
         let (_, script) = meaning(&text).unwrap();
         tally.said = messages(&text).len();
@@ -138,7 +138,7 @@ fn tab_in_card_is_refused_with_its_column() {
 
 #[test]
 fn missing_end_is_refused_with_its_deck() {
-    let mut tally = Tally::default();
+    let mut tally = ShiftCounts::default();
     for text in decks() {
         let (_, script) = meaning(&text).unwrap();
         tally.said = messages(&text).len();
@@ -153,7 +153,7 @@ fn missing_end_is_refused_with_its_deck() {
 
 #[test]
 fn cards_in_other_order_are_refused_or_same() {
-    let mut tally = Tally::default();
+    let mut tally = ShiftCounts::default();
     for text in decks() {
         let (_, script) = meaning(&text).unwrap();
         tally.said = messages(&text).len();
@@ -170,7 +170,7 @@ fn cards_in_other_order_are_refused_or_same() {
 
 #[test]
 fn word_of_deck_0_split_by_a_blank_is_refused() {
-    let mut tally = Tally::default();
+    let mut tally = ShiftCounts::default();
     for text in decks() {
         // PBIS and LDRG change no result
         let text = text.replacen(" END\n", " LDRG PBIS END\n", 1);
@@ -220,7 +220,7 @@ fn numbers(line: &str) -> Vec<(usize, usize)> {
 
 #[test]
 fn blank_field_is_refused_or_reported() {
-    let mut tally = Tally::default();
+    let mut tally = ShiftCounts::default();
     for text in decks() {
         let (_, script) = meaning(&text).unwrap();
         tally.said = messages(&text).len();
@@ -240,7 +240,7 @@ fn blank_field_is_refused_or_reported() {
 
 #[test]
 fn negative_value_is_refused_or_legal() {
-    let mut tally = Tally::default();
+    let mut tally = ShiftCounts::default();
     for text in decks() {
         let (_, script) = meaning(&text).unwrap();
         tally.said = messages(&text).len();

@@ -39,7 +39,7 @@ use super::multi_segment::JointPull;
 use super::profile::{SeabedProfile, Tilt};
 use super::state::Heap;
 use path::{LaidPath, PathEnd, Spare};
-use span::{Candidate, TouchKind};
+use span::{TouchCandidate, TouchKind};
 
 /// A point of the line.
 #[derive(Clone, Copy, Debug, Default)]
@@ -335,7 +335,7 @@ impl<'a> LineLayout<'a> {
     /// Begins to lie; `None` when the line lies up to its end.
     fn begin(
         &self,
-        landing: &Candidate,
+        landing: &TouchCandidate,
         spare: Spare,
         hollow: Option<(f64, Var)>,
         laid: &mut LaidLine,
@@ -357,7 +357,7 @@ impl<'a> LineLayout<'a> {
     }
 
     /// The landing of a fairlead that lies on the bottom itself.
-    fn fairlead_on_bottom(&self, top: &Top) -> Option<Candidate> {
+    fn fairlead_on_bottom(&self, top: &Top) -> Option<TouchCandidate> {
         let first = self.elements.iter().position(|e| matches!(e, LinePiece::Length { .. }))?;
         if !self.elements.get(first).is_some_and(LinePiece::can_rest) {
             return None;
@@ -372,7 +372,7 @@ impl<'a> LineLayout<'a> {
                 v: top.h * self.bottom.tilt(face).slope(),
                 ..LinePoint::default()
             };
-            Candidate { kind: TouchKind::Tangent(face), gap: Var::constant(gap), at }
+            TouchCandidate { kind: TouchKind::Tangent(face), gap: Var::constant(gap), at }
         })
     }
 }

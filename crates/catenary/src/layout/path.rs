@@ -1,6 +1,6 @@
 //! What lies: from the place where a span lands to the last one from which the line can leave.
 
-use super::span::{Candidate, Departure, TouchKind, stretch_between};
+use super::span::{Departure, TouchCandidate, TouchKind, stretch_between};
 use super::{LaidLine, LineLayout, LinePoint, PieceStretch, SupportMode};
 use crate::dual::{SPAN_UNKNOWN, Var};
 use crate::element::{LinePiece, mean_strain, strain};
@@ -117,7 +117,13 @@ impl LaidPath {
 impl LineLayout<'_> {
     /// The path from a landing; `spare` lies in a heap there, and `hollow` is the place and length of a heap in a hollow
     /// of the bottom.
-    pub fn path(&self, landing: &Candidate, spare: Spare, hollow: Option<(f64, Var)>, laid: &mut LaidLine) -> LaidPath {
+    pub fn path(
+        &self,
+        landing: &TouchCandidate,
+        spare: Spare,
+        hollow: Option<(f64, Var)>,
+        laid: &mut LaidLine,
+    ) -> LaidPath {
         let mut path = LaidPath { pieces: Vec::new(), weight: 0.0, end: PathEnd::Lifted, begun: spare, spare };
         let at = landing.at;
         let cursor = match landing.kind {

@@ -26,14 +26,14 @@ pub enum TouchKind {
 
 /// A place where a curve touches, or by how much it does not.
 #[derive(Clone, Copy, Debug)]
-pub struct Candidate {
+pub struct TouchCandidate {
     pub kind: TouchKind,
     /// Height above what is touched (m).
     pub gap: Var,
     pub at: LinePoint,
 }
 
-impl Candidate {
+impl TouchCandidate {
     /// How much the unknown may grow until it touches.
     fn room(&self) -> f64 {
         let slope = self.gap.by_unknown();
@@ -89,7 +89,7 @@ impl LineLayout<'_> {
         top: &Top,
         sunk: &[bool],
         laid: &mut LaidLine,
-    ) -> Result<(Departure, Candidate), LineError> {
+    ) -> Result<(Departure, TouchCandidate), LineError> {
         let span = laid.left_at.len();
         let hold = top.hold.filter(|h| h.span == span);
         if let (Some(hold), SpanStart::Ground(_)) = (hold, origin) {
@@ -109,12 +109,12 @@ impl LineLayout<'_> {
         let mut search = NewtonSearch::new(bracket, self.weight + top.h.value);
         let mut convergence = Convergence::new(self.fine);
         let lands_in = top.hold.filter(|h| h.span == span + 1).and_then(|h| h.lands_in);
-        let mut best: Option<(f64, Departure, Candidate)> = None;
+        let mut best: Option<(f64, Departure, TouchCandidate)> = None;
         let mut steps = 0;
         while steps < MAX_SEARCH_STEPS {
             steps += 1;
             let departure = self.depart(origin, top, at);
-            let found = self.least_of(&departure, sunk, lands_in, Candidate::room);
+            let found = self.least_of(&departure, sunk, lands_in, TouchCandidate::room);
             let gap = found.gap.value;
             if gap.is_nan() {
                 break;
@@ -148,25 +148,25 @@ impl LineLayout<'_> {
         origin: &SpanStart,
         unknown: f64,
         departure: Departure,
-        landing: Candidate,
+        landing: TouchCandidate,
         laid: &mut LaidLine,
-    ) -> (Departure, Candidate) {
+    ) -> (Departure, TouchCandidate) {
         laid.left = laid.left.max(landing.gap.value.abs());
         let zero = landing.gap;
         if matches!(origin, SpanStart::Fairlead) {
             laid.top = departure.point.v.eliminate(&zero);
         }
         let departure = Departure { point: departure.point.eliminate(&zero), ..departure };
-        (Departure { unknown, ..departure }, Candidate { at: landing.at.eliminate(&zero), ..landing })
+        (Departure { unknown, ..departure }, TouchCandidate { at: landing.at.eliminate(&zero), ..landing })
     }
 
     /// What a curve touches first when its unknown grows.
-    pub fn limit(&self, from: &Departure, sunk: &[bool]) -> Candidate {
-        self.least_of(from, sunk, None, Candidate::room)
+    pub fn limit(&self, from: &Departure, sunk: &[bool]) -> TouchCandidate {
+        self.least_of(from, sunk, None, TouchCandidate::room)
     }
 
     /// What a curve is the least above, or the furthest below.
-    fn lowest(&self, from: &Departure, sunk: &[bool]) -> Candidate {
+    fn lowest(&self, from: &Departure, sunk: &[bool]) -> TouchCandidate {
         self.least_of(from, sunk, None, |c| c.gap.value)
     }
 
@@ -176,10 +176,10 @@ impl LineLayout<'_> {
         from: &Departure,
         sunk: &[bool],
         lands_in: Option<usize>,
-        size: impl Fn(&Candidate) -> f64,
-    ) -> Candidate {
-        let mut best: Option<Candidate> = None;
-        let mut take = |candidate: Candidate| {
+        size: impl Fn(&TouchCandidate) -> f64,
+    ) -> TouchCandidate {
+        let mut best: Option<TouchCandidate> = None;
+        let mut take = |candidate: TouchCandidate| {
             let (element, held) = (candidate.at.element, matches!(candidate.kind, TouchKind::Held(_) | TouchKind::End));
             if lands_in.is_some_and(|last| element > last || (element == last && held)) {
                 return;
@@ -202,12 +202,16 @@ impl LineLayout<'_> {
             };
             let face = self.bottom.face(low.u.value);
             if pull.on_bottom && departed != Some(face) {
-                take(Candidate { kind: TouchKind::Joint(element), gap: self.height_above_face(&low, face), at: low });
+                take(TouchCandidate {
+                    kind: TouchKind::Joint(element),
+                    gap: self.height_above_face(&low, face),
+                    at: low,
+                });
             }
             let (above, below) = self.lifts(element);
             let past = sunk.get(element).is_some_and(|past| *past);
             if let (Some(step), false) = (self.step(element), past) {
-                take(Candidate { kind: TouchKind::Held(element), gap: low.z + -step, at: low });
+                take(TouchCandidate { kind: TouchKind::Held(element), gap: low.z + -step, at: low });
             }
             let lift = if past { below } else { above };
             at = LinePoint { element: element + 1, s: Var::constant(0.0), v: low.v + lift, ..low };
@@ -215,8 +219,8 @@ impl LineLayout<'_> {
         }
         let line = self.bottom.tilt(0).slope();
         let gap = at.z - at.u * line + -self.line.anchor;
-        take(Candidate { kind: TouchKind::End, gap, at });
-        best.unwrap_or(Candidate { kind: TouchKind::End, gap, at })
+        take(TouchCandidate { kind: TouchKind::End, gap, at });
+        best.unwrap_or(TouchCandidate { kind: TouchKind::End, gap, at })
     }
 
     /// The height of a point above the plane of a face.
@@ -232,7 +236,7 @@ impl LineLayout<'_> {
         low: &LinePoint,
         length: f64,
         departed: Option<usize>,
-        take: &mut impl FnMut(Candidate),
+        take: &mut impl FnMut(TouchCandidate),
     ) {
         let Some(LinePiece::Length { segment, law, sees_bottom: true }) = self.elements.get(at.element) else { return };
         let (first, last) = (self.bottom.face(at.u.value), self.bottom.face(low.u.value));
@@ -244,7 +248,7 @@ impl LineLayout<'_> {
                     let touch = self.hang(at, s);
                     let (from, to) = self.bottom.extent(face);
                     if touch.u.value >= from && touch.u.value <= to {
-                        take(Candidate {
+                        take(TouchCandidate {
                             kind: TouchKind::Tangent(face),
                             gap: self.height_above_face(&touch, face),
                             at: touch,
@@ -264,7 +268,7 @@ impl LineLayout<'_> {
                 let by = rate(segment, law.as_ref(), &over);
                 let s = Var { value: reached, by: aside.by.map(|b| b / by) };
                 let gap = over.z - aside * steep + -z;
-                take(Candidate { kind: TouchKind::Vertex(face), gap, at: self.hang(at, s) });
+                take(TouchCandidate { kind: TouchKind::Vertex(face), gap, at: self.hang(at, s) });
             }
         }
     }
@@ -274,7 +278,7 @@ impl LineLayout<'_> {
         &self,
         origin: &SpanStart,
         from: &Departure,
-        to: &Candidate,
+        to: &TouchCandidate,
         sunk: &[bool],
         laid: &mut LaidLine,
     ) -> Option<Spare> {

@@ -3,7 +3,7 @@
 
 use windlass_catenary::{EndForces, FlatBottom, Segment};
 
-struct Case {
+struct ListedLine {
     id: String,
     segment: Segment,
     x: f64,
@@ -15,11 +15,11 @@ struct Case {
     regime: String,
 }
 
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<ListedLine> {
     let mut reader = csv::Reader::from_path("../../tests/data/catenary_2000.csv").unwrap();
     let read = |row: csv::StringRecord| {
         let v = |i: usize| row[i].parse::<f64>().unwrap();
-        Case {
+        ListedLine {
             id: row[0].to_string(),
             x: v(2),
             z: v(3),

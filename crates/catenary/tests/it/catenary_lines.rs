@@ -2,9 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use crate::random::RandomNumbers;
 use windlass_catenary::{Heap, Joint, Line, LineError, SeabedModel, Segment};
 
-struct Case {
+struct LineCase {
     x: f64,
     z: f64,
     segment: Segment,
@@ -14,7 +15,7 @@ struct Case {
     regime: String,
 }
 
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<LineCase> {
     let mut reader = csv::Reader::from_path("../../tests/data/catenary_2000.csv").unwrap();
     let heads = reader.headers().unwrap().clone();
     let place = |name: &str| heads.iter().position(|h| h == name).unwrap();
@@ -23,7 +24,7 @@ fn cases() -> Vec<Case> {
         .map(|r| {
             let r = r.unwrap();
             let number = |name: &str| r[place(name)].parse::<f64>().unwrap();
-            Case {
+            LineCase {
                 x: number("x_m"),
                 z: number("z_m"),
                 segment: Segment { length: number("length_m"), weight: number("w_N_per_m"), ea: number("EA_N") },
@@ -70,24 +71,6 @@ fn all_2000_whole_lines_agree_to_1e_8_of_fairlead_tension() {
 #[test]
 fn all_2000_lines_cut_in_three_agree_to_1e_8_of_fairlead_tension() {
     check(3);
-}
-
-/// A random number from 0 to 1, the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.roll()
-    }
-
-    fn scale(&mut self, low: f64, high: f64) -> f64 {
-        10f64.powf(self.between(low, high))
-    }
 }
 
 /// Walks down a solved line in small steps with nothing of the engine but the forces at the upper ends of its segments
@@ -219,7 +202,7 @@ fn contradiction(
 
 /// At most `refused` lines may end in an error; none may contradict equilibrium.
 fn random_lines(count: usize, slopes: f64, frictions: f64, lifts: bool, refused: usize) {
-    let mut dice = Dice(7);
+    let mut dice = RandomNumbers(7);
     let (mut wrong, mut errors) = (Vec::new(), 0);
     for number in 0..count {
         let pieces = 1 + (dice.roll() * 5.0) as usize;

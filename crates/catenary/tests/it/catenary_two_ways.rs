@@ -1,28 +1,11 @@
 //! Single lines solved by the engine of single segments and by that of whole lines, which share no search: the same forces.
 
+use crate::random::RandomNumbers;
 use windlass_catenary::{FlatBottom, Line, SeabedModel, Segment};
-
-/// A random number from 0 to 1, the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.roll()
-    }
-
-    fn scale(&mut self, low: f64, high: f64) -> f64 {
-        10f64.powf(self.between(low, high))
-    }
-}
 
 #[test]
 fn two_solvers_agree_on_random_lines_of_every_kind() {
-    let mut dice = Dice(12345);
+    let mut dice = RandomNumbers(12345);
     let (mut worst, mut wrong) = (0.0_f64, Vec::new());
     for number in 0..20_000 {
         let length = dice.scale(1.0, 4.0);

@@ -11,3 +11,4 @@ mod catenary_properties;
 mod catenary_shape;
 mod catenary_two_ways;
 mod line_forces;
+mod random;

@@ -21,7 +21,7 @@ pub struct JointMass {
 
 /// What a part bears.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Strength {
+pub struct BreakingStrength {
     /// Breaking tension (N).
     pub breaking: f64,
     /// Whether it was given.
@@ -34,7 +34,7 @@ pub struct LinePart {
     /// Its properties; the number of elements is that of the class.
     pub segment: RodSegment,
     /// What it bears.
-    pub strength: Strength,
+    pub strength: BreakingStrength,
     /// What stands at its end, if anything.
     pub joint: Option<JointMass>,
 }
@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn growth_is_on_outside_of_line_at_any_displacement() {
         let bare = RodSegment { displaced: 0.0, ..RodSegment::line(10.0, 1, 100.0, 1e6, 0.3) };
-        let strength = Strength { breaking: 1.0, is_given: true };
+        let strength = BreakingStrength { breaking: 1.0, is_given: true };
         let grown = LinePart { segment: bare.clone(), strength, joint: None }.with_growth(Some(&Foul), -10.0);
         // a ring from 0.3 to 0.4 m
         let ring = FRAC_PI_4 * 0.07;

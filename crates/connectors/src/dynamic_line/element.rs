@@ -12,7 +12,7 @@ use std::sync::Arc;
 use windlass_base::pose::Six;
 use windlass_base::units::Dim;
 use windlass_line_dynamics::{
-    self as rod, Balance, EndTangent, LineEnvironment, Rod, RodEndForces, RodEndMotion, RodState, SeabedLaw,
+    self as rod, EndTangent, LineEnvironment, Rod, RodEndForces, RodEndMotion, RodEnergyBalance, RodState, SeabedLaw,
 };
 use windlass_model::{
     Ambient, ClassError, ConnectorElement, ConnectorResponse, ConnectorSummary, DynamicConnector, End, Flow,
@@ -283,7 +283,7 @@ impl DynamicLine {
                     balance
                 }
                 Some(balance) => balance,
-                None => Balance::open(rod, state, environment, solver, &forces),
+                None => RodEnergyBalance::open(rod, state, environment, solver, &forces),
             })
         });
         let end = if dt > 0.0 { solver.end() } else { state };

@@ -19,7 +19,7 @@ mod start;
 mod state_layout;
 mod static_start;
 
-pub use describe::{EndFixity, JointMass, LineDescription, LinePart, Seabed, Strength};
+pub use describe::{BreakingStrength, EndFixity, JointMass, LineDescription, LinePart, Seabed};
 pub use element::DynamicLine;
 pub use sections::{
     AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, Flexure, ROPE, SEABED, SLAM, STRETCH, describe_chain, description,

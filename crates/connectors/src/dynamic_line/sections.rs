@@ -1,6 +1,6 @@
 //! Parts of a line from the records of ROD, B_CAT and H_CAT.
 
-use super::describe::{EndFixity, JointMass, LineDescription, LinePart, Seabed, Strength};
+use super::describe::{BreakingStrength, EndFixity, JointMass, LineDescription, LinePart, Seabed};
 use crate::options as o;
 use crate::per_line::PerLineOptions;
 use crate::section::LineSection;
@@ -259,7 +259,7 @@ impl Flexure {
             tube,
             ..RodSegment::line(section.length, elements, section.weight / around.gravity, section.ea, section.od)
         };
-        let strength = Strength { breaking: section.breaking, is_given: section.break_is_given };
+        let strength = BreakingStrength { breaking: section.breaking, is_given: section.break_is_given };
         LinePart { segment, strength, joint: self.joint(section, around) }
     }
 }

@@ -2,7 +2,7 @@
 //! mesh needs.
 
 use super::mesh::Bands;
-use windlass_line_dynamics::{Balance, Rod, RodState};
+use windlass_line_dynamics::{Rod, RodEnergyBalance, RodState};
 use windlass_model::ClassError;
 
 /// Where what stands.
@@ -26,7 +26,7 @@ pub(super) struct StateView<'a> {
     /// How much pipe the tensioner has paid out since the pipe was laid (m).
     pub paid: f64,
     /// Its energy balance, where it is kept and begun.
-    pub balance: Option<Balance>,
+    pub balance: Option<RodEnergyBalance>,
 }
 
 impl StateView<'_> {
@@ -51,7 +51,7 @@ const VALUES_PER_ELEMENT: usize = 3;
 impl StateLayout {
     /// That of a line of so many elements at most; `motion` values are those of a mesh of so many.
     pub fn new(elements: usize, motion: usize, balance: bool) -> Self {
-        StateLayout { elements, motion, balance: if balance { Balance::PACKED_LEN } else { 0 } }
+        StateLayout { elements, motion, balance: if balance { RodEnergyBalance::PACKED_LEN } else { 0 } }
     }
 
     /// Values of a state.
@@ -65,13 +65,13 @@ impl StateLayout {
     }
 
     /// The energy balance of a state that has one and has begun.
-    pub fn balance(&self, state: &[f64]) -> Option<Balance> {
+    pub fn balance(&self, state: &[f64]) -> Option<RodEnergyBalance> {
         let begun = state.first().is_some_and(|f| *f != 0.0) && self.balance > 0;
-        begun.then(|| state.last_chunk().map(Balance::unpack)).flatten()
+        begun.then(|| state.last_chunk().map(RodEnergyBalance::unpack)).flatten()
     }
 
     /// Writes the energy balance behind a state.
-    pub fn write_balance(&self, balance: &Balance, out: &mut [f64]) {
+    pub fn write_balance(&self, balance: &RodEnergyBalance, out: &mut [f64]) {
         if self.balance > 0
             && let Some(place) = out.last_chunk_mut()
         {

@@ -24,7 +24,7 @@ const MASS_UNITS: [f64; 3] = [1.0, 1000.0, 14.593_903];
 const WATER_DENSITY: std::ops::RangeInclusive<f64> = 950.0..=1100.0;
 
 /// A row of numbers with its line, from 1.
-type Row = (usize, Vec<f64>);
+type NumberedRow = (usize, Vec<f64>);
 
 /// A file taken apart.
 struct Sections<'a> {
@@ -32,7 +32,7 @@ struct Sections<'a> {
     counts: [usize; 3],
     directions: Vec<f64>,
     frequencies: Vec<f64>,
-    sections: BTreeMap<String, (usize, Vec<Row>)>,
+    sections: BTreeMap<String, (usize, Vec<NumberedRow>)>,
 }
 
 /// Factors to SI.
@@ -106,7 +106,7 @@ pub fn read(source: &str, file: &SourceFile, body: Option<usize>) -> Result<Data
             *limit = Some(units.matrix(&sections.matrix(name, &[chosen, chosen])?, units.kilograms));
         }
     }
-    let own = |(_, row): &&Row| row.iter().skip(1).any(|x| *x != 0.0) && row.first() == Some(&(chosen as f64));
+    let own = |(_, row): &&NumberedRow| row.iter().skip(1).any(|x| *x != 0.0) && row.first() == Some(&(chosen as f64));
     if let Some((line, _)) = sections.rows("FIDD").and_then(|rows| rows.iter().find(own)) {
         let why = "a damping of drift frequencies alone (FIDD) has no place in the model: put zeros here and give #DAMP, which acts at all frequencies";
         return Err(file.wrong_at(*line, why));
@@ -246,7 +246,7 @@ impl<'a> Sections<'a> {
         self.sections.contains_key(name)
     }
 
-    fn rows(&self, name: &str) -> Option<&[Row]> {
+    fn rows(&self, name: &str) -> Option<&[NumberedRow]> {
         self.sections.get(name).map(|(_, rows)| rows.as_slice())
     }
 
@@ -265,7 +265,7 @@ impl<'a> Sections<'a> {
     }
 
     /// The row of a section that begins with the number of a structure.
-    fn own_row(&self, name: &str, body: usize) -> Result<&Row, DatabaseError> {
+    fn own_row(&self, name: &str, body: usize) -> Result<&NumberedRow, DatabaseError> {
         let rows = self.rows(name).ok_or_else(|| self.file.error(format!("it has no section {name}")))?;
         rows.iter()
             .find(|(_, row)| key::<1>(row) == Some([body]))

@@ -4,7 +4,7 @@ use super::checks::check_database;
 use super::rows::{DatabaseError, axis, same_heading};
 use nalgebra::{Complex, Matrix3, Matrix6, Vector3};
 use std::f64::consts::TAU;
-use windlass_model::{Amplitudes, Database};
+use windlass_model::{Amplitudes, Database, Surroundings};
 
 /// What is given of one period.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,10 +30,7 @@ pub struct TypedAxes {
     pub yaw: f64,
 }
 
-/// Density (kg/m3), gravity (m/s2) and depth (m) of the water.
-pub type Water = (f64, f64, Option<f64>);
-
-/// The database of values given by period, in the axes of the body.
+/// The database of values given by period, in the axes of the body; density, gravity and depth are those of the surroundings.
 ///
 /// # Errors
 /// No period, or one that is given twice; matrices or headings that only some periods have; what every database is refused for.
@@ -41,7 +38,7 @@ pub fn build(
     source: &str,
     place: &TypedAxes,
     periods: &[TypedPeriod],
-    water: Water,
+    around: &Surroundings,
 ) -> Result<Database, DatabaseError> {
     let wrong = |why: String| Err(DatabaseError::Whole(format!("{source}: {why}")));
     let mut list: Vec<&TypedPeriod> = periods.iter().collect();
@@ -87,7 +84,6 @@ pub fn build(
             row.push(rotate(&place.axes, force));
         }
     }
-    let (density, gravity, depth) = water;
     check_database(Database {
         source: source.to_string(),
         reference: place.reference,
@@ -96,9 +92,9 @@ pub fn build(
         damping,
         headings,
         excitation,
-        density,
-        gravity,
-        depth,
+        density: around.water_density,
+        gravity: around.gravity,
+        depth: around.depth,
         ..Database::default()
     })
 }

@@ -46,7 +46,7 @@ impl Surface {
 /// Integrals over the wet skin and along the waterline while they are gathered. Coordinates are about the pose's origin
 /// with z from the water's surface.
 #[derive(Default)]
-struct Sum {
+struct HullSums {
     volume: f64,
     moment: Vector3<f64>,
     area: f64,
@@ -69,7 +69,7 @@ const CUBIC: [([f64; 3], f64); 7] = [
     ([1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0], 0.45),
 ];
 
-impl Sum {
+impl HullSums {
     /// A triangle of the wet skin.
     ///
     /// The divergence theorem with the fluxes (0, 0, z), (0, 0, x z), (0, 0, y z), (0, 0, z z / 2), whose divergences are
@@ -147,7 +147,7 @@ impl Solid for Surface {
     /// Exact for the polyhedron: each triangle is cut at the surface and its polynomials are integrated. What lies in the
     /// surface itself is dry: a deck that is just awash leaves its waterplane, a keel that just touches has none.
     fn wet(&self, pose: &Pose, level: f64) -> SubmergedVolume {
-        self.gather(pose, level, Sum::default()).wet(pose.origin.z - level)
+        self.gather(pose, level, HullSums::default()).wet(pose.origin.z - level)
     }
 }
 
@@ -155,7 +155,7 @@ impl Surface {
     /// Integrals of xx, xy .. zz over what of it is below z = `level` (m, global) in a pose (m5), about the origin of the pose in global axes.
     pub fn second_moments(&self, pose: &Pose, level: f64) -> Matrix3<f64> {
         let drop = pose.origin.z - level;
-        let sum = self.gather(pose, level, Sum { products: Some([0.0; 6]), ..Sum::default() });
+        let sum = self.gather(pose, level, HullSums { products: Some([0.0; 6]), ..HullSums::default() });
         let [xx, yy, zz, yz, xz, xy] = sum.products.unwrap_or_default().map(|twice| 0.5 * twice);
         // z from the water's surface to the origin of the pose, `drop` above it
         let wet = sum.wet(drop);
@@ -166,7 +166,7 @@ impl Surface {
     }
 
     /// Adds up what of it is below the surface.
-    fn gather(&self, pose: &Pose, level: f64, mut sum: Sum) -> Sum {
+    fn gather(&self, pose: &Pose, level: f64, mut sum: HullSums) -> HullSums {
         let drop = pose.origin.z - level;
         let axes = &pose.axes;
         let place = |p: &Vector3<f64>| {
@@ -194,14 +194,14 @@ impl Surface {
 }
 
 /// A triangle with one corner below the surface.
-fn tip(sum: &mut Sum, low: Vector3<f64>, next: Vector3<f64>, last: Vector3<f64>) {
+fn tip(sum: &mut HullSums, low: Vector3<f64>, next: Vector3<f64>, last: Vector3<f64>) {
     let (p, q) = (crossing(low, next), crossing(low, last));
     sum.triangle(low, p, q);
     sum.waterline(q, p);
 }
 
 /// A triangle with one corner at or above the surface.
-fn stump(sum: &mut Sum, high: Vector3<f64>, next: Vector3<f64>, last: Vector3<f64>) {
+fn stump(sum: &mut HullSums, high: Vector3<f64>, next: Vector3<f64>, last: Vector3<f64>) {
     if high.z == 0.0 {
         return sum.triangle(high, next, last);
     }

@@ -161,11 +161,11 @@ fn rods(
     // what a database holds is not counted again
     let own_waves = if piece.waves == WaveAction::Database { 0.0 } else { 1.0 };
     let lengths = growth.map_or_else(
-        || vec![Length { ends: [0.0, 1.0], diameter: bare }],
+        || vec![TubePart { ends: [0.0, 1.0], diameter: bare }],
         |(growth, pose)| lengths(&growth_loads::stations(growth, pose, ends, bare), bare),
     );
     let last = lengths.len().saturating_sub(1);
-    let made = lengths.iter().enumerate().map(|(n, Length { ends: [start, end], diameter })| {
+    let made = lengths.iter().enumerate().map(|(n, TubePart { ends: [start, end], diameter })| {
         let [from, to] = [*start, *end].map(|at| foot + (head - foot) * at);
         let length = (to - from).norm();
         let (section, core) = (section_area(*diameter), section_area(bare));
@@ -196,7 +196,7 @@ fn rods(
 }
 
 /// A length of a tube with one diameter.
-struct Length {
+struct TubePart {
     /// Where it begins and ends, from 0 at the foot of the tube to 1 at its head.
     ends: [f64; 2],
     /// Its outer diameter, growth with it (m).
@@ -209,8 +209,8 @@ fn section_area(diameter: f64) -> f64 {
 }
 
 /// The lengths of a tube of a bare diameter (m) with growth on it, by stations between which its diameter is straight.
-fn lengths(stations: &[(f64, f64)], bare: f64) -> Vec<Length> {
-    let mut made: Vec<Length> = Vec::new();
+fn lengths(stations: &[(f64, f64)], bare: f64) -> Vec<TubePart> {
+    let mut made: Vec<TubePart> = Vec::new();
     for pair in stations.windows(2) {
         let [(from, first), (to, second)] = pair else { continue };
         if to <= from {
@@ -224,7 +224,7 @@ fn lengths(stations: &[(f64, f64)], bare: f64) -> Vec<Length> {
             let ends = [start, end].map(|at| from + (to - from) * at);
             match made.last_mut().filter(|l| l.diameter == diameter) {
                 Some(before) => before.ends[1] = ends[1],
-                None => made.push(Length { ends, diameter }),
+                None => made.push(TubePart { ends, diameter }),
             }
         }
     }

@@ -3,7 +3,7 @@
 //! Source: [MOSES-REF rarm], [MOSES-HELP hystat]. Angles grow in the direction the body is rolled; a righting arm is positive where it
 //! turns the body back, a heeling arm where it turns it on. The wind blows across the roll axis, onto the side that rises.
 
-use super::balance::{Attitude, Balance, BalanceLimits, StillBody};
+use super::balance::{Attitude, BalanceLimits, BalancedBody, StillBody};
 use crate::{BodyLoad, Category, Floating};
 use nalgebra::Vector3;
 use windlass_base::pose::Six;
@@ -214,7 +214,7 @@ pub struct ArmPoint {
     /// Heeling arm (m).
     pub heeling: f64,
     /// The balance.
-    pub balance: Balance,
+    pub balance: BalancedBody,
     /// Least heights over the water of points that are not weathertight and of those that are (m), each with the point's index.
     pub heights: [Option<(f64, usize)>; 2],
 }

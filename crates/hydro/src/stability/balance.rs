@@ -93,7 +93,7 @@ impl Default for BalanceLimits {
 
 /// A body that is balanced.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Balance {
+pub struct BalancedBody {
     /// Where it stands.
     pub attitude: Attitude,
     /// The moment about the roll axis through the center of gravity that turns the body back from a positive roll, over the weight (m).
@@ -292,7 +292,12 @@ impl StillBody {
     ///
     /// # Errors
     /// A body without weight, or for which no balance was found.
-    pub fn balance(&self, from: &Attitude, free: [bool; 3], limits: &BalanceLimits) -> Result<Balance, ClassError> {
+    pub fn balance(
+        &self,
+        from: &Attitude,
+        free: [bool; 3],
+        limits: &BalanceLimits,
+    ) -> Result<BalancedBody, ClassError> {
         let mut at = *from;
         let [along, across] = at.level_axes();
         let centre = self.floating.mass.centre;
@@ -316,7 +321,7 @@ impl StillBody {
             let left = [force.z, about.dot(&along), about.dot(&across)];
             let scale = [weight, weight * size, weight * size];
             let within = |tolerance: [f64; 3]| (0..3).all(|i| !free[i] || left[i].abs() <= tolerance[i] * scale[i]);
-            let found = Balance { attitude: at, arm: -about.dot(&along) / weight, weight, steps };
+            let found = BalancedBody { attitude: at, arm: -about.dot(&along) / weight, weight, steps };
             if within([RESIDUAL_TOLERANCE; 3]) {
                 return Ok(found);
             }

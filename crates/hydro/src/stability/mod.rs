@@ -11,8 +11,8 @@ mod static_wave;
 mod strength;
 
 pub use arms::{ArmPoint, Arms, DownFloodingPoint, Heeling, ResistanceCentre, StopRule, find_down_flooding_points};
-pub use balance::{Attitude, Balance, BalanceLimits, StillBody};
+pub use balance::{Attitude, BalanceLimits, BalancedBody, StillBody};
 pub use criteria::{Quantity, Stability, find_greatest_height};
 pub use slabs::WaterSlabs;
 pub use static_wave::StaticWave;
-pub use strength::{LoadAlong, Strength, StrengthRow, find_strength};
+pub use strength::{LoadAlong, LongitudinalStrength, StrengthRow, find_strength};

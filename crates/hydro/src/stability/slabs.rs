@@ -21,7 +21,7 @@ pub struct WaterSlabs {
 }
 
 /// Corners of a part of a triangle: about the origin of the pose in global axes (m), with the height over the water (m).
-type Corner = (Vector3<f64>, f64);
+type WetCorner = (Vector3<f64>, f64);
 
 impl WaterSlabs {
     /// How many slabs there are: one more than stations.
@@ -65,7 +65,7 @@ impl WaterSlabs {
                     break;
                 }
                 let height = |p: &Vector3<f64>| p.z + pose.origin.z - self.level_in(slab, self.distance(p));
-                let mut part: Vec<Corner> = [a, b, c].iter().map(|p| (*p, height(p))).collect();
+                let mut part: Vec<WetCorner> = [a, b, c].iter().map(|p| (*p, height(p))).collect();
                 if let Some(from) = from.filter(|from| *from > low) {
                     part = keep_negative(&part, |(p, _)| from - self.distance(p));
                 }
@@ -80,7 +80,7 @@ impl WaterSlabs {
 }
 
 /// The part of a convex polygon where a function that is straight over it is not positive.
-fn keep_negative(polygon: &[Corner], value: impl Fn(&Corner) -> f64) -> Vec<Corner> {
+fn keep_negative(polygon: &[WetCorner], value: impl Fn(&WetCorner) -> f64) -> Vec<WetCorner> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (p, q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
         let (a, b) = (value(p), value(q));
@@ -96,7 +96,7 @@ fn keep_negative(polygon: &[Corner], value: impl Fn(&Corner) -> f64) -> Vec<Corn
 }
 
 /// Adds the integrals of a convex part of the wet skin.
-fn add_polygon(polygon: &[Corner], factor: f64, sum: &mut SubmergedVolume) {
+fn add_polygon(polygon: &[WetCorner], factor: f64, sum: &mut SubmergedVolume) {
     let [first, rest @ ..] = polygon else { return };
     for pair in rest.windows(2) {
         let [second, third] = pair else { continue };
@@ -105,7 +105,7 @@ fn add_polygon(polygon: &[Corner], factor: f64, sum: &mut SubmergedVolume) {
         let area = 0.5 * normal.z * factor;
         sum.wetted_area += 0.5 * normal.norm() * factor;
         // integral of a product of two functions that are straight over the triangle, over its projection
-        let product = |f: &dyn Fn(&Corner) -> f64, g: &dyn Fn(&Corner) -> f64| {
+        let product = |f: &dyn Fn(&WetCorner) -> f64, g: &dyn Fn(&WetCorner) -> f64| {
             let (mut fs, mut gs, mut both) = (0.0, 0.0, 0.0);
             for corner in corners {
                 let (a, b) = (f(corner), g(corner));
@@ -115,10 +115,10 @@ fn add_polygon(polygon: &[Corner], factor: f64, sum: &mut SubmergedVolume) {
             }
             area / 12.0 * (fs * gs + both)
         };
-        let (x, y, t) = (|c: &Corner| c.0.x, |c: &Corner| c.0.y, |c: &Corner| c.1);
+        let (x, y, t) = (|c: &WetCorner| c.0.x, |c: &WetCorner| c.0.y, |c: &WetCorner| c.1);
         // the height of the water over the origin of the pose: z - t
-        let water = |c: &Corner| c.0.z - c.1;
-        let whole = |f: &dyn Fn(&Corner) -> f64| corners.iter().map(|c| f(c)).sum::<f64>() * area / 3.0;
+        let water = |c: &WetCorner| c.0.z - c.1;
+        let whole = |f: &dyn Fn(&WetCorner) -> f64| corners.iter().map(|c| f(c)).sum::<f64>() * area / 3.0;
         sum.volume += whole(&t);
         sum.moment += Vector3::new(product(&x, &t), product(&y, &t), 0.5 * product(&t, &t) + product(&water, &t));
         sum.plane_area -= area;

@@ -79,7 +79,7 @@ pub struct StrengthRow {
 
 /// Shear and bending along a body.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Strength {
+pub struct LongitudinalStrength {
     /// The stations, first to last.
     pub rows: Vec<StrengthRow>,
     /// The greatest shear and the greatest moments of either sign.
@@ -110,7 +110,12 @@ struct Loads {
 ///
 /// # Errors
 /// A body without a hull; loads that cannot be computed.
-pub fn find_strength(model: &Model, body: &Body, still: &StillBody, intervals: usize) -> Result<Strength, ClassError> {
+pub fn find_strength(
+    model: &Model,
+    body: &Body,
+    still: &StillBody,
+    intervals: usize,
+) -> Result<LongitudinalStrength, ClassError> {
     let attitude = Attitude::from_place(&body.place);
     let Some([low, high]) = still.reach(&attitude) else {
         return Err(ClassError::new(format!("{} has no hull to bend", body.name))
@@ -167,7 +172,7 @@ pub fn find_strength(model: &Model, body: &Body, still: &StillBody, intervals: u
     let loads = gather(model, body, still, &attitude, [low, high], (weights, rest))?;
     let stations = |count: usize| (0..=count).map(move |n| low + length * n as f64 / count as f64);
     let rows: Vec<StrengthRow> = stations(intervals).map(|at| loads.before(at)).collect();
-    let mut found = Strength { rows, length, points, others, ..Strength::default() };
+    let mut found = LongitudinalStrength { rows, length, points, others, ..LongitudinalStrength::default() };
     let ends = loads.weights.iter().chain(&loads.others).flat_map(|load| match *load {
         LoadAlong::Point { at, .. } => [at, at],
         LoadAlong::Trapezoid { between, .. } => between,

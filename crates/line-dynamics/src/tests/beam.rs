@@ -228,7 +228,7 @@ fn beam_energy_balance_includes_work_of_rotating_clamp() {
             *v = (Vector3::y() * rate).cross(x);
         }
         let made = solver.start(&rod, &mut state, &world, turned(rate, 0.0)).unwrap();
-        let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
+        let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
         for i in 1..=(2.0 / h) as usize {
             let time = i as f64 * h;
             let made = solver.step(&rod, &mut state, &world, time, turned(rate, time)).unwrap();

@@ -3,21 +3,21 @@
 use super::super::*;
 use nalgebra::{Rotation3, SMatrix, SVector, Vector3};
 
-type Column = SVector<f64, 12>;
+type TangentColumn = SVector<f64, 12>;
 
 /// A motion of the two holders: translation and rotation of each, by position, velocity and acceleration of its end.
-type Change = [[Vector3<f64>; 4]; 2];
+type EndChange = [[Vector3<f64>; 4]; 2];
 
 /// One rod with its holders.
-struct Case {
+struct TangentCase {
     name: &'static str,
     rod: Rod,
     state: RodState,
     ends: [RodEnd; 2],
 }
 
-impl Case {
-    fn moved(&self, change: &Change) -> [RodEnd; 2] {
+impl TangentCase {
+    fn moved(&self, change: &EndChange) -> [RodEnd; 2] {
         [0, 1].map(|side| {
             let (end, [x, v, a, angle]) = (self.ends[side], change[side]);
             let turn = Rotation3::new(angle);
@@ -35,8 +35,8 @@ impl Case {
     }
 }
 
-fn outputs(made: &RodEndForces) -> Column {
-    let mut all = Column::zeros();
+fn outputs(made: &RodEndForces) -> TangentColumn {
+    let mut all = TangentColumn::zeros();
     for side in 0..2 {
         all.fixed_rows_mut::<3>(6 * side).copy_from(&made.force[side]);
         all.fixed_rows_mut::<3>(6 * side + 3).copy_from(&made.moment[side]);
@@ -44,7 +44,7 @@ fn outputs(made: &RodEndForces) -> Column {
     all
 }
 
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<TangentCase> {
     let (a, b) = (Vector3::new(0.0, 0.0, -60.0), Vector3::new(35.0, 8.0, -25.0));
     let along = (b - a).normalize();
     let held = |at: Vector3<f64>, v: f64| {
@@ -65,7 +65,7 @@ fn cases() -> Vec<Case> {
     let mut list = Vec::new();
     let mut add = |name, rod: Rod, points: &[Vector3<f64>], ends| {
         let state = RodState::along_points(&rod, points).unwrap();
-        list.push(Case { name, rod, state, ends });
+        list.push(TangentCase { name, rod, state, ends });
     };
     let one = |length: f64, elements, bending, torsion| {
         Rod::new("line", vec![segment(length, elements, bending, torsion)], vec![]).unwrap()
@@ -118,18 +118,18 @@ fn cases() -> Vec<Case> {
 fn wrong(
     tangent: &SMatrix<f64, 12, 12>,
     kind: usize,
-    mut at: impl FnMut(&Change) -> Column,
+    mut at: impl FnMut(&EndChange) -> TangentColumn,
     (h, least, share): (f64, f64, f64),
 ) -> Vec<String> {
     let mut found = Vec::new();
     for column in 0..12 {
         let (side, axis) = (column / 6, column % 6);
         let mut by = |h: f64| {
-            let mut change: Change = [[Vector3::zeros(); 4]; 2];
+            let mut change: EndChange = [[Vector3::zeros(); 4]; 2];
             change[side][if axis < 3 { kind } else { 3 }][axis % 3] = h;
             at(&change)
         };
-        let difference = if axis < 3 || kind == 0 { (by(h) - by(-h)) / (2.0 * h) } else { Column::zeros() };
+        let difference = if axis < 3 || kind == 0 { (by(h) - by(-h)) / (2.0 * h) } else { TangentColumn::zeros() };
         let most = least + share * tangent.amax();
         let away = (difference - tangent.column(column)).amax();
         if away > most {
@@ -149,7 +149,7 @@ fn end_tangent_matches_end_force_finite_differences() {
         let rest = case.ends.map(|e| RodEnd { motion: e.motion.map(|m| RodEndMotion::at_rest(m.position)), ..e });
         solver.statics(&case.rod, &mut state, &world, rest).unwrap();
         for again in [false, true] {
-            let at = |change: &Change, solver: &mut RodSolver| {
+            let at = |change: &EndChange, solver: &mut RodSolver| {
                 // with and without what the trial before has left
                 let mut fresh = RodSolver::new(&case.rod, RodSettings { tolerance: 1e-12, ..RodSettings::default() });
                 let solver = if again { solver } else { &mut fresh };
@@ -175,7 +175,7 @@ fn static_end_stiffness_matches_finite_difference_at_rest() {
         let mut solver = RodSolver::new(&case.rod, RodSettings::default());
         solver.statics(&case.rod, &mut state, &world, case.moved(&[[Vector3::zeros(); 4]; 2])).unwrap();
         let whole = *solver.end_tangent(&case.rod, &world).unwrap();
-        let at = |change: &Change| {
+        let at = |change: &EndChange| {
             outputs(&solver.statics(&case.rod, &mut state.clone(), &world, case.moved(change)).unwrap())
         };
         assert!(whole.velocity.amax() == 0.0 && whole.acceleration.amax() == 0.0);

@@ -41,7 +41,7 @@ fn line_in_friction_equilibrium_stays_and_anchor_is_unloaded() {
         assert!(held < 0.012 * 0.8 * MASS * GRAVITY * 5.0, "{held}");
         let pull = rested.force[side].norm();
         let before = state.clone();
-        let mut balance = Balance::open(&rod, &state, &world, &solver, &rested);
+        let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &rested);
         for i in 1..=600 {
             let made = solver.step(&rod, &mut state, &world, i as f64 * 0.1, ends).unwrap();
             balance.enter(&rod, &state, &world, &solver, &made);
@@ -71,7 +71,7 @@ fn dragged_line_has_friction_tension_and_stays_where_left() {
         [RodEnd::FREE, RodEnd::from_motion(motion)]
     };
     let made = solver.start(&rod, &mut state, &world, at(0.0, 0.0, 0.0)).unwrap();
-    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
     let (h, mut pull) = (0.02, 0.0);
     let whole = friction * MASS * GRAVITY * length;
     for i in 1..=3000 {

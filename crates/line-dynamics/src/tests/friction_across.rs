@@ -18,7 +18,7 @@ fn rough(along: f64, across: f64) -> SeabedLaw {
 }
 
 /// A chain laid on a slope in still water, in a current; at rest, with the forces at its ends.
-struct Rested {
+struct FrictionRest {
     rod: Rod,
     state: RodState,
     solver: RodSolver,
@@ -26,7 +26,7 @@ struct Rested {
     ends: [RodEnd; 2],
 }
 
-fn rest(bottom: &PlaneBottom, length: f64, current: Vector3<f64>) -> Rested {
+fn rest(bottom: &PlaneBottom, length: f64, current: Vector3<f64>) -> FrictionRest {
     let segment = RodSegment {
         axial_damping: 1e6,
         drag_normal: 1.2,
@@ -45,7 +45,7 @@ fn rest(bottom: &PlaneBottom, length: f64, current: Vector3<f64>) -> Rested {
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
-    Rested { rod, state, solver, made, ends }
+    FrictionRest { rod, state, solver, made, ends }
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn cross_current_loads_suspended_part_and_moves_no_grounded_part() {
         let bottom = PlaneBottom { height: -100.0, slope: [slope, 0.0] };
         let still = rest(&bottom, length, Vector3::zeros());
         for speed in [0.01, 0.05, 0.5, 1.0] {
-            let Rested { rod, mut state, mut solver, made, ends } = rest(&bottom, length, Vector3::y() * speed);
+            let FrictionRest { rod, mut state, mut solver, made, ends } = rest(&bottom, length, Vector3::y() * speed);
             assert!(!solver.has_slid_without_friction(), "{slope} {length} {speed}");
             // up to two elements before it leaves the bottom
             let over = |x: &Vector3<f64>| x.z - bottom.height(x.x, x.y).0;
@@ -96,7 +96,7 @@ fn current_along_grounded_line_does_not_push_it() {
         let bottom = PlaneBottom { height: -100.0, slope: [slope, 0.0] };
         for (speed, angle) in [(0.5, 0.0f64), (0.5, 180.0), (1.0, 180.0), (0.5, 150.0), (0.05, 30.0)] {
             let (sin, cos) = angle.to_radians().sin_cos();
-            let Rested { solver, made, .. } = rest(&bottom, length, Vector3::new(cos, sin, 0.0) * speed);
+            let FrictionRest { solver, made, .. } = rest(&bottom, length, Vector3::new(cos, sin, 0.0) * speed);
             println!("{slope} {length} {speed} {angle}: {} {}", made.force[1], made.force[0].x);
             assert!(!solver.has_slid_without_friction());
             assert!(made.force[0].xy().norm() < 100.0, "{}", made.force[0]);

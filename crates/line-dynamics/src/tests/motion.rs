@@ -196,7 +196,7 @@ fn swinging_moored_rope_conserves_energy_and_momentum() {
             RodSettings { scheme: SchemeWeights::generalised_alpha(0.9), ..RodSettings::default() },
         );
         let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
-        let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
+        let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
         let mut worst = (0.0f64, 0.0f64);
         for i in 1..=(20.0 / h) as usize {
             let t = i as f64 * h;
@@ -249,12 +249,12 @@ fn swinging_twisted_beam_conserves_energy() {
             &rod,
             RodSettings { scheme: SchemeWeights::generalised_alpha(1.0), ..RodSettings::default() },
         );
-        let mut balance: Option<Balance> = None;
+        let mut balance: Option<RodEnergyBalance> = None;
         let mut worst: f64 = 0.0;
         for i in 1..=(3.0 / h) as usize {
             let made = solver.step(&rod, &mut state, &world, i as f64 * h, [clamp, RodEnd::FREE]).unwrap();
             match &mut balance {
-                None => balance = Some(Balance::open(&rod, &state, &world, &solver, &made)),
+                None => balance = Some(RodEnergyBalance::open(&rod, &state, &world, &solver, &made)),
                 Some(balance) => {
                     balance.enter(&rod, &state, &world, &solver, &made);
                     worst = worst.max(balance.energy_error().abs() / balance.turnover);

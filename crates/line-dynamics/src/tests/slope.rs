@@ -49,7 +49,7 @@ pub(super) fn lying(unit: f64, slope: f64, length: f64, [x, z]: [f64; 2]) -> (f6
 const FAIRLEAD: [f64; 2] = [400.0, 90.0];
 
 /// A chain at rest on a slope, begun at its shape, with the forces at its ends and the closed form of its horizontal one.
-struct Rested {
+struct SlopeRest {
     rod: Rod,
     state: RodState,
     solver: RodSolver,
@@ -58,7 +58,7 @@ struct Rested {
     ends: [RodEnd; 2],
 }
 
-fn rest(bottom: &PlaneBottom, length: f64, elements: usize, [x, z]: [f64; 2]) -> Rested {
+fn rest(bottom: &PlaneBottom, length: f64, elements: usize, [x, z]: [f64; 2]) -> SlopeRest {
     let rod = chain(length, elements);
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment { bottom: Some((bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
@@ -70,7 +70,7 @@ fn rest(bottom: &PlaneBottom, length: f64, elements: usize, [x, z]: [f64; 2]) ->
     solver.statics(&rod, &mut state, &world, ends).unwrap();
     let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
     assert!(!solver.has_slid_without_friction());
-    Rested { rod, state, solver, made, exact, ends }
+    SlopeRest { rod, state, solver, made, exact, ends }
 }
 
 fn sloping(slope: f64) -> PlaneBottom {
@@ -82,7 +82,7 @@ fn slack_chain_on_slope_converges_to_closed_form_with_mesh() {
     for (slope, length) in [(0.1, 440.0), (0.1, 420.0), (0.05, 440.0), (0.02, 430.0)] {
         // 5 m elements at a touchdown whose radius is 8 m; then 9 N, what a chain pulls more that sinks into the bottom by 1 cm
         for (elements, most) in [(44, 7e-2), (88, 1e-2), (176, 1e-2), (352, 1.5e-3)] {
-            let Rested { made, exact, .. } = rest(&sloping(slope), length, elements, FAIRLEAD);
+            let SlopeRest { made, exact, .. } = rest(&sloping(slope), length, elements, FAIRLEAD);
             let off = (-made.force[1].x / exact - 1.0).abs();
             // of the friction of a node a hundredth is left at the anchor, to hold the nodes in line
             let left = 0.011 * (FRICTION + slope) * MASS * GRAVITY * length / elements as f64;
@@ -97,7 +97,7 @@ fn slack_chain_on_slope_converges_to_closed_form_with_mesh() {
 fn slack_chain_on_slope_stays_in_place() {
     for (slope, length) in [(0.1, 440.0), (0.1, 420.0), (0.02, 430.0)] {
         let bottom = sloping(slope);
-        let Rested { rod, mut state, mut solver, made, ends, .. } = rest(&bottom, length, 88, FAIRLEAD);
+        let SlopeRest { rod, mut state, mut solver, made, ends, .. } = rest(&bottom, length, 88, FAIRLEAD);
         let fluid = UniformFluid::vacuum();
         let world = LineEnvironment { bottom: Some((&bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
         let (before, pull) = (state.clone(), made.force[1].norm());
@@ -118,14 +118,14 @@ fn chain_moved_on_slope_matches_one_built_at_new_fairlead() {
     let world = LineEnvironment { bottom: Some((&bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
     for by in [-3.0, -0.5, 0.5, 3.0] {
         let anew = rest(&bottom, 440.0, 88, [FAIRLEAD[0] + by, FAIRLEAD[1]]).made.force[1];
-        let Rested { rod, mut state, mut solver, .. } = rest(&bottom, 440.0, 88, FAIRLEAD);
+        let SlopeRest { rod, mut state, mut solver, .. } = rest(&bottom, 440.0, 88, FAIRLEAD);
         let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::pin(Vector3::new(FAIRLEAD[0] + by, 0.0, FAIRLEAD[1]))];
         let made = solver.statics(&rod, &mut state, &world, ends).unwrap().force[1];
         println!("{by}: {} {} {}", made.x, anew.x, solver.has_slid_without_friction());
         assert!((made - anew).norm() < 1e-3 * anew.norm(), "{by}: {made} {anew}");
     }
     // aside: it swings round, and lies on the slope without sliding down across it
-    let Rested { rod, mut state, mut solver, made, .. } = rest(&bottom, 440.0, 88, FAIRLEAD);
+    let SlopeRest { rod, mut state, mut solver, made, .. } = rest(&bottom, 440.0, 88, FAIRLEAD);
     let (x, y) = (FAIRLEAD[0], 15.0);
     let ends = [RodEnd::pin(Vector3::zeros()), RodEnd::pin(Vector3::new(x, y, FAIRLEAD[1]))];
     let aside = solver.statics(&rod, &mut state, &world, ends).unwrap().force[1];
@@ -142,7 +142,7 @@ fn stiffness_on_slope_matches_finite_difference_of_force() {
     for (slope, length) in [(0.1, 440.0), (0.1, 420.0), (-0.1, 440.0)] {
         let bottom = sloping(slope);
         let world = LineEnvironment { bottom: Some((&bottom, rough())), ..LineEnvironment::new(&fluid, GRAVITY) };
-        let Rested { rod, mut state, mut solver, .. } = rest(&bottom, length, 88, FAIRLEAD);
+        let SlopeRest { rod, mut state, mut solver, .. } = rest(&bottom, length, 88, FAIRLEAD);
         let mut pull = |by: Vector3<f64>| {
             let far = Vector3::new(FAIRLEAD[0], 0.0, FAIRLEAD[1]) + by;
             let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(Vector3::zeros()), RodEnd::pin(far)]);

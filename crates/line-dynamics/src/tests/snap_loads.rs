@@ -5,7 +5,7 @@ use super::super::*;
 use nalgebra::Vector3;
 
 /// A line in 300 m of water and its run.
-struct Line {
+struct SnapLine {
     segment: RodSegment,
     start: Vec<Vector3<f64>>,
     /// Amplitude of the end's motion (m) and its period (s).
@@ -29,7 +29,7 @@ fn chain(elements: usize) -> RodSegment {
 
 /// Runs a line for a minute in steps of a tenth of a second: the energy that came from nowhere at worst and that the
 /// scheme has damped in all, as shares of the turnover, and the largest speed at the end.
-fn run(line: &Line) -> (f64, f64, f64) {
+fn run(line: &SnapLine) -> (f64, f64, f64) {
     let rod = Rod::new("line", vec![line.segment.clone()], vec![]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.3, 0.5, 0.0));
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
@@ -40,7 +40,7 @@ fn run(line: &Line) -> (f64, f64, f64) {
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     let (a, b) = (line.start[0], line.start[line.start.len() - 1]);
     let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
-    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
     let w = 2.0 * std::f64::consts::PI / line.period;
     let (mut gained, mut lost): (f64, f64) = (0.0, 0.0);
     for i in 1..=600 {
@@ -65,7 +65,7 @@ fn run(line: &Line) -> (f64, f64, f64) {
 fn lines_that_snap_break_and_fall_gain_no_energy() {
     let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
     let laid = vec![a, Vector3::new(-350.0, 0.0, -300.0), b];
-    let line = |segment, amplitude, period, friction| Line {
+    let line = |segment, amplitude, period, friction| SnapLine {
         segment,
         start: laid.clone(),
         amplitude,
@@ -92,9 +92,9 @@ fn lines_that_snap_break_and_fall_gain_no_energy() {
         // pulled straight and thrown down again, with friction
         line(chain(60), Vector3::new(25.0, 0.0, 0.0), 12.0, 0.7),
         // let go at its top
-        Line { parts: 8.0, ..line(chain(60), Vector3::new(2.0, 0.0, 0.0), 10.0, 0.7) },
+        SnapLine { parts: 8.0, ..line(chain(60), Vector3::new(2.0, 0.0, 0.0), 10.0, 0.7) },
         // an elastic rope between bottom and ship
-        Line { start: vec![a, b], ..line(rope, Vector3::new(0.0, 0.0, 12.0), 9.0, 0.0) },
+        SnapLine { start: vec![a, b], ..line(rope, Vector3::new(0.0, 0.0, 12.0), 9.0, 0.0) },
         line(pipe, Vector3::new(1.0, 3.0, 4.0), 10.0, 0.5),
     ];
     for (i, case) in cases.iter().enumerate() {

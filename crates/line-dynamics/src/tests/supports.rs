@@ -212,7 +212,7 @@ fn cradle_holds_pipe_by_force_balance_of_faces() {
 }
 
 /// The energy balance of a pipe dropped on two rollers that heave, by steps of `h` seconds.
-fn dropped(h: f64) -> Balance {
+fn dropped(h: f64) -> RodEnergyBalance {
     // soft along, so that its steps follow the waves of its landing
     let segment = RodSegment { bending: 1e6, compression: true, ..RodSegment::line(40.0, 40, 30.0, 1e6, 0.3) };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
@@ -250,7 +250,7 @@ fn dropped(h: f64) -> Balance {
         let world = LineEnvironment { supports: &supports(&at), ..LineEnvironment::new(&fluid, 9.81) };
         let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
         match &mut balance {
-            None => balance = Some(Balance::open(&rod, &state, &world, &solver, &made)),
+            None => balance = Some(RodEnergyBalance::open(&rod, &state, &world, &solver, &made)),
             Some(balance) => balance.enter(&rod, &state, &world, &solver, &made),
         }
     }

@@ -117,7 +117,7 @@ fn cylinder_impacting_surface_shares_momentum_with_water() {
         RodSolver::new(&rod, RodSettings { scheme: SchemeWeights::generalised_alpha(1.0), ..RodSettings::default() });
     solver.start(&rod, &mut state, &world, [RodEnd::FREE; 2]).unwrap();
     let made = RodEndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
-    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
     for i in 1..=1000 {
         let made = solver.step(&rod, &mut state, &world, i as f64 * 5e-4, [RodEnd::FREE; 2]).unwrap();
         balance.enter(&rod, &state, &world, &solver, &made);

@@ -36,7 +36,7 @@ fn cycle(rope: ViscoelasticRope, mean: f64, frequency: f64, steps: usize) -> Cyc
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     let held = RodEnd::pin(a);
     let made = solver.statics(&rod, &mut state, &world, [held, RodEnd::pin(b + swing)]).unwrap();
-    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
     let mut found = Cycle { storage: 0.0, lost: 0.0, mean: 0.0, booked: [0.0; 2] };
     let (mut before, mut damped) = ((-made.force[1].x, b.x + swing.x), 0.0);
     // the start dies out with the relaxation time: eight of them, and whole cycles
@@ -124,14 +124,14 @@ fn hanging_load_creeps_to_static_length_with_closed_energy_balance() {
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     let ends = [RodEnd::pin(a), RodEnd::FREE];
     let made = RodEndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
-    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
     let h = 0.01;
     for i in 1..=10_000 {
         let t = i as f64 * h;
         let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
         // the load that comes at once is an impact, of which the balance knows as little as the step
         if i == 10 {
-            balance = Balance::open(&rod, &state, &world, &solver, &made);
+            balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
         }
         balance.enter(&rod, &state, &world, &solver, &made);
         let stretch = state.position[4].x / LENGTH - 1.0;
@@ -161,7 +161,7 @@ fn rope_released_slack_carries_no_compression() {
     let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     let made = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
-    let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
     for i in 1..=400 {
         let t = i as f64 * 0.05;
         let (s, c) = (0.5 * t).sin_cos();
@@ -238,7 +238,7 @@ fn fast_slackening_rope_carries_no_compression_through_damper() {
         state.velocity[1] = at(0.0).velocity;
         let mut solver = RodSolver::new(&rod, RodSettings::default());
         let made = solver.start(&rod, &mut state, &world, [held, RodEnd::from_motion(at(0.0))]).unwrap();
-        let mut balance = Balance::open(&rod, &state, &world, &solver, &made);
+        let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
         let mut slack = 0;
         for i in 1..=250 {
             let t = i as f64 * 0.01;

@@ -10,7 +10,7 @@ use windlass_line_dynamics::{
 const GRAVITY: f64 = 9.80665;
 const WATER: f64 = 1000.0;
 
-struct Case {
+struct StaticsCase {
     x: f64,
     z: f64,
     length: f64,
@@ -22,7 +22,7 @@ struct Case {
 
 /// Pull of the rod on its fairlead: toward the anchor, and downward; and the iterations it took. On the bottom it
 /// sinks in by a share of its length.
-fn rest(case: &Case, elements: usize, sinks: f64) -> ([f64; 2], usize) {
+fn rest(case: &StaticsCase, elements: usize, sinks: f64) -> ([f64; 2], usize) {
     let weight = case.weight;
     // the submerged weight as mass and displacement, buoyant or heavy
     let area = weight.abs() / GRAVITY / WATER * if weight < 0.0 { 2.0 } else { 0.1 };
@@ -54,7 +54,8 @@ fn away(found: [f64; 2], wanted: [f64; 2]) -> f64 {
 
 #[test]
 fn rod_at_rest_converges_to_catenary_with_second_order() {
-    let line = |x, z, grounded| Case { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded, friction: 0.0 };
+    let line =
+        |x, z, grounded| StaticsCase { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded, friction: 0.0 };
     // suspended, taut; with a touchdown; the same slack
     for case in [line(700.0, 500.0, false), line(800.0, 290.0, true), line(700.0, 290.0, true)] {
         let segment = catenary::Segment { length: case.length, weight: case.weight, ea: case.ea };
@@ -74,7 +75,7 @@ fn rod_dragged_over_rough_bottom_converges_to_friction_catenary() {
     for (x, z, friction) in
         [(800.0, 290.0, 0.3), (800.0, 290.0, 0.9), (850.0, 200.0, 0.5), (750.0, 290.0, 1.0), (879.0, 100.0, 0.8)]
     {
-        let case = Case { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded: true, friction };
+        let case = StaticsCase { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded: true, friction };
         let segment = catenary::Segment { length: case.length, weight: case.weight, ea: case.ea };
         let wanted = segment.solve_end_forces(case.x, case.z, Some(catenary::FlatBottom { friction })).unwrap();
         let errors = [50, 100, 200, 400, 800].map(|n| away(rest(&case, n, 1e-8).0, wanted.fairlead));
@@ -92,7 +93,7 @@ fn random_lines_settle_at_their_catenaries() {
     for line in text.lines().skip(1).step_by(8) {
         let columns: Vec<&str> = line.split(',').collect();
         let v = |i: usize| columns[i].parse::<f64>().unwrap();
-        let case = Case {
+        let case = StaticsCase {
             x: v(2),
             z: v(3),
             length: v(4),

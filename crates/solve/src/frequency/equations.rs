@@ -44,17 +44,17 @@ fn dimension(row: usize, column: usize, seconds: i8) -> Dim {
 }
 
 /// One number of each matrix at a frequency.
-struct Matrices {
+struct FrequencyMatrices {
     frequency: f64,
     inertia: Matrix6<f64>,
     damping: Matrix6<f64>,
 }
 
-fn at_frequencies(linear: &LinearSystem, frame: &Frame, frequencies: &[f64]) -> Vec<Matrices> {
+fn at_frequencies(linear: &LinearSystem, frame: &Frame, frequencies: &[f64]) -> Vec<FrequencyMatrices> {
     let one = |frequency: &f64| {
         let (inertia, damping) = linear.inertia_and_damping(*frequency);
         let [inertia, damping] = [inertia, damping].map(|all| frame.block(linear, &all));
-        Matrices { frequency: *frequency, inertia, damping }
+        FrequencyMatrices { frequency: *frequency, inertia, damping }
     };
     frequencies.iter().map(one).collect()
 }

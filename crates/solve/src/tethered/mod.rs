@@ -115,8 +115,8 @@ pub fn run(
     settings: TetherRunSettings,
     should_continue: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Tethered, SolveError> {
-    struct Asked<'a>(&'a mut dyn FnMut(f64) -> bool);
-    impl Watcher for Asked<'_> {
+    struct ProgressWatcher<'a>(&'a mut dyn FnMut(f64) -> bool);
+    impl Watcher for ProgressWatcher<'_> {
         fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
             Ok(())
         }
@@ -125,5 +125,5 @@ pub fn run(
             (self.0)(time)
         }
     }
-    TetherRun::new(model, settings)?.run(&mut Asked(should_continue))
+    TetherRun::new(model, settings)?.run(&mut ProgressWatcher(should_continue))
 }

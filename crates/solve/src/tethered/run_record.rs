@@ -424,8 +424,8 @@ fn run_installed(
 /// The statistics of a run that kept no instants [AQWA-TETHER 7.7, 7.8 and 7.13]: for each tether its nodes and its ends, mean, twice the deviation, largest and
 /// smallest value; and the same of the motions of the structure. Nothing of a run that kept its instants, or had none behind its transient.
 pub fn statistics_tables(run: &Tethered) -> Vec<Table> {
-    type Value = (&'static str, fn(&RunningSummary) -> f64);
-    const PAGES: [Value; 4] = [
+    type SummaryColumn = (&'static str, fn(&RunningSummary) -> f64);
+    const PAGES: [SummaryColumn; 4] = [
         ("Mean Value", |s| s.mean),
         ("2 x R.M.S", |s| 2.0 * s.deviation),
         ("Maximum", |s| s.maximum.value),

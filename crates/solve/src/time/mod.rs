@@ -39,7 +39,7 @@ pub use prescribed::{Prescribed, build_prescribed};
 pub use resolution::{NaturalPeriod, Resolution};
 pub use run::{Run, STEPS_PER_SNAPSHOT};
 pub use run_requirements::RunRequirements;
-pub use run_settings::{Counts, Ending, RunFileError, RunSettings, Watcher};
+pub use run_settings::{Ending, RunCounts, RunFileError, RunSettings, SilentWatcher, Watcher};
 pub use scheme::{Method, TimeScheme};
 pub use snapshot::Snapshot;
 pub use statistics::{ResultSeries, RunStatistics, results};

@@ -8,7 +8,7 @@ use super::history::{History, RowLayout, RowSources};
 use super::inertia::gyroscopic;
 use super::resolution::Resolution;
 use super::run_requirements::RunRequirements;
-use super::run_settings::{Counts, Ending, RunFileError, RunSettings, Watcher};
+use super::run_settings::{Ending, RunCounts, RunFileError, RunSettings, Watcher};
 use super::statistics::RunStatistics;
 use super::step::{Stepper, SystemInstant};
 use crate::system::{SolveError, System, mass_block, moving_nodes};
@@ -44,7 +44,7 @@ pub struct Run {
     /// Least and most along each line of the layout behind the transient, of a run that keeps no rows.
     pub envelopes: Vec<AlongEnvelope>,
     /// What it did.
-    pub counts: Counts,
+    pub counts: RunCounts,
     /// What its step has to follow, as it is at the start.
     pub resolution: Resolution,
     /// What it has seen of its own steps.
@@ -129,7 +129,7 @@ impl Run {
             statistics: RunStatistics::new(&layout, from),
             envelopes: vec![AlongEnvelope::default(); layout.links.len()],
             history: History::new(layout),
-            counts: Counts::default(),
+            counts: RunCounts::default(),
             resolution: Resolution::default(),
             accuracy: Accuracy::default(),
             seas: vec![(0.0, sea.clone())],

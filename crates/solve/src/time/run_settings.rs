@@ -79,7 +79,7 @@ pub enum Ending {
 
 /// What a run did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Counts {
+pub struct RunCounts {
     /// Steps taken, those that were halved by their parts.
     pub steps: usize,
     /// Steps that had to be cut because no balance was found.
@@ -136,5 +136,15 @@ pub trait Watcher {
     /// Asked before every step; false ends the run, which keeps what it has.
     fn should_continue(&mut self, _time: f64) -> bool {
         true
+    }
+}
+
+/// Takes rows and says nothing: for a run whose results are read from the run itself.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SilentWatcher;
+
+impl Watcher for SilentWatcher {
+    fn row(&mut self, _row: &[f64]) -> Result<(), RunFileError> {
+        Ok(())
     }
 }

@@ -3,7 +3,7 @@
 
 use super::accuracy::Accuracy;
 use super::forces::BodyMotion;
-use super::run_settings::Counts;
+use super::run_settings::RunCounts;
 use nalgebra::Matrix3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
@@ -32,7 +32,7 @@ pub struct Snapshot {
     /// Rows kept so far.
     pub rows: usize,
     /// What the run did so far.
-    pub counts: Counts,
+    pub counts: RunCounts,
     /// What the run has seen of its own steps.
     pub accuracy: Accuracy,
 }
@@ -136,7 +136,7 @@ impl Snapshot {
         out.count(self.near.len());
         self.near.iter().for_each(|p| out.numbers(p.shift.iter().chain(&p.turn)));
         out.count(self.rows);
-        let Counts { steps, cut, iterations, evaluations } = self.counts;
+        let RunCounts { steps, cut, iterations, evaluations } = self.counts;
         [steps, cut, iterations, evaluations].into_iter().for_each(|n| out.count(n));
         out.list(&self.accuracy.numbers());
         out.0
@@ -174,7 +174,7 @@ impl Snapshot {
         let near = (0..count).map(|_| place(&mut from)).collect::<Option<_>>()?;
         let rows = from.plain()?;
         let [steps, cut, iterations, evaluations] = [from.plain()?, from.plain()?, from.plain()?, from.plain()?];
-        let counts = Counts { steps, cut, iterations, evaluations };
+        let counts = RunCounts { steps, cut, iterations, evaluations };
         let accuracy = Accuracy::from_numbers(&from.list()?)?;
         let whole = from.0.is_empty();
         whole.then_some(Snapshot {
@@ -212,7 +212,7 @@ mod tests {
             winches: vec![("A".into(), -0.5, None)],
             near: vec![Place::default(); 2],
             rows: 3,
-            counts: Counts { steps: 9, cut: 1, iterations: 20, evaluations: 29 },
+            counts: RunCounts { steps: 9, cut: 1, iterations: 20, evaluations: 29 },
             accuracy: Accuracy::default(),
         };
         let bytes = snapshot.bytes();

@@ -4,7 +4,7 @@
 //! them, of a straight tether ([AQWA-TETHER 7.2 and 8.2.21]; [W-INSTALLED 2]).
 
 use super::axis::TetherAxis;
-use super::bending::{Bending, Matrices};
+use super::bending::{Bending, PlaneMatrices};
 use super::tension::TensionModel;
 use super::tether::InstalledTether;
 use crate::beam;
@@ -104,7 +104,7 @@ fn of_planes<T>(
     let tension = axial.tension(&axis, attachment.z, 0.0, &flow.at_time(0.0));
     let bending = Bending::new(tether, flow.density, flow.gravity);
     let of = |plane: usize| {
-        let Matrices { stiffness, mass, beams, springs } = bending.matrices(plane, &tension, &axial);
+        let PlaneMatrices { stiffness, mass, beams, springs } = bending.matrices(plane, &tension, &axial);
         let last = mass.order() - 1;
         let energy = |x: &[f64]| {
             let of = |(index, [ei, pull, length]): (usize, &[f64; 3])| {

@@ -32,9 +32,9 @@ static ALLOCATOR: Counting = Counting;
 
 /// Remembers the count at the second and at the last state.
 #[derive(Default)]
-struct Counts([usize; 2]);
+struct AllocationCounts([usize; 2]);
 
-impl InstalledObserver for Counts {
+impl InstalledObserver for AllocationCounts {
     fn observe(&mut self, moment: &Moment) -> Result<(), ClassError> {
         let now = TAKEN.with(Cell::get);
         if moment.state == 1 {
@@ -48,7 +48,7 @@ impl InstalledObserver for Counts {
 #[test]
 fn tether_step_allocates_no_memory() {
     let (flow, mut platform) = (example::water(), example::platform(Compatibility::aqwa_5_4()));
-    let mut counts = Counts::default();
+    let mut counts = AllocationCounts::default();
     let mut installation =
         Installation::new(&mut platform, example::tethers(), &flow, Compatibility::aqwa_5_4()).unwrap();
     installation.run(&example::course(), &mut counts).unwrap();

@@ -45,7 +45,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 /// What varies, by how much, and how often.
-struct Variation {
+struct FormVariation {
     name: &'static str,
     dim: Dim,
     step: f64,
@@ -72,7 +72,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 .help("forms: CFORM DRAFT INC NUM; CFORM DRAFT ROLL TRIM -DRAFT INC NUM"));
             }
             let step = Dim::Length.to_si(second, units);
-            ([0.0; 2], Variation { name: "Draft", dim: Dim::Length, step, count: third as i64 })
+            ([0.0; 2], FormVariation { name: "Draft", dim: Dim::Length, step, count: third as i64 })
         }
         [given] => {
             let (name, dim, option) = match given {
@@ -82,7 +82,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             };
             let (step, count) = (given.number(option.number("INC")), given.integer(option.integer("NUM")));
             let angles = [second, third].map(f64::to_radians);
-            (angles, Variation { name, dim, step: step.unwrap_or(0.0), count: count.unwrap_or(1) })
+            (angles, FormVariation { name, dim, step: step.unwrap_or(0.0), count: count.unwrap_or(1) })
         }
         [_, other, ..] => {
             return Err(Diagnostic::error("CFORM varies one of draft, roll and trim", other.span));

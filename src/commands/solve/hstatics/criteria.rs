@@ -216,7 +216,7 @@ impl Limit {
     }
 }
 
-struct Row {
+struct CriterionRow {
     yaw: f64,
     criterion: &'static Criterion,
     value: Option<f64>,
@@ -259,7 +259,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 Some(Some(margin)) if margin >= 0.0 => "passed",
                 Some(_) => "FAILED",
             };
-            rows.push(Row {
+            rows.push(CriterionRow {
                 yaw: *yaw,
                 criterion,
                 value,

@@ -57,7 +57,7 @@ struct Movable<'m> {
 }
 
 /// One row.
-struct Row {
+struct AllowableKgRow {
     yaw: f64,
     criterion: String,
     limit: String,
@@ -156,7 +156,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let start = request.start(body, *yaw);
         let high = movable.metacentre(&start).map_err(to_error)?;
         if limits.is_empty() {
-            rows.push(Row { yaw: *yaw, criterion: "KM".into(), limit: "GM >= 0".into(), height: Some(high) });
+            rows.push(AllowableKgRow {
+                yaw: *yaw,
+                criterion: "KM".into(),
+                limit: "GM >= 0".into(),
+                height: Some(high),
+            });
             continue;
         }
         let low = form.kb - DEPTHS_BELOW * (high - form.kb).abs();
@@ -165,9 +170,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let found = movable.allowable(limit, &start, [low, high]).map_err(to_error)?;
             least = least.zip(found).map(|(a, b): (f64, f64)| a.min(b));
             let (criterion, limit) = (limit.criterion.name.to_string(), limit.text(units));
-            rows.push(Row { yaw: *yaw, criterion, limit, height: found });
+            rows.push(AllowableKgRow { yaw: *yaw, criterion, limit, height: found });
         }
-        rows.push(Row { yaw: *yaw, criterion: "all".into(), limit: String::new(), height: least });
+        rows.push(AllowableKgRow { yaw: *yaw, criterion: "all".into(), limit: String::new(), height: least });
     }
     let mut table = request.describe(Table::new(format!("Allowable KG of {}", body.name)), &still, weight);
     table = table.fact("Displacement", form.displacement, Dim::Force);

@@ -60,7 +60,7 @@ pub struct PlaneMotion {
 
 /// The matrices of a plane, for its modes.
 #[derive(Debug)]
-pub struct Matrices {
+pub struct PlaneMatrices {
     /// Bending, tension and springs; what is held has its diagonal alone.
     pub stiffness: PlaneMatrix,
     /// Mass; what is held has none.
@@ -242,7 +242,7 @@ impl Bending {
     }
 
     /// The matrices of a plane in a tension.
-    pub fn matrices(&self, plane: usize, tension: &TetherTension, axial: &TensionModel) -> Matrices {
+    pub fn matrices(&self, plane: usize, tension: &TetherTension, axial: &TensionModel) -> PlaneMatrices {
         let (order, stretch) = (self.mass.order(), tension.length / self.length);
         let (mut stiffness, mut mass) = (PlaneMatrix::new(order), PlaneMatrix::new(order));
         let mut beams = Vec::with_capacity(self.cells.len());
@@ -260,7 +260,7 @@ impl Bending {
             stiffness.hold(*unknown, 1.0);
             mass.hold(*unknown, 0.0);
         }
-        Matrices { stiffness, mass, beams, springs }
+        PlaneMatrices { stiffness, mass, beams, springs }
     }
 
     /// Finds matrices and loads of a stage, with the place and velocity at that stage. The acceleration of the attachment need not be known.
