@@ -82,7 +82,7 @@ fn main() {
         hemisphere();
     }
     if chosen.is_empty() || chosen.iter().any(|word| word == "semi") {
-        let semi = measured::scripted(include_str!("semi.cif"));
+        let semi = measured::model_from_records(include_str!("semi.cif"));
         pass_of(600.0, "semi of Froude-Krylov blocks, 200 waves, ten minutes", &semi, true);
     }
 }

@@ -13,15 +13,15 @@ use windlass_signal::tether::fatigue::{Endurance, FatigueSettings};
 use windlass_solve::tethered::{TetherRunSettings, TetherStatistics, Tethered, run};
 
 /// The model that a script has before its run.
-fn scripted(name: &str) -> Model {
+fn model_before_run(name: &str) -> Model {
     let path = format!("{}/scripts/{name}.cif", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
-    measured::scripted(text.split("TDOM").next().unwrap())
+    measured::model_from_records(text.split("TDOM").next().unwrap())
 }
 
 /// A straight steel tube afloat in a sea of 50 components, cut into elements.
 fn afloat(elements: usize) -> Model {
-    measured::scripted(&format!(
+    measured::model_from_records(&format!(
         "&DIMEN -DIMEN METERS K-NTS\n&DEFAULT -WATER 1027 -GRAVITY 9.81\n\
          &ENV -DEPTH 345 -SEA JONSWAP 20 4 9 2 -COMPONENTS 50 -STRETCHING EXPONENTIAL -RAMP 0\nMEDIT\n*E -280 0 -0.5\n\
          &DESCRIBE BODY TUG -IGNORE X Y Z RX RY RZ\n*V 0 0 -0.5\n#WEIGHT *V 1000 1 1 1\n\
@@ -75,8 +75,8 @@ fn main() {
         transient: 0.0,
         keep: true,
     };
-    pass("towed example, statistics and fatigue", &scripted("towed_tether"), settings(375.0, 0.25, 2), true);
-    pass("installed example", &scripted("installed_tether"), settings(25.0, 0.25, 1), true);
+    pass("towed example, statistics and fatigue", &model_before_run("towed_tether"), settings(375.0, 0.25, 2), true);
+    pass("installed example", &model_before_run("installed_tether"), settings(25.0, 0.25, 1), true);
     for elements in [25, 50, 100, 200] {
         let name = format!("towed, {elements} elements, three hours");
         pass(&name, &afloat(elements), settings(10_800.0, 0.1, 10), false);

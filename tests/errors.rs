@@ -83,13 +83,13 @@ fn check(script: &Path) -> Result<(), Failed> {
             )),
         }
     }
-    wrong.extend(changed(&text));
+    wrong.extend(find_model_changes(&text));
     wrong.extend(want.iter().map(|w| format!("did not come: {w:?}")));
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n").into()) }
 }
 
 /// Records that drew an error and changed the model all the same: each record is fed by itself and the model compared.
-fn changed(text: &str) -> Vec<String> {
+fn find_model_changes(text: &str) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
     let job = JobFolder::new(folder.path().join("job"), None, false);
     let mut session = Session::new(Output::new(job, Box::new(Vec::new()), Box::new(Vec::new()), false));

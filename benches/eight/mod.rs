@@ -5,7 +5,7 @@
 use std::fmt::Write;
 use windlass_model::Model;
 
-use super::measured::scripted;
+use super::measured::model_from_records;
 
 /// A body SHIP on eight chains around: anchors at 830 m in 300 m of water, fairleads at 30 m and 10 m down, 199 kg/m of 0.18 m in sea
 /// water. `hull` are records of the body, `line` makes the records of ~CHAIN of its options, `then` stand behind all.
@@ -26,5 +26,5 @@ pub fn model(hull: &str, line: &dyn Fn(&str) -> String, then: &str) -> Model {
     }
     records.push_str("END\n");
     records.push_str(then);
-    scripted(&records)
+    model_from_records(&records)
 }

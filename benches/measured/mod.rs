@@ -9,7 +9,7 @@ use windlass::session::Session;
 use windlass_model::Model;
 
 /// The model that records make.
-pub fn scripted(records: &str) -> Model {
+pub fn model_from_records(records: &str) -> Model {
     let job = JobFolder::new("bench".into(), None, false);
     let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
     session.keep_reports = true;

@@ -18,7 +18,7 @@ fn section(elements: usize) -> String {
 
 /// The chain of tests/data/moordyn_chain900.csv with its fairlead driven.
 pub fn driven(elements: usize) -> Model {
-    measured::scripted(&format!(
+    measured::model_from_records(&format!(
         "&DIMEN -DIMEN METERS N\n&ENV DRIVEN -DEPTH 300\nMEDIT\n{}\
          &DESCRIBE BODY RIG\n*F 0 0 -10\nCONNECTOR CHAIN -ANC 180 800 ~CHAIN *F\n\
          PRESCRIBE RIG -SINUSOID X 5 10 -RAMP 20\nEND\n",

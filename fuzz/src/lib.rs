@@ -177,11 +177,11 @@ pub fn databases(data: &[u8]) {
 pub fn run_files(data: &[u8]) {
     let _ = run_log::read(&mut Cursor::new(data), f64::INFINITY);
     let _ = Snapshot::read(data);
-    let _ = run_log::read(&mut Cursor::new(mended(data)), f64::INFINITY);
+    let _ = run_log::read(&mut Cursor::new(mend_blocks(data)), f64::INFINITY);
 }
 
 /// The bytes of a file of a run with the lengths and sums of its blocks put right.
-pub fn mended(data: &[u8]) -> Vec<u8> {
+pub fn mend_blocks(data: &[u8]) -> Vec<u8> {
     let (head, mut rest) = data.split_at(data.len().min(24));
     let mut out = run_log::MARK.to_vec();
     out.extend_from_slice(head.get(8..).unwrap_or_default());

@@ -43,7 +43,7 @@ impl Absent {
     }
 
     /// One in these menus alone.
-    const fn within(self, menus: &'static [&'static MenuSpec]) -> Self {
+    const fn in_menus(self, menus: &'static [&'static MenuSpec]) -> Self {
         Absent { menus, ..self }
     }
 
@@ -102,35 +102,38 @@ const TUBE_INSTEAD: &str = "TUBE of &SURFACE, #WEIGHT and #AREA give members, we
 
 /// A table of PRCPOST that is not made.
 const fn post(name: &'static str, what: &'static str) -> Absent {
-    Absent::new(name, Loss::Results, what).within(POST).opens(&DISPOSITION)
+    Absent::new(name, Loss::Results, what).in_menus(POST).opens(&DISPOSITION)
 }
 
 /// A table of FREQ_RESPONSE that is not made.
 const fn frequency(name: &'static str, what: &'static str) -> Absent {
-    Absent::new(name, Loss::Results, what).within(FREQUENCY).opens(&DISPOSITION)
+    Absent::new(name, Loss::Results, what).in_menus(FREQUENCY).opens(&DISPOSITION)
 }
 
 /// All of them. What a later version of windlass has goes from here.
 pub static ABSENT: &[Absent] = &[
-    Absent::new("STRUCTURAL", Loss::Results, NO_STRESS).within(MAIN).opens(&STRUCTURAL),
-    Absent::new("STRPOST", Loss::Results, NO_STRESS).within(MAIN).opens(&STRPOST),
+    Absent::new("STRUCTURAL", Loss::Results, NO_STRESS).in_menus(MAIN).opens(&STRUCTURAL),
+    Absent::new("STRPOST", Loss::Results, NO_STRESS).in_menus(MAIN).opens(&STRPOST),
     Absent::new("LCASE", Loss::Results, NO_STRESS),
-    Absent::new("LAUNCH", Loss::Results, "the launch of a structure from a barge").within(MAIN).opens(&LAUNCH),
+    Absent::new("LAUNCH", Loss::Results, "the launch of a structure from a barge").in_menus(MAIN).opens(&LAUNCH),
     Absent::new("STATIC_PROCESS", Loss::Results, "lifting, flooding and upending of a body step by step")
-        .within(MAIN)
+        .in_menus(MAIN)
         .opens(&STATIC_PROCESS)
         .instead("&EQUI finds each equilibrium; &DESCRIBE PROCESS keeps configurations apart"),
     Absent::new("I_PRESSURE", MOTIONS, "hydrodynamic data of panels")
-        .within(HYDRODYNAMIC)
+        .in_menus(HYDRODYNAMIC)
         .opens(&I_PRESSURE)
         .instead(TOTAL),
-    Absent::new("E_PRESSURE", Loss::Results, "hydrodynamic data of panels").within(HYDRODYNAMIC),
+    Absent::new("E_PRESSURE", Loss::Results, "hydrodynamic data of panels").in_menus(HYDRODYNAMIC),
     Absent::new("G_MDRIFT", MOTIONS, "mean wave drift by formulas of MOSES, which are not public")
-        .within(HYDRODYNAMIC)
+        .in_menus(HYDRODYNAMIC)
         .instead(DRIFT),
-    Absent::new("I_MDRIFT", MOTIONS, "mean wave drift by records").within(HYDRODYNAMIC).opens(&I_MDRIFT).instead(DRIFT),
+    Absent::new("I_MDRIFT", MOTIONS, "mean wave drift by records")
+        .in_menus(HYDRODYNAMIC)
+        .opens(&I_MDRIFT)
+        .instead(DRIFT),
     Absent::new("E_MDRIFT", Loss::Results, "a file of mean wave drift")
-        .within(HYDRODYNAMIC)
+        .in_menus(HYDRODYNAMIC)
         .instead("V_MDRIFT shows it, STORE of its menu writes it"),
     Absent::new("&UGX", Loss::Nothing, "it draws").opens(&UGX),
     Absent::new("&TABLE", Loss::Nothing, "it lays out tables; STORE and REPORT of the disposition menu write them")
@@ -142,32 +145,32 @@ pub static ABSENT: &[Absent] = &[
     Absent::new("&VARIABLE", Loss::Results, "names kept in a database")
         .instead("&SET keeps a list of words, &TOKEN takes it apart"),
     Absent::new("TUBTANK", STATICS, "a cylinder between two points that belongs to a compartment")
-        .within(MODEL)
+        .in_menus(MODEL)
         .instead("PGEN with PLANE -CIRCULAR encloses it"),
     Absent::new("DELETE_BLOCK", STATICS, "a surface is taken away")
-        .within(SURFACES)
+        .in_menus(SURFACES)
         .instead("EMIT takes the surfaces it names"),
     Absent::new("RENAME_BLOCK", STATICS, "a surface has another name")
-        .within(SURFACES)
+        .in_menus(SURFACES)
         .instead("COPY_BLOCK gives a copy a name"),
     Absent::new("&EMIT", STATICS, "surfaces go into a file or a body")
         .instead("EMIT puts surfaces into the part described last"),
     Absent::new("SP_BEAM", Loss::Nothing, "it reports stresses of other members, and adds nothing to the model")
-        .within(MODEL),
+        .in_menus(MODEL),
     Absent::new("SP_PLATE", Loss::Nothing, "it reports stresses of other members, and adds nothing to the model")
-        .within(MODEL),
-    Absent::new("ED_ELEMENT", STATICS, "changes of structural members").within(MODEL),
-    Absent::new("RESTRAINT", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
-    Absent::new("REST", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
-    Absent::new("RELEASES", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
-    Absent::new("JOINT", Loss::Nothing, "it acts in a stress analysis alone").within(MODEL),
-    Absent::new("ASSEMBLY LLEG", STATICS, "launch legs, on which a jacket slides from its barge").within(MODEL),
-    Absent::new("ASSEMBLY CONTROL", STATICS, "a control of lengths and forces").within(MODEL),
+        .in_menus(MODEL),
+    Absent::new("ED_ELEMENT", STATICS, "changes of structural members").in_menus(MODEL),
+    Absent::new("RESTRAINT", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
+    Absent::new("REST", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
+    Absent::new("RELEASES", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
+    Absent::new("JOINT", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
+    Absent::new("ASSEMBLY LLEG", STATICS, "launch legs, on which a jacket slides from its barge").in_menus(MODEL),
+    Absent::new("ASSEMBLY CONTROL", STATICS, "a control of lengths and forces").in_menus(MODEL),
     Absent::new("ASSEMBLY PULLEY", STATICS, "lines over pulleys")
-        .within(MODEL)
+        .in_menus(MODEL)
         .instead("class PULY is a line over a pulley"),
     Absent::new("ASSEMBLY WINCH", STATICS, "winches")
-        .within(MODEL)
+        .in_menus(MODEL)
         .instead("&ACTION pays lines out and in; class CT_LINE keeps a tension"),
     Absent::new("TKR_MODEL", STATICS, "the hull, weight, wind and current of a tanker, by the macro library V_MODEL")
         .instead(TUBE_INSTEAD),
@@ -185,8 +188,8 @@ pub static ABSENT: &[Absent] = &[
     frequency("TD_POINT", "one realisation of the motion of a point").instead("TDOM gives motions in time"),
     frequency("FR_PANPRESS", "pressures on panels in unit waves"),
     frequency("ST_PANPRESS", "statistics of pressures on panels"),
-    Absent::new("FP_STD", Loss::Results, "the standard set of tables of a point").within(FREQUENCY),
-    Absent::new("BEAM_SUM", Loss::Results, NO_STRESS).within(&[&menu::SUMMARY]),
+    Absent::new("FP_STD", Loss::Results, "the standard set of tables of a point").in_menus(FREQUENCY),
+    Absent::new("BEAM_SUM", Loss::Results, NO_STRESS).in_menus(&[&menu::SUMMARY]),
 ];
 
 /// A class type of MOSES that windlass does not have.

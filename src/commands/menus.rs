@@ -145,7 +145,9 @@ pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Diagnostic> {
         }
         Menu::Medit | Menu::Mesh => piece::complete_piece(job, at),
         Menu::Block(planes) => pgen::finish_block(job, *planes, at).err().into_iter().map(|e| *e).collect(),
-        Menu::Building(building) => buildg::built(job, &building, at).err().into_iter().map(|e| *e).collect(),
+        Menu::Building(building) => {
+            buildg::open_built_table(job, &building, at).err().into_iter().map(|e| *e).collect()
+        }
         Menu::Soundings(soundings) => {
             bathymetry::finish_grid(job, *soundings, at).err().into_iter().map(|e| *e).collect()
         }

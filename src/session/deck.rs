@@ -9,7 +9,7 @@ use windlass_aqwa::listing::ListingPart;
 use windlass_aqwa::waves::WaveDeck;
 use windlass_aqwa::{self as aqwa, Deck, Records, WrittenRecords};
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
-use windlass_base::fortran::fixed;
+use windlass_base::fortran::format_fixed;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
@@ -197,7 +197,7 @@ fn spectral_lines(sea: &Sea, length: f64) -> Option<Table> {
         .column("", "PHASE", Dim::None, four, |(_, (wave, _))| wave.phase.to_degrees().rem_euclid(360.0))
         .column("", "ORDINATES", Dim::None, four, |(_, (_, band))| band.mean_density().map(|s| s / (length * length)))
         .build();
-    let height = fixed(4.0 * variance.sqrt() / length, 3);
+    let height = format_fixed(4.0 * variance.sqrt() / length, 3);
     Some(table.fact("4 TIMES SQUARE ROOT OF RASTER AREA(S.W.H.)", height, Dim::None))
 }
 

@@ -10,7 +10,7 @@ mod skipped_menu;
 
 pub use reading::{RecordReadError, read_all, read_text};
 
-use self::named::{in_menu, unknown};
+use self::named::{in_menu, unknown_name_error};
 use self::script_check::ScriptCheck;
 use crate::commands::absent::{self, Absent};
 use crate::commands::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
@@ -390,7 +390,7 @@ impl Session {
                 Some((_, found)) => Ok(Meaning::Macro(Arc::clone(found))),
                 None => match absent::find(&first.text, menu.spec()) {
                     Some(entry) => Ok(Meaning::Absent(entry)),
-                    None => Err(unknown(first, menu, names.map(|(n, _, _)| n), self.interpreter.macros())),
+                    None => Err(unknown_name_error(first, menu, names.map(|(n, _, _)| n), self.interpreter.macros())),
                 },
             },
         }

@@ -23,7 +23,7 @@ pub(super) fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static
 }
 
 /// The error for a word that names nothing here: where it would, or what is near.
-pub(super) fn unknown<'a>(
+pub(super) fn unknown_name_error<'a>(
     first: &Word,
     menu: &Menu,
     names: impl Iterator<Item = &'static str>,

@@ -40,7 +40,7 @@ fn key(text: &str) -> Option<&str> {
 }
 
 /// The keys of the citations of a text: `[KEY place]` or `[KEY place; KEY place]`.
-fn cited(text: &str) -> Vec<&str> {
+fn find_citations(text: &str) -> Vec<&str> {
     let inside = text.match_indices('[').filter_map(|(at, _)| {
         let rest = &text[at + 1..];
         key(rest).and(rest.find(']').map(|end| &rest[..=end]))
@@ -62,7 +62,7 @@ fn every_cited_key_is_in_the_bibliography() {
     let mut missing = BTreeSet::new();
     let mut count = 0;
     for (path, text) in tree() {
-        for key in cited(&text) {
+        for key in find_citations(&text) {
             count += 1;
             if !keys.contains(key) {
                 missing.insert(format!("{}: [{key}]", path.display()));

@@ -28,7 +28,7 @@ pub struct Field<T> {
 
 impl<T: Copy + PartialEq + Default> Field<T> {
     /// The value, or a default where the field is blank or zero (a deck cannot tell the two apart).
-    pub fn or(&self, default: T) -> T {
+    pub fn value_or(&self, default: T) -> T {
         if self.value == T::default() { default } else { self.value }
     }
 }

@@ -184,7 +184,7 @@ impl Deck {
     /// First and last time step of the statistics: TSTS and TSTF of deck 18, else all steps.
     pub fn statistics(&self) -> (i64, i64) {
         let last = self.steps.map_or(1, |steps| steps.count.value);
-        let given = |field: Option<card::Field<i64>>, usual: i64| field.map_or(usual, |field| field.or(usual));
+        let given = |field: Option<card::Field<i64>>, usual: i64| field.map_or(usual, |field| field.value_or(usual));
         (given(self.printing.first, 1), given(self.printing.last, last).min(last))
     }
 

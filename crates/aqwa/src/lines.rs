@@ -542,7 +542,7 @@ fn check_winch(kind: &LineKind, record: &CardRecord, remarks: &mut Remarks) {
 }
 
 fn composite(record: &CardRecord, remarks: &mut Remarks) -> Composite {
-    let points = (record.int(11).or(15), record.int(16).or(40));
+    let points = (record.int(11).value_or(15), record.int(16).value_or(40));
     let announced = record.int(26);
     if !(1..=MAX_SECTIONS).contains(&announced.value) {
         remarks.add(
@@ -606,8 +606,8 @@ fn ecat(record: &CardRecord, resistance: Option<SectionResistance>) -> Result<Co
     Ok(CompositeSection {
         mass: mass.value,
         area: record.real(41).value,
-        stiffness: record.real(51).or(5.0e6 * mass.value),
-        tension: record.real(61).or(5.0e4 * mass.value),
+        stiffness: record.real(51).value_or(5.0e6 * mass.value),
+        tension: record.real(61).value_or(5.0e4 * mass.value),
         length: length.value,
         growth: None,
         resistance,

@@ -67,7 +67,7 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> NodeTable {
             continue;
         }
         let Some(count) = check_count(count, nodes.len(), remarks) else { continue };
-        let step = step.or(1);
+        let step = step.value_or(1);
         let from: [Field<f64>; 3] = record.reals(21);
         let by: [Field<f64>; 3] = record.reals(51);
         if let (true, true, Some(blank)) = (from[0].given, from[1].given, from.last().filter(|field| !field.given)) {

@@ -87,12 +87,12 @@ pub struct Geometry {
 impl Geometry {
     /// The drag coefficient in force.
     pub fn drag(&self) -> f64 {
-        self.drag.map_or(DEFAULT_DRAG, |given| given.or(DEFAULT_DRAG))
+        self.drag.map_or(DEFAULT_DRAG, |given| given.value_or(DEFAULT_DRAG))
     }
 
     /// The added mass coefficient in force.
     pub fn added_mass(&self) -> f64 {
-        self.added_mass.map_or(DEFAULT_ADDED_MASS, |given| given.or(DEFAULT_ADDED_MASS))
+        self.added_mass.map_or(DEFAULT_ADDED_MASS, |given| given.value_or(DEFAULT_ADDED_MASS))
     }
 }
 
@@ -252,15 +252,15 @@ pub fn read_global(records: &[CardRecord], remarks: &mut Remarks) -> WaterAndGra
         }
         match record.keyword.as_str() {
             "DPTH" => {
-                global.depth = value.or(global.depth);
+                global.depth = value.value_or(global.depth);
                 global.depth_span = Some(value.span);
             }
             "DENS" => {
-                global.density = value.or(global.density);
+                global.density = value.value_or(global.density);
                 global.density_span = Some(value.span);
             }
             _ => {
-                global.gravity = value.or(global.gravity);
+                global.gravity = value.value_or(global.gravity);
                 global.gravity_span = Some(value.span);
             }
         }

@@ -171,9 +171,9 @@ impl Builder {
             "TFAT" => {
                 let usual = Fatigue::default();
                 tether.fatigue = Fatigue {
-                    concentration: record.real(41).or(usual.concentration),
-                    intercept: record.real(51).or(usual.intercept),
-                    slope: record.real(61).or(usual.slope),
+                    concentration: record.real(41).value_or(usual.concentration),
+                    intercept: record.real(51).value_or(usual.intercept),
+                    slope: record.real(61).value_or(usual.slope),
                 };
                 let Fatigue { concentration, intercept, slope } = tether.fatigue;
                 if concentration < 0.0 || intercept < 0.0 || slope < 0.0 {

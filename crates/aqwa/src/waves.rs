@@ -246,7 +246,7 @@ pub fn read_spectra(records: &[CardRecord], remarks: &mut Remarks) -> WaveDeck {
                 continue;
             }
             "SEED" => {
-                now.seed = record.int(11).or(record.int(16).or(1));
+                now.seed = record.int(11).value_or(record.int(16).value_or(1));
                 continue;
             }
             "PHAS" => {

@@ -308,7 +308,7 @@ mod tests {
     }
 
     /// A matrix with one damaged entry.
-    fn damaged(value: f64) -> DMatrix<f64> {
+    fn matrix_with_damaged_entry(value: f64) -> DMatrix<f64> {
         let mut made = DMatrix::from_fn(7, 7, |i, j| 1.0 / (1.0 + (i + j) as f64));
         made[(4, 2)] = value;
         made
@@ -319,12 +319,12 @@ mod tests {
         let at = DenseError::NotFinite { row: 4, column: 2 };
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let right = DMatrix::zeros(7, 1);
-            assert_eq!(Lu::new(damaged(value), &never).unwrap_err(), at);
-            assert_eq!(Cholesky::new(damaged(value), &never).unwrap_err(), at);
-            assert_eq!(SymmetricEigen::new(damaged(value), &never).unwrap_err(), at);
-            assert_eq!(eigenvalues(damaged(value), &never).unwrap_err(), at);
-            assert_eq!(least_squares(damaged(value), &right, 0.0, &never).unwrap_err(), at);
-            assert_eq!(inverse(damaged(value)).unwrap_err(), at);
+            assert_eq!(Lu::new(matrix_with_damaged_entry(value), &never).unwrap_err(), at);
+            assert_eq!(Cholesky::new(matrix_with_damaged_entry(value), &never).unwrap_err(), at);
+            assert_eq!(SymmetricEigen::new(matrix_with_damaged_entry(value), &never).unwrap_err(), at);
+            assert_eq!(eigenvalues(matrix_with_damaged_entry(value), &never).unwrap_err(), at);
+            assert_eq!(least_squares(matrix_with_damaged_entry(value), &right, 0.0, &never).unwrap_err(), at);
+            assert_eq!(inverse(matrix_with_damaged_entry(value)).unwrap_err(), at);
         }
         assert_eq!(at.to_string(), "row 5, column 3 of the matrix is not finite");
     }
@@ -333,7 +333,7 @@ mod tests {
     fn largest_finite_entries_end_with_answer_or_error() {
         // squares of such entries are no numbers; what matters is that each call returns
         for size in [1e152, 1e154, 1e200, f64::MAX] {
-            let matrix = damaged(size) * 1.0;
+            let matrix = matrix_with_damaged_entry(size) * 1.0;
             let _ = Lu::new(matrix.clone(), &never).and_then(|lu| lu.solve(&DMatrix::repeat(7, 1, size)));
             let _ = Cholesky::new(matrix.clone(), &never);
             let _ = SymmetricEigen::new(&matrix + matrix.transpose() * 0.5, &never);

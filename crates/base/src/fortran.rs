@@ -11,12 +11,12 @@ pub fn exponent(value: f64, decimals: usize) -> String {
 }
 
 /// A number with decimals; no minus before what is printed as zero.
-pub fn fixed(value: f64, decimals: usize) -> String {
+pub fn format_fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     if text.trim_start_matches('-').bytes().all(|b| b == b'0' || b == b'.') { text.replace('-', "") } else { text }
 }
 
-/// A value as zero when it is rounding beside the largest of its kind.
+/// A value as zero when it is rounding beside the largest of its kind, both in one unit.
 pub fn without_noise(value: f64, largest: f64) -> f64 {
     if value.abs() < 1e-12 * largest.abs() { 0.0 } else { value }
 }
@@ -35,6 +35,9 @@ mod tests {
 
     #[test]
     fn fixed_zero_has_no_minus() {
-        assert_eq!([fixed(-0.0004, 3), fixed(-0.0006, 3), fixed(12.85, 3)], ["0.000", "-0.001", "12.850"]);
+        assert_eq!(
+            [format_fixed(-0.0004, 3), format_fixed(-0.0006, 3), format_fixed(12.85, 3)],
+            ["0.000", "-0.001", "12.850"]
+        );
     }
 }

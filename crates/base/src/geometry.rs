@@ -19,13 +19,13 @@ pub struct Place {
 }
 
 impl Place {
-    /// From x, y, z, roll, pitch, yaw.
+    /// From x, y, z (m), roll, pitch, yaw (rad).
     pub fn new(values: [f64; 6]) -> Self {
         let [x, y, z, roll, pitch, yaw] = values;
         Place { shift: [x, y, z], turn: [roll, pitch, yaw] }
     }
 
-    /// x, y, z, roll, pitch, yaw.
+    /// x, y, z (m), roll, pitch, yaw (rad).
     pub fn values(&self) -> [f64; 6] {
         let ([x, y, z], [roll, pitch, yaw]) = (self.shift, self.turn);
         [x, y, z, roll, pitch, yaw]

@@ -58,7 +58,7 @@ impl Message {
     }
 
     /// The same sentence about a subject: `subject: sentence`.
-    pub fn about(self, subject: impl Into<Message>) -> Self {
+    pub fn with_subject(self, subject: impl Into<Message>) -> Self {
         subject.into().then(": ").then(self)
     }
 
@@ -89,8 +89,8 @@ mod tests {
     #[test]
     fn message_values_are_in_user_units_and_name_braces_are_kept() {
         let units = UnitSystem { length: LengthUnit::Feet, force: ForceUnit::Kips };
-        let message =
-            Message::with_values("it is {} long, not {}", &[(3.048, Dim::Length), (2.0, Dim::None)]).about("line {}");
+        let message = Message::with_values("it is {} long, not {}", &[(3.048, Dim::Length), (2.0, Dim::None)])
+            .with_subject("line {}");
         assert_eq!(message.text(units, |value| format!("{value:.1}")), "line {}: it is 10.0 ft long, not 2.0");
         assert_eq!(message.without_values(), "line {}: it is .. long, not ..");
     }

@@ -190,6 +190,12 @@ impl<T: ?Sized> Clone for DatumKey<T> {
 
 impl<T: ?Sized> Copy for DatumKey<T> {}
 
+impl<T: ?Sized> From<DatumKey<T>> for ValueKey<T> {
+    fn from(DatumKey(key): DatumKey<T>) -> Self {
+        key
+    }
+}
+
 impl Kind {
     pub(crate) const fn is_number(self) -> bool {
         matches!(
@@ -399,7 +405,7 @@ impl OptionSpec {
     }
 
     /// The same, without effect on results.
-    pub const fn noted(self) -> Self {
+    pub const fn without_effect(self) -> Self {
         OptionSpec { effect: OptionEffect::Noted, ..self }
     }
 

@@ -249,9 +249,9 @@ impl Given {
     }
 
     /// The groups of the values that repeat; the last one may be short.
-    pub fn groups(&self) -> impl Iterator<Item = &[Value]> {
-        let fixed = self.option.values.len().saturating_sub(self.option.repeat);
-        self.values.get(fixed..).unwrap_or_default().chunks(self.option.repeat.max(1))
+    pub fn groups(&self) -> impl Iterator<Item = Group<'_>> {
+        let first = self.option.values.len().saturating_sub(self.option.repeat);
+        groups_of(&self.values, self.option.values, first)
     }
 
     /// The values that name a thing of this sort.
@@ -262,6 +262,59 @@ impl Given {
     /// All numbers in order.
     pub fn numbers(&self) -> Vec<f64> {
         self.values.iter().filter_map(Value::number).collect()
+    }
+}
+
+/// One group of values that repeat. Its values are read by the keys of their declarations, of an option or of a record.
+#[derive(Clone, Copy, Debug)]
+pub struct Group<'a> {
+    values: &'a [Value],
+    declared: &'static [ValueSpec],
+    /// The place of the group's first value among the declarations.
+    first: usize,
+}
+
+/// The values from one of their declarations on, in groups as long as what is declared from there.
+fn groups_of<'a>(values: &'a [Value], declared: &'static [ValueSpec], first: usize) -> impl Iterator<Item = Group<'a>> {
+    let size = declared.len().saturating_sub(first).max(1);
+    values.get(first..).unwrap_or_default().chunks(size).map(move |values| Group { values, declared, first })
+}
+
+impl<'a> Group<'a> {
+    /// A value of the group; `None` when it is left out. The group must have it.
+    pub fn value<T: ?Sized>(&self, key: impl Into<ValueKey<T>>) -> Option<&'a Value> {
+        let key: ValueKey<T> = key.into();
+        debug_assert!(
+            key.index >= self.first && self.declared.get(key.index).is_some_and(|value| value.name == key.name),
+            "{} is looked up in a group that has no such value",
+            key.name
+        );
+        self.values.get(key.index.checked_sub(self.first)?)
+    }
+
+    /// A number; `None` when it is left out.
+    pub fn number(&self, key: impl Into<ValueKey<f64>>) -> Option<f64> {
+        self.value(key).and_then(Value::number)
+    }
+
+    /// Numbers; zeros for those that are left out.
+    pub fn numbers_or_zero<const N: usize>(&self, keys: [impl Into<ValueKey<f64>>; N]) -> [f64; N] {
+        keys.map(|key| self.number(key).unwrap_or(0.0))
+    }
+
+    /// A word; `None` when it is left out.
+    pub fn word(&self, key: impl Into<ValueKey<str>>) -> Option<&'a str> {
+        self.value(key).and_then(Value::word)
+    }
+
+    /// The choice made; `None` when it is left out.
+    pub fn choice<T: Choice>(&self, key: impl Into<ValueKey<T>>) -> Option<T> {
+        self.value(key).and_then(Value::choice)
+    }
+
+    /// Where a value stands, or the group's first one when it is left out.
+    pub fn place<T: ?Sized>(&self, key: impl Into<ValueKey<T>>) -> Span {
+        self.value(key).or(self.values.first()).map_or(Span::default(), |value| value.span)
     }
 }
 
@@ -316,6 +369,11 @@ impl Args {
     pub fn data_after<T: ?Sized>(&self, key: DatumKey<T>) -> &[Value] {
         let DatumKey(ValueKey { index, .. }) = key;
         self.data.get(index + 1..).unwrap_or_default()
+    }
+
+    /// The groups of the positional data that repeat, which begin with one; the last group may be short.
+    pub fn groups_from<T: ?Sized>(&self, key: DatumKey<T>) -> impl Iterator<Item = Group<'_>> {
+        groups_of(&self.data, self.declared_data, ValueKey::from(key).index)
     }
 
     /// A record without words to read.

@@ -93,7 +93,7 @@ impl LinePiece {
         }
     }
 
-    /// Strain at a tension, and its derivative.
+    /// Strain at a tension (N), and its derivative (1/N).
     pub fn strain(&self, tension: f64) -> (f64, f64) {
         match self {
             LinePiece::Length { segment, law, .. } => strain(segment, law.as_ref(), tension),

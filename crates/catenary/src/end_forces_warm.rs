@@ -55,14 +55,14 @@ fn warm(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>, last: &En
 fn warm_start_suspended(segment: &Segment, at: [f64; 2], last: &EndForces) -> Option<EndForces> {
     let all = segment.weight * segment.length;
     let (fairlead, reach, steps) =
-        newton(segment, at, predicted(at, last), WARM_START, |[h, v]| ([h, v], hanging(segment, h, v - all)))?;
+        newton(segment, at, predict_forces(at, last), WARM_START, |[h, v]| ([h, v], hanging(segment, h, v - all)))?;
     let [h, v] = fairlead;
     prove(segment, Regime::Suspended, at, fairlead, [h, v - all], &reach, 0.0, steps).ok()
 }
 
 /// A line that lies on the bottom in part: V follows from H.
 fn contact(segment: &Segment, at: [f64; 2], friction: f64, last: &EndForces) -> Option<EndForces> {
-    let (fairlead, reach, steps) = newton(segment, at, predicted(at, last), WARM_START, |[h, _]| {
+    let (fairlead, reach, steps) = newton(segment, at, predict_forces(at, last), WARM_START, |[h, _]| {
         let (high, reach) = in_contact(segment, h, at[1], friction);
         ([h, high], reach)
     })?;
@@ -80,7 +80,7 @@ fn regime_margin(fairlead: [f64; 2]) -> f64 {
 }
 
 /// The forces to which the last stiffness takes the last ones.
-fn predicted([x, z]: [f64; 2], last: &EndForces) -> [f64; 2] {
+fn predict_forces([x, z]: [f64; 2], last: &EndForces) -> [f64; 2] {
     let [[a, b], [c, d]] = last.stiffness;
     let (dx, dz) = (x - last.at[0], z - last.at[1]);
     let change = [a * dx + b * dz, c * dx + d * dz];

@@ -40,7 +40,7 @@ impl Line {
             if self.weightless() && off > 1e-9 * (self.length() + rested.x.abs()) {
                 return Err(LineError::Undetermined);
             }
-            (force, far) = (still(force, least), still(far, least));
+            (force, far) = (without_least_tension(force, least), without_least_tension(far, least));
             if rested.held.iter().any(loose) {
                 stiffness = [[0.0, 0.0], [0.0, v_z]];
                 // between two legs the far one does not feel the near one; free, both carry
@@ -127,7 +127,7 @@ impl Line {
     fn segment_states(&self, rested: &LineSolution, slack: Option<f64>) -> Vec<SegmentState> {
         self.lengths(rested)
             .map(|(_, _, h)| {
-                let clean = |force: (f64, f64)| slack.map_or(force, |least| still(force, least));
+                let clean = |force: (f64, f64)| slack.map_or(force, |least| without_least_tension(force, least));
                 let (top, bottom) = (clean((h.h, h.v_hi)), clean((h.h, h.v_lo)));
                 SegmentState {
                     top_tension: top.0.hypot(top.1),
@@ -223,7 +223,7 @@ impl Line {
 }
 
 /// H and V of a slack line, solved with the least tension: without what that is.
-fn still((h, v): (f64, f64), least: f64) -> (f64, f64) {
+fn without_least_tension((h, v): (f64, f64), least: f64) -> (f64, f64) {
     if h.hypot(v) <= 64.0 * least {
         (0.0, 0.0)
     } else if h.abs() <= 64.0 * least {

@@ -44,12 +44,13 @@ pub struct SeabedProfile {
 }
 
 impl SeabedProfile {
-    /// A plane through a place under the anchor.
+    /// A plane through an elevation (m) under the anchor, with a slope (vertical over horizontal, rising toward the fairlead).
     pub fn plane(elevation: f64, slope: f64) -> SeabedProfile {
         SeabedProfile { at: vec![0.0, 1.0], z: vec![elevation, elevation + slope], tilts: vec![Tilt::new(slope)] }
     }
 
-    /// From places (distance from the anchor, elevation), growing and at least two, so that it has a face; neighbours in one plane are one face.
+    /// From points (distance from the anchor, elevation; m), growing and at least two, so that it has a face; neighbours in one plane are
+    /// one face.
     pub fn new(places: &[(f64, f64)]) -> SeabedProfile {
         let mut kept: Vec<(f64, f64)> = Vec::with_capacity(places.len());
         let slope = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0);
@@ -71,7 +72,7 @@ impl SeabedProfile {
         self.tilts.len()
     }
 
-    /// The face at a distance from the anchor; 0 is the anchor's.
+    /// The face at a distance (m) from the anchor; 0 is the anchor's.
     pub fn face(&self, at: f64) -> usize {
         self.at.partition_point(|v| *v <= at).clamp(1, self.faces()) - 1
     }
@@ -86,18 +87,18 @@ impl SeabedProfile {
         (self.at[vertex], self.z[vertex])
     }
 
-    /// The elevation of a face's plane.
+    /// The elevation of a face's plane (m) at a distance (m) from the anchor.
     pub fn elevation_of(&self, face: usize, at: f64) -> f64 {
         let (from, z) = self.vertex(face);
         z + (at - from) * self.tilt(face).slope()
     }
 
-    /// The elevation of the bottom.
+    /// The elevation of the bottom (m) at a distance (m) from the anchor.
     pub fn elevation(&self, at: f64) -> f64 {
         self.elevation_of(self.face(at), at)
     }
 
-    /// From which distance to which a face goes: the outer ones without end.
+    /// From which distance to which (m from the anchor) a face goes: the outer ones without end.
     pub fn extent(&self, face: usize) -> (f64, f64) {
         let from = if face == 0 { f64::NEG_INFINITY } else { self.vertex(face).0 };
         let to = if face + 1 >= self.faces() { f64::INFINITY } else { self.vertex(face + 1).0 };

@@ -39,7 +39,7 @@ const RESIDUAL_STIFFNESS_SHARE: f64 = 1e-6;
 const MAX_NEWTON_ITERATIONS: usize = 100;
 
 impl StretchLaw {
-    /// Elongation at a tension >= 0, and its derivative.
+    /// Elongation (m) at a tension >= 0 (N), and its derivative (m/N).
     pub fn stretch(&self, tension: f64) -> (f64, f64) {
         match self {
             StretchLaw::Linear(k) => (tension / k, 1.0 / k),
@@ -118,7 +118,7 @@ impl StretchLaw {
         }
     }
 
-    /// Mean strain where the tension runs evenly from `a` to `b`, and its derivative when both change alike.
+    /// Mean strain where the tension runs evenly from `a` to `b` (N), and its derivative when both change alike.
     pub fn mean(&self, a: f64, b: f64) -> (f64, f64) {
         if a == b {
             return self.stretch(a);

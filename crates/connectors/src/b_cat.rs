@@ -9,48 +9,24 @@ use super::section;
 use super::{ClassKind, options as o};
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_language::spec::{CommandSpec, DatumKey, OptionSpec, ValueSpec, join_options};
+use windlass_language::spec::{CommandSpec, DatumKey, OptionSpec, ValueSpec, count_options, join_lists};
 use windlass_model::{AnchoredClass, ConnectorClass, StaticLineClass, Surroundings};
 
 /// The class type.
 pub static B_CAT: ClassKind =
     ClassKind { spec: &SPEC, build: |records| LineClass::build(&KIND, records), idle: section::CATENARY_IDLE };
 
-const OWN_OPTIONS: &[OptionSpec] = &[
-    o::LEN,
-    o::TYPE,
-    o::DEPANCHOR,
-    o::REFINE,
-    o::IG_STIFF,
-    o::SEND,
-    o::X_PY,
-    o::SPGRAVITY,
-    o::DENSITY,
-    o::EMODULUS,
-    o::POI_RAT,
-    o::ALPHA,
-    o::FYIELD,
-    o::TENSTR,
-    o::WTPLEN,
-    o::DISPLEN,
-    o::B_TENSION,
-    o::C_SN,
-    o::TAB_LIM,
-    o::TABLE,
-    o::CLUMP,
-    o::BUOYDIAMETER,
-    o::DRAGDIAMETER,
-    o::WINDDIAMETER,
-    o::AMASDIAMETER,
-    o::FRICTION,
-    o::SLOPE,
-    m::CD,
-    m::CA,
-    m::AX_DAMPING,
-    m::SEABED,
+const LISTS: &[&[OptionSpec]] = &[
+    &[o::LEN, o::TYPE, o::DEPANCHOR, o::REFINE, o::IG_STIFF, o::SEND, o::X_PY],
+    &o::SEGMENT,
+    &[o::TAB_LIM, o::TABLE, o::CLUMP],
+    &o::DIAMETERS,
+    &[o::FRICTION, o::SLOPE],
+    &m::LINE_OPTIONS,
+    &devices::OPTIONS,
 ];
 
-static OPTIONS: [OptionSpec; OWN_OPTIONS.len() + devices::OPTIONS.len()] = join_options(OWN_OPTIONS, &devices::OPTIONS);
+static OPTIONS: [OptionSpec; count_options(LISTS)] = join_lists(LISTS);
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[

@@ -2,6 +2,7 @@
 
 use super::options as o;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::values::{Args, Given};
 use windlass_model::{ClassError, Connection, Connector};
 
@@ -10,22 +11,24 @@ use windlass_model::{ClassError, Connection, Connector};
 /// # Errors
 /// A point with a force and no deflection or the other way round, two points with the same force, a force that does not grow, or a deflection that does not grow, at its value.
 pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
+    // -Y_PY and -Z_PY name their values alike
+    const FORCE: ValueKey<f64> = o::X_PY.number("P");
+    const DEFLECTION: ValueKey<f64> = o::X_PY.number("Y");
     let mut points: Vec<(f64, f64)> = Vec::new();
     for pair in given.groups() {
-        let [p, y] = pair else { continue };
-        let (Some(force), Some(deflection)) = (p.number(), y.number()) else { continue };
+        let (Some(force), Some(deflection)) = (pair.number(FORCE), pair.number(DEFLECTION)) else { continue };
         if let Some((last_force, last_deflection)) = points.last() {
             if force <= *last_force {
                 return Err(Diagnostic::error(
                     format!("the forces of {} must grow from point to point", given.name()),
-                    p.span,
+                    pair.place(FORCE),
                 )
                 .label("not larger than the one before"));
             }
             if deflection <= *last_deflection {
                 return Err(Diagnostic::error(
                     format!("the deflections of {} must grow with the force", given.name()),
-                    y.span,
+                    pair.place(DEFLECTION),
                 )
                 .label("not larger than the one before"));
             }
@@ -33,7 +36,7 @@ pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
         if (force == 0.0) != (deflection == 0.0) {
             return Err(Diagnostic::error(
                 format!("{} begins at zero force and zero deflection", given.name()),
-                p.span,
+                pair.place(FORCE),
             )
             .label("one of the two is zero alone"));
         }

@@ -125,9 +125,9 @@ impl ChordElement {
     }
 
     /// From the first end to the other.
-    fn chord_vector(&self, ends: &[End]) -> Vector3<f64> {
-        let at = |i: usize| ends.get(i).map_or(Vector3::zeros(), |e| e.pose.origin);
-        at(1) - at(0)
+    fn chord_vector(ends: &[End]) -> Result<Vector3<f64>, ClassError> {
+        let [from, to] = End::origins(ends)?;
+        Ok(to - from)
     }
 
     /// Force and slope of the spring with a link, over the distance between the ends (m).
@@ -150,7 +150,7 @@ impl ExtensibleLine for ChordElement {
         out: &mut ConnectorResponse,
     ) -> Result<EndPull, ClassError> {
         out.clear(2);
-        let along = self.chord_vector(ends);
+        let along = ChordElement::chord_vector(ends)?;
         let chord = along.norm();
         let unit = if chord > 0.0 { along / chord } else { -Vector3::z() };
         let (force, slope) = self.with_link(by, chord);
@@ -169,7 +169,7 @@ impl ExtensibleLine for ChordElement {
     }
 
     fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ConnectorSummary, ClassError> {
-        let chord = self.chord_vector(ends).norm();
+        let chord = ChordElement::chord_vector(ends)?.norm();
         let (force, _) = self.with_link(by, chord);
         let (ratio, critical) = self.chord.ratio(force);
         Ok(ConnectorSummary {

@@ -6,17 +6,15 @@
 //! stall are not modelled.
 
 use super::ClassKind;
-use super::spring::no_anchor;
-use super::taut_span::{SpanTension, TautSpan, apply_tension, read_span, smooth_step};
+use super::taut_span::{SpanElement, SpanLaw, SpanTension, TautSpan, check_span_ends, smooth_step};
 use std::sync::Arc;
-use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
-    ConnectorSummary, Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, Note, Surroundings,
 };
 
 /// The class type.
@@ -94,42 +92,13 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     }))
 }
 
-impl ConstantTensionLine {
-    fn tension_of(&self, span: &TautSpan) -> SpanTension {
-        let [winding, paying] = self.friction;
-        let sign = if self.rests_paying_out { -1.0 } else { 1.0 };
-        // 0 at rest, 1 where the drum turns the other way
-        let (turned, slope) = smooth_step(sign * span.rate / FULL_FRICTION_SPEED);
-        let (out, by_rate) = if self.rests_paying_out { (1.0 - turned, slope) } else { (turned, slope) };
-        let factor = 1.0 - winding + (winding + paying) * out;
-        let factor_by_rate = (winding + paying) * by_rate / FULL_FRICTION_SPEED;
-        let (taut, by_length) = if self.length > 0.0 {
-            let ramp = TAUTENING_SHARE * self.length;
-            let (taut, slope) = smooth_step((span.length - self.length) / ramp);
-            (taut, slope / ramp)
-        } else {
-            (1.0, 0.0)
-        };
-        SpanTension {
-            tension: self.tension * factor * taut,
-            by_length: self.tension * factor * by_length,
-            by_rate: self.tension * taut * factor_by_rate,
-        }
-    }
-}
-
 impl ConnectorClass for ConstantTensionLine {
     fn kind(&self) -> &'static str {
         "CT_LINE"
     }
 
     fn check_ends(&self, connector: &Connector, _: usize) -> Outcome<()> {
-        no_anchor("CT_LINE", connector)?;
-        if connector.points.len() != 2 {
-            let text = "a CT_LINE takes 2 points; its anchor is a point of the ground";
-            return Err(Diagnostic::error(text, connector.span));
-        }
-        Ok(())
+        check_span_ends("CT_LINE", "a CT_LINE takes 2 points; its anchor is a point of the ground", connector)
     }
 
     fn is_line(&self) -> bool {
@@ -157,27 +126,35 @@ impl ConnectorClass for ConstantTensionLine {
     }
 
     fn element(&self, _: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
-        Ok(Box::new(*self))
+        Ok(Box::new(SpanElement(*self)))
     }
 }
 
-impl ConnectorElement for ConstantTensionLine {
-    fn evaluate(
-        &self,
-        at: &Situation,
-        _: &[f64],
-        _: &mut [f64],
-        _: &mut SolverCache,
-        out: &mut ConnectorResponse,
-    ) -> Result<(), ClassError> {
-        let span = read_span(at.ends)?;
-        apply_tension(&span, &self.tension_of(&span), out);
-        Ok(())
+impl SpanLaw for ConstantTensionLine {
+    fn notes(&self, span: &TautSpan) -> Vec<Note> {
+        let is_slack = self.tension > 0.0 && self.tension_of(span).tension == 0.0;
+        if is_slack { vec!["the line is slack".into()] } else { Vec::new() }
     }
 
-    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
-        let tension = self.tension_of(&read_span(at.ends)?).tension;
-        let notes = if tension == 0.0 && self.tension > 0.0 { vec!["the line is slack".into()] } else { Vec::new() };
-        Ok(ConnectorSummary { tension: Some(tension), notes, solution: "exact", ..ConnectorSummary::default() })
+    fn tension_of(&self, span: &TautSpan) -> SpanTension {
+        let [winding, paying] = self.friction;
+        let sign = if self.rests_paying_out { -1.0 } else { 1.0 };
+        // 0 at rest, 1 where the drum turns the other way
+        let (turned, slope) = smooth_step(sign * span.rate / FULL_FRICTION_SPEED);
+        let (out, by_rate) = if self.rests_paying_out { (1.0 - turned, slope) } else { (turned, slope) };
+        let factor = 1.0 - winding + (winding + paying) * out;
+        let factor_by_rate = (winding + paying) * by_rate / FULL_FRICTION_SPEED;
+        let (taut, by_length) = if self.length > 0.0 {
+            let ramp = TAUTENING_SHARE * self.length;
+            let (taut, slope) = smooth_step((span.length - self.length) / ramp);
+            (taut, slope / ramp)
+        } else {
+            (1.0, 0.0)
+        };
+        SpanTension {
+            tension: self.tension * factor * taut,
+            by_length: self.tension * factor * by_length,
+            by_rate: self.tension * taut * factor_by_rate,
+        }
     }
 }

@@ -18,7 +18,7 @@ const MAX_STEP_HALVINGS: usize = 40;
 const CONVERGENCE_TOLERANCE: f64 = 1e-13;
 const ACCEPTED_RESIDUAL: f64 = 1e-9;
 
-/// The forces of a line on its two ends, by the direction from the first to the other.
+/// The forces of a line on its two ends (N, global axes), by the direction from the first to the other.
 pub fn end_wrenches(forces: &LineForces, [ux, uy]: [f64; 2]) -> [Six; 2] {
     let ([h, v], [far_h, far_v]) = (forces.fairlead, forces.anchor);
     let force = |x: f64, y: f64, z: f64| Six::new(x, y, z, 0.0, 0.0, 0.0);

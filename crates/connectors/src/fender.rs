@@ -80,6 +80,8 @@ static SPEC: CommandSpec = CommandSpec {
 
 /// The datum before the points of the curve.
 const HEIGHT: DatumKey<f64> = SPEC.number("H");
+const REACTION: DatumKey<f64> = SPEC.number("P");
+const DEFLECTION: DatumKey<f64> = SPEC.number("Y");
 
 /// Points of a curve, (reaction N, deflection m), the origin among them.
 type Points = Vec<(f64, f64)>;
@@ -130,13 +132,12 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
 /// The points of a record, checked.
 fn points(args: &Args, height: f64) -> Outcome<Points> {
     let mut made: Points = vec![(0.0, 0.0)];
-    for pair in args.data_after(HEIGHT).chunks_exact(2) {
-        let [reaction, at] = pair else { continue };
-        let (Some(force), Some(deflection)) = (reaction.number(), at.number()) else { continue };
-        let place = at.span;
+    for pair in args.groups_from(REACTION) {
+        let (Some(force), Some(deflection)) = (pair.number(REACTION), pair.number(DEFLECTION)) else { continue };
+        let place = pair.place(DEFLECTION);
         if deflection == 0.0 && made.len() == 1 {
             if force > 0.0 {
-                return Err(Diagnostic::error("the curve of a FENDER begins at zero", reaction.span)
+                return Err(Diagnostic::error("the curve of a FENDER begins at zero", pair.place(REACTION))
                     .label("a reaction without deflection"));
             }
             continue;
@@ -153,7 +154,7 @@ fn points(args: &Args, height: f64) -> Outcome<Points> {
     }
     match made.as_slice() {
         [.., before, last] if last.0 <= before.0 => {
-            let place = args.data.iter().rev().nth(1).map_or(args.span, |reaction| reaction.span);
+            let place = args.groups_from(REACTION).last().map_or(args.span, |point| point.place(REACTION));
             Err(Diagnostic::error(
                 "the curve of a FENDER must rise to its last point, beyond which its slope goes on",
                 place,

@@ -11,47 +11,24 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
-use windlass_language::spec::{CommandSpec, DatumKey, OptionSpec, ValueSpec, join_options};
+use windlass_language::spec::{CommandSpec, DatumKey, OptionSpec, ValueSpec, count_options, join_lists, join_options};
 use windlass_model::Surroundings;
 
 /// The class type.
 pub static H_CAT: ClassKind =
     ClassKind { spec: &H_CAT_SPEC, build: |records| LineClass::build(&KIND, records), idle: section::HANGING_IDLE };
 
-/// Options of lines between two places, but those of devices.
-const OWN_OPTIONS: &[OptionSpec] = &[
-    o::LEN,
-    o::TYPE,
-    o::REFINE,
-    o::IG_STIFF,
-    o::SEND,
-    o::X_PY,
-    o::SPGRAVITY,
-    o::DENSITY,
-    o::EMODULUS,
-    o::POI_RAT,
-    o::ALPHA,
-    o::FYIELD,
-    o::TENSTR,
-    o::WTPLEN,
-    o::DISPLEN,
-    o::B_TENSION,
-    o::C_SN,
-    o::TAB_LIM,
-    o::CLUMP,
-    o::BUOYDIAMETER,
-    o::DRAGDIAMETER,
-    o::WINDDIAMETER,
-    o::AMASDIAMETER,
-    m::CD,
-    m::CA,
-    m::AX_DAMPING,
-    m::SEABED,
+const LISTS: &[&[OptionSpec]] = &[
+    &[o::LEN, o::TYPE, o::REFINE, o::IG_STIFF, o::SEND, o::X_PY],
+    &o::SEGMENT,
+    &[o::TAB_LIM, o::CLUMP],
+    &o::DIAMETERS,
+    &m::LINE_OPTIONS,
+    &devices::OPTIONS,
 ];
 
-/// Options of lines between two places.
-pub const LINE_OPTIONS: [OptionSpec; OWN_OPTIONS.len() + devices::OPTIONS.len()] =
-    join_options(OWN_OPTIONS, &devices::OPTIONS);
+/// Options of lines between two points of bodies.
+pub const LINE_OPTIONS: [OptionSpec; count_options(LISTS)] = join_lists(LISTS);
 
 /// Options of a B_CAT that are taken, and do nothing without a bottom or give the place of an anchor.
 const BOTTOM_OPTIONS: [OptionSpec; 3] = [o::DEPANCHOR, o::FRICTION, o::SLOPE];

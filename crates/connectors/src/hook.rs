@@ -45,7 +45,7 @@ impl SlingObjective {
 /// Share of a length by which rounding may stretch a line.
 const LENGTH_ROUNDING_SHARE: f64 = 1e-9;
 
-/// The best place in which no line is stretched; `None` where the lines do not reach one another.
+/// The best position (m) in which no line is stretched; `None` where the lines do not reach one another.
 pub fn hook(lines: &[SlingConstraint], goal: SlingObjective) -> Option<Vector3<f64>> {
     let mut places = Vec::new();
     if let SlingObjective::Near(point) = goal {
@@ -96,7 +96,7 @@ fn crossing(
     (across >= -1e-12 * radius * radius).then(|| [1.0, -1.0].map(|sign| centre + first * along + second * sign))
 }
 
-/// The hook of a body that hangs from it: the place farthest from the centre of gravity, from a first one upward.
+/// The hook (m) of a body that hangs from it: the position farthest from the centre of gravity, from a first one upward.
 pub fn hanging(lines: &[SlingConstraint], centre: Vector3<f64>, up: Vector3<f64>) -> Option<Vector3<f64>> {
     /// Most steps; each goes farther from the centre, and slings that meet in a point need two.
     const MAX_STEPS: usize = 500;

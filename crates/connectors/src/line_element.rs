@@ -51,14 +51,16 @@ impl LineElement {
 
     /// Horizontal distance, its direction from the first end to the other, and the elevation of the first end in the line's
     /// own system: a line that sees neither bottom nor surface goes up and down with its other end.
-    fn horizontal_distance(&self, ends: &[End]) -> (f64, [f64; 2], f64) {
-        let at = |i: usize| ends.get(i).map_or(Vector3::zeros(), |e| e.pose.origin);
-        let (from, to) = (at(0), at(1));
+    ///
+    /// # Errors
+    /// Fewer than two ends.
+    fn horizontal_distance(&self, ends: &[End]) -> Result<(f64, [f64; 2], f64), ClassError> {
+        let [from, to] = End::origins(ends)?;
         let (dx, dy) = (to.x - from.x, to.y - from.y);
         let x = dx.hypot(dy);
         let along = if x > 0.0 { [dx / x, dy / x] } else { [1.0, 0.0] };
         let z = if self.mooring.place.to_ground { from.z } else { self.mooring.line.anchor() + from.z - to.z };
-        (x, along, z)
+        Ok((x, along, z))
     }
 
     fn forces(&self, x: f64, z: f64, cache: &mut SolverCache) -> Result<LineForces, LineError> {
@@ -155,19 +157,22 @@ impl LineElement {
     }
 
     /// The line with its ends there.
-    fn with_ends(&self, ends: &[End]) -> Mooring {
-        let at = |i: usize| ends.get(i).map(|e| e.pose.origin.into());
-        let place = Placement { fairlead: at(0).unwrap_or_default(), other: at(1), ..self.mooring.place.clone() };
-        let (_, _, z) = self.horizontal_distance(ends);
+    ///
+    /// # Errors
+    /// Fewer than two ends.
+    fn with_ends(&self, ends: &[End]) -> Result<Mooring, ClassError> {
+        let [fairlead, other] = End::origins(ends)?.map(Into::into);
+        let place = Placement { fairlead, other: Some(other), ..self.mooring.place.clone() };
+        let (_, _, z) = self.horizontal_distance(ends)?;
         let [x, y, own] = place.fairlead;
         // elevations in the line's own system
         let rise = z - own;
-        Mooring {
+        Ok(Mooring {
             place: Placement { fairlead: [x, y, z], ..place },
             surface: self.mooring.surface + rise,
             bottom: self.mooring.bottom.map(|b| b + rise),
             ..self.mooring.clone()
-        }
+        })
     }
 }
 
@@ -215,7 +220,7 @@ impl ExtensibleLine for LineElement {
         out: &mut ConnectorResponse,
     ) -> Result<EndPull, ClassError> {
         out.clear(2);
-        let (x, along, z) = self.horizontal_distance(ends);
+        let (x, along, z) = self.horizontal_distance(ends)?;
         let here = self.at_azimuth(along)?;
         let Some((plane, _)) = here.forces_if_taut(x, z, by, cache)? else {
             return Ok(EndPull { tension: 0.0, along: Vector3::zeros() });
@@ -241,15 +246,15 @@ impl ExtensibleLine for LineElement {
     fn summary_with_link(&self, ends: &[End], by: Extension) -> Result<ConnectorSummary, ClassError> {
         let mut ends = ends.to_vec();
         if by != Extension::NONE {
-            let (x, [ux, uy], z) = self.horizontal_distance(&ends);
+            let (x, [ux, uy], z) = self.horizontal_distance(&ends)?;
             let here = self.at_azimuth([ux, uy])?;
             let [line_x, line_z] = here.forces_if_taut(x, z, by, &mut SolverCache::new())?.map_or([x, z], |(_, at)| at);
             if let Some(first) = ends.first_mut() {
                 first.pose.origin += Vector3::new((x - line_x) * ux, (x - line_x) * uy, line_z - z);
             }
         }
-        let (_, along, _) = self.horizontal_distance(&ends);
-        let line = self.at_azimuth(along)?.with_ends(&ends);
+        let (_, along, _) = self.horizontal_distance(&ends)?;
+        let line = self.at_azimuth(along)?.with_ends(&ends)?;
         let tabulated = line.tabulated;
         let loads = if tabulated { line.tabled_loads()? } else { line.exact_loads()? };
         let mut over_given_break = loads.over_given_break;
@@ -257,7 +262,7 @@ impl ExtensibleLine for LineElement {
         if over_given_break.is_none() && tabulated && line.breaks_given.contains(&true) {
             over_given_break = line.exact_loads().ok().and_then(|exact| exact.over_given_break);
         }
-        let (x, _, z) = self.horizontal_distance(&ends);
+        let (x, _, z) = self.horizontal_distance(&ends)?;
         let chord = x.hypot(z - self.mooring.line.anchor());
         let too_short = too_short(chord / self.mooring.line.length(), loads.ratio);
         let mut notes = loads.notes;
@@ -300,7 +305,7 @@ impl ConnectorElement for LineElement {
         cache: &mut SolverCache,
         out: &mut Vec<Six>,
     ) -> Result<(), ClassError> {
-        let (x, along, z) = self.horizontal_distance(at.ends);
+        let (x, along, z) = self.horizontal_distance(at.ends)?;
         let found = self.at_azimuth(along)?.forces_if_taut(x, z, Extension::NONE, cache)?;
         out.clear();
         out.extend(found.map_or([Six::zeros(); 2], |(plane, _)| end_wrenches(&plane, along)));
@@ -314,7 +319,7 @@ impl ConnectorElement for LineElement {
 
 impl AnchoredConnector for LineElement {
     fn evaluate_anchored(&self, at: &Situation, cache: &mut SolverCache) -> Result<AnchoredResponse, ClassError> {
-        let (x, along, z) = self.horizontal_distance(at.ends);
+        let (x, along, z) = self.horizontal_distance(at.ends)?;
         let here = self.at_azimuth(along)?;
         let Some((plane, _)) = here.forces_if_taut(x, z, Extension::NONE, cache)? else {
             return Ok(AnchoredResponse { wrenches: [Six::zeros(); 2], stiffness: Matrix3::zeros() });

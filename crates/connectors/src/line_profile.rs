@@ -60,7 +60,7 @@ impl LineProfile {
         line.over_profile(&places, self.friction)
     }
 
-    /// Direction from the fairlead to the anchor.
+    /// Direction from the fairlead to the anchor: a unit vector on the plan.
     pub fn azimuth(&self) -> [f64; 2] {
         self.azimuth
     }

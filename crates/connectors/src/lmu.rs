@@ -3,7 +3,7 @@
 //! Source: [MOSES-FLEX LMU, Figure 7]. All three sizes are in inches or mm; OD(1) is the pin, OD(2) the mouth of the cone.
 
 use super::foundation::OPTIONS;
-use super::spring::{Springs, no_anchor, restraint_table};
+use super::spring::{RestraintKeys, Springs, no_anchor, restraint_table};
 use super::zero_law::{ContactGeometry, Sense};
 use super::zero_length::{ZeroLength, element_turns};
 use super::{ClassKind, checks, options as o};
@@ -65,7 +65,12 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     if mouth < pin {
         return Err(Diagnostic::error("the cone's mouth OD(2) is smaller than the pin OD(1)", args.place(MOUTH)));
     }
-    Ok(Arc::new(PinInCone { length, pin, mouth, springs: Springs::read(args, args.data_after(MOUTH), true)? }))
+    let keys = RestraintKeys {
+        dof: const { SPEC.choice("DF") },
+        stiffness: const { SPEC.number("SPV") },
+        allowable: Some(const { SPEC.number("AF") }),
+    };
+    Ok(Arc::new(PinInCone { length, pin, mouth, springs: Springs::read(args, keys, true)? }))
 }
 
 impl PinInCone {

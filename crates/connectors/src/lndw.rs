@@ -8,8 +8,7 @@
 
 use super::ClassKind;
 use super::options::aqwa;
-use super::spring::no_anchor;
-use super::taut_span::{SpanTension, apply_tension, read_span};
+use super::taut_span::{SpanTension, apply_tension, check_span_ends, read_span};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -54,10 +53,6 @@ static SPEC: CommandSpec = CommandSpec {
               &STATUS CLASS ~WINCH",
     ..CommandSpec::new("LNDW", "AQWA linear drum winch")
 };
-
-/// Positions of the state of an element.
-const PAID_OUT: usize = 0;
-const LAST_TENSION: usize = 1;
 
 /// A line on a drum.
 #[derive(Clone, Copy, Debug)]
@@ -107,12 +102,17 @@ impl DrumLine {
     }
 
     /// Free length and tension at the end of a step to a distance of the ends.
-    fn state(&self, step: Option<TimeStep>, committed: &[f64], distance: f64) -> DrumState {
-        let kept = |index: usize| committed.get(index).copied().unwrap_or(0.0);
-        let before = self.initial + kept(PAID_OUT);
+    ///
+    /// # Errors
+    /// A committed state that is not one of its own.
+    fn state(&self, step: Option<TimeStep>, committed: &[f64], distance: f64) -> Result<DrumState, ClassError> {
+        let [paid_out, last_tension] = *committed else {
+            return Err(ClassError::new("the state of an LNDW is not one of its own").lasting());
+        };
+        let before = self.initial + paid_out;
         let turning = step.map_or(0.0, |step| step.dt.min((step.time - self.start).max(0.0)));
         let way = self.speed * turning;
-        let wanted = if way > 0.0 && self.last > before && kept(LAST_TENSION) <= self.most {
+        let wanted = if way > 0.0 && self.last > before && last_tension <= self.most {
             (before + way).min(self.last)
         } else if way < 0.0 && self.last < before {
             (before + way).max(self.last)
@@ -124,12 +124,12 @@ impl DrumLine {
             // the free length at which the tension is the maximum: EA (distance - L) = TMAX (LA + L)
             let held = (self.ea * distance - self.most * self.added) / (self.ea + self.most);
             if held < before {
-                return DrumState { free: held, tension: self.most, slope: 0.0 };
+                return Ok(DrumState { free: held, tension: self.most, slope: 0.0 });
             }
             let (tension, slope) = self.tension(before, distance);
-            return DrumState { free: before, tension, slope };
+            return Ok(DrumState { free: before, tension, slope });
         }
-        DrumState { free: wanted, tension, slope }
+        Ok(DrumState { free: wanted, tension, slope })
     }
 }
 
@@ -139,12 +139,7 @@ impl ConnectorClass for DrumLine {
     }
 
     fn check_ends(&self, connector: &Connector, _: usize) -> Outcome<()> {
-        no_anchor("LNDW", connector)?;
-        if connector.points.len() != 2 {
-            let text = "an LNDW takes 2 points; its anchor is a point of the ground";
-            return Err(Diagnostic::error(text, connector.span));
-        }
-        Ok(())
+        check_span_ends("LNDW", "an LNDW takes 2 points; its anchor is a point of the ground", connector)
     }
 
     fn properties(&self, name: &str, _: &Surroundings) -> Table {
@@ -178,7 +173,7 @@ impl ConnectorElement for DrumLine {
         out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
         let span = read_span(at.ends)?;
-        let state = self.state(at.step, committed, span.length);
+        let state = self.state(at.step, committed, span.length)?;
         for (value, new) in trial.iter_mut().zip([state.free - self.initial, state.tension]) {
             *value = new;
         }
@@ -189,7 +184,7 @@ impl ConnectorElement for DrumLine {
 
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<ConnectorSummary, ClassError> {
         let distance = read_span(at.ends)?.length;
-        let state = self.state(None, committed, distance);
+        let state = self.state(None, committed, distance)?;
         let mut notes: Vec<Note> = Vec::new();
         if state.tension == 0.0 {
             notes.push("the line is slack".into());

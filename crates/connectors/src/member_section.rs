@@ -11,7 +11,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun};
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec, count_options, join_lists, join_options};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, MemberSection, SectionOutline,
     SolveKind, Surroundings,
@@ -73,7 +73,7 @@ const SECTION: OptionSpec = OptionSpec::new(
 const ANY: &[ValueSpec] = &[ValueSpec::new("V", Kind::Text, "a value").or("none")];
 /// An option of a stress analysis or a code check.
 const fn stress(name: &'static str) -> OptionSpec {
-    OptionSpec::new(name, ANY, "of a stress analysis or a code check").repeating(1).noted()
+    OptionSpec::new(name, ANY, "of a stress analysis or a code check").repeating(1).without_effect()
 }
 /// What stiffeners are given by.
 const STIFFENER: &[ValueSpec] = &[
@@ -88,35 +88,24 @@ const fn stiffener(name: &'static str) -> OptionSpec {
 const STIFFENERS: [OptionSpec; 4] =
     [stiffener("-T_STIFF"), stiffener("-L_STIFF"), stiffener("-TN_STIFF"), stiffener("-LN_STIFF")];
 
-const OPTIONS: &[OptionSpec] = &[
-    o::LEN,
-    o::SPGRAVITY,
-    o::DENSITY,
-    o::EMODULUS,
-    o::POI_RAT,
-    o::ALPHA,
-    o::FYIELD,
-    o::TENSTR,
-    stress("-SN"),
-    o::WTPLEN,
-    o::DISPLEN,
-    o::BUOYDIAMETER,
-    o::DRAGDIAMETER,
-    o::WINDDIAMETER,
-    o::AMASDIAMETER,
-    SECTION,
-    REFERENCE,
-    stress("-POINTS"),
-    stress("-P_FY"),
-    stress("-M_P"),
-    stress("-P_N"),
-    stress("-ETA"),
-    stress("-F_TYPE"),
-    STIFFENERS[0],
-    STIFFENERS[1],
-    STIFFENERS[2],
-    STIFFENERS[3],
+const LISTS: &[&[OptionSpec]] = &[
+    &[o::LEN],
+    &o::MATERIAL,
+    &[stress("-SN"), o::WTPLEN, o::DISPLEN],
+    &o::DIAMETERS,
+    &[
+        SECTION,
+        REFERENCE,
+        stress("-POINTS"),
+        stress("-P_FY"),
+        stress("-M_P"),
+        stress("-P_N"),
+        stress("-ETA"),
+        stress("-F_TYPE"),
+    ],
+    &STIFFENERS,
 ];
+const OPTIONS: &[OptionSpec] = &join_lists::<{ count_options(LISTS) }>(LISTS);
 
 const DETAIL: &str = "A section of structural members, for BEAM. Dimensions in inches or mm; which is which is our reading. The weight is the area of the metal \
      times -DENSITY, or -WTPLEN; an attached plate PT PW is not in it [MOSES-REF cls_str]. -SECTION AREA stands for the area of the dimensions. A \
@@ -279,24 +268,13 @@ static LLEG_SPEC: CommandSpec = section_spec(
     "launch leg of BEAM: a tube on a runner; -SECTION gives the area of both",
     example!("LLEG 1500 40 600 30 500 25 0 0 -SECTION 230000"),
 );
+static PLATE_OPTIONS: [OptionSpec; o::MATERIAL.len() + STIFFENERS.len()] = join_options(&o::MATERIAL, &STIFFENERS);
 static PLATE_SPEC: CommandSpec = CommandSpec {
     detail: "A plate, for PLATE. Its weight is thickness times density times area, its displacement that of its metal. B C D would be a corrugation and stop the \
              next solve. -SECTION, -WTPLEN and diameters are for beams.",
     example: "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY DECK\n*A 0 0 5\n*B 12 0 5\n*C 12 6 5\n*D 0 6 5\n~S PLATE 12\n\
               PLATE ~S *A *B *C *D\nEND\n&STATUS CLASS ~S\n&STATUS WEIGHT",
-    options: &[
-        o::SPGRAVITY,
-        o::DENSITY,
-        o::EMODULUS,
-        o::POI_RAT,
-        o::ALPHA,
-        o::FYIELD,
-        o::TENSTR,
-        STIFFENERS[0],
-        STIFFENERS[1],
-        STIFFENERS[2],
-        STIFFENERS[3],
-    ],
+    options: &PLATE_OPTIONS,
     data: &[
         size("A", "thickness"),
         sizes("B", "of a corrugation"),
@@ -353,11 +331,6 @@ impl Form {
         let outline = SectionOutline::Bar { width, depth };
         Form { outline, metal: Some([metal; 2]), walls: Walls::Open, unread: None }
     }
-}
-
-/// The numbers of a record's data, zero where one is left out.
-fn dimensions<const N: usize>(args: &Args) -> [f64; N] {
-    std::array::from_fn(|n| args.data.get(n).and_then(windlass_base::values::Value::number).unwrap_or(0.0))
 }
 
 /// Refuses dimensions that make no section: each pair is a size that has to be less than another.
@@ -442,19 +415,19 @@ fn round(
 }
 
 fn read_tube(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [diameter, wall, c, d] = dimensions(&record.args);
+    let [diameter, wall, c, d] = record.args.numbers_or_zero(const { TUBE_SPEC.numbers(["A", "B", "C", "D"]) });
     let wall = if wall > 0.0 { wall } else { 0.5 * diameter };
     let unread = (c > 0.0 || d > 0.0).then_some("what C and D of a TUBE do");
     round(record, "TUBE", [diameter; 2], wall, unread)
 }
 
 fn read_cone(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [first, second, wall] = dimensions(&record.args);
+    let [first, second, wall] = record.args.numbers_or_zero(const { CONE_SPEC.numbers(["A", "B", "C"]) });
     round(record, "CONE", [first, second], wall, None)
 }
 
 fn read_box(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [depth, width, side, lid] = dimensions(&record.args);
+    let [depth, width, side, lid] = record.args.numbers_or_zero(const { BOX_SPEC.numbers(["A", "B", "C", "D"]) });
     let lid = if lid > 0.0 { lid } else { side };
     let pairs = [
         (2.0 * lid, depth, "top and bottom are thicker than its depth"),
@@ -467,7 +440,8 @@ fn read_box(record: &ClassRecord) -> Outcome<MemberSection> {
 }
 
 fn read_welded_box(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [depth, width, web, flange, between] = dimensions(&record.args);
+    let [depth, width, web, flange, between] =
+        record.args.numbers_or_zero(const { WBOX_SPEC.numbers(["A", "B", "C", "D", "E"]) });
     let pairs = [
         (2.0 * flange, depth, "the flanges are thicker than its depth"),
         (between + 2.0 * web, width, "the webs stand beyond the flanges"),
@@ -479,14 +453,14 @@ fn read_welded_box(record: &ClassRecord) -> Outcome<MemberSection> {
 }
 
 fn read_prism(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [depth, width] = dimensions(&record.args);
+    let [depth, width] = record.args.numbers_or_zero(const { PRI_SPEC.numbers(["A", "B"]) });
     let width = if width > 0.0 { width } else { depth };
     finish(record, "PRI", Form::of_bar(width, depth, width * depth))
 }
 
-/// A section of a web and flanges of one thickness each.
-fn flanged(record: &ClassRecord, kind: &'static str, flanges: f64) -> Outcome<MemberSection> {
-    let [depth, width, web, flange] = dimensions(&record.args);
+/// A section of a web and flanges of one thickness each. IBEAM, CHANNEL and TEE name their dimensions alike.
+fn read_flanged(record: &ClassRecord, kind: &'static str, flanges: f64) -> Outcome<MemberSection> {
+    let [depth, width, web, flange] = record.args.numbers_or_zero(const { IBEAM_SPEC.numbers(["A", "B", "C", "D"]) });
     let pairs = [
         (flanges * flange, depth, "the flanges are thicker than its depth"),
         (web, width, "the web is thicker than the flanges are wide"),
@@ -496,15 +470,15 @@ fn flanged(record: &ClassRecord, kind: &'static str, flanges: f64) -> Outcome<Me
 }
 
 fn read_i_beam(record: &ClassRecord) -> Outcome<MemberSection> {
-    flanged(record, "IBEAM", 2.0)
+    read_flanged(record, "IBEAM", 2.0)
 }
 
 fn read_channel(record: &ClassRecord) -> Outcome<MemberSection> {
-    flanged(record, "CHANNEL", 2.0)
+    read_flanged(record, "CHANNEL", 2.0)
 }
 
 fn read_tee(record: &ClassRecord) -> Outcome<MemberSection> {
-    flanged(record, "TEE", 1.0)
+    read_flanged(record, "TEE", 1.0)
 }
 
 /// The area of one angle (m2).
@@ -516,25 +490,27 @@ fn angle_area(args: &Args, kind: &str, [depth, width, upright, level]: [f64; 4])
 }
 
 fn read_angle(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [depth, width, upright, level] = dimensions(&record.args);
+    let [depth, width, upright, level] =
+        record.args.numbers_or_zero(const { ANGLE_SPEC.numbers(["A", "B", "C", "D"]) });
     let level = if level > 0.0 { level } else { upright };
     let area = angle_area(&record.args, "ANGLE", [depth, width, upright, level])?;
     finish(record, "ANGLE", Form::of_bar(width, depth, area))
 }
 
 fn read_double_angle(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [depth, width, leg, between] = dimensions(&record.args);
+    let [depth, width, leg, between] =
+        record.args.numbers_or_zero(const { D_ANGLE_SPEC.numbers(["A", "B", "C", "D"]) });
     let area = angle_area(&record.args, "D_ANGLE", [depth, width, leg, leg])?;
     finish(record, "D_ANGLE", Form::of_bar(2.0 * width + between, depth, 2.0 * area))
 }
 
 fn read_general_i_beam(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [depth, width] = dimensions(&record.args);
+    let [depth, width] = record.args.numbers_or_zero(const { G_IBEAM_SPEC.numbers(["A", "B"]) });
     finish(record, "G_IBEAM", Form { metal: None, ..Form::of_bar(width, depth, 0.0) })
 }
 
 fn read_launch_leg(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [diameter, wall] = dimensions(&record.args);
+    let [diameter, wall] = record.args.numbers_or_zero(const { LLEG_SPEC.numbers(["A", "B"]) });
     let pairs = [(2.0 * wall, diameter, "the wall is thicker than half of the diameter")];
     check_sizes(&record.args, "LLEG", &pairs)?;
     let walls = Walls::Inner([circle(diameter - 2.0 * wall); 2]);
@@ -542,7 +518,7 @@ fn read_launch_leg(record: &ClassRecord) -> Outcome<MemberSection> {
 }
 
 fn read_plate(record: &ClassRecord) -> Outcome<MemberSection> {
-    let [thickness, b, c, d] = dimensions(&record.args);
+    let [thickness, b, c, d] = record.args.numbers_or_zero(const { PLATE_SPEC.numbers(["A", "B", "C", "D"]) });
     let unread = (b + c + d > 0.0).then_some("a corrugation of PLATE");
     let outline = SectionOutline::Plate(thickness);
     finish(record, "PLATE", Form { outline, metal: Some([thickness; 2]), walls: Walls::Open, unread })

@@ -190,8 +190,8 @@ pub fn end_springs(options: &PerLineOptions) -> [Option<StretchLaw>; 2] {
     let [first, second] = const { o::SEND.numbers(["KE(1)", "KE(2)"]) }
         .map(|key| send.and_then(|given| given.number(key)).map(StretchLaw::Linear));
     let curve = options.option(&o::X_PY).map(|given| {
-        let numbers = given.numbers();
-        let points = numbers.chunks_exact(2).filter_map(|pair| pair.first().copied().zip(pair.get(1).copied()));
+        let [force, deflection] = const { o::X_PY.numbers(["P", "Y"]) };
+        let points = given.groups().filter_map(|pair| pair.number(force).zip(pair.number(deflection)));
         StretchLaw::Curve(points.filter(|(p, y)| *p > 0.0 || *y > 0.0).collect())
     });
     let first = match (first, curve) {

@@ -5,8 +5,7 @@
 
 use super::ClassKind;
 use super::options::aqwa;
-use super::spring::no_anchor;
-use super::taut_span::{SpanTension, apply_tension, read_span};
+use super::taut_span::{SpanElement, SpanLaw, SpanTension, TautSpan, check_span_ends};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -14,8 +13,7 @@ use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
-    ConnectorSummary, Note, Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, Note, Surroundings,
 };
 
 /// The class type.
@@ -128,12 +126,7 @@ impl ConnectorClass for NonlinearLine {
     }
 
     fn check_ends(&self, connector: &Connector, _: usize) -> Outcome<()> {
-        no_anchor("NLIN", connector)?;
-        if connector.points.len() != 2 {
-            let text = "an NLIN takes 2 points; its anchor is a point of the ground";
-            return Err(Diagnostic::error(text, connector.span));
-        }
-        Ok(())
+        check_span_ends("NLIN", "an NLIN takes 2 points; its anchor is a point of the ground", connector)
     }
 
     fn properties(&self, name: &str, _: &Surroundings) -> Table {
@@ -153,40 +146,26 @@ impl ConnectorClass for NonlinearLine {
     }
 
     fn element(&self, _: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
-        Ok(Box::new(*self))
+        Ok(Box::new(SpanElement(*self)))
     }
 }
 
-impl ConnectorElement for NonlinearLine {
-    fn evaluate(
-        &self,
-        at: &Situation,
-        _: &[f64],
-        _: &mut [f64],
-        _: &mut SolverCache,
-        out: &mut ConnectorResponse,
-    ) -> Result<(), ClassError> {
-        let span = read_span(at.ends)?;
+impl SpanLaw for NonlinearLine {
+    fn tension_of(&self, span: &TautSpan) -> SpanTension {
         let (tension, slope) = self.law.tension(span.length - self.length);
         let by_length = if tension > 0.0 { slope } else { 0.0 };
-        apply_tension(&span, &SpanTension { tension: tension.max(0.0), by_length, by_rate: 0.0 }, out);
-        Ok(())
+        SpanTension { tension: tension.max(0.0), by_length, by_rate: 0.0 }
     }
 
-    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
-        let extension = read_span(at.ends)?.length - self.length;
-        let (tension, _) = self.law.tension(extension);
-        let mut notes: Vec<Note> = Vec::new();
+    fn notes(&self, span: &TautSpan) -> Vec<Note> {
+        let extension = span.length - self.length;
         if extension <= 0.0 {
-            notes.push("the line is slack".into());
-        } else if tension < 0.0 {
-            notes.push(Note::warning("its polynomial is negative at this extension; a line does not push: no tension"));
+            return vec!["the line is slack".into()];
         }
-        Ok(ConnectorSummary {
-            tension: Some(tension.max(0.0)),
-            notes,
-            solution: "exact",
-            ..ConnectorSummary::default()
-        })
+        if self.law.tension(extension).0 < 0.0 {
+            let text = "its polynomial is negative at this extension; a line does not push: no tension";
+            return vec![Note::warning(text)];
+        }
+        Vec::new()
     }
 }

@@ -8,7 +8,7 @@ use windlass_base::choices;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
-use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{Kind, OptionSpec, ValueSpec, join_options};
 pub use windlass_model::options::{C_SN, EI, EMODULUS, FYIELD, IG_STIFF, POI_RAT, TENSTR};
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
@@ -272,3 +272,12 @@ pub const SLOPE: OptionSpec = OptionSpec::new(
 pub const fn aqwa(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
     OptionSpec::new(name, values, help).owner(Owner::Aqwa)
 }
+
+/// The material of a section.
+pub const MATERIAL: [OptionSpec; 7] = [SPGRAVITY, DENSITY, EMODULUS, POI_RAT, ALPHA, FYIELD, TENSTR];
+
+/// A segment of a line: its material, weight, displacement and strength.
+pub const SEGMENT: [OptionSpec; MATERIAL.len() + 4] = join_options(&MATERIAL, &[WTPLEN, DISPLEN, B_TENSION, C_SN]);
+
+/// Diameters that stand in place of the outer one in buoyancy, drag, wind and added mass.
+pub const DIAMETERS: [OptionSpec; 4] = [BUOYDIAMETER, DRAGDIAMETER, WINDDIAMETER, AMASDIAMETER];

@@ -6,8 +6,7 @@
 
 use super::ClassKind;
 use super::options::aqwa;
-use super::spring::no_anchor;
-use super::taut_span::{SpanTension, TautSpan, apply_tension, read_span, smooth_step};
+use super::taut_span::{SpanElement, SpanLaw, SpanTension, TautSpan, check_span_ends, smooth_step};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -15,8 +14,7 @@ use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
-    ConnectorSummary, Situation, SolverCache, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, Note, Surroundings,
 };
 
 /// The class type.
@@ -73,7 +71,34 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     Ok(Arc::new(PulleyLine { stiffness, length, behind, ratio }))
 }
 
-impl PulleyLine {
+impl ConnectorClass for PulleyLine {
+    fn kind(&self) -> &'static str {
+        "PULY"
+    }
+
+    fn check_ends(&self, connector: &Connector, _: usize) -> Outcome<()> {
+        check_span_ends("PULY", "a PULY takes 2 points: an end of the line, and the pulley", connector)
+    }
+
+    fn properties(&self, name: &str, _: &Surroundings) -> Table {
+        Table::new(format!("Class {name}"))
+            .fact("Type", "PULY (AQWA, in m, N)", Dim::None)
+            .fact("Stiffness", self.stiffness, Dim::None)
+            .fact("Unstretched Length", self.length, Dim::Metres)
+            .fact("Behind the Pulley", self.behind, Dim::Metres)
+            .fact("Tension Ratio", self.ratio, Dim::None)
+    }
+
+    fn element(&self, _: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
+        Ok(Box::new(SpanElement(*self)))
+    }
+}
+
+impl SpanLaw for PulleyLine {
+    fn notes(&self, span: &TautSpan) -> Vec<Note> {
+        if self.tension_of(span).tension == 0.0 { vec!["the line is slack".into()] } else { Vec::new() }
+    }
+
     fn tension_of(&self, span: &TautSpan) -> SpanTension {
         let whole = span.length + self.behind;
         let stretch = whole - self.length;
@@ -91,54 +116,5 @@ impl PulleyLine {
             by_length: self.stiffness * (whole + stretch) / shared - tension / shared,
             by_rate: tension * self.behind * self.ratio.ln() * behind_share * by_rate / shared,
         }
-    }
-}
-
-impl ConnectorClass for PulleyLine {
-    fn kind(&self) -> &'static str {
-        "PULY"
-    }
-
-    fn check_ends(&self, connector: &Connector, _: usize) -> Outcome<()> {
-        no_anchor("PULY", connector)?;
-        if connector.points.len() != 2 {
-            let text = "a PULY takes 2 points: an end of the line, and the pulley";
-            return Err(Diagnostic::error(text, connector.span));
-        }
-        Ok(())
-    }
-
-    fn properties(&self, name: &str, _: &Surroundings) -> Table {
-        Table::new(format!("Class {name}"))
-            .fact("Type", "PULY (AQWA, in m, N)", Dim::None)
-            .fact("Stiffness", self.stiffness, Dim::None)
-            .fact("Unstretched Length", self.length, Dim::Metres)
-            .fact("Behind the Pulley", self.behind, Dim::Metres)
-            .fact("Tension Ratio", self.ratio, Dim::None)
-    }
-
-    fn element(&self, _: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
-        Ok(Box::new(*self))
-    }
-}
-
-impl ConnectorElement for PulleyLine {
-    fn evaluate(
-        &self,
-        at: &Situation,
-        _: &[f64],
-        _: &mut [f64],
-        _: &mut SolverCache,
-        out: &mut ConnectorResponse,
-    ) -> Result<(), ClassError> {
-        let span = read_span(at.ends)?;
-        apply_tension(&span, &self.tension_of(&span), out);
-        Ok(())
-    }
-
-    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
-        let tension = self.tension_of(&read_span(at.ends)?).tension;
-        let notes = if tension == 0.0 { vec!["the line is slack".into()] } else { Vec::new() };
-        Ok(ConnectorSummary { tension: Some(tension), notes, solution: "exact", ..ConnectorSummary::default() })
     }
 }

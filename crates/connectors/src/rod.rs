@@ -9,7 +9,7 @@ use super::{ClassKind, append_all, checks, options as o};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
 use windlass_base::values::Given;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec, count_options, join_lists};
 use windlass_model::{
     AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, DynamicLineClass,
     FatigueSegment, Idealisation, LengthClass, PipeClass, PipeLayout, SegmentedClass, Surroundings,
@@ -22,28 +22,12 @@ const NO_TORSION: &str = "a rod has no torsion";
 const NO_SHEAR: &str = "a rod does not deform in shear (Euler and Bernoulli)";
 const ONE_BENDING: &str = "a rod has one bending stiffness in all directions, -EI";
 
-static ROD_SPEC: CommandSpec = CommandSpec {
-    data: &o::TUBE,
-    options: &[
-        o::LEN,
-        REFINE,
-        o::IG_STIFF,
-        o::SPGRAVITY,
-        o::DENSITY,
-        o::EMODULUS,
-        o::POI_RAT,
-        o::ALPHA,
-        o::FYIELD,
-        o::TENSTR,
-        o::WTPLEN,
-        o::DISPLEN,
-        o::B_TENSION,
-        o::C_SN,
-        o::CLUMP,
-        o::BUOYDIAMETER,
-        o::DRAGDIAMETER,
-        o::WINDDIAMETER,
-        o::AMASDIAMETER,
+const ROD_LISTS: &[&[OptionSpec]] = &[
+    &[o::LEN, REFINE, o::IG_STIFF],
+    &o::SEGMENT,
+    &[o::CLUMP],
+    &o::DIAMETERS,
+    &[
         o::FRICTION,
         o::SLOPE,
         o::DEPANCHOR,
@@ -59,6 +43,13 @@ static ROD_SPEC: CommandSpec = CommandSpec {
         m::CLAMP,
         m::SEABED,
     ],
+];
+
+static ROD_OPTIONS: [OptionSpec; count_options(ROD_LISTS)] = join_lists(ROD_LISTS);
+
+static ROD_SPEC: CommandSpec = CommandSpec {
+    data: &o::TUBE,
+    options: &ROD_OPTIONS,
     absent: &[
         ("-GJ", NO_TORSION),
         ("-TORSION", NO_TORSION),

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-FLEX ROLLER]. Gaps are in inches or mm; the second end is taken care of by the assembly.
 
-use super::spring::{Restraint, SENSE, Springs, no_anchor, restraint_table, restraints};
+use super::spring::{GENERALIZED_RESTRAINTS, Restraint, SENSE, Springs, no_anchor, restraint_table, restraints};
 use super::zero_law::{ContactGeometry, Sense};
 use super::{ClassKind, checks, options as o};
 use nalgebra::Vector3;
@@ -69,7 +69,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let gaps = |option: &OptionSpec, [below, above]: [ValueKey<f64>; 2]| {
         args.option(option).and_then(|g| Some([g.number(below)?, g.number(above)?]))
     };
-    let given = restraints(args.data_after(SENSE), 3)?;
+    let given = restraints(args, GENERALIZED_RESTRAINTS)?;
     match args.choice(SENSE).unwrap_or(Sense::Both) {
         Sense::Tension => {
             return Err(Diagnostic::error("a ROLLER only pushes: SENSE TENSION has no meaning", args.place(SENSE))

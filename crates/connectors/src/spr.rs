@@ -3,7 +3,7 @@
 //! Source: [MOSES-REF cls_res].
 
 use super::restraint::RestraintClass;
-use super::spring::restraints;
+use super::spring::{RestraintKeys, restraints};
 use super::{ClassKind, options as o};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -27,6 +27,9 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let record = records.last().ok_or_else(|| Diagnostic::error("a class needs a record", Span::default()))?;
-    let list = restraints(&record.args.data, 2)?;
+    let list = restraints(
+        &record.args,
+        RestraintKeys { dof: const { SPEC.choice("DF") }, stiffness: const { SPEC.number("SPV") }, allowable: None },
+    )?;
     Ok(Arc::new(RestraintClass::new("SPR", list)))
 }

@@ -15,7 +15,7 @@ use windlass_base::span::Span;
 use windlass_base::spec::{DatumKey, ValueKey};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
-use windlass_base::values::{Args, Value};
+use windlass_base::values::Args;
 use windlass_model::{
     ClassError, ClassRecord, ClassRole, Connection, Connector, ConnectorCategory, ConnectorClass, ConnectorElement,
     LengthClass, Surroundings,
@@ -48,20 +48,38 @@ pub struct Springs {
 /// The datum of a generalized spring before its restraints.
 pub const SENSE: DatumKey<Sense> = DatumKey::choice(&o::GENERALIZED, "SENSE");
 
-/// Restraints among data, so many values each.
+/// The keys of a restraint among the data of a record.
+#[derive(Clone, Copy)]
+pub struct RestraintKeys {
+    /// Its degree of freedom, with which each restraint begins.
+    pub dof: DatumKey<Dof>,
+    /// Its stiffness.
+    pub stiffness: DatumKey<f64>,
+    /// Its allowable force, of records that have one.
+    pub allowable: Option<DatumKey<f64>>,
+}
+
+const DOF: DatumKey<Dof> = DatumKey::choice(&o::GENERALIZED, "DF");
+const STIFFNESS: DatumKey<f64> = DatumKey::number(&o::GENERALIZED, "SPV");
+const ALLOWABLE: DatumKey<f64> = DatumKey::number(&o::GENERALIZED, "AF");
+/// The restraints of `GSPR`, `FOUNDATION`, `ROLLER` and their like.
+pub const GENERALIZED_RESTRAINTS: RestraintKeys =
+    RestraintKeys { dof: DOF, stiffness: STIFFNESS, allowable: Some(ALLOWABLE) };
+
+/// Restraints among the data of a record.
 ///
 /// # Errors
 /// The same degree of freedom twice.
-pub fn restraints(data: &[Value], values: usize) -> Outcome<Vec<Restraint>> {
+pub fn restraints(args: &Args, keys: RestraintKeys) -> Outcome<Vec<Restraint>> {
     let mut list: Vec<(Restraint, Span)> = Vec::new();
-    for group in data.chunks(values) {
-        let Some((dof, span)) = group.first().and_then(|v| Some((v.choice::<Dof>()?, v.span))) else { continue };
+    for group in args.groups_from(keys.dof) {
+        let (Some(dof), span) = (group.choice(keys.dof), group.place(keys.dof)) else { continue };
         if let Some((_, first)) = list.iter().find(|(r, _)| r.dof == dof) {
             return Err(Diagnostic::error(format!("degree of freedom {} is given twice", dof.word()), span)
                 .other(*first, "first given here"));
         }
-        let number = |index: usize| group.get(index).and_then(|v| v.number());
-        let made = Restraint { dof, stiffness: number(1).unwrap_or(0.0), allowable: number(2) };
+        let stiffness = group.number(keys.stiffness).unwrap_or(0.0);
+        let made = Restraint { dof, stiffness, allowable: keys.allowable.and_then(|key| group.number(key)) };
         list.push((made, span));
     }
     Ok(list.into_iter().map(|(r, _)| r).collect())
@@ -123,12 +141,12 @@ fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec
 }
 
 impl Springs {
-    /// Reads a record with its restraints, three values each.
+    /// Reads a record with its restraints.
     ///
     /// # Errors
     /// What contradicts itself, at its place.
-    pub fn read(args: &Args, data: &[Value], symmetric_default: bool) -> Outcome<Self> {
-        let list = restraints(data, 3)?;
+    pub fn read(args: &Args, keys: RestraintKeys, symmetric_default: bool) -> Outcome<Self> {
+        let list = restraints(args, keys)?;
         let symmetric = symmetric(args, &list, symmetric_default)?;
         let convolutions = convolutions(args, &list, symmetric)?;
         Springs::from_options(args, list, symmetric, convolutions)
@@ -268,7 +286,7 @@ impl GeneralizedSpring {
         Ok(GeneralizedSpring {
             kind,
             sense: args.choice(SENSE).unwrap_or(Sense::Both),
-            springs: Springs::read(args, args.data_after(SENSE), false)?,
+            springs: Springs::read(args, GENERALIZED_RESTRAINTS, false)?,
             offset: args.number_if_declared(&o::LEN_OFFSET).unwrap_or(0.0),
             role: ClassRole::Connector,
         })
@@ -286,7 +304,8 @@ impl GeneralizedSpring {
 /// # Errors
 /// TENSION or COMPRESSION without an X spring, at the word.
 fn looks_along_x(args: &Args, kind: &str) -> Outcome<()> {
-    let has_x = args.data_after(SENSE).iter().any(|v| v.choice() == Some(Dof::X));
+    let keys = GENERALIZED_RESTRAINTS;
+    let has_x = args.groups_from(keys.dof).any(|group| group.choice(keys.dof) == Some(Dof::X));
     let Some(sense) = args.choice(SENSE).filter(|sense| *sense != Sense::Both && !has_x) else { return Ok(()) };
     let text = format!("SENSE {} of {kind} goes by element X, which has no spring", sense.word());
     Err(Diagnostic::error(text, args.place(SENSE))

@@ -46,7 +46,7 @@ impl Elastic {
         }
     }
 
-    /// A force by its own points (force, deflection): deflections grow, forces may fall; the origin is passed over.
+    /// A force by its own points (force N, deflection m): deflections grow, forces may fall; the origin is passed over.
     pub fn from_curve(curve: &[(f64, f64)]) -> Self {
         Elastic { points: curve.iter().copied().filter(|(_, y)| *y > 0.0).collect() }
     }
@@ -155,12 +155,14 @@ impl SpringGroup {
         slopes: &mut Matrix6<f64>,
     ) {
         let lines = self.lines(dt, committed);
-        // all components have the same slope: it follows from the law and the step
+        // all components have the same slope: it follows from the law and the step; a spring that is not viscoelastic has no lines
         let compliance = lines.first().map_or(0.0, |line| 1.0 / line.slope);
         let mut target = Vector6::zeros();
-        for (index, dof) in self.dofs.iter().enumerate() {
-            let rest = lines.get(index).map_or(0.0, |line| line.rest / line.slope);
-            target[*dof] = deflection[*dof] + rest;
+        for dof in &self.dofs {
+            target[*dof] = deflection[*dof];
+        }
+        for (dof, line) in self.dofs.iter().zip(&lines) {
+            target[*dof] += line.rest / line.slope;
         }
         let Sized { secant, slope } = self.elastic.force(target.norm(), compliance);
         let n = target.try_normalize(0.0).unwrap_or_default();

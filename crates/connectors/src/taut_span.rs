@@ -3,8 +3,13 @@
 //! From p to q it has the length l = |q - p|, the direction n = (q - p)/l and the rate l' = n (vq - vp). Its tension T, a function of both, pulls p along n and q
 //! against it; the stiffness is n (dT/dl n + dT/dl' (1 - n n')(vq - vp)/l)' + T/l (1 - n n').
 
+use super::spring::no_anchor;
 use nalgebra::{Matrix3, Matrix6, Vector3};
-use windlass_model::{ClassError, ConnectorResponse, End};
+use std::fmt::Debug;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_model::{
+    ClassError, Connector, ConnectorElement, ConnectorResponse, ConnectorSummary, End, Note, Situation, SolverCache,
+};
 
 /// A straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +33,49 @@ pub struct SpanTension {
     pub by_length: f64,
     /// Derivative by the rate (N s/m).
     pub by_rate: f64,
+}
+
+/// The tension of a straight line without state.
+pub trait SpanLaw: Debug + Send + Sync {
+    /// The tension on the line as it is.
+    fn tension_of(&self, span: &TautSpan) -> SpanTension;
+
+    /// What the user should know of it.
+    fn notes(&self, span: &TautSpan) -> Vec<Note>;
+}
+
+/// A straight line without state between two ends.
+#[derive(Debug)]
+pub struct SpanElement<L>(pub L);
+
+impl<L: SpanLaw> ConnectorElement for SpanElement<L> {
+    fn evaluate(
+        &self,
+        at: &Situation,
+        _: &[f64],
+        _: &mut [f64],
+        _: &mut SolverCache,
+        out: &mut ConnectorResponse,
+    ) -> Result<(), ClassError> {
+        let span = read_span(at.ends)?;
+        apply_tension(&span, &self.0.tension_of(&span), out);
+        Ok(())
+    }
+
+    fn summary(&self, at: &Situation, _: &[f64]) -> Result<ConnectorSummary, ClassError> {
+        let span = read_span(at.ends)?;
+        let (tension, notes) = (Some(self.0.tension_of(&span).tension), self.0.notes(&span));
+        Ok(ConnectorSummary { tension, notes, solution: "exact", ..ConnectorSummary::default() })
+    }
+}
+
+/// Refuses a connector of a straight line that is not between two points; `text` says what the class takes.
+///
+/// # Errors
+/// An anchor beside its points, or another number of points.
+pub fn check_span_ends(class: &str, text: &str, connector: &Connector) -> Outcome<()> {
+    no_anchor(class, connector)?;
+    if connector.points.len() == 2 { Ok(()) } else { Err(Diagnostic::error(text, connector.span)) }
 }
 
 /// The line between two ends.

@@ -93,7 +93,7 @@ impl ViscoelasticLaw {
         self.branches.len() + 1
     }
 
-    /// Force at the end of a step (`None`: at rest, in statics) against the deflection there.
+    /// Force (N, N m) at the end of a step (s; `None`: at rest, in statics) against the deflection there (m, rad).
     pub fn step(&self, dt: Option<f64>, committed: &[f64]) -> Affine {
         let mut line = Affine { slope: self.long_term, rest: 0.0 };
         let (Some(dt), Some(before)) = (dt, committed.get(self.branches.len())) else { return line };
@@ -105,7 +105,7 @@ impl ViscoelasticLaw {
         line
     }
 
-    /// Writes the state at the end of a step to a deflection.
+    /// Writes the state at the end of a step (s) to a deflection (m, rad).
     pub fn advance(&self, dt: Option<f64>, committed: &[f64], deflection: f64, trial: &mut [f64]) {
         let before = committed.get(self.branches.len()).copied().unwrap_or(0.0);
         for ((branch, old), new) in self.branches.iter().zip(committed).zip(trial.iter_mut()) {
@@ -182,9 +182,8 @@ fn fit_branches(points: &[(f64, f64)], count: usize, by_time: bool) -> Vec<Maxwe
 /// Hanson's active set, on the normal equations).
 fn non_negative(points: &[(f64, f64)], times: &[f64], by_time: bool) -> (f64, Vec<f64>) {
     let shape = |x: f64, time: f64| if by_time { (-x / time).exp() } else { storage(x * time) };
-    let matrix = DMatrix::from_fn(points.len(), times.len(), |i, j| {
-        points.get(i).zip(times.get(j)).map_or(0.0, |(p, time)| shape(p.0, *time))
-    });
+    let column = |time: &f64| DVector::from_iterator(points.len(), points.iter().map(|(x, _)| shape(*x, *time)));
+    let matrix = DMatrix::from_columns(&times.iter().map(column).collect::<Vec<_>>());
     let wanted = DVector::from_iterator(points.len(), points.iter().map(|p| p.1));
     let (gram, pull) = (matrix.transpose() * &matrix, matrix.transpose() * &wanted);
     let count = times.len();
@@ -220,9 +219,8 @@ fn non_negative(points: &[(f64, f64)], times: &[f64], by_time: bool) -> (f64, Ve
 
 /// The least-squares answer of some of the unknowns, signs free.
 fn unbound(gram: &DMatrix<f64>, pull: &DVector<f64>, free: &[usize]) -> Option<Vec<f64>> {
-    let some = |i: usize| free.get(i).copied().unwrap_or(0);
-    let matrix = DMatrix::from_fn(free.len(), free.len(), |i, j| gram[(some(i), some(j))]);
-    let right = DVector::from_fn(free.len(), |i, _| pull[some(i)]);
+    let matrix = gram.select_rows(free).select_columns(free);
+    let right = pull.select_rows(free);
     let solved = Cholesky::new(matrix, &never).and_then(|factor| factor.solve(&right)).ok()?;
     Some(solved.iter().copied().collect())
 }

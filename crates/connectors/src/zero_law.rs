@@ -187,7 +187,7 @@ impl ZeroLaw {
         stiffnesses.filter(|_| plain)?.into_iter().reduce(f64::max)
     }
 
-    /// Forces at a displacement and rotation `q`; the step is `None` in statics.
+    /// Forces (N, N m; element axes) at a displacement and rotation `q` (m, rad); the step (s) is `None` in statics.
     pub fn evaluate(
         &self,
         q: &Vector6<f64>,

@@ -63,8 +63,8 @@ impl Ambient for EnvironmentAmbient {
         let level = self.steady.around.tide;
         let weight = self.sea.as_ref().map_or(1.0, |sea| (sea.density * sea.gravity).max(f64::MIN_POSITIVE));
         for (place, out) in places.iter().zip(&mut *out) {
-            *out = Flow::still(level);
-            if !self.steady.still(Medium::Water) {
+            *out = Flow::still_water(level);
+            if !self.steady.is_still(Medium::Water) {
                 out.velocity = streams.velocity(Medium::Water, place.z).0;
             }
             out.wind = streams.velocity(Medium::Air, place.z).0;
@@ -84,7 +84,7 @@ impl Ambient for EnvironmentAmbient {
     fn mean(&self, places: &[Vector3<f64>], out: &mut [Flow]) {
         let streams = self.steady.mean();
         for (place, out) in places.iter().zip(out) {
-            *out = Flow::still(self.steady.around.tide);
+            *out = Flow::still_water(self.steady.around.tide);
             out.velocity = streams.velocity(Medium::Water, place.z).0;
             out.wind = streams.velocity(Medium::Air, place.z).0;
         }

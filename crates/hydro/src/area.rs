@@ -31,7 +31,7 @@ impl AreaLoad {
         AreaLoad::new(steady, LoadPlace { at, medium: Medium::Water, shared: false }, areas)
     }
 
-    /// Areas along the axes of the body, at a place.
+    /// Areas along the axes of the body (m2, shape coefficients included), at a place.
     pub fn new(steady: Arc<Steady>, place: LoadPlace, areas: [f64; 3]) -> Self {
         AreaLoad { steady, place, axes: nalgebra::Matrix3::identity(), areas: areas.into() }
     }

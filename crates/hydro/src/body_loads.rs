@@ -256,7 +256,7 @@ fn add_part_load(
     match &load.kind {
         LoadKind::Drag(matrix) => {
             sum.damping += at_origin(matrix, &frame.axes, at);
-            if !steady.still(Medium::Water) {
+            if !steady.is_still(Medium::Water) {
                 let made = LinearDrag::new(Arc::clone(steady), at, &rotate_matrix(matrix, &frame.axes));
                 sum.loads.push(Box::new(made));
             }
@@ -273,7 +273,7 @@ fn add_part_load(
                 Fluid::Air => &[Medium::Air],
                 Fluid::Water => &[Medium::Water],
             };
-            for medium in media.iter().copied().filter(|m| under_way || !steady.still(*m)) {
+            for medium in media.iter().copied().filter(|m| under_way || !steady.is_still(*m)) {
                 let place = LoadPlace { at, medium, shared: load.fluid == Fluid::ByHeight };
                 sum.loads.push(in_stream(Arc::clone(steady), frame, place, load)?);
             }
@@ -307,7 +307,7 @@ fn in_stream(
 fn by_heading(frame: &PartAxes, rows: &[(f64, [f64; 6])], symmetric: bool) -> Result<ByHeading, ClassError> {
     let table = ByHeading::new(rows, symmetric)?;
     let [_, _, yaw] = frame.part.place.turn;
-    Ok(if yaw == 0.0 { table } else { table.rotated(yaw, |six| frame.to_body_axes(six.into()).into()) })
+    Ok(if yaw == 0.0 { table } else { table.rotate(yaw, |six| frame.to_body_axes(six.into()).into()) })
 }
 
 /// Adds the drift, one table for each point that has records of it: at rest the mean of every sea, under way the slow drift of the sea
@@ -344,7 +344,7 @@ fn drift(
         for (toward, waves) in &steady.waves {
             let made = DriftLoad::new(Arc::clone(steady), frame.point(load), (*toward, waves), &table, symmetric);
             let made = made.map_err(here)?;
-            sum.loads.push(Box::new(if yaw == 0.0 { made } else { made.rotated(yaw, turn) }));
+            sum.loads.push(Box::new(if yaw == 0.0 { made } else { made.rotate(yaw, turn) }));
         }
     }
     Ok(())

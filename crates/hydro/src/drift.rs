@@ -50,8 +50,8 @@ impl DriftLoad {
     }
 
     /// The same for a part that stands turned about z by an angle (rad) in its body.
-    pub fn rotated(self, angle: f64, axes: impl Fn(Six) -> Six) -> Self {
-        DriftLoad { mean: self.mean.rotated(angle, axes), ..self }
+    pub fn rotate(self, angle: f64, axes: impl Fn(Six) -> Six) -> Self {
+        DriftLoad { mean: self.mean.rotate(angle, axes), ..self }
     }
 }
 
@@ -112,7 +112,7 @@ pub fn table(
     for w in &frequencies {
         let here: Vec<(f64, [f64; 6])> =
             lists.iter().map(|(h, list)| (*h, interpolate_coefficients(list, *w).into())).collect();
-        let made = ByHeading::new(&here, symmetric)?.rotated(angle, &axes);
+        let made = ByHeading::new(&here, symmetric)?.rotate(angle, &axes);
         for (toward, list) in headings.iter().zip(&mut values) {
             list.push(made.interpolate(toward - PI).0.into());
         }

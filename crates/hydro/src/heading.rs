@@ -51,7 +51,7 @@ impl ByHeading {
     }
 
     /// The same with every heading grown by an angle (rad), and its values in turned axes.
-    pub fn rotated(self, angle: f64, axes: impl Fn(Six) -> Six) -> Self {
+    pub fn rotate(self, angle: f64, axes: impl Fn(Six) -> Six) -> Self {
         let turn = |(at, value, slope): (f64, Six, Six)| (at + angle, axes(value), axes(slope));
         ByHeading { nodes: self.nodes.into_iter().map(turn).collect() }
     }

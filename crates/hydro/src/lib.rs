@@ -195,14 +195,14 @@ impl Load {
 }
 
 impl Load {
-    /// The same about another point that moves with the body; `arm` is from the present one to it.
+    /// The same about another point that moves with the body; `arm` is from the present one to it (m, global axes).
     pub fn about_point(&self, arm: Vector3<f64>) -> Self {
         let stiffness = move_stiffness(&self.stiffness, -arm, -arm) + turning(&self.wrench, -arm);
         Load { wrench: move_wrench(&self.wrench, -arm), stiffness }
     }
 }
 
-/// A wrench about a point as one about the origin that `arm` leads from.
+/// A wrench (N, N m) about a point as one about the origin from which `arm` leads to the point (m).
 pub fn move_wrench(wrench: &Six, arm: Vector3<f64>) -> Six {
     let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
     let moment = arm.cross(&force);
@@ -233,7 +233,7 @@ pub fn move_stiffness(block: &Matrix6<f64>, row: Vector3<f64>, column: Vector3<f
     moved
 }
 
-/// What an arm that turns with its body adds: -d(arm x force)/d(turn).
+/// What an arm (m) that turns with its body adds to the stiffness: -d(arm x force)/d(rotation vector) (N m/rad).
 pub fn turning(wrench: &Six, arm: Vector3<f64>) -> Matrix6<f64> {
     let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
     Load::constant(force, arm).stiffness
@@ -310,7 +310,7 @@ impl Floating {
             loads.extend(brought.loads);
             added_mass += brought.added_mass;
         }
-        let mass = mass.with(&tank::contents_mass(model, body)?);
+        let mass = mass.combine(&tank::contents_mass(model, body)?);
         Ok(Floating { mass, loads, added_mass, damping })
     }
 

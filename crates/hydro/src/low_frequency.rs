@@ -72,7 +72,7 @@ impl LowPass {
         LowPass { frequency: TAU / dividing }
     }
 
-    /// The state after a signal that has always had one value.
+    /// The state after a signal that has always had one value, in the unit of the signal.
     pub fn at_rest(value: f64) -> [f64; Self::STATES] {
         let [a, b, c] = POLES.map(|pole| -value / pole);
         [value, a.re, a.im, b.re, b.im, c.re, c.im]
@@ -162,7 +162,7 @@ pub struct LowFrequencyPosition {
 
 impl LowFrequencyPosition {
     /// A body without first-order motion in a pose.
-    pub fn still(pose: &Pose) -> Self {
+    pub fn at_rest(pose: &Pose) -> Self {
         let heading = pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]);
         LowFrequencyPosition { origin: pose.origin.xy(), heading }
     }
@@ -212,7 +212,7 @@ impl LowFrequency {
         if let [started, signals @ ..] = state
             && *started == 0.0
         {
-            let LowFrequencyPosition { origin, heading } = LowFrequencyPosition::still(at.pose);
+            let LowFrequencyPosition { origin, heading } = LowFrequencyPosition::at_rest(at.pose);
             for (own, value) in signals.chunks_exact_mut(LowPass::STATES).zip([origin.x, origin.y, heading]) {
                 own.copy_from_slice(&LowPass::at_rest(value));
             }
@@ -233,7 +233,7 @@ impl LowFrequency {
         let mut signals = [[0.0; LowPass::STATES]; 3];
         let kept = &state[1..];
         signals.as_flattened_mut().iter_mut().zip(kept).for_each(|(signal, kept)| *signal = *kept);
-        let LowFrequencyPosition { origin, heading } = LowFrequencyPosition::still(at.pose);
+        let LowFrequencyPosition { origin, heading } = LowFrequencyPosition::at_rest(at.pose);
         // a heading goes on without a jump
         let heading = signals[2][0] + (heading - signals[2][0] + PI).rem_euclid(TAU) - PI;
         for (signal, value) in signals.iter_mut().zip([origin.x, origin.y, heading]) {

@@ -100,7 +100,7 @@ pub fn build_piece_load(
     growth: Option<(&Growth, &Pose)>,
 ) -> Result<Vec<PieceLoad>, ClassError> {
     let media = [(Medium::Air, piece.cs_wind), (Medium::Water, piece.cs_current)];
-    let acts = |(medium, cs): &(Medium, [f64; 3])| (under_way || !steady.still(*medium)) && *cs != [0.0; 3];
+    let acts = |(medium, cs): &(Medium, [f64; 3])| (under_way || !steady.is_still(*medium)) && *cs != [0.0; 3];
     if !media.iter().any(acts) {
         return Ok(Vec::new());
     }
@@ -230,7 +230,7 @@ impl BodyLoad for PieceLoad {
 
     fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let mut sum = Load::none();
-        if self.steady.still(self.medium) {
+        if self.steady.is_still(self.medium) {
             return Ok(sum);
         }
         let found = self.skin.surface_integrals(pose, &self.strips);

@@ -143,21 +143,20 @@ fn from_surfaces(
     let (mut nodes, mut panels): (Vec<Node>, Vec<ScaledPanel>) = (Vec::new(), Vec::new());
     for (factor, surface) in surfaces {
         let lowest = surface.vertices.iter().map(height).fold(f64::INFINITY, f64::min);
-        let made = Panelling::new(&surface, longest_at(lowest), MAX_PANELS_A_PIECE).refined(&limit, MAX_PANELS_A_PIECE);
+        let made = Panelling::new(&surface, longest_at(lowest), MAX_PANELS_A_PIECE).refine(&limit, MAX_PANELS_A_PIECE);
         let first = nodes.len() as u32;
         nodes.extend(made.nodes.into_iter().map(|place| Node { place, wrench: Six::zeros(), counts: false }));
         panels.extend(made.panels.into_iter().map(|p| ScaledPanel { panel: p.map(|n| n + first), factor }));
     }
-    let place = |nodes: &[Node], n: u32| nodes.get(n as usize).map_or_else(Vector3::zeros, |node| node.place);
+    let place = |nodes: &[Node], n: u32| nodes[n as usize].place;
     for ScaledPanel { panel: [a, b, c, middles @ ..], factor } in &panels {
         let [a, b, c] = [a, b, c].map(|n| place(&nodes, *n));
         // a third of the area against the normal
         let third = (b - a).cross(&(c - a)) * (-factor / 6.0);
         for middle in middles {
-            if let Some(node) = nodes.get_mut(*middle as usize) {
-                node.wrench += about_origin(&node.place, &third);
-                node.counts = true;
-            }
+            let node = &mut nodes[*middle as usize];
+            node.wrench += about_origin(&node.place, &third);
+            node.counts = true;
         }
     }
     let corners = nodes.iter().map(|n| (n.place, n.place));
@@ -422,16 +421,17 @@ impl<'a> LocalSea<'a> {
         let height = arm.z - self.sunk;
         let on_grid = self.grid.as_ref().and_then(|grid| {
             let elevation = grid.elevation(arm)?;
-            let depth = -self.sea.stretched(height, elevation)[0];
+            let depth = -self.sea.stretched_height(height, elevation)[0];
             let head = if depth > 0.0 { grid.head(arm, depth)? } else { elevation };
             Some((elevation, head * self.weight))
         });
         let (elevation, dynamic) = on_grid.unwrap_or_else(|| {
-            let found = self.sea.continued(self.origin + arm);
+            let found = self.sea.kinematics_beyond_surface(self.origin + arm);
             (found.elevation, found.pressure)
         });
         let over = height - elevation;
-        let kink = if self.sea.ends_at_surface() { over } else { self.sea.stretched(height, elevation).iter().sum() };
+        let kink =
+            if self.sea.ends_at_surface() { over } else { self.sea.stretched_height(height, elevation).iter().sum() };
         NodePressure { arm: *arm, height, over, extra: dynamic - self.weight * elevation, kink }
     }
 
@@ -440,9 +440,9 @@ impl<'a> LocalSea<'a> {
         let height = arm.z - self.sunk;
         let on_grid = self.grid.as_ref().and_then(|grid| {
             let elevation = if self.sea.needs_elevation(height) { grid.elevation(arm)? } else { 0.0 };
-            grid.head(arm, -self.sea.stretched(height, elevation)[0])
+            grid.head(arm, -self.sea.stretched_height(height, elevation)[0])
         });
-        on_grid.map_or_else(|| self.sea.wetted(self.origin + arm).pressure, |head| head * self.weight)
+        on_grid.map_or_else(|| self.sea.kinematics_to_surface(self.origin + arm).pressure, |head| head * self.weight)
     }
 }
 
@@ -582,7 +582,7 @@ impl StatefulLoad for WavePressure {
 
     fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         let wrench = memory_of(state);
-        self.slow.commit(&wrench, at.dt, state.get_mut(STEP_STATES..).unwrap_or_default());
+        self.slow.commit(&wrench, at.dt, &mut state[STEP_STATES..]);
     }
 }
 
@@ -598,7 +598,7 @@ impl DividedLoad for WavePressure {
     }
 
     fn part(&self, _: Category, _: &BodyStep, state: &[f64]) -> Six {
-        SlowWrench::low_frequency_part(state.get(STEP_STATES..).unwrap_or_default())
+        SlowWrench::low_frequency_part(&state[STEP_STATES..])
     }
 }
 
@@ -631,7 +631,7 @@ mod tests {
         Arc::new(Sea::airy(waves.collect(), water, 0.0, stretching))
     }
 
-    fn pressed(sea: &Arc<Sea>, boxes: &[[[f64; 3]; 2]], finer: f64) -> WavePressure {
+    fn wave_pressure_of_boxes(sea: &Arc<Sea>, boxes: &[[[f64; 3]; 2]], finer: f64) -> WavePressure {
         let surfaces = boxes.iter().map(|[low, high]| (1.0, Surface::block(*low, *high)));
         from_surfaces(sea, surfaces, &Pose::default(), finer)
     }
@@ -649,7 +649,7 @@ mod tests {
     fn submerged_box_in_oblique_wave_matches_closed_form() {
         let (toward, a, [long, wide], [low, high]) = (0.7f64, 0.8, [90.0, 15.0], [-21.0, -12.0]);
         let sea = sea(1, toward, a, Stretching::Linear);
-        let made = pressed(&sea, &[[[-45.0, -7.5, low], [45.0, 7.5, high]]], 1.0);
+        let made = wave_pressure_of_boxes(&sea, &[[[-45.0, -7.5, low], [45.0, 7.5, high]]], 1.0);
         let wave = sea.components[0];
         let (k, w) = (wave.number, wave.frequency);
         let [kx, ky] = [k * toward.cos(), k * toward.sin()];
@@ -673,7 +673,7 @@ mod tests {
         // the box is 6500 km from the origin of its body, as in a projection of maps; two hundred waves, each of the closed form above
         let far = 6.5e6;
         let sea = sea(200, 0.0, 0.15, Stretching::Linear);
-        let made = pressed(&sea, &[[[far - 45.0, -7.5, -30.0], [far + 45.0, 7.5, -21.0]]], 2.0);
+        let made = wave_pressure_of_boxes(&sea, &[[[far - 45.0, -7.5, -30.0], [far + 45.0, 7.5, -21.0]]], 2.0);
         assert!(made.grid.is_some());
         let pose = Pose { origin: Vector3::new(-far, 0.0, 0.0), ..Pose::default() };
         for time in [0.0, 4.1, 9.3] {
@@ -699,7 +699,7 @@ mod tests {
         for (count, stretching) in [(1, Stretching::Linear), (200, Stretching::Wheeler)] {
             let sea = sea(count, std::f64::consts::PI, 1.0 / f64::from(count).sqrt(), stretching);
             for boxes in [&SEMI[..], &[[[-10.0, -10.0, -5.0], [10.0, 10.0, 5.0]]]] {
-                let made = pressed(&sea, boxes, 1.0);
+                let made = wave_pressure_of_boxes(&sea, boxes, 1.0);
                 let axes = *Rotation3::from_euler_angles(0.0, 0.05, 0.0).matrix();
                 let pose = Pose { origin: Vector3::new(3.0, 0.0, -0.4), axes };
                 for time in [10.0, 11.3, 12.9] {
@@ -723,8 +723,8 @@ mod tests {
     #[test]
     fn semi_submersible_forces_converge_and_do_not_depend_on_grid() {
         let sea = sea(200, 0.64, 0.15, Stretching::Linear);
-        let (usual, finer) = (pressed(&sea, &SEMI, 1.0), pressed(&sea, &SEMI, 4.0));
-        let direct = WavePressure { grid: None, ..pressed(&sea, &SEMI, 1.0) };
+        let (usual, finer) = (wave_pressure_of_boxes(&sea, &SEMI, 1.0), wave_pressure_of_boxes(&sea, &SEMI, 4.0));
+        let direct = WavePressure { grid: None, ..wave_pressure_of_boxes(&sea, &SEMI, 1.0) };
         let (mut largest, mut off, mut of_grid) = (Six::zeros(), Six::zeros(), Six::zeros());
         for n in 0..6 {
             let t = f64::from(n);

@@ -137,7 +137,7 @@ impl Steady {
     }
 
     /// Whether nothing moves in it.
-    pub fn still(&self, medium: Medium) -> bool {
+    pub fn is_still(&self, medium: Medium) -> bool {
         match medium {
             Medium::Air => self.wind.is_none_or(|w| w.speed == 0.0),
             Medium::Water => self.current.is_none(),

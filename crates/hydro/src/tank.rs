@@ -132,7 +132,7 @@ impl Tank {
         if self.is_flooded { self.sea.1 } else { self.density }
     }
 
-    /// What of it is below a height, in a pose.
+    /// What of it is below a height (m, global), in a pose.
     pub fn below(&self, pose: &Pose, level: f64) -> SubmergedVolume {
         let mut sum = SubmergedVolume::default();
         for (share, form) in &self.solids {
@@ -159,7 +159,7 @@ impl Tank {
         self.liquid_of(pose, self.fraction * self.capacity)
     }
 
-    /// The level at which it holds a volume.
+    /// The level at which it holds a volume (m3).
     ///
     /// # Errors
     /// A level that is not found.
@@ -389,7 +389,7 @@ pub fn contents_mass(model: &Model, body: &Body) -> Result<Mass, ClassError> {
     let holds = |c: &&Compartment| c.contents.is_flooded || c.contents.fraction > 0.0;
     compartments_of(model, body)
         .filter(holds)
-        .try_fold(Mass::default(), |sum, compartment| Ok(sum.with(&Tank::new(model, compartment)?.mass(&pose)?)))
+        .try_fold(Mass::default(), |sum, compartment| Ok(sum.combine(&Tank::new(model, compartment)?.mass(&pose)?)))
 }
 
 /// The mass of a body with what is in its compartments, where it stands.
@@ -398,7 +398,7 @@ pub fn contents_mass(model: &Model, body: &Body) -> Result<Mass, ClassError> {
 /// As `build_tank_loads`.
 pub fn laden_mass(model: &Model, body: &Body) -> Result<Mass, ClassError> {
     let own = Mass::from_parts(model.parts_of(body), model.defaults.gravity);
-    Ok(own.with(&contents_mass(model, body)?))
+    Ok(own.combine(&contents_mass(model, body)?))
 }
 
 /// Most steps of the search for ballast.
@@ -462,19 +462,14 @@ pub fn balance_tanks(tanks: &[Tank], pose: &Pose, rest: &Six) -> Result<Vec<f64>
                 .zip(&held)
                 .map(|(slope, held)| if *held { 0.0 } else { (slope.component_mul(&scale) / whole).dot(&multipliers) })
                 .collect();
-            let beyond = |n: usize| {
-                let (share, change) = (shares.get(n).copied().unwrap_or(0.0), change.get(n).copied().unwrap_or(0.0));
-                (share <= 0.0 && change < 0.0) || (share >= 1.0 && change > 0.0)
-            };
-            let more: Vec<usize> =
-                (0..held.len()).filter(|n| !held.get(*n).copied().unwrap_or(true) && beyond(*n)).collect();
-            if more.is_empty() {
-                break change;
+            let mut are_all_within = true;
+            for ((share, change), held) in shares.iter().zip(&change).zip(&mut held) {
+                let is_beyond = (*share <= 0.0 && *change < 0.0) || (*share >= 1.0 && *change > 0.0);
+                are_all_within &= *held || !is_beyond;
+                *held |= is_beyond;
             }
-            for n in more {
-                if let Some(held) = held.get_mut(n) {
-                    *held = true;
-                }
+            if are_all_within {
+                break change;
             }
         };
         for (share, change) in shares.iter_mut().zip(change) {

@@ -13,7 +13,7 @@ struct WeightLoad {
     centre: Vector3<f64>,
 }
 
-/// The weight of a mass; none of a body without mass.
+/// The weight of a mass under a gravity (m/s2); none of a body without mass.
 pub fn build_weight(mass: &Mass, gravity: f64) -> Option<Box<dyn BodyLoad>> {
     let made = WeightLoad { weight: mass.mass * gravity, centre: mass.centre };
     (mass.mass != 0.0).then(|| Box::new(made) as Box<dyn BodyLoad>)

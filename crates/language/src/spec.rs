@@ -22,12 +22,34 @@ pub enum TextForm {
 /// # Panics
 /// While compiling, when `N` is another number.
 pub const fn join_options<const N: usize>(first: &[OptionSpec], second: &[OptionSpec]) -> [OptionSpec; N] {
-    assert!(N == first.len() + second.len(), "N is the number of both lists");
+    join_lists(&[first, second])
+}
+
+/// How many options lists have together.
+pub const fn count_options(lists: &[&[OptionSpec]]) -> usize {
+    let (mut count, mut list) = (0, 0);
+    while list < lists.len() {
+        count += lists[list].len();
+        list += 1;
+    }
+    count
+}
+
+/// The options of several lists in their order; `N` is their number together, [`count_options`].
+///
+/// # Panics
+/// While compiling, when `N` is another number.
+pub const fn join_lists<const N: usize>(lists: &[&[OptionSpec]]) -> [OptionSpec; N] {
+    assert!(N == count_options(lists), "N is the number of all lists");
     let mut all = [OptionSpec::new("", &[], ""); N];
-    let mut i = 0;
-    while i < N {
-        all[i] = if i < first.len() { first[i] } else { second[i - first.len()] };
-        i += 1;
+    let (mut at, mut list) = (0, 0);
+    while list < lists.len() {
+        let mut i = 0;
+        while i < lists[list].len() {
+            all[at] = lists[list][i];
+            (at, i) = (at + 1, i + 1);
+        }
+        list += 1;
     }
     all
 }

@@ -115,9 +115,12 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
     }
     if W == 4 && TANGENT {
         for i in range.start..=range.end {
-            // nothing else holds the turn of a rod that is free to spin: a thousand-millionth of its own stiffness does
-            let held =
-                rod.elements.get(i).map_or(1.0, |e| if e.torsion > 0.0 { 1e-9 * e.torsion / e.rest } else { 1.0 });
+            // nothing else holds the turn of a rod that is free to spin: a thousand-millionth of its own stiffness does; the last node
+            // has no element behind it, nor a turn
+            let held = match rod.elements.get(i) {
+                Some(e) if e.torsion > 0.0 => 1e-9 * e.torsion / e.rest,
+                _ => 1.0,
+            };
             system.band.add(W * i + 3, W * i + 3, held);
         }
     }

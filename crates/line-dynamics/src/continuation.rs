@@ -30,13 +30,6 @@ struct ContinuationStart {
     loaded: f64,
 }
 
-impl Rod {
-    /// Whether a rod of a weight (N) stands by its bending stiffness: EI / L^2 is above it. Every element bears compression and bends.
-    pub(super) fn is_stiff(&self, weight: f64) -> bool {
-        self.bending_force() > weight && self.elements.iter().all(|e| e.compression)
-    }
-}
-
 /// Rest of a stiff rod: from the state, if that rests where its ends are, or else from the straight rod free of load. None where
 /// neither way leads there.
 pub(super) fn rest_by_continuation(

@@ -15,7 +15,7 @@ pub struct RodEndMotion {
 }
 
 impl RodEndMotion {
-    /// At rest.
+    /// At rest at a position (m, global).
     pub fn at_rest(position: Vector3<f64>) -> Self {
         RodEndMotion { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() }
     }
@@ -44,7 +44,7 @@ impl RodEnd {
     pub const FREE: RodEnd =
         RodEnd { motion: None, direction: None, rotation: None, side: None, turning: Vector3::new(0.0, 0.0, 0.0) };
 
-    /// Held in place, free to turn.
+    /// Held at a position (m, global), free to turn.
     pub fn pin(position: Vector3<f64>) -> Self {
         RodEnd::from_motion(RodEndMotion::at_rest(position))
     }
@@ -54,12 +54,12 @@ impl RodEnd {
         RodEnd { motion: Some(motion), ..RodEnd::FREE }
     }
 
-    /// The same with its direction held.
+    /// The same with its direction held: a vector from end A toward end B, of any length.
     pub fn with_clamp(self, direction: Vector3<f64>) -> Self {
         RodEnd { direction: Some(direction), ..self }
     }
 
-    /// The same with its twist held by a direction across.
+    /// The same with its twist held by a vector across the rod, of any length.
     pub fn with_side(self, side: Vector3<f64>) -> Self {
         RodEnd { side: Some(side), ..self }
     }

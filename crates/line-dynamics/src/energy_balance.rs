@@ -13,7 +13,7 @@ use super::state::RodState;
 use super::supports::{find_support_contact, support_load};
 use super::tension::{ElementStretch, TensionOptions, tension};
 use super::trial::Trial;
-use super::viscoelastic::MaxwellMemory;
+use super::viscoelastic::{MaxwellMemory, rope_strain};
 use nalgebra::Vector3;
 
 /// Energy a rod holds at one time (J).
@@ -32,7 +32,7 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// Their sum.
+    /// Their sum (J).
     pub fn total(&self) -> f64 {
         self.kinetic + self.elastic + self.gravity + self.bottom + self.supports
     }
@@ -234,7 +234,7 @@ impl BalanceSample {
         let mechanical = strain - segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
         let held = mechanical > 0.0 || element.compression;
         let (law, energy) = if let (Some(rope), Some(memory)) = (rod.viscoelastic_law(element), &memory) {
-            let pulled = rod.viscoelastic_tension(element, rope, [&x[i], &x[i + 1]], memory);
+            let pulled = rope_strain(rod, element, rope, [&x[i], &x[i + 1]], memory);
             let (energy, lost) = rope.energy_and_loss(pulled, -memory.kept);
             self.power.damping -= lost * element.rest;
             (rope.slow.evaluate(pulled).0 + rope.maxwell_tension(pulled, memory).0, energy)
@@ -341,7 +341,7 @@ impl BalanceSample {
     fn supports(&mut self, StepView { rod, state, world, .. }: &StepView) {
         let (x, v) = (&state.position, &state.velocity);
         for support in world.supports {
-            let Some(over) = find_support_contact(rod.smooth(), support, x) else { continue };
+            let Some(over) = find_support_contact(rod.is_smooth(), support, x) else { continue };
             if let Some(made) = support_load(support, &over, v) {
                 self.energy.supports += made.energy;
                 // the springs give back what they take but for the motion of the support itself

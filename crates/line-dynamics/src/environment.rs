@@ -68,8 +68,8 @@ pub trait FluidField {
 pub struct UniformFluid(pub FluidState);
 
 impl UniformFluid {
-    /// Still water with its surface at z = 0.
-    pub fn still(density: f64) -> Self {
+    /// Still water of a density (kg/m3) with its surface at z = 0.
+    pub fn still_water(density: f64) -> Self {
         let zero = Vector3::zeros();
         let (velocity, acceleration, wind) = (zero, zero, zero);
         UniformFluid(FluidState { velocity, acceleration, surface: 0.0, head: 0.0, density, wind, air_density: 0.0 })
@@ -77,12 +77,12 @@ impl UniformFluid {
 
     /// The same water with a velocity (m/s).
     pub fn moving(density: f64, velocity: Vector3<f64>) -> Self {
-        UniformFluid(FluidState { velocity, ..UniformFluid::still(density).0 })
+        UniformFluid(FluidState { velocity, ..UniformFluid::still_water(density).0 })
     }
 
     /// No fluid: a rod in vacuum.
     pub fn vacuum() -> Self {
-        UniformFluid::still(0.0)
+        UniformFluid::still_water(0.0)
     }
 }
 
@@ -156,7 +156,7 @@ impl SeabedLaw {
         self.friction_along > 0.0 || self.friction_across > 0.0
     }
 
-    /// A bottom without friction and damping.
+    /// A bottom of a stiffness (N/m2: force per length and penetration) without friction and damping.
     pub fn elastic(stiffness: f64) -> Self {
         SeabedLaw {
             stiffness,
@@ -198,9 +198,9 @@ pub struct SupportReaction {
 /// the support feels the opposite force there.
 #[derive(Clone, Copy, Debug)]
 pub struct Support<'a> {
-    /// Its place (m, global), about which its moment is taken.
-    pub place: Vector3<f64>,
-    /// Velocity of that place (m/s).
+    /// Its position (m, global), about which its moment is taken.
+    pub position: Vector3<f64>,
+    /// Velocity of that point (m/s).
     pub velocity: Vector3<f64>,
     /// What of the rod it supports.
     pub target: SupportTarget,
@@ -242,7 +242,7 @@ impl<'a> LineEnvironment<'a> {
     }
     /// Its supports a time (s) before they are where they are, as they move.
     pub(super) fn supports_before(&self, time: f64) -> Vec<Support<'a>> {
-        let at = |s: &Support<'a>| Support { place: s.place - s.velocity * time, ..*s };
+        let at = |s: &Support<'a>| Support { position: s.position - s.velocity * time, ..*s };
         self.supports.iter().map(at).collect()
     }
 }

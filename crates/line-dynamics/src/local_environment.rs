@@ -40,7 +40,7 @@ impl<'a> LocalEnvironment<'a> {
             origin,
             fluid: LocalFluid { fluid: world.fluid, origin, room: RefCell::new(room) },
             bottom: world.bottom.map(|(bottom, _)| LocalBottom { bottom, origin }),
-            supports: world.supports.iter().map(|s| Support { place: s.place - origin, ..*s }).collect(),
+            supports: world.supports.iter().map(|s| Support { position: s.position - origin, ..*s }).collect(),
         }
     }
 

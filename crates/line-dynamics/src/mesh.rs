@@ -1,8 +1,9 @@
 //! A rod cut into elements.
 
 use super::error::RodError;
-use super::section::{Attachment, RodSegment};
+use super::section::{Attachment, RodSegment, TensionLaw};
 use super::spatial::transport_director;
+use super::viscoelastic::ViscoelasticRope;
 use nalgebra::Vector3;
 
 /// Most elements of one rod: far beyond what a line needs, and still some hundred megabytes.
@@ -161,8 +162,8 @@ impl Rod {
         Ok(Rod { name: name.to_string(), segments, elements, attachments, natural: None })
     }
 
-    /// Gives the rod a shape that it has when free of load: the places of its nodes, and its directions at both ends.
-    /// It needs torsional stiffness, as a bent rod can only bend another way by twisting.
+    /// Gives the rod a shape that it has when free of load: the positions of its nodes (m), and its directions at both ends. It needs
+    /// torsional stiffness, as a bent rod can only bend another way by twisting.
     ///
     /// # Errors
     /// A rod without torsional stiffness, or not one place a node.
@@ -271,6 +272,29 @@ impl Rod {
     pub(super) fn hinge(&self, node: usize) -> f64 {
         let (a, b) = (&self.elements[node - 1], &self.elements[node]);
         if a.bending > 0.0 && b.bending > 0.0 { 2.0 / (a.rest / a.bending + b.rest / b.bending) } else { 0.0 }
+    }
+
+    /// Whether rollers meet it as a smooth curve: where it bends. The system of one that does not has no room for it.
+    pub(super) fn is_smooth(&self) -> bool {
+        self.twists() || self.elements.iter().any(|e| e.bending > 0.0)
+    }
+
+    /// Whether a rod of a weight (N) stands by its bending stiffness: EI / L^2 is above it. Every element bears compression and bends.
+    pub(super) fn is_stiff(&self, weight: f64) -> bool {
+        self.bending_force() > weight && self.elements.iter().all(|e| e.compression)
+    }
+
+    /// Whether any of it remembers how it was pulled.
+    pub(super) fn is_viscoelastic(&self) -> bool {
+        self.elements.iter().any(|e| self.viscoelastic_law(e).is_some())
+    }
+
+    /// The law of an element that remembers how it was pulled.
+    pub(super) fn viscoelastic_law(&self, element: &RodElement) -> Option<&ViscoelasticRope> {
+        match &self.segments[element.segment].axial {
+            TensionLaw::Viscoelastic(rope) => Some(rope),
+            _ => None,
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use super::newton_iteration::NewtonSystem;
 use super::state::RodState;
 use super::statics_friction::{NodeFriction, place_laid_nodes_at_trial, seabed_friction};
 use super::system::Weights;
-use super::tension::{ElementStretch, TensionOptions, tension};
+use super::tension::{ElementStretch, TensionOptions, find_overstretched, tension};
 use super::trial::{
     Softening, StaticFriction, Trial, largest_change, sample_fluid, set_friction_directions,
     set_seabed_penetration_scales, turn_directors,
@@ -194,7 +194,7 @@ impl PseudoTransient<'_> {
         if whole && self.largest_residual() <= ACCEPTED_RESIDUAL_SHARE * weight {
             return Ok(());
         }
-        if let Some(element) = rod.find_overstretched(&self.trial.x) {
+        if let Some(element) = find_overstretched(rod, &self.trial.x) {
             let why = format!("element {} has a strain beyond the limit of its tension law", element + 1);
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }

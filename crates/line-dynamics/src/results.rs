@@ -3,13 +3,14 @@
 use super::bend::hinge;
 use super::contact::contact;
 use super::ends::RodEnd;
-use super::environment::{FluidState, LineEnvironment, UniformFluid};
+use super::environment::{FluidState, LineEnvironment, Support, UniformFluid};
 use super::hinges::{HingePlace, hinge_sides};
 use super::local_environment::LocalEnvironment;
 use super::mesh::Rod;
 use super::morison::{HalfNode, half_force};
 use super::spatial::{transport_director, twist};
 use super::state::RodState;
+use super::supports::{SupportForce, find_support_contact, support_load};
 use super::tension::{ElementStretch, TensionOptions, tension};
 use super::viscoelastic::MaxwellMemory;
 use nalgebra::Vector3;
@@ -127,6 +128,24 @@ impl Rod {
                 made
             })
             .collect()
+    }
+
+    /// What the rod does to each support of a world in a state.
+    pub fn support_forces(&self, state: &RodState, world: &LineEnvironment) -> Vec<SupportForce> {
+        let look = |support: &Support| {
+            let clear = SupportForce { force: Vector3::zeros(), moment: Vector3::zeros(), arc: None };
+            let Some(found) = find_support_contact(self.is_smooth(), support, &state.position) else { return clear };
+            let mut node: f64 = self.elements.iter().take(found.node).map(|e| e.rest).sum();
+            let mut arc = 0.0;
+            for (share, element) in found.shares.iter().zip(&self.elements[found.node.min(self.elements.len())..]) {
+                arc += share * node;
+                node += element.rest;
+            }
+            let force = support_load(support, &found, &state.velocity).map_or_else(Vector3::zeros, |made| made.force);
+            SupportForce { force, moment: found.at.cross(&force), arc: Some(arc) }
+        };
+        let near = LocalEnvironment::new(world, state.origin, Vec::new());
+        near.world().supports.iter().map(look).collect()
     }
 }
 

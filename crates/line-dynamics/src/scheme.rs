@@ -77,7 +77,7 @@ impl StepScheme {
         }
     }
 
-    /// Implicit Euler in the same form: what happened before the step has no part in it but for speed.
+    /// Implicit Euler over a step `h` (s) in the same form: what happened before the step has no part in it but for speed.
     pub fn euler(h: f64) -> Self {
         StepScheme {
             h,

@@ -126,7 +126,7 @@ pub struct TubeSection {
 }
 
 impl TubeSection {
-    /// A tube without contents, pressure or temperature.
+    /// A tube of outer and inner diameter (m) without contents, pressure or temperature.
     pub fn empty(outer: f64, inner: f64) -> Self {
         TubeSection { outer, inner, poisson: 0.3, expansion: 0.0, warmer: 0.0, pressure: 0.0, at: 0.0, contents: 0.0 }
     }

@@ -19,7 +19,7 @@ use super::state::RodState;
 use super::statics::RestSearch;
 use super::supports::{SupportTangent, condense_to_supports};
 use super::trial::{Softening, StaticFriction, Trial};
-use super::viscoelastic::MaxwellMemory;
+use super::viscoelastic::{MaxwellMemory, yielded_strains};
 use super::workspace::Workspace;
 use nalgebra::{Matrix3, Vector3};
 
@@ -85,7 +85,7 @@ impl RodSolver {
             director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
             bedding: vec![0.0; nodes],
             stuck: zero.clone(),
-            yielded: rod.yielded_strains(&zero),
+            yielded: yielded_strains(rod, &zero),
         };
         let still = UniformFluid::vacuum().0;
         let trial = Trial {
@@ -171,7 +171,7 @@ impl RodSolver {
         self.phase = SolverPhase::Idle;
     }
 
-    /// A trial and its acceptance.
+    /// A trial and its acceptance: one step to a time (s) and the motion of both ends.
     ///
     /// # Errors
     /// As [`RodSolver::trial`]; the state is then as before.

@@ -148,7 +148,7 @@ mod tests {
     use super::*;
 
     /// A hinge of two edges given as vectors, with directors taken along from those of a first shape and turned.
-    fn moved(start: &[HingeSide; 2], change: &Vector8) -> [HingeSide; 2] {
+    fn move_hinge(start: &[HingeSide; 2], change: &Vector8) -> [HingeSide; 2] {
         [0, 1].map(|i| {
             let side = &start[i];
             let edge = side.direction * side.length + change.fixed_rows::<3>(3 * i);
@@ -182,7 +182,7 @@ mod tests {
             let mut step = Vector8::zeros();
             step[i] = h;
             let at = |change: &Vector8| {
-                let [e, f] = moved(&start, change);
+                let [e, f] = move_hinge(&start, change);
                 (energy(2.0, 1.5, &e, &f), spatial(2.0, 1.5, &e, &f).0)
             };
             let (plus, minus) = (at(&step), at(&-step));

@@ -4,6 +4,7 @@ use super::ends::RodEndMotion;
 use super::error::RodError;
 use super::mesh::{Rod, transport_sides};
 use super::spatial::transport_director;
+use super::viscoelastic::yielded_strains;
 use nalgebra::Vector3;
 
 /// Motion of a rod at one time.
@@ -86,7 +87,7 @@ impl RodState {
             Vec::new()
         };
         let rest = vec![Vector3::zeros(); rod.nodes()];
-        let yielded = rod.yielded_strains(&position);
+        let yielded = yielded_strains(rod, &position);
         Ok(RodState {
             time: 0.0,
             origin,
@@ -101,17 +102,17 @@ impl RodState {
         })
     }
 
-    /// Place of a node, from end A (m, global); none of a node that is not there.
-    pub fn place(&self, node: usize) -> Option<Vector3<f64>> {
+    /// Position of a node, from end A (m, global); none of a node that is not there.
+    pub fn node_position(&self, node: usize) -> Option<Vector3<f64>> {
         self.position.get(node).map(|x| x + self.origin)
     }
 
-    /// Place of each node from end A (m, global).
-    pub fn places(&self) -> Vec<Vector3<f64>> {
+    /// Position of each node from end A (m, global).
+    pub fn node_positions(&self) -> Vec<Vector3<f64>> {
         self.position.iter().map(|x| x + self.origin).collect()
     }
 
-    /// Measures positions from another origin (m, global); the places stay.
+    /// Measures positions from another origin (m, global); the nodes stay.
     pub(super) fn move_origin(&mut self, origin: Vector3<f64>) {
         let back = self.origin - origin;
         if back != Vector3::zeros() {

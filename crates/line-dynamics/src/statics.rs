@@ -15,6 +15,7 @@ use super::statics_friction::{
 use super::statics_warm_start::rest_from_warm_start;
 use super::stick_friction::StillFluid;
 use super::trial::{StaticFriction, sample_fluid};
+use super::viscoelastic::yielded_strains;
 use nalgebra::Vector3;
 
 /// Newton iterations after which statics gives up.
@@ -65,7 +66,7 @@ impl<'a> RestSearch<'a> {
         }
         // without drag friction it settles freely; but it does not slide down a slope
         self.pseudo.set_trial_at_rest(state, &ends);
-        self.pseudo.trial.friction = StaticFriction::pulled(drawn, false);
+        self.pseudo.trial.friction = StaticFriction::with_pulled_end(drawn, false);
         let most = if drawn.is_some() { self.done + MAX_ITERATIONS_WITHOUT_DRAG_FRICTION } else { MAX_ITERATIONS };
         match self.pseudo.solve(&mut self.done, most) {
             Err(RodError::Statics { .. }) if drawn.is_some() => {
@@ -103,7 +104,7 @@ impl<'a> RestSearch<'a> {
             return Ok(None);
         }
         let is_piled_up = least_strain(self.pseudo.trial, rod) < PILED_UP_STRAIN;
-        self.pseudo.trial.friction = StaticFriction::pulled(drawn, !is_piled_up);
+        self.pseudo.trial.friction = StaticFriction::with_pulled_end(drawn, !is_piled_up);
         place_laid_nodes_from_state(self.pseudo.trial, rod, world);
         if let Some(done) = rest_from_warm_start(&mut self.pseudo, state, &ends)
             && !(is_piled_up && relative_drag(self.pseudo.trial, rod, world) > 1.0)
@@ -194,7 +195,7 @@ impl<'a> RestSearch<'a> {
         for list in [&mut state.velocity, &mut state.acceleration, &mut state.averaged] {
             list.fill(Vector3::zeros());
         }
-        state.yielded = rod.yielded_strains(&state.position);
+        state.yielded = yielded_strains(rod, &state.position);
         self.set_seabed_penetration_scale(state);
         set_stick_points(self.pseudo.trial, rod, world, state);
         let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));

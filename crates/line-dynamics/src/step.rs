@@ -9,6 +9,7 @@ use super::mesh::Rod;
 use super::scheme::{RodSettings, StepScheme};
 use super::solver::{RodEndForces, RodSolver, SolverPhase};
 use super::state::RodState;
+use super::tension::find_overstretched;
 use super::trial::{
     StaticFriction, advance_stick_points, interpolate, resample_fluid, sample_fluid, set_friction_directions,
     set_seabed_penetration_scales, transport_directors, turn_directors,
@@ -253,7 +254,7 @@ impl RodSolver {
             // what is still missing if the moves go on shrinking as they do
             let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
             if size.min(missing) <= tolerance {
-                if let Some(element) = rod.find_overstretched(&next.position) {
+                if let Some(element) = find_overstretched(rod, &next.position) {
                     return Err(Failure { node: element + 1, why: "its strain exceeds the limit of its tension law" });
                 }
                 set_yielded_strains(rod, &self.trial.memory, next);

@@ -1,10 +1,8 @@
 //! A rod on what holds it between its ends.
 
 use super::environment::{LineEnvironment, Support, SupportReaction, SupportTarget};
-use super::local_environment::LocalEnvironment;
 use super::mesh::Rod;
 use super::newton_iteration::NewtonSystem;
-use super::state::RodState;
 use super::trial::Trial;
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3};
 
@@ -36,12 +34,12 @@ const SUPPORT_NODES: usize = 3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SupportPoint {
     /// The first node it acts on, and how many.
-    node: usize,
+    pub(super) node: usize,
     count: usize,
     /// The nodes' shares of the point.
     pub shares: [f64; SUPPORT_NODES],
     /// The point from the place of the support (m).
-    at: Vector3<f64>,
+    pub(super) at: Vector3<f64>,
     /// Of a roller.
     rolls: Option<RollerCrossing>,
 }
@@ -106,7 +104,7 @@ impl SupportPiece {
     fn crossing(&self, support: &Support, along: Vector3<f64>, x: &[Vector3<f64>]) -> Option<SupportPoint> {
         let nodes = x.get(self.node..self.node + self.count)?;
         // height over the plane by c0 + c1 s + c2 s^2 / 2
-        let plane = along.dot(&support.place);
+        let plane = along.dot(&support.position);
         let mut c = [-plane, 0.0, 0.0];
         for (shares, x) in self.shares.iter().zip(nodes) {
             let own = x.dot(&along);
@@ -128,7 +126,7 @@ impl SupportPiece {
         let edge = SupportPiece::sum(slopes.into_iter(), nodes);
         let bend = SupportPiece::sum(self.shares.iter().map(|share| share[2]), nodes);
         let reach = edge.dot(&along);
-        let at = SupportPiece::sum(shares.into_iter(), nodes) - support.place;
+        let at = SupportPiece::sum(shares.into_iter(), nodes) - support.position;
         let rolls = Some(RollerCrossing { along, slopes, edge, bend, reach });
         (reach != 0.0).then_some(SupportPoint { node: self.node, count: self.count, shares, at, rolls })
     }
@@ -151,7 +149,7 @@ impl SupportPoint {
 pub(super) fn find_support_contact(smooth: bool, support: &Support, x: &[Vector3<f64>]) -> Option<SupportPoint> {
     let along = match support.target {
         SupportTarget::Node(node) => {
-            let at = x.get(node)? - support.place;
+            let at = x.get(node)? - support.position;
             return Some(SupportPoint { node, count: 1, shares: [1.0, 0.0, 0.0], at, rolls: None });
         }
         SupportTarget::Crossing(along) => along,
@@ -201,31 +199,6 @@ pub(super) fn support_load(support: &Support, meeting: &SupportPoint, v: &[Vecto
     Some(SupportLoad { force, by_position, by_velocity, energy: made.elastic.1, elastic: across(-made.elastic.0) })
 }
 
-impl Rod {
-    /// Whether rollers meet it as a smooth curve: where it bends. The system of one that does not has no room for it.
-    pub(super) fn smooth(&self) -> bool {
-        self.twists() || self.elements.iter().any(|e| e.bending > 0.0)
-    }
-
-    /// What the rod does to each support of a world in a state.
-    pub fn support_forces(&self, state: &RodState, world: &LineEnvironment) -> Vec<SupportForce> {
-        let look = |support: &Support| {
-            let clear = SupportForce { force: Vector3::zeros(), moment: Vector3::zeros(), arc: None };
-            let Some(found) = find_support_contact(self.smooth(), support, &state.position) else { return clear };
-            let mut node: f64 = self.elements.iter().take(found.node).map(|e| e.rest).sum();
-            let mut arc = 0.0;
-            for (share, element) in found.shares.iter().zip(&self.elements[found.node.min(self.elements.len())..]) {
-                arc += share * node;
-                node += element.rest;
-            }
-            let force = support_load(support, &found, &state.velocity).map_or_else(Vector3::zeros, |made| made.force);
-            SupportForce { force, moment: found.at.cross(&force), arc: Some(arc) }
-        };
-        let near = LocalEnvironment::new(world, state.origin, Vec::new());
-        near.world().supports.iter().map(look).collect()
-    }
-}
-
 /// A support in contact with the rod at the solver's trial.
 struct SupportState {
     meeting: SupportPoint,
@@ -241,7 +214,7 @@ impl SupportState {
         let mut carried = [SMatrix::<f64, 3, 6>::zeros(); SUPPORT_NODES];
         for (made, x) in carried.iter_mut().zip(&x[meeting.nodes()]) {
             made.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-            made.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(x - support.place).cross_matrix());
+            made.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(x - support.position).cross_matrix());
         }
         Some(SupportState { meeting, load, carried })
     }
@@ -306,7 +279,7 @@ pub(super) fn condense_to_supports(
 ) -> SupportTangent {
     let count = world.supports.len();
     let (x, v) = (&trial.x, &trial.v);
-    let smooth = rod.smooth();
+    let smooth = rod.is_smooth();
     let held: Vec<_> = world.supports.iter().map(|support| SupportState::evaluate(smooth, support, x, v)).collect();
     let feels = |h: &SupportState| h.load.by_velocity.iter().flatten().any(|block| *block != Matrix3::zeros());
     let rated = held.iter().flatten().any(feels);

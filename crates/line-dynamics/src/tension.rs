@@ -124,20 +124,18 @@ pub(super) fn tension(
     if !taken.compression && still.min(made.value) < 0.0 { ElementTension::NONE } else { made }
 }
 
-impl Rod {
-    /// The first element that is stretched beyond the most that its law bears, where that falls again with more strain:
-    /// nothing would hold it there.
-    pub(super) fn find_overstretched(&self, x: &[Vector3<f64>]) -> Option<usize> {
-        let falls = |segment: &RodSegment| matches!(segment.axial, TensionLaw::Polynomial(_));
-        if !self.segments.iter().any(falls) {
-            return None;
-        }
-        let beyond = |(element, x): (&RodElement, &[Vector3<f64>])| {
-            let segment = &self.segments[element.segment];
-            let free = segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
-            let strain = (x[1] - x[0]).norm() / element.rest - 1.0 - free;
-            falls(segment) && strain > 0.0 && segment.axial.evaluate(strain).1 <= 0.0
-        };
-        self.elements.iter().zip(x.windows(2)).position(beyond)
+/// The first element of a rod that is stretched beyond the most that its law bears, where that falls again with more strain:
+/// nothing would hold it there.
+pub(super) fn find_overstretched(rod: &Rod, x: &[Vector3<f64>]) -> Option<usize> {
+    let falls = |segment: &RodSegment| matches!(segment.axial, TensionLaw::Polynomial(_));
+    if !rod.segments.iter().any(falls) {
+        return None;
     }
+    let beyond = |(element, x): (&RodElement, &[Vector3<f64>])| {
+        let segment = &rod.segments[element.segment];
+        let free = segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
+        let strain = (x[1] - x[0]).norm() / element.rest - 1.0 - free;
+        falls(segment) && strain > 0.0 && segment.axial.evaluate(strain).1 <= 0.0
+    };
+    rod.elements.iter().zip(x.windows(2)).position(beyond)
 }

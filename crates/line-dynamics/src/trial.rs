@@ -80,7 +80,7 @@ pub(super) enum StaticFriction {
 
 impl StaticFriction {
     /// That of a rod with a pulled end, or none.
-    pub fn pulled(end: Option<usize>, drags: bool) -> Self {
+    pub fn with_pulled_end(end: Option<usize>, drags: bool) -> Self {
         end.map_or(StaticFriction::None, |end| StaticFriction::Pulled { end, drags })
     }
 

@@ -106,47 +106,32 @@ impl ViscoelasticRope {
     }
 }
 
-impl Rod {
-    /// Whether any of it remembers how it was pulled.
-    pub(super) fn is_viscoelastic(&self) -> bool {
-        self.elements.iter().any(|e| self.viscoelastic_law(e).is_some())
-    }
+/// Strain of the rope in an element of a rod between two positions: less the thermal one, and of a slack one its own.
+pub(super) fn rope_strain(
+    rod: &Rod,
+    element: &RodElement,
+    rope: &ViscoelasticRope,
+    [a, b]: [&Vector3<f64>; 2],
+    memory: &MaxwellMemory,
+) -> f64 {
+    let free = rod.segments[element.segment].tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
+    let strain = (b - a).norm() / element.rest - 1.0 - free;
+    let taut = strain > 0.0 && rope.slow.evaluate(strain).0 + rope.maxwell_tension(strain, memory).0 >= 0.0;
+    if element.compression || taut { strain } else { rope.slack_strain(memory) }
+}
 
-    pub(super) fn viscoelastic_law(&self, element: &RodElement) -> Option<&ViscoelasticRope> {
-        match &self.segments[element.segment].axial {
-            TensionLaw::Viscoelastic(rope) => Some(rope),
-            _ => None,
-        }
+/// The strain of each element of a rod, where any of them remembers it: yielded in full.
+pub(super) fn yielded_strains(rod: &Rod, position: &[Vector3<f64>]) -> Vec<f64> {
+    if !rod.is_viscoelastic() {
+        return Vec::new();
     }
-
-    /// Strain of the rope in an element between two places: less the thermal one, and of a slack one its own.
-    pub(super) fn viscoelastic_tension(
-        &self,
-        element: &RodElement,
-        rope: &ViscoelasticRope,
-        [a, b]: [&Vector3<f64>; 2],
-        memory: &MaxwellMemory,
-    ) -> f64 {
-        let free = self.segments[element.segment].tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
-        let strain = (b - a).norm() / element.rest - 1.0 - free;
-        let taut = strain > 0.0 && rope.slow.evaluate(strain).0 + rope.maxwell_tension(strain, memory).0 >= 0.0;
-        if element.compression || taut { strain } else { rope.slack_strain(memory) }
-    }
-
-    /// The strain of each element, where any of them remembers it: yielded in full.
-    pub(super) fn yielded_strains(&self, position: &[Vector3<f64>]) -> Vec<f64> {
-        if !self.is_viscoelastic() {
-            return Vec::new();
-        }
-        let pairs = self.elements.iter().zip(position.windows(2));
-        let strain = |(element, x): (&RodElement, &[Vector3<f64>])| {
-            // a spring that has let go of everything
-            let all = MaxwellMemory::default();
-            self.viscoelastic_law(element)
-                .map_or(0.0, |rope| self.viscoelastic_tension(element, rope, [&x[0], &x[1]], &all))
-        };
-        pairs.map(strain).collect()
-    }
+    let pairs = rod.elements.iter().zip(position.windows(2));
+    let strain = |(element, x): (&RodElement, &[Vector3<f64>])| {
+        // a spring that has let go of everything
+        let all = MaxwellMemory::default();
+        rod.viscoelastic_law(element).map_or(0.0, |rope| rope_strain(rod, element, rope, [&x[0], &x[1]], &all))
+    };
+    pairs.map(strain).collect()
 }
 
 /// How each element follows its strain over a step of `h` seconds from a state; zero for at once.
@@ -154,8 +139,7 @@ pub(super) fn update_memory(rod: &Rod, from: &RodState, h: f64, memory: &mut [Ma
     let elements = rod.elements.iter().zip(from.position.windows(2)).zip(&from.yielded);
     for (memory, ((element, x), yielded)) in memory.iter_mut().zip(elements) {
         if let Some(rope) = rod.viscoelastic_law(element) {
-            let before =
-                rod.viscoelastic_tension(element, rope, [&x[0], &x[1]], &MaxwellMemory::instantaneous(*yielded));
+            let before = rope_strain(rod, element, rope, [&x[0], &x[1]], &MaxwellMemory::instantaneous(*yielded));
             *memory = MaxwellMemory::from_relaxation_over_step(h / rope.relaxation, before, *yielded);
         }
     }
@@ -166,7 +150,7 @@ pub(super) fn set_yielded_strains(rod: &Rod, memory: &[MaxwellMemory], state: &m
     let elements = rod.elements.iter().zip(state.position.windows(2)).zip(memory);
     for (yielded, ((element, x), memory)) in state.yielded.iter_mut().zip(elements) {
         if let Some(rope) = rod.viscoelastic_law(element) {
-            let strain = rod.viscoelastic_tension(element, rope, [&x[0], &x[1]], memory);
+            let strain = rope_strain(rod, element, rope, [&x[0], &x[1]], memory);
             *yielded = strain - (memory.kept + memory.follows * strain);
         }
     }

@@ -25,7 +25,7 @@ pub struct Flow {
 
 impl Flow {
     /// Still water with its surface at an elevation (m, global z), and still air.
-    pub fn still(surface: f64) -> Self {
+    pub fn still_water(surface: f64) -> Self {
         let zero = Vector3::zeros();
         Flow { velocity: zero, acceleration: zero, surface, head: 0.0, wind: zero }
     }

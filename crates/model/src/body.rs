@@ -158,7 +158,7 @@ impl Mass {
 
     /// The sum with another mass of the same body.
     #[must_use]
-    pub fn with(&self, other: &Mass) -> Mass {
+    pub fn combine(&self, other: &Mass) -> Mass {
         let mass = self.mass + other.mass;
         let first = self.centre * self.mass + other.centre * other.mass;
         let centre = if mass != 0.0 { first / mass } else { Vector3::zeros() };

@@ -157,8 +157,8 @@ impl ClassError {
     }
 
     /// The same about a subject: `subject: sentence`.
-    pub fn about(self, subject: impl Into<Message>) -> Self {
-        ClassError { message: self.message.about(subject), ..self }
+    pub fn with_subject(self, subject: impl Into<Message>) -> Self {
+        ClassError { message: self.message.with_subject(subject), ..self }
     }
 
     /// The same at a place.

@@ -14,7 +14,7 @@ use super::line::Placement;
 use super::note::Note;
 use super::scheme::SchemeWeights;
 use super::tie::TieResponse;
-use nalgebra::{Matrix3, Matrix6};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -33,8 +33,19 @@ pub struct End {
 
 impl End {
     /// An end at rest.
-    pub fn still(pose: Pose) -> Self {
+    pub fn at_rest(pose: Pose) -> Self {
         End { pose, velocity: Six::zeros(), acceleration: Six::zeros() }
+    }
+
+    /// Where the two ends of a line are (m, global): the first two, behind which those of a pipe's supports may follow.
+    ///
+    /// # Errors
+    /// Fewer than two ends.
+    pub fn origins(ends: &[End]) -> Result<[Vector3<f64>; 2], ClassError> {
+        match ends {
+            [first, second, ..] => Ok([first.pose.origin, second.pose.origin]),
+            _ => Err(ClassError::new(format!("a line has two ends, not {}", ends.len()))),
+        }
     }
 }
 

@@ -75,7 +75,7 @@ impl BracketedRoot {
         self.ends
     }
 
-    /// Its width.
+    /// Its width, in the unit of the argument.
     pub fn width(&self) -> f64 {
         (self.ends[1] - self.ends[0]).abs()
     }

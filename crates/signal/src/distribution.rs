@@ -60,7 +60,7 @@ pub fn levels(values: &[f64], count: usize) -> Result<Vec<f64>, SeriesError> {
     Ok((0..count).map(|i| low + (high - low) * (i as f64 / last)).collect())
 }
 
-/// Share of values that are greater than each level; 0 of no values.
+/// Share (0 to 1) of values that are greater than each level, in the unit of the values; 0 of no values.
 pub fn exceedance(values: &[f64], levels: &[f64]) -> Vec<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);

@@ -85,8 +85,7 @@ pub fn analyse(
             angle.sin()
         }
     };
-    let time = |row: usize| kept.get(row).map_or(0.0, |(t, _)| *t);
-    let matrix = DMatrix::from_fn(rows, columns, |row, column| basis(time(row), column));
+    let matrix = DMatrix::from_fn(rows, columns, |row, column| basis(kept[row].0, column));
     let right = DVector::from_iterator(rows, kept.iter().map(|(_, x)| *x));
     let normal = Cholesky::new(matrix.tr_mul(&matrix), &never);
     let Ok(found) = normal.and_then(|factor| factor.solve(&matrix.tr_mul(&right))) else {

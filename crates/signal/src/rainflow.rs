@@ -20,7 +20,7 @@ impl RainflowCycle {
     }
 }
 
-/// The reversals of a series: its first and last value and the turning points between them; of a flat turning point the
+/// The reversals of a series, in its unit: its first and last value and the turning points between them; of a flat turning point the
 /// first sample.
 pub fn reversals(values: &[f64]) -> Vec<f64> {
     let mut out: Vec<f64> = Vec::new();

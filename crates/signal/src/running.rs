@@ -66,7 +66,7 @@ impl Running {
         }
     }
 
-    /// Takes one sample.
+    /// Takes one sample: its time (s) and value.
     ///
     /// # Errors
     /// A time or value that is not finite, a time that is not later than the last; the sample is not taken.

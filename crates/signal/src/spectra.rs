@@ -88,9 +88,8 @@ impl Window {
     }
 }
 
-/// The density by Welch's method [WELCH-1967]: segments of `length` samples that overlap by
-/// half, each without its own mean, under a window, their squared transforms averaged; samples behind the last whole
-/// segment are left out.
+/// The density by Welch's method [WELCH-1967] of values `step` (s) apart: segments of `length` samples that overlap by half, each without
+/// its own mean, under a window, their squared transforms averaged; samples behind the last whole segment are left out.
 ///
 /// # Errors
 /// Segments shorter than 8 samples or longer than the series, a step that is not greater than zero, a value that is not

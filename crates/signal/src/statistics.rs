@@ -104,7 +104,7 @@ pub struct CrossingCycle {
 }
 
 impl CrossingCycle {
-    /// Crest to trough.
+    /// Crest to trough, in the unit of the series.
     pub fn range(&self) -> f64 {
         self.crest.value - self.trough.value
     }

@@ -131,7 +131,7 @@ pub fn table_along_direction(
         let there = intact.as_mut().and_then(|walk| walk.move_to(moved.excursion).ok());
         rows.push(AlongRow {
             moved,
-            place: moved.poses.get(path.body).map_or(*asked.place, |p| without_rounding(p.place(asked.place))),
+            place: without_rounding(moved.poses[path.body].place(asked.place)),
             critical: Critical::new(moved.worst(), &names),
             intact_force: there.as_ref().map(|there| {
                 let [force, ..] = restoring_cells(there, path.direction);
@@ -300,7 +300,7 @@ pub fn circle(
 ) -> Table {
     let title = format!("Watch Circle of {}", asked.name);
     let Circle { names, places } = found;
-    let start = asked.start.get(asked.path.body).copied().unwrap_or_default();
+    let start = asked.start[asked.path.body];
     let gone = |pose: &Pose| (pose.origin.x - start.origin.x).hypot(pose.origin.y - start.origin.y);
     let at = |pose: &Pose| {
         // as far as the solution goes

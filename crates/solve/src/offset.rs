@@ -72,7 +72,7 @@ impl BodyConnectors {
         for (index, cache) in self.links.iter().zip(&mut self.caches) {
             let Some(link) = system.links.get(*index) else { continue };
             ends.clear();
-            ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, poses))));
+            ends.extend(link.ends.iter().map(|end| End::at_rest(pose_of(end, poses))));
             let committed = &system.states[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
             link.element
@@ -113,7 +113,7 @@ impl System {
 }
 
 fn summary(system: &System, link: &Link, poses: &[Pose]) -> Result<ConnectorSummary, SolveError> {
-    let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
+    let ends: Vec<End> = link.ends.iter().map(|end| End::at_rest(pose_of(end, poses))).collect();
     let committed = &system.states[link.states.clone()];
     let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
     link.element.summary(&at, committed).map_err(SolveError::error_about(&link.name))

@@ -34,7 +34,7 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         _ => return Err(wrong(ClassError::new("its length is solved for a tension or a horizontal force"))),
     };
     let surroundings = model.surroundings();
-    let ends = model.end_poses(connector).map(End::still);
+    let ends = model.end_poses(connector).map(End::at_rest);
     let force = |length: f64| {
         let wound = Connector { first_length: Some(length), ..connector.clone() };
         let element = model.element_in(&wound, Some(&ambient))?;

@@ -67,7 +67,7 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// Largest tension of the dynamic line over that of the quasi-static one.
+    /// Largest tension of the dynamic line over that of the quasi-static one (both N).
     pub fn ratio(&self) -> f64 {
         self.dynamic.0 / self.quasi_static
     }

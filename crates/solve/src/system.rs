@@ -252,7 +252,7 @@ impl System {
                 continue;
             }
             ends.clear();
-            ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, &state.poses))));
+            ends.extend(link.ends.iter().map(|end| End::at_rest(pose_of(end, &state.poses))));
             let committed = &self.states[link.states.clone()];
             let trial = &mut state.trial[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
@@ -307,7 +307,7 @@ impl System {
         }
         let (mut response, mut trial) = (ConnectorResponse::default(), vec![0.0; self.states.len()]);
         for link in &self.links {
-            let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
+            let ends: Vec<End> = link.ends.iter().map(|end| End::at_rest(pose_of(end, poses))).collect();
             let committed = &self.states[link.states.clone()];
             let own = &mut trial[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };

@@ -44,7 +44,7 @@ pub fn curvature(a: f64, length: f64) -> Vector4 {
     [first, (6.0 * a - 4.0) / length, -first, (6.0 * a - 2.0) / length]
 }
 
-/// Bending stiffness of a beam of stiffness EI.
+/// Bending stiffness (N/m, N, N m) of a beam of stiffness EI (N m2) and a length (m), by deflection and slope of both ends.
 pub fn stiffness(ei: f64, length: f64) -> Matrix4 {
     let l = length;
     scale_matrix(
@@ -58,7 +58,7 @@ pub fn stiffness(ei: f64, length: f64) -> Matrix4 {
     )
 }
 
-/// Stiffness of a tension across the line (geometric stiffness), consistent with the cubic.
+/// Stiffness (N/m, N, N m) of a tension (N; positive holds it straight) across the line (geometric stiffness), consistent with the cubic.
 pub fn geometric(tension: f64, length: f64) -> Matrix4 {
     let l = length;
     scale_matrix(
@@ -72,7 +72,7 @@ pub fn geometric(tension: f64, length: f64) -> Matrix4 {
     )
 }
 
-/// Mass of a uniform mass per length, consistent with the cubic.
+/// Mass (kg, kg m, kg m2) of a uniform mass per length (kg/m), consistent with the cubic.
 pub fn mass(per_length: f64, length: f64) -> Matrix4 {
     let l = length;
     scale_matrix(
@@ -86,7 +86,7 @@ pub fn mass(per_length: f64, length: f64) -> Matrix4 {
     )
 }
 
-/// Loads at the ends of a uniform force per length.
+/// Loads at the ends (N, N m) of a uniform force per length (N/m).
 pub fn uniform_load(per_length: f64, length: f64) -> Vector4 {
     let half = 0.5 * per_length * length;
     [half, half * length / 6.0, half, -half * length / 6.0]
@@ -162,8 +162,8 @@ pub fn factor(matrix: &PlaneMatrix, factors: &mut PlaneMatrix) -> Result<(), Cla
     })
 }
 
-/// Twice the energy of an element: bending plus tension. Bending is reckoned of the slopes against the chord, so that a rigid
-/// motion, however large, has none to the last digit; the matrix would leave its rounding.
+/// Twice the energy (J) of an element: bending plus tension. Bending is reckoned of the slopes against the chord, so that a rigid motion,
+/// however large, has none to the last digit; the matrix would leave its rounding.
 pub fn twice_energy(ei: f64, tension: f64, length: f64, at: &Vector4) -> f64 {
     let chord = (at[2] - at[0]) / length;
     let (first, second) = (at[1] - chord, at[3] - chord);

@@ -77,14 +77,14 @@ impl NaturalMode {
         (self.eigenvalue > 0.0).then(|| TAU / self.eigenvalue.sqrt())
     }
 
-    /// `MODE FREEDOM POSN` [AQWA-TETHER 7.2]: its place among the four freedoms Y, Z, RY, RZ of each node, from 1.
+    /// `MODE FREEDOM POSN` [AQWA-TETHER 7.2]: its number among the four degrees of freedom Y, Z, RY, RZ of each node, from 1.
     pub fn freedom_position(&self) -> Option<usize> {
-        self.freedom_of([[1, 4], [2, 3]])
+        self.dof_of([[1, 4], [2, 3]])
     }
 
     /// The place by those of deflection and slope in the two planes.
-    pub(crate) fn freedom_of(&self, freedoms: [[usize; 2]; 2]) -> Option<usize> {
-        let [deflection, slope] = freedoms[usize::from(self.plane == ModePlane::Z)];
+    pub(crate) fn dof_of(&self, dofs: [[usize; 2]; 2]) -> Option<usize> {
+        let [deflection, slope] = dofs[usize::from(self.plane == ModePlane::Z)];
         self.place.map(|place| 4 * (place / 2) + if place % 2 == 0 { deflection } else { slope })
     }
 

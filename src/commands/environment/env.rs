@@ -75,7 +75,8 @@ pub(crate) const SPGWATER: OptionSpec = OptionSpec::new(
 /// `-S_PERIOD`.
 pub(crate) const S_PERIOD: OptionSpec =
     OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1);
-const MD_PERIOD: OptionSpec = OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift").repeating(1).noted();
+const MD_PERIOD: OptionSpec =
+    OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift").repeating(1).without_effect();
 /// `-TIME`.
 pub(crate) const TIME: OptionSpec = OptionSpec::new(
     "-TIME",
@@ -124,7 +125,7 @@ const M_GROWTH: OptionSpec = OptionSpec::new(
 );
 const USE_MEAN: OptionSpec =
     OptionSpec::new("-USE_MEAN", &[ValueSpec::choice::<YesNo>("YES/NO", "on or off").or("YES")], "uses mean values")
-        .noted();
+        .without_effect();
 /// `-E_PERIOD`.
 pub(crate) const E_PERIOD: OptionSpec =
     OptionSpec::new("-E_PERIOD", PERIODS, "periods of the waves in SRESPONSE, where it gives none").repeating(1);
@@ -449,8 +450,8 @@ pub(crate) fn known_curve(job: &Job, named: Option<&Value>, given: &Given, kind:
 fn current(job: &Job, given: &Given) -> Outcome<Current> {
     let mut profiles = Vec::new();
     for pair in given.groups() {
-        let [what, direction] = pair else { continue };
-        let direction = direction.number().unwrap_or(0.0);
+        let Some(what) = pair.value(const { CURRENT.word("V") }) else { continue };
+        let direction = pair.number(const { CURRENT.number("DIR") }).unwrap_or(0.0);
         let word = what.word().unwrap_or_default();
         if let Ok(velocity) = windlass_language::number::evaluate(word) {
             if given.values.len() > 2 {

@@ -85,7 +85,7 @@ fn mass<'a>(job: &Job, parts: impl Iterator<Item = &'a Part>, owner: &str, span:
     Ok(mass)
 }
 
-fn joined<'a>(names: impl Iterator<Item = &'a str>) -> String {
+fn join_names<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.collect::<Vec<_>>().join(" ")
 }
 
@@ -125,11 +125,11 @@ pub(super) fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outco
             format!("{} {}", numbers(&[x, y, z], Dim::Length, job), numbers(&[roll, pitch, yaw], Dim::Angle, job))
         }
         BodyAction::Parts => {
-            joined(model.parts.values().filter(|p| Model::key(&p.body) == key).map(|p| p.name.as_str()))
+            join_names(model.parts.values().filter(|p| Model::key(&p.body) == key).map(|p| p.name.as_str()))
         }
         BodyAction::Points => {
             let own = |p: &&Point| model.body_of(p).is_some_and(|b| Model::key(&b.name) == key);
-            joined(model.points.values().filter(own).map(|p| p.name.as_str()))
+            join_names(model.points.values().filter(own).map(|p| p.name.as_str()))
         }
         BodyAction::Weight => numbers(&[own_mass()?.mass * model.defaults.gravity], Dim::Force, job),
         BodyAction::CentreOfGravity => numbers(own_mass()?.centre.as_slice(), Dim::Length, job),
@@ -183,9 +183,9 @@ pub(super) fn part(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outco
         }
         PartAction::Points => {
             let own = |p: &&Point| Model::key(&p.part) == Model::key(&found.name);
-            joined(model.points.values().filter(own).map(|p| p.name.as_str()))
+            join_names(model.points.values().filter(own).map(|p| p.name.as_str()))
         }
-        PartAction::Pieces => joined(found.pieces.iter().map(|p| p.name.as_str())),
+        PartAction::Pieces => join_names(found.pieces.iter().map(|p| p.name.as_str())),
         PartAction::Weight => numbers(&[own_mass()?.mass * model.defaults.gravity], Dim::Force, job),
         PartAction::CentreOfGravity => numbers(own_mass()?.centre.as_slice(), Dim::Length, job),
         PartAction::Radii => numbers(&own_mass()?.radii().map(|k| k.unwrap_or(0.0)), Dim::Length, job),

@@ -61,7 +61,7 @@ fn solve(job: &Job, connector: &Connector, span: Span) -> Outcome<Option<Connect
             .help("&STATUS ASSEMBLIES reports them"));
     }
     find_forces(model, connector).map(Some).map_err(|mut error| {
-        error.message = error.message.about(format!("connector {}", connector.name));
+        error.message = error.message.with_subject(format!("connector {}", connector.name));
         error.diagnostic(span, job.units)
     })
 }

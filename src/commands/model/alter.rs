@@ -107,7 +107,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let Some(mut made) = job.model.connectors.get(&key).cloned() else { continue };
             let text = change(&job.model, &mut made, given, &mut said).map_err(|error| {
                 let elsewhere = error.span.is_some();
-                let error = error.about(format!("connector {}", made.name)).diagnostic(given.span, units);
+                let error = error.with_subject(format!("connector {}", made.name)).diagnostic(given.span, units);
                 if elsewhere { error.other(given.span, "asked for here") } else { error }
             })?;
             said.lines.push(format!("connector {}: {text}", made.name));
@@ -259,7 +259,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             also = others(&found, said);
         }
         _ if given.is(&ANCHOR) => {
-            alone(made)?;
+            check_has_no_far_end(made)?;
             let [y, z] = given.numbers_or_zero(const { ANCHOR.numbers(["Y", "Z"]) });
             move_anchor(model, made, [value, y]);
             if let Some(anchor) = &mut made.anchor {
@@ -267,7 +267,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             }
         }
         Some(aim) => {
-            alone(made)?;
+            check_has_no_far_end(made)?;
             let made_of = line(model, made)?;
             let anchor = made.anchor.ok_or_else(no_anchor)?;
             check_placed(model, made)?;
@@ -348,7 +348,7 @@ fn check_placed(model: &Model, connector: &Connector) -> Result<(), ClassError> 
 }
 
 /// A connector that may have an anchor.
-fn alone(connector: &Connector) -> Result<(), ClassError> {
+fn check_has_no_far_end(connector: &Connector) -> Result<(), ClassError> {
     if connector.points.len() > 1 {
         return Err(
             ClassError::new("it lies between two points and has no anchor").help("-L_TENSION changes its length")

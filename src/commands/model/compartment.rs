@@ -271,7 +271,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 /// The compartments a word chooses.
-fn chosen(model: &Model, value: &Value) -> Outcome<Vec<String>> {
+fn choose_compartments(model: &Model, value: &Value) -> Outcome<Vec<String>> {
     let filter = NameFilter::new([value], model);
     let keys = model.compartments.iter().filter(|(_, c)| filter.matches(&c.name)).map(|(key, _)| key.clone()).collect();
     filter.check_used("the compartments", &[EntityKind::Compartment])?;
@@ -281,7 +281,12 @@ fn chosen(model: &Model, value: &Value) -> Outcome<Vec<String>> {
 /// The compartments that the words of a flag choose.
 fn all_chosen(model: &Model, given: &Given) -> Outcome<Vec<String>> {
     let words = given.values.iter().filter(|v| v.word().is_some());
-    Ok(words.map(|value| chosen(model, value)).collect::<Outcome<Vec<_>>>()?.into_iter().flatten().collect())
+    Ok(words
+        .map(|value| choose_compartments(model, value))
+        .collect::<Outcome<Vec<_>>>()?
+        .into_iter()
+        .flatten()
+        .collect())
 }
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -360,7 +365,7 @@ fn fill(job: &mut Job, key: &str, amount: Amount) -> Outcome<()> {
 fn set_amounts(job: &mut Job, given: &Given, surface: Option<FreeSurface>) -> Outcome<()> {
     let mut rest = given.values.iter().filter(|v| v.word().is_some()).peekable();
     while let Some(name) = rest.next() {
-        let keys = chosen(&job.model, name)?;
+        let keys = choose_compartments(&job.model, name)?;
         let Some(value) = rest.next() else {
             return Err(Diagnostic::error(
                 format!("{} of {} lacks its value", name.word().unwrap_or_default(), given.name()),
@@ -460,7 +465,7 @@ fn balance(job: &mut Job, call: &Call) -> Outcome<Effect> {
     job.model.check_effects(SolveKind::Statics).map_err(|e| to_error(job, e))?;
     let mut keys: Vec<String> = Vec::new();
     for value in args.data_after(BODY) {
-        for key in chosen(&job.model, value)? {
+        for key in choose_compartments(&job.model, value)? {
             let compartment = job.model.compartments.get(&key);
             let own = compartment.and_then(|c| job.model.parts.get(&Model::key(&c.part)));
             if own.is_none_or(|p| Model::key(&p.body) != Model::key(&body.name)) {

@@ -6,6 +6,7 @@ use crate::commands::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
 use windlass_base::pose::Pose;
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
@@ -129,9 +130,8 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         on_bodies += usize::from(model.body_of(point).is_some());
         points.push(point);
     }
-    let vector = |option: &OptionSpec| {
-        let numbers = args.option(option).map(|g| g.numbers()).unwrap_or_default();
-        [0, 1, 2].map(|i| numbers.get(i).copied().unwrap_or(0.0))
+    let vector = |option: &OptionSpec, keys: [ValueKey<f64>; 3]| {
+        args.option(option).map_or([0.0; 3], |given| given.numbers_or_zero(keys))
     };
     let mut made = Connector {
         name: name.to_string(),
@@ -143,9 +143,12 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
             Tug { direction, distance }
         }),
         tether: tether::read(args)?,
-        offsets: [vector(&GO1), vector(&GO2)],
+        offsets: [
+            vector(&GO1, const { GO1.numbers(["X", "Y", "Z"]) }),
+            vector(&GO2, const { GO2.numbers(["X", "Y", "Z"]) }),
+        ],
         defined: Default::default(),
-        euler: args.has(&EULER).then(|| vector(&EULER)),
+        euler: args.has(&EULER).then(|| vector(&EULER, const { EULER.numbers(["RX", "RY", "RZ"]) })),
         first_length: None,
         dynamics: None,
         active: true,

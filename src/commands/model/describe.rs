@@ -42,6 +42,7 @@ pub(crate) const PLACE: [ValueSpec; 6] = [
     number("RY", Dim::Angle, "pitch").or("0"),
     number("RZ", Dim::Angle, "yaw").or("0"),
 ];
+const PLACE_NAMES: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
 const LOCATION: &[ValueSpec] = &[BODY, PLACE[0], PLACE[1], PLACE[2], PLACE[3], PLACE[4], PLACE[5]];
 
@@ -153,7 +154,7 @@ const CONDITION: OptionSpec = OptionSpec::new(
     "sets draft, roll and trim of a body",
 )
 .many();
-const DRAFT: OptionSpec = OptionSpec::new(
+pub(super) const DRAFT: OptionSpec = OptionSpec::new(
     "-DRAFT",
     &[
         ValueSpec::new("DMARK", Kind::Name(Noun::Selector), "a draft mark"),
@@ -336,7 +337,7 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
             body.ignored = given.choices(const { IGNORE.choice("DOF") }).collect();
         }
     } else {
-        let place = args.option(&MOVE).map(|g| place_of(&g.values));
+        let place = args.option(&MOVE).map(|g| Place::new(g.numbers_or_zero(const { MOVE.numbers(PLACE_NAMES) })));
         match model.parts.get_mut(&key) {
             Some(part) => part.place = place.unwrap_or(part.place),
             None => {
@@ -432,15 +433,6 @@ fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
-fn place_of(values: &[Value]) -> Place {
-    let numbers = values.iter().filter(|v| v.word().is_none()).map(|v| v.number().unwrap_or(0.0));
-    let mut six = [0.0; 6];
-    for (slot, value) in six.iter_mut().zip(numbers) {
-        *slot = value;
-    }
-    Place::new(six)
-}
-
 fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [name, rest @ ..] = call.words else { return Ok(Effect::Done) };
     rule::check(&name.text, Some('*'), "point", name.span)?;
@@ -529,15 +521,14 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 let body = key.and_then(|key| model.bodies.get_mut(&key)).ok_or_else(|| {
                     Diagnostic::error("no body is described yet", given.span).help("&DESCRIBE BODY describes one")
                 })?;
-                let from =
-                    usize::from(given.first_word().is_some() || given.values.first().is_some_and(|v| !v.is_given()));
-                let at = |i: usize| given.values.get(from + i).and_then(Value::number).unwrap_or(0.0);
-                body.place.shift[2] = -at(0);
-                body.place.turn = [at(1), at(2), body.place.turn[2]];
+                let [draft, roll, trim] = given.numbers_or_zero(const { CONDITION.numbers(["DRAFT", "ROLL", "TRIM"]) });
+                body.place.shift[2] = -draft;
+                body.place.turn = [roll, trim, body.place.turn[2]];
             }
             _ => {
                 let Some(key) = body.transpose()? else { continue };
-                let place = place_of(given.values.get(1..).unwrap_or_default());
+                // -MOVE of a body has the values of -LOCATE
+                let place = Place::new(given.numbers_or_zero(const { LOCATE.numbers(PLACE_NAMES) }));
                 if let Some(body) = model.bodies.get_mut(&key) {
                     let values = body.place.values();
                     let moved = [0, 1, 2, 3, 4, 5].map(|i| values[i] + place.values()[i]);

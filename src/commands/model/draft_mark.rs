@@ -3,10 +3,12 @@
 //! The form of DMARK is from memory of MOSES; that of `-DRAFT` is our reading.
 
 use crate::commands::Job;
+use crate::commands::describe::DRAFT;
 use nalgebra::{DMatrix, DVector};
 use windlass_base::dense::Lu;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_base::spec::ValueKey;
 use windlass_base::values::{Given, Value};
 use windlass_language::name as rule;
 use windlass_model::{DraftMark, EntityKind, Model, find};
@@ -63,10 +65,11 @@ const DIFFERENCE: f64 = 1e-6;
 /// More than three marks, marks of two bodies, one that is level; drafts that no place has.
 pub(super) fn set_drafts(model: &mut Model, given: &Given) -> Outcome<()> {
     let mut asked: Vec<(DraftMark, f64, Span)> = Vec::new();
-    for pair in given.values.chunks_exact(2) {
-        let [name, draft] = pair else { continue };
-        let mark = find(&model.draft_marks, name.word().unwrap_or_default(), "draft mark", name.span)?;
-        asked.push((mark.clone(), draft.number().unwrap_or_default(), name.span));
+    for pair in given.groups() {
+        const MARK: ValueKey<str> = DRAFT.word("DMARK");
+        let (name, span) = (pair.word(MARK).unwrap_or_default(), pair.place(MARK));
+        let mark = find(&model.draft_marks, name, "draft mark", span)?;
+        asked.push((mark.clone(), pair.number(const { DRAFT.number("DRAFT") }).unwrap_or_default(), span));
     }
     let body_of = |mark: &DraftMark| {
         let point = model.points.get(&Model::key(&mark.points[0]))?;

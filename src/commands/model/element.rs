@@ -68,7 +68,7 @@ const FREE_SIDE: OptionSpec =
 const ANY: &[ValueSpec] = &[ValueSpec::new("V", Kind::Text, "a value").or("none")];
 /// An option of a stress analysis.
 const fn stress(name: &'static str) -> OptionSpec {
-    OptionSpec::new(name, ANY, "of a stress analysis or a code check").repeating(1).many().noted()
+    OptionSpec::new(name, ANY, "of a stress analysis or a code check").repeating(1).many().without_effect()
 }
 
 static BEAM_SPEC: CommandSpec = CommandSpec {
@@ -295,7 +295,7 @@ fn make_beam(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes: 
     let unread = sections.iter().find_map(|section| section.unread);
     let water = job.model.surroundings().water_weight();
     let built = build_beam(sections, &place, &coefficients(&record.parameters), water)
-        .map_err(|error| error.about("the beam").diagnostic(nodes[1].span, job.units))?;
+        .map_err(|error| error.with_subject("the beam").diagnostic(nodes[1].span, job.units))?;
     let (part, class) = (Model::key(&part.name), class.name.clone());
     if let Some(offset) = [GOA, GOB].iter().find_map(|option| in_force(args, option, of.index)) {
         let (record, effect) = (format!("{} of a BEAM", offset.name()), "where the beam ends".to_string());
@@ -320,7 +320,7 @@ fn make_plate(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes:
     };
     let Some(section) = class.object.as_members().and_then(<[_]>::first) else { return Ok(()) };
     let built = build_plate(section, &corners, &coefficients(&record.parameters))
-        .map_err(|error| error.about("the plate").diagnostic(first.span, job.units))?;
+        .map_err(|error| error.with_subject("the plate").diagnostic(first.span, job.units))?;
     let (part, class, unread) = (Model::key(&part.name), class.name.clone(), section.unread);
     if let Some(edge) = in_force(&record.args, &FREE_SIDE, of.index) {
         let (record, effect) = (format!("{} of a PLATE", edge.name()), "a free edge".to_string());

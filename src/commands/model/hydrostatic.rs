@@ -6,6 +6,7 @@ use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job};
 use nalgebra::{Matrix6, RowVector6};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
@@ -73,6 +74,8 @@ static SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("#HYDROSTATIC", "buoyancy of a body by a linear stiffness")
 };
 
+/// The values of a row; all rows name theirs alike.
+const ROW: [ValueKey<f64>; 6] = KX.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]);
 const POINT: DatumKey<str> = SPEC.word("*PT");
 /// What of the diagonal stands among the data, by rows.
 const DIAGONAL: [Option<DatumKey<f64>>; 6] =
@@ -99,9 +102,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 return Err(Diagnostic::error(format!("{} is given twice", row.name), given.span)
                     .other(key.map_or(args.span, |key| args.place(key)), "first given here"));
             }
-            (Some(given), None) => {
-                stiffness.set_row(n, &RowVector6::from_iterator(given.numbers().into_iter().chain([0.0; 6]).take(6)))
-            }
+            (Some(given), None) => stiffness.set_row(n, &RowVector6::from(given.numbers_or_zero(ROW))),
             (None, single) => stiffness[(n, n)] = single.unwrap_or(0.0),
         }
     }

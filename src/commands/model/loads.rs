@@ -15,7 +15,7 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::units::eight_figures;
 use windlass_base::values::Noun;
-use windlass_base::values::{Args, Given, Value};
+use windlass_base::values::{Args, Given};
 use windlass_hydro::heading::ByHeading;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, MenuSpec, OptionSpec, ValueSpec};
@@ -82,6 +82,8 @@ const fn six(force: Dim, moment: Dim) -> [ValueSpec; 6] {
         number("MZ", moment, "yaw"),
     ]
 }
+/// The names of the six.
+const SIX_NAMES: [&str; 6] = ["FX", "FY", "FZ", "MX", "MY", "MZ"];
 const STREAM: [ValueSpec; 6] = six(derived_dimension(1, -2, 2), derived_dimension(1, -1, 2));
 const WAVE: [ValueSpec; 6] = six(derived_dimension(1, -2, 0), derived_dimension(1, -1, 0));
 const ENTRIES: [&str; 36] = [
@@ -444,17 +446,23 @@ fn plate(job: &mut Job, call: &Call) -> Outcome<Effect> {
     keep(job, args, (part, (moment / size).into()), kind)
 }
 
-/// Groups of seven numbers, whose first grows; the span of the first that does not.
-fn sevens(values: &[Value]) -> Outcome<Vec<(f64, [f64; 6])>> {
+/// Rows of six coefficients over a heading or a period, which grows.
+///
+/// # Errors
+/// A heading or a period that does not grow, at its value.
+fn coefficient_rows(
+    args: &Args,
+    abscissa: DatumKey<f64>,
+    coefficients: [DatumKey<f64>; 6],
+) -> Outcome<Vec<(f64, [f64; 6])>> {
     let mut rows: Vec<(f64, [f64; 6])> = Vec::new();
-    for group in values.chunks_exact(7) {
-        let at = |i: usize| group.get(i).and_then(Value::number).unwrap_or(0.0);
-        if rows.last().is_some_and(|last| at(0) <= last.0) {
-            let span = group.first().map_or(Span::default(), |v| v.span);
-            return Err(Diagnostic::error("the first value of each group must grow", span)
+    for group in args.groups_from(abscissa) {
+        let at = group.number(abscissa).unwrap_or(0.0);
+        if rows.last().is_some_and(|(last, _)| at <= *last) {
+            return Err(Diagnostic::error("the first value of each group must grow", group.place(abscissa))
                 .label("not larger than that of the group before"));
         }
-        rows.push((at(0), [1, 2, 3, 4, 5, 6].map(at)));
+        rows.push((at, group.numbers_or_zero(coefficients)));
     }
     Ok(rows)
 }
@@ -462,7 +470,8 @@ fn sevens(values: &[Value]) -> Outcome<Vec<(f64, [f64; 6])>> {
 fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let place = place(job, args)?;
-    let rows = sevens(args.data_after(PLACE))?;
+    const HEADING: DatumKey<f64> = TABLE_SPEC.number("HEADING");
+    let rows = coefficient_rows(args, HEADING, const { TABLE_SPEC.numbers(SIX_NAMES) })?;
     let symmetric = args.has(&SYMMETRIC);
     ByHeading::new(&rows, symmetric).map_err(|e| e.diagnostic(args.span, job.units))?;
     against(job, args, rows.iter().map(|(heading, six)| (*heading, six)));
@@ -473,7 +482,8 @@ fn drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const HEADING: DatumKey<f64> = DRIFT_SPEC.number("HEADING");
     let args = &call.args;
     let place = place(job, args)?;
-    let rows = sevens(args.data_after(HEADING))?;
+    const PERIOD: DatumKey<f64> = DRIFT_SPEC.number("PERIOD");
+    let rows = coefficient_rows(args, PERIOD, const { DRIFT_SPEC.numbers(SIX_NAMES) })?;
     let heading = args.number(HEADING).unwrap_or(0.0);
     let same = |l: &&PartLoad| {
         let again = matches!(&l.kind, LoadKind::Drift { heading: h, .. } if *h == heading);

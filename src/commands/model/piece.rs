@@ -12,7 +12,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position};
 use windlass_base::span::Span;
 use windlass_base::units::{Dim, UnitSystem};
-use windlass_base::values::{Args, Given, Noun, Value};
+use windlass_base::values::{Args, Given, Noun};
 use windlass_hydro as hydro;
 use windlass_language::args;
 use windlass_language::name as rule;
@@ -99,9 +99,10 @@ const TANAKA: OptionSpec = OptionSpec::new("-TANAKA", FACTOR, "factor of the edd
 const ROLL_DAMPING: OptionSpec = OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping")
     .stops(SolveKind::Motions, "viscous damping of roll");
 const COLOR: OptionSpec =
-    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures").noted();
+    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures").without_effect();
 const TEXTURE: OptionSpec =
-    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures").noted();
+    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures")
+        .without_effect();
 
 /// What every piece takes, however its surface is given.
 pub const OPTIONS: [OptionSpec; 12] = [
@@ -184,8 +185,8 @@ fn panel(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let points = args.data.iter().filter_map(|v| Some((v.word()?, v.span)));
         points.map(|(word, span)| point_in_part(&job.model, word, &part, span)).collect::<Outcome<_>>()?
     } else {
-        let numbers: Vec<f64> = args.data.iter().filter_map(Value::number).collect();
-        numbers.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect()
+        let corner = const { BY_COORDINATES.numbers(["X", "Y", "Z"]) };
+        args.groups_from(const { BY_COORDINATES.number("X") }).map(|group| group.numbers_or_zero(corner)).collect()
     };
     if corners.len() < 3 {
         return Err(Diagnostic::error("a panel has three or more corners", command.span)

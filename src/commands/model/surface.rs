@@ -275,7 +275,7 @@ fn copy_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// A form mirrored at y = 0.
-fn mirrored(shape: &Shape) -> Shape {
+fn mirror(shape: &Shape) -> Shape {
     let over = |[x, y, z]: Position| [x, -y, z];
     match shape {
         Shape::Panels(panels) => {
@@ -296,7 +296,7 @@ fn reflect_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NEW_NAME: DatumKey<str> = REFLECT_SPEC.word("NEW");
     let original = known_piece(job, args.word(NAME).unwrap_or_default(), args.place(NAME))?;
     refuse_element(&original, args.place(NAME))?;
-    let shape = mirrored(&original.shape);
+    let shape = mirror(&original.shape);
     match args.word(NEW_NAME) {
         Some(new) => {
             let made = Piece { name: new.to_string(), shape, span: args.place(NEW_NAME), ..original.clone() };

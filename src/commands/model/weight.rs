@@ -263,7 +263,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 }
                 made
             }
-            _ if given.is(&COMPUTE) => vec![computed(job, given, &body)?],
+            _ if given.is(&COMPUTE) => vec![compute_weight(job, given, &body)?],
             _ if given.is(&DEFINE) => {
                 let at = given.numbers_or_zero(const { DEFINE.numbers(["X", "Y", "Z"]) });
                 let radii = given.numbers_or_zero(const { DEFINE.numbers(["KX", "KY", "KZ"]) });
@@ -319,7 +319,7 @@ fn in_own_part(job: &Job, body: &Body, at: Vector3<f64>, given: &Given) -> Outco
 ///
 /// # Errors
 /// A body that displaces no more than it weighs, or that lies on its side, where ZCG does not say where the centre is.
-fn computed(job: &Job, given: &Given, body: &Body) -> Outcome<Weight> {
+fn compute_weight(job: &Job, given: &Given, body: &Body) -> Outcome<Weight> {
     let to_error = |e: ClassError| e.diagnostic(given.span, job.units);
     job.model.check_effects(SolveKind::Statics).map_err(to_error)?;
     let floating = Floating::at_rest(&job.model, body).map_err(to_error)?;

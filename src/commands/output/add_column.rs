@@ -8,6 +8,7 @@ use crate::report::disposition::{Disposition, RowChoice};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_base::spec::ValueKey;
 use windlass_base::table::{Cell, Column, Digits};
 use windlass_base::units::Dim;
 use windlass_base::values::{Given, Value};
@@ -37,8 +38,8 @@ const FILTER: OptionSpec = OptionSpec::new(
     "-FILTER",
     &[
         ValueSpec::choice::<BandOf>("BY", "what the bands are of"),
-        COLUMN,
-        COLUMN,
+        ValueSpec { name: "TIME", ..COLUMN },
+        ValueSpec { name: "SIGNAL", ..COLUMN },
         ValueSpec::new("T1", Kind::Number(Dim::Time), "lower end of a band of periods that is removed").not_negative(),
         ValueSpec::new("T2", Kind::Number(Dim::Time), "upper end of that band").positive(),
     ],
@@ -74,8 +75,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         (Some(_), Some(second)) => {
             return Err(Diagnostic::error("-COMBINE and -FILTER make a column each", second.span));
         }
-        (Some(given), None) => (combined(job, d, &name, given, call)?, None),
-        (None, Some(given)) => filtered(job, d, &name, given, call)?,
+        (Some(given), None) => (combine_columns(job, d, &name, given, call)?, None),
+        (None, Some(given)) => filter_column(job, d, &name, given, call)?,
         (None, None) => {
             return Err(Diagnostic::error("ADD_COLUMN lacks -COMBINE or -FILTER", args.span));
         }
@@ -90,7 +91,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// One column of numbers that a word chooses, with C_SCALE and C_SHIFT applied.
-fn chosen(job: &Job, d: &Disposition, value: &Value, call: &Call) -> Outcome<Column> {
+fn choose_column(job: &Job, d: &Disposition, value: &Value, call: &Call) -> Outcome<Column> {
     let word = value.word().unwrap_or_default();
     let found =
         d.numeric(&[word]).map_err(|e| Diagnostic::error(e.to_string(), value.span).help("VLIST lists the columns"))?;
@@ -103,12 +104,12 @@ fn chosen(job: &Job, d: &Disposition, value: &Value, call: &Call) -> Outcome<Col
     table.columns().first().cloned().ok_or_else(lost)
 }
 
-fn combined(job: &Job, d: &Disposition, name: &str, given: &Given, call: &Call) -> Outcome<Column> {
+fn combine_columns(job: &Job, d: &Disposition, name: &str, given: &Given, call: &Call) -> Outcome<Column> {
     let mut parts = Vec::new();
-    for pair in given.values.chunks_exact(2) {
-        if let [column, factor] = pair {
-            parts.push((chosen(job, d, column, call)?, factor.number().unwrap_or(0.0)));
-        }
+    for pair in given.groups() {
+        let Some(column) = pair.value(const { COMBINE.word("COLUMN") }) else { continue };
+        let factor = pair.number(const { COMBINE.number("F") }).unwrap_or(0.0);
+        parts.push((choose_column(job, d, column, call)?, factor));
     }
     let dim = parts.first().map_or(Dim::None, |(column, _)| column.dim);
     let dim = if parts.iter().all(|(column, _)| column.dim == dim) { dim } else { Dim::None };
@@ -126,29 +127,30 @@ fn combined(job: &Job, d: &Disposition, name: &str, given: &Given, call: &Call) 
 /// Digits of numbers of unlike units.
 const SIX_DIGITS: Digits = Digits::Scientific(6);
 
-fn filtered(
+fn filter_column(
     job: &Job,
     d: &Disposition,
     name: &str,
     given: &Given,
     call: &Call,
 ) -> Outcome<(Column, Option<&'static str>)> {
-    let [_, time, signal, bands @ ..] = given.values.as_slice() else {
+    let columns = const { [FILTER.word("TIME"), FILTER.word("SIGNAL")] };
+    let [Some(time), Some(signal)] = columns.map(|key| given.value(key)) else {
         return Err(Diagnostic::error("-FILTER takes a column of time, one of a signal, and a band", given.span));
     };
-    let (times, column) = (chosen(job, d, time, call)?, chosen(job, d, signal, call)?);
+    let (times, column) = (choose_column(job, d, time, call)?, choose_column(job, d, signal, call)?);
     if !matches!(times.dim, Dim::Time | Dim::None) {
         return Err(Diagnostic::error(format!("column {} is no time", times.name), time.span));
     }
     let mut list = Vec::new();
-    for pair in bands.chunks_exact(2) {
-        if let [low, high] = pair {
-            let (from, to) = (low.number().unwrap_or(0.0), high.number().unwrap_or(0.0));
-            if from > to {
-                return Err(Diagnostic::error(format!("the band from {from} to {to} s holds nothing"), high.span));
-            }
-            list.push([from, to]);
+    for band in given.groups() {
+        const UPPER: ValueKey<f64> = FILTER.number("T2");
+        let [from, to] = band.numbers_or_zero([const { FILTER.number("T1") }, UPPER]);
+        if from > to {
+            let text = format!("the band from {from} to {to} s holds nothing");
+            return Err(Diagnostic::error(text, band.place(UPPER)));
         }
+        list.push([from, to]);
     }
     let numbers = |column: &Column, span: Span| -> Outcome<Vec<f64>> {
         let value = |(row, cell): (usize, &Cell)| {

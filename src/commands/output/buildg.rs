@@ -111,7 +111,7 @@ pub fn take(job: &mut Job, record: &Record) -> Outcome<Effect> {
 ///
 /// # Errors
 /// Records that make no table; what follows up to another END is then passed over.
-pub fn built(job: &mut Job, building: &Building, at: Option<Span>) -> Outcome<()> {
+pub fn open_built_table(job: &mut Job, building: &Building, at: Option<Span>) -> Outcome<()> {
     open(job, building.brief, "the Table Given", &building.text).map_err(|e| {
         job.menus.push(Menu::Refused(&menu::DISPOSITION));
         Diagnostic::error(format!("the records of &BUILDG make no table: {e}"), at.unwrap_or(building.span))

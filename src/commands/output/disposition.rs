@@ -349,13 +349,15 @@ fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let mut excluded = Vec::new();
     const COLUMN: DatumKey<str> = CULL_SPEC.word("COLUMN");
-    for pair in args.data_after(COLUMN).chunks_exact(2) {
-        if let [lower, upper] = pair
-            && let (Some(low), Some(high)) = (lower.number(), upper.number())
-        {
+    const LOWER: DatumKey<f64> = CULL_SPEC.number("EXL");
+    const UPPER: DatumKey<f64> = CULL_SPEC.number("EXU");
+    for range in args.groups_from(LOWER) {
+        if let (Some(low), Some(high)) = (range.number(LOWER), range.number(UPPER)) {
             if low > high {
-                return Err(Diagnostic::error(format!("the range from {low} to {high} holds nothing"), upper.span)
-                    .label("expected no less than the value before it"));
+                let text = format!("the range from {low} to {high} holds nothing");
+                return Err(
+                    Diagnostic::error(text, range.place(UPPER)).label("expected no less than the value before it")
+                );
             }
             excluded.push((low, high));
         }

@@ -22,7 +22,8 @@ pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };
 
 const YES_NO: ValueSpec = ValueSpec::choice::<YesNo>("YES/NO", "shown or not").or("YES");
 
-const NO: OptionSpec = OptionSpec::new("-NO", &[], "nothing is asked before drawing").owner(Owner::Ours).noted();
+const NO: OptionSpec =
+    OptionSpec::new("-NO", &[], "nothing is asked before drawing").owner(Owner::Ours).without_effect();
 const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the next figure file, FIGUREn.svg").owner(Owner::Ours);
 const FILE: OptionSpec = OptionSpec::new(
     "-FILE",
@@ -69,7 +70,7 @@ const INACTIVE: OptionSpec = OptionSpec::new("-INACTIVE", &[YES_NO], "connectors
 /// An option of pictures of MOSES that changes nothing here.
 const fn idle(name: &'static str, help: &'static str) -> OptionSpec {
     const ANY: &[ValueSpec] = &[ValueSpec::new("DATA", Kind::Text, "as in MOSES").or("none")];
-    OptionSpec::new(name, ANY, help).repeating(1).noted()
+    OptionSpec::new(name, ANY, help).repeating(1).without_effect()
 }
 
 /// Options of MOSES that choose colours, styles and views that windlass does not draw.

@@ -17,7 +17,7 @@ pub static PLOT: Command = Command { spec: &SPEC, edits: false, run };
 /// Endings of a last word that is taken for a file.
 const ENDINGS: [&str; 3] = [".svg", ".png", ".html"];
 
-const NO: OptionSpec = OptionSpec::new("-NO", &[], "nothing is asked before plotting").noted();
+const NO: OptionSpec = OptionSpec::new("-NO", &[], "nothing is asked before plotting").without_effect();
 const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the next figure file, FIGUREn.svg");
 const FILE: OptionSpec = OptionSpec::new(
     "-FILE",

@@ -19,5 +19,5 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn build(query: &PostQuery) -> Outcome<Table> {
     let (bodies, events) = (query.bodies()?, query.events()?);
-    query.solved(results::body_forces(query.run, &bodies, query.magnitude(), &events))
+    query.to_outcome(results::body_forces(query.run, &bodies, query.magnitude(), &events))
 }

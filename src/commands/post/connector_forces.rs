@@ -22,5 +22,5 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn build(query: &PostQuery) -> Outcome<Table> {
     let (links, events) = (query.connectors()?, query.events()?);
-    query.solved(results::connector_forces(query.run, &links, query.magnitude(), &events))
+    query.to_outcome(results::connector_forces(query.run, &links, query.magnitude(), &events))
 }

@@ -39,5 +39,5 @@ fn build(query: &PostQuery) -> Outcome<Table> {
         return Err(Diagnostic::error("there is no draft mark", query.span())
             .help("&DESCRIBE DMARK NAME *PT1 *PT2 describes one"));
     }
-    query.solved(results::drafts(query.run, &marks, &query.events()?))
+    query.to_outcome(results::drafts(query.run, &marks, &query.events()?))
 }

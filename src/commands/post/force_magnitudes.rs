@@ -18,5 +18,5 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn build(query: &PostQuery) -> Outcome<Table> {
     let (links, events) = (query.connectors()?, query.events()?);
-    query.solved(results::magnitudes(query.run, &links, query.magnitude(), &events))
+    query.to_outcome(results::magnitudes(query.run, &links, query.magnitude(), &events))
 }

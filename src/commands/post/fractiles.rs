@@ -48,7 +48,7 @@ struct ForceRecord {
 
 fn build(query: &PostQuery) -> Outcome<Table> {
     let events = asked_behind_transient(query.job, query.args())?.1;
-    let series = query.solved(results::magnitudes(query.run, &query.connectors()?, query.magnitude(), &events))?;
+    let series = query.to_outcome(results::magnitudes(query.run, &query.connectors()?, query.magnitude(), &events))?;
     // the first column is the time
     let records = series.columns().iter().skip(1).map(|column| ForceRecord::new(column.name.clone(), column.numbers()));
     let percent = query.args().option(&PERCENT).map_or(DEFAULT_PERCENT.to_vec(), Given::numbers);

@@ -92,7 +92,7 @@ impl Equations {
         Ok(made.fact("About", self.about.as_str(), Dim::None))
     }
 
-    fn printed(&self) -> Vec<Table> {
+    fn print_tables(&self) -> Vec<Table> {
         let [forces, moments] = stiffness(&self.linear, &self.frame);
         let about = |table: Table| table.fact("About", self.about.as_str(), Dim::None);
         [forces, moments, diagonals(&self.linear, &self.frame, &self.frequencies)].into_iter().map(about).collect()
@@ -115,7 +115,7 @@ fn print_matrices(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let span = call.args.span;
     let made = equations(job, span)?;
     if !call.args.has(&FILE) {
-        say(job, &made.printed());
+        say(job, &made.print_tables());
         return Ok(Effect::Done);
     }
     let table = matrices(&made.linear, &made.frame, &made.frequencies);
@@ -128,7 +128,7 @@ fn print_matrices(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn summarise(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let span = call.args.span;
     let made = equations(job, span)?;
-    let mut tables = made.printed();
+    let mut tables = made.print_tables();
     tables.extend(modes(&made.linear).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?);
     tables.push(made.exciting(job, span)?);
     say(job, &tables);

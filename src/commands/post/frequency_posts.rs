@@ -181,7 +181,7 @@ pub(super) fn body(job: &Job, linear: &LinearSystem, name: Option<&str>, span: S
 }
 
 /// A point of a body by its name.
-fn placed(job: &Job, name: &str, span: Span) -> Outcome<PlacedPoint> {
+fn find_placed_point(job: &Job, name: &str, span: Span) -> Outcome<PlacedPoint> {
     let point = find(&job.model.points, name, "point", span)?;
     let Some(owner) = job.model.body_of(point) else {
         return Err(Diagnostic::error(format!("point {name} belongs to no body"), span));
@@ -211,7 +211,7 @@ fn read_points(job: &Job, linear: &LinearSystem, named: &[Value], span: Span) ->
     match words.as_slice() {
         [] => Err(Diagnostic::error("a point is missing", span).help("form: STATISTICS POINT *PT [*PT]")),
         [_, _, (_, surplus), ..] => Err(Diagnostic::error("there are more than two points", *surplus)),
-        list => list.iter().map(|(word, place)| placed(job, word, *place)).collect(),
+        list => list.iter().map(|(word, place)| find_placed_point(job, word, *place)).collect(),
     }
 }
 

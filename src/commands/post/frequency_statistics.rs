@@ -57,7 +57,7 @@ const CSTEEP: OptionSpec = OptionSpec::new(
     &[ValueSpec::choice::<YesNo>("YES/NO", "YES or NO")],
     "whether damping is linearised for one steepness: RAO has no damping to linearise, SRESPONSE linearises it in its sea",
 )
-.noted();
+.without_effect();
 const IN_SEA: &str = "After RAO the sea is that of ENV, changed by the options, and of the environment in force without ENV; after SRESPONSE it is that of SRESPONSE.";
 
 const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
@@ -227,8 +227,8 @@ fn cargo_quantities(job: &Job, linear: &LinearSystem, args: &Args) -> Outcome<(S
         return Err(Diagnostic::error(text, args.span).help("FR_POINT *PT before it says where the cargo is"));
     };
     let (index, _) = body(job, linear, Some(owner), args.span)?;
-    let numbers: Vec<f64> = args.data.iter().take(4).map(|value| value.number().unwrap_or(0.0)).collect();
-    let [weight, kx, ky, kz] = std::array::from_fn(|i| numbers.get(i).copied().unwrap_or(0.0));
+    // ST_FCARGO names these data alike
+    let [weight, kx, ky, kz] = args.numbers_or_zero(const { FR_FCARGO_SPEC.numbers(["W", "KX", "KY", "KZ"]) });
     let made = LinearQuantity::cargo_force(linear, index, Vector3::from(*at), (weight, [kx, ky, kz]));
     Ok((format!("Force of a Cargo at {name}"), made))
 }

@@ -20,7 +20,7 @@ static SPEC: CommandSpec = CommandSpec {
 fn build(query: &PostQuery) -> Outcome<Table> {
     let (history, links) = (&query.run.history, query.connectors()?);
     let made = EventTable::new("Lengths of Connectors", (history, &query.events()?), |row| Ok(row.to_vec()));
-    let mut table = query.solved(made)?;
+    let mut table = query.to_outcome(made)?;
     for link in links.iter().filter_map(|link| history.layout.links.get(*link)) {
         table = table.column("First Segment", &link.name, Dim::Length, Digits::Usual, |row| {
             link.length(row).unwrap_or(f64::NAN)

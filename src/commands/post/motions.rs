@@ -24,5 +24,5 @@ static SPEC: CommandSpec = CommandSpec {
 fn build(query: &PostQuery) -> Outcome<Table> {
     let args = query.args();
     let how = MotionOptions { centre: args.has(&CG), local: query.is_local(), magnitude: query.magnitude() };
-    query.solved(results::trajectory(query.run, &query.bodies()?, &how, &query.events()?))
+    query.to_outcome(results::trajectory(query.run, &query.bodies()?, &how, &query.events()?))
 }

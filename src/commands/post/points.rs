@@ -64,5 +64,5 @@ fn build(query: &PostQuery) -> Outcome<Table> {
             Diagnostic::error("no point is marked", query.span()).help("&DESCRIBE INTEREST *POINT marks points")
         );
     }
-    query.solved(results::points(query.run, &list, (query.is_local(), query.magnitude()), &query.events()?))
+    query.to_outcome(results::points(query.run, &list, (query.is_local(), query.magnitude()), &query.events()?))
 }

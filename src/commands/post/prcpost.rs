@@ -177,7 +177,7 @@ impl PostQuery<'_> {
     }
 
     /// What an engine made, its error at the record.
-    pub fn solved<T>(&self, made: Result<T, SolveError>) -> Outcome<T> {
+    pub fn to_outcome<T>(&self, made: Result<T, SolveError>) -> Outcome<T> {
         made.map_err(|e| to_diagnostic(e, &self.job.model, self.span(), self.job.units))
     }
 }

@@ -7,7 +7,7 @@ use crate::commands::post::prcpost::{EVENTS, MAG_DEFINE, PostQuery, show, spec};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
 use windlass_base::values::{Noun, Value};
-use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, ValueSpec};
 use windlass_model::{EntityKind, find};
 use windlass_solve::results::{self, TrackedPoint};
 
@@ -56,18 +56,17 @@ fn relative(query: &PostQuery) -> Outcome<Table> {
     let tracked = |value: &Value| -> Outcome<TrackedPoint> {
         track(query, find(&model.points, value.word().unwrap_or_default(), "point", value.span)?)
     };
+    const FIRST: DatumKey<str> = REL_MOTION_SPEC.word("*A");
     let mut pairs = Vec::new();
-    for pair in query.args().data.chunks(2) {
-        match pair {
-            [first, second] if second.is_given() => pairs.push([tracked(first)?, tracked(second)?]),
-            [first, ..] => {
-                return Err(Diagnostic::error("a point without another to be relative to", first.span)
-                    .help("form: REL_MOTION *A *B [*A *B ..]"));
-            }
-            [] => {}
-        }
+    for pair in query.args().groups_from(FIRST) {
+        let points = [pair.value(FIRST), pair.value(const { REL_MOTION_SPEC.word("*B") })];
+        let [Some(first), Some(second)] = points.map(|value| value.filter(|value| value.is_given())) else {
+            return Err(Diagnostic::error("a point without another to be relative to", pair.place(FIRST))
+                .help("form: REL_MOTION *A *B [*A *B ..]"));
+        };
+        pairs.push([tracked(first)?, tracked(second)?]);
     }
-    query.solved(results::relative_motions(query.run, &pairs, query.magnitude(), &query.events()?))
+    query.to_outcome(results::relative_motions(query.run, &pairs, query.magnitude(), &query.events()?))
 }
 
 fn least(query: &PostQuery) -> Outcome<Table> {
@@ -86,5 +85,5 @@ fn least(query: &PostQuery) -> Outcome<Table> {
     if pairs > MAX_PAIRS {
         return Err(Diagnostic::error(format!("{pairs} pairs of points are more than {MAX_PAIRS}"), query.span()));
     }
-    query.solved(results::least_distance(query.run, [&first, &second], query.magnitude(), &query.events()?))
+    query.to_outcome(results::least_distance(query.run, [&first, &second], query.magnitude(), &query.events()?))
 }

@@ -4,6 +4,7 @@
 
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
@@ -99,11 +100,11 @@ fn define_curve(job: &Job, given: &Given, name: &str) -> Outcome<FatigueCurve> {
     let dim = if kind == FatigueKind::Stress { Dim::Stress } else { Dim::None };
     let mut points = Vec::new();
     for pair in given.groups() {
-        let [range, cycles] = pair else {
-            let at = pair.first().map_or(given.span, |v| v.span);
-            return Err(Diagnostic::error("a range of a fatigue curve lacks its cycles", at));
+        const RANGE: ValueKey<f64> = SN.number("S");
+        let Some(cycles) = pair.number(const { SN.number("N") }) else {
+            return Err(Diagnostic::error("a range of a fatigue curve lacks its cycles", pair.place(RANGE)));
         };
-        points.push((dim.to_si(range.number().unwrap_or_default(), job.units), cycles.number().unwrap_or_default()));
+        points.push((dim.to_si(pair.number(RANGE).unwrap_or_default(), job.units), cycles));
     }
     let curve = FatigueCurve { name: name.to_string(), kind, points, span };
     SnCurve::from_points(&curve).map_err(|e| Diagnostic::error(format!("{name}: {e}"), span))?;

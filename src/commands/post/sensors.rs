@@ -36,7 +36,7 @@ fn build(query: &PostQuery) -> Outcome<Table> {
             .help("&DESCRIBE SENSOR NAME -SIGNAL TYPE SOURCE describes one"));
     }
     let sensors = records.into_iter().map(|record| sensor(query, record)).collect::<Outcome<Vec<_>>>()?;
-    query.solved(results::sensors(query.run, &sensors, &query.events()?))
+    query.to_outcome(results::sensors(query.run, &sensors, &query.events()?))
 }
 
 /// A sensor with the numbers its sources have in the run.

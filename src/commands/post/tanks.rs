@@ -59,7 +59,7 @@ static HOLE_SPEC: CommandSpec = CommandSpec {
 };
 
 /// The compartments of the run that a filter takes.
-fn tracked(query: &PostQuery, takes: impl Fn(&str) -> bool) -> Outcome<Vec<TrackedTank>> {
+fn find_tracked_tanks(query: &PostQuery, takes: impl Fn(&str) -> bool) -> Outcome<Vec<TrackedTank>> {
     let mut tanks = Vec::new();
     for compartment in query.run.model.compartments.values().filter(|c| takes(&c.name)) {
         let made = TrackedTank::new(query.run, compartment);
@@ -71,7 +71,7 @@ fn tracked(query: &PostQuery, takes: impl Fn(&str) -> bool) -> Outcome<Vec<Track
 /// The compartments that a record chooses.
 fn chosen_tanks(query: &PostQuery) -> Outcome<Vec<TrackedTank>> {
     let chosen = NameFilter::new(&query.args().data, &query.job.model);
-    let tanks = tracked(query, |name| chosen.matches(name))?;
+    let tanks = find_tracked_tanks(query, |name| chosen.matches(name))?;
     chosen.check_used("the compartments of the run", &[EntityKind::Compartment])?;
     match tanks.is_empty() {
         true => Err(Diagnostic::error("the run has no compartment", query.span())),
@@ -80,7 +80,7 @@ fn chosen_tanks(query: &PostQuery) -> Outcome<Vec<TrackedTank>> {
 }
 
 fn contents(query: &PostQuery) -> Outcome<Table> {
-    query.solved(results::tanks(query.run, &chosen_tanks(query)?, &query.events()?))
+    query.to_outcome(results::tanks(query.run, &chosen_tanks(query)?, &query.events()?))
 }
 
 /// The holes that are followed, each with its compartment among those followed.
@@ -101,7 +101,7 @@ fn tracked_holes(query: &PostQuery, tanks: &[TrackedTank], takes: impl Fn(&Hole)
 }
 
 fn at_holes(query: &PostQuery) -> Outcome<Table> {
-    let tanks = tracked(query, |_| true)?;
+    let tanks = find_tracked_tanks(query, |_| true)?;
     let chosen = NameFilter::new(&query.args().data, &query.job.model);
     let holes = tracked_holes(query, &tanks, |hole| chosen.matches(&hole.name))?;
     chosen.check_used("the holes", &[])?;
@@ -109,12 +109,12 @@ fn at_holes(query: &PostQuery) -> Outcome<Table> {
         return Err(Diagnostic::error("there is no hole", query.span())
             .help("&DESCRIBE HOLE NAME TYPE -POINT *PT describes one"));
     }
-    query.solved(results::holes(query.run, (&holes, &tanks), &query.events()?))
+    query.to_outcome(results::holes(query.run, (&holes, &tanks), &query.events()?))
 }
 
 fn flooding(query: &PostQuery) -> Outcome<Table> {
     let (tanks, events) = (chosen_tanks(query)?, query.events()?);
-    let mut table = query.solved(results::tanks(query.run, &tanks, &events))?;
+    let mut table = query.to_outcome(results::tanks(query.run, &tanks, &events))?;
     let compartments = &query.run.model.compartments;
     let own = |hole: &Hole| {
         let of = compartments.values().find(|c| c.holes.iter().any(|name| name.eq_ignore_ascii_case(&hole.name)));
@@ -122,7 +122,7 @@ fn flooding(query: &PostQuery) -> Outcome<Table> {
     };
     let holes = tracked_holes(query, &tanks, own)?;
     if !holes.is_empty() {
-        let more = query.solved(results::holes(query.run, (&holes, &tanks), &events))?;
+        let more = query.to_outcome(results::holes(query.run, (&holes, &tanks), &events))?;
         let columns: Vec<_> = table.columns().iter().cloned().chain(more.columns().iter().skip(1).cloned()).collect();
         table = table.with_columns(columns);
         table.add_notes(more.notes.into_iter().filter(|note| note.text.starts_with("heads")));

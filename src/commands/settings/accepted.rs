@@ -13,23 +13,28 @@ pub static CHANNEL: Command = Command { spec: &CHANNEL_SPEC, edits: false, run }
 /// &PI_VIEW.
 pub static PI_VIEW: Command = Command { spec: &PI_VIEW_SPEC, edits: false, run };
 
-const fn accepted(name: &'static str, help: &'static str, detail: &'static str, example: &'static str) -> CommandSpec {
+const fn accepted_spec(
+    name: &'static str,
+    help: &'static str,
+    detail: &'static str,
+    example: &'static str,
+) -> CommandSpec {
     CommandSpec { form: TextForm::Text, detail, example, ..CommandSpec::new(name, help) }
 }
 
-static LOGDEVICE_SPEC: CommandSpec = accepted(
+static LOGDEVICE_SPEC: CommandSpec = accepted_spec(
     "&LOGDEVICE",
     "accepted: styles and margins of devices",
     "windlass writes plain text; a note says once that the record changes nothing. -HARD of reports and STORE choose where results go.",
     "&LOGDEVICE OUTPUT -MARGIN 1 1 1 1 -LANDSCAPE",
 );
-static CHANNEL_SPEC: CommandSpec = accepted(
+static CHANNEL_SPEC: CommandSpec = accepted_spec(
     "&CHANNEL",
     "accepted: channels of devices",
     "A note says once that the record changes nothing. &FILE ANS_DIRECTORY says where answers go.",
     "&CHANNEL OUTPUT -PAGE 66",
 );
-static PI_VIEW_SPEC: CommandSpec = accepted(
+static PI_VIEW_SPEC: CommandSpec = accepted_spec(
     "&PI_VIEW",
     "accepted: views of pictures under a name",
     "A note says once that the record changes nothing; the views of &PICTURE are those of &HELP &PICTURE.",

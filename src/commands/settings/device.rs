@@ -18,7 +18,7 @@ const ANY: ValueSpec = ValueSpec::new("VALUE", Kind::Text, "as MOSES takes it").
 
 /// An option of MOSES that has no meaning here: it is read, kept out of the way and said.
 const fn ignored_option(name: &'static str) -> OptionSpec {
-    OptionSpec::new(name, &[ANY], "a setting of devices that windlass does not have").noted()
+    OptionSpec::new(name, &[ANY], "a setting of devices that windlass does not have").without_effect()
 }
 
 const BATCH: OptionSpec = OptionSpec::new("-BATCH", &[YES_NO], "stops at the first error").default("NO");

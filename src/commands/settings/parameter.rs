@@ -66,11 +66,11 @@ const REL_WIND: OptionSpec = factor(
 )
 .default("YES");
 const M_DISTANCE: OptionSpec =
-    factor("-M_DISTANCE", &[number("D", "length")], "meshes of a diffraction that is not made").noted();
+    factor("-M_DISTANCE", &[number("D", "length")], "meshes of a diffraction that is not made").without_effect();
 const M_WLFRACTION: OptionSpec =
-    factor("-M_WLFRACTION", &[number("F", "fraction")], "meshes of a diffraction that is not made").noted();
+    factor("-M_WLFRACTION", &[number("F", "fraction")], "meshes of a diffraction that is not made").without_effect();
 const MAXREFINE: OptionSpec =
-    factor("-MAXREFINE", &[number("N", "number")], "meshes of a diffraction that is not made").noted();
+    factor("-MAXREFINE", &[number("N", "number")], "meshes of a diffraction that is not made").without_effect();
 
 static SPEC: CommandSpec = CommandSpec {
     options: &[
@@ -120,7 +120,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             _ if given.is(&WCSTUBE) => made.tube_wind = value,
             _ if given.is(&DRGPLA) => made.plate_drag = value,
             _ if given.is(&DRGTUB) => {
-                let mut drags = given.values.chunks(2).filter_map(|pair| pair.get(1)?.number());
+                let mut drags = given.groups().filter_map(|pair| pair.number(const { DRGTUB.number("CD") }));
                 let first = drags.next();
                 if drags.any(|drag| Some(drag) != first) {
                     lacks("drag of tubes by Reynolds number", SolveKind::Statics);

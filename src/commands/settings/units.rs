@@ -173,7 +173,7 @@ const SP_ORIENT: OptionSpec = OptionSpec::new(
     "axes of a STATIC_PROCESS, which is not in windlass",
 )
 .repeating(1)
-.noted();
+.without_effect();
 const DIR_BEAM: OptionSpec = OptionSpec::new(
     "-DIR_BEAM",
     &[number("V", Dim::None, "components in the part, of one direction or two")],
@@ -184,7 +184,7 @@ const DIR_BEAM: OptionSpec = OptionSpec::new(
 const DIR_PLATE: OptionSpec =
     OptionSpec::new("-DIR_PLATE", &[number("V", Dim::None, "component")], "axes of stresses in plates")
         .repeating(1)
-        .noted();
+        .without_effect();
 const AIR: OptionSpec =
     OptionSpec::new("-AIR", &[number("RHO", Dim::Density, "density").positive()], "density of air").owner(Owner::Ours);
 const GRAVITY: OptionSpec =

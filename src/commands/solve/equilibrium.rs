@@ -73,7 +73,7 @@ const ECHO: OptionSpec = OptionSpec::new(
     &[ValueSpec::choice::<YesNo>("YES/NO", "either")],
     "steps are not printed, the report says how many there were",
 )
-.noted();
+.without_effect();
 
 static SPEC: CommandSpec = CommandSpec {
     options: &[DEFAULTS, ITER_MAX, TOLERANCE_OPTION, IGNORE, OMEGA, MOVE_MAX, ECHO, HARD, BOTH],
@@ -132,7 +132,7 @@ pub(crate) fn to_diagnostic(wrong: SolveError, model: &Model, span: Span, units:
     let SolveError { who, mut error } = wrong;
     if let Some(who) = who {
         let what = if model.bodies.contains_key(&Model::key(&who)) { "body" } else { "connector" };
-        error.message = error.message.about(format!("{what} {who}"));
+        error.message = error.message.with_subject(format!("{what} {who}"));
     }
     error.diagnostic(span, units)
 }

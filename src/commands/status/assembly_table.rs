@@ -16,7 +16,7 @@ pub static ASSEMBLIES: StatusKind =
     StatusKind::new("ASSEMBLIES", "tip-hook sets: where the hook is, what its lines bear", |query, _| {
         Ok(assemblies(query.model(), &query.fits(), query.job.units))
     })
-    .named(&[EntityKind::Assembly])
+    .with_names(&[EntityKind::Assembly])
     .also(&["TIP-HOOK"]);
 
 /// What a row of the tip-hook sets shows: the hook of a set, or one of its lines.
@@ -117,7 +117,7 @@ fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>,
     let Some(LaidPipe { supports, element }) = model.pipe(assembly, Some(&around), RunRequirement::default())? else {
         return Ok(None);
     };
-    let ends: Vec<End> = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap_or_default())).collect();
+    let ends: Vec<End> = supports.iter().map(|c| End::at_rest(model.end_pose(c, 0).unwrap_or_default())).collect();
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
     let mut out = ConnectorResponse::default();
@@ -164,7 +164,7 @@ fn hook_rows<'m>(
 /// What a line bears between its ends.
 fn line_summary(model: &Model, connector: &Connector) -> Result<ConnectorSummary, ClassError> {
     let element = model.element(connector)?;
-    let ends = model.end_poses(connector).map(End::still);
+    let ends = model.end_poses(connector).map(End::at_rest);
     let mut state = vec![0.0; element.states()];
     element.start(&mut state);
     let surroundings = model.surroundings();

@@ -22,7 +22,7 @@ pub static FORCE: StatusKind = StatusKind {
     ..StatusKind::new("FORCE", "what acts on the bodies where they stand, by category", |query, _| {
         forces(query.job, query.call, &query.fits())
     })
-    .named(&[EntityKind::Body])
+    .with_names(&[EntityKind::Body])
     .of_moses()
     .also(&["G_FORCE"])
 };
@@ -33,7 +33,7 @@ pub static STIFFNESS: StatusKind = StatusKind {
     ..StatusKind::new("STIFFNESS", "stiffness of bodies and connectors about a point", |query, _| {
         stiffness(query.job, query.call, query.names)
     })
-    .named(&[EntityKind::Body, EntityKind::Connector])
+    .with_names(&[EntityKind::Body, EntityKind::Connector])
 };
 
 /// `&STATUS MODES`.

@@ -16,7 +16,7 @@ pub static WEIGHT: StatusKind =
     StatusKind::new("WEIGHT", "weights, centers and radii of gyration of bodies and parts", |query, _| {
         Ok(vec![weights(query.model(), &query.fits())])
     })
-    .named(&[EntityKind::Body, EntityKind::Part]);
+    .with_names(&[EntityKind::Body, EntityKind::Part]);
 
 /// `&STATUS PIECES`.
 pub static PIECES: StatusKind = StatusKind::new("PIECES", "pieces of hulls", |query, _| {
@@ -24,7 +24,7 @@ pub static PIECES: StatusKind = StatusKind::new("PIECES", "pieces of hulls", |qu
     let added = member::added_mass(model, &fits).map_err(|e| e.diagnostic(query.place(), query.job.units))?;
     Ok(std::iter::once(pieces(model, &fits)).chain(member::members(model, &fits)).chain(added).collect())
 })
-.named(&[EntityKind::Piece, EntityKind::Body, EntityKind::Part]);
+.with_names(&[EntityKind::Piece, EntityKind::Body, EntityKind::Part]);
 
 /// `&STATUS HYDROSTATICS`.
 pub static HYDROSTATICS: StatusKind = StatusKind::new(
@@ -32,7 +32,7 @@ pub static HYDROSTATICS: StatusKind = StatusKind::new(
     "what bodies displace where they are, and their hydrostatic stiffness",
     |query, _| Ok(hydrostatics(query.model(), &query.fits(), query.job.units)),
 )
-.named(&[EntityKind::Body]);
+.with_names(&[EntityKind::Body]);
 
 /// Whether a body or part is chosen.
 type Fits<'a> = &'a dyn Fn(&str) -> bool;

@@ -18,7 +18,7 @@ pub static B_W: StatusKind = StatusKind {
     ..StatusKind::new("B_W", "weights, buoyancy and metacentric heights of bodies, in their systems", |query, _| {
         Ok(reports(query.model(), &query.fits(), query.job.units))
     })
-    .named(&[EntityKind::Body])
+    .with_names(&[EntityKind::Body])
     .of_moses()
 };
 
@@ -66,7 +66,7 @@ fn report(model: &Model, body: &Body) -> Result<Table, ClassError> {
     if contents.mass != 0.0 {
         rows.push(of_mass("Contents", &contents));
     }
-    let whole = Mass::from_parts(model.parts_of(body), gravity).with(&contents);
+    let whole = Mass::from_parts(model.parts_of(body), gravity).combine(&contents);
     rows.push(of_mass("Total Weight", &whole));
     let pose = Pose::from_place(&body.place);
     let hull = Hull::new(model, body)?;

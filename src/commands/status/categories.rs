@@ -14,7 +14,7 @@ pub static CATEGORY: StatusKind =
     StatusKind::new("CATEGORY", "weight and point buoyancy of load categories, with their centers", |query, _| {
         Ok(vec![categories(query.model(), &query.fits())])
     })
-    .named(&[EntityKind::Body])
+    .with_names(&[EntityKind::Body])
     .of_moses();
 
 /// A force and its first moment, in the body.

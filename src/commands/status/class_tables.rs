@@ -11,12 +11,12 @@ use windlass_model::EntityKind;
 /// `&STATUS CL_FLEX`.
 pub static CL_FLEX: StatusKind =
     StatusKind::new("CL_FLEX", "flexible connector classes with W/L, AE, break", |query, _| Ok(tables(query)))
-        .named(&[EntityKind::Class])
+        .with_names(&[EntityKind::Class])
         .of_moses();
 
 /// `&STATUS CLASSES`.
 pub static CLASSES: StatusKind =
-    StatusKind::new("CLASSES", "the same as CL_FLEX", |query, _| Ok(tables(query))).named(&[EntityKind::Class]);
+    StatusKind::new("CLASSES", "the same as CL_FLEX", |query, _| Ok(tables(query))).with_names(&[EntityKind::Class]);
 
 /// The property tables of the classes that fit, with their records as they were given.
 pub(crate) fn classes(job: &Job, fits: &dyn Fn(&Class) -> bool) -> Vec<Table> {

@@ -16,7 +16,7 @@ pub static COMPARTMENT: StatusKind =
     StatusKind::new("COMPARTMENT", "what is in compartments, where it lies, and its free surface", |query, _| {
         Ok(vec![contents(query.model(), &query.fits(), query.job.units)])
     })
-    .named(&[EntityKind::Compartment])
+    .with_names(&[EntityKind::Compartment])
     .of_moses()
     .also(&["S_COMPARTMENT", "CG_COMPARTMENT"]);
 

@@ -11,7 +11,7 @@ use windlass_model::{Curve, Model};
 pub static CURVES: StatusKind = StatusKind {
     charts: |_, tables| Ok(tables.iter().filter(|table| chart(table)).cloned().collect()),
     ..StatusKind::new("CURVES", "curves", |query, _| Ok(curves(query.model(), &query.fits())))
-        .named(&[EntityKind::Curve])
+        .with_names(&[EntityKind::Curve])
         .of_moses()
 };
 

@@ -18,7 +18,7 @@ pub static DATABASE: StatusKind = StatusKind::new(
     "hydrodynamic databases of bodies: radiation, excitation, drift, memory",
     |query, _| Ok(tables(query.model(), &query.fits())),
 )
-.named(&[EntityKind::Body]);
+.with_names(&[EntityKind::Body]);
 
 /// What is below this share of the largest of its kind is rounding.
 const ROUNDING_SHARE: f64 = 1e-9;

@@ -10,7 +10,7 @@ pub static DRAFT: StatusKind =
     StatusKind::new("DRAFT", "drafts read at the draft marks of &DESCRIBE DMARK", |query, _| {
         Ok(vec![drafts(query.model(), &query.fits())])
     })
-    .named(&[EntityKind::DraftMark])
+    .with_names(&[EntityKind::DraftMark])
     .of_moses();
 
 /// One row a mark: where it runs, and the draft along it.

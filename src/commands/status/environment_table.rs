@@ -22,7 +22,7 @@ pub static ENVIRONMENT: StatusKind =
     StatusKind::new("ENVIRONMENT", "the environment in force, or one kept under a name", |query, _| {
         Ok(environments(query.job, query.is_named().then_some(&query.fits())))
     })
-    .named(&[EntityKind::Environment])
+    .with_names(&[EntityKind::Environment])
     .of_moses();
 
 /// The environment in force, or those kept under a name that is chosen.

@@ -16,7 +16,7 @@ pub static SN: StatusKind =
     StatusKind::new("SN", "fatigue curves, and those the segments of line classes go by", |query, _| {
         Ok(tables(query.job, &query.fits(), !query.is_named()))
     })
-    .named(&[EntityKind::Class]);
+    .with_names(&[EntityKind::Class]);
 
 /// The tables for what follows SN: names of curves or classes, or patterns.
 pub fn tables(job: &Job, fits: &dyn Fn(&str) -> bool, all: bool) -> Vec<Table> {

@@ -20,7 +20,7 @@ pub static F_CONNECTOR: StatusKind = StatusKind {
     ..StatusKind::new("F_CONNECTOR", "forces of the connectors between their ends as they are", |query, verdict| {
         Ok(forces(query.model(), &query.fits(), query.job.units, verdict))
     })
-    .named(&[EntityKind::Connector])
+    .with_names(&[EntityKind::Connector])
     .of_moses()
 };
 
@@ -29,7 +29,7 @@ pub static FOUNDATION: StatusKind =
     StatusKind::new("FOUNDATION", "the FOUNDATION check: forces of foundations over their allowables", |query, _| {
         Ok(vec![foundations(query.model(), &query.fits(), query.job.units)])
     })
-    .named(&[EntityKind::Connector]);
+    .with_names(&[EntityKind::Connector]);
 
 /// What one connector does between its ends.
 pub(crate) struct ConnectorForces {
@@ -154,7 +154,7 @@ pub(crate) fn find_forces(model: &Model, connector: &Connector) -> Result<Connec
         // it feels current, bottom and contents all along itself
         element = model.element_in(connector, Some(&ambient(model, None)?))?;
     }
-    let ends = model.end_poses(connector).map(End::still);
+    let ends = model.end_poses(connector).map(End::at_rest);
     let mut committed = vec![0.0; element.states()];
     element.start(&mut committed);
     let surroundings = model.surroundings();
@@ -166,7 +166,7 @@ pub(crate) fn find_forces(model: &Model, connector: &Connector) -> Result<Connec
         let size = 1e-12 * w.fixed_rows::<3>(0).norm();
         [w[0], w[1], w[2]].map(|v| if v.abs() < size { 0.0 } else { v })
     };
-    let force = |i: usize| out.wrench.get(i).map_or([0.0; 3], shown);
+    let force = |i: usize| shown(&out.wrench[i]);
     let [first, second] = ends.map(|e| e.pose.origin);
     let distance = (second - first).xy().norm();
     let is_on_body = |name: &String| model.points.get(&Model::key(name)).is_some_and(|p| model.body_of(p).is_some());
@@ -184,12 +184,12 @@ pub(crate) fn find_forces(model: &Model, connector: &Connector) -> Result<Connec
 impl ConnectorForces {
     /// The force on the end that is on a body (N).
     pub(crate) fn on_body(&self) -> [f64; 3] {
-        self.forces.get(self.on_body).copied().unwrap_or_default()
+        self.forces[self.on_body]
     }
 
     /// The force on its far end: the anchor of a line (N).
     pub(crate) fn on_far_end(&self) -> [f64; 3] {
-        self.forces.get(1 - self.on_body).copied().unwrap_or_default()
+        self.forces[1 - self.on_body]
     }
 
     /// Vertical and horizontal pull of a line at its far end (N).

@@ -42,7 +42,7 @@ impl StatusKind {
     }
 
     /// The same, with the names of these sorts of things behind its word.
-    pub const fn named(self, names: &'static [EntityKind]) -> Self {
+    pub const fn with_names(self, names: &'static [EntityKind]) -> Self {
         StatusKind { names, ..self }
     }
 

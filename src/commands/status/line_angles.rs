@@ -14,7 +14,7 @@ pub static LINE_ANGLES: StatusKind = StatusKind {
         "angles of lines at their fairleads, and of uplift at their anchors",
         |query, _| Ok(vec![angles(query.model(), &query.fits(), query.job.units)]),
     )
-    .named(&[EntityKind::Connector])
+    .with_names(&[EntityKind::Connector])
 };
 
 /// Uplift from which on a note names the line (rad): a tenth of a degree.

@@ -15,7 +15,7 @@ pub static LOADS: StatusKind =
     StatusKind::new("LOADS", "loads of wind, current and waves on parts, and the forces they come to", |query, _| {
         Ok(loads(query.job, &query.fits()))
     })
-    .named(&[EntityKind::Body, EntityKind::Part])
+    .with_names(&[EntityKind::Body, EntityKind::Part])
     .also(&["G_LOAD", "LOAD_GROUP"]);
 
 /// One table of the records, one of the forces on each body as it stands.

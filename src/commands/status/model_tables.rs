@@ -21,7 +21,7 @@ pub static SUMMARY: StatusKind =
 pub static CONFIGURATION: StatusKind = StatusKind::new("CONFIGURATION", "where the bodies stand", |query, _| {
     Ok(vec![configuration(query.model(), &query.fits())])
 })
-.named(&[EntityKind::Body])
+.with_names(&[EntityKind::Body])
 .of_moses();
 
 /// `&STATUS G_CONNECTOR`.
@@ -29,7 +29,7 @@ pub static G_CONNECTOR: StatusKind = StatusKind::new("G_CONNECTOR", "connector g
     let (model, fits) = (query.model(), query.fits());
     Ok(std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect())
 })
-.named(&[EntityKind::Connector])
+.with_names(&[EntityKind::Connector])
 .of_moses();
 
 /// `&STATUS BATHYMETRY`.
@@ -37,21 +37,21 @@ pub static BATHYMETRY: StatusKind =
     StatusKind::new("BATHYMETRY", "bottoms over a grid: extent, least and greatest depth", |query, _| {
         Ok(vec![bathymetry::table(query.model(), &query.fits())])
     })
-    .named(&[EntityKind::Bathymetry]);
+    .with_names(&[EntityKind::Bathymetry]);
 
 /// `&STATUS T_PRESSURE`.
 pub static T_PRESSURE: StatusKind =
     StatusKind::new("T_PRESSURE", "temperature, pressure and contents of pipes", |query, _| {
         Ok(vec![t_pressure::table(query.model(), &query.fits())])
     })
-    .named(&[EntityKind::Filling]);
+    .with_names(&[EntityKind::Filling]);
 
 /// `&STATUS BODIES`.
 pub static BODIES: StatusKind = StatusKind::new("BODIES", "bodies and their parts", |query, _| {
     let (model, fits) = (query.model(), query.fits());
     Ok(std::iter::once(bodies(model, &fits)).chain(motions(model, &fits)).collect())
 })
-.named(&[EntityKind::Body, EntityKind::Part])
+.with_names(&[EntityKind::Body, EntityKind::Part])
 .also(&["PARTS"]);
 
 /// `&STATUS POINTS`.
@@ -59,13 +59,13 @@ pub static POINTS: StatusKind =
     StatusKind::new("POINTS", "points, in their parts and in the global system", |query, _| {
         Ok(vec![points(query.model(), &query.fits())])
     })
-    .named(&[EntityKind::Point])
+    .with_names(&[EntityKind::Point])
     .also(&["POINT", "NODE"]);
 
 /// `&STATUS SELECTORS`.
 pub static SELECTORS: StatusKind =
     StatusKind::new("SELECTORS", "selectors", |query, _| Ok(vec![selectors(query.model(), &query.fits())]))
-        .named(&[EntityKind::Selector]);
+        .with_names(&[EntityKind::Selector]);
 
 fn place_columns<'r, R>(table: TableBuilder<'r, R>, place: impl Fn(&'r R) -> &'r Place) -> TableBuilder<'r, R> {
     table.columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| place(row).shift).columns(

@@ -14,7 +14,7 @@ pub static ROD: StatusKind =
     StatusKind::new("ROD", "dynamic lines, at rest between their ends as they stand", |query, _| {
         tables(query, |_| lines_at_rest(query.model(), &query.fits()))
     })
-    .named(&[EntityKind::Connector, EntityKind::Assembly])
+    .with_names(&[EntityKind::Connector, EntityKind::Assembly])
     .also(&["F_ROD", "S_ROD"]);
 
 /// `&STATUS ROD_MODES`.
@@ -23,7 +23,7 @@ pub static ROD_MODES: StatusKind =
         let with_shapes = query.args().has(&status::SHAPE);
         tables(query, |number| natural_modes(query.model(), &query.fits(), number, with_shapes))
     })
-    .named(&[EntityKind::Connector, EntityKind::Assembly]);
+    .with_names(&[EntityKind::Connector, EntityKind::Assembly]);
 
 /// The tables of the lines that fit, by a function of the number of modes asked for.
 ///

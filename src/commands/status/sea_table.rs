@@ -20,7 +20,7 @@ pub static SEA_SPECTRUM: StatusKind = StatusKind {
         "the wave components of the seas of the environment in force, or of one kept under a name",
         |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.place()),
     )
-    .named(&[EntityKind::Environment])
+    .with_names(&[EntityKind::Environment])
     .of_moses()
     .also(&["SEA"])
 };

@@ -19,7 +19,7 @@ pub static SYSTEM: StatusKind = StatusKind {
         tables.extend(body_status::forces(query.job, query.call, &query.fits())?);
         Ok(tables)
     })
-    .named(&[EntityKind::Body])
+    .with_names(&[EntityKind::Body])
     .of_moses()
 };
 

@@ -13,7 +13,7 @@ pub static TETHERS: StatusKind =
     StatusKind::new("TETHERS", "what tethers are made of and hang on, as TDOM -TETHERS has them", |query, _| {
         tables(query, |model, name, _| Ok(vec![tethered::description_table(model, name)?]))
     })
-    .named(&[EntityKind::Connector]);
+    .with_names(&[EntityKind::Connector]);
 
 /// `&STATUS TETHER_MODES`.
 pub static TETHER_MODES: StatusKind =
@@ -21,7 +21,7 @@ pub static TETHER_MODES: StatusKind =
         let with_aqwa = query.args().has(&status::AQWA);
         tables(query, |model, name, number| tethered::natural(model, name, number, with_aqwa))
     })
-    .named(&[EntityKind::Connector]);
+    .with_names(&[EntityKind::Connector]);
 
 /// The tables that a function makes of each tether that fits: by the model, its name and the number of modes asked for.
 ///

@@ -20,7 +20,7 @@ pub static WIND_SPECTRUM: StatusKind = StatusKind {
         "the components of the gusts of an environment, and with -PLOT their spectrum",
         |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.place()),
     )
-    .named(&[EntityKind::Environment])
+    .with_names(&[EntityKind::Environment])
 };
 
 /// Points of a spectrum plotted, and the share of the energy up to which they lie.

@@ -50,7 +50,7 @@ pub(super) fn records(text: &str) -> Result<Records, Vec<Diagnostic>> {
     aqwa::records(&reading.deck)
 }
 
-pub(super) fn tethered(session: &Session) -> &Tethered {
+pub(super) fn tethered_run(session: &Session) -> &Tethered {
     session.job.tethered.as_ref().unwrap()
 }
 
@@ -67,7 +67,7 @@ fn bits(run: &Tethered) -> Vec<u64> {
 #[test]
 fn installed_deck_reaches_printed_positions_and_slack_times() {
     let (session, _) = run("mint.dat", &file("mint.dat"));
-    let run = tethered(&session);
+    let run = tethered_run(&session);
     let structure = run.structure.as_ref().unwrap();
     for state in listing("installed")["structure_history"].as_array().unwrap() {
         let time = number(&state["time"]);
@@ -95,7 +95,7 @@ fn installed_deck_reaches_printed_positions_and_slack_times() {
 #[test]
 fn towed_deck_with_printed_phases_reaches_printed_positions() {
     let (session, _) = run("he01_phases.dat", &file("he01_phases.dat"));
-    let run = tethered(&session);
+    let run = tethered_run(&session);
     let printed = listing("towed");
     let tether = &run.tethers[0];
     for time in [125.0, 250.0, 375.0] {
@@ -115,10 +115,10 @@ fn deck_and_script_of_a_case_match_bit_for_bit() {
         let made = records(&file(deck)).unwrap().script().text;
         let (of_deck, _) = run("deck.cif", &silent(&made));
         // the script of the example runs for a shorter time: here it runs as long as the deck
-        let whole = tethered(&of_deck);
+        let whole = tethered_run(&of_deck);
         let text = with_run_of(&silent(&file(script)), &made);
         let (of_script, _) = run("script.cif", &text);
-        let written = tethered(&of_script);
+        let written = tethered_run(&of_script);
         assert_eq!(whole.times, written.times);
         assert!(whole.times.len() > 100 && bits(whole) == bits(written), "{script}");
     }
@@ -142,7 +142,7 @@ fn deck_leaves_records_of_an_equivalent_script() {
     let kept = kept.unwrap();
     assert_eq!(kept, records(&short).unwrap().script().text);
     let (again, _) = run("again.cif", &kept);
-    assert_eq!(bits(tethered(&of_deck)), bits(tethered(&again)));
+    assert_eq!(bits(tethered_run(&of_deck)), bits(tethered_run(&again)));
     assert_eq!(of_deck.job.model.connectors.len(), 4);
 }
 
@@ -181,7 +181,7 @@ fn deck_with_error_is_not_run() {
 }
 
 /// The installed example with other cards in the place of one text.
-fn edited(from: &str, to: &str) -> String {
+fn edit_example(from: &str, to: &str) -> String {
     let text = file("mint.dat");
     assert!(text.contains(from), "{from}");
     text.replacen(from, to, 1)
@@ -217,20 +217,20 @@ fn records_have_the_digits_of_the_cards() {
 
 #[test]
 fn constraint_holds_node_between_neighbouring_elements_of_its_card() {
-    let between = edited(
+    let between = edit_example(
         "    14TELM  103  102  101  101\n",
         "    14TELM  103  102  101  101\n    14TLAV                         0.250\n",
     );
     let made = lines(&records(&between).unwrap());
     assert!(made.contains("-CONSTRAINT LATERAL_VESSEL 3 0.25") && made.contains("assumed to hold node 102 "), "{made}");
-    let behind = edited("    14TEGR    4\n", "    14TEGR    4\n    14TROC\n    14TLAV\n");
+    let behind = edit_example("    14TEGR    4\n", "    14TEGR    4\n    14TROC\n    14TLAV\n");
     let made = lines(&records(&behind).unwrap());
     assert!(made.contains("-CONSTRAINT ROTATIONAL_FIXED 2") && made.contains("-CONSTRAINT LATERAL_VESSEL 3"), "{made}");
 }
 
 #[test]
 fn turning_current_profile_splits_into_x_and_y_parts() {
-    let text = edited(
+    let text = edit_example(
         "    11    NONE",
         "    11    ENVR\n    11CPRF    -345.0       0.5      90.0\n END11CPRF       0.0       1.5       0.0",
     );
@@ -242,7 +242,7 @@ fn turning_current_profile_splits_into_x_and_y_parts() {
 #[test]
 fn spectra_become_seas_or_curves() {
     let sea = |card: &str| {
-        let text = edited(
+        let text = edit_example(
             "    13    WAVE\n    13WAMP               15.00\n    13PERD               15.00\n END13WVDN                0.00",
             &format!("    13    SPEC\n    13SPDN                30.0\n{card}"),
         );
@@ -267,7 +267,7 @@ fn lines_become_classes_of_same_stiffness() {
     let cards = "    14LINE    1 1010    0 9010     100.0     250.0\n\
                  \x20   14COMP   15   40         1\n    14ECAT                         0.170    0.0217  700000.0               600.0\n\
                  \x20   14NLIN    1 1020    0 9020\n    14TSLK                         0.001\n";
-    let text = edited("    14TSLK                         0.001\n", cards);
+    let text = edit_example("    14TSLK                         0.001\n", cards);
     let made = lines(&records(&text).unwrap());
     assert!(made.contains("~COMP1 CATENARY 170 0.0217 -LEN 600 -EA 700000000 -TMAX 8500000"), "{made}");
     assert!(
@@ -281,7 +281,7 @@ fn lines_become_classes_of_same_stiffness() {
 
 #[test]
 fn constant_force_line_pulls_with_its_force_towards_second_node() {
-    let text = edited("    14TSLK                         0.001\n", "    14FORC    1 1010    0 9010     100.0\n");
+    let text = edit_example("    14TSLK                         0.001\n", "    14FORC    1 1010    0 9010     100.0\n");
     let made = lines(&records(&text).unwrap());
     assert!(made.contains("~L1 CT_LINE 100") && made.contains("CONNECTOR L1 ~L1 *S1_1010 *N9010"), "{made}");
 }
@@ -289,7 +289,7 @@ fn constant_force_line_pulls_with_its_force_towards_second_node() {
 #[test]
 fn unsupported_deck_data_is_refused_with_card_and_alternative() {
     let refused = |from: &str, to: &str, said: &str| {
-        let list = records(&edited(from, to)).unwrap_err();
+        let list = records(&edit_example(from, to)).unwrap_err();
         let found = list.iter().find(|d| d.message.contains(said));
         let found = found.unwrap_or_else(|| panic!("{said}: {list:?}"));
         assert!(found.span.is_some() && !found.help.is_empty(), "{found:?}");
@@ -305,7 +305,7 @@ fn unsupported_deck_data_is_refused_with_card_and_alternative() {
 
 #[test]
 fn data_check_is_reported_and_not_run() {
-    let made = records(&edited("OPTIONS END", "OPTIONS DATA END")).unwrap();
+    let made = records(&edit_example("OPTIONS END", "OPTIONS DATA END")).unwrap();
     assert!(!made.job.iter().any(|line| line.starts_with("TDOM")), "{:?}", made.job);
     assert!(
         made.job.iter().any(|line| line.starts_with("$ deck 0, OPTIONS, DATA"))
@@ -336,7 +336,7 @@ fn number_of_phases_must_match_components() {
 }
 
 /// A body in 100 m of water (kg, m, N), its fairlead at z = -10, and these cards of deck 14 and decks 5, 13, 16.
-pub(super) fn moored(program: &str, depth: f64, lines: &str, waves: &str) -> String {
+pub(super) fn moored_deck(program: &str, depth: f64, lines: &str, waves: &str) -> String {
     let none = |decks: std::ops::RangeInclusive<u8>| decks.map(|n| format!("    {n:02}    NONE\n")).collect::<String>();
     format!(
         "JOB MOOR  {program}\nTITLE               Lines on the bottom\nOPTIONS END\n\
@@ -360,7 +360,7 @@ pub(super) fn pulls(model: &windlass_model::Model) -> Vec<[f64; 3]> {
     let surroundings = model.surroundings();
     let pull = |connector: &windlass_model::Connector| {
         let element = model.element(connector).unwrap();
-        let ends = model.end_poses(connector).map(windlass_model::End::still);
+        let ends = model.end_poses(connector).map(windlass_model::End::at_rest);
         let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
         let mut out = windlass_model::ConnectorResponse::default();
         let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
@@ -370,7 +370,7 @@ pub(super) fn pulls(model: &windlass_model::Model) -> Vec<[f64; 3]> {
     model.connectors.values().map(pull).collect()
 }
 
-pub(super) fn placed(deck: &str) -> (Session, String) {
+pub(super) fn run_placed_deck(deck: &str) -> (Session, String) {
     let records = records(deck).unwrap();
     let (session, _) = run("model.cif", &records.model_alone().text);
     let text = lines(&records);
@@ -389,7 +389,7 @@ fn deck_line_is_on_seabed_at_its_anchor() {
     // The same in 150 m: the bottom of a line is at its anchor.
     let cards = format!("    14COMP                   1\n{SECTION} END14NLIN    1    2    0   12\n");
     for depth in [100.0, 150.0] {
-        let (session, text) = placed(&moored("LIBR", depth, &cards, STILL));
+        let (session, text) = run_placed_deck(&moored_deck("LIBR", depth, &cards, STILL));
         assert_eq!(text.contains("-DEPANCHOR 100"), depth > 100.0, "{text}");
         let [pull] = pulls(&session.job.model)[..] else { panic!() };
         assert_near(pull[0], 135470.09879651);
@@ -397,7 +397,7 @@ fn deck_line_is_on_seabed_at_its_anchor() {
     }
     // the anchor first and the structure second: the same line
     let swapped = cards.replace("    1    2    0   12", "    0   12    1    2");
-    let (session, _) = placed(&moored("LIBR", 100.0, &swapped, STILL));
+    let (session, _) = run_placed_deck(&moored_deck("LIBR", 100.0, &swapped, STILL));
     assert_near(pulls(&session.job.model)[0][0], 135470.09879651);
 }
 
@@ -407,7 +407,7 @@ fn composite_lines_to_anchors_at_two_depths_each_reach_own_seabed() {
     let cards = format!(
         "    14COMP                   1\n{SECTION}    14NLIN    1    2    0   12\n END14NLIN    1    2    0   13\n"
     );
-    let (session, text) = placed(&moored("LIBR", 100.0, &cards, STILL));
+    let (session, text) = run_placed_deck(&moored_deck("LIBR", 100.0, &cards, STILL));
     assert!(text.contains("~COMP1_2 CATENARY 150 0.018 -LEN 570 -EA 600000000 -TMAX 5000000 -DEPANCHOR 95"), "{text}");
     let [first, second] = pulls(&session.job.model)[..] else { panic!() };
     assert_near(first[0], 135470.09879651);
@@ -428,7 +428,7 @@ fn composite_joints_weigh_mass_less_displaced_water() {
              \x20   14{joint}\n    14ECAT                         150.0     0.018     6.0E8               120.0\n\
              \x20END14NLIN    1    2    0   12\n"
         );
-        let (session, _) = placed(&moored("LIBR", 100.0, &cards, STILL));
+        let (session, _) = run_placed_deck(&moored_deck("LIBR", 100.0, &cards, STILL));
         let [pull] = pulls(&session.job.model)[..] else { panic!() };
         assert_near(pull[0], horizontal);
         assert_near(-pull[2], vertical);
@@ -436,7 +436,7 @@ fn composite_joints_weigh_mass_less_displaced_water() {
 }
 
 /// What reading a deck says.
-pub(super) fn said(text: &str) -> Vec<Diagnostic> {
+pub(super) fn read_diagnostics(text: &str) -> Vec<Diagnostic> {
     let mut sources = Sources::default();
     let id = sources.add("deck", text, 1);
     aqwa::read(&sources, id).messages
@@ -447,7 +447,7 @@ fn composite_table_and_anchor_off_seabed_are_reported() {
     let cards = |comp: &str| format!("    14COMP{comp}\n{SECTION} END14NLIN    1    2    0   12\n");
     let plain = "                   1";
     let remarks = |depth: f64, comp: &str| {
-        let list = said(&moored("LIBR", depth, &cards(comp), STILL));
+        let list = read_diagnostics(&moored_deck("LIBR", depth, &cards(comp), STILL));
         list.into_iter().map(|m| format!("{:?}: {}", m.severity, m.message)).collect::<Vec<_>>().join("\n")
     };
     assert_eq!(remarks(100.0, plain), "");
@@ -473,12 +473,12 @@ fn structure_without_wave_loads_is_not_run_in_waves() {
     let spectrum = "    13    SPEC\n END13PSMZ                 0.2       2.0       6.0       9.0\n";
     let regular = "    13    WAVE\n    13WAMP                 3.0\n END13PERD                10.0\n";
     for (program, waves) in [("DRIF", spectrum), ("NAUT", regular)] {
-        let text = moored(program, 100.0, &cards, waves);
+        let text = moored_deck(program, 100.0, &cards, waves);
         let list = records(&text).unwrap_err();
         let [error] = list.as_slice() else { panic!("{list:?}") };
         assert_eq!(error.message, "decks 6 to 8: structure 1 has no wave coefficients, and no tubes");
         assert!(error.span.is_some() && error.help.iter().any(|help| help.contains("DATABASE")));
-        assert!(records(&moored(program, 100.0, &cards, STILL)).is_ok());
+        assert!(records(&moored_deck(program, 100.0, &cards, STILL)).is_ok());
         // its model is read all the same
         let (mut session, _, folder) = common::session();
         std::fs::write(folder.path().join("hull.dat"), text).unwrap();
@@ -497,14 +497,15 @@ fn anchor_stop_keeps_deck_tether_from_hanging_free() {
         assert!(lines(&records(&text).unwrap()).contains("-LOW_STOP 0 -GROUP 4"));
         // tethers 1 and 2 of the listing go slack at 6.5 s
         let (session, _) = run("mint.dat", &text);
-        assert!(tethered(&session).happened.is_empty());
+        assert!(tethered_run(&session).happened.is_empty());
     }
     let none = with("");
     assert!(!lines(&records(&none).unwrap()).contains("-LOW_STOP"));
-    let notes: Vec<String> = said(&none).into_iter().map(|m| m.message).filter(|m| m.contains("TLOW")).collect();
+    let notes: Vec<String> =
+        read_diagnostics(&none).into_iter().map(|m| m.message).filter(|m| m.contains("TLOW")).collect();
     assert_eq!(notes, ["deck 14: no TLOW card; a slack tether hangs free and meets no lower stop"]);
     let (session, _) = run("mint.dat", &none);
-    assert!(!tethered(&session).happened.is_empty());
+    assert!(!tethered_run(&session).happened.is_empty());
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use crate::common;
 
 /// What a deck prints.
-fn printed(name: &str) -> String {
+fn print_deck(name: &str) -> String {
     let (mut session, screen, _folder) = common::session();
     session.open_job(name, std::fs::read_to_string(format!("scripts/{name}")).unwrap());
     session.run();
@@ -58,7 +58,7 @@ fn pages_of_installed_deck_come_in_order_of_listing() {
         "HARMONIC ANALYSIS OF STRUCTURE S1 - VELOCITY OF COG",
         "HARMONIC ANALYSIS OF STRUCTURE S1 - ACCELERATION OF COG",
     ];
-    let text = printed("mint.dat");
+    let text = print_deck("mint.dat");
     come_in_order(&titles(&text), &wanted);
     // VESSEL ATTACHMENT: position in FRA and at the start; inline springs by default
     for line in ["- POSITION IN FRA Z              = 12.850 m", "- INITIAL POSITION Z             = -68.150 m"] {
@@ -90,7 +90,7 @@ fn pages_of_towed_deck_come_in_order_of_listing() {
         "STRESS RANGE PROBABILITY DISTRIBUTION",
         "FATIGUE ANALYSIS AND MAXIMUM STRESS",
     ];
-    let text = printed("he01_phases.dat");
+    let text = print_deck("he01_phases.dat");
     come_in_order(&titles(&text), &wanted);
     // the comment behind the modes has 5.5079 s for 5.5074: 1e-4
     assert!(text.contains("50 MODES> 1.141 RAD/SEC (PERIOD= 5.5074 SECS) NOT PRINTED"));
@@ -107,7 +107,7 @@ fn pages_of_towed_deck_come_in_order_of_listing() {
 
 #[test]
 fn spectral_lines_match_listing() {
-    let text = printed("he01_phases.dat");
+    let text = print_deck("he01_phases.dat");
     assert!(text.contains("4 TIMES SQUARE ROOT OF RASTER AREA(S.W.H.) = 6.293"));
     let page = text.split("4 TIMES SQUARE ROOT").nth(1).unwrap();
     let rows = page.lines().skip_while(|line| !line.starts_with("----")).skip(1).take(50);
@@ -143,7 +143,7 @@ fn structure_pages(text: &str) -> (Vec<usize>, Vec<String>) {
 /// and L/WAVE DRIFT DAMPING, which no towed tether has.
 #[test]
 fn structure_pages_have_records_and_rows_of_listing() {
-    let (records, rows) = structure_pages(&printed("mint.dat"));
+    let (records, rows) = structure_pages(&print_deck("mint.dat"));
     assert_eq!(records, [1, 11, 21, 31, 41, 51, 61, 71, 81, 91, 101]);
     let listed = [
         "POSITION",
@@ -159,7 +159,7 @@ fn structure_pages_have_records_and_rows_of_listing() {
         "POSITION *S1_112",
     ];
     assert_eq!(rows, listed);
-    let (records, rows) = structure_pages(&printed("he01_phases.dat"));
+    let (records, rows) = structure_pages(&print_deck("he01_phases.dat"));
     assert_eq!(records, [1, 501, 1001, 1501]);
     let listed = ["POSITION", "VELOCITY", "ACCELERATION", "GRAVITY", "HYDROSTATIC", "MORISON DRAG", "FROUDE KRYLOV"];
     assert_eq!(rows[..7], listed);
@@ -169,14 +169,14 @@ fn structure_pages_have_records_and_rows_of_listing() {
 /// TPRV 500: the steps that the listing has. The places of node 112 are printed at eleven times.
 #[test]
 fn tether_pages_and_node_places_are_those_of_listing() {
-    let text = printed("he01_phases.dat");
+    let text = print_deck("he01_phases.dat");
     let page = text.split("T I M E   H I S T O R Y   O F   S I N G L E").nth(1).unwrap();
     let rows = page.lines().skip_while(|line| !line.starts_with("----")).skip(1).take_while(|line| !line.is_empty());
     let mut steps: Vec<String> = rows.map(|line| line.split_whitespace().next().unwrap().to_string()).collect();
     assert_eq!(steps.len(), 4 * 14);
     steps.dedup();
     assert_eq!(steps, ["1", "501", "1001", "1501"]);
-    let text = printed("mint.dat");
+    let text = print_deck("mint.dat");
     let listing: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string("tests/data/installed_tether.json").unwrap()).unwrap();
     let states = listing["structure_history"].as_array().unwrap();

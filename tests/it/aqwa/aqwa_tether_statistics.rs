@@ -42,7 +42,7 @@ fn head(quantity: &str, column: &str) -> &'static str {
     }
 }
 
-fn compared() -> Vec<Compared> {
+fn compare_pages() -> Vec<Compared> {
     let (mut session, screen, _folder) = common::session();
     session.open_job("he01_phases.dat", std::fs::read_to_string("scripts/he01_phases.dat").unwrap());
     session.run();
@@ -113,7 +113,7 @@ const MET: [Misfit; 9] = [
 
 #[test]
 fn pages_match_every_printed_number() {
-    let list = compared();
+    let list = compare_pages();
     assert_eq!(list.len(), 204);
     for Compared { place, quantity, column, printed, found } in &list {
         let met = MET.iter().find(|m| m.quantity == quantity && m.columns.contains(&column.as_str())).unwrap();
@@ -133,7 +133,7 @@ fn pages_match_every_printed_number() {
 /// Asked of the 408 means of the highest and lowest thirds: 5 %. Pooled maxima and minima would be 26 % low.
 #[test]
 fn most_printed_numbers_are_met_within_one_percent() {
-    let list = compared();
+    let list = compare_pages();
     let count = |of: &dyn Fn(&Compared) -> Vec<f64>, within: f64| {
         list.iter().flat_map(of).filter(|error| error.abs() <= within).count()
     };

@@ -3,7 +3,9 @@
 //! The fairlead is at (0, 0, -10), the anchor at (535, 0, -100): sqrt(535^2 + 90^2) m apart. Numbers by numpy in double precision from the
 //! formulas beside them.
 
-use super::aqwa_decks::{SECTION, STILL, assert_near, lines, moored, placed, pulls, records, run, said};
+use super::aqwa_decks::{
+    SECTION, STILL, assert_near, lines, moored_deck, pulls, read_diagnostics, records, run, run_placed_deck,
+};
 
 use crate::common;
 use windlass::session::Session;
@@ -18,7 +20,7 @@ fn hold_structure(deck: &str) -> String {
 
 /// Forces of the connectors on a held structure over time: (s, N along X and Z), by its deck.
 fn pulls_over_time(cards: &str) -> Vec<[f64; 3]> {
-    let (session, _) = run("held.dat", &hold_structure(&moored("NAUT", 100.0, cards, STILL)));
+    let (session, _) = run("held.dat", &hold_structure(&moored_deck("NAUT", 100.0, cards, STILL)));
     let made = session.job.run.as_ref().unwrap();
     let history = &made.history;
     let (x, z) = match history.layout.category(0, Category::FlexConnectors) {
@@ -30,7 +32,7 @@ fn pulls_over_time(cards: &str) -> Vec<[f64; 3]> {
 
 /// Horizontal and vertical force of the one line of a deck on its structure (N), toward and down to the anchor.
 fn pull(cards: &str) -> [f64; 2] {
-    let (session, _) = placed(&moored("LIBR", 100.0, cards, STILL));
+    let (session, _) = run_placed_deck(&moored_deck("LIBR", 100.0, cards, STILL));
     let [pull] = pulls(&session.job.model)[..] else { panic!() };
     [pull[0], -pull[2]]
 }
@@ -74,7 +76,7 @@ fn line_over_pulley_of_structure_has_length_behind_it() {
     let card = |ends: &str| {
         format!("    14LINE    0   12    1    2     1.0E5     550.0\n END14PULY{ends}{:>30}       1.3\n", "1.2")
     };
-    let (session, text) = placed(&moored("LIBR", 100.0, &card("    1    2    1    1"), STILL));
+    let (session, text) = run_placed_deck(&moored_deck("LIBR", 100.0, &card("    1    2    1    1"), STILL));
     assert!(text.contains("-RATIO 1.2") && text.contains("CONNECTOR L1 ~L1 *N12 *S1_2"), "{text}");
     let [pull] = pulls(&session.job.model)[..] else { panic!() };
     let tension = 1e5 * (542.517_280_830_758_4 - 540.0);
@@ -83,7 +85,7 @@ fn line_over_pulley_of_structure_has_length_behind_it() {
     for (ends, message) in
         [("    1    1    1    2", "the pulley is at node 1"), ("    1    2    0   12", "between two structures")]
     {
-        let list = said(&moored("LIBR", 100.0, &card(ends), STILL));
+        let list = read_diagnostics(&moored_deck("LIBR", 100.0, &card(ends), STILL));
         assert!(list.iter().any(|e| e.message.contains(message) && e.span.is_some()), "{list:?}");
     }
 }
@@ -142,8 +144,8 @@ fn composite_line_lies_on_sloping_bed_of_its_card() {
             "    14COMP                   1                    {slope:>10}\n{SECTION} END14NLIN    1    2    0   12\n"
         );
         meets(&cards, horizontal, vertical);
-        let text = moored("LIBR", 100.0, &cards, STILL);
-        assert!(said(&text).iter().any(|note| note.message.contains("sign of the slope")));
+        let text = moored_deck("LIBR", 100.0, &cards, STILL);
+        assert!(read_diagnostics(&text).iter().any(|note| note.message.contains("sign of the slope")));
     }
 }
 
@@ -170,13 +172,13 @@ fn stiffening_composite_line_pulls_by_its_polynomial_of_strain() {
 fn dynamic_line_of_deck_hangs_as_catenary_unless_switched_off() {
     let cards =
         |switch: &str| format!("    14COMP                   1\n{SECTION}{switch} END14NLID    1    2    0   12\n");
-    let deck = moored("LIBR", 100.0, &cards(""), STILL);
-    let (session, text) = placed(&deck);
+    let deck = moored_deck("LIBR", 100.0, &cards(""), STILL);
+    let (session, text) = run_placed_deck(&deck);
     assert!(text.contains("&CONNECTOR L1 -DYNAMICS"), "{text}");
     let [pull] = pulls(&session.job.model)[..] else { panic!() };
     // the chords of its elements, and a bottom that gives way: 1 per cent
     assert!((pull[0] / 135_470.098_796_51 - 1.0).abs() < 0.01, "{pull:?}");
-    let off = lines(&records(&moored("LIBR", 100.0, &cards("    14DOFF\n"), STILL)).unwrap());
+    let off = lines(&records(&moored_deck("LIBR", 100.0, &cards("    14DOFF\n"), STILL)).unwrap());
     assert!(!off.contains("&CONNECTOR"), "{off}");
 }
 
@@ -199,7 +201,7 @@ fn wrong_winches_and_breaks_are_refused_with_card_and_columns() {
         (" END14DRUM    1    2    0   12\n", "deck 14 MOOR, DRUM: no public source"),
         (" END14FENP    1    2    0   12\n", "deck 14 MOOR, FENP: no public source"),
     ] {
-        let list = said(&moored("LIBR", 100.0, cards, STILL));
+        let list = read_diagnostics(&moored_deck("LIBR", 100.0, cards, STILL));
         let found = list.iter().find(|error| error.message.starts_with(message));
         assert!(found.is_some_and(|error| error.span.is_some()), "{message}: {list:?}");
     }
@@ -210,7 +212,7 @@ fn wrong_winches_and_breaks_are_refused_with_card_and_columns() {
         (format!("{composite} END{line}{:>10}\n", "1.0E5"), "NLIN of a COMP with columns 31-70"),
         (format!("{composite}    {line}\n END14LBRK{:>10}{:>40}\n", "1", "1.0E5"), "columns 51-60"),
     ] {
-        let list = records(&moored("NAUT", 100.0, &cards, STILL)).unwrap_err();
+        let list = records(&moored_deck("NAUT", 100.0, &cards, STILL)).unwrap_err();
         assert!(list.iter().any(|error| error.message.contains(message) && error.span.is_some()), "{list:?}");
     }
 }
@@ -252,7 +254,7 @@ fn hemisphere(program: &str, held: &[u8], waves: &str) -> String {
     let card =
         |(n, dof): (usize, &u8)| format!("{:>4}12DACF    1{dof:5}\n", if n + 1 == held.len() { "END" } else { "" });
     let cards: String = held.iter().enumerate().map(card).collect();
-    moored(program, 100.0, " END14FORC    1    2    0   12     1.0E6\n", waves)
+    moored_deck(program, 100.0, " END14FORC    1    2    0   12     1.0E6\n", waves)
         .replace(" END02PMAS", "    02QPPL DIFF     (1)(1)(1)(2)(2)\n END02PMAS")
         .replace("    1     1.0E7\n", "    1 2146755.0\n")
         .replace("END05ACCG      9.81", "END05ACCG   9.80665")
@@ -323,7 +325,7 @@ fn naut_job_of_hull_reaches_heave_of_its_coefficients() {
 fn job_without_coefficients_of_its_hull_is_an_error() {
     let sea = "    13    SPEC\n END13PSMZ                 0.3       2.0       3.0       6.0\n";
     for program in ["LIBR", "FER ", "DRIF", "NAUT"] {
-        let deck = moored(program, 100.0, " END14FORC    1    2    0   12     1.0E6\n", sea);
+        let deck = moored_deck(program, 100.0, " END14FORC    1    2    0   12     1.0E6\n", sea);
         let list = records(&deck).unwrap_err();
         assert!(
             list.iter().any(|e| e.message.starts_with("decks 6 to 8: structure 1 has no wave coefficients")),
@@ -332,7 +334,7 @@ fn job_without_coefficients_of_its_hull_is_an_error() {
     }
     // binary files, and LINE, are refused by name
     let binary = hemisphere("DRIF", &BUT_HEAVE, sea).replace("hemisphere.AH1", "hemisphere.HYD");
-    let list = said(&binary);
+    let list = read_diagnostics(&binary);
     let found = list.iter().find(|e| {
         e.message == "FILE, columns 21-80: `tests/data/hemisphere/hemisphere.HYD` is no text database of AQWA"
     });
@@ -354,7 +356,7 @@ fn wrench(session: &Session) -> [f64; 6] {
     let surroundings = model.surroundings();
     let connector = model.connectors.values().next().unwrap();
     let element = model.element(connector).unwrap();
-    let ends = model.end_poses(connector).map(windlass_model::End::still);
+    let ends = model.end_poses(connector).map(windlass_model::End::at_rest);
     let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
     let mut out = windlass_model::ConnectorResponse::default();
     let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
@@ -375,23 +377,23 @@ fn fixed_fender_pushes_by_polynomial_of_its_compression() {
     };
     let cubic = cards("     1.0E5     2.0E5     3.0E5", "");
     for yaw in ["0.0", "30.0"] {
-        let deck = with_nodes(&moored("LIBR", 100.0, &cubic, STILL), &nodes)
+        let deck = with_nodes(&moored_deck("LIBR", 100.0, &cubic, STILL), &nodes)
             .replace("       0.0\n    16    TINT", &format!("{yaw:>10}\n    16    TINT"));
-        let (session, _) = placed(&deck);
+        let (session, _) = run_placed_deck(&deck);
         let [x, y, z, ..] = wrench(&session);
         assert!((x + 91_200.0).abs() < 1e-3 && y.abs() < 1e-3 && z.abs() < 1e-3, "{yaw}: {x} {y} {z}");
     }
     // a linear one: 4E4 N, damped by 0.1 s times 1E5 N/m
     let text =
-        lines(&records(&with_nodes(&moored("LIBR", 100.0, &cards("     1.0E5", "0.1"), STILL), &nodes)).unwrap());
+        lines(&records(&with_nodes(&moored_deck("LIBR", 100.0, &cards("     1.0E5", "0.1"), STILL), &nodes)).unwrap());
     assert!(text.contains("-FRICTION 0.2 -X_DAMPING 10 1"), "{text}");
     // damping of a stiffness that changes, and other types, are refused
-    let list =
-        records(&with_nodes(&moored("LIBR", 100.0, &cards("     1.0E5     2.0E5", "0.1"), STILL), &nodes)).unwrap_err();
+    let list = records(&with_nodes(&moored_deck("LIBR", 100.0, &cards("     1.0E5     2.0E5", "0.1"), STILL), &nodes))
+        .unwrap_err();
     assert!(list[0].message.starts_with("deck 14, FEND, columns 71-80"), "{list:?}");
     let floating = cubic.replace("14FLIN    1", "14FLIN    2");
     assert!(
-        said(&moored("LIBR", 100.0, &floating, STILL))
+        read_diagnostics(&moored_deck("LIBR", 100.0, &floating, STILL))
             .iter()
             .any(|e| e.message == "deck 14, FLIN, columns 11-15: a fender of type 2 is not read")
     );
@@ -400,7 +402,7 @@ fn fixed_fender_pushes_by_polynomial_of_its_compression() {
 /// A body of 1E7 kg at (0, 0, 0) that hangs from a joint of the ground, at rest.
 fn hung(joint: &str, others: &str) -> [f64; 6] {
     let nodes = [(24, [3.0, 0.0, 2.0]), (25, [4.0, 0.0, 2.0]), (26, [3.0, 0.0, 3.0]), (27, [0.0, 0.0, 5.0])];
-    let deck = with_nodes(&moored("LIBR", 100.0, "", STILL), &nodes)
+    let deck = with_nodes(&moored_deck("LIBR", 100.0, "", STILL), &nodes)
         .replace("    14    MOOR\n", "    14    NONE\n")
         .replace("    12    NONE\n", &format!("    12    CONS\n{others} END12DCON{joint}\n"));
     let (session, _) = run("hung.dat", &deck);

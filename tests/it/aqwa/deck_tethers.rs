@@ -3,7 +3,7 @@
 //! One tube of 200 m, neutral in water, stands upright under a vessel that its mass and stiffness hold still. Ends are pinned. In a uniform current
 //! it is a beam under tension, `EI w'''' - T w'' = q`, solved span by span: `w = -q x2/(2T) + A + B x + C cosh kx + D sinh kx`, `k2 = T/EI`.
 
-use super::aqwa_decks::{file, listing, number, run, tethered};
+use super::aqwa_decks::{file, listing, number, run, tethered_run};
 use crate::common;
 use nalgebra::{Matrix4, SMatrix, SVector};
 use std::f64::consts::PI;
@@ -135,7 +135,7 @@ fn tcap_and_tifl_enter_pull_of_tether_on_vessel() {
     let cards =
         "    14TCAP                           0.3       0.4\n    14TIFL                        2000.0      0.85\n";
     let (session, _) = run("pull.dat", &deck(&DeckCase { cards, raised: 0.05, ..DeckCase::default() }));
-    let made = tethered(&session);
+    let made = tethered_run(&session);
     // the end at the vessel is 49.95 m deep
     let (out, inside) = (WATER * GRAVITY * 49.95, 2e6 + 850.0 * GRAVITY * 49.95);
     let upper = tension(0.05, [2e6, 850.0]) + 0.5 * weight(850.0);
@@ -147,7 +147,7 @@ fn tcap_and_tifl_enter_pull_of_tether_on_vessel() {
     // neither card: the pull is the effective tension
     let (session, _) = run("pull.dat", &deck(&DeckCase { raised: 0.05, ..DeckCase::default() }));
     let bare = tension(0.05, [0.0, 0.0]) + 0.5 * weight(0.0);
-    assert_near(tethered(&session).structure.as_ref().unwrap().value(0, PULL_Z).unwrap(), -bare, 1e-6);
+    assert_near(tethered_run(&session).structure.as_ref().unwrap().value(0, PULL_Z).unwrap(), -bare, 1e-6);
 }
 
 #[test]
@@ -162,17 +162,17 @@ fn tlow_stop_takes_tether_that_fell_by_its_distance() {
     let ea = MODULUS * steel();
     let short = WATER * GRAVITY * 150.0 * circle(OUTER) * LENGTH / ea;
     let last = |session: &Session| {
-        let structure = tethered(session).structure.as_ref().unwrap().series(PULL_Z);
+        let structure = tethered_run(session).structure.as_ref().unwrap().series(PULL_Z);
         *structure.last().unwrap()
     };
     let stopped = fall("    14TLOW                           0.5\n");
-    let hit = tethered(&stopped).happened.iter().find(|e| matches!(e.change, RigChange::LowerStop { .. })).unwrap();
+    let hit = tethered_run(&stopped).happened.iter().find(|e| matches!(e.change, RigChange::LowerStop { .. })).unwrap();
     // an instant of 0.05 s on either side
     assert!((hit.time - ((0.5 + short) / 0.01).sqrt()).abs() < 0.1, "{hit:?}");
     // at 10 s it is 1 m down, and half of it is below the stop
     assert_near(last(&stopped) / (ea / LENGTH), 0.5 - short, 2e-3);
     let free = fall("    14TLOW                           2.0\n");
-    assert!(tethered(&free).happened.iter().all(|e| !matches!(e.change, RigChange::LowerStop { .. })));
+    assert!(tethered_run(&free).happened.iter().all(|e| !matches!(e.change, RigChange::LowerStop { .. })));
     assert_near(last(&free), -weight(0.0), 1e-9);
 }
 
@@ -270,12 +270,12 @@ fn in_current(cards: &str, middle: &str) -> Session {
 
 /// Deflection of a node, from 0 at the anchor, at the end of a run.
 fn deflection(session: &Session, node: usize) -> f64 {
-    *tethered(session).tethers[0].node(node, 0).last().unwrap()
+    *tethered_run(session).tethers[0].node(node, 0).last().unwrap()
 }
 
 /// Force along X of the tether on the structure at the end of a run.
 fn push(session: &Session) -> f64 {
-    *tethered(session).structure.as_ref().unwrap().series(PULL_X).last().unwrap()
+    *tethered_run(session).structure.as_ref().unwrap().series(PULL_X).last().unwrap()
 }
 
 /// A bow of the tether with a support at a distance, at the place of a node 20 m times its number up.
@@ -320,7 +320,7 @@ fn held_node_off_the_axis_takes_its_tension_at_a_quarter_second() {
     let case = DeckCase { middle: "    14TLAC\n", steps: (401, 0.25), ..DeckCase::default() };
     let text = deck(&case).replace("END15POS1                 0.0", "END15POS1                20.0");
     let (session, _) = run("pull.dat", &text);
-    let structure = tethered(&session).structure.as_ref().unwrap();
+    let structure = tethered_run(&session).structure.as_ref().unwrap();
     assert_near(*structure.series(PULL_X).last().unwrap(), -62_553_927.07, 1e-3);
     assert_near(*structure.series(PULL_Z).last().unwrap(), -304_060_064.96, 1e-3);
 }
@@ -334,7 +334,7 @@ fn installed_example_runs_with_held_nodes_at_its_own_step() {
         let with = with
             .replace("END16TIME       101     0.250", &format!("END16TIME     {count:5}{:10.3}", 0.25 / step as f64));
         let (session, _) = run("mint.dat", &with);
-        let made = tethered(&session);
+        let made = tethered_run(&session);
         // surge and heave after 5 s
         [0, 2].map(|dof| made.structure.as_ref().unwrap().value(20 * step, dof).unwrap())
     };
@@ -376,7 +376,7 @@ fn printed_times(text: &str, tether: &str) -> Vec<String> {
     times
 }
 
-fn printed(name: &str, text: String) -> String {
+fn print_deck(name: &str, text: String) -> String {
     let (mut session, screen, _folder) = common::session();
     session.open_job(name, text);
     session.run();
@@ -387,28 +387,28 @@ fn printed(name: &str, text: String) -> String {
 #[test]
 fn tprv_prints_tethers_at_first_step_and_every_n_after() {
     // the listing of TPRV 500 at 0.25 s
-    let towed = printed("he01_phases.dat", file("he01_phases.dat"));
+    let towed = print_deck("he01_phases.dat", file("he01_phases.dat"));
     assert_eq!(printed_times(&towed, "T 1"), ["0.00", "125.00", "250.00", "375.00"]);
     // 22 steps of 0.1 s: 1, 6, 11, 16, 21
     let case = DeckCase { steps: (22, 0.1), printing: "    18TPRV    5\n", ..DeckCase::default() };
-    assert_eq!(printed_times(&printed("pull.dat", deck(&case)), "T 1"), ["0.00", "0.50", "1.00", "1.50", "2.00"]);
+    assert_eq!(printed_times(&print_deck("pull.dat", deck(&case)), "T 1"), ["0.00", "0.50", "1.00", "1.50", "2.00"]);
 }
 
 #[test]
 fn tether_of_structure_without_pten_is_not_printed() {
     let case = DeckCase { steps: (3, 0.1), printing: "    18TPRV    1\n", ..DeckCase::default() };
     let text = deck(&case);
-    assert_eq!(printed_times(&printed("pull.dat", text.clone()), "T 1").len(), 3);
-    let silent = printed("pull.dat", text.replace(" END18PTEN    1\n", " END18NODE    1    2\n"));
+    assert_eq!(printed_times(&print_deck("pull.dat", text.clone()), "T 1").len(), 3);
+    let silent = print_deck("pull.dat", text.replace(" END18PTEN    1\n", " END18NODE    1    2\n"));
     assert!(printed_times(&silent, "T 1").is_empty());
-    let none = printed("pull.dat", text.replace(" END18PTEN    1\n", " END18PTEN\n"));
+    let none = print_deck("pull.dat", text.replace(" END18PTEN    1\n", " END18PTEN\n"));
     // a blank structure is all of them
     assert_eq!(printed_times(&none, "T 1").len(), 3);
 }
 
 #[test]
 fn node_card_prints_place_of_node_as_listing() {
-    let text = printed("mint.dat", file("mint.dat"));
+    let text = print_deck("mint.dat", file("mint.dat"));
     let pages: Vec<&str> =
         text.split("S T R U C T U R E   S 1 +++").filter(|page| page.contains("RECORD NO.")).collect();
     let states = listing("installed")["structure_history"].clone();
@@ -432,7 +432,7 @@ fn tslk_leaves_record_of_every_step() {
     let text = file("mint.dat").replace("16TIME       101", "16TIME        31");
     for text in [text.clone(), text.replace("    14TSLK                         0.001\n", "")] {
         let (session, _) = run("mint.dat", &text);
-        let made = tethered(&session);
+        let made = tethered_run(&session);
         // 31 steps of 0.25 s, of which TSLK prints one
         assert_eq!((made.times.len(), made.times.last()), (31, Some(&7.5)));
         assert!(made.tethers.iter().all(|tether| tether.node(1, 0).len() == 31));
@@ -467,7 +467,7 @@ fn tpsh_hours_enter_expected_peak() {
     let without = file("he01_phases.dat");
     let with = without.replace("    14TEIG    6\n", "    14TEIG    6\n    14TPSH                          48.0\n");
     for (text, hours) in [(without, 3.0), (with, 48.0)] {
-        let peaks = printed_peaks(&printed("he01.dat", text));
+        let peaks = printed_peaks(&print_deck("he01.dat", text));
         assert_eq!(peaks.len(), 26);
         for (end, peak) in peaks.into_iter().enumerate().filter(|(end, _)| field(*end, "pk3h") > 1e5) {
             let n: f64 = field(end, "cychr2") * hours;
@@ -483,7 +483,7 @@ fn half_the_step_keeps_printed_moments() {
     // chapter 4: a run with half the step has about the same bending moments. The listing is of 0.25 s.
     let text = file("he01_phases.dat").replace("16TIME      1501      0.25", "16TIME      1001     0.125");
     let (session, _) = run("he01.dat", &text);
-    let made = tethered(&session);
+    let made = tethered_run(&session);
     assert_eq!(made.times.last(), Some(&125.0));
     let printed = listing("towed");
     let moments = printed["history"]["125"]["nodal_forces"].as_object().unwrap();
@@ -530,7 +530,7 @@ fn towed_tether_of_naut_deck_rides_on_stokes_wave_of_second_order() {
     let (number, want) = (0.019_205_302_8, 0.183_601_095);
     let second = |theory: &str| {
         let (session, _) = run("ride.dat", &towed_in_wave(theory));
-        let made = tethered(&session);
+        let made = tethered_run(&session);
         let heights = made.tethers[0].node(1, 1);
         // the last two of ten periods
         let rate = 2.0 * 2.0 * PI / 16.0;

@@ -57,3 +57,43 @@ pub fn session() -> (Session, Screen, TempDir) {
     session.keep_reports = true;
     (session, screen, folder)
 }
+
+/// What a session prints of records, with its messages and their help behind it, and the number of its errors.
+pub fn print_records(records: &str) -> (String, i64) {
+    let (mut session, screen, _folder) = session();
+    session.open("records", records.to_string());
+    session.run();
+    let reported: Vec<String> = session.reports.iter().map(|d| format!("{} {}", d.message, d.help.join(" "))).collect();
+    (format!("{}\n{}", screen.text(), reported.join("\n")), session.errors)
+}
+
+/// The same of records in metres and metric tons, in water of 1025 kg/m3.
+pub fn print_metric_records(records: &str) -> (String, i64) {
+    print_records(&format!("&DIMEN -DIMEN METERS M-TONS\n&DEFAULT -WATER 1025 -G 9.80665\n{records}\n"))
+}
+
+/// A number behind its name in a report: `Volume = 24.00 m3`; the last one.
+pub fn fact(text: &str, name: &str) -> f64 {
+    let named = |line: &str| {
+        Some(line.trim().strip_prefix(name)?.trim().strip_prefix('=')?.split_whitespace().next()?.to_string())
+    };
+    let found = text.lines().filter_map(named).next_back().and_then(|word| word.parse().ok());
+    found.unwrap_or_else(|| panic!("{name} in {text}"))
+}
+
+/// What a script prints, and its messages.
+pub fn run_script(script: &str) -> (String, Vec<String>) {
+    let (mut session, screen, _folder) = session();
+    session.open("script", script.to_string());
+    session.run();
+    session.job.output.flush();
+    (screen.text(), session.reports.iter().map(|r| r.message.clone()).collect())
+}
+
+/// The numbers that a string function gives behind a script.
+pub fn function_values(script: &str, function: &str) -> Vec<f64> {
+    let (text, said) = run_script(&format!("{script}&TYPE => {function}\n"));
+    let line = text.lines().find_map(|line| line.strip_prefix("=> "));
+    let line = line.unwrap_or_else(|| panic!("{function} gives nothing: {said:?}"));
+    line.split_whitespace().map(|word| word.parse().unwrap()).collect()
+}

@@ -20,7 +20,7 @@ fn dome() -> String {
 }
 
 /// A line of 968 m and 1200 N/m to an anchor at the origin.
-fn moored(bottom: &str, [x, y]: [f64; 2], class: &str) -> Model {
+fn moored_model(bottom: &str, [x, y]: [f64; 2], class: &str) -> Model {
     let direction = (-y).atan2(-x).to_degrees();
     model(&format!(
         "{bottom}MEDIT\n&DESCRIBE BODY A -IGNORE X Y Z RX RY RZ\n*F {x} {y} -10\n~L B_CAT 100 -LEN 968 -BUOY 0 -WTPL 1200 {class}\n\
@@ -52,7 +52,7 @@ fn line_on_bathymetry_follows_slope_along_its_azimuth() {
         (-90.0, 488016.631298, 562988.655535),
     ] {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        let (force, _) = load(&moored(PLANE, [900.0 * cos, 900.0 * sin], ELASTIC));
+        let (force, _) = load(&moored_model(PLANE, [900.0 * cos, 900.0 * sin], ELASTIC));
         // what the line solver proves: 1e-9 of the tension
         close(force[0], -horizontal * cos, 1e-3);
         close(force[1], -horizontal * sin, 1e-3);
@@ -62,7 +62,7 @@ fn line_on_bathymetry_follows_slope_along_its_azimuth() {
 
 #[test]
 fn line_stiffness_across_slope_includes_depth_change() {
-    let (_, stiffness) = load(&moored(PLANE, [900.0, 0.0], ELASTIC));
+    let (_, stiffness) = load(&moored_model(PLANE, [900.0, 0.0], ELASTIC));
     // d(H, V)/d(azimuth) over the distance, and H over the distance; forces proven to 1e-9 over 2e-4 rad
     for (row, want) in [(0, -168536.0208 / 900.0), (1, 322139.172296 / 900.0), (2, -130207.1862 / 900.0)] {
         close(stiffness[(row, 1)], want, 2e-3);
@@ -71,7 +71,7 @@ fn line_stiffness_across_slope_includes_depth_change() {
 
 #[test]
 fn line_on_curved_bathymetry_follows_its_curvature() {
-    let made = moored(&dome(), [900.0, 0.0], "-EMOD 1E9");
+    let made = moored_model(&dome(), [900.0, 0.0], "-EMOD 1E9");
     let (force, _) = load(&made);
     // chords of 6.25 m are up to 5e-5 / 4 * 6.25^2 = 0.49 mm below the dome, times the stiffness by depth
     let (_, stiffness) = load(&made);
@@ -82,7 +82,7 @@ fn line_on_curved_bathymetry_follows_its_curvature() {
 #[test]
 fn table_option_on_bathymetry_interpolates_along_azimuth() {
     let place = [900.0 * 30f64.to_radians().cos(), 450.0];
-    let (force, _) = load(&moored(PLANE, place, &format!("{ELASTIC} -TABLE")));
+    let (force, _) = load(&moored_model(PLANE, place, &format!("{ELASTIC} -TABLE")));
     // thirty rows: interpolation errs by a few per mille
     close(force.fixed_rows::<2>(0).norm(), 239215.813830, 5e-3 * 239215.0);
 }

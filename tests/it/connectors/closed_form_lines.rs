@@ -66,14 +66,14 @@ fn stiff(flag: &str, distance: f64) -> String {
 }
 
 /// Distance, vertical force, suspended length of that line at a horizontal force, `h` high.
-fn closed(force: f64, h: f64, length: f64) -> [f64; 3] {
+fn closed_form(force: f64, h: f64, length: f64) -> [f64; 3] {
     let a = force / 1000.0;
     let suspended = (h * h + 2.0 * h * a).sqrt();
     [length - suspended + a * (1.0 + h / a).acosh(), 1000.0 * suspended, suspended]
 }
 
 /// Whether a number is what a report shows of another: forces to 1 N, distances to 0.01 m, ratios to 0.001.
-fn printed(got: f64, want: f64) -> bool {
+fn is_printed_as(got: f64, want: f64) -> bool {
     (got - want).abs() <= if want.abs() > 1e4 { 0.51 } else { 0.0051 }
 }
 
@@ -83,7 +83,7 @@ fn stiff_line_shape_matches_closed_form_catenary() {
     let (force, a) = (300_000.0, 300.0);
     let done =
         run(&stiff("", 900.0), |_| (), "CONN_DESIGN\nGEOMETRY A -HORIZONTAL 300000\nREPORT X\nSTORE t\nEND\nEND");
-    let [x, _, suspended] = closed(force, 200.0, 1010.0);
+    let [x, _, suspended] = closed_form(force, 200.0, 1010.0);
     assert_near(suspended, 400.0, 1e-12);
     let touchdown = x - 610.0;
     let (xs, zs, arcs) = (done.column("X"), done.column("Z"), done.column("Arc Length"));
@@ -107,7 +107,7 @@ fn stiff_line_shape_matches_closed_form_catenary() {
 
 #[test]
 fn every_configuration_request_gives_same_configuration() {
-    let [x, ..] = closed(3e5, 200.0, 1010.0);
+    let [x, ..] = closed_form(3e5, 200.0, 1010.0);
     let shape = |distance: f64, options: &str| {
         run(&stiff("EXACT", distance), |_| (), &format!("CONN_DESIGN\nGEOMETRY A {options}\nSTORE t\nEND\nEND"))
     };
@@ -128,7 +128,7 @@ fn sensitivity_tables_match_closed_form_catenary() {
     let rows = |done: &Done, forces: &[f64], heights: &[f64], lengths: &[f64]| {
         assert_eq!((done.errors, done.column("X").len()), (0, forces.len()), "{:?}", done.said);
         for (i, ((force, h), l)) in forces.iter().zip(heights).zip(lengths).enumerate() {
-            let [x, vertical, suspended] = closed(*force, *h, *l);
+            let [x, vertical, suspended] = closed_form(*force, *h, *l);
             for (name, want) in [
                 ("X", x),
                 ("Force", *force),
@@ -145,7 +145,7 @@ fn sensitivity_tables_match_closed_form_catenary() {
         }
     };
     let forces = [1e5, 2e5, 4e5];
-    let distances = forces.map(|h| closed(h, 200.0, 1010.0)[0]);
+    let distances = forces.map(|h| closed_form(h, 200.0, 1010.0)[0]);
     rows(&table("HORIZONTAL 1E5 2E5 4E5"), &forces, &[200.0; 3], &[1010.0; 3]);
     rows(&table("TENSION 3E5 4E5 6E5"), &forces, &[200.0; 3], &[1010.0; 3]);
     rows(
@@ -185,14 +185,14 @@ fn unsolved_configuration_has_empty_row_and_named_warning() {
 
 #[test]
 fn connector_forces_match_placed_shape_and_point_to_anchor() {
-    let (records, x) = (stiff("EXACT", 0.0), closed(3e5, 200.0, 1010.0)[0]);
+    let (records, x) = (stiff("EXACT", 0.0), closed_form(3e5, 200.0, 1010.0)[0]);
     let records = records.replace("-ANC 30 0", &format!("-ANC 30 {x}"));
     let done = run(&records, |_| (), "&STATUS F_CONNECTOR\nCONN_DESIGN\nGEOMETRY A\nREPORT X\nSTORE t\nEND\nEND");
     let row = done.row("A");
     let (c, s) = (30f64.to_radians().cos(), 30f64.to_radians().sin());
     let (h, v) = (done.column("Horizontal")[0], done.column("Vertical")[0]);
     for (got, want) in row.iter().zip([x, h * c, h * s, -v, h.hypot(v), h.hypot(v) / 1e6, 1.0, 0.0, h]) {
-        assert!(printed(*got, want), "{got} is not {want} in {row:?}");
+        assert!(is_printed_as(*got, want), "{got} is not {want} in {row:?}");
     }
     assert_near(h, 3e5, 1e-6);
     assert_near(v, 4e5, 1e-6);
@@ -207,7 +207,7 @@ fn line_angles_match_catenary_with_and_without_uplift() {
         run(&records, |_| (), "&STATUS LINE_ANGLES -DISPOSE\nSTORE t\nREPORT\nEND")
     };
     // on the bottom the slope at the fairlead is V/H, and the height is s tan(b/2) of a suspended length s
-    let slack = table(closed(3e5, 200.0, 1010.0)[0]);
+    let slack = table(closed_form(3e5, 200.0, 1010.0)[0]);
     assert_near(slack.column("Azimuth")[0], 30.0, 1e-6);
     assert_near(slack.column("Declination")[0], 90.0 - (4f64 / 3.0).atan().to_degrees(), 1e-6);
     assert_near(slack.column("Uplift")[0], 0.0, 1e-6);
@@ -244,7 +244,7 @@ fn line_angles_list_lines_that_do_not_pull_and_dynamic_lines() {
     assert_near(declination[2].unwrap(), (5f64 / 12.0).atan().to_degrees(), 1e-6);
     assert_near(done.stored["Azimuth"][2].unwrap(), (4f64 / 3.0).atan().to_degrees(), 1e-6);
     // as a dynamic line of 60 elements the catenary of the test above, to what its elements of 17 m leave
-    let records = stiff("EXACT", 0.0).replace("-ANC 30 0", &format!("-ANC 30 {}", closed(3e5, 200.0, 1010.0)[0]));
+    let records = stiff("EXACT", 0.0).replace("-ANC 30 0", &format!("-ANC 30 {}", closed_form(3e5, 200.0, 1010.0)[0]));
     let dynamic =
         run(&records, |_| (), "&CONNECTOR A -DYNAMICS 60\n&STATUS LINE_ANGLES -DISPOSE\nSTORE t\nREPORT\nEND");
     assert_near(dynamic.column("Declination")[0], 90.0 - (4f64 / 3.0).atan().to_degrees(), 1e-3);
@@ -265,7 +265,7 @@ fn constant_tension_line_angles_match_its_chord() {
 
 #[test]
 fn tabulated_connector_forces_are_near_exact_and_marked_tabulated() {
-    let x = closed(3e5, 200.0, 1010.0)[0];
+    let x = closed_form(3e5, 200.0, 1010.0)[0];
     let done = run(&stiff("-TABLE", x), |_| (), "&STATUS F_CONNECTOR");
     let row = done.row("A");
     assert!(done.text.lines().any(|l| l.trim_start().starts_with("A ") && l.contains(" table ")), "{}", done.text);
@@ -297,7 +297,7 @@ fn inactive_unsolved_or_non_line_connector_stops_no_other() {
     let (row, chord) = (done.row("TIE"), 58f64.sqrt());
     let force = std::f64::consts::FRAC_PI_4 * 1e4 * 100.0 * (10.0 - chord) / 10.0;
     for (got, want) in row[1..].iter().zip([-force * 7.0 / chord, force * 3.0 / chord, 0.0, -force]) {
-        assert!(printed(*got, want), "{got} is not {want} in {row:?}");
+        assert!(is_printed_as(*got, want), "{got} is not {want} in {row:?}");
     }
     assert!(done.said.iter().any(|m| m == "LOST: the other end of the line has no place"), "{:?}", done.said);
     // one newton per metre over seven metres

@@ -49,7 +49,7 @@ impl Left {
     }
 
     /// Lines printed about connectors.
-    fn said(&self) -> Vec<&str> {
+    fn printed_lines(&self) -> Vec<&str> {
         self.text.lines().filter(|l| l.starts_with("connector ")).collect()
     }
 }
@@ -100,7 +100,7 @@ fn solving_option_gives_requested_force_in_every_line_class() {
                 anchor.distance,
                 1e-12,
             );
-            assert_eq!(left.said().len(), 1, "{}", left.text);
+            assert_eq!(left.printed_lines().len(), 1, "{}", left.text);
             assert!(left.text.contains("160.00 kips"), "{}", left.text);
         }
     }
@@ -229,7 +229,7 @@ fn lengths_are_given_or_added_and_reported_with_old_values() {
     close(left.connector("BOTTOM").first_length.unwrap(), 3995.5 * METRES_PER_FOOT, 1e-12);
     close(left.connector("ROUGH").first_length.unwrap(), 1490.0 * METRES_PER_FOOT, 1e-12);
     assert_eq!(left.connector("SLOPED").first_length, None);
-    let said = left.said();
+    let said = left.printed_lines();
     assert_eq!(said.len(), 3);
     assert!(said[0].starts_with("connector BOTTOM: first segment 3990.00 ft (was 4000.00), horizontal force "));
     assert!(said[1].starts_with("connector BOTTOM: first segment 3995.50 ft (was 3990.00), horizontal force "));
@@ -266,7 +266,7 @@ fn option_acts_on_preceding_names_in_order_and_once_on_each() {
     assert_eq!([length("ROUGH"), length("AQWA")], [None; 2]);
     let active: Vec<&str> = NAMES.into_iter().filter(|n| left.connector(n).active).collect();
     assert_eq!(active, ["CHORD", "PULLS"]);
-    assert_eq!(left.said().len(), 1 + 1 + 3 + 9 + 2);
+    assert_eq!(left.printed_lines().len(), 1 + 1 + 3 + 9 + 2);
 }
 
 #[test]
@@ -276,7 +276,7 @@ fn solving_option_skips_inactive_connector_with_a_note() {
     assert_eq!(left.connector("HANG").anchor, before.connector("HANG").anchor);
     assert_eq!(left.connector("HANG").first_length, None);
     assert!(left.connector("BOTTOM").first_length.is_some());
-    assert!(left.said().contains(&"connector HANG: inactive, passed over by -A_TENSION"), "{}", left.text);
+    assert!(left.printed_lines().contains(&"connector HANG: inactive, passed over by -A_TENSION"), "{}", left.text);
 }
 
 #[test]
@@ -285,7 +285,7 @@ fn unsolvable_connector_is_named_and_voids_the_whole_record() {
     let left = run(&format!("{records}&CONNECTOR BOTTOM -A_TENSION 60 -INACTIVE ROUGH HANG -A_TENSION 1\n"));
     assert_eq!(left.messages.len(), 1);
     assert!(left.messages[0].starts_with("connector ROUGH: no position has the tension"), "{:?}", left.messages);
-    assert!(left.said().is_empty());
+    assert!(left.printed_lines().is_empty());
     assert_eq!(format!("{:?}", left.model.connectors), format!("{:?}", clean(&records).model.connectors));
 }
 

@@ -39,12 +39,12 @@ fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// How far the forces of rods of 20, 40, 80 and 160 elements are from an exact one.
-fn refined(want: [f64; 3], rod: impl Fn(usize) -> String) -> Vec<f64> {
+fn errors_of_refinement(want: [f64; 3], rod: impl Fn(usize) -> String) -> Vec<f64> {
     [20, 40, 80, 160].map(|n| apart(pull(&model(&rod(n)), "L"), want)).to_vec()
 }
 
 /// A line from a body at (0, 0, -5) to an anchor `reach` away in 100 m of water.
-fn moored(class: &str, reach: f64) -> String {
+fn moored_records(class: &str, reach: f64) -> String {
     format!(
         "&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY A -IGNORE X Y Z RX RY RZ\n*F 0 0 -5\n~L {class} -DEPANCHOR 100\n\
          CONNECTOR L -ANC 0 {reach} ~L *F\nEND\n"
@@ -65,9 +65,10 @@ fn line_between(class: &str, from: [f64; 3], to: [f64; 3]) -> String {
 #[test]
 fn grounded_dynamic_line_force_converges_to_exact_catenary() {
     for (length, reach) in [(800.0, 785.0), (600.0, 560.0), (200.0, 170.0)] {
-        let exact = pull(&model(&moored(&format!("B_CAT 120 EXACT -LEN {length}"), reach)), "L");
-        let errors =
-            refined(exact, |n| moored(&format!("ROD 120 60 -LEN {length} -REFINE {n} -EI 0 -SEABED 1E7"), reach));
+        let exact = pull(&model(&moored_records(&format!("B_CAT 120 EXACT -LEN {length}"), reach)), "L");
+        let errors = errors_of_refinement(exact, |n| {
+            moored_records(&format!("ROD 120 60 -LEN {length} -REFINE {n} -EI 0 -SEABED 1E7"), reach)
+        });
         // the bottom gives way by 0.07 mm, 1e-6 of the height; what is left is the mesh, of the second order but for where in an
         // element the line comes down
         assert!(errors[3] < 1e-4, "{length}: {errors:?}");
@@ -90,9 +91,9 @@ fn grounded_dynamic_line_anchor_carries_pull_along_seabed_alone() {
     }
     let horizontal = low * net;
     for class in ["ROD 120 60 -LEN 800 -REFINE 40 -EI 0", "ROD 120 60 -LEN 800 -REFINE 160 -EI 0"] {
-        let made = model(&moored(&format!("{class} -EA 1E11 -SEABED 1E7"), reach));
+        let made = model(&moored_records(&format!("{class} -EA 1E11 -SEABED 1E7"), reach));
         let (element, ends) = (made.element(&made.connectors["L"]).unwrap(), made.end_poses(&made.connectors["L"]));
-        let ends = ends.map(End::still);
+        let ends = ends.map(End::at_rest);
         let at = Situation { ends: &ends, step: None, surroundings: &made.surroundings() };
         let (mut state, mut out) = (vec![0.0; element.states()], ConnectorResponse::default());
         element.start(&mut state);
@@ -126,7 +127,7 @@ fn hanging_dynamic_line_converges_to_catenary_with_second_order() {
         let class = format!("H_CAT 120 EXACT -LEN {length} -WTPLEN {}", net.abs());
         let [x, y, z] = pull(&model(&line_between(&class, turned(from), turned(to))), "L");
         let weight = if options.is_empty() { format!("-WTPLEN {}", heavy(0.0)) } else { options.to_string() };
-        let errors = refined([x, y, up * z], |n| {
+        let errors = errors_of_refinement([x, y, up * z], |n| {
             line_between(&format!("ROD 120 60 -LEN {length} -REFINE {n} -EI 0 {weight}"), from, to)
         });
         assert!(errors[3] < 1e-4, "{what}: {errors:?}");

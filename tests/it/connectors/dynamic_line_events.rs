@@ -44,7 +44,7 @@ fn pull(model: &Model) -> f64 {
 }
 
 /// A line from a body at (0, 0, -5) to an anchor at a distance.
-fn moored(environment: &str, class: &str, reach: f64) -> String {
+fn moored_records(environment: &str, class: &str, reach: f64) -> String {
     format!(
         "{environment}\nMEDIT\n&DESCRIBE BODY A -IGNORE X Y Z RX RY RZ\n*F 0 0 -5\n~L {class}\nCONNECTOR L -ANC 0 {reach} ~L *F\nEND\n"
     )
@@ -113,7 +113,7 @@ fn load_falling_into_stiff_line_never_rebounds_higher() {
 
 /// Nodes of a line of 300 m in 100 m of water that is let go at 10 s.
 fn let_go(time: f64, step: f64, options: &str) -> Vec<(f64, Vec<NodeRow>)> {
-    let records = moored(
+    let records = moored_records(
         &format!("&ENV -DEPTH 100 -TIME {time} {step}"),
         &format!("ROD 120 60 -LEN 300 -REFINE 60 -EI 0 {options}"),
         250.0,
@@ -246,7 +246,11 @@ fn aqwa_line_oscillates_with_added_mass_of_sections_and_joints() {
 #[test]
 fn dynamic_catenary_has_no_maximum_tension() {
     let made = |most: &str| {
-        model(&moored("&ENV -DEPTH 100", &format!("CATENARY 170 0.0217 -LEN 300 -EA 8.5E8 -TMAX {most}"), 283.5))
+        model(&moored_records(
+            "&ENV -DEPTH 100",
+            &format!("CATENARY 170 0.0217 -LEN 300 -EA 8.5E8 -TMAX {most}"),
+            283.5,
+        ))
     };
     let mut limited = made("1E5");
     // the catenary itself holds the tension near -TMAX
@@ -276,10 +280,10 @@ fn aqwa_section_bending_stiffness_matches_tensioned_beam() {
 #[test]
 fn line_on_sloping_bathymetry_matches_exact_catenary_on_slope() {
     let grid = "&BATHYMETRY SLOPE -DEPTHS\nX -1000 1000\nY -1000 50 150\nY 1000 50 150\nEND\n&ENV -DEPTH 100 -BATHYMETRY SLOPE";
-    let exact = pull(&model(&moored(grid, "B_CAT 120 EXACT -LEN 300 -SLOPE 0.05 -DEPANCHOR 113", 260.0)));
+    let exact = pull(&model(&moored_records(grid, "B_CAT 120 EXACT -LEN 300 -SLOPE 0.05 -DEPANCHOR 113", 260.0)));
     let rod = "ROD 120 60 -LEN 300 -REFINE 200 -EI 0 -SEABED 1E7";
-    let on_grid = pull(&model(&moored(grid, rod, 260.0)));
-    let own = pull(&model(&moored("&ENV -DEPTH 100", &format!("{rod} -SLOPE 0.05 -DEPANCHOR 113"), 260.0)));
+    let on_grid = pull(&model(&moored_records(grid, rod, 260.0)));
+    let own = pull(&model(&moored_records("&ENV -DEPTH 100", &format!("{rod} -SLOPE 0.05 -DEPANCHOR 113"), 260.0)));
     // 200 elements, 0.07 mm of sinking in
     assert!((on_grid / exact - 1.0).abs() < 1e-4, "{on_grid} {exact}");
     assert!((on_grid / own - 1.0).abs() < 1e-9, "{on_grid} {own}");
@@ -288,7 +292,7 @@ fn line_on_sloping_bathymetry_matches_exact_catenary_on_slope() {
 #[test]
 fn line_uses_class_depth_and_current_in_connector_forces_too() {
     let class = "ROD 120 60 -LEN 300 -REFINE 100 -EI 0 -DEPANCHOR 80";
-    let table = lines_at_rest(&model(&moored("&ENV -DEPTH 100", class, 260.0)), &|_| true).unwrap().remove(0);
+    let table = lines_at_rest(&model(&moored_records("&ENV -DEPTH 100", class, 260.0)), &|_| true).unwrap().remove(0);
     let lowest = table.get("Z").unwrap().numbers().iter().fold(0.0, |m: f64, z| m.min(*z));
     // 20 mm is what it sinks in where it comes down
     assert!((-80.02..=-80.0).contains(&lowest), "{lowest}");
@@ -298,7 +302,7 @@ fn line_uses_class_depth_and_current_in_connector_forces_too() {
 fn connector_forces_include_current_on_line() {
     let class = "ROD 120 60 -LEN 300 -REFINE 100 -EI 0";
     let (mut session, screen, _folder) = common::session();
-    let records = moored("&ENV -DEPTH 100 -CURRENT 2 270", class, 260.0);
+    let records = moored_records("&ENV -DEPTH 100 -CURRENT 2 270", class, 260.0);
     session.open("test", format!("&DIMEN -DIMEN METERS N\n{records}&STATUS F_CONNECTOR"));
     session.run();
     let text = screen.text();

@@ -28,7 +28,7 @@ fn solve_held_line(class: &str, environment: &str, (z, dynamics): (f64, bool)) -
     let model = &session.job.model;
     let connector = model.connectors.values().next().unwrap();
     let element = model.element_in(connector, Some(&ambient(model, None).unwrap())).unwrap();
-    let ends = [0.0, 100.0].map(|x| End::still(windlass_base::pose::Pose::from_position([x, 0.0, z])));
+    let ends = [0.0, 100.0].map(|x| End::at_rest(windlass_base::pose::Pose::from_position([x, 0.0, z])));
     Held { element, ends, around: model.surroundings() }
 }
 

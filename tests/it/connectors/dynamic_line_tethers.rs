@@ -305,7 +305,7 @@ const TOWED: [(f64, usize, f64, f64, f64, f64); 5] = [
 
 /// Added mass per length of a tube half a metre under water by the listing (towed-tether.md, 2): the circle of the submerged height across,
 /// and upward what a flat plate of the water line's width leaves of it.
-fn added(diameter: f64, upward: bool) -> f64 {
+fn added_mass_per_length(diameter: f64, upward: bool) -> f64 {
     let submerged = ((0.5 + diameter / 2.0) / diameter).min(1.0);
     let chord = 2.0 * diameter * (submerged * (1.0 - submerged)).sqrt();
     let area = match upward {
@@ -336,7 +336,7 @@ fn towed_periods(cut: usize, plane: Option<bool>) -> Vec<(f64, [f64; 3])> {
             ..RodSegment::line(
                 length,
                 elements * cut,
-                density * area + plane.map_or(0.0, |upward| added(outer, upward)),
+                density * area + plane.map_or(0.0, |upward| added_mass_per_length(outer, upward)),
                 modulus * area,
                 outer,
             )
@@ -344,7 +344,7 @@ fn towed_periods(cut: usize, plane: Option<bool>) -> Vec<(f64, [f64; 3])> {
     }
     segments.push(rope);
     let rod = Rod::new("TOW", segments, vec![]).unwrap();
-    let water = UniformFluid(FluidState { surface: 0.0, ..UniformFluid::still(TOWED_WATER).0 });
+    let water = UniformFluid(FluidState { surface: 0.0, ..UniformFluid::still_water(TOWED_WATER).0 });
     let (fluid, gravity) = if plane.is_some() { (UniformFluid::vacuum(), 0.0) } else { (water, GRAVITY) };
     let world = LineEnvironment::new(&fluid, gravity);
     // tails at twice their length; 10 N do not stretch the pipe

@@ -320,8 +320,8 @@ fn ask(
 /// Velocities of the two ends, unlike in all directions.
 fn moving_ends(ends: [Pose; 2]) -> [End; 2] {
     [
-        End { velocity: Six::new(0.4, -0.3, 0.2, 0.1, 0.25, -0.15), ..End::still(ends[0]) },
-        End { velocity: Six::new(-0.2, 0.35, 0.5, -0.3, 0.1, 0.2), ..End::still(ends[1]) },
+        End { velocity: Six::new(0.4, -0.3, 0.2, 0.1, 0.25, -0.15), ..End::at_rest(ends[0]) },
+        End { velocity: Six::new(-0.2, 0.35, 0.5, -0.3, 0.1, 0.2), ..End::at_rest(ends[1]) },
     ]
 }
 
@@ -330,7 +330,7 @@ fn state_after_step(element: &dyn ConnectorElement, bench: &ElementBench) -> Vec
     let mut start = vec![0.0; element.states()];
     element.start(&mut start);
     let shift = Six::new(0.001, -0.002, 0.0015, 0.01, -0.02, 0.01);
-    let before = [bench.ends[0].after_motion(&shift), bench.ends[1]].map(End::still);
+    let before = [bench.ends[0].after_motion(&shift), bench.ends[1]].map(End::at_rest);
     ask(element, &bench.surroundings(), &before, Some(0.3), &start).1
 }
 
@@ -383,7 +383,7 @@ fn dynamic_line_stiffness_matches_differences_and_rotates_with_ends() {
     let (element, surroundings) = (bench.element().unwrap(), bench.surroundings());
     let none = vec![0.0; element.states()];
     let rest = |ends: &[End; 2]| ask(element.as_ref(), &surroundings, ends, None, &none).0;
-    let ends = bench.ends.map(End::still);
+    let ends = bench.ends.map(End::at_rest);
     let middle = rest(&ends);
     let scale = middle.stiffness.iter().fold(0.0, |m: f64, k| m.max(k.amax()));
     for moved in 0..2 {
@@ -407,7 +407,7 @@ fn dynamic_line_stiffness_matches_differences_and_rotates_with_ends() {
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 0.7);
     let turned = rest(&ends.map(|e| {
         let pose = Pose { origin: turn * e.pose.origin, axes: turn * e.pose.axes };
-        End::still(pose)
+        End::at_rest(pose)
     }));
     for (a, b) in turned.wrench.iter().zip(&middle.wrench) {
         for part in [0, 3] {
@@ -540,7 +540,7 @@ fn path(ends: [Pose; 2], t: f64, size: f64) -> [End; 2] {
     let (s2, c2) = (2.0 * w * t).sin_cos();
     let shapes = [([s, 1.0 - c, s2], [1.0 - c, s2, s]), ([1.0 - c, s2, -s], [s2, s, 1.0 - c])];
     let rates = [([c, s, 2.0 * c2], [s, 2.0 * c2, c]), ([s, 2.0 * c2, -c], [2.0 * c2, c, s])];
-    let mut made = ends.map(End::still);
+    let mut made = ends.map(End::at_rest);
     for ((end, (shift, turns)), (speed, spins)) in made.iter_mut().zip(shapes).zip(rates) {
         // one turn about a fixed axis after the other would have a twist that is hard to write; one axis is enough
         let axis = Vector3::new(0.6, -0.48, 0.64);
@@ -557,7 +557,7 @@ fn path(ends: [Pose; 2], t: f64, size: f64) -> [End; 2] {
         ));
         let speed = Vector3::from(speed) * (size * w);
         let velocity = Six::new(speed.x, speed.y, speed.z, axis.x * spin, axis.y * spin, axis.z * spin);
-        *end = End { velocity, ..End::still(pose) };
+        *end = End { velocity, ..End::at_rest(pose) };
     }
     made
 }
@@ -595,7 +595,7 @@ fn dashpots_friction_and_viscous_springs_only_dissipate() {
         let committed = state_after_step(element, bench);
         for scale in [1e-4, 0.1, 1.0, 30.0] {
             let fast = moving_ends(bench.ends).map(|e| End { velocity: e.velocity * scale, ..e });
-            let slow = bench.ends.map(End::still);
+            let slow = bench.ends.map(End::at_rest);
             let (a, b) = (
                 ask(element, &surroundings, &fast, Some(0.1), &committed).0,
                 ask(element, &surroundings, &slow, Some(0.1), &committed).0,

@@ -20,7 +20,7 @@ fn run(records: &str) -> (Session, String) {
 }
 
 /// A chain of 700 m, 1.2 kN/m, EA 554,177 kN, in water of 100 m, 690 m beside its fairlead.
-fn heaved(option: &str, reach: f64, motion: &str) -> String {
+fn heaving_chain(option: &str, reach: f64, motion: &str) -> String {
     format!(
         "&ENV -DEPTH 100 -TIME 24 0.1\nMEDIT\n&DESCRIBE BODY B\n*G 0 0 0\n*F 30 0 -5\n#WEIGHT *G 10000 5 5 5\n\
          ~C B_CAT 84 {option} -LEN 700 -BUOY 0 -WTPL 1.2 -EMOD 1E5\nCONNECTOR A ~C *F -ANC 0 {reach}\n{motion}\nEND"
@@ -37,7 +37,7 @@ fn tensions(text: &str) -> [f64; 2] {
 #[test]
 fn heave_of_fairlead_in_tdom_changes_tension() {
     for flag in ["", "EXACT"] {
-        let (_, text) = run(&format!("{}\nTDOM", heaved(flag, 690.0, "PRESCRIBE B -SINUSOID Z 5 12")));
+        let (_, text) = run(&format!("{}\nTDOM", heaving_chain(flag, 690.0, "PRESCRIBE B -SINUSOID Z 5 12")));
         // printed with six figures; the instants of the extremes are stored
         for (got, want) in tensions(&text).iter().zip([1_477.494_634_7, 1_858.983_220_8]) {
             assert!((got - want).abs() <= 0.006, "{got} is not {want}");
@@ -48,7 +48,7 @@ fn heave_of_fairlead_in_tdom_changes_tension() {
 #[test]
 fn table_follows_elevation_of_fairlead() {
     // at the lowest place the distance is that of row 13, 4000 kN (12/29)^2: there nothing is interpolated
-    let records = heaved("-TABLE -TAB_LIM 4000", 684.432_504_020_235_5, "PRESCRIBE B -SINUSOID Z 5 12");
+    let records = heaving_chain("-TABLE -TAB_LIM 4000", 684.432_504_020_235_5, "PRESCRIBE B -SINUSOID Z 5 12");
     let (_, text) = run(&format!("{records}\nTDOM"));
     let [least, _] = tensions(&text);
     assert!((least - 792.755_136_3).abs() <= 0.006, "{least}");
@@ -59,7 +59,7 @@ fn table_follows_elevation_of_fairlead() {
 #[test]
 fn moored_body_stiffness_includes_vertical_line_stiffness() {
     let at_rest = |option: &str| {
-        let (session, _) = run(&heaved(option, 690.0, ""));
+        let (session, _) = run(&heaving_chain(option, 690.0, ""));
         let model: &Model = &session.job.model;
         let system = System::new(model, &[]).unwrap();
         let mut state = system.state(model);
@@ -150,7 +150,7 @@ fn table_pulls_anchor_on_slope_downward_too() {
 
 #[test]
 fn every_report_using_a_table_names_its_lines() {
-    let records = heaved(
+    let records = heaving_chain(
         "-TABLE",
         690.0,
         "#DAMP *G 100 100 100 1000 1000 1000\n~S GSPR X 100 Y 100 Z 1E5 RX 1E8 RY 1E8 RZ 1E8\nCONNECTOR HOLD ~S *G",

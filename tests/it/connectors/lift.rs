@@ -36,7 +36,7 @@ fn records(weight: f64, lengths: [f64; 4], options: &str) -> String {
     )
 }
 
-fn settled(records: &str) -> Model {
+fn settle_model(records: &str) -> Model {
     let mut model = run(records).0.job.model.clone();
     let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     assert!(found.found.search.residual < 1e-9, "{:?}", found.found);
@@ -45,7 +45,7 @@ fn settled(records: &str) -> Model {
 
 fn tension(model: &Model, name: &str) -> f64 {
     let connector = model.connectors.get(name).unwrap();
-    let ends = model.end_poses(connector).map(End::still);
+    let ends = model.end_poses(connector).map(End::at_rest);
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
     model.element(connector).unwrap().summary(&at, &[]).unwrap().tension.unwrap()
@@ -68,7 +68,7 @@ fn weight(l: f64, lengths: [f64; 4]) -> f64 {
 #[test]
 fn four_equal_slings_carry_quarter_load_each_with_its_stretch() {
     let l: f64 = 20.02;
-    let model = settled(&records(weight(l, [20.0; 4]), [20.0; 4], "-INITIAL"));
+    let model = settle_model(&records(weight(l, [20.0; 4]), [20.0; 4], "-INITIAL"));
     let w = weight(l, [20.0; 4]);
     for name in ["L1", "L2", "L3", "L4"] {
         assert_near(tension(&model, name) / (EA * 0.001), 1.0, 1e-9);
@@ -87,7 +87,7 @@ fn four_equal_slings_carry_quarter_load_each_with_its_stretch() {
 fn longer_diagonal_is_slack_and_other_carries_all() {
     let lengths = [20.0, 20.2, 20.0, 20.2];
     let l: f64 = 20.03;
-    let model = settled(&records(weight(l, lengths), lengths, "-INITIAL"));
+    let model = settle_model(&records(weight(l, lengths), lengths, "-INITIAL"));
     for name in ["L1", "L3"] {
         assert_near(tension(&model, name) / (EA * 0.0015), 1.0, 1e-8);
     }
@@ -101,7 +101,7 @@ fn unequal_diagonals_share_weight_by_their_stretch() {
     // all four are l long: 20 is stretched by 0.03, 20.01 by 0.02
     let lengths = [20.0, 20.01, 20.0, 20.01];
     let l: f64 = 20.03;
-    let model = settled(&records(weight(l, lengths), lengths, "-INITIAL"));
+    let model = settle_model(&records(weight(l, lengths), lengths, "-INITIAL"));
     for (name, own) in ["L1", "L2", "L3", "L4"].iter().zip(lengths) {
         assert_near(tension(&model, name) / (EA * (l - own) / own), 1.0, 1e-8);
     }
@@ -114,7 +114,7 @@ fn longer_sling_shifts_load_to_other_diagonal() {
     let (d, l) = (0.004, 20.02);
     let lengths = [20.0, 20.0 + d, 20.0, 20.0];
     let w = weight(l, [20.0; 4]);
-    let model = settled(&records(w, lengths, "-INITIAL"));
+    let model = settle_model(&records(w, lengths, "-INITIAL"));
     let [a, b, c, e] = ["L1", "L2", "L3", "L4"].map(|n| tension(&model, n));
     let half = EA * d / 20.0;
     assert_near(a + c - b - e, half, d / 10.0 * w);

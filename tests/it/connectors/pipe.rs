@@ -18,7 +18,7 @@ fn stinger(tension: f64) -> Model {
 fn pipe(model: &Model) -> (Box<dyn ConnectorElement>, Vec<End>) {
     let laid = model.pipe(model.assemblies.get(PIPE).unwrap(), None, RunRequirement::default()).unwrap().unwrap();
     let (supports, element) = (laid.supports, laid.element);
-    let ends = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap())).collect();
+    let ends = supports.iter().map(|c| End::at_rest(model.end_pose(c, 0).unwrap())).collect();
     (element, ends)
 }
 
@@ -80,7 +80,7 @@ fn pipe_stiffness_matches_roller_force_finite_differences() {
             motion[dof] = sign * step;
             let mut ends = ends.clone();
             let pose: Pose = ends[end].pose.after_motion(&motion);
-            ends[end] = End::still(pose);
+            ends[end] = End::at_rest(pose);
             answer(&model, element.as_ref(), &ends).wrench
         };
         let (plus, minus) = (moved(1.0), moved(-1.0));

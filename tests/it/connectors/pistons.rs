@@ -49,8 +49,8 @@ impl PistonRig {
     fn evaluate_at(&self, moved: f64, speed: f64, dt: Option<f64>) -> (ConnectorResponse, Vec<f64>) {
         let [first, second] = self.ends;
         let there = [
-            End::still(Pose::from_position(first.into())),
-            End::still(Pose::from_position((second + Vector3::x() * moved).into())),
+            End::at_rest(Pose::from_position(first.into())),
+            End::at_rest(Pose::from_position((second + Vector3::x() * moved).into())),
         ];
         let velocity = Six::new(speed, 0.0, 0.0, 0.0, 0.0, 0.0);
         self.answer([there[0], End { velocity, ..there[1] }], dt)
@@ -68,7 +68,7 @@ impl PistonRig {
     fn summary(&self, moved: f64) -> ConnectorSummary {
         let surroundings = self.session.job.model.surroundings();
         let [first, second] = self.ends;
-        let ends = [first, second + Vector3::x() * moved].map(|p| End::still(Pose::from_position(p.into())));
+        let ends = [first, second + Vector3::x() * moved].map(|p| End::at_rest(Pose::from_position(p.into())));
         self.element.summary(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &self.state).unwrap()
     }
 
@@ -260,7 +260,7 @@ fn line_to_ground_is_held_at_tmax_by_travel_along_tension() {
         let free = PistonRig::new(&class(""), "-ANCHOR 0 1080 ~C *A", [0.0; 3]);
         let held = PistonRig::new(&class("-PISTON MAX 9000 1000 1 1 2.3E6"), "-ANCHOR 0 1080 ~C *A", [0.0; 3]);
         let wrench = |rig: &PistonRig, first: Vector3<f64>| {
-            let ends = [first, rig.ends[1]].map(|p| End::still(Pose::from_position(p.into())));
+            let ends = [first, rig.ends[1]].map(|p| End::at_rest(Pose::from_position(p.into())));
             let (out, trial) = rig.answer(ends, None);
             (out.wrench[0].fixed_rows::<3>(0).into_owned(), trial)
         };

@@ -63,8 +63,8 @@ impl JointBench {
     ) -> (ConnectorResponse, Vec<f64>) {
         let [x, y, z] = rate;
         let ends = [
-            End::still(Pose::from_place(&Place::new(first))),
-            End { velocity: Six::new(x, y, z, 0.0, 0.0, 0.0), ..End::still(Pose::from_place(&Place::new(second))) },
+            End::at_rest(Pose::from_place(&Place::new(first))),
+            End { velocity: Six::new(x, y, z, 0.0, 0.0, 0.0), ..End::at_rest(Pose::from_place(&Place::new(second))) },
         ];
         let surroundings = self.session.job.model.surroundings();
         let step = dt.map(|dt| TimeStep { time: dt, dt });
@@ -88,7 +88,7 @@ impl JointBench {
     }
 
     fn summary(&self, first: [f64; 6], second: [f64; 6]) -> ConnectorSummary {
-        let ends = [first, second].map(|p| End::still(Pose::from_place(&Place::new(p))));
+        let ends = [first, second].map(|p| End::at_rest(Pose::from_place(&Place::new(p))));
         let surroundings = self.session.job.model.surroundings();
         self.element.summary(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &self.state).unwrap()
     }
@@ -150,7 +150,7 @@ fn single_node_is_held_at_its_position_at_definition() {
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let mut out = ConnectorResponse::default();
-    let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };
+    let at = Situation { ends: &ends.map(End::at_rest), step: None, surroundings: &surroundings };
     element.evaluate(&at, &[], &mut [], &mut SolverCache::new(), &mut out).unwrap();
     assert_near(out.wrench[0].as_slice(), &[-500.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
 }
@@ -314,7 +314,7 @@ fn rotational_curve_in_feet_is_moment_per_radian() {
         duty: RunRequirement::default(),
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
-    let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };
+    let at = Situation { ends: &ends.map(End::at_rest), step: None, surroundings: &surroundings };
     let summary = element.summary(&at, &vec![0.0; element.states()]).unwrap();
     // 2 kip ft/rad twice in series, turned by 0.1 rad: 0.1 kip ft
     assert_near(&[summary.springs[0].force / (4448.2216152605 * 0.3048)], &[-0.1]);

@@ -1,15 +1,6 @@
 //! Compartments: closed forms of a box barge with tanks.
 
-use crate::common;
-
-/// What a session prints, and its errors.
-fn printed(records: &str) -> (String, i64) {
-    let (mut session, screen, _folder) = common::session();
-    session.open("records", format!("&DIMEN -DIMEN METERS M-TONS\n&DEFAULT -WATER 1025 -G 9.80665\n{records}\n"));
-    session.run();
-    let reported: Vec<String> = session.reports.iter().map(|d| format!("{} {}", d.message, d.help.join(" "))).collect();
-    (format!("{}\n{}", screen.text(), reported.join("\n")), session.errors)
-}
+use crate::common::{fact, print_metric_records};
 
 /// The row of the last table that begins with a word, as its words.
 fn row<'t>(text: &'t str, begins: &str) -> Vec<&'t str> {
@@ -22,16 +13,7 @@ fn numbers(text: &str, begins: &str) -> Vec<f64> {
     row(text, begins).into_iter().filter_map(|word| word.parse().ok()).collect()
 }
 
-/// A number behind its name in a report.
-fn fact(text: &str, name: &str) -> f64 {
-    let named = |line: &str| {
-        Some(line.trim().strip_prefix(name)?.trim().strip_prefix('=')?.split_whitespace().next()?.to_string())
-    };
-    let found = text.lines().filter_map(named).next_back().and_then(|word| word.parse().ok());
-    found.unwrap_or_else(|| panic!("{name} in {text}"))
-}
-
-fn near(got: f64, want: f64, by: f64) {
+fn check_near(got: f64, want: f64, by: f64) {
     assert!((got - want).abs() <= by, "{got} is not {want}");
 }
 
@@ -44,22 +26,23 @@ const BARGE: &str = "MEDIT\n&DESCRIBE BODY B -IGNORE X Y RZ\nPGEN\nPLANE 0 91.5 
 fn contents_weigh_and_their_surface_takes_metacentric_height() {
     // 50 % of 2400 m3 at 1.025: 1230 t at z = 2; W = 7230 t, d = W/(rho L B) = 2.80328, KG = (6000*5 + 1230*2)/7230,
     // GM = d/2 + B^2/(12 d) - KG, loss rho l b^3/(12 W)
-    let (text, errors) =
-        printed(&format!("{BARGE}&COMPARTMENT -PERCENT T 50 1.025\n&EQUI\n&STATUS HYDROSTATICS\n&STATUS COMPARTMENT"));
+    let (text, errors) = print_metric_records(&format!(
+        "{BARGE}&COMPARTMENT -PERCENT T 50 1.025\n&EQUI\n&STATUS HYDROSTATICS\n&STATUS COMPARTMENT"
+    ));
     assert_eq!(errors, 0, "{text}");
     let weight = 7230.0;
     let draft = weight / (1.025 * 91.5 * 27.5);
     let gm = 0.5 * draft + 27.5 * 27.5 / (12.0 * draft) - (6000.0 * 5.0 + 1230.0 * 2.0) / weight;
     let loss = 1.025 * 30.0 * 20f64.powi(3) / (12.0 * weight);
-    near(fact(&text, "Displacement"), weight, 0.0051);
-    near(fact(&text, "KG"), 4.48963, 0.0051);
-    near(fact(&text, "GM Transverse"), gm, 0.0051);
-    near(fact(&text, "Free Surface Transverse"), loss, 0.0051);
-    near(fact(&text, "Free Surface Longitudinal"), 1.025 * 20.0 * 27000.0 / (12.0 * weight), 0.0051);
-    near(fact(&text, "Corrected GM Transverse"), gm - loss, 0.0051);
+    check_near(fact(&text, "Displacement"), weight, 0.0051);
+    check_near(fact(&text, "KG"), 4.48963, 0.0051);
+    check_near(fact(&text, "GM Transverse"), gm, 0.0051);
+    check_near(fact(&text, "Free Surface Transverse"), loss, 0.0051);
+    check_near(fact(&text, "Free Surface Longitudinal"), 1.025 * 20.0 * 27000.0 / (12.0 * weight), 0.0051);
+    check_near(fact(&text, "Corrected GM Transverse"), gm - loss, 0.0051);
     // the stiffness in roll is that of the corrected height, to six digits
     let found: f64 = row(&text, "RX")[4].parse().unwrap();
-    near(found, weight * (gm - loss), 1e-5 * found);
+    check_near(found, weight * (gm - loss), 1e-5 * found);
     let [percent, sounding, amount, gravity, x, y, z, transverse, longitudinal] = numbers(&text, "T")[..] else {
         panic!("{text}")
     };
@@ -74,13 +57,13 @@ fn contents_weigh_and_their_surface_takes_metacentric_height() {
         (transverse, 20000.0),
         (longitudinal, 45000.0),
     ] {
-        near(got, want, 0.0051);
+        check_near(got, want, 0.0051);
     }
 }
 
 #[test]
 fn righting_arm_with_a_tank_is_that_of_two_wall_sided_forms() {
-    let (text, errors) = printed(&format!(
+    let (text, errors) = print_metric_records(&format!(
         "{BARGE}&COMPARTMENT -CORRECT -PERCENT T 50 1.025\n&EQUI\nHSTATICS B\nRARM 5 2\nREPORT\nEND\nEND"
     ));
     assert_eq!(errors, 0, "{text}");
@@ -93,7 +76,7 @@ fn righting_arm_with_a_tank_is_that_of_two_wall_sided_forms() {
         let a = roll.to_radians();
         let want = a.sin() * (gm - loss + 0.5 * (bm - loss) * a.tan().powi(2));
         // roll, draft, trim, arm
-        near(numbers(&text, begins)[3], want, 6e-5);
+        check_near(numbers(&text, begins)[3], want, 6e-5);
     }
 }
 
@@ -102,15 +85,15 @@ fn contents_without_a_free_surface_keep_the_metacentric_height() {
     for records in
         ["&COMPARTMENT -APP_NONE -PERCENT T 50 1.025", "&COMPARTMENT -PERCENT T 50 1.025\n&COMPARTMENT -APP_NONE T"]
     {
-        let (text, errors) = printed(&format!("{BARGE}{records}\n&EQUI\n&STATUS HYDROSTATICS"));
+        let (text, errors) = print_metric_records(&format!("{BARGE}{records}\n&EQUI\n&STATUS HYDROSTATICS"));
         assert_eq!(errors, 0, "{text}");
         let found: f64 = row(&text, "RX")[4].parse().unwrap();
-        near(found, 7230.0 * fact(&text, "GM Transverse"), 7230.0 * 0.0051);
+        check_near(found, 7230.0 * fact(&text, "GM Transverse"), 7230.0 * 0.0051);
         assert!(!text.contains("Free Surface Transverse"), "{text}");
     }
     // full: no surface either
-    let (text, _) = printed(&format!("{BARGE}&COMPARTMENT -FULL T\n&EQUI\n&STATUS HYDROSTATICS"));
-    near(fact(&text, "Displacement"), 6000.0 + 2400.0 * 1.025, 0.0051);
+    let (text, _) = print_metric_records(&format!("{BARGE}&COMPARTMENT -FULL T\n&EQUI\n&STATUS HYDROSTATICS"));
+    check_near(fact(&text, "Displacement"), 6000.0 + 2400.0 * 1.025, 0.0051);
     assert!(!text.contains("Free Surface Transverse"), "{text}");
 }
 
@@ -124,14 +107,14 @@ fn amounts_in_every_form_fill_alike() {
         "-ULLAGE T 2 1.025",
         "-PERCENT @ 0 T 50 1.025",
     ] {
-        let (text, errors) = printed(&format!("{BARGE}&COMPARTMENT {form}\n&STATUS COMPARTMENT"));
+        let (text, errors) = print_metric_records(&format!("{BARGE}&COMPARTMENT {form}\n&STATUS COMPARTMENT"));
         assert_eq!(errors, 0, "{form}: {text}");
-        near(numbers(&text, "T")[2], 1230.0, 0.0051);
+        check_near(numbers(&text, "T")[2], 1230.0, 0.0051);
     }
     // liquid fills 98 % of the space, at its own density
     let model = BARGE.replace("\nPGEN\nPLANE 30.75", "\nPGEN -PERM -0.98\nPLANE 30.75");
-    let (text, _) = printed(&format!("{model}&COMPARTMENT -PERCENT T 50 0.87\n&STATUS COMPARTMENT"));
-    near(numbers(&text, "T")[2], 0.98 * 1200.0 * 0.87, 0.0051);
+    let (text, _) = print_metric_records(&format!("{model}&COMPARTMENT -PERCENT T 50 0.87\n&STATUS COMPARTMENT"));
+    check_near(numbers(&text, "T")[2], 0.98 * 1200.0 * 0.87, 0.0051);
 }
 
 #[test]
@@ -142,24 +125,27 @@ fn flooded_compartment_loses_its_buoyancy() {
             "PGEN\nPLANE 30.75 60.75 -RECT 1 5 20",
             &format!("PGEN -PERM -{share}\nPLANE 30.75 60.75 -RECT 0 6.1 27.5"),
         );
-        let (text, errors) = printed(&format!("{model}&COMPARTMENT -FLOOD T\n&EQUI\n&STATUS CONFIGURATION"));
+        let (text, errors) =
+            print_metric_records(&format!("{model}&COMPARTMENT -FLOOD T\n&EQUI\n&STATUS CONFIGURATION"));
         assert_eq!(errors, 0, "{text}");
         let draft = 6000.0 / (1.025 * 27.5 * (91.5 - share * 30.0));
-        near(numbers(&text, "B")[2], -draft, 0.0051);
+        check_near(numbers(&text, "B")[2], -draft, 0.0051);
         // closed again it has what it had before: nothing
-        let (text, _) =
-            printed(&format!("{model}&COMPARTMENT -FLOOD T\n&COMPARTMENT -NO_FLOOD T\n&EQUI\n&STATUS CONFIGURATION"));
-        near(numbers(&text, "B")[2], -2.32634, 0.0051);
+        let (text, _) = print_metric_records(&format!(
+            "{model}&COMPARTMENT -FLOOD T\n&COMPARTMENT -NO_FLOOD T\n&EQUI\n&STATUS CONFIGURATION"
+        ));
+        check_near(numbers(&text, "B")[2], -2.32634, 0.0051);
     }
 }
 
 #[test]
 fn residual_water_stays_and_has_no_surface() {
     let model = BARGE.replace("-DESCRIPTION 'middle tank'", "-MINIMUM 10 1.025");
-    let (text, errors) =
-        printed(&format!("{model}&COMPARTMENT -PERCENT T 5\n&EQUI\n&STATUS COMPARTMENT\n&STATUS HYDROSTATICS"));
+    let (text, errors) = print_metric_records(&format!(
+        "{model}&COMPARTMENT -PERCENT T 5\n&EQUI\n&STATUS COMPARTMENT\n&STATUS HYDROSTATICS"
+    ));
     assert!(errors == 0 && text.contains("its -MINIMUM"), "{text}");
-    near(fact(&text, "Displacement"), 6000.0 + 246.0, 0.0051);
+    check_near(fact(&text, "Displacement"), 6000.0 + 246.0, 0.0051);
     assert!(!text.contains("Free Surface Transverse"), "{text}");
 }
 
@@ -174,7 +160,7 @@ const WINGS: &str = "MEDIT\n&DESCRIBE BODY B -IGNORE X Y RZ\nPGEN\nPLANE 0 91.5 
 fn ballast_balances_the_body_where_it_floats() {
     // upright at 3 m: W = 1.025*91.5*27.5*3 = 7737.468 t; of it 6000 t at (47, 0.5): 1737.468 t of ballast, whose moments are
     // about x = 0: 7737.468*45.75 - 6000*47, about y = 0: -6000*0.5; by symmetry of the four arms the shares differ by these alone
-    let (text, errors) = printed(&format!(
+    let (text, errors) = print_metric_records(&format!(
         "{WINGS}&WEIGHT -TOTAL B 6000 47 0.5 5 9 25 25\n&INSTATE -CONDITION B 3\n&CMP_BAL B @\n&STATUS COMPARTMENT\n&EQUI\n&STATUS CONFIGURATION"
     ));
     assert_eq!(errors, 0, "{text}");
@@ -189,44 +175,45 @@ fn ballast_balances_the_body_where_it_floats() {
         ("AS", mean + aft + starboard),
         ("AP", mean + aft - starboard),
     ] {
-        near(numbers(&text, name)[2], want, 0.0051);
+        check_near(numbers(&text, name)[2], want, 0.0051);
     }
     // nothing moves it
     let place = numbers(&text, "B");
-    near(place[2], -3.0, 0.0051);
-    near(place[3], 0.0, 0.0051);
-    near(place[4], 0.0, 0.0051);
+    check_near(place[2], -3.0, 0.0051);
+    check_near(place[3], 0.0, 0.0051);
+    check_near(place[4], 0.0, 0.0051);
 }
 
 #[test]
 fn ballast_of_a_trimmed_and_heeled_body_leaves_it_at_rest() {
-    let (text, errors) = printed(&format!(
+    let (text, errors) = print_metric_records(&format!(
         "{WINGS}&WEIGHT -TOTAL B 6000 45 0 5 9 25 25\n&INSTATE -CONDITION B 3 2 0.4\n&CMP_BAL B @\n&EQUI\n&STATUS CONFIGURATION"
     ));
     assert_eq!(errors, 0, "{text}");
     let place = numbers(&text, "B");
     for (got, want) in place[2..5].iter().zip([-3.0, 2.0, 0.4]) {
-        near(*got, want, 0.0051);
+        check_near(*got, want, 0.0051);
     }
 }
 
 #[test]
 fn ballast_that_cannot_balance_is_refused_and_changes_nothing() {
     for condition in ["2", "6", "3 30"] {
-        let (text, errors) = printed(&format!(
+        let (text, errors) = print_metric_records(&format!(
             "{WINGS}&WEIGHT -TOTAL B 6000 47 0.5 5 9 25 25\n&INSTATE -CONDITION B {condition}\n&CMP_BAL B @\n&STATUS COMPARTMENT"
         ));
         assert!(errors == 1 && text.contains("no solution to the ballasting problem"), "{condition}: {text}");
-        near(numbers(&text, "FS")[2], 0.0, 1e-9);
+        check_near(numbers(&text, "FS")[2], 0.0, 1e-9);
     }
-    let (text, errors) = printed(&format!("{WINGS}&CMP_BAL B FS AP"));
+    let (text, errors) = print_metric_records(&format!("{WINGS}&CMP_BAL B FS AP"));
     assert!(errors == 1 && text.contains("2 compartments cannot balance"), "{text}");
 }
 
 #[test]
 fn contents_count_in_the_mass_of_modes_and_runs() {
     // heave: sqrt(rho g A / (W/g)) with W = 7230 t, A = 91.5 x 27.5 m2
-    let (text, errors) = printed(&format!("{BARGE}&COMPARTMENT -PERCENT T 50 1.025\n&EQUI\n&STATUS MODES"));
+    let (text, errors) =
+        print_metric_records(&format!("{BARGE}&COMPARTMENT -PERCENT T 50 1.025\n&EQUI\n&STATUS MODES"));
     assert_eq!(errors, 0, "{text}");
     let frequency = (9.80665_f64 * 1.025 * 91.5 * 27.5 / 7230.0).sqrt();
     let period = std::f64::consts::TAU / frequency;
@@ -234,7 +221,7 @@ fn contents_count_in_the_mass_of_modes_and_runs() {
         text.contains(&format!("{frequency:.4}")) || text.contains(&format!("{period:.2}")),
         "{frequency} {period}: {text}"
     );
-    let (text, errors) = printed(&format!(
+    let (text, errors) = print_metric_records(&format!(
         "{BARGE}&ENV -TIME 3 0.1\n&COMPARTMENT -PERCENT T 50 1.025\n&EQUI\nTDOM\nPRCPOST\nTRAJECTORY B\nREPORT\nEND\nEND"
     ));
     assert_eq!(errors, 0, "{text}");
@@ -244,27 +231,27 @@ fn contents_count_in_the_mass_of_modes_and_runs() {
 
 #[test]
 fn capacity_of_box_tank_grows_with_its_sounding() {
-    let (text, errors) = printed(&format!(
+    let (text, errors) = print_metric_records(&format!(
         "{BARGE}HSTATICS B\nTANK_CAPACITY T 1\nREPORT\nEND\nTANK_CAPACITY T 2 -ROLL 10\nREPORT\nEND\nEND"
     ));
     assert_eq!(errors, 0, "{text}");
     let first = text.lines().find(|line| line.split_whitespace().next() == Some("3.00")).unwrap();
     let found: Vec<f64> = first.split_whitespace().filter_map(|word| word.parse().ok()).collect();
     for (got, want) in found.iter().zip([3.0, 75.0, 1800.0, 1845.0, 45.75, 0.0, 2.5, 20000.0, 45000.0]) {
-        near(*got, want, 0.0051);
+        check_near(*got, want, 0.0051);
     }
     // rolled by 10 degrees, half way up its middle: half of it, its centre shifted by 400 tan/(24)
     let rolled = numbers(&text, "2.00");
-    near(rolled[2], 1200.0, 0.0051);
-    near(rolled[5], -400.0 * 10f64.to_radians().tan() / 24.0, 0.0051);
+    check_near(rolled[2], 1200.0, 0.0051);
+    check_near(rolled[5], -400.0 * 10f64.to_radians().tan() / 24.0, 0.0051);
 }
 
 #[test]
 fn heights_of_holes_are_reported() {
-    let (text, errors) = printed(&format!(
+    let (text, errors) = print_metric_records(&format!(
         "{BARGE}MEDIT\n&DESCRIBE BODY B\n*V 45 10 6.1\n&DESCRIBE HOLE H VENT -POINT *V -AREA 0.2\n&DESCRIBE COMPARTMENT T -HOLES H\nEND\n\
          &INSTATE -CONDITION B 2.5\n&STATUS V_HOLES"
     ));
     assert_eq!(errors, 0, "{text}");
-    near(*numbers(&text, "H").last().unwrap(), 3.6, 0.0051);
+    check_near(*numbers(&text, "H").last().unwrap(), 3.6, 0.0051);
 }

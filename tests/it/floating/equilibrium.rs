@@ -194,7 +194,7 @@ fn lifts(records: &str) -> Vec<(String, f64)> {
     let mut list = Vec::new();
     for connector in model.connectors.values() {
         let element = model.element(connector).unwrap();
-        let ends = model.end_poses(connector).map(windlass_model::End::still);
+        let ends = model.end_poses(connector).map(windlass_model::End::at_rest);
         let surroundings = model.surroundings();
         let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
         let mut out = windlass_model::ConnectorResponse::default();

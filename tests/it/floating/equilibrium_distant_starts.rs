@@ -86,7 +86,7 @@ fn steps(model: &Model, far: [f64; 3]) -> Vec<Result<usize, String>> {
 }
 
 /// None failed, and none took more steps than this.
-fn pinned(list: &[Result<usize, String>], bound: usize) {
+fn check_steps(list: &[Result<usize, String>], bound: usize) {
     let failed: Vec<_> = list.iter().filter_map(|r| r.as_ref().err()).collect();
     assert!(failed.is_empty(), "{failed:#?}");
     let most = list.iter().flatten().max();
@@ -95,10 +95,10 @@ fn pinned(list: &[Result<usize, String>], bound: usize) {
 
 #[test]
 fn barge_on_eight_chains_converges_from_200_m_and_large_angles() {
-    pinned(&steps(&barge(), [140.0, 140.0, 10.0]), 20);
+    check_steps(&steps(&barge(), [140.0, 140.0, 10.0]), 20);
 }
 
 #[test]
 fn load_in_four_slings_converges_from_distant_start() {
-    pinned(&steps(&hanging_load(), [15.0, 15.0, 10.0]), 36);
+    check_steps(&steps(&hanging_load(), [15.0, 15.0, 10.0]), 36);
 }

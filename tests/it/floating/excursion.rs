@@ -201,7 +201,7 @@ fn held_excursion_stays_on_its_line_and_free_one_yields_sideways() {
 }
 
 /// The places of a watch circle, and the force left on the body there.
-fn watched(made: &Model, force: f64, free: bool, count: usize) -> Vec<WatchedBody> {
+fn find_watched_bodies(made: &Model, force: f64, free: bool, count: usize) -> Vec<WatchedBody> {
     let mut system = System::new(made, &[]).unwrap();
     let start: Vec<Pose> = system.state(made).poses;
     let directions: Vec<f64> = (0..=count).map(|n| TAU * n as f64 / count as f64).collect();
@@ -220,7 +220,7 @@ fn watched(made: &Model, force: f64, free: bool, count: usize) -> Vec<WatchedBod
 fn watch_circle_repeats_with_symmetry_and_is_round_for_many_lines() {
     // with n lines the stiffness of a small excursion e varies over the direction with (e/100)^(n-2): 32 lines, nothing
     let made = model(&springs(32));
-    let list = watched(&made, 3e5, false, 24);
+    let list = find_watched_bodies(&made, 3e5, false, 24);
     let radius = |w: &WatchedBody| w.pose.origin.xy().norm();
     let mean = list.iter().map(radius).sum::<f64>() / list.len() as f64;
     // less than 0.01 m, where the lee springs would go slack
@@ -232,7 +232,7 @@ fn watch_circle_repeats_with_symmetry_and_is_round_for_many_lines() {
         assert!((one.pose.origin.x + mean * cos).abs() < 1e-6 && (one.pose.origin.y + mean * sin).abs() < 1e-6);
     }
     // along a spring of four the excursion is that of the closed form
-    let four = watched(&model(&springs(4)), 5e5, false, 8);
+    let four = find_watched_bodies(&model(&springs(4)), 5e5, false, 8);
     let e = radius(&four[0]);
     assert!((closed_form(e) - 5e5).abs() < 1e-3, "{e}");
     for n in 0..8 {
@@ -360,7 +360,7 @@ fn free_watch_circle_of_hanging_weight_matches_pendulum() {
     made.parts.get_mut("LOAD").unwrap().weights.push(weight);
     let (force, tension) = (2e4, 2e4_f64.hypot(1e5));
     let reach = 10.0 * (1.0 + tension / ea()) + 2.0;
-    for one in watched(&made, force, true, 12) {
+    for one in find_watched_bodies(&made, force, true, 12) {
         let (sin, cos) = one.direction.sin_cos();
         let at = one.pose.origin;
         let want = [-cos * force, -sin * force, -1e5].map(|f| reach * f / tension);

@@ -33,7 +33,7 @@ fn area(degrees: f64, kg: f64) -> f64 {
 }
 
 /// What a session prints, and its messages.
-fn printed(records: &str) -> (String, Vec<String>) {
+fn print_records(records: &str) -> (String, Vec<String>) {
     let (mut session, screen, _folder) = common::session();
     session.open("records", format!("&DIMEN -DIMEN METERS M-TONS\n&DEFAULT -WATER 1025 -G 9.80665\n{records}\n"));
     session.run();
@@ -52,8 +52,9 @@ const OWN: &str = "#WEIGHT *CG 6000 9 25 25";
 
 /// A column of the table of a command of HSTATICS, in metres and tonnes.
 fn column(records: &str, command: &str, selector: &str) -> Vec<f64> {
-    let (text, said) =
-        printed(&format!("{records}HSTATICS\n{command}\nSET_VARIABLE V '{selector}'\nEND\nEND\n&TYPE GOT %V% END\n"));
+    let (text, said) = print_records(&format!(
+        "{records}HSTATICS\n{command}\nSET_VARIABLE V '{selector}'\nEND\nEND\n&TYPE GOT %V% END\n"
+    ));
     let values = text.split_once("GOT ").and_then(|(_, rest)| rest.split_once(" END")).map(|(values, _)| values);
     let values = values.unwrap_or_else(|| panic!("{command}: {said:?}\n{text}"));
     values.split_whitespace().map(|word| word.parse().unwrap()).collect()
@@ -113,7 +114,7 @@ fn equi_h_finds_heel_of_weight_beside_centreline() {
         "{}HSTATICS\nEQUI_H\nEND\n&TYPE AT &BODY(LOCATION B) END\nHSTATICS\nEQUI_H -FIX ROLL PITCH\nEND\n",
         barge("#WEIGHT *OFF 6000 9 25 25", &format!("*OFF 45.75 {offset:.12} 5\n"))
     );
-    let (text, said) = printed(&records);
+    let (text, said) = print_records(&records);
     assert!(said.is_empty(), "{said:?}");
     let at = text.split_once("AT ").unwrap().1.split_once(" END").unwrap().0;
     let at: Vec<f64> = at.split_whitespace().map(|word| word.parse().unwrap()).collect();
@@ -122,7 +123,7 @@ fn equi_h_finds_heel_of_weight_beside_centreline() {
     assert!(at[4].abs() < 1e-6, "{at:?}");
     // an upright box with KG above KM is in an equilibrium from which it rolls away: KG 40, KM 28.25
     let high = barge("#WEIGHT *HIGH 6000 9 25 25", "*HIGH 45.75 0 40\n");
-    let (_, said) = printed(&format!("{high}HSTATICS\nEQUI_H\nEND\n"));
+    let (_, said) = print_records(&format!("{high}HSTATICS\nEQUI_H\nEND\n"));
     assert!(said.len() == 1 && said[0].contains("metacentric height is -11.74"), "{said:?}");
 }
 
@@ -180,7 +181,7 @@ fn wind_heels_about_the_point_that_holds_it() {
     let drags = records.replace("-CS_CURRENT 0 0 0", "-CS_CURRENT 1 1 1");
     let held = column(&drags, "RARM 5 1 -WIND 50 -U_CURRENT", "Heeling: Arm")[0];
     assert_near(held, force * (20.0 - 0.5 * draft()) / WEIGHT, 1e-6);
-    let (_, said) = printed(&format!("{records}HSTATICS\nRARM 5 1 -WIND 50 -U_CURRENT\nEND\nEND\n"));
+    let (_, said) = print_records(&format!("{records}HSTATICS\nRARM 5 1 -WIND 50 -U_CURRENT\nEND\nEND\n"));
     assert!(said.len() == 1 && said[0].contains("nothing of it has drag"), "{said:?}");
 }
 
@@ -194,7 +195,7 @@ fn criteria_match_crossings_solved_by_hand() {
         "{}HSTATICS\nSTAB_OK 1 9 -W_COEFF {arm:.12} -I_GM 23 -I_THETA1 5.1 -I_AR_RATIO 9 -D_GM 99\nREPORT\nEND\nEND\n",
         barge(OWN, &format!("*VENT 45.75 {:.6} {vent:.12}\n&DESCRIBE HOLE V VENT -POINT *VENT\n", -0.5 * BEAM))
     );
-    let (text, said) = printed(&records);
+    let (text, said) = print_records(&records);
     let heel = |degrees: f64| arm * degrees.to_radians();
     for (name, want) in [
         ("GM", km() - KG),
@@ -220,7 +221,7 @@ fn equilibrium_of_leaning_body_is_where_angles_begin() {
     let offset = righting_arm(3.0, KG) / 3f64.to_radians().cos();
     let records = barge("#WEIGHT *OFF 6000 9 25 25", &format!("*OFF 45.75 {offset:.12} 5\n"));
     for (step, want) in [("1", -3.0), ("-1", 3.0)] {
-        let (text, _) = printed(&format!("{records}HSTATICS\nSTAB_OK {step} 6\nREPORT\nEND\nEND\n"));
+        let (text, _) = print_records(&format!("{records}HSTATICS\nSTAB_OK {step} 6\nREPORT\nEND\nEND\n"));
         assert!((value(&text, "ZCROSS", 2) - want).abs() < 6e-5, "{text}");
     }
 }
@@ -229,7 +230,7 @@ fn equilibrium_of_leaning_body_is_where_angles_begin() {
 fn allowable_kg_matches_closed_forms() {
     let records = barge(OWN, "*VENT 45.75 -13.75 4.2588\n&DESCRIBE HOLE V V_VALVE -POINT *VENT\n");
     let kg = |options: &str, name: &str, place: usize| {
-        let (text, said) = printed(&format!("{records}HSTATICS\nKG_ALLOW 1 9 {options}\nREPORT\nEND\nEND\n"));
+        let (text, said) = print_records(&format!("{records}HSTATICS\nKG_ALLOW 1 9 {options}\nREPORT\nEND\nEND\n"));
         assert!(said.is_empty(), "{said:?}");
         value(&text, name, place)
     };
@@ -243,11 +244,11 @@ fn allowable_kg_matches_closed_forms() {
     assert!((kg("-ARE@DFLD 0.1", "ARE@DFLD", 5) - want).abs() < 6e-5);
     assert!((kg("-ARE@DFLD 0.1 -GM 0.15", "all", 2) - want).abs() < 6e-5);
     // a hull of 2 m draft without weight: KM = d / 2 + B^2 / (12 d)
-    let (text, _) = printed(&format!("{}HSTATICS\nKG_ALLOW\nREPORT\nEND\nEND\n", barge("", "")));
+    let (text, _) = print_records(&format!("{}HSTATICS\nKG_ALLOW\nREPORT\nEND\nEND\n", barge("", "")));
     assert!((value(&text, "KM", 5) - (1.0 + BEAM * BEAM / 24.0)).abs() < 6e-5, "{text}");
     // 1000 t at KG 5 of the 5158.3125 t: what all may have less their moment, over the rest
     let (text, _) =
-        printed(&format!("{}HSTATICS\nKG_ALLOW\nREPORT\nEND\nEND\n", barge("#WEIGHT *CG 1000 9 25 25", "")));
+        print_records(&format!("{}HSTATICS\nKG_ALLOW\nREPORT\nEND\nEND\n", barge("#WEIGHT *CG 1000 9 25 25", "")));
     let whole = WATER * LENGTH * BEAM * 2.0;
     let want = ((1.0 + BEAM * BEAM / 24.0) * whole - 5000.0) / (whole - 1000.0);
     assert!((value(&text, "KM", 6) - want).abs() < 6e-5, "{want}: {text}");
@@ -285,24 +286,24 @@ fn bending_in_static_wave_matches_integral_of_cosine() {
     assert_near(found[10] / (-WATER * BEAM * LENGTH * LENGTH / (2.0 * PI * PI)), 1.0, 1e-5);
     // with the trough there it sags as much; EQUI_H under the wave closes what a crest at a quarter leaves open
     let skew = format!("-WAVE {LENGTH} {} {}", LENGTH / 2.0, LENGTH / 4.0);
-    let (text, said) = printed(&format!("{records}HSTATICS\nMOMENT {skew}\nREPORT\nEND\nEND\n"));
+    let (text, said) = print_records(&format!("{records}HSTATICS\nMOMENT {skew}\nREPORT\nEND\nEND\n"));
     assert!(said.len() == 1 && said[0].contains("do not close"), "{said:?} {text}");
-    let (text, said) = printed(&format!("{records}HSTATICS\nEQUI_H {skew}\nMOMENT\nREPORT\nEND\nEND\n"));
+    let (text, said) = print_records(&format!("{records}HSTATICS\nEQUI_H {skew}\nMOMENT\nREPORT\nEND\nEND\n"));
     assert!(said.is_empty() && !text.contains("not in equilibrium"), "{said:?} {text}");
 }
 
 #[test]
 fn loads_without_stations_and_what_does_not_close_are_said() {
     let records = barge(OWN, "");
-    let (text, said) = printed(&format!("{records}HSTATICS\nMOMENT\nREPORT\nEND\nEND\n"));
+    let (text, said) = print_records(&format!("{records}HSTATICS\nMOMENT\nREPORT\nEND\nEND\n"));
     // just before the force amidships half of the buoyancy pushes up
     assert!(text.lines().any(|line| line.contains("Greatest Shear") && line.contains("2579.16")), "{text}");
     // at 2 m draft 5158.3125 t carry 6000 t
     assert!(said.len() == 1 && said[0].contains("-841.6875"), "{said:?}");
     assert!(text.contains("weights without -LDIST act at their centers: 1, of 6000 m-tons in all"), "{text}");
-    let (_, said) = printed(&format!("{records}HSTATICS\nMOMENT -ALLOW 20 1\nEND\nEND\n"));
+    let (_, said) = print_records(&format!("{records}HSTATICS\nMOMENT -ALLOW 20 1\nEND\nEND\n"));
     assert!(said.iter().any(|text| text.contains("need the section of the body")), "{said:?}");
-    let (_, said) = printed(
+    let (_, said) = print_records(
         "MEDIT\n&DESCRIBE BODY B\n*P 0 0 0\n#WEIGHT *P 100 1 1 1\n#BUOY *P 200 1 1 9\nEND\nHSTATICS\nEQUI_H -WAVE 50 20\nEND\n",
     );
     assert!(said.len() == 1 && said[0].contains("not of its hull's pieces"), "{said:?}");

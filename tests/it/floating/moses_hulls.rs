@@ -1,30 +1,12 @@
 //! Hulls in the forms of MOSES: names left out, sections by rectangle, circle and points, blocks on both sides, surfaces before a body.
 
-use crate::common::{self, assert_near};
-
-/// What a session prints, and its errors.
-fn printed(records: &str) -> (String, i64) {
-    let (mut session, screen, _folder) = common::session();
-    session.open("records", format!("&DIMEN -DIMEN METERS M-TONS\n&DEFAULT -WATER 1025 -G 9.80665\n{records}\n"));
-    session.run();
-    let reported: Vec<String> = session.reports.iter().map(|d| format!("{} {}", d.message, d.help.join(" "))).collect();
-    (format!("{}\n{}", screen.text(), reported.join("\n")), session.errors)
-}
+use crate::common::{assert_near, fact, print_metric_records};
 
 /// The displaced volume of each piece of body B, deep under water, by &STATUS HYDROSTATICS of the body.
 fn volume(records: &str) -> f64 {
-    let (text, errors) = printed(&format!("{records}\n&INSTATE -CONDITION 500\n&STATUS HYDROSTATICS"));
+    let (text, errors) = print_metric_records(&format!("{records}\n&INSTATE -CONDITION 500\n&STATUS HYDROSTATICS"));
     assert_eq!(errors, 0, "{text}");
     fact(&text, "Volume")
-}
-
-/// A number behind its name in a report: `Volume = 24.00 m3`.
-fn fact(text: &str, name: &str) -> f64 {
-    let named = |line: &str| {
-        Some(line.trim().strip_prefix(name)?.trim().strip_prefix('=')?.split_whitespace().next()?.to_string())
-    };
-    let found = text.lines().filter_map(named).next_back().and_then(|word| word.parse().ok());
-    found.unwrap_or_else(|| panic!("{name} in {text}"))
 }
 
 const BARGE: &str = "MEDIT\n&DESCRIBE BODY BARGE\nPGEN\nPLANE 0 91.5 -RECT 0 6.10 27.50\nEND\nEND\n\
@@ -33,7 +15,7 @@ const BARGE: &str = "MEDIT\n&DESCRIBE BODY BARGE\nPGEN\nPLANE 0 91.5 -RECT 0 6.1
 #[test]
 fn tutorial_barge_without_a_name_has_wall_sided_hydrostatics() {
     // closed forms of a box of 91.5 x 27.5 m under 6000 t, KG 5 m: d = W/(rho L B), BMT = B^2/(12 d), BML = L^2/(12 d)
-    let (text, errors) = printed(&format!("{BARGE}\n&EQUI\n&STATUS HYDROSTATICS"));
+    let (text, errors) = print_metric_records(&format!("{BARGE}\n&EQUI\n&STATUS HYDROSTATICS"));
     assert_eq!(errors, 0, "{text}");
     for (name, want) in [
         ("KB", 1.16317),
@@ -45,7 +27,7 @@ fn tutorial_barge_without_a_name_has_wall_sided_hydrostatics() {
         // reports have two decimals
         assert!((fact(&text, name) - want).abs() <= 0.0051, "{name} {want}: {text}");
     }
-    let (text, _) = printed(&format!("{BARGE}\nHSTATICS\nRARM 2.5 3\nREPORT\nEND\nEND"));
+    let (text, _) = print_metric_records(&format!("{BARGE}\nHSTATICS\nRARM 2.5 3\nREPORT\nEND\nEND"));
     // wall-sided formula GZ = sin a (GM + BM/2 tan^2 a): 1.01542, 2.03569, 3.06580 m
     for want in ["1.0154", "2.0357", "3.0658"] {
         assert!(text.contains(want), "{want}: {text}");
@@ -54,7 +36,7 @@ fn tutorial_barge_without_a_name_has_wall_sided_hydrostatics() {
 
 #[test]
 fn pieces_without_names_are_numbered() {
-    let (text, errors) = printed(
+    let (text, errors) = print_metric_records(
         "MEDIT\n&DESCRIBE BODY B\nPGEN\nPLANE 0 9 -RECT 0 3 4\nEND\n&DESCRIBE PIECE -PERM 0\nPANEL 0 0 -9 0 1 -9 1 0 -9\nPGEN\n\
          PLANE 20 29 -RECT 0 3 4\nEND\nEND\n&SURFACE\nBLOCK\nPLANE 40 49 -RECT 0 3 4\nEND_BLOCK\nEND\n&STATUS PIECES",
     );
@@ -92,7 +74,7 @@ fn sections_enclose_volumes_of_closed_forms() {
 
 #[test]
 fn location_turns_and_shifts_a_piece() {
-    let (text, errors) = printed(
+    let (text, errors) = print_metric_records(
         "MEDIT\n&DESCRIBE BODY B\nPGEN P -LOCATION 100 20 5 0 0 90\nPLANE 0 10 -RECT 0 4 6\nEND\nEND\n&STATUS PIECES",
     );
     assert_eq!(errors, 0, "{text}");
@@ -108,7 +90,7 @@ fn location_turns_and_shifts_a_piece() {
 fn surfaces_before_a_body_displace_nothing_until_emitted() {
     let surfaces = "&SURFACE\nBLOCK COLUMN -LOCATION 0 0 -5\nPLANE 0 2 -CIRC 0 0 31.5 9\nEND_BLOCK\nCOPY_BLOCK COLUMN SECOND 100\n\
         REFLECT_BLOCK SECOND\nEND_&SURFACE\n&DESCRIBE BODY B";
-    let (text, errors) = printed(&format!("{surfaces}\n&STATUS HYDROSTATICS"));
+    let (text, errors) = print_metric_records(&format!("{surfaces}\n&STATUS HYDROSTATICS"));
     assert!(errors == 0 && !text.contains("Volume"), "{text}");
     let octagon = 4.0 * 31.5 * 31.5 * std::f64::consts::FRAC_PI_4.sin();
     assert_near(volume(&format!("{surfaces}\nEMIT COLUMN")), 2.0 * octagon, 1e-4);

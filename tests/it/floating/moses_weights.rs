@@ -1,15 +1,6 @@
 //! Weights, load categories and load groups in the forms of MOSES.
 
-use crate::common;
-
-/// What a session prints, and its errors.
-fn printed(records: &str) -> (String, i64) {
-    let (mut session, screen, _folder) = common::session();
-    session.open("records", records.to_string());
-    session.run();
-    let reported: Vec<String> = session.reports.iter().map(|d| format!("{} {}", d.message, d.help.join(" "))).collect();
-    (format!("{}\n{}", screen.text(), reported.join("\n")), session.errors)
-}
+use crate::common::{fact, print_records};
 
 /// The row of a table that begins with words, as numbers.
 fn row(text: &str, begins: &str) -> Vec<f64> {
@@ -18,16 +9,7 @@ fn row(text: &str, begins: &str) -> Vec<f64> {
     found.split_whitespace().filter_map(|word| word.parse().ok()).collect()
 }
 
-/// A number behind its name in a report.
-fn fact(text: &str, name: &str) -> f64 {
-    let named = |line: &str| {
-        Some(line.trim().strip_prefix(name)?.trim().strip_prefix('=')?.split_whitespace().next()?.to_string())
-    };
-    let found = text.lines().filter_map(named).next_back().and_then(|word| word.parse().ok());
-    found.unwrap_or_else(|| panic!("{name} in {text}"))
-}
-
-fn near(got: f64, want: f64, by: f64) {
+fn check_near(got: f64, want: f64, by: f64) {
     assert!((got - want).abs() <= by, "{got} is not {want}");
 }
 
@@ -43,47 +25,47 @@ fn computed_weight_balances_box_at_its_draft() {
             "MEDIT\n&DESCRIBE BODY BARGE\nPGEN\nPLANE 0 {l} -RECT 0 14 {b}\nEND\nEND\n&INSTATE -CONDITION {d}\n\
              &WEIGHT -COMPUTE 5 32 85 85\n&STATUS WEIGHT\n&STATUS HYDROSTATICS"
         );
-        let (text, errors) = printed(&records);
+        let (text, errors) = print_records(&records);
         assert_eq!(errors, 0, "{text}");
         let [_, found, x, y, z, kx, ky, kz] = row(&text, "BARGE (whole)")[..] else { panic!("{text}") };
-        near(found, weight, 1e-5 * weight);
+        check_near(found, weight, 1e-5 * weight);
         for (got, want) in [(x, 0.5 * l), (y, 0.0), (z, 5.0), (kx, 32.0), (ky, 85.0), (kz, 85.0)] {
-            near(got, want, 0.0051);
+            check_near(got, want, 0.0051);
         }
-        near(fact(&text, "GM Transverse"), gmt, 0.0051);
-        near(fact(&text, "GM Longitudinal"), gml, 0.0051);
+        check_near(fact(&text, "GM Transverse"), gmt, 0.0051);
+        check_near(fact(&text, "GM Longitudinal"), gml, 0.0051);
     }
 }
 
 #[test]
 fn computed_weight_of_heeled_body_lies_on_vertical_through_buoyancy() {
-    let (text, errors) = printed(
+    let (text, errors) = print_records(
         "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B\nPGEN\nPLANE 0 91.5 -RECT 0 6.10 27.50\nEND\nEND\n\
          &INSTATE -CONDITION B 2.8 4 0.5\n&WEIGHT -COMPUTE B 5 9 25 25\n&EQUI\n&STATUS CONFIGURATION\n&STATUS HYDROSTATICS",
     );
     assert_eq!(errors, 0, "{text}");
     // nothing moves it: roll 4, trim 0.5 as they were given
     let place = row(&text[text.find("C O N F I G U R A T I O N").unwrap_or(0)..], "B ");
-    near(place[2], -2.8, 0.0051);
-    near(place[3], 4.0, 0.0051);
-    near(place[4], 0.5, 0.0051);
-    near(fact(&text, "Center of Gravity X"), fact(&text, "Center of Buoyancy X"), 0.0101);
-    near(fact(&text, "Center of Gravity Y"), fact(&text, "Center of Buoyancy Y"), 0.0101);
+    check_near(place[2], -2.8, 0.0051);
+    check_near(place[3], 4.0, 0.0051);
+    check_near(place[4], 0.5, 0.0051);
+    check_near(fact(&text, "Center of Gravity X"), fact(&text, "Center of Buoyancy X"), 0.0101);
+    check_near(fact(&text, "Center of Gravity Y"), fact(&text, "Center of Buoyancy Y"), 0.0101);
 }
 
 #[test]
 fn computed_weight_adds_to_what_is_there() {
     // 180 x 50 x 7 ft: 4031.29 kip; of these 1000 at x 60: the rest is 3031.29 at (4031.29*90 - 60000)/3031.29 = 99.896
-    let (text, errors) = printed(
+    let (text, errors) = print_records(
         "MEDIT\n&DESCRIBE BODY B\n*P 60 0 9\n#WEIGHT *P 1000\nPGEN\nPLANE 0 180 -RECT 0 14 50\nEND\nEND\n&INSTATE -CONDITION 7\n\
          &WEIGHT -COMPUTE 5 32 85 85\n&STATUS WEIGHT",
     );
     assert_eq!(errors, 0, "{text}");
     let whole = row(&text, "B (whole)");
-    near(whole[1], 4031.29, 0.02);
-    near(whole[2], 90.0, 0.0051);
+    check_near(whole[1], 4031.29, 0.02);
+    check_near(whole[2], 90.0, 0.0051);
     // z: (1000*9 + 3031.29*5)/4031.29
-    near(whole[4], 5.9922, 0.0051);
+    check_near(whole[4], 5.9922, 0.0051);
 }
 
 const TWO: &str = "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B\n*P 10 0 2\n*Q 40 0 6\n#WEIGHT *P 300 4 8 8 -CATEGORY STEEL\n\
@@ -91,32 +73,33 @@ const TWO: &str = "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B\n*P 10 0
 
 #[test]
 fn total_of_unchanged_weight_moves_the_centre() {
-    let (text, errors) = printed(&format!("{TWO}&WEIGHT -TOTAL B 400 20 1 4 5 12 12\n&STATUS WEIGHT"));
+    let (text, errors) = print_records(&format!("{TWO}&WEIGHT -TOTAL B 400 20 1 4 5 12 12\n&STATUS WEIGHT"));
     assert_eq!(errors, 0, "{text}");
     let whole = row(&text, "B (whole)");
     for (got, want) in whole[1..].iter().zip([400.0, 20.0, 1.0, 4.0, 5.0, 12.0, 12.0]) {
-        near(*got, want, 0.0051);
+        check_near(*got, want, 0.0051);
     }
     // radii that are not given stay: kx^2 = (300 (16 + 1) + 100 9)/400 about z = 3
-    let (text, _) = printed(&format!("{TWO}&WEIGHT -TOTAL B 400 20 1 4\n&STATUS WEIGHT"));
-    near(row(&text, "B (whole)")[5], 15f64.sqrt(), 0.0051);
+    let (text, _) = print_records(&format!("{TWO}&WEIGHT -TOTAL B 400 20 1 4\n&STATUS WEIGHT"));
+    check_near(row(&text, "B (whole)")[5], 15f64.sqrt(), 0.0051);
 }
 
 #[test]
 fn defined_weight_and_margin_change_the_total() {
     let (text, errors) =
-        printed(&format!("{TWO}&WEIGHT -DEFINE B 100 60 0 8 1 1 1\n&WEIGHT -MARGIN 1.06\n&STATUS WEIGHT"));
+        print_records(&format!("{TWO}&WEIGHT -DEFINE B 100 60 0 8 1 1 1\n&WEIGHT -MARGIN 1.06\n&STATUS WEIGHT"));
     assert_eq!(errors, 0, "{text}");
     let whole = row(&text, "B (whole)");
-    near(whole[1], 1.06 * 500.0, 0.0051);
-    near(whole[2], (300.0 * 10.0 + 100.0 * 40.0 + 100.0 * 60.0) / 500.0, 0.0051);
+    check_near(whole[1], 1.06 * 500.0, 0.0051);
+    check_near(whole[2], (300.0 * 10.0 + 100.0 * 40.0 + 100.0 * 60.0) / 500.0, 0.0051);
 }
 
 #[test]
 fn spread_of_a_weight_leaves_its_centre() {
-    let (text, errors) = printed("MEDIT\n&DESCRIBE BODY B\n*P 10 0 2\n#WEIGHT *P 300 -LDIST 2 20\nEND\n&STATUS WEIGHT");
+    let (text, errors) =
+        print_records("MEDIT\n&DESCRIBE BODY B\n*P 10 0 2\n#WEIGHT *P 300 -LDIST 2 20\nEND\n&STATUS WEIGHT");
     assert!(errors == 0, "{text}");
-    near(row(&text, "B (whole)")[2], 10.0, 1e-9);
+    check_near(row(&text, "B (whole)")[2], 10.0, 1e-9);
 }
 
 #[test]
@@ -132,9 +115,9 @@ fn category_multipliers_act_on_weights_and_compound_with_groups() {
         ("&APPLY -PERCENT @ 50", 200.0),
         ("&APPLY -PERCENT @ 50\n&APPLY -PERCENT @ 100", 400.0),
     ] {
-        let (text, errors) = printed(&format!("{TWO}{apply}\n&STATUS WEIGHT"));
+        let (text, errors) = print_records(&format!("{TWO}{apply}\n&STATUS WEIGHT"));
         assert_eq!(errors, 0, "{apply}: {text}");
-        near(row(&text, "B (whole)")[1], want, 0.0051);
+        check_near(row(&text, "B (whole)")[1], want, 0.0051);
     }
 }
 
@@ -148,19 +131,22 @@ fn load_groups_scale_their_loads_alone() {
     };
     let force = |text: &str| row(text, "B WIND")[0];
     for form in ["&DESCRIBE LOAD_GROUP CARGO *P", "&DESCRIBE LOAD GROUP CARGO"] {
-        let (text, errors) = printed(&format!("{}&STATUS LOADS", model(form)));
+        let (text, errors) = print_records(&format!("{}&STATUS LOADS", model(form)));
         assert_eq!(errors, 0, "{text}");
         let both = force(&text);
+        let (text, _) = print_records(&format!(
+            "{}&APPLY -FRACTION -LOAD_GROUP CARGO 0.5\n&STATUS LOADS\n&STATUS WEIGHT",
+            model(form)
+        ));
+        check_near(force(&text), 0.75 * both, 0.011);
+        check_near(row(&text, "B (whole)")[1], 350.0, 0.0051);
         let (text, _) =
-            printed(&format!("{}&APPLY -FRACTION -LOAD_GROUP CARGO 0.5\n&STATUS LOADS\n&STATUS WEIGHT", model(form)));
-        near(force(&text), 0.75 * both, 0.011);
-        near(row(&text, "B (whole)")[1], 350.0, 0.0051);
-        let (text, _) = printed(&format!("{}&APPLY -FRACTION -CATEGORY HOUSE #WIND 0.2\n&STATUS LOADS", model(form)));
-        near(force(&text), 0.6 * both, 0.011);
+            print_records(&format!("{}&APPLY -FRACTION -CATEGORY HOUSE #WIND 0.2\n&STATUS LOADS", model(form)));
+        check_near(force(&text), 0.6 * both, 0.011);
     }
     // 1/2 x 1.226 x (40 x 0.514444)^2 x 200 m2 = 51,911 N = 5.294 t
-    let (text, _) = printed(&format!("{}&STATUS LOADS", model("&DESCRIBE LOAD_GROUP CARGO")));
-    near(force(&text), 5.294, 0.006);
+    let (text, _) = print_records(&format!("{}&STATUS LOADS", model("&DESCRIBE LOAD_GROUP CARGO")));
+    check_near(force(&text), 5.294, 0.006);
 }
 
 #[test]
@@ -168,12 +154,13 @@ fn point_buoyancy_carries_what_it_displaces() {
     // 50 t of buoyancy over a height of 4 m about z = 0: under a weight of 30 t it sinks to 0.6 of its height, z = 0.2 m above its middle
     let model = "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B -IGNORE X Y RX RY RZ\n*F 0 0 0\n#BUOY *F 50 3 3 4\n*G 0 0 -1\n\
                  #WEIGHT *G 30 1 1 1\nEND\n";
-    let (text, errors) = printed(&format!("{model}&EQUI\n&STATUS CONFIGURATION"));
+    let (text, errors) = print_records(&format!("{model}&EQUI\n&STATUS CONFIGURATION"));
     assert_eq!(errors, 0, "{text}");
-    near(row(&text[text.find("C O N F I G U R A T I O N").unwrap_or(0)..], "B ")[2], -0.4, 0.0051);
+    check_near(row(&text[text.find("C O N F I G U R A T I O N").unwrap_or(0)..], "B ")[2], -0.4, 0.0051);
     // with 1.2 times the buoyancy: 30/60 of the height
-    let (text, _) = printed(&format!("{model}&APPLY -PERCENT -CATEGORY @ #BUOY 120\n&EQUI\n&STATUS CONFIGURATION"));
-    near(row(&text[text.find("C O N F I G U R A T I O N").unwrap_or(0)..], "B ")[2], 0.0, 0.0051);
+    let (text, _) =
+        print_records(&format!("{model}&APPLY -PERCENT -CATEGORY @ #BUOY 120\n&EQUI\n&STATUS CONFIGURATION"));
+    check_near(row(&text[text.find("C O N F I G U R A T I O N").unwrap_or(0)..], "B ")[2], 0.0, 0.0051);
 }
 
 #[test]
@@ -184,16 +171,16 @@ fn tanker_has_forces_of_its_coefficients() {
                  #TANKER 150 *MID -FILE job.ans/tanker.csv -LBP 270 -DRAFT 16 -WIND_AREAS 1200 3500 -SYMMETRIC\nEND\n";
     // current 1 m/s from +y: FY = 1/2 1025 (-0.6) 270 16, MZ = 1/2 1025 0.02 270^2 16; wind 40 kn from 180: FX = 1/2 1.226 0.9 v^2 1200
     let tonne = 9806.65;
-    let (text, errors) = printed(&format!("{file}{model}&ENV -CURRENT 1 90\n&STATUS LOADS"));
+    let (text, errors) = print_records(&format!("{file}{model}&ENV -CURRENT 1 90\n&STATUS LOADS"));
     assert_eq!(errors, 0, "{text}");
     let current = row(&text, "T V_DRAG");
-    near(current[1], -0.5 * 1025.0 * 0.6 * 270.0 * 16.0 / tonne, 0.006);
-    near(current[5], 0.5 * 1025.0 * 0.02 * 270.0 * 270.0 * 16.0 / tonne, 0.006);
-    let (text, _) = printed(&format!("{file}{model}&ENV -WIND 40 180\n&STATUS LOADS"));
+    check_near(current[1], -0.5 * 1025.0 * 0.6 * 270.0 * 16.0 / tonne, 0.006);
+    check_near(current[5], 0.5 * 1025.0 * 0.02 * 270.0 * 270.0 * 16.0 / tonne, 0.006);
+    let (text, _) = print_records(&format!("{file}{model}&ENV -WIND 40 180\n&STATUS LOADS"));
     let speed: f64 = 40.0 * 1852.0 / 3600.0;
-    near(row(&text, "T WIND")[0], 0.5 * 1.226 * 0.9 * speed * speed * 1200.0 / tonne, 0.006);
+    check_near(row(&text, "T WIND")[0], 0.5 * 1.226 * 0.9 * speed * speed * 1200.0 / tonne, 0.006);
     // without a file: the form of one
-    let (text, errors) = printed("MEDIT\n&DESCRIBE BODY T\n*MID 0 0 10\n#TANKER 150 *MID\nEND");
+    let (text, errors) = print_records("MEDIT\n&DESCRIBE BODY T\n*MID 0 0 10\n#TANKER 150 *MID\nEND");
     assert!(errors == 1 && text.contains("HEADING CXW CYW CNW CXC CYC CNC"), "{text}");
 }
 
@@ -212,7 +199,7 @@ fn eddy_damping_leaves_the_swing_of_quadratic_damping() {
     }
     let want = (x / beta).to_degrees();
     for (piece, record) in [("", "#TANAKA 1\n"), ("-TANAKA 1", "")] {
-        let (text, errors) = printed(&format!(
+        let (text, errors) = print_records(&format!(
             "&DIMEN -DIMEN METERS M-TONS\n&DEFAULT -WATER 1025 -G 9.80665\n&ENV -DEPTH 100 -TIME 5 0.02\nMEDIT\n\
              &DESCRIBE BODY B -IGNORE X Y Z RY RZ\n*G 0 0 0\n#WEIGHT *G 6000 9 25 25\n\
              PGEN {piece} -CS_WIND 0 0 0 -CS_CURRENT 0 0 0\nPLANE -45.75 45.75 -RECT -5 1.1 27.5\nEND\n{record}END\n\
@@ -224,6 +211,6 @@ fn eddy_damping_leaves_the_swing_of_quadratic_damping() {
         let rolls: Vec<f64> = rows.filter(|row| row.len() > 7).filter_map(|row| row.get(5).copied()).collect();
         let least = rolls.iter().copied().fold(0.0, f64::min);
         // the restoring moment is not quite linear
-        near(least, -want, 0.01 * want + 0.005);
+        check_near(least, -want, 0.01 * want + 0.005);
     }
 }

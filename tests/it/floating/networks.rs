@@ -123,7 +123,7 @@ impl Network {
     }
 
     /// A line from a point to an anchor on the bottom.
-    fn anchored(&mut self, on: (&str, Vector3<f64>, Vector3<f64>), seeded: &mut Seeded) {
+    fn add_anchored_line(&mut self, on: (&str, Vector3<f64>, Vector3<f64>), seeded: &mut Seeded) {
         let (name, point, at) = on;
         let angle = seeded.draw(0.0, std::f64::consts::TAU);
         let far = seeded.draw(0.8, 3.0) * (at.z + DEPTH);
@@ -140,7 +140,7 @@ impl Network {
     }
 
     /// A line between two points of the network, which hangs free of the bottom.
-    fn shared(
+    fn add_shared_line(
         &mut self,
         one: (&str, Vector3<f64>, Vector3<f64>),
         other: (&str, Vector3<f64>, Vector3<f64>),
@@ -197,7 +197,7 @@ impl Network {
             }
             for _ in 0..seeded.draw(1.0, 4.99) as usize {
                 let on = point(seeded);
-                self.anchored((&name, on, at + on), seeded);
+                self.add_anchored_line((&name, on, at + on), seeded);
             }
             if is_body && seeded.one_in(2) {
                 let knot = format!("J{number}K{i}");
@@ -206,13 +206,13 @@ impl Network {
                 self.junctions.push((knot.clone(), 1000.0, 0.0));
                 for side in [-8.0, 8.0] {
                     let on = Vector3::new(15.0, side, -4.0);
-                    self.shared((&name, on, at + on), (&knot, Vector3::zeros(), place), seeded);
+                    self.add_shared_line((&name, on, at + on), (&knot, Vector3::zeros(), place), seeded);
                 }
-                self.anchored((&knot, Vector3::zeros(), place), seeded);
+                self.add_anchored_line((&knot, Vector3::zeros(), place), seeded);
             }
             if let Some((other, on, place)) = &before {
                 let own = point(seeded);
-                self.shared((&name, own, at + own), (other, *on, *place), seeded);
+                self.add_shared_line((&name, own, at + own), (other, *on, *place), seeded);
             }
             let own = point(seeded);
             before = Some((name, own, at + own));

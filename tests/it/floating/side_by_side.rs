@@ -61,7 +61,7 @@ fn by_hand(model: &Model) -> Vec<(&'static str, Vector3<f64>, Vector3<f64>)> {
 }
 
 /// Forces on the first end as printed by the last &STATUS F_CONNECTOR (kN).
-fn printed(screen: &str, name: &str) -> [f64; 3] {
+fn printed_forces(screen: &str, name: &str) -> [f64; 3] {
     let line = screen
         .lines()
         .rfind(|l| l.trim_start().starts_with(name) && (l.contains(" exact ") || l.contains(" weightless ")))
@@ -92,7 +92,7 @@ fn fender_forces_balance_hawser_forces_in_calm() {
     let roll = |body: &str| model.bodies.get(body).unwrap().place.values()[3];
     assert!(roll("INNER") < 0.0 && (roll("INNER") + roll("OUTER")).abs() < 0.05 * roll("OUTER"), "{}", roll("OUTER"));
     for (name, force, _) in &hand {
-        let got = printed(&screen, name);
+        let got = printed_forces(&screen, name);
         assert!((0..3).all(|i| (got[i] + force[i]).abs() < 0.0051), "{name}: {got:?} {force}");
     }
 }
@@ -108,7 +108,7 @@ fn printed_forces_and_moments_balance_wind() {
         let mut yaw = moment.z;
         let origin = point_of_body(&model, "OUTER", [0.0; 3]);
         for (name, force, point) in &hand {
-            let got = printed(&screen, name);
+            let got = printed_forces(&screen, name);
             assert!((0..3).all(|i| (got[i] + force[i]).abs() < 0.0051), "{name}: {got:?} {force}");
             total += Vector3::from(got) * -1.0;
             yaw += (point - origin).cross(force).z;

@@ -41,7 +41,7 @@ fn force(model: &Model, category: Category) -> Six {
     load(model, category).mean_load(&Pose::default()).unwrap().wrench
 }
 
-fn added(model: &Model) -> Matrix6<f64> {
+fn added_mass(model: &Model) -> Matrix6<f64> {
     morison::build_members(model, &model.bodies["B"], None).unwrap().1
 }
 
@@ -130,15 +130,15 @@ fn member_over_water_has_wind_on_its_diameter() {
 fn submerged_upright_members_have_added_mass_by_hand() {
     let tube = "*A 0 0 -30\n*B 0 0 -10\n~C TUBE 1000 25\nBEAM ~C *A *B\nEND";
     let whole = RHO * PI / 4.0 * 20.0;
-    let found = added(&model(tube));
+    let found = added_mass(&model(tube));
     for (at, want) in [((0, 0), whole), ((1, 1), whole), ((2, 2), 0.0), ((0, 4), -20.0 * whole)] {
         assert!((found[at] - want).abs() <= 1e-9 * whole, "{at:?} {}", found[at]);
     }
     // flooded, the water within it moves too
-    let found = added(&model(&tube.replace("~C *A", "~C -FLOOD YES *A")));
+    let found = added_mass(&model(&tube.replace("~C *A", "~C -FLOOD YES *A")));
     assert_share(found[(0, 0)], whole + RHO * PI / 4.0 * 0.95 * 0.95 * 20.0, 1e-9);
     // a bar moves the circle over the breadth it shows: 0.3 m along x, 0.9 m along y
-    let found = added(&model(&tube.replace("TUBE 1000 25", "IBEAM 900 300 16 28")));
+    let found = added_mass(&model(&tube.replace("TUBE 1000 25", "IBEAM 900 300 16 28")));
     assert_share(found[(0, 0)], RHO * PI / 4.0 * 0.09 * 20.0, 1e-9);
     assert_share(found[(1, 1)], RHO * PI / 4.0 * 0.81 * 20.0, 1e-9);
 }
@@ -213,7 +213,7 @@ fn plate_has_weight_buoyancy_and_normal_drag_of_its_area() {
     assert_share(force(&made, Category::ViscousDrag)[0], 0.5 * RHO * area * 4.0, 1e-9);
     // strips along the longest side, 15 m, whose breadth rises to 7.2 m and falls: rho pi/4 times the integral of b^2, here of midpoints of 8
     // strips each way, within 1/(4 x 64) of 15 x 7.2^2/3
-    assert_share(added(&made)[(0, 0)], RHO * PI / 4.0 * 15.0 * 7.2 * 7.2 / 3.0, 1.0 / 200.0);
+    assert_share(added_mass(&made)[(0, 0)], RHO * PI / 4.0 * 15.0 * 7.2 * 7.2 / 3.0, 1.0 / 200.0);
 }
 
 #[test]

@@ -98,7 +98,7 @@ fn plot_without_terminal_is_ninety_columns_wide() {
 }
 
 /// A barge between two lines of about 760 kN; `line` is their class behind its length, `asked` what is asked of them.
-fn moored(line: &str, asked: &str) -> (Option<i32>, String, String) {
+fn run_moored(line: &str, asked: &str) -> (Option<i32>, String, String) {
     let folder = tempfile::tempdir().unwrap();
     let script = format!(
         "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY RIG\n*CG 0 0 -2\n*F 0 0 -10\n#WEIGHT *CG 20000 8 8 8\n&SURFACE\n\
@@ -130,10 +130,10 @@ fn line_far_too_short_for_its_ends_exits_with_3() {
 #[test]
 fn tension_beyond_given_break_exits_with_3() {
     for asked in ["&EQUI", "&STATUS F_CONNECTOR", "TDOM"] {
-        let (code, _, err) = moored(&chain(400), asked);
+        let (code, _, err) = run_moored(&chain(400), asked);
         assert_eq!(code, Some(3), "{asked}: {err}");
         assert!(err.contains("windlass: exit code 3: the tension of A is 1."), "{asked}: {err}");
-        assert_eq!(moored(&chain(4000), asked).0, Some(0), "{asked}");
+        assert_eq!(run_moored(&chain(4000), asked).0, Some(0), "{asked}");
     }
 }
 
@@ -141,7 +141,7 @@ fn tension_beyond_given_break_exits_with_3() {
 fn given_break_behind_more_loaded_bare_segment_exits_with_3() {
     // the bare wire of 5 mm is the critical segment, and the chain behind it was given a break that both exceed
     let bare = "5 EXACT -LEN 100 -BUOY 0 -WTPL 0.001 -EMOD 200000\n~C B_CAT";
-    let (code, _, err) = moored(&format!("{bare} 100 EXACT -EMOD 50000 -B_TENSION 10"), "&STATUS F_CONNECTOR");
+    let (code, _, err) = run_moored(&format!("{bare} 100 EXACT -EMOD 50000 -B_TENSION 10"), "&STATUS F_CONNECTOR");
     assert_eq!(code, Some(3), "{err}");
     assert!(err.contains("the break of its segment 2"), "{err}");
 }
@@ -149,12 +149,12 @@ fn given_break_behind_more_loaded_bare_segment_exits_with_3() {
 #[test]
 fn action_that_never_fired_excuses_no_line_break() {
     let action = "&ACTION B1 -TENSION A 1E6 -RELEASE A B\nTDOM";
-    assert_eq!(moored(&chain(400), action).0, Some(3));
+    assert_eq!(run_moored(&chain(400), action).0, Some(3));
 }
 
 #[test]
 fn tension_beyond_break_is_reported_beside_a_wrong_record() {
-    let (code, _, err) = moored(&chain(400), "&EQUI\n&BOGUS");
+    let (code, _, err) = run_moored(&chain(400), "&EQUI\n&BOGUS");
     assert_eq!(code, Some(1), "{err}");
     assert!(err.contains("warning: the tension of A is 1."), "{err}");
 }
@@ -171,7 +171,7 @@ fn output_folder_that_is_a_file_is_refused_before_job_runs() {
 #[test]
 fn break_of_diameter_only_segment_never_exits_with_3() {
     // steel over 20 mm bears some 150 kN
-    let (code, out, err) = moored("20 EXACT", "&EQUI\n&STATUS F_CONNECTOR");
+    let (code, out, err) = run_moored("20 EXACT", "&EQUI\n&STATUS F_CONNECTOR");
     assert!(err.contains("beyond its breaking tension"), "{out}{err}");
     assert_eq!(code, Some(0), "{err}");
 }
@@ -183,14 +183,14 @@ fn sweeps_beyond_break_exit_with_0() {
         "CONN_DESIGN\nMOVE RIG 0 -DISTANCE 40\nEND\nEND",
         "CONN_DESIGN\nWATCH RIG 100\nEND\nEND",
     ] {
-        let (code, _, err) = moored(&chain(400), asked);
+        let (code, _, err) = run_moored(&chain(400), asked);
         assert_eq!(code, Some(0), "{asked}: {err}");
     }
 }
 
 #[test]
 fn lines_released_by_action_do_not_exit_with_3() {
-    let release = |lines: &str| moored(&chain(400), &format!("&ACTION B1 -TENSION A 400 -RELEASE {lines}\nTDOM"));
+    let release = |lines: &str| run_moored(&chain(400), &format!("&ACTION B1 -TENSION A 400 -RELEASE {lines}\nTDOM"));
     let (code, _, err) = release("A");
     assert_eq!(code, Some(3), "{err}");
     assert!(err.contains("the tension of B is") && !err.contains("the tension of A is"), "{err}");
@@ -198,7 +198,7 @@ fn lines_released_by_action_do_not_exit_with_3() {
 
 #[test]
 fn missing_result_exits_with_1_and_a_message() {
-    let (code, out, err) = moored(&chain(4000), "&ENV -DEPTH 5\n&STATUS F_CONNECTOR");
+    let (code, out, err) = run_moored(&chain(4000), "&ENV -DEPTH 5\n&STATUS F_CONNECTOR");
     assert_eq!(code, Some(1), "{out}{err}");
     assert!(err.contains("windlass: exit code 1: a result that was asked for does not exist"), "{err}");
 }

@@ -26,7 +26,7 @@ fn run_on_full_disk_reports_it_and_keeps_its_rows() {
 }
 
 /// Runs a script with files of at most 64 blocks (32 or 64 kB, as the shell counts them): writing beyond fails as on a full disk.
-fn limited(folder: &Path, script: &str) -> (Option<i32>, String) {
+fn run_limited(folder: &Path, script: &str) -> (Option<i32>, String) {
     fs::write(folder.join("limited.cif"), script).unwrap();
     let command = "trap '' XFSZ; ulimit -f 64; exec \"$0\" limited.cif --out answers";
     let done = Command::new("sh").args(["-c", command, env!("CARGO_BIN_EXE_windlass")]).current_dir(folder).output();
@@ -34,7 +34,7 @@ fn limited(folder: &Path, script: &str) -> (Option<i32>, String) {
     (done.status.code(), String::from_utf8_lossy(&done.stdout).into_owned() + &String::from_utf8_lossy(&done.stderr))
 }
 
-fn unlimited(folder: &Path, script: &str) {
+fn run_unlimited(folder: &Path, script: &str) {
     fs::write(folder.join("free.cif"), script).unwrap();
     let mut program = Command::new(env!("CARGO_BIN_EXE_windlass"));
     let done = program.args(["free.cif", "--out", "answers"]).current_dir(folder).output().unwrap();
@@ -45,16 +45,16 @@ fn unlimited(folder: &Path, script: &str) {
 fn run_continued_after_full_disk_matches_uninterrupted_file() {
     let records = format!("&DIMEN -DIMEN METERS N\n{CART}&ENV -TIME 2000 0.1\n");
     let (short, whole) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    unlimited(whole.path(), &format!("{records}TDOM -STORE 50\n"));
+    run_unlimited(whole.path(), &format!("{records}TDOM -STORE 50\n"));
     let after = "PRCPOST\nTRAJECTORY CART\nSTATISTIC 1 X\nEND\nEND\n";
-    let (code, text) = limited(short.path(), &format!("{records}TDOM -STORE 50\n{after}"));
+    let (code, text) = run_limited(short.path(), &format!("{records}TDOM -STORE 50\n{after}"));
     assert_eq!(code, Some(1), "{text}");
     assert!(text.contains("answers/TDOM.run: File too large"), "{text}");
     // what was computed is there for PRCPOST
     assert!(text.contains("Statistics of Trajectory"), "{text}");
     let log = |folder: &Path| fs::read(folder.join("answers/TDOM.run")).unwrap();
     assert!(log(short.path()).len() < log(whole.path()).len());
-    unlimited(short.path(), &format!("{records}TDOM -STORE 50 -RESTART\n"));
+    run_unlimited(short.path(), &format!("{records}TDOM -STORE 50 -RESTART\n"));
     assert!(log(short.path()) == log(whole.path()));
 }
 
@@ -63,7 +63,7 @@ fn table_without_disk_space_is_named_and_leaves_no_partial_file() {
     let folder = tempfile::tempdir().unwrap();
     let rows = (0..9000).map(|n| format!("{n},{}\n", f64::from(n).sqrt())).collect::<String>();
     fs::write(folder.path().join("in.csv"), format!("A,B\n{rows}")).unwrap();
-    let (code, text) = limited(folder.path(), "&BUILDG -CSV in.csv\nSTORE out.csv A B\nSTATISTIC A B\nEND\n");
+    let (code, text) = run_limited(folder.path(), "&BUILDG -CSV in.csv\nSTORE out.csv A B\nSTATISTIC A B\nEND\n");
     assert_eq!(code, Some(1), "{text}");
     assert!(text.contains("answers/out.csv: File too large") && text.contains("Statistics of"), "{text}");
     let mut names: Vec<_> =

@@ -265,7 +265,7 @@ fn refused_copy_or_move_points_at_offending_name() {
 }
 
 /// Runs the program in a folder with this on its standard input.
-fn fed(here: &std::path::Path, arguments: &[&str], input: &str) -> Output {
+fn run_fed(here: &std::path::Path, arguments: &[&str], input: &str) -> Output {
     let file = here.join("input");
     fs::write(&file, input).unwrap();
     let stdin = fs::File::open(&file).unwrap();
@@ -315,7 +315,7 @@ fn untyped_record_makes_no_file_outside_job_folder() {
         (&["-i", "-c", limit], records.clone()),
     ];
     for (arguments, input) in ways {
-        let done = fed(&here, arguments, &input);
+        let done = run_fed(&here, arguments, &input);
         let err = String::from_utf8_lossy(&done.stderr);
         assert_eq!(done.status.code(), Some(1), "{arguments:?}: {err}");
         assert!(err.matches("--allow-files lifts this").count() >= 7, "{arguments:?}: {err}");
@@ -336,14 +336,14 @@ fn linked_answers_folder_is_refused_unless_named_by_out() {
     }
     fs::write(here.join("job.cif"), "&FILE RM x\n&FILE MKDIR y\n&FILE OPEN T z\n&FILE MV x w\n").unwrap();
     for arguments in [&["job.cif"][..], &["job"], &["-c", "&FILE RM x", "-c", "&FILE OPEN T ./windlass.ans/z"]] {
-        let done = fed(&here, arguments, "");
+        let done = run_fed(&here, arguments, "");
         let err = String::from_utf8_lossy(&done.stderr);
         assert_eq!(done.status.code(), Some(2), "{arguments:?}: {err}");
         assert!(err.contains(".ans is a link") && err.contains("--out DIR names"), "{err}");
         assert_eq!(fs::read_dir(&victim).unwrap().count(), 1);
     }
     fs::write(here.join("job.cif"), "&FILE MKDIR y\n&FILE OPEN T z\n&FILE MV x w\n").unwrap();
-    let done = fed(&here, &["job.cif", "--out", "job.ans"], "");
+    let done = run_fed(&here, &["job.cif", "--out", "job.ans"], "");
     assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
     assert!(victim.join("w").exists() && victim.join("y").is_dir() && victim.join("z").exists());
 }

@@ -1,27 +1,10 @@
 //! String functions against closed forms: a box that floats, a load on a tie, a catenary, arithmetic.
 
-use crate::common::{self, assert_share};
-
-/// What a script prints, and its messages.
-fn run(script: &str) -> (String, Vec<String>) {
-    let (mut session, screen, _folder) = common::session();
-    session.open("script", script.to_string());
-    session.run();
-    session.job.output.flush();
-    (screen.text(), session.reports.iter().map(|r| r.message.clone()).collect())
-}
-
-/// The numbers that a function gives behind a script.
-fn values(script: &str, function: &str) -> Vec<f64> {
-    let (text, said) = run(&format!("{script}&TYPE => {function}\n"));
-    let line = text.lines().find_map(|line| line.strip_prefix("=> "));
-    let line = line.unwrap_or_else(|| panic!("{function} gives nothing: {said:?}"));
-    line.split_whitespace().map(|word| word.parse().unwrap()).collect()
-}
+use crate::common::{assert_share, function_values, run_script};
 
 /// Fails unless a function gives these numbers, to so many of their digits.
 fn assert_values(script: &str, function: &str, want: &[f64], share: f64) {
-    let got = values(script, function);
+    let got = function_values(script, function);
     assert_eq!(got.len(), want.len(), "{function}: {got:?}");
     for (got, want) in got.iter().zip(want) {
         assert!((got - want).abs() <= share * want.abs().max(1e-6), "{function}: {got} is not {want}");
@@ -62,7 +45,7 @@ fn center_of_buoyancy_of_heeled_box_moves_by_wall_sided_formula() {
     let heel = 5f64.to_radians();
     let shift = 27.5f64.powi(2) * heel.tan() / (12.0 * draft);
     let script = format!("{BARGE}&INSTATE -CONDITION BARGE {} 5 0\n", draft * heel.cos());
-    let [x, y, z] = values(&script, "&BODY(CB BARGE)")[..] else { panic!("three numbers") };
+    let [x, y, z] = function_values(&script, "&BODY(CB BARGE)")[..] else { panic!("three numbers") };
     assert_share(x, 45.75, 1e-9);
     // a positive roll lifts the starboard side: the center moves to port
     assert_share(y.abs(), shift, 1e-9);
@@ -83,7 +66,11 @@ fn connector_function_gives_weight_that_hangs_on_a_tie() {
     assert_values(LOAD, "&ELEMENT(DCOSINES T)", &[0.0, 0.0, 1.0], 1e-9);
     let off = format!("{LOAD}MEDIT\n&CONNECTOR T -INACTIVE\nEND\n");
     assert_values(&off, "&CONNECTOR(TENSION T) &CONNECTOR(FORCE T)", &[0.0; 5], 0.0);
-    assert!(run(&format!("{off}&TYPE <&CONNECTOR(STATUS T) &ELEMENT(ELE_TYPE T)>\n")).0.contains("<INACTIVE SL_ELEM>"));
+    assert!(
+        run_script(&format!("{off}&TYPE <&CONNECTOR(STATUS T) &ELEMENT(ELE_TYPE T)>\n"))
+            .0
+            .contains("<INACTIVE SL_ELEM>")
+    );
 }
 
 #[test]
@@ -109,7 +96,7 @@ fn tube_is_an_element_with_length_cosines_and_buoyancy() {
     let buoyancy = 1.025 * std::f64::consts::FRAC_PI_4 * 4.0 * 5.0;
     assert_values(script, "&ELEMENT(LENGTH LEG) &ELEMENT(DCOSINES LEG)", &[5.0, 0.6, 0.0, 0.8], 1e-12);
     assert_values(script, "&ELEMENT(BUOYANCY LEG)", &[buoyancy], 1e-12);
-    let (_, said) = run(&format!("{script}&TYPE x &ELEMENT(CDR LEG)\n&TYPE x &ELEMENT(LENGTH LOG)\n"));
+    let (_, said) = run_script(&format!("{script}&TYPE x &ELEMENT(CDR LEG)\n&TYPE x &ELEMENT(LENGTH LOG)\n"));
     assert!(said[0].contains("no stress analysis") && said[1] == "unknown element LOG", "{said:?}");
 }
 
@@ -119,26 +106,26 @@ fn environment_function_gives_values_as_env_takes_them() {
                &ENV E2 -DEPTH 90\n";
     assert_values(env, "&ENV(DEPTH) &ENV(DEPTH E1) &ENV(TIDE E1) &ENV(SPGWATER E1)", &[90.0, 80.0, 2.0, 1.02], 1e-12);
     assert_values(env, "&ENV(WIND E1) &ENV(CURRENT E1)", &[40.0, 90.0, 1.5, 45.0], 1e-12);
-    let (text, said) = run(&format!("{env}&TYPE <&ENV(SEA E1)> <&ENV(SEA)> <&ENV(NAME)>\n"));
+    let (text, said) = run_script(&format!("{env}&TYPE <&ENV(SEA E1)> <&ENV(SEA)> <&ENV(NAME)>\n"));
     assert!(text.contains("<ISSC 180 4 9.5> <> <E2>"), "{text} {said:?}");
 }
 
 #[test]
 fn points_between_two_points_are_ordered_from_first_to_last() {
     let points = "MEDIT\n*B 30 0 0\n*M2 20 0 0\n*A 0 0 0\n*M1 10 0 0\n*OFF 10 1 0\nEND\n";
-    let (text, said) = run(&format!("{points}&TYPE <&POINT(N_2NODES *A *B)> <&POINT(N_2NODES *B *A)>\n"));
+    let (text, said) = run_script(&format!("{points}&TYPE <&POINT(N_2NODES *A *B)> <&POINT(N_2NODES *B *A)>\n"));
     assert!(text.contains("<*A *M1 *M2 *B> <*B *M2 *M1 *A>"), "{text} {said:?}");
-    let (_, said) = run(&format!("{points}&TYPE x &POINT(RATIO *A)\n"));
+    let (_, said) = run_script(&format!("{points}&TYPE x &POINT(RATIO *A)\n"));
     assert!(said[0].contains("stress analysis, which windlass does not make"), "{said:?}");
 }
 
 #[test]
 fn names_are_listed_by_singular_and_plural_words() {
-    let (text, said) = run(&format!(
+    let (text, said) = run_script(&format!(
         "{BARGE}&TYPE <&NAMES(BODY)|&NAMES(BODIES)|&NAMES(NODE)|&NAMES(POINTS)|&NAMES(PIECES)|&NAMES(CLASS)|&NAMES(ASSEMBLY)>\n"
     ));
     assert!(text.contains("<BARGE|BARGE|*CG|*CG|HULL||>"), "{text} {said:?}");
-    assert!(run("&TYPE <&BODY(CURRENT)> <&PART(CURRENT)>\n").0.contains("<> <>"));
+    assert!(run_script("&TYPE <&BODY(CURRENT)> <&PART(CURRENT)>\n").0.contains("<> <>"));
 }
 
 #[test]
@@ -149,10 +136,10 @@ fn macro_call_without_argument_or_with_option_twice_is_refused() {
         ("PT 1 2 -OPT", "macro PT lacks V of -OPT"),
         ("PT 1 2 -OPT 3 -OP 4", "-OPT of macro PT is given twice"),
     ] {
-        let (text, said) = run(&format!("{pair}{call}\n"));
+        let (text, said) = run_script(&format!("{pair}{call}\n"));
         assert!(said == [says] && !text.contains("ran"), "{call}: {said:?} {text}");
     }
-    assert_eq!(run(&format!("{pair}PT 1,,\n")).1, [""; 0], "an empty value is given by two commas");
+    assert_eq!(run_script(&format!("{pair}PT 1,,\n")).1, [""; 0], "an empty value is given by two commas");
 }
 
 #[test]
@@ -169,7 +156,7 @@ fn arithmetic_functions_match_tabulated_values() {
     ] {
         assert_values("", function, want, 1e-7);
     }
-    let (_, said) = run("&TYPE x &NUMBER(ASIND 2)\n&TYPE x &NUMBER(MOD 1 0)\n&TYPE x &NUMBER(ROUND 1 0.5)\n");
+    let (_, said) = run_script("&TYPE x &NUMBER(ASIND 2)\n&TYPE x &NUMBER(MOD 1 0)\n&TYPE x &NUMBER(ROUND 1 0.5)\n");
     assert_eq!(said.len(), 3, "{said:?}");
     // what MOSES has keeps its abbreviations
     assert_values("", "&NUMBER(L 1) &NUMBER(MEA 1 3) &NUMBER(ABS -2)", &[0.0, 2.0, 2.0], 0.0);
@@ -177,9 +164,11 @@ fn arithmetic_functions_match_tabulated_values() {
 
 #[test]
 fn string_actions_take_text_apart_and_put_it_together() {
-    let (text, said) = run("&TYPE <&STRING(LENGTH ab cd)|&STRING(UPPER ab)|&STRING(LOWER AB)|&STRING(CONCAT ML A 1)|\
+    let (text, said) = run_script(
+        "&TYPE <&STRING(LENGTH ab cd)|&STRING(UPPER ab)|&STRING(LOWER AB)|&STRING(CONCAT ML A 1)|\
                             &STRING(SUBSTRING 2 3 LINE)|&STRING(POSITION NE LINE)|&STRING(POSITION X LINE)|&STRING(REPLACE A B CAT)>\n\
-                            &TYPE x &STRING(SUBSTRING 0 3 LINE)\n&TYPE x &STRING(LENGHT a)\n");
+                            &TYPE x &STRING(SUBSTRING 0 3 LINE)\n&TYPE x &STRING(LENGHT a)\n",
+    );
     assert!(text.contains("<5|AB|ab|MLA1|IN|3|0|CBT>"), "{text} {said:?}");
     assert!(said[0].contains("numbers of two characters") && said[1].contains("unknown action"), "{said:?}");
 }
@@ -191,10 +180,11 @@ fn compartment_function_gives_data_of_the_record_that_fills_it() {
         "{BARGE}MEDIT\n&DESCRIBE BODY BARGE\n&DESCRIBE COMPARTMENT T1\nPGEN -PERM -1\nPLANE 10 30 -RECT 0 6 10\nEND\nEND\n\
          &COMPARTMENT -CORRECT -PERCENT T1 40 1.025\n"
     );
-    let (text, said) =
-        run(&format!("{tank}&TYPE <&COMPARTMENT(T1 -AMOUNT)> <&COMPARTMENT(T1 -PERCENT)> <&NAMES(COMPARTMENT)>\n"));
+    let (text, said) = run_script(&format!(
+        "{tank}&TYPE <&COMPARTMENT(T1 -AMOUNT)> <&COMPARTMENT(T1 -PERCENT)> <&NAMES(COMPARTMENT)>\n"
+    ));
     let values_of = |option: &str| -> Vec<f64> {
-        let (text, _) = run(&format!("{tank}&TYPE => &COMPARTMENT(T1 {option})\n"));
+        let (text, _) = run_script(&format!("{tank}&TYPE => &COMPARTMENT(T1 {option})\n"));
         let line = text.lines().find_map(|line| line.strip_prefix("=> ")).unwrap_or_default().to_string();
         line.split_whitespace().filter_map(|word| word.parse().ok()).collect()
     };
@@ -214,6 +204,6 @@ fn compartment_function_gives_data_of_the_record_that_fills_it() {
     let again = format!(
         "{tank}&SET AMT = &COMPARTMENT(T1 -AMOUNT)\n&COMPARTMENT -PERCENT T1 0\n&COMPARTMENT -CORRECT -AMOUNT %AMT\n"
     );
-    let (text, said) = run(&format!("{again}&TYPE <&COMPARTMENT(T1 -AMOUNT)>\n"));
+    let (text, said) = run_script(&format!("{again}&TYPE <&COMPARTMENT(T1 -AMOUNT)>\n"));
     assert!(text.contains("<T1 492 1.025>"), "{text} {said:?}");
 }

@@ -54,7 +54,7 @@ fn change() -> impl Strategy<Value = Mutation> {
     ]
 }
 
-fn changed(bytes: &[u8], changes: &[Mutation]) -> Vec<u8> {
+fn apply_mutations(bytes: &[u8], changes: &[Mutation]) -> Vec<u8> {
     let mut out = bytes.to_vec();
     for change in changes {
         let size = out.len();
@@ -88,7 +88,7 @@ fn hold(name: &str, target: fn(&[u8]), cases: u32) {
     let inputs = (any::<Index>(), vec(change(), 1..12));
     runner
         .run(&inputs, |(file, changes)| {
-            target(&changed(file.get::<Vec<u8>>(&corpus), &changes));
+            target(&apply_mutations(file.get::<Vec<u8>>(&corpus), &changes));
             Ok(())
         })
         .unwrap();
@@ -133,9 +133,9 @@ fn complete_run_file_is_unchanged_by_repair() {
     log.row(&[0.0, 1.0, 2.0]).unwrap();
     log.snapshot(&Snapshot { time: 0.5, rows: 1, ..Snapshot::default() }).unwrap();
     let bytes = fs::read(&path).unwrap();
-    assert_eq!(targets::mended(&bytes), bytes);
+    assert_eq!(targets::mend_blocks(&bytes), bytes);
     let mut damaged = bytes.clone();
     *damaged.last_mut().unwrap() ^= 1;
-    let kept = run_log::read(&mut std::io::Cursor::new(targets::mended(&damaged)), 1.0).unwrap();
+    let kept = run_log::read(&mut std::io::Cursor::new(targets::mend_blocks(&damaged)), 1.0).unwrap();
     assert_eq!((kept.fingerprint, kept.width, kept.rows, kept.snapshot.time), (7, 3, vec![0.0, 1.0, 2.0], 0.5));
 }

@@ -1,23 +1,6 @@
 //! Records that scripts of MOSES have, against closed forms: options of &EQUI and TDOM.
 
-use crate::common;
-
-/// What a script prints, and its messages.
-fn run(script: &str) -> (String, Vec<String>) {
-    let (mut session, screen, _folder) = common::session();
-    session.open("script", script.to_string());
-    session.run();
-    session.job.output.flush();
-    (screen.text(), session.reports.iter().map(|r| r.message.clone()).collect())
-}
-
-/// The numbers that a function gives behind a script, which raises no error.
-fn values(script: &str, function: &str) -> Vec<f64> {
-    let (text, said) = run(&format!("{script}&TYPE => {function}\n"));
-    let line = text.lines().find_map(|line| line.strip_prefix("=> "));
-    let line = line.unwrap_or_else(|| panic!("{function} gives nothing: {said:?}"));
-    line.split_whitespace().map(|word| word.parse().unwrap()).collect()
-}
+use crate::common::{function_values, run_script};
 
 /// A cart of 100 kN on a spring of 40 kN/m, half a metre from its rest: 0.2 g.
 const CART: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\
@@ -27,25 +10,25 @@ const CART: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY 
 fn fraction_of_newton_step_leaves_power_of_itself() {
     // on a linear spring a half step halves the distance: n of them leave 0.5/2^n m, from 8 on less than 1E-3 g
     for steps in [8, 13, 20] {
-        let x = values(&format!("{CART}&EQUI -OMEGA 0.5 -ITER_MAX {steps}\n"), "&BODY(LOCATION CART)")[0];
+        let x = function_values(&format!("{CART}&EQUI -OMEGA 0.5 -ITER_MAX {steps}\n"), "&BODY(LOCATION CART)")[0];
         assert!((x - 0.5f64.powi(steps + 1)).abs() < 1e-12, "{steps}: {x}");
     }
-    let (_, said) = run(&format!("{CART}&EQUI -OMEGA 0.5 -ITER_MAX 7\n"));
+    let (_, said) = run_script(&format!("{CART}&EQUI -OMEGA 0.5 -ITER_MAX 7\n"));
     assert!(said.len() == 1 && said[0].contains("-0.15625 kN is left in X"), "20 kN over 2^7: {said:?}");
     // it is remembered, and -DEFAULTS forgets it
     let again = format!("{CART}&EQUI -OMEGA 0.5 -ITER_MAX 13\n&INSTATE -LOCATE CART 0.5 0 0\n");
-    let x = values(&format!("{again}&EQUI -ECHO NO\n"), "&BODY(LOCATION CART)")[0];
+    let x = function_values(&format!("{again}&EQUI -ECHO NO\n"), "&BODY(LOCATION CART)")[0];
     assert!((x - 0.5 / 8192.0).abs() < 1e-12, "{x}");
-    let x = values(&format!("{again}&EQUI -DEFAULTS\n"), "&BODY(LOCATION CART)")[0];
+    let x = function_values(&format!("{again}&EQUI -DEFAULTS\n"), "&BODY(LOCATION CART)")[0];
     assert!(x.abs() < 1e-12, "{x}");
 }
 
 #[test]
 fn longest_step_of_equilibrium_needs_distance_over_step_steps() {
     // half a metre in steps of 0.1 m
-    let x = values(&format!("{CART}&EQUI -MOVE_MAX 0.1 -ITER_MAX 5\n"), "&BODY(LOCATION CART)")[0];
+    let x = function_values(&format!("{CART}&EQUI -MOVE_MAX 0.1 -ITER_MAX 5\n"), "&BODY(LOCATION CART)")[0];
     assert!(x.abs() < 1e-9, "{x}");
-    let (_, said) = run(&format!("{CART}&EQUI -MOVE_MAX 0.1 -ITER_MAX 4\n"));
+    let (_, said) = run_script(&format!("{CART}&EQUI -MOVE_MAX 0.1 -ITER_MAX 4\n"));
     assert_eq!(said.len(), 1, "{said:?}");
 }
 
@@ -55,7 +38,7 @@ fn bare_newmark_is_default_scheme_of_runs() {
         let script = format!(
             "{CART}&ENV -TIME 10 0.1 -RAMP 0\nTDOM {options}\nPRCPOST\nTRAJECTORY\nSET_VARIABLE X 101 2\nEND\nEND\n"
         );
-        run(&script)
+        run_script(&script)
     };
     let (bare, said) = last("-NEWMARK");
     assert!(said.iter().all(|m| !m.contains("NEWMARK")), "{said:?}");
@@ -68,11 +51,11 @@ fn event_of_run_puts_body_where_trapezoidal_rule_has_it() {
     let (h, rate) = (0.01, (40.0 * 9.806_65 / 100.0f64).sqrt());
     let script = format!("{CART}&ENV -TIME 2 {h} -RAMP 0\nTDOM -NEWMARK YES 0.25 0.5\n");
     for time in [0.5, 1.37, 2.0] {
-        let x = values(&format!("{script}&INSTATE -EVENT {time}\n"), "&BODY(LOCATION CART)")[0];
+        let x = function_values(&format!("{script}&INSTATE -EVENT {time}\n"), "&BODY(LOCATION CART)")[0];
         let want = 0.5 * (time / h * 2.0 * (rate * h / 2.0).atan()).cos();
         assert!((x - want).abs() < 1e-8, "{time}: {x} is not {want}");
     }
-    let (_, said) = run(&format!("{CART}&INSTATE -EVENT 1\n"));
+    let (_, said) = run_script(&format!("{CART}&INSTATE -EVENT 1\n"));
     assert!(said[0].contains("no run"), "{said:?}");
 }
 
@@ -84,7 +67,7 @@ const BARGE: &str = "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY BARGE\n&
 #[test]
 fn draft_marks_give_place_of_plane_through_their_readings() {
     // the water's surface in the body is z = a + b x + c y; the global Z axis there is (-sin t, cos t sin r, cos t cos r)
-    let location = |records: &str| values(&format!("{BARGE}{records}\n"), "&BODY(LOCATION BARGE)");
+    let location = |records: &str| function_values(&format!("{BARGE}{records}\n"), "&BODY(LOCATION BARGE)");
     let near = |got: &[f64], want: [f64; 3]| {
         let got = [got[2], got[3], got[4]];
         got.iter().zip(want).for_each(|(g, w)| assert!((g - w).abs() < 1e-8, "{got:?} is not {want:?}"));
@@ -97,7 +80,7 @@ fn draft_marks_give_place_of_plane_through_their_readings() {
     let trim = f64::atan(b * roll.cos());
     let found = location("&INSTATE -DRAFT FWD 2 STB 3 PRT 2.5");
     near(&found, [-2.0 * trim.cos() * roll.cos(), roll.to_degrees(), trim.to_degrees()]);
-    let (text, said) = run(&format!("{BARGE}&INSTATE -DRAFT FWD 2 STB 3 PRT 2.5\n&STATUS DRAFT\n"));
+    let (text, said) = run_script(&format!("{BARGE}&INSTATE -DRAFT FWD 2 STB 3 PRT 2.5\n&STATUS DRAFT\n"));
     assert!(text.contains("2.0000") && text.contains("3.0000") && text.contains("2.5000"), "{text} {said:?}");
 }
 
@@ -113,7 +96,7 @@ fn wrong_draft_marks_are_refused_and_leave_body_in_place() {
         ("&DESCRIBE INTEREST", "INTEREST lacks its points"),
         ("MEDIT\nDELETE *F1", "*F1 is used by FWD"),
     ] {
-        let (text, said) = run(&format!("{BARGE}{record}\nEND\n&TYPE <&BODY(LOCATION BARGE)>\n"));
+        let (text, said) = run_script(&format!("{BARGE}{record}\nEND\n&TYPE <&BODY(LOCATION BARGE)>\n"));
         assert!(said[0].contains(says) && text.contains("<0 0 0 0 0 0>"), "{record}: {said:?} {text}");
     }
 }
@@ -121,9 +104,9 @@ fn wrong_draft_marks_are_refused_and_leave_body_in_place() {
 #[test]
 fn point_of_body_is_moved_to_global_coordinates() {
     let script = format!("{BARGE}&INSTATE -CONDITION BARGE 3 2 1 -POINT *S1 100 20\n");
-    let got = values(&script, "&POINT(COORDINATES *S1 -GLOBAL)");
+    let got = function_values(&script, "&POINT(COORDINATES *S1 -GLOBAL)");
     assert!((got[0] - 100.0).abs() < 1e-9 && (got[1] - 20.0).abs() < 1e-9, "{got:?}");
-    let turned = values(&script, "&BODY(LOCATION BARGE)");
+    let turned = function_values(&script, "&BODY(LOCATION BARGE)");
     assert!((turned[2] + 3.0).abs() < 1e-9 && turned[3..] == [2.0, 1.0, 0.0], "{turned:?}");
 }
 
@@ -131,7 +114,7 @@ fn point_of_body_is_moved_to_global_coordinates() {
 fn points_of_interest_are_marked_by_associate_as_by_name() {
     let report = |record: &str| {
         let rest = "&ENV -TIME 1 0.1 -RAMP 0\nTDOM\nPRCPOST\nPOINTS\nREPORT\nEND\nEND\n";
-        run(&format!("{CART}&DESCRIBE INTEREST {record}\n{rest}")).0
+        run_script(&format!("{CART}&DESCRIBE INTEREST {record}\n{rest}")).0
     };
     assert_eq!(report("-ASSOCIATE *C"), report("*C"));
 }
@@ -139,11 +122,11 @@ fn points_of_interest_are_marked_by_associate_as_by_name() {
 #[test]
 fn status_of_buoyancy_and_weight_has_published_heights_of_barge() {
     // GMT 23.2533 m, GML 296.071 m, KB 1.16317 m of this barge
-    let (text, said) = run(&format!("{BARGE}&INSTATE -CONDITION 2.3263421903965686\n&STATUS B_W\n"));
+    let (text, said) = run_script(&format!("{BARGE}&INSTATE -CONDITION 2.3263421903965686\n&STATUS B_W\n"));
     for number in ["23.25", "296.07", "1.1632", "6000.00"] {
         assert!(text.contains(number), "{number}: {text} {said:?}");
     }
-    let (brief, _) = run(&format!("{BARGE}&STATUS B_W -BRIEF\n"));
+    let (brief, _) = run_script(&format!("{BARGE}&STATUS B_W -BRIEF\n"));
     assert!(text.contains("&STATUS MODES") && !brief.contains("&STATUS MODES"), "{brief}");
 }
 
@@ -158,13 +141,13 @@ fn words_of_moses_ask_for_reports_of_other_names() {
         ("TIP-HOOK", "ASSEMBLIES"),
         ("CONFIG", "CONFIGURATION"),
     ] {
-        let [one, other] = [word, kind].map(|name| run(&format!("{BARGE}&STATUS {name}\n")));
+        let [one, other] = [word, kind].map(|name| run_script(&format!("{BARGE}&STATUS {name}\n")));
         assert_eq!(one, other, "{word}");
     }
-    let (text, said) = run(&format!("{BARGE}&STATUS FORCE -FORCE WEIGHT\n&STATUS SIZE -FORCE WEIGHT\n"));
+    let (text, said) = run_script(&format!("{BARGE}&STATUS FORCE -FORCE WEIGHT\n&STATUS SIZE -FORCE WEIGHT\n"));
     assert!(text.contains("WEIGHT") && !text.contains("TOTAL"), "{text}");
     assert_eq!(said, ["SIZE has no forces to choose among"]);
-    let (text, _) = run(&format!("{BARGE}&STATUS NAMES\n&STATUS SYSTEM -HARD\n"));
+    let (text, _) = run_script(&format!("{BARGE}&STATUS NAMES\n&STATUS SYSTEM -HARD\n"));
     assert!(text.contains("draft mark") && !text.contains("C O N F I G"), "{text}");
 }
 
@@ -189,12 +172,12 @@ fn tube(parameters: &str, low: f64) -> String {
 fn parameters_of_tubes_and_plates_scale_their_loads() {
     // 1/2 rho CD D L U^2 = 1/2 1.025 0.7 2 10 1.5^2 kN
     let (text, said) =
-        run(&format!("{}&STATUS FORCE -FORCE V_DRAG\n", tube("&PARAMETER -DRGTUB 1E4 0.7 1E6 0.7", -20.0)));
+        run_script(&format!("{}&STATUS FORCE -FORCE V_DRAG\n", tube("&PARAMETER -DRGTUB 1E4 0.7 1E6 0.7", -20.0)));
     let drag = row(&text, &["B", "V_DRAG"]);
     assert!((drag[0].abs() - 0.5 * 1.025 * 0.7 * 20.0 * 2.25).abs() < 0.005, "{drag:?} {said:?}");
     // wind: 1/2 rho CS D L V^2, of a prism of 64 sides, in air of 1.226 kg/m3; 40 knots
     let wind = |parameters: &str| {
-        row(&run(&format!("{}&STATUS FORCE -FORCE WIND\n", tube(parameters, 10.0))).0, &["B", "WIND"])[0].abs()
+        row(&run_script(&format!("{}&STATUS FORCE -FORCE WIND\n", tube(parameters, 10.0))).0, &["B", "WIND"])[0].abs()
     };
     let full = 0.5 * 1.226e-3 * 20.0 * (40.0f64 * 1852.0 / 3600.0).powi(2);
     assert!((wind("&PARAMETER -WCSTUBE 0.6") - 0.6 * full).abs() < 0.012, "{} {full}", wind("&PARAMETER -WCSTUBE 0.6"));
@@ -202,11 +185,11 @@ fn parameters_of_tubes_and_plates_scale_their_loads() {
     // a plate of 10 x 10 m across the wind: 1/2 rho CD A V^2
     let plate = "&DIMEN -DIMEN METERS K-NTS\n&PARAMETER -DRGPLA 1.2\nMEDIT\n&DESCRIBE BODY B\n*A 0 0 10\n*B 0 10 10\n*C 0 10 20\n*D 0 0 20\n\
                  #PLATE *A *B *C *D\n#WEIGHT *A 1 1 1 1\nEND\n&ENV -WIND 40 180 -W_PROFILE POWER 0\n&STATUS FORCE -FORCE WIND\n";
-    let force = row(&run(plate).0, &["B", "WIND"])[0].abs();
+    let force = row(&run_script(plate).0, &["B", "WIND"])[0].abs();
     assert!((force - 1.2 * full * 5.0).abs() < 0.005, "{force}");
     // -REMEMBER goes back to 1
     let back = "&PARAMETER -SAVE -DRGTUB 1E4 0.7\n&PARAMETER -REMEMBER";
-    let drag = row(&run(&format!("{}&STATUS FORCE -FORCE V_DRAG\n", tube(back, -20.0))).0, &["B", "V_DRAG"]);
+    let drag = row(&run_script(&format!("{}&STATUS FORCE -FORCE V_DRAG\n", tube(back, -20.0))).0, &["B", "V_DRAG"]);
     assert!((drag[0].abs() - 0.5 * 1.025 * 20.0 * 2.25).abs() < 0.005, "{drag:?}");
 }
 
@@ -214,7 +197,7 @@ fn parameters_of_tubes_and_plates_scale_their_loads() {
 fn points_are_read_in_a_placed_system() {
     // X of the system along Y of the part: (1, 2, 3) is 10 - 2, 1, 3
     let script = "&DIMEN -DIMEN METERS K-NTS\n&DEFAULT -SAVE -LOCATION 10 0 0 0 0 90\nMEDIT\n*P 1 2 3\n&DEFAULT -REMEMBER\n*Q 1 2 3\nEND\n";
-    let got = values(script, "&POINT(COORDINATES *P) &POINT(COORDINATES *Q)");
+    let got = function_values(script, "&POINT(COORDINATES *P) &POINT(COORDINATES *Q)");
     let want = [8.0, 1.0, 3.0, 1.0, 2.0, 3.0];
     assert!(got.iter().zip(want).all(|(g, w)| (g - w).abs() < 1e-12), "{got:?}");
 }
@@ -222,7 +205,7 @@ fn points_are_read_in_a_placed_system() {
 #[test]
 fn time_of_reinforcement_is_taken_from_defaults() {
     let phases = |default: &str, option: &str| {
-        run(&format!("{default}\n&ENV -DEPTH 300 -SEA ISSC 180 12 10 {option}\n&STATUS SEA_SPECTRUM\n")).0
+        run_script(&format!("{default}\n&ENV -DEPTH 300 -SEA ISSC 180 12 10 {option}\n&STATUS SEA_SPECTRUM\n")).0
     };
     assert_eq!(phases("&DEFAULT -T_REINF 120", ""), phases("", "-T_REINFORCE 120"));
     assert_ne!(phases("&DEFAULT -T_REINF 120", ""), phases("", ""));
@@ -234,32 +217,34 @@ fn process_keeps_places_connectors_and_run_of_its_own() {
     let script = format!(
         "{CART}&ENV -TIME 2 0.1 -RAMP 0\nTDOM\n&DESCRIBE PROCESS TOW\n&INSTATE -LOCATE CART 3 0 0\nMEDIT\n&CONNECTOR K -INACTIVE\nEND\n"
     );
-    let (text, said) = run(&format!("{script}&STATUS PROCESS\n&INSTATE -EVENT 1\n"));
+    let (text, said) = run_script(&format!("{script}&STATUS PROCESS\n&INSTATE -EVENT 1\n"));
     assert!(text.contains("Process is TOW") && said.iter().any(|m| m.contains("no run")), "{text} {said:?}");
     assert_eq!(row(&text, &["DEFAULT", "a", "run"]), [0.0; 0]);
     let back = format!("{script}&DESCRIBE PROCESS DEFAULT\n");
-    assert!((values(&back, "&BODY(LOCATION CART)")[0] - 0.5).abs() < 1e-12);
-    assert!(run(&format!("{back}&TYPE <&CONNECTOR(STATUS K)>\n")).0.contains("<ACTIVE>"));
+    assert!((function_values(&back, "&BODY(LOCATION CART)")[0] - 0.5).abs() < 1e-12);
+    assert!(run_script(&format!("{back}&TYPE <&CONNECTOR(STATUS K)>\n")).0.contains("<ACTIVE>"));
     let there = format!("{back}&DESCRIBE PROCESS TOW\n");
-    assert!((values(&there, "&BODY(LOCATION CART)")[0] - 3.0).abs() < 1e-12);
-    let (_, said) = run(&format!("{back}&DESCRIBE PROCESS DEFAULT -EVENTS\n&INSTATE -EVENT 1\n"));
+    assert!((function_values(&there, "&BODY(LOCATION CART)")[0] - 3.0).abs() < 1e-12);
+    let (_, said) = run_script(&format!("{back}&DESCRIBE PROCESS DEFAULT -EVENTS\n&INSTATE -EVENT 1\n"));
     assert!(said.iter().any(|m| m.contains("no run")), "{said:?}");
 }
 
 #[test]
 fn older_form_of_assignment_drops_its_comment() {
-    let (text, said) = run("&SET_VAR LEN := 215   $ comment\n&SET_VAR W = 2\n&TYPE <%LEN> <%W>\n&SET A := 1\n");
+    let (text, said) = run_script("&SET_VAR LEN := 215   $ comment\n&SET_VAR W = 2\n&TYPE <%LEN> <%W>\n&SET A := 1\n");
     assert!(text.contains("<215> <2>") && said.len() == 1 && said[0].contains("expected `=`"), "{text} {said:?}");
 }
 
 #[test]
 fn summaries_have_tables_of_status() {
-    let (menu, _) =
-        run(&format!("{BARGE}&SUMMARY\nPOINT_SUM *F1\nPIECE_SUM\nCATEG_SUM\nCLASS_SUM\nLOADG_SUM ATTRIB\nEND\n"));
-    let (status, _) =
-        run(&format!("{BARGE}&STATUS POINTS *F1\n&STATUS PIECES\n&STATUS CATEGORY\n&STATUS CL_FLEX\n&STATUS LOADS\n"));
+    let (menu, _) = run_script(&format!(
+        "{BARGE}&SUMMARY\nPOINT_SUM *F1\nPIECE_SUM\nCATEG_SUM\nCLASS_SUM\nLOADG_SUM ATTRIB\nEND\n"
+    ));
+    let (status, _) = run_script(&format!(
+        "{BARGE}&STATUS POINTS *F1\n&STATUS PIECES\n&STATUS CATEGORY\n&STATUS CL_FLEX\n&STATUS LOADS\n"
+    ));
     assert_eq!(menu, status);
-    let (text, said) = run(&format!(
+    let (text, said) = run_script(&format!(
         "{BARGE}MEDIT\n*SAME 0 0 0.0005\n*NEAR 0 0 0.5\nEND\n&SUMMARY\nN_COINCIDENT\nPOINT_SUM *FX\nEND\n"
     ));
     assert!((row(&text, &["*F1", "*SAME"])[3] - 0.0005).abs() < 1e-9 && !text.contains("*NEAR"), "{text}");
@@ -268,11 +253,11 @@ fn summaries_have_tables_of_status() {
 
 #[test]
 fn options_of_pictures_without_effect_leave_picture_as_it_is() {
-    let picture = |options: &str| run(&format!("{CART}&PICTURE TOP {options}\n"));
+    let picture = |options: &str| run_script(&format!("{CART}&PICTURE TOP {options}\n"));
     let (plain, _) = picture("");
     let (with, said) = picture("-CATEGORY STR_MODEL A -RENDER GL -DETAIL YES");
     assert_eq!((plain, said.len()), (with, 3), "{said:?}");
-    let (_, said) = run(&format!("{CART}&PICTURE TOP 30 45\n&PICTURE TOP 30\n"));
+    let (_, said) = run_script(&format!("{CART}&PICTURE TOP 30 45\n&PICTURE TOP 30\n"));
     assert!(said.len() == 1 && said[0].starts_with("angles after the view"), "{said:?}");
 }
 
@@ -282,12 +267,12 @@ fn categories_have_sums_and_centers_of_their_weights() {
     let model = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY B\n*P0 0 0 0\n*P4 4 0 0\n*P10 10 0 0\n*P5 5 0 0\n\
                  #WEIGHT *P0 100 1 1 1 -CATEGORY STEEL\n#WEIGHT *P4 300 1 1 1 -CATEGORY STEEL\n#WEIGHT *P10 50 1 1 1\n\
                  #BUOY *P5 80 1 1 1 -CATEGORY STEEL\nEND\n&APPLY -PERCENT -CATEGORY STEEL #DEAD 110\n&STATUS CATEGORY\n";
-    let (text, said) = run(model);
+    let (text, said) = run_script(model);
     let steel = row(&text, &["B", "STEEL"]);
     assert_eq!(steel, [440.0, 3.0, 0.0, 0.0, 80.0, 5.0, 0.0, 0.0], "{text} {said:?}");
     assert_eq!(row(&text, &["B", "EXTRA"])[..2], [50.0, 10.0], "{text}");
     // a process keeps its multipliers, and gives them back
-    let weight = |records: &str| values(&format!("{model}{records}"), "&BODY(WEIGHT B)")[0];
+    let weight = |records: &str| function_values(&format!("{model}{records}"), "&BODY(WEIGHT B)")[0];
     assert!((weight("") - 490.0).abs() < 1e-9);
     assert!((weight("&DESCRIBE PROCESS P\n&APPLY -PERCENT -CATEGORY STEEL #DEAD 100\n") - 450.0).abs() < 1e-9);
     let back = "&DESCRIBE PROCESS P\n&APPLY -PERCENT -CATEGORY STEEL #DEAD 100\n&DESCRIBE PROCESS DEFAULT\n";
@@ -297,7 +282,7 @@ fn categories_have_sums_and_centers_of_their_weights() {
 #[test]
 fn added_mass_of_tubes_takes_its_parameter() {
     // rho pi/4 D^2 L CA across the axis, 1.025 t/m3
-    let (text, said) = run(&format!("{}&STATUS PIECES\n", tube("&PARAMETER -AMCTUB 0.8", -20.0)));
+    let (text, said) = run_script(&format!("{}&STATUS PIECES\n", tube("&PARAMETER -AMCTUB 0.8", -20.0)));
     let want = 1.025 * std::f64::consts::PI / 4.0 * 4.0 * 10.0 * 0.8;
     let got = row(&text, &["B", "X"])[0];
     assert!((got - want).abs() < 1e-3, "{got} is not {want}: {said:?}");
@@ -313,7 +298,7 @@ const BALL: &str = "&DIMEN -DIMEN METERS K-NTS\n&FILE OPEN A ball.1\n&FILE WRITE
 #[test]
 fn periods_headings_and_statistic_of_frequency_domain_come_from_defaults() {
     let motions = |default: &str, rao: &str| {
-        run(&format!(
+        run_script(&format!(
             "{BALL}{default}\nFREQ_RESPONSE\nRAO {rao}\nMOTION BALL\nVIEW Period 'Z Amp' 'Z Phase'\nEND\nEND\n"
         ))
     };
@@ -325,7 +310,7 @@ fn periods_headings_and_statistic_of_frequency_domain_come_from_defaults() {
     let script = format!(
         "{BALL}&DEFAULT -PROBABILITY RMS 3.72\nFREQ_RESPONSE\nSRESPONSE\nSTATISTICS MOTION BALL\nREPORT\nEND\nEND\n"
     );
-    let (text, said) = run(&script);
+    let (text, said) = run_script(&script);
     let [_, _, _, rms, _, most, ..] = row(&text, &["Z"])[..] else { panic!("{text} {said:?}") };
     // both are printed to 0.01
     assert!(rms > 0.0 && (most - 3.72 * rms).abs() < 0.024, "{most} is not 3.72 of {rms}");

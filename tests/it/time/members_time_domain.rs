@@ -60,7 +60,7 @@ fn drag(model: &Model) -> Six {
 }
 
 /// Added mass without the growth's own.
-fn added(model: &Model) -> Matrix6<f64> {
+fn added_mass(model: &Model) -> Matrix6<f64> {
     let body = &model.bodies["B"];
     Floating::at_rest(model, body).unwrap().added_mass - growth_loads::build_growth_loads(model, body).unwrap().mass
 }
@@ -72,7 +72,7 @@ fn pile_with_growth_has_drag_and_inertia_of_larger_pile() {
     let growth = "&DATA CURVES M_GROWTH G -90 300 90 300\n&ENV -CURRENT 1.2 90 -M_GROWTH G";
     let thin = body("", &format!("TUBE PILE *A *B 1500 {PILE}"), growth);
     let thick = body("", &format!("TUBE PILE *A *B 1800 {PILE}"), "&ENV -CURRENT 1.2 90");
-    assert!((added(&thin) - added(&thick)).amax() <= 1e-9 * added(&thick).amax());
+    assert!((added_mass(&thin) - added_mass(&thick)).amax() <= 1e-9 * added_mass(&thick).amax());
     assert!((drag(&thin) - drag(&thick)).amax() <= 1e-12 * drag(&thick).amax());
     let sea = sea(0.9, 0.81 / G, 3.0);
     let (first, second) = (members(&thin, Some(&sea)), members(&thick, Some(&sea)));
@@ -93,8 +93,8 @@ fn growth_on_part_of_pile_increases_diameter_there() {
     let model = body("", &format!("TUBE PILE *A *B 1500 {PILE}"), growth);
     assert_share(drag(&model)[0], 0.5 * RHO * 0.8 * 2.25 * (50.0 * 1.5 + 20.0 * 0.3 + 10.0 * 0.6), 1e-7);
     let areas = FRAC_PI_4 * (20.0 * 1.5 * 1.5 + 20.0 * 1.8 * 1.8 + 10.0 * 2.1 * 2.1);
-    assert_share(added(&model)[(0, 0)], RHO * 0.9 * areas, 1e-7);
-    assert_share(added(&model)[(2, 2)], RHO * PI / 12.0 * 1.5f64.powi(3) * 0.6, 1e-9);
+    assert_share(added_mass(&model)[(0, 0)], RHO * 0.9 * areas, 1e-7);
+    assert_share(added_mass(&model)[(2, 2)], RHO * PI / 12.0 * 1.5f64.powi(3) * 0.6, 1e-9);
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn tapering_growth_is_integrated_over_pile() {
     // D = 1.5 + 0.01 z: of D the lengths have the exact mean, but that what cuts the surface goes on above it (0.01 m of 50);
     // of D2 one that is 0.02^2/12 = 3e-5 short
     assert_share(drag(&model)[0], 0.5 * RHO * 0.8 * 2.25 * 50.0 * 1.25, 1e-6);
-    assert_share(added(&model)[(0, 0)], RHO * 0.9 * FRAC_PI_4 * (1.5f64.powi(3) - 1.0) / 0.03, 4e-5);
+    assert_share(added_mass(&model)[(0, 0)], RHO * 0.9 * FRAC_PI_4 * (1.5f64.powi(3) - 1.0) / 0.03, 4e-5);
 }
 
 #[test]

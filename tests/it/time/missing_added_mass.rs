@@ -1,32 +1,25 @@
 //! A hull under the pressure of waves alone has no added mass: modes and runs are refused, or say so.
 
-use crate::common;
+use crate::common::print_records;
 
 /// What a session with a floating box of 20 x 20 x 10 m prints, its hull under the pressure of waves, after records; and its errors.
-fn printed(load: &str, records: &str) -> (String, i64) {
-    let (mut session, screen, _folder) = common::session();
-    session.open(
-        "records",
-        format!(
-            "&DIMEN -DIMEN METERS KN\n&DEFAULT -WATER 1025 -G 9.80665\n&ENV -DEPTH 100 -TIME 2 0.1 -SEA REGULAR 180 1 9\nMEDIT\n\
+fn print_box(load: &str, records: &str) -> (String, i64) {
+    print_records(&format!(
+        "&DIMEN -DIMEN METERS KN\n&DEFAULT -WATER 1025 -G 9.80665\n&ENV -DEPTH 100 -TIME 2 0.1 -SEA REGULAR 180 1 9\nMEDIT\n\
              &DESCRIBE BODY BOX -IGNORE X Y RX RY RZ\n*G 0 0 -1\n#WEIGHT *G 20103.6325 7 7 8\n{load}\nEND\n&SURFACE\n\
              BLOCK H -10 -10 -5 10 10 5 -DIFTYPE FK\nEND\n{records}\n"
-        ),
-    );
-    session.run();
-    let reported: Vec<String> = session.reports.iter().map(|d| format!("{} {}", d.message, d.help.join(" "))).collect();
-    (format!("{}\n{}", screen.text(), reported.join("\n")), session.errors)
+    ))
 }
 
 #[test]
 fn modes_and_runs_of_hull_without_added_mass_are_refused() {
     for records in ["&STATUS MODES", "TDOM", "FREQ_RESPONSE\nRAO -PERIOD 9\nEND"] {
-        let (text, errors) = printed("", records);
+        let (text, errors) = print_box("", records);
         assert!(errors > 0 && text.contains("no added mass of BOX"), "{records}: {text}");
         assert!(text.contains("#AMASS") && text.contains("-ACCEPT_MISSING"), "{records}: {text}");
     }
     // where it rests does not depend on it
-    let (text, errors) = printed("", "&EQUI");
+    let (text, errors) = print_box("", "&EQUI");
     assert!(errors == 0 && text.contains("natural periods are left out: no added mass of BOX"), "{text}");
     assert!(!text.contains("Natural Periods"), "{text}");
 }
@@ -34,11 +27,11 @@ fn modes_and_runs_of_hull_without_added_mass_are_refused() {
 #[test]
 fn accepted_missing_added_mass_is_noted_in_every_report() {
     for records in ["&STATUS MODES", "TDOM", "&EQUI"] {
-        let (text, errors) = printed("", &format!("&PARAMETER -ACCEPT_MISSING YES\n{records}"));
+        let (text, errors) = print_box("", &format!("&PARAMETER -ACCEPT_MISSING YES\n{records}"));
         assert!(errors == 0 && text.contains("without added mass and radiation"), "{records}: {text}");
         assert!(text.contains("-ACCEPT_MISSING accepts: BOX"), "{records}: {text}");
     }
-    let (text, _) = printed("", "&PARAMETER -ACCEPT_MISSING YES\n&STATUS MODES");
+    let (text, _) = print_box("", "&PARAMETER -ACCEPT_MISSING YES\n&STATUS MODES");
     assert!(text.contains("of BOX in TDOM alone") && !text.contains("no waves act on"), "{text}");
 }
 
@@ -50,7 +43,7 @@ fn box_heave_with_added_mass_matches_closed_form_period() {
     for (load, accepted, want) in
         [("#AMASS *G 0 0 20000", "", period(40103.6325)), ("", "&PARAMETER -ACCEPT_MISSING YES\n", period(20103.6325))]
     {
-        let (text, errors) = printed(load, &format!("{accepted}&STATUS MODES"));
+        let (text, errors) = print_box(load, &format!("{accepted}&STATUS MODES"));
         assert_eq!(errors, 0, "{text}");
         let frequency = format!("{:.4}", std::f64::consts::TAU / want);
         assert!(text.contains(&frequency), "{frequency} in {text}");

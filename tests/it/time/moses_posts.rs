@@ -48,13 +48,13 @@ fn height(t: f64) -> f64 {
     2.0 - 0.5 * G * t * t
 }
 
-fn posted(describe: &str, post: &str) -> Table {
+fn post_table(describe: &str, post: &str) -> Table {
     table(&format!("{BOX}{describe}TDOM\nPRCPOST\n{post}\n"))
 }
 
 #[test]
 fn relative_motion_of_falling_point_is_its_fall() {
-    let made = posted("", "REL_MOTION *C *GND *FAR *LOW");
+    let made = post_table("", "REL_MOTION *C *GND *FAR *LOW");
     let of = |group: &str| format!("*C less *GND {group}");
     assert_follows(&made, (&of("Location"), "Z"), |t| height(t) + 11.5);
     assert_follows(&made, (&of("Location"), "Mag."), |t| (1.0f64 + 16.0 + (height(t) + 11.5).powi(2)).sqrt());
@@ -67,7 +67,7 @@ fn relative_motion_of_falling_point_is_its_fall() {
 #[test]
 fn least_distance_is_of_nearest_pair_and_its_rate() {
     // of *FAR and *C the first is above *GND at all times
-    let made = posted("", "P_MIN_DISTANCE *FAR *GND");
+    let made = post_table("", "P_MIN_DISTANCE *FAR *GND");
     assert_follows(&made, ("", "Distance"), |t| (height(t) + 10.0).abs());
     assert_follows(&made, ("", "Rate"), |t| -G * t * (height(t) + 10.0).signum());
     let fact = |name: &str| made.facts.iter().find(|f| f.name == name).and_then(|f| f.value.number()).unwrap();
@@ -75,21 +75,21 @@ fn least_distance_is_of_nearest_pair_and_its_rate() {
     let least = times.iter().map(|t| (height(*t) + 10.0).abs()).fold(f64::INFINITY, f64::min);
     assert_near(fact("Least"), least, 1e-9);
     // *FAR is 3 4 beside *LOW, *VENT 2.5 above it: in the plane *VENT is nearest
-    let made = posted("", "P_MIN_DISTANCE @F@ *GND -MAG_DEFINE X Y");
+    let made = post_table("", "P_MIN_DISTANCE @F@ *GND -MAG_DEFINE X Y");
     assert_follows(&made, ("", "Distance"), |_| 0.0);
 }
 
 #[test]
 fn draft_at_inclined_mark_follows_the_fall() {
     // the mark is 5 m long and rises 4 m from 1 m below the origin
-    let made = posted("", "DRAFT MARK");
+    let made = post_table("", "DRAFT MARK");
     assert_follows(&made, ("MARK", "Draft"), |t| -1.25 * (height(t) - 1.0));
     assert_follows(&made, ("MARK", "W. Elv"), |_| 0.0);
 }
 
 #[test]
 fn tank_heads_follow_the_fall_and_contents_stay() {
-    let made = posted("", "TANK_FLD TANK");
+    let made = post_table("", "TANK_FLD TANK");
     for (name, want) in [("% Full", 50.0), ("Sounding", 1.5), ("Ullage", 1.5), ("Amount", 12.0 * 2050.0 * G)] {
         assert_follows(&made, ("Contents", name), |_| want);
     }
@@ -115,7 +115,7 @@ fn sensors_read_signals_of_the_fall_and_raise_alarms() {
     let sensors = "&DESCRIBE SENSOR Z -SIGNAL POINT *C Z -LIMITS 0 9\n&DESCRIBE SENSOR RATE -SIGNAL POINT *C Z -DERIVATIVE YES\n\
         &DESCRIBE SENSOR APART -SIGNAL VECTOR *GND *C\n&DESCRIBE SENSOR VENTS -SIGNAL MIN_NWT_DOWN BOX\n\
         &DESCRIBE SENSOR CLOCK -SIGNAL TIME\n&DESCRIBE SENSOR ROLL -SIGNAL BODY_ANG BOX ROLL\n&DESCRIBE SENSOR -OFF CLOCK\n";
-    let made = posted(sensors, "SENSOR");
+    let made = post_table(sensors, "SENSOR");
     assert_follows(&made, ("Z", "Value"), |t| height(t) + 1.5);
     assert_follows(&made, ("Z", "Alarm"), |t| f64::from(u8::from(height(t) + 1.5 < 0.0)));
     assert_follows(&made, ("RATE", "Value"), |t| -G * t);

@@ -134,7 +134,7 @@ const BREAK: f64 = 1e6;
 const HEIGHT: f64 = 202.0;
 
 /// A barge on three lines of 1010 m that hardly stretch (a strain of 6e-10), let go beside its rest.
-fn moored(more: &str) -> Model {
+fn moored_model(more: &str) -> Model {
     model(&format!(
         "&ENV E -DEPTH 200\nMEDIT\n&DESCRIBE BODY BARGE -IGNORE Z RX RY\n*C 1 0 0\n#WEIGHT *C 2E7 10 10 14\n\
          *A 20 -3 2\n*B -20 8 2\n*D 0 -8 2\n{more}\
@@ -146,7 +146,7 @@ fn moored(more: &str) -> Model {
 
 /// Horizontal force and suspended length of a line that does not stretch, its ends `x` apart: bisection on the closed catenary
 /// of one that lies on the bottom, `x = L - s + H/w acosh(1 + w h/H)`, `s = sqrt(h^2 + 2 h H/w)`.
-fn closed(x: f64, length: f64) -> (f64, f64) {
+fn closed_form(x: f64, length: f64) -> (f64, f64) {
     let of = |a: f64| {
         let s = (HEIGHT * HEIGHT + 2.0 * HEIGHT * a).sqrt();
         (length - s + a * (1.0 + HEIGHT / a).acosh(), s)
@@ -167,7 +167,7 @@ fn ends(model: &Model, line: &str, point: &str) -> (Vector3<f64>, Vector3<f64>) 
 
 #[test]
 fn line_forces_match_catenary_at_every_event() {
-    let model = moored("");
+    let model = moored_model("");
     // A is paid out from 10 s on
     let winch =
         Action { name: "W".into(), when: Trigger::At(10.0), what: ActionKind::Winch(vec!["A".into()], 0.3, None) };
@@ -189,7 +189,7 @@ fn line_forces_match_catenary_at_every_event() {
             let want = if line == "A" { 1010.0 + 0.3 * (t - 10.0).max(0.0) } else { 1010.0 };
             assert!((length[i] - want).abs() < 1e-9, "{line} {t}: {}", length[i]);
             let to = anchor - (at[i] + rotate_about_z(yaw[i], own));
-            let (h, suspended) = closed(to.x.hypot(to.y), length[i]);
+            let (h, suspended) = closed_form(to.x.hypot(to.y), length[i]);
             let tension = h + W * HEIGHT;
             let want = Vector3::new(h * to.x / to.x.hypot(to.y), h * to.y / to.x.hypot(to.y), -W * suspended);
             // the strain is 6e-10 of a length of 1010 m, and a metre changes the force by some hundredth
@@ -207,7 +207,7 @@ fn line_forces_match_catenary_at_every_event() {
 
 #[test]
 fn total_connector_force_is_sum_of_forces_and_moments() {
-    let model = moored("");
+    let model = moored_model("");
     let made = run(&model, (10.0, 0.5), &[], vec![]);
     let events = results::events(&made.history, None).unwrap();
     let places = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
@@ -232,7 +232,7 @@ fn total_connector_force_is_sum_of_forces_and_moments() {
 
 #[test]
 fn all_categories_with_inertia_balance_at_every_event() {
-    let model = moored("#DAMP *C 2E5 3E5 0 0 0 5E8\n");
+    let model = moored_model("#DAMP *C 2E5 3E5 0 0 0 5E8\n");
     let made = run(&model, (20.0, 0.25), &[(0, Six::new(0.5, 0.0, 0.0, 0.0, 0.0, 0.05))], vec![]);
     let events = results::events(&made.history, None).unwrap();
     let table = results::body_forces(&made, &[0], Magnitude::default(), &events).unwrap();
@@ -253,7 +253,7 @@ fn all_categories_with_inertia_balance_at_every_event() {
 #[test]
 fn released_line_has_no_values_after_release() {
     let gone = Action { name: "R".into(), when: Trigger::At(5.0), what: ActionKind::Release(vec!["D".into()]) };
-    let made = run(&moored(""), (10.0, 0.5), &[], vec![gone]);
+    let made = run(&moored_model(""), (10.0, 0.5), &[], vec![gone]);
     let window = EventWindow { begin: 4.0, end: Some(6.0), increment: Some(0.25) };
     let events = results::events(&made.history, Some(&window)).unwrap();
     let table = results::connector_forces(&made, &[2], Magnitude::default(), &events).unwrap();
@@ -270,7 +270,7 @@ fn released_line_has_no_values_after_release() {
 
 #[test]
 fn values_between_stored_instants_are_interpolated_linearly() {
-    let made = run(&moored(""), (4.0, 0.5), &[], vec![]);
+    let made = run(&moored_model(""), (4.0, 0.5), &[], vec![]);
     let all = results::magnitudes(&made, &[0], Magnitude::default(), &results::events(&made.history, None).unwrap());
     let stored = column(&all.unwrap(), "Force Magnitude", "A");
     let window = EventWindow { begin: 1.2, end: Some(1.2), increment: Some(1.0) };
@@ -285,7 +285,7 @@ fn values_between_stored_instants_are_interpolated_linearly() {
 fn segment_damage_uses_upper_end_tension_and_scatter_adds_by_days() {
     let records = "~T B_CAT 100 EXACT -LEN 150 -BUOY 0 -WTPL 1000 -EMOD 1E11 -B_TEN 2E6 -C_SN CHAIN\n\
                    ~T B_CAT 100 EXACT -LEN 860 -DEP 200 -BUOY 0 -WTPL 1000 -EMOD 1E11 -B_TEN 1E6\nCONNECTOR T -ANC 60 925 ~T *B\n";
-    let made = run(&moored(records), (60.0, 0.5), &[], vec![]);
+    let made = run(&moored_model(records), (60.0, 0.5), &[], vec![]);
     let events = results::events(&made.history, None).unwrap();
     let selection = FatigueSelection { chosen: vec!["CHAIN".into()], ..FatigueSelection::default() };
     let link = made.history.layout.links.iter().position(|l| l.name == "T").unwrap();
@@ -297,7 +297,7 @@ fn segment_damage_uses_upper_end_tension_and_scatter_adds_by_days() {
     let (mut top, mut joint) = (Vec::new(), Vec::new());
     for (at, yaw) in at.iter().zip(&yaw) {
         let to = anchor - (at + rotate_about_z(*yaw, own));
-        let (h, suspended) = closed(to.x.hypot(to.y), 1010.0);
+        let (h, suspended) = closed_form(to.x.hypot(to.y), 1010.0);
         top.push((h + W * HEIGHT) / 2e6);
         joint.push(h.hypot(W * (suspended - 150.0)) / 1e6);
     }

@@ -19,7 +19,7 @@ fn mass_on_a_spring() -> Model {
     ))
 }
 
-fn oscillated(method: Method, steps: f64, periods: f64) -> Run {
+fn run_oscillator(method: Method, steps: f64, periods: f64) -> Run {
     let period = TAU / 2.0;
     run(&mass_on_a_spring(), RunSettings { method, ..settings(periods * period, period / steps) }, vec![])
 }
@@ -44,7 +44,7 @@ fn fit_period_and_damping(history: &History) -> (f64, f64) {
 fn trapezoidal_period_error_matches_closed_form() {
     // tan(W h/2) = w h/2 [HUGHES-1987 9.1]
     for steps in [8.0, 12.0, 40.0] {
-        let made = oscillated(trapezoidal(), steps, 60.0);
+        let made = run_oscillator(trapezoidal(), steps, 60.0);
         let worst = made.worst_followed().unwrap();
         let angle: f64 = TAU / steps;
         let exact = angle / (2.0 * (0.5 * angle).atan()) - 1.0;
@@ -63,7 +63,7 @@ fn generalised_alpha_error_and_damping_match_the_oscillation() {
     for (rho, steps, period, damping) in
         [(0.2, 10.0, 0.080910, 0.022552), (0.2, 20.0, 0.023147, 0.003954), (0.5, 12.0, 0.032954, 0.002313)]
     {
-        let made = oscillated(Method::Implicit(TimeScheme::generalised_alpha(rho)), steps, 16.0);
+        let made = run_oscillator(Method::Implicit(TimeScheme::generalised_alpha(rho)), steps, 16.0);
         let worst = made.worst_followed().unwrap();
         let (own, decay) = fit_period_and_damping(&made.history);
         let own = own / (TAU / 2.0) - 1.0;
@@ -78,7 +78,7 @@ fn generalised_alpha_error_and_damping_match_the_oscillation() {
 fn step_error_matches_first_term_of_closed_form() {
     // the trapezoidal rule misses x by h^3 w^3 A/12 in a step, and the next term is (w h)^2 of that
     let (steps, w, amplitude) = (40.0, 2.0f64, 0.5);
-    let made = oscillated(trapezoidal(), steps, 10.0);
+    let made = run_oscillator(trapezoidal(), steps, 10.0);
     let angle: f64 = TAU / steps;
     let exact = amplitude * angle.powi(3) / 12.0;
     assert!((made.accuracy.largest.0 / exact - 1.0).abs() < angle * angle, "{} {exact} {w}", made.accuracy.largest.0);
@@ -86,8 +86,8 @@ fn step_error_matches_first_term_of_closed_form() {
 
 #[test]
 fn step_too_long_for_motion_is_warned_and_adequate_step_is_not() {
-    assert_eq!(warning_of_accuracy(&oscillated(Method::default(), 20.0, 10.0)), None);
-    let said = warning_of_accuracy(&oscillated(Method::default(), 5.0, 20.0)).unwrap();
+    assert_eq!(warning_of_accuracy(&run_oscillator(Method::default(), 20.0, 10.0)), None);
+    let said = warning_of_accuracy(&run_oscillator(Method::default(), 5.0, 20.0)).unwrap();
     assert!(said.contains("the motion of CART in X") && said.contains("its period of 3.1"), "{said}");
 }
 
@@ -119,7 +119,7 @@ fn floating_box_with_step_beyond_heave_period_is_named_in_warning() {
 #[test]
 fn natural_periods_at_start_match_springs_and_masses() {
     // 2 rad/s
-    let made = oscillated(Method::default(), 20.0, 1.0);
+    let made = run_oscillator(Method::default(), 20.0, 1.0);
     let [only] = made.resolution.natural.as_slice() else { panic!("{:?}", made.resolution) };
     assert!((only.period - TAU / 2.0).abs() < 1e-9 && only.dof == "X");
 }

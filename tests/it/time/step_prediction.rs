@@ -20,7 +20,7 @@ const MASS: f64 = 2.0 / 3.0 * PI * 27000.0 * 1025.0;
 const GYRATION: f64 = 19.0;
 
 /// A hemisphere of 30 m radius on eight lines, with the memory of its radiation, away from rest; in an irregular sea or without.
-fn moored(sea: bool) -> Model {
+fn moored_hemisphere(sea: bool) -> Model {
     let weight = MASS * GRAVITY;
     let hull = format!(
         "*CG 0 0 -12\n#WEIGHT *CG {weight} {GYRATION} {GYRATION} {GYRATION}\n#DAMP *CG 1E6 1E6 2E7 3E9 3E9 3E8\n\
@@ -53,7 +53,7 @@ fn run(model: &Model, observed: f64, tolerance: f64) -> Run {
 
 #[test]
 fn predicted_steps_follow_fully_solved_steps_for_moored_body() {
-    let model = moored(true);
+    let model = moored_hemisphere(true);
     let (usual, tight) = (run(&model, 200.0, 1e-7), run(&model, 200.0, 1e-12));
     let at = usual.history.layout.body(0);
     let (mut most, mut reach) = (0.0f64, 0.0f64);
@@ -74,7 +74,7 @@ fn predicted_steps_follow_fully_solved_steps_for_moored_body() {
 #[test]
 fn reported_predicted_step_balances_within_tolerance() {
     let tolerance = 1e-7;
-    let made = run(&moored(true), 100.0, tolerance);
+    let made = run(&moored_hemisphere(true), 100.0, tolerance);
     let layout = &made.history.layout;
     for row in made.history.rows() {
         for dof in 0..6 {
@@ -89,7 +89,7 @@ fn reported_predicted_step_balances_within_tolerance() {
 
 #[test]
 fn prediction_in_still_water_adds_no_evaluations() {
-    let counts = run(&moored(false), 200.0, 1e-7).counts;
+    let counts = run(&moored_hemisphere(false), 200.0, 1e-7).counts;
     // the trial goes on as the acceleration changed last; most of these are near enough
     assert!(counts.evaluations as f64 <= 1.13 * counts.steps as f64, "{counts:?}");
     assert!(counts.iterations <= counts.steps, "{counts:?}");

@@ -6,7 +6,7 @@ use std::fs;
 use windlass::session::Session;
 
 /// A box on four chains, away from rest; `options` are those of the chain, `time` that of the environment.
-fn moored(options: &str, time: &str) -> String {
+fn moored_records(options: &str, time: &str) -> String {
     let mut text = String::new();
     text.push_str(&format!(
         "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100 {time}\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE Z RX RY\n*CG 0 0 0\n#WEIGHT *CG 50000 10 20 20\n\
@@ -34,7 +34,7 @@ fn rows(session: &Session) -> Vec<u64> {
 fn run_cut_off_anywhere_restarts_with_digits_of_uninterrupted_run() {
     let time = "-TIME 150 0.1";
     let action = "&ACTION GONE -AT 62.35 -RELEASE L0\n&ACTION PAY -AT 20 -WINCH L2 0.1 405\n";
-    let records = format!("{}{action}", moored("EXACT", time));
+    let records = format!("{}{action}", moored_records("EXACT", time));
     let (mut whole, _, folder) = common::session();
     run(&mut whole, &format!("{records}TDOM"));
     let log = folder.path().join("job.ans").join("TDOM.run");
@@ -56,9 +56,9 @@ fn run_cut_off_anywhere_restarts_with_digits_of_uninterrupted_run() {
 #[test]
 fn run_extended_beyond_its_end_matches_longer_run() {
     let (mut whole, _, _folder) = common::session();
-    run(&mut whole, &format!("{}TDOM", moored("EXACT", "-TIME 120 0.1")));
+    run(&mut whole, &format!("{}TDOM", moored_records("EXACT", "-TIME 120 0.1")));
     let (mut parts, _, _other) = common::session();
-    run(&mut parts, &format!("{}TDOM\n", moored("EXACT", "-TIME 70 0.1")));
+    run(&mut parts, &format!("{}TDOM\n", moored_records("EXACT", "-TIME 70 0.1")));
     run(&mut parts, "&ENV -DEPTH 100 -TIME 120 0.1\nTDOM -RESTART 60\n");
     assert!(rows(&whole) == rows(&parts));
 }
@@ -66,7 +66,7 @@ fn run_extended_beyond_its_end_matches_longer_run() {
 #[test]
 fn run_of_another_model_is_refused_and_left_unchanged() {
     let (mut session, _, folder) = common::session();
-    run(&mut session, &format!("{}TDOM", moored("EXACT", "-TIME 20 0.1")));
+    run(&mut session, &format!("{}TDOM", moored_records("EXACT", "-TIME 20 0.1")));
     let log = folder.path().join("job.ans").join("TDOM.run");
     let before = fs::read(&log).unwrap();
     for other in ["&ENV -DEPTH 100 -TIME 20 0.05\n", "&ENV -DEPTH 100 -TIME 20 0.1\n&CONNECTOR L1 -L_DELTA 1\n"] {
@@ -82,7 +82,7 @@ fn run_of_another_model_is_refused_and_left_unchanged() {
 #[test]
 fn invalid_run_files_are_refused_without_panic() {
     let (mut session, _, folder) = common::session();
-    run(&mut session, &moored("EXACT", "-TIME 20 0.1"));
+    run(&mut session, &moored_records("EXACT", "-TIME 20 0.1"));
     let job = folder.path().join("job.ans");
     fs::create_dir_all(&job).unwrap();
     let hostile: [&[u8]; 4] = [b"", b"WINDRUN\x03", b"something else that is long enough to have a head", &[0xff; 64]];
@@ -124,7 +124,7 @@ fn balance(session: &Session) -> (f64, f64) {
 #[test]
 fn surge_on_catenaries_keeps_energy_to_1e_3_over_100_periods() {
     // no damping, trapezoidal rule: what the lines do in work is there in motion
-    let records = moored("EXACT", "-TIME 4000 0.5")
+    let records = moored_records("EXACT", "-TIME 4000 0.5")
         .replace("#DAMP *CG 100 100 0 0 0 5000\n", "")
         .replace("-IGNORE Z RX RY", "-IGNORE Y Z RX RY RZ");
     let (mut session, _, _folder) = common::session();
@@ -199,7 +199,7 @@ fn event_is_located_within_64th_of_a_step_and_ends_run() {
 #[test]
 fn winch_keeps_its_rate_in_bisected_steps() {
     let (mut session, _, _folder) = common::session();
-    let records = moored("EXACT", "-TIME 10 0.5");
+    let records = moored_records("EXACT", "-TIME 10 0.5");
     run(
         &mut session,
         &format!(
@@ -217,7 +217,7 @@ fn winch_keeps_its_rate_in_bisected_steps() {
 #[test]
 fn winch_pays_out_at_its_rate_and_stops_at_its_length() {
     let (mut session, _, _folder) = common::session();
-    run(&mut session, &format!("{}&ACTION PAY -AT 5 -WINCH L2 0.5 410\nTDOM", moored("EXACT", "-TIME 60 0.1")));
+    run(&mut session, &format!("{}&ACTION PAY -AT 5 -WINCH L2 0.5 410\nTDOM", moored_records("EXACT", "-TIME 60 0.1")));
     let history = &session.job.run.as_ref().unwrap().history;
     let at = history.layout.links.iter().find(|l| l.name == "L2").unwrap().active + 1;
     for (time, length) in history.times().iter().zip(history.series(at)) {
@@ -229,7 +229,7 @@ fn winch_pays_out_at_its_rate_and_stops_at_its_length() {
 #[test]
 fn same_sea_gives_same_file_alone_and_beside_a_parallel_run() {
     let tanker = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/tanker/tanker");
-    let records = moored("", "-SEA JONSWAP 180 4 9 -RAMP 10 -TIME 60 0.1");
+    let records = moored_records("", "-SEA JONSWAP 180 4 9 -RAMP 10 -TIME 60 0.1");
     let records = format!("{}TDOM", records.replace("#DAMP", &format!("DATABASE SHIP -WAMIT {tanker}\n#DAMP")));
     let made = || {
         let (mut session, _, folder) = common::session();

@@ -1,6 +1,6 @@
 //! Pages of decks 1 to 5: coordinates, elements, materials, geometries, the water, mass and inertia.
 
-use super::{FIVE_FIGURES, THREE_DECIMALS, WHOLE, exponent, fact, fixed};
+use super::{FIVE_FIGURES, THREE_DECIMALS, WHOLE, exponent, fact, format_fixed};
 use crate::Deck;
 use crate::elements::{ElementShape, StructureDeck, StructureElement};
 use crate::properties::Geometry;
@@ -56,9 +56,9 @@ impl Deck {
                 let value = geometry.parameters.get(index).map_or(0.0, |field| field.value);
                 match index {
                     _ if is_mass(geometry) => exponent(value, 4),
-                    1 => fixed(value, 6),
+                    1 => format_fixed(value, 6),
                     5 => String::new(),
-                    _ => fixed(value, 3),
+                    _ => format_fixed(value, 3),
                 }
             };
             let cells = geometries.iter().map(|(_, geometry)| cell(geometry));
@@ -75,9 +75,9 @@ impl Deck {
 
     fn global_table(&self) -> Table {
         let global = &self.global;
-        let table = fact(Table::new("Global Parameters"), "WATER  DEPTH", fixed(global.depth, 3));
-        let table = fact(table, "DENSITY OF WATER", fixed(global.density, 3));
-        fact(table, "ACCELERATION DUE TO GRAVITY", fixed(global.gravity, 3))
+        let table = fact(Table::new("Global Parameters"), "WATER  DEPTH", format_fixed(global.depth, 3));
+        let table = fact(table, "DENSITY OF WATER", format_fixed(global.density, 3));
+        fact(table, "ACCELERATION DUE TO GRAVITY", format_fixed(global.gravity, 3))
     }
 
     /// Masses by kind of element, then the centre of gravity with the matrix of inertia about it.
@@ -99,7 +99,7 @@ impl Deck {
         let names = ["CENTRE OF GRAVITY", "INERTIA MATRIX", "", ""].map(String::from);
         let mut columns = vec![Column::new("", "", Dim::None, Digits::Usual, names)];
         for (axis, name) in AXES.into_iter().enumerate() {
-            let centre = found.centre.get(axis).map_or(String::new(), |value| fixed(*value, 3));
+            let centre = found.centre.get(axis).map_or(String::new(), |value| format_fixed(*value, 3));
             let column = found.inertia.iter().filter_map(|row| row.get(axis)).map(|value| inertia(*value));
             columns.push(Column::right_aligned("", name, std::iter::once(centre).chain(column)));
         }

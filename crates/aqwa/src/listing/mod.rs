@@ -10,7 +10,7 @@ mod water;
 use super::Deck;
 use super::echo::Echo;
 use super::job::Program;
-use windlass_base::fortran::{exponent, fixed};
+use windlass_base::fortran::{exponent, format_fixed};
 use windlass_base::table::{Column, Digits, Table};
 use windlass_base::units::Dim;
 

@@ -1,6 +1,6 @@
 //! Pages between the tethers and the motion: initial position, time integration, Morison multipliers, nodes asked for.
 
-use super::{Column, FREEDOMS, THREE_DECIMALS, WHOLE, fact, fixed};
+use super::{Column, FREEDOMS, THREE_DECIMALS, WHOLE, fact, format_fixed};
 use crate::Deck;
 use crate::job::Program;
 use crate::printing::PrintedNode;
@@ -88,8 +88,8 @@ impl Deck {
         let table = fact(table, "INTEGRATION SCHEME", scheme.into());
         let table = fact(table, "STARTING RECORD NUMBER", "1".into());
         let table = fact(table, "NUMBER OF TIME STEPS", count.to_string());
-        let table = fact(table, "PRESENT TIME STEP", fixed(step, 3));
-        fact(table, "PRESENT TIME", fixed(start, 3))
+        let table = fact(table, "PRESENT TIME STEP", format_fixed(step, 3));
+        fact(table, "PRESENT TIME", format_fixed(start, 3))
     }
 
     fn multiplier_table(&self) -> Table {
@@ -153,8 +153,9 @@ fn cycle_errors(angle: f64) -> [f64; 2] {
 
 fn error_table(step: f64) -> Table {
     let errors: Vec<(f64, [f64; 2])> = ERROR_FREQUENCIES.into_iter().map(|w| (w, cycle_errors(w * step))).collect();
-    let shown = |value: f64| if value > LARGEST_LISTED_ERROR { "10+".to_string() } else { fixed(value, 1) };
-    let title = format!("Expected Errors for Integration of Sinusoidal Motion for Time-Step of {}", fixed(step, 4));
+    let shown = |value: f64| if value > LARGEST_LISTED_ERROR { "10+".to_string() } else { format_fixed(value, 1) };
+    let title =
+        format!("Expected Errors for Integration of Sinusoidal Motion for Time-Step of {}", format_fixed(step, 4));
     let cells = |of: fn(&(f64, [f64; 2])) -> f64| errors.iter().map(of).map(Cell::Number).collect::<Vec<Cell>>();
     let mut table = Table::from_columns(
         title,

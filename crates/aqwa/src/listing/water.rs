@@ -1,6 +1,6 @@
 //! Pages of decks 6 to 13: frequencies, stiffness, coefficients, environment, constraints, waves.
 
-use super::{Column, FREEDOMS, THREE_DECIMALS, WHOLE, fact, fixed, six_by_six};
+use super::{Column, FREEDOMS, THREE_DECIMALS, WHOLE, fact, format_fixed, six_by_six};
 use crate::Deck;
 use crate::hydrostatics::HydrostaticsDecks;
 use crate::job::Program;
@@ -79,7 +79,7 @@ impl Deck {
             table.note("DIRECTIONS *UNDEFINED*");
         }
         for (structure, direction) in directions {
-            table.note(format!("STRUCTURE {structure} DIRECTION {}", fixed(direction, 2)));
+            table.note(format!("STRUCTURE {structure} DIRECTION {}", format_fixed(direction, 2)));
         }
         table
     }
@@ -91,7 +91,7 @@ impl Deck {
         let mut table = Table::new("Environmental Parameters");
         for (name, flow) in [("CURRENT", deep.current.or(of_hulls)), ("WIND", deep.wind)] {
             for (what, value) in ["VELOCITY", "DIRECTION"].into_iter().zip(stream(flow)) {
-                table = fact(table, &format!("UNIFORM {name} {what}"), fixed(value, 3));
+                table = fact(table, &format!("UNIFORM {name} {what}"), format_fixed(value, 3));
             }
         }
         if deep.profile.is_empty() {
@@ -134,28 +134,28 @@ impl Deck {
             SpectrumForm::Given(_) => "USER DEFINED",
         };
         list.push(("TYPE OF WAVE SPECTRUM", kind.to_string()));
-        list.push(("LOWER FREQUENCY LIMIT", fixed(sea.range.0, 3)));
-        list.push(("UPPER FREQUENCY LIMIT", fixed(sea.range.1, 3)));
+        list.push(("LOWER FREQUENCY LIMIT", format_fixed(sea.range.0, 3)));
+        list.push(("UPPER FREQUENCY LIMIT", format_fixed(sea.range.1, 3)));
         let height = match &sea.form {
             SpectrumForm::PiersonMoskowitz { height, period } => {
-                list.push(("ZERO CROSSING PERIOD", fixed(*period, 3)));
+                list.push(("ZERO CROSSING PERIOD", format_fixed(*period, 3)));
                 *height
             }
             SpectrumForm::Jonswap { gamma, alpha, peak } => {
-                list.push(("GAMMA", fixed(*gamma, 3)));
-                list.push(("ALPHA", fixed(*alpha, 5)));
-                list.push(("PEAK FREQUENCY", fixed(*peak, 3)));
+                list.push(("GAMMA", format_fixed(*gamma, 3)));
+                list.push(("ALPHA", format_fixed(*alpha, 5)));
+                list.push(("PEAK FREQUENCY", format_fixed(*peak, 3)));
                 let hump = SpectralPeak::from_alpha(*alpha, *peak, *gamma, gravity);
                 4.0 * Spectrum::from_peaks(vec![hump], None).moment(0).sqrt()
             }
             SpectrumForm::JonswapHeight { gamma, height, peak } => {
-                list.push(("GAMMA", fixed(*gamma, 3)));
-                list.push(("PEAK FREQUENCY", fixed(*peak, 3)));
+                list.push(("GAMMA", format_fixed(*gamma, 3)));
+                list.push(("PEAK FREQUENCY", format_fixed(*peak, 3)));
                 *height
             }
             SpectrumForm::Gaussian { sigma, height, peak } => {
-                list.push(("SIGMA", fixed(*sigma, 3)));
-                list.push(("PEAK FREQUENCY", fixed(*peak, 3)));
+                list.push(("SIGMA", format_fixed(*sigma, 3)));
+                list.push(("PEAK FREQUENCY", format_fixed(*peak, 3)));
                 *height
             }
             SpectrumForm::Given(pairs) => {
@@ -166,15 +166,15 @@ impl Deck {
                 4.0 * pairs.windows(2).map(area).sum::<f64>().max(0.0).sqrt()
             }
         };
-        list.push(("SIGNIFICANT WAVE HEIGHT", fixed(height, 3)));
+        list.push(("SIGNIFICANT WAVE HEIGHT", format_fixed(height, 3)));
         list.push(("NUMBER OF WAVE SPECTRAL LINES", sea.lines.to_string()));
-        list.push(("SPECTRAL DIRECTION", fixed(sea.direction, 2)));
-        list.push(("TETHER TOWING SPEED", fixed(sea.towing.map_or(0.0, |(speed, _)| speed), 2)));
-        list.push(("TETHER STEADY OFFSET", fixed(0.0, 2)));
+        list.push(("SPECTRAL DIRECTION", format_fixed(sea.direction, 2)));
+        list.push(("TETHER TOWING SPEED", format_fixed(sea.towing.map_or(0.0, |(speed, _)| speed), 2)));
+        list.push(("TETHER STEADY OFFSET", format_fixed(0.0, 2)));
         let wind = sea.wind.or(self.surroundings.wind).map_or([0.0; 2], |f| [f.speed.value, f.direction.value]);
-        list.push(("WIND SPEED", fixed(wind[0], 2)));
-        list.push(("WIND DIRECTION", fixed(wind[1], 2)));
-        list.push(("WIND REFERENCE HEIGHT", fixed(0.0, 2)));
+        list.push(("WIND SPEED", format_fixed(wind[0], 2)));
+        list.push(("WIND DIRECTION", format_fixed(wind[1], 2)));
+        list.push(("WIND REFERENCE HEIGHT", format_fixed(0.0, 2)));
         list.push(("WIND SPECTRUM TYPE", "NONE".into()));
         list.push(("NUMBER OF WIND SPECTRAL LINES", "0".into()));
         list.push(("RANDOM NUMBER SEED (IF APPLICABLE)", sea.seed.to_string()));
@@ -191,17 +191,17 @@ impl Deck {
         let [celerity, slope] = [(length, wave.period), (length, 2.0 * wave.amplitude)]
             .map(|(over, under)| if under > 0.0 { over / under } else { 0.0 });
         let list = [
-            ("WAVE FREQUENCY (RADIAN/SEC)", fixed(frequency, 5)),
-            ("WAVE FREQUENCY (HERTZ)", fixed(frequency / TAU, 5)),
-            ("WAVE NUMBER", fixed(number, 5)),
-            ("WAVE AMPLITUDE", fixed(wave.amplitude, 2)),
-            ("WAVE HEIGHT", fixed(2.0 * wave.amplitude, 2)),
-            ("WAVE PERIOD", fixed(wave.period, 2)),
-            ("WAVE LENGTH", fixed(length, 2)),
-            ("WAVE CELERITY", fixed(celerity, 2)),
-            ("WAVE SLOPE (1 IN)", fixed(slope, 2)),
-            ("WAVE DIRECTION", fixed(wave.direction, 2)),
-            ("DAMPING DECAY FACTOR ZERO AT TIME", fixed(0.0, 2)),
+            ("WAVE FREQUENCY (RADIAN/SEC)", format_fixed(frequency, 5)),
+            ("WAVE FREQUENCY (HERTZ)", format_fixed(frequency / TAU, 5)),
+            ("WAVE NUMBER", format_fixed(number, 5)),
+            ("WAVE AMPLITUDE", format_fixed(wave.amplitude, 2)),
+            ("WAVE HEIGHT", format_fixed(2.0 * wave.amplitude, 2)),
+            ("WAVE PERIOD", format_fixed(wave.period, 2)),
+            ("WAVE LENGTH", format_fixed(length, 2)),
+            ("WAVE CELERITY", format_fixed(celerity, 2)),
+            ("WAVE SLOPE (1 IN)", format_fixed(slope, 2)),
+            ("WAVE DIRECTION", format_fixed(wave.direction, 2)),
+            ("DAMPING DECAY FACTOR ZERO AT TIME", format_fixed(0.0, 2)),
             ("TYPE OF WAVE THEORY", if wave.linear { "AIRY" } else { "STOKES2 (D/W)" }.to_string()),
         ];
         let title = "Regular Wave Parameters and Initial Damping Factors";

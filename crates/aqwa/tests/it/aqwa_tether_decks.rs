@@ -35,7 +35,7 @@ fn deck(text: &str) -> Deck {
 }
 
 /// The script with one text in the place of another, which must be there.
-fn edited(text: &str, from: &str, to: &str) -> String {
+fn edit_text(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from}");
     text.replacen(from, to, 1)
 }
@@ -196,19 +196,19 @@ fn mass_and_inertia_match_listings() {
 fn tube_inertia_matches_hollow_cylinder() {
     // one TUBE of density 2, D = 2, wall 0.5, 6 long along X: m = 2 pi/4 (4 - 1) 6 = 9 pi; I = m (D2 + d2)/8 along,
     // m (D2 + d2)/16 + m L2/12 across
-    let text = edited(&script("mint.dat"), "(1) (999) (1) (1)", "(1) (999) (3) (1)");
-    let text = edited(
+    let text = edit_text(&script("mint.dat"), "(1) (999) (1) (1)", "(1) (999) (3) (1)");
+    let text = edit_text(
         &text,
         " END03           101",
         "    03             3       0.0\n    03             4       2.0\n END03           101",
     );
-    let text = edited(
+    let text = edit_text(
         &text,
         "    04TUBE         2",
         "    04TUBE         4       2.0       0.5\n    04CONT\n    04TUBE         2",
     );
-    let text = edited(&text, "    01 999 ", "    01   1\n    01   2                 6.0\n    01 999 ");
-    let text = edited(&text, "(1) (51) (52) (2) (3)", "(1) (1) (2) (4) (4)");
+    let text = edit_text(&text, "    01 999 ", "    01   1\n    01   2                 6.0\n    01 999 ");
+    let text = edit_text(&text, "(1) (51) (52) (2) (3)", "(1) (1) (2) (4) (4)");
     let deck = deck(&text);
     let alone = windlass_aqwa::elements::StructureDeck {
         elements: deck.structures[0].elements.iter().filter(|e| e.material == 4).cloned().collect(),
@@ -312,11 +312,11 @@ fn attachments_lengths_and_spans_at_start_match_listings() {
     assert!((towed.unstretched_length(tether).unwrap() - 266.486).abs() < 1e-9);
     assert!((towed.span(tether).unwrap() - 266.486).abs() < 1e-9);
     // turned by 90 degrees about Z, then moved
-    let text = edited(&script("mint.dat"), "0.000     0.000       0.0\n END15", "0.000     0.000      90.0\n END15");
+    let text = edit_text(&script("mint.dat"), "0.000     0.000       0.0\n END15", "0.000     0.000      90.0\n END15");
     let turned = deck(&text);
     assert!(near(turned.node_position(&turned.structures[0], 112), [-98.73, 52.73, -68.15]));
     // 8 m higher the tethers are 3 % too short
-    let high = reading(&edited(&script("mint.dat"), "   -17.400", "    -9.400"));
+    let high = reading(&edit_text(&script("mint.dat"), "   -17.400", "    -9.400"));
     let said = high.messages.iter().find(|m| m.message.contains("spans")).unwrap();
     assert_eq!(said.severity, Severity::Warning);
     assert!(said.message.starts_with("deck 14, TETH: this tether is 265.406 long and spans 273."), "{}", said.message);
@@ -570,8 +570,8 @@ fn cards_apart_by_blanks_or_tabs_are_refused_at_their_columns() {
             "   (1)",
         ),
     ] {
-        let text = edited(&script("mint.dat"), from, to);
-        let (error, line, column) = refused(&text);
+        let text = edit_text(&script("mint.dat"), from, to);
+        let (error, line, column) = first_error(&text);
         assert_eq!(error.message, said);
         let rest: String = text.lines().nth(line - 1).unwrap().chars().skip(column - 1).collect();
         assert!(rest.starts_with(at), "{said}: at `{rest}`");
@@ -581,8 +581,8 @@ fn cards_apart_by_blanks_or_tabs_are_refused_at_their_columns() {
 #[test]
 fn card_with_last_field_past_column_80_is_refused() {
     let row = "9.2809E12       0.0 7.1578E12";
-    let text = edited(&script("he01.dat"), row, "9.2809E12       0.0   7.1578E12");
-    assert_eq!(refused(&text).0.message, "deck 4 GEOM, PMAS: what stands in column 80 goes on past it");
+    let text = edit_text(&script("he01.dat"), row, "9.2809E12       0.0   7.1578E12");
+    assert_eq!(first_error(&text).0.message, "deck 4 GEOM, PMAS: what stands in column 80 goes on past it");
 }
 
 #[test]
@@ -596,10 +596,10 @@ fn decks_accept_any_line_ending_comments_blanks_and_lower_case() {
     assert_eq!(deck(&small).echo().len(), plain.len());
     assert_eq!(deck(&small).mooring.tethers.len(), 4);
     // END alone closes a deck
-    let alone = edited(&fixed, " END18PRNT    1   49", "    18PRNT    1   49\n END18");
+    let alone = edit_text(&fixed, " END18PRNT    1   49", "    18PRNT    1   49\n END18");
     assert!(deck(&alone).printing.prints(1, 49, false));
     // what stands past column 80 is not read
-    let long = edited(&fixed, "    05DENS     1.025", &format!("{:80}beyond", "    05DENS     1.025"));
+    let long = edit_text(&fixed, "    05DENS     1.025", &format!("{:80}beyond", "    05DENS     1.025"));
     let long = reading(&long);
     assert!(!long.failed && long.messages[0].message.contains("longer than 80 columns"));
 }
@@ -652,7 +652,7 @@ fn data_run_checks_without_running() {
 #[test]
 fn unsupported_tether_output_request_is_reported() {
     let said = |from: &str, to: &str| {
-        let reading = reading(&edited(&script("mint.dat"), from, to));
+        let reading = reading(&edit_text(&script("mint.dat"), from, to));
         assert!(!reading.failed);
         reading.messages.iter().map(|m| m.message.clone()).collect::<Vec<_>>().join("\n")
     };
@@ -667,20 +667,20 @@ fn unsupported_tether_output_request_is_reported() {
 
 #[test]
 fn file_that_is_not_a_deck_is_refused_within_limits() {
-    let long = edited(&script("mint.dat"), "    14TSLK", &format!("    14{}\n    14TSLK", "(1)".repeat(1000)));
-    assert_eq!(refused(&long).0.message, "a line of 3006 characters is no card");
+    let long = edit_text(&script("mint.dat"), "    14TSLK", &format!("    14{}\n    14TSLK", "(1)".repeat(1000)));
+    assert_eq!(first_error(&long).0.message, "a line of 3006 characters is no card");
     let many = format!("JOB MINT  NAUT\nOPTIONS END\n    01    COOR\n{}", "x\n".repeat(300_000));
     let reading = reading(&many);
     assert!(reading.failed && reading.messages.len() == 201);
     assert!(reading.messages[200].message.ends_with("more messages about this deck are not shown"));
     let tethers = "    14TETH    1 1010    0 9010\n".repeat(200);
-    let text = edited(&script("mint.dat"), "    14TETH    1 1010    0 9010\n", &tethers);
+    let text = edit_text(&script("mint.dat"), "    14TETH    1 1010    0 9010\n", &tethers);
     let said = self::reading(&text).messages;
     assert!(said.iter().any(|m| m.message == "deck 14, TETH: a deck has at most 100 tethers"), "{said:#?}");
 }
 
 /// What is said of a deck with an edit: the first error, its line and column.
-fn refused(text: &str) -> (Diagnostic, usize, usize) {
+fn first_error(text: &str) -> (Diagnostic, usize, usize) {
     let (reading, sources) = reading_of(text.as_bytes().to_vec());
     assert!(reading.failed, "{text}\n{:#?}", reading.messages);
     let error = reading.messages.into_iter().find(|m| m.severity == Severity::Error).unwrap();
@@ -690,8 +690,8 @@ fn refused(text: &str) -> (Diagnostic, usize, usize) {
 
 #[test]
 fn deck_error_names_deck_card_columns_and_expected_value() {
-    let text = edited(&script("mint.dat"), "    14TEIG   16", "    14TEIG  1x6");
-    let (error, line, column) = refused(&text);
+    let text = edit_text(&script("mint.dat"), "    14TEIG   16", "    14TEIG  1x6");
+    let (error, line, column) = first_error(&text);
     assert_eq!(error.message, "deck 14 MOOR, TEIG, columns 11-15: `1x6` is not a whole number");
     assert_eq!(error.label, "number of modes belongs here");
     assert_eq!(error.help, ["columns of TEIG: 11-15 number of modes"]);
@@ -755,17 +755,17 @@ fn bad_cards_are_refused_at_their_place() {
         ("    14TSPV                           0.0", "    14TSPV    2                      0.0", "2 is no flag", "2"),
     ];
     for (from, to, part, word) in cases {
-        let text = edited(&script("mint.dat"), from, to);
-        let (error, line, column) = refused(&text);
+        let text = edit_text(&script("mint.dat"), from, to);
+        let (error, line, column) = first_error(&text);
         assert!(error.message.contains(part), "{from} -> {to}: {}", error.message);
         let rest: String = text.lines().nth(line - 1).unwrap_or_default().chars().skip(column - 1).collect();
         assert!(rest.starts_with(word), "{from} -> {to}: {} at `{rest}`", error.message);
     }
     // NONE says nothing of its deck: the identifiers tell where the decks slipped
-    let slipped = reading(&edited(&script("mint.dat"), "    06    NONE\n", ""));
+    let slipped = reading(&edit_text(&script("mint.dat"), "    06    NONE\n", ""));
     assert_eq!(slipped.messages[0].severity, Severity::Warning);
     assert_eq!(slipped.messages[0].message, "this NONE card has the identifier 07 and is read as that of deck 6");
-    let near = refused(&edited(&script("mint.dat"), "    14TLOW", "    14TLWO")).0;
+    let near = first_error(&edit_text(&script("mint.dat"), "    14TLOW", "    14TLWO")).0;
     assert_eq!(near.help[0], "did you mean TLOW?");
 }
 
@@ -805,20 +805,20 @@ fn incomplete_decks_are_refused() {
         (&["    14PULY", " END14LINE    1 1010    0 9010      10.0"], "deck 14, PULY: no LINE with a length"),
     ];
     for (cards, part) in cases {
-        let error = refused(&moor(cards)).0;
+        let error = first_error(&moor(cards)).0;
         assert!(error.message.contains(part), "{cards:?}: {}", error.message);
     }
     // LSTF needs its equilibrium
-    let text = edited(&script("he01.dat"), "    07BFEQ             9.81E10\n", "");
-    assert!(refused(&text).0.message.contains("LSTF without BFEQ"));
-    let text = edited(&script("he01_phases.dat"), "NSPL        50", "NSPL        40");
-    assert!(refused(&text).0.message.contains("50 phases for 40 spectral lines"));
+    let text = edit_text(&script("he01.dat"), "    07BFEQ             9.81E10\n", "");
+    assert!(first_error(&text).0.message.contains("LSTF without BFEQ"));
+    let text = edit_text(&script("he01_phases.dat"), "NSPL        50", "NSPL        40");
+    assert!(first_error(&text).0.message.contains("50 phases for 40 spectral lines"));
 }
 
 #[test]
 fn towed_tether_must_satisfy_chapter_8() {
     let said = |from: &str, to: &str| {
-        let reading = reading(&edited(&script("he01.dat"), from, to));
+        let reading = reading(&edit_text(&script("he01.dat"), from, to));
         reading.messages.iter().map(|m| format!("{:?}: {}", m.severity, m.message)).collect::<Vec<_>>().join("\n")
     };
     let soft = "    14TSPA    1                      0.5       0.5       0.5\n";
@@ -860,7 +860,7 @@ fn towed_tether_must_satisfy_chapter_8() {
 #[test]
 fn number_across_two_fields_is_refused() {
     let card = "    01  19                41.0      40.0     0.000";
-    let of = |fields: &str| edited(&script("mint.dat"), card, &format!("    01  19          {fields}"));
+    let of = |fields: &str| edit_text(&script("mint.dat"), card, &format!("    01  19          {fields}"));
     for (fields, said) in [
         ("      41.00005     0.000", "deck 1 COOR, columns 21-40: `41.00005     0` lies across two fields"),
         ("      41.00005      ", "deck 1 COOR, columns 21-40: `41.00005` lies across two fields"),
@@ -868,7 +868,7 @@ fn number_across_two_fields_is_refused() {
         ("     41.0556272.0179", "deck 1 COOR, columns 21-40: `41.0556272.0179` lies across two fields"),
         ("1.2345E+0112.3456E+2", "deck 1 COOR, columns 21-40: `1.2345E+0112.3456E+2` lies across two fields"),
     ] {
-        let error = refused(&of(fields)).0;
+        let error = first_error(&of(fields)).0;
         assert_eq!(error.message, said);
     }
     // a sign begins a number, and so does a number with an exponent and one digit before the point
@@ -881,8 +881,8 @@ fn number_across_two_fields_is_refused() {
 #[test]
 fn units_are_recognised_from_gravity_and_density() {
     let units = |gravity: &str, density: &str| {
-        let text = edited(&script("mint.dat"), "ACCG     9.810", &format!("ACCG{gravity:>10}"));
-        deck(&edited(&text, "DENS     1.025", &format!("DENS{density:>10}"))).units()
+        let text = edit_text(&script("mint.dat"), "ACCG     9.810", &format!("ACCG{gravity:>10}"));
+        deck(&edit_text(&text, "DENS     1.025", &format!("DENS{density:>10}"))).units()
     };
     assert_eq!(units("9.81", "1025.0").unwrap().name, "m, kg, N, s");
     assert_eq!(units("9.81", "1.025").unwrap().name, "m, t, kN, s");
@@ -898,27 +898,30 @@ fn units_are_recognised_from_gravity_and_density() {
 fn endless_generation_is_refused_with_reason() {
     for (text, part) in [
         (
-            edited(&script("mint.dat"), "    01  19                41.0", "    01  1999999    1      41.0"),
+            edit_text(&script("mint.dat"), "    01  19                41.0", "    01  1999999    1      41.0"),
             "99999 nodes cannot be generated",
         ),
-        (edited(&script("mint.dat"), "    01  19     ", "    01  1999999"), "99999 nodes cannot be generated"),
-        (edited(&script("mint.dat"), "    01  11    5    1", "    01  11   -5    1"), "-5 nodes cannot be generated"),
-        (edited(&script("mint.dat"), "    01  11    5    1", "    01  11    5   -9"), "leads to node"),
-        (edited(&script("mint.dat"), "(2) (11,1)", "(99999999) (11,1)"), "99999999 elements cannot be made"),
-        (edited(&script("mint.dat"), "(2) (11,1)", "(0) (11,1)"), "0 elements cannot be made"),
+        (edit_text(&script("mint.dat"), "    01  19     ", "    01  1999999"), "99999 nodes cannot be generated"),
+        (
+            edit_text(&script("mint.dat"), "    01  11    5    1", "    01  11   -5    1"),
+            "-5 nodes cannot be generated",
+        ),
+        (edit_text(&script("mint.dat"), "    01  11    5    1", "    01  11    5   -9"), "leads to node"),
+        (edit_text(&script("mint.dat"), "(2) (11,1)", "(99999999) (11,1)"), "99999999 elements cannot be made"),
+        (edit_text(&script("mint.dat"), "(2) (11,1)", "(0) (11,1)"), "0 elements cannot be made"),
     ] {
-        let error = refused(&text).0;
+        let error = first_error(&text).0;
         assert!(error.message.contains(part), "{}", error.message);
     }
     // and many cards within the limit do not add up past it
     let cards: String =
         (1..9).map(|k| format!("    01{:4} 9999   10       0.0       0.0       0.0\n", 5000 + k)).collect();
-    let text = edited(
+    let text = edit_text(
         &script("mint.dat"),
         "    01  19                41.0",
         &format!("{cards}    01  19                41.0"),
     );
-    assert!(refused(&text).0.message.contains("nodes cannot be generated"));
+    assert!(first_error(&text).0.message.contains("nodes cannot be generated"));
 }
 
 /// Lines made of the words of decks, at any column.

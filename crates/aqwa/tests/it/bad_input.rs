@@ -65,7 +65,7 @@ fn messages(text: &str) -> Vec<Diagnostic> {
 }
 
 /// Records in an order that does not depend on that of the cards; tubes without their names, which count them.
-fn sorted(script: &str) -> Vec<String> {
+fn sort_records(script: &str) -> Vec<String> {
     let nameless = |line: &str| match line.strip_prefix("TUBE ") {
         Some(rest) => rest.split_once(' ').map_or_else(String::new, |(_, rest)| rest.to_string()),
         None => line.to_string(),
@@ -108,7 +108,7 @@ impl ShiftCounts {
                 let errors = list.iter().filter(|m| m.severity == Severity::Error);
                 assert!(errors.clone().all(|m| m.span.is_some() && m.message.starts_with("deck ")), "{was}: {list:#?}");
             }
-            Some((_, made)) if sorted(&made) == sorted(script) => {}
+            Some((_, made)) if sort_records(&made) == sort_records(script) => {}
             Some(_) => {
                 if messages(text).len() <= self.said {
                     self.silent.push(was.to_string());

@@ -43,7 +43,7 @@ fn runs(line: &[char]) -> Vec<(usize, usize)> {
 }
 
 /// The line with one run moved by some columns, alone or with all behind it; nothing where another character is in the way.
-fn moved(line: &[char], (first, last): (usize, usize), by: isize, with_rest: bool) -> Option<String> {
+fn move_columns(line: &[char], (first, last): (usize, usize), by: isize, with_rest: bool) -> Option<String> {
     let last = if with_rest { line.len() - 1 } else { last };
     let mut made: Vec<char> = line.to_vec();
     made[first..=last].fill(' ');
@@ -90,7 +90,7 @@ fn move_fields(name: &str) {
     for (at, line) in cards(&text) {
         for run in runs(&line) {
             for (by, with_rest) in (-5..=5).filter(|by| *by != 0).flat_map(|by| [(by, false), (by, true)]) {
-                let Some(moved) = moved(&line, run, by, with_rest) else { continue };
+                let Some(moved) = move_columns(&line, run, by, with_rest) else { continue };
                 tried += 1;
                 match meaning(&with_line(&text, at, &moved)) {
                     None => refused += 1,

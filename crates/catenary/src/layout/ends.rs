@@ -38,7 +38,7 @@ impl LineLayout<'_> {
     }
 }
 
-/// The line with its fairlead `x` beside the anchor, at elevation `z`.
+/// The line with its fairlead `x` (m) beside the anchor, at elevation `z` (m).
 pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&LineState>) -> Result<LineState, LineError> {
     let mut layout = LineLayout::new(line, x, z);
     if let Some(by) = layout.fairlead_penetration(x, z) {
@@ -211,7 +211,7 @@ fn beyond_hollow(
     Ok(LaidLine { short: above.short, top: above.top, end, ..below })
 }
 
-/// The line with a horizontal force at its fairlead, at elevation `z`.
+/// The line with a horizontal force (N) at its fairlead, at elevation `z` (m).
 pub fn at_force(line: &Line, force: f64, z: f64) -> Result<LineState, LineError> {
     let layout = LineLayout::new(line, line.length(), z);
     let top = |at: f64| layout.top(Var::parameter(force, FORCE_PARAMETER, 1.0), at, z, None);

@@ -137,12 +137,12 @@ fn thousand_different_parts_carry_their_weights() {
 #[test]
 fn lines_over_ridges_and_hollows_match_hand_solved_contacts() {
     // tests/data/static_profiles.py: 1200 N/m, EA 6e8 N; H, V, pull on the anchor, length on the bottom
-    type BottomCase<'a> = (f64, &'a [(f64, f64)], [f64; 2], [f64; 5]);
+    type ProfileCase<'a> = (f64, &'a [(f64, f64)], [f64; 2], [f64; 5]);
     const VALLEY: &[(f64, f64)] = &[(0.0, -200.0), (400.0, -220.0), (1000.0, -190.0)];
     const RIDGE: &[(f64, f64)] = &[(0.0, -220.0), (250.0, -190.0), (1000.0, -215.0)];
     const TIP: &[(f64, f64)] = &[(0.0, -260.0), (300.0, -170.0), (1000.0, -400.0)];
     const BRIDGE: &[(f64, f64)] = &[(0.0, -230.0), (150.0, -200.0), (230.0, -260.0), (310.0, -195.0), (1000.0, -215.0)];
-    let cases: [BottomCase; 8] = [
+    let cases: [ProfileCase; 8] = [
         (0.0, VALLEY, [900.0, 968.0], [404878.505986, 505113.436421, 419032.286778, -20951.614339, 530.936488844]),
         (0.0, RIDGE, [800.0, 876.0], [259683.088596, 411573.498071, 233128.710162, 27975.445219, 525.808665813]),
         (0.0, TIP, [700.0, 765.0], [410936.386259, 453797.770888, 299264.224035, 89779.267210, 313.018044632]),
@@ -207,8 +207,8 @@ fn slack_line_with_buoy_on_slope_rises_above_its_heap() {
     // contacts closed by hand: the loop under the buoy stands upright on a heap (first and third line), and in the second line
     // the touchdowns at both sides of the buoy are roots of the way to the anchor
     // first and second length, slope, V, H and V at the anchor, spare length, place and elevation of the buoy
-    type BottomCase = (f64, f64, f64, [f64; 6]);
-    let cases: [BottomCase; 3] = [
+    type SlopeCase = (f64, f64, f64, [f64; 6]);
+    let cases: [SlopeCase; 3] = [
         (200.0, 550.0, -0.1, [129985.91971723, 39800.16098059, -3980.01609806, 188.03245438, 0.0, -124.9998125]),
         (
             500.0,

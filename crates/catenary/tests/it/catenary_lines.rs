@@ -5,7 +5,7 @@
 use crate::random::RandomNumbers;
 use windlass_catenary::{Heap, Joint, Line, LineError, SeabedModel, Segment};
 
-struct LineCase {
+struct PlacedLine {
     x: f64,
     z: f64,
     segment: Segment,
@@ -15,7 +15,7 @@ struct LineCase {
     regime: String,
 }
 
-fn cases() -> Vec<LineCase> {
+fn cases() -> Vec<PlacedLine> {
     let mut reader = csv::Reader::from_path("../../tests/data/catenary_2000.csv").unwrap();
     let heads = reader.headers().unwrap().clone();
     let place = |name: &str| heads.iter().position(|h| h == name).unwrap();
@@ -24,7 +24,7 @@ fn cases() -> Vec<LineCase> {
         .map(|r| {
             let r = r.unwrap();
             let number = |name: &str| r[place(name)].parse::<f64>().unwrap();
-            LineCase {
+            PlacedLine {
                 x: number("x_m"),
                 z: number("z_m"),
                 segment: Segment { length: number("length_m"), weight: number("w_N_per_m"), ea: number("EA_N") },
@@ -208,7 +208,7 @@ fn random_lines(count: usize, slopes: f64, frictions: f64, lifts: bool, refused:
         let pieces = 1 + (dice.roll() * 5.0) as usize;
         let segments: Vec<Segment> = (0..pieces)
             .map(|_| Segment {
-                length: dice.between(30.0, 900.0),
+                length: dice.number_between(30.0, 900.0),
                 weight: dice.scale(1.0, 3.7) * if lifts && dice.roll() < 0.15 { -0.3 } else { 1.0 },
                 ea: dice.scale(6.5, 10.0),
             })
@@ -221,15 +221,18 @@ fn random_lines(count: usize, slopes: f64, frictions: f64, lifts: bool, refused:
                 _ => Joint::Free,
             })
             .collect();
-        let depth = dice.between(20.0, 1500.0);
-        let (slope, friction) = (slopes * dice.between(-1.0, 1.0), frictions * dice.roll());
-        let up =
-            if slopes == 0.0 && frictions == 0.0 && dice.roll() < 0.3 { dice.between(0.0, 0.8 * depth) } else { 0.0 };
+        let depth = dice.number_between(20.0, 1500.0);
+        let (slope, friction) = (slopes * dice.number_between(-1.0, 1.0), frictions * dice.roll());
+        let up = if slopes == 0.0 && frictions == 0.0 && dice.roll() < 0.3 {
+            dice.number_between(0.0, 0.8 * depth)
+        } else {
+            0.0
+        };
         let floor = SeabedModel { elevation: -depth, slope, friction };
         let anchor = -depth + up;
         let line = Line::new(segments.clone(), joints.clone(), anchor, 0.0).unwrap().with_seabed(Some(floor)).unwrap();
-        let x = line.length() * dice.between(0.05, 1.1);
-        let fairlead = -dice.between(0.0, 0.5) * depth;
+        let x = line.length() * dice.number_between(0.05, 1.1);
+        let fairlead = -dice.number_between(0.0, 0.5) * depth;
         if fairlead < -depth + x * slope {
             continue;
         }

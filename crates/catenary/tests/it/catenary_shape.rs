@@ -5,7 +5,7 @@ use windlass_catenary::{Joint, Line, LineError, SeabedModel, Segment, StretchLaw
 const CHAIN: Segment = Segment { length: 800.0, weight: 1200.0, ea: 6e8 };
 const ROPE: Segment = Segment { length: 500.0, weight: 40.0, ea: 8e7 };
 
-fn mixed(slope: f64, friction: f64) -> Line {
+fn build_mixed_line(slope: f64, friction: f64) -> Line {
     let floor = SeabedModel { elevation: -250.0, slope, friction };
     let line = Line::new(vec![CHAIN, ROPE, CHAIN], vec![Joint::Weight(3e4), Joint::Weight(-6e4)], -250.0, 0.0).unwrap();
     line.with_seabed(Some(floor)).unwrap()
@@ -14,7 +14,7 @@ fn mixed(slope: f64, friction: f64) -> Line {
 #[test]
 fn shape_runs_from_fairlead_to_anchor_along_tension() {
     for (slope, friction, x) in [(0.0, 0.0, 1900.0), (0.0, 0.6, 1950.0), (0.05, 0.0, 2020.0), (-0.05, 0.4, 1960.0)] {
-        let line = mixed(slope, friction);
+        let line = build_mixed_line(slope, friction);
         let state = line.at_distance(x, -10.0).unwrap();
         let shape = line.shape(&state, 4000);
         let (first, last) = (shape.first().unwrap(), shape.last().unwrap());
@@ -45,7 +45,7 @@ fn shape_runs_from_fairlead_to_anchor_along_tension() {
 
 #[test]
 fn point_of_line_is_on_its_shape() {
-    let line = mixed(0.0, 0.3);
+    let line = build_mixed_line(0.0, 0.3);
     let state = line.at_distance(1900.0, 0.0).unwrap();
     for want in line.shape(&state, 7) {
         let got = line.point_at(&state, want.arc).unwrap();
@@ -132,14 +132,14 @@ fn line_yields_at_its_largest_tension() {
 #[test]
 fn line_solved_for_tension_has_it_and_too_low_tension_is_refused() {
     for (slope, friction) in [(0.0, 0.0), (0.0, 0.5), (0.03, 0.2)] {
-        let line = mixed(slope, friction);
+        let line = build_mixed_line(slope, friction);
         let state = line.at_tension(9e5, 0.0).unwrap();
         assert!((state.top_tension - 9e5).abs() < 1e-3, "{}", state.top_tension);
         assert!(line.at_tension(1e3, 0.0).is_err());
         let state = line.at_vertical_force(5e5, 0.0).unwrap();
         assert!((state.top_vertical - 5e5).abs() < 1e-3, "{}", state.top_vertical);
     }
-    assert!(matches!(mixed(0.0, 0.0).at_tension(1e3, 0.0), Err(LineError::Weight { .. })));
+    assert!(matches!(build_mixed_line(0.0, 0.0).at_tension(1e3, 0.0), Err(LineError::Weight { .. })));
 }
 
 #[test]
@@ -161,10 +161,10 @@ fn pendant_longer_than_depth_and_falling_law_are_refused() {
 fn both_stiffnesses_match_end_force_finite_differences() {
     let hung = Line::new(vec![CHAIN, ROPE], vec![Joint::Weight(2e4)], -150.0, 0.0).unwrap().with_seabed(None).unwrap();
     let lines = [
-        (mixed(0.0, 0.0), 1950.0),
-        (mixed(0.0, 0.3), 1970.0),
-        (mixed(0.03, 0.0), 2040.0),
-        (mixed(-0.03, 0.2), 2000.0),
+        (build_mixed_line(0.0, 0.0), 1950.0),
+        (build_mixed_line(0.0, 0.3), 1970.0),
+        (build_mixed_line(0.03, 0.0), 2040.0),
+        (build_mixed_line(-0.03, 0.2), 2000.0),
         (hung, 900.0),
     ];
     for (line, x) in lines {
@@ -193,7 +193,7 @@ fn both_stiffnesses_match_end_force_finite_differences() {
 
 #[test]
 fn warm_started_line_matches_forces_of_cold_start() {
-    for line in [mixed(0.0, 0.0), mixed(0.0, 0.4), mixed(0.04, 0.2)] {
+    for line in [build_mixed_line(0.0, 0.0), build_mixed_line(0.0, 0.4), build_mixed_line(0.04, 0.2)] {
         let mut last = line.at_distance(1900.0, -10.0).unwrap();
         for step in 0..300 {
             let t = f64::from(step) * 0.1;

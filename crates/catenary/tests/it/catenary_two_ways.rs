@@ -13,8 +13,9 @@ fn two_solvers_agree_on_random_lines_of_every_kind() {
         // from half its weight, which is a rubber band, to ten million times
         let ea = weight.abs() * length * dice.scale(-0.3, 7.0);
         let bottom = dice.roll() > 0.4;
-        let friction = if dice.roll() < 0.5 { 0.0 } else { dice.between(0.0, 1.5) };
-        let (reach, angle) = (length * dice.between(0.0, 1.15), dice.between(0.0, std::f64::consts::FRAC_PI_2));
+        let friction = if dice.roll() < 0.5 { 0.0 } else { dice.number_between(0.0, 1.5) };
+        let (reach, angle) =
+            (length * dice.number_between(0.0, 1.15), dice.number_between(0.0, std::f64::consts::FRAC_PI_2));
         let (mut x, mut z) = (reach * angle.cos(), reach * angle.sin());
         for value in [&mut x, &mut z] {
             *value *= match (dice.roll() * 20.0) as usize {

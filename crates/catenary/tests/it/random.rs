@@ -9,11 +9,11 @@ impl RandomNumbers {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn number_between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.roll()
     }
 
     pub fn scale(&mut self, low: f64, high: f64) -> f64 {
-        10f64.powf(self.between(low, high))
+        10f64.powf(self.number_between(low, high))
     }
 }

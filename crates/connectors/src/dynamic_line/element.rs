@@ -39,11 +39,6 @@ pub struct DynamicLine {
     pub(super) nominal: f64,
 }
 
-/// Where the two ends of a line are (m).
-fn places(ends: &[End]) -> [Vector3<f64>; 2] {
-    [0, 1].map(|i| ends.get(i).map_or_else(Vector3::zeros, |e| e.pose.origin))
-}
-
 /// A line at rest.
 pub(super) struct LineAtRest {
     pub state: RodState,
@@ -139,7 +134,7 @@ impl DynamicLine {
             cache.rod = self.base.rod.clone();
         }
         cache.fit();
-        let places = places(at.ends);
+        let places = End::origins(at.ends)?;
         let RodCache { rod, solver, rest, flows, .. } = cache;
         self.with_environment((at, true, 0.0), flows, |environment| {
             if let Some((bottom, _)) = &environment.bottom.filter(|_| self.base.laid.is_none()) {
@@ -219,7 +214,7 @@ impl DynamicLine {
         cache: &mut RodCache,
         out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
-        let (ends, places) = (self.end_conditions(at.ends, false)?, places(at.ends));
+        let (ends, places) = (self.end_conditions(at.ends, false)?, End::origins(at.ends)?);
         if !cache.has_start(committed) {
             cache.forget_start();
             if let Some(rod) = self.rod_with_mesh(kept, &cache.rod)? {
@@ -287,7 +282,7 @@ impl DynamicLine {
             })
         });
         let end = if dt > 0.0 { solver.end() } else { state };
-        let paid = match (&self.base.laid, end.place(0)) {
+        let paid = match (&self.base.laid, end.node_position(0)) {
             (Some(laid), Some(place)) if dt > 0.0 => laid.payout(at.ends, &place, kept.paid),
             _ => kept.paid,
         };
@@ -345,7 +340,7 @@ impl ConnectorElement for DynamicLine {
         if let (Some(step), Some(kept)) = (at.step, &kept) {
             return self.step(at, (step.time, step.dt), (committed, kept), trial, cache, out);
         }
-        let (found, places) = (self.find_rest(at, cache)?, places(at.ends));
+        let (found, places) = (self.find_rest(at, cache)?, End::origins(at.ends)?);
         let RodCache { rod, solver, flows, .. } = &mut *cache;
         self.with_environment((at, true, 0.0), flows, |environment| match self.base.laid {
             Some(_) => {

@@ -39,7 +39,7 @@ impl FluidField for LineWater<'_> {
     fn sample_into(&self, positions: &[Vector3<f64>], time: f64, out: &mut [FluidState]) {
         let mut flows = self.flows.borrow_mut();
         flows.clear();
-        flows.resize(positions.len(), Flow::still(self.around.tide));
+        flows.resize(positions.len(), Flow::still_water(self.around.tide));
         match self.ambient {
             Some(ambient) if self.mean => ambient.mean(positions, &mut flows),
             Some(ambient) => ambient.flow(time, positions, &mut flows),

@@ -45,7 +45,7 @@ pub(super) fn to_class_error(error: RodError) -> ClassError {
 }
 
 /// Elements of a part as it is wound to a length (m) other than that of its class.
-fn wound(part: &LinePart, length: f64) -> f64 {
+fn count_wound_elements(part: &LinePart, length: f64) -> f64 {
     (length / part.segment.length * part.segment.elements as f64).round().max(1.0)
 }
 
@@ -54,7 +54,7 @@ fn wound(part: &LinePart, length: f64) -> f64 {
 pub(super) fn check_element_count(parts: &[LinePart], first: f64) -> Result<(), ClassError> {
     let own = |part: &LinePart| part.segment.elements as f64;
     let whole: f64 = parts.iter().map(own).sum();
-    let longer = parts.first().map_or(0.0, |part| wound(part, first) - own(part));
+    let longer = parts.first().map_or(0.0, |part| count_wound_elements(part, first) - own(part));
     let most = whole.max(whole + longer);
     if most <= rod::MAX_ELEMENTS as f64 {
         return Ok(());
@@ -116,9 +116,9 @@ pub(super) struct Bands {
 }
 
 impl Bands {
-    /// The part of a segment.
+    /// The part of a segment of the rod that was cut with these.
     pub fn part_of(&self, segment: usize) -> usize {
-        self.part.get(segment).copied().unwrap_or(0)
+        self.part[segment]
     }
 
     /// Whether a part has several segments.
@@ -148,7 +148,7 @@ pub(super) fn mesh(parts: &[LinePart], first: f64) -> Vec<(f64, f64, usize)> {
     for (index, part) in parts.iter().enumerate() {
         let (mut length, mut count) = (part.segment.length, part.segment.elements);
         if index == 0 && first != length {
-            count = wound(part, first) as usize;
+            count = count_wound_elements(part, first) as usize;
             length = first;
         }
         made.extend((0..count).map(|_| (length / count as f64, 0.0, index)));

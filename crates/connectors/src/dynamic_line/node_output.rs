@@ -25,7 +25,7 @@ impl NodalConnector for DynamicLine {
     }
 
     fn find_nodes(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
-        let paid = self.layout.payout(state);
+        let paid = self.layout.payout(state)?;
         let (other, state, still) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.end_conditions(at.ends, still)?;
@@ -85,7 +85,7 @@ impl DynamicConnector for DynamicLine {
 
     fn natural_modes(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
         modes::check_mode_count(self.base.rod.nodes(), number)?;
-        let paid = self.layout.payout(state);
+        let paid = self.layout.payout(state)?;
         let (other, state, _) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.end_conditions(at.ends, true)?;

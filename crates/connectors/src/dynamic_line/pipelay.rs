@@ -147,7 +147,7 @@ impl DynamicLine {
         let down = Matrix3::new(0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0);
         let turn = if nodes.len() < 2 { down } else { Matrix3::identity() };
         let mut tensioner = tensioner(&layout, course.pulled)?;
-        let ends: Vec<End> = nodes.iter().map(|n| End::still(*n)).collect();
+        let ends: Vec<End> = nodes.iter().map(|n| End::at_rest(*n)).collect();
         let at = Situation { ends: &ends, step: None, surroundings };
         let stretched = 1.0 + course.pulled / part.ea();
         course.spans.iter_mut().for_each(|(_, length)| *length /= stretched);
@@ -164,10 +164,10 @@ impl DynamicLine {
             let Some(tensioner) = tensioner.as_mut().filter(|t| t.stiffness == 0.0) else { return Ok(line) };
             // it is cut where the tensioner holds it as laid
             let rest = line.find_rest(&at, &mut RodCache::new(&line.base))?.state;
-            let end = ends.last().zip(rest.place(0));
+            let end = ends.last().zip(rest.node_position(0));
             let short =
                 end.map_or(0.0, |(end, x)| (end.pose.axes * turn * tensioner.along).dot(&(x - end.pose.origin)));
-            course.points = rest.places();
+            course.points = rest.node_positions();
             match course.spans.first_mut() {
                 Some((_, length))
                     if short.abs() > TENSIONER_TOLERANCE_M && cut < MAX_LENGTH_CORRECTIONS && *length + short > 0.0 =>

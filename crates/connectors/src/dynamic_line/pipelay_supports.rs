@@ -84,7 +84,7 @@ pub(super) struct SupportContact<'a> {
 impl SupportLaw for SupportContact<'_> {
     fn reaction(&self, at: &Vector3<f64>, _: &Vector3<f64>) -> Option<SupportReaction> {
         let Pose { origin, axes } = self.pose;
-        let ends = [End::still(self.pose), End::still(Pose { origin: origin + at, axes })];
+        let ends = [End::at_rest(self.pose), End::at_rest(Pose { origin: origin + at, axes })];
         let situation = Situation { ends: &ends, step: None, surroundings: self.around };
         let mut out = self.room.borrow_mut();
         let found = self.law.evaluate(&situation, &[], &mut [], &mut SolverCache::new(), &mut out);
@@ -114,7 +114,7 @@ impl SupportContact<'_> {
             SupportedPart::Node(node) => SupportTarget::Node(node),
             SupportedPart::Crossing(along) => SupportTarget::Crossing(axes * along),
         };
-        Support { place: origin, velocity: self.velocity, target: holds, law: self }
+        Support { position: origin, velocity: self.velocity, target: holds, law: self }
     }
 }
 

@@ -71,6 +71,8 @@ pub const EA: OptionSpec = OptionSpec::ours(
     "tension by strain e: K1 e + K2 e2 + K3 e3, in place of the tube's",
 )
 .default("that of the tube");
+/// What a line with a class of static lines takes as a dynamic one.
+pub const LINE_OPTIONS: [OptionSpec; 4] = [CD, CA, AX_DAMPING, SEABED];
 /// `-STRETCH`.
 pub const STRETCH: OptionSpec = OptionSpec::ours(
     "-STRETCH",
@@ -293,15 +295,15 @@ fn law(args: &Args, ea: f64) -> Outcome<TensionLaw> {
         (None, Some(given)) => {
             let mut points = vec![(0.0, 0.0)];
             for pair in given.groups() {
-                let [tension, strain] = pair else { continue };
-                let (Some(t), Some(e)) = (tension.number(), strain.number()) else { continue };
+                let [tension, strain] = const { STRETCH.numbers(["T", "E"]) };
+                let (Some(t), Some(e)) = (pair.number(tension), pair.number(strain)) else { continue };
                 if (t, e) == (0.0, 0.0) && points.len() == 1 {
                     continue;
                 }
                 if points.last().is_some_and(|(last, pull)| e <= *last || t <= *pull) {
                     return Err(Diagnostic::error(
                         "tension and strain must both grow from point to point",
-                        strain.span,
+                        pair.place(strain),
                     )
                     .label("not beyond the point before, or zero"));
                 }

@@ -80,8 +80,12 @@ impl StateLayout {
     }
 
     /// How much pipe the tensioner of a state has paid out (m).
-    pub fn payout(&self, state: &[f64]) -> f64 {
-        state.get(HEADER_VALUES - 1).copied().unwrap_or(0.0)
+    ///
+    /// # Errors
+    /// A state that is not one of its own.
+    pub fn payout(&self, state: &[f64]) -> Result<f64, ClassError> {
+        let wrong = || ClassError::new("the state of the line is not one of its own").lasting();
+        state.get(HEADER_VALUES - 1).copied().ok_or_else(wrong)
     }
 
     /// Writes a state that has begun, and what its tensioner has paid out.

@@ -43,7 +43,7 @@ fn build_ambient(model: &Model) -> (Arc<dyn Ambient>, Option<Arc<Sea>>) {
 }
 
 fn flow(around: &Arc<dyn Ambient>, time: f64, place: [f64; 3]) -> Flow {
-    let mut out = [Flow::still(f64::NAN)];
+    let mut out = [Flow::still_water(f64::NAN)];
     around.flow(time, &[place.into()], &mut out);
     out[0]
 }
@@ -170,7 +170,7 @@ fn current_has_profile_history_and_no_waves_in_mean() {
     // 26 m deep at z = -25 with the tide: 2 - 26/50; at 50 s twice that
     let at = Vector3::new(5.0, 6.0, -25.0);
     let mean = Vector3::new(2.0 - 26.0 / 50.0, 0.5, 0.0);
-    let mut out = [Flow::still(0.0)];
+    let mut out = [Flow::still_water(0.0)];
     around.mean(&[at], &mut out);
     assert!((out[0].velocity - mean).norm() < 1e-12 && out[0].acceleration.norm() == 0.0);
     assert_eq!(out[0].surface, 1.0);
@@ -197,7 +197,7 @@ fn wind_has_profile_and_history() {
     // a power law of exponent 1/7 over 10 m above the water, from +Y
     let found = flow(&around, 40.0, [0.0, 0.0, 31.0]);
     assert!((found.wind - Vector3::new(0.0, -20.0 * 3f64.powf(1.0 / 7.0), 0.0)).norm() < 1e-9, "{}", found.wind);
-    let mut out = [Flow::still(0.0)];
+    let mut out = [Flow::still_water(0.0)];
     around.mean(&[Vector3::new(0.0, 0.0, 31.0)], &mut out);
     assert_eq!(out[0].wind.norm(), 0.0);
     model.environment.wind = Some(Wind { speed: 25.0, direction: PI / 2.0 });
@@ -283,7 +283,7 @@ fn many_points_match_single_point_evaluation() {
     let (around, _) = build_ambient(&model(env));
     let places: Vec<Vector3<f64>> =
         (0..200).map(|i| Vector3::new(3.0 * f64::from(i), f64::from(i), -190.0 + f64::from(i))).collect();
-    let mut out = vec![Flow::still(0.0); places.len()];
+    let mut out = vec![Flow::still_water(0.0); places.len()];
     around.flow(123.4, &places, &mut out);
     for (place, found) in places.iter().zip(&out) {
         assert_eq!(*found, flow(&around, 123.4, (*place).into()));

@@ -112,11 +112,11 @@ impl BodyLoad for Excitation {
     }
 
     fn dynamic_load(&self, _: &BodyStep, state: &[f64]) -> Result<DynamicLoad, ClassError> {
-        Ok(DynamicLoad::from(own(state)))
+        Ok(DynamicLoad::from(kept_force(state)))
     }
 
     fn add_dynamic_load(&self, _: &BodyStep, state: &[f64], out: &mut DynamicLoad) -> Result<(), ClassError> {
-        out.load.wrench += own(state).wrench;
+        out.load.wrench += kept_force(state).wrench;
         Ok(())
     }
 
@@ -149,12 +149,12 @@ impl StatefulLoad for Excitation {
 
 impl PreparedLoad for Excitation {
     fn prepared_wrench(&self, _: &BodyStep, state: &[f64]) -> Six {
-        own(state).wrench
+        kept_force(state).wrench
     }
 }
 
 /// The force that a step has kept behind the low-frequency place.
-fn own(state: &[f64]) -> Load {
+fn kept_force(state: &[f64]) -> Load {
     load_from_state(&state[LowFrequency::STATES..])
 }
 

@@ -142,8 +142,8 @@ fn phase_shift(data: &Database, heading: f64, frequency: f64) -> Result<Complex<
     Ok(Complex::from_polar(1.0, wave_number(frequency, data.depth, data.gravity)? * along))
 }
 
-/// Mean drift over the square of the amplitude, straight between headings and frequencies; held beyond the first and last
-/// frequency. About the reference point.
+/// Mean drift over the square of the wave amplitude (N/m2, N m/m2) at a heading that the waves travel toward (rad, in the body) and a
+/// frequency (rad/s), straight between headings and frequencies; held beyond the first and last frequency. About the reference point.
 ///
 /// # Errors
 /// A heading in a gap wider than 90 degrees.

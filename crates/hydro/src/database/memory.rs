@@ -240,7 +240,7 @@ impl RetardationMemory {
         }
     }
 
-    /// The force at a trial of the end of the step (body axes), and its change with the velocity, -dF/dv.
+    /// The force at a trial of the end of the step (N, N m; body axes), and its change with the velocity, -dF/dv.
     pub fn force(&self, velocity: &Six, state: &[f64]) -> (Six, Matrix6<f64>) {
         let damping = Matrix6::from_column_slice(&state[PRESENT..RINGS_START]);
         (-(six(state, PAST) + damping * velocity), damping)

@@ -232,8 +232,7 @@ fn stiffness(file: &SourceFile) -> Result<Matrix6<f64>, DatabaseError> {
     if rows.len() != 6 {
         return Err(file.error(format!("it has {} rows, not six", rows.len())));
     }
-    let value = |i: usize, j: usize| rows.get(i).map_or(0.0, |r| r.number(j));
-    Ok(Matrix6::from_fn(value))
+    Ok(Matrix6::from_fn(|i, j| rows[i].number(j)))
 }
 
 /// The beginning of a text, as an error shows it.

@@ -43,20 +43,19 @@ impl<'a> FileLines<'a> {
         Ok(line)
     }
 
-    /// The numbers a line begins with, at least so many.
-    fn numbers(&mut self, least: usize) -> Result<Vec<f64>, DatabaseError> {
+    /// The numbers a line begins with; more may follow.
+    fn numbers<const N: usize>(&mut self) -> Result<[f64; N], DatabaseError> {
         let line = self.next_line()?;
         let words = line.split(separates).filter(|w| !w.is_empty());
-        let list: Vec<f64> = words.map_while(number).take(16).collect();
-        if list.len() < least {
-            return Err(self.file.wrong_at(self.at, format!("it begins with {} numbers, not {least}", list.len())));
-        }
-        Ok(list)
+        let list: Vec<f64> = words.map_while(number).take(N).collect();
+        let wrong =
+            |list: Vec<f64>| self.file.wrong_at(self.at, format!("it begins with {} numbers, not {N}", list.len()));
+        list.try_into().map_err(wrong)
     }
 
     /// A count from 0 to a most.
     fn count(&mut self, most: usize, what: &str) -> Result<usize, DatabaseError> {
-        let value = self.numbers(1)?.first().copied().unwrap_or(-1.0);
+        let [value] = self.numbers()?;
         if value >= 0.0 && value <= most as f64 && value.fract() == 0.0 {
             Ok(value as usize)
         } else {
@@ -66,14 +65,14 @@ impl<'a> FileLines<'a> {
 
     /// A line of a motion or a force: `1 dx dy dz ..` or `2 dx dy dz x y z`.
     fn direction(&mut self) -> Result<NemohDirection, DatabaseError> {
-        let line = self.numbers(7)?;
-        let at = |i: usize| line.get(i).copied().unwrap_or_default();
-        let axis = [1, 2, 3].into_iter().position(|k| at(k) == 1.0);
-        let others = [1, 2, 3].into_iter().filter(|k| at(*k) != 0.0).count();
-        match (at(0), axis) {
+        let [kind, dx, dy, dz, x, y, z] = self.numbers()?;
+        let direction = [dx, dy, dz];
+        let axis = direction.iter().position(|k| *k == 1.0);
+        let others = direction.iter().filter(|k| **k != 0.0).count();
+        match (kind, axis) {
             (1.0, Some(axis)) if others == 1 => Ok(NemohDirection { mode: axis, about: None }),
             (2.0, Some(axis)) if others == 1 => {
-                Ok(NemohDirection { mode: 3 + axis, about: Some(Vector3::new(at(4), at(5), at(6))) })
+                Ok(NemohDirection { mode: 3 + axis, about: Some(Vector3::new(x, y, z)) })
             }
             _ => Err(self.file.wrong_at(self.at, "only motions along and about the axes x, y and z are read")),
         }
@@ -87,13 +86,12 @@ impl<'a> FileLines<'a> {
 pub(super) fn read(file: &SourceFile) -> Result<NemohCase, DatabaseError> {
     let mut lines = FileLines { file, rest: file.text.lines().enumerate(), at: 0 };
     let mut case = NemohCase::default();
-    let first = |list: Vec<f64>| list.first().copied().unwrap_or_default();
     lines.next_line()?;
-    case.density = first(lines.numbers(1)?);
-    case.gravity = first(lines.numbers(1)?);
-    case.depth = Some(first(lines.numbers(1)?)).filter(|d| *d > 0.0);
-    let waves_at = lines.numbers(2)?;
-    case.waves_at = [0, 1].map(|i: usize| waves_at.get(i).copied().unwrap_or_default());
+    [case.density] = lines.numbers()?;
+    [case.gravity] = lines.numbers()?;
+    let [depth] = lines.numbers()?;
+    case.depth = Some(depth).filter(|d| *d > 0.0);
+    case.waves_at = lines.numbers()?;
     lines.next_line()?;
     let bodies = lines.count(1000, "bodies")?;
     for _ in 0..bodies {

@@ -52,7 +52,7 @@ pub fn build(
         }
     }
     let has_matrices = first.added_mass.is_some();
-    let headings = axis(first.forces.iter().map(|(heading, _)| turned(*heading, place.yaw)), same_heading);
+    let headings = axis(first.forces.iter().map(|(heading, _)| turn_heading(*heading, place.yaw)), same_heading);
     let mut turn = Matrix6::zeros();
     for at in [0, 3] {
         turn.fixed_view_mut::<3, 3>(at, at).copy_from(&place.axes);
@@ -74,7 +74,7 @@ pub fn build(
             return wrong(format!("the period of {} s has not the headings of the others, each once", given.period));
         }
         for (heading, row) in headings.iter().zip(&mut excitation) {
-            let own = given.forces.iter().find(|(own, _)| same_heading(turned(*own, place.yaw), *heading));
+            let own = given.forces.iter().find(|(own, _)| same_heading(turn_heading(*own, place.yaw), *heading));
             let Some((_, force)) = own else {
                 return wrong(format!(
                     "the period of {} s has not the headings of the others, each once",
@@ -100,7 +100,7 @@ pub fn build(
 }
 
 /// A heading in the body, in [0, 2 pi).
-fn turned(heading: f64, yaw: f64) -> f64 {
+fn turn_heading(heading: f64, yaw: f64) -> f64 {
     let angle = (heading + yaw).rem_euclid(TAU);
     if angle > TAU - 1e-9 { 0.0 } else { angle }
 }

@@ -81,7 +81,7 @@ fn friction(speed: f64) -> f64 {
 }
 
 /// `f z/U` of a frequency (Hz) at a mean speed (m/s).
-fn reduced(f: f64, speed: f64) -> f64 {
+fn reduced_frequency(f: f64, speed: f64) -> f64 {
     f * FORMULA_HEIGHT_M / speed
 }
 

@@ -110,7 +110,7 @@ impl Panelling {
 impl Panelling {
     /// Divides panels in four until none has an edge longer than a limit (m) that depends on its corners; where that makes more than
     /// `most`, all limits are longer by the same factor.
-    pub fn refined(&self, limit: &dyn Fn(&[Vector3<f64>; 3]) -> f64, most: usize) -> Self {
+    pub fn refine(&self, limit: &dyn Fn(&[Vector3<f64>; 3]) -> f64, most: usize) -> Self {
         let mut factor = 1.0;
         loop {
             // panels that are not divided are as many as there are

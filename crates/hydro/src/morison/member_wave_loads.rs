@@ -63,7 +63,7 @@ impl WaterAtTime<'_> {
     fn kinematics_at(&self, standing: &MemberInPose, station: &Station) -> Kinematics {
         let mut place = self.origin + standing.arm(station.at);
         place.z -= station.lower() * standing.rise;
-        self.sea.as_ref().map_or(Kinematics::still(0.0), |sea| sea.kinematics(place))
+        self.sea.as_ref().map_or(Kinematics::still_water(0.0), |sea| sea.kinematics(place))
     }
 
     fn current(&self, z: f64) -> Vector3<f64> {
@@ -228,13 +228,16 @@ impl MemberWaveLoads {
     pub(super) fn drag(&self, at: &BodyStep, state: &[f64]) -> (Six, Matrix6<f64>) {
         let mut sum = (Six::zeros(), Matrix6::zeros());
         let (own, turn) = (three(at.velocity.as_slice()), three(&at.velocity.as_slice()[3..]));
-        let stations = &state[HEADER_STATES + STATES_PER_SEGMENT * self.segments..];
-        for station in stations.chunks_exact(STATES_PER_STATION) {
-            let [of_width, of_depth, along, places @ ..] = station else { continue };
+        let (stations, _) =
+            state[HEADER_STATES + STATES_PER_SEGMENT * self.segments..].as_chunks::<STATES_PER_STATION>();
+        for station in stations {
+            let [of_width, of_depth, along, places @ ..] = station;
             if *of_width == 0.0 && *of_depth == 0.0 && *along == 0.0 {
                 continue;
             }
-            let [axis, first, arm, flow] = [0, 3, 6, 9].map(|from| three(places.get(from..).unwrap_or_default()));
+            let [ax, ay, az, fx, fy, fz, rx, ry, rz, ux, uy, uz] = *places;
+            let (axis, first) = (Vector3::new(ax, ay, az), Vector3::new(fx, fy, fz));
+            let (arm, flow) = (Vector3::new(rx, ry, rz), Vector3::new(ux, uy, uz));
             let flow = flow - own - turn.cross(&arm);
             let (force, by_flow) = drag(([*of_width, *of_depth], *along), (&axis, &first), &flow);
             sum.0 += at_arm(&arm, &force);

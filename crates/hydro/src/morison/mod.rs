@@ -102,7 +102,7 @@ pub fn build_members(
     }
     let rods = made;
     let added = added::at_rest(&rods, &pose, steady.around.tide);
-    let dragged = rods.iter().any(MemberLength::drags) && !steady.still(Medium::Water);
+    let dragged = rods.iter().any(MemberLength::drags) && !steady.is_still(Medium::Water);
     let acts = !rods.is_empty() && (under_way.is_some() || dragged);
     let load = acts.then(|| {
         let kinks = kinks(&steady);
@@ -250,7 +250,7 @@ impl BodyLoad for Members {
     /// Drag of the current. The mean of the waves' drag, which stays where they go with or against a current, is not in it.
     fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let mut sum = Load::none();
-        if !self.steady.still(Medium::Water) {
+        if !self.steady.is_still(Medium::Water) {
             for load in self.rods.iter().map(|rod| rod.steady(&self.steady, &self.kinks, pose)) {
                 sum.wrench += load.wrench;
                 sum.stiffness += load.stiffness;
@@ -261,7 +261,7 @@ impl BodyLoad for Members {
 
     fn dynamic_load(&self, at: &BodyStep, state: &[f64]) -> Result<DynamicLoad, ClassError> {
         match &self.under_way {
-            Some(way) => Members::check_load(way.dynamic_load(&self.rods, at, own(state))),
+            Some(way) => Members::check_load(way.dynamic_load(&self.rods, at, member_states(state))),
             None => self.mean_load(at.pose).map(DynamicLoad::from),
         }
     }
@@ -293,7 +293,8 @@ impl StatefulLoad for Members {
 
     fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         let Some(way) = self.under_way.as_ref().filter(|way| way.has_waves()) else { return };
-        let waves = way.dynamic_load(&self.rods, at, own(state)).load.wrench - way.drag(at, own(state)).0;
+        let waves =
+            way.dynamic_load(&self.rods, at, member_states(state)).load.wrench - way.drag(at, member_states(state)).0;
         let slow = &mut state[..SlowWrench::STATES];
         self.slow.commit(&waves, at.dt, slow);
     }
@@ -301,7 +302,7 @@ impl StatefulLoad for Members {
 
 impl InertialLoad for Members {
     fn inertia(&self, state: &[f64]) -> Matrix6<f64> {
-        MemberWaveLoads::inertia(own(state))
+        MemberWaveLoads::inertia(member_states(state))
     }
 }
 
@@ -316,7 +317,7 @@ impl DividedLoad for Members {
 
     fn part(&self, category: Category, at: &BodyStep, state: &[f64]) -> Six {
         match (&self.under_way, category) {
-            (Some(way), Category::ViscousDrag) => way.drag(at, own(state)).0,
+            (Some(way), Category::ViscousDrag) => way.drag(at, member_states(state)).0,
             (Some(_), Category::WaveMean) => SlowWrench::low_frequency_part(state),
             _ => Six::zeros(),
         }
@@ -324,7 +325,7 @@ impl DividedLoad for Members {
 }
 
 /// What members remember behind what is slow.
-fn own(state: &[f64]) -> &[f64] {
+fn member_states(state: &[f64]) -> &[f64] {
     &state[SlowWrench::STATES..]
 }
 

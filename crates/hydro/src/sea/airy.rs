@@ -27,7 +27,7 @@ pub(super) struct WaveLanes {
     stretch: f64,
     /// The sum of the amplitudes: the surface is never farther from the mean level (m).
     highest: f64,
-    /// The same as they are felt below that.
+    /// The same components, summed at depth.
     far: DeepWaveSum,
 }
 
@@ -197,17 +197,17 @@ impl<'a> SeaAt<'a> {
             (None, Stretching::Exponential) => self.inside(at, height, 0.0),
             (None, Stretching::Wheeler | Stretching::Delta) => {
                 let elevation = self.elevation(at.x, at.y);
-                if height > elevation { Kinematics::still(elevation) } else { self.inside(at, height, elevation) }
+                if height > elevation { Kinematics::still_water(elevation) } else { self.inside(at, height, elevation) }
             }
             _ => {
                 let found = self.inside(at, height, 0.0);
-                if height > found.elevation { Kinematics::still(found.elevation) } else { found }
+                if height > found.elevation { Kinematics::still_water(found.elevation) } else { found }
             }
         }
     }
 
     /// The same, but above the surface it is the water at the surface.
-    pub fn wetted(&self, at: Vector3<f64>) -> Kinematics {
+    pub fn kinematics_to_surface(&self, at: Vector3<f64>) -> Kinematics {
         let height = at.z - self.sea.level;
         if self.sea.stokes.is_none() && self.sea.stretching == Stretching::Linear {
             let found = self.inside(at, height, 0.0);
@@ -231,7 +231,7 @@ impl<'a> SeaAt<'a> {
             let height = at.z - sea.level;
             // a place that is no number is not far down
             if !(airy && height < near && at.x.abs() + at.y.abs() <= reach) {
-                take(index, self.wetted(*at));
+                take(index, self.kinematics_to_surface(*at));
                 continue;
             }
             let bottom = sea.depth.map_or(f64::NEG_INFINITY, |d| -d);
@@ -275,12 +275,12 @@ impl<'a> SeaAt<'a> {
     }
 
     /// The same, but above the surface it goes on as its formula does, where that has an end of its own.
-    pub fn continued(&self, at: Vector3<f64>) -> Kinematics {
+    pub fn kinematics_beyond_surface(&self, at: Vector3<f64>) -> Kinematics {
         let height = at.z - self.sea.level;
         match (&self.sea.stokes, self.sea.stretching) {
             (None, Stretching::Linear) => self.inside(at, height, 0.0),
             (None, Stretching::Wheeler | Stretching::Delta) => self.inside(at, height, self.elevation(at.x, at.y)),
-            _ => self.wetted(at),
+            _ => self.kinematics_to_surface(at),
         }
     }
 
@@ -289,15 +289,15 @@ impl<'a> SeaAt<'a> {
     fn inside(&self, at: Vector3<f64>, height: f64, elevation: f64) -> Kinematics {
         let sea = self.sea;
         if let Some(wave) = &sea.stokes {
-            return self.grown(wave.kinematics(Vector3::new(at.x, at.y, sea.level + height), self.time));
+            return self.apply_ramp(wave.kinematics(Vector3::new(at.x, at.y, sea.level + height), self.time));
         }
-        let [height, rise] = self.stretched(height, elevation);
+        let [height, rise] = self.stretched_height(height, elevation);
         self.sums(at, height, rise)
     }
 
     /// The height over the mean level at which the waves are summed for a height (m) and an elevation (m), and the rise above it over which they
     /// go on straight.
-    pub fn stretched(&self, height: f64, elevation: f64) -> [f64; 2] {
+    pub fn stretched_height(&self, height: f64, elevation: f64) -> [f64; 2] {
         let sea = self.sea;
         match sea.stretching {
             Stretching::Exponential => [height, 0.0],
@@ -340,7 +340,7 @@ impl<'a> SeaAt<'a> {
     }
 
     /// A wave of full height as the ramp has it.
-    fn grown(&self, full: Kinematics) -> Kinematics {
+    fn apply_ramp(&self, full: Kinematics) -> Kinematics {
         let velocity = full.velocity * self.factor;
         Kinematics {
             velocity,

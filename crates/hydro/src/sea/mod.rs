@@ -53,7 +53,7 @@ pub struct Kinematics {
 
 impl Kinematics {
     /// Nothing moves, under or above a surface of an elevation (m).
-    pub fn still(elevation: f64) -> Self {
+    pub fn still_water(elevation: f64) -> Self {
         Kinematics { velocity: Vector3::zeros(), acceleration: Vector3::zeros(), pressure: 0.0, elevation }
     }
 }
@@ -103,7 +103,7 @@ pub struct Sea {
 }
 
 impl Sea {
-    /// A sea of Airy waves, their phases taken as they are; see [`Sea::new`] for that of an environment.
+    /// A sea of Airy waves, their phases taken as they are, that grows over `ramp` (s); see [`Sea::new`] for that of an environment.
     pub fn airy(components: Vec<Component>, water: Water, ramp: f64, stretching: Stretching) -> Self {
         let lanes = airy::WaveLanes::new(&components, water.depth);
         let Water { depth, level, gravity, density } = water;

@@ -218,7 +218,7 @@ fn deep_line_kinematics_keep_their_error_bounds() {
             .zip(&heights)
             .map(|(i, height)| Vector3::new(30.0 * f64::from(i) - 700.0, 13.0 * f64::from(i), height + 1.5))
             .collect();
-        let mut all = vec![Kinematics::still(1.0); places.len()];
+        let mut all = vec![Kinematics::still_water(1.0); places.len()];
         at.wetted_lines(&places, |i, found| all[i] = found);
         for ((place, height), found) in places.iter().zip(&heights).zip(&all) {
             // whatever places are asked together, down to the bottom and below it

@@ -220,7 +220,7 @@ pub struct ArmPoint {
 }
 
 impl<'b> Arms<'b> {
-    /// A table of one body before its rows are found.
+    /// A table of one body before its rows are found, with a step of roll (rad).
     pub fn new(body: &'b StillBody, start: Attitude, step: f64) -> Self {
         Arms {
             body,
@@ -290,7 +290,7 @@ impl<'b> Arms<'b> {
         if self.step < 0.0 { -1.0 } else { 1.0 }
     }
 
-    /// The arms at a roll, found from the nearest row.
+    /// The arms at a roll (rad), found from the nearest row.
     ///
     /// # Errors
     /// No balance there.

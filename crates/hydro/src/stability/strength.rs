@@ -41,7 +41,7 @@ pub enum LoadAlong {
 
 impl LoadAlong {
     /// The force before a station (N), and its moment there (N m).
-    pub fn before(&self, station: f64) -> [f64; 2] {
+    pub fn loads_before(&self, station: f64) -> [f64; 2] {
         match *self {
             LoadAlong::Point { force, at } if at <= station => [force, force * (station - at)],
             LoadAlong::Trapezoid { force, at, between: [_, end] } if end <= station => [force, force * (station - at)],
@@ -171,13 +171,13 @@ pub fn find_strength(
     }
     let loads = gather(model, body, still, &attitude, [low, high], (weights, rest))?;
     let stations = |count: usize| (0..=count).map(move |n| low + length * n as f64 / count as f64);
-    let rows: Vec<StrengthRow> = stations(intervals).map(|at| loads.before(at)).collect();
+    let rows: Vec<StrengthRow> = stations(intervals).map(|at| loads.loads_before(at)).collect();
     let mut found = LongitudinalStrength { rows, length, points, others, ..LongitudinalStrength::default() };
     let ends = loads.weights.iter().chain(&loads.others).flat_map(|load| match *load {
         LoadAlong::Point { at, .. } => [at, at],
         LoadAlong::Trapezoid { between, .. } => between,
     });
-    let mut fine: Vec<StrengthRow> = stations(FINE_INTERVALS).chain(ends).map(|at| loads.before(at)).collect();
+    let mut fine: Vec<StrengthRow> = stations(FINE_INTERVALS).chain(ends).map(|at| loads.loads_before(at)).collect();
     // the shear jumps at a force: the greatest may be that just before it
     let jumps: Vec<StrengthRow> = fine.iter().map(|row| loads.without_points_at(row)).collect();
     fine.extend(jumps);
@@ -186,7 +186,7 @@ pub fn find_strength(
     };
     found.extremes = [extreme(&|r| r.shear), extreme(&|r| -r.shear), extreme(&|r| r.moment), extreme(&|r| -r.moment)];
     let furthest = fine.iter().map(|r| r.station).fold(high, f64::max);
-    let end = loads.before(furthest);
+    let end = loads.loads_before(furthest);
     found.weight = end.weight + end.contents;
     found.left = [end.shear, end.moment];
     Ok(found)
@@ -251,9 +251,9 @@ impl Loads {
         }
     }
 
-    fn before(&self, station: f64) -> StrengthRow {
+    fn loads_before(&self, station: f64) -> StrengthRow {
         let sum = |loads: &[LoadAlong]| {
-            loads.iter().map(|load| load.before(station)).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]])
+            loads.iter().map(|load| load.loads_before(station)).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]])
         };
         // stations are ends of slabs, but for those of weights, between which the force of a slab grows evenly
         let part = |slabs: &[[f64; 2]]| {
@@ -270,11 +270,11 @@ impl Loads {
                     moment += slab * station - first;
                 } else if from.is_finite() && to.is_finite() {
                     let whole = LoadAlong::Trapezoid { force: *slab, at: first / slab, between: [from, to] };
-                    let [f, m] = whole.before(station);
+                    let [f, m] = whole.loads_before(station);
                     force += f;
                     moment += m;
                 } else {
-                    let [f, m] = LoadAlong::Point { force: *slab, at: first / slab }.before(station);
+                    let [f, m] = LoadAlong::Point { force: *slab, at: first / slab }.loads_before(station);
                     force += f;
                     moment += m;
                 }

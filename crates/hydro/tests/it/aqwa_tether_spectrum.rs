@@ -18,7 +18,7 @@ fn hump() -> SpectralPeak {
 }
 
 /// Line, wave number, frequency, phase, ordinate.
-fn printed() -> Vec<Vec<f64>> {
+fn read_printed_spectrum() -> Vec<Vec<f64>> {
     let text = std::fs::read_to_string("../../tests/data/aqwa_tether_spectrum.csv").unwrap();
     let lines = text.lines().filter(|l| l.starts_with(|c: char| c.is_ascii_digit()));
     lines.map(|l| l.split(',').map(|w| w.parse().unwrap()).collect()).collect()
@@ -36,7 +36,7 @@ fn significant_height_matches_listing_over_all_and_within_limits() {
 fn fifty_equal_energy_components_match_listing() {
     let spectrum = Spectrum::from_peaks(vec![hump()], Some(LIMITS));
     let bands = bands(&spectrum, 50, Division::EqualEnergy, true).unwrap();
-    let lines = printed();
+    let lines = read_printed_spectrum();
     assert_eq!((bands.len(), lines.len()), (50, 50));
     let (mut frequency, mut ordinate, mut last, mut number): (f64, f64, f64, f64) = (0.0, 0.0, 0.0, 0.0);
     for (band, line) in bands.iter().zip(&lines) {

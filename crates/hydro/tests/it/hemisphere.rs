@@ -22,7 +22,7 @@ fn hemisphere() -> Database {
 }
 
 /// Displaced mass of the true hemisphere (kg).
-fn displaced(data: &Database) -> f64 {
+fn displaced_mass(data: &Database) -> f64 {
     data.density * 2.0 / 3.0 * PI * RADIUS.powi(3)
 }
 
@@ -70,7 +70,7 @@ const SURGE: [(f64, f64); 8] = [
 #[test]
 fn heave_of_hemisphere_matches_hulme() {
     let data = hemisphere();
-    let mass = displaced(&data);
+    let mass = displaced_mass(&data);
     for (ka, added, damping) in HEAVE {
         let w = (ka * data.gravity / RADIUS).sqrt();
         let own = data.added_mass_at(w).unwrap()[(2, 2)] / mass;
@@ -117,7 +117,7 @@ fn long_waves_lift_sphere_by_its_waterplane() {
     let lift = data.density * data.gravity * PI * RADIUS.powi(2);
     assert!((x[2].re / lift - 1.0).abs() < 0.01 && (x[2].im / lift).abs() < 1e-3, "{}", x[2]);
     let k = w * w / data.gravity;
-    let mass = displaced(&data);
+    let mass = displaced_mass(&data);
     let push = (mass + data.added_mass_at(w).unwrap()[(0, 0)]) * data.gravity * k;
     // with zeta = cos(k x - w t) the water at x = 0 accelerates as -d(zeta)/dx g = -g k sin(w t): Re(-i g k exp(-i w t))
     assert!((x[0].im / push + 1.0).abs() < 0.02 && (x[0].re / push).abs() < 1e-2, "{} {push}", x[0]);
@@ -148,7 +148,7 @@ fn retardation_function_gives_back_damping_and_added_mass() {
     let found = Radiation::new(&Database { infinite: None, ..data.clone() }).unwrap().unwrap();
     for mode in 0..5 {
         let (own, given) = (found.infinite[(mode, mode)], radiation.infinite[(mode, mode)]);
-        let scale = if mode < 3 { given } else { displaced(&data) * RADIUS * RADIUS };
+        let scale = if mode < 3 { given } else { displaced_mass(&data) * RADIUS * RADIUS };
         assert!(((own - given) / scale).abs() < 0.02, "{mode}: {own} {given}");
     }
     assert!(found.estimated.unwrap() < 0.05);

@@ -772,13 +772,13 @@ fn some_points() -> impl Strategy<Value = Vec<[f64; 3]>> {
 }
 
 /// The pose turned upside down about a level axis in the surface: what was dry is wet.
-fn overturned(pose: &Pose) -> Pose {
+fn overturn(pose: &Pose) -> Pose {
     let turn = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
     Pose { origin: turn * pose.origin, axes: turn * pose.axes }
 }
 
 fn parts_make_the_whole(solid: &dyn Solid, pose: &Pose, volume: f64) -> Result<(), TestCaseError> {
-    let (wet, dry) = (solid.wet(pose, 0.0), solid.wet(&overturned(pose), 0.0));
+    let (wet, dry) = (solid.wet(pose, 0.0), solid.wet(&overturn(pose), 0.0));
     prop_assert!((wet.volume + dry.volume - volume).abs() < 1e-12 * (1.0 + volume), "{wet:?} {dry:?}");
     prop_assert!((wet.plane_area - dry.plane_area).abs() < 1e-11, "{wet:?} {dry:?}");
     prop_assert!(wet.plane_area > -1e-12 && wet.volume > -1e-12 && wet.wetted_area >= 0.0, "{wet:?}");

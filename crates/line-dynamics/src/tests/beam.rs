@@ -175,7 +175,7 @@ fn forty_five_degree_bend_matches_published_positions() {
 }
 
 /// A beam of which end A is clamped in a holder that turns about y at a steady rate, at a time; end B is free.
-fn turned(rate: f64, time: f64) -> [RodEnd; 2] {
+fn turning_ends(rate: f64, time: f64) -> [RodEnd; 2] {
     let (s, c) = (rate * time).sin_cos();
     let held = RodEnd::pin(Vector3::zeros()).with_clamp(Vector3::new(c, 0.0, -s)).with_side(Vector3::y());
     [held.with_turning(Vector3::y() * rate), RodEnd::FREE]
@@ -191,7 +191,7 @@ fn swung(times: &[f64], rate: f64, settings: RodSettings) -> (RodState, usize) {
     let mut solver = RodSolver::new(&rod, settings);
     let mut parts = 0;
     for time in times {
-        parts += solver.step(&rod, &mut state, &world, *time, turned(rate, *time)).unwrap().parts;
+        parts += solver.step(&rod, &mut state, &world, *time, turning_ends(rate, *time)).unwrap().parts;
     }
     (state, parts)
 }
@@ -223,15 +223,15 @@ fn beam_energy_balance_includes_work_of_rotating_clamp() {
             &rod,
             RodSettings { scheme: SchemeWeights::generalised_alpha(1.0), ..RodSettings::default() },
         );
-        solver.statics(&rod, &mut state, &world, turned(0.0, 0.0)).unwrap();
+        solver.statics(&rod, &mut state, &world, turning_ends(0.0, 0.0)).unwrap();
         for (x, v) in state.position.iter().zip(state.velocity.iter_mut()) {
             *v = (Vector3::y() * rate).cross(x);
         }
-        let made = solver.start(&rod, &mut state, &world, turned(rate, 0.0)).unwrap();
+        let made = solver.start(&rod, &mut state, &world, turning_ends(rate, 0.0)).unwrap();
         let mut balance = RodEnergyBalance::open(&rod, &state, &world, &solver, &made);
         for i in 1..=(2.0 / h) as usize {
             let time = i as f64 * h;
-            let made = solver.step(&rod, &mut state, &world, time, turned(rate, time)).unwrap();
+            let made = solver.step(&rod, &mut state, &world, time, turning_ends(rate, time)).unwrap();
             balance.enter(&rod, &state, &world, &solver, &made);
         }
         (balance.energy_error().abs(), balance.work.ends[0].abs())

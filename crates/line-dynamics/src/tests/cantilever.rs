@@ -42,7 +42,7 @@ fn cantilever_under_dead_tip_load_matches_elastica_at_any_mesh() {
             let clamp = RodEnd::pin(Vector3::zeros()).with_clamp(Vector3::x());
             let mut solver = RodSolver::new(&rod, RodSettings::default());
             let made = solver.statics(&rod, &mut state, &world, [clamp, RodEnd::FREE]).unwrap();
-            (state.place(elements).unwrap(), made.moment[0].norm())
+            (state.node_position(elements).unwrap(), made.moment[0].norm())
         };
         let made = [20, 40, 80, 160].map(rest);
         for (coarse, fine) in made.iter().zip(&made[1..]) {
@@ -98,7 +98,11 @@ fn weightless_rope_with_clump_has_two_straight_halves() {
         let mut solver = RodSolver::new(&rod, RodSettings::default());
         let made =
             solver.statics(&rod, &mut state, &LineEnvironment::new(&fluid, GRAVITY), ends.map(RodEnd::pin)).unwrap();
-        assert!((state.place(20).unwrap().z + low).abs() < 1e-6, "{bending}: {} {low}", state.place(20).unwrap());
+        assert!(
+            (state.node_position(20).unwrap().z + low).abs() < 1e-6,
+            "{bending}: {} {low}",
+            state.node_position(20).unwrap()
+        );
         assert!((made.force[0].norm() / pull(low) - 1.0).abs() < 1e-8, "{bending}: {} {}", made.force[0], pull(low));
     }
 }

@@ -17,7 +17,7 @@ struct TangentCase {
 }
 
 impl TangentCase {
-    fn moved(&self, change: &EndChange) -> [RodEnd; 2] {
+    fn move_ends(&self, change: &EndChange) -> [RodEnd; 2] {
         [0, 1].map(|side| {
             let (end, [x, v, a, angle]) = (self.ends[side], change[side]);
             let turn = Rotation3::new(angle);
@@ -153,7 +153,7 @@ fn end_tangent_matches_end_force_finite_differences() {
                 // with and without what the trial before has left
                 let mut fresh = RodSolver::new(&case.rod, RodSettings { tolerance: 1e-12, ..RodSettings::default() });
                 let solver = if again { solver } else { &mut fresh };
-                let made = solver.trial(&case.rod, &state, &world, 0.1, case.moved(change)).unwrap();
+                let made = solver.trial(&case.rod, &state, &world, 0.1, case.move_ends(change)).unwrap();
                 (outputs(&made), *solver.end_tangent(&case.rod, &world).unwrap())
             };
             let whole = at(&[[Vector3::zeros(); 4]; 2], &mut solver).1;
@@ -173,10 +173,10 @@ fn static_end_stiffness_matches_finite_difference_at_rest() {
     for case in cases() {
         let mut state = case.state.clone();
         let mut solver = RodSolver::new(&case.rod, RodSettings::default());
-        solver.statics(&case.rod, &mut state, &world, case.moved(&[[Vector3::zeros(); 4]; 2])).unwrap();
+        solver.statics(&case.rod, &mut state, &world, case.move_ends(&[[Vector3::zeros(); 4]; 2])).unwrap();
         let whole = *solver.end_tangent(&case.rod, &world).unwrap();
         let at = |change: &EndChange| {
-            outputs(&solver.statics(&case.rod, &mut state.clone(), &world, case.moved(change)).unwrap())
+            outputs(&solver.statics(&case.rod, &mut state.clone(), &world, case.move_ends(change)).unwrap())
         };
         assert!(whole.velocity.amax() == 0.0 && whole.acceleration.amax() == 0.0);
         // a residual of 1e-9 of 1e5 N at each node over 1e-3 m, and the third derivative

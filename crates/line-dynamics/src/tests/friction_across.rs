@@ -58,8 +58,8 @@ fn cross_current_loads_suspended_part_and_moves_no_grounded_part() {
             assert!(!solver.has_slid_without_friction(), "{slope} {length} {speed}");
             // up to two elements before it leaves the bottom
             let over = |x: &Vector3<f64>| x.z - bottom.height(x.x, x.y).0;
-            let foot = state.places().iter().rposition(|x| over(x) < 0.0).unwrap().saturating_sub(2);
-            let aside = state.places()[..foot].iter().map(|x| x.y.abs()).fold(0.0, f64::max);
+            let foot = state.node_positions().iter().rposition(|x| over(x) < 0.0).unwrap().saturating_sub(2);
+            let aside = state.node_positions()[..foot].iter().map(|x| x.y.abs()).fold(0.0, f64::max);
             let hangs = (rod.nodes() - 1 - foot) as f64 * length / 88.0;
             let drag = 0.5 * DENSITY * 1.2 * DIAMETER * speed * speed * hangs;
             println!(
@@ -169,7 +169,7 @@ fn cross_current_does_not_move_fully_grounded_line() {
         let mut solver = RodSolver::new(&rod, RodSettings::default());
         solver.statics(&rod, &mut state, &world, ends).unwrap();
         let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
-        let aside = state.places().iter().map(|x| x.y).fold(0.0, f64::max);
+        let aside = state.node_positions().iter().map(|x| x.y).fold(0.0, f64::max);
         // as it rests it stays
         let before = state.clone();
         for i in 1..=50 {

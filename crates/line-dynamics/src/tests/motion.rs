@@ -302,7 +302,7 @@ impl FluidField for Swell {
         FluidState {
             velocity: Vector3::y() * (self.speed * s),
             acceleration: Vector3::y() * (self.speed * self.frequency * c),
-            ..UniformFluid::still(1025.0).0
+            ..UniformFluid::still_water(1025.0).0
         }
     }
 }
@@ -337,7 +337,7 @@ struct Shear;
 
 impl FluidField for Shear {
     fn sample(&self, at: &Vector3<f64>, _: f64) -> FluidState {
-        FluidState { velocity: Vector3::x() * (-0.3 * at.z), ..UniformFluid::still(1025.0).0 }
+        FluidState { velocity: Vector3::x() * (-0.3 * at.z), ..UniformFluid::still_water(1025.0).0 }
     }
 }
 

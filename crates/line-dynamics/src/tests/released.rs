@@ -11,7 +11,7 @@ fn let_go(h: f64) -> Vector3<f64> {
         ..RodSegment::line(300.0, 60, 50.0 / 9.81 + 11.0, 1e9, 0.12)
     };
     let rod = Rod::new("line", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let bottom = PlaneBottom { height: -100.0, slope: [0.0, 0.0] };
     let ground = SeabedLaw { damping: 1e4, ..SeabedLaw::elastic(1e5) };
     let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.81) };

@@ -20,7 +20,7 @@ fn pipe(tube: TubeSection) -> Rod {
 fn heated_pressurised_pipe_between_fixed_ends_matches_closed_form() {
     let tube = TubeSection { expansion: 1.17e-5, warmer: 50.0, pressure: 1e7, ..TubeSection::empty(0.3239, 0.2985) };
     let rod = pipe(tube);
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let depth = 100.0;
     let world = LineEnvironment::new(&fluid, 9.80665);
     let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
@@ -71,7 +71,7 @@ impl FluidField for Waves {
         FluidState {
             surface,
             head: surface * ((self.number * at.z.min(0.0)).exp() - 1.0),
-            ..UniformFluid::still(1025.0).0
+            ..UniformFluid::still_water(1025.0).0
         }
     }
 }
@@ -125,7 +125,7 @@ fn cooling_pipe_seabed_contact_stiffness_follows_its_tension() {
     let tube = TubeSection { expansion: 1.17e-5, warmer: -50.0, ..TubeSection::empty(0.3239, 0.2985) };
     let rod = pipe(tube);
     let [outside, inside] = tube.areas();
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let world = LineEnvironment::new(&fluid, G);
     let (a, b) = (Vector3::new(0.0, 0.0, -100.0), Vector3::new(20.0, 0.0, -100.0));
     let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
@@ -142,7 +142,7 @@ fn cooling_pipe_seabed_contact_stiffness_follows_its_tension() {
 
 #[test]
 fn tube_without_compression_is_held_taut_by_pressure() {
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let world = LineEnvironment::new(&fluid, G);
     let depth = 1000.0;
     let pull = |pressure: f64, compression: bool, stretch: f64| {
@@ -233,7 +233,7 @@ fn polynomial_and_tension_table_hang_as_the_law_they_describe() {
         let mut state = RodState::along_points(&rod, &[top, Vector3::new(0.0, 0.0, -10.0)]).unwrap();
         let mut solver = RodSolver::new(&rod, RodSettings::default());
         solver.statics(&rod, &mut state, &world, [RodEnd::pin(top), RodEnd::FREE]).unwrap();
-        -state.place(50).unwrap().z - 10.0
+        -state.node_position(50).unwrap().z - 10.0
     };
     // own weight w over length L: w L^2 / 2 EA
     let linear = 20.0 * 9.81 * 100.0 / (2.0 * 1e4);

@@ -46,7 +46,7 @@ fn hanging_rope_converges_to_elastic_catenary_with_second_order() {
 
 #[test]
 fn slack_vertical_grounded_and_buoyant_ropes_find_equilibrium() {
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let bottom = PlaneBottom { height: -50.0, slope: [0.02, 0.01] };
     let ground = SeabedLaw { damping: 1e4, penetration_scale: 0.01, ..SeabedLaw::elastic(1e6) };
     let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.81) };
@@ -77,7 +77,7 @@ fn slack_vertical_grounded_and_buoyant_ropes_find_equilibrium() {
                 // holders alone
                 let weight = 100.0 * 9.81 * (mass - 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter);
                 let held = made.force[0].z + made.force[1].z;
-                let clear = state.places().iter().all(|x| x.z > bottom.height(x.x, x.y).0 && x.z < -0.2);
+                let clear = state.node_positions().iter().all(|x| x.z > bottom.height(x.x, x.y).0 && x.z < -0.2);
                 if clear {
                     assert!((held + weight).abs() < 1e-6 * weight.abs(), "{held} {weight}");
                 }
@@ -168,7 +168,7 @@ fn equilibrium_near_a_known_one_takes_few_iterations() {
 
 #[test]
 fn hanging_rope_end_tensions_are_its_weight_and_zero() {
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let world = LineEnvironment::new(&fluid, 9.81);
     let (diameter, mass): (f64, f64) = (0.1, 40.0);
     let area = std::f64::consts::FRAC_PI_4 * diameter * diameter;
@@ -233,7 +233,7 @@ fn rope_end_tension_is_nonnegative_and_matches_holder_in_motion() {
 
 #[test]
 fn buoyant_rope_mirrors_sinking_rope_in_as_many_iterations() {
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let world = LineEnvironment::new(&fluid, 9.81);
     let water = 1025.0 * std::f64::consts::FRAC_PI_4 * 0.09;
     let rest = |mass: f64, up: f64| {
@@ -242,7 +242,7 @@ fn buoyant_rope_mirrors_sinking_rope_in_as_many_iterations() {
         let mut state = RodState::along_points(&rod, &[a, b]).unwrap();
         let ends = [RodEnd::pin(a), RodEnd::pin(b)];
         let made = RodSolver::new(&rod, RodSettings::default()).statics(&rod, &mut state, &world, ends).unwrap();
-        (state.places(), made.iterations)
+        (state.node_positions(), made.iterations)
     };
     let ((light, few), (heavy, many)) = (rest(0.2, 10.0), rest(2.0 * water - 0.2, -10.0));
     for (a, b) in light.iter().zip(&heavy) {

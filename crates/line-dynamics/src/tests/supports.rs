@@ -32,7 +32,7 @@ impl Cradle {
 
     fn support(&self) -> Support<'_> {
         let holds = SupportTarget::Crossing(self.axes[0]);
-        Support { place: self.place, velocity: self.velocity, target: holds, law: self }
+        Support { position: self.place, velocity: self.velocity, target: holds, law: self }
     }
 }
 
@@ -212,7 +212,7 @@ fn cradle_holds_pipe_by_force_balance_of_faces() {
 }
 
 /// The energy balance of a pipe dropped on two rollers that heave, by steps of `h` seconds.
-fn dropped(h: f64) -> RodEnergyBalance {
+fn energy_balance_of_drop(h: f64) -> RodEnergyBalance {
     // soft along, so that its steps follow the waves of its landing
     let segment = RodSegment { bending: 1e6, compression: true, ..RodSegment::line(40.0, 40, 30.0, 1e6, 0.3) };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
@@ -259,7 +259,7 @@ fn dropped(h: f64) -> RodEnergyBalance {
 
 #[test]
 fn pipe_dropped_on_moving_rollers_keeps_energy_balance() {
-    let (coarse, fine) = (dropped(0.002), dropped(0.0005));
+    let (coarse, fine) = (energy_balance_of_drop(0.002), energy_balance_of_drop(0.0005));
     assert!(fine.work.supports.abs() > 0.01 * fine.turnover, "{fine:?}");
     // what the scheme damps of the pipe's ringing as it lands, and the trapezoidal rule leaves, falls with the step
     let [coarse_error, error] = [&coarse, &fine].map(|b| b.energy_error().abs() / b.turnover);
@@ -334,7 +334,7 @@ fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) 
     let sling = Sling(2e4);
     let mut held = supports(&cradles);
     let place = placed(2, Vector3::new(-0.5, 0.3, 0.4));
-    held.push(Support { place, velocity: Vector3::zeros(), target: SupportTarget::Node(0), law: &sling });
+    held.push(Support { position: place, velocity: Vector3::zeros(), target: SupportTarget::Node(0), law: &sling });
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment { supports: &held, ..LineEnvironment::new(&fluid, 9.81) };
     let (a, b) = (Vector3::zeros(), Vector3::new(30.0, 0.0, -0.5));

@@ -8,7 +8,7 @@ use windlass_model::SchemeWeights;
 const AIR: f64 = 1.226;
 
 fn windy(wind: Vector3<f64>) -> UniformFluid {
-    UniformFluid(FluidState { wind, air_density: AIR, ..UniformFluid::still(1025.0).0 })
+    UniformFluid(FluidState { wind, air_density: AIR, ..UniformFluid::still_water(1025.0).0 })
 }
 
 #[test]
@@ -47,7 +47,8 @@ fn wind_acts_on_dry_part_alone() {
         let mut solver = RodSolver::new(&rod, RodSettings::default());
         let mut started = state.clone();
         solver.start(&rod, &mut started, &world, [RodEnd::FREE; 2]).unwrap();
-        let push: f64 = started.acceleration.iter().enumerate().map(|(i, a)| a.y * lumped(i, 8, 100.0 * 20.0)).sum();
+        let push: f64 =
+            started.acceleration.iter().enumerate().map(|(i, a)| a.y * lumped_mass(i, 8, 100.0 * 20.0)).sum();
         let wanted = 0.5 * AIR * 0.5 * 25.0 * 25.0 * (low + 20.0);
         // the share goes over a section evenly: the length in air is exact, but for rounding
         assert!((push / wanted - 1.0).abs() < 1e-9, "{push} {wanted}");
@@ -55,7 +56,7 @@ fn wind_acts_on_dry_part_alone() {
 }
 
 /// Mass of a node of a rod of equal elements.
-fn lumped(node: usize, elements: usize, mass: f64) -> f64 {
+fn lumped_mass(node: usize, elements: usize, mass: f64) -> f64 {
     mass / elements as f64 * if node == 0 || node == elements { 0.5 } else { 1.0 }
 }
 
@@ -67,7 +68,7 @@ fn cylinder_entering_surface_takes_momentum_of_added_mass() {
         let segment =
             RodSegment { added_normal: 1.0, compression: true, ..RodSegment::line(length, 1, 50.0, 1e9, diameter) };
         let rod = Rod::new("cylinder", vec![segment], vec![]).unwrap();
-        let fluid = UniformFluid::still(1025.0);
+        let fluid = UniformFluid::still_water(1025.0);
         let world = LineEnvironment { slam, ..LineEnvironment::new(&fluid, 0.0) };
         let along = Vector3::new(tilt.cos(), 0.0, tilt.sin()) * length;
         let start = Vector3::new(0.0, 0.0, 1.0);
@@ -82,7 +83,7 @@ fn cylinder_entering_surface_takes_momentum_of_added_mass() {
         };
         let (steps, h) = (2000, 1e-3);
         let run = |state: &mut RodState, solver: &mut RodSolver, speed: f64| {
-            let (t0, from) = (state.time, [0, 1].map(|node| state.place(node).unwrap()));
+            let (t0, from) = (state.time, [0, 1].map(|node| state.node_position(node).unwrap()));
             (1..=steps).fold(Vector3::zeros(), |sum, i| {
                 let t = i as f64 * h;
                 let made = solver
@@ -108,7 +109,7 @@ fn cylinder_impacting_surface_shares_momentum_with_water() {
     let (length, diameter, mass, speed) = (10.0, 0.5, 150.0, 4.0);
     let segment = RodSegment { added_normal: 1.0, ..RodSegment::line(length, 4, mass, 1e8, diameter) };
     let rod = Rod::new("cylinder", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let world = LineEnvironment { slam: true, ..LineEnvironment::new(&fluid, 0.0) };
     let at = |x: f64| Vector3::new(x, 0.0, 0.6);
     let mut state = RodState::along_points(&rod, &[at(0.0), at(length)]).unwrap();
@@ -148,7 +149,7 @@ fn pipe_dropped_level_on_sea_slams_and_floats() {
         ..RodSegment::line(length, 30, mass, 1e9, diameter)
     };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let world = LineEnvironment { slam: true, ..LineEnvironment::new(&fluid, 9.81) };
     for h in [0.02, 0.1, 0.3] {
         let mut state = RodState::along_points(&rod, &[Vector3::z() * 4.0, Vector3::new(length, 0.0, 4.0)]).unwrap();
@@ -159,7 +160,7 @@ fn pipe_dropped_level_on_sea_slams_and_floats() {
         }
         // afloat with two fifths of its section under: 3 s^2 - 2 s^3 = 0.4 at s = 0.432932
         let wanted = (0.5 - 0.432_932) * diameter;
-        let bent = state.places().iter().map(|x| (x.z - wanted).abs()).fold(0.0, f64::max);
+        let bent = state.node_positions().iter().map(|x| (x.z - wanted).abs()).fold(0.0, f64::max);
         // what is left of its heave, which dies out with drag
         assert!(bent < 0.02, "{h}: {bent}");
         assert!(state.velocity.iter().all(|v| v.norm() < 0.1), "{h}: {:?}", state.velocity[0]);
@@ -173,7 +174,7 @@ fn surface_piercing_rod_tangent_matches_finite_difference() {
         surface: 0.1,
         wind: Vector3::new(20.0, -8.0, 1.0),
         air_density: AIR,
-        ..UniformFluid::still(1025.0).0
+        ..UniformFluid::still_water(1025.0).0
     });
     let world = LineEnvironment { slam: true, ..LineEnvironment::new(&fluid, 9.81) };
     let segment = RodSegment {

@@ -119,7 +119,7 @@ fn batched_elements_match_single_elements() {
         velocity: Vector3::new(0.7, -0.2, 0.1),
         acceleration: Vector3::new(0.1, 0.3, -0.2),
         head: 0.4,
-        ..UniformFluid::still(1025.0).0
+        ..UniformFluid::still_water(1025.0).0
     });
     let world = LineEnvironment::new(&fluid, 9.81);
     let full =

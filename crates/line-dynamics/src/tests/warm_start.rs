@@ -153,7 +153,7 @@ fn slightly_moved_trial_needs_no_iteration_and_matches_new_one() {
 #[test]
 fn end_with_another_velocity_is_not_a_slightly_moved_trial() {
     let (rod, mut state) = chain(0.0);
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let world = LineEnvironment::new(&fluid, 9.80665);
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     let end = |velocity: f64| {

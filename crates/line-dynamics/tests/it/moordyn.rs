@@ -37,7 +37,7 @@ pub fn chain<T>(
         ..RodSegment::line(900.0, elements, 199.0, 8.54e8, 0.18)
     };
     let rod = Rod::new("chain", vec![chain], vec![]).unwrap();
-    let fluid = UniformFluid::still(1025.0);
+    let fluid = UniformFluid::still_water(1025.0);
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
     let ground = SeabedLaw { damping: 3e5, ..SeabedLaw::elastic(3e6) };
     let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.80665) };

@@ -33,7 +33,7 @@ fn rest(case: &StaticsCase, elements: usize, sinks: f64) -> ([f64; 2], usize) {
         ..RodSegment::line(case.length, elements, mass, case.ea, 1.0)
     };
     let rod = Rod::new("line", vec![segment], vec![]).unwrap();
-    let fluid = UniformFluid(FluidState { surface: 1e5, ..UniformFluid::still(WATER).0 });
+    let fluid = UniformFluid(FluidState { surface: 1e5, ..UniformFluid::still_water(WATER).0 });
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
     let ground =
         SeabedLaw { friction_along: case.friction, ..SeabedLaw::elastic(weight.abs() / (sinks * case.length)) };

@@ -15,7 +15,7 @@ pub struct CurveBranch {
 }
 
 impl CurveBranch {
-    /// Cycles to failure at a range, whether the branch holds there or not.
+    /// Cycles to failure at a range (Pa, or tension over breaking tension), whether the branch holds there or not.
     pub fn cycles(&self, range: f64) -> f64 {
         10f64.powf(self.log_a - self.slope * range.log10())
     }
@@ -98,7 +98,8 @@ impl SnCurve {
         self.branch(range).map_or(0.0, |b| 10f64.powf(-self.mean_slope * mean) / b.cycles(range))
     }
 
-    /// Cycles to failure at a range and mean, as [`SnCurve::damage`]; `None` where there is no damage.
+    /// Cycles to failure at a range and a mean (Pa, or tension over breaking tension), as [`SnCurve::damage`]; `None` where there is no
+    /// damage.
     pub fn cycles(&self, range: f64, mean: f64) -> Option<f64> {
         let damage = self.damage(range, mean);
         (damage > 0.0).then(|| 1.0 / damage)

@@ -65,7 +65,8 @@ pub fn narrow_band(m: &StressMoments, curve: &SnCurve, mean: f64) -> Result<f64,
     Ok(rate * sum_branches(curve, mean, integral)?)
 }
 
-/// Damage in a second by the density of rainflow ranges of [DIRLIK-1985]: an exponential and two Rayleigh densities weighted by the moments.
+/// Damage in a second (1/s) about a mean (Pa) by the density of rainflow ranges of [DIRLIK-1985]: an exponential and two Rayleigh
+/// densities weighted by the moments.
 ///
 /// # Errors
 /// Moments that are not greater than zero, or that no process has.

@@ -84,7 +84,7 @@ pub struct SectionLoads {
     pub outside: f64,
 }
 
-/// Tension over breaking tension of a chain or rope; a line that pushes breaks nothing.
+/// Tension over breaking tension (both N) of a chain or rope; a line that pushes breaks nothing.
 ///
 /// # Errors
 /// A breaking tension that is not above zero.

@@ -54,7 +54,7 @@ pub struct Ranges {
 }
 
 impl Ranges {
-    /// Counts of no cycles, for bins of this width.
+    /// Counts of no cycles, for bins of this width (Pa).
     pub fn from_width(width: f64) -> Ranges {
         Ranges { width, counts: [0; STRESS_RANGE_BINS] }
     }
@@ -169,7 +169,7 @@ fn largest_moment(record: &EndRecord) -> f64 {
     record.about_y.iter().zip(record.about_z).map(|(y, z)| y.hypot(*z)).fold(0.0, f64::max)
 }
 
-/// Width of the bins: fifty from zero to twice the largest stress of all ends.
+/// Width of the bins (Pa): fifty from zero to twice the largest stress of all ends.
 pub fn bin_width(ends: &[EndRecord]) -> f64 {
     let largest = ends.iter().map(|end| largest_moment(end) * end.stress_of_moment).fold(0.0, f64::max);
     2.0 * largest / STRESS_RANGE_BINS as f64

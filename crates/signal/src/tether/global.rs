@@ -20,7 +20,7 @@ pub struct GlobalStatistics {
     pub minima: [f64; 3],
 }
 
-/// Mean and root mean square about it; zeros of no values.
+/// Mean and root mean square about it, in the unit of the values; zeros of no values.
 pub fn spread(values: &[f64]) -> (f64, f64) {
     let count = values.len().max(1) as f64;
     let mean = values.iter().sum::<f64>() / count;
@@ -28,7 +28,7 @@ pub fn spread(values: &[f64]) -> (f64, f64) {
     (mean, square.sqrt())
 }
 
-/// The statistics of one series.
+/// The statistics of one series, in its unit.
 ///
 /// # Errors
 /// No values, or one that is not finite.

@@ -16,7 +16,7 @@ fn signal() -> Vec<f64> {
     include_str!("../data/series.csv").lines().map(|l| l.parse().unwrap()).collect()
 }
 
-fn expected(name: &str) -> f64 {
+fn expected_value(name: &str) -> f64 {
     let text = include_str!("../data/expected.txt");
     let line = text.lines().find_map(|l| l.strip_prefix(name)?.strip_prefix(' '));
     line.unwrap().parse().unwrap()
@@ -24,7 +24,7 @@ fn expected(name: &str) -> f64 {
 
 #[track_caller]
 fn same(name: &str, found: f64, tolerance: f64) {
-    let want = expected(name);
+    let want = expected_value(name);
     assert!((found - want).abs() <= tolerance * want.abs().max(1e-6), "{name}: {found} is not {want}");
 }
 
@@ -57,7 +57,7 @@ fn densities_match_scipy_welch() {
     for i in [1, 10, 25, 40, 60, 100] {
         same(&format!("welch_{i}"), d.values[i], 1e-10);
     }
-    assert!((d.values[256] - expected("welch_256")).abs() < 1e-15);
+    assert!((d.values[256] - expected_value("welch_256")).abs() < 1e-15);
     same("welch_sum", d.values.iter().sum::<f64>() * d.frequencies[1], 1e-12);
 }
 
@@ -102,7 +102,7 @@ fn maxima_and_fitted_distributions_match_scipy() {
 
 #[test]
 fn damage_of_spectrum_matches_flife() {
-    let m = [0, 1, 2, 4].map(|i| expected(&format!("fatigue_m{i}")));
+    let m = [0, 1, 2, 4].map(|i| expected_value(&format!("fatigue_m{i}")));
     for (slope, log_a) in [(3.0, 11.687), (5.0, 15.606)] {
         let curve = SnCurve {
             name: "straight".into(),

@@ -23,7 +23,7 @@ pub struct Frame {
 impl Frame {
     /// Motions of the origin by those of the point.
     fn transform(&self, linear: &LinearSystem) -> Matrix6<f64> {
-        let arm = linear.poses.get(self.body).map_or(self.at, |pose| pose.axes * self.at);
+        let arm = linear.poses[self.body].axes * self.at;
         let mut made = Matrix6::identity();
         // -(turn x arm) = arm x turn
         made.fixed_view_mut::<3, 3>(0, 3).copy_from(&arm.cross_matrix());
@@ -59,7 +59,7 @@ fn at_frequencies(linear: &LinearSystem, frame: &Frame, frequencies: &[f64]) -> 
     frequencies.iter().map(one).collect()
 }
 
-/// The diagonals of mass with added mass and of damping, a row a frequency.
+/// The diagonals of mass with added mass and of damping, a row a frequency (rad/s).
 pub fn diagonals(linear: &LinearSystem, frame: &Frame, frequencies: &[f64]) -> Table {
     let rows = at_frequencies(linear, frame, frequencies);
     let mut table = Table::new("Mass with Added Mass, and Damping").with_rows(&rows).column(

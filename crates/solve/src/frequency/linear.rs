@@ -345,7 +345,7 @@ impl LinearSystem {
                 Some(format!("{} in {}", node.name, DOFS.get(row % 6)?))
             };
             return Err(match row.and_then(name) {
-                Some(who) => SolveError::new(error.about(who)),
+                Some(who) => SolveError::new(error.with_subject(who)),
                 None => SolveError::new(error),
             });
         };

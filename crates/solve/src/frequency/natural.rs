@@ -32,10 +32,10 @@ pub fn natural(linear: &LinearSystem) -> Result<Vec<Natural>, SolveError> {
     let stiffness = &linear.stiffness;
     let start = modes_with(&linear.system, &linear.system.mass_matrix(&linear.poses), stiffness)?;
     let floats = linear.floats.iter().any(Option::is_some);
-    start.into_iter().map(|mode| own(linear, mode, floats)).collect()
+    start.into_iter().map(|mode| iterate_mode(linear, mode, floats)).collect()
 }
 
-fn own(linear: &LinearSystem, mut mode: SystemMode, floats: bool) -> Result<Natural, SolveError> {
+fn iterate_mode(linear: &LinearSystem, mut mode: SystemMode, floats: bool) -> Result<Natural, SolveError> {
     let frequency = |mode: &SystemMode| mode.eigenvalue.max(0.0).sqrt();
     let mut settled = !floats;
     for _ in 0..MAX_ITERATIONS {

@@ -32,7 +32,7 @@ pub struct Operator<'a> {
 }
 
 impl Operators {
-    /// Those of a system.
+    /// Those of a system at frequencies (rad/s), for headings that waves come from (rad).
     ///
     /// # Errors
     /// As [`LinearSystem::operators`]; more than memory is taken for.

@@ -12,6 +12,7 @@ use crate::system::SolveError;
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
+use windlass_nonlinear::try_bisect;
 
 /// Most numbers kept.
 const MAX_NUMBERS: usize = 20_000_000;
@@ -32,12 +33,12 @@ pub struct ResponsePoint {
 }
 
 impl ResponsePoint {
-    /// Variance of a quantity, or a derivative of it, in this band.
+    /// Variance of a quantity, or a derivative of it, in this band: the square of its SI unit.
     pub fn variance(&self, quantity: &LinearQuantity, derivative: Derivative) -> f64 {
         self.moments(quantity, derivative)[0]
     }
 
-    /// Variance of a quantity, or a derivative of it, in this band, and the same of its rate.
+    /// Variance of a quantity, or a derivative of it, in this band, and the same of its rate: squares of their SI units.
     pub fn moments(&self, quantity: &LinearQuantity, derivative: Derivative) -> [f64; 2] {
         let met = self.encounters.iter().copied().chain(std::iter::repeat(self.frequency));
         let own = self.parts.iter().zip(met).map(|(v, w)| {
@@ -202,15 +203,12 @@ fn waves_met_at(
         for (natural, ratio) in resonant {
             let excess = |w: f64| linear.encounter(w, *toward).map(|met| met.abs() - natural);
             for piece in points.windows(2) {
-                let [mut low, mut high] = [piece.first(), piece.last()].map(|w| w.copied().unwrap_or(0.0));
-                let sign = excess(low)? > 0.0;
-                if (excess(high)? > 0.0) == sign {
+                let sign = excess(piece[0])? > 0.0;
+                if (excess(piece[1])? > 0.0) == sign {
                     continue;
                 }
-                for _ in 0..HALVINGS {
-                    let middle = 0.5 * (low + high);
-                    if (excess(middle)? > 0.0) == sign { low = middle } else { high = middle }
-                }
+                let is_before = |w: f64| excess(w).map(|above| (above > 0.0) == sign);
+                let [low, high] = try_bisect([piece[0], piece[1]], HALVINGS, |_| false, is_before)?;
                 found.push((0.5 * (low + high), *ratio));
             }
         }

@@ -138,12 +138,12 @@ fn drifts(
         let Some((floats, table)) = floats.and_then(|f| Some((f, f.drift.as_ref()?))) else {
             return Ok(Six::zeros());
         };
-        let name = linear.system.nodes.get(*body).map_or("", |n| n.name.as_str());
+        let name = linear.system.nodes[*body].name.as_str();
         let [x, y, z, rx, ry, rz] =
             drift_at(table, toward - floats.yaw, frequency).map_err(SolveError::error_about(name))?;
         let (sin, cos) = floats.yaw.sin_cos();
         let force = Six::new(x * cos - y * sin, x * sin + y * cos, z, rx * cos - ry * sin, rx * sin + ry * cos, rz);
-        let axes = linear.poses.get(*body).map_or_else(nalgebra::Matrix3::identity, |p| p.axes);
+        let axes = linear.poses[*body].axes;
         let [.., factor] = floats.factors;
         Ok(move_wrench(&force, axes * floats.attached.data.reference) * factor)
     };

@@ -54,7 +54,7 @@ impl ResponseStatistics {
         ResponseStatistics { mean, waves: waves.sqrt(), slow: slow.sqrt(), deviation: all.sqrt(), period }
     }
 
-    /// The mean of the highest third of the amplitudes: twice the deviation.
+    /// The mean of the highest third of the amplitudes, in the SI unit of the quantity: twice the deviation.
     pub fn significant(&self) -> f64 {
         2.0 * self.deviation
     }

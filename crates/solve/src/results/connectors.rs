@@ -123,7 +123,7 @@ fn idealisations(run: &Run, links: &[usize]) -> Option<String> {
 fn at_time(error: SolveError, row: &[f64]) -> SolveError {
     let time = row.first().copied().unwrap_or(0.0);
     let SolveError { who, error } = error;
-    SolveError { who, error: error.about(format!("at {time} s")) }
+    SolveError { who, error: error.with_subject(format!("at {time} s")) }
 }
 
 /// The magnitude of the force of connectors of a run.

@@ -39,7 +39,7 @@ pub fn fender_peaks(run: &Run) -> Result<Vec<FenderPeak>, SolveError> {
         for row in run.history.rows() {
             let Some(time) = row.first().copied().filter(|t| *t >= run.settings.transient) else { continue };
             poses(&run.history.layout, row, &mut bodies);
-            let ends = attached.map(|end| End::still(pose_of(&end, &bodies)));
+            let ends = attached.map(|end| End::at_rest(pose_of(&end, &bodies)));
             let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
             let summary = element.summary(&at, &start).map_err(SolveError::error_about(&connector.name))?;
             let Some(state) = summary.fender.filter(|s| s.deflection > 0.0) else { continue };

@@ -76,7 +76,7 @@ impl<'a> RestSolver<'a> {
             self.length = length;
         }
         self.between.clear();
-        self.between.extend(self.ends.iter().map(|end| End::still(pose_of(end, poses))));
+        self.between.extend(self.ends.iter().map(|end| End::at_rest(pose_of(end, poses))));
         let at = Situation { ends: &self.between, step: None, surroundings: &self.surroundings };
         let summary = self.element.summary(&at, &[]).map_err(SolveError::error_about(name))?;
         let [_, far] = self.ends;

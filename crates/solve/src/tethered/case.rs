@@ -388,7 +388,7 @@ fn installed_case(
         list.push(made.map_err(|error| SolveError { who: Some(connector.name.clone()), error })?);
     }
     let around = model.surroundings();
-    let mut flow = WaterFlow::still(around.water_density, gravity).map_err(SolveError::new)?;
+    let mut flow = WaterFlow::still_water(around.water_density, gravity).map_err(SolveError::new)?;
     flow.level = around.tide;
     flow.current = current(model).map_err(SolveError::new)?;
     if let Some(sea) = sea {

@@ -106,7 +106,7 @@ pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Re
     // one more: the first that is not listed
     let asked = number.saturating_add(1);
     let towed = matches!(made.kind, TetherCaseKind::Towed(_));
-    let (freedoms, modes): (usize, Vec<ListedMode>) = match &made.kind {
+    let (dofs, modes): (usize, Vec<ListedMode>) = match &made.kind {
         TetherCaseKind::Towed(towed) => {
             let distances = towed.tether.line.distances();
             let list = towed.tether.modes(asked).map_err(SolveError::new)?;
@@ -135,13 +135,13 @@ pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Re
     let listed = modes.iter().take(number).take_while(|mode| is_listed(mode)).count();
     let mut tables: Vec<Table> =
         modes.iter().take(listed).zip(1..).map(|(mode, order)| mode_page(mode, order, name, towed)).collect();
-    if freedoms > listed
+    if dofs > listed
         && let Some(last) = tables.last_mut()
     {
         let next = modes.get(listed).and_then(|mode| mode.frequency);
         let next = next.map_or(LARGEST_LISTED_FREQUENCY, |w| w.min(LARGEST_LISTED_FREQUENCY));
         let period = std::f64::consts::TAU / next;
-        last.note(format!("{} MODES> {next:.3} RAD/SEC (PERIOD= {period:.4} SECS) NOT PRINTED", freedoms - listed));
+        last.note(format!("{} MODES> {next:.3} RAD/SEC (PERIOD= {period:.4} SECS) NOT PRINTED", dofs - listed));
     }
     Ok(tables)
 }

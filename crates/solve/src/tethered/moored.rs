@@ -110,7 +110,7 @@ impl Structure for Moored {
                         moves.fixed_rows_mut::<3>(0).copy_from(&own);
                         moves.fixed_rows_mut::<3>(3).copy_from(&spin);
                     }
-                    End { velocity: moves, ..End::still(place) }
+                    End { velocity: moves, ..End::at_rest(place) }
                 })
                 .collect();
             let situation = Situation { ends: &ends, step, surroundings: &self.surroundings };
@@ -120,7 +120,7 @@ impl Structure for Moored {
                 continue;
             };
             let named = |mut error: ClassError| {
-                error.message = error.message.about(format!("connector {}", link.name));
+                error.message = error.message.with_subject(format!("connector {}", link.name));
                 error
             };
             link.element

@@ -260,7 +260,7 @@ impl<'a> RunRecorder<'a> {
 struct TowedKeeper<'a> {
     keeper: RunRecorder<'a>,
     case: &'a TowedCase,
-    /// An error of a file, told when the engine has let go.
+    /// An error of a file, reported when the engine has returned.
     error: Option<ClassError>,
 }
 

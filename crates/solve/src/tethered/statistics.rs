@@ -40,8 +40,10 @@ impl TetherStatistics {
         let slack = 1e-6 * run.settings.step;
         let first = run.times.iter().position(|t| *t >= from - slack).unwrap_or(run.times.len());
         let end = run.times.iter().rposition(|t| *t <= to + slack).map_or(first, |i| i + 1).max(first);
-        let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
-        let elapsed = time(end.saturating_sub(1)) - time(first);
+        let elapsed = match &run.times[first..end] {
+            [from, .., to] => to - from,
+            _ => 0.0,
+        };
         TetherStatistics { first, end, every: 1, elapsed, records: None }
     }
 
@@ -82,10 +84,11 @@ impl TetherStatistics {
     fn with_records(self, run: &Tethered, mut table: Table) -> Table {
         let text = match self.records {
             Some([(first, from), (last, to)]) => format!("{first} (TIME= {from:.2}) TO {last} (TIME= {to:.2})"),
-            None => {
-                let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
-                format!("TIME= {:.2} TO TIME= {:.2}", time(self.first), time(self.end.saturating_sub(1)))
-            }
+            None => match &run.times[self.first..self.end] {
+                [] => "NONE".to_string(),
+                [one] => format!("TIME= {one:.2} TO TIME= {one:.2}"),
+                [from, .., to] => format!("TIME= {from:.2} TO TIME= {to:.2}"),
+            },
         };
         let fact = Fact {
             name: "RECORDS PROCESSED".into(),
@@ -154,10 +157,11 @@ impl TetherStatistics {
     }
 
     fn ends(self, tether: &TetherHistory) -> Vec<Owned> {
+        // an element has two ends: the first at its node, the second at the next
         let distances = tether.line.distances();
         let place = |end: usize| {
             let channels = if tether.towed { self.towed_end(tether, end) } else { self.installed_end(tether, end) };
-            let distance = distances.get(end.div_ceil(2)).copied().unwrap_or_default();
+            let distance = distances[end.div_ceil(2)];
             Owned { number: end / 2 + 1, distance, channels }
         };
         (0..2 * tether.line.elements().len()).map(place).collect()
@@ -202,7 +206,7 @@ impl TetherStatistics {
             }
         }
         let worst = turned(best.0);
-        let tube = tether.line.elements().get(end / 2).map(|e| e.tube().stress_of_moment()).unwrap_or_default();
+        let tube = tether.line.elements()[end / 2].tube().stress_of_moment();
         let stress = worst.iter().map(|m| m * tube).collect();
         let named = |q: usize, name: &'static str| of.get(q).map(|q| TetherQuantity { group: "", name, ..*q });
         let list = [
@@ -231,14 +235,14 @@ impl TetherStatistics {
         let duration = self.elapsed;
         let count = 2 * tether.line.elements().len();
         let moments: Vec<[Vec<f64>; 2]> = (0..count).map(|end| [2, 3].map(|q| self.pick(tether.end(end, q)))).collect();
-        let tube = |end: usize| tether.line.elements().get(end / 2).map(|e| e.tube().stress_of_moment());
+        let tube = |end: usize| tether.line.elements()[end / 2].tube().stress_of_moment();
         let records: Vec<EndRecord> = moments
             .iter()
             .enumerate()
-            .map(|(end, [y, z])| EndRecord { about_y: y, about_z: z, stress_of_moment: tube(end).unwrap_or_default() })
+            .map(|(end, [y, z])| EndRecord { about_y: y, about_z: z, stress_of_moment: tube(end) })
             .collect();
         let found = fatigue::fatigue_of_ends(&records, FatigueSettings { duration, ..asked })?;
-        let distance = |end: usize| tether.line.distances().get(end.div_ceil(2)).copied().unwrap_or_default();
+        let distance = |end: usize| tether.line.distances()[end.div_ceil(2)];
         let ends: Vec<AtEnd> = found.into_iter().enumerate().map(|(end, f)| (end / 2 + 1, distance(end), f)).collect();
         let title = |what: &str| format!("{what} of Tether {}", tether.name);
         let four = Digits::Decimals(4);

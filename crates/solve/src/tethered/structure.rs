@@ -4,7 +4,7 @@ use super::Tethered;
 use super::history::StructureHistory;
 use super::tables::SECONDS;
 use std::f64::consts::TAU;
-use windlass_base::fortran::{exponent, fixed, without_noise};
+use windlass_base::fortran::{exponent, format_fixed, without_noise};
 use windlass_base::table::{Column, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_signal::SeriesError;
@@ -47,7 +47,7 @@ pub fn structure(
         // the listing has the errors of rotations in radians
         let dim = if kind == ERROR && dof >= 3 { Dim::None } else { six(kind)[dof / 3].0 };
         let value = dim.from_si(value, units);
-        if kind < 3 { fixed(value, 4) } else { exponent(value, 4) }
+        if kind < 3 { format_fixed(value, 4) } else { exponent(value, 4) }
     };
     let kinds: Vec<usize> = (0..StructureHistory::KINDS.len()).filter(|kind| !omitted.contains(kind)).collect();
     let named = |point: &usize| format!("POSITION {}", structure.points.get(*point).map_or("", String::as_str));
@@ -59,7 +59,7 @@ pub fn structure(
     for (dof, name) in FREEDOM_HEADS.into_iter().enumerate() {
         let place = |point: &usize| {
             let value = (dof < 3).then(|| structure.value(instant, behind + 3 * point + dof)).flatten();
-            value.map_or(String::new(), |value| fixed(Dim::Length.from_si(value, units), 4))
+            value.map_or(String::new(), |value| format_fixed(Dim::Length.from_si(value, units), 4))
         };
         let cells = kinds.iter().map(|kind| cell(*kind, dof)).chain(points.iter().map(place));
         columns.push(Column::right_aligned("DEGREE OF FREEDOM", name, cells));
@@ -155,7 +155,7 @@ pub fn harmonics(
     Ok(tables)
 }
 
-/// What the listing calls the freedoms in the pages of harmonics.
+/// What the listing calls the degrees of freedom in the pages of harmonics.
 const FREEDOM_NAMES: [&str; 6] =
     ["in X direction", "in Y direction", "in Z direction", "about X axis", "about Y axis", "about Z axis"];
 

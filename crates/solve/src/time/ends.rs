@@ -10,7 +10,7 @@ use windlass_model::End;
 /// is reported where it is wanted.
 pub(crate) fn end_of(end: &EndAttachment, motions: &[BodyMotion], accelerates: bool) -> (End, Vector3<f64>) {
     let (body, at) = match end {
-        EndAttachment::Ground(pose) => return (End::still(*pose), Vector3::zeros()),
+        EndAttachment::Ground(pose) => return (End::at_rest(*pose), Vector3::zeros()),
         EndAttachment::Body(body, at) => (motions[*body], at),
     };
     let pose = Pose { origin: body.pose.point(*at), axes: body.pose.axes };

@@ -64,7 +64,7 @@ impl Run {
 
     pub(super) fn check_actions(&self) -> Result<(), SolveError> {
         for action in &self.actions {
-            let wrong = |error: ClassError| SolveError::new(error.about(format!("action {}", action.name)));
+            let wrong = |error: ClassError| SolveError::new(error.with_subject(format!("action {}", action.name)));
             if let Some(Observable::Height(point)) = action.when.observable() {
                 point_in_body(&self.model, point).map_err(wrong)?;
             }

@@ -63,9 +63,8 @@ impl LoadMemory {
         system: &'a System,
         body: usize,
     ) -> impl Iterator<Item = (&'a dyn BodyLoad, Range<usize>)> {
-        let loads = system.nodes.get(body).map_or(&[][..], |n| &n.floating.loads);
-        let ranges = self.ranges.get(body).map_or(&[][..], |r| r);
-        loads.iter().zip(ranges).map(|(load, range)| (load.as_ref(), range.clone()))
+        let loads = &system.nodes[body].floating.loads;
+        loads.iter().zip(&self.ranges[body]).map(|(load, range)| (load.as_ref(), range.clone()))
     }
 
     /// Gives the loads of a body what those of an earlier system, in their order, remembered.

@@ -294,5 +294,5 @@ fn nodes_of(
 }
 
 fn at_time(error: ClassError, time: f64) -> ClassError {
-    error.about(format!("at {time} s"))
+    error.with_subject(format!("at {time} s"))
 }

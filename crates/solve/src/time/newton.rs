@@ -74,9 +74,11 @@ impl Stepper {
         if self.matrix.nrows() != size {
             self.matrix = DMatrix::zeros(size, size);
         }
-        if let ([mass], 6, true) = (self.masses.as_slice(), size, self.rows.iter().all(|r| r.heavy)) {
+        if let ([mass], [turned], 6, true) =
+            (self.masses.as_slice(), self.turned.as_slice(), size, self.rows.iter().all(|r| r.heavy))
+        {
             let block = |m: &DMatrix<f64>| m.fixed_view::<6, 6>(0, 0).into_owned();
-            let [place, velocity] = self.turned.first().copied().unwrap_or_default();
+            let [place, velocity] = *turned;
             let whole = (block(&forces.stiffness) + place) * by_place
                 + (block(&forces.damping) + velocity) * by_velocity
                 + block(&forces.inertia)

@@ -35,47 +35,48 @@ pub struct Resolution {
     pub given: Option<(String, f64)>,
 }
 
-impl Run {
-    /// What its step has to follow, at its start.
-    pub(super) fn resolve(&self) -> Resolution {
-        let sines = |key: &String| match self.model.bodies.get(key)?.prescribed.as_ref().map(|p| &p.motion) {
+impl Resolution {
+    /// What the step of a run has to follow, at its start.
+    pub(super) fn from_run(run: &Run) -> Resolution {
+        let sines = |key: &String| match run.model.bodies.get(key)?.prescribed.as_ref().map(|p| &p.motion) {
             Some(GivenMotion::Sinusoids { list, .. }) => {
                 list.iter().filter(|s| s.amplitude != 0.0).map(|s| s.period).reduce(f64::min)
             }
             _ => None,
         };
-        let swung = self.system.nodes.iter().filter_map(|n| sines(&n.key).map(|period| (n.name.clone(), period)));
+        let swung = run.system.nodes.iter().filter_map(|n| sines(&n.key).map(|period| (n.name.clone(), period)));
         Resolution {
-            natural: self.natural(),
-            wave: self.sea.as_deref().and_then(shortest),
+            natural: natural_periods(run),
+            wave: run.sea.as_deref().and_then(shortest),
             given: swung.reduce(|a, b| if b.1 < a.1 { b } else { a }),
         }
     }
+}
 
-    fn natural(&self) -> Vec<NaturalPeriod> {
-        let free = self.system.nodes.iter().flat_map(|n| n.free).filter(|f| *f).count();
-        if free > MAX_DOFS_ALWAYS_MODAL && self.settings.observed / self.settings.dt < MANY_STEPS {
-            return Vec::new();
-        }
-        let poses: Vec<_> = self.now.motions.iter().map(|m| m.pose).collect();
-        let forces = &self.now.forces;
-        let mut mass = self.system.mass_matrix(&poses);
-        if mass.shape() != forces.inertia.shape() {
-            return Vec::new();
-        }
-        mass += &forces.inertia;
-        if !mass.iter().chain(forces.stiffness.iter()).all(|v| v.is_finite()) {
-            return Vec::new();
-        }
-        // what cannot be solved here is found, and named, by the first step
-        let mut list: Vec<NaturalPeriod> = modes_with(&self.system, &mass, &forces.stiffness)
-            .unwrap_or_default()
-            .into_iter()
-            .filter_map(|m| m.period.map(|period| NaturalPeriod { body: m.most.0, dof: m.most.1, period }))
-            .collect();
-        list.sort_by(|a, b| a.period.total_cmp(&b.period));
-        list
+/// The natural modes of a run at its start, shortest first.
+fn natural_periods(run: &Run) -> Vec<NaturalPeriod> {
+    let free = run.system.nodes.iter().flat_map(|n| n.free).filter(|f| *f).count();
+    if free > MAX_DOFS_ALWAYS_MODAL && run.settings.observed / run.settings.dt < MANY_STEPS {
+        return Vec::new();
     }
+    let poses: Vec<_> = run.now.motions.iter().map(|m| m.pose).collect();
+    let forces = &run.now.forces;
+    let mut mass = run.system.mass_matrix(&poses);
+    if mass.shape() != forces.inertia.shape() {
+        return Vec::new();
+    }
+    mass += &forces.inertia;
+    if !mass.iter().chain(forces.stiffness.iter()).all(|v| v.is_finite()) {
+        return Vec::new();
+    }
+    // what cannot be solved here is found, and named, by the first step
+    let mut list: Vec<NaturalPeriod> = modes_with(&run.system, &mass, &forces.stiffness)
+        .unwrap_or_default()
+        .into_iter()
+        .filter_map(|m| m.period.map(|period| NaturalPeriod { body: m.most.0, dof: m.most.1, period }))
+        .collect();
+    list.sort_by(|a, b| a.period.total_cmp(&b.period));
+    list
 }
 
 /// The period below which a share of the energy of a sea is (s).

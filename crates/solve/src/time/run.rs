@@ -192,7 +192,7 @@ impl Run {
         forces.evaluate(&self.system, memory, motions, (*time, 0.0))?;
         // a dynamic line begins where it hangs
         self.system.begin_dynamic_lines(&self.now.forces.trial);
-        self.resolution = self.resolve();
+        self.resolution = Resolution::from_run(self);
         Ok(())
     }
 

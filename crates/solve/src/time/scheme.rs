@@ -63,7 +63,7 @@ impl TimeScheme {
         TimeScheme { alpha_m, alpha_f, beta, gamma }
     }
 
-    /// Newmark's scheme; 0.25 and 0.5 make the trapezoidal rule.
+    /// Newmark's scheme by its weights beta and gamma, numbers without a unit; 0.25 and 0.5 make the trapezoidal rule.
     pub fn newmark(beta: f64, gamma: f64) -> Self {
         TimeScheme { alpha_m: 0.0, alpha_f: 0.0, beta, gamma }
     }

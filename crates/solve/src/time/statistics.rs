@@ -38,8 +38,8 @@ pub fn results(layout: &RowLayout) -> Vec<ResultSeries> {
     let mut list = Vec::new();
     for (body, (name, _)) in layout.bodies.iter().enumerate() {
         let at = layout.body(body);
-        let moves = layout.moves.get(body).copied().unwrap_or([true; 6]);
-        for (i, dof) in DOFS.iter().enumerate().filter(|(i, _)| moves.get(*i) == Some(&true)) {
+        let moves = layout.moves[body];
+        for (i, dof) in DOFS.iter().enumerate().filter(|(i, _)| moves[*i]) {
             let dim = if i < 3 { Dim::Length } else { Dim::Angle };
             list.push(ResultSeries { name: format!("{name} {dof}"), dim, columns: at + i..at + i + 1, pushing: None });
         }

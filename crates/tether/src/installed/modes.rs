@@ -27,9 +27,9 @@ pub struct InstalledMode {
 }
 
 impl InstalledMode {
-    /// `MODE FREEDOM POSN` [AQWA-TETHER 7.2]: its place among the four freedoms X, Y, RX, RY of each node, from 1.
+    /// `MODE FREEDOM POSN` [AQWA-TETHER 7.2]: its number among the four degrees of freedom X, Y, RX, RY of each node, from 1.
     pub fn freedom_position(&self) -> Option<usize> {
-        self.mode.freedom_of([[2, 3], [1, 4]])
+        self.mode.dof_of([[2, 3], [1, 4]])
     }
 
     /// X, Y (scaled), RX, RY (rad) of a node.

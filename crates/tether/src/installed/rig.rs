@@ -293,10 +293,10 @@ impl Rig {
 
     /// X and Y (m), RX and RY (rad) of a node against the axis.
     pub fn position(&self, node: usize) -> [f64; 4] {
-        four([0, 1].map(|p| self.bending.now[p].place.as_slice()), node)
+        four([0, 1].map(|p| self.bending.now[p].deflection.as_slice()), node)
     }
 
-    /// Their velocities.
+    /// Their velocities (m/s, rad/s).
     pub fn velocity(&self, node: usize) -> [f64; 4] {
         four([0, 1].map(|p| self.bending.now[p].velocity.as_slice()), node)
     }
@@ -306,8 +306,8 @@ impl Rig {
         four([0, 1].map(|p| self.bending.found[0][p].as_slice()), node)
     }
 
-    /// A node in space (m, global).
-    pub fn place(&self, node: usize) -> Vector3<f64> {
+    /// The position of a node (m, global).
+    pub fn node_position(&self, node: usize) -> Vector3<f64> {
         let (axis, tension) = &self.start;
         let [x, y, ..] = self.position(node);
         let top = self.tether.anchor + axis.along * axis.chord;

@@ -81,7 +81,7 @@ pub trait InstalledObserver {
     /// What ends the run.
     fn observe(&mut self, moment: &Moment) -> Result<(), ClassError>;
 
-    /// Is told before each state, and at the end, that the run can go on from here: the number of the state that comes next, and what
+    /// Called before each state and at the end, where the run can be resumed: the number of the state that comes next, and what
     /// [`Installation::resume`] needs.
     ///
     /// # Errors
@@ -351,6 +351,6 @@ impl InstalledRunSettings {
 fn with_tether_and_time(mut error: ClassError, tether: &InstalledTether, time: f64) -> ClassError {
     let subject =
         Message::from(format!("tether {}", tether.name)).then(Message::with_values(" at {}", &[(time, Dim::Time)]));
-    error.message = error.message.about(subject);
+    error.message = error.message.with_subject(subject);
     error
 }

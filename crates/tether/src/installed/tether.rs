@@ -171,7 +171,7 @@ pub struct InstalledTether {
 }
 
 impl InstalledTether {
-    /// A tether with rigid ends, without caps, fluid, impact, stop and constraints.
+    /// A tether between its anchor and its attachment (m, global) with rigid ends, without caps, fluid, impact, stop and constraints.
     pub fn new(name: impl Into<String>, line: TetherLine, anchor: Vector3<f64>, attachment: Vector3<f64>) -> Self {
         InstalledTether {
             name: name.into(),

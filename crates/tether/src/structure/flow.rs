@@ -38,7 +38,7 @@ impl WaterFlow {
     ///
     /// # Errors
     /// A density or gravity that is no positive number.
-    pub fn still(density: f64, gravity: f64) -> Result<Self, ClassError> {
+    pub fn still_water(density: f64, gravity: f64) -> Result<Self, ClassError> {
         let sound = |value: f64| value.is_finite() && value > 0.0;
         if !(sound(density) && sound(gravity)) {
             return Err(ClassError::new("the water needs a density and a gravity greater than zero"));
@@ -106,7 +106,7 @@ impl FlowAt<'_> {
                 wave.kinematics(at, at.z - flow.level, self.time, [flow.density, flow.gravity])
             }
             (_, Some(sea)) => sea.kinematics(at),
-            _ => Kinematics::still(0.0),
+            _ => Kinematics::still_water(0.0),
         };
         if !flow.current.is_none() {
             found.velocity += flow.current.at_depth(flow.level - at.z).0;

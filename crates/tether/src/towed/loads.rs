@@ -180,7 +180,7 @@ impl<'a> Loading<'a> {
         let blocks = self.waters.blocks();
         let straight = !self.waters.lateral || motion.at[0] == [0.0; 4];
         let usable = straight && !self.kept.is_empty();
-        let shortened = self.shortened.get(length.element).copied().unwrap_or_default();
+        let shortened = self.shortened[length.element];
         let start = length.x[0] - (length.from + length.share * GAUSS[0].0) * element.length;
         let shifts = length.x.map(|x| shortened.shift(x - start));
         self.place.clear();
@@ -243,7 +243,7 @@ impl<'a> Loading<'a> {
             let y = if self.waters.lateral { dot(&shape, &motion.at[0]) } else { 0.0 };
             self.place.clear();
             let distance = a * element.length;
-            let shift = self.shortened.get(length.element).map_or(0.0, |shortened| shortened.shift(distance));
+            let shift = self.shortened[length.element].shift(distance);
             self.waters.at_place(start + distance + shift, y, &mut self.place);
             let elevation = self.waters.elevation(&self.time, &self.place);
             let z = case.origin[2] + dot(&shape, &motion.at[1]);

@@ -65,7 +65,7 @@ pub trait TowedObserver {
     /// Takes a record; [`ControlFlow::Break`] ends the run.
     fn record(&mut self, record: &TowedRecord<'_>) -> ControlFlow<()>;
 
-    /// Is told before each step, and at the end, that the run can go on from here: the number of the record that comes next, and what
+    /// Called before each step and at the end, where the run can be resumed: the number of the record that comes next, and what
     /// [`Towed::resume`] needs.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use windlass_tether::towed::{
 use windlass_tether::{TetherElement, TetherLine};
 
 /// The printed numbers.
-fn printed() -> Value {
+fn read_printed_numbers() -> Value {
     serde_json::from_str(&std::fs::read_to_string("../../tests/data/towed_tether.json").unwrap()).unwrap()
 }
 
@@ -58,7 +58,7 @@ fn line() -> TetherLine {
 /// The fifty waves with their printed wave numbers and phases; amplitudes are equal, 1/50 of the energy within the limits.
 fn waves() -> Vec<Component> {
     let amplitude = (2.0 * (6.2934f64 / 4.0).powi(2) / 50.0).sqrt();
-    let lines = printed()["spectral_lines"].as_array().unwrap().clone();
+    let lines = read_printed_numbers()["spectral_lines"].as_array().unwrap().clone();
     let wave = |line: &Value| {
         // the wave number has a digit more than the frequency
         let k = number(&line[1]);
@@ -104,7 +104,7 @@ fn misfit(found: impl Fn(usize) -> f64, listed: impl Fn(usize) -> f64) -> (f64, 
 
 #[test]
 fn sections_and_description_match_listing() {
-    let p = printed();
+    let p = read_printed_numbers();
     let case = case();
     let description = case.description(1, ["100", "999"]);
     let table = description.table();
@@ -138,7 +138,7 @@ fn sections_and_description_match_listing() {
 
 #[test]
 fn bending_modes_match_listing() {
-    let p = printed();
+    let p = read_printed_numbers();
     let case = case();
     let modes = case.modes(56).unwrap();
     assert_eq!(modes.len(), 56);
@@ -164,7 +164,7 @@ fn bending_modes_match_listing() {
 
 #[test]
 fn modes_have_places_of_listing_in_matrices() {
-    let eigen = printed()["eigen"].as_array().unwrap().clone();
+    let eigen = read_printed_numbers()["eigen"].as_array().unwrap().clone();
     let listed: Vec<usize> = eigen.iter().map(|mode| number(&mode["posn"]) as usize).collect();
     assert_eq!(listed, [14, 13, 22, 25, 26, 21]);
     let found: Vec<usize> = case().modes(6).unwrap().iter().map(|mode| mode.freedom_position().unwrap()).collect();
@@ -177,7 +177,7 @@ fn modes_have_places_of_listing_in_matrices() {
 #[test]
 fn listing_spring_modes_are_three_percent_too_slow() {
     let modes = case().modes(4).unwrap();
-    let eigen = printed()["eigen"].as_array().unwrap().clone();
+    let eigen = read_printed_numbers()["eigen"].as_array().unwrap().clone();
     let expected = [151.00, 150.29, 91.87, 90.99];
     let off = [-0.034, -0.019, -0.033, -0.015];
     for i in 0..4 {
@@ -196,7 +196,7 @@ fn listing_spring_modes_are_three_percent_too_slow() {
 
 #[test]
 fn accelerations_and_moments_at_start_match_listing() {
-    let p = printed();
+    let p = read_printed_numbers();
     let motion = &p["history"]["0"]["motion"];
     let listed = |column: usize| move |i: usize| number(&motion[13 - i][column]);
     let mut seen = 0;
@@ -223,7 +223,7 @@ fn accelerations_and_moments_at_start_match_listing() {
 
 #[test]
 fn run_matches_printed_states() {
-    let p = printed();
+    let p = read_printed_numbers();
     let mut seen = 0;
     case()
         .run(&steps(), &mut |r: &TowedRecord| {
@@ -256,7 +256,7 @@ fn run_matches_printed_states() {
 
 #[test]
 fn statistics_match_listing() {
-    let p = printed();
+    let p = read_printed_numbers();
     // the listing takes every second step: records 50 to 751
     let mut history = TowedHistory { every: 2, ..TowedHistory::default() };
     case().run(&steps(), &mut history).unwrap();
@@ -287,7 +287,7 @@ fn statistics_match_listing() {
 
 #[test]
 fn each_documented_deviation_of_aqwa_has_its_stated_effect() {
-    let p = printed();
+    let p = read_printed_numbers();
     let motion = &p["history"]["0"]["motion"];
     let start = |compatibility: TowedCompatibility| {
         let mut error = 0.0;

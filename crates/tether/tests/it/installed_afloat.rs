@@ -118,7 +118,7 @@ fn moored_database_body_heaves_as_oscillator() {
     // the phase of the excitation is of where the body stands in plan: the reference point over the origin
     let pose = Pose::from_position([0.0, 0.0, height + amplitude]);
     // waves across the tether are another matter: still water for it
-    let flow = WaterFlow { waves: FlowWaves::None, ..WaterFlow::still(density, gravity).unwrap() };
+    let flow = WaterFlow { waves: FlowWaves::None, ..WaterFlow::still_water(density, gravity).unwrap() };
     let course = InstalledRunSettings { start: 0.0, step: 0.02, states: 1001, pose, velocity: Six::zeros() };
     let mut history = InstalledHistory::new(1, Keep::Always);
     let mut installation = Installation::new(&mut structure, vec![tether], &flow, Compatibility::native()).unwrap();

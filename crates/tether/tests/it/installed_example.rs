@@ -68,7 +68,9 @@ pub fn tethers() -> Vec<InstalledTether> {
 }
 
 pub fn water() -> WaterFlow {
-    WaterFlow::still(1025.0, 9.81).unwrap().with_waves(FlowWaves::Deep(DeepWave::new(15.0, 15.0, 0.0, 9.81).unwrap()))
+    WaterFlow::still_water(1025.0, 9.81)
+        .unwrap()
+        .with_waves(FlowWaves::Deep(DeepWave::new(15.0, 15.0, 0.0, 9.81).unwrap()))
 }
 
 pub fn course() -> InstalledRunSettings {

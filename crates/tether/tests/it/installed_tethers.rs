@@ -50,8 +50,8 @@ fn upright(elements: usize, stretch: f64) -> (InstalledTether, Vector3<f64>) {
     (tether, anchor + Vector3::z() * (200.0 + stretch))
 }
 
-fn still() -> WaterFlow {
-    WaterFlow::still(1025.0, 9.81).unwrap()
+fn still_water() -> WaterFlow {
+    WaterFlow::still_water(1025.0, 9.81).unwrap()
 }
 
 /// A run of an unmoved structure.
@@ -82,7 +82,7 @@ fn tension_includes_stretch_pressure_weight_contents_and_caps() {
     tether.caps = [0.3, 0.4];
     let tube = tether.line.elements()[0].tube();
     let (area, outer, inner) = (tube.area(), tube.external_area(), tube.internal_area());
-    let history = hold(tether.clone(), at, &still(), [0.1, 0.1], Vector3::zeros());
+    let history = hold(tether.clone(), at, &still_water(), [0.1, 0.1], Vector3::zeros());
     // depths of the ends 250 m and 49.95 m; wall strain EA 0.05/200, in the middle
     let (deep, high) = (250.0, 49.95);
     let (out, inside) = (|h: f64| 1025.0 * 9.81 * h, |h: f64| 2e6 + 850.0 * 9.81 * h);
@@ -94,7 +94,7 @@ fn tension_includes_stretch_pressure_weight_contents_and_caps() {
     near(history.end(0, 0, false, 0)[0], effective - 0.5 * weight);
     near(history.end(0, 3, true, 1)[0], effective + 0.5 * weight - out(high) * outer + inside(high) * inner);
     near(history.force(7, 2)[0], -(effective + 0.5 * weight - out(high) * 0.4));
-    let description = InstalledDescription::new(&tether, at, &still()).unwrap();
+    let description = InstalledDescription::new(&tether, at, &still_water()).unwrap();
     near(description.tension, effective);
     // the free hanging reaction balances steel, contents, displaced water and the caps
     near(description.hanging, weight + out(deep) * 0.3 - out(250.0 - 200.0) * 0.4);
@@ -103,7 +103,7 @@ fn tension_includes_stretch_pressure_weight_contents_and_caps() {
 #[test]
 fn tether_in_current_bows_like_a_stretched_string() {
     let (tether, at) = upright(10, 0.2);
-    let flow = WaterFlow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still() };
+    let flow = WaterFlow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still_water() };
     let history = hold(tether, at, &flow, [0.25, 200.0], Vector3::zeros());
     // ends pinned: w = (q/T) (s (L - s)/2 - (1 - cosh ...)/k^2) with k^2 = T/EI; q on the tension with the bow's own stretch
     let load = 0.5 * 1025.0 * 0.75 * 1.1176;
@@ -123,7 +123,7 @@ fn tether_in_current_bows_like_a_stretched_string() {
 #[test]
 fn structure_constraint_reacts_and_gap_allows_motion() {
     let (mut tether, at) = upright(10, 0.2);
-    let flow = WaterFlow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still() };
+    let flow = WaterFlow { current: CurrentField::uniform(1.0, std::f64::consts::PI), ..still_water() };
     let load = 0.5 * 1025.0 * 0.75 * 1.1176 * 200.2;
     tether.constraints = vec![NodeConstraint::VesselLateral { node: 5, gap: 0.0 }];
     let held = hold(tether.clone(), at, &flow, [0.25, 200.0], Vector3::zeros());
@@ -158,8 +158,8 @@ fn structure_constraint_reacts_and_gap_allows_motion() {
 #[test]
 fn tether_group_force_is_scaled_by_its_factor() {
     let (tether, at) = upright(3, 0.1);
-    let one = hold(tether.clone(), at, &still(), [0.1, 0.1], Vector3::zeros());
-    let four = hold(InstalledTether { group: 4.0, ..tether }, at, &still(), [0.1, 0.1], Vector3::zeros());
+    let one = hold(tether.clone(), at, &still_water(), [0.1, 0.1], Vector3::zeros());
+    let four = hold(InstalledTether { group: 4.0, ..tether }, at, &still_water(), [0.1, 0.1], Vector3::zeros());
     assert!((four.force(7, 2)[0] / one.force(7, 2)[0] - 4.0).abs() < 1e-14);
 }
 
@@ -169,7 +169,7 @@ fn lowered_tether_impacts_its_stop_and_never_hangs_at_anchor() {
     // down at 0.1 m/s; in the middle under water it shortens by p A L/EA = 0.0106 m before it is slack
     let down = |stop: Option<f64>| {
         let tether = InstalledTether { lower_stop: stop, ..tether.clone() };
-        hold(tether, at, &still(), [0.05, 10.0], Vector3::new(0.0, 0.0, -0.1))
+        hold(tether, at, &still_water(), [0.05, 10.0], Vector3::new(0.0, 0.0, -0.1))
     };
     let tube = tether.line.elements()[0].tube();
     let ea = 2.15e11 * tube.area();
@@ -232,8 +232,8 @@ fn sea_of_one_component_matches_airy_regular_wave() {
         Component { frequency: wave.frequency, number: wave.number, amplitude: 2.0, toward: wave.toward, phase: 0.0 };
     let water = Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
     let sea = Sea::airy(vec![component], water, 0.0, Stretching::Exponential);
-    let regular = example_in(&still().with_waves(FlowWaves::Deep(wave)), 200);
-    let irregular = example_in(&still().with_waves(FlowWaves::Sea(Arc::new(sea))), 200);
+    let regular = example_in(&still_water().with_waves(FlowWaves::Deep(wave)), 200);
+    let irregular = example_in(&still_water().with_waves(FlowWaves::Sea(Arc::new(sea))), 200);
     for direction in 0..6 {
         for (a, b) in regular.motion(0, direction).iter().zip(irregular.motion(0, direction)) {
             // rounding of 200 steps
@@ -257,7 +257,7 @@ fn irregular_sea_is_reproducible_with_tensions_about_pretension() {
     };
     let water = Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
     let sea = Arc::new(Sea::airy((0..40).map(component).collect(), water, 20.0, Stretching::Exponential));
-    let flow = still().with_waves(FlowWaves::Sea(sea));
+    let flow = still_water().with_waves(FlowWaves::Sea(sea));
     let (one, other) = (example_in(&flow, 1200), example_in(&flow, 1200));
     assert_eq!(one.motion(0, 4), other.motion(0, 4));
     let tension = one.end(0, 1, true, 0);
@@ -270,7 +270,7 @@ fn irregular_sea_is_reproducible_with_tensions_about_pretension() {
 #[test]
 fn halving_step_shows_second_order() {
     let wave = DeepWave::new(1.0, 12.0, 0.0, 9.81).unwrap();
-    let flow = still().with_waves(FlowWaves::Deep(wave));
+    let flow = still_water().with_waves(FlowWaves::Deep(wave));
     let surge = |step: f64| last(&example_by(&flow, step, (20.0 / step).round() as usize + 1).motion(0, 0));
     let [a, b, c] = [0.2, 0.1, 0.05].map(surge);
     let ratio = (a - b) / (b - c);
@@ -292,12 +292,12 @@ fn missing_springs_get_defaults_and_a_note() {
 #[test]
 fn rigid_coils_hold_ends_and_soft_inline_springs_are_in_series() {
     let (mut tether, at) = upright(6, 0.1);
-    let stiffness = InstalledDescription::new(&tether, at, &still()).unwrap().stiffness;
+    let stiffness = InstalledDescription::new(&tether, at, &still_water()).unwrap().stiffness;
     tether.anchor_springs = EndSprings { inline: stiffness, ..EndSprings::default() };
     tether.vessel_springs = EndSprings { inline: stiffness, ..EndSprings::default() };
-    let soft = InstalledDescription::new(&tether, at, &still()).unwrap().stiffness;
+    let soft = InstalledDescription::new(&tether, at, &still_water()).unwrap().stiffness;
     assert!((soft / stiffness - 1.0 / 3.0).abs() < 1e-6);
-    let flow = WaterFlow { current: CurrentField::uniform(1.0, 0.0), ..still() };
+    let flow = WaterFlow { current: CurrentField::uniform(1.0, 0.0), ..still_water() };
     let history = hold(tether, at, &flow, [0.1, 20.0], Vector3::zeros());
     for node in [0, 6] {
         assert!(history.node(0, node, 3).iter().all(|slope| slope.abs() < 1e-12));
@@ -309,7 +309,7 @@ fn rigid_coils_hold_ends_and_soft_inline_springs_are_in_series() {
 fn invalid_installed_tether_is_refused_with_reason() {
     let (tether, at) = upright(3, 0.1);
     let run = |tether: InstalledTether, course: InstalledRunSettings| {
-        let (flow, mut structure) = (still(), example::platform(NATIVE));
+        let (flow, mut structure) = (still_water(), example::platform(NATIVE));
         let mut history = InstalledHistory::new(1, Keep::Always);
         let made = Installation::new(&mut structure, vec![tether], &flow, NATIVE);
         made.and_then(|mut i| i.run(&course, &mut history)).unwrap_err().to_string()

@@ -80,7 +80,7 @@ const CORROSION: OptionSpec = OptionSpec::ours(
 
 fn tables(query: &RodQuery) -> Tables {
     refuse_options_of_other_codes(query.args())?;
-    query.solved(along::check(&query.line, &code(query.args()), &query.events_after_transient()?))
+    query.to_tables(along::check(&query.line, &code(query.args()), &query.events_after_transient()?))
 }
 
 /// Refuses an option that belongs to another code.

@@ -15,5 +15,5 @@ fn tables(query: &RodQuery) -> Tables {
     // of a run without rows its own envelope is reported
     let is_own = query.run.history.is_empty() && !query.args().has(&EVENTS);
     let events = if is_own { Vec::new() } else { query.events_after_transient()? };
-    query.solved(along::envelope(&query.line, &events))
+    query.to_tables(along::envelope(&query.line, &events))
 }

@@ -39,5 +39,5 @@ fn tables(query: &RodQuery) -> Tables {
         concentration: args.option_number(&SCF).unwrap_or(usual.concentration),
     };
     let factor = args.option_number(&DFF).unwrap_or(1.0);
-    query.solved(along::fatigue_along(&query.line, &query.job.model.fatigue, (&round, factor), &events))
+    query.to_tables(along::fatigue_along(&query.line, &query.job.model.fatigue, (&round, factor), &events))
 }

@@ -106,7 +106,7 @@ impl RodQuery<'_> {
     }
 
     /// The table of an engine, its error at the record.
-    fn solved(&self, made: Result<Table, SolveError>) -> Tables {
+    fn to_tables(&self, made: Result<Table, SolveError>) -> Tables {
         let table = made.map_err(|e| to_diagnostic(e, &self.job.model, self.args().span, self.job.units))?;
         Ok(vec![table])
     }

@@ -26,7 +26,7 @@ const ARC: OptionSpec = OptionSpec::new(
 
 fn tables(query: &RodQuery) -> Tables {
     let events = query.events()?;
-    query.solved(along::histories(&query.line, &places(query)?, &events))
+    query.to_tables(along::histories(&query.line, &places(query)?, &events))
 }
 
 /// The places of NODE.

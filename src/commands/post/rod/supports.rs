@@ -9,5 +9,5 @@ pub(super) static SUPPORTS: RodReport =
     RodReport::new("SUPPORTS", "over time the force of a pipe on each of its rollers or davits", tables);
 
 fn tables(query: &RodQuery) -> Tables {
-    query.solved(along::supports(&query.line, Magnitude::default(), &query.events()?))
+    query.to_tables(along::supports(&query.line, Magnitude::default(), &query.events()?))
 }

@@ -12,5 +12,5 @@ pub(super) static TOUCHDOWN: RodReport = RodReport::new(
 );
 
 fn tables(query: &RodQuery) -> Tables {
-    query.solved(along::touchdown(&query.line, &query.events()?))
+    query.to_tables(along::touchdown(&query.line, &query.events()?))
 }

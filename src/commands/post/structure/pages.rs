@@ -44,7 +44,7 @@ const OMIT: OptionSpec = OptionSpec::ours(
 .repeating(1);
 
 /// The kinds of rows that -OMIT leaves out.
-fn omitted(query: &StructureQuery) -> Vec<usize> {
+fn find_omitted_rows(query: &StructureQuery) -> Vec<usize> {
     let given = query.args().option(&OMIT);
     let rows: Vec<PageRow> =
         given.map(|given| given.choices(const { OMIT.choice("ROW") }).collect()).unwrap_or_default();
@@ -62,7 +62,7 @@ fn tables(query: &StructureQuery) -> Tables {
         };
         points.push(place);
     }
-    let omitted = omitted(query);
+    let omitted = find_omitted_rows(query);
     let rows = (points.as_slice(), omitted.as_slice());
     let page = |instant: &usize| tethered::structure(run, structure, *instant, rows, query.job.units);
     Ok(query.instants()?.iter().map(page).collect())

@@ -48,7 +48,7 @@ fn ranges_and_fatigue(query: &TetherQuery) -> Outcome<(Table, Table)> {
         return Err(Diagnostic::error(text, args.place(WHAT)));
     }
     let made = find_statistics(query)?.fatigue(query.run, tether, fatigue_settings(args));
-    let [ranges, fatigue] = query.counted(made)?;
+    let [ranges, fatigue] = query.to_outcome(made)?;
     Ok((ranges, fatigue))
 }
 

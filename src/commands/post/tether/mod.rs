@@ -104,7 +104,7 @@ impl TetherQuery<'_> {
     }
 
     /// What was made of a series, its error at the record.
-    fn counted<T>(&self, made: Result<T, SeriesError>) -> Outcome<T> {
+    fn to_outcome<T>(&self, made: Result<T, SeriesError>) -> Outcome<T> {
         made.map_err(|e| Diagnostic::error(e.to_string(), self.args().span))
     }
 

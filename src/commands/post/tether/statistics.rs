@@ -18,5 +18,5 @@ fn tables(query: &TetherQuery) -> Tables {
         None | Some("2") => statistics.type_two(query.run, query.tether),
         Some(_) => return Err(Diagnostic::error("statistics are of type 1 or 2", query.args().place(NUMBER))),
     };
-    query.counted(made)
+    query.to_outcome(made)
 }

@@ -11,7 +11,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::spec::Owner;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
-use windlass_base::values::Args;
+use windlass_base::values::{Args, Value};
 use windlass_hydro::compartments_of;
 use windlass_hydro::stability::{Quantity, Stability, StillBody, find_down_flooding_points};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
@@ -190,10 +190,9 @@ pub(super) fn read_limits(args: &Args, model: &Model, body: &Body) -> Vec<Limit>
         let [intact, damaged, either] = &criterion.options;
         let given = args.option(if is_damaged { damaged } else { intact }).or_else(|| args.option(either));
         let Some(given) = given else { continue };
-        let numbers = given.numbers();
         let usual = if criterion.quantity == Quantity::RangeLessEquilibrium { 1.0 } else { 0.0 };
-        let second = numbers.get(1).copied().unwrap_or(usual);
-        limits.push(Limit { criterion, value: numbers.first().copied().unwrap_or(0.0), second });
+        let second = given.values.get(1).and_then(Value::number).unwrap_or(usual);
+        limits.push(Limit { criterion, value: given.first_number().unwrap_or(0.0), second });
     }
     limits
 }

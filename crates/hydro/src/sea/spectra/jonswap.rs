@@ -43,8 +43,8 @@ pub fn jonswap(height: f64, period: f64, kind: PeriodType, gamma: f64) -> Vec<Sp
     vec![SpectralPeak::from_energy(height * height / 16.0, TAU / peak, 5.0, gamma)]
 }
 
-/// The peakedness of JONSWAP where none is given: 5 up to Tp/sqrt(Hs) = 3.6, exp(5.75 - 1.15 Tp/sqrt(Hs)) up to 5, 1 beyond
-/// [DNV-RP-C205 3.5.5.5]; the peak period is that of the period given.
+/// The peakedness of JONSWAP of a significant height (m) and a period (s) where none is given: 5 up to Tp/sqrt(Hs) = 3.6, exp(5.75 - 1.15
+/// Tp/sqrt(Hs)) up to 5, 1 beyond [DNV-RP-C205 3.5.5.5]; the peak period is that of the period given.
 pub fn default_gamma(height: f64, period: f64, kind: PeriodType) -> f64 {
     let of_peak = |peak: f64| match peak / height.sqrt() {
         r if r <= 3.6 => 5.0,

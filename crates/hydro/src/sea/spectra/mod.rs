@@ -125,7 +125,7 @@ impl SeaState {
         self.height * self.height / 16.0
     }
 
-    /// The parameters of a spectrum that declares this many.
+    /// The parameters (SI) of a spectrum that declares this many.
     pub fn parameters<const N: usize>(&self) -> [f64; N] {
         std::array::from_fn(|index| self.shape.get(index).copied().unwrap_or(f64::NAN))
     }

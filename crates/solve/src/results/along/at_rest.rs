@@ -24,7 +24,7 @@ pub(crate) fn visit_lines_at_rest(
     let surroundings = model.surroundings();
     let mut report = |name: &str, element: &dyn ConnectorElement, ends: &[EndAttachment]| {
         let Some(line) = element.as_dynamic() else { return Ok(()) };
-        let ends: Vec<End> = ends.iter().map(|end| End::still(pose_of(end, &poses))).collect();
+        let ends: Vec<End> = ends.iter().map(|end| End::at_rest(pose_of(end, &poses))).collect();
         let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
         let mut state = vec![0.0; element.states()];
         element.start(&mut state);

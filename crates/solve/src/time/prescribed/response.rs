@@ -122,7 +122,7 @@ impl RaoMotion {
     }
 
     /// The ramp of the sea with its derivatives: `(1 - cos(pi t/T))/2`.
-    fn grown(&self, time: f64) -> [f64; 3] {
+    fn ramp_factor(&self, time: f64) -> [f64; 3] {
         let over = self.sea.as_ref().map_or(0.0, |s| s.ramp);
         if over <= 0.0 || time >= over {
             return [1.0, 0.0, 0.0];
@@ -148,7 +148,7 @@ impl Prescribed for RaoMotion {
                 sums[2][i] -= w * w * value;
             }
         }
-        let (grown, mean) = (self.grown(time), self.place.values());
+        let (grown, mean) = (self.ramp_factor(time), self.place.values());
         let mut dofs: DofMotion = [[0.0; 6]; 3];
         for i in 0..6 {
             let [value, rate, second] = super::product(grown, [sums[0][i], sums[1][i], sums[2][i]]);

@@ -35,7 +35,7 @@ impl Bending {
             for index in 0..self.held[plane].len() {
                 let (unknown, hold) = self.held[plane][index];
                 let [place, velocity, _] = self.target(unknown, hold, plane, stage);
-                self.now[plane].place[unknown] = place;
+                self.now[plane].deflection[unknown] = place;
                 self.now[plane].velocity[unknown] = velocity;
             }
         }
@@ -98,7 +98,7 @@ impl Bending {
             let [here, ..] = self.on_axis(share, stage);
             let [middle, ..] = self.opening(share, stage);
             let middle = stage.axis.parts(middle - here);
-            let off = [0, 1].map(|p| motion[p].place[unknown] - middle[p]);
+            let off = [0, 1].map(|p| motion[p].deflection[unknown] - middle[p]);
             let far = off[0].hypot(off[1]);
             if far <= gap {
                 continue;
@@ -107,7 +107,7 @@ impl Bending {
             let edge = middle[plane] + off[plane] * (gap / far);
             self.stiffness[plane].add(unknown, unknown, spring);
             self.right[unknown] += spring * edge;
-            let push = stage.axis.across[plane] * (spring * (motion[plane].place[unknown] - edge));
+            let push = stage.axis.across[plane] * (spring * (motion[plane].deflection[unknown] - edge));
             self.pushes.push((push, here + middle[0] * stage.axis.across[0] + middle[1] * stage.axis.across[1]));
         }
     }
@@ -139,7 +139,7 @@ impl Bending {
             *frame += a;
         }
         let now = &self.now[plane];
-        let moving = now.place.iter().zip(&now.velocity).zip(found);
+        let moving = now.deflection.iter().zip(&now.velocity).zip(found);
         for (ahead, ((x, v), a)) in self.ahead.iter_mut().zip(moving) {
             *ahead = x + LOOK_AHEAD * stage.dt * (v + 0.5 * stage.dt * a);
         }

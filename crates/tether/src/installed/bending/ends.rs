@@ -12,7 +12,7 @@ impl Bending {
         let stretch = length / self.length;
         let of = |(index, cell): (usize, &PerLength)| -> f64 {
             let part = |m: &PlaneMotion| {
-                beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.place, index))
+                beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.deflection, index))
             };
             0.5 * motion.iter().map(part).sum::<f64>()
         };
@@ -34,7 +34,7 @@ impl Bending {
             let turn = end / stage.tension.length;
             let frame = [ends[0] * end, turn, ends[1] * end, turn];
             let a = beam::of_element(&self.found[usize::from(second)][plane], element);
-            let x = beam::of_element(&self.now[plane].place, element);
+            let x = beam::of_element(&self.now[plane].deflection, element);
             let v = beam::of_element(&self.now[plane].velocity, element);
             let ahead: Vector4 = std::array::from_fn(|i| x[i] + LOOK_AHEAD * stage.dt * (v[i] + 0.5 * stage.dt * a[i]));
             let all: Vector4 = std::array::from_fn(|i| a[i] + frame[i]);
@@ -43,7 +43,7 @@ impl Bending {
             beam::add(&mut sum, 1.0, &beam::times(&mass, &all));
             if self.axial > 0.0 {
                 let motion = if second { &self.trial } else { &self.now };
-                let at_stage = beam::of_element(&motion[plane].place, element);
+                let at_stage = beam::of_element(&motion[plane].deflection, element);
                 let more = beam::geometric(self.tension_ahead[usize::from(second)], length);
                 beam::add(&mut sum, 1.0, &beam::times(&more, &at_stage));
             }
@@ -64,7 +64,7 @@ impl Bending {
             (beam::stiffness(cell.bending, length), beam::geometric(axial.middle(last, tension), length));
         let motion = if second { &self.trial } else { &self.now };
         [0, 1].map(|plane| {
-            let x = beam::of_element(&motion[plane].place, last);
+            let x = beam::of_element(&motion[plane].deflection, last);
             let a = beam::of_element(&self.found[usize::from(!second)][plane], last);
             let load = self.loads[plane][last][2];
             beam::dot(&bends[2], &x) + beam::dot(&pulls[2], &x) + beam::dot(&mass, &a) - load
@@ -75,21 +75,21 @@ impl Bending {
     fn top_mass(&self, tension: &TetherTension) -> Vector4 {
         let stretch = tension.length / self.length;
         let mass = |c: &PerLength| beam::mass(c.mass[0] / stretch + c.mass[1], c.length * stretch)[2];
-        self.cells.last().map_or([0.0; 4], mass)
+        mass(&self.cells[self.cells.len() - 1])
     }
 
     /// The mass (kg) across the axis that rides on the structure's end with the axis itself.
     pub fn entrained_mass(&self, tension: &TetherTension) -> f64 {
-        let nodes = self.shares.len();
-        let share = |node: Option<usize>| node.and_then(|n| self.shares.get(n)).copied().unwrap_or_default();
+        // a tether has an element, and so two nodes
+        let top = self.shares.len() - 1;
         let turn = 1.0 / tension.length;
-        let frame = [share(nodes.checked_sub(2)), turn, share(nodes.checked_sub(1)), turn];
+        let frame = [self.shares[top - 1], turn, self.shares[top], turn];
         beam::dot(&self.top_mass(tension), &frame)
     }
 
     /// Slopes at the structure by plane (rad).
     pub fn top_slopes(&self, motion: &[PlaneMotion; 2]) -> [f64; 2] {
-        [0, 1].map(|p| motion[p].place.last().copied().unwrap_or_default())
+        [0, 1].map(|p| motion[p].deflection[motion[p].deflection.len() - 1])
     }
 
     /// What the coil at the structure does to it by plane (N m), against the slope.

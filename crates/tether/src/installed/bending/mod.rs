@@ -53,7 +53,7 @@ struct PerLength {
 #[derive(Clone, Debug)]
 pub struct PlaneMotion {
     /// Deflection (m) and slope (rad) of each node.
-    pub place: Vec<f64>,
+    pub deflection: Vec<f64>,
     /// Their velocities.
     pub velocity: Vec<f64>,
 }
@@ -132,7 +132,7 @@ impl Bending {
     pub(in crate::installed) fn write(&self, out: &mut Vec<f64>) {
         out.extend(self.rest.iter().flatten());
         for motion in &self.now {
-            out.extend(motion.place.iter().chain(&motion.velocity));
+            out.extend(motion.deflection.iter().chain(&motion.velocity));
         }
         out.extend(self.found.iter().flatten().flatten());
     }
@@ -148,7 +148,7 @@ impl Bending {
         };
         self.rest.iter_mut().try_for_each(|end| take(end))?;
         for motion in &mut self.now {
-            take(&mut motion.place)?;
+            take(&mut motion.deflection)?;
             take(&mut motion.velocity)?;
         }
         self.found.iter_mut().flatten().try_for_each(|list| take(list))?;
@@ -208,7 +208,7 @@ impl Bending {
             held.iter_mut().filter(|list| !list.iter().any(|h| h.0 == hold.0)).for_each(|list| list.push(hold));
         }
         let zeros = || vec![0.0; order];
-        let rest = || PlaneMotion { place: zeros(), velocity: zeros() };
+        let rest = || PlaneMotion { deflection: zeros(), velocity: zeros() };
         let length = line.length();
         Bending {
             shares: line.distances().iter().map(|s| s / length).collect(),
@@ -284,7 +284,7 @@ impl Bending {
             let [x, y] = &mut self.loads;
             let (Some(x), Some(y)) = (x.get_mut(index), y.get_mut(index)) else { continue };
             (*x, *y) = ([0.0; 4], [0.0; 4]);
-            let places = [0, 1].map(|p| beam::of_element(&motion[p].place, index));
+            let places = [0, 1].map(|p| beam::of_element(&motion[p].deflection, index));
             let speeds = [0, 1].map(|p| beam::of_element(&motion[p].velocity, index));
             if self.axial > 0.0 {
                 let unit = beam::geometric(1.0, length);
@@ -327,7 +327,7 @@ impl Bending {
             }
             self.edges(second, plane, stage);
             let now = &self.now[plane];
-            for (ahead, (x, v)) in self.ahead.iter_mut().zip(now.place.iter().zip(&now.velocity)) {
+            for (ahead, (x, v)) in self.ahead.iter_mut().zip(now.deflection.iter().zip(&now.velocity)) {
                 *ahead = x + LOOK_AHEAD * dt * v;
             }
             // the frame's work space is free again
@@ -360,7 +360,7 @@ impl Bending {
                 let (now, ahead) = (&self.now[plane], &mut self.trial[plane]);
                 for (i, a) in self.found[0][plane].iter().enumerate() {
                     ahead.velocity[i] = now.velocity[i] + a * dt;
-                    ahead.place[i] = now.place[i] + 0.5 * (now.velocity[i] + ahead.velocity[i]) * dt;
+                    ahead.deflection[i] = now.deflection[i] + 0.5 * (now.velocity[i] + ahead.velocity[i]) * dt;
                 }
             }
         }
@@ -380,8 +380,8 @@ impl Bending {
         let (mut growth, mut driven, mut yielding) = (0.0, 0.0, 0.0);
         for plane in 0..2 {
             let (slope, now) = (&self.arc_slope[plane], &self.now[plane]);
-            let places = if second { &self.trial[plane].place } else { &now.place };
-            let ahead = now.place.iter().zip(&now.velocity).map(|(x, v)| x + LOOK_AHEAD * dt * v);
+            let places = if second { &self.trial[plane].deflection } else { &now.deflection };
+            let ahead = now.deflection.iter().zip(&now.velocity).map(|(x, v)| x + LOOK_AHEAD * dt * v);
             growth += slope.iter().zip(ahead.zip(places)).map(|(g, (ahead, place))| g * (ahead - place)).sum::<f64>();
             driven += dot(slope, &self.found[stage][plane]);
             yielding += dot(slope, &self.arc_response[plane]);
@@ -406,11 +406,11 @@ impl Bending {
     pub fn advance(&mut self, dt: f64) {
         for plane in 0..2 {
             let [first, second] = [&self.found[0][plane], &self.found[1][plane]];
-            let PlaneMotion { place, velocity } = &mut self.now[plane];
+            let PlaneMotion { deflection, velocity } = &mut self.now[plane];
             for (i, (a, b)) in first.iter().zip(second).enumerate() {
                 let before = velocity[i];
                 velocity[i] += 0.5 * (a + b) * dt;
-                place[i] += 0.5 * (before + velocity[i]) * dt;
+                deflection[i] += 0.5 * (before + velocity[i]) * dt;
             }
         }
     }
