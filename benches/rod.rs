@@ -29,7 +29,7 @@ const STEP: f64 = 0.1;
 /// How many times each piece of work is done: the quickest counts, as other work on the machine only ever adds.
 const PASSES: usize = 5;
 
-/// Seconds of the processor in this thread where the system tells them, else those of the clock.
+/// Seconds of the processor in this thread where the system reports them, else those of the clock.
 fn seconds(since: Instant) -> f64 {
     measured::thread_time().unwrap_or_else(|| since.elapsed().as_secs_f64())
 }

@@ -1,7 +1,7 @@
 //! Runs in time: seconds of the sea a second of the machine, one thread. In a form that a program can read: name, steps, least
 //! seconds of a run, tab between; then `real time`, how many times quicker than real time, and the evaluations a step.
 //!
-//! Seconds are those of the processor, where the system tells them (/proc/self/stat, in hundredths), else those of the clock.
+//! Seconds are those of the processor, where the system reports them (/proc/self/stat, in hundredths), else those of the clock.
 //! The mooring is that of the other benches, eight chains in 300 m of water, on a hemisphere of 30 m radius whose excitation and
 //! radiation are those of tests/data/hemisphere; an irregular sea of 200 components, steps of 0.1 s.
 

@@ -1,7 +1,7 @@
 //! Tethers in time: the two examples of [AQWA-TETHER 8] with statistics and fatigue, and a tether of 25 to 200 elements for three hours. In a form
 //! that a program can read: name, records, least seconds of a run, tab between; then `real time`, how many times quicker than real time.
 //!
-//! Seconds are those of the processor, where the system tells them, else those of the clock.
+//! Seconds are those of the processor, where the system reports them, else those of the clock.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 
@@ -30,7 +30,7 @@ fn afloat(elements: usize) -> Model {
     ))
 }
 
-/// Everything that a listing tells of a run.
+/// Everything that a listing has of a run.
 fn print_result(made: &Tethered) {
     let whole = TetherStatistics::new(made, 24.75, f64::INFINITY);
     let asked = FatigueSettings { duration: 1.0, curve: Endurance::KILONEWTONS.in_unit(1000.0), peak_time: 10_800.0 };

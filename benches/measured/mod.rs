@@ -26,7 +26,7 @@ pub fn processor() -> Option<f64> {
     Some(ticks / 100.0)
 }
 
-/// Seconds the processor has worked for this thread, to the nanosecond, where the system tells them.
+/// Seconds the processor has worked for this thread, to the nanosecond, where the system reports them.
 pub fn thread_time() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(1e-9 * text.split_whitespace().next()?.parse::<f64>().ok()?)

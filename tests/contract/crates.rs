@@ -28,7 +28,7 @@ fn engines_do_not_depend_on_language() {
 }
 
 #[test]
-fn each_library_is_used_in_its_own_crates() {
+fn libraries_are_used_only_in_their_crates() {
     let program: toml::Table = fs::read_to_string("Cargo.toml").unwrap().parse().unwrap();
     let mut users: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let all = crates().into_iter().map(|(name, (_, manifest))| (name, manifest));
@@ -71,7 +71,7 @@ fn texts(folder: &Path, list: &mut Vec<(PathBuf, String)>) {
 }
 
 #[test]
-fn engines_embed_nothing_from_outside_their_folder() {
+fn engines_embed_only_files_of_their_folder() {
     for (name, (folder, _)) in crates() {
         let mut list = Vec::new();
         texts(&folder.join("src"), &mut list);

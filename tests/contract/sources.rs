@@ -139,3 +139,14 @@ fn tests_named_in_theory_and_verification_exist() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+#[test]
+fn files_named_in_architecture_exist() {
+    let text = fs::read_to_string("ARCHITECTURE.md").unwrap();
+    let code = text.split('`').skip(1).step_by(2);
+    let folders = ["crates/", "src/", "docs/", "share/", "tests/", "scripts/"];
+    let paths: Vec<&str> = code.filter(|word| folders.iter().any(|folder| word.starts_with(folder))).collect();
+    assert!(paths.len() > 100, "{}", paths.len());
+    let lost: Vec<&&str> = paths.iter().filter(|path| !Path::new(path).exists()).collect();
+    assert!(lost.is_empty(), "ARCHITECTURE.md names files that are not there: {lost:?}");
+}

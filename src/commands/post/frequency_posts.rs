@@ -24,7 +24,9 @@ use windlass_language::number::evaluate;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{EntityKind, Environment, Idealisation, Model, add_model_column, find};
-use windlass_solve::frequency::tables::{NamedQuantity, body_statistics, operators, spectra, statistics};
+use windlass_solve::frequency::tables::{
+    NamedQuantity, SolvedResponse, StatisticsRequest, body_statistics, operators, spectra, statistics,
+};
 use windlass_solve::frequency::{
     Derivative, ExtremeKind, FrequencyResponse, LinearQuantity, LinearSystem, ResponseOptions, sea_response,
 };
@@ -161,9 +163,11 @@ pub(super) fn results_table(
     Ok(match open_results(job, span)? {
         FrequencyResults::Operators(linear, made) => {
             let unit = Dim::Length.to_si(1.0, job.units);
-            operators(title, (linear, made), list, (derivative, unit))
+            operators(title, linear, made, list, derivative, unit)
         }
-        FrequencyResults::Spectral(linear, made, _) => spectra(title, (linear, made), list, derivative),
+        FrequencyResults::Spectral(linear, made, _) => {
+            spectra(title, SolvedResponse { linear, response: made }, list, derivative)
+        }
         FrequencyResults::Nothing => Table::new(title),
     })
 }
@@ -345,7 +349,8 @@ fn report_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let given = args.option_number(&DURATION_OPTION).map(ExtremeKind::MostProbable);
     let extreme = given.or(of_env).unwrap_or(ExtremeKind::MostProbable(MPM_DURATION_S));
     let (linear, made) = response(job, args)?;
-    let (both, how) = ((linear.as_ref(), &made), (derivative, extreme));
+    let both = SolvedResponse { linear: &linear, response: &made };
+    let how = StatisticsRequest { derivative, extreme };
     let of = derivative_name(derivative);
     const WHAT: DatumKey<StatisticsOf> = STATISTICS_SPEC.choice("WHAT");
     let named = args.data_after(WHAT);

@@ -25,7 +25,9 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun};
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Environment, Model, add_model_column, find};
-use windlass_solve::frequency::tables::{NamedQuantity, load_statistics, statistics};
+use windlass_solve::frequency::tables::{
+    NamedQuantity, SolvedResponse, StatisticsRequest, load_statistics, statistics,
+};
 use windlass_solve::frequency::{
     Derivative, ExtremeKind, FrequencyResponse, LinearQuantity, LinearSystem, ResponseOptions, sea_response,
 };
@@ -202,7 +204,12 @@ fn point_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let InSea { linear, response, extreme } = respond_in(job, args, env_of(args, const { ST_POINT_SPEC.word("ENV") }))?;
     let (name, list) = point_quantities(job, &linear, &points, args.span)?;
     let title = format!("Statistics: {} of {name}", derivative_name(derivative));
-    let made = statistics(title, (&linear, &response), &list, (derivative, extreme));
+    let made = statistics(
+        title,
+        SolvedResponse { linear: &linear, response: &response },
+        &list,
+        StatisticsRequest { derivative, extreme },
+    );
     Ok(dispose(job, made, args.span))
 }
 
@@ -212,8 +219,9 @@ fn force_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
         respond_in(job, args, env_of(args, const { ST_CFORCE_SPEC.word("ENV") }))?;
     let named = args.data.get(..1).unwrap_or_default();
     let list = tensions(job, &linear, named, args.span, false)?;
-    let (title, how) = ("Statistics: Forces of Connectors".to_string(), (Derivative::Place, extreme));
-    let mut made = statistics(title, (&linear, &response), &list, how);
+    let title = "Statistics: Forces of Connectors".to_string();
+    let how = StatisticsRequest { derivative: Derivative::Place, extreme };
+    let mut made = statistics(title, SolvedResponse { linear: &linear, response: &response }, &list, how);
     add_model_column(&mut made, |name| idealisation(&job.model, name));
     Ok(dispose(job, made, args.span))
 }
@@ -252,6 +260,11 @@ fn cargo_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let InSea { linear, response, extreme } =
         respond_in(job, args, env_of(args, const { ST_FCARGO_SPEC.word("ENV") }))?;
     let (title, made) = cargo_quantities(job, &linear, args)?;
-    let table = load_statistics(format!("Statistics: {title}"), (&linear, &response), &made, extreme);
+    let table = load_statistics(
+        format!("Statistics: {title}"),
+        SolvedResponse { linear: &linear, response: &response },
+        &made,
+        extreme,
+    );
     Ok(dispose(job, table, args.span))
 }

@@ -124,7 +124,7 @@ fn relative_name_is_in_answers_folder_and_dot_or_root_is_shell_path() {
 }
 
 #[test]
-fn mkdir_makes_a_subfolder_that_takes_files() {
+fn mkdir_creates_subfolder_for_files() {
     let (_dir, job) = job();
     assert!(matches!(job.write("sub/x", b"1"), Err(FileError::NoFolder(_))));
     job.make_folder("sub").unwrap();
@@ -137,7 +137,7 @@ fn mkdir_makes_a_subfolder_that_takes_files() {
 }
 
 #[test]
-fn refused_path_leaves_nothing_behind() {
+fn refused_path_creates_no_file() {
     let (dir, mut job) = job();
     assert!(matches!(job.place(dir.path().join("new").to_str().unwrap()), Err(FileError::NotOwn { .. })));
     job.allow_files = true;

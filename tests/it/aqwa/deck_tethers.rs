@@ -151,7 +151,7 @@ fn tcap_and_tifl_enter_pull_of_tether_on_vessel() {
 }
 
 #[test]
-fn tlow_stop_takes_tether_that_fell_by_its_distance() {
+fn tlow_stop_catches_tether_after_its_distance() {
     // the vessel is lighter by 0.02 m/s2 of its weight: after t it has fallen by 0.01 t2
     let fall = |cards: &str| {
         let case =
@@ -440,7 +440,7 @@ fn tslk_leaves_record_of_every_step() {
 }
 
 #[test]
-fn current_of_deck_10_bows_tether_as_that_of_deck_11() {
+fn current_of_deck_10_and_deck_11_bows_tether_equally() {
     let case = DeckCase { current: true, steps: (1001, 0.1), ..DeckCase::default() };
     let text = deck(&case).replace("    11    ENVR\n END11CURR       1.0       0.0\n", "    11    NONE\n");
     let text = text.replace("    10    NONE\n", "    10    HLD1\n END10CURR       1.0       0.0\n");

@@ -54,7 +54,7 @@ fn submerged_weight_of_type_uses_water_density() {
 }
 
 #[test]
-fn option_beside_type_overrides_that_value_alone_with_a_remark() {
+fn option_beside_type_overrides_one_value_with_remark() {
     // pi/4 84**2 mm2 = 5541.77 mm2; displaced 0.180480 kN/m in sea water
     for (option, column, value, said) in [
         ("-WTPLEN 2", 2, "2.0000", "-WTPLEN (weight) overrides"),
@@ -97,7 +97,7 @@ fn hydrodynamic_diameters_of_type_are_listed_and_can_be_given() {
 }
 
 #[test]
-fn each_segment_keeps_its_own_type_and_line_is_tabulated() {
+fn segments_of_different_types_are_tabulated_in_one_line() {
     let (out, messages) = run("&DIMEN -DIMEN METERS K-NTS\n&DEFAULT -DEPTH 300\nMEDIT\n&DESCRIBE BODY B\n*P 0 0 0\n\
          ~L B_CAT -TYPE CHAIN_R4 84 -LEN 100\n~L B_CAT -TYPE WIRE_SPIRAL 90 -LEN 500\n~L B_CAT -TYPE CHAIN_R4 84 -LEN 800\n\
          CONNECTOR A ~L *P\nEND\nCONN_DESIGN\nTABLE A\nVIEW Force 'Ten Top' -RECORD 30 30\nEND\nEND");

@@ -1,4 +1,4 @@
-//! Connectors that push are in negative tension wherever a run tells of tension: its statistics, actions and fatigue.
+//! Connectors that push are in negative tension wherever a run reports tension: its statistics, actions and fatigue.
 
 use crate::common;
 

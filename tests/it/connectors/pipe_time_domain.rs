@@ -171,11 +171,11 @@ fn support_forces_add_up_to_load_on_barge() {
         Cell::Number(value) => value,
         ref other => panic!("{other:?}"),
     };
-    let felt = run.history.layout.category(0, Category::FlexConnectors).unwrap();
+    let column = run.history.layout.category(0, Category::FlexConnectors).unwrap();
     for (row, values) in run.history.rows().enumerate() {
         for axis in 0..3 {
             let sum: f64 = (0..5).map(|support| number(1 + 4 * support + axis, row)).sum();
-            assert!((sum - values[felt + axis]).abs() < 1e-3, "{row} {axis}: {sum} {}", values[felt + axis]);
+            assert!((sum - values[column + axis]).abs() < 1e-3, "{row} {axis}: {sum} {}", values[column + axis]);
         }
     }
 }

@@ -299,7 +299,7 @@ fn dashpot_adds_limited_power_law_force_under_tension_only() {
 
 #[test]
 fn series_viscoelastic_spring_relaxes_by_combined_exponential() {
-    // K(t) = 2E4 + 3E4 exp(-t/tau) in series with k = 1E4; the fit of two points is exact, and tells tau
+    // K(t) = 2E4 + 3E4 exp(-t/tau) in series with k = 1E4; the fit of two points is exact, and gives tau
     let mut rig = PistonRig::spring("-CONVOLUTION SOFT");
     let curve = rig.session.job.model.curves.values().next().unwrap();
     let law = windlass_connectors::viscous::ViscoelasticLaw::fit(curve).unwrap().law;

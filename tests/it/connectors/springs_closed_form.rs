@@ -128,7 +128,7 @@ fn element_axes_are_global_with_first_node_on_ground() {
 }
 
 #[test]
-fn single_node_is_held_at_its_position_at_definition() {
+fn single_node_spring_acts_from_position_at_definition() {
     let (mut session, _, _folder) = common::session();
     let records = "&DIMEN -DIMEN METERS N\nMEDIT\n&DESCRIBE BODY ONE\n*A 1 0 0\n~C GSPR X 1000 Y 1000\nEND\n\
                    &INSTATE -LOCATE ONE 10 20 0 0 0 90\nMEDIT\nCONNECTOR IT ~C *A\nEND\n&INSTATE -MOVE ONE 0.5 0 0";

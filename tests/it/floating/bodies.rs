@@ -277,7 +277,7 @@ fn box_righting_arm_matches_wall_sided_formula() {
 }
 
 #[test]
-fn body_that_cannot_float_gets_no_righting_arm() {
+fn sinking_body_has_no_righting_arm() {
     let (model, _) =
         model("MEDIT\n&DESCRIBE BODY B\n*P 5 5 5\n#WEIGHT *P 5000\nEND\n&SURFACE\nBLOCK H 0 0 0 10 10 10\nEND\n");
     let still = StillBody::new(&model, &model.bodies[0], None).unwrap();

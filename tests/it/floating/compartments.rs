@@ -62,7 +62,7 @@ fn contents_weigh_and_their_surface_takes_metacentric_height() {
 }
 
 #[test]
-fn righting_arm_with_a_tank_is_that_of_two_wall_sided_forms() {
+fn righting_arm_with_tank_equals_two_wall_sided_forms() {
     let (text, errors) = print_metric_records(&format!(
         "{BARGE}&COMPARTMENT -CORRECT -PERCENT T 50 1.025\n&EQUI\nHSTATICS B\nRARM 5 2\nREPORT\nEND\nEND"
     ));
@@ -157,7 +157,7 @@ const WINGS: &str = "MEDIT\n&DESCRIBE BODY B -IGNORE X Y RZ\nPGEN\nPLANE 0 91.5 
     &DESCRIBE COMPARTMENT AP\nPGEN -PORT\nPLANE 55 85 -CART 3 0.5 13 0.5 13 5.5 3 5.5\nEND\nEND\n";
 
 #[test]
-fn ballast_balances_the_body_where_it_floats() {
+fn ballast_balances_body_at_its_position() {
     // upright at 3 m: W = 1.025*91.5*27.5*3 = 7737.468 t; of it 6000 t at (47, 0.5): 1737.468 t of ballast, whose moments are
     // about x = 0: 7737.468*45.75 - 6000*47, about y = 0: -6000*0.5; by symmetry of the four arms the shares differ by these alone
     let (text, errors) = print_metric_records(&format!(
@@ -197,7 +197,7 @@ fn ballast_of_a_trimmed_and_heeled_body_leaves_it_at_rest() {
 }
 
 #[test]
-fn ballast_that_cannot_balance_is_refused_and_changes_nothing() {
+fn impossible_ballast_is_refused_without_change() {
     for condition in ["2", "6", "3 30"] {
         let (text, errors) = print_metric_records(&format!(
             "{WINGS}&WEIGHT -TOTAL B 6000 47 0.5 5 9 25 25\n&INSTATE -CONDITION B {condition}\n&CMP_BAL B @\n&STATUS COMPARTMENT"

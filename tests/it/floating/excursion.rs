@@ -291,7 +291,7 @@ fn forces_alone_match_evaluation_with_stiffness() {
 }
 
 #[test]
-fn free_excursion_without_freedoms_equals_held_one() {
+fn free_excursion_of_restrained_body_equals_held_one() {
     let records = springs(4).replace("\nEND", "\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\nEND");
     let made = model(&records);
     let system = System::new(&made, &[]).unwrap();

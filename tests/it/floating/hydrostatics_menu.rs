@@ -166,7 +166,7 @@ fn righting_arm_about_skew_axis_lets_trim_follow() {
 }
 
 #[test]
-fn wind_heels_about_the_point_that_holds_it() {
+fn wind_heeling_moment_is_about_holding_point() {
     // 100 m2 at 20 m above the keel in a wind that is the same at all heights: F = rho V^2 / 2 A, upright arm F (z - z0) / W
     let records = format!(
         "{}&ENV -W_PROFILE POWER 0\n&DEFAULT -AIR 1.226\n",
@@ -216,7 +216,7 @@ fn criteria_match_crossings_solved_by_hand() {
 }
 
 #[test]
-fn equilibrium_of_leaning_body_is_where_angles_begin() {
+fn angles_of_leaning_body_start_at_its_equilibrium() {
     // the weight beside the centreline of `equi_h` raises port: the equilibrium is 3 deg before upright, and an arm from there
     let offset = righting_arm(3.0, KG) / 3f64.to_radians().cos();
     let records = barge("#WEIGHT *OFF 6000 9 25 25", &format!("*OFF 45.75 {offset:.12} 5\n"));
@@ -293,7 +293,7 @@ fn bending_in_static_wave_matches_integral_of_cosine() {
 }
 
 #[test]
-fn loads_without_stations_and_what_does_not_close_are_said() {
+fn loads_without_stations_and_closure_error_are_reported() {
     let records = barge(OWN, "");
     let (text, said) = print_records(&format!("{records}HSTATICS\nMOMENT\nREPORT\nEND\nEND\n"));
     // just before the force amidships half of the buoyancy pushes up

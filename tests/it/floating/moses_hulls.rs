@@ -87,7 +87,7 @@ fn location_turns_and_shifts_a_piece() {
 }
 
 #[test]
-fn surfaces_before_a_body_displace_nothing_until_emitted() {
+fn surfaces_before_body_displace_only_after_emit() {
     let surfaces = "&SURFACE\nBLOCK COLUMN -LOCATION 0 0 -5\nPLANE 0 2 -CIRC 0 0 31.5 9\nEND_BLOCK\nCOPY_BLOCK COLUMN SECOND 100\n\
         REFLECT_BLOCK SECOND\nEND_&SURFACE\n&DESCRIBE BODY B";
     let (text, errors) = print_metric_records(&format!("{surfaces}\n&STATUS HYDROSTATICS"));

@@ -54,7 +54,7 @@ fn computed_weight_of_heeled_body_lies_on_vertical_through_buoyancy() {
 }
 
 #[test]
-fn computed_weight_adds_to_what_is_there() {
+fn computed_weight_adds_to_present_weight() {
     // 180 x 50 x 7 ft: 4031.29 kip; of these 1000 at x 60: the rest is 3031.29 at (4031.29*90 - 60000)/3031.29 = 99.896
     let (text, errors) = print_records(
         "MEDIT\n&DESCRIBE BODY B\n*P 60 0 9\n#WEIGHT *P 1000\nPGEN\nPLANE 0 180 -RECT 0 14 50\nEND\nEND\n&INSTATE -CONDITION 7\n\
@@ -150,7 +150,7 @@ fn load_groups_scale_their_loads_alone() {
 }
 
 #[test]
-fn point_buoyancy_carries_what_it_displaces() {
+fn point_buoyancy_equals_displaced_weight() {
     // 50 t of buoyancy over a height of 4 m about z = 0: under a weight of 30 t it sinks to 0.6 of its height, z = 0.2 m above its middle
     let model = "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B -IGNORE X Y RX RY RZ\n*F 0 0 0\n#BUOY *F 50 3 3 4\n*G 0 0 -1\n\
                  #WEIGHT *G 30 1 1 1\nEND\n";

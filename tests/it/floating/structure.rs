@@ -231,7 +231,7 @@ fn string_of_beams_takes_classes_and_options_before_each() {
 }
 
 #[test]
-fn element_given_again_or_deleted_goes_with_its_weight() {
+fn redefined_or_deleted_element_loses_its_weight() {
     let (made, said, errors) = run(
         "*A 0 0 5\n*B 10 0 5\n~C PRI 100 100\n~D PRI 200 100\nBEAM ONE ~C *A *B\nBEAM TWO ~C *A *B\nBEAM ONE ~D *A *B\nDELETE TWO\nEND",
     );

@@ -18,7 +18,7 @@ const CART: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY 
                     #WEIGHT *C 100 1 1 1\n~S GSPR BOTH X 40 1000 -LEN 0\nCONNECTOR K ~S *C *G\n";
 
 #[test]
-fn menu_that_is_absent_gives_one_message_and_is_passed_over() {
+fn absent_menu_is_skipped_with_one_message() {
     for (script, says) in [
         (
             "STRUCTURAL\nS_INITIAL\nLCASE A 1 B 2\nLCASE B 2\nEND\n",

@@ -170,7 +170,7 @@ fn unusable_file_is_one_error_with_reason_and_writes_nothing() {
 }
 
 #[test]
-fn bytes_that_are_not_text_pass_through_in_unread_column() {
+fn non_text_bytes_pass_through_in_unread_column() {
     let folder = tempfile::tempdir().unwrap();
     let text = [HEAD.as_bytes(), b",caf\xe9\n", GOOD.as_bytes(), b",\xff\0\xe9\n"].concat();
     fs::write(folder.path().join("in.csv"), text).unwrap();
@@ -205,7 +205,7 @@ fn lines_file_is_found_and_written_by_the_usual_name_rules() {
 }
 
 #[test]
-fn file_may_be_replaced_by_its_own_answer_and_is_kept() {
+fn input_file_replaced_by_its_output_is_kept() {
     let folder = tempfile::tempdir().unwrap();
     let text = format!("{HEAD}\n{}", format!("{GOOD}\n").repeat(5000));
     fs::create_dir(folder.path().join("job.ans")).unwrap();

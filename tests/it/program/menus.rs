@@ -51,7 +51,7 @@ fn refused_table_gives_one_error_and_next_table_is_written() {
 }
 
 #[test]
-fn every_refused_opener_waits_for_its_own_end() {
+fn refused_menu_opener_waits_for_its_end() {
     for (script, message) in [
         ("CONN_DESIGN -FAST\nTABLE A\nREPORT\nCULL X 0 1\nVIEW\nEND\nEND_DISPOSE\nEND_CONN_DESIGN\n", "-FAST"),
         ("MEDIT now\n*Q 1 2 x\n~V WRONG 1\nCONNECTOR B ~V *Q\nEND_MEDIT\n", "takes no further value"),

@@ -46,7 +46,7 @@ fn bare_newmark_is_default_scheme_of_runs() {
 }
 
 #[test]
-fn event_of_run_puts_body_where_trapezoidal_rule_has_it() {
+fn event_of_run_places_body_by_trapezoidal_rule() {
     // x(n h) = 0.5 cos(n 2 atan(w h/2)) of the trapezoidal rule, w = sqrt(K g/W)
     let (h, rate) = (0.01, (40.0 * 9.806_65 / 100.0f64).sqrt());
     let script = format!("{CART}&ENV -TIME 2 {h} -RAMP 0\nTDOM -NEWMARK YES 0.25 0.5\n");
@@ -213,7 +213,7 @@ fn time_of_reinforcement_is_taken_from_defaults() {
 }
 
 #[test]
-fn process_keeps_places_connectors_and_run_of_its_own() {
+fn process_keeps_own_positions_connectors_and_run() {
     let script = format!(
         "{CART}&ENV -TIME 2 0.1 -RAMP 0\nTDOM\n&DESCRIBE PROCESS TOW\n&INSTATE -LOCATE CART 3 0 0\nMEDIT\n&CONNECTOR K -INACTIVE\nEND\n"
     );
@@ -252,7 +252,7 @@ fn summaries_have_tables_of_status() {
 }
 
 #[test]
-fn options_of_pictures_without_effect_leave_picture_as_it_is() {
+fn picture_options_without_effect_keep_picture_equal() {
     let picture = |options: &str| run_script(&format!("{CART}&PICTURE TOP {options}\n"));
     let (plain, _) = picture("");
     let (with, said) = picture("-CATEGORY STR_MODEL A -RENDER GL -DETAIL YES");

@@ -25,7 +25,7 @@ fn counts(script: &str) -> (String, i32) {
 }
 
 #[test]
-fn records_of_script_are_counted_by_what_they_would_do() {
+fn script_check_counts_records_by_effect() {
     // &DIMEN, MEDIT, &DESCRIBE, *P, &EQUI, &FILE, TDOM act; BEAM has no place outside of a model
     let script = "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B\n*P 1 2 3\nEND\n&LOGDEVICE OUTPUT\nBEAM ~C *P *P\n\
                   &EQUI\n&FILE MKDIR there\nTDOM\n";
@@ -35,7 +35,7 @@ fn records_of_script_are_counted_by_what_they_would_do() {
 }
 
 #[test]
-fn both_branches_of_what_hangs_on_a_result_are_read_and_not_judged() {
+fn branches_on_results_are_read_but_not_judged() {
     // the two &TITLE and the last are not judged, the misspelt option of the branch is refused
     let script = "MEDIT\n&DESCRIBE BODY B\nEND\n&EQUI\n&SET D = &NUMBER(REAL 2*&BODY(DRAFT B))\n&IF %D .GT. 3 &THEN\n&TITLE deep\n\
                   &ELSE\n&TITLE shallow\n&EQUI -BOGUS\n&ENDIF\n&TITLE %D\n";
@@ -46,7 +46,7 @@ fn both_branches_of_what_hangs_on_a_result_are_read_and_not_judged() {
 }
 
 #[test]
-fn loops_on_what_is_not_known_end() {
+fn loops_on_unknown_values_end() {
     // &TITLE of the loop up to an unknown number is read once; the endless loop is left where it would be left by a result
     let script = "MEDIT\n&DESCRIBE BODY B\nEND\n&EQUI\n&LOOP I 1 &BODY(DRAFT B)\n&TITLE a\n&ENDLOOP\n\
                   &LOOP\n&TITLE b\n&EXIT &BODY(DRAFT B) .GT. 3\n&ENDLOOP\n&TITLE c\n";
@@ -72,7 +72,7 @@ fn files_outside_of_the_scripts_folder_are_not_read() {
 }
 
 #[test]
-fn shipped_scripts_have_no_record_refused_but_what_they_show_as_wrong() {
+fn shipped_scripts_refuse_only_intended_records() {
     // records that are wrong or absent on purpose, or ask for files outside of scripts/ or that are made by another script
     let wrong = ["database", "hemisphere_rao", "members", "moses", "prescribed", "refused"];
     for entry in std::fs::read_dir("scripts").unwrap() {

@@ -104,7 +104,7 @@ fn line_between_bodies_is_replayed_with_both_motions() {
 }
 
 #[test]
-fn interrupted_replay_is_named_and_fails_nothing_else() {
+fn interrupted_replay_is_reported_and_fails_alone() {
     let (.., run) = ran(script("60 0.2 20", "", "TDOM -SCREEN NO"));
     let made = screen(&run, &|| false);
     assert!(made.replays.is_empty() && made.left[0].1.to_string().contains("interrupted"), "{made:?}");

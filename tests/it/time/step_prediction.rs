@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::Category;
-use windlass_model::Model;
+use windlass_model::{Model, TimeStep};
 use windlass_solve::System;
 use windlass_solve::time::{
     BodyForces, BodyMotion, Ending, LoadMemory, Method, Run, RunRequirements, RunSettings, SilentWatcher, StepTolerance,
@@ -108,7 +108,7 @@ fn damping_rotating_with_body_is_in_its_stiffness() {
     let start = BodyMotion { pose, velocity: Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2), ..BodyMotion::default() };
     let at = |motion: BodyMotion| {
         let mut forces = BodyForces::default();
-        forces.evaluate(&system, &memory, &[motion], (0.0, 0.0)).unwrap();
+        forces.evaluate(&system, &memory, &[motion], TimeStep { time: 0.0, dt: 0.0 }).unwrap();
         forces
     };
     let whole = at(start);

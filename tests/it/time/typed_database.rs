@@ -100,7 +100,7 @@ fn typed_oscillator_has_response_of_closed_form() {
 }
 
 #[test]
-fn typed_database_in_turned_axes_is_that_of_its_body() {
+fn typed_database_in_turned_axes_equals_body_axes() {
     // pitched by 90 degrees the x axis of the values points down: their surge is heave, with the sign of the force turned
     let turned = ball(&format!("{}END\n", total(0, "H_EULERA 0 90 0\n")));
     let found = response(&turned, "RAO -PERIOD 6 9 -HEADING 180");

@@ -301,7 +301,7 @@ fn clump_at_edge_of_heap_is_supported_by_the_length_condition() {
 }
 
 #[test]
-fn shape_has_one_touchdown_point_where_friction_ends_tension() {
+fn shape_with_friction_has_one_touchdown_point() {
     let segment = Segment { length: 600.0, weight: 1200.0, ea: 6e8 };
     let line = Line::new(vec![segment], vec![], -100.0, 0.0).unwrap().with_seabed(flat(100.0, 0.8)).unwrap();
     let state = line.at_distance(540.0, 0.0).unwrap();

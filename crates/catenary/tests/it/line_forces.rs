@@ -66,7 +66,7 @@ fn tangents_at_both_ends_match_derivatives_of_closed_form() {
 }
 
 #[test]
-fn failed_solution_leaves_warm_start_as_it_was() {
+fn failed_solution_keeps_warm_start_unchanged() {
     let line = chain(1, 0.0);
     let mut warm = None;
     let (_, x) = closed_form(2e5);

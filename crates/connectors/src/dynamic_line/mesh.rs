@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn error_that_smaller_steps_cannot_avoid_is_reported_as_such() {
+    fn only_errors_beyond_smaller_steps_are_lasting() {
         let rod = || "R".to_string();
         let step = RodError::Step { rod: rod(), time: 1.0, step: 0.1, element: 1, why: String::new() };
         let large = RodError::TooLarge { rod: rod(), elements: 1, megabytes: 1.0, most: 1 };

@@ -55,7 +55,7 @@ fn line_in_friction_equilibrium_stays_and_anchor_is_unloaded() {
 }
 
 #[test]
-fn dragged_line_has_friction_tension_and_stays_where_left() {
+fn dragged_line_keeps_position_and_friction_tension() {
     let (length, friction) = (100.0, 0.6);
     let rod = chain(length, 20);
     let fluid = UniformFluid::vacuum();

@@ -141,7 +141,7 @@ fn cooling_pipe_seabed_contact_stiffness_follows_its_tension() {
 }
 
 #[test]
-fn tube_without_compression_is_held_taut_by_pressure() {
+fn pressurised_tube_without_compression_is_taut() {
     let fluid = UniformFluid::still_water(1025.0);
     let world = LineEnvironment::new(&fluid, G);
     let depth = 1000.0;

@@ -13,7 +13,9 @@ use windlass_hydro::database::radiation::Radiation;
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_hydro::{Category, in_pose};
-use windlass_model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Piece, WaveAction};
+use windlass_model::{
+    Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Piece, TimeStep, WaveAction,
+};
 
 /// Complex amplitudes of motion, six a body: of its origin (m) and its rotation (rad), global axes.
 pub type Motions = DVector<Complex<f64>>;
@@ -415,8 +417,8 @@ fn damping(
         |(pose, velocity): (&Pose, &Six)| BodyMotion { pose: *pose, velocity: *velocity, ..BodyMotion::default() };
     let motions: Vec<BodyMotion> = poses.iter().zip(velocities).map(motion).collect();
     let mut memory = LoadMemory::new(system);
-    memory.begin(system, (&motions, &motions), (0.0, DASHPOT_STEP_S))?;
-    forces.evaluate(system, &memory, &motions, (0.0, DASHPOT_STEP_S))?;
+    memory.begin(system, (&motions, &motions), TimeStep { time: 0.0, dt: DASHPOT_STEP_S })?;
+    forces.evaluate(system, &memory, &motions, TimeStep { time: 0.0, dt: DASHPOT_STEP_S })?;
     match forces.damping.iter().all(|v| v.is_finite()) {
         true => Ok(forces.damping.clone()),
         false => Err(SolveError::new(ClassError::new("the damping has no value at some velocity of the bodies"))),

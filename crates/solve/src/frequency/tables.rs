@@ -40,6 +40,24 @@ impl NamedQuantity {
     }
 }
 
+/// A response with the equations it was found with.
+#[derive(Clone, Copy, Debug)]
+pub struct SolvedResponse<'a> {
+    /// The equations.
+    pub linear: &'a LinearSystem,
+    /// The motions.
+    pub response: &'a FrequencyResponse,
+}
+
+/// Which statistics a table has.
+#[derive(Clone, Copy, Debug)]
+pub struct StatisticsRequest {
+    /// Of the quantities themselves, their rates or accelerations.
+    pub derivative: Derivative,
+    /// The amplitude that is reported as the extreme.
+    pub extreme: ExtremeKind,
+}
+
 /// The dimension of a derivative.
 fn derivative_dimension(dim: Dim, derivative: Derivative) -> Dim {
     match (dim, derivative) {
@@ -68,9 +86,11 @@ fn density(dim: Dim, derivative: Derivative) -> Dim {
 /// Amplitudes and phases of quantities in waves of an amplitude (m), by heading and period.
 pub fn operators(
     title: String,
-    (linear, operators): (&LinearSystem, &Operators),
+    linear: &LinearSystem,
+    operators: &Operators,
     list: &[NamedQuantity],
-    (derivative, amplitude): (Derivative, f64),
+    derivative: Derivative,
+    amplitude: f64,
 ) -> Table {
     let rows: Vec<_> = operators.operators().collect();
     let mut table = Table::new(title)
@@ -110,7 +130,7 @@ pub fn operators(
 /// Spectra of quantities in a sea: its own density and theirs. Bands without a width, of regular waves, have none.
 pub fn spectra(
     title: String,
-    (linear, response): (&LinearSystem, &FrequencyResponse),
+    SolvedResponse { linear, response }: SolvedResponse,
     list: &[NamedQuantity],
     derivative: Derivative,
 ) -> Table {
@@ -188,9 +208,9 @@ fn describe_extreme(extreme: ExtremeKind) -> &'static str {
 /// Statistics of quantities of one dimension, a row each. The maximum is the extreme asked for.
 pub fn statistics(
     title: String,
-    (linear, response): (&LinearSystem, &FrequencyResponse),
+    SolvedResponse { linear, response }: SolvedResponse,
     list: &[NamedQuantity],
-    (derivative, extreme): (Derivative, ExtremeKind),
+    StatisticsRequest { derivative, extreme }: StatisticsRequest,
 ) -> Table {
     let dim = list.first().map_or(Dim::None, |t| derivative_dimension(t.dim, derivative));
     let rows: Vec<(&str, ResponseStatistics)> = list
@@ -208,9 +228,9 @@ pub fn statistics(
 /// Statistics of the six degrees of freedom of a body: along each axis, and about it.
 pub fn body_statistics(
     title: String,
-    (linear, response): (&LinearSystem, &FrequencyResponse),
+    SolvedResponse { linear, response }: SolvedResponse,
     body: usize,
-    (derivative, extreme): (Derivative, ExtremeKind),
+    StatisticsRequest { derivative, extreme }: StatisticsRequest,
 ) -> Table {
     let of_dof = |dof: usize| ResponseStatistics::new(response, &LinearQuantity::dof(linear, body, dof), derivative);
     let rows: Vec<_> =
@@ -227,7 +247,7 @@ pub fn body_statistics(
 /// Statistics of a force and a moment along three axes.
 pub fn load_statistics(
     title: String,
-    (linear, response): (&LinearSystem, &FrequencyResponse),
+    SolvedResponse { linear, response }: SolvedResponse,
     list: &[LinearQuantity; 6],
     extreme: ExtremeKind,
 ) -> Table {

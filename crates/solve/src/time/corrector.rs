@@ -5,7 +5,7 @@ use super::scheme::TimeScheme;
 use super::step::{StepTolerance, Stepper, SystemInstant, not_finite, unsolved_error};
 use crate::system::{SolveError, System};
 use windlass_base::pose::Six;
-use windlass_model::ClassError;
+use windlass_model::{ClassError, TimeStep};
 use windlass_nonlinear::NewtonStatistics;
 
 impl Stepper {
@@ -42,7 +42,7 @@ impl Stepper {
         now.memory = std::mem::take(&mut ahead.memory);
         outcome?;
         self.trial = ahead.motions;
-        self.accept(system, now, (time, dt));
+        self.accept(system, now, TimeStep { time, dt });
         Ok(effort)
     }
 
@@ -60,12 +60,12 @@ impl Stepper {
             self.trial.extend_from_slice(&ahead.motions);
             self.over.clear();
             self.over.resize(start.len(), Six::zeros());
-            self.prescribe(system, (ahead.time, dt))?;
+            self.prescribe(system, TimeStep { time: ahead.time, dt })?;
             self.place(system, start, dt, &scheme);
             self.pose(system, start);
             ahead.motions.clone_from(&self.trial);
             if effort.evaluations == 0 {
-                ahead.memory.begin(system, (start, &ahead.motions), (ahead.time, dt))?;
+                ahead.memory.begin(system, (start, &ahead.motions), TimeStep { time: ahead.time, dt })?;
             }
             let before: Vec<Six> = ahead.motions.iter().map(|m| m.acceleration).collect();
             self.balance(system, ahead, dt)?;
@@ -83,7 +83,7 @@ impl Stepper {
                 let worst = changes.enumerate().map(|(body, c)| (6 * body + c.iamax(), c.amax()));
                 let worst = worst.reduce(|a, b| if b.1 > a.1 { b } else { a }).map_or(0, |(at, _)| at);
                 let (time, what) = (ahead.time, "the acceleration still changes by");
-                return Err(unsolved_error(system, (worst, change), (time, dt), what));
+                return Err(unsolved_error(system, (worst, change), TimeStep { time, dt }, what));
             }
             effort.iterations += 1;
             scheme = trapezoid;

@@ -86,7 +86,7 @@ impl LoadMemory {
         &mut self,
         system: &System,
         (start, ahead): (&[BodyMotion], &[BodyMotion]),
-        (time, dt): (f64, f64),
+        TimeStep { time, dt }: TimeStep,
     ) -> Result<(), SolveError> {
         self.ahead.clear();
         for ((node, ranges), (old, motion)) in system.nodes.iter().zip(&self.ranges).zip(start.iter().zip(ahead)) {
@@ -112,7 +112,7 @@ impl LoadMemory {
     }
 
     /// Commits every load to an accepted step.
-    pub(super) fn commit(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) {
+    pub(super) fn commit(&mut self, system: &System, motions: &[BodyMotion], TimeStep { time, dt }: TimeStep) {
         for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(motions) {
             let at = BodyStep { time, dt, pose: &motion.pose, velocity: &motion.velocity };
             for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
@@ -237,7 +237,7 @@ impl BodyForces {
         system: &System,
         memory: &LoadMemory,
         motions: &[BodyMotion],
-        (time, dt): (f64, f64),
+        TimeStep { time, dt }: TimeStep,
     ) -> Result<(), SolveError> {
         self.clear(system);
         for (body, (node, motion)) in system.nodes.iter().zip(motions).enumerate() {
@@ -279,7 +279,7 @@ impl BodyForces {
         for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {
             self.add(*body, Category::Applied.index(), wrench);
         }
-        self.connect(system, motions, (time, dt))
+        self.connect(system, motions, TimeStep { time, dt })
     }
 
     fn add(&mut self, body: usize, category: usize, wrench: &Six) {
@@ -301,8 +301,13 @@ impl BodyForces {
     }
 
     /// Adds what connectors exert.
-    fn connect(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
-        self.evaluate_dynamic_lines(system, motions, (time, dt));
+    fn connect(
+        &mut self,
+        system: &System,
+        motions: &[BodyMotion],
+        TimeStep { time, dt }: TimeStep,
+    ) -> Result<(), SolveError> {
+        self.evaluate_dynamic_lines(system, motions, TimeStep { time, dt });
         let mut tasks = 0..;
         let flexible = Category::FlexConnectors.index();
         for (index, link) in system.links.iter().enumerate() {

@@ -24,7 +24,12 @@ impl std::fmt::Debug for LineTask {
 
 impl BodyForces {
     /// Evaluates the dynamic lines.
-    pub(super) fn evaluate_dynamic_lines(&mut self, system: &System, motions: &[BodyMotion], (time, dt): (f64, f64)) {
+    pub(super) fn evaluate_dynamic_lines(
+        &mut self,
+        system: &System,
+        motions: &[BodyMotion],
+        TimeStep { time, dt }: TimeStep,
+    ) {
         if !self.has_dynamic_lines {
             self.line_tasks.clear();
             return;

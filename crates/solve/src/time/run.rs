@@ -16,7 +16,7 @@ use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
 use windlass_hydro::sea::Sea;
-use windlass_model::{ClassError, Model};
+use windlass_model::{ClassError, Model, TimeStep};
 use windlass_signal::SeriesError;
 
 /// Times a step may be halved.
@@ -185,11 +185,15 @@ impl Run {
 
     /// Accelerations that balance the forces as they are now.
     pub(super) fn prepare(&mut self) -> Result<(), SolveError> {
-        self.now.memory.begin(&self.system, (&self.now.motions, &self.now.motions), (self.now.time, 0.0))?;
+        self.now.memory.begin(
+            &self.system,
+            (&self.now.motions, &self.now.motions),
+            TimeStep { time: self.now.time, dt: 0.0 },
+        )?;
         self.stepper.balance(&self.system, &mut self.now, 0.0)?;
         // with the accelerations found, which what has inertia of its own feels
         let SystemInstant { time, motions, memory, forces } = &mut self.now;
-        forces.evaluate(&self.system, memory, motions, (*time, 0.0))?;
+        forces.evaluate(&self.system, memory, motions, TimeStep { time: *time, dt: 0.0 })?;
         // a dynamic line begins where it hangs
         self.system.begin_dynamic_lines(&self.now.forces.trial);
         self.resolution = Resolution::from_run(self);

@@ -11,7 +11,7 @@ use crate::system::{DOFS, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix6, U6};
 use windlass_base::dense::{DenseError, Lu};
 use windlass_base::pose::Six;
-use windlass_model::ClassError;
+use windlass_model::{ClassError, TimeStep};
 use windlass_nonlinear::NewtonStatistics;
 
 /// Square of the time (s2) over which stiff ties hold their ends together where a run begins: times their stiffness it is large against the
@@ -105,7 +105,7 @@ impl Stepper {
         // at a start stiff ties begin with the force of their law; an explicit step knows no other
         now.forces.ties.holds = dt == 0.0;
         now.forces.ties.forces.clear();
-        now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;
+        now.forces.evaluate(system, &now.memory, &now.motions, TimeStep { time: now.time, dt })?;
         self.weigh(system, &now.motions);
         self.choose(system, &now.forces);
         let light: Vec<usize> = self.rows.iter().filter(|r| !r.heavy).map(|r| r.at / 6).collect();
@@ -158,7 +158,7 @@ impl Stepper {
                 now.motions.iter().map(|m| m.acceleration * TIE_SETTLING_TIME_SQUARED).collect();
             let ties = now.forces.ties.predict(&|body| accelerations[body]);
             now.forces.ties.forces = ties;
-            now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;
+            now.forces.evaluate(system, &now.memory, &now.motions, TimeStep { time: now.time, dt })?;
         }
         for motion in &mut now.motions {
             (motion.auxiliary, motion.jerk) = (motion.acceleration, Six::zeros());
@@ -221,7 +221,7 @@ impl Stepper {
         }
     }
 
-    pub(super) fn prescribe(&mut self, system: &System, (time, dt): (f64, f64)) -> Result<(), SolveError> {
+    pub(super) fn prescribe(&mut self, system: &System, TimeStep { time, dt }: TimeStep) -> Result<(), SolveError> {
         for ((trial, over), node) in self.trial.iter_mut().zip(&mut self.over).zip(&system.nodes) {
             if let Some(prescribed) = &node.prescribed {
                 let before = *trial;
@@ -252,7 +252,7 @@ impl Stepper {
             self.weigh(system, &now.motions);
         }
         self.choose(system, &now.forces);
-        self.prescribe(system, (time, dt))?;
+        self.prescribe(system, TimeStep { time, dt })?;
         // ahead as the acceleration changed last; what has no inertia goes on with its velocity
         for (trial, _) in self.trial.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()) {
             trial.acceleration += trial.jerk * dt;
@@ -267,7 +267,7 @@ impl Stepper {
         }
         self.pose(system, &now.motions);
         self.weigh_again(system);
-        now.memory.begin(system, (&now.motions, &self.trial), (time, dt))?;
+        now.memory.begin(system, (&now.motions, &self.trial), TimeStep { time, dt })?;
         let gain = scheme.gain();
         let (by_place, by_velocity) = (dt * dt * scheme.beta * gain, dt * scheme.gamma * gain);
         let parts = (self.trial.as_slice(), now.motions.as_slice(), self.over.as_slice());
@@ -292,7 +292,7 @@ impl Stepper {
             self.weigh_again(system);
         }
         loop {
-            now.forces.evaluate(system, &now.memory, &self.trial, (time, dt))?;
+            now.forces.evaluate(system, &now.memory, &self.trial, TimeStep { time, dt })?;
             effort.evaluations += 1;
             let left = self.residual(system, &now.forces);
             effort.residual = left / system.gravity;
@@ -317,13 +317,13 @@ impl Stepper {
             self.turn(system);
             self.jacobian(&now.forces, dt, by_place, by_velocity);
             self.ask(&now.forces);
-            self.solve(system).map_err(|e| self.unsolvable(system, e, left, (time, dt)))?;
+            self.solve(system).map_err(|e| self.unsolvable(system, e, left, TimeStep { time, dt }))?;
             self.update_tie_forces(&mut now.forces, by_place);
             self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
             self.weigh_again(system);
         }
         now.forces.learn(dt, (&self.trial, &now.motions, &self.over));
-        self.accept(system, now, (time, dt));
+        self.accept(system, now, TimeStep { time, dt });
         Ok(effort)
     }
 
@@ -335,20 +335,20 @@ impl Stepper {
     }
 
     /// Makes the trial the present.
-    pub(super) fn accept(&mut self, system: &mut System, now: &mut SystemInstant, (time, dt): (f64, f64)) {
+    pub(super) fn accept(&mut self, system: &mut System, now: &mut SystemInstant, TimeStep { time, dt }: TimeStep) {
         now.time = time;
         for (trial, old) in self.trial.iter_mut().zip(&now.motions) {
             trial.jerk = (trial.acceleration - old.acceleration) / dt;
         }
         now.motions.clear();
         now.motions.extend_from_slice(&self.trial);
-        now.memory.commit(system, &now.motions, (time, dt));
+        now.memory.commit(system, &now.motions, TimeStep { time, dt });
         system.states.clear();
         system.states.extend_from_slice(&now.forces.trial);
     }
 
     /// The error of a step whose correction cannot be found.
-    fn unsolvable(&self, system: &System, error: DenseError, left: f64, (time, dt): (f64, f64)) -> SolveError {
+    fn unsolvable(&self, system: &System, error: DenseError, left: f64, TimeStep { time, dt }: TimeStep) -> SolveError {
         match error {
             DenseError::Singular | DenseError::NotPositive => self.unbalanced_error(system, left, time, dt),
             other => {
@@ -366,7 +366,7 @@ impl Stepper {
     fn unbalanced_error(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
         let most = |a: (usize, f64), b: (usize, f64)| if b.1.abs() > a.1.abs() { b } else { a };
         let worst = self.right.iter().copied().enumerate().reduce(most).and_then(|(at, _)| self.rows.get(at));
-        unsolved_error(system, (worst.map_or(0, |r| r.at), left), (time, dt), "an acceleration is left of")
+        unsolved_error(system, (worst.map_or(0, |r| r.at), left), TimeStep { time, dt }, "an acceleration is left of")
     }
 }
 
@@ -374,7 +374,7 @@ impl Stepper {
 pub(super) fn unsolved_error(
     system: &System,
     (at, left): (usize, f64),
-    (time, dt): (f64, f64),
+    TimeStep { time, dt }: TimeStep,
     what: &str,
 ) -> SolveError {
     let name = system.nodes.get(at / 6).map(|n| n.name.clone());

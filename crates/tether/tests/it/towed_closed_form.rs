@@ -178,7 +178,7 @@ fn mirrored_waves_give_mirrored_motion() {
 }
 
 #[test]
-fn rotating_sea_and_tether_together_changes_nothing() {
+fn rotated_sea_and_tether_give_equal_motions() {
     let of = |turn: f64| {
         let (sin, cos) = turn.sin_cos();
         let turned = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
@@ -272,7 +272,7 @@ fn invalid_towed_tether_is_error() {
 }
 
 #[test]
-fn waves_meet_bent_tether_where_its_slopes_have_drawn_it() {
+fn waves_meet_foreshortened_tether_at_shifted_positions() {
     // a straight tether 30 m down that lies at a slope of s in plan: a place x from the vessel's end is at x (1 - s^2/2) from there
     let (s, time) = (0.3, 4.0_f64);
     let mut case = case(1.0, 30.0);
