@@ -12,6 +12,8 @@ use windlass_language::source::Source;
 
 /// Last column of a card; what stands further right is not read.
 pub const CARD_WIDTH: usize = 80;
+/// What stands in a text for a byte that is not UTF-8 (`windlass_language::source::Text`).
+const NOT_TEXT: char = '\0';
 /// Largest whole number taken (nine digits; the widest field of a deck has ten columns).
 const MAX_INTEGER: i64 = 999_999_999;
 
@@ -129,16 +131,22 @@ impl<'a> CardLine<'a> {
         !self.blank(CARD_WIDTH, CARD_WIDTH) && !self.blank(CARD_WIDTH + 1, CARD_WIDTH + 1)
     }
 
-    /// Column of the first tab, which belongs to no column.
-    pub fn tab(&self) -> Option<usize> {
-        self.text.chars().position(|c| c == '\t').map(|index| index + 1)
+    /// Column of the first tab, which belongs to no column, or of the first byte that is no UTF-8 text.
+    pub fn stray(&self) -> Option<usize> {
+        self.text.chars().position(|c| matches!(c, '\t' | NOT_TEXT)).map(|index| index + 1)
     }
 
-    /// The error of a card with a tab in a column; `label` names the deck.
-    pub fn tab_error(&self, label: &str, column: usize) -> Box<Diagnostic> {
-        Diagnostic::error(format!("{label}: a tab stands in column {column}"), self.span(column, column))
-            .label("fields are found by their columns")
-            .help("write blanks in the place of tabs")
+    /// The error of a card with a tab, or a byte that is no text, in a column; `label` names the deck.
+    pub fn stray_error(&self, label: &str, column: usize) -> Box<Diagnostic> {
+        let span = self.span(column, column);
+        if self.columns(column, column) == "\t" {
+            return Diagnostic::error(format!("{label}: a tab stands in column {column}"), span)
+                .label("fields are found by their columns")
+                .help("write blanks in the place of tabs");
+        }
+        Diagnostic::error(format!("{label}: column {column} holds a byte that is not UTF-8"), span)
+            .label("letters, digits, signs and points belong on a card")
+            .help("a file of Latin-1 or another code page may have its letters in TITLE and in comments alone; else save it as UTF-8")
     }
 
     /// The words of a piece of the line: apart by blanks, tabs or commas.
@@ -178,8 +186,8 @@ impl<'a> Face<'a> {
     /// # Errors
     /// Which of the columns 1 to 10 hold what does not belong there, or where a tab stands; `label` names the deck.
     pub fn new(line: &CardLine<'a>, label: &str, keyworded: bool) -> Result<Face<'a>, Box<Diagnostic>> {
-        if let Some(tab) = line.tab() {
-            return Err(line.tab_error(label, tab));
+        if let Some(column) = line.stray() {
+            return Err(line.stray_error(label, column));
         }
         let wrong = |first: usize, last: usize, belongs: &str| {
             let stands = line.columns(first, last).trim();

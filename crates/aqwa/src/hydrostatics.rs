@@ -27,13 +27,17 @@ const VALUES: &[Slot] = &[
     num("value 6", 71),
 ];
 
+/// Of a file of several structures the one to take.
+const STRUCTURE_OF_FILE: &[Slot] = &[int("structure of the file", 11).not_below_zero()];
+
 /// Cards of deck 6.
 pub const FREQUENCIES: &[CardLayout] = &[
     CardLayout::assume("FREQ", VALUES).freely(),
     CardLayout::assume("PERD", VALUES).freely(),
     CardLayout::assume("HRTZ", VALUES).freely(),
     CardLayout::assume("DIRN", VALUES).freely(),
-    CardLayout::refuse("CSTR", UNPUBLISHED_CARD_REASON),
+    CardLayout::new("CSTR", STRUCTURE_OF_FILE),
+    CardLayout::new("CPDB", &[]),
     CardLayout::text("FILE"),
     CardLayout::refuse("MVEF", UNPUBLISHED_CARD_REASON),
     CardLayout::refuse("FWDS", UNPUBLISHED_CARD_REASON),
@@ -55,6 +59,8 @@ pub const STIFFNESS: &[CardLayout] = &[
     CardLayout::refuse("PERD", DATABASE),
     CardLayout::refuse("HRTZ", DATABASE),
     CardLayout::refuse("DIRN", DATABASE),
+    CardLayout::new("CSTR", STRUCTURE_OF_FILE),
+    CardLayout::new("CPDB", &[]),
     CardLayout::text("FILE"),
 ];
 
@@ -103,34 +109,51 @@ pub struct HydrostaticsDecks {
     pub height: Option<Field<f64>>,
     /// Position of the stiffness matrix (SPOS): X, Y, Z, RX, RY, RZ, angles in degrees.
     pub position: Option<[f64; 6]>,
-    /// Added mass that does not depend on frequency (FIAM; FIDA at drift frequency).
+    /// Added mass beside that of the radiation, at all frequencies (FIAM).
     pub added_mass: Option<SixBySix>,
-    /// Damping that does not depend on frequency (FIDP; FIDD at drift frequency).
+    /// Damping beside that of the radiation, at all frequencies (FIDP).
     pub damping: Option<SixBySix>,
+    /// Added mass at drift frequencies (FIDA).
+    pub drift_added_mass: Option<SixBySix>,
+    /// Damping at drift frequencies (FIDD).
+    pub drift_damping: Option<SixBySix>,
     /// Current of deck 10, as decks of 2006 have it for NAUT.
     pub current: Option<UniformStream>,
-    /// First LSTF card, else the header.
-    pub span: Span,
+    /// First card of each keyword, with the number of its deck.
+    pub cards: Vec<(u8, String, Span)>,
     /// File with the coefficients of the hull (FILE), with its place.
     pub database: Option<(String, Span)>,
+    /// Number of the structure in that file (CSTR).
+    pub structure_of_file: Option<Field<i64>>,
+}
+
+impl HydrostaticsDecks {
+    /// The first card of a keyword: `deck 7, FIAM` and its place.
+    pub fn card(&self, keyword: &str) -> Option<(String, Span)> {
+        let found = self.cards.iter().find(|(_, other, _)| other == keyword);
+        found.map(|(deck, keyword, span)| (format!("deck {deck}, {keyword}"), *span))
+    }
 }
 
 /// Takes the cards of one of the decks 6 to 10 into what is known of a structure.
 pub fn read(into: &mut HydrostaticsDecks, deck: u8, records: &[CardRecord], remarks: &mut Remarks) {
     for record in records {
+        if into.card(&record.keyword).is_none() {
+            into.cards.push((deck, record.keyword.clone(), record.span));
+        }
         match (deck, record.keyword.as_str()) {
-            (6 | 7, "FILE") => file(into, record, remarks),
+            (6 | 7, "FILE") => file(into, deck, record, remarks),
+            (6 | 7, "CSTR") => structure_of_file(into, deck, record, remarks),
+            // the copy that FILE asks for
+            (6 | 7, "CPDB") => {}
             (6, "DIRN") => into.directions.extend(given_values(record)),
             (6, keyword) => into.frequencies.extend(given_values(record).filter_map(|value| frequency(keyword, value))),
-            (_, "LSTF") => {
-                if into.stiffness.is_none() {
-                    into.span = record.span;
-                }
-                row(&mut into.stiffness, record, remarks);
-            }
-            (_, "ASTF") => row(&mut into.added_stiffness, record, remarks),
-            (_, "FIAM" | "FIDA") => row(&mut into.added_mass, record, remarks),
-            (_, "FIDP" | "FIDD") => row(&mut into.damping, record, remarks),
+            (_, "LSTF") => row(&mut into.stiffness, deck, record, remarks),
+            (_, "ASTF") => row(&mut into.added_stiffness, deck, record, remarks),
+            (_, "FIAM") => row(&mut into.added_mass, deck, record, remarks),
+            (_, "FIDP") => row(&mut into.damping, deck, record, remarks),
+            (_, "FIDA") => row(&mut into.drift_added_mass, deck, record, remarks),
+            (_, "FIDD") => row(&mut into.drift_damping, deck, record, remarks),
             (_, "BFEQ") => into.buoyancy = Some(record.real(21)),
             (_, "ZCGE") => into.height = Some(record.real(21)),
             (_, "SPOS") => into.position = Some(record.reals(21).map(|field| field.value)),
@@ -140,11 +163,13 @@ pub fn read(into: &mut HydrostaticsDecks, deck: u8, records: &[CardRecord], rema
             }
         }
     }
-    if deck == 7 && into.stiffness.is_some() {
+    if deck == 7
+        && let Some((_, stiffness)) = into.card("LSTF")
+    {
         for (keyword, missing) in [("BFEQ", into.buoyancy.is_none()), ("ZCGE", into.height.is_none())] {
             if missing {
                 remarks.add(
-                    Diagnostic::error(format!("deck 7: LSTF without {keyword}"), into.span)
+                    Diagnostic::error(format!("deck 7: LSTF without {keyword}"), stiffness)
                         .label("this stiffness is about an equilibrium")
                         .help("BFEQ is the buoyancy force at equilibrium, ZCGE the Z of the centre of gravity there"),
                 );
@@ -153,13 +178,51 @@ pub fn read(into: &mut HydrostaticsDecks, deck: u8, records: &[CardRecord], rema
     }
 }
 
-/// The file with the coefficients of a hull, whose name is the last word of the card.
-fn file(into: &mut HydrostaticsDecks, record: &CardRecord, remarks: &mut Remarks) {
-    let name = record.text.split(' ').next_back().unwrap_or_default();
+/// The number of the structure in the file of a hull.
+fn structure_of_file(into: &mut HydrostaticsDecks, deck: u8, record: &CardRecord, remarks: &mut Remarks) {
+    let number = record.int(11);
+    if number.value == 0 {
+        remarks.add(
+            Diagnostic::error(format!("deck {deck}, CSTR, columns 11-15: no structure is named"), number.span)
+                .label("the number of the structure in the FILE belongs here"),
+        );
+    }
+    into.structure_of_file = Some(number);
+}
+
+/// The file with the coefficients of a hull, whose name is in columns 21 to 80.
+fn file(into: &mut HydrostaticsDecks, deck: u8, record: &CardRecord, remarks: &mut Remarks) {
+    let name = record.name.as_str();
+    if record.text_place.start < record.name_place.start {
+        remarks.add(
+            Diagnostic::error(
+                format!("deck {deck}, FILE, columns 11-20: a name of a file begins in column 21 or behind it"),
+                record.text_place,
+            )
+            .label("a file unit has no meaning here")
+            .help("the name of the file belongs in columns 21-80; it may hold blanks"),
+        );
+        return;
+    }
+    let plain = |c: char| c.is_alphanumeric() || " _-+=./\\:,()[]~#".contains(c);
+    if let Some(other) = name.chars().find(|c| !plain(*c)) {
+        remarks.add(
+            Diagnostic::error(
+                format!("deck {deck}, FILE, columns 21-80: a name of a file does not hold `{other}` here"),
+                record.name_place,
+            )
+            .label("letters, digits, blanks and _-+=./\\:,()[]~# are taken")
+            .help("give the file another name"),
+        );
+        return;
+    }
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_uppercase();
     if ending != "AH1" {
         remarks.add(
-            Diagnostic::error(format!("FILE, columns 21-80: `{name}` is no text database of AQWA"), record.text_place)
+            Diagnostic::error(
+                format!("deck {deck}, FILE, columns 21-80: `{name}` is no text database of AQWA"),
+                record.name_place,
+            )
                 .label("a file of ending AH1 belongs here")
                 .help("the form of .HYD and .RES is not public: run the deck of AQWA-LINE with OPTIONS AHD1 END, which writes the same as text"),
         );
@@ -167,12 +230,15 @@ fn file(into: &mut HydrostaticsDecks, record: &CardRecord, remarks: &mut Remarks
     }
     if let Some((_, earlier)) = &into.database {
         remarks.add(
-            Diagnostic::error("FILE: the coefficients of this structure are given twice", record.span)
-                .other(*earlier, "given here first"),
+            Diagnostic::error(
+                format!("deck {deck}, FILE: the coefficients of this structure are given twice"),
+                record.span,
+            )
+            .other(*earlier, "given here first"),
         );
         return;
     }
-    into.database = Some((name.to_string(), record.text_place));
+    into.database = Some((name.to_string(), record.name_place));
 }
 
 fn given_values(record: &CardRecord) -> impl Iterator<Item = f64> + '_ {
@@ -190,14 +256,14 @@ fn frequency(keyword: &str, value: f64) -> Option<f64> {
     (frequency.is_finite() && frequency > 0.0).then_some(frequency)
 }
 
-fn row(matrix: &mut Option<SixBySix>, record: &CardRecord, remarks: &mut Remarks) {
+fn row(matrix: &mut Option<SixBySix>, deck: u8, record: &CardRecord, remarks: &mut Remarks) {
     let number = record.int(16);
     let matrix = matrix.get_or_insert([[0.0; 6]; 6]);
     match usize::try_from(number.value - 1).ok().and_then(|index| matrix.get_mut(index)) {
         Some(row) => *row = record.reals(21).map(|field| field.value),
         None => remarks.add(
             Diagnostic::error(
-                format!("deck 7, {}, columns 16-20: a matrix has rows 1 to 6", record.keyword),
+                format!("deck {deck}, {}, columns 16-20: a matrix has rows 1 to 6", record.keyword),
                 number.span,
             )
             .label("row belongs here"),

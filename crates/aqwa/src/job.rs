@@ -224,7 +224,7 @@ pub fn read(reader: &mut CardReader<'_>) -> JobDeck {
 
 fn read_job(job: &mut JobDeck, line: &CardLine<'_>, rest: &str, remarks: &mut Remarks) {
     let by_columns =
-        line.blank(4, 4) && line.blank(9, 10) && line.blank(15, 16) && !line.blank(11, 14) && line.tab().is_none();
+        line.blank(4, 4) && line.blank(9, 10) && line.blank(15, 16) && !line.blank(11, 14) && line.stray().is_none();
     let words: Vec<&str> = if by_columns {
         vec![line.columns(5, 8).trim(), line.columns(11, 14).trim(), line.columns(17, 20).trim()]
     } else {
@@ -310,6 +310,8 @@ fn read_restart(job: &mut JobDeck, restart: Option<CardLine<'_>>, remarks: &mut 
         return;
     }
     let mut words = CardLine::words(line.text).skip(1);
+    // the name of the deck of an earlier run may hold blanks
+    let behind = CardLine::words(line.text).nth(2).map(|word| line.place_of(word).end - line.place(0, 0).start);
     let mut stage = |name: &str| {
         let word = words.next().unwrap_or_default();
         let value = integer(word).and_then(|n| u8::try_from(n).ok()).filter(|n| (1..=6).contains(n));
@@ -323,7 +325,8 @@ fn read_restart(job: &mut JobDeck, restart: Option<CardLine<'_>>, remarks: &mut 
         value
     };
     let stages = (stage("first"), stage("last"));
-    job.database = words.next().unwrap_or_default().to_string();
+    let name = behind.and_then(|from| line.text.get(from as usize..)).unwrap_or_default();
+    job.database = name.trim_start_matches(',').trim().to_string();
     let (Some(start), Some(finish)) = stages else { return };
     if start > finish {
         let message = format!("deck 0, RESTART: stage {start} comes after stage {finish}");

@@ -6,6 +6,9 @@ use super::card::{CARD_WIDTH, CardLine, Face, Field, integer, real};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
+/// First column of the name of a file.
+const NAME_COLUMN: usize = 21;
+
 /// What a field holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldType {
@@ -30,16 +33,18 @@ pub struct Slot {
     pub signed: bool,
     /// Whether it is commonly left blank before others: nothing is said of it then.
     pub often_blank: bool,
+    /// What holds where it is blank or 0, in words; empty for 0 itself.
+    pub default: &'static str,
 }
 
 /// A whole number, five columns wide.
 pub const fn int(name: &'static str, column: usize) -> Slot {
-    Slot { name, column, width: 5, holds: FieldType::Integer, signed: true, often_blank: false }
+    Slot { name, column, width: 5, holds: FieldType::Integer, signed: true, often_blank: false, default: "" }
 }
 
 /// A number, ten columns wide.
 pub const fn num(name: &'static str, column: usize) -> Slot {
-    Slot { name, column, width: 10, holds: FieldType::Real, signed: true, often_blank: false }
+    Slot { name, column, width: 10, holds: FieldType::Real, signed: true, often_blank: false, default: "" }
 }
 
 impl Slot {
@@ -51,6 +56,11 @@ impl Slot {
     /// The same, of which nothing is said where it is blank.
     pub const fn often_blank(self) -> Self {
         Slot { often_blank: true, ..self }
+    }
+
+    /// The same, for which this holds where it is blank or 0.
+    pub const fn or(self, default: &'static str) -> Self {
+        Slot { default, ..self }
     }
 
     fn last_column(&self) -> usize {
@@ -183,6 +193,8 @@ impl CardLayout {
             reals: Vec::new(),
             text: String::new(),
             text_place: line.place_of(face.rest.trim()),
+            name: String::new(),
+            name_place: line.span(NAME_COLUMN, CARD_WIDTH),
         };
         if line.is_cut() {
             let message = format!("{}: what stands in column {CARD_WIDTH} goes on past it", self.name_with_deck(deck));
@@ -204,6 +216,11 @@ impl CardLayout {
             let rest = line.columns(11, CARD_WIDTH).trim();
             record.text = rest.split_whitespace().collect::<Vec<_>>().join(" ");
             record.text_place = line.place_of(rest);
+            let name = line.columns(NAME_COLUMN, CARD_WIDTH).trim();
+            record.name = name.to_string();
+            if !name.is_empty() {
+                record.name_place = line.place_of(name);
+            }
             return Ok(record);
         }
         self.check_separation(deck, line)?;
@@ -320,24 +337,28 @@ impl CardLayout {
             .help(self.usage()))
     }
 
-    /// Notes a number that is left blank before another one of the card: it reads as 0. Rows of matrices are written so.
-    pub fn blank_note(&self, deck: &str, record: &CardRecord) -> Option<Box<Diagnostic>> {
-        if matches!(self.repeats, Repeats::Once { by, .. } if !by.is_empty()) {
-            return None;
+    /// Notes the numbers of a card that are not those in force: fields whose default holds because they are blank or 0, and the first
+    /// blank field before another number, which reads as 0. Rows of matrices are written with blanks, and a card without any number is all defaults.
+    pub fn blank_notes(&self, deck: &str, record: &CardRecord) -> Vec<Box<Diagnostic>> {
+        let mut notes = Vec::new();
+        let Some(last) = record.reals.iter().rposition(|(_, field)| field.given) else { return notes };
+        let is_row = matches!(self.repeats, Repeats::Once { by, .. } if !by.is_empty());
+        let mut reads_as_zero = is_row;
+        for (index, (column, field)) in record.reals.iter().enumerate() {
+            let Some(slot) = self.slots.iter().find(|slot| slot.column == *column) else { continue };
+            let place = format!("{}, columns {column}-{}", self.name_with_deck(deck), slot.last_column());
+            let message = if !slot.default.is_empty() && field.value == 0.0 {
+                let stands = if field.given { "0 stands here" } else { "this field is blank" };
+                format!("{place}: {stands}: the default holds, {}", slot.default)
+            } else if slot.default.is_empty() && index < last && !field.given && !slot.often_blank && !reads_as_zero {
+                reads_as_zero = true;
+                format!("{place}: this field is blank and reads as 0")
+            } else {
+                continue;
+            };
+            notes.push(Diagnostic::remark(message, field.span).label(format!("{} belongs here", slot.name)));
         }
-        let last = record.reals.iter().rposition(|(_, field)| field.given)?;
-        let blank = record.reals.iter().take(last).filter(|(_, field)| !field.given);
-        let slot_at = |column: usize| self.slots.iter().find(|slot| slot.column == column);
-        let with_slot = |(column, field): &(usize, Field<f64>)| {
-            Some((*column, *field, slot_at(*column).filter(|slot| !slot.often_blank)?))
-        };
-        let (column, field, slot) = blank.filter_map(with_slot).next()?;
-        let message = format!(
-            "{}, columns {column}-{}: this field is blank and reads as 0",
-            self.name_with_deck(deck),
-            slot.last_column()
-        );
-        Some(Diagnostic::remark(message, field.span).label(format!("{} belongs here", slot.name)))
+        notes
     }
 
     fn nothing_between(
@@ -394,6 +415,10 @@ pub struct CardRecord {
     pub text: String,
     /// Its place.
     pub text_place: Span,
+    /// Columns 21 to 80 of cards of text as they are: the name of a file.
+    pub name: String,
+    /// Its place.
+    pub name_place: Span,
 }
 
 impl CardRecord {

@@ -153,8 +153,13 @@ impl Deck {
 
     /// The file with the coefficients of the hull of a structure, with its place.
     pub fn database(&self, structure: &elements::StructureDeck) -> Option<&(String, windlass_base::span::Span)> {
-        let index = self.structures.iter().position(|other| other.number == structure.number)?;
-        self.hydrostatics.get(index)?.database.as_ref()
+        self.hydrostatics_of(structure.number)?.database.as_ref()
+    }
+
+    /// What decks 6 to 10 say of a structure, by its number.
+    pub fn hydrostatics_of(&self, number: i64) -> Option<&HydrostaticsDecks> {
+        let index = self.structures.iter().position(|other| other.number == number)?;
+        self.hydrostatics.get(index)
     }
 
     /// Position of the centre of gravity of a structure at the start: X, Y, Z, RX, RY, RZ (degrees). The place of deck 15,

@@ -17,6 +17,8 @@ const MAX_SECTIONS: i64 = 10;
 pub const DYNAMIC_ELEMENTS: u32 = 50;
 /// Steepest sea bed that is read (degrees): the bed of a CATENARY is at most 10 in 1.
 const MAX_SLOPE_DEGREES: f64 = 84.0;
+/// Added mass, drag and inline drag coefficients of a section where ECAH leaves them blank [AQWA-CONN 5.8.3.1].
+const SECTION_COEFFICIENTS: [f64; 3] = [1.0, 1.0, 0.025];
 /// Most points of the table of a composite line.
 const MAX_TABLE_POINTS: i64 = 600;
 
@@ -171,10 +173,14 @@ pub struct CompositeSection {
     pub growth: Option<[f64; 3]>,
     /// ECAH in force.
     pub resistance: Option<SectionResistance>,
+    /// Whether the ECAH in force is that of a section before.
+    pub inherits_resistance: bool,
     /// ECAB: EI; 0 when not given.
     pub bending: f64,
     /// BUOY or CLMP at the upper end.
     pub joint: Option<CompositeJoint>,
+    /// The field of a length that is to be found for the pretension of an NLID card; none where the length is given.
+    pub found_length: Option<Span>,
     /// The card.
     pub span: Span,
 }
@@ -248,6 +254,14 @@ impl LineBreak {
                 remarks.add(Diagnostic::error(message, field.span).label("a time or a tension is not below 0"));
                 return None;
             }
+        }
+        if columns.iter().all(|(_, field)| field.value == 0.0) {
+            remarks.add(
+                Diagnostic::error("deck 14, LBRK: neither a time nor a breaking tension is given", record.span)
+                    .label("the line would break at 0 s")
+                    .help("a time in columns 31-40, or a tension in 41-50 or 51-60; without the card the line holds"),
+            );
+            return None;
         }
         Some(found)
     }
@@ -391,6 +405,20 @@ impl LineCardParser {
             remarks.add_once(&key, || {
                 Diagnostic::error(message, last.announced.span).label("number of sections, columns 26-30")
             });
+        } else if let [first, .., top] = last.sections.as_slice() {
+            if let Some(section) = last.sections.iter().find(|section| section.inherits_resistance) {
+                remarks.add_once("inherited resistance", || {
+                    let text = "deck 14, ECAT: this section has no ECAH of its own: that before it holds";
+                    Diagnostic::remark(text, section.span)
+                });
+            }
+            remarks.add_once("order of sections", || {
+                let text = "deck 14, COMP: its sections are taken in their order from the anchor upwards";
+                Diagnostic::remark(text, first.span)
+                    .label("the section at the anchor, the second end of a line")
+                    .other(top.span, "the section at the fairlead, its first end")
+                    .help("assumed: no public page shows a line with the places of its sections")
+            });
         }
     }
 
@@ -398,9 +426,13 @@ impl LineCardParser {
         let keyword = record.keyword.as_str();
         let value = |column: usize| record.real(column).value;
         if keyword == "ECAH" {
-            let resistance =
-                SectionResistance { added_mass: value(31), drag: value(51), diameter: value(61), inline: value(71) };
-            self.resistance = Some(resistance);
+            let [added_mass, drag, inline] = SECTION_COEFFICIENTS;
+            self.resistance = Some(SectionResistance {
+                added_mass: record.real(31).or(added_mass),
+                drag: record.real(51).or(drag),
+                diameter: value(61),
+                inline: record.real(71).or(inline),
+            });
         }
         let Some(Property::Composite(composite)) = properties.last_mut() else {
             remarks.add(
@@ -427,9 +459,24 @@ impl LineCardParser {
         };
         match keyword {
             "ECAX" => section.growth = Some([value(31), value(41), value(51)]),
-            "ECAH" => section.resistance = self.resistance,
+            "ECAH" => {
+                section.resistance = self.resistance;
+                section.inherits_resistance = false;
+            }
             "ECAB" => section.bending = value(31),
             _ => {
+                let (mass, displaced) = (value(31), value(41));
+                let (wrong, side) =
+                    if keyword == "BUOY" { (mass >= displaced, "below") } else { (mass <= displaced, "above") };
+                if wrong {
+                    let message =
+                        format!("deck 14, {keyword}: a mass of {mass} is not {side} the displaced mass of {displaced}");
+                    remarks.add(
+                        Diagnostic::error(message, record.span)
+                            .label("mass in columns 31-40, displaced mass in 41-50")
+                            .help("a buoy weighs less than the water it displaces, a clump weight more"),
+                    );
+                }
                 section.joint = Some(CompositeJoint {
                     buoy: keyword == "BUOY",
                     mass: value(31),
@@ -511,6 +558,16 @@ fn check_winch(kind: &LineKind, record: &CardRecord, remarks: &mut Remarks) {
                     remarks.add(Diagnostic::error(message, record.span).label(format!("{value} stands here")));
                 }
             }
+            if speed * (end - start) < 0.0 || (speed != 0.0 && end == start) {
+                let (turns, wanted) = if speed > 0.0 { ("pays out", "above") } else { ("winds in", "below") };
+                remarks.add(
+                    Diagnostic::warning("deck 14, LNDW: this drum never turns", record.span)
+                        .label(format!(
+                            "it {turns} from {start} to {end}: the final length, columns 51-60, is not {wanted} the initial one"
+                        ))
+                        .help("a positive speed, columns 61-70, pays out up to the final length, a negative one winds in down to it"),
+                );
+            }
             if speed == 0.0 || tension < 0.0 {
                 remarks.add(
                     Diagnostic::error(
@@ -564,8 +621,21 @@ fn composite(record: &CardRecord, remarks: &mut Remarks) -> Composite {
     if let Some((_, span)) = whole.into_iter().chain(heights).find(|(given, _)| *given) {
         remarks.add_once("table of a composite", || {
             Diagnostic::remark("deck 14, COMP: no table is made; a line is solved exactly at each position", span)
-                .label("columns 11-25 and 31-50 describe the table: they limit nothing and change no result")
+                .label("columns 11-25 and 31-50 describe the table, its warnings and its symmetry: they limit nothing and change no result")
         });
+    }
+    let [lowest, highest] = [record.real(31), record.real(41)];
+    if lowest.given && highest.given && lowest.value > highest.value {
+        remarks.add(
+            Diagnostic::error(
+                format!(
+                    "deck 14, COMP, columns 31-50: the lowest Z, {}, is above the highest, {}",
+                    lowest.value, highest.value
+                ),
+                lowest.span,
+            )
+            .label("Z of the first attachment, lowest in columns 31-40, highest in 41-50"),
+        );
     }
     let slope = record.real(51);
     if slope.value.abs() >= MAX_SLOPE_DEGREES {
@@ -611,8 +681,10 @@ fn ecat(record: &CardRecord, resistance: Option<SectionResistance>) -> Result<Co
         length: length.value,
         growth: None,
         resistance,
+        inherits_resistance: resistance.is_some(),
         bending: 0.0,
         joint: None,
+        found_length: Some(record.int(26)).filter(|flag| flag.value != 0).map(|flag| flag.span),
         span: record.span,
     })
 }

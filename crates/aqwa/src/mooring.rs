@@ -39,9 +39,9 @@ pub const LAYOUTS: &[CardLayout] = &[
         "TFAT",
         &[
             num("reserved", 31),
-            num("stress concentration factor", 41),
-            num("S-N intercept", 51),
-            num("S-N slope m", 61),
+            num("stress concentration factor", 41).or("1.24"),
+            num("S-N intercept", 51).or("1.3367E24"),
+            num("S-N slope m", 61).or("3.5"),
         ],
     )
     .repeatable_after(TETHER),
@@ -108,7 +108,7 @@ pub const LAYOUTS: &[CardLayout] = &[
         &[
             int("vertical levels", 11),
             int("horizontal offsets", 16),
-            int("flags", 21),
+            int("flags of warnings and of symmetry", 21).not_below_zero(),
             int("number of sections", 26),
             num("lowest Z", 31),
             num("highest Z", 41),
@@ -119,11 +119,11 @@ pub const LAYOUTS: &[CardLayout] = &[
     CardLayout::new(
         "ECAT",
         &[
-            int("pretension flag", 26),
+            int("flag of the length found for a pretension", 26).not_below_zero(),
             num("mass a length", 31).not_below_zero(),
             num("area", 41).not_below_zero(),
-            num("EA", 51).not_below_zero(),
-            num("greatest tension", 61).not_below_zero(),
+            num("EA", 51).not_below_zero().or("5.0E6 times the mass a length"),
+            num("greatest tension", 61).not_below_zero().or("5.0E4 times the mass a length"),
             num("length", 71).not_below_zero(),
         ],
     )
@@ -132,10 +132,10 @@ pub const LAYOUTS: &[CardLayout] = &[
     CardLayout::new(
         "ECAH",
         &[
-            num("added mass coefficient", 31),
-            num("drag coefficient", 51),
-            num("drag diameter", 61),
-            num("inline drag coefficient", 71),
+            num("added mass coefficient", 31).not_below_zero().or("1.0"),
+            num("drag coefficient", 51).not_below_zero().or("1.0"),
+            num("drag diameter", 61).not_below_zero().or("that of the area of the section"),
+            num("inline drag coefficient", 71).not_below_zero().or("0.025"),
         ],
     )
     .repeatable_after(SECTION),
@@ -155,7 +155,7 @@ pub const LAYOUTS: &[CardLayout] = &[
             num("breaking tension at structure 2", 51),
         ],
     )
-    .freely(),
+    .repeated_by(&[16]),
     CardLayout::new("DWT0", &[num("time at which winching starts", 31)]).freely(),
     CardLayout::new("DWAL", &[num("additional length", 31)]).freely(),
     CardLayout::refuse(

@@ -23,6 +23,7 @@ const SLOTS: &[super::layout::Slot] = &[
         holds: super::layout::FieldType::Integer,
         signed: true,
         often_blank: false,
+        default: "",
     },
     int("how many nodes to generate", 11),
     int("step of the node numbers", 16),

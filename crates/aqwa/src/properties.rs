@@ -46,7 +46,10 @@ pub const GEOMETRIES: &[CardLayout] = &[
     CardLayout::assume("DISC", DOF_SLOTS).freely(),
     CardLayout::new(
         "CONT",
-        &[num("drag coefficient", 21).not_below_zero(), num("added mass coefficient", 31).not_below_zero()],
+        &[
+            num("drag coefficient", 21).not_below_zero().or("0.75"),
+            num("added mass coefficient", 31).not_below_zero().or("1.0"),
+        ],
     )
     .freely(),
 ];
@@ -242,7 +245,14 @@ pub fn read_global(records: &[CardRecord], remarks: &mut Remarks) -> WaterAndGra
         let value = record.real(11);
         if value.given && value.value <= 0.0 {
             let message = format!("deck 5, {}, columns 11-20: {} is not above 0", record.keyword, value.value);
-            remarks.add(Diagnostic::error(message, value.span));
+            let (what, help) = match record.keyword.as_str() {
+                "DPTH" => {
+                    ("depth of water", "the depth is measured down from the still water level: 100.0 is 100 deep")
+                }
+                "DENS" => ("density of water", "the unit of mass over the unit of length cubed: 1025.0 or 1.025"),
+                _ => ("acceleration due to gravity", "it is counted downward: 9.81 or 32.2"),
+            };
+            remarks.add(Diagnostic::error(message, value.span).label(format!("{what} belongs here")).help(help));
             continue;
         }
         if !value.given {
@@ -266,7 +276,8 @@ pub fn read_global(records: &[CardRecord], remarks: &mut Remarks) -> WaterAndGra
         }
     }
     for (keyword, unset) in [("DPTH", 1000.0), ("DENS", 1025.0), ("ACCG", 9.81)] {
-        if !records.iter().any(|record| record.keyword == keyword) {
+        // a card that could not be read is none of which a default is taken
+        if !remarks.has_error() && !records.iter().any(|record| record.keyword == keyword) {
             remarks.add_once(keyword, || {
                 Diagnostic::plain(
                     windlass_base::diagnostic::Severity::Note,

@@ -133,7 +133,7 @@ impl<'a> CardReader<'a> {
 
     /// The header that a line is, if it is one: an identifier in columns 5-6 and a keyword from column 11 on.
     fn header_of(line: &CardLine<'_>) -> Option<(u8, Header)> {
-        if !line.blank(1, 4) || !line.blank(7, 10) || line.blank(11, 11) || line.tab().is_some() {
+        if !line.blank(1, 4) || !line.blank(7, 10) || line.blank(11, 11) || line.stray().is_some() {
             return None;
         }
         let mut words = CardLine::words(line.columns(11, 80));
@@ -216,8 +216,8 @@ impl<'a> CardReader<'a> {
                 }
                 None => {
                     let word = CardLine::words(line.text).last().unwrap_or_default().to_ascii_uppercase();
-                    let mut error = match line.tab() {
-                        Some(column) => line.tab_error(&format!("deck {deck}"), column),
+                    let mut error = match line.stray() {
+                        Some(column) => line.stray_error(&format!("deck {deck}"), column),
                         None => Diagnostic::error(format!("deck {deck}: this is no deck header"), line.whole())
                             .label(format!("{wanted} belongs in columns 11-14")),
                     };
@@ -319,7 +319,7 @@ impl<'a> CardReader<'a> {
             }
         }
         let record = self.remarks.keep(layout.read(label, line, face))?;
-        if let Some(note) = layout.blank_note(label, &record) {
+        for note in layout.blank_notes(label, &record) {
             self.remarks.add(note);
         }
         Some(record)

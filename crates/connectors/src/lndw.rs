@@ -101,6 +101,11 @@ impl DrumLine {
         if distance > free { (stiffness * (distance - free), stiffness) } else { (0.0, 0.0) }
     }
 
+    /// Whether the final length is not where the drum turns to.
+    fn never_turns(&self) -> bool {
+        self.speed * (self.last - self.initial) <= 0.0
+    }
+
     /// Free length and tension at the end of a step to a distance of the ends.
     ///
     /// # Errors
@@ -188,6 +193,9 @@ impl ConnectorElement for DrumLine {
         let mut notes: Vec<Note> = Vec::new();
         if state.tension == 0.0 {
             notes.push("the line is slack".into());
+        }
+        if self.never_turns() {
+            notes.push(Note::warning("the drum never turns: its final length is not where its speed leads"));
         }
         if state.tension > self.most {
             notes.push(Note::warning("the tension is above that at which the drum stands"));

@@ -427,3 +427,122 @@ fn articulation_reactions_carry_weight_and_locked_moments() {
         [0.0, 0.0, weight, 0.0, 3.0 * weight, 0.0],
     );
 }
+
+/// A deck whose body heaves on a linear stiffness of 5E7 N/m without anything else, from 1 m above its equilibrium, with these further cards of deck 7.
+fn heaving(cards: &str) -> Vec<[f64; 2]> {
+    let stiffness = format!(
+        "    07    WFS1\n    07LSTF         3                         5.0E7\n    07BFEQ             9.81E7\n{cards} END07ZCGE                 0.0\n"
+    );
+    let deck = moored("NAUT", 100.0, " END14FORC    1    2    0   12       0.0\n", STILL)
+        .replace("    07    NONE\n", &stiffness)
+        .replace("16TIME       101       0.1", "16TIME       401     0.025")
+        .replace("15POS1                 0.0       0.0       0.0", "15POS1                 0.0       0.0       1.0");
+    let deck = {
+        let cards: String = [1, 2, 4, 5, 6]
+            .iter()
+            .map(|dof| format!("{:>4}12DACF    1{dof:5}\n", if *dof == 6 { "END" } else { "" }))
+            .collect();
+        deck.replace("    12    NONE\n", &format!("    12    CONS\n{cards}"))
+    };
+    let (session, _) = run("heave.dat", &deck);
+    let history = &session.job.run.as_ref().unwrap().history;
+    let heave = history.layout.body(0) + 2;
+    history.times().iter().zip(history.rows()).map(|(time, row)| [*time, row[heave]]).collect()
+}
+
+#[test]
+fn constant_added_mass_and_damping_of_deck_7_act_on_body() {
+    // m z'' + b z' + c z = 0 from rest at 1 m: exp(-n t) (cos w t + n/w sin w t), n = b/2m, w = sqrt(c/m - n2), m = 1E7 + 2.5E6 kg, b = 4E6 N s/m
+    let cards =
+        "    07FIAM         3                         2.5E6\n    07FIDP         3                         4.0E6\n";
+    let (mass, damping, stiffness) = (1.25e7, 4e6, 5e7f64);
+    let n = damping / 2.0 / mass;
+    let w = (stiffness / mass - n * n).sqrt();
+    for [time, z] in heaving(cards) {
+        let want = (-n * time).exp() * ((w * time).cos() + n / w * (w * time).sin());
+        // the scheme lengthens a period of 3.1 s in steps of 0.025 s by 3E-4 of itself, 20 rad into the run, and damps by 1E-4 a period
+        assert!((z - want).abs() < 0.01, "{time}: {z} {want}");
+    }
+    // without the cards the period is shorter by sqrt(0.8)
+    let alone = heaving("");
+    let [time, z] = alone[80];
+    assert!((z - (5f64.sqrt() * time).cos()).abs() < 0.01, "{time}: {z}");
+}
+
+#[test]
+fn pretension_of_composite_line_finds_length_of_its_section() {
+    // of 150 kN at the fairlead 90 m above the bottom: H = EA (sqrt((T/EA + 1)2 - 2 w z/EA) - 1), V = sqrt(T2 - H2), w = (150 - 18.45) 9.81 N/m
+    let section = SECTION.replace("ECAT                         150.0", "ECAT                   1     150.0");
+    let cards =
+        format!("    14COMP                   1\n{section}    14DOFF\n END14NLID    1    2    0   12     2.5E5\n");
+    let (ea, w, t) = (6e8f64, (150.0 - 1025.0 * 0.018) * 9.81, 2.5e5);
+    let h = ea * (((t / ea + 1.0f64).powi(2) - 2.0 * w * 90.0 / ea).sqrt() - 1.0);
+    let (session, text) = placed(&moored("LIBR", 100.0, &cards, STILL));
+    assert!(text.contains("&CONNECTOR L1 -L_TENSION 250\n"), "{text}");
+    let [pull] = pulls(&session.job.model)[..] else { panic!() };
+    assert!((pull[0] / h - 1.0).abs() < 1e-6 && (-pull[2] / (t * t - h * h).sqrt() - 1.0).abs() < 1e-6, "{pull:?} {h}");
+}
+
+#[test]
+fn listing_and_run_of_line_deck_name_one_scheme() {
+    let (mut session, screen, _folder) = common::session();
+    session.open_job("held.dat", moored("NAUT", 100.0, " END14LINE    1    2    0   12     1.0E5     540.0\n", STILL));
+    session.run();
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    let text = screen.text();
+    let row =
+        |name: &str| text.lines().find(|line| line.trim_start().starts_with(name)).unwrap().split('=').nth(1).unwrap();
+    let listed = row("INTEGRATION SCHEME").trim().to_lowercase();
+    assert_eq!(listed, format!("implicit, {}", row("Scheme").trim()));
+    assert!(!text.contains("PREDICTOR"), "{text}");
+}
+
+/// The errors of a job of the hemisphere that names a file of this content, with the lines of the deck they point at.
+fn errors_of_hull(deck: &str, name: &str, content: &str) -> Vec<(String, String)> {
+    let (mut session, _, folder) = common::session();
+    std::fs::write(folder.path().join(name), content).unwrap();
+    session.open_job("hull.dat", deck);
+    session.run();
+    let line = |span| {
+        let (line, _) = session.interpreter.sources.position(span).unwrap();
+        deck.lines().nth(line as usize - 1).unwrap_or_default().to_string()
+    };
+    let errors = session.reports.iter().filter(|r| r.severity == windlass_base::diagnostic::Severity::Error);
+    errors.map(|error| (error.message.clone(), error.span.map(line).unwrap_or_default())).collect()
+}
+
+#[test]
+fn hull_of_file_with_blank_in_name_and_of_several_structures() {
+    let path = "tests/data/hemisphere/hemisphere.AH1";
+    let one = std::fs::read_to_string(path).unwrap();
+    let two = one.replacen("     1     8    25", "     2     8    25", 1);
+    assert_ne!(one, two);
+    let deck = hemisphere("LIBR", &BUT_HEAVE, STILL).replace(path, "my hull.AH1");
+    assert_eq!(errors_of_hull(&deck, "my hull.AH1", &one), []);
+    let errors = errors_of_hull(&deck, "my hull.AH1", &two);
+    let (message, line) = errors.first().unwrap();
+    assert!(
+        message.starts_with("deck 7, FILE: ") && message.contains("it has 2 structures: -INDEX, or CSTR of a deck,"),
+        "{message}"
+    );
+    assert!(line.contains("07FILE"), "{line}");
+    let other = errors_of_hull(&deck, "other.AH1", &one);
+    assert_eq!(other.first().map(|(message, _)| message.as_str()), Some("deck 7, FILE: there is no file my hull.AH1"));
+    // CSTR takes one of them; that this file has no second structure is said of that card
+    let with = deck.replace("    07    WFS1\n", "    07    WFS1\n    07CSTR    2\n");
+    let errors = errors_of_hull(&with, "my hull.AH1", &one);
+    assert!(errors[0].0.contains("there is no structure 2: it has 1"), "{errors:?}");
+}
+
+#[test]
+fn error_of_equilibrium_points_at_job_and_not_at_time_steps() {
+    let deck = moored(
+        "LIBR",
+        100.0,
+        &format!("    14COMP                   1\n{SECTION} END14NLIN    1    2    0   12\n"),
+        STILL,
+    );
+    let errors = errors_of_hull(&deck, "unused", "");
+    let (message, line) = errors.first().unwrap();
+    assert!(message.starts_with("deck 0, JOB: body S1: it sinks") && line.starts_with("JOB"), "{message} {line}");
+}

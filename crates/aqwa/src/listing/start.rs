@@ -9,6 +9,9 @@ use std::f64::consts::TAU;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 
+/// The scheme of a structure with tethers, which is that of AQWA, and the one of a run without tethers.
+const SCHEMES: [&str; 2] =
+    ["TWO-STAGE PREDICTOR-CORRECTOR WITH THIRD ORDER ERRORS", "IMPLICIT, GENERALISED-ALPHA, SPECTRAL RADIUS 0.900"];
 /// Frequencies (rad/s) for which the listing has the errors of the integration.
 const ERROR_FREQUENCIES: [f64; 14] = [0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 5.0];
 /// Errors beyond this (per cent, degrees) are listed as `10+`.
@@ -27,7 +30,8 @@ impl Deck {
     pub(super) fn start_pages(&self) -> Vec<Table> {
         let mut list = vec![self.position_table()];
         list.extend(self.steps.map(|steps| self.integration_table(steps.count.value, steps.step.value, steps.start)));
-        list.extend(self.steps.map(|steps| error_table(steps.step.value)));
+        // a run without tethers measures the errors of its own scheme
+        list.extend(self.steps.filter(|_| self.has_tethers()).map(|steps| error_table(steps.step.value)));
         list.extend([self.multiplier_table(), aqwa_limit_table()]);
         if !self.printing.nodes.is_empty() {
             list.push(self.node_table());
@@ -83,13 +87,23 @@ impl Deck {
     }
 
     fn integration_table(&self, count: i64, step: f64, start: f64) -> Table {
-        let table = Table::new("Time Integration Parameters");
-        let scheme = "TWO-STAGE PREDICTOR-CORRECTOR WITH THIRD ORDER ERRORS";
+        let mut table = Table::new("Time Integration Parameters");
+        let [with_tethers, without] = SCHEMES;
+        let scheme = if self.has_tethers() { with_tethers } else { without };
+        if !self.has_tethers() {
+            table.note(
+                "TDOM of windlass runs a deck without tethers; it reports the largest errors of its steps and periods",
+            );
+        }
         let table = fact(table, "INTEGRATION SCHEME", scheme.into());
         let table = fact(table, "STARTING RECORD NUMBER", "1".into());
         let table = fact(table, "NUMBER OF TIME STEPS", count.to_string());
         let table = fact(table, "PRESENT TIME STEP", format_fixed(step, 3));
         fact(table, "PRESENT TIME", format_fixed(start, 3))
+    }
+
+    fn has_tethers(&self) -> bool {
+        !self.mooring.tethers.is_empty()
     }
 
     fn multiplier_table(&self) -> Table {

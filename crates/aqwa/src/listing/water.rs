@@ -223,5 +223,8 @@ fn drift_tables(number: i64, data: Option<&HydrostaticsDecks>) -> [Table; 2] {
         let title = format!("Hydrodynamic Parameters for Structure {number}");
         six_by_six(title, &format!("{what} AT DRIFT FREQUENCY"), &matrix.unwrap_or_default())
     };
-    [page("ADDED MASS", data.and_then(|d| d.added_mass)), page("DAMPING", data.and_then(|d| d.damping))]
+    [
+        page("ADDED MASS", data.and_then(|d| d.added_mass.or(d.drift_added_mass))),
+        page("DAMPING", data.and_then(|d| d.damping.or(d.drift_damping))),
+    ]
 }

@@ -27,9 +27,11 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
                 Some(pulley) => over_pulley(deck, number, (stiffness, length), pulley, out),
                 None => elastic(number, stiffness, length, line, out),
             },
-            LineKind::Property { property, tension, length, winding_in, paying_out, .. } => {
+            LineKind::Property { property, tension, length, winding_in, paying_out, dynamic } => {
                 match deck.mooring.properties.get(property) {
-                    Some(Property::Composite(composite)) if [tension, length, winding_in, paying_out] == [0.0; 4] => {
+                    Some(Property::Composite(composite))
+                        if [length, winding_in, paying_out] == [0.0; 3] && (tension == 0.0 || dynamic) =>
+                    {
                         let depth = anchor.and_then(|(_, depth)| depth);
                         let variant = (property, depth);
                         let others = written.iter().filter(|(other, _)| *other == property).count();
@@ -90,8 +92,45 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
         };
         out.card(format!("deck 14, {}", card(&line.kind)), line.span);
         out.record(format!("CONNECTOR L{number} ~{class} {fairlead} {other}"));
+        pretension(deck, number, line, out);
     }
     dynamics(deck, out);
+}
+
+/// The length of the section at the fairlead, where a composite asks for the one that gives the pretension of its line.
+fn pretension(deck: &Deck, number_of: usize, line: &MooringLine, out: &mut Script) {
+    let (Some(composite), LineKind::Property { tension, dynamic, .. }) = (deck.mooring.composite(line), line.kind)
+    else {
+        return;
+    };
+    let Some((top, below)) = composite.sections.split_last() else { return };
+    let lower = below.iter().find_map(|section| section.found_length);
+    let mut refuse = |message: &str, span, help: &str| out.refuse(Diagnostic::error(message, span).help(help));
+    match (lower, top.found_length) {
+        (Some(span), _) => refuse(
+            "deck 14, ECAT, columns 26-30: the length of a section below the fairlead is not found for a pretension",
+            span,
+            "the flag of the last ECAT has the length of the section at the fairlead found; else give the length and 0 here",
+        ),
+        (None, None) if tension > 0.0 => refuse(
+            "deck 14, NLID, columns 31-40: no section of the composite has its length found for this pretension",
+            line.span,
+            "1 in columns 26-30 of the last ECAT has it found; without a pretension leave columns 31-40 blank",
+        ),
+        (None, None) => {}
+        (None, Some(span)) if !dynamic || tension <= 0.0 => refuse(
+            "deck 14, ECAT, columns 26-30: a length is to be found for a pretension, and the line has none",
+            span,
+            "the pretension is in columns 31-40 of NLID; with the length of columns 71-80 leave the flag blank",
+        ),
+        (None, Some(span)) => {
+            let text = "assumed: any number here has the length of the section at the fairlead found, which gives the tension of NLID at the fairlead where deck 15 puts the structure";
+            out.note("deck 14, ECAT, columns 26-30", span, text);
+            out.card("deck 14, NLID", line.span);
+            let force = number(out.scale.force(tension, 0));
+            out.record(format!("&CONNECTOR L{number_of} -L_TENSION {force}"));
+        }
+    }
 }
 
 /// Cable dynamics of the NLID lines.

@@ -104,8 +104,10 @@ pub(super) fn structure(deck: &Deck, of: &StructureDeck, out: &mut Script) {
     let index = deck.structures.iter().position(|s| s.number == of.number);
     let known = index.and_then(|index| deck.hydrostatics.get(index));
     if let Some(known) = known {
-        out.card("deck 7, LSTF", known.span);
         hydrostatics(of, known, nominal, out);
+        if !nominal {
+            constant_matrices(deck, of, known, out);
+        }
     }
     if let Some((name, span)) = known.and_then(|known| known.database.as_ref()) {
         database(deck, of, name, *span, out);
@@ -118,19 +120,26 @@ pub(super) fn structure(deck: &Deck, of: &StructureDeck, out: &mut Script) {
 fn database(deck: &Deck, of: &StructureDeck, name: &str, span: Span, out: &mut Script) {
     let own = |at: usize| deck.hydrostatics.get(at);
     let index = deck.structures.iter().position(|s| s.number == of.number).unwrap_or(0);
-    let mut text = format!("DATABASE {} -AQWA {name}", body(of.number));
+    let quoted = if name.contains([' ', ',']) { format!("\"{name}\"") } else { name.to_string() };
+    let mut text = format!("DATABASE {} -AQWA {quoted}", body(of.number));
     // a file that several structures name holds all of them
     let sharing = (0..deck.structures.len()).filter(|at| {
         own(*at).and_then(|known| known.database.as_ref()).is_some_and(|(other, _)| other.eq_ignore_ascii_case(name))
     });
-    if sharing.count() > 1 {
-        text.push_str(&format!(" -INDEX {}", of.number));
+    match own(index).and_then(|known| known.structure_of_file) {
+        Some(number) => {
+            text.push_str(&format!(" -INDEX {}", number.value));
+            out.word("-INDEX", "deck 6, CSTR", number.span);
+        }
+        None if sharing.count() > 1 => text.push_str(&format!(" -INDEX {}", of.number)),
+        None => {}
     }
     let has_tubes = of.elements.iter().any(|element| element.shape == ElementShape::Tube);
     if own(index).is_none_or(|known| known.stiffness.is_none()) && !has_tubes {
         text.push_str(" -HYDROSTATICS YES");
     }
-    out.card("deck 7, FILE", span);
+    let card = own(index).and_then(|known| known.card("FILE")).map_or_else(|| "deck 7, FILE".into(), |(card, _)| card);
+    out.card(card, span);
     out.record(text);
 }
 
@@ -202,35 +211,61 @@ fn weight(deck: &Deck, of: &StructureDeck, mass: &MassProperties, out: &mut Scri
     out.record(format!("#WEIGHT *{}_CG {} {}", body(of.number), number(weight), numbers(radii)));
 }
 
-fn refuse_card(what: &str, at: Span, help: &str, out: &mut Script) {
-    out.refuse(Diagnostic::error(format!("deck 7: {what} is not read into the model"), at).help(help));
+/// Refuses what a card of decks 6 to 9 says.
+fn refuse_card(known: &HydrostaticsDecks, keyword: &str, what: &str, help: &str, out: &mut Script) {
+    let Some((card, span)) = known.card(keyword) else { return };
+    out.refuse(Diagnostic::error(format!("{card}: {what} is not read into the model"), span).help(help));
+}
+
+/// Added mass and damping that do not depend on the frequency (FIAM, FIDP), about the centre of gravity.
+fn constant_matrices(deck: &Deck, of: &StructureDeck, known: &HydrostaticsDecks, out: &mut Script) {
+    let gravity = deck.global.gravity;
+    // added mass is a weight in the model
+    let given = [("FIAM", "#AMASS", known.added_mass, gravity, 0), ("FIDP", "#DAMP", known.damping, 1.0, -1)];
+    for (keyword, record, matrix, factor, power) in given {
+        let (Some(matrix), Some((card, span))) = (matrix, known.card(keyword)) else { continue };
+        let entry = |(row, column): (usize, usize), value: f64| {
+            out.scale.force(round_value(value * factor), power + i32::from(row > 2) + i32::from(column > 2))
+        };
+        let rows = matrix.iter().enumerate().map(|(row, values)| {
+            numbers(values.iter().enumerate().map(|(column, value)| entry((row, column), *value)))
+        });
+        let rows: Vec<String> = rows.collect();
+        let text = format!("{record} *{}_CG -MATRIX \\\n  {}", body(of.number), rows.join(" \\\n  "));
+        out.card(card, span);
+        out.record(text);
+    }
 }
 
 fn hydrostatics(of: &StructureDeck, known: &HydrostaticsDecks, nominal: bool, out: &mut Script) {
     if !nominal {
-        if known.added_mass.is_some() {
-            refuse_card("added mass (FIAM, FIDA)", known.span, "#AMASS of the model adds mass to a body", out);
+        let of_drift = "one matrix acts at all frequencies here: FIAM and FIDP of deck 7 give it";
+        if known.drift_added_mass.is_some() {
+            refuse_card(known, "FIDA", "an added mass of drift frequencies alone", of_drift, out);
         }
-        if known.damping.is_some() {
-            refuse_card("damping (FIDP, FIDD)", known.span, "#DAMP of the model gives damping to a body", out);
+        if known.drift_damping.is_some() {
+            refuse_card(known, "FIDD", "a damping of drift frequencies alone", of_drift, out);
         }
         if known.position.is_some_and(|p| p.iter().enumerate().any(|(i, x)| i != 2 && *x != 0.0)) {
-            refuse_card("SPOS with X, Y or a rotation", known.span, "#HYDROSTATIC is about (0, 0, ZCGE), upright", out);
+            let help = "#HYDROSTATIC is about (0, 0, ZCGE), upright";
+            refuse_card(known, "SPOS", "an X, Y or a rotation of the stiffness", help, out);
         }
     }
     let (Some(buoyancy), Some(height)) = (known.buoyancy, known.height) else {
         if known.added_stiffness.is_some() && !nominal {
-            refuse_card("ASTF without LSTF", known.span, "a GSPR of the model to the ground is a stiffness", out);
+            refuse_card(
+                known,
+                "ASTF",
+                "a stiffness without LSTF",
+                "a GSPR of the model to the ground is a stiffness",
+                out,
+            );
         }
         return;
     };
     if !nominal && of.elements.iter().any(|element| element.shape == ElementShape::Tube) {
-        refuse_card(
-            "LSTF of a structure of tubes",
-            known.span,
-            "its tubes displace water themselves; leave out LSTF, or the tubes",
-            out,
-        );
+        let help = "its tubes displace water themselves; leave out LSTF, or the tubes";
+        refuse_card(known, "LSTF", "a stiffness of a structure of tubes", help, out);
         return;
     }
     let stiffness = sum(known.stiffness, known.added_stiffness);
@@ -247,6 +282,9 @@ fn hydrostatics(of: &StructureDeck, known: &HydrostaticsDecks, nominal: bool, ou
         if values.iter().any(|value| *value != 0.0) {
             text.push_str(&format!(" {name} {}", numbers(values)));
         }
+    }
+    if let Some((card, span)) = known.card("LSTF").or_else(|| known.card("BFEQ")) {
+        out.card(card, span);
     }
     out.word("-BUOYANCY", "deck 7, BFEQ", buoyancy.span);
     out.word("-ZCGE", "deck 7, ZCGE", height.span);

@@ -8,10 +8,12 @@ use super::tethers::name;
 use crate::Deck;
 use crate::elements::ElementShape;
 use crate::job::Program;
+use crate::lines::LineKind;
 use crate::printing::omitted_rows;
 use crate::tethers::{Fatigue, Tether};
 use crate::waves::WaveDeck;
 use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Hours for which the peak stress is expected when TPSH is not given [AQWA-TETHER A.5].
 const DEFAULT_PEAK_HOURS: f64 = 3.0;
@@ -54,14 +56,16 @@ pub(super) fn motion(deck: &Deck, out: &mut Script) {
         out.note(card, span, text);
         return;
     }
-    if let Some(steps) = deck.steps {
-        out.card("deck 16, TIME", steps.span);
-    }
     if deck.job.program != Program::Line {
         wave_loads(deck, out);
+        cards_without_effect(deck, out);
     }
-    if matches!(deck.job.program, Program::Drift | Program::Naut) {
+    if is_timed(deck) {
         lines::breaks(deck, out);
+        match deck.steps {
+            Some(steps) => out.card("deck 16, TIME", steps.span),
+            None => out.card("deck 0, JOB", deck.job.span),
+        }
     }
     match (deck.job.program, deck.mooring.tethers.is_empty()) {
         (Program::Drift | Program::Naut, false) => write_tether_run(deck, out),
@@ -91,30 +95,117 @@ pub(super) fn motion(deck: &Deck, out: &mut Script) {
     }
 }
 
+/// Whether the deck runs in time.
+fn is_timed(deck: &Deck) -> bool {
+    matches!(deck.job.program, Program::Drift | Program::Naut)
+}
+
+/// The last time of a run (s).
+fn end_of_run(deck: &Deck) -> Option<f64> {
+    deck.steps.filter(|_| is_timed(deck)).map(|steps| round_value((steps.count.value - 1) as f64 * steps.step.value))
+}
+
+/// Says which cards are read and change nothing in what this deck runs.
+fn cards_without_effect(deck: &Deck, out: &mut Script) {
+    let towed = deck.mooring.tethers.iter().any(Tether::is_towed);
+    if let (Some(sea), false) = (spectrum(deck), towed)
+        && sea.towing.is_some_and(|(speed, _)| speed != 0.0)
+    {
+        let text = "a towing speed is of towed tethers, and this deck has none; it has no effect here";
+        out.warn("deck 13, TOWS", sea.span, text);
+    }
+    if let (Some(given), false) = (deck.multipliers.iter().find(|given| given.slam > 0.0), towed) {
+        let text = "slam is of towed tethers; it has no effect here";
+        out.warn("deck 17, SLMM, columns 21-30", given.structure.span, text);
+    }
+    let program = match deck.job.program {
+        Program::Fer => "FER works in the frequency domain",
+        _ => "LIBR finds an equilibrium",
+    };
+    if !is_timed(deck) {
+        if let Some(steps) = deck.steps {
+            out.note("deck 16, TIME", steps.span, &format!("{program} and has no time steps: the card has no effect"));
+        }
+        for broken in &deck.mooring.breaks {
+            out.warn("deck 14, LBRK", broken.span, &format!("{program}: no line breaks, the card has no effect"));
+        }
+    }
+    if let Some(end) = end_of_run(deck) {
+        for broken in deck.mooring.breaks.iter().filter(|broken| broken.time.value > end) {
+            let text =
+                format!("{} s come after the end of the run at {end} s: the line does not break", broken.time.value);
+            out.warn("deck 14, LBRK, columns 31-40", broken.time.span, &text);
+        }
+        for line in &deck.mooring.lines {
+            if let LineKind::Winched { begins, .. } = line.kind
+                && begins >= end
+            {
+                let text = format!("its drum begins to turn at {begins} s (DWT0), and the run ends at {end} s");
+                out.warn("deck 14, LNDW", line.span, &text);
+            }
+        }
+    }
+    if deck.mooring.tethers.is_empty() {
+        let printing = &deck.printing;
+        let counts = [
+            ("PREV", printing.structures),
+            ("TPRV", printing.tethers),
+            ("TGRV", printing.records),
+            ("TSTS", printing.first),
+            ("TSTF", printing.last),
+            ("NODE", printing.nodes.first().map(|node| node.structure)),
+        ];
+        for (keyword, field) in counts {
+            let Some(field) = field else { continue };
+            let text = "pages over time are those of runs with tethers: the card has no effect here; REPORT and PRCPOST of a script print results";
+            out.note(&format!("deck 18, {keyword}"), field.span, text);
+        }
+    }
+}
+
 /// A run in waves needs loads of the waves on each structure: those of its tubes, as the coefficients of decks 6 to 8 are not read.
 fn wave_loads(deck: &Deck, out: &mut Script) {
+    // FER without a spectrum finds the motions in unit waves
     let waves = match &deck.waves {
-        WaveDeck::Still => false,
+        WaveDeck::Still => deck.job.program == Program::Fer,
         WaveDeck::Regular(wave) => wave.amplitude > 0.0,
         WaveDeck::Spectra(_) => true,
     };
     // the vessel of a towed tether is a nominal one and is held
-    if !waves || deck.mooring.tethers.iter().any(Tether::is_towed) {
+    if deck.mooring.tethers.iter().any(Tether::is_towed) {
         return;
     }
     for structure in &deck.structures {
         let has_tubes = structure.elements.iter().any(|element| element.shape == ElementShape::Tube);
-        if !has_tubes && deck.database(structure).is_none() {
-            let message =
-                format!("decks 6 to 8: structure {} has no wave coefficients, and no tubes", structure.number);
-            out.refuse(
-                Diagnostic::error(message, structure.span)
-                    .label("no load of the waves would act on it")
-                    .help("FILE NAME.AH1 in deck 6 or 7 gives them; or INMODEL -AQWA takes the model of the deck, and DATABASE of the model its coefficients")
-                    .help("still water is NONE in the place of deck 13"),
+        if has_tubes || deck.database(structure).is_some() {
+            continue;
+        }
+        let number = structure.number;
+        if waves {
+            let message = format!("decks 6 to 8: structure {number} has no wave coefficients, and no tubes");
+            let error = Diagnostic::error(message, structure.span)
+                .label("no load of the waves would act on it")
+                .help("FILE NAME.AH1 in deck 6 or 7 gives them; or INMODEL -AQWA takes the model of the deck, and DATABASE of the model its coefficients");
+            out.refuse(match deck.job.program {
+                Program::Fer => error.help("LIBR finds the equilibrium without them"),
+                _ => error.help("still water is NONE in the place of deck 13"),
+            });
+        } else if is_timed(deck)
+            && moves(deck, number)
+            && deck.hydrostatics_of(number).is_none_or(|h| h.added_mass.is_none())
+        {
+            let text = format!(
+                "structure {number} has no added mass and no radiation damping: decks 6 to 8 give none, and it has no tubes; it moves with its own mass alone"
             );
+            out.warn(&format!("deck 2, ELM{number}"), structure.span, &text);
         }
     }
+}
+
+/// Whether a structure has a degree of freedom that deck 12 does not hold.
+fn moves(deck: &Deck, structure: i64) -> bool {
+    let holds = |dof: i64| deck.held.iter().any(|held| held.structure.value == structure && held.dof.value == dof);
+    !(1..=6).all(holds)
 }
 
 /// A run without tethers: bodies and lines as the model has them.
@@ -125,6 +216,7 @@ fn bodies(deck: &Deck, out: &mut Script) {
         out.note("deck 18, PTEN, columns 11-15", asked.span, text);
     }
     out.record("TDOM");
+    out.card("deck 0, JOB", deck.job.span);
     out.record("PRCPOST");
     for structure in &deck.structures {
         out.record(format!("TRAJECTORY {}", body(structure.number)));
@@ -203,20 +295,19 @@ fn write_tether_run(deck: &Deck, out: &mut Script) {
     let slam = deck.mooring.tethers.first().map_or(0.0, |tether| deck.multipliers(tether.structure.value).slam);
     if towed && slam > 0.0 {
         run.push_str(&format!(" -SLAM {}", number(slam)));
-    } else if slam > 0.0 {
-        let span = deck.multipliers.first().map_or(deck.job.span, |given| given.structure.span);
-        out.warn("deck 17, SLMM, columns 21-30", span, "slam is of towed tethers; it has no effect here");
     }
     if let Some((speed, toward)) = spectrum(deck).and_then(|s| s.towing).filter(|(speed, _)| *speed != 0.0) {
         if towed {
             let toward = if speed < 0.0 { opposite(toward) } else { toward };
             run.push_str(&format!(" -TOW {}", numbers([out.scale.length(speed.abs()), toward])));
-        } else {
-            let span = spectrum(deck).map_or(deck.job.span, |sea| sea.span);
-            out.warn("deck 13, TOWS", span, "a card of towed tethers; it has no effect here");
         }
     }
     out.record(run);
+    if printing.span == Span::default() {
+        out.card("deck 0, JOB", deck.job.span);
+    } else {
+        out.card("deck 18", printing.span);
+    }
     out.record("PRCPOST");
     structure(deck, towed, out);
     let asked = |tether: &Tether| {

@@ -431,7 +431,7 @@ fn mooring_lines_of_other_decks_are_read() {
         "    14LINE    1 1010    0 9010    1234.0      99.0",
         "    14POLY                           1.0       2.0       3.0       4.0       5.0",
         "    14NLIN    1 1020    0 9020                50.0",
-        "    14COMP   15   40         2    -100.0    -300.0       1.5",
+        "    14COMP   15   40         2    -300.0    -100.0       1.5",
         "    14ECAT                           0.1     0.002    5.0E05     900.0     500.0",
         "    14ECAX                           1.0       2.0       3.0",
         "    14BUOY                           2.0      12.0       1.0       0.5",
@@ -457,7 +457,7 @@ fn mooring_lines_of_other_decks_are_read() {
         LineKind::Winch { tension: 111.0, length: 22.0, winding_in: 0.1, paying_out: 0.2 }
     );
     let Property::Composite(composite) = &mooring.properties[1] else { panic!() };
-    assert_eq!((composite.heights, composite.slope), ((-100.0, -300.0), 1.5));
+    assert_eq!((composite.heights, composite.slope), ((-300.0, -100.0), 1.5));
     let [lower, upper] = composite.sections.as_slice() else { panic!() };
     assert_eq!((lower.mass, lower.area, lower.stiffness, lower.tension, lower.length), (0.1, 0.002, 5e5, 900.0, 500.0));
     assert_eq!(lower.growth, Some([1.0, 2.0, 3.0]));

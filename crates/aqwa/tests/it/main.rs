@@ -5,4 +5,5 @@
 mod aqwa_tether_decks;
 mod bad_input;
 mod columns;
+mod deck_messages;
 mod listing;

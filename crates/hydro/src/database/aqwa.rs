@@ -51,7 +51,9 @@ pub fn read(source: &str, file: &SourceFile, body: Option<usize>) -> Result<Data
     let [bodies, ..] = sections.counts;
     let chosen = match body {
         None if bodies > 1 => {
-            return Err(file.error(format!("it has {bodies} structures: -INDEX says which one to take")));
+            return Err(
+                file.error(format!("it has {bodies} structures: -INDEX, or CSTR of a deck, says which one to take"))
+            );
         }
         None => 1,
         Some(n) if n == 0 || n > bodies => {

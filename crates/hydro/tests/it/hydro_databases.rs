@@ -209,7 +209,7 @@ fn wrong_aqwa_text_database_reports_missing_part() {
         let error = aqwa::read("two", &text("two.AH1", file), body).unwrap_err().to_string();
         assert!(error.contains(wanted), "{error}");
     };
-    refused(&good, None, "it has 2 structures: -INDEX says which one to take");
+    refused(&good, None, "it has 2 structures: -INDEX, or CSTR of a deck, says which one to take");
     refused(&good, Some(3), "there is no structure 3: it has 2");
     refused("", None, "it is no file .AH1");
     refused("1 1 1 0 1\n", None, "no section GENERAL");
