@@ -193,13 +193,16 @@ fn tether_refers(deck: &Deck, tether: &Tether, remarks: &mut Remarks) {
 
 fn line_ends(deck: &Deck, remarks: &mut Remarks) {
     for line in &deck.mooring.lines {
-        if matches!(line.kind, LineKind::Property { dynamic: true, .. }) && deck.mooring.dynamics_off.is_none() {
+        if matches!(line.kind, LineKind::Property { dynamic: true, .. })
+            && deck.mooring.dynamics_off.is_none()
+            && deck.mooring.elements.is_none()
+        {
             remarks.add_once("NLID", || {
                 Diagnostic::remark(
                     format!("deck 14, NLID: a dynamic line is cut into {DYNAMIC_ELEMENTS} elements"),
                     line.span,
                 )
-                .help("no source gives another number; -DYNAMICS N of &CONNECTOR does in a script")
+                .help("NCEL, columns 11-15, gives another number; -DYNAMICS N of &CONNECTOR does in a script")
             });
         }
         if let Some(pulley) = line.pulley {

@@ -20,6 +20,12 @@ const ENDS: [Slot; 4] = [
 ];
 const NOT_YET: &str = "pre-processing of tethers is not available in AQWA 5.4 [AQWA-TETHER A.13] nor here";
 
+const TABLE_OF_LINE: &str = "no public source has the columns of ZRNG, XRNG, HRNG and VRNG, the table of LE2D; \
+                             COMP and ECAT give the line, which is solved exactly";
+
+/// Most elements of a dynamic line that a deck may ask for: more than lines of some kilometres need.
+const MAX_ELEMENTS: i64 = 1000;
+
 /// The card that closes a tether.
 const TETHER: &[&str] = &["TETH"];
 /// The cards that begin a section.
@@ -158,10 +164,7 @@ pub const LAYOUTS: &[CardLayout] = &[
     .repeated_by(&[16]),
     CardLayout::new("DWT0", &[num("time at which winching starts", 31)]).freely(),
     CardLayout::new("DWAL", &[num("additional length", 31)]).freely(),
-    CardLayout::refuse(
-        "NCEL",
-        "no public source has the columns of this card; -DYNAMICS N of &CONNECTOR gives the elements of a line",
-    ),
+    CardLayout::assume("NCEL", &[int("elements of a dynamic line", 11)]),
     CardLayout::new("FEND", &[num("size", 31), num("friction coefficient", 51), num("damping over stiffness", 71)])
         .freely(),
     CardLayout::new(
@@ -193,12 +196,16 @@ pub const LAYOUTS: &[CardLayout] = &[
     )
     .freely(),
     CardLayout::refuse("FILE", "the file of a load-extension table is not read; POLY and NLIN give a nonlinear line"),
-    CardLayout::refuse(
-        "LE2D",
-        "load-extension tables are not read; COMP and ECAT give the line, which is solved exactly",
-    ),
+    CardLayout::refuse("LE2D", TABLE_OF_LINE),
+    CardLayout::refuse("ZRNG", TABLE_OF_LINE),
+    CardLayout::refuse("XRNG", TABLE_OF_LINE),
+    CardLayout::refuse("HRNG", TABLE_OF_LINE),
+    CardLayout::refuse("VRNG", TABLE_OF_LINE),
     CardLayout::refuse("PRLD", "no public source has the columns of this card; COMP and ECAT give the line"),
-    CardLayout::refuse("DRUM", "no public source has this card; LNDW with DWT0 and DWAL is the drum winch of AQWA"),
+    CardLayout::refuse(
+        "DRUM",
+        "no public source has this card; LNDW with DWT0 and DWAL is the drum winch of AQWA, WNCH a winch with friction",
+    ),
 ];
 
 const SPRING: &[Slot] = &[
@@ -233,6 +240,8 @@ pub struct MooringDeck {
     pub breaks: Vec<LineBreak>,
     /// The card that switches cable dynamics off (DOFF): NLID lines are then quasi-static.
     pub dynamics_off: Option<Span>,
+    /// Elements of the NLID lines (NCEL); the number of AQWA where it is not given.
+    pub elements: Option<Field<i64>>,
     /// Tethers in the order of their TETH cards.
     pub tethers: Vec<Tether>,
     /// Modes to print of the eigenvalue solution of each tether (TEIG).
@@ -254,6 +263,22 @@ impl MooringDeck {
             _ => None,
         }
     }
+}
+
+/// The number of elements of a dynamic line.
+fn elements(record: &CardRecord, remarks: &mut Remarks) -> Option<Field<i64>> {
+    let number = record.int(11);
+    let fits = (1..=MAX_ELEMENTS).contains(&number.value);
+    if !fits {
+        remarks.add(
+            Diagnostic::error(
+                format!("deck 14, NCEL, columns 11-15: {} is not a valid number of elements", number.value),
+                number.span,
+            )
+            .label(format!("1 to {MAX_ELEMENTS} belongs here")),
+        );
+    }
+    fits.then_some(number)
 }
 
 /// The mooring of the cards of deck 14.
@@ -282,6 +307,7 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> MooringDeck {
             keyword if keyword.starts_with('T') => tether.take(record, remarks),
             "DOFF" => mooring.dynamics_off = Some(record.span),
             "DYNM" => {}
+            "NCEL" => mooring.elements = elements(record, remarks),
             "FEND" => fender = Some(FenderProperties::read(record, remarks)),
             "FLIN" => mooring.fenders.extend(FenderCard::read(record, &mooring.properties, fender, remarks)),
             "LBRK" => mooring.breaks.extend(LineBreak::read(record, remarks)),

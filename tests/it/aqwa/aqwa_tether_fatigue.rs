@@ -97,23 +97,30 @@ fn simulated_series_match_printed_lives_and_peaks() {
     let [_, table] = records.fatigue(run, &run.tethers[0], asked).unwrap();
     let column = |name: &str| table.columns().iter().find(|c| c.name == name).unwrap().numbers();
     let (lives, peaks, ranges) = (column("FATIGUE LIFE-DYS"), column("3HR PK STRESS"), column("EFFECTIVE STRS RNG"));
-    let (mut worst_life, mut worst_peak): (f64, f64) = (0.0, 0.0);
+    let means = column("MEAN");
+    let (mut worst_life, mut worst_peak, mut worst_mean): (f64, f64, f64) = (0.0, 0.0, 0.0);
     for end in 0..26 {
         let printed = field(&listing, end, "lifedays");
         let life = lives[end] / 86_400.0;
         let peak = peaks[end] / 1e3 / field(&listing, end, "pk3h") - 1.0;
         let range = ranges[end] / 1e3 / field(&listing, end, "effrange") - 1.0;
+        // of the significant stress: 0.7 % where little stress is, near the ends of the tether; the ends themselves have none
+        let mean = ((means[end] / 1e3 - field(&listing, end, "mean")) / field(&listing, end, "sig")).abs();
+        assert!(mean < 0.0075 || field(&listing, end, "sig") < 1.0, "end {end}: {mean}");
         eprintln!("{end}: life {life:.1} for {printed}, peak {peak:.4}, range {range:.4}");
         // where a stress of 1E5 kN/m2 is expected: nodes 4 to 11 of the main body
         if field(&listing, end, "pk3h") > 1e5 {
             worst_life = worst_life.max((life / printed - 1.0).abs());
             worst_peak = worst_peak.max(peak.abs());
+            worst_mean = worst_mean.max(mean);
         }
     }
     // asked: the life at the worst node within 2 %, the peaks within 1 %
     let shortest = (9..11).map(|end| lives[end] / 86_400.0 / field(&listing, end, "lifedays") - 1.0);
     assert!(shortest.clone().all(|e| e.abs() < 0.02), "{:?}", shortest.collect::<Vec<_>>());
     assert!(worst_peak < 0.01, "{worst_peak}");
+    // the likely reason of what is left is the single precision of the listing's program
+    assert!(worst_mean < 0.002, "{worst_mean}");
     // lives go with the 3.5th power of ranges: [W-TOWED 6] found them within 5 %
     assert!(worst_life < 0.05, "{worst_life}");
 }

@@ -336,7 +336,7 @@ fn job_without_coefficients_of_its_hull_is_an_error() {
     let binary = hemisphere("DRIF", &BUT_HEAVE, sea).replace("hemisphere.AH1", "hemisphere.HYD");
     let list = read_diagnostics(&binary);
     let found = list.iter().find(|e| {
-        e.message == "FILE, columns 21-80: `tests/data/hemisphere/hemisphere.HYD` is no text database of AQWA"
+        e.message == "deck 7, FILE, columns 21-80: `tests/data/hemisphere/hemisphere.HYD` is no text database of AQWA"
     });
     assert!(found.is_some_and(|e| e.span.is_some() && e.help[0].contains("AHD1")), "{list:?}");
     let list = records(&hemisphere("LINE", &BUT_HEAVE, STILL)).unwrap_err();
@@ -527,7 +527,8 @@ fn hull_of_file_with_blank_in_name_and_of_several_structures() {
     );
     assert!(line.contains("07FILE"), "{line}");
     let other = errors_of_hull(&deck, "other.AH1", &one);
-    assert_eq!(other.first().map(|(message, _)| message.as_str()), Some("deck 7, FILE: there is no file my hull.AH1"));
+    let (message, _) = other.first().unwrap();
+    assert!(message.starts_with("deck 7, FILE: there is no file ") && message.ends_with("my hull.AH1"), "{message}");
     // CSTR takes one of them; that this file has no second structure is said of that card
     let with = deck.replace("    07    WFS1\n", "    07    WFS1\n    07CSTR    2\n");
     let errors = errors_of_hull(&with, "my hull.AH1", &one);

@@ -150,7 +150,11 @@ fn dynamics(deck: &Deck, out: &mut Script) {
             continue;
         }
         out.card("deck 14, NLID", line.span);
-        out.record(format!("&CONNECTOR L{} -DYNAMICS {DYNAMIC_ELEMENTS}", index + 1));
+        let elements = deck.mooring.elements.map_or(i64::from(DYNAMIC_ELEMENTS), |given| given.value);
+        if let Some(given) = deck.mooring.elements {
+            out.word("-DYNAMICS", "deck 14, NCEL", given.span);
+        }
+        out.record(format!("&CONNECTOR L{} -DYNAMICS {elements}", index + 1));
     }
 }
 

@@ -61,7 +61,14 @@ pub(super) fn motion(deck: &Deck, out: &mut Script) {
         cards_without_effect(deck, out);
     }
     if is_timed(deck) {
-        lines::breaks(deck, out);
+        if deck.mooring.tethers.is_empty() {
+            lines::breaks(deck, out);
+        } else if let Some(broken) = deck.mooring.breaks.first() {
+            out.refuse(
+                Diagnostic::error("deck 14, LBRK: no line breaks in a run of tethers", broken.span)
+                    .help("leave out the line for the damaged state; without tethers a deck breaks its lines in time"),
+            );
+        }
         match deck.steps {
             Some(steps) => out.card("deck 16, TIME", steps.span),
             None => out.card("deck 0, JOB", deck.job.span),

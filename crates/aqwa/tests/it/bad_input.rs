@@ -127,7 +127,7 @@ impl ShiftCounts {
 
 #[test]
 fn text_behind_column_10_shifted_is_refused_or_same() {
-    let mut tally = Tally::default();
+    let mut tally = ShiftCounts::default();
     for text in decks() {
         let (_, script) = meaning(&text).unwrap();
         tally.said = messages(&text).len();

@@ -322,6 +322,27 @@ fn pretension_and_its_flag_come_together_or_are_refused() {
 }
 
 #[test]
+fn elements_of_dynamic_lines_are_those_of_ncel() {
+    let nlid = " END14NLID    1    2    0   12\n";
+    let with = |card: &str| composite("                   1", &[SECTION, card].concat(), nlid);
+    let made = with("    14NCEL  120\n").records();
+    assert!(made.contains("&CONNECTOR L1 -DYNAMICS 120\n"), "{made}");
+    assert!(with("").records().contains("&CONNECTOR L1 -DYNAMICS 50\n"));
+    says(
+        &with("    14NCEL  120\n"),
+        Severity::Note,
+        "deck 14 MOOR, NCEL: no source confirms the columns of this card",
+        "    14NCEL",
+    );
+    says(
+        &with("    14NCEL    0\n"),
+        Severity::Error,
+        "deck 14, NCEL, columns 11-15: 0 is not a valid number of elements",
+        "    14NCEL",
+    );
+}
+
+#[test]
 fn refused_matrices_point_at_their_own_cards() {
     let drift = "    09    DRM1\n    09FIDA         3                         1.0E6\n END09FIDD         3                         1.0E5\n";
     for (keyword, what) in [("FIDA", "an added mass"), ("FIDD", "a damping")] {
