@@ -505,7 +505,7 @@ fn errors_of_hull(deck: &str, name: &str, content: &str) -> Vec<(String, String)
     session.run();
     let line = |span| {
         let (line, _) = session.interpreter.sources.position(span).unwrap();
-        deck.lines().nth(line as usize - 1).unwrap_or_default().to_string()
+        deck.lines().nth(line.saturating_sub(1)).unwrap_or_default().to_string()
     };
     let errors = session.reports.iter().filter(|r| r.severity == windlass_base::diagnostic::Severity::Error);
     errors.map(|error| (error.message.clone(), error.span.map(line).unwrap_or_default())).collect()

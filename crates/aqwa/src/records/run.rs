@@ -303,11 +303,9 @@ fn write_tether_run(deck: &Deck, out: &mut Script) {
     if towed && slam > 0.0 {
         run.push_str(&format!(" -SLAM {}", number(slam)));
     }
-    if let Some((speed, toward)) = spectrum(deck).and_then(|s| s.towing).filter(|(speed, _)| *speed != 0.0) {
-        if towed {
-            let toward = if speed < 0.0 { opposite(toward) } else { toward };
-            run.push_str(&format!(" -TOW {}", numbers([out.scale.length(speed.abs()), toward])));
-        }
+    if let Some((speed, toward)) = spectrum(deck).and_then(|s| s.towing).filter(|(speed, _)| towed && *speed != 0.0) {
+        let toward = if speed < 0.0 { opposite(toward) } else { toward };
+        run.push_str(&format!(" -TOW {}", numbers([out.scale.length(speed.abs()), toward])));
     }
     out.record(run);
     if printing.span == Span::default() {

@@ -65,7 +65,7 @@ impl Job {
         }
         let line = |said: &Diagnostic| {
             let (line, _) = said.span.and_then(|span| sources.position(span)).unwrap_or_default();
-            text.lines().nth(line as usize - 1).unwrap_or_default().to_string()
+            text.lines().nth(line.saturating_sub(1)).unwrap_or_default().to_string()
         };
         list.into_iter().map(|said| (said.clone(), line(&said))).collect()
     }
@@ -350,7 +350,7 @@ fn refused_matrices_point_at_their_own_cards() {
             &Job { drift, ..MOORED },
             Severity::Error,
             &format!("deck 9, {keyword}: {what} of drift frequencies alone is not read into the model"),
-            &drift.lines().find(|line| line.contains(keyword)).unwrap().to_string(),
+            drift.lines().find(|line| line.contains(keyword)).unwrap(),
         );
     }
     let place = "    07    WFS1\n    07LSTF         3                         1.0E6\n    07BFEQ             9.81E7\n    07ZCGE                 0.0\n\
