@@ -428,10 +428,10 @@ impl LineCardParser {
         if keyword == "ECAH" {
             let [added_mass, drag, inline] = SECTION_COEFFICIENTS;
             self.resistance = Some(SectionResistance {
-                added_mass: record.real(31).or(added_mass),
-                drag: record.real(51).or(drag),
+                added_mass: record.real(31).value_or(added_mass),
+                drag: record.real(51).value_or(drag),
                 diameter: value(61),
-                inline: record.real(71).or(inline),
+                inline: record.real(71).value_or(inline),
             });
         }
         let Some(Property::Composite(composite)) = properties.last_mut() else {

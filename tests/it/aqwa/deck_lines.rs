@@ -433,7 +433,7 @@ fn heaving(cards: &str) -> Vec<[f64; 2]> {
     let stiffness = format!(
         "    07    WFS1\n    07LSTF         3                         5.0E7\n    07BFEQ             9.81E7\n{cards} END07ZCGE                 0.0\n"
     );
-    let deck = moored("NAUT", 100.0, " END14FORC    1    2    0   12       0.0\n", STILL)
+    let deck = moored_deck("NAUT", 100.0, " END14FORC    1    2    0   12       0.0\n", STILL)
         .replace("    07    NONE\n", &stiffness)
         .replace("16TIME       101       0.1", "16TIME       401     0.025")
         .replace("15POS1                 0.0       0.0       0.0", "15POS1                 0.0       0.0       1.0");
@@ -477,7 +477,7 @@ fn pretension_of_composite_line_finds_length_of_its_section() {
         format!("    14COMP                   1\n{section}    14DOFF\n END14NLID    1    2    0   12     2.5E5\n");
     let (ea, w, t) = (6e8f64, (150.0 - 1025.0 * 0.018) * 9.81, 2.5e5);
     let h = ea * (((t / ea + 1.0f64).powi(2) - 2.0 * w * 90.0 / ea).sqrt() - 1.0);
-    let (session, text) = placed(&moored("LIBR", 100.0, &cards, STILL));
+    let (session, text) = run_placed_deck(&moored_deck("LIBR", 100.0, &cards, STILL));
     assert!(text.contains("&CONNECTOR L1 -L_TENSION 250\n"), "{text}");
     let [pull] = pulls(&session.job.model)[..] else { panic!() };
     assert!((pull[0] / h - 1.0).abs() < 1e-6 && (-pull[2] / (t * t - h * h).sqrt() - 1.0).abs() < 1e-6, "{pull:?} {h}");
@@ -486,7 +486,10 @@ fn pretension_of_composite_line_finds_length_of_its_section() {
 #[test]
 fn listing_and_run_of_line_deck_name_one_scheme() {
     let (mut session, screen, _folder) = common::session();
-    session.open_job("held.dat", moored("NAUT", 100.0, " END14LINE    1    2    0   12     1.0E5     540.0\n", STILL));
+    session.open_job(
+        "held.dat",
+        moored_deck("NAUT", 100.0, " END14LINE    1    2    0   12     1.0E5     540.0\n", STILL),
+    );
     session.run();
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let text = screen.text();
@@ -537,7 +540,7 @@ fn hull_of_file_with_blank_in_name_and_of_several_structures() {
 
 #[test]
 fn error_of_equilibrium_points_at_job_and_not_at_time_steps() {
-    let deck = moored(
+    let deck = moored_deck(
         "LIBR",
         100.0,
         &format!("    14COMP                   1\n{SECTION} END14NLIN    1    2    0   12\n"),
