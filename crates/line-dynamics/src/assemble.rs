@@ -63,7 +63,7 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
     while i < range.end {
         let count = count_batchable(rod, trial, i..range.end);
         if count > 0 {
-            system.batch.assemble_batch::<TANGENT>(rod, trial, (weights, gravity), (i, count));
+            system.batch.assemble_batch::<TANGENT>(rod, trial, weights, gravity, i, count);
             system.shares::<TANGENT>(i, count);
             i += count;
             continue;

@@ -92,8 +92,10 @@ impl ElementBatch {
         &mut self,
         rod: &Rod,
         trial: &Trial,
-        (weights, gravity): (Weights, f64),
-        (first, count): (usize, usize),
+        weights: Weights,
+        gravity: f64,
+        first: usize,
+        count: usize,
     ) {
         self.gather_input(rod, trial, gravity, (first, count));
         let ElementBatch { asked, shares } = self;

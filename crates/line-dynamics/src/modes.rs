@@ -32,7 +32,8 @@ pub struct RodMode {
 
 /// [`super::RodSolver::modes`] in coordinates from the origin of the state.
 pub(super) fn find_modes(
-    (trial, work): (&mut Trial, &mut Workspace),
+    trial: &mut Trial,
+    work: &mut Workspace,
     rod: &Rod,
     state: &RodState,
     world: &LineEnvironment,

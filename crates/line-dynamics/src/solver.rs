@@ -361,7 +361,7 @@ impl RodSolver {
         self.phase = SolverPhase::Idle;
         self.trial.origin = state.origin;
         self.in_local_coordinates(world, |solver, world, near| {
-            find_modes((&mut solver.trial, &mut solver.system.work), rod, state, world, near.ends(ends), count)
+            find_modes(&mut solver.trial, &mut solver.system.work, rod, state, world, near.ends(ends), count)
         })
     }
 

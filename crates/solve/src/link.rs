@@ -41,7 +41,9 @@ pub(super) type PipeLink = (Box<dyn ConnectorElement>, Vec<EndAttachment>);
 
 /// The pipe of an assembly of a model, where it has one that acts.
 pub(super) fn build_pipe_link(
-    (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &RunRequirements),
+    model: &Model,
+    ambient: &Arc<dyn Ambient>,
+    duties: &RunRequirements,
     assembly: &Assembly,
 ) -> Result<Option<PipeLink>, SolveError> {
     let made = model.pipe(assembly, Some(ambient), duties.requirement(&assembly.name));

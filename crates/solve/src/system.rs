@@ -179,7 +179,7 @@ impl System {
             links.push(link((model, &ambient, &duties), connector, &mut states)?);
         }
         for assembly in model.assemblies.values() {
-            if let Some((element, ends)) = build_pipe_link((model, &ambient, &duties), assembly)? {
+            if let Some((element, ends)) = build_pipe_link(model, &ambient, &duties, assembly)? {
                 links.push(Link::new(&assembly.name, element, ends, &mut states));
             }
         }

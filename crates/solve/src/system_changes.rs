@@ -155,7 +155,7 @@ impl System {
         let before = std::mem::replace(&mut self.nodes, nodes);
         let mut made = LoadMemory::new(self);
         for (body, old) in before.iter().enumerate() {
-            made.recall(body, self, (memory, old));
+            made.recall(body, self, memory, old);
         }
         Ok(made)
     }

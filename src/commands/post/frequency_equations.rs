@@ -87,7 +87,7 @@ fn equations(job: &Job, span: Span) -> Outcome<Equations> {
 impl Equations {
     fn exciting(&self, job: &Job, span: Span) -> Outcome<Table> {
         let unit = Dim::Length.to_si(1.0, job.units);
-        let made = exciting_forces(&self.linear, &self.frame, (&self.headings, &self.frequencies), unit);
+        let made = exciting_forces(&self.linear, &self.frame, &self.headings, &self.frequencies, unit);
         let made = made.map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
         Ok(made.fact("About", self.about.as_str(), Dim::None))
     }

@@ -237,7 +237,7 @@ fn cargo_quantities(job: &Job, linear: &LinearSystem, args: &Args) -> Outcome<(S
     let (index, _) = body(job, linear, Some(owner), args.span)?;
     // ST_FCARGO names these data alike
     let [weight, kx, ky, kz] = args.numbers_or_zero(const { FR_FCARGO_SPEC.numbers(["W", "KX", "KY", "KZ"]) });
-    let made = LinearQuantity::cargo_force(linear, index, Vector3::from(*at), (weight, [kx, ky, kz]));
+    let made = LinearQuantity::cargo_force(linear, index, Vector3::from(*at), weight, [kx, ky, kz]);
     Ok((format!("Force of a Cargo at {name}"), made))
 }
 

@@ -161,7 +161,7 @@ fn cargo_force_and_relative_motion_of_pitching_body() {
     let at = nalgebra::Vector3::new(ahead, 0.0, height);
     let (weight, ky) = (3e5, 4.0);
     let mass = weight / G;
-    let force = LinearQuantity::cargo_force(&linear, 0, at, (weight, [2.0, ky, 3.0]));
+    let force = LinearQuantity::cargo_force(&linear, 0, at, weight, [2.0, ky, 3.0]);
     let of = |i: usize| force[i].amplitude(&motions, w, Derivative::Place).re;
     let want = [
         mass * w * w * height * pitch + weight * pitch,

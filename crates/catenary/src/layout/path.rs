@@ -494,7 +494,7 @@ impl LineLayout<'_> {
                         let (_, q) = tilt.to_face(d.h.value, d.v.value);
                         (q - normal.value).clamp(0.0, (-normal.value).max(0.0))
                     });
-                    self.keep_joint(joint, &at, (lift, carried), [false, false], laid);
+                    self.keep_joint(joint, &at, lift, carried, [false, false], laid);
                 }
                 PathPieceKind::Turn { .. } => {}
                 PathPieceKind::Slide { from } => laid.slide(&from),

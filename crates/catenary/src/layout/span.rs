@@ -292,7 +292,7 @@ impl LineLayout<'_> {
             }
             SpanStart::Held { before, .. } => {
                 let lift = from.point.v.value - before.v.value;
-                self.keep_joint(before.element, before, (lift, 0.0), [true, false], laid);
+                self.keep_joint(before.element, before, lift, 0.0, [true, false], laid);
             }
             SpanStart::Fairlead => {}
         }
@@ -308,7 +308,7 @@ impl LineLayout<'_> {
                 let (above, below) = self.lifts(element);
                 let past = sunk.get(element).is_some_and(|past| *past);
                 let lift = if past { below } else { above };
-                self.keep_joint(element, &low, (lift, 0.0), [false, past], laid);
+                self.keep_joint(element, &low, lift, 0.0, [false, past], laid);
                 at = LinePoint { element: element + 1, s: Var::constant(0.0), v: low.v + lift, ..low };
             }
         }
@@ -319,7 +319,8 @@ impl LineLayout<'_> {
         &self,
         joint: usize,
         at: &LinePoint,
-        (lift, reaction): (f64, f64),
+        lift: f64,
+        reaction: f64,
         [held, passed]: [bool; 2],
         laid: &mut LaidLine,
     ) {

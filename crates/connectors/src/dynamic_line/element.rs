@@ -55,7 +55,9 @@ impl DynamicLine {
     /// for what is asked of the water.
     pub(super) fn with_environment<T>(
         &self,
-        (at, mean, paid): (&Situation, bool, f64),
+        at: &Situation,
+        mean: bool,
+        paid: f64,
         flows: &mut Vec<Flow>,
         act: impl FnOnce(&LineEnvironment) -> T,
     ) -> T {
@@ -136,7 +138,7 @@ impl DynamicLine {
         cache.fit();
         let places = End::origins(at.ends)?;
         let RodCache { rod, solver, rest, flows, .. } = cache;
-        self.with_environment((at, true, 0.0), flows, |environment| {
+        self.with_environment(at, true, 0.0, flows, |environment| {
             if let Some((bottom, _)) = &environment.bottom.filter(|_| self.base.laid.is_none()) {
                 for (place, name) in places.iter().zip(["first", "second"]) {
                     let below = bottom.height(place.x, place.y).0 - place.z;
@@ -154,7 +156,7 @@ impl DynamicLine {
             let (state, forces) = match beside {
                 Some(found) if !solver.has_slid_without_friction() => found,
                 beside => match (
-                    self.static_shape_from_catenary((rod, solver), places, environment, (at.surroundings, ends)),
+                    self.static_shape_from_catenary(rod, solver, places, environment, (at.surroundings, ends)),
                     beside,
                 ) {
                     (Err(_), Some((mut state, _))) => {
@@ -235,7 +237,7 @@ impl DynamicLine {
         is_wound?;
         cache.fit();
         let RodCache { rod, solver, state, flows, .. } = cache;
-        let forces = self.with_environment((at, false, kept.paid), flows, |environment| {
+        let forces = self.with_environment(at, false, kept.paid, flows, |environment| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, environment, time, ends).map_err(to_class_error)?;
                 if self.base.laid.is_some() {
@@ -271,7 +273,7 @@ impl DynamicLine {
             }
         })?;
         let balance = self.layout.has_balance().then(|| {
-            self.with_environment((at, false, kept.paid), flows, |environment| match kept.balance {
+            self.with_environment(at, false, kept.paid, flows, |environment| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
                     solver.copy_end_to(state);
                     balance.enter(rod, state, environment, solver, &forces);
@@ -342,7 +344,7 @@ impl ConnectorElement for DynamicLine {
         }
         let (found, places) = (self.find_rest(at, cache)?, End::origins(at.ends)?);
         let RodCache { rod, solver, flows, .. } = &mut *cache;
-        self.with_environment((at, true, 0.0), flows, |environment| match self.base.laid {
+        self.with_environment(at, true, 0.0, flows, |environment| match self.base.laid {
             Some(_) => {
                 let loads = rod.support_forces(&found.state, environment);
                 on_supports(out, &loads, solver.support_tangent(rod, environment).as_ref())

@@ -29,9 +29,8 @@ impl NodalConnector for DynamicLine {
         let (other, state, still) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.end_conditions(at.ends, still)?;
-        *out = self.with_environment((at, still, paid), &mut Vec::new(), |environment| {
-            rod.results(&state, environment, &ends)
-        });
+        *out = self
+            .with_environment(at, still, paid, &mut Vec::new(), |environment| rod.results(&state, environment, &ends));
         // the class speaks of its records, of which a rod may have several segments, and a pipe all of the first
         let record = |segment| if self.base.laid.is_some() { 0 } else { self.base.bands.part_of(segment) };
         for node in out {
@@ -63,7 +62,7 @@ impl NodalConnector for DynamicLine {
         }
         let RodCache { rod, state, solver, flows, .. } = cache;
         let (state, sampled) = if is_end { (solver.end(), Some(solver.fluid())) } else { (&*state, None) };
-        self.with_environment((at, at.step.is_none(), kept.paid), flows, |environment| {
+        self.with_environment(at, at.step.is_none(), kept.paid, flows, |environment| {
             rod.row(state, environment, &ends, sampled, out);
         });
         Ok(())
@@ -90,7 +89,7 @@ impl DynamicConnector for DynamicLine {
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.end_conditions(at.ends, true)?;
         let mut solver = RodSolver::new(rod, RodSettings::default());
-        self.with_environment((at, true, paid), &mut Vec::new(), |environment| {
+        self.with_environment(at, true, paid, &mut Vec::new(), |environment| {
             modes::find_line_modes(rod, &mut solver, &state, environment, ends, number)
         })
     }

@@ -32,7 +32,8 @@ impl DynamicLine {
     /// Where it comes to rest from its catenary, from a bow in the plane of its ends, or from one aside of that.
     pub(super) fn static_shape_from_catenary(
         &self,
-        (rod, solver): (&Rod, &mut RodSolver),
+        rod: &Rod,
+        solver: &mut RodSolver,
         places: [Vector3<f64>; 2],
         environment: &LineEnvironment,
         (around, ends): (&Surroundings, [RodEnd; 2]),

@@ -75,7 +75,8 @@ impl Heeling {
     pub fn from_wind(
         model: &Model,
         body: &Body,
-        (speed, side): (f64, f64),
+        speed: f64,
+        side: f64,
         attitude: &Attitude,
         centre: ResistanceCentre,
     ) -> Result<Self, ClassError> {

@@ -129,7 +129,8 @@ pub fn stiffness(linear: &LinearSystem, frame: &Frame) -> [Table; 2] {
 pub fn exciting_forces(
     linear: &LinearSystem,
     frame: &Frame,
-    (headings, frequencies): (&[f64], &[f64]),
+    headings: &[f64],
+    frequencies: &[f64],
     amplitude: f64,
 ) -> Result<Table, SolveError> {
     let to = frame.transform(linear).map(|v| nalgebra::Complex::new(v, 0.0));

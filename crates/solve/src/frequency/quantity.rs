@@ -85,7 +85,8 @@ impl LinearQuantity {
         linear: &LinearSystem,
         body: usize,
         at: Vector3<f64>,
-        (weight, radii): (f64, [f64; 3]),
+        weight: f64,
+        radii: [f64; 3],
     ) -> [Self; 6] {
         let (axes, gravity) = (linear.poses[body].axes, linear.system.gravity);
         let mass = weight / gravity;

@@ -83,7 +83,7 @@ impl Stepper {
                 let worst = changes.enumerate().map(|(body, c)| (6 * body + c.iamax(), c.amax()));
                 let worst = worst.reduce(|a, b| if b.1 > a.1 { b } else { a }).map_or(0, |(at, _)| at);
                 let (time, what) = (ahead.time, "the acceleration still changes by");
-                return Err(unsolved_error(system, (worst, change), TimeStep { time, dt }, what));
+                return Err(unsolved_error(system, worst, change, TimeStep { time, dt }, what));
             }
             effort.iterations += 1;
             scheme = trapezoid;

@@ -68,7 +68,7 @@ impl LoadMemory {
     }
 
     /// Gives the loads of a body what those of an earlier system, in their order, remembered.
-    pub(crate) fn recall(&mut self, body: usize, system: &System, (memory, old): (&LoadMemory, &SystemBody)) {
+    pub(crate) fn recall(&mut self, body: usize, system: &System, memory: &LoadMemory, old: &SystemBody) {
         let (Some(node), Some(ranges)) = (system.nodes.get(body), self.ranges.get(body)) else { return };
         let Some(before) = memory.ranges.get(body) else { return };
         let mut earlier: Vec<_> = old.floating.loads.iter().map(|l| l.category()).zip(before).collect();

@@ -140,7 +140,9 @@ impl Stepper {
         system: &System,
         start: &[BodyMotion],
         dt: f64,
-        (gain, by_place, by_velocity): (f64, f64, f64),
+        gain: f64,
+        by_place: f64,
+        by_velocity: f64,
     ) {
         for (row, by) in self.rows.iter().zip(&self.moved) {
             let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {

@@ -288,7 +288,7 @@ impl Stepper {
         }
         if predicted {
             effort.iterations += 1;
-            self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
+            self.correct_trial(system, &now.motions, dt, gain, by_place, by_velocity);
             self.weigh_again(system);
         }
         loop {
@@ -306,7 +306,7 @@ impl Stepper {
                     && !now.forces.has_dynamic_lines
                     && self.solve_again(system).is_ok()
                 {
-                    self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
+                    self.correct_trial(system, &now.motions, dt, gain, by_place, by_velocity);
                 }
                 break;
             }
@@ -319,7 +319,7 @@ impl Stepper {
             self.ask(&now.forces);
             self.solve(system).map_err(|e| self.unsolvable(system, e, left, TimeStep { time, dt }))?;
             self.update_tie_forces(&mut now.forces, by_place);
-            self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
+            self.correct_trial(system, &now.motions, dt, gain, by_place, by_velocity);
             self.weigh_again(system);
         }
         now.forces.learn(dt, (&self.trial, &now.motions, &self.over));
@@ -366,14 +366,15 @@ impl Stepper {
     fn unbalanced_error(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
         let most = |a: (usize, f64), b: (usize, f64)| if b.1.abs() > a.1.abs() { b } else { a };
         let worst = self.right.iter().copied().enumerate().reduce(most).and_then(|(at, _)| self.rows.get(at));
-        unsolved_error(system, (worst.map_or(0, |r| r.at), left), TimeStep { time, dt }, "an acceleration is left of")
+        unsolved_error(system, worst.map_or(0, |r| r.at), left, TimeStep { time, dt }, "an acceleration is left of")
     }
 }
 
 /// The error of a step without a solution: the degree of freedom that is worst, six a body, and what is left there (m/s2).
 pub(super) fn unsolved_error(
     system: &System,
-    (at, left): (usize, f64),
+    at: usize,
+    left: f64,
     TimeStep { time, dt }: TimeStep,
     what: &str,
 ) -> SolveError {

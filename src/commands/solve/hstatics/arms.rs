@@ -232,7 +232,7 @@ impl ArmRequest {
             }
             (None, None) => ResistanceCentre::Buoyancy,
         };
-        Heeling::from_wind(model, body, (self.wind, side), start, centre).map(Some)
+        Heeling::from_wind(model, body, self.wind, side, start, centre).map(Some)
     }
 
     /// The table of a body.

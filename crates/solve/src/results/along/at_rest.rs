@@ -42,7 +42,7 @@ pub(crate) fn visit_lines_at_rest(
         report(&connector.name, element.as_ref(), &end_attachments(model, connector))?;
     }
     for assembly in model.assemblies.values().filter(|a| fits(&a.name)) {
-        if let Some((element, ends)) = build_pipe_link((model, &around, &RunRequirements::default()), assembly)? {
+        if let Some((element, ends)) = build_pipe_link(model, &around, &RunRequirements::default(), assembly)? {
             report(&assembly.name, element.as_ref(), &ends)?;
         }
     }
