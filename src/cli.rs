@@ -6,6 +6,7 @@ use crate::repl;
 use crate::report::files::JobFolder;
 use crate::report::output::Output;
 use crate::session::{RecordReadError, Session, SessionEnd, read_all};
+use crate::verification::{VerifyArgs, VerifyEnd, verify};
 use clap::{CommandFactory, Parser};
 use clap_complete::Shell;
 use std::io::{BufRead, BufWriter, ErrorKind, IsTerminal, Read, Write, stderr, stdin, stdout};
@@ -33,6 +34,16 @@ A job that deserves several of them ends with 130 before 1, and with 1 before 3.
 
 A ROOT with the name of a command (run, check, study, verify, open, report, fmt, lsp, manual) is
 written with its ending: study.cif, or ./study.";
+
+/// What stands at the end of `windlass verify --help`.
+const VERIFY_HELP: &str = "\
+Each case is a script with the numbers of its source. A quantity is met to its digits, met (within the
+tolerance of the case), explained (beyond it, with the amount and the reason), or missed.
+
+Exit codes:
+  0    all quantities are met or explained
+  1    a quantity is missed, a case file is wrong, or a file cannot be written
+  2    wrong use of the command line";
 
 /// A command interpreter for marine mooring analysis, in the style of MOSES.
 #[derive(Parser, Debug)]
@@ -106,9 +117,9 @@ pub enum Subcommand {
     /// Runs a table of cases.
     #[command(hide = true)]
     Study(Words),
-    /// Runs the verification cases.
-    #[command(hide = true)]
-    Verify(Words),
+    /// Compare results with published numbers, closed forms, listings and other programs
+    #[command(after_help = VERIFY_HELP)]
+    Verify(VerifyArgs),
     /// Opens the answers of a job.
     #[command(hide = true)]
     Open(Words),
@@ -160,6 +171,8 @@ enum UsageError {
     CommandToCome { name: &'static str },
     #[error("check comes first, and takes a script: windlass check --compat model.cif")]
     CheckFirst,
+    #[error("verify comes first: windlass verify --list")]
+    VerifyFirst,
     #[error("manual comes first, and takes a folder: windlass manual docs")]
     ManualFirst,
     #[error("run needs a JOB: a script, a deck, or a ROOT{}", namesake("run"))]
@@ -219,6 +232,7 @@ pub fn run(cli: Cli) -> u8 {
     match &cli.command {
         Some(Subcommand::Check(check)) => return check_script(check),
         Some(Subcommand::Manual(manual)) => return write_manual(&manual.dir),
+        Some(Subcommand::Verify(args)) => return run_verification(args),
         _ => {}
     }
     match job(cli) {
@@ -268,6 +282,7 @@ fn job(cli: Cli) -> Result<JobArgs, UsageError> {
         "run" => Err(UsageError::NoJob),
         "check" => Err(UsageError::CheckFirst),
         "manual" => Err(UsageError::ManualFirst),
+        "verify" => Err(UsageError::VerifyFirst),
         _ => Err(UsageError::CommandToCome { name }),
     }
 }
@@ -319,6 +334,15 @@ fn namesake(name: &str) -> String {
         Some(script) => format!("; the script {script} has its name: write `./{name}` or `{script}` to run it"),
         None if here.is_file() => format!("; there is a file of this name: write `./{name}` to run it"),
         None => String::new(),
+    }
+}
+
+/// Runs verification cases; returns the exit code.
+fn run_verification(args: &VerifyArgs) -> u8 {
+    match verify(args, &mut stdout().lock(), &complain) {
+        VerifyEnd::Met => 0,
+        VerifyEnd::Missed => 1,
+        VerifyEnd::Usage => USAGE,
     }
 }
 

@@ -23,6 +23,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
+use windlass_base::table::Table;
 use windlass_base::units::UnitSystem;
 use windlass_base::values::Args;
 use windlass_language::spec::MenuSpec;
@@ -257,6 +258,15 @@ pub struct Checking {
     pub solved: bool,
 }
 
+/// A table that a record has shown or opened a menu over, with the user's units of that moment.
+#[derive(Clone, Debug)]
+pub struct KeptTable {
+    /// The table.
+    pub table: Table,
+    /// The units.
+    pub units: UnitSystem,
+}
+
 /// One running job.
 pub struct Job {
     /// The model.
@@ -323,6 +333,8 @@ pub struct Job {
     pub scatter: Vec<ScatterExposure>,
     /// What the exit code is to tell.
     pub verdict: Verdict,
+    /// The tables that records have shown, where a program reads them.
+    pub kept_tables: Option<Vec<KeptTable>>,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
     pub interrupt: Arc<AtomicBool>,
 }
@@ -363,7 +375,16 @@ impl Job {
             tethered: None,
             scatter: Vec::new(),
             verdict: Verdict::default(),
+            kept_tables: None,
             interrupt: Arc::default(),
+        }
+    }
+
+    /// Keeps a table that a record shows, where a program reads them.
+    pub fn keep_table(&mut self, table: &Table) {
+        let units = self.units;
+        if let Some(kept) = &mut self.kept_tables {
+            kept.push(KeptTable { table: table.clone(), units });
         }
     }
 

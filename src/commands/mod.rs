@@ -27,7 +27,7 @@ use environment::{bathymetry, curves, env};
 use files::file;
 pub use files::file::write_open_files;
 pub use functions::FUNCTION_HELP;
-pub use job::{Checking, DeviceSettings, Job, Menu};
+pub use job::{Checking, DeviceSettings, Job, KeptTable, Menu};
 pub use menus::{find_opened_menu, finish};
 pub use model::shapes::take_shape;
 use model::{

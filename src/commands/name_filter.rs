@@ -94,6 +94,7 @@ pub fn merge_remarks(list: &[(String, Vec<TableNote>)]) -> Vec<TableNote> {
 /// Raises the warnings among the notes of a table at once: they concern all of it, whatever is then printed of it.
 pub fn raise(job: &mut Job, table: &Table, span: Span) {
     job.verdict.absent += table.absent;
+    job.keep_table(table);
     let warnings = table.notes.iter().filter(|note| note.severity == Severity::Warning);
     warnings.for_each(|note| job.warn(note.text.as_str(), span));
 }

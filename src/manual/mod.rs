@@ -1,7 +1,7 @@
 //! The pages of the manual that are made from the declarations: every command, option, class, function and report, and the
 //! state of every record of MOSES. `windlass manual DIR` writes them, and the copy in `docs/` is held to them by a test.
 
-mod markdown;
+pub(crate) mod markdown;
 mod moses;
 mod reference;
 

@@ -258,7 +258,9 @@ impl Session {
         let words = record.words();
         let asked = self.job.last_severity;
         self.job.last_severity = None;
+        let open_menus = self.job.menus.len();
         let outcome = self.dispatch(record, &words);
+        self.keep_opened_table(open_menus);
         for notice in std::mem::take(&mut self.job.notices) {
             self.report(notice);
         }
@@ -303,6 +305,17 @@ impl Session {
                 }
                 false
             }
+        }
+    }
+
+    /// Keeps the table of a menu that has just been opened, where a program reads them.
+    fn keep_opened_table(&mut self, open_menus: usize) {
+        if self.job.kept_tables.is_some()
+            && self.job.menus.len() > open_menus
+            && let Menu::Disposition(opened) = self.job.menu()
+        {
+            let table = opened.table.clone();
+            self.job.keep_table(&table);
         }
     }
 

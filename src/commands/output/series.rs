@@ -243,6 +243,7 @@ fn spectrum(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let length = whole(args, &SEGMENT);
     let mut table = tables::density(&record, length).map_err(|e| series_error(args, &e))?;
     let moments = statistic::spectral(&record, length, job.units).map_err(|e| series_error(args, &e))?;
+    job.keep_table(&moments);
     let mut text = format!("{}\n\n{}", moments.title, page::grid(&moments, job.units).join("\n"));
     if let Some(without) = &without {
         text.push_str(&format!("\n\n   {without}"));

@@ -57,6 +57,7 @@ fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if args.has(&PEAKS) {
         parts.push(statistic::peaks(&table).map_err(wrong)?);
     }
+    parts.iter().for_each(|table| job.keep_table(table));
     let text = |t: &Table| format!("{}\n\n{}", t.title, page::grid(t, job.units).join("\n"));
     let mut text = parts.iter().map(text).collect::<Vec<_>>().join("\n\n");
     if let Some(without) = without {

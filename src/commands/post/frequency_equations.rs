@@ -106,6 +106,7 @@ fn exciting(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 fn say(job: &mut Job, tables: &[Table]) {
+    tables.iter().for_each(|table| job.keep_table(table));
     let head = job.page_head();
     let text = tables.iter().map(|table| page::render(table, job.units, &head)).collect::<Vec<_>>().join("\n");
     job.say(&text);

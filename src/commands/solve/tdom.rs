@@ -413,6 +413,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(Ok(list)) = &checked {
         tables.extend(list.iter().cloned());
     }
+    tables.iter().for_each(|table| job.keep_table(table));
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     let over = over_break_in(&made);

@@ -130,6 +130,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         tables.push(events);
     }
     tables.extend(tethered::statistics_tables(&made));
+    tables.iter().for_each(|table| job.keep_table(table));
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     job.say(&text);

@@ -103,6 +103,7 @@ fn open(job: &mut Job, _: &Call) -> Outcome<Effect> {
 }
 
 fn print(job: &mut Job, tables: &[Table]) {
+    tables.iter().for_each(|table| job.keep_table(table));
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     job.say(&text);
