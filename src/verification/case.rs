@@ -332,7 +332,8 @@ impl CaseText<'_> {
         match (within, reason) {
             (Some(within), Some(reason)) => {
                 let wrong = || {
-                    let text = format!("`{}` is neither a number above 0 nor a percentage: 0.01 or 0.5 %", within.get_ref());
+                    let text =
+                        format!("`{}` is neither a number above 0 nor a percentage: 0.01 or 0.5 %", within.get_ref());
                     self.error(Some(within.span()), self.key_at(&within.span()), text)
                 };
                 let read = Tolerance::read(within.get_ref()).ok_or_else(wrong)?;
@@ -364,7 +365,8 @@ impl CaseText<'_> {
             wrong(format!("{} has no column {}: it has {}", file.trim(), column.trim(), names.join(", ")))
         })?;
         let mut scales = Vec::new();
-        for name in scale.into_iter().flat_map(|scale| scale.get_ref().split(',')).filter(|name| name.trim() != "range") {
+        for name in scale.into_iter().flat_map(|scale| scale.get_ref().split(',')).filter(|name| name.trim() != "range")
+        {
             scales.push(find(name).ok_or_else(|| {
                 let text = format!("{} has no column {}", file.trim(), name.trim());
                 self.error(scale.map(Spanned::span), "scale", text)
@@ -397,8 +399,7 @@ impl CaseText<'_> {
         if name.is_empty() || name.contains(['/', '\\']) || name.starts_with('.') {
             return Err(wrong(format!("`{name}` is no plain file name")));
         }
-        if let Some(folder) = self.folder {
-            let path = folder.join(name);
+        for path in self.folder.into_iter().flat_map(|folder| [folder.join(name), folder.join("data").join(name)]) {
             if path.exists() {
                 let text = crate::session::read_text(&path).map_err(|error| wrong(error.to_string()))?;
                 return Ok(text.as_str().to_string());

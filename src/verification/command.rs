@@ -143,13 +143,21 @@ fn choose<'c>(cases: &'c [Case], args: &VerifyArgs) -> Result<Vec<&'c Case>, Str
         let wanted = name.strip_suffix(".toml").unwrap_or(name);
         cases.iter().find(|case| case.name.eq_ignore_ascii_case(wanted)).ok_or_else(|| {
             let near = did_you_mean(wanted, cases.iter().map(|case| case.name.as_str()));
-            format!("there is no case {name}: {}", near.unwrap_or_else(|| "windlass verify --list has their names".into()))
+            format!(
+                "there is no case {name}: {}",
+                near.unwrap_or_else(|| "windlass verify --list has their names".into())
+            )
         })
     };
     args.names.iter().map(find).collect()
 }
 
-fn write(form: &Form, file: &Path, installation: &Installation, results: &[(&Case, CaseResult)]) -> Result<String, String> {
+fn write(
+    form: &Form,
+    file: &Path,
+    installation: &Installation,
+    results: &[(&Case, CaseResult)],
+) -> Result<String, String> {
     let bytes = match form {
         Form::Markdown => page::markdown(Some(installation), results).into_bytes(),
         Form::Csv => page::csv(installation, results)?,

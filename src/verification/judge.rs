@@ -62,7 +62,13 @@ impl Verdict {
 const ROUNDING: f64 = 1e-9;
 
 /// What a number comes to beside a printed one. Fractions are of `size`.
-pub fn judge(ours: f64, printed: &Printed, tolerance: Option<Tolerance>, explained: Option<Tolerance>, size: f64) -> Verdict {
+pub fn judge(
+    ours: f64,
+    printed: &Printed,
+    tolerance: Option<Tolerance>,
+    explained: Option<Tolerance>,
+    size: f64,
+) -> Verdict {
     let error = ours - printed.value;
     if !error.is_finite() {
         Verdict::Missed

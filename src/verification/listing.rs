@@ -86,7 +86,11 @@ pub fn summary(results: &[(&Case, CaseResult)], unreadable: usize, seconds: f64)
     for reference in Reference::ALL {
         let of = results.iter().filter(|(case, _)| case.reference == reference);
         let (cases, count) = of.fold((0, 0), |(n, count), (case, _)| (n + 1, count + case.quantities.len()));
-        text.push_str(&format!(" {} {count} in {cases}{}", reference.text(), if reference == Reference::OtherProgram { "" } else { ";" }));
+        text.push_str(&format!(
+            " {} {count} in {cases}{}",
+            reference.text(),
+            if reference == Reference::OtherProgram { "" } else { ";" }
+        ));
     }
     text.push('\n');
     let missed: Vec<&str> = results

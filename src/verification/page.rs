@@ -137,7 +137,15 @@ fn summary(results: &[(&Case, CaseResult)]) -> String {
         };
         let quantities: usize = of().map(|(case, _)| case.quantities.len()).sum();
         let [digits, met, explained, missed] = Verdict::ALL.map(count);
-        rows.push([reference.text().into(), of().count().to_string(), quantities.to_string(), digits, met, explained, missed]);
+        rows.push([
+            reference.text().into(),
+            of().count().to_string(),
+            quantities.to_string(),
+            digits,
+            met,
+            explained,
+            missed,
+        ]);
     }
     let sum = |at: usize| rows.iter().filter_map(|row| row[at].parse::<usize>().ok()).sum::<usize>().to_string();
     rows.push(["all".into(), sum(1), sum(2), sum(3), sum(4), sum(5), sum(6)]);
@@ -173,7 +181,8 @@ fn case_section(case: &Case, result: &CaseResult) -> String {
     }
     remarks.extend(result.errors.iter().map(|error| format!("The script was refused: {error}")));
     if !remarks.is_empty() {
-        let lines: Vec<String> = remarks.iter().map(|remark| format!("- {}\n", escape(remark).replace('\n', " "))).collect();
+        let lines: Vec<String> =
+            remarks.iter().map(|remark| format!("- {}\n", escape(remark).replace('\n', " "))).collect();
         text.push_str(&format!("{}\n", lines.concat()));
     }
     text
@@ -191,8 +200,25 @@ fn sentence_case(text: &str) -> String {
 pub fn csv(installation: &Installation, results: &[(&Case, CaseResult)]) -> Result<Vec<u8>, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let heads = [
-        "case", "reference", "source", "quantity", "unit", "numbers", "printed", "ours", "error", "relative_error",
-        "last_digits", "tolerance", "verdict", "reason", "seconds", "version", "commit", "machine", "date",
+        "case",
+        "reference",
+        "source",
+        "quantity",
+        "unit",
+        "numbers",
+        "printed",
+        "ours",
+        "error",
+        "relative_error",
+        "last_digits",
+        "tolerance",
+        "verdict",
+        "reason",
+        "seconds",
+        "version",
+        "commit",
+        "machine",
+        "date",
     ];
     writer.write_record(heads).map_err(|error| error.to_string())?;
     let number = |value: Option<f64>| value.map_or(String::new(), number_in_full);

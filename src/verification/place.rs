@@ -42,7 +42,7 @@ pub enum Row {
     Max,
     /// That of the least number of the column.
     Min,
-    /// That in which columns have these values: `Body=SHIP, Mode=2`.
+    /// That in which columns have these values, or round to them, the nearest: `Body=SHIP, Mode=2`.
     Where(Vec<(String, String)>),
     /// The row that holds this word.
     Word(String),
@@ -197,18 +197,24 @@ fn find_row(kept: &KeptTable, row: &Row, column: &Column) -> Result<usize, Strin
         Row::Max => numbers().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at),
         Row::Min => numbers().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at),
         Row::Word(word) => (0..table.rows()).find(|at| {
-            table.row(*at).into_iter().any(|cell| matches!(cell, Cell::Text(text) if text.trim().eq_ignore_ascii_case(word)))
+            table
+                .row(*at)
+                .into_iter()
+                .any(|cell| matches!(cell, Cell::Text(text) if text.trim().eq_ignore_ascii_case(word)))
         }),
         Row::Where(pairs) => {
             let mut columns = Vec::new();
             for (name, value) in pairs {
                 columns.push((one_column(table, name)?, value));
             }
-            (0..table.rows()).find(|at| {
-                columns.iter().all(|(column, value)| {
-                    column.cells.get(*at).is_some_and(|cell| is_value(column, cell, value, kept.units))
-                })
-            })
+            let distance = |at: usize| -> Option<f64> {
+                let of = |(column, value): &(&Column, &String)| {
+                    column.cells.get(at).and_then(|cell| distance_to(column, cell, value, kept.units))
+                };
+                columns.iter().map(of).sum()
+            };
+            let fitting = (0..table.rows()).filter_map(|at| distance(at).map(|far| (at, far)));
+            fitting.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
         }
         Row::All => None,
     };
@@ -222,19 +228,15 @@ fn find_row(kept: &KeptTable, row: &Row, column: &Column) -> Result<usize, Strin
     })
 }
 
-/// How near a number of a row must be to the one it is chosen by, as a fraction.
-const SAME_NUMBER: f64 = 1e-6;
-
-fn is_value(column: &Column, cell: &Cell, value: &str, units: UnitSystem) -> bool {
+/// How far a cell is from the value that chooses it, in units of the last digit; `None` where it does not round to it.
+fn distance_to(column: &Column, cell: &Cell, value: &str, units: UnitSystem) -> Option<f64> {
     if let Cell::Text(text) = cell
         && text.trim().eq_ignore_ascii_case(value)
     {
-        return true;
+        return Some(0.0);
     }
-    match (in_user_units(column, cell, units), value.parse::<f64>()) {
-        (Some(have), Ok(want)) => (have - want).abs() <= SAME_NUMBER * want.abs().max(1.0),
-        _ => false,
-    }
+    let (have, want) = (in_user_units(column, cell, units)?, Printed::read(value)?);
+    Some((have - want.value).abs() / want.unit).filter(|far| *far <= 0.5 + 1e-6)
 }
 
 /// What is said where a name is not there.

@@ -143,7 +143,8 @@ fn read_csv(path: &Path, name: &str) -> Option<KeptTable> {
 fn compare(quantity: &Quantity, left: &Left) -> Comparison {
     let tolerance = quantity.tolerance.as_ref().map(|bound| bound.within);
     let explained = quantity.explained.as_ref().map(|bound| bound.within);
-    let found = find(&quantity.ours, left).map(|list| list.into_iter().map(|v| v * quantity.factor).collect::<Vec<_>>());
+    let found =
+        find(&quantity.ours, left).map(|list| list.into_iter().map(|v| v * quantity.factor).collect::<Vec<_>>());
     match (&quantity.wanted, found) {
         (Wanted::Number(printed), Ok(list)) => {
             let ours = list.first().copied().unwrap_or(f64::NAN);
@@ -151,9 +152,7 @@ fn compare(quantity: &Quantity, left: &Left) -> Comparison {
             let (size, printed) = (printed.value.abs(), Some(printed.clone()));
             Comparison { printed, ours: Some(ours), size, count: 1, verdict, trouble: None }
         }
-        (Wanted::Numbers(rows), Ok(list)) if rows.len() == list.len() => {
-            worst(rows, &list, tolerance, explained)
-        }
+        (Wanted::Numbers(rows), Ok(list)) if rows.len() == list.len() => worst(rows, &list, tolerance, explained),
         (Wanted::Numbers(rows), Ok(list)) => {
             missed(None, rows.len(), format!("the source has {} rows, the result {}", rows.len(), list.len()))
         }

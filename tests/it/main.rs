@@ -23,6 +23,7 @@ mod program {
     mod picture;
     mod script_check;
     mod table_vary;
+    mod verification;
 }
 
 /// Springs, lines, pipes: forces and laws.
