@@ -82,17 +82,15 @@ pub fn summary(results: &[(&Case, CaseResult)], unreadable: usize, seconds: f64)
         let count = all().filter(|comparison| comparison.verdict == verdict).count();
         text.push_str(&format!("  {:<18} {count:>5}\n", verdict.text()));
     }
-    text.push_str("by reference:");
+    let mut parts = Vec::new();
     for reference in Reference::ALL {
         let of = results.iter().filter(|(case, _)| case.reference == reference);
         let (cases, count) = of.fold((0, 0), |(n, count), (case, _)| (n + 1, count + case.quantities.len()));
-        text.push_str(&format!(
-            " {} {count} in {cases}{}",
-            reference.text(),
-            if reference == Reference::OtherProgram { "" } else { ";" }
-        ));
+        if cases > 0 {
+            parts.push(format!("{} {count} in {cases}", reference.text()));
+        }
     }
-    text.push('\n');
+    text.push_str(&wrap(&format!("by reference: {}", parts.join("; ")), 0, 2));
     let missed: Vec<&str> = results
         .iter()
         .filter(|(_, result)| result.verdict() == Verdict::Missed)
