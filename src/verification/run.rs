@@ -116,10 +116,10 @@ fn run_script(case: &Case, folder: &Path) -> (Left, Vec<String>) {
     for quantity in &case.quantities {
         match &quantity.ours {
             Place::Variable(name, _) => left.variables.extend(variable(name).map(|value| (name.clone(), value))),
-            Place::Cell { table, .. } if table.ends_with(".csv") => {
-                if !left.tables.iter().any(|kept| kept.table.title == *table) {
-                    left.tables.extend(read_csv(&answers.join(table), table));
-                }
+            Place::Cell { table, .. }
+                if table.ends_with(".csv") && !left.tables.iter().any(|kept| kept.table.title == *table) =>
+            {
+                left.tables.extend(read_csv(&answers.join(table), table));
             }
             _ => {}
         }
