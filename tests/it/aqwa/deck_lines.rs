@@ -550,3 +550,38 @@ fn error_of_equilibrium_points_at_job_and_not_at_time_steps() {
     let (message, line) = errors.first().unwrap();
     assert!(message.starts_with("deck 0, JOB: body S1: it sinks") && line.starts_with("JOB"), "{message} {line}");
 }
+
+#[test]
+fn run_of_tethers_breaks_no_line_and_runs_no_action() {
+    let deck = std::fs::read_to_string("scripts/mint.dat").unwrap();
+    let slack = "    14TSLK                         0.001\n";
+    let line = "    14LINE    1 1010    0 9010     100.0     250.0\n    14LBRK         1                 3.0\n";
+    let list = records(&deck.replace(slack, &format!("{slack}{line}"))).unwrap_err();
+    assert!(
+        list.iter().any(|e| e.message == "deck 14, LBRK: no line breaks in a run of tethers" && e.span.is_some()),
+        "{list:?}"
+    );
+    let (mut session, _, folder) = common::session();
+    std::fs::write(folder.path().join("tlp.dat"), &deck).unwrap();
+    session.open("test.cif", "INMODEL -AQWA tlp.dat\n&ACTION CUT -AT 3 -RELEASE T1\nTDOM -TETHERS\n");
+    session.run();
+    let found = session.reports.iter().find(|r| r.message == "-TETHERS does not run the action CUT");
+    assert!(found.is_some_and(|r| r.span.is_some()) && session.job.tethered.is_none(), "{:?}", session.reports);
+}
+
+#[test]
+fn drum_with_final_length_behind_it_is_reported_by_its_forces() {
+    let drum = |last: &str| {
+        let (mut session, screen, _folder) = common::session();
+        let text = format!(
+            "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*QUAY 0 0 8\n&DESCRIBE BODY SHIP\n*BITT 12 3 6\n~WINCH LNDW 2E5 10 {last} -0.1\n\
+             CONNECTOR W1 ~WINCH *BITT *QUAY\nEND\n&STATUS F_CONNECTOR\n"
+        );
+        session.open("test.cif", text);
+        session.run();
+        assert_eq!(session.errors, 0, "{:?}", session.reports);
+        screen.text()
+    };
+    let note = "the drum never turns: its final length is not where its speed leads";
+    assert!(drum("12").contains(note) && !drum("6").contains(note), "{}", drum("12"));
+}
