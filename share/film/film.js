@@ -170,10 +170,18 @@
       made.hidden = true;
       if (!seen) continue;
       made.hidden = false;
-      const [w, h] = [made.offsetWidth, made.offsetHeight], [x, y] = [seen[0] + 8, seen[1] - h - 4];
-      const hit = taken.some(([a, b, c, d]) => x < a + c && a < x + w && y < b + d && b < y + h);
-      made.hidden = hit || x < 0 || y < 0 || x + w > painter.canvas.clientWidth || y + h > painter.canvas.clientHeight;
-      if (!made.hidden) taken.push([x, y, w, h]);
+      const [w, h] = [made.offsetWidth, made.offsetHeight], { clientWidth: wide, clientHeight: high } = painter.canvas;
+      // the first free place around what is named, the nearest ring first; hidden only where none is free
+      const free = ([x, y]) => x >= 0 && y >= 0 && x + w <= wide && y + h <= high
+        && !taken.some(([a, b, c, d]) => x < a + c && a < x + w && y < b + d && b < y + h);
+      const around = (r) => [[8 + r, -h - 4 - r], [8 + r, 4 + r], [-w - 8 - r, -h - 4 - r], [-w - 8 - r, 4 + r],
+        [-w / 2, -h - 8 - r], [-w / 2, 8 + r], [10 + r, -h / 2], [-w - 10 - r, -h / 2]];
+      const places = [0, 16, 34, 56].flatMap(around).map(([dx, dy]) => [seen[0] + dx, seen[1] + dy]);
+      const found = places.find(free);
+      made.hidden = !found;
+      if (!found) continue;
+      const [x, y] = found;
+      taken.push([x, y, w, h]);
       made.style.transform = `translate(${x}px, ${y}px)`;
     }
   }

@@ -6,6 +6,13 @@ use super::line::Line;
 use super::multi_segment::SegmentSolution;
 use super::state::LineState;
 
+/// Points inside each segment before its curve is refined.
+const LEAST_INNER_POINTS: usize = 3;
+/// Halvings between two points of a curve: more would be finer than a sixty-fourth of a quarter of a segment.
+const MAX_BISECTIONS: usize = 6;
+/// Points from which on a curve is not refined any more: a line of very many segments has enough of them.
+const MAX_ADAPTIVE_POINTS: usize = 2_000;
+
 /// A point of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShapePoint {
@@ -60,6 +67,41 @@ impl Line {
             arc += length;
         }
         points
+    }
+
+    /// The shape of the line with as many points as a drawn curve needs: those of [`Line::shape`] with three inside each segment,
+    /// and further ones until the line turns by no more than `turn` (rad) from one to the next.
+    pub fn adaptive_shape(&self, state: &LineState, turn: f64) -> Vec<ShapePoint> {
+        let base = self.shape(state, LEAST_INNER_POINTS);
+        let mut points: Vec<ShapePoint> = base.first().copied().into_iter().collect();
+        for (a, b) in base.iter().zip(base.iter().skip(1)) {
+            if a.segment == b.segment && points.len() < MAX_ADAPTIVE_POINTS {
+                self.refine(state, (a, b), (turn, MAX_BISECTIONS), &mut points);
+            }
+            points.push(*b);
+        }
+        points
+    }
+
+    /// Adds the points between two of one segment where the line turns too far between them.
+    fn refine(
+        &self,
+        state: &LineState,
+        (a, b): (&ShapePoint, &ShapePoint),
+        (turn, depth): (f64, usize),
+        points: &mut Vec<ShapePoint>,
+    ) {
+        // a corner between two points at one length, as at a heap of spare line, is no curve
+        let is_curved = (a.angle() - b.angle()).abs() > turn && b.arc - a.arc > 1e-9 * self.length();
+        if depth == 0 || !is_curved {
+            return;
+        }
+        let middle = self.point_at(state, 0.5 * (a.arc + b.arc)).filter(|p| p.segment == a.segment);
+        if let Some(middle) = middle {
+            self.refine(state, (a, &middle), (turn, depth - 1), points);
+            points.push(middle);
+            self.refine(state, (&middle, b), (turn, depth - 1), points);
+        }
     }
 
     /// The point at an unstretched length from the fairlead (m); `None` outside the line.

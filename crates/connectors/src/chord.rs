@@ -7,7 +7,7 @@ use windlass_base::table::Table;
 use windlass_catenary::{FunctionPoint, StretchLaw, rising_root};
 use windlass_model::{
     AbsentRow, ClassError, Condition, ConnectorElement, ConnectorResponse, ConnectorSummary, End, FoundLength,
-    LineChange, LineConfiguration, LineLoads, LineModel, Note, Situation, SolverCache,
+    LineChange, LineConfiguration, LineLoads, LineModel, LineSampling, Note, Situation, SolverCache,
 };
 
 /// A weightless line between two places.
@@ -221,11 +221,11 @@ impl LineModel for Chord {
         self.line.tabulate(connector)
     }
 
-    fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError> {
+    fn geometry(&self, connector: &str, condition: Condition, sampling: LineSampling) -> Result<Table, ClassError> {
         if self.configuration(condition)?.tension < 0.0 {
             return Err(ClassError::new("the spring is pushed together: it is straight between its ends"));
         }
-        self.line.geometry(connector, condition)
+        self.line.geometry(connector, condition, sampling)
     }
 
     fn configuration(&self, condition: Condition) -> Result<LineConfiguration, ClassError> {

@@ -16,11 +16,11 @@ use windlass_catenary::{
 };
 use windlass_model::{
     AbsentRow, ClassError, Condition, ConnectorElement, FoundLength, Idealisation, LineChange, LineConfiguration,
-    LineLoads, LineModel, Note, Placement,
+    LineLoads, LineModel, LineSampling, Note, Placement,
 };
 
-/// Points inside each segment in a shape table.
-const SHAPE_POINTS: usize = 9;
+/// Turn of a line between two points of its shape (rad): a polyline of a thousand pixels is then within half a pixel of the curve.
+const MAX_TURN_RAD: f64 = 0.04;
 /// The same where the extremes of a shape are looked for: within 1e-4 of its sag.
 const CROSSING_POINTS: usize = 63;
 
@@ -295,7 +295,7 @@ impl LineModel for Mooring {
         Ok((report(self, connector, &rows, &missing), missing.iter().map(|row| self.absent(row)).collect()))
     }
 
-    fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError> {
+    fn geometry(&self, connector: &str, condition: Condition, sampling: LineSampling) -> Result<Table, ClassError> {
         let state = self.state(condition)?;
         let mut out = Table::new(format!("Geometry of Line {connector}"))
             .fact("Model", Idealisation::QuasiStatic, Dim::None)
@@ -310,7 +310,10 @@ impl LineModel for Mooring {
         if let Some((x, z)) = state.touchdown {
             out = out.fact("Touchdown at X", x, Dim::Length).fact("Touchdown at Z", z, Dim::Length);
         }
-        let shape = self.line.shape(&state, SHAPE_POINTS);
+        let shape = match sampling {
+            LineSampling::Adaptive => self.line.adaptive_shape(&state, MAX_TURN_RAD),
+            LineSampling::Inside(points) => self.line.shape(&state, points),
+        };
         let points: Vec<ProfilePoint> =
             shape.iter().enumerate().map(|(i, point)| self.profile_point(&state, point, shape.get(i + 1))).collect();
         let mut out = out

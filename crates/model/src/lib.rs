@@ -74,7 +74,9 @@ pub use environment::{
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use hull::{Breadths, ElementOf, LinearHydrostatics, Member, Piece, Shape, WaveAction, bar_panels, box_panels};
 pub use idealisation::{Idealisation, add_model_column};
-pub use line::{AbsentRow, Condition, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, Placement};
+pub use line::{
+    AbsentRow, Condition, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, LineSampling, Placement,
+};
 pub use load::{Attribute, AttributeMultiplier, Fluid, LoadGroup, LoadKind, Multipliers, PartLoad};
 pub use member_section::{MemberSection, SectionOutline};
 pub use names::EntityKind;

@@ -152,6 +152,15 @@ pub struct AbsentRow {
     pub error: ClassError,
 }
 
+/// At how many points the shape of a line is tabulated. Ends of segments, joints and touchdown points are always among them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineSampling {
+    /// As many as a drawn curve needs.
+    Adaptive,
+    /// So many inside each segment, evenly.
+    Inside(usize),
+}
+
 /// A mooring line between two places.
 pub trait LineModel {
     /// The thirty-row table of `CONN_DESIGN TABLE`, and its rows without a configuration, which have no numbers but their force.
@@ -164,7 +173,7 @@ pub trait LineModel {
     ///
     /// # Errors
     /// A condition that no configuration meets.
-    fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError>;
+    fn geometry(&self, connector: &str, condition: Condition, sampling: LineSampling) -> Result<Table, ClassError>;
 
     /// The line in one configuration, solved exactly whatever its forces between its ends come from.
     ///

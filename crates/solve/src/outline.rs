@@ -18,10 +18,37 @@ pub struct Outline {
     pub name: String,
     /// The origin of its axes.
     pub origin: Position,
-    /// Places each of its pieces reaches; in a picture a piece is filled within their convex hull.
-    pub shapes: Vec<Vec<Position>>,
-    /// Sharp edges, each between two places.
-    pub edges: Vec<[Position; 2]>,
+    /// The panels of its pieces.
+    pub panels: Vec<Vec<Position>>,
+    /// Edges of the panels.
+    pub edges: Vec<OutlineEdge>,
+    /// All its points where it has no pieces; a picture fills their convex hull.
+    pub points: Vec<Position>,
+}
+
+/// An edge of a body's panels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlineEdge {
+    /// Its ends (m, global).
+    pub ends: [Position; 2],
+    /// Unit normals of the panels that meet in it, turned to the same side of the surface.
+    pub normals: Vec<Position>,
+}
+
+impl OutlineEdge {
+    /// Whether it is seen as an edge: of one panel alone, or of two that meet at more than 30 degrees.
+    pub fn is_sharp(&self) -> bool {
+        is_sharp(&self.normals.iter().map(|n| Vector3::from(*n)).collect::<Vec<_>>())
+    }
+
+    /// Whether it is on the silhouette for a viewer in a direction: of the panels that meet in it, one faces the viewer and one does not.
+    pub fn is_silhouette(&self, viewer: Position) -> bool {
+        let facing = |n: &Position| n.iter().zip(viewer).map(|(a, b)| a * b).sum::<f64>() > 1e-9;
+        match self.normals.as_slice() {
+            [a, b] => facing(a) != facing(b),
+            _ => true,
+        }
+    }
 }
 
 /// The outline of a body: its hull pieces, or where it has none all points of its parts.
@@ -30,17 +57,51 @@ pub fn outline(model: &Model, body: &Body) -> Outline {
     for part in model.parts_of(body) {
         let global = |at: Position| body.place.apply(part.place.apply(at));
         for piece in &part.pieces {
-            let (corners, edges) = corners_and_edges(&piece.shape);
-            made.shapes.push(corners.into_iter().map(global).collect());
-            made.edges.extend(edges.into_iter().map(|edge| edge.map(global)));
+            let panels: Vec<Vec<Position>> =
+                panels_of(&piece.shape).into_iter().map(|p| p.into_iter().map(global).collect()).collect();
+            made.edges.extend(panel_edges(&panels));
+            made.panels.extend(panels);
         }
     }
-    if made.shapes.is_empty() {
+    if made.panels.is_empty() {
         let parts: Vec<String> = model.parts_of(body).map(|p| Model::key(&p.name)).collect();
         let points = model.points.values().filter(|p| parts.contains(&Model::key(&p.part)));
-        made.shapes.push(points.map(|p| model.global(p)).collect());
+        made.points = points.map(|p| model.global(p)).collect();
     }
     made
+}
+
+/// The panels of a shape. A tube has flat ones along its length, and its two ends.
+fn panels_of(shape: &Shape) -> Vec<Vec<Position>> {
+    match shape {
+        Shape::Panels(panels) => panels.clone(),
+        Shape::Block { low, high } => box_panels(*low, *high).into_iter().map(Vec::from).collect(),
+        Shape::Bar { ends, sides } => bar_panels(ends, sides).into_iter().map(Vec::from).collect(),
+        Shape::Tube { ends, diameter } => {
+            let Some([first, last]) = tube_rings(*ends, *diameter) else { return Vec::new() };
+            let next = |ring: &[Position]| ring.iter().copied().cycle().skip(1).take(ring.len()).collect::<Vec<_>>();
+            let (first_next, last_next) = (next(&first), next(&last));
+            let sides = first.iter().zip(&first_next).zip(last.iter().zip(&last_next));
+            let mut panels: Vec<Vec<Position>> = sides.map(|((a, b), (c, d))| vec![*a, *b, *d, *c]).collect();
+            panels.push(last);
+            panels.push(first.into_iter().rev().collect());
+            panels
+        }
+    }
+}
+
+/// The circles at the two ends of a tube; `None` of one without length.
+fn tube_rings([a, b]: [Position; 2], diameter: f64) -> Option<[Vec<Position>; 2]> {
+    let (a, b) = (Vector3::from(a), Vector3::from(b));
+    let axis = (b - a).try_normalize(0.0)?;
+    let across = if axis.z.abs() < 0.9 { Vector3::z() } else { Vector3::x() };
+    let u = axis.cross(&across).normalize() * (0.5 * diameter);
+    let v = axis.cross(&u);
+    let angle = |i: usize| TAU * i as f64 / CIRCLE_CORNERS.0 as f64;
+    let ring = |centre: Vector3<f64>| -> Vec<Position> {
+        (0..CIRCLE_CORNERS.0).map(|i| (centre + u * angle(i).cos() + v * angle(i).sin()).into()).collect()
+    };
+    Some([ring(a), ring(b)])
 }
 
 /// The corners and the sharp edges of a shape.
@@ -55,18 +116,9 @@ pub(super) fn corners_and_edges(shape: &Shape) -> (Vec<Position>, Vec<[Position;
             let panels = bar_panels(ends, sides);
             (panels.iter().flatten().copied().collect(), sharp_edges(&panels))
         }
-        Shape::Tube { ends: [a, b], diameter } => {
-            let (a, b) = (Vector3::from(*a), Vector3::from(*b));
-            let Some(axis) = (b - a).try_normalize(0.0) else { return (vec![a.into(), b.into()], Vec::new()) };
-            let across = if axis.z.abs() < 0.9 { Vector3::z() } else { Vector3::x() };
-            let u = axis.cross(&across).normalize() * (0.5 * diameter);
-            let v = axis.cross(&u);
+        Shape::Tube { ends, diameter } => {
+            let Some([first, last]) = tube_rings(*ends, *diameter) else { return (ends.to_vec(), Vec::new()) };
             let (count, along) = CIRCLE_CORNERS;
-            let ring = |centre: Vector3<f64>| -> Vec<Position> {
-                let angle = |i: usize| TAU * i as f64 / count as f64;
-                (0..count).map(|i| (centre + u * angle(i).cos() + v * angle(i).sin()).into()).collect()
-            };
-            let (first, last) = (ring(a), ring(b));
             let mut edges: Vec<[Position; 2]> = Vec::new();
             for circle in [&first, &last] {
                 edges.extend(circle.iter().zip(circle.iter().cycle().skip(1)).map(|(p, q)| [*p, *q]));
@@ -77,11 +129,19 @@ pub(super) fn corners_and_edges(shape: &Shape) -> (Vec<Position>, Vec<[Position;
     }
 }
 
-/// The edges of a mesh that are seen: those of one panel alone, and those where two panels meet at an angle. A mesh of
-/// many panels is not drawn black with the others.
-fn sharp_edges(panels: &[Vec<Position>]) -> Vec<[Position; 2]> {
-    /// An edge with the normals of the panels that have it.
-    type Edge = ([Position; 2], Vec<Vector3<f64>>);
+/// Whether panels of these unit normals meet in an edge that is seen: it belongs to one panel alone, or two meet at an angle.
+fn is_sharp(normals: &[Vector3<f64>]) -> bool {
+    match normals {
+        [a, b] => a.dot(b) < SHARP_EDGE_COSINE,
+        _ => true,
+    }
+}
+
+/// The edges of a mesh with the normals of the panels that meet there. Where two panels run along their edge the same way, one of
+/// them is turned inside out, and its normal is turned back.
+fn panel_edges(panels: &[Vec<Position>]) -> Vec<OutlineEdge> {
+    /// An edge, the normals of its panels, and whether each runs along it the way of the first.
+    type Edge = ([Position; 2], Vec<(Vector3<f64>, bool)>);
     let mut edges: BTreeMap<[[u64; 3]; 2], Edge> = BTreeMap::new();
     // no zero has a sign here
     let key = |at: &Position| at.map(|c| (c + 0.0).to_bits());
@@ -89,15 +149,23 @@ fn sharp_edges(panels: &[Vec<Position>]) -> Vec<[Position; 2]> {
         let normal = normal(panel);
         for (a, b) in panel.iter().zip(panel.iter().cycle().skip(1)).filter(|(a, b)| a != b) {
             let (p, q) = (key(a), key(b));
-            edges.entry([p.min(q), p.max(q)]).or_insert(([*a, *b], Vec::new())).1.push(normal);
+            let (_, found) = edges.entry([p.min(q), p.max(q)]).or_insert(([*a, *b], Vec::new()));
+            found.push((normal, p <= q));
         }
     }
-    let seen = |normals: &[Vector3<f64>]| match normals {
-        // panels turned the other way around are as smooth
-        [a, b] => a.dot(b).abs() < SHARP_EDGE_COSINE,
-        _ => true,
+    let edge = |(ends, found): Edge| {
+        let normals = match found.as_slice() {
+            [(a, along), (b, other)] if along == other => vec![*a, -b],
+            _ => found.iter().map(|(normal, _)| *normal).collect(),
+        };
+        OutlineEdge { ends, normals: normals.into_iter().map(Position::from).collect() }
     };
-    edges.into_values().filter(|(_, normals)| seen(normals)).map(|(edge, _)| edge).collect()
+    edges.into_values().map(edge).collect()
+}
+
+/// The edges of a mesh that are seen. A mesh of many panels is not drawn black with the others.
+fn sharp_edges(panels: &[Vec<Position>]) -> Vec<[Position; 2]> {
+    panel_edges(panels).into_iter().filter(OutlineEdge::is_sharp).map(|edge| edge.ends).collect()
 }
 
 /// The unit normal of a polygon (Newell's sum); zero of one without area.

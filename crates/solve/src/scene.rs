@@ -1,22 +1,17 @@
 //! What the system looks like: bodies, lines in their solved shape, anchors, the water surface and the sea bottom, as
 //! polylines and marks in global coordinates.
 
-pub use super::outline::Outline;
 use super::outline::outline;
+pub use super::outline::{Outline, OutlineEdge};
 use super::results::along::visit_lines_at_rest;
 use super::system::SolveError;
 use std::collections::BTreeSet;
 use windlass_base::geometry::Position;
 use windlass_base::table::{Cell, Table};
-use windlass_model::{Body, ClassError, Condition, Connector, Model, Placement};
+use windlass_model::{AssemblyKind, Body, ClassError, ClassRole, Condition, Connector, LineSampling, Model, Placement};
 
-/// Largest turn of a drawn line between two points (rad); where it turns more it is given points between.
-const MAX_DRAWN_TURN_RAD: f64 = 0.05;
 /// Turn beyond which a line is taken to have a corner (rad).
 pub(super) const CORNER_TURN_RAD: f64 = 1.0;
-/// Most points given between two rows of a line's shape.
-const MAX_INSERTED_POINTS: usize = 12;
-
 /// What a polyline stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stroke {
@@ -24,9 +19,15 @@ pub enum Stroke {
     Inactive,
     /// A connector without a shape of its own, straight between its ends.
     Straight,
-    /// A mooring line in its solved shape.
+    /// A fender between its ends.
+    Fender,
+    /// A sling of a tip-hook set.
+    Sling,
+    /// A line in its solved shape.
     Line,
-    /// A mooring line for which no shape was found, straight between its ends.
+    /// A rod, or a pipe on its supports.
+    Pipe,
+    /// A line for which no shape was found, straight between its ends.
     Unsolved,
     /// The sea bottom under one line, where it is not level with the others.
     Bottom,
@@ -43,6 +44,10 @@ pub enum Sign {
     Fairlead,
     /// An end of a connector in the ground.
     Anchor,
+    /// A roller or davit that holds a pipe.
+    PipeSupport,
+    /// A fender whose ends are in one place.
+    Fender,
     /// The origin of a body's axes.
     Origin,
 }
@@ -56,6 +61,8 @@ pub struct Polyline {
     pub name: String,
     /// Its points, from the first end on (m).
     pub points: Vec<Position>,
+    /// Tension at each of them (N); none where it is not known.
+    pub tensions: Vec<f64>,
     /// Whether its last point is in the ground.
     pub grounded: bool,
 }
@@ -128,6 +135,22 @@ impl Scene {
             bottoms.extend(drawn.bottom.map(|points| (connector.name.clone(), points)));
             unshaped.extend(drawn.error.map(|e| (connector.name.clone(), e)));
         }
+        for pipe in model.assemblies.values().filter(|a| matches!(a.kind, AssemblyKind::Pipe { .. })) {
+            let mut supports = pipe.members().filter_map(|name| model.connectors.get(&Model::key(name)));
+            if !supports.any(|c| c.active && (choice.connector)(c)) {
+                continue;
+            }
+            match at_rest(model, &pipe.name) {
+                Ok(shape) => scene.paths.push(Polyline {
+                    stroke: Stroke::Pipe,
+                    name: pipe.name.clone(),
+                    points: shape.points,
+                    tensions: shape.tensions,
+                    grounded: false,
+                }),
+                Err(error) => unshaped.push((pipe.name.clone(), error.error)),
+            }
+        }
         scene.lay(bottoms);
         for body in model.bodies.values().filter(|b| held.contains(&b.name) || (choice.body)(b)) {
             let outline = outline(model, body);
@@ -146,13 +169,14 @@ impl Scene {
         if self.bottom.is_some() || uneven.is_empty() {
             self.bottom = Some(level);
         }
-        let path = |(name, points)| Polyline { stroke: Stroke::Bottom, name, points, grounded: false };
+        let path =
+            |(name, points)| Polyline { stroke: Stroke::Bottom, name, points, tensions: Vec::new(), grounded: false };
         self.paths.extend(uneven.into_iter().map(path));
     }
 
     /// Every place that a picture must show (m).
     pub fn places(&self) -> impl Iterator<Item = Position> + '_ {
-        let bodies = self.bodies.iter().flat_map(|b| b.shapes.iter().flatten().copied());
+        let bodies = self.bodies.iter().flat_map(|b| b.panels.iter().flatten().chain(&b.points).copied());
         let paths = self.paths.iter().flat_map(|p| p.points.iter().copied());
         bodies.chain(paths).chain(self.marks.iter().map(|m| m.at))
     }
@@ -170,24 +194,32 @@ struct Drawn {
 /// A connector as it hangs, or straight where it has no shape or none was found.
 fn shape(model: &Model, connector: &Connector) -> Drawn {
     let placement = model.placement(connector);
-    let solved = || solve(model, connector, &placement);
+    let class = model.classes.get(&Model::key(&connector.class)).map(|c| &c.object);
+    let role = class.map_or(ClassRole::Connector, |c| c.role());
     let stroke = |active: Stroke| if connector.active { active } else { Stroke::Inactive };
     let grounded = !connector.points.get(1).is_some_and(|p| on_body(model, p));
-    let path = |stroke, points| Some(Polyline { stroke, name: connector.name.clone(), points, grounded });
+    let path =
+        |stroke, points, tensions| Some(Polyline { stroke, name: connector.name.clone(), points, tensions, grounded });
+    if role == ClassRole::PipeRoller || (role == ClassRole::PipeDavit && model.holds_pipe(&connector.name)) {
+        return Drawn::default();
+    }
     if connector.active && model.is_dynamic_line(connector) {
         let [from, to] = model.end_poses(connector).map(|p| Position::from(p.origin));
-        return match at_rest(model, connector) {
-            Ok(points) => Drawn { path: path(Stroke::Line, points), ..Drawn::default() },
-            Err(error) => {
-                Drawn { path: path(Stroke::Unsolved, vec![from, to]), error: Some(error.error), ..Drawn::default() }
-            }
+        let found = if class.is_some_and(|c| c.as_pipe().is_some()) { Stroke::Pipe } else { Stroke::Line };
+        return match at_rest(model, &connector.name) {
+            Ok(shape) => Drawn { path: path(found, shape.points, shape.tensions), ..Drawn::default() },
+            Err(error) => Drawn {
+                path: path(Stroke::Unsolved, vec![from, to], Vec::new()),
+                error: Some(error.error),
+                ..Drawn::default()
+            },
         };
     }
-    match solved() {
+    match solve(model, connector, &placement) {
         Ok(Some(table)) => {
             let shape = LineShape::from_table(&table, &placement);
             Drawn {
-                path: path(stroke(Stroke::Line), shape.points),
+                path: path(stroke(Stroke::Line), shape.points, shape.tensions),
                 marks: shape.marks,
                 bottom: shape.bottom,
                 error: None,
@@ -196,23 +228,39 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
         Ok(None) => {
             let [from, to] = model.end_poses(connector).map(|p| Position::from(p.origin));
             let points = if from == to { vec![from] } else { vec![from, to] };
-            Drawn { path: path(stroke(Stroke::Straight), points), ..Drawn::default() }
+            let kind = match role {
+                ClassRole::Fender => Stroke::Fender,
+                ClassRole::Sling => Stroke::Sling,
+                _ => Stroke::Straight,
+            };
+            Drawn { path: path(stroke(kind), points, Vec::new()), ..Drawn::default() }
         }
         Err(error) => Drawn {
-            path: placement.other.and_then(|to| path(stroke(Stroke::Unsolved), vec![placement.fairlead, to])),
+            path: placement
+                .other
+                .and_then(|to| path(stroke(Stroke::Unsolved), vec![placement.fairlead, to], Vec::new())),
             error: connector.active.then_some(error),
             ..Drawn::default()
         },
     }
 }
 
-/// The nodes of a dynamic line, at rest in the mean current.
-fn at_rest(model: &Model, connector: &Connector) -> Result<Vec<Position>, SolveError> {
+/// Where a line is, and its tension there.
+#[derive(Default)]
+struct RestShape {
+    points: Vec<Position>,
+    /// Effective tension (N).
+    tensions: Vec<f64>,
+}
+
+/// The nodes of the dynamic line, or of the pipe, of a name, at rest in the mean current.
+fn at_rest(model: &Model, name: &str) -> Result<RestShape, SolveError> {
     let mut nodes = Vec::new();
-    visit_lines_at_rest(model, &|name| name == connector.name, |_, line, at, state| {
-        line.find_nodes(at, state, &mut nodes).map_err(SolveError::error_about(&connector.name))
+    visit_lines_at_rest(model, &|candidate| candidate == name, |_, line, at, state| {
+        line.find_nodes(at, state, &mut nodes).map_err(SolveError::error_about(name))
     })?;
-    Ok(nodes.iter().map(|node| node.position.into()).collect())
+    let points = nodes.iter().map(|node| node.position.into()).collect();
+    Ok(RestShape { points, tensions: nodes.iter().map(|node| node.effective).collect() })
 }
 
 /// The shape of a mooring line; `None` of a connector that is straight.
@@ -220,7 +268,7 @@ fn solve(model: &Model, connector: &Connector, placement: &Placement) -> Result<
     let class = model.classes.get(&Model::key(&connector.class)).filter(|c| c.object.as_line().is_some());
     let Some(class) = class else { return Ok(None) };
     let line = class.line(placement, &model.surroundings())?;
-    match line.geometry(&connector.name, Condition::Placed) {
+    match line.geometry(&connector.name, Condition::Placed, LineSampling::Adaptive) {
         Ok(table) => Ok(Some(table)),
         // a spring that is pushed together is straight
         Err(_) if line.configuration(Condition::Placed).is_ok_and(|c| c.tension < 0.0) => Ok(None),
@@ -234,7 +282,13 @@ fn on_body(model: &Model, point: &str) -> bool {
 
 /// The marks at the ends of a connector: its points, and the anchor behind a single one.
 fn ends(model: &Model, connector: &Connector, path: Option<&Polyline>) -> Vec<Mark> {
-    let sign = |body: bool| if body { Sign::Fairlead } else { Sign::Anchor };
+    let class = model.classes.get(&Model::key(&connector.class));
+    let sign = |body: bool| match class.map_or(ClassRole::Connector, |c| c.object.role()) {
+        ClassRole::PipeRoller | ClassRole::PipeDavit => Sign::PipeSupport,
+        ClassRole::Fender => Sign::Fender,
+        _ if body => Sign::Fairlead,
+        _ => Sign::Anchor,
+    };
     let named = connector.points.iter().enumerate().filter_map(|(index, name)| {
         // an end set off from its point is elsewhere than the name
         let offset = connector.offsets.get(index).is_some_and(|o| *o != [0.0; 3]);
@@ -253,6 +307,8 @@ fn ends(model: &Model, connector: &Connector, path: Option<&Polyline>) -> Vec<Ma
 /// The shape of a line in the global system.
 struct LineShape {
     points: Vec<Position>,
+    /// Tension at each point (N).
+    tensions: Vec<f64>,
     marks: Vec<Mark>,
     bottom: Option<Vec<Position>>,
 }
@@ -271,7 +327,6 @@ impl LineShape {
         let at = |heights: Vec<Option<f64>>| -> Vec<(f64, f64)> {
             xs.iter().zip(heights).filter_map(|(x, z)| x.zip(z)).collect()
         };
-        let curve = smooth(&at(column("Z")), &column("Angle"), &column("Arc Length"));
         let mut marks = Vec::new();
         for (sign, name) in [(Sign::Touchdown, "Touchdown"), (Sign::Joint, "Joint")] {
             let mark = |(x, z)| Mark { sign, name: String::new(), at: place(x, z) };
@@ -279,33 +334,11 @@ impl LineShape {
         }
         let bottom = at(column("Bottom"));
         let bottom = bottom.first().zip(bottom.last()).map(|(a, b)| vec![place(a.0, a.1), place(b.0, b.1)]);
-        LineShape { points: curve.into_iter().map(|(x, z)| place(x, z)).collect(), marks, bottom }
+        let points: Vec<Position> = at(column("Z")).into_iter().map(|(x, z)| place(x, z)).collect();
+        let tensions: Vec<f64> = column("Tension").into_iter().flatten().collect();
+        let tensions = if tensions.len() == points.len() { tensions } else { Vec::new() };
+        LineShape { points, tensions, marks, bottom }
     }
-}
-
-/// The rows of a shape with points between where the line turns: cubics in the arc length with its known directions at
-/// both rows. Angles are above the horizontal, toward the fairlead (rad); arcs are lengths from the fairlead (m).
-fn smooth(rows: &[(f64, f64)], angles: &[Option<f64>], arcs: &[Option<f64>]) -> Vec<(f64, f64)> {
-    let mut out: Vec<(f64, f64)> = rows.first().copied().into_iter().collect();
-    for ((pair, turn), arc) in rows.windows(2).zip(angles.windows(2)).zip(arcs.windows(2)) {
-        let ([a, b], [Some(from), Some(to)], [Some(start), Some(end)]) = (pair, turn, arc) else {
-            out.extend(pair.last());
-            continue;
-        };
-        let arc = end - start;
-        let turned = (to - from).abs();
-        let pieces = if turned < CORNER_TURN_RAD {
-            ((turned / MAX_DRAWN_TURN_RAD).ceil() as usize).clamp(1, MAX_INSERTED_POINTS)
-        } else {
-            1
-        };
-        for step in 1..pieces {
-            let (x, z) = cubic((*a, *b), (*from, *to), arc, step as f64 / pieces as f64);
-            out.push((x, z));
-        }
-        out.push(*b);
-    }
-    out
 }
 
 /// A place between two rows of a shape, a share `t` of the arc behind the first: by a cubic with their directions.

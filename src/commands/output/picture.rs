@@ -67,6 +67,16 @@ const NAMES: OptionSpec =
 const INACTIVE: OptionSpec = OptionSpec::new("-INACTIVE", &[YES_NO], "connectors that do not act, in a light stroke")
     .default("YES")
     .owner(Owner::Ours);
+const TENSIONS: OptionSpec =
+    OptionSpec::new("-TENSIONS", &[YES_NO], "lines in a file have the colours of their tension")
+        .default("YES")
+        .owner(Owner::Ours);
+const NORTH: OptionSpec = OptionSpec::new(
+    "-NORTH",
+    &[ValueSpec::new("ANGLE", Kind::Number(Dim::Angle), "where north lies, from +X toward +Y")],
+    "a north arrow in the plan",
+)
+.owner(Owner::Ours);
 /// An option of pictures of MOSES that changes nothing here.
 const fn idle(name: &'static str, help: &'static str) -> OptionSpec {
     const ANY: &[ValueSpec] = &[ValueSpec::new("DATA", Kind::Text, "as in MOSES").or("none")];
@@ -93,7 +103,7 @@ const IDLE: [OptionSpec; 17] = [
     idle("-POINTS", "which points are drawn"),
     idle("-ANNOTATE", "what is written on the picture"),
 ];
-const OWN: [OptionSpec; 9] = [NO, HARD, FILE, FORMAT, FROM, EXAGGERATE, NAMES, INACTIVE, HEADING];
+const OWN: [OptionSpec; 11] = [NO, HARD, FILE, FORMAT, FROM, EXAGGERATE, NAMES, INACTIVE, HEADING, TENSIONS, NORTH];
 static OPTIONS: [OptionSpec; OWN.len() + IDLE.len()] = join_options(&OWN, &IDLE);
 
 const HEADING: OptionSpec = OptionSpec::new(
@@ -136,9 +146,11 @@ static SPEC: CommandSpec = CommandSpec {
     ],
     repeat: 1,
     options: &OPTIONS,
-    detail: "Draws the system as it stands now: bodies as their hull pieces, each as its convex \
-             outline with its sharp edges, or as the convex outline of their points where they have none, mooring lines in the shape they \
-             hang in between their ends, dynamic lines by their nodes at rest, other connectors straight, with anchors, fairleads, touchdowns and joints. Both \
+    detail: "Draws the system as it stands now: bodies as the panels of their hulls with \
+             sharp edges and silhouette, or as the convex outline of their points where they have none; lines in the shape they \
+             hang in between their ends, dynamic lines, rods and pipes by their nodes at rest; fenders, slings and other connectors straight, \
+             with anchors, fairleads, touchdowns, joints and the supports of pipes. In a file the colours of a line are its tension, with a \
+             bar below; -TENSIONS NO draws all lines alike. A plan shows a north arrow where -NORTH says where north is. Both \
              directions of a view have the same scale, but for heights with -EXAGGERATE. The viewer of an elevation looks \
              horizontally from the direction of -FROM: from -90 (-Y) X runs to the right. SIDE and PORT look from -Y, \
              STARBOARD from +Y, BOW from -X and STERN from +X, X taken to run aft and Y to starboard. In an elevation the \
@@ -267,7 +279,15 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         })
         .collect();
     let title = args.option_word(&HEADING).unwrap_or(&job.titles[0]).to_string();
-    let picture = Picture { title, scene, views, names: args.switch(&NAMES, true), units: job.units };
+    let picture = Picture {
+        title,
+        scene,
+        views,
+        names: args.switch(&NAMES, true),
+        units: job.units,
+        tensions: args.switch(&TENSIONS, true),
+        north: args.option_number(&NORTH),
+    };
     let wrong = |error: PlotError| match error {
         PlotError::Empty => Diagnostic::error("there is nothing to draw: no body and no connector", args.span)
             .help("-INACTIVE NO leaves out what does not act; &STATUS counts what the model holds"),

@@ -5,9 +5,12 @@ use crate::commands::output::disposition::{
     to_diagnostic, write_file,
 };
 use crate::commands::{Call, Command, Effect, Job};
-use crate::report::plot::{Chart, PlotError};
+use crate::report::plot::{Chart, PlotError, PlotSeries};
+use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::values::{Args, Value};
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::{Args, Content, Value};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
@@ -35,15 +38,31 @@ const RAX: OptionSpec = OptionSpec::new("-RAX", &[COLUMN], "columns on the right
 const POLAR: OptionSpec =
     OptionSpec::new("-POLAR", &[], "a polar plot: the first column holds directions").owner(Owner::Ours);
 
+const EQUAL: OptionSpec = OptionSpec::new(
+    "-EQUAL",
+    &[ValueSpec::choice::<YesNo>("YES/NO", "whether both axes have one scale").or("YES")],
+    "one scale for both axes",
+)
+.owner(Owner::Ours)
+.default("YES where both are lengths of which one is at most five times the other");
+const INTACT: OptionSpec = OptionSpec::new(
+    "-INTACT",
+    &[ValueSpec::choice::<YesNo>("YES/NO", "whether the intact mooring is drawn beside").or("YES")],
+    "the curves of the intact mooring beside those with lines removed",
+)
+.owner(Owner::Ours)
+.default("YES where the table has them");
+
 static SPEC: CommandSpec = CommandSpec {
     data: &[COLUMN, COLUMN, ANY_COLUMN],
     repeat: 1,
-    options: &[RECORD, VALUES, HEADING, MAG_USE, NO, HARD, FILE, HTML, RAX, POLAR],
+    options: &[RECORD, VALUES, HEADING, MAG_USE, NO, HARD, FILE, HTML, RAX, POLAR, EQUAL, INTACT],
     detail: "The first column is the independent one. A last word that ends in .svg, .png or .html is a file name, inside the \
              job's folder when relative (&HELP &FILE); without one the plot is drawn in the terminal. Columns of a second unit have an \
              axis of their own on the right; more than two units on one plot are refused. A page (.html) needs nothing from elsewhere: it shows \
              the values under the pointer, zooms where one drags, and hides a curve whose name is clicked. -POLAR counts \
-             directions from +X, to the right, toward +Y, up, and has the other columns as distances from the middle, all of one unit.",
+             directions from +X, to the right, toward +Y, up, and has the other columns as distances from the middle, all of one unit. \
+             Lengths over lengths are drawn to one scale (-EQUAL). Where the table is of a mooring with lines removed, the intact one is drawn beside it (-INTACT).",
     ..spec("PLOT", "plots columns against the first one")
 };
 
@@ -60,6 +79,33 @@ fn file(job: &mut Job, args: &mut Args) -> Option<String> {
     let ending = if args.has(&HTML) { "html" } else { "svg" };
     (args.has(&HARD) || args.has(&HTML))
         .then(|| format!("{}{}.{ending}", job.settings.figure_name, job.settings.figure_number))
+}
+
+/// Whether all columns of a table are lengths.
+fn has_lengths_alone(table: &Table) -> bool {
+    table.columns().iter().all(|c| c.dim == Dim::Length)
+}
+
+/// Adds the curves of the intact mooring: for each column drawn, the one of the same name behind `Intact`, over that of the independent
+/// column where it has one.
+fn add_intact(job: &Job, args: &Args, table: &Table, chart: &mut Chart) -> Outcome<()> {
+    let names: Vec<String> = table.columns().iter().map(|c| c.name.clone()).collect();
+    let Some((x, ys)) = names.split_first() else { return Ok(()) };
+    let menu = open_disposition(job, args.span)?;
+    let intact = |name: &str| format!("Intact {name}");
+    let has = |name: &str| menu.table.columns().iter().any(|c| c.name == intact(name));
+    let over = if has(x) { intact(x) } else { x.clone() };
+    let wanted: Vec<String> = ys.iter().filter(|y| has(y) && !names.contains(&intact(y))).map(|y| intact(y)).collect();
+    for column in wanted {
+        let columns = [&over, &column]
+            .map(|name| Value { content: Content::Word(name.as_str().into()), ..Value::empty(args.span) });
+        let pair = chosen_columns(job, args, &columns)?;
+        let made = if chart.polar { Chart::polar(&pair, job.units) } else { Chart::from_table(&pair, job.units) };
+        if let Ok(made) = made {
+            chart.series.extend(made.series.into_iter().map(|series| PlotSeries { name: column.clone(), ..series }));
+        }
+    }
+    Ok(())
 }
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -86,6 +132,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let made =
         if args.has(&POLAR) { Chart::polar(&table, job.units) } else { Chart::with_right(&table, &right, job.units) };
     let mut chart = made.map_err(wrong)?;
+    if args.switch(&INTACT, true) && right.is_empty() {
+        add_intact(job, &args, &table, &mut chart)?;
+    }
+    let is_drawn_to_scale = !chart.polar && has_lengths_alone(&table) && chart.has_similar_sides();
+    chart.equal = args.switch(&EQUAL, is_drawn_to_scale) && !chart.polar;
     if let Some(heading) = args.option_word(&HEADING) {
         chart.title = heading.to_string();
     }

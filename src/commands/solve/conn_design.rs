@@ -15,7 +15,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{AbsentRow, Class, Condition, Connector, EntityKind, find};
+use windlass_model::{AbsentRow, Class, Condition, Connector, EntityKind, LineSampling, find};
 
 /// TABLE.
 pub static TABLE: Command = Command { spec: &TABLE_SPEC, edits: false, run: table };
@@ -70,15 +70,24 @@ static TABLE_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("TABLE", "tabulates a line")
 };
 
+const POINTS: OptionSpec = OptionSpec::new(
+    "-POINTS",
+    &[ValueSpec::new("N", Kind::Integer, "points inside each segment, evenly spaced").in_range(0.0, 10_000.0)],
+    "so many rows inside each segment",
+)
+.owner(Owner::Ours)
+.default("as many as a drawn curve needs: the line turns by at most 2.3 degrees from row to row");
+
 static GEOMETRY_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu(&menu::DISPOSITION),
     menus: &[&menu::CONN_DESIGN],
     data: &[LINE],
-    options: &[HORIZONTAL, VERTICAL, TENSION, DISTANCE],
+    options: &[HORIZONTAL, VERTICAL, TENSION, DISTANCE, POINTS],
     detail: "The shape of the line between its ends as they are, or with one of the options; the fairlead keeps its height. \
              X is the horizontal distance from the fairlead, Z the elevation, Arc Length the unstretched length from the \
              fairlead; forces are those in the line, the angle is above the horizontal. Bottom and Surface are there to be \
-             plotted with it; Touchdown and Joint have the Z of those rows only. The result goes to the disposition menu: \
+             plotted with it; Touchdown and Joint have the Z of those rows only. Ends of segments and touchdown points \
+             always have a row. The result goes to the disposition menu: \
              PLOT X Z Bottom Surface Touchdown Joint.",
     example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 -LEN 2000 -DEP 500 -CLUMP 20\n~W B_CAT 4 -LEN 2000\nCONNECTOR A -ANC 0 3800 ~W *P\n\
               END\nCONN_DESIGN\nGEOMETRY A\nPLOT X Z Bottom Surface Touchdown Joint\nEND\n\
@@ -170,10 +179,12 @@ fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.place(NAMED));
     let (connector, class) = find_connector(job, args)?;
     let (name, condition) = (class.name.clone(), condition(args)?);
+    let points = args.option_integer(&POINTS).and_then(|n| usize::try_from(n).ok());
+    let sampling = points.map_or(LineSampling::Adaptive, LineSampling::Inside);
     let line = class.line(&job.model.placement(connector), &job.model.surroundings());
     let made = line
         .and_then(|l| {
-            let mut made = l.geometry(&connector.name, condition)?;
+            let mut made = l.geometry(&connector.name, condition, sampling)?;
             let remarks = l.configuration(condition)?.notes;
             made.notes.splice(0..0, remarks.iter().map(|note| note.for_table(job.units)));
             Ok(made)

@@ -1,7 +1,9 @@
 //! Names beside what they name: each stands where it hides the least, and none over another.
 
 /// How far a name may stand from its place, nearest first, in heights of a letter.
-const LABEL_DISTANCES: [f64; 5] = [0.35, 0.9, 1.7, 2.8, 4.2];
+const LABEL_DISTANCES: [f64; 6] = [0.35, 0.9, 1.7, 2.8, 4.2, 6.0];
+/// What it costs a place that another named point is as near to the name as its own: more than ink below the whole name.
+const AMBIGUITY_COST: f64 = 1.5;
 /// Where a name may stand beside its place: to the right, upward (1, 0 or -1 each).
 const SIDES: [(i32, i32); 8] = [(1, 0), (1, 1), (1, -1), (0, 1), (0, -1), (-1, 0), (-1, 1), (-1, -1)];
 /// Names that are tried; those behind are counted as left out.
@@ -25,6 +27,8 @@ pub struct PlacedLabel {
     pub label: Label,
     /// Left, top, width, height (pixels).
     pub at: [i32; 4],
+    /// Whether another named point is as near: a line to its own point tells them apart.
+    pub is_ambiguous: bool,
 }
 
 /// The drawing as the names see it: where ink is.
@@ -84,21 +88,34 @@ impl Sheet {
     pub fn place(&self, labels: Vec<Label>) -> (Vec<PlacedLabel>, usize) {
         let mut placed: Vec<PlacedLabel> = Vec::new();
         let count = labels.len();
+        let mut points: Vec<(i32, i32)> = labels.iter().take(MAX_LABELS).map(|label| label.at).collect();
+        points.sort_unstable();
+        points.dedup();
         for label in labels.into_iter().take(MAX_LABELS) {
             let free = |at: &[i32; 4]| self.holds(at) && !placed.iter().any(|p| overlap(&p.at, at));
-            let cost = |at: &[i32; 4], reach: f64| self.hidden(*at) + 0.12 * reach;
             let spots = LABEL_DISTANCES.iter().flat_map(|reach| SIDES.iter().map(move |side| (*reach, *side)));
             let spots = spots.map(|(reach, side)| (reach, self.label_rectangle(&label, reach, side)));
-            let best = spots.filter(|(_, at)| free(at)).map(|(reach, at)| (cost(&at, reach), at));
+            let best = spots.filter(|(_, at)| free(at)).map(|(reach, at)| {
+                let is_ambiguous = self.is_ambiguous(&label, &at, &points);
+                let cost = self.hidden(at) + 0.12 * reach + if is_ambiguous { AMBIGUITY_COST } else { 0.0 };
+                (cost, at, is_ambiguous)
+            });
             // the first of equals, so that the picture is the same every time
-            let best = best.fold(None, |best: Option<(f64, [i32; 4])>, new| match best {
+            let best = best.fold(None, |best: Option<(f64, [i32; 4], bool)>, new| match best {
                 Some(old) if old.0 <= new.0 => Some(old),
                 _ => Some(new),
             });
-            placed.extend(best.map(|(_, at)| PlacedLabel { label, at }));
+            placed.extend(best.map(|(_, at, is_ambiguous)| PlacedLabel { label, at, is_ambiguous }));
         }
         let left_out = count - placed.len();
         (placed, left_out)
+    }
+
+    /// Whether another named point is about as near to a name's rectangle as its own point.
+    fn is_ambiguous(&self, label: &Label, at: &[i32; 4], points: &[(i32, i32)]) -> bool {
+        let own = distance(at, label.at);
+        let is_other = |p: &&(i32, i32)| (p.0 - label.at.0).abs() + (p.1 - label.at.1).abs() > self.letter.0 / 4;
+        points.iter().filter(is_other).any(|p| distance(at, *p) < own + f64::from(self.letter.0))
     }
 
     /// The rectangle of a name on a side of its place, on whole letters where the sheet is made of them.
@@ -117,17 +134,28 @@ impl Sheet {
             -1 => label.at.1 + by,
             _ => label.at.1 - height / 2,
         };
-        if height > 4 {
+        if !self.in_characters() {
             return [left, top, width, height];
         }
         let whole = |at: i32, size: i32| at.div_euclid(size) * size;
         [whole(left, self.letter.0), whole(top + height / 2, height), width, height]
     }
 
+    /// Whether the sheet is made of characters: names stand on whole ones.
+    fn in_characters(&self) -> bool {
+        self.letter.1 <= 4
+    }
+
     fn holds(&self, at: &[i32; 4]) -> bool {
         let [left, top, width, height] = self.at;
         at[0] >= left && at[1] >= top && at[0] + at[2] <= left + width && at[1] + at[3] <= top + height
     }
+}
+
+/// Distance of a point from a rectangle; zero within it.
+fn distance([left, top, width, height]: &[i32; 4], (x, y): (i32, i32)) -> f64 {
+    let beyond = |at: i32, from: i32, size: i32| f64::from((from - at).max(at - from - size).max(0));
+    beyond(x, *left, *width).hypot(beyond(y, *top, *height))
 }
 
 fn overlap(a: &[i32; 4], b: &[i32; 4]) -> bool {
@@ -151,6 +179,21 @@ mod tests {
             assert!(sheet.holds(&a.at));
             assert!(placed.iter().skip(i + 1).all(|b| !overlap(&a.at, &b.at)));
         }
+    }
+
+    #[test]
+    fn label_stands_nearer_its_own_point_than_any_other() {
+        // two points four letters apart: each name on the far side of the other point
+        let sheet = Sheet::new([0, 0, 300, 200], (8, 16));
+        let (placed, _) = sheet.place(vec![label("F1", (150, 100)), label("F2", (182, 100))]);
+        assert!(placed.iter().all(|p| !p.is_ambiguous), "{placed:?}");
+        for name in &placed {
+            let other = if name.label.text == "F1" { (182, 100) } else { (150, 100) };
+            assert!(distance(&name.at, name.label.at) < distance(&name.at, other), "{placed:?}");
+        }
+        // of two points in nearly one place one name is ambiguous, and has a line to its point
+        let (placed, _) = sheet.place(vec![label("A", (150, 100)), label("B", (153, 100))]);
+        assert!(placed.iter().any(|p| p.is_ambiguous), "{placed:?}");
     }
 
     #[test]

@@ -9,26 +9,26 @@ pub use view::View;
 use crate::report::format;
 use crate::report::page;
 use crate::report::plot::draw::to_plot_error;
-use crate::report::plot::{PlotError, raster, terminal};
-use draw::{Pen, PictureStyle, SIGNS, STROKES, mark_index};
+use crate::report::plot::{PlotError, SUBPIXELS, draw_svg, raster, terminal};
+use draw::{Pen, PictureStyle, SIGNS, STROKES, TensionScale, mark_index};
 use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::prelude::{BLACK, DrawingBackend, RGBColor, SVGBackend, WHITE};
+use plotters::drawing::DrawingArea;
+use plotters::prelude::{BLACK, DrawingBackend, RGBColor, WHITE};
 use std::cell::RefCell;
 use std::rc::Rc;
 use view::{Extent, ViewFrame, ViewKind, round_length};
-use windlass_base::geometry::Position;
+use windlass_base::geometry::{Position, unit_vector};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_solve::scene::{Scene, Sign, Stroke};
 
-/// Width of a page and its margin (pixels).
-const PAGE: (i32, i32) = (1000, 16);
-/// Height of the title, of the words above a view, of the axes and scale below it, of a row of the legend (pixels).
-const ROW_HEIGHTS: [i32; 4] = [44, 24, 68, 26];
-/// Pixels left free within the frame of a view: at each side, above and below.
-const FRAME_MARGINS: (i32, i32) = (70, 36);
-/// Least and largest height of a view (pixels): of a plan or isometric view, and of an elevation.
-const HEIGHTS: [(i32, i32); 2] = [(160, 620), (150, 420)];
+/// Width of a page and its margin (tenths of a pixel, as all lengths of a page).
+const PAGE: (i32, i32) = (1000 * SUBPIXELS, 16 * SUBPIXELS);
+/// Height of the title, of the words above a view, of the axes and scale below it, of a row of the legend.
+const ROW_HEIGHTS: [i32; 4] = [44 * SUBPIXELS, 24 * SUBPIXELS, 68 * SUBPIXELS, 26 * SUBPIXELS];
+/// Room left free within the frame of a view: at each side, above and below.
+const FRAME_MARGINS: (i32, i32) = (70 * SUBPIXELS, 36 * SUBPIXELS);
+/// Least and largest height of a view: of a plan or isometric view, and of an elevation.
+const HEIGHTS: [(i32, i32); 2] = [(160 * SUBPIXELS, 620 * SUBPIXELS), (150 * SUBPIXELS, 420 * SUBPIXELS)];
 /// A coordinate beyond this (m) is not drawn.
 const MAX_COORDINATE_M: f64 = 1e9;
 
@@ -45,6 +45,10 @@ pub struct Picture {
     pub names: bool,
     /// Units of the scale bar.
     pub units: UnitSystem,
+    /// Whether lines have the colours of their tension in a file.
+    pub tensions: bool,
+    /// Where north lies, from +X toward +Y (rad), where plans show it.
+    pub north: Option<f64>,
 }
 
 /// The corners of a rectangle at an elevation about all that a scene holds, with a little room.
@@ -88,25 +92,23 @@ impl Picture {
     }
 
     fn svg(&self) -> Result<(Vec<u8>, usize), PlotError> {
-        let mut text = String::new();
-        let left_out = {
-            let panels = self.panels()?;
-            let size = (PAGE.0.unsigned_abs(), self.height(&panels).unsigned_abs());
-            let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
-            let left_out = self.page(&area, &panels)?;
-            area.present().map_err(to_plot_error)?;
-            left_out
-        };
-        Ok((text.into_bytes(), left_out))
+        let panels = self.panels()?;
+        draw_svg(self.page_size(&panels), |area| self.page(area, &panels))
     }
 
     fn png(&self) -> Result<(Vec<u8>, usize), PlotError> {
         let panels = self.panels()?;
-        let size = (PAGE.0.unsigned_abs(), self.height(&panels).unsigned_abs());
-        let canvas = Rc::new(RefCell::new(raster::RasterCanvas::new(size.0, size.1)));
+        let (width, height) = self.page_size(&panels);
+        let canvas = Rc::new(RefCell::new(raster::RasterCanvas::new(width, height)));
         let left_out = self.page(&DrawingArea::from(&canvas), &panels)?;
         let bytes = canvas.borrow().encode().map_err(|e| PlotError::Backend(e.to_string()))?;
         Ok((bytes, left_out))
+    }
+
+    /// Width and height of the page (pixels).
+    fn page_size(&self, panels: &[(View, ViewFrame)]) -> (u32, u32) {
+        let pixels = |length: i32| (length / SUBPIXELS).unsigned_abs();
+        (pixels(PAGE.0), pixels(self.height(panels)))
     }
 
     /// The frames of the views on a page, one below the other, each as high as it needs.
@@ -128,8 +130,14 @@ impl Picture {
         Ok(panels)
     }
 
+    /// The colours of tension; `None` where they are not wanted or no tension is known.
+    fn tension_scale(&self) -> Option<TensionScale> {
+        TensionScale::of_scene(&self.scene).filter(|_| self.tensions)
+    }
+
     fn height(&self, panels: &[(View, ViewFrame)]) -> i32 {
-        let [title, _, foot, legend] = ROW_HEIGHTS;
+        let [title, _, foot, row] = ROW_HEIGHTS;
+        let legend = if self.tension_scale().is_some() { 2 * row } else { row };
         panels.last().map_or(title, |(_, frame)| frame.at[1] + frame.at[3] + foot) + legend + PAGE.1 / 2
     }
 
@@ -138,34 +146,46 @@ impl Picture {
         area: &DrawingArea<B, Shift>,
         panels: &[(View, ViewFrame)],
     ) -> Result<usize, PlotError> {
-        let look = PictureStyle { terminal: false, letter: (8, 16) };
+        let look = PictureStyle { terminal: false, unit: SUBPIXELS, letter: (8 * SUBPIXELS, 16 * SUBPIXELS) };
         let pen = Pen::new(area, &look);
+        let px = |pixels: i32| look.px(pixels);
         area.fill(&WHITE).map_err(to_plot_error)?;
-        pen.text(&self.title, (PAGE.1, 12), 22, BLACK)?;
+        pen.text(&self.title, (PAGE.1, px(12)), 22, BLACK)?;
         let mut left_out = 0;
+        let tensions = self.tension_scale();
         for (view, frame) in panels {
             let [left, top, width, height] = frame.at;
-            pen.text(&view.title(), (left, top - 20), 15, BLACK)?;
-            left_out += pen.view(&self.scene, view, frame, self.names)?;
+            pen.text(&view.title(), (left, top - px(20)), 15, BLACK)?;
+            left_out += pen.view((&self.scene, tensions.as_ref()), view, frame, self.names)?;
             pen.frame(frame)?;
             let (right, low) = (left + width, top + height);
-            pen.axes(view, (left + 44, low + 50))?;
+            pen.axes(view, (left + px(44), low + px(50)))?;
+            if let (Some(north), ViewKind::Plan) = (self.north, view.kind) {
+                let (cos, sin) = unit_vector(north);
+                pen.north((right - px(40), top + px(52)), view.project([cos, sin, 0.0]))?;
+            }
             let (length, words) = self.scale(frame, 0.25 * f64::from(width));
-            pen.scale((right - 10, low + 20), length, &words)?;
+            pen.scale((right - px(10), low + px(20)), length, &words)?;
         }
         let mut x = PAGE.1;
-        let y = self.height(panels) - PAGE.1 / 2 - ROW_HEIGHTS[3] / 2;
+        let mut y = self.height(panels) - PAGE.1 / 2 - ROW_HEIGHTS[3] / 2;
+        if let Some(scale) = tensions {
+            let [low, high] = [scale.low, scale.high].map(|tension| Dim::Force.from_si(tension, self.units));
+            let value = |tension: f64| format::tick(tension, (high - low).max(1e-3 * high.abs()) / 100.0, high.abs());
+            let caption = format!("tension along the line ({})", Dim::Force.label(self.units));
+            pen.tension_bar((x, y), [&value(low), &value(high), &caption])?;
+            y -= ROW_HEIGHTS[3];
+        }
         let grey = RGBColor(60, 60, 60);
-        let letters = |words: &str| 8 * i32::try_from(words.len()).unwrap_or(0);
         for (stroke, words) in self.strokes() {
-            pen.stroke(stroke, vec![(x, y), (x + 30, y)])?;
-            pen.text(words, (x + 36, y - 8), 15, grey)?;
-            x += 36 + letters(words) + 22;
+            pen.stroke(stroke, vec![(x, y), (x + px(30), y)])?;
+            pen.text(words, (x + px(36), y - px(8)), 15, grey)?;
+            x += px(36 + 22) + look.text_width(words);
         }
         for (sign, words) in self.signs() {
-            pen.sign(sign, (x + 6, y))?;
-            pen.text(words, (x + 18, y - 8), 15, grey)?;
-            x += 18 + letters(words) + 22;
+            pen.sign(sign, (x + px(6), y))?;
+            pen.text(words, (x + px(18), y - px(8)), 15, grey)?;
+            x += px(18 + 22) + look.text_width(words);
         }
         Ok(left_out)
     }
@@ -199,7 +219,7 @@ impl Picture {
     /// [`PlotError`].
     pub fn terminal(&self, columns: usize, lines: usize) -> Result<String, PlotError> {
         let (columns, lines) = (columns.clamp(20, 200), lines.clamp(10, 100));
-        let look = PictureStyle { terminal: true, letter: (2, 4) };
+        let look = PictureStyle { terminal: true, unit: 1, letter: (2, 4) };
         let mut text = String::new();
         for view in &self.views {
             // three lines are for the title, the view and the scale
@@ -213,7 +233,7 @@ impl Picture {
             let at = [0, 0, width, size(height, 4)];
             let frame = ViewFrame::fit(&extent, at, free);
             let canvas = Rc::new(RefCell::new(terminal::TextCanvas::new(columns, height)));
-            Pen::new(&DrawingArea::from(&canvas), &look).view(&self.scene, view, &frame, self.names)?;
+            Pen::new(&DrawingArea::from(&canvas), &look).view((&self.scene, None), view, &frame, self.names)?;
             for line in [page::centre(&self.title, columns), page::centre(&view.title(), columns)] {
                 text.push_str(line.trim_end());
                 text.push('\n');

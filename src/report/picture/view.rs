@@ -65,6 +65,17 @@ impl View {
         [dot(self.right), dot(self.up)]
     }
 
+    /// The direction to the viewer (unit vector, global).
+    pub fn viewer(&self) -> Position {
+        let altitude = match self.kind {
+            ViewKind::Plan => FRAC_PI_2,
+            ViewKind::Elevation => 0.0,
+            ViewKind::Axonometric => ISOMETRIC,
+        };
+        let ((c, s), (ca, sa)) = (unit_vector(self.from), unit_vector(altitude));
+        [c * ca, s * ca, sa]
+    }
+
     /// What stands above the picture.
     pub fn title(&self) -> String {
         let (c, s) = unit_vector(self.from);

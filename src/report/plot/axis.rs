@@ -40,6 +40,18 @@ impl PlotAxis {
         PlotAxis { low, high, most }
     }
 
+    /// The same two axes with one scale for both on a plane of so many units of the surface to the right and up: the one
+    /// that would be drawn larger is widened about its middle.
+    pub fn with_equal_scales(x: &PlotAxis, y: &PlotAxis, [width, height]: [f64; 2]) -> (PlotAxis, PlotAxis) {
+        let length = |axis: &PlotAxis| axis.high - axis.low;
+        let scale = (length(x) / width.max(1.0)).max(length(y) / height.max(1.0));
+        let widened = |axis: &PlotAxis, room: f64| {
+            let (middle, half) = (0.5 * (axis.low + axis.high), 0.5 * scale * room.max(1.0));
+            PlotAxis { low: middle - half, high: middle + half, most: axis.most }
+        };
+        (widened(x, width), widened(y, height))
+    }
+
     /// Where a value stands: 0 at the low end, 1 at the high one.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.low) / (self.high - self.low)
@@ -110,6 +122,14 @@ mod tests {
         let axis = PlotAxis::fit([0.0, 2.5e-4].into_iter(), 6).unwrap();
         let labels: Vec<String> = axis.ticks(6).into_iter().map(|t| axis.label(t)).collect();
         assert_eq!(labels, ["0", "0.00005", "0.00010", "0.00015", "0.00020", "0.00025"]);
+    }
+
+    #[test]
+    fn equal_scales_give_both_axes_the_same_length_a_unit() {
+        let axis = |low, high| PlotAxis { low, high, most: 8 };
+        let (x, y) = PlotAxis::with_equal_scales(&axis(0.0, 100.0), &axis(-5.0, 5.0), [800.0, 400.0]);
+        assert_eq!((x.low, x.high), (0.0, 100.0));
+        assert_eq!((y.low, y.high), (-25.0, 25.0));
     }
 
     proptest! {

@@ -1,36 +1,36 @@
 //! Drawing a chart on any surface of plotters: axes, mesh, curves, legend.
 
 use super::axis::PlotAxis;
-use super::{Chart, PlotError, PlotSeries, terminal};
+use super::stroke::{CurveStyle, dashes};
+use super::{Chart, PlotError, PlotSeries, SUBPIXELS, terminal};
 use plotters::chart::{ChartBuilder, DualCoordChartContext};
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
-use plotters::element::{Circle, PathElement, Rectangle, Text};
+use plotters::element::{Circle, PathElement, Text};
 use plotters::prelude::{BLACK, ChartContext, Color, DrawingBackend, RGBColor, WHITE};
-use plotters::series::LineSeries;
+use plotters::style::ShapeStyle;
 
-/// Colours that stay apart for colour-blind eyes [OKABE-ITO-2008], in fixed order.
-pub const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(0, 0, 0),
-];
 /// Up to this many points a curve shows its points too, where no other column is of marks alone.
 const MAX_MARKED_POINTS: usize = 60;
 /// Radius of a point of a curve, and of a mark that stands alone (pixels).
 const MARK_RADII: (i32, i32) = (3, 6);
-/// Height of a line of the legend and length of the stroke in it (pixels).
-const LEGEND: (i32, i32) = (20, 26);
+/// Width of the stroke of a curve (pixels).
+const CURVE_WIDTH: u32 = 2;
+/// Height of a row of the legend, length of the stroke in it, width of a letter, room between two entries (pixels).
+const LEGEND: [i32; 4] = [20, 34, 8, 26];
+/// Most letters of a name in the legend; a longer one is cut.
+const MAX_LEGEND_LETTERS: i32 = 60;
+/// Most rows of a legend; further names are counted in its last row.
+const MAX_LEGEND_ROWS: usize = 12;
 
 /// What differs between a page and a terminal: sizes in pixels of the surface, numbers of ticks.
 pub struct PlotStyle {
     pub terminal: bool,
+    /// Units of the surface a pixel.
+    pub unit: i32,
     pub text: i32,
+    pub title: i32,
     margin: i32,
     areas: (i32, i32),
     ticks: (usize, usize),
@@ -38,14 +38,27 @@ pub struct PlotStyle {
 }
 
 impl PlotStyle {
-    /// A page of 900 by 600 pixels.
-    pub const PAGE: PlotStyle =
-        PlotStyle { terminal: false, text: 15, margin: 16, areas: (54, 92), ticks: (10, 10), mark: 5 };
+    /// A page of 900 by 600 pixels, in tenths of a pixel.
+    pub const PAGE: PlotStyle = PlotStyle {
+        terminal: false,
+        unit: SUBPIXELS,
+        text: 15 * SUBPIXELS,
+        title: 22 * SUBPIXELS,
+        margin: 16 * SUBPIXELS,
+        areas: (54 * SUBPIXELS, 92 * SUBPIXELS),
+        ticks: (10, 10),
+        mark: 5 * SUBPIXELS,
+    };
 
     /// A terminal of so many characters; titles stand outside of the drawing.
     pub fn terminal(columns: usize, lines: usize) -> PlotStyle {
         let ticks = ((columns / 12).clamp(2, 10), (lines / 4).clamp(2, 10));
-        PlotStyle { terminal: true, text: 4, margin: 0, areas: (8, 22), ticks, mark: 3 }
+        PlotStyle { terminal: true, unit: 1, text: 4, title: 0, margin: 0, areas: (8, 22), ticks, mark: 3 }
+    }
+
+    /// A stroke of so many pixels.
+    pub fn stroke(&self, colour: RGBColor, width: u32) -> ShapeStyle {
+        colour.stroke_width(width.saturating_mul(self.unit.unsigned_abs()))
     }
 }
 
@@ -62,11 +75,20 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
         return Err(PlotError::Range(x, y));
     }
     area.fill(&WHITE).map_err(to_plot_error)?;
-    let (mut paper, x, y) = if chart.polar {
-        let (plane, x, y) = super::polar::plane(chart, area, look)?;
+    let (area, below) = match legend_height(chart) {
+        rows if rows > 0 && !look.terminal => {
+            let height = area.dim_in_pixel().1;
+            let legend = (rows * look.unit).unsigned_abs();
+            let (upper, lower) = area.split_vertically(height.saturating_sub(legend));
+            (upper, Some(lower))
+        }
+        _ => (area.clone(), None),
+    };
+    let (mut paper, _, y) = if chart.polar {
+        let (plane, x, y) = super::polar::plane(chart, &area, look)?;
         (Paper::One(Box::new(plane)), x, y)
     } else {
-        draw_mesh(chart, area, look)?
+        draw_mesh(chart, &area, look)?
     };
     let taken = chart.on_the_left(&y, right_axis(chart, look).as_ref());
     let (chart, plane) = (&taken, paper.plane());
@@ -76,8 +98,8 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
             curve(plane, index, series, (look, shows_points(chart, series)))?;
         }
     }
-    if chart.series.len() > 1 && !look.terminal {
-        legend(chart, plane, (&x, &y))?;
+    if let Some(below) = below {
+        legend(chart, &below, look)?;
     }
     Ok(())
 }
@@ -133,11 +155,22 @@ fn draw_mesh<'a, B: DrawingBackend + 'a>(
     let left = chart.series.iter().filter(|s| right.is_none() || !s.right).flat_map(PlotSeries::finite);
     // with points on the right alone the left axis has their numbers
     let y = PlotAxis::fit(left.map(|p| p.1), look.ticks.1).or_else(|| right.clone()).ok_or(PlotError::Empty)?;
-    let mut builder = ChartBuilder::on(area);
+    let area = match look.terminal {
+        true => area.clone(),
+        false => area.titled(&chart.title, ("sans-serif", look.title)).map_err(to_plot_error)?,
+    };
+    let (x, y) = if chart.equal {
+        let (width, height) = area.dim_in_pixel();
+        let sides = if right.is_some() { 2 } else { 1 };
+        let room = |whole: u32, taken: i32| f64::from(whole) - f64::from(2 * look.margin + taken);
+        let plane = [room(width, sides * look.areas.1), room(height, look.areas.0)];
+        // a character cell of the terminal is two dots wide and four high, and twice as high as wide
+        PlotAxis::with_equal_scales(&x, &y, plane)
+    } else {
+        (x, y)
+    };
+    let mut builder = ChartBuilder::on(&area);
     builder.margin(look.margin).x_label_area_size(look.areas.0).y_label_area_size(look.areas.1);
-    if !look.terminal {
-        builder.caption(&chart.title, ("sans-serif", 22));
-    }
     if right.is_some() {
         builder.right_y_label_area_size(look.areas.1);
     }
@@ -158,7 +191,8 @@ fn draw_mesh<'a, B: DrawingBackend + 'a>(
         mesh.disable_mesh();
     } else {
         mesh.x_desc(&chart.x_label).y_desc(&chart.y_label).axis_desc_style(("sans-serif", look.text));
-        mesh.light_line_style(RGBColor(240, 240, 240)).bold_line_style(RGBColor(215, 215, 215));
+        mesh.light_line_style(look.stroke(RGBColor(240, 240, 240), 1));
+        mesh.bold_line_style(look.stroke(RGBColor(215, 215, 215), 1)).axis_style(look.stroke(BLACK, 1));
     }
     mesh.draw().map_err(to_plot_error)?;
     if let (Paper::Two(both), Some(axis)) = (&mut paper, &right) {
@@ -168,6 +202,7 @@ fn draw_mesh<'a, B: DrawingBackend + 'a>(
             .y_labels(look.ticks.1)
             .y_label_formatter(&label)
             .set_all_tick_mark_size(look.mark)
+            .axis_style(look.stroke(BLACK, 1))
             .label_style(("sans-serif", look.text));
         if !look.terminal {
             ticks.y_desc(chart.right_label.clone().unwrap_or_default()).axis_desc_style(("sans-serif", look.text));
@@ -175,10 +210,6 @@ fn draw_mesh<'a, B: DrawingBackend + 'a>(
         ticks.draw().map_err(to_plot_error)?;
     }
     Ok((paper, x, y))
-}
-
-fn colour(index: usize) -> RGBColor {
-    COLOURS.get(index % COLOURS.len()).copied().unwrap_or(BLACK)
 }
 
 /// Whether a curve shows its points: they are few, and would not be taken for the marks of another column.
@@ -196,65 +227,113 @@ fn curve<B: DrawingBackend>(
     (look, points_too): (&PlotStyle, bool),
 ) -> Result<(), PlotError> {
     let marks = series.is_marks();
-    let (colour, stroke) = if look.terminal { (terminal::colour(index, marks), 1) } else { (colour(index), 2) };
+    let style = CurveStyle::new(index);
+    let (colour, pattern) =
+        if look.terminal { (terminal::colour(index, marks), &[][..]) } else { (style.colour, style.pattern) };
+    let pattern: Vec<f64> = pattern.iter().map(|length| length * f64::from(look.unit)).collect();
+    let width = if look.terminal { 1 } else { CURVE_WIDTH };
     let radius = match (look.terminal, marks) {
         (true, _) => 0,
-        (false, true) => MARK_RADII.1,
-        (false, false) => MARK_RADII.0,
+        (false, true) => MARK_RADII.1 * look.unit,
+        (false, false) => MARK_RADII.0 * look.unit,
     };
+    let pixels = plane.plotting_area().strip_coord_spec();
+    let corner = pixels.get_base_pixel();
     for points in series.runs() {
-        plane.draw_series(LineSeries::new(points.clone(), colour.stroke_width(stroke))).map_err(to_plot_error)?;
+        let path: Vec<(i32, i32)> = points
+            .iter()
+            .map(|p| {
+                let (x, y) = plane.backend_coord(p);
+                (x - corner.0, y - corner.1)
+            })
+            .collect();
+        for piece in dashes(&path, &pattern) {
+            pixels.draw(&PathElement::new(piece, look.stroke(colour, width))).map_err(to_plot_error)?;
+        }
         if points.len() == 1 || (points_too && !look.terminal) {
-            plane
-                .draw_series(points.iter().map(|p| Circle::new(*p, radius, colour.filled())))
-                .map_err(to_plot_error)?;
+            for at in path {
+                pixels.draw(&Circle::new(at, radius, colour.filled())).map_err(to_plot_error)?;
+            }
         }
     }
     Ok(())
 }
 
-/// The legend, in the corner where it hides the fewest points.
-fn legend<B: DrawingBackend>(
-    chart: &Chart,
-    plane: &PlotSurface<'_, B>,
-    axes: (&PlotAxis, &PlotAxis),
-) -> Result<(), PlotError> {
-    let area = plane.plotting_area().strip_coord_spec();
-    let (width, height) = area.dim_in_pixel();
-    let (width, height) = (i32::try_from(width).unwrap_or(0), i32::try_from(height).unwrap_or(0));
-    let letters = chart.series.iter().map(|s| s.legend_name().chars().count()).max().unwrap_or(0);
-    let box_width = 8 * i32::try_from(letters).unwrap_or(0) + LEGEND.1 + 30;
-    let box_height = LEGEND.0 * i32::try_from(chart.series.len()).unwrap_or(0) + 10;
-    let (right, low) = (width - box_width - 10, height - box_height - 10);
-    let hidden = |corner: &(i32, i32)| {
-        let inside = |at: i32, from: i32, size: i32| (from - 8..from + size + 8).contains(&at);
-        let pixel = |share: f64, size: i32| (share * f64::from(size)).round() as i32;
-        let points = chart.series.iter().flat_map(PlotSeries::finite);
-        let covered = points.filter(|p| {
-            inside(pixel(axes.0.share(p.0), width), corner.0, box_width)
-                && inside(pixel(1.0 - axes.1.share(p.1), height), corner.1, box_height)
-        });
-        covered.count()
-    };
-    let corners = [(10, 10), (right, 10), (right, low), (10, low)];
-    let (left, top) = corners.into_iter().min_by_key(hidden).unwrap_or((10, 10));
-    let frame = [(left, top), (left + box_width, top + box_height)];
-    area.draw(&Rectangle::new(frame, WHITE.mix(0.9).filled())).map_err(to_plot_error)?;
-    area.draw(&Rectangle::new(frame, RGBColor(150, 150, 150))).map_err(to_plot_error)?;
+/// An entry of the legend with its width (pixels).
+fn legend_width(series: &PlotSeries) -> i32 {
+    let letters = i32::try_from(series.legend_name().chars().count()).unwrap_or(0).min(MAX_LEGEND_LETTERS);
+    LEGEND[1] + 8 + LEGEND[2] * letters + LEGEND[3]
+}
+
+/// The rows of the legend: which curves stand in each, and how many find no room in it.
+fn legend_rows(chart: &Chart) -> (Vec<Vec<usize>>, usize) {
+    let room = i32::try_from(super::SIZE.0).unwrap_or(0) - 2 * LEGEND[3];
+    let mut rows: Vec<Vec<usize>> = Vec::new();
+    let mut filled = room;
     for (index, series) in chart.series.iter().enumerate() {
-        let y = top + 5 + LEGEND.0 * i32::try_from(index).unwrap_or(0) + LEGEND.0 / 2;
-        let stroke = vec![(left + 10, y), (left + 10 + LEGEND.1, y)];
-        let marks = series.is_marks();
-        if !marks {
-            area.draw(&PathElement::new(stroke, colour(index).stroke_width(2))).map_err(to_plot_error)?;
+        let width = legend_width(series);
+        if filled + width > room {
+            if rows.len() == MAX_LEGEND_ROWS {
+                return (rows, chart.series.len() - index);
+            }
+            rows.push(Vec::new());
+            filled = 0;
         }
-        if marks || shows_points(chart, series) {
-            let radius = if marks { MARK_RADII.1 } else { MARK_RADII.0 };
-            area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), radius, colour(index).filled()))
-                .map_err(to_plot_error)?;
+        filled += width;
+        if let Some(row) = rows.last_mut() {
+            row.push(index);
         }
-        let at = (left + 20 + LEGEND.1, y - 8);
-        area.draw(&Text::new(series.legend_name(), at, ("sans-serif", 15))).map_err(to_plot_error)?;
+    }
+    (rows, 0)
+}
+
+/// Height of the legend below a page's plot (pixels); none of a single curve.
+pub fn legend_height(chart: &Chart) -> i32 {
+    if chart.series.len() < 2 {
+        return 0;
+    }
+    let (rows, left_out) = legend_rows(chart);
+    LEGEND[0] * i32::try_from(rows.len() + usize::from(left_out > 0)).unwrap_or(0) + 10
+}
+
+/// The legend, below the plot.
+fn legend<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look: &PlotStyle) -> Result<(), PlotError> {
+    let at = |x: i32, y: i32| (x * look.unit, y * look.unit);
+    let style = ("sans-serif", look.text);
+    let (rows, left_out) = legend_rows(chart);
+    let mut y = LEGEND[0] / 2;
+    for row in rows {
+        let mut x = LEGEND[3];
+        for series in row.into_iter().filter_map(|index| chart.series.get(index).map(|s| (index, s))) {
+            let (index, series) = series;
+            let CurveStyle { colour, pattern } = CurveStyle::new(index);
+            let marks = series.is_marks();
+            if !marks {
+                let pattern: Vec<f64> = pattern.iter().map(|length| length * f64::from(look.unit)).collect();
+                for piece in dashes(&[at(x, y), at(x + LEGEND[1], y)], &pattern) {
+                    area.draw(&PathElement::new(piece, look.stroke(colour, CURVE_WIDTH))).map_err(to_plot_error)?;
+                }
+            }
+            if marks || shows_points(chart, series) {
+                let radius = if marks { MARK_RADII.1 } else { MARK_RADII.0 } * look.unit;
+                let dot = Circle::new(at(x + LEGEND[1] / 2, y), radius, colour.filled());
+                area.draw(&dot).map_err(to_plot_error)?;
+            }
+            let name = series.legend_name();
+            let most = usize::try_from(MAX_LEGEND_LETTERS).unwrap_or(0);
+            let name = if name.chars().count() > most {
+                name.chars().take(most - 2).chain("..".chars()).collect()
+            } else {
+                name
+            };
+            area.draw(&Text::new(name, at(x + LEGEND[1] + 8, y - 8), style)).map_err(to_plot_error)?;
+            x += legend_width(series);
+        }
+        y += LEGEND[0];
+    }
+    if left_out > 0 {
+        let words = format!("and {left_out} more");
+        area.draw(&Text::new(words, at(LEGEND[3], y - 8), style)).map_err(to_plot_error)?;
     }
     Ok(())
 }

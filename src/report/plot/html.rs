@@ -1,6 +1,6 @@
 //! A chart as one page of HTML with nothing to be fetched from elsewhere (share/plot): it shows values, zooms, hides curves.
 
-use super::draw::COLOURS;
+use super::stroke::CurveStyle;
 use super::{Chart, PlotError, PlotSeries};
 use crate::report::embedded::{self, doubles, list, object, string};
 
@@ -37,12 +37,13 @@ impl Chart {
             let of = |pick: fn((f64, f64)) -> f64| {
                 doubles(series.points.iter().map(|p| super::finite(*p).map_or(f64::NAN, pick)))
             };
-            let colour = COLOURS.get(index % COLOURS.len()).map_or((0, 0, 0), |c| (c.0, c.1, c.2));
+            let CurveStyle { colour, pattern } = CurveStyle::new(index);
             object([
                 ("name", string(&series.legend_name())),
                 ("right", series.right.to_string()),
                 ("marks", series.is_marks().to_string()),
                 ("colour", string(&format!("rgb({}, {}, {})", colour.0, colour.1, colour.2))),
+                ("dashes", list(pattern.iter().map(f64::to_string))),
                 ("x", of(|p| p.0)),
                 ("y", of(|p| p.1)),
             ])
@@ -51,6 +52,7 @@ impl Chart {
             ("title", string(&self.title)),
             ("x", string(&self.x_label)),
             ("left", string(&self.y_label)),
+            ("equal", self.equal.to_string()),
             ("right", self.right_label.as_ref().map_or("null".into(), |l| string(l))),
             ("curves", list(self.series.iter().enumerate().map(curve))),
         ]);

@@ -5,10 +5,12 @@ pub(super) mod draw;
 mod html;
 mod polar;
 pub(super) mod raster;
+pub(super) mod stroke;
 pub(super) mod terminal;
 
 use crate::report::{format, page};
 use draw::{PlotStyle, draw, to_plot_error};
+use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::prelude::SVGBackend;
 use std::cell::RefCell;
@@ -16,7 +18,11 @@ use std::rc::Rc;
 use windlass_base::table::{Cell, Column, Table};
 use windlass_base::units::{Dim, UnitSystem};
 
-/// Size of a plot in a file (pixels).
+/// Units of a drawn page a pixel: places and widths are in tenths of a pixel, so that strokes are not bound to whole ones.
+pub const SUBPIXELS: i32 = 10;
+/// Largest ratio of the sides of lengths over lengths that are drawn to one scale unless something else is asked for.
+const MAX_SIDES_RATIO: f64 = 5.0;
+/// Size of a plot in a file, without its legend (pixels).
 const SIZE: (u32, u32) = (900, 600);
 
 /// A line of a chart; points without a finite value break it, and where no two neighbours have one there are marks alone.
@@ -45,6 +51,8 @@ pub struct Chart {
     pub series: Vec<PlotSeries>,
     /// Whether it is a polar plot: both axes have one scale, and circles and rays stand in place of a mesh.
     pub polar: bool,
+    /// Whether both axes have one scale, so that lengths can be compared.
+    pub equal: bool,
 }
 
 /// Why a plot could not be drawn.
@@ -83,6 +91,28 @@ pub enum PlotError {
     /// More points than a page bears.
     #[error("a page bears {most} points, and these are {0}: -RECORD or -VALUES takes a part of the rows", most = html::MAX_PAGE_POINTS)]
     TooMany(usize),
+}
+
+/// An SVG image of so many pixels, drawn in tenths of them, with what the drawing returns.
+///
+/// # Errors
+/// Those of the drawing.
+pub(in crate::report) fn draw_svg<T>(
+    (width, height): (u32, u32),
+    draw: impl FnOnce(&DrawingArea<SVGBackend, Shift>) -> Result<T, PlotError>,
+) -> Result<(Vec<u8>, T), PlotError> {
+    let tenths = |n: u32| n.saturating_mul(SUBPIXELS.unsigned_abs());
+    let inner = (tenths(width), tenths(height));
+    let mut text = String::new();
+    let outcome = {
+        let area = SVGBackend::with_string(&mut text, inner).into_drawing_area();
+        let outcome = draw(&area)?;
+        area.present().map_err(to_plot_error)?;
+        outcome
+    };
+    // the picture has the size of its pixels, and the coordinates of their tenths
+    let size = |(width, height): (u32, u32)| format!("width=\"{width}\" height=\"{height}\"");
+    Ok((text.replacen(&size(inner), &size((width, height)), 1).into_bytes(), outcome))
 }
 
 impl PlotSeries {
@@ -178,7 +208,18 @@ impl Chart {
             right_label: if on_right.is_empty() { None } else { Some(label(&on_right, units)?) },
             series: series.collect(),
             polar: false,
+            equal: false,
         })
+    }
+
+    /// Whether neither side of what is drawn is more than five times the other: one scale for both axes leaves room for the curves.
+    pub fn has_similar_sides(&self) -> bool {
+        let extent = |pick: fn((f64, f64)) -> f64| {
+            let values = || self.series.iter().flat_map(PlotSeries::finite).map(pick);
+            values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+        };
+        let (x, y) = (extent(|p| p.0), extent(|p| p.1));
+        x > 0.0 && y > 0.0 && x.max(y) <= MAX_SIDES_RATIO * x.min(y)
     }
 
     /// The chart as a file, by the ending of its name.
@@ -199,13 +240,12 @@ impl Chart {
     /// # Errors
     /// [`PlotError`].
     pub fn svg(&self) -> Result<Vec<u8>, PlotError> {
-        let mut text = String::new();
-        {
-            let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-            draw(self, &area, &PlotStyle::PAGE)?;
-            area.present().map_err(to_plot_error)?;
-        }
-        Ok(text.into_bytes())
+        draw_svg(self.page_size(), |area| draw(self, area, &PlotStyle::PAGE)).map(|(bytes, ())| bytes)
+    }
+
+    /// Width and height of its page (pixels).
+    fn page_size(&self) -> (u32, u32) {
+        (SIZE.0, SIZE.1 + draw::legend_height(self).unsigned_abs())
     }
 
     /// The chart as PNG.
@@ -213,7 +253,8 @@ impl Chart {
     /// # Errors
     /// [`PlotError`].
     pub fn png(&self) -> Result<Vec<u8>, PlotError> {
-        let canvas = Rc::new(RefCell::new(raster::RasterCanvas::new(SIZE.0, SIZE.1)));
+        let (width, height) = self.page_size();
+        let canvas = Rc::new(RefCell::new(raster::RasterCanvas::new(width, height)));
         draw(self, &DrawingArea::from(&canvas), &PlotStyle::PAGE)?;
         canvas.borrow().encode().map_err(|e| PlotError::Backend(e.to_string()))
     }

@@ -2,13 +2,13 @@
 
 use super::axis::PlotAxis;
 use super::draw::{PlotStyle, PlotSurface, to_plot_error};
-use super::{Chart, PlotError, PlotSeries};
+use super::{Chart, PlotError, PlotSeries, SUBPIXELS};
 use crate::report::format;
 use plotters::chart::ChartBuilder;
 use plotters::coord::Shift;
 use plotters::drawing::DrawingArea;
 use plotters::element::{PathElement, Pixel, Text};
-use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
+use plotters::prelude::{BLACK, DrawingBackend, RGBColor};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{IntoFont, TextStyle};
 use windlass_base::table::Table;
@@ -19,7 +19,7 @@ const RAYS: (i32, i32) = (30, 90);
 /// Distance of the dots that a circle is on a terminal (degrees).
 const DOTS: i32 = 6;
 /// Height of the line below a page's plot (pixels).
-const FOOTER_HEIGHT: u32 = 34;
+const FOOTER_HEIGHT: u32 = 34 * SUBPIXELS.unsigned_abs();
 
 impl Chart {
     /// A polar chart of columns of a table over its first one, which holds directions.
@@ -82,9 +82,9 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
         let (width, _) = lower.dim_in_pixel();
         let middle = i32::try_from(width / 2).unwrap_or(0);
         lower
-            .draw(&Text::new(chart.x_label.clone(), (middle, 8), centred_style(look, VPos::Top)))
+            .draw(&Text::new(chart.x_label.clone(), (middle, 8 * look.unit), centred_style(look, VPos::Top)))
             .map_err(to_plot_error)?;
-        upper.titled(&chart.title, ("sans-serif", 22)).map_err(to_plot_error)?
+        upper.titled(&chart.title, ("sans-serif", look.title)).map_err(to_plot_error)?
     };
     let (width, height) = upper.dim_in_pixel();
     let (width, height) = (f64::from(width.max(1)), f64::from(height.max(1)));
@@ -106,14 +106,14 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
         } else {
             let circle: Vec<(f64, f64)> = (0..=360).step_by(3).map(|d| at(d, *ring)).collect();
             plane
-                .draw_series(std::iter::once(PathElement::new(circle, grey.stroke_width(1))))
+                .draw_series(std::iter::once(PathElement::new(circle, look.stroke(grey, 1))))
                 .map_err(to_plot_error)?;
         }
     }
     let every = if look.terminal { RAYS.1 } else { RAYS.0 };
     for degrees in (0..360).step_by(every as usize) {
         if !look.terminal {
-            let ray = PathElement::new(vec![(0.0, 0.0), at(degrees, rim)], grey.stroke_width(1));
+            let ray = PathElement::new(vec![(0.0, 0.0), at(degrees, rim)], look.stroke(grey, 1));
             plane.draw_series(std::iter::once(ray)).map_err(to_plot_error)?;
         }
         let name = Text::new(degrees.to_string(), at(degrees, 1.08 * rim), centred_style(look, VPos::Center));

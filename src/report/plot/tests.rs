@@ -79,7 +79,7 @@ fn isolated_points_are_markers_without_connecting_lines() {
         let drawn = chart(series);
         let svg = String::from_utf8(drawn.svg().unwrap()).unwrap();
         let circles = |radius: &str| svg.matches(&format!("r=\"{radius}\"")).count();
-        assert_eq!((circles("6"), circles("3")), (large, small), "{svg}");
+        assert_eq!((circles("60"), circles("30")), (large, small), "{svg}");
         let screen = drawn.terminal(60, 16).unwrap();
         let plot: String = screen.lines().take(14).collect();
         for (index, count) in marks {
@@ -140,7 +140,7 @@ fn curve_on_right_axis_fills_plot_like_one_on_left() {
     let chart = Chart { series, right_label: Some("N".into()), ..Chart::default() };
     let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
     let lines = |colour: &str| -> Vec<String> {
-        let wide = format!("stroke=\"{colour}\" stroke-width=\"2\"");
+        let wide = format!("stroke=\"{colour}\" stroke-width=\"20\"");
         svg.lines().filter(|l| l.contains(&wide) && l.contains("polyline")).map(|l| l.replace(colour, "")).collect()
     };
     assert_eq!(lines("#0072B2").first(), lines("#D55E00").first());

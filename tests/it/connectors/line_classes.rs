@@ -4,7 +4,7 @@
 use crate::common;
 
 use windlass::session::Session;
-use windlass_model::{Condition, LineLoads, LineModel, Placement};
+use windlass_model::{Condition, LineLoads, LineModel, LineSampling, Placement};
 
 /// A session in metres and newtons (sections in mm, stresses in MPa) that has read these class records.
 fn session(records: &str) -> Session {
@@ -304,7 +304,7 @@ fn positive_slope_is_deeper_at_anchor_than_below_vessel() {
     let exact = TABLED.replace(" -TABLE", "");
     for (slope, rises) in [(0.05, true), (-0.05, false)] {
         let shape = with_line(&format!("{exact} -SLOPE {slope}"), placement_at(1400.0), |l| {
-            l.geometry("A", Condition::Placed).unwrap()
+            l.geometry("A", Condition::Placed, LineSampling::Adaptive).unwrap()
         });
         let fact = |name: &str| shape.facts.iter().find(|f| f.name == name).unwrap().value.number().unwrap();
         let (x, z) = (fact("Touchdown at X"), fact("Touchdown at Z"));
@@ -322,7 +322,9 @@ fn clumps_and_spring_buoys_act_at_segment_end_and_follow_tide() {
         )
     };
     let joint = |records: &str| {
-        let table = with_line(records, placement_at(1250.0), |l| l.geometry("A", Condition::Placed).unwrap());
+        let table = with_line(records, placement_at(1250.0), |l| {
+            l.geometry("A", Condition::Placed, LineSampling::Adaptive).unwrap()
+        });
         let row = (0..table.rows()).map(|i| table.row(i)).find(|r| r[12].number().is_some()).unwrap();
         (row[1].number().unwrap(), table.notes.clone())
     };

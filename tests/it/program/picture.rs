@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::session;
-use windlass_model::{Condition, Model};
+use windlass_model::{Condition, LineSampling, Model};
 use windlass_solve::scene::{Scene, SceneOptions, Sign, Stroke};
 
 const MOORING: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY BARGE\n*BOW 0 0 5\n*STERN 100 0 5\n&INSTATE -CONDITION 0\n\
@@ -54,7 +54,7 @@ fn points_between_shape_rows_are_on_the_line() {
     let path = scene.paths.iter().find(|p| p.name == "B").unwrap();
     let connector = &model.connectors["B"];
     let line = model.classes["~W"].line(&model.placement(connector), &model.surroundings()).unwrap();
-    let table = line.geometry("B", Condition::Placed).unwrap();
+    let table = line.geometry("B", Condition::Placed, LineSampling::Adaptive).unwrap();
     let force = line.configuration(Condition::Placed).unwrap().horizontal;
     let a = force / 500.0;
     let bound = 3.0 * (700.0f64 / 10.0).powi(4) / (384.0 * a.powi(3));

@@ -5,7 +5,10 @@ use crate::scene::{CORNER_TURN_RAD, cubic};
 use crate::time::{AlongColumns, LinkColumns, RowLayout};
 use windlass_base::geometry::Position;
 use windlass_base::table::{Cell, Table};
-use windlass_model::{ClassError, Condition, Connector, Model, Placement};
+use windlass_model::{ClassError, Condition, Connector, LineSampling, Model, Placement};
+
+/// Points of the shape between which a film's points are found, inside each segment.
+const SHAPE_POINTS: LineSampling = LineSampling::Inside(9);
 
 /// How a connector is at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,7 +184,7 @@ fn hanging(model: &Model, connector: &Connector, count: usize) -> Result<Option<
     let class = model.classes.get(&Model::key(&connector.class));
     let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
     let line = class.line(&placement, &model.surroundings())?;
-    match line.geometry(&connector.name, Condition::Placed) {
+    match line.geometry(&connector.name, Condition::Placed, SHAPE_POINTS) {
         Ok(table) => Ok(resample_shape(&table, &placement, count)),
         // a spring that is pushed together is straight
         Err(_) if line.configuration(Condition::Placed).is_ok_and(|c| c.tension < 0.0) => Ok(None),

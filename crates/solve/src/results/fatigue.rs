@@ -12,7 +12,7 @@ use super::connectors::{force, poses};
 use windlass_base::pose::Pose;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::{Class, ClassError, Condition, Connector, FatigueSelection, Model, Placement};
+use windlass_model::{Class, ClassError, Condition, Connector, FatigueSelection, LineSampling, Model, Placement};
 use windlass_signal::SeriesError;
 use windlass_signal::fatigue::{
     Exposure, LineDamage, Loaded, SegmentDamage, SegmentLife, SnCurve, find, line_damage, line_life,
@@ -103,7 +103,7 @@ fn tensions(
             let other = placement.other.filter(|_| placement.anchored).or(Some(other));
             let first_length = row.get(active + 1).copied().filter(|l| l.is_finite()).or(placement.first_length);
             let here = Placement { fairlead, other, first_length, ..placement.clone() };
-            let shape = class.line(&here, &surroundings)?.geometry(name, Condition::Placed)?;
+            let shape = class.line(&here, &surroundings)?.geometry(name, Condition::Placed, LineSampling::Inside(0))?;
             let numbers = |column: &str| shape.get(column).map(|c| c.cells.as_slice()).unwrap_or_default();
             let mut seen = 0;
             for (segment, tension) in numbers("Segment").iter().zip(numbers("Tension")) {

@@ -1,5 +1,6 @@
 //! A line at rest between its ends where they stand.
 
+use super::summary::LineSummary;
 use super::{CLEARANCE, sections};
 use crate::link::{EndAttachment, build_pipe_link, end_attachments, pose_of};
 use crate::system::SolveError;
@@ -75,9 +76,19 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
         let tube = sections.iter().any(|s| s.tube.is_some());
         let rows: Vec<(usize, &LineNode)> = nodes.iter().enumerate().collect();
         let finite = |v: f64| v.is_finite().then_some(v + 0.0);
-        let mut table = Table::new("Line at Rest")
-            .fact("Line", name, Dim::None)
-            .fact("Model", Idealisation::Dynamic, Dim::None)
+        let utilisation = |node: &LineNode| {
+            let used = node.sides().filter_map(|side| {
+                let stress = side.stress.map(|s| s.von_mises);
+                Some(sections.get(side.segment)?.utilisation(node.effective, stress))
+            });
+            used.reduce(f64::max)
+        };
+        let most_used = nodes.iter().filter_map(|node| Some((utilisation(node)?, node.arc)));
+        let most_used = most_used.filter(|(used, _)| used.is_finite()).reduce(|a, b| if b.0 > a.0 { b } else { a });
+        let head =
+            Table::new("Line at Rest").fact("Line", name, Dim::None).fact("Model", Idealisation::Dynamic, Dim::None);
+        let mut table = LineSummary::new(&nodes, &sections, line.has_bending())
+            .add_to(head, most_used)
             .with_rows(&rows)
             .column("", "Node", Dim::None, Digits::Usual, |(index, _)| index + 1)
             .column("", "Arc", Dim::Length, Digits::Usual, |(_, node)| finite(node.arc))
@@ -106,15 +117,12 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
                 },
             );
         }
-        let mut table = table
-            .column("", "Utilisation", Dim::None, Digits::Decimals(3), |(_, node)| {
-                let used = node.sides().filter_map(|side| {
-                    let stress = side.stress.map(|s| s.von_mises);
-                    Some(sections.get(side.segment)?.utilisation(node.effective, stress))
-                });
-                used.reduce(f64::max)
-            })
-            .build();
+        let mut table =
+            table.column("", "Utilisation", Dim::None, Digits::Decimals(3), |(_, node)| utilisation(node)).build();
+        table.note(
+            "Departure Angle is the largest inclination below the horizontal of what does not lie on the bottom; Layback is the \
+             horizontal distance from the higher end to its touchdown point",
+        );
         table.note("between its ends where they stand, in the mean current, without waves");
         table.note(if tube {
             "Utilisation is von Mises stress over yield stress of a tube, tension over breaking tension of other sections"

@@ -9,6 +9,7 @@ mod envelope;
 mod fatigue;
 mod modes;
 mod shape;
+mod summary;
 mod supports;
 mod touchdown;
 
