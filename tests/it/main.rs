@@ -16,6 +16,7 @@ mod program {
     mod fuzz_corpus;
     mod hostile_input;
     mod lines;
+    mod manual_blocks;
     mod menus;
     mod moses_records;
     mod names;

@@ -171,7 +171,7 @@ const OPTIONS: &[OptionSpec] = &[
 static ENV_SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name to keep it under").or("none: start from nothing")],
     options: OPTIONS,
-    detail: "Directions are where sea, wind and current come from, from +X toward +Y: 180 is a head sea. Without a name the \
+    detail: "Directions are where sea, wind and current come from, from +X toward +Y: 180 travels along +X, a head sea for a vessel whose X runs aft. Without a name the \
              environment starts from the defaults; a new name too, and is kept; an old name edits what is kept. It stays in \
              force until the next &ENV. NCYCLES of -TIME, -MD_PERIOD and -USE_MEAN are kept and shown, and act on nothing: the sources do not say what they do to a line. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
              -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water. \
