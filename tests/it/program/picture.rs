@@ -131,7 +131,7 @@ fn dynamic_line_picture_has_its_static_nodes() {
         assert_eq!(unshaped, 0);
         scene.paths.into_iter().find(|p| p.name == "B").unwrap()
     });
-    assert_eq!((drawn.stroke, drawn.points.len()), (Stroke::Line, 141));
+    assert_eq!((drawn.stroke, drawn.points.len()), (Stroke::Pipe, 141));
     // every node lies by the line that hangs as heavy, within what a mesh of 5 m and a soft bottom make of it
     for point in &drawn.points {
         let near = |p: &[f64; 3]| p.iter().zip(point).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
@@ -145,4 +145,23 @@ fn dynamic_line_picture_has_its_static_nodes() {
         let apart = across.fold(f64::MAX, f64::min).sqrt();
         assert!(apart < 0.3, "{point:?}: {apart}");
     }
+}
+
+#[test]
+fn pipe_picture_has_pipe_and_supports_where_records_put_them() {
+    let (model, ..) = run("&DIMEN -DIMEN METERS K-NTS\n&ENV LAY -DEPTH 50\nMEDIT\n&DESCRIBE BODY BARGE\n\
+        *R1 46.82 0 6.58\n*R2 37.97 0 7.92\n*R3 29 0 8.73\n~ROLL ROLLER COMPRESSION Z 20000\n~PIPE ROD 323.9 15.9 -LEN 12\n\
+        CONNECTOR R1 ~ROLL *R1\nCONNECTOR R2 ~ROLL *R2\nCONNECTOR R3 ~ROLL *R3\nPIPE ~PIPE R1 R2 R3 -PIPE_TENSION 580 620\nEND\n\
+        &INSTATE -LOCATE BARGE 0 0 -3\n");
+    let (scene, unshaped) = scene(&model);
+    assert_eq!(unshaped, 0);
+    let supports: Vec<_> = scene.marks.iter().filter(|m| m.sign == Sign::PipeSupport).map(|m| m.at).collect();
+    assert_eq!(supports, [[46.82, 0.0, 3.58], [37.97, 0.0, 4.92], [29.0, 0.0, 5.73]]);
+    assert!(scene.marks.iter().all(|m| m.sign != Sign::Anchor && m.sign != Sign::Fairlead));
+    let pipe = scene.paths.iter().find(|p| p.stroke == Stroke::Pipe).unwrap();
+    // it runs from above the tensioner down to the bottom, half its diameter over it, with the tension of the tensioner
+    let (first, last) = (pipe.points[0], *pipe.points.last().unwrap());
+    assert!((first[0] - 29.0).abs() < 0.1 && first[2] > 5.7, "{first:?}");
+    assert!((last[2] + 50.0).abs() < 0.2, "{last:?}");
+    assert!((580.0..=620.0).contains(&(pipe.tensions[0] / 1e3)), "{}", pipe.tensions[0]);
 }
