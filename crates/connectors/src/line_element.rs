@@ -53,7 +53,7 @@ impl LineElement {
     /// own system: a line that sees neither bottom nor surface goes up and down with its other end.
     ///
     /// # Errors
-    /// Fewer than two ends.
+    /// Another number of ends than two.
     fn horizontal_distance(&self, ends: &[End]) -> Result<(f64, [f64; 2], f64), ClassError> {
         let [from, to] = End::origins(ends)?;
         let (dx, dy) = (to.x - from.x, to.y - from.y);
@@ -159,7 +159,7 @@ impl LineElement {
     /// The line with its ends there.
     ///
     /// # Errors
-    /// Fewer than two ends.
+    /// Another number of ends than two.
     fn with_ends(&self, ends: &[End]) -> Result<Mooring, ClassError> {
         let [fairlead, other] = End::origins(ends)?.map(Into::into);
         let place = Placement { fairlead, other: Some(other), ..self.mooring.place.clone() };

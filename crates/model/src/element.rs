@@ -37,13 +37,13 @@ impl End {
         End { pose, velocity: Six::zeros(), acceleration: Six::zeros() }
     }
 
-    /// Where the two ends of a line are (m, global): the first two, behind which those of a pipe's supports may follow.
+    /// Where the two ends of a line are (m, global).
     ///
     /// # Errors
-    /// Fewer than two ends.
+    /// Another number of ends.
     pub fn origins(ends: &[End]) -> Result<[Vector3<f64>; 2], ClassError> {
         match ends {
-            [first, second, ..] => Ok([first.pose.origin, second.pose.origin]),
+            [first, second] => Ok([first.pose.origin, second.pose.origin]),
             _ => Err(ClassError::new(format!("a line has two ends, not {}", ends.len()))),
         }
     }

@@ -6,7 +6,7 @@ use windlass_language::source::Sources;
 
 /// Decks of a job.
 #[derive(Clone, Copy)]
-struct Job {
+struct DeckJob {
     program: &'static str,
     depth: &'static str,
     coefficients: &'static str,
@@ -24,7 +24,7 @@ const SPECTRUM: &str = "    13    SPEC\n    13TOWS                           2.0
 const HULL: &str = "    07    WFS1\n END07FILE              hull.AH1\n";
 
 /// A body in 100 m of water (kg, m, N) with its fairlead at Z = -10, run for 10 s.
-const MOORED: Job = Job {
+const MOORED: DeckJob = DeckJob {
     program: "NAUT",
     depth: "     100.0",
     coefficients: "    07    NONE\n",
@@ -35,9 +35,9 @@ const MOORED: Job = Job {
     printing: "    18    NONE\n",
 };
 
-impl Job {
+impl DeckJob {
     fn text(&self) -> String {
-        let Job { program, depth, coefficients, drift, waves, lines, multipliers, printing } = self;
+        let DeckJob { program, depth, coefficients, drift, waves, lines, multipliers, printing } = self;
         format!(
             "JOB MOOR  {program}\nTITLE               Lines on the bottom\nOPTIONS END\n\
              \x20   01    COOR\n    01   1                 0.0       0.0       0.0\n    01   2                 0.0       0.0     -10.0\n\
@@ -79,7 +79,7 @@ impl Job {
 }
 
 /// The message is among those of a deck, of this severity, and points at the line that begins so.
-fn says(job: &Job, severity: Severity, message: &str, at: &str) {
+fn says(job: &DeckJob, severity: Severity, message: &str, at: &str) {
     let list = job.said();
     let found = list.iter().find(|(said, _)| said.message == message);
     let (said, line) = found.unwrap_or_else(|| panic!("{message}\n{list:#?}"));
@@ -88,7 +88,7 @@ fn says(job: &Job, severity: Severity, message: &str, at: &str) {
     assert_eq!(failed, severity == Severity::Error, "{list:#?}");
 }
 
-fn silent_of(job: &Job, part: &str) {
+fn silent_of(job: &DeckJob, part: &str) {
     let list = job.said();
     assert!(list.iter().all(|(said, _)| !said.message.contains(part)), "{list:#?}");
 }
@@ -97,7 +97,7 @@ const BREAKS: &str = "    14LINE    1    2    0   12     1.0E5     540.0\n";
 
 #[test]
 fn break_needs_a_time_or_tension_and_comes_once_a_line() {
-    let with = |cards: &'static str| Job { lines: cards, ..MOORED };
+    let with = |cards: &'static str| DeckJob { lines: cards, ..MOORED };
     let lines = [BREAKS, " END14LBRK         1\n"].concat().leak();
     says(
         &with(lines),
@@ -121,7 +121,7 @@ fn break_needs_a_time_or_tension_and_comes_once_a_line() {
         "deck 14, LBRK, columns 31-40: 12 s come after the end of the run at 10 s: the line does not break",
         " END14LBRK",
     );
-    let still = Job { program: "LIBR", ..with(late) };
+    let still = DeckJob { program: "LIBR", ..with(late) };
     says(
         &still,
         Severity::Warning,
@@ -135,15 +135,15 @@ fn run_of_body_without_added_mass_is_reported() {
     let message = "deck 2, ELM1: structure 1 has no added mass and no radiation damping: decks 6 to 8 give none, and it has no tubes; \
                    it moves with its own mass alone";
     for program in ["NAUT", "DRIF"] {
-        says(&Job { program, ..MOORED }, Severity::Warning, message, "    02    ELM1");
+        says(&DeckJob { program, ..MOORED }, Severity::Warning, message, "    02    ELM1");
     }
-    silent_of(&Job { program: "LIBR", ..MOORED }, "no added mass");
-    silent_of(&Job { coefficients: HULL, ..MOORED }, "no added mass");
+    silent_of(&DeckJob { program: "LIBR", ..MOORED }, "no added mass");
+    silent_of(&DeckJob { coefficients: HULL, ..MOORED }, "no added mass");
     let added = "    07    WFS1\n    07FIAM         3                         1.0E6\n END07FIDP         3                         1.0E5\n";
-    silent_of(&Job { coefficients: added, ..MOORED }, "no added mass");
+    silent_of(&DeckJob { coefficients: added, ..MOORED }, "no added mass");
     // the motions in unit waves need forces of waves
     says(
-        &Job { program: "FER ", ..MOORED },
+        &DeckJob { program: "FER ", ..MOORED },
         Severity::Error,
         "decks 6 to 8: structure 1 has no wave coefficients, and no tubes",
         "    02    ELM1",
@@ -156,13 +156,13 @@ fn drum_that_never_turns_in_a_run_is_reported() {
         format!(" END14LNDW    1    2    0   12     2.0E5     540.0{end:>10}{speed:>10}\n").leak()
     };
     for (end, speed) in [("530.0", "0.05"), ("550.0", "-0.05"), ("540.0", "0.05")] {
-        let job = Job { lines: drum(end, speed), ..MOORED };
+        let job = DeckJob { lines: drum(end, speed), ..MOORED };
         says(&job, Severity::Warning, "deck 14, LNDW: this drum never turns", " END14LNDW");
     }
-    silent_of(&Job { lines: drum("530.0", "-0.05"), ..MOORED }, "LNDW");
+    silent_of(&DeckJob { lines: drum("530.0", "-0.05"), ..MOORED }, "LNDW");
     let late: &str = ["    14DWT0                          20.0\n", drum("530.0", "-0.05")].concat().leak();
     says(
-        &Job { lines: late, ..MOORED },
+        &DeckJob { lines: late, ..MOORED },
         Severity::Warning,
         "deck 14, LNDW: its drum begins to turn at 20 s (DWT0), and the run ends at 10 s",
         " END14LNDW",
@@ -171,7 +171,7 @@ fn drum_that_never_turns_in_a_run_is_reported() {
 
 #[test]
 fn cards_of_towed_tethers_in_other_decks_are_reported() {
-    let job = Job { program: "DRIF", waves: SPECTRUM, coefficients: HULL, ..MOORED };
+    let job = DeckJob { program: "DRIF", waves: SPECTRUM, coefficients: HULL, ..MOORED };
     says(
         &job,
         Severity::Warning,
@@ -180,20 +180,20 @@ fn cards_of_towed_tethers_in_other_decks_are_reported() {
     );
     let slam = "    17    HYDC\n END17SLMM    1           1.0\n";
     says(
-        &Job { multipliers: slam, ..MOORED },
+        &DeckJob { multipliers: slam, ..MOORED },
         Severity::Warning,
         "deck 17, SLMM, columns 21-30: slam is of towed tethers; it has no effect here",
         " END17SLMM",
     );
     let pages = "    18    PROP\n END18PREV   10\n";
     says(
-        &Job { printing: pages, ..MOORED },
+        &DeckJob { printing: pages, ..MOORED },
         Severity::Note,
         "deck 18, PREV: pages over time are those of runs with tethers: the card has no effect here; REPORT and PRCPOST of a script print results",
         " END18PREV",
     );
     says(
-        &Job { program: "LIBR", ..MOORED },
+        &DeckJob { program: "LIBR", ..MOORED },
         Severity::Note,
         "deck 16, TIME: LIBR finds an equilibrium and has no time steps: the card has no effect",
         " END16TIME",
@@ -203,8 +203,8 @@ fn cards_of_towed_tethers_in_other_decks_are_reported() {
 const SECTION: &str = "    14ECAT                         150.0     0.018     6.0E8     5.0E6     570.0\n";
 const NLIN: &str = " END14NLIN    1    2    0   12\n";
 
-fn composite(comp: &str, sections: &str, line: &str) -> Job {
-    Job { program: "LIBR", lines: format!("    14COMP{comp}\n{sections}{line}").leak(), ..MOORED }
+fn composite(comp: &str, sections: &str, line: &str) -> DeckJob {
+    DeckJob { program: "LIBR", lines: format!("    14COMP{comp}\n{sections}{line}").leak(), ..MOORED }
 }
 
 #[test]
@@ -347,7 +347,7 @@ fn refused_matrices_point_at_their_own_cards() {
     let drift = "    09    DRM1\n    09FIDA         3                         1.0E6\n END09FIDD         3                         1.0E5\n";
     for (keyword, what) in [("FIDA", "an added mass"), ("FIDD", "a damping")] {
         says(
-            &Job { drift, ..MOORED },
+            &DeckJob { drift, ..MOORED },
             Severity::Error,
             &format!("deck 9, {keyword}: {what} of drift frequencies alone is not read into the model"),
             drift.lines().find(|line| line.contains(keyword)).unwrap(),
@@ -356,7 +356,7 @@ fn refused_matrices_point_at_their_own_cards() {
     let place = "    07    WFS1\n    07LSTF         3                         1.0E6\n    07BFEQ             9.81E7\n    07ZCGE                 0.0\n\
                  \x20END07SPOS                 1.0\n";
     says(
-        &Job { coefficients: place, ..MOORED },
+        &DeckJob { coefficients: place, ..MOORED },
         Severity::Error,
         "deck 7, SPOS: an X, Y or a rotation of the stiffness is not read into the model",
         " END07SPOS",
@@ -366,7 +366,7 @@ fn refused_matrices_point_at_their_own_cards() {
 #[test]
 fn file_of_hull_may_have_blanks_and_a_structure() {
     let named = "    07    WFS1\n    07CSTR    2\n END07FILE              my hull, 2.AH1\n";
-    let made = Job { coefficients: named, ..MOORED }.records();
+    let made = DeckJob { coefficients: named, ..MOORED }.records();
     assert!(made.contains("DATABASE S1 -AQWA \"my hull, 2.AH1\" -INDEX 2 -HYDROSTATICS YES\n"), "{made}");
     for (card, message) in [
         (
@@ -378,13 +378,13 @@ fn file_of_hull_may_have_blanks_and_a_structure() {
         (" END07CSTR    0", "deck 7, CSTR, columns 11-15: no structure is named"),
     ] {
         let coefficients = format!("    07    WFS1\n{card}\n").leak();
-        says(&Job { coefficients, ..MOORED }, Severity::Error, message, card);
+        says(&DeckJob { coefficients, ..MOORED }, Severity::Error, message, card);
     }
 }
 
 #[test]
 fn water_depth_below_zero_is_refused_with_its_sense() {
-    let job = Job { depth: "    -100.0", ..MOORED };
+    let job = DeckJob { depth: "    -100.0", ..MOORED };
     says(&job, Severity::Error, "deck 5, DPTH, columns 11-20: -100 is not above 0", "    05DPTH    -100.0");
     let (said, _) = job.said().into_iter().find(|(said, _)| said.severity == Severity::Error).unwrap();
     assert_eq!(said.help, ["the depth is measured down from the still water level: 100.0 is 100 deep"]);

@@ -127,6 +127,18 @@ impl DynamicLine {
         made
     }
 
+    /// Where its two ends are (m, global). What a pipe on supports is given as ends are these: its own are those of the shape it is laid in.
+    ///
+    /// # Errors
+    /// Another number of ends than two, of a line between ends.
+    fn end_positions(&self, ends: &[End]) -> Result<[Vector3<f64>; 2], ClassError> {
+        match self.base.laid.as_ref().map(|laid| laid.shape.as_slice()) {
+            Some([first, .., last]) => Ok([*first, *last]),
+            Some(_) => Err(ClassError::new("the pipe has no shape that it is laid in").lasting()),
+            None => End::origins(ends),
+        }
+    }
+
     /// Where it hangs at rest between ends.
     pub(super) fn find_rest(&self, at: &Situation, cache: &mut RodCache) -> Result<LineAtRest, ClassError> {
         let ends = self.end_conditions(at.ends, true)?;
@@ -136,7 +148,7 @@ impl DynamicLine {
             cache.rod = self.base.rod.clone();
         }
         cache.fit();
-        let places = End::origins(at.ends)?;
+        let places = self.end_positions(at.ends)?;
         let RodCache { rod, solver, rest, flows, .. } = cache;
         self.with_environment(at, true, 0.0, flows, |environment| {
             if let Some((bottom, _)) = &environment.bottom.filter(|_| self.base.laid.is_none()) {
@@ -216,7 +228,7 @@ impl DynamicLine {
         cache: &mut RodCache,
         out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
-        let (ends, places) = (self.end_conditions(at.ends, false)?, End::origins(at.ends)?);
+        let (ends, places) = (self.end_conditions(at.ends, false)?, self.end_positions(at.ends)?);
         if !cache.has_start(committed) {
             cache.forget_start();
             if let Some(rod) = self.rod_with_mesh(kept, &cache.rod)? {
@@ -342,7 +354,7 @@ impl ConnectorElement for DynamicLine {
         if let (Some(step), Some(kept)) = (at.step, &kept) {
             return self.step(at, (step.time, step.dt), (committed, kept), trial, cache, out);
         }
-        let (found, places) = (self.find_rest(at, cache)?, End::origins(at.ends)?);
+        let (found, places) = (self.find_rest(at, cache)?, self.end_positions(at.ends)?);
         let RodCache { rod, solver, flows, .. } = &mut *cache;
         self.with_environment(at, true, 0.0, flows, |environment| match self.base.laid {
             Some(_) => {
