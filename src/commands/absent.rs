@@ -78,7 +78,6 @@ const MOTIONS: Loss = Loss::Solves(SolveKind::Motions);
 const MAIN: &[&MenuSpec] = &[&menu::MAIN];
 const MODEL: &[&MenuSpec] = &[&menu::INMODEL, &menu::MEDIT];
 const SURFACES: &[&MenuSpec] = &[&menu::SURFACE];
-const POST: &[&MenuSpec] = &[&menu::PRCPOST];
 const FREQUENCY: &[&MenuSpec] = &[&menu::FREQ_RESPONSE];
 const HYDRODYNAMIC: &[&MenuSpec] = &[&menu::HYDRODYNAMICS];
 
@@ -99,11 +98,6 @@ const TOTAL: &str = "I_TOTAL gives added mass, damping and wave forces by record
 const DRIFT: &str = "#DRIFT gives mean drift by records, DATABASE reads it";
 const NO_STRESS: &str = "a stress analysis, which windlass does not make";
 const TUBE_INSTEAD: &str = "TUBE of &SURFACE, #WEIGHT and #AREA give members, weights and areas";
-
-/// A table of PRCPOST that is not made.
-const fn post(name: &'static str, what: &'static str) -> Absent {
-    Absent::new(name, Loss::Results, what).in_menus(POST).opens(&DISPOSITION)
-}
 
 /// A table of FREQ_RESPONSE that is not made.
 const fn frequency(name: &'static str, what: &'static str) -> Absent {
@@ -166,12 +160,6 @@ pub static ABSENT: &[Absent] = &[
     Absent::new("JOINT", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
     Absent::new("ASSEMBLY LLEG", STATICS, "launch legs, on which a jacket slides from its barge").in_menus(MODEL),
     Absent::new("ASSEMBLY CONTROL", STATICS, "a control of lengths and forces").in_menus(MODEL),
-    Absent::new("ASSEMBLY PULLEY", STATICS, "lines over pulleys")
-        .in_menus(MODEL)
-        .instead("class PULY is a line over a pulley"),
-    Absent::new("ASSEMBLY WINCH", STATICS, "winches")
-        .in_menus(MODEL)
-        .instead("&ACTION pays lines out and in; class CT_LINE keeps a tension"),
     Absent::new("TKR_MODEL", STATICS, "the hull, weight, wind and current of a tanker, by the macro library V_MODEL")
         .instead(TUBE_INSTEAD),
     Absent::new("W_BOX", STATICS, "a wind box, by the macro library V_MODEL").instead("#AREA gives areas in wind"),
@@ -181,14 +169,14 @@ pub static ABSENT: &[Absent] = &[
     Absent::new("JKT_GEN", STATICS, "a jacket, by a macro library of MOSES"),
     Absent::new("SU_SHOW", Loss::Nothing, "it draws"),
     Absent::new("SUPLOT", Loss::Nothing, "it draws"),
-    post("ELMFORCE", "forces of structural members: a run keeps the sum over each body alone")
-        .instead("BODY_FORCE gives those of bodies by category"),
-    post("LDGFORCE", "forces of load groups over time: a run keeps the sum over each body alone")
-        .instead("BODY_FORCE gives those of bodies by category"),
     frequency("TD_POINT", "one realisation of the motion of a point").instead("TDOM gives motions in time"),
-    frequency("FR_PANPRESS", "pressures on panels in unit waves"),
-    frequency("ST_PANPRESS", "statistics of pressures on panels"),
-    Absent::new("FP_STD", Loss::Results, "the standard set of tables of a point").in_menus(FREQUENCY),
+    frequency("FR_PANPRESS", "pressures on panels in unit waves")
+        .instead("hydrodynamic databases hold forces on whole bodies, and no pressures"),
+    frequency("ST_PANPRESS", "statistics of pressures on panels")
+        .instead("hydrodynamic databases hold forces on whole bodies, and no pressures"),
+    Absent::new("FP_STD", Loss::Results, "the standard set of tables of a point")
+        .in_menus(FREQUENCY)
+        .instead("FR_POINT, ST_POINT and EQU_SUM make tables of a point one by one"),
     Absent::new("BEAM_SUM", Loss::Results, NO_STRESS).in_menus(&[&menu::SUMMARY]),
 ];
 

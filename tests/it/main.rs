@@ -58,6 +58,7 @@ mod connectors {
     mod pipe;
     mod pipe_time_domain;
     mod pistons;
+    mod pulleys;
     mod springs_closed_form;
 }
 

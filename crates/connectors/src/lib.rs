@@ -45,6 +45,7 @@ mod nlin;
 pub mod options;
 mod per_line;
 mod puly;
+mod reeved_line;
 mod restraint;
 mod rod;
 mod roller;

@@ -12,6 +12,7 @@ use super::line_element::LineElement;
 use super::line_profile::LineProfile;
 use super::mooring::{Mooring, end_springs, line_error, no_other_end, segments_and_joints, with_series};
 use super::per_line::PerLineOptions;
+use super::reeved_line::ReevedLine;
 use super::section::{LineSection, properties};
 use super::{checks, options as o};
 use std::sync::Arc;
@@ -24,8 +25,8 @@ use windlass_catenary::{Line, LineError, SeabedModel, StretchLaw};
 use windlass_language::spec::{CommandSpec, OptionSpec};
 use windlass_model::{
     AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, DynamicLineClass,
-    FatigueSegment, LengthClass, LineModel, Note, Placement, SegmentedClass, StaticLineClass, StaticSeabed,
-    Surroundings,
+    FatigueSegment, LengthClass, LineModel, Note, Placement, ReevedLayout, ReevedLineClass, SegmentedClass,
+    StaticLineClass, StaticSeabed, Surroundings,
 };
 
 /// What -PISTON and -X_DAMPING do, of the help of every class of lines.
@@ -354,6 +355,10 @@ impl ConnectorClass for LineClass {
         self.kind.has_dynamics.then_some(self)
     }
 
+    fn as_reeved(&self) -> Option<&dyn ReevedLineClass> {
+        Some(self)
+    }
+
     fn as_segmented(&self) -> Option<&dyn SegmentedClass> {
         Some(self)
     }
@@ -368,6 +373,40 @@ impl ConnectorClass for LineClass {
 
     fn as_anchored(&self) -> Option<&dyn AnchoredClass> {
         Some(self)
+    }
+}
+
+impl ReevedLineClass for LineClass {
+    fn reeved_line(&self, layout: ReevedLayout) -> Result<Box<dyn ConnectorElement>, ClassError> {
+        Ok(Box::new(ReevedLine::new(layout)?))
+    }
+
+    fn may_reeve(&self) -> Result<(), ClassError> {
+        let refused = |text: &str| Err(ClassError::new(format!("a {} {text} does not run over a pulley", self.name())));
+        match self.form() {
+            LineForm::Chord { takes_compression: true } => refused("that also pushes"),
+            _ if !self.devices.is_none() => refused("with a piston, a dashpot or a viscoelastic spring"),
+            _ if self.is_tabulated() => refused("with a table"),
+            LineForm::OnBottom | LineForm::Hanging { .. } | LineForm::Chord { .. } => Ok(()),
+        }
+    }
+
+    fn straight_segments(&self, placement: &Placement) -> Result<Vec<[f64; 2]>, ClassError> {
+        let clump = self.sections.split_last().is_some_and(|(_, before)| before.iter().any(|s| s.clump != 0.0));
+        let is_straight = match self.form() {
+            LineForm::Chord { takes_compression } => !takes_compression,
+            LineForm::Hanging { has_weight } => !has_weight && !clump,
+            LineForm::OnBottom => false,
+        };
+        if !is_straight || self.springs.iter().any(Option::is_some) {
+            let text = format!(
+                "a {} with weight, clumps or springs is the last span of a line over pulleys alone",
+                self.name()
+            );
+            return Err(ClassError::new(text).help("H_CAT without EXACT is straight and weightless"));
+        }
+        let (segments, _) = segments_and_joints(&self.sections, placement, |_| 0.0);
+        Ok(segments.into_iter().map(|segment| [segment.length, segment.ea]).collect())
     }
 }
 

@@ -205,9 +205,15 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
                     Category::Buoyancy => Attribute::Buoyancy,
                     _ => Attribute::Drag,
                 };
-                let whole =
-                    factor(attribute) * model.multipliers.categories.get(made.category().name()).unwrap_or(&1.0);
-                if whole == 1.0 { made } else { Box::new(ScaledLoad { load: made, factor: whole }) }
+                let [wind, drag] = load.shape_coefficients;
+                let shape = match made.category() {
+                    Category::Wind => wind,
+                    Category::ViscousDrag => drag,
+                    _ => 1.0,
+                };
+                let force = model.multipliers.categories.get(made.category().name()).unwrap_or(&1.0);
+                let whole = shape * factor(attribute) * force;
+                if whole == 1.0 { made } else { scale_load(made, whole) }
             }));
         }
         let first = sum.loads.len();
@@ -229,11 +235,12 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
         }
         let on = growth.as_ref().map(|growth| (growth, &pose));
         for piece in &part.pieces {
-            sum.loads.extend(
-                pieces::build_piece_load(&steady, part, piece, under_way, on)?
-                    .into_iter()
-                    .map(|l| Box::new(l) as Box<dyn BodyLoad>),
-            );
+            for load in pieces::build_piece_load(&steady, part, piece, under_way, on)? {
+                let attribute = if load.category() == Category::Wind { Attribute::Wind } else { Attribute::Drag };
+                let factor = model.member_category_factor(piece, attribute);
+                let load: Box<dyn BodyLoad> = Box::new(load);
+                sum.loads.push(if factor == 1.0 { load } else { scale_load(load, factor) });
+            }
         }
         let rest = sum.loads.split_off(first);
         sum.loads.extend(rest.into_iter().map(|load| {

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use windlass_base::geometry::Position;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
-use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, bar_panels, box_panels};
+use windlass_model::{Attribute, Body, ClassError, Model, Part, Piece, Shape, bar_panels, box_panels};
 
 /// Corners of panels nearer than this share of the size of a piece are one (files often keep seven digits).
 const WELD_DISTANCE_SHARE: f64 = 1e-6;
@@ -150,7 +150,8 @@ impl Hull {
                     return Err(ClassError { span: Some(piece.span), ..fault.error.clone() }
                         .help(format!("{} has no buoyancy before this is corrected", body.name)));
                 }
-                pieces.extend(solid.form.map(|form| (piece.permeability, form)));
+                let share = piece.permeability * model.member_factor(&part.name, piece, Attribute::Buoyancy);
+                pieces.extend(solid.form.map(|form| (share, form)));
             }
         }
         let water = model.surroundings();

@@ -1,6 +1,6 @@
 //! Classes: what a connector is made of, and what a connector class can be asked.
 
-use super::assembly::PipeLayout;
+use super::assembly::{PipeLayout, ReevedLayout};
 use super::connector::Connector;
 use super::defaults::Defaults;
 use super::element::{Connection, ConnectorElement};
@@ -295,6 +295,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
     fn as_pipe(&self) -> Option<&dyn PipeClass> {
         None
     }
+
+    /// The class as one whose connectors are spans of a line over pulleys or off a drum.
+    fn as_reeved(&self) -> Option<&dyn ReevedLineClass> {
+        None
+    }
 }
 
 /// A class of segments in series, one a record, fairlead first.
@@ -379,6 +384,27 @@ pub trait DynamicLineClass {
     fn has_sloped_seabed(&self) -> bool {
         false
     }
+}
+
+/// A class whose connectors are spans of a line over pulleys or off a drum.
+pub trait ReevedLineClass {
+    /// A span of a line over pulleys, as an engine sees it.
+    ///
+    /// # Errors
+    /// A layout that makes no such line.
+    fn reeved_line(&self, layout: ReevedLayout) -> Result<Box<dyn ConnectorElement>, ClassError>;
+
+    /// Whether its connectors can be such spans at all.
+    ///
+    /// # Errors
+    /// Why not.
+    fn may_reeve(&self) -> Result<(), ClassError>;
+
+    /// The segments of a span that is straight and weightless, from its first end: unstretched lengths (m) and axial stiffnesses (N).
+    ///
+    /// # Errors
+    /// A span that is neither, and why.
+    fn straight_segments(&self, placement: &Placement) -> Result<Vec<[f64; 2]>, ClassError>;
 }
 
 /// A class of which an assembly makes a pipe.

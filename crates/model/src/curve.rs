@@ -94,6 +94,28 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// Its value at an argument: straight between its points, and that of the first or the last beyond them.
+    pub fn value_at(&self, at: f64) -> f64 {
+        let after = self.points.partition_point(|(x, _)| *x <= at);
+        match (after.checked_sub(1).and_then(|n| self.points.get(n)), self.points.get(after)) {
+            (Some((a, from)), Some((b, to))) => from + (to - from) * (at - a) / (b - a),
+            (Some((_, value)), None) | (None, Some((_, value))) => *value,
+            (None, None) => 0.0,
+        }
+    }
+
+    /// The integral of that between two arguments, the second not below the first.
+    pub fn integral(&self, from: f64, to: f64) -> f64 {
+        let inner = self.points.iter().map(|(x, _)| *x).filter(|x| *x > from && *x < to);
+        let mut sum = 0.0;
+        let mut start = from;
+        for end in inner.chain(std::iter::once(to)) {
+            sum += 0.5 * (self.value_at(start) + self.value_at(end)) * (end - start);
+            start = end;
+        }
+        sum
+    }
+
     /// The long-term stiffness of a convolution curve (N/m): that of the last time, or of the lowest frequency; `None`
     /// for other curves.
     pub fn long_term_stiffness(&self) -> Option<f64> {

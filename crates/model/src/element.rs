@@ -263,6 +263,19 @@ pub trait ConnectorElement: Debug + Send + Sync {
         ConnectorCategory::Flexible
     }
 
+    /// On how many of its ends, from the first, it exerts forces; where those behind are only changes these.
+    fn acting_ends(&self) -> usize {
+        usize::MAX
+    }
+
+    /// The length of its first segment in a state (m), of an element that it runs into and out of by itself.
+    ///
+    /// # Errors
+    /// As [`Element::evaluate`].
+    fn running_length(&self, _at: &Situation, _committed: &[f64]) -> Result<Option<f64>, ClassError> {
+        Ok(None)
+    }
+
     /// The end by whose force its tension is reported.
     fn pulling_end(&self) -> usize {
         0

@@ -34,6 +34,22 @@ pub enum Shape {
     },
 }
 
+impl Shape {
+    /// The middle of a tube or a bar (m) and the volume of its outline (m3); none of other forms.
+    pub fn member_volume(&self) -> Option<(Position, f64)> {
+        let (ends, area) = match self {
+            Shape::Tube { ends, diameter } => (ends, std::f64::consts::FRAC_PI_4 * diameter * diameter),
+            Shape::Bar { ends, sides } => {
+                let [width, depth] = sides.map(|side| Vector3::from(side).norm());
+                (ends, width * depth)
+            }
+            Shape::Panels(_) | Shape::Block { .. } => return None,
+        };
+        let [a, b] = ends.map(Vector3::from);
+        Some((((a + b) * 0.5).into(), area * (b - a).norm()))
+    }
+}
+
 /// A surface that water presses on, or a space within one that water fills.
 ///
 /// Source: [MOSES-REF pieces].
@@ -54,6 +70,8 @@ pub struct Piece {
     pub member: Option<Member>,
     /// Where it is of a structural element: that.
     pub element: Option<ElementOf>,
+    /// Of a member, the load category that `&APPLY` multiplies its loads by; none of other pieces.
+    pub category: Option<String>,
     /// What waves do to it.
     pub waves: WaveAction,
     /// Factor of its eddy damping of roll; zero of none.

@@ -49,12 +49,15 @@ mod unmodelled;
 
 pub use along::{EnergyBalance, LineMode, LineNode, LineSide, LineStress};
 pub use ambient::{Ambient, Contents, Filling, Flow};
-pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout, line_name};
+pub use assembly::{
+    Assemblies, Assembly, AssemblyKind, Drum, DrumControl, LaidPipe, PIPE, PipeLayout, ReevedLayout, ReevedSpan,
+    line_name,
+};
 pub use bathymetry::Bathymetry;
 pub use body::{Body, EXTRA, GROUND, Junction, LOOSE_SURFACES, Mass, Part, Point, STR_MODEL, Weight};
 pub use class::{
     AnchoredClass, Class, ClassError, ClassRecord, ClassRole, ConnectorClass, DynamicLineClass, LengthClass, PipeClass,
-    SegmentedClass, StaticLineClass, StaticSeabed, TetherSectionsClass, WallMaterial,
+    ReevedLineClass, SegmentedClass, StaticLineClass, StaticSeabed, TetherSectionsClass, WallMaterial,
 };
 pub use compartment::{Compartment, FreeSurface, Hole, HoleKind, TankContents};
 pub use connector::{Anchor, Connector, Tug};
@@ -308,6 +311,9 @@ impl Model {
         ambient: Option<&Arc<dyn Ambient>>,
         duty: RunRequirement,
     ) -> Result<Box<dyn ConnectorElement>, ClassError> {
+        if let Some(element) = self.reeved_element(connector)? {
+            return Ok(element);
+        }
         let class = self.classes.get(&Model::key(&connector.class));
         let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
         let placement = self.placement(connector);

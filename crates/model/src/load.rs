@@ -78,6 +78,8 @@ pub struct PartLoad {
     pub fluid: Fluid,
     /// What it is.
     pub kind: LoadKind,
+    /// Factors of its force in air and in water; one where none was given.
+    pub shape_coefficients: [f64; 2],
     /// Its category.
     pub category: String,
     /// The load group it belongs to; none: that of its part.
@@ -121,7 +123,7 @@ impl LoadKind {
 pub enum Attribute {
     /// Weights.
     Dead,
-    /// Buoyancy of `#BUOY`.
+    /// Buoyancy of `#BUOY` and of members.
     Buoyancy,
     /// Wind.
     Wind,
@@ -183,6 +185,16 @@ impl Model {
     /// The multiplier of an attribute of a load: that of its load group or part times that of its category.
     pub fn load_factor(&self, part: &str, group: Option<&str>, category: &str, attribute: Attribute) -> f64 {
         self.multipliers.group(group.unwrap_or(part)) * self.attribute_factor(category, attribute)
+    }
+
+    /// The multiplier of an attribute of a member: that of its part times that of its category; one of a piece that is no member.
+    pub fn member_factor(&self, part: &str, piece: &crate::Piece, attribute: Attribute) -> f64 {
+        piece.category.as_ref().map_or(1.0, |category| self.load_factor(part, None, category, attribute))
+    }
+
+    /// The multiplier of an attribute by the category of a member alone; one of a piece that is no member.
+    pub fn member_category_factor(&self, piece: &crate::Piece, attribute: Attribute) -> f64 {
+        piece.category.as_ref().map_or(1.0, |category| self.attribute_factor(category, attribute))
     }
 
     /// Gives every weight the multiplier that `&APPLY` says.

@@ -23,6 +23,8 @@ pub(super) struct Link {
     pub ends: Vec<EndAttachment>,
     /// Where its values stand in the vector of states.
     pub states: std::ops::Range<usize>,
+    /// The assembly whose line it is a span of, where it is one over pulleys or off a drum.
+    pub reeving: Option<String>,
 }
 
 /// A connector of a model; its states go behind the others.
@@ -33,7 +35,9 @@ pub(super) fn link(
 ) -> Result<Link, SolveError> {
     let made = model.element_of_run(connector, Some(ambient), duties.requirement(&connector.name));
     let element = made.map_err(SolveError::error_about(&connector.name))?;
-    Ok(Link::new(&connector.name, element, end_attachments(model, connector).to_vec(), states))
+    let mut made = Link::new(&connector.name, element, element_attachments(model, connector), states);
+    made.reeving = model.reeving(&connector.name).map(|assembly| assembly.name.clone());
+    Ok(made)
 }
 
 /// What a pipe is, and what its ends are fixed to.
@@ -66,7 +70,12 @@ impl Link {
         if let Some(own) = states.get_mut(from..) {
             element.start(own);
         }
-        Link { name: name.to_string(), element, ends, states: from..states.len() }
+        Link { name: name.to_string(), element, ends, states: from..states.len(), reeving: None }
+    }
+
+    /// What those of its ends are fixed to on which it exerts forces.
+    pub(super) fn acting_ends(&self) -> &[EndAttachment] {
+        self.ends.get(..self.element.acting_ends()).unwrap_or(&self.ends)
     }
 
     /// Whether it is a dynamic line.
@@ -87,6 +96,12 @@ pub(super) fn end_attachments(model: &Model, connector: &Connector) -> [EndAttac
     };
     let [first, second] = poses;
     [on_body(0).unwrap_or(EndAttachment::Ground(first)), on_body(1).unwrap_or(EndAttachment::Ground(second))]
+}
+
+/// What the ends of a connector's element are fixed to: its own, then those of the other spans of its line.
+pub(super) fn element_attachments(model: &Model, connector: &Connector) -> Vec<EndAttachment> {
+    let others = model.other_spans(&connector.name);
+    std::iter::once(connector).chain(others).flat_map(|span| end_attachments(model, span)).collect()
 }
 
 pub(super) fn pose_of(end: &EndAttachment, poses: &[Pose]) -> Pose {

@@ -236,6 +236,9 @@ impl EndMotion {
         connector: &Connector,
         (peak, period): (f64, f64),
     ) -> Result<Self, ClassError> {
+        if let Some(assembly) = run.model.reeving(&connector.name) {
+            return Err(ClassError::new(format!("it is a span of the line of {}", assembly.name)));
+        }
         let layout = &run.history.layout;
         let known = link.ends.iter().position(Option::is_some);
         let pulled_end =

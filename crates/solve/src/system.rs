@@ -172,6 +172,7 @@ impl System {
         for connector in model.connectors.values() {
             if !connector.active
                 || model.holds_pipe(&connector.name)
+                || model.is_unreeved(&connector.name)
                 || left_out.iter().any(|name| name.eq_ignore_ascii_case(&connector.name))
             {
                 continue;
@@ -314,7 +315,7 @@ impl System {
             let evaluated = link.element.evaluate(&at, committed, own, &mut SolverCache::new(), &mut response);
             evaluated.map_err(SolveError::error_about(&link.name))?;
             let category = Category::from(link.element.category());
-            for (i, end) in link.ends.iter().enumerate() {
+            for (i, end) in link.acting_ends().iter().enumerate() {
                 let EndAttachment::Body(body, _) = end else { continue };
                 let (own, count) = (arm(end, poses), link.ends.len());
                 let wrench = &response.wrench[i];

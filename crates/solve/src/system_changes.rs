@@ -39,7 +39,7 @@ impl System {
     pub fn link_ends(&self) -> Vec<LinkEnds> {
         let of = |l: &Link| LinkEnds {
             name: l.name.clone(),
-            ends: bodies(&l.ends),
+            ends: bodies(l.acting_ends()),
             pulling: l.element.pulling_end(),
             nodes: nodes(l.element.as_ref()),
             pushing: pushing(l.element.as_ref(), &l.ends),
@@ -73,8 +73,16 @@ impl System {
         self.links.iter().any(|l| l.is_dynamic() && l.name.eq_ignore_ascii_case(name))
     }
 
-    /// A connector acts no more.
+    /// A connector acts no more, and with a span of a line over pulleys the other spans.
     pub fn leave_out(&mut self, name: &str) {
+        let reeving = self.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)).and_then(|l| l.reeving.clone());
+        let spans = self.links.iter().filter(|l| reeving.is_some() && l.reeving == reeving);
+        let spans: Vec<String> = spans.map(|l| l.name.clone()).filter(|l| !l.eq_ignore_ascii_case(name)).collect();
+        spans.iter().for_each(|span| self.remove_link(span));
+        self.remove_link(name);
+    }
+
+    fn remove_link(&mut self, name: &str) {
         let Some(at) = self.links.iter().position(|l| l.name.eq_ignore_ascii_case(name)) else { return };
         let gone = self.links.remove(at).states;
         self.states.drain(gone.clone());
@@ -90,6 +98,10 @@ impl System {
     pub fn activate_connector(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
         if self.links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
             return Ok(());
+        }
+        if let Some(assembly) = model.reeving(name) {
+            let text = format!("it is a span of the line of {}, which cannot be activated in a run", assembly.name);
+            return Err(SolveError::error_about(name)(ClassError::new(text)));
         }
         let made = link((model, &self.ambient, &self.duties), connector(model, name)?, &mut self.states)?;
         self.links.push(made);

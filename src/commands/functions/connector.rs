@@ -6,14 +6,13 @@ use super::{numbers, pick};
 use crate::commands::Job;
 use crate::commands::status::forces::{ConnectorForces, find_forces};
 use nalgebra::Vector3;
-use std::f64::consts::PI;
 use windlass_base::choice::Choice;
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_language::record::Word;
-use windlass_model::{Connector, EntityKind, Model, Shape, find};
+use windlass_model::{Attribute, Connector, EntityKind, Model, Part, Piece, Shape, Weight, find};
 
 choices! {
     /// What `&CONNECTOR` gives.
@@ -101,23 +100,27 @@ pub(super) fn connector(job: &Job, action: &Word, rest: &[Word], span: Span) -> 
 /// What `&ELEMENT` is asked about.
 enum ElementSubject<'m> {
     Connector(&'m Connector),
-    /// A tube: its ends in its part (m) and its diameter (m).
-    Tube([[f64; 3]; 2], f64),
+    /// A BEAM, a PLATE or a tube of a hull: its part, its pieces in order, and the class of its section.
+    Member(&'m Part, Vec<&'m Piece>, Option<&'m str>),
 }
 
 fn find_element<'m>(model: &'m Model, name: &Word) -> Outcome<ElementSubject<'m>> {
     if let Some(connector) = model.connectors.get(&Model::key(&name.text)) {
         return Ok(ElementSubject::Connector(connector));
     }
-    if let Some((_, piece)) = model.piece(&name.text)
-        && let Shape::Tube { ends, diameter } = &piece.shape
-    {
-        return Ok(ElementSubject::Tube(*ends, *diameter));
+    if let Some((part, piece)) = model.piece(&name.text) {
+        let of = |piece: &&Piece| piece.element.as_ref().is_some_and(|e| Model::key(&e.name) == Model::key(&name.text));
+        if let Some(element) = piece.element.as_ref().filter(|_| of(&piece)) {
+            return Ok(ElementSubject::Member(part, part.pieces.iter().filter(of).collect(), Some(&element.class)));
+        }
+        if matches!(piece.shape, Shape::Tube { .. }) {
+            return Ok(ElementSubject::Member(part, vec![piece], None));
+        }
     }
     let mut error = Diagnostic::error(format!("unknown element {}", name.text), name.span);
     let known = [EntityKind::Connector, EntityKind::Piece].into_iter().flat_map(|kind| model.names(kind));
     error.help.extend(did_you_mean(&name.text, known));
-    error.help.push("the elements of windlass are its connectors and the tubes of its hulls".into());
+    error.help.push("the elements of windlass are its connectors, BEAMs, PLATEs and the tubes of its hulls".into());
     Err(error)
 }
 
@@ -159,17 +162,53 @@ pub(super) fn element(job: &Job, action: &Word, rest: &[Word], span: Span) -> Ou
             ElementSubject::Connector(_),
             ElementAction::Weight | ElementAction::Buoyancy | ElementAction::SegmentLengths,
         ) => absent("weights, buoyancies and lengths of segments are those of its class: &STATUS CL_FLEX"),
-        (ElementSubject::Tube(ends, _), ElementAction::Length) => {
-            let [a, b] = ends.map(Vector3::from);
-            Ok(numbers(&[(b - a).norm()], Dim::Length, job))
+        (ElementSubject::Member(_, pieces, _), ElementAction::Length) => {
+            let lengths = pieces.iter().filter_map(|piece| member_ends(piece)).map(|[a, b]| (b - a).norm());
+            Ok(numbers(&[lengths.sum()], Dim::Length, job))
         }
-        (ElementSubject::Tube([a, b], _), ElementAction::Cosines) => Ok(unit(a, b)),
-        (ElementSubject::Tube(ends, diameter), ElementAction::Buoyancy) => {
-            let [a, b] = ends.map(Vector3::from);
-            let volume = PI / 4.0 * diameter * diameter * (b - a).norm();
-            Ok(numbers(&[volume * model.surroundings().water_weight()], Dim::Force, job))
+        (ElementSubject::Member(_, pieces, _), ElementAction::Cosines) => {
+            let [first, last] = [pieces.first(), pieces.last()].map(|piece| piece.and_then(|p| member_ends(p)));
+            Ok(first.zip(last).map_or(String::new(), |([a, _], [_, b])| unit(a.into(), b.into())))
         }
-        (ElementSubject::Tube(..), ElementAction::ElementType) => Ok("TUBE".into()),
-        (ElementSubject::Tube(..), _) => absent("a tube of a hull has neither class, nodes, weight nor stress"),
+        (ElementSubject::Member(part, pieces, _), ElementAction::Buoyancy) => {
+            let volumes = pieces.iter().filter_map(|piece| {
+                let share = piece.permeability * model.member_factor(&part.name, piece, Attribute::Buoyancy);
+                Some(piece.shape.member_volume()?.1 * share)
+            });
+            Ok(numbers(&[volumes.sum::<f64>() * model.surroundings().water_weight()], Dim::Force, job))
+        }
+        (ElementSubject::Member(part, _, Some(_)), ElementAction::Weight) => {
+            let own = |weight: &&Weight| weight.element.as_deref().is_some_and(|e| e.eq_ignore_ascii_case(&name.text));
+            let weights = part.weights.iter().filter(own).map(|weight| weight.weight * weight.multiplier);
+            Ok(numbers(&[weights.sum()], Dim::Force, job))
+        }
+        (ElementSubject::Member(_, _, Some(class)), ElementAction::Class) => Ok(class.to_string()),
+        (ElementSubject::Member(_, pieces, _), ElementAction::Category) => {
+            Ok(pieces.first().and_then(|piece| piece.category.clone()).unwrap_or_default())
+        }
+        (ElementSubject::Member(_, pieces, class), ElementAction::ElementType) => {
+            let is_plate = class.and_then(|class| model.classes.get(&Model::key(class)));
+            let is_plate = is_plate.and_then(|class| class.object.as_members()?.first().map(|s| s.kind == "PLATE"));
+            let tube = pieces.first().is_some_and(|piece| matches!(piece.shape, Shape::Tube { .. }));
+            Ok(match is_plate {
+                Some(true) => "PLATE",
+                Some(false) => "BEAM",
+                None if tube => "TUBE",
+                None => "",
+            }
+            .into())
+        }
+        (ElementSubject::Member(_, _, Some(_)), _) => absent("nodes and stresses of members are not kept"),
+        (ElementSubject::Member(_, _, None), _) => {
+            absent("a tube of a hull has neither class, nodes, weight nor stress")
+        }
+    }
+}
+
+/// The ends of a tube or a bar in its part (m).
+fn member_ends(piece: &Piece) -> Option<[Vector3<f64>; 2]> {
+    match &piece.shape {
+        Shape::Tube { ends, .. } | Shape::Bar { ends, .. } => Some(ends.map(Vector3::from)),
+        Shape::Panels(_) | Shape::Block { .. } => None,
     }
 }

@@ -3,6 +3,7 @@
 //!
 //! Source: [MOSES-REF conn_alter].
 
+use crate::commands::model::assembly;
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::format::report;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
@@ -67,6 +68,18 @@ const DYNAMICS: OptionSpec = OptionSpec::new(
 )
 .owner(Owner::Ours)
 .many();
+const L_DYNAMIC: OptionSpec = OptionSpec::new(
+    "-L_DYNAMIC",
+    &[
+        ValueSpec::new("HOW", Kind::Item, "MOTOR, BRAKE, or a curve"),
+        number("MULT", Dim::None, "share of the torque of the motor, or factor of the curve").or("1"),
+        number("BOUND", Dim::Length, "length of the first segments together at which the drum stops")
+            .or("none")
+            .positive(),
+    ],
+    "what governs the drum of ASSEMBLY WINCH in a run; the name is that of the assembly or of a span",
+)
+.many();
 const ACTIVE: OptionSpec = OptionSpec::new("-ACTIVE", &[], "the connector acts").many();
 const INACTIVE: OptionSpec = OptionSpec::new("-INACTIVE", &[], "the connector does not act").many();
 
@@ -74,14 +87,27 @@ static SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector")],
     repeat: 1,
     interleaved: true,
-    options: &[LENGTH, L_DELTA, L_HORIZONTAL, L_TENSION, ANCHOR, A_HORIZONTAL, A_TENSION, DYNAMICS, ACTIVE, INACTIVE],
+    options: &[
+        LENGTH,
+        L_DELTA,
+        L_HORIZONTAL,
+        L_TENSION,
+        ANCHOR,
+        A_HORIZONTAL,
+        A_TENSION,
+        DYNAMICS,
+        L_DYNAMIC,
+        ACTIVE,
+        INACTIVE,
+    ],
     detail: "An option acts on the names before it: those since the option before, else the same as that one's. Options act in \
              the order given; if one connector cannot be solved, or its line has no \
              configuration behind a change, the record changes nothing. -L_HORIZONTAL and -L_TENSION take the length nearest to the present one and name the others that give the force. Lengths are those of the connector: \
              its class and the other connectors of the class keep theirs. -A_HORIZONTAL and -A_TENSION keep the direction from \
              the fairlead and the depth. An anchor put at X Y Z has the depth -Z whatever -DEPANCHOR and &ENV say; under a B_CAT \
              the bottom goes with it. What solves does so exactly, also for a class with -TABLE, and \
-             passes over connectors that are inactive. \
+             passes over connectors that are inactive. -L_DYNAMIC is our reading: MOTOR hauls in with MULT times its MAX_TORQUE, BRAKE holds up to S_MOMENT and slips \
+             with D_MOMENT, a curve LT_MULTIPLIER pays out at MULT (a speed) times its factor over time, CT_LENGTH pays out MULT times its length. \
              -DYNAMICS is the cable dynamics of AQWA: weight, drag, added mass and bottom act all along the line, in statics and in time; \
              its forces then follow from -CD, -CA and the diameters of its class.",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*MLA 400 50 20\n*MLB 400 -50 20\n\
@@ -95,11 +121,17 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let mut said = Said { units: job.units, lines: Vec::new(), warnings: Vec::new() };
     for (given, names) in groups(args)? {
+        let units = job.units;
+        if given.is(&L_DYNAMIC) {
+            for value in names {
+                said.lines.push(assembly::govern_drum(&mut job.model, value, given, units)?);
+            }
+            continue;
+        }
         let keys = select_connectors(&job.model, names).map_err(|error| match job.deferred.as_slice() {
             [] => error,
             _ => error.help("the connectors of INMODEL are made at its END"),
         })?;
-        let units = job.units;
         for key in keys {
             if job.is_interrupted() {
                 return Err(Diagnostic::error("&CONNECTOR: nothing is changed", args.span));
@@ -213,6 +245,11 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         made.active = given.is(&ACTIVE);
         return Ok(if made.active { "active" } else { "inactive" }.into());
     }
+    let reeving = model.reeving(&made.name);
+    if let Some(assembly) = reeving.filter(|_| !given.is(&LENGTH) && !given.is(&L_DELTA)) {
+        let text = format!("{} does not act on a span of the line of {}", given.name(), assembly.name);
+        return Err(ClassError::new(text).help("-LENGTH, -L_DELTA, -ACTIVE and -INACTIVE do"));
+    }
     if given.is(&DYNAMICS) {
         let elements = given.first_integer().and_then(|n| usize::try_from(n).ok());
         made.dynamics = elements.filter(|n| *n > 0);
@@ -283,6 +320,9 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             move_anchor(model, made, [x + distance * ux, y + distance * uy]);
         }
         None => {}
+    }
+    if reeving.is_some() {
+        return Ok(describe_change(made, given, old, said));
     }
     if model.is_dynamic_line(made) && lengthened {
         // what makes no such line is refused here, not in a run

@@ -13,7 +13,7 @@ use windlass_hydro::Category;
 use windlass_language::number::evaluate;
 use windlass_language::select::choose_word;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Attribute, AttributeMultiplier, EntityKind, Model, Multipliers};
+use windlass_model::{Attribute, AttributeMultiplier, EntityKind, Model, Multipliers, SolveKind, UnmodelledEffect};
 
 /// &APPLY.
 pub static APPLY: Command = Command { spec: &SPEC, edits: false, run };
@@ -75,7 +75,8 @@ const WORDS: &[ValueSpec] = &[ValueSpec::new(
 const GROUPS: &[ValueSpec] =
     &[ValueSpec::new("WORD", Kind::Item, "a selector of load groups and VALUE, in turn; without it nothing")
         .or("nothing")];
-const FORCES: &[ValueSpec] = &[ValueSpec::choice::<LoadCategory>("CATEGORY", "category of force"), VALUE];
+const FORCES: &[ValueSpec] =
+    &[ValueSpec::new("CATEGORY", Kind::Item, "WIND, V_DRAG or W_DRIFT, or the #SET of a set of forces"), VALUE];
 
 const FRACTION: OptionSpec =
     OptionSpec::new("-FRACTION", GROUPS, "values are fractions; values of its own are those of load groups")
@@ -85,7 +86,8 @@ const PERCENT: OptionSpec =
     OptionSpec::new("-PERCENT", GROUPS, "values are percent; values of its own are those of load groups").repeating(1);
 const CATEGORY_OPTION: OptionSpec =
     OptionSpec::new("-CATEGORY", WORDS, "multipliers of attributes of load categories").repeating(1).many();
-const FORCE: OptionSpec = OptionSpec::new("-FORCE", FORCES, "multiplier of a category of force").many();
+const FORCE: OptionSpec =
+    OptionSpec::new("-FORCE", FORCES, "multiplier of a category of force; that of a #SET stops the next solve").many();
 const LOAD_GROUP: OptionSpec =
     OptionSpec::new("-LOAD_GROUP", GROUPS, "multipliers of load groups; each body and part has one of its name")
         .repeating(1)
@@ -95,10 +97,10 @@ static SPEC: CommandSpec = CommandSpec {
     options: &[FRACTION, PERCENT, CATEGORY_OPTION, FORCE, LOAD_GROUP],
     detail: "Each record sets multipliers anew; a load has the product of that of its force category, of its load group and of its load category: 0.5 of \
              two leave a quarter. -CATEGORY names load categories (-CATEGORY of #WEIGHT, #AREA ..; EXTRA where none was given) by a name, a \
-             pattern or a selector, and attributes: #DEAD weights, with their inertia, #BUOY the buoyancy of #BUOY, #WIND, #DRAG current, linear drag and damping, \
-             #AMASS added mass; a value without attribute is that of all. Of several that fit a load the last counts. -FORCE acts on all wind \
+             pattern or a selector, and attributes: #DEAD weights, with their inertia, #BUOY the buoyancy of #BUOY and of members, with the pressure of waves on them, #WIND, #DRAG current, linear drag and damping, \
+             #AMASS added mass; a value without attribute is that of all. BEAM and PLATE are of category STR_MODEL, TUBE of EXTRA, unless their records say; hulls of other pieces are of none. Of several that fit a load the last counts. -FORCE acts on all wind \
              (WIND), current (V_DRAG) or mean wave drift (W_DRIFT). -CATEGORY WIND 50 is read as -FORCE WIND 50. A load group \
-             multiplies its weights too. -PERCENT @ 100 sets all load groups.",
+             multiplies its weights too; that of a part its members. A -FORCE of a #SET, which no record here defines, stops the next solve unless it is 0. -PERCENT @ 100 sets all load groups.",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 8\n#WEIGHT *CG 100 -CATEGORY STEEL\nEND\n\
               &APPLY -PERCENT -CATEGORY @ #DEAD 110 #BUOY 100 -CATEGORY STEEL #DEAD 105 #BUOY 100\n\
               &APPLY -PERCENT -FORCE WIND 50 -LOAD_GROUP TBRG 120\n&STATUS LOADS",
@@ -180,6 +182,21 @@ fn set_categories(made: &mut Multipliers, given: &Given, unit: f64) -> Outcome<(
     Ok(())
 }
 
+/// Whether a category, a pattern or a selector chooses a category of a load, or is that of a force.
+fn is_known(model: &Model, word: &str) -> bool {
+    if LoadCategory::from_word(&Model::key(word)).is_some() {
+        return true;
+    }
+    let of_parts = model.parts.values().flat_map(|part| {
+        part.weights.iter().map(|w| w.category.as_str()).chain(part.pieces.iter().filter_map(|p| p.category.as_deref()))
+    });
+    let mut all = of_parts.chain(model.loads.iter().map(|load| load.category.as_str()));
+    match model.selectors.get(&Model::key(word)) {
+        Some(selector) => all.any(|category| selector.matches(category, model)),
+        None => all.any(|category| matches(word, category)),
+    }
+}
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let unit = match (args.option(&FRACTION), args.option(&PERCENT)) {
@@ -193,17 +210,34 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if args.options.iter().any(|given| given.is(&CATEGORY_OPTION)) {
         made.attributes.clear();
     }
+    let mut sets = Vec::new();
     for given in &args.options {
         match given {
             _ if given.is(&CATEGORY_OPTION) => set_categories(&mut made, given, unit)?,
             _ if given.is(&FORCE) => {
-                let value = given.number(const { FORCE.number("VALUE") });
-                let chosen = given.choice::<LoadCategory>(const { FORCE.choice("CATEGORY") });
-                if let (Some(value), Some(chosen)) = (value, chosen) {
+                let value = given.number(const { FORCE.number("VALUE") }).unwrap_or_default();
+                let word = given.first_word().unwrap_or_default();
+                if word.starts_with('#') {
+                    sets.push((word, value, given.span));
+                } else {
+                    let chosen: LoadCategory = choose_word(word, given.first_place(), "category of force")?;
                     made.categories.insert(chosen.category().name().to_string(), value * unit);
                 }
             }
             _ => set_groups(job, &mut made, given, unit)?,
+        }
+    }
+    for (word, value, span) in sets {
+        let record = format!("&APPLY -FORCE {}", word.to_ascii_uppercase());
+        job.model.unmodelled.retain(|kept| kept.record != record);
+        if value != 0.0 {
+            let effect = "a set of forces on points".to_string();
+            job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to: SolveKind::Statics, span });
+        }
+    }
+    for given in args.options.iter().filter(|given| given.is(&CATEGORY_OPTION)) {
+        if let Some(word) = given.first_word().filter(|word| *word != "@" && !is_known(&job.model, word)) {
+            job.warn(format!("no load is of category {word}: its multipliers wait for one"), given.first_place());
         }
     }
     job.model.multipliers = made;

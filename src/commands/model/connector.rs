@@ -174,7 +174,9 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     if let [first, second] = points.as_slice()
         && held(first) == held(second)
     {
-        let text = format!("connector {name} joins two points of {}: it moves nothing", held(first));
+        let unless = ", unless ASSEMBLY makes it a span of a line over pulleys";
+        let unless = if class.object.as_reeved().is_some() { unless } else { "" };
+        let text = format!("connector {name} joins two points of {}: it moves nothing{unless}", held(first));
         job.warn(text, span);
     }
     job.model.connectors.insert(Model::key(name), made);

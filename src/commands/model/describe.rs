@@ -44,7 +44,15 @@ pub(crate) const PLACE: [ValueSpec; 6] = [
 ];
 const PLACE_NAMES: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
-const LOCATION: &[ValueSpec] = &[BODY, PLACE[0], PLACE[1], PLACE[2], PLACE[3], PLACE[4], PLACE[5]];
+const LOCATION: &[ValueSpec] = &[
+    BODY.or("BODY of the record, else that described last"),
+    PLACE[0],
+    PLACE[1],
+    PLACE[2],
+    PLACE[3],
+    PLACE[4],
+    PLACE[5],
+];
 
 const MOVE: OptionSpec = OptionSpec::new("-MOVE", &PLACE, "places a part in its body");
 const IGNORE: OptionSpec = OptionSpec::new(
@@ -146,7 +154,7 @@ const MOVE_BODY: OptionSpec = OptionSpec::new("-MOVE", LOCATION, "moves a body f
 const CONDITION: OptionSpec = OptionSpec::new(
     "-CONDITION",
     &[
-        BODY.or("the body described last"),
+        BODY.or("BODY of the record, else that described last"),
         number("DRAFT", Dim::Length, "draft of the body's origin below the mean surface").or("0"),
         number("ROLL", Dim::Angle, "roll").or("0"),
         number("TRIM", Dim::Angle, "trim: the pitch").or("0"),
@@ -182,10 +190,13 @@ const EVENT: OptionSpec = OptionSpec::new(
 );
 const PREVIOUS: OptionSpec = OptionSpec::new("-PREVIOUS", &[], "puts every body back to where it was before");
 
+const INSTATE_BODY: DatumKey<str> = INSTATE_SPEC.word("BODY");
+
 static INSTATE_SPEC: CommandSpec = CommandSpec {
+    data: &[BODY.or("the body that each option names, else that described last")],
     options: &[LOCATE, MOVE_BODY, CONDITION, DRAFT, TO_POINT, EVENT, PREVIOUS],
     absent: &[("-SL_SET", "lengths of slings are found by ASSEMBLY T-H_DEFINITION, and set by &CONNECTOR -LENGTH")],
-    detail: "Options act in the order given. Angles: yaw about Z, then pitch about Y, then roll about X, about the axes already turned. \
+    detail: "Options act in the order given. &INSTATE BODY -CONDITION 9 is &INSTATE -CONDITION BODY 9. Angles: yaw about Z, then pitch about Y, then roll about X, about the axes already turned. \
              -CONDITION leaves x, y and yaw; with x aft, y to starboard and z up a roll lifts the starboard side and a trim sinks the stern. \
              -MOVE adds to the six numbers of &STATUS CONFIGURATION, angles to angles, so that moving back by the same numbers restores them \
              to the digit; x, y, z are global. What follows is our reading: -DRAFT changes the height at one mark, height and trim or roll \
@@ -496,11 +507,16 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("-PREVIOUS stands alone", given.span));
     }
     for given in &call.args.options {
-        let names_body = given.is_any(&[LOCATE, MOVE_BODY, CONDITION]);
-        let body = given
-            .first_word()
-            .filter(|_| names_body)
-            .map(|name| find(&model.bodies, name, "body", given.first_place()).map(|b| Model::key(&b.name)));
+        let body = || -> Outcome<String> {
+            let named = given.first_word().map(|name| (name, given.first_place()));
+            let own = call.args.word(INSTATE_BODY).map(|name| (name, call.args.place(INSTATE_BODY)));
+            match named.or(own) {
+                Some((name, span)) => find(&model.bodies, name, "body", span).map(|b| Model::key(&b.name)),
+                None => model.current_body().map(|b| Model::key(&b.name)).ok_or_else(|| {
+                    Diagnostic::error("no body is described yet", given.span).help("&DESCRIBE BODY describes one")
+                }),
+            }
+        };
         match given {
             _ if given.is(&PREVIOUS) => {
                 for body in model.bodies.values_mut() {
@@ -517,18 +533,17 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 })?;
             }
             _ if given.is(&CONDITION) => {
-                let key = body.transpose()?.or_else(|| model.current_body().map(|b| Model::key(&b.name)));
-                let body = key.and_then(|key| model.bodies.get_mut(&key)).ok_or_else(|| {
-                    Diagnostic::error("no body is described yet", given.span).help("&DESCRIBE BODY describes one")
-                })?;
+                let key = body()?;
                 let [draft, roll, trim] = given.numbers_or_zero(const { CONDITION.numbers(["DRAFT", "ROLL", "TRIM"]) });
-                body.place.shift[2] = -draft;
-                body.place.turn = [roll, trim, body.place.turn[2]];
+                if let Some(body) = model.bodies.get_mut(&key) {
+                    body.place.shift[2] = -draft;
+                    body.place.turn = [roll, trim, body.place.turn[2]];
+                }
             }
             _ => {
-                let Some(key) = body.transpose()? else { continue };
                 // -MOVE of a body has the values of -LOCATE
                 let place = Place::new(given.numbers_or_zero(const { LOCATE.numbers(PLACE_NAMES) }));
+                let key = body()?;
                 if let Some(body) = model.bodies.get_mut(&key) {
                     let values = body.place.values();
                     let moved = [0, 1, 2, 3, 4, 5].map(|i| values[i] + place.values()[i]);

@@ -65,7 +65,7 @@ const FREE_SIDE: OptionSpec =
         .repeating(1)
         .stops(SolveKind::Statics, "a free edge");
 /// Values of an option that is read and not used.
-const ANY: &[ValueSpec] = &[ValueSpec::new("V", Kind::Text, "a value").or("none")];
+const ANY: &[ValueSpec] = &[ValueSpec::new("V", Kind::Item, "a value").or("none")];
 /// An option of a stress analysis.
 const fn stress(name: &'static str) -> OptionSpec {
     OptionSpec::new(name, ANY, "of a stress analysis or a code check").repeating(1).many().without_effect()
@@ -93,7 +93,7 @@ static BEAM_SPEC: CommandSpec = CommandSpec {
         stress("-SCF"),
     ],
     detail: "BEAM [NAME] ~CLASS *N1 *N2 *N3 ..: beams from node to node. A further [NAME] ~CLASS or option holds for the beams behind it: \
-             BEAM ~C1 *A *B ~C2 -FLOOD YES *C has ~C1 from *A to *B, ~C2 flooded from *B to *C. Without a name a beam is BEAM1, BEAM2 ..; a name given again replaces that beam. \
+             BEAM ~C1 *A *B ~C2 -FLOOD YES *C has ~C1 from *A to *B, ~C2 flooded from *B to *C. An option behind the last node holds for every beam that has none of its own (our reading). Without a name a beam is BEAM1, BEAM2 ..; a name given again replaces that beam. \
              A beam has no stiffness here and its body is rigid. It has the weight of its metal, in category STR_MODEL (our reading); the buoyancy of what its walls \
              enclose, or with -FLOOD YES and in open sections of its metal; and drag, added mass and pressure of waves by Morison's \
              formula, with the coefficients of &PARAMETER: -DRGTUB, -AMCTUB and -WCSTUBE of tubes; bars have a drag of -DRGPLA, else 1, along width and depth, on the \
@@ -222,9 +222,10 @@ struct StatedElement<'a> {
     index: usize,
 }
 
-/// An option as it holds for an element that is complete behind a number of words: the last given before.
+/// An option as it holds for an element that is complete behind a number of words: the last given before, else one behind all words.
 fn in_force<'a>(args: &'a Args, option: &OptionSpec, index: usize) -> Option<&'a Given> {
-    args.occurrences(option).rfind(|given| given.after <= index)
+    let behind = || args.occurrences(option).find(|given| given.after >= args.data.len());
+    args.occurrences(option).rfind(|given| given.after <= index).or_else(behind)
 }
 
 /// The part of a node, where it is a part of a body.
@@ -402,6 +403,7 @@ fn insert(
             cs_current: [0.0; 3],
             member: Some(made.member),
             element: Some(element.clone()),
+            category: Some(category.clone()),
             waves: WaveAction::ByForm,
             eddy_damping: 0.0,
             kept: Vec::new(),

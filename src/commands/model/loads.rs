@@ -6,6 +6,7 @@
 use crate::commands::files::number_rows::rows;
 use crate::commands::menu;
 use crate::commands::model::weight::{self, CATEGORY};
+use crate::commands::model_values::option_as_written;
 use crate::commands::{Call, Command, Effect, Job};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::choices;
@@ -18,8 +19,8 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
 use windlass_hydro::heading::ByHeading;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, DatumKey, Kind, MenuSpec, OptionSpec, ValueSpec};
-use windlass_model::{Fluid, GROUND, LoadKind, Model, PartLoad, find};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, MenuSpec, OptionEffect, OptionSpec, ValueSpec};
+use windlass_model::{Fluid, GROUND, LoadKind, Model, PartLoad, SolveKind, UnmodelledEffect, find};
 
 /// #AREA.
 pub static AREA: Command = Command { spec: &AREA_SPEC, edits: false, run: area };
@@ -124,6 +125,28 @@ const FULL_RATE: OptionSpec =
 const FULL_WEIGHT: OptionSpec =
     OptionSpec::new("-MATRIX", &whole(0), "the whole matrix, row by row, instead of its diagonal").owner(Owner::Ours);
 
+const SHAPE_COEFFICIENT: [ValueSpec; 1] = [number("C", Dim::None, "coefficient").not_negative()];
+const WIND_COEFFICIENT: OptionSpec =
+    OptionSpec::new("-WIND", &SHAPE_COEFFICIENT, "shape coefficient in wind (our reading)").default("1");
+const DRAG_COEFFICIENT: OptionSpec =
+    OptionSpec::new("-DRAG", &SHAPE_COEFFICIENT, "drag coefficient in current (our reading)").default("1");
+const ADDED_MASS_COEFFICIENT: OptionSpec =
+    OptionSpec::new("-AMASS", &SHAPE_COEFFICIENT, "coefficient of added mass; #AMASS gives the mass itself")
+        .stops(SolveKind::Motions, "added mass of an area");
+const EDDY_FACTOR: OptionSpec =
+    OptionSpec::new("-TANAKA", &SHAPE_COEFFICIENT, "eddy damping of an area; #TANAKA gives that of the hull")
+        .stops(SolveKind::Motions, "eddy damping of an area");
+const NORMAL_MULTIPLIER: OptionSpec = OptionSpec::new(
+    "-MULT_N",
+    &[number("N", Dim::None, "a multiplier")],
+    "a multiplier whose meaning no source gives; multiply the areas instead",
+)
+.stops(SolveKind::Statics, "a multiplier of an area");
+/// Coefficients in air and in water.
+const SHAPE_COEFFICIENTS: [OptionSpec; 2] = [WIND_COEFFICIENT, DRAG_COEFFICIENT];
+/// What areas and plates take of which no solver computes the effect.
+const NOT_COMPUTED: [OptionSpec; 3] = [ADDED_MASS_COEFFICIENT, EDDY_FACTOR, NORMAL_MULTIPLIER];
+
 static AREA_SPEC: CommandSpec = CommandSpec {
     menus: MENUS,
     data: &[
@@ -132,9 +155,17 @@ static AREA_SPEC: CommandSpec = CommandSpec {
         number("AY", Dim::Area, "along y").or("0").not_negative(),
         number("AZ", Dim::Area, "along z").or("0").not_negative(),
     ],
-    options: &[FLUID, CATEGORY],
+    options: &[
+        FLUID,
+        CATEGORY,
+        WIND_COEFFICIENT,
+        DRAG_COEFFICIENT,
+        ADDED_MASS_COEFFICIENT,
+        EDDY_FACTOR,
+        NORMAL_MULTIPLIER,
+    ],
     detail: "The force along each axis of the part is 1/2 rho A |w| w, with w the component and |w| the speed of the stream in \
-             these axes, on the point. Above the water it is wind, below it current, by the global height of the point, with a \
+             these axes, on the point, times -WIND in air and -DRAG in water. Above the water it is wind, below it current, by the global height of the point, with a \
              passage of 0.5 m about the surface in which both act in part (our reading: a jump would hide equilibria).",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*CAR 90 0 40\n#AREA *CAR 50*20 80*20\nEND\n&ENV -WIND 60 180\n&STATUS LOADS",
     ..CommandSpec::new("#AREA", "area in wind or current")
@@ -149,7 +180,16 @@ static PLATE_SPEC: CommandSpec = CommandSpec {
     menus: MENUS,
     data: &[POINT, POINT, POINT, ValueSpec { name: "*PT", help: "a further corner", ..POINT }.or("none")],
     repeat: 1,
-    options: &[CD, FLUID, CATEGORY],
+    options: &[
+        CD,
+        FLUID,
+        CATEGORY,
+        WIND_COEFFICIENT.default("CD"),
+        DRAG_COEFFICIENT.default("CD"),
+        ADDED_MASS_COEFFICIENT,
+        EDDY_FACTOR,
+        NORMAL_MULTIPLIER,
+    ],
     detail: "Corners in order round the plate, at least three, not on one line. The drag 1/2 rho CD A |w.n| (w.n) is along the \
              normal alone, on the centre of the area; the sense of the normal does not matter. Wind or current as with #AREA, by \
              the height of the centre.",
@@ -343,11 +383,40 @@ fn keep(job: &mut Job, args: &Args, (part, at): (String, Position), kind: LoadKi
         Some(FluidChoice::Water) => Fluid::Water,
         None => Fluid::ByHeight,
     };
+    let record = kind.name();
+    for given in args.options.iter().filter(|given| given.is_any(&NOT_COMPUTED)) {
+        if let (OptionEffect::Stops(matters_to, effect), true) =
+            (given.option.effect, given.first_number().is_some_and(|value| value != neutral(given)))
+        {
+            let (record, effect) = (format!("{} of {record}", option_as_written(given, job.units)), effect.to_string());
+            job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to, span: given.span });
+        }
+    }
     let category = weight::category_of(args);
     let point = args.data.iter().find_map(|value| value.word()).unwrap_or_default();
     let group = weight::group_for(&job.model, point, args.span)?;
-    job.model.loads.push(PartLoad { part, at, fluid, kind, category, group, span: args.span });
+    let usual = match kind {
+        LoadKind::Plate { .. } if has_shape_coefficients(args) => plate_drag(job, args),
+        _ => 1.0,
+    };
+    let shape_coefficients = SHAPE_COEFFICIENTS.map(|option| args.number_if_declared(&option).unwrap_or(usual));
+    job.model.loads.push(PartLoad { part, at, fluid, kind, shape_coefficients, category, group, span: args.span });
     Ok(Effect::Done)
+}
+
+/// The value of an option that changes nothing.
+fn neutral(given: &Given) -> f64 {
+    if given.is(&NORMAL_MULTIPLIER) { 1.0 } else { 0.0 }
+}
+
+/// Whether a record gives the coefficient of an area in air or in water.
+fn has_shape_coefficients(args: &Args) -> bool {
+    SHAPE_COEFFICIENTS.iter().any(|option| args.option_if_declared(option).is_some())
+}
+
+/// The drag coefficient of a plate in every stream for which its record gives none.
+fn plate_drag(job: &Job, args: &Args) -> f64 {
+    args.option_number(&CD).or(job.model.parameters.plate_drag).unwrap_or(1.0)
 }
 
 fn buoy(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -404,7 +473,8 @@ fn tanker(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let (category, group) = (weight::category_of(args), None);
         let kind = LoadKind::Coefficients { rows, symmetric };
         let (part, at) = place.clone();
-        job.model.loads.push(PartLoad { part, at, fluid, kind, category, group, span: args.span });
+        let shape_coefficients = [1.0; 2];
+        job.model.loads.push(PartLoad { part, at, fluid, kind, shape_coefficients, category, group, span: args.span });
     }
     Ok(Effect::Done)
 }
@@ -441,7 +511,7 @@ fn plate(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("give it as several plates"));
     }
     let moment: Vector3<f64> = triangles().map(|(b, c, area)| (first + b + c) / 3.0 * area.dot(&normal)).sum();
-    let drag = args.option_number(&CD).or(job.model.parameters.plate_drag).unwrap_or(1.0);
+    let drag = if has_shape_coefficients(args) { 1.0 } else { plate_drag(job, args) };
     let kind = LoadKind::Plate { area: drag * size, normal: normal.into() };
     keep(job, args, (part, (moment / size).into()), kind)
 }

@@ -1,6 +1,6 @@
 //! The options that make a TUBE a member in waves and current, and the table of members.
 
-use crate::commands::model::piece;
+use crate::commands::model::{piece, weight};
 use crate::commands::status::body_tables::round_to_zero;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Digits, Table};
@@ -48,8 +48,14 @@ const CA_OPTION: OptionSpec =
     factor("-CA", &CA, "coefficient of added mass", "1, or that of &PARAMETER -AMCTUB; 0 of what displaces no water");
 const CAA_OPTION: OptionSpec = factor("-CAA", &CAA, "coefficient of added mass of the ends", "0");
 
+/// The load category of a TUBE.
+pub const CATEGORY: OptionSpec = OptionSpec { owner: Owner::Ours, ..weight::CATEGORY };
+
+/// The coefficients of a TUBE.
+const COEFFICIENTS: [OptionSpec; 4] = [CD_OPTION, CDA_OPTION, CA_OPTION, CAA_OPTION];
+
 /// What a TUBE takes besides what every piece takes.
-pub const OPTIONS: [OptionSpec; 4] = [CD_OPTION, CDA_OPTION, CA_OPTION, CAA_OPTION];
+pub const OPTIONS: [OptionSpec; 5] = [CD_OPTION, CDA_OPTION, CA_OPTION, CAA_OPTION, CATEGORY];
 
 /// What the help of TUBE says.
 pub const TUBE_HELP: &str = "A round member with flat ends between two points of the body; it displaces the water of its whole section. \
@@ -61,7 +67,8 @@ pub const TUBE_HELP: &str = "A round member with flat ends between two points of
      -CAA 0.64 0. &STATUS PIECES prints the added mass of all members of a body. 0.016 for CDA is what AQWA has. In \
      equilibrium the drag of the current is left, under the mean level. -CS_CURRENT instead gives the drag of the areas along the axes of \
      the part, as of other pieces; with CD it contradicts. -DIFTYPE 3DDIF says that a hydrodynamic database has the tube in its hull: of the \
-     formula drag alone is left. Slamming and the drag of flat ends are not counted.";
+     formula drag alone is left. Slamming and the drag of flat ends are not counted. &APPLY multiplies what it does by the attributes #BUOY, #WIND, #DRAG and #AMASS of its \
+     category and by its part.";
 
 /// The coefficients of a TUBE; those that its record leaves out are the usual ones.
 ///
@@ -69,8 +76,9 @@ pub const TUBE_HELP: &str = "A round member with flat ends between two points of
 /// Two sorts of drag; coefficients of an interior.
 pub fn coefficients(args: &Args, permeability: f64, usual: &Parameters) -> Outcome<Member> {
     let given = |option: &OptionSpec| args.option_number(option);
-    let own =
-        OPTIONS.iter().find_map(|option| args.option(option).filter(|g| g.first_number().is_some_and(|c| c != 0.0)));
+    let own = COEFFICIENTS
+        .iter()
+        .find_map(|option| args.option(option).filter(|g| g.first_number().is_some_and(|c| c != 0.0)));
     if let Some(own) = own.filter(|_| permeability < 0.0) {
         return Err(Diagnostic::error(
             format!("{} is of what stands in the water, and an interior does not", own.name()),

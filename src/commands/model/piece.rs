@@ -3,7 +3,7 @@
 //! Source: [MOSES-REF pieces].
 
 use crate::commands::menu;
-use crate::commands::model::member;
+use crate::commands::model::{member, weight};
 use crate::commands::model_values::option_as_written;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use nalgebra::Vector3;
@@ -307,6 +307,7 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
     let member = (matches!(shape, Shape::Tube { .. }) && !in_tank)
         .then(|| member::coefficients(args, permeability, &job.model.parameters))
         .transpose()?;
+    let category = member.is_some().then(|| weight::category_of(args));
     let waves = match chosen.unwrap_or(DiffractionType::None) {
         DiffractionType::Database => WaveAction::Database,
         DiffractionType::FroudeKrylov if member.is_none() => WaveAction::Pressure,
@@ -335,6 +336,7 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
         cs_current: if by_area { factors(&CS_CURRENT) } else { [0.0; 3] },
         member,
         element: None,
+        category,
         waves,
         eddy_damping: args.option_number(&TANAKA).unwrap_or(0.0),
         kept,

@@ -79,7 +79,7 @@ const NORTH: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours);
 /// An option of pictures of MOSES that changes nothing here.
 const fn idle(name: &'static str, help: &'static str) -> OptionSpec {
-    const ANY: &[ValueSpec] = &[ValueSpec::new("DATA", Kind::Text, "as in MOSES").or("none")];
+    const ANY: &[ValueSpec] = &[ValueSpec::new("DATA", Kind::Item, "as in MOSES").or("none")];
     OptionSpec::new(name, ANY, help).repeating(1).without_effect()
 }
 

@@ -3,12 +3,14 @@
 pub(crate) mod body_forces;
 pub(crate) mod connector_forces;
 pub(crate) mod drafts;
+pub(crate) mod element_forces;
 pub(crate) mod fatigue;
 pub(crate) mod force_magnitudes;
 pub(crate) mod fractiles;
 pub(crate) mod frequency_equations;
 pub(crate) mod frequency_posts;
 pub(crate) mod frequency_statistics;
+pub(crate) mod group_forces;
 pub(crate) mod lengths;
 pub(crate) mod motions;
 pub(crate) mod points;
@@ -39,6 +41,8 @@ pub static TABLES: &[&Command] = &[
     &total_forces::TOT_CFORCE,
     &lengths::C_LENGTH,
     &body_forces::BODY_FORCE,
+    &element_forces::ELMFORCE,
+    &group_forces::LDGFORCE,
     &tanks::TANK_BAL,
     &tanks::TANK_FLD,
     &tanks::HOLE_FLOODING,

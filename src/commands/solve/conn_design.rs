@@ -114,6 +114,11 @@ const NAMED: DatumKey<str> = TABLE_SPEC.word(LINE.name);
 /// The connector that a record's first datum names, and its class.
 fn find_connector<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Connector, &'a Class)> {
     let connector = find(&job.model.connectors, args.word(NAMED).unwrap_or_default(), "connector", args.place(NAMED))?;
+    if let Some(assembly) = job.model.reeving(&connector.name) {
+        let text =
+            format!("{} is a span of the line of {}, whose tension is not found alone", connector.name, assembly.name);
+        return Err(Diagnostic::error(text, args.place(NAMED)).help("&STATUS ASSEMBLIES reports the line"));
+    }
     Ok((connector, find(&job.model.classes, &connector.class, "class", args.place(NAMED))?))
 }
 

@@ -12,12 +12,13 @@ use windlass_model::{
 use windlass_model::{EntityKind, SolverCache};
 
 /// `&STATUS ASSEMBLIES`.
-pub static ASSEMBLIES: StatusKind =
-    StatusKind::new("ASSEMBLIES", "tip-hook sets: where the hook is, what its lines bear", |query, _| {
-        Ok(assemblies(query.model(), &query.fits(), query.job.units))
-    })
-    .with_names(&[EntityKind::Assembly])
-    .also(&["TIP-HOOK"]);
+pub static ASSEMBLIES: StatusKind = StatusKind::new(
+    "ASSEMBLIES",
+    "tip-hook sets, lines over pulleys and winches: where the hook is, what lines bear",
+    |query, _| Ok(assemblies(query.model(), &query.fits(), query.job.units)),
+)
+.with_names(&[EntityKind::Assembly])
+.also(&["TIP-HOOK"]);
 
 /// What a row of the tip-hook sets shows: the hook of a set, or one of its lines.
 struct HookRow<'m> {
@@ -50,6 +51,7 @@ pub fn assemblies(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem)
         match &assembly.kind {
             AssemblyKind::TipHook { boom, .. } => rows.extend(hook_rows(&mut table, model, assembly, boom, units)),
             AssemblyKind::Pipe { .. } => pipes.push(pipe(model, assembly, units)),
+            AssemblyKind::Pulley { .. } | AssemblyKind::Winch { .. } => pipes.push(reeved(model, assembly, units)),
         }
     }
     if rows.is_empty() && !pipes.is_empty() {
@@ -74,6 +76,37 @@ pub fn assemblies(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem)
         })
         .build();
     std::iter::once(table).chain(pipes).collect()
+}
+
+/// The table of a line over pulleys, or off a drum: its spans.
+fn reeved(model: &Model, assembly: &Assembly, units: UnitSystem) -> Table {
+    let title = if matches!(assembly.kind, AssemblyKind::Winch { .. }) { "Winch" } else { "Line over Pulleys" };
+    let mut table = Table::new(title).fact("Name", assembly.name.as_str(), Dim::None);
+    let spans: Vec<&Connector> =
+        assembly.members().filter_map(|name| model.connectors.get(&Model::key(name))).collect();
+    let whole: f64 = spans.iter().filter_map(|span| model.first_length(span)).sum();
+    table = table.fact("Length of First Segments", whole, Dim::Length);
+    let mut rows = Vec::new();
+    for span in spans {
+        let acts = span.active && !model.is_unreeved(&span.name);
+        let tension = match acts.then(|| line_summary(model, span)) {
+            Some(Ok(summary)) => summary.tension,
+            Some(Err(error)) => {
+                table.note_absent(format!("{}: {}", span.name, error.text(units)));
+                None
+            }
+            None => None,
+        };
+        let [from, to] = model.end_poses(span).map(|pose| pose.origin);
+        rows.push((span, acts, (to - from).norm(), tension));
+    }
+    table
+        .with_rows(&rows)
+        .text("Span", |(span, ..)| &span.name)
+        .text("Status", |(_, acts, ..)| if *acts { "Active" } else { "Inactive" })
+        .column("", "Distance", Dim::Length, Digits::Decimals(4), |(_, _, distance, _)| *distance)
+        .column("", "Tension", Dim::Force, Digits::Usual, |(.., tension)| *tension)
+        .build()
 }
 
 /// The table of a pipe: what it exerts on its supports.
@@ -164,7 +197,7 @@ fn hook_rows<'m>(
 /// What a line bears between its ends.
 fn line_summary(model: &Model, connector: &Connector) -> Result<ConnectorSummary, ClassError> {
     let element = model.element(connector)?;
-    let ends = model.end_poses(connector).map(End::at_rest);
+    let ends: Vec<End> = model.element_ends(connector).into_iter().map(End::at_rest).collect();
     let mut state = vec![0.0; element.states()];
     element.start(&mut state);
     let surroundings = model.surroundings();

@@ -1,4 +1,4 @@
-//! `&STATUS CATEGORY`: weights and point buoyancies by load category.
+//! `&STATUS CATEGORY`: weights, and buoyancies of points and members, by load category.
 //!
 //! MOSES reports weight, buoyancy and their centers by category [MOSES-HELP modeling]; the columns are ours.
 
@@ -11,7 +11,7 @@ use windlass_model::{Attribute, EntityKind, LoadKind, Model};
 
 /// `&STATUS CATEGORY`.
 pub static CATEGORY: StatusKind =
-    StatusKind::new("CATEGORY", "weight and point buoyancy of load categories, with their centers", |query, _| {
+    StatusKind::new("CATEGORY", "weight and buoyancy of load categories, with their centers", |query, _| {
         Ok(vec![categories(query.model(), &query.fits())])
     })
     .with_names(&[EntityKind::Body])
@@ -40,12 +40,20 @@ impl ForceMoment {
 
 /// One row a body and category that has loads, with the multipliers of `&APPLY`.
 fn categories(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
+    let water_weight = model.surroundings().water_weight();
     let mut sums: IndexMap<(&str, &str), [ForceMoment; 2]> = IndexMap::new();
     for body in model.bodies.values() {
         for part in model.parts_of(body) {
             for weight in &part.weights {
                 let [weights, _] = sums.entry((&body.name, &weight.category)).or_default();
                 weights.add(weight.weight * weight.multiplier, part.place.apply(weight.at));
+            }
+            for piece in &part.pieces {
+                if let (Some(category), Some((at, volume))) = (&piece.category, piece.shape.member_volume()) {
+                    let share = piece.permeability * model.member_factor(&part.name, piece, Attribute::Buoyancy);
+                    let [_, buoyancy] = sums.entry((&body.name, category)).or_default();
+                    buoyancy.add(water_weight * volume * share, part.place.apply(at));
+                }
             }
             for load in model.loads.iter().filter(|l| Model::key(&l.part) == Model::key(&part.name)) {
                 if let LoadKind::Buoyancy { force, .. } = &load.kind {
@@ -59,7 +67,7 @@ fn categories(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
     }
     let rows: Vec<_> = sums.into_iter().filter(|((body, category), _)| fits(body) || fits(category)).collect();
     let mut table = Table::new("Categories");
-    table.note("centers are in the system of the body; what &APPLY multiplies is multiplied; the buoyancy of hulls belongs to no category: &STATUS B_W has it");
+    table.note("centers are in the system of the body; what &APPLY multiplies is multiplied; buoyancy is that of members and of #BUOY wholly under water; that of other pieces belongs to no category: &STATUS B_W has it");
     table
         .with_rows(&rows)
         .text("Body", |((body, _), _)| *body)

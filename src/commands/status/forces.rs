@@ -53,6 +53,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
         let (solution, found) = match connector.active {
             false => ("inactive", None),
             true if model.holds_pipe(&connector.name) => ("in pipe", None),
+            true if model.is_unreeved(&connector.name) => ("inactive", None),
             true => match find_forces(model, connector) {
                 Ok(mut found) => {
                     notes.push((connector.name.clone(), take_remarks(&mut found.summary, units)));
@@ -154,7 +155,7 @@ pub(crate) fn find_forces(model: &Model, connector: &Connector) -> Result<Connec
         // it feels current, bottom and contents all along itself
         element = model.element_in(connector, Some(&ambient(model, None)?))?;
     }
-    let ends = model.end_poses(connector).map(End::at_rest);
+    let ends: Vec<End> = model.element_ends(connector).into_iter().map(End::at_rest).collect();
     let mut committed = vec![0.0; element.states()];
     element.start(&mut committed);
     let surroundings = model.surroundings();
@@ -166,8 +167,8 @@ pub(crate) fn find_forces(model: &Model, connector: &Connector) -> Result<Connec
         let size = 1e-12 * w.fixed_rows::<3>(0).norm();
         [w[0], w[1], w[2]].map(|v| if v.abs() < size { 0.0 } else { v })
     };
-    let force = |i: usize| shown(&out.wrench[i]);
-    let [first, second] = ends.map(|e| e.pose.origin);
+    let force = |i: usize| out.wrench.get(i).map_or([0.0; 3], shown);
+    let [first, second] = model.end_poses(connector).map(|pose| pose.origin);
     let distance = (second - first).xy().norm();
     let is_on_body = |name: &String| model.points.get(&Model::key(name)).is_some_and(|p| model.body_of(p).is_some());
     let on_body = connector.points.iter().take(2).position(is_on_body).unwrap_or(0);

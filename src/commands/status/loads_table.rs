@@ -60,6 +60,11 @@ pub(crate) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         let of = rule.attribute.map_or("loads", |attribute| apply::attribute_word(attribute));
         records.note(format!("&APPLY multiplies {of} of category {} by {}", rule.categories, rule.factor));
     }
+    for load in loads.iter().filter(|load| load.shape_coefficients != [1.0; 2]) {
+        let [wind, drag] = load.shape_coefficients;
+        let record = load.kind.name();
+        records.note(format!("{record} of {}: coefficient {wind} in wind, {drag} in current", load.part));
+    }
     vec![records, forces(job, &chosen)]
 }
 

@@ -308,3 +308,58 @@ fn loads_without_stations_and_closure_error_are_reported() {
     );
     assert!(said.len() == 1 && said[0].contains("not of its hull's pieces"), "{said:?}");
 }
+
+#[test]
+fn polynomials_of_arms_add_to_both_and_end_the_table() {
+    let records = barge(OWN, "");
+    let poly = |c: [f64; 4], a: f64| c[0] + a * (c[1] + a * (c[2] + a * c[3]));
+    let (w, r) = ([0.02, 0.003, -1e-4, 1e-5], [0.01, -0.002, 2e-4, -3e-5]);
+    let options = format!("-W_COEFF {} {} {} {} -R_COEFF {} {} {} {}", w[0], w[1], w[2], w[3], r[0], r[1], r[2], r[3]);
+    let heeling = column(&records, &format!("RARM 2 4 {options}"), "Heeling: Arm");
+    let righting = column(&records, &format!("RARM 2 4 {options}"), "Righting: Arm");
+    for n in 0..5 {
+        let a = 2.0 * n as f64;
+        assert!((heeling[n] - poly(w, a)).abs() < 1e-9, "{a} {}", heeling[n]);
+        assert!((righting[n] - righting_arm(a, KG) - poly(r, a)).abs() < 1e-8, "{a} {}", righting[n]);
+    }
+    // the righting arm is lost at 5.5 deg, and the net one at 7.5 deg: the row behind is the last
+    let falls = righting_arm(5.5, KG) / 5.5f64.powi(3);
+    let made = column(&records, &format!("RARM 1 9 -R_COEFF 0 0 0 {} -STOP RARM", -falls), "Righting: Arm");
+    assert_eq!(made.len(), 7, "{made:?}");
+    let rises = righting_arm(7.5, KG) / 7.5f64.powi(3);
+    let made = column(&records, &format!("RARM 1 9 -W_COEFF 0 0 0 {rises} -STOP NET"), "Righting: Arm");
+    assert_eq!(made.len(), 9, "{made:?}");
+    assert_eq!(column(&records, &format!("RARM 1 9 -W_COEFF 0 0 0 {rises} -STOP RARM"), "Righting: Arm").len(), 10);
+}
+
+#[test]
+fn weather_arm_and_weathertight_criteria_match_closed_forms() {
+    // a constant heeling arm GZ(5 deg), a vent that goes under at 8 deg and a weathertight one at 7 deg
+    let arm = righting_arm(5.0, KG);
+    let height = |degrees: f64| draft() + 0.5 * BEAM * degrees.to_radians().tan();
+    let side = -0.5 * BEAM;
+    let holes = format!(
+        "*V1 45.75 {side:.6} {:.12}\n*V2 45.75 {side:.6} {:.12}\n&DESCRIBE HOLE V VENT -POINT *V1\n&DESCRIBE HOLE W WT_VENT -POINT *V2\n",
+        height(8.0),
+        height(7.0)
+    );
+    let asked = |options: &str| {
+        let (text, said) =
+            print_records(&format!("{}HSTATICS\nSTAB_OK 1 9 {options}\nREPORT\nEND\nEND\n", barge(OWN, &holes)));
+        assert!(said.is_empty(), "{said:?}");
+        text
+    };
+    let heel = |degrees: f64| arm * degrees.to_radians();
+    let text = asked(&format!("-W_COEFF {arm:.12} -I_AR_WRATIO 0.1 4 -I_DWT_T1 1"));
+    let weather = (area(8.0, KG) - area(5.0, KG) - heel(3.0)) / (heel(4.0) - area(5.0, KG) + area(1.0, KG));
+    for (name, want) in [("DWT_T1", 2.0), ("AR_WRATIO", weather)] {
+        assert!((value(&text, name, 2) - want).abs() < 6e-5, "{name} {want}: {text}");
+    }
+    // the righting arm GZ(a) - c a^3 is greatest between 6 and 7 deg, where its ratio to the heeling arm is asked
+    let falls = 3e-3;
+    let righting = |a: f64| righting_arm(a, KG) - falls * a.powi(3);
+    let peak = (0..90_000).map(|n| 1e-4 * f64::from(n)).map(righting).fold(0.0, f64::max);
+    let arm = righting(2.0);
+    let text = asked(&format!("-R_COEFF 0 0 0 {} -W_COEFF {arm:.12} -I_ARM_RATIO 1", -falls));
+    assert!((value(&text, "ARM_RATIO", 2) - peak / arm).abs() < 1e-4, "{} {text}", peak / arm);
+}

@@ -214,3 +214,70 @@ fn eddy_damping_leaves_the_swing_of_quadratic_damping() {
         check_near(least, -want, 0.01 * want + 0.005);
     }
 }
+
+#[test]
+fn area_and_plate_have_coefficients_in_wind_and_current() {
+    // 1/2 x 1.226 x (40 x 0.514444)^2 x 100 m2 = 25,955 N = 2.6467 t of wind on each unit of coefficient
+    let records = |load: &str| {
+        format!(
+            "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B\n*P 10 0 10\n*A 0 -5 8\n*B 0 5 8\n*C 0 5 18\n*D 0 -5 18\n{load}\nEND\n\
+                 &ENV -WIND 40 180 -W_PROFILE POWER 0\n&STATUS LOADS"
+        )
+    };
+    for (load, coefficient) in [
+        ("#AREA *P 100", 1.0),
+        ("#AREA *P 100 -WIND 1.3 -DRAG 0.4", 1.3),
+        ("#AREA *P 100 -DRAG 0.4", 1.0),
+        ("#PLATE *A *B *C *D -CD 0.9", 0.9),
+        ("#PLATE *A *B *C *D -CD 0.9 -WIND 1.5", 1.5),
+        ("#PLATE *A *B *C *D -CD 0.9 -DRAG 1.5", 0.9),
+    ] {
+        let (text, errors) = print_records(&records(load));
+        assert_eq!(errors, 0, "{text}");
+        check_near(row(&text, "B WIND")[0], 2.6467 * coefficient, 0.0051);
+    }
+    // 1/2 x 1025 x 2^2 x 10 m2 x 0.4 = 8,200 N = 0.8362 t under water
+    let wet = "&DIMEN -DIMEN METERS M-TONS\n&DEFAULT -WATER 1025\nMEDIT\n&DESCRIBE BODY B\n*P 0 0 -9\n#AREA *P 10 -WIND 9 -DRAG 0.4\nEND\n\
+               &ENV -CURRENT 2 180\n&STATUS LOADS";
+    check_near(row(&print_records(wet).0, "B V_DRAG")[0], 0.8362, 0.0051);
+}
+
+#[test]
+fn options_of_areas_and_force_sets_that_are_not_computed_stop_solves() {
+    let records = |load: &str, more: &str| {
+        format!(
+            "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B -IGNORE X Y RX RY RZ\n*F 0 0 0\n#BUOY *F 50 3 3 4\n#WEIGHT *F 30 1 1 1\n\
+                 #AREA *F 10 {load}\nEND\n{more}\n&EQUI"
+        )
+    };
+    for (load, more, named) in [
+        ("-MULT_N 2", "", "-MULT_N 2 of #AREA (a multiplier of an area)"),
+        ("", "&APPLY -PERCENT -FORCE #CRANE 100", "&APPLY -FORCE #CRANE (a set of forces on points)"),
+    ] {
+        let (text, errors) = print_records(&records(load, more));
+        assert!(errors == 1 && text.contains(named), "{text}");
+    }
+    for more in ["&APPLY -FORCE #CRANE 1\n&APPLY -FORCE #CRANE 0", "&APPLY -FORCE WIND 0.5"] {
+        assert_eq!(print_records(&records("-MULT_N 1", more)).1, 0);
+    }
+    let (text, errors) = print_records(&records("", "&APPLY -CATEGORY STEAL #DEAD 2"));
+    assert!(errors == 0 && text.contains("no load is of category STEAL"), "{text}");
+    assert_eq!(print_records(&records("-AMASS 1", "")).1, 0, "statics have no added mass");
+}
+
+#[test]
+fn instate_takes_body_before_its_options() {
+    for form in ["B -CONDITION 9 2 1", "-CONDITION B 9 2 1", "-CONDITION 9 2 1"] {
+        let records = format!("MEDIT\n&DESCRIBE BODY A\n&DESCRIBE BODY B\nEND\n&INSTATE {form}\n&STATUS CONFIGURATION");
+        let (text, errors) = print_records(&records);
+        assert_eq!(errors, 0, "{text}");
+        let place = row(&text, "B ");
+        assert_eq!([place[2], place[3], place[4]], [-9.0, 2.0, 1.0], "{text}");
+    }
+    let (text, errors) = print_records(
+        "MEDIT\n&DESCRIBE BODY A\n&DESCRIBE BODY B\nEND\n&INSTATE A -LOCATE 1 2 3 -MOVE 1 -MOVE B 5\n&STATUS CONFIGURATION",
+    );
+    assert_eq!(errors, 0, "{text}");
+    assert_eq!(row(&text, "A ")[..3], [2.0, 2.0, 3.0]);
+    assert_eq!(row(&text, "B ")[..3], [5.0, 0.0, 0.0]);
+}

@@ -231,6 +231,13 @@ fn string_of_beams_takes_classes_and_options_before_each() {
 }
 
 #[test]
+fn option_behind_the_last_node_holds_for_the_record() {
+    let ring = |d: f64, t: f64| PI * t * (d - t);
+    let made = model("*A 0 0 -20\n*B 10 0 -20\n~C TUBE 1000 25\nBEAM ~C *A *B -FLOOD YES\nEND");
+    assert_share(force(&made, Category::Buoyancy)[2], RHO * G * 10.0 * ring(1.0, 0.025), 1e-12);
+}
+
+#[test]
 fn redefined_or_deleted_element_loses_its_weight() {
     let (made, said, errors) = run(
         "*A 0 0 5\n*B 10 0 5\n~C PRI 100 100\n~D PRI 200 100\nBEAM ONE ~C *A *B\nBEAM TWO ~C *A *B\nBEAM ONE ~D *A *B\nDELETE TWO\nEND",
@@ -273,4 +280,45 @@ fn dimensions_that_are_not_known_stop_the_next_solve() {
     let offset = "*A 0 0 5\n*B 12 0 5\n~S PRI 100 100\nBEAM ~S -GOA 1 0 0 *A *B\nEND\n&EQUI";
     let (_, said, errors) = run(offset);
     assert!(errors == 1 && said.iter().any(|s| s.contains("-GOA of a BEAM")), "{said:?}");
+}
+
+#[test]
+fn member_multipliers_scale_every_load_by_attribute() {
+    // upright from 20 m under water to 10 m over it: 0.8 m wide, in a current of 1.5 m/s and a wind of 50 knots
+    let tube = "*A 3 0 -20\n*B 3 0 10\n~C TUBE 800 20\nBEAM ~C *A *B -CATEGORY LEGS\nEND\n";
+    let around = "&ENV -DEPTH 50 -CURRENT 1.5 180 -WIND 50 180 -W_PROFILE POWER 0\n";
+    let apply = "&APPLY -PERCENT -CATEGORY LEGS #DEAD 103 #BUOY 107 #WIND 130 #DRAG 80 #AMASS 150\n";
+    let weight = STEEL * PI * 0.02 * 0.78 * 30.0;
+    let disc = PI / 4.0 * 0.64;
+    let drag = 0.5 * RHO * 0.8 * 20.0 * 1.5 * 1.5;
+    let speed = 50.0 * 1852.0 / 3600.0;
+    let wind = 0.5 * 1.226 * 0.8 * 10.0 * speed * speed;
+    for (more, [dead, buoy, of_wind, of_drag, of_mass]) in [
+        ("", [1.0; 5]),
+        (apply, [1.03, 1.07, 1.3, 0.8, 1.5]),
+        // the group of the part multiplies them all
+        (&format!("{apply}&APPLY -LOAD_GROUP B 0.5\n"), [0.515, 0.535, 0.65, 0.4, 0.75]),
+        ("&APPLY -FORCE WIND 0.5 -FORCE V_DRAG 0.25\n", [1.0, 1.0, 0.5, 0.25, 1.0]),
+        ("&APPLY -CATEGORY STR_MODEL #BUOY 2 #DEAD 2 #WIND 2 #DRAG 2 #AMASS 2\n", [1.0; 5]),
+    ] {
+        let made = model(&format!("{tube}{around}{more}"));
+        assert_share(mass(&made).mass, dead * weight, 1e-12);
+        let lift = load(&made, Category::Buoyancy).mean_load(&Pose::default()).unwrap();
+        assert_share(lift.wrench[2], buoy * RHO * G * disc * 20.0, 1e-12);
+        assert_share(lift.stiffness[(2, 2)], buoy * RHO * G * disc, 1e-9);
+        assert_share(force(&made, Category::ViscousDrag)[0], of_drag * drag, 1e-9);
+        // a prism of 64 sides stands for the tube
+        assert_share(force(&made, Category::Wind)[0], of_wind * wind, 1e-3);
+        assert_share(added_mass(&made)[(0, 0)], of_mass * RHO * disc * 20.0, 1e-9);
+    }
+    // a flat bar, and a TUBE, whose category is EXTRA
+    let bar = "*A 0 0 -30\n*B 0 0 -10\n~C PRI 900 300\nBEAM ~C *A *B\nEND\n&APPLY -CATEGORY STR_MODEL #BUOY 1.1\n";
+    assert_share(force(&model(bar), Category::Buoyancy)[2], 1.1 * RHO * G * 0.27 * 20.0, 1e-9);
+    let plate = "*A 0 -3 -9\n*B 0 3 -9\n*C 0 3 -5\n*D 0 -3 -5\n~P PLATE 50\nPLATE ~P *A *B *C *D\nEND\n\
+                 &ENV -DEPTH 50 -CURRENT 2 180\n&APPLY -CATEGORY STR_MODEL #BUOY 1.2 #DRAG 0.7\n";
+    let plate = model(plate);
+    assert_share(force(&plate, Category::Buoyancy)[2], 1.2 * RHO * G * 24.0 * 0.05, 1e-9);
+    assert_share(force(&plate, Category::ViscousDrag)[0], 0.7 * 0.5 * RHO * 24.0 * 4.0, 1e-9);
+    let spar = "*A 0 0 -30\n*B 0 0 -10\nEND\n&SURFACE\nTUBE T *A *B 800\nEND\n&APPLY -CATEGORY EXTRA #BUOY 0.9\n";
+    assert_share(force(&model(spar), Category::Buoyancy)[2], 0.9 * RHO * G * disc * 20.0, 1e-12);
 }

@@ -101,6 +101,21 @@ fn tube_is_an_element_with_length_cosines_and_buoyancy() {
 }
 
 #[test]
+fn beam_is_an_element_with_its_segments_weight_and_displacement() {
+    // 4 m of tube of 1000 x 25 mm and 6 m of 500 x 20 mm, flooded: it displaces its metal, and weighs that of steel
+    let script = "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B\n*P 0 0 0\n*Q 6 0 8\n~C TUBE 1000 25 -LEN 4\n~C TUBE 500 20\n\
+                  BEAM LEG ~C -FLOOD YES -CATEGORY LEGS *P *Q\nEND\n&APPLY -CATEGORY LEGS #BUOY 1.5 #DEAD 2\n";
+    let ring = |d: f64, t: f64| std::f64::consts::PI * t * (d - t);
+    let metal = 4.0 * ring(1.0, 0.025) + 6.0 * ring(0.5, 0.02);
+    assert_values(script, "&ELEMENT(LENGTH LEG) &ELEMENT(DCOSINES LEG)", &[10.0, 0.6, 0.0, 0.8], 1e-12);
+    assert_values(script, "&ELEMENT(BUOYANCY LEG)", &[1.5 * 1.025 * metal], 1e-9);
+    assert_values(script, "&ELEMENT(WEIGHT LEG)", &[2.0 * 7.85 * metal], 1e-9);
+    let (text, _) =
+        run_script(&format!("{script}&TYPE <&ELEMENT(CLASS LEG) &ELEMENT(ELE_TYPE LEG) &ELEMENT(CATEGORY LEG)>\n"));
+    assert!(text.contains("<~C BEAM LEGS>"), "{text}");
+}
+
+#[test]
 fn environment_function_gives_values_as_env_takes_them() {
     let env = "&DIMEN -DIMEN METERS K-NTS\n&ENV E1 -SEA ISSC 180 4 9.5 -WIND 40 90 -CURRENT 1.5 45 -DEPTH 80 -TIDE 2 -SPGWATER 1.02\n\
                &ENV E2 -DEPTH 90\n";

@@ -297,3 +297,84 @@ fn find_file(folder: &std::path::Path, name: &str) -> std::path::PathBuf {
     }
     panic!("no file {name}");
 }
+
+#[test]
+fn element_forces_are_along_a_straight_line_in_its_axes() {
+    // a weight of 500 kN at rest on two lines that lean by 3 in 5 and stretch: each pulls W/2 x 5/4 at a length of 25 m; one turns its first
+    // end up, the other down
+    let ea = 29000.0 * 6894.757293168361 * std::f64::consts::FRAC_PI_4 * 0.01;
+    let length = 25.0 / (1.0 + 312.5 / ea);
+    let made = table(&format!(
+        "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*A -15 0 20\n*B 15 0 20\n&DESCRIBE BODY LOAD -IGNORE RX RY RZ\n*W 0 0 0\n#WEIGHT *W 500 1 1 1\n\
+         ~R H_CAT 100 -LEN {length}\nCONNECTOR UP ~R *W *A\nCONNECTOR DOWN ~R *B *W\nEND\n&ENV -TIME 1 0.1 -RAMP 0\nTDOM\nPRCPOST\nELMFORCE\n"
+    ));
+    for (group, name, want) in [
+        ("UP End 1 Global", "FX", -187.5),
+        ("UP End 1 Global", "FZ", 250.0),
+        ("UP End 1 Element", "FX", 312.5),
+        ("UP End 1 Element", "FY", 0.0),
+        ("UP End 1 Element", "FZ", 0.0),
+        ("UP End 1 Element", "MY", 0.0),
+        ("DOWN End 2 Global", "FX", 187.5),
+        ("DOWN End 2 Global", "FZ", 250.0),
+        ("DOWN End 2 Element", "FX", -312.5),
+        ("DOWN End 2 Element", "FZ", 0.0),
+    ] {
+        for got in column(&made, group, name) {
+            // cells are in SI; the length has ten figures or more
+            assert!((got - 1000.0 * want).abs() < 0.01, "{group} {name}: {got} {want}");
+        }
+    }
+    assert!(!made.columns().iter().any(|c| c.group.starts_with("UP End 2")), "its second end is in the ground");
+}
+
+#[test]
+fn length_of_span_over_pulley_follows_the_drum_and_the_load() {
+    // rope off a drum at 0.3 m/s over a pulley to a hanging weight: what is paid out hangs behind the pulley
+    let made = table(
+        "&DIMEN -DIMEN METERS K-NTS\n&DATA CURVES LT_MULTIPLIER V 0 0 2 1 60 1\nMEDIT\n*A -30 0 10\n*P 0 0 20\n&DESCRIBE BODY LOAD -IGNORE RX RY RZ\n\
+         *W 0 0 0\n#WEIGHT *W 500 1 1 1\n~R H_CAT 100 -LEN 26\nCONNECTOR S1 ~R *A *P\nCONNECTOR S2 ~R *P *W\nASSEMBLY WINCH D S1 S2 -VELOCITY V 0.3\nEND\n\
+         &EQUI\n&ENV -TIME 6 0.05 -RAMP 0\nTDOM\nPRCPOST\nC_LENGTH\n",
+    );
+    let paid = |t: f64| if t < 2.0 { 0.3 * t * t / 4.0 } else { 0.3 * (t - 1.0) };
+    let aside = 1000f64.sqrt();
+    for (t, (first, second)) in column(&made, "", "Time")
+        .into_iter()
+        .zip(column(&made, "First Segment", "S1").into_iter().zip(column(&made, "First Segment", "S2")))
+    {
+        // the stretch is 3.2e-4 of it, and swings by the rise of speed, v w / g = 1 % of that
+        assert!((first - aside / (1.0 + 3.18e-4)).abs() < 1e-3 * aside, "{t} {first}");
+        assert!((first + second - 52.0 - paid(t)).abs() < 1e-9, "{t} {first} {second}");
+    }
+}
+
+#[test]
+fn load_group_forces_of_falling_body_are_those_of_its_areas_and_weights() {
+    // no wind: an area A of 40 m2 across z at a speed gt meets 1/2 rho_air A (gt)^2 against the fall once it is in the run's environment; its weight
+    // of 60 kN is constant, and the other group has the rest
+    let made = table(
+        "&DIMEN -DIMEN METERS K-NTS\n&ENV E -DEPTH 500 -TIME 1 0.05 -RAMP 0 -WIND 30 180 -W_PROFILE POWER 0\nMEDIT\n&DESCRIBE BODY BOX -IGNORE X Y RX RY RZ\n\
+         *C 2 0 60\n*F 0 0 60\n#WEIGHT *C 500 1 1 1\n#AREA *C 50 0 0\n&DESCRIBE LOAD_GROUP CRANE *F\n#WEIGHT *F 60 0 0 0\n#AREA *F 20 0 0\n#AMASS *F 0 0 100\n\
+         #DAMP *F 0 0 3\nEND\nTDOM\nPRCPOST\nLDGFORCE\n",
+    );
+    // the horizontal wind on 20 m2 along x: the stream as seen from the body is (u, gt), and the force along x has |w| u
+    let (u, area): (f64, f64) = (30.0 * 1852.0 / 3600.0, 20.0);
+    let (mass, added) = (560e3 / G, 100e3 / G);
+    let heights = column(&made, "", "Time");
+    let weight = column(&made, "CRANE WEIGHT", "FZ");
+    assert!(weight.iter().all(|w| (w + 60e3).abs() < 1e-6), "{weight:?}");
+    let rest = column(&made, "BOX WEIGHT", "FZ");
+    assert!(rest.iter().all(|w| (w + 500e3).abs() < 1e-6), "{rest:?}");
+    let wind = [column(&made, "CRANE WIND", "FX"), column(&made, "BOX WIND", "FX")];
+    let damping = column(&made, "CRANE R_DRAG", "FZ");
+    // m v' = -W - c v with m of both masses: v = -(W/c) (1 - exp(-c t/m))
+    let (c, whole) = (3e3, mass + added);
+    for (n, t) in heights.iter().enumerate() {
+        let v = -(560e3 / c) * (1.0 - (-c * t / whole).exp());
+        let x = 0.5 * 1.226 * u * u.hypot(v);
+        // steps of 0.05 s leave 1e-5 of the speed
+        assert!((wind[0][n] - area * x).abs() < 1e-4 * area * x, "{t} {} {}", wind[0][n], area * x);
+        assert!((wind[1][n] - 50.0 * x).abs() < 1e-4 * 50.0 * x, "{t} {}", wind[1][n]);
+        assert!((damping[n] + c * v).abs() < 1e-4 * c * v.abs() + 1e-6, "{t} {} {}", damping[n], c * v);
+    }
+}

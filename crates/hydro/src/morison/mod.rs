@@ -48,7 +48,7 @@ use nalgebra::{Matrix6, Vector3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, WaveAction};
+use windlass_model::{Attribute, Body, ClassError, Model, Part, Piece, Shape, WaveAction};
 
 /// Most segments of a member.
 const MAX_SEGMENTS: usize = 64;
@@ -157,7 +157,9 @@ fn rods(
     beside[axis.iamin()] = 1.0;
     let Some(across) = width.or_else(|| axis.cross(&beside).try_normalize(0.0)) else { return Vec::new() };
     let density = steady.around.water_density;
-    let of = |category: Category| model.multipliers.factor(category.name(), &part.name);
+    let of = |attribute| model.member_factor(&part.name, piece, attribute);
+    let force = |category: Category| model.multipliers.categories.get(category.name()).copied().unwrap_or(1.0);
+    let (buoyant, moving) = (of(Attribute::Buoyancy), of(Attribute::AddedMass));
     // what a database holds is not counted again
     let own_waves = if piece.waves == WaveAction::Database { 0.0 } else { 1.0 };
     let lengths = growth.map_or_else(
@@ -169,13 +171,13 @@ fn rods(
         let [from, to] = [*start, *end].map(|at| foot + (head - foot) * at);
         let length = (to - from).norm();
         let (section, core) = (section_area(*diameter), section_area(bare));
-        let drags = 0.5 * density * of(Category::ViscousDrag);
+        let drags = 0.5 * density * of(Attribute::Drag) * force(Category::ViscousDrag);
         let breadths = own.breadths.map_or([*diameter; 2], |bar| bar.drag);
         let moved = own.breadths.map_or([section_area(*diameter) * own.added; 2], |bar| bar.added);
         let skin = own.breadths.map_or(PI * diameter, |bar| 2.0 * (bar.drag[0] + bar.drag[1]));
         let count = (length / reach).ceil().clamp(1.0, MAX_SEGMENTS as f64) as usize;
         let corner = |n: usize| from + axis * (length * n as f64 / count as f64);
-        let half_sphere = density * PI * diameter.powi(3) / 12.0 * own_waves;
+        let half_sphere = density * PI * diameter.powi(3) / 12.0 * own_waves * moving;
         let [first, second] = own.end_added.map(|caa| half_sphere * caa);
         MemberLength {
             from,
@@ -185,10 +187,10 @@ fn rods(
             diameter: *diameter,
             across: breadths.map(|breadth| drags * own.drag * breadth),
             along: drags * skin * own.friction,
-            section: (core * piece.permeability + (section - core)) * own_waves,
-            added: moved.map(|area| density * area * own_waves),
+            section: (core * piece.permeability * buoyant + (section - core)) * own_waves,
+            added: moved.map(|area| density * area * own_waves * moving),
             end_added: [if n == 0 { first } else { 0.0 }, if n == last { second } else { 0.0 }],
-            factor: of(Category::Wave),
+            factor: force(Category::Wave),
             segments: (0..count).map(|n| TubeHull { ends: [corner(n), corner(n + 1)], diameter: *diameter }).collect(),
         }
     });

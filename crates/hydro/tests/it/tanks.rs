@@ -25,6 +25,7 @@ fn model(fraction: f64) -> Model {
         cs_current: [0.0; 3],
         member: None,
         element: None,
+        category: None,
         waves: WaveAction::ByForm,
         eddy_damping: 0.0,
         kept: Vec::new(),

@@ -121,7 +121,9 @@ impl LinearQuantity {
     pub fn tension(linear: &LinearSystem, name: &str) -> Result<Option<PullQuantity>, SolveError> {
         let (system, poses) = (&linear.system, &linear.poses);
         let Some(link) = system.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(None) };
-        let Some(first) = link.ends.iter().position(|e| matches!(e, EndAttachment::Body(..))) else { return Ok(None) };
+        let Some(first) = link.acting_ends().iter().position(|e| matches!(e, EndAttachment::Body(..))) else {
+            return Ok(None);
+        };
         let ends: Vec<End> = link.ends.iter().map(|e| End::at_rest(pose_of(e, poses))).collect();
         let committed = &system.states[link.states.clone()];
         let mut trial = committed.to_vec();

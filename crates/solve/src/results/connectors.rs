@@ -1,16 +1,23 @@
 //! What connectors exert.
 
+use super::super::link::{EndAttachment, end_attachments, pose_of};
 use super::super::system::SolveError;
-use super::super::time::{RowLayout, Run};
+use super::super::time::{LinkColumns, RowLayout, Run};
 use super::forces::{add, no_wrench, wrench_columns};
 use super::rest_state::{RestSolver, SettledConnector};
 use super::{EventTable, Magnitude, RunEvent, group_head};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
+use windlass_model::{ClassError, Model};
+
+/// Least distance of the ends of an element that has axes of its own (m).
+const NO_LENGTH_M: f64 = 1e-9;
+/// Sine of its angle to the vertical below which an element is upright.
+const UPRIGHT_SINE: f64 = 1e-9;
 
 /// The force of a connector by which its pull is reported ([`RowLayout::pull`]), global axes (N); none while the connector does not act.
 pub(super) fn force(layout: &RowLayout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
@@ -180,4 +187,73 @@ pub fn total_forces(
         });
     }
     Ok(table.build())
+}
+
+/// Axes of an element in columns: x from its first end to the second, y level, z upward across; global axes where it has no length.
+fn element_axes(from: &Vector3<f64>, to: &Vector3<f64>) -> Matrix3<f64> {
+    let apart = to - from;
+    let Some(x) = apart.try_normalize(NO_LENGTH_M) else { return Matrix3::identity() };
+    // one that stands upright has its y along that of the globe
+    let y = Vector3::z().cross(&x).try_normalize(UPRIGHT_SINE).unwrap_or_else(Vector3::y);
+    let y = (y - x * x.dot(&y)).try_normalize(0.0).unwrap_or_else(Vector3::y);
+    Matrix3::from_columns(&[x, y, x.cross(&y)])
+}
+
+/// The forces and moments of connectors of a run, by their numbers, on their ends: in global axes, and in those of the element.
+///
+/// # Errors
+/// A line that lies on supports, which has no two ends.
+pub fn element_forces(run: &Run, links: &[usize], events: &[RunEvent]) -> Result<Table, SolveError> {
+    let layout = &run.history.layout;
+    let mut chosen = Vec::new();
+    for link in links {
+        let Some(columns) = layout.links.get(*link) else { continue };
+        let Some(connector) = run.model.connectors.get(&Model::key(&columns.name)) else {
+            let error = ClassError::new("it lies on supports, and is no element between two ends");
+            return Err(SolveError::error_about(&columns.name)(error.help("ROD reports what is along it")));
+        };
+        chosen.push((*link, columns, end_attachments(&run.model, connector)));
+    }
+    let (mut places, several) = (Vec::new(), chosen.len() > 1);
+    let mut table = EventTable::new("Forces of Elements", (&run.history, events), |row| {
+        poses(layout, row, &mut places);
+        let of = |(link, columns, ends): &(usize, &LinkColumns, [EndAttachment; 2])| {
+            let acts = row.get(columns.active).is_some_and(|a| *a > 0.0);
+            let [from, to] = [&ends[0], &ends[1]].map(|end| pose_of(end, &places).origin);
+            let axes = element_axes(&from, &to);
+            [0, 1].map(|end| {
+                let mut wrench = [Vector3::zeros(); 2];
+                let at = layout.wrench(*link, end).filter(|_| acts);
+                add(row, at, &mut wrench);
+                if at.is_none() {
+                    wrench = no_wrench();
+                }
+                [wrench, wrench.map(|v| axes.transpose() * v)]
+            })
+        };
+        Ok(chosen.iter().map(of).collect::<Vec<_>>())
+    })?;
+    for (index, (link, columns, _)) in chosen.iter().enumerate() {
+        if !several {
+            table = table.fact("Element", columns.name.as_str(), Dim::None);
+        }
+        for end in [0, 1].into_iter().filter(|end| layout.wrench(*link, *end).is_some()) {
+            for (which, axes) in ["Global", "Element"].into_iter().enumerate() {
+                let group = group_head(several, &columns.name, &format!("End {} {axes}", end + 1));
+                let own = move |all: &Vec<[[[Vector3<f64>; 2]; 2]; 2]>| {
+                    all.get(index).map_or_else(no_wrench, |ends| ends[end][which])
+                };
+                table = table.columns(&group, ["FX", "FY", "FZ"], Dim::Force, move |all| own(all)[0].into()).columns(
+                    &group,
+                    ["MX", "MY", "MZ"],
+                    Dim::Moment,
+                    move |all| own(all)[1].into(),
+                );
+            }
+        }
+    }
+    let mut table = table.build();
+    table.note("forces of the element on what its ends are fixed to, moments about the ends; an end in the ground is not stored");
+    table.note("axes of the element: x from its first end to the second, y level, z across them; global ones of an element without length");
+    Ok(table)
 }

@@ -92,6 +92,13 @@ fn tensions(
         .ok_or_else(idle)?;
     let mut all = vec![Vec::new(); segments];
     if segments > 1 {
+        if let Some(assembly) = run.model.reeving(name) {
+            let text = format!(
+                "it is a span of the line of {}: fatigue of spans of several segments is not computed",
+                assembly.name
+            );
+            return Err(ClassError::new(text));
+        }
         let ends = end_attachments(&run.model, connector);
         let (placement, surroundings) = (run.model.placement(connector), run.model.surroundings());
         let active = layout.links.get(link).map_or(0, |l| l.active);

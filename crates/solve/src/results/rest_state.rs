@@ -1,6 +1,6 @@
 //! A connector between its ends where a run had them: what a row does not keep follows from its element there.
 
-use super::super::link::{EndAttachment, end_attachments, pose_of};
+use super::super::link::{EndAttachment, element_attachments, pose_of};
 use super::super::system::SolveError;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{Connector, ConnectorElement, End, Model, Situation, SolverCache, Surroundings};
@@ -28,7 +28,7 @@ impl SettledConnector {
 pub(super) struct RestSolver<'a> {
     model: &'a Model,
     connector: Connector,
-    ends: [EndAttachment; 2],
+    ends: Vec<EndAttachment>,
     element: Box<dyn ConnectorElement>,
     surroundings: Surroundings,
     /// Length of its first segment now (m).
@@ -52,7 +52,7 @@ impl<'a> RestSolver<'a> {
         }
         Ok(Some(RestSolver {
             model,
-            ends: end_attachments(model, connector),
+            ends: element_attachments(model, connector),
             element,
             surroundings: model.surroundings(),
             length: model.first_length(connector),
@@ -69,7 +69,7 @@ impl<'a> RestSolver<'a> {
     /// No answer there.
     pub fn solve_at(&mut self, poses: &[Pose], length: Option<f64>) -> Result<SettledConnector, SolveError> {
         let name = self.connector.name.as_str();
-        if length.is_some() && length != self.length {
+        if length.is_some() && length != self.length && self.ends.len() == 2 {
             // as the run did when a winch changed it
             let wound = Connector { first_length: length, ..self.connector.clone() };
             self.element = self.model.element(&wound).map_err(SolveError::error_about(name))?;
@@ -79,9 +79,9 @@ impl<'a> RestSolver<'a> {
         self.between.extend(self.ends.iter().map(|end| End::at_rest(pose_of(end, poses))));
         let at = Situation { ends: &self.between, step: None, surroundings: &self.surroundings };
         let summary = self.element.summary(&at, &[]).map_err(SolveError::error_about(name))?;
-        let [_, far] = self.ends;
+        let far = self.ends.get(1);
         let (mut vertical, mut horizontal) = (f64::NAN, f64::NAN);
-        if summary.tension.is_some() && matches!(far, EndAttachment::Ground(_)) {
+        if summary.tension.is_some() && matches!(far, Some(EndAttachment::Ground(_))) {
             self.element
                 .evaluate_wrenches(&at, &[], &mut self.cache, &mut self.wrenches)
                 .map_err(SolveError::error_about(name))?;

@@ -13,7 +13,7 @@ use windlass_hydro::current::CurrentField;
 use windlass_hydro::sea::Sea;
 use windlass_hydro::spectrum::{is_regular, is_stokes};
 use windlass_model::{
-    Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse,
+    Attribute, Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse,
 };
 use windlass_tether::compatibility::Compatibility;
 use windlass_tether::installed::modes::count_fast_modes;
@@ -348,6 +348,11 @@ fn tubes_alone(model: &Model, body: &Body, centre: Vector3<f64>) -> Option<Vec<T
             else {
                 return None;
             };
+            let attributes = [Attribute::Buoyancy, Attribute::Drag, Attribute::AddedMass, Attribute::Wind];
+            let is_scaled = attributes.iter().any(|a| model.member_factor(&part.name, piece, *a) != 1.0);
+            if is_scaled || piece.permeability != 1.0 {
+                return None;
+            }
             tubes.push(TubeMember {
                 ends: ends.map(|end| Vector3::from(end) - centre),
                 diameter,

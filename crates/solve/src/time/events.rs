@@ -71,6 +71,10 @@ impl Run {
             if let ActionKind::Winch(names, rate, _) = &action.what {
                 for name in names {
                     self.parts_to_wind(name, *rate)?;
+                    if let Some(assembly) = self.model.reeving(name) {
+                        let text = format!("connector {name} is a span of the line of {}", assembly.name);
+                        return Err(wrong(ClassError::new(text).help("ASSEMBLY WINCH turns the drum of such a line")));
+                    }
                     let connector = self.model.connectors.get(&Model::key(name));
                     if connector.is_none_or(|c| self.model.first_length(c).is_none()) {
                         return Err(wrong(ClassError::new(format!("connector {name} has no length to change"))));

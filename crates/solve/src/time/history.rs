@@ -234,12 +234,15 @@ impl RowLayout {
                 _ => self.links.iter().position(same),
             };
             if let (Some(number), Some(columns)) = (found, found.and_then(|n| self.links.get(n))) {
-                let length = sources.lengths.get(number).copied().flatten();
+                let length = match link.reeving {
+                    Some(_) => running_length((system, link), time, motions)?,
+                    None => sources.lengths.get(number).copied().flatten(),
+                };
                 if let Some([active, long]) = row.get_mut(columns.active..columns.active + 2) {
                     (*active, *long) = (1.0, length.unwrap_or(f64::NAN));
                 }
                 let mut at = columns.wrench;
-                for (end, wrench) in link.ends.iter().zip(forces.wrenches.iter().skip(first)) {
+                for (end, wrench) in link.acting_ends().iter().zip(forces.wrenches.iter().skip(first)) {
                     if let (EndAttachment::Body(..), Some(place)) = (end, row.get_mut(at..at + 6)) {
                         place.copy_from_slice(wrench.as_slice());
                         at += 6;
@@ -273,6 +276,18 @@ impl RowLayout {
         }
         Ok(())
     }
+}
+
+/// The length of the first segment of a span of a line over pulleys or off a drum at an instant (m).
+fn running_length(
+    (system, link): (&System, &Link),
+    time: f64,
+    motions: &[BodyMotion],
+) -> Result<Option<f64>, SolveError> {
+    let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions, false).0).collect();
+    let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
+    let found = link.element.running_length(&at, &system.states[link.states.clone()]);
+    found.map_err(|e| SolveError::error_about(&link.name)(at_time(e, time)))
 }
 
 /// The nodes of a line at an instant.

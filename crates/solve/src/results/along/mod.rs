@@ -70,7 +70,7 @@ pub(crate) fn sections(model: &Model, name: &str) -> Vec<ResultSection> {
     let connector = model.connectors.get(&Model::key(name)).map(|c| (&c.class, usize::MAX));
     let pipe = model.assemblies.get(&Model::key(name)).and_then(|a| match &a.kind {
         AssemblyKind::Pipe { class, .. } => Some((class, 1)),
-        AssemblyKind::TipHook { .. } => None,
+        AssemblyKind::TipHook { .. } | AssemblyKind::Pulley { .. } | AssemblyKind::Winch { .. } => None,
     });
     let class = connector.or(pipe).and_then(|(class, few)| Some((model.classes.get(&Model::key(class))?, few)));
     let Some((class, few)) = class else { return Vec::new() };
