@@ -3,6 +3,7 @@
 //! Source: [MOSES-REF cls_res]: the program sets the offset of the second end at definition.
 
 use super::checks;
+use super::fix::rigid_stiffness;
 use super::spring::{Restraint, no_anchor, restraint_table};
 use super::spring_law::{Elastic, SpringGroup};
 use super::zero_law::{ContactGeometry, Friction, Sense, ZeroLaw};
@@ -22,12 +23,19 @@ pub struct RestraintClass {
     restraints: Vec<Restraint>,
     sense: Sense,
     friction: Friction,
+    rigid: bool,
 }
 
 impl RestraintClass {
     /// Of a class with these springs, that act both ways.
     pub fn new(kind: &'static str, restraints: Vec<Restraint>) -> Self {
-        RestraintClass { kind, restraints, sense: Sense::Both, friction: Friction::None }
+        RestraintClass { kind, restraints, sense: Sense::Both, friction: Friction::None, rigid: false }
+    }
+
+    /// The same whose stiffnesses grow with the bodies that it ties ([`rigid_stiffness`]).
+    #[must_use]
+    pub fn rigid(self) -> Self {
+        RestraintClass { rigid: true, ..self }
     }
 
     /// The same that only pushes along X, with friction.
@@ -57,7 +65,10 @@ impl ConnectorClass for RestraintClass {
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
-        let list = || self.restraints.iter().map(|r| (r.dof.index(), r.stiffness));
+        let rigid = self.rigid.then(|| rigid_stiffness(&(connection.tied)()));
+        let stiffness =
+            |r: &Restraint| rigid.map_or(r.stiffness, |[along, about]| if r.dof.is_rotation() { about } else { along });
+        let list = || self.restraints.iter().map(|r| (r.dof.index(), stiffness(r)));
         let group =
             |(dof, stiffness)| SpringGroup { dofs: vec![dof], elastic: Elastic::new(stiffness, None), viscous: None };
         let law = ZeroLaw {

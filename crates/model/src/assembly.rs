@@ -329,6 +329,7 @@ impl Model {
                 surroundings: &surroundings,
                 ambient: None,
                 duty: RunRequirement::default(),
+                tied: &super::TiedBodies::default,
             })?);
             hang.push(if upper.is_none() { self.first_length(connector).unwrap_or(0.0) } else { 0.0 });
             nodes.push(node);

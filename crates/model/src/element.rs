@@ -430,6 +430,17 @@ pub struct Connection<'a> {
     pub ambient: Option<&'a Arc<dyn Ambient>>,
     /// What a run asks of it.
     pub duty: RunRequirement,
+    /// What a rigid tie between its ends has to hold.
+    pub tied: &'a dyn Fn() -> TiedBodies,
+}
+
+/// The bodies at the ends of a connector, as a rigid tie sees them: of each quantity that of the body with the most.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TiedBodies {
+    /// Mass (kg), and largest moment of inertia about the centre of gravity (kg m2).
+    pub inertia: [f64; 2],
+    /// Largest hydrostatic stiffness of a translation (N/m) and of a rotation (N m/rad), of those that are given as numbers.
+    pub stiffness: [f64; 2],
 }
 
 impl Debug for Connection<'_> {

@@ -68,7 +68,7 @@ pub use draft_mark::DraftMark;
 pub use element::{
     AnchoredConnector, AnchoredResponse, Connection, ConnectorCategory, ConnectorElement, ConnectorResponse,
     ConnectorSummary, DynamicConnector, End, FenderState, NodalConnector, PlacedConnector, RunRequirement, Situation,
-    SolverCache, SpringState, StiffTie, TimeStep,
+    SolverCache, SpringState, StiffTie, TiedBodies, TimeStep,
 };
 pub use environment::{
     Components, Current, CurveReference, Division, Environment, FormulaChoice, GustParts, PeriodType, Phasing,
@@ -326,11 +326,32 @@ impl Model {
             surroundings: &self.surroundings(),
             ambient,
             duty,
+            tied: &|| self.tied_bodies(connector),
         };
         match connector.dynamics {
             Some(elements) => class.dynamic_line(&connection, elements),
             None => class.object.element(&connection),
         }
+    }
+
+    /// The bodies at the ends of a connector, as a rigid tie sees them.
+    fn tied_bodies(&self, connector: &Connector) -> TiedBodies {
+        let mut made = TiedBodies::default();
+        let points = connector.points.iter().filter_map(|name| self.points.get(&Model::key(name)));
+        for body in points.filter_map(|point| self.body_of(point)) {
+            let mass = Mass::from_parts(self.parts_of(body), self.defaults.gravity);
+            let own = mass.inertia_about(mass.centre).diagonal();
+            let given = body.database.as_ref().filter(|attached| attached.hydrostatics);
+            let of_database = given.and_then(|attached| attached.data.hydrostatics.as_ref());
+            let hydrostatics = body.linear.iter().map(|linear| &linear.stiffness).chain(of_database);
+            let diagonals: Vec<_> = hydrostatics.map(|matrix| matrix.diagonal()).collect();
+            let most = |from: usize| {
+                diagonals.iter().flat_map(|d| d.iter().skip(from).take(3)).fold(0.0, |m: f64, k| m.max(*k))
+            };
+            made.inertia = [made.inertia[0].max(mass.mass), made.inertia[1].max(own.max())];
+            made.stiffness = [made.stiffness[0].max(most(0)), made.stiffness[1].max(most(3))];
+        }
+        made
     }
 
     /// The ends of a connector, in the present configuration.

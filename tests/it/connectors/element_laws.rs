@@ -280,6 +280,7 @@ impl ElementBench {
             surroundings: &surroundings,
             ambient: None,
             duty: RunRequirement::default(),
+            tied: &windlass_model::TiedBodies::default,
         })
     }
 
@@ -362,6 +363,7 @@ fn every_class_with_an_element_is_tested() {
             surroundings: &surroundings,
             ambient: None,
             duty: RunRequirement::default(),
+            tied: &windlass_model::TiedBodies::default,
         });
         assert!(made.is_err(), "{name} has an element and no case in tests/it/connectors/element_laws.rs");
     }

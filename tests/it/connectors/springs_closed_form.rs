@@ -43,6 +43,7 @@ impl JointBench {
             surroundings: &surroundings,
             ambient: None,
             duty: RunRequirement::default(),
+            tied: &windlass_model::TiedBodies::default,
         };
         let element = class.object.element(&made).unwrap();
         let state = vec![0.0; element.states()];
@@ -147,6 +148,7 @@ fn single_node_spring_acts_from_position_at_definition() {
         surroundings: &surroundings,
         ambient: None,
         duty: RunRequirement::default(),
+        tied: &windlass_model::TiedBodies::default,
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let mut out = ConnectorResponse::default();
@@ -312,6 +314,7 @@ fn rotational_curve_in_feet_is_moment_per_radian() {
         surroundings: &surroundings,
         ambient: None,
         duty: RunRequirement::default(),
+        tied: &windlass_model::TiedBodies::default,
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let at = Situation { ends: &ends.map(End::at_rest), step: None, surroundings: &surroundings };
