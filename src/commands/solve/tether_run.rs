@@ -117,7 +117,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         keep: !args.has(&tdom::STATISTICS),
     };
     let wrong = |e, job: &Job| to_diagnostic(e, &job.model, span, job.units);
-    let mut run = TetherRun::new(&job.model, settings).map_err(|e| wrong(e, job))?;
+    let mut run = TetherRun::new(&job.model, &job.actions, settings).map_err(|e| wrong(e, job))?;
     let log = open_log(job, args, &mut run)?;
     let mut progress = RunProgress::with_length(job, window.observed, log);
     let made = run.run(&mut progress);
@@ -125,10 +125,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     let made = made.map_err(|e| wrong(e, job))?;
     let mut tables = vec![tethered::run_table(&made)];
     note_caveats(&job.model, &mut tables);
-    let events = tethered::events(&made);
-    if events.rows() > 0 {
-        tables.push(events);
-    }
+    tables.extend([tethered::actions(&made), tethered::events(&made)].into_iter().filter(|table| table.rows() > 0));
     tables.extend(tethered::statistics_tables(&made));
     tables.iter().for_each(|table| job.keep_table(table));
     let head = job.page_head();

@@ -1,8 +1,10 @@
 //! A case of the tether engine from the model.
 
 use super::TetherRunSettings;
+use super::actions::refuse_any;
 use super::moored::Moored;
 use crate::SolveError;
+use crate::time::Action;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -128,9 +130,9 @@ pub(super) fn line(sections: &[TetherSection]) -> Result<TetherLine, ClassError>
 /// The case of a model.
 ///
 /// # Errors
-/// No tether; a towed one with another; installed ones of several bodies, or between bodies; what the environment or the model has that
+/// No tether; an action that a run of tethers cannot do; a towed one with another; installed ones of several bodies, or between bodies; what the environment or the model has that
 /// does not run with tethers.
-pub fn case(model: &Model, settings: &TetherRunSettings) -> Result<TetherCase, SolveError> {
+pub fn case(model: &Model, actions: &[Action], settings: &TetherRunSettings) -> Result<TetherCase, SolveError> {
     let of = |c: &&Connector| c.active && !sections(model, c).is_empty();
     let tethers: Vec<&Connector> = model.connectors.values().filter(of).collect();
     let Some(first) = tethers.first() else {
@@ -153,12 +155,13 @@ pub fn case(model: &Model, settings: &TetherRunSettings) -> Result<TetherCase, S
             let error = ClassError::new("a towed tether runs alone: the model has other tethers");
             return Err(SolveError { who: Some(towed.name.clone()), error: error.with_span(towed.span) });
         }
+        refuse_any(actions)?;
         let made = towed_case(model, first, sea.as_deref(), settings, &mut notes);
         let made = made.map_err(|error| SolveError { who: Some(first.name.clone()), error })?;
         let made = TowedCase { name: first.name.clone(), tether: made, vessel: towing_vessel(model, first) };
         return Ok(TetherCase { kind: TetherCaseKind::Towed(Box::new(made)), seed, notes });
     }
-    let made = installed_case(model, &tethers, sea.as_ref(), settings, &mut notes)?;
+    let made = installed_case(model, &tethers, sea.as_ref(), (settings, actions), &mut notes)?;
     Ok(TetherCase { kind: TetherCaseKind::Installed(Box::new(made)), seed, notes })
 }
 
@@ -379,7 +382,7 @@ fn installed_case(
     model: &Model,
     tethers: &[&Connector],
     sea: Option<&Arc<Sea>>,
-    settings: &TetherRunSettings,
+    (settings, actions): (&TetherRunSettings, &[Action]),
     notes: &mut Vec<String>,
 ) -> Result<Installed, SolveError> {
     let body = tethered_body(model, tethers)?;
@@ -421,7 +424,7 @@ fn installed_case(
             Box::new(Afloat::new(floating).map_err(of_body)?)
         }
     };
-    let structure = Moored::build(structure, model, body, centre)?;
+    let structure = Moored::build(structure, model, (body, centre), actions)?;
     let pose = Pose::from_place(&body.place);
     let course = InstalledRunSettings {
         start: 0.0,

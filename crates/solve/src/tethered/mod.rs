@@ -6,6 +6,7 @@
 //!
 //! Source: [AQWA-TETHER chapters 1 to 4].
 
+mod actions;
 mod case;
 mod history;
 mod modal;
@@ -21,7 +22,7 @@ pub use modal::{description_table, names, natural};
 pub use run_record::{TetherRun, statistics_tables};
 pub use statistics::{StatisticsSteps, TetherStatistics};
 pub use structure::{harmonics, structure, structure_series};
-pub use tables::{HistoryTarget, events, forces, motions, run_table, series, table_along_tether};
+pub use tables::{HistoryTarget, actions, events, forces, motions, run_table, series, table_along_tether};
 
 use crate::SolveError;
 use crate::time::{RunFileError, Watcher};
@@ -62,6 +63,8 @@ pub struct Tethered {
     pub tethers: Vec<TetherHistory>,
     /// What happened on the way.
     pub happened: Vec<TetherRunEvent>,
+    /// The actions of the run: names, and when they happened (s), where they have.
+    pub actions: Vec<(String, Option<f64>)>,
     /// Seed of the random phases of its sea, where they are random.
     pub seed: Option<u64>,
     /// What a user should know of how the case was made.
@@ -125,5 +128,5 @@ pub fn run(
             (self.0)(time)
         }
     }
-    TetherRun::new(model, settings)?.run(&mut ProgressWatcher(should_continue))
+    TetherRun::new(model, &[], settings)?.run(&mut ProgressWatcher(should_continue))
 }

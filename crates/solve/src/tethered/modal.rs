@@ -41,7 +41,7 @@ pub fn names(model: &Model) -> Vec<String> {
 /// # Errors
 /// As [`case`]; a name that is no tether's.
 pub fn description_table(model: &Model, name: &str) -> Result<Table, SolveError> {
-    let made = case(model, &AT_REST)?;
+    let made = case(model, &[], &AT_REST)?;
     let connector = model.connectors.get(&Model::key(name));
     let point = |end: usize| connector.and_then(|c| c.points.get(end)).map_or("", String::as_str);
     let nodes = [point(1), point(0)];
@@ -102,7 +102,7 @@ struct ListedMode {
 /// # Errors
 /// As [`case`]; a name that is no tether's; modes that cannot be found.
 pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Result<Vec<Table>, SolveError> {
-    let made = case(model, &TetherRunSettings { compatible, ..AT_REST })?;
+    let made = case(model, &[], &TetherRunSettings { compatible, ..AT_REST })?;
     // one more: the first that is not listed
     let asked = number.saturating_add(1);
     let towed = matches!(made.kind, TetherCaseKind::Towed(_));

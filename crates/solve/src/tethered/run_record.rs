@@ -6,7 +6,7 @@ use super::history::{
 };
 use super::{TetherRunSettings, Tethered};
 use crate::SolveError;
-use crate::time::{RunFileError, STEPS_PER_SNAPSHOT, Snapshot, Watcher};
+use crate::time::{Action, RunFileError, STEPS_PER_SNAPSHOT, Snapshot, Watcher};
 use std::ops::ControlFlow;
 use windlass_base::geometry::Place;
 use windlass_base::table::{Cell, Column, Digits, Table};
@@ -33,10 +33,10 @@ impl TetherRun {
     /// The run of the tethers of a model.
     ///
     /// # Errors
-    /// A model without tethers, or with what does not run with them; a run that would keep too much.
-    pub fn new(model: &Model, settings: TetherRunSettings) -> Result<Self, SolveError> {
+    /// A model without tethers, or with what does not run with them; an action that does not go with them; a run that would keep too much.
+    pub fn new(model: &Model, actions: &[Action], settings: TetherRunSettings) -> Result<Self, SolveError> {
         settings.check().map_err(SolveError::new)?;
-        let case = case(model, &settings)?;
+        let case = case(model, actions, &settings)?;
         let fingerprint = fingerprint(&case, &settings);
         let mut kept = Tethered {
             settings,
@@ -44,6 +44,7 @@ impl TetherRun {
             structure: None,
             tethers: Vec::new(),
             happened: Vec::new(),
+            actions: Vec::new(),
             seed: case.seed,
             notes: case.notes.clone(),
             interrupted: false,
@@ -410,7 +411,9 @@ fn run_installed(
         Some(checkpoint) => installation.resume(&course, checkpoint, &mut observer),
         None => installation.run(&course, &mut observer),
     };
+    drop(installation);
     let InstalledKeeper { mut keeper, last, .. } = observer;
+    keeper.kept.actions = structure.actions();
     if keeper.stopped {
         if let Some((next, numbers)) = last {
             keeper.checkpoint(next, &|| numbers.clone())?;

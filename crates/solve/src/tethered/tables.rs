@@ -61,6 +61,15 @@ pub fn events(run: &Tethered) -> Table {
         .build()
 }
 
+/// The actions of a run, and when they happened. Empty without rows.
+pub fn actions(run: &Tethered) -> Table {
+    Table::new("Actions")
+        .with_rows(&run.actions)
+        .text("Action", |(name, _)| name)
+        .column("", "Time", Dim::Time, SECONDS, |(_, time)| *time)
+        .build()
+}
+
 /// Number of a step, from 1 at the start.
 fn step_number(run: &Tethered, instant: usize) -> Option<usize> {
     let time = run.times.get(instant)?;

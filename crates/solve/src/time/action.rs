@@ -92,7 +92,7 @@ impl Action {
 }
 
 /// Where a point stands in its body, and the body's number.
-pub(super) fn point_in_body(model: &Model, name: &str) -> Result<(usize, Position), ClassError> {
+pub(crate) fn point_in_body(model: &Model, name: &str) -> Result<(usize, Position), ClassError> {
     let missing = || ClassError::new(format!("there is no point {name} on a body"));
     let point = model.points.get(&Model::key(name)).ok_or_else(missing)?;
     let part = model.parts.get(&Model::key(&point.part)).ok_or_else(missing)?;

@@ -8,7 +8,7 @@ use windlass_base::pose::Pose;
 
 /// The pull of a connector by its force on an end (N), negative where that pushes the end away from the other one, which is `apart`
 /// from it (m); `from` is the least distance at which it may ([`windlass_model::ConnectorElement::compression_onset`]).
-pub(super) fn pull(force: &Vector3<f64>, apart: &Vector3<f64>, from: f64) -> f64 {
+pub(crate) fn pull(force: &Vector3<f64>, apart: &Vector3<f64>, from: f64) -> f64 {
     let pushed = force.dot(apart) < 0.0 && apart.norm() >= from;
     if pushed { -force.norm() } else { force.norm() }
 }

@@ -29,9 +29,11 @@ mod statistics;
 mod step;
 
 pub use accuracy::{Accuracy, Distortion, POOR_DAMPING, POOR_PERIOD, WorstFollowed};
+pub(crate) use action::point_in_body;
 pub use action::{Action, ActionKind, Observable, Trigger};
 pub use along::{AlongColumns, AlongEnvelope, BentRow, NodeQuantity, NodeRow};
 pub use compression::CompressionOnset;
+pub(crate) use compression::pull;
 pub(crate) use ends::end_of;
 pub use forces::{BodyForces, BodyMotion, LoadMemory};
 pub use history::{History, LinkColumns, LinkEnds, RowLayout, VALUES_PER_BODY};

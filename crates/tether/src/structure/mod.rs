@@ -129,6 +129,11 @@ pub trait Structure: Debug {
         out: &mut StructureForces,
     ) -> Result<(), ClassError>;
 
+    /// The actions on it: names, and when they happened (s), where they have.
+    fn actions(&self) -> Vec<(String, Option<f64>)> {
+        Vec::new()
+    }
+
     /// What it remembers of its history, for a checkpoint.
     fn memory(&self) -> Vec<f64> {
         Vec::new()
