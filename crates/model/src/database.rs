@@ -1,8 +1,15 @@
 //! What a hydrodynamic database holds of one body: data only; the physics is in `hydro::database`.
 
+use crate::{Body, LoadKind, Model};
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::span::Span;
+
+/// Share by which the depth of a database may differ from that of the environment.
+const DEPTH_SHARE: f64 = 1e-3;
+/// Depth over the inverse wave number in deep water from which on a wave does not feel the bottom: half a wave length, where the wave
+/// number is that of deep water within 0.4 per cent.
+const DEEP_WATER: f64 = std::f64::consts::PI;
 
 /// Six complex amplitudes: of force (N) and moment (N m), or of translation (m) and rotation (rad).
 pub type Amplitudes = [Complex<f64>; 6];
@@ -105,4 +112,44 @@ pub struct AttachedDatabase {
     pub hydrostatics: bool,
     /// Where it was given.
     pub span: Span,
+}
+
+impl Model {
+    /// What the database of a body lacks in the environment in force, or does not fit: each is in every report. Waves without drift
+    /// coefficients make no drift force, unless `#DRIFT` gives it or `-DRIFT NONE` waives it; coefficients of another depth of water are
+    /// those of other waves where these feel the bottom.
+    pub fn database_caveats(&self, body: &Body) -> Vec<String> {
+        let Some(attached) = &body.database else { return Vec::new() };
+        let data = attached.data.as_ref();
+        let mut list = Vec::new();
+        let env = &self.environment;
+        let waves = [&env.sea, &env.added_sea].into_iter().flatten().any(|sea| sea.height > 0.0);
+        let own = |part: &str| self.parts_of(body).any(|p| Model::key(&p.name) == Model::key(part));
+        let drifts = self.loads.iter().any(|load| matches!(load.kind, LoadKind::Drift { .. }) && own(&load.part));
+        let lacks_drift = data.drift.is_none() && data.qtf.is_none() && attached.drift != DriftMethod::None;
+        if waves && !data.excitation.is_empty() && lacks_drift && !drifts {
+            list.push(format!(
+                "no wave drift acts on {}: {} has no drift coefficients; -DRIFT NONE of DATABASE accepts that",
+                body.name, data.source
+            ));
+        }
+        let around = self.surroundings();
+        let lowest = data.frequencies.first().copied().unwrap_or(f64::INFINITY);
+        let shallower = [data.depth, around.depth].into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let differ = match (data.depth, around.depth) {
+            (Some(one), Some(other)) => (one - other).abs() > DEPTH_SHARE * other.abs(),
+            (one, other) => one.is_some() != other.is_some(),
+        };
+        if differ && lowest * lowest / around.gravity * shallower < DEEP_WATER {
+            let depth = |depth: Option<f64>| depth.map_or("infinite".to_string(), |d| format!("{d} m"));
+            list.push(format!(
+                "the coefficients of {} are of another depth of water: {} has {}, the environment {}",
+                body.name,
+                data.source,
+                depth(data.depth),
+                depth(around.depth)
+            ));
+        }
+        list
+    }
 }

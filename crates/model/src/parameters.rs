@@ -62,6 +62,8 @@ impl Model {
         let accepted = (!names.is_empty() && self.parameters.accept_missing).then(|| {
             format!("without added mass and radiation, as &PARAMETER -ACCEPT_MISSING accepts: {}", names.join(", "))
         });
-        self.interpolated_lines().into_iter().chain(accepted).chain(self.accepted_effects()).collect()
+        let databases = self.bodies.values().flat_map(|body| self.database_caveats(body));
+        let others = self.interpolated_lines().into_iter().chain(accepted).chain(self.accepted_effects());
+        others.chain(databases).collect()
     }
 }

@@ -257,6 +257,10 @@ pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: 
         job.remark(format!("the database of {name} is replaced"), span);
     }
     hydrodynamics::settle_pressure(&mut job.model, &name);
+    let caveats = job.model.bodies.get(&key).map(|body| job.model.database_caveats(body)).unwrap_or_default();
+    for text in caveats {
+        job.warn(text, source);
+    }
     Ok(())
 }
 
