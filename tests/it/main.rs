@@ -117,6 +117,7 @@ mod aqwa {
     mod aqwa_stages;
     mod aqwa_tether_fatigue;
     mod aqwa_tether_statistics;
+    mod deck_cards;
     mod deck_lines;
     mod deck_tethers;
 }

@@ -14,6 +14,9 @@ use std::f64::consts::TAU;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
+/// Share of the weight by which a buoyancy may differ from it: the digits a card usually has.
+const BUOYANCY_SHARE: f64 = 1e-3;
+
 /// Checks a deck as a whole; decks that belong to stages before the first one are not asked for.
 pub fn check(deck: &Deck, remarks: &mut Remarks) {
     let whole = deck.job.has_deck(1);
@@ -21,6 +24,7 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
         elements(deck, remarks);
         assumed_coefficients(deck, remarks);
         waterlines(deck, remarks);
+        buoyancies(deck, remarks);
         for tether in &deck.mooring.tethers {
             tether_refers(deck, tether, remarks);
         }
@@ -132,6 +136,28 @@ fn waterlines(deck: &Deck, remarks: &mut Remarks) {
                 centre - line
             );
             remarks.add(Diagnostic::error(message, height.span).other(at, "the water line of deck 2"));
+        }
+    }
+}
+
+/// BFEQ of deck 7 is the weight of a structure that floats by itself [AQWA-REF BFEQ]; that of the nominal vessel of a towed tether has a check of its own.
+fn buoyancies(deck: &Deck, remarks: &mut Remarks) {
+    if deck.mooring.tethers.iter().any(Tether::is_towed) {
+        return;
+    }
+    for (structure, known) in deck.structures.iter().zip(&deck.hydrostatics) {
+        let weight = deck.mass_properties(structure).mass * deck.global.gravity;
+        let Some(buoyancy) = known.buoyancy.filter(|given| given.value > 0.0 && weight > 0.0) else { continue };
+        if (buoyancy.value - weight).abs() > BUOYANCY_SHARE * weight {
+            let message = format!(
+                "deck 7, BFEQ, columns 21-30: {} is not the weight of structure {}, {weight:.5E}",
+                buoyancy.value, structure.number
+            );
+            remarks.add(
+                Diagnostic::warning(message, buoyancy.span)
+                    .label("the buoyancy force at the free-floating equilibrium")
+                    .help("the structure floats where its stiffness, lines and joints bear the difference"),
+            );
         }
     }
 }
@@ -299,7 +325,7 @@ fn numbers_of_structures(deck: &Deck, remarks: &mut Remarks) {
         structure(deck, "deck 15", number, remarks);
     }
     for held in &deck.held {
-        structure(deck, "deck 12, DACF", held.structure, remarks);
+        structure(deck, &format!("deck 12, {}", held.card), held.structure, remarks);
     }
     for multipliers in &deck.multipliers {
         structure(deck, "deck 17", multipliers.structure, remarks);

@@ -48,8 +48,8 @@ pub const STIFFNESS: &[CardLayout] = &[
     CardLayout::new("LSTF", ROW).repeated_by(&[16]),
     CardLayout::new("ASTF", ROW).repeated_by(&[16]),
     CardLayout::refuse("SSTF", "a stiffness between structures is not read"),
-    CardLayout::new("BFEQ", &[num("buoyancy force at equilibrium", 21)]),
-    CardLayout::new("ZCGE", &[num("Z of the centre of gravity at equilibrium", 21)]),
+    CardLayout::new("BFEQ", &[num("buoyancy force at equilibrium", 21).required()]),
+    CardLayout::new("ZCGE", &[num("Z of the centre of gravity at equilibrium", 21).required()]),
     CardLayout::new("SPOS", &DOF_SLOTS),
     CardLayout::new("FIAM", ROW).repeated_by(&[16]),
     CardLayout::new("FIDP", ROW).repeated_by(&[16]),
@@ -81,7 +81,7 @@ pub const DAMPING: &[CardLayout] = &[
 
 /// Cards of deck 10.
 pub const HULL: &[CardLayout] = &[
-    CardLayout::assume("CURR", &[num("speed", 11), num("direction", 21)]),
+    CardLayout::assume("CURR", &[num("speed", 11).required(), num("direction", 21)]),
     CardLayout::refuse("RUFC", "forces from a routine of the user are not read"),
     CardLayout::refuse("IUFC", "forces from a routine of the user are not read"),
     CardLayout::refuse("CUFX", UNPUBLISHED_CARD_REASON),
@@ -154,7 +154,19 @@ pub fn read(into: &mut HydrostaticsDecks, deck: u8, records: &[CardRecord], rema
             (_, "FIDP") => row(&mut into.damping, deck, record, remarks),
             (_, "FIDA") => row(&mut into.drift_added_mass, deck, record, remarks),
             (_, "FIDD") => row(&mut into.drift_damping, deck, record, remarks),
-            (_, "BFEQ") => into.buoyancy = Some(record.real(21)),
+            (_, "BFEQ") => {
+                let buoyancy = record.real(21);
+                if buoyancy.value <= 0.0 {
+                    remarks.add(
+                        Diagnostic::error(
+                            format!("deck 7, BFEQ, columns 21-30: {} does not bear a structure", buoyancy.value),
+                            buoyancy.span,
+                        )
+                        .label("the buoyancy force at equilibrium is the weight, mass times gravity"),
+                    );
+                }
+                into.buoyancy = Some(buoyancy);
+            }
             (_, "ZCGE") => into.height = Some(record.real(21)),
             (_, "SPOS") => into.position = Some(record.reals(21).map(|field| field.value)),
             _ => {
@@ -260,7 +272,22 @@ fn row(matrix: &mut Option<SixBySix>, deck: u8, record: &CardRecord, remarks: &m
     let number = record.int(16);
     let matrix = matrix.get_or_insert([[0.0; 6]; 6]);
     match usize::try_from(number.value - 1).ok().and_then(|index| matrix.get_mut(index)) {
-        Some(row) => *row = record.reals(21).map(|field| field.value),
+        Some(row) => {
+            *row = record.reals(21).map(|field| field.value);
+            let heave = record.real(41);
+            if record.keyword == "LSTF" && number.value == 3 && heave.value < 0.0 {
+                remarks.add(
+                    Diagnostic::error(
+                        format!(
+                            "deck 7, LSTF, row 3, columns 41-50: a stiffness in heave of {} is below 0",
+                            heave.value
+                        ),
+                        heave.span,
+                    )
+                    .label("density times gravity times the area of the water plane belongs here"),
+                );
+            }
+        }
         None => remarks.add(
             Diagnostic::error(
                 format!("deck {deck}, {}, columns 16-20: a matrix has rows 1 to 6", record.keyword),

@@ -35,16 +35,36 @@ pub struct Slot {
     pub often_blank: bool,
     /// What holds where it is blank or 0, in words; empty for 0 itself.
     pub default: &'static str,
+    /// Whether a blank field has no meaning; one that has reads as 0.
+    pub required: bool,
 }
 
 /// A whole number, five columns wide.
 pub const fn int(name: &'static str, column: usize) -> Slot {
-    Slot { name, column, width: 5, holds: FieldType::Integer, signed: true, often_blank: false, default: "" }
+    Slot {
+        name,
+        column,
+        width: 5,
+        holds: FieldType::Integer,
+        signed: true,
+        often_blank: false,
+        default: "",
+        required: false,
+    }
 }
 
 /// A number, ten columns wide.
 pub const fn num(name: &'static str, column: usize) -> Slot {
-    Slot { name, column, width: 10, holds: FieldType::Real, signed: true, often_blank: false, default: "" }
+    Slot {
+        name,
+        column,
+        width: 10,
+        holds: FieldType::Real,
+        signed: true,
+        often_blank: false,
+        default: "",
+        required: false,
+    }
 }
 
 impl Slot {
@@ -61,6 +81,11 @@ impl Slot {
     /// The same, for which this holds where it is blank or 0.
     pub const fn or(self, default: &'static str) -> Self {
         Slot { default, ..self }
+    }
+
+    /// The same, refused where it is blank.
+    pub const fn required(self) -> Self {
+        Slot { required: true, ..self }
     }
 
     fn last_column(&self) -> usize {
@@ -253,6 +278,17 @@ impl CardLayout {
                 .label(format!("{} belongs here", slot.name))
                 .help(self.usage())
             };
+            if slot.required && !given {
+                let message = format!(
+                    "{}, columns {}-{}: this field is blank",
+                    self.name_with_deck(deck),
+                    slot.column,
+                    slot.last_column()
+                );
+                return Err(Diagnostic::error(message, span)
+                    .label(format!("{} belongs here", slot.name))
+                    .help(self.usage()));
+            }
             if !slot.signed && real(word).is_some_and(|value| value < 0.0) {
                 let message = format!(
                     "{}, columns {}-{}: {word} is below 0",

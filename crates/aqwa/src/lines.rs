@@ -150,7 +150,7 @@ pub struct SectionResistance {
     pub added_mass: f64,
     /// Drag coefficient.
     pub drag: f64,
-    /// Diameter for drag.
+    /// Diameter for drag; 0 for that of the area.
     pub diameter: f64,
     /// Inline drag coefficient.
     pub inline: f64,
@@ -218,9 +218,11 @@ pub enum Property {
     Composite(Composite),
 }
 
-/// A line that breaks during a run (LBRK).
+/// A line that breaks (LBRK): in LIBR and FER before anything is solved, in DRIF and NAUT during the run [AQWA-REF LBRK].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineBreak {
+    /// Number of the spectrum in which it is broken, of LIBR and FER.
+    pub spectrum: Field<i64>,
     /// Number of the line, in the order of input.
     pub line: Field<i64>,
     /// Time of the break, or with a tension from which on it may break (s).
@@ -233,7 +235,7 @@ pub struct LineBreak {
 
 impl LineBreak {
     /// Reads a card LBRK.
-    pub fn read(record: &CardRecord, remarks: &mut Remarks) -> Option<LineBreak> {
+    pub fn read(record: &CardRecord, remarks: &mut Remarks) -> LineBreak {
         let spectrum = record.int(11);
         if spectrum.value > 1 {
             remarks.add(
@@ -242,28 +244,28 @@ impl LineBreak {
             );
         }
         let found = LineBreak {
+            spectrum,
             line: record.int(16),
             time: record.real(31),
             tensions: [record.real(41), record.real(51)],
             span: record.span,
         };
-        let columns = [("31-40", found.time), ("41-50", found.tensions[0]), ("51-60", found.tensions[1])];
-        for (columns, field) in columns {
-            if field.value < 0.0 {
-                let message = format!("deck 14, LBRK, columns {columns}: {} is below 0", field.value);
-                remarks.add(Diagnostic::error(message, field.span).label("a time or a tension is not below 0"));
-                return None;
-            }
+        if spectrum.value == 0 && !found.has_condition() {
+            remarks.add(found.refuse_without_condition());
         }
-        if columns.iter().all(|(_, field)| field.value == 0.0) {
-            remarks.add(
-                Diagnostic::error("deck 14, LBRK: neither a time nor a breaking tension is given", record.span)
-                    .label("the line would break at 0 s")
-                    .help("a time in columns 31-40, or a tension in 41-50 or 51-60; without the card the line holds"),
-            );
-            return None;
-        }
-        Some(found)
+        found
+    }
+
+    /// Whether a time or a tension says when it breaks in a run.
+    pub fn has_condition(&self) -> bool {
+        self.time.value > 0.0 || self.tensions.iter().any(|field| field.value > 0.0)
+    }
+
+    /// The error of one that has neither a time nor a tension.
+    pub fn refuse_without_condition(&self) -> Box<Diagnostic> {
+        Diagnostic::error("deck 14, LBRK: neither a time nor a breaking tension is given", self.span)
+            .label("the line would break at 0 s")
+            .help("a time in columns 31-40, or a tension in 41-50 or 51-60; without the card the line holds")
     }
 }
 
@@ -273,6 +275,10 @@ pub struct LineCardParser {
     resistance: Option<SectionResistance>,
     /// DWT0 and DWAL in force.
     winching: (f64, f64),
+    /// The last property card, while no line refers to it.
+    unused_property: Option<(String, Span)>,
+    /// DWT0 and DWAL cards that no LNDW card has followed.
+    unused_winching: Vec<(String, Span)>,
 }
 
 impl LineCardParser {
@@ -287,18 +293,25 @@ impl LineCardParser {
         let value = |column: usize| record.real(column).value;
         let kind = match record.keyword.as_str() {
             "POLY" => {
-                self.complete(properties, remarks);
-                properties.push(Property::Polynomial(record.reals(31).map(|field| field.value)));
+                self.begin_property(record, properties, remarks);
+                let coefficients = record.reals(31).map(|field| field.value);
+                if coefficients == [0.0; 5] {
+                    remarks.add(
+                        Diagnostic::error("deck 14, POLY, columns 31-80: all coefficients are 0", record.span)
+                            .label("a line of this property has no tension"),
+                    );
+                }
+                properties.push(Property::Polynomial(coefficients));
                 return;
             }
             "COMP" => {
-                self.complete(properties, remarks);
+                self.begin_property(record, properties, remarks);
                 properties.push(Property::Composite(composite(record, remarks)));
                 self.resistance = None;
                 return;
             }
             "SWIR" => {
-                self.complete(properties, remarks);
+                self.begin_property(record, properties, remarks);
                 let (stiffness, offset) = (value(31), value(41));
                 if stiffness <= 0.0 || offset <= 0.0 {
                     remarks.add(
@@ -322,10 +335,10 @@ impl LineCardParser {
             }
             "DWT0" | "DWAL" => {
                 let field = record.real(31);
-                if field.value < 0.0 {
-                    let message = format!("deck 14, {}, columns 31-40: {} is below 0", record.keyword, field.value);
-                    remarks.add(Diagnostic::error(message, field.span).label("a time or a length is not below 0"));
+                if let Some(earlier) = self.unused_winching.iter().position(|(given, _)| *given == record.keyword) {
+                    report_unused(self.unused_winching.remove(earlier), "LNDW", remarks);
                 }
+                self.unused_winching.push((record.keyword.clone(), record.span));
                 if record.keyword == "DWT0" {
                     self.winching.0 = field.value;
                 } else {
@@ -334,15 +347,18 @@ impl LineCardParser {
                 return;
             }
             "LINE" => LineKind::Elastic { stiffness: value(31), length: value(41) },
-            "LNDW" => LineKind::Winched {
-                stiffness: value(31),
-                start: value(41),
-                end: value(51),
-                speed: value(61),
-                tension: value(71),
-                begins: self.winching.0,
-                added: self.winching.1,
-            },
+            "LNDW" => {
+                self.unused_winching.clear();
+                LineKind::Winched {
+                    stiffness: value(31),
+                    start: value(41),
+                    end: value(51),
+                    speed: value(61),
+                    tension: value(71),
+                    begins: self.winching.0,
+                    added: self.winching.1,
+                }
+            }
             "FORC" => LineKind::Force(value(31)),
             "WNCH" => {
                 LineKind::Winch { tension: value(31), length: value(41), winding_in: value(51), paying_out: value(61) }
@@ -359,6 +375,20 @@ impl LineCardParser {
                     );
                     return;
                 };
+                self.use_property();
+                // NLID is refused but for a composite
+                let winch = value(31) > 0.0 || record.keyword == "NLID";
+                let has_length = matches!(properties.get(property), Some(Property::Composite(_)));
+                if !has_length && !winch && !record.real(41).given {
+                    remarks.add(
+                        Diagnostic::error(
+                            format!("deck 14, {}, columns 41-50: this field is blank", record.keyword),
+                            record.real(41).span,
+                        )
+                        .label("unstretched length belongs here")
+                        .help("0.0 is a line that pulls by its whole distance"),
+                    );
+                }
                 LineKind::Property {
                     property,
                     tension: value(31),
@@ -393,6 +423,30 @@ impl LineCardParser {
     /// Ends the walk.
     pub fn finish(&mut self, properties: &[Property], remarks: &mut Remarks) {
         self.complete(properties, remarks);
+        if let Some((keyword, span)) = self.unused_property.take() {
+            if properties.len() > 1 {
+                report_unused((keyword, span), "NLIN, NLID or FLIN", remarks);
+            } else {
+                let message = format!("deck 14, {keyword}: no NLIN, NLID or FLIN card refers to this property");
+                remarks.add(Diagnostic::warning(message, span).label("it has no effect"));
+            }
+        }
+        for unused in self.unused_winching.drain(..) {
+            report_unused(unused, "LNDW", remarks);
+        }
+    }
+
+    /// A card refers to the last property.
+    pub fn use_property(&mut self) {
+        self.unused_property = None;
+    }
+
+    /// Ends the property before; one that no line refers to stands in the wrong place.
+    fn begin_property(&mut self, record: &CardRecord, properties: &[Property], remarks: &mut Remarks) {
+        self.complete(properties, remarks);
+        if let Some(unused) = self.unused_property.replace((record.keyword.clone(), record.span)) {
+            report_unused(unused, "NLIN, NLID or FLIN", remarks);
+        }
     }
 
     /// Checks that the last composite has the sections it announced.
@@ -488,6 +542,15 @@ impl LineCardParser {
             }
         }
     }
+}
+
+/// Refuses a card that serves those behind it, where none of them follows: it stands in the wrong place.
+fn report_unused((keyword, span): (String, Span), followers: &str, remarks: &mut Remarks) {
+    remarks.add(
+        Diagnostic::error(format!("deck 14, {keyword}: no {followers} card follows that it would serve"), span)
+            .label("it has no effect here")
+            .help("it belongs before the lines it is for; leave it out if there are none"),
+    );
 }
 
 /// Puts a pulley on the last line.

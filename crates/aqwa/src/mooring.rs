@@ -74,8 +74,18 @@ pub const LAYOUTS: &[CardLayout] = &[
     CardLayout::refuse("TECP", "composite tethers are not read"),
     CardLayout::refuse("TSEG", "composite tethers are not read"),
     CardLayout::refuse("TSGH", "composite tethers are not read"),
-    CardLayout::new("LINE", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("stiffness", 31), num("unstretched length", 41)])
-        .freely(),
+    CardLayout::new(
+        "LINE",
+        &[
+            ENDS[0],
+            ENDS[1],
+            ENDS[2],
+            ENDS[3],
+            num("stiffness", 31).required(),
+            num("unstretched length", 41).required(),
+        ],
+    )
+    .freely(),
     CardLayout::new(
         "LNDW",
         &[
@@ -83,15 +93,15 @@ pub const LAYOUTS: &[CardLayout] = &[
             ENDS[1],
             ENDS[2],
             ENDS[3],
-            num("stiffness", 31),
-            num("start length", 41),
-            num("end length", 51),
-            num("winch speed", 61),
-            num("greatest tension", 71),
+            num("stiffness", 31).required(),
+            num("start length", 41).required(),
+            num("end length", 51).required(),
+            num("winch speed", 61).required(),
+            num("greatest tension", 71).not_below_zero(),
         ],
     )
     .freely(),
-    CardLayout::new("FORC", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("force", 31)]).freely(),
+    CardLayout::new("FORC", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("force", 31).required()]).freely(),
     CardLayout::assume(
         "WNCH",
         &[
@@ -99,7 +109,7 @@ pub const LAYOUTS: &[CardLayout] = &[
             ENDS[1],
             ENDS[2],
             ENDS[3],
-            num("tension", 31),
+            num("tension", 31).required(),
             num("length", 41),
             num("friction winding in", 51),
             num("friction paying out", 61),
@@ -126,15 +136,15 @@ pub const LAYOUTS: &[CardLayout] = &[
         "ECAT",
         &[
             int("flag of the length found for a pretension", 26).not_below_zero(),
-            num("mass a length", 31).not_below_zero(),
+            num("mass a length", 31).not_below_zero().required(),
             num("area", 41).not_below_zero(),
             num("EA", 51).not_below_zero().or("5.0E6 times the mass a length"),
             num("greatest tension", 61).not_below_zero().or("5.0E4 times the mass a length"),
-            num("length", 71).not_below_zero(),
+            num("length", 71).not_below_zero().required(),
         ],
     )
     .freely(),
-    CardLayout::new("ECAX", &[num("k1", 31), num("k2", 41), num("k3", 51)]).repeatable_after(SECTION),
+    CardLayout::new("ECAX", &[num("k1", 31).required(), num("k2", 41), num("k3", 51)]).repeatable_after(SECTION),
     CardLayout::new(
         "ECAH",
         &[
@@ -145,28 +155,32 @@ pub const LAYOUTS: &[CardLayout] = &[
         ],
     )
     .repeatable_after(SECTION),
-    CardLayout::new("ECAB", &[num("EI", 31)]).repeatable_after(SECTION),
+    CardLayout::new("ECAB", &[num("EI", 31).not_below_zero()]).repeatable_after(SECTION),
     CardLayout::assume("BUOY", JOINT).one_of("joint", SECTION),
     CardLayout::assume("CLMP", JOINT).one_of("joint", SECTION),
     CardLayout::new("DYNM", &[]).one_of("cable dynamics", &[]),
     CardLayout::new("DOFF", &[]).one_of("cable dynamics", &[]),
-    CardLayout::new("SWIR", &[num("asymptotic stiffness", 31), num("asymptotic offset", 41)]).freely(),
+    CardLayout::new("SWIR", &[num("asymptotic stiffness", 31).required(), num("asymptotic offset", 41).required()])
+        .freely(),
     CardLayout::new(
         "LBRK",
         &[
-            int("spectrum", 11),
-            int("number of the line", 16),
-            num("time", 31),
-            num("breaking tension at structure 1", 41),
-            num("breaking tension at structure 2", 51),
+            int("spectrum", 11).not_below_zero(),
+            int("number of the line", 16).not_below_zero().required(),
+            num("time", 31).not_below_zero(),
+            num("breaking tension at structure 1", 41).not_below_zero(),
+            num("breaking tension at structure 2", 51).not_below_zero(),
         ],
     )
     .repeated_by(&[16]),
-    CardLayout::new("DWT0", &[num("time at which winching starts", 31)]).freely(),
-    CardLayout::new("DWAL", &[num("additional length", 31)]).freely(),
+    CardLayout::new("DWT0", &[num("time at which winching starts", 31).not_below_zero().required()]).freely(),
+    CardLayout::new("DWAL", &[num("additional length", 31).not_below_zero().required()]).freely(),
     CardLayout::assume("NCEL", &[int("elements of a dynamic line", 11)]),
-    CardLayout::new("FEND", &[num("size", 31), num("friction coefficient", 51), num("damping over stiffness", 71)])
-        .freely(),
+    CardLayout::new(
+        "FEND",
+        &[num("size", 31).required(), num("friction coefficient", 51), num("damping over stiffness", 71)],
+    )
+    .freely(),
     CardLayout::new(
         "FLIN",
         &[
@@ -224,8 +238,12 @@ const NON_LINEAR: &[Slot] = &[
     num("friction winding in", 51),
     num("friction paying out", 61),
 ];
-const JOINT: &[Slot] =
-    &[num("mass", 31), num("displaced mass", 41), num("added mass", 51), num("drag coefficient times area", 61)];
+const JOINT: &[Slot] = &[
+    num("mass", 31),
+    num("displaced mass", 41),
+    num("added mass", 51).not_below_zero(),
+    num("drag coefficient times area", 61).not_below_zero(),
+];
 
 /// Deck 14.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -309,8 +327,11 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> MooringDeck {
             "DYNM" => {}
             "NCEL" => mooring.elements = elements(record, remarks),
             "FEND" => fender = Some(FenderProperties::read(record, remarks)),
-            "FLIN" => mooring.fenders.extend(FenderCard::read(record, &mooring.properties, fender, remarks)),
-            "LBRK" => mooring.breaks.extend(LineBreak::read(record, remarks)),
+            "FLIN" => {
+                walk.use_property();
+                mooring.fenders.extend(FenderCard::read(record, &mooring.properties, fender, remarks));
+            }
+            "LBRK" => mooring.breaks.push(LineBreak::read(record, remarks)),
             _ => walk.take(record, &mut mooring.properties, &mut mooring.lines, remarks),
         }
     }

@@ -24,6 +24,7 @@ const SLOTS: &[super::layout::Slot] = &[
         signed: true,
         often_blank: false,
         default: "",
+        required: false,
     },
     int("how many nodes to generate", 11),
     int("step of the node numbers", 16),

@@ -12,8 +12,8 @@ use windlass_base::span::Span;
 
 /// Cards of deck 11.
 pub const LAYOUTS: &[CardLayout] = &[
-    CardLayout::new("CURR", &[num("speed", 11), num("direction", 21)]),
-    CardLayout::new("WIND", &[num("speed", 11), num("direction", 21)]),
+    CardLayout::new("CURR", &[num("speed", 11).required(), num("direction", 21)]),
+    CardLayout::new("WIND", &[num("speed", 11).required(), num("direction", 21)]),
     CardLayout::new("CPRF", &[num("Z of the current", 11), num("speed", 21), num("direction", 31)]).freely(),
     CardLayout::new("CDRN", &[num("direction of the profile", 11)]),
 ];
@@ -23,10 +23,19 @@ const NO_COLUMNS: &str =
 
 /// Cards of deck 12.
 pub const CONSTRAINTS: &[CardLayout] = &[
-    CardLayout::new("DACF", &[int("structure", 11), int("degree of freedom", 16)]).repeated_by(&[11, 16]),
+    CardLayout::new("DACF", &[int("structure", 11).required(), int("degree of freedom", 16).required()])
+        .repeated_by(&[11, 16]),
     CardLayout::new(
         "FDOF",
-        &[int("structure", 16), int("X", 21), int("Y", 26), int("Z", 31), int("RX", 36), int("RY", 41), int("RZ", 46)],
+        &[
+            int("structure", 16).required(),
+            int("X", 21),
+            int("Y", 26),
+            int("Z", 31),
+            int("RX", 36),
+            int("RY", 41),
+            int("RZ", 46),
+        ],
     )
     .repeated_by(&[16]),
     CardLayout::new(
@@ -34,10 +43,10 @@ pub const CONSTRAINTS: &[CardLayout] = &[
         &[
             int("locked rotations", 11),
             int("structure 1", 16),
-            int("node 1", 21),
+            int("node 1", 21).required(),
             int("node on axis 1", 26),
             int("structure 2", 36),
-            int("node 2", 41),
+            int("node 2", 41).required(),
             int("node on axis 2", 46),
         ],
     )
@@ -92,6 +101,8 @@ pub struct FixedDof {
     pub structure: Field<i64>,
     /// The degree of freedom, 1 to 6.
     pub dof: Field<i64>,
+    /// Keyword of the card.
+    pub card: &'static str,
 }
 
 /// The current and wind of the cards of deck 11.
@@ -140,6 +151,17 @@ pub fn read(records: &[CardRecord], remarks: &mut Remarks) -> SurroundingsDeck {
     found
 }
 
+/// Refuses a card of deck 12 that holds a degree of freedom of no structure: the ground, or a number below 0.
+fn refuse_ground(record: &CardRecord, structure: Field<i64>, columns: &str, remarks: &mut Remarks) {
+    if structure.value <= 0 {
+        let message = format!("deck 12, {}, columns {columns}: {} is no structure", record.keyword, structure.value);
+        remarks.add(
+            Diagnostic::error(message, structure.span)
+                .label("the number of a structure of deck 2 belongs here, 1 for ELM1"),
+        );
+    }
+}
+
 /// The degrees of freedom held by the cards of deck 12.
 pub fn read_constraints(records: &[CardRecord], remarks: &mut Remarks) -> Vec<FixedDof> {
     let mut list = Vec::new();
@@ -147,8 +169,9 @@ pub fn read_constraints(records: &[CardRecord], remarks: &mut Remarks) -> Vec<Fi
         match record.keyword.as_str() {
             "DACF" => {
                 let (structure, dof) = (record.int(11), record.int(16));
+                refuse_ground(record, structure, "11-15", remarks);
                 if (1..=6).contains(&dof.value) {
-                    list.push(FixedDof { structure, dof });
+                    list.push(FixedDof { structure, dof, card: "DACF" });
                 } else {
                     remarks.add(
                         Diagnostic::error(
@@ -161,6 +184,7 @@ pub fn read_constraints(records: &[CardRecord], remarks: &mut Remarks) -> Vec<Fi
             }
             "FDOF" => {
                 let structure = record.int(16);
+                refuse_ground(record, structure, "16-20", remarks);
                 for dof in 1..=6 {
                     let flag = record.int(16 + 5 * dof);
                     match flag.value {
@@ -168,6 +192,7 @@ pub fn read_constraints(records: &[CardRecord], remarks: &mut Remarks) -> Vec<Fi
                         1 => list.push(FixedDof {
                             structure,
                             dof: Field { value: i64::try_from(dof).unwrap_or(0), given: true, span: flag.span },
+                            card: "FDOF",
                         }),
                         other => remarks.add(
                             Diagnostic::error(

@@ -85,12 +85,6 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         let text = format!("{} does not go with -TETHERS", given.name());
         return Err(Diagnostic::error(text, given.span).help("tethers run by a scheme of two stages with fixed steps"));
     }
-    if let Some(action) = job.actions.first() {
-        let text = format!("-TETHERS does not run the action {}", action.name);
-        return Err(Diagnostic::error(text, span).help(
-            "lines, tethers and the environment of such a run stay as they are: &ACTION -CLEAR takes the actions away",
-        ));
-    }
     let Some(window) = job.model.environment.time else {
         return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", span)
             .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));

@@ -12,7 +12,7 @@ use windlass::session::Session;
 use windlass_hydro::Category;
 
 /// The structure is held in all degrees of freedom.
-fn hold_structure(deck: &str) -> String {
+pub(super) fn hold_structure(deck: &str) -> String {
     let card = |dof: u8| format!("{:>4}12DACF    1{dof:5}\n", if dof == 6 { "END" } else { "" });
     let cards: String = (1..=6).map(card).collect();
     deck.replace("    12    NONE\n", &format!("    12    CONS\n{cards}"))
@@ -67,7 +67,7 @@ fn steel_wire_line_pulls_by_its_asymptotic_law() {
 
 #[test]
 fn line_without_length_pulls_by_its_whole_distance() {
-    meets(" END14LINE    1    2    0   12     500.0\n", 267_500.0, 45_000.0);
+    meets(" END14LINE    1    2    0   12     500.0       0.0\n", 267_500.0, 45_000.0);
 }
 
 #[test]
@@ -185,7 +185,10 @@ fn dynamic_line_of_deck_hangs_as_catenary_unless_switched_off() {
 #[test]
 fn wrong_winches_and_breaks_are_refused_with_card_and_columns() {
     for (cards, message) in [
-        (" END14LNDW    1    2    0   12     2.0E5     540.0     530.0\n", "deck 14, LNDW: a drum has a speed"),
+        (
+            " END14LNDW    1    2    0   12     2.0E5     540.0     530.0\n",
+            "deck 14 MOOR, LNDW, columns 61-70: this field is blank",
+        ),
         (" END14LNDW    1    2    0   12       0.0     540.0     530.0      -1.0\n", "deck 14, LNDW, columns 31-40"),
         (" END14WNCH    1    2    0   12     1.0E5     540.0       1.5\n", "deck 14, WNCH: tension and length"),
         ("    14LINE    1    2    0   12     1.0E5     540.0\n END14LBRK         2       3.0\n", "deck 14 MOOR, LBRK"),
@@ -195,7 +198,7 @@ fn wrong_winches_and_breaks_are_refused_with_card_and_columns() {
         ),
         (
             "    14LINE    1    2    0   12     1.0E5     540.0\n END14LBRK         1                -3.0\n",
-            "deck 14, LBRK, columns 31-40",
+            "deck 14 MOOR, LBRK, columns 31-40: -3.0 is below 0",
         ),
         (" END14SWIR                         3.0E5\n", "deck 14, SWIR: a steel wire"),
         (" END14DRUM    1    2    0   12\n", "deck 14 MOOR, DRUM: no public source"),
@@ -249,7 +252,7 @@ fn line_beside_tethers_pulls_platform_in_mooring_forces() {
 
 /// A hemisphere of 10 m whose coefficients are in tests/data/hemisphere/hemisphere.AH1, held but for heave, with a constant force of 1 MN in
 /// its line and these decks 12 and 13.
-fn hemisphere(program: &str, held: &[u8], waves: &str) -> String {
+pub(super) fn hemisphere(program: &str, held: &[u8], waves: &str) -> String {
     let file = "    07    WFS1\n END07FILE              tests/data/hemisphere/hemisphere.AH1\n";
     let card =
         |(n, dof): (usize, &u8)| format!("{:>4}12DACF    1{dof:5}\n", if n + 1 == held.len() { "END" } else { "" });
@@ -266,7 +269,7 @@ fn hemisphere(program: &str, held: &[u8], waves: &str) -> String {
         .replace("    12    NONE\n", &format!("    12    CONS\n{cards}"))
 }
 
-const BUT_HEAVE: [u8; 5] = [1, 2, 4, 5, 6];
+pub(super) const BUT_HEAVE: [u8; 5] = [1, 2, 4, 5, 6];
 
 #[test]
 fn librium_job_of_hull_with_text_database_sinks_by_its_stiffness() {
@@ -344,7 +347,7 @@ fn job_without_coefficients_of_its_hull_is_an_error() {
 }
 
 /// The deck with more nodes.
-fn with_nodes(deck: &str, nodes: &[(u32, [f64; 3])]) -> String {
+pub(super) fn with_nodes(deck: &str, nodes: &[(u32, [f64; 3])]) -> String {
     let card = |(number, [x, y, z]): &(u32, [f64; 3])| format!("    01{number:4}          {x:10.3}{y:10.3}{z:10.3}\n");
     let cards: String = nodes.iter().map(card).collect();
     deck.replace(" END01  12", &format!("{cards} END01  12"))
@@ -549,24 +552,6 @@ fn error_of_equilibrium_points_at_job_and_not_at_time_steps() {
     let errors = errors_of_hull(&deck, "unused", "");
     let (message, line) = errors.first().unwrap();
     assert!(message.starts_with("deck 0, JOB: body S1: it sinks") && line.starts_with("JOB"), "{message} {line}");
-}
-
-#[test]
-fn run_of_tethers_breaks_no_line_and_runs_no_action() {
-    let deck = std::fs::read_to_string("scripts/mint.dat").unwrap();
-    let slack = "    14TSLK                         0.001\n";
-    let line = "    14LINE    1 1010    0 9010     100.0     250.0\n    14LBRK         1                 3.0\n";
-    let list = records(&deck.replace(slack, &format!("{slack}{line}"))).unwrap_err();
-    assert!(
-        list.iter().any(|e| e.message == "deck 14, LBRK: no line breaks in a run of tethers" && e.span.is_some()),
-        "{list:?}"
-    );
-    let (mut session, _, folder) = common::session();
-    std::fs::write(folder.path().join("tlp.dat"), &deck).unwrap();
-    session.open("test.cif", "INMODEL -AQWA tlp.dat\n&ACTION CUT -AT 3 -RELEASE T1\nTDOM -TETHERS\n");
-    session.run();
-    let found = session.reports.iter().find(|r| r.message == "-TETHERS does not run the action CUT");
-    assert!(found.is_some_and(|r| r.span.is_some()) && session.job.tethered.is_none(), "{:?}", session.reports);
 }
 
 #[test]

@@ -81,8 +81,9 @@ fn cosine(degrees: f64) -> f64 {
 }
 
 /// The card of the current: that of the profile, else of the uniform current in force.
-fn current_span(deck: &Deck) -> Option<(&'static str, Span)> {
-    let profile = deck.surroundings.profile.first().map(|layer| ("deck 11, CPRF", layer.span));
+pub(super) fn current_span(deck: &Deck) -> Option<(&'static str, Span)> {
+    let flows = deck.surroundings.profile.iter().any(|layer| layer.speed != 0.0);
+    let profile = deck.surroundings.profile.first().filter(|_| flows).map(|layer| ("deck 11, CPRF", layer.span));
     profile.or_else(|| uniform(deck).first().map(|(card, flow)| (*card, flow.span)))
 }
 

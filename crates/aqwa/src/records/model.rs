@@ -174,7 +174,7 @@ fn fixed_dof_option(deck: &Deck, of: &StructureDeck, nominal: bool, out: &mut Sc
     if let (Some(first), false) = (given.first(), deck.mooring.tethers.is_empty()) {
         out.refuse(
             Diagnostic::error(
-                "deck 12, DACF: a structure that tethers hold moves in all degrees of freedom here",
+                format!("deck 12, {}: a structure that tethers hold moves in all degrees of freedom here", first.card),
                 first.dof.span,
             )
             .help("the engine of tethers holds none; a stiff GSPR of the model to the ground does"),

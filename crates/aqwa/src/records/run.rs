@@ -1,6 +1,6 @@
 //! What a deck runs and prints: decks 0, 14, 16, 17 and 18.
 
-use super::environment::spectrum;
+use super::environment::{current_span, spectrum};
 use super::lines;
 use super::model::{body, point};
 use super::record_writer::{Script, number, numbers, opposite, round_value};
@@ -9,7 +9,7 @@ use crate::Deck;
 use crate::elements::ElementShape;
 use crate::job::Program;
 use crate::lines::LineKind;
-use crate::printing::omitted_rows;
+use crate::printing::{PrintedNode, omitted_rows};
 use crate::tethers::{Fatigue, Tether};
 use crate::waves::WaveDeck;
 use windlass_base::diagnostic::Diagnostic;
@@ -59,20 +59,19 @@ pub(super) fn motion(deck: &Deck, out: &mut Script) {
     if deck.job.program != Program::Line {
         wave_loads(deck, out);
         cards_without_effect(deck, out);
+        current_loads(deck, out);
     }
-    if is_timed(deck) {
-        if deck.mooring.tethers.is_empty() {
+    match deck.job.program {
+        Program::Drift | Program::Naut => {
             lines::breaks(deck, out);
-        } else if let Some(broken) = deck.mooring.breaks.first() {
-            out.refuse(
-                Diagnostic::error("deck 14, LBRK: no line breaks in a run of tethers", broken.span)
-                    .help("leave out the line for the damaged state; without tethers a deck breaks its lines in time"),
-            );
+            out.card("deck 16, TIME", deck.steps.map_or(deck.job.span, |steps| steps.span));
         }
-        match deck.steps {
-            Some(steps) => out.card("deck 16, TIME", steps.span),
-            None => out.card("deck 0, JOB", deck.job.span),
+        Program::Librium | Program::Fer => {
+            lines::broken_at_start(deck, out);
+            say_what_is_of_runs(deck, out);
+            out.card("deck 0, JOB", deck.job.span);
         }
+        Program::Line => {}
     }
     match (deck.job.program, deck.mooring.tethers.is_empty()) {
         (Program::Drift | Program::Naut, false) => write_tether_run(deck, out),
@@ -133,9 +132,6 @@ fn cards_without_effect(deck: &Deck, out: &mut Script) {
         if let Some(steps) = deck.steps {
             out.note("deck 16, TIME", steps.span, &format!("{program} and has no time steps: the card has no effect"));
         }
-        for broken in &deck.mooring.breaks {
-            out.warn("deck 14, LBRK", broken.span, &format!("{program}: no line breaks, the card has no effect"));
-        }
     }
     if let Some(end) = end_of_run(deck) {
         for broken in deck.mooring.breaks.iter().filter(|broken| broken.time.value > end) {
@@ -150,22 +146,6 @@ fn cards_without_effect(deck: &Deck, out: &mut Script) {
                 let text = format!("its drum begins to turn at {begins} s (DWT0), and the run ends at {end} s");
                 out.warn("deck 14, LNDW", line.span, &text);
             }
-        }
-    }
-    if deck.mooring.tethers.is_empty() {
-        let printing = &deck.printing;
-        let counts = [
-            ("PREV", printing.structures),
-            ("TPRV", printing.tethers),
-            ("TGRV", printing.records),
-            ("TSTS", printing.first),
-            ("TSTF", printing.last),
-            ("NODE", printing.nodes.first().map(|node| node.structure)),
-        ];
-        for (keyword, field) in counts {
-            let Some(field) = field else { continue };
-            let text = "pages over time are those of runs with tethers: the card has no effect here; REPORT and PRCPOST of a script print results";
-            out.note(&format!("deck 18, {keyword}"), field.span, text);
         }
     }
 }
@@ -215,22 +195,112 @@ fn moves(deck: &Deck, structure: i64) -> bool {
     !(1..=6).all(holds)
 }
 
-/// A run without tethers: bodies and lines as the model has them.
+/// A current meets a structure by its tubes, or by coefficients of its hull, which no deck gives here: names each structure on which it does not act.
+fn current_loads(deck: &Deck, out: &mut Script) {
+    let Some((card, span)) = current_span(deck) else { return };
+    for structure in &deck.structures {
+        let has_tubes = structure.elements.iter().any(|element| element.shape == ElementShape::Tube);
+        let is_nominal = deck.mooring.tethers.iter().any(Tether::is_towed);
+        if has_tubes || is_nominal {
+            continue;
+        }
+        let text = format!(
+            "no load of the current acts on structure {}: it has no tubes, and the hull coefficients of deck 10 (CUFX) are not read; \
+             INMODEL -AQWA reads the model of the deck, and #TABLE gives it coefficients",
+            structure.number
+        );
+        out.warn(card, span, &text);
+    }
+}
+
+/// Says which cards of deck 18 are of runs in time, in a job that makes none.
+fn say_what_is_of_runs(deck: &Deck, out: &mut Script) {
+    let printing = &deck.printing;
+    let steps = [
+        ("PREV", printing.structures),
+        ("TPRV", printing.tethers),
+        ("TGRV", printing.records),
+        ("TSTS", printing.first),
+        ("TSTF", printing.last),
+    ];
+    for (keyword, field) in steps {
+        if let Some(field) = field {
+            out.note(&format!("deck 18, {keyword}, columns 11-15"), field.span, "is of runs in time, DRIF and NAUT");
+        }
+    }
+    for node in &printing.nodes {
+        let text = "the node is printed where it starts; its motion is of runs in time, DRIF and NAUT";
+        out.note("deck 18, NODE, columns 16-20", node.node.span, text);
+    }
+    say_parameters_without_rows(deck, out);
+}
+
+/// Says that rows of forces are turned on and off on pages of structures with tethers alone.
+fn say_parameters_without_rows(deck: &Deck, out: &mut Script) {
+    for switch in &deck.printing.switches {
+        let keyword = if switch.on { "PRNT" } else { "NOPR" };
+        let text = format!(
+            "parameter {} is a row of the pages of structures with tethers; the tables of this job have none of these rows",
+            switch.parameter.value
+        );
+        out.note(&format!("deck 18, {keyword}, columns 16-20"), switch.parameter.span, &text);
+    }
+}
+
+/// A run without tethers: bodies and lines as the model has them, printed as deck 18 asks.
 fn bodies(deck: &Deck, out: &mut Script) {
-    if let Some(asked) = deck.printing.tensions.first() {
-        let text =
-            "the tensions of lines over time are not printed from a deck; TENSIONS of PRCPOST reports them in a script";
-        out.note("deck 18, PTEN, columns 11-15", asked.span, text);
+    let printing = &deck.printing;
+    let of_tethers =
+        [("TPRV", printing.tethers), ("TGRV", printing.records), ("TSTS", printing.first), ("TSTF", printing.last)];
+    for (keyword, field) in of_tethers {
+        if let Some(field) = field {
+            out.note(&format!("deck 18, {keyword}, columns 11-15"), field.span, "is of tethers, and the deck has none");
+        }
+    }
+    say_parameters_without_rows(deck, out);
+    if !printing.nodes.is_empty() {
+        out.record("MEDIT");
+        for printed in &printing.nodes {
+            out.card("deck 18, NODE", printed.structure.span);
+            out.record(format!("&DESCRIBE INTEREST {}", point(printed.structure.value, printed.node.value)));
+        }
+        out.record("END");
+        out.card("deck 16, TIME", deck.steps.map_or(deck.job.span, |steps| steps.span));
     }
     out.record("TDOM");
     out.card("deck 0, JOB", deck.job.span);
     out.record("PRCPOST");
-    for structure in &deck.structures {
-        out.record(format!("TRAJECTORY {}", body(structure.number)));
+    let every = every(printing.structures).map_or(String::new(), |steps| format!(" {}", events(deck, steps)));
+    let report = |text: String, out: &mut Script| {
+        out.record(text + &every);
         out.record("REPORT");
         out.record("END");
+    };
+    for structure in &deck.structures {
+        report(format!("TRAJECTORY {}", body(structure.number)), out);
+    }
+    for printed in &printing.nodes {
+        say_fixed_reference(printed, out);
+        out.card("deck 18, NODE", printed.structure.span);
+        report(format!("POINTS {}", point(printed.structure.value, printed.node.value)), out);
+    }
+    for (index, line) in deck.mooring.lines.iter().enumerate() {
+        let on =
+            |number: i64| number == 0 || [line.ends.structure1.value, line.ends.structure2.value].contains(&number);
+        if let Some(asked) = printing.tensions.iter().find(|field| on(field.value)) {
+            out.card("deck 18, PTEN", asked.span);
+            report(format!("CONFORCE L{}", index + 1), out);
+        }
     }
     out.record("END");
+}
+
+/// Says that the place of a node is one in the fixed reference axes, where it is asked for relative to another node.
+fn say_fixed_reference(printed: &PrintedNode, out: &mut Script) {
+    if printed.reference.0.value > 0 || printed.reference.1.value > 0 {
+        let text = "places are printed in the fixed reference axes, and not relative to this";
+        out.warn("deck 18, NODE, columns 21-30", printed.reference.0.span, text);
+    }
 }
 
 /// Motions and tensions in the sea of the deck, without a sea in unit waves: about the places of deck 15, which are those of an equilibrium, or about the
@@ -242,6 +312,10 @@ fn frequency_domain(deck: &Deck, out: &mut Script) {
                 .help("SPEC is the deck of a spectrum; NONE gives the motions in unit waves"),
         );
         return;
+    }
+    for held in deck.held.iter().filter(|held| held.card == "DACF") {
+        let text = "the degree of freedom is held here; the card has no effect in AQWA-FER [AQWA-REF DACF]";
+        out.note("deck 12, DACF, columns 16-20", held.dof.span, text);
     }
     let sea = matches!(deck.waves, WaveDeck::Spectra(_));
     let placed = |number: i64| deck.starts.iter().any(|start| start.structure == number && !start.velocity);
@@ -266,8 +340,8 @@ fn frequency_domain(deck: &Deck, out: &mut Script) {
         out.record("REPORT");
         out.record("END");
     }
-    for index in 0..deck.mooring.lines.len() {
-        out.record(format!("{tensions} L{}", index + 1));
+    for number in (1..=deck.mooring.lines.len()).filter(|number| !lines::is_broken_at_start(deck, *number)) {
+        out.record(format!("{tensions} L{number}"));
         out.record("REPORT");
         out.record("END");
     }
@@ -345,11 +419,7 @@ fn structure(deck: &Deck, towed: bool, out: &mut Script) {
         let mut text = String::from("STRUCTURE PAGES");
         for printed in printing.nodes.iter().filter(|_| !towed) {
             text.push_str(&format!(" {}", point(printed.structure.value, printed.node.value)));
-            if printed.reference.0.value > 0 || printed.reference.1.value > 0 {
-                let span = printed.reference.0.span;
-                let text = "places are printed in the fixed reference axes, and not relative to this";
-                out.warn("deck 18, NODE, columns 21-30", span, text);
-            }
+            say_fixed_reference(printed, out);
         }
         let number = deck.mooring.tethers.first().map_or(1, |tether| tether.structure.value);
         let omitted = omitted_rows(printing, number, deck.job.program);

@@ -122,12 +122,7 @@ fn break_needs_a_time_or_tension_and_comes_once_a_line() {
         " END14LBRK",
     );
     let still = DeckJob { program: "LIBR", ..with(late) };
-    says(
-        &still,
-        Severity::Warning,
-        "deck 14, LBRK: LIBR finds an equilibrium: no line breaks, the card has no effect",
-        " END14LBRK",
-    );
+    says(&still, Severity::Error, "deck 14, LBRK, columns 11-15: this field is blank", " END14LBRK");
 }
 
 #[test]
@@ -187,9 +182,9 @@ fn cards_of_towed_tethers_in_other_decks_are_reported() {
     );
     let pages = "    18    PROP\n END18PREV   10\n";
     says(
-        &DeckJob { printing: pages, ..MOORED },
+        &DeckJob { program: "LIBR", printing: pages, ..MOORED },
         Severity::Note,
-        "deck 18, PREV: pages over time are those of runs with tethers: the card has no effect here; REPORT and PRCPOST of a script print results",
+        "deck 18, PREV, columns 11-15: is of runs in time, DRIF and NAUT",
         " END18PREV",
     );
     says(
