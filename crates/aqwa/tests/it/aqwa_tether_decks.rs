@@ -802,7 +802,7 @@ fn incomplete_decks_are_refused() {
             ],
             "a section is at least 1 long",
         ),
-        (&["    14PULY", " END14LINE    1 1010    0 9010      10.0"], "deck 14, PULY: no LINE with a length"),
+        (&["    14PULY", " END14LINE    1 1010    0 9010      10.0     250.0"], "deck 14, PULY: no LINE with a length"),
     ];
     for (cards, part) in cases {
         let error = first_error(&moor(cards)).0;
