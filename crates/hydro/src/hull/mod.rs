@@ -5,6 +5,7 @@
 //! [`Surface::faults`] and [`intersect`]. Nothing here knows a record, a class or a body.
 
 mod boxes;
+mod combination;
 mod cutting;
 mod faults;
 mod mesh;
@@ -14,6 +15,7 @@ mod state;
 mod surface;
 mod tube;
 
+pub use combination::{Combination, CombinationError};
 pub use faults::{Fault, MAX_REPORTED_FAULTS, intersect};
 pub use mesh::{MeshFile, MeshKind, read_mesh};
 pub(super) use panelling::{Panel, Panelling};
