@@ -366,6 +366,15 @@ fn check_script(args: &CheckArgs) -> u8 {
     session.job.output.columns = screen_columns;
     session.job.output.keep_log = false;
     session.start_check();
+    let by_name = args.compat;
+    // a record that takes too long has no end to wait for: what was found is printed here, and the program ends
+    let _watch = session.watch_check(move |report| {
+        let code = i32::from(report.has_refused());
+        for line in report.take_lines(by_name).unwrap_or_default() {
+            let _ = writeln!(stdout(), "{line}");
+        }
+        std::process::exit(code);
+    });
     session.open(&args.script, text);
     session.run();
     session.print_check(args.compat);

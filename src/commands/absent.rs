@@ -77,7 +77,6 @@ const MOTIONS: Loss = Loss::Solves(SolveKind::Motions);
 
 const MAIN: &[&MenuSpec] = &[&menu::MAIN];
 const MODEL: &[&MenuSpec] = &[&menu::INMODEL, &menu::MEDIT];
-const SURFACES: &[&MenuSpec] = &[&menu::SURFACE];
 const FREQUENCY: &[&MenuSpec] = &[&menu::FREQ_RESPONSE];
 const HYDRODYNAMIC: &[&MenuSpec] = &[&menu::HYDRODYNAMICS];
 
@@ -138,17 +137,6 @@ pub static ABSENT: &[Absent] = &[
         .instead("&INFO and string functions give values to keep"),
     Absent::new("&VARIABLE", Loss::Results, "names kept in a database")
         .instead("&SET keeps a list of words, &TOKEN takes it apart"),
-    Absent::new("TUBTANK", STATICS, "a cylinder between two points that belongs to a compartment")
-        .in_menus(MODEL)
-        .instead("PGEN with PLANE -CIRCULAR encloses it"),
-    Absent::new("DELETE_BLOCK", STATICS, "a surface is taken away")
-        .in_menus(SURFACES)
-        .instead("EMIT takes the surfaces it names"),
-    Absent::new("RENAME_BLOCK", STATICS, "a surface has another name")
-        .in_menus(SURFACES)
-        .instead("COPY_BLOCK gives a copy a name"),
-    Absent::new("&EMIT", STATICS, "surfaces go into a file or a body")
-        .instead("EMIT puts surfaces into the part described last"),
     Absent::new("SP_BEAM", Loss::Nothing, "it reports stresses of other members, and adds nothing to the model")
         .in_menus(MODEL),
     Absent::new("SP_PLATE", Loss::Nothing, "it reports stresses of other members, and adds nothing to the model")
@@ -160,10 +148,13 @@ pub static ABSENT: &[Absent] = &[
     Absent::new("JOINT", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
     Absent::new("ASSEMBLY LLEG", STATICS, "launch legs, on which a jacket slides from its barge").in_menus(MODEL),
     Absent::new("ASSEMBLY CONTROL", STATICS, "a control of lengths and forces").in_menus(MODEL),
-    Absent::new("TKR_MODEL", STATICS, "the hull, weight, wind and current of a tanker, by the macro library V_MODEL")
-        .instead(TUBE_INSTEAD),
-    Absent::new("W_BOX", STATICS, "a wind box, by the macro library V_MODEL").instead("#AREA gives areas in wind"),
-    Absent::new("JGEN_INIT", STATICS, "a jackup, by the macro library V_MODEL"),
+    Absent::new(
+        "TKR_MODEL",
+        STATICS,
+        "the hull, weight, wind and current of a tanker of MOSES's macro library V_MODEL, whose ships are not public",
+    )
+    .instead(TUBE_INSTEAD),
+    Absent::new("JGEN_INIT", STATICS, "a jackup of MOSES's macro library V_MODEL, whose forms are not public"),
     Absent::new("TKR_GEN", STATICS, "a moored tanker, by a macro library of MOSES"),
     Absent::new("TKR_SIM", Loss::Results, "simulations of a moored tanker, by a macro library of MOSES"),
     Absent::new("JKT_GEN", STATICS, "a jacket, by a macro library of MOSES"),
@@ -210,8 +201,7 @@ pub static REPORTS: &[(&str, &str)] = &[
 ];
 
 /// Libraries of macros that ship with MOSES, each with the macros that scripts call.
-pub static LIBRARIES: &[(&str, &str)] =
-    &[("V_MODEL", "TKR_MODEL, W_BOX, JGEN_INIT"), ("AUTO_TKR", "TKR_GEN, TKR_SIM"), ("JKTGEN", "JKT_GEN")];
+pub static LIBRARIES: &[(&str, &str)] = &[("AUTO_TKR", "TKR_GEN, TKR_SIM"), ("JKTGEN", "JKT_GEN")];
 
 /// The entry of a word in a menu: by its whole name, else by a beginning of four letters or more that one alone has.
 pub fn find(word: &str, menu: &MenuSpec) -> Option<&'static Absent> {

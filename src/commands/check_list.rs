@@ -1,10 +1,10 @@
 //! What a check of a script does with each command: it runs what makes the model, and reads the words of everything else.
 
 use super::{
-    Call, Command, accepted, action, alter, apply, assembly, bathymetry, buildg, class, compartment, connector, curves,
-    database, describe, device, disposition, element, env, file, hydrodynamics, hydrostatic, junction, loads, menus,
-    message, names, parameter, pgen, piece, pipe, prescribe, rep_select, select, status, surface, t_pressure, units,
-    weight,
+    Call, Command, accepted, action, alter, apply, assembly, bathymetry, block_combination, buildg, class, compartment,
+    connector, curves, database, describe, device, disposition, element, env, file, hydrodynamics, hydrostatic,
+    junction, loads, menus, message, names, parameter, pgen, piece, pipe, prescribe, rep_select, select, status,
+    surface, t_pressure, units, weight,
 };
 use crate::commands::solve::hstatics::equi_h;
 use crate::commands::solve::{equilibrium, tdom};
@@ -39,10 +39,18 @@ static RUN: &[&Command] = &[
     &surface::BLOCK,
     &surface::MESH,
     &surface::TUBE,
+    &surface::VERTEX,
+    &block_combination::UNION,
+    &block_combination::INTERSECT,
+    &block_combination::DIFFERENCE,
+    &block_combination::RENAME_BLOCK,
+    &block_combination::DELETE_BLOCK,
+    &block_combination::TUBTANK,
     &surface::MOVE_BLOCK,
     &surface::COPY_BLOCK,
     &surface::REFLECT_BLOCK,
     &surface::EMIT,
+    &surface::EMIT_ANYWHERE,
     &compartment::COMPARTMENT,
     &hydrodynamics::HYDRODYNAMICS,
     &hydrodynamics::G_PRESSURE,

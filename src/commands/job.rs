@@ -22,6 +22,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_base::geometry::Position;
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::UnitSystem;
@@ -68,7 +69,7 @@ pub enum Menu {
     /// A surface of sections or panels being given by `BLOCK`.
     Block(Box<Planes>),
     /// A surface of panels being given by `MESH`.
-    Mesh,
+    Mesh(MeshVertices),
     /// Hydrostatics of a body.
     Hydrostatics(HydrostaticsMenu),
     /// The frequency domain, with what it has found.
@@ -108,7 +109,7 @@ impl Menu {
             Menu::Selectors => &menu::SELECT,
             Menu::Surface => &menu::SURFACE,
             Menu::Block(_) => &menu::BLOCK,
-            Menu::Mesh => &menu::MESH,
+            Menu::Mesh(_) => &menu::MESH,
             Menu::Building(_) => &menu::BUILDG,
             Menu::Soundings(_) => &menu::BATHYMETRY,
             Menu::Planes(_) => &menu::PGEN,
@@ -251,11 +252,16 @@ impl UserFiles {
     }
 }
 
+/// The vertices of a mesh by name, in the order given (m).
+pub type MeshVertices = IndexMap<String, Position>;
+
 /// What a check of a script knows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Checking {
     /// A solve has been passed over: places and forces are not known any more.
     pub solved: bool,
+    /// The record at hand asks for what a solve finds.
+    pub hangs_on_result: bool,
 }
 
 /// A table that a record has shown or opened a menu over, with the user's units of that moment.
@@ -289,6 +295,8 @@ pub struct Job {
     pub idle_said: Vec<(&'static str, &'static str)>,
     /// Records of MOSES without effect here, or that windlass does not have, which the user has been told of.
     pub absent_said: Vec<&'static str>,
+    /// Libraries of macros that USE_MAC did not find, in capitals.
+    pub missing_libraries: Vec<String>,
     /// Classes of types that windlass does not have, by key, with what their connectors would do.
     pub absent_classes: HashMap<String, Option<&'static str>>,
     /// The last solve, where it was refused: what asks for its results is no error of its own.
@@ -354,6 +362,7 @@ impl Job {
             idle_said: Vec::new(),
             absent_said: Vec::new(),
             refused_solve: None,
+            missing_libraries: Vec::new(),
             absent_classes: HashMap::new(),
             checking: None,
             last_severity: None,

@@ -25,14 +25,16 @@ pub mod verdict;
 
 use environment::{bathymetry, curves, env};
 use files::file;
-pub use files::file::write_open_files;
+pub use files::file::{LIBRARIES as SHIPPED_LIBRARIES, ShippedLibrary, write_open_files};
 pub use functions::FUNCTION_HELP;
-pub use job::{Checking, DeviceSettings, Job, KeptTable, Menu};
+pub use job::{Checking, DeviceSettings, Job, KeptTable, Menu, MeshVertices};
 pub use menus::{find_opened_menu, finish};
+pub use model::block_combination::assign as assign_block;
+pub use model::class::keep_refused as keep_refused_class;
 pub use model::shapes::take_shape;
 use model::{
-    alter, apply, assembly, class, compartment, connector, database, describe, element, hydrodynamics, hydrostatic,
-    junction, loads, names, pgen, piece, pipe, select, surface, t_pressure, weight,
+    alter, apply, assembly, block_combination, class, compartment, connector, database, describe, element,
+    hydrodynamics, hydrostatic, junction, loads, names, pgen, piece, pipe, select, surface, t_pressure, weight,
 };
 pub use output::buildg::take as take_row;
 use output::{add_column, animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
@@ -73,6 +75,13 @@ pub enum Effect {
         path: PathBuf,
         /// [`PLAIN`] or [`INMODEL_FILE`].
         tag: u32,
+    },
+    /// Read a library of macros that ships with the program next.
+    Library {
+        /// Name for messages.
+        name: &'static str,
+        /// Its records.
+        text: &'static str,
     },
     /// Read the model of an AQWA deck next.
     Deck {
@@ -161,11 +170,19 @@ static LISTED: &[&Command] = &[
     &surface::BLOCK,
     &surface::MESH,
     &surface::TUBE,
+    &surface::VERTEX,
+    &block_combination::UNION,
+    &block_combination::INTERSECT,
+    &block_combination::DIFFERENCE,
+    &block_combination::RENAME_BLOCK,
+    &block_combination::DELETE_BLOCK,
+    &block_combination::TUBTANK,
     &surface::MOVE_BLOCK,
     &surface::LIST_BLOCK,
     &surface::COPY_BLOCK,
     &surface::REFLECT_BLOCK,
     &surface::EMIT,
+    &surface::EMIT_ANYWHERE,
     &compartment::COMPARTMENT,
     &compartment::CMP_BAL,
     &hstatics::HSTATICS,

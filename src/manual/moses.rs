@@ -1,6 +1,7 @@
 //! The page for users of MOSES: a phrasebook, and the state of every record.
 
 use super::markdown::{code, describe_effect, escape, sentence, table};
+use crate::commands::SHIPPED_LIBRARIES;
 use crate::commands::absent::{ABSENT, Absent, CLASSES, LIBRARIES, Loss, REPORTS};
 use crate::commands::check_list::CheckedAs;
 use crate::commands::{COMMANDS, Command, menu, status_rows};
@@ -102,6 +103,12 @@ pub fn build_page() -> String {
     text.push_str(&format!(
         "### Kinds of \\&STATUS\n\n{}",
         table(["Kind", "State", "What it reports"], &report_rows())
+    ));
+    let shipped: Vec<[String; 2]> =
+        SHIPPED_LIBRARIES.iter().map(|library| [code(library.name), code(library.macros)]).collect();
+    text.push_str(&format!(
+        "### Libraries of macros that ship with windlass\n\n{}",
+        table(["Library", "Macros"], &shipped)
     ));
     let libraries: Vec<[String; 2]> = LIBRARIES.iter().map(|(name, macros)| [code(name), code(macros)]).collect();
     text.push_str(&format!(

@@ -34,6 +34,9 @@ pub enum DispositionError {
     /// Bounds that leave no row.
     #[error("no row lies within the bounds")]
     NoRow,
+    /// No row is one of the events.
+    #[error("the first column has no value among these events")]
+    NoEvent,
     /// All rows are of the transient.
     #[error("all rows are before TTRA_SET, {0} s, which statistics leave out: -RECORD takes rows by their numbers")]
     Transient(f64),
@@ -67,6 +70,8 @@ pub struct RowChoice {
     pub values: Option<(String, f64, f64)>,
     /// Leaves out what is before this time (s) by a first column of time.
     pub from: Option<f64>,
+    /// Rows whose first column is from the first number to the second, the last where there is none, in steps of the third.
+    pub events: Option<(f64, Option<f64>, Option<f64>)>,
 }
 
 /// A table being disposed of.
@@ -235,6 +240,21 @@ impl Disposition {
             taken.retain(|row| times.cells.get(*row).and_then(Cell::number).is_some_and(|t| t >= from - near));
             if taken.is_empty() {
                 return Err(DispositionError::Transient(from));
+            }
+        }
+        if let (Some((begin, end, step)), Some(column)) = (choice.events, self.table.columns().first()) {
+            // a time that is an event's but for rounding
+            let near = 1e-9 * begin.abs().max(end.unwrap_or(begin).abs()).max(1.0);
+            let last = end.unwrap_or(f64::INFINITY);
+            let is_event = |value: f64| {
+                let past = step.map_or(0.0, |step| (value - begin) - ((value - begin) / step).round() * step);
+                value >= begin - near && value <= last + near && past.abs() <= near
+            };
+            let value =
+                |row: &usize| column.cells.get(*row).and_then(Cell::number).map(|v| column.dim.from_si(v, units));
+            taken.retain(|row| value(row).is_some_and(is_event));
+            if taken.is_empty() {
+                return Err(DispositionError::NoEvent);
             }
         }
         if let Some((selector, low, high)) = &choice.values {

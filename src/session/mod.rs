@@ -2,12 +2,14 @@
 //! error policy.
 
 mod absent_record;
+mod check_report;
 mod deck;
 mod named;
 mod reading;
 mod script_check;
 mod skipped_menu;
 
+pub use check_report::{CheckReport, CheckWatch};
 pub use reading::{RecordReadError, read_all, read_text};
 
 use self::named::{in_menu, unknown_name_error};
@@ -72,6 +74,8 @@ pub struct Session {
     listed: Option<Box<aqwa::Deck>>,
     /// What a check has found, where the script is only checked.
     check: Option<ScriptCheck>,
+    /// The last record of this menu was unknown: records of a disposition menu that follow were meant for what it should have opened.
+    lost_opener: bool,
 }
 
 impl Session {
@@ -92,6 +96,7 @@ impl Session {
             decks: Vec::new(),
             listed: None,
             check: None,
+            lost_opener: false,
         }
     }
 
@@ -297,6 +302,12 @@ impl Session {
                 self.insert(&name, &path, tag, record.whole());
                 false
             }
+            Effect::Library { name, text } => {
+                if let Err(error) = self.interpreter.open(name, text, PLAIN, Some(record.whole())) {
+                    self.report(*error);
+                }
+                false
+            }
             Effect::Deck { name, path } => {
                 self.job.output.folder.note_reading(&path);
                 match read_text(&path) {
@@ -349,7 +360,7 @@ impl Session {
         };
         let word = first.text.to_ascii_uppercase();
         if word == "END" || word.starts_with("END_") {
-            return self.end(first, &word);
+            return self.end(first, &word, words.get(1..).unwrap_or_default());
         }
         if self.pass_over(first, words) {
             return Ok(Effect::Done);
@@ -360,13 +371,26 @@ impl Session {
         if matches!(self.job.menu(), Menu::Shapes) && first.kind != TokenKind::Internal {
             return commands::take_shape(&mut self.job, words);
         }
+        if matches!(self.job.menu(), Menu::Surface)
+            && let Some(outcome) = commands::assign_block(&mut self.job, words)
+        {
+            return outcome;
+        }
         match first.kind {
             TokenKind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
             TokenKind::Point => return self.invoke(in_menu("*POINT", self.job.menu(), first)?, record, words),
             TokenKind::Selector => return self.invoke(in_menu(":SELECTOR", self.job.menu(), first)?, record, words),
             _ => {}
         }
-        match self.resolve(first)? {
+        let parted = self.part_glued_option(words);
+        let words = parted.as_deref().unwrap_or(words);
+        let Some(first) = words.first() else { return Ok(Effect::Done) };
+        let meaning = match self.resolve(first) {
+            Ok(meaning) => meaning,
+            Err(error) => return self.without_cascade(first, error),
+        };
+        self.lost_opener = false;
+        match meaning {
             Meaning::Command(command) => {
                 if let Some(entry) = words.get(1).and_then(|second| absent::find_form(command.spec.name, &second.text))
                 {
@@ -438,19 +462,33 @@ impl Session {
             if let Some(model) = kept {
                 self.job.model = model;
             }
+            if command.spec.name == "~CLASS" && !self.interactive {
+                commands::keep_refused_class(&mut self.job, words);
+            }
         }
         outcome
     }
 
     /// Leaves the innermost menu.
-    fn end(&mut self, first: &Word, word: &str) -> Outcome<Effect> {
+    fn end(&mut self, first: &Word, word: &str, rest: &[Word]) -> Outcome<Effect> {
         let menu = self.job.menu();
         if self.job.menus.len() < 2 {
             return Err(Diagnostic::error("there is no menu to leave", first.span).help("&FINISH ends the job"));
         }
-        if word != "END" && !menu.end().starts_with(word) {
+        // what was to open the menu that is passed over is not known for sure
+        let is_refused = matches!(menu, Menu::Refused(_));
+        if word != "END" && !menu.end().starts_with(word) && !is_refused {
             return Err(Diagnostic::error(format!("{word} does not leave menu {}", menu.name()), first.span)
                 .label(format!("expected END or {}", menu.end())));
+        }
+        let name = menu.name().trim_start_matches('&');
+        let names_menu = |word: &Word| {
+            let own = word.text.trim_start_matches('&');
+            name.get(..own.len()).is_some_and(|head| head.eq_ignore_ascii_case(own))
+        };
+        if let Some(surplus) = rest.get(usize::from(rest.first().is_some_and(names_menu))) {
+            let text = format!("{word} leaves menu {}; `{}` behind it is not read", menu.name(), surplus.text);
+            self.job.warn(text, surplus.span);
         }
         self.leave_menu(Some(first.span));
         Ok(Effect::Done)

@@ -17,6 +17,7 @@ mod program {
     mod hostile_input;
     mod lines;
     mod manual_blocks;
+    mod macro_libraries;
     mod menus;
     mod moses_records;
     mod names;
@@ -75,6 +76,7 @@ mod floating {
     mod hydrostatics_menu;
     mod members;
     mod moorpy_equilibrium;
+    mod moses_blocks;
     mod moses_hulls;
     mod moses_weights;
     mod networks;

@@ -70,7 +70,7 @@ const SECTION: OptionSpec = OptionSpec::new(
 )
 .repeating(1);
 /// Values of an option that are read and not used.
-const ANY: &[ValueSpec] = &[ValueSpec::new("V", Kind::Text, "a value").or("none")];
+const ANY: &[ValueSpec] = &[ValueSpec::new("V", Kind::Item, "a value").or("none")];
 /// An option of a stress analysis or a code check.
 const fn stress(name: &'static str) -> OptionSpec {
     OptionSpec::new(name, ANY, "of a stress analysis or a code check").repeating(1).without_effect()

@@ -9,16 +9,33 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, ConnectorResponse,
-    ConnectorSummary, Situation, SolverCache, Surroundings,
+    ConnectorSummary, Situation, SolveKind, SolverCache, Surroundings,
 };
 
 /// The class type.
 pub static TUG_BOAT: ClassKind = ClassKind { spec: &SPEC, build, idle: &[] };
 
+const T_DYNAM: OptionSpec = OptionSpec::new(
+    "-T_DYNAM",
+    &[
+        ValueSpec::new("PERCENT", Kind::Number(Dim::None), "significant change of the pull, percent"),
+        ValueSpec::new("PHASE", Kind::Number(Dim::Angle), "phase behind the crest at the tug"),
+    ],
+    "the pull changes with the waves at the tug",
+)
+.stops(SolveKind::Motions, "a pull of a tug that changes with the waves");
+const DAMPING: OptionSpec = OptionSpec::new(
+    "-DAMPING",
+    &[ValueSpec::new("C", Kind::Number(Dim::None), "force for a velocity, in units of force times s over length")],
+    "the pull falls with the velocity of the point",
+)
+.stops(SolveKind::Motions, "damping by a tug");
+
 static SPEC: CommandSpec = CommandSpec {
+    options: &[T_DYNAM, DAMPING],
     data: &[ValueSpec::new("FORCE", Kind::Number(Dim::Force), "bollard pull").not_negative()],
     detail: "Pulls its point with FORCE toward the direction ANG of -TUG ANG DIST on the connector, degrees from +X toward +Y in the global \
              horizontal plane, wherever the body goes and turns: it has no stiffness. DIST is where the tug is drawn. The tug itself \

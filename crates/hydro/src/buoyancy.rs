@@ -1,11 +1,12 @@
 //! Buoyancy of a body's hull: the pieces of its parts, as solids in the system of the body.
 
-use super::hull::{Fault, Solid, SubmergedVolume, Surface, TubeHull, intersect};
+use super::hull::{Combination, CombinationError, Fault, Solid, SubmergedVolume, Surface, TubeHull, intersect};
 use super::stability::WaterSlabs;
 use super::{BodyLoad, Category, Immersed, Load};
 use nalgebra::{Matrix3, Vector2, Vector3};
-use windlass_base::geometry::Position;
+use windlass_base::geometry::{Place, Position};
 use windlass_base::pose::Pose;
+use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_model::{Attribute, Body, ClassError, Model, Part, Piece, Shape, bar_panels, box_panels};
 
@@ -403,4 +404,40 @@ pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> V
         }
     }
     faults
+}
+
+/// The panels of what two pieces of a part make together, tubes as prisms; the options of the pieces play no part.
+///
+/// # Errors
+/// A piece that is open, looks the wrong way or has panels that cut each other; nothing left; surfaces that cannot be combined.
+pub fn combine_pieces(first: &Piece, second: &Piece, how: Combination) -> Result<Vec<Vec<Position>>, ClassError> {
+    let part = Part::new("", "", Place::default(), Span::default());
+    let solid = |piece: &Piece| -> Result<Surface, ClassError> {
+        let Solidified { form, faults } = Solidified::new(&part, piece, Surface::faults);
+        if let Some(fault) = faults.into_iter().find(|fault| !fault.remark) {
+            return Err(fault.error);
+        }
+        form.and_then(SolidForm::surface).ok_or_else(|| ClassError::new(format!("piece {} has no volume", piece.name)))
+    };
+    let (a, b) = (solid(first)?, solid(second)?);
+    let made = a.combined(&b, how).map_err(|error| match error {
+        CombinationError::NotSolid { which, fault } => {
+            sentence(if which == 0 { &first.name } else { &second.name }, &fault)
+        }
+        other => ClassError::new(other.to_string()),
+    })?;
+    let corners = |face: &[u32; 3]| -> Vec<Position> {
+        face.iter().filter_map(|n| made.vertices.get(*n as usize)).map(|at| (*at).into()).collect()
+    };
+    let panels: Vec<Vec<Position>> = made.faces.iter().map(corners).collect();
+    // what the model makes of these panels must be the solid that was found
+    let read = Surface::from_panels(&panels, WELD_DISTANCE_SHARE * size(&panels));
+    let is_sound = read.is_ok_and(|surface| surface.leaks().is_empty());
+    if is_sound {
+        Ok(panels)
+    } else {
+        Err(ClassError::new(
+            "faces of the two nearly coincide: the result is no closed surface; move one of them a little",
+        ))
+    }
 }

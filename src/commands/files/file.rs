@@ -27,8 +27,11 @@ static INSERT_SPEC: CommandSpec = CommandSpec {
 };
 static USE_MAC_SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new("NAME", Kind::Text, "macro library")],
-    detail: "Reads NAME, NAME.mac or NAME.cif beside the script.",
-    example: "",
+    detail: "Reads NAME, NAME.mac or NAME.cif beside the script; where there is none of them, a library that ships with windlass. V_MODEL defines \
+             W_BOX NAME X Y Z LENGTH WIDTH HEIGHT -SHAPE CS -NO_TBOT -WEIGHT WT *N1 ..: a box in the wind with the middle of its bottom at X Y Z, \
+             CS the shape coefficient of its faces, without wind on bottom and top by -NO_TBOT, and WT a weight at its middle. \
+             TKR_MODEL and JGEN_INIT of V_MODEL are not in windlass, as the hulls they make are not public.",
+    example: "MEDIT\nUSE_MAC V_MODEL\n&DESCRIBE BODY RIG\nW_BOX HOUSE 10 0 20 30 40 15 -SHAPE 1.1 -WEIGHT 250\nEND\n&STATUS PIECES",
     ..CommandSpec::new("USE_MAC", "loads a macro library")
 };
 static FILE_SPEC: CommandSpec = CommandSpec {
@@ -70,6 +73,22 @@ fn insert(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Insert { name: name.to_string(), path, tag: PLAIN })
 }
 
+/// A library of macros that ships with the program.
+pub struct ShippedLibrary {
+    /// Its name.
+    pub name: &'static str,
+    /// The forms of its macros.
+    pub macros: &'static str,
+    text: &'static str,
+}
+
+/// Those libraries.
+pub static LIBRARIES: &[ShippedLibrary] = &[ShippedLibrary {
+    name: "V_MODEL",
+    macros: "W_BOX NAME X Y Z LENGTH WIDTH HEIGHT -SHAPE CS -NO_TBOT -WEIGHT WT *N1 ..",
+    text: include_str!("../../../share/macros/v_model.mac"),
+}];
+
 fn use_mac(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = USE_MAC_SPEC.word("NAME");
     let name = call.args.word(NAME).unwrap_or_default();
@@ -86,15 +105,25 @@ fn use_mac(job: &mut Job, call: &Call) -> Outcome<Effect> {
             return Ok(Effect::Insert { name: candidate, path, tag: PLAIN });
         }
     }
-    let error = Diagnostic::error(format!("there is no macro library {name}"), call.args.place(NAME))
-        .label("looked for NAME, NAME.mac and NAME.cif beside the script");
-    let library = absent::LIBRARIES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
-    Err(match library {
-        Some((_, macros)) => {
-            error.help(format!("it ships with MOSES and defines {macros}, which windlass does not have"))
-        }
-        None => error,
-    })
+    if let Some(library) = LIBRARIES.iter().find(|library| library.name.eq_ignore_ascii_case(name)) {
+        return Ok(Effect::Library { name: library.name, text: library.text });
+    }
+    let place = call.args.place(NAME);
+    if let Some((library, macros)) = absent::LIBRARIES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)) {
+        // each of its macros says what is lost where it is called
+        let text = format!("library {library} of MOSES is not in windlass; scripts call {macros} of it");
+        job.remark(text, place);
+        return Ok(Effect::Done);
+    }
+    let key = name.to_ascii_uppercase();
+    if !job.missing_libraries.contains(&key) {
+        job.missing_libraries.push(key);
+    }
+    let ours: Vec<&str> = LIBRARIES.iter().map(|library| library.name).collect();
+    Err(Diagnostic::error(format!("there is no macro library {name}"), place)
+        .label("looked for NAME, NAME.mac and NAME.cif beside the script")
+        .help(format!("windlass ships with {}", ours.join(" ")))
+        .help("an unknown record behind this is taken for a macro of it: solves will stop"))
 }
 
 fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {

@@ -44,6 +44,10 @@ const KINDS: &[Listed] = &[
 
 /// The value of `&NAMES(KIND patterns)`.
 pub(super) fn names(job: &Job, kind: &Word, rest: &[Word]) -> Outcome<String> {
+    // views of pictures are not kept
+    if kind.text.eq_ignore_ascii_case("PI_VIEW") {
+        return Ok(String::new());
+    }
     let model = &job.model;
     let known = KINDS.iter().map(|(word, kind)| (*word, Owner::Moses, *kind));
     let all = model.names(choose(&kind.text, kind.span, "kind of &NAMES", known)?);

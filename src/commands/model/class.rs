@@ -3,6 +3,7 @@
 use crate::commands::absent::{self, AbsentClass};
 use crate::commands::environment::plausible;
 use crate::commands::menu;
+use crate::commands::model_values::option_as_written;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -16,9 +17,9 @@ use windlass_language::args;
 use windlass_language::name;
 use windlass_language::record::Word;
 use windlass_language::select::choose;
-use windlass_language::spec::{CommandSpec, TextForm};
+use windlass_language::spec::{CommandSpec, OptionEffect, TextForm};
 use windlass_model::options::{C_SN, IG_STIFF};
-use windlass_model::{Class, ClassRecord, Curve, CurveKind, Model, find};
+use windlass_model::{Class, ClassRecord, Curve, CurveKind, Model, SolveKind, UnmodelledEffect, find};
 
 /// ~CLASS.
 pub static CLASS: Command = Command { spec: &SPEC, edits: false, run };
@@ -121,6 +122,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     notices.extend(idle(job, kind, &last));
     job.note_name(&name.text, name.span);
     job.notices.extend(notices);
+    keep_unmodelled_options(job, &name.text, &last);
     if let Some(text) = remark {
         job.remark(text, name.span);
     }
@@ -166,6 +168,35 @@ fn keep_absent(job: &mut Job, name: &str, absent: &'static AbsentClass, span: Sp
     job.absent_said.push(absent.name);
     let text = format!("class type {} of MOSES is not in windlass: {} (said once)", absent.name, absent.of_connectors);
     job.warn(text, span);
+}
+
+/// What a refused record of a class leaves in a script: what uses a class without any record stops solves, and so does a class of several
+/// segments that lacks one, without an error of their own.
+pub fn keep_refused(job: &mut Job, words: &[Word]) {
+    let Some(name) = words.first() else { return };
+    let key = Model::key(&name.text);
+    match job.model.classes.get(&key) {
+        None => {
+            job.absent_classes.entry(key).or_insert(Some("its class was refused"));
+        }
+        Some(class) if class.object.as_segmented().is_some() || class.object.as_members().is_some() => {
+            let (record, effect) = (format!("a segment of class {}", class.name), "its record was refused".to_string());
+            let (matters_to, span) = (SolveKind::Statics, name.span);
+            job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to, span });
+        }
+        Some(_) => {}
+    }
+}
+
+/// What options of a class would do that no solver computes: solves they matter to stop.
+fn keep_unmodelled_options(job: &mut Job, class: &str, args: &Args) {
+    for given in &args.options {
+        let OptionEffect::Stops(matters_to, effect) = given.option.effect else { continue };
+        let record = format!("{} of class {class}", option_as_written(given, job.units));
+        let kept = UnmodelledEffect { record, effect: effect.into(), matters_to, span: given.span };
+        job.remark(format!("not computed: {}; solves it matters to will stop", kept.sentence()), given.span);
+        job.model.keep_unmodelled(kept);
+    }
 }
 
 /// Sees that the curves a record names exist and are convolutions: no other curve has a place in a class.

@@ -137,14 +137,14 @@ static DESCRIBE_SPEC: CommandSpec = CommandSpec {
 };
 
 static POINT_SPEC: CommandSpec = CommandSpec {
-    menus: &[&menu::INMODEL, &menu::MEDIT],
+    menus: &[&menu::INMODEL, &menu::MEDIT, &menu::BLOCK, &menu::MESH],
     data: &[
         number("X", Dim::Length, "x, or the radius").or("0"),
         number("Y", Dim::Length, "y (with &DEFAULT -CYLINDER or -SPHERICAL: the angle in degrees)").or("0"),
         number("Z", Dim::Length, "z (with -SPHERICAL: the angle above the plane)").or("0"),
     ],
     form: TextForm::Text,
-    detail: "In the system of the part described last; before any &DESCRIBE a point belongs to GROUND, in the global system.",
+    detail: "In the system of the part described last; before any &DESCRIBE, and after &DESCRIBE PART GROUND, a point belongs to the ground, in the global system.",
     example: "MEDIT\n*MLA 400 50 20\nEND\n&STATUS POINTS",
     ..CommandSpec::new("*POINT", "X Y Z: defines a point")
 };
@@ -316,9 +316,17 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let model = &mut job.model;
     rule::check(&name, None, "body or part", span)?;
     if key == GROUND {
-        return Err(
-            Diagnostic::error(format!("`{name}` cannot name a body or part"), span).label("it is the ground's name")
-        );
+        if let Some(given) = args.options.first() {
+            return Err(Diagnostic::error(
+                format!("{} does not belong to the ground, which is fixed", given.name()),
+                given.span,
+            ));
+        }
+        model.current_part = Some(GROUND.to_string());
+        model.current_load_group = None;
+        model.current_compartment = None;
+        piece::finish_piece(job);
+        return Ok(Effect::Done);
     }
     let mine: &[EntityKind] =
         if kind == PartKind::Body { &[EntityKind::Body] } else { &[EntityKind::Body, EntityKind::Part] };
@@ -528,6 +536,12 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
             _ if given.is(&TO_POINT) => move_point(model, given)?,
             _ if given.is(&EVENT) => {
                 let time = given.first_number().unwrap_or_default();
+                if let Some(checking) = &mut job.checking
+                    && checking.solved
+                {
+                    checking.hangs_on_result = true;
+                    continue;
+                }
                 tdom::reset(job.run.as_ref(), model, time).ok_or_else(|| {
                     Diagnostic::error("there is no run of these bodies to take an event of", given.span)
                 })?;

@@ -3,6 +3,7 @@
 pub(crate) mod alter;
 pub(crate) mod apply;
 pub(crate) mod assembly;
+pub(crate) mod block_combination;
 pub(crate) mod class;
 pub(crate) mod compartment;
 pub(crate) mod connector;

@@ -8,11 +8,11 @@ use crate::commands::model_values::option_as_written;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use nalgebra::Vector3;
 use windlass_base::choices;
-use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::geometry::{Place, Position};
 use windlass_base::span::Span;
 use windlass_base::units::{Dim, UnitSystem};
-use windlass_base::values::{Args, Given, Noun};
+use windlass_base::values::{Args, Given, Noun, Value};
 use windlass_hydro as hydro;
 use windlass_language::args;
 use windlass_language::name as rule;
@@ -84,8 +84,13 @@ const CS_VELOCITY: OptionSpec = OptionSpec::new(
     "factors of drag by velocity",
 )
 .stops(SolveKind::Statics, "drag factors by velocity");
-const DD_MULT: OptionSpec = OptionSpec::new("-DD_MULT", FACTOR, "factor of drift damping")
-    .stops(SolveKind::Motions, "wave drift damping by a factor of the piece");
+const DD_MULT: OptionSpec = OptionSpec::new(
+    "-DD_MULT",
+    &[number("R MULT", Dim::None, "ratios, each with the factor of drift damping there; or a factor alone")],
+    "factors of drift damping",
+)
+.repeating(1)
+.stops(SolveKind::Motions, "wave drift damping by factors of the piece");
 const AMASS: OptionSpec = OptionSpec::new(
     "-AMASS",
     &[
@@ -98,11 +103,11 @@ const AMASS: OptionSpec = OptionSpec::new(
 const TANAKA: OptionSpec = OptionSpec::new("-TANAKA", FACTOR, "factor of the eddy damping of roll: &HELP #TANAKA");
 const ROLL_DAMPING: OptionSpec = OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping")
     .stops(SolveKind::Motions, "viscous damping of roll");
+const LOOK: &[ValueSpec] = &[ValueSpec::new("DATA", Kind::Item, "as in MOSES")];
 const COLOR: OptionSpec =
-    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures").without_effect();
+    OptionSpec::new("-COLOR", LOOK, "colours and their shares, in pictures").repeating(1).without_effect();
 const TEXTURE: OptionSpec =
-    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures")
-        .without_effect();
+    OptionSpec::new("-TEXTURE", LOOK, "texture and its scales, in pictures").repeating(1).without_effect();
 
 /// What every piece takes, however its surface is given.
 pub const OPTIONS: [OptionSpec; 12] = [
@@ -152,6 +157,11 @@ static PANEL_SPEC: CommandSpec = CommandSpec {
 };
 
 static BY_POINTS: CommandSpec = CommandSpec { form: TextForm::Words, ..PANEL_SPEC };
+static BY_VERTICES: CommandSpec = CommandSpec {
+    form: TextForm::Words,
+    data: &[ValueSpec::new("VERTEX", Kind::Text, "a corner: a vertex")],
+    ..PANEL_SPEC
+};
 static BY_COORDINATES: CommandSpec = CommandSpec {
     form: TextForm::Words,
     data: &[
@@ -165,8 +175,16 @@ static BY_COORDINATES: CommandSpec = CommandSpec {
 
 fn panel(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [command, rest @ ..] = call.words else { return Ok(Effect::Done) };
-    let by_points = rest.first().is_some_and(|w| w.kind == Lex::Point);
-    let spec = if by_points { &BY_POINTS } else { &BY_COORDINATES };
+    let vertices = match job.menu() {
+        Menu::Mesh(vertices) if !vertices.is_empty() => Some(vertices.clone()),
+        _ => None,
+    };
+    let by_points = vertices.is_some() || rest.first().is_some_and(|w| w.kind == Lex::Point);
+    let spec = match (&vertices, by_points) {
+        (Some(_), _) => &BY_VERTICES,
+        (None, true) => &BY_POINTS,
+        (None, false) => &BY_COORDINATES,
+    };
     let args = args::read(spec, command.span, rest, job.units)?;
     let name = job.model.current_piece.clone().ok_or_else(|| {
         Diagnostic::error("a panel belongs to a piece, and none is described", command.span)
@@ -181,7 +199,17 @@ fn panel(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let Some((part, Shape::Panels(_))) = found else {
         return Err(Diagnostic::error(format!("piece {name} is not made of panels"), command.span));
     };
-    let corners: Vec<Position> = if by_points {
+    let corners: Vec<Position> = if let Some(vertices) = vertices {
+        let named = |value: &Value| {
+            let word = value.word().unwrap_or_default();
+            vertices.get(&word.to_ascii_uppercase()).copied().ok_or_else(|| {
+                let mut error = Diagnostic::error(format!("unknown vertex {word}"), value.span);
+                error.help.extend(did_you_mean(word, vertices.keys().map(String::as_str)));
+                error.help("the panels of a MESH with VERTEX records name its vertices")
+            })
+        };
+        args.data.iter().map(named).collect::<Outcome<_>>()?
+    } else if by_points {
         let points = args.data.iter().filter_map(|v| Some((v.word()?, v.span)));
         points.map(|(word, span)| point_in_part(&job.model, word, &part, span)).collect::<Outcome<_>>()?
     } else {

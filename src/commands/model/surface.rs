@@ -10,7 +10,7 @@ use crate::commands::model::pgen::{PLACING, PLACING_HELP, Placing, Planes, add_p
 use crate::commands::model::piece::{self, OPTIONS, PIECE_HELP};
 use crate::commands::settings::device::existing;
 use crate::commands::status::body_tables::pieces;
-use crate::commands::{Call, Command, Effect, Job, Menu};
+use crate::commands::{Call, Command, Effect, Job, Menu, MeshVertices};
 use crate::report::page;
 use windlass_base::choice::Choice;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -21,10 +21,14 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_base::wildcard::matches;
 use windlass_hydro::hull::{MeshKind, read_mesh};
+use windlass_language::args;
 use windlass_language::name as rule;
+use windlass_language::number::evaluate;
+use windlass_language::record::Word;
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
-use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec, join_options};
+use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, TextForm, ValueSpec, join_options};
+use windlass_language::token::TokenKind;
 use windlass_model::{EntityKind, LOOSE_SURFACES, Model, Piece, Shape};
 
 /// &SURFACE.
@@ -44,6 +48,7 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
 const NEW: ValueSpec = ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the piece");
+const NEW_OR_NONE: ValueSpec = NEW.or("PIECE1, PIECE2 ..");
 
 static SURFACE_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu(&menu::SURFACE),
@@ -59,7 +64,7 @@ static BLOCK_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::SURFACE],
     opens: Opens::Short(&menu::BLOCK, 1),
     data: &[
-        NEW.or("PIECE1, PIECE2 .."),
+        NEW_OR_NONE,
         number("X1", Dim::Length, "a corner of a box").or("PLANE or PANEL records follow, up to END_BLOCK"),
         number("Y1", Dim::Length, "a corner of a box").or("as X1"),
         number("Z1", Dim::Length, "a corner of a box").or("as X1"),
@@ -73,7 +78,7 @@ static BLOCK_SPEC: CommandSpec = CommandSpec {
               PANEL 0 0 -3  0 0 -1  3 0 -3\nPANEL 0 0 -3  0 3 -3  0 0 -1\nPANEL 3 0 -3  0 0 -1  0 3 -3\nEND_BLOCK\nEND\n&STATUS PIECES",
     ..CommandSpec::new(
         "BLOCK",
-        "a box by two corners (ours: BLOCK NAME X1 Y1 Z1 X2 Y2 Z2), or sections (PLANE) or panels up to END_BLOCK",
+        "a box by two corners (ours: BLOCK [NAME] X1 Y1 Z1 X2 Y2 Z2), or sections (PLANE) or panels up to END_BLOCK",
     )
 };
 
@@ -98,14 +103,14 @@ static MESH_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::SURFACE],
     opens: Opens::Short(&menu::MESH, 1),
     data: &[
-        NEW,
+        NEW_OR_NONE,
         ValueSpec::new("FILE", Kind::File, "mesh file; looked for where it says, then beside the script")
             .or("PANEL records follow, up to END_MESH"),
     ],
     options: &MESH_OPTIONS,
     detail: "MESH NAME FILE reads an STL file (text or binary), a WAMIT GDF file, or a Wavefront OBJ file, complete in one record; \
-             its numbers are lengths in the unit of &DIMEN times -SCALE (3.280839895 reads a file in metres where &DIMEN says feet). MESH NAME alone opens \
-             a menu of PANEL records, up to END_MESH or END.",
+             its numbers are lengths in the unit of &DIMEN times -SCALE (3.280839895 reads a file in metres where &DIMEN says feet). MESH and MESH NAME open \
+             a menu up to END_MESH or END, of PANEL records alone, or of VERTEX records and PANELs that name them (&HELP VERTEX).",
     example: "&FILE OPEN M tet.obj\n&FILE WRITE M v 0 0 0\n&FILE WRITE M v 30 0 0\n&FILE WRITE M v 0 30 0\n&FILE WRITE M v 0 0 30\n\
               &FILE WRITE M f 1 3 2\n&FILE WRITE M f 1 2 4\n&FILE WRITE M f 1 4 3\n&FILE WRITE M f 2 3 4\n&FILE CLOSE M\n\
               &DESCRIBE BODY TET\n&SURFACE\nMESH SKIN job.ans/tet.obj -SCALE 2\nMESH FIN\nPANEL 0 0 -3  3 0 -3  0 3 -3\nPANEL 0 0 -3  0 0 -1  3 0 -3\n\
@@ -161,12 +166,17 @@ pub static COPY_BLOCK: Command = Command { spec: &COPY_SPEC, edits: true, run: c
 /// REFLECT_BLOCK.
 pub static REFLECT_BLOCK: Command = Command { spec: &REFLECT_SPEC, edits: true, run: reflect_block };
 
+/// &EMIT.
+pub static EMIT_ANYWHERE: Command = Command { spec: &EMIT_ANYWHERE_SPEC, edits: true, run: emit };
+static EMIT_ANYWHERE_SPEC: CommandSpec = CommandSpec { menus: &[], ..CommandSpec { name: "&EMIT", ..EMIT_SPEC } };
+
 static EMIT_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::MAIN, &menu::INMODEL, &menu::MEDIT, &menu::SURFACE],
     data: &[ValueSpec::new("NAME", Kind::Text, "a surface; wild characters may be used")],
     repeat: 1,
+    options: &OPTIONS,
     detail: "A surface given in &SURFACE before any body is described belongs to no body and displaces nothing. EMIT puts it into the part described \
-             last, with the options it was given. Surfaces given while a body is described belong to it already. This is our reading.",
+             last, with the options it was given, or with those of EMIT where it has any. Surfaces given while a body is described belong to it already. This is our reading.",
     example: "&SURFACE\nBLOCK COLUMN 0 -5 0 10 5 30\nCOPY_BLOCK COLUMN COLUMN2 50\nEND_&SURFACE\n&DESCRIBE BODY SEMI\nEMIT @\n&STATUS PIECES",
     ..CommandSpec::new("EMIT", "puts surfaces into the part described last")
 };
@@ -198,7 +208,7 @@ static REFLECT_SPEC: CommandSpec = CommandSpec {
 };
 
 /// A piece by its name, with the nearest names where there is none.
-fn known_piece(job: &Job, name: &str, span: Span) -> Outcome<Piece> {
+pub(super) fn known_piece(job: &Job, name: &str, span: Span) -> Outcome<Piece> {
     if let Some((_, piece)) = job.model.piece(name) {
         return Ok(piece.clone());
     }
@@ -221,12 +231,21 @@ fn emit(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
         if taken.is_empty() {
             let why = match job.model.piece(pattern) {
+                // it is where it is to be put
+                Some((own, known)) if Model::key(&own.name) == part && call.args.options.is_empty() => {
+                    let text = format!("{} belongs to {} already", known.name, own.name);
+                    job.remark(text, value.span);
+                    continue;
+                }
                 Some((part, piece)) => format!("{} belongs to {} already", piece.name, part.name),
                 None => format!("no surface without a body is called {pattern}"),
             };
             return Err(Diagnostic::error(why, value.span));
         }
-        for piece in taken {
+        for mut piece in taken {
+            if !call.args.options.is_empty() {
+                piece = piece::begin_piece(job, &call.args, &piece.name, piece.span, piece.shape)?;
+            }
             let name = piece.name.clone();
             if let Some(part) = job.model.parts.get_mut(&part) {
                 part.pieces.push(piece);
@@ -345,8 +364,22 @@ fn whole(job: &mut Job, args: &Args, shape: Shape) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
+/// The words of a box without a name, with the name it has; `None` of a record of another form.
+fn unnamed_box(job: &Job, call: &Call) -> Outcome<Option<Args>> {
+    let [command, rest @ ..] = call.words else { return Ok(None) };
+    let is_number = |word: &&Word| word.kind != TokenKind::Option && evaluate(&word.text).is_ok();
+    if rest.iter().take_while(is_number).count() != CORNERS.len() {
+        return Ok(None);
+    }
+    let name = Word { kind: TokenKind::Word, text: piece::free_piece_name(&job.model).into(), span: command.span };
+    let named: Vec<Word> = std::iter::once(name).chain(rest.iter().cloned()).collect();
+    args::read(&BLOCK_SPEC, command.span, &named, job.units).map(Some)
+}
+
 fn block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
+    let unnamed = unnamed_box(job, call)?;
+    let args = unnamed.as_ref().unwrap_or(args);
     let corners: Vec<f64> = CORNERS.iter().filter_map(|key| args.number(*key)).collect();
     let [x1, y1, z1, x2, y2, z2] = corners.as_slice() else {
         let Some(last) = args.data_after(PIECE).last() else {
@@ -357,7 +390,7 @@ fn block(job: &mut Job, call: &Call) -> Outcome<Effect> {
         };
         return Err(Diagnostic::error("a box has two opposite corners", last.span)
             .label(format!("{} of six coordinates are given", corners.len()))
-            .help("form: BLOCK NAME X1 Y1 Z1 X2 Y2 Z2"));
+            .help("form: BLOCK [NAME] X1 Y1 Z1 X2 Y2 Z2"));
     };
     let pairs = [(x1, x2), (y1, y2), (z1, z2)];
     let [.., x, y, z] = CORNERS;
@@ -380,7 +413,7 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const FILE: DatumKey<str> = MESH_SPEC.word("FILE");
     let Some(name) = args.word(FILE) else {
         begin_menu(job, args)?;
-        job.menus.push(Menu::Mesh);
+        job.menus.push(Menu::Mesh(MeshVertices::default()));
         return Ok(Effect::Done);
     };
     let span = args.place(FILE);
@@ -460,4 +493,60 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn list_block(job: &mut Job, _: &Call) -> Outcome<Effect> {
     let table = pieces(&job.model, &|_| true);
     Ok(Effect::Say(page::grid(&table, job.units).join("\n")))
+}
+
+/// VERTEX.
+pub static VERTEX: Command = Command { spec: &VERTEX_SPEC, edits: false, run: vertex };
+
+static VERTEX_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::MESH],
+    form: TextForm::Text,
+    data: &[
+        ValueSpec::new("NAME", Kind::Text, "its name or number").or("1, 2 ..; X Y Z alone are three numbers"),
+        number("X", Dim::Length, "x in the part"),
+        number("Y", Dim::Length, "y in the part"),
+        number("Z", Dim::Length, "z in the part"),
+    ],
+    detail: "VERTEX X Y Z, or VERTEX NAME X Y Z. The panels that follow in the same MESH name vertices: PANEL 1 2 3 4. All vertices come before \
+             the first panel; coordinates in PANEL are then not taken. The words are our reading: [MOSES-REF surface] says only that vertices are \
+             defined before the panels.",
+    example: "&DESCRIBE BODY TET\n&SURFACE\nMESH SKIN\nVERTEX 0 0 0\nVERTEX 30 0 0\nVERTEX 0 30 0\nVERTEX TOP 0 0 30\nPANEL 1 3 2\nPANEL 1 2 TOP\n\
+              PANEL 1 TOP 3\nPANEL 2 3 TOP\nEND_MESH\nLIST_BLOCK\nEND",
+    ..CommandSpec::new("VERTEX", "a vertex of a mesh")
+};
+
+static THREE_NUMBERS: CommandSpec = CommandSpec {
+    form: TextForm::Words,
+    data: &[
+        number("X", Dim::Length, "x in the part"),
+        number("Y", Dim::Length, "y in the part"),
+        number("Z", Dim::Length, "z in the part"),
+    ],
+    ..VERTEX_SPEC
+};
+
+fn vertex(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let [command, rest @ ..] = call.words else { return Ok(Effect::Done) };
+    let (name, coordinates) = match rest {
+        [name, x @ ..] if x.len() > 2 => (Some(name), x),
+        x => (None, x),
+    };
+    let read = args::read(&THREE_NUMBERS, command.span, coordinates, job.units)?;
+    let at = read.numbers_or_zero(const { THREE_NUMBERS.numbers(["X", "Y", "Z"]) });
+    let has_panels = job
+        .model
+        .current_piece
+        .as_ref()
+        .and_then(|name| job.model.piece(name))
+        .is_some_and(|(_, piece)| matches!(&piece.shape, Shape::Panels(panels) if !panels.is_empty()));
+    if has_panels {
+        return Err(Diagnostic::error("vertices come before the panels of a mesh", command.span));
+    }
+    let Some(Menu::Mesh(vertices)) = job.menus.last_mut() else { return Ok(Effect::Done) };
+    let key = name.map_or_else(|| (vertices.len() + 1).to_string(), |name| name.text.to_ascii_uppercase());
+    if vertices.contains_key(&key) {
+        return Err(Diagnostic::error(format!("vertex {key} is given already"), name.map_or(command.span, |n| n.span)));
+    }
+    vertices.insert(key, at);
+    Ok(Effect::Done)
 }

@@ -39,6 +39,16 @@ pub(crate) const VALUES: OptionSpec = OptionSpec::new(
     ],
     "rows whose column lies within bounds",
 );
+/// -EVENTS of REPORT.
+pub(crate) const EVENTS: OptionSpec = OptionSpec::new(
+    "-EVENTS",
+    &[
+        ValueSpec::new("BEG", Kind::Number(Dim::None), "first event: a time of the first column"),
+        ValueSpec::new("END", Kind::Number(Dim::None), "last event").or("the last one"),
+        ValueSpec::new("INC", Kind::Number(Dim::None), "from event to event").or("every one").positive(),
+    ],
+    "rows whose first column lies from BEG to END, in steps of INC",
+);
 /// -HARD.
 pub(crate) const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the report file OUT00001.TXT");
 /// -BOTH.
@@ -96,7 +106,7 @@ pub(crate) const ANY_COLUMN: ValueSpec = COLUMN.or("all columns");
 static REPORT_SPEC: CommandSpec = CommandSpec {
     data: &[ANY_COLUMN],
     repeat: 1,
-    options: &[RECORD, VALUES, HARD, BOTH, HEADING],
+    options: &[RECORD, VALUES, EVENTS, HARD, BOTH, HEADING],
     detail: "The formatted report; C_SCALE and C_SHIFT do not act on it. The name of a group of columns, as of LOCATION, VELOCITY and \
              ACCELERATION of a TRAJECTORY, is all of it, after the first column.",
     ..spec("REPORT", "prints the formatted report")
@@ -160,6 +170,7 @@ pub(crate) fn to_diagnostic(args: &Args, error: &DispositionError) -> Box<Diagno
         }
         DispositionError::Rows { .. } => args.option_if_declared(&RECORD).map(|g| g.span),
         DispositionError::NoRow => args.option_if_declared(&VALUES).map(|g| g.span),
+        DispositionError::NoEvent => args.option_if_declared(&EVENTS).map(|g| g.span),
         DispositionError::NotOne { .. } => args.data.first().map(|v| v.span),
         _ => None,
     };
@@ -183,6 +194,10 @@ fn rows(args: &Args) -> RowChoice {
             (g.word(const { VALUES.word("COLUMN") }).unwrap_or_default().to_string(), least, most)
         }),
         from: None,
+        events: args.option_if_declared(&EVENTS).and_then(|given| {
+            let [begin, end, step] = const { EVENTS.numbers(["BEG", "END", "INC"]) }.map(|key| given.number(key));
+            Some((begin?, end, step))
+        }),
     }
 }
 

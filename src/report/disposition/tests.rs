@@ -47,7 +47,10 @@ fn column_chosen_twice_is_scaled_once_and_listed() {
     d.scale(10.0, &["X", "1:2"]).unwrap();
     d.shift(1.0, &["F", "F"]).unwrap();
     let us = UnitSystem::default();
-    assert_eq!(d.values("F", &RowChoice { record: Some((2, 2)), values: None, from: None }, us).unwrap(), "41");
+    assert_eq!(
+        d.values("F", &RowChoice { record: Some((2, 2)), values: None, from: None, events: None }, us).unwrap(),
+        "41"
+    );
     let list = d.vlist(us);
     assert!(list[0].ends_with("10.00 to 50.00") && list[1].ends_with("11.0000 to 251.0000"), "{list:?}");
 }
@@ -61,7 +64,7 @@ fn culled_rows_keep_values_and_earlier_scales_and_shifts() {
     // F shows 2 n n - 1: rows 2 and 3 show 7 and 17
     let mut culled = d.cull("F", &[(0.0, 6.9), (17.1, 1e9)], us).unwrap();
     assert_eq!(culled.table.columns()[1].cells, [Cell::Number(4.0), Cell::Number(9.0)]);
-    let kept = RowChoice { record: Some((2, 3)), values: None, from: None };
+    let kept = RowChoice { record: Some((2, 3)), values: None, from: None, events: None };
     for column in [0, 1] {
         let before = d.extract(&[column], &kept, true, us).unwrap();
         assert_eq!(culled.extract(&[column], &RowChoice::default(), true, us).unwrap(), before);
@@ -121,8 +124,11 @@ fn missing_value_is_reported_not_skipped() {
     let mut d = menu();
     d.table = with_missing_cell(&d.table, 1, 2);
     let us = UnitSystem::default();
-    let from_two = RowChoice { record: Some((2, 5)), values: None, from: None };
+    let from_two = RowChoice { record: Some((2, 5)), values: None, from: None, events: None };
     let want = DispositionError::NoValue { column: "F".into(), row: 3 };
     assert_eq!(d.values("F", &from_two, us), Err(want));
-    assert_eq!(d.values("F", &RowChoice { record: Some((4, 5)), values: None, from: None }, us).unwrap(), "16 25");
+    assert_eq!(
+        d.values("F", &RowChoice { record: Some((4, 5)), values: None, from: None, events: None }, us).unwrap(),
+        "16 25"
+    );
 }

@@ -88,9 +88,57 @@ fn absent_record_of_motions_lets_statics_run() {
 
 #[test]
 fn absent_library_is_named_with_macros_it_would_define() {
-    let (_, said) = run("USE_MAC V_MODEL\n");
-    assert!(said.len() == 1 && said[0].1.contains("no macro library V_MODEL"), "{said:?}");
-    assert!(said[0].1.contains("TKR_MODEL, W_BOX, JGEN_INIT"), "{said:?}");
+    let (_, said) = run("USE_MAC AUTO_TKR\n");
+    assert!(said.len() == 1 && said[0].1.contains("AUTO_TKR of MOSES is not in windlass"), "{said:?}");
+    assert!(said[0].1.contains("TKR_GEN, TKR_SIM"), "{said:?}");
+}
+
+#[test]
+fn refused_class_makes_one_error_and_stops_solves_that_need_it() {
+    let script = format!("{CART}~T GSPR BOTH Q 40\nCONNECTOR A ~T *C *G\nCONNECTOR B ~T *D *G\nEND\n&EQUI\n");
+    let (_, said) = run(&script);
+    let errors: Vec<_> = said.iter().filter(|(severity, _)| *severity == Severity::Error).collect();
+    assert_eq!(errors.len(), 2, "{said:?}");
+    assert!(errors[1].1.contains("CONNECTOR A of class ~T (its class was refused)"), "{said:?}");
+    // a line whose second segment is refused is no shorter line
+    let line = "~L B_CAT 80 -LEN 100 -DEPTH 50\n~L B_CAT 80 -LEN 100 -BOGUS\nEND\n&EQUI\n";
+    let (_, said) = run(&format!("{CART}{line}"));
+    assert!(said.iter().any(|(_, text)| text.contains("a segment of class ~L (its record was refused)")), "{said:?}");
+    // what is put right at a terminal holds
+    let (mut session, _screen, _folder) = common::session();
+    session.interactive = true;
+    session.open("t", format!("{CART}~L B_CAT 80 -LEN 100 -DEPTH 50\n~L B_CAT 80 -LEN 100 -BOGUS\nEND\n&EQUI\n"));
+    session.run();
+    assert_eq!(session.errors, 1, "{:?}", session.reports);
+}
+
+#[test]
+fn records_of_disposition_without_a_table_make_no_cascade() {
+    let run_then = format!("{CART}END\n&ENV -TIME 1 0.1 -RAMP 0\nTDOM\nPRCPOST\n");
+    let behind = "TRAJECTORY\nREPORT LOCATION\nEND\nEND\n&TYPE behind &INFO(MENU)\n";
+    for (records, errors) in
+        [("TRAJECTRY CART\nREPORT\nVLIST\nEND\n", 1), ("REPORT\nEND\n", 1), ("TRAJECTORY-EVENT 0 1\nREPORT\nEND\n", 0)]
+    {
+        let (text, said) = run(&format!("{run_then}{records}{behind}"));
+        let found = said.iter().filter(|(severity, _)| *severity == Severity::Error).count();
+        assert_eq!(found, errors, "{records}: {said:?}");
+        assert!(text.contains("behind MAIN") && text.contains("T R A J E C T O R Y"), "{records}: {text}");
+    }
+}
+
+#[test]
+fn events_of_report_take_rows_by_their_times() {
+    let (text, said) = run(
+        "&BUILDG -CSV\nTime X\n0 10\n0.5 15\n1 20\n1.5 25\n2 30\nEND\nREPORT -EVENTS 0.5 2 0.5 -HARD\nREPORT -EVENTS 1 2 1\nREPORT -EVENTS 5\nEND\n",
+    );
+    assert!(said.len() == 1 && said[0].1.contains("no value among these events"), "{said:?}");
+    let rows: Vec<&str> =
+        text.lines().map(str::trim).filter(|line| line.ends_with(".00") || line.ends_with("0")).collect();
+    for (value, shown) in [("20", true), ("30", true), ("10", false), ("25", false), ("15", false)] {
+        let found =
+            rows.iter().any(|row| row.split_whitespace().nth(1).is_some_and(|v| v.trim_end_matches(".00") == value));
+        assert_eq!(found, shown, "{value}: {text}");
+    }
 }
 
 #[test]

@@ -85,3 +85,28 @@ fn shipped_scripts_refuse_only_intended_records() {
         assert_eq!(done.status.code(), Some(0), "{stem}: {}", String::from_utf8_lossy(&done.stderr));
     }
 }
+
+#[test]
+fn watch_ends_check_within_a_record_and_says_so() {
+    use std::sync::mpsc::channel;
+    use windlass::session::CheckWatch;
+    // a check that never comes to its next record, with no time to wait
+    let (send, receive) = channel();
+    let _watch = CheckWatch::start(std::sync::Arc::default(), std::time::Duration::ZERO, move |report| {
+        send.send((report.take_lines(false), report.take_lines(false))).unwrap();
+    });
+    let (first, second) = receive.recv().unwrap();
+    let lines = first.unwrap();
+    assert_eq!(lines[0], "0 records: 0 act, 0 stop a solve, 0 noted, 0 refused, 0 not judged");
+    assert!(
+        lines[1].contains("the check ended after 0 s") && lines[1].contains("what follows is not checked"),
+        "{lines:?}"
+    );
+    assert!(second.is_none(), "a report is printed once");
+}
+
+#[test]
+fn event_of_a_run_is_not_judged() {
+    let script = "MEDIT\n&DESCRIBE BODY B\nEND\nTDOM\n&INSTATE -EVENT 10\n";
+    assert_eq!(counts(script), ("4 records: 3 act, 0 stop a solve, 0 noted, 0 refused, 1 not judged".into(), 0));
+}

@@ -14,6 +14,8 @@ use windlass_base::span::Span;
 struct Argument {
     name: String,
     default: Option<String>,
+    /// It takes all words up to the next option: `NAME..` in the picture.
+    takes_rest: bool,
 }
 
 impl Argument {
@@ -23,6 +25,13 @@ impl Argument {
             TokenKind::Empty => self.default_value(),
             _ => (self.name.clone(), word.text.to_string()),
         }
+    }
+
+    /// The local that all words from a place up to the next option make, and how many they are.
+    fn rest_value(&self, words: &[Word]) -> ((String, String), usize) {
+        let own: Vec<&str> =
+            words.iter().take_while(|w| w.kind != TokenKind::Option).map(|w| w.text.as_ref()).collect();
+        ((self.name.clone(), own.join(" ")), own.len())
     }
 
     /// The local it makes where the call does not give it.
@@ -85,9 +94,22 @@ impl Macro {
             }
             let has_default = words.get(at + 1).is_some_and(|w| w.text.as_ref() == "=");
             let default = has_default.then(|| words.get(at + 2).map_or(String::new(), |w| w.text.to_string()));
-            let argument = Argument { name: word.text.to_string(), default };
+            let (name, takes_rest) = match word.text.strip_suffix("..") {
+                Some(name) if !name.is_empty() => (name.to_string(), true),
+                _ => (word.text.to_string(), false),
+            };
+            let values = made.options.last().map_or(&made.arguments, |option| &option.values);
+            if let Some(last) = values.last().filter(|last| last.takes_rest) {
+                return Err(Diagnostic::error(
+                    format!("{}.. takes all values: none can follow it", last.name),
+                    word.span,
+                ));
+            }
+            let argument = Argument { name, default, takes_rest };
             match made.options.last_mut() {
-                Some(option) if option.flag.is_none() && !has_default => option.flag = Some(argument.name),
+                Some(option) if option.flag.is_none() && !has_default && !takes_rest => {
+                    option.flag = Some(argument.name)
+                }
                 Some(option) => option.values.push(argument),
                 None => made.arguments.push(argument),
             }
@@ -105,12 +127,12 @@ impl Macro {
     pub fn syntax(&self) -> String {
         let mut text = self.name.clone();
         for argument in &self.arguments {
-            text.push_str(&format!(" {}", argument.name));
+            text.push_str(&format!(" {}{}", argument.name, if argument.takes_rest { ".." } else { "" }));
         }
         for option in &self.options {
             text.push_str(&format!(" {}", option.name));
             for value in &option.values {
-                text.push_str(&format!(" {}", value.name));
+                text.push_str(&format!(" {}{}", value.name, if value.takes_rest { ".." } else { "" }));
             }
         }
         text
@@ -148,6 +170,13 @@ impl Macro {
                     locals.push((flag.clone(), ".TRUE.".into()));
                 }
                 for value in &option.values {
+                    let next = words.get(at..).unwrap_or_default();
+                    if value.takes_rest && next.first().is_some_and(|w| w.kind != TokenKind::Option) {
+                        let (local, count) = value.rest_value(next);
+                        locals.push(local);
+                        at += count;
+                        continue;
+                    }
                     match words.get(at).filter(|w| w.kind != TokenKind::Option) {
                         Some(word) => {
                             locals.push(value.argument_value(word));
@@ -163,8 +192,14 @@ impl Macro {
                 return Err(Diagnostic::error(format!("macro {} takes no further argument", self.name), word.span)
                     .help(format!("form: {}", self.syntax())));
             };
-            locals.push(argument.argument_value(word));
             given += 1;
+            if argument.takes_rest {
+                let (local, count) = argument.rest_value(words.get(at - 1..).unwrap_or_default());
+                locals.push(local);
+                at += count.max(1) - 1;
+                continue;
+            }
+            locals.push(argument.argument_value(word));
         }
         let rest = self.arguments.get(given..).unwrap_or_default();
         if let Some(missing) = rest.iter().find(|argument| argument.default.is_none()) {
