@@ -475,9 +475,11 @@ impl Session {
         if self.job.menus.len() < 2 {
             return Err(Diagnostic::error("there is no menu to leave", first.span).help("&FINISH ends the job"));
         }
-        // what was to open the menu that is passed over is not known for sure
-        let is_refused = matches!(menu, Menu::Refused(_));
-        if word != "END" && !menu.end().starts_with(word) && !is_refused {
+        // which of these an unknown word was to open is not known for sure
+        const OF_HULLS: [&str; 3] = ["END_PGEN", "END_BLOCK", "END_MESH"];
+        let is_refused_hull =
+            matches!(menu, Menu::Refused(_)) && OF_HULLS.contains(&word) && OF_HULLS.contains(&menu.end());
+        if word != "END" && !menu.end().starts_with(word) && !is_refused_hull {
             return Err(Diagnostic::error(format!("{word} does not leave menu {}", menu.name()), first.span)
                 .label(format!("expected END or {}", menu.end())));
         }

@@ -108,7 +108,7 @@ impl Session {
         if self.interactive {
             return Err(error);
         }
-        let lost = std::mem::replace(&mut self.lost_opener, true);
+        let lost = std::mem::replace(&mut self.lost_opener, first.kind == TokenKind::Word);
         let Some(meant) = inner_menu(self.job.menu().spec(), &first.text) else { return Err(error) };
         if !lost && meant != &menu::DISPOSITION {
             return Err(error);

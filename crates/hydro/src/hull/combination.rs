@@ -1,7 +1,7 @@
 //! Union, intersection and difference of closed surfaces.
 //!
 //! The triangles of both are cut along their common lines and those of the result are kept, by the algorithm of the library Manifold
-//! ([MANIFOLD], crate `manifold-rust`): faces that lie in one plane are decided by symbolic perturbation, so that boxes that share a face join
+//! ([MANIFOLD-3], crate `manifold-rust`): faces that lie in one plane are decided by symbolic perturbation, so that boxes that share a face join
 //! without a crack, and the result is a closed surface again. The polyhedra are exact to rounding; a round form is as round as its panels.
 
 use super::{Fault, Surface};
