@@ -16,8 +16,8 @@ mod program {
     mod fuzz_corpus;
     mod hostile_input;
     mod lines;
-    mod manual_blocks;
     mod macro_libraries;
+    mod manual_blocks;
     mod menus;
     mod moses_records;
     mod names;
