@@ -75,8 +75,8 @@ pub fn outline(model: &Model, body: &Body) -> Outline {
 fn panels_of(shape: &Shape) -> Vec<Vec<Position>> {
     match shape {
         Shape::Panels(panels) => panels.clone(),
-        Shape::Block { low, high } => box_panels(*low, *high).into_iter().map(Vec::from).collect(),
-        Shape::Bar { ends, sides } => bar_panels(ends, sides).into_iter().map(Vec::from).collect(),
+        Shape::Block { low, high } => box_panels(*low, *high),
+        Shape::Bar { ends, sides } => bar_panels(ends, sides),
         Shape::Tube { ends, diameter } => {
             let Some([first, last]) = tube_rings(*ends, *diameter) else { return Vec::new() };
             let next = |ring: &[Position]| ring.iter().copied().cycle().skip(1).take(ring.len()).collect::<Vec<_>>();

@@ -219,7 +219,7 @@ mod tests {
         // turned around it is the same line
         let length = nodes.last().unwrap().arc;
         let turned: Vec<LineNode> =
-            nodes.iter().rev().map(|node| LineNode { arc: length - node.arc, ..node.clone() }).collect();
+            nodes.iter().rev().map(|node| LineNode { arc: length - node.arc, ..*node }).collect();
         let other = LineSummary::new(&turned, &[], true);
         near(other.layback.unwrap(), found.layback.unwrap(), 1e-9);
         near(other.departure.unwrap().0, found.departure.unwrap().0, 1e-9);
