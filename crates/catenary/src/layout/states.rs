@@ -9,6 +9,11 @@ use crate::shape::ShapePoint;
 use crate::solve::RESIDUAL_TOLERANCE;
 use crate::state::{Buoy, JointState, LineState, SegmentState};
 
+/// How far from the anchor a line may end, as a share of its length, and in roundings of its force by how much it lengthens with the force:
+/// a line that is soft beside a jump of its end has next to no force left there, though it ends far away.
+const MAX_SHORT_SHARE: f64 = 1e-9;
+const MAX_SHORT_ROUNDINGS: f64 = 64.0;
+
 impl LineLayout<'_> {
     /// The state of a line laid from a fairlead at `x` beside the anchor and elevation `z`.
     pub fn state(&self, laid: LaidLine, [x, z]: [f64; 2], slack: bool) -> Result<LineState, LineError> {
@@ -40,7 +45,9 @@ impl LineLayout<'_> {
         let short = laid.short.value;
         let residual = if slack { 0.0 } else { short.abs() * xx.hypot(zx) };
         let rounding = 2.0 * self.fine;
-        if !(slack || residual <= RESIDUAL_TOLERANCE * scale || short.abs() <= rounding) {
+        let by_rounding = if xx == 0.0 { 0.0 } else { MAX_SHORT_ROUNDINGS * f64::EPSILON * first.h / xx.abs() };
+        let arrives = short.abs() <= MAX_SHORT_SHARE * self.length + by_rounding;
+        if !(slack || (arrives && residual <= RESIDUAL_TOLERANCE * scale) || short.abs() <= rounding) {
             return Err(LineError::Unproven { residual, tension: scale });
         }
         if laid.left > 1e-12 * (self.length + x.abs()) + 64.0 * self.fine {

@@ -291,6 +291,49 @@ fn random_buoyed_lines_on_rough_slope_balance_or_are_refused() {
 }
 
 #[test]
+fn line_that_ends_beside_its_anchor_is_not_taken_as_solved() {
+    // a buoy that lifts its line off the bottom stands at the end of a jump, 54 m beyond the anchor, and the line there is so soft that
+    // no force is missing; what is given back is in equilibrium, or an error
+    let rows = [
+        (365.022_956_882_380_6, -5.252_589_542_971_878, 4_435_974_018.2),
+        (774.687_326_254_821_5, 1_544.433_596_031_206, 50_679_763.4),
+        (627.435_763_924_456_2, 12.805_508_773_920_284, 94_789_523.2),
+        (651.729_686_384_879_3, 40.744_506_056_030_694, 2_146_085_182.2),
+        (418.935_110_109_975_8, -51.102_350_957_532_23, 10_109_385.0),
+        (633.672_644_981_943_4, 43.138_814_649_044_61, 26_081_087.0),
+        (81.999_469_071_978_03, 1_065.920_232_808_232_6, 32_322_377.7),
+        (553.330_254_605_434_6, -21.186_048_197_155_74, 117_203_268.9),
+        (351.723_077_879_185_5, 29.459_523_273_550_92, 12_200_361.9),
+        (871.308_817_577_582_2, 4_571.136_107_793_322, 6_130_063.4),
+        (178.643_462_645_755_25, 2_383.058_601_936_497, 143_237_488.4),
+        (59.325_886_918_646_59, 12.428_184_374_843_978, 388_229_821.6),
+    ];
+    let segments = rows.map(|(length, weight, ea)| Segment { length, weight, ea }).to_vec();
+    let joints = vec![
+        Joint::Weight(7_922.399_673_329_872),
+        Joint::Free,
+        Joint::Weight(-61_060.081_541_458_83),
+        Joint::Weight(5_187.136_716_932_971),
+        Joint::Weight(-226_095.780_285_452),
+        Joint::Free,
+        Joint::Free,
+        Joint::Buoy { lift: 9_125.323_090_600_91, weight: 5_667.617_469_070_902 },
+        Joint::Buoy { lift: 132_339.459_828_059_04, weight: 1_690.265_621_300_871_8 },
+        Joint::Weight(1_544.094_639_259_853_2),
+        Joint::Buoy { lift: 318_331.304_629_101_9, weight: 670.258_733_300_892_1 },
+    ];
+    let depth = 729.774_791_007_007_3;
+    let floor = SeabedModel { elevation: -depth, slope: 0.0, friction: 0.582_121_302_512_163_2 };
+    let line = Line::new(segments, joints.clone(), -depth, 0.0).unwrap().with_seabed(Some(floor)).unwrap();
+    let around = (0..=40).map(|step| 2_300.0 + 3.0 * f64::from(step));
+    for x in around.chain([2_353.983_048_819_771_7]) {
+        if let Err((false, what)) = contradiction(&line, &joints, floor, -134.871_781_466_203, -depth, x) {
+            panic!("{x}: {what}");
+        }
+    }
+}
+
+#[test]
 fn slack_line_on_smooth_slope_hangs_on_anchor_or_slides_to_it() {
     let heavy = Segment { length: 600.0, weight: 1000.0, ea: 1e15 };
     let on = |slope: f64, friction: f64| Some(SeabedModel { elevation: -100.0, slope, friction });
